@@ -1,0 +1,250 @@
+//! A design: all that a cut file says of a stone.
+
+use super::material::{MaterialError, MaterialRef};
+use super::{ProportionError, RoundBrilliant, Warning, names};
+use crate::math::Plane;
+
+/// Girdle diameter of a design that gives none, mm: that of a brilliant of about one carat.
+pub const DEFAULT_DIAMETER_MM: f64 = 6.5;
+
+/// The most planes a design may list.
+pub const MAX_PLANES: usize = 10_000;
+
+/// Girdle diameters taken, mm.
+const DIAMETERS_MM: std::ops::RangeInclusive<f64> = 0.1..=1000.0;
+
+/// A stone as it is written down: its cut, its material and its size.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Design {
+    /// What the cut is called, printable.
+    pub name: String,
+    /// Where it is published.
+    pub source: Option<String>,
+    /// What else is to be said of it.
+    pub notes: Option<String>,
+    /// What it is made of.
+    pub material: MaterialRef,
+    /// Girdle diameter (2 in the stone's frame), mm; absorption depends on it. 0.1 to 1000.
+    pub diameter_mm: f64,
+    /// Its shape.
+    pub cut: Cut,
+}
+
+/// The shape of a stone: a family with its proportions, or the planes themselves.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Cut {
+    /// The round brilliant.
+    RoundBrilliant(RoundBrilliant),
+    /// Names, which may repeat, and planes as written: 1 to [`MAX_PLANES`], normals of any length but zero.
+    Planes(Vec<(String, Plane)>),
+}
+
+/// What is wrong with a design.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum DesignError {
+    /// A name that is blank or has control characters.
+    #[error("name: a name of printable characters is expected")]
+    Name,
+    /// A girdle diameter out of range.
+    #[error("diameter_mm: {value} must be from {} to {} mm", DIAMETERS_MM.start(), DIAMETERS_MM.end())]
+    Diameter {
+        /// What was given, mm.
+        value: f64,
+    },
+    /// A material whose numbers make no sense.
+    #[error(transparent)]
+    Material(#[from] MaterialError),
+    /// Proportions that cannot be.
+    #[error(transparent)]
+    Proportion(#[from] ProportionError),
+    /// No plane, or more than [`MAX_PLANES`].
+    #[error("plane: {count} planes are given; from 1 to {MAX_PLANES} are expected")]
+    PlaneCount {
+        /// How many were given.
+        count: usize,
+    },
+    /// A plane that bounds nothing.
+    #[error("plane {number}: {fault}")]
+    Plane {
+        /// Which, from 1, in the order given.
+        number: usize,
+        /// What is wrong with it.
+        fault: PlaneFault,
+    },
+}
+
+/// What is wrong with a plane.
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+pub enum PlaneFault {
+    /// A name that is blank or has control characters.
+    #[error("name: a name of printable characters is expected")]
+    Name,
+    /// A normal that is zero, not finite, or too long or short to be measured.
+    #[error("normal: {0} points nowhere; three finite numbers that are not all 0 are expected")]
+    Normal(glam::DVec3),
+    /// An offset that is not finite, or becomes so for a unit normal.
+    #[error("offset: {0} is no finite distance; it is measured in lengths of the normal")]
+    Offset(f64),
+}
+
+impl PlaneFault {
+    /// The key at fault.
+    pub fn key(&self) -> &'static str {
+        match self {
+            Self::Name => "name",
+            Self::Normal(_) => "normal",
+            Self::Offset(_) => "offset",
+        }
+    }
+}
+
+impl Design {
+    /// Checks everything that can be known without building the stone.
+    pub fn check(&self) -> Result<(), DesignError> {
+        if !names::is_printable(&self.name) {
+            return Err(DesignError::Name);
+        }
+        if !DIAMETERS_MM.contains(&self.diameter_mm) {
+            return Err(DesignError::Diameter { value: self.diameter_mm });
+        }
+        self.material.check()?;
+        self.facets().map(|_| ())
+    }
+
+    /// Every facet's name, no two alike, and its plane with a unit normal.
+    pub fn facets(&self) -> Result<Vec<(String, Plane)>, DesignError> {
+        match &self.cut {
+            Cut::RoundBrilliant(proportions) => Ok(proportions.facets()?),
+            Cut::Planes(planes) => named_planes(planes),
+        }
+    }
+
+    /// What is possible but unusual about this design.
+    pub fn warnings(&self) -> Result<Vec<Warning>, DesignError> {
+        match &self.cut {
+            Cut::RoundBrilliant(proportions) => Ok(proportions.warnings()?),
+            Cut::Planes(_) => Ok(Vec::new()),
+        }
+    }
+}
+
+fn named_planes(planes: &[(String, Plane)]) -> Result<Vec<(String, Plane)>, DesignError> {
+    if !(1..=MAX_PLANES).contains(&planes.len()) {
+        return Err(DesignError::PlaneCount { count: planes.len() });
+    }
+    let names = names::unique(planes.iter().map(|(name, _)| name.as_str()));
+    let numbered = planes.iter().zip(names).enumerate();
+    numbered
+        .map(|(index, ((name, plane), unique))| match unit(name, plane) {
+            Ok(plane) => Ok((unique, plane)),
+            Err(fault) => Err(DesignError::Plane { number: index + 1, fault }),
+        })
+        .collect()
+}
+
+/// The plane with a unit normal, if its name and numbers allow.
+fn unit(name: &str, plane: &Plane) -> Result<Plane, PlaneFault> {
+    if !names::is_printable(name) {
+        return Err(PlaneFault::Name);
+    }
+    let length = plane.normal.length();
+    if !length.is_normal() {
+        return Err(PlaneFault::Normal(plane.normal));
+    }
+    let offset = plane.offset / length;
+    if !offset.is_finite() {
+        return Err(PlaneFault::Offset(plane.offset));
+    }
+    Ok(Plane::new(plane.normal / length, offset))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::round_brilliant::MODERN;
+    use super::*;
+    use glam::DVec3;
+
+    fn design(cut: Cut) -> Design {
+        Design {
+            name: "test".to_owned(),
+            source: None,
+            notes: None,
+            material: MaterialRef::Name("diamond".to_owned()),
+            diameter_mm: DEFAULT_DIAMETER_MM,
+            cut,
+        }
+    }
+
+    fn plane(name: &str, normal: [f64; 3], offset: f64) -> (String, Plane) {
+        (name.to_owned(), Plane::new(DVec3::from_array(normal), offset))
+    }
+
+    fn text(planes: Vec<(String, Plane)>) -> String {
+        design(Cut::Planes(planes)).check().unwrap_err().to_string()
+    }
+
+    #[test]
+    fn planes_come_out_with_unit_normals_and_names_of_their_own() {
+        let planes = vec![
+            plane("table", [0.0, 0.0, 2.0], 1.0),
+            plane("star", [3.0, 0.0, 4.0], 5.0),
+            plane("facet", [1.0, 0.0, 0.0], 1.0),
+            plane("star", [0.0, 1e-3, 0.0], 1e-3),
+        ];
+        let facets = design(Cut::Planes(planes)).facets().unwrap();
+        let names: Vec<_> = facets.iter().map(|(name, _)| name.as_str()).collect();
+        assert_eq!(names, ["table", "star 1", "facet", "star 2"]);
+        assert_eq!(facets[0].1, Plane::new(DVec3::Z, 0.5));
+        assert_eq!(facets[1].1, Plane::new(DVec3::new(0.6, 0.0, 0.8), 1.0));
+        assert!((facets[3].1.offset - 1.0).abs() < 1e-15);
+    }
+
+    #[test]
+    fn a_brilliant_gives_its_facets_and_warnings() {
+        let thin = RoundBrilliant { girdle_thickness: 1.0, ..MODERN };
+        let design = design(Cut::RoundBrilliant(thin));
+        assert!(design.check().is_ok());
+        assert_eq!(design.facets().unwrap(), thin.facets().unwrap());
+        assert_eq!(design.warnings().unwrap().len(), 1);
+    }
+
+    #[test]
+    fn planes_that_bound_nothing_are_named_by_their_number() {
+        let good = plane("table", [0.0, 0.0, 1.0], 1.0);
+        let nowhere = "points nowhere; three finite numbers that are not all 0 are expected";
+        for normal in [[0.0; 3], [f64::NAN, 0.0, 0.0], [1e-200, 0.0, 0.0], [1e200, 0.0, 0.0]] {
+            let text = text(vec![good.clone(), plane("x", normal, 1.0)]);
+            assert!(text.starts_with("plane 2: normal: ") && text.ends_with(nowhere), "{text}");
+        }
+        let far = text(vec![plane("x", [0.0, 0.0, 1e-100], 1e300)]);
+        assert!(far.starts_with("plane 1: offset: 1000"), "{far}");
+        assert!(text(vec![plane("", [0.0, 0.0, 1.0], 1.0)]).starts_with("plane 1: name: "));
+    }
+
+    #[test]
+    fn planes_must_be_some_and_not_too_many() {
+        assert_eq!(text(vec![]), "plane: 0 planes are given; from 1 to 10000 are expected");
+        let many = vec![plane("x", [0.0, 0.0, 1.0], 1.0); MAX_PLANES + 1];
+        assert_eq!(text(many), "plane: 10001 planes are given; from 1 to 10000 are expected");
+    }
+
+    #[test]
+    fn name_size_and_material_are_checked() {
+        let good = design(Cut::RoundBrilliant(MODERN));
+        let cases = [
+            (Design { name: "\n".to_owned(), ..good.clone() }, "name: a name of printable characters is expected"),
+            (Design { diameter_mm: 0.0, ..good.clone() }, "diameter_mm: 0 must be from 0.1 to 1000 mm"),
+            (Design { diameter_mm: f64::NAN, ..good.clone() }, "diameter_mm: NaN must be from 0.1 to 1000 mm"),
+            (
+                Design { material: MaterialRef::Index(0.0), ..good.clone() },
+                "material: the index 0 must be from 1 (vacuum) to 5",
+            ),
+        ];
+        for (design, expected) in cases {
+            assert_eq!(design.check().unwrap_err().to_string(), expected);
+        }
+        let flat = RoundBrilliant { table: 1.0, ..MODERN };
+        let error = design(Cut::RoundBrilliant(flat)).warnings().unwrap_err();
+        assert!(matches!(error, DesignError::Proportion(ProportionError::TooSmall(_))));
+    }
+}

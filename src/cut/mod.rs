@@ -1,0 +1,21 @@
+//! Floor 1: what a cut is, as numbers: the round brilliant in closed form, plane lists, material and size.
+//!
+//! Written numbers are percent of the girdle diameter and degrees; planes come out in the stone's frame: +z out of
+//! the table, z = 0 at the crown-side girdle, girdle radius 1. Bad numbers are errors that name their limit, odd ones
+//! are warnings.
+
+mod design;
+mod facets;
+mod limits;
+mod material;
+mod names;
+mod proportions;
+mod round_brilliant;
+mod warning;
+
+pub use design::{Cut, DEFAULT_DIAMETER_MM, Design, DesignError, MAX_PLANES, PlaneFault};
+pub use limits::{Limit, ProportionError, Unit, girdle_facets};
+pub use material::{Absorption, Dispersion, MaterialError, MaterialRef, MaterialTable};
+pub use proportions::Derived;
+pub use round_brilliant::{Crown, LowerHalf, Pavilion, RoundBrilliant};
+pub use warning::Warning;

@@ -1,0 +1,85 @@
+//! Convex polygons in the plane, as slices of corners, counter-clockwise where not said otherwise.
+
+use super::Affine;
+use glam::DVec2;
+
+/// Signed area: positive for counter-clockwise corners.
+pub fn area(corners: &[DVec2]) -> f64 {
+    let Some((&first, rest)) = corners.split_first() else { return 0.0 };
+    // Relative to one corner, so that a small polygon far from the origin keeps its digits.
+    rest.windows(2).map(|w| (w[0] - first).perp_dot(w[1] - first)).sum::<f64>() / 2.0
+}
+
+/// Centre of area; the mean of the corners where the area vanishes, the origin where there is none.
+pub fn centroid(corners: &[DVec2]) -> DVec2 {
+    let Some((&first, rest)) = corners.split_first() else { return DVec2::ZERO };
+    let (mut moment, mut twice) = (DVec2::ZERO, 0.0);
+    for w in rest.windows(2) {
+        let (a, b) = (w[0] - first, w[1] - first);
+        let cross = a.perp_dot(b);
+        moment += (a + b) * cross;
+        twice += cross;
+    }
+    let mean = corners.iter().sum::<DVec2>() / corners.len() as f64;
+    if twice.abs() > f64::MIN_POSITIVE { first + moment / (3.0 * twice) } else { mean }
+}
+
+/// Whether `p` lies inside by more than `margin` (a negative margin allows points that far outside).
+pub fn contains(corners: &[DVec2], p: DVec2, margin: f64) -> bool {
+    let edges = corners.iter().zip(corners.iter().cycle().skip(1));
+    corners.len() > 2 && edges.into_iter().all(|(&a, &b)| (b - a).perp_dot(p - a) >= margin * (b - a).length())
+}
+
+/// The part of a convex polygon where `keep` is not negative, written to `out` (emptied first).
+pub fn clip(corners: &[DVec2], keep: Affine, out: &mut Vec<DVec2>) {
+    out.clear();
+    let Some(&last) = corners.last() else { return };
+    let (mut a, mut at_a) = (last, keep.at(last));
+    for &b in corners {
+        let at_b = keep.at(b);
+        if (at_a < 0.0) != (at_b < 0.0) {
+            out.push(a + (b - a) * (at_a / (at_a - at_b)));
+        }
+        if at_b >= 0.0 {
+            out.push(b);
+        }
+        (a, at_a) = (b, at_b);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const SQUARE: [DVec2; 4] =
+        [DVec2::new(0.0, 0.0), DVec2::new(2.0, 0.0), DVec2::new(2.0, 2.0), DVec2::new(0.0, 2.0)];
+
+    #[test]
+    fn a_square_has_its_area_and_centre() {
+        assert_eq!(area(&SQUARE), 4.0);
+        assert_eq!(centroid(&SQUARE), DVec2::ONE);
+        assert_eq!(area(&[]), 0.0);
+        assert_eq!(centroid(&SQUARE[..1]), SQUARE[0]);
+    }
+
+    #[test]
+    fn the_two_sides_of_a_cut_make_up_the_whole() {
+        let (mut left, mut right) = (vec![], vec![]);
+        for k in 0..40 {
+            let gradient = DVec2::from_angle(0.37 * f64::from(k));
+            let cut = Affine::new(-gradient.dot(DVec2::new(0.7, 1.1)), gradient);
+            clip(&SQUARE, cut, &mut left);
+            clip(&SQUARE, cut * -1.0, &mut right);
+            assert!((area(&left) + area(&right) - 4.0).abs() < 1e-14, "cut {k}");
+            assert!(area(&left) > 0.5 && area(&right) > 0.5, "cut {k}");
+        }
+    }
+
+    #[test]
+    fn containment_respects_its_margin() {
+        assert!(contains(&SQUARE, DVec2::new(1.0, 0.2), 0.1));
+        assert!(!contains(&SQUARE, DVec2::new(1.0, 0.05), 0.1));
+        assert!(contains(&SQUARE, DVec2::new(1.0, -0.05), -0.1));
+        assert!(!contains(&SQUARE[..2], DVec2::new(1.0, 0.0), -1.0));
+    }
+}

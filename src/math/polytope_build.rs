@@ -1,0 +1,357 @@
+//! Builds a [`Polytope`] by cutting a box with one half-space after the other.
+//!
+//! Every corner is judged above, on or below the cutting plane once, and every facet follows that one judgement,
+//! so that the outlines stay closed whatever the rounding (the reason why brilliants, whose corners gather up to
+//! sixteen planes, come out with one corner there and not a cluster).
+
+use super::{Facet, Plane, Polytope};
+use glam::DVec3;
+use std::collections::HashMap;
+
+/// Two planes are one when their unit normals and offsets differ by less than this, offsets relative to the
+/// largest: a hundredth of the last digit that cutters' files carry.
+const COINCIDENT: f64 = 1e-7;
+
+/// A corner this near to a plane, relative to the box, lies on it: far above rounding (1e-15), far below any edge
+/// that a file with nine digits can mean.
+const ON_PLANE: f64 = 1e-10;
+
+/// The first box is this many times the largest offset, and it grows eightfold while the solid touches it.
+const FIRST_BOX: f64 = 4.0;
+
+/// A solid that still touches a box this many times the largest offset is called unbounded.
+const LAST_BOX: f64 = 1e6;
+
+/// Why half-spaces enclose no solid. Numbers are indices into the planes given.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum PolytopeError {
+    /// Fewer than the four planes that a solid needs.
+    #[error("{given} planes cannot enclose a solid; give at least 4")]
+    TooFew {
+        /// How many there were.
+        given: usize,
+    },
+    /// A number of the plane is NaN or infinite.
+    #[error("plane {plane} holds a number that is not finite; give it a finite normal and offset")]
+    NotFinite {
+        /// The plane.
+        plane: usize,
+    },
+    /// The normal has no direction.
+    #[error("plane {plane} has the zero vector as its normal; give it a direction")]
+    ZeroNormal {
+        /// The plane.
+        plane: usize,
+    },
+    /// The solid goes on for ever.
+    #[error("the stone is not closed: it runs to infinity between planes {planes:?}; add the missing facets")]
+    Unbounded {
+        /// The planes whose facets have no end.
+        planes: Vec<usize>,
+    },
+    /// No point, or no volume, lies inside all half-spaces.
+    #[error("planes {planes:?} leave nothing between them; move one of them outward or turn its normal round")]
+    Empty {
+        /// Planes that already contradict one another.
+        planes: Vec<usize>,
+    },
+    /// Planes that run so nearly through one point or line that no closed outline could be made.
+    #[error("plane {plane} meets its neighbours too nearly to be resolved; move it by more than 1e-7")]
+    Degenerate {
+        /// The plane at which the outline did not close.
+        plane: usize,
+    },
+}
+
+/// What a cut did to the solid.
+enum Cut {
+    Missed,
+    Done,
+    Emptied { certificate: Vec<usize> },
+    Unclosed,
+}
+
+struct Face {
+    source: usize,
+    outline: Vec<u32>,
+}
+
+/// A solid in the making. Sources from `given` upward are the six sides of the box.
+struct Draft {
+    vertices: Vec<DVec3>,
+    faces: Vec<Face>,
+}
+
+pub(super) fn build(planes: &[Plane]) -> Result<Polytope, PolytopeError> {
+    let unit = validate(planes)?;
+    let (kept, merged) = merge(&unit);
+    let scale = unit.iter().map(|p| p.offset.abs()).fold(0.0, f64::max);
+    let scale = if scale > 0.0 { scale } else { 1.0 };
+    let mut half = FIRST_BOX * scale;
+    loop {
+        let error = match cut_box(&unit, &kept, half) {
+            Ok(draft) => match draft.unbounded(planes.len()) {
+                None => return draft.finish(&unit, &kept, merged),
+                Some(open) => PolytopeError::Unbounded { planes: open },
+            },
+            // The box itself may be what left nothing: a larger one tells.
+            Err(PolytopeError::Empty { planes: blamed }) => {
+                if blamed.iter().all(|&p| p < planes.len()) {
+                    return Err(PolytopeError::Empty { planes: blamed });
+                }
+                PolytopeError::Empty { planes: blamed.into_iter().filter(|&p| p < planes.len()).collect() }
+            }
+            Err(other) => return Err(other),
+        };
+        half *= 8.0;
+        if half > LAST_BOX * scale {
+            return Err(error);
+        }
+    }
+}
+
+fn validate(planes: &[Plane]) -> Result<Vec<Plane>, PolytopeError> {
+    let check = |(plane, p): (usize, &Plane)| {
+        if !(p.normal.is_finite() && p.offset.is_finite()) {
+            return Err(PolytopeError::NotFinite { plane });
+        }
+        if p.normal == DVec3::ZERO {
+            return Err(PolytopeError::ZeroNormal { plane });
+        }
+        // Scaled first, so that the square of a tiny or huge component neither vanishes nor overflows.
+        let largest = p.normal.abs().max_element();
+        let scaled = Plane::new(p.normal / largest, p.offset / largest);
+        scaled.normalized().ok_or(PolytopeError::NotFinite { plane })
+    };
+    let unit = planes.iter().enumerate().map(check).collect::<Result<Vec<_>, _>>()?;
+    if unit.len() < 4 { Err(PolytopeError::TooFew { given: unit.len() }) } else { Ok(unit) }
+}
+
+/// Splits the planes into those to cut with and (dropped, kept) pairs that coincide. Sorted along one axis, so
+/// that only planes near one another are compared.
+fn merge(planes: &[Plane]) -> (Vec<usize>, Vec<(usize, usize)>) {
+    let scale = planes.iter().map(|p| p.offset.abs()).fold(0.0, f64::max);
+    let near = |a: &Plane, b: &Plane| {
+        (a.normal - b.normal).length() < COINCIDENT && (a.offset - b.offset).abs() <= COINCIDENT * scale
+    };
+    let mut order: Vec<usize> = (0..planes.len()).collect();
+    order.sort_by(|&a, &b| planes[a].normal.x.total_cmp(&planes[b].normal.x).then(a.cmp(&b)));
+    let mut twin: Vec<Option<usize>> = vec![None; planes.len()];
+    for (at, &i) in order.iter().enumerate() {
+        let next = order[at + 1..].iter().take_while(|&&j| planes[j].normal.x - planes[i].normal.x < COINCIDENT);
+        for &j in next {
+            if near(&planes[i], &planes[j]) {
+                let (first, later) = (i.min(j), i.max(j));
+                twin[later] = Some(twin[later].map_or(first, |t| t.min(first)));
+            }
+        }
+    }
+    // A chain of near planes ends at its first member.
+    let root = |mut i: usize| {
+        while let Some(first) = twin[i] {
+            i = first;
+        }
+        i
+    };
+    let kept = (0..planes.len()).filter(|&i| twin[i].is_none()).collect();
+    let merged = (0..planes.len()).filter(|&i| twin[i].is_some()).map(|i| (i, root(i))).collect();
+    (kept, merged)
+}
+
+fn cut_box(planes: &[Plane], kept: &[usize], half: f64) -> Result<Draft, PolytopeError> {
+    // A smaller tolerance may close what a larger one could not.
+    let mut failed = 0;
+    for tolerance in [ON_PLANE, ON_PLANE * 1e-2, ON_PLANE * 1e-4] {
+        match cut_with(planes, kept, half, tolerance * half) {
+            Err(PolytopeError::Degenerate { plane }) => failed = plane,
+            result => return result,
+        }
+    }
+    Err(PolytopeError::Degenerate { plane: failed })
+}
+
+fn cut_with(planes: &[Plane], kept: &[usize], half: f64, tolerance: f64) -> Result<Draft, PolytopeError> {
+    let mut draft = Draft::cube(half, planes.len());
+    for &k in kept {
+        match draft.cut(k, &planes[k], tolerance) {
+            Cut::Missed | Cut::Done => {}
+            Cut::Emptied { certificate } => return Err(PolytopeError::Empty { planes: certificate }),
+            Cut::Unclosed => return Err(PolytopeError::Degenerate { plane: k }),
+        }
+    }
+    Ok(draft)
+}
+
+impl Draft {
+    fn cube(half: f64, first_source: usize) -> Self {
+        let corner = |i: u32| {
+            DVec3::from_array([i & 1, i >> 1 & 1, i >> 2 & 1].map(|b| if b == 0 { -half } else { half }))
+        };
+        let outlines = [[0, 4, 6, 2], [1, 3, 7, 5], [0, 1, 5, 4], [2, 6, 7, 3], [0, 2, 3, 1], [4, 5, 7, 6]];
+        let face = |(i, o): (usize, [u32; 4])| Face { source: first_source + i, outline: o.to_vec() };
+        Self {
+            vertices: (0..8).map(corner).collect(),
+            faces: outlines.into_iter().enumerate().map(face).collect(),
+        }
+    }
+
+    fn cut(&mut self, source: usize, plane: &Plane, tolerance: f64) -> Cut {
+        let height: Vec<f64> = self.vertices.iter().map(|&v| plane.distance(v)).collect();
+        let live = || self.faces.iter().flat_map(|f| f.outline.iter().map(|&v| v as usize));
+        if live().all(|v| height[v] <= tolerance) {
+            return Cut::Missed;
+        }
+        if live().all(|v| height[v] >= -tolerance) {
+            return Cut::Emptied { certificate: self.certificate(source, &height) };
+        }
+        let on_before = |v: u32| (v as usize) < height.len() && height[v as usize].abs() <= tolerance;
+        let first_new = height.len() as u32;
+        let mut split: HashMap<(u32, u32), u32> = HashMap::new();
+        let vertices = &mut self.vertices;
+        let mut edges: Vec<(u32, u32)> = Vec::new();
+        self.faces.retain_mut(|face| {
+            let mut above = false;
+            let mut below = false;
+            let mut on = 0;
+            for &v in &face.outline {
+                let h = height[v as usize];
+                above |= h > tolerance;
+                below |= h < -tolerance;
+                on += usize::from(h.abs() <= tolerance);
+            }
+            if !below {
+                return false;
+            }
+            if above {
+                face.outline = trim(&face.outline, &height, tolerance, vertices, &mut split);
+            }
+            if above || on >= 2 {
+                let next = face.outline.iter().cycle().skip(1);
+                let rim = |v: u32| v >= first_new || on_before(v);
+                edges.extend(face.outline.iter().zip(next).map(|(&a, &b)| (a, b)).filter(|&(a, b)| rim(a) && rim(b)));
+            }
+            true
+        });
+        match close(&edges) {
+            Some(outline) => {
+                self.faces.push(Face { source, outline });
+                Cut::Done
+            }
+            None => Cut::Unclosed,
+        }
+    }
+
+    /// Planes that leave nothing: the new one, and those that meet at the corner least far above it, which by
+    /// linear programming's duality already prove it.
+    fn certificate(&self, source: usize, height: &[f64]) -> Vec<usize> {
+        let live = self.faces.iter().flat_map(|f| f.outline.iter().copied());
+        let lowest = live.min_by(|&a, &b| height[a as usize].total_cmp(&height[b as usize]));
+        let meets = |f: &&Face| lowest.is_some_and(|v| f.outline.contains(&v));
+        let mut planes: Vec<usize> = self.faces.iter().filter(meets).map(|f| f.source).collect();
+        planes.push(source);
+        planes.sort_unstable();
+        planes
+    }
+
+    /// The given planes whose facets touch the box, where any does.
+    fn unbounded(&self, given: usize) -> Option<Vec<usize>> {
+        let boxed = self.faces.iter().filter(|f| f.source >= given);
+        let far: Vec<u32> = boxed.flat_map(|f| f.outline.iter().copied()).collect();
+        let touches = |f: &&Face| f.source < given && f.outline.iter().any(|v| far.contains(v));
+        let mut open: Vec<usize> = self.faces.iter().filter(touches).map(|f| f.source).collect();
+        open.sort_unstable();
+        (!far.is_empty()).then_some(open)
+    }
+
+    fn finish(
+        mut self,
+        planes: &[Plane],
+        kept: &[usize],
+        merged: Vec<(usize, usize)>,
+    ) -> Result<Polytope, PolytopeError> {
+        self.faces.sort_by_key(|f| f.source);
+        let mut number: HashMap<u32, u32> = HashMap::new();
+        let mut vertices = Vec::new();
+        for v in self.faces.iter_mut().flat_map(|f| &mut f.outline) {
+            let old = *v;
+            *v = *number.entry(old).or_insert_with(|| {
+                vertices.push(self.vertices[old as usize]);
+                vertices.len() as u32 - 1
+            });
+        }
+        let mut across: HashMap<(u32, u32), u32> = HashMap::new();
+        for (i, face) in self.faces.iter().enumerate() {
+            across.extend(directed_edges(&face.outline).map(|edge| (edge, i as u32)));
+        }
+        let mut facets = Vec::with_capacity(self.faces.len());
+        for face in self.faces {
+            let neighbours: Option<Vec<u32>> =
+                directed_edges(&face.outline).map(|(a, b)| across.get(&(b, a)).copied()).collect();
+            let Some(neighbours) = neighbours else {
+                return Err(PolytopeError::Degenerate { plane: face.source });
+            };
+            facets.push(Facet { plane: planes[face.source], outline: face.outline, neighbours, source: face.source });
+        }
+        let redundant = kept.iter().copied().filter(|k| facets.iter().all(|f| f.source != *k)).collect();
+        let polytope = Polytope { facets, vertices, redundant, merged };
+        let euler = polytope.vertices.len() + polytope.facets.len() == polytope.edge_count() + 2;
+        if euler { Ok(polytope) } else { Err(PolytopeError::Degenerate { plane: kept[kept.len() - 1] }) }
+    }
+}
+
+fn directed_edges(outline: &[u32]) -> impl Iterator<Item = (u32, u32)> {
+    outline.iter().copied().zip(outline.iter().copied().cycle().skip(1))
+}
+
+/// The part of an outline that is not above the plane, with a corner wherever an edge crosses it.
+fn trim(
+    outline: &[u32],
+    height: &[f64],
+    tolerance: f64,
+    vertices: &mut Vec<DVec3>,
+    split: &mut HashMap<(u32, u32), u32>,
+) -> Vec<u32> {
+    let mut kept = Vec::with_capacity(outline.len() + 1);
+    for (a, b) in directed_edges(outline) {
+        let (at_a, at_b) = (height[a as usize], height[b as usize]);
+        if at_a <= tolerance {
+            kept.push(a);
+        }
+        let crosses = (at_a > tolerance && at_b < -tolerance) || (at_a < -tolerance && at_b > tolerance);
+        if crosses {
+            // The same edge is met from its other facet, in the other sense: one corner serves both.
+            let (low, high) = (a.min(b), a.max(b));
+            let corner = *split.entry((low, high)).or_insert_with(|| {
+                let (p, q) = (vertices[low as usize], vertices[high as usize]);
+                let (at_p, at_q) = (height[low as usize], height[high as usize]);
+                vertices.push(p + (q - p) * (at_p / (at_p - at_q)));
+                vertices.len() as u32 - 1
+            });
+            kept.push(corner);
+        }
+    }
+    kept
+}
+
+/// The outline of the new facet: the edges in the plane that belong to one facet only, walked the other way.
+/// `None` where they do not make one closed ring of three or more.
+fn close(edges: &[(u32, u32)]) -> Option<Vec<u32>> {
+    let present: std::collections::HashSet<(u32, u32)> = edges.iter().copied().collect();
+    let rim = edges.iter().filter(|&&(a, b)| !present.contains(&(b, a)));
+    let mut next: HashMap<u32, u32> = HashMap::new();
+    let mut start = None;
+    for &(a, b) in rim {
+        start.get_or_insert(b);
+        if next.insert(b, a).is_some() {
+            return None;
+        }
+    }
+    let start = start?;
+    let mut outline = vec![start];
+    let mut at = *next.get(&start)?;
+    while at != start && outline.len() < next.len() {
+        outline.push(at);
+        at = *next.get(&at)?;
+    }
+    (at == start && outline.len() == next.len() && outline.len() >= 3).then_some(outline)
+}

@@ -1,0 +1,120 @@
+//! The turns and mirrors that leave a stone, seen along one axis, as it is.
+
+use super::{Affine, Basis, Plane};
+use glam::{DMat2, DVec2, DVec3};
+use std::f64::consts::{PI, TAU};
+
+/// Images of a plane's normal and offset closer than this are one: a copy of a beam is then off by no more.
+const SAME: f64 = 1e-9;
+
+/// The symmetry of a picture: `turns` rotations about its origin, and perhaps mirrors.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Symmetry {
+    /// How many rotations by 2π/turns, at least 1.
+    pub turns: u32,
+    /// The direction, radians from the image's x axis, of one mirror line.
+    pub mirror: Option<f64>,
+}
+
+impl Symmetry {
+    /// No symmetry but the whole turn.
+    pub const NONE: Self = Self { turns: 1, mirror: None };
+
+    /// What `planes` share, seen along `view.toward`, while the direction `fixed` stays where it is as well.
+    pub fn of(planes: impl Iterator<Item = Plane>, view: &Basis, fixed: DVec3) -> Self {
+        let rings = rings(planes, view);
+        let lean = view.project(fixed);
+        if lean.length() > SAME {
+            let mirror = lean.to_angle();
+            let holds = rings.iter().all(|r| r.is_same(|a| 2.0 * mirror - a));
+            return Self { turns: 1, mirror: holds.then_some(mirror) };
+        }
+        let Some(smallest) = rings.iter().min_by_key(|r| r.azimuths.len()) else { return Self::NONE };
+        // A rotation permutes every ring, so that its order divides the number of facets in each.
+        let common = rings.iter().fold(0, |g, r| gcd(g, r.azimuths.len()));
+        let turned = |n: usize| rings.iter().all(|r| r.is_same(|a| a + TAU / n as f64));
+        let turns = (1..=common).rev().find(|&n| common.is_multiple_of(n) && turned(n)).unwrap_or(1);
+        let first = smallest.azimuths[0];
+        let candidates = smallest.azimuths.iter().map(|&a| (first + a) / 2.0);
+        let mirror = candidates.into_iter().find(|m| rings.iter().all(|r| r.is_same(|a| 2.0 * m - a)));
+        Self { turns: turns as u32, mirror }
+    }
+
+    /// How many copies of the domain make up the picture.
+    pub fn order(&self) -> u32 {
+        if self.mirror.is_some() { 2 * self.turns } else { self.turns }
+    }
+
+    /// The maps that carry the domain to each of its copies, the identity first.
+    pub fn copies(&self) -> Vec<DMat2> {
+        let turn = |k: u32| DMat2::from_angle(TAU * f64::from(k) / f64::from(self.turns));
+        let mut copies: Vec<DMat2> = (0..self.turns).map(turn).collect();
+        if let Some(m) = self.mirror {
+            let (sin, cos) = (2.0 * m).sin_cos();
+            let flip = DMat2::from_cols(DVec2::new(cos, sin), DVec2::new(sin, -cos));
+            copies.extend((0..self.turns).map(|k| turn(k) * flip));
+        }
+        copies
+    }
+
+    /// Half-planes (kept where not negative) whose common part is one domain: a wedge at the origin.
+    pub fn domain(&self) -> Vec<Affine> {
+        let order = self.order();
+        if order == 1 {
+            return vec![];
+        }
+        let first = self.mirror.unwrap_or(0.0);
+        let side = |angle: f64| Affine::new(0.0, DVec2::from_angle(angle).perp());
+        let start = side(first);
+        let end = side(first + TAU / f64::from(order)) * -1.0;
+        // Two copies split the plane in two: one line does it.
+        if order == 2 { vec![start] } else { vec![start, end] }
+    }
+}
+
+/// Facets that differ by their azimuth alone.
+struct Ring {
+    /// Along the axis, away from it, offset.
+    key: [f64; 3],
+    /// Sorted, in [0, 2π).
+    azimuths: Vec<f64>,
+}
+
+impl Ring {
+    fn is_same(&self, map: impl Fn(f64) -> f64) -> bool {
+        // The nearer to the axis a normal stands, the less its azimuth matters.
+        let tolerance = SAME / self.key[1].max(SAME);
+        self.azimuths.iter().all(|&a| {
+            let image = map(a).rem_euclid(TAU);
+            let near = |b: f64| (((image - b) + PI).rem_euclid(TAU) - PI).abs() < tolerance;
+            let at = self.azimuths.partition_point(|&b| b < image);
+            let last = self.azimuths.len() - 1;
+            let around = [at.saturating_sub(1), at.min(last), 0, last];
+            around.into_iter().any(|i| near(self.azimuths[i]))
+        })
+    }
+}
+
+/// The rings of facets around the view axis; facets square to it have no azimuth and are left out.
+fn rings(planes: impl Iterator<Item = Plane>, view: &Basis) -> Vec<Ring> {
+    let mut rings: Vec<Ring> = Vec::new();
+    for plane in planes {
+        let across = view.project(plane.normal);
+        let key = [view.toward.dot(plane.normal), across.length(), plane.offset];
+        if across.length() < SAME {
+            continue;
+        }
+        let azimuth = across.to_angle().rem_euclid(TAU);
+        let same = |r: &&mut Ring| r.key.iter().zip(key).all(|(a, b)| (a - b).abs() < SAME);
+        match rings.iter_mut().find(same) {
+            Some(ring) => ring.azimuths.push(azimuth),
+            None => rings.push(Ring { key, azimuths: vec![azimuth] }),
+        }
+    }
+    rings.iter_mut().for_each(|r| r.azimuths.sort_by(f64::total_cmp));
+    rings
+}
+
+fn gcd(a: usize, b: usize) -> usize {
+    if b == 0 { a } else { gcd(b, a % b) }
+}

@@ -1,0 +1,175 @@
+//! How light fades on its way through a coloured stone: the law of Beer and Lambert, per wavelength.
+//!
+//! Coefficients are Napierian (base e) and per millimetre of stone: T = exp(-a l) (J. H. Lambert 1760, A.
+//! Beer 1852). A source that prints decadic absorbance divides by 0.4343 first.
+
+use serde::{Deserialize, Serialize};
+
+/// An absorption spectrum: straight lines between samples, level outside them. No sample is a clear stone,
+/// one is a grey.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[serde(try_from = "Vec<(f64, f64)>", into = "Vec<(f64, f64)>")]
+pub struct Absorption {
+    /// (nm, per mm); wavelengths strictly increasing, all finite and >= 0.
+    samples: Vec<(f64, f64)>,
+}
+
+/// Why an absorption spectrum is refused; samples are counted from 1.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum AbsorptionError {
+    /// The wavelength is not a positive number.
+    #[error("absorption sample {sample} has a wavelength of {nm} nm: give a positive number")]
+    Wavelength {
+        /// Which sample.
+        sample: usize,
+        /// What was given.
+        nm: f64,
+    },
+    /// The coefficient is not a number of at least 0.
+    #[error("absorption sample {sample} ({nm} nm) has a coefficient of {per_mm} per mm: give 0 or more")]
+    Coefficient {
+        /// Which sample.
+        sample: usize,
+        /// Its wavelength in nm.
+        nm: f64,
+        /// What was given.
+        per_mm: f64,
+    },
+    /// The wavelength does not exceed the one before.
+    #[error(
+        "absorption sample {sample} ({nm} nm) follows one at {previous} nm: list wavelengths in increasing \
+         order, each once"
+    )]
+    Order {
+        /// Which sample.
+        sample: usize,
+        /// Its wavelength in nm.
+        nm: f64,
+        /// The wavelength before it in nm.
+        previous: f64,
+    },
+}
+
+impl Absorption {
+    /// A spectrum through (nm, coefficient per mm) samples.
+    ///
+    /// # Errors
+    /// Names the first sample that is not finite, is negative, or does not come after the one before.
+    pub fn new(samples: Vec<(f64, f64)>) -> Result<Self, AbsorptionError> {
+        let mut previous = 0.0;
+        for (&(nm, per_mm), sample) in samples.iter().zip(1..) {
+            if !(nm.is_finite() && nm > 0.0) {
+                return Err(AbsorptionError::Wavelength { sample, nm });
+            }
+            if !(per_mm.is_finite() && per_mm >= 0.0) {
+                return Err(AbsorptionError::Coefficient { sample, nm, per_mm });
+            }
+            if nm <= previous {
+                return Err(AbsorptionError::Order { sample, nm, previous });
+            }
+            previous = nm;
+        }
+        Ok(Self { samples })
+    }
+
+    /// A stone that takes nothing.
+    pub const fn clear() -> Self {
+        Self { samples: Vec::new() }
+    }
+
+    /// Whether nothing is absorbed at any wavelength, so that a tracer may skip the matter.
+    pub fn is_clear(&self) -> bool {
+        self.samples.iter().all(|&(_, per_mm)| per_mm == 0.0)
+    }
+
+    /// The (nm, coefficient per mm) samples.
+    pub fn samples(&self) -> &[(f64, f64)] {
+        &self.samples
+    }
+
+    /// The coefficient at a wavelength, per mm, >= 0.
+    pub fn coefficient(&self, wavelength_nm: f64) -> f64 {
+        let above = self.samples.partition_point(|&(nm, _)| nm <= wavelength_nm);
+        let (before, after) = self.samples.split_at(above);
+        match (before.last(), after.first()) {
+            (Some(&(nm0, a0)), Some(&(nm1, a1))) => a0 + (a1 - a0) * (wavelength_nm - nm0) / (nm1 - nm0),
+            (Some(&(_, level)), None) | (None, Some(&(_, level))) => level,
+            (None, None) => 0.0,
+        }
+    }
+}
+
+/// The share of light left after a path, exp(-a l), 0..=1.
+#[inline]
+pub fn transmittance(coefficient_per_mm: f64, length_mm: f64) -> f64 {
+    (-coefficient_per_mm * length_mm).exp()
+}
+
+impl TryFrom<Vec<(f64, f64)>> for Absorption {
+    type Error = AbsorptionError;
+
+    fn try_from(samples: Vec<(f64, f64)>) -> Result<Self, AbsorptionError> {
+        Self::new(samples)
+    }
+}
+
+impl From<Absorption> for Vec<(f64, f64)> {
+    fn from(absorption: Absorption) -> Self {
+        absorption.samples
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn spectrum() -> Absorption {
+        Absorption::new(vec![(400.0, 0.1), (500.0, 0.3), (700.0, 0.0)]).expect("a good spectrum")
+    }
+
+    #[test]
+    fn samples_are_joined_by_straight_lines() {
+        for (nm, expected) in
+            [(400.0, 0.1), (450.0, 0.2), (500.0, 0.3), (550.0, 0.225), (600.0, 0.15), (700.0, 0.0)]
+        {
+            assert!((spectrum().coefficient(nm) - expected).abs() < 1e-15, "at {nm} nm");
+        }
+    }
+
+    #[test]
+    fn a_spectrum_is_level_beyond_its_ends() {
+        assert_eq!(spectrum().coefficient(360.0), 0.1);
+        assert_eq!(spectrum().coefficient(830.0), 0.0);
+    }
+
+    #[test]
+    fn no_sample_is_clear_and_one_is_grey() {
+        assert_eq!(Absorption::clear().coefficient(550.0), 0.0);
+        let grey = Absorption::new(vec![(550.0, 0.2)]).expect("one sample will do");
+        assert_eq!([360.0, 550.0, 830.0].map(|nm| grey.coefficient(nm)), [0.2; 3]);
+        assert!(Absorption::default().is_clear() && !grey.is_clear() && !spectrum().is_clear());
+    }
+
+    #[test]
+    fn two_paths_in_a_row_fade_light_as_one_of_their_length() {
+        let once = transmittance(0.3, 2.0) * transmittance(0.3, 5.0);
+        assert!((once - transmittance(0.3, 7.0)).abs() < 1e-15);
+        assert_eq!(transmittance(0.0, 7.0), 1.0);
+        assert_eq!(transmittance(0.3, 0.0), 1.0);
+    }
+
+    #[test]
+    fn a_bad_sample_is_named() {
+        let fault = |samples: &[(f64, f64)]| Absorption::new(samples.to_vec()).expect_err("bad").to_string();
+        assert!(
+            fault(&[(400.0, 0.1), (500.0, -0.1)])
+                .starts_with("absorption sample 2 (500 nm) has a coefficient of -0.1")
+        );
+        assert!(fault(&[(400.0, f64::NAN)]).contains("sample 1"));
+        assert!(fault(&[(400.0, f64::INFINITY)]).contains("inf per mm"));
+        assert!(fault(&[(0.0, 0.1)]).contains("wavelength of 0 nm"));
+        assert!(fault(&[(f64::NAN, 0.1)]).contains("wavelength of NaN nm"));
+        assert!(fault(&[(500.0, 0.1), (500.0, 0.2)]).contains("sample 2 (500 nm) follows one at 500 nm"));
+        assert!(fault(&[(400.0, 0.1), (500.0, 0.1), (450.0, 0.2)]).contains("sample 3"));
+    }
+}

@@ -1,0 +1,304 @@
+//! How much light a surface reflects, and with what phase: Fresnel's formulae.
+//!
+//! Source: M. Born and E. Wolf, *Principles of Optics*, 7th ed. (1999): §1.5.2, eq. 21 for the amplitudes,
+//! §1.5.4, eq. 60 for the phases of total reflection. Their convention is kept:
+//! - time runs as exp(-i omega t), so an evanescent wave has cos_t = +i sqrt(eta² sin² - 1);
+//! - s is along e_s, across the plane of incidence, the same for all three beams; p of *each* beam is along
+//!   e_s × (its own direction of travel). Hence r_p = -r_s at normal incidence, where the two p axes point
+//!   opposite ways.
+
+use super::snell::{cos_t_squared, cos_transmitted};
+use num_complex::Complex64;
+
+/// The amplitude reflection coefficients of one meeting of a ray and a surface.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Fresnel {
+    /// Reflected over incident amplitude, electric field across the plane of incidence.
+    pub r_s: Complex64,
+    /// The same, electric field in the plane of incidence.
+    pub r_p: Complex64,
+    /// Cosine of the angle of refraction; `None` where reflection is total.
+    pub cos_t: Option<f64>,
+}
+
+impl Fresnel {
+    /// Share of s-polarised power that is reflected, 0..=1; 1 - this is transmitted.
+    pub fn reflectance_s(&self) -> f64 {
+        self.power(self.r_s)
+    }
+
+    /// Share of p-polarised power that is reflected, 0..=1; 1 - this is transmitted.
+    pub fn reflectance_p(&self) -> f64 {
+        self.power(self.r_p)
+    }
+
+    /// Share of unpolarised power that is reflected, 0..=1; 1 - this is transmitted.
+    pub fn reflectance(&self) -> f64 {
+        0.5 * (self.reflectance_s() + self.reflectance_p())
+    }
+
+    /// Transmitted amplitude of s, normalised to flux: its square is exactly what [`Self::reflectance_s`]
+    /// leaves. Real and not negative, as Born & Wolf's eq. 20 is; refraction shifts no phase.
+    pub fn transmission_s(&self) -> f64 {
+        (1.0 - self.reflectance_s()).sqrt()
+    }
+
+    /// Transmitted amplitude of p, normalised to flux as [`Self::transmission_s`] is.
+    pub fn transmission_p(&self) -> f64 {
+        (1.0 - self.reflectance_p()).sqrt()
+    }
+
+    /// Whether all light is reflected.
+    pub fn is_total(&self) -> bool {
+        self.cos_t.is_none()
+    }
+
+    /// |r|², but 1 to the last digit in total reflection.
+    fn power(&self, r: Complex64) -> f64 {
+        if self.is_total() { 1.0 } else { r.norm_sqr() }
+    }
+}
+
+/// Fresnel's coefficients for light that meets a surface at `cos_i` (0..=1, rounding forgiven), `eta` =
+/// incident index / transmitted index > 0. Exactly at the critical angle, and at grazing incidence, all light
+/// is reflected.
+pub fn fresnel(cos_i: f64, eta: f64) -> Fresnel {
+    let cos_i = cos_i.clamp(0.0, 1.0);
+    let cos_t = cos_transmitted(cos_i, eta);
+    let (r_s, r_p) = match cos_t {
+        Some(cos_t) => (partial(eta * cos_i, cos_t), partial(cos_i, eta * cos_t)),
+        None => {
+            let decay = (-cos_t_squared(cos_i, eta)).max(0.0).sqrt();
+            (total(eta * cos_i, decay), total(cos_i, eta * decay))
+        }
+    };
+    Fresnel { r_s, r_p, cos_t }
+}
+
+/// Reflected share of unpolarised power, `None` where reflection is total: [`Fresnel::reflectance`] without
+/// complex numbers, one root and one division, for the tracers' inner loops.
+#[inline]
+pub fn reflectance(cos_i: f64, eta: f64) -> Option<f64> {
+    let cos_i = cos_i.clamp(0.0, 1.0);
+    let cos_t = cos_transmitted(cos_i, eta)?;
+    let (s_sum, p_sum) = (eta * cos_i + cos_t, cos_i + eta * cos_t);
+    let per_both = 1.0 / (s_sum * p_sum);
+    let r_s = (eta * cos_i - cos_t) * p_sum * per_both;
+    let r_p = (cos_i - eta * cos_t) * s_sum * per_both;
+    Some(0.5 * (r_s * r_s + r_p * r_p))
+}
+
+/// (a - b) / (a + b), Born & Wolf eq. 21 divided by the transmitted index.
+fn partial(a: f64, b: f64) -> Complex64 {
+    Complex64::from((a - b) / (a + b))
+}
+
+/// (a - ib) / (a + ib): modulus 1 and phase -2 atan(b / a), which is Born & Wolf eq. 60.
+fn total(a: f64, b: f64) -> Complex64 {
+    let length = a.hypot(b);
+    if length == 0.0 {
+        // Equal indices at grazing incidence: the limit from a denser and from a rarer side alike.
+        return Complex64::from(-1.0);
+    }
+    let (cos, sin) = (a / length, b / length);
+    Complex64::new(cos * cos - sin * sin, -2.0 * cos * sin)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::snell::{brewster_angle, critical_angle, reflect, refract};
+    use super::*;
+    use glam::DVec3;
+    use std::f64::consts::{FRAC_PI_2, PI};
+
+    const ETAS: [f64; 8] = [0.3, 1.0 / 2.4175, 0.75, 1.0, 1.000_000_1, 1.33, 2.4175, 2.9];
+
+    fn for_each_case(mut check: impl FnMut(f64, f64)) {
+        for eta in ETAS {
+            for step in 0..=1000 {
+                check((FRAC_PI_2 * f64::from(step) / 1000.0).cos(), eta);
+            }
+        }
+    }
+
+    /// T from Born & Wolf eq. 20 and the flux ratio of §1.5.3: computed without r.
+    fn transmitted_flux(cos_i: f64, cos_t: f64, eta: f64) -> (f64, f64) {
+        let t_s = 2.0 * eta * cos_i / (eta * cos_i + cos_t);
+        let t_p = 2.0 * eta * cos_i / (cos_i + eta * cos_t);
+        let flux = cos_t / (eta * cos_i);
+        (flux * t_s * t_s, flux * t_p * t_p)
+    }
+
+    #[test]
+    fn reflected_and_transmitted_flux_add_up_to_one() {
+        for_each_case(|cos_i, eta| {
+            let f = fresnel(cos_i, eta);
+            let Some(cos_t) = f.cos_t else { return };
+            let (t_s, t_p) = transmitted_flux(cos_i, cos_t, eta);
+            assert!((f.reflectance_s() + t_s - 1.0).abs() < 1e-14);
+            assert!((f.reflectance_p() + t_p - 1.0).abs() < 1e-14);
+            assert!((f.transmission_s().powi(2) - t_s).abs() < 1e-14);
+            assert!((f.transmission_p().powi(2) - t_p).abs() < 1e-14);
+        });
+    }
+
+    #[test]
+    fn tangential_fields_are_continuous_across_the_surface() {
+        // Both fields of both polarisations, from the vectors that the module names: this pins the signs.
+        let n = DVec3::Z;
+        for_each_case(|cos_i, eta| {
+            let f = fresnel(cos_i, eta);
+            if f.is_total() || cos_i < 1e-3 {
+                return;
+            }
+            let d = DVec3::new((1.0 - cos_i * cos_i).max(0.0).sqrt(), 0.0, -cos_i);
+            let (r, t) = (reflect(d, n), refract(d, n, eta).expect("not total"));
+            let e_s = DVec3::Y;
+            let t_s = 2.0 * eta * cos_i / (eta * cos_i - n.dot(t));
+            let t_p = 2.0 * eta * cos_i / (cos_i - eta * n.dot(t));
+            // B is (index) d × E; the incident index is eta, the transmitted one 1.
+            for (e_i, e_r, e_t) in [
+                (e_s, f.r_s.re * e_s, t_s * e_s),
+                (e_s.cross(d), f.r_p.re * e_s.cross(r), t_p * e_s.cross(t)),
+            ] {
+                let electric = e_i + e_r - e_t;
+                let magnetic = eta * (d.cross(e_i) + r.cross(e_r)) - t.cross(e_t);
+                assert!(
+                    n.cross(electric).length() < 1e-12,
+                    "E jumps by {electric} at cos_i {cos_i}, eta {eta}"
+                );
+                assert!(
+                    n.cross(magnetic).length() < 1e-12,
+                    "B jumps by {magnetic} at cos_i {cos_i}, eta {eta}"
+                );
+            }
+        });
+    }
+
+    #[test]
+    fn no_p_light_is_reflected_at_brewsters_angle() {
+        for eta in ETAS {
+            let f = fresnel(brewster_angle(eta).cos(), eta);
+            assert!(f.r_p.norm() < 1e-14, "r_p = {} at eta {eta}", f.r_p);
+        }
+    }
+
+    #[test]
+    fn both_ways_through_a_surface_reflect_the_same_share() {
+        for_each_case(|cos_i, eta| {
+            let there = fresnel(cos_i, eta);
+            let Some(cos_t) = there.cos_t else { return };
+            let back = fresnel(cos_t, 1.0 / eta);
+            // Rounding of a cosine c moves cos² by 1e-16, so the other cosine by 1e-16 / c.
+            let slack = 1e-14 / cos_i.min(cos_t);
+            assert!((there.r_s + back.r_s).norm() < slack && (there.r_p + back.r_p).norm() < slack);
+        });
+    }
+
+    #[test]
+    fn total_reflection_loses_nothing() {
+        for_each_case(|cos_i, eta| {
+            let f = fresnel(cos_i, eta);
+            if f.is_total() {
+                assert!((f.r_s.norm() - 1.0).abs() < 1e-15 && (f.r_p.norm() - 1.0).abs() < 1e-15);
+                assert_eq!((f.reflectance(), f.transmission_s(), f.transmission_p()), (1.0, 0.0, 0.0));
+            }
+        });
+    }
+
+    #[test]
+    fn phases_of_total_reflection_match_the_closed_form() {
+        // Born & Wolf eq. 60 with n = 1 / eta, and their eq. 61 for the difference.
+        for (eta, step) in
+            [1.54, 2.4175, 2.9].into_iter().flat_map(|eta| (1..90).map(move |step| (eta, step)))
+        {
+            let angle = f64::from(step).to_radians();
+            let (sin, cos) = angle.sin_cos();
+            let Some(root) = (sin * sin > 1.0 / (eta * eta)).then(|| (sin * sin - 1.0 / (eta * eta)).sqrt())
+            else {
+                continue;
+            };
+            let f = fresnel(cos, eta);
+            assert!((f.r_s.arg() + 2.0 * (root / cos).atan()).abs() < 1e-12);
+            assert!((f.r_p.arg() + 2.0 * (root * eta * eta / cos).atan()).abs() < 1e-12);
+            let delta = (f.r_s * f.r_p.conj()).arg();
+            assert!(((0.5 * delta).tan() - cos * root / (sin * sin)).abs() < 1e-12);
+        }
+    }
+
+    #[test]
+    fn a_fresnel_rhomb_retards_by_an_eighth_of_a_wave_a_bounce() {
+        // Born & Wolf §1.5.4: crown glass of 1.51 at 54 deg 37 min or 48 deg 37 min, two bounces make a
+        // quarter wave.
+        for angle in [54.0 + 37.0 / 60.0, 48.0 + 37.0 / 60.0] {
+            let f = fresnel(f64::to_radians(angle).cos(), 1.51);
+            let delta = (f.r_s * f.r_p.conj()).arg();
+            assert!((delta.to_degrees() - 45.0).abs() < 0.1, "{} deg at {angle} deg", delta.to_degrees());
+        }
+    }
+
+    #[test]
+    fn normal_incidence_reflects_the_square_of_the_index_contrast() {
+        for eta in ETAS {
+            let f = fresnel(1.0, eta);
+            let r = (eta - 1.0) / (eta + 1.0);
+            assert!((f.r_s.re - r).abs() < 1e-15 && (f.r_p.re + r).abs() < 1e-15);
+        }
+        // 17.2 % of the light that meets a diamond's table head on.
+        assert!((fresnel(1.0, 1.0 / 2.4175).reflectance() - 0.172).abs() < 5e-4);
+    }
+
+    #[test]
+    fn equal_indices_reflect_nothing_short_of_grazing() {
+        for cos_i in [1.0, 0.5, 1e-3, 1e-9, 1e-100] {
+            assert_eq!(fresnel(cos_i, 1.0).reflectance(), 0.0);
+            assert_eq!(reflectance(cos_i, 1.0), Some(0.0));
+        }
+    }
+
+    #[test]
+    fn grazing_incidence_reflects_everything() {
+        for eta in ETAS {
+            let f = fresnel(0.0, eta);
+            assert!((f.reflectance() - 1.0).abs() < 1e-15);
+            assert!((f.r_s + 1.0).norm() < 1e-15 && (f.r_p + 1.0).norm() < 1e-15);
+        }
+    }
+
+    #[test]
+    fn the_critical_angle_itself_reflects_everything_in_phase() {
+        // eta = 1.25 and cos_i = 0.6 are a critical angle without rounding but for the last bit of each.
+        for cos_i in [0.6_f64.next_down(), 0.6, 0.6_f64.next_up()] {
+            let f = fresnel(cos_i, 1.25);
+            assert!(f.reflectance() > 1.0 - 1e-6 && f.reflectance() <= 1.0);
+            assert!(f.r_s.arg().abs() < 1e-6 && f.r_p.arg().abs() < 1e-6);
+        }
+        let critical = critical_angle(2.4175).expect("diamond is denser than air");
+        assert!(fresnel(critical.cos(), 2.4175).reflectance() > 1.0 - 1e-6);
+    }
+
+    #[test]
+    fn the_quick_form_equals_the_complex_one() {
+        for_each_case(|cos_i, eta| {
+            let f = fresnel(cos_i, eta);
+            match reflectance(cos_i, eta) {
+                Some(quick) => assert!(!f.is_total() && (quick - f.reflectance()).abs() < 1e-14),
+                None => assert!(f.is_total()),
+            }
+        });
+    }
+
+    #[test]
+    fn no_cosine_gives_nan_or_a_share_outside_zero_to_one() {
+        let tiny = [0.0, f64::MIN_POSITIVE, 1e-200, 1e-160, 1e-155, 1e-150, 1e-100, 1e-17, 1e-8];
+        let cosines = tiny.iter().flat_map(|&c| [c, -c, 1.0 - c, 1.0 + c]).chain([-1e-9, 1.0 + 1e-9]);
+        for (cos_i, eta) in cosines.flat_map(|c| ETAS.map(|eta| (c, eta))) {
+            let f = fresnel(cos_i, eta);
+            assert!((0.0..=1.0).contains(&f.reflectance()) && f.r_s.is_finite() && f.r_p.is_finite());
+            assert!(
+                f.r_s.arg().abs() <= PI && f.transmission_s().is_finite() && f.transmission_p().is_finite()
+            );
+            assert!(reflectance(cos_i, eta).is_none_or(|r| (0.0..=1.0 + 1e-15).contains(&r)));
+        }
+    }
+}

@@ -1,0 +1,370 @@
+//! The stones we know by name: how each bends and absorbs light, and who measured it.
+
+use super::absorption::Absorption;
+use super::dispersion::{Dispersion, DispersionError};
+use serde::{Deserialize, Serialize};
+use std::fmt;
+use std::sync::LazyLock;
+
+/// What a stone is made of, as light sees it.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Material {
+    /// What the trade calls it; unique among [`materials`].
+    pub name: String,
+    /// One line on what it is, and on what is left out.
+    #[serde(default)]
+    pub description: String,
+    /// Its index by wavelength.
+    pub dispersion: Dispersion,
+    /// What it takes from light on the way, clear unless stated.
+    #[serde(default)]
+    pub absorption: Absorption,
+    /// Who measured it, and where it is printed.
+    #[serde(default)]
+    pub source: String,
+    /// The wavelengths in nm, first and last, that the source vouches for; beyond them the formula is
+    /// extrapolated. `None` where the source states none.
+    #[serde(default)]
+    pub valid_nm: Option<(f64, f64)>,
+}
+
+impl Material {
+    /// A clear stone of one index for all wavelengths.
+    ///
+    /// # Errors
+    /// An index that is not a finite number of at least 1.
+    pub fn from_index(name: &str, index: f64) -> Result<Self, DispersionError> {
+        let dispersion = Dispersion::Constant(index).checked()?;
+        let source = "a single index, given by the user";
+        Ok(Self::clear(name, "One index for all wavelengths.", dispersion, source, None))
+    }
+
+    /// The index at a wavelength; panics as [`Dispersion::index`] does.
+    pub fn index(&self, wavelength_nm: f64) -> f64 {
+        self.dispersion.index(wavelength_nm)
+    }
+
+    /// Whether the source vouches for the index at this wavelength; `false` where it states no range.
+    pub fn is_valid_at(&self, wavelength_nm: f64) -> bool {
+        self.valid_nm.is_some_and(|(first, last)| (first..=last).contains(&wavelength_nm))
+    }
+
+    fn clear(
+        name: &str,
+        text: &str,
+        dispersion: Dispersion,
+        source: &str,
+        valid_nm: Option<(f64, f64)>,
+    ) -> Self {
+        let (name, description, source) = (name.to_owned(), text.to_owned(), source.to_owned());
+        Self { name, description, dispersion, absorption: Absorption::clear(), source, valid_nm }
+    }
+}
+
+/// No material bears the name asked for.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+pub struct UnknownMaterial {
+    /// What was asked for.
+    pub name: String,
+    /// Names spelt much like it, the nearest first.
+    pub near: Vec<&'static str>,
+}
+
+impl fmt::Display for UnknownMaterial {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "unknown material '{}'; ", self.name)?;
+        if !self.near.is_empty() {
+            write!(f, "did you mean '{}'? ", self.near.join("' or '"))?;
+        }
+        let known: Vec<&str> = materials().iter().map(|m| m.name.as_str()).collect();
+        write!(f, "known: {}", known.join(", "))
+    }
+}
+
+/// The material of a name; case, spaces, hyphens and underscores do not matter.
+///
+/// # Errors
+/// [`UnknownMaterial`], with the names that come near.
+pub fn material(name: &str) -> Result<&'static Material, UnknownMaterial> {
+    let key = key(name);
+    materials().iter().find(|m| self::key(&m.name) == key).ok_or_else(|| unknown(name))
+}
+
+/// All materials that we know by name: diamond first, then the other published laws, then those from trade
+/// tables.
+pub fn materials() -> &'static [Material] {
+    static MATERIALS: LazyLock<Vec<Material>> =
+        LazyLock::new(|| [published(), ordinary_rays(), garnets()].concat());
+    &MATERIALS
+}
+
+/// Isotropic stones whose dispersion is published.
+fn published() -> Vec<Material> {
+    vec![
+        Material::clear(
+            "diamond",
+            "Isotropic; colourless.",
+            sellmeier(&[(0.3306, 0.1750), (4.3356, 0.1060)]),
+            "F. Peter, Z. Phys. 15, 358 (1923)",
+            Some((226.0, 760.0)),
+        ),
+        Material::clear(
+            "spinel",
+            "Isotropic; magnesium aluminate, colourless.",
+            sellmeier(&[(1.8938, 0.09942), (3.0755, 15.826)]),
+            "W. J. Tropf and M. E. Thomas, Handbook of Optical Constants of Solids II, 881 (1991); \
+             fit in Handbook of Optics, 3rd ed., vol. 4 (2009)",
+            Some((350.0, 5500.0)),
+        ),
+        Material::clear(
+            "cubic zirconia",
+            "Isotropic; stabilised with yttria, colourless.",
+            sellmeier(&[(1.347091, 0.062543), (2.117788, 0.166739), (9.452943, 24.320570)]),
+            "D. L. Wood and K. Nassau, Appl. Opt. 21, 2978 (1982)",
+            Some((361.0, 5135.0)),
+        ),
+        Material::clear(
+            "strontium titanate",
+            "Isotropic; sold as fabulite, colourless.",
+            sellmeier(&[(3.042143, 0.1475902), (1.170065, 0.2953086), (30.83326, 33.18606)]),
+            "W. L. Bond, J. Appl. Phys. 36, 1674 (1965); \
+             fit by M. J. Dodge, Handbook of Laser Science and Technology IV (1986)",
+            Some((430.0, 3800.0)),
+        ),
+        Material::clear(
+            "YAG",
+            "Isotropic; yttrium aluminium garnet, colourless.",
+            rational(1.0, &[(2.28200, 0.01185), (3.27644, 282.734)], &[], 0.0),
+            "D. E. Zelmon, D. L. Small and R. Page, Appl. Opt. 37, 4933 (1998)",
+            Some((400.0, 5000.0)),
+        ),
+    ]
+}
+
+/// Uniaxial stones, by the ray that obeys Snell's law; the other one, and with it doubling, is not traced
+/// yet.
+fn ordinary_rays() -> Vec<Material> {
+    vec![
+        Material::clear(
+            "sapphire",
+            "Uniaxial; ordinary ray only, without double refraction; colourless.",
+            sellmeier(&[(1.4313493, 0.0726631), (0.65054713, 0.1193242), (5.3414021, 18.028251)]),
+            "I. H. Malitson and M. J. Dodge, J. Opt. Soc. Am. 62, 1405 (1972); \
+             fit by M. J. Dodge, Handbook of Laser Science and Technology IV (1986)",
+            Some((200.0, 5000.0)),
+        ),
+        Material::clear(
+            "quartz",
+            "Uniaxial; ordinary ray only, without double refraction; colourless.",
+            rational(1.28604141, &[(1.07044083, 0.0100585997), (1.10202242, 100.0)], &[], 0.0),
+            "G. Ghosh, Opt. Commun. 163, 95 (1999)",
+            Some((198.0, 2053.1)),
+        ),
+        Material::clear(
+            "moissanite",
+            "Uniaxial 6H silicon carbide; ordinary ray only, without double refraction; colourless.",
+            rational(6.57232, &[], &[(0.1401, 0.03178)], -0.02153),
+            "S. Wang et al., Laser Photonics Rev. 7, 831 (2013)",
+            Some((435.8, 2325.0)),
+        ),
+        Material::clear(
+            "rutile",
+            "Uniaxial titanium dioxide; ordinary ray only, without double refraction; colourless.",
+            rational(5.913, &[], &[(0.2441, 0.0803)], 0.0),
+            "J. R. Devore, J. Opt. Soc. Am. 41, 416 (1951)",
+            Some((430.0, 1530.0)),
+        ),
+    ]
+}
+
+/// Isotropic garnets, by the middle of the range of their index and their B-G dispersion.
+fn garnets() -> Vec<Material> {
+    let garnet = |name, least: f64, most: f64, b_minus_g| {
+        let text =
+            format!("Isotropic garnet; n {least} to {most}, the middle taken; its colour is left out.");
+        let law = Dispersion::cauchy_from(0.5 * (least + most), b_minus_g);
+        Material::clear(name, &text, law, "trade tables, from memory, not yet checked", None)
+    };
+    vec![
+        garnet("pyrope", 1.714, 1.742, 0.022),
+        garnet("almandine", 1.77, 1.82, 0.025),
+        garnet("spessartine", 1.79, 1.82, 0.027),
+        garnet("grossular", 1.734, 1.759, 0.028),
+        garnet("demantoid", 1.88, 1.89, 0.057),
+    ]
+}
+
+fn sellmeier(terms: &[(f64, f64)]) -> Dispersion {
+    Dispersion::Sellmeier { constant: 1.0, terms: terms.to_vec() }
+}
+
+fn rational(constant: f64, terms: &[(f64, f64)], poles: &[(f64, f64)], slope: f64) -> Dispersion {
+    Dispersion::Rational { constant, terms: terms.to_vec(), poles: poles.to_vec(), slope }
+}
+
+/// A name without what does not matter in it.
+fn key(name: &str) -> String {
+    name.chars().filter(|c| !matches!(c, ' ' | '-' | '_')).flat_map(char::to_lowercase).collect()
+}
+
+fn unknown(name: &str) -> UnknownMaterial {
+    let asked = key(name);
+    let mut near: Vec<(usize, &str)> =
+        materials().iter().map(|m| (edits(&asked, &key(&m.name)), m.name.as_str())).collect();
+    // A slip in every third letter is still a slip; more is another word.
+    near.retain(|&(slips, _)| slips <= asked.chars().count().div_ceil(3));
+    near.sort_by_key(|&(slips, _)| slips);
+    UnknownMaterial { name: name.to_owned(), near: near.into_iter().map(|(_, name)| name).collect() }
+}
+
+/// How many letters to insert, drop or change to turn one word into another (V. I. Levenshtein, 1966).
+fn edits(from: &str, to: &str) -> usize {
+    let to: Vec<char> = to.chars().collect();
+    let mut row: Vec<usize> = (0..=to.len()).collect();
+    for (i, a) in from.chars().enumerate() {
+        let mut diagonal = std::mem::replace(&mut row[0], i + 1);
+        for (j, &b) in to.iter().enumerate() {
+            let changed = diagonal + usize::from(a != b);
+            diagonal = row[j + 1];
+            row[j + 1] = changed.min(diagonal + 1).min(row[j] + 1);
+        }
+    }
+    row[to.len()]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::dispersion::{VISIBLE_NM, line};
+    use super::*;
+
+    fn assert_prints(what: &str, value: f64, printed: f64, digits: i32) {
+        assert!(
+            (value - printed).abs() <= 0.5 * 10_f64.powi(-digits),
+            "{what}: {value}, printed as {printed}"
+        );
+    }
+
+    #[test]
+    fn published_laws_give_the_printed_index_and_dispersion() {
+        for (name, n_d, b_g, c_f) in [
+            ("diamond", 2.41726, 0.04444, 0.02564),
+            ("sapphire", 1.76808, 0.01811, 0.01063),
+            ("spinel", 1.71610, 0.02019, 0.01181),
+            ("cubic zirconia", 2.15846, 0.06040, 0.03456),
+        ] {
+            let law = &material(name).unwrap().dispersion;
+            assert_prints(name, law.index(line::SODIUM_D), n_d, 5);
+            assert_prints(name, law.dispersion_b_g(), b_g, 5);
+            assert_prints(name, law.index(line::HYDROGEN_F) - law.index(line::HYDROGEN_C), c_f, 5);
+        }
+    }
+
+    #[test]
+    fn strontium_titanate_gives_the_printed_index_and_dispersion() {
+        let law = &material("strontium titanate").unwrap().dispersion;
+        assert_prints("n_D", law.index(line::SODIUM_D), 2.40799, 5);
+        assert_prints("B-G", law.dispersion_b_g(), 0.2096, 4);
+        assert_prints("C-F", law.index(line::HYDROGEN_F) - law.index(line::HYDROGEN_C), 0.1109, 4);
+    }
+
+    #[test]
+    fn laws_of_other_forms_give_the_printed_index() {
+        for (name, n_d) in
+            [("YAG", 1.83265), ("quartz", 1.54421), ("moissanite", 2.64743), ("rutile", 2.61291)]
+        {
+            assert_prints(name, material(name).unwrap().index(line::SODIUM_D), n_d, 5);
+        }
+        assert_prints("YAG, B-G", material("YAG").unwrap().dispersion.dispersion_b_g(), 0.02721, 5);
+    }
+
+    #[test]
+    fn garnets_give_the_two_numbers_they_were_made_from() {
+        for (name, n_d, b_g) in [
+            ("pyrope", 1.728, 0.022),
+            ("almandine", 1.795, 0.025),
+            ("spessartine", 1.805, 0.027),
+            ("grossular", 1.7465, 0.028),
+            ("demantoid", 1.885, 0.057),
+        ] {
+            let garnet = material(name).unwrap();
+            assert!((garnet.index(line::SODIUM_D) - n_d).abs() < 1e-12);
+            assert!((garnet.dispersion.dispersion_b_g() - b_g).abs() < 1e-12);
+            assert!(garnet.source.contains("from memory, not yet checked"));
+        }
+    }
+
+    #[test]
+    fn every_material_has_an_index_that_falls_with_wavelength_throughout_visible_light() {
+        assert_eq!(materials().len(), 14);
+        for m in materials() {
+            assert_eq!(m.dispersion.clone().checked().as_ref(), Ok(&m.dispersion), "{}", m.name);
+            let indices: Vec<f64> = (360..=830).map(|nm| m.index(nm.into())).collect();
+            assert!(indices.is_sorted_by(|a, b| a > b), "{}", m.name);
+            assert!(!m.source.is_empty() && !m.description.is_empty() && m.absorption.is_clear());
+        }
+        assert_eq!((*VISIBLE_NM.start(), *VISIBLE_NM.end()), (360.0, 830.0));
+    }
+
+    #[test]
+    fn uniaxial_stones_say_that_they_are_the_ordinary_ray() {
+        for name in ["sapphire", "quartz", "moissanite", "rutile"] {
+            assert!(material(name).unwrap().description.contains("ordinary ray only"));
+        }
+        assert!(materials().iter().filter(|m| m.description.starts_with("Uniaxial")).count() == 4);
+    }
+
+    #[test]
+    fn a_source_vouches_only_for_the_wavelengths_it_measured() {
+        let moissanite = material("moissanite").unwrap();
+        assert!(moissanite.is_valid_at(line::SODIUM_D) && !moissanite.is_valid_at(line::FRAUNHOFER_G));
+        assert!(!material("pyrope").unwrap().is_valid_at(line::SODIUM_D));
+    }
+
+    #[test]
+    fn the_gltf_law_of_diamond_stays_close_to_peters() {
+        let khronos = Dispersion::Abbe { n_d: 2.418, v_d: 55.0 };
+        let diamond = material("diamond").unwrap();
+        for nm in 400..=700 {
+            assert!((khronos.index(nm.into()) - diamond.index(nm.into())).abs() < 0.002, "at {nm} nm");
+        }
+    }
+
+    #[test]
+    fn names_are_found_whatever_their_case_and_spacing() {
+        for spelling in ["cubic zirconia", "Cubic-Zirconia", "CUBIC_ZIRCONIA", " cubic  zirconia "] {
+            assert_eq!(material(spelling).unwrap().name, "cubic zirconia");
+        }
+        assert_eq!(material("yag").unwrap().name, "YAG");
+        let mut keys: Vec<String> = materials().iter().map(|m| key(&m.name)).collect();
+        keys.sort();
+        assert!(keys.is_sorted_by(|a, b| a < b), "two materials answer to one name");
+    }
+
+    #[test]
+    fn an_unknown_name_is_answered_with_those_near_it() {
+        let error = material("diamon").unwrap_err();
+        assert_eq!(error.near, ["diamond"]);
+        let text = error.to_string();
+        assert!(
+            text.starts_with("unknown material 'diamon'; did you mean 'diamond'? known: diamond, spinel,"),
+            "{text}"
+        );
+        assert_eq!(material("Saphire").unwrap_err().near, ["sapphire"]);
+        let stranger = material("unobtainium").unwrap_err();
+        assert!(stranger.near.is_empty() && stranger.to_string().contains("'unobtainium'; known: diamond"));
+        assert!(material("").unwrap_err().near.is_empty());
+    }
+
+    #[test]
+    fn a_bare_index_makes_a_material_or_says_why_not() {
+        assert_eq!(Material::from_index("glass", 1.5).unwrap().index(500.0), 1.5);
+        assert!(Material::from_index("vapour", 0.5).is_err());
+    }
+
+    #[test]
+    fn edits_count_letters_inserted_dropped_or_changed() {
+        assert_eq!(edits("kitten", "sitting"), 3);
+        assert_eq!((edits("", "abc"), edits("abc", ""), edits("abc", "abc")), (3, 3, 0));
+    }
+}

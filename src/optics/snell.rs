@@ -1,0 +1,183 @@
+//! The directions of the reflected and the refracted ray, and the two angles that the trade quotes.
+//!
+//! `d` is the unit direction of travel, `n` the unit normal on the side the light comes from (n·d < 0),
+//! `cos_i` = -n·d, and `eta` = incident index / transmitted index. Source: M. Born and E. Wolf, *Principles
+//! of Optics*, 7th ed. (1999), §1.5.1, law of refraction eq. 8; as vectors in M. Pharr, W. Jakob and
+//! G. Humphreys, *Physically Based Rendering*, 4th ed. (2023), §9.3.
+
+use glam::DVec3;
+
+/// How far rounding may take a unit length from 1, or a grazing n·d past 0, before a caller's mistake is
+/// suspected.
+const ROUNDING: f64 = 1e-9;
+
+/// cos² of the refraction angle at or below which reflection counts as total. It is below every cos² that two
+/// different indices can give (their rounding is 1e-16), and far enough from 0 to divide by.
+const LEAST_COS_T_SQUARED: f64 = 1e-300;
+
+/// Direction of the mirror-reflected ray, d - 2 (n·d) n; `n` may face either way.
+#[inline]
+pub fn reflect(d: DVec3, n: DVec3) -> DVec3 {
+    debug_assert!(is_unit(d) && is_unit(n), "reflect wants unit vectors, got d = {d}, n = {n}");
+    d - 2.0 * n.dot(d) * n
+}
+
+/// Direction of the refracted ray, or `None` where reflection is total. `n` must face against `d` (n·d < 0).
+///
+/// t = eta d + (eta cos_i - cos_t) n: the tangential part is scaled by eta (Snell), the normal part makes it
+/// a unit vector.
+#[inline]
+pub fn refract(d: DVec3, n: DVec3, eta: f64) -> Option<DVec3> {
+    let cos_i = -n.dot(d);
+    debug_assert!(is_unit(d) && is_unit(n), "refract wants unit vectors, got d = {d}, n = {n}");
+    debug_assert!(cos_i >= -ROUNDING, "refract wants a normal that faces the ray, got n.d = {}", -cos_i);
+    let cos_t = cos_transmitted(cos_i, eta)?;
+    Some(eta * d + (eta * cos_i - cos_t) * n)
+}
+
+/// Cosine of the angle of refraction, or `None` where reflection is total: beyond the critical angle and
+/// exactly at it, where the refracted ray would run along the surface and carry nothing through.
+///
+/// The one place that decides, so that [`refract`], [`fresnel`](super::fresnel()) and
+/// [`reflectance`](super::reflectance) agree. `cos_i` slightly outside 0..=1 is taken as rounding.
+#[inline]
+pub fn cos_transmitted(cos_i: f64, eta: f64) -> Option<f64> {
+    let squared = cos_t_squared(cos_i, eta);
+    (squared > LEAST_COS_T_SQUARED).then(|| squared.sqrt())
+}
+
+/// 1 - eta² sin²(i); negative beyond the critical angle. Written so that equal indices give cos²(i) exactly.
+#[inline]
+pub(super) fn cos_t_squared(cos_i: f64, eta: f64) -> f64 {
+    let normal_part = eta * cos_i.clamp(0.0, 1.0);
+    (1.0 - eta) * (1.0 + eta) + normal_part * normal_part
+}
+
+/// Angle of incidence in radians beyond which reflection is total, asin(1 / eta) (Born & Wolf §1.5.4); for a
+/// stone in air `eta` is its index. `None` where it never is (`eta` <= 1).
+pub fn critical_angle(eta: f64) -> Option<f64> {
+    (eta > 1.0).then(|| (1.0 / eta).asin())
+}
+
+/// Angle of incidence in radians at which no p-polarised light is reflected, atan(1 / eta) (Born & Wolf
+/// §1.5.3).
+pub fn brewster_angle(eta: f64) -> f64 {
+    (1.0 / eta).atan()
+}
+
+#[inline]
+fn is_unit(v: DVec3) -> bool {
+    (v.length_squared() - 1.0).abs() < ROUNDING
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const ETAS: [f64; 7] = [0.3, 1.0 / 2.4175, 0.75, 1.0, 1.33, 2.4175, 2.9];
+
+    /// A direction that meets `n` at `angle`, turned about `n` by `turn`.
+    fn incident(n: DVec3, angle: f64, turn: f64) -> DVec3 {
+        let (u, v) = n.any_orthonormal_pair();
+        (u * turn.cos() + v * turn.sin()) * angle.sin() - n * angle.cos()
+    }
+
+    /// Every eta with many angles, turns and normals.
+    fn for_each_case(mut check: impl FnMut(DVec3, DVec3, f64)) {
+        for k in 0..12 {
+            let n = DVec3::from_array([1.3 - 0.2 * f64::from(k), 0.7, f64::from(k % 5) - 1.9]);
+            let n = n / n.length();
+            for step in 0..90 {
+                let d = incident(n, f64::from(step).to_radians(), 0.4 * f64::from(step));
+                ETAS.iter().for_each(|&eta| check(d, n, eta));
+            }
+        }
+    }
+
+    #[test]
+    fn sines_obey_snells_law() {
+        for_each_case(|d, n, eta| {
+            if let Some(t) = refract(d, n, eta) {
+                assert!((t.cross(n).length() - eta * d.cross(n).length()).abs() < 1e-14);
+            }
+        });
+    }
+
+    #[test]
+    fn refracted_and_reflected_directions_are_unit_vectors() {
+        for_each_case(|d, n, eta| {
+            assert!((reflect(d, n).length() - 1.0).abs() < 1e-14);
+            assert!(refract(d, n, eta).is_none_or(|t| (t.length() - 1.0).abs() < 1e-14));
+        });
+    }
+
+    #[test]
+    fn the_incident_reflected_and_refracted_rays_lie_in_one_plane() {
+        for_each_case(|d, n, eta| {
+            let across = n.cross(d);
+            assert!(reflect(d, n).dot(across).abs() < 1e-14);
+            assert!(refract(d, n, eta).is_none_or(|t| t.dot(across).abs() < 1e-14));
+        });
+    }
+
+    #[test]
+    fn a_refracted_ray_goes_through_and_a_reflected_one_comes_back() {
+        for_each_case(|d, n, eta| {
+            assert!(
+                (reflect(d, n).dot(n) + d.dot(n)).abs() < 1e-15,
+                "the angle of reflection is that of incidence"
+            );
+            assert!(refract(d, n, eta).is_none_or(|t| t.dot(n) < 0.0 && t.cross(n).dot(d.cross(n)) >= 0.0));
+        });
+    }
+
+    #[test]
+    fn light_retraces_its_path() {
+        for_each_case(|d, n, eta| {
+            if let Some(t) = refract(d, n, eta) {
+                let back = refract(-t, -n, 1.0 / eta).expect("the way back is open where the way in was");
+                // A cosine is the root of a square that is rounded at eta² (or 1 / eta² on the way back).
+                let slack = 1e-15 * (eta + 1.0 / eta).powi(2) / t.dot(n).abs().min(d.dot(n).abs());
+                assert!((back + d).length() < slack, "{d} came back as {back}");
+            }
+        });
+    }
+
+    #[test]
+    fn equal_indices_let_a_ray_pass_unbent() {
+        for_each_case(|d, n, _| assert!((refract(d, n, 1.0).expect("no interface") - d).length() < 1e-15));
+    }
+
+    #[test]
+    fn reflection_is_total_exactly_beyond_the_critical_angle() {
+        let (n, slack) = (DVec3::Z, 1e-9);
+        for eta in [1.1, 1.54, 2.4175, 2.9] {
+            let critical = critical_angle(eta).expect("eta > 1");
+            assert!(refract(incident(n, critical - slack, 0.3), n, eta).is_some());
+            assert!(refract(incident(n, critical + slack, 0.3), n, eta).is_none());
+        }
+        assert_eq!(critical_angle(1.0), None);
+        assert_eq!(critical_angle(0.5), None);
+    }
+
+    #[test]
+    fn reflection_is_never_total_into_a_denser_medium() {
+        for_each_case(|d, n, eta| assert!(eta > 1.0 || refract(d, n, eta).is_some()));
+    }
+
+    #[test]
+    fn rounding_past_grazing_or_normal_incidence_is_harmless() {
+        assert_eq!(cos_transmitted(1.0 + 1e-12, 2.4), cos_transmitted(1.0, 2.4));
+        assert_eq!(cos_transmitted(-1e-12, 0.4), cos_transmitted(0.0, 0.4));
+        assert!((cos_transmitted(1.0, 2.4).expect("normal incidence") - 1.0).abs() < 1e-15);
+    }
+
+    #[test]
+    fn diamond_has_the_angles_the_books_print() {
+        let degrees = |radians: f64| (radians.to_degrees() * 100.0).round() / 100.0;
+        // At its sodium D index; the rounder 2.4175 belongs to helium d and gives 24.43.
+        assert_eq!(critical_angle(2.41726).map(degrees), Some(24.44));
+        assert_eq!(critical_angle(2.4175).map(degrees), Some(24.43));
+        assert_eq!([2.41726, 2.4175].map(|n| degrees(brewster_angle(n))), [22.47, 22.47]);
+    }
+}

@@ -1,0 +1,11 @@
+//! Floor 2: what is looked at, from where and under which light. Data only.
+
+mod medium;
+mod scope;
+mod stone;
+mod view;
+
+pub use medium::Medium;
+pub use scope::{ASET_CONE, Backing, Band, Scope, ScopeError};
+pub use stone::Stone;
+pub use view::{Lean, Projection, Side, View};

@@ -1,0 +1,190 @@
+//! Structured light: which colour shines on the stone from which elevation.
+//!
+//! ASET, Ideal-Scope and the hearts and arrows viewers are all this: rings of colour around an axis, a backing
+//! behind the stone. Borders from `docs/optics.md`; every one of them, and every colour, is a parameter.
+
+use glam::DVec3;
+use serde::{Deserialize, Serialize};
+
+/// A ring of light between one elevation and the next band's.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Band {
+    /// What reports call it: green, red, blue, head.
+    pub name: String,
+    /// The elevation at which it begins, degrees above the plane square to the scope's axis, -90 to 90.
+    pub from: f64,
+    /// Encoded sRGB, 0 to 255.
+    pub colour: [u8; 3],
+}
+
+/// A scope: bands from the nadir up to the zenith.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Scope {
+    /// Short name, as `--views` takes it and as files are called.
+    pub name: String,
+    /// Bands in rising order, the first from -90: light that leaks out below meets that one.
+    #[serde(rename = "band")]
+    pub bands: Vec<Band>,
+}
+
+/// Why a scope makes no sense.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum ScopeError {
+    /// The first band must take all the light from below.
+    #[error("scope '{scope}': the first band must begin at -90, where leaked light goes; it begins at {from}")]
+    NotFromNadir {
+        /// The scope.
+        scope: String,
+        /// Where its first band begins.
+        from: f64,
+    },
+    /// Bands must rise.
+    #[error("scope '{scope}': band '{band}' begins at {from}, not between {after} and 90; list bands upward")]
+    OutOfOrder {
+        /// The scope.
+        scope: String,
+        /// The band at fault.
+        band: String,
+        /// Where it begins, degrees.
+        from: f64,
+        /// Where the band before it begins, degrees.
+        after: f64,
+    },
+}
+
+/// What leaked light and the surroundings of the stone show.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub enum Backing {
+    /// No light from behind: leakage looks dark.
+    #[default]
+    Black,
+    /// Lit from behind: leakage looks white.
+    White,
+}
+
+const BLACK: [u8; 3] = [0, 0, 0];
+const WHITE: [u8; 3] = [255, 255, 255];
+const GREEN: [u8; 3] = [0, 255, 0];
+const RED: [u8; 3] = [255, 0, 0];
+const BLUE: [u8; 3] = [0, 0, 255];
+
+impl Scope {
+    /// A scope from (name, lowest elevation in degrees, colour), the band below the horizon first.
+    fn new(name: &str, below: [u8; 3], bands: &[(&str, f64, [u8; 3])]) -> Self {
+        let all = [("below", -90.0, below)].into_iter().chain(bands.iter().copied());
+        let band = |(name, from, colour): (&str, f64, [u8; 3])| Band { name: name.into(), from, colour };
+        Self { name: name.into(), bands: all.map(band).collect() }
+    }
+
+    /// Angular spectrum evaluation: green to 45 degrees, red to 75, blue above (30 degree cone); or with the
+    /// blue border at 90 less `cone` degrees, 40 for ASET 40.
+    pub fn aset(cone: f64, backing: Backing) -> Self {
+        let suffix = if backing == Backing::White { "-white" } else { "" };
+        let size = if (cone - ASET_CONE).abs() < 1e-9 { String::new() } else { format!("-{cone}") };
+        let below = if backing == Backing::White { WHITE } else { BLACK };
+        // The cone is named by its full angle.
+        let blue = 90.0 - cone / 2.0;
+        Self::new(
+            &format!("aset{size}{suffix}"),
+            below,
+            &[("green", 0.0, GREEN), ("red", 45.0, RED), ("blue", blue, BLUE)],
+        )
+    }
+
+    /// Ideal-Scope: a red reflector with a black hole of this half angle (degrees) for the eye, backlit white.
+    pub fn ideal_scope(hole: f64) -> Self {
+        Self::new("ideal-scope", WHITE, &[("red", 0.0, [228, 0, 43]), ("black", 90.0 - hole, BLACK)])
+    }
+
+    /// The viewer for arrows (face up) and hearts (face down): the camera's dark cone, a coloured ring around it,
+    /// white beyond. Half angles from the axis in degrees.
+    pub fn hearts_and_arrows(name: &str, camera: f64, ring: f64, colour: [u8; 3]) -> Self {
+        let bands = [("white", 0.0, WHITE), ("ring", 90.0 - ring, colour), ("camera", 90.0 - camera, BLACK)];
+        Self::new(name, WHITE, &bands)
+    }
+
+    /// This scope with a head of this half angle (degrees) in front of its middle, from which no light comes.
+    pub fn with_head(mut self, half_angle: f64) -> Self {
+        if half_angle > 0.0 {
+            let from = 90.0 - half_angle;
+            self.bands.retain(|b| b.from < from);
+            self.bands.push(Band { name: "head".into(), from, colour: BLACK });
+        }
+        self
+    }
+
+    /// Whether its bands begin at the nadir and rise.
+    ///
+    /// # Errors
+    /// Names the band that does not.
+    pub fn validate(&self) -> Result<(), ScopeError> {
+        let scope = || self.name.clone();
+        let from = self.bands.first().map_or(f64::NAN, |b| b.from);
+        if from != -90.0 {
+            return Err(ScopeError::NotFromNadir { scope: scope(), from });
+        }
+        match self.bands.windows(2).find(|w| !(w[1].from > w[0].from && w[1].from < 90.0)) {
+            None => Ok(()),
+            Some(w) => Err(ScopeError::OutOfOrder {
+                scope: scope(),
+                band: w[1].name.clone(),
+                from: w[1].from,
+                after: w[0].from,
+            }),
+        }
+    }
+
+    /// The band that the unit vector `direction` points at, for a scope around the unit vector `zenith`.
+    #[inline]
+    pub fn band(&self, direction: DVec3, zenith: DVec3) -> usize {
+        // atan2 keeps its digits near the zenith, where asin would lose half of them.
+        let up = direction.dot(zenith);
+        let elevation = up.atan2(direction.cross(zenith).length()).to_degrees();
+        self.bands.iter().rposition(|b| elevation >= b.from).unwrap_or(0)
+    }
+}
+
+/// Full angle in degrees of the observer's cone, blue, of the common ASET.
+pub const ASET_CONE: f64 = 30.0;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn at(elevation: f64) -> DVec3 {
+        let (sin, cos) = elevation.to_radians().sin_cos();
+        DVec3::new(0.6 * cos, 0.8 * cos, sin)
+    }
+
+    #[test]
+    fn aset_borders_stand_at_0_45_and_75_degrees() {
+        let scope = Scope::aset(ASET_CONE, Backing::Black);
+        let name = |e: f64| scope.bands[scope.band(at(e), DVec3::Z)].name.as_str();
+        let seen = [-90.0, -0.01, 0.01, 44.99, 45.01, 74.99, 75.01, 90.0].map(name);
+        assert_eq!(seen, ["below", "below", "green", "green", "red", "red", "blue", "blue"]);
+        let wide = Scope::aset(40.0, Backing::White);
+        assert_eq!(wide.name, "aset-40-white");
+        assert_eq!(wide.bands[wide.band(at(71.0), DVec3::Z)].name, "blue");
+    }
+
+    #[test]
+    fn a_head_covers_what_is_behind_it() {
+        let scope = Scope::aset(ASET_CONE, Backing::Black).with_head(20.0);
+        let names: Vec<&str> = scope.bands.iter().map(|b| b.name.as_str()).collect();
+        assert_eq!(names, ["below", "green", "red", "head"]);
+        assert_eq!(scope.validate(), Ok(()));
+    }
+
+    #[test]
+    fn bands_out_of_order_are_named() {
+        let mut scope = Scope::ideal_scope(12.0);
+        scope.bands.swap(1, 2);
+        assert!(matches!(scope.validate(), Err(ScopeError::OutOfOrder { band, .. }) if band == "red"));
+        scope.bands[0].from = 0.0;
+        assert!(scope.validate().is_err());
+        scope.bands.clear();
+        assert!(scope.validate().is_err());
+    }
+}

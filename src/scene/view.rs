@@ -1,0 +1,113 @@
+//! From where a stone is looked at, and how scope, stone and eye lean against one another.
+
+use crate::math::Basis;
+use glam::DVec3;
+
+/// The side of the stone that faces the eye while nothing is tilted.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub enum Side {
+    /// Face up, through the table.
+    #[default]
+    Table,
+    /// Face down, through the pavilion, as hearts are seen.
+    Culet,
+}
+
+/// What moves when a view is tilted.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub enum Lean {
+    /// The stone leans, its table toward the azimuth; eye and scope stay.
+    #[default]
+    Stone,
+    /// The eye moves toward the azimuth; stone and light stay.
+    Eye,
+}
+
+/// How rays reach the eye.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub enum Projection {
+    /// Parallel rays, an eye far away.
+    #[default]
+    Orthographic,
+    /// An eye at this distance from the origin, in girdle radii; it must be outside the stone.
+    Perspective {
+        /// Distance, in girdle radii.
+        distance: f64,
+    },
+}
+
+/// A way to look at a stone.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct View {
+    /// Which side is up.
+    pub side: Side,
+    /// What the tilt moves.
+    pub lean: Lean,
+    /// Tilt, radians.
+    pub tilt: f64,
+    /// The azimuth, radians in the stone's frame, toward which the tilt leans.
+    pub azimuth: f64,
+    /// Parallel rays or perspective.
+    pub projection: Projection,
+}
+
+impl View {
+    /// The image plane in the stone's frame: its axis points to the eye.
+    pub fn basis(&self) -> Basis {
+        let rest = self.rest();
+        let side = DVec3::new(self.azimuth.cos(), self.azimuth.sin(), 0.0);
+        // A stone that leans toward an azimuth shows the eye its other side. Seen through the pavilion the eye is
+        // at the opposite end of the same line, which turns both cases round.
+        let toward_azimuth = match (self.lean, self.side) {
+            (Lean::Stone, Side::Table) => -1.0,
+            (Lean::Stone, Side::Culet) | (Lean::Eye, _) => 1.0,
+        };
+        let (sin, cos) = self.tilt.sin_cos();
+        rest.aimed(rest.toward * cos + side * (toward_azimuth * sin))
+    }
+
+    /// The scope's axis in the stone's frame: elevations of light are counted from the plane square to it.
+    pub fn zenith(&self) -> DVec3 {
+        match self.lean {
+            Lean::Stone => self.basis().toward,
+            Lean::Eye => self.rest().toward,
+        }
+    }
+
+    fn rest(&self) -> Basis {
+        match self.side {
+            Side::Table => Basis::FACE_UP,
+            Side::Culet => Basis::FACE_DOWN,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_untilted_view_looks_down_on_the_table_or_up_at_the_culet() {
+        let table = View::default();
+        assert_eq!(table.basis(), Basis::FACE_UP);
+        assert_eq!(table.zenith(), DVec3::Z);
+        assert_eq!(View { side: Side::Culet, ..table }.basis(), Basis::FACE_DOWN);
+    }
+
+    #[test]
+    fn a_leaning_stone_turns_its_far_side_to_the_eye_and_carries_the_scope_along() {
+        let view = View { tilt: 0.2, azimuth: 0.0, ..View::default() };
+        assert!(view.basis().toward.x < 0.0);
+        assert_eq!(view.zenith(), view.basis().toward);
+        let eye = View { lean: Lean::Eye, ..view };
+        assert!(eye.basis().toward.x > 0.0);
+        assert_eq!(eye.zenith(), DVec3::Z);
+    }
+
+    #[test]
+    fn the_pavilion_side_of_a_leaning_stone_is_seen_from_the_opposite_end_of_the_same_line() {
+        let table = View { tilt: 0.3, azimuth: 1.0, ..View::default() };
+        let culet = View { side: Side::Culet, ..table };
+        assert!((table.basis().toward + culet.basis().toward).length() < 1e-15);
+    }
+}

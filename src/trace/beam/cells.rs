@@ -1,0 +1,60 @@
+//! Cells: a subdivision of the image, without overlaps, read off the tree of nested beams.
+
+use super::tree::{Beams, ROOT};
+
+/// One cell of the map of strongest exits: the whole outline of one beam.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Cell {
+    /// The beam whose outline it is.
+    pub outline: u32,
+    /// The beam whose exit is the strongest of all exits seen through the cell, the surface's glare left aside;
+    /// the first of equals. `None` where nothing has left the stone yet.
+    pub strongest: Option<u32>,
+    /// Whether a stronger exit may lie in what was left unresolved.
+    pub undecided: bool,
+}
+
+impl Beams {
+    /// The map of strongest exits of one domain: at each point, which exit direction lights it most.
+    ///
+    /// A cell is whole as soon as nothing that is still inside can outshine the best exit so far.
+    pub fn strongest_exits(&self) -> Vec<Cell> {
+        let n = self.nodes.len();
+        let mut best: Vec<(f64, u32)> = vec![(0.0, ROOT); n];
+        let mut decided = vec![false; n];
+        let mut parted = vec![false; n];
+        for (id, beam) in self.iter().enumerate() {
+            if let Some(parent) = beam.parent.map(|p| p as usize) {
+                parted[parent] = true;
+                best[id] = best[parent];
+                decided[id] = decided[parent];
+                if beam.weight > best[id].0 {
+                    best[id] = (beam.weight, id as u32);
+                }
+            }
+            decided[id] |= beam.onward <= best[id].0;
+        }
+        let open_above = |id: usize| match self.nodes[id].parent {
+            ROOT => true,
+            parent => !decided[parent as usize],
+        };
+        (0..n)
+            .filter(|&id| open_above(id) && (decided[id] || !parted[id]))
+            .map(|id| Cell {
+                outline: id as u32,
+                strongest: (best[id].1 != ROOT).then_some(best[id].1),
+                undecided: !decided[id],
+            })
+            .collect()
+    }
+
+    /// The beams that were not split further, in one domain: the finest subdivision of the image. Every point's
+    /// light is that of such a beam and of those it came from.
+    pub fn leaves(&self) -> impl Iterator<Item = u32> {
+        let mut parted = vec![false; self.nodes.len()];
+        for parent in self.nodes.iter().map(|n| n.parent).filter(|&p| p != ROOT) {
+            parted[parent as usize] = true;
+        }
+        (0..self.nodes.len() as u32).filter(move |&id| !parted[id as usize])
+    }
+}

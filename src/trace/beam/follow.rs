@@ -1,0 +1,156 @@
+//! Follows a few beams, and all that they split into, as long as they are strong enough.
+
+use super::coherency::Coherency;
+use super::split::{Landing, Ray, Splitter, twice_area};
+use super::tree::{Beams, Node};
+use crate::math::{Affine, Polytope, integral_of_decay};
+use crate::optics::fresnel;
+use crate::scene::Medium;
+use glam::{DVec2, DVec3};
+
+/// Outlines with less than this part of the silhouette's area are slivers of rounding, and dropped.
+pub(super) const SLIVER: f64 = 1e-15;
+
+/// A beam this near to square to a facet (sine of the angle) has no plane of incidence, nor needs one.
+const SQUARE_ON: f64 = 1e-9;
+
+/// A beam whose way on is still to be followed.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Front {
+    pub node: u32,
+    pub facet: u32,
+    pub bounces: u32,
+    pub ray: Ray,
+    pub path: Affine,
+    /// Weight and polarisation, but for absorption.
+    pub light: Coherency,
+    /// Axis of `light`: a unit vector square to the ray.
+    pub s: DVec3,
+    /// Weight times area times what absorption has left.
+    pub energy: f64,
+}
+
+/// The beams that one piece of work found. Its nodes are numbered on from those that were there before.
+#[derive(Default)]
+pub(super) struct Growth {
+    pub nodes: Vec<Node>,
+    pub corners: Vec<DVec2>,
+    /// Beams too weak to be followed.
+    pub left: Vec<Front>,
+    /// Energy lost in slivers.
+    pub dropped: f64,
+}
+
+/// The unit axis square to a ray and a facet's normal, or `otherwise` where the ray is square to the facet.
+pub(super) fn s_axis(direction: DVec3, normal: DVec3, otherwise: DVec3) -> DVec3 {
+    let s = direction.cross(normal);
+    let length = s.length();
+    if length > SQUARE_ON { s / length } else { otherwise }
+}
+
+pub(super) struct Follower<'a> {
+    splitter: Splitter<'a>,
+    before: &'a Beams,
+    growth: Growth,
+    /// The outline of the beam being split.
+    outline: Vec<DVec2>,
+}
+
+impl<'a> Follower<'a> {
+    pub fn new(polytope: &'a Polytope, opposite: &'a [u32], before: &'a Beams) -> Self {
+        let splitter = Splitter::new(polytope, opposite);
+        Self { splitter, before, growth: Growth::default(), outline: vec![] }
+    }
+
+    /// Follows the fronts given and every beam that they split into while it is `strong`.
+    pub fn follow(mut self, fronts: &[Front], strong: impl Fn(&Front) -> bool) -> Growth {
+        let mut stack: Vec<Front> = fronts.iter().rev().copied().collect();
+        let mut found = vec![];
+        while let Some(front) = stack.pop() {
+            self.step(&front, &mut found);
+            for front in found.drain(..) {
+                if strong(&front) { stack.push(front) } else { self.growth.left.push(front) }
+            }
+        }
+        self.growth
+    }
+
+    /// Takes one beam to the facets that it lands on.
+    fn step(&mut self, front: &Front, found: &mut Vec<Front>) {
+        let Self { splitter, before, growth, outline } = self;
+        outline.clear();
+        let base = before.nodes.len();
+        let (node, all) = match (front.node as usize).checked_sub(base) {
+            None => (&before.nodes[front.node as usize], &before.corners),
+            Some(own) => (&growth.nodes[own], &growth.corners),
+        };
+        let start = node.corners.0 as usize;
+        outline.extend(&all[start..start + node.corners.1 as usize]);
+        let sliver = SLIVER * before.silhouette_area;
+        splitter.split(&front.ray, outline, front.facet, |landing| {
+            let area = twice_area(landing.outline.iter().map(|c| c.at)) / 2.0;
+            if area > sliver {
+                let id = (base + growth.nodes.len()) as u32;
+                let start = growth.corners.len() as u32;
+                growth.corners.extend(landing.outline.iter().map(|c| c.at));
+                let (node, onward) = land(front, &landing, area, before, (id, start), &growth.corners);
+                growth.nodes.push(node);
+                if onward.energy > 0.0 {
+                    found.push(onward);
+                }
+            } else {
+                growth.dropped += front.light.weight() * area.max(0.0);
+            }
+        });
+    }
+}
+
+/// Splits a beam at the facet it has landed on: what leaves, and what goes on.
+fn land(
+    front: &Front,
+    landing: &Landing,
+    area: f64,
+    beams: &Beams,
+    (id, start): (u32, u32),
+    corners: &[DVec2],
+) -> (Node, Front) {
+    let (direction, normal) = (front.ray.direction, landing.normal);
+    let index = beams.medium.index;
+    let cos_i = direction.dot(normal);
+    let surface = fresnel(cos_i, index);
+    let s = s_axis(direction, normal, front.s);
+    let p_before = direction.cross(front.s);
+    let arriving = front.light.turned(front.s.dot(s), p_before.dot(s));
+    let (reflected, weight) = arriving.split(&surface);
+    let light = if beams.polarised { reflected } else { reflected.unpolarised() };
+    let exit = surface.cos_t.map_or(DVec3::ZERO, |cos_t| direction * index + normal * (cos_t - index * cos_i));
+    let path = front.path + landing.distance;
+    let own = &corners[start as usize..];
+    let (before, after) = attenuated(own, front.path, path, &beams.medium, area);
+    let node = Node {
+        parent: front.node,
+        facet: landing.facet,
+        corners: (start, own.len() as u32),
+        area,
+        exit,
+        weight,
+        onward: light.weight(),
+        path,
+        transmittance: after / area,
+        absorbed: front.light.weight() * (before - after),
+        open: false,
+    };
+    let ray = Ray { origin: front.ray.advanced(landing.distance), direction: direction - normal * (2.0 * cos_i) };
+    let energy = light.weight() * after;
+    let onward = Front { node: id, facet: landing.facet, bounces: front.bounces + 1, ray, path, light, s, energy };
+    (node, onward)
+}
+
+/// Integrals over the outline of what absorption leaves after each of two paths; the area where nothing absorbs.
+fn attenuated(outline: &[DVec2], before: Affine, after: Affine, medium: &Medium, area: f64) -> (f64, f64) {
+    if medium.absorption == 0.0 {
+        return (area, area);
+    }
+    let left = |path: Affine| integral_of_decay(outline, path * medium.absorption);
+    (left(before), left(after))
+}

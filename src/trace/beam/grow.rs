@@ -1,0 +1,217 @@
+//! Grows the tree of beams, strongest first, until what is left unresolved is small enough.
+//!
+//! A beam never has more energy than the one that it came from. Following all beams above a level of energy, and
+//! lowering the level, is therefore following the best first; and within one level every beam can be followed on
+//! its own, in any order and on any core, with the same result.
+
+use super::coherency::Coherency;
+use super::follow::{Follower, Front, Growth, SLIVER, s_axis};
+use super::split::{Ray, opposites};
+use super::tree::{Beams, Node, ROOT};
+use crate::math::{Affine, Basis, Plane, Polytope, Symmetry, area, clip};
+use crate::optics::fresnel;
+use crate::scene::{Medium, Projection, View};
+use crate::trace::{Stopped, Watch};
+use glam::{DVec2, DVec3};
+use rayon::prelude::*;
+
+/// What to trace, and how far.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Options {
+    /// Go on until no more than this part of the light is unresolved.
+    pub unresolved: f64,
+    /// Follow polarisation; without, every surface sees unpolarised light.
+    pub polarised: bool,
+    /// Stop when there are more beams than this: the answer then has more unresolved than was asked for.
+    pub most_beams: usize,
+    /// Use the symmetry that stone, view and light share.
+    pub symmetry: bool,
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        Self { unresolved: 1e-3, polarised: true, most_beams: 8_000_000, symmetry: true }
+    }
+}
+
+/// A beam that is reflected more often is given up: light can be caught for ever by total reflection.
+const MOST_BOUNCES: u32 = 1000;
+
+/// Beams followed as one piece of work. Not the number of cores: the result must not depend on it.
+const PIECE: usize = 32;
+
+/// The level falls by no more than this at a step, lest the last step overshoot, and by no less.
+const STEPS: std::ops::RangeInclusive<f64> = 1.0 / 16.0..=0.8;
+
+/// Follows light from the eye into a stone until at most `options.unresolved` of it is left, or there are too many
+/// beams, or what is left is caught for ever: then [`Beams::unresolved`] says how much.
+///
+/// Beams are for parallel rays: a perspective view is traced as if its eye were far away.
+///
+/// # Errors
+/// [`Stopped`] when `watch` asks to stop.
+pub fn trace(
+    polytope: &Polytope,
+    medium: Medium,
+    view: &View,
+    options: &Options,
+    watch: Watch,
+) -> Result<Beams, Stopped> {
+    debug_assert!(view.projection == Projection::Orthographic);
+    let mut tracer = Tracer::new(polytope, medium, view, options);
+    tracer.enter();
+    tracer.run(options, watch)?;
+    Ok(tracer.beams)
+}
+
+struct Tracer<'a> {
+    polytope: &'a Polytope,
+    opposite: Vec<u32>,
+    beams: Beams,
+    fronts: Vec<Front>,
+}
+
+impl<'a> Tracer<'a> {
+    fn new(polytope: &'a Polytope, medium: Medium, view: &View, options: &Options) -> Self {
+        let (basis, zenith) = (view.basis(), view.zenith());
+        let symmetry =
+            if options.symmetry { Symmetry::of(polytope.planes(), &basis, zenith) } else { Symmetry::NONE };
+        let beams = Beams {
+            view: basis,
+            zenith,
+            symmetry,
+            medium,
+            polarised: options.polarised,
+            silhouette_area: polytope.silhouette_area(basis.toward),
+            dropped: 0.0,
+            nodes: vec![],
+            corners: vec![],
+        };
+        Self { polytope, opposite: opposites(polytope), beams, fronts: vec![] }
+    }
+
+    /// Starts a beam on every facet that the eye sees.
+    fn enter(&mut self) {
+        let domain = self.beams.symmetry.domain();
+        let mut spare = vec![];
+        for (i, facet) in self.polytope.facets().iter().enumerate() {
+            let cos_i = facet.plane.normal.dot(self.beams.view.toward);
+            if cos_i <= 0.0 {
+                continue;
+            }
+            let mut outline: Vec<DVec2> = self.polytope.corners(facet).map(|c| self.beams.view.project(c)).collect();
+            for &half in &domain {
+                clip(&outline, half, &mut spare);
+                std::mem::swap(&mut outline, &mut spare);
+            }
+            let area = area(&outline);
+            if area > SLIVER * self.beams.silhouette_area {
+                self.enter_facet(i as u32, cos_i, &outline, area);
+            }
+        }
+    }
+
+    fn enter_facet(&mut self, facet: u32, cos_i: f64, outline: &[DVec2], area: f64) {
+        let view = self.beams.view;
+        let plane = self.polytope.facets()[facet as usize].plane;
+        let eta = 1.0 / self.beams.medium.index;
+        let surface = fresnel(cos_i, eta);
+        let (light, glare) = Coherency::entered(&surface);
+        let light = if self.beams.polarised { light } else { light.unpolarised() };
+        let direction = -view.toward * eta + plane.normal * (eta * cos_i - surface.cos_t.unwrap_or(0.0));
+        let node = self.beams.nodes.len() as u32;
+        let start = self.beams.corners.len() as u32;
+        self.beams.corners.extend(outline);
+        self.beams.nodes.push(Node {
+            parent: ROOT,
+            facet,
+            corners: (start, outline.len() as u32),
+            area,
+            exit: plane.normal * (2.0 * cos_i) - view.toward,
+            weight: glare,
+            onward: light.weight(),
+            path: Affine::default(),
+            transmittance: 1.0,
+            absorbed: 0.0,
+            open: false,
+        });
+        let ray = Ray { origin: entry_points(&view, &plane), direction };
+        let s = s_axis(direction, plane.normal, view.right);
+        let energy = light.weight() * area;
+        self.fronts.push(Front { node, facet, bounces: 0, ray, path: Affine::default(), light, s, energy });
+    }
+
+    fn run(&mut self, options: &Options, watch: Watch) -> Result<(), Stopped> {
+        let whole = self.beams.silhouette_area / f64::from(self.beams.symmetry.order());
+        let goal = options.unresolved * whole;
+        let mut level = whole / 64.0;
+        let mut before = (level, whole);
+        loop {
+            let left = self.fronts.iter().map(|f| f.energy).sum::<f64>() + self.beams.dropped;
+            // Beams shrink about as a power of the level: the logarithm runs evenly.
+            let done = ((left / whole).ln() / options.unresolved.max(1e-12).ln()).clamp(0.0, 1.0);
+            if watch(done).is_break() {
+                return Err(Stopped);
+            }
+            let movable = self.fronts.iter().any(|f| f.bounces < MOST_BOUNCES && f.energy > 0.0);
+            if left <= goal || !movable || self.beams.nodes.len() > options.most_beams {
+                break;
+            }
+            level = next_level(level, left, &mut before, goal);
+            self.follow_above(level);
+        }
+        for front in &self.fronts {
+            self.beams.nodes[front.node as usize].open = true;
+        }
+        Ok(())
+    }
+
+    /// Follows every beam with at least this energy, and what comes of it.
+    fn follow_above(&mut self, level: f64) {
+        let strong = |f: &Front| f.energy >= level && f.bounces < MOST_BOUNCES;
+        let (go, stay): (Vec<Front>, Vec<Front>) = self.fronts.iter().partition(|f| strong(f));
+        self.fronts = stay;
+        let base = self.beams.nodes.len() as u32;
+        let this = &*self;
+        let work = |piece: &[Front]| {
+            Follower::new(this.polytope, &this.opposite, &this.beams).follow(piece, |f| strong(f))
+        };
+        let grown: Vec<Growth> = go.par_chunks(PIECE).map(work).collect();
+        for growth in grown {
+            self.take_in(growth, base);
+        }
+    }
+
+    /// Adds what a piece of work found. It numbered its nodes on from `base`; others have done so before it.
+    fn take_in(&mut self, mut growth: Growth, base: u32) {
+        let beams = &mut self.beams;
+        let shift = beams.nodes.len() as u32 - base;
+        let moved = |id: &mut u32| *id += if *id >= base { shift } else { 0 };
+        let first_corner = beams.corners.len() as u32;
+        for node in &mut growth.nodes {
+            moved(&mut node.parent);
+            node.corners.0 += first_corner;
+        }
+        growth.left.iter_mut().for_each(|f| moved(&mut f.node));
+        beams.nodes.append(&mut growth.nodes);
+        beams.corners.append(&mut growth.corners);
+        beams.dropped += growth.dropped;
+        self.fronts.append(&mut growth.left);
+    }
+}
+
+/// The energy level to follow next. What is left falls about as a power of the level; the power is taken from the
+/// last step, and the level aimed a little below the goal.
+fn next_level(level: f64, left: f64, before: &mut (f64, f64), goal: f64) -> f64 {
+    let (old_level, old_left) = std::mem::replace(before, (level, left));
+    let power = ((old_left / left).ln() / (old_level / level).ln()).clamp(0.3, 2.0);
+    let power = if power.is_finite() { power } else { 0.5 };
+    level * (0.95 * goal / left).powf(1.0 / power).clamp(*STEPS.start(), *STEPS.end())
+}
+
+/// The point of a plane behind each image point, as origin and change along the image's axes.
+fn entry_points(view: &Basis, plane: &Plane) -> [DVec3; 3] {
+    let per = view.toward / plane.normal.dot(view.toward);
+    let behind = |axis: DVec3| axis - per * plane.normal.dot(axis);
+    [per * plane.offset, behind(view.right), behind(view.up)]
+}

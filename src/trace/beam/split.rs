@@ -1,0 +1,237 @@
+//! Which facets a beam lands on next, and with which part of its outline.
+
+use crate::math::{Affine, Polytope, centroid};
+use glam::{DVec2, DVec3};
+
+/// A facet whose normal is this near to square to the beam cannot be landed on: the beam runs along it.
+const GRAZING: f64 = 1e-12;
+
+/// Distances equal to this part of their terms are equal: some hundred roundings.
+const SAME: f64 = 2e-14;
+
+/// No facet.
+const NONE: u32 = u32::MAX;
+
+/// A beam on its way from a facet: where the ray of each image point starts, and the one direction of all.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Ray {
+    /// Start of the ray at the image's origin, and its change along the image's axes.
+    pub origin: [DVec3; 3],
+    /// Unit direction.
+    pub direction: DVec3,
+}
+
+impl Ray {
+    /// Where the rays meet the plane at the given distances.
+    pub fn advanced(&self, distance: Affine) -> [DVec3; 3] {
+        let [o, u, v] = self.origin;
+        let d = self.direction;
+        [o + d * distance.constant, u + d * distance.gradient.x, v + d * distance.gradient.y]
+    }
+}
+
+/// A corner of an outline and the facet beyond the edge that begins there.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Corner {
+    pub at: DVec2,
+    beyond: u32,
+}
+
+/// What one beam leaves on one facet.
+pub(super) struct Landing<'a> {
+    pub facet: u32,
+    /// Outward unit normal.
+    pub normal: DVec3,
+    /// Distance gone, over the image.
+    pub distance: Affine,
+    pub outline: &'a [Corner],
+}
+
+/// Splits beams among the facets of one polytope; holds the work space that this needs.
+pub(super) struct Splitter<'a> {
+    polytope: &'a Polytope,
+    /// For each facet the one that faces it most squarely: where the search for a first landing starts.
+    opposite: &'a [u32],
+    distance: Vec<Affine>,
+    /// The beam for which `distance` was last worked out, and that which last came by.
+    known: Vec<u32>,
+    visited: Vec<u32>,
+    beam: u32,
+    queue: Vec<u32>,
+    outline: Vec<Corner>,
+    spare: Vec<Corner>,
+    values: Vec<f64>,
+}
+
+/// [`Splitter::opposite`] for all facets.
+pub(super) fn opposites(polytope: &Polytope) -> Vec<u32> {
+    let normals: Vec<DVec3> = polytope.planes().map(|p| p.normal).collect();
+    let faces = |n: &DVec3| {
+        let squarest = (0..normals.len()).min_by(|&a, &b| normals[a].dot(*n).total_cmp(&normals[b].dot(*n)));
+        squarest.unwrap_or(0) as u32
+    };
+    normals.iter().map(faces).collect()
+}
+
+impl<'a> Splitter<'a> {
+    pub fn new(polytope: &'a Polytope, opposite: &'a [u32]) -> Self {
+        let n = polytope.facets().len();
+        Self {
+            polytope,
+            opposite,
+            distance: vec![Affine::default(); n],
+            known: vec![0; n],
+            visited: vec![0; n],
+            beam: 0,
+            queue: vec![],
+            outline: vec![],
+            spare: vec![],
+            values: vec![],
+        }
+    }
+
+    /// Calls `land` for each facet that the beam with this outline, coming from facet `from`, falls on.
+    ///
+    /// The landings make up the outline but for slivers. They are found by going from neighbour to neighbour;
+    /// should that have missed any, all facets are tried.
+    pub fn split(&mut self, ray: &Ray, outline: &[DVec2], from: u32, mut land: impl FnMut(Landing)) {
+        self.beam += 1;
+        let Some(first) = self.first(ray, centroid(outline), from) else { return };
+        let whole = twice_area(outline.iter().copied());
+        self.queue.clear();
+        self.queue.push(first);
+        self.visited[first as usize] = self.beam;
+        let mut covered = self.flood(ray, outline, &mut land);
+        if covered < whole * (1.0 - 1e-9) {
+            self.queue.extend((0..self.visited.len() as u32).filter(|&k| self.visited[k as usize] != self.beam));
+            self.visited.fill(self.beam);
+            covered += self.flood(ray, outline, &mut land);
+        }
+        debug_assert!(covered < whole * (1.0 + 1e-6) + 1e-12, "landings overlap: {covered} of {whole}");
+    }
+
+    fn flood(&mut self, ray: &Ray, outline: &[DVec2], land: &mut impl FnMut(Landing)) -> f64 {
+        let mut covered = 0.0;
+        while let Some(facet) = self.queue.pop() {
+            if !self.is_ahead(ray, facet) || !self.cell(ray, outline, facet) {
+                continue;
+            }
+            covered += twice_area(self.outline.iter().map(|c| c.at));
+            for corner in &self.outline {
+                let k = corner.beyond as usize;
+                if corner.beyond != NONE && self.visited[k] != self.beam {
+                    self.visited[k] = self.beam;
+                    self.queue.push(corner.beyond);
+                }
+            }
+            let distance = self.distance[facet as usize];
+            let normal = self.polytope.facets()[facet as usize].plane.normal;
+            land(Landing { facet, normal, distance, outline: &self.outline });
+        }
+        covered
+    }
+
+    /// Leaves in `self.outline` the part of the outline from which `facet` is met before its neighbours; false
+    /// where there is none.
+    fn cell(&mut self, ray: &Ray, outline: &[DVec2], facet: u32) -> bool {
+        self.outline.clear();
+        self.outline.extend(outline.iter().map(|&at| Corner { at, beyond: NONE }));
+        let polytope = self.polytope;
+        let here = self.distance[facet as usize];
+        for &neighbour in &polytope.facets()[facet as usize].neighbours {
+            if !self.is_ahead(ray, neighbour) {
+                continue;
+            }
+            let there = self.distance[neighbour as usize];
+            let tolerance = SAME * (here.magnitude() + there.magnitude());
+            if !self.cut(there - here, tolerance, neighbour) {
+                return false;
+            }
+        }
+        true
+    }
+
+    /// Works out the distance to a facet's plane, once for each beam; false where it lies behind.
+    fn is_ahead(&mut self, ray: &Ray, facet: u32) -> bool {
+        let k = facet as usize;
+        if self.known[k] != self.beam {
+            self.known[k] = self.beam;
+            let plane = &self.polytope.facets()[k].plane;
+            let speed = plane.normal.dot(ray.direction);
+            let per = if speed > GRAZING { 1.0 / speed } else { f64::INFINITY };
+            let [o, u, v] = ray.origin.map(|o| plane.normal.dot(o));
+            self.distance[k] = Affine::new((plane.offset - o) * per, DVec2::new(-u * per, -v * per));
+        }
+        self.distance[k].constant.is_finite()
+    }
+
+    /// The facet that the ray of image point `p` meets, found by walking to ever nearer neighbours.
+    fn first(&mut self, ray: &Ray, p: DVec2, from: u32) -> Option<u32> {
+        let mut at = self.opposite[from as usize];
+        if !self.is_ahead(ray, at) {
+            at = (0..self.known.len() as u32).find(|&k| self.is_ahead(ray, k))?;
+        }
+        let polytope = self.polytope;
+        loop {
+            let mut nearest = self.distance[at as usize].at(p);
+            let mut next = at;
+            for &k in &polytope.facets()[at as usize].neighbours {
+                if self.is_ahead(ray, k) && self.distance[k as usize].at(p) < nearest {
+                    nearest = self.distance[k as usize].at(p);
+                    next = k;
+                }
+            }
+            if next == at {
+                return Some(at);
+            }
+            at = next;
+        }
+    }
+
+    /// Keeps the part of `self.outline` where `keep` is positive; false where none is. Corners within the
+    /// tolerance of the line count as on it, so that both sides of a cut agree.
+    fn cut(&mut self, keep: Affine, tolerance: f64, beyond: u32) -> bool {
+        self.values.clear();
+        self.values.extend(self.outline.iter().map(|c| keep.at(c.at)));
+        if !self.values.iter().any(|&v| v > tolerance) {
+            return false;
+        }
+        if self.values.iter().all(|&v| v >= -tolerance) {
+            return true;
+        }
+        self.spare.clear();
+        let n = self.outline.len();
+        for i in 0..n {
+            let j = if i + 1 == n { 0 } else { i + 1 };
+            let (a, b) = (self.outline[i], self.outline[j]);
+            let (at_a, at_b) = (self.values[i], self.values[j]);
+            let crossing = || a.at + (b.at - a.at) * (at_a / (at_a - at_b));
+            let leaves = at_b < -tolerance;
+            if at_a > tolerance {
+                self.spare.push(a);
+                if leaves {
+                    self.spare.push(Corner { at: crossing(), beyond });
+                }
+            } else if at_a >= -tolerance {
+                self.spare.push(if leaves { Corner { at: a.at, beyond } } else { a });
+            } else if at_b > tolerance {
+                self.spare.push(Corner { at: crossing(), beyond: a.beyond });
+            }
+        }
+        std::mem::swap(&mut self.outline, &mut self.spare);
+        true
+    }
+}
+
+/// Twice the area of a counter-clockwise outline.
+pub(super) fn twice_area(mut corners: impl Iterator<Item = DVec2>) -> f64 {
+    let (Some(first), Some(second)) = (corners.next(), corners.next()) else { return 0.0 };
+    let mut last = second - first;
+    let mut sum = 0.0;
+    for corner in corners {
+        let next = corner - first;
+        sum += last.perp_dot(next);
+        last = next;
+    }
+    sum
+}
