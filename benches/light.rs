@@ -1,1 +1,103 @@
-fn main() {}
+//! What docs/performance.md reports: `cargo bench`. All on one core, so that figures of different machines compare.
+
+use brillianteer::cut::{Crown, LowerHalf, Pavilion, RoundBrilliant};
+use brillianteer::io::{WriteError, write_png};
+use brillianteer::picture::{Film, Layer, Palette, paint};
+use brillianteer::scene::{ASET_CONE, Backing, Medium, Scope, Stone, View};
+use brillianteer::trace::{beam, ray, unwatched};
+use criterion::{Criterion, criterion_group, criterion_main};
+use glam::DVec2;
+use std::hint::black_box;
+
+const DIAMOND: Medium = Medium::clear(2.4175);
+
+fn modern_ideal(girdle_thickness: f64) -> Stone {
+    let cut = RoundBrilliant {
+        table: 56.0,
+        crown: Crown::Angle(34.5),
+        pavilion: Pavilion::Angle(40.8),
+        star_length: 50.0,
+        lower_half: LowerHalf::Radial(77.0),
+        girdle_thickness,
+        girdle_facets: 96,
+        culet: 0.0,
+    };
+    Stone::new(&cut.facets().expect("valid proportions")).expect("a closed stone")
+}
+
+fn beams(stone: &Stone, tilt_deg: f64, unresolved: f64) -> beam::Beams {
+    let view = View { tilt: tilt_deg.to_radians(), azimuth: 0.2, ..View::default() };
+    let options = beam::Options { unresolved, ..beam::Options::default() };
+    beam::trace(&stone.polytope, DIAMOND, &view, &options, &unwatched).expect("unwatched")
+}
+
+fn beam_tracing(c: &mut Criterion) {
+    let stone = modern_ideal(3.0);
+    c.bench_function("beams: face up, 1 % unresolved (goal 5 ms)", |b| b.iter(|| beams(&stone, 0.0, 0.01)));
+    c.bench_function("beams: face up, 0.1 % unresolved (goal 60 ms)", |b| {
+        b.iter(|| beams(&stone, 0.0, 0.001))
+    });
+    c.bench_function("beams: tilted 15 degrees, 1 % unresolved (goal 60 ms)", |b| {
+        b.iter(|| beams(&stone, 15.0, 0.01));
+    });
+}
+
+fn energy_picture(c: &mut Criterion) {
+    let stone = modern_ideal(3.0);
+    let folder = tempfile::tempdir().expect("a folder for temporary files");
+    let path = folder.path().join("energy.png");
+    let scope = Scope::aset(ASET_CONE, Backing::Black);
+    c.bench_function("picture: 1024 PNG of energy, all told (goal 150 ms)", |b| {
+        b.iter(|| {
+            let beams = beams(&stone, 0.0, 0.001);
+            let film = Film::around(&stone.polytope, &beams.view, 1024);
+            let palette = Palette::of(&scope);
+            write_png(&path, (1024, 1024), "", |png| {
+                paint(&Layer::energy(&beams, &scope), &film, &unwatched, |rows| -> Result<(), WriteError> {
+                    let mut pixels = Vec::new();
+                    (rows.first..rows.first + rows.count).for_each(|y| palette.encode(rows, y, &mut pixels));
+                    png.push(&pixels)
+                })
+            })
+        });
+    });
+}
+
+fn rays(c: &mut Criterion) {
+    let stone = modern_ideal(0.0);
+    assert_eq!(stone.polytope.facets().len(), 57);
+    let camera = ray::Camera::new(&View::default(), &stone.polytope);
+    let mut run = |name: &str, polarised: bool| {
+        let options = ray::Options { polarised, most_bounces: 12, least_weight: 0.0 };
+        let tracer = ray::Tracer::new(&stone.polytope, DIAMOND, options);
+        c.bench_function(name, |b| {
+            b.iter(|| {
+                let mut sum = 0.0;
+                for i in 0..512 * 512 {
+                    let p = DVec2::new(f64::from(i % 512), f64::from(i / 512)) / 256.0 - 1.0;
+                    let (origin, direction) = camera.ray(p);
+                    tracer.follow(origin, direction, |exit| sum += exit.weight);
+                }
+                black_box(sum)
+            });
+        });
+    };
+    run("rays: 12 bounces, 57 planes, 512 squared, unpolarised (goal 200 ms)", false);
+    run("rays: 12 bounces, 57 planes, 512 squared, polarised", true);
+}
+
+fn geometry(c: &mut Criterion) {
+    let planes: Vec<_> = modern_ideal(3.0).polytope.planes().collect();
+    c.bench_function("polytope: a brilliant of 153 planes", |b| {
+        b.iter(|| brillianteer::math::Polytope::from_planes(black_box(&planes)));
+    });
+}
+
+fn on_one_core() -> Criterion {
+    // Fails only where a pool was made before, and then that one is used.
+    let _ = rayon::ThreadPoolBuilder::new().num_threads(1).build_global();
+    Criterion::default().sample_size(20)
+}
+
+criterion_group! { name = light; config = on_one_core(); targets = beam_tracing, energy_picture, rays, geometry }
+criterion_main!(light);

@@ -1,1 +1,7 @@
-fn main() {}
+//! The program: parse, call, print, exit code.
+
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    brillianteer::cli::main()
+}

@@ -55,7 +55,13 @@ fn pavilion(p: &Proportions) -> impl Iterator<Item = (String, Plane)> {
 }
 
 /// `count` facets of one slope and offset, evenly round the axis from the azimuth `first`, radians.
-fn tier(name: &str, count: u32, first: f64, slope: f64, offset: f64) -> impl Iterator<Item = (String, Plane)> {
+fn tier(
+    name: &str,
+    count: u32,
+    first: f64,
+    slope: f64,
+    offset: f64,
+) -> impl Iterator<Item = (String, Plane)> {
     (0..count).map(move |k| {
         let azimuth = first + f64::from(k) * TAU / f64::from(count);
         (format!("{name} {}", k + 1), Plane::from_slope(slope, azimuth, offset))
@@ -82,7 +88,9 @@ mod tests {
             assert!(plane.distance(point) < tolerance, "{point} lies outside {name}");
         }
         let touching = facets.iter().filter(|(_, plane)| plane.distance(point).abs() < tolerance);
-        touching.map(|(name, _)| name.trim_end_matches(|c: char| c.is_ascii_digit()).trim().to_owned()).collect()
+        touching
+            .map(|(name, _)| name.trim_end_matches(|c: char| c.is_ascii_digit()).trim().to_owned())
+            .collect()
     }
 
     fn names(facets: &[(String, Plane)]) -> Vec<&str> {

@@ -1,10 +1,9 @@
-//! The limits a round brilliant must keep, and how they are told: which one, by how much, and what to change.
+//! The limits a round brilliant must keep.
 //!
 //! Upper limits are geometry: beyond them a facet has nowhere to lie. Lower limits keep every facet well clear of its
 //! neighbours, and catch fractions written for percent and radians written for degrees.
 
-use std::fmt;
-
+use super::proportion_error::{Limit, ProportionError, Unit};
 use super::proportions::{Proportions, STAR_AZIMUTH};
 use super::round_brilliant::{Crown, LowerHalf, Pavilion, RoundBrilliant};
 
@@ -16,118 +15,6 @@ const LEAST_ANGLE: f64 = 2.0;
 const LEAST_LOWER_HALF: f64 = 2.0;
 /// The deepest stone, percent of its diameter; rounding stays below every tolerance up to there.
 const MOST_DEPTH: f64 = 300.0;
-
-/// Proportions no round brilliant can have.
-#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
-pub enum ProportionError {
-    /// A nan or an infinity.
-    #[error("{key}: {value} is not a finite number; write what was measured")]
-    NotFinite {
-        /// The proportion at fault.
-        key: &'static str,
-        /// What was given.
-        value: f64,
-    },
-    /// A value under its lower limit.
-    #[error("{}", .0.text("above", "at least", "raise"))]
-    TooSmall(Limit),
-    /// A value over its upper limit.
-    #[error("{}", .0.text("below", "at most", "lower"))]
-    TooLarge(Limit),
-}
-
-impl ProportionError {
-    /// The proportion at fault, by its key in a cut file, or `total_depth`.
-    pub fn key(&self) -> &'static str {
-        match self {
-            Self::NotFinite { key, .. } => key,
-            Self::TooSmall(limit) | Self::TooLarge(limit) => limit.key,
-        }
-    }
-}
-
-/// A limit, and the value that crosses it.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Limit {
-    /// The proportion at fault, by its key in a cut file, or `total_depth`.
-    pub key: &'static str,
-    /// What was given.
-    pub value: f64,
-    /// What it must keep to, in the same unit.
-    pub limit: f64,
-    /// The unit of both.
-    pub unit: Unit,
-    /// Whether the limit itself is allowed.
-    pub inclusive: bool,
-    /// What happens there, as a clause.
-    pub reason: &'static str,
-}
-
-/// What a proportion is measured in.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Unit {
-    /// Percent, of the girdle diameter unless the key says of what.
-    Percent,
-    /// Degrees from the girdle plane.
-    Degrees,
-    /// A whole number.
-    Count,
-}
-
-impl fmt::Display for Unit {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::Percent => " %",
-            Self::Degrees => "°",
-            Self::Count => "",
-        })
-    }
-}
-
-impl Limit {
-    fn text(&self, open: &str, closed: &str, change: &str) -> String {
-        let Self { key, value, limit, unit, inclusive, reason } = *self;
-        let gap = (value - limit).abs();
-        let limit = if gap < 0.01 { given(limit) } else { rounded(limit) };
-        let side = if inclusive { closed } else { open };
-        let step = if inclusive { (gap * 100.0).ceil() } else { (gap * 100.0).floor() + 1.0 } / 100.0;
-        let (value, step, hint) = (given(value), rounded(step), self.unit_hint());
-        format!("{key}: {value}{unit} must be {side} {limit}{unit}, {reason}; {change} it by at least {step}{hint}")
-    }
-
-    /// What the value would be, had it been meant as a fraction or in radians.
-    fn unit_hint(&self) -> String {
-        let Self { value, limit, unit, .. } = *self;
-        let too_small = value > 0.0 && value < limit;
-        match unit {
-            Unit::Percent if too_small && value <= 1.0 => {
-                format!(" (the unit is percent, so {:?} if a fraction was meant)", four_decimals(100.0 * value))
-            }
-            Unit::Degrees if too_small && value < std::f64::consts::FRAC_PI_2 => {
-                format!(
-                    " (the unit is degrees, so {:?} if radians were meant)",
-                    four_decimals(value.to_degrees())
-                )
-            }
-            _ => String::new(),
-        }
-    }
-}
-
-/// A number as it was written, short of hundreds of digits.
-pub(super) fn given(value: f64) -> String {
-    let size = value.abs();
-    if value == 0.0 || (1e-4..1e7).contains(&size) { format!("{value}") } else { format!("{value:e}") }
-}
-
-/// A number to two decimals, without trailing zeros.
-pub(super) fn rounded(value: f64) -> String {
-    given((value * 100.0).round() / 100.0)
-}
-
-fn four_decimals(value: f64) -> f64 {
-    (value * 1e4).round() / 1e4
-}
 
 /// The star length, percent, at which the stars lie flat with the table: their tips on the table's level of a bezel.
 pub(super) fn least_star_length(table: f64) -> f64 {
@@ -271,24 +158,30 @@ impl Range {
         Self { key, value, unit: Unit::Degrees }
     }
 
-    fn limit(self, limit: f64, inclusive: bool, reason: &'static str) -> Limit {
-        Limit { key: self.key, value: self.value, limit, unit: self.unit, inclusive, reason }
-    }
-
     fn above(self, limit: f64, reason: &'static str) -> Result<(), ProportionError> {
-        if self.value > limit { Ok(()) } else { Err(ProportionError::TooSmall(self.limit(limit, false, reason))) }
+        self.keep(self.value > limit, ProportionError::TooSmall, (limit, false, reason))
     }
 
     fn at_least(self, limit: f64, reason: &'static str) -> Result<(), ProportionError> {
-        if self.value >= limit { Ok(()) } else { Err(ProportionError::TooSmall(self.limit(limit, true, reason))) }
+        self.keep(self.value >= limit, ProportionError::TooSmall, (limit, true, reason))
     }
 
     fn below(self, limit: f64, reason: &'static str) -> Result<(), ProportionError> {
-        if self.value < limit { Ok(()) } else { Err(ProportionError::TooLarge(self.limit(limit, false, reason))) }
+        self.keep(self.value < limit, ProportionError::TooLarge, (limit, false, reason))
     }
 
     fn at_most(self, limit: f64, reason: &'static str) -> Result<(), ProportionError> {
-        if self.value <= limit { Ok(()) } else { Err(ProportionError::TooLarge(self.limit(limit, true, reason))) }
+        self.keep(self.value <= limit, ProportionError::TooLarge, (limit, true, reason))
+    }
+
+    fn keep(
+        self,
+        kept: bool,
+        error: fn(Limit) -> ProportionError,
+        (limit, inclusive, reason): (f64, bool, &'static str),
+    ) -> Result<(), ProportionError> {
+        let Self { key, value, unit } = self;
+        if kept { Ok(()) } else { Err(error(Limit { key, value, limit, unit, inclusive, reason })) }
     }
 
     fn slope(self, upright: &'static str) -> Result<(), ProportionError> {
@@ -326,12 +219,24 @@ mod tests {
             (RoundBrilliant { crown: Angle(0.0), ..MODERN }, "crown_angle: 0° must be at least 2°"),
             (RoundBrilliant { crown: Angle(90.0), ..MODERN }, "crown_angle: 90° must be below 90°"),
             (RoundBrilliant { crown: Height(-1.0), ..MODERN }, "crown_height: -1 % must be at least 0.77 %"),
-            (RoundBrilliant { pavilion: P::Angle(1.9), ..MODERN }, "pavilion_angle: 1.9° must be at least 2°"),
+            (
+                RoundBrilliant { pavilion: P::Angle(1.9), ..MODERN },
+                "pavilion_angle: 1.9° must be at least 2°",
+            ),
             (RoundBrilliant { pavilion: P::Angle(95.0), ..MODERN }, "pavilion_angle: 95° must be below 90°"),
-            (RoundBrilliant { pavilion: P::Depth(1.0), ..MODERN }, "pavilion_depth: 1 % must be at least 1.75 %"),
+            (
+                RoundBrilliant { pavilion: P::Depth(1.0), ..MODERN },
+                "pavilion_depth: 1 % must be at least 1.75 %",
+            ),
             (RoundBrilliant { star_length: 100.0, ..MODERN }, "star_length: 100 % must be below 100 %"),
-            (RoundBrilliant { lower_half: Radial(1.5), ..MODERN }, "lower_half_length: 1.5 % must be at least 2 %"),
-            (RoundBrilliant { lower_half: Radial(101.0), ..MODERN }, "lower_half_length: 101 % must be below 100 %"),
+            (
+                RoundBrilliant { lower_half: Radial(1.5), ..MODERN },
+                "lower_half_length: 1.5 % must be at least 2 %",
+            ),
+            (
+                RoundBrilliant { lower_half: Radial(101.0), ..MODERN },
+                "lower_half_length: 101 % must be below 100 %",
+            ),
             (
                 RoundBrilliant { lower_half: Vertical(7.0), ..MODERN },
                 "lower_half_length_vertical: 7 % must be at least 9.46 %",
@@ -345,7 +250,10 @@ mod tests {
             (RoundBrilliant { culet: -1.0, ..MODERN }, "culet: -1 % must be at least 0 %"),
             (RoundBrilliant { culet: 100.0, ..MODERN }, "culet: 100 % must be below 100 %"),
             (RoundBrilliant { crown: Angle(89.9), ..MODERN }, "total_depth: 12651."),
-            (RoundBrilliant { pavilion: P::Depth(1e300), ..MODERN }, "total_depth: 1e300 % must be at most 300 %"),
+            (
+                RoundBrilliant { pavilion: P::Depth(1e300), ..MODERN },
+                "total_depth: 1e300 % must be at most 300 %",
+            ),
         ];
         for (given, expected) in cases {
             assert!(text(given).starts_with(expected), "{} is not {expected}", text(given));
@@ -374,25 +282,11 @@ mod tests {
             "culet",
         ];
         for (given, expected) in cases.into_iter().zip(keys) {
-            assert!(matches!(given.derived(), Err(ProportionError::NotFinite { key, .. }) if key == expected));
+            assert!(
+                matches!(given.derived(), Err(ProportionError::NotFinite { key, .. }) if key == expected)
+            );
         }
         assert_eq!(text(cases[0]), "table: NaN is not a finite number; write what was measured");
-    }
-
-    #[test]
-    fn fractions_and_radians_are_recognised() {
-        let fraction = RoundBrilliant { table: 0.53, ..MODERN };
-        assert!(text(fraction).ends_with("(the unit is percent, so 53.0 if a fraction was meant)"));
-        let radians = RoundBrilliant { crown: Crown::Angle(34.5_f64.to_radians()), ..MODERN };
-        assert!(text(radians).ends_with("(the unit is degrees, so 34.5 if radians were meant)"));
-    }
-
-    #[test]
-    fn a_limit_missed_by_a_hair_is_written_in_full() {
-        let least = least_star_length(56.0);
-        let given = RoundBrilliant { star_length: least, ..MODERN };
-        assert!(text(given).contains(&format!("{least} % must be above {least} %")), "{}", text(given));
-        assert!(text(given).ends_with("raise it by at least 0.01"));
     }
 
     #[test]

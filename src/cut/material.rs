@@ -1,4 +1,6 @@
-//! What a cut file says of its material: data only, which `optics` turns into a material.
+//! What a cut file says of its material, which [`optics`] describes.
+
+use crate::optics::{self, Dispersion, DispersionError, Material, UnknownMaterial, VISIBLE_NM};
 
 /// The material of a stone, as written.
 #[derive(Debug, Clone, PartialEq)]
@@ -7,45 +9,12 @@ pub enum MaterialRef {
     Name(String),
     /// A refractive index for every wavelength, 1 to 5, without absorption.
     Index(f64),
-    /// A material of the file's own.
-    Custom(MaterialTable),
-}
-
-/// A material of a file's own.
-#[derive(Debug, Clone, PartialEq)]
-pub struct MaterialTable {
-    /// What it is called.
-    pub name: Option<String>,
-    /// How its index depends on the wavelength.
-    pub dispersion: Dispersion,
-    /// What it absorbs; nothing if `None`.
-    pub absorption: Option<Absorption>,
-}
-
-/// How a refractive index depends on the wavelength; L is the vacuum wavelength in micrometres.
-#[derive(Debug, Clone, PartialEq)]
-pub enum Dispersion {
-    /// One index for every wavelength, 1 to 5.
-    Index(f64),
-    /// Pairs [B, C] of n² - 1 = Σ B L² / (L² - C²), C in micrometres, unsquared.
-    Sellmeier(Vec<[f64; 2]>),
-    /// [A, B] of n = A + B / L², B in square micrometres.
-    Cauchy([f64; 2]),
-    /// [n_d, v_d]: the index at 587.6 nm and the Abbe number.
-    Abbe([f64; 2]),
-}
-
-/// The absorption coefficient, per millimetre of path (natural logarithm).
-#[derive(Debug, Clone, PartialEq)]
-pub enum Absorption {
-    /// The same at every wavelength.
-    Uniform(f64),
-    /// Pairs [wavelength in nm, coefficient per mm], wavelengths rising.
-    Spectrum(Vec<[f64; 2]>),
+    /// A material of the file's own; its index is from 1 to 5 throughout visible light.
+    Custom(Box<Material>),
 }
 
 /// What is wrong with a material; each names its key.
-#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum MaterialError {
     /// A blank name, or one with control characters.
     #[error("{key}: a name of printable characters is expected")]
@@ -53,6 +22,9 @@ pub enum MaterialError {
         /// The key at fault.
         key: &'static str,
     },
+    /// A name that the library lacks.
+    #[error("material: {0}")]
+    Unknown(#[from] UnknownMaterial),
     /// An index that no material has.
     #[error("{key}: the index {value} must be from 1 (vacuum) to 5")]
     Index {
@@ -61,39 +33,31 @@ pub enum MaterialError {
         /// What was given.
         value: f64,
     },
-    /// A nan or an infinity.
-    #[error("{key}: {value} is not a finite number")]
-    NotFinite {
+    /// An index that no material has, at one wavelength.
+    #[error("{key}: the index {value} at {nm} nm must be at most 5; check the coefficients")]
+    IndexAt {
         /// The key at fault.
         key: &'static str,
-        /// What was given.
+        /// What the law gives.
         value: f64,
+        /// Where, in nm.
+        nm: f64,
     },
-    /// A list without entries.
-    #[error("{key}: the list is empty; give at least one pair")]
-    Empty {
+    /// A law that gives no index somewhere in visible light.
+    #[error("{key}: {fault}")]
+    Dispersion {
         /// The key at fault.
         key: &'static str,
+        /// What is wrong with it.
+        fault: DispersionError,
     },
-    /// An Abbe number that is not positive.
-    #[error("abbe: the Abbe number {value} must be above 0; it is the second of [n_d, v_d]")]
-    Abbe {
-        /// What was given.
-        value: f64,
-    },
-    /// A coefficient below zero, which would make light.
-    #[error("absorption: {value} per mm is below 0, which would make light")]
-    Gain {
-        /// What was given.
-        value: f64,
-    },
-    /// A wavelength that is not above the one before it, or not above 0.
-    #[error("absorption: the wavelength {value} nm must be above {previous} nm; list wavelengths rising")]
-    Wavelength {
-        /// What was given.
-        value: f64,
-        /// The wavelength before it, or 0.
-        previous: f64,
+    /// A range of wavelengths that does not rise.
+    #[error("valid_nm: [{first}, {last}] is no range; give the first wavelength in nm, then the last")]
+    Valid {
+        /// Where it begins.
+        first: f64,
+        /// Where it ends.
+        last: f64,
     },
 }
 
@@ -101,60 +65,43 @@ impl MaterialError {
     /// The key at fault: `material`, or one of the material's own table.
     pub fn key(&self) -> &'static str {
         match self {
-            Self::Name { key } | Self::Index { key, .. } | Self::NotFinite { key, .. } | Self::Empty { key } => key,
-            Self::Abbe { .. } => "abbe",
-            Self::Gain { .. } | Self::Wavelength { .. } => "absorption",
+            Self::Name { key }
+            | Self::Index { key, .. }
+            | Self::IndexAt { key, .. }
+            | Self::Dispersion { key, .. } => key,
+            Self::Unknown(_) => "material",
+            Self::Valid { .. } => "valid_nm",
         }
     }
 }
 
 impl MaterialRef {
-    /// Checks that every number has a meaning; not whether a named material is known, which `optics` tells.
+    /// Checks that there is such a material.
     pub fn check(&self) -> Result<(), MaterialError> {
-        match self {
-            Self::Name(name) => check_name("material", name),
-            Self::Index(value) => check_index("material", *value),
-            Self::Custom(table) => table.check(),
-        }
+        self.material().map(drop)
     }
-}
 
-impl MaterialTable {
-    fn check(&self) -> Result<(), MaterialError> {
-        if let Some(name) = &self.name {
-            check_name("name", name)?;
-        }
-        self.dispersion.check()?;
-        self.absorption.as_ref().map_or(Ok(()), Absorption::check)
-    }
-}
-
-impl Dispersion {
-    fn check(&self) -> Result<(), MaterialError> {
+    /// The material meant: the library's, a clear one named after its index as in "index 2.42", or the file's own.
+    pub fn material(&self) -> Result<Material, MaterialError> {
         match self {
-            Self::Index(value) => check_index("index", *value),
-            Self::Sellmeier(pairs) => check_pairs("sellmeier", pairs),
-            Self::Cauchy([a, b]) => check_index("cauchy", *a).and_then(|()| check_finite("cauchy", *b)),
-            Self::Abbe([n_d, v_d]) => {
-                check_index("abbe", *n_d)?;
-                check_finite("abbe", *v_d)?;
-                if *v_d > 0.0 { Ok(()) } else { Err(MaterialError::Abbe { value: *v_d }) }
+            Self::Name(name) => {
+                check_name("material", name)?;
+                Ok(optics::material(name)?.clone())
             }
-        }
-    }
-}
-
-impl Absorption {
-    fn check(&self) -> Result<(), MaterialError> {
-        match self {
-            Self::Uniform(per_mm) => check_coefficient(*per_mm),
-            Self::Spectrum(pairs) => {
-                check_pairs("absorption", pairs)?;
-                pairs.iter().try_fold(0.0, |previous, &[value, per_mm]| {
-                    check_coefficient(per_mm)?;
-                    if value > previous { Ok(value) } else { Err(MaterialError::Wavelength { value, previous }) }
-                })?;
-                Ok(())
+            Self::Index(index) => {
+                check_index("material", *index)?;
+                Material::from_index(&format!("index {index}"), *index)
+                    .map_err(|fault| MaterialError::Dispersion { key: "material", fault })
+            }
+            Self::Custom(material) => {
+                check_name("name", &material.name)?;
+                check_law(&material.dispersion)?;
+                match material.valid_nm {
+                    Some((first, last)) if first.is_nan() || last.is_nan() || first > last => {
+                        Err(MaterialError::Valid { first, last })
+                    }
+                    _ => Ok(Material::clone(material)),
+                }
             }
         }
     }
@@ -165,24 +112,28 @@ fn check_name(key: &'static str, name: &str) -> Result<(), MaterialError> {
 }
 
 fn check_index(key: &'static str, value: f64) -> Result<(), MaterialError> {
-    check_finite(key, value)?;
     if (1.0..=5.0).contains(&value) { Ok(()) } else { Err(MaterialError::Index { key, value }) }
 }
 
-fn check_finite(key: &'static str, value: f64) -> Result<(), MaterialError> {
-    if value.is_finite() { Ok(()) } else { Err(MaterialError::NotFinite { key, value }) }
-}
-
-fn check_pairs(key: &'static str, pairs: &[[f64; 2]]) -> Result<(), MaterialError> {
-    if pairs.is_empty() {
-        return Err(MaterialError::Empty { key });
+fn check_law(law: &Dispersion) -> Result<(), MaterialError> {
+    let key = match law {
+        Dispersion::Constant(_) => "index",
+        Dispersion::Sellmeier { constant: 1.0, .. } => "sellmeier",
+        Dispersion::Cauchy { .. } => "cauchy",
+        Dispersion::Abbe { .. } => "abbe",
+        Dispersion::Sellmeier { .. } | Dispersion::Rational { .. } => "dispersion",
+    };
+    // The law of Abbe would raise an index below 1 to 1 without a word.
+    if let Dispersion::Constant(index) | Dispersion::Abbe { n_d: index, .. } = law {
+        check_index(key, *index)?;
     }
-    pairs.iter().flatten().try_for_each(|value| check_finite(key, *value))
-}
-
-fn check_coefficient(per_mm: f64) -> Result<(), MaterialError> {
-    check_finite("absorption", per_mm)?;
-    if per_mm >= 0.0 { Ok(()) } else { Err(MaterialError::Gain { value: per_mm }) }
+    law.clone().checked().map_err(|fault| MaterialError::Dispersion { key, fault })?;
+    let steps = (VISIBLE_NM.end() - VISIBLE_NM.start()) as u32;
+    let mut wavelengths = (0..=steps).map(|step| VISIBLE_NM.start() + f64::from(step));
+    match wavelengths.find(|nm| law.index(*nm) > 5.0) {
+        Some(nm) => Err(MaterialError::IndexAt { key, value: law.index(nm), nm }),
+        None => Ok(()),
+    }
 }
 
 #[cfg(test)]
@@ -190,64 +141,81 @@ mod tests {
     use super::*;
 
     fn own(dispersion: Dispersion) -> MaterialRef {
-        MaterialRef::Custom(MaterialTable { name: None, dispersion, absorption: None })
+        let glass = Material::from_index("glass", 1.5).unwrap();
+        MaterialRef::Custom(Box::new(Material { dispersion, ..glass }))
     }
 
-    fn absorbing(absorption: Absorption) -> MaterialRef {
-        let dispersion = Dispersion::Index(1.76);
-        MaterialRef::Custom(MaterialTable { name: None, dispersion, absorption: Some(absorption) })
+    fn sellmeier(constant: f64, terms: &[(f64, f64)]) -> Dispersion {
+        Dispersion::Sellmeier { constant, terms: terms.to_vec() }
     }
 
     #[test]
-    fn every_form_is_taken() {
-        let dispersions = [
-            Dispersion::Index(1.0),
-            Dispersion::Sellmeier(vec![[0.3306, 0.1750], [4.3356, 0.1060]]),
-            Dispersion::Cauchy([1.5, 0.004]),
-            Dispersion::Abbe([1.76, 72.0]),
-        ];
-        assert!(dispersions.into_iter().all(|dispersion| own(dispersion).check().is_ok()));
-        assert!(absorbing(Absorption::Uniform(0.0)).check().is_ok());
-        assert!(absorbing(Absorption::Spectrum(vec![[400.0, 0.1], [700.0, 0.0]])).check().is_ok());
-        assert!(MaterialRef::Name("diamond".to_owned()).check().is_ok());
-        assert!(MaterialRef::Index(5.0).check().is_ok());
+    fn each_form_gives_the_material_it_means() {
+        let diamond = optics::material("diamond").unwrap();
+        assert_eq!(MaterialRef::Name("Diamond".to_owned()).material().as_ref(), Ok(diamond));
+        assert_eq!(MaterialRef::Custom(Box::new(diamond.clone())).material().as_ref(), Ok(diamond));
+        let bare = MaterialRef::Index(2.42).material().unwrap();
+        assert_eq!((bare.name.as_str(), bare.index(500.0)), ("index 2.42", 2.42));
+        assert!(bare.absorption.is_clear() && MaterialRef::Index(5.0).check().is_ok());
+        for law in [
+            Dispersion::Constant(1.0),
+            sellmeier(1.0, &[(0.3306, 0.1750), (4.3356, 0.1060)]),
+            Dispersion::Cauchy { a: 1.5, b: 0.004 },
+            Dispersion::Abbe { n_d: 1.76, v_d: 72.0 },
+        ] {
+            assert_eq!(own(law.clone()).material().unwrap().dispersion, law);
+        }
     }
 
     #[test]
     fn every_fault_is_told_with_its_key() {
-        let infinite = f64::INFINITY;
-        let named =
-            MaterialTable { name: Some(" ".to_owned()), dispersion: Dispersion::Index(2.0), absorption: None };
+        let glass = |change: fn(&mut Material)| {
+            let mut glass = Material::from_index("glass", 1.5).unwrap();
+            change(&mut glass);
+            MaterialRef::Custom(Box::new(glass))
+        };
         let cases = [
             (MaterialRef::Name(String::new()), "material: a name of printable characters is expected"),
-            (MaterialRef::Custom(named), "name: a name of printable characters is expected"),
+            (
+                MaterialRef::Name("Saphire".to_owned()),
+                "material: unknown material 'Saphire'; did you mean 'sapphire'? known: diamond, ",
+            ),
+            (glass(|m| m.name = " ".to_owned()), "name: a name of printable characters is expected"),
             (MaterialRef::Index(0.9), "material: the index 0.9 must be from 1 (vacuum) to 5"),
-            (own(Dispersion::Index(5.1)), "index: the index 5.1 must be from 1 (vacuum) to 5"),
-            (own(Dispersion::Index(f64::NAN)), "index: NaN is not a finite number"),
-            (own(Dispersion::Sellmeier(vec![])), "sellmeier: the list is empty; give at least one pair"),
-            (own(Dispersion::Sellmeier(vec![[1.0, infinite]])), "sellmeier: inf is not a finite number"),
-            (own(Dispersion::Cauchy([0.0, 0.0])), "cauchy: the index 0 must be from 1 (vacuum) to 5"),
-            (own(Dispersion::Cauchy([1.5, infinite])), "cauchy: inf is not a finite number"),
-            (own(Dispersion::Abbe([9.0, 50.0])), "abbe: the index 9 must be from 1 (vacuum) to 5"),
+            (MaterialRef::Index(f64::INFINITY), "material: the index inf must be from 1 (vacuum) to 5"),
+            (own(Dispersion::Constant(5.1)), "index: the index 5.1 must be from 1 (vacuum) to 5"),
+            (own(Dispersion::Constant(f64::NAN)), "index: the index NaN must be from 1 (vacuum) to 5"),
             (
-                own(Dispersion::Abbe([1.5, 0.0])),
-                "abbe: the Abbe number 0 must be above 0; it is the second of [n_d, v_d]",
+                own(sellmeier(1.0, &[(1.0, 0.5)])),
+                "sellmeier: the dispersion has a resonance at 500.0 nm, in visible light",
             ),
-            (absorbing(Absorption::Uniform(-1.0)), "absorption: -1 per mm is below 0, which would make light"),
-            (absorbing(Absorption::Spectrum(vec![])), "absorption: the list is empty; give at least one pair"),
+            (own(sellmeier(0.5, &[])), "dispersion: the dispersion gives no refractive index of 1 or more"),
             (
-                absorbing(Absorption::Spectrum(vec![[500.0, 0.0], [500.0, 0.0]])),
-                "absorption: the wavelength 500 nm must be above 500 nm; list wavelengths rising",
+                own(Dispersion::Cauchy { a: 4.0, b: 0.1296 + 1e-9 }),
+                "cauchy: the index 5.000000007716049 at 360 nm must be at most 5; check the coefficients",
             ),
             (
-                absorbing(Absorption::Spectrum(vec![[500.0, -0.1]])),
-                "absorption: -0.1 per mm is below 0, which would make light",
+                own(Dispersion::Cauchy { a: 1.5, b: f64::INFINITY }),
+                "cauchy: the dispersion gives no refractive index of 1 or more at 360 nm",
+            ),
+            (
+                own(Dispersion::Abbe { n_d: 0.9, v_d: 50.0 }),
+                "abbe: the index 0.9 must be from 1 (vacuum) to 5",
+            ),
+            (
+                own(Dispersion::Abbe { n_d: 1.5, v_d: 0.0 }),
+                "abbe: an Abbe number of 0: give a number above 0",
+            ),
+            (
+                glass(|m| m.valid_nm = Some((700.0, 400.0))),
+                "valid_nm: [700, 400] is no range; give the first wavelength in nm, then the last",
             ),
         ];
         for (material, expected) in cases {
             let error = material.check().unwrap_err();
-            assert_eq!(error.to_string(), expected);
+            assert!(error.to_string().starts_with(expected), "{error}");
             assert!(expected.starts_with(&format!("{}:", error.key())));
         }
+        assert_eq!(own(Dispersion::Cauchy { a: 4.0, b: 0.12 }).check(), Ok(()));
     }
 }

@@ -9,13 +9,18 @@ mod facets;
 mod limits;
 mod material;
 mod names;
+mod proportion_error;
 mod proportions;
 mod round_brilliant;
 mod warning;
 
 pub use design::{Cut, DEFAULT_DIAMETER_MM, Design, DesignError, MAX_PLANES, PlaneFault};
-pub use limits::{Limit, ProportionError, Unit, girdle_facets};
-pub use material::{Absorption, Dispersion, MaterialError, MaterialRef, MaterialTable};
+pub use limits::girdle_facets;
+pub use material::{MaterialError, MaterialRef};
+pub use proportion_error::{Limit, ProportionError, Unit};
 pub use proportions::Derived;
 pub use round_brilliant::{Crown, LowerHalf, Pavilion, RoundBrilliant};
 pub use warning::Warning;
+
+#[cfg(test)]
+pub(crate) use round_brilliant::strategy;

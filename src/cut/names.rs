@@ -27,7 +27,8 @@ pub(super) fn unique<'a>(names: impl Iterator<Item = &'a str> + Clone) -> Vec<St
 
 /// Whether a name can be shown anywhere: not blank, and without control characters, which XML cannot hold.
 pub(super) fn is_printable(name: &str) -> bool {
-    !name.trim().is_empty() && !name.contains(|c: char| c.is_control() || matches!(c, '\u{fffe}' | '\u{ffff}'))
+    !name.trim().is_empty()
+        && !name.contains(|c: char| c.is_control() || matches!(c, '\u{fffe}' | '\u{ffff}'))
 }
 
 #[cfg(test)]

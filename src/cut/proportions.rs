@@ -110,7 +110,8 @@ impl Proportions {
     /// Slope of the stars, through the table's edge and the star tip.
     pub fn tan_star(&self) -> f64 {
         let (radius, _) = self.star_tip();
-        self.tan_crown * (radius * STAR_AZIMUTH.cos() - self.table) / (radius - self.table * STAR_AZIMUTH.cos())
+        self.tan_crown * (radius * STAR_AZIMUTH.cos() - self.table)
+            / (radius - self.table * STAR_AZIMUTH.cos())
     }
 
     /// Slope of the upper halves, through the star tip and the girdle's chord over 22.5 degrees.
@@ -133,7 +134,8 @@ impl Proportions {
     /// most at the girdle corner nearest to their own azimuth.
     pub fn valley_depth(&self) -> f64 {
         let corners = HALF_AZIMUTH / TAU * f64::from(self.girdle_facets);
-        let nearest = (0..16).map(|k| f64::from(2 * k + 1) * corners).map(|corner| (corner - corner.round()).abs());
+        let nearest =
+            (0..16).map(|k| f64::from(2 * k + 1) * corners).map(|corner| (corner - corner.round()).abs());
         let off = nearest.fold(0.5, f64::min) * TAU / f64::from(self.girdle_facets);
         (off.cos() - HALF_AZIMUTH.cos()) * (self.tan_upper() + self.tan_lower())
     }
@@ -253,7 +255,9 @@ mod tests {
     fn the_girdles_outline_has_its_corners_at_radius_one() {
         let proportions = Proportions::unchecked(&RoundBrilliant { girdle_facets: 24, ..MODERN });
         assert!((proportions.girdle_radius(0.0) - 1.0).abs() < 1e-15);
-        assert!((proportions.girdle_radius(22.5_f64.to_radians()) - 7.5_f64.to_radians().cos()).abs() < 1e-15);
+        assert!(
+            (proportions.girdle_radius(22.5_f64.to_radians()) - 7.5_f64.to_radians().cos()).abs() < 1e-15
+        );
     }
 
     #[test]

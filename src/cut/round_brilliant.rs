@@ -5,9 +5,10 @@
 
 use serde::Serialize;
 
-use super::limits::{self, ProportionError};
+use super::proportion_error::ProportionError;
 use super::proportions::Derived;
-use super::{facets, warning::Warning};
+use super::warning::Warning;
+use super::{facets, limits};
 use crate::math::Plane;
 
 /// The proportions of a round brilliant as given; everything else follows from them.
@@ -97,7 +98,7 @@ impl RoundBrilliant {
 
 /// A modern ideal cut, which the tests bend.
 #[cfg(test)]
-pub(super) const MODERN: RoundBrilliant = RoundBrilliant {
+pub(crate) const MODERN: RoundBrilliant = RoundBrilliant {
     table: 56.0,
     crown: Crown::Angle(34.5),
     pavilion: Pavilion::Angle(40.8),
@@ -109,7 +110,7 @@ pub(super) const MODERN: RoundBrilliant = RoundBrilliant {
 };
 
 #[cfg(test)]
-pub(super) mod strategy {
+pub(crate) mod strategy {
     //! Valid proportions at random, wide of what is ever cut.
 
     use super::*;

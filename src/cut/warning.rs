@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use super::limits::{given, rounded};
+use super::proportion_error::{given, rounded};
 use super::proportions::{Proportions, STAR_AZIMUTH};
 
 /// Something about a stone that its owner may not have meant. Lengths are percent.
@@ -67,7 +67,7 @@ impl Warning {
             tips("star_length", radius, p),
             tips("lower_half_length", 1.0 - p.lower, p),
             girdle(p),
-            (p.girdle_facets % 8 != 0).then_some(Self::SymmetryBroken { count: p.girdle_facets }),
+            (!p.girdle_facets.is_multiple_of(8)).then_some(Self::SymmetryBroken { count: p.girdle_facets }),
             culet(p),
         ];
         checks.into_iter().flatten().collect()
@@ -151,8 +151,7 @@ mod tests {
     #[test]
     fn tips_outside_the_girdles_flats_are_told() {
         let given = RoundBrilliant { girdle_facets: 24, star_length: 99.0, ..MODERN };
-        let expected =
-            "star_length: it puts tips at 99.52 % of the radius, outside the girdle's flats at 99.14 %, which cut \
+        let expected = "star_length: it puts tips at 99.52 % of the radius, outside the girdle's flats at 99.14 %, which cut \
              them off";
         assert!(texts(given).contains(&expected.to_owned()), "{:?}", texts(given));
         assert!(!texts(RoundBrilliant { girdle_facets: 48, ..given }).contains(&expected.to_owned()));

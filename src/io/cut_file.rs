@@ -26,7 +26,7 @@ mod tests;
 pub const FORMAT: i64 = 1;
 
 /// The largest file taken, bytes.
-pub const MAX_BYTES: u64 = 16 << 20;
+pub const MAX_BYTES: u64 = 4 << 20;
 
 /// Why a cut file could not be read.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
@@ -84,14 +84,17 @@ fn design(text: &str) -> Result<Design, Fault> {
 /// Read before all else, since another format may have other keys.
 fn check_format(table: &DeTable<'_>) -> Result<(), Fault> {
     let Some(value) = table.get("format") else {
-        return Err(Fault::whole(format!("format: the key is missing; begin the file with `format = {FORMAT}`")));
+        return Err(Fault::top(format!(
+            "format: the key is missing; begin the file with `format = {FORMAT}`"
+        )));
     };
     let number = value.get_ref().as_integer().map(|n| i64::from_str_radix(n.as_str(), n.radix()));
     match number {
         Some(Ok(FORMAT)) => Ok(()),
-        Some(Ok(other)) => {
-            Err(Fault::at("format", format!("format: {other} is not known here, only {FORMAT}; update the program")))
-        }
+        Some(Ok(other)) => Err(Fault::at(
+            "format",
+            format!("format: {other} is not known here, only {FORMAT}; update the program"),
+        )),
         _ => Err(Fault::at("format", format!("format: a whole number is expected, `format = {FORMAT}`"))),
     }
 }

@@ -30,7 +30,11 @@ pub fn triangulate(polytope: &Polytope) -> Mesh {
 fn facet_triangles(polytope: &Polytope, facet: &Facet) -> Vec<[u32; 3]> {
     let frame = Basis::FACE_UP.aimed(facet.plane.normal);
     let flat: Vec<DVec2> = polytope.corners(facet).map(|c| frame.project(c)).collect();
-    delaunay(&flat).unwrap_or_else(|| fan(flat.len())).into_iter().map(|t| t.map(|i| facet.outline[i])).collect()
+    delaunay(&flat)
+        .unwrap_or_else(|| fan(flat.len()))
+        .into_iter()
+        .map(|t| t.map(|i| facet.outline[i]))
+        .collect()
 }
 
 /// `None` where rounding keeps the triangles from covering the outline, as corners in one line can do.

@@ -32,13 +32,43 @@ impl Plane {
     /// The same half-space with a unit normal, or `None` where the normal has no direction or a number is not
     /// finite.
     pub fn normalized(&self) -> Option<Self> {
-        let length = self.normal.length();
-        let unit = Self::new(self.normal / length, self.offset / length);
-        (length > f64::MIN_POSITIVE && unit.normal.is_finite() && unit.offset.is_finite()).then_some(unit)
+        // Scaled first, so that the square of a tiny or huge component neither vanishes nor overflows.
+        let largest = self.normal.abs().max_element();
+        let scaled = self.normal / largest;
+        let length = scaled.length();
+        let unit = Self::new(scaled / length, self.offset / largest / length);
+        (unit.normal.is_finite() && unit.offset.is_finite()).then_some(unit)
     }
 
     /// How far `point` lies outside the half-space (negative inside), in the units of the normal's length.
     pub fn distance(&self, point: DVec3) -> f64 {
         self.normal.dot(point) - self.offset
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_normal_of_any_length_becomes_a_unit_normal() {
+        for length in [5e-324, 1e-200, 1.0, 3.0, 1e200, f64::MAX] {
+            let unit = Plane::new(DVec3::new(length, 0.0, length), 0.5 * length).normalized().unwrap();
+            let expected = Plane::from_slope(std::f64::consts::FRAC_PI_4, 0.0, 0.5 * 0.5_f64.sqrt());
+            assert!((unit.normal - expected.normal).length() < 1e-15, "{unit:?}");
+            assert!(length < 1e-300 || (unit.offset - expected.offset).abs() < 1e-15, "{unit:?}");
+        }
+    }
+
+    #[test]
+    fn a_plane_without_direction_or_distance_has_no_unit_normal() {
+        for n in
+            [DVec3::ZERO, DVec3::NAN, DVec3::new(f64::INFINITY, 0.0, 1.0), DVec3::new(1.0, f64::NAN, 0.0)]
+        {
+            assert_eq!(Plane::new(n, 1.0).normalized(), None, "{n}");
+        }
+        for (length, offset) in [(1.0, f64::NAN), (1.0, f64::INFINITY), (1e-300, 1e300)] {
+            assert_eq!(Plane::new(DVec3::Z * length, offset).normalized(), None);
+        }
     }
 }

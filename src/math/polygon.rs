@@ -27,7 +27,8 @@ pub fn centroid(corners: &[DVec2]) -> DVec2 {
 /// Whether `p` lies inside by more than `margin` (a negative margin allows points that far outside).
 pub fn contains(corners: &[DVec2], p: DVec2, margin: f64) -> bool {
     let edges = corners.iter().zip(corners.iter().cycle().skip(1));
-    corners.len() > 2 && edges.into_iter().all(|(&a, &b)| (b - a).perp_dot(p - a) >= margin * (b - a).length())
+    corners.len() > 2
+        && edges.into_iter().all(|(&a, &b)| (b - a).perp_dot(p - a) >= margin * (b - a).length())
 }
 
 /// The part of a convex polygon where `keep` is not negative, written to `out` (emptied first).

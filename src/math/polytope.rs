@@ -74,7 +74,8 @@ impl Polytope {
     fn vector_area(&self, facet: &Facet) -> DVec3 {
         let first = self.vertices[facet.outline[0] as usize];
         let fan = facet.outline[1..].windows(2);
-        let cross = |w: &[u32]| (self.vertices[w[0] as usize] - first).cross(self.vertices[w[1] as usize] - first);
+        let cross =
+            |w: &[u32]| (self.vertices[w[0] as usize] - first).cross(self.vertices[w[1] as usize] - first);
         fan.map(cross).sum::<DVec3>() / 2.0
     }
 

@@ -50,7 +50,9 @@ pub enum PolytopeError {
         planes: Vec<usize>,
     },
     /// No point, or no volume, lies inside all half-spaces.
-    #[error("planes {planes:?} leave nothing between them; move one of them outward or turn its normal round")]
+    #[error(
+        "planes {planes:?} leave nothing between them; move one of them outward or turn its normal round"
+    )]
     Empty {
         /// Planes that already contradict one another.
         planes: Vec<usize>,
@@ -111,17 +113,10 @@ pub(super) fn build(planes: &[Plane]) -> Result<Polytope, PolytopeError> {
 }
 
 fn validate(planes: &[Plane]) -> Result<Vec<Plane>, PolytopeError> {
-    let check = |(plane, p): (usize, &Plane)| {
-        if !(p.normal.is_finite() && p.offset.is_finite()) {
-            return Err(PolytopeError::NotFinite { plane });
-        }
-        if p.normal == DVec3::ZERO {
-            return Err(PolytopeError::ZeroNormal { plane });
-        }
-        // Scaled first, so that the square of a tiny or huge component neither vanishes nor overflows.
-        let largest = p.normal.abs().max_element();
-        let scaled = Plane::new(p.normal / largest, p.offset / largest);
-        scaled.normalized().ok_or(PolytopeError::NotFinite { plane })
+    let check = |(plane, p): (usize, &Plane)| match p.normalized() {
+        Some(unit) => Ok(unit),
+        None if p.normal == DVec3::ZERO => Err(PolytopeError::ZeroNormal { plane }),
+        None => Err(PolytopeError::NotFinite { plane }),
     };
     let unit = planes.iter().enumerate().map(check).collect::<Result<Vec<_>, _>>()?;
     if unit.len() < 4 { Err(PolytopeError::TooFew { given: unit.len() }) } else { Ok(unit) }
@@ -138,7 +133,8 @@ fn merge(planes: &[Plane]) -> (Vec<usize>, Vec<(usize, usize)>) {
     order.sort_by(|&a, &b| planes[a].normal.x.total_cmp(&planes[b].normal.x).then(a.cmp(&b)));
     let mut twin: Vec<Option<usize>> = vec![None; planes.len()];
     for (at, &i) in order.iter().enumerate() {
-        let next = order[at + 1..].iter().take_while(|&&j| planes[j].normal.x - planes[i].normal.x < COINCIDENT);
+        let next =
+            order[at + 1..].iter().take_while(|&&j| planes[j].normal.x - planes[i].normal.x < COINCIDENT);
         for &j in next {
             if near(&planes[i], &planes[j]) {
                 let (first, later) = (i.min(j), i.max(j));
@@ -228,7 +224,9 @@ impl Draft {
             if above || on >= 2 {
                 let next = face.outline.iter().cycle().skip(1);
                 let rim = |v: u32| v >= first_new || on_before(v);
-                edges.extend(face.outline.iter().zip(next).map(|(&a, &b)| (a, b)).filter(|&(a, b)| rim(a) && rim(b)));
+                edges.extend(
+                    face.outline.iter().zip(next).map(|(&a, &b)| (a, b)).filter(|&(a, b)| rim(a) && rim(b)),
+                );
             }
             true
         });
@@ -290,7 +288,12 @@ impl Draft {
             let Some(neighbours) = neighbours else {
                 return Err(PolytopeError::Degenerate { plane: face.source });
             };
-            facets.push(Facet { plane: planes[face.source], outline: face.outline, neighbours, source: face.source });
+            facets.push(Facet {
+                plane: planes[face.source],
+                outline: face.outline,
+                neighbours,
+                source: face.source,
+            });
         }
         let redundant = kept.iter().copied().filter(|k| facets.iter().all(|f| f.source != *k)).collect();
         let polytope = Polytope { facets, vertices, redundant, merged };

@@ -33,7 +33,9 @@ pub struct Scope {
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum ScopeError {
     /// The first band must take all the light from below.
-    #[error("scope '{scope}': the first band must begin at -90, where leaked light goes; it begins at {from}")]
+    #[error(
+        "scope '{scope}': the first band must begin at -90, where leaked light goes; it begins at {from}"
+    )]
     NotFromNadir {
         /// The scope.
         scope: String,

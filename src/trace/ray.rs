@@ -4,11 +4,12 @@
 //! leaves and the rest goes on. Rays know nothing of outlines or symmetry and follow polarisation as fields in
 //! space, so that where rays and beams agree it is not by a shared mistake.
 
-use crate::math::{Basis, Polytope};
+use crate::math::{Basis, Plane, Polytope};
 use crate::optics::{fresnel, reflectance};
 use crate::scene::{Medium, Projection, View};
 use glam::{DVec2, DVec3};
 use num_complex::Complex64;
+use wide::f64x4;
 
 /// How far to follow a ray.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -34,6 +35,8 @@ pub struct Exit {
     pub facet: u32,
     /// Where it leaves.
     pub point: DVec3,
+    /// Length of its path inside the stone, in girdle radii.
+    pub path: f64,
     /// Unit direction in which it leaves.
     pub direction: DVec3,
     /// The share of light from that direction which reaches the eye.
@@ -53,12 +56,23 @@ pub struct Rest {
     pub bounces: u32,
 }
 
+/// Planes that are tested side by side.
+const LANES: usize = 4;
+
+/// Some planes, coordinate by coordinate. Places without a plane hold the zero normal, which no ray runs toward.
+#[derive(Debug, Clone, Copy)]
+struct Group {
+    x: f64x4,
+    y: f64x4,
+    z: f64x4,
+    offset: f64x4,
+}
+
 /// Follows single rays through one stone.
 #[derive(Debug, Clone)]
 pub struct Tracer {
-    /// The planes, coordinate by coordinate, so that several are tested at once.
-    normal: [Vec<f64>; 3],
-    offset: Vec<f64>,
+    planes: Vec<Plane>,
+    groups: Vec<Group>,
     medium: Medium,
     options: Options,
 }
@@ -155,35 +169,47 @@ impl Light {
         let (p, p_onward) = (s.cross(ray), s.cross(onward));
         let inside = fields.map(|f| Field::of([(to_s * f.along(s), s), (to_p * f.along(p), p_onward)]));
         let lost = |f: &Field| {
-            let part = |r: Complex64, e: Complex64| if surface.is_total() { 0.0 } else { (1.0 - r.norm_sqr()) * e.norm_sqr() };
+            let part = |r: Complex64, e: Complex64| {
+                if surface.is_total() { 0.0 } else { (1.0 - r.norm_sqr()) * e.norm_sqr() }
+            };
             part(to_s, f.along(s)) + part(to_p, f.along(p))
         };
         (Self::Fields(inside), (lost(&fields[0]) + lost(&fields[1])) / 2.0)
     }
 }
 
+/// Sine of the angle below which a ray counts as square to a facet: the cross product there is mostly rounding.
+const SQUARE_ON: f64 = 1e-9;
+
 /// A unit vector square to the ray and to the normal: to the ray alone where the two are one line.
 fn across(ray: DVec3, normal: DVec3) -> DVec3 {
-    ray.cross(normal).try_normalize().unwrap_or_else(|| ray.any_orthonormal_vector())
+    let s = ray.cross(normal);
+    let length = s.length();
+    if length > SQUARE_ON { s / length } else { ray.any_orthonormal_vector() }
 }
 
 impl Tracer {
     /// Prepares a stone.
     pub fn new(polytope: &Polytope, medium: Medium, options: Options) -> Self {
-        let coordinate = |i: usize| polytope.planes().map(|p| p.normal[i]).collect();
-        let offset = polytope.planes().map(|p| p.offset).collect();
-        Self { normal: [0, 1, 2].map(coordinate), offset, medium, options }
-    }
-
-    fn facet_normal(&self, facet: usize) -> DVec3 {
-        DVec3::new(self.normal[0][facet], self.normal[1][facet], self.normal[2][facet])
+        let planes: Vec<Plane> = polytope.planes().collect();
+        let lanes = |some: &[Plane], pick: fn(&Plane) -> f64| {
+            f64x4::from(std::array::from_fn(|i| some.get(i).map_or(0.0, pick)))
+        };
+        let group = |some: &[Plane]| Group {
+            x: lanes(some, |p| p.normal.x),
+            y: lanes(some, |p| p.normal.y),
+            z: lanes(some, |p| p.normal.z),
+            offset: lanes(some, |p| p.offset),
+        };
+        let groups = planes.chunks(LANES).map(group).collect();
+        Self { planes, groups, medium, options }
     }
 
     /// Follows the ray from a point outside, calling `leave` for the surface's glare and for each exit; `None`
     /// where it misses the stone.
     pub fn follow(&self, origin: DVec3, direction: DVec3, mut leave: impl FnMut(Exit)) -> Option<Rest> {
         let (facet, distance) = self.enter(origin, direction)?;
-        let normal = self.facet_normal(facet);
+        let normal = self.planes[facet].normal;
         let point = origin + direction * distance;
         let eta = 1.0 / self.medium.index;
         let cos_i = -direction.dot(normal);
@@ -191,7 +217,14 @@ impl Tracer {
         let inward = direction * eta + normal * (eta * cos_i - cos_t);
         let (light, glare) = self.eye_light(direction).split(direction, inward, normal, eta, true);
         let reflected = direction + normal * (2.0 * cos_i);
-        leave(Exit { facet: facet as u32, point, direction: reflected, weight: glare, surface: true });
+        leave(Exit {
+            facet: facet as u32,
+            point,
+            path: 0.0,
+            direction: reflected,
+            weight: glare,
+            surface: true,
+        });
         Some(self.bounce(point, inward, light, leave))
     }
 
@@ -206,11 +239,12 @@ impl Tracer {
     fn bounce(&self, from: DVec3, along: DVec3, mut light: Light, mut leave: impl FnMut(Exit)) -> Rest {
         let (mut point, mut direction) = (from, along);
         let mut rest = Rest::default();
-        let mut left = 1.0;
+        let (mut left, mut path) = (1.0, 0.0);
         while light.weight() * left > self.options.least_weight && rest.bounces < self.options.most_bounces {
             let (facet, distance) = self.next(point, direction);
-            let normal = self.facet_normal(facet);
+            let normal = self.planes[facet].normal;
             point += direction * distance;
+            path += distance;
             if self.medium.absorption > 0.0 {
                 let after = left * self.medium.transmittance(distance);
                 rest.absorbed += light.weight() * (left - after);
@@ -222,7 +256,7 @@ impl Tracer {
             if let Some(cos_t) = crate::optics::cos_transmitted(cos_i, self.medium.index) {
                 let exit = direction * self.medium.index + normal * (cos_t - self.medium.index * cos_i);
                 let weight = weight * left;
-                leave(Exit { facet: facet as u32, point, direction: exit, weight, surface: false });
+                leave(Exit { facet: facet as u32, point, path, direction: exit, weight, surface: false });
             }
             (light, direction) = (onward, reflected);
             rest.bounces += 1;
@@ -234,9 +268,8 @@ impl Tracer {
     /// Facet and distance at which a ray enters from outside.
     fn enter(&self, origin: DVec3, direction: DVec3) -> Option<(usize, f64)> {
         let (mut first, mut into, mut out) = (None, f64::NEG_INFINITY, f64::INFINITY);
-        for facet in 0..self.offset.len() {
-            let normal = self.facet_normal(facet);
-            let (speed, gap) = (normal.dot(direction), self.offset[facet] - normal.dot(origin));
+        for (facet, plane) in self.planes.iter().enumerate() {
+            let (speed, gap) = (plane.normal.dot(direction), -plane.distance(origin));
             if speed < 0.0 {
                 if gap / speed > into {
                     (into, first) = (gap / speed, Some(facet));
@@ -253,18 +286,23 @@ impl Tracer {
     /// Facet and distance at which a ray inside the stone meets it next.
     #[inline]
     fn next(&self, point: DVec3, direction: DVec3) -> (usize, f64) {
-        let n = self.offset.len();
-        let [x, y, z] = &self.normal;
-        let (x, y, z, offset) = (&x[..n], &y[..n], &z[..n], &self.offset[..n]);
-        let (mut facet, mut nearest) = (0, f64::INFINITY);
-        for i in 0..n {
-            let speed = x[i] * direction.x + y[i] * direction.y + z[i] * direction.z;
-            let gap = offset[i] - (x[i] * point.x + y[i] * point.y + z[i] * point.z);
+        let splat = |v: DVec3| v.to_array().map(f64x4::splat);
+        let ([px, py, pz], [dx, dy, dz]) = (splat(point), splat(direction));
+        let never = f64x4::splat(f64::INFINITY);
+        let (mut nearest, mut group) = (never, f64x4::ZERO);
+        let mut this = f64x4::ZERO;
+        for Group { x, y, z, offset } in &self.groups {
+            let speed = *x * dx + *y * dy + *z * dz;
+            let gap = *offset - (*x * px + *y * py + *z * pz);
             // Only planes ahead; where rounding has put the point a hair outside, the distance is a hair negative.
-            if speed > 0.0 && gap < nearest * speed {
-                (facet, nearest) = (i, gap / speed);
-            }
+            let distance = speed.simd_gt(f64x4::ZERO).select(gap / speed, never);
+            let nearer = distance.simd_lt(nearest);
+            nearest = nearer.select(distance, nearest);
+            group = nearer.select(this, group);
+            this += f64x4::ONE;
         }
-        (facet, nearest)
+        let (nearest, group) = (nearest.to_array(), group.to_array());
+        let lane = (1..LANES).fold(0, |best, i| if nearest[i] < nearest[best] { i } else { best });
+        (group[lane] as usize * LANES + lane, nearest[lane])
     }
 }

@@ -5,7 +5,7 @@ use std::ops::Range;
 use toml::de::{DeTable, DeValue, Error};
 
 /// What the keys mean, for whoever left one out or wrote something else.
-const MEANINGS: [(&str, &str); 19] = [
+const MEANINGS: [(&str, &str); 21] = [
     ("name", "what the cut is called"),
     ("material", "a material's name, an index, or a table of its own"),
     ("diameter_mm", "girdle diameter in mm"),
@@ -25,6 +25,8 @@ const MEANINGS: [(&str, &str); 19] = [
     ("cauchy", "[A, B] of n = A + B / L², L in µm"),
     ("abbe", "[n_d, v_d]"),
     ("sellmeier", "[[B, C], ...], C in µm"),
+    ("absorption", "a number per mm, or [[nm, per mm], ...]"),
+    ("valid_nm", "[first, last]"),
 ];
 const PERCENT: &str = "percent of the girdle diameter";
 const DEGREES: &str = "degrees from the girdle plane";
@@ -33,8 +35,8 @@ const DEGREES: &str = "degrees from the girdle plane";
 const WORDS: [(&str, &str); 8] = [
     ("expected f64", "expected a number"),
     ("expected i64", "expected a whole number"),
-    ("expected struct RoundBrilliantForm", "expected a table, [round_brilliant]"),
-    ("expected struct PlaneForm", "expected a table, [[plane]]"),
+    ("expected a string", "expected text"),
+    (" as i128", ""),
     ("expected a sequence", "expected a list"),
     ("invalid type: sequence", "invalid type: list"),
     ("invalid type: map", "invalid type: table"),
@@ -63,6 +65,11 @@ impl Fault {
         Self { place: Place::Whole, message: message.into() }
     }
 
+    /// Something missing at the top of the file.
+    pub fn top(message: impl Into<String>) -> Self {
+        Self { place: Place::Offset(0), message: message.into() }
+    }
+
     /// A fault of the value at a path such as `plane/17/normal`, or of what encloses it where the value is missing.
     pub fn at(path: impl Into<String>, message: impl Into<String>) -> Self {
         Self { place: Place::Path(path.into()), message: message.into() }
@@ -70,7 +77,9 @@ impl Fault {
 
     /// What the parser says of a text that is not TOML.
     pub fn syntax(text: &str, error: &Error) -> Self {
-        let Some(span) = error.span() else { return Self::whole(error.message()) };
+        let Some(span) = error.span() else {
+            return Self::whole(format!("this is no TOML that can be read: {}", error.message()));
+        };
         let start = span.start.min(text.len());
         let line = text.as_bytes()[..start].rsplit(|byte| *byte == b'\n').next().unwrap_or_default();
         let column = 1 + String::from_utf8_lossy(line).chars().count();

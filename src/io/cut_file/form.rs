@@ -1,20 +1,25 @@
-//! The keys of a cut file: one declaration for reading and writing, in the order they are written.
+//! The keys of a cut file, in the order they are written.
 
-use serde::de::Error;
-use serde::{Deserialize, Deserializer, Serialize, Serializer};
+use std::fmt;
+use std::marker::PhantomData;
+
+use serde::de::value::{MapAccessDeserializer, SeqAccessDeserializer};
+use serde::de::{MapAccess, SeqAccess, Visitor};
+use serde::{Deserialize, Deserializer, Serialize};
 
 use super::material_form::MaterialForm;
 use super::{FORMAT, Fault};
 use crate::cut::{
-    Crown, Cut, DEFAULT_DIAMETER_MM, Design, DesignError, LowerHalf, MaterialRef, Pavilion, RoundBrilliant,
-    girdle_facets,
+    Crown, Cut, DEFAULT_DIAMETER_MM, Design, DesignError, LowerHalf, MAX_PLANES, MaterialRef, Pavilion,
+    RoundBrilliant, girdle_facets,
 };
 use crate::math::Plane;
 
-/// The whole file. Values come before tables, as TOML wants them written.
+/// The whole file, `B` being its round brilliant as read or as written. Values come before tables, as TOML wants them
+/// written.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(super) struct DesignForm {
+pub(super) struct DesignForm<B = Table<RoundBrilliantForm>> {
     format: i64,
     name: String,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -25,32 +30,26 @@ pub(super) struct DesignForm {
     diameter_mm: f64,
     material: MaterialForm,
     #[serde(skip_serializing_if = "Option::is_none")]
-    round_brilliant: Option<RoundBrilliantForm>,
+    round_brilliant: Option<B>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    plane: Option<Vec<PlaneForm>>,
+    plane: Option<Vec<Table<PlaneForm>>>,
 }
 
 fn default_diameter() -> f64 {
     DEFAULT_DIAMETER_MM
 }
 
-/// `[round_brilliant]`
-#[derive(Serialize, Deserialize)]
+/// `[round_brilliant]` as it is read, with both keys of each pair; [`RoundBrilliant`] itself is written.
+#[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-struct RoundBrilliantForm {
+pub(super) struct RoundBrilliantForm {
     table: f64,
-    #[serde(skip_serializing_if = "Option::is_none")]
     crown_angle: Option<f64>,
-    #[serde(skip_serializing_if = "Option::is_none")]
     crown_height: Option<f64>,
-    #[serde(skip_serializing_if = "Option::is_none")]
     pavilion_angle: Option<f64>,
-    #[serde(skip_serializing_if = "Option::is_none")]
     pavilion_depth: Option<f64>,
     star_length: f64,
-    #[serde(skip_serializing_if = "Option::is_none")]
     lower_half_length: Option<f64>,
-    #[serde(skip_serializing_if = "Option::is_none")]
     lower_half_length_vertical: Option<f64>,
     girdle_thickness: f64,
     girdle_facets: i64,
@@ -71,32 +70,115 @@ fn nameless() -> String {
     "facet".to_owned()
 }
 
+/// What only a table with its keys can give; serde's own structs take a list of values as well.
+#[derive(Serialize)]
+#[serde(transparent)]
+pub(super) struct Table<T>(pub T);
+
+impl<'de, T: Deserialize<'de>> Deserialize<'de> for Table<T> {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct Keys<T>(PhantomData<T>);
+        impl<'de, T: Deserialize<'de>> Visitor<'de> for Keys<T> {
+            type Value = Table<T>;
+
+            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                f.write_str("a table of keys")
+            }
+
+            fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<Table<T>, A::Error> {
+                T::deserialize(MapAccessDeserializer::new(map)).map(Table)
+            }
+        }
+        deserializer.deserialize_map(Keys(PhantomData))
+    }
+}
+
+/// Text, a number, or the list or table that `T` takes. Read by hand, for an error that says what was expected and
+/// where, which serde's untagged enums cannot.
+#[derive(Serialize)]
+#[serde(untagged)]
+pub(super) enum OneOf<T> {
+    Text(String),
+    Number(f64),
+    Rest(T),
+}
+
+impl<'de, T: Deserialize<'de>> Deserialize<'de> for OneOf<T> {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct Forms<T>(PhantomData<T>);
+        impl<'de, T: Deserialize<'de>> Visitor<'de> for Forms<T> {
+            type Value = OneOf<T>;
+
+            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                f.write_str("another form")
+            }
+
+            fn visit_str<E>(self, text: &str) -> Result<OneOf<T>, E> {
+                Ok(OneOf::Text(text.to_owned()))
+            }
+
+            fn visit_f64<E>(self, number: f64) -> Result<OneOf<T>, E> {
+                Ok(OneOf::Number(number))
+            }
+
+            fn visit_i64<E>(self, number: i64) -> Result<OneOf<T>, E> {
+                Ok(OneOf::Number(number as f64))
+            }
+
+            fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<OneOf<T>, A::Error> {
+                T::deserialize(MapAccessDeserializer::new(map)).map(OneOf::Rest)
+            }
+
+            fn visit_seq<A: SeqAccess<'de>>(self, list: A) -> Result<OneOf<T>, A::Error> {
+                T::deserialize(SeqAccessDeserializer::new(list)).map(OneOf::Rest)
+            }
+        }
+        deserializer.deserialize_any(Forms(PhantomData))
+    }
+}
+
 /// A list of exactly so many numbers; serde's own arrays let more pass.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Serialize, Deserialize)]
+#[serde(try_from = "Vec<f64>", into = "Vec<f64>")]
 pub(super) struct Numbers<const N: usize>(pub [f64; N]);
 
-impl<'de, const N: usize> Deserialize<'de> for Numbers<N> {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        let numbers = Vec::deserialize(deserializer)?;
-        let wrong = |list: Vec<f64>| {
-            D::Error::custom(format!("invalid length {}, expected a list of {N} numbers", list.len()))
-        };
-        numbers.try_into().map(Self).map_err(wrong)
+impl<const N: usize> TryFrom<Vec<f64>> for Numbers<N> {
+    type Error = String;
+
+    fn try_from(list: Vec<f64>) -> Result<Self, String> {
+        let wrong = |list: Vec<f64>| format!("invalid length {}, expected a list of {N} numbers", list.len());
+        list.try_into().map(Self).map_err(wrong)
     }
 }
 
-impl<const N: usize> Serialize for Numbers<N> {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        serializer.collect_seq(self.0)
+impl<const N: usize> From<Numbers<N>> for Vec<f64> {
+    fn from(numbers: Numbers<N>) -> Self {
+        numbers.0.to_vec()
     }
 }
 
-impl DesignForm {
+/// A list of at least one pair of numbers.
+#[derive(Clone, Serialize, Deserialize)]
+#[serde(try_from = "Vec<Numbers<2>>")]
+pub(super) struct Pairs(pub Vec<(f64, f64)>);
+
+impl TryFrom<Vec<Numbers<2>>> for Pairs {
+    type Error = &'static str;
+
+    fn try_from(list: Vec<Numbers<2>>) -> Result<Self, Self::Error> {
+        let pairs: Vec<_> = list.into_iter().map(|pair| pair.0.into()).collect();
+        if pairs.is_empty() { Err("the list is empty, expected at least one pair") } else { Ok(Self(pairs)) }
+    }
+}
+
+impl DesignForm<RoundBrilliant> {
     /// The form that a design is written in.
     pub fn of(design: &Design) -> Self {
         let (round_brilliant, plane) = match &design.cut {
-            Cut::RoundBrilliant(given) => (Some(RoundBrilliantForm::of(given)), None),
-            Cut::Planes(planes) => (None, Some(planes.iter().map(PlaneForm::of).collect())),
+            Cut::RoundBrilliant(given) => (Some(*given), None),
+            Cut::Planes(planes) => {
+                (None, Some(planes.iter().map(|plane| Table(PlaneForm::of(plane))).collect()))
+            }
         };
         Self {
             format: FORMAT,
@@ -109,7 +191,9 @@ impl DesignForm {
             plane,
         }
     }
+}
 
+impl DesignForm {
     /// The design that the form describes, checked.
     pub fn design(self) -> Result<Design, Fault> {
         let design = Design {
@@ -127,12 +211,17 @@ impl DesignForm {
     }
 }
 
-fn cut(round_brilliant: Option<RoundBrilliantForm>, plane: Option<Vec<PlaneForm>>) -> Result<Cut, Fault> {
+fn cut(
+    round_brilliant: Option<Table<RoundBrilliantForm>>,
+    plane: Option<Vec<Table<PlaneForm>>>,
+) -> Result<Cut, Fault> {
     match (round_brilliant, plane) {
-        (Some(form), None) => Ok(Cut::RoundBrilliant(form.proportions()?)),
-        (None, Some(planes)) => Ok(Cut::Planes(planes.into_iter().map(PlaneForm::plane).collect())),
+        (Some(Table(form)), None) => Ok(Cut::RoundBrilliant(form.proportions()?)),
+        (None, Some(planes)) => Ok(Cut::Planes(planes.into_iter().map(|Table(form)| form.plane()).collect())),
         (Some(_), Some(_)) => Err(Fault::at("plane", "plane: give [round_brilliant] or [[plane]], not both")),
-        (None, None) => Err(Fault::whole("the cut is missing; give [round_brilliant] or a list of [[plane]]")),
+        (None, None) => {
+            Err(Fault::whole("the cut is missing; give [round_brilliant] or a list of [[plane]]"))
+        }
     }
 }
 
@@ -146,40 +235,12 @@ fn path(error: &DesignError, material: &MaterialRef) -> String {
             MaterialRef::Name(_) | MaterialRef::Index(_) => "material".to_owned(),
         },
         DesignError::Proportion(error) => format!("round_brilliant/{}", error.key()),
-        DesignError::PlaneCount { .. } => "plane".to_owned(),
+        DesignError::PlaneCount { .. } => format!("plane/{MAX_PLANES}"),
         DesignError::Plane { number, fault } => format!("plane/{}/{}", number - 1, fault.key()),
     }
 }
 
 impl RoundBrilliantForm {
-    fn of(given: &RoundBrilliant) -> Self {
-        let (crown_angle, crown_height) = match given.crown {
-            Crown::Angle(degrees) => (Some(degrees), None),
-            Crown::Height(percent) => (None, Some(percent)),
-        };
-        let (pavilion_angle, pavilion_depth) = match given.pavilion {
-            Pavilion::Angle(degrees) => (Some(degrees), None),
-            Pavilion::Depth(percent) => (None, Some(percent)),
-        };
-        let (lower_half_length, lower_half_length_vertical) = match given.lower_half {
-            LowerHalf::Radial(percent) => (Some(percent), None),
-            LowerHalf::Vertical(percent) => (None, Some(percent)),
-        };
-        Self {
-            table: given.table,
-            crown_angle,
-            crown_height,
-            pavilion_angle,
-            pavilion_depth,
-            star_length: given.star_length,
-            lower_half_length,
-            lower_half_length_vertical,
-            girdle_thickness: given.girdle_thickness,
-            girdle_facets: i64::from(given.girdle_facets),
-            culet: given.culet,
-        }
-    }
-
     fn proportions(&self) -> Result<RoundBrilliant, Fault> {
         Ok(RoundBrilliant {
             table: self.table,
@@ -216,9 +277,10 @@ fn either<T>(
             format!("round_brilliant/{second}"),
             format!("{second}: give {first} or {second}, not both"),
         )),
-        (None, None) => {
-            Err(Fault::at("round_brilliant", format!("round_brilliant: {first} or {second} is missing; give one")))
-        }
+        (None, None) => Err(Fault::at(
+            "round_brilliant",
+            format!("round_brilliant: {first} or {second} is missing; give one"),
+        )),
     }
 }
 

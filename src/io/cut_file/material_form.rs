@@ -1,178 +1,136 @@
 //! `material`: a name, an index, or a table of the file's own.
 
-use std::fmt;
-
-use serde::de::value::MapAccessDeserializer;
-use serde::de::{MapAccess, SeqAccess, Visitor};
-use serde::{Deserialize, Deserializer, Serialize};
+use serde::{Deserialize, Serialize};
 
 use super::Fault;
-use super::form::Numbers;
-use crate::cut::{Absorption, Dispersion, MaterialRef, MaterialTable};
+use super::form::{Numbers, OneOf, Pairs, Table};
+use crate::cut::MaterialRef;
+use crate::optics::{Absorption, AbsorptionError, Dispersion, Material};
+
+/// Where the one sample of an absorption that is the same at every wavelength is put, in nm.
+const GREY_NM: f64 = 550.0;
 
 /// `material = "diamond"`, `material = 2.42` or `[material]`.
-#[derive(Serialize)]
-#[serde(untagged)]
-pub(super) enum MaterialForm {
-    Name(String),
-    Index(f64),
-    Table(Box<TableForm>),
-}
+pub(super) type MaterialForm = OneOf<Table<TableForm>>;
 
 /// `[material]`
 #[derive(Serialize, Deserialize, Default)]
 #[serde(deny_unknown_fields)]
 pub(super) struct TableForm {
-    #[serde(skip_serializing_if = "Option::is_none")]
-    name: Option<String>,
+    #[serde(default = "nameless")]
+    name: String,
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    description: String,
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    source: String,
     #[serde(skip_serializing_if = "Option::is_none")]
     index: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    sellmeier: Option<Vec<Numbers<2>>>,
+    sellmeier: Option<Pairs>,
     #[serde(skip_serializing_if = "Option::is_none")]
     cauchy: Option<Numbers<2>>,
     #[serde(skip_serializing_if = "Option::is_none")]
     abbe: Option<Numbers<2>>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    absorption: Option<AbsorptionForm>,
+    absorption: Option<OneOf<Pairs>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    valid_nm: Option<Numbers<2>>,
+    /// A law that has no key of its own, as [`Dispersion`] spells it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    dispersion: Option<Dispersion>,
 }
 
-/// `absorption = 0.1` or `absorption = [[400, 0.2], [700, 0.1]]`.
-#[derive(Serialize)]
-#[serde(untagged)]
-enum AbsorptionForm {
-    Uniform(f64),
-    Spectrum(Vec<Numbers<2>>),
+fn nameless() -> String {
+    "custom".to_owned()
 }
 
 impl MaterialForm {
     /// The form that a material is written in.
     pub fn of(material: &MaterialRef) -> Self {
         match material {
-            MaterialRef::Name(name) => Self::Name(name.clone()),
-            MaterialRef::Index(index) => Self::Index(*index),
-            MaterialRef::Custom(table) => Self::Table(Box::new(TableForm::of(table))),
+            MaterialRef::Name(name) => Self::Text(name.clone()),
+            MaterialRef::Index(index) => Self::Number(*index),
+            MaterialRef::Custom(material) => Self::Rest(Table(TableForm::of(material))),
         }
     }
 
-    /// The material that the form describes; its numbers are yet to be checked.
+    /// The material that the form describes, yet to be checked.
     pub fn material(self) -> Result<MaterialRef, Fault> {
         match self {
-            Self::Name(name) => Ok(MaterialRef::Name(name)),
-            Self::Index(index) => Ok(MaterialRef::Index(index)),
-            Self::Table(form) => form.material().map(MaterialRef::Custom),
+            Self::Text(name) => Ok(MaterialRef::Name(name)),
+            Self::Number(index) => Ok(MaterialRef::Index(index)),
+            Self::Rest(Table(form)) => {
+                form.material().map(|material| MaterialRef::Custom(Box::new(material)))
+            }
         }
     }
 }
 
 impl TableForm {
-    fn of(table: &MaterialTable) -> Self {
-        let mut form = Self { name: table.name.clone(), ..Self::default() };
-        match &table.dispersion {
-            Dispersion::Index(index) => form.index = Some(*index),
-            Dispersion::Sellmeier(pairs) => form.sellmeier = Some(numbers(pairs)),
-            Dispersion::Cauchy(pair) => form.cauchy = Some(Numbers(*pair)),
-            Dispersion::Abbe(pair) => form.abbe = Some(Numbers(*pair)),
+    fn of(material: &Material) -> Self {
+        let Material { name, description, dispersion, absorption, source, valid_nm } = material.clone();
+        let valid_nm = valid_nm.map(|range| Numbers(range.into()));
+        let mut form = Self { name, description, source, valid_nm, ..Self::default() };
+        match dispersion {
+            Dispersion::Constant(n) => form.index = Some(n),
+            Dispersion::Sellmeier { constant: 1.0, terms } if !terms.is_empty() => {
+                form.sellmeier = Some(Pairs(terms));
+            }
+            Dispersion::Cauchy { a, b } => form.cauchy = Some(Numbers([a, b])),
+            Dispersion::Abbe { n_d, v_d } => form.abbe = Some(Numbers([n_d, v_d])),
+            law @ (Dispersion::Sellmeier { .. } | Dispersion::Rational { .. }) => form.dispersion = Some(law),
         }
-        form.absorption = table.absorption.as_ref().map(|absorption| match absorption {
-            Absorption::Uniform(per_mm) => AbsorptionForm::Uniform(*per_mm),
-            Absorption::Spectrum(pairs) => AbsorptionForm::Spectrum(numbers(pairs)),
-        });
+        form.absorption = match absorption.samples() {
+            [] => None,
+            [(GREY_NM, per_mm)] => Some(OneOf::Number(*per_mm)),
+            samples => Some(OneOf::Rest(Pairs(samples.to_vec()))),
+        };
         form
     }
 
-    fn material(self) -> Result<MaterialTable, Fault> {
+    fn material(self) -> Result<Material, Fault> {
+        let sellmeier = |Pairs(terms)| Dispersion::Sellmeier { constant: 1.0, terms };
         let given = [
-            self.index.map(|index| ("index", Dispersion::Index(index))),
-            self.sellmeier.map(|list| ("sellmeier", Dispersion::Sellmeier(pairs(list)))),
-            self.cauchy.map(|pair| ("cauchy", Dispersion::Cauchy(pair.0))),
-            self.abbe.map(|pair| ("abbe", Dispersion::Abbe(pair.0))),
+            ("index", self.index.map(Dispersion::Constant)),
+            ("sellmeier", self.sellmeier.map(sellmeier)),
+            ("cauchy", self.cauchy.map(|Numbers([a, b])| Dispersion::Cauchy { a, b })),
+            ("abbe", self.abbe.map(|Numbers([n_d, v_d])| Dispersion::Abbe { n_d, v_d })),
+            ("dispersion", self.dispersion),
         ];
-        let mut given = given.into_iter().flatten();
+        let mut given = given.into_iter().filter_map(|(key, law)| Some((key, law?)));
         let Some((first, dispersion)) = given.next() else {
-            return Err(Fault::at("material", "material: one of index, sellmeier, cauchy or abbe is missing"));
+            let message = "material: one of index, sellmeier, cauchy, abbe or dispersion is missing";
+            return Err(Fault::at("material", message));
         };
         if let Some((second, _)) = given.next() {
-            return Err(Fault::at(
-                format!("material/{second}"),
-                format!("material.{second}: give {first} or {second}, not both"),
-            ));
+            let message = format!("material.{second}: give {first} or {second}, not both");
+            return Err(Fault::at(format!("material/{second}"), message));
         }
-        let absorption = self.absorption.map(|form| match form {
-            AbsorptionForm::Uniform(per_mm) => Absorption::Uniform(per_mm),
-            AbsorptionForm::Spectrum(list) => Absorption::Spectrum(pairs(list)),
-        });
-        Ok(MaterialTable { name: self.name, dispersion, absorption })
+        Ok(Material {
+            name: self.name,
+            description: self.description,
+            dispersion,
+            absorption: self.absorption.map_or(Ok(Absorption::clear()), absorption)?,
+            source: self.source,
+            valid_nm: self.valid_nm.map(|range| range.0.into()),
+        })
     }
 }
 
-fn numbers(pairs: &[[f64; 2]]) -> Vec<Numbers<2>> {
-    pairs.iter().map(|pair| Numbers(*pair)).collect()
-}
-
-fn pairs(list: Vec<Numbers<2>>) -> Vec<[f64; 2]> {
-    list.into_iter().map(|pair| pair.0).collect()
-}
-
-/// By hand, for an error that says what was expected and where, which serde's untagged enums cannot.
-impl<'de> Deserialize<'de> for MaterialForm {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        struct Form;
-        impl<'de> Visitor<'de> for Form {
-            type Value = MaterialForm;
-
-            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-                f.write_str("text, a number or a table")
-            }
-
-            fn visit_str<E>(self, name: &str) -> Result<MaterialForm, E> {
-                Ok(MaterialForm::Name(name.to_owned()))
-            }
-
-            fn visit_f64<E>(self, index: f64) -> Result<MaterialForm, E> {
-                Ok(MaterialForm::Index(index))
-            }
-
-            fn visit_i64<E>(self, index: i64) -> Result<MaterialForm, E> {
-                Ok(MaterialForm::Index(index as f64))
-            }
-
-            fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<MaterialForm, A::Error> {
-                let table = TableForm::deserialize(MapAccessDeserializer::new(map))?;
-                Ok(MaterialForm::Table(Box::new(table)))
-            }
+fn absorption(form: OneOf<Pairs>) -> Result<Absorption, Fault> {
+    let samples = match form {
+        OneOf::Number(per_mm) => vec![(GREY_NM, per_mm)],
+        OneOf::Rest(Pairs(samples)) => samples,
+        OneOf::Text(_) => {
+            let message =
+                "material.absorption: a number per mm or a list of [nm, per mm] is expected, not text";
+            return Err(Fault::at("material/absorption", message));
         }
-        deserializer.deserialize_any(Form)
-    }
-}
-
-/// By hand for the same reason.
-impl<'de> Deserialize<'de> for AbsorptionForm {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        struct Form;
-        impl<'de> Visitor<'de> for Form {
-            type Value = AbsorptionForm;
-
-            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-                f.write_str("a number per mm or a list of [nm, per mm]")
-            }
-
-            fn visit_f64<E>(self, per_mm: f64) -> Result<AbsorptionForm, E> {
-                Ok(AbsorptionForm::Uniform(per_mm))
-            }
-
-            fn visit_i64<E>(self, per_mm: i64) -> Result<AbsorptionForm, E> {
-                Ok(AbsorptionForm::Uniform(per_mm as f64))
-            }
-
-            fn visit_seq<A: SeqAccess<'de>>(self, mut list: A) -> Result<AbsorptionForm, A::Error> {
-                let mut pairs = Vec::new();
-                while let Some(pair) = list.next_element()? {
-                    pairs.push(pair);
-                }
-                Ok(AbsorptionForm::Spectrum(pairs))
-            }
-        }
-        deserializer.deserialize_any(Form)
-    }
+    };
+    Absorption::new(samples).map_err(|error| {
+        let (AbsorptionError::Wavelength { sample, .. }
+        | AbsorptionError::Coefficient { sample, .. }
+        | AbsorptionError::Order { sample, .. }) = error;
+        Fault::at(format!("material/absorption/{}", sample - 1), error.to_string())
+    })
 }

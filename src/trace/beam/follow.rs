@@ -123,7 +123,8 @@ fn land(
     let arriving = front.light.turned(front.s.dot(s), p_before.dot(s));
     let (reflected, weight) = arriving.split(&surface);
     let light = if beams.polarised { reflected } else { reflected.unpolarised() };
-    let exit = surface.cos_t.map_or(DVec3::ZERO, |cos_t| direction * index + normal * (cos_t - index * cos_i));
+    let exit =
+        surface.cos_t.map_or(DVec3::ZERO, |cos_t| direction * index + normal * (cos_t - index * cos_i));
     let path = front.path + landing.distance;
     let own = &corners[start as usize..];
     let (before, after) = attenuated(own, front.path, path, &beams.medium, area);
@@ -140,9 +141,11 @@ fn land(
         absorbed: front.light.weight() * (before - after),
         open: false,
     };
-    let ray = Ray { origin: front.ray.advanced(landing.distance), direction: direction - normal * (2.0 * cos_i) };
+    let ray =
+        Ray { origin: front.ray.advanced(landing.distance), direction: direction - normal * (2.0 * cos_i) };
     let energy = light.weight() * after;
-    let onward = Front { node: id, facet: landing.facet, bounces: front.bounces + 1, ray, path, light, s, energy };
+    let onward =
+        Front { node: id, facet: landing.facet, bounces: front.bounces + 1, ray, path, light, s, energy };
     (node, onward)
 }
 

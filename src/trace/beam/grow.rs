@@ -99,7 +99,8 @@ impl<'a> Tracer<'a> {
             if cos_i <= 0.0 {
                 continue;
             }
-            let mut outline: Vec<DVec2> = self.polytope.corners(facet).map(|c| self.beams.view.project(c)).collect();
+            let mut outline: Vec<DVec2> =
+                self.polytope.corners(facet).map(|c| self.beams.view.project(c)).collect();
             for &half in &domain {
                 clip(&outline, half, &mut spare);
                 std::mem::swap(&mut outline, &mut spare);

@@ -103,7 +103,8 @@ impl<'a> Splitter<'a> {
         self.visited[first as usize] = self.beam;
         let mut covered = self.flood(ray, outline, &mut land);
         if covered < whole * (1.0 - 1e-9) {
-            self.queue.extend((0..self.visited.len() as u32).filter(|&k| self.visited[k as usize] != self.beam));
+            self.queue
+                .extend((0..self.visited.len() as u32).filter(|&k| self.visited[k as usize] != self.beam));
             self.visited.fill(self.beam);
             covered += self.flood(ray, outline, &mut land);
         }

@@ -79,6 +79,8 @@ pub struct Beam<'a> {
     pub open: bool,
     /// Path inside the stone up to here, in girdle radii, over the image.
     pub path: Affine,
+    /// What absorption has left up to here, mean over the outline: part of `weight` and `onward`.
+    pub transmittance: f64,
     /// Energy absorbed on the stretch that ends here.
     pub absorbed: f64,
 }
@@ -116,6 +118,7 @@ impl Beams {
             onward: node.onward * node.transmittance,
             open: node.open,
             path: node.path,
+            transmittance: node.transmittance,
             absorbed: node.absorbed,
         }
     }
@@ -128,7 +131,8 @@ impl Beams {
     /// The facets that a beam has met, from the one it entered by to the one it ends on.
     pub fn facets(&self, id: u32) -> Vec<u32> {
         let up = |&id: &u32| Some(self.nodes[id as usize].parent).filter(|&p| p != ROOT);
-        let mut met: Vec<u32> = std::iter::successors(Some(id), up).map(|i| self.nodes[i as usize].facet).collect();
+        let mut met: Vec<u32> =
+            std::iter::successors(Some(id), up).map(|i| self.nodes[i as usize].facet).collect();
         met.reverse();
         met
     }

@@ -1,0 +1,303 @@
+//! `export`: pictures, drawings and figures of a stone, as files.
+
+use super::measure::measure;
+use super::options::{LightOptions, TracerName, ViewOptions};
+use super::progress::Progress;
+use super::specimen::Specimen;
+use super::{Failure, each_file, json, print};
+use crate::cut::Cut;
+use crate::io::{self, MOST_PIXELS, WriteError, rasterize, scope_file, write_exr, write_png};
+use crate::picture::by_rays::{self, Reading};
+use crate::picture::{
+    Film, Layer, Palette, Picture, Rows, Scoped, diagram, named, names, paint, profile, vector,
+};
+use crate::scene::{Medium, Scope, View};
+use crate::trace::Watch;
+use crate::trace::beam::{self, Beams};
+use clap::{Args, ValueEnum};
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+/// Where pictures stop following beams when not told: below what eight bits can show.
+const UNRESOLVED: f64 = 1e-3;
+
+/// An energy drawing holds every polygon of the subdivision; finer than this it would be for no viewer.
+const DRAWN_UNRESOLVED: f64 = 1e-2;
+
+/// The largest EXR: it is held in memory, a dozen channels deep.
+const MOST_EXR_PIXELS: u32 = 8192;
+
+/// Rays along each side of a pixel, for pictures by rays.
+const RAYS_PER_SIDE: u32 = 4;
+
+#[derive(Debug, Args)]
+pub struct Export {
+    /// Cut files, or names of cuts that come with the program
+    #[arg(required = true)]
+    files: Vec<String>,
+    /// Pictures to make, separated by commas [default: all of them]
+    #[arg(long, value_delimiter = ',', value_parser = names().to_vec())]
+    views: Vec<String>,
+    /// A scope of your own, as a file (see `scopes`); may be given several times
+    #[arg(long, value_name = "FILE")]
+    scope: Vec<PathBuf>,
+    /// Pixels along each side
+    #[arg(long, default_value_t = 1024, value_parser = clap::value_parser!(u32).range(16..=i64::from(MOST_PIXELS)))]
+    size: u32,
+    /// Kinds of file to write, separated by commas
+    #[arg(long, value_enum, value_delimiter = ',', default_values_t = [Format::Png, Format::Svg, Format::Json])]
+    format: Vec<Format>,
+    /// Folder to write to
+    #[arg(long, default_value = "out")]
+    out: PathBuf,
+    #[command(flatten)]
+    view: ViewOptions,
+    #[command(flatten)]
+    light: LightOptions,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Format {
+    /// Pictures of energy and of strongest exits, sRGB
+    Png,
+    /// The virtual facets as polygons
+    Svg,
+    /// Energy of each zone, 32-bit and linear
+    Exr,
+    /// Figures of the view, as `measure --json` prints them
+    Json,
+}
+
+impl Export {
+    pub fn run(&self) -> Result<(), Failure> {
+        if self.format.contains(&Format::Exr) && self.size > MOST_EXR_PIXELS {
+            return Err(Failure::Input(format!(
+                "--size {}: an EXR may have {MOST_EXR_PIXELS} pixels a side",
+                self.size
+            )));
+        }
+        let pictures = self.pictures()?;
+        self.distinct_stems()?;
+        each_file(&self.files, |file| {
+            let specimen = Specimen::load(file)?;
+            let job = Job { export: self, medium: self.light.medium(&specimen)?, specimen: &specimen };
+            for (name, picture) in &pictures {
+                match picture {
+                    Picture::Profile => {
+                        let brilliant = match &specimen.design.cut {
+                            Cut::RoundBrilliant(brilliant) => Some(brilliant),
+                            Cut::Planes(_) => None,
+                        };
+                        job.drawing(name, &profile(&specimen.stone, &specimen.design.name, brilliant))?;
+                    }
+                    Picture::Diagram => {
+                        job.drawing(name, &diagram(&specimen.stone, &specimen.design.name))?
+                    }
+                    Picture::Scoped(scoped) => job.scoped(name, scoped)?,
+                }
+            }
+            if self.format.contains(&Format::Json) { job.figures() } else { Ok(()) }
+        })
+    }
+
+    fn pictures(&self) -> Result<Vec<(String, Picture)>, Failure> {
+        let all = self.views.is_empty() && self.scope.is_empty();
+        let wanted = if all { names().map(String::from).to_vec() } else { self.views.clone() };
+        let mut pictures: Vec<(String, Picture)> =
+            wanted.into_iter().filter_map(|name| named(&name).map(|p| (name, p))).collect();
+        for path in &self.scope {
+            let scope = scope_file::read(path).map_err(Failure::Input)?;
+            let name = scope.name.clone();
+            pictures.push((name, Picture::Scoped(Scoped { scope, side: None, takes_head: true })));
+        }
+        for (i, (name, _)) in pictures.iter().enumerate() {
+            if pictures[..i].iter().any(|(n, _)| n == name) {
+                return Err(Failure::Input(format!(
+                    "two pictures are called '{name}'; their files would be one"
+                )));
+            }
+        }
+        Ok(pictures)
+    }
+
+    fn distinct_stems(&self) -> Result<(), Failure> {
+        let stem = |f: &String| Path::new(f).file_stem().map(|s| s.to_os_string());
+        let twice =
+            self.files.iter().enumerate().find(|(i, f)| self.files[..*i].iter().any(|g| stem(g) == stem(f)));
+        twice.map_or(Ok(()), |(_, file)| {
+            Err(Failure::Input(format!(
+                "{file}: another file has the same name; export them to different --out folders"
+            )))
+        })
+    }
+}
+
+/// One stone to export.
+struct Job<'a> {
+    export: &'a Export,
+    specimen: &'a Specimen,
+    medium: Medium,
+}
+
+impl Job<'_> {
+    fn path(&self, name: &str, ending: &str) -> PathBuf {
+        self.export.out.join(format!("{}-{name}.{ending}", self.specimen.stem()))
+    }
+
+    fn wants(&self, format: Format) -> bool {
+        self.export.format.contains(&format)
+    }
+
+    fn done(&self, path: &Path) -> Result<(), Failure> {
+        print(&path.display().to_string())
+    }
+
+    fn text(&self, path: &Path, text: &str) -> Result<(), Failure> {
+        io::write(path, |file| file.write_all(text.as_bytes()).map_err(|e| WriteError::io(path, e)))?;
+        self.done(path)
+    }
+
+    fn figures(&self) -> Result<(), Failure> {
+        let measured = measure(self.specimen, &self.export.view, &self.export.light)?;
+        let path = self.path("figures", "json");
+        self.text(&path, &(json(&measured.json(&self.export.view)) + "\n"))
+    }
+
+    fn drawing(&self, name: &str, document: &svg::Document) -> Result<(), Failure> {
+        let text = document.to_string();
+        if self.wants(Format::Svg) {
+            self.text(&self.path(name, "svg"), &text)?;
+        }
+        if self.wants(Format::Png) {
+            let path = self.path(name, "png");
+            let (width, height, pixels) =
+                rasterize(&text, self.export.size).map_err(|e| Failure::Output(e.to_string()))?;
+            write_png(&path, (width, height), &self.title(name), |rows| rows.push(&pixels))?;
+            self.done(&path)?;
+        }
+        Ok(())
+    }
+
+    fn title(&self, name: &str) -> String {
+        format!("{}: {name}", self.specimen.design.name)
+    }
+
+    fn scoped(&self, name: &str, scoped: &Scoped) -> Result<(), Failure> {
+        let head = if scoped.takes_head { self.export.light.head()? } else { 0.0 };
+        let scope = scoped.scope.clone().with_head(head);
+        let view = self.export.view.view(scoped.side)?;
+        let progress = Progress::new(&self.title(name));
+        let watch = progress.watch();
+        match self.export.light.tracer(&view)? {
+            TracerName::Beam => self.by_beams(name, &scope, &view, &watch),
+            TracerName::Ray => self.by_rays(name, &scope, &view, &watch),
+        }
+    }
+
+    fn by_beams(&self, name: &str, scope: &Scope, view: &View, watch: Watch) -> Result<(), Failure> {
+        let polytope = &self.specimen.stone.polytope;
+        let options = self.export.light.beams(UNRESOLVED)?;
+        let beams = beam::trace(polytope, self.medium, view, &options, watch)?;
+        let film = Film::around(polytope, &beams.view, self.export.size);
+        let told = self.told(name, &format!("exact beams, unresolved {:.2e}", beams.unresolved()));
+        if self.wants(Format::Png) {
+            let palette = Palette::of(scope);
+            self.paint(
+                &self.path(name, "png"),
+                &Layer::energy(&beams, scope),
+                &film,
+                (&palette, &told),
+                watch,
+            )?;
+            let strongest = Layer::strongest(&beams, scope);
+            self.paint(
+                &self.path(&format!("{name}-strongest"), "png"),
+                &strongest,
+                &film,
+                (&palette, &told),
+                watch,
+            )?;
+        }
+        if self.wants(Format::Exr) {
+            let path = self.path(name, "exr");
+            write_exr(&path, &Layer::full(&beams, scope), &film, &told, watch)?;
+            self.done(&path)?;
+        }
+        if self.wants(Format::Svg) {
+            self.drawn(name, scope, view, (&beams, &options), watch)?;
+        }
+        Ok(())
+    }
+
+    fn drawn(
+        &self,
+        name: &str,
+        scope: &Scope,
+        view: &View,
+        (beams, options): (&Beams, &beam::Options),
+        watch: Watch,
+    ) -> Result<(), Failure> {
+        let stone = &self.specimen.stone;
+        let title = self.title(name);
+        let strongest = vector::strongest(stone, beams, scope, &format!("{title}, strongest exits"));
+        self.text(&self.path(&format!("{name}-strongest"), "svg"), &strongest.to_string())?;
+        let coarse = beam::Options { unresolved: options.unresolved.max(DRAWN_UNRESOLVED), ..*options };
+        let beams = beam::trace(&stone.polytope, self.medium, view, &coarse, watch)?;
+        let energy = vector::energy(stone, &beams, scope, &format!("{title}, energy"));
+        self.text(&self.path(name, "svg"), &energy.to_string())
+    }
+
+    fn paint(
+        &self,
+        path: &Path,
+        layer: &Layer,
+        film: &Film,
+        (palette, told): (&Palette, &str),
+        watch: Watch,
+    ) -> Result<(), Failure> {
+        write_png(path, (film.size, film.size), told, |png| {
+            paint(layer, film, watch, |rows| encode(rows, palette, |pixels| png.push(pixels)))
+        })?;
+        self.done(path)
+    }
+
+    fn by_rays(&self, name: &str, scope: &Scope, view: &View, watch: Watch) -> Result<(), Failure> {
+        if self.wants(Format::Exr) || self.wants(Format::Svg) {
+            eprintln!("note: {name}: rays make PNG pictures only; SVG and EXR need exact beams");
+        }
+        if !self.wants(Format::Png) {
+            return Ok(());
+        }
+        let polytope = &self.specimen.stone.polytope;
+        let options = self.export.light.rays(UNRESOLVED)?;
+        let film = Film::around(polytope, &view.basis(), self.export.size);
+        let palette = Palette::of(scope);
+        let told = self.told(name, &format!("point rays, each followed to {:.2e}", options.least_weight));
+        let strongest = format!("{name}-strongest");
+        for (reading, name) in [(Reading::Energy, name), (Reading::Strongest, &strongest)] {
+            let path = self.path(name, "png");
+            let manner = (reading, options, RAYS_PER_SIDE);
+            write_png(&path, (film.size, film.size), &told, |png| {
+                let push = |rows: &Rows| encode(rows, &palette, |pixels| png.push(pixels));
+                by_rays::trace(polytope, self.medium, view, scope, &film, manner, watch, push)
+            })?;
+            self.done(&path)?;
+        }
+        Ok(())
+    }
+
+    fn told(&self, name: &str, tracer: &str) -> String {
+        let polarised = if self.export.light.unpolarised { "unpolarised" } else { "polarised" };
+        format!("{}; index {}, {polarised}; {tracer}", self.title(name), self.medium.index)
+    }
+}
+
+fn encode(
+    rows: &Rows,
+    palette: &Palette,
+    mut push: impl FnMut(&[u8]) -> Result<(), WriteError>,
+) -> Result<(), WriteError> {
+    let mut pixels = Vec::with_capacity(3 * rows.width as usize * rows.count as usize);
+    (rows.first..rows.first + rows.count).for_each(|y| palette.encode(rows, y, &mut pixels));
+    push(&pixels)
+}

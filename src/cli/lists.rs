@@ -1,0 +1,117 @@
+//! `materials`, `cuts`, `scopes`: what the program knows by name.
+
+use super::{Failure, json, print};
+use crate::io::{cut_file, scope_file};
+use crate::optics::{line, materials};
+use crate::picture::{Picture, named, names};
+use crate::scene::Scope;
+use clap::Args;
+use serde_json::{Value, json};
+use std::fmt::Write;
+
+/// The cuts that come with the program, as their files in `cuts/`.
+const CUTS: [(&str, &str); 6] = [
+    ("tolkowsky", include_str!("../../cuts/tolkowsky.toml")),
+    ("modern-ideal", include_str!("../../cuts/modern-ideal.toml")),
+    ("steep-deep", include_str!("../../cuts/steep-deep.toml")),
+    ("shallow", include_str!("../../cuts/shallow.toml")),
+    ("fisheye", include_str!("../../cuts/fisheye.toml")),
+    ("sixty-sixty", include_str!("../../cuts/sixty-sixty.toml")),
+];
+
+/// The file of a cut that comes with the program.
+pub fn built_in(name: &str) -> Option<&'static str> {
+    CUTS.iter().find(|(n, _)| *n == name).map(|(_, text)| *text)
+}
+
+#[derive(Debug, Args)]
+pub struct List {
+    /// Print JSON
+    #[arg(long)]
+    json: bool,
+}
+
+impl List {
+    pub fn materials(&self) -> Result<(), Failure> {
+        if self.json {
+            let entry = |m: &crate::optics::Material| {
+                json!({
+                    "name": m.name,
+                    "description": m.description,
+                    "n_D": m.index(line::SODIUM_D),
+                    "dispersion_B_G": m.dispersion.dispersion_b_g(),
+                    "source": m.source,
+                    "valid_nm": m.valid_nm,
+                })
+            };
+            return print(&json(&Value::Array(materials().iter().map(entry).collect())));
+        }
+        let mut text = format!("{:<20}{:>8}{:>9}  {}", "material", "n_D", "B-G", "source");
+        for m in materials() {
+            let (n, b_g) = (m.index(line::SODIUM_D), m.dispersion.dispersion_b_g());
+            let _ = write!(text, "\n{:<20}{n:>8.4}{b_g:>9.4}  {}", m.name, m.source);
+        }
+        print(&text)
+    }
+}
+
+#[derive(Debug, Args)]
+pub struct Cuts {
+    /// Print the file of this cut
+    name: Option<String>,
+    /// Print JSON
+    #[arg(long)]
+    json: bool,
+}
+
+impl Cuts {
+    pub fn run(&self) -> Result<(), Failure> {
+        if let Some(name) = &self.name {
+            let known = CUTS.map(|(n, _)| n).join(", ");
+            let text =
+                built_in(name).ok_or_else(|| Failure::Input(format!("no cut '{name}'; known: {known}")))?;
+            return print(text.trim_end());
+        }
+        let mut rows = vec![];
+        for (name, text) in CUTS {
+            let design = cut_file::parse(text, name).map_err(|e| Failure::Input(e.to_string()))?;
+            rows.push((name, design.name, design.source.unwrap_or_default()));
+        }
+        if self.json {
+            let entry = |(name, title, source)| json!({ "name": name, "title": title, "source": source });
+            return print(&json(&Value::Array(rows.into_iter().map(entry).collect())));
+        }
+        let line = |(name, title, source)| format!("{name:<14}{title:<20}{source}");
+        print(&rows.into_iter().map(line).collect::<Vec<_>>().join("\n"))
+    }
+}
+
+#[derive(Debug, Args)]
+pub struct Scopes {
+    /// Print this scope as a file, which `export --scope` takes
+    name: Option<String>,
+}
+
+impl Scopes {
+    pub fn run(&self) -> Result<(), Failure> {
+        let Some(name) = &self.name else {
+            let line = |scope: Scope| {
+                let band = |b: &crate::scene::Band| format!("{} from {}", b.name, b.from);
+                format!("{:<14}{}", scope.name, scope.bands.iter().map(band).collect::<Vec<_>>().join(", "))
+            };
+            return print(&names().into_iter().filter_map(scope).map(line).collect::<Vec<_>>().join("\n"));
+        };
+        let known = || names().into_iter().filter(|n| scope(n).is_some()).collect::<Vec<_>>().join(", ");
+        let scope =
+            scope(name).ok_or_else(|| Failure::Input(format!("no scope '{name}'; known: {}", known())))?;
+        let text = scope_file::text(&scope).map_err(|e| Failure::Output(e.to_string()))?;
+        print(text.trim_end())
+    }
+}
+
+fn scope(name: &str) -> Option<Scope> {
+    match named(name)? {
+        Picture::Scoped(scoped) => Some(scoped.scope),
+        Picture::Profile | Picture::Diagram => None,
+    }
+}

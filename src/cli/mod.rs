@@ -1,0 +1,133 @@
+//! Floor 6: the command line. One file a command; `options` holds what several take, `specimen` what they work on.
+
+mod export;
+mod info;
+mod lists;
+mod measure;
+mod options;
+mod progress;
+mod specimen;
+
+use crate::io::WriteError;
+use crate::trace::Stopped;
+use clap::{Parser, Subcommand};
+use std::process::ExitCode;
+
+/// Why a command did not do all that was asked; the exit code follows from it.
+#[derive(Debug, thiserror::Error)]
+enum Failure {
+    /// The input is at fault: exit code 1. (2 is a command line that clap does not take.)
+    #[error("{0}")]
+    Input(String),
+    /// The output could not be written: exit code 3.
+    #[error("{0}")]
+    Output(String),
+    /// Stopped by the user: exit code 130, as shells have it.
+    #[error("stopped")]
+    Stopped,
+}
+
+impl From<WriteError> for Failure {
+    fn from(error: WriteError) -> Self {
+        match error {
+            WriteError::Stopped(_) => Self::Stopped,
+            error @ WriteError::Io { .. } => Self::Output(error.to_string()),
+        }
+    }
+}
+
+impl From<Stopped> for Failure {
+    fn from(_: Stopped) -> Self {
+        Self::Stopped
+    }
+}
+
+impl Failure {
+    fn code(&self) -> u8 {
+        match self {
+            Self::Input(_) => 1,
+            Self::Output(_) => 3,
+            Self::Stopped => 130,
+        }
+    }
+}
+
+/// Exact light in gemstone cuts: ASET, Ideal-Scope, hearts and arrows, with an error bound on every figure.
+#[derive(Debug, Parser)]
+#[command(name = "brillianteer", version, after_help = EXIT_CODES)]
+struct Arguments {
+    #[command(subcommand)]
+    command: Command,
+}
+
+const EXIT_CODES: &str = "Exit codes: 0 done, 1 an input is at fault, 2 the command line is, 3 an output could not be \
+    written, 130 stopped.";
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    /// Draw a stone in every scope, with its profile, facet diagram and figures
+    Export(export::Export),
+    /// Measure the light of one view: what comes from where, with its error
+    Measure(measure::Measure),
+    /// Show a stone's geometry and proportions
+    Info(info::Info),
+    /// List the materials known by name
+    Materials(lists::List),
+    /// List the cuts that come with the program, or print one as a cut file to start from
+    Cuts(lists::Cuts),
+    /// List the scopes, or print one as a file to start from
+    Scopes(lists::Scopes),
+}
+
+/// Runs the program with the process's arguments.
+pub fn main() -> ExitCode {
+    let arguments = Arguments::parse();
+    progress::stop_on_interrupt();
+    let result = match arguments.command {
+        Command::Export(export) => export.run(),
+        Command::Measure(measure) => measure.run(),
+        Command::Info(info) => info.run(),
+        Command::Materials(list) => list.materials(),
+        Command::Cuts(cuts) => cuts.run(),
+        Command::Scopes(scopes) => scopes.run(),
+    };
+    match result {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(failure) => {
+            eprintln!("error: {failure}");
+            ExitCode::from(failure.code())
+        }
+    }
+}
+
+/// Does `work` for each file; a file at fault does not keep the others from being done.
+fn each_file(files: &[String], mut work: impl FnMut(&str) -> Result<(), Failure>) -> Result<(), Failure> {
+    let mut failed = Vec::new();
+    for file in files {
+        match work(file) {
+            Err(Failure::Input(message)) if files.len() > 1 => {
+                eprintln!("error: {message}");
+                failed.push(file.as_str());
+            }
+            other => other?,
+        }
+    }
+    if failed.is_empty() {
+        return Ok(());
+    }
+    Err(Failure::Input(format!("{} of {} files failed: {}", failed.len(), files.len(), failed.join(", "))))
+}
+
+/// Prints lines to standard output; a reader that has gone away (`| head`) is no error.
+fn print(text: &str) -> Result<(), Failure> {
+    use std::io::{ErrorKind, Write};
+    match writeln!(std::io::stdout().lock(), "{text}") {
+        Err(e) if e.kind() != ErrorKind::BrokenPipe => Err(Failure::Output(format!("standard output: {e}"))),
+        _ => Ok(()),
+    }
+}
+
+/// JSON for people and programs: indented, keys in the order given.
+fn json(value: &serde_json::Value) -> String {
+    format!("{value:#}")
+}

@@ -1,0 +1,187 @@
+//! What several commands take: how to look at a stone, and how to trace it.
+
+use super::Failure;
+use super::specimen::Specimen;
+use crate::optics::line;
+use crate::scene::{Lean, Medium, Projection, Side, View};
+use crate::trace::{beam, ray};
+use clap::{Args, ValueEnum};
+use serde_json::{Value, json};
+
+/// From where the stone is seen.
+#[derive(Debug, Clone, Args)]
+#[command(next_help_heading = "View")]
+pub struct ViewOptions {
+    /// The side of the stone that faces the eye
+    #[arg(long, value_enum, default_value_t = SideName::Table)]
+    pub side: SideName,
+    /// Tilt the stone by DEGREES under a fixed eye and scope, its table leaning toward --azimuth
+    #[arg(
+        long,
+        value_name = "DEGREES",
+        default_value_t = 0.0,
+        allow_negative_numbers = true,
+        conflicts_with = "eye_tilt"
+    )]
+    pub tilt: f64,
+    /// Move the eye by DEGREES toward --azimuth; the light stays with the stone
+    #[arg(long, value_name = "DEGREES", default_value_t = 0.0, allow_negative_numbers = true)]
+    pub eye_tilt: f64,
+    /// The azimuth of a tilt, in the stone's frame (0 is the middle of bezel 1)
+    #[arg(long, value_name = "DEGREES", default_value_t = 0.0, allow_negative_numbers = true)]
+    pub azimuth: f64,
+    /// See the stone in perspective from DISTANCE, in girdle radii (traced by rays)
+    #[arg(long, value_name = "DISTANCE")]
+    pub perspective: Option<f64>,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum SideName {
+    Table,
+    Culet,
+}
+
+impl ViewOptions {
+    /// The view of a side; `side` wins over the option where a picture is made for one side.
+    pub fn view(&self, side: Option<Side>) -> Result<View, Failure> {
+        let own = if self.side == SideName::Table { Side::Table } else { Side::Culet };
+        let (lean, tilt) =
+            if self.eye_tilt == 0.0 { (Lean::Stone, self.tilt) } else { (Lean::Eye, self.eye_tilt) };
+        if !(tilt.abs() <= 90.0) {
+            return Err(Failure::Input(format!(
+                "a tilt of {tilt} degrees is not from -90 to 90; use --side to turn over"
+            )));
+        }
+        if !self.azimuth.is_finite() {
+            return Err(Failure::Input(format!("an azimuth of {} is not a finite angle", self.azimuth)));
+        }
+        let projection = match self.perspective {
+            None => Projection::Orthographic,
+            Some(distance) if distance >= 2.0 && distance.is_finite() => Projection::Perspective { distance },
+            Some(d) => {
+                return Err(Failure::Input(format!(
+                    "an eye at {d} girdle radii is too near; give 2 or more"
+                )));
+            }
+        };
+        let azimuth = self.azimuth.rem_euclid(360.0).to_radians();
+        Ok(View { side: side.unwrap_or(own), lean, tilt: tilt.to_radians(), azimuth, projection })
+    }
+
+    /// The view as figures report it.
+    pub fn json(&self, view: &View) -> Value {
+        json!({
+            "side": if view.side == Side::Table { "table" } else { "culet" },
+            "tilt": self.tilt,
+            "eye_tilt": self.eye_tilt,
+            "azimuth": self.azimuth,
+            "projection": self.perspective.map_or_else(|| json!("orthographic"), |d| json!({ "perspective": d })),
+        })
+    }
+}
+
+/// How the light is traced.
+#[derive(Debug, Clone, Args)]
+#[command(next_help_heading = "Light")]
+pub struct LightOptions {
+    /// Use this refractive index instead of the material's
+    #[arg(long, value_name = "N", conflicts_with = "wavelength")]
+    pub index: Option<f64>,
+    /// Take the material's index and absorption at this wavelength in nm [default: 589.3, sodium's D line]
+    #[arg(long, value_name = "NM")]
+    pub wavelength: Option<f64>,
+    /// Shut out the light within DEGREES of the scope's axis, as the observer's head does
+    #[arg(long, value_name = "DEGREES", default_value_t = 0.0)]
+    pub head: f64,
+    /// Follow the beams until no more than this part of the light is unresolved
+    #[arg(long, value_name = "PART")]
+    pub unresolved: Option<f64>,
+    /// Let every surface see unpolarised light, to compare with programs that do
+    #[arg(long)]
+    pub unpolarised: bool,
+    /// Trace by exact beams, or by point rays as a check [default: beam, or ray for a perspective]
+    #[arg(long, value_enum)]
+    pub tracer: Option<TracerName>,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum TracerName {
+    Beam,
+    Ray,
+}
+
+impl TracerName {
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Beam => "beam",
+            Self::Ray => "ray",
+        }
+    }
+}
+
+impl LightOptions {
+    /// The tracer to use, checked against the view.
+    pub fn tracer(&self, view: &View) -> Result<TracerName, Failure> {
+        let flat = view.projection == Projection::Orthographic;
+        match self.tracer {
+            Some(TracerName::Beam) if !flat => Err(Failure::Input(
+                "exact beams are for parallel rays: leave out --perspective, or use --tracer ray".into(),
+            )),
+            Some(tracer) => Ok(tracer),
+            None => Ok(if flat { TracerName::Beam } else { TracerName::Ray }),
+        }
+    }
+
+    /// The stone's medium at the wavelength chosen.
+    pub fn medium(&self, specimen: &Specimen) -> Result<Medium, Failure> {
+        let wavelength = self.wavelength.unwrap_or(line::SODIUM_D);
+        if !(100.0..=100_000.0).contains(&wavelength) {
+            return Err(Failure::Input(format!(
+                "a wavelength of {wavelength} nm is not light that stones are seen in"
+            )));
+        }
+        let material = &specimen.material;
+        let index = match self.index {
+            Some(index) => index,
+            None => material
+                .dispersion
+                .try_index(wavelength)
+                .map_err(|e| Failure::Input(format!("{}: {}: {e}", specimen.path, material.name)))?,
+        };
+        if !(1.0..=5.0).contains(&index) {
+            return Err(Failure::Input(format!("an index of {index} is not from 1 (air) to 5")));
+        }
+        let radius_mm = specimen.design.diameter_mm / 2.0;
+        Ok(Medium { index, absorption: material.absorption.coefficient(wavelength) * radius_mm })
+    }
+
+    /// The head's half angle, checked.
+    pub fn head(&self) -> Result<f64, Failure> {
+        if (0.0..90.0).contains(&self.head) {
+            return Ok(self.head);
+        }
+        Err(Failure::Input(format!("a head of half angle {} degrees is not from 0 to below 90", self.head)))
+    }
+
+    fn bound(&self, default: f64) -> Result<f64, Failure> {
+        let bound = self.unresolved.unwrap_or(default);
+        if bound > 0.0 && bound < 1.0 {
+            return Ok(bound);
+        }
+        Err(Failure::Input(format!(
+            "--unresolved {bound}: give a part of the light between 0 and 1, such as 0.001"
+        )))
+    }
+
+    /// For beams, with the bound that the command has where none is given.
+    pub fn beams(&self, default: f64) -> Result<beam::Options, Failure> {
+        let unresolved = self.bound(default)?;
+        Ok(beam::Options { unresolved, polarised: !self.unpolarised, ..beam::Options::default() })
+    }
+
+    /// For rays: a ray is given up when no more than the bound is left of it.
+    pub fn rays(&self, default: f64) -> Result<ray::Options, Failure> {
+        let least_weight = self.bound(default)?;
+        Ok(ray::Options { least_weight, polarised: !self.unpolarised, ..ray::Options::default() })
+    }
+}

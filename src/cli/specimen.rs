@@ -1,0 +1,89 @@
+//! The stone that a command works on, read and built.
+
+use super::Failure;
+use crate::cut::Design;
+use crate::io::cut_file;
+use crate::math::PolytopeError;
+use crate::optics::Material;
+use crate::scene::Stone;
+use std::path::Path;
+
+/// A cut file, and the stone that it describes.
+pub struct Specimen {
+    /// As given on the command line.
+    pub path: String,
+    /// What the file says.
+    pub design: Design,
+    /// Its solid.
+    pub stone: Stone,
+    /// What it is made of.
+    pub material: Material,
+}
+
+impl Specimen {
+    /// Reads a cut file, or takes a cut that comes with the program by its name; builds the stone, and warns of what
+    /// is odd.
+    pub fn load(path: &str) -> Result<Self, Failure> {
+        let input = |e: &dyn std::fmt::Display| Failure::Input(format!("{path}: {e}"));
+        let design = match super::lists::built_in(path).filter(|_| !Path::new(path).exists()) {
+            Some(text) => cut_file::parse(text, path).map_err(|e| Failure::Input(e.to_string()))?,
+            None => cut_file::read(path).map_err(|e| Failure::Input(e.to_string()))?,
+        };
+        let facets = design.facets().map_err(|e| input(&e))?;
+        let stone = Stone::new(&facets).map_err(|e| input(&explained(&e, &facets)))?;
+        let material = design.material.material().map_err(|e| input(&e))?;
+        let specimen = Self { path: path.into(), design, stone, material };
+        specimen.warn(&facets)?;
+        Ok(specimen)
+    }
+
+    /// The file's name without its ending, for the files made of it.
+    pub fn stem(&self) -> String {
+        let stem = Path::new(&self.path).file_stem();
+        stem.map_or_else(|| "stone".into(), |s| s.to_string_lossy().into_owned())
+    }
+
+    fn warn(&self, facets: &[(String, crate::math::Plane)]) -> Result<(), Failure> {
+        let odd = self.design.warnings().map_err(|e| Failure::Input(format!("{}: {e}", self.path)))?;
+        odd.iter().for_each(|w| eprintln!("warning: {}: {w}", self.path));
+        let polytope = &self.stone.polytope;
+        for &(dropped, kept) in polytope.merged() {
+            let (dropped, kept) = (&facets[dropped].0, &facets[kept].0);
+            eprintln!(
+                "warning: {}: facet '{dropped}' lies in the plane of '{kept}' and is one with it",
+                self.path
+            );
+        }
+        let names: Vec<&str> = polytope.redundant().iter().map(|&i| facets[i].0.as_str()).collect();
+        if !names.is_empty() {
+            eprintln!("warning: {}: these facets do not reach the stone: {}", self.path, listed(&names));
+        }
+        Ok(())
+    }
+}
+
+/// A geometric error with the facets' names in place of their numbers.
+fn explained(error: &PolytopeError, facets: &[(String, crate::math::Plane)]) -> String {
+    let name = |i: &usize| facets[*i].0.as_str();
+    let names = match error {
+        PolytopeError::Unbounded { planes } | PolytopeError::Empty { planes } => {
+            planes.iter().map(name).collect()
+        }
+        PolytopeError::NotFinite { plane }
+        | PolytopeError::ZeroNormal { plane }
+        | PolytopeError::Degenerate { plane } => vec![name(plane)],
+        PolytopeError::TooFew { .. } => vec![],
+    };
+    if names.is_empty() {
+        error.to_string()
+    } else {
+        format!("{error} (planes count from 0; here: {})", listed(&names))
+    }
+}
+
+/// Names in a row, no more than a line of them.
+fn listed(names: &[&str]) -> String {
+    const MOST: usize = 8;
+    let shown = names.iter().take(MOST).map(|n| format!("'{n}'")).collect::<Vec<_>>().join(", ");
+    if names.len() > MOST { format!("{shown} and {} more", names.len() - MOST) } else { shown }
+}

@@ -1,0 +1,248 @@
+//! Drawings as pixels: SVG text rasterised with fonts the program carries, so that it looks the same everywhere.
+
+use resvg::tiny_skia::{Color, Pixmap, Transform};
+use resvg::usvg::{self, ImageHrefResolver, Options, Tree, fontdb};
+use std::sync::Arc;
+
+/// The most pixels along either side.
+pub const MOST_ALONG_A_SIDE: u32 = 16_384;
+
+/// Why a drawing could not be rasterised.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+pub enum DrawingError {
+    /// The text is no SVG.
+    #[error("the drawing is no SVG: {reason}")]
+    NotSvg {
+        /// What the parser found.
+        reason: String,
+    },
+    /// The picture would be empty or too large.
+    #[error(
+        "a drawing of {width} by {height} pixels: each side must be from 1 to {MOST_ALONG_A_SIDE}; change the width"
+    )]
+    Size {
+        /// Pixels from left to right.
+        width: u32,
+        /// Pixels from top to bottom, which follow from the width.
+        height: u32,
+    },
+}
+
+/// Rasterises an SVG at a width in pixels, on white: (width, height, RGB with a byte each, rows from the top).
+///
+/// Only the program's own fonts are used, and nothing outside the text is read.
+///
+/// # Errors
+/// Where the text is no SVG, or the picture would have a side of no pixels or more than [`MOST_ALONG_A_SIDE`].
+pub fn rasterize(svg: &str, width: u32) -> Result<(u32, u32, Vec<u8>), DrawingError> {
+    let tree = parse(svg)?;
+    let scale = width as f32 / tree.size().width();
+    let height = (tree.size().height() * scale).round() as u32;
+    let allowed = 1..=MOST_ALONG_A_SIDE;
+    let fits = allowed.contains(&width) && allowed.contains(&height);
+    let pixmap = if fits { Pixmap::new(width, height) } else { None };
+    let mut pixmap = pixmap.ok_or(DrawingError::Size { width, height })?;
+    pixmap.fill(Color::WHITE);
+    resvg::render(&tree, Transform::from_scale(scale, scale), &mut pixmap.as_mut());
+    let rgb = pixmap.data().chunks_exact(4).flat_map(|p| [p[0], p[1], p[2]]).collect();
+    Ok((width, height, rgb))
+}
+
+fn parse(svg: &str) -> Result<Tree, DrawingError> {
+    let mut fonts = fontdb::Database::new();
+    for font in [epaint_default_fonts::UBUNTU_LIGHT, epaint_default_fonts::HACK_REGULAR] {
+        fonts.load_font_data(font.to_vec());
+    }
+    fonts.set_sans_serif_family(FAMILY);
+    let nowhere =
+        ImageHrefResolver { resolve_data: Box::new(|_, _, _| None), resolve_string: Box::new(|_, _| None) };
+    let options = Options {
+        font_family: FAMILY.to_owned(),
+        fontdb: Arc::new(fonts),
+        image_href_resolver: nowhere,
+        ..Options::default()
+    };
+    usvg::Tree::from_str(svg, &options).map_err(|e| DrawingError::NotSvg { reason: e.to_string() })
+}
+
+/// Ubuntu Light; the second font stands in for letters it lacks.
+const FAMILY: &str = "Ubuntu";
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::cut::{Crown, LowerHalf, Pavilion, RoundBrilliant};
+    use crate::math::Plane;
+    use crate::picture::{diagram, profile};
+    use crate::scene::Stone;
+    use glam::DVec3;
+    use usvg::{Node, Rect};
+
+    const TOLKOWSKY: RoundBrilliant = RoundBrilliant {
+        table: 53.0,
+        crown: Crown::Angle(34.5),
+        pavilion: Pavilion::Angle(40.75),
+        star_length: 50.0,
+        lower_half: LowerHalf::Radial(75.0),
+        girdle_thickness: 3.0,
+        girdle_facets: 96,
+        culet: 0.0,
+    };
+
+    /// Brilliants far beyond what is cut: every combination that can be of small, usual and large proportions.
+    fn brilliants() -> Vec<RoundBrilliant> {
+        let mut all = vec![];
+        for (table, star_length) in [(6.0, 30.0), (53.0, 50.0), (53.0, 98.0), (80.0, 90.0)] {
+            for (crown, pavilion) in
+                [(3.0, 3.0), (3.0, 64.0), (15.0, 12.0), (34.5, 40.75), (64.0, 3.0), (64.0, 60.0)]
+            {
+                for (girdle_thickness, lower_half) in [(0.0, 75.0), (3.0, 3.0), (8.0, 98.0)] {
+                    all.extend([0.0, 0.3, 8.0, 40.0, 88.0].map(|culet| RoundBrilliant {
+                        table,
+                        star_length,
+                        crown: Crown::Angle(crown),
+                        pavilion: Pavilion::Angle(pavilion),
+                        girdle_thickness,
+                        lower_half: LowerHalf::Radial(lower_half),
+                        girdle_facets: 24,
+                        culet,
+                    }));
+                }
+            }
+        }
+        all.retain(|given| given.derived().is_ok());
+        assert!(all.len() > 200, "{} brilliants", all.len());
+        all
+    }
+
+    fn built(given: &RoundBrilliant) -> Stone {
+        Stone::new(&given.facets().unwrap()).unwrap()
+    }
+
+    /// A stone of planes at distance 1 from the origin, named as given.
+    fn planes(normals: &[(&str, [f64; 3])]) -> Stone {
+        let plane = |&(name, n): &(&str, [f64; 3])| {
+            let plane = Plane::new(DVec3::from_array(n), 1.0).normalized().unwrap();
+            (name.to_owned(), plane)
+        };
+        Stone::new(&normals.iter().map(plane).collect::<Vec<_>>()).unwrap()
+    }
+
+    fn odd_stones() -> Vec<Stone> {
+        let tetrahedron = [
+            ("a", [1.0, 1.0, 1.0]),
+            ("b", [1.0, -1.0, -1.0]),
+            ("c", [-1.0, 1.0, -1.0]),
+            ("d", [-1.0, -1.0, 1.0]),
+        ];
+        let long = "a name much longer than any facet, or any list of facets, could ever have room for";
+        let slab = [
+            (long, [0.0, 0.0, 9.0]),
+            ("<&\"'>", [0.0, 0.0, -9.0]),
+            ("tab\there", [1.0, 0.1, 0.0]),
+            (long, [-1.0, 0.1, 0.1]),
+            ("面", [0.0, 1.0, 0.0]),
+            ("Ω", [0.0, -1.0, 0.0]),
+        ];
+        let needle = slab.map(|(name, [x, y, z])| (name, [3.0 * x, 3.0 * y, z / 90.0]));
+        vec![planes(&tetrahedron), planes(&slab), planes(&needle)]
+    }
+
+    fn texts(group: &usvg::Group, found: &mut Vec<Rect>) {
+        for node in group.children() {
+            match node {
+                Node::Group(inner) => texts(inner, found),
+                Node::Text(text) => found.push(text.abs_bounding_box()),
+                _ => {}
+            }
+        }
+    }
+
+    /// Parses a drawing and checks that its text can be read.
+    fn assert_legible(svg: &str) {
+        let tree = parse(svg).unwrap();
+        let mut boxes = vec![];
+        texts(tree.root(), &mut boxes);
+        assert!(boxes.len() > 4);
+        let size = tree.size();
+        for (k, a) in boxes.iter().enumerate() {
+            let inside =
+                a.left() > 0.0 && a.top() > 0.0 && a.right() < size.width() && a.bottom() < size.height();
+            assert!(inside, "{a:?} is outside {size:?}: {svg}");
+            for b in &boxes[..k] {
+                let over = (a.right().min(b.right()) - a.left().max(b.left()))
+                    .min(a.bottom().min(b.bottom()) - a.top().max(b.top()));
+                assert!(over < 1.0, "{a:?} overlaps {b:?}: {svg}");
+            }
+        }
+    }
+
+    #[test]
+    fn no_text_of_a_profile_leaves_it_or_overlaps_another_whatever_the_proportions() {
+        for given in brilliants() {
+            assert_legible(&profile(&built(&given), "A title", Some(&given)).to_string());
+        }
+    }
+
+    #[test]
+    fn no_text_of_a_facet_diagram_leaves_it_or_overlaps_another() {
+        for given in brilliants().iter().step_by(7) {
+            assert_legible(&diagram(&built(given), &"A long title ".repeat(20)).to_string());
+        }
+    }
+
+    #[test]
+    fn stones_without_a_table_or_with_strange_names_are_drawn_legibly() {
+        for stone in odd_stones() {
+            assert_legible(&diagram(&stone, "A <title> & more").to_string());
+            assert_legible(&profile(&stone, "\u{1}", None).to_string());
+        }
+    }
+
+    #[test]
+    fn a_drawing_keeps_its_shape_and_is_drawn_in_colour_on_white() {
+        let svg = profile(&built(&TOLKOWSKY), "Tolkowsky", Some(&TOLKOWSKY)).to_string();
+        let (width, height, rgb) = rasterize(&svg, 1000).unwrap();
+        let size = parse(&svg).unwrap().size();
+        assert_eq!(width, 1000);
+        assert_eq!(height, (size.height() / size.width() * 1000.0).round() as u32);
+        assert_eq!(rgb.len(), (width * height * 3) as usize);
+        assert_eq!(rgb[..3], [255; 3]);
+        let blue = rgb.chunks_exact(3).filter(|p| p[2] > p[0].saturating_add(40)).count();
+        assert!(blue > 1000, "{blue} pixels of dimensions");
+    }
+
+    #[test]
+    fn every_letter_that_drawings_use_is_in_the_fonts() {
+        let picture = |text: &str| {
+            let svg = format!(
+                "<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 40 40'><text y='30'>{text}</text></svg>"
+            );
+            rasterize(&svg, 40).unwrap().2
+        };
+        let (blank, unknown) = (picture(""), picture("\u{10ffff}"));
+        for letter in ('!'..='~').filter(|c| !"<&".contains(*c)).chain("°·–…éΩя".chars()) {
+            let drawn = picture(&letter.to_string());
+            assert!(drawn != blank && drawn != unknown, "{letter}");
+        }
+    }
+
+    #[test]
+    fn what_is_no_svg_is_an_error() {
+        for text in
+            ["", "no", "<svg", "<html/>", "<svg xmlns='http://www.w3.org/2000/svg' width='0' height='0'/>"]
+        {
+            assert!(matches!(rasterize(text, 100), Err(DrawingError::NotSvg { .. })), "{text}");
+        }
+    }
+
+    #[test]
+    fn empty_and_giant_pictures_are_errors_that_name_the_size() {
+        let svg = "<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 10 20'/>";
+        for width in [0, 10_000, u32::MAX] {
+            let error = rasterize(svg, width).unwrap_err();
+            assert!(error.to_string().starts_with(&format!("a drawing of {width} by ")), "{error}");
+        }
+        assert_eq!(rasterize(svg, 8192).map(|(_, height, _)| height), Ok(16_384));
+    }
+}

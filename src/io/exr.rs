@@ -1,0 +1,50 @@
+//! OpenEXR: what every pixel holds, in floating point, a channel for each part of the light.
+
+use super::atomic::{WriteError, write};
+use crate::picture::{Film, Layer, paint};
+use crate::trace::Watch;
+use exr::prelude::{
+    AnyChannel, AnyChannels, Encoding, FlatSamples, Image, ImageAttributes, Layer as ExrLayer,
+    LayerAttributes, Text, WritableImage,
+};
+use smallvec::SmallVec;
+use std::path::Path;
+
+/// Paints a layer and writes its channels, as 32-bit numbers that are linear in energy.
+///
+/// # Errors
+/// When the file system refuses, or `watch` asks to stop.
+pub fn write_exr(
+    path: &Path,
+    layer: &Layer,
+    film: &Film,
+    description: &str,
+    watch: Watch,
+) -> Result<(), WriteError> {
+    let pixels = film.size as usize * film.size as usize;
+    let mut channels: Vec<Vec<f32>> = layer.channels.iter().map(|_| Vec::with_capacity(pixels)).collect();
+    paint(layer, film, watch, |rows| -> Result<(), WriteError> {
+        for y in rows.first..rows.first + rows.count {
+            for (c, channel) in channels.iter_mut().enumerate() {
+                channel.extend(rows.row(y, c).iter().map(|&v| v as f32));
+            }
+        }
+        Ok(())
+    })?;
+    let named = layer.channels.iter().zip(channels);
+    let list: SmallVec<[AnyChannel<FlatSamples>; 4]> =
+        named.map(|(name, values)| AnyChannel::new(name.as_str(), FlatSamples::F32(values))).collect();
+    let size = (film.size as usize, film.size as usize);
+    let mut attributes = LayerAttributes::named("light");
+    attributes.comments = Text::new_or_none(description);
+    attributes.software_name = Text::new_or_none("Brillianteer");
+    let data = ExrLayer::new(size, attributes, Encoding::FAST_LOSSLESS, AnyChannels::sort(list));
+    let mut image = Image::from_layer(data);
+    image.attributes = ImageAttributes::with_size(size);
+    write(path, |file| {
+        image.write().to_buffered(file).map_err(|e| match e {
+            exr::error::Error::Io(e) => WriteError::io(path, e),
+            other => WriteError::io(path, std::io::Error::other(other)),
+        })
+    })
+}

@@ -1,0 +1,52 @@
+//! PNG pictures, row by row, so that they may be larger than memory.
+
+use super::atomic::{WriteError, write};
+use std::io::Write;
+use std::path::Path;
+
+/// The largest side of a picture, in pixels.
+pub const MOST_PIXELS: u32 = 16_384;
+
+/// Takes the rows of a picture: eight-bit red, green, blue.
+pub struct PngRows<'a> {
+    path: &'a Path,
+    stream: &'a mut dyn Write,
+}
+
+impl PngRows<'_> {
+    /// Adds pixels, from left to right and top to bottom.
+    ///
+    /// # Errors
+    /// When the file system refuses.
+    pub fn push(&mut self, pixels: &[u8]) -> Result<(), WriteError> {
+        self.stream.write_all(pixels).map_err(|e| WriteError::io(self.path, e))
+    }
+}
+
+/// Writes an sRGB picture; `fill` pushes its rows. `description` goes into the file as text: which tracer made it,
+/// and what it left unresolved.
+///
+/// # Errors
+/// When the file system refuses, or with what `fill` answers.
+pub fn write_png(
+    path: &Path,
+    (width, height): (u32, u32),
+    description: &str,
+    fill: impl FnOnce(&mut PngRows) -> Result<(), WriteError>,
+) -> Result<(), WriteError> {
+    write(path, |file| {
+        let failed = |e: png::EncodingError| WriteError::io(path, e);
+        let mut encoder = png::Encoder::new(file, width, height);
+        encoder.set_color(png::ColorType::Rgb);
+        encoder.set_depth(png::BitDepth::Eight);
+        encoder.set_compression(png::Compression::Fast);
+        encoder.set_source_srgb(png::SrgbRenderingIntent::RelativeColorimetric);
+        encoder.add_text_chunk("Software".into(), "Brillianteer".into()).map_err(failed)?;
+        encoder.add_itxt_chunk("Description".into(), description.into()).map_err(failed)?;
+        let mut writer = encoder.write_header().map_err(failed)?;
+        let mut stream = writer.stream_writer().map_err(failed)?;
+        fill(&mut PngRows { path, stream: &mut stream })?;
+        stream.finish().map_err(failed)?;
+        writer.finish().map_err(failed)
+    })
+}

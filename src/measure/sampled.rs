@@ -1,0 +1,141 @@
+//! The figures of one view, from point rays: slower and with a sampling error, but by another way.
+
+use super::figures::Figures;
+use crate::math::Polytope;
+use crate::scene::{Medium, Scope, View};
+use crate::trace::ray::{Camera, Exit, Options, Rest, Tracer};
+use crate::trace::{Stopped, Watch};
+use glam::DVec2;
+use rayon::prelude::*;
+
+/// Independent lattices: their scatter gives the standard error.
+const LATTICES: u32 = 8;
+
+/// What one lattice, or one row of it, has seen: sums over its points.
+#[derive(Clone)]
+struct Tally {
+    hits: u32,
+    surface: Vec<f64>,
+    transmitted: Vec<f64>,
+    strongest: Vec<f64>,
+    absorbed: f64,
+    unresolved: f64,
+}
+
+/// The figures of point rays under a scope, over `LATTICES` shifted lattices of `side` squared points.
+///
+/// The same input gives the same figures.
+///
+/// # Errors
+/// [`Stopped`] when `watch` asks to stop.
+pub fn by_rays(
+    polytope: &Polytope,
+    medium: Medium,
+    view: &View,
+    scope: &Scope,
+    (options, side): (Options, u32),
+    watch: Watch,
+) -> Result<Figures, Stopped> {
+    let tracer = Tracer::new(polytope, medium, options);
+    let basis = view.basis();
+    let camera = Camera::new(view, polytope);
+    let half = polytope.vertices().iter().map(|&v| basis.project(v).abs().max_element()).fold(0.0, f64::max);
+    let zenith = view.zenith();
+    let mut lattices = Vec::with_capacity(LATTICES as usize);
+    for k in 0..LATTICES {
+        if watch(f64::from(k) / f64::from(LATTICES)).is_break() {
+            return Err(Stopped);
+        }
+        // Roberts's R2 sequence spreads the shifts evenly; it is not random, so that figures repeat.
+        let shift = DVec2::new(0.754_877_666_246_693, 0.569_840_290_998_053) * f64::from(k + 1);
+        let shift = shift - shift.floor();
+        let point =
+            |i: u32, j: u32| (DVec2::new(f64::from(i), f64::from(j)) + shift) / f64::from(side) * 2.0 - 1.0;
+        let row = |j: u32| {
+            let mut tally = Tally::new(scope.bands.len());
+            for i in 0..side {
+                let (origin, direction) = camera.ray(point(i, j) * half);
+                let mut strongest = (0.0, 0);
+                let rest = tracer.follow(origin, direction, |exit| {
+                    let band = scope.band(exit.direction, zenith);
+                    tally.add(&exit, band);
+                    if !exit.surface && exit.weight > strongest.0 {
+                        strongest = (exit.weight, band);
+                    }
+                });
+                tally.close(rest, strongest.1);
+            }
+            tally
+        };
+        let rows: Vec<Tally> = (0..side).into_par_iter().map(row).collect();
+        lattices.push(rows.into_iter().fold(Tally::new(scope.bands.len()), Tally::joined));
+    }
+    Ok(summary(&lattices, polytope.silhouette_area(basis.toward)))
+}
+
+impl Tally {
+    fn new(bands: usize) -> Self {
+        let zones = vec![0.0; bands];
+        Self {
+            hits: 0,
+            surface: zones.clone(),
+            transmitted: zones.clone(),
+            strongest: zones,
+            absorbed: 0.0,
+            unresolved: 0.0,
+        }
+    }
+
+    fn add(&mut self, exit: &Exit, band: usize) {
+        let zones = if exit.surface { &mut self.surface } else { &mut self.transmitted };
+        zones[band] += exit.weight;
+    }
+
+    fn close(&mut self, rest: Option<Rest>, strongest: usize) {
+        if let Some(rest) = rest {
+            self.hits += 1;
+            self.absorbed += rest.absorbed;
+            self.unresolved += rest.unresolved;
+            self.strongest[strongest] += 1.0;
+        }
+    }
+
+    fn joined(mut self, other: Self) -> Self {
+        let add = |to: &mut Vec<f64>, from: &[f64]| to.iter_mut().zip(from).for_each(|(a, b)| *a += b);
+        add(&mut self.surface, &other.surface);
+        add(&mut self.transmitted, &other.transmitted);
+        add(&mut self.strongest, &other.strongest);
+        self.hits += other.hits;
+        self.absorbed += other.absorbed;
+        self.unresolved += other.unresolved;
+        self
+    }
+}
+
+fn summary(lattices: &[Tally], silhouette_area: f64) -> Figures {
+    let all = lattices.iter().cloned().reduce(Tally::joined).unwrap_or_else(|| Tally::new(0));
+    let share = |x: &f64| x / f64::from(all.hits.max(1));
+    let error = |pick: fn(&Tally) -> &Vec<f64>| {
+        let each = |band: usize| lattices.iter().map(move |t| pick(t)[band] / f64::from(t.hits.max(1)));
+        (0..pick(&all).len()).map(|band| standard_error(each(band))).fold(0.0, f64::max)
+    };
+    Figures {
+        silhouette_area,
+        surface: all.surface.iter().map(share).collect(),
+        transmitted: all.transmitted.iter().map(share).collect(),
+        strongest_exit_area: all.strongest.iter().map(share).collect(),
+        strongest_exit_undecided: 0.0,
+        absorbed: share(&all.absorbed),
+        unresolved: share(&all.unresolved),
+        beams: all.hits as usize,
+        standard_error: error(|t| &t.surface).max(error(|t| &t.transmitted)).max(error(|t| &t.strongest)),
+    }
+}
+
+/// Of the mean of independent values.
+fn standard_error(values: impl Iterator<Item = f64> + Clone) -> f64 {
+    let n = values.clone().count() as f64;
+    let mean = values.clone().sum::<f64>() / n;
+    let variance = values.map(|v| (v - mean).powi(2)).sum::<f64>() / (n - 1.0);
+    (variance / n).sqrt()
+}

@@ -1,0 +1,89 @@
+//! The same pictures by point rays: for perspective, where beams do not apply, and as a check on them.
+
+use super::{Film, Rows};
+use crate::math::Polytope;
+use crate::scene::{Medium, Scope, View};
+use crate::trace::ray::{Camera, Options, Tracer};
+use crate::trace::{Stopped, Watch};
+use glam::DVec2;
+use rayon::prelude::*;
+
+/// What a ray's light is put down as.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Reading {
+    /// The energy of each band.
+    Energy,
+    /// The band of the strongest exit alone.
+    Strongest,
+}
+
+/// Rows handed on at once.
+const PIECE: u32 = 16;
+
+/// Traces a picture row by row, each pixel by `per_side` squared rays on a regular grid, and calls `each` as
+/// [`super::paint`] does: a channel for each band of the scope, the stone's cover last.
+///
+/// # Errors
+/// What `each` answers, or [`Stopped`], turned into its kind of error, when `watch` asks to stop.
+#[expect(
+    clippy::too_many_arguments,
+    reason = "a stone, a view, a light, a film and a manner: none derives from another"
+)]
+pub fn trace<E: From<Stopped>>(
+    polytope: &Polytope,
+    medium: Medium,
+    view: &View,
+    scope: &Scope,
+    film: &Film,
+    (reading, options, per_side): (Reading, Options, u32),
+    watch: Watch,
+    mut each: impl FnMut(&Rows) -> Result<(), E>,
+) -> Result<(), E> {
+    let tracer = Tracer::new(polytope, medium, options);
+    let camera = Camera::new(view, polytope);
+    let zenith = view.zenith();
+    let channels = scope.bands.len() + 1;
+    let pixel = |x: u32, y: u32| {
+        let mut values = vec![0.0; channels];
+        let share = 1.0 / f64::from(per_side * per_side);
+        for k in 0..per_side * per_side {
+            let step = DVec2::new(f64::from(k % per_side), f64::from(k / per_side)) + 0.5;
+            let at = DVec2::new(f64::from(x), f64::from(y)) + step / f64::from(per_side);
+            let (origin, direction) = camera.ray(film.image_from_pixels(at));
+            let mut strongest = (0.0, None);
+            let hit = tracer.follow(origin, direction, |exit| {
+                let band = scope.band(exit.direction, zenith);
+                match reading {
+                    Reading::Energy => values[band] += exit.weight * share,
+                    Reading::Strongest if !exit.surface && exit.weight > strongest.0 => {
+                        strongest = (exit.weight, Some(band));
+                    }
+                    Reading::Strongest => {}
+                }
+            });
+            if let Some(band) = strongest.1 {
+                values[band] += share;
+            }
+            if hit.is_some() {
+                values[channels - 1] += share;
+            }
+        }
+        values
+    };
+    for first in (0..film.size).step_by(PIECE as usize) {
+        if watch(f64::from(first) / f64::from(film.size)).is_break() {
+            return Err(Stopped.into());
+        }
+        let count = PIECE.min(film.size - first);
+        let line = |y: u32| (0..film.size).map(|x| pixel(x, y)).collect::<Vec<_>>();
+        let lines: Vec<_> = (first..first + count).into_par_iter().map(line).collect();
+        let mut rows = Rows::new(first, count, film.size, channels);
+        for (y, line) in (first..).zip(lines) {
+            for (x, values) in line.into_iter().enumerate() {
+                values.into_iter().enumerate().for_each(|(c, v)| rows.row_mut(y, c)[x] = v);
+            }
+        }
+        each(&rows)?;
+    }
+    Ok(())
+}

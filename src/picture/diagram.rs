@@ -1,0 +1,246 @@
+//! A stone's facet diagram, as cutters print it: crown from above and pavilion from below, a label for each tier, an
+//! index of azimuths round either view, and the tiers listed underneath.
+//!
+//! A tier is all facets of one slope and one distance from the stone's origin. Seen from below the stone is turned
+//! over about its y axis, so azimuths there run clockwise from the left.
+
+mod labels;
+
+use super::drawing::{
+    ACCENT, Align, Aspect, INK, QUIET, REMARK, Sheet, Type, degrees, shortened, text_width,
+};
+use crate::math::{Basis, Facet};
+use crate::scene::Stone;
+use glam::DVec2;
+use svg::Document;
+
+/// Radius of the circle that holds the stone, units of the drawing.
+const RADIUS: f64 = 174.0;
+/// Half the distance between the middles of the two views, and half the room that each has.
+const HALF_APART: f64 = 242.0;
+const HALF_ROOM: f64 = 222.0;
+/// Radii of the index: where its ticks begin, where its longest end, where leaders end.
+const TICKS: f64 = RADIUS + 8.0;
+const TICKS_END: f64 = TICKS + 11.0;
+const LEADERS: f64 = RADIUS + 38.0;
+
+/// Names of tiers in the views, and their slopes.
+const NAME: Type = Type { size: 12.5, colour: INK };
+const SLOPE: Type = Type { size: 12.5, colour: ACCENT };
+const INDEX: Type = Type { size: 11.0, colour: QUIET };
+/// From one line of the list to the next.
+const LIST_LINE: f64 = 20.0;
+/// Lines of a list; further tiers are only counted.
+const MOST_LINES: usize = 40;
+
+/// Facets are of one tier if slope (its cosine) and distance, in radii, agree to this: a hundred times finer than
+/// machines cut, far above rounding.
+const SAME_TIER: f64 = 1e-6;
+
+/// Draws the facet diagram. Every facet is a polygon with its name in `data-name` and as its title; upright ones, seen
+/// edge on, are among those of the crown.
+pub fn diagram(stone: &Stone, title: &str) -> Document {
+    let tiers = tiers(stone);
+    let mut sheet = Sheet::new();
+    let views = [
+        View::new(stone, Basis::FACE_UP, -HALF_APART, "crown, from above"),
+        View::new(stone, Basis::FACE_DOWN, HALF_APART, "pavilion, from below"),
+    ];
+    for view in views {
+        view.draw(&mut sheet, stone);
+        let shown: Vec<&Tier> =
+            tiers.iter().filter(|tier| view.holds(&stone.polytope.facets()[tier.first()])).collect();
+        view.list(&mut sheet, &shown);
+        labels::Labels::new(&view, stone).write(&mut sheet, &shown);
+    }
+    let facets = stone.polytope.facets().len();
+    let subtitle = format!(
+        "facet diagram · {} in {} · slopes from the girdle plane",
+        counted(facets, "facet"),
+        counted(tiers.len(), "tier"),
+    );
+    sheet.document(title, &subtitle, &[])
+}
+
+fn counted(count: usize, noun: &str) -> String {
+    format!("{count} {noun}{}", if count == 1 { "" } else { "s" })
+}
+
+/// Facets of one slope and distance.
+#[derive(Debug, Clone, PartialEq)]
+struct Tier {
+    /// From 1, in the order in which tiers first occur.
+    number: usize,
+    name: String,
+    /// From the girdle plane: 0 level, 90 upright.
+    slope_degrees: f64,
+    /// Of the first facet, 0 to 360; none for level facets.
+    azimuth_degrees: Option<f64>,
+    facets: Vec<u32>,
+}
+
+impl Tier {
+    fn first(&self) -> usize {
+        self.facets[0] as usize
+    }
+}
+
+/// All tiers, in the order of their first facets.
+fn tiers(stone: &Stone) -> Vec<Tier> {
+    let facets = stone.polytope.facets();
+    let mut groups: Vec<Vec<u32>> = vec![];
+    for (id, facet) in facets.iter().enumerate() {
+        let alike = |group: &&mut Vec<u32>| {
+            let first = facets[group[0] as usize].plane;
+            (first.normal.z - facet.plane.normal.z).abs() < SAME_TIER
+                && (first.offset - facet.plane.offset).abs() < SAME_TIER
+        };
+        match groups.iter_mut().find(alike) {
+            Some(group) => group.push(id as u32),
+            None => groups.push(vec![id as u32]),
+        }
+    }
+    let tier = |(index, group): (usize, Vec<u32>)| {
+        let normal = facets[group[0] as usize].plane.normal;
+        let radial = normal.truncate();
+        Tier {
+            number: index + 1,
+            name: tier_name(group.iter().map(|&id| stone.name(id))),
+            slope_degrees: radial.length().atan2(normal.z.abs()).to_degrees(),
+            azimuth_degrees: (radial.length() > SAME_TIER).then(|| azimuth(radial)),
+            facets: group,
+        }
+    };
+    groups.into_iter().enumerate().map(tier).collect()
+}
+
+/// 0 to 360 degrees; what rounds to 360 is 0, and rounding errors are taken off before two decimals are.
+fn azimuth(radial: DVec2) -> f64 {
+    let degrees = radial.to_angle().to_degrees().rem_euclid(360.0);
+    if degrees > 359.995 { 0.0 } else { (degrees * 1e9).round() / 1e9 }
+}
+
+/// What the names of a tier's facets share once their numbers are taken off, or all of them.
+fn tier_name<'a>(names: impl Iterator<Item = &'a str>) -> String {
+    let mut different: Vec<String> = vec![];
+    for name in names {
+        let stem = match name.rsplit_once(' ') {
+            Some((stem, number)) if number.chars().all(|c| c.is_ascii_digit()) => stem,
+            _ => name,
+        };
+        let stem = stem.replace('_', " ");
+        if !different.contains(&stem) {
+            different.push(stem);
+        }
+    }
+    different.join(", ")
+}
+
+/// One of the two views.
+struct View {
+    aspect: Aspect,
+    name: &'static str,
+}
+
+impl View {
+    fn new(stone: &Stone, basis: Basis, x: f64, name: &'static str) -> Self {
+        let (low, high) = stone.polytope.bounds();
+        let centre = basis.project((low + high) / 2.0);
+        let corners = stone.polytope.vertices().iter().map(|&v| basis.project(v).distance(centre));
+        let scale = RADIUS / corners.fold(0.0, f64::max);
+        Self { aspect: Aspect { basis, centre, scale, place: DVec2::new(x, 0.0) }, name }
+    }
+
+    /// Whether a facet is drawn in this view.
+    fn holds(&self, facet: &Facet) -> bool {
+        self.aspect.shows(facet) || (self.is_crown() && !self.shows_below(facet))
+    }
+
+    fn is_crown(&self) -> bool {
+        self.aspect.basis == Basis::FACE_UP
+    }
+
+    fn shows_below(&self, facet: &Facet) -> bool {
+        Aspect { basis: Basis::FACE_DOWN, ..self.aspect }.shows(facet)
+    }
+
+    /// A point of the sheet, from the view's middle; the angle as on paper, counter-clockwise from the right.
+    fn polar(&self, radius: f64, angle_degrees: f64) -> DVec2 {
+        let (sin, cos) = angle_degrees.to_radians().sin_cos();
+        self.aspect.place + DVec2::new(radius * cos, -radius * sin)
+    }
+
+    /// Where an azimuth lies on paper.
+    fn on_paper(&self, azimuth_degrees: f64) -> f64 {
+        if self.is_crown() { azimuth_degrees } else { 180.0 - azimuth_degrees }
+    }
+
+    fn draw(&self, sheet: &mut Sheet, stone: &Stone) {
+        let (mut fine, mut coarse) = (vec![], vec![]);
+        for k in 0..72 {
+            let angle = f64::from(5 * k);
+            let length = match k {
+                _ if k % 9 == 0 => 11.0,
+                _ if k % 3 == 0 => 7.0,
+                _ => 4.0,
+            };
+            let lines = if k % 9 == 0 { &mut coarse } else { &mut fine };
+            lines.push((self.polar(TICKS, angle), self.polar(TICKS + length, angle)));
+        }
+        sheet.quiet_lines(&fine, "index", 0.7);
+        sheet.quiet_lines(&coarse, "index", 1.3);
+        sheet.stone(stone, &self.aspect, |facet| self.holds(facet));
+        for (at, number) in self.index() {
+            sheet.plain_text(INDEX, Align::Middle, at, &number);
+        }
+        let above = self.polar(LEADERS + 32.0, 90.0);
+        sheet.text(Type { size: 14.0, colour: INK }, Align::Middle, above, self.name);
+    }
+
+    /// The index's numbers and where they stand.
+    fn index(&self) -> Vec<(DVec2, String)> {
+        let number = |k: i32| {
+            let (text, angle) = (degrees(45.0 * f64::from(k)), self.on_paper(45.0 * f64::from(k)));
+            // As far out as the box of the text needs in this direction.
+            let half = DVec2::new(text_width(&text, INDEX.size), INDEX.size) / 2.0;
+            let toward = DVec2::from_angle(angle.to_radians()).abs();
+            (self.polar(TICKS_END + 5.0 + half.dot(toward), angle), text)
+        };
+        (0..8).map(number).collect()
+    }
+
+    /// The tiers seen in this view, line by line.
+    fn list(&self, sheet: &mut Sheet, tiers: &[&Tier]) {
+        let top = LEADERS + 46.0;
+        let x = self.aspect.place.x;
+        let head = ["", "tier", "facets", "slope", "first azimuth"].map(str::to_owned);
+        self.line(sheet, top, [INDEX; 5], &head);
+        let rule = [-HALF_ROOM, HALF_ROOM].map(|side| DVec2::new(x + side, top + 11.0));
+        sheet.quiet_lines(&[(rule[0], rule[1])], "rule", 0.8);
+        let (name, slope) = (Type { size: REMARK.size, ..NAME }, Type { size: REMARK.size, ..SLOPE });
+        let height = |k: usize| top + 9.0 + LIST_LINE * (k as f64 + 0.8);
+        for (k, tier) in tiers.iter().take(MOST_LINES).enumerate() {
+            let cells = [
+                tier.number.to_string(),
+                shortened(&tier.name, REMARK.size, 210.0),
+                tier.facets.len().to_string(),
+                degrees(tier.slope_degrees),
+                tier.azimuth_degrees.map_or("–".to_owned(), degrees),
+            ];
+            self.line(sheet, height(k), [INDEX, name, REMARK, slope, REMARK], &cells);
+        }
+        if let Some(more) = tiers.len().checked_sub(MOST_LINES).filter(|&more| more > 0) {
+            let rest = ["", &format!("and {} more", counted(more, "tier"))].map(str::to_owned);
+            self.line(sheet, height(MOST_LINES), [REMARK; 5], &rest);
+        }
+    }
+
+    /// One line of the list: number and name from the left, the rest against the right.
+    fn line(&self, sheet: &mut Sheet, y: f64, kinds: [Type; 5], cells: &[String]) {
+        let columns = [-HALF_ROOM, -HALF_ROOM + 26.0, 64.0, 134.0, HALF_ROOM];
+        for (k, cell) in cells.iter().enumerate().filter(|(_, cell)| !cell.is_empty()) {
+            let align = if k < 2 { Align::Start } else { Align::End };
+            sheet.plain_text(kinds[k], align, DVec2::new(self.aspect.place.x + columns[k], y), cell);
+        }
+    }
+}

@@ -1,0 +1,291 @@
+//! Labels for the tiers of a view: inside a facet where there is room, else outside with a leader.
+
+use super::super::drawing::{Align, Frame, Sheet, Type, degrees, text_frame, text_width};
+use super::{HALF_ROOM, INDEX, LEADERS, NAME, SLOPE, Tier, View};
+use crate::math::{Affine, area, centroid, clip};
+use crate::scene::Stone;
+use glam::DVec2;
+
+/// Angles at which leaders end, degrees from the x axis in each quarter of a view.
+const SLOTS: [f64; 3] = [74.0, 56.0, 40.0];
+/// Leaders as long as one from the middle are read with ease while they are few, else only shorter ones.
+const FEW: usize = 6;
+const LONGEST_OF_FEW: f64 = LEADERS + 4.0;
+const LONGEST_OF_MANY: f64 = 120.0;
+/// What a leader costs, in its length, that passes a corner of the stone or runs along its outline.
+const PAST_CORNER: f64 = 30.0;
+const TANGENT: f64 = 60.0;
+/// Between a leader's end and its label.
+const BESIDE: f64 = 5.0;
+
+/// From one line of a label to the next, and the height of its figures.
+const LINE: f64 = 15.0;
+const FIGURES: f64 = 11.0;
+/// White kept between a label and the edges of its facet.
+const CLEARANCE: f64 = 2.5;
+
+/// A text of a label, from the label's middle.
+struct Piece {
+    kind: Type,
+    align: Align,
+    offset: DVec2,
+    text: String,
+}
+
+/// A tier's label, or a short form of it.
+struct Label {
+    pieces: Vec<Piece>,
+    size: DVec2,
+    /// Whether it is read from the right.
+    upright: bool,
+}
+
+impl Label {
+    /// Name over slope, which both end, start or stand at the label's place.
+    fn stacked(tier: &Tier, align: Align) -> Self {
+        let rows = [(NAME, tier.name.clone(), -LINE / 2.0), (SLOPE, degrees(tier.slope_degrees), LINE / 2.0)];
+        let width = rows.iter().map(|(kind, text, _)| text_width(text, kind.size)).fold(0.0, f64::max);
+        let piece = |(kind, text, y): (Type, String, f64)| Piece { kind, align, offset: DVec2::Y * y, text };
+        let size = DVec2::new(width, LINE + FIGURES);
+        Self { pieces: rows.map(piece).into(), size, upright: false }
+    }
+
+    /// Name and slope in one line, from left to right or upwards.
+    fn in_line(tier: &Tier, upright: bool) -> Self {
+        let (name, slope) = (format!("{} ", tier.name), degrees(tier.slope_degrees));
+        let width = text_width(&name, NAME.size) + text_width(&slope, SLOPE.size);
+        let along = if upright { DVec2::NEG_Y } else { DVec2::X } * width / 2.0;
+        let pieces = vec![
+            Piece { kind: NAME, align: Align::Start, offset: -along, text: name },
+            Piece { kind: SLOPE, align: Align::End, offset: along, text: slope },
+        ];
+        let size = if upright { DVec2::new(FIGURES, width) } else { DVec2::new(width, FIGURES) };
+        Self { pieces, size, upright }
+    }
+
+    fn short(kind: Type, text: String, upright: bool) -> Self {
+        let width = text_width(&text, kind.size);
+        let size = if upright { DVec2::new(FIGURES, width) } else { DVec2::new(width, FIGURES) };
+        Self { pieces: vec![Piece { kind, align: Align::Middle, offset: DVec2::ZERO, text }], size, upright }
+    }
+
+    /// The box it fills at a place inside a facet.
+    fn frame(&self, middle: DVec2) -> Frame {
+        Frame { low: middle - self.size / 2.0, high: middle + self.size / 2.0 }
+    }
+
+    fn write(&self, sheet: &mut Sheet, at: DVec2) {
+        for Piece { kind, align, offset, text } in &self.pieces {
+            if self.upright {
+                sheet.upright_text(*kind, *align, at + *offset, text);
+            } else {
+                sheet.plain_text(*kind, *align, at + *offset, text);
+            }
+        }
+    }
+}
+
+/// Where labels may still go in a view.
+pub(super) struct Labels<'a> {
+    view: &'a View,
+    stone: &'a Stone,
+    /// Ends of leaders not yet taken.
+    slots: Vec<DVec2>,
+    /// What leaders must not cross: the index's numbers, labels, other leaders.
+    taken: Vec<Frame>,
+    leaders: Vec<(DVec2, DVec2)>,
+    /// The stone's corners in sight, which leaders had better not touch.
+    corners: Vec<DVec2>,
+}
+
+/// A line from a facet to a place for its label, and how little it is liked.
+#[derive(Clone, Copy)]
+struct Leader {
+    cost: f64,
+    from: DVec2,
+    slot: usize,
+}
+
+impl<'a> Labels<'a> {
+    pub fn new(view: &'a View, stone: &'a Stone) -> Self {
+        let quarters = |a: f64| [a, 180.0 - a, 180.0 + a, -a];
+        let slots = SLOTS.into_iter().flat_map(quarters).map(|a| view.polar(LEADERS, a)).collect();
+        let numbers = view.index().into_iter();
+        let taken = numbers.map(|(at, text)| text_frame(INDEX.size, Align::Middle, at, &text)).collect();
+        let shown = stone.polytope.facets().iter().filter(|facet| view.aspect.shows(facet));
+        let corners = shown.flat_map(|facet| view.aspect.outline(stone, facet)).collect();
+        Self { view, stone, slots, taken, leaders: vec![], corners }
+    }
+
+    /// Labels every tier inside a facet that is large enough; else outside, with a leader that crosses nothing; else
+    /// inside with less: its name, or its number in the list. Slivers are in the list alone.
+    pub fn write(mut self, sheet: &mut Sheet, tiers: &[&Tier]) {
+        let mut rest: Vec<&Tier> = tiers.to_vec();
+        rest.retain(|tier| {
+            let labels = [
+                Label::stacked(tier, Align::Middle),
+                Label::in_line(tier, false),
+                Label::in_line(tier, true),
+            ];
+            !labels.iter().any(|label| self.inside(sheet, tier, label))
+        });
+        // The shortest leader first, whosever it is.
+        let longest = if rest.len() <= FEW { LONGEST_OF_FEW } else { LONGEST_OF_MANY };
+        while let Some((leader, k)) = self.best_leader(&rest, longest) {
+            self.outside(sheet, rest.remove(k), leader);
+        }
+        for tier in rest {
+            let name = |upright| Label::short(NAME, tier.name.clone(), upright);
+            let labels = [name(false), name(true), Label::short(INDEX, tier.number.to_string(), false)];
+            labels.iter().any(|label| self.inside(sheet, tier, label));
+        }
+    }
+
+    fn outlines(&self, tier: &Tier) -> impl Iterator<Item = Vec<DVec2>> {
+        let facets = self.stone.polytope.facets();
+        tier.facets.iter().map(|&id| self.view.aspect.outline(self.stone, &facets[id as usize]))
+    }
+
+    /// Writes a label into the tier's facet with most room for it, if there is any.
+    fn inside(&mut self, sheet: &mut Sheet, tier: &Tier, label: &Label) -> bool {
+        let rooms = self.outlines(tier).filter_map(|corners| room_for(&corners, label.size));
+        // Mirror images differ by rounding: the first of them stays.
+        let Some((_, middle)) = rooms.reduce(|a, b| if b.0 > a.0 * (1.0 + 1e-6) { b } else { a }) else {
+            return false;
+        };
+        self.taken.push(label.frame(middle));
+        label.write(sheet, middle);
+        true
+    }
+
+    /// The leader most liked, and which of the tiers it belongs to.
+    fn best_leader(&self, tiers: &[&Tier], longest: f64) -> Option<(Leader, usize)> {
+        let mut best: Option<(Leader, usize)> = None;
+        for (k, tier) in tiers.iter().enumerate() {
+            let size = Label::stacked(tier, Align::Start).size;
+            for from in self.outlines(tier).map(|corners| centroid(&corners)) {
+                for (slot, &to) in self.slots.iter().enumerate() {
+                    let Some(cost) = self.cost(from, to, size).filter(|_| from.distance(to) <= longest)
+                    else {
+                        continue;
+                    };
+                    // Mirror images differ by rounding: the first of them stays.
+                    if best.is_none_or(|(leader, _)| cost < leader.cost - 1e-6) {
+                        best = Some((Leader { cost, from, slot }, k));
+                    }
+                }
+            }
+        }
+        best
+    }
+
+    /// A leader's length, and more for what it touches; none where it crosses something or has no room for its label of
+    /// this size.
+    fn cost(&self, from: DVec2, to: DVec2, size: DVec2) -> Option<f64> {
+        if size.x > HALF_ROOM - (to.x - self.view.aspect.place.x).abs() - BESIDE {
+            return None;
+        }
+        let (label, length) = (self.frame_beside(to, size), from.distance(to));
+        let crossed = self.taken.iter().any(|frame| crosses_box(from, to, frame) || overlap(frame, &label))
+            || self.leaders.iter().any(|&(a, b)| crosses(from, to, a, b) || crosses_box(a, b, &label))
+            || crosses_box(from, to, &label);
+        let near = |p: &&DVec2| distance_to_line(**p, from, to) < 5.0;
+        let corners = self.corners.iter().filter(near).count() as f64;
+        let outward = (from - self.view.aspect.place).normalize_or_zero();
+        let across = 1.0 - outward.dot((to - from) / length.max(f64::MIN_POSITIVE));
+        (!crossed).then_some(length + PAST_CORNER * corners + TANGENT * across)
+    }
+
+    /// The side of the view, -1 or 1, on which a place lies.
+    fn side(&self, to: DVec2) -> f64 {
+        (to.x - self.view.aspect.place.x).signum()
+    }
+
+    /// The box of a label at the end of a leader.
+    fn frame_beside(&self, to: DVec2, size: DVec2) -> Frame {
+        let middle = to + DVec2::X * self.side(to) * (BESIDE + size.x / 2.0);
+        Frame { low: middle - size / 2.0, high: middle + size / 2.0 }
+    }
+
+    fn outside(&mut self, sheet: &mut Sheet, tier: &Tier, leader: Leader) {
+        let to = self.slots.remove(leader.slot);
+        sheet.stroke(leader.from, to);
+        sheet.dot(leader.from);
+        self.leaders.push((leader.from, to));
+        let side = self.side(to);
+        let label = Label::stacked(tier, if side > 0.0 { Align::Start } else { Align::End });
+        self.taken.push(self.frame_beside(to, label.size));
+        label.write(sheet, to + DVec2::X * BESIDE * side);
+    }
+}
+
+/// The middles at which a box of this size lies inside a convex polygon: the area they fill, and the middle of that.
+/// Corners run clockwise on the sheet, whose y points down.
+fn room_for(corners: &[DVec2], size: DVec2) -> Option<(f64, DVec2)> {
+    let mut room: Vec<DVec2> = corners.to_vec();
+    let mut kept = vec![];
+    let half = size / 2.0 + CLEARANCE;
+    for (&a, &b) in corners.iter().zip(corners.iter().cycle().skip(1)) {
+        let inward = -(b - a).perp();
+        let needed = inward.abs().dot(half);
+        clip(&room, Affine::new(-inward.dot(a) - needed, inward), &mut kept);
+        std::mem::swap(&mut room, &mut kept);
+    }
+    let area = area(&room).abs();
+    (area > 0.0).then(|| (area, centroid(&room)))
+}
+
+fn distance_to_line(p: DVec2, a: DVec2, b: DVec2) -> f64 {
+    let along = (b - a).dot(p - a) / (b - a).length_squared().max(f64::MIN_POSITIVE);
+    p.distance(a.lerp(b, along.clamp(0.0, 1.0)))
+}
+
+fn crosses(a: DVec2, b: DVec2, c: DVec2, d: DVec2) -> bool {
+    let side = |p: DVec2, q: DVec2, r: DVec2| (q - p).perp_dot(r - p) > 0.0;
+    side(a, b, c) != side(a, b, d) && side(c, d, a) != side(c, d, b)
+}
+
+fn crosses_box(a: DVec2, b: DVec2, frame: &Frame) -> bool {
+    let Frame { low, high } = *frame;
+    let (up, down) = (DVec2::new(low.x, high.y), DVec2::new(high.x, low.y));
+    crosses(a, b, low, high) || crosses(a, b, up, down)
+}
+
+fn overlap(a: &Frame, b: &Frame) -> bool {
+    a.low.cmplt(b.high).all() && b.low.cmplt(a.high).all()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Clockwise, as y points down.
+    const SQUARE: [DVec2; 4] =
+        [DVec2::new(0.0, 0.0), DVec2::new(0.0, 100.0), DVec2::new(100.0, 100.0), DVec2::new(100.0, 0.0)];
+
+    #[test]
+    fn a_box_has_the_room_that_its_size_leaves() {
+        let (area, middle) = room_for(&SQUARE, DVec2::new(40.0, 20.0)).unwrap();
+        let free = DVec2::splat(100.0 - 2.0 * CLEARANCE) - DVec2::new(40.0, 20.0);
+        assert!((area - free.x * free.y).abs() < 1e-9);
+        assert!(middle.distance(DVec2::splat(50.0)) < 1e-9);
+        assert!(room_for(&SQUARE, DVec2::new(96.0, 1.0)).is_none());
+        assert!(room_for(&SQUARE[..2], DVec2::ONE).is_none());
+    }
+
+    #[test]
+    fn a_line_through_a_box_crosses_it_and_one_beside_it_does_not() {
+        let frame = Frame { low: DVec2::ZERO, high: DVec2::new(10.0, 4.0) };
+        assert!(crosses_box(DVec2::new(5.0, -3.0), DVec2::new(5.5, 9.0), &frame));
+        assert!(crosses_box(DVec2::new(-5.0, 2.0), DVec2::new(5.0, 2.1), &frame));
+        assert!(!crosses_box(DVec2::new(-5.0, 5.0), DVec2::new(15.0, 5.0), &frame));
+    }
+
+    #[test]
+    fn the_distance_to_a_line_ends_at_its_ends() {
+        let (a, b) = (DVec2::ZERO, DVec2::new(10.0, 0.0));
+        assert_eq!(distance_to_line(DVec2::new(4.0, 3.0), a, b), 3.0);
+        assert_eq!(distance_to_line(DVec2::new(13.0, 4.0), a, b), 5.0);
+        assert_eq!(distance_to_line(DVec2::new(3.0, 4.0), a, a), 5.0);
+    }
+}

@@ -1,0 +1,138 @@
+//! What is to be painted: polygons of light, each in one channel.
+
+use crate::math::{Affine, area, clip, integral_of_decay};
+use crate::scene::Scope;
+use crate::trace::beam::{Beam, Beams};
+use glam::{DMat2, DVec2};
+
+/// Where absorption changes a beam's light by more than this part across its outline, it is painted in strips.
+const STRIP: f64 = 1.0 / 64.0;
+
+/// One polygon of even light.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Patch {
+    pub corners: (u32, u32),
+    pub channel: u16,
+    pub weight: f64,
+}
+
+/// Polygons of one domain of a picture's symmetry, with the maps that make the whole of it.
+#[derive(Debug, Clone)]
+pub struct Layer {
+    pub(super) corners: Vec<DVec2>,
+    pub(super) patches: Vec<Patch>,
+    pub(super) copies: Vec<DMat2>,
+    /// What each channel holds.
+    pub channels: Vec<String>,
+    /// Part of the light that was left unresolved.
+    pub unresolved: f64,
+}
+
+/// The last channel of a picture: how much of a pixel the stone covers.
+const COVER: &str = "cover";
+
+impl Layer {
+    /// What a camera in the scope records: a channel for each band, with the energy that comes from it through
+    /// each pixel, glare included; and the stone's cover.
+    pub fn energy(beams: &Beams, scope: &Scope) -> Self {
+        let mut layer = Self::new(beams, scope.bands.iter().map(|b| b.name.clone()).collect());
+        for beam in beams.iter().filter(|b| b.weight > 0.0) {
+            layer.add_faded(
+                beams,
+                &beam,
+                beam.path,
+                beam.weight / beam.transmittance,
+                scope.band(beam.exit, beams.zenith),
+            );
+        }
+        layer
+    }
+
+    /// The strongest exit of each point: a channel for each band, covered or not; and the stone's cover. What
+    /// nothing has left yet stays uncovered.
+    pub fn strongest(beams: &Beams, scope: &Scope) -> Self {
+        let mut layer = Self::new(beams, scope.bands.iter().map(|b| b.name.clone()).collect());
+        for cell in beams.strongest_exits() {
+            if let Some(exit) = cell.strongest {
+                let band = scope.band(beams.get(exit).exit, beams.zenith);
+                layer.add(beams.get(cell.outline).outline, band, 1.0);
+            }
+        }
+        layer
+    }
+
+    /// Everything that is known of each pixel: glare and transmitted light of each band apart, what is absorbed
+    /// and what is unresolved; and the stone's cover, of which the others are the parts.
+    pub fn full(beams: &Beams, scope: &Scope) -> Self {
+        let named = |group: &'static str| scope.bands.iter().map(move |b| format!("{group}.{}", b.name));
+        let mut channels: Vec<String> = named("transmitted").chain(named("surface")).collect();
+        channels.extend(["absorbed".into(), "unresolved".into()]);
+        let mut layer = Self::new(beams, channels);
+        let bands = scope.bands.len();
+        for beam in beams.iter() {
+            let mut add = |path, weight, channel| layer.add_faded(beams, &beam, path, weight, channel);
+            if beam.weight > 0.0 {
+                let band = scope.band(beam.exit, beams.zenith);
+                add(
+                    beam.path,
+                    beam.weight / beam.transmittance,
+                    if beam.is_surface() { bands + band } else { band },
+                );
+            }
+            if let Some(parent) = beam.parent.map(|p| beams.get(p)).filter(|p| p.transmittance > 0.0) {
+                let arriving = parent.onward / parent.transmittance;
+                add(parent.path, arriving, 2 * bands);
+                add(beam.path, -arriving, 2 * bands);
+            }
+            if beam.open {
+                add(beam.path, beam.onward / beam.transmittance, 2 * bands + 1);
+            }
+        }
+        layer
+    }
+
+    fn new(beams: &Beams, mut channels: Vec<String>) -> Self {
+        channels.push(COVER.into());
+        let cover = channels.len() - 1;
+        let copies = beams.symmetry.copies();
+        let unresolved = beams.unresolved();
+        let mut layer = Self { corners: vec![], patches: vec![], copies, channels, unresolved };
+        for beam in beams.iter().filter(Beam::is_surface) {
+            layer.add(beam.outline, cover, 1.0);
+        }
+        layer
+    }
+
+    fn add(&mut self, outline: &[DVec2], channel: usize, weight: f64) {
+        let corners = (self.corners.len() as u32, outline.len() as u32);
+        self.corners.extend(outline);
+        self.patches.push(Patch { corners, channel: channel as u16, weight });
+    }
+
+    /// Light of this weight over a beam's outline, faded by absorption along `path`: in strips where it is uneven.
+    fn add_faded(&mut self, beams: &Beams, beam: &Beam, path: Affine, weight: f64, channel: usize) {
+        if beams.medium.absorption == 0.0 {
+            return self.add(beam.outline, channel, weight);
+        }
+        let depth = path * beams.medium.absorption;
+        let depths = || beam.outline.iter().map(|&p| depth.at(p));
+        let (low, high) = (depths().fold(f64::INFINITY, f64::min), depths().fold(0.0, f64::max));
+        let strips = ((high - low) / STRIP).ceil() as u32;
+        let mut even = |part: &[DVec2]| {
+            let size = area(part);
+            if size > 0.0 {
+                self.add(part, channel, weight * integral_of_decay(part, depth) / size);
+            }
+        };
+        let (mut rest, mut strip, mut spare) = (beam.outline.to_vec(), vec![], vec![]);
+        for k in 1..strips {
+            let border = low + (high - low) * f64::from(k) / f64::from(strips);
+            let above = depth - Affine::new(border, DVec2::ZERO);
+            clip(&rest, above * -1.0, &mut strip);
+            clip(&rest, above, &mut spare);
+            std::mem::swap(&mut rest, &mut spare);
+            even(&strip);
+        }
+        even(&rest);
+    }
+}

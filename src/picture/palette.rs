@@ -1,0 +1,34 @@
+//! From light in a scope's bands to the colour of a pixel.
+
+use super::Rows;
+use crate::optics::{LinearRgb, SrgbEncoder, linear_from_encoded};
+use crate::scene::Scope;
+
+/// Mixes bands in linear light and encodes the sum as sRGB, once.
+pub struct Palette {
+    colours: Vec<LinearRgb>,
+    encoder: SrgbEncoder,
+}
+
+impl Palette {
+    /// The scope's own colours.
+    pub fn of(scope: &Scope) -> Self {
+        let linear = |c: u8| linear_from_encoded(f64::from(c) / 255.0);
+        let colours = scope.bands.iter().map(|b| LinearRgb::from_array(b.colour.map(linear))).collect();
+        Self { colours, encoder: SrgbEncoder::new() }
+    }
+
+    /// The encoded pixels of row `y`, appended to `out` as red, green, blue. The bands are the rows' first
+    /// channels and the stone's cover the last; where it does not cover a pixel, the backing is seen: the colour
+    /// of the band below.
+    pub fn encode(&self, rows: &Rows, y: u32, out: &mut Vec<u8>) {
+        let bands: Vec<&[f64]> = (0..self.colours.len()).map(|c| rows.row(y, c)).collect();
+        let cover = rows.row(y, rows.channels - 1);
+        for (x, covered) in cover.iter().enumerate() {
+            let backing = self.colours[0] * (1.0 - covered);
+            let sum =
+                bands.iter().zip(&self.colours).fold(backing, |sum, (band, colour)| sum + *colour * band[x]);
+            out.extend(self.encoder.encode_rgb(sum));
+        }
+    }
+}

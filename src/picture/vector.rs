@@ -1,0 +1,142 @@
+//! Pictures as drawings: the virtual facets themselves, as polygons of an SVG.
+
+use super::Film;
+use crate::math::{Basis, Plane};
+use crate::optics::{LinearRgb, encoded_from_linear, linear_from_encoded};
+use crate::scene::{Scope, Stone};
+use crate::trace::beam::Beams;
+use glam::{DMat2, DVec2, DVec3};
+use svg::Document;
+use svg::node::element::{Description, Group, Polygon, Rectangle, Title};
+
+/// Side of the drawing, in its own units; coordinates carry four digits behind the point.
+const SIDE: u32 = 1000;
+
+/// Polygons that cover less than this, in square units of the drawing, would be lost in the rounding.
+const SPECK: f64 = 1e-5;
+
+/// Draws the map of strongest exits: polygons that do not overlap, each with its path (`data-path`), and the
+/// elevation and weight of its exit.
+pub fn strongest(stone: &Stone, beams: &Beams, scope: &Scope, title: &str) -> Document {
+    let page = Page::new(stone, beams);
+    let mut groups: Vec<Group> = scope.bands.iter().map(|b| band_group(&b.name, &hex(b.colour))).collect();
+    for cell in beams.strongest_exits() {
+        let Some(exit) = cell.strongest.map(|id| beams.get(id)) else { continue };
+        let band = scope.band(exit.exit, beams.zenith);
+        let elevation = exit.exit.dot(beams.zenith).clamp(-1.0, 1.0).asin().to_degrees();
+        let met = beams.facets(exit.id);
+        for (copy, polygon) in page.polygons(beams.get(cell.outline).outline) {
+            let polygon = polygon
+                .set("data-path", page.names(&met, copy))
+                .set("data-elevation", format!("{elevation:.3}"))
+                .set("data-weight", format!("{:.4}", exit.weight));
+            groups[band] = std::mem::take(&mut groups[band]).add(polygon);
+        }
+    }
+    page.document(title, beams, &hex(scope.bands[0].colour), groups)
+}
+
+/// Draws the energy picture: the finest subdivision of the image that was traced, each polygon in the colour of
+/// all the light seen through it.
+pub fn energy(stone: &Stone, beams: &Beams, scope: &Scope, title: &str) -> Document {
+    let page = Page::new(stone, beams);
+    let linear = |c: u8| linear_from_encoded(f64::from(c) / 255.0);
+    let colours: Vec<LinearRgb> =
+        scope.bands.iter().map(|b| LinearRgb::from_array(b.colour.map(linear))).collect();
+    let mut seen: Vec<LinearRgb> = Vec::with_capacity(beams.len());
+    for beam in beams.iter() {
+        let above = beam.parent.map_or(LinearRgb::ZERO, |p| seen[p as usize]);
+        let own =
+            if beam.weight > 0.0 { colours[scope.band(beam.exit, beams.zenith)] } else { LinearRgb::ZERO };
+        seen.push(above + own * beam.weight);
+    }
+    let mut group = Group::new().set("class", "energy");
+    for id in beams.leaves() {
+        let encoded = seen[id as usize].to_array().map(|c| (encoded_from_linear(c) * 255.0).round() as u8);
+        let colour = hex(encoded);
+        let met = beams.facets(id);
+        for (copy, polygon) in page.polygons(beams.get(id).outline) {
+            let path = page.names(&met, copy);
+            group = group.add(
+                polygon.set("data-path", path).set("fill", colour.as_str()).set("stroke", colour.as_str()),
+            );
+        }
+    }
+    page.document(title, beams, &hex(scope.bands[0].colour), vec![group.set("stroke-width", SEAM)])
+}
+
+/// Viewers leave hairlines between polygons that touch; a thin line of their own colour closes them.
+const SEAM: f64 = 0.3;
+
+fn band_group(name: &str, colour: &str) -> Group {
+    Group::new().set("class", name).set("fill", colour).set("stroke", colour).set("stroke-width", SEAM)
+}
+
+fn hex([r, g, b]: [u8; 3]) -> String {
+    format!("#{r:02x}{g:02x}{b:02x}")
+}
+
+/// A drawing's frame, and the copies that make up the whole of it.
+struct Page<'a> {
+    stone: &'a Stone,
+    film: Film,
+    copies: Vec<DMat2>,
+    /// For each copy the facet that each facet is carried to.
+    carried: Vec<Vec<u32>>,
+}
+
+impl<'a> Page<'a> {
+    fn new(stone: &'a Stone, beams: &Beams) -> Self {
+        let copies = beams.symmetry.copies();
+        let planes: Vec<Plane> = stone.polytope.planes().collect();
+        let carried = copies.iter().map(|&c| carried(&planes, &beams.view, c)).collect();
+        Self { stone, film: Film::around(&stone.polytope, &beams.view, SIDE), copies, carried }
+    }
+
+    /// An outline in every copy, in the drawing's units.
+    fn polygons(&self, outline: &[DVec2]) -> Vec<(usize, Polygon)> {
+        let map = |copy| self.film.pixels_from_image(copy);
+        let points = |copy| outline.iter().map(|&p| map(copy).transform_point2(p)).collect::<Vec<_>>();
+        let drawn = self.copies.iter().map(|&c| points(c)).enumerate();
+        let large = drawn.filter(|(_, p)| crate::math::area(p).abs() > SPECK);
+        large.map(|(k, p)| (k, Polygon::new().set("points", listed(&p)))).collect()
+    }
+
+    fn names(&self, facets: &[u32], copy: usize) -> String {
+        let name = |&f: &u32| self.stone.name(self.carried[copy][f as usize]);
+        facets.iter().map(name).collect::<Vec<_>>().join(", ")
+    }
+
+    fn document(&self, title: &str, beams: &Beams, backing: &str, groups: Vec<Group>) -> Document {
+        let polarised = if beams.polarised { "polarised" } else { "unpolarised" };
+        let told = format!(
+            "Virtual facets of exact beams, {polarised}, index {}; unresolved light {:.2e} of the whole",
+            beams.medium.index,
+            beams.unresolved(),
+        );
+        let frame = Document::new()
+            .set("viewBox", (0, 0, SIDE, SIDE))
+            .set("width", SIDE)
+            .set("height", SIDE)
+            .add(Title::new(title))
+            .add(Description::new().add(svg::node::Text::new(told)))
+            .add(Rectangle::new().set("width", "100%").set("height", "100%").set("fill", backing));
+        groups.into_iter().fold(frame, |document, group| document.add(group.set("stroke-linejoin", "round")))
+    }
+}
+
+fn listed(points: &[DVec2]) -> String {
+    points.iter().map(|p| format!("{:.4},{:.4}", p.x, p.y)).collect::<Vec<_>>().join(" ")
+}
+
+/// Where a symmetry of the picture carries each facet.
+fn carried(planes: &[Plane], view: &Basis, copy: DMat2) -> Vec<u32> {
+    let image = |n: DVec3| view.lift(copy * view.project(n)) + view.toward * view.toward.dot(n);
+    let nearest = |plane: &Plane| {
+        let normal = image(plane.normal);
+        let gap = |p: &Plane| (p.normal - normal).length() + (p.offset - plane.offset).abs();
+        let best = (0..planes.len()).min_by(|&a, &b| gap(&planes[a]).total_cmp(&gap(&planes[b])));
+        best.unwrap_or(0) as u32
+    };
+    planes.iter().map(nearest).collect()
+}

@@ -1,0 +1,107 @@
+//! What several tests build on: stones from cut files, random stones, figures by zone.
+#![allow(dead_code, reason = "each test file uses its part")]
+
+use brillianteer::cut::{Crown, LowerHalf, Pavilion, RoundBrilliant};
+use brillianteer::io::cut_file;
+use brillianteer::math::Plane;
+use brillianteer::measure::{Figures, by_beams};
+use brillianteer::scene::{ASET_CONE, Backing, Medium, Scope, Stone, View};
+use brillianteer::trace::{beam, unwatched};
+use glam::DVec3;
+use proptest::prelude::*;
+use std::path::{Path, PathBuf};
+
+/// Every cut file of the project, by name.
+pub fn cut_files() -> Vec<(String, PathBuf)> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("cuts");
+    let mut files: Vec<PathBuf> = std::fs::read_dir(folder).unwrap().map(|e| e.unwrap().path()).collect();
+    files.retain(|p| p.extension().is_some_and(|e| e == "toml"));
+    files.sort();
+    assert!(files.len() >= 6, "the project's cut files are missing");
+    files.into_iter().map(|p| (p.file_stem().unwrap().to_string_lossy().into_owned(), p)).collect()
+}
+
+/// The stone of a cut file.
+pub fn stone(path: &Path) -> Stone {
+    Stone::new(&cut_file::read(path).unwrap().facets().unwrap()).unwrap()
+}
+
+/// A round brilliant with point culet, 3 % girdle.
+pub fn brilliant(
+    (table, crown, pavilion): (f64, f64, f64),
+    (star, lower): (f64, f64),
+    girdle_facets: u32,
+) -> RoundBrilliant {
+    RoundBrilliant {
+        table,
+        crown: Crown::Angle(crown),
+        pavilion: Pavilion::Angle(pavilion),
+        star_length: star,
+        lower_half: LowerHalf::Radial(lower),
+        girdle_thickness: 3.0,
+        girdle_facets,
+        culet: 0.0,
+    }
+}
+
+/// Its stone.
+pub fn built(cut: &RoundBrilliant) -> Stone {
+    Stone::new(&cut.facets().unwrap()).unwrap()
+}
+
+pub fn aset() -> Scope {
+    Scope::aset(ASET_CONE, Backing::Black)
+}
+
+/// Traced to a bound.
+pub fn traced(stone: &Stone, medium: Medium, view: &View, unresolved: f64, polarised: bool) -> beam::Beams {
+    let options = beam::Options { unresolved, polarised, ..beam::Options::default() };
+    beam::trace(&stone.polytope, medium, view, &options, &unwatched).unwrap()
+}
+
+/// ASET figures of a stone seen face up.
+pub fn face_up(stone: &Stone, medium: Medium, unresolved: f64) -> Figures {
+    by_beams(&traced(stone, medium, &View::default(), unresolved, true), &aset())
+}
+
+/// Every figure of a view in one row, so that two can be compared.
+pub fn row(figures: &Figures) -> Vec<f64> {
+    let zones = [&figures.surface, &figures.transmitted, &figures.strongest_exit_area];
+    zones.into_iter().flatten().copied().chain([figures.absorbed]).collect()
+}
+
+/// The largest difference between two rows.
+pub fn largest_difference(a: &[f64], b: &[f64]) -> f64 {
+    assert_eq!(a.len(), b.len());
+    a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
+}
+
+/// Planes of a random convex solid: a cube that some planes cut.
+pub fn random_planes() -> impl Strategy<Value = Vec<Plane>> {
+    let plane =
+        (0.0..std::f64::consts::TAU, -1.0..1.0_f64, 0.55..1.2_f64).prop_map(|(azimuth, z, offset)| {
+            let r = (1.0 - z * z).sqrt();
+            Plane::new(DVec3::new(r * azimuth.cos(), r * azimuth.sin(), z), offset)
+        });
+    prop::collection::vec(plane, 4..24).prop_map(|mut planes| {
+        let axes = [DVec3::X, DVec3::Y, DVec3::Z];
+        planes.extend(axes.into_iter().flat_map(|a| [Plane::new(a, 1.0), Plane::new(-a, 1.0)]));
+        planes
+    })
+}
+
+/// A stone of nameless planes.
+pub fn nameless(planes: &[Plane]) -> Stone {
+    let named: Vec<(String, Plane)> = planes.iter().map(|&p| ("facet".to_string(), p)).collect();
+    Stone::new(&named).unwrap()
+}
+
+/// The folder of files that the project does not own, where it is there; says so loudly where it is not.
+pub fn shared(test: &str, path: &str) -> Option<PathBuf> {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared").join(path);
+    if path.exists() {
+        return Some(path);
+    }
+    eprintln!("SKIPPED {test}: {} is not on this machine", path.display());
+    None
+}

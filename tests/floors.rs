@@ -1,0 +1,65 @@
+//! The structure: every floor of the house imports only from those below it.
+
+use std::path::{Path, PathBuf};
+
+const FLOORS: [(&str, u32); 10] = [
+    ("math", 0),
+    ("optics", 0),
+    ("cut", 1),
+    ("scene", 2),
+    ("trace", 3),
+    ("picture", 4),
+    ("measure", 4),
+    ("io", 5),
+    ("app", 6),
+    ("cli", 6),
+];
+
+fn sources(folder: &Path) -> Vec<PathBuf> {
+    let entries = std::fs::read_dir(folder).unwrap().map(|e| e.unwrap().path());
+    entries
+        .flat_map(|p| if p.is_dir() { sources(&p) } else { vec![p] })
+        .filter(|p| p.extension().is_some_and(|e| e == "rs"))
+        .collect()
+}
+
+/// Rooms that a text imports from, by `crate::room`.
+fn imports(text: &str) -> Vec<&str> {
+    let after = text.split("crate::").skip(1);
+    after.map(|t| t.split(|c: char| !c.is_alphanumeric() && c != '_').next().unwrap_or("")).collect()
+}
+
+fn floor(room: &str) -> Option<u32> {
+    FLOORS.iter().find(|(name, _)| *name == room).map(|(_, floor)| *floor)
+}
+
+#[test]
+fn no_floor_imports_from_its_own_or_a_higher_one() {
+    let src = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+    let mut checked = 0;
+    for path in sources(&src) {
+        let inside = path.strip_prefix(&src).unwrap();
+        let room = inside.iter().next().unwrap().to_string_lossy().replace(".rs", "");
+        let Some(own) = floor(&room) else { continue };
+        let text = std::fs::read_to_string(&path).unwrap();
+        for other in imports(&text).into_iter().filter(|r| *r != room) {
+            let Some(other_floor) = floor(other) else {
+                panic!("{}: imports '{other}', no room", path.display())
+            };
+            assert!(
+                other_floor < own,
+                "{}: floor {own} imports {other}, floor {other_floor}",
+                path.display()
+            );
+            checked += 1;
+        }
+    }
+    assert!(checked > 30, "only {checked} imports were seen: the check has lost its eyes");
+}
+
+#[test]
+fn an_import_that_runs_up_would_be_seen() {
+    assert_eq!(imports("use crate::picture::Film; // and crate::io"), ["picture", "io"]);
+    assert!(floor("picture") > floor("trace"));
+    assert_eq!(floor("main"), None);
+}
