@@ -9,6 +9,9 @@ use criterion::{Criterion, criterion_group, criterion_main};
 use glam::DVec2;
 use std::hint::black_box;
 
+#[global_allocator]
+static ALLOCATOR: mimalloc::MiMalloc = mimalloc::MiMalloc;
+
 const DIAMOND: Medium = Medium::clear(2.4175);
 
 fn modern_ideal(girdle_thickness: f64) -> Stone {

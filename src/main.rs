@@ -2,6 +2,10 @@
 
 use std::process::ExitCode;
 
+/// Tracing beams fills much memory in small steps, which the system's allocator does a third slower.
+#[global_allocator]
+static ALLOCATOR: mimalloc::MiMalloc = mimalloc::MiMalloc;
+
 fn main() -> ExitCode {
     brillianteer::cli::main()
 }

@@ -22,7 +22,7 @@ use std::path::{Path, PathBuf};
 const UNRESOLVED: f64 = 1e-3;
 
 /// An energy drawing holds every polygon of the subdivision; finer than this it would be for no viewer.
-const DRAWN_UNRESOLVED: f64 = 1e-2;
+const DRAWN_UNRESOLVED: f64 = 2e-2;
 
 /// The largest EXR: it is held in memory, a dozen channels deep.
 const MOST_EXR_PIXELS: u32 = 8192;

@@ -47,7 +47,7 @@ impl ViewOptions {
         let own = if self.side == SideName::Table { Side::Table } else { Side::Culet };
         let (lean, tilt) =
             if self.eye_tilt == 0.0 { (Lean::Stone, self.tilt) } else { (Lean::Eye, self.eye_tilt) };
-        if !(tilt.abs() <= 90.0) {
+        if !(-90.0..=90.0).contains(&tilt) {
             return Err(Failure::Input(format!(
                 "a tilt of {tilt} degrees is not from -90 to 90; use --side to turn over"
             )));

@@ -5,7 +5,7 @@ use resvg::usvg::{self, ImageHrefResolver, Options, Tree, fontdb};
 use std::sync::Arc;
 
 /// The most pixels along either side.
-pub const MOST_ALONG_A_SIDE: u32 = 16_384;
+const MOST_ALONG_A_SIDE: u32 = 16_384;
 
 /// Why a drawing could not be rasterised.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
@@ -33,7 +33,7 @@ pub enum DrawingError {
 /// Only the program's own fonts are used, and nothing outside the text is read.
 ///
 /// # Errors
-/// Where the text is no SVG, or the picture would have a side of no pixels or more than [`MOST_ALONG_A_SIDE`].
+/// Where the text is no SVG, or the picture would have a side of no pixels or more than 16,384.
 pub fn rasterize(svg: &str, width: u32) -> Result<(u32, u32, Vec<u8>), DrawingError> {
     let tree = parse(svg)?;
     let scale = width as f32 / tree.size().width();
@@ -44,7 +44,8 @@ pub fn rasterize(svg: &str, width: u32) -> Result<(u32, u32, Vec<u8>), DrawingEr
     let mut pixmap = pixmap.ok_or(DrawingError::Size { width, height })?;
     pixmap.fill(Color::WHITE);
     resvg::render(&tree, Transform::from_scale(scale, scale), &mut pixmap.as_mut());
-    let rgb = pixmap.data().chunks_exact(4).flat_map(|p| [p[0], p[1], p[2]]).collect();
+    let mut rgb = Vec::with_capacity(pixmap.data().len() / 4 * 3);
+    pixmap.data().chunks_exact(4).for_each(|pixel| rgb.extend_from_slice(&pixel[..3]));
     Ok((width, height, rgb))
 }
 

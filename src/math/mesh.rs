@@ -47,10 +47,15 @@ fn delaunay(flat: &[DVec2]) -> Option<Vec<[usize; 3]>> {
     let triangles: Vec<[usize; 3]> = cdt
         .inner_faces()
         .map(|f| f.vertices().map(|v| v.index()))
-        // Outside a chain of corners nearly in line, spade's hull adds slivers: their corners are in the wrong order.
-        .filter(|t| t[0] < t[1] && t[1] < t[2] || t[1] < t[2] && t[2] < t[0] || t[2] < t[0] && t[0] < t[1])
+        // Outside a chain of corners nearly in line, spade's hull adds slivers: they run round the wrong way.
+        .filter(|t| runs_upward(t))
         .collect();
     (triangles.len() == flat.len() - 2 && same_area(flat, &triangles)).then_some(triangles)
+}
+
+/// Whether three places on an outline follow one another in its sense, from whichever one starts.
+fn runs_upward([a, b, c]: &[usize; 3]) -> bool {
+    [a < b, b < c, c < a].iter().filter(|&&up| up).count() == 2
 }
 
 fn same_area(flat: &[DVec2], triangles: &[[usize; 3]]) -> bool {

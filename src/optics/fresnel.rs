@@ -95,13 +95,12 @@ fn partial(a: f64, b: f64) -> Complex64 {
 
 /// (a - ib) / (a + ib): modulus 1 and phase -2 atan(b / a), which is Born & Wolf eq. 60.
 fn total(a: f64, b: f64) -> Complex64 {
-    let length = a.hypot(b);
-    if length == 0.0 {
+    let square = a * a + b * b;
+    if square == 0.0 {
         // Equal indices at grazing incidence: the limit from a denser and from a rarer side alike.
         return Complex64::from(-1.0);
     }
-    let (cos, sin) = (a / length, b / length);
-    Complex64::new(cos * cos - sin * sin, -2.0 * cos * sin)
+    Complex64::new((a * a - b * b) / square, -2.0 * a * b / square)
 }
 
 #[cfg(test)]

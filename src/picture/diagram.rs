@@ -244,3 +244,139 @@ impl View {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::cut::{Crown, LowerHalf, Pavilion, RoundBrilliant};
+    use crate::math::Plane;
+    use glam::DVec3;
+    use resvg::usvg::roxmltree;
+    use std::collections::BTreeMap;
+
+    fn brilliant() -> Stone {
+        let given = RoundBrilliant {
+            table: 53.0,
+            crown: Crown::Angle(34.5),
+            pavilion: Pavilion::Angle(40.75),
+            star_length: 50.0,
+            lower_half: LowerHalf::Radial(75.0),
+            girdle_thickness: 3.0,
+            girdle_facets: 96,
+            culet: 1.0,
+        };
+        Stone::new(&given.facets().unwrap()).unwrap()
+    }
+
+    fn cube() -> Stone {
+        let sides =
+            [("right", DVec3::X), ("left", DVec3::NEG_X), ("back", DVec3::Y), ("front", DVec3::NEG_Y)];
+        let ends = [("a < b & \"c\"", DVec3::Z), ("bottom", DVec3::NEG_Z)];
+        let plane = |(name, n): (&str, DVec3)| (name.to_owned(), Plane::new(n, 1.0));
+        Stone::new(&sides.into_iter().chain(ends).map(plane).collect::<Vec<_>>()).unwrap()
+    }
+
+    #[test]
+    fn every_facet_is_one_polygon_that_bears_its_name() {
+        for stone in [brilliant(), cube()] {
+            let svg = diagram(&stone, "Test").to_string();
+            let document = roxmltree::Document::parse(&svg).unwrap();
+            let mut found: BTreeMap<&str, usize> = BTreeMap::new();
+            for polygon in document.descendants().filter(|node| node.has_tag_name("polygon")) {
+                let name = polygon.attribute("data-name").unwrap();
+                let title = polygon.children().find(|node| node.has_tag_name("title")).unwrap();
+                assert_eq!(title.text().map(str::trim), Some(name));
+                *found.entry(name).or_default() += 1;
+            }
+            assert!(stone.names().iter().all(|name| found.get(name.as_str()) == Some(&1)));
+            assert_eq!(found.len(), stone.names().len());
+        }
+    }
+
+    #[test]
+    fn the_tiers_of_a_brilliant_are_its_kinds_of_facet() {
+        let tiers = tiers(&brilliant());
+        let found: Vec<_> =
+            tiers.iter().map(|t| (t.name.as_str(), t.facets.len(), degrees(t.slope_degrees))).collect();
+        let expected = [
+            ("table", 1, "0°"),
+            ("bezel", 8, "34.5°"),
+            ("star", 8, "23.07°"),
+            ("upper half", 16, "40.58°"),
+            ("girdle", 96, "90°"),
+            ("lower half", 16, "42.01°"),
+            ("main", 8, "40.75°"),
+            ("culet", 1, "0°"),
+        ];
+        assert_eq!(found, expected.map(|(name, count, slope)| (name, count, slope.to_owned())));
+        let azimuths: Vec<_> = tiers.iter().map(|tier| tier.azimuth_degrees.map(degrees)).collect();
+        let expected = [
+            None,
+            Some("0°"),
+            Some("22.5°"),
+            Some("11.25°"),
+            Some("1.88°"),
+            Some("11.25°"),
+            Some("0°"),
+            None,
+        ];
+        assert_eq!(azimuths, expected.map(|text| text.map(str::to_owned)));
+    }
+
+    #[test]
+    fn every_tier_of_a_brilliant_is_labelled_and_listed_with_its_slope() {
+        let svg = diagram(&brilliant(), "Test").to_string();
+        let lines = |text: &str| svg.lines().filter(|line| line.trim() == text).count();
+        for (name, slope) in
+            [("star", "23.07°"), ("upper half", "40.58°"), ("lower half", "42.01°"), ("main", "40.75°")]
+        {
+            assert_eq!((lines(name), lines(slope)), (2, 2), "{name}");
+        }
+    }
+
+    #[test]
+    fn a_tier_takes_the_name_that_its_facets_share() {
+        let name = |names: &[&str]| tier_name(names.iter().copied());
+        assert_eq!(name(&["upper_half 1", "upper_half 16"]), "upper half");
+        assert_eq!(name(&["P1", "P2"]), "P1, P2");
+        assert_eq!(name(&["table"]), "table");
+        assert_eq!(name(&["crown a", "crown a 2"]), "crown a");
+    }
+
+    #[test]
+    fn azimuths_run_from_0_to_below_360_degrees() {
+        assert_eq!(azimuth(DVec2::X), 0.0);
+        assert_eq!(azimuth(DVec2::NEG_Y), 270.0);
+        assert_eq!(azimuth(DVec2::new(1.0, -1e-12)), 0.0);
+    }
+
+    #[test]
+    fn from_below_azimuths_run_clockwise_from_the_left() {
+        let stone = cube();
+        let below = View::new(&stone, Basis::FACE_DOWN, 0.0, "");
+        let right_on_paper = below.aspect.at(DVec3::X);
+        assert!(right_on_paper.x < 0.0);
+        for azimuth in [0.0, 45.0, 130.0] {
+            let toward = DVec2::from_angle(f64::to_radians(azimuth)).extend(0.0);
+            let (stone, index) = (below.aspect.at(toward), below.polar(1.0, below.on_paper(azimuth)));
+            assert!(stone.normalize_or_zero().distance(index) < 1e-12);
+        }
+    }
+
+    #[test]
+    fn a_stone_of_very_many_tiers_is_drawn_and_its_list_cut_short() {
+        let golden = std::f64::consts::PI * (3.0 - 5.0_f64.sqrt());
+        let plane = |k: u32| {
+            let z = 1.0 - f64::from(2 * k + 1) / 400.0;
+            (format!("{k}"), Plane::from_slope(z.acos(), golden * f64::from(k), 1.0))
+        };
+        let svg = diagram(&Stone::new(&(0..400).map(plane).collect::<Vec<_>>()).unwrap(), "Ball").to_string();
+        assert!(svg.contains("and 160 tiers more"));
+        assert_eq!(svg.matches("<polygon").count(), 400);
+    }
+
+    #[test]
+    fn the_same_stone_gives_the_same_bytes() {
+        assert_eq!(diagram(&brilliant(), "Test").to_string(), diagram(&brilliant(), "Test").to_string());
+    }
+}

@@ -4,21 +4,21 @@
 //! how far what is drawn on it reaches, so nothing is clipped. Text is set in Ubuntu Light, which `io` rasterises
 //! with; other viewers fall back on their own sans-serif of about the same widths.
 
+mod lettering;
+
+pub(super) use lettering::{
+    ACCENT, Align, DIMENSION, Frame, INK, QUIET, REMARK, Type, degrees, percent, shortened, text_frame,
+    text_width,
+};
+
 use crate::math::{Basis, Facet};
 use crate::scene::Stone;
 use glam::{DVec2, DVec3};
+use lettering::{EDGE, MIDDLE_OF_FIGURES, TITLE, printable};
 use std::fmt::{Display, Write};
 use svg::Document;
 use svg::node::element::{Circle, Group, Path, Polygon, Rectangle, Text, Title};
 
-/// Colour of outlines and names.
-pub(super) const INK: &str = "#2a2e34";
-/// Colour of edges between facets.
-pub(super) const EDGE: &str = "#868c95";
-/// Colour of remarks, and of what is there only to be read against.
-pub(super) const QUIET: &str = "#70767f";
-/// Colour of dimensions.
-pub(super) const ACCENT: &str = "#1c5a94";
 /// The lighter colour of the lines that lead from a dimension to what it measures.
 const EXTENSION: &str = "#a9c2da";
 
@@ -34,96 +34,8 @@ const ARROW: DVec2 = DVec2::new(9.0, 2.6);
 /// A dimension shorter than this has its arrows outside.
 pub(super) const ROOM_FOR_ARROWS: f64 = 26.0;
 
-/// From a text's base line to the middle of its figures, in type sizes.
-const MIDDLE_OF_FIGURES: f64 = 0.35;
-
 /// A facet whose normal leans less than this toward the eye is seen edge on: rounding of a unit normal.
 const EDGE_ON: f64 = 1e-9;
-
-/// A size and a colour of text.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Type {
-    /// Height of the type, in units of the drawing.
-    pub size: f64,
-    /// Its colour.
-    pub colour: &'static str,
-}
-
-/// Of the drawing's title.
-const TITLE: Type = Type { size: 24.0, colour: INK };
-/// Of dimensions.
-pub(super) const DIMENSION: Type = Type { size: 15.0, colour: ACCENT };
-/// Of remarks.
-pub(super) const REMARK: Type = Type { size: 13.0, colour: QUIET };
-
-/// Which part of a text stands at the point given.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Align {
-    Start,
-    Middle,
-    End,
-}
-
-/// A box with sides along the axes, as its least and greatest corner.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Frame {
-    pub low: DVec2,
-    pub high: DVec2,
-}
-
-impl Frame {
-    const EMPTY: Self = Self { low: DVec2::INFINITY, high: DVec2::NEG_INFINITY };
-
-    fn include(&mut self, p: DVec2) {
-        (self.low, self.high) = (self.low.min(p), self.high.max(p));
-    }
-}
-
-/// Width of a line of text, from the font's own advances; what is not ASCII counts as wide as it may be.
-pub(super) fn text_width(text: &str, size: f64) -> f64 {
-    /// Advances of U+0020 to U+007E in Ubuntu Light, thousandths of the type size.
-    const ADVANCES: [u16; 95] = [
-        228, 274, 392, 653, 564, 831, 648, 240, 310, 310, 472, 564, 246, 282, 246, 359, 564, 564, 564, 564,
-        564, 564, 564, 564, 564, 564, 246, 246, 564, 564, 564, 380, 940, 641, 630, 609, 702, 555, 520, 658,
-        692, 248, 487, 599, 502, 865, 709, 774, 592, 774, 618, 517, 548, 680, 624, 921, 608, 569, 560, 310,
-        359, 310, 564, 490, 376, 509, 583, 460, 583, 548, 376, 573, 569, 237, 237, 495, 255, 863, 569, 582,
-        583, 583, 374, 428, 387, 569, 480, 775, 499, 474, 455, 319, 262, 319, 564,
-    ];
-    let advance = |c: char| match c {
-        ' '..='~' => ADVANCES[c as usize - 32],
-        '°' => 318,
-        '–' => 496,
-        '·' => 246,
-        _ => 1000,
-    };
-    text.chars().map(|c| f64::from(advance(c))).sum::<f64>() * size / 1000.0
-}
-
-/// The text, with its end left out where it is wider than `room`.
-pub(super) fn shortened(text: &str, size: f64, room: f64) -> String {
-    let mut kept = text.to_owned();
-    let mut shown = kept.clone();
-    while !kept.is_empty() && text_width(&shown, size) > room {
-        kept.pop();
-        shown = format!("{}…", kept.trim_end());
-    }
-    shown
-}
-
-/// A number to two decimals, without trailing zeros.
-pub(super) fn rounded(value: f64) -> String {
-    format!("{}", (value * 100.0).round() / 100.0 + 0.0)
-}
-
-/// Percent as they are written.
-pub(super) fn percent(value: f64) -> String {
-    format!("{} %", rounded(value))
-}
-
-/// Degrees as they are written.
-pub(super) fn degrees(value: f64) -> String {
-    format!("{}°", rounded(value))
-}
 
 /// A coordinate: three digits behind the point, no negative zero.
 fn coordinate(value: f64) -> f64 {
@@ -133,13 +45,6 @@ fn coordinate(value: f64) -> f64 {
 /// A point as paths and polygons write it.
 fn point(p: DVec2) -> impl Display {
     format!("{},{}", coordinate(p.x), coordinate(p.y))
-}
-
-/// What XML cannot hold is shown by the sign for it.
-fn printable(text: &str) -> String {
-    let replaced =
-        |c: char| if c.is_control() || matches!(c, '\u{fffe}' | '\u{ffff}') { '\u{fffd}' } else { c };
-    text.chars().map(replaced).collect()
 }
 
 /// Straight lines as a path.
@@ -411,18 +316,6 @@ impl Sheet {
     }
 }
 
-/// The box that a line of text fills.
-pub(super) fn text_frame(size: f64, align: Align, at: DVec2, content: &str) -> Frame {
-    let width = text_width(content, size);
-    let left = match align {
-        Align::Start => 0.0,
-        Align::Middle => width / 2.0,
-        Align::End => width,
-    };
-    let low = at - DVec2::new(left, 0.62 * size);
-    Frame { low, high: low + DVec2::new(width, 1.2 * size) }
-}
-
 fn face(name: &str, corners: &[DVec2], fill: String) -> Polygon {
     let points = corners.iter().map(|&p| point(p).to_string()).collect::<Vec<_>>().join(" ");
     let name = printable(name);
@@ -442,4 +335,76 @@ fn shade(facet: &Facet, aspect: &Aspect) -> String {
     let facing = facet.plane.normal.dot(aspect.basis.toward).clamp(0.0, 1.0);
     let grey = (232.0 + 23.0 * facing).round();
     format!("#{0:02x}{0:02x}{1:02x}", grey as u8, (grey + 3.0).min(255.0) as u8)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::Plane;
+
+    fn cube() -> Stone {
+        let sides = [DVec3::X, DVec3::NEG_X, DVec3::Y, DVec3::NEG_Y, DVec3::Z, DVec3::NEG_Z];
+        let plane = |(k, n): (usize, &DVec3)| (format!("side {k}"), Plane::new(*n, 1.0));
+        Stone::new(&sides.iter().enumerate().map(plane).collect::<Vec<_>>()).unwrap()
+    }
+
+    fn aspect(basis: Basis) -> Aspect {
+        Aspect { basis, centre: DVec2::ZERO, scale: 100.0, place: DVec2::new(10.0, 20.0) }
+    }
+
+    #[test]
+    fn the_sheet_has_its_y_axis_downward() {
+        let up = aspect(Basis::FACE_UP);
+        assert_eq!(up.at(DVec3::new(0.5, 1.0, 3.0)), DVec2::new(60.0, -80.0));
+        assert_eq!(aspect(Basis::FACE_DOWN).at(DVec3::new(0.5, 1.0, 3.0)), DVec2::new(-40.0, -80.0));
+        let stone = cube();
+        let shown: Vec<_> = stone.polytope.facets().iter().filter(|f| up.shows(f)).collect();
+        assert!(shown.len() == 1 && shown[0].plane.normal == DVec3::Z);
+    }
+
+    #[test]
+    fn every_edge_in_sight_is_drawn_once() {
+        let toward = DVec3::new(0.6, -0.48, 0.64);
+        let stone = cube();
+        let aspect = aspect(Basis::FACE_UP.aimed(toward));
+        let mut sheet = Sheet::new();
+        sheet.stone(&stone, &aspect, |facet| aspect.shows(facet));
+        let svg = sheet.document("cube", "", &[]).to_string();
+        let count = |class: &str| {
+            let line = svg.lines().find(|line| line.contains(&format!("class=\"{class}\""))).unwrap();
+            line.matches('M').count()
+        };
+        assert_eq!([count("outline"), count("edges"), count("girdle")], [6, 2, 1]);
+    }
+
+    #[test]
+    fn a_drawing_holds_all_that_is_on_it_within_its_margins() {
+        let mut sheet = Sheet::new();
+        sheet.stroke(DVec2::new(-900.0, 30.0), DVec2::new(700.0, 40.0));
+        let svg = sheet.document("Wide", "", &["a remark".to_owned()]).to_string();
+        assert!(svg.contains("width=\"1672\""), "{svg}");
+        assert!(svg.contains("translate(936 "), "{svg}");
+    }
+
+    #[test]
+    fn arrows_stand_outside_where_there_is_no_room_between_them() {
+        let arrows = |length: f64| {
+            let mut sheet = Sheet::new();
+            let inside = sheet.arrows(DVec2::ZERO, DVec2::X * length);
+            (inside, sheet.frame.high.x - sheet.frame.low.x)
+        };
+        assert_eq!(arrows(100.0), (true, 100.0));
+        assert_eq!(arrows(10.0), (false, 10.0 + 4.0 * ARROW.x));
+        assert!(!arrows(0.0).0);
+    }
+
+    #[test]
+    fn upright_text_fills_a_box_turned_by_a_right_angle() {
+        let mut sheet = Sheet::new();
+        sheet.upright_text(DIMENSION, Align::Start, DVec2::ZERO, "crown");
+        let size = sheet.frame.high - sheet.frame.low;
+        assert!(
+            (size.y - text_width("crown", DIMENSION.size)).abs() < 1e-9 && sheet.frame.high.y.abs() < 1e-9
+        );
+    }
 }

@@ -1,17 +1,15 @@
 //! A stone's profile: seen along the girdle plane, table up, with its dimensions written on it.
 //!
 //! Lengths are percent of the girdle diameter (of the width, for a stone given by its planes), angles degrees from
-//! the girdle plane, as laboratories print them. Star and lower half are measured in plan, at 22.5 degrees from the
-//! drawing's plane, where the projection shortens the part and the whole alike.
+//! the girdle plane, as laboratories print them.
 
-use super::drawing::{
-    Align, Aspect, DIMENSION, ROOM_FOR_ARROWS, Sheet, degrees, percent, rounded, text_width,
-};
-use crate::cut::{Derived, RoundBrilliant};
+mod brilliant;
+
+use super::drawing::{Align, Aspect, DIMENSION, ROOM_FOR_ARROWS, Sheet, percent, text_width};
+use crate::cut::RoundBrilliant;
 use crate::math::{Basis, Facet};
 use crate::scene::Stone;
 use glam::{DVec2, DVec3};
-use std::f64::consts::FRAC_PI_8;
 use svg::Document;
 
 /// The box that the stone is fitted into, units of the drawing.
@@ -39,7 +37,7 @@ const NEARLY_NARROWEST: f64 = 1.01;
 /// crown, girdle and pavilion if it has upright facets. So it is too if the proportions are impossible.
 pub fn profile(stone: &Stone, title: &str, proportions: Option<&RoundBrilliant>) -> Document {
     match proportions.and_then(|given| Some((given, given.derived().ok()?))) {
-        Some((given, derived)) => brilliant_profile(stone, title, given, &derived),
+        Some((given, derived)) => brilliant::draw(stone, title, given, &derived),
         None => measured_profile(stone, title),
     }
 }
@@ -74,20 +72,6 @@ struct Dimensions {
 }
 
 impl Dimensions {
-    fn of_brilliant(given: &RoundBrilliant, derived: &Derived) -> Self {
-        let (crown, girdle) = (derived.crown_height / 50.0, given.girdle_thickness / 50.0);
-        let culet = crown - derived.total_depth / 50.0;
-        let table = given.table / 100.0;
-        Self {
-            width: Span::new(-1.0, 1.0, 100.0),
-            total: Span::new(crown, culet, derived.total_depth),
-            table: Some(Span::new(-table, table, given.table)),
-            crown: Some(Span::new(crown, 0.0, derived.crown_height)),
-            girdle: Some(Span::new(0.0, -girdle, given.girdle_thickness)),
-            pavilion: Some(Span::new(-girdle, culet, derived.pavilion_depth)),
-        }
-    }
-
     fn measured(stone: &Stone, basis: &Basis) -> Self {
         let polytope = &stone.polytope;
         let (left, right) = extent(polytope.vertices().iter().copied(), basis.right);
@@ -126,35 +110,6 @@ fn extent(points: impl Iterator<Item = DVec3>, along: DVec3) -> (f64, f64) {
     points.map(|p| p.dot(along)).fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), x| (a.min(x), b.max(x)))
 }
 
-/// The bezels at azimuth 0 and 180 degrees edge on, so that crown and pavilion angle are seen in their true size.
-const BRILLIANT_BASIS: Basis = Basis { right: DVec3::X, up: DVec3::Z, toward: DVec3::NEG_Y };
-
-fn brilliant_profile(stone: &Stone, title: &str, given: &RoundBrilliant, derived: &Derived) -> Document {
-    let dimensions = Dimensions::of_brilliant(given, derived);
-    let mut drawing = Drawing::new(stone, dimensions, BRILLIANT_BASIS);
-    drawing.star(given, derived);
-    drawing.table(2.0);
-    drawing.heights();
-    drawing.angles(given, derived);
-    drawing.culet(given);
-    drawing.lower_half(given, derived);
-    drawing.width("girdle diameter", 3.0);
-    let angles = [
-        ("Star", derived.star_angle),
-        ("upper half", derived.upper_half_angle),
-        ("lower half", derived.lower_half_angle),
-    ];
-    let angles = angles.map(|(name, angle)| format!("{name} {}", degrees(angle))).join(" · ");
-    let remarks = [
-        format!("{angles} · lower half, seen from the side, {}", percent(derived.lower_half_length_vertical)),
-        "Star and lower half in plan: of the way from the table's edge to the girdle, and from the girdle to the \
-         centre."
-            .to_owned(),
-    ];
-    let subtitle = "profile · percent of the girdle diameter, degrees from the girdle plane";
-    drawing.sheet.document(title, subtitle, &remarks)
-}
-
 fn measured_profile(stone: &Stone, title: &str) -> Document {
     let basis = across_the_width(stone);
     let dimensions = Dimensions::measured(stone, &basis);
@@ -163,7 +118,7 @@ fn measured_profile(stone: &Stone, title: &str) -> Document {
     drawing.table(1.0);
     drawing.heights();
     drawing.width("width", 1.0);
-    let remarks = [format!("Length / width {}", rounded((far - near) / dimensions.width.length()))];
+    let remarks = [format!("Length / width {:.2}", (far - near) / dimensions.width.length())];
     drawing.sheet.document(title, "profile · percent of the width, measured on the planes", &remarks)
 }
 
@@ -364,74 +319,108 @@ fn spread(mut heights: Vec<f64>, highest: f64) -> Vec<f64> {
     heights
 }
 
-/// What only a round brilliant has.
-impl Drawing<'_> {
-    /// The star's length in plan, over the right half of the crown.
-    fn star(&mut self, given: &RoundBrilliant, derived: &Derived) {
-        let cos = FRAC_PI_8.cos();
-        let edge = given.table / 100.0 * cos;
-        let tip = edge + given.star_length / 100.0 * (1.0 - edge);
-        let tip_height = derived.crown_angle.to_radians().tan() * (1.0 - tip * cos);
-        let ends = [self.at(edge * cos, self.dimensions.total.from), self.at(tip * cos, tip_height)];
-        let text = format!("star {}", percent(given.star_length));
-        self.across(self.level(1.0), ends, Overflow::Right, &text);
-    }
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::cut::{Crown, LowerHalf, Pavilion};
+    use crate::math::Plane;
+    use std::f64::consts::{FRAC_1_SQRT_2, FRAC_PI_2, FRAC_PI_4};
 
-    /// The lower half's length in plan, under the right half of the pavilion.
-    fn lower_half(&mut self, given: &RoundBrilliant, derived: &Derived) {
-        let cos = FRAC_PI_8.cos();
-        let tip = (1.0 - derived.lower_half_length / 100.0) * cos;
-        let girdle = -given.girdle_thickness / 50.0;
-        let tip_height = girdle - derived.pavilion_angle.to_radians().tan() * (1.0 - tip * cos);
-        let ends = [self.at(tip, tip_height.max(self.dimensions.total.to)), self.at(cos, girdle)];
-        let text = format!("lower half {}", percent(derived.lower_half_length));
-        self.across(self.level(-2.0), ends, Overflow::Left, &text);
-    }
-
-    fn culet(&mut self, given: &RoundBrilliant) {
-        let bottom = self.dimensions.total.to;
-        let text = format!("culet {}", percent(given.culet));
-        let y = self.level(-1.0);
-        let culet = given.culet / 100.0;
-        if culet * self.aspect.scale > 1.0 {
-            let ends = [-culet, culet].map(|x| self.at(x, bottom));
-            return self.across(y, ends, Overflow::Left, &text);
+    /// A rectangular stone of slopes of 45 degrees, of these half widths, its x axis turned by `turn` radians.
+    fn gem(turn: f64, half: DVec2) -> Stone {
+        let mut facets = vec![("table".to_owned(), Plane::new(DVec3::Z, 0.2))];
+        for (k, reach) in [half.x, half.y, half.x, half.y].into_iter().enumerate() {
+            let azimuth = turn + FRAC_PI_2 * k as f64;
+            for (name, slope, offset) in [
+                ("crown", FRAC_PI_4, reach * FRAC_1_SQRT_2),
+                ("girdle", FRAC_PI_2, reach),
+                ("pavilion", 3.0 * FRAC_PI_4, (reach + 0.1) * FRAC_1_SQRT_2),
+            ] {
+                facets.push((format!("{name} {k}"), Plane::from_slope(slope, azimuth, offset)));
+            }
         }
-        let tip = self.at(0.0, bottom) + DVec2::Y * GAP;
-        let knee = DVec2::new(tip.x - BESIDE, y);
-        self.sheet.stroke(knee, tip);
-        if let Some(toward) = (tip - knee).try_normalize() {
-            self.sheet.arrow_head(tip, toward);
-        }
-        self.sheet.text(DIMENSION, Align::End, knee - DVec2::X * GAP, &text);
+        Stone::new(&facets).unwrap()
     }
 
-    /// Crown angle at the table's corner, pavilion angle at the culet, both outside the stone on the left.
-    fn angles(&mut self, given: &RoundBrilliant, derived: &Derived) {
-        let girdle = -given.girdle_thickness / 50.0;
-        let table = self.at(-given.table / 100.0, self.dimensions.total.from);
-        self.angle(table, self.at(-1.0, 0.0), derived.crown_angle);
-        let culet = self.at(-given.culet / 100.0, self.dimensions.total.to);
-        self.angle(culet, self.at(-1.0, girdle), derived.pavilion_angle);
+    fn measured(stone: &Stone) -> Dimensions {
+        Dimensions::measured(stone, &across_the_width(stone))
     }
 
-    /// The angle at `vertex` between the level line to the left and the line to `end`.
-    fn angle(&mut self, vertex: DVec2, end: DVec2, angle: f64) {
-        let radius = if angle < 20.0 { 110.0 } else { 64.0 };
-        let down = (end.y - vertex.y).signum();
-        let arm = DVec2::new(-angle.to_radians().cos(), down * angle.to_radians().sin());
-        self.sheet.extension(vertex - DVec2::X * GAP, vertex - DVec2::X * (radius + 2.0 * GAP));
-        if (end - vertex).length() < radius + GAP {
-            self.sheet.extension(end + arm * GAP, vertex + arm * (radius + 2.0 * GAP));
+    #[test]
+    fn a_stone_of_planes_is_measured_across_its_width_however_it_is_turned() {
+        for (turn, half) in [(0.0, [0.7, 1.0]), (0.0, [1.0, 0.7]), (0.5, [0.7, 1.0]), (FRAC_PI_4, [0.7, 0.7])]
+        {
+            let stone = gem(turn, DVec2::from_array(half));
+            let found = measured(&stone);
+            let expected = [
+                (Some(found.width), 100.0),
+                (Some(found.total), 100.0 / 1.4),
+                (found.table, 100.0 / 1.4),
+                (found.crown, 20.0 / 1.4),
+                (found.girdle, 10.0 / 1.4),
+                (found.pavilion, 50.0),
+            ];
+            for (span, percent) in expected {
+                let span = span.unwrap();
+                assert!((span.percent - percent).abs() < 1e-9, "{turn} {half:?}: {found:?}");
+                assert!((span.length() * 100.0 / 1.4 - percent).abs() < 1e-9);
+            }
         }
-        self.sheet.arc(vertex, vertex - DVec2::X * radius, vertex + arm * radius);
-        let half = (angle / 2.0).to_radians();
-        let text_at = if angle < 11.0 {
-            // Too narrow for text between the lines.
-            vertex + DVec2::new(-radius - 2.0 * GAP, -down * LINE / 2.0)
-        } else {
-            vertex + DVec2::new(-half.cos(), down * half.sin()) * (radius + BESIDE)
+    }
+
+    #[test]
+    fn length_to_width_and_the_measures_are_written() {
+        let svg = profile(&gem(0.5, DVec2::new(0.7, 1.0)), "Test", None).to_string();
+        for text in
+            ["Length / width 1.43", "table 71.43 %", "crown 14.29 %", "girdle 7.14 %", "pavilion 50 %"]
+        {
+            assert!(svg.lines().any(|line| line == text), "{text}");
+        }
+    }
+
+    #[test]
+    fn a_brilliant_of_planes_is_seen_along_its_axes() {
+        let given = RoundBrilliant {
+            table: 53.0,
+            crown: Crown::Angle(34.5),
+            pavilion: Pavilion::Angle(40.75),
+            star_length: 50.0,
+            lower_half: LowerHalf::Radial(75.0),
+            girdle_thickness: 3.0,
+            girdle_facets: 96,
+            culet: 0.0,
         };
-        self.sheet.text(DIMENSION, Align::End, text_at, &degrees(angle));
+        let stone = Stone::new(&given.facets().unwrap()).unwrap();
+        assert_eq!(across_the_width(&stone).right, DVec3::X);
+        let (found, derived) = (measured(&stone), given.derived().unwrap());
+        let heights = [found.total, found.crown.unwrap(), found.pavilion.unwrap()].map(|span| span.percent);
+        for (found, expected) in
+            heights.into_iter().zip([derived.total_depth, derived.crown_height, derived.pavilion_depth])
+        {
+            assert!((found - expected).abs() < 1e-9);
+        }
+    }
+
+    #[test]
+    fn the_view_from_the_side_is_a_right_handed_frame() {
+        for turn in [0.0, 0.3, 1.0, 2.0] {
+            let basis = across_the_width(&gem(turn, DVec2::new(0.5, 0.9)));
+            assert!(basis.right.cross(basis.up).distance(basis.toward) < 1e-12);
+        }
+    }
+
+    #[test]
+    fn texts_stand_clear_of_one_another_and_of_what_is_above() {
+        assert_eq!(spread(vec![50.0, 100.0, 200.0], 0.0), [50.0, 100.0, 200.0]);
+        assert_eq!(spread(vec![95.0, 100.0, 105.0], 0.0), [80.0, 100.0, 120.0]);
+        assert_eq!(spread(vec![95.0, 100.0, 105.0], 90.0), [90.0, 110.0, 130.0]);
+        assert_eq!(spread(vec![5.0], 0.0), [5.0]);
+    }
+
+    #[test]
+    fn a_hull_keeps_the_corners_alone() {
+        let points = [[0.0, 0.0], [1.0, 0.0], [2.0, 0.0], [2.0, 1.0], [1.0, 0.5], [0.0, 1.0], [0.0, 0.0]];
+        let hull = hull(points.map(DVec2::from_array).to_vec());
+        assert_eq!(hull, [[0.0, 0.0], [2.0, 0.0], [2.0, 1.0], [0.0, 1.0]].map(DVec2::from_array));
     }
 }

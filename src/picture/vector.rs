@@ -37,7 +37,7 @@ pub fn strongest(stone: &Stone, beams: &Beams, scope: &Scope, title: &str) -> Do
 }
 
 /// Draws the energy picture: the finest subdivision of the image that was traced, each polygon in the colour of
-/// all the light seen through it.
+/// all the light seen through it, with the facet it enters by (`data-entry`).
 pub fn energy(stone: &Stone, beams: &Beams, scope: &Scope, title: &str) -> Document {
     let page = Page::new(stone, beams);
     let linear = |c: u8| linear_from_encoded(f64::from(c) / 255.0);

@@ -5,7 +5,7 @@
 //! space, so that where rays and beams agree it is not by a shared mistake.
 
 use crate::math::{Basis, Plane, Polytope};
-use crate::optics::{fresnel, reflectance};
+use crate::optics::{cos_transmitted, fresnel, reflectance};
 use crate::scene::{Medium, Projection, View};
 use glam::{DVec2, DVec3};
 use num_complex::Complex64;
@@ -66,7 +66,16 @@ struct Group {
     y: f64x4,
     z: f64x4,
     offset: f64x4,
+    /// The group's number, in the bits of [`TAG`].
+    tag: f64x4,
 }
+
+/// The low bits of a ratio's fraction that hold the number of its group instead. Two facets whose ratios differ by
+/// less, 1e-12 of their size, meet in an edge there.
+const TAG: u64 = 0xfff;
+
+/// Gaps count as no smaller: where rounding has put a point a hair outside a plane, that plane is met at once.
+const LEAST_GAP: f64 = 1e-290;
 
 /// Follows single rays through one stone.
 #[derive(Debug, Clone)]
@@ -195,13 +204,14 @@ impl Tracer {
         let lanes = |some: &[Plane], pick: fn(&Plane) -> f64| {
             f64x4::from(std::array::from_fn(|i| some.get(i).map_or(0.0, pick)))
         };
-        let group = |some: &[Plane]| Group {
+        let group = |(i, some): (usize, &[Plane])| Group {
             x: lanes(some, |p| p.normal.x),
             y: lanes(some, |p| p.normal.y),
             z: lanes(some, |p| p.normal.z),
             offset: lanes(some, |p| p.offset),
+            tag: f64x4::splat(f64::from_bits(i as u64 & TAG)),
         };
-        let groups = planes.chunks(LANES).map(group).collect();
+        let groups = planes.chunks(LANES).enumerate().map(group).collect();
         Self { planes, groups, medium, options }
     }
 
@@ -213,7 +223,7 @@ impl Tracer {
         let point = origin + direction * distance;
         let eta = 1.0 / self.medium.index;
         let cos_i = -direction.dot(normal);
-        let cos_t = crate::optics::cos_transmitted(cos_i, eta)?;
+        let cos_t = cos_transmitted(cos_i, eta)?;
         let inward = direction * eta + normal * (eta * cos_i - cos_t);
         let (light, glare) = self.eye_light(direction).split(direction, inward, normal, eta, true);
         let reflected = direction + normal * (2.0 * cos_i);
@@ -252,8 +262,12 @@ impl Tracer {
             }
             let cos_i = direction.dot(normal);
             let reflected = direction - normal * (2.0 * cos_i);
-            let (onward, weight) = light.split(direction, reflected, normal, self.medium.index, false);
-            if let Some(cos_t) = crate::optics::cos_transmitted(cos_i, self.medium.index) {
+            let cos_t = cos_transmitted(cos_i, self.medium.index);
+            let (onward, weight) = match (cos_t, light) {
+                (None, Light::Unpolarised(_)) => (light, 0.0),
+                _ => light.split(direction, reflected, normal, self.medium.index, false),
+            };
+            if let Some(cos_t) = cos_t {
                 let exit = direction * self.medium.index + normal * (cos_t - self.medium.index * cos_i);
                 let weight = weight * left;
                 leave(Exit { facet: facet as u32, point, path, direction: exit, weight, surface: false });
@@ -267,42 +281,49 @@ impl Tracer {
 
     /// Facet and distance at which a ray enters from outside.
     fn enter(&self, origin: DVec3, direction: DVec3) -> Option<(usize, f64)> {
-        let (mut first, mut into, mut out) = (None, f64::NEG_INFINITY, f64::INFINITY);
-        for (facet, plane) in self.planes.iter().enumerate() {
-            let (speed, gap) = (plane.normal.dot(direction), -plane.distance(origin));
-            if speed < 0.0 {
-                if gap / speed > into {
-                    (into, first) = (gap / speed, Some(facet));
-                }
-            } else if speed > 0.0 {
-                out = out.min(gap / speed);
-            } else if gap < 0.0 {
-                return None;
-            }
+        let splat = |v: DVec3| v.to_array().map(f64x4::splat);
+        let ([ox, oy, oz], [dx, dy, dz]) = (splat(origin), splat(direction));
+        let (zero, never) = (f64x4::ZERO, f64x4::splat(f64::INFINITY));
+        let (mut into, mut out, mut group) = (-never, never, zero);
+        let mut outside = zero;
+        for (i, Group { x, y, z, offset, .. }) in self.groups.iter().enumerate() {
+            let speed = *x * dx + *y * dy + *z * dz;
+            let gap = *offset - (*x * ox + *y * oy + *z * oz);
+            let distance = gap / speed;
+            let enters = speed.simd_lt(zero) & distance.simd_gt(into);
+            into = enters.select(distance, into);
+            group = enters.select(f64x4::splat(i as f64), group);
+            out = speed.simd_gt(zero).select(distance, never).fast_min(out);
+            outside |= speed.simd_eq(zero) & gap.simd_lt(zero);
         }
-        first.filter(|_| into < out && into > 0.0).map(|facet| (facet, into))
+        let (into, out, group) = (into.to_array(), out.to_array(), group.to_array());
+        let lane = (1..LANES).fold(0, |best, i| if into[i] > into[best] { i } else { best });
+        let leaves = out.into_iter().fold(f64::INFINITY, f64::min);
+        let hits = into[lane] < leaves && into[lane] > 0.0 && outside.none();
+        hits.then(|| (group[lane] as usize * LANES + lane, into[lane]))
     }
 
-    /// Facet and distance at which a ray inside the stone meets it next.
+    /// Facet and distance at which a ray inside the stone meets it next: the greatest ratio of speed toward a plane
+    /// to the gap before it. Planes behind have negative ratios and never win.
     #[inline]
     fn next(&self, point: DVec3, direction: DVec3) -> (usize, f64) {
         let splat = |v: DVec3| v.to_array().map(f64x4::splat);
         let ([px, py, pz], [dx, dy, dz]) = (splat(point), splat(direction));
-        let never = f64x4::splat(f64::INFINITY);
-        let (mut nearest, mut group) = (never, f64x4::ZERO);
-        let mut this = f64x4::ZERO;
-        for Group { x, y, z, offset } in &self.groups {
+        let (least_gap, clear) = (f64x4::splat(LEAST_GAP), f64x4::splat(f64::from_bits(!TAG)));
+        let mut greatest = f64x4::ZERO;
+        for Group { x, y, z, offset, tag } in &self.groups {
             let speed = *x * dx + *y * dy + *z * dz;
+            if speed.simd_gt(f64x4::ZERO).none() {
+                continue;
+            }
             let gap = *offset - (*x * px + *y * py + *z * pz);
-            // Only planes ahead; where rounding has put the point a hair outside, the distance is a hair negative.
-            let distance = speed.simd_gt(f64x4::ZERO).select(gap / speed, never);
-            let nearer = distance.simd_lt(nearest);
-            nearest = nearer.select(distance, nearest);
-            group = nearer.select(this, group);
-            this += f64x4::ONE;
+            let ratio = speed / gap.fast_max(least_gap);
+            greatest = ((ratio & clear) | *tag).fast_max(greatest);
         }
-        let (nearest, group) = (nearest.to_array(), group.to_array());
-        let lane = (1..LANES).fold(0, |best, i| if nearest[i] < nearest[best] { i } else { best });
-        (group[lane] as usize * LANES + lane, nearest[lane])
+        let greatest = greatest.to_array();
+        let lane = (1..LANES).fold(0, |best, i| if greatest[i] > greatest[best] { i } else { best });
+        let facet = (greatest[lane].to_bits() & TAG) as usize * LANES + lane;
+        let plane = &self.planes[facet];
+        (facet, -plane.distance(point) / plane.normal.dot(direction))
     }
 }

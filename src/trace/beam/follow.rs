@@ -18,10 +18,8 @@ const SQUARE_ON: f64 = 1e-9;
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Front {
     pub node: u32,
-    pub facet: u32,
     pub bounces: u32,
     pub ray: Ray,
-    pub path: Affine,
     /// Weight and polarisation, but for absorption.
     pub light: Coherency,
     /// Axis of `light`: a unit vector square to the ray.
@@ -65,49 +63,50 @@ impl<'a> Follower<'a> {
     /// Follows the fronts given and every beam that they split into while it is `strong`.
     pub fn follow(mut self, fronts: &[Front], strong: impl Fn(&Front) -> bool) -> Growth {
         let mut stack: Vec<Front> = fronts.iter().rev().copied().collect();
-        let mut found = vec![];
         while let Some(front) = stack.pop() {
-            self.step(&front, &mut found);
-            for front in found.drain(..) {
-                if strong(&front) { stack.push(front) } else { self.growth.left.push(front) }
-            }
+            self.step(&front, &strong, &mut stack);
         }
         self.growth
     }
 
     /// Takes one beam to the facets that it lands on.
-    fn step(&mut self, front: &Front, found: &mut Vec<Front>) {
+    fn step(&mut self, front: &Front, strong: &impl Fn(&Front) -> bool, stack: &mut Vec<Front>) {
         let Self { splitter, before, growth, outline } = self;
         outline.clear();
         let base = before.nodes.len();
-        let (node, all) = match (front.node as usize).checked_sub(base) {
+        let (&parent, all) = match (front.node as usize).checked_sub(base) {
             None => (&before.nodes[front.node as usize], &before.corners),
             Some(own) => (&growth.nodes[own], &growth.corners),
         };
-        let start = node.corners.0 as usize;
-        outline.extend(&all[start..start + node.corners.1 as usize]);
+        let start = parent.corners.0 as usize;
+        outline.extend(&all[start..start + parent.corners.1 as usize]);
         let sliver = SLIVER * before.silhouette_area;
-        splitter.split(&front.ray, outline, front.facet, |landing| {
+        splitter.split(&front.ray, outline, parent.facet, |landing| {
             let area = twice_area(landing.outline.iter().map(|c| c.at)) / 2.0;
-            if area > sliver {
-                let id = (base + growth.nodes.len()) as u32;
-                let start = growth.corners.len() as u32;
-                growth.corners.extend(landing.outline.iter().map(|c| c.at));
-                let (node, onward) = land(front, &landing, area, before, (id, start), &growth.corners);
-                growth.nodes.push(node);
-                if onward.energy > 0.0 {
-                    found.push(onward);
-                }
-            } else {
+            if area <= sliver {
                 growth.dropped += front.light.weight() * area.max(0.0);
+                return;
+            }
+            let id = (base + growth.nodes.len()) as u32;
+            let start = growth.corners.len() as u32;
+            growth.corners.extend(landing.outline.iter().map(|c| c.at));
+            let (node, onward) =
+                land(front, parent.path, &landing, area, before, (id, start), &growth.corners);
+            growth.nodes.push(node);
+            if strong(&onward) {
+                stack.push(onward);
+            } else if onward.energy > 0.0 {
+                growth.left.push(onward);
             }
         });
     }
 }
 
 /// Splits a beam at the facet it has landed on: what leaves, and what goes on.
+#[inline]
 fn land(
     front: &Front,
+    path_before: Affine,
     landing: &Landing,
     area: f64,
     beams: &Beams,
@@ -125,9 +124,9 @@ fn land(
     let light = if beams.polarised { reflected } else { reflected.unpolarised() };
     let exit =
         surface.cos_t.map_or(DVec3::ZERO, |cos_t| direction * index + normal * (cos_t - index * cos_i));
-    let path = front.path + landing.distance;
+    let path = path_before + landing.distance;
     let own = &corners[start as usize..];
-    let (before, after) = attenuated(own, front.path, path, &beams.medium, area);
+    let (before, after) = attenuated(own, path_before, path, &beams.medium, area);
     let node = Node {
         parent: front.node,
         facet: landing.facet,
@@ -144,8 +143,7 @@ fn land(
     let ray =
         Ray { origin: front.ray.advanced(landing.distance), direction: direction - normal * (2.0 * cos_i) };
     let energy = light.weight() * after;
-    let onward =
-        Front { node: id, facet: landing.facet, bounces: front.bounces + 1, ray, path, light, s, energy };
+    let onward = Front { node: id, bounces: front.bounces + 1, ray, light, s, energy };
     (node, onward)
 }
 

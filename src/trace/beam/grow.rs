@@ -38,10 +38,10 @@ impl Default for Options {
 const MOST_BOUNCES: u32 = 1000;
 
 /// Beams followed as one piece of work. Not the number of cores: the result must not depend on it.
-const PIECE: usize = 32;
+const PIECE: usize = 128;
 
 /// The level falls by no more than this at a step, lest the last step overshoot, and by no less.
-const STEPS: std::ops::RangeInclusive<f64> = 1.0 / 16.0..=0.8;
+const STEPS: std::ops::RangeInclusive<f64> = 0.25..=0.8;
 
 /// Follows light from the eye into a stone until at most `options.unresolved` of it is left, or there are too many
 /// beams, or what is left is caught for ever: then [`Beams::unresolved`] says how much.
@@ -139,7 +139,7 @@ impl<'a> Tracer<'a> {
         let ray = Ray { origin: entry_points(&view, &plane), direction };
         let s = s_axis(direction, plane.normal, view.right);
         let energy = light.weight() * area;
-        self.fronts.push(Front { node, facet, bounces: 0, ray, path: Affine::default(), light, s, energy });
+        self.fronts.push(Front { node, bounces: 0, ray, light, s, energy });
     }
 
     fn run(&mut self, options: &Options, watch: Watch) -> Result<(), Stopped> {
@@ -170,8 +170,7 @@ impl<'a> Tracer<'a> {
     /// Follows every beam with at least this energy, and what comes of it.
     fn follow_above(&mut self, level: f64) {
         let strong = |f: &Front| f.energy >= level && f.bounces < MOST_BOUNCES;
-        let (go, stay): (Vec<Front>, Vec<Front>) = self.fronts.iter().partition(|f| strong(f));
-        self.fronts = stay;
+        let go: Vec<Front> = self.fronts.extract_if(.., |f| strong(f)).collect();
         let base = self.beams.nodes.len() as u32;
         let this = &*self;
         let work = |piece: &[Front]| {
@@ -207,7 +206,7 @@ fn next_level(level: f64, left: f64, before: &mut (f64, f64), goal: f64) -> f64 
     let (old_level, old_left) = std::mem::replace(before, (level, left));
     let power = ((old_left / left).ln() / (old_level / level).ln()).clamp(0.3, 2.0);
     let power = if power.is_finite() { power } else { 0.5 };
-    level * (0.95 * goal / left).powf(1.0 / power).clamp(*STEPS.start(), *STEPS.end())
+    level * (0.98 * goal / left).powf(1.0 / power).clamp(*STEPS.start(), *STEPS.end())
 }
 
 /// The point of a plane behind each image point, as origin and change along the image's axes.
