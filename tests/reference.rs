@@ -14,7 +14,9 @@ const DIAMOND: Medium = Medium::clear(2.4175);
 
 /// docs/optics.md, "Reference figures": 73 facets, polarised, face up; hold to .004, the part that was unresolved
 /// there. Surface; transmitted green, red, blue, below; strongest green, red, blue, below.
-const TABLE: [((f64, f64, f64), (f64, f64), f64, [f64; 4], Option<[f64; 4]>); 3] = [
+type Row = ((f64, f64, f64), (f64, f64), f64, [f64; 4], Option<[f64; 4]>);
+
+const TABLE: [Row; 3] = [
     (
         (53.0, 34.5, 40.75),
         (50.0, 75.0),

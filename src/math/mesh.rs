@@ -48,7 +48,7 @@ fn delaunay(flat: &[DVec2]) -> Option<Vec<[usize; 3]>> {
         .inner_faces()
         .map(|f| f.vertices().map(|v| v.index()))
         // Outside a chain of corners nearly in line, spade's hull adds slivers: they run round the wrong way.
-        .filter(|t| runs_upward(t))
+        .filter(runs_upward)
         .collect();
     (triangles.len() == flat.len() - 2 && same_area(flat, &triangles)).then_some(triangles)
 }
