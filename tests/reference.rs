@@ -35,7 +35,7 @@ const TABLE: [Row; 3] = [
 ];
 
 #[test]
-fn three_brilliants_have_the_published_light() {
+fn three_brilliants_have_the_light_of_the_reference_figures() {
     for (angles, lengths, surface, transmitted, strongest) in TABLE {
         let stone = built(&brilliant(angles, lengths, 16));
         assert_eq!(stone.polytope.facets().len(), 73);

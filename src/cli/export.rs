@@ -14,6 +14,7 @@ use crate::picture::{
 use crate::scene::{Medium, Scope, View};
 use crate::trace::Watch;
 use crate::trace::beam::{self, Beams};
+use crate::trace::ray::Camera;
 use clap::{Args, ValueEnum};
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -80,7 +81,8 @@ impl Export {
         self.distinct_stems()?;
         each_file(&self.files, |file| {
             let specimen = Specimen::load(file)?;
-            let job = Job { export: self, medium: self.light.medium(&specimen)?, specimen: &specimen };
+            let medium = self.light.medium(&specimen)?;
+            let mut job = Job { export: self, medium, specimen: &specimen, last: None };
             for (name, picture) in &pictures {
                 match picture {
                     Picture::Profile => {
@@ -137,6 +139,8 @@ struct Job<'a> {
     export: &'a Export,
     specimen: &'a Specimen,
     medium: Medium,
+    /// The view that was traced last: scopes share it.
+    last: Option<(View, Beams)>,
 }
 
 impl Job<'_> {
@@ -182,34 +186,48 @@ impl Job<'_> {
         format!("{}: {name}", self.specimen.design.name)
     }
 
-    fn scoped(&self, name: &str, scoped: &Scoped) -> Result<(), Failure> {
+    fn scoped(&mut self, name: &str, scoped: &Scoped) -> Result<(), Failure> {
         let head = if scoped.takes_head { self.export.light.head()? } else { 0.0 };
         let scope = scoped.scope.clone().with_head(head);
         let view = self.export.view.view(scoped.side)?;
         let progress = Progress::new(&self.title(name));
         let watch = progress.watch();
-        match self.export.light.tracer(&view)? {
-            TracerName::Beam => self.by_beams(name, &scope, &view, &watch),
+        match self.export.light.tracer(&view, self.specimen)? {
+            TracerName::Beam => {
+                let beams = match self.last.take() {
+                    Some((last, beams)) if last == view => beams,
+                    _ => {
+                        let options = self.export.light.beams(UNRESOLVED)?;
+                        beam::trace(&self.specimen.stone.polytope, self.medium, &view, &options, &watch)?
+                    }
+                };
+                self.by_beams(name, &scope, (&view, &beams), &watch)?;
+                self.last = Some((view, beams));
+                Ok(())
+            }
             TracerName::Ray => self.by_rays(name, &scope, &view, &watch),
         }
     }
 
-    fn by_beams(&self, name: &str, scope: &Scope, view: &View, watch: Watch) -> Result<(), Failure> {
-        let polytope = &self.specimen.stone.polytope;
-        let options = self.export.light.beams(UNRESOLVED)?;
-        let beams = beam::trace(polytope, self.medium, view, &options, watch)?;
-        let film = Film::around(polytope, &beams.view, self.export.size);
-        let told = self.told(name, &format!("exact beams, unresolved {:.2e}", beams.unresolved()));
+    fn by_beams(
+        &self,
+        name: &str,
+        scope: &Scope,
+        (view, beams): (&View, &Beams),
+        watch: Watch,
+    ) -> Result<(), Failure> {
+        let film = Film::around(&self.specimen.stone.polytope, &beams.view, self.export.size);
+        let told = self.told(name, view, &format!("exact beams, unresolved {:.2e}", beams.unresolved()));
         if self.wants(Format::Png) {
             let palette = Palette::of(scope);
             self.paint(
                 &self.path(name, "png"),
-                &Layer::energy(&beams, scope),
+                &Layer::energy(beams, scope),
                 &film,
                 (&palette, &told),
                 watch,
             )?;
-            let strongest = Layer::strongest(&beams, scope);
+            let strongest = Layer::strongest(beams, scope);
             self.paint(
                 &self.path(&format!("{name}-strongest"), "png"),
                 &strongest,
@@ -220,11 +238,11 @@ impl Job<'_> {
         }
         if self.wants(Format::Exr) {
             let path = self.path(name, "exr");
-            write_exr(&path, &Layer::full(&beams, scope), &film, &told, watch)?;
+            write_exr(&path, &Layer::full(beams, scope), &film, &told, watch)?;
             self.done(&path)?;
         }
         if self.wants(Format::Svg) {
-            self.drawn(name, scope, view, (&beams, &options), watch)?;
+            self.drawn(name, scope, (view, beams), watch)?;
         }
         Ok(())
     }
@@ -233,15 +251,15 @@ impl Job<'_> {
         &self,
         name: &str,
         scope: &Scope,
-        view: &View,
-        (beams, options): (&Beams, &beam::Options),
+        (view, beams): (&View, &Beams),
         watch: Watch,
     ) -> Result<(), Failure> {
         let stone = &self.specimen.stone;
-        let title = self.title(name);
+        let options = self.export.light.beams(UNRESOLVED)?;
+        let title = format!("{}, {}", self.title(name), self.export.view.told(view));
         let strongest = vector::strongest(stone, beams, scope, &format!("{title}, strongest exits"));
         self.text(&self.path(&format!("{name}-strongest"), "svg"), &strongest.to_string())?;
-        let coarse = beam::Options { unresolved: options.unresolved.max(DRAWN_UNRESOLVED), ..*options };
+        let coarse = beam::Options { unresolved: options.unresolved.max(DRAWN_UNRESOLVED), ..options };
         let beams = beam::trace(&stone.polytope, self.medium, view, &coarse, watch)?;
         let energy = vector::energy(stone, &beams, scope, &format!("{title}, energy"));
         self.text(&self.path(name, "svg"), &energy.to_string())
@@ -270,9 +288,11 @@ impl Job<'_> {
         }
         let polytope = &self.specimen.stone.polytope;
         let options = self.export.light.rays(UNRESOLVED)?;
-        let film = Film::around(polytope, &view.basis(), self.export.size);
+        let reach = Camera::new(view, polytope).reach(polytope).unwrap_or(1.0);
+        let film = Film::reaching(reach, self.export.size);
         let palette = Palette::of(scope);
-        let told = self.told(name, &format!("point rays, each followed to {:.2e}", options.least_weight));
+        let told =
+            self.told(name, view, &format!("point rays, each followed to {:.2e}", options.least_weight));
         let strongest = format!("{name}-strongest");
         for (reading, name) in [(Reading::Energy, name), (Reading::Strongest, &strongest)] {
             let path = self.path(name, "png");
@@ -286,9 +306,10 @@ impl Job<'_> {
         Ok(())
     }
 
-    fn told(&self, name: &str, tracer: &str) -> String {
+    fn told(&self, name: &str, view: &View, tracer: &str) -> String {
         let polarised = if self.export.light.unpolarised { "unpolarised" } else { "polarised" };
-        format!("{}; index {}, {polarised}; {tracer}", self.title(name), self.medium.index)
+        let (title, view) = (self.title(name), self.export.view.told(view));
+        format!("{title}; {view}; index {}, {polarised}; {tracer}", self.medium.index)
     }
 }
 

@@ -5,7 +5,7 @@ use super::progress::Progress;
 use super::specimen::Specimen;
 use super::{Failure, each_file, json, print};
 use crate::measure::{Figures, by_beams, by_rays};
-use crate::scene::{ASET_CONE, Backing, Medium, Scope, View};
+use crate::scene::{ASET_CONE, Backing, Band, Medium, Scope, View};
 use crate::trace::beam;
 use clap::Args;
 use serde_json::{Map, Value, json};
@@ -67,7 +67,7 @@ pub fn measure(specimen: &Specimen, view: &ViewOptions, light: &LightOptions) ->
     let scope = Scope::aset(ASET_CONE, Backing::Black).with_head(light.head()?);
     let seen = view.view(None)?;
     let medium = light.medium(specimen)?;
-    let tracer = light.tracer(&seen)?;
+    let tracer = light.tracer(&seen, specimen)?;
     let progress = Progress::new(&format!("measuring {}", specimen.stem()));
     let watch = progress.watch();
     let polytope = &specimen.stone.polytope;
@@ -141,9 +141,15 @@ impl Measured {
         for (i, band) in self.scope.bands.iter().enumerate().rev() {
             line(&band.name, [f.surface[i], f.transmitted[i], f.strongest_exit_area[i]]);
         }
+        line("undecided", [0.0, 0.0, f.strongest_exit_undecided]);
         let sum = |zones: &[f64]| zones.iter().sum::<f64>();
-        line("sum", [sum(&f.surface), sum(&f.transmitted), sum(&f.strongest_exit_area)]);
-        let returned = sum(&f.surface[1..]) + sum(&f.transmitted[1..]);
+        line(
+            "sum",
+            [sum(&f.surface), sum(&f.transmitted), sum(&f.strongest_exit_area) + f.strongest_exit_undecided],
+        );
+        let lit = |(i, band): &(usize, &Band)| *i > 0 && band.name != "head";
+        let bands = self.scope.bands.iter().enumerate().filter(lit);
+        let returned: f64 = bands.map(|(i, _)| f.surface[i] + f.transmitted[i]).sum();
         let _ = write!(
             text,
             "\nlight from above the horizon {:.3} %, absorbed {:.3} %, unresolved {:.3} %{}\n{} by {} {} in {:.3} s",
@@ -151,7 +157,7 @@ impl Measured {
             100.0 * f.absorbed,
             100.0 * f.unresolved,
             match self.tracer {
-                TracerName::Beam => " (the most by which any figure is too low)".to_string(),
+                TracerName::Beam => " (the most by which any light is too low)".to_string(),
                 TracerName::Ray => format!(", standard error {:.3} %", 100.0 * f.standard_error),
             },
             if self.polarised { "polarised," } else { "unpolarised," },

@@ -57,15 +57,25 @@ impl ViewOptions {
         }
         let projection = match self.perspective {
             None => Projection::Orthographic,
-            Some(distance) if distance >= 2.0 && distance.is_finite() => Projection::Perspective { distance },
+            Some(distance) if distance > 0.0 && distance.is_finite() => Projection::Perspective { distance },
             Some(d) => {
-                return Err(Failure::Input(format!(
-                    "an eye at {d} girdle radii is too near; give 2 or more"
-                )));
+                return Err(Failure::Input(format!("an eye at {d} girdle radii is nowhere; give 2 or more")));
             }
         };
         let azimuth = self.azimuth.rem_euclid(360.0).to_radians();
         Ok(View { side: side.unwrap_or(own), lean, tilt: tilt.to_radians(), azimuth, projection })
+    }
+
+    /// The view in words, for what goes into pictures.
+    pub fn told(&self, view: &View) -> String {
+        let side = if view.side == Side::Table { "table" } else { "culet" };
+        let tilt = match (self.tilt, self.eye_tilt) {
+            (0.0, 0.0) => String::new(),
+            (tilt, 0.0) => format!(", tilted {tilt} degrees toward {}", self.azimuth),
+            (_, eye) => format!(", eye moved {eye} degrees toward {}", self.azimuth),
+        };
+        let near = self.perspective.map_or(String::new(), |d| format!(", from {d} girdle radii"));
+        format!("{side} side{tilt}{near}")
     }
 
     /// The view as figures report it.
@@ -90,7 +100,8 @@ pub struct LightOptions {
     /// Take the material's index and absorption at this wavelength in nm [default: 589.3, sodium's D line]
     #[arg(long, value_name = "NM")]
     pub wavelength: Option<f64>,
-    /// Shut out the light within DEGREES of the scope's axis, as the observer's head does
+    /// Shut out the light within DEGREES of the scope's axis, as the observer's head does (not in Ideal-Scope, hearts
+    /// and arrows, which have their own hole for the eye)
     #[arg(long, value_name = "DEGREES", default_value_t = 0.0)]
     pub head: f64,
     /// Follow the beams until no more than this part of the light is unresolved
@@ -120,8 +131,13 @@ impl TracerName {
 }
 
 impl LightOptions {
-    /// The tracer to use, checked against the view.
-    pub fn tracer(&self, view: &View) -> Result<TracerName, Failure> {
+    /// The tracer to use, checked against the view of the stone.
+    pub fn tracer(&self, view: &View, specimen: &Specimen) -> Result<TracerName, Failure> {
+        let polytope = &specimen.stone.polytope;
+        if ray::Camera::new(view, polytope).reach(polytope).is_none() {
+            let message = "the eye of --perspective is not in front of the whole stone; move it farther off";
+            return Err(Failure::Input(format!("{}: {message}", specimen.path)));
+        }
         let flat = view.projection == Projection::Orthographic;
         match self.tracer {
             Some(TracerName::Beam) if !flat => Err(Failure::Input(
@@ -150,6 +166,14 @@ impl LightOptions {
         };
         if !(1.0..=5.0).contains(&index) {
             return Err(Failure::Input(format!("an index of {index} is not from 1 (air) to 5")));
+        }
+        if let (None, Some((first, last))) = (self.index, material.valid_nm)
+            && !material.is_valid_at(wavelength)
+        {
+            let name = &material.name;
+            eprintln!(
+                "warning: {name} was measured from {first} to {last} nm; its index at {wavelength} nm is a guess"
+            );
         }
         let radius_mm = specimen.design.diameter_mm / 2.0;
         Ok(Medium { index, absorption: material.absorption.coefficient(wavelength) * radius_mm })

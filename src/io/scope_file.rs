@@ -16,6 +16,12 @@ pub fn read(path: &Path) -> Result<Scope, String> {
     })?;
     scope.validate().map_err(|e| format!("{}: {e}", path.display()))?;
     let plain = |c: char| c.is_ascii_alphanumeric() || c == '-' || c == '_';
+    if scope.name.ends_with("-strongest") {
+        return Err(format!(
+            "{}: names ending in -strongest are kept for maps of strongest exits",
+            path.display()
+        ));
+    }
     if scope.name.is_empty() || !scope.name.chars().all(plain) {
         let name = &scope.name;
         return Err(format!(

@@ -6,20 +6,24 @@ use glam::DVec2;
 /// Triangles over which f varies by more than this are split, so that the series below converges quickly.
 const WIDEST: f64 = 1.0;
 
-/// Halvings after which a triangle is taken as it is: by then f has been spread over 2^10 pieces each way.
-const MOST_HALVINGS: u32 = 20;
+/// Where f is above its least by this, exp(-f) is below the rounding of the whole.
+const NOTHING: f64 = 45.0;
 
 /// The integral of exp(-f) over a convex polygon with counter-clockwise corners, to about 1e-15 of the whole.
 pub fn integral_of_decay(corners: &[DVec2], f: Affine) -> f64 {
     let Some((&a, rest)) = corners.split_first() else { return 0.0 };
-    rest.windows(2).map(|w| triangle(a, w[0], w[1], f, MOST_HALVINGS)).sum()
+    let least = corners.iter().map(|&c| f.at(c)).fold(f64::INFINITY, f64::min);
+    rest.windows(2).map(|w| triangle(a, w[0], w[1], f, least + NOTHING)).sum()
 }
 
-fn triangle(a: DVec2, b: DVec2, c: DVec2, f: Affine, halvings: u32) -> f64 {
+fn triangle(a: DVec2, b: DVec2, c: DVec2, f: Affine, nothing: f64) -> f64 {
     let values = [f.at(a), f.at(b), f.at(c)];
     let low = values.iter().copied().fold(f64::INFINITY, f64::min);
     let high = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-    if high - low <= WIDEST || halvings == 0 {
+    if low > nothing {
+        return 0.0;
+    }
+    if high - low <= WIDEST {
         return (b - a).perp_dot(c - a) * divided_difference(values);
     }
     // Halve the edge along which f varies most.
@@ -28,7 +32,7 @@ fn triangle(a: DVec2, b: DVec2, c: DVec2, f: Affine, halvings: u32) -> f64 {
         .max_by(|x, y| (f.at(x[0]) - f.at(x[1])).abs().total_cmp(&(f.at(y[0]) - f.at(y[1])).abs()))
         .unwrap_or([a, b, c]);
     let middle = (p + q) / 2.0;
-    triangle(p, middle, r, f, halvings - 1) + triangle(middle, q, r, f, halvings - 1)
+    triangle(p, middle, r, f, nothing) + triangle(middle, q, r, f, nothing)
 }
 
 /// The second divided difference of exp at -x: by the Hermite-Genocchi formula half the mean over the triangle.
@@ -63,7 +67,9 @@ mod tests {
     #[test]
     fn a_square_with_a_slope_has_the_integral_of_its_exponentials() {
         let square = [DVec2::ZERO, DVec2::X, DVec2::ONE, DVec2::Y];
-        for (c, gx, gy) in [(0.3, 1e-9, 0.0), (0.1, 0.4, -0.2), (2.0, 3.0, -1.5), (0.0, 20.0, 35.0)] {
+        for (c, gx, gy) in
+            [(0.3, 1e-9, 0.0), (0.1, 0.4, -0.2), (2.0, 3.0, -1.5), (0.0, 20.0, 35.0), (1.0, 3000.0, 40.0)]
+        {
             let got = integral_of_decay(&square, Affine::new(c, DVec2::new(gx, gy)));
             let factor = |g: f64| if g == 0.0 { 1.0 } else { -(-g).exp_m1() / g };
             let expected = (-c).exp() * factor(gx) * factor(gy);

@@ -8,8 +8,10 @@ pub type Zones = Vec<f64>;
 
 /// What becomes of the light of one view, as fractions of the silhouette.
 ///
-/// The sums of `surface` and `transmitted`, `absorbed` and `unresolved` add up to 1. By beams, every number is
-/// exact but for what is unresolved, which bounds its error; by rays, `standard_error` is that of sampling.
+/// The sums of `surface` and `transmitted`, `absorbed` and `unresolved` add up to 1; those of `strongest_exit_area`
+/// and `strongest_exit_undecided` likewise. By beams, glare is exact, transmitted and absorbed light may each be too
+/// low by up to `unresolved`, and areas of strongest exits by up to what is undecided; by rays, `standard_error` is
+/// that of sampling.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Figures {
     /// Area of the silhouette, in squared girdle radii.

@@ -8,7 +8,8 @@ use crate::trace::{Stopped, Watch};
 use glam::DVec2;
 use rayon::prelude::*;
 
-/// Independent lattices: their scatter gives the standard error.
+/// Lattices with shifts of their own: their scatter gives the standard error (somewhat too large, since the shifts
+/// are spread evenly).
 const LATTICES: u32 = 8;
 
 /// What one lattice, or one row of it, has seen: sums over its points.
@@ -18,13 +19,15 @@ struct Tally {
     surface: Vec<f64>,
     transmitted: Vec<f64>,
     strongest: Vec<f64>,
+    undecided: f64,
     absorbed: f64,
     unresolved: f64,
 }
 
 /// The figures of point rays under a scope, over `LATTICES` shifted lattices of `side` squared points.
 ///
-/// The same input gives the same figures.
+/// In a perspective they are fractions of what the eye sees, and an eye that is not in front of the whole stone sees
+/// nothing. The same input gives the same figures.
 ///
 /// # Errors
 /// [`Stopped`] when `watch` asks to stop.
@@ -37,9 +40,8 @@ pub fn by_rays(
     watch: Watch,
 ) -> Result<Figures, Stopped> {
     let tracer = Tracer::new(polytope, medium, options);
-    let basis = view.basis();
     let camera = Camera::new(view, polytope);
-    let half = polytope.vertices().iter().map(|&v| basis.project(v).abs().max_element()).fold(0.0, f64::max);
+    let half = camera.reach(polytope).unwrap_or(0.0);
     let zenith = view.zenith();
     let mut lattices = Vec::with_capacity(LATTICES as usize);
     for k in 0..LATTICES {
@@ -55,12 +57,12 @@ pub fn by_rays(
             let mut tally = Tally::new(scope.bands.len());
             for i in 0..side {
                 let (origin, direction) = camera.ray(point(i, j) * half);
-                let mut strongest = (0.0, 0);
+                let mut strongest = (0.0, None);
                 let rest = tracer.follow(origin, direction, |exit| {
                     let band = scope.band(exit.direction, zenith);
                     tally.add(&exit, band);
                     if !exit.surface && exit.weight > strongest.0 {
-                        strongest = (exit.weight, band);
+                        strongest = (exit.weight, Some(band));
                     }
                 });
                 tally.close(rest, strongest.1);
@@ -70,7 +72,7 @@ pub fn by_rays(
         let rows: Vec<Tally> = (0..side).into_par_iter().map(row).collect();
         lattices.push(rows.into_iter().fold(Tally::new(scope.bands.len()), Tally::joined));
     }
-    Ok(summary(&lattices, polytope.silhouette_area(basis.toward)))
+    Ok(summary(&lattices, polytope.silhouette_area(view.basis().toward)))
 }
 
 impl Tally {
@@ -81,6 +83,7 @@ impl Tally {
             surface: zones.clone(),
             transmitted: zones.clone(),
             strongest: zones,
+            undecided: 0.0,
             absorbed: 0.0,
             unresolved: 0.0,
         }
@@ -91,12 +94,15 @@ impl Tally {
         zones[band] += exit.weight;
     }
 
-    fn close(&mut self, rest: Option<Rest>, strongest: usize) {
+    fn close(&mut self, rest: Option<Rest>, strongest: Option<usize>) {
         if let Some(rest) = rest {
             self.hits += 1;
             self.absorbed += rest.absorbed;
             self.unresolved += rest.unresolved;
-            self.strongest[strongest] += 1.0;
+            match strongest {
+                Some(band) => self.strongest[band] += 1.0,
+                None => self.undecided += 1.0,
+            }
         }
     }
 
@@ -106,6 +112,7 @@ impl Tally {
         add(&mut self.transmitted, &other.transmitted);
         add(&mut self.strongest, &other.strongest);
         self.hits += other.hits;
+        self.undecided += other.undecided;
         self.absorbed += other.absorbed;
         self.unresolved += other.unresolved;
         self
@@ -124,7 +131,7 @@ fn summary(lattices: &[Tally], silhouette_area: f64) -> Figures {
         surface: all.surface.iter().map(share).collect(),
         transmitted: all.transmitted.iter().map(share).collect(),
         strongest_exit_area: all.strongest.iter().map(share).collect(),
-        strongest_exit_undecided: 0.0,
+        strongest_exit_undecided: share(&all.undecided),
         absorbed: share(&all.absorbed),
         unresolved: share(&all.unresolved),
         beams: all.hits as usize,

@@ -16,11 +16,15 @@ pub struct Film {
 }
 
 impl Film {
-    /// A film that takes in the whole stone, seen so, with some air around it.
+    /// A film that takes in the whole stone, seen along parallel rays, with some air around it.
     pub fn around(polytope: &Polytope, view: &Basis, size: u32) -> Self {
         let reach = |v| view.project(v).abs().max_element();
-        let half = polytope.vertices().iter().map(|&v| reach(v)).fold(0.0, f64::max);
-        Self { size, half: half * (1.0 + MARGIN) }
+        Self::reaching(polytope.vertices().iter().map(|&v| reach(v)).fold(0.0, f64::max), size)
+    }
+
+    /// A film on which something that reaches so far from the origin has some air around it.
+    pub fn reaching(reach: f64, size: u32) -> Self {
+        Self { size, half: reach * (1.0 + MARGIN) }
     }
 
     /// Pixels per girdle radius.

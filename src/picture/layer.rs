@@ -8,6 +8,9 @@ use glam::{DMat2, DVec2};
 /// Where absorption changes a beam's light by more than this part across its outline, it is painted in strips.
 const STRIP: f64 = 1.0 / 64.0;
 
+/// Where a beam is deeper than this beyond its brightest, it is as good as black, and one strip does.
+const DARK: f64 = 12.0;
+
 /// One polygon of even light.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Patch {
@@ -117,7 +120,8 @@ impl Layer {
         let depth = path * beams.medium.absorption;
         let depths = || beam.outline.iter().map(|&p| depth.at(p));
         let (low, high) = (depths().fold(f64::INFINITY, f64::min), depths().fold(0.0, f64::max));
-        let strips = ((high - low) / STRIP).ceil() as u32;
+        let deepest = high.min(low + DARK);
+        let strips = ((deepest - low) / STRIP).ceil() as u32;
         let mut even = |part: &[DVec2]| {
             let size = area(part);
             if size > 0.0 {
@@ -126,7 +130,7 @@ impl Layer {
         };
         let (mut rest, mut strip, mut spare) = (beam.outline.to_vec(), vec![], vec![]);
         for k in 1..strips {
-            let border = low + (high - low) * f64::from(k) / f64::from(strips);
+            let border = low + (deepest - low) * f64::from(k) / f64::from(strips);
             let above = depth - Affine::new(border, DVec2::ZERO);
             clip(&rest, above * -1.0, &mut strip);
             clip(&rest, above, &mut spare);

@@ -20,8 +20,13 @@ const SPECK: f64 = 1e-5;
 pub fn strongest(stone: &Stone, beams: &Beams, scope: &Scope, title: &str) -> Document {
     let page = Page::new(stone, beams);
     let mut groups: Vec<Group> = scope.bands.iter().map(|b| band_group(&b.name, &hex(b.colour))).collect();
+    let mut dark = band_group("unresolved", "#000000");
     for cell in beams.strongest_exits() {
-        let Some(exit) = cell.strongest.map(|id| beams.get(id)) else { continue };
+        let Some(exit) = cell.strongest.map(|id| beams.get(id)) else {
+            let polygons = page.polygons(beams.get(cell.outline).outline);
+            dark = polygons.into_iter().fold(dark, |group, (_, polygon)| group.add(polygon));
+            continue;
+        };
         let band = scope.band(exit.exit, beams.zenith);
         let elevation = exit.exit.dot(beams.zenith).clamp(-1.0, 1.0).asin().to_degrees();
         let met = beams.facets(exit.id);
@@ -33,6 +38,7 @@ pub fn strongest(stone: &Stone, beams: &Beams, scope: &Scope, title: &str) -> Do
             groups[band] = std::mem::take(&mut groups[band]).add(polygon);
         }
     }
+    groups.push(dark);
     page.document(title, beams, &hex(scope.bands[0].colour), groups)
 }
 

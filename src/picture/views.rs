@@ -28,7 +28,7 @@ pub struct Scoped {
 const IDEAL_SCOPE_HOLE: f64 = 12.5;
 
 /// Half angles of the camera's and the ring's cones in a hearts and arrows viewer, degrees. No standard fixes
-/// them; these are one maker's, and show the patterns well.
+/// them; these are taken from one implementation, and show the patterns well.
 const VIEWER_CONES: (f64, f64) = (5.3, 16.3);
 
 /// All names, in the order in which they are drawn.

@@ -42,6 +42,14 @@ pub enum ScopeError {
         /// Where its first band begins.
         from: f64,
     },
+    /// Two bands bear one name.
+    #[error("scope '{scope}': two bands are called '{band}'; figures could not tell them apart")]
+    Twice {
+        /// The scope.
+        scope: String,
+        /// The name.
+        band: String,
+    },
     /// Bands must rise.
     #[error("scope '{scope}': band '{band}' begins at {from}, not between {after} and 90; list bands upward")]
     OutOfOrder {
@@ -127,6 +135,10 @@ impl Scope {
         if from != -90.0 {
             return Err(ScopeError::NotFromNadir { scope: scope(), from });
         }
+        let twice = |(i, b): &(usize, &Band)| self.bands[..*i].iter().any(|a| a.name == b.name);
+        if let Some((_, band)) = self.bands.iter().enumerate().find(twice) {
+            return Err(ScopeError::Twice { scope: scope(), band: band.name.clone() });
+        }
         match self.bands.windows(2).find(|w| !(w[1].from > w[0].from && w[1].from < 90.0)) {
             None => Ok(()),
             Some(w) => Err(ScopeError::OutOfOrder {
@@ -184,6 +196,9 @@ mod tests {
         let mut scope = Scope::ideal_scope(12.0);
         scope.bands.swap(1, 2);
         assert!(matches!(scope.validate(), Err(ScopeError::OutOfOrder { band, .. }) if band == "red"));
+        scope.bands.swap(1, 2);
+        scope.bands[2].name = "red".into();
+        assert!(matches!(scope.validate(), Err(ScopeError::Twice { band, .. }) if band == "red"));
         scope.bands[0].from = 0.0;
         assert!(scope.validate().is_err());
         scope.bands.clear();

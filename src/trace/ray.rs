@@ -66,13 +66,9 @@ struct Group {
     y: f64x4,
     z: f64x4,
     offset: f64x4,
-    /// The group's number, in the bits of [`TAG`].
+    /// The group's number, in the bits of [`Tracer::tag`].
     tag: f64x4,
 }
-
-/// The low bits of a ratio's fraction that hold the number of its group instead. Two facets whose ratios differ by
-/// less, 1e-12 of their size, meet in an edge there.
-const TAG: u64 = 0xfff;
 
 /// Gaps count as no smaller: where rounding has put a point a hair outside a plane, that plane is met at once.
 const LEAST_GAP: f64 = 1e-290;
@@ -82,6 +78,9 @@ const LEAST_GAP: f64 = 1e-290;
 pub struct Tracer {
     planes: Vec<Plane>,
     groups: Vec<Group>,
+    /// The low bits of a ratio's fraction that hold the number of its group instead. With 4,096 groups two ratios
+    /// that differ by less than 1e-12 of their size are confused: their facets meet in an edge there.
+    tag: u64,
     medium: Medium,
     options: Options,
 }
@@ -105,6 +104,15 @@ impl Camera {
             Projection::Perspective { distance } => distance,
         };
         Self { basis: view.basis(), distance, start: 2.0 * reach }
+    }
+
+    /// Half the side of the smallest square around the image's origin that holds the whole stone; `None` where the
+    /// eye is not in front of all of it.
+    pub fn reach(&self, polytope: &Polytope) -> Option<f64> {
+        polytope.vertices().iter().try_fold(0.0_f64, |reach, &v| {
+            let nearness = 1.0 - self.basis.toward.dot(v) / self.distance;
+            (nearness > 0.0).then(|| reach.max(self.basis.project(v).abs().max_element() / nearness))
+        })
     }
 
     /// Origin and unit direction of the ray through a point of the image plane.
@@ -209,10 +217,11 @@ impl Tracer {
             y: lanes(some, |p| p.normal.y),
             z: lanes(some, |p| p.normal.z),
             offset: lanes(some, |p| p.offset),
-            tag: f64x4::splat(f64::from_bits(i as u64 & TAG)),
+            tag: f64x4::splat(f64::from_bits(i as u64)),
         };
-        let groups = planes.chunks(LANES).enumerate().map(group).collect();
-        Self { planes, groups, medium, options }
+        let groups: Vec<Group> = planes.chunks(LANES).enumerate().map(group).collect();
+        let tag = groups.len().next_power_of_two() as u64 - 1;
+        Self { planes, groups, tag, medium, options }
     }
 
     /// Follows the ray from a point outside, calling `leave` for the surface's glare and for each exit; `None`
@@ -309,7 +318,7 @@ impl Tracer {
     fn next(&self, point: DVec3, direction: DVec3) -> (usize, f64) {
         let splat = |v: DVec3| v.to_array().map(f64x4::splat);
         let ([px, py, pz], [dx, dy, dz]) = (splat(point), splat(direction));
-        let (least_gap, clear) = (f64x4::splat(LEAST_GAP), f64x4::splat(f64::from_bits(!TAG)));
+        let (least_gap, clear) = (f64x4::splat(LEAST_GAP), f64x4::splat(f64::from_bits(!self.tag)));
         let mut greatest = f64x4::ZERO;
         for Group { x, y, z, offset, tag } in &self.groups {
             let speed = *x * dx + *y * dy + *z * dz;
@@ -322,7 +331,7 @@ impl Tracer {
         }
         let greatest = greatest.to_array();
         let lane = (1..LANES).fold(0, |best, i| if greatest[i] > greatest[best] { i } else { best });
-        let facet = (greatest[lane].to_bits() & TAG) as usize * LANES + lane;
+        let facet = (greatest[lane].to_bits() & self.tag) as usize * LANES + lane;
         let plane = &self.planes[facet];
         (facet, -plane.distance(point) / plane.normal.dot(direction))
     }

@@ -17,7 +17,8 @@ pub struct Cell {
 impl Beams {
     /// The map of strongest exits of one domain: at each point, which exit direction lights it most.
     ///
-    /// A cell is whole as soon as nothing that is still inside can outshine the best exit so far.
+    /// A cell is whole as soon as nothing that is still inside can outshine the best exit so far. In a stone that
+    /// absorbs, weights are means over outlines, so that the map is exact only as far as absorption is even in each.
     pub fn strongest_exits(&self) -> Vec<Cell> {
         let n = self.nodes.len();
         let mut best: Vec<(f64, u32)> = vec![(0.0, ROOT); n];

@@ -81,7 +81,7 @@ impl<'a> Follower<'a> {
         let start = parent.corners.0 as usize;
         outline.extend(&all[start..start + parent.corners.1 as usize]);
         let sliver = SLIVER * before.silhouette_area;
-        splitter.split(&front.ray, outline, parent.facet, |landing| {
+        let missed = splitter.split(&front.ray, outline, parent.facet, |landing| {
             let area = twice_area(landing.outline.iter().map(|c| c.at)) / 2.0;
             if area <= sliver {
                 growth.dropped += front.light.weight() * area.max(0.0);
@@ -99,6 +99,7 @@ impl<'a> Follower<'a> {
                 growth.left.push(onward);
             }
         });
+        growth.dropped += front.light.weight() * missed;
     }
 }
 

@@ -10,7 +10,7 @@ use super::split::{Ray, opposites};
 use super::tree::{Beams, Node, ROOT};
 use crate::math::{Affine, Basis, Plane, Polytope, Symmetry, area, clip};
 use crate::optics::fresnel;
-use crate::scene::{Medium, Projection, View};
+use crate::scene::{Medium, View};
 use crate::trace::{Stopped, Watch};
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
@@ -46,7 +46,7 @@ const STEPS: std::ops::RangeInclusive<f64> = 0.25..=0.8;
 /// Follows light from the eye into a stone until at most `options.unresolved` of it is left, or there are too many
 /// beams, or what is left is caught for ever: then [`Beams::unresolved`] says how much.
 ///
-/// Beams are for parallel rays: a perspective view is traced as if its eye were far away.
+/// Beams are of parallel rays: a perspective is traced as if its eye were far away.
 ///
 /// # Errors
 /// [`Stopped`] when `watch` asks to stop.
@@ -57,7 +57,6 @@ pub fn trace(
     options: &Options,
     watch: Watch,
 ) -> Result<Beams, Stopped> {
-    debug_assert!(view.projection == Projection::Orthographic);
     let mut tracer = Tracer::new(polytope, medium, view, options);
     tracer.enter();
     tracer.run(options, watch)?;
