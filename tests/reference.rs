@@ -3,12 +3,11 @@
 
 mod common;
 
-use brillianteer::math::Plane;
+use brillianteer::io::cut_file;
 use brillianteer::measure::{Figures, by_beams, by_rays};
-use brillianteer::scene::{Medium, Scope, View};
+use brillianteer::scene::{Medium, Scope, Stone, View};
 use brillianteer::trace::{ray, unwatched};
 use common::*;
-use glam::DVec3;
 
 const DIAMOND: Medium = Medium::clear(2.4175);
 
@@ -108,12 +107,18 @@ fn an_independent_path_tracer_finds_the_same_light() {
     let stones = oracle["stones"].as_object().unwrap();
     assert_eq!(stones.len(), 2);
     for (name, stone) in stones {
+        // By way of a cut file, as a user would bring it.
         let plane = |p: &serde_json::Value| {
-            let normal = DVec3::from_array(std::array::from_fn(|i| number(&p["normal"][i])));
-            Plane::new(normal, number(&p["offset"]))
+            format!(
+                "[[plane]]\nname = {}\nnormal = {}\noffset = {:?}\n",
+                p["name"],
+                p["normal"],
+                number(&p["offset"])
+            )
         };
-        let planes: Vec<Plane> = stone["planes"].as_array().unwrap().iter().map(plane).collect();
-        let built = nameless(&planes);
+        let planes: String = stone["planes"].as_array().unwrap().iter().map(plane).collect();
+        let text = format!("format = 1\nname = \"{name}\"\nmaterial = 2.4175\n{planes}");
+        let built = Stone::new(&cut_file::parse(&text, name).unwrap().facets().unwrap()).unwrap();
         assert!((built.polytope.volume() - number(&stone["volume"])).abs() < 1e-9);
         assert_eq!(built.polytope.vertices().len() as u64, stone["n_vertices"].as_u64().unwrap());
         let scope: Scope = aset();
