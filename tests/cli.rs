@@ -2,177 +2,330 @@
 #![cfg(feature = "cli")]
 #![allow(clippy::unwrap_used, reason = "a test fails by it")]
 
-use brillianteer::optics::linear_from_encoded;
+#[path = "cli/desk.rs"]
+mod desk;
+#[path = "cli/pictures.rs"]
+mod pictures;
+
 use brillianteer::picture::names;
-use exr::prelude::{FlatSamples, read_first_flat_layer_from_file};
+use desk::*;
 use glam::{DVec2, DVec3};
-use resvg::usvg::roxmltree::{Document, Node};
 use serde_json::{Value, json};
-use std::collections::{BTreeMap, BTreeSet};
-use std::path::Path;
-use std::process::{Command, Output, Stdio};
-use tempfile::{TempDir, tempdir};
+use std::collections::BTreeMap;
 
 const ZONES: [&str; 4] = ["green", "red", "blue", "below"];
-const DRAWINGS: [&str; 2] = ["profile", "diagram"];
+const PARTS: [&str; 3] = ["surface", "transmitted", "strongest_exit_area"];
 
-fn command(folder: &TempDir, line: &str) -> Command {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_brillianteer"));
-    command.current_dir(folder.path()).args(line.split_whitespace()).stdin(Stdio::null());
-    command
+/// Share of unpolarised light that a surface of this index reflects at this cosine of the angle of incidence.
+fn reflected(index: f64, cos_i: f64) -> f64 {
+    let cos_t = (1.0 - (1.0 - cos_i * cos_i) / index.powi(2)).sqrt();
+    let share = |a: f64, b: f64| ((a - b) / (a + b)).powi(2);
+    (share(cos_i, index * cos_t) + share(index * cos_i, cos_t)) / 2.0
 }
 
-fn no_panic(line: &str, output: &Output) -> String {
-    let said = String::from_utf8(output.stderr.clone()).unwrap();
-    assert!(!said.contains("panicked") && output.status.code() != Some(101), "{line}: {said}");
-    said
-}
-
-/// What the program prints when all goes well, and then it says nothing else.
-fn done(folder: &TempDir, line: &str) -> String {
-    let output = command(folder, line).output().unwrap();
-    let said = no_panic(line, &output);
-    assert!(output.status.success() && said.is_empty(), "{line}: {:?} {said}", output.status);
-    String::from_utf8(output.stdout).unwrap()
-}
-
-/// What the program says when it refuses, which it does with this exit code.
-fn refused(folder: &TempDir, line: &str, code: i32) -> String {
-    let output = command(folder, line).output().unwrap();
-    let said = no_panic(line, &output);
-    assert_eq!(output.status.code(), Some(code), "{line}: {said}");
-    said
-}
-
-fn told(folder: &TempDir, line: &str) -> Value {
-    serde_json::from_str(&done(folder, line)).unwrap()
-}
-
-fn number(value: &Value) -> f64 {
-    value.as_f64().unwrap_or_else(|| panic!("{value} is no number"))
-}
-
-fn list(value: &Value) -> &[Value] {
-    value.as_array().unwrap()
-}
-
-fn sum(zones: &Value) -> f64 {
-    zones.as_object().unwrap().values().map(number).sum()
-}
-
-fn point(value: &Value) -> DVec3 {
-    DVec3::from_slice(&list(value).iter().map(number).collect::<Vec<_>>())
-}
-
-fn near(found: f64, expected: f64, within: f64, what: &str) {
-    assert!((found - expected).abs() <= within, "{what}: {found}, not {expected}");
-}
-
-fn files(folder: &Path) -> BTreeMap<String, Vec<u8>> {
-    let entries = std::fs::read_dir(folder).unwrap().map(|e| e.unwrap().path());
-    entries.map(|p| (p.file_name().unwrap().to_str().unwrap().into(), std::fs::read(&p).unwrap())).collect()
-}
-
-/// A PNG's size, its pixels in linear light, and its description.
-fn png(path: &Path) -> ((u32, u32), Vec<DVec3>, String) {
-    let file = std::io::BufReader::new(std::fs::File::open(path).unwrap());
-    let mut reader = png::Decoder::new(file).read_info().unwrap();
-    let mut bytes = vec![0; reader.output_buffer_size().unwrap()];
-    let size = reader.next_frame(&mut bytes).map(|f| (f.width, f.height)).unwrap();
-    let linear = |p: &[u8]| DVec3::from_array([0, 1, 2].map(|i| linear_from_encoded(f64::from(p[i]) / 255.0)));
-    let described = reader.info().utf8_text.iter().find(|t| t.keyword == "Description").unwrap();
-    (size, bytes.chunks_exact(3).map(linear).collect(), described.get_text().unwrap())
-}
-
-fn exr(path: &Path) -> BTreeMap<String, Vec<f32>> {
-    let layer = read_first_flat_layer_from_file(path).unwrap().layer_data;
-    let channel = |c: exr::prelude::AnyChannel<FlatSamples>| match c.sample_data {
-        FlatSamples::F32(values) => (c.name.to_string(), values),
-        other => panic!("{}: {other:?}", c.name),
-    };
-    layer.channel_data.list.into_iter().map(channel).collect()
-}
-
-/// A cut file of planes, each called side.
-fn block(planes: &[([f64; 3], f64)]) -> String {
-    let head = String::from("format = 1\nname = \"Block\"\nmaterial = \"diamond\"\n");
-    let plane = |(n, offset): &([f64; 3], f64)| {
-        format!("[[plane]]\nname = \"side\"\nnormal = {n:?}\noffset = {offset:?}\n")
-    };
-    planes.iter().map(plane).fold(head, |text, plane| text + &plane)
-}
-
-const CUBE: [([f64; 3], f64); 6] = [
-    ([1.0, 0.0, 0.0], 1.0),
-    ([-1.0, 0.0, 0.0], 1.0),
-    ([0.0, 1.0, 0.0], 1.0),
-    ([0.0, -1.0, 0.0], 1.0),
-    ([0.0, 0.0, 1.0], 1.0),
-    ([0.0, 0.0, -1.0], 1.0),
-];
-
-/// A folder with cube.toml in it, sides 2, and perhaps more.
-fn folder(more: &[(&str, &[u8])]) -> TempDir {
-    let folder = tempdir().unwrap();
-    std::fs::write(folder.path().join("cube.toml"), block(&CUBE)).unwrap();
-    more.iter().for_each(|(name, text)| std::fs::write(folder.path().join(name), text).unwrap());
-    folder
+/// Measures, and checks what all figures have in common.
+fn measured(desk: &Desk, options: &str) -> Value {
+    let figures = desk.json(&format!("measure --json {options}"));
+    let keys = |v: &Value| v.as_object().unwrap().keys().map(String::as_str).collect::<Vec<_>>().join(" ");
+    let documented = "silhouette_area surface transmitted strongest_exit_area absorbed unresolved beams seconds index \
+        tracer polarised view";
+    assert_eq!(keys(&figures).trim_end_matches(" standard_error"), documented);
+    for (part, also) in PARTS.into_iter().zip(["", "", " undecided"]) {
+        let zones =
+            if options.contains("--head") { "green red blue below head" } else { "green red blue below" };
+        assert_eq!(keys(&figures[part]), format!("{zones}{also}"));
+    }
+    near(energy(&figures), 1.0, 1e-9, options);
+    near(sum(&figures["strongest_exit_area"]), 1.0, 1e-9, options);
+    figures
 }
 
 #[test]
-fn export_makes_every_picture_in_every_format_and_the_same_bytes_on_any_number_of_threads() {
-    let folder = folder(&[]);
-    let export = "export tolkowsky --size 96 --unresolved 0.02 --format png,svg,exr,json --out";
-    let exports = ["2", "2", "1"].into_iter().enumerate().map(|(i, threads)| {
-        let run = command(&folder, &format!("{export} {i}")).env("RAYON_NUM_THREADS", threads).output().unwrap();
-        assert!(run.status.success() && run.stderr.is_empty());
-        let mut made = files(&folder.path().join(i.to_string()));
-        let printed = String::from_utf8(run.stdout).unwrap();
-        let printed: BTreeSet<String> = printed.lines().map(|l| l.replace(&format!("{i}/"), "")).collect();
-        assert_eq!(printed, made.keys().cloned().collect());
-        let mut figures: Value = serde_json::from_slice(&made["tolkowsky-figures.json"]).unwrap();
-        figures["seconds"] = json!(0);
-        made.insert("tolkowsky-figures.json".into(), figures.to_string().into_bytes());
-        made
-    });
-    let exports: Vec<_> = exports.collect();
-    for later in &exports[1..] {
-        let differing: Vec<&String> = later.keys().filter(|k| exports[0].get(*k) != later.get(*k)).collect();
-        assert!(differing.is_empty() && later.len() == exports[0].len(), "{differing:?}");
+fn the_light_of_a_cube_is_that_of_closed_forms_under_every_option() {
+    let desk = Desk::new();
+    let term = |b: f64, c: f64, l: f64| b * l * l / (l * l - c * c);
+    let diamond = |l: f64| (1.0 + term(4.3356, 0.1060, l) + term(0.3306, 0.1750, l)).sqrt();
+    let d = diamond(0.5893);
+    for (options, index) in [
+        ("", d),
+        ("--index 1.5", 1.5),
+        ("--wavelength 486.1", diamond(0.4861)),
+        ("--unpolarised", d),
+        ("--head 20", d),
+        ("--tracer ray", d),
+    ] {
+        // Light goes up and down between two faces: a geometric series.
+        let figures = measured(&desk, &format!("cube.toml --unresolved 1e-7 {options}"));
+        let above = if options.contains("head") { "head" } else { "blue" };
+        let r = reflected(index, 1.0);
+        near(at(&figures, "index"), index, 1e-12, options);
+        near(at(&figures, &format!("surface/{above}")), r, 1e-9, options);
+        near(at(&figures, &format!("transmitted/{above}")), (1.0 - r) * r / (1.0 + r), 1e-7, options);
+        near(at(&figures, "transmitted/below"), (1.0 - r) / (1.0 + r), 1e-7, options);
+        assert!(at(&figures, "unresolved") <= 1e-7, "{options}");
+        assert_eq!(figures["tracer"], if options.contains("ray") { "ray" } else { "beam" });
+        assert_eq!(figures["polarised"], !options.contains("unpolarised"));
     }
-    let mut expected = BTreeSet::from(["tolkowsky-figures.json".to_string()]);
-    for name in names() {
-        let scoped = !DRAWINGS.contains(&name);
-        let endings = if scoped { vec![".png", "-strongest.png", ".svg", "-strongest.svg", ".exr"] } else { vec![".png", ".svg"] };
-        expected.extend(endings.iter().map(|e| format!("tolkowsky-{name}{e}")));
-        for png_file in endings.iter().filter(|e| e.ends_with("png")) {
-            let ((width, height), _, described) = png(&folder.path().join(format!("0/tolkowsky-{name}{png_file}")));
-            assert!(width == 96 && (height == 96 || !scoped), "{name}: {width} by {height}");
-            assert!(described.starts_with(&format!("Tolkowsky 1919: {name}")), "{described}");
-            if scoped {
-                assert!(described.contains("index 2.417") && described.contains("polarised"), "{described}");
-                let unresolved: f64 = described.split("exact beams, unresolved ").nth(1).unwrap().parse().unwrap();
-                assert!(unresolved > 0.0 && unresolved <= 0.02, "{described}");
-            }
+    // A stone that leans takes its glare past the scope by twice the tilt, an eye that moves only once.
+    let (sin, cos) = 10_f64.to_radians().sin_cos();
+    for (lean, azimuth, above) in [("tilt", 180, "red"), ("eye_tilt", 0, "blue"), ("eye_tilt", 45, "blue")] {
+        let option = lean.replace('_', "-");
+        let figures = measured(&desk, &format!("cube.toml --index 2 --{option} 10 --azimuth {azimuth}"));
+        let (faces, across) = if azimuth == 45 { (2.0, sin * 0.5_f64.sqrt()) } else { (1.0, sin) };
+        let (top, sides) = (cos / (cos + faces * across), faces * across / (cos + faces * across));
+        near(at(&figures, "silhouette_area"), 4.0 * (cos + faces * across), 1e-9, lean);
+        near(at(&figures, &format!("surface/{above}")), reflected(2.0, cos) * top, 1e-9, lean);
+        near(at(&figures, "surface/below"), reflected(2.0, across) * sides, 1e-9, lean);
+        let mut view = json!({ "side": "table", "tilt": 0.0, "eye_tilt": 0.0, "projection": "orthographic" });
+        (view[lean], view["azimuth"]) = (json!(10.0), json!(f64::from(azimuth)));
+        assert_eq!(figures["view"], view);
+    }
+    // The table leans toward the azimuth, so that the eye sees what is on the other side.
+    let (sin, cos) = 30_f64.to_radians().sin_cos();
+    for (view, width) in [("--eye-tilt 30", 2.5 * cos + 2.0 * sin), ("--tilt 30", 1.5 * cos + 2.0 * sin)] {
+        for same in [view.to_string(), view.replace("30", "-30 --azimuth 180")] {
+            let figures = measured(&desk, &format!("slanted.toml --unresolved 0.05 {same}"));
+            near(at(&figures, "silhouette_area"), 2.0 * width, 1e-9, &same);
         }
     }
-    assert_eq!(exports[0].keys().cloned().collect::<BTreeSet<_>>(), expected);
-    let svgs = exports[0].iter().filter(|(name, _)| name.ends_with(".svg"));
-    svgs.for_each(|(name, text)| assert!(Document::parse(std::str::from_utf8(text).unwrap()).is_ok(), "{name}"));
 }
 
 #[test]
-fn pictures_hold_the_light_that_is_measured() {
-    let text = done(&folder(&[]), "cuts tolkowsky").replace("\"diamond\"", "{ index = 1.8, absorption = 0.1 }");
-    let folder = folder(&[("dark.toml", text.as_bytes())]);
-    for (file, view) in
-        [("tolkowsky", "--tilt 0"), ("tolkowsky", "--tilt 12 --azimuth 22.5"), ("dark.toml", "--side culet")]
-    {
-        let options = format!("{file} --unresolved 0.002 {view}");
-        let figures = told(&folder, &format!("measure --json {options}"));
-        done(&folder, &format!("export {options} --views aset --size 256 --format png,exr --out {view}"));
-        let out = folder.path().join("--tilt");
-        let out = if out.exists() { out } else { folder.path().join(view) };
-        let _ = (&out, &figures);
+fn a_brilliant_looks_the_same_from_like_azimuths_and_other_from_behind_and_the_table_says_so() {
+    let desk = Desk::new();
+    let view =
+        |azimuth| measured(&desk, &format!("tolkowsky --unresolved 0.02 --tilt 8 --azimuth {azimuth}"));
+    let first = view(13);
+    for same in [-13, 13 + 45, 347, 13 - 5 * 45].map(view) {
+        let allowed = 1e-9 + (at(&first, "unresolved") - at(&same, "unresolved")).abs();
+        for path in PARTS.iter().flat_map(|part| ZONES.map(|zone| format!("{part}/{zone}"))) {
+            near(at(&same, &path), at(&first, &path), allowed, &path);
+        }
     }
+    let [table, culet] =
+        ["table", "culet"].map(|s| measured(&desk, &format!("tolkowsky --unresolved 0.01 --side {s}")));
+    near(at(&culet, "silhouette_area"), at(&table, "silhouette_area"), 1e-12, "a silhouette from behind");
+    assert!(
+        at(&culet, "transmitted/blue") > 2.0 * at(&table, "transmitted/blue")
+            && culet["view"]["side"] == "culet"
+    );
+    let printed = desk.done("measure tolkowsky --unresolved 0.01");
+    for zone in ZONES {
+        let line = printed.lines().find(|l| l.starts_with(zone)).unwrap();
+        let percents = PARTS.map(|part| format!("{:.3}", 100.0 * at(&table, &format!("{part}/{zone}"))));
+        assert_eq!(line.split_whitespace().skip(1).collect::<Vec<_>>(), percents);
+    }
+}
+
+#[test]
+fn info_tells_tolkowskys_proportions_and_a_geometry_that_is_consistent() {
+    let info = Desk::new().json("info tolkowsky --json");
+    let given = "table 53, crown_angle 34.5, pavilion_angle 40.75, star_length 50, lower_half_length 75, \
+        girdle_thickness 3, girdle_facets 96, culet 0";
+    pairs(given).for_each(|(key, value)| near(at(&info["given"], key), value, 0.0, key));
+    let derived = "crown_height 16.1511025271, pavilion_depth 43.0827563257, total_depth 62.2338588528, \
+        star_angle 23.0697227837, upper_half_angle 40.5782132333, lower_half_angle 42.0133954137";
+    pairs(derived).for_each(|(key, value)| near(at(&info["derived"], key), value, 1e-9, key));
+    let vertices = list(&info["vertices"]);
+    let (mut volume, mut surface, mut kinds) = (0.0, 0.0, BTreeMap::<&str, f64>::new());
+    for facet in list(&info["facets"]) {
+        let name = facet["name"].as_str().unwrap();
+        *kinds.entry(name.split(' ').next().unwrap()).or_default() += 1.0;
+        let (n, offset, area) = (point(&facet["normal"]), at(facet, "offset"), at(facet, "area"));
+        let (slope, azimuth) = (at(facet, "slope_deg").to_radians(), at(facet, "azimuth_deg").to_radians());
+        let level = DVec2::from_angle(azimuth) * slope.sin();
+        assert!(level.extend(n.z.signum() * slope.cos()).distance(n) < 1e-12, "{name}: unit, slope, azimuth");
+        assert!(vertices.iter().all(|v| n.dot(point(v)) <= offset + 1e-9), "{name} cuts a corner off");
+        let outline = corners(&info, facet);
+        let turns: DVec3 = outline.windows(2).map(|w| (w[0] - outline[0]).cross(w[1] - outline[0])).sum();
+        near(turns.dot(n) / 2.0, area, 1e-12, name);
+        (volume, surface) = (volume + area * offset / 3.0, surface + area);
+    }
+    near(at(&info, "volume"), volume, 1e-12, "volume");
+    near(at(&info, "surface_area"), surface, 1e-12, "surface");
+    assert_eq!(vertices.len() + list(&info["facets"]).len(), at(&info, "edges") as usize + 2);
+    let kinds_expected = "bezel 8, girdle 96, lower_half 16, main 8, star 8, table 1, upper_half 16";
+    assert_eq!(kinds, pairs(kinds_expected).collect());
+}
+
+#[test]
+fn a_stone_of_planes_is_taken_with_its_own_names_in_every_command() {
+    let desk = Desk::new();
+    let info = desk.json("info cube.toml --json");
+    let figures = ["volume", "surface_area", "silhouette_area", "edges"].map(|key| at(&info, key));
+    assert_eq!(figures, [8.0, 24.0, 4.0, 12.0]);
+    assert!(
+        list(&info["vertices"]).len() == 8 && info.get("given").is_none() && info.get("derived").is_none()
+    );
+    let names: Vec<&Value> = list(&info["facets"]).iter().map(|f| &f["name"]).collect();
+    assert_eq!(names, ["side 1", "side 2", "side 3", "side 4", "side 5", "side 6"]);
+    assert!(desk.done("info cube.toml").contains("8.000000"));
+    assert_eq!(desk.done("export cube.toml --size 32 --out deep/er").lines().count(), 7 * 4 + 2 * 2 + 1);
+}
+
+#[test]
+fn a_file_at_fault_is_named_with_its_line_or_facet_and_nothing_is_written() {
+    let desk = Desk::new();
+    let line = "x".repeat(1 << 20);
+    let cube = desk.read("cube.toml");
+    let named = |(name, text): (&String, &Vec<u8>)| {
+        let first = String::from_utf8_lossy(text).lines().next().unwrap().to_string();
+        (name.clone(), first.strip_prefix("# says: ").unwrap().to_string())
+    };
+    let mut cases: Vec<(String, String)> = files(&desk.at("bad")).iter().map(named).collect();
+    for (name, says, text) in [
+        ("empty", ":1: format", vec![]),
+        ("rubbish", ":1: this is not UTF-8", (0..4096_u32).map(|i| ((i * i * 7) >> 3) as u8 | 128).collect()),
+        ("noughts", ":1: ", vec![0; 4096]),
+        ("long-line", ":2: ", format!("format = 1\n{line}\n").into_bytes()),
+        ("long-name", ":3: material", cube.replace("diamond", &line).into_bytes()),
+        ("large", "larger than 4 MiB", vec![b'#'; (4 << 20) + 1]),
+        ("missing", "no such file", vec![]),
+        ("directory", "directory", vec![]),
+    ] {
+        desk.write(&format!("bad/{name}.toml"), text);
+        cases.push((format!("{name}.toml"), says.into()));
+    }
+    std::fs::remove_file(desk.at("bad/missing.toml")).unwrap();
+    std::fs::remove_file(desk.at("bad/directory.toml")).unwrap();
+    std::fs::create_dir(desk.at("bad/directory.toml")).unwrap();
+    for (name, says) in cases {
+        for command in ["export --out out", "info --json", "measure"] {
+            let said = desk.refused(&format!("{command} bad/{name}"), 1);
+            assert!(said.starts_with(&format!("error: bad/{name}:")) && said.contains(&says), "{said:.500}");
+            assert!(said.lines().count() == 1 && said.len() < 1000, "{} bytes: {said:.500}", said.len());
+        }
+        assert!(!desk.at("out").exists(), "{name}: something is written");
+    }
+}
+
+#[test]
+fn what_has_no_figures_is_refused_and_never_measured_as_nothing() {
+    let desk = Desk::new();
+    let wrong = |(offset, options): &(&str, &str)| {
+        let text = desk.read("cube.toml").replace("offset = 1", &format!("offset = {offset}"));
+        desk.write("other.toml", text);
+        let (code, printed, said) = desk.run(&format!("measure other.toml --json {options}"));
+        if code == 1 {
+            return !said.starts_with("error: other.toml");
+        }
+        let figures: Value = serde_json::from_str(&printed).unwrap();
+        figures["unresolved"].is_null() || (energy(&figures) - 1.0).abs() > 1e-9
+    };
+    let mut cases =
+        vec![("1e300", ""), ("1e-300", ""), ("10", "--perspective 5"), ("10", "--perspective 9.9")];
+    cases.retain(wrong);
+    assert!(cases.is_empty(), "cubes of these offsets have figures that do not add up: {cases:?}");
+}
+
+#[test]
+fn one_bad_file_keeps_no_other_from_being_done_and_two_of_one_name_are_refused() {
+    let desk = Desk::new();
+    let three = "tolkowsky bad/nan.toml cube.toml";
+    let said = desk.refused(&format!("export --views profile --format svg {three}"), 1);
+    assert!(
+        said.starts_with("error: bad/nan.toml:6: ") && said.ends_with("1 of 3 files failed: bad/nan.toml\n")
+    );
+    let made: Vec<String> = files(&desk.at("out")).into_keys().collect();
+    assert_eq!(made, ["cube-profile.svg", "tolkowsky-profile.svg"]);
+    for command in ["info", "measure"] {
+        let (code, printed, _) = desk.run(&format!("{command} --json {three}"));
+        let file = |line| serde_json::from_str::<Value>(line).unwrap()["file"].clone();
+        assert_eq!(
+            (code, printed.lines().map(file).collect()),
+            (1, vec![json!("tolkowsky"), json!("cube.toml")])
+        );
+    }
+    std::fs::copy(desk.at("cube.toml"), desk.at("bad/cube.toml")).unwrap();
+    let (code, _, said) = desk.run("export cube.toml bad/cube.toml --out twins");
+    assert!(code != 0 && said.contains("bad/cube.toml") && !desk.at("twins").exists(), "{said}");
+}
+
+#[test]
+fn an_output_that_cannot_be_written_ends_with_code_3_and_leaves_no_pieces() {
+    let desk = Desk::new();
+    for out in ["cube.toml", "cube.toml/deeper"] {
+        let said = desk.refused(&format!("export cube.toml --size 16 --out {out}"), 3);
+        assert!(said.starts_with("error: cube.toml") && said.lines().count() == 1, "{said}");
+    }
+    std::fs::create_dir_all(desk.at("out/cube-aset.png")).unwrap();
+    assert!(desk.refused("export cube.toml --size 16 --views aset", 3).contains("cube-aset.png"));
+    assert_eq!(std::fs::read_dir(desk.at("out")).unwrap().count(), 1);
+    if let Ok(full) = std::fs::File::options().write(true).open("/dev/full") {
+        assert_eq!(desk.command("info cube.toml").stdout(full).output().unwrap().status.code(), Some(3));
+    }
+}
+
+#[test]
+fn a_reader_that_goes_away_is_no_reason_to_panic() {
+    let desk = Desk::new();
+    let gone = || std::io::pipe().unwrap().1;
+    for line in ["info tolkowsky", "measure cube.toml --json", "materials", "cuts", "scopes aset", "--help"] {
+        let (code, _, said) = came_of(line, &desk.command(line).stdout(gone()).output().unwrap());
+        assert!(code == 0 && said.is_empty(), "{line}: code {code}: {said}");
+    }
+    let line = "info bad/nan.toml tolkowsky";
+    let (code, printed, _) = came_of(line, &desk.command(line).stderr(gone()).output().unwrap());
+    assert!(code == 1 && printed.contains("Tolkowsky"), "code {code}");
+}
+
+#[test]
+fn a_command_line_at_fault_ends_with_code_2() {
+    let desk = Desk::new();
+    let ill_formed = ", polish, measure, measure cube.toml --colour, measure cube.toml --index two, export cube.toml --size 15, \
+        measure cube.toml --tilt 1 --eye-tilt 1, measure cube.toml --index 2 --wavelength 500, measure cube.toml --side up, \
+        export cube.toml --size 16385, export cube.toml --views asset, export cube.toml --format gif";
+    let out_of_range = "--index 0.9, --index nan, --wavelength 0, --tilt 91, --eye-tilt nan, --azimuth inf, --head 90, \
+        --unresolved 0, --unresolved nan, --perspective 1, --perspective 5 --tracer beam";
+    let impossible = "export cube.toml --format exr --size 9000, export cube.toml --views aset,aset, cuts none, scopes none";
+    let ranged = out_of_range.split(", ").map(|options| format!("measure cube.toml {options}"));
+    let lines = ill_formed.split(", ").chain(impossible.split(", ")).map(String::from).chain(ranged);
+    let wrong: Vec<_> = lines.map(|line| (desk.run(&line).0, line)).filter(|(code, _)| *code != 2).collect();
+    assert!(wrong.is_empty() && !desk.at("out").exists(), "not code 2: {wrong:?}");
+}
+
+#[test]
+fn what_the_program_knows_by_name_it_lists_and_takes_back_from_a_file() {
+    let desk = Desk::new();
+    let listed = |list: &str, name: &str| desk.done(list).lines().any(|line| line.starts_with(name));
+    let cube = desk.read("cube.toml");
+    for material in list(&desk.json("materials --json")) {
+        let name = material["name"].as_str().unwrap();
+        desk.write("known.toml", cube.replace("diamond", name));
+        let index = at(&desk.json("measure known.toml --unresolved 0.5 --json"), "index");
+        assert!(listed("materials", name) && index == at(material, "n_D"), "{name}: {index}");
+    }
+    for cut in list(&desk.json("cuts --json")) {
+        let name = cut["name"].as_str().unwrap();
+        desk.write("cut.toml", desk.done(&format!("cuts {name}")));
+        let [mut known, read] = [name, "cut.toml"].map(|file| desk.json(&format!("info --json {file}")));
+        known["file"] = json!("cut.toml");
+        assert!(listed("cuts", name) && known == read && known["name"] == cut["title"], "{name}");
+    }
+    for name in &names()[..7] {
+        desk.write("scope.toml", desk.done(&format!("scopes {name}")));
+        let side = if *name == "hearts" { "culet" } else { "table" };
+        let export = "export tolkowsky --size 32 --unresolved 0.1 --format png,svg --out";
+        desk.done(&format!("{export} known/{name} --views {name}"));
+        desk.done(&format!("{export} read/{name} --scope scope.toml --side {side}"));
+        let [known, read] = ["known", "read"].map(|at| files(&desk.at(at).join(name)));
+        assert!(listed("scopes", name) && known == read && known.len() == 4, "{name}");
+    }
+}
+
+#[test]
+fn a_perspective_is_traced_by_rays_which_say_so() {
+    let desk = Desk::new();
+    let figures = measured(&desk, "cube.toml --perspective 8");
+    assert_eq!((&figures["tracer"], at(&figures, "view/projection/perspective")), (&json!("ray"), 8.0));
+    assert!(desk.done("measure cube.toml --perspective 8").contains(" rays in "));
+    desk.done("export cube.toml --perspective 8 --size 32 --views aset --format png");
+    for ending in ["", "-strongest"] {
+        let told = png(&desk.at(format!("out/cube-aset{ending}.png"))).2;
+        assert!(told.contains("point rays") && !told.contains("beams"), "{told}");
+    }
+    let (_, _, said) = desk.run("export cube.toml --perspective 8 --views aset --format svg,exr");
+    assert!(said.contains("aset: rays make PNG pictures only"), "{said}");
+    let (code, _, said) = desk.run("measure cube.toml --perspective 8 --tracer beam");
+    assert!(code != 0 && said.contains("--perspective"), "{said}");
 }

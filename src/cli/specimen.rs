@@ -3,7 +3,6 @@
 use super::Failure;
 use crate::cut::Design;
 use crate::io::cut_file;
-use crate::math::PolytopeError;
 use crate::optics::Material;
 use crate::scene::Stone;
 use std::path::Path;
@@ -30,7 +29,7 @@ impl Specimen {
             None => cut_file::read(path).map_err(|e| Failure::Input(e.to_string()))?,
         };
         let facets = design.facets().map_err(|e| input(&e))?;
-        let stone = Stone::new(&facets).map_err(|e| input(&explained(&e, &facets)))?;
+        let stone = Stone::new(&facets).map_err(|e| input(&e.told(|i| format!("'{}'", facets[i].0))))?;
         let material = design.material.material().map_err(|e| input(&e))?;
         let specimen = Self { path: path.into(), design, stone, material };
         specimen.warn(&facets)?;
@@ -59,25 +58,6 @@ impl Specimen {
             eprintln!("warning: {}: these facets do not reach the stone: {}", self.path, listed(&names));
         }
         Ok(())
-    }
-}
-
-/// A geometric error with the facets' names in place of their numbers.
-fn explained(error: &PolytopeError, facets: &[(String, crate::math::Plane)]) -> String {
-    let name = |i: &usize| facets[*i].0.as_str();
-    let names = match error {
-        PolytopeError::Unbounded { planes } | PolytopeError::Empty { planes } => {
-            planes.iter().map(name).collect()
-        }
-        PolytopeError::NotFinite { plane }
-        | PolytopeError::ZeroNormal { plane }
-        | PolytopeError::Degenerate { plane } => vec![name(plane)],
-        PolytopeError::TooFew { .. } => vec![],
-    };
-    if names.is_empty() {
-        error.to_string()
-    } else {
-        format!("{error} (planes count from 0; here: {})", listed(&names))
     }
 }
 

@@ -24,45 +24,76 @@ const LAST_BOX: f64 = 1e6;
 
 /// Why half-spaces enclose no solid. Numbers are indices into the planes given.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[error("{}", self.told(|plane| format!("plane {plane}")))]
 pub enum PolytopeError {
     /// Fewer than the four planes that a solid needs.
-    #[error("{given} planes cannot enclose a solid; give at least 4")]
     TooFew {
         /// How many there were.
         given: usize,
     },
     /// A number of the plane is NaN or infinite.
-    #[error("plane {plane} holds a number that is not finite; give it a finite normal and offset")]
     NotFinite {
         /// The plane.
         plane: usize,
     },
     /// The normal has no direction.
-    #[error("plane {plane} has the zero vector as its normal; give it a direction")]
     ZeroNormal {
         /// The plane.
         plane: usize,
     },
     /// The solid goes on for ever.
-    #[error("the stone is not closed: it runs to infinity between planes {planes:?}; add the missing facets")]
     Unbounded {
         /// The planes whose facets have no end.
         planes: Vec<usize>,
     },
     /// No point, or no volume, lies inside all half-spaces.
-    #[error(
-        "planes {planes:?} leave nothing between them; move one of them outward or turn its normal round"
-    )]
     Empty {
         /// Planes that already contradict one another.
         planes: Vec<usize>,
     },
     /// Planes that run so nearly through one point or line that no closed outline could be made.
-    #[error("plane {plane} meets its neighbours too nearly to be resolved; move it by more than 1e-7")]
     Degenerate {
         /// The plane at which the outline did not close.
         plane: usize,
     },
+}
+
+impl PolytopeError {
+    /// The error in words, with the planes called by names.
+    pub fn told(&self, name: impl Fn(usize) -> String) -> String {
+        const MOST: usize = 8;
+        let all = |planes: &[usize]| {
+            let shown = planes.iter().take(MOST).map(|&p| name(p)).collect::<Vec<_>>().join(", ");
+            let more = planes.len().saturating_sub(MOST);
+            if more > 0 { format!("{shown} and {more} more") } else { shown }
+        };
+        match self {
+            Self::TooFew { given } => format!("{given} planes cannot enclose a solid; give at least 4"),
+            Self::NotFinite { plane } => {
+                format!(
+                    "{} holds a number that is not finite; give it a finite normal and offset",
+                    name(*plane)
+                )
+            }
+            Self::ZeroNormal { plane } => {
+                format!("{} has the zero vector as its normal; give it a direction", name(*plane))
+            }
+            Self::Unbounded { planes } => {
+                let open = all(planes);
+                format!("the stone is not closed: it runs to infinity at {open}; add the missing facets")
+            }
+            Self::Empty { planes } => {
+                let blamed = all(planes);
+                format!("nothing is left between {blamed}; move one of them outward or turn its normal round")
+            }
+            Self::Degenerate { plane } => {
+                format!(
+                    "{} meets its neighbours too nearly to be resolved; move it by more than 1e-7",
+                    name(*plane)
+                )
+            }
+        }
+    }
 }
 
 /// What a cut did to the solid.

@@ -260,7 +260,7 @@ impl Tracer {
         let mut rest = Rest::default();
         let (mut left, mut path) = (1.0, 0.0);
         while light.weight() * left > self.options.least_weight && rest.bounces < self.options.most_bounces {
-            let (facet, distance) = self.next(point, direction);
+            let (facet, distance, cos_i) = self.next(point, direction);
             let normal = self.planes[facet].normal;
             point += direction * distance;
             path += distance;
@@ -269,7 +269,6 @@ impl Tracer {
                 rest.absorbed += light.weight() * (left - after);
                 left = after;
             }
-            let cos_i = direction.dot(normal);
             let reflected = direction - normal * (2.0 * cos_i);
             let cos_t = cos_transmitted(cos_i, self.medium.index);
             let (onward, weight) = match (cos_t, light) {
@@ -312,10 +311,10 @@ impl Tracer {
         hits.then(|| (group[lane] as usize * LANES + lane, into[lane]))
     }
 
-    /// Facet and distance at which a ray inside the stone meets it next: the greatest ratio of speed toward a plane
+    /// Facet, distance and cosine of incidence at which a ray inside the stone meets it next: the greatest ratio of speed toward a plane
     /// to the gap before it. Planes behind have negative ratios and never win.
     #[inline]
-    fn next(&self, point: DVec3, direction: DVec3) -> (usize, f64) {
+    fn next(&self, point: DVec3, direction: DVec3) -> (usize, f64, f64) {
         let splat = |v: DVec3| v.to_array().map(f64x4::splat);
         let ([px, py, pz], [dx, dy, dz]) = (splat(point), splat(direction));
         let (least_gap, clear) = (f64x4::splat(LEAST_GAP), f64x4::splat(f64::from_bits(!self.tag)));
@@ -333,6 +332,7 @@ impl Tracer {
         let lane = (1..LANES).fold(0, |best, i| if greatest[i] > greatest[best] { i } else { best });
         let facet = (greatest[lane].to_bits() & self.tag) as usize * LANES + lane;
         let plane = &self.planes[facet];
-        (facet, -plane.distance(point) / plane.normal.dot(direction))
+        let cos_i = plane.normal.dot(direction);
+        (facet, -plane.distance(point) / cos_i, cos_i)
     }
 }
