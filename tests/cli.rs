@@ -212,8 +212,14 @@ fn what_has_no_figures_is_refused_and_never_measured_as_nothing() {
         let figures: Value = serde_json::from_str(&printed).unwrap();
         figures["unresolved"].is_null() || (energy(&figures) - 1.0).abs() > 1e-9
     };
-    let mut cases =
-        vec![("1e300", ""), ("1e-300", ""), ("10", "--perspective 5"), ("10", "--perspective 9.9")];
+    let mut cases = vec![
+        ("1e300", ""),
+        ("1e-300", ""),
+        ("1e60", ""),
+        ("1e-60", ""),
+        ("10", "--perspective 5"),
+        ("10", "--perspective 9.9"),
+    ];
     cases.retain(wrong);
     assert!(cases.is_empty(), "cubes of these offsets have figures that do not add up: {cases:?}");
 }

@@ -4,7 +4,7 @@ use super::measure::measure;
 use super::options::{LightOptions, TracerName, ViewOptions};
 use super::progress::Progress;
 use super::specimen::Specimen;
-use super::{Failure, each_file, json, print};
+use super::{Failure, each_file, json, print, say};
 use crate::cut::Cut;
 use crate::io::{self, MOST_PIXELS, WriteError, rasterize, scope_file, write_exr, write_png};
 use crate::picture::by_rays::{self, Reading};
@@ -35,7 +35,7 @@ const RAYS_PER_SIDE: u32 = 4;
 pub struct Export {
     /// Cut files, or names of cuts that come with the program
     #[arg(required = true)]
-    files: Vec<String>,
+    files: Vec<PathBuf>,
     /// Pictures to make, separated by commas [default: all of them]
     #[arg(long, value_delimiter = ',', value_parser = names().to_vec())]
     views: Vec<String>,
@@ -72,7 +72,7 @@ enum Format {
 impl Export {
     pub fn run(&self) -> Result<(), Failure> {
         if self.format.contains(&Format::Exr) && self.size > MOST_EXR_PIXELS {
-            return Err(Failure::Input(format!(
+            return Err(Failure::Usage(format!(
                 "--size {}: an EXR may have {MOST_EXR_PIXELS} pixels a side",
                 self.size
             )));
@@ -114,7 +114,7 @@ impl Export {
         }
         for (i, (name, _)) in pictures.iter().enumerate() {
             if pictures[..i].iter().any(|(n, _)| n == name) {
-                return Err(Failure::Input(format!(
+                return Err(Failure::Usage(format!(
                     "two pictures are called '{name}'; their files would be one"
                 )));
             }
@@ -123,12 +123,13 @@ impl Export {
     }
 
     fn distinct_stems(&self) -> Result<(), Failure> {
-        let stem = |f: &String| Path::new(f).file_stem().map(|s| s.to_os_string());
+        let stem = |f: &PathBuf| f.file_stem().map(|s| s.to_os_string());
         let twice =
             self.files.iter().enumerate().find(|(i, f)| self.files[..*i].iter().any(|g| stem(g) == stem(f)));
         twice.map_or(Ok(()), |(_, file)| {
-            Err(Failure::Input(format!(
-                "{file}: another file has the same name; export them to different --out folders"
+            Err(Failure::Usage(format!(
+                "{}: another file has the same name; export them to different --out folders",
+                file.display()
             )))
         })
     }
@@ -198,7 +199,10 @@ impl Job<'_> {
                     Some((last, beams)) if last == view => beams,
                     _ => {
                         let options = self.export.light.beams(UNRESOLVED)?;
-                        beam::trace(&self.specimen.stone.polytope, self.medium, &view, &options, &watch)?
+                        let polytope = &self.specimen.stone.polytope;
+                        let beams = beam::trace(polytope, self.medium, &view, &options, &watch)?;
+                        self.export.light.warn_of_open(self.specimen, &beams, &options);
+                        beams
                     }
                 };
                 self.by_beams(name, &scope, (&view, &beams), &watch)?;
@@ -280,11 +284,12 @@ impl Job<'_> {
     }
 
     fn by_rays(&self, name: &str, scope: &Scope, view: &View, watch: Watch) -> Result<(), Failure> {
-        if self.wants(Format::Exr) || self.wants(Format::Svg) {
-            eprintln!("note: {name}: rays make PNG pictures only; SVG and EXR need exact beams");
-        }
+        let only = format!("{name}: rays make PNG pictures only; SVG and EXR need exact beams");
         if !self.wants(Format::Png) {
-            return Ok(());
+            return Err(Failure::Usage(only));
+        }
+        if self.wants(Format::Exr) || self.wants(Format::Svg) {
+            say(&format!("note: {only}"));
         }
         let polytope = &self.specimen.stone.polytope;
         let options = self.export.light.rays(UNRESOLVED)?;

@@ -7,12 +7,16 @@ use crate::math::Facet;
 use clap::Args;
 use serde_json::{Value, json};
 use std::fmt::Write;
+use std::path::PathBuf;
+
+/// A facet whose normal leans less than this (sine of the angle) has no azimuth: rounding would choose it.
+const LEVEL: f64 = 1e-12;
 
 #[derive(Debug, Args)]
 pub struct Info {
     /// Cut files, or names of cuts that come with the program
     #[arg(required = true)]
-    files: Vec<String>,
+    files: Vec<PathBuf>,
     /// Print JSON: one object, or for several files one a line
     #[arg(long)]
     json: bool,
@@ -67,7 +71,7 @@ fn facet_json(specimen: &Specimen, facet: &Facet, name: &str) -> Value {
         "normal": n.to_array(),
         "offset": facet.plane.offset,
         "slope_deg": across.length().atan2(n.z.abs()).to_degrees(),
-        "azimuth_deg": if across.length() > 1e-12 { across.to_angle().to_degrees().rem_euclid(360.0) } else { 0.0 },
+        "azimuth_deg": if across.length() > LEVEL { across.to_angle().to_degrees().rem_euclid(360.0) } else { 0.0 },
         "area": specimen.stone.polytope.facet_area(facet),
         "corners": facet.outline,
     })

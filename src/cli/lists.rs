@@ -69,7 +69,7 @@ impl Cuts {
         if let Some(name) = &self.name {
             let known = CUTS.map(|(n, _)| n).join(", ");
             let text =
-                built_in(name).ok_or_else(|| Failure::Input(format!("no cut '{name}'; known: {known}")))?;
+                built_in(name).ok_or_else(|| Failure::Usage(format!("no cut '{name}'; known: {known}")))?;
             return print(text.trim_end());
         }
         let mut rows = vec![];
@@ -103,7 +103,7 @@ impl Scopes {
         };
         let known = || names().into_iter().filter(|n| scope(n).is_some()).collect::<Vec<_>>().join(", ");
         let scope =
-            scope(name).ok_or_else(|| Failure::Input(format!("no scope '{name}'; known: {}", known())))?;
+            scope(name).ok_or_else(|| Failure::Usage(format!("no scope '{name}'; known: {}", known())))?;
         let text = scope_file::text(&scope).map_err(|e| Failure::Output(e.to_string()))?;
         print(text.trim_end())
     }

@@ -10,6 +10,7 @@ use crate::trace::beam;
 use clap::Args;
 use serde_json::{Map, Value, json};
 use std::fmt::Write;
+use std::path::PathBuf;
 use std::time::Instant;
 
 /// Where `measure` stops following beams when not told: face up a few hundredths of a second's work.
@@ -22,7 +23,7 @@ const LATTICE: u32 = 256;
 pub struct Measure {
     /// Cut files, or names of cuts that come with the program
     #[arg(required = true)]
-    files: Vec<String>,
+    files: Vec<PathBuf>,
     /// Print JSON: one object, or for several files one a line
     #[arg(long)]
     json: bool,
@@ -51,7 +52,7 @@ impl Measure {
             if self.json {
                 let mut value = measured.json(&self.view);
                 if self.files.len() > 1 {
-                    let mut named = Map::from_iter([("file".to_string(), json!(file))]);
+                    let mut named = Map::from_iter([("file".to_string(), json!(specimen.path))]);
                     named.append(value.as_object_mut().unwrap_or(&mut Map::new()));
                     return print(&Value::Object(named).to_string());
                 }
@@ -74,7 +75,9 @@ pub fn measure(specimen: &Specimen, view: &ViewOptions, light: &LightOptions) ->
     let start = Instant::now();
     let figures = match tracer {
         TracerName::Beam => {
-            let beams = beam::trace(polytope, medium, &seen, &light.beams(UNRESOLVED)?, &watch)?;
+            let options = light.beams(UNRESOLVED)?;
+            let beams = beam::trace(polytope, medium, &seen, &options, &watch)?;
+            light.warn_of_open(specimen, &beams, &options);
             by_beams(&beams, &scope)
         }
         TracerName::Ray => {

@@ -11,14 +11,18 @@ mod specimen;
 use crate::io::WriteError;
 use crate::trace::Stopped;
 use clap::{Parser, Subcommand};
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 /// Why a command did not do all that was asked; the exit code follows from it.
 #[derive(Debug, thiserror::Error)]
 enum Failure {
-    /// The input is at fault: exit code 1. (2 is a command line that clap does not take.)
+    /// The input is at fault: exit code 1.
     #[error("{0}")]
     Input(String),
+    /// The command line asks for what cannot be, whatever the input: exit code 2, as for one that clap refuses.
+    #[error("{0}")]
+    Usage(String),
     /// The output could not be written: exit code 3.
     #[error("{0}")]
     Output(String),
@@ -46,6 +50,7 @@ impl Failure {
     fn code(&self) -> u8 {
         match self {
             Self::Input(_) => 1,
+            Self::Usage(_) => 2,
             Self::Output(_) => 3,
             Self::Stopped => 130,
         }
@@ -81,7 +86,14 @@ enum Command {
 
 /// Runs the program with the process's arguments.
 pub fn main() -> ExitCode {
-    let arguments = Arguments::parse();
+    let arguments = match Arguments::try_parse() {
+        Ok(arguments) => arguments,
+        Err(told) => {
+            // Help that nobody takes is no failure; clap's own exit would panic over it.
+            let _ = told.print();
+            return ExitCode::from(u8::try_from(told.exit_code()).unwrap_or(2));
+        }
+    };
     progress::stop_on_interrupt();
     let result = match arguments.command {
         Command::Export(export) => export.run(),
@@ -94,20 +106,20 @@ pub fn main() -> ExitCode {
     match result {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) => {
-            eprintln!("error: {failure}");
+            say(&format!("error: {failure}"));
             ExitCode::from(failure.code())
         }
     }
 }
 
 /// Does `work` for each file; a file at fault does not keep the others from being done.
-fn each_file(files: &[String], mut work: impl FnMut(&str) -> Result<(), Failure>) -> Result<(), Failure> {
+fn each_file(files: &[PathBuf], mut work: impl FnMut(&Path) -> Result<(), Failure>) -> Result<(), Failure> {
     let mut failed = Vec::new();
     for file in files {
         match work(file) {
             Err(Failure::Input(message)) if files.len() > 1 => {
-                eprintln!("error: {message}");
-                failed.push(file.as_str());
+                say(&format!("error: {message}"));
+                failed.push(file.display().to_string());
             }
             other => other?,
         }
@@ -116,6 +128,12 @@ fn each_file(files: &[String], mut work: impl FnMut(&str) -> Result<(), Failure>
         return Ok(());
     }
     Err(Failure::Input(format!("{} of {} files failed: {}", failed.len(), files.len(), failed.join(", "))))
+}
+
+/// Says something to the person at standard error; where nobody listens, that is no reason to stop.
+fn say(text: &str) {
+    use std::io::Write;
+    let _ = writeln!(std::io::stderr().lock(), "{text}");
 }
 
 /// Prints lines to standard output; a reader that has gone away (`| head`) is no error.

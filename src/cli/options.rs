@@ -1,7 +1,7 @@
 //! What several commands take: how to look at a stone, and how to trace it.
 
-use super::Failure;
 use super::specimen::Specimen;
+use super::{Failure, say};
 use crate::optics::line;
 use crate::scene::{Lean, Medium, Projection, Side, View};
 use crate::trace::{beam, ray};
@@ -48,18 +48,20 @@ impl ViewOptions {
         let (lean, tilt) =
             if self.eye_tilt == 0.0 { (Lean::Stone, self.tilt) } else { (Lean::Eye, self.eye_tilt) };
         if !(-90.0..=90.0).contains(&tilt) {
-            return Err(Failure::Input(format!(
+            return Err(Failure::Usage(format!(
                 "a tilt of {tilt} degrees is not from -90 to 90; use --side to turn over"
             )));
         }
         if !self.azimuth.is_finite() {
-            return Err(Failure::Input(format!("an azimuth of {} is not a finite angle", self.azimuth)));
+            return Err(Failure::Usage(format!("an azimuth of {} is not a finite angle", self.azimuth)));
         }
         let projection = match self.perspective {
             None => Projection::Orthographic,
-            Some(distance) if distance > 0.0 && distance.is_finite() => Projection::Perspective { distance },
+            Some(distance) if distance > 1.0 && distance.is_finite() => Projection::Perspective { distance },
             Some(d) => {
-                return Err(Failure::Input(format!("an eye at {d} girdle radii is nowhere; give 2 or more")));
+                return Err(Failure::Usage(format!(
+                    "an eye at {d} girdle radii would be in the stone; give 2 or more"
+                )));
             }
         };
         let azimuth = self.azimuth.rem_euclid(360.0).to_radians();
@@ -140,7 +142,7 @@ impl LightOptions {
         }
         let flat = view.projection == Projection::Orthographic;
         match self.tracer {
-            Some(TracerName::Beam) if !flat => Err(Failure::Input(
+            Some(TracerName::Beam) if !flat => Err(Failure::Usage(
                 "exact beams are for parallel rays: leave out --perspective, or use --tracer ray".into(),
             )),
             Some(tracer) => Ok(tracer),
@@ -152,7 +154,7 @@ impl LightOptions {
     pub fn medium(&self, specimen: &Specimen) -> Result<Medium, Failure> {
         let wavelength = self.wavelength.unwrap_or(line::SODIUM_D);
         if !(100.0..=100_000.0).contains(&wavelength) {
-            return Err(Failure::Input(format!(
+            return Err(Failure::Usage(format!(
                 "a wavelength of {wavelength} nm is not light that stones are seen in"
             )));
         }
@@ -165,15 +167,14 @@ impl LightOptions {
                 .map_err(|e| Failure::Input(format!("{}: {}: {e}", specimen.path, material.name)))?,
         };
         if !(1.0..=5.0).contains(&index) {
-            return Err(Failure::Input(format!("an index of {index} is not from 1 (air) to 5")));
+            return Err(Failure::Usage(format!("an index of {index} is not from 1 (air) to 5")));
         }
         if let (None, Some((first, last))) = (self.index, material.valid_nm)
             && !material.is_valid_at(wavelength)
         {
             let name = &material.name;
-            eprintln!(
-                "warning: {name} was measured from {first} to {last} nm; its index at {wavelength} nm is a guess"
-            );
+            let range = format!("{name} was measured from {first} to {last} nm");
+            say(&format!("warning: {range}; its index at {wavelength} nm is a guess"));
         }
         let radius_mm = specimen.design.diameter_mm / 2.0;
         Ok(Medium { index, absorption: material.absorption.coefficient(wavelength) * radius_mm })
@@ -184,7 +185,7 @@ impl LightOptions {
         if (0.0..90.0).contains(&self.head) {
             return Ok(self.head);
         }
-        Err(Failure::Input(format!("a head of half angle {} degrees is not from 0 to below 90", self.head)))
+        Err(Failure::Usage(format!("a head of half angle {} degrees is not from 0 to below 90", self.head)))
     }
 
     fn bound(&self, default: f64) -> Result<f64, Failure> {
@@ -192,7 +193,7 @@ impl LightOptions {
         if bound > 0.0 && bound < 1.0 {
             return Ok(bound);
         }
-        Err(Failure::Input(format!(
+        Err(Failure::Usage(format!(
             "--unresolved {bound}: give a part of the light between 0 and 1, such as 0.001"
         )))
     }
@@ -201,6 +202,16 @@ impl LightOptions {
     pub fn beams(&self, default: f64) -> Result<beam::Options, Failure> {
         let unresolved = self.bound(default)?;
         Ok(beam::Options { unresolved, polarised: !self.unpolarised, ..beam::Options::default() })
+    }
+
+    /// Warns where beams could not be followed to the bound that was asked for.
+    pub fn warn_of_open(&self, specimen: &Specimen, beams: &beam::Beams, options: &beam::Options) {
+        let open = beams.unresolved();
+        if open > options.unresolved {
+            let (bound, count) = (options.unresolved, beams.len());
+            specimen
+                .say(&format!("{open:.2e} of the light is unresolved after {count} beams, not {bound:.2e}"));
+        }
     }
 
     /// For rays: a ray is given up when no more than the bound is left of it.

@@ -1,6 +1,6 @@
 //! The stone that a command works on, read and built.
 
-use super::Failure;
+use super::{Failure, say};
 use crate::cut::Design;
 use crate::io::cut_file;
 use crate::optics::Material;
@@ -22,16 +22,17 @@ pub struct Specimen {
 impl Specimen {
     /// Reads a cut file, or takes a cut that comes with the program by its name; builds the stone, and warns of what
     /// is odd.
-    pub fn load(path: &str) -> Result<Self, Failure> {
+    pub fn load(file: &Path) -> Result<Self, Failure> {
+        let path = &file.display().to_string();
         let input = |e: &dyn std::fmt::Display| Failure::Input(format!("{path}: {e}"));
-        let design = match super::lists::built_in(path).filter(|_| !Path::new(path).exists()) {
+        let design = match super::lists::built_in(path).filter(|_| !file.exists()) {
             Some(text) => cut_file::parse(text, path).map_err(|e| Failure::Input(e.to_string()))?,
-            None => cut_file::read(path).map_err(|e| Failure::Input(e.to_string()))?,
+            None => cut_file::read(file).map_err(|e| Failure::Input(e.to_string()))?,
         };
         let facets = design.facets().map_err(|e| input(&e))?;
         let stone = Stone::new(&facets).map_err(|e| input(&e.told(|i| format!("'{}'", facets[i].0))))?;
         let material = design.material.material().map_err(|e| input(&e))?;
-        let specimen = Self { path: path.into(), design, stone, material };
+        let specimen = Self { path: path.clone(), design, stone, material };
         specimen.warn(&facets)?;
         Ok(specimen)
     }
@@ -42,20 +43,22 @@ impl Specimen {
         stem.map_or_else(|| "stone".into(), |s| s.to_string_lossy().into_owned())
     }
 
+    /// Says that something about it is odd.
+    pub fn say(&self, what: &str) {
+        say(&format!("warning: {}: {what}", self.path));
+    }
+
     fn warn(&self, facets: &[(String, crate::math::Plane)]) -> Result<(), Failure> {
         let odd = self.design.warnings().map_err(|e| Failure::Input(format!("{}: {e}", self.path)))?;
-        odd.iter().for_each(|w| eprintln!("warning: {}: {w}", self.path));
+        odd.iter().for_each(|w| self.say(&w.to_string()));
         let polytope = &self.stone.polytope;
         for &(dropped, kept) in polytope.merged() {
             let (dropped, kept) = (&facets[dropped].0, &facets[kept].0);
-            eprintln!(
-                "warning: {}: facet '{dropped}' lies in the plane of '{kept}' and is one with it",
-                self.path
-            );
+            self.say(&format!("facet '{dropped}' lies in the plane of '{kept}' and is one with it"));
         }
         let names: Vec<&str> = polytope.redundant().iter().map(|&i| facets[i].0.as_str()).collect();
         if !names.is_empty() {
-            eprintln!("warning: {}: these facets do not reach the stone: {}", self.path, listed(&names));
+            self.say(&format!("these facets do not reach the stone: {}", listed(&names)));
         }
         Ok(())
     }

@@ -43,7 +43,7 @@ pub enum Cut {
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum DesignError {
     /// A name that is blank or has control characters.
-    #[error("name: a name of printable characters is expected")]
+    #[error("name: a name of 1 to 200 printable characters is expected")]
     Name,
     /// A girdle diameter out of range.
     #[error("diameter_mm: {value} must be from {} to {} mm", DIAMETERS_MM.start(), DIAMETERS_MM.end())]
@@ -77,7 +77,7 @@ pub enum DesignError {
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub enum PlaneFault {
     /// A name that is blank or has control characters.
-    #[error("name: a name of printable characters is expected")]
+    #[error("name: a name of 1 to 200 printable characters is expected")]
     Name,
     /// A normal that is zero or not finite.
     #[error("normal: {0} points nowhere; three finite numbers that are not all 0 are expected")]
@@ -229,7 +229,7 @@ mod tests {
         let cases = [
             (
                 Design { name: "\n".to_owned(), ..good.clone() },
-                "name: a name of printable characters is expected",
+                "name: a name of 1 to 200 printable characters is expected",
             ),
             (Design { diameter_mm: 0.0, ..good.clone() }, "diameter_mm: 0 must be from 0.1 to 1000 mm"),
             (

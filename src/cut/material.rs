@@ -17,7 +17,7 @@ pub enum MaterialRef {
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum MaterialError {
     /// A blank name, or one with control characters.
-    #[error("{key}: a name of printable characters is expected")]
+    #[error("{key}: a name of 1 to 200 printable characters is expected")]
     Name {
         /// The key at fault.
         key: &'static str,
@@ -175,12 +175,15 @@ mod tests {
             MaterialRef::Custom(Box::new(glass))
         };
         let cases = [
-            (MaterialRef::Name(String::new()), "material: a name of printable characters is expected"),
+            (
+                MaterialRef::Name(String::new()),
+                "material: a name of 1 to 200 printable characters is expected",
+            ),
             (
                 MaterialRef::Name("Saphire".to_owned()),
                 "material: unknown material 'Saphire'; did you mean 'sapphire'? known: diamond, ",
             ),
-            (glass(|m| m.name = " ".to_owned()), "name: a name of printable characters is expected"),
+            (glass(|m| m.name = " ".to_owned()), "name: a name of 1 to 200 printable characters is expected"),
             (MaterialRef::Index(0.9), "material: the index 0.9 must be from 1 (vacuum) to 5"),
             (MaterialRef::Index(f64::INFINITY), "material: the index inf must be from 1 (vacuum) to 5"),
             (own(Dispersion::Constant(5.1)), "index: the index 5.1 must be from 1 (vacuum) to 5"),

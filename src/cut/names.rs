@@ -25,9 +25,14 @@ pub(super) fn unique<'a>(names: impl Iterator<Item = &'a str> + Clone) -> Vec<St
     names.map(name_one).collect()
 }
 
-/// Whether a name can be shown anywhere: not blank, and without control characters, which XML cannot hold.
+/// The longest name, in bytes: one that fits on a line.
+const LONGEST: usize = 200;
+
+/// Whether a name can be shown anywhere: not blank nor endless, and without control characters, which XML cannot
+/// hold.
 pub(super) fn is_printable(name: &str) -> bool {
     !name.trim().is_empty()
+        && name.len() <= LONGEST
         && !name.contains(|c: char| c.is_control() || matches!(c, '\u{fffe}' | '\u{ffff}'))
 }
 

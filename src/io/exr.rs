@@ -5,7 +5,7 @@ use crate::picture::{Film, Layer, paint};
 use crate::trace::Watch;
 use exr::prelude::{
     AnyChannel, AnyChannels, Encoding, FlatSamples, Image, ImageAttributes, Layer as ExrLayer,
-    LayerAttributes, Text, WritableImage,
+    LayerAttributes, LineOrder, Text, WritableImage,
 };
 use smallvec::SmallVec;
 use std::path::Path;
@@ -38,7 +38,9 @@ pub fn write_exr(
     let mut attributes = LayerAttributes::named("light");
     attributes.comments = Text::new_or_none(description);
     attributes.software_name = Text::new_or_none("Brillianteer");
-    let data = ExrLayer::new(size, attributes, Encoding::FAST_LOSSLESS, AnyChannels::sort(list));
+    // In any other order the threads' race would decide where in the file a tile comes to lie.
+    let encoding = Encoding { line_order: LineOrder::Increasing, ..Encoding::FAST_LOSSLESS };
+    let data = ExrLayer::new(size, attributes, encoding, AnyChannels::sort(list));
     let mut image = Image::from_layer(data);
     image.attributes = ImageAttributes::with_size(size);
     write(path, |file| {

@@ -4,6 +4,9 @@ use super::{Basis, Facet, Polytope, polygon};
 use glam::{DVec2, DVec3};
 use spade::{ConstrainedDelaunayTriangulation, Point2, Triangulation};
 
+/// Triangles whose areas differ from the outline's by less than this part cover it; the rest is rounding.
+const CLOSED: f64 = 1e-9;
+
 /// Triangles over shared corners.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Mesh {
@@ -61,7 +64,7 @@ fn runs_upward([a, b, c]: &[usize; 3]) -> bool {
 fn same_area(flat: &[DVec2], triangles: &[[usize; 3]]) -> bool {
     let whole = polygon::area(flat);
     let parts: f64 = triangles.iter().map(|t| polygon::area(&t.map(|i| flat[i]))).sum();
-    (whole - parts).abs() <= 1e-9 * whole
+    (whole - parts).abs() <= CLOSED * whole
 }
 
 fn fan(corners: usize) -> Vec<[usize; 3]> {

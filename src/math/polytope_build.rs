@@ -7,6 +7,7 @@
 use super::{Facet, Plane, Polytope};
 use glam::DVec3;
 use std::collections::HashMap;
+use std::ops::RangeInclusive;
 
 /// Two planes are one when their unit normals and offsets differ by less than this, offsets relative to the
 /// largest: a hundredth of the last digit that cutters' files carry.
@@ -22,9 +23,12 @@ const FIRST_BOX: f64 = 4.0;
 /// A solid that still touches a box this many times the largest offset is called unbounded.
 const LAST_BOX: f64 = 1e6;
 
-/// Why half-spaces enclose no solid. Numbers are indices into the planes given.
+/// The largest offset must lie in this range, so that volumes neither overflow nor vanish.
+const SCALES: RangeInclusive<f64> = 1e-60..=1e60;
+
+/// Why half-spaces enclose no solid. Numbers are indices into the planes given; in words they count from 1.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
-#[error("{}", self.told(|plane| format!("plane {plane}")))]
+#[error("{}", self.told(|plane| format!("plane {}", plane + 1)))]
 pub enum PolytopeError {
     /// Fewer than the four planes that a solid needs.
     TooFew {
@@ -34,6 +38,11 @@ pub enum PolytopeError {
     /// A number of the plane is NaN or infinite.
     NotFinite {
         /// The plane.
+        plane: usize,
+    },
+    /// The plane is so far off, or all are so near, that areas and volumes cannot be computed.
+    OutOfScale {
+        /// The plane that is farthest off.
         plane: usize,
     },
     /// The normal has no direction.
@@ -72,6 +81,13 @@ impl PolytopeError {
             Self::NotFinite { plane } => {
                 format!(
                     "{} holds a number that is not finite; give it a finite normal and offset",
+                    name(*plane)
+                )
+            }
+            Self::OutOfScale { plane } => {
+                let (least, most) = (SCALES.start(), SCALES.end());
+                format!(
+                    "{} is the farthest off, and not from {least:e} to {most:e}; rescale the stone",
                     name(*plane)
                 )
             }
@@ -150,7 +166,16 @@ fn validate(planes: &[Plane]) -> Result<Vec<Plane>, PolytopeError> {
         None => Err(PolytopeError::NotFinite { plane }),
     };
     let unit = planes.iter().enumerate().map(check).collect::<Result<Vec<_>, _>>()?;
-    if unit.len() < 4 { Err(PolytopeError::TooFew { given: unit.len() }) } else { Ok(unit) }
+    if unit.len() < 4 {
+        return Err(PolytopeError::TooFew { given: unit.len() });
+    }
+    let far = unit.iter().map(|p| p.offset.abs()).enumerate().max_by(|a, b| a.1.total_cmp(&b.1));
+    match far {
+        Some((plane, offset)) if offset != 0.0 && !SCALES.contains(&offset) => {
+            Err(PolytopeError::OutOfScale { plane })
+        }
+        _ => Ok(unit),
+    }
 }
 
 /// Splits the planes into those to cut with and (dropped, kept) pairs that coincide. Sorted along one axis, so

@@ -3,12 +3,9 @@
 //! Coefficients are Napierian (base e) and per millimetre of stone: T = exp(-a l) (J. H. Lambert 1760, A.
 //! Beer 1852). A source that prints decadic absorbance divides by 0.4343 first.
 
-use serde::{Deserialize, Serialize};
-
 /// An absorption spectrum: straight lines between samples, level outside them. No sample is a clear stone,
 /// one is a grey.
-#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
-#[serde(try_from = "Vec<(f64, f64)>", into = "Vec<(f64, f64)>")]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct Absorption {
     /// (nm, per mm); wavelengths strictly increasing, all finite and >= 0.
     samples: Vec<(f64, f64)>,
@@ -103,20 +100,6 @@ impl Absorption {
 #[inline]
 pub fn transmittance(coefficient_per_mm: f64, length_mm: f64) -> f64 {
     (-coefficient_per_mm * length_mm).exp()
-}
-
-impl TryFrom<Vec<(f64, f64)>> for Absorption {
-    type Error = AbsorptionError;
-
-    fn try_from(samples: Vec<(f64, f64)>) -> Result<Self, AbsorptionError> {
-        Self::new(samples)
-    }
-}
-
-impl From<Absorption> for Vec<(f64, f64)> {
-    fn from(absorption: Absorption) -> Self {
-        absorption.samples
-    }
 }
 
 #[cfg(test)]

@@ -40,6 +40,7 @@ pub enum Dispersion {
         #[serde(default = "one")]
         constant: f64,
         /// The (B, C) pairs; C in um.
+        #[serde(deserialize_with = "pairs")]
         terms: Vec<(f64, f64)>,
     },
     /// n² = A + Σ B L² / (L² - C) + Σ P / (L² - Q) + D L², for sources that print C already squared, in um².
@@ -48,10 +49,10 @@ pub enum Dispersion {
         #[serde(default = "one")]
         constant: f64,
         /// The (B, C) pairs; C in um².
-        #[serde(default)]
+        #[serde(default, deserialize_with = "pairs")]
         terms: Vec<(f64, f64)>,
         /// The (P, Q) pairs, both in um².
-        #[serde(default)]
+        #[serde(default, deserialize_with = "pairs")]
         poles: Vec<(f64, f64)>,
         /// D, per um².
         #[serde(default)]
@@ -216,6 +217,18 @@ impl<'de> Deserialize<'de> for Dispersion {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         Self::deserialize(deserializer)?.checked().map_err(serde::de::Error::custom)
     }
+}
+
+/// Lists of exactly two numbers; serde's own tuples let more pass.
+fn pairs<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<(f64, f64)>, D::Error> {
+    let pair = |list: Vec<f64>| match list[..] {
+        [first, second] => Ok((first, second)),
+        _ => Err(serde::de::Error::custom(format!(
+            "a pair of numbers is expected, not a list of {}",
+            list.len()
+        ))),
+    };
+    Vec::<Vec<f64>>::deserialize(deserializer)?.into_iter().map(pair).collect()
 }
 
 fn one() -> f64 {

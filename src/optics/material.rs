@@ -2,30 +2,24 @@
 
 use super::absorption::Absorption;
 use super::dispersion::{Dispersion, DispersionError};
-use serde::{Deserialize, Serialize};
 use std::fmt;
 use std::sync::LazyLock;
 
 /// What a stone is made of, as light sees it.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Material {
     /// What the trade calls it; unique among [`materials`].
     pub name: String,
     /// One line on what it is, and on what is left out.
-    #[serde(default)]
     pub description: String,
     /// Its index by wavelength.
     pub dispersion: Dispersion,
     /// What it takes from light on the way, clear unless stated.
-    #[serde(default)]
     pub absorption: Absorption,
     /// Who measured it, and where it is printed.
-    #[serde(default)]
     pub source: String,
     /// The wavelengths in nm, first and last, that the source vouches for; beyond them the formula is
     /// extrapolated. `None` where the source states none.
-    #[serde(default)]
     pub valid_nm: Option<(f64, f64)>,
 }
 

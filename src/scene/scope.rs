@@ -92,7 +92,7 @@ impl Scope {
     /// blue border at 90 less `cone` degrees, 40 for ASET 40.
     pub fn aset(cone: f64, backing: Backing) -> Self {
         let suffix = if backing == Backing::White { "-white" } else { "" };
-        let size = if (cone - ASET_CONE).abs() < 1e-9 { String::new() } else { format!("-{cone}") };
+        let size = if cone == ASET_CONE { String::new() } else { format!("-{cone}") };
         let below = if backing == Backing::White { WHITE } else { BLACK };
         // The cone is named by its full angle.
         let blue = 90.0 - cone / 2.0;

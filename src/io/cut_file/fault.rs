@@ -98,7 +98,7 @@ impl Fault {
             None => reworded(error.message(), ""),
         };
         let place = error.span().map_or(Place::Whole, |span| Place::Offset(span.start));
-        Self { place, message }
+        Self { place, message: shortened(message) }
     }
 
     /// The line at fault, from 1.
@@ -134,6 +134,15 @@ fn span(table: &DeTable<'_>, path: &str) -> Option<usize> {
     }
     let Range { start, .. } = value.span();
     Some(start)
+}
+
+/// A message that quotes something endless, cut to what a person reads.
+fn shortened(message: String) -> String {
+    const LONGEST: usize = 600;
+    match message.char_indices().nth(LONGEST) {
+        Some((end, _)) => format!("{} ...", &message[..end]),
+        None => message,
+    }
 }
 
 /// serde's message with keys for fields, numbers for f64, and what the key means.

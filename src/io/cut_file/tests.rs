@@ -167,7 +167,7 @@ fn a_material_that_light_cannot_know_is_told_with_its_line() {
          whether its source prints C squared (use `rational`) or not (use `sellmeier`)",
     );
     told("abbe = [1.5, -1]", "x.toml:4: abbe: an Abbe number of -1: give a number above 0");
-    told("name = \"\"\nindex = 2", "x.toml:4: name: a name of printable characters is expected");
+    told("name = \"\"\nindex = 2", "x.toml:4: name: a name of 1 to 200 printable characters is expected");
     told(
         "[material.dispersion.rational]\nterms = [[1, 0.25]]",
         "x.toml:4: material.dispersion: the dispersion has a resonance at 500.0 nm, in visible light (360 to 830 nm): \
@@ -333,7 +333,10 @@ fn what_is_out_of_range_is_told_with_its_line() {
         &with("name", "diameter_mm = 0\nname"),
         "x.toml:2: diameter_mm: 0 must be from 0.1 to 1000 mm",
     );
-    assert_told(&with("Tolkowsky 1919", ""), "x.toml:2: name: a name of printable characters is expected");
+    assert_told(
+        &with("Tolkowsky 1919", ""),
+        "x.toml:2: name: a name of 1 to 200 printable characters is expected",
+    );
 }
 
 #[test]
@@ -348,7 +351,7 @@ fn planes_that_bound_nothing_are_told_with_their_line() {
     );
     assert_told(
         &planes_with("\"star\"", "\" \""),
-        "x.toml:8: plane 2: name: a name of printable characters is expected",
+        "x.toml:8: plane 2: name: a name of 1 to 200 printable characters is expected",
     );
     assert_told(
         "format = 1\nname = \"x\"\nmaterial = 2\nplane = []",

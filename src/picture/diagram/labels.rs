@@ -6,6 +6,9 @@ use crate::math::{Affine, area, centroid, clip};
 use crate::scene::Stone;
 use glam::DVec2;
 
+/// Places that are better by less than this are mirror images but for rounding: the first of them stays.
+const EVEN: f64 = 1e-6;
+
 /// Angles at which leaders end, degrees from the x axis in each quarter of a view.
 const SLOTS: [f64; 3] = [74.0, 56.0, 40.0];
 /// Leaders as long as one from the middle are read with ease while they are few, else only shorter ones.
@@ -149,8 +152,7 @@ impl<'a> Labels<'a> {
     /// Writes a label into the tier's facet with most room for it, if there is any.
     fn inside(&mut self, sheet: &mut Sheet, tier: &Tier, label: &Label) -> bool {
         let rooms = self.outlines(tier).filter_map(|corners| room_for(&corners, label.size));
-        // Mirror images differ by rounding: the first of them stays.
-        let Some((_, middle)) = rooms.reduce(|a, b| if b.0 > a.0 * (1.0 + 1e-6) { b } else { a }) else {
+        let Some((_, middle)) = rooms.reduce(|a, b| if b.0 > a.0 * (1.0 + EVEN) { b } else { a }) else {
             return false;
         };
         self.taken.push(label.frame(middle));
@@ -169,8 +171,7 @@ impl<'a> Labels<'a> {
                     else {
                         continue;
                     };
-                    // Mirror images differ by rounding: the first of them stays.
-                    if best.is_none_or(|(leader, _)| cost < leader.cost - 1e-6) {
+                    if best.is_none_or(|(leader, _)| cost < leader.cost - EVEN) {
                         best = Some((Leader { cost, from, slot }, k));
                     }
                 }
