@@ -4,12 +4,14 @@
 //! leaves and the rest goes on. Rays know nothing of outlines or symmetry and follow polarisation as fields in
 //! space, so that where rays and beams agree it is not by a shared mistake.
 
+mod search;
+
+use self::search::Search;
 use crate::math::{Basis, Plane, Polytope};
 use crate::optics::{cos_transmitted, fresnel, reflectance};
 use crate::scene::{Medium, Projection, View};
 use glam::{DVec2, DVec3};
 use num_complex::Complex64;
-use wide::f64x4;
 
 /// How far to follow a ray.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -56,31 +58,11 @@ pub struct Rest {
     pub bounces: u32,
 }
 
-/// Planes that are tested side by side.
-const LANES: usize = 4;
-
-/// Some planes, coordinate by coordinate. Places without a plane hold the zero normal, which no ray runs toward.
-#[derive(Debug, Clone, Copy)]
-struct Group {
-    x: f64x4,
-    y: f64x4,
-    z: f64x4,
-    offset: f64x4,
-    /// The group's number, in the bits of [`Tracer::tag`].
-    tag: f64x4,
-}
-
-/// Gaps count as no smaller: where rounding has put a point a hair outside a plane, that plane is met at once.
-const LEAST_GAP: f64 = 1e-290;
-
 /// Follows single rays through one stone.
 #[derive(Debug, Clone)]
 pub struct Tracer {
     planes: Vec<Plane>,
-    groups: Vec<Group>,
-    /// The low bits of a ratio's fraction that hold the number of its group instead. With 4,096 groups two ratios
-    /// that differ by less than 1e-12 of their size are confused: their facets meet in an edge there.
-    tag: u64,
+    search: Search,
     medium: Medium,
     options: Options,
 }
@@ -209,19 +191,8 @@ impl Tracer {
     /// Prepares a stone.
     pub fn new(polytope: &Polytope, medium: Medium, options: Options) -> Self {
         let planes: Vec<Plane> = polytope.planes().collect();
-        let lanes = |some: &[Plane], pick: fn(&Plane) -> f64| {
-            f64x4::from(std::array::from_fn(|i| some.get(i).map_or(0.0, pick)))
-        };
-        let group = |(i, some): (usize, &[Plane])| Group {
-            x: lanes(some, |p| p.normal.x),
-            y: lanes(some, |p| p.normal.y),
-            z: lanes(some, |p| p.normal.z),
-            offset: lanes(some, |p| p.offset),
-            tag: f64x4::splat(f64::from_bits(i as u64)),
-        };
-        let groups: Vec<Group> = planes.chunks(LANES).enumerate().map(group).collect();
-        let tag = groups.len().next_power_of_two() as u64 - 1;
-        Self { planes, groups, tag, medium, options }
+        let search = Search::new(&planes);
+        Self { planes, search, medium, options }
     }
 
     /// Follows the ray from a point outside, calling `leave` for the surface's glare and for each exit; `None`
@@ -289,48 +260,16 @@ impl Tracer {
 
     /// Facet and distance at which a ray enters from outside.
     fn enter(&self, origin: DVec3, direction: DVec3) -> Option<(usize, f64)> {
-        let splat = |v: DVec3| v.to_array().map(f64x4::splat);
-        let ([ox, oy, oz], [dx, dy, dz]) = (splat(origin), splat(direction));
-        let (zero, never) = (f64x4::ZERO, f64x4::splat(f64::INFINITY));
-        let (mut into, mut out, mut group) = (-never, never, zero);
-        let mut outside = zero;
-        for (i, Group { x, y, z, offset, .. }) in self.groups.iter().enumerate() {
-            let speed = *x * dx + *y * dy + *z * dz;
-            let gap = *offset - (*x * ox + *y * oy + *z * oz);
-            let distance = gap / speed;
-            let enters = speed.simd_lt(zero) & distance.simd_gt(into);
-            into = enters.select(distance, into);
-            group = enters.select(f64x4::splat(i as f64), group);
-            out = speed.simd_gt(zero).select(distance, never).fast_min(out);
-            outside |= speed.simd_eq(zero) & gap.simd_lt(zero);
-        }
-        let (into, out, group) = (into.to_array(), out.to_array(), group.to_array());
-        let lane = (1..LANES).fold(0, |best, i| if into[i] > into[best] { i } else { best });
-        let leaves = out.into_iter().fold(f64::INFINITY, f64::min);
-        let hits = into[lane] < leaves && into[lane] > 0.0 && outside.none();
-        hits.then(|| (group[lane] as usize * LANES + lane, into[lane]))
+        let facet = self.search.entry(origin, direction)?;
+        let plane = &self.planes[facet];
+        let distance = -plane.distance(origin) / plane.normal.dot(direction);
+        (distance > 0.0).then_some((facet, distance))
     }
 
-    /// Facet, distance and cosine of incidence at which a ray inside the stone meets it next: the greatest ratio of speed toward a plane
-    /// to the gap before it. Planes behind have negative ratios and never win.
+    /// Facet, distance and cosine of incidence at which a ray inside the stone meets it next.
     #[inline]
     fn next(&self, point: DVec3, direction: DVec3) -> (usize, f64, f64) {
-        let splat = |v: DVec3| v.to_array().map(f64x4::splat);
-        let ([px, py, pz], [dx, dy, dz]) = (splat(point), splat(direction));
-        let (least_gap, clear) = (f64x4::splat(LEAST_GAP), f64x4::splat(f64::from_bits(!self.tag)));
-        let mut greatest = f64x4::ZERO;
-        for Group { x, y, z, offset, tag } in &self.groups {
-            let speed = *x * dx + *y * dy + *z * dz;
-            if speed.simd_gt(f64x4::ZERO).none() {
-                continue;
-            }
-            let gap = *offset - (*x * px + *y * py + *z * pz);
-            let ratio = speed / gap.fast_max(least_gap);
-            greatest = ((ratio & clear) | *tag).fast_max(greatest);
-        }
-        let greatest = greatest.to_array();
-        let lane = (1..LANES).fold(0, |best, i| if greatest[i] > greatest[best] { i } else { best });
-        let facet = (greatest[lane].to_bits() & self.tag) as usize * LANES + lane;
+        let facet = self.search.next(point, direction);
         let plane = &self.planes[facet];
         let cos_i = plane.normal.dot(direction);
         (facet, -plane.distance(point) / cos_i, cos_i)
