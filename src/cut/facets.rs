@@ -70,7 +70,8 @@ fn tier(
 
 #[cfg(test)]
 mod tests {
-    use super::super::round_brilliant::{MODERN, RoundBrilliant, strategy};
+    use super::super::derive::strategy;
+    use super::super::round_brilliant::{MODERN, RoundBrilliant};
     use super::*;
     use proptest::prelude::*;
 

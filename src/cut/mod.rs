@@ -4,6 +4,7 @@
 //! the table, z = 0 at the crown-side girdle, girdle radius 1. Bad numbers are errors that name their limit, odd ones
 //! are warnings.
 
+mod derive;
 mod design;
 mod facets;
 mod limits;
@@ -23,4 +24,4 @@ pub use round_brilliant::{Crown, LowerHalf, Pavilion, RoundBrilliant};
 pub use warning::Warning;
 
 #[cfg(test)]
-pub(crate) use round_brilliant::strategy;
+pub(crate) use derive::strategy;

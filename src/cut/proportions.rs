@@ -169,7 +169,8 @@ impl Proportions {
 
 #[cfg(test)]
 mod tests {
-    use super::super::round_brilliant::{MODERN, strategy};
+    use super::super::derive::strategy;
+    use super::super::round_brilliant::MODERN;
     use super::*;
     use proptest::prelude::*;
 

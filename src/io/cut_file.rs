@@ -18,6 +18,7 @@ use form::DesignForm;
 mod fault;
 mod form;
 mod material_form;
+mod values;
 
 #[cfg(test)]
 mod tests;

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::Fault;
-use super::form::{Numbers, OneOf, Pairs, Table};
+use super::values::{Numbers, OneOf, Pairs, Table};
 use crate::cut::MaterialRef;
 use crate::optics::{Absorption, AbsorptionError, Dispersion, Material};
 

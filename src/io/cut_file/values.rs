@@ -1,0 +1,109 @@
+//! The kinds of value that a cut file has and serde does not read strictly enough.
+
+use std::fmt;
+use std::marker::PhantomData;
+
+use serde::de::value::{MapAccessDeserializer, SeqAccessDeserializer};
+use serde::de::{MapAccess, SeqAccess, Visitor};
+use serde::{Deserialize, Deserializer, Serialize};
+
+/// What only a table with its keys can give; serde's own structs take a list of values as well.
+#[derive(Serialize)]
+#[serde(transparent)]
+pub(super) struct Table<T>(pub T);
+
+impl<'de, T: Deserialize<'de>> Deserialize<'de> for Table<T> {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct Keys<T>(PhantomData<T>);
+        impl<'de, T: Deserialize<'de>> Visitor<'de> for Keys<T> {
+            type Value = Table<T>;
+
+            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                f.write_str("a table of keys")
+            }
+
+            fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<Table<T>, A::Error> {
+                T::deserialize(MapAccessDeserializer::new(map)).map(Table)
+            }
+        }
+        deserializer.deserialize_map(Keys(PhantomData))
+    }
+}
+
+/// Text, a number, or the list or table that `T` takes. Read by hand, for an error that says what was expected and
+/// where, which serde's untagged enums cannot.
+#[derive(Serialize)]
+#[serde(untagged)]
+pub(super) enum OneOf<T> {
+    Text(String),
+    Number(f64),
+    Rest(T),
+}
+
+impl<'de, T: Deserialize<'de>> Deserialize<'de> for OneOf<T> {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct Forms<T>(PhantomData<T>);
+        impl<'de, T: Deserialize<'de>> Visitor<'de> for Forms<T> {
+            type Value = OneOf<T>;
+
+            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                f.write_str("another form")
+            }
+
+            fn visit_str<E>(self, text: &str) -> Result<OneOf<T>, E> {
+                Ok(OneOf::Text(text.to_owned()))
+            }
+
+            fn visit_f64<E>(self, number: f64) -> Result<OneOf<T>, E> {
+                Ok(OneOf::Number(number))
+            }
+
+            fn visit_i64<E>(self, number: i64) -> Result<OneOf<T>, E> {
+                Ok(OneOf::Number(number as f64))
+            }
+
+            fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<OneOf<T>, A::Error> {
+                T::deserialize(MapAccessDeserializer::new(map)).map(OneOf::Rest)
+            }
+
+            fn visit_seq<A: SeqAccess<'de>>(self, list: A) -> Result<OneOf<T>, A::Error> {
+                T::deserialize(SeqAccessDeserializer::new(list)).map(OneOf::Rest)
+            }
+        }
+        deserializer.deserialize_any(Forms(PhantomData))
+    }
+}
+
+/// A list of exactly so many numbers; serde's own arrays let more pass.
+#[derive(Clone, Copy, Serialize, Deserialize)]
+#[serde(try_from = "Vec<f64>", into = "Vec<f64>")]
+pub(super) struct Numbers<const N: usize>(pub [f64; N]);
+
+impl<const N: usize> TryFrom<Vec<f64>> for Numbers<N> {
+    type Error = String;
+
+    fn try_from(list: Vec<f64>) -> Result<Self, String> {
+        let wrong = |list: Vec<f64>| format!("invalid length {}, expected a list of {N} numbers", list.len());
+        list.try_into().map(Self).map_err(wrong)
+    }
+}
+
+impl<const N: usize> From<Numbers<N>> for Vec<f64> {
+    fn from(numbers: Numbers<N>) -> Self {
+        numbers.0.to_vec()
+    }
+}
+
+/// A list of at least one pair of numbers.
+#[derive(Clone, Serialize, Deserialize)]
+#[serde(try_from = "Vec<Numbers<2>>")]
+pub(super) struct Pairs(pub Vec<(f64, f64)>);
+
+impl TryFrom<Vec<Numbers<2>>> for Pairs {
+    type Error = &'static str;
+
+    fn try_from(list: Vec<Numbers<2>>) -> Result<Self, Self::Error> {
+        let pairs: Vec<_> = list.into_iter().map(|pair| pair.0.into()).collect();
+        if pairs.is_empty() { Err("the list is empty, expected at least one pair") } else { Ok(Self(pairs)) }
+    }
+}
