@@ -245,6 +245,10 @@ fn one_bad_file_keeps_no_other_from_being_done_and_two_of_one_name_are_refused()
     std::fs::copy(desk.at("cube.toml"), desk.at("bad/cube.toml")).unwrap();
     let (code, _, said) = desk.run("export cube.toml bad/cube.toml --out twins");
     assert!(code != 0 && said.contains("bad/cube.toml") && !desk.at("twins").exists(), "{said}");
+    desk.write("strongest.toml", desk.done("scopes aset").replace("\"aset\"", "\"strongest\""));
+    std::fs::copy(desk.at("cube.toml"), desk.at("cube-aset.toml")).unwrap();
+    let line = "export cube.toml cube-aset.toml --views aset --scope strongest.toml --out twins";
+    assert!(desk.refused(line, 2).contains("'cube-aset-strongest'") && !desk.at("twins").exists());
 }
 
 #[test]
@@ -330,6 +334,8 @@ fn a_perspective_is_traced_by_rays_which_say_so() {
         let told = png(&desk.at(format!("out/cube-aset{ending}.png"))).2;
         assert!(told.contains("point rays") && !told.contains("beams"), "{told}");
     }
+    desk.done("export cube.toml --perspective 8 --format json --out figures");
+    assert_eq!(files(&desk.at("figures")).len(), 1);
     let (_, _, said) = desk.run("export cube.toml --perspective 8 --views aset --format svg,exr");
     assert!(said.contains("aset: rays make PNG pictures only"), "{said}");
     let (code, _, said) = desk.run("measure cube.toml --perspective 8 --tracer beam");

@@ -4,13 +4,13 @@
 mod common;
 
 use brillianteer::math::{Plane, Polytope};
-use brillianteer::measure::by_beams;
+use brillianteer::measure::{by_beams, by_rays};
 use brillianteer::picture::{Film, Layer, Palette, paint};
-use brillianteer::scene::{Lean, Medium, Scope, Side, View};
+use brillianteer::scene::{Lean, Medium, Projection, Scope, Side, View};
 use brillianteer::trace::ray::{Camera, Exit, Options, Tracer};
 use brillianteer::trace::{Stopped, beam, unwatched};
 use common::*;
-use glam::{DMat3, DVec2};
+use glam::{DMat3, DVec2, DVec3};
 use proptest::prelude::*;
 use std::ops::ControlFlow;
 
@@ -53,10 +53,12 @@ proptest! {
 
     #[test]
     fn energy_adds_up_to_one_in_any_brilliant(cut in brilliants(), medium in media(), view in views()) {
-        let figures = by_beams(&traced(&built(&cut), medium, &view, 0.02, true), &aset());
+        let beams = traced(&built(&cut), medium, &view, 0.02, true);
+        let figures = by_beams(&beams, &aset());
         prop_assert!((figures.sum() - 1.0).abs() < 1e-9, "{}", figures.sum());
-        // Caught light may keep a figure from its bound, but then it must be said.
-        prop_assert!(figures.unresolved >= 0.0);
+        // Only light that total reflection keeps may stay open beyond the bound.
+        let caught = || beams.iter().filter(|b| b.open).all(|b| beams.facets(b.id).len() > 1000);
+        prop_assert!(figures.unresolved <= 0.02 || caught(), "{}", figures.unresolved);
     }
 
     #[test]
@@ -76,25 +78,6 @@ proptest! {
         // A beam just at the level may be followed here and not there; only its energy can differ.
         let allowed = 1e-9 + (a.unresolved - b.unresolved).abs();
         prop_assert!(largest_difference(&row(&a), &row(&b)) < allowed);
-    }
-
-    #[test]
-    fn the_symmetry_used_does_not_change_the_light(cut in brilliants(), tilt in prop_oneof![Just(0.0), Just(0.2)]) {
-        let stone = built(&cut);
-        let view = View { tilt, azimuth: std::f64::consts::FRAC_PI_8, ..View::default() };
-        let figures = |symmetry| {
-            let options = beam::Options { unresolved: 0.01, symmetry, ..beam::Options::default() };
-            let beams = beam::trace(&stone.polytope, Medium::clear(2.4175), &view, &options, &unwatched).unwrap();
-            (beams.symmetry.order(), by_beams(&beams, &aset()))
-        };
-        let ((order, with), (one, without)) = (figures(true), figures(false));
-        prop_assert_eq!(one, 1);
-        if cut.girdle_facets.is_multiple_of(8) {
-            prop_assert_eq!(order, if tilt == 0.0 { 16 } else { 2 });
-        }
-        let allowed = with.unresolved + without.unresolved + 1e-9;
-        prop_assert!(largest_difference(&with.transmitted, &without.transmitted) < allowed);
-        prop_assert!(largest_difference(&with.surface, &without.surface) < 1e-9);
     }
 
     #[test]
@@ -120,6 +103,29 @@ proptest! {
     }
 }
 
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(8))]
+
+    #[test]
+    fn the_symmetry_used_does_not_change_the_light(cut in brilliants(), tilt in prop_oneof![Just(0.0), Just(0.2)]) {
+        let stone = built(&cut);
+        let view = View { tilt, azimuth: std::f64::consts::FRAC_PI_8, ..View::default() };
+        let figures = |symmetry| {
+            let options = beam::Options { unresolved: 1e-3, symmetry, ..beam::Options::default() };
+            let beams = beam::trace(&stone.polytope, Medium::clear(2.4175), &view, &options, &unwatched).unwrap();
+            (beams.symmetry.order(), by_beams(&beams, &aset()))
+        };
+        let ((order, with), (one, without)) = (figures(true), figures(false));
+        prop_assert_eq!(one, 1);
+        if cut.girdle_facets.is_multiple_of(8) {
+            prop_assert_eq!(order, if tilt == 0.0 { 16 } else { 2 });
+        }
+        let allowed = with.unresolved + without.unresolved + 1e-9;
+        prop_assert!(largest_difference(&with.transmitted, &without.transmitted) < allowed);
+        prop_assert!(largest_difference(&with.surface, &without.surface) < 1e-9);
+    }
+}
+
 #[test]
 fn every_pixel_of_a_picture_accounts_for_all_its_light() {
     let stone = built(&brilliant((57.0, 36.0, 41.8), (50.0, 77.0), 96));
@@ -129,7 +135,7 @@ fn every_pixel_of_a_picture_accounts_for_all_its_light() {
         (Medium { index: 2.16, absorption: 3.0 }, View { side: Side::Culet, ..View::default() }),
     ] {
         let beams = traced(&stone, medium, &view, 0.02, true);
-        let film = Film::around(&stone.polytope, &beams.view, 96);
+        let film = Film::around(&stone.polytope, &beams.view, 1024);
         let layer = Layer::full(&beams, &aset());
         let (mut worst, mut covered) = (0.0_f64, 0.0);
         paint(&layer, &film, &unwatched, |rows| -> Result<(), Stopped> {
@@ -190,4 +196,49 @@ fn work_that_is_stopped_says_so() {
     let film = Film::around(&stone.polytope, &beams.view, 32);
     let painted = paint(&Layer::energy(&beams, &aset()), &film, &stop, |_| Ok(()));
     assert_eq!(painted, Err(Stopped));
+}
+
+#[test]
+fn a_stone_that_catches_light_stops_at_the_most_beams_and_says_what_is_left() {
+    let stone = built(&brilliant((56.0, 34.5, 40.8), (50.0, 77.0), 96));
+    let view = View { tilt: 0.3, azimuth: 0.1, ..View::default() };
+    let options = beam::Options { unresolved: 1e-6, most_beams: 50_000, ..beam::Options::default() };
+    let beams = beam::trace(&stone.polytope, Medium::clear(4.0), &view, &options, &unwatched).unwrap();
+    assert!((50_000..250_000).contains(&beams.len()), "{} beams", beams.len());
+    let figures = by_beams(&beams, &aset());
+    assert!(figures.unresolved > 1e-6 && (figures.sum() - 1.0).abs() < 1e-9, "{figures:?}");
+}
+
+#[test]
+fn a_stone_beside_the_origin_keeps_its_energy() {
+    let centre = DVec3::new(20.0, -30.0, 4.0);
+    let stone = built(&brilliant((56.0, 34.5, 40.8), (50.0, 77.0), 96));
+    let moved: Vec<Plane> =
+        stone.polytope.planes().map(|p| Plane::new(p.normal, p.offset + p.normal.dot(centre))).collect();
+    let view = View { tilt: 0.2, ..View::default() };
+    let [here, there] = [stone, nameless(&moved)]
+        .map(|s| by_beams(&traced(&s, Medium::clear(2.4175), &view, 0.01, true), &aset()));
+    assert!((there.sum() - 1.0).abs() < 1e-9, "{}", there.sum());
+    let allowed = 1e-7 + (here.unresolved - there.unresolved).abs();
+    assert!(largest_difference(&row(&here), &row(&there)) < allowed, "{here:?} {there:?}");
+}
+
+#[test]
+fn a_far_eye_sees_what_parallel_rays_do_and_a_near_one_does_not() {
+    let stone = built(&brilliant((56.0, 34.5, 40.8), (50.0, 77.0), 96));
+    let seen = |projection| {
+        let view = View { tilt: 0.1, projection, ..View::default() };
+        let manner = (Options::default(), 64);
+        by_rays(&stone.polytope, Medium::clear(2.4175), &view, &aset(), manner, &unwatched).unwrap()
+    };
+    let parallel = seen(Projection::Orthographic);
+    for distance in [1e7, 1e12, 1e18] {
+        let far = seen(Projection::Perspective { distance });
+        let off = largest_difference(&row(&parallel), &row(&far));
+        assert!(off < 2e-4, "from {distance:e}: {off:e}");
+    }
+    let near = seen(Projection::Perspective { distance: 6.0 });
+    assert!(largest_difference(&row(&parallel), &row(&near)) > 1e-2);
+    let inside = seen(Projection::Perspective { distance: 0.1 });
+    assert_eq!((inside.beams, inside.sum(), inside.standard_error), (0, 0.0, 0.0));
 }

@@ -3,11 +3,11 @@
 use super::measure::measure;
 use super::options::{LightOptions, TracerName, ViewOptions};
 use super::progress::Progress;
-use super::specimen::Specimen;
+use super::specimen::{Specimen, stem};
 use super::{Failure, each_file, json, print, say};
 use crate::cut::Cut;
 use crate::io::{self, MOST_PIXELS, WriteError, rasterize, scope_file, write_exr, write_png};
-use crate::picture::by_rays::{self, Reading};
+use crate::picture::by_rays::{self, Manner, Reading};
 use crate::picture::{
     Film, Layer, Palette, Picture, Rows, Scoped, diagram, named, names, paint, profile, vector,
 };
@@ -16,6 +16,7 @@ use crate::trace::Watch;
 use crate::trace::beam::{self, Beams};
 use crate::trace::ray::Camera;
 use clap::{Args, ValueEnum};
+use std::collections::HashSet;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
@@ -24,6 +25,9 @@ const UNRESOLVED: f64 = 1e-3;
 
 /// An energy drawing holds every polygon of the subdivision; finer than this it would be for no viewer.
 const DRAWN_UNRESOLVED: f64 = 2e-2;
+
+/// Nor for one this large, where light is caught so well that it needs more beams for that.
+const DRAWN_BEAMS: usize = 200_000;
 
 /// The largest EXR: it is held in memory, a dozen channels deep.
 const MOST_EXR_PIXELS: u32 = 8192;
@@ -78,12 +82,13 @@ impl Export {
             )));
         }
         let pictures = self.pictures()?;
-        self.distinct_stems()?;
+        self.distinct_outputs(&pictures)?;
         each_file(&self.files, |file| {
             let specimen = Specimen::load(file)?;
             let medium = self.light.medium(&specimen)?;
             let mut job = Job { export: self, medium, specimen: &specimen, last: None };
-            for (name, picture) in &pictures {
+            let drawn = self.format.iter().any(|&f| f != Format::Json);
+            for (name, picture) in pictures.iter().filter(|_| drawn) {
                 match picture {
                     Picture::Profile => {
                         let brilliant = match &specimen.design.cut {
@@ -112,26 +117,29 @@ impl Export {
             let name = scope.name.clone();
             pictures.push((name, Picture::Scoped(Scoped { scope, side: None, takes_head: true })));
         }
-        for (i, (name, _)) in pictures.iter().enumerate() {
-            if pictures[..i].iter().any(|(n, _)| n == name) {
-                return Err(Failure::Usage(format!(
-                    "two pictures are called '{name}'; their files would be one"
-                )));
-            }
-        }
         Ok(pictures)
     }
 
-    fn distinct_stems(&self) -> Result<(), Failure> {
-        let stem = |f: &PathBuf| f.file_stem().map(|s| s.to_os_string());
-        let twice =
-            self.files.iter().enumerate().find(|(i, f)| self.files[..*i].iter().any(|g| stem(g) == stem(f)));
-        twice.map_or(Ok(()), |(_, file)| {
-            Err(Failure::Usage(format!(
-                "{}: another file has the same name; export them to different --out folders",
-                file.display()
-            )))
-        })
+    /// Refuses what would write two things to one file.
+    fn distinct_outputs(&self, pictures: &[(String, Picture)]) -> Result<(), Failure> {
+        let mut seen = HashSet::new();
+        for file in &self.files {
+            let stem = stem(file);
+            let pictured = pictures.iter().flat_map(|(name, picture)| {
+                let strongest =
+                    matches!(picture, Picture::Scoped(_)).then(|| format!("{stem}-{name}-strongest"));
+                strongest.into_iter().chain([format!("{stem}-{name}")])
+            });
+            let figures = format!("{stem}-figures.json");
+            if let Some(twice) = pictured.chain([figures]).find(|name| !seen.insert(name.clone())) {
+                return Err(Failure::Usage(format!(
+                    "{}: two outputs would be called '{twice}'; give each stone and picture one name, or export \
+                     to different --out folders",
+                    file.display()
+                )));
+            }
+        }
+        Ok(())
     }
 }
 
@@ -146,7 +154,7 @@ struct Job<'a> {
 
 impl Job<'_> {
     fn path(&self, name: &str, ending: &str) -> PathBuf {
-        self.export.out.join(format!("{}-{name}.{ending}", self.specimen.stem()))
+        self.export.out.join(format!("{}-{name}.{ending}", stem(Path::new(&self.specimen.path))))
     }
 
     fn wants(&self, format: Format) -> bool {
@@ -221,28 +229,18 @@ impl Job<'_> {
         watch: Watch,
     ) -> Result<(), Failure> {
         let film = Film::around(&self.specimen.stone.polytope, &beams.view, self.export.size);
-        let told = self.told(name, view, &format!("exact beams, unresolved {:.2e}", beams.unresolved()));
+        let told = |open: &str, part: f64| self.told(name, view, &format!("exact beams, {open} {part:.2e}"));
         if self.wants(Format::Png) {
             let palette = Palette::of(scope);
-            self.paint(
-                &self.path(name, "png"),
-                &Layer::energy(beams, scope),
-                &film,
-                (&palette, &told),
-                watch,
-            )?;
-            let strongest = Layer::strongest(beams, scope);
-            self.paint(
-                &self.path(&format!("{name}-strongest"), "png"),
-                &strongest,
-                &film,
-                (&palette, &told),
-                watch,
-            )?;
+            let paint = |name: &str, layer: &Layer, open| {
+                self.paint(name, layer, &film, (&palette, &told(open, layer.open)), watch)
+            };
+            paint(name, &Layer::energy(beams, scope), "unresolved")?;
+            paint(&format!("{name}-strongest"), &Layer::strongest(beams, scope), "undecided")?;
         }
         if self.wants(Format::Exr) {
-            let path = self.path(name, "exr");
-            write_exr(&path, &Layer::full(beams, scope), &film, &told, watch)?;
+            let (path, layer) = (self.path(name, "exr"), Layer::full(beams, scope));
+            write_exr(&path, &layer, &film, &told("unresolved", layer.open), watch)?;
             self.done(&path)?;
         }
         if self.wants(Format::Svg) {
@@ -263,7 +261,8 @@ impl Job<'_> {
         let title = format!("{}, {}", self.title(name), self.export.view.told(view));
         let strongest = vector::strongest(stone, beams, scope, &format!("{title}, strongest exits"));
         self.text(&self.path(&format!("{name}-strongest"), "svg"), &strongest.to_string())?;
-        let coarse = beam::Options { unresolved: options.unresolved.max(DRAWN_UNRESOLVED), ..options };
+        let unresolved = options.unresolved.max(DRAWN_UNRESOLVED);
+        let coarse = beam::Options { unresolved, most_beams: DRAWN_BEAMS, ..options };
         let beams = beam::trace(&stone.polytope, self.medium, view, &coarse, watch)?;
         let energy = vector::energy(stone, &beams, scope, &format!("{title}, energy"));
         self.text(&self.path(name, "svg"), &energy.to_string())
@@ -271,12 +270,13 @@ impl Job<'_> {
 
     fn paint(
         &self,
-        path: &Path,
+        name: &str,
         layer: &Layer,
         film: &Film,
         (palette, told): (&Palette, &str),
         watch: Watch,
     ) -> Result<(), Failure> {
+        let path = &self.path(name, "png");
         write_png(path, (film.size, film.size), told, |png| {
             paint(layer, film, watch, |rows| encode(rows, palette, |pixels| png.push(pixels)))
         })?;
@@ -301,10 +301,10 @@ impl Job<'_> {
         let strongest = format!("{name}-strongest");
         for (reading, name) in [(Reading::Energy, name), (Reading::Strongest, &strongest)] {
             let path = self.path(name, "png");
-            let manner = (reading, options, RAYS_PER_SIDE);
+            let manner = Manner { reading, options, per_side: RAYS_PER_SIDE };
             write_png(&path, (film.size, film.size), &told, |png| {
                 let push = |rows: &Rows| encode(rows, &palette, |pixels| png.push(pixels));
-                by_rays::trace(polytope, self.medium, view, scope, &film, manner, watch, push)
+                by_rays::trace(polytope, self.medium, view, scope, &film, &manner, watch, push)
             })?;
             self.done(&path)?;
         }

@@ -69,7 +69,7 @@ pub fn measure(specimen: &Specimen, view: &ViewOptions, light: &LightOptions) ->
     let seen = view.view(None)?;
     let medium = light.medium(specimen)?;
     let tracer = light.tracer(&seen, specimen)?;
-    let progress = Progress::new(&format!("measuring {}", specimen.stem()));
+    let progress = Progress::new(&format!("measuring {}", specimen.path));
     let watch = progress.watch();
     let polytope = &specimen.stone.polytope;
     let start = Instant::now();

@@ -60,7 +60,7 @@ impl ViewOptions {
             Some(distance) if distance > 1.0 && distance.is_finite() => Projection::Perspective { distance },
             Some(d) => {
                 return Err(Failure::Usage(format!(
-                    "an eye at {d} girdle radii would be in the stone; give 2 or more"
+                    "an eye at {d} girdle radii would be in the stone; give more than 1"
                 )));
             }
         };

@@ -37,12 +37,6 @@ impl Specimen {
         Ok(specimen)
     }
 
-    /// The file's name without its ending, for the files made of it.
-    pub fn stem(&self) -> String {
-        let stem = Path::new(&self.path).file_stem();
-        stem.map_or_else(|| "stone".into(), |s| s.to_string_lossy().into_owned())
-    }
-
     /// Says that something about it is odd.
     pub fn say(&self, what: &str) {
         say(&format!("warning: {}: {what}", self.path));
@@ -69,4 +63,9 @@ fn listed(names: &[&str]) -> String {
     const MOST: usize = 8;
     let shown = names.iter().take(MOST).map(|n| format!("'{n}'")).collect::<Vec<_>>().join(", ");
     if names.len() > MOST { format!("{shown} and {} more", names.len() - MOST) } else { shown }
+}
+
+/// A file's name without its ending, for the files made of it.
+pub fn stem(file: &Path) -> String {
+    file.file_stem().map_or_else(|| "stone".into(), |s| s.to_string_lossy().into_owned())
 }

@@ -7,6 +7,9 @@ use crate::math::Plane;
 
 impl RoundBrilliant {
     /// The other member of each pair, the angles of star and halves, the depths; or the first limit crossed.
+    ///
+    /// # Errors
+    /// The first limit crossed, and by how much.
     pub fn derived(&self) -> Result<Derived, ProportionError> {
         limits::check(self).map(|proportions| proportions.derived())
     }
@@ -15,11 +18,17 @@ impl RoundBrilliant {
     /// halves, mains, each tier numbered from 1 counterclockwise seen from the table, and the culet if there is one.
     ///
     /// Where the girdle closes in its valleys some girdle planes no longer touch the stone, which a polytope tells.
+    ///
+    /// # Errors
+    /// The first limit crossed, and by how much.
     pub fn facets(&self) -> Result<Vec<(String, Plane)>, ProportionError> {
         limits::check(self).map(|proportions| facets::round_brilliant(&proportions))
     }
 
     /// What is possible but unusual about these proportions.
+    ///
+    /// # Errors
+    /// The first limit crossed, and by how much.
     pub fn warnings(&self) -> Result<Vec<Warning>, ProportionError> {
         limits::check(self).map(|proportions| Warning::of(&proportions))
     }

@@ -100,6 +100,9 @@ impl PlaneFault {
 
 impl Design {
     /// Checks everything that can be known without building the stone.
+    ///
+    /// # Errors
+    /// The first thing at fault: name, size, material, proportions or plane.
     pub fn check(&self) -> Result<(), DesignError> {
         if !names::is_printable(&self.name) {
             return Err(DesignError::Name);
@@ -112,6 +115,9 @@ impl Design {
     }
 
     /// Every facet's name, no two alike, and its plane with a unit normal.
+    ///
+    /// # Errors
+    /// The first proportion or plane at fault.
     pub fn facets(&self) -> Result<Vec<(String, Plane)>, DesignError> {
         match &self.cut {
             Cut::RoundBrilliant(proportions) => Ok(proportions.facets()?),
@@ -120,6 +126,9 @@ impl Design {
     }
 
     /// What is possible but unusual about this design.
+    ///
+    /// # Errors
+    /// The first proportion at fault.
     pub fn warnings(&self) -> Result<Vec<Warning>, DesignError> {
         match &self.cut {
             Cut::RoundBrilliant(proportions) => Ok(proportions.warnings()?),

@@ -77,11 +77,17 @@ impl MaterialError {
 
 impl MaterialRef {
     /// Checks that there is such a material.
+    ///
+    /// # Errors
+    /// The key at fault, and why.
     pub fn check(&self) -> Result<(), MaterialError> {
         self.material().map(drop)
     }
 
     /// The material meant: the library's, a clear one named after its index as in "index 2.42", or the file's own.
+    ///
+    /// # Errors
+    /// The key at fault, and why.
     pub fn material(&self) -> Result<Material, MaterialError> {
         match self {
             Self::Name(name) => {

@@ -4,13 +4,12 @@
 //! reading what was written gives the same design to the last bit. Every error names file, line and key, and says
 //! what was expected.
 
-use std::fs::File;
-use std::io::{ErrorKind, Read};
 use std::path::Path;
 
 use serde::Deserialize;
 use toml::de::{DeTable, Deserializer};
 
+use super::text::{self, TextError};
 use crate::cut::Design;
 use fault::Fault;
 use form::DesignForm;
@@ -42,21 +41,22 @@ pub struct CutFileError {
 }
 
 /// Reads a cut file.
+///
+/// # Errors
+/// What keeps it from being a cut file, with path, line and key.
 pub fn read(path: impl AsRef<Path>) -> Result<Design, CutFileError> {
     let path = path.as_ref();
     let label = path.display().to_string();
-    let bytes = bytes(path).map_err(|message| CutFileError { path: label.clone(), line: None, message })?;
-    match String::from_utf8(bytes) {
+    match text::read(path, MAX_BYTES) {
         Ok(text) => parse(&text, &label),
-        Err(error) => {
-            let valid = &error.as_bytes()[..error.utf8_error().valid_up_to()];
-            let message = "this is not UTF-8 text; save the file as UTF-8".to_owned();
-            Err(CutFileError { path: label, line: Some(fault::line_after(valid)), message })
-        }
+        Err(TextError { line, message }) => Err(CutFileError { path: label, line, message }),
     }
 }
 
 /// Reads a design from the text of a cut file; `label` stands for its path in errors.
+///
+/// # Errors
+/// What keeps it from being a cut file, with label, line and key.
 pub fn parse(text: &str, label: &str) -> Result<Design, CutFileError> {
     design(text).map_err(|fault| CutFileError {
         path: label.to_owned(),
@@ -75,7 +75,7 @@ pub fn write(design: &Design) -> String {
 
 fn design(text: &str) -> Result<Design, Fault> {
     if text.len() as u64 > MAX_BYTES {
-        return Err(Fault::whole(too_large()));
+        return Err(Fault::whole(text::too_large(MAX_BYTES)));
     }
     let table = DeTable::parse(text).map_err(|error| Fault::syntax(text, &error))?;
     check_format(table.get_ref())?;
@@ -98,22 +98,4 @@ fn check_format(table: &DeTable<'_>) -> Result<(), Fault> {
         )),
         _ => Err(Fault::at("format", format!("format: a whole number is expected, `format = {FORMAT}`"))),
     }
-}
-
-/// What a path holds, up to the limit, which also binds what grows or has no size of its own.
-fn bytes(path: &Path) -> Result<Vec<u8>, String> {
-    let unreadable = |error: std::io::Error| match error.kind() {
-        ErrorKind::NotFound => "there is no such file".to_owned(),
-        _ => format!("cannot be read: {error}"),
-    };
-    if path.metadata().map_err(unreadable)?.is_dir() {
-        return Err("this is a directory; a cut file is expected".to_owned());
-    }
-    let mut bytes = Vec::new();
-    File::open(path).and_then(|file| file.take(MAX_BYTES + 1).read_to_end(&mut bytes)).map_err(unreadable)?;
-    if bytes.len() as u64 > MAX_BYTES { Err(too_large()) } else { Ok(bytes) }
-}
-
-fn too_large() -> String {
-    format!("this is larger than {} MiB, so hardly a cut file", MAX_BYTES >> 20)
 }

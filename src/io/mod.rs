@@ -6,6 +6,7 @@ mod drawing_png;
 mod exr;
 mod png;
 pub mod scope_file;
+mod text;
 
 pub use atomic::{WriteError, write};
 pub use drawing_png::{DrawingError, rasterize};

@@ -1,27 +1,33 @@
 //! Scopes as TOML: a name, and bands of colour with the elevation at which each begins.
 
+use super::text::{self, TextError, line_after};
 use crate::scene::Scope;
 use std::path::Path;
+
+/// The largest file taken, bytes.
+const MAX_BYTES: u64 = 1 << 20;
 
 /// The longest name of a scope or band, in bytes: part of a file's name.
 const LONGEST_NAME: usize = 60;
 
 /// What pictures and figures hold beside the bands.
-const RESERVED: [&str; 4] = ["absorbed", "cover", "undecided", "unresolved"];
+const RESERVED: [&str; 5] = ["absorbed", "cover", "head", "undecided", "unresolved"];
 
 /// Reads a scope.
 ///
 /// # Errors
 /// Text that names the file and, where it is known, the line, and says what was expected.
 pub fn read(path: &Path) -> Result<Scope, String> {
-    let text = std::fs::read_to_string(path).map_err(|e| format!("{}: cannot read: {e}", path.display()))?;
+    let label = path.display();
+    let at = |line: Option<usize>| line.map_or(String::new(), |line| format!(":{line}"));
+    let text = text::read(path, MAX_BYTES)
+        .map_err(|TextError { line, message }| format!("{label}{}: {message}", at(line)))?;
     let scope: Scope = toml::from_str(&text).map_err(|e| {
-        let line =
-            e.span().map_or(String::new(), |s| format!(":{}", 1 + text[..s.start].matches('\n').count()));
-        format!("{}{line}: {}", path.display(), e.message())
+        let line = e.span().map(|s| line_after(&text.as_bytes()[..s.start]));
+        format!("{label}{}: {}", at(line), e.message())
     })?;
-    scope.validate().map_err(|e| format!("{}: {e}", path.display()))?;
-    check_names(&scope).map_err(|e| format!("{}: {e}", path.display()))?;
+    scope.validate().map_err(|e| format!("{label}: {e}"))?;
+    check_names(&scope).map_err(|e| format!("{label}: {e}"))?;
     Ok(scope)
 }
 

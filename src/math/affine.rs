@@ -27,10 +27,10 @@ impl Affine {
         self.constant + self.gradient.dot(p)
     }
 
-    /// An upper bound of the magnitude of its terms over an image of half extent 1: the scale of rounding errors.
+    /// An upper bound of the magnitude of its terms over an image of this half extent: the scale of rounding errors.
     #[inline]
-    pub fn magnitude(&self) -> f64 {
-        self.constant.abs() + self.gradient.x.abs() + self.gradient.y.abs()
+    pub fn magnitude(&self, extent: f64) -> f64 {
+        self.constant.abs() + extent * (self.gradient.x.abs() + self.gradient.y.abs())
     }
 }
 

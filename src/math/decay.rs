@@ -9,21 +9,24 @@ const WIDEST: f64 = 1.0;
 /// Where f is above its least by this, exp(-f) is below the rounding of the whole.
 const NOTHING: f64 = 45.0;
 
+/// How often a triangle is halved at most: beyond this f varies by more than corners in f64 can tell apart.
+const MOST_HALVINGS: u32 = 100;
+
 /// The integral of exp(-f) over a convex polygon with counter-clockwise corners, to about 1e-15 of the whole.
 pub fn integral_of_decay(corners: &[DVec2], f: Affine) -> f64 {
     let Some((&a, rest)) = corners.split_first() else { return 0.0 };
     let least = corners.iter().map(|&c| f.at(c)).fold(f64::INFINITY, f64::min);
-    rest.windows(2).map(|w| triangle(a, w[0], w[1], f, least + NOTHING)).sum()
+    rest.windows(2).map(|w| triangle([a, w[0], w[1]], f, least + NOTHING, MOST_HALVINGS)).sum()
 }
 
-fn triangle(a: DVec2, b: DVec2, c: DVec2, f: Affine, nothing: f64) -> f64 {
+fn triangle([a, b, c]: [DVec2; 3], f: Affine, nothing: f64, halvings: u32) -> f64 {
     let values = [f.at(a), f.at(b), f.at(c)];
     let low = values.iter().copied().fold(f64::INFINITY, f64::min);
     let high = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
     if low > nothing {
         return 0.0;
     }
-    if high - low <= WIDEST {
+    if high - low <= WIDEST || halvings == 0 {
         return (b - a).perp_dot(c - a) * divided_difference(values);
     }
     // Halve the edge along which f varies most.
@@ -32,7 +35,7 @@ fn triangle(a: DVec2, b: DVec2, c: DVec2, f: Affine, nothing: f64) -> f64 {
         .max_by(|x, y| (f.at(x[0]) - f.at(x[1])).abs().total_cmp(&(f.at(y[0]) - f.at(y[1])).abs()))
         .unwrap_or([a, b, c]);
     let middle = (p + q) / 2.0;
-    triangle(p, middle, r, f, nothing) + triangle(middle, q, r, f, nothing)
+    [[p, middle, r], [middle, q, r]].into_iter().map(|half| triangle(half, f, nothing, halvings - 1)).sum()
 }
 
 /// The second divided difference of exp at -x: by the Hermite-Genocchi formula half the mean over the triangle.
@@ -75,5 +78,15 @@ mod tests {
             let expected = (-c).exp() * factor(gx) * factor(gy);
             assert!((got - expected).abs() < 2e-13 * expected, "{c} {gx} {gy}: {got} {expected}");
         }
+    }
+
+    #[test]
+    fn the_steepest_decay_ends_and_is_the_strip_that_it_leaves() {
+        let square = [DVec2::ZERO, DVec2::X, DVec2::ONE, DVec2::Y];
+        for (slope, within) in [(1e3, 1e-6), (1e7, 1e-6), (1e12, 1e-6), (1e30, 1e-2)] {
+            let found = integral_of_decay(&square, Affine::new(0.0, DVec2::X * slope));
+            assert!((found * slope - 1.0).abs() < within, "{slope:e}: {found:e}");
+        }
+        assert!(integral_of_decay(&square, Affine::new(f64::NAN, DVec2::ZERO)).is_nan());
     }
 }

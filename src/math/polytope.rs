@@ -19,7 +19,7 @@ pub struct Facet {
 /// A closed, bounded, convex solid: closed by construction, each edge shared by exactly two facets.
 ///
 /// Facets stand in the order of the planes given. Lengths are in whatever unit the planes use; tolerances scale
-/// with the solid.
+/// with the largest offset, so the origin belongs in or near the solid.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Polytope {
     pub(super) facets: Vec<Facet>,
@@ -105,11 +105,6 @@ impl Polytope {
     pub fn bounds(&self) -> (DVec3, DVec3) {
         let start = (DVec3::INFINITY, DVec3::NEG_INFINITY);
         self.vertices.iter().fold(start, |(low, high), &v| (low.min(v), high.max(v)))
-    }
-
-    /// Whether `point` is inside or within `margin` outside.
-    pub fn contains(&self, point: DVec3, margin: f64) -> bool {
-        self.facets.iter().all(|f| f.plane.distance(point) <= margin)
     }
 
     /// The planes of its facets.

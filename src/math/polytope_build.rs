@@ -80,7 +80,7 @@ impl PolytopeError {
             Self::TooFew { given } => format!("{given} planes cannot enclose a solid; give at least 4"),
             Self::NotFinite { plane } => {
                 format!(
-                    "{} holds a number that is not finite; give it a finite normal and offset",
+                    "{} has no finite distance from the origin; give it a finite normal and offset",
                     name(*plane)
                 )
             }

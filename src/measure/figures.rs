@@ -22,7 +22,8 @@ pub struct Figures {
     pub transmitted: Zones,
     /// The part of the silhouette whose strongest exit lies in each band.
     pub strongest_exit_area: Zones,
-    /// The part of the silhouette in which a stronger exit may be hidden in what is unresolved.
+    /// The part of the silhouette in which a stronger exit may be hidden in what is unresolved, or through which
+    /// nothing leaves the stone at all.
     pub strongest_exit_undecided: f64,
     /// Absorbed inside the stone.
     pub absorbed: f64,
@@ -55,14 +56,11 @@ pub fn by_beams(beams: &Beams, scope: &Scope) -> Figures {
             zones[scope.band(beam.exit, beams.zenith)] += beam.weight * beam.area * share;
         }
     }
-    let mut undecided = 0.0;
-    for cell in beams.strongest_exits() {
-        let area = beams.get(cell.outline).area * share;
-        match cell.strongest {
-            Some(exit) if !cell.undecided => {
-                strongest[scope.band(beams.get(exit).exit, beams.zenith)] += area
-            }
-            _ => undecided += area,
+    let cells = beams.strongest_exits();
+    for cell in cells.iter().filter(|cell| !cell.undecided) {
+        if let Some(exit) = cell.strongest {
+            let band = scope.band(beams.get(exit).exit, beams.zenith);
+            strongest[band] += beams.get(cell.outline).area * share;
         }
     }
     Figures {
@@ -70,7 +68,7 @@ pub fn by_beams(beams: &Beams, scope: &Scope) -> Figures {
         surface,
         transmitted,
         strongest_exit_area: strongest,
-        strongest_exit_undecided: undecided,
+        strongest_exit_undecided: beams.undecided(&cells),
         absorbed,
         unresolved: beams.unresolved(),
         beams: beams.len(),

@@ -3,11 +3,14 @@
 //! Coefficients are Napierian (base e) and per millimetre of stone: T = exp(-a l) (J. H. Lambert 1760, A.
 //! Beer 1852). A source that prints decadic absorbance divides by 0.4343 first.
 
+/// The largest coefficient taken, per mm: metals reach 1e5.
+pub const MOST_PER_MM: f64 = 1e6;
+
 /// An absorption spectrum: straight lines between samples, level outside them. No sample is a clear stone,
 /// one is a grey.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Absorption {
-    /// (nm, per mm); wavelengths strictly increasing, all finite and >= 0.
+    /// (nm, per mm); wavelengths strictly increasing, all finite and > 0; coefficients 0 to [`MOST_PER_MM`].
     samples: Vec<(f64, f64)>,
 }
 
@@ -22,8 +25,8 @@ pub enum AbsorptionError {
         /// What was given.
         nm: f64,
     },
-    /// The coefficient is not a number of at least 0.
-    #[error("absorption sample {sample} ({nm} nm) has a coefficient of {per_mm} per mm: give 0 or more")]
+    /// The coefficient is not a number from 0 to [`MOST_PER_MM`].
+    #[error("absorption sample {sample} ({nm} nm) has a coefficient of {per_mm} per mm: give 0 to 1e6")]
     Coefficient {
         /// Which sample.
         sample: usize,
@@ -51,14 +54,15 @@ impl Absorption {
     /// A spectrum through (nm, coefficient per mm) samples.
     ///
     /// # Errors
-    /// Names the first sample that is not finite, is negative, or does not come after the one before.
+    /// Names the first sample whose wavelength is not positive, whose coefficient is not from 0 to [`MOST_PER_MM`], or
+    /// that does not come after the one before.
     pub fn new(samples: Vec<(f64, f64)>) -> Result<Self, AbsorptionError> {
         let mut previous = 0.0;
         for (&(nm, per_mm), sample) in samples.iter().zip(1..) {
             if !(nm.is_finite() && nm > 0.0) {
                 return Err(AbsorptionError::Wavelength { sample, nm });
             }
-            if !(per_mm.is_finite() && per_mm >= 0.0) {
+            if !(0.0..=MOST_PER_MM).contains(&per_mm) {
                 return Err(AbsorptionError::Coefficient { sample, nm, per_mm });
             }
             if nm <= previous {
@@ -96,12 +100,6 @@ impl Absorption {
     }
 }
 
-/// The share of light left after a path, exp(-a l), 0..=1.
-#[inline]
-pub fn transmittance(coefficient_per_mm: f64, length_mm: f64) -> f64 {
-    (-coefficient_per_mm * length_mm).exp()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -131,14 +129,6 @@ mod tests {
         let grey = Absorption::new(vec![(550.0, 0.2)]).expect("one sample will do");
         assert_eq!([360.0, 550.0, 830.0].map(|nm| grey.coefficient(nm)), [0.2; 3]);
         assert!(Absorption::default().is_clear() && !grey.is_clear() && !spectrum().is_clear());
-    }
-
-    #[test]
-    fn two_paths_in_a_row_fade_light_as_one_of_their_length() {
-        let once = transmittance(0.3, 2.0) * transmittance(0.3, 5.0);
-        assert!((once - transmittance(0.3, 7.0)).abs() < 1e-15);
-        assert_eq!(transmittance(0.0, 7.0), 1.0);
-        assert_eq!(transmittance(0.3, 0.0), 1.0);
     }
 
     #[test]

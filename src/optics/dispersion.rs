@@ -23,8 +23,6 @@ pub mod line {
     pub const HYDROGEN_F: f64 = 486.1;
     /// Helium d: where an Abbe number's index is quoted.
     pub const HELIUM_D: f64 = 587.6;
-    /// Mercury e, the green line.
-    pub const MERCURY_E: f64 = 546.1;
 }
 
 /// A law of dispersion. Build one by hand from a trusted source, or let [`Dispersion::checked`] (which
@@ -129,7 +127,10 @@ impl Dispersion {
         self.try_index(wavelength_nm).unwrap_or_else(|error| panic!("{error}"))
     }
 
-    /// The index at a wavelength, or an error where the law gives none that is real, finite and at least 1.
+    /// The index at a wavelength in nm, at least 1.
+    ///
+    /// # Errors
+    /// Where the law gives no index that is real, finite and at least 1.
     pub fn try_index(&self, wavelength_nm: f64) -> Result<f64, DispersionError> {
         if !(wavelength_nm > 0.0 && wavelength_nm.is_finite()) {
             return Err(DispersionError::Wavelength { nm: wavelength_nm });

@@ -151,7 +151,8 @@ mod tests {
                 return;
             }
             let d = DVec3::new((1.0 - cos_i * cos_i).max(0.0).sqrt(), 0.0, -cos_i);
-            let (r, t) = (reflect(d, n), refract(d, n, eta).expect("not total"));
+            let cos_t = f.cos_t.expect("not total");
+            let (r, t) = (reflect(d, n, -n.dot(d)), refract(d, n, eta, (-n.dot(d), cos_t)));
             let e_s = DVec3::Y;
             let t_s = 2.0 * eta * cos_i / (eta * cos_i - n.dot(t));
             let t_p = 2.0 * eta * cos_i / (cos_i - eta * n.dot(t));

@@ -12,7 +12,7 @@ pub mod fresnel;
 pub mod material;
 pub mod snell;
 
-pub use absorption::{Absorption, AbsorptionError, transmittance};
+pub use absorption::{Absorption, AbsorptionError, MOST_PER_MM};
 pub use colour::{LinearRgb, SrgbEncoder, encoded_from_linear, linear_from_encoded};
 pub use dispersion::{Dispersion, DispersionError, VISIBLE_NM, line};
 pub use fresnel::{Fresnel, fresnel, reflectance};

@@ -15,30 +15,32 @@ const ROUNDING: f64 = 1e-9;
 /// different indices can give (their rounding is 1e-16), and far enough from 0 to divide by.
 const LEAST_COS_T_SQUARED: f64 = 1e-300;
 
-/// Direction of the mirror-reflected ray, d - 2 (n·d) n; `n` may face either way.
+/// Direction of the mirror-reflected ray, d + 2 cos_i n.
 #[inline]
-pub fn reflect(d: DVec3, n: DVec3) -> DVec3 {
-    debug_assert!(is_unit(d) && is_unit(n), "reflect wants unit vectors, got d = {d}, n = {n}");
-    d - 2.0 * n.dot(d) * n
+pub fn reflect(d: DVec3, n: DVec3, cos_i: f64) -> DVec3 {
+    check(d, n, cos_i);
+    d + n * (2.0 * cos_i)
 }
 
-/// Direction of the refracted ray, or `None` where reflection is total. `n` must face against `d` (n·d < 0).
-///
-/// t = eta d + (eta cos_i - cos_t) n: the tangential part is scaled by eta (Snell), the normal part makes it
-/// a unit vector.
+/// Direction of the refracted ray, eta d + (eta cos_i - cos_t) n, with `cos_t` of [`cos_transmitted`]: the tangential
+/// part is scaled by eta (Snell), the normal part makes it a unit vector.
 #[inline]
-pub fn refract(d: DVec3, n: DVec3, eta: f64) -> Option<DVec3> {
-    let cos_i = -n.dot(d);
-    debug_assert!(is_unit(d) && is_unit(n), "refract wants unit vectors, got d = {d}, n = {n}");
-    debug_assert!(cos_i >= -ROUNDING, "refract wants a normal that faces the ray, got n.d = {}", -cos_i);
-    let cos_t = cos_transmitted(cos_i, eta)?;
-    Some(eta * d + (eta * cos_i - cos_t) * n)
+pub fn refract(d: DVec3, n: DVec3, eta: f64, (cos_i, cos_t): (f64, f64)) -> DVec3 {
+    check(d, n, cos_i);
+    d * eta + n * (eta * cos_i - cos_t)
+}
+
+/// A caller's mistake, seen in debug builds alone.
+#[inline]
+fn check(d: DVec3, n: DVec3, cos_i: f64) {
+    debug_assert!(is_unit(d) && is_unit(n), "unit vectors are wanted, got d = {d}, n = {n}");
+    debug_assert!((cos_i + n.dot(d)).abs() < ROUNDING, "cos_i is -n.d = {}, got {cos_i}", -n.dot(d));
 }
 
 /// Cosine of the angle of refraction, or `None` where reflection is total: beyond the critical angle and
 /// exactly at it, where the refracted ray would run along the surface and carry nothing through.
 ///
-/// The one place that decides, so that [`refract`], [`fresnel`](super::fresnel()) and
+/// The one place that decides, so that the tracers, [`fresnel`](super::fresnel()) and
 /// [`reflectance`](super::reflectance) agree. `cos_i` slightly outside 0..=1 is taken as rounding.
 #[inline]
 pub fn cos_transmitted(cos_i: f64, eta: f64) -> Option<f64> {
@@ -73,6 +75,16 @@ fn is_unit(v: DVec3) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// The whole way through a surface, as the tracers go it.
+    fn refract(d: DVec3, n: DVec3, eta: f64) -> Option<DVec3> {
+        let cos_i = -n.dot(d);
+        Some(super::refract(d, n, eta, (cos_i, cos_transmitted(cos_i, eta)?)))
+    }
+
+    fn reflect(d: DVec3, n: DVec3) -> DVec3 {
+        super::reflect(d, n, -n.dot(d))
+    }
 
     const ETAS: [f64; 7] = [0.3, 1.0 / 2.4175, 0.75, 1.0, 1.33, 2.4175, 2.9];
 

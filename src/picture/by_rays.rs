@@ -3,9 +3,9 @@
 use super::{Film, Rows};
 use crate::math::Polytope;
 use crate::scene::{Medium, Scope, View};
-use crate::trace::ray::{Camera, Options, Tracer};
+use crate::trace::ray::{Camera, Exit, Options, Tracer};
 use crate::trace::{Stopped, Watch};
-use glam::DVec2;
+use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
 /// What a ray's light is put down as.
@@ -17,10 +17,21 @@ pub enum Reading {
     Strongest,
 }
 
+/// How a picture is traced.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Manner {
+    /// What is put down.
+    pub reading: Reading,
+    /// How far each ray is followed.
+    pub options: Options,
+    /// Rays along each side of a pixel, at least 1.
+    pub per_side: u32,
+}
+
 /// Rows handed on at once.
 const PIECE: u32 = 16;
 
-/// Traces a picture row by row, each pixel by `per_side` squared rays on a regular grid, and calls `each` as
+/// Traces a picture row by row, each pixel by a regular grid of rays, and calls `each` as
 /// [`super::paint`] does: a channel for each band of the scope, the stone's cover last.
 ///
 /// # Errors
@@ -35,39 +46,24 @@ pub fn trace<E: From<Stopped>>(
     view: &View,
     scope: &Scope,
     film: &Film,
-    (reading, options, per_side): (Reading, Options, u32),
+    manner: &Manner,
     watch: Watch,
     mut each: impl FnMut(&Rows) -> Result<(), E>,
 ) -> Result<(), E> {
-    let tracer = Tracer::new(polytope, medium, options);
+    let tracer = Tracer::new(polytope, medium, manner.options);
     let camera = Camera::new(view, polytope);
     let zenith = view.zenith();
     let channels = scope.bands.len() + 1;
+    let grid = manner.per_side;
     let pixel = |x: u32, y: u32| {
         let mut values = vec![0.0; channels];
-        let share = 1.0 / f64::from(per_side * per_side);
-        for k in 0..per_side * per_side {
-            let step = DVec2::new(f64::from(k % per_side), f64::from(k / per_side)) + 0.5;
-            let at = DVec2::new(f64::from(x), f64::from(y)) + step / f64::from(per_side);
-            let (origin, direction) = camera.ray(film.image_from_pixels(at));
-            let mut strongest = (0.0, None);
-            let hit = tracer.follow(origin, direction, |exit| {
-                let band = scope.band(exit.direction, zenith);
-                match reading {
-                    Reading::Energy => values[band] += exit.weight * share,
-                    Reading::Strongest if !exit.surface && exit.weight > strongest.0 => {
-                        strongest = (exit.weight, Some(band));
-                    }
-                    Reading::Strongest => {}
-                }
-            });
-            if let Some(band) = strongest.1 {
-                values[band] += share;
-            }
-            if hit.is_some() {
-                values[channels - 1] += share;
-            }
+        for k in 0..grid * grid {
+            let step = DVec2::new(f64::from(k % grid), f64::from(k / grid)) + 0.5;
+            let at = DVec2::new(f64::from(x), f64::from(y)) + step / f64::from(grid);
+            let ray = camera.ray(film.image_from_pixels(at));
+            put_down(&tracer, ray, manner.reading, |exit| scope.band(exit.direction, zenith), &mut values);
         }
+        values.iter_mut().for_each(|v| *v /= f64::from(grid * grid));
         values
     };
     for first in (0..film.size).step_by(PIECE as usize) {
@@ -86,4 +82,29 @@ pub fn trace<E: From<Stopped>>(
         each(&rows)?;
     }
     Ok(())
+}
+
+/// Adds what one ray sees to a pixel's channels.
+fn put_down(
+    tracer: &Tracer,
+    (origin, direction): (DVec3, DVec3),
+    reading: Reading,
+    band: impl Fn(&Exit) -> usize,
+    values: &mut [f64],
+) {
+    let cover = values.len() - 1;
+    let mut strongest = (0.0, None);
+    let hit = tracer.follow(origin, direction, |exit| match reading {
+        Reading::Energy => values[band(&exit)] += exit.weight,
+        Reading::Strongest if !exit.surface && exit.weight > strongest.0 => {
+            strongest = (exit.weight, Some(band(&exit)));
+        }
+        Reading::Strongest => {}
+    });
+    if let Some(band) = strongest.1 {
+        values[band] += 1.0;
+    }
+    if hit.is_some() {
+        values[cover] += 1.0;
+    }
 }

@@ -9,9 +9,9 @@ const MARGIN: f64 = 0.04;
 /// A square picture centred on the stone's origin, x to the right and y up in the image, rows counted downward.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Film {
-    /// Pixels along each side.
+    /// Pixels along each side, at least 1.
     pub size: u32,
-    /// Half the side's length, in girdle radii.
+    /// Half the side's length, in girdle radii, above 0.
     pub half: f64,
 }
 

@@ -6,7 +6,7 @@ use crate::trace::beam::{Beam, Beams};
 use glam::{DMat2, DVec2};
 
 /// Where absorption changes a beam's light by more than this part across its outline, it is painted in strips.
-const STRIP: f64 = 1.0 / 64.0;
+const STRIP: f64 = 1.0 / 256.0;
 
 /// Where a beam is deeper than this beyond its brightest, it is as good as black, and one strip does.
 const DARK: f64 = 12.0;
@@ -27,8 +27,9 @@ pub struct Layer {
     pub(super) copies: Vec<DMat2>,
     /// What each channel holds.
     pub channels: Vec<String>,
-    /// Part of the light that was left unresolved.
-    pub unresolved: f64,
+    /// What is not certain about it: the part of the light that was left unresolved, or in the map of strongest exits
+    /// the part of the area that is undecided.
+    pub open: f64,
 }
 
 /// The last channel of a picture: how much of a pixel the stone covers.
@@ -55,7 +56,9 @@ impl Layer {
     /// nothing has left yet stays uncovered.
     pub fn strongest(beams: &Beams, scope: &Scope) -> Self {
         let mut layer = Self::new(beams, scope.bands.iter().map(|b| b.name.clone()).collect());
-        for cell in beams.strongest_exits() {
+        let cells = beams.strongest_exits();
+        layer.open = beams.undecided(&cells);
+        for cell in cells {
             if let Some(exit) = cell.strongest {
                 let band = scope.band(beams.get(exit).exit, beams.zenith);
                 layer.add(beams.get(cell.outline).outline, band, 1.0);
@@ -98,8 +101,8 @@ impl Layer {
         channels.push(COVER.into());
         let cover = channels.len() - 1;
         let copies = beams.symmetry.copies();
-        let unresolved = beams.unresolved();
-        let mut layer = Self { corners: vec![], patches: vec![], copies, channels, unresolved };
+        let open = beams.unresolved();
+        let mut layer = Self { corners: vec![], patches: vec![], copies, channels, open };
         for beam in beams.iter().filter(Beam::is_surface) {
             layer.add(beam.outline, cover, 1.0);
         }

@@ -1,7 +1,7 @@
 //! From light in a scope's bands to the colour of a pixel.
 
 use super::Rows;
-use crate::optics::{LinearRgb, SrgbEncoder, linear_from_encoded};
+use crate::optics::{LinearRgb, SrgbEncoder};
 use crate::scene::Scope;
 
 /// Mixes bands in linear light and encodes the sum as sRGB, once.
@@ -13,9 +13,7 @@ pub struct Palette {
 impl Palette {
     /// The scope's own colours.
     pub fn of(scope: &Scope) -> Self {
-        let linear = |c: u8| linear_from_encoded(f64::from(c) / 255.0);
-        let colours = scope.bands.iter().map(|b| LinearRgb::from_array(b.colour.map(linear))).collect();
-        Self { colours, encoder: SrgbEncoder::new() }
+        Self { colours: scope.colours(), encoder: SrgbEncoder::new() }
     }
 
     /// The encoded pixels of row `y`, appended to `out` as red, green, blue. The bands are the rows' first

@@ -84,7 +84,18 @@ impl Rows {
             let start = self.start(row, channel);
             let line = &mut self.values[start..start + Self::stride_of(self.width)];
             let (left, right) = if x < x_next { (x, x_next) } else { (x_next, x) };
-            deposit(line, left.clamp(0.0, width), right.clamp(0.0, width), weight * (next - y));
+            let (start, end) = (left.clamp(0.0, width), right.clamp(0.0, width));
+            let change = weight * (next - y);
+            let per_pixel = if right > left { change / (right - left) } else { 0.0 };
+            // What runs beside the picture counts on its left border; on its right there is nothing to change.
+            if left < 0.0 {
+                let beside = if right > 0.0 { -left * per_pixel } else { change };
+                deposit(line, 0.0, 0.0, beside);
+            }
+            if right > 0.0 {
+                let inside = if left < 0.0 || right > width { (end - start) * per_pixel } else { change };
+                deposit(line, start, end, inside);
+            }
             (x, y) = (x_next, next);
             row += 1;
         }
@@ -192,5 +203,17 @@ mod tests {
         let rows = rows.summed();
         assert_eq!(rows.row(1, 0), [0.0, 0.0, 0.5, 0.5, 0.0, 0.0, 0.0, 0.0]);
         assert_eq!(rows.row(2, 0), rows.row(1, 0));
+    }
+
+    #[test]
+    fn a_polygon_that_hangs_over_the_borders_is_cut_there() {
+        let triangle = [DVec2::new(-2.0, 0.0), DVec2::new(6.0, 0.0), DVec2::new(-2.0, 1.0)];
+        let mut rows = Rows::new(0, 1, 4, 1);
+        rows.add(&triangle, 0, 1.0);
+        let rows = rows.summed();
+        for (x, &covered) in rows.row(0, 0).iter().enumerate() {
+            let exact = (6.0 - (x as f64 + 0.5)) / 8.0;
+            assert!((covered - exact).abs() < 1e-15, "pixel {x}: {covered}, not {exact}");
+        }
     }
 }

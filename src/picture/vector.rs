@@ -2,8 +2,8 @@
 
 use super::Film;
 use crate::math::{Basis, Plane};
-use crate::optics::{LinearRgb, encoded_from_linear, linear_from_encoded};
-use crate::scene::{Scope, Stone};
+use crate::optics::{LinearRgb, encoded_from_linear};
+use crate::scene::{Scope, Stone, elevation_deg};
 use crate::trace::beam::Beams;
 use glam::{DMat2, DVec2, DVec3};
 use svg::Document;
@@ -21,14 +21,15 @@ pub fn strongest(stone: &Stone, beams: &Beams, scope: &Scope, title: &str) -> Do
     let page = Page::new(stone, beams);
     let mut groups: Vec<Group> = scope.bands.iter().map(|b| band_group(&b.name, &hex(b.colour))).collect();
     let mut dark = band_group("unresolved", "#000000");
-    for cell in beams.strongest_exits() {
+    let cells = beams.strongest_exits();
+    for cell in &cells {
         let Some(exit) = cell.strongest.map(|id| beams.get(id)) else {
             let polygons = page.polygons(beams.get(cell.outline).outline);
             dark = polygons.into_iter().fold(dark, |group, (_, polygon)| group.add(polygon));
             continue;
         };
         let band = scope.band(exit.exit, beams.zenith);
-        let elevation = exit.exit.dot(beams.zenith).clamp(-1.0, 1.0).asin().to_degrees();
+        let elevation = elevation_deg(exit.exit, beams.zenith);
         let met = beams.facets(exit.id);
         for (copy, polygon) in page.polygons(beams.get(cell.outline).outline) {
             let polygon = polygon
@@ -39,16 +40,15 @@ pub fn strongest(stone: &Stone, beams: &Beams, scope: &Scope, title: &str) -> Do
         }
     }
     groups.push(dark);
-    page.document(title, beams, &hex(scope.bands[0].colour), groups)
+    let open = format!("strongest exit undecided in {:.2e} of the area", beams.undecided(&cells));
+    page.document(title, &open, beams, (&hex(scope.bands[0].colour), groups))
 }
 
 /// Draws the energy picture: the finest subdivision of the image that was traced, each polygon in the colour of
-/// all the light seen through it, with the facet it enters by (`data-entry`).
+/// all the light seen through it, with the facets that light has met (`data-path`).
 pub fn energy(stone: &Stone, beams: &Beams, scope: &Scope, title: &str) -> Document {
     let page = Page::new(stone, beams);
-    let linear = |c: u8| linear_from_encoded(f64::from(c) / 255.0);
-    let colours: Vec<LinearRgb> =
-        scope.bands.iter().map(|b| LinearRgb::from_array(b.colour.map(linear))).collect();
+    let colours = scope.colours();
     let mut seen: Vec<LinearRgb> = Vec::with_capacity(beams.len());
     for beam in beams.iter() {
         let above = beam.parent.map_or(LinearRgb::ZERO, |p| seen[p as usize]);
@@ -68,7 +68,9 @@ pub fn energy(stone: &Stone, beams: &Beams, scope: &Scope, title: &str) -> Docum
             );
         }
     }
-    page.document(title, beams, &hex(scope.bands[0].colour), vec![group.set("stroke-width", SEAM)])
+    let open = format!("unresolved light {:.2e} of the whole", beams.unresolved());
+    let groups = vec![group.set("stroke-width", SEAM)];
+    page.document(title, &open, beams, (&hex(scope.bands[0].colour), groups))
 }
 
 /// Viewers leave hairlines between polygons that touch; a thin line of their own colour closes them.
@@ -113,13 +115,16 @@ impl<'a> Page<'a> {
         facets.iter().map(name).collect::<Vec<_>>().join(", ")
     }
 
-    fn document(&self, title: &str, beams: &Beams, backing: &str, groups: Vec<Group>) -> Document {
+    fn document(
+        &self,
+        title: &str,
+        open: &str,
+        beams: &Beams,
+        (backing, groups): (&str, Vec<Group>),
+    ) -> Document {
         let polarised = if beams.polarised { "polarised" } else { "unpolarised" };
-        let told = format!(
-            "Virtual facets of exact beams, {polarised}, index {}; unresolved light {:.2e} of the whole",
-            beams.medium.index,
-            beams.unresolved(),
-        );
+        let told =
+            format!("Virtual facets of exact beams, {polarised}, index {}; {open}", beams.medium.index,);
         let frame = Document::new()
             .set("viewBox", (0, 0, SIDE, SIDE))
             .set("width", SIDE)

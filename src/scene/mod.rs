@@ -6,6 +6,6 @@ mod stone;
 mod view;
 
 pub use medium::Medium;
-pub use scope::{ASET_CONE, Backing, Band, Scope, ScopeError};
+pub use scope::{ASET_CONE, Backing, Band, MOST_BANDS, Scope, ScopeError, elevation_deg};
 pub use stone::Stone;
 pub use view::{Lean, Projection, Side, View};

@@ -3,6 +3,7 @@
 //! ASET, Ideal-Scope and the hearts and arrows viewers are all this: rings of colour around an axis, a backing
 //! behind the stone. Borders from `docs/optics.md`; every one of them, and every colour, is a parameter.
 
+use crate::optics::{LinearRgb, linear_from_encoded};
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
@@ -29,6 +30,9 @@ pub struct Scope {
     pub bands: Vec<Band>,
 }
 
+/// The most bands that a scope may have.
+pub const MOST_BANDS: usize = 64;
+
 /// Why a scope makes no sense.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum ScopeError {
@@ -49,6 +53,14 @@ pub enum ScopeError {
         scope: String,
         /// The name.
         band: String,
+    },
+    /// More bands than an eye can tell apart.
+    #[error("scope '{scope}': {count} bands are more than the {MOST_BANDS} that are taken; join some")]
+    TooMany {
+        /// The scope.
+        scope: String,
+        /// How many there are.
+        count: usize,
     },
     /// Bands must rise.
     #[error("scope '{scope}': band '{band}' begins at {from}, not between {after} and 90; list bands upward")]
@@ -89,7 +101,7 @@ impl Scope {
     }
 
     /// Angular spectrum evaluation: green to 45 degrees, red to 75, blue above (30 degree cone); or with the
-    /// blue border at 90 less `cone` degrees, 40 for ASET 40.
+    /// blue border at 90 less half of `cone` degrees, the full angle: 40 for ASET 40.
     pub fn aset(cone: f64, backing: Backing) -> Self {
         let suffix = if backing == Backing::White { "-white" } else { "" };
         let size = if cone == ASET_CONE { String::new() } else { format!("-{cone}") };
@@ -139,6 +151,9 @@ impl Scope {
         if let Some((_, band)) = self.bands.iter().enumerate().find(twice) {
             return Err(ScopeError::Twice { scope: scope(), band: band.name.clone() });
         }
+        if self.bands.len() > MOST_BANDS {
+            return Err(ScopeError::TooMany { scope: scope(), count: self.bands.len() });
+        }
         match self.bands.windows(2).find(|w| !(w[1].from > w[0].from && w[1].from < 90.0)) {
             None => Ok(()),
             Some(w) => Err(ScopeError::OutOfOrder {
@@ -153,11 +168,22 @@ impl Scope {
     /// The band that the unit vector `direction` points at, for a scope around the unit vector `zenith`.
     #[inline]
     pub fn band(&self, direction: DVec3, zenith: DVec3) -> usize {
-        // atan2 keeps its digits near the zenith, where asin would lose half of them.
-        let up = direction.dot(zenith);
-        let elevation = up.atan2(direction.cross(zenith).length()).to_degrees();
+        let elevation = elevation_deg(direction, zenith);
         self.bands.iter().rposition(|b| elevation >= b.from).unwrap_or(0)
     }
+
+    /// The colours of its bands, linear.
+    pub fn colours(&self) -> Vec<LinearRgb> {
+        let linear = |c: u8| linear_from_encoded(f64::from(c) / 255.0);
+        self.bands.iter().map(|b| LinearRgb::from_array(b.colour.map(linear))).collect()
+    }
+}
+
+/// How high the unit vector `direction` stands, for the unit vector `zenith`: -90 to 90 degrees.
+#[inline]
+pub fn elevation_deg(direction: DVec3, zenith: DVec3) -> f64 {
+    // atan2 keeps its digits near the zenith, where asin would lose half of them.
+    direction.dot(zenith).atan2(direction.cross(zenith).length()).to_degrees()
 }
 
 /// Full angle in degrees of the observer's cone, blue, of the common ASET.

@@ -43,7 +43,7 @@ pub struct View {
     pub side: Side,
     /// What the tilt moves.
     pub lean: Lean,
-    /// Tilt, radians.
+    /// Tilt, radians, -π/2 to π/2.
     pub tilt: f64,
     /// The azimuth, radians in the stone's frame, toward which the tilt leans.
     pub azimuth: f64,

@@ -8,7 +8,7 @@ mod search;
 
 use self::search::Search;
 use crate::math::{Basis, Plane, Polytope};
-use crate::optics::{cos_transmitted, fresnel, reflectance};
+use crate::optics::{cos_transmitted, fresnel, reflect, reflectance, refract};
 use crate::scene::{Medium, Projection, View};
 use glam::{DVec2, DVec3};
 use num_complex::Complex64;
@@ -73,8 +73,8 @@ pub struct Camera {
     basis: Basis,
     /// Distance of the eye; infinite for parallel rays.
     distance: f64,
-    /// Parallel rays start this far before the origin's plane.
-    start: f64,
+    /// How far the stone reaches from the origin.
+    reach: f64,
 }
 
 impl Camera {
@@ -85,7 +85,7 @@ impl Camera {
             Projection::Orthographic => f64::INFINITY,
             Projection::Perspective { distance } => distance,
         };
-        Self { basis: view.basis(), distance, start: 2.0 * reach }
+        Self { basis: view.basis(), distance, reach }
     }
 
     /// Half the side of the smallest square around the image's origin that holds the whole stone; `None` where the
@@ -97,15 +97,17 @@ impl Camera {
         })
     }
 
-    /// Origin and unit direction of the ray through a point of the image plane.
+    /// A point outside the stone on the ray through a point of the image plane, and the ray's unit direction.
     pub fn ray(&self, p: DVec2) -> (DVec3, DVec3) {
         let (at, toward) = (self.basis.lift(p), self.basis.toward);
-        if self.distance.is_infinite() {
-            return (at + toward * self.start, -toward);
-        }
-        let eye = toward * self.distance;
-        let ray = at - eye;
-        (eye, ray / ray.length())
+        let (direction, from_eye) = if self.distance.is_infinite() {
+            (-toward, f64::INFINITY)
+        } else {
+            let ray = at - toward * self.distance;
+            (ray / ray.length(), ray.length())
+        };
+        // From a far eye the way to the stone would cost the digits that tell where the stone is met.
+        (at - direction * from_eye.min(2.0 * self.reach + at.length()), direction)
     }
 }
 
@@ -204,9 +206,9 @@ impl Tracer {
         let eta = 1.0 / self.medium.index;
         let cos_i = -direction.dot(normal);
         let cos_t = cos_transmitted(cos_i, eta)?;
-        let inward = direction * eta + normal * (eta * cos_i - cos_t);
+        let inward = refract(direction, normal, eta, (cos_i, cos_t));
         let (light, glare) = self.eye_light(direction).split(direction, inward, normal, eta, true);
-        let reflected = direction + normal * (2.0 * cos_i);
+        let reflected = reflect(direction, normal, cos_i);
         leave(Exit {
             facet: facet as u32,
             point,
@@ -240,14 +242,14 @@ impl Tracer {
                 rest.absorbed += light.weight() * (left - after);
                 left = after;
             }
-            let reflected = direction - normal * (2.0 * cos_i);
+            let reflected = reflect(direction, -normal, cos_i);
             let cos_t = cos_transmitted(cos_i, self.medium.index);
             let (onward, weight) = match (cos_t, light) {
                 (None, Light::Unpolarised(_)) => (light, 0.0),
                 _ => light.split(direction, reflected, normal, self.medium.index, false),
             };
             if let Some(cos_t) = cos_t {
-                let exit = direction * self.medium.index + normal * (cos_t - self.medium.index * cos_i);
+                let exit = refract(direction, -normal, self.medium.index, (cos_i, cos_t));
                 let weight = weight * left;
                 leave(Exit { facet: facet as u32, point, path, direction: exit, weight, surface: false });
             }

@@ -1,5 +1,6 @@
 //! What is wrong with a text, and where: by its key's path, or by the span that the TOML parser gives.
 
+use super::super::text::line_after;
 use std::ops::Range;
 
 use toml::de::{DeTable, DeValue, Error};
@@ -110,11 +111,6 @@ impl Fault {
         }?;
         Some(line_after(&text.as_bytes()[..offset.min(text.len())]))
     }
-}
-
-/// The number, from 1, of the line that follows on this text.
-pub(super) fn line_after(text: &[u8]) -> usize {
-    1 + text.iter().filter(|byte| **byte == b'\n').count()
 }
 
 /// Where the value at a path begins, or the nearest that encloses it; `None` if that is the whole text.

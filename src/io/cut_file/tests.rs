@@ -10,7 +10,7 @@ use crate::cut::{
     Crown, Cut, DEFAULT_DIAMETER_MM, LowerHalf, MAX_PLANES, MaterialRef, Pavilion, RoundBrilliant, strategy,
 };
 use crate::math::Plane;
-use crate::optics::{self, Absorption, Dispersion, Material};
+use crate::optics::{self, Absorption, Dispersion, MOST_PER_MM, Material};
 
 /// The example that every guide shows.
 const TOLKOWSKY: &str = include_str!("../../../cuts/tolkowsky.toml");
@@ -146,7 +146,7 @@ fn a_material_that_light_cannot_know_is_told_with_its_line() {
     };
     told(
         "index = 2\nabsorption = [\n[400, 0.1],\n[500, -0.1]]",
-        "x.toml:7: absorption sample 2 (500 nm) has a coefficient of -0.1 per mm: give 0 or more",
+        "x.toml:7: absorption sample 2 (500 nm) has a coefficient of -0.1 per mm: give 0 to 1e6",
     );
     told(
         "index = 2\nabsorption = [\n[400, 0.1],\n[500]]",
@@ -155,7 +155,7 @@ fn a_material_that_light_cannot_know_is_told_with_its_line() {
     );
     told(
         "index = 2\nabsorption = -1",
-        "x.toml:5: absorption sample 1 (550 nm) has a coefficient of -1 per mm: give 0 or more",
+        "x.toml:5: absorption sample 1 (550 nm) has a coefficient of -1 per mm: give 0 to 1e6",
     );
     told(
         "sellmeier = []",
@@ -382,7 +382,7 @@ fn what_is_not_toml_is_told_with_line_and_column() {
     assert_told(&dotted, "x.toml: this is no TOML that can be read: recursion limit");
     assert_told(
         &" ".repeat(MAX_BYTES as usize + 1),
-        "x.toml: this is larger than 4 MiB, so hardly a cut file",
+        "x.toml: this is larger than 4 MiB, so hardly such a file",
     );
 }
 
@@ -394,11 +394,11 @@ fn a_file_that_cannot_be_read_is_told_as_such() {
         text.replace(&folder.path().display().to_string(), "")
     };
     assert_eq!(told("none.toml"), "/none.toml: there is no such file");
-    assert_eq!(told(""), "/: this is a directory; a cut file is expected");
+    assert_eq!(told(""), "/: this is a directory; a file is expected");
     fs::write(folder.path().join("latin.toml"), b"format = 1\nname = \"taill\xe9\"").unwrap();
     assert_eq!(told("latin.toml"), "/latin.toml:2: this is not UTF-8 text; save the file as UTF-8");
     fs::write(folder.path().join("large.toml"), vec![b' '; MAX_BYTES as usize + 1]).unwrap();
-    assert_eq!(told("large.toml"), "/large.toml: this is larger than 4 MiB, so hardly a cut file");
+    assert_eq!(told("large.toml"), "/large.toml: this is larger than 4 MiB, so hardly such a file");
     fs::write(folder.path().join("wrong.toml"), with("culet = 0.0", "culet = -1")).unwrap();
     assert!(told("wrong.toml").starts_with("/wrong.toml:13: culet: -1 % must be at least 0 %"));
     assert!(told("wrong.toml/x").starts_with("/wrong.toml/x: cannot be read: "));
@@ -463,7 +463,7 @@ fn dispersions() -> impl Strategy<Value = Dispersion> {
 }
 
 fn absorptions() -> impl Strategy<Value = Absorption> {
-    let coefficient = || numbers().prop_map(f64::abs);
+    let coefficient = || numbers().prop_map(|n| n.abs().min(MOST_PER_MM));
     prop_oneof![
         coefficient().prop_map(|per_mm| vec![(550.0, per_mm)]),
         prop::collection::btree_map(1_u32..3000, coefficient(), 0..5)

@@ -15,6 +15,8 @@ const SLOTS: [f64; 3] = [74.0, 56.0, 40.0];
 const FEW: usize = 6;
 const LONGEST_OF_FEW: f64 = LEADERS + 4.0;
 const LONGEST_OF_MANY: f64 = 120.0;
+/// With more tiers than this left, the few leaders that there is room for would say little of the stone.
+const MOST_LED: usize = 200;
 /// What a leader costs, in its length, that passes a corner of the stone or runs along its outline.
 const PAST_CORNER: f64 = 30.0;
 const TANGENT: f64 = 60.0;
@@ -134,7 +136,9 @@ impl<'a> Labels<'a> {
         });
         // The shortest leader first, whosever it is.
         let longest = if rest.len() <= FEW { LONGEST_OF_FEW } else { LONGEST_OF_MANY };
-        while let Some((leader, k)) = self.best_leader(&rest, longest) {
+        while rest.len() <= MOST_LED
+            && let Some((leader, k)) = self.best_leader(&rest, longest)
+        {
             self.outside(sheet, rest.remove(k), leader);
         }
         for tier in rest {

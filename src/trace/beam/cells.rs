@@ -49,6 +49,13 @@ impl Beams {
             .collect()
     }
 
+    /// The part of the silhouette in cells whose strongest exit is not certain, or that have none.
+    pub fn undecided(&self, cells: &[Cell]) -> f64 {
+        let open = cells.iter().filter(|c| c.undecided || c.strongest.is_none());
+        let area: f64 = open.map(|c| self.nodes[c.outline as usize].area).sum();
+        area * f64::from(self.symmetry.order()) / self.silhouette_area
+    }
+
     /// The beams that were not split further, in one domain: the finest subdivision of the image. Every point's
     /// light is that of such a beam and of those it came from.
     pub fn leaves(&self) -> impl Iterator<Item = u32> {

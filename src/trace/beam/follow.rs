@@ -4,7 +4,7 @@ use super::coherency::Coherency;
 use super::split::{Landing, Ray, Splitter, twice_area};
 use super::tree::{Beams, Node};
 use crate::math::{Affine, Polytope, integral_of_decay};
-use crate::optics::fresnel;
+use crate::optics::{fresnel, reflect, refract};
 use crate::scene::Medium;
 use glam::{DVec2, DVec3};
 
@@ -123,8 +123,7 @@ fn land(
     let arriving = front.light.turned(front.s.dot(s), p_before.dot(s));
     let (reflected, weight) = arriving.split(&surface);
     let light = if beams.polarised { reflected } else { reflected.unpolarised() };
-    let exit =
-        surface.cos_t.map_or(DVec3::ZERO, |cos_t| direction * index + normal * (cos_t - index * cos_i));
+    let exit = surface.cos_t.map_or(DVec3::ZERO, |cos_t| refract(direction, -normal, index, (cos_i, cos_t)));
     let path = path_before + landing.distance;
     let own = &corners[start as usize..];
     let (before, after) = attenuated(own, path_before, path, &beams.medium, area);
@@ -141,8 +140,8 @@ fn land(
         absorbed: front.light.weight() * (before - after),
         open: false,
     };
-    let ray =
-        Ray { origin: front.ray.advanced(landing.distance), direction: direction - normal * (2.0 * cos_i) };
+    let origin = front.ray.advanced(landing.distance);
+    let ray = Ray { origin, direction: reflect(direction, -normal, cos_i) };
     let energy = light.weight() * after;
     let onward = Front { node: id, bounces: front.bounces + 1, ray, light, s, energy };
     (node, onward)

@@ -9,20 +9,21 @@ use super::follow::{Follower, Front, Growth, SLIVER, s_axis};
 use super::split::{Ray, opposites};
 use super::tree::{Beams, Node, ROOT};
 use crate::math::{Affine, Basis, Plane, Polytope, Symmetry, area, clip};
-use crate::optics::fresnel;
+use crate::optics::{fresnel, reflect, refract};
 use crate::scene::{Medium, View};
 use crate::trace::{Stopped, Watch};
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
+use std::ops::ControlFlow;
 
 /// What to trace, and how far.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Options {
-    /// Go on until no more than this part of the light is unresolved.
+    /// Go on until no more than this part of the light is unresolved, 0 to 1.
     pub unresolved: f64,
     /// Follow polarisation; without, every surface sees unpolarised light.
     pub polarised: bool,
-    /// Stop when there are more beams than this: the answer then has more unresolved than was asked for.
+    /// Stop soon after there are more beams than this: the answer then has more unresolved than was asked for.
     pub most_beams: usize,
     /// Use the symmetry that stone, view and light share.
     pub symmetry: bool,
@@ -30,7 +31,7 @@ pub struct Options {
 
 impl Default for Options {
     fn default() -> Self {
-        Self { unresolved: 1e-3, polarised: true, most_beams: 8_000_000, symmetry: true }
+        Self { unresolved: 1e-3, polarised: true, most_beams: 4_000_000, symmetry: true }
     }
 }
 
@@ -39,6 +40,9 @@ const MOST_BOUNCES: u32 = 1000;
 
 /// Beams followed as one piece of work. Not the number of cores: the result must not depend on it.
 const PIECE: usize = 128;
+
+/// Pieces after which `watch` and the number of beams are looked at again.
+const AT_ONCE: usize = 64;
 
 /// The level falls by no more than this at a step, lest the last step overshoot, and by no less.
 const STEPS: std::ops::RangeInclusive<f64> = 0.25..=0.8;
@@ -118,7 +122,8 @@ impl<'a> Tracer<'a> {
         let surface = fresnel(cos_i, eta);
         let (light, glare) = Coherency::entered(&surface);
         let light = if self.beams.polarised { light } else { light.unpolarised() };
-        let direction = -view.toward * eta + plane.normal * (eta * cos_i - surface.cos_t.unwrap_or(0.0));
+        let cosines = (cos_i, surface.cos_t.unwrap_or(0.0));
+        let direction = refract(-view.toward, plane.normal, eta, cosines);
         let node = self.beams.nodes.len() as u32;
         let start = self.beams.corners.len() as u32;
         self.beams.corners.extend(outline);
@@ -127,7 +132,7 @@ impl<'a> Tracer<'a> {
             facet,
             corners: (start, outline.len() as u32),
             area,
-            exit: plane.normal * (2.0 * cos_i) - view.toward,
+            exit: reflect(-view.toward, plane.normal, cos_i),
             weight: glare,
             onward: light.weight(),
             path: Affine::default(),
@@ -158,7 +163,7 @@ impl<'a> Tracer<'a> {
                 break;
             }
             level = next_level(level, left, &mut before, goal);
-            self.follow_above(level);
+            self.follow_above(level, options.most_beams, &|| watch(done))?;
         }
         for front in &self.fronts {
             self.beams.nodes[front.node as usize].open = true;
@@ -166,19 +171,35 @@ impl<'a> Tracer<'a> {
         Ok(())
     }
 
-    /// Follows every beam with at least this energy, and what comes of it.
-    fn follow_above(&mut self, level: f64) {
+    /// Follows every beam with at least this energy, and what comes of it, as far as there is room.
+    fn follow_above(
+        &mut self,
+        level: f64,
+        most_beams: usize,
+        watch: &impl Fn() -> ControlFlow<()>,
+    ) -> Result<(), Stopped> {
         let strong = |f: &Front| f.energy >= level && f.bounces < MOST_BOUNCES;
         let go: Vec<Front> = self.fronts.extract_if(.., |f| strong(f)).collect();
-        let base = self.beams.nodes.len() as u32;
-        let this = &*self;
-        let work = |piece: &[Front]| {
-            Follower::new(this.polytope, &this.opposite, &this.beams).follow(piece, |f| strong(f))
-        };
-        let grown: Vec<Growth> = go.par_chunks(PIECE).map(work).collect();
-        for growth in grown {
-            self.take_in(growth, base);
+        let mut batches = go.chunks(AT_ONCE * PIECE);
+        for batch in batches.by_ref() {
+            if watch().is_break() {
+                return Err(Stopped);
+            }
+            let base = self.beams.nodes.len() as u32;
+            let this = &*self;
+            let work = |piece: &[Front]| {
+                Follower::new(this.polytope, &this.opposite, &this.beams).follow(piece, |f| strong(f))
+            };
+            let grown: Vec<Growth> = batch.par_chunks(PIECE).map(work).collect();
+            for growth in grown {
+                self.take_in(growth, base);
+            }
+            if self.beams.nodes.len() > most_beams {
+                break;
+            }
         }
+        self.fronts.extend(batches.flatten());
+        Ok(())
     }
 
     /// Adds what a piece of work found. It numbered its nodes on from `base`; others have done so before it.

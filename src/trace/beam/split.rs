@@ -57,6 +57,8 @@ pub(super) struct Splitter<'a> {
     opposite: &'a [u32],
     distance: Vec<Affine>,
     /// The beam for which `distance` was last worked out, and that which last came by.
+    /// Half the extent of any image of the stone.
+    extent: f64,
     known: Vec<u32>,
     visited: Vec<u32>,
     beam: u32,
@@ -79,9 +81,11 @@ pub(super) fn opposites(polytope: &Polytope) -> Vec<u32> {
 impl<'a> Splitter<'a> {
     pub fn new(polytope: &'a Polytope, opposite: &'a [u32]) -> Self {
         let n = polytope.facets().len();
+        let extent = polytope.vertices().iter().map(|v| v.length()).fold(0.0, f64::max);
         Self {
             polytope,
             opposite,
+            extent,
             distance: vec![Affine::default(); n],
             known: vec![0; n],
             visited: vec![0; n],
@@ -147,7 +151,7 @@ impl<'a> Splitter<'a> {
                 continue;
             }
             let there = self.distance[neighbour as usize];
-            let tolerance = SAME * (here.magnitude() + there.magnitude());
+            let tolerance = SAME * (here.magnitude(self.extent) + there.magnitude(self.extent));
             if !self.cut(there - here, tolerance, neighbour) {
                 return false;
             }

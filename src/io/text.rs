@@ -1,0 +1,45 @@
+//! Reading text that people wrote: of a sane size, in UTF-8, or an error that says what is wrong.
+
+use std::fs::File;
+use std::io::{ErrorKind, Read};
+use std::path::Path;
+
+/// Why a text could not be read.
+#[derive(Debug)]
+pub(super) struct TextError {
+    /// The line at fault, from 1, where there is one.
+    pub line: Option<usize>,
+    /// What is wrong.
+    pub message: String,
+}
+
+/// What a path holds, up to a limit in bytes, which also binds what grows or has no size of its own.
+pub(super) fn read(path: &Path, limit: u64) -> Result<String, TextError> {
+    let whole = |message| TextError { line: None, message };
+    let unreadable = |error: std::io::Error| match error.kind() {
+        ErrorKind::NotFound => whole("there is no such file".to_owned()),
+        _ => whole(format!("cannot be read: {error}")),
+    };
+    if path.metadata().map_err(unreadable)?.is_dir() {
+        return Err(whole("this is a directory; a file is expected".to_owned()));
+    }
+    let mut bytes = Vec::new();
+    File::open(path).and_then(|file| file.take(limit + 1).read_to_end(&mut bytes)).map_err(unreadable)?;
+    if bytes.len() as u64 > limit {
+        return Err(whole(too_large(limit)));
+    }
+    String::from_utf8(bytes).map_err(|error| {
+        let valid = &error.as_bytes()[..error.utf8_error().valid_up_to()];
+        let message = "this is not UTF-8 text; save the file as UTF-8".to_owned();
+        TextError { line: Some(line_after(valid)), message }
+    })
+}
+
+pub(super) fn too_large(limit: u64) -> String {
+    format!("this is larger than {} MiB, so hardly such a file", limit >> 20)
+}
+
+/// The number, from 1, of the line that follows on this text.
+pub(super) fn line_after(text: &[u8]) -> usize {
+    1 + text.iter().filter(|byte| **byte == b'\n').count()
+}
