@@ -27,8 +27,8 @@ fn reflected(index: f64, cos_i: f64) -> f64 {
 fn measured(desk: &Desk, options: &str) -> Value {
     let figures = desk.json(&format!("measure --json {options}"));
     let keys = |v: &Value| v.as_object().unwrap().keys().map(String::as_str).collect::<Vec<_>>().join(" ");
-    let documented = "silhouette_area surface transmitted strongest_exit_area absorbed unresolved beams seconds index \
-        tracer polarised view";
+    let documented = "file name silhouette_area surface transmitted strongest_exit_area absorbed unresolved beams seconds \
+        index wavelength_nm head_deg tracer polarised view";
     assert_eq!(keys(&figures).trim_end_matches(" standard_error"), documented);
     for (part, also) in PARTS.into_iter().zip(["", "", " undecided"]) {
         let zones =

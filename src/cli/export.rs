@@ -26,8 +26,8 @@ const UNRESOLVED: f64 = 1e-3;
 /// An energy drawing holds every polygon of the subdivision; finer than this it would be for no viewer.
 const DRAWN_UNRESOLVED: f64 = 2e-2;
 
-/// Nor for one this large, where light is caught so well that it needs more beams for that.
-const DRAWN_BEAMS: usize = 200_000;
+/// Nor for more polygons than about this many, where light is caught so well that it needs more: some 30 MB.
+const DRAWN_POLYGONS: usize = 100_000;
 
 /// The largest EXR: it is held in memory, a dozen channels deep.
 const MOST_EXR_PIXELS: u32 = 8192;
@@ -173,10 +173,14 @@ impl Job<'_> {
     fn figures(&self) -> Result<(), Failure> {
         let measured = measure(self.specimen, &self.export.view, &self.export.light)?;
         let path = self.path("figures", "json");
-        self.text(&path, &(json(&measured.json(&self.export.view)) + "\n"))
+        self.text(&path, &(json(&measured.json(self.specimen, &self.export.view, &self.export.light)) + "\n"))
     }
 
     fn drawing(&self, name: &str, document: &svg::Document) -> Result<(), Failure> {
+        if !self.wants(Format::Svg) && !self.wants(Format::Png) {
+            say(&format!("note: {name}: a drawing comes as PNG and SVG only"));
+            return Ok(());
+        }
         let text = document.to_string();
         if self.wants(Format::Svg) {
             self.text(&self.path(name, "svg"), &text)?;
@@ -259,12 +263,15 @@ impl Job<'_> {
         let stone = &self.specimen.stone;
         let options = self.export.light.beams(UNRESOLVED)?;
         let title = format!("{}, {}", self.title(name), self.export.view.told(view));
-        let strongest = vector::strongest(stone, beams, scope, &format!("{title}, strongest exits"));
-        self.text(&self.path(&format!("{name}-strongest"), "svg"), &strongest.to_string())?;
+        let copies = beams.symmetry.order() as usize;
         let unresolved = options.unresolved.max(DRAWN_UNRESOLVED);
-        let coarse = beam::Options { unresolved, most_beams: DRAWN_BEAMS, ..options };
-        let beams = beam::trace(&stone.polytope, self.medium, view, &coarse, watch)?;
-        let energy = vector::energy(stone, &beams, scope, &format!("{title}, energy"));
+        let coarse = beam::Options { unresolved, most_beams: DRAWN_POLYGONS / copies, ..options };
+        let coarse = beam::trace(&stone.polytope, self.medium, view, &coarse, watch)?;
+        let is_small = beams.strongest_exits().len() * copies <= DRAWN_POLYGONS;
+        let mapped = if is_small { beams } else { &coarse };
+        let strongest = vector::strongest(stone, mapped, scope, &format!("{title}, strongest exits"));
+        self.text(&self.path(&format!("{name}-strongest"), "svg"), &strongest.to_string())?;
+        let energy = vector::energy(stone, &coarse, scope, &format!("{title}, energy"));
         self.text(&self.path(name, "svg"), &energy.to_string())
     }
 

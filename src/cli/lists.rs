@@ -8,6 +8,7 @@ use crate::scene::Scope;
 use clap::Args;
 use serde_json::{Value, json};
 use std::fmt::Write;
+use std::path::Path;
 
 /// The cuts that come with the program, as their files in `cuts/`.
 const CUTS: [(&str, &str); 6] = [
@@ -19,9 +20,20 @@ const CUTS: [(&str, &str); 6] = [
     ("sixty-sixty", include_str!("../../cuts/sixty-sixty.toml")),
 ];
 
-/// The file of a cut that comes with the program.
+/// The file of a cut that comes with the program; capitals do not matter.
 pub fn built_in(name: &str) -> Option<&'static str> {
-    CUTS.iter().find(|(n, _)| *n == name).map(|(_, text)| *text)
+    CUTS.iter().find(|(n, _)| n.eq_ignore_ascii_case(name)).map(|(_, text)| *text)
+}
+
+/// What else someone may have meant who named a file that does not exist: a cut that comes with the program.
+pub fn hint(file: &Path) -> String {
+    const SLIPS: usize = 3;
+    let asked = file.to_string_lossy().to_lowercase();
+    let near = CUTS.iter().map(|(n, _)| (strsim::levenshtein(&asked, n), n)).min();
+    match near.filter(|(slips, _)| !file.exists() && *slips <= SLIPS) {
+        Some((_, name)) => format!("; did you mean the cut '{name}'?"),
+        None => String::new(),
+    }
 }
 
 #[derive(Debug, Args)]

@@ -50,15 +50,10 @@ impl Measure {
             let specimen = Specimen::load(file)?;
             let measured = measure(&specimen, &self.view, &self.light)?;
             if self.json {
-                let mut value = measured.json(&self.view);
-                if self.files.len() > 1 {
-                    let mut named = Map::from_iter([("file".to_string(), json!(specimen.path))]);
-                    named.append(value.as_object_mut().unwrap_or(&mut Map::new()));
-                    return print(&Value::Object(named).to_string());
-                }
-                return print(&json(&value));
+                let value = measured.json(&specimen, &self.view, &self.light);
+                return print(&if self.files.len() > 1 { value.to_string() } else { json(&value) });
             }
-            print(&measured.table(&specimen))
+            print(&measured.table(&specimen, &self.view))
         })
     }
 }
@@ -90,11 +85,13 @@ pub fn measure(specimen: &Specimen, view: &ViewOptions, light: &LightOptions) ->
 
 impl Measured {
     /// The object that `measure --json` prints; numbers are fractions of the silhouette.
-    pub fn json(&self, options: &ViewOptions) -> Value {
+    pub fn json(&self, specimen: &Specimen, options: &ViewOptions, light: &LightOptions) -> Value {
         let figures = &self.figures;
         let mut strongest = self.zones(&figures.strongest_exit_area);
         strongest.insert("undecided".into(), json!(figures.strongest_exit_undecided));
         let mut value = json!({
+            "file": specimen.path,
+            "name": specimen.design.name,
             "silhouette_area": figures.silhouette_area,
             "surface": self.zones(&figures.surface),
             "transmitted": self.zones(&figures.transmitted),
@@ -104,6 +101,8 @@ impl Measured {
             "beams": figures.beams,
             "seconds": self.seconds,
             "index": self.medium.index,
+            "wavelength_nm": light.index.is_none().then(|| light.wavelength()),
+            "head_deg": light.head,
             "tracer": self.tracer.name(),
             "polarised": self.polarised,
             "view": options.json(&self.view),
@@ -125,13 +124,14 @@ impl Measured {
     }
 
     /// A table for people, in percent of the silhouette.
-    fn table(&self, specimen: &Specimen) -> String {
+    fn table(&self, specimen: &Specimen, view: &ViewOptions) -> String {
         let f = &self.figures;
         let mut text = format!(
-            "{}: {}, index {:.4}\n\n{:<12}{:>12}{:>12}{:>12}\n",
+            "{}: {}, index {:.4}, {}\n\n{:<12}{:>12}{:>12}{:>12}\n",
             specimen.path,
             specimen.design.name,
             self.medium.index,
+            view.told(&self.view),
             "% of face",
             "glare",
             "transmitted",

@@ -1,7 +1,7 @@
 //! What several commands take: how to look at a stone, and how to trace it.
 
+use super::Failure;
 use super::specimen::Specimen;
-use super::{Failure, say};
 use crate::optics::line;
 use crate::scene::{Lean, Medium, Projection, Side, View};
 use crate::trace::{beam, ray};
@@ -12,7 +12,7 @@ use serde_json::{Value, json};
 #[derive(Debug, Clone, Args)]
 #[command(next_help_heading = "View")]
 pub struct ViewOptions {
-    /// The side of the stone that faces the eye
+    /// The side of the stone that faces the eye (hearts and arrows have their own)
     #[arg(long, value_enum, default_value_t = SideName::Table)]
     pub side: SideName,
     /// Tilt the stone by DEGREES under a fixed eye and scope, its table leaning toward --azimuth
@@ -30,8 +30,8 @@ pub struct ViewOptions {
     /// The azimuth of a tilt, in the stone's frame (0 is the middle of bezel 1)
     #[arg(long, value_name = "DEGREES", default_value_t = 0.0, allow_negative_numbers = true)]
     pub azimuth: f64,
-    /// See the stone in perspective from DISTANCE, in girdle radii (traced by rays)
-    #[arg(long, value_name = "DISTANCE")]
+    /// See the stone in perspective from DISTANCE, in girdle radii (traced by rays: a large picture takes minutes)
+    #[arg(long, value_name = "DISTANCE", allow_negative_numbers = true)]
     pub perspective: Option<f64>,
 }
 
@@ -60,7 +60,7 @@ impl ViewOptions {
             Some(distance) if distance > 1.0 && distance.is_finite() => Projection::Perspective { distance },
             Some(d) => {
                 return Err(Failure::Usage(format!(
-                    "an eye at {d} girdle radii would be in the stone; give more than 1"
+                    "--perspective {d}: give a distance above 1 girdle radius"
                 )));
             }
         };
@@ -97,17 +97,18 @@ impl ViewOptions {
 #[command(next_help_heading = "Light")]
 pub struct LightOptions {
     /// Use this refractive index instead of the material's
-    #[arg(long, value_name = "N", conflicts_with = "wavelength")]
+    #[arg(long, value_name = "N", conflicts_with = "wavelength", allow_negative_numbers = true)]
     pub index: Option<f64>,
     /// Take the material's index and absorption at this wavelength in nm [default: 589.3, sodium's D line]
-    #[arg(long, value_name = "NM")]
+    #[arg(long, value_name = "NM", allow_negative_numbers = true)]
     pub wavelength: Option<f64>,
     /// Shut out the light within DEGREES of the scope's axis, as the observer's head does (not in Ideal-Scope, hearts
     /// and arrows, which have their own hole for the eye)
-    #[arg(long, value_name = "DEGREES", default_value_t = 0.0)]
+    #[arg(long, value_name = "DEGREES", default_value_t = 0.0, allow_negative_numbers = true)]
     pub head: f64,
-    /// Follow the beams until no more than this part of the light is unresolved
-    #[arg(long, value_name = "PART")]
+    /// Follow the beams until no more than this part of the light is unresolved [default: 0.0004 for figures, 0.001 for
+    /// pictures]
+    #[arg(long, value_name = "PART", allow_negative_numbers = true)]
     pub unresolved: Option<f64>,
     /// Let every surface see unpolarised light, to compare with programs that do
     #[arg(long)]
@@ -150,9 +151,14 @@ impl LightOptions {
         }
     }
 
+    /// The wavelength chosen, nm.
+    pub fn wavelength(&self) -> f64 {
+        self.wavelength.unwrap_or(line::SODIUM_D)
+    }
+
     /// The stone's medium at the wavelength chosen.
     pub fn medium(&self, specimen: &Specimen) -> Result<Medium, Failure> {
-        let wavelength = self.wavelength.unwrap_or(line::SODIUM_D);
+        let wavelength = self.wavelength();
         if !(100.0..=100_000.0).contains(&wavelength) {
             return Err(Failure::Usage(format!(
                 "a wavelength of {wavelength} nm is not light that stones are seen in"
@@ -174,7 +180,7 @@ impl LightOptions {
         {
             let name = &material.name;
             let range = format!("{name} was measured from {first} to {last} nm");
-            say(&format!("warning: {range}; its index at {wavelength} nm is a guess"));
+            specimen.say(&format!("{range}; its index at {wavelength} nm is a guess"));
         }
         let radius_mm = specimen.design.diameter_mm / 2.0;
         Ok(Medium { index, absorption: material.absorption.coefficient(wavelength) * radius_mm })
@@ -209,8 +215,11 @@ impl LightOptions {
         let open = beams.unresolved();
         if open > options.unresolved {
             let (bound, count) = (options.unresolved, beams.len());
-            specimen
-                .say(&format!("{open:.2e} of the light is unresolved after {count} beams, not {bound:.2e}"));
+            specimen.say(&format!(
+                "{:.3} % of the light is unresolved, not {:.3} %: it is still caught inside after {count} beams",
+                100.0 * open,
+                100.0 * bound
+            ));
         }
     }
 

@@ -25,9 +25,10 @@ impl Specimen {
     pub fn load(file: &Path) -> Result<Self, Failure> {
         let path = &file.display().to_string();
         let input = |e: &dyn std::fmt::Display| Failure::Input(format!("{path}: {e}"));
-        let design = match super::lists::built_in(path).filter(|_| !file.exists()) {
+        let design = match super::lists::built_in(path).filter(|_| !file.is_file()) {
             Some(text) => cut_file::parse(text, path).map_err(|e| Failure::Input(e.to_string()))?,
-            None => cut_file::read(file).map_err(|e| Failure::Input(e.to_string()))?,
+            None => cut_file::read(file)
+                .map_err(|e| Failure::Input(format!("{e}{}", super::lists::hint(file))))?,
         };
         let facets = design.facets().map_err(|e| input(&e))?;
         let stone = Stone::new(&facets).map_err(|e| input(&e.told(|i| format!("'{}'", facets[i].0))))?;
@@ -49,6 +50,11 @@ impl Specimen {
         for &(dropped, kept) in polytope.merged() {
             let (dropped, kept) = (&facets[dropped].0, &facets[kept].0);
             self.say(&format!("facet '{dropped}' lies in the plane of '{kept}' and is one with it"));
+        }
+        if polytope.planes().any(|p| p.offset < 0.0) {
+            self.say(
+                "the origin lies outside the stone; pictures are centred there, so move the stone to it",
+            );
         }
         let names: Vec<&str> = polytope.redundant().iter().map(|&i| facets[i].0.as_str()).collect();
         if !names.is_empty() {

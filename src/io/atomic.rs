@@ -38,8 +38,13 @@ pub fn write(
     fill: impl FnOnce(&mut BufWriter<&mut NamedTempFile>) -> Result<(), WriteError>,
 ) -> Result<(), WriteError> {
     let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    std::fs::create_dir_all(folder).map_err(|e| WriteError::io(folder, e))?;
-    let mut temporary = new_file(folder).map_err(|e| WriteError::io(path, e))?;
+    std::fs::create_dir_all(folder).map_err(|e| match e.kind() {
+        io::ErrorKind::AlreadyExists | io::ErrorKind::NotADirectory => {
+            WriteError::io(folder, io::Error::new(e.kind(), "this is a file, and a folder is needed"))
+        }
+        _ => WriteError::io(folder, e),
+    })?;
+    let mut temporary = new_file(folder).map_err(|e| WriteError::io(path, e.kind()))?;
     let mut buffer = BufWriter::with_capacity(1 << 16, &mut temporary);
     fill(&mut buffer)?;
     buffer.flush().map_err(|e| WriteError::io(path, e))?;

@@ -9,12 +9,11 @@ use std::path::Path;
 use serde::Deserialize;
 use toml::de::{DeTable, Deserializer};
 
+use super::fault::Fault;
 use super::text::{self, TextError};
 use crate::cut::Design;
-use fault::Fault;
 use form::DesignForm;
 
-mod fault;
 mod form;
 mod material_form;
 mod values;

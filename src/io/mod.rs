@@ -4,6 +4,7 @@ mod atomic;
 pub mod cut_file;
 mod drawing_png;
 mod exr;
+mod fault;
 mod png;
 pub mod scope_file;
 mod text;

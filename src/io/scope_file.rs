@@ -1,8 +1,11 @@
 //! Scopes as TOML: a name, and bands of colour with the elevation at which each begins.
 
-use super::text::{self, TextError, line_after};
+use super::fault::Fault;
+use super::text::{self, TextError};
 use crate::scene::Scope;
+use serde::Deserialize;
 use std::path::Path;
+use toml::de::{DeTable, Deserializer};
 
 /// The largest file taken, bytes.
 const MAX_BYTES: u64 = 1 << 20;
@@ -22,12 +25,14 @@ pub fn read(path: &Path) -> Result<Scope, String> {
     let at = |line: Option<usize>| line.map_or(String::new(), |line| format!(":{line}"));
     let text = text::read(path, MAX_BYTES)
         .map_err(|TextError { line, message }| format!("{label}{}: {message}", at(line)))?;
-    let scope: Scope = toml::from_str(&text).map_err(|e| {
-        let line = e.span().map(|s| line_after(&text.as_bytes()[..s.start]));
-        format!("{label}{}: {}", at(line), e.message())
-    })?;
-    scope.validate().map_err(|e| format!("{label}: {e}"))?;
-    check_names(&scope).map_err(|e| format!("{label}: {e}"))?;
+    scope(&text).map_err(|fault| format!("{label}{}: {}", at(fault.line(&text)), fault.message))
+}
+
+fn scope(text: &str) -> Result<Scope, Fault> {
+    let table = DeTable::parse(text).map_err(|e| Fault::syntax(text, &e))?;
+    let scope = Scope::deserialize(Deserializer::from(table)).map_err(Fault::form)?;
+    scope.validate().map_err(|e| Fault::whole(e.to_string()))?;
+    check_names(&scope).map_err(Fault::whole)?;
     Ok(scope)
 }
 

@@ -74,7 +74,7 @@ pub fn energy(stone: &Stone, beams: &Beams, scope: &Scope, title: &str) -> Docum
 }
 
 /// Viewers leave hairlines between polygons that touch; a thin line of their own colour closes them.
-const SEAM: f64 = 0.3;
+const SEAM: f64 = 0.8;
 
 fn band_group(name: &str, colour: &str) -> Group {
     Group::new().set("class", name).set("fill", colour).set("stroke", colour).set("stroke-width", SEAM)

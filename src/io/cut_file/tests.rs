@@ -181,12 +181,17 @@ fn a_key_that_is_unknown_or_missing_is_told_with_those_that_are_known() {
         &with("table = 53.0", "tabel = 53.0"),
         "x.toml:6: round_brilliant: unknown key `tabel`, known here are `table`, `crown_angle`, `crown_height`, \
          `pavilion_angle`, `pavilion_depth`, `star_length`, `lower_half_length`, `lower_half_length_vertical`, \
-         `girdle_thickness`, `girdle_facets`, `culet`",
+         `girdle_thickness`, `girdle_facets`, `culet`; did you mean `table`?",
+    );
+    assert_told(
+        &with("[round_brilliant]", ""),
+        "x.toml:7: unknown key `crown_angle`, known here are `format`, `name`, `source`, `notes`, `diameter_mm`, \
+         `material`, `round_brilliant`, `plane`; it belongs below a line [round_brilliant]",
     );
     assert_told(
         &with("[round_brilliant]", "[round_brillant]"),
         "x.toml:5: unknown key `round_brillant`, known here are `format`, `name`, `source`, `notes`, `diameter_mm`, \
-         `material`, `round_brilliant`, `plane`",
+         `material`, `round_brilliant`, `plane`; did you mean `round_brilliant`?",
     );
     assert_told(
         &with("\"diamond\"", "{ refraction = 2 }"),
@@ -205,8 +210,8 @@ fn a_key_that_is_unknown_or_missing_is_told_with_those_that_are_known() {
         &planes_with("normal = [0, 0, 1]", ""),
         "x.toml:4: plane: the key `normal` is missing (outward, [x, y, z])",
     );
-    assert_told(&with("name", "source = \"\" #"), "x.toml:3: column 1: duplicate key");
-    assert_told("format = 1\nmaterial = 2", "x.toml:1: the key `name` is missing (what the cut is called)");
+    assert_told(&with("name", "source = \"\" #"), "x.toml:3: source: column 1: duplicate key");
+    assert_told("format = 1\nmaterial = 2", "x.toml:1: the key `name` is missing (what it is called)");
 }
 
 #[test]
@@ -222,7 +227,7 @@ fn a_wrong_type_is_told_with_what_was_expected() {
     );
     assert_told(
         &with("\"Tolkowsky 1919\"", "1919"),
-        "x.toml:2: name: invalid type: integer `1919`, expected text (what the cut is called)",
+        "x.toml:2: name: invalid type: integer `1919`, expected text (what it is called)",
     );
     assert_told(
         &with("\"diamond\"", "true"),
@@ -374,10 +379,14 @@ fn only_format_one_is_read_whatever_else_the_file_says() {
 
 #[test]
 fn what_is_not_toml_is_told_with_line_and_column() {
-    assert_told(&with("53.0", "53.0.1"), "x.toml:6: column 13: invalid float, expected nothing");
-    assert_told("format = 1\nname = \"x", "x.toml:2: column 10: invalid basic string, expected `\"`");
+    assert_told(&with("53.0", "53.0.1"), "x.toml:6: table: column 13: invalid float, expected nothing");
+    let comma = "x.toml:6: table: column 11: unexpected key or value, expected newline, `#`; numbers have a decimal point, as in 34.5";
+    assert_told(&with("53.0", "53,0"), comma);
+    let percent = "x.toml:6: table: column 9: string values must be quoted, expected literal string; leave the unit out: percent and degrees are understood";
+    assert_told(&with("53.0", "53%"), percent);
+    assert_told("format = 1\nname = \"x", "x.toml:2: name: column 10: invalid basic string, expected `\"`");
     let deep = format!("format = 1\nname = {}", "[".repeat(100_000));
-    assert_told(&deep, "x.toml:2: column 88: cannot recurse further; max recursion depth met");
+    assert_told(&deep, "x.toml:2: name: column 88: cannot recurse further; max recursion depth met");
     let dotted = format!("format = 1\na{} = 1", ".a".repeat(100_000));
     assert_told(&dotted, "x.toml: this is no TOML that can be read: recursion limit");
     assert_told(

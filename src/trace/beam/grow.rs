@@ -148,7 +148,7 @@ impl<'a> Tracer<'a> {
 
     fn run(&mut self, options: &Options, watch: Watch) -> Result<(), Stopped> {
         let whole = self.beams.silhouette_area / f64::from(self.beams.symmetry.order());
-        let goal = options.unresolved * whole;
+        let goal = options.unresolved.max(0.0) * whole;
         let mut level = whole / 64.0;
         let mut before = (level, whole);
         loop {

@@ -1,13 +1,13 @@
 //! What is wrong with a text, and where: by its key's path, or by the span that the TOML parser gives.
 
-use super::super::text::line_after;
+use super::text::line_after;
 use std::ops::Range;
 
 use toml::de::{DeTable, DeValue, Error};
 
 /// What the keys mean, for whoever left one out or wrote something else.
-const MEANINGS: [(&str, &str); 21] = [
-    ("name", "what the cut is called"),
+const MEANINGS: [(&str, &str); 23] = [
+    ("name", "what it is called"),
     ("material", "a material's name, an index, or a table of its own"),
     ("diameter_mm", "girdle diameter in mm"),
     ("table", PERCENT),
@@ -28,13 +28,31 @@ const MEANINGS: [(&str, &str); 21] = [
     ("sellmeier", "[[B, C], ...], C in µm"),
     ("absorption", "a number per mm, or [[nm, per mm], ...]"),
     ("valid_nm", "[first, last]"),
+    ("from", "degrees of elevation at which the band begins, -90 to 90"),
+    ("colour", "[red, green, blue] of sRGB, 0 to 255 each"),
+];
+/// The keys of `[round_brilliant]`.
+const PROPORTIONS: [&str; 11] = [
+    "table",
+    "crown_angle",
+    "crown_height",
+    "pavilion_angle",
+    "pavilion_depth",
+    "star_length",
+    "lower_half_length",
+    "lower_half_length_vertical",
+    "girdle_thickness",
+    "girdle_facets",
+    "culet",
 ];
 const PERCENT: &str = "percent of the girdle diameter";
 const DEGREES: &str = "degrees from the girdle plane";
 
 /// How serde words what was expected, and what a person would say.
-const WORDS: [(&str, &str); 8] = [
+const WORDS: [(&str, &str); 10] = [
     ("expected f64", "expected a number"),
+    ("expected u8", "expected a whole number from 0 to 255"),
+    ("expected an array of length 3", "expected a list of 3 numbers"),
     ("expected i64", "expected a whole number"),
     ("expected a string", "expected text"),
     (" as i128", ""),
@@ -48,7 +66,7 @@ const WORDS: [(&str, &str); 8] = [
 #[derive(Debug)]
 pub(super) struct Fault {
     place: Place,
-    pub message: String,
+    pub(super) message: String,
 }
 
 #[derive(Debug)]
@@ -62,34 +80,36 @@ enum Place {
 
 impl Fault {
     /// A fault of the file as a whole.
-    pub fn whole(message: impl Into<String>) -> Self {
+    pub(super) fn whole(message: impl Into<String>) -> Self {
         Self { place: Place::Whole, message: message.into() }
     }
 
     /// Something missing at the top of the file.
-    pub fn top(message: impl Into<String>) -> Self {
+    pub(super) fn top(message: impl Into<String>) -> Self {
         Self { place: Place::Offset(0), message: message.into() }
     }
 
     /// A fault of the value at a path such as `plane/17/normal`, or of what encloses it where the value is missing.
-    pub fn at(path: impl Into<String>, message: impl Into<String>) -> Self {
+    pub(super) fn at(path: impl Into<String>, message: impl Into<String>) -> Self {
         Self { place: Place::Path(path.into()), message: message.into() }
     }
 
     /// What the parser says of a text that is not TOML.
-    pub fn syntax(text: &str, error: &Error) -> Self {
+    pub(super) fn syntax(text: &str, error: &Error) -> Self {
         let Some(span) = error.span() else {
             return Self::whole(format!("this is no TOML that can be read: {}", error.message()));
         };
         let start = span.start.min(text.len());
         let line = text.as_bytes()[..start].rsplit(|byte| *byte == b'\n').next().unwrap_or_default();
         let column = 1 + String::from_utf8_lossy(line).chars().count();
-        let message = format!("column {column}: {}", error.message());
+        let whole = text[start - line.len()..].lines().next().unwrap_or_default();
+        let key = whole.split_once('=').map_or(String::new(), |(key, _)| format!("{}: ", key.trim()));
+        let message = shortened(format!("{key}column {column}: {}{}", error.message(), hint(whole)));
         Self { place: Place::Offset(start), message }
     }
 
     /// What serde says of a text that is not a cut file, in the words of this program.
-    pub fn form(mut error: Error) -> Self {
+    pub(super) fn form(mut error: Error) -> Self {
         // Without its text the error shows the path of its key, on a line of its own: in `plane.normal`.
         error.set_input(None);
         let shown = error.to_string();
@@ -103,7 +123,7 @@ impl Fault {
     }
 
     /// The line at fault, from 1.
-    pub fn line(&self, text: &str) -> Option<usize> {
+    pub(super) fn line(&self, text: &str) -> Option<usize> {
         let offset = match &self.place {
             Place::Whole => None,
             Place::Offset(offset) => Some(*offset),
@@ -141,10 +161,41 @@ fn shortened(message: String) -> String {
     }
 }
 
+/// What someone may have meant by a line that is no TOML.
+fn hint(line: &str) -> &'static str {
+    let value = line.split_once('=').map_or(line, |(_, value)| value).trim_start();
+    let number: String = value.chars().take_while(|c| c.is_ascii_digit() || "+-.,".contains(*c)).collect();
+    let rest = value[number.len()..].trim_start();
+    if number.contains(',') {
+        "; numbers have a decimal point, as in 34.5"
+    } else if !number.is_empty() && rest.starts_with(['%', '°']) {
+        "; leave the unit out: percent and degrees are understood"
+    } else {
+        ""
+    }
+}
+
+/// A key's name as serde quotes it, and the known one that is most like it, or the table that it belongs to.
+fn meant(message: &str) -> String {
+    let mut quoted = message.split('`').skip(1).step_by(2);
+    let Some(asked) = quoted.next() else { return String::new() };
+    let known: Vec<&str> = quoted.collect();
+    if known.contains(&"round_brilliant") && PROPORTIONS.contains(&asked) {
+        return "; it belongs below a line [round_brilliant]".to_owned();
+    }
+    let slips = |key: &&str| strsim::damerau_levenshtein(asked, key);
+    let near = known.iter().min_by_key(|key| slips(key)).filter(|key| slips(key) <= 3);
+    near.map_or(String::new(), |key| format!("; did you mean `{key}`?"))
+}
+
 /// serde's message with keys for fields, numbers for f64, and what the key means.
 fn reworded(message: &str, path: &str) -> String {
     if let Some(rest) = message.strip_prefix("unknown field ") {
-        return format!("unknown key {}", rest.replace("expected one of", "known here are"));
+        return format!(
+            "unknown key {}{}",
+            rest.replace("expected one of", "known here are"),
+            meant(message)
+        );
     }
     if let Some(rest) = message.strip_prefix("missing field ") {
         return format!("the key {rest} is missing{}", meaning(rest.trim_matches('`')));
