@@ -32,7 +32,7 @@ pub struct Manner {
 const PIECE: u32 = 16;
 
 /// Traces a picture row by row, each pixel by a regular grid of rays, and calls `each` as
-/// [`super::paint`] does: a channel for each band of the scope, the stone's cover last.
+/// [`paint()`](super::paint()) does: a channel for each band of the scope, the stone's cover last.
 ///
 /// # Errors
 /// What `each` answers, or [`Stopped`], turned into its kind of error, when `watch` asks to stop.
