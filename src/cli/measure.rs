@@ -13,8 +13,9 @@ use std::fmt::Write;
 use std::path::PathBuf;
 use std::time::Instant;
 
-/// Where `measure` stops following beams when not told: face up a few hundredths of a second's work.
-const UNRESOLVED: f64 = 4e-4;
+/// Where `measure` stops following beams when not told: face up a few hundredths of a second's work, tilted some
+/// seconds.
+const UNRESOLVED: f64 = 1.5e-4;
 
 /// Rays along each side of one of the lattices that figures by rays are sampled on.
 const LATTICE: u32 = 256;

@@ -106,7 +106,7 @@ pub struct LightOptions {
     /// and arrows, which have their own hole for the eye)
     #[arg(long, value_name = "DEGREES", default_value_t = 0.0, allow_negative_numbers = true)]
     pub head: f64,
-    /// Follow the beams until no more than this part of the light is unresolved [default: 0.0004 for figures, 0.001 for
+    /// Follow the beams until no more than this part of the light is unresolved [default: 0.00015 for figures, 0.001 for
     /// pictures]
     #[arg(long, value_name = "PART", allow_negative_numbers = true)]
     pub unresolved: Option<f64>,
@@ -132,6 +132,9 @@ impl TracerName {
         }
     }
 }
+
+/// Where no bound was asked for, this part of the light may stay unresolved without a word.
+const UNASKED: f64 = 1e-3;
 
 impl LightOptions {
     /// The tracer to use, checked against the view of the stone.
@@ -210,11 +213,12 @@ impl LightOptions {
         Ok(beam::Options { unresolved, polarised: !self.unpolarised, ..beam::Options::default() })
     }
 
-    /// Warns where beams could not be followed to the bound that was asked for.
+    /// Warns where beams could not be followed to the bound that was asked for, or to one that nobody would ask for.
     pub fn warn_of_open(&self, specimen: &Specimen, beams: &beam::Beams, options: &beam::Options) {
         let open = beams.unresolved();
-        if open > options.unresolved {
-            let (bound, count) = (options.unresolved, beams.len());
+        let bound = self.unresolved.unwrap_or(options.unresolved.max(UNASKED));
+        if open > bound {
+            let count = beams.len();
             specimen.say(&format!(
                 "{:.3} % of the light is unresolved, not {:.3} %: it is still caught inside after {count} beams",
                 100.0 * open,

@@ -52,7 +52,8 @@ impl Beams {
     /// The part of the silhouette in cells whose strongest exit is not certain, or that have none.
     pub fn undecided(&self, cells: &[Cell]) -> f64 {
         let open = cells.iter().filter(|c| c.undecided || c.strongest.is_none());
-        let area: f64 = open.map(|c| self.nodes[c.outline as usize].area).sum();
+        // Not `sum`, which makes -0 of nothing.
+        let area = open.fold(0.0, |area, c| area + self.nodes[c.outline as usize].area);
         area * f64::from(self.symmetry.order()) / self.silhouette_area
     }
 

@@ -31,7 +31,7 @@ pub struct Options {
 
 impl Default for Options {
     fn default() -> Self {
-        Self { unresolved: 1e-3, polarised: true, most_beams: 4_000_000, symmetry: true }
+        Self { unresolved: 1e-3, polarised: true, most_beams: 6_000_000, symmetry: true }
     }
 }
 
