@@ -58,7 +58,8 @@ fn energy_picture(c: &mut Criterion) {
             write_png(&path, (1024, 1024), "", |png| {
                 paint(&Layer::energy(&beams, &scope), &film, &unwatched, |rows| -> Result<(), WriteError> {
                     let mut pixels = Vec::new();
-                    (rows.first..rows.first + rows.count).for_each(|y| palette.encode(rows, y, &mut pixels));
+                    (rows.first..rows.first + rows.count)
+                        .for_each(|y| palette.encode(rows, 0, y, &mut pixels));
                     png.push(&pixels)
                 })
             })

@@ -12,6 +12,8 @@ use desk::*;
 use glam::{DVec2, DVec3};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
+#[cfg(feature = "gpu")]
+use std::io::Write;
 
 const ZONES: [&str; 4] = ["green", "red", "blue", "below"];
 const PARTS: [&str; 3] = ["surface", "transmitted", "strongest_exit_area"];
@@ -340,4 +342,61 @@ fn a_perspective_is_traced_by_rays_which_say_so() {
     assert!(said.contains("aset: rays make PNG pictures only"), "{said}");
     let (code, _, said) = desk.run("measure cube.toml --perspective 8 --tracer beam");
     assert!(code != 0 && said.contains("--perspective"), "{said}");
+}
+
+#[test]
+#[cfg(feature = "gpu")]
+fn where_no_card_is_found_rays_do_the_work_and_say_so() {
+    let desk = Desk::new();
+    let run = |line: &str| {
+        let mut command = desk.command(line);
+        let output =
+            command.env("VK_DRIVER_FILES", "/none").env("VK_ICD_FILENAMES", "/none").output().unwrap();
+        came_of(line, &output)
+    };
+    let (code, printed, said) = run("measure cube.toml --tracer gpu --json");
+    let figures: Value = serde_json::from_str(&printed).unwrap();
+    assert!(code == 0 && figures["tracer"] == "ray", "{figures}");
+    assert!(said.contains("no graphics card") && said.contains("tracing by rays"), "{said}");
+    let (code, _, said) = run("export cube.toml --views aset --tracer gpu --format png --size 32");
+    assert!(code == 0 && said.contains("tracing by rays"), "{said}");
+    assert!(png(&desk.at("out/cube-aset.png")).2.contains("point rays,"));
+}
+
+#[test]
+#[cfg(feature = "gpu")]
+fn a_card_measures_and_draws_as_rays_do_and_is_named() {
+    let desk = Desk::new();
+    let line = "measure tolkowsky --tilt 7 --azimuth 20 --json --tracer";
+    let (code, printed, said) = desk.run(&format!("{line} gpu"));
+    let by_card: Value = serde_json::from_str(&printed).unwrap();
+    if by_card["tracer"] == "ray" {
+        assert!(std::env::var_os("BRILLIANTEER_REQUIRE_GPU").is_none(), "{said}");
+        let _ =
+            writeln!(std::io::stderr(), "SKIPPED a_card_measures_and_draws_as_rays_do_and_is_named: {said}");
+        return;
+    }
+    assert_eq!((code, &by_card["tracer"]), (0, &json!("gpu")));
+    near(energy(&by_card), 1.0, 1e-4, "energy by the card");
+    let by_rays = desk.json(&format!("{line} ray"));
+    // A card's chains of bounces are shorter: what they leave open is said.
+    let allowed = 2e-4 + at(&by_card, "unresolved");
+    assert!(allowed < 3e-3, "{by_card}");
+    for part in PARTS {
+        for (zone, value) in by_rays[part].as_object().unwrap() {
+            near(at(&by_card[part], zone), value.as_f64().unwrap(), allowed, &format!("{part} {zone}"));
+        }
+    }
+    // Tilted, lest rays of a symmetric picture meet edges exactly; of an index that keeps no light for long.
+    let view = "--tilt 7 --azimuth 20 --index 1.5 --views aset --size 48 --format png";
+    let export = format!("export tolkowsky {view} --tracer");
+    for tracer in ["gpu", "ray"] {
+        desk.run(&format!("{export} {tracer} --out {tracer}"));
+    }
+    for file in ["tolkowsky-aset.png", "tolkowsky-aset-strongest.png"] {
+        let [(_, card, told), (_, rays, _)] = ["gpu", "ray"].map(|folder| png(&desk.at(folder).join(file)));
+        assert!(told.contains("point rays in f32 on "), "{told}");
+        let off = card.iter().zip(&rays).filter(|(a, b)| (*a - *b).abs().max_element() > 0.01).count();
+        assert!(off * 500 <= card.len(), "{file}: {off} pixels of {} differ", card.len());
+    }
 }

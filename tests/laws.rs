@@ -174,7 +174,7 @@ fn a_white_world_looks_white_through_any_stone() {
                 light += (0..rows.channels - 1).map(|c| sum(y, c)).sum::<f64>();
                 cover += sum(y, rows.channels - 1);
                 let mut pixels = vec![];
-                Palette::of(&white).encode(rows, y, &mut pixels);
+                Palette::of(&white).encode(rows, 0, y, &mut pixels);
                 let darkest = pixels.into_iter().min().unwrap();
                 assert!(darkest > 200, "index {index}: a pixel of {darkest} in row {y}");
             }

@@ -1,13 +1,14 @@
 //! `export`: pictures, drawings and figures of a stone, as files.
 
 use super::measure::measure;
-use super::options::{LightOptions, TracerName, ViewOptions};
+use super::options::{LightOptions, Tracer, ViewOptions};
 use super::progress::Progress;
+use super::sampler::{Look, Sampler};
 use super::specimen::{Specimen, stem};
 use super::{Failure, each_file, json, print, say};
 use crate::cut::Cut;
-use crate::io::{self, MOST_PIXELS, WriteError, rasterize, scope_file, write_exr, write_png};
-use crate::picture::by_rays::{self, Manner, Reading};
+use crate::io::{self, MOST_PIXELS, PngRows, WriteError, rasterize, scope_file, write_exr, write_png};
+use crate::picture::by_rays::Manner;
 use crate::picture::{
     Film, Layer, Palette, Picture, Rows, Scoped, diagram, named, names, paint, profile, vector,
 };
@@ -206,7 +207,7 @@ impl Job<'_> {
         let progress = Progress::new(&self.title(name));
         let watch = progress.watch();
         match self.export.light.tracer(&view, self.specimen)? {
-            TracerName::Beam => {
+            Tracer::Beams => {
                 let beams = match self.last.take() {
                     Some((last, beams)) if last == view => beams,
                     _ => {
@@ -221,7 +222,7 @@ impl Job<'_> {
                 self.last = Some((view, beams));
                 Ok(())
             }
-            TracerName::Ray => self.by_rays(name, &scope, &view, &watch),
+            Tracer::Rays(first) => first.or_rays(|used| self.by_rays(used, name, (&scope, &view), &watch)),
         }
     }
 
@@ -285,12 +286,18 @@ impl Job<'_> {
     ) -> Result<(), Failure> {
         let path = &self.path(name, "png");
         write_png(path, (film.size, film.size), told, |png| {
-            paint(layer, film, watch, |rows| encode(rows, palette, |pixels| png.push(pixels)))
+            paint(layer, film, watch, |rows| encode(rows, (palette, 0), png))
         })?;
         self.done(path)
     }
 
-    fn by_rays(&self, name: &str, scope: &Scope, view: &View, watch: Watch) -> Result<(), Failure> {
+    fn by_rays(
+        &self,
+        sampler: Sampler,
+        name: &str,
+        (scope, view): (&Scope, &View),
+        watch: Watch,
+    ) -> Result<(), Failure> {
         let only = format!("{name}: rays make PNG pictures only; SVG and EXR need exact beams");
         if !self.wants(Format::Png) {
             return Err(Failure::Usage(only));
@@ -303,19 +310,26 @@ impl Job<'_> {
         let reach = Camera::new(view, polytope).reach(polytope).unwrap_or(1.0);
         let film = Film::reaching(reach, self.export.size);
         let palette = Palette::of(scope);
-        let told =
-            self.told(name, view, &format!("point rays, each followed to {:.2e}", options.least_weight));
-        let strongest = format!("{name}-strongest");
-        for (reading, name) in [(Reading::Energy, name), (Reading::Strongest, &strongest)] {
-            let path = self.path(name, "png");
-            let manner = Manner { reading, options, per_side: RAYS_PER_SIDE };
-            write_png(&path, (film.size, film.size), &told, |png| {
-                let push = |rows: &Rows| encode(rows, &palette, |pixels| png.push(pixels));
-                by_rays::trace(polytope, self.medium, view, scope, &film, &manner, watch, push)
-            })?;
-            self.done(&path)?;
-        }
-        Ok(())
+        let told = self.told(
+            name,
+            view,
+            &format!("{}, each followed to {:.2e}", sampler.told(), options.least_weight),
+        );
+        let manner = Manner { options, per_side: RAYS_PER_SIDE };
+        let look = Look { specimen: self.specimen, medium: self.medium, view, scope };
+        let [energy, strongest] = [name, &format!("{name}-strongest")].map(|name| self.path(name, "png"));
+        let size = (film.size, film.size);
+        // Both pictures come from the same rays.
+        write_png(&energy, size, &told, |energy| {
+            write_png(&strongest, size, &told, |strongest| {
+                sampler.rows(look, &film, &manner, watch, |rows| {
+                    encode(rows, (&palette, 0), energy)?;
+                    encode(rows, (&palette, scope.bands.len()), strongest)
+                })
+            })
+        })?;
+        self.done(&energy)?;
+        self.done(&strongest)
     }
 
     fn told(&self, name: &str, view: &View, tracer: &str) -> String {
@@ -325,12 +339,9 @@ impl Job<'_> {
     }
 }
 
-fn encode(
-    rows: &Rows,
-    palette: &Palette,
-    mut push: impl FnMut(&[u8]) -> Result<(), WriteError>,
-) -> Result<(), WriteError> {
+/// Encodes rows of a picture, whose bands begin at a channel, and adds them to its file.
+fn encode(rows: &Rows, (palette, first): (&Palette, usize), png: &mut PngRows) -> Result<(), WriteError> {
     let mut pixels = Vec::with_capacity(3 * rows.width as usize * rows.count as usize);
-    (rows.first..rows.first + rows.count).for_each(|y| palette.encode(rows, y, &mut pixels));
-    push(&pixels)
+    (rows.first..rows.first + rows.count).for_each(|y| palette.encode(rows, first, y, &mut pixels));
+    png.push(&pixels)
 }

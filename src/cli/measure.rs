@@ -1,10 +1,11 @@
 //! `measure`: the figures of one view.
 
-use super::options::{LightOptions, TracerName, ViewOptions};
+use super::options::{LightOptions, Tracer, ViewOptions};
 use super::progress::Progress;
+use super::sampler::{Look, Sampler};
 use super::specimen::Specimen;
 use super::{Failure, each_file, json, print};
-use crate::measure::{Figures, by_beams, by_rays};
+use crate::measure::{Figures, by_beams};
 use crate::scene::{ASET_CONE, Backing, Band, Medium, Scope, View};
 use crate::trace::beam;
 use clap::Args;
@@ -40,7 +41,7 @@ pub struct Measured {
     pub scope: Scope,
     pub medium: Medium,
     pub view: View,
-    pub tracer: TracerName,
+    pub sampler: Option<Sampler>,
     pub polarised: bool,
     pub seconds: f64,
 }
@@ -69,19 +70,22 @@ pub fn measure(specimen: &Specimen, view: &ViewOptions, light: &LightOptions) ->
     let watch = progress.watch();
     let polytope = &specimen.stone.polytope;
     let start = Instant::now();
+    let mut sampler = None;
     let figures = match tracer {
-        TracerName::Beam => {
+        Tracer::Beams => {
             let options = light.beams(UNRESOLVED)?;
             let beams = beam::trace(polytope, medium, &seen, &options, &watch)?;
             light.warn_of_open(specimen, &beams, &options);
             by_beams(&beams, &scope)
         }
-        TracerName::Ray => {
-            by_rays(polytope, medium, &seen, &scope, (light.rays(UNRESOLVED)?, LATTICE), &watch)?
-        }
+        Tracer::Rays(first) => first.or_rays(|used| {
+            sampler = Some(used);
+            let look = Look { specimen, medium, view: &seen, scope: &scope };
+            used.figures(look, light.rays(UNRESOLVED)?, LATTICE, &watch)
+        })?,
     };
     let seconds = start.elapsed().as_secs_f64();
-    Ok(Measured { figures, scope, medium, view: seen, tracer, polarised: !light.unpolarised, seconds })
+    Ok(Measured { figures, scope, medium, view: seen, sampler, polarised: !light.unpolarised, seconds })
 }
 
 impl Measured {
@@ -104,11 +108,11 @@ impl Measured {
             "index": self.medium.index,
             "wavelength_nm": light.index.is_none().then(|| light.wavelength()),
             "head_deg": light.head,
-            "tracer": self.tracer.name(),
+            "tracer": self.sampler.map_or("beam", |s| s.name()),
             "polarised": self.polarised,
             "view": options.json(&self.view),
         });
-        if self.tracer == TracerName::Ray {
+        if self.sampler.is_some() {
             value["standard_error"] = json!(figures.standard_error);
         }
         value
@@ -160,16 +164,13 @@ impl Measured {
             100.0 * returned,
             100.0 * f.absorbed,
             100.0 * f.unresolved,
-            match self.tracer {
-                TracerName::Beam => " (the most by which any light is too low)".to_string(),
-                TracerName::Ray => format!(", standard error {:.3} %", 100.0 * f.standard_error),
+            match self.sampler {
+                None => " (the most by which any light is too low)".to_string(),
+                Some(_) => format!(", standard error {:.3} %", 100.0 * f.standard_error),
             },
             if self.polarised { "polarised," } else { "unpolarised," },
             f.beams,
-            match self.tracer {
-                TracerName::Beam => "exact beams",
-                TracerName::Ray => "rays",
-            },
+            self.sampler.map_or_else(|| "exact beams".into(), |s| s.told()),
             self.seconds,
         );
         text

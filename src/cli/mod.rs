@@ -6,6 +6,7 @@ mod lists;
 mod measure;
 mod options;
 mod progress;
+mod sampler;
 mod specimen;
 
 use crate::io::WriteError;
@@ -26,6 +27,10 @@ enum Failure {
     /// The output could not be written: exit code 3.
     #[error("{0}")]
     Output(String),
+    /// The graphics card failed: caught, and the work done by the processor.
+    #[cfg(feature = "gpu")]
+    #[error(transparent)]
+    Card(#[from] crate::trace::gpu::GpuError),
     /// Stopped by the user: exit code 130, as shells have it.
     #[error("stopped")]
     Stopped,
@@ -52,6 +57,8 @@ impl Failure {
             Self::Input(_) => 1,
             Self::Usage(_) => 2,
             Self::Output(_) => 3,
+            #[cfg(feature = "gpu")]
+            Self::Card(_) => 3,
             Self::Stopped => 130,
         }
     }

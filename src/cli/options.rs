@@ -1,6 +1,7 @@
 //! What several commands take: how to look at a stone, and how to trace it.
 
 use super::Failure;
+use super::sampler::Sampler;
 use super::specimen::Specimen;
 use crate::optics::line;
 use crate::scene::{Lean, Medium, Projection, Side, View};
@@ -30,7 +31,7 @@ pub struct ViewOptions {
     /// The azimuth of a tilt, in the stone's frame (0 is the middle of bezel 1)
     #[arg(long, value_name = "DEGREES", default_value_t = 0.0, allow_negative_numbers = true)]
     pub azimuth: f64,
-    /// See the stone in perspective from DISTANCE, in girdle radii (traced by rays: a large picture takes minutes)
+    /// See the stone in perspective from DISTANCE, in girdle radii (traced by rays: without a graphics card a large picture takes minutes)
     #[arg(long, value_name = "DISTANCE", allow_negative_numbers = true)]
     pub perspective: Option<f64>,
 }
@@ -113,24 +114,30 @@ pub struct LightOptions {
     /// Let every surface see unpolarised light, to compare with programs that do
     #[arg(long)]
     pub unpolarised: bool,
-    /// Trace by exact beams, or by point rays as a check [default: beam, or ray for a perspective]
-    #[arg(long, value_enum)]
-    pub tracer: Option<TracerName>,
+    /// What traces the light
+    #[arg(long, value_enum, default_value_t = TracerName::Auto)]
+    pub tracer: TracerName,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub enum TracerName {
+    /// Exact beams for parallel rays; in perspective a graphics card, or rays where there is none
+    Auto,
+    /// Exact beams, in f64
     Beam,
+    /// Point rays on the processor, in f64
     Ray,
+    /// Point rays on a graphics card, in f32
+    Gpu,
 }
 
-impl TracerName {
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Beam => "beam",
-            Self::Ray => "ray",
-        }
-    }
+/// The tracer chosen for a view.
+#[derive(Clone, Copy)]
+pub enum Tracer {
+    /// Exact beams.
+    Beams,
+    /// Point rays.
+    Rays(Sampler),
 }
 
 /// Where no bound was asked for, this part of the light may stay unresolved without a word.
@@ -138,7 +145,7 @@ const UNASKED: f64 = 1e-3;
 
 impl LightOptions {
     /// The tracer to use, checked against the view of the stone.
-    pub fn tracer(&self, view: &View, specimen: &Specimen) -> Result<TracerName, Failure> {
+    pub fn tracer(&self, view: &View, specimen: &Specimen) -> Result<Tracer, Failure> {
         let polytope = &specimen.stone.polytope;
         if ray::Camera::new(view, polytope).reach(polytope).is_none() {
             let message = "the eye of --perspective is not in front of the whole stone; move it farther off";
@@ -146,11 +153,14 @@ impl LightOptions {
         }
         let flat = view.projection == Projection::Orthographic;
         match self.tracer {
-            Some(TracerName::Beam) if !flat => Err(Failure::Usage(
+            TracerName::Beam if !flat => Err(Failure::Usage(
                 "exact beams are for parallel rays: leave out --perspective, or use --tracer ray".into(),
             )),
-            Some(tracer) => Ok(tracer),
-            None => Ok(if flat { TracerName::Beam } else { TracerName::Ray }),
+            TracerName::Beam => Ok(Tracer::Beams),
+            TracerName::Auto if flat => Ok(Tracer::Beams),
+            TracerName::Auto => Ok(Tracer::Rays(Sampler::quickest())),
+            TracerName::Ray => Ok(Tracer::Rays(Sampler::Rays)),
+            TracerName::Gpu => Ok(Tracer::Rays(Sampler::on_card())),
         }
     }
 

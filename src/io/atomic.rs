@@ -33,10 +33,10 @@ impl WriteError {
 ///
 /// # Errors
 /// When the file system refuses, or with what `fill` answers.
-pub fn write(
+pub fn write<E: From<WriteError>>(
     path: &Path,
-    fill: impl FnOnce(&mut BufWriter<&mut NamedTempFile>) -> Result<(), WriteError>,
-) -> Result<(), WriteError> {
+    fill: impl FnOnce(&mut BufWriter<&mut NamedTempFile>) -> Result<(), E>,
+) -> Result<(), E> {
     let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
     std::fs::create_dir_all(folder).map_err(|e| match e.kind() {
         io::ErrorKind::AlreadyExists | io::ErrorKind::NotADirectory => {
@@ -83,7 +83,7 @@ mod tests {
     #[test]
     fn a_folder_in_the_way_is_named() {
         let folder = tempfile::tempdir().unwrap();
-        let error = write(folder.path(), |_| Ok(())).unwrap_err().to_string();
+        let error = write(folder.path(), |_| Ok::<(), WriteError>(())).unwrap_err().to_string();
         assert!(error.contains(folder.path().to_str().unwrap()), "{error}");
     }
 }

@@ -28,13 +28,13 @@ impl PngRows<'_> {
 ///
 /// # Errors
 /// When the file system refuses, or with what `fill` answers.
-pub fn write_png(
+pub fn write_png<E: From<WriteError>>(
     path: &Path,
     (width, height): (u32, u32),
     description: &str,
-    fill: impl FnOnce(&mut PngRows) -> Result<(), WriteError>,
-) -> Result<(), WriteError> {
-    write(path, |file| {
+    fill: impl FnOnce(&mut PngRows) -> Result<(), E>,
+) -> Result<(), E> {
+    write(path, |file| -> Result<(), E> {
         let failed = |e: png::EncodingError| WriteError::io(path, e);
         let mut encoder = png::Encoder::new(file, width, height);
         encoder.set_color(png::ColorType::Rgb);
@@ -47,6 +47,6 @@ pub fn write_png(
         let mut stream = writer.stream_writer().map_err(failed)?;
         fill(&mut PngRows { path, stream: &mut stream })?;
         stream.finish().map_err(failed)?;
-        writer.finish().map_err(failed)
+        Ok(writer.finish().map_err(failed)?)
     })
 }

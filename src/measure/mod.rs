@@ -4,4 +4,6 @@ mod figures;
 mod sampled;
 
 pub use figures::{Figures, Zones, by_beams};
+#[cfg(feature = "gpu")]
+pub use sampled::by_gpu;
 pub use sampled::by_rays;

@@ -3,6 +3,8 @@
 use super::figures::Figures;
 use crate::math::Polytope;
 use crate::scene::{Medium, Scope, View};
+#[cfg(feature = "gpu")]
+use crate::trace::gpu::{Gpu, GpuError, Seen, Shot};
 use crate::trace::ray::{Camera, Exit, Options, Rest, Tracer};
 use crate::trace::{Stopped, Watch};
 use glam::DVec2;
@@ -41,21 +43,13 @@ pub fn by_rays(
 ) -> Result<Figures, Stopped> {
     let tracer = Tracer::new(polytope, medium, options);
     let camera = Camera::new(view, polytope);
-    let silhouette = polytope.silhouette_area(view.basis().toward);
-    let Some(half) = camera.reach(polytope) else {
-        return Ok(summary(&vec![Tally::new(scope.bands.len()); LATTICES as usize], silhouette));
-    };
     let zenith = view.zenith();
-    let mut lattices = Vec::with_capacity(LATTICES as usize);
-    for k in 0..LATTICES {
-        if watch(f64::from(k) / f64::from(LATTICES)).is_break() {
-            return Err(Stopped);
-        }
-        // Roberts's R2 sequence spreads the shifts evenly; it is not random, so that figures repeat.
-        let shift = DVec2::new(0.754_877_666_246_693, 0.569_840_290_998_053) * f64::from(k + 1);
-        let shift = shift - shift.floor();
-        let point =
-            |i: u32, j: u32| (DVec2::new(f64::from(i), f64::from(j)) + shift) / f64::from(side) * 2.0 - 1.0;
+    over_lattices(polytope, view, scope, watch, |half, shift, _| {
+        // Rows run downward, as a picture's do.
+        let point = |i: u32, j: u32| {
+            let across = (DVec2::new(f64::from(i), f64::from(j)) + shift) / f64::from(side) * 2.0 - 1.0;
+            DVec2::new(across.x, -across.y)
+        };
         let row = |j: u32| {
             let mut tally = Tally::new(scope.bands.len());
             for i in 0..side {
@@ -73,7 +67,57 @@ pub fn by_rays(
             tally
         };
         let rows: Vec<Tally> = (0..side).into_par_iter().map(row).collect();
-        lattices.push(rows.into_iter().fold(Tally::new(scope.bands.len()), Tally::joined));
+        Ok(rows.into_iter().fold(Tally::new(scope.bands.len()), Tally::joined))
+    })
+}
+
+/// The same by a graphics card.
+///
+/// # Errors
+/// [`Stopped`] when `watch` asks to stop, or what is wrong with the card, turned into one kind of error.
+#[cfg(feature = "gpu")]
+pub fn by_gpu<E: From<Stopped> + From<GpuError>>(
+    gpu: &Gpu,
+    polytope: &Polytope,
+    medium: Medium,
+    view: &View,
+    scope: &Scope,
+    (options, side): (Options, u32),
+    watch: Watch,
+) -> Result<Figures, E> {
+    over_lattices(polytope, view, scope, watch, |half, shift, done| {
+        let shot = Shot { polytope, medium, view, scope, half, size: side, per_side: 1, shift, options };
+        let mut tally = Tally::new(scope.bands.len());
+        gpu.scope(&shot, &|_| watch(done), |_, pixels| -> Result<(), E> {
+            pixels.iter().for_each(|seen| tally.take_in(seen));
+            Ok(())
+        })?;
+        Ok(tally)
+    })
+}
+
+/// Sums up what lattices see, given half the side of the film, the shift of each in its cells, 0 to 1, and the part of
+/// the work that is done.
+fn over_lattices<E: From<Stopped>>(
+    polytope: &Polytope,
+    view: &View,
+    scope: &Scope,
+    watch: Watch,
+    mut see: impl FnMut(f64, DVec2, f64) -> Result<Tally, E>,
+) -> Result<Figures, E> {
+    let silhouette = polytope.silhouette_area(view.basis().toward);
+    let Some(half) = Camera::new(view, polytope).reach(polytope) else {
+        return Ok(summary(&vec![Tally::new(scope.bands.len()); LATTICES as usize], silhouette));
+    };
+    let mut lattices = Vec::with_capacity(LATTICES as usize);
+    for k in 0..LATTICES {
+        let done = f64::from(k) / f64::from(LATTICES);
+        if watch(done).is_break() {
+            return Err(Stopped.into());
+        }
+        // Roberts's R2 sequence spreads the shifts evenly; it is not random, so that figures repeat.
+        let shift = DVec2::new(0.754_877_666_246_693, 0.569_840_290_998_053) * f64::from(k + 1);
+        lattices.push(see(half, shift - shift.floor(), done)?);
     }
     Ok(summary(&lattices, silhouette))
 }
@@ -105,6 +149,24 @@ impl Tally {
             match strongest {
                 Some(band) if rest.unresolved <= weight => self.strongest[band] += 1.0,
                 _ => self.undecided += 1.0,
+            }
+        }
+    }
+
+    #[cfg(feature = "gpu")]
+    fn take_in(&mut self, seen: &Seen) {
+        let add = |to: &mut [f64], from: &[f32]| {
+            to.iter_mut().zip(from).for_each(|(a, &b)| *a += f64::from(b));
+        };
+        if seen.hit() > 0.0 {
+            self.hits += 1;
+            add(&mut self.surface, &seen.surface);
+            add(&mut self.transmitted, &seen.transmitted);
+            self.absorbed += f64::from(seen.absorbed());
+            self.unresolved += f64::from(seen.unresolved());
+            self.undecided += f64::from(seen.undecided());
+            if seen.undecided() == 0.0 {
+                add(&mut self.strongest, &seen.strongest);
             }
         }
     }

@@ -8,20 +8,9 @@ use crate::trace::{Stopped, Watch};
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
-/// What a ray's light is put down as.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Reading {
-    /// The energy of each band.
-    Energy,
-    /// The band of the strongest exit alone.
-    Strongest,
-}
-
 /// How a picture is traced.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Manner {
-    /// What is put down.
-    pub reading: Reading,
     /// How far each ray is followed.
     pub options: Options,
     /// Rays along each side of a pixel, at least 1.
@@ -32,7 +21,8 @@ pub struct Manner {
 const PIECE: u32 = 16;
 
 /// Traces a picture row by row, each pixel by a regular grid of rays, and calls `each` as
-/// [`paint()`](super::paint()) does: a channel for each band of the scope, the stone's cover last.
+/// [`paint()`](super::paint()) does: a channel for the energy of each band of the scope, one for the share of its
+/// strongest exits, the stone's cover last.
 ///
 /// # Errors
 /// What `each` answers, or [`Stopped`], turned into its kind of error, when `watch` asks to stop.
@@ -53,7 +43,7 @@ pub fn trace<E: From<Stopped>>(
     let tracer = Tracer::new(polytope, medium, manner.options);
     let camera = Camera::new(view, polytope);
     let zenith = view.zenith();
-    let channels = scope.bands.len() + 1;
+    let channels = 2 * scope.bands.len() + 1;
     let grid = manner.per_side;
     let pixel = |x: u32, y: u32| {
         let mut values = vec![0.0; channels];
@@ -61,7 +51,7 @@ pub fn trace<E: From<Stopped>>(
             let step = DVec2::new(f64::from(k % grid), f64::from(k / grid)) + 0.5;
             let at = DVec2::new(f64::from(x), f64::from(y)) + step / f64::from(grid);
             let ray = camera.ray(film.image_from_pixels(at));
-            put_down(&tracer, ray, manner.reading, |exit| scope.band(exit.direction, zenith), &mut values);
+            put_down(&tracer, ray, |exit| scope.band(exit.direction, zenith), &mut values);
         }
         values.iter_mut().for_each(|v| *v /= f64::from(grid * grid));
         values
@@ -88,21 +78,20 @@ pub fn trace<E: From<Stopped>>(
 fn put_down(
     tracer: &Tracer,
     (origin, direction): (DVec3, DVec3),
-    reading: Reading,
     band: impl Fn(&Exit) -> usize,
     values: &mut [f64],
 ) {
     let cover = values.len() - 1;
     let mut strongest = (0.0, None);
-    let hit = tracer.follow(origin, direction, |exit| match reading {
-        Reading::Energy => values[band(&exit)] += exit.weight,
-        Reading::Strongest if !exit.surface && exit.weight > strongest.0 => {
-            strongest = (exit.weight, Some(band(&exit)));
+    let hit = tracer.follow(origin, direction, |exit| {
+        let band = band(&exit);
+        values[band] += exit.weight;
+        if !exit.surface && exit.weight > strongest.0 {
+            strongest = (exit.weight, Some(band));
         }
-        Reading::Strongest => {}
     });
     if let Some(band) = strongest.1 {
-        values[band] += 1.0;
+        values[cover / 2 + band] += 1.0;
     }
     if hit.is_some() {
         values[cover] += 1.0;

@@ -1,5 +1,7 @@
 //! Floor 4: pictures. A picture is a view, a scope and a reading of the light; nothing here traces.
 
+#[cfg(feature = "gpu")]
+pub mod by_gpu;
 pub mod by_rays;
 mod diagram;
 mod drawing;

@@ -1,6 +1,8 @@
 //! Floor 3: where light goes. Exact beams and point rays, which share nothing but Fresnel's equations.
 
 pub mod beam;
+#[cfg(feature = "gpu")]
+pub mod gpu;
 pub mod ray;
 
 use std::ops::ControlFlow;

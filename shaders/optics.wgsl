@@ -1,0 +1,101 @@
+// Snell, Fresnel and polarisation. Each function bears the name of its twin in src/optics and src/trace/beam/coherency.rs,
+// where the sources are; tests/mirror.rs runs both on the same numbers.
+
+const SQUARE_ON: f32 = 1e-4;
+
+fn cos_t_squared(cos_i: f32, eta: f32) -> f32 {
+    let normal_part = eta * clamp(cos_i, 0.0, 1.0);
+    return (1.0 - eta) * (1.0 + eta) + normal_part * normal_part;
+}
+
+// 0 where reflection is total.
+fn cos_transmitted(cos_i: f32, eta: f32) -> f32 {
+    return sqrt(max(cos_t_squared(cos_i, eta), 0.0));
+}
+
+fn reflect_ray(d: vec3f, n: vec3f, cos_i: f32) -> vec3f {
+    let reflected = d + n * (2.0 * cos_i);
+    // One Newton step toward unit length: a chain of bounces would drift from it.
+    return reflected * (1.5 - 0.5 * dot(reflected, reflected));
+}
+
+fn refract_ray(d: vec3f, n: vec3f, eta: f32, cos_i: f32, cos_t: f32) -> vec3f {
+    return d * eta + n * (eta * cos_i - cos_t);
+}
+
+// Complex amplitudes; cos_t is 0 where reflection is total.
+struct Fresnel {
+    r_s: vec2f,
+    r_p: vec2f,
+    cos_t: f32,
+}
+
+fn total(a: f32, b: f32) -> vec2f {
+    let square = a * a + b * b;
+    if square == 0.0 {
+        return vec2f(-1.0, 0.0);
+    }
+    return vec2f(a * a - b * b, -2.0 * a * b) / square;
+}
+
+fn fresnel(cos_i_given: f32, eta: f32) -> Fresnel {
+    let cos_i = clamp(cos_i_given, 0.0, 1.0);
+    let squared = cos_t_squared(cos_i, eta);
+    if squared > 0.0 {
+        let cos_t = sqrt(squared);
+        let r_s = (eta * cos_i - cos_t) / (eta * cos_i + cos_t);
+        let r_p = (cos_i - eta * cos_t) / (cos_i + eta * cos_t);
+        return Fresnel(vec2f(r_s, 0.0), vec2f(r_p, 0.0), cos_t);
+    }
+    let decay = sqrt(-squared);
+    return Fresnel(total(eta * cos_i, decay), total(cos_i, eta * decay), 0.0);
+}
+
+// Reflected shares of s and p power.
+fn reflectances(f: Fresnel) -> vec2f {
+    return select(vec2f(1.0), vec2f(dot(f.r_s, f.r_s), dot(f.r_p, f.r_p)), f.cos_t > 0.0);
+}
+
+// The coherency matrix of light, as (ss, pp, re, im) along the axes s and direction × s. Its weight is ss + pp.
+fn turned(light: vec4f, c: f32, s: f32) -> vec4f {
+    let cc = c * c;
+    let ss = s * s;
+    let cs = c * s;
+    return vec4f(
+        cc * light.x + ss * light.y + 2.0 * cs * light.z,
+        ss * light.x + cc * light.y - 2.0 * cs * light.z,
+        (cc - ss) * light.z + cs * (light.y - light.x),
+        light.w,
+    );
+}
+
+// What is reflected of light at a surface.
+fn reflected(light: vec4f, f: Fresnel) -> vec4f {
+    let cross = vec2f(dot(f.r_s, f.r_p), f.r_s.y * f.r_p.x - f.r_s.x * f.r_p.y);
+    return vec4f(
+        light.xy * reflectances(f),
+        light.z * cross.x - light.w * cross.y,
+        light.z * cross.y + light.w * cross.x,
+    );
+}
+
+// The weight of what passes a surface.
+fn passed(light: vec4f, f: Fresnel) -> f32 {
+    return dot(light.xy, 1.0 - reflectances(f));
+}
+
+fn unpolarised(light: vec4f) -> vec4f {
+    return vec4f(vec2f(0.5 * (light.x + light.y)), 0.0, 0.0);
+}
+
+// The unit axis square to a ray and a facet's normal, or `otherwise` where the ray is square to the facet.
+fn s_axis(direction: vec3f, normal: vec3f, otherwise: vec3f) -> vec3f {
+    let s = cross(direction, normal);
+    let length_squared = dot(s, s);
+    if length_squared > SQUARE_ON * SQUARE_ON {
+        return s * inverseSqrt(length_squared);
+    }
+    // Square to this ray, lest the axes drift.
+    let kept = otherwise - direction * dot(direction, otherwise);
+    return kept * inverseSqrt(max(dot(kept, kept), 1e-12));
+}

@@ -1,0 +1,51 @@
+//! The pictures of [`by_rays`](super::by_rays), by a graphics card.
+
+use super::by_rays::Manner;
+use super::{Film, Rows};
+use crate::math::Polytope;
+use crate::scene::{Medium, Scope, View};
+use crate::trace::gpu::{Gpu, GpuError, Seen, Shot};
+use crate::trace::{Stopped, Watch};
+use glam::DVec2;
+
+/// Traces a picture on a card, each pixel by a regular grid of rays, and calls `each` as
+/// [`by_rays::trace`](super::by_rays::trace()) does, with the same channels.
+///
+/// # Errors
+/// What `each` answers, or [`Stopped`], or what is wrong with the card, turned into its kind of error.
+#[expect(
+    clippy::too_many_arguments,
+    reason = "a card, a stone, a view, a light, a film and a manner: none derives from another"
+)]
+pub fn trace<E: From<Stopped> + From<GpuError>>(
+    gpu: &Gpu,
+    polytope: &Polytope,
+    medium: Medium,
+    view: &View,
+    scope: &Scope,
+    film: &Film,
+    manner: &Manner,
+    watch: Watch,
+    mut each: impl FnMut(&Rows) -> Result<(), E>,
+) -> Result<(), E> {
+    let Manner { options, per_side } = *manner;
+    let (half, size, shift) = (film.half, film.size, DVec2::splat(0.5));
+    let shot = Shot { polytope, medium, view, scope, half, size, per_side, shift, options };
+    let bands = scope.bands.len();
+    gpu.scope(&shot, watch, |first, pixels| {
+        let count = pixels.len() as u32 / size;
+        let mut rows = Rows::new(first, count, size, 2 * bands + 1);
+        for (y, line) in (first..).zip(pixels.chunks(size as usize)) {
+            let mut fill = |channel, value: &dyn Fn(&Seen) -> f32| {
+                let to = rows.row_mut(y, channel).iter_mut();
+                to.zip(line).for_each(|(to, seen)| *to = f64::from(value(seen)));
+            };
+            for band in 0..bands {
+                fill(band, &|seen| seen.transmitted[band] + seen.surface[band]);
+                fill(bands + band, &|seen| seen.strongest[band]);
+            }
+            fill(2 * bands, &Seen::hit);
+        }
+        each(&rows)
+    })
+}

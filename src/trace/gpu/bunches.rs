@@ -1,0 +1,84 @@
+//! Planes in bunches, so that a shader need not try all of a large stone's.
+
+use super::door::Bunch;
+use crate::math::Plane;
+
+/// Planes in a bunch at most.
+const FULL: usize = 16;
+
+/// The planes' order, bunch by bunch, and the bunches.
+pub(super) fn bunches(planes: &[Plane]) -> (Vec<u32>, Vec<Bunch>) {
+    let mut order: Vec<u32> = (0..planes.len() as u32).collect();
+    let mut bunches = vec![];
+    gather(planes, &mut order, 0, &mut bunches);
+    (order, bunches)
+}
+
+/// Halves planes at the median of the coordinate of normal and offset that spreads most, until a bunch is small.
+fn gather(planes: &[Plane], order: &mut [u32], first: usize, bunches: &mut Vec<Bunch>) {
+    let place = |k: u32| {
+        let Plane { normal, offset } = planes[k as usize];
+        [normal.x, normal.y, normal.z, offset]
+    };
+    if order.len() <= FULL {
+        bunches.push(bunch(planes, order, first));
+        return;
+    }
+    let extent = |axis: usize| {
+        let values = || order.iter().map(|&k| place(k)[axis]);
+        values().fold(f64::NEG_INFINITY, f64::max) - values().fold(f64::INFINITY, f64::min)
+    };
+    let axis = (0..4).max_by(|&a, &b| extent(a).total_cmp(&extent(b))).unwrap_or(0);
+    let middle = order.len() / 2;
+    order.select_nth_unstable_by(middle, |&a, &b| place(a)[axis].total_cmp(&place(b)[axis]).then(a.cmp(&b)));
+    let (low, high) = order.split_at_mut(middle);
+    gather(planes, low, first, bunches);
+    gather(planes, high, first + middle, bunches);
+}
+
+fn bunch(planes: &[Plane], order: &[u32], first: usize) -> Bunch {
+    let own = || order.iter().map(|&k| planes[k as usize]);
+    let count = order.len() as f64;
+    let normal = own().map(|p| p.normal).sum::<glam::DVec3>() / count;
+    let offset = own().map(|p| p.offset).sum::<f64>() / count;
+    let spread = own().map(|p| p.normal.distance(normal)).fold(0.0, f64::max);
+    let depth = own().map(|p| (p.offset - offset).abs()).fold(0.0, f64::max);
+    // Bounds must hold in f32 too: a little more than what they are.
+    let wide = |x: f64| (x * (1.0 + 1e-6) + 1e-6) as f32;
+    Bunch {
+        middle: [normal.x as f32, normal.y as f32, normal.z as f32, offset as f32],
+        spread: [wide(spread), wide(depth), first as f32, order.len() as f32],
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glam::DVec3;
+
+    #[test]
+    fn every_plane_is_in_one_bunch_and_within_its_bounds() {
+        let planes: Vec<Plane> = (0..777)
+            .map(|i| {
+                let (z, turn) = (1.0 - 2.0 * (f64::from(i) + 0.5) / 777.0, 2.4 * f64::from(i));
+                Plane::from_slope(z.acos(), turn, 1.0 + 0.1 * turn.sin())
+            })
+            .collect();
+        let (order, bunches) = bunches(&planes);
+        let mut sorted = order.clone();
+        sorted.sort_unstable();
+        assert!(sorted.into_iter().eq(0..777));
+        let mut next = 0;
+        for Bunch { middle: [x, y, z, offset], spread: [spread, depth, first, count] } in &bunches {
+            assert_eq!(*first as usize, next);
+            next += *count as usize;
+            for &k in &order[*first as usize..next] {
+                let plane = planes[k as usize];
+                let middle = DVec3::from([f64::from(*x), f64::from(*y), f64::from(*z)]);
+                assert!(plane.normal.distance(middle) <= f64::from(*spread));
+                assert!((plane.offset - f64::from(*offset)).abs() <= f64::from(*depth));
+            }
+        }
+        assert!(next == 777 && bunches.len() < 120, "{} bunches", bunches.len());
+    }
+}

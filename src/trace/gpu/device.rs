@@ -1,0 +1,115 @@
+//! Opening a graphics card, and what can go wrong with one.
+
+use super::scope::Pipelines;
+use std::sync::{Arc, Mutex, PoisonError};
+
+/// Why the work cannot be done by the graphics card; point rays can do it instead.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+pub enum GpuError {
+    /// No card, or no driver that can compute.
+    #[error("no graphics card that can compute was found ({0}); install its Vulkan driver, or trace by rays")]
+    NoAdapter(String),
+    /// The driver refuses a device with the least that is needed.
+    #[error("{name} is too old or its driver too limited ({why}); trace by rays")]
+    TooLimited {
+        /// The card.
+        name: String,
+        /// What the driver says.
+        why: String,
+    },
+    /// It stopped in the middle: memory that ran out, a driver that was reset.
+    #[error("{name} failed: {why}")]
+    Failed {
+        /// The card.
+        name: String,
+        /// What the driver says.
+        why: String,
+    },
+    /// The scope has more bands than a pixel has room for.
+    #[error("a scope of {count} bands is traced by rays; the graphics card takes {most}")]
+    TooManyBands {
+        /// How many it has.
+        count: usize,
+        /// How many there is room for.
+        most: usize,
+    },
+}
+
+/// An open graphics card with its compiled shaders.
+pub struct Gpu {
+    pub(super) device: wgpu::Device,
+    pub(super) queue: wgpu::Queue,
+    pub(super) pipelines: Pipelines,
+    name: String,
+    is_software: bool,
+    fault: Arc<Mutex<Option<String>>>,
+}
+
+impl Gpu {
+    /// Opens the strongest card there is, or a driver that computes in software where there is none, and compiles
+    /// the shaders.
+    ///
+    /// # Errors
+    /// Where there is neither, or it is too limited.
+    pub fn open() -> Result<Self, GpuError> {
+        pollster::block_on(Self::opened())
+    }
+
+    async fn opened() -> Result<Self, GpuError> {
+        let instance = wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle_from_env());
+        let strongest = wgpu::RequestAdapterOptions {
+            power_preference: wgpu::PowerPreference::HighPerformance,
+            ..Default::default()
+        };
+        let adapter =
+            instance.request_adapter(&strongest).await.map_err(|e| GpuError::NoAdapter(e.to_string()))?;
+        let info = adapter.get_info();
+        let limited = |why: String| GpuError::TooLimited { name: info.name.clone(), why };
+        let wanted = wgpu::DeviceDescriptor {
+            label: Some("brillianteer"),
+            required_limits: wgpu::Limits::downlevel_defaults(),
+            ..Default::default()
+        };
+        let (device, queue) = adapter.request_device(&wanted).await.map_err(|e| limited(e.to_string()))?;
+        let fault = Arc::new(Mutex::new(None));
+        let (lost, other) = (Arc::clone(&fault), Arc::clone(&fault));
+        device.set_device_lost_callback(move |_, why| note(&lost, why));
+        device.on_uncaptured_error(Arc::new(move |error: wgpu::Error| note(&other, error.to_string())));
+        let pipelines = Pipelines::new(&device);
+        let name = format!("{} ({})", info.name, info.backend);
+        let is_software = info.device_type == wgpu::DeviceType::Cpu;
+        let gpu = Self { device, queue, pipelines, name, is_software, fault };
+        gpu.check().map(|()| gpu)
+    }
+
+    /// The card's name and the interface that it is driven by.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// Whether it is no card but a driver that computes on the processor, which point rays do quicker.
+    pub fn is_software(&self) -> bool {
+        self.is_software
+    }
+
+    /// Waits until all work is done.
+    pub(super) fn wait(&self) -> Result<(), GpuError> {
+        self.device.poll(wgpu::PollType::wait_indefinitely()).map_err(|e| self.failed(e.to_string()))?;
+        self.check()
+    }
+
+    /// Whether anything has gone wrong so far.
+    pub(super) fn check(&self) -> Result<(), GpuError> {
+        let fault = self.fault.lock().unwrap_or_else(PoisonError::into_inner);
+        fault.as_ref().map_or(Ok(()), |why| Err(self.failed(why.clone())))
+    }
+
+    pub(super) fn failed(&self, why: String) -> GpuError {
+        GpuError::Failed { name: self.name.clone(), why }
+    }
+}
+
+/// Keeps the first fault: those that follow are its consequences.
+fn note(fault: &Mutex<Option<String>>, why: String) {
+    fault.lock().unwrap_or_else(PoisonError::into_inner).get_or_insert(why);
+}

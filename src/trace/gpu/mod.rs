@@ -1,0 +1,16 @@
+//! The chain of bounces on a graphics card: the twin of [`ray`](super::ray) in WGSL, quick and in f32.
+//!
+//! Everything that can be edited (facets, medium, view, scope) is data in a buffer: shaders are compiled once, when
+//! the card is opened.
+
+mod bunches;
+mod device;
+mod door;
+mod scope;
+
+pub use device::{Gpu, GpuError};
+pub use door::Seen;
+pub use scope::{MOST_BANDS, MOST_BOUNCES, Shot};
+
+#[cfg(test)]
+mod twins;

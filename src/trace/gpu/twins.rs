@@ -1,0 +1,175 @@
+//! The shaders beside their twins: valid without a card, and with one the same numbers from both.
+
+use super::Gpu;
+use super::door::{Bunch, Frame, Seen};
+use super::scope::{FEW_WGSL, MANY_WGSL, source};
+use crate::optics::{Fresnel, fresnel, reflect, refract};
+use glam::DVec3;
+use std::io::Write;
+use wgpu::naga::{front, valid};
+use wgpu::util::DeviceExt;
+
+#[test]
+fn every_shader_is_valid_and_its_structs_are_laid_out_as_in_rust() {
+    for facets in [FEW_WGSL, MANY_WGSL] {
+        let text = source(facets);
+        let module = front::wgsl::parse_str(&text).unwrap_or_else(|e| panic!("{}", e.emit_to_string(&text)));
+        let mut validator =
+            valid::Validator::new(valid::ValidationFlags::all(), valid::Capabilities::empty());
+        validator.validate(&module).unwrap_or_else(|e| panic!("{}", e.emit_to_string(&text)));
+        let size = |name: &str| {
+            let found = module.types.iter().find(|(_, t)| t.name.as_deref() == Some(name));
+            found.and_then(|(_, t)| match t.inner {
+                wgpu::naga::TypeInner::Struct { span, .. } => Some(span as usize),
+                _ => None,
+            })
+        };
+        assert_eq!(size("Frame"), Some(size_of::<Frame>()));
+        assert_eq!(size("Seen"), Some(size_of::<Seen>()));
+        assert_eq!(size("Bunch"), Some(size_of::<Bunch>()));
+    }
+}
+
+/// One meeting of a ray and a surface on the card: (cos_i, eta, a turn, unused) to what the shader makes of it.
+const MEETING_WGSL: &str = "
+@group(0) @binding(0) var<storage, read> given: array<vec4f>;
+@group(0) @binding(1) var<storage, read_write> found: array<array<vec4f, 5>>;
+
+@compute @workgroup_size(64)
+fn meeting(@builtin(global_invocation_id) id: vec3u) {
+    if id.x >= arrayLength(&given) {
+        return;
+    }
+    let cos_i = given[id.x].x;
+    let eta = given[id.x].y;
+    let f = fresnel(cos_i, eta);
+    let d = vec3f(sqrt(max(1.0 - cos_i * cos_i, 0.0)), 0.0, -cos_i);
+    let n = vec3f(0.0, 0.0, 1.0);
+    let light = turned(vec4f(0.6, 0.25, 0.1, -0.2), cos(given[id.x].z), sin(given[id.x].z));
+    found[id.x] = array<vec4f, 5>(
+        vec4f(f.r_s, f.r_p),
+        vec4f(reflect_ray(d, n, cos_i), f.cos_t),
+        vec4f(refract_ray(d, n, eta, cos_i, f.cos_t), passed(light, f)),
+        light,
+        reflected(light, f),
+    );
+}
+";
+
+/// The same in f64; the coherency matrix as J J† of fields, written out anew.
+fn meeting(cos_i: f64, eta: f64, turn: f64) -> [[f64; 4]; 5] {
+    let f = fresnel(cos_i, eta);
+    let (d, n) = (DVec3::new((1.0 - cos_i * cos_i).max(0.0).sqrt(), 0.0, -cos_i), DVec3::Z);
+    let cos_t = f.cos_t.unwrap_or(0.0);
+    let (up, on) = (reflect(d, n, cos_i), refract(d, n, eta, (cos_i, cos_t)));
+    let [ss, pp, re, im] = [0.6, 0.25, 0.1, -0.2];
+    let (sin, cos) = turn.sin_cos();
+    let light = [
+        cos * cos * ss + sin * sin * pp + 2.0 * sin * cos * re,
+        sin * sin * ss + cos * cos * pp - 2.0 * sin * cos * re,
+        (cos * cos - sin * sin) * re + sin * cos * (pp - ss),
+        im,
+    ];
+    let Fresnel { r_s, r_p, .. } = f;
+    let cross = r_s * r_p.conj() * num_complex::Complex64::new(light[2], light[3]);
+    let (s, p) = (f.reflectance_s(), f.reflectance_p());
+    [
+        [r_s.re, r_s.im, r_p.re, r_p.im],
+        [up.x, up.y, up.z, cos_t],
+        [on.x, on.y, on.z, light[0] * (1.0 - s) + light[1] * (1.0 - p)],
+        light,
+        [light[0] * s, light[1] * p, cross.re, cross.im],
+    ]
+}
+
+#[test]
+fn the_shaders_optics_are_those_of_the_library() {
+    let gpu = match Gpu::open() {
+        Ok(gpu) => gpu,
+        Err(error) if std::env::var_os("BRILLIANTEER_REQUIRE_GPU").is_some() => panic!("{error}"),
+        Err(error) => {
+            let _ =
+                writeln!(std::io::stderr(), "SKIPPED the_shaders_optics_are_those_of_the_library: {error}");
+            return;
+        }
+    };
+    let etas = [1.0 / 2.4175, 0.75, 1.33, 1.77, 2.4175, 2.9];
+    let given: Vec<[f32; 4]> =
+        (0..6000).map(|k| [(k / 6) as f32 / 999.0, etas[k % 6], 0.001 * k as f32, 0.0]).collect();
+    let found = run(&gpu, &given);
+    // Allowed is what the root of 1e-3 loses in f32.
+    let (count, largest) = compared(&given, &found, 1.0);
+    assert!(count > 5900 && largest < 5e-5, "{count} compared, off by {largest:e}");
+    let mutant = compared(&given, &found, 1.001).1;
+    assert!(mutant > 1e-3, "another index makes only {mutant:e}");
+}
+
+/// How many meetings were compared with those at `factor` times the index, and the largest difference.
+fn compared(given: &[[f32; 4]], found: &[[[f32; 4]; 5]], factor: f64) -> (u32, f64) {
+    let (mut compared, mut largest) = (0, 0.0_f64);
+    for (given, found) in given.iter().zip(found) {
+        let [cos_i, eta, turn, _] = given.map(f64::from);
+        let eta = eta * factor;
+        let squared = (1.0 - eta * eta) + (eta * cos_i).powi(2);
+        // The root of what is almost nothing has few digits in f32.
+        if squared.abs() < 1e-3 {
+            continue;
+        }
+        let exact = meeting(cos_i, eta, turn);
+        let both = found.iter().flatten().zip(exact.iter().flatten()).enumerate();
+        // Where reflection is total no ray is refracted, and what stands there means nothing.
+        let meant = both.filter(|(k, _)| squared > 0.0 || !(8..11).contains(k));
+        largest = meant.map(|(_, (a, b))| (f64::from(*a) - b).abs()).fold(largest, f64::max);
+        compared += 1;
+    }
+    (compared, largest)
+}
+
+fn run(gpu: &Gpu, given: &[[f32; 4]]) -> Vec<[[f32; 4]; 5]> {
+    let device = &gpu.device;
+    let text = include_str!("../../../shaders/optics.wgsl").to_owned() + MEETING_WGSL;
+    let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
+        label: None,
+        source: wgpu::ShaderSource::Wgsl(text.into()),
+    });
+    let pipeline = device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+        label: None,
+        layout: None,
+        module: &module,
+        entry_point: None,
+        compilation_options: wgpu::PipelineCompilationOptions::default(),
+        cache: None,
+    });
+    let input = device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
+        label: None,
+        contents: bytemuck::cast_slice(given),
+        usage: wgpu::BufferUsages::STORAGE,
+    });
+    let size = (given.len() * size_of::<[[f32; 4]; 5]>()) as u64;
+    let buffer = |usage| {
+        device.create_buffer(&wgpu::BufferDescriptor { label: None, size, usage, mapped_at_creation: false })
+    };
+    let output = buffer(wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_SRC);
+    let back = buffer(wgpu::BufferUsages::MAP_READ | wgpu::BufferUsages::COPY_DST);
+    let bound = device.create_bind_group(&wgpu::BindGroupDescriptor {
+        label: None,
+        layout: &pipeline.get_bind_group_layout(0),
+        entries: &[
+            wgpu::BindGroupEntry { binding: 0, resource: input.as_entire_binding() },
+            wgpu::BindGroupEntry { binding: 1, resource: output.as_entire_binding() },
+        ],
+    });
+    let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+    {
+        let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
+        pass.set_pipeline(&pipeline);
+        pass.set_bind_group(0, &bound, &[]);
+        pass.dispatch_workgroups(given.len().div_ceil(64) as u32, 1, 1);
+    }
+    encoder.copy_buffer_to_buffer(&output, 0, &back, 0, size);
+    gpu.queue.submit([encoder.finish()]);
+    back.map_async(wgpu::MapMode::Read, .., |_| {});
+    gpu.wait().expect("the card does its work");
+    let mapped = back.get_mapped_range(..).expect("mapped");
+    bytemuck::pod_collect_to_vec(&mapped)
+}
