@@ -1,5 +1,6 @@
 //! Floor 6: the command line. One file a command; `options` holds what several take, `specimen` what they work on.
 
+mod bench;
 mod export;
 mod info;
 mod lists;
@@ -83,6 +84,8 @@ enum Command {
     Measure(measure::Measure),
     /// Show a stone's geometry and proportions
     Info(info::Info),
+    /// Time the tracers on one and the same picture
+    Bench(bench::Bench),
     /// List the materials known by name
     Materials(lists::List),
     /// List the cuts that come with the program, or print one as a cut file to start from
@@ -106,6 +109,7 @@ pub fn main() -> ExitCode {
         Command::Export(export) => export.run(),
         Command::Measure(measure) => measure.run(),
         Command::Info(info) => info.run(),
+        Command::Bench(bench) => bench.run(),
         Command::Materials(list) => list.materials(),
         Command::Cuts(cuts) => cuts.run(),
         Command::Scopes(scopes) => scopes.run(),
