@@ -33,26 +33,3 @@ fn next_facet(point: vec3f, direction: vec3f) -> u32 {
     }
     return facet;
 }
-
-fn entry(origin: vec3f, direction: vec3f) -> Meeting {
-    var into = 0.0;
-    var out = FAR;
-    var facet = 0u;
-    for (var k = 0u; k < frame.counts.x; k++) {
-        let plane = planes[k];
-        let speed = dot(plane.xyz, direction);
-        let gap = plane.w - dot(plane.xyz, origin);
-        if speed < 0.0 {
-            let distance = gap / speed;
-            if distance > into {
-                into = distance;
-                facet = k;
-            }
-        } else if speed > 0.0 {
-            out = min(out, gap / speed);
-        } else if gap < 0.0 {
-            out = -1.0;
-        }
-    }
-    return Meeting(facet, select(-1.0, into, into > 0.0 && into < out));
-}

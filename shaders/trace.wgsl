@@ -1,5 +1,5 @@
 // One chain of bounces: the twin of src/trace/ray.rs. What leaves the stone goes to `leave`, which the reading defines;
-// what the stone is made of comes from `next_facet`, `entry` and `plane_of`.
+// what the stone is made of comes from `next_facet` and `plane_of`.
 
 const LEAST_GAP: f32 = 1e-30;
 const FAR: f32 = 1e30;
@@ -7,6 +7,30 @@ const FAR: f32 = 1e30;
 struct Meeting {
     facet: u32,
     distance: f32,
+}
+
+// The facet by which a ray from a point outside enters, and the distance to it; a negative distance where it misses.
+fn entry(origin: vec3f, direction: vec3f) -> Meeting {
+    var into = 0.0;
+    var out = FAR;
+    var facet = 0u;
+    for (var k = 0u; k < frame.counts.x; k++) {
+        let plane = plane_of(k);
+        let speed = dot(plane.xyz, direction);
+        let gap = plane.w - dot(plane.xyz, origin);
+        if speed < 0.0 {
+            let distance = gap / speed;
+            if distance > into {
+                into = distance;
+                facet = k;
+            }
+        } else if speed > 0.0 {
+            out = min(out, gap / speed);
+        } else if gap < 0.0 {
+            out = -1.0;
+        }
+    }
+    return Meeting(facet, select(-1.0, into, into > 0.0 && into < out));
 }
 
 // What of a ray did not leave the stone.
