@@ -26,9 +26,12 @@ const PIXELS_AT_ONCE: u32 = 1 << 20;
 /// The same where the processor does it.
 const PIXELS_AT_ONCE_IN_SOFTWARE: u32 = 1 << 17;
 
-/// Rays are followed no further. Software drivers end a shader's loops, whatever they have done by then, after 65,535
-/// turns, and some cards' drivers after some seconds.
+/// Rays are followed no further: chains of very different lengths side by side would leave most of a card idle.
 pub const MOST_BOUNCES: u32 = 64;
+
+/// Software drivers end a shader's loops, whatever they have done by then, after 65,535 turns: bounces of one ray times
+/// what it tries at each stay below this.
+const MOST_TURNS_IN_SOFTWARE: usize = 60_000;
 
 /// Side of a workgroup, pixels.
 const WORKGROUP: u32 = 8;
@@ -167,7 +170,11 @@ impl<'a> Stage<'a> {
             })
         };
         let facets = if is_few { wgpu::BufferUsages::UNIFORM } else { wgpu::BufferUsages::STORAGE };
-        let told = frame(shot, planes.len(), bunches.len());
+        let mut told = frame(shot, planes.len(), bunches.len());
+        if gpu.is_software() {
+            let most = MOST_TURNS_IN_SOFTWARE / (planes.len() + bunches.len());
+            told.counts[2] = told.counts[2].min(most as u32);
+        }
         let uniform = wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST;
         let frame = buffer("frame", bytemuck::bytes_of(&told), uniform);
         let planes = buffer("planes", bytemuck::cast_slice(&narrowed), facets);
