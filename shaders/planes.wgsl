@@ -1,4 +1,4 @@
-// What light meets: a convex stone's planes, n·x <= w, found one after the other. `polytope.wgsl` is the same for many.
+// What light meets: convex stones' planes, n·x <= w, found one after the other. `polytope.wgsl` is the same for many.
 
 @group(0) @binding(1) var<uniform> planes: array<vec4f, MOST_PLANES>;
 
@@ -6,12 +6,37 @@ fn plane_of(facet: u32) -> vec4f {
     return planes[facet];
 }
 
+// The facet by which a ray from a point outside enters the present body, and the distance to it; a negative distance
+// where it misses.
+fn entry(origin: vec3f, direction: vec3f) -> Meeting {
+    var into = 0.0;
+    var out = FAR;
+    var facet = 0u;
+    for (var k = body.range.x; k < body.range.y; k++) {
+        let plane = planes[k];
+        let speed = dot(plane.xyz, direction);
+        let gap = plane.w - dot(plane.xyz, origin);
+        if speed < 0.0 {
+            let distance = gap / speed;
+            if distance > into {
+                into = distance;
+                facet = k;
+            }
+        } else if speed > 0.0 {
+            out = min(out, gap / speed);
+        } else if gap < 0.0 {
+            out = -1.0;
+        }
+    }
+    return Meeting(facet, select(-1.0, into, into > 0.0 && into < out));
+}
+
 // The facet by which a ray leaves from a point inside: that of the greatest ratio of speed toward a plane to the gap
 // before it, compared without dividing.
 fn next_facet(point: vec3f, direction: vec3f) -> u32 {
     var best = vec2f(0.0, 1.0);
-    var facet = 0u;
-    for (var k = 0u; k < frame.counts.x; k++) {
+    var facet = body.range.x;
+    for (var k = body.range.x; k < body.range.y; k++) {
         let plane = planes[k];
         let speed = dot(plane.xyz, direction);
         let gap = max(plane.w - dot(plane.xyz, point), LEAST_GAP);

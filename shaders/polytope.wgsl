@@ -1,4 +1,4 @@
-// What light meets: a convex stone of many planes. Planes that look much the same way stand in bunches, and a bunch is
+// What light meets: convex stones of many planes. Planes that look much the same way stand in bunches, and a bunch is
 // opened only where its bound says that it may hold the facet sought.
 
 @group(0) @binding(1) var<storage, read> planes: array<vec4f>;
@@ -8,11 +8,54 @@ fn plane_of(facet: u32) -> vec4f {
     return planes[facet];
 }
 
+// At most how far the plane of a bunch that is farthest below a point is below it.
+fn height_at_most(bunch: Bunch, point: vec3f) -> f32 {
+    return dot(bunch.middle.xyz, point) - bunch.middle.w + bunch.spread.y + bunch.spread.x * length(point);
+}
+
+// As in planes.wgsl. A bunch that the point reached so far is certainly inside of can neither move the entry on nor show
+// that the ray misses.
+fn entry(origin: vec3f, direction: vec3f) -> Meeting {
+    var into = 0.0;
+    var facet = body.range.x;
+    for (var b = body.range.z; b < body.range.w; b++) {
+        let bunch = bunches[b];
+        if height_at_most(bunch, origin + direction * into) <= 0.0 {
+            continue;
+        }
+        let first = u32(bunch.spread.z);
+        for (var k = first; k < first + u32(bunch.spread.w); k++) {
+            let plane = planes[k];
+            let speed = dot(plane.xyz, direction);
+            let gap = plane.w - dot(plane.xyz, origin);
+            if speed < 0.0 && gap < into * speed {
+                into = gap / speed;
+                facet = k;
+            }
+        }
+    }
+    let point = origin + direction * into;
+    for (var b = body.range.z; b < body.range.w; b++) {
+        let bunch = bunches[b];
+        if height_at_most(bunch, point) <= 0.0 {
+            continue;
+        }
+        let first = u32(bunch.spread.z);
+        for (var k = first; k < first + u32(bunch.spread.w); k++) {
+            let plane = planes[k];
+            if dot(plane.xyz, direction) >= 0.0 && dot(plane.xyz, point) > plane.w {
+                return Meeting(facet, -1.0);
+            }
+        }
+    }
+    return Meeting(facet, select(-1.0, into, into > 0.0));
+}
+
 fn next_facet(point: vec3f, direction: vec3f) -> u32 {
     var best = vec2f(0.0, 1.0);
-    var facet = 0u;
+    var facet = body.range.x;
     let reach = length(point);
-    for (var b = 0u; b < frame.counts.y; b++) {
+    for (var b = body.range.z; b < body.range.w; b++) {
         let bunch = bunches[b];
         let speed_at_most = dot(bunch.middle.xyz, direction) + bunch.spread.x;
         let gap_at_least =

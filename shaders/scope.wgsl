@@ -1,6 +1,7 @@
 // What a camera in a scope records of each pixel, and the strongest exits: energy by band.
 
 @group(0) @binding(2) var<storage, read_write> seen: array<Seen>;
+@group(0) @binding(6) var<uniform> bands: Bands;
 
 var<private> sum: Seen;
 var<private> strongest_weight: f32;
@@ -8,9 +9,9 @@ var<private> strongest_band: u32;
 
 // How many of the borders lie below the direction: the sines of the bands' elevations, rising.
 fn band_of(direction: vec3f) -> u32 {
-    let up = dot(direction, frame.zenith.xyz);
-    let above = vec4u(select(vec4f(0.0), vec4f(1.0), vec4f(up) >= frame.borders_low))
-        + vec4u(select(vec4f(0.0), vec4f(1.0), vec4f(up) >= frame.borders_high));
+    let up = dot(direction, bands.zenith.xyz);
+    let above = vec4u(select(vec4f(0.0), vec4f(1.0), vec4f(up) >= bands.borders_low))
+        + vec4u(select(vec4f(0.0), vec4f(1.0), vec4f(up) >= bands.borders_high));
     return above.x + above.y + above.z + above.w;
 }
 
@@ -18,8 +19,8 @@ fn marked(band: u32, first: u32) -> vec4f {
     return select(vec4f(0.0), vec4f(1.0), vec4u(band) == vec4u(0u, 1u, 2u, 3u) + first);
 }
 
-fn leave(direction: vec3f, weight: f32, is_surface: bool) {
-    let band = band_of(direction);
+fn leave(ray: Ray, weight: f32, is_surface: bool) {
+    let band = band_of(ray.direction);
     if is_surface {
         sum.surface[0] += marked(band, 0u) * weight;
         sum.surface[1] += marked(band, 4u) * weight;
@@ -33,37 +34,25 @@ fn leave(direction: vec3f, weight: f32, is_surface: bool) {
     }
 }
 
-// A point outside the stone on the ray through a point of the image plane, and the ray's direction.
-fn camera_ray(p: vec2f) -> array<vec3f, 2> {
-    let at = frame.right.xyz * p.x + frame.up.xyz * p.y;
-    var direction = -frame.toward.xyz;
-    var from_eye = FAR;
-    if frame.toward.w > 0.0 {
-        let ray = at - frame.toward.xyz * frame.toward.w;
-        from_eye = length(ray);
-        direction = ray / from_eye;
-    }
-    return array<vec3f, 2>(at - direction * min(from_eye, 2.0 * frame.right.w + length(at)), direction);
-}
-
 @compute @workgroup_size(8, 8)
 fn scope(@builtin(global_invocation_id) id: vec3u) {
-    let size = frame.film.x;
-    let pixel = vec2u(id.x, frame.film.y + id.y);
-    if pixel.x >= size || id.y >= frame.film.z {
+    let pixel = vec2u(id.x, frame.film.z + id.y);
+    if id.x >= frame.film.x || id.y >= frame.film.w {
         return;
     }
     sum = Seen();
     strongest_weight = 0.0;
     strongest_band = NONE;
+    body = bodies[0];
+    medium = media[0];
     // The ray stands in one cell of the pixel's grid.
-    let grid = frame.film.w;
+    let grid = frame.turn.y;
     let turn = frame.turn.x;
-    let step = (vec2f(f32(turn % grid), f32(turn / grid)) + frame.limits.zw) / f32(grid);
-    let centred = vec2f(pixel) + step - 0.5 * f32(size);
-    let ray = camera_ray(vec2f(centred.x, -centred.y) * (2.0 * frame.limits.y / f32(size)));
-    let rest = follow(ray[0], ray[1], frame.zenith.w, frame.up.w);
-    if rest.hit {
+    let cell = vec2f(f32(turn % grid), f32(turn / grid));
+    let ray = pixel_ray(pixel, (cell + frame.limits.zw) / f32(grid));
+    let entered = entry(ray[0], ray[1]);
+    if entered.distance >= 0.0 {
+        let rest = follow(Ray(ray[0], ray[1], vec3f(0.0)), entered, 1.0);
         sum.rest = vec4f(rest.absorbed, rest.unresolved, 1.0, 0.0);
         sum.strongest[0] = marked(strongest_band, 0u);
         sum.strongest[1] = marked(strongest_band, 4u);
@@ -72,7 +61,7 @@ fn scope(@builtin(global_invocation_id) id: vec3u) {
         }
     }
     let share = 1.0 / f32(grid * grid);
-    let at = id.y * size + id.x;
+    let at = id.y * frame.film.x + id.x;
     var before = seen[at];
     if turn == 0u {
         before = Seen();

@@ -26,8 +26,8 @@ fn views() -> impl Strategy<Value = View> {
 }
 
 fn media() -> impl Strategy<Value = Medium> {
-    (1.0..2.9_f64, prop_oneof![Just(0.0), 0.0..2.0_f64])
-        .prop_map(|(index, absorption)| Medium { index, absorption })
+    (1.0..2.9_f64, prop_oneof![Just([0.0; 2]), [0.0..2.0_f64, 0.0..2.0_f64]])
+        .prop_map(|(index, absorption)| Medium { absorption, ..Medium::clear(index) })
 }
 
 /// Random round brilliants, some with few girdle facets.
@@ -131,8 +131,11 @@ fn every_pixel_of_a_picture_accounts_for_all_its_light() {
     let stone = built(&brilliant((57.0, 36.0, 41.8), (50.0, 77.0), 96));
     for (medium, view) in [
         (Medium::clear(2.4175), View::default()),
-        (Medium { index: 1.77, absorption: 0.4 }, View { tilt: 0.3, azimuth: 0.5, ..View::default() }),
-        (Medium { index: 2.16, absorption: 3.0 }, View { side: Side::Culet, ..View::default() }),
+        (
+            Medium { absorption: [0.0, 0.8], ..Medium::clear(1.77) },
+            View { tilt: 0.3, azimuth: 0.5, ..View::default() },
+        ),
+        (Medium::grey(2.16, 3.0), View { side: Side::Culet, ..View::default() }),
     ] {
         let beams = traced(&stone, medium, &view, 0.02, true);
         let film = Film::around(&stone.polytope, &beams.view, 1024);

@@ -79,7 +79,7 @@ fn the_tables_reflection_turns_from_green_to_red_at_its_angle() {
 fn figures_by_rays_agree_with_beams_within_their_error() {
     let stone = built(&brilliant((57.0, 36.0, 41.8), (50.0, 77.0), 96));
     let view = View { tilt: 0.2, azimuth: 0.4, ..View::default() };
-    for medium in [DIAMOND, Medium { index: 1.77, absorption: 0.3 }] {
+    for medium in [DIAMOND, Medium::grey(1.77, 0.3)] {
         let exact = by_beams(&traced(&stone, medium, &view, 2e-3, true), &aset());
         let options = ray::Options { least_weight: 1e-4, ..ray::Options::default() };
         let sampled = by_rays(&stone.polytope, medium, &view, &aset(), (options, 48), &unwatched).unwrap();

@@ -17,4 +17,4 @@ pub use colour::{LinearRgb, SrgbEncoder, encoded_from_linear, linear_from_encode
 pub use dispersion::{Dispersion, DispersionError, VISIBLE_NM, line};
 pub use fresnel::{Fresnel, fresnel, reflectance};
 pub use material::{Material, UnknownMaterial, material, materials};
-pub use snell::{brewster_angle, cos_transmitted, critical_angle, reflect, refract};
+pub use snell::{brewster_angle, cos_transmitted, critical_angle, reflect, refract, refracted_change};

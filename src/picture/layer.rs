@@ -115,12 +115,19 @@ impl Layer {
         self.patches.push(Patch { corners, channel: channel as u16, weight });
     }
 
-    /// Light of this weight over a beam's outline, faded by absorption along `path`: in strips where it is uneven.
+    /// Light of this weight over a beam's outline, faded by absorption along `path`.
     fn add_faded(&mut self, beams: &Beams, beam: &Beam, path: Affine, weight: f64, channel: usize) {
-        if beams.medium.absorption == 0.0 {
+        if beams.medium.is_clear() {
             return self.add(beam.outline, channel, weight);
         }
-        let depth = path * beams.medium.absorption;
+        match beams.medium.absorption {
+            [o, e] if o == e => self.add_strips(beam, path * o, weight, channel),
+            both => both.iter().for_each(|&a| self.add_strips(beam, path * a, 0.5 * weight, channel)),
+        }
+    }
+
+    /// Light over a beam's outline that falls as exp(-depth), in strips where that is uneven.
+    fn add_strips(&mut self, beam: &Beam, depth: Affine, weight: f64, channel: usize) {
         let depths = || beam.outline.iter().map(|&p| depth.at(p));
         let (low, high) = (depths().fold(f64::INFINITY, f64::min), depths().fold(0.0, f64::max));
         let deepest = high.min(low + DARK);

@@ -1,22 +1,37 @@
 //! What a stone is made of, at one wavelength.
 
-/// A clear or absorbing isotropic medium at one wavelength, surrounded by air of index 1.
+/// A clear or absorbing medium at one wavelength, surrounded by air of index 1.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Medium {
     /// Refractive index, at least 1.
     pub index: f64,
-    /// Naperian absorption coefficient per girdle radius: intensity falls as exp(-absorption · path).
-    pub absorption: f64,
+    /// Naperian absorption coefficients per girdle radius of the two polarisations that a uniaxial stone lets through;
+    /// equal in others. Light of each falls as exp(-absorption · path).
+    pub absorption: [f64; 2],
+    /// How much the index changes over the wavelengths that are taken for one; 0 for a single wavelength.
+    pub spread: f64,
 }
 
 impl Medium {
     /// A medium that absorbs nothing.
     pub const fn clear(index: f64) -> Self {
-        Self { index, absorption: 0.0 }
+        Self::grey(index, 0.0)
     }
 
-    /// The share of the intensity that is left after a path of this length, in girdle radii.
+    /// A medium that absorbs both polarisations alike.
+    pub const fn grey(index: f64, absorption: f64) -> Self {
+        Self { index, absorption: [absorption; 2], spread: 0.0 }
+    }
+
+    /// Whether it absorbs nothing.
+    pub fn is_clear(&self) -> bool {
+        self.absorption == [0.0; 2]
+    }
+
+    /// The share of the intensity that is left after a path of this length from the surface, in girdle radii: the mean
+    /// of the two polarisations', half the light each.
     pub fn transmittance(&self, path: f64) -> f64 {
-        (-self.absorption * path).exp()
+        let [o, e] = self.absorption.map(|a| (-a * path).exp());
+        0.5 * (o + e)
     }
 }

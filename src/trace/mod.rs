@@ -4,6 +4,8 @@ pub mod beam;
 #[cfg(feature = "gpu")]
 pub mod gpu;
 pub mod ray;
+pub mod sitting;
+pub mod surround;
 
 use std::ops::ControlFlow;
 

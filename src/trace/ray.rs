@@ -4,14 +4,19 @@
 //! leaves and the rest goes on. Rays know nothing of outlines or symmetry and follow polarisation as fields in
 //! space, so that where rays and beams agree it is not by a shared mistake.
 
+mod camera;
+mod company;
 mod search;
 
+pub use self::camera::Camera;
+pub use self::company::ByRays;
 use self::search::Search;
-use crate::math::{Basis, Plane, Polytope};
-use crate::optics::{cos_transmitted, fresnel, reflect, reflectance, refract};
-use crate::scene::{Medium, Projection, View};
-use glam::{DVec2, DVec3};
+use crate::math::{Plane, Polytope};
+use crate::optics::{cos_transmitted, fresnel, reflect, reflectance, refract, refracted_change};
+use crate::scene::Medium;
+use glam::DVec3;
 use num_complex::Complex64;
+use std::sync::Arc;
 
 /// How far to follow a ray.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -41,6 +46,8 @@ pub struct Exit {
     pub path: f64,
     /// Unit direction in which it leaves.
     pub direction: DVec3,
+    /// How far that direction moves over the medium's spread of indices.
+    pub sweep: DVec3,
     /// The share of light from that direction which reaches the eye.
     pub weight: f64,
     /// Whether this is the glare of the outer surface.
@@ -61,54 +68,10 @@ pub struct Rest {
 /// Follows single rays through one stone.
 #[derive(Debug, Clone)]
 pub struct Tracer {
-    planes: Vec<Plane>,
-    search: Search,
+    planes: Arc<[Plane]>,
+    search: Arc<Search>,
     medium: Medium,
     options: Options,
-}
-
-/// The image of a view: where the ray of each point begins, and which way it goes.
-#[derive(Debug, Clone, Copy)]
-pub struct Camera {
-    basis: Basis,
-    /// Distance of the eye; infinite for parallel rays.
-    distance: f64,
-    /// How far the stone reaches from the origin.
-    reach: f64,
-}
-
-impl Camera {
-    /// The camera of a view of this stone.
-    pub fn new(view: &View, polytope: &Polytope) -> Self {
-        let reach = polytope.vertices().iter().map(|v| v.length()).fold(0.0, f64::max);
-        let distance = match view.projection {
-            Projection::Orthographic => f64::INFINITY,
-            Projection::Perspective { distance } => distance,
-        };
-        Self { basis: view.basis(), distance, reach }
-    }
-
-    /// Half the side of the smallest square around the image's origin that holds the whole stone; `None` where the
-    /// eye is not in front of all of it.
-    pub fn reach(&self, polytope: &Polytope) -> Option<f64> {
-        polytope.vertices().iter().try_fold(0.0_f64, |reach, &v| {
-            let nearness = 1.0 - self.basis.toward.dot(v) / self.distance;
-            (nearness > 0.0).then(|| reach.max(self.basis.project(v).abs().max_element() / nearness))
-        })
-    }
-
-    /// A point outside the stone on the ray through a point of the image plane, and the ray's unit direction.
-    pub fn ray(&self, p: DVec2) -> (DVec3, DVec3) {
-        let (at, toward) = (self.basis.lift(p), self.basis.toward);
-        let (direction, from_eye) = if self.distance.is_infinite() {
-            (-toward, f64::INFINITY)
-        } else {
-            let ray = at - toward * self.distance;
-            (ray / ray.length(), ray.length())
-        };
-        // From a far eye the way to the stone would cost the digits that tell where the stone is met.
-        (at - direction * from_eye.min(2.0 * self.reach + at.length()), direction)
-    }
 }
 
 /// The light on a stretch between two facets, as what the eye's two polarisations have become.
@@ -189,47 +152,76 @@ fn across(ray: DVec3, normal: DVec3) -> DVec3 {
     if length > SQUARE_ON { s / length } else { ray.any_orthonormal_vector() }
 }
 
+/// The mirror image of any vector.
+fn mirrored(v: DVec3, normal: DVec3) -> DVec3 {
+    v - normal * (2.0 * v.dot(normal))
+}
+
 impl Tracer {
     /// Prepares a stone.
     pub fn new(polytope: &Polytope, medium: Medium, options: Options) -> Self {
         let planes: Vec<Plane> = polytope.planes().collect();
-        let search = Search::new(&planes);
-        Self { planes, search, medium, options }
+        let search = Arc::new(Search::new(&planes));
+        Self { planes: planes.into(), search, medium, options }
+    }
+
+    /// The same stone of another medium.
+    pub fn made_of(&self, medium: Medium) -> Self {
+        Self { medium, ..self.clone() }
     }
 
     /// Follows the ray from a point outside, calling `leave` for the surface's glare and for each exit; `None`
     /// where it misses the stone.
-    pub fn follow(&self, origin: DVec3, direction: DVec3, mut leave: impl FnMut(Exit)) -> Option<Rest> {
-        let (facet, distance) = self.enter(origin, direction)?;
+    pub fn follow(&self, origin: DVec3, direction: DVec3, leave: impl FnMut(Exit)) -> Option<Rest> {
+        self.follow_swept(origin, (direction, DVec3::ZERO), 1.0, leave)
+    }
+
+    /// The same for a ray of another weight than 1, whose direction moves over the spread of wavelengths: one that has
+    /// left another stone.
+    pub fn follow_swept(
+        &self,
+        origin: DVec3,
+        (direction, sweep): (DVec3, DVec3),
+        weight: f64,
+        mut leave: impl FnMut(Exit),
+    ) -> Option<Rest> {
+        let (facet, distance) = self.meet(origin, direction)?;
         let normal = self.planes[facet].normal;
         let point = origin + direction * distance;
         let eta = 1.0 / self.medium.index;
         let cos_i = -direction.dot(normal);
         let cos_t = cos_transmitted(cos_i, eta)?;
         let inward = refract(direction, normal, eta, (cos_i, cos_t));
-        let (light, glare) = self.eye_light(direction).split(direction, inward, normal, eta, true);
-        let reflected = reflect(direction, normal, cos_i);
+        let (light, glare) = self.eye_light(direction, weight).split(direction, inward, normal, eta, true);
+        let of_eta = -self.medium.spread * eta * eta;
+        let swept = refracted_change(direction, normal, eta, (cos_i, cos_t), (sweep, of_eta));
         leave(Exit {
             facet: facet as u32,
             point,
             path: 0.0,
-            direction: reflected,
+            direction: reflect(direction, normal, cos_i),
+            sweep: mirrored(sweep, normal),
             weight: glare,
             surface: true,
         });
-        Some(self.bounce(point, inward, light, leave))
+        Some(self.bounce(point, (inward, swept), light, leave))
     }
 
-    fn eye_light(&self, direction: DVec3) -> Light {
+    fn eye_light(&self, direction: DVec3, weight: f64) -> Light {
         if !self.options.polarised {
-            return Light::Unpolarised(1.0);
+            return Light::Unpolarised(weight);
         }
         let (a, b) = direction.any_orthonormal_pair();
-        Light::Fields([a, b].map(|re| Field { re, im: DVec3::ZERO }))
+        Light::Fields([a, b].map(|axis| Field { re: axis * weight.sqrt(), im: DVec3::ZERO }))
     }
 
-    fn bounce(&self, from: DVec3, along: DVec3, mut light: Light, mut leave: impl FnMut(Exit)) -> Rest {
-        let (mut point, mut direction) = (from, along);
+    fn bounce(
+        &self,
+        mut point: DVec3,
+        (mut direction, mut sweep): (DVec3, DVec3),
+        mut light: Light,
+        mut leave: impl FnMut(Exit),
+    ) -> Rest {
         let mut rest = Rest::default();
         let (mut left, mut path) = (1.0, 0.0);
         while light.weight() * left > self.options.least_weight && rest.bounces < self.options.most_bounces {
@@ -237,8 +229,8 @@ impl Tracer {
             let normal = self.planes[facet].normal;
             point += direction * distance;
             path += distance;
-            if self.medium.absorption > 0.0 {
-                let after = left * self.medium.transmittance(distance);
+            if !self.medium.is_clear() {
+                let after = self.medium.transmittance(path);
                 rest.absorbed += light.weight() * (left - after);
                 left = after;
             }
@@ -249,19 +241,26 @@ impl Tracer {
                 _ => light.split(direction, reflected, normal, self.medium.index, false),
             };
             if let Some(cos_t) = cos_t {
-                let exit = refract(direction, -normal, self.medium.index, (cos_i, cos_t));
-                let weight = weight * left;
-                leave(Exit { facet: facet as u32, point, path, direction: exit, weight, surface: false });
+                let Medium { index, spread, .. } = self.medium;
+                leave(Exit {
+                    facet: facet as u32,
+                    point,
+                    path,
+                    direction: refract(direction, -normal, index, (cos_i, cos_t)),
+                    sweep: refracted_change(direction, -normal, index, (cos_i, cos_t), (sweep, spread)),
+                    weight: weight * left,
+                    surface: false,
+                });
             }
-            (light, direction) = (onward, reflected);
+            (light, direction, sweep) = (onward, reflected, mirrored(sweep, normal));
             rest.bounces += 1;
         }
         rest.unresolved = light.weight() * left;
         rest
     }
 
-    /// Facet and distance at which a ray enters from outside.
-    fn enter(&self, origin: DVec3, direction: DVec3) -> Option<(usize, f64)> {
+    /// Facet and distance at which a ray enters from outside; `None` where it misses.
+    pub fn meet(&self, origin: DVec3, direction: DVec3) -> Option<(usize, f64)> {
         let facet = self.search.entry(origin, direction)?;
         let plane = &self.planes[facet];
         let distance = -plane.distance(origin) / plane.normal.dot(direction);

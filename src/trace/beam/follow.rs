@@ -149,9 +149,12 @@ fn land(
 
 /// Integrals over the outline of what absorption leaves after each of two paths; the area where nothing absorbs.
 fn attenuated(outline: &[DVec2], before: Affine, after: Affine, medium: &Medium, area: f64) -> (f64, f64) {
-    if medium.absorption == 0.0 {
+    if medium.is_clear() {
         return (area, area);
     }
-    let left = |path: Affine| integral_of_decay(outline, path * medium.absorption);
+    let left = |path: Affine| {
+        let [o, e] = medium.absorption.map(|a| integral_of_decay(outline, path * a));
+        0.5 * (o + e)
+    };
     (left(before), left(after))
 }

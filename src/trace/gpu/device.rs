@@ -1,7 +1,8 @@
 //! Opening a graphics card, and what can go wrong with one.
 
-use super::scope::Pipelines;
+use super::shaders::{Pipelines, Reading};
 use std::sync::{Arc, Mutex, PoisonError};
+use wgpu::util::DeviceExt;
 
 /// Why the work cannot be done by the graphics card; point rays can do it instead.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
@@ -25,6 +26,14 @@ pub enum GpuError {
         /// What the driver says.
         why: String,
     },
+    /// There are more stones than the card has room for.
+    #[error("{count} stones are traced by rays; the graphics card takes {most}")]
+    TooManyStones {
+        /// How many there are.
+        count: usize,
+        /// How many there is room for.
+        most: usize,
+    },
     /// The scope has more bands than a pixel has room for.
     #[error("a scope of {count} bands is traced by rays; the graphics card takes {most}")]
     TooManyBands {
@@ -39,7 +48,8 @@ pub enum GpuError {
 pub struct Gpu {
     pub(super) device: wgpu::Device,
     pub(super) queue: wgpu::Queue,
-    pub(super) pipelines: Pipelines,
+    pub(super) scopes: Pipelines,
+    pub(super) lights: Pipelines,
     name: String,
     is_software: bool,
     fault: Arc<Mutex<Option<String>>>,
@@ -75,10 +85,10 @@ impl Gpu {
         let (lost, other) = (Arc::clone(&fault), Arc::clone(&fault));
         device.set_device_lost_callback(move |_, why| note(&lost, why));
         device.on_uncaptured_error(Arc::new(move |error: wgpu::Error| note(&other, error.to_string())));
-        let pipelines = Pipelines::new(&device);
         let name = format!("{} ({})", info.name, info.backend);
         let is_software = info.device_type == wgpu::DeviceType::Cpu;
-        let gpu = Self { device, queue, pipelines, name, is_software, fault };
+        let [scopes, lights] = [Reading::Scope, Reading::Light].map(Pipelines::new);
+        let gpu = Self { device, queue, scopes, lights, name, is_software, fault };
         gpu.check().map(|()| gpu)
     }
 
@@ -90,6 +100,15 @@ impl Gpu {
     /// Whether it is no card but a driver that computes on the processor, which point rays do quicker.
     pub fn is_software(&self) -> bool {
         self.is_software
+    }
+
+    /// A buffer with this in it.
+    pub(super) fn buffer(&self, label: &str, contents: &[u8], usage: wgpu::BufferUsages) -> wgpu::Buffer {
+        self.device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
+            label: Some(label),
+            contents,
+            usage,
+        })
     }
 
     /// Waits until all work is done.

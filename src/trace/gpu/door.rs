@@ -2,7 +2,8 @@
 
 use bytemuck::{Pod, Zeroable};
 
-/// Declares a struct whose fields are all four numbers wide, so that Rust and WGSL lay it out alike, and its WGSL text.
+/// Declares a struct whose fields are all one number or all four wide, so that Rust and WGSL lay it out alike, and its WGSL
+/// text.
 macro_rules! both_sides {
     ($(#[$meta:meta])* $name:ident, $wgsl:ident { $($(#[$doc:meta])* $field:ident: $kind:ident,)* }) => {
         $(#[$meta])*
@@ -14,37 +15,121 @@ macro_rules! both_sides {
         pub(super) const $wgsl: &str =
             concat!("struct ", stringify!($name), " {", $(stringify!($field), ": ", both_sides!(# $kind), ",",)* "}\n");
     };
+    (@ f32) => { f32 };
     (@ vec4f) => { [f32; 4] };
     (@ vec4u) => { [u32; 4] };
     (@ two_vec4f) => { [f32; 8] };
+    (# f32) => { "f32" };
     (# vec4f) => { "vec4f" };
     (# vec4u) => { "vec4u" };
     (# two_vec4f) => { "array<vec4f, 2>" };
 }
 
 both_sides! {
-    /// All that a dispatch is told.
+    /// All that a dispatch is told, whatever it looks for.
     Frame, FRAME_WGSL {
-        /// The image's x axis; how far the stone reaches from the origin.
+        /// The image's x axis; how far the stones reach from the origin.
         right: vec4f,
-        /// The image's y axis; the medium's absorption per girdle radius.
+        /// The image's y axis; the side of a pixel.
         up: vec4f,
         /// The axis to the eye; its distance, 0 for parallel rays.
         toward: vec4f,
-        /// The scope's axis; the medium's index.
+        /// Least weight; nothing; where in its pixel, or its cell of the pixel's grid, a ray stands, x and y.
+        limits: vec4f,
+        /// Stones; wavelengths; most bounces; 1 for polarised.
+        counts: vec4u,
+        /// Pixels across; pixels down; first row and number of rows of this dispatch.
+        film: vec4u,
+        /// How many dispatches the pixels have seen; in scopes the rays along each side of a pixel, under light the first
+        /// row that the stage holds; first wavelength and the one after the last.
+        turn: vec4u,
+    }
+}
+
+both_sides! {
+    /// A scope.
+    Bands, BANDS_WGSL {
+        /// Its axis.
         zenith: vec4f,
         /// Sines of the elevations at which the bands after the first begin; 2 where there is none.
         borders_low: vec4f,
         /// The next four.
         borders_high: vec4f,
-        /// Least weight; half the film's side; where in its cell of a pixel's grid a ray stands, x and y.
-        limits: vec4f,
-        /// Planes; bunches; most bounces; 1 for polarised.
-        counts: vec4u,
-        /// Pixels along a side; first row; rows; rays along each side of a pixel.
-        film: vec4u,
-        /// Which of a pixel's rays; nothing in the others.
-        turn: vec4u,
+    }
+}
+
+both_sides! {
+    /// One stone.
+    Body, BODY_WGSL {
+        /// Middle and radius of a ball around it.
+        middle: vec4f,
+        /// Its first plane, the one after its last, and the same of its bunches.
+        range: vec4u,
+    }
+}
+
+both_sides! {
+    /// What a stone is made of at one wavelength, as in [`crate::scene::Medium`].
+    Medium, MEDIUM_WGSL {
+        /// Refractive index.
+        index: f32,
+        /// Its change over the wavelengths that are taken for one.
+        spread: f32,
+        /// Absorption of the ordinary polarisation.
+        absorption_o: f32,
+        /// Of the extraordinary.
+        absorption_e: f32,
+    }
+}
+
+both_sides! {
+    /// What stands around the stones.
+    Surround, SURROUND_WGSL {
+        /// Its x axis; side of its map.
+        right: vec4f,
+        /// Its y axis; number of lamps.
+        up: vec4f,
+        /// Its axis; number of the map's last level.
+        zenith: vec4f,
+        /// The photograph's distance behind the origin and its width, 0 for none; cosine of the head's half angle, and
+        /// least width of its shadow's edge.
+        photo: vec4f,
+        /// 1 where rays beside the stones see what stands around.
+        backdrop: vec4f,
+    }
+}
+
+both_sides! {
+    /// A small disc of even light.
+    Lamp, LAMP_WGSL {
+        /// Direction to its middle; square of the chord from there to its edge.
+        toward: vec4f,
+        /// Radiance by channel.
+        radiance: vec4f,
+    }
+}
+
+both_sides! {
+    /// The colour of each channel's light in a band of wavelengths.
+    Response, RESPONSE_WGSL {
+        /// Of the key illuminant.
+        key: vec4f,
+        /// Of red.
+        red: vec4f,
+        /// Of green.
+        green: vec4f,
+        /// Of blue.
+        blue: vec4f,
+    }
+}
+
+both_sides! {
+    /// What light shows of one pixel: sums over rays and wavelengths.
+    Lit, LIT_WGSL {
+        /// Red, green, blue, cover.
+        colour: vec4f,
+        /// Unresolved; absorbed; bounces; nothing.
+        rest: vec4f,
     }
 }
 
@@ -91,5 +176,17 @@ impl Seen {
     /// Share of its rays whose strongest exit is not certain.
     pub fn undecided(&self) -> f32 {
         self.rest[3]
+    }
+}
+
+/// A vector and a fourth number, narrowed.
+pub(super) fn with(v: glam::DVec3, w: f64) -> [f32; 4] {
+    [v.x as f32, v.y as f32, v.z as f32, w as f32]
+}
+
+impl From<&crate::scene::Medium> for Medium {
+    fn from(medium: &crate::scene::Medium) -> Self {
+        let [absorption_o, absorption_e] = medium.absorption.map(|a| a as f32);
+        Self { index: medium.index as f32, spread: medium.spread as f32, absorption_o, absorption_e }
     }
 }

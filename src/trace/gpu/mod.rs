@@ -6,11 +6,17 @@
 mod bunches;
 mod device;
 mod door;
+mod light;
 mod scope;
+mod shaders;
+mod solids;
+mod stage;
 
 pub use device::{Gpu, GpuError};
 pub use door::Seen;
+pub use light::{ByCard, MOST_WAVELENGTHS};
 pub use scope::{MOST_BANDS, MOST_BOUNCES, Shot};
+pub use solids::MOST_BODIES;
 
 #[cfg(test)]
 mod twins;

@@ -1,0 +1,118 @@
+// What stands around the stones: the twin of src/trace/surround.rs. Light is radiance in four channels: of the key
+// illuminant's spectrum, and of red, green and blue.
+
+@group(0) @binding(6) var<uniform> surround: Surround;
+@group(0) @binding(7) var<uniform> lamps: array<Lamp, MOST_LAMPS>;
+@group(0) @binding(8) var sky: texture_2d<f32>;
+@group(0) @binding(9) var photo: texture_2d<f32>;
+
+// Where in the octahedral map a direction stands, 0 to 1.
+fn octahedral(d: vec3f) -> vec2f {
+    let flat = d.xy / (abs(d.x) + abs(d.y) + abs(d.z));
+    let folded = (1.0 - abs(flat.yx)) * select(vec2f(-1.0), vec2f(1.0), flat >= vec2f(0.0));
+    return 0.5 + 0.5 * select(folded, flat, d.z >= 0.0);
+}
+
+// A texel of the map, or beyond its edge the one that continues it.
+fn sky_texel(at: vec2i, level: i32, size: i32) -> vec4f {
+    var p = at;
+    if p.x < 0 || p.x >= size {
+        p = vec2i(select(-1 - p.x, 2 * size - 1 - p.x, p.x >= size), size - 1 - p.y);
+    }
+    if p.y < 0 || p.y >= size {
+        p = vec2i(size - 1 - p.x, select(-1 - p.y, 2 * size - 1 - p.y, p.y >= size));
+    }
+    return textureLoad(sky, p, level);
+}
+
+fn sky_level(at: vec2f, level: i32) -> vec4f {
+    let size = i32(surround.right.w) >> u32(level);
+    let p = at * f32(size) - 0.5;
+    let base = vec2i(floor(p));
+    let part = p - floor(p);
+    let low = mix(sky_texel(base, level, size), sky_texel(base + vec2i(1, 0), level, size), part.x);
+    let high = mix(sky_texel(base + vec2i(0, 1), level, size), sky_texel(base + vec2i(1, 1), level, size), part.x);
+    return mix(low, high, part.y);
+}
+
+// The map at a direction, evened out over an angle.
+fn sky_at(direction: vec3f, angle: f32) -> vec4f {
+    let texels = angle * surround.right.w / TEXEL_ANGLE;
+    let level = clamp(log2(max(texels, 1.0)), 0.0, surround.zenith.w);
+    let at = octahedral(direction);
+    let fine = i32(floor(level));
+    let whole = sky_level(at, fine);
+    if level - f32(fine) <= 0.0 {
+        return whole;
+    }
+    return mix(whole, sky_level(at, fine + 1), level - f32(fine));
+}
+
+// The part of a lamp's disc that a sweep of directions, from half before to half after the ray's, runs through.
+fn share_inside(from_middle: vec3f, sweep: vec3f, chord_squared: f32) -> f32 {
+    let a = dot(sweep, sweep);
+    let b = dot(from_middle, sweep);
+    let c = dot(from_middle, from_middle) - chord_squared;
+    if a < 1e-14 {
+        return select(0.0, 1.0, c < 0.0);
+    }
+    let under_root = b * b - a * c;
+    if under_root <= 0.0 {
+        return 0.0;
+    }
+    let root = sqrt(under_root);
+    return max(min((root - b) / a, 0.5) - max((-root - b) / a, -0.5), 0.0);
+}
+
+// The photograph on the plane behind the stones, where a ray meets it; a is 0 where it does not.
+fn photo_at(ray: Ray) -> vec4f {
+    let speed = -dot(ray.direction, frame.toward.xyz);
+    let height = dot(ray.origin, frame.toward.xyz) + surround.photo.x;
+    if speed <= 1e-6 || height <= 0.0 || surround.photo.y <= 0.0 {
+        return vec4f(0.0);
+    }
+    let p = ray.origin + ray.direction * (height / speed);
+    let size = vec2f(textureDimensions(photo));
+    let on = vec2f(dot(p, frame.right.xyz), -dot(p, frame.up.xyz)) / surround.photo.y + 0.5;
+    // The photograph's width is 1, whatever its height.
+    let at = vec2f(on.x, (on.y - 0.5) * size.x / size.y + 0.5) * size - 0.5;
+    if any(at < vec2f(-0.5)) || any(at > size - 0.5) {
+        return vec4f(0.0);
+    }
+    let base = floor(at);
+    let part = at - base;
+    let last = vec2i(size) - 1;
+    let low = clamp(vec2i(base), vec2i(0), last);
+    let high = clamp(vec2i(base) + 1, vec2i(0), last);
+    let above = mix(textureLoad(photo, low, 0), textureLoad(photo, vec2i(high.x, low.y), 0), part.x);
+    let below = mix(textureLoad(photo, vec2i(low.x, high.y), 0), textureLoad(photo, high, 0), part.x);
+    return vec4f(mix(above, below, part.y).xyz, 1.0);
+}
+
+// The light that comes down a ray from outside.
+fn radiance(ray: Ray) -> vec4f {
+    let seen = photo_at(ray);
+    if seen.w > 0.0 {
+        return vec4f(0.0, seen.xyz);
+    }
+    let swept = length(ray.sweep);
+    let d = vec3f(
+        dot(surround.right.xyz, ray.direction),
+        dot(surround.up.xyz, ray.direction),
+        dot(surround.zenith.xyz, ray.direction),
+    );
+    let sweep = vec3f(
+        dot(surround.right.xyz, ray.sweep),
+        dot(surround.up.xyz, ray.sweep),
+        dot(surround.zenith.xyz, ray.sweep),
+    );
+    var sum = sky_at(d, swept);
+    for (var k = 0u; k < u32(surround.up.w); k++) {
+        let lamp = lamps[k];
+        sum += lamp.radiance * share_inside(d - lamp.toward.xyz, sweep, lamp.toward.w);
+    }
+    // The observer's head stands before the light, with an edge as wide as the sweep.
+    let width = max(swept, surround.photo.w);
+    let clear = (surround.photo.z - dot(ray.direction, frame.toward.xyz)) / width + 0.5;
+    return sum * clamp(clear, 0.0, 1.0);
+}

@@ -1,0 +1,210 @@
+//! The lights that come with the program. What is published is said; the rest is chosen to show stones well.
+
+use super::light::{Dome, Field, Lamp, Light, SoftBox};
+use crate::optics::Illuminant;
+
+/// The names of the lights that come with the program; the first is used unless asked otherwise.
+pub const LIGHTS: [&str; 9] =
+    ["studio", "dome", "cosine", "ring", "lamps", "fire", "office", "daylight", "white"];
+
+/// The light of a name among [`LIGHTS`].
+pub fn light(name: &str) -> Option<Light> {
+    match name {
+        "studio" => Some(Light::studio()),
+        "dome" => Some(Light::dome()),
+        "cosine" => Some(Light::cosine()),
+        "ring" => Some(Light::ring()),
+        "lamps" => Some(Light::lamps_on_dome()),
+        "fire" => Some(Light::fire()),
+        "office" => Some(Light::office()),
+        "daylight" => Some(Light::daylight()),
+        "white" => Some(Light::white()),
+        _ => None,
+    }
+}
+
+fn belt(from: f64, to: f64, soft: f64, radiance: f64) -> Dome {
+    Dome { from, to, soft, radiance, end: None, colour: None }
+}
+
+fn rising(from: f64, to: f64, radiance: f64, end: f64) -> Dome {
+    Dome { end: Some(end), ..belt(from, to, 0.0, radiance) }
+}
+
+fn soft_box((azimuth, elevation): (f64, f64), (width, height): (f64, f64), radiance: f64) -> SoftBox {
+    SoftBox { azimuth, elevation, width, height, turn: 0.0, soft: 6.0, radiance, colour: None }
+}
+
+fn lamp((azimuth, elevation): (f64, f64), radius: f64, radiance: f64) -> Lamp {
+    Lamp { azimuth, elevation, radius, radiance, colour: None }
+}
+
+impl Light {
+    fn named(name: &str, description: &str) -> Self {
+        Self {
+            name: name.to_owned(),
+            description: description.to_owned(),
+            spectrum: Illuminant::D65,
+            head: 0.0,
+            dome: vec![],
+            boxes: vec![],
+            lamp: vec![],
+            field: vec![],
+            panorama: None,
+        }
+    }
+
+    /// Soft boxes around a dim room, dark between: what a jewellery photographer sets up.
+    pub fn studio() -> Self {
+        Self {
+            head: 9.0,
+            dome: vec![rising(-90.0, 0.0, 0.30, 0.10), rising(0.0, 90.0, 0.06, 0.16)],
+            boxes: vec![
+                soft_box((50.0, 62.0), (46.0, 30.0), 3.2),
+                soft_box((170.0, 52.0), (34.0, 46.0), 2.2),
+                soft_box((285.0, 58.0), (52.0, 26.0), 2.6),
+                soft_box((110.0, 24.0), (70.0, 20.0), 1.3),
+                soft_box((230.0, 20.0), (60.0, 22.0), 1.1),
+                soft_box((350.0, 22.0), (50.0, 24.0), 1.4),
+            ],
+            lamp: vec![
+                lamp((25.0, 38.0), 2.2, 40.0),
+                lamp((140.0, 72.0), 1.8, 45.0),
+                lamp((205.0, 44.0), 2.2, 35.0),
+                lamp((320.0, 40.0), 2.0, 40.0),
+            ],
+            ..Self::named("studio", "soft boxes and four small lamps around a dim room; the default")
+        }
+    }
+
+    /// The same from every direction above the horizon.
+    pub fn dome() -> Self {
+        Self {
+            head: 10.0,
+            dome: vec![belt(0.0, 90.0, 0.0, 1.0)],
+            ..Self::named("dome", "even light from above the horizon, less the observer's head (ISO)")
+        }
+    }
+
+    /// Above the horizon, as the sine of the elevation.
+    pub fn cosine() -> Self {
+        Self {
+            head: 10.0,
+            dome: vec![rising(0.0, 90.0, 0.0, 1.0)],
+            ..Self::named(
+                "cosine",
+                "light as the cosine of the angle from the axis, less the observer's head (COS)",
+            )
+        }
+    }
+
+    /// A ring around the lens.
+    pub fn ring() -> Self {
+        Self {
+            head: 12.0,
+            dome: vec![belt(-90.0, 90.0, 0.0, 0.05), belt(58.0, 72.0, 3.0, 4.0)],
+            ..Self::named("ring", "a ring light around the lens, 18 to 32 degrees from the axis")
+        }
+    }
+
+    /// Eight small lamps over a dim dome.
+    pub fn lamps_on_dome() -> Self {
+        let places = [(10.0, 70.0), (100.0, 62.0), (190.0, 74.0), (280.0, 66.0)];
+        let lower = [(55.0, 48.0), (145.0, 40.0), (235.0, 52.0), (325.0, 36.0)];
+        Self {
+            dome: vec![belt(0.0, 90.0, 0.0, 0.25)],
+            lamp: places.into_iter().chain(lower).map(|at| lamp(at, 1.5, 120.0)).collect(),
+            ..Self::named("lamps", "eight small lamps over a dim dome: some fire")
+        }
+    }
+
+    /// A dark room full of small lamps.
+    pub fn fire() -> Self {
+        Self {
+            head: 8.0,
+            dome: vec![belt(-90.0, 90.0, 0.0, 0.025)],
+            field: vec![Field {
+                count: 90,
+                from: 15.0,
+                to: 84.0,
+                radius: 0.9,
+                radiance: 120.0,
+                colour: None,
+            }],
+            ..Self::named("fire", "ninety small lamps in a dark room: all the fire that there is")
+        }
+    }
+
+    /// Panels in a ceiling, a window, pale walls.
+    pub fn office() -> Self {
+        let mut boxes = vec![];
+        for (row, elevation) in [78.0, 58.0, 42.0].into_iter().enumerate() {
+            let count = [3, 6, 8][row];
+            for k in 0..count {
+                let azimuth = 360.0 * (f64::from(k) + 0.5 * (row % 2) as f64) / f64::from(count);
+                let width = [26.0, 15.0, 11.0][row];
+                boxes.push(SoftBox { soft: 1.0, ..soft_box((azimuth, elevation), (width, 6.0), 6.0) });
+            }
+        }
+        let window = SoftBox { soft: 1.0, ..soft_box((200.0, 16.0), (44.0, 24.0), 4.0) };
+        boxes.push(SoftBox { colour: Some([214, 232, 255]), ..window });
+        Self {
+            head: 10.0,
+            dome: vec![
+                Dome { colour: Some([150, 128, 108]), ..belt(-90.0, 0.0, 4.0, 0.5) },
+                Dome { colour: Some([232, 226, 214]), ..belt(0.0, 90.0, 4.0, 0.28) },
+            ],
+            boxes,
+            ..Self::named("office", "panels in a ceiling, one window, pale walls, a wooden desk")
+        }
+    }
+
+    /// A clear sky and the sun.
+    pub fn daylight() -> Self {
+        let sky = Dome { colour: Some([128, 178, 255]), ..rising(0.0, 90.0, 1.1, 0.45) };
+        let ground = Dome { colour: Some([126, 128, 104]), ..belt(-90.0, 0.0, 3.0, 0.6) };
+        Self {
+            // A low part of the sun's true radiance, over a disc wider than its quarter of a degree: the same power on
+            // the stone as a hazy sun.
+            lamp: vec![Lamp { colour: Some([255, 244, 226]), ..lamp((60.0, 52.0), 1.0, 1500.0) }],
+            head: 8.0,
+            dome: vec![sky, ground],
+            ..Self::named("daylight", "a clear sky with the sun, and the ground")
+        }
+    }
+
+    /// The same from everywhere: a stone that takes no light vanishes in it.
+    pub fn white() -> Self {
+        Self {
+            dome: vec![belt(-90.0, 90.0, 0.0, 1.0)],
+            ..Self::named("white", "the same from everywhere: a clear stone vanishes (a test)")
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_light_is_found_by_its_name_and_valid() {
+        for name in LIGHTS {
+            let light = light(name).unwrap();
+            assert_eq!(light.name, name);
+            assert_eq!(light.validate(), Ok(()), "{name}");
+        }
+        assert_eq!(light("moon"), None);
+    }
+
+    #[test]
+    fn lights_at_fault_are_named() {
+        let lamp = Lamp { radius: 0.0, ..lamp((0.0, 45.0), 1.0, 1.0) };
+        let light = Light { lamp: vec![lamp], ..Light::studio() };
+        let told = light.validate().unwrap_err().to_string();
+        assert!(told.starts_with("lamp 1: radius is 0; give an angle"), "{told}");
+        let dark = Light::named("dark", "");
+        assert_eq!(dark.validate(), Err(super::super::light::LightError::Dark));
+        let crowd = Field { count: 4_000_000_000, ..Light::fire().field[0].clone() };
+        assert!(Light { field: vec![crowd; 2], ..dark }.validate().is_err());
+    }
+}

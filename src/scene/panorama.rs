@@ -1,0 +1,63 @@
+//! A photograph in linear light: of all the surroundings, or of what lies behind.
+
+use glam::{DVec2, DVec3};
+
+/// A picture in linear light of sRGB's primaries, row by row from the top. As a panorama it is equirectangular: its first
+/// row is the zenith, its last the nadir, and azimuth runs to the left, as it does for someone who looks up and turns.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Panorama {
+    /// Pixels across, at least 1.
+    pub width: u32,
+    /// Pixels down, at least 1.
+    pub height: u32,
+    /// Red, green and blue, finite and at least 0; `width` times `height` of them.
+    pub pixels: Vec<[f32; 3]>,
+}
+
+impl Panorama {
+    /// The light between the middles of the four pixels around a place, in pixels from the middle of the first; beyond
+    /// the edge that of the edge.
+    pub fn between(&self, at: DVec2) -> DVec3 {
+        self.mixed(at, |x| x.clamp(0, i64::from(self.width) - 1))
+    }
+
+    /// The light from a unit direction, z up.
+    pub fn toward(&self, d: DVec3) -> DVec3 {
+        let size = DVec2::new(f64::from(self.width), f64::from(self.height));
+        let (azimuth, polar) = (d.y.atan2(d.x), d.z.clamp(-1.0, 1.0).acos());
+        let part =
+            DVec2::new((0.5 - azimuth / std::f64::consts::TAU).rem_euclid(1.0), polar / std::f64::consts::PI);
+        self.mixed(part * size - 0.5, |x| x.rem_euclid(i64::from(self.width)))
+    }
+
+    fn mixed(&self, at: DVec2, column: impl Fn(i64) -> i64) -> DVec3 {
+        let (base, part) = (at.floor(), at - at.floor());
+        let pixel = |dx: i64, dy: i64| {
+            let x = column(base.x as i64 + dx);
+            let y = (base.y as i64 + dy).clamp(0, i64::from(self.height) - 1);
+            let [r, g, b] = self.pixels[(y * i64::from(self.width) + x) as usize];
+            DVec3::new(f64::from(r), f64::from(g), f64::from(b))
+        };
+        let (high, low) = (pixel(0, 0).lerp(pixel(1, 0), part.x), pixel(0, 1).lerp(pixel(1, 1), part.x));
+        high.lerp(low, part.y)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_panorama_shows_every_pixel_in_its_direction() {
+        let (width, height) = (16, 8);
+        let pixels = (0..width * height).map(|k| [k as f32, 1.0, 0.5]).collect();
+        let picture = Panorama { width, height, pixels };
+        for k in 0..width * height {
+            let (x, y) = (f64::from(k % width) + 0.5, f64::from(k / width) + 0.5);
+            let (azimuth, polar) = (std::f64::consts::TAU * (0.5 - x / 16.0), std::f64::consts::PI * y / 8.0);
+            let d = DVec3::new(polar.sin() * azimuth.cos(), polar.sin() * azimuth.sin(), polar.cos());
+            assert!((picture.toward(d) - DVec3::new(f64::from(k), 1.0, 0.5)).length() < 1e-9, "{k}");
+        }
+        assert_eq!(picture.between(DVec2::new(-5.0, 99.0)).x, 112.0);
+    }
+}

@@ -1,0 +1,214 @@
+//! Pictures under light, by a card.
+
+use super::device::{Gpu, GpuError};
+use super::door::{self, Lamp, Response, with};
+use super::solids::Solids;
+use super::stage::{Eye, Stage};
+use crate::math::Plane;
+use crate::scene;
+use crate::trace::sitting::{Exposure, Lit, Look, Sitting};
+use crate::trace::surround::{HEAD_EDGE, Surround};
+use crate::trace::{Stopped, Watch};
+use glam::DVec3;
+use std::ops::Range;
+use wgpu::util::DeviceExt;
+
+/// Wavelengths that one look may have.
+pub const MOST_WAVELENGTHS: usize = 64;
+
+/// Lamps that a sky may have.
+pub(super) const MOST_LAMPS: usize = scene::MOST_LAMPS;
+
+/// Wavelengths of one dispatch.
+const AT_ONCE: usize = 16;
+
+/// Rows of a picture, traced by a card.
+pub struct ByCard<'a> {
+    rows: Range<u32>,
+    at_once: u32,
+    stage: Stage<'a>,
+    media: wgpu::Buffer,
+    responses: wgpu::Buffer,
+    wavelengths: usize,
+    dispatches: u32,
+    looks: u32,
+}
+
+impl<'a> ByCard<'a> {
+    /// The most rows that may be prepared at once of a film so many pixels across.
+    pub fn most_rows(across: u32) -> u32 {
+        // A buffer of 64 MiB.
+        ((1 << 21) / across).max(1)
+    }
+
+    /// Prepares some rows of a picture, at most [`most_rows`](Self::most_rows), to be looked at in so many bands of
+    /// wavelengths, at most [`MOST_WAVELENGTHS`].
+    ///
+    /// # Errors
+    /// What is wrong with the card, or beyond it.
+    pub fn new(
+        gpu: &'a Gpu,
+        sitting: &Sitting,
+        rows: Range<u32>,
+        wavelengths: usize,
+    ) -> Result<Self, GpuError> {
+        let stones: Vec<Vec<Plane>> = sitting.stones.iter().map(|s| s.planes().collect()).collect();
+        let solids = Solids::new(gpu, &stones, &sitting.balls())?;
+        let copied = |label, bytes: usize, usage| {
+            let usage = usage | wgpu::BufferUsages::COPY_DST;
+            gpu.buffer(label, &vec![0; bytes], usage)
+        };
+        let bytes = size_of::<door::Medium>() * wavelengths * stones.len();
+        let media = copied("media", bytes, wgpu::BufferUsages::STORAGE);
+        let bytes = size_of::<Response>() * MOST_WAVELENGTHS;
+        let responses = copied("responses", bytes, wgpu::BufferUsages::UNIFORM);
+        let sky = Sky::new(gpu, &sitting.surround);
+        let mut entries = solids.entries(&media);
+        entries.extend(sky.entries());
+        entries.push(wgpu::BindGroupEntry { binding: 10, resource: responses.as_entire_binding() });
+        let eye = Eye {
+            view: sitting.view,
+            size: sitting.size,
+            pixel: sitting.pixel,
+            reach: sitting.reach(),
+            options: sitting.options,
+        };
+        let told = eye.frame(gpu, &solids, wavelengths);
+        let pipeline = gpu.lights.pipeline(&gpu.device, solids.is_few);
+        let stage = Stage::new::<door::Lit>(gpu, pipeline, told, rows.len() as u32, entries)?;
+        let at_once = Stage::rows(gpu, sitting.size);
+        Ok(Self { rows, at_once, stage, media, responses, wavelengths, dispatches: 0, looks: 0 })
+    }
+
+    /// Tells the card what the stones are made of and how their light is coloured.
+    fn tell(&self, look: &Look) {
+        let media: Vec<door::Medium> = look.media.iter().flatten().map(door::Medium::from).collect();
+        let wide = |c: DVec3| with(c, 0.0);
+        let response = |r: &[DVec3; 4]| {
+            let [key, red, green, blue] = r.map(wide);
+            Response { key, red, green, blue }
+        };
+        let responses: Vec<Response> = look.responses.iter().map(response).collect();
+        self.stage.gpu.queue.write_buffer(&self.media, 0, bytemuck::cast_slice(&media));
+        self.stage.gpu.queue.write_buffer(&self.responses, 0, bytemuck::cast_slice(&responses));
+    }
+}
+
+impl<E: From<Stopped> + From<GpuError>> Exposure<E> for ByCard<'_> {
+    fn look(&mut self, look: &Look, watch: Watch) -> Result<(), E> {
+        self.tell(look);
+        let step = if self.stage.gpu.is_software() { 1 } else { AT_ONCE };
+        let bands: Vec<usize> = (0..self.wavelengths).step_by(step).collect();
+        for (done, &band) in bands.iter().enumerate() {
+            let end = (band + step).min(self.wavelengths);
+            for first in (0..self.rows.len() as u32).step_by(self.at_once as usize) {
+                let count = self.at_once.min(self.rows.len() as u32 - first);
+                let part = f64::from(first) / self.rows.len() as f64;
+                if watch((done as f64 + part) / bands.len() as f64).is_break() {
+                    return Err(Stopped.into());
+                }
+                let turn = [self.dispatches, self.rows.start, band as u32, end as u32];
+                self.stage.look((first, count), look.shift, turn)?;
+            }
+            self.dispatches += 1;
+        }
+        self.looks += 1;
+        Ok(())
+    }
+
+    fn lit(&self) -> Result<Vec<Lit>, E> {
+        let share = 1.0 / (f64::from(self.looks.max(1)) * self.wavelengths as f64);
+        let lit = |sum: &door::Lit| {
+            let ([red, green, blue, cover], [unresolved, absorbed, bounces, _]) =
+                (sum.colour.map(f64::from), sum.rest.map(f64::from));
+            Lit {
+                colour: DVec3::new(red, green, blue) / f64::from(self.looks.max(1)),
+                cover: cover * share,
+                unresolved: unresolved * share,
+                absorbed: absorbed * share,
+                bounces: bounces * share,
+            }
+        };
+        Ok(self.stage.read::<door::Lit>(self.rows.len() as u32)?.iter().map(lit).collect())
+    }
+}
+
+/// What stands around, in the card's memory.
+struct Sky {
+    surround: wgpu::Buffer,
+    lamps: wgpu::Buffer,
+    map: wgpu::TextureView,
+    photo: wgpu::TextureView,
+}
+
+impl Sky {
+    fn new(gpu: &Gpu, surround: &Surround) -> Self {
+        let mut lamps: Vec<Lamp> = surround
+            .sky
+            .lamps
+            .iter()
+            .map(|l| Lamp {
+                toward: with(l.toward, l.chord_squared),
+                radiance: l.radiance.as_vec4().to_array(),
+            })
+            .collect();
+        let told = told(surround, lamps.len());
+        lamps.resize(MOST_LAMPS, Lamp { toward: [0.0; 4], radiance: [0.0; 4] });
+        let side = surround.sky.side as u32;
+        let levels: Vec<&[[f32; 4]]> = surround.sky.levels.iter().map(Vec::as_slice).collect();
+        let photo = surround.behind.map_or((1, 1, vec![[0.0; 4]]), |b| {
+            let texel = |&[r, g, b]: &[f32; 3]| [r, g, b, 0.0];
+            (b.picture.width, b.picture.height, b.picture.pixels.iter().map(texel).collect())
+        });
+        Self {
+            surround: gpu.buffer("surround", bytemuck::bytes_of(&told), wgpu::BufferUsages::UNIFORM),
+            lamps: gpu.buffer("lamps", bytemuck::cast_slice(&lamps), wgpu::BufferUsages::UNIFORM),
+            map: texture(gpu, (side, side), &levels),
+            photo: texture(gpu, (photo.0, photo.1), &[&photo.2]),
+        }
+    }
+
+    fn entries(&self) -> [wgpu::BindGroupEntry<'_>; 4] {
+        let entry = |binding, resource| wgpu::BindGroupEntry { binding, resource };
+        [
+            entry(6, self.surround.as_entire_binding()),
+            entry(7, self.lamps.as_entire_binding()),
+            entry(8, wgpu::BindingResource::TextureView(&self.map)),
+            entry(9, wgpu::BindingResource::TextureView(&self.photo)),
+        ]
+    }
+}
+
+fn told(surround: &Surround, lamps: usize) -> door::Surround {
+    let Surround { sky, basis, head, behind, backdrop, .. } = surround;
+    // Without a head nothing is ever so near to the axis.
+    let cos_head = if *head > 0.0 { head.cos() } else { 3.0 };
+    let (distance, width) = behind.map_or((0.0, 0.0), |b| (b.distance, b.width));
+    door::Surround {
+        right: with(basis.right, sky.side as f64),
+        up: with(basis.up, lamps as f64),
+        zenith: with(basis.toward, (sky.levels.len() - 1) as f64),
+        photo: [distance, width, cos_head, HEAD_EDGE].map(|x| x as f32),
+        backdrop: [f32::from(u8::from(*backdrop)), 0.0, 0.0, 0.0],
+    }
+}
+
+/// A picture of four numbers a pixel, with its coarser levels.
+fn texture(gpu: &Gpu, (width, height): (u32, u32), levels: &[&[[f32; 4]]]) -> wgpu::TextureView {
+    let texture = gpu.device.create_texture_with_data(
+        &gpu.queue,
+        &wgpu::TextureDescriptor {
+            label: None,
+            size: wgpu::Extent3d { width, height, depth_or_array_layers: 1 },
+            mip_level_count: levels.len() as u32,
+            sample_count: 1,
+            dimension: wgpu::TextureDimension::D2,
+            format: wgpu::TextureFormat::Rgba32Float,
+            usage: wgpu::TextureUsages::TEXTURE_BINDING,
+            view_formats: &[],
+        },
+        wgpu::util::TextureDataOrder::LayerMajor,
+        bytemuck::cast_slice(&levels.concat()),
+    );
+    texture.create_view(&wgpu::TextureViewDescriptor::default())
+}

@@ -1,0 +1,97 @@
+//! The shaders: put together as text, compiled once.
+
+use super::door;
+use super::light::{MOST_LAMPS, MOST_WAVELENGTHS};
+use super::solids::{MOST_BODIES, MOST_UNIFORM, MOST_WAITING};
+use crate::trace::surround::TEXEL_ANGLE;
+use std::sync::OnceLock;
+
+/// What stones are made of.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Facets {
+    /// At most 1024 planes in all, at most 192 in a stone.
+    Few,
+    /// More, in bunches.
+    Many,
+}
+
+/// What is looked for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Reading {
+    /// Energy by the bands of a scope.
+    Scope,
+    /// Colour under light.
+    Light,
+}
+
+/// One reading's two pipelines, each compiled when first used.
+pub(super) struct Pipelines {
+    reading: Reading,
+    few: OnceLock<wgpu::ComputePipeline>,
+    many: OnceLock<wgpu::ComputePipeline>,
+}
+
+/// A shader's text, its structs and constants in front.
+pub(super) fn source(facets: Facets, reading: Reading) -> String {
+    let constants = format!(
+        "const MOST_PLANES: u32 = {MOST_UNIFORM}u;\nconst MOST_BODIES: u32 = {MOST_BODIES}u;\n\
+         const MOST_WAITING: u32 = {MOST_WAITING}u;\nconst MOST_LAMPS: u32 = {MOST_LAMPS}u;\n\
+         const MOST_WAVELENGTHS: u32 = {MOST_WAVELENGTHS}u;\nconst TEXEL_ANGLE: f32 = {TEXEL_ANGLE};\n\
+         const NONE: u32 = 0xffffffffu;\n"
+    );
+    let stones = "@group(0) @binding(0) var<uniform> frame: Frame;\n\
+        @group(0) @binding(4) var<uniform> bodies: array<Body, MOST_BODIES>;\n\
+        @group(0) @binding(5) var<storage, read> media: array<Medium>;\n";
+    let facets = match facets {
+        Facets::Few => include_str!("../../../shaders/planes.wgsl"),
+        Facets::Many => include_str!("../../../shaders/polytope.wgsl"),
+    };
+    let reading: &[&str] = match reading {
+        Reading::Scope => &[door::BANDS_WGSL, door::SEEN_WGSL, include_str!("../../../shaders/scope.wgsl")],
+        Reading::Light => &[
+            door::SURROUND_WGSL,
+            door::LAMP_WGSL,
+            door::RESPONSE_WGSL,
+            door::LIT_WGSL,
+            include_str!("../../../shaders/surround.wgsl"),
+            include_str!("../../../shaders/light.wgsl"),
+        ],
+    };
+    let common = [
+        door::FRAME_WGSL,
+        door::BODY_WGSL,
+        door::MEDIUM_WGSL,
+        door::BUNCH_WGSL,
+        &constants,
+        stones,
+        include_str!("../../../shaders/optics.wgsl"),
+        facets,
+        include_str!("../../../shaders/trace.wgsl"),
+        include_str!("../../../shaders/camera.wgsl"),
+    ];
+    common.iter().chain(reading).copied().collect()
+}
+
+impl Pipelines {
+    pub fn new(reading: Reading) -> Self {
+        Self { reading, few: OnceLock::new(), many: OnceLock::new() }
+    }
+
+    pub fn pipeline(&self, device: &wgpu::Device, is_few: bool) -> &wgpu::ComputePipeline {
+        let (cell, facets) = if is_few { (&self.few, Facets::Few) } else { (&self.many, Facets::Many) };
+        cell.get_or_init(|| {
+            let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
+                label: None,
+                source: wgpu::ShaderSource::Wgsl(source(facets, self.reading).into()),
+            });
+            device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+                label: None,
+                layout: None,
+                module: &module,
+                entry_point: None,
+                compilation_options: wgpu::PipelineCompilationOptions::default(),
+                cache: None,
+            })
+        })
+    }
+}

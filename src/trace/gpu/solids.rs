@@ -1,0 +1,95 @@
+//! Stones in a card's memory.
+
+use super::bunches::bunches;
+use super::device::Gpu;
+use super::door::{Body, Bunch, with};
+use crate::math::Plane;
+use crate::trace::gpu::GpuError;
+
+/// Planes that fit into the uniform array, 16 KiB.
+pub(super) const MOST_UNIFORM: usize = 1024;
+
+/// With more planes than this in a stone, bunches are quicker than all planes one after the other.
+const FEW: usize = 192;
+
+/// Stones that one picture may hold.
+pub const MOST_BODIES: usize = 256;
+
+/// Software drivers end a shader's loops, whatever they have done by then, after 65,535 turns: what one ray tries stays
+/// below this.
+const MOST_TURNS_IN_SOFTWARE: usize = 60_000;
+
+/// Rays of one pixel that may wait to meet another stone.
+pub(super) const MOST_WAITING: usize = 16;
+
+/// The planes of all stones, and which are whose.
+pub(super) struct Solids {
+    pub is_few: bool,
+    pub bodies: wgpu::Buffer,
+    pub planes: wgpu::Buffer,
+    pub bunches: wgpu::Buffer,
+    pub count: usize,
+    /// Planes and bunches of the largest.
+    largest: usize,
+}
+
+impl Solids {
+    pub fn new(gpu: &Gpu, stones: &[Vec<Plane>], balls: &[(glam::DVec3, f64)]) -> Result<Self, GpuError> {
+        if stones.len() > MOST_BODIES {
+            return Err(GpuError::TooManyStones { count: stones.len(), most: MOST_BODIES });
+        }
+        let all: usize = stones.iter().map(Vec::len).sum();
+        let is_few = all <= MOST_UNIFORM && stones.iter().all(|s| s.len() <= FEW);
+        let (mut planes, mut bunched, mut bodies, mut largest) = (vec![], vec![], vec![], 0);
+        for (stone, &(middle, radius)) in stones.iter().zip(balls) {
+            let (order, own) = bunches(stone);
+            let (first, first_bunch) = (planes.len(), bunched.len());
+            planes.extend(order.iter().map(|&k| with(stone[k as usize].normal, stone[k as usize].offset)));
+            let moved = |b: &Bunch| {
+                let [spread, depth, start, count] = b.spread;
+                Bunch { spread: [spread, depth, start + first as f32, count], ..*b }
+            };
+            bunched.extend(own.iter().map(moved));
+            let range = [first, planes.len(), first_bunch, bunched.len()].map(|k| k as u32);
+            bodies.push(Body { middle: with(middle, radius), range });
+            largest = largest.max(stone.len() + own.len());
+        }
+        if is_few {
+            planes.resize(MOST_UNIFORM, [0.0; 4]);
+        }
+        bodies.resize(MOST_BODIES, Body { middle: [0.0; 4], range: [0; 4] });
+        let kind = if is_few { wgpu::BufferUsages::UNIFORM } else { wgpu::BufferUsages::STORAGE };
+        Ok(Self {
+            is_few,
+            bodies: gpu.buffer("stones", bytemuck::cast_slice(&bodies), wgpu::BufferUsages::UNIFORM),
+            planes: gpu.buffer("planes", bytemuck::cast_slice(&planes), kind),
+            bunches: gpu.buffer("bunches", bytemuck::cast_slice(&bunched), wgpu::BufferUsages::STORAGE),
+            count: stones.len(),
+            largest,
+        })
+    }
+
+    /// How many bounces the card can follow of those wanted.
+    pub fn bounces(&self, gpu: &Gpu, wanted: u32) -> u32 {
+        if !gpu.is_software() {
+            return wanted;
+        }
+        // Every ray that waits is followed like the first, and looked for in all stones.
+        let rays = if self.count == 1 { 1 } else { 1 + MOST_WAITING };
+        let turns = (MOST_TURNS_IN_SOFTWARE / rays).saturating_sub(self.largest * self.count);
+        wanted.min((turns / self.largest) as u32)
+    }
+
+    /// What the shaders know of stones: the group's entries.
+    pub fn entries<'a>(&'a self, media: &'a wgpu::Buffer) -> Vec<wgpu::BindGroupEntry<'a>> {
+        let entry = |binding, buffer: &'a wgpu::Buffer| wgpu::BindGroupEntry {
+            binding,
+            resource: buffer.as_entire_binding(),
+        };
+        let mut entries = vec![entry(1, &self.planes), entry(4, &self.bodies), entry(5, media)];
+        if !self.is_few {
+            entries.push(entry(3, &self.bunches));
+        }
+        entries
+    }
+}

@@ -1,0 +1,145 @@
+//! One picture on a card: its pixels, and the dispatches that add to them.
+
+use super::device::{Gpu, GpuError};
+use super::door::{Frame, with};
+use super::scope::MOST_BOUNCES;
+use super::solids::Solids;
+use crate::scene::{Projection, View};
+use crate::trace::ray::Options;
+use bytemuck::Pod;
+use glam::DVec2;
+
+/// Pixels of one dispatch, a ray each: far less than a second's work, lest a driver think the card hung, and a buffer
+/// of less than 128 MiB, which all cards take.
+const PIXELS_AT_ONCE: u32 = 1 << 20;
+
+/// The same where the processor does it.
+const PIXELS_AT_ONCE_IN_SOFTWARE: u32 = 1 << 17;
+
+/// Side of a workgroup, pixels.
+const WORKGROUP: u32 = 8;
+
+/// From where a picture is taken, and how far its rays are followed.
+pub(super) struct Eye<'a> {
+    pub view: &'a View,
+    /// Pixels across and down.
+    pub size: [u32; 2],
+    /// Side of a pixel.
+    pub pixel: f64,
+    /// How far the stones reach from the origin.
+    pub reach: f64,
+    pub options: Options,
+}
+
+impl Eye<'_> {
+    /// What every dispatch is told of it.
+    pub fn frame(&self, gpu: &Gpu, solids: &Solids, wavelengths: usize) -> Frame {
+        let basis = self.view.basis();
+        let distance = match self.view.projection {
+            Projection::Orthographic => 0.0,
+            Projection::Perspective { distance } => distance,
+        };
+        let bounces = solids.bounces(gpu, self.options.most_bounces.min(MOST_BOUNCES));
+        let [across, down] = self.size;
+        Frame {
+            right: with(basis.right, self.reach),
+            up: with(basis.up, self.pixel),
+            toward: with(basis.toward, distance),
+            limits: [self.options.least_weight as f32, 0.0, 0.5, 0.5],
+            counts: [solids.count as u32, wavelengths as u32, bounces, u32::from(self.options.polarised)],
+            film: [across, down, 0, 0],
+            turn: [0, 1, 0, wavelengths as u32],
+        }
+    }
+}
+
+/// Pixels of some rows, and what adds to them.
+pub(super) struct Stage<'a> {
+    pub gpu: &'a Gpu,
+    pipeline: &'a wgpu::ComputePipeline,
+    pub told: Frame,
+    frame: wgpu::Buffer,
+    seen: wgpu::Buffer,
+    back: wgpu::Buffer,
+    bound: wgpu::BindGroup,
+    /// Bytes of a pixel.
+    width: u64,
+}
+
+impl<'a> Stage<'a> {
+    /// A stage for `rows` of the frame's film, with what its shader needs beside frame and pixels.
+    pub fn new<T: Pod>(
+        gpu: &'a Gpu,
+        pipeline: &'a wgpu::ComputePipeline,
+        told: Frame,
+        rows: u32,
+        entries: Vec<wgpu::BindGroupEntry>,
+    ) -> Result<Self, GpuError> {
+        let usage = wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST;
+        let frame = gpu.buffer("frame", bytemuck::bytes_of(&told), usage);
+        let width = size_of::<T>() as u64;
+        let empty = |label, usage| {
+            let size = u64::from(rows) * u64::from(told.film[0]) * width;
+            gpu.device.create_buffer(&wgpu::BufferDescriptor {
+                label: Some(label),
+                size,
+                usage,
+                mapped_at_creation: false,
+            })
+        };
+        let seen = empty("seen", wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_SRC);
+        let back = empty("back", wgpu::BufferUsages::MAP_READ | wgpu::BufferUsages::COPY_DST);
+        let mut all = vec![
+            wgpu::BindGroupEntry { binding: 0, resource: frame.as_entire_binding() },
+            wgpu::BindGroupEntry { binding: 2, resource: seen.as_entire_binding() },
+        ];
+        all.extend(entries);
+        let bound = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: None,
+            layout: &pipeline.get_bind_group_layout(0),
+            entries: &all,
+        });
+        gpu.check()?;
+        Ok(Self { gpu, pipeline, told, frame, seen, back, bound, width })
+    }
+
+    /// Rows that one dispatch takes of a film so many pixels across.
+    pub fn rows(gpu: &Gpu, [across, down]: [u32; 2]) -> u32 {
+        let pixels = if gpu.is_software() { PIXELS_AT_ONCE_IN_SOFTWARE } else { PIXELS_AT_ONCE };
+        (pixels / across).clamp(1, down)
+    }
+
+    /// Adds one ray of each pixel of some rows to what is seen through it: where in its pixel, or the grid's cell, it
+    /// stands, and the frame's `turn`.
+    pub fn look(&self, (first, count): (u32, u32), shift: DVec2, turn: [u32; 4]) -> Result<(), GpuError> {
+        let mut told = self.told;
+        (told.film[2], told.film[3], told.turn) = (first, count, turn);
+        (told.limits[2], told.limits[3]) = (shift.x as f32, shift.y as f32);
+        self.gpu.queue.write_buffer(&self.frame, 0, bytemuck::bytes_of(&told));
+        let mut encoder = self.gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        {
+            let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
+            pass.set_pipeline(self.pipeline);
+            pass.set_bind_group(0, &self.bound, &[]);
+            pass.dispatch_workgroups(told.film[0].div_ceil(WORKGROUP), count.div_ceil(WORKGROUP), 1);
+        }
+        self.gpu.queue.submit([encoder.finish()]);
+        // One after the other: queued up, they would outlive the wish to stop.
+        self.gpu.wait()
+    }
+
+    /// What has been seen through the first rows.
+    pub fn read<T: Pod>(&self, count: u32) -> Result<Vec<T>, GpuError> {
+        let bytes = u64::from(count) * u64::from(self.told.film[0]) * self.width;
+        let mut encoder = self.gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        encoder.copy_buffer_to_buffer(&self.seen, 0, &self.back, 0, bytes);
+        self.gpu.queue.submit([encoder.finish()]);
+        self.back.map_async(wgpu::MapMode::Read, 0..bytes, |_| {});
+        self.gpu.wait()?;
+        let mapped = self.back.get_mapped_range(0..bytes).map_err(|e| self.gpu.failed(e.to_string()))?;
+        let seen = bytemuck::pod_collect_to_vec(&mapped);
+        drop(mapped);
+        self.back.unmap();
+        Ok(seen)
+    }
+}

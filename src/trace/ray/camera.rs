@@ -1,0 +1,53 @@
+//! The image of a view.
+
+use crate::math::{Basis, Polytope};
+use crate::scene::{Projection, View};
+use glam::{DVec2, DVec3};
+
+/// The image of a view: where the ray of each point begins, and which way it goes.
+#[derive(Debug, Clone, Copy)]
+pub struct Camera {
+    basis: Basis,
+    /// Distance of the eye; infinite for parallel rays.
+    distance: f64,
+    /// How far the stone reaches from the origin.
+    reach: f64,
+}
+
+impl Camera {
+    /// The camera of a view of this stone.
+    pub fn new(view: &View, polytope: &Polytope) -> Self {
+        Self::reaching(view, polytope.vertices().iter().map(|v| v.length()).fold(0.0, f64::max))
+    }
+
+    /// The camera of a view of whatever reaches so far from the origin.
+    pub fn reaching(view: &View, reach: f64) -> Self {
+        let distance = match view.projection {
+            Projection::Orthographic => f64::INFINITY,
+            Projection::Perspective { distance } => distance,
+        };
+        Self { basis: view.basis(), distance, reach }
+    }
+
+    /// Half the side of the smallest square around the image's origin that holds the whole stone; `None` where the
+    /// eye is not in front of all of it.
+    pub fn reach(&self, polytope: &Polytope) -> Option<f64> {
+        polytope.vertices().iter().try_fold(0.0_f64, |reach, &v| {
+            let nearness = 1.0 - self.basis.toward.dot(v) / self.distance;
+            (nearness > 0.0).then(|| reach.max(self.basis.project(v).abs().max_element() / nearness))
+        })
+    }
+
+    /// A point outside the stone on the ray through a point of the image plane, and the ray's unit direction.
+    pub fn ray(&self, p: DVec2) -> (DVec3, DVec3) {
+        let (at, toward) = (self.basis.lift(p), self.basis.toward);
+        let (direction, from_eye) = if self.distance.is_infinite() {
+            (-toward, f64::INFINITY)
+        } else {
+            let ray = at - toward * self.distance;
+            (ray / ray.length(), ray.length())
+        };
+        // From a far eye the way to the stone would cost the digits that tell where the stone is met.
+        (at - direction * from_eye.min(2.0 * self.reach + at.length()), direction)
+    }
+}

@@ -1,0 +1,92 @@
+//! What a picture under light is taken of, and the looks that it is made from: the same for every tracer.
+
+use super::surround::Surround;
+use super::{Stopped, Watch};
+use crate::math::Polytope;
+use crate::scene::{Medium, View};
+use crate::trace::ray::Options;
+use glam::{DVec2, DVec3};
+
+/// Stones in one world, what stands around them, and the camera.
+#[derive(Clone, Copy)]
+pub struct Sitting<'a> {
+    /// The stones; no two may overlap.
+    pub stones: &'a [Polytope],
+    /// What stands around.
+    pub surround: Surround<'a>,
+    /// From where they are seen.
+    pub view: &'a View,
+    /// Pixels across and down.
+    pub size: [u32; 2],
+    /// Side of a pixel, in world units, in the image plane through the origin.
+    pub pixel: f64,
+    /// How far rays are followed.
+    pub options: Options,
+}
+
+/// One ray of each pixel for each band of wavelengths.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Look {
+    /// Where in its pixel the ray stands, 0 to 1.
+    pub shift: DVec2,
+    /// What the stones are made of: stone by stone, band by band.
+    pub media: Vec<Vec<Medium>>,
+    /// For each band the colour of light of radiance 1 in the surround's four channels.
+    pub responses: Vec<[DVec3; 4]>,
+}
+
+/// What light shows of one pixel: means over looks; the last four over wavelengths as well.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Lit {
+    /// Linear colour, sRGB's primaries; 0 beside the stones unless the surround is the backdrop.
+    pub colour: DVec3,
+    /// The share of rays that see anything.
+    pub cover: f64,
+    /// Share of the light not followed to its end.
+    pub unresolved: f64,
+    /// Share absorbed.
+    pub absorbed: f64,
+    /// Bounces inside stones.
+    pub bounces: f64,
+}
+
+/// Rows of a picture that grow clearer with every look.
+pub trait Exposure<E: From<Stopped>> {
+    /// Adds one look.
+    ///
+    /// # Errors
+    /// [`Stopped`] when `watch` asks to stop, or what is wrong with a card.
+    fn look(&mut self, look: &Look, watch: Watch) -> Result<(), E>;
+
+    /// What has been seen so far, row by row.
+    ///
+    /// # Errors
+    /// What is wrong with a card.
+    fn lit(&self) -> Result<Vec<Lit>, E>;
+}
+
+impl Sitting<'_> {
+    /// A ball around each stone.
+    pub fn balls(&self) -> Vec<(DVec3, f64)> {
+        let ball = |stone: &Polytope| {
+            let (low, high) = stone.bounds();
+            let middle = (low + high) / 2.0;
+            let radius = stone.vertices().iter().map(|v| v.distance(middle)).fold(0.0, f64::max);
+            // A hair more, for rounding.
+            (middle, radius * (1.0 + 1e-5))
+        };
+        self.stones.iter().map(ball).collect()
+    }
+
+    /// How far the stones reach from the origin.
+    pub fn reach(&self) -> f64 {
+        self.stones.iter().flat_map(Polytope::vertices).map(|v| v.length()).fold(0.0, f64::max)
+    }
+
+    /// The point of the image plane that a ray at `shift` in a pixel goes through.
+    pub fn image_from_pixel(&self, x: u32, y: u32, shift: DVec2) -> DVec2 {
+        let [across, down] = self.size.map(f64::from);
+        let centred = DVec2::new(f64::from(x), f64::from(y)) + shift - DVec2::new(across, down) / 2.0;
+        DVec2::new(centred.x, -centred.y) * self.pixel
+    }
+}

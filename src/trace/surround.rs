@@ -1,0 +1,332 @@
+//! What stands around the stones, ready to be looked up: broad light as an octahedral map with coarser levels, lamps as
+//! discs, the observer's head, a photograph behind.
+//!
+//! A ray stands for a band of wavelengths, over which its direction sweeps. Look-ups are evened out over that sweep, so that
+//! a small lamp shows as the piece of rainbow that it is and not as a chance hit: exactly for lamps, by the map's levels
+//! (L. Williams, *Pyramidal parametrics*, 1983) for the rest. The map: Z. H. Cigolle et al., *A Survey of Efficient
+//! Representations for Independent Unit Vectors*, JCGT 3(2), 2014. The twin is shaders/surround.wgsl.
+
+use crate::math::Basis;
+use crate::optics::linear_from_encoded;
+use crate::scene::{Dome, Light, Panorama, SoftBox, toward};
+use glam::{DVec2, DVec3, DVec4, IVec2, Vec2Swizzles as _, Vec4Swizzles as _};
+use rayon::prelude::*;
+
+/// The side of a square that covers as much of the sphere as a texel does of a map of side 1.
+pub const TEXEL_ANGLE: f64 = 3.544_907_701_811_032;
+
+/// Side of the map for light that is drawn.
+const SIDE: usize = 512;
+
+/// Side for a panorama.
+const SIDE_OF_PANORAMA: usize = 1024;
+
+/// Samples along each side of a texel.
+const PER_SIDE: usize = 2;
+
+/// Radiance by channel: of the key illuminant's spectrum, of red, of green, of blue.
+pub type Radiance = [f32; 4];
+
+/// A small disc of even light.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Disc {
+    /// To its middle.
+    pub toward: DVec3,
+    /// Square of the chord from its middle to its edge.
+    pub chord_squared: f64,
+    /// Radiance by channel.
+    pub radiance: DVec4,
+}
+
+/// A light in its own frame, z along its axis.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Sky {
+    /// Square maps, each half the side of the one before, row by row.
+    pub levels: Vec<Vec<Radiance>>,
+    /// Side of the first.
+    pub side: usize,
+    /// Lamps.
+    pub lamps: Vec<Disc>,
+}
+
+/// A photograph on a plane behind the stones, square to the axis to the eye.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Behind<'a> {
+    /// The picture, in linear light.
+    pub picture: &'a Panorama,
+    /// Distance of the plane behind the origin, in world units.
+    pub distance: f64,
+    /// Its width there.
+    pub width: f64,
+}
+
+/// A sky around stones, and the eye.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Surround<'a> {
+    /// The light.
+    pub sky: &'a Sky,
+    /// Its frame in the world.
+    pub basis: Basis,
+    /// The image's frame.
+    pub eye: Basis,
+    /// Half angle of the head around the axis to the eye, radians; 0 for none.
+    pub head: f64,
+    /// A photograph.
+    pub behind: Option<Behind<'a>>,
+    /// Whether rays beside the stones see all this; else they see nothing.
+    pub backdrop: bool,
+}
+
+/// Least width of the edge of the head's shadow, in cosine.
+pub(crate) const HEAD_EDGE: f64 = 0.004;
+
+impl Sky {
+    /// Draws a light, with the picture that its panorama names.
+    pub fn new(light: &Light, panorama: Option<&Panorama>) -> Self {
+        let side = if panorama.is_some() { SIDE_OF_PANORAMA } else { SIDE };
+        let cells = side * PER_SIDE;
+        let row = |y: usize| {
+            let texel = |x: usize| {
+                let sample = |k: usize| {
+                    let (i, j) = (x * PER_SIDE + k % PER_SIDE, y * PER_SIDE + k / PER_SIDE);
+                    let at = (DVec2::new(i as f64, j as f64) + 0.5) / cells as f64;
+                    shine(light, panorama, direction(at))
+                };
+                let all: DVec4 = (0..PER_SIDE * PER_SIDE).map(sample).sum();
+                (all / (PER_SIDE * PER_SIDE) as f64).as_vec4().to_array()
+            };
+            (0..side).map(texel).collect::<Vec<_>>()
+        };
+        let mut levels = vec![(0..side).into_par_iter().flat_map_iter(row).collect::<Vec<_>>()];
+        while levels[levels.len() - 1].len() > 16 {
+            levels.push(halved(&levels[levels.len() - 1]));
+        }
+        let disc = |lamp: crate::scene::Lamp| Disc {
+            toward: toward(lamp.azimuth, lamp.elevation),
+            chord_squared: (2.0 * (lamp.radius.to_radians() / 2.0).sin()).powi(2),
+            radiance: channels(lamp.colour) * lamp.radiance,
+        };
+        Self { levels, side, lamps: light.lamps().into_iter().map(disc).collect() }
+    }
+
+    /// The map at a direction, evened out over an angle.
+    fn at(&self, direction: DVec3, angle: f64) -> DVec4 {
+        let texels = angle * self.side as f64 / TEXEL_ANGLE;
+        let level = texels.max(1.0).log2().min((self.levels.len() - 1) as f64);
+        let (at, fine) = (octahedral(direction), level.floor() as usize);
+        let whole = self.level(at, fine);
+        if level - fine as f64 <= 0.0 {
+            return whole;
+        }
+        whole.lerp(self.level(at, fine + 1), level - fine as f64)
+    }
+
+    fn level(&self, at: DVec2, level: usize) -> DVec4 {
+        let size = (self.side >> level) as i32;
+        let p = at * f64::from(size) - 0.5;
+        let (base, part) = (p.floor().as_ivec2(), p - p.floor());
+        let texel = |dx, dy| {
+            let p = wrapped(base + IVec2::new(dx, dy), size);
+            DVec4::from_array(self.levels[level][(p.y * size + p.x) as usize].map(f64::from))
+        };
+        let (low, high) = (texel(0, 0).lerp(texel(1, 0), part.x), texel(0, 1).lerp(texel(1, 1), part.x));
+        low.lerp(high, part.y)
+    }
+}
+
+impl Surround<'_> {
+    /// The light that comes down a ray from outside, by channel: where it starts, where it goes, and how far that direction
+    /// sweeps over the wavelengths that it stands for.
+    pub fn radiance(&self, from: DVec3, direction: DVec3, sweep: DVec3) -> DVec4 {
+        if let Some(seen) = self.behind.and_then(|behind| behind.at(&self.eye, from, direction)) {
+            return seen.extend(0.0).wxyz();
+        }
+        let own =
+            |v: DVec3| DVec3::new(self.basis.right.dot(v), self.basis.up.dot(v), self.basis.toward.dot(v));
+        let (d, s, swept) = (own(direction), own(sweep), sweep.length());
+        let lamps = self.sky.lamps.iter();
+        let lit = lamps.map(|l| l.radiance * share_inside(d - l.toward, s, l.chord_squared)).sum::<DVec4>();
+        let sum = self.sky.at(d, swept) + lit;
+        if self.head <= 0.0 {
+            return sum;
+        }
+        let beside = (self.head.cos() - direction.dot(self.eye.toward)) / swept.max(HEAD_EDGE) + 0.5;
+        sum * beside.clamp(0.0, 1.0)
+    }
+}
+
+impl Behind<'_> {
+    fn at(&self, eye: &Basis, from: DVec3, direction: DVec3) -> Option<DVec3> {
+        let (speed, height) = (-direction.dot(eye.toward), from.dot(eye.toward) + self.distance);
+        if speed <= 1e-6 || height <= 0.0 {
+            return None;
+        }
+        let p = eye.project(from + direction * (height / speed)) * DVec2::new(1.0, -1.0) / self.width + 0.5;
+        let size = DVec2::new(f64::from(self.picture.width), f64::from(self.picture.height));
+        let at = DVec2::new(p.x, (p.y - 0.5) * size.x / size.y + 0.5) * size - 0.5;
+        let inside = at.cmpge(DVec2::splat(-0.5)).all() && at.cmple(size - 0.5).all();
+        inside.then(|| self.picture.between(at))
+    }
+}
+
+/// The part of a disc that a sweep of directions, from half before to half after the ray's, runs through.
+fn share_inside(from_middle: DVec3, sweep: DVec3, chord_squared: f64) -> f64 {
+    let (a, b) = (sweep.length_squared(), from_middle.dot(sweep));
+    let c = from_middle.length_squared() - chord_squared;
+    if a < 1e-14 {
+        return if c < 0.0 { 1.0 } else { 0.0 };
+    }
+    let under_root = b * b - a * c;
+    if under_root <= 0.0 {
+        return 0.0;
+    }
+    let root = under_root.sqrt();
+    (((root - b) / a).min(0.5) - ((-root - b) / a).max(-0.5)).max(0.0)
+}
+
+/// Where in the map a direction stands, 0 to 1.
+fn octahedral(d: DVec3) -> DVec2 {
+    let flat = d.truncate() / (d.x.abs() + d.y.abs() + d.z.abs());
+    let sign = |x: f64| if x >= 0.0 { 1.0 } else { -1.0 };
+    let folded = (1.0 - flat.yx().abs()) * DVec2::new(sign(flat.x), sign(flat.y));
+    0.5 + 0.5 * if d.z >= 0.0 { flat } else { folded }
+}
+
+/// The direction of a place in the map.
+fn direction(at: DVec2) -> DVec3 {
+    let p = at * 2.0 - 1.0;
+    let z = 1.0 - p.x.abs() - p.y.abs();
+    let sign = |x: f64| if x >= 0.0 { 1.0 } else { -1.0 };
+    let flat = if z >= 0.0 { p } else { (1.0 - p.yx().abs()) * DVec2::new(sign(p.x), sign(p.y)) };
+    let d = flat.extend(z);
+    d / d.length()
+}
+
+/// A texel, or beyond the map's edge the one that continues it.
+fn wrapped(mut p: IVec2, size: i32) -> IVec2 {
+    if p.x < 0 || p.x >= size {
+        p = IVec2::new(if p.x < 0 { -1 - p.x } else { 2 * size - 1 - p.x }, size - 1 - p.y);
+    }
+    if p.y < 0 || p.y >= size {
+        p = IVec2::new(size - 1 - p.x, if p.y < 0 { -1 - p.y } else { 2 * size - 1 - p.y });
+    }
+    p
+}
+
+/// Means of two by two texels.
+fn halved(fine: &[Radiance]) -> Vec<Radiance> {
+    let size = fine.len().isqrt();
+    let at = |x: usize, y: usize| DVec4::from_array(fine[y * size + x].map(f64::from));
+    let mean = |x: usize, y: usize| {
+        let sum = at(2 * x, 2 * y) + at(2 * x + 1, 2 * y) + at(2 * x, 2 * y + 1) + at(2 * x + 1, 2 * y + 1);
+        (sum / 4.0).as_vec4().to_array()
+    };
+    (0..size / 2).flat_map(|y| (0..size / 2).map(move |x| (x, y))).map(|(x, y)| mean(x, y)).collect()
+}
+
+/// A radiance of 1 by channel.
+fn channels(colour: Option<[u8; 3]>) -> DVec4 {
+    colour.map_or(DVec4::X, |rgb| {
+        DVec3::from_array(rgb.map(|c| linear_from_encoded(f64::from(c) / 255.0))).extend(0.0).wxyz()
+    })
+}
+
+/// The broad light from a direction of the light's own frame.
+fn shine(light: &Light, panorama: Option<&Panorama>, d: DVec3) -> DVec4 {
+    let domes = light.dome.iter().map(|dome| channels(dome.colour) * belt(dome, d));
+    let boxes = light.boxes.iter().map(|b| channels(b.colour) * b.radiance * box_cover(b, d));
+    let picture = light.panorama.as_ref().zip(panorama).map(|(how, picture)| {
+        let turn = glam::DQuat::from_rotation_z(-how.turn.to_radians());
+        (picture.toward(turn * d) * how.exposure.exp2()).extend(0.0).wxyz()
+    });
+    domes.chain(boxes).chain(picture).sum()
+}
+
+/// A step from 0 to 1 as `x` rises through 0, smooth over a width.
+fn step(x: f64, width: f64) -> f64 {
+    if width <= 0.0 {
+        return if x >= 0.0 { 1.0 } else { 0.0 };
+    }
+    let t = (x / width + 0.5).clamp(0.0, 1.0);
+    t * t * (3.0 - 2.0 * t)
+}
+
+fn belt(dome: &Dome, d: DVec3) -> f64 {
+    let elevation = d.z.clamp(-1.0, 1.0).asin().to_degrees();
+    // A belt that reaches a pole has no edge there.
+    let above = if dome.from <= -90.0 { 1.0 } else { step(elevation - dome.from, dome.soft) };
+    let below = if dome.to >= 90.0 { 1.0 } else { step(dome.to - elevation, dome.soft) };
+    let (low, high) = (dome.from.to_radians().sin(), dome.to.to_radians().sin());
+    let part = if high > low { ((d.z - low) / (high - low)).clamp(0.0, 1.0) } else { 0.0 };
+    let end = dome.end.unwrap_or(dome.radiance);
+    (dome.radiance + (end - dome.radiance) * part) * above * below
+}
+
+fn box_cover(b: &SoftBox, d: DVec3) -> f64 {
+    let middle = toward(b.azimuth, b.elevation);
+    let (sin, cos) = b.azimuth.to_radians().sin_cos();
+    let across = DVec3::new(-sin, cos, 0.0);
+    let up = middle.cross(across);
+    let (sin, cos) = b.turn.to_radians().sin_cos();
+    let (u, v) = (across * cos + up * sin, up * cos - across * sin);
+    let ahead = d.dot(middle);
+    let inside =
+        |axis: DVec3, width: f64| step(width / 2.0 - d.dot(axis).atan2(ahead).to_degrees().abs(), b.soft);
+    if ahead <= 0.0 { 0.0 } else { inside(u, b.width) * inside(v, b.height) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_map_folds_the_whole_sphere_and_unfolds_it_again() {
+        for k in 0..2000 {
+            let z = 1.0 - 2.0 * (f64::from(k) + 0.5) / 2000.0;
+            let (sin, cos) = (2.399_963 * f64::from(k)).sin_cos();
+            let d = DVec3::new((1.0 - z * z).sqrt() * cos, (1.0 - z * z).sqrt() * sin, z);
+            assert!((direction(octahedral(d)) - d).length() < 1e-12);
+        }
+    }
+
+    #[test]
+    fn a_texel_beyond_the_edge_is_the_one_that_is_next_on_the_sphere() {
+        let size = 64;
+        let middle = |p: IVec2| direction((p.as_dvec2() + 0.5) / f64::from(size));
+        for k in 0..size {
+            for p in [IVec2::new(-1, k), IVec2::new(size, k), IVec2::new(k, -1), IVec2::new(k, size)] {
+                let beside = p.clamp(IVec2::ZERO, IVec2::splat(size - 1));
+                assert!((middle(wrapped(p, size)) - middle(beside)).length() < 0.12, "{p}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_sweep_across_a_lamp_gathers_what_lies_inside_it() {
+        let (lamp, radius) = (DVec3::Z, 0.02_f64);
+        let chord = (2.0 * (radius / 2.0).sin()).powi(2);
+        for (offset, sweep) in [(0.0, 0.1), (0.01, 0.03), (0.03, 0.1), (0.015, 0.0), (0.05, 0.01)] {
+            let (from, way) = (DVec3::new(offset, 0.004, 1.0), DVec3::new(sweep, 0.3 * sweep, 0.0));
+            let inside = |k: i32| {
+                let p = from + way * ((f64::from(k) + 0.5) / 100_000.0 - 0.5) - lamp;
+                f64::from(u8::from(p.length_squared() < chord))
+            };
+            let counted = (0..100_000).map(inside).sum::<f64>() / 1e5;
+            assert!((share_inside(from - lamp, way, chord) - counted).abs() < 2e-4);
+        }
+    }
+
+    #[test]
+    fn the_sky_keeps_its_light_at_every_level() {
+        let dome = |from, to| Dome { from, to, soft: 5.0, radiance: 1.0, end: None, colour: None };
+        let light = Light { dome: vec![dome(20.0, 90.0)], ..crate::scene::Light::white() };
+        let sky = Sky::new(&light, None);
+        // The share of the sphere above 20 degrees, weighted as the map weighs it: alike at all levels.
+        let mean =
+            |level: &Vec<Radiance>| level.iter().map(|t| f64::from(t[0])).sum::<f64>() / level.len() as f64;
+        let first = mean(&sky.levels[0]);
+        sky.levels.iter().for_each(|level| assert!((mean(level) - first).abs() < 1e-6));
+        let up = sky.at(DVec3::Z, 0.0).x;
+        assert!((up - 1.0).abs() < 1e-6 && sky.at(-DVec3::Z, 0.01).x == 0.0);
+    }
+}
