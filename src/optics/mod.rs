@@ -1,5 +1,5 @@
-//! What light does at a surface and inside a stone: refraction, reflection, dispersion, absorption, and the
-//! encoding of the colour that comes out. Floor 0: knows nothing of cuts, scenes or tracers.
+//! What light does at a surface and inside a stone: refraction, reflection, dispersion, absorption; and the colour
+//! of the light that comes out, from spectra to its encoding. Floor 0: knows nothing of cuts, scenes or tracers.
 //!
 //! Conventions, everywhere below: wavelengths in nanometres unless the name says `um`; directions are unit
 //! vectors *of travel*; `eta` = index on the incident side / index on the transmitted side; total internal
@@ -9,12 +9,18 @@ pub mod absorption;
 pub mod colour;
 pub mod dispersion;
 pub mod fresnel;
+pub mod illuminant;
 pub mod material;
+pub mod observer;
 pub mod snell;
+pub mod strata;
 
 pub use absorption::{Absorption, AbsorptionError, MOST_PER_MM};
 pub use colour::{LinearRgb, SrgbEncoder, encoded_from_linear, linear_from_encoded};
 pub use dispersion::{Dispersion, DispersionError, VISIBLE_NM, line};
 pub use fresnel::{Fresnel, fresnel, reflectance};
+pub use illuminant::{DAYLIGHT_KELVIN, Illuminant, IlluminantError};
 pub use material::{Material, UnknownMaterial, material, materials};
+pub use observer::{D65_WHITE, OBSERVER_NM, SRGB_FROM_XYZ, adaptation, matching, seen};
 pub use snell::{brewster_angle, cos_transmitted, critical_angle, reflect, refract, refracted_change};
+pub use strata::{SAMPLED_NM, Stratum, basis, strata};

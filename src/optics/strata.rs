@@ -1,0 +1,250 @@
+//! How a render samples the spectrum: strata of wavelength, and the colour that light in each of them has.
+//!
+//! Colours are linear sRGB. A stratum's colour may be negative in parts, being more saturated than any
+//! screen; only the sum over the strata is for looking at.
+
+use super::illuminant::Illuminant;
+use super::observer::{D65_WHITE, OBSERVER_NM, SRGB_FROM_XYZ, adaptation, matching, seen};
+use glam::{DMat3, DVec3};
+use std::{ops::RangeInclusive, sync::LazyLock};
+
+/// The wavelengths in nm that strata are taken from. Of what the observer sees of an even spectrum (x̄ + ȳ +
+/// z̄) 0.08 % lies outside; its light is counted to the first and the last stratum.
+pub const SAMPLED_NM: RangeInclusive<f64> = 390.0..=720.0;
+
+/// The part of a stratum's share that is width alone: it keeps the outermost of many strata from growing
+/// long.
+const EVEN: f64 = 0.1;
+
+/// Where red ends and how softly, in nm: with [`BLUE_STEP`] chosen so that [`basis`] is positive throughout.
+const RED_STEP: (f64, f64) = (591.0, 6.0);
+
+/// Where blue ends and how softly, in nm.
+const BLUE_STEP: (f64, f64) = (489.0, 7.0);
+
+/// One range of wavelengths, sampled at one wavelength at a time.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Stratum {
+    /// The shortest wavelength in nm.
+    pub from_nm: f64,
+    /// The longest wavelength in nm.
+    pub to_nm: f64,
+    /// Linear sRGB, negative in parts, of light in this range alone: of the key light, then of D65 times the
+    /// red, the green and the blue [`basis`]. Over all strata the key light is Y = 1, and so are the three
+    /// others together; a render multiplies them by the radiance it finds at [`Stratum::at`].
+    pub response: [DVec3; 4],
+}
+
+impl Stratum {
+    /// The wavelength in nm at a part of the stratum, 0..=1: `from_nm` to `to_nm`.
+    pub fn at(&self, part: f64) -> f64 {
+        self.from_nm + (self.to_nm - self.from_nm) * part
+    }
+}
+
+/// The spectra of linear sRGB's red, green and blue at a wavelength: all within 0..=1 (the least is 0.0026,
+/// the greatest 0.989), their sum 1. Light of the spectrum D65 times `colour.dot(basis(nm))` looks like
+/// `colour`.
+pub fn basis(nm: f64) -> DVec3 {
+    /// Mixes the shapes so that their colours come out as red, green and blue.
+    static MIX: LazyLock<DMat3> = LazyLock::new(|| {
+        let sight = Sight::new(&Illuminant::D65, false);
+        let colours = [0, 1, 2].map(|k| {
+            sight.rgb_from_xyz * sight.d65_gain * seen_all(|nm| Illuminant::D65.power(nm) * shapes(nm)[k])
+        });
+        DMat3::from_cols_array_2d(&colours.map(|colour| colour.to_array())).inverse().transpose()
+    });
+    *MIX * shapes(nm)
+}
+
+/// The visible range in `count` strata (none for 0; 1 to 64 make sense), from short wavelengths to long.
+///
+/// Each has the same share: nine tenths of it x̄ + ȳ + z̄ within [`SAMPLED_NM`], one tenth width. `adapted`
+/// makes the key's white (1, 1, 1), by [`adaptation`]; otherwise D65's white is.
+pub fn strata(count: u32, key: &Illuminant, adapted: bool) -> Vec<Stratum> {
+    let sight = Sight::new(key, adapted);
+    let borders: Vec<f64> = (0..=count).map(|i| border(f64::from(i) / f64::from(count))).collect();
+    borders.windows(2).map(|ends| sight.stratum(ends[0], ends[1])).collect()
+}
+
+/// What turns power into colour.
+struct Sight<'a> {
+    key: &'a Illuminant,
+    /// Gives the key light Y = 1.
+    key_gain: f64,
+    /// Gives D65 Y = 1.
+    d65_gain: f64,
+    rgb_from_xyz: DMat3,
+}
+
+impl<'a> Sight<'a> {
+    fn new(key: &'a Illuminant, adapted: bool) -> Self {
+        // D65 too is adapted: its spectrum's white and the one that sRGB prints differ in the fifth decimal.
+        let white = if adapted { key.white() } else { Illuminant::D65.white() };
+        let gain = |light: &Illuminant| seen_all(|nm| light.power(nm)).y.recip();
+        let rgb_from_xyz = SRGB_FROM_XYZ * adaptation(white, D65_WHITE);
+        Self { key, key_gain: gain(key), d65_gain: gain(&Illuminant::D65), rgb_from_xyz }
+    }
+
+    fn stratum(&self, from_nm: f64, to_nm: f64) -> Stratum {
+        // The ends take in what lies beyond them.
+        let from = if from_nm > *SAMPLED_NM.start() { from_nm } else { *OBSERVER_NM.start() };
+        let to = if to_nm < *SAMPLED_NM.end() { to_nm } else { *OBSERVER_NM.end() };
+        let key = self.key_gain * seen(from, to, |nm| self.key.power(nm));
+        let [red, green, blue] =
+            [0, 1, 2].map(|k| self.d65_gain * seen(from, to, |nm| Illuminant::D65.power(nm) * basis(nm)[k]));
+        Stratum { from_nm, to_nm, response: [key, red, green, blue].map(|xyz| self.rgb_from_xyz * xyz) }
+    }
+}
+
+/// XYZ of a whole spectrum.
+fn seen_all(spectrum: impl Fn(f64) -> f64) -> DVec3 {
+    seen(*OBSERVER_NM.start(), *OBSERVER_NM.end(), spectrum)
+}
+
+/// Three overlapping parts of 1, long, middle and short wavelengths, from two logistic steps.
+fn shapes(nm: f64) -> DVec3 {
+    let rise = |(at, width): (f64, f64)| 1.0 / (1.0 + ((at - nm) / width).exp());
+    let (not_blue, red) = (rise(BLUE_STEP), rise(RED_STEP));
+    DVec3::new(not_blue * red, not_blue * (1.0 - red), 1.0 - not_blue)
+}
+
+/// The wavelength in nm below which a part of all shares lies, 0..=1.
+fn border(part: f64) -> f64 {
+    /// The share below every whole nm from the start of [`SAMPLED_NM`], 0 to 1.
+    static BELOW: LazyLock<Vec<f64>> = LazyLock::new(shares_below);
+    let upper = BELOW.partition_point(|below| *below < part).clamp(1, BELOW.len() - 1);
+    let (low, high) = (BELOW[upper - 1], BELOW[upper]);
+    SAMPLED_NM.start() + (upper - 1) as f64 + (part - low) / (high - low)
+}
+
+/// Trapezoids of 1 nm, exact where the observer is straight lines.
+fn shares_below() -> Vec<f64> {
+    let (start, width) = (*SAMPLED_NM.start(), SAMPLED_NM.end() - SAMPLED_NM.start());
+    let sum = |nm: f64| matching(nm).element_sum();
+    let mut seen_below = vec![0.0];
+    for low in (0..width as u32).map(|step| start + f64::from(step)) {
+        seen_below.push(seen_below[seen_below.len() - 1] + 0.5 * (sum(low) + sum(low + 1.0)));
+    }
+    let all = seen_below[seen_below.len() - 1];
+    let share = |(step, seen): (usize, f64)| (1.0 - EVEN) * (seen / all) + EVEN * (step as f64 / width);
+    seen_below.into_iter().enumerate().map(share).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const LIGHTS: [Illuminant; 6] = [
+        Illuminant::D65,
+        Illuminant::A,
+        Illuminant::E,
+        Illuminant::Daylight(4000.0),
+        Illuminant::Daylight(5000.0),
+        Illuminant::Daylight(25000.0),
+    ];
+
+    fn sums(strata: &[Stratum]) -> [DVec3; 4] {
+        [0, 1, 2, 3].map(|k| strata.iter().map(|stratum| stratum.response[k]).sum())
+    }
+
+    fn assert_near(value: DVec3, expected: DVec3, within: f64) {
+        assert!(value.abs_diff_eq(expected, within), "{value} is not {expected}");
+    }
+
+    #[test]
+    fn strata_tile_the_range_without_gaps() {
+        for count in 1..=64 {
+            let strata = strata(count, &Illuminant::E, true);
+            assert_eq!(strata.len(), count as usize);
+            assert_eq!((strata[0].from_nm, strata[strata.len() - 1].to_nm), (390.0, 720.0));
+            assert!(strata.iter().all(|stratum| stratum.from_nm < stratum.to_nm));
+            assert!(strata.windows(2).all(|pair| pair[0].to_nm == pair[1].from_nm));
+        }
+        assert!(strata(0, &Illuminant::E, true).is_empty());
+    }
+
+    #[test]
+    fn strata_have_equal_shares() {
+        let all = matching_between(390.0, 720.0);
+        for stratum in strata(16, &Illuminant::D65, true) {
+            let seen = matching_between(stratum.from_nm, stratum.to_nm) / all;
+            let share = 0.9 * seen + 0.1 * (stratum.to_nm - stratum.from_nm) / 330.0;
+            assert!((share - 1.0 / 16.0).abs() < 1e-4, "{share}");
+        }
+        let outside = matching_between(380.0, 390.0) + matching_between(720.0, 780.0);
+        assert!(outside / matching_between(380.0, 780.0) < 8.5e-4);
+    }
+
+    fn matching_between(from_nm: f64, to_nm: f64) -> f64 {
+        seen(from_nm, to_nm, |_| 1.0).element_sum()
+    }
+
+    #[test]
+    fn a_part_of_a_stratum_is_a_wavelength() {
+        let stratum = strata(8, &Illuminant::D65, true)[3];
+        assert_eq!((stratum.at(0.0), stratum.at(1.0)), (stratum.from_nm, stratum.to_nm));
+        assert_eq!(stratum.at(0.5), 0.5 * (stratum.from_nm + stratum.to_nm));
+    }
+
+    #[test]
+    fn in_an_adapted_eye_every_key_is_white() {
+        for count in 1..=64 {
+            for light in &LIGHTS {
+                assert_near(sums(&strata(count, light, true))[0], DVec3::ONE, 1e-9);
+            }
+        }
+    }
+
+    #[test]
+    fn under_d65_the_basis_is_red_green_and_blue() {
+        for count in 1..=64 {
+            for adapted in [false, true] {
+                let [key, colours @ ..] = sums(&strata(count, &Illuminant::D65, adapted));
+                assert_near(key, DVec3::ONE, 1e-9);
+                assert!(
+                    DMat3::from_cols_array_2d(&colours.map(Into::into)).abs_diff_eq(DMat3::IDENTITY, 1e-9)
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn the_number_of_strata_changes_no_sum() {
+        for light in &LIGHTS {
+            for adapted in [false, true] {
+                let whole = sums(&strata(1, light, adapted));
+                for count in [2, 7, 64] {
+                    let parts = sums(&strata(count, light, adapted));
+                    (0..4).for_each(|k| assert_near(parts[k], whole[k], 1e-9));
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn in_an_eye_not_adapted_a_lamp_is_warm() {
+        let colour = sums(&strata(16, &Illuminant::A, false))[0];
+        assert!(colour.x > 1.0 && colour.x > colour.y && colour.y > colour.z && colour.z > 0.0, "{colour}");
+        assert_near(colour, SRGB_FROM_XYZ * Illuminant::A.white(), 3e-4);
+    }
+
+    #[test]
+    fn the_basis_is_positive_and_adds_up_to_1() {
+        let all: Vec<DVec3> = (3600..=8300).map(|nm| basis(f64::from(nm) / 10.0)).collect();
+        assert!(all.iter().all(|basis| (basis.element_sum() - 1.0).abs() < 1e-12));
+        let least = all.iter().map(|basis| basis.min_element()).fold(f64::INFINITY, f64::min);
+        let greatest = all.iter().map(|basis| basis.max_element()).fold(0.0, f64::max);
+        assert!((least - 0.0026).abs() < 5e-5 && (greatest - 0.989).abs() < 5e-4, "{least} to {greatest}");
+    }
+
+    #[test]
+    fn any_colour_comes_back_from_its_spectrum() {
+        let to_rgb = SRGB_FROM_XYZ * adaptation(Illuminant::D65.white(), D65_WHITE);
+        let white = seen_all(|nm| Illuminant::D65.power(nm)).y;
+        for colour in [DVec3::new(0.2, 0.5, 0.9), DVec3::new(1.0, 0.0, 0.3), DVec3::new(-0.1, 3.0, 0.0)] {
+            let xyz = seen_all(|nm| Illuminant::D65.power(nm) * colour.dot(basis(nm)));
+            assert_near(to_rgb * xyz / white, colour, 1e-9);
+        }
+    }
+}
