@@ -196,7 +196,7 @@ impl LightOptions {
             specimen.say(&format!("{range}; its index at {wavelength} nm is a guess"));
         }
         let radius_mm = specimen.design.diameter_mm / 2.0;
-        Ok(Medium { index, absorption: material.absorption.coefficient(wavelength) * radius_mm })
+        Ok(Medium { index, absorption: material.absorption[0].coefficient(wavelength) * radius_mm })
     }
 
     /// The head's half angle, checked.
