@@ -95,12 +95,13 @@ fn turned(beams: &Beams, copy: DMat2, direction: DVec3) -> DVec3 {
 
 /// A beam's weight at a point: its mean, but for the absorption along this very ray.
 fn pointwise(beams: &Beams, beam: &Beam, q: DVec2) -> f64 {
-    let a = beams.medium.absorption;
-    if a == 0.0 {
+    let medium = beams.medium;
+    if medium.is_clear() {
         return beam.weight;
     }
-    let mean = brillianteer::math::integral_of_decay(beam.outline, beam.path * a) / beam.area;
-    beam.weight / mean * (-a * beam.path.at(q)).exp()
+    let mean_of = |a| brillianteer::math::integral_of_decay(beam.outline, beam.path * a) / beam.area;
+    let mean = medium.absorption.map(mean_of).iter().sum::<f64>() / 2.0;
+    beam.weight / mean * medium.transmittance(beam.path.at(q))
 }
 
 fn views() -> [View; 5] {

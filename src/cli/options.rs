@@ -196,7 +196,7 @@ impl LightOptions {
             specimen.say(&format!("{range}; its index at {wavelength} nm is a guess"));
         }
         let radius_mm = specimen.design.diameter_mm / 2.0;
-        Ok(Medium::grey(index, material.absorption.coefficient(wavelength) * radius_mm))
+        Ok(Medium { index, absorption: Medium::absorption_of(material, wavelength, radius_mm), spread: 0.0 })
     }
 
     /// The head's half angle, checked.

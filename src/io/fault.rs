@@ -6,7 +6,7 @@ use std::ops::Range;
 use toml::de::{DeTable, DeValue, Error};
 
 /// What the keys mean, for whoever left one out or wrote something else.
-const MEANINGS: [(&str, &str); 23] = [
+const MEANINGS: [(&str, &str); 24] = [
     ("name", "what it is called"),
     ("material", "a material's name, an index, or a table of its own"),
     ("diameter_mm", "girdle diameter in mm"),
@@ -27,6 +27,7 @@ const MEANINGS: [(&str, &str); 23] = [
     ("abbe", "[n_d, v_d]"),
     ("sellmeier", "[[B, C], ...], C in µm"),
     ("absorption", "a number per mm, or [[nm, per mm], ...]"),
+    ("absorption_e", "of the extraordinary polarisation: a number per mm, or [[nm, per mm], ...]"),
     ("valid_nm", "[first, last]"),
     ("from", "degrees of elevation at which the band begins, -90 to 90"),
     ("colour", "[red, green, blue] of sRGB, 0 to 255 each"),

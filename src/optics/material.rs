@@ -2,6 +2,7 @@
 
 use super::absorption::Absorption;
 use super::dispersion::{Dispersion, DispersionError};
+use super::gems;
 use std::fmt;
 use std::sync::LazyLock;
 
@@ -14,8 +15,10 @@ pub struct Material {
     pub description: String,
     /// Its index by wavelength.
     pub dispersion: Dispersion,
-    /// What it takes from light on the way, clear unless stated.
-    pub absorption: Absorption,
+    /// What it takes from light on the way: of the ordinary and of the extraordinary polarisation in a uniaxial
+    /// stone, twice the same in others. Unpolarised light keeps the mean of the two transmittances over a path, not
+    /// that of the mean coefficient.
+    pub absorption: [Absorption; 2],
     /// Who measured it, and where it is printed.
     pub source: String,
     /// The wavelengths in nm, first and last, that the source vouches for; beyond them the formula is
@@ -44,7 +47,8 @@ impl Material {
         self.valid_nm.is_some_and(|(first, last)| (first..=last).contains(&wavelength_nm))
     }
 
-    fn clear(
+    /// A stone that takes nothing.
+    pub(super) fn clear(
         name: &str,
         text: &str,
         dispersion: Dispersion,
@@ -52,7 +56,7 @@ impl Material {
         valid_nm: Option<(f64, f64)>,
     ) -> Self {
         let (name, description, source) = (name.to_owned(), text.to_owned(), source.to_owned());
-        Self { name, description, dispersion, absorption: Absorption::clear(), source, valid_nm }
+        Self { name, description, dispersion, absorption: Default::default(), source, valid_nm }
     }
 }
 
@@ -85,11 +89,14 @@ pub fn material(name: &str) -> Result<&'static Material, UnknownMaterial> {
     materials().iter().find(|m| self::key(&m.name) == key).ok_or_else(|| unknown(name))
 }
 
-/// All materials that we know by name: diamond first, then the other published laws, then those from trade
-/// tables.
+/// All materials that we know by name: diamond first, then the other published laws, all colourless; then those from
+/// trade tables and the coloured gems.
 pub fn materials() -> &'static [Material] {
-    static MATERIALS: LazyLock<Vec<Material>> =
-        LazyLock::new(|| [published(), ordinary_rays(), garnets()].concat());
+    static MATERIALS: LazyLock<Vec<Material>> = LazyLock::new(|| {
+        let colourless = [published(), ordinary_rays()].concat();
+        let gems = gems::gems(&colourless);
+        [colourless, gems].concat()
+    });
     &MATERIALS
 }
 
@@ -172,23 +179,6 @@ fn ordinary_rays() -> Vec<Material> {
     ]
 }
 
-/// Isotropic garnets, by the middle of the range of their index and their B-G dispersion.
-fn garnets() -> Vec<Material> {
-    let garnet = |name, least: f64, most: f64, b_minus_g| {
-        let text =
-            format!("Isotropic garnet; n {least} to {most}, the middle taken; its colour is left out.");
-        let law = Dispersion::cauchy_from(0.5 * (least + most), b_minus_g);
-        Material::clear(name, &text, law, "trade tables, from memory, not yet checked", None)
-    };
-    vec![
-        garnet("pyrope", 1.714, 1.742, 0.022),
-        garnet("almandine", 1.77, 1.82, 0.025),
-        garnet("spessartine", 1.79, 1.82, 0.027),
-        garnet("grossular", 1.734, 1.759, 0.028),
-        garnet("demantoid", 1.88, 1.89, 0.057),
-    ]
-}
-
 fn sellmeier(terms: &[(f64, f64)]) -> Dispersion {
     Dispersion::Sellmeier { constant: 1.0, terms: terms.to_vec() }
 }
@@ -258,29 +248,15 @@ mod tests {
     }
 
     #[test]
-    fn garnets_give_the_two_numbers_they_were_made_from() {
-        for (name, n_d, b_g) in [
-            ("pyrope", 1.728, 0.022),
-            ("almandine", 1.795, 0.025),
-            ("spessartine", 1.805, 0.027),
-            ("grossular", 1.7465, 0.028),
-            ("demantoid", 1.885, 0.057),
-        ] {
-            let garnet = material(name).unwrap();
-            assert!((garnet.index(line::SODIUM_D) - n_d).abs() < 1e-12);
-            assert!((garnet.dispersion.dispersion_b_g() - b_g).abs() < 1e-12);
-            assert!(garnet.source.contains("from memory, not yet checked"));
-        }
-    }
-
-    #[test]
     fn every_material_has_an_index_that_falls_with_wavelength_throughout_visible_light() {
-        assert_eq!(materials().len(), 14);
+        assert_eq!(materials().len(), 29);
         for m in materials() {
             assert_eq!(m.dispersion.clone().checked().as_ref(), Ok(&m.dispersion), "{}", m.name);
             let indices: Vec<f64> = (360..=830).map(|nm| m.index(nm.into())).collect();
             assert!(indices.is_sorted_by(|a, b| a > b), "{}", m.name);
-            assert!(!m.source.is_empty() && !m.description.is_empty() && m.absorption.is_clear());
+            assert!(!m.source.is_empty() && !m.description.is_empty());
+            let clear = m.absorption.iter().all(Absorption::is_clear);
+            assert_eq!(clear, m.description.contains("colourless"), "{}", m.name);
         }
         assert_eq!((*VISIBLE_NM.start(), *VISIBLE_NM.end()), (360.0, 830.0));
     }
@@ -290,7 +266,10 @@ mod tests {
         for name in ["sapphire", "quartz", "moissanite", "rutile"] {
             assert!(material(name).unwrap().description.contains("ordinary ray only"));
         }
-        assert!(materials().iter().filter(|m| m.description.starts_with("Uniaxial")).count() == 4);
+        for m in materials().iter().filter(|m| m.description.starts_with("Uniaxial")) {
+            assert!(m.description.contains("without double refraction"), "{}", m.name);
+        }
+        assert!(materials().iter().filter(|m| m.description.starts_with("Uniaxial")).count() == 12);
     }
 
     #[test]

@@ -9,6 +9,7 @@ pub mod absorption;
 pub mod colour;
 pub mod dispersion;
 pub mod fresnel;
+mod gems;
 pub mod illuminant;
 pub mod material;
 pub mod observer;

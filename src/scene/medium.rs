@@ -1,5 +1,7 @@
 //! What a stone is made of, at one wavelength.
 
+use crate::optics::Material;
+
 /// A clear or absorbing medium at one wavelength, surrounded by air of index 1.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Medium {
@@ -21,6 +23,20 @@ impl Medium {
     /// A medium that absorbs both polarisations alike.
     pub const fn grey(index: f64, absorption: f64) -> Self {
         Self { index, absorption: [absorption; 2], spread: 0.0 }
+    }
+
+    /// A material over a band of wavelengths, taken for the one at `nm`; the world's unit is `unit_mm` mm.
+    pub fn of(material: &Material, (from_nm, nm, to_nm): (f64, f64, f64), unit_mm: f64) -> Self {
+        Self {
+            index: material.index(nm),
+            absorption: Self::absorption_of(material, nm, unit_mm),
+            spread: material.index(to_nm) - material.index(from_nm),
+        }
+    }
+
+    /// What a material absorbs at a wavelength, per unit of `unit_mm` mm.
+    pub fn absorption_of(material: &Material, nm: f64, unit_mm: f64) -> [f64; 2] {
+        material.absorption.each_ref().map(|a| a.coefficient(nm) * unit_mm)
     }
 
     /// Whether it absorbs nothing.

@@ -33,6 +33,9 @@ pub(super) struct TableForm {
     abbe: Option<Numbers<2>>,
     #[serde(skip_serializing_if = "Option::is_none")]
     absorption: Option<OneOf<Pairs>>,
+    /// Of the extraordinary polarisation, where it differs.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    absorption_e: Option<OneOf<Pairs>>,
     #[serde(skip_serializing_if = "Option::is_none")]
     valid_nm: Option<Numbers<2>>,
     /// A law that has no key of its own, as [`Dispersion`] spells it.
@@ -80,11 +83,9 @@ impl TableForm {
             Dispersion::Abbe { n_d, v_d } => form.abbe = Some(Numbers([n_d, v_d])),
             law @ (Dispersion::Sellmeier { .. } | Dispersion::Rational { .. }) => form.dispersion = Some(law),
         }
-        form.absorption = match absorption.samples() {
-            [] => None,
-            [(GREY_NM, per_mm)] => Some(OneOf::Number(*per_mm)),
-            samples => Some(OneOf::Rest(Pairs(samples.to_vec()))),
-        };
+        let [ordinary, extraordinary] = absorption;
+        form.absorption = (ordinary != Absorption::clear()).then(|| absorption_form(&ordinary));
+        form.absorption_e = (extraordinary != ordinary).then(|| absorption_form(&extraordinary));
         form
     }
 
@@ -106,31 +107,44 @@ impl TableForm {
             let message = format!("material.{second}: give {first} or {second}, not both");
             return Err(Fault::at(format!("material/{second}"), message));
         }
+        let read = |key, form: Option<_>| form.map(|form| absorption(key, form)).transpose();
+        let ordinary = read("absorption", self.absorption)?.unwrap_or_default();
+        let extraordinary = read("absorption_e", self.absorption_e)?.unwrap_or_else(|| ordinary.clone());
         Ok(Material {
             name: self.name,
             description: self.description,
             dispersion,
-            absorption: self.absorption.map_or(Ok(Absorption::clear()), absorption)?,
+            absorption: [ordinary, extraordinary],
             source: self.source,
             valid_nm: self.valid_nm.map(|range| range.0.into()),
         })
     }
 }
 
-fn absorption(form: OneOf<Pairs>) -> Result<Absorption, Fault> {
+/// A clear stone is the number 0, which a list cannot say.
+fn absorption_form(absorption: &Absorption) -> OneOf<Pairs> {
+    match absorption.samples() {
+        [] => OneOf::Number(0.0),
+        [(GREY_NM, per_mm)] if *per_mm != 0.0 => OneOf::Number(*per_mm),
+        samples => OneOf::Rest(Pairs(samples.to_vec())),
+    }
+}
+
+fn absorption(key: &str, form: OneOf<Pairs>) -> Result<Absorption, Fault> {
     let samples = match form {
+        OneOf::Number(0.0) => vec![],
         OneOf::Number(per_mm) => vec![(GREY_NM, per_mm)],
         OneOf::Rest(Pairs(samples)) => samples,
         OneOf::Text(_) => {
             let message =
-                "material.absorption: a number per mm or a list of [nm, per mm] is expected, not text";
-            return Err(Fault::at("material/absorption", message));
+                format!("material.{key}: a number per mm or a list of [nm, per mm] is expected, not text");
+            return Err(Fault::at(format!("material/{key}"), message));
         }
     };
     Absorption::new(samples).map_err(|error| {
         let (AbsorptionError::Wavelength { sample, .. }
         | AbsorptionError::Coefficient { sample, .. }
         | AbsorptionError::Order { sample, .. }) = error;
-        Fault::at(format!("material/absorption/{}", sample - 1), error.to_string())
+        Fault::at(format!("material/{key}/{}", sample - 1), format!("material.{key}: {error}"))
     })
 }

@@ -78,7 +78,7 @@ fn custom(dispersion: Dispersion) -> Material {
         name: "custom".to_owned(),
         description: String::new(),
         dispersion,
-        absorption: Absorption::clear(),
+        absorption: Default::default(),
         source: String::new(),
         valid_nm: None,
     }
@@ -105,20 +105,23 @@ fn a_material_is_a_name_an_index_or_a_table() {
     }
     let smoke =
         "name = \"smoke\", description = \"grey\", source = \"by eye\", valid_nm = [400, 700], index = 2";
-    for (text, samples) in [
-        ("1", vec![(550.0, 1.0)]),
-        ("0.5", vec![(550.0, 0.5)]),
-        ("[[400, 0.1], [700, 0]]", vec![(400.0, 0.1), (700.0, 0.0)]),
+    let violet = vec![(400.0, 0.1), (700.0, 0.0)];
+    for (text, ordinary, extraordinary) in [
+        ("absorption = 1", vec![(550.0, 1.0)], vec![(550.0, 1.0)]),
+        ("absorption = 0.5, absorption_e = 1", vec![(550.0, 0.5)], vec![(550.0, 1.0)]),
+        ("absorption = [[400, 0.1], [700, 0]]", violet.clone(), violet.clone()),
+        ("absorption = [[400, 0.1], [700, 0]], absorption_e = 0", violet.clone(), vec![]),
+        ("absorption_e = [[400, 0.1], [700, 0]]", vec![], violet),
     ] {
         let expected = Material {
             name: "smoke".to_owned(),
             description: "grey".to_owned(),
             dispersion: Dispersion::Constant(2.0),
-            absorption: Absorption::new(samples).unwrap(),
+            absorption: [ordinary, extraordinary].map(|samples| Absorption::new(samples).unwrap()),
             source: "by eye".to_owned(),
             valid_nm: Some((400.0, 700.0)),
         };
-        let read = material(&format!("{{ {smoke}, absorption = {text} }}")).unwrap();
+        let read = material(&format!("{{ {smoke}, {text} }}")).unwrap();
         assert_eq!(read, MaterialRef::Custom(Box::new(expected)));
     }
 }
@@ -146,7 +149,7 @@ fn a_material_that_light_cannot_know_is_told_with_its_line() {
     };
     told(
         "index = 2\nabsorption = [\n[400, 0.1],\n[500, -0.1]]",
-        "x.toml:7: absorption sample 2 (500 nm) has a coefficient of -0.1 per mm: give 0 to 1e6",
+        "x.toml:7: material.absorption: absorption sample 2 (500 nm) has a coefficient of -0.1 per mm: give 0 to 1e6",
     );
     told(
         "index = 2\nabsorption = [\n[400, 0.1],\n[500]]",
@@ -155,7 +158,17 @@ fn a_material_that_light_cannot_know_is_told_with_its_line() {
     );
     told(
         "index = 2\nabsorption = -1",
-        "x.toml:5: absorption sample 1 (550 nm) has a coefficient of -1 per mm: give 0 to 1e6",
+        "x.toml:5: material.absorption: absorption sample 1 (550 nm) has a coefficient of -1 per mm: give 0 to 1e6",
+    );
+    told(
+        "index = 2\nabsorption = 1\nabsorption_e = [\n[400, 0.1],\n[390, 0.1]]",
+        "x.toml:8: material.absorption_e: absorption sample 2 (390 nm) follows one at 400 nm: list wavelengths in \
+         increasing order, each once",
+    );
+    told(
+        "index = 2\nabsorption_e = [[400]]",
+        "x.toml:5: material.absorption_e: invalid length 1, expected a list of 2 numbers \
+         (of the extraordinary polarisation: a number per mm, or [[nm, per mm], ...])",
     );
     told(
         "sellmeier = []",
@@ -196,7 +209,7 @@ fn a_key_that_is_unknown_or_missing_is_told_with_those_that_are_known() {
     assert_told(
         &with("\"diamond\"", "{ refraction = 2 }"),
         "x.toml:4: material: unknown key `refraction`, known here are `name`, `description`, `source`, `index`, \
-         `sellmeier`, `cauchy`, `abbe`, `absorption`, `valid_nm`, `dispersion`",
+         `sellmeier`, `cauchy`, `abbe`, `absorption`, `absorption_e`, `valid_nm`, `dispersion`",
     );
     assert_told(
         &planes_with("offset = 1", "distance = 1"),
@@ -237,6 +250,10 @@ fn a_wrong_type_is_told_with_what_was_expected() {
     assert_told(
         &with("\"diamond\"", "{ index = 2, absorption = \"dark\" }"),
         "x.toml:4: material.absorption: a number per mm or a list of [nm, per mm] is expected, not text",
+    );
+    assert_told(
+        &with("\"diamond\"", "{ index = 2, absorption_e = \"dark\" }"),
+        "x.toml:4: material.absorption_e: a number per mm or a list of [nm, per mm] is expected, not text",
     );
     assert_told(
         &with("\"diamond\"", "{ sellmeier = [[1]] }"),
@@ -487,8 +504,9 @@ fn materials() -> impl Strategy<Value = MaterialRef> {
     prop_oneof![
         prop::sample::select(optics::materials()).prop_map(|known| MaterialRef::Name(known.name)),
         (1.0..=5.0).prop_map(MaterialRef::Index),
-        (texts, dispersions(), absorptions(), range).prop_map(
-            |((name, description, source), dispersion, absorption, valid_nm)| {
+        (texts, dispersions(), [absorptions(), absorptions()], any::<bool>(), range).prop_map(
+            |((name, description, source), dispersion, [o, e], pleochroic, valid_nm)| {
+                let absorption = if pleochroic { [o, e] } else { [o.clone(), o] };
                 let material = Material { name, description, dispersion, absorption, source, valid_nm };
                 MaterialRef::Custom(Box::new(material))
             }

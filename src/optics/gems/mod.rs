@@ -1,0 +1,118 @@
+//! Stones from trade tables and coloured gems: an index, and an absorption of bands and an edge.
+//!
+//! Where bands lie is known of each gem; how strong they are differs from stone to stone, and is chosen so that a
+//! stone of 6.5 mm, in which light goes about 14 mm, has the colour that the gem is loved for.
+
+mod table;
+#[cfg(test)]
+mod tests;
+
+use super::absorption::Absorption;
+use super::dispersion::{Dispersion, VISIBLE_NM};
+use super::material::Material;
+
+/// Steps between the samples of a spectrum, in nm: about half the width of the narrowest band.
+const STEP_NM: usize = 5;
+/// 4 ln 2: exp(-4 ln 2 x²) is a half where x, in full widths, is a half.
+const PER_WIDTH_SQUARED: f64 = 4.0 * std::f64::consts::LN_2;
+const TRADE: &str = "trade tables, from memory, not yet checked";
+const COLOUR: &str = "band positions from the literature, from memory, not yet checked; strengths chosen for a stone of \
+                      6.5 mm";
+
+/// A gem and its colour.
+struct Gem {
+    name: &'static str,
+    /// What it looks like, and what colours it.
+    text: &'static str,
+    host: Host,
+    edge: Edge,
+    bands: &'static [Band],
+}
+
+/// What the colour is in, which gives the index.
+enum Host {
+    /// A colourless material known by this name, and of this kind.
+    Known(&'static str, &'static str),
+    /// A mineral of this kind, by the least and the greatest of its index and its B-G dispersion.
+    Trade(&'static str, f64, f64, f64),
+}
+
+/// Absorption that grows toward the ultraviolet by a factor of e every so many nm; at 400 nm so much per mm for the
+/// ordinary and the extraordinary polarisation. A plain stand-in for charge transfer's wide bands.
+struct Edge {
+    at_400: [f64; 2],
+    fold_nm: f64,
+}
+
+/// An absorption band, Gaussian over wavenumbers: its centre in nm, its full width at half maximum in 1/cm, its height
+/// per mm for the ordinary and the extraordinary polarisation.
+struct Band {
+    nm: f64,
+    width: f64,
+    height: [f64; 2],
+}
+
+/// All stones of the table; those of a known host take its index from among `colourless`.
+pub(super) fn gems(colourless: &[Material]) -> Vec<Material> {
+    table::GEMS.iter().map(|gem| gem.material(colourless)).collect()
+}
+
+impl Gem {
+    fn material(&self, colourless: &[Material]) -> Material {
+        let clear = self.host.material(colourless);
+        let description = format!("{}; {}.", clear.description, self.text);
+        let source = match self.bands {
+            [] => clear.source,
+            _ => format!("index: {}; colour: {COLOUR}", clear.source),
+        };
+        Material { name: self.name.to_owned(), description, absorption: self.absorption(), source, ..clear }
+    }
+
+    fn absorption(&self) -> [Absorption; 2] {
+        if self.bands.is_empty() {
+            return Default::default();
+        }
+        let wavelengths = (*VISIBLE_NM.start() as u32..=*VISIBLE_NM.end() as u32).step_by(STEP_NM);
+        let sample = |axis: usize| move |nm| (f64::from(nm), rounded(self.per_mm(f64::from(nm), axis)));
+        [0, 1].map(|axis| {
+            let samples = wavelengths.clone().map(sample(axis)).collect();
+            Absorption::new(samples).unwrap_or_else(|error| panic!("{}: {error}", self.name))
+        })
+    }
+
+    /// The coefficient at a wavelength, for the ordinary polarisation (0) or the extraordinary one (1).
+    fn per_mm(&self, nm: f64, axis: usize) -> f64 {
+        let edge = self.edge.at_400[axis] * ((400.0 - nm) / self.edge.fold_nm).exp();
+        edge + self.bands.iter().map(|band| band.per_mm(nm, axis)).sum::<f64>()
+    }
+}
+
+impl Host {
+    /// The clear material, whose description lacks its end.
+    fn material(&self, colourless: &[Material]) -> Material {
+        match *self {
+            Self::Known(name, kind) => {
+                let host = colourless.iter().find(|m| m.name == name);
+                let host = host.unwrap_or_else(|| panic!("no host '{name}'")).clone();
+                Material { description: kind.to_owned(), ..host }
+            }
+            Self::Trade(kind, least, most, b_minus_g) => {
+                let text = format!("{kind}; n {least} to {most}, the middle taken");
+                let law = Dispersion::cauchy_from(0.5 * (least + most), b_minus_g);
+                Material::clear(kind, &text, law, TRADE, None)
+            }
+        }
+    }
+}
+
+impl Band {
+    fn per_mm(&self, nm: f64, axis: usize) -> f64 {
+        let widths = (1e7 / nm - 1e7 / self.nm) / self.width;
+        self.height[axis] * (-PER_WIDTH_SQUARED * widths * widths).exp()
+    }
+}
+
+/// To four digits, which is far more than is known, so that a spectrum written out can be read.
+fn rounded(per_mm: f64) -> f64 {
+    (1e4 * per_mm).round() / 1e4
+}
