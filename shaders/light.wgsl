@@ -22,21 +22,25 @@ fn see(ray: Ray, weight: f32) {
     sum.colour += response.key * light.x + response.red * light.y + response.green * light.z + response.blue * light.w;
 }
 
-// Whether a ray comes so near to a stone other than the one that it left that it may meet it.
-fn may_meet(ray: Ray, left: u32) -> bool {
+// Whether a ray meets a stone other than the one that it left.
+fn meets_any(ray: Ray, left: u32) -> bool {
+    let own = body;
+    var found = false;
     for (var k = 0u; k < frame.counts.x; k++) {
         let away = bodies[k].middle.xyz - ray.origin;
         let along = dot(away, ray.direction);
         let radius = bodies[k].middle.w;
-        if k != left && along > -radius && dot(away, away) - along * along < radius * radius {
-            return true;
+        if !found && k != left && along > -radius && dot(away, away) - along * along < radius * radius {
+            body = bodies[k];
+            found = entry(ray.origin, ray.direction).distance > 0.0;
         }
     }
-    return false;
+    body = own;
+    return found;
 }
 
 fn leave(ray: Ray, weight: f32, is_surface: bool) {
-    if frame.counts.x > 1u && may_meet(ray, present) {
+    if frame.counts.x > 1u && meets_any(ray, present) {
         if count < MOST_WAITING && weight > frame.limits.x {
             waiting[count] = Waiting(ray, weight, present);
             count += 1u;
@@ -48,28 +52,33 @@ fn leave(ray: Ray, weight: f32, is_surface: bool) {
     see(ray, weight);
 }
 
-// Follows a ray to the nearest stone, or to the light.
-fn go(next: Waiting, wavelength: u32) {
-    var nearest = Meeting(0u, -1.0);
+// The stone that a ray meets first; it becomes the present one. A negative distance where there is none.
+fn nearest(ray: Ray, left: u32) -> Meeting {
+    var first = Meeting(0u, -1.0);
     for (var k = 0u; k < frame.counts.x; k++) {
-        if k == next.left {
+        if k == left {
             continue;
         }
         body = bodies[k];
-        let met = entry(next.ray.origin, next.ray.direction);
-        if met.distance > 0.0 && (nearest.distance < 0.0 || met.distance < nearest.distance) {
-            nearest = met;
+        let met = entry(ray.origin, ray.direction);
+        if met.distance > 0.0 && (first.distance < 0.0 || met.distance < first.distance) {
+            first = met;
             present = k;
         }
     }
-    if nearest.distance >= 0.0 {
-        body = bodies[present];
-        medium = media[present * frame.counts.y + wavelength];
-        let rest = follow(next.ray, nearest, next.weight);
-        sum.rest += vec4f(rest.unresolved, rest.absorbed, f32(rest.bounces), 0.0);
-    } else if next.left != NONE {
+    return first;
+}
+
+// Follows a ray through the stone that it meets, or to the light.
+fn go(next: Waiting, met: Meeting, wavelength: u32) {
+    if met.distance < 0.0 {
         see(next.ray, next.weight);
+        return;
     }
+    body = bodies[present];
+    medium = media[present * frame.counts.y + wavelength];
+    let rest = follow(next.ray, met, next.weight);
+    sum.rest += vec4f(rest.unresolved, rest.absorbed, f32(rest.bounces), 0.0);
 }
 
 @compute @workgroup_size(8, 8)
@@ -82,23 +91,21 @@ fn light(@builtin(global_invocation_id) id: vec3u) {
     }
     sum = Lit();
     let start = pixel_ray(pixel, frame.limits.zw);
-    let eye = Ray(start[0], start[1], vec3f(0.0));
-    var hit = false;
-    for (var w = frame.turn.z; w < frame.turn.w; w++) {
-        response = responses[w];
-        waiting[0] = Waiting(eye, 1.0, NONE);
-        count = 1u;
-        present = NONE;
-        while count > 0u {
-            count -= 1u;
-            go(waiting[count], w);
+    let eye = Waiting(Ray(start[0], start[1], vec3f(0.0)), 1.0, NONE);
+    // Where it meets the first stone is the same for all wavelengths.
+    let met = nearest(eye.ray, NONE);
+    let first = present;
+    if met.distance >= 0.0 || surround.backdrop.x > 0.0 {
+        for (var w = frame.turn.z; w < frame.turn.w; w++) {
+            response = responses[w];
+            present = first;
+            go(eye, met, w);
+            while count > 0u {
+                count -= 1u;
+                let next = waiting[count];
+                go(next, nearest(next.ray, next.left), w);
+            }
         }
-        hit = present != NONE;
-        if !hit && surround.backdrop.x > 0.0 {
-            see(eye, 1.0);
-        }
-    }
-    if hit || surround.backdrop.x > 0.0 {
         sum.colour.w = f32(frame.turn.w - frame.turn.z);
     }
     let at = row * frame.film.x + id.x;

@@ -12,24 +12,11 @@ use brillianteer::trace::ray::{Camera, Options, Tracer};
 use brillianteer::trace::{Stopped, unwatched};
 use common::*;
 use glam::DVec2;
-use std::io::Write;
 
 const SIZE: u32 = 96;
 
 /// How far a pixel may be off, of full scale.
 const ALLOWED: f64 = 1e-3;
-
-/// The card, where there is one; loudly none where there is not, and an error where one is required.
-fn card(test: &str) -> Option<Gpu> {
-    match Gpu::open() {
-        Ok(gpu) => Some(gpu),
-        Err(error) if std::env::var_os("BRILLIANTEER_REQUIRE_GPU").is_some() => panic!("{test}: {error}"),
-        Err(error) => {
-            let _ = writeln!(std::io::stderr(), "SKIPPED {test}: {error}");
-            None
-        }
-    }
-}
 
 #[derive(Debug)]
 #[expect(dead_code, reason = "what went wrong is printed by its Debug")]

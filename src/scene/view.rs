@@ -68,9 +68,14 @@ impl View {
 
     /// The scope's axis in the stone's frame: elevations of light are counted from the plane square to it.
     pub fn zenith(&self) -> DVec3 {
+        self.light_basis().toward
+    }
+
+    /// The frame that light is given in: its axis, and the image's other two while nothing is tilted.
+    pub fn light_basis(&self) -> Basis {
         match self.lean {
-            Lean::Stone => self.basis().toward,
-            Lean::Eye => self.rest().toward,
+            Lean::Stone => self.basis(),
+            Lean::Eye => self.rest(),
         }
     }
 

@@ -173,19 +173,20 @@ impl Tracer {
     /// Follows the ray from a point outside, calling `leave` for the surface's glare and for each exit; `None`
     /// where it misses the stone.
     pub fn follow(&self, origin: DVec3, direction: DVec3, leave: impl FnMut(Exit)) -> Option<Rest> {
-        self.follow_swept(origin, (direction, DVec3::ZERO), 1.0, leave)
+        let met = self.meet(origin, direction)?;
+        self.follow_from(met, origin, (direction, DVec3::ZERO), 1.0, leave)
     }
 
-    /// The same for a ray of another weight than 1, whose direction moves over the spread of wavelengths: one that has
-    /// left another stone.
-    pub fn follow_swept(
+    /// Follows a ray that is known to [`meet`](Self::meet) the stone, of another weight than 1, whose direction moves over
+    /// the spread of wavelengths: one that may have left another stone. `None` where it runs along the facet.
+    pub fn follow_from(
         &self,
+        (facet, distance): (usize, f64),
         origin: DVec3,
         (direction, sweep): (DVec3, DVec3),
         weight: f64,
         mut leave: impl FnMut(Exit),
     ) -> Option<Rest> {
-        let (facet, distance) = self.meet(origin, direction)?;
         let normal = self.planes[facet].normal;
         let point = origin + direction * distance;
         let eta = 1.0 / self.medium.index;

@@ -3,15 +3,16 @@
 use super::surround::Surround;
 use super::{Stopped, Watch};
 use crate::math::Polytope;
-use crate::scene::{Medium, View};
+use crate::optics::Stratum;
+use crate::scene::{Medium, Placed, Setting, View};
 use crate::trace::ray::Options;
 use glam::{DVec2, DVec3};
 
 /// Stones in one world, what stands around them, and the camera.
 #[derive(Clone, Copy)]
 pub struct Sitting<'a> {
-    /// The stones; no two may overlap.
-    pub stones: &'a [Polytope],
+    /// The stones.
+    pub setting: &'a Setting,
     /// What stands around.
     pub surround: Surround<'a>,
     /// From where they are seen.
@@ -65,6 +66,25 @@ pub trait Exposure<E: From<Stopped>> {
     fn lit(&self) -> Result<Vec<Lit>, E>;
 }
 
+/// The steps of M. Roberts' R3 sequence (2018), powers of 1/1.2207...: points of it are spread evenly over a cube however
+/// many are taken. It is not random, so that pictures repeat.
+const STEPS: DVec3 = DVec3::new(0.819_172_513_396_164_4, 0.671_043_606_703_789_2, 0.549_700_477_901_970_3);
+
+impl Look {
+    /// The look of a number, from 0: looks of many numbers fill pixels and strata evenly. The first is through the middle
+    /// of both.
+    pub fn new(setting: &Setting, strata: &[Stratum], number: u32) -> Self {
+        let at = (STEPS * f64::from(number) + 0.5).fract();
+        let band = |s: &Stratum| (s.from_nm, s.at(at.z), s.to_nm);
+        let medium = |stone: &Placed, s: &Stratum| Medium::of(&stone.material, band(s), setting.unit_mm);
+        Self {
+            shift: at.truncate(),
+            media: setting.stones.iter().map(|p| strata.iter().map(|s| medium(p, s)).collect()).collect(),
+            responses: strata.iter().map(|s| s.response).collect(),
+        }
+    }
+}
+
 impl Sitting<'_> {
     /// A ball around each stone.
     pub fn balls(&self) -> Vec<(DVec3, f64)> {
@@ -75,12 +95,17 @@ impl Sitting<'_> {
             // A hair more, for rounding.
             (middle, radius * (1.0 + 1e-5))
         };
-        self.stones.iter().map(ball).collect()
+        self.stones().map(ball).collect()
+    }
+
+    /// The stones' solids.
+    pub fn stones(&self) -> impl Iterator<Item = &Polytope> {
+        self.setting.stones.iter().map(|s| &s.polytope)
     }
 
     /// How far the stones reach from the origin.
     pub fn reach(&self) -> f64 {
-        self.stones.iter().flat_map(Polytope::vertices).map(|v| v.length()).fold(0.0, f64::max)
+        self.stones().flat_map(Polytope::vertices).map(|v| v.length()).fold(0.0, f64::max)
     }
 
     /// The point of the image plane that a ray at `shift` in a pixel goes through.

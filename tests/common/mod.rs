@@ -107,3 +107,16 @@ pub fn shared(test: &str, path: &str) -> Option<PathBuf> {
     let _ = writeln!(std::io::stderr(), "SKIPPED {test}: {} is not on this machine", path.display());
     None
 }
+
+/// The card, where there is one; loudly none where there is not, and an error where one is required.
+#[cfg(feature = "gpu")]
+pub fn card(test: &str) -> Option<brillianteer::trace::gpu::Gpu> {
+    match brillianteer::trace::gpu::Gpu::open() {
+        Ok(gpu) => Some(gpu),
+        Err(error) if std::env::var_os("BRILLIANTEER_REQUIRE_GPU").is_some() => panic!("{test}: {error}"),
+        Err(error) => {
+            let _ = writeln!(std::io::stderr(), "SKIPPED {test}: {error}");
+            None
+        }
+    }
+}

@@ -52,7 +52,7 @@ impl<'a> ByCard<'a> {
         rows: Range<u32>,
         wavelengths: usize,
     ) -> Result<Self, GpuError> {
-        let stones: Vec<Vec<Plane>> = sitting.stones.iter().map(|s| s.planes().collect()).collect();
+        let stones: Vec<Vec<Plane>> = sitting.stones().map(|s| s.planes().collect()).collect();
         let solids = Solids::new(gpu, &stones, &sitting.balls())?;
         let copied = |label, bytes: usize, usage| {
             let usage = usage | wgpu::BufferUsages::COPY_DST;

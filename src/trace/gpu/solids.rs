@@ -20,7 +20,7 @@ pub const MOST_BODIES: usize = 256;
 const MOST_TURNS_IN_SOFTWARE: usize = 60_000;
 
 /// Rays of one pixel that may wait to meet another stone.
-pub(super) const MOST_WAITING: usize = 16;
+pub(super) const MOST_WAITING: usize = 24;
 
 /// The planes of all stones, and which are whose.
 pub(super) struct Solids {
@@ -74,10 +74,12 @@ impl Solids {
         if !gpu.is_software() {
             return wanted;
         }
-        // Every ray that waits is followed like the first, and looked for in all stones.
-        let rays = if self.count == 1 { 1 } else { 1 + MOST_WAITING };
-        let turns = (MOST_TURNS_IN_SOFTWARE / rays).saturating_sub(self.largest * self.count);
-        wanted.min((turns / self.largest) as u32)
+        if self.count == 1 {
+            return wanted.min((MOST_TURNS_IN_SOFTWARE / self.largest) as u32);
+        }
+        // Every ray that waits is followed like the first, and what leaves is looked for in all stones.
+        let turns = MOST_TURNS_IN_SOFTWARE / (1 + MOST_WAITING);
+        wanted.min((turns / (self.largest * (1 + self.count))) as u32)
     }
 
     /// What the shaders know of stones: the group's entries.

@@ -5,12 +5,12 @@ use crate::math::Polytope;
 use crate::scene::Medium;
 use crate::trace::sitting::{Exposure, Lit, Look, Sitting};
 use crate::trace::{Stopped, Watch};
-use glam::{DVec2, DVec3};
+use glam::{DVec2, DVec3, DVec4};
 use rayon::prelude::*;
 use std::ops::Range;
 
 /// Rays of one pixel that may wait to meet another stone, as on a graphics card.
-const MOST_WAITING: usize = 16;
+const MOST_WAITING: usize = 24;
 
 /// Rows traced between two calls of the watch.
 const PIECE: usize = 8;
@@ -36,6 +36,9 @@ struct Waiting {
     left: Option<usize>,
 }
 
+/// A stone, and the facet and distance at which a ray meets it.
+type Met = (usize, (usize, f64));
+
 impl<'a> ByRays<'a> {
     /// Prepares some rows of a picture.
     pub fn new(sitting: Sitting<'a>, rows: Range<u32>) -> Self {
@@ -43,7 +46,7 @@ impl<'a> ByRays<'a> {
         Self {
             sitting,
             camera: Camera::reaching(sitting.view, sitting.reach()),
-            tracers: sitting.stones.iter().map(tracer).collect(),
+            tracers: sitting.stones().map(tracer).collect(),
             balls: sitting.balls(),
             sums: vec![Lit::default(); rows.len() * sitting.size[0] as usize],
             rows,
@@ -55,77 +58,66 @@ impl<'a> ByRays<'a> {
     fn see(&self, tracers: &[Vec<Tracer>], look: &Look, at: DVec2) -> Lit {
         let (origin, direction) = self.camera.ray(at);
         let start = Waiting { origin, direction, sweep: DVec3::ZERO, weight: 1.0, left: None };
-        let mut lit = Lit::default();
+        // Where it meets the first stone is the same for all wavelengths.
+        let first = self.nearest(&start);
+        let is_seen = first.is_some() || self.sitting.surround.backdrop;
+        let mut lit = Lit { cover: f64::from(u8::from(is_seen)), ..Lit::default() };
         let mut waiting = Vec::with_capacity(MOST_WAITING);
         for (band, response) in look.responses.iter().enumerate() {
-            let see = |ray: &Waiting| {
-                let light = self.sitting.surround.radiance(ray.origin, ray.direction, ray.sweep) * ray.weight;
-                response.iter().zip(light.to_array()).map(|(&colour, light)| colour * light).sum::<DVec3>()
-            };
-            waiting.push(start);
-            let mut hit = false;
-            while let Some(ray) = waiting.pop() {
-                let Some(stone) = self.nearest(&ray) else {
-                    if ray.left.is_some() {
-                        lit.colour += see(&ray);
-                    }
-                    continue;
-                };
-                hit = true;
-                let mut unseen = 0.0;
+            let (mut light, mut unseen) = (DVec4::ZERO, 0.0);
+            let mut through = |ray: &Waiting, met: Option<Met>, waiting: &mut Vec<Waiting>| {
+                let Some((stone, met)) = met else { return light += self.arriving(ray) };
                 let leave = |exit: Exit| {
-                    let ray = Waiting {
-                        origin: exit.point,
-                        direction: exit.direction,
-                        sweep: exit.sweep,
-                        weight: exit.weight,
-                        left: Some(stone),
-                    };
-                    if !self.may_meet(&ray) {
-                        lit.colour += see(&ray);
-                    } else if waiting.len() < MOST_WAITING && ray.weight > self.sitting.options.least_weight {
+                    let Exit { point: origin, direction, sweep, weight, .. } = exit;
+                    let ray = Waiting { origin, direction, sweep, weight, left: Some(stone) };
+                    if !self.meets_any(&ray) {
+                        light += self.arriving(&ray);
+                    } else if waiting.len() < MOST_WAITING && weight > self.sitting.options.least_weight {
                         waiting.push(ray);
                     } else {
-                        unseen += ray.weight;
+                        unseen += weight;
                     }
                 };
-                let tracer = &tracers[stone][band];
-                if let Some(rest) =
-                    tracer.follow_swept(ray.origin, (ray.direction, ray.sweep), ray.weight, leave)
-                {
+                let (tracer, way) = (&tracers[stone][band], (ray.direction, ray.sweep));
+                if let Some(rest) = tracer.follow_from(met, ray.origin, way, ray.weight, leave) {
                     lit.unresolved += rest.unresolved;
                     lit.absorbed += rest.absorbed;
                     lit.bounces += f64::from(rest.bounces);
                 }
-                lit.unresolved += unseen;
+            };
+            if is_seen {
+                through(&start, first, &mut waiting);
             }
-            if !hit && self.sitting.surround.backdrop {
-                lit.colour += see(&start);
+            while let Some(ray) = waiting.pop() {
+                through(&ray, self.nearest(&ray), &mut waiting);
             }
-            lit.cover = f64::from(u8::from(hit || self.sitting.surround.backdrop));
+            lit.colour += response.iter().zip(light.to_array()).map(|(&c, l)| c * l).sum::<DVec3>();
+            lit.unresolved += unseen;
         }
-        let bands = look.responses.len() as f64;
-        Lit {
-            unresolved: lit.unresolved / bands,
-            absorbed: lit.absorbed / bands,
-            bounces: lit.bounces / bands,
-            ..lit
-        }
+        let share = 1.0 / look.responses.len() as f64;
+        let Lit { unresolved, absorbed, bounces, .. } = lit;
+        Lit { unresolved: unresolved * share, absorbed: absorbed * share, bounces: bounces * share, ..lit }
     }
 
-    /// The stone that a ray meets first.
-    fn nearest(&self, ray: &Waiting) -> Option<usize> {
+    /// The light that comes down a ray from what stands around.
+    fn arriving(&self, ray: &Waiting) -> DVec4 {
+        self.sitting.surround.radiance(ray.origin, ray.direction, ray.sweep) * ray.weight
+    }
+
+    /// The stone that a ray meets first, and where.
+    fn nearest(&self, ray: &Waiting) -> Option<Met> {
         let others = (0..self.tracers.len()).filter(|&k| Some(k) != ray.left);
-        let met = others.filter_map(|k| Some((k, self.tracers[k].meet(ray.origin, ray.direction)?.1)));
-        met.min_by(|a, b| a.1.total_cmp(&b.1)).map(|(k, _)| k)
+        let met = others.filter_map(|k| Some((k, self.tracers[k].meet(ray.origin, ray.direction)?)));
+        met.min_by(|(_, a), (_, b)| a.1.total_cmp(&b.1))
     }
 
-    /// Whether a ray comes so near to a stone other than the one that it left that it may meet it.
-    fn may_meet(&self, ray: &Waiting) -> bool {
+    /// Whether a ray meets a stone other than the one that it left.
+    fn meets_any(&self, ray: &Waiting) -> bool {
         self.balls.iter().enumerate().any(|(k, &(middle, radius))| {
             let away = middle - ray.origin;
             let along = away.dot(ray.direction);
-            Some(k) != ray.left && along > -radius && away.length_squared() - along * along < radius * radius
+            let is_near = along > -radius && away.length_squared() - along * along < radius * radius;
+            Some(k) != ray.left && is_near && self.tracers[k].meet(ray.origin, ray.direction).is_some()
         })
     }
 }

@@ -1,0 +1,66 @@
+//! What stones look like under light: the looks that a picture is made from, added up.
+
+use super::Linear;
+use crate::optics::Stratum;
+use crate::trace::sitting::{Exposure, Lit, Look, Sitting};
+use crate::trace::{Stopped, Watch};
+use std::ops::Range;
+
+/// What a picture does not show: means over what it covers.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Remainder {
+    /// Share of the light not followed to its end.
+    pub unresolved: f64,
+    /// Share absorbed.
+    pub absorbed: f64,
+    /// Bounces inside stones, per ray.
+    pub bounces: f64,
+}
+
+/// Takes a picture of `samples` looks in these strata of wavelength. `prepare` makes what sees some rows; no more than
+/// `most_rows` are asked for at once.
+///
+/// # Errors
+/// What `prepare` and its product answer; [`Stopped`] when `watch` asks to stop.
+pub fn expose<E: From<Stopped>, X: Exposure<E>>(
+    sitting: &Sitting,
+    (strata, samples): (&[Stratum], u32),
+    most_rows: u32,
+    prepare: impl Fn(Range<u32>) -> Result<X, E>,
+    watch: Watch,
+) -> Result<(Linear, Remainder), E> {
+    let [width, height] = sitting.size;
+    let mut pixels = Vec::with_capacity(width as usize * height as usize);
+    let (mut sum, mut cover) = (Remainder::default(), 0.0);
+    for first in (0..height).step_by(most_rows as usize) {
+        let rows = first..(first + most_rows).min(height);
+        let mut exposure = prepare(rows.clone())?;
+        for number in 0..samples {
+            let done = |part: f64| {
+                let rows_done = f64::from(rows.start)
+                    + rows.len() as f64 * (f64::from(number) + part) / f64::from(samples);
+                watch(rows_done / f64::from(height))
+            };
+            exposure.look(&Look::new(sitting.setting, strata, number), &done)?;
+        }
+        for lit in exposure.lit()? {
+            sum.unresolved += lit.unresolved;
+            sum.absorbed += lit.absorbed;
+            sum.bounces += lit.bounces;
+            cover += lit.cover;
+            pixels.push(pixel(&lit));
+        }
+    }
+    let share = if cover > 0.0 { 1.0 / cover } else { 0.0 };
+    let remainder = Remainder {
+        unresolved: sum.unresolved * share,
+        absorbed: sum.absorbed * share,
+        bounces: sum.bounces * share,
+    };
+    Ok((Linear { width, height, pixels }, remainder))
+}
+
+fn pixel(lit: &Lit) -> [f32; 4] {
+    let [red, green, blue] = lit.colour.as_vec3().to_array();
+    [red, green, blue, lit.cover as f32]
+}

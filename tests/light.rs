@@ -1,0 +1,323 @@
+//! Pictures under light: laws that hold for any stone, and the graphics card against rays in f64.
+#![allow(clippy::unwrap_used, reason = "a test fails by it")]
+
+mod common;
+
+use brillianteer::math::Polytope;
+use brillianteer::optics::{Illuminant, material, materials, strata};
+use brillianteer::picture::Linear;
+use brillianteer::picture::spectral::{Remainder, expose};
+use brillianteer::scene::{Dome, Light, Placed, Projection, Setting, View, light};
+use brillianteer::trace::ray::{ByRays, Options};
+use brillianteer::trace::sitting::Sitting;
+use brillianteer::trace::surround::{Sky, Surround};
+use brillianteer::trace::{Stopped, unwatched};
+use common::*;
+use glam::DVec3;
+
+const SIZE: u32 = 64;
+
+/// A picture to take.
+struct Shoot {
+    setting: Setting,
+    light: Light,
+    view: View,
+    wavelengths: u32,
+    samples: u32,
+    backdrop: bool,
+    options: Options,
+}
+
+impl Shoot {
+    fn new(polytope: &Polytope, material_name: &str, light: Light) -> Self {
+        let stone = Placed { polytope: polytope.clone(), material: material(material_name).unwrap().clone() };
+        Self {
+            setting: Setting { stones: vec![stone], unit_mm: 3.25 },
+            light: Light { head: 0.0, ..light },
+            view: View { tilt: 0.2, azimuth: 0.4, ..View::default() },
+            wavelengths: 8,
+            samples: 1,
+            backdrop: true,
+            options: Options { polarised: true, most_bounces: 64, least_weight: 1e-4 },
+        }
+    }
+
+    fn with<T>(&self, work: impl FnOnce(&Sitting) -> T) -> T {
+        let sky = Sky::new(&self.light, None);
+        let eye = self.view.basis();
+        let surround = Surround {
+            sky: &sky,
+            basis: self.view.light_basis(),
+            eye,
+            head: self.light.head.to_radians(),
+            behind: None,
+            backdrop: self.backdrop,
+        };
+        work(&Sitting {
+            setting: &self.setting,
+            surround,
+            view: &self.view,
+            size: [SIZE; 2],
+            pixel: 2.2 / f64::from(SIZE),
+            options: self.options,
+        })
+    }
+
+    fn by_rays(&self) -> (Linear, Remainder) {
+        let strata = strata(self.wavelengths, &self.light.spectrum, true);
+        self.with(|sitting| {
+            let prepare = |rows| Ok::<_, Stopped>(ByRays::new(*sitting, rows));
+            expose(sitting, (&strata, self.samples), SIZE, prepare, &unwatched).unwrap()
+        })
+    }
+
+    #[cfg(feature = "gpu")]
+    fn by_card(&self, gpu: &brillianteer::trace::gpu::Gpu) -> (Linear, Remainder) {
+        use brillianteer::trace::gpu::ByCard;
+        let strata = strata(self.wavelengths, &self.light.spectrum, true);
+        self.with(|sitting| {
+            let prepare = |rows| Ok::<_, Failed>(ByCard::new(gpu, sitting, rows, strata.len())?);
+            // A strip at a time, as large pictures are taken.
+            expose(sitting, (&strata, self.samples), 40, prepare, &unwatched).unwrap()
+        })
+    }
+}
+
+fn modern() -> Polytope {
+    built(&brilliant((56.0, 34.5, 40.8), (50.0, 77.0), 96)).polytope
+}
+
+fn colour(pixel: &[f32; 4]) -> DVec3 {
+    DVec3::new(f64::from(pixel[0]), f64::from(pixel[1]), f64::from(pixel[2]))
+}
+
+#[test]
+fn a_white_furnace_is_white_in_every_clear_material() {
+    let stone = modern();
+    for m in materials().iter().filter(|m| m.absorption.iter().all(|a| a.is_clear())) {
+        for key in [Illuminant::D65, Illuminant::A] {
+            let mut shoot = Shoot::new(&stone, &m.name, Light { spectrum: key, ..Light::white() });
+            shoot.options.most_bounces = 1000;
+            let (picture, remainder) = shoot.by_rays();
+            let unresolved = remainder.unresolved + 1e-9;
+            assert!(unresolved < 2e-3, "{}: {unresolved} unresolved", m.name);
+            let mean = picture.pixels.iter().map(colour).sum::<DVec3>() / picture.pixels.len() as f64;
+            // What is missing is what is unresolved, though no two wavelengths miss the same.
+            assert!((mean - 1.0).abs().max_element() < 3.0 * unresolved + 1e-6, "{}: {mean}", m.name);
+        }
+    }
+}
+
+#[test]
+fn a_furnace_loses_just_what_a_stone_of_colour_absorbs() {
+    for m in materials().iter().filter(|m| m.absorption.iter().any(|a| !a.is_clear())) {
+        let mut shoot = Shoot::new(&modern(), &m.name, Light { spectrum: Illuminant::E, ..Light::white() });
+        (shoot.backdrop, shoot.samples) = (false, 2);
+        let (picture, remainder) = shoot.by_rays();
+        let cover: f64 = picture.pixels.iter().map(|p| f64::from(p[3])).sum();
+        let mean = picture.pixels.iter().map(colour).sum::<DVec3>() / cover;
+        assert!(mean.max_element() <= 1.3 && remainder.absorbed > 0.01, "{}: {mean}", m.name);
+    }
+}
+
+#[test]
+fn many_wavelengths_of_a_neutral_scene_are_neutral() {
+    // A stone of one index in neutral light: whatever it shows is grey, for any number of wavelengths.
+    let mut shoot =
+        Shoot::new(&modern(), "diamond", Light { spectrum: Illuminant::A, ..light("lamps").unwrap() });
+    shoot.setting.stones[0].material = brillianteer::optics::Material::from_index("glass", 2.4175).unwrap();
+    for wavelengths in [1, 3, 64] {
+        shoot.wavelengths = wavelengths;
+        let (picture, _) = shoot.by_rays();
+        let scale = picture.pixels.iter().map(|p| colour(p).max_element()).fold(0.0, f64::max);
+        for pixel in &picture.pixels {
+            let colour = colour(pixel);
+            assert!(colour.max_element() - colour.min_element() < 1e-5 * scale, "{wavelengths}: {colour}");
+        }
+    }
+    // Diamond's fire is coloured, but all of it together is not.
+    let mut shoot = Shoot::new(&modern(), "diamond", light("dome").unwrap());
+    (shoot.wavelengths, shoot.samples, shoot.backdrop) = (64, 4, false);
+    let (picture, _) = shoot.by_rays();
+    let mean = picture.pixels.iter().map(colour).sum::<DVec3>();
+    let mean = mean / mean.element_sum() * 3.0;
+    assert!((mean - 1.0).abs().max_element() < 0.01, "{mean}");
+}
+
+#[test]
+fn more_looks_and_more_wavelengths_come_to_the_same_picture() {
+    let mut shoot = Shoot::new(&modern(), "diamond", light("lamps").unwrap());
+    let blocks = |wavelengths, samples, shoot: &mut Shoot| {
+        (shoot.wavelengths, shoot.samples) = (wavelengths, samples);
+        blocks(&shoot.by_rays().0)
+    };
+    let fine = blocks(32, 16, &mut shoot);
+    let coarse = blocks(16, 16, &mut shoot);
+    let rough = blocks(4, 1, &mut shoot);
+    let scale = fine.iter().map(|b| b.max_element()).fold(0.0, f64::max);
+    let worst =
+        |a: &[DVec3]| a.iter().zip(&fine).map(|(a, b)| (*a - *b).abs().max_element()).fold(0.0, f64::max);
+    assert!(worst(&coarse) < 0.04 * scale, "{} of {scale}", worst(&coarse));
+    assert!(worst(&rough) > worst(&coarse), "{} of {scale}", worst(&rough));
+}
+
+#[test]
+fn a_stone_behind_another_is_seen_through_it_and_hidden_beside_it() {
+    // A clear cube of index 1 in front changes nothing; a dark one hides what is behind.
+    let cube = |middle: DVec3, half: f64| {
+        let axes = [DVec3::X, DVec3::Y, DVec3::Z];
+        let planes: Vec<_> = axes
+            .into_iter()
+            .flat_map(|a| [(a, 1.0), (-a, 1.0)])
+            .map(|(n, _)| brillianteer::math::Plane::new(n, half + n.dot(middle)))
+            .collect();
+        Polytope::from_planes(&planes).unwrap()
+    };
+    let glass = |index| brillianteer::optics::Material::from_index("glass", index).unwrap();
+    let placed = |polytope, material| Placed { polytope, material };
+    let behind = || placed(cube(DVec3::new(0.1, 0.05, -0.6), 0.4), glass(1.6));
+    let mut shoot = Shoot::new(&modern(), "diamond", light("studio").unwrap());
+    shoot.view = View { tilt: 0.1, azimuth: 0.4, ..View::default() };
+    shoot.setting.stones = vec![behind()];
+    let alone = shoot.by_rays().0;
+    shoot.setting.stones = vec![placed(cube(DVec3::new(0.1, 0.0, 0.6), 0.5), glass(1.0)), behind()];
+    let through = shoot.by_rays().0;
+    // The faintest light is not followed into another stone; an edge is met a rounding earlier or later.
+    let differ =
+        alone.pixels.iter().zip(&through.pixels).filter(|(a, b)| (colour(a) - colour(b)).length() > 1e-4);
+    assert!(differ.count() <= 4);
+    let mut dark = glass(1.0);
+    dark.absorption = [(); 2].map(|()| brillianteer::optics::Absorption::new(vec![(550.0, 1e3)]).unwrap());
+    shoot.setting.stones[0].material = dark;
+    shoot.backdrop = false;
+    let hidden = shoot.by_rays().0;
+    let middle = hidden.pixels[(SIZE / 2 * SIZE + SIZE / 2) as usize];
+    assert!(colour(&middle).length() < 1e-6 && middle[3] == 1.0, "{middle:?}");
+}
+
+/// Means of 8 x 8 pixels.
+fn blocks(picture: &Linear) -> Vec<DVec3> {
+    let (across, down) = (picture.width / 8, picture.height / 8);
+    let mean = |k: u32| {
+        let pixels = (0..64).map(|p| (k / across * 8 + p / 8) * picture.width + k % across * 8 + p % 8);
+        pixels.map(|at| colour(&picture.pixels[at as usize])).sum::<DVec3>() / 64.0
+    };
+    (0..across * down).map(mean).collect()
+}
+
+#[cfg(feature = "gpu")]
+#[derive(Debug)]
+#[expect(dead_code, reason = "what went wrong is printed by its Debug")]
+struct Failed(String);
+
+#[cfg(feature = "gpu")]
+mod card {
+    use super::*;
+    use brillianteer::trace::gpu::{Gpu, GpuError};
+
+    impl From<GpuError> for Failed {
+        fn from(error: GpuError) -> Self {
+            Self(error.to_string())
+        }
+    }
+
+    impl From<Stopped> for Failed {
+        fn from(error: Stopped) -> Self {
+            Self(error.to_string())
+        }
+    }
+
+    /// The largest difference of any block's mean, as a part of full scale: the brightest block.
+    fn differ(shoot: &Shoot, twin: &Shoot, gpu: &Gpu) -> f64 {
+        let (exact, card) = (blocks(&shoot.by_rays().0), blocks(&twin.by_card(gpu).0));
+        let scale = exact.iter().map(|b| b.max_element()).fold(0.0, f64::max);
+        exact.iter().zip(&card).map(|(a, b)| (*a - *b).abs().max_element()).fold(0.0, f64::max) / scale
+    }
+
+    #[test]
+    fn the_card_shows_what_rays_show() {
+        let Some(gpu) = super::common::card("the_card_shows_what_rays_show") else { return };
+        let shoot = || {
+            let mut shoot = Shoot::new(&modern(), "diamond", light("lamps").unwrap());
+            (shoot.wavelengths, shoot.samples) = (16, 16);
+            shoot
+        };
+        let found = differ(&shoot(), &shoot(), &gpu);
+        assert!(found < 0.005, "eight lamps on a dome: {found}");
+        for (material, name, distance) in
+            [("ruby", "studio", 7.0), ("emerald", "ring", 30.0), ("quartz", "office", 5.0)]
+        {
+            let shoot = || {
+                let mut shoot = Shoot::new(&modern(), material, Light { head: 12.0, ..light(name).unwrap() });
+                shoot.view.projection = Projection::Perspective { distance };
+                shoot.samples = 8;
+                shoot.light.head = 12.0;
+                shoot
+            };
+            let found = differ(&shoot(), &shoot(), &gpu);
+            assert!(found < 0.005, "{material}, {name}: {found}");
+        }
+        let mut mutant = shoot();
+        mutant.setting.stones[0].material = material("cubic zirconia").unwrap().clone();
+        assert!(differ(&shoot(), &mutant, &gpu) > 0.02);
+        let mut mutant = shoot();
+        mutant.light.lamp[0].azimuth += 4.0;
+        assert!(differ(&shoot(), &mutant, &gpu) > 0.01);
+    }
+
+    #[test]
+    fn the_card_shows_stones_beside_one_another_as_rays_do() {
+        let Some(gpu) = super::common::card("the_card_shows_stones_beside_one_another_as_rays_do") else {
+            return;
+        };
+        let shoot = |index: f64| {
+            let planes = |middle: DVec3| {
+                let corner = |k: u32| {
+                    DVec3::new(
+                        [-1.0, 1.0][(k & 1) as usize],
+                        [-1.0, 1.0][(k >> 1 & 1) as usize],
+                        [-1.0, 1.0][(k >> 2) as usize],
+                    )
+                };
+                let plane = |k| {
+                    let n = corner(k) / 3.0_f64.sqrt();
+                    brillianteer::math::Plane::new(n, 0.28 + n.dot(middle))
+                };
+                Polytope::from_planes(&(0..8).map(plane).collect::<Vec<_>>()).unwrap()
+            };
+            let mut shoot =
+                Shoot::new(&planes(DVec3::new(-0.4, 0.1, 0.2)), "diamond", light("studio").unwrap());
+            let glass = brillianteer::optics::Material::from_index("glass", index).unwrap();
+            shoot
+                .setting
+                .stones
+                .push(Placed { polytope: planes(DVec3::new(0.45, -0.2, 0.0)), material: glass });
+            shoot.samples = 8;
+            shoot
+        };
+        let found = differ(&shoot(1.6), &shoot(1.6), &gpu);
+        assert!(found < 0.005, "{found}");
+        assert!(differ(&shoot(1.6), &shoot(1.65), &gpu) > 0.01);
+    }
+
+    #[test]
+    fn a_stone_of_many_planes_is_lit_by_bunches_as_well() {
+        let Some(gpu) = super::common::card("a_stone_of_many_planes_is_lit_by_bunches_as_well") else {
+            return;
+        };
+        let planes: Vec<_> = (0..600)
+            .map(|i| {
+                let z: f64 = 1.0 - 2.0 * (f64::from(i) + 0.5) / 600.0;
+                brillianteer::math::Plane::from_slope(z.acos(), 2.399_963 * f64::from(i), 1.0)
+            })
+            .collect();
+        let shoot = || {
+            let mut shoot =
+                Shoot::new(&Polytope::from_planes(&planes).unwrap(), "quartz", light("dome").unwrap());
+            (shoot.samples, shoot.options.most_bounces) = (8, 12);
+            shoot
+        };
+        let found = differ(&shoot(), &shoot(), &gpu);
+        assert!(found < 0.01, "{found}");
+    }
+}
