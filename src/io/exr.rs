@@ -3,6 +3,7 @@
 use super::atomic::{WriteError, write};
 use crate::picture::{Film, Layer, paint};
 use crate::trace::Watch;
+use exr::meta::attribute::Chromaticities;
 use exr::prelude::{
     AnyChannel, AnyChannels, Encoding, FlatSamples, Image, ImageAttributes, Layer as ExrLayer,
     LayerAttributes, LineOrder, Text, WritableImage,
@@ -34,15 +35,26 @@ pub fn write_exr(
     let named = layer.channels.iter().zip(channels);
     let list: SmallVec<[AnyChannel<FlatSamples>; 4]> =
         named.map(|(name, values)| AnyChannel::new(name.as_str(), FlatSamples::F32(values))).collect();
-    let size = (film.size as usize, film.size as usize);
+    write_channels(path, (film.size as usize, film.size as usize), list, description, None)
+}
+
+/// Writes one layer, `light`, of these channels.
+pub(super) fn write_channels(
+    path: &Path,
+    size: (usize, usize),
+    channels: SmallVec<[AnyChannel<FlatSamples>; 4]>,
+    description: &str,
+    chromaticities: Option<Chromaticities>,
+) -> Result<(), WriteError> {
     let mut attributes = LayerAttributes::named("light");
     attributes.comments = Text::new_or_none(description);
     attributes.software_name = Text::new_or_none("Brillianteer");
     // In any other order the threads' race would decide where in the file a tile comes to lie.
     let encoding = Encoding { line_order: LineOrder::Increasing, ..Encoding::FAST_LOSSLESS };
-    let data = ExrLayer::new(size, attributes, encoding, AnyChannels::sort(list));
+    let data = ExrLayer::new(size, attributes, encoding, AnyChannels::sort(channels));
     let mut image = Image::from_layer(data);
     image.attributes = ImageAttributes::with_size(size);
+    image.attributes.chromaticities = chromaticities;
     write(path, |file| {
         image.write().to_buffered(file).map_err(|e| match e {
             exr::error::Error::Io(e) => WriteError::io(path, e),

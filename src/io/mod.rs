@@ -1,15 +1,20 @@
 //! Floor 5: files, in and out.
 
+mod apng;
 mod atomic;
 pub mod cut_file;
 mod drawing_png;
 mod exr;
 mod fault;
+pub mod panorama;
+mod picture_file;
 mod png;
 pub mod scope_file;
 mod text;
 
+pub use apng::{Animation, Frames, write_apng};
 pub use atomic::{WriteError, write};
 pub use drawing_png::{DrawingError, rasterize};
 pub use exr::write_exr;
+pub use picture_file::{write_linear_exr, write_rgba_png};
 pub use png::{MOST_PIXELS, PngRows, write_png};

@@ -30,23 +30,34 @@ impl PngRows<'_> {
 /// When the file system refuses, or with what `fill` answers.
 pub fn write_png<E: From<WriteError>>(
     path: &Path,
-    (width, height): (u32, u32),
+    size: (u32, u32),
     description: &str,
     fill: impl FnOnce(&mut PngRows) -> Result<(), E>,
 ) -> Result<(), E> {
     write(path, |file| -> Result<(), E> {
         let failed = |e: png::EncodingError| WriteError::io(path, e);
-        let mut encoder = png::Encoder::new(file, width, height);
-        encoder.set_color(png::ColorType::Rgb);
-        encoder.set_depth(png::BitDepth::Eight);
-        encoder.set_compression(png::Compression::Fast);
-        encoder.set_source_srgb(png::SrgbRenderingIntent::RelativeColorimetric);
-        encoder.add_text_chunk("Software".into(), "Brillianteer".into()).map_err(failed)?;
-        encoder.add_itxt_chunk("Description".into(), description.into()).map_err(failed)?;
+        let encoder = encoder(file, size, png::ColorType::Rgb, description).map_err(failed)?;
         let mut writer = encoder.write_header().map_err(failed)?;
         let mut stream = writer.stream_writer().map_err(failed)?;
         fill(&mut PngRows { path, stream: &mut stream })?;
         stream.finish().map_err(failed)?;
         Ok(writer.finish().map_err(failed)?)
     })
+}
+
+/// An encoder of eight-bit sRGB with the texts that every picture bears.
+pub(super) fn encoder<W: Write>(
+    file: W,
+    (width, height): (u32, u32),
+    colour: png::ColorType,
+    description: &str,
+) -> Result<png::Encoder<'static, W>, png::EncodingError> {
+    let mut encoder = png::Encoder::new(file, width, height);
+    encoder.set_color(colour);
+    encoder.set_depth(png::BitDepth::Eight);
+    encoder.set_compression(png::Compression::Fast);
+    encoder.set_source_srgb(png::SrgbRenderingIntent::RelativeColorimetric);
+    encoder.add_text_chunk("Software".into(), "Brillianteer".into())?;
+    encoder.add_itxt_chunk("Description".into(), description.into())?;
+    Ok(encoder)
 }

@@ -1,8 +1,11 @@
 //! Floor 4: pictures. A picture is a view, a scope and a reading of the light; nothing here traces.
 
+mod background;
+mod bloom;
 #[cfg(feature = "gpu")]
 pub mod by_gpu;
 pub mod by_rays;
+mod develop;
 mod diagram;
 mod drawing;
 mod film;
@@ -13,15 +16,20 @@ mod palette;
 mod profile;
 mod raster;
 pub mod spectral;
+mod tone;
 pub mod vector;
 mod views;
 
+pub use background::{Background, over};
+pub use bloom::Bloom;
+pub use develop::{Develop, develop};
 pub use diagram::diagram;
 pub use film::Film;
 pub use layer::Layer;
-pub use linear::Linear;
+pub use linear::{LUMINANCE, Linear, luminance};
 pub use paint::paint;
 pub use palette::Palette;
 pub use profile::profile;
 pub use raster::Rows;
+pub use tone::{Tone, reachable};
 pub use views::{Picture, Scoped, named, names};

@@ -15,6 +15,11 @@ pub struct Panorama {
 }
 
 impl Panorama {
+    /// Whether it is twice as wide as high, to one pixel, as a whole sphere is.
+    pub fn is_whole_sphere(&self) -> bool {
+        self.width.abs_diff(2 * self.height) <= 1
+    }
+
     /// The light between the middles of the four pixels around a place, in pixels from the middle of the first; beyond
     /// the edge that of the edge.
     pub fn between(&self, at: DVec2) -> DVec3 {

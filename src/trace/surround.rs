@@ -21,8 +21,8 @@ const SIDE: usize = 512;
 /// Side for a panorama.
 const SIDE_OF_PANORAMA: usize = 1024;
 
-/// Samples along each side of a texel.
-const PER_SIDE: usize = 2;
+/// Samples along each side of a texel, at least and at most: as many as there are pixels of a panorama.
+const PER_SIDE: (usize, usize) = (2, 8);
 
 /// Radiance by channel: of the key illuminant's spectrum, of red, of green, of blue.
 pub type Radiance = [f32; 4];
@@ -84,16 +84,18 @@ impl Sky {
     /// Draws a light, with the picture that its panorama names.
     pub fn new(light: &Light, panorama: Option<&Panorama>) -> Self {
         let side = if panorama.is_some() { SIDE_OF_PANORAMA } else { SIDE };
-        let cells = side * PER_SIDE;
+        let pixels = panorama.map_or(0, |p| p.width as usize / (2 * side));
+        let per_side = pixels.clamp(PER_SIDE.0, PER_SIDE.1);
+        let cells = side * per_side;
         let row = |y: usize| {
             let texel = |x: usize| {
                 let sample = |k: usize| {
-                    let (i, j) = (x * PER_SIDE + k % PER_SIDE, y * PER_SIDE + k / PER_SIDE);
+                    let (i, j) = (x * per_side + k % per_side, y * per_side + k / per_side);
                     let at = (DVec2::new(i as f64, j as f64) + 0.5) / cells as f64;
                     shine(light, panorama, direction(at))
                 };
-                let all: DVec4 = (0..PER_SIDE * PER_SIDE).map(sample).sum();
-                (all / (PER_SIDE * PER_SIDE) as f64).as_vec4().to_array()
+                let all: DVec4 = (0..per_side * per_side).map(sample).sum();
+                (all / (per_side * per_side) as f64).as_vec4().to_array()
             };
             (0..side).map(texel).collect::<Vec<_>>()
         };

@@ -1,0 +1,125 @@
+//! Panoramas and photographs as linear light: OpenEXR, Radiance HDR, PNG, JPEG, told apart by what they hold.
+//!
+//! Headers may lie: sides are bound, and a file must be large enough to hold what its header promises.
+
+mod exr;
+mod raster;
+
+use crate::scene::Panorama;
+use std::fs::File;
+use std::io::{BufReader, Read, Seek};
+use std::path::Path;
+
+/// The widest and the highest picture taken, pixels.
+pub const LARGEST: (u32, u32) = (16_384, 8192);
+
+/// The most pixels that a byte can stand for: deflate packs 1032 bytes into one, run lengths and JPEG fewer.
+const PIXELS_A_BYTE: u64 = 1100;
+
+/// Pixels, 48 MiB of light, that any file may promise.
+const FREE_PIXELS: u64 = 1 << 22;
+
+/// What was read.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Reading {
+    /// The light, finite and not below 0.
+    pub panorama: Panorama,
+    /// What was odd about the file, in words that name it.
+    pub warnings: Vec<String>,
+}
+
+/// Light as a file holds it, and what is odd about it.
+type Raw = (Panorama, Vec<String>);
+
+/// Reads a panorama of all directions; one that is not twice as wide as high is taken with a warning.
+///
+/// # Errors
+/// Text that names the file, says what is wrong and what to do.
+pub fn read(path: &Path) -> Result<Reading, String> {
+    let mut reading = read_photo(path)?;
+    let Panorama { width, height, .. } = reading.panorama;
+    if !reading.panorama.is_whole_sphere() {
+        reading.warnings.push(format!(
+            "{}: {width} by {height} pixels: a panorama of all directions is twice as wide as high, so this one \
+             will look stretched",
+            path.display()
+        ));
+    }
+    Ok(reading)
+}
+
+/// Reads a picture of any shape. Eight- and sixteen-bit files are taken as sRGB and decoded to linear light, with
+/// white at 1; what is transparent is dark.
+///
+/// # Errors
+/// Text that names the file, says what is wrong and what to do.
+pub fn read_photo(path: &Path) -> Result<Reading, String> {
+    let label = path.display();
+    let (mut panorama, mut warnings) = raw(path).map_err(|e| format!("{label}: {e}"))?;
+    let bad = mend(&mut panorama.pixels);
+    if bad > 0 {
+        warnings.push(format!("{bad} pixels held light below 0 or no number, which is taken as dark"));
+    }
+    let warnings = warnings.into_iter().map(|w| format!("{label}: {w}")).collect();
+    Ok(Reading { panorama, warnings })
+}
+
+fn raw(path: &Path) -> Result<Raw, String> {
+    let unreadable = |e: std::io::Error| match e.kind() {
+        std::io::ErrorKind::NotFound => "there is no such file".to_owned(),
+        _ => format!("cannot be read: {e}"),
+    };
+    let about = path.metadata().map_err(unreadable)?;
+    if !about.is_file() {
+        return Err("this is no file; give an OpenEXR, Radiance HDR, PNG or JPEG picture".into());
+    }
+    let mut file = BufReader::new(File::open(path).map_err(unreadable)?);
+    let mut start = Vec::new();
+    file.by_ref().take(4).read_to_end(&mut start).and_then(|_| file.rewind()).map_err(unreadable)?;
+    match start.as_slice() {
+        [0x76, 0x2f, 0x31, 0x01] => exr::read(file, about.len()),
+        other => raster::read(file, about.len(), other),
+    }
+}
+
+/// Refuses sides out of bounds, and more pixels than so many bytes can hold.
+fn check_size(width: u64, height: u64, bytes: u64) -> Result<(), String> {
+    if width == 0 || height == 0 {
+        return Err(format!("{width} by {height} pixels: there is no picture in it"));
+    }
+    if width > u64::from(LARGEST.0) || height > u64::from(LARGEST.1) {
+        let (most_wide, most_high) = LARGEST;
+        return Err(format!(
+            "{width} by {height} pixels are too many; scale it down to {most_wide} by {most_high} at most"
+        ));
+    }
+    if width * height > FREE_PIXELS.max(bytes.saturating_mul(PIXELS_A_BYTE)) {
+        return Err(format!(
+            "{bytes} bytes cannot hold {width} by {height} pixels: the file is damaged; get it anew"
+        ));
+    }
+    Ok(())
+}
+
+/// What to say of a file that a decoder gave up on.
+fn damaged(error: impl std::fmt::Display) -> String {
+    format!(
+        "cannot be decoded ({error}); get the file anew, or save it again as OpenEXR, Radiance HDR, PNG or JPEG"
+    )
+}
+
+/// Turns what is not finite or below 0 into darkness; the number of pixels that held such.
+fn mend(pixels: &mut [[f32; 3]]) -> usize {
+    let mut count = 0;
+    for pixel in pixels {
+        let bad = pixel.iter().any(|c| !c.is_finite() || *c < 0.0);
+        if bad {
+            count += 1;
+            *pixel = pixel.map(|c| if c.is_finite() { c.max(0.0) } else { 0.0 });
+        }
+    }
+    count
+}
+
+#[cfg(test)]
+mod tests;

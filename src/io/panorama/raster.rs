@@ -1,0 +1,61 @@
+//! Radiance HDR, PNG and JPEG.
+
+use super::{LARGEST, Raw, check_size, damaged};
+use crate::optics::linear_from_encoded;
+use crate::scene::Panorama;
+use image::codecs::hdr::HdrDecoder;
+use image::{DynamicImage, ImageDecoder, ImageReader, Limits};
+use std::fs::File;
+use std::io::BufReader;
+
+/// Bytes that a decoder may ask for: the largest picture in its widest form, and as much again to work with.
+const MOST_BYTES: u64 = 32 * (LARGEST.0 as u64) * (LARGEST.1 as u64);
+
+/// `start` is the file's first bytes.
+pub(super) fn read(file: BufReader<File>, bytes: u64, start: &[u8]) -> Result<Raw, String> {
+    if start.starts_with(b"#?") {
+        // Programs write `#?RADIANCE` or `#?RGBE`; their pixels are the same.
+        return decoded(HdrDecoder::new_nonstrict(file).map_err(damaged)?, bytes);
+    }
+    let mut reader = ImageReader::new(file).with_guessed_format().map_err(damaged)?;
+    if reader.format().is_none() {
+        return Err("this is no picture that is known here; give OpenEXR, Radiance HDR, PNG or JPEG".into());
+    }
+    reader.limits(limits());
+    decoded(reader.into_decoder().map_err(damaged)?, bytes)
+}
+
+fn limits() -> Limits {
+    let mut limits = Limits::default();
+    limits.max_alloc = Some(MOST_BYTES);
+    limits
+}
+
+fn decoded(mut decoder: impl ImageDecoder, bytes: u64) -> Result<Raw, String> {
+    let (width, height) = decoder.dimensions();
+    check_size(u64::from(width), u64::from(height), bytes)?;
+    decoder.set_limits(limits()).map_err(damaged)?;
+    // Of photographs: which side the camera's top was.
+    let orientation = decoder.orientation().map_err(damaged)?;
+    let mut image = DynamicImage::from_decoder(decoder).map_err(damaged)?;
+    image.apply_orientation(orientation);
+    let (width, height) = (image.width(), image.height());
+    Ok((Panorama { width, height, pixels: linear(image) }, vec![]))
+}
+
+/// The picture's light; floating point is linear already.
+fn linear(image: DynamicImage) -> Vec<[f32; 3]> {
+    let decode = |code: f32| linear_from_encoded(f64::from(code)) as f32;
+    match image {
+        DynamicImage::ImageRgb32F(image) => image.pixels().map(|p| p.0).collect(),
+        DynamicImage::ImageRgb8(image) => {
+            let table: Vec<f32> = (0..=255_u8).map(|code| decode(f32::from(code) / 255.0)).collect();
+            image.pixels().map(|p| p.0.map(|code| table[usize::from(code)])).collect()
+        }
+        image if image.color().has_alpha() => {
+            let lit = |[r, g, b, cover]: [f32; 4]| [r, g, b].map(|code| decode(code) * cover);
+            image.into_rgba32f().pixels().map(|p| lit(p.0)).collect()
+        }
+        image => image.into_rgb32f().pixels().map(|p| p.0.map(decode)).collect(),
+    }
+}

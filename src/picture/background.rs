@@ -1,0 +1,138 @@
+//! What is seen where no stone covers the picture.
+
+use super::Linear;
+use crate::optics::linear_from_encoded;
+use rayon::prelude::*;
+use std::str::FromStr;
+
+/// What lies behind the stones; colours are linear sRGB.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub enum Background {
+    /// Nothing: the picture keeps its cover.
+    #[default]
+    Transparent,
+    /// One colour.
+    Plain([f32; 3]),
+    /// From one colour to another, evenly in linear light.
+    Gradient {
+        /// At the upper border.
+        top: [f32; 3],
+        /// At the lower border.
+        bottom: [f32; 3],
+    },
+}
+
+impl Background {
+    /// The colour in the middle of a row, if there is one.
+    pub fn row(&self, y: u32, height: u32) -> Option<[f32; 3]> {
+        match *self {
+            Self::Transparent => None,
+            Self::Plain(colour) => Some(colour),
+            Self::Gradient { top, bottom } => {
+                let down = (y as f32 + 0.5) / height.max(1) as f32;
+                Some(std::array::from_fn(|c| top[c] + (bottom[c] - top[c]) * down))
+            }
+        }
+    }
+}
+
+/// Lays a picture over a background, which covers it whole unless it is transparent.
+pub fn over(picture: &mut Linear, background: &Background) {
+    let height = picture.height;
+    let rows = picture.pixels.par_chunks_mut(picture.width.max(1) as usize).enumerate();
+    rows.for_each(|(y, row)| {
+        let Some(colour) = background.row(y as u32, height) else { return };
+        row.iter_mut().for_each(|pixel| *pixel = laid_over(*pixel, colour));
+    });
+}
+
+/// A premultiplied pixel over a colour.
+pub(super) fn laid_over([r, g, b, cover]: [f32; 4], colour: [f32; 3]) -> [f32; 4] {
+    let bare = 1.0 - cover;
+    [r + bare * colour[0], g + bare * colour[1], b + bare * colour[2], 1.0]
+}
+
+impl FromStr for Background {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let text = text.trim().to_ascii_lowercase();
+        match text.split_once('-') {
+            None if text == "transparent" => Ok(Self::Transparent),
+            None => colour(&text).map(Self::Plain),
+            Some((top, bottom)) => {
+                Ok(Self::Gradient { top: colour(top.trim())?, bottom: colour(bottom.trim())? })
+            }
+        }
+    }
+}
+
+/// Middle grey as painters and screens have it: half of the code.
+const GREY: &str = "#808080";
+
+/// One colour by its name or its code.
+fn colour(text: &str) -> Result<[f32; 3], String> {
+    let code = match text {
+        "black" => "#000000",
+        "white" => "#ffffff",
+        "grey" | "gray" => GREY,
+        other => other,
+    };
+    let wrong = || {
+        let start: String = text.chars().take(30).collect();
+        format!(
+            "background '{start}': give transparent, black, white, grey, a colour such as #20262e, or two, \
+             top-bottom, such as #404850-#101215"
+        )
+    };
+    let digits = code.strip_prefix('#').filter(|d| d.len() == 6 && d.bytes().all(|b| b.is_ascii_hexdigit()));
+    let number = u32::from_str_radix(digits.ok_or_else(wrong)?, 16).map_err(|_| wrong())?;
+    let linear = |shift: u32| linear_from_encoded(f64::from((number >> shift) & 255) / 255.0) as f32;
+    Ok([linear(16), linear(8), linear(0)])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_codes_and_gradients_are_read() {
+        let read = |text: &str| text.parse::<Background>();
+        assert_eq!(read("transparent"), Ok(Background::Transparent));
+        assert_eq!(read(" White "), Ok(Background::Plain([1.0; 3])));
+        assert_eq!(read("#000000"), read("black"));
+        assert_eq!(read("white - #000000"), Ok(Background::Gradient { top: [1.0; 3], bottom: [0.0; 3] }));
+        let Ok(Background::Plain([r, g, b])) = read("#ff8000") else { panic!("no colour") };
+        assert!(r == 1.0 && (g - 0.215_86).abs() < 1e-4 && b == 0.0);
+    }
+
+    #[test]
+    fn what_is_no_background_is_named() {
+        for text in [
+            "",
+            "#",
+            "#12345",
+            "#1234567",
+            "#12345g",
+            "#+12345",
+            "mauve",
+            "black-",
+            "-",
+            "white-x-y",
+            "#é234",
+        ] {
+            let error = text.parse::<Background>().unwrap_err();
+            assert!(error.contains("#20262e"), "{text}: {error}");
+        }
+    }
+
+    #[test]
+    fn a_gradient_runs_down_and_cover_hides_it() {
+        let mut picture = Linear::new(2, 4);
+        picture.pixels[0] = [0.3, 0.2, 0.1, 1.0];
+        over(&mut picture, &Background::Gradient { top: [1.0; 3], bottom: [0.0; 3] });
+        assert_eq!(picture.pixels[0], [0.3, 0.2, 0.1, 1.0]);
+        let column: Vec<f32> = (0..4).map(|y| picture.pixels[2 * y + 1][0]).collect();
+        assert_eq!(column, [0.875, 0.625, 0.375, 0.125]);
+    }
+}

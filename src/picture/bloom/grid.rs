@@ -1,0 +1,170 @@
+//! Light on a grid of cells, and its Gaussians: narrow ones by their taps, wide ones on halved grids (P. J. Burt,
+//! "Fast Filter Transforms for Image Processing", CGIP 16, 1981). All weights are positive, so that no sum cancels
+//! however bright a point is, and they add up to 1. Beyond the border it is dark.
+
+use glam::Vec4;
+use rayon::prelude::*;
+
+/// The mean light of each cell; the fourth number is idle.
+#[derive(Debug, Clone)]
+pub(super) struct Grid {
+    pub width: usize,
+    pub height: usize,
+    pub cells: Vec<Vec4>,
+}
+
+/// The widest standard deviation in cells that is summed up tap by tap.
+const WIDEST: f64 = 3.0;
+
+/// Standard deviations that taps reach: what lies beyond is 1e-6 of the whole.
+const REACH: f64 = 5.0;
+
+/// What halving and doubling a grid add to a variance, in square cells: 3/4 each.
+const SOFTENED: f64 = 1.5;
+
+/// What a cell gets of the four across it when a grid is halved: the converse of straight lines between cells.
+const SHARED: [f32; 4] = [0.125, 0.375, 0.375, 0.125];
+
+impl Grid {
+    /// A grid by a function of column and row.
+    pub fn filled(width: usize, height: usize, at: impl Fn(usize, usize) -> Vec4 + Sync) -> Self {
+        let mut cells = vec![Vec4::ZERO; width * height];
+        let rows = cells.par_chunks_mut(width.max(1)).enumerate();
+        rows.for_each(|(y, row)| row.iter_mut().enumerate().for_each(|(x, cell)| *cell = at(x, y)));
+        Self { width, height, cells }
+    }
+
+    /// A grid without light.
+    pub fn dark(width: usize, height: usize) -> Self {
+        Self { width, height, cells: vec![Vec4::ZERO; width * height] }
+    }
+
+    /// Half a grid of this size, each cell's light shared out between the two nearest, so that its middle stays.
+    pub fn halved_from(width: usize, height: usize, at: impl Fn(usize, usize) -> Vec4 + Sync) -> Self {
+        let part = |x, y| if x < width && y < height { at(x, y) } else { Vec4::ZERO };
+        let four = |cell: usize, count: usize| {
+            let own = 2 * cell;
+            [own.saturating_sub(1), own, own + 1, (own + 2).min(2 * count - 1)]
+        };
+        let (across, down) = (width.div_ceil(2), height.div_ceil(2));
+        Self::filled(across, down, |x, y| {
+            let columns = four(x, across);
+            let line =
+                |y: usize| columns.iter().zip(SHARED).map(|(&x, share)| part(x, y) * share).sum::<Vec4>();
+            four(y, down).into_iter().zip(SHARED).map(|(y, share)| line(y) * share).sum()
+        })
+    }
+
+    /// The grid with cells twice as wide.
+    pub fn halved(&self) -> Self {
+        Self::halved_from(self.width, self.height, |x, y| self.cells[y * self.width + x])
+    }
+
+    /// The grid with cells half as wide, by straight lines between their middles.
+    pub fn doubled(&self, width: usize, height: usize) -> Self {
+        let mut out = Self::dark(width, height);
+        self.add_doubled(&mut out);
+        out
+    }
+
+    fn add_doubled(&self, sum: &mut Self) {
+        let near = |fine: usize, count: usize| {
+            let own = (fine / 2).min(count - 1);
+            let other = if fine.is_multiple_of(2) { own.saturating_sub(1) } else { (own + 1).min(count - 1) };
+            (own, other)
+        };
+        sum.cells.par_chunks_mut(sum.width.max(1)).enumerate().for_each(|(y, row)| {
+            let (y, above) = near(y, self.height);
+            let own = &self.cells[y * self.width..(y + 1) * self.width];
+            let above = &self.cells[above * self.width..(above + 1) * self.width];
+            let line = |x: usize| own[x] * 0.75 + above[x] * 0.25;
+            for (x, cell) in row.iter_mut().enumerate() {
+                let (x, beside) = near(x, self.width);
+                *cell += line(x) * 0.75 + line(beside) * 0.25;
+            }
+        });
+    }
+
+    /// Rows as columns.
+    pub fn transposed(&self) -> Self {
+        Self::filled(self.height, self.width, |x, y| self.cells[x * self.width + y])
+    }
+
+    /// Whether there is no light at all.
+    pub fn is_dark(&self) -> bool {
+        self.cells.par_iter().all(|&cell| cell == Vec4::ZERO)
+    }
+
+    /// Adds a share of another grid of the same size.
+    pub fn add(&mut self, other: &Self, share: f32) {
+        self.cells.par_iter_mut().zip(&other.cells).for_each(|(cell, &light)| *cell += light * share);
+    }
+
+    /// The sum of Gaussians of these standard deviations, in cells, and shares.
+    pub fn glow(&self, scales: &[(f64, f32)]) -> Self {
+        let mut sum = Self::dark(self.width, self.height);
+        let speck = self.width.max(self.height) <= 2;
+        let (near, far): (Vec<_>, Vec<_>) = scales.iter().partition(|(sigma, _)| speck || *sigma < WIDEST);
+        for (sigma, share) in near {
+            self.add_gaussian(sigma, share, &mut sum);
+        }
+        if !far.is_empty() {
+            let coarser = |(sigma, share): (f64, f32)| ((sigma * sigma - SOFTENED).sqrt() / 2.0, share);
+            let far: Vec<_> = far.into_iter().map(coarser).collect();
+            self.halved().glow(&far).add_doubled(&mut sum);
+        }
+        sum
+    }
+
+    /// One Gaussian, by its taps: across, then down.
+    pub fn gaussian(&self, sigma: f64) -> Self {
+        let mut sum = Self::dark(self.width, self.height);
+        self.add_gaussian(sigma, 1.0, &mut sum);
+        sum
+    }
+
+    fn add_gaussian(&self, sigma: f64, share: f32, sum: &mut Self) {
+        let taps = taps(sigma.min(WIDEST));
+        if taps.len() == 1 {
+            return sum.add(self, share);
+        }
+        self.across(&taps).add_down(&taps, share, sum);
+    }
+
+    fn across(&self, taps: &[f32]) -> Self {
+        let reach = taps.len() / 2;
+        let width = self.width.max(1);
+        let mut cells = vec![Vec4::ZERO; self.cells.len()];
+        cells.par_chunks_mut(width).zip(self.cells.par_chunks(width)).for_each_init(
+            || vec![Vec4::ZERO; width + 2 * reach],
+            |padded, (row, source)| {
+                padded[reach..reach + width].copy_from_slice(source);
+                for (k, &tap) in taps.iter().enumerate() {
+                    row.iter_mut().zip(&padded[k..]).for_each(|(cell, &light)| *cell += light * tap);
+                }
+            },
+        );
+        Self { width: self.width, height: self.height, cells }
+    }
+
+    fn add_down(&self, taps: &[f32], share: f32, sum: &mut Self) {
+        let reach = taps.len() / 2;
+        sum.cells.par_chunks_mut(self.width.max(1)).enumerate().for_each(|(y, row)| {
+            for (k, &tap) in taps.iter().enumerate() {
+                let Some(from) = (y + k).checked_sub(reach).filter(|&from| from < self.height) else {
+                    continue;
+                };
+                let source = &self.cells[from * self.width..(from + 1) * self.width];
+                row.iter_mut().zip(source).for_each(|(cell, &light)| *cell += light * (tap * share));
+            }
+        });
+    }
+}
+
+/// The weights of a Gaussian at whole cells, an odd number of them, which add up to 1.
+fn taps(sigma: f64) -> Vec<f32> {
+    let reach = (REACH * sigma).ceil() as i32;
+    let weight = |k: i32| (-0.5 * (f64::from(k) / sigma.max(0.05)).powi(2)).exp();
+    let sum: f64 = (-reach..=reach).map(weight).sum();
+    (-reach..=reach).map(|k| (weight(k) / sum) as f32).collect()
+}

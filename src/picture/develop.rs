@@ -1,0 +1,162 @@
+//! From a picture in linear light to one that screens show.
+
+use super::tone::reachable;
+use super::{Background, Bloom, Linear, Tone, background};
+use crate::optics::SrgbEncoder;
+use rayon::prelude::*;
+
+/// How a picture is developed, in this order.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Develop {
+    /// Stops: light is taken 2 to this power times, −40 to 40.
+    pub exposure: f64,
+    /// What spreads the brightest light, after exposure.
+    pub bloom: Option<Bloom>,
+    /// What brings light below 1.
+    pub tone: Tone,
+    /// The exposed light that [`Tone::Filmic`] shows as white, 0.1 to 1000.
+    pub white: f64,
+    /// What is laid behind the stones, as it is: neither exposure nor tone changes it.
+    pub background: Background,
+}
+
+impl Default for Develop {
+    fn default() -> Self {
+        Self {
+            exposure: 0.0,
+            bloom: Some(Bloom::default()),
+            tone: Tone::Neutral,
+            white: 12.0,
+            background: Background::Transparent,
+        }
+    }
+}
+
+/// The brightest light that is told from brighter: sums of it are finite.
+const BRIGHTEST: f32 = 1e12;
+
+/// Stops beyond which there is nothing but black or white.
+const MOST_STOPS: f64 = 40.0;
+
+/// A picture in eight-bit sRGB: red, green, blue and cover, not premultiplied, row by row. Numbers out of their range
+/// count as its end, light that is no number as dark.
+///
+/// Without a background, glare beside the stones has light but no cover, which eight-bit pictures cannot hold; there,
+/// cover is raised to the brightest encoded channel, so that over black the picture looks as it would have.
+pub fn develop(picture: &Linear, manner: &Develop) -> Vec<u8> {
+    let exposed = exposed(picture, manner);
+    let encoder = SrgbEncoder::new();
+    let row_length = picture.width.max(1) as usize;
+    let mut out = vec![0; exposed.pixels.len() * 4];
+    let rows = out.par_chunks_mut(4 * row_length).zip(exposed.pixels.par_chunks(row_length)).enumerate();
+    rows.for_each(|(y, (codes, pixels))| {
+        let behind = manner.background.row(y as u32, picture.height);
+        for (code, &pixel) in codes.chunks_exact_mut(4).zip(pixels) {
+            code.copy_from_slice(&encoded(shown(pixel, manner), behind, &encoder));
+        }
+    });
+    out
+}
+
+/// The light as exposed and spread.
+fn exposed(picture: &Linear, manner: &Develop) -> Linear {
+    let gain = manner.exposure.clamp(-MOST_STOPS, MOST_STOPS).exp2() as f32;
+    let sane = |v: f32, least: f32, most: f32| if v.is_nan() { 0.0 } else { v.clamp(least, most) };
+    let mut out = picture.clone().whole();
+    out.pixels.par_iter_mut().for_each(|pixel| {
+        let [r, g, b, cover] = *pixel;
+        let [r, g, b] = [r, g, b].map(|c| sane(c * gain, -BRIGHTEST, BRIGHTEST));
+        *pixel = [r, g, b, sane(cover, 0.0, 1.0)];
+    });
+    if let Some(bloom) = &manner.bloom {
+        bloom.apply(&mut out);
+    }
+    out
+}
+
+/// What a screen can show of a pixel.
+fn shown([r, g, b, cover]: [f32; 4], manner: &Develop) -> [f32; 4] {
+    let white = 1000_f64.min(manner.white).max(0.1) as f32;
+    let [r, g, b] = manner.tone.shown(reachable([r, g, b]), white);
+    [r, g, b, cover]
+}
+
+/// The codes of a pixel over what is behind it, if anything is.
+fn encoded(pixel: [f32; 4], behind: Option<[f32; 3]>, encoder: &SrgbEncoder) -> [u8; 4] {
+    let opaque = |[r, g, b, _]: [f32; 4]| [r, g, b].map(|c| encoder.encode(f64::from(c)));
+    if let Some(colour) = behind {
+        let [r, g, b] = opaque(background::laid_over(pixel, colour));
+        return [r, g, b, 255];
+    }
+    let codes = opaque(pixel);
+    let cover = ((pixel[3] * 255.0).round() as u8).max(codes[0]).max(codes[1]).max(codes[2]);
+    let straight =
+        |code: u8| ((u32::from(code) * 255 + u32::from(cover) / 2) / u32::from(cover).max(1)) as u8;
+    let [r, g, b] = codes.map(straight);
+    [r, g, b, cover]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn one(pixel: [f32; 4], manner: &Develop) -> [u8; 4] {
+        let out = develop(&Linear { width: 1, height: 1, pixels: vec![pixel] }, manner);
+        [out[0], out[1], out[2], out[3]]
+    }
+
+    #[test]
+    fn grey_stays_grey_and_a_stop_doubles_it() {
+        let manner = Develop { bloom: None, tone: Tone::Linear, ..Develop::default() };
+        let stop = Develop { exposure: 1.0, ..manner };
+        for k in 0..=50 {
+            let light = f32::from(k as u8) / 100.0;
+            let [r, g, b, a] = one([light, light, light, 1.0], &stop);
+            assert!(r == g && g == b && a == 255);
+            assert_eq!(one([2.0 * light, 2.0 * light, 2.0 * light, 1.0], &manner), [r, g, b, a]);
+        }
+    }
+
+    #[test]
+    fn a_background_shows_in_its_own_colour() {
+        let background = "#336699".parse().unwrap();
+        let manner = Develop { exposure: 3.0, tone: Tone::Filmic, background, ..Develop::default() };
+        assert_eq!(one([0.0; 4], &manner), [0x33, 0x66, 0x99, 255]);
+        assert_eq!(one([0.0, 0.0, 0.0, 1.0], &manner), [0, 0, 0, 255]);
+    }
+
+    #[test]
+    fn over_black_a_transparent_picture_looks_like_an_opaque_one() {
+        let clear = Develop { bloom: None, ..Develop::default() };
+        let black = Develop { background: Background::Plain([0.0; 3]), ..clear };
+        for pixel in
+            [[0.2, 0.1, 0.0, 0.0], [0.5, 0.5, 0.5, 0.5], [0.01, 0.0, 0.03, 0.1], [2.0, 0.1, 0.3, 1.0]]
+        {
+            let ([r, g, b, a], opaque) = (one(pixel, &clear), one(pixel, &black));
+            for (code, expected) in [r, g, b].into_iter().zip(opaque) {
+                let seen = f64::from(code) * f64::from(a) / 255.0;
+                assert!((seen - f64::from(expected)).abs() <= 0.5, "{pixel:?}: {seen}, not {expected}");
+            }
+        }
+        assert_eq!(one([0.0; 4], &clear), [0; 4]);
+    }
+
+    #[test]
+    fn no_numbers_break_it() {
+        let odd = [f32::NAN, f32::INFINITY, f32::NEG_INFINITY, -1e38, 1e38, f32::MIN_POSITIVE];
+        let pixels: Vec<_> =
+            (0..36).map(|k| [odd[k % 6], odd[k / 6], odd[(k + 3) % 6], odd[k % 5]]).collect();
+        let picture = Linear { width: 7, height: 9, pixels };
+        for v in [0.0, 1.0, -1.0, 1e300, f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+            let bloom = Bloom { strength: v, radius: v, streaks: 5, streak_length: v, threshold: v };
+            for tone in [Tone::Linear, Tone::Neutral, Tone::Filmic] {
+                let manner =
+                    Develop { exposure: v, white: v, tone, bloom: Some(bloom), ..Develop::default() };
+                assert_eq!(develop(&picture, &manner).len(), 7 * 9 * 4);
+            }
+        }
+        for (width, height) in [(0, 0), (0, 5), (5, 0)] {
+            assert!(develop(&Linear::new(width, height), &Develop::default()).is_empty());
+        }
+    }
+}

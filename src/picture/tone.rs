@@ -1,0 +1,152 @@
+//! From light without bounds to what a screen can show.
+
+use super::linear::luminance;
+use std::str::FromStr;
+
+/// How bright light is brought below 1. Every curve begins at 0 and rises.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Tone {
+    /// What a screen can show stays as it is, what is brighter is cut at 1: for tests and comparisons.
+    Linear,
+    /// Light up to 0.8 stays as it is; what is brighter keeps its hue and turns white as it nears 1.
+    #[default]
+    Neutral,
+    /// The curve of film: deep shadows, soft highlights, a little more contrast between.
+    Filmic,
+}
+
+/// Where compression begins, and how fast bright colours lose theirs (Khronos PBR Neutral, below).
+const COMPRESSED_FROM: f32 = 0.8;
+const DESATURATION: f32 = 0.15;
+
+/// Narkowicz's fit: (a x² + b x) / (c x² + d x + e).
+const FILM: [f32; 5] = [2.51, 0.03, 2.43, 0.59, 0.14];
+
+/// Where the fit reaches 1: the greater root of (a − c) x² + (b − d) x − e.
+const FILM_IS_WHITE: f32 = 7.241_62;
+
+impl Tone {
+    /// What a screen shows of linear light that is not below 0: each channel from 0 to 1. `white` is the light that
+    /// film shows as white; the other curves do not ask.
+    pub fn shown(self, light: [f32; 3], white: f32) -> [f32; 3] {
+        match self {
+            Self::Linear => light.map(|c| c.min(1.0)),
+            Self::Neutral => neutral(light),
+            Self::Filmic => light.map(|c| film(c * (FILM_IS_WHITE / white))),
+        }
+    }
+}
+
+/// The Khronos PBR Neutral tone mapper (Khronos Group, 3D Commerce, 2024) without its toe, which takes the 4 % off that
+/// common surfaces reflect: a diamond reflects 17 %, and dark light is what the contrast of a gem consists of.
+fn neutral(light: [f32; 3]) -> [f32; 3] {
+    let peak = light[0].max(light[1]).max(light[2]);
+    if peak < COMPRESSED_FROM {
+        return light;
+    }
+    let room = 1.0 - COMPRESSED_FROM;
+    let shown = 1.0 - room * room / (peak + room - COMPRESSED_FROM);
+    let white = 1.0 - 1.0 / (DESATURATION * (peak - shown) + 1.0);
+    light.map(|c| {
+        let scaled = c * (shown / peak);
+        (scaled + (shown - scaled) * white).clamp(0.0, 1.0)
+    })
+}
+
+/// K. Narkowicz, "ACES Filmic Tone Mapping Curve" (2016).
+fn film(x: f32) -> f32 {
+    let x = x.min(FILM_IS_WHITE);
+    let [a, b, c, d, e] = FILM;
+    (x * (a * x + b) / (x * (c * x + d) + e)).min(1.0)
+}
+
+/// The nearest colour, of the same luminance and hue, that sRGB's primaries can mix: grey is added just until no
+/// channel is below 0. Spectral light lies outside their triangle until it has been summed, so ask for the sum.
+pub fn reachable(light: [f32; 3]) -> [f32; 3] {
+    let least = light[0].min(light[1]).min(light[2]);
+    if least >= 0.0 {
+        return light;
+    }
+    let y = luminance(light);
+    if y.is_nan() || y <= 0.0 {
+        return [0.0; 3];
+    }
+    let part = y / (y - least);
+    light.map(|c| (y + (c - y) * part).max(0.0))
+}
+
+impl FromStr for Tone {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        match text {
+            "linear" => Ok(Self::Linear),
+            "neutral" => Ok(Self::Neutral),
+            "filmic" => Ok(Self::Filmic),
+            _ => Err(format!(
+                "tone '{}': give neutral, filmic or linear",
+                text.chars().take(30).collect::<String>()
+            )),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const TONES: [Tone; 3] = [Tone::Linear, Tone::Neutral, Tone::Filmic];
+
+    #[test]
+    fn every_curve_begins_at_black_rises_and_keeps_grey_grey() {
+        for tone in TONES {
+            assert_eq!(tone.shown([0.0; 3], 12.0), [0.0; 3]);
+            let mut before = 0.0;
+            for k in 0..=4000 {
+                let light = 1e-4 * (f32::from(k as u16) * 0.005).exp();
+                let [r, g, b] = tone.shown([light; 3], 12.0);
+                assert!(r == g && g == b, "{tone:?} colours grey {light}");
+                // Two roundings: the curves nearly touch 1 for long.
+                assert!(r >= before - 2.5e-7 && r <= 1.0, "{tone:?} falls at {light}: {before} to {r}");
+                before = r;
+            }
+            assert!(before > 0.99, "{tone:?} ends at {before}");
+        }
+    }
+
+    #[test]
+    fn neutral_leaves_what_a_screen_can_show_and_the_hue() {
+        assert_eq!(Tone::Neutral.shown([0.79, 0.3, 0.0], 1.0), [0.79, 0.3, 0.0]);
+        let [r, g, b] = Tone::Neutral.shown([4.0, 2.0, 1.0], 1.0);
+        // The middle channel stays as far between the two others as it was.
+        assert!(r < 1.0 && ((g - b) / (r - b) - 1.0 / 3.0).abs() < 1e-5);
+        let just = Tone::Neutral.shown([COMPRESSED_FROM; 3], 1.0)[0];
+        assert!((just - COMPRESSED_FROM).abs() < 1e-6, "a step at {just}");
+    }
+
+    #[test]
+    fn film_is_white_at_its_white_point() {
+        for white in [1.0, 4.0, 12.0] {
+            assert!((Tone::Filmic.shown([white; 3], white)[0] - 1.0).abs() < 1e-5);
+            assert!(Tone::Filmic.shown([white * 0.9; 3], white)[0] < 0.999);
+        }
+    }
+
+    #[test]
+    fn colours_out_of_reach_keep_their_luminance_and_lose_what_is_negative() {
+        for light in [[-0.3, 0.8, 0.1], [1.4, -0.2, -0.1], [0.2, -0.05, 3.0], [5.0, -1.0, 0.0]] {
+            let shown = reachable(light);
+            assert!(shown.iter().all(|&c| c >= 0.0), "{shown:?}");
+            assert!(shown.iter().any(|&c| c < 1e-6), "{shown:?} is greyer than it need be");
+            assert!((luminance(shown) - luminance(light)).abs() < 1e-6 * luminance(light).max(1.0));
+        }
+        assert_eq!(reachable([0.0, 0.5, 9.0]), [0.0, 0.5, 9.0]);
+        assert_eq!(reachable([-1.0, 0.1, 0.0]), [0.0; 3]);
+    }
+
+    #[test]
+    fn tones_have_names() {
+        assert_eq!("filmic".parse(), Ok(Tone::Filmic));
+        assert!("Vivid".parse::<Tone>().unwrap_err().contains("neutral"));
+    }
+}
