@@ -1,8 +1,6 @@
 //! What is seen where no stone covers the picture.
 
-use super::Linear;
 use crate::optics::linear_from_encoded;
-use rayon::prelude::*;
 use std::str::FromStr;
 
 /// What lies behind the stones; colours are linear sRGB.
@@ -34,16 +32,6 @@ impl Background {
             }
         }
     }
-}
-
-/// Lays a picture over a background, which covers it whole unless it is transparent.
-pub fn over(picture: &mut Linear, background: &Background) {
-    let height = picture.height;
-    let rows = picture.pixels.par_chunks_mut(picture.width.max(1) as usize).enumerate();
-    rows.for_each(|(y, row)| {
-        let Some(colour) = background.row(y as u32, height) else { return };
-        row.iter_mut().for_each(|pixel| *pixel = laid_over(*pixel, colour));
-    });
 }
 
 /// A premultiplied pixel over a colour.
@@ -128,11 +116,10 @@ mod tests {
 
     #[test]
     fn a_gradient_runs_down_and_cover_hides_it() {
-        let mut picture = Linear::new(2, 4);
-        picture.pixels[0] = [0.3, 0.2, 0.1, 1.0];
-        over(&mut picture, &Background::Gradient { top: [1.0; 3], bottom: [0.0; 3] });
-        assert_eq!(picture.pixels[0], [0.3, 0.2, 0.1, 1.0]);
-        let column: Vec<f32> = (0..4).map(|y| picture.pixels[2 * y + 1][0]).collect();
+        let gradient = Background::Gradient { top: [1.0; 3], bottom: [0.0; 3] };
+        let column: Vec<f32> = (0..4).filter_map(|y| gradient.row(y, 4)).map(|c| c[0]).collect();
         assert_eq!(column, [0.875, 0.625, 0.375, 0.125]);
+        assert_eq!(laid_over([0.3, 0.2, 0.1, 1.0], [1.0; 3]), [0.3, 0.2, 0.1, 1.0]);
+        assert_eq!(laid_over([0.0; 4], [0.5; 3]), [0.5, 0.5, 0.5, 1.0]);
     }
 }

@@ -20,7 +20,7 @@ mod tone;
 pub mod vector;
 mod views;
 
-pub use background::{Background, over};
+pub use background::Background;
 pub use bloom::Bloom;
 pub use develop::{Develop, develop};
 pub use diagram::diagram;
