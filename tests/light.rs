@@ -5,9 +5,10 @@ mod common;
 
 use brillianteer::math::Polytope;
 use brillianteer::optics::{Illuminant, material, materials, strata};
-use brillianteer::picture::Linear;
 use brillianteer::picture::spectral::{Remainder, expose};
+use brillianteer::picture::{ByBeams, Linear};
 use brillianteer::scene::{Dome, Light, Placed, Projection, Setting, View, light};
+use brillianteer::trace::beam;
 use brillianteer::trace::ray::{ByRays, Options};
 use brillianteer::trace::sitting::Sitting;
 use brillianteer::trace::surround::{Sky, Surround};
@@ -67,6 +68,15 @@ impl Shoot {
         let strata = strata(self.wavelengths, &self.light.spectrum, true);
         self.with(|sitting| {
             let prepare = |rows| Ok::<_, Stopped>(ByRays::new(*sitting, rows));
+            expose(sitting, (&strata, self.samples), SIZE, prepare, &unwatched).unwrap()
+        })
+    }
+
+    fn by_beams(&self) -> (Linear, Remainder) {
+        let strata = strata(self.wavelengths, &self.light.spectrum, true);
+        let options = beam::Options { unresolved: 1e-3, ..beam::Options::default() };
+        self.with(|sitting| {
+            let prepare = |_| Ok::<_, Stopped>(ByBeams::new(*sitting, options).unwrap());
             expose(sitting, (&strata, self.samples), SIZE, prepare, &unwatched).unwrap()
         })
     }
@@ -193,6 +203,29 @@ fn a_stone_behind_another_is_seen_through_it_and_hidden_beside_it() {
     let hidden = shoot.by_rays().0;
     let middle = hidden.pixels[(SIZE / 2 * SIZE + SIZE / 2) as usize];
     assert!(colour(&middle).length() < 1e-6 && middle[3] == 1.0, "{middle:?}");
+}
+
+#[test]
+fn exact_beams_show_what_rays_show() {
+    // Rays meet small lamps by chance, in a pixel of few of them; beams do not.
+    for (material, name, tilt, chance) in
+        [("diamond", "lamps", 0.0, 0.02), ("ruby", "dome", 0.2, 0.002), ("quartz", "ring", 0.1, 0.002)]
+    {
+        let mut shoot = Shoot::new(&modern(), material, Light { head: 10.0, ..light(name).unwrap() });
+        (shoot.backdrop, shoot.view.tilt) = (false, tilt);
+        (shoot.wavelengths, shoot.samples, shoot.light.head) = (4, 32, 10.0);
+        let (rays, rest) = shoot.by_rays();
+        // A beam stands for all the rays of a pixel; the wavelengths are the same.
+        let (beams, beams_rest) = shoot.by_beams();
+        let (rays, beams) = (blocks(&rays), blocks(&beams));
+        let scale = rays.iter().map(|b| b.max_element()).fold(0.0, f64::max);
+        let worst = rays.iter().zip(&beams).map(|(a, b)| (*a - *b).abs().max_element()).fold(0.0, f64::max);
+        assert!(worst < 0.04 * scale, "{material}, {name}: {worst} of {scale}");
+        assert!((rest.absorbed - beams_rest.absorbed).abs() < 0.005, "{rest:?} {beams_rest:?}");
+        let mean = |b: &[DVec3]| b.iter().sum::<DVec3>() / b.len() as f64;
+        let off = (mean(&rays) - mean(&beams)).abs().max_element() / mean(&rays).max_element();
+        assert!(off < chance, "{material}, {name}: means are off by {off}");
+    }
 }
 
 /// Means of 8 x 8 pixels.

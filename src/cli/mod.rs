@@ -1,14 +1,19 @@
 //! Floor 6: the command line. One file a command; `options` holds what several take, `specimen` what they work on.
 
+mod assembly;
 mod bench;
 mod export;
 mod info;
+mod lighting;
 mod lists;
 mod measure;
 mod options;
+mod picturing;
 mod progress;
+mod render;
 mod sampler;
 mod specimen;
+mod spin;
 
 use crate::io::WriteError;
 use crate::trace::Stopped;
@@ -80,6 +85,10 @@ const EXIT_CODES: &str = "Exit codes: 0 done, 1 an input is at fault, 2 the comm
 enum Command {
     /// Draw a stone in every scope, with its profile, facet diagram and figures
     Export(export::Export),
+    /// Show what stones look like under light: fire, colour, sparkle
+    Render(render::Render),
+    /// Show a stone turning, rocking or wobbling under light, as an animated PNG and its frames
+    Spin(spin::Spin),
     /// Measure the light of one view: what comes from where, with its error
     Measure(measure::Measure),
     /// Show a stone's geometry and proportions
@@ -107,6 +116,8 @@ pub fn main() -> ExitCode {
     progress::stop_on_interrupt();
     let result = match arguments.command {
         Command::Export(export) => export.run(),
+        Command::Render(render) => render.run(),
+        Command::Spin(spin) => spin.run(),
         Command::Measure(measure) => measure.run(),
         Command::Info(info) => info.run(),
         Command::Bench(bench) => bench.run(),

@@ -84,6 +84,15 @@ impl Sampler {
         }
     }
 
+    /// Whether it is a real card.
+    pub fn is_quick(&self) -> bool {
+        match self {
+            Self::Rays => false,
+            #[cfg(feature = "gpu")]
+            Self::Card(gpu) => !gpu.is_software(),
+        }
+    }
+
     /// In words.
     pub fn told(&self) -> String {
         match self {

@@ -13,6 +13,9 @@ mod names;
 mod proportion_error;
 mod proportions;
 mod round_brilliant;
+#[allow(missing_docs)]
+mod size;
+pub use size::Size;
 mod warning;
 
 pub use design::{Cut, DEFAULT_DIAMETER_MM, Design, DesignError, MAX_PLANES, PlaneFault};

@@ -1,15 +1,13 @@
 //! What is to be painted: polygons of light, each in one channel.
 
-use crate::math::{Affine, area, clip, integral_of_decay};
+use super::strips::strips;
+use crate::math::Affine;
 use crate::scene::Scope;
 use crate::trace::beam::{Beam, Beams};
 use glam::{DMat2, DVec2};
 
 /// Where absorption changes a beam's light by more than this part across its outline, it is painted in strips.
-const STRIP: f64 = 1.0 / 256.0;
-
-/// Where a beam is deeper than this beyond its brightest, it is as good as black, and one strip does.
-const DARK: f64 = 12.0;
+const UNEVEN: f64 = 1.0 / 256.0;
 
 /// One polygon of even light.
 #[derive(Debug, Clone, Copy)]
@@ -117,36 +115,8 @@ impl Layer {
 
     /// Light of this weight over a beam's outline, faded by absorption along `path`.
     fn add_faded(&mut self, beams: &Beams, beam: &Beam, path: Affine, weight: f64, channel: usize) {
-        if beams.medium.is_clear() {
-            return self.add(beam.outline, channel, weight);
-        }
-        match beams.medium.absorption {
-            [o, e] if o == e => self.add_strips(beam, path * o, weight, channel),
-            both => both.iter().for_each(|&a| self.add_strips(beam, path * a, 0.5 * weight, channel)),
-        }
-    }
-
-    /// Light over a beam's outline that falls as exp(-depth), in strips where that is uneven.
-    fn add_strips(&mut self, beam: &Beam, depth: Affine, weight: f64, channel: usize) {
-        let depths = || beam.outline.iter().map(|&p| depth.at(p));
-        let (low, high) = (depths().fold(f64::INFINITY, f64::min), depths().fold(0.0, f64::max));
-        let deepest = high.min(low + DARK);
-        let strips = ((deepest - low) / STRIP).ceil() as u32;
-        let mut even = |part: &[DVec2]| {
-            let size = area(part);
-            if size > 0.0 {
-                self.add(part, channel, weight * integral_of_decay(part, depth) / size);
-            }
-        };
-        let (mut rest, mut strip, mut spare) = (beam.outline.to_vec(), vec![], vec![]);
-        for k in 1..strips {
-            let border = low + (deepest - low) * f64::from(k) / f64::from(strips);
-            let above = depth - Affine::new(border, DVec2::ZERO);
-            clip(&rest, above * -1.0, &mut strip);
-            clip(&rest, above, &mut spare);
-            std::mem::swap(&mut rest, &mut spare);
-            even(&strip);
-        }
-        even(&rest);
+        strips(beam.outline, path, &beams.medium, UNEVEN, |part, left| {
+            self.add(part, channel, weight * left)
+        });
     }
 }

@@ -2,6 +2,7 @@
 
 mod background;
 mod bloom;
+mod by_beams;
 #[cfg(feature = "gpu")]
 pub mod by_gpu;
 pub mod by_rays;
@@ -16,12 +17,14 @@ mod palette;
 mod profile;
 mod raster;
 pub mod spectral;
+mod strips;
 mod tone;
 pub mod vector;
 mod views;
 
 pub use background::Background;
 pub use bloom::Bloom;
+pub use by_beams::ByBeams;
 pub use develop::{Develop, develop};
 pub use diagram::diagram;
 pub use film::Film;

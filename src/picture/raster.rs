@@ -5,10 +5,19 @@
 //! with a polygon's outline, not with its area.
 
 use glam::DVec2;
+use std::ops::{Add, AddAssign, Mul, Sub};
+
+/// What a pixel can hold: a number, or several.
+pub trait Value:
+    Copy + Default + AddAssign + Add<Output = Self> + Sub<Output = Self> + Mul<f64, Output = Self>
+{
+}
+
+impl<V: Copy + Default + AddAssign + Add<Output = V> + Sub<Output = V> + Mul<f64, Output = V>> Value for V {}
 
 /// Some rows of a picture, several channels deep.
 #[derive(Debug, Clone)]
-pub struct Rows {
+pub struct Rows<V = f64> {
     /// The first row.
     pub first: u32,
     /// Number of rows.
@@ -18,13 +27,13 @@ pub struct Rows {
     /// Channels of a pixel.
     pub channels: usize,
     /// Row by row, in each channel by channel.
-    values: Vec<f64>,
+    values: Vec<V>,
 }
 
-impl Rows {
+impl<V: Value> Rows<V> {
     /// Empty rows.
     pub fn new(first: u32, count: u32, width: u32, channels: usize) -> Self {
-        let values = vec![0.0; (count as usize) * channels * Self::stride_of(width)];
+        let values = vec![V::default(); (count as usize) * channels * Self::stride_of(width)];
         Self { first, count, width, channels, values }
     }
 
@@ -34,13 +43,13 @@ impl Rows {
     }
 
     /// The values of one channel along one row, counted from the picture's top.
-    pub fn row(&self, y: u32, channel: usize) -> &[f64] {
+    pub fn row(&self, y: u32, channel: usize) -> &[V] {
         let start = self.start(y, channel);
         &self.values[start..start + self.width as usize]
     }
 
     /// The same, to write to.
-    pub fn row_mut(&mut self, y: u32, channel: usize) -> &mut [f64] {
+    pub fn row_mut(&mut self, y: u32, channel: usize) -> &mut [V] {
         let start = self.start(y, channel);
         &mut self.values[start..start + self.width as usize]
     }
@@ -51,13 +60,13 @@ impl Rows {
 
     /// Adds the edges of a polygon, in pixels, of this weight. Either sense of rotation will do. Not to be read
     /// before [`summed`](Self::summed).
-    pub fn add(&mut self, polygon: &[DVec2], channel: usize, weight: f64) {
+    pub fn add(&mut self, polygon: &[DVec2], channel: usize, weight: V) {
         let Some(&last) = polygon.last() else { return };
-        let weight = if crate::math::area(polygon) < 0.0 { -weight } else { weight };
+        let weight = if crate::math::area(polygon) < 0.0 { weight * -1.0 } else { weight };
         let mut a = last;
         for &b in polygon {
             if a.y < b.y {
-                self.edge(a, b, channel, -weight);
+                self.edge(a, b, channel, weight * -1.0);
             } else if a.y > b.y {
                 self.edge(b, a, channel, weight);
             }
@@ -66,7 +75,7 @@ impl Rows {
     }
 
     /// One edge, downward from `top`.
-    fn edge(&mut self, top: DVec2, bottom: DVec2, channel: usize, weight: f64) {
+    fn edge(&mut self, top: DVec2, bottom: DVec2, channel: usize, weight: V) {
         let (first, end) = (f64::from(self.first), f64::from(self.first + self.count));
         let from = top.y.max(first);
         let to = bottom.y.min(end);
@@ -86,14 +95,14 @@ impl Rows {
             let (left, right) = if x < x_next { (x, x_next) } else { (x_next, x) };
             let (start, end) = (left.clamp(0.0, width), right.clamp(0.0, width));
             let change = weight * (next - y);
-            let per_pixel = if right > left { change / (right - left) } else { 0.0 };
+            let per_pixel = if right > left { change * (1.0 / (right - left)) } else { V::default() };
             // What runs beside the picture counts on its left border; on its right there is nothing to change.
             if left < 0.0 {
-                let beside = if right > 0.0 { -left * per_pixel } else { change };
+                let beside = if right > 0.0 { per_pixel * -left } else { change };
                 deposit(line, 0.0, 0.0, beside);
             }
             if right > 0.0 {
-                let inside = if left < 0.0 || right > width { (end - start) * per_pixel } else { change };
+                let inside = if left < 0.0 || right > width { per_pixel * (end - start) } else { change };
                 deposit(line, start, end, inside);
             }
             (x, y) = (x_next, next);
@@ -104,7 +113,7 @@ impl Rows {
     /// Turns the changes that edges left into coverage.
     pub fn summed(mut self) -> Self {
         for line in self.values.chunks_exact_mut(Self::stride_of(self.width)) {
-            let mut sum = 0.0;
+            let mut sum = V::default();
             for value in line {
                 sum += *value;
                 *value = sum;
@@ -116,7 +125,7 @@ impl Rows {
 
 /// Spreads a change of coverage over the pixels between `left` and `right`, where an edge crosses one row.
 #[inline]
-fn deposit(line: &mut [f64], left: f64, right: f64, change: f64) {
+fn deposit<V: Value>(line: &mut [V], left: f64, right: f64, change: V) {
     let first = left as usize;
     let last = right as usize;
     if first == last {
@@ -129,10 +138,10 @@ fn deposit(line: &mut [f64], left: f64, right: f64, change: f64) {
         return;
     }
     // Across pixels: coverage to the right of the edge, summed up to each pixel's end, is a quadratic there.
-    let per = change / (right - left);
-    let covered = |end: f64| 0.5 * per * (end - left) * (end - left);
-    let mut done = 0.0;
-    let mut reached = 0.0;
+    let per = change * (0.5 / (right - left));
+    let covered = |end: f64| per * ((end - left) * (end - left));
+    let mut done = V::default();
+    let mut reached = V::default();
     for (pixel, value) in line.iter_mut().enumerate().take(last + 1).skip(first) {
         let end = (pixel + 1) as f64;
         // The integral of the coverage up to `end`: past the edge's right end it grows evenly.

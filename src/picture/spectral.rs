@@ -13,8 +13,6 @@ pub struct Remainder {
     pub unresolved: f64,
     /// Share absorbed.
     pub absorbed: f64,
-    /// Bounces inside stones, per ray.
-    pub bounces: f64,
 }
 
 /// Takes a picture of `samples` looks in these strata of wavelength. `prepare` makes what sees some rows; no more than
@@ -46,17 +44,12 @@ pub fn expose<E: From<Stopped>, X: Exposure<E>>(
         for lit in exposure.lit()? {
             sum.unresolved += lit.unresolved;
             sum.absorbed += lit.absorbed;
-            sum.bounces += lit.bounces;
             cover += lit.cover;
             pixels.push(pixel(&lit));
         }
     }
     let share = if cover > 0.0 { 1.0 / cover } else { 0.0 };
-    let remainder = Remainder {
-        unresolved: sum.unresolved * share,
-        absorbed: sum.absorbed * share,
-        bounces: sum.bounces * share,
-    };
+    let remainder = Remainder { unresolved: sum.unresolved * share, absorbed: sum.absorbed * share };
     Ok((Linear { width, height, pixels }, remainder))
 }
 

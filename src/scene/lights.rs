@@ -58,14 +58,14 @@ impl Light {
     pub fn studio() -> Self {
         Self {
             head: 9.0,
-            dome: vec![rising(-90.0, 0.0, 0.30, 0.10), rising(0.0, 90.0, 0.06, 0.16)],
+            dome: vec![rising(-90.0, 0.0, 0.16, 0.06), rising(0.0, 90.0, 0.04, 0.10)],
             boxes: vec![
-                soft_box((50.0, 62.0), (46.0, 30.0), 3.2),
-                soft_box((170.0, 52.0), (34.0, 46.0), 2.2),
-                soft_box((285.0, 58.0), (52.0, 26.0), 2.6),
-                soft_box((110.0, 24.0), (70.0, 20.0), 1.3),
-                soft_box((230.0, 20.0), (60.0, 22.0), 1.1),
-                soft_box((350.0, 22.0), (50.0, 24.0), 1.4),
+                soft_box((50.0, 62.0), (46.0, 30.0), 1.9),
+                soft_box((170.0, 52.0), (34.0, 46.0), 1.2),
+                soft_box((285.0, 58.0), (52.0, 26.0), 1.5),
+                soft_box((110.0, 24.0), (70.0, 20.0), 0.8),
+                soft_box((230.0, 20.0), (60.0, 22.0), 0.65),
+                soft_box((350.0, 22.0), (50.0, 24.0), 0.9),
             ],
             lamp: vec![
                 lamp((25.0, 38.0), 2.2, 40.0),
@@ -143,33 +143,38 @@ impl Light {
             for k in 0..count {
                 let azimuth = 360.0 * (f64::from(k) + 0.5 * (row % 2) as f64) / f64::from(count);
                 let width = [26.0, 15.0, 11.0][row];
-                boxes.push(SoftBox { soft: 1.0, ..soft_box((azimuth, elevation), (width, 6.0), 6.0) });
+                boxes.push(SoftBox { soft: 1.0, ..soft_box((azimuth, elevation), (width, 6.0), 3.6) });
             }
         }
-        let window = SoftBox { soft: 1.0, ..soft_box((200.0, 16.0), (44.0, 24.0), 4.0) };
+        let window = SoftBox { soft: 1.0, ..soft_box((200.0, 16.0), (44.0, 24.0), 2.2) };
         boxes.push(SoftBox { colour: Some([214, 232, 255]), ..window });
         Self {
             head: 10.0,
             dome: vec![
-                Dome { colour: Some([150, 128, 108]), ..belt(-90.0, 0.0, 4.0, 0.5) },
-                Dome { colour: Some([232, 226, 214]), ..belt(0.0, 90.0, 4.0, 0.28) },
+                Dome { colour: Some([150, 128, 108]), ..belt(-90.0, 0.0, 4.0, 0.35) },
+                Dome { colour: Some([232, 226, 214]), ..belt(0.0, 90.0, 4.0, 0.17) },
             ],
             boxes,
             ..Self::named("office", "panels in a ceiling, one window, pale walls, a wooden desk")
         }
     }
 
-    /// A clear sky and the sun.
+    /// Sky, clouds and the sun.
     pub fn daylight() -> Self {
-        let sky = Dome { colour: Some([128, 178, 255]), ..rising(0.0, 90.0, 1.1, 0.45) };
-        let ground = Dome { colour: Some([126, 128, 104]), ..belt(-90.0, 0.0, 3.0, 0.6) };
+        let sky = Dome { colour: Some([186, 209, 255]), ..rising(0.0, 90.0, 0.75, 0.3) };
+        let ground = Dome { colour: Some([150, 146, 118]), ..belt(-90.0, 0.0, 3.0, 0.35) };
         Self {
             // A low part of the sun's true radiance, over a disc wider than its quarter of a degree: the same power on
             // the stone as a hazy sun.
             lamp: vec![Lamp { colour: Some([255, 244, 226]), ..lamp((60.0, 52.0), 1.0, 1500.0) }],
-            head: 8.0,
+            head: 11.0,
             dome: vec![sky, ground],
-            ..Self::named("daylight", "a clear sky with the sun, and the ground")
+            boxes: vec![
+                SoftBox { soft: 16.0, turn: 8.0, ..soft_box((160.0, 50.0), (48.0, 14.0), 0.9) },
+                SoftBox { soft: 14.0, turn: -5.0, ..soft_box((265.0, 68.0), (40.0, 16.0), 0.8) },
+                SoftBox { soft: 14.0, ..soft_box((330.0, 35.0), (60.0, 10.0), 0.7) },
+            ],
+            ..Self::named("daylight", "a sky with the sun and some clouds, and the ground")
         }
     }
 

@@ -111,9 +111,9 @@ pub(super) const GEMS: [Gem; 20] = [
         name: "ruby",
         text: "slightly purplish red, by chromium; it does not glow",
         host: CORUNDUM,
-        edge: edge(0.14, 45.0),
+        edge: edge(0.2, 60.0),
         bands: &[
-            split(410.0, 4600.0, [0.56, 0.62]),
+            split(410.0, 4600.0, [0.8, 0.85]),
             split(556.0, 2600.0, [0.8, 0.0]),
             split(546.0, 2600.0, [0.0, 0.44]),
         ],
@@ -164,8 +164,8 @@ pub(super) const GEMS: [Gem; 20] = [
         host: BERYL,
         edge: edge(0.08, 30.0),
         bands: &[
-            split(430.0, 3700.0, [0.3, 0.0]),
-            split(420.0, 3900.0, [0.0, 0.26]),
+            split(430.0, 3700.0, [0.44, 0.0]),
+            split(420.0, 3900.0, [0.0, 0.38]),
             split(600.0, 3000.0, [0.25, 0.0]),
             split(635.0, 3000.0, [0.0, 0.24]),
         ],

@@ -11,6 +11,7 @@ mod coherency;
 mod follow;
 mod grow;
 mod split;
+mod sweep;
 mod tree;
 
 pub use cells::Cell;

@@ -32,9 +32,15 @@ impl Camera {
     /// Half the side of the smallest square around the image's origin that holds the whole stone; `None` where the
     /// eye is not in front of all of it.
     pub fn reach(&self, polytope: &Polytope) -> Option<f64> {
-        polytope.vertices().iter().try_fold(0.0_f64, |reach, &v| {
+        self.extent(polytope).map(DVec2::max_element)
+    }
+
+    /// Half the width and the height of the smallest rectangle around the image's origin that holds the whole stone;
+    /// `None` where the eye is not in front of all of it.
+    pub fn extent(&self, polytope: &Polytope) -> Option<DVec2> {
+        polytope.vertices().iter().try_fold(DVec2::ZERO, |extent, &v| {
             let nearness = 1.0 - self.basis.toward.dot(v) / self.distance;
-            (nearness > 0.0).then(|| reach.max(self.basis.project(v).abs().max_element() / nearness))
+            (nearness > 0.0).then(|| extent.max(self.basis.project(v).abs() / nearness))
         })
     }
 

@@ -1,0 +1,66 @@
+//! `render`: what stones look like under light.
+
+use super::options::ViewOptions;
+use super::picturing::{PictureOptions, Studio};
+use super::progress::Progress;
+use super::specimen::stem;
+use super::{Failure, each_file, print, say};
+use crate::io::{write_linear_exr, write_rgba_png};
+use crate::picture::develop;
+use clap::Args;
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+#[derive(Debug, Args)]
+pub struct Render {
+    /// Cut files, scene files, or names of cuts and scenes that come with the program
+    #[arg(required = true)]
+    files: Vec<PathBuf>,
+    /// File (.png or .exr) or folder to write to
+    #[arg(long, default_value = "out")]
+    out: PathBuf,
+    #[command(flatten)]
+    view: ViewOptions,
+    #[command(flatten)]
+    picture: PictureOptions,
+}
+
+impl Render {
+    pub fn run(&self) -> Result<(), Failure> {
+        let (_, is_file) = self.output(Path::new("x"));
+        if is_file && self.files.len() > 1 {
+            return Err(Failure::Usage("several stones need a folder: --out FOLDER".into()));
+        }
+        each_file(&self.files, |file| self.render(file))
+    }
+
+    /// Where the picture of a file goes, and whether --out is a file itself.
+    fn output(&self, file: &Path) -> (PathBuf, bool) {
+        let ending = self.out.extension().and_then(|e| e.to_str()).map(str::to_ascii_lowercase);
+        match ending.as_deref() {
+            Some("png" | "exr") if !self.out.is_dir() => (self.out.clone(), true),
+            _ => (self.out.join(format!("{}-render.png", stem(file))), false),
+        }
+    }
+
+    fn render(&self, file: &Path) -> Result<(), Failure> {
+        let view = self.view.view(None)?;
+        let studio = Studio::load(&self.picture, file, &view)?;
+        let view = studio.view(&self.view)?;
+        let start = Instant::now();
+        let taken = {
+            let progress = Progress::new(&studio.assembly.name);
+            studio.take(&view, (None, 0.0), &progress.watch())?
+        };
+        let told = format!("{}; {}", taken.told, self.view.told(&view));
+        let (path, _) = self.output(file);
+        if path.extension().is_some_and(|e| e.eq_ignore_ascii_case("exr")) {
+            write_linear_exr(&path, &taken.picture, &told)?;
+        } else {
+            let size = (taken.picture.width, taken.picture.height);
+            write_rgba_png(&path, &develop(&taken.picture, &studio.develop), size, &told)?;
+        }
+        say(&format!("{}: {told}; {:.1} s", path.display(), start.elapsed().as_secs_f64()));
+        print(&path.display().to_string())
+    }
+}

@@ -1,0 +1,40 @@
+//! How the directions of beams move with the wavelength.
+
+use super::tree::Beams;
+use crate::math::Polytope;
+use crate::optics::{cos_transmitted, reflect, refract, refracted_change};
+use glam::DVec3;
+
+impl Beams {
+    /// For each beam, how far the direction of what leaves it moves over the medium's spread of indices: 0 for the glare of
+    /// the surface, and where reflection is total. `polytope` is the one that was traced.
+    pub fn sweeps(&self, polytope: &Polytope) -> Vec<DVec3> {
+        let (index, spread) = (self.medium.index, self.medium.spread);
+        let mut sweeps = vec![DVec3::ZERO; self.len()];
+        // Direction and change of what goes on from each beam.
+        let mut onward: Vec<(DVec3, DVec3)> = Vec::with_capacity(self.len());
+        for beam in self.iter() {
+            let normal = polytope.facets()[beam.facet as usize].plane.normal;
+            onward.push(match beam.parent {
+                None => {
+                    let (ray, eta) = (-self.view.toward, 1.0 / index);
+                    let cos_i = -ray.dot(normal);
+                    let cosines = (cos_i, cos_transmitted(cos_i, eta).unwrap_or(1.0));
+                    let change = (DVec3::ZERO, -spread * eta * eta);
+                    (refract(ray, normal, eta, cosines), refracted_change(ray, normal, eta, cosines, change))
+                }
+                Some(parent) => {
+                    let (ray, change) = onward[parent as usize];
+                    let cos_i = ray.dot(normal);
+                    if let Some(cos_t) = cos_transmitted(cos_i, index) {
+                        let both = (change, spread);
+                        sweeps[beam.id as usize] =
+                            refracted_change(ray, -normal, index, (cos_i, cos_t), both);
+                    }
+                    (reflect(ray, -normal, cos_i), change - normal * (2.0 * change.dot(normal)))
+                }
+            });
+        }
+        sweeps
+    }
+}
