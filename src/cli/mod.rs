@@ -1,5 +1,6 @@
 //! Floor 6: the command line. One file a command; `options` holds what several take, `specimen` what they work on.
 
+mod assembly;
 mod bench;
 mod export;
 mod info;
@@ -82,7 +83,7 @@ enum Command {
     Export(export::Export),
     /// Measure the light of one view: what comes from where, with its error
     Measure(measure::Measure),
-    /// Show a stone's geometry and proportions
+    /// Show a stone's geometry, proportions and weight, or the stones of a scene
     Info(info::Info),
     /// Time the tracers on one and the same picture
     Bench(bench::Bench),
@@ -90,6 +91,8 @@ enum Command {
     Materials(lists::List),
     /// List the cuts that come with the program, or print one as a cut file to start from
     Cuts(lists::Cuts),
+    /// List the scenes that come with the program, or print one as a file to start from
+    Scenes(lists::Scenes),
     /// List the scopes, or print one as a file to start from
     Scopes(lists::Scopes),
 }
@@ -112,6 +115,7 @@ pub fn main() -> ExitCode {
         Command::Bench(bench) => bench.run(),
         Command::Materials(list) => list.materials(),
         Command::Cuts(cuts) => cuts.run(),
+        Command::Scenes(scenes) => scenes.run(),
         Command::Scopes(scopes) => scopes.run(),
     };
     match result {
