@@ -272,7 +272,9 @@ fn an_output_that_cannot_be_written_ends_with_code_3_and_leaves_no_pieces() {
 fn a_reader_that_goes_away_is_no_reason_to_panic() {
     let desk = Desk::new();
     let gone = || std::io::pipe().unwrap().1;
-    for line in ["info tolkowsky", "measure cube.toml --json", "materials", "cuts", "scopes aset", "--help"] {
+    for line in
+        ["info tolkowsky", "measure cube.toml --json", "materials", "cuts", "scenes", "scopes aset", "--help"]
+    {
         let (code, _, said) = came_of(line, &desk.command(line).stdout(gone()).output().unwrap());
         assert!(code == 0 && said.is_empty(), "{line}: code {code}: {said}");
     }
@@ -313,6 +315,14 @@ fn what_the_program_knows_by_name_it_lists_and_takes_back_from_a_file() {
         let [mut known, read] = [name, "cut.toml"].map(|file| desk.json(&format!("info --json {file}")));
         known["file"] = json!("cut.toml");
         assert!(listed("cuts", name) && known == read && known["name"] == cut["title"], "{name}");
+    }
+    for scene in list(&desk.json("scenes --json")) {
+        let name = scene["name"].as_str().unwrap();
+        desk.write("scene.toml", desk.done(&format!("scenes {name}")));
+        let [mut known, read] = [name, "scene.toml"].map(|file| desk.json(&format!("info --json {file}")));
+        known["file"] = json!("scene.toml");
+        assert!(listed("scenes", name) && known == read && known["name"] == scene["title"], "{name}");
+        assert_eq!(list(&read["stones"]).len() as u64, scene["stones"].as_u64().unwrap());
     }
     for name in &names()[..7] {
         desk.write("scope.toml", desk.done(&format!("scopes {name}")));
@@ -398,5 +408,45 @@ fn a_card_measures_and_draws_as_rays_do_and_is_named() {
         assert!(told.contains("point rays in f32 on "), "{told}");
         let off = card.iter().zip(&rays).filter(|(a, b)| (*a - *b).abs().max_element() > 0.01).count();
         assert!(off * 500 <= card.len(), "{file}: {off} pixels of {} differ", card.len());
+    }
+}
+
+#[test]
+fn a_stone_weighs_its_density_times_its_volume_and_a_scene_is_told_stone_by_stone() {
+    let desk = Desk::new();
+    let info = desk.json("info --json modern-ideal");
+    let carats = 3.52 * at(&info, "volume") * 3.25_f64.powi(3) / 200.0;
+    near(at(&info, "carats"), carats, 1e-12, "density times volume");
+    near(carats, 1.0, 0.03, "a brilliant of 6.5 mm is the trade's carat");
+    assert!(desk.done("info modern-ideal").contains(&format!("{carats:.3} ct")));
+    let cube = desk.read("cube.toml").replace("\"diamond\"", "2.42");
+    desk.write("index.toml", &cube);
+    assert!(desk.json("info --json index.toml")["carats"].is_null());
+    assert!(desk.done("info index.toml").contains("not known"));
+    desk.write("heavy.toml", cube.replace("2.42", "{ index = 2.42, density = 10 }"));
+    near(at(&desk.json("info --json heavy.toml"), "carats"), 10.0 * 6.5_f64.powi(3) / 200.0, 1e-9, "a cube");
+    let stones =
+        "[[stone]]\ncut = \"cube.toml\"\nsize = \"4mm\"\n[[stone]]\ncut = \"index.toml\"\nsize = \"2mm\"";
+    let scene = format!("format = 1\nname = \"Cubes\"\nlayout = \"row\"\ngap_mm = 1\n{stones}");
+    desk.write("scene.toml", &scene);
+    let told = desk.json("info --json scene.toml");
+    let keys = |v: &Value| v.as_object().unwrap().keys().map(String::as_str).collect::<Vec<_>>().join(" ");
+    assert_eq!(keys(&told), "file name light unit_mm carats stones");
+    assert_eq!(keys(&told["stones"][0]), "cut material diameter_mm carats at_mm");
+    assert!(told["carats"].is_null() && told["light"].is_null() && told["unit_mm"] == 2.0);
+    near(at(&told, "stones/0/carats"), 3.52 * 64.0 / 200.0, 1e-12, "a cube of 4 mm");
+    // Corners to corners: the cubes' circles have radii of 2 √2 and √2 mm.
+    let apart = point(&told["stones"][1]["at_mm"]) - point(&told["stones"][0]["at_mm"]);
+    assert!((apart - DVec3::X * (3.0 * 2_f64.sqrt() + 1.0)).length() < 1e-9, "{apart}");
+    assert!(desk.done("info scene.toml").contains("index 2.42"));
+    desk.write("scene.toml", scene.replace("\"row\"", "\"raw\""));
+    let said = desk.refused("info scene.toml", 1);
+    assert!(said.starts_with("error: scene.toml:3: layout: 'raw' is none; did you mean 'row'?"), "{said}");
+    for (line, named) in [("measure scene.toml", "scene.toml"), ("export parcel", "parcel")] {
+        let said = desk.refused(line, 1);
+        assert!(
+            said.starts_with(&format!("error: {named}")) && said.contains("; this is a scene, where"),
+            "{said}"
+        );
     }
 }

@@ -7,7 +7,9 @@ use brillianteer::math::Polytope;
 use brillianteer::optics::{Illuminant, material, materials, strata};
 use brillianteer::picture::spectral::{Remainder, expose};
 use brillianteer::picture::{ByBeams, Linear};
-use brillianteer::scene::{Dome, Light, Placed, Projection, Setting, View, light};
+#[cfg(feature = "gpu")]
+use brillianteer::scene::Projection;
+use brillianteer::scene::{Light, Placed, Setting, View, light};
 use brillianteer::trace::beam;
 use brillianteer::trace::ray::{ByRays, Options};
 use brillianteer::trace::sitting::Sitting;
@@ -31,7 +33,7 @@ struct Shoot {
 
 impl Shoot {
     fn new(polytope: &Polytope, material_name: &str, light: Light) -> Self {
-        let stone = Placed { polytope: polytope.clone(), material: material(material_name).unwrap().clone() };
+        let stone = Placed::new(polytope.clone(), material(material_name).unwrap().clone());
         Self {
             setting: Setting { stones: vec![stone], unit_mm: 3.25 },
             light: Light { head: 0.0, ..light },
@@ -184,7 +186,7 @@ fn a_stone_behind_another_is_seen_through_it_and_hidden_beside_it() {
         Polytope::from_planes(&planes).unwrap()
     };
     let glass = |index| brillianteer::optics::Material::from_index("glass", index).unwrap();
-    let placed = |polytope, material| Placed { polytope, material };
+    let placed = Placed::new;
     let behind = || placed(cube(DVec3::new(0.1, 0.05, -0.6), 0.4), glass(1.6));
     let mut shoot = Shoot::new(&modern(), "diamond", light("studio").unwrap());
     shoot.view = View { tilt: 0.1, azimuth: 0.4, ..View::default() };
@@ -321,10 +323,7 @@ mod card {
             let mut shoot =
                 Shoot::new(&planes(DVec3::new(-0.4, 0.1, 0.2)), "diamond", light("studio").unwrap());
             let glass = brillianteer::optics::Material::from_index("glass", index).unwrap();
-            shoot
-                .setting
-                .stones
-                .push(Placed { polytope: planes(DVec3::new(0.45, -0.2, 0.0)), material: glass });
+            shoot.setting.stones.push(Placed::new(planes(DVec3::new(0.45, -0.2, 0.0)), glass));
             shoot.samples = 8;
             shoot
         };

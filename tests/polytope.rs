@@ -6,7 +6,7 @@ mod common;
 
 use brillianteer::math::{Basis, Plane, Polytope, PolytopeError, Symmetry, area, triangulate};
 use common::*;
-use glam::{DVec2, DVec3};
+use glam::{DQuat, DVec2, DVec3};
 use proptest::prelude::*;
 use std::time::Instant;
 
@@ -237,4 +237,24 @@ fn strictly_in_circle([a, b, c, d]: [DVec3; 4], normal: DVec3) -> bool {
     let lift = |p: DVec2| p.length_squared();
     let det = lift(a) * b.perp_dot(c) - lift(b) * a.perp_dot(c) + lift(c) * a.perp_dot(b);
     det > 1e-9
+}
+
+proptest! {
+    #[test]
+    fn a_solid_that_is_moved_is_the_one_between_its_planes(
+        planes in random_planes(),
+        scale in 0.1..10.0_f64,
+        (x, y, z) in (-9.0..9.0_f64, -9.0..9.0_f64, -9.0..9.0_f64),
+    ) {
+        let solid = Polytope::from_planes(&planes).unwrap();
+        let turn = DQuat::from_euler(glam::EulerRot::XYZ, x, y, z);
+        let moved = solid.moved(scale, turn, DVec3::new(x, y, z));
+        let built = Polytope::from_planes(&moved.planes().collect::<Vec<_>>()).unwrap();
+        prop_assert!((moved.volume() - built.volume()).abs() < 1e-7 * built.volume());
+        prop_assert!((moved.volume() - solid.volume() * scale.powi(3)).abs() < 1e-9 * moved.volume());
+        for facet in moved.facets() {
+            prop_assert!((facet.plane.normal.length() - 1.0).abs() < 1e-14);
+            prop_assert!(moved.corners(facet).all(|c| facet.plane.distance(c).abs() < 1e-10));
+        }
+    }
 }

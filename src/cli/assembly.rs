@@ -1,33 +1,227 @@
-use super::Failure;
+//! What is put under light: one stone, or the stones of a scene in their places.
+
 use super::specimen::Specimen;
-use crate::scene::{Placed, Setting};
-use std::path::Path;
+use super::{Failure, lists};
+use crate::cut::{MaterialRef, Size};
+use crate::io::scene_file::{self, Entry, SceneFile};
+use crate::optics::Material;
+use crate::scene::{Placed, Setting, overlapping};
+use glam::{DQuat, DVec3};
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+#[cfg(test)]
+mod tests;
+
+/// Stones in one world, and the light that goes with them.
+#[derive(Debug)]
 pub struct Assembly {
+    /// As given on the command line.
     pub path: String,
+    /// The cut's name, or the scene's.
     pub name: String,
+    /// The stones. A stone alone lies unmoved in its own frame.
     pub setting: Setting,
-    pub light: Option<String>,
+    /// Where each is, in the order of the setting's.
+    pub places: Vec<Place>,
+    /// The light that the scene asks for: the name of one that comes with the program, or a file.
+    pub light: Option<PathBuf>,
+    /// Whether it is a scene and not a stone alone, even if of one stone.
+    #[cfg_attr(not(test), expect(dead_code, reason = "pictures of scenes are framed by it"))]
+    pub is_scene: bool,
 }
+
+/// A stone's size and place.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Place {
+    /// Girdle diameter, mm.
+    pub diameter_mm: f64,
+    /// The middle of its girdle, mm.
+    pub at_mm: DVec3,
+}
+
+/// A stone of a scene before the world's unit is known.
+#[derive(Clone)]
+struct Member<'a> {
+    specimen: &'a Specimen,
+    material: Material,
+    diameter_mm: f64,
+    turn: DQuat,
+    at_mm: DVec3,
+    /// What errors call it.
+    told: String,
+}
+
 impl Assembly {
-    pub fn load(
-        file: &Path,
-        material: Option<&str>,
-        _size: Option<crate::cut::Size>,
-    ) -> Result<Self, Failure> {
-        let s = Specimen::load(file)?;
-        let material = match material {
-            Some(m) => crate::optics::material(m).map_err(|e| Failure::Usage(e.to_string()))?.clone(),
-            None => s.material.clone(),
-        };
-        let unit_mm = s.design.diameter_mm / 2.0;
+    /// Reads a cut file or a scene file, or takes a cut or a scene that comes with the program by its name, and warns of
+    /// what is odd. A material (a name or an index) and a size that are given are those of every stone.
+    pub fn load(file: &Path, material: Option<&str>, size: Option<Size>) -> Result<Self, Failure> {
+        let material = material.map(asked_material).transpose()?;
+        match scene(file)? {
+            Some(scene) => Self::of_scene(file, scene, material.as_ref(), size),
+            None => Self::of_stone(Specimen::load(file)?, material, size),
+        }
+    }
+
+    fn of_stone(specimen: Specimen, material: Option<Material>, size: Option<Size>) -> Result<Self, Failure> {
+        let material = material.unwrap_or_else(|| specimen.material.clone());
+        let told = |message| Failure::Input(format!("{}: {message}", specimen.path));
+        let diameter_mm = diameter_mm(&specimen, &material, size).map_err(told)?;
+        let stone = Placed::named(&specimen.stone, material, &specimen.design.name);
         Ok(Self {
-            path: s.path.clone(),
-            name: s.design.name.clone(),
-            setting: Setting {
-                stones: vec![Placed { polytope: s.stone.polytope.clone(), material }],
-                unit_mm,
-            },
+            path: specimen.path,
+            name: specimen.design.name,
+            setting: Setting { stones: vec![stone], unit_mm: 0.5 * diameter_mm },
+            places: vec![Place { diameter_mm, at_mm: DVec3::ZERO }],
             light: None,
+            is_scene: false,
         })
     }
+
+    fn of_scene(
+        file: &Path,
+        scene: SceneFile,
+        material: Option<&Material>,
+        size: Option<Size>,
+    ) -> Result<Self, Failure> {
+        let path = file.display().to_string();
+        let specimens = specimens(file, &scene)?;
+        let mut members = Vec::new();
+        for (number, entry) in scene.stones.iter().enumerate() {
+            let specimen = &specimens[&entry.cut];
+            let told = format!("stone {} ({})", number + 1, entry.cut);
+            let member = member(specimen, entry, material, size.or(entry.size), told)
+                .map_err(|message| at_entry(file, number, entry, &message))?;
+            for _ in 0..entry.count {
+                let more = scene.layout.map_or(0.0, |layout| layout.turn(members.len()));
+                members.push(Member { turn: turned(entry, more), ..member.clone() });
+            }
+        }
+        lay(&mut members, &scene);
+        let setting = placed(&members);
+        if let Some((a, b)) = overlapping(&setting.stones) {
+            let (a, b) = (&members[a].told, &members[b].told);
+            return Err(Failure::Input(format!("{path}: {a} and {b} overlap; move one of them away")));
+        }
+        let places = members.iter().map(|m| Place { diameter_mm: m.diameter_mm, at_mm: m.at_mm }).collect();
+        Ok(Self { path, name: scene.name, setting, places, light: scene.light, is_scene: true })
+    }
+
+    /// The weight of all stones in carats; `None` if one has no density.
+    pub fn carats(&self) -> Option<f64> {
+        self.setting.stones.iter().map(|stone| stone.carats(self.setting.unit_mm)).sum()
+    }
+}
+
+/// The scene of a file, or of that name; `None` where it is none.
+fn scene(file: &Path) -> Result<Option<SceneFile>, Failure> {
+    if file.is_file() {
+        return scene_file::is_scene(file)
+            .then(|| scene_file::read(file))
+            .transpose()
+            .map_err(Failure::Input);
+    }
+    let name = file.display().to_string();
+    let known = lists::built_in_scene(&name).map(|text| scene_file::parse(text, &name, None));
+    known.transpose().map_err(Failure::Input)
+}
+
+/// Whether a path means a scene: a file of one, or the name of one that comes with the program.
+pub fn is_scene(file: &Path) -> bool {
+    match file.is_file() {
+        true => scene_file::is_scene(file),
+        false => lists::built_in_scene(&file.to_string_lossy()).is_some(),
+    }
+}
+
+/// The material that a command line asks for.
+fn asked_material(text: &str) -> Result<Material, Failure> {
+    let asked = text.parse().map_or_else(|_| MaterialRef::Name(text.to_owned()), MaterialRef::Index);
+    let told = |error: crate::cut::MaterialError| {
+        Failure::Usage(format!("--material: {}", error.to_string().trim_start_matches("material: ")))
+    };
+    asked.material().map_err(told)
+}
+
+/// The cuts of a scene, each read once, by what the scene calls them.
+fn specimens(file: &Path, scene: &SceneFile) -> Result<BTreeMap<String, Specimen>, Failure> {
+    let mut specimens = BTreeMap::new();
+    for (number, entry) in scene.stones.iter().enumerate() {
+        if specimens.contains_key(&entry.cut) {
+            continue;
+        }
+        let specimen = specimen(file, &entry.cut).map_err(|failure| match failure {
+            Failure::Input(message) => at_entry(file, number, entry, &message),
+            other => other,
+        })?;
+        specimens.insert(entry.cut.clone(), specimen);
+    }
+    Ok(specimens)
+}
+
+/// A file beside the scene's, or else a cut that comes with the program.
+fn specimen(scene: &Path, cut: &str) -> Result<Specimen, Failure> {
+    let beside = scene.parent().unwrap_or(Path::new("")).join(cut);
+    match lists::built_in(cut).filter(|_| !scene.is_file() || !beside.is_file()) {
+        Some(text) => Specimen::parse(cut, text),
+        None => Specimen::read(&beside),
+    }
+}
+
+fn at_entry(file: &Path, number: usize, entry: &Entry, message: &str) -> Failure {
+    Failure::Input(format!("{}:{}: stone {}: {message}", file.display(), entry.line, number + 1))
+}
+
+fn diameter_mm(specimen: &Specimen, material: &Material, size: Option<Size>) -> Result<f64, String> {
+    let diameter = |size: Size| size.diameter_mm(&specimen.stone.polytope, material);
+    size.map_or(Ok(specimen.design.diameter_mm), diameter).map_err(|error| format!("size: {error}"))
+}
+
+fn member<'a>(
+    specimen: &'a Specimen,
+    entry: &Entry,
+    material: Option<&Material>,
+    size: Option<Size>,
+    told: String,
+) -> Result<Member<'a>, String> {
+    let own = || entry.material.as_ref().map_or(Ok(specimen.material.clone()), MaterialRef::material);
+    let material = material.cloned().map_or_else(own, Ok).map_err(|error| error.to_string())?;
+    let diameter_mm = diameter_mm(specimen, &material, size)?;
+    Ok(Member { specimen, material, diameter_mm, turn: turned(entry, 0.0), at_mm: entry.at_mm, told })
+}
+
+/// The world's frame from the cut's: turned about its axis, then leaning toward its azimuth.
+fn turned(entry: &Entry, more: f64) -> DQuat {
+    let azimuth = entry.azimuth.to_radians();
+    let axis = DVec3::new(-azimuth.sin(), azimuth.cos(), 0.0);
+    let turn = DQuat::from_rotation_z((entry.turn + more).to_radians());
+    DQuat::from_axis_angle(axis, entry.tilt.to_radians()) * turn
+}
+
+/// Puts the stones where the scene's layout has them.
+fn lay(members: &mut [Member], scene: &SceneFile) {
+    let Some(layout) = scene.layout else { return };
+    let radii: Vec<f64> = members.iter().map(Member::radius_mm).collect();
+    for (member, at) in members.iter_mut().zip(layout.places(&radii, scene.gap_mm)) {
+        member.at_mm = at.extend(0.0);
+    }
+}
+
+impl Member<'_> {
+    /// Of the circle about its axis that holds it, seen from above, mm.
+    fn radius_mm(&self) -> f64 {
+        let across = |v: &DVec3| (self.turn * *v).truncate().length();
+        let radii = self.specimen.stone.polytope.vertices().iter().map(across);
+        0.5 * self.diameter_mm * radii.fold(0.0, f64::max)
+    }
+}
+
+/// The stones in a world where the largest girdle has the radius 1.
+fn placed(members: &[Member]) -> Setting {
+    let unit_mm = 0.5 * members.iter().map(|m| m.diameter_mm).fold(0.0, f64::max);
+    let place = |m: &Member| {
+        let stone = Placed::named(&m.specimen.stone, m.material.clone(), &m.specimen.design.name);
+        stone.moved(0.5 * m.diameter_mm / unit_mm, m.turn, m.at_mm / unit_mm)
+    };
+    Setting { stones: members.iter().map(place).collect(), unit_mm }
 }

@@ -1,5 +1,6 @@
-//! `info`: a stone's geometry and proportions.
+//! `info`: a stone's geometry, proportions and weight, or the stones of a scene.
 
+use super::assembly::{self, Assembly};
 use super::specimen::Specimen;
 use super::{Failure, each_file, json, print};
 use crate::cut::Cut;
@@ -14,7 +15,7 @@ const LEVEL: f64 = 1e-12;
 
 #[derive(Debug, Args)]
 pub struct Info {
-    /// Cut files, or names of cuts that come with the program
+    /// Cut files and scene files, or names of cuts and scenes that come with the program
     #[arg(required = true)]
     files: Vec<PathBuf>,
     /// Print JSON: one object, or for several files one a line
@@ -25,15 +26,67 @@ pub struct Info {
 impl Info {
     pub fn run(&self) -> Result<(), Failure> {
         each_file(&self.files, |file| {
+            if assembly::is_scene(file) {
+                let assembly = Assembly::load(file, None, None)?;
+                return self.tell(&scene_json(&assembly), || scene_table(&assembly));
+            }
             let specimen = Specimen::load(file)?;
             let value = described(&specimen)?;
-            match (self.json, self.files.len()) {
-                (true, 1) => print(&json(&value)),
-                (true, _) => print(&value.to_string()),
-                (false, _) => print(&table(&specimen, &value)),
-            }
+            self.tell(&value, || table(&specimen, &value))
         })
     }
+
+    fn tell(&self, value: &Value, table: impl FnOnce() -> String) -> Result<(), Failure> {
+        match (self.json, self.files.len()) {
+            (true, 1) => print(&json(value)),
+            (true, _) => print(&value.to_string()),
+            (false, _) => print(&table()),
+        }
+    }
+}
+
+fn scene_json(assembly: &Assembly) -> Value {
+    let stones = assembly.setting.stones.iter().zip(&assembly.places).map(|(stone, place)| {
+        json!({
+            "cut": stone.label,
+            "material": stone.material.name,
+            "diameter_mm": place.diameter_mm,
+            "carats": stone.carats(assembly.setting.unit_mm),
+            "at_mm": place.at_mm.to_array(),
+        })
+    });
+    json!({
+        "file": assembly.path,
+        "name": assembly.name,
+        "light": assembly.light,
+        "unit_mm": assembly.setting.unit_mm,
+        "carats": assembly.carats(),
+        "stones": stones.collect::<Vec<_>>(),
+    })
+}
+
+fn scene_table(assembly: &Assembly) -> String {
+    let mut text = format!("{}: {}\n", assembly.path, assembly.name);
+    if let Some(light) = &assembly.light {
+        let _ = writeln!(text, "  {:<28}{}", "light", light.display());
+    }
+    let _ = writeln!(text, "  {:<28}{}", "weight", weight(assembly.carats()));
+    let _ = write!(text, "\n  {:<20}{:<20}{:>8}{:>12}", "cut", "material", "mm", "weight");
+    let _ = write!(text, "{:>9}{:>9}{:>9}", "x mm", "y mm", "z mm");
+    for (stone, place) in assembly.setting.stones.iter().zip(&assembly.places) {
+        let weight = weight(stone.carats(assembly.setting.unit_mm));
+        let (cut, material, diameter) = (&stone.label, &stone.material.name, place.diameter_mm);
+        let _ = write!(text, "\n  {cut:<20}{material:<20}{diameter:>8.3}{weight:>12}");
+        // Rounded first, so that a rounding below 0 is no -0.000.
+        let at = (1e3 * place.at_mm).round() / 1e3 + 0.0;
+        let _ = write!(text, "{:>9.3}{:>9.3}{:>9.3}", at.x, at.y, at.z);
+    }
+    text
+}
+
+/// A weight for people.
+fn weight(carats: Option<f64>) -> String {
+    carats.map_or("not known".into(), |carats| format!("{carats:.3} ct"))
 }
 
 fn described(specimen: &Specimen) -> Result<Value, Failure> {
@@ -45,6 +98,7 @@ fn described(specimen: &Specimen) -> Result<Value, Failure> {
         "notes": specimen.design.notes,
         "material": specimen.material.name,
         "diameter_mm": specimen.design.diameter_mm,
+        "carats": specimen.carats(),
     });
     if let Cut::RoundBrilliant(brilliant) = &specimen.design.cut {
         let derived = brilliant.derived().map_err(|e| Failure::Input(format!("{}: {e}", specimen.path)))?;
@@ -88,6 +142,7 @@ fn table(specimen: &Specimen, value: &Value) -> String {
     }
     line("material", specimen.material.name.clone());
     line("diameter", format!("{} mm", specimen.design.diameter_mm));
+    line("weight", weight(specimen.carats()));
     for group in ["given", "derived"] {
         for (key, number) in value[group].as_object().into_iter().flatten() {
             let unit = match key.as_str() {

@@ -1,7 +1,7 @@
-//! `materials`, `cuts`, `scopes`: what the program knows by name.
+//! `materials`, `cuts`, `scopes`, `scenes`: what the program knows by name.
 
 use super::{Failure, json, print};
-use crate::io::{cut_file, scope_file};
+use crate::io::{cut_file, scene_file, scope_file};
 use crate::optics::{line, materials};
 use crate::picture::{Picture, named, names};
 use crate::scene::Scope;
@@ -25,13 +25,29 @@ pub fn built_in(name: &str) -> Option<&'static str> {
     CUTS.iter().find(|(n, _)| n.eq_ignore_ascii_case(name)).map(|(_, text)| *text)
 }
 
-/// What else someone may have meant who named a file that does not exist: a cut that comes with the program.
+/// The scenes that come with the program, as their files in `scenes/`.
+const SCENES: [(&str, &str); 3] = [
+    ("trilogy", include_str!("../../scenes/trilogy.toml")),
+    ("ring", include_str!("../../scenes/ring.toml")),
+    ("parcel", include_str!("../../scenes/parcel.toml")),
+];
+
+/// The file of a scene that comes with the program; capitals do not matter.
+pub fn built_in_scene(name: &str) -> Option<&'static str> {
+    SCENES.iter().find(|(n, _)| n.eq_ignore_ascii_case(name)).map(|(_, text)| *text)
+}
+
+/// What else someone may have meant by a file that is no cut file: a scene, or a cut that comes with the program.
 pub fn hint(file: &Path) -> String {
+    if super::assembly::is_scene(file) {
+        return "; this is a scene, where the file or the name of a cut is expected".to_owned();
+    }
     const SLIPS: usize = 3;
-    let asked = file.to_string_lossy().to_lowercase();
-    let near = CUTS.iter().map(|(n, _)| (strsim::levenshtein(&asked, n), n)).min();
-    match near.filter(|(slips, _)| !file.exists() && *slips <= SLIPS) {
-        Some((_, name)) => format!("; did you mean the cut '{name}'?"),
+    let asked = file.file_name().unwrap_or_default().to_string_lossy().to_lowercase();
+    let known = CUTS.iter().map(|(n, _)| ("cut", n)).chain(SCENES.iter().map(|(n, _)| ("scene", n)));
+    let near = known.map(|(kind, n)| (strsim::levenshtein(&asked, n), kind, n)).min();
+    match near.filter(|(slips, ..)| !file.exists() && *slips <= SLIPS) {
+        Some((_, kind, name)) => format!("; did you mean the {kind} '{name}'?"),
         None => String::new(),
     }
 }
@@ -54,14 +70,16 @@ impl List {
                     "dispersion_B_G": m.dispersion.dispersion_b_g(),
                     "source": m.source,
                     "valid_nm": m.valid_nm,
+                    "density": m.density,
                 })
             };
             return print(&json(&Value::Array(materials().iter().map(entry).collect())));
         }
-        let mut text = format!("{:<20}{:>8}{:>9}  {}", "material", "n_D", "B-G", "source");
+        let mut text = format!("{:<20}{:>8}{:>9}{:>8}  {}", "material", "n_D", "B-G", "g/cm³", "source");
         for m in materials() {
             let (n, b_g) = (m.index(line::SODIUM_D), m.dispersion.dispersion_b_g());
-            let _ = write!(text, "\n{:<20}{n:>8.4}{b_g:>9.4}  {}", m.name, m.source);
+            let density = m.density.map_or("-".into(), |d| format!("{d:.2}"));
+            let _ = write!(text, "\n{:<20}{n:>8.4}{b_g:>9.4}{density:>8}  {}", m.name, m.source);
         }
         print(&text)
     }
@@ -94,6 +112,36 @@ impl Cuts {
             return print(&json(&Value::Array(rows.into_iter().map(entry).collect())));
         }
         let line = |(name, title, source)| format!("{name:<14}{title:<20}{source}");
+        print(&rows.into_iter().map(line).collect::<Vec<_>>().join("\n"))
+    }
+}
+
+#[derive(Debug, Args)]
+pub struct Scenes {
+    /// Print the file of this scene
+    name: Option<String>,
+    /// Print JSON
+    #[arg(long)]
+    json: bool,
+}
+
+impl Scenes {
+    pub fn run(&self) -> Result<(), Failure> {
+        if let Some(name) = &self.name {
+            let known = SCENES.map(|(n, _)| n).join(", ");
+            let unknown = || Failure::Usage(format!("no scene '{name}'; known: {known}"));
+            return print(built_in_scene(name).ok_or_else(unknown)?.trim_end());
+        }
+        let mut rows = vec![];
+        for (name, text) in SCENES {
+            let scene = scene_file::parse(text, name, None).map_err(Failure::Input)?;
+            rows.push((name, scene.stones.iter().map(|s| s.count).sum::<usize>(), scene.name));
+        }
+        if self.json {
+            let entry = |(name, stones, title)| json!({ "name": name, "title": title, "stones": stones });
+            return print(&json(&Value::Array(rows.into_iter().map(entry).collect())));
+        }
+        let line = |(name, stones, title)| format!("{name:<14}{title:<20}{stones} stones");
         print(&rows.into_iter().map(line).collect::<Vec<_>>().join("\n"))
     }
 }

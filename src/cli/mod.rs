@@ -91,7 +91,7 @@ enum Command {
     Spin(spin::Spin),
     /// Measure the light of one view: what comes from where, with its error
     Measure(measure::Measure),
-    /// Show a stone's geometry and proportions
+    /// Show a stone's geometry, proportions and weight, or the stones of a scene
     Info(info::Info),
     /// Time the tracers on one and the same picture
     Bench(bench::Bench),
@@ -99,6 +99,8 @@ enum Command {
     Materials(lists::List),
     /// List the cuts that come with the program, or print one as a cut file to start from
     Cuts(lists::Cuts),
+    /// List the scenes that come with the program, or print one as a file to start from
+    Scenes(lists::Scenes),
     /// List the scopes, or print one as a file to start from
     Scopes(lists::Scopes),
 }
@@ -123,6 +125,7 @@ pub fn main() -> ExitCode {
         Command::Bench(bench) => bench.run(),
         Command::Materials(list) => list.materials(),
         Command::Cuts(cuts) => cuts.run(),
+        Command::Scenes(scenes) => scenes.run(),
         Command::Scopes(scopes) => scopes.run(),
     };
     match result {

@@ -2,12 +2,13 @@
 
 use super::{Failure, say};
 use crate::cut::Design;
-use crate::io::cut_file;
+use crate::io::cut_file::{self, CutFileError};
 use crate::optics::Material;
 use crate::scene::Stone;
 use std::path::Path;
 
 /// A cut file, and the stone that it describes.
+#[derive(Debug)]
 pub struct Specimen {
     /// As given on the command line.
     pub path: String,
@@ -23,19 +24,39 @@ impl Specimen {
     /// Reads a cut file, or takes a cut that comes with the program by its name; builds the stone, and warns of what
     /// is odd.
     pub fn load(file: &Path) -> Result<Self, Failure> {
-        let path = &file.display().to_string();
+        let name = file.display().to_string();
+        match super::lists::built_in(&name).filter(|_| !file.is_file()) {
+            Some(text) => Self::parse(&name, text),
+            None => Self::read(file),
+        }
+    }
+
+    /// Reads a cut file.
+    pub fn read(file: &Path) -> Result<Self, Failure> {
+        let told = |e: CutFileError| Failure::Input(format!("{e}{}", super::lists::hint(file)));
+        Self::of(file.display().to_string(), cut_file::read(file).map_err(told)?)
+    }
+
+    /// Takes the text of a cut file, which errors call by this path.
+    pub fn parse(path: &str, text: &str) -> Result<Self, Failure> {
+        let design = cut_file::parse(text, path).map_err(|e| Failure::Input(e.to_string()))?;
+        Self::of(path.to_owned(), design)
+    }
+
+    fn of(path: String, design: Design) -> Result<Self, Failure> {
         let input = |e: &dyn std::fmt::Display| Failure::Input(format!("{path}: {e}"));
-        let design = match super::lists::built_in(path).filter(|_| !file.is_file()) {
-            Some(text) => cut_file::parse(text, path).map_err(|e| Failure::Input(e.to_string()))?,
-            None => cut_file::read(file)
-                .map_err(|e| Failure::Input(format!("{e}{}", super::lists::hint(file))))?,
-        };
         let facets = design.facets().map_err(|e| input(&e))?;
         let stone = Stone::new(&facets).map_err(|e| input(&e.told(|i| format!("'{}'", facets[i].0))))?;
         let material = design.material.material().map_err(|e| input(&e))?;
-        let specimen = Self { path: path.clone(), design, stone, material };
+        let specimen = Self { path, design, stone, material };
         specimen.warn(&facets)?;
         Ok(specimen)
+    }
+
+    /// Its weight in carats; `None` where its material's density is not known.
+    pub fn carats(&self) -> Option<f64> {
+        let unit_mm = 0.5 * self.design.diameter_mm;
+        self.material.carats(self.stone.polytope.volume() * unit_mm.powi(3))
     }
 
     /// Says that something about it is odd.

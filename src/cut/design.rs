@@ -11,7 +11,7 @@ pub const DEFAULT_DIAMETER_MM: f64 = 6.5;
 pub const MAX_PLANES: usize = 10_000;
 
 /// Girdle diameters taken, mm.
-const DIAMETERS_MM: std::ops::RangeInclusive<f64> = 0.1..=1000.0;
+pub(super) const DIAMETERS_MM: std::ops::RangeInclusive<f64> = 0.1..=1000.0;
 
 /// A stone as it is written down: its cut, its material and its size.
 #[derive(Debug, Clone, PartialEq)]

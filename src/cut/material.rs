@@ -2,6 +2,9 @@
 
 use crate::optics::{self, Dispersion, DispersionError, Material, UnknownMaterial, VISIBLE_NM};
 
+/// Densities taken, g/cm³: from aerogel to beyond osmium.
+const DENSITIES: std::ops::RangeInclusive<f64> = 0.1..=30.0;
+
 /// The material of a stone, as written.
 #[derive(Debug, Clone, PartialEq)]
 pub enum MaterialRef {
@@ -59,6 +62,12 @@ pub enum MaterialError {
         /// Where it ends.
         last: f64,
     },
+    /// A density that no stone has.
+    #[error("density: {value} must be from {} to {} g/cm³", DENSITIES.start(), DENSITIES.end())]
+    Density {
+        /// What was given, g/cm³.
+        value: f64,
+    },
 }
 
 impl MaterialError {
@@ -71,6 +80,7 @@ impl MaterialError {
             | Self::Dispersion { key, .. } => key,
             Self::Unknown(_) => "material",
             Self::Valid { .. } => "valid_nm",
+            Self::Density { .. } => "density",
         }
     }
 }
@@ -102,12 +112,9 @@ impl MaterialRef {
             Self::Custom(material) => {
                 check_name("name", &material.name)?;
                 check_law(&material.dispersion)?;
-                match material.valid_nm {
-                    Some((first, last)) if first.is_nan() || last.is_nan() || first > last => {
-                        Err(MaterialError::Valid { first, last })
-                    }
-                    _ => Ok(Material::clone(material)),
-                }
+                check_range(material.valid_nm)?;
+                check_density(material.density)?;
+                Ok(Material::clone(material))
             }
         }
     }
@@ -119,6 +126,22 @@ fn check_name(key: &'static str, name: &str) -> Result<(), MaterialError> {
 
 fn check_index(key: &'static str, value: f64) -> Result<(), MaterialError> {
     if (1.0..=5.0).contains(&value) { Ok(()) } else { Err(MaterialError::Index { key, value }) }
+}
+
+fn check_range(valid_nm: Option<(f64, f64)>) -> Result<(), MaterialError> {
+    match valid_nm {
+        Some((first, last)) if first.is_nan() || last.is_nan() || first > last => {
+            Err(MaterialError::Valid { first, last })
+        }
+        _ => Ok(()),
+    }
+}
+
+fn check_density(density: Option<f64>) -> Result<(), MaterialError> {
+    match density.filter(|value| !DENSITIES.contains(value)) {
+        Some(value) => Err(MaterialError::Density { value }),
+        None => Ok(()),
+    }
 }
 
 fn check_law(law: &Dispersion) -> Result<(), MaterialError> {
@@ -219,6 +242,8 @@ mod tests {
                 glass(|m| m.valid_nm = Some((700.0, 400.0))),
                 "valid_nm: [700, 400] is no range; give the first wavelength in nm, then the last",
             ),
+            (glass(|m| m.density = Some(0.0)), "density: 0 must be from 0.1 to 30 g/cm³"),
+            (glass(|m| m.density = Some(f64::NAN)), "density: NaN must be from 0.1 to 30 g/cm³"),
         ];
         for (material, expected) in cases {
             let error = material.check().unwrap_err();

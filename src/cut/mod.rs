@@ -13,9 +13,7 @@ mod names;
 mod proportion_error;
 mod proportions;
 mod round_brilliant;
-#[allow(missing_docs)]
 mod size;
-pub use size::Size;
 mod warning;
 
 pub use design::{Cut, DEFAULT_DIAMETER_MM, Design, DesignError, MAX_PLANES, PlaneFault};
@@ -24,7 +22,10 @@ pub use material::{MaterialError, MaterialRef};
 pub use proportion_error::{Limit, ProportionError, Unit};
 pub use proportions::Derived;
 pub use round_brilliant::{Crown, LowerHalf, Pavilion, RoundBrilliant};
+pub use size::{Size, SizeError};
 pub use warning::Warning;
+
+pub(crate) use names::is_printable;
 
 #[cfg(test)]
 pub(crate) use derive::strategy;

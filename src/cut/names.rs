@@ -30,7 +30,7 @@ const LONGEST: usize = 200;
 
 /// Whether a name can be shown anywhere: not blank nor endless, and without control characters, which XML cannot
 /// hold.
-pub(super) fn is_printable(name: &str) -> bool {
+pub(crate) fn is_printable(name: &str) -> bool {
     !name.trim().is_empty()
         && name.len() <= LONGEST
         && !name.contains(|c: char| c.is_control() || matches!(c, '\u{fffe}' | '\u{ffff}'))

@@ -15,8 +15,8 @@ use crate::cut::Design;
 use form::DesignForm;
 
 mod form;
-mod material_form;
-mod values;
+pub(super) mod material_form;
+pub(super) mod values;
 
 #[cfg(test)]
 mod tests;
@@ -82,7 +82,7 @@ fn design(text: &str) -> Result<Design, Fault> {
 }
 
 /// Read before all else, since another format may have other keys.
-fn check_format(table: &DeTable<'_>) -> Result<(), Fault> {
+pub(super) fn check_format(table: &DeTable<'_>) -> Result<(), Fault> {
     let Some(value) = table.get("format") else {
         return Err(Fault::top(format!(
             "format: the key is missing; begin the file with `format = {FORMAT}`"

@@ -6,7 +6,7 @@ use std::ops::Range;
 use toml::de::{DeTable, DeValue, Error};
 
 /// What the keys mean, for whoever left one out or wrote something else.
-const MEANINGS: [(&str, &str); 24] = [
+const MEANINGS: [(&str, &str); 34] = [
     ("name", "what it is called"),
     ("material", "a material's name, an index, or a table of its own"),
     ("diameter_mm", "girdle diameter in mm"),
@@ -29,6 +29,16 @@ const MEANINGS: [(&str, &str); 24] = [
     ("absorption", "a number per mm, or [[nm, per mm], ...]"),
     ("absorption_e", "of the extraordinary polarisation: a number per mm, or [[nm, per mm], ...]"),
     ("valid_nm", "[first, last]"),
+    ("density", "g/cm³"),
+    ("light", "a light's name, or a file"),
+    ("layout", "row, ring or parcel"),
+    ("gap_mm", "mm between the girdles of a layout"),
+    ("stone", "a table [[stone]] for each kind"),
+    ("cut", "a cut's name, or a cut file"),
+    ("count", "how many"),
+    ("turn", "degrees about the stone's axis"),
+    ("tilt", "degrees that the table leans toward the azimuth"),
+    ("at", "[x, y, z] in mm"),
     ("from", "degrees of elevation at which the band begins, -90 to 90"),
     ("colour", "[red, green, blue] of sRGB, 0 to 255 each"),
 ];
@@ -93,6 +103,15 @@ impl Fault {
     /// A fault of the value at a path such as `plane/17/normal`, or of what encloses it where the value is missing.
     pub(super) fn at(path: impl Into<String>, message: impl Into<String>) -> Self {
         Self { place: Place::Path(path.into()), message: message.into() }
+    }
+
+    /// The same fault of something that is part of another: its path and its words go behind that one's.
+    pub(super) fn within(self, path: &str, told: &str) -> Self {
+        let place = match self.place {
+            Place::Path(inner) => Place::Path(path.to_owned() + &inner),
+            place => place,
+        };
+        Self { place, message: told.to_owned() + &self.message }
     }
 
     /// What the parser says of a text that is not TOML.

@@ -9,6 +9,7 @@ mod fault;
 pub mod panorama;
 mod picture_file;
 mod png;
+pub mod scene_file;
 pub mod scope_file;
 mod text;
 

@@ -1,7 +1,7 @@
 //! A closed convex solid bounded by planes. It is built in `polytope_build`; here is what can be asked of it.
 
 use super::{Plane, polytope_build};
-use glam::DVec3;
+use glam::{DQuat, DVec3};
 
 /// One face of a [`Polytope`].
 #[derive(Debug, Clone, PartialEq)]
@@ -38,6 +38,19 @@ impl Polytope {
     /// Where the half-spaces enclose no solid, naming the planes at fault: see [`super::PolytopeError`].
     pub fn from_planes(planes: &[Plane]) -> Result<Self, super::PolytopeError> {
         polytope_build::build(planes)
+    }
+
+    /// The same solid elsewhere: scaled by a factor above 0, turned, then shifted. Facets and corners keep their order.
+    pub fn moved(&self, scale: f64, turn: DQuat, shift: DVec3) -> Self {
+        let mut moved = self.clone();
+        for corner in &mut moved.vertices {
+            *corner = turn * *corner * scale + shift;
+        }
+        for Facet { plane, .. } in &mut moved.facets {
+            plane.normal = turn * plane.normal;
+            plane.offset = plane.offset * scale + plane.normal.dot(shift);
+        }
+        moved
     }
 
     /// The faces, in the order of the planes given.

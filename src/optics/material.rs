@@ -24,6 +24,8 @@ pub struct Material {
     /// The wavelengths in nm, first and last, that the source vouches for; beyond them the formula is
     /// extrapolated. `None` where the source states none.
     pub valid_nm: Option<(f64, f64)>,
+    /// What it weighs, g/cm³; `None` where that is not known.
+    pub density: Option<f64>,
 }
 
 impl Material {
@@ -56,7 +58,20 @@ impl Material {
         valid_nm: Option<(f64, f64)>,
     ) -> Self {
         let (name, description, source) = (name.to_owned(), text.to_owned(), source.to_owned());
-        Self { name, description, dispersion, absorption: Default::default(), source, valid_nm }
+        Self {
+            name,
+            description,
+            dispersion,
+            absorption: Default::default(),
+            source,
+            valid_nm,
+            density: None,
+        }
+    }
+
+    /// The same, of this density in g/cm³.
+    pub(super) fn weighing(self, density: f64) -> Self {
+        Self { density: Some(density), ..self }
     }
 }
 
@@ -100,7 +115,7 @@ pub fn materials() -> &'static [Material] {
     &MATERIALS
 }
 
-/// Isotropic stones whose dispersion is published.
+/// Isotropic stones whose dispersion is published; densities are those of trade tables.
 fn published() -> Vec<Material> {
     vec![
         Material::clear(
@@ -109,7 +124,8 @@ fn published() -> Vec<Material> {
             sellmeier(&[(0.3306, 0.1750), (4.3356, 0.1060)]),
             "F. Peter, Z. Phys. 15, 358 (1923)",
             Some((226.0, 760.0)),
-        ),
+        )
+        .weighing(3.52),
         Material::clear(
             "spinel",
             "Isotropic; magnesium aluminate, colourless.",
@@ -117,14 +133,16 @@ fn published() -> Vec<Material> {
             "W. J. Tropf and M. E. Thomas, Handbook of Optical Constants of Solids II, 881 (1991); \
              fit in Handbook of Optics, 3rd ed., vol. 4 (2009)",
             Some((350.0, 5500.0)),
-        ),
+        )
+        .weighing(3.60),
         Material::clear(
             "cubic zirconia",
             "Isotropic; stabilised with yttria, colourless.",
             sellmeier(&[(1.347091, 0.062543), (2.117788, 0.166739), (9.452943, 24.320570)]),
             "D. L. Wood and K. Nassau, Appl. Opt. 21, 2978 (1982)",
             Some((361.0, 5135.0)),
-        ),
+        )
+        .weighing(5.80),
         Material::clear(
             "strontium titanate",
             "Isotropic; sold as fabulite, colourless.",
@@ -132,18 +150,20 @@ fn published() -> Vec<Material> {
             "W. L. Bond, J. Appl. Phys. 36, 1674 (1965); \
              fit by M. J. Dodge, Handbook of Laser Science and Technology IV (1986)",
             Some((430.0, 3800.0)),
-        ),
+        )
+        .weighing(5.13),
         Material::clear(
             "YAG",
             "Isotropic; yttrium aluminium garnet, colourless.",
             rational(1.0, &[(2.28200, 0.01185), (3.27644, 282.734)], &[], 0.0),
             "D. E. Zelmon, D. L. Small and R. Page, Appl. Opt. 37, 4933 (1998)",
             Some((400.0, 5000.0)),
-        ),
+        )
+        .weighing(4.55),
     ]
 }
 
-/// Uniaxial stones, by the ray that obeys Snell's law; the other one, and with it doubling, is not traced
+/// Uniaxial stones, weighed likewise, by the ray that obeys Snell's law; the other one, and with it doubling, is not traced
 /// yet.
 fn ordinary_rays() -> Vec<Material> {
     vec![
@@ -154,28 +174,32 @@ fn ordinary_rays() -> Vec<Material> {
             "I. H. Malitson and M. J. Dodge, J. Opt. Soc. Am. 62, 1405 (1972); \
              fit by M. J. Dodge, Handbook of Laser Science and Technology IV (1986)",
             Some((200.0, 5000.0)),
-        ),
+        )
+        .weighing(4.00),
         Material::clear(
             "quartz",
             "Uniaxial; ordinary ray only, without double refraction; colourless.",
             rational(1.28604141, &[(1.07044083, 0.0100585997), (1.10202242, 100.0)], &[], 0.0),
             "G. Ghosh, Opt. Commun. 163, 95 (1999)",
             Some((198.0, 2053.1)),
-        ),
+        )
+        .weighing(2.65),
         Material::clear(
             "moissanite",
             "Uniaxial 6H silicon carbide; ordinary ray only, without double refraction; colourless.",
             rational(6.57232, &[], &[(0.1401, 0.03178)], -0.02153),
             "S. Wang et al., Laser Photonics Rev. 7, 831 (2013)",
             Some((435.8, 2325.0)),
-        ),
+        )
+        .weighing(3.22),
         Material::clear(
             "rutile",
             "Uniaxial titanium dioxide; ordinary ray only, without double refraction; colourless.",
             rational(5.913, &[], &[(0.2441, 0.0803)], 0.0),
             "J. R. Devore, J. Opt. Soc. Am. 41, 416 (1951)",
             Some((430.0, 1530.0)),
-        ),
+        )
+        .weighing(4.25),
     ]
 }
 

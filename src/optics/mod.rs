@@ -15,6 +15,7 @@ pub mod material;
 pub mod observer;
 pub mod snell;
 pub mod strata;
+mod weight;
 
 pub use absorption::{Absorption, AbsorptionError, MOST_PER_MM};
 pub use colour::{LinearRgb, SrgbEncoder, encoded_from_linear, linear_from_encoded};
@@ -25,3 +26,4 @@ pub use material::{Material, UnknownMaterial, material, materials};
 pub use observer::{D65_WHITE, OBSERVER_NM, SRGB_FROM_XYZ, adaptation, matching, seen};
 pub use snell::{brewster_angle, cos_transmitted, critical_angle, reflect, refract, refracted_change};
 pub use strata::{SAMPLED_NM, Stratum, basis, strata};
+pub use weight::MG_PER_CARAT;

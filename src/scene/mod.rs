@@ -1,17 +1,21 @@
 //! Floor 2: what is looked at, from where and under which light. Data only.
 
+mod layout;
 mod light;
 mod lights;
 mod medium;
+mod overlap;
 mod panorama;
 mod scope;
 mod setting;
 mod stone;
 mod view;
 
+pub use layout::Layout;
 pub use light::{Dome, Field, Lamp, Light, LightError, MOST_LAMPS, PanoramaRef, SoftBox, toward};
 pub use lights::{LIGHTS, light};
 pub use medium::Medium;
+pub use overlap::overlapping;
 pub use panorama::Panorama;
 pub use scope::{ASET_CONE, Backing, Band, MOST_BANDS, Scope, ScopeError, elevation_deg};
 pub use setting::{Placed, Setting};

@@ -1,7 +1,9 @@
 //! Stones beside one another, each of its own material.
 
+use super::Stone;
 use crate::math::Polytope;
 use crate::optics::Material;
+use glam::{DQuat, DVec3};
 
 /// A stone in its place.
 #[derive(Debug, Clone, PartialEq)]
@@ -10,6 +12,10 @@ pub struct Placed {
     pub polytope: Polytope,
     /// What it is made of.
     pub material: Material,
+    /// The facets' names, in their order; empty where they have none.
+    pub names: Vec<String>,
+    /// What its cut is called; may be empty.
+    pub label: String,
 }
 
 /// Stones in one world; no two overlap.
@@ -17,6 +23,29 @@ pub struct Placed {
 pub struct Setting {
     /// The stones.
     pub stones: Vec<Placed>,
-    /// The world's unit in mm: half the girdle diameter of a stone alone.
+    /// The world's unit in mm: half the girdle diameter of the largest stone.
     pub unit_mm: f64,
+}
+
+impl Placed {
+    /// A stone without names.
+    pub fn new(polytope: Polytope, material: Material) -> Self {
+        Self { polytope, material, names: Vec::new(), label: String::new() }
+    }
+
+    /// A stone with the names of its facets, where it is.
+    pub fn named(stone: &Stone, material: Material, label: &str) -> Self {
+        let names = stone.names().to_vec();
+        Self { polytope: stone.polytope.clone(), material, names, label: label.to_owned() }
+    }
+
+    /// The same stone scaled by a factor above 0, turned, then shifted.
+    pub fn moved(self, scale: f64, turn: DQuat, shift: DVec3) -> Self {
+        Self { polytope: self.polytope.moved(scale, turn, shift), ..self }
+    }
+
+    /// Its weight in carats where the world's unit is `unit_mm` mm; `None` where its density is not known.
+    pub fn carats(&self, unit_mm: f64) -> Option<f64> {
+        self.material.carats(self.polytope.volume() * unit_mm.powi(3))
+    }
 }

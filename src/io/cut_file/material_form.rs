@@ -11,12 +11,12 @@ use crate::optics::{Absorption, AbsorptionError, Dispersion, Material};
 const GREY_NM: f64 = 550.0;
 
 /// `material = "diamond"`, `material = 2.42` or `[material]`.
-pub(super) type MaterialForm = OneOf<Table<TableForm>>;
+pub(in crate::io) type MaterialForm = OneOf<Table<TableForm>>;
 
 /// `[material]`
 #[derive(Serialize, Deserialize, Default)]
 #[serde(deny_unknown_fields)]
-pub(super) struct TableForm {
+pub(in crate::io) struct TableForm {
     #[serde(default = "nameless")]
     name: String,
     #[serde(default, skip_serializing_if = "String::is_empty")]
@@ -38,6 +38,8 @@ pub(super) struct TableForm {
     absorption_e: Option<OneOf<Pairs>>,
     #[serde(skip_serializing_if = "Option::is_none")]
     valid_nm: Option<Numbers<2>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    density: Option<f64>,
     /// A law that has no key of its own, as [`Dispersion`] spells it.
     #[serde(skip_serializing_if = "Option::is_none")]
     dispersion: Option<Dispersion>,
@@ -71,9 +73,10 @@ impl MaterialForm {
 
 impl TableForm {
     fn of(material: &Material) -> Self {
-        let Material { name, description, dispersion, absorption, source, valid_nm } = material.clone();
+        let Material { name, description, dispersion, absorption, source, valid_nm, density } =
+            material.clone();
         let valid_nm = valid_nm.map(|range| Numbers(range.into()));
-        let mut form = Self { name, description, source, valid_nm, ..Self::default() };
+        let mut form = Self { name, description, source, valid_nm, density, ..Self::default() };
         match dispersion {
             Dispersion::Constant(n) => form.index = Some(n),
             Dispersion::Sellmeier { constant: 1.0, terms } if !terms.is_empty() => {
@@ -117,6 +120,7 @@ impl TableForm {
             absorption: [ordinary, extraordinary],
             source: self.source,
             valid_nm: self.valid_nm.map(|range| range.0.into()),
+            density: self.density,
         })
     }
 }

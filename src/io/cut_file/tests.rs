@@ -81,6 +81,7 @@ fn custom(dispersion: Dispersion) -> Material {
         absorption: Default::default(),
         source: String::new(),
         valid_nm: None,
+        density: None,
     }
 }
 
@@ -103,8 +104,7 @@ fn a_material_is_a_name_an_index_or_a_table() {
     ] {
         assert_eq!(material(text).unwrap(), MaterialRef::Custom(Box::new(custom(law))), "{text}");
     }
-    let smoke =
-        "name = \"smoke\", description = \"grey\", source = \"by eye\", valid_nm = [400, 700], index = 2";
+    let smoke = "name = \"smoke\", description = \"grey\", source = \"by eye\", valid_nm = [400, 700], density = 3, index = 2";
     let violet = vec![(400.0, 0.1), (700.0, 0.0)];
     for (text, ordinary, extraordinary) in [
         ("absorption = 1", vec![(550.0, 1.0)], vec![(550.0, 1.0)]),
@@ -120,6 +120,7 @@ fn a_material_is_a_name_an_index_or_a_table() {
             absorption: [ordinary, extraordinary].map(|samples| Absorption::new(samples).unwrap()),
             source: "by eye".to_owned(),
             valid_nm: Some((400.0, 700.0)),
+            density: Some(3.0),
         };
         let read = material(&format!("{{ {smoke}, {text} }}")).unwrap();
         assert_eq!(read, MaterialRef::Custom(Box::new(expected)));
@@ -209,7 +210,7 @@ fn a_key_that_is_unknown_or_missing_is_told_with_those_that_are_known() {
     assert_told(
         &with("\"diamond\"", "{ refraction = 2 }"),
         "x.toml:4: material: unknown key `refraction`, known here are `name`, `description`, `source`, `index`, \
-         `sellmeier`, `cauchy`, `abbe`, `absorption`, `absorption_e`, `valid_nm`, `dispersion`",
+         `sellmeier`, `cauchy`, `abbe`, `absorption`, `absorption_e`, `valid_nm`, `density`, `dispersion`",
     );
     assert_told(
         &planes_with("offset = 1", "distance = 1"),
@@ -500,14 +501,16 @@ fn absorptions() -> impl Strategy<Value = Absorption> {
 
 fn materials() -> impl Strategy<Value = MaterialRef> {
     let range = prop::option::of((1.0..500.0, 500.0..1e9));
+    let densities = prop::option::of(0.1..=30.0);
     let texts = (names(), any::<String>(), any::<String>());
     prop_oneof![
         prop::sample::select(optics::materials()).prop_map(|known| MaterialRef::Name(known.name)),
         (1.0..=5.0).prop_map(MaterialRef::Index),
-        (texts, dispersions(), [absorptions(), absorptions()], any::<bool>(), range).prop_map(
-            |((name, description, source), dispersion, [o, e], pleochroic, valid_nm)| {
+        (texts, dispersions(), [absorptions(), absorptions()], any::<bool>(), (range, densities)).prop_map(
+            |((name, description, source), dispersion, [o, e], pleochroic, (valid_nm, density))| {
                 let absorption = if pleochroic { [o, e] } else { [o.clone(), o] };
-                let material = Material { name, description, dispersion, absorption, source, valid_nm };
+                let material =
+                    Material { name, description, dispersion, absorption, source, valid_nm, density };
                 MaterialRef::Custom(Box::new(material))
             }
         ),

@@ -10,7 +10,7 @@ use serde::{Deserialize, Deserializer, Serialize};
 /// What only a table with its keys can give; serde's own structs take a list of values as well.
 #[derive(Serialize)]
 #[serde(transparent)]
-pub(super) struct Table<T>(pub T);
+pub(in crate::io) struct Table<T>(pub T);
 
 impl<'de, T: Deserialize<'de>> Deserialize<'de> for Table<T> {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
@@ -34,7 +34,7 @@ impl<'de, T: Deserialize<'de>> Deserialize<'de> for Table<T> {
 /// where, which serde's untagged enums cannot.
 #[derive(Serialize)]
 #[serde(untagged)]
-pub(super) enum OneOf<T> {
+pub(in crate::io) enum OneOf<T> {
     Text(String),
     Number(f64),
     Rest(T),
@@ -77,7 +77,7 @@ impl<'de, T: Deserialize<'de>> Deserialize<'de> for OneOf<T> {
 /// A list of exactly so many numbers; serde's own arrays let more pass.
 #[derive(Clone, Copy, Serialize, Deserialize)]
 #[serde(try_from = "Vec<f64>", into = "Vec<f64>")]
-pub(super) struct Numbers<const N: usize>(pub [f64; N]);
+pub(in crate::io) struct Numbers<const N: usize>(pub [f64; N]);
 
 impl<const N: usize> TryFrom<Vec<f64>> for Numbers<N> {
     type Error = String;
@@ -97,7 +97,7 @@ impl<const N: usize> From<Numbers<N>> for Vec<f64> {
 /// A list of at least one pair of numbers.
 #[derive(Clone, Serialize, Deserialize)]
 #[serde(try_from = "Vec<Numbers<2>>")]
-pub(super) struct Pairs(pub Vec<(f64, f64)>);
+pub(in crate::io) struct Pairs(pub Vec<(f64, f64)>);
 
 impl TryFrom<Vec<Numbers<2>>> for Pairs {
     type Error = &'static str;

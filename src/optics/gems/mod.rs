@@ -33,8 +33,8 @@ struct Gem {
 enum Host {
     /// A colourless material known by this name, and of this kind.
     Known(&'static str, &'static str),
-    /// A mineral of this kind, by the least and the greatest of its index and its B-G dispersion.
-    Trade(&'static str, f64, f64, f64),
+    /// A mineral of this kind, by the least and the greatest of its index, its B-G dispersion and its density.
+    Trade(&'static str, f64, f64, f64, f64),
 }
 
 /// Absorption that grows toward the ultraviolet by a factor of e every so many nm; at 400 nm so much per mm for the
@@ -96,10 +96,10 @@ impl Host {
                 let host = host.unwrap_or_else(|| panic!("no host '{name}'")).clone();
                 Material { description: kind.to_owned(), ..host }
             }
-            Self::Trade(kind, least, most, b_minus_g) => {
+            Self::Trade(kind, least, most, b_minus_g, density) => {
                 let text = format!("{kind}; n {least} to {most}, the middle taken");
                 let law = Dispersion::cauchy_from(0.5 * (least + most), b_minus_g);
-                Material::clear(kind, &text, law, TRADE, None)
+                Material::clear(kind, &text, law, TRADE, None).weighing(density)
             }
         }
     }

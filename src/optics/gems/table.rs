@@ -7,16 +7,17 @@ const SPINEL: Host = Host::Known("spinel", "Isotropic; magnesium aluminate");
 const CORUNDUM: Host =
     Host::Known("sapphire", "Uniaxial corundum; ordinary ray only, without double refraction");
 const QUARTZ: Host = Host::Known("quartz", "Uniaxial quartz; ordinary ray only, without double refraction");
-const PYROPE: Host = Host::Trade("Isotropic garnet", 1.714, 1.742, 0.022);
-const ALMANDINE: Host = Host::Trade("Isotropic garnet", 1.77, 1.82, 0.025);
-const RHODOLITE: Host = Host::Trade("Isotropic garnet, of pyrope and almandine", 1.74, 1.77, 0.023);
-const SPESSARTINE: Host = Host::Trade("Isotropic garnet", 1.79, 1.82, 0.027);
-const GROSSULAR: Host = Host::Trade("Isotropic garnet", 1.734, 1.759, 0.028);
-const DEMANTOID: Host = Host::Trade("Isotropic garnet", 1.88, 1.89, 0.057);
-const BERYL: Host = Host::Trade("Uniaxial beryl, without double refraction", 1.565, 1.602, 0.014);
-const TOURMALINE: Host = Host::Trade("Uniaxial tourmaline, without double refraction", 1.614, 1.666, 0.017);
-const PERIDOT: Host = Host::Trade("Biaxial olivine, without double refraction", 1.65, 1.70, 0.020);
-const TOPAZ: Host = Host::Trade("Biaxial topaz, without double refraction", 1.609, 1.643, 0.014);
+const PYROPE: Host = Host::Trade("Isotropic garnet", 1.714, 1.742, 0.022, 3.68);
+const ALMANDINE: Host = Host::Trade("Isotropic garnet", 1.77, 1.82, 0.025, 4.05);
+const RHODOLITE: Host = Host::Trade("Isotropic garnet, of pyrope and almandine", 1.74, 1.77, 0.023, 3.84);
+const SPESSARTINE: Host = Host::Trade("Isotropic garnet", 1.79, 1.82, 0.027, 4.15);
+const GROSSULAR: Host = Host::Trade("Isotropic garnet", 1.734, 1.759, 0.028, 3.61);
+const DEMANTOID: Host = Host::Trade("Isotropic garnet", 1.88, 1.89, 0.057, 3.84);
+const BERYL: Host = Host::Trade("Uniaxial beryl, without double refraction", 1.565, 1.602, 0.014, 2.72);
+const TOURMALINE: Host =
+    Host::Trade("Uniaxial tourmaline, without double refraction", 1.614, 1.666, 0.017, 3.06);
+const PERIDOT: Host = Host::Trade("Biaxial olivine, without double refraction", 1.65, 1.70, 0.020, 3.34);
+const TOPAZ: Host = Host::Trade("Biaxial topaz, without double refraction", 1.609, 1.643, 0.014, 3.53);
 
 pub(super) const GEMS: [Gem; 20] = [
     Gem {

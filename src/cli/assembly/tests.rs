@@ -1,0 +1,93 @@
+//! Stones and scenes as commands get them.
+
+use super::*;
+use crate::optics::material;
+
+fn load(file: impl AsRef<Path>) -> Assembly {
+    Assembly::load(file.as_ref(), None, None).unwrap()
+}
+
+/// What is said of a scene of these stones.
+fn refused(stones: &str) -> String {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("x.toml");
+    std::fs::write(&path, format!("format = 1\nname = \"x\"\n{stones}")).unwrap();
+    let Err(Failure::Input(told)) = Assembly::load(&path, None, None) else { panic!("no input error") };
+    told.replace(&path.display().to_string(), "x.toml").replace(&folder.path().display().to_string(), "")
+}
+
+#[test]
+fn a_stone_alone_lies_as_its_file_has_it_and_takes_another_material_and_size() {
+    let stone = load("modern-ideal");
+    let specimen = Specimen::load(Path::new("modern-ideal")).unwrap();
+    assert_eq!(stone.setting.stones[0].polytope, specimen.stone.polytope);
+    assert_eq!((stone.setting.unit_mm, stone.is_scene, stone.name.as_str()), (3.25, false, "Modern ideal"));
+    assert_eq!(stone.setting.stones[0].names, specimen.stone.names());
+    // A brilliant of 6.5 mm is the trade's carat, to the proportions.
+    assert!(stone.carats().is_some_and(|carats| (0.97..1.03).contains(&carats)), "{:?}", stone.carats());
+    let ruby = Assembly::load(Path::new("modern-ideal"), Some("Ruby"), "2ct".parse().ok()).unwrap();
+    assert_eq!(&ruby.setting.stones[0].material, material("ruby").unwrap());
+    assert!((ruby.carats().unwrap() - 2.0).abs() < 1e-9);
+    let index = Assembly::load(Path::new("modern-ideal"), Some("2.42"), "8mm".parse().ok()).unwrap();
+    assert_eq!((index.setting.unit_mm, index.carats()), (4.0, None));
+    assert!(matches!(Assembly::load(Path::new("trilogy"), Some("rubby"), None), Err(Failure::Usage(_))));
+    let heavy = Assembly::load(Path::new("modern-ideal"), Some("2.42"), "1ct".parse().ok());
+    assert!(matches!(heavy, Err(Failure::Input(_))));
+}
+
+#[test]
+fn every_scene_that_comes_with_the_program_is_apart_and_weighs_what_it_asks_for() {
+    let trilogy = load("trilogy");
+    let weights: Vec<f64> =
+        trilogy.setting.stones.iter().map(|s| s.carats(trilogy.setting.unit_mm).unwrap()).collect();
+    assert!(weights.iter().zip([0.5, 1.0, 0.5]).all(|(a, b)| (a - b).abs() < 1e-9), "{weights:?}");
+    assert_eq!((trilogy.light, trilogy.is_scene), (Some("studio".into()), true));
+    for (name, count) in [("trilogy", 3), ("Ring", 8), ("parcel", 12)] {
+        let scene = load(name);
+        assert_eq!((scene.setting.stones.len(), scene.places.len()), (count, count));
+        assert!(scene.setting.stones.iter().all(|s| s.names.len() == s.polytope.facets().len()));
+        let largest = scene.places.iter().map(|p| p.diameter_mm).fold(0.0, f64::max);
+        assert_eq!(scene.setting.unit_mm, 0.5 * largest);
+        assert_eq!(load(name).setting, scene.setting);
+    }
+    let small = Assembly::load(Path::new("ring"), Some("diamond"), "3mm".parse().ok()).unwrap();
+    assert!(small.places.iter().all(|p| p.diameter_mm == 3.0));
+    assert!(small.setting.stones.iter().all(|s| s.material.name == "diamond"));
+}
+
+#[test]
+fn a_stone_leans_its_table_toward_the_azimuth_and_lies_where_it_is_put() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("x.toml");
+    let stone = "cut = \"tolkowsky\"\nturn = 30\ntilt = 20\nazimuth = 90\nsize = \"4mm\"\nat = [1, 2, 3]";
+    std::fs::write(&path, format!("format = 1\nname = \"x\"\n[[stone]]\n{stone}")).unwrap();
+    let scene = load(&path);
+    let placed = &scene.setting.stones[0];
+    let table = placed.names.iter().position(|name| name == "table").unwrap();
+    let (sin, cos) = 20_f64.to_radians().sin_cos();
+    let plane = placed.polytope.facets()[table].plane;
+    assert!(plane.normal.distance(DVec3::new(0.0, sin, cos)) < 1e-12);
+    let height = Specimen::load(Path::new("tolkowsky")).unwrap().stone.polytope.bounds().1.z;
+    assert!((plane.distance(DVec3::new(0.5, 1.0, 1.5)) + height).abs() < 1e-12);
+    assert_eq!((scene.setting.unit_mm, scene.places[0].at_mm), (2.0, DVec3::new(1.0, 2.0, 3.0)));
+}
+
+#[test]
+fn stones_in_one_anothers_way_and_cuts_that_are_not_there_are_named() {
+    let two = |x: f64, cut: &str| {
+        refused(&format!(
+            "[[stone]]\ncut = \"tolkowsky\"\nat = [0, 0, 0]\n[[stone]]\ncut = \"{cut}\"\nat = [{x}, 0, 0]\n"
+        ))
+    };
+    let told = two(6.4, "shallow");
+    assert_eq!(told, "x.toml: stone 1 (tolkowsky) and stone 2 (shallow) overlap; move one of them away");
+    assert_eq!(
+        two(9.0, "shalow"),
+        "x.toml:6: stone 2: /shalow: there is no such file; did you mean the cut 'shallow'?"
+    );
+    let told = refused("[[stone]]\ncut = \"shallow\"\nmaterial = 2.4\nsize = \"1ct\"");
+    assert!(
+        told.starts_with("x.toml:3: stone 1: size: a weight in ct needs a density, which index 2.4 lacks"),
+        "{told}"
+    );
+}

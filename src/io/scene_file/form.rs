@@ -1,0 +1,191 @@
+//! The keys of a scene file, and what they may be.
+
+use super::super::cut_file::material_form::MaterialForm;
+use super::super::cut_file::values::{Numbers, OneOf, Pairs, Table};
+use super::super::fault::Fault;
+use super::{DEFAULT_GAP_MM, Entry, MOST_STONES, SceneFile, likely, shown};
+use crate::cut::{MaterialError, MaterialRef, Size, is_printable};
+use crate::scene::Layout;
+use glam::DVec3;
+use serde::Deserialize;
+use serde::de::IgnoredAny;
+use std::ops::RangeInclusive;
+use std::path::PathBuf;
+
+/// The whole file.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Form {
+    #[serde(rename = "format")]
+    _format: IgnoredAny,
+    name: String,
+    light: Option<String>,
+    layout: Option<String>,
+    gap_mm: Option<f64>,
+    stone: Vec<Table<StoneForm>>,
+}
+
+/// `[[stone]]`
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct StoneForm {
+    cut: String,
+    material: Option<MaterialForm>,
+    size: Option<SizeForm>,
+    #[serde(default = "one")]
+    count: i64,
+    #[serde(default)]
+    turn: f64,
+    #[serde(default)]
+    tilt: f64,
+    #[serde(default)]
+    azimuth: f64,
+    at: Option<Numbers<3>>,
+}
+
+fn one() -> i64 {
+    1
+}
+
+/// A size with its unit.
+#[derive(Deserialize)]
+#[serde(try_from = "OneOf<Pairs>")]
+struct SizeForm(Size);
+
+impl TryFrom<OneOf<Pairs>> for SizeForm {
+    type Error = String;
+
+    fn try_from(form: OneOf<Pairs>) -> Result<Self, String> {
+        let text = match form {
+            OneOf::Text(text) => text,
+            // Without its unit, which the size itself refuses.
+            OneOf::Number(number) => number.to_string(),
+            OneOf::Rest(_) => {
+                return Err("a list is no size; write a number and mm or ct in quotes".to_owned());
+            }
+        };
+        text.parse().map(Self).map_err(|error: crate::cut::SizeError| error.to_string())
+    }
+}
+
+/// What a form is read with.
+pub(super) struct Surroundings<'a> {
+    /// What a light's name or file comes to.
+    pub light: &'a dyn Fn(&str) -> Result<PathBuf, Fault>,
+    /// The line where the stones of an index begin.
+    pub line: &'a dyn Fn(usize) -> usize,
+}
+
+const DEGREES: RangeInclusive<f64> = -1e6..=1e6;
+const LEANING: RangeInclusive<f64> = -180.0..=180.0;
+const GAPS_MM: RangeInclusive<f64> = 0.0..=1000.0;
+const PLACES_MM: RangeInclusive<f64> = -10_000.0..=10_000.0;
+
+impl Form {
+    /// The scene that the form describes, checked.
+    pub fn scene(self, around: &Surroundings) -> Result<SceneFile, Fault> {
+        if !is_printable(&self.name) {
+            return Err(Fault::at("name", "name: a name of 1 to 200 printable characters is expected"));
+        }
+        let light = self.light.as_deref().map(around.light).transpose()?;
+        let layout = self.layout.as_deref().map(layout).transpose()?;
+        if self.gap_mm.is_some() && layout.is_none() {
+            return Err(Fault::at("gap_mm", "gap_mm: only a layout has gaps; give layout, or leave it out"));
+        }
+        let gap_mm = self.gap_mm.unwrap_or(DEFAULT_GAP_MM);
+        within("gap_mm", "gap_mm", gap_mm, GAPS_MM, "mm")?;
+        check_counts(&self.stone)?;
+        let alone = self.stone.len() == 1;
+        let entry = |(index, Table(form)): (usize, Table<StoneForm>)| {
+            let told =
+                |fault: Fault| fault.within(&format!("stone/{index}/"), &format!("stone {}: ", index + 1));
+            form.check_place(layout, alone).and_then(|()| form.entry((around.line)(index))).map_err(told)
+        };
+        let stones = self.stone.into_iter().enumerate().map(entry).collect::<Result<_, _>>()?;
+        Ok(SceneFile { name: self.name, light, layout, gap_mm, stones })
+    }
+}
+
+fn layout(given: &str) -> Result<Layout, Fault> {
+    let names = Layout::NAMES.map(|(name, _)| name);
+    let found = Layout::NAMES.iter().find(|(name, _)| *name == given).map(|(_, layout)| *layout);
+    let unknown = || format!("layout: '{}' is none{}", shown(given), likely(given, &names));
+    found.ok_or_else(|| Fault::at("layout", unknown()))
+}
+
+fn check_counts(stones: &[Table<StoneForm>]) -> Result<(), Fault> {
+    if stones.is_empty() {
+        return Err(Fault::at("stone", "stone: the list is empty; give at least one [[stone]]"));
+    }
+    let mut left = MOST_STONES as i64;
+    for (index, Table(StoneForm { count, .. })) in stones.iter().enumerate() {
+        if !(1..=left).contains(count) {
+            let number = index + 1;
+            let message = format!(
+                "stone {number}: count: {count} must be at least 1, and all together at most {MOST_STONES}"
+            );
+            return Err(Fault::at(format!("stone/{index}/count"), message));
+        }
+        left -= count;
+    }
+    Ok(())
+}
+
+fn within(path: &str, key: &str, value: f64, range: RangeInclusive<f64>, unit: &str) -> Result<(), Fault> {
+    if range.contains(&value) {
+        return Ok(());
+    }
+    let (least, most) = range.into_inner();
+    Err(Fault::at(path, format!("{key}: {value} must be from {least} to {most} {unit}")))
+}
+
+impl StoneForm {
+    /// A place is given where there is no layout, and only there.
+    fn check_place(&self, layout: Option<Layout>, alone: bool) -> Result<(), Fault> {
+        match (layout, self.at) {
+            (Some(_), Some(_)) => {
+                Err(Fault::at("at", "at: the layout says where the stones are; leave out one or the other"))
+            }
+            (None, _) if self.count > 1 => {
+                let message = "count: several stones cannot be in one place; give a layout";
+                Err(Fault::at("count", message))
+            }
+            (None, None) if !alone => {
+                Err(Fault::at("", "at is missing: give [x, y, z] in mm, or a layout for all"))
+            }
+            _ => Ok(()),
+        }
+    }
+
+    fn entry(self, line: usize) -> Result<Entry, Fault> {
+        within("turn", "turn", self.turn, DEGREES, "degrees")?;
+        within("tilt", "tilt", self.tilt, LEANING, "degrees")?;
+        within("azimuth", "azimuth", self.azimuth, DEGREES, "degrees")?;
+        let at_mm = self.at.map_or(DVec3::ZERO, |Numbers(at)| at.into());
+        for (axis, value) in at_mm.to_array().into_iter().enumerate() {
+            within(&format!("at/{axis}"), "at", value, PLACES_MM, "mm")?;
+        }
+        let material = self.material.map(material).transpose()?;
+        Ok(Entry {
+            cut: self.cut,
+            material,
+            size: self.size.map(|SizeForm(size)| size),
+            count: self.count as usize,
+            turn: self.turn,
+            tilt: self.tilt,
+            azimuth: self.azimuth,
+            at_mm,
+            line,
+        })
+    }
+}
+
+fn material(form: MaterialForm) -> Result<MaterialRef, Fault> {
+    let material = form.material()?;
+    let path = |error: &MaterialError| match &material {
+        MaterialRef::Custom(_) => format!("material/{}", error.key()),
+        MaterialRef::Name(_) | MaterialRef::Index(_) => "material".to_owned(),
+    };
+    material.check().map_err(|error| Fault::at(path(&error), error.to_string()))?;
+    Ok(material)
+}

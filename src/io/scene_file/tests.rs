@@ -1,0 +1,135 @@
+//! What a scene file may say, what it may not and how that is told.
+
+use super::*;
+use crate::optics::line::SODIUM_D;
+
+const TRILOGY: &str = "format = 1\nname = \"Three\"\nlight = \"studio\"\nlayout = \"row\"\ngap_mm = 0.6\n\
+                       [[stone]]\ncut = \"modern-ideal\"\nmaterial = \"ruby\"\nsize = \"1ct\"\ncount = 2\n\
+                       [[stone]]\ncut = \"tolkowsky\"\nturn = 10\ntilt = 15.0\nazimuth = 90\n";
+
+const PLACED: &str = "format = 1\nname = \"Two\"\n[[stone]]\ncut = \"shallow\"\nat = [0, 0, 0]\n\
+                      [[stone]]\ncut = \"fisheye\"\nmaterial = { index = 1.5 }\nat = [8, -1.5, 2]\n";
+
+fn with(text: &str, part: &str, other: &str) -> String {
+    assert!(text.contains(part), "the file has no {part}");
+    text.replacen(part, other, 1)
+}
+
+#[track_caller]
+fn assert_told(text: &str, expected: &str) {
+    let told = parse(text, "x.toml", None).unwrap_err();
+    assert!(told.starts_with(expected), "{told}\ninstead of\n{expected}");
+}
+
+#[test]
+fn a_layout_and_places_read_as_written() {
+    let scene = parse(TRILOGY, "x.toml", None).unwrap();
+    assert_eq!((scene.name.as_str(), scene.layout, scene.gap_mm), ("Three", Some(Layout::Row), 0.6));
+    assert_eq!(scene.light, Some("studio".into()));
+    let plain = Entry {
+        cut: "tolkowsky".to_owned(),
+        material: None,
+        size: None,
+        count: 1,
+        turn: 10.0,
+        tilt: 15.0,
+        azimuth: 90.0,
+        at_mm: DVec3::ZERO,
+        line: 11,
+    };
+    assert_eq!(scene.stones[1], plain);
+    let [first, _] = &scene.stones[..] else { panic!("two kinds") };
+    assert_eq!((first.size, first.count, first.line), (Some(Size::Carats(1.0)), 2, 6));
+    assert_eq!(first.material, Some(MaterialRef::Name("ruby".to_owned())));
+    let scene = parse(PLACED, "x.toml", None).unwrap();
+    assert_eq!((scene.layout, scene.light, scene.gap_mm), (None, None, DEFAULT_GAP_MM));
+    assert_eq!(scene.stones[1].at_mm, DVec3::new(8.0, -1.5, 2.0));
+    let glass = scene.stones[1].material.as_ref().unwrap().material().unwrap();
+    assert_eq!(glass.index(SODIUM_D), 1.5);
+    let alone = "format = 1\nname = \"One\"\nstone = [{ cut = \"shallow\" }]";
+    assert_eq!(parse(alone, "x.toml", None).unwrap().stones.len(), 1);
+}
+
+#[test]
+fn what_is_wrong_with_a_scene_is_told_with_line_and_key() {
+    for (part, other, told) in [
+        ("format = 1", "", "x.toml:1: format: the key is missing"),
+        ("\"Three\"", "\"\"", "x.toml:2: name: a name of 1 to 200 printable characters"),
+        ("\"studio\"", "\"stduio\"", "x.toml:3: light: 'stduio' is no light of the program's and no file"),
+        ("\"row\"", "\"rig\"", "x.toml:4: layout: 'rig' is none; did you mean 'ring'?; known: row, ring"),
+        ("\"row\"", "4", "x.toml:4: layout: invalid type: integer `4`, expected text (row, ring or parcel)"),
+        ("0.6", "-1", "x.toml:5: gap_mm: -1 must be from 0 to 1000 mm"),
+        ("layout = \"row\"\n", "", "x.toml:4: gap_mm: only a layout has gaps"),
+        ("gap_mm", "gap", "x.toml:5: unknown key `gap`, known here are `format`, `name`, `light`, `layout`"),
+        (
+            "\"ruby\"",
+            "\"rubby\"",
+            "x.toml:8: stone 1: material: unknown material 'rubby'; did you mean 'ruby'?",
+        ),
+        ("\"ruby\"", "{ index = 9 }", "x.toml:8: stone 1: index: the index 9 must be from 1"),
+        ("\"ruby\"", "{ }", "x.toml:8: stone 1: material: one of index, sellmeier"),
+        ("\"1ct\"", "1", "x.toml:9: stone.size: '1' has no unit; write 1mm for the girdle's diameter or 1ct"),
+        ("\"1ct\"", "\"1 inch\"", "x.toml:9: stone.size: '1 inch' is no size"),
+        ("\"1ct\"", "[[1, 2]]", "x.toml:9: stone.size: a list is no size"),
+        ("count = 2", "count = 0", "x.toml:10: stone 1: count: 0 must be at least 1"),
+        (
+            "count = 2",
+            "count = 256",
+            "x.toml:11: stone 2: count: 1 must be at least 1, and all together at most",
+        ),
+        ("count = 2", "at = [0, 0, 0]", "x.toml:10: stone 1: at: the layout says where the stones are"),
+        (
+            "cut = \"tolkowsky\"\n",
+            "",
+            "x.toml:11: stone: the key `cut` is missing (a cut's name, or a cut file)",
+        ),
+        ("turn = 10", "turn = nan", "x.toml:13: stone 2: turn: NaN must be from"),
+        ("15.0", "181", "x.toml:14: stone 2: tilt: 181 must be from -180 to 180 degrees"),
+        ("azimuth", "azimut", "x.toml:15: stone: unknown key `azimut`"),
+    ] {
+        assert_told(&with(TRILOGY, part, other), told);
+    }
+    for (part, other, told) in [
+        ("at = [8, -1.5, 2]", "", "x.toml:6: stone 2: at is missing: give [x, y, z] in mm, or a layout"),
+        ("at = [8, -1.5, 2]", "at = [8, 1]", "x.toml:9: stone.at: invalid length 2"),
+        ("-1.5", "-1e9", "x.toml:9: stone 2: at: -1000000000 must be from -10000 to 10000 mm"),
+        ("at = [0, 0, 0]", "count = 3", "x.toml:5: stone 1: count: several stones cannot be in one place"),
+    ] {
+        assert_told(&with(PLACED, part, other), told);
+    }
+    assert_told("format = 1\nname = \"none\"\nstone = []", "x.toml:3: stone: the list is empty");
+    assert_told("format = 1\nname = \"none\"", "x.toml:1: the key `stone` is missing");
+}
+
+#[test]
+fn a_scene_is_told_from_a_cut_even_where_it_is_at_fault() {
+    assert!(is_meant_as_scene(TRILOGY) && is_meant_as_scene(PLACED));
+    assert!(is_meant_as_scene("format = 1\nlayout = \"ring\"\n[[stones]]\n"));
+    assert!(is_meant_as_scene("name = \"open\n[[stone]]\n"));
+    assert!(!is_meant_as_scene(include_str!("../../../cuts/tolkowsky.toml")) && !is_meant_as_scene("stone"));
+}
+
+#[test]
+fn a_light_may_be_a_file_beside_the_scene() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("lamp.toml"), "").unwrap();
+    let path = folder.path().join("scene.toml");
+    std::fs::write(&path, with(TRILOGY, "\"studio\"", "\"lamp.toml\"")).unwrap();
+    assert!(is_scene(&path));
+    assert_eq!(read(&path).unwrap().light, Some(folder.path().join("lamp.toml")));
+}
+
+proptest::proptest! {
+    #[test]
+    fn no_text_makes_it_panic(
+        text in proptest::prelude::any::<String>(),
+        at in 0_usize..300,
+        patch in "[-0-9a-z\\[\\]{}=.,\"'\n ]{0,6}",
+    ) {
+        let _ = parse(&text, "x.toml", None);
+        for whole in [TRILOGY, PLACED] {
+            let (start, end) = whole.split_at(at.min(whole.len()));
+            let _ = parse(&format!("{start}{patch}{end}"), "x.toml", None);
+        }
+    }
+}

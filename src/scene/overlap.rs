@@ -1,0 +1,91 @@
+//! Whether stones are in one another's way.
+
+use super::Placed;
+use crate::math::{Plane, Polytope, PolytopeError};
+use glam::DVec3;
+
+/// Stones that share no more than this part of their size only touch: far above what rounding does to a layout.
+const TOUCHING: f64 = 1e-8;
+
+/// The first two stones, by their places in the list, that share some space; to touch is not to overlap.
+pub fn overlapping(stones: &[Placed]) -> Option<(usize, usize)> {
+    let balls: Vec<_> = stones.iter().map(|s| ball(&s.polytope)).collect();
+    let are_near = |i: usize, j: usize| balls[i].0.distance(balls[j].0) < balls[i].1 + balls[j].1;
+    let pairs = (0..stones.len()).flat_map(|i| (i + 1..stones.len()).map(move |j| (i, j)));
+    let meet = |&(i, j): &(usize, usize)| {
+        let (a, b) = (&stones[i].polytope, &stones[j].polytope);
+        let depth = TOUCHING * (balls[i].1 + balls[j].1);
+        !is_between(a, b, balls[j].0 - balls[i].0) && share(a, b, balls[i].0, depth)
+    };
+    pairs.filter(|&(i, j)| are_near(i, j)).find(meet)
+}
+
+/// A ball that holds the stone.
+fn ball(polytope: &Polytope) -> (DVec3, f64) {
+    let (low, high) = polytope.bounds();
+    let middle = 0.5 * (low + high);
+    (middle, polytope.vertices().iter().map(|v| v.distance(middle)).fold(0.0, f64::max))
+}
+
+/// Whether a plane square to this line has `a` behind it and `b` before it: so it is with most.
+fn is_between(a: &Polytope, b: &Polytope, line: DVec3) -> bool {
+    let along = |p: &Polytope| p.vertices().iter().map(|v| v.dot(line)).collect::<Vec<_>>();
+    let is_line = line != DVec3::ZERO;
+    is_line
+        && along(a).into_iter().fold(f64::NEG_INFINITY, f64::max)
+            <= along(b).into_iter().fold(f64::INFINITY, f64::min)
+}
+
+/// Whether anything lies so deep inside all planes of both. They are taken from within one stone, where the polytope's
+/// tolerances are fine; what is too thin to be built is none.
+fn share(a: &Polytope, b: &Polytope, middle: DVec3, depth: f64) -> bool {
+    let moved = |p: Plane| Plane::new(p.normal, p.offset - p.normal.dot(middle) - depth);
+    let planes: Vec<Plane> = a.planes().chain(b.planes()).map(moved).collect();
+    !matches!(
+        Polytope::from_planes(&planes),
+        Err(PolytopeError::Empty { .. } | PolytopeError::Degenerate { .. })
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::optics::Material;
+    use glam::DQuat;
+
+    /// A cube of side 2, turned and moved.
+    fn cube(turn: DQuat, shift: DVec3) -> Placed {
+        let axes = [DVec3::X, DVec3::Y, DVec3::Z];
+        let planes: Vec<_> =
+            axes.into_iter().flat_map(|a| [Plane::new(a, 1.0), Plane::new(-a, 1.0)]).collect();
+        let cube = Polytope::from_planes(&planes).unwrap();
+        Placed::new(cube.moved(1.0, turn, shift), Material::from_index("glass", 1.5).unwrap())
+    }
+
+    fn of(places: &[(DQuat, DVec3)]) -> Option<(usize, usize)> {
+        overlapping(&places.iter().map(|&(turn, shift)| cube(turn, shift)).collect::<Vec<_>>())
+    }
+
+    #[test]
+    fn stones_that_touch_are_apart_and_those_a_little_nearer_are_not() {
+        let straight = DQuat::IDENTITY;
+        let pair = |shift| of(&[(straight, DVec3::ZERO), (straight, shift)]);
+        assert_eq!(pair(DVec3::new(2.0, 0.3, -0.1)), None);
+        assert_eq!(pair(DVec3::new(1.999, 0.3, -0.1)), Some((0, 1)));
+        assert_eq!(pair(DVec3::ZERO), Some((0, 1)));
+        let far = DVec3::new(0.0, 900.0, 0.0);
+        assert_eq!(of(&[(straight, DVec3::X * 5.0), (straight, far), (straight, far * 1.001)]), Some((1, 2)));
+    }
+
+    #[test]
+    fn an_edge_that_points_past_a_face_is_no_overlap_though_balls_and_boxes_meet() {
+        let turned = DQuat::from_rotation_z(std::f64::consts::FRAC_PI_4);
+        let pair = |x: f64| of(&[(turned, DVec3::ZERO), (turned, DVec3::new(x, x, 0.0))]);
+        assert_eq!((pair(1.42), pair(1.41)), (None, Some((0, 1))));
+        // Two edges that cross: no face separates the two.
+        let roof = DQuat::from_rotation_x(std::f64::consts::FRAC_PI_4);
+        let floor = DQuat::from_rotation_y(std::f64::consts::FRAC_PI_4);
+        let pair = |z: f64| of(&[(roof, DVec3::ZERO), (floor, DVec3::new(0.1, 0.2, z))]);
+        assert_eq!((pair(2.83), pair(2.82)), (None, Some((0, 1))));
+    }
+}
