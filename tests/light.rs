@@ -7,7 +7,9 @@ use brillianteer::math::Polytope;
 use brillianteer::optics::{Illuminant, material, materials, strata};
 use brillianteer::picture::Linear;
 use brillianteer::picture::spectral::{Remainder, expose};
-use brillianteer::scene::{Dome, Light, Placed, Projection, Setting, View, light};
+#[cfg(feature = "gpu")]
+use brillianteer::scene::Projection;
+use brillianteer::scene::{Light, Placed, Setting, View, light};
 use brillianteer::trace::ray::{ByRays, Options};
 use brillianteer::trace::sitting::Sitting;
 use brillianteer::trace::surround::{Sky, Surround};

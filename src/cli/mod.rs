@@ -3,6 +3,7 @@
 mod bench;
 mod export;
 mod info;
+mod lighting;
 mod lists;
 mod measure;
 mod options;
@@ -92,6 +93,8 @@ enum Command {
     Cuts(lists::Cuts),
     /// List the scopes, or print one as a file to start from
     Scopes(lists::Scopes),
+    /// List the lights, or print one as a file to start from
+    Lights(lists::Lights),
 }
 
 /// Runs the program with the process's arguments.
@@ -113,6 +116,7 @@ pub fn main() -> ExitCode {
         Command::Materials(list) => list.materials(),
         Command::Cuts(cuts) => cuts.run(),
         Command::Scopes(scopes) => scopes.run(),
+        Command::Lights(lights) => lights.run(),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,
