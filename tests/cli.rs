@@ -7,7 +7,9 @@ mod desk;
 #[path = "cli/pictures.rs"]
 mod pictures;
 
+use brillianteer::io::light_file;
 use brillianteer::picture::names;
+use brillianteer::scene::{LIGHTS, light};
 use desk::*;
 use glam::{DVec2, DVec3};
 use serde_json::{Value, json};
@@ -272,9 +274,16 @@ fn an_output_that_cannot_be_written_ends_with_code_3_and_leaves_no_pieces() {
 fn a_reader_that_goes_away_is_no_reason_to_panic() {
     let desk = Desk::new();
     let gone = || std::io::pipe().unwrap().1;
-    for line in
-        ["info tolkowsky", "measure cube.toml --json", "materials", "cuts", "scenes", "scopes aset", "--help"]
-    {
+    for line in [
+        "info tolkowsky",
+        "measure cube.toml --json",
+        "materials",
+        "cuts",
+        "scenes",
+        "scopes aset",
+        "lights fire",
+        "--help",
+    ] {
         let (code, _, said) = came_of(line, &desk.command(line).stdout(gone()).output().unwrap());
         assert!(code == 0 && said.is_empty(), "{line}: code {code}: {said}");
     }
@@ -291,7 +300,7 @@ fn a_command_line_at_fault_ends_with_code_2() {
         export cube.toml --size 16385, export cube.toml --views asset, export cube.toml --format gif";
     let out_of_range = "--index 0.9, --index nan, --wavelength 0, --tilt 91, --eye-tilt nan, --azimuth inf, --head 90, \
         --unresolved 0, --unresolved nan, --perspective 1, --perspective 5 --tracer beam";
-    let impossible = "export cube.toml --format exr --size 9000, export cube.toml --views aset,aset, cuts none, scopes none";
+    let impossible = "export cube.toml --format exr --size 9000, export cube.toml --views aset,aset, cuts none, scopes none, lights none";
     let ranged = out_of_range.split(", ").map(|options| format!("measure cube.toml {options}"));
     let lines = ill_formed.split(", ").chain(impossible.split(", ")).map(String::from).chain(ranged);
     let wrong: Vec<_> = lines.map(|line| (desk.run(&line).0, line)).filter(|(code, _)| *code != 2).collect();
@@ -333,6 +342,12 @@ fn what_the_program_knows_by_name_it_lists_and_takes_back_from_a_file() {
         let [known, read] = ["known", "read"].map(|at| files(&desk.at(at).join(name)));
         assert!(listed("scopes", name) && known == read && known.len() == 4, "{name}");
     }
+    for name in LIGHTS {
+        desk.write("light.toml", desk.done(&format!("lights {name}")));
+        let read = light_file::read(&desk.at("light.toml")).unwrap();
+        assert!(listed("lights", name) && Some(read) == light(name), "{name}");
+    }
+    assert!(desk.refused("lights stuido", 2).contains("did you mean 'studio'"));
 }
 
 #[test]

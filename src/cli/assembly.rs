@@ -26,9 +26,6 @@ pub struct Assembly {
     pub places: Vec<Place>,
     /// The light that the scene asks for: the name of one that comes with the program, or a file.
     pub light: Option<PathBuf>,
-    /// Whether it is a scene and not a stone alone, even if of one stone.
-    #[cfg_attr(not(test), expect(dead_code, reason = "pictures of scenes are framed by it"))]
-    pub is_scene: bool,
 }
 
 /// A stone's size and place.
@@ -74,7 +71,6 @@ impl Assembly {
             setting: Setting { stones: vec![stone], unit_mm: 0.5 * diameter_mm },
             places: vec![Place { diameter_mm, at_mm: DVec3::ZERO }],
             light: None,
-            is_scene: false,
         })
     }
 
@@ -104,7 +100,7 @@ impl Assembly {
             return Err(Failure::Input(format!("{path}: {a} and {b} overlap; move one of them away")));
         }
         let places = members.iter().map(|m| Place { diameter_mm: m.diameter_mm, at_mm: m.at_mm }).collect();
-        Ok(Self { path, name: scene.name, setting, places, light: scene.light, is_scene: true })
+        Ok(Self { path, name: scene.name, setting, places, light: scene.light })
     }
 
     /// The weight of all stones in carats; `None` if one has no density.

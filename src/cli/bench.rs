@@ -149,7 +149,7 @@ fn under_light(specimen: &Specimen, card: Sampler) -> Result<Task, Failure> {
     let light = Light::lamps_on_dome();
     let (sky, view) = (Sky::new(&light, None), View::default());
     let polytope = &specimen.stone.polytope;
-    let stone = Placed { polytope: polytope.clone(), material: specimen.material.clone() };
+    let stone = Placed::named(&specimen.stone, specimen.material.clone(), &specimen.design.name);
     let setting = Setting { stones: vec![stone], unit_mm: specimen.design.diameter_mm / 2.0 };
     let film = Film::around(polytope, &view.basis(), size);
     let basis = view.light_basis();

@@ -1,10 +1,10 @@
-//! `materials`, `cuts`, `scopes`, `scenes`: what the program knows by name.
+//! `materials`, `cuts`, `scopes`, `scenes`, `lights`: what the program knows by name.
 
 use super::{Failure, json, print};
-use crate::io::{cut_file, scene_file, scope_file};
+use crate::io::{cut_file, light_file, scene_file, scope_file};
 use crate::optics::{line, materials};
 use crate::picture::{Picture, named, names};
-use crate::scene::Scope;
+use crate::scene::{LIGHTS, Scope, light};
 use clap::Args;
 use serde_json::{Value, json};
 use std::fmt::Write;
@@ -173,5 +173,24 @@ fn scope(name: &str) -> Option<Scope> {
     match named(name)? {
         Picture::Scoped(scoped) => Some(scoped.scope),
         Picture::Profile | Picture::Diagram => None,
+    }
+}
+
+#[derive(Debug, Args)]
+pub struct Lights {
+    /// Print this light as a file to start from
+    name: Option<String>,
+}
+
+impl Lights {
+    pub fn run(&self) -> Result<(), Failure> {
+        let Some(name) = &self.name else {
+            let known = LIGHTS.into_iter().filter_map(light);
+            let line = |light: crate::scene::Light| format!("{:<14}{}", light.name, light.description);
+            return print(&known.map(line).collect::<Vec<_>>().join("\n"));
+        };
+        let light = light(&name.to_ascii_lowercase()).ok_or_else(|| super::lighting::unknown(name, false))?;
+        let text = light_file::text(&light).map_err(|e| Failure::Output(e.to_string()))?;
+        print(text.trim_end())
     }
 }

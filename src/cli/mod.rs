@@ -103,6 +103,8 @@ enum Command {
     Scenes(lists::Scenes),
     /// List the scopes, or print one as a file to start from
     Scopes(lists::Scopes),
+    /// List the lights, or print one as a file to start from
+    Lights(lists::Lights),
 }
 
 /// Runs the program with the process's arguments.
@@ -127,6 +129,7 @@ pub fn main() -> ExitCode {
         Command::Cuts(cuts) => cuts.run(),
         Command::Scenes(scenes) => scenes.run(),
         Command::Scopes(scopes) => scopes.run(),
+        Command::Lights(lights) => lights.run(),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,

@@ -8,7 +8,7 @@ use super::sampler::Sampler;
 use crate::io::panorama;
 use crate::optics::strata;
 use crate::picture::spectral::{Remainder, expose};
-use crate::picture::{Background, Bloom, ByBeams, Develop, Linear, Tone};
+use crate::picture::{Background, Bloom, ByBeams, Develop, Linear, Overlay, Tone, develop, lay};
 use crate::scene::{Panorama, Projection, View};
 use crate::trace::ray::{self, ByRays, Camera};
 use crate::trace::sitting::Sitting;
@@ -91,6 +91,10 @@ pub struct PictureOptions {
     /// what shines, or a photograph's file
     #[arg(long, value_name = "WHAT", default_value = "#33373d-#0e0f11")]
     background: String,
+    /// What to draw over the stones, separated by commas: wireframe, facets, bounces, unresolved, total (how often light is
+    /// totally reflected before some leaves)
+    #[arg(long, value_name = "WHAT", value_delimiter = ',')]
+    overlay: Vec<Overlay>,
     /// How far behind the stones the photograph stands, in girdle radii
     #[arg(long, value_name = "DISTANCE", default_value_t = PHOTO_DISTANCE)]
     photo_distance: f64,
@@ -154,9 +158,9 @@ impl<'a> Studio<'a> {
     /// Loads stones, light and background, and chooses the tracer for a view.
     pub fn load(options: &'a PictureOptions, file: &Path, view: &View) -> Result<Self, Failure> {
         let assembly = Assembly::load(file, options.material.as_deref(), options.stone)?;
-        let light = options.light.as_deref().or(assembly.light.as_deref());
-        let beside = if options.light.is_none() { file.parent() } else { None };
-        let mut lighting = Lighting::load(light.unwrap_or("studio"), beside)?;
+        let own = assembly.light.as_ref().map(|light| light.display().to_string());
+        let light = options.light.as_ref().or(own.as_ref());
+        let mut lighting = Lighting::load(light.map_or("studio", String::as_str), None)?;
         if let Some(head) = options.head {
             lighting.light.head = within("head", head, 0.0, 89.0)?;
         }
@@ -229,15 +233,31 @@ impl<'a> Studio<'a> {
         Ok((2.0 * extent * (1.0 + MARGIN) / size).max_element())
     }
 
-    /// Takes a picture; `pixel` is the side of one, or none to fill the picture with the stones, and `turn` what the light
-    /// is turned further by, degrees.
-    pub fn take(
+    /// Takes a picture with pixels of this side; `turn` is what the light is turned further by, degrees.
+    pub fn take(&self, view: &View, (pixel, turn): (f64, f64), watch: Watch) -> Result<Taken, Failure> {
+        self.sit(view, (pixel, turn), |sitting| match self.tracer {
+            Tracer::Beams => self.by_beams(sitting, watch),
+            Tracer::Rays(sampler) => sampler.or_rays(|used| self.by_rays(used, sitting, watch)),
+        })
+    }
+
+    /// A picture in eight bits, with the overlays asked for.
+    pub fn developed(
         &self,
         view: &View,
-        (pixel, turn): (Option<f64>, f64),
+        (pixel, turn): (f64, f64),
+        picture: &Linear,
         watch: Watch,
-    ) -> Result<Taken, Failure> {
-        let pixel = pixel.map_or_else(|| self.pixel(view), Ok)?;
+    ) -> Result<Vec<u8>, Failure> {
+        let mut rgba = develop(picture, &self.develop);
+        for &overlay in &self.options.overlay {
+            self.sit(view, (pixel, turn), |sitting| lay(overlay, sitting, &mut rgba, watch))?;
+        }
+        Ok(rgba)
+    }
+
+    /// Does work with everything in its place.
+    fn sit<T>(&self, view: &View, (pixel, turn): (f64, f64), work: impl FnOnce(&Sitting) -> T) -> T {
         let turn = DQuat::from_rotation_z((self.options.turn + turn).to_radians());
         let mut basis = view.light_basis();
         let turned = |x: glam::DVec3| basis.right * x.x + basis.up * x.y + basis.toward * x.z;
@@ -254,7 +274,7 @@ impl<'a> Studio<'a> {
                 width: pixel * across.max(down * shape) * self.nearness(view, distance),
             }
         });
-        let sitting = Sitting {
+        work(&Sitting {
             setting: &self.assembly.setting,
             surround: Surround {
                 sky: &self.lighting.sky,
@@ -272,11 +292,7 @@ impl<'a> Studio<'a> {
                 most_bounces: MOST_BOUNCES,
                 least_weight: LEAST_WEIGHT,
             },
-        };
-        match self.tracer {
-            Tracer::Beams => self.by_beams(&sitting, watch),
-            Tracer::Rays(sampler) => sampler.or_rays(|used| self.by_rays(used, &sitting, watch)),
-        }
+        })
     }
 
     /// How much larger than in the image's plane a photograph must be to fill it from behind.

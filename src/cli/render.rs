@@ -6,7 +6,6 @@ use super::progress::Progress;
 use super::specimen::stem;
 use super::{Failure, each_file, print, say};
 use crate::io::{write_linear_exr, write_rgba_png};
-use crate::picture::develop;
 use clap::Args;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -47,10 +46,10 @@ impl Render {
         let view = self.view.view(None)?;
         let studio = Studio::load(&self.picture, file, &view)?;
         let view = studio.view(&self.view)?;
-        let start = Instant::now();
+        let (start, pixel) = (Instant::now(), studio.pixel(&view)?);
         let taken = {
             let progress = Progress::new(&studio.assembly.name);
-            studio.take(&view, (None, 0.0), &progress.watch())?
+            studio.take(&view, (pixel, 0.0), &progress.watch())?
         };
         let told = format!("{}; {}", taken.told, self.view.told(&view));
         let (path, _) = self.output(file);
@@ -58,7 +57,9 @@ impl Render {
             write_linear_exr(&path, &taken.picture, &told)?;
         } else {
             let size = (taken.picture.width, taken.picture.height);
-            write_rgba_png(&path, &develop(&taken.picture, &studio.develop), size, &told)?;
+            let progress = Progress::new(&format!("{}: overlays", studio.assembly.name));
+            let rgba = studio.developed(&view, (pixel, 0.0), &taken.picture, &progress.watch())?;
+            write_rgba_png(&path, &rgba, size, &told)?;
         }
         say(&format!("{}: {told}; {:.1} s", path.display(), start.elapsed().as_secs_f64()));
         print(&path.display().to_string())

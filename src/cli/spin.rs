@@ -6,7 +6,7 @@ use super::progress::Progress;
 use super::specimen::stem;
 use super::{Failure, print};
 use crate::io::{Frames, write_apng, write_rgba_png};
-use crate::picture::{Background, develop};
+use crate::picture::Background;
 use crate::scene::{Lean, View};
 use clap::{Args, ValueEnum};
 use std::f64::consts::TAU;
@@ -77,8 +77,8 @@ impl Spin {
         write_apng(&path, frames, &told, |animation| -> Result<(), Failure> {
             for (number, (view, turn)) in views.iter().enumerate() {
                 let done = |part: f64| bar.watch()((number as f64 + part) / views.len() as f64);
-                let taken = studio.take(view, (Some(pixel), *turn), &done)?;
-                let rgba = develop(&taken.picture, &studio.develop);
+                let taken = studio.take(view, (pixel, *turn), &done)?;
+                let rgba = studio.developed(view, (pixel, *turn), &taken.picture, &done)?;
                 let still = folder.join(format!("{:04}.png", number + 1));
                 write_rgba_png(&still, &rgba, (width, height), &taken.told)?;
                 animation.push(&rgba)?;

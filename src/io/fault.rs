@@ -6,7 +6,7 @@ use std::ops::Range;
 use toml::de::{DeTable, DeValue, Error};
 
 /// What the keys mean, for whoever left one out or wrote something else.
-const MEANINGS: [(&str, &str); 34] = [
+const MEANINGS: [(&str, &str); 51] = [
     ("name", "what it is called"),
     ("material", "a material's name, an index, or a table of its own"),
     ("diameter_mm", "girdle diameter in mm"),
@@ -39,9 +39,27 @@ const MEANINGS: [(&str, &str); 34] = [
     ("turn", "degrees about the stone's axis"),
     ("tilt", "degrees that the table leans toward the azimuth"),
     ("at", "[x, y, z] in mm"),
-    ("from", "degrees of elevation at which the band begins, -90 to 90"),
+    ("from", "degrees of elevation at which it begins, -90 to 90"),
     ("colour", "[red, green, blue] of sRGB, 0 to 255 each"),
+    ("spectrum", "D65, A, E, or daylight such as 5000 K"),
+    ("head", "half angle of the observer's head, degrees, 0 for none"),
+    ("dome", "belts of the sky, each a table [[dome]]"),
+    ("box", "rectangles of light, each a table [[box]]"),
+    ("lamp", "discs of light, each a table [[lamp]]"),
+    ("field", "many lamps, each field a table [[field]]"),
+    ("panorama", "a picture of the surroundings, a table [panorama]"),
+    ("to", "degrees of elevation at which it ends, -90 to 90"),
+    ("soft", "width of its edges, degrees"),
+    ("radiance", RADIANCE),
+    ("end", RADIANCE),
+    ("azimuth", "degrees, counter-clockwise"),
+    ("elevation", "degrees from the horizon, -90 to 90"),
+    ("width", "degrees"),
+    ("height", "degrees"),
+    ("radius", "degrees from its middle to its edge"),
+    ("file", "a picture: .hdr, .exr, .png or .jpg"),
 ];
+const RADIANCE: &str = "0 to 1e6; 1 is a white sheet in full light";
 /// The keys of `[round_brilliant]`.
 const PROPORTIONS: [&str; 11] = [
     "table",
@@ -60,13 +78,15 @@ const PERCENT: &str = "percent of the girdle diameter";
 const DEGREES: &str = "degrees from the girdle plane";
 
 /// How serde words what was expected, and what a person would say.
-const WORDS: [(&str, &str); 10] = [
+const WORDS: [(&str, &str); 12] = [
     ("expected f64", "expected a number"),
+    ("expected u32", "expected a whole number, 0 or more"),
     ("expected u8", "expected a whole number from 0 to 255"),
     ("expected an array of length 3", "expected a list of 3 numbers"),
     ("expected i64", "expected a whole number"),
     ("expected a string", "expected text"),
     (" as i128", ""),
+    (" as u128", ""),
     ("expected a sequence", "expected a list"),
     ("invalid type: sequence", "invalid type: list"),
     ("invalid type: map", "invalid type: table"),

@@ -6,6 +6,7 @@ pub mod cut_file;
 mod drawing_png;
 mod exr;
 mod fault;
+pub mod light_file;
 pub mod panorama;
 mod picture_file;
 mod png;

@@ -19,6 +19,12 @@ const PIXELS_A_BYTE: u64 = 1100;
 /// Pixels, 48 MiB of light, that any file may promise.
 const FREE_PIXELS: u64 = 1 << 22;
 
+/// What an OpenEXR file begins with.
+const EXR: [u8; 4] = [0x76, 0x2f, 0x31, 0x01];
+
+/// What the names of pictures end with.
+const ENDINGS: [&str; 5] = ["exr", "hdr", "png", "jpg", "jpeg"];
+
 /// What was read.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Reading {
@@ -30,6 +36,18 @@ pub struct Reading {
 
 /// Light as a file holds it, and what is odd about it.
 type Raw = (Panorama, Vec<String>);
+
+/// Whether a path holds a picture by its first bytes or, if it holds none that are known, is called like one.
+pub fn is_picture(path: &Path) -> bool {
+    let mut start = Vec::new();
+    let read = |file: File| file.take(4).read_to_end(&mut start);
+    // A path that cannot be read is told of by whoever reads it next. One may be a pipe, which would be kept waiting.
+    let _ = path.is_file().then(|| File::open(path).and_then(read));
+    let starts: [&[u8]; 4] = [&EXR, b"#?R", b"\x89PNG", b"\xff\xd8\xff"];
+    let is_called_so =
+        |ending: &std::ffi::OsStr| ENDINGS.iter().any(|known| ending.eq_ignore_ascii_case(known));
+    starts.iter().any(|known| start.starts_with(known)) || path.extension().is_some_and(is_called_so)
+}
 
 /// Reads a panorama of all directions; one that is not twice as wide as high is taken with a warning.
 ///
@@ -77,7 +95,7 @@ fn raw(path: &Path) -> Result<Raw, String> {
     let mut start = Vec::new();
     file.by_ref().take(4).read_to_end(&mut start).and_then(|_| file.rewind()).map_err(unreadable)?;
     match start.as_slice() {
-        [0x76, 0x2f, 0x31, 0x01] => exr::read(file, about.len()),
+        start if start == EXR => exr::read(file, about.len()),
         other => raster::read(file, about.len(), other),
     }
 }

@@ -1,7 +1,8 @@
 //! The lights that come with the program. What is published is said; the rest is chosen to show stones well.
 
-use super::light::{Dome, Field, Lamp, Light, SoftBox};
+use super::light::{Dome, Field, Lamp, Light, PanoramaRef, SoftBox};
 use crate::optics::Illuminant;
+use std::path::Path;
 
 /// The names of the lights that come with the program; the first is used unless asked otherwise.
 pub const LIGHTS: [&str; 9] =
@@ -176,6 +177,13 @@ impl Light {
             ],
             ..Self::named("daylight", "a sky with the sun and some clouds, and the ground")
         }
+    }
+
+    /// Nothing but a panorama, called after its file.
+    pub fn of_panorama(file: &Path) -> Self {
+        let stem = file.file_stem().map_or_else(|| "panorama".into(), |stem| stem.to_string_lossy());
+        let panorama = PanoramaRef { file: file.to_owned(), exposure: 0.0, turn: 0.0 };
+        Self { panorama: Some(panorama), ..Self::named(&stem, "") }
     }
 
     /// The same from everywhere: a stone that takes no light vanishes in it.

@@ -7,10 +7,12 @@
 mod camera;
 mod company;
 mod search;
+mod sight;
 
 pub use self::camera::Camera;
 pub use self::company::ByRays;
 use self::search::Search;
+pub use self::sight::{Glance, Sight, facet_at};
 use crate::math::{Plane, Polytope};
 use crate::optics::{cos_transmitted, fresnel, reflect, reflectance, refract, refracted_change};
 use crate::scene::Medium;
@@ -50,6 +52,8 @@ pub struct Exit {
     pub sweep: DVec3,
     /// The share of light from that direction which reaches the eye.
     pub weight: f64,
+    /// The bounce inside at which it leaves, from 1; 0 for the glare of the outer surface.
+    pub bounce: u32,
     /// Whether this is the glare of the outer surface.
     pub surface: bool,
 }
@@ -203,6 +207,7 @@ impl Tracer {
             direction: reflect(direction, normal, cos_i),
             sweep: mirrored(sweep, normal),
             weight: glare,
+            bounce: 0,
             surface: true,
         });
         Some(self.bounce(point, (inward, swept), light, leave))
@@ -250,6 +255,7 @@ impl Tracer {
                     direction: refract(direction, -normal, index, (cos_i, cos_t)),
                     sweep: refracted_change(direction, -normal, index, (cos_i, cos_t), (sweep, spread)),
                     weight: weight * left,
+                    bounce: rest.bounces + 1,
                     surface: false,
                 });
             }

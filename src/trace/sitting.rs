@@ -114,4 +114,11 @@ impl Sitting<'_> {
         let centred = DVec2::new(f64::from(x), f64::from(y)) + shift - DVec2::new(across, down) / 2.0;
         DVec2::new(centred.x, -centred.y) * self.pixel
     }
+
+    /// Where a point of the image plane lies in the picture, in pixels to the right of its left border and below its
+    /// upper one.
+    pub fn pixel_from_image(&self, p: DVec2) -> DVec2 {
+        let [across, down] = self.size.map(f64::from);
+        DVec2::new(p.x, -p.y) / self.pixel + DVec2::new(across, down) / 2.0
+    }
 }

@@ -1,6 +1,6 @@
 //! The image of a view.
 
-use crate::math::{Basis, Polytope};
+use crate::math::{Basis, Plane, Polytope};
 use crate::scene::{Projection, View};
 use glam::{DVec2, DVec3};
 
@@ -55,5 +55,28 @@ impl Camera {
         };
         // From a far eye the way to the stone would cost the digits that tell where the stone is met.
         (at - direction * from_eye.min(2.0 * self.reach + at.length()), direction)
+    }
+
+    /// Where in the image plane a point is seen, and how much larger than there things look at it, which is 1 for
+    /// parallel rays; `None` where the point is not in front of the eye.
+    pub fn project(&self, v: DVec3) -> Option<(DVec2, f64)> {
+        let nearness = 1.0 - self.basis.toward.dot(v) / self.distance;
+        (nearness > 0.0).then(|| (self.basis.project(v) / nearness, 1.0 / nearness))
+    }
+
+    /// The unit direction from a point to the eye.
+    pub fn toward_eye(&self, v: DVec3) -> DVec3 {
+        if self.distance.is_infinite() {
+            return self.basis.toward;
+        }
+        let way = self.basis.toward * self.distance - v;
+        way / way.length()
+    }
+
+    /// Whether the eye is on a plane's outer side.
+    pub fn sees(&self, plane: &Plane) -> bool {
+        let speed = plane.normal.dot(self.basis.toward);
+        // Divided by the distance, which may be infinite.
+        speed > plane.offset / self.distance
     }
 }

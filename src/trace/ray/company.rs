@@ -1,5 +1,6 @@
 //! Pictures under light by point rays: stones beside one another, light going from one to the next.
 
+use super::sight::{Met, nearest};
 use super::{Camera, Exit, Tracer};
 use crate::math::Polytope;
 use crate::scene::Medium;
@@ -35,9 +36,6 @@ struct Waiting {
     weight: f64,
     left: Option<usize>,
 }
-
-/// A stone, and the facet and distance at which a ray meets it.
-type Met = (usize, (usize, f64));
 
 impl<'a> ByRays<'a> {
     /// Prepares some rows of a picture.
@@ -106,9 +104,7 @@ impl<'a> ByRays<'a> {
 
     /// The stone that a ray meets first, and where.
     fn nearest(&self, ray: &Waiting) -> Option<Met> {
-        let others = (0..self.tracers.len()).filter(|&k| Some(k) != ray.left);
-        let met = others.filter_map(|k| Some((k, self.tracers[k].meet(ray.origin, ray.direction)?)));
-        met.min_by(|(_, a), (_, b)| a.1.total_cmp(&b.1))
+        nearest(&self.tracers, (ray.origin, ray.direction), ray.left)
     }
 
     /// Whether a ray meets a stone other than the one that it left.

@@ -1,0 +1,236 @@
+//! What is drawn over a developed picture: edges, facets, and how the rays through the pixels' middles fared.
+//!
+//! Rays are those of sodium's D line in the stone that they meet first; light that goes on into another is not followed.
+
+mod scale;
+mod wireframe;
+
+use self::scale::viridis;
+use self::wireframe::Wires;
+use crate::trace::ray::{Glance, Sight};
+use crate::trace::sitting::Sitting;
+use crate::trace::{Stopped, Watch};
+use rayon::prelude::*;
+use std::str::FromStr;
+
+/// Something to draw over a picture of stones.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Overlay {
+    /// The edges: bright where the eye sees them, fainter behind.
+    Wireframe,
+    /// A colour for each facet.
+    Facets,
+    /// How often a ray is reflected inside until no more than the least weight is left of it.
+    Bounces,
+    /// The share of a ray that is not followed to its end.
+    Unresolved,
+    /// How often a ray is reflected totally before the first facet that lets light out.
+    Total,
+}
+
+/// All of them, by name.
+const NAMES: [(&str, Overlay); 5] = [
+    ("wireframe", Overlay::Wireframe),
+    ("facets", Overlay::Facets),
+    ("bounces", Overlay::Bounces),
+    ("unresolved", Overlay::Unresolved),
+    ("total", Overlay::Total),
+];
+
+/// Rows drawn between two calls of the watch.
+const PIECE: usize = 16;
+
+/// How much of a facet's colour is laid over it.
+const TINT: f32 = 0.5;
+
+/// Bounces at the end of the scale.
+const MOST_BOUNCES: u32 = 48;
+
+/// Shares unresolved, as powers of ten, at both ends of the scale.
+const UNRESOLVED: (f64, f64) = (-6.0, -1.0);
+
+/// Total reflections at the end of the scale.
+const MOST_TOTAL: u32 = 8;
+
+/// A colour of eight-bit sRGB.
+pub type Code = [u8; 3];
+
+impl Overlay {
+    /// The names that [`from_str`](FromStr) takes.
+    pub fn names() -> [&'static str; 5] {
+        NAMES.map(|(name, _)| name)
+    }
+
+    /// What the colours of its scale mean, from the lowest; empty for wireframe and facets, which have none.
+    pub fn legend(self) -> Vec<(String, Code)> {
+        match self {
+            Self::Wireframe | Self::Facets => vec![],
+            Self::Bounces => [1, 8, 16, 24, 32, 40, MOST_BOUNCES]
+                .map(|n| (at_the_end(n, MOST_BOUNCES), bounces_colour(n)))
+                .to_vec(),
+            Self::Unresolved => ["0.0001 %", "0.001 %", "0.01 %", "0.1 %", "1 %", "10 % or more"]
+                .iter()
+                .zip(-6..)
+                .map(|(text, power)| ((*text).to_owned(), unresolved_colour(10_f64.powi(power))))
+                .collect(),
+            Self::Total => (0..=MOST_TOTAL).map(|n| (at_the_end(n, MOST_TOTAL), total_colour(n))).collect(),
+        }
+    }
+
+    /// The colour over what a ray meets, and how much it hides of that.
+    fn colour(self, sight: &Sight, glance: &Glance) -> Option<(Code, f32)> {
+        match self {
+            Self::Wireframe => None,
+            Self::Facets => Some((scale::distinct(glance.stone, glance.facet), TINT)),
+            Self::Bounces => Some((bounces_colour(Fate::of(sight, glance)?.bounces), 1.0)),
+            Self::Unresolved => Some((unresolved_colour(Fate::of(sight, glance)?.unresolved), 1.0)),
+            Self::Total => Some((total_colour(Fate::of(sight, glance)?.total), 1.0)),
+        }
+    }
+}
+
+impl FromStr for Overlay {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let asked = text.trim();
+        let found = NAMES.iter().find(|(name, _)| name.eq_ignore_ascii_case(asked));
+        found.map(|(_, overlay)| *overlay).ok_or_else(|| {
+            let start: String = asked.chars().take(30).collect();
+            format!("no overlay '{start}'; known: {}", Self::names().join(", "))
+        })
+    }
+}
+
+fn at_the_end(number: u32, most: u32) -> String {
+    if number < most { number.to_string() } else { format!("{most} or more") }
+}
+
+fn bounces_colour(bounces: u32) -> Code {
+    viridis((f64::from(bounces) - 1.0) / f64::from(MOST_BOUNCES - 1))
+}
+
+/// On a scale of logarithms.
+fn unresolved_colour(share: f64) -> Code {
+    let (low, high) = UNRESOLVED;
+    viridis((share.max(f64::MIN_POSITIVE).log10() - low) / (high - low))
+}
+
+fn total_colour(count: u32) -> Code {
+    viridis(f64::from(count) / f64::from(MOST_TOTAL))
+}
+
+/// What became of a ray.
+struct Fate {
+    bounces: u32,
+    unresolved: f64,
+    total: u32,
+}
+
+impl Fate {
+    /// `None` where the ray runs along the facet.
+    fn of(sight: &Sight, glance: &Glance) -> Option<Self> {
+        let &Glance { origin, direction, stone, facet, distance } = glance;
+        let mut first = None;
+        let rest = sight.tracers[stone].follow_from(
+            (facet as usize, distance),
+            origin,
+            (direction, glam::DVec3::ZERO),
+            1.0,
+            |exit| {
+                if exit.bounce > 0 {
+                    first.get_or_insert(exit.bounce - 1);
+                }
+            },
+        )?;
+        let total = first.unwrap_or(rest.bounces);
+        Some(Self { bounces: rest.bounces, unresolved: rest.unresolved, total })
+    }
+}
+
+/// Draws over a picture of a sitting: eight-bit sRGB and cover, not premultiplied, row by row from the top, as
+/// [`develop`](super::develop()) makes it. Rows beyond those of the sitting's size stay as they are.
+///
+/// # Errors
+/// [`Stopped`] when `watch` asks to stop; the picture is then drawn over in part.
+pub fn lay(overlay: Overlay, sitting: &Sitting, rgba: &mut [u8], watch: Watch) -> Result<(), Stopped> {
+    let sight = Sight::new(sitting);
+    if overlay == Overlay::Wireframe {
+        let wires = Wires::new(sitting, &sight);
+        return each_row(sitting.size, rgba, watch, |y, row| wires.draw(&sight, y, row));
+    }
+    each_row(sitting.size, rgba, watch, |y, row| {
+        for (x, pixel) in row.as_chunks_mut().0.iter_mut().enumerate() {
+            let glance = sight.through(x as f64 + 0.5, y as f64 + 0.5);
+            if let Some((colour, share)) = glance.and_then(|g| overlay.colour(&sight, &g)) {
+                lay_over(pixel, colour, share);
+            }
+        }
+    })
+}
+
+/// Hands on every row of a picture, some at a time.
+fn each_row(
+    [width, height]: [u32; 2],
+    rgba: &mut [u8],
+    watch: Watch,
+    work: impl Fn(usize, &mut [u8]) + Sync,
+) -> Result<(), Stopped> {
+    let across = 4 * (width as usize).max(1);
+    let rows = rgba.chunks_exact_mut(across).take(height as usize);
+    let mut rows: Vec<_> = rows.enumerate().collect();
+    for (k, piece) in rows.chunks_mut(PIECE).enumerate() {
+        if watch((k * PIECE) as f64 / f64::from(height)).is_break() {
+            return Err(Stopped);
+        }
+        piece.par_iter_mut().for_each(|(y, row)| work(*y, row));
+    }
+    Ok(())
+}
+
+/// Lays a share of a colour over a pixel that is not premultiplied.
+fn lay_over(pixel: &mut [u8; 4], colour: Code, share: f32) {
+    let below = f32::from(pixel[3]) / 255.0 * (1.0 - share);
+    let cover = share + below;
+    if cover <= 0.0 {
+        return;
+    }
+    for (old, new) in pixel.iter_mut().zip(colour) {
+        *old = ((f32::from(new) * share + f32::from(*old) * below) / cover).round() as u8;
+    }
+    pixel[3] = (255.0 * cover).round() as u8;
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_overlay_is_found_by_its_name() {
+        for (name, overlay) in NAMES {
+            assert_eq!(name.to_uppercase().parse(), Ok(overlay));
+        }
+        assert!("edges".parse::<Overlay>().unwrap_err().ends_with("bounces, unresolved, total"));
+    }
+
+    #[test]
+    fn colours_are_laid_over_what_is_there() {
+        let mut pixel = [0, 100, 200, 255];
+        lay_over(&mut pixel, [100, 100, 100], 0.5);
+        assert_eq!(pixel, [50, 100, 150, 255]);
+        let mut clear = [9, 9, 9, 0];
+        lay_over(&mut clear, [1, 2, 3], 0.0);
+        assert_eq!(clear, [9, 9, 9, 0]);
+        lay_over(&mut clear, [1, 2, 3], 0.2);
+        assert_eq!(clear, [1, 2, 3, 51]);
+    }
+
+    #[test]
+    fn no_two_entries_of_a_legend_are_alike() {
+        for (_, overlay) in NAMES {
+            let legend = overlay.legend();
+            let alike = legend.windows(2).filter(|w| w[0].1 == w[1].1 || w[0].0 == w[1].0);
+            assert_eq!(alike.count(), 0, "{legend:?}");
+        }
+    }
+}

@@ -1,0 +1,174 @@
+//! The edges of stones, as thin even lines.
+
+use super::{Code, lay_over};
+use crate::math::Polytope;
+use crate::trace::ray::Sight;
+use crate::trace::sitting::Sitting;
+use glam::{DVec2, DVec3};
+
+/// Width of a line, pixels.
+const WIDTH: f64 = 1.2;
+
+/// Width of the shade around it, pixels: it keeps the line apart from what is as bright.
+const SHADE_WIDTH: f64 = 3.0;
+
+/// How far from a line something is drawn, pixels: half the width, and half a pixel for the soft edge.
+const REACH: f64 = SHADE_WIDTH / 2.0 + 0.5;
+
+/// Of lines and their shade: a blue that light in stones seldom has, with white for where it has.
+const COLOURS: [Code; 2] = [[0, 96, 255], [255, 255, 255]];
+
+/// How much lines and their shade hide where the eye sees the edge, and behind.
+const SHARES: [[f32; 2]; 2] = [[1.0, 0.5], [0.45, 0.2]];
+
+/// An edge of a stone.
+struct Wire {
+    /// Its ends in pixels from the upper left.
+    ends: [DVec2; 2],
+    /// How much larger than in the image plane through the origin it looks at its ends.
+    sizes: [f64; 2],
+    /// Its ends in the world.
+    points: [DVec3; 2],
+    stone: usize,
+    /// Whether one of its facets faces the eye.
+    is_front: bool,
+}
+
+/// The edges of all stones in a picture.
+pub(super) struct Wires(Vec<Wire>);
+
+impl Wires {
+    pub fn new(sitting: &Sitting, sight: &Sight) -> Self {
+        let of_stone = |(stone, polytope)| wires(sitting, sight, stone, polytope);
+        Self(sitting.stones().enumerate().flat_map(of_stone).collect())
+    }
+
+    /// Draws all that is near a row's middle over it.
+    pub fn draw(&self, sight: &Sight, y: usize, row: &mut [u8]) {
+        let (pixels, _) = row.as_chunks_mut();
+        // The distance of each pixel from the nearest line: of those that the eye sees, of those behind.
+        let mut nearest = vec![[f64::INFINITY; 2]; pixels.len()];
+        for wire in &self.0 {
+            wire.mark(sight, y as f64 + 0.5, &mut nearest);
+        }
+        for (pixel, [front, behind]) in pixels.iter_mut().zip(nearest) {
+            lay_line(pixel, behind, SHARES[1]);
+            lay_line(pixel, front, SHARES[0]);
+        }
+    }
+}
+
+fn wires(sitting: &Sitting, sight: &Sight, stone: usize, polytope: &Polytope) -> Vec<Wire> {
+    let facets = polytope.facets();
+    let faces = |k: usize| sight.camera.sees(&facets[k].plane);
+    let mut wires = vec![];
+    for (k, facet) in facets.iter().enumerate() {
+        let corners: Vec<DVec3> = polytope.corners(facet).collect();
+        for (i, &other) in facet.neighbours.iter().enumerate() {
+            let points = [corners[i], corners[(i + 1) % corners.len()]];
+            // Each edge once: its other facet has it too.
+            if (other as usize) < k {
+                continue;
+            }
+            if let [Some(a), Some(b)] = points.map(|p| sight.camera.project(p)) {
+                let ends = [a.0, b.0].map(|p| sitting.pixel_from_image(p));
+                let is_front = faces(k) || faces(other as usize);
+                wires.push(Wire { ends, sizes: [a.1, b.1], points, stone, is_front });
+            }
+        }
+    }
+    wires
+}
+
+impl Wire {
+    /// Notes how near it comes to the pixels of a row.
+    fn mark(&self, sight: &Sight, y: f64, nearest: &mut [[f64; 2]]) {
+        let [a, b] = self.ends;
+        let Some((from, to)) = columns(self.ends, y, nearest.len()) else { return };
+        let along = b - a;
+        let scale = 1.0 / along.length_squared().max(f64::MIN_POSITIVE);
+        for (x, place) in (from..to).zip(&mut nearest[from..to]) {
+            let at = DVec2::new(x as f64 + 0.5, y);
+            let part = ((at - a).dot(along) * scale).clamp(0.0, 1.0);
+            let distance = at.distance(a + along * part);
+            if distance < REACH {
+                let is_seen = self.is_front && !self.is_hidden(sight, part);
+                let place = &mut place[usize::from(!is_seen)];
+                *place = place.min(distance);
+            }
+        }
+    }
+
+    /// Whether another stone stands before the point of it at this part of its way through the picture.
+    fn is_hidden(&self, sight: &Sight, part: f64) -> bool {
+        if sight.tracers.len() < 2 {
+            return false;
+        }
+        sight.is_hidden(self.stone, self.point(part))
+    }
+
+    /// The point of it at this part of its way through the picture, of which the nearer half takes up more.
+    fn point(&self, part: f64) -> DVec3 {
+        let [a, b] = self.sizes;
+        self.points[0].lerp(self.points[1], part * b / ((1.0 - part) * a + part * b))
+    }
+}
+
+/// The columns of a row that a line from end to end comes near; `None` if it comes near none.
+fn columns([a, b]: [DVec2; 2], y: f64, width: usize) -> Option<(usize, usize)> {
+    let (top, bottom) = if a.y < b.y { (a, b) } else { (b, a) };
+    if top.y > y + REACH || bottom.y < y - REACH {
+        return None;
+    }
+    let height = bottom.y - top.y;
+    let at = |y: f64| ((y - top.y) / height).clamp(0.0, 1.0);
+    let (p, q) = if height > 0.0 { (at(y - REACH), at(y + REACH)) } else { (0.0, 1.0) };
+    let (p, q) = (top.x + (bottom.x - top.x) * p, top.x + (bottom.x - top.x) * q);
+    let (from, to) = (p.min(q) - REACH, p.max(q) + REACH);
+    let inside = |x: f64| x.clamp(0.0, width as f64) as usize;
+    Some((inside(from.floor()), inside(to.ceil())))
+}
+
+/// Lays a line and its shade over a pixel so far from its middle.
+fn lay_line(pixel: &mut [u8; 4], distance: f64, shares: [f32; 2]) {
+    let cover = |width: f64| (width / 2.0 + 0.5 - distance).clamp(0.0, 1.0) as f32;
+    for (k, width) in [(1, SHADE_WIDTH), (0, WIDTH)] {
+        lay_over(pixel, COLOURS[k], shares[k] * cover(width));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::{Projection, View};
+    use crate::trace::ray::Camera;
+
+    #[test]
+    fn a_part_of_the_way_through_the_picture_is_told_in_space() {
+        let view =
+            View { projection: Projection::Perspective { distance: 3.0 }, tilt: 0.4, ..View::default() };
+        let camera = Camera::reaching(&view, 1.0);
+        let points = [DVec3::new(0.5, -0.2, 0.9), DVec3::new(-0.4, 0.7, -0.6)];
+        let [a, b] = points.map(|p| camera.project(p).unwrap());
+        let wire = Wire { ends: [a.0, b.0], sizes: [a.1, b.1], points, stone: 0, is_front: true };
+        for part in [0.0, 0.1, 0.5, 0.8, 1.0] {
+            let seen = camera.project(wire.point(part)).unwrap().0;
+            assert!(seen.distance(a.0.lerp(b.0, part)) < 1e-12, "{part}");
+        }
+    }
+
+    #[test]
+    fn the_columns_of_a_row_hold_all_that_is_near_a_line() {
+        let spread = |k: u32| DVec2::new(f64::from(k * 37 % 61), f64::from(k * 23 % 47)) - 5.0;
+        for k in 0..200 {
+            let ends = [spread(k), spread(k * k % 97 + 1)];
+            for (x, y) in (0..40).flat_map(|x| (0..40).map(move |y| (x, f64::from(y) + 0.5))) {
+                let (at, along) = (DVec2::new(x as f64 + 0.5, y), ends[1] - ends[0]);
+                let part = (at - ends[0]).dot(along) / along.length_squared().max(1e-300);
+                let is_near = at.distance(ends[0] + along * part.clamp(0.0, 1.0)) < REACH;
+                let held = columns(ends, y, 40).is_some_and(|(from, to)| (from..to).contains(&x));
+                assert!(held || !is_near, "{ends:?} at {at}");
+            }
+        }
+    }
+}

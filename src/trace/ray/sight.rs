@@ -1,0 +1,81 @@
+//! What is met first through a point of a picture.
+
+use super::{Camera, Tracer};
+use crate::optics::line;
+use crate::scene::Medium;
+use crate::trace::sitting::Sitting;
+use glam::{DVec2, DVec3};
+
+/// A stone, and the facet and distance at which a ray meets it.
+pub(super) type Met = (usize, (usize, f64));
+
+/// The stones of a sitting at sodium's D line, 589.3 nm, and the camera.
+pub struct Sight<'a> {
+    sitting: Sitting<'a>,
+    /// The image.
+    pub camera: Camera,
+    /// The stones.
+    pub tracers: Vec<Tracer>,
+}
+
+/// A ray that meets a stone.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Glance {
+    /// Where it begins.
+    pub origin: DVec3,
+    /// Its unit direction.
+    pub direction: DVec3,
+    /// Which of the stones it meets first.
+    pub stone: usize,
+    /// At which facet, by its place in the polytope.
+    pub facet: u32,
+    /// How far from its beginning, in world units.
+    pub distance: f64,
+}
+
+impl<'a> Sight<'a> {
+    /// Prepares the stones.
+    pub fn new(sitting: &Sitting<'a>) -> Self {
+        let at = |nm| (nm, nm, nm);
+        let tracer = |stone: &crate::scene::Placed| {
+            let medium = Medium::of(&stone.material, at(line::SODIUM_D), sitting.setting.unit_mm);
+            Tracer::new(&stone.polytope, medium, sitting.options)
+        };
+        Self {
+            sitting: *sitting,
+            camera: Camera::reaching(sitting.view, sitting.reach()),
+            tracers: sitting.setting.stones.iter().map(tracer).collect(),
+        }
+    }
+
+    /// The ray through a point of the picture, in pixels to the right of its left border and below its upper one;
+    /// `None` where it meets no stone.
+    pub fn through(&self, x: f64, y: f64) -> Option<Glance> {
+        let at = self.sitting.image_from_pixel(0, 0, DVec2::new(x, y));
+        let (origin, direction) = self.camera.ray(at);
+        let (stone, (facet, distance)) = nearest(&self.tracers, (origin, direction), None)?;
+        Some(Glance { origin, direction, stone, facet: facet as u32, distance })
+    }
+
+    /// Whether another stone stands between a point of this one's surface and the eye.
+    pub fn is_hidden(&self, stone: usize, point: DVec3) -> bool {
+        nearest(&self.tracers, (point, self.camera.toward_eye(point)), Some(stone)).is_some()
+    }
+}
+
+/// The facet seen at a point of the picture, in pixels to the right of its left border and below its upper one: which
+/// stone, and which of its facets, by their places. `None` beside the stones. For many points keep a [`Sight`].
+pub fn facet_at(sitting: &Sitting, x: f64, y: f64) -> Option<(usize, u32)> {
+    Sight::new(sitting).through(x, y).map(|glance| (glance.stone, glance.facet))
+}
+
+/// The stone that a ray meets first, but for the one that it has just left, and where.
+pub(super) fn nearest(
+    tracers: &[Tracer],
+    (origin, direction): (DVec3, DVec3),
+    left: Option<usize>,
+) -> Option<Met> {
+    let others = (0..tracers.len()).filter(|&k| Some(k) != left);
+    let met = others.filter_map(|k| Some((k, tracers[k].meet(origin, direction)?)));
+    met.min_by(|(_, a), (_, b)| a.1.total_cmp(&b.1))
+}
