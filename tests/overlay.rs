@@ -27,7 +27,7 @@ struct Shot {
 
 impl Shot {
     fn new(polytope: Polytope, material_name: &str, view: View) -> Self {
-        let stone = Placed { polytope, material: material(material_name).unwrap().clone() };
+        let stone = Placed::new(polytope, material(material_name).unwrap().clone());
         let options = Options { polarised: false, most_bounces: 64, least_weight: 1e-4 };
         Self { setting: Setting { stones: vec![stone], unit_mm: 3.25 }, view, options }
     }
@@ -173,7 +173,7 @@ fn edges_behind_are_fainter_whichever_stone_they_are_behind() {
     let alone = corner(&shot);
     let glass = material("quartz").unwrap().clone();
     for (z, hidden) in [(0.6, true), (-1.7, false)] {
-        let other = Placed { polytope: cube(DVec3::new(0.3, 0.0, z), 0.45), material: glass.clone() };
+        let other = Placed::new(cube(DVec3::new(0.3, 0.0, z), 0.45), glass.clone());
         shot.setting.stones.truncate(1);
         shot.setting.stones.push(other);
         let beside = corner(&shot);

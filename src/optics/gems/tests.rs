@@ -72,7 +72,7 @@ fn between(a: f64, b: f64) -> f64 {
 /// Every coloured gem: the middle of its hues and how far they go to either side, the least saturation, the least and
 /// the greatest luminance at 14 mm.
 const SEEN: [(&str, f64, f64, f64, f64, f64); 19] = [
-    ("pyrope", 355.0, 12.0, 0.6, 0.02, 0.09),
+    ("pyrope", 357.0, 12.0, 0.6, 0.015, 0.09),
     ("almandine", 348.0, 12.0, 0.5, 0.05, 0.15),
     ("rhodolite", 332.0, 12.0, 0.35, 0.12, 0.3),
     ("spessartine", 30.0, 8.0, 0.9, 0.2, 0.45),
