@@ -6,6 +6,8 @@
 mod desk;
 #[path = "cli/pictures.rs"]
 mod pictures;
+#[path = "cli/renders.rs"]
+mod renders;
 
 use brillianteer::io::light_file;
 use brillianteer::picture::names;

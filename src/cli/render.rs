@@ -4,11 +4,10 @@ use super::options::ViewOptions;
 use super::picturing::{PictureOptions, Studio};
 use super::progress::Progress;
 use super::specimen::stem;
-use super::{Failure, each_file, print, say};
+use super::{Failure, each_file, print};
 use crate::io::{write_linear_exr, write_rgba_png};
 use clap::Args;
 use std::path::{Path, PathBuf};
-use std::time::Instant;
 
 #[derive(Debug, Args)]
 pub struct Render {
@@ -46,7 +45,7 @@ impl Render {
         let view = self.view.view(None)?;
         let studio = Studio::load(&self.picture, file, &view)?;
         let view = studio.view(&self.view)?;
-        let (start, pixel) = (Instant::now(), studio.pixel(&view)?);
+        let pixel = studio.pixel(&view)?;
         let taken = {
             let progress = Progress::new(&studio.assembly.name);
             studio.take(&view, (pixel, 0.0), &progress.watch())?
@@ -61,7 +60,6 @@ impl Render {
             let rgba = studio.developed(&view, (pixel, 0.0), &taken.picture, &progress.watch())?;
             write_rgba_png(&path, &rgba, size, &told)?;
         }
-        say(&format!("{}: {told}; {:.1} s", path.display(), start.elapsed().as_secs_f64()));
         print(&path.display().to_string())
     }
 }

@@ -77,7 +77,8 @@ impl Gpu {
         let limited = |why: String| GpuError::TooLimited { name: info.name.clone(), why };
         let wanted = wgpu::DeviceDescriptor {
             label: Some("brillianteer"),
-            required_limits: wgpu::Limits::downlevel_defaults(),
+            // Photographs may be as large as the card takes them.
+            required_limits: wgpu::Limits::downlevel_defaults().using_resolution(adapter.limits()),
             ..Default::default()
         };
         let (device, queue) = adapter.request_device(&wanted).await.map_err(|e| limited(e.to_string()))?;

@@ -1,0 +1,163 @@
+//! What `render` and `spin` make.
+
+use super::desk::*;
+use brillianteer::optics::linear_from_encoded;
+use glam::DVec3;
+use std::collections::BTreeMap;
+use std::path::Path;
+
+/// The mean of a picture, in linear light.
+fn mean(pixels: &[DVec3]) -> DVec3 {
+    pixels.iter().sum::<DVec3>() / pixels.len() as f64
+}
+
+fn picture(desk: &Desk, options: &str) -> (Vec<DVec3>, String) {
+    let line = format!("render {options} --size 48 --samples 2 --wavelengths 4 --out a.png");
+    assert_eq!(desk.done(&line).trim(), "a.png", "{line}");
+    let (size, pixels, told) = png(&desk.at("a.png"));
+    assert_eq!(size, (48, 48));
+    (pixels, told)
+}
+
+/// The bytes of a PNG's first frame, and how many it has and how often they run.
+fn frame(path: &Path) -> (Vec<u8>, Option<(u32, u32)>) {
+    let file = std::io::BufReader::new(std::fs::File::open(path).unwrap());
+    let mut reader = png::Decoder::new(file).read_info().unwrap();
+    let animation = reader.info().animation_control().map(|a| (a.num_frames, a.num_plays));
+    let mut bytes = vec![0; reader.output_buffer_size().unwrap()];
+    reader.next_frame(&mut bytes).unwrap();
+    (bytes, animation)
+}
+
+#[test]
+fn every_tracer_shows_the_same_stone_and_says_that_it_did() {
+    let desk = Desk::new();
+    let (exact, told) = picture(&desk, "modern-ideal --light dome --tracer beam");
+    assert!(
+        told.contains("light dome; 4 wavelengths in 2 looks, polarised; exact beams, unresolved"),
+        "{told}"
+    );
+    assert!(told.ends_with("table side") && told.starts_with("Modern ideal; "), "{told}");
+    let (rays, told) = picture(&desk, "modern-ideal --light dome --tracer ray");
+    assert!(told.contains("; point rays, unresolved"), "{told}");
+    assert!((mean(&exact) - mean(&rays)).abs().max_element() < 0.02);
+    let (other, _) = picture(&desk, "modern-ideal --tracer beam --light ring");
+    assert!((mean(&exact) - mean(&other)).abs().max_element() > 0.05);
+    // Several stones and perspective are for rays.
+    let (_, told) = picture(&desk, "trilogy --perspective 12");
+    assert!(told.contains("Trilogy; ") && told.contains("rays"), "{told}");
+    let said = desk.refused("render trilogy --tracer beam", 2);
+    assert!(said.contains("exact beams are for one stone"), "{said}");
+}
+
+#[test]
+fn a_render_is_the_same_bytes_on_any_number_of_threads() {
+    let desk = Desk::new();
+    for options in [
+        "modern-ideal --tracer beam --material ruby",
+        "modern-ideal --tracer ray --eye-tilt 20 --overlay wireframe",
+    ] {
+        let made = ["1", "2"].map(|threads| {
+            let line = format!("render {options} --size 64 --samples 2 --wavelengths 3 --out {threads}.png");
+            let run = desk.command(&line).env("RAYON_NUM_THREADS", threads).output().unwrap();
+            assert_eq!(came_of(&line, &run).0, 0);
+            std::fs::read(desk.at(format!("{threads}.png"))).unwrap()
+        });
+        assert!(made[0] == made[1], "{options}");
+    }
+}
+
+#[test]
+fn a_clear_stone_vanishes_in_white_light_and_an_exr_holds_it() {
+    let desk = Desk::new();
+    for options in ["--tracer ray --background light", "--tracer beam"] {
+        desk.done(&format!(
+            "render modern-ideal --light white {options} --size 32 --samples 1 --wavelengths 5 --out a.exr"
+        ));
+        let channels: BTreeMap<String, Vec<f64>> = exr(&desk.at("a.exr"));
+        assert!(channels.keys().eq(["A", "B", "G", "R"]));
+        let all = |name: &str| channels[name].iter().sum::<f64>();
+        for channel in ["R", "G", "B"] {
+            // But for what is unresolved.
+            near(all(channel) / all("A"), 1.0, 5e-3, channel);
+        }
+    }
+}
+
+#[test]
+fn a_stone_of_colour_is_darker_the_larger_it_is_and_weighs_what_is_asked() {
+    let desk = Desk::new();
+    let brightness = |size: &str| {
+        let (pixels, told) = picture(
+            &desk,
+            &format!("modern-ideal --material amethyst --stone {size} --light dome --background black"),
+        );
+        let absorbed: f64 =
+            told.split("absorbed ").nth(1).unwrap().split(';').next().unwrap().trim().parse().unwrap();
+        (mean(&pixels).y, absorbed)
+    };
+    let [small, carat, large] = ["3mm", "1ct", "12mm"].map(brightness);
+    assert!(small.0 > carat.0 && carat.0 > large.0, "{small:?} {carat:?} {large:?}");
+    assert!(small.1 < carat.1 && carat.1 < large.1, "{small:?} {carat:?} {large:?}");
+    assert!(desk.refused("render modern-ideal --stone 3", 2).contains("mm"));
+}
+
+#[test]
+fn what_lies_behind_is_a_colour_nothing_or_a_photograph() {
+    let desk = Desk::new();
+    let (pixels, _) = picture(&desk, "modern-ideal --background #336699 --bloom 0");
+    let linear = |rgb: [u8; 3]| DVec3::from_array(rgb.map(|c| linear_from_encoded(f64::from(c) / 255.0)));
+    assert_eq!(pixels[0], linear([0x33, 0x66, 0x99]));
+    desk.done("render modern-ideal --background #c08040 --bloom 0 --size 40 --samples 1 --wavelengths 2 --out behind.png");
+    let (photo, told) = picture(&desk, "cube.toml --background behind.png --light white");
+    assert!(
+        told.contains("rays") && (photo[0] - linear([0xc0, 0x80, 0x40])).length() < 0.01,
+        "{told}: {}",
+        photo[0]
+    );
+    let said = desk.refused("render modern-ideal --background mauve", 2);
+    assert!(said.contains("mauve") && said.contains("photograph"), "{said}");
+}
+
+#[test]
+fn a_spin_is_numbered_frames_and_an_animation_of_them() {
+    let desk = Desk::new();
+    for motion in ["turn", "rock", "wobble"] {
+        let line = format!(
+            "spin modern-ideal --motion {motion} --frames 3 --seconds 0.6 --size 40 --wavelengths 2 --samples 1 --eye-tilt 10 --out {motion}"
+        );
+        let line = if motion == "wobble" { line.replace("--eye-tilt 10", "") } else { line };
+        assert_eq!(desk.done(&line).trim(), format!("{motion}/modern-ideal-spin.png"));
+        let frames = files(&desk.at(format!("{motion}/modern-ideal-spin")));
+        assert!(frames.keys().eq(["0001.png", "0002.png", "0003.png"]), "{:?}", frames.keys());
+        assert!(frames["0001.png"] != frames["0002.png"]);
+        let (moving, animation) = frame(&desk.at(format!("{motion}/modern-ideal-spin.png")));
+        assert_eq!(animation, Some((3, 0)));
+        let (still, none) = frame(&desk.at(format!("{motion}/modern-ideal-spin/0001.png")));
+        assert!(moving == still && none.is_none(), "{motion}");
+    }
+}
+
+#[test]
+fn a_render_at_fault_is_refused_and_says_why() {
+    let desk = Desk::new();
+    for (line, code, expected) in [
+        ("render modern-ideal --light moon", 2, "no light 'moon'"),
+        ("render modern-ideal --light studoi", 2, "did you mean 'studio'?"),
+        ("render modern-ideal --material rubi", 2, "did you mean 'ruby'?"),
+        ("render modern-ideal --size 4", 2, "give 16 to 8192 pixels"),
+        ("render modern-ideal --size 100x9000", 2, "give 16 to 8192 pixels"),
+        ("render modern-ideal --turn nan", 2, "--turn NaN"),
+        ("render modern-ideal --head 90", 2, "--head 90: give 0 to 89"),
+        ("render modern-ideal --bloom 2", 2, "--bloom 2: give 0 to 1"),
+        ("render modern-ideal --overlay hair", 2, "wireframe"),
+        ("render modern-ideal tolkowsky --out a.png", 2, "several stones need a folder"),
+        ("spin modern-ideal --seconds 0", 2, "--seconds 0: give"),
+        ("spin modern-ideal --swing 100", 2, "--swing 100: give"),
+        ("render no-such-cut", 1, "no-such-cut"),
+    ] {
+        let said = desk.refused(line, code);
+        assert!(said.contains(expected), "{line}: {said}");
+    }
+    assert!(!desk.at("out").exists());
+}
