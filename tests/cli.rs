@@ -388,6 +388,10 @@ fn where_no_card_is_found_rays_do_the_work_and_say_so() {
     let (code, _, said) = run("export cube.toml --views aset --tracer gpu --format png --size 32");
     assert!(code == 0 && said.contains("tracing by rays"), "{said}");
     assert!(png(&desk.at("out/cube-aset.png")).2.contains("point rays,"));
+    let (code, _, said) =
+        run("render cube.toml --tracer gpu --size 32 --samples 1 --wavelengths 2 --out lit.png");
+    assert!(code == 0 && said.contains("tracing by rays"), "{said}");
+    assert!(png(&desk.at("lit.png")).2.contains("point rays,"));
 }
 
 #[test]
@@ -414,6 +418,14 @@ fn a_card_measures_and_draws_as_rays_do_and_is_named() {
             near(at(&by_card[part], zone), value.as_f64().unwrap(), allowed, &format!("{part} {zone}"));
         }
     }
+    let render = "render cube.toml --tilt 7 --azimuth 20 --light ring --perspective 9 --size 32 --samples 2 --wavelengths 3 --tracer";
+    let lit = ["gpu", "ray"].map(|tracer| {
+        desk.done(&format!("{render} {tracer} --out {tracer}.png"));
+        png(&desk.at(format!("{tracer}.png")))
+    });
+    assert!(lit[0].2.contains("point rays in f32 on ") && lit[1].2.contains("point rays,"));
+    let off = lit[0].1.iter().zip(&lit[1].1).filter(|(a, b)| (*a - *b).abs().max_element() > 0.02).count();
+    assert!(off * 100 <= lit[0].1.len(), "{off} pixels of renders differ");
     // Tilted, lest rays of a symmetric picture meet edges exactly; of an index that keeps no light for long.
     let view = "--tilt 7 --azimuth 20 --index 1.5 --views aset --size 48 --format png";
     let export = format!("export tolkowsky {view} --tracer");

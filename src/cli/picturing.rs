@@ -256,6 +256,20 @@ impl<'a> Studio<'a> {
         Ok(rgba)
     }
 
+    /// What lies at a point of the picture, in pixels, in words.
+    pub fn probe(&self, view: &View, pixel: f64, at: DVec2) -> String {
+        let Some((stone, facet)) = self.sit(view, (pixel, 0.0), |sitting| ray::facet_at(sitting, at.x, at.y))
+        else {
+            return "nothing".into();
+        };
+        let placed = &self.assembly.setting.stones[stone];
+        let name = placed.names.get(facet as usize).map_or("a facet", String::as_str);
+        if self.assembly.setting.stones.len() == 1 {
+            return name.into();
+        }
+        format!("{name} of stone {}, {}, {}", stone + 1, placed.label, placed.material.name)
+    }
+
     /// Does work with everything in its place.
     fn sit<T>(&self, view: &View, (pixel, turn): (f64, f64), work: impl FnOnce(&Sitting) -> T) -> T {
         let turn = DQuat::from_rotation_z((self.options.turn + turn).to_radians());

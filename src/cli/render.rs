@@ -17,10 +17,18 @@ pub struct Render {
     /// File (.png or .exr) or folder to write to
     #[arg(long, default_value = "out")]
     out: PathBuf,
+    /// Instead of a picture, tell which facet lies at X,Y: pixels from the upper left corner
+    #[arg(long, value_name = "X,Y", value_parser = point)]
+    probe: Option<glam::DVec2>,
     #[command(flatten)]
     view: ViewOptions,
     #[command(flatten)]
     picture: PictureOptions,
+}
+
+fn point(text: &str) -> Result<glam::DVec2, String> {
+    let both = text.split_once(',').and_then(|(x, y)| Some((x.trim().parse().ok()?, y.trim().parse().ok()?)));
+    both.map(glam::DVec2::from).ok_or_else(|| "give two numbers, such as 200,150".into())
 }
 
 impl Render {
@@ -46,6 +54,9 @@ impl Render {
         let studio = Studio::load(&self.picture, file, &view)?;
         let view = studio.view(&self.view)?;
         let pixel = studio.pixel(&view)?;
+        if let Some(at) = self.probe {
+            return print(&studio.probe(&view, pixel, at));
+        }
         let taken = {
             let progress = Progress::new(&studio.assembly.name);
             studio.take(&view, (pixel, 0.0), &progress.watch())?

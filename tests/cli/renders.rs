@@ -139,6 +139,19 @@ fn a_spin_is_numbered_frames_and_an_animation_of_them() {
 }
 
 #[test]
+fn what_lies_at_a_point_is_told_by_its_name() {
+    let desk = Desk::new();
+    let at = |line: &str, point: &str| {
+        desk.done(&format!("render {line} --size 200 --probe {point}")).trim().to_owned()
+    };
+    assert_eq!(at("modern-ideal", "100,100"), "table");
+    assert_eq!(at("modern-ideal", "180,100"), "bezel 1");
+    assert_eq!(at("modern-ideal", "2,2"), "nothing");
+    assert!(at("trilogy", "100,100").starts_with("table of stone 2, "), "{}", at("trilogy", "100,100"));
+    assert!(!desk.at("out").exists());
+}
+
+#[test]
 fn a_render_at_fault_is_refused_and_says_why() {
     let desk = Desk::new();
     for (line, code, expected) in [
