@@ -18,8 +18,18 @@ var<private> waiting: array<Waiting, MOST_WAITING>;
 var<private> count: u32;
 
 fn see(ray: Ray, weight: f32) {
-    let light = radiance(ray) * weight;
+    // It stands for its band's middle.
+    let middle = Ray(ray.origin, ray.direction + ray.sweep * frame.limits.y, ray.sweep);
+    let light = radiance(middle) * weight;
     sum.colour += response.key * light.x + response.red * light.y + response.green * light.z + response.blue * light.w;
+}
+
+// Whether a ray runs through the ball around a stone.
+fn is_near(stone: u32, ray: Ray) -> bool {
+    let away = bodies[stone].middle.xyz - ray.origin;
+    let along = dot(away, ray.direction);
+    let radius = bodies[stone].middle.w;
+    return along > -radius && dot(away, away) - along * along < radius * radius;
 }
 
 // Whether a ray meets a stone other than the one that it left.
@@ -27,10 +37,7 @@ fn meets_any(ray: Ray, left: u32) -> bool {
     let own = body;
     var found = false;
     for (var k = 0u; k < frame.counts.x; k++) {
-        let away = bodies[k].middle.xyz - ray.origin;
-        let along = dot(away, ray.direction);
-        let radius = bodies[k].middle.w;
-        if !found && k != left && along > -radius && dot(away, away) - along * along < radius * radius {
+        if !found && k != left && is_near(k, ray) {
             body = bodies[k];
             found = entry(ray.origin, ray.direction).distance > 0.0;
         }
@@ -56,7 +63,7 @@ fn leave(ray: Ray, weight: f32, is_surface: bool) {
 fn nearest(ray: Ray, left: u32) -> Meeting {
     var first = Meeting(0u, -1.0);
     for (var k = 0u; k < frame.counts.x; k++) {
-        if k == left {
+        if k == left || !is_near(k, ray) {
             continue;
         }
         body = bodies[k];
@@ -78,7 +85,7 @@ fn go(next: Waiting, met: Meeting, wavelength: u32) {
     body = bodies[present];
     medium = media[present * frame.counts.y + wavelength];
     let rest = follow(next.ray, met, next.weight);
-    sum.rest += vec4f(rest.unresolved, rest.absorbed, f32(rest.bounces), 0.0);
+    sum.rest += vec4f(rest.unresolved, rest.absorbed, 0.0, 0.0);
 }
 
 @compute @workgroup_size(8, 8)

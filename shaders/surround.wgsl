@@ -6,6 +6,9 @@
 @group(0) @binding(8) var sky: texture_2d<f32>;
 @group(0) @binding(9) var photo: texture_2d<f32>;
 
+const STILL: f32 = 1e-14;
+const ALONG: f32 = 1e-6;
+
 // Where in the octahedral map a direction stands, 0 to 1.
 fn octahedral(d: vec3f) -> vec2f {
     let flat = d.xy / (abs(d.x) + abs(d.y) + abs(d.z));
@@ -53,7 +56,7 @@ fn share_inside(from_middle: vec3f, sweep: vec3f, chord_squared: f32) -> f32 {
     let a = dot(sweep, sweep);
     let b = dot(from_middle, sweep);
     let c = dot(from_middle, from_middle) - chord_squared;
-    if a < 1e-14 {
+    if a < STILL {
         return select(0.0, 1.0, c < 0.0);
     }
     let under_root = b * b - a * c;
@@ -68,7 +71,7 @@ fn share_inside(from_middle: vec3f, sweep: vec3f, chord_squared: f32) -> f32 {
 fn photo_at(ray: Ray) -> vec4f {
     let speed = -dot(ray.direction, frame.toward.xyz);
     let height = dot(ray.origin, frame.toward.xyz) + surround.photo.x;
-    if speed <= 1e-6 || height <= 0.0 || surround.photo.y <= 0.0 {
+    if speed <= ALONG || height <= 0.0 || surround.photo.y <= 0.0 {
         return vec4f(0.0);
     }
     let p = ray.origin + ray.direction * (height / speed);

@@ -219,5 +219,12 @@ fn placed(members: &[Member]) -> Setting {
         let stone = Placed::named(&m.specimen.stone, m.material.clone(), &m.specimen.design.name);
         stone.moved(0.5 * m.diameter_mm / unit_mm, m.turn, m.at_mm / unit_mm)
     };
-    Setting { stones: members.iter().map(place).collect(), unit_mm }
+    let stones: Vec<Placed> = members.iter().map(place).collect();
+    // Pictures are taken around the origin.
+    let bounds = stones.iter().map(|s| s.polytope.bounds());
+    let (low, high) =
+        bounds.fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(l, h), (a, b)| (l.min(a), h.max(b)));
+    let shift =
+        if members.len() > 1 || members[0].at_mm != DVec3::ZERO { -(low + high) / 2.0 } else { DVec3::ZERO };
+    Setting { stones: stones.into_iter().map(|s| s.moved(1.0, DQuat::IDENTITY, shift)).collect(), unit_mm }
 }

@@ -1,6 +1,6 @@
 //! `bench`: how long the tracers take for the same pictures, on this machine.
 
-use super::sampler::{Look, Sampler};
+use super::sampler::{Sampler, Subject};
 use super::specimen::Specimen;
 use super::{Failure, json, print};
 use crate::optics::{line, strata};
@@ -8,7 +8,7 @@ use crate::picture::by_rays::Manner;
 use crate::picture::{ByBeams, Film, Layer, paint};
 use crate::scene::{ASET_CONE, Backing, Light, Medium, Placed, Scope, Setting, View};
 use crate::trace::ray::{ByRays, Camera, Options, Tracer};
-use crate::trace::sitting::{Exposure, Look as Glance, Sitting};
+use crate::trace::sitting::{Exposure, Look, Sitting};
 use crate::trace::surround::{Sky, Surround};
 use crate::trace::{beam, unwatched};
 use clap::Args;
@@ -116,7 +116,7 @@ fn options(most_bounces: u32) -> Options {
 fn in_scope(specimen: &Specimen, card: Sampler, size: u32, bounces: u32) -> Result<Task, Failure> {
     let (view, scope) = (View::default(), Scope::aset(ASET_CONE, Backing::Black));
     let medium = Medium::clear(specimen.material.index(line::SODIUM_D));
-    let look = Look { specimen, medium, view: &view, scope: &scope };
+    let look = Subject { specimen, medium, view: &view, scope: &scope };
     let polytope = &specimen.stone.polytope;
     let film = Film::around(polytope, &view.basis(), size);
     let manner = Manner { options: options(bounces), per_side: 1 };
@@ -162,20 +162,19 @@ fn under_light(specimen: &Specimen, card: Sampler) -> Result<Task, Failure> {
         options: options(bounces),
     };
     let strata = strata(wavelengths, &light.spectrum, true);
-    let glance = Glance::new(&setting, &strata, 0);
+    let look = Look::new(&setting, &strata, 0);
     let mut rows = vec![];
     for sampler in samplers(card) {
         let mut exposure = exposure(sampler, &sitting, strata.len())?;
-        let milliseconds = timed(|| exposure.look(&glance, &unwatched))?;
+        let milliseconds = timed(|| exposure.look(&look, &unwatched))?;
         rows.push(Row { tracer: sampler.name(), by: sampler.told(), milliseconds });
     }
     let options = beam::Options { unresolved: UNRESOLVED, ..beam::Options::default() };
     if let Some(mut exposure) = ByBeams::new(sitting, options) {
-        let milliseconds = timed(|| exposure.look(&glance, &unwatched))?;
+        let milliseconds = timed(|| exposure.look(&look, &unwatched))?;
         rows.push(Row { tracer: "beam", by: format!("exact beams, unresolved {UNRESOLVED}"), milliseconds });
     }
-    let tests: f64 =
-        glance.media[0].iter().map(|&medium| plane_tests(specimen, &film, medium, bounces)).sum();
+    let tests: f64 = look.media[0].iter().map(|&medium| plane_tests(specimen, &film, medium, bounces)).sum();
     let what = format!(
         "diamond under eight lamps, {} planes, {size} x {size}, {bounces} bounces at most, {wavelengths} wavelengths",
         polytope.facets().len()
@@ -193,7 +192,11 @@ fn exposure<'a>(
     match sampler {
         Sampler::Rays => Ok(Box::new(ByRays::new(*sitting, rows))),
         #[cfg(feature = "gpu")]
-        Sampler::Card(gpu) => Ok(Box::new(crate::trace::gpu::ByCard::new(gpu, sitting, rows, bands)?)),
+        Sampler::Card(gpu) => {
+            use crate::trace::gpu::{Around, ByCard};
+            let around = Around::new(gpu, &sitting.surround);
+            Ok(Box::new(ByCard::new(gpu, sitting, &around, rows, bands)?))
+        }
     }
 }
 

@@ -3,7 +3,7 @@
 use super::measure::measure;
 use super::options::{LightOptions, Tracer, ViewOptions};
 use super::progress::Progress;
-use super::sampler::{Look, Sampler};
+use super::sampler::{Sampler, Subject};
 use super::specimen::{Specimen, stem};
 use super::{Failure, each_file, json, print, say};
 use crate::cut::Cut;
@@ -316,7 +316,7 @@ impl Job<'_> {
             &format!("{}, each followed to {:.2e}", sampler.told(), options.least_weight),
         );
         let manner = Manner { options, per_side: RAYS_PER_SIDE };
-        let look = Look { specimen: self.specimen, medium: self.medium, view, scope };
+        let look = Subject { specimen: self.specimen, medium: self.medium, view, scope };
         let [energy, strongest] = [name, &format!("{name}-strongest")].map(|name| self.path(name, "png"));
         let size = (film.size, film.size);
         // Both pictures come from the same rays.

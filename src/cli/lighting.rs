@@ -16,19 +16,17 @@ pub struct Lighting {
 }
 
 impl Lighting {
-    /// Takes a light by its name or from a file; relative paths begin at the folder `beside`, if there is one. Warns of
-    /// what is odd about its panorama.
+    /// Takes a light by its name, from a light file, or a panorama alone. Warns of what is odd about its panorama.
     ///
     /// # Errors
     /// What is wrong with the name or the file.
-    pub fn load(name_or_file: &str, beside: Option<&Path>) -> Result<Self, Failure> {
-        let file = beside.map_or_else(|| PathBuf::from(name_or_file), |folder| folder.join(name_or_file));
-        let asked = name_or_file.to_ascii_lowercase();
-        let (light, folder) = match light(&asked).filter(|_| !file.is_file()) {
+    pub fn load(name_or_file: &str) -> Result<Self, Failure> {
+        let file = PathBuf::from(name_or_file);
+        let (light, folder) = match light(&name_or_file.to_ascii_lowercase()) {
             Some(light) => (light, None),
             None if panorama::is_picture(&file) => (Light::of_panorama(&file), None),
             None if !file.exists() && file.extension().is_none() => {
-                return Err(unknown(name_or_file, beside.is_some()));
+                return Err(unknown(name_or_file));
             }
             None => (light_file::read(&file).map_err(Failure::Input)?, file.parent()),
         };
@@ -46,16 +44,15 @@ fn sky(light: &Light, folder: Option<&Path>) -> Result<Sky, Failure> {
     Ok(Sky::new(light, Some(&reading.panorama)))
 }
 
-/// What to say of a name that no light has; it may stand in a file, or on the command line.
-pub fn unknown(name: &str, is_in_file: bool) -> Failure {
+/// What to say of a name that no light has.
+pub fn unknown(name: &str) -> Failure {
     const SLIPS: usize = 3;
     let near = LIGHTS.iter().map(|n| (strsim::damerau_levenshtein(&name.to_lowercase(), n), n)).min();
     let hint = match near.filter(|(slips, _)| *slips <= SLIPS) {
         Some((_, near)) => format!("; did you mean '{near}'?"),
         None => format!("; known: {}, or give a light file or a panorama", LIGHTS.join(", ")),
     };
-    let told = format!("no light '{name}'{hint}");
-    if is_in_file { Failure::Input(told) } else { Failure::Usage(told) }
+    Failure::Usage(format!("no light '{name}'{hint}"))
 }
 
 #[cfg(test)]
@@ -63,44 +60,40 @@ mod tests {
     use super::*;
     use crate::io::write_rgba_png;
 
-    fn refused(name: &str, beside: Option<&Path>) -> Failure {
-        Lighting::load(name, beside).err().unwrap()
+    fn refused(name: &str) -> Failure {
+        Lighting::load(name).err().unwrap()
     }
 
     #[test]
     fn a_light_is_taken_by_its_name_from_a_file_or_as_a_panorama() {
         let folder = tempfile::tempdir().unwrap();
         let at = |name: &str| folder.path().join(name);
-        let ring = Lighting::load("Ring", None).unwrap();
+        let ring = Lighting::load("Ring").unwrap();
         assert_eq!((ring.light.name.as_str(), &ring.sky), ("ring", &Sky::new(&Light::ring(), None)));
         // All is white but for the lower half, which is black: what lies above shows that it was read.
         let half: Vec<u8> = (0..32_u8).flat_map(|k| [[255; 3], [0; 3]][usize::from(k / 16)]).collect();
         let rgba: Vec<u8> = half.chunks(3).flat_map(|c| [c[0], c[1], c[2], 255]).collect();
         std::fs::create_dir(at("skies")).unwrap();
         write_rgba_png(&at("skies/half.png"), &rgba, (8, 4), "half").unwrap();
-        let bare = Lighting::load("skies/half.png", Some(folder.path())).unwrap();
+        let bare = Lighting::load(at("skies/half.png").to_str().unwrap()).unwrap();
         assert_eq!(bare.light.name, "half");
         std::fs::copy(at("skies/half.png"), at("skies/odd.toml")).unwrap();
-        assert_eq!(Lighting::load(at("skies/odd.toml").to_str().unwrap(), None).unwrap().sky, bare.sky);
+        assert_eq!(Lighting::load(at("skies/odd.toml").to_str().unwrap()).unwrap().sky, bare.sky);
         let named = "name = \"named\"\n[panorama]\nfile = \"half.png\"\n";
         std::fs::write(at("skies/named.light"), named).unwrap();
-        let named = Lighting::load(at("skies/named.light").to_str().unwrap(), None).unwrap();
+        let named = Lighting::load(at("skies/named.light").to_str().unwrap()).unwrap();
         assert_eq!((named.light.name.as_str(), &named.sky), ("named", &bare.sky));
         let brightest = |sky: &Sky| sky.levels[0].iter().map(|t| t[1]).fold(0.0, f32::max);
         assert!((brightest(&bare.sky) - 1.0).abs() < 1e-6);
-        // A file goes before a light of the same name.
-        std::fs::write(at("dome"), light_file::text(&Light::fire()).unwrap()).unwrap();
-        assert_eq!(Lighting::load("dome", Some(folder.path())).unwrap().light.name, "fire");
     }
 
     #[test]
     fn what_is_no_light_is_told() {
         let folder = tempfile::tempdir().unwrap();
-        let told = |name: &str| refused(name, Some(folder.path())).to_string();
-        assert_eq!(refused("stuido", None).to_string(), "no light 'stuido'; did you mean 'studio'?");
-        assert!(matches!(refused("stuido", None), Failure::Usage(_)));
-        assert!(matches!(refused("stuido", Some(folder.path())), Failure::Input(_)));
-        assert!(told("moonlight").contains("studio, dome, "));
+        let told = |name: &str| refused(folder.path().join(name).to_str().unwrap()).to_string();
+        assert_eq!(refused("stuido").to_string(), "no light 'stuido'; did you mean 'studio'?");
+        assert!(matches!(refused("stuido"), Failure::Usage(_)));
+        assert!(refused("moonlight").to_string().contains("studio, dome, "));
         assert!(told("none.toml").ends_with("none.toml: there is no such file"));
         assert!(told("none.exr").ends_with("none.exr: there is no such file"));
         std::fs::write(folder.path().join("bad.toml"), "name = \"x\"\nhead = 95\n").unwrap();

@@ -189,7 +189,7 @@ impl Lights {
             let line = |light: crate::scene::Light| format!("{:<14}{}", light.name, light.description);
             return print(&known.map(line).collect::<Vec<_>>().join("\n"));
         };
-        let light = light(&name.to_ascii_lowercase()).ok_or_else(|| super::lighting::unknown(name, false))?;
+        let light = light(&name.to_ascii_lowercase()).ok_or_else(|| super::lighting::unknown(name))?;
         let text = light_file::text(&light).map_err(|e| Failure::Output(e.to_string()))?;
         print(text.trim_end())
     }

@@ -2,7 +2,7 @@
 
 use super::options::{LightOptions, Tracer, ViewOptions};
 use super::progress::Progress;
-use super::sampler::{Look, Sampler};
+use super::sampler::{Sampler, Subject};
 use super::specimen::Specimen;
 use super::{Failure, each_file, json, print};
 use crate::measure::{Figures, by_beams};
@@ -80,7 +80,7 @@ pub fn measure(specimen: &Specimen, view: &ViewOptions, light: &LightOptions) ->
         }
         Tracer::Rays(first) => first.or_rays(|used| {
             sampler = Some(used);
-            let look = Look { specimen, medium, view: &seen, scope: &scope };
+            let look = Subject { specimen, medium, view: &seen, scope: &scope };
             used.figures(look, light.rays(UNRESOLVED)?, LATTICE, &watch)
         })?,
     };

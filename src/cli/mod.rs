@@ -8,6 +8,7 @@ mod lighting;
 mod lists;
 mod measure;
 mod options;
+mod picture_options;
 mod picturing;
 mod progress;
 mod render;

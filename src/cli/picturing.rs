@@ -1,25 +1,23 @@
-//! What `render` and `spin` share: stones, light and camera, and taking a picture of them.
+//! Stones, light and camera put together, and taking a picture of them.
 
 use super::Failure;
 use super::assembly::Assembly;
 use super::lighting::Lighting;
 use super::options::ViewOptions;
+use super::picture_options::{PictureOptions, TracerName};
 use super::sampler::Sampler;
 use crate::io::panorama;
 use crate::optics::strata;
 use crate::picture::spectral::{Remainder, expose};
-use crate::picture::{Background, Bloom, ByBeams, Develop, Linear, Overlay, Tone, develop, lay};
-use crate::scene::{Panorama, Projection, View};
+use crate::picture::{Background, Bloom, ByBeams, Develop, Linear, Tone, develop, lay};
+use crate::scene::{Panorama, Projection, Setting, View};
 use crate::trace::ray::{self, ByRays, Camera};
 use crate::trace::sitting::Sitting;
 use crate::trace::surround::{Behind, Surround};
 use crate::trace::{Watch, beam};
-use clap::{Args, ValueEnum};
-use glam::{DQuat, DVec2};
+use glam::{DQuat, DVec2, DVec3};
+use std::cell::Cell;
 use std::path::Path;
-
-/// The largest side of a picture under light: it is held in memory.
-pub const MOST_PIXELS: u32 = 8192;
 
 /// Air around the stones, as a part of half the picture.
 const MARGIN: f64 = 0.06;
@@ -34,83 +32,18 @@ const MOST_BEAMS: usize = 100_000;
 /// Bounces that rays are followed for.
 const MOST_BOUNCES: u32 = 64;
 
+/// Rows that rays are traced for at once: what they have seen so far is held.
+const ROWS_OF_RAYS: u32 = 256;
+
+/// Where more of the light is unresolved than this, a person is told.
+const MUCH_UNRESOLVED: f64 = 0.02;
+
+/// The widest photograph that is kept as it is; wider ones are halved.
+const WIDEST_PHOTO: u32 = 4096;
+
 /// Looks that a picture is made of when not told: rays need many for smooth edges, beams only for the wavelengths.
 const LOOKS_OF_BEAMS: u32 = 4;
 const LOOKS_OF_RAYS: u32 = 64;
-
-/// How far behind the stones a photograph stands when not told, in girdle radii.
-const PHOTO_DISTANCE: f64 = 3.0;
-
-/// Stones, light and picture.
-#[derive(Debug, Clone, Args)]
-pub struct PictureOptions {
-    /// A light's name, a light file or an HDR panorama (.hdr, .exr); see `lights` [default: the scene's, or studio]
-    #[arg(long, value_name = "LIGHT")]
-    light: Option<String>,
-    /// Turn the light about its axis by DEGREES
-    #[arg(long, value_name = "DEGREES", default_value_t = 0.0, allow_negative_numbers = true)]
-    turn: f64,
-    /// Half angle of the observer's head, which keeps out light, in DEGREES [default: the light's]
-    #[arg(long, value_name = "DEGREES")]
-    head: Option<f64>,
-    /// A material's name, or an index, instead of the file's
-    #[arg(long, value_name = "MATERIAL")]
-    material: Option<String>,
-    /// The stone's size, such as 6.5mm or 1.2ct, instead of the file's
-    #[arg(long, value_name = "SIZE")]
-    stone: Option<crate::cut::Size>,
-    /// Pixels: a number for a square, or WIDTHxHEIGHT
-    #[arg(long, value_name = "PIXELS", default_value = "1024", value_parser = film_size)]
-    pub size: [u32; 2],
-    /// Wavelengths side by side, 1 to 64
-    #[arg(long, value_name = "N", default_value_t = 16, value_parser = clap::value_parser!(u32).range(1..=64))]
-    wavelengths: u32,
-    /// Looks that the picture is made of, each at other wavelengths and places in the pixel [default: 4 by exact beams,
-    /// 64 by rays]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=65536))]
-    samples: Option<u32>,
-    /// What traces the light
-    #[arg(long, value_enum, default_value_t = TracerName::Auto)]
-    tracer: TracerName,
-    /// Let every surface see unpolarised light
-    #[arg(long)]
-    unpolarised: bool,
-    /// See all colours as under daylight, instead of an eye that is used to the light
-    #[arg(long)]
-    unadapted: bool,
-    /// Brighter by STOPS
-    #[arg(long, value_name = "STOPS", default_value_t = 0.0, allow_negative_numbers = true)]
-    exposure: f64,
-    /// Tone curve: linear, neutral or filmic
-    #[arg(long, value_name = "CURVE", default_value = "neutral")]
-    tone: Tone,
-    /// Part of the brightest light that is spread as glow and sparkle, 0 to 1
-    #[arg(long, value_name = "PART", default_value_t = Bloom::default().strength)]
-    bloom: f64,
-    /// What lies behind: transparent, a colour (white, #20262e), two from top to bottom (#404850-#101215), `light` for
-    /// what shines, or a photograph's file
-    #[arg(long, value_name = "WHAT", default_value = "#33373d-#0e0f11")]
-    background: String,
-    /// What to draw over the stones, separated by commas: wireframe, facets, bounces, unresolved, total (how often light is
-    /// totally reflected before some leaves)
-    #[arg(long, value_name = "WHAT", value_delimiter = ',')]
-    overlay: Vec<Overlay>,
-    /// How far behind the stones the photograph stands, in girdle radii
-    #[arg(long, value_name = "DISTANCE", default_value_t = PHOTO_DISTANCE)]
-    photo_distance: f64,
-}
-
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum TracerName {
-    /// A graphics card where there is one; else exact beams where they apply, and rays where they do not
-    Auto,
-    /// Exact beams, in f64: one stone, parallel rays, no photograph
-    Beam,
-    /// Point rays on the processor, in f64
-    Ray,
-    /// Point rays on a graphics card, in f32
-    Gpu,
-}
 
 /// What traces a picture.
 #[derive(Clone, Copy)]
@@ -127,7 +60,7 @@ pub struct Studio<'a> {
     photo: Option<Panorama>,
     backdrop: bool,
     pub develop: Develop,
-    tracer: Tracer,
+    tracer: Cell<Tracer>,
 }
 
 /// A picture, and how it was made.
@@ -136,15 +69,12 @@ pub struct Taken {
     pub told: String,
 }
 
-fn film_size(text: &str) -> Result<[u32; 2], String> {
-    let side = |text: &str| match text.trim().parse() {
-        Ok(side) if (16..=MOST_PIXELS).contains(&side) => Ok(side),
-        _ => Err(format!("give 16 to {MOST_PIXELS} pixels, or WIDTHxHEIGHT such as 1600x900")),
-    };
-    match text.split_once(['x', 'X']) {
-        Some((width, height)) => Ok([side(width)?, side(height)?]),
-        None => side(text).map(|side| [side; 2]),
+/// A photograph of no more pixels than are of use.
+fn kept(mut photo: Panorama) -> Panorama {
+    while photo.width > WIDEST_PHOTO || photo.height > WIDEST_PHOTO {
+        photo = photo.halved();
     }
+    photo
 }
 
 fn within(key: &str, value: f64, least: f64, most: f64) -> Result<f64, Failure> {
@@ -160,7 +90,7 @@ impl<'a> Studio<'a> {
         let assembly = Assembly::load(file, options.material.as_deref(), options.stone)?;
         let own = assembly.light.as_ref().map(|light| light.display().to_string());
         let light = options.light.as_ref().or(own.as_ref());
-        let mut lighting = Lighting::load(light.map_or("studio", String::as_str), None)?;
+        let mut lighting = Lighting::load(light.map_or("studio", String::as_str))?;
         if let Some(head) = options.head {
             lighting.light.head = within("head", head, 0.0, 89.0)?;
         }
@@ -182,14 +112,14 @@ impl<'a> Studio<'a> {
                     let reading =
                         panorama::read_photo(Path::new(&options.background)).map_err(Failure::Input)?;
                     reading.warnings.iter().for_each(|w| super::say(&format!("warning: {w}")));
-                    photo = Some(reading.panorama);
+                    photo = Some(kept(reading.panorama));
                 }
                 Err(why) => return Err(Failure::Usage(format!("{why}, `light`, or a photograph's file"))),
             }
         }
-        let mut studio =
-            Self { options, assembly, lighting, photo, backdrop, develop, tracer: Tracer::Beams };
-        studio.tracer = studio.chosen(view)?;
+        let studio =
+            Self { options, assembly, lighting, photo, backdrop, develop, tracer: Cell::new(Tracer::Beams) };
+        studio.tracer.set(studio.chosen(view)?);
         Ok(studio)
     }
 
@@ -216,12 +146,12 @@ impl<'a> Studio<'a> {
     /// The view, checked against the stones: the eye must be in front of them.
     pub fn view(&self, options: &ViewOptions) -> Result<View, Failure> {
         let view = options.view(None)?;
-        self.pixel(&view).map(|_| view)
+        self.pixel(&self.assembly.setting, &view).map(|_| view)
     }
 
     /// The side of a pixel with which the stones fill the picture.
-    pub fn pixel(&self, view: &View) -> Result<f64, Failure> {
-        let stones = &self.assembly.setting.stones;
+    pub fn pixel(&self, setting: &Setting, view: &View) -> Result<f64, Failure> {
+        let stones = &setting.stones;
         let reach = stones.iter().flat_map(|s| s.polytope.vertices()).map(|v| v.length()).fold(0.0, f64::max);
         let camera = Camera::reaching(view, reach);
         let extent = stones.iter().try_fold(DVec2::ZERO, |all, s| Some(all.max(camera.extent(&s.polytope)?)));
@@ -233,35 +163,66 @@ impl<'a> Studio<'a> {
         Ok((2.0 * extent * (1.0 + MARGIN) / size).max_element())
     }
 
-    /// Takes a picture with pixels of this side; `turn` is what the light is turned further by, degrees.
-    pub fn take(&self, view: &View, (pixel, turn): (f64, f64), watch: Watch) -> Result<Taken, Failure> {
-        self.sit(view, (pixel, turn), |sitting| match self.tracer {
+    /// The stones, turned about the axis by an angle in radians.
+    pub fn turned(&self, angle: f64) -> Setting {
+        let turn = DQuat::from_rotation_z(angle);
+        let stones = self.assembly.setting.stones.iter().cloned().map(|s| s.moved(1.0, turn, DVec3::ZERO));
+        Setting { stones: stones.collect(), ..self.assembly.setting }
+    }
+
+    /// Takes a picture with pixels of this side.
+    pub fn take(
+        &self,
+        setting: &Setting,
+        (view, pixel): (&View, f64),
+        watch: Watch,
+    ) -> Result<Taken, Failure> {
+        self.sit(setting, (view, pixel), |sitting| match self.tracer.get() {
             Tracer::Beams => self.by_beams(sitting, watch),
-            Tracer::Rays(sampler) => sampler.or_rays(|used| self.by_rays(used, sitting, watch)),
+            Tracer::Rays(sampler) => sampler.or_rays(|used| {
+                // A card that has failed is not asked again.
+                self.tracer.set(Tracer::Rays(used));
+                self.by_rays(used, sitting, watch)
+            }),
         })
     }
 
     /// A picture in eight bits, with the overlays asked for.
     pub fn developed(
         &self,
-        view: &View,
-        (pixel, turn): (f64, f64),
+        setting: &Setting,
+        (view, pixel): (&View, f64),
         picture: &Linear,
         watch: Watch,
     ) -> Result<Vec<u8>, Failure> {
         let mut rgba = develop(picture, &self.develop);
         for &overlay in &self.options.overlay {
-            self.sit(view, (pixel, turn), |sitting| lay(overlay, sitting, &mut rgba, watch))?;
+            self.sit(setting, (view, pixel), |sitting| lay(overlay, sitting, &mut rgba, watch))?;
         }
         Ok(rgba)
     }
 
+    /// What lights and traces the pictures, in words.
+    pub fn told(&self) -> String {
+        let tracer = match self.tracer.get() {
+            Tracer::Beams => "exact beams".into(),
+            Tracer::Rays(sampler) => sampler.told(),
+        };
+        format!("light {}; {tracer}", self.lighting.light.name)
+    }
+
+    /// What was asked for that a file of bare light does not hold, in words.
+    pub fn undeveloped(&self) -> Option<&'static str> {
+        let Develop { exposure, tone, .. } = self.develop;
+        let is_told = exposure != 0.0 || tone != Tone::default() || !self.options.overlay.is_empty();
+        is_told.then_some("an EXR holds the bare light: exposure, tone and overlays are for PNG")
+    }
+
     /// What lies at a point of the picture, in pixels, in words.
     pub fn probe(&self, view: &View, pixel: f64, at: DVec2) -> String {
-        let Some((stone, facet)) = self.sit(view, (pixel, 0.0), |sitting| ray::facet_at(sitting, at.x, at.y))
-        else {
-            return "nothing".into();
-        };
+        let setting = &self.assembly.setting;
+        let found = self.sit(setting, (view, pixel), |sitting| ray::facet_at(sitting, at.x, at.y));
+        let Some((stone, facet)) = found else { return "nothing".into() };
         let placed = &self.assembly.setting.stones[stone];
         let name = placed.names.get(facet as usize).map_or("a facet", String::as_str);
         if self.assembly.setting.stones.len() == 1 {
@@ -271,11 +232,11 @@ impl<'a> Studio<'a> {
     }
 
     /// Does work with everything in its place.
-    fn sit<T>(&self, view: &View, (pixel, turn): (f64, f64), work: impl FnOnce(&Sitting) -> T) -> T {
-        let turn = DQuat::from_rotation_z((self.options.turn + turn).to_radians());
+    fn sit<T>(&self, setting: &Setting, (view, pixel): (&View, f64), work: impl FnOnce(&Sitting) -> T) -> T {
+        let turn = DQuat::from_rotation_z(self.options.turn.to_radians());
         let mut basis = view.light_basis();
-        let turned = |x: glam::DVec3| basis.right * x.x + basis.up * x.y + basis.toward * x.z;
-        let (right, up) = (turned(turn * glam::DVec3::X), turned(turn * glam::DVec3::Y));
+        let turned = |x: DVec3| basis.right * x.x + basis.up * x.y + basis.toward * x.z;
+        let (right, up) = (turned(turn * DVec3::X), turned(turn * DVec3::Y));
         (basis.right, basis.up) = (right, up);
         let distance = self.options.photo_distance;
         // Wide enough to fill the picture, whatever its shape.
@@ -289,7 +250,7 @@ impl<'a> Studio<'a> {
             }
         });
         work(&Sitting {
-            setting: &self.assembly.setting,
+            setting,
             surround: Surround {
                 sky: &self.lighting.sky,
                 basis,
@@ -319,9 +280,8 @@ impl<'a> Studio<'a> {
 
     fn by_beams(&self, sitting: &Sitting, watch: Watch) -> Result<Taken, Failure> {
         let samples = self.options.samples.unwrap_or(LOOKS_OF_BEAMS);
-        let unresolved = UNRESOLVED;
         let options = beam::Options {
-            unresolved,
+            unresolved: UNRESOLVED,
             polarised: !self.options.unpolarised,
             most_beams: MOST_BEAMS,
             ..beam::Options::default()
@@ -339,12 +299,14 @@ impl<'a> Studio<'a> {
         let taken = match sampler {
             Sampler::Rays => {
                 let prepare = |rows| Ok::<_, Failure>(ByRays::new(*sitting, rows));
-                expose(sitting, looks, sitting.size[1], prepare, watch)?
+                expose(sitting, looks, ROWS_OF_RAYS, prepare, watch)?
             }
             #[cfg(feature = "gpu")]
             Sampler::Card(gpu) => {
-                use crate::trace::gpu::ByCard;
-                let prepare = |rows| Ok::<_, Failure>(ByCard::new(gpu, sitting, rows, strata.len())?);
+                use crate::trace::gpu::{Around, ByCard};
+                let around = Around::new(gpu, &sitting.surround);
+                let prepare =
+                    |rows| Ok::<_, Failure>(ByCard::new(gpu, sitting, &around, rows, strata.len())?);
                 expose(sitting, looks, ByCard::most_rows(sitting.size[0]), prepare, watch)?
             }
         };
@@ -356,10 +318,19 @@ impl<'a> Studio<'a> {
     }
 
     fn taken(&self, (picture, rest): (Linear, Remainder), samples: u32, tracer: &str) -> Taken {
+        if rest.unresolved > MUCH_UNRESOLVED {
+            let percent = 100.0 * rest.unresolved;
+            super::say(&format!(
+                "warning: {}: {percent:.1} % of the light is unresolved by {tracer} and missing in the picture; \
+                 --tracer beam or ray may follow it farther",
+                self.assembly.path
+            ));
+        }
         let light = &self.lighting.light.name;
+        let looks = if samples == 1 { "1 look".to_owned() } else { format!("{samples} looks") };
         let polarised = if self.options.unpolarised { "unpolarised" } else { "polarised" };
         let told = format!(
-            "{}; light {light}; {} wavelengths in {samples} looks, {polarised}; {tracer}, unresolved {:.2e}, absorbed \
+            "{}; light {light}; {} wavelengths in {looks}, {polarised}; {tracer}, unresolved {:.2e}, absorbed \
              {:.3}",
             self.assembly.name, self.options.wavelengths, rest.unresolved, rest.absorbed
         );

@@ -1,10 +1,11 @@
 //! `render`: what stones look like under light.
 
 use super::options::ViewOptions;
-use super::picturing::{PictureOptions, Studio};
+use super::picture_options::PictureOptions;
+use super::picturing::Studio;
 use super::progress::Progress;
 use super::specimen::stem;
-use super::{Failure, each_file, print};
+use super::{Failure, each_file, print, say};
 use crate::io::{write_linear_exr, write_rgba_png};
 use clap::Args;
 use std::path::{Path, PathBuf};
@@ -53,22 +54,26 @@ impl Render {
         let view = self.view.view(None)?;
         let studio = Studio::load(&self.picture, file, &view)?;
         let view = studio.view(&self.view)?;
-        let pixel = studio.pixel(&view)?;
+        let setting = &studio.assembly.setting;
+        let pixel = studio.pixel(setting, &view)?;
         if let Some(at) = self.probe {
             return print(&studio.probe(&view, pixel, at));
         }
         let taken = {
             let progress = Progress::new(&studio.assembly.name);
-            studio.take(&view, (pixel, 0.0), &progress.watch())?
+            studio.take(setting, (&view, pixel), &progress.watch())?
         };
         let told = format!("{}; {}", taken.told, self.view.told(&view));
         let (path, _) = self.output(file);
         if path.extension().is_some_and(|e| e.eq_ignore_ascii_case("exr")) {
+            if let Some(without) = studio.undeveloped() {
+                say(&format!("note: {}: {without}", path.display()));
+            }
             write_linear_exr(&path, &taken.picture, &told)?;
         } else {
             let size = (taken.picture.width, taken.picture.height);
             let progress = Progress::new(&format!("{}: overlays", studio.assembly.name));
-            let rgba = studio.developed(&view, (pixel, 0.0), &taken.picture, &progress.watch())?;
+            let rgba = studio.developed(setting, (&view, pixel), &taken.picture, &progress.watch())?;
             write_rgba_png(&path, &rgba, size, &told)?;
         }
         print(&path.display().to_string())

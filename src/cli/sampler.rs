@@ -22,7 +22,7 @@ pub enum Sampler {
 
 /// What is looked at, by which light.
 #[derive(Clone, Copy)]
-pub struct Look<'a> {
+pub struct Subject<'a> {
     pub specimen: &'a Specimen,
     pub medium: Medium,
     pub view: &'a View,
@@ -117,13 +117,13 @@ impl Sampler {
     /// A picture, row by row.
     pub fn rows(
         self,
-        look: Look,
+        look: Subject,
         film: &Film,
         manner: &Manner,
         watch: Watch,
         mut each: impl FnMut(&Rows) -> Result<(), WriteError>,
     ) -> Result<(), Failure> {
-        let Look { specimen, medium, view, scope } = look;
+        let Subject { specimen, medium, view, scope } = look;
         let polytope = &specimen.stone.polytope;
         let each = |rows: &Rows| each(rows).map_err(Failure::from);
         match self {
@@ -136,8 +136,14 @@ impl Sampler {
     }
 
     /// The figures of a view, by lattices of `side` squared rays.
-    pub fn figures(self, look: Look, options: Options, side: u32, watch: Watch) -> Result<Figures, Failure> {
-        let Look { specimen, medium, view, scope } = look;
+    pub fn figures(
+        self,
+        look: Subject,
+        options: Options,
+        side: u32,
+        watch: Watch,
+    ) -> Result<Figures, Failure> {
+        let Subject { specimen, medium, view, scope } = look;
         let polytope = &specimen.stone.polytope;
         match self {
             Self::Rays => Ok(measure::by_rays(polytope, medium, view, scope, (options, side), watch)?),

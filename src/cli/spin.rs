@@ -1,13 +1,14 @@
 //! `spin`: a stone that turns, rocks or wobbles, as numbered pictures and as one that moves.
 
 use super::options::ViewOptions;
-use super::picturing::{PictureOptions, Studio};
+use super::picture_options::PictureOptions;
+use super::picturing::Studio;
 use super::progress::Progress;
 use super::specimen::stem;
 use super::{Failure, print};
 use crate::io::{Frames, write_apng, write_rgba_png};
 use crate::picture::Background;
-use crate::scene::{Lean, View};
+use crate::scene::{Setting, View};
 use clap::{Args, ValueEnum};
 use std::f64::consts::TAU;
 use std::path::PathBuf;
@@ -39,7 +40,7 @@ pub struct Spin {
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum Motion {
-    /// About its own axis, under eye and light that stay; face up unless --eye-tilt moves the eye
+    /// About its own axis, under eye and light that stay; --tilt or --eye-tilt shows more of its side
     Turn,
     /// To and fro toward --azimuth
     Rock,
@@ -49,36 +50,31 @@ enum Motion {
 
 impl Spin {
     pub fn run(&self) -> Result<(), Failure> {
-        if !(0.02..=3600.0).contains(&self.seconds) {
-            return Err(Failure::Usage(format!("--seconds {}: give 0.02 to 3600", self.seconds)));
-        }
-        if !(0.0..=90.0).contains(&self.swing) {
-            return Err(Failure::Usage(format!("--swing {}: give 0 to 90 degrees", self.swing)));
-        }
         let first = self.view.view(None)?;
+        let delay_ms = self.delay_ms()?;
+        self.check_swing()?;
         let studio = Studio::load(&self.picture, &self.file, &first)?;
-        studio.view(&self.view)?;
-        let views: Vec<(View, f64)> = (0..self.frames).map(|k| self.frame(&first, k)).collect();
+        let frames: Vec<(Setting, View)> = (0..self.frames).map(|k| self.frame(&studio, &first, k)).collect();
         // The stones keep their size: that at which they fit in every frame.
-        let mut pixels = views.iter().map(|(view, _)| studio.pixel(view));
+        let mut pixels = frames.iter().map(|(setting, view)| studio.pixel(setting, view));
         let pixel = pixels.try_fold(0.0_f64, |most, pixel| pixel.map(|p| most.max(p)))?;
         let name = format!("{}-spin", stem(&self.file));
         let folder = self.out.join(&name);
         let path = self.out.join(format!("{name}.png"));
         let [width, height] = self.picture.size;
-        let frames = Frames {
+        let animation = Frames {
             count: self.frames,
             size: (width, height),
-            delay_ms: (1000.0 * self.seconds / f64::from(self.frames)).round().clamp(1.0, 65_535.0) as u16,
+            delay_ms,
             transparent: studio.develop.background == Background::Transparent,
         };
-        let told = format!("{}, {} frames", studio.assembly.name, self.frames);
+        let told = format!("{}, {} frames; {}", studio.assembly.name, self.frames, studio.told());
         let bar = Progress::new(&format!("{}: spin", studio.assembly.name));
-        write_apng(&path, frames, &told, |animation| -> Result<(), Failure> {
-            for (number, (view, turn)) in views.iter().enumerate() {
-                let done = |part: f64| bar.watch()((number as f64 + part) / views.len() as f64);
-                let taken = studio.take(view, (pixel, *turn), &done)?;
-                let rgba = studio.developed(view, (pixel, *turn), &taken.picture, &done)?;
+        write_apng(&path, animation, &told, |animation| -> Result<(), Failure> {
+            for (number, (setting, view)) in frames.iter().enumerate() {
+                let done = |part: f64| bar.watch()((number as f64 + part) / frames.len() as f64);
+                let taken = studio.take(setting, (view, pixel), &done)?;
+                let rgba = studio.developed(setting, (view, pixel), &taken.picture, &done)?;
                 let still = folder.join(format!("{:04}.png", number + 1));
                 write_rgba_png(&still, &rgba, (width, height), &taken.told)?;
                 animation.push(&rgba)?;
@@ -89,22 +85,43 @@ impl Spin {
         print(&path.display().to_string())
     }
 
-    /// The view of a frame, and by how many degrees the light is turned in it.
-    fn frame(&self, first: &View, number: u32) -> (View, f64) {
-        let part = f64::from(number) / f64::from(self.frames);
+    /// How long a frame is shown.
+    fn delay_ms(&self) -> Result<u16, Failure> {
+        let delay = (1000.0 * self.seconds / f64::from(self.frames)).round();
+        if (1.0..=f64::from(u16::MAX)).contains(&delay) {
+            return Ok(delay as u16);
+        }
+        let (seconds, frames) = (self.seconds, self.frames);
+        let message =
+            format!("--seconds {seconds}: {frames} frames of {delay} ms; each may take 1 to 65535 ms");
+        Err(Failure::Usage(message))
+    }
+
+    fn check_swing(&self) -> Result<(), Failure> {
+        let tilt = if self.view.eye_tilt == 0.0 { self.view.tilt } else { self.view.eye_tilt };
         match self.motion {
-            // Eye and light go round the stone together, the other way.
-            Motion::Turn => {
-                let azimuth = first.azimuth - TAU * part;
-                (View { lean: Lean::Eye, azimuth, ..*first }, -360.0 * part)
+            Motion::Wobble if tilt != 0.0 => Err(Failure::Usage(
+                "--motion wobble: --swing is the tilt; leave out --tilt and --eye-tilt".into(),
+            )),
+            Motion::Rock | Motion::Wobble if !(0.0..=90.0 - tilt.abs()).contains(&self.swing) => {
+                Err(Failure::Usage(format!(
+                    "--swing {}: with the tilt it must be from 0 to 90 degrees",
+                    self.swing
+                )))
             }
-            Motion::Rock => {
-                let tilt = first.tilt + self.swing.to_radians() * (TAU * part).sin();
-                (View { tilt, ..*first }, 0.0)
-            }
+            _ => Ok(()),
+        }
+    }
+
+    /// The stones of a frame, and the view of them.
+    fn frame(&self, studio: &Studio, first: &View, number: u32) -> (Setting, View) {
+        let part = TAU * f64::from(number) / f64::from(self.frames);
+        let swing = self.swing.to_radians();
+        match self.motion {
+            Motion::Turn => (studio.turned(part), *first),
+            Motion::Rock => (studio.turned(0.0), View { tilt: first.tilt + swing * part.sin(), ..*first }),
             Motion::Wobble => {
-                let azimuth = first.azimuth + TAU * part;
-                (View { lean: Lean::Stone, tilt: self.swing.to_radians(), azimuth, ..*first }, 0.0)
+                (studio.turned(0.0), View { tilt: swing, azimuth: first.azimuth + part, ..*first })
             }
         }
     }

@@ -68,17 +68,21 @@ impl<'a> ByBeams<'a> {
     }
 
     /// The colours of one band's beams, in all copies.
-    fn patches(&self, beams: &Beams, response: &[DVec3; 4], is_first: bool) -> Vec<Patches> {
+    fn patches(&self, beams: &Beams, look: &Look, band: usize) -> Vec<Patches> {
+        let (response, is_first) = (&look.responses[band], band == 0);
         let sweeps = beams.sweeps(self.stone);
         let copies: Vec<(DMat2, DAffine2)> =
             beams.symmetry.copies().into_iter().map(|c| (c, self.pixels_from_image(c))).collect();
         let ids: Vec<u32> = (0..beams.len() as u32).collect();
         let some = |ids: &[u32]| {
             let mut out = Patches::default();
-            for beam in ids.iter().map(|&id| beams.get(id)).filter(|b| b.weight > 0.0) {
+            for beam in
+                ids.iter().map(|&id| beams.get(id)).filter(|b| b.weight > 0.0 || (is_first && b.is_surface()))
+            {
                 let cover = f64::from(u8::from(is_first && beam.is_surface()));
                 for (copy, pixels) in &copies {
-                    let light = self.arriving(beams, &beam, sweeps[beam.id as usize], *copy);
+                    let sweep = sweeps[beam.id as usize];
+                    let light = self.arriving(beams, &beam, (look.middle(beam.exit, sweep), sweep), *copy);
                     let colour: DVec3 = response.iter().zip(light.to_array()).map(|(&c, l)| c * l).sum();
                     out.add(&beam, &beams.medium, pixels, colour.extend(cover));
                 }
@@ -89,11 +93,11 @@ impl<'a> ByBeams<'a> {
     }
 
     /// The light that comes through a copy of a beam, by channel, as if nothing were absorbed.
-    fn arriving(&self, beams: &Beams, beam: &Beam, sweep: DVec3, copy: DMat2) -> DVec4 {
+    fn arriving(&self, beams: &Beams, beam: &Beam, (exit, sweep): (DVec3, DVec3), copy: DMat2) -> DVec4 {
         let eye = &beams.view;
         let turned = |v: DVec3| eye.lift(copy * eye.project(v)) + eye.toward * eye.toward.dot(v);
         let weight = beam.weight / beam.transmittance;
-        self.sitting.surround.radiance(DVec3::ZERO, turned(beam.exit), turned(sweep)) * weight
+        self.sitting.surround.radiance(DVec3::ZERO, turned(exit), turned(sweep)) * weight
     }
 
     fn paint(&mut self, found: &[Patches]) {
@@ -142,10 +146,10 @@ impl Patches {
 impl<E: From<Stopped>> Exposure<E> for ByBeams<'_> {
     fn look(&mut self, look: &Look, watch: Watch) -> Result<(), E> {
         let bands = look.responses.len();
-        for (band, (response, &medium)) in look.responses.iter().zip(&look.media[0]).enumerate() {
+        for (band, &medium) in look.media[0].iter().enumerate() {
             let done = |part: f64| watch((band as f64 + part) / bands as f64);
             let beams = beam::trace(self.stone, medium, self.sitting.view, &self.options, &done)?;
-            let found = self.patches(&beams, response, band == 0);
+            let found = self.patches(&beams, look, band);
             self.paint(&found);
             let whole = f64::from(beams.symmetry.order()) / beams.silhouette_area / bands as f64;
             self.unresolved += beams.unresolved() / bands as f64;
@@ -156,24 +160,20 @@ impl<E: From<Stopped>> Exposure<E> for ByBeams<'_> {
     }
 
     /// What is unresolved and absorbed is known of the whole picture alone: every covered pixel bears the mean.
-    fn lit(&self) -> Result<Vec<Lit>, E> {
+    fn lit(&self, each: &mut dyn FnMut(&Lit)) -> Result<(), E> {
         let share = 1.0 / f64::from(self.looks.max(1));
-        let lit = |v: &DVec4| {
-            let cover = v.w * share;
-            Lit {
-                colour: v.truncate() * share,
-                cover,
-                unresolved: self.unresolved * share * cover,
-                absorbed: self.absorbed * share * cover,
-                bounces: 0.0,
+        for piece in &self.pieces {
+            let rows = piece.clone().summed();
+            for v in (rows.first..rows.first + rows.count).flat_map(|y| rows.row(y, 0)) {
+                let cover = v.w * share;
+                each(&Lit {
+                    colour: v.truncate() * share,
+                    cover,
+                    unresolved: self.unresolved * share * cover,
+                    absorbed: self.absorbed * share * cover,
+                });
             }
-        };
-        let piece = |rows: &Rows<DVec4>| {
-            let rows = rows.clone().summed();
-            (rows.first..rows.first + rows.count)
-                .flat_map(|y| rows.row(y, 0).iter().map(lit).collect::<Vec<_>>())
-                .collect::<Vec<_>>()
-        };
-        Ok(self.pieces.par_iter().flat_map_iter(piece).collect())
+        }
+        Ok(())
     }
 }

@@ -41,12 +41,12 @@ pub fn expose<E: From<Stopped>, X: Exposure<E>>(
             };
             exposure.look(&Look::new(sitting.setting, strata, number), &done)?;
         }
-        for lit in exposure.lit()? {
+        exposure.lit(&mut |lit| {
             sum.unresolved += lit.unresolved;
             sum.absorbed += lit.absorbed;
             cover += lit.cover;
-            pixels.push(pixel(&lit));
-        }
+            pixels.push(pixel(lit));
+        })?;
     }
     let share = if cover > 0.0 { 1.0 / cover } else { 0.0 };
     let remainder = Remainder { unresolved: sum.unresolved * share, absorbed: sum.absorbed * share };

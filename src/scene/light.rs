@@ -206,7 +206,9 @@ impl Light {
     /// # Errors
     /// The first at fault.
     pub fn validate(&self) -> Result<(), LightError> {
-        const ANGLE: &str = "give an angle of more than 0 and at most 180 degrees";
+        const ANGLE: &str = "give 0.5 to 180 degrees";
+        const WIDTH: &str = "give 0 to 180 degrees";
+        const RADIUS: &str = "give 0.001 to 90 degrees";
         const ELEVATION: &str = "give an elevation from -90 to 90 degrees";
         const RADIANCE: &str = "give 0 to 1e6; 1 is a white sheet in full light";
         const FINITE: &str = "give a number from -1e6 to 1e6";
@@ -217,12 +219,12 @@ impl Light {
             })
         };
         let elevation = |key, value| (key, value, -90.0, 90.0, ELEVATION);
-        let angle = |key, value| (key, value, 1e-6, 180.0, ANGLE);
+        let angle = |key, value| (key, value, 0.5, 180.0, ANGLE);
         let radiance = |key, value| (key, value, 0.0, 1e6, RADIANCE);
         let finite = |key, value| (key, value, -1e6, 1e6, FINITE);
         check("light", 0, &[("head", self.head, 0.0, 89.0, "give 0 to 89 degrees")])?;
         for (k, d) in self.dome.iter().enumerate() {
-            let soft = ("soft", d.soft, 0.0, 180.0, ANGLE);
+            let soft = ("soft", d.soft, 0.0, 180.0, WIDTH);
             let end = radiance("end", d.end.unwrap_or(0.0));
             let edges = [elevation("from", d.from), elevation("to", d.to)];
             check("dome", k, &[edges[0], edges[1], soft, radiance("radiance", d.radiance), end])?;
@@ -232,22 +234,19 @@ impl Light {
             let place =
                 [finite("azimuth", b.azimuth), elevation("elevation", b.elevation), finite("turn", b.turn)];
             let size =
-                [angle("width", b.width), angle("height", b.height), ("soft", b.soft, 0.0, 180.0, ANGLE)];
+                [angle("width", b.width), angle("height", b.height), ("soft", b.soft, 0.0, 180.0, WIDTH)];
             check("box", k, &place).and(check("box", k, &size))?;
             check("box", k, &[radiance("radiance", b.radiance)])?;
         }
         for (k, l) in self.lamp.iter().enumerate() {
             let place = [finite("azimuth", l.azimuth), elevation("elevation", l.elevation)];
             check("lamp", k, &place)?;
-            check("lamp", k, &[("radius", l.radius, 1e-3, 90.0, ANGLE), radiance("radiance", l.radiance)])?;
+            check("lamp", k, &[("radius", l.radius, 1e-3, 90.0, RADIUS), radiance("radiance", l.radiance)])?;
         }
         for (k, f) in self.field.iter().enumerate() {
-            check(
-                "field",
-                k,
-                &[elevation("from", f.from), ("to", f.to, f.from, 90.0, "it must not lie below `from`")],
-            )?;
-            check("field", k, &[("radius", f.radius, 1e-3, 90.0, ANGLE), radiance("radiance", f.radiance)])?;
+            check("field", k, &[elevation("from", f.from), elevation("to", f.to)])?;
+            check("field", k, &[("to", f.to, f.from, 90.0, "it must not lie below `from`")])?;
+            check("field", k, &[("radius", f.radius, 1e-3, 90.0, RADIUS), radiance("radiance", f.radiance)])?;
         }
         if let Some(p) = &self.panorama {
             check("panorama", 0, &[("exposure", p.exposure, -40.0, 40.0, "give stops from -40 to 40")])?;

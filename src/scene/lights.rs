@@ -214,7 +214,7 @@ mod tests {
         let lamp = Lamp { radius: 0.0, ..lamp((0.0, 45.0), 1.0, 1.0) };
         let light = Light { lamp: vec![lamp], ..Light::studio() };
         let told = light.validate().unwrap_err().to_string();
-        assert!(told.starts_with("lamp 1: radius is 0; give an angle"), "{told}");
+        assert!(told.starts_with("lamp 1: radius is 0; give 0.001 to 90"), "{told}");
         let dark = Light::named("dark", "");
         assert_eq!(dark.validate(), Err(super::super::light::LightError::Dark));
         let crowd = Field { count: 4_000_000_000, ..Light::fire().field[0].clone() };

@@ -20,6 +20,19 @@ impl Panorama {
         self.width.abs_diff(2 * self.height) <= 1
     }
 
+    /// The same picture of half as many pixels each way, each the mean of those that it stands for.
+    pub fn halved(&self) -> Self {
+        let (width, height) = (self.width.div_ceil(2), self.height.div_ceil(2));
+        let mean = |x: u32, y: u32| {
+            let at = |x: u32, y: u32| (y.min(self.height - 1) * self.width + x.min(self.width - 1)) as usize;
+            let all =
+                [at(2 * x, 2 * y), at(2 * x + 1, 2 * y), at(2 * x, 2 * y + 1), at(2 * x + 1, 2 * y + 1)];
+            [0, 1, 2].map(|c| all.iter().map(|&k| 0.25 * self.pixels[k][c]).sum())
+        };
+        let pixels = (0..height).flat_map(|y| (0..width).map(move |x| mean(x, y))).collect();
+        Self { width, height, pixels }
+    }
+
     /// The light between the middles of the four pixels around a place, in pixels from the middle of the first; beyond
     /// the edge that of the edge.
     pub fn between(&self, at: DVec2) -> DVec3 {

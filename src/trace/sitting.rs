@@ -30,13 +30,18 @@ pub struct Sitting<'a> {
 pub struct Look {
     /// Where in its pixel the ray stands, 0 to 1.
     pub shift: DVec2,
+    /// Where in its band the wavelength stands that is taken, 0 to 1.
+    pub part: f64,
     /// What the stones are made of: stone by stone, band by band.
     pub media: Vec<Vec<Medium>>,
     /// For each band the colour of light of radiance 1 in the surround's four channels.
     pub responses: Vec<[DVec3; 4]>,
 }
 
-/// What light shows of one pixel: means over looks; the last four over wavelengths as well.
+/// Rays of one pixel that may wait to meet another stone.
+pub const MOST_WAITING: usize = 24;
+
+/// What light shows of one pixel: means over looks; the last two over wavelengths as well.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Lit {
     /// Linear colour, sRGB's primaries; 0 beside the stones unless the surround is the backdrop.
@@ -47,8 +52,6 @@ pub struct Lit {
     pub unresolved: f64,
     /// Share absorbed.
     pub absorbed: f64,
-    /// Bounces inside stones.
-    pub bounces: f64,
 }
 
 /// Rows of a picture that grow clearer with every look.
@@ -59,11 +62,11 @@ pub trait Exposure<E: From<Stopped>> {
     /// [`Stopped`] when `watch` asks to stop, or what is wrong with a card.
     fn look(&mut self, look: &Look, watch: Watch) -> Result<(), E>;
 
-    /// What has been seen so far, row by row.
+    /// Calls `each` with what has been seen so far, pixel by pixel.
     ///
     /// # Errors
     /// What is wrong with a card.
-    fn lit(&self) -> Result<Vec<Lit>, E>;
+    fn lit(&self, each: &mut dyn FnMut(&Lit)) -> Result<(), E>;
 }
 
 /// The steps of M. Roberts' R3 sequence (2018), powers of 1/1.2207...: points of it are spread evenly over a cube however
@@ -79,9 +82,18 @@ impl Look {
         let medium = |stone: &Placed, s: &Stratum| Medium::of(&stone.material, band(s), setting.unit_mm);
         Self {
             shift: at.truncate(),
+            part: at.z,
             media: setting.stones.iter().map(|p| strata.iter().map(|s| medium(p, s)).collect()).collect(),
             responses: strata.iter().map(|s| s.response).collect(),
         }
+    }
+}
+
+impl Look {
+    /// The direction for which a ray stands that leaves in `direction`, at the wavelength taken: that of the middle of its
+    /// band, around which `sweep` reaches half to either side.
+    pub fn middle(&self, direction: DVec3, sweep: DVec3) -> DVec3 {
+        direction + sweep * (0.5 - self.part)
     }
 }
 

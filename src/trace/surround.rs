@@ -6,9 +6,11 @@
 //! (L. Williams, *Pyramidal parametrics*, 1983) for the rest. The map: Z. H. Cigolle et al., *A Survey of Efficient
 //! Representations for Independent Unit Vectors*, JCGT 3(2), 2014. The twin is shaders/surround.wgsl.
 
+mod drawing;
+
 use crate::math::Basis;
-use crate::optics::linear_from_encoded;
-use crate::scene::{Dome, Light, Panorama, SoftBox, toward};
+use crate::scene::{Light, Panorama, toward};
+use drawing::{channels, shine};
 use glam::{DVec2, DVec3, DVec4, IVec2, Vec2Swizzles as _, Vec4Swizzles as _};
 use rayon::prelude::*;
 
@@ -23,6 +25,9 @@ const SIDE_OF_PANORAMA: usize = 1024;
 
 /// Samples along each side of a texel, at least and at most: as many as there are pixels of a panorama.
 const PER_SIDE: (usize, usize) = (2, 8);
+
+/// The brightest light that is told from brighter: sums of it are finite in f32.
+const BRIGHTEST: f64 = 1e12;
 
 /// Radiance by channel: of the key illuminant's spectrum, of red, of green, of blue.
 pub type Radiance = [f32; 4];
@@ -77,6 +82,12 @@ pub struct Surround<'a> {
     pub backdrop: bool,
 }
 
+/// The square of a sweep below which a ray is one direction.
+const STILL: f64 = 1e-14;
+
+/// The cosine below which a ray runs along a photograph.
+const ALONG: f64 = 1e-6;
+
 /// Least width of the edge of the head's shadow, in cosine.
 pub(crate) const HEAD_EDGE: f64 = 0.004;
 
@@ -95,7 +106,7 @@ impl Sky {
                     shine(light, panorama, direction(at))
                 };
                 let all: DVec4 = (0..per_side * per_side).map(sample).sum();
-                (all / (per_side * per_side) as f64).as_vec4().to_array()
+                (all / (per_side * per_side) as f64).min(DVec4::splat(BRIGHTEST)).as_vec4().to_array()
             };
             (0..side).map(texel).collect::<Vec<_>>()
         };
@@ -160,7 +171,7 @@ impl Surround<'_> {
 impl Behind<'_> {
     fn at(&self, eye: &Basis, from: DVec3, direction: DVec3) -> Option<DVec3> {
         let (speed, height) = (-direction.dot(eye.toward), from.dot(eye.toward) + self.distance);
-        if speed <= 1e-6 || height <= 0.0 {
+        if speed <= ALONG || height <= 0.0 {
             return None;
         }
         let p = eye.project(from + direction * (height / speed)) * DVec2::new(1.0, -1.0) / self.width + 0.5;
@@ -175,7 +186,7 @@ impl Behind<'_> {
 fn share_inside(from_middle: DVec3, sweep: DVec3, chord_squared: f64) -> f64 {
     let (a, b) = (sweep.length_squared(), from_middle.dot(sweep));
     let c = from_middle.length_squared() - chord_squared;
-    if a < 1e-14 {
+    if a < STILL {
         return if c < 0.0 { 1.0 } else { 0.0 };
     }
     let under_root = b * b - a * c;
@@ -226,57 +237,6 @@ fn halved(fine: &[Radiance]) -> Vec<Radiance> {
     (0..size / 2).flat_map(|y| (0..size / 2).map(move |x| (x, y))).map(|(x, y)| mean(x, y)).collect()
 }
 
-/// A radiance of 1 by channel.
-fn channels(colour: Option<[u8; 3]>) -> DVec4 {
-    colour.map_or(DVec4::X, |rgb| {
-        DVec3::from_array(rgb.map(|c| linear_from_encoded(f64::from(c) / 255.0))).extend(0.0).wxyz()
-    })
-}
-
-/// The broad light from a direction of the light's own frame.
-fn shine(light: &Light, panorama: Option<&Panorama>, d: DVec3) -> DVec4 {
-    let domes = light.dome.iter().map(|dome| channels(dome.colour) * belt(dome, d));
-    let boxes = light.boxes.iter().map(|b| channels(b.colour) * b.radiance * box_cover(b, d));
-    let picture = light.panorama.as_ref().zip(panorama).map(|(how, picture)| {
-        let turn = glam::DQuat::from_rotation_z(-how.turn.to_radians());
-        (picture.toward(turn * d) * how.exposure.exp2()).extend(0.0).wxyz()
-    });
-    domes.chain(boxes).chain(picture).sum()
-}
-
-/// A step from 0 to 1 as `x` rises through 0, smooth over a width.
-fn step(x: f64, width: f64) -> f64 {
-    if width <= 0.0 {
-        return if x >= 0.0 { 1.0 } else { 0.0 };
-    }
-    let t = (x / width + 0.5).clamp(0.0, 1.0);
-    t * t * (3.0 - 2.0 * t)
-}
-
-fn belt(dome: &Dome, d: DVec3) -> f64 {
-    let elevation = d.z.clamp(-1.0, 1.0).asin().to_degrees();
-    // A belt that reaches a pole has no edge there.
-    let above = if dome.from <= -90.0 { 1.0 } else { step(elevation - dome.from, dome.soft) };
-    let below = if dome.to >= 90.0 { 1.0 } else { step(dome.to - elevation, dome.soft) };
-    let (low, high) = (dome.from.to_radians().sin(), dome.to.to_radians().sin());
-    let part = if high > low { ((d.z - low) / (high - low)).clamp(0.0, 1.0) } else { 0.0 };
-    let end = dome.end.unwrap_or(dome.radiance);
-    (dome.radiance + (end - dome.radiance) * part) * above * below
-}
-
-fn box_cover(b: &SoftBox, d: DVec3) -> f64 {
-    let middle = toward(b.azimuth, b.elevation);
-    let (sin, cos) = b.azimuth.to_radians().sin_cos();
-    let across = DVec3::new(-sin, cos, 0.0);
-    let up = middle.cross(across);
-    let (sin, cos) = b.turn.to_radians().sin_cos();
-    let (u, v) = (across * cos + up * sin, up * cos - across * sin);
-    let ahead = d.dot(middle);
-    let inside =
-        |axis: DVec3, width: f64| step(width / 2.0 - d.dot(axis).atan2(ahead).to_degrees().abs(), b.soft);
-    if ahead <= 0.0 { 0.0 } else { inside(u, b.width) * inside(v, b.height) }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -320,7 +280,8 @@ mod tests {
 
     #[test]
     fn the_sky_keeps_its_light_at_every_level() {
-        let dome = |from, to| Dome { from, to, soft: 5.0, radiance: 1.0, end: None, colour: None };
+        let dome =
+            |from, to| crate::scene::Dome { from, to, soft: 5.0, radiance: 1.0, end: None, colour: None };
         let light = Light { dome: vec![dome(20.0, 90.0)], ..crate::scene::Light::white() };
         let sky = Sky::new(&light, None);
         // The share of the sphere above 20 degrees, weighted as the map weighs it: alike at all levels.

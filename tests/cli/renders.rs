@@ -131,6 +131,12 @@ fn a_spin_is_numbered_frames_and_an_animation_of_them() {
         let frames = files(&desk.at(format!("{motion}/modern-ideal-spin")));
         assert!(frames.keys().eq(["0001.png", "0002.png", "0003.png"]), "{:?}", frames.keys());
         assert!(frames["0001.png"] != frames["0002.png"]);
+        if motion == "turn" {
+            // The stones turn, and not the light alone: by its facets a dark frame differs.
+            desk.done("spin modern-ideal --frames 2 --size 32 --wavelengths 1 --samples 1 --exposure -40 --bloom 0 --overlay facets --out dark");
+            let dark = files(&desk.at("dark/modern-ideal-spin"));
+            assert!(dark["0001.png"] != dark["0002.png"]);
+        }
         let (moving, animation) = frame(&desk.at(format!("{motion}/modern-ideal-spin.png")));
         assert_eq!(animation, Some((3, 0)));
         let (still, none) = frame(&desk.at(format!("{motion}/modern-ideal-spin/0001.png")));
@@ -165,8 +171,10 @@ fn a_render_at_fault_is_refused_and_says_why() {
         ("render modern-ideal --bloom 2", 2, "--bloom 2: give 0 to 1"),
         ("render modern-ideal --overlay hair", 2, "wireframe"),
         ("render modern-ideal tolkowsky --out a.png", 2, "several stones need a folder"),
-        ("spin modern-ideal --seconds 0", 2, "--seconds 0: give"),
-        ("spin modern-ideal --swing 100", 2, "--swing 100: give"),
+        ("spin modern-ideal --seconds 0", 2, "--seconds 0: 48 frames of 0 ms"),
+        ("spin modern-ideal --motion rock --swing 100", 2, "--swing 100: with the tilt"),
+        ("spin modern-ideal --motion rock --tilt 80 --swing 20", 2, "--swing 20: with the tilt"),
+        ("spin modern-ideal --motion wobble --tilt 8", 2, "leave out --tilt"),
         ("render no-such-cut", 1, "no-such-cut"),
     ] {
         let said = desk.refused(line, code);

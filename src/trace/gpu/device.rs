@@ -34,6 +34,16 @@ pub enum GpuError {
         /// How many there is room for.
         most: usize,
     },
+    /// A driver in software would follow too few bounces.
+    #[error("{name} follows only {bounces} bounces among {stones} stones")]
+    TooFewBounces {
+        /// The card.
+        name: String,
+        /// How many.
+        bounces: u32,
+        /// How many stones there are.
+        stones: usize,
+    },
     /// The scope has more bands than a pixel has room for.
     #[error("a scope of {count} bands is traced by rays; the graphics card takes {most}")]
     TooManyBands {
@@ -131,5 +141,6 @@ impl Gpu {
 
 /// Keeps the first fault: those that follow are its consequences.
 fn note(fault: &Mutex<Option<String>>, why: String) {
+    let why = why.split_whitespace().collect::<Vec<_>>().join(" ");
     fault.lock().unwrap_or_else(PoisonError::into_inner).get_or_insert(why);
 }

@@ -34,7 +34,7 @@ both_sides! {
         up: vec4f,
         /// The axis to the eye; its distance, 0 for parallel rays.
         toward: vec4f,
-        /// Least weight; nothing; where in its pixel, or its cell of the pixel's grid, a ray stands, x and y.
+        /// Least weight; how far, in parts of the band, from the wavelength taken to its middle; where in its pixel, or its cell of the pixel's grid, a ray stands, x and y.
         limits: vec4f,
         /// Stones; wavelengths; most bounces; 1 for polarised.
         counts: vec4u,
@@ -128,7 +128,7 @@ both_sides! {
     Lit, LIT_WGSL {
         /// Red, green, blue, cover.
         colour: vec4f,
-        /// Unresolved; absorbed; bounces; nothing.
+        /// Unresolved; absorbed; nothing in the others.
         rest: vec4f,
     }
 }

@@ -42,13 +42,14 @@ impl<'a> ByCard<'a> {
     }
 
     /// Prepares some rows of a picture, at most [`most_rows`](Self::most_rows), to be looked at in so many bands of
-    /// wavelengths, at most [`MOST_WAVELENGTHS`].
+    /// wavelengths, at most [`MOST_WAVELENGTHS`]; `around` is the sitting's surround.
     ///
     /// # Errors
     /// What is wrong with the card, or beyond it.
     pub fn new(
         gpu: &'a Gpu,
         sitting: &Sitting,
+        around: &Around,
         rows: Range<u32>,
         wavelengths: usize,
     ) -> Result<Self, GpuError> {
@@ -62,9 +63,8 @@ impl<'a> ByCard<'a> {
         let media = copied("media", bytes, wgpu::BufferUsages::STORAGE);
         let bytes = size_of::<Response>() * MOST_WAVELENGTHS;
         let responses = copied("responses", bytes, wgpu::BufferUsages::UNIFORM);
-        let sky = Sky::new(gpu, &sitting.surround);
         let mut entries = solids.entries(&media);
-        entries.extend(sky.entries());
+        entries.extend(around.entries());
         entries.push(wgpu::BindGroupEntry { binding: 10, resource: responses.as_entire_binding() });
         let eye = Eye {
             view: sitting.view,
@@ -74,6 +74,7 @@ impl<'a> ByCard<'a> {
             options: sitting.options,
         };
         let told = eye.frame(gpu, &solids, wavelengths);
+        solids.enough(gpu, told.counts[2])?;
         let pipeline = gpu.lights.pipeline(&gpu.device, solids.is_few);
         let stage = Stage::new::<door::Lit>(gpu, pipeline, told, rows.len() as u32, entries)?;
         let at_once = Stage::rows(gpu, sitting.size);
@@ -108,7 +109,7 @@ impl<E: From<Stopped> + From<GpuError>> Exposure<E> for ByCard<'_> {
                     return Err(Stopped.into());
                 }
                 let turn = [self.dispatches, self.rows.start, band as u32, end as u32];
-                self.stage.look((first, count), look.shift, turn)?;
+                self.stage.look((first, count), (look.shift, 0.5 - look.part), turn)?;
             }
             self.dispatches += 1;
         }
@@ -116,33 +117,30 @@ impl<E: From<Stopped> + From<GpuError>> Exposure<E> for ByCard<'_> {
         Ok(())
     }
 
-    fn lit(&self) -> Result<Vec<Lit>, E> {
-        let share = 1.0 / (f64::from(self.looks.max(1)) * self.wavelengths as f64);
-        let lit = |sum: &door::Lit| {
-            let ([red, green, blue, cover], [unresolved, absorbed, bounces, _]) =
-                (sum.colour.map(f64::from), sum.rest.map(f64::from));
-            Lit {
-                colour: DVec3::new(red, green, blue) / f64::from(self.looks.max(1)),
-                cover: cover * share,
-                unresolved: unresolved * share,
-                absorbed: absorbed * share,
-                bounces: bounces * share,
-            }
-        };
-        Ok(self.stage.read::<door::Lit>(self.rows.len() as u32)?.iter().map(lit).collect())
+    fn lit(&self, each: &mut dyn FnMut(&Lit)) -> Result<(), E> {
+        let looks = 1.0 / f64::from(self.looks.max(1));
+        let share = looks / self.wavelengths as f64;
+        for sum in self.stage.read::<door::Lit>(self.rows.len() as u32)? {
+            let [red, green, blue, cover] = sum.colour.map(f64::from);
+            let [unresolved, absorbed, ..] = sum.rest.map(|x| f64::from(x) * share);
+            let colour = DVec3::new(red, green, blue) * looks;
+            each(&Lit { colour, cover: cover * share, unresolved, absorbed });
+        }
+        Ok(())
     }
 }
 
-/// What stands around, in the card's memory.
-struct Sky {
+/// What stands around, in a card's memory: the same for all rows of a picture.
+pub struct Around {
     surround: wgpu::Buffer,
     lamps: wgpu::Buffer,
     map: wgpu::TextureView,
     photo: wgpu::TextureView,
 }
 
-impl Sky {
-    fn new(gpu: &Gpu, surround: &Surround) -> Self {
+impl Around {
+    /// Takes it there.
+    pub fn new(gpu: &Gpu, surround: &Surround) -> Self {
         let mut lamps: Vec<Lamp> = surround
             .sky
             .lamps

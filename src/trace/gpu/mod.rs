@@ -14,7 +14,7 @@ mod stage;
 
 pub use device::{Gpu, GpuError};
 pub use door::Seen;
-pub use light::{ByCard, MOST_WAVELENGTHS};
+pub use light::{Around, ByCard, MOST_WAVELENGTHS};
 pub use scope::{MOST_BANDS, MOST_BOUNCES, Shot};
 pub use solids::MOST_BODIES;
 

@@ -60,7 +60,7 @@ impl Gpu {
                 if watch((f64::from(first) + part * f64::from(count)) / f64::from(shot.size)).is_break() {
                     return Err(Stopped.into());
                 }
-                stage.look((first, count), shot.shift, [turn, shot.per_side, 0, 1])?;
+                stage.look((first, count), (shot.shift, 0.0), [turn, shot.per_side, 0, 1])?;
             }
             each(first, &stage.read::<Seen>(count)?)?;
         }

@@ -2,7 +2,8 @@
 
 use super::door;
 use super::light::{MOST_LAMPS, MOST_WAVELENGTHS};
-use super::solids::{MOST_BODIES, MOST_UNIFORM, MOST_WAITING};
+use super::solids::{MOST_BODIES, MOST_UNIFORM};
+use crate::trace::sitting::MOST_WAITING;
 use crate::trace::surround::TEXEL_ANGLE;
 use std::sync::OnceLock;
 

@@ -5,6 +5,7 @@ use super::device::Gpu;
 use super::door::{Body, Bunch, with};
 use crate::math::Plane;
 use crate::trace::gpu::GpuError;
+use crate::trace::sitting::MOST_WAITING;
 
 /// Planes that fit into the uniform array, 16 KiB.
 pub(super) const MOST_UNIFORM: usize = 1024;
@@ -19,8 +20,8 @@ pub const MOST_BODIES: usize = 256;
 /// below this.
 const MOST_TURNS_IN_SOFTWARE: usize = 60_000;
 
-/// Rays of one pixel that may wait to meet another stone.
-pub(super) const MOST_WAITING: usize = 24;
+/// With fewer bounces, pictures of stones would be dark.
+const LEAST_BOUNCES: u32 = 12;
 
 /// The planes of all stones, and which are whose.
 pub(super) struct Solids {
@@ -80,6 +81,14 @@ impl Solids {
         // Every ray that waits is followed like the first, and what leaves is looked for in all stones.
         let turns = MOST_TURNS_IN_SOFTWARE / (1 + MOST_WAITING);
         wanted.min((turns / (self.largest * (1 + self.count))) as u32)
+    }
+
+    /// Whether so many bounces are enough for a picture.
+    pub fn enough(&self, gpu: &Gpu, bounces: u32) -> Result<(), GpuError> {
+        if bounces >= LEAST_BOUNCES || !gpu.is_software() {
+            return Ok(());
+        }
+        Err(GpuError::TooFewBounces { name: gpu.name().to_owned(), bounces, stones: self.count })
     }
 
     /// What the shaders know of stones: the group's entries.

@@ -110,11 +110,16 @@ impl<'a> Stage<'a> {
     }
 
     /// Adds one ray of each pixel of some rows to what is seen through it: where in its pixel, or the grid's cell, it
-    /// stands, and the frame's `turn`.
-    pub fn look(&self, (first, count): (u32, u32), shift: DVec2, turn: [u32; 4]) -> Result<(), GpuError> {
+    /// stands, how far in its band it is from the middle one's wavelength, and the frame's `turn`.
+    pub fn look(
+        &self,
+        (first, count): (u32, u32),
+        (shift, to_middle): (DVec2, f64),
+        turn: [u32; 4],
+    ) -> Result<(), GpuError> {
         let mut told = self.told;
         (told.film[2], told.film[3], told.turn) = (first, count, turn);
-        (told.limits[2], told.limits[3]) = (shift.x as f32, shift.y as f32);
+        told.limits[1..].copy_from_slice(&[to_middle as f32, shift.x as f32, shift.y as f32]);
         self.gpu.queue.write_buffer(&self.frame, 0, bytemuck::bytes_of(&told));
         let mut encoder = self.gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
         {

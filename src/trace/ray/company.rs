@@ -1,17 +1,14 @@
 //! Pictures under light by point rays: stones beside one another, light going from one to the next.
 
-use super::sight::{Met, nearest};
+use super::sight::{Met, is_near, nearest};
 use super::{Camera, Exit, Tracer};
 use crate::math::Polytope;
 use crate::scene::Medium;
-use crate::trace::sitting::{Exposure, Lit, Look, Sitting};
+use crate::trace::sitting::{Exposure, Lit, Look, MOST_WAITING, Sitting};
 use crate::trace::{Stopped, Watch};
 use glam::{DVec2, DVec3, DVec4};
 use rayon::prelude::*;
 use std::ops::Range;
-
-/// Rays of one pixel that may wait to meet another stone, as on a graphics card.
-const MOST_WAITING: usize = 24;
 
 /// Rows traced between two calls of the watch.
 const PIECE: usize = 8;
@@ -64,12 +61,12 @@ impl<'a> ByRays<'a> {
         for (band, response) in look.responses.iter().enumerate() {
             let (mut light, mut unseen) = (DVec4::ZERO, 0.0);
             let mut through = |ray: &Waiting, met: Option<Met>, waiting: &mut Vec<Waiting>| {
-                let Some((stone, met)) = met else { return light += self.arriving(ray) };
+                let Some((stone, met)) = met else { return light += self.arriving(ray, look) };
                 let leave = |exit: Exit| {
                     let Exit { point: origin, direction, sweep, weight, .. } = exit;
                     let ray = Waiting { origin, direction, sweep, weight, left: Some(stone) };
                     if !self.meets_any(&ray) {
-                        light += self.arriving(&ray);
+                        light += self.arriving(&ray, look);
                     } else if waiting.len() < MOST_WAITING && weight > self.sitting.options.least_weight {
                         waiting.push(ray);
                     } else {
@@ -80,7 +77,6 @@ impl<'a> ByRays<'a> {
                 if let Some(rest) = tracer.follow_from(met, ray.origin, way, ray.weight, leave) {
                     lit.unresolved += rest.unresolved;
                     lit.absorbed += rest.absorbed;
-                    lit.bounces += f64::from(rest.bounces);
                 }
             };
             if is_seen {
@@ -93,26 +89,25 @@ impl<'a> ByRays<'a> {
             lit.unresolved += unseen;
         }
         let share = 1.0 / look.responses.len() as f64;
-        let Lit { unresolved, absorbed, bounces, .. } = lit;
-        Lit { unresolved: unresolved * share, absorbed: absorbed * share, bounces: bounces * share, ..lit }
+        let Lit { unresolved, absorbed, .. } = lit;
+        Lit { unresolved: unresolved * share, absorbed: absorbed * share, ..lit }
     }
 
     /// The light that comes down a ray from what stands around.
-    fn arriving(&self, ray: &Waiting) -> DVec4 {
-        self.sitting.surround.radiance(ray.origin, ray.direction, ray.sweep) * ray.weight
+    fn arriving(&self, ray: &Waiting, look: &Look) -> DVec4 {
+        let middle = look.middle(ray.direction, ray.sweep);
+        self.sitting.surround.radiance(ray.origin, middle, ray.sweep) * ray.weight
     }
 
     /// The stone that a ray meets first, and where.
     fn nearest(&self, ray: &Waiting) -> Option<Met> {
-        nearest(&self.tracers, (ray.origin, ray.direction), ray.left)
+        nearest(&self.tracers, &self.balls, (ray.origin, ray.direction), ray.left)
     }
 
     /// Whether a ray meets a stone other than the one that it left.
     fn meets_any(&self, ray: &Waiting) -> bool {
         self.balls.iter().enumerate().any(|(k, &(middle, radius))| {
-            let away = middle - ray.origin;
-            let along = away.dot(ray.direction);
-            let is_near = along > -radius && away.length_squared() - along * along < radius * radius;
+            let is_near = is_near((middle, radius), (ray.origin, ray.direction));
             Some(k) != ray.left && is_near && self.tracers[k].meet(ray.origin, ray.direction).is_some()
         })
     }
@@ -140,7 +135,6 @@ impl<E: From<Stopped>> Exposure<E> for ByRays<'_> {
                 sum.cover += lit.cover;
                 sum.unresolved += lit.unresolved;
                 sum.absorbed += lit.absorbed;
-                sum.bounces += lit.bounces;
             });
         }
         self.sums = sums;
@@ -151,15 +145,15 @@ impl<E: From<Stopped>> Exposure<E> for ByRays<'_> {
         Ok(())
     }
 
-    fn lit(&self) -> Result<Vec<Lit>, E> {
+    fn lit(&self, each: &mut dyn FnMut(&Lit)) -> Result<(), E> {
         let share = 1.0 / f64::from(self.looks.max(1));
         let mean = |sum: &Lit| Lit {
             colour: sum.colour * share,
             cover: sum.cover * share,
             unresolved: sum.unresolved * share,
             absorbed: sum.absorbed * share,
-            bounces: sum.bounces * share,
         };
-        Ok(self.sums.iter().map(mean).collect())
+        self.sums.iter().for_each(|sum| each(&mean(sum)));
+        Ok(())
     }
 }

@@ -16,6 +16,7 @@ pub struct Sight<'a> {
     pub camera: Camera,
     /// The stones.
     pub tracers: Vec<Tracer>,
+    balls: Vec<(DVec3, f64)>,
 }
 
 /// A ray that meets a stone.
@@ -45,6 +46,7 @@ impl<'a> Sight<'a> {
             sitting: *sitting,
             camera: Camera::reaching(sitting.view, sitting.reach()),
             tracers: sitting.setting.stones.iter().map(tracer).collect(),
+            balls: sitting.balls(),
         }
     }
 
@@ -53,13 +55,14 @@ impl<'a> Sight<'a> {
     pub fn through(&self, x: f64, y: f64) -> Option<Glance> {
         let at = self.sitting.image_from_pixel(0, 0, DVec2::new(x, y));
         let (origin, direction) = self.camera.ray(at);
-        let (stone, (facet, distance)) = nearest(&self.tracers, (origin, direction), None)?;
+        let (stone, (facet, distance)) = nearest(&self.tracers, &self.balls, (origin, direction), None)?;
         Some(Glance { origin, direction, stone, facet: facet as u32, distance })
     }
 
     /// Whether another stone stands between a point of this one's surface and the eye.
     pub fn is_hidden(&self, stone: usize, point: DVec3) -> bool {
-        nearest(&self.tracers, (point, self.camera.toward_eye(point)), Some(stone)).is_some()
+        let way = (point, self.camera.toward_eye(point));
+        nearest(&self.tracers, &self.balls, way, Some(stone)).is_some()
     }
 }
 
@@ -72,10 +75,19 @@ pub fn facet_at(sitting: &Sitting, x: f64, y: f64) -> Option<(usize, u32)> {
 /// The stone that a ray meets first, but for the one that it has just left, and where.
 pub(super) fn nearest(
     tracers: &[Tracer],
+    balls: &[(DVec3, f64)],
     (origin, direction): (DVec3, DVec3),
     left: Option<usize>,
 ) -> Option<Met> {
-    let others = (0..tracers.len()).filter(|&k| Some(k) != left);
+    let near = |&k: &usize| Some(k) != left && is_near(balls[k], (origin, direction));
+    let others = (0..tracers.len()).filter(near);
     let met = others.filter_map(|k| Some((k, tracers[k].meet(origin, direction)?)));
     met.min_by(|(_, a), (_, b)| a.1.total_cmp(&b.1))
+}
+
+/// Whether a ray runs through the ball around a stone.
+pub(super) fn is_near((middle, radius): (DVec3, f64), (origin, direction): (DVec3, DVec3)) -> bool {
+    let away = middle - origin;
+    let along = away.dot(direction);
+    along > -radius && away.length_squared() - along * along < radius * radius
 }

@@ -1,0 +1,92 @@
+//! The options of `render` and `spin`: stones, light and picture.
+
+use crate::picture::{Bloom, Overlay, Tone};
+use clap::{Args, ValueEnum};
+
+/// The largest side of a picture under light: it is held in memory.
+pub const MOST_PIXELS: u32 = 8192;
+
+/// How far behind the stones a photograph stands when not told, in girdle radii.
+const PHOTO_DISTANCE: f64 = 3.0;
+
+/// Stones, light and picture.
+#[derive(Debug, Clone, Args)]
+pub struct PictureOptions {
+    /// A light's name, a light file or an HDR panorama (.hdr, .exr); see `lights` [default: the scene's, or studio]
+    #[arg(long, value_name = "LIGHT")]
+    pub light: Option<String>,
+    /// Turn the light about its axis by DEGREES
+    #[arg(long, value_name = "DEGREES", default_value_t = 0.0, allow_negative_numbers = true)]
+    pub turn: f64,
+    /// Half angle of the observer's head, which keeps out light, in DEGREES [default: the light's]
+    #[arg(long, value_name = "DEGREES")]
+    pub head: Option<f64>,
+    /// A material's name, or an index, instead of the file's
+    #[arg(long, value_name = "MATERIAL")]
+    pub material: Option<String>,
+    /// The stone's size, such as 6.5mm or 1.2ct, instead of the file's
+    #[arg(long, value_name = "SIZE")]
+    pub stone: Option<crate::cut::Size>,
+    /// Pixels: a number for a square, or WIDTHxHEIGHT
+    #[arg(long, value_name = "PIXELS", default_value = "1024", value_parser = film_size)]
+    pub size: [u32; 2],
+    /// Wavelengths side by side, 1 to 64
+    #[arg(long, value_name = "N", default_value_t = 16, value_parser = clap::value_parser!(u32).range(1..=64))]
+    pub wavelengths: u32,
+    /// Looks that the picture is made of, each at other wavelengths and places in the pixel [default: 4 by exact beams,
+    /// 64 by rays]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=65536))]
+    pub samples: Option<u32>,
+    /// What traces the light
+    #[arg(long, value_enum, default_value_t = TracerName::Auto)]
+    pub tracer: TracerName,
+    /// Let every surface see unpolarised light
+    #[arg(long)]
+    pub unpolarised: bool,
+    /// See all colours as under daylight, instead of an eye that is used to the light
+    #[arg(long)]
+    pub unadapted: bool,
+    /// Brighter by STOPS
+    #[arg(long, value_name = "STOPS", default_value_t = 0.0, allow_negative_numbers = true)]
+    pub exposure: f64,
+    /// Tone curve: linear, neutral or filmic
+    #[arg(long, value_name = "CURVE", default_value = "neutral")]
+    pub tone: Tone,
+    /// Part of the brightest light that is spread as glow and sparkle, 0 to 1
+    #[arg(long, value_name = "PART", default_value_t = Bloom::default().strength)]
+    pub bloom: f64,
+    /// What lies behind: transparent, a colour (white, #20262e), two from top to bottom (#404850-#101215), `light` for
+    /// what shines, or a photograph's file
+    #[arg(long, value_name = "WHAT", default_value = "#33373d-#0e0f11")]
+    pub background: String,
+    /// What to draw over the stones, separated by commas: wireframe, facets, bounces, unresolved, total (how often light is
+    /// totally reflected before some leaves)
+    #[arg(long, value_name = "WHAT", value_delimiter = ',')]
+    pub overlay: Vec<Overlay>,
+    /// How far behind the stones the photograph stands, in girdle radii
+    #[arg(long, value_name = "DISTANCE", default_value_t = PHOTO_DISTANCE)]
+    pub photo_distance: f64,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum TracerName {
+    /// A graphics card where there is one; else exact beams where they apply, and rays where they do not
+    Auto,
+    /// Exact beams, in f64: one stone, parallel rays, no photograph
+    Beam,
+    /// Point rays on the processor, in f64
+    Ray,
+    /// Point rays on a graphics card, in f32
+    Gpu,
+}
+
+fn film_size(text: &str) -> Result<[u32; 2], String> {
+    let side = |text: &str| match text.trim().parse() {
+        Ok(side) if (16..=MOST_PIXELS).contains(&side) => Ok(side),
+        _ => Err(format!("give 16 to {MOST_PIXELS} pixels, or WIDTHxHEIGHT such as 1600x900")),
+    };
+    match text.split_once(['x', 'X']) {
+        Some((width, height)) => Ok([side(width)?, side(height)?]),
+        None => side(text).map(|side| [side; 2]),
+    }
+}
