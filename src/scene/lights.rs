@@ -113,6 +113,7 @@ impl Light {
         let places = [(10.0, 70.0), (100.0, 62.0), (190.0, 74.0), (280.0, 66.0)];
         let lower = [(55.0, 48.0), (145.0, 40.0), (235.0, 52.0), (325.0, 36.0)];
         Self {
+            head: 9.0,
             dome: vec![belt(0.0, 90.0, 0.0, 0.25)],
             lamp: places.into_iter().chain(lower).map(|at| lamp(at, 1.5, 120.0)).collect(),
             ..Self::named("lamps", "eight small lamps over a dim dome: some fire")
@@ -144,7 +145,7 @@ impl Light {
             for k in 0..count {
                 let azimuth = 360.0 * (f64::from(k) + 0.5 * (row % 2) as f64) / f64::from(count);
                 let width = [26.0, 15.0, 11.0][row];
-                boxes.push(SoftBox { soft: 1.0, ..soft_box((azimuth, elevation), (width, 6.0), 3.6) });
+                boxes.push(SoftBox { soft: 2.5, ..soft_box((azimuth, elevation), (width, 8.0), 3.0) });
             }
         }
         let window = SoftBox { soft: 1.0, ..soft_box((200.0, 16.0), (44.0, 24.0), 2.2) };
@@ -162,18 +163,18 @@ impl Light {
 
     /// Sky, clouds and the sun.
     pub fn daylight() -> Self {
-        let sky = Dome { colour: Some([186, 209, 255]), ..rising(0.0, 90.0, 0.75, 0.3) };
+        let sky = Dome { colour: Some([206, 221, 255]), ..rising(0.0, 90.0, 0.8, 0.22) };
         let ground = Dome { colour: Some([150, 146, 118]), ..belt(-90.0, 0.0, 3.0, 0.35) };
         Self {
             // A low part of the sun's true radiance, over a disc wider than its quarter of a degree: the same power on
             // the stone as a hazy sun.
-            lamp: vec![Lamp { colour: Some([255, 244, 226]), ..lamp((60.0, 52.0), 1.0, 1500.0) }],
+            lamp: vec![Lamp { colour: Some([255, 244, 226]), ..lamp((60.0, 52.0), 1.0, 500.0) }],
             head: 11.0,
             dome: vec![sky, ground],
             boxes: vec![
-                SoftBox { soft: 16.0, turn: 8.0, ..soft_box((160.0, 50.0), (48.0, 14.0), 0.9) },
-                SoftBox { soft: 14.0, turn: -5.0, ..soft_box((265.0, 68.0), (40.0, 16.0), 0.8) },
-                SoftBox { soft: 14.0, ..soft_box((330.0, 35.0), (60.0, 10.0), 0.7) },
+                SoftBox { soft: 16.0, turn: 8.0, ..soft_box((160.0, 50.0), (54.0, 22.0), 1.3) },
+                SoftBox { soft: 14.0, turn: -5.0, ..soft_box((265.0, 68.0), (46.0, 20.0), 1.2) },
+                SoftBox { soft: 14.0, ..soft_box((330.0, 35.0), (60.0, 16.0), 1.1) },
             ],
             ..Self::named("daylight", "a sky with the sun and some clouds, and the ground")
         }

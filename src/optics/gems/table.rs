@@ -36,12 +36,12 @@ pub(super) const GEMS: [Gem; 20] = [
         name: "almandine",
         text: "dark purplish red, by iron",
         host: ALMANDINE,
-        edge: edge(0.36, 58.0),
+        edge: edge(0.5, 62.0),
         bands: &[
             band(460.0, 600.0, 0.12),
-            band(505.0, 1000.0, 0.36),
-            band(526.0, 700.0, 0.3),
-            band(573.0, 1000.0, 0.39),
+            band(505.0, 1200.0, 0.52),
+            band(526.0, 800.0, 0.45),
+            band(573.0, 1100.0, 0.55),
             band(615.0, 900.0, 0.09),
             band(695.0, 1500.0, 0.07),
         ],
@@ -87,7 +87,7 @@ pub(super) const GEMS: [Gem; 20] = [
         text: "vivid green, by vanadium and chromium",
         host: GROSSULAR,
         edge: edge(0.15, 35.0),
-        bands: &[band(430.0, 3900.0, 0.32), band(605.0, 2900.0, 0.22)],
+        bands: &[band(430.0, 3900.0, 0.44), band(605.0, 3100.0, 0.3)],
     },
     Gem {
         name: "hessonite",
@@ -125,10 +125,10 @@ pub(super) const GEMS: [Gem; 20] = [
         host: CORUNDUM,
         edge: edge(0.06, 30.0),
         bands: &[
-            split(580.0, 5200.0, [0.28, 0.12]),
+            split(575.0, 5600.0, [0.42, 0.22]),
             split(705.0, 5400.0, [0.14, 0.32]),
-            split(450.0, 450.0, [0.05, 0.04]),
-            split(388.0, 1200.0, [0.14, 0.12]),
+            split(450.0, 450.0, [0.03, 0.02]),
+            split(388.0, 1200.0, [0.1, 0.08]),
         ],
     },
     Gem {
@@ -165,10 +165,10 @@ pub(super) const GEMS: [Gem; 20] = [
         host: BERYL,
         edge: edge(0.08, 30.0),
         bands: &[
-            split(430.0, 3700.0, [0.44, 0.0]),
-            split(420.0, 3900.0, [0.0, 0.38]),
-            split(600.0, 3000.0, [0.25, 0.0]),
-            split(635.0, 3000.0, [0.0, 0.24]),
+            split(430.0, 3700.0, [0.56, 0.0]),
+            split(420.0, 3900.0, [0.0, 0.5]),
+            split(600.0, 3300.0, [0.36, 0.0]),
+            split(635.0, 3300.0, [0.0, 0.34]),
         ],
     },
     Gem {
@@ -177,8 +177,8 @@ pub(super) const GEMS: [Gem; 20] = [
         host: BERYL,
         edge: Edge { at_400: [0.012, 0.006], fold_nm: 25.0 },
         bands: &[
-            split(825.0, 4500.0, [0.085, 0.025]),
-            split(690.0, 5400.0, [0.0, 0.1]),
+            split(825.0, 4700.0, [0.13, 0.04]),
+            split(690.0, 5400.0, [0.0, 0.17]),
             split(427.0, 600.0, [0.006, 0.003]),
         ],
     },
@@ -187,7 +187,7 @@ pub(super) const GEMS: [Gem; 20] = [
         text: "bluish dark green, by iron",
         host: TOURMALINE,
         edge: Edge { at_400: [0.5, 0.2], fold_nm: 45.0 },
-        bands: &[split(720.0, 5200.0, [1.2, 0.34]), split(430.0, 3500.0, [0.25, 0.1])],
+        bands: &[split(720.0, 5400.0, [1.4, 0.46]), split(430.0, 3600.0, [0.4, 0.18])],
     },
     Gem {
         name: "pink tourmaline",
@@ -214,7 +214,7 @@ pub(super) const GEMS: [Gem; 20] = [
         text: "sky blue, by irradiation",
         host: TOPAZ,
         edge: edge(0.01, 25.0),
-        bands: &[band(625.0, 4200.0, 0.045)],
+        bands: &[band(625.0, 4200.0, 0.08)],
     },
 ];
 
