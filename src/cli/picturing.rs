@@ -115,6 +115,9 @@ impl<'a> Studio<'a> {
                     reading.warnings.iter().for_each(|w| super::say(&format!("warning: {w}")));
                     photo = Some(kept(reading.panorama));
                 }
+                Err(_) if Path::new(&options.background).extension().is_some() => {
+                    return Err(Failure::Input(format!("{}: there is no such file", options.background)));
+                }
                 Err(why) => return Err(Failure::Usage(format!("{why}, `light`, or a photograph's file"))),
             }
         }
@@ -127,11 +130,10 @@ impl<'a> Studio<'a> {
     fn chosen(&self, view: &View) -> Result<Tracer, Failure> {
         let beams_apply = view.projection == Projection::Orthographic
             && self.assembly.setting.stones.len() == 1
-            && self.photo.is_none()
-            && !self.backdrop;
+            && self.photo.is_none();
         match self.options.tracer {
             TracerName::Beam if !beams_apply => Err(Failure::Usage(
-                "exact beams are for one stone, parallel rays and a plain background: use --tracer ray"
+                "exact beams are for one stone, parallel rays and no photograph behind: use --tracer ray"
                     .into(),
             )),
             TracerName::Beam => Ok(Tracer::Beams),

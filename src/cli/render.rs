@@ -32,8 +32,20 @@ fn point(text: &str) -> Result<glam::DVec2, String> {
     both.map(glam::DVec2::from).ok_or_else(|| "give two numbers, such as 200,150".into())
 }
 
+/// The ending of a kind of picture that is not written, where a person asks for one.
+fn unknown_ending(out: &Path) -> Option<String> {
+    const OTHERS: [&str; 9] = ["jpg", "jpeg", "gif", "webp", "tif", "tiff", "bmp", "svg", "hdr"];
+    let ending = out.extension()?.to_str()?.to_ascii_lowercase();
+    (!out.is_dir() && OTHERS.contains(&ending.as_str())).then_some(ending)
+}
+
 impl Render {
     pub fn run(&self) -> Result<(), Failure> {
+        if let Some(ending) = unknown_ending(&self.out) {
+            return Err(Failure::Usage(format!(
+                "--out: .{ending} is not written; give a .png, an .exr or a folder"
+            )));
+        }
         let (_, is_file) = self.output(Path::new("x"));
         if is_file && self.files.len() > 1 {
             return Err(Failure::Usage("several stones need a folder: --out FOLDER".into()));

@@ -5,7 +5,7 @@ use super::picture_options::PictureOptions;
 use super::picturing::Studio;
 use super::progress::Progress;
 use super::specimen::stem;
-use super::{Failure, print};
+use super::{Failure, print, say};
 use crate::io::{Frames, write_apng, write_rgba_png};
 use crate::picture::Background;
 use crate::scene::{Setting, View};
@@ -50,6 +50,9 @@ enum Motion {
 
 impl Spin {
     pub fn run(&self) -> Result<(), Failure> {
+        if self.out.extension().is_some_and(|e| e.eq_ignore_ascii_case("png")) && !self.out.is_dir() {
+            return Err(Failure::Usage("--out: give a folder; the frames go there as well".into()));
+        }
         let first = self.view.view(None)?;
         let delay_ms = self.delay_ms()?;
         self.check_swing()?;
@@ -70,7 +73,9 @@ impl Spin {
         };
         let told = format!("{}, {} frames; {}", studio.assembly.name, self.frames, studio.told());
         let bar = Progress::new(&format!("{}: spin", studio.assembly.name));
+        let mut moves = false;
         write_apng(&path, animation, &told, |animation| -> Result<(), Failure> {
+            let mut first: Option<Vec<u8>> = None;
             for (number, (setting, view)) in frames.iter().enumerate() {
                 let done = |part: f64| bar.watch()((number as f64 + part) / frames.len() as f64);
                 let taken = studio.take(setting, (view, pixel), &done)?;
@@ -78,10 +83,18 @@ impl Spin {
                 let still = folder.join(format!("{:04}.png", number + 1));
                 write_rgba_png(&still, &rgba, (width, height), &taken.told)?;
                 animation.push(&rgba)?;
+                let same = first.get_or_insert_with(|| rgba.clone()) == &rgba;
+                moves |= !same;
             }
             Ok(())
         })?;
         drop(bar);
+        if !moves {
+            let frames = self.frames;
+            say(&format!(
+                "note: all {frames} frames look the same, by the symmetry of the stone; take another number"
+            ));
+        }
         print(&path.display().to_string())
     }
 

@@ -31,6 +31,8 @@ pub struct ByBeams<'a> {
     pieces: Vec<Rows<DVec4>>,
     unresolved: f64,
     absorbed: f64,
+    /// What parallel rays see beside the stone where the surround is the backdrop: one direction's light.
+    beside: DVec3,
 }
 
 /// Polygons in pixels, each of one colour.
@@ -43,21 +45,27 @@ struct Patches {
 
 impl<'a> ByBeams<'a> {
     /// Prepares a picture; `None` where exact beams do not apply: for several stones, in perspective, with a photograph
-    /// behind or with the surround as backdrop.
+    /// behind.
     pub fn new(sitting: Sitting<'a>, options: beam::Options) -> Option<Self> {
         let [stone] = sitting.setting.stones.as_slice() else { return None };
         let surround = &sitting.surround;
-        if sitting.view.projection != crate::scene::Projection::Orthographic
-            || surround.behind.is_some()
-            || surround.backdrop
-        {
+        if sitting.view.projection != crate::scene::Projection::Orthographic || surround.behind.is_some() {
             return None;
         }
         let [across, down] = sitting.size;
         let piece = |first: u32| Rows::new(first, PIECE.min(down - first), across, 1);
         let pieces = (0..down).step_by(PIECE as usize).map(piece).collect();
         let stone = &stone.polytope;
-        Some(Self { sitting, stone, options, looks: 0, pieces, unresolved: 0.0, absorbed: 0.0 })
+        Some(Self {
+            sitting,
+            stone,
+            options,
+            looks: 0,
+            pieces,
+            unresolved: 0.0,
+            absorbed: 0.0,
+            beside: DVec3::ZERO,
+        })
     }
 
     /// From the image to pixels.
@@ -149,6 +157,11 @@ impl<E: From<Stopped>> Exposure<E> for ByBeams<'_> {
         for (band, &medium) in look.media[0].iter().enumerate() {
             let done = |part: f64| watch((band as f64 + part) / bands as f64);
             let beams = beam::trace(self.stone, medium, self.sitting.view, &self.options, &done)?;
+            if self.sitting.surround.backdrop {
+                let light = self.sitting.surround.radiance(DVec3::ZERO, -beams.view.toward, DVec3::ZERO);
+                let response = look.responses[band].iter().zip(light.to_array());
+                self.beside += response.map(|(&c, l)| c * l).sum::<DVec3>();
+            }
             let found = self.patches(&beams, look, band);
             self.paint(&found);
             let whole = f64::from(beams.symmetry.order()) / beams.silhouette_area / bands as f64;
@@ -166,9 +179,10 @@ impl<E: From<Stopped>> Exposure<E> for ByBeams<'_> {
             let rows = piece.clone().summed();
             for v in (rows.first..rows.first + rows.count).flat_map(|y| rows.row(y, 0)) {
                 let cover = v.w * share;
+                let is_whole = self.sitting.surround.backdrop;
                 each(&Lit {
-                    colour: v.truncate() * share,
-                    cover,
+                    colour: (v.truncate() + self.beside * (1.0 - cover)) * share,
+                    cover: if is_whole { 1.0 } else { cover },
                     unresolved: self.unresolved * share * cover,
                     absorbed: self.absorbed * share * cover,
                 });
