@@ -98,7 +98,7 @@ mod tests {
         let second = "[[box]]\nazimuth = 0\nelevation = 45\nheight = 20\nwidth = 0\nradiance = 1\n";
         let cases = [
             (start.replace("head = 10", "head = 90"), "2: light 1: head is 90; give 0 to 89 degrees"),
-            (format!("{start}{second}"), "13: box 2: width is 0; give an angle"),
+            (format!("{start}{second}"), "13: box 2: width is 0; give 0.5 to 180"),
             (
                 format!("{start}[[dome]]\nfrom = 50\nto = 40\nradiance = 1\n"),
                 "11: dome 1: to is 40; it must not",
