@@ -121,9 +121,9 @@ pub struct LightOptions {
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub enum TracerName {
-    /// Exact beams for parallel rays; in perspective a graphics card, or rays where there is none
+    /// The quickest: exact beams, or for renders a graphics card where there is one; rays where beams do not apply
     Auto,
-    /// Exact beams, in f64
+    /// Exact beams, in f64, for parallel rays
     Beam,
     /// Point rays on the processor, in f64
     Ray,

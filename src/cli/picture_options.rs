@@ -1,7 +1,8 @@
 //! The options of `render` and `spin`: stones, light and picture.
 
+use super::options::TracerName;
 use crate::picture::{Bloom, Overlay, Tone};
-use clap::{Args, ValueEnum};
+use clap::Args;
 
 /// The largest side of a picture under light: it is held in memory.
 pub const MOST_PIXELS: u32 = 8192;
@@ -37,7 +38,7 @@ pub struct PictureOptions {
     /// 64 by rays]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=65536))]
     pub samples: Option<u32>,
-    /// What traces the light
+    /// What traces the light; beams are for one stone without a photograph behind
     #[arg(long, value_enum, default_value_t = TracerName::Auto)]
     pub tracer: TracerName,
     /// Let every surface see unpolarised light
@@ -66,18 +67,6 @@ pub struct PictureOptions {
     /// How far behind the stones the photograph stands, in girdle radii
     #[arg(long, value_name = "DISTANCE", default_value_t = PHOTO_DISTANCE)]
     pub photo_distance: f64,
-}
-
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum TracerName {
-    /// A graphics card where there is one; else exact beams where they apply, and rays where they do not
-    Auto,
-    /// Exact beams, in f64: one stone, parallel rays, no photograph
-    Beam,
-    /// Point rays on the processor, in f64
-    Ray,
-    /// Point rays on a graphics card, in f32
-    Gpu,
 }
 
 fn film_size(text: &str) -> Result<[u32; 2], String> {

@@ -3,8 +3,8 @@
 use super::Failure;
 use super::assembly::Assembly;
 use super::lighting::Lighting;
-use super::options::ViewOptions;
-use super::picture_options::{PictureOptions, TracerName};
+use super::options::TracerName;
+use super::picture_options::PictureOptions;
 use super::sampler::Sampler;
 use crate::io::panorama;
 use crate::optics::strata;
@@ -146,13 +146,7 @@ impl<'a> Studio<'a> {
         }
     }
 
-    /// The view, checked against the stones: the eye must be in front of them.
-    pub fn view(&self, options: &ViewOptions) -> Result<View, Failure> {
-        let view = options.view(None)?;
-        self.pixel(&self.assembly.setting, &view).map(|_| view)
-    }
-
-    /// The side of a pixel with which the stones fill the picture.
+    /// The side of a pixel with which the stones fill the picture; an error where the eye is not in front of them.
     pub fn pixel(&self, setting: &Setting, view: &View) -> Result<f64, Failure> {
         let stones = &setting.stones;
         let reach = stones.iter().flat_map(|s| s.polytope.vertices()).map(|v| v.length()).fold(0.0, f64::max);

@@ -65,7 +65,6 @@ impl Render {
     fn render(&self, file: &Path) -> Result<(), Failure> {
         let view = self.view.view(None)?;
         let studio = Studio::load(&self.picture, file, &view)?;
-        let view = studio.view(&self.view)?;
         let setting = &studio.assembly.setting;
         let pixel = studio.pixel(setting, &view)?;
         if let Some(at) = self.probe {

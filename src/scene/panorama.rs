@@ -77,5 +77,10 @@ mod tests {
             assert!((picture.toward(d) - DVec3::new(f64::from(k), 1.0, 0.5)).length() < 1e-9, "{k}");
         }
         assert_eq!(picture.between(DVec2::new(-5.0, 99.0)).x, 112.0);
+        // Halved, each pixel is the mean of four; what lacks beyond an odd border is that of the border.
+        let half = picture.halved();
+        assert_eq!((half.width, half.height, half.pixels[9]), (8, 4, [42.5, 1.0, 0.5]));
+        let odd = Panorama { width: 1, height: 3, pixels: vec![[1.0; 3], [3.0; 3], [5.0; 3]] }.halved();
+        assert_eq!((odd.width, odd.height, odd.pixels), (1, 2, vec![[2.0; 3], [5.0; 3]]));
     }
 }

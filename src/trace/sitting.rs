@@ -87,9 +87,7 @@ impl Look {
             responses: strata.iter().map(|s| s.response).collect(),
         }
     }
-}
 
-impl Look {
     /// The direction for which a ray stands that leaves in `direction`, at the wavelength taken: that of the middle of its
     /// band, around which `sweep` reaches half to either side.
     pub fn middle(&self, direction: DVec3, sweep: DVec3) -> DVec3 {
