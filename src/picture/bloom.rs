@@ -39,11 +39,14 @@ impl Default for Bloom {
 /// The Gaussians of the glow: standard deviation as a part of the widest, and share.
 const GLOW: [(f64, f32); 4] = [(1.0 / 27.0, 0.4), (1.0 / 9.0, 0.3), (1.0 / 3.0, 0.2), (1.0, 0.1)];
 
-/// The part of what is spread that goes into the rays.
+/// The part of a sparkle that goes into the rays.
 const IN_STREAKS: f32 = 0.4;
 
 /// The standard deviation of a ray's width, as a part of the picture's width.
 const STREAK_WIDTH: f64 = 0.0007;
+
+/// The standard deviation of what counts as a sparkle's surroundings, as a part of the picture's width.
+const SPARKLE: f64 = 0.008;
 
 /// The part of the threshold below it at which spreading begins.
 const KNEE: f32 = 0.5;
@@ -96,14 +99,23 @@ impl Bloom {
     /// The light of a grid, spread; the picture is `width` cells wide.
     fn spread(&self, source: &Grid, width: f64) -> Grid {
         let streaks = self.streaks.min(Self::MOST_STREAKS);
-        let share = if streaks > 0 { IN_STREAKS } else { 0.0 };
         let radius = within(self.radius, 0.5) * width;
-        let glow = GLOW.map(|(part, weight)| (radius * part, weight * (1.0 - share)));
-        let mut sum = source.glow(&glow);
-        if streaks > 0 {
-            let fine = source.gaussian(STREAK_WIDTH * width);
-            sum.add(&star::star(&fine, streaks, within(self.streak_length, 1.0) * width), share);
+        let glow = GLOW.map(|(part, weight)| (radius * part, weight));
+        if streaks == 0 {
+            return source.glow(&glow);
         }
+        // What is as bright as its surroundings is no sparkle: rays of a wide patch would be curtains with hard edges.
+        let around = source.glow(&[(SPARKLE * width, 1.0)]);
+        let mut sparkle = source.clone();
+        sparkle.cells.par_iter_mut().zip(&around.cells).for_each(|(cell, around)| {
+            let (own, around) = (cell.truncate().element_sum(), around.truncate().element_sum());
+            *cell *= if own > around { IN_STREAKS * (1.0 - around / own) } else { 0.0 };
+        });
+        let mut rest = source.clone();
+        rest.add(&sparkle, -1.0);
+        let mut sum = rest.glow(&glow);
+        let fine = sparkle.gaussian(STREAK_WIDTH * width);
+        sum.add(&star::star(&fine, streaks, within(self.streak_length, 1.0) * width), 1.0);
         sum
     }
 }
