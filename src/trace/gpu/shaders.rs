@@ -80,19 +80,22 @@ impl Pipelines {
 
     pub fn pipeline(&self, device: &wgpu::Device, is_few: bool) -> &wgpu::ComputePipeline {
         let (cell, facets) = if is_few { (&self.few, Facets::Few) } else { (&self.many, Facets::Many) };
-        cell.get_or_init(|| {
-            let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
-                label: None,
-                source: wgpu::ShaderSource::Wgsl(source(facets, self.reading).into()),
-            });
-            device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
-                label: None,
-                layout: None,
-                module: &module,
-                entry_point: None,
-                compilation_options: wgpu::PipelineCompilationOptions::default(),
-                cache: None,
-            })
-        })
+        cell.get_or_init(|| compiled(device, source(facets, self.reading)))
     }
+}
+
+/// The pipeline of a text's one entry.
+pub(super) fn compiled(device: &wgpu::Device, text: String) -> wgpu::ComputePipeline {
+    let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
+        label: None,
+        source: wgpu::ShaderSource::Wgsl(text.into()),
+    });
+    device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+        label: None,
+        layout: None,
+        module: &module,
+        entry_point: None,
+        compilation_options: wgpu::PipelineCompilationOptions::default(),
+        cache: None,
+    })
 }

@@ -2,12 +2,11 @@
 
 use super::Gpu;
 use super::door;
-use super::shaders::{Facets, Reading, source};
+use super::shaders::{Facets, Reading, compiled, source};
 use crate::optics::{Fresnel, fresnel, reflect, refract, refracted_change};
 use glam::DVec3;
 use std::io::Write;
 use wgpu::naga::{front, valid};
-use wgpu::util::DeviceExt;
 
 #[test]
 fn every_shader_is_valid_and_its_structs_are_laid_out_as_in_rust() {
@@ -146,23 +145,8 @@ fn compared(given: &[[f32; 4]], found: &[[[f32; 4]; 6]], factor: f64) -> (u32, f
 fn run(gpu: &Gpu, given: &[[f32; 4]]) -> Vec<[[f32; 4]; 6]> {
     let device = &gpu.device;
     let text = include_str!("../../../shaders/optics.wgsl").to_owned() + MEETING_WGSL;
-    let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
-        label: None,
-        source: wgpu::ShaderSource::Wgsl(text.into()),
-    });
-    let pipeline = device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
-        label: None,
-        layout: None,
-        module: &module,
-        entry_point: None,
-        compilation_options: wgpu::PipelineCompilationOptions::default(),
-        cache: None,
-    });
-    let input = device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
-        label: None,
-        contents: bytemuck::cast_slice(given),
-        usage: wgpu::BufferUsages::STORAGE,
-    });
+    let pipeline = compiled(device, text);
+    let input = gpu.buffer("given", bytemuck::cast_slice(given), wgpu::BufferUsages::STORAGE);
     let size = (given.len() * size_of::<[[f32; 4]; 6]>()) as u64;
     let buffer = |usage| {
         device.create_buffer(&wgpu::BufferDescriptor { label: None, size, usage, mapped_at_creation: false })
