@@ -2,8 +2,8 @@
 
 use brillianteer::cut::{Crown, LowerHalf, Pavilion, RoundBrilliant};
 use brillianteer::io::{WriteError, write_png};
-use brillianteer::picture::{Film, Layer, Palette, paint};
-use brillianteer::scene::{ASET_CONE, Backing, Medium, Scope, Stone, View};
+use brillianteer::picture::{Layer, Palette, paint};
+use brillianteer::scene::{ASET_CONE, Backing, Film, Medium, Scope, Stone, View};
 use brillianteer::trace::{beam, ray, unwatched};
 use criterion::{Criterion, criterion_group, criterion_main};
 use glam::DVec2;

@@ -5,8 +5,8 @@ mod common;
 
 use brillianteer::math::{Plane, Polytope};
 use brillianteer::measure::{by_beams, by_rays};
-use brillianteer::picture::{Film, Layer, Palette, paint};
-use brillianteer::scene::{Lean, Medium, Projection, Scope, Side, View};
+use brillianteer::picture::{Layer, Palette, paint};
+use brillianteer::scene::{Film, Lean, Medium, Projection, Scope, Side, View};
 use brillianteer::trace::ray::{Camera, Exit, Options, Tracer};
 use brillianteer::trace::{Stopped, beam, unwatched};
 use common::*;

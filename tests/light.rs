@@ -9,7 +9,7 @@ use brillianteer::picture::spectral::{Remainder, expose};
 use brillianteer::picture::{ByBeams, Linear};
 #[cfg(feature = "gpu")]
 use brillianteer::scene::Projection;
-use brillianteer::scene::{Light, Panorama, Placed, Setting, View, light};
+use brillianteer::scene::{Film, Light, Panorama, Placed, Setting, View, light};
 use brillianteer::trace::beam;
 use brillianteer::trace::ray::{ByRays, Options};
 use brillianteer::trace::sitting::Sitting;
@@ -67,8 +67,7 @@ impl Shoot {
             setting: &self.setting,
             surround,
             view: &self.view,
-            size: [SIZE; 2],
-            pixel: 2.2 / f64::from(SIZE),
+            film: Film { centre: DVec2::new(0.04, 0.02), ..Film::square(SIZE, 1.1) },
             options: self.options,
         })
     }

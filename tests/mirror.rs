@@ -5,8 +5,7 @@
 mod common;
 
 use brillianteer::math::Plane;
-use brillianteer::picture::Film;
-use brillianteer::scene::{Medium, Projection, Scope, Side, Stone, View};
+use brillianteer::scene::{Film, Medium, Projection, Scope, Side, Stone, View};
 use brillianteer::trace::gpu::{Gpu, GpuError, Seen, Shot};
 use brillianteer::trace::ray::{Camera, Options, Tracer};
 use brillianteer::trace::{Stopped, unwatched};
@@ -93,13 +92,13 @@ impl<'a> Case<'a> {
         let (scope, polytope, view) = (aset(), &self.stone.polytope, self.view);
         let camera = Camera::new(view, polytope);
         let film = Film::reaching(camera.reach(polytope).unwrap(), SIZE);
+        let film = Film { centre: DVec2::new(0.03, -0.02), ..film };
         let shot = Shot {
             polytope: &self.twin.polytope,
             medium: self.twin_medium,
             view,
             scope: &scope,
-            half: film.half,
-            size: SIZE,
+            film,
             per_side: 1,
             shift: DVec2::splat(0.5),
             options: self.twin_options,

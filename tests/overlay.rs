@@ -6,7 +6,7 @@ mod common;
 use brillianteer::math::{Plane, Polytope};
 use brillianteer::optics::{cos_transmitted, line, material, reflectance, refract};
 use brillianteer::picture::{Code, Overlay, lay};
-use brillianteer::scene::{Placed, Projection, Setting, View};
+use brillianteer::scene::{Film, Placed, Projection, Setting, View};
 use brillianteer::trace::ray::{Options, Sight, facet_at};
 use brillianteer::trace::sitting::Sitting;
 use brillianteer::trace::surround::{Sky, Surround};
@@ -37,7 +37,7 @@ impl Shot {
         let (basis, eye) = (self.view.light_basis(), self.view.basis());
         let surround = Surround { sky: &sky, basis, eye, head: 0.0, behind: None, backdrop: false };
         let (setting, view, options) = (&self.setting, &self.view, self.options);
-        work(&Sitting { setting, surround, view, size: [SIZE; 2], pixel: PIXEL, options })
+        work(&Sitting { setting, surround, view, film: Film::new([SIZE; 2], PIXEL), options })
     }
 
     /// An overlay over nothing: its colour and cover.
@@ -186,7 +186,7 @@ fn edges_behind_are_fainter_whichever_stone_they_are_behind() {
 fn first_inside(shot: &Shot, sitting: &Sitting, index: f64, at: DVec2) -> Option<(f64, f64)> {
     let planes: Vec<Plane> = shot.setting.stones[0].polytope.planes().collect();
     let eye = shot.view.basis();
-    let (d, from) = (-eye.toward, eye.lift(sitting.image_from_pixel(0, 0, at)) + eye.toward * 10.0);
+    let (d, from) = (-eye.toward, eye.lift(sitting.film.image_from_pixels(at)) + eye.toward * 10.0);
     let way = |p: &Plane, from: DVec3, d: DVec3| -p.distance(from) / p.normal.dot(d);
     let facing = planes.iter().filter(|p| p.normal.dot(d) < 0.0);
     let (entry, into) = facing.map(|p| (p, way(p, from, d))).max_by(|a, b| a.1.total_cmp(&b.1))?;
@@ -301,7 +301,7 @@ fn a_drawing_that_is_stopped_says_so_and_an_odd_picture_is_no_panic() {
             for length in [0, 3, 4 * SIZE as usize + 1] {
                 assert_eq!(lay(overlay, sitting, &mut vec![0; length], &unwatched), Ok(()));
             }
-            let none = Sitting { size: [0; 2], ..*sitting };
+            let none = Sitting { film: Film::new([0; 2], PIXEL), ..*sitting };
             assert_eq!(lay(overlay, &none, &mut [0; 8], &unwatched), Ok(()));
         });
     }

@@ -1,8 +1,9 @@
 //! What is put under light: one stone, or the stones of a scene in their places.
 
+use super::Failure;
 use super::specimen::Specimen;
-use super::{Failure, lists};
 use crate::cut::{MaterialRef, Size};
+use crate::io::library;
 use crate::io::scene_file::{self, Entry, SceneFile};
 use crate::optics::Material;
 use crate::scene::{Placed, Setting, overlapping};
@@ -67,7 +68,7 @@ impl Assembly {
         let stone = Placed::named(&specimen.stone, material, &specimen.design.name);
         Ok(Self {
             path: specimen.path,
-            name: specimen.design.name,
+            name: specimen.made.design.name,
             setting: Setting { stones: vec![stone], unit_mm: 0.5 * diameter_mm },
             places: vec![Place { diameter_mm, at_mm: DVec3::ZERO }],
             light: None,
@@ -118,7 +119,7 @@ fn scene(file: &Path) -> Result<Option<SceneFile>, Failure> {
             .map_err(Failure::Input);
     }
     let name = file.display().to_string();
-    let known = lists::built_in_scene(&name).map(|text| scene_file::parse(text, &name, None));
+    let known = library::scene(&name).map(|text| scene_file::parse(text, &name, None));
     known.transpose().map_err(Failure::Input)
 }
 
@@ -126,7 +127,7 @@ fn scene(file: &Path) -> Result<Option<SceneFile>, Failure> {
 pub fn is_scene(file: &Path) -> bool {
     match file.is_file() {
         true => scene_file::is_scene(file),
-        false => lists::built_in_scene(&file.to_string_lossy()).is_some(),
+        false => library::scene(&file.to_string_lossy()).is_some(),
     }
 }
 
@@ -158,7 +159,7 @@ fn specimens(file: &Path, scene: &SceneFile) -> Result<BTreeMap<String, Specimen
 /// A file beside the scene's, or else a cut that comes with the program.
 fn specimen(scene: &Path, cut: &str) -> Result<Specimen, Failure> {
     let beside = scene.parent().unwrap_or(Path::new("")).join(cut);
-    match lists::built_in(cut).filter(|_| !scene.is_file() || !beside.is_file()) {
+    match library::cut(cut).filter(|_| !scene.is_file() || !beside.is_file()) {
         Some(text) => Specimen::parse(cut, text),
         None => Specimen::read(&beside),
     }

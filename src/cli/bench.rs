@@ -5,8 +5,8 @@ use super::specimen::Specimen;
 use super::{Failure, json, print};
 use crate::optics::{line, strata};
 use crate::picture::by_rays::Manner;
-use crate::picture::{ByBeams, Film, Layer, paint};
-use crate::scene::{ASET_CONE, Backing, Light, Medium, Placed, Scope, Setting, View};
+use crate::picture::{ByBeams, Layer, paint};
+use crate::scene::{ASET_CONE, Backing, Film, Light, Medium, Placed, Scope, Setting, View};
 use crate::trace::ray::{ByRays, Camera, Options, Tracer};
 use crate::trace::sitting::{Exposure, Look, Sitting};
 use crate::trace::surround::{Sky, Surround};
@@ -157,8 +157,7 @@ fn under_light(specimen: &Specimen, card: Sampler) -> Result<Task, Failure> {
         setting: &setting,
         surround: Surround { sky: &sky, basis, eye: view.basis(), head: 0.0, behind: None, backdrop: false },
         view: &view,
-        size: [size; 2],
-        pixel: 1.0 / film.scale(),
+        film,
         options: options(bounces),
     };
     let strata = strata(wavelengths, &light.spectrum, true);
@@ -188,7 +187,7 @@ fn exposure<'a>(
     #[cfg_attr(not(feature = "gpu"), expect(unused_variables, reason = "the card wants to know"))]
     bands: usize,
 ) -> Result<Box<dyn Exposure<Failure> + 'a>, Failure> {
-    let rows = 0..sitting.size[1];
+    let rows = 0..sitting.film.size[1];
     match sampler {
         Sampler::Rays => Ok(Box::new(ByRays::new(*sitting, rows))),
         #[cfg(feature = "gpu")]
@@ -206,7 +205,7 @@ fn plane_tests(specimen: &Specimen, film: &Film, medium: Medium, bounces: u32) -
     let polytope = &specimen.stone.polytope;
     let camera = Camera::new(&View::default(), polytope);
     let tracer = Tracer::new(polytope, medium, options(bounces));
-    let side = film.size / STEP;
+    let side = film.size[0] / STEP;
     let pixels = (0..side * side).map(|k| DVec2::new(f64::from(k % side), f64::from(k / side)) + 0.5);
     let searches: f64 = pixels
         .map(|pixel| {

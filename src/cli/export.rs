@@ -9,10 +9,8 @@ use super::{Failure, each_file, json, print, say};
 use crate::cut::Cut;
 use crate::io::{self, MOST_PIXELS, PngRows, WriteError, rasterize, scope_file, write_exr, write_png};
 use crate::picture::by_rays::Manner;
-use crate::picture::{
-    Film, Layer, Palette, Picture, Rows, Scoped, diagram, named, names, paint, profile, vector,
-};
-use crate::scene::{Medium, Scope, View};
+use crate::picture::{Layer, Palette, Picture, Rows, Scoped, diagram, named, names, paint, profile, vector};
+use crate::scene::{Film, Medium, Scope, View};
 use crate::trace::Watch;
 use crate::trace::beam::{self, Beams};
 use crate::trace::ray::Camera;
@@ -285,7 +283,7 @@ impl Job<'_> {
         watch: Watch,
     ) -> Result<(), Failure> {
         let path = &self.path(name, "png");
-        write_png(path, (film.size, film.size), told, |png| {
+        write_png(path, film.size.into(), told, |png| {
             paint(layer, film, watch, |rows| encode(rows, (palette, 0), png))
         })?;
         self.done(path)
@@ -318,7 +316,7 @@ impl Job<'_> {
         let manner = Manner { options, per_side: RAYS_PER_SIDE };
         let look = Subject { specimen: self.specimen, medium: self.medium, view, scope };
         let [energy, strongest] = [name, &format!("{name}-strongest")].map(|name| self.path(name, "png"));
-        let size = (film.size, film.size);
+        let size = film.size.into();
         // Both pictures come from the same rays.
         write_png(&energy, size, &told, |energy| {
             write_png(&strongest, size, &told, |strongest| {

@@ -1,7 +1,8 @@
 //! `materials`, `cuts`, `scopes`, `scenes`, `lights`: what the program knows by name.
 
 use super::{Failure, json, print};
-use crate::io::{cut_file, light_file, scene_file, scope_file};
+use crate::io::library::{CUTS, SCENES, cut, scene};
+use crate::io::{cut_file, light_file, lighting, scene_file, scope_file};
 use crate::optics::{line, materials};
 use crate::picture::{Picture, named, names};
 use crate::scene::{LIGHTS, Scope, light};
@@ -9,33 +10,6 @@ use clap::Args;
 use serde_json::{Value, json};
 use std::fmt::Write;
 use std::path::Path;
-
-/// The cuts that come with the program, as their files in `cuts/`.
-const CUTS: [(&str, &str); 6] = [
-    ("tolkowsky", include_str!("../../cuts/tolkowsky.toml")),
-    ("modern-ideal", include_str!("../../cuts/modern-ideal.toml")),
-    ("steep-deep", include_str!("../../cuts/steep-deep.toml")),
-    ("shallow", include_str!("../../cuts/shallow.toml")),
-    ("fisheye", include_str!("../../cuts/fisheye.toml")),
-    ("sixty-sixty", include_str!("../../cuts/sixty-sixty.toml")),
-];
-
-/// The file of a cut that comes with the program; capitals do not matter.
-pub fn built_in(name: &str) -> Option<&'static str> {
-    CUTS.iter().find(|(n, _)| n.eq_ignore_ascii_case(name)).map(|(_, text)| *text)
-}
-
-/// The scenes that come with the program, as their files in `scenes/`.
-const SCENES: [(&str, &str); 3] = [
-    ("trilogy", include_str!("../../scenes/trilogy.toml")),
-    ("ring", include_str!("../../scenes/ring.toml")),
-    ("parcel", include_str!("../../scenes/parcel.toml")),
-];
-
-/// The file of a scene that comes with the program; capitals do not matter.
-pub fn built_in_scene(name: &str) -> Option<&'static str> {
-    SCENES.iter().find(|(n, _)| n.eq_ignore_ascii_case(name)).map(|(_, text)| *text)
-}
 
 /// What else someone may have meant by a file that is no cut file: a scene, or a cut that comes with the program.
 pub fn hint(file: &Path) -> String {
@@ -98,8 +72,7 @@ impl Cuts {
     pub fn run(&self) -> Result<(), Failure> {
         if let Some(name) = &self.name {
             let known = CUTS.map(|(n, _)| n).join(", ");
-            let text =
-                built_in(name).ok_or_else(|| Failure::Usage(format!("no cut '{name}'; known: {known}")))?;
+            let text = cut(name).ok_or_else(|| Failure::Usage(format!("no cut '{name}'; known: {known}")))?;
             return print(text.trim_end());
         }
         let mut rows = vec![];
@@ -130,7 +103,7 @@ impl Scenes {
         if let Some(name) = &self.name {
             let known = SCENES.map(|(n, _)| n).join(", ");
             let unknown = || Failure::Usage(format!("no scene '{name}'; known: {known}"));
-            return print(built_in_scene(name).ok_or_else(unknown)?.trim_end());
+            return print(scene(name).ok_or_else(unknown)?.trim_end());
         }
         let mut rows = vec![];
         for (name, text) in SCENES {
@@ -189,7 +162,8 @@ impl Lights {
             let line = |light: crate::scene::Light| format!("{:<14}{}", light.name, light.description);
             return print(&known.map(line).collect::<Vec<_>>().join("\n"));
         };
-        let light = light(&name.to_ascii_lowercase()).ok_or_else(|| super::lighting::unknown(name))?;
+        let light =
+            light(&name.to_ascii_lowercase()).ok_or_else(|| Failure::Usage(lighting::unknown(name)))?;
         let text = light_file::text(&light).map_err(|e| Failure::Output(e.to_string()))?;
         print(text.trim_end())
     }

@@ -4,7 +4,6 @@ mod assembly;
 mod bench;
 mod export;
 mod info;
-mod lighting;
 mod lists;
 mod measure;
 mod options;
@@ -17,6 +16,7 @@ mod specimen;
 mod spin;
 
 use crate::io::WriteError;
+use crate::io::lighting::LightingError;
 use crate::trace::Stopped;
 use clap::{Parser, Subcommand};
 use std::path::{Path, PathBuf};
@@ -48,6 +48,15 @@ impl From<WriteError> for Failure {
         match error {
             WriteError::Stopped(_) => Self::Stopped,
             error @ WriteError::Io { .. } => Self::Output(error.to_string()),
+        }
+    }
+}
+
+impl From<LightingError> for Failure {
+    fn from(error: LightingError) -> Self {
+        match error {
+            LightingError::Unknown(message) => Self::Usage(message),
+            LightingError::File(message) => Self::Input(message),
         }
     }
 }

@@ -2,15 +2,15 @@
 
 use super::Failure;
 use super::assembly::Assembly;
-use super::lighting::Lighting;
 use super::options::TracerName;
 use super::picture_options::PictureOptions;
 use super::sampler::Sampler;
+use crate::io::lighting::Lighting;
 use crate::io::panorama;
 use crate::optics::strata;
 use crate::picture::spectral::{Remainder, expose};
 use crate::picture::{Background, Bloom, ByBeams, Develop, Linear, Overlay, Tone, develop, lay};
-use crate::scene::{Panorama, Projection, Setting, View};
+use crate::scene::{Film, Panorama, Projection, Setting, View};
 use crate::trace::ray::{self, ByRays, Camera};
 use crate::trace::sitting::Sitting;
 use crate::trace::surround::{Behind, Surround};
@@ -91,6 +91,7 @@ impl<'a> Studio<'a> {
         let own = assembly.light.as_ref().map(|light| light.display().to_string());
         let light = options.light.as_ref().or(own.as_ref());
         let mut lighting = Lighting::load(light.map_or("studio", String::as_str))?;
+        lighting.warnings.iter().for_each(|w| super::say(&format!("warning: {w}")));
         if let Some(head) = options.head {
             lighting.light.head = within("head", head, 0.0, 89.0)?;
         }
@@ -269,8 +270,7 @@ impl<'a> Studio<'a> {
                 backdrop: self.backdrop || behind.is_some(),
             },
             view,
-            size: self.options.size,
-            pixel,
+            film: Film::new(self.options.size, pixel),
             options: ray::Options {
                 polarised: !self.options.unpolarised,
                 most_bounces: MOST_BOUNCES,
@@ -297,7 +297,7 @@ impl<'a> Studio<'a> {
         };
         let unfit = || Failure::Usage("exact beams do not apply here: use --tracer ray".into());
         let prepare = |_| ByBeams::new(*sitting, options).ok_or_else(unfit);
-        let most_rows = sitting.size[1];
+        let most_rows = sitting.film.size[1];
         let taken = expose(sitting, (&self.strata(), samples), most_rows, prepare, watch)?;
         Ok(self.taken(taken, samples, "exact beams"))
     }
@@ -316,7 +316,7 @@ impl<'a> Studio<'a> {
                 let around = Around::new(gpu, &sitting.surround);
                 let prepare =
                     |rows| Ok::<_, Failure>(ByCard::new(gpu, sitting, &around, rows, strata.len())?);
-                expose(sitting, looks, ByCard::most_rows(sitting.size[0]), prepare, watch)?
+                expose(sitting, looks, ByCard::most_rows(sitting.film.size[0]), prepare, watch)?
             }
         };
         Ok(self.taken(taken, samples, &sampler.told()))

@@ -4,9 +4,9 @@ use super::specimen::Specimen;
 use super::{Failure, say};
 use crate::io::WriteError;
 use crate::measure::{self, Figures};
+use crate::picture::Rows;
 use crate::picture::by_rays::{self, Manner};
-use crate::picture::{Film, Rows};
-use crate::scene::{Medium, Scope, View};
+use crate::scene::{Film, Medium, Scope, View};
 use crate::trace::Watch;
 use crate::trace::ray::Options;
 

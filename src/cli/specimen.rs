@@ -3,21 +3,26 @@
 use super::{Failure, say};
 use crate::cut::Design;
 use crate::io::cut_file::{self, CutFileError};
-use crate::optics::Material;
-use crate::scene::Stone;
+use crate::io::library;
+use crate::scene;
+use std::ops::Deref;
 use std::path::Path;
 
-/// A cut file, and the stone that it describes.
+/// A stone, and the file that it was read from.
 #[derive(Debug)]
 pub struct Specimen {
     /// As given on the command line.
     pub path: String,
-    /// What the file says.
-    pub design: Design,
-    /// Its solid.
-    pub stone: Stone,
-    /// What it is made of.
-    pub material: Material,
+    /// The stone.
+    pub made: scene::Specimen,
+}
+
+impl Deref for Specimen {
+    type Target = scene::Specimen;
+
+    fn deref(&self) -> &scene::Specimen {
+        &self.made
+    }
 }
 
 impl Specimen {
@@ -25,7 +30,7 @@ impl Specimen {
     /// is odd.
     pub fn load(file: &Path) -> Result<Self, Failure> {
         let name = file.display().to_string();
-        match super::lists::built_in(&name).filter(|_| !file.is_file()) {
+        match library::cut(&name).filter(|_| !file.is_file()) {
             Some(text) => Self::parse(&name, text),
             None => Self::read(file),
         }
@@ -44,52 +49,17 @@ impl Specimen {
     }
 
     fn of(path: String, design: Design) -> Result<Self, Failure> {
-        let input = |e: &dyn std::fmt::Display| Failure::Input(format!("{path}: {e}"));
-        let facets = design.facets().map_err(|e| input(&e))?;
-        let stone = Stone::new(&facets).map_err(|e| input(&e.told(|i| format!("'{}'", facets[i].0))))?;
-        let material = design.material.material().map_err(|e| input(&e))?;
-        let specimen = Self { path, design, stone, material };
-        specimen.warn(&facets)?;
+        let told = |e| Failure::Input(format!("{path}: {e}"));
+        let made = scene::Specimen::new(design).map_err(told)?;
+        let specimen = Self { path, made };
+        specimen.warnings.iter().for_each(|w| specimen.say(w));
         Ok(specimen)
-    }
-
-    /// Its weight in carats; `None` where its material's density is not known.
-    pub fn carats(&self) -> Option<f64> {
-        let unit_mm = 0.5 * self.design.diameter_mm;
-        self.material.carats(self.stone.polytope.volume() * unit_mm.powi(3))
     }
 
     /// Says that something about it is odd.
     pub fn say(&self, what: &str) {
         say(&format!("warning: {}: {what}", self.path));
     }
-
-    fn warn(&self, facets: &[(String, crate::math::Plane)]) -> Result<(), Failure> {
-        let odd = self.design.warnings().map_err(|e| Failure::Input(format!("{}: {e}", self.path)))?;
-        odd.iter().for_each(|w| self.say(&w.to_string()));
-        let polytope = &self.stone.polytope;
-        for &(dropped, kept) in polytope.merged() {
-            let (dropped, kept) = (&facets[dropped].0, &facets[kept].0);
-            self.say(&format!("facet '{dropped}' lies in the plane of '{kept}' and is one with it"));
-        }
-        if polytope.planes().any(|p| p.offset < 0.0) {
-            self.say(
-                "the origin lies outside the stone; pictures are centred there, so move the stone to it",
-            );
-        }
-        let names: Vec<&str> = polytope.redundant().iter().map(|&i| facets[i].0.as_str()).collect();
-        if !names.is_empty() {
-            self.say(&format!("these facets do not reach the stone: {}", listed(&names)));
-        }
-        Ok(())
-    }
-}
-
-/// Names in a row, no more than a line of them.
-fn listed(names: &[&str]) -> String {
-    const MOST: usize = 8;
-    let shown = names.iter().take(MOST).map(|n| format!("'{n}'")).collect::<Vec<_>>().join(", ");
-    if names.len() > MOST { format!("{shown} and {} more", names.len() - MOST) } else { shown }
 }
 
 /// A file's name without its ending, for the files made of it.

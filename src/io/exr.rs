@@ -1,7 +1,8 @@
 //! OpenEXR: what every pixel holds, in floating point, a channel for each part of the light.
 
 use super::atomic::{WriteError, write};
-use crate::picture::{Film, Layer, paint};
+use crate::picture::{Layer, paint};
+use crate::scene::Film;
 use crate::trace::Watch;
 use exr::meta::attribute::Chromaticities;
 use exr::prelude::{
@@ -22,7 +23,8 @@ pub fn write_exr(
     description: &str,
     watch: Watch,
 ) -> Result<(), WriteError> {
-    let pixels = film.size as usize * film.size as usize;
+    let size = (film.size[0] as usize, film.size[1] as usize);
+    let pixels = size.0 * size.1;
     let mut channels: Vec<Vec<f32>> = layer.channels.iter().map(|_| Vec::with_capacity(pixels)).collect();
     paint(layer, film, watch, |rows| -> Result<(), WriteError> {
         for y in rows.first..rows.first + rows.count {
@@ -35,7 +37,7 @@ pub fn write_exr(
     let named = layer.channels.iter().zip(channels);
     let list: SmallVec<[AnyChannel<FlatSamples>; 4]> =
         named.map(|(name, values)| AnyChannel::new(name.as_str(), FlatSamples::F32(values))).collect();
-    write_channels(path, (film.size as usize, film.size as usize), list, description, None)
+    write_channels(path, size, list, description, None)
 }
 
 /// Writes one layer, `light`, of these channels.

@@ -2,7 +2,7 @@
 
 use super::figures::Figures;
 use crate::math::Polytope;
-use crate::scene::{Medium, Scope, View};
+use crate::scene::{Film, Medium, Scope, View};
 #[cfg(feature = "gpu")]
 use crate::trace::gpu::{Gpu, GpuError, Seen, Shot};
 use crate::trace::ray::{Camera, Exit, Options, Rest, Tracer};
@@ -86,7 +86,8 @@ pub fn by_gpu<E: From<Stopped> + From<GpuError>>(
     watch: Watch,
 ) -> Result<Figures, E> {
     over_lattices(polytope, view, scope, watch, |half, shift, done| {
-        let shot = Shot { polytope, medium, view, scope, half, size: side, per_side: 1, shift, options };
+        let film = Film::square(side, half);
+        let shot = Shot { polytope, medium, view, scope, film, per_side: 1, shift, options };
         let mut tally = Tally::new(scope.bands.len());
         gpu.scope(&shot, &|_| watch(done), |_, pixels| -> Result<(), E> {
             pixels.iter().for_each(|seen| tally.take_in(seen));

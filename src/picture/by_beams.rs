@@ -52,7 +52,7 @@ impl<'a> ByBeams<'a> {
         if sitting.view.projection != crate::scene::Projection::Orthographic || surround.behind.is_some() {
             return None;
         }
-        let [across, down] = sitting.size;
+        let [across, down] = sitting.film.size;
         let piece = |first: u32| Rows::new(first, PIECE.min(down - first), across, 1);
         let pieces = (0..down).step_by(PIECE as usize).map(piece).collect();
         let stone = &stone.polytope;
@@ -68,19 +68,16 @@ impl<'a> ByBeams<'a> {
         })
     }
 
-    /// From the image to pixels.
-    fn pixels_from_image(&self, copy: DMat2) -> DAffine2 {
-        let [across, down] = self.sitting.size.map(f64::from);
-        let flip = DMat2::from_diagonal(DVec2::new(1.0, -1.0) / self.sitting.pixel);
-        DAffine2::from_mat2_translation(flip * copy, DVec2::new(across, down) / 2.0)
-    }
-
     /// The colours of one band's beams, in all copies.
     fn patches(&self, beams: &Beams, look: &Look, band: usize) -> Vec<Patches> {
         let (response, is_first) = (&look.responses[band], band == 0);
         let sweeps = beams.sweeps(self.stone);
-        let copies: Vec<(DMat2, DAffine2)> =
-            beams.symmetry.copies().into_iter().map(|c| (c, self.pixels_from_image(c))).collect();
+        let copies: Vec<(DMat2, DAffine2)> = beams
+            .symmetry
+            .copies()
+            .into_iter()
+            .map(|c| (c, self.sitting.film.pixels_from_image(c)))
+            .collect();
         let ids: Vec<u32> = (0..beams.len() as u32).collect();
         let some = |ids: &[u32]| {
             let mut out = Patches::default();

@@ -1,9 +1,9 @@
 //! The pictures of [`by_rays`](super::by_rays), by a graphics card.
 
+use super::Rows;
 use super::by_rays::Manner;
-use super::{Film, Rows};
 use crate::math::Polytope;
-use crate::scene::{Medium, Scope, View};
+use crate::scene::{Film, Medium, Scope, View};
 use crate::trace::gpu::{Gpu, GpuError, Seen, Shot};
 use crate::trace::{Stopped, Watch};
 use glam::DVec2;
@@ -29,8 +29,8 @@ pub fn trace<E: From<Stopped> + From<GpuError>>(
     mut each: impl FnMut(&Rows) -> Result<(), E>,
 ) -> Result<(), E> {
     let Manner { options, per_side } = *manner;
-    let (half, size, shift) = (film.half, film.size, DVec2::splat(0.5));
-    let shot = Shot { polytope, medium, view, scope, half, size, per_side, shift, options };
+    let (film, shift, size) = (*film, DVec2::splat(0.5), film.size[0]);
+    let shot = Shot { polytope, medium, view, scope, film, per_side, shift, options };
     let bands = scope.bands.len();
     gpu.scope(&shot, watch, |first, pixels| {
         let count = pixels.len() as u32 / size;

@@ -1,8 +1,8 @@
 //! The same pictures by point rays: for perspective, where beams do not apply, and as a check on them.
 
-use super::{Film, Rows};
+use super::Rows;
 use crate::math::Polytope;
-use crate::scene::{Medium, Scope, View};
+use crate::scene::{Film, Medium, Scope, View};
 use crate::trace::ray::{Camera, Exit, Options, Tracer};
 use crate::trace::{Stopped, Watch};
 use glam::{DVec2, DVec3};
@@ -56,14 +56,15 @@ pub fn trace<E: From<Stopped>>(
         values.iter_mut().for_each(|v| *v /= f64::from(grid * grid));
         values
     };
-    for first in (0..film.size).step_by(PIECE as usize) {
-        if watch(f64::from(first) / f64::from(film.size)).is_break() {
+    let [across, down] = film.size;
+    for first in (0..down).step_by(PIECE as usize) {
+        if watch(f64::from(first) / f64::from(down)).is_break() {
             return Err(Stopped.into());
         }
-        let count = PIECE.min(film.size - first);
-        let line = |y: u32| (0..film.size).map(|x| pixel(x, y)).collect::<Vec<_>>();
+        let count = PIECE.min(down - first);
+        let line = |y: u32| (0..across).map(|x| pixel(x, y)).collect::<Vec<_>>();
         let lines: Vec<_> = (first..first + count).into_par_iter().map(line).collect();
-        let mut rows = Rows::new(first, count, film.size, channels);
+        let mut rows = Rows::new(first, count, across, channels);
         for (y, line) in (first..).zip(lines) {
             for (x, values) in line.into_iter().enumerate() {
                 values.into_iter().enumerate().for_each(|(c, v)| rows.row_mut(y, c)[x] = v);

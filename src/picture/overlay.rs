@@ -157,9 +157,9 @@ pub fn lay(overlay: Overlay, sitting: &Sitting, rgba: &mut [u8], watch: Watch) -
     let sight = Sight::new(sitting);
     if overlay == Overlay::Wireframe {
         let wires = Wires::new(sitting, &sight);
-        return each_row(sitting.size, rgba, watch, |y, row| wires.draw(&sight, y, row));
+        return each_row(sitting.film.size, rgba, watch, |y, row| wires.draw(&sight, y, row));
     }
-    each_row(sitting.size, rgba, watch, |y, row| {
+    each_row(sitting.film.size, rgba, watch, |y, row| {
         for (x, pixel) in row.as_chunks_mut().0.iter_mut().enumerate() {
             let glance = sight.through(x as f64 + 0.5, y as f64 + 0.5);
             if let Some((colour, share)) = glance.and_then(|g| overlay.colour(&sight, &g)) {

@@ -1,7 +1,8 @@
 //! Paints a layer, some rows at a time, so that a picture may be larger than memory.
 
+use super::Rows;
 use super::layer::Layer;
-use super::{Film, Rows};
+use crate::scene::Film;
 use crate::trace::{Stopped, Watch};
 use glam::{DAffine2, DVec2};
 use rayon::prelude::*;
@@ -47,9 +48,10 @@ pub fn paint<E: From<Stopped>>(
 
 impl<'a> Laid<'a> {
     fn new(layer: &'a Layer, film: &Film) -> Self {
-        let row = (film.size as usize + 1) * layer.channels.len() * size_of::<f64>();
-        let rows = ((PIECE / row).max(1) as u32).min(film.size);
-        let count = film.size.div_ceil(rows) as usize;
+        let [across, down] = film.size;
+        let row = (across as usize + 1) * layer.channels.len() * size_of::<f64>();
+        let rows = ((PIECE / row).max(1) as u32).min(down);
+        let count = down.div_ceil(rows) as usize;
         let maps: Vec<DAffine2> = layer.copies.iter().map(|&c| film.pixels_from_image(c)).collect();
         let mut pieces = vec![vec![]; count];
         for (k, map) in maps.iter().enumerate() {
@@ -71,8 +73,8 @@ impl<'a> Laid<'a> {
 
     fn paint(&self, piece: usize) -> Rows {
         let first = piece as u32 * self.rows;
-        let count = self.rows.min(self.film.size - first);
-        let mut rows = Rows::new(first, count, self.film.size, self.layer.channels.len());
+        let count = self.rows.min(self.film.size[1] - first);
+        let mut rows = Rows::new(first, count, self.film.size[0], self.layer.channels.len());
         let mut polygon: Vec<DVec2> = vec![];
         for &(copy, patch) in &self.pieces[piece] {
             let patch = self.layer.patches[patch as usize];

@@ -27,7 +27,7 @@ pub fn expose<E: From<Stopped>, X: Exposure<E>>(
     prepare: impl Fn(Range<u32>) -> Result<X, E>,
     watch: Watch,
 ) -> Result<(Linear, Remainder), E> {
-    let [width, height] = sitting.size;
+    let [width, height] = sitting.film.size;
     let mut pixels = Vec::with_capacity(width as usize * height as usize);
     let (mut sum, mut cover) = (Remainder::default(), 0.0);
     for first in (0..height).step_by(most_rows as usize) {

@@ -1,9 +1,8 @@
 //! Pictures as drawings: the virtual facets themselves, as polygons of an SVG.
 
-use super::Film;
 use crate::math::{Basis, Plane};
 use crate::optics::{LinearRgb, encoded_from_linear};
-use crate::scene::{Scope, Stone, elevation_deg};
+use crate::scene::{Film, Scope, Stone, elevation_deg};
 use crate::trace::beam::Beams;
 use glam::{DMat2, DVec2, DVec3};
 use svg::Document;

@@ -1,5 +1,6 @@
 //! Floor 2: what is looked at, from where and under which light. Data only.
 
+mod film;
 mod layout;
 mod light;
 mod lights;
@@ -8,9 +9,11 @@ mod overlap;
 mod panorama;
 mod scope;
 mod setting;
+mod specimen;
 mod stone;
 mod view;
 
+pub use film::Film;
 pub use layout::Layout;
 pub use light::{Dome, Field, Lamp, Light, LightError, MOST_LAMPS, PanoramaRef, SoftBox, toward};
 pub use lights::{LIGHTS, light};
@@ -19,5 +22,6 @@ pub use overlap::overlapping;
 pub use panorama::Panorama;
 pub use scope::{ASET_CONE, Backing, Band, MOST_BANDS, Scope, ScopeError, elevation_deg};
 pub use setting::{Placed, Setting};
+pub use specimen::{Specimen, SpecimenError};
 pub use stone::Stone;
 pub use view::{Lean, Projection, Side, View};

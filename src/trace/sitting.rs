@@ -4,7 +4,7 @@ use super::surround::Surround;
 use super::{Stopped, Watch};
 use crate::math::Polytope;
 use crate::optics::Stratum;
-use crate::scene::{Medium, Placed, Setting, View};
+use crate::scene::{Film, Medium, Placed, Setting, View};
 use crate::trace::ray::Options;
 use glam::{DVec2, DVec3};
 
@@ -17,10 +17,8 @@ pub struct Sitting<'a> {
     pub surround: Surround<'a>,
     /// From where they are seen.
     pub view: &'a View,
-    /// Pixels across and down.
-    pub size: [u32; 2],
-    /// Side of a pixel, in world units, in the image plane through the origin.
-    pub pixel: f64,
+    /// The picture's pixels.
+    pub film: Film,
     /// How far rays are followed.
     pub options: Options,
 }
@@ -116,19 +114,5 @@ impl Sitting<'_> {
     /// How far the stones reach from the origin.
     pub fn reach(&self) -> f64 {
         self.stones().flat_map(Polytope::vertices).map(|v| v.length()).fold(0.0, f64::max)
-    }
-
-    /// The point of the image plane that a ray at `shift` in a pixel goes through.
-    pub fn image_from_pixel(&self, x: u32, y: u32, shift: DVec2) -> DVec2 {
-        let [across, down] = self.size.map(f64::from);
-        let centred = DVec2::new(f64::from(x), f64::from(y)) + shift - DVec2::new(across, down) / 2.0;
-        DVec2::new(centred.x, -centred.y) * self.pixel
-    }
-
-    /// Where a point of the image plane lies in the picture, in pixels to the right of its left border and below its
-    /// upper one.
-    pub fn pixel_from_image(&self, p: DVec2) -> DVec2 {
-        let [across, down] = self.size.map(f64::from);
-        DVec2::new(p.x, -p.y) / self.pixel + DVec2::new(across, down) / 2.0
     }
 }

@@ -4,7 +4,7 @@ use super::{Code, lay_over};
 use crate::math::Polytope;
 use crate::trace::ray::Sight;
 use crate::trace::sitting::Sitting;
-use glam::{DVec2, DVec3};
+use glam::{DMat2, DVec2, DVec3};
 
 /// Width of a line, pixels.
 const WIDTH: f64 = 1.2;
@@ -61,6 +61,7 @@ impl Wires {
 fn wires(sitting: &Sitting, sight: &Sight, stone: usize, polytope: &Polytope) -> Vec<Wire> {
     let facets = polytope.facets();
     let faces = |k: usize| sight.camera.sees(&facets[k].plane);
+    let pixels = sitting.film.pixels_from_image(DMat2::IDENTITY);
     let mut wires = vec![];
     for (k, facet) in facets.iter().enumerate() {
         let corners: Vec<DVec3> = polytope.corners(facet).collect();
@@ -71,7 +72,7 @@ fn wires(sitting: &Sitting, sight: &Sight, stone: usize, polytope: &Polytope) ->
                 continue;
             }
             if let [Some(a), Some(b)] = points.map(|p| sight.camera.project(p)) {
-                let ends = [a.0, b.0].map(|p| sitting.pixel_from_image(p));
+                let ends = [a.0, b.0].map(|p| pixels.transform_point2(p));
                 let is_front = faces(k) || faces(other as usize);
                 wires.push(Wire { ends, sizes: [a.1, b.1], points, stone, is_front });
             }

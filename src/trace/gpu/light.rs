@@ -9,7 +9,7 @@ use crate::scene;
 use crate::trace::sitting::{Exposure, Lit, Look, Sitting};
 use crate::trace::surround::{HEAD_EDGE, Surround};
 use crate::trace::{Stopped, Watch};
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 use std::ops::Range;
 use wgpu::util::DeviceExt;
 
@@ -32,6 +32,8 @@ pub struct ByCard<'a> {
     wavelengths: usize,
     dispatches: u32,
     looks: u32,
+    /// From a film around the origin to the sitting's, pixels.
+    shift: DVec2,
 }
 
 impl<'a> ByCard<'a> {
@@ -66,19 +68,24 @@ impl<'a> ByCard<'a> {
         let mut entries = solids.entries(&media);
         entries.extend(around.entries());
         entries.push(wgpu::BindGroupEntry { binding: 10, resource: responses.as_entire_binding() });
-        let eye = Eye {
-            view: sitting.view,
-            size: sitting.size,
-            pixel: sitting.pixel,
-            reach: sitting.reach(),
-            options: sitting.options,
-        };
+        let eye =
+            Eye { view: sitting.view, film: sitting.film, reach: sitting.reach(), options: sitting.options };
         let told = eye.frame(gpu, &solids, wavelengths);
         solids.enough(gpu, told.counts[2])?;
         let pipeline = gpu.lights.pipeline(&gpu.device, solids.is_few);
         let stage = Stage::new::<door::Lit>(gpu, pipeline, told, rows.len() as u32, entries)?;
-        let at_once = Stage::rows(gpu, sitting.size);
-        Ok(Self { rows, at_once, stage, media, responses, wavelengths, dispatches: 0, looks: 0 })
+        let at_once = Stage::rows(gpu, sitting.film.size);
+        Ok(Self {
+            rows,
+            at_once,
+            stage,
+            media,
+            responses,
+            wavelengths,
+            dispatches: 0,
+            looks: 0,
+            shift: sitting.film.shift(),
+        })
     }
 
     /// Tells the card what the stones are made of and how their light is coloured.
@@ -109,7 +116,7 @@ impl<E: From<Stopped> + From<GpuError>> Exposure<E> for ByCard<'_> {
                     return Err(Stopped.into());
                 }
                 let turn = [self.dispatches, self.rows.start, band as u32, end as u32];
-                self.stage.look((first, count), (look.shift, 0.5 - look.part), turn)?;
+                self.stage.look((first, count), (look.shift + self.shift, 0.5 - look.part), turn)?;
             }
             self.dispatches += 1;
         }

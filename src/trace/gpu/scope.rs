@@ -5,7 +5,7 @@ use super::door::{Bands, Medium as MediumAtDoor, Seen, with};
 use super::solids::Solids;
 use super::stage::{Eye, Stage};
 use crate::math::{Plane, Polytope};
-use crate::scene::{Medium, Scope, View};
+use crate::scene::{Film, Medium, Scope, View};
 use crate::trace::ray::Options;
 use crate::trace::{Stopped, Watch};
 use glam::{DVec2, DVec3};
@@ -16,7 +16,7 @@ pub const MOST_BANDS: usize = 8;
 /// Rays are followed no further: chains of very different lengths side by side would leave most of a card idle.
 pub const MOST_BOUNCES: u32 = 64;
 
-/// One picture to take: a square film, its rays on a regular grid in each pixel.
+/// One picture to take: its rays on a regular grid in each pixel.
 pub struct Shot<'a> {
     /// The stone.
     pub polytope: &'a Polytope,
@@ -26,10 +26,8 @@ pub struct Shot<'a> {
     pub view: &'a View,
     /// Under which light, of at most [`MOST_BANDS`] bands.
     pub scope: &'a Scope,
-    /// Half the film's side in girdle radii, around the image's origin.
-    pub half: f64,
-    /// Pixels along each side.
-    pub size: u32,
+    /// The picture's pixels.
+    pub film: Film,
     /// Rays along each side of a pixel, at least 1.
     pub per_side: u32,
     /// Where in its cell of that grid each ray stands, 0 to 1; (0.5, 0.5) is the middle.
@@ -50,17 +48,19 @@ impl Gpu {
         watch: Watch,
         mut each: impl FnMut(u32, &[Seen]) -> Result<(), E>,
     ) -> Result<(), E> {
-        let rows = Stage::rows(self, [shot.size; 2]);
+        let rows = Stage::rows(self, shot.film.size);
         let stage = stage(self, shot, rows)?;
         let turns = shot.per_side * shot.per_side;
-        for first in (0..shot.size).step_by(rows as usize) {
-            let count = rows.min(shot.size - first);
+        let shift = shot.shift + shot.film.shift() * f64::from(shot.per_side);
+        let down = shot.film.size[1];
+        for first in (0..down).step_by(rows as usize) {
+            let count = rows.min(down - first);
             for turn in 0..turns {
                 let part = f64::from(turn) / f64::from(turns);
-                if watch((f64::from(first) + part * f64::from(count)) / f64::from(shot.size)).is_break() {
+                if watch((f64::from(first) + part * f64::from(count)) / f64::from(down)).is_break() {
                     return Err(Stopped.into());
                 }
-                stage.look((first, count), (shot.shift, 0.0), [turn, shot.per_side, 0, 1])?;
+                stage.look((first, count), (shift, 0.0), [turn, shot.per_side, 0, 1])?;
             }
             each(first, &stage.read::<Seen>(count)?)?;
         }
@@ -81,8 +81,7 @@ fn stage<'a>(gpu: &'a Gpu, shot: &Shot, rows: u32) -> Result<Stage<'a>, GpuError
     let media = gpu.buffer("media", bytemuck::bytes_of(&medium), wgpu::BufferUsages::STORAGE);
     let mut entries = solids.entries(&media);
     entries.push(wgpu::BindGroupEntry { binding: 6, resource: bands.as_entire_binding() });
-    let pixel = 2.0 * shot.half / f64::from(shot.size);
-    let eye = Eye { view: shot.view, size: [shot.size; 2], pixel, reach, options: shot.options };
+    let eye = Eye { view: shot.view, film: shot.film, reach, options: shot.options };
     let told = eye.frame(gpu, &solids, 1);
     Stage::new::<Seen>(gpu, gpu.scopes.pipeline(&gpu.device, solids.is_few), told, rows, entries)
 }

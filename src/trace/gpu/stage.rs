@@ -4,7 +4,7 @@ use super::device::{Gpu, GpuError};
 use super::door::{Frame, with};
 use super::scope::MOST_BOUNCES;
 use super::solids::Solids;
-use crate::scene::{Projection, View};
+use crate::scene::{Film, Projection, View};
 use crate::trace::ray::Options;
 use bytemuck::Pod;
 use glam::DVec2;
@@ -22,10 +22,7 @@ const WORKGROUP: u32 = 8;
 /// From where a picture is taken, and how far its rays are followed.
 pub(super) struct Eye<'a> {
     pub view: &'a View,
-    /// Pixels across and down.
-    pub size: [u32; 2],
-    /// Side of a pixel.
-    pub pixel: f64,
+    pub film: Film,
     /// How far the stones reach from the origin.
     pub reach: f64,
     pub options: Options,
@@ -40,10 +37,10 @@ impl Eye<'_> {
             Projection::Perspective { distance } => distance,
         };
         let bounces = solids.bounces(gpu, self.options.most_bounces.min(MOST_BOUNCES));
-        let [across, down] = self.size;
+        let [across, down] = self.film.size;
         Frame {
             right: with(basis.right, self.reach),
-            up: with(basis.up, self.pixel),
+            up: with(basis.up, self.film.pixel),
             toward: with(basis.toward, distance),
             limits: [self.options.least_weight as f32, 0.0, 0.5, 0.5],
             counts: [solids.count as u32, wavelengths as u32, bounces, u32::from(self.options.polarised)],

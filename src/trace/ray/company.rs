@@ -43,7 +43,7 @@ impl<'a> ByRays<'a> {
             camera: Camera::reaching(sitting.view, sitting.reach()),
             tracers: sitting.stones().map(tracer).collect(),
             balls: sitting.balls(),
-            sums: vec![Lit::default(); rows.len() * sitting.size[0] as usize],
+            sums: vec![Lit::default(); rows.len() * sitting.film.size[0] as usize],
             rows,
             looks: 0,
         }
@@ -118,7 +118,7 @@ impl<E: From<Stopped>> Exposure<E> for ByRays<'_> {
         let made =
             |(tracer, media): (&Tracer, &Vec<Medium>)| media.iter().map(|&m| tracer.made_of(m)).collect();
         let tracers: Vec<Vec<Tracer>> = self.tracers.iter().zip(&look.media).map(made).collect();
-        let across = self.sitting.size[0] as usize;
+        let across = self.sitting.film.size[0] as usize;
         let mut sums = std::mem::take(&mut self.sums);
         let pieces = sums.chunks_mut(across * PIECE).enumerate();
         let count = pieces.len();
@@ -130,7 +130,11 @@ impl<E: From<Stopped>> Exposure<E> for ByRays<'_> {
             }
             pixels.par_iter_mut().enumerate().for_each(|(k, sum)| {
                 let (x, y) = ((k % across) as u32, self.rows.start + (piece * PIECE + k / across) as u32);
-                let lit = self.see(&tracers, look, self.sitting.image_from_pixel(x, y, look.shift));
+                let lit = self.see(
+                    &tracers,
+                    look,
+                    self.sitting.film.image_from_pixels(DVec2::new(f64::from(x), f64::from(y)) + look.shift),
+                );
                 sum.colour += lit.colour;
                 sum.cover += lit.cover;
                 sum.unresolved += lit.unresolved;

@@ -53,7 +53,7 @@ impl<'a> Sight<'a> {
     /// The ray through a point of the picture, in pixels to the right of its left border and below its upper one;
     /// `None` where it meets no stone.
     pub fn through(&self, x: f64, y: f64) -> Option<Glance> {
-        let at = self.sitting.image_from_pixel(0, 0, DVec2::new(x, y));
+        let at = self.sitting.film.image_from_pixels(DVec2::new(x, y));
         let (origin, direction) = self.camera.ray(at);
         let (stone, (facet, distance)) = nearest(&self.tracers, &self.balls, (origin, direction), None)?;
         Some(Glance { origin, direction, stone, facet: facet as u32, distance })

@@ -1,7 +1,6 @@
 //! The light that stones are seen in: one that comes with the program, a light file, or a panorama.
 
-use super::{Failure, say};
-use crate::io::{light_file, panorama};
+use super::{light_file, panorama};
 use crate::scene::{LIGHTS, Light, light};
 use crate::trace::surround::Sky;
 use std::path::{Path, PathBuf};
@@ -13,46 +12,58 @@ pub struct Lighting {
     pub light: Light,
     /// Ready to be looked up, with its panorama.
     pub sky: Sky,
+    /// What is odd about its panorama, in words that name the file.
+    pub warnings: Vec<String>,
+}
+
+/// Why there is no such light.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+pub enum LightingError {
+    /// A name that no light has; with what may have been meant.
+    #[error("{0}")]
+    Unknown(String),
+    /// What is wrong with a file, in words that name it.
+    #[error("{0}")]
+    File(String),
 }
 
 impl Lighting {
-    /// Takes a light by its name, from a light file, or a panorama alone. Warns of what is odd about its panorama.
+    /// Takes a light by its name, from a light file, or a panorama alone.
     ///
     /// # Errors
     /// What is wrong with the name or the file.
-    pub fn load(name_or_file: &str) -> Result<Self, Failure> {
+    pub fn load(name_or_file: &str) -> Result<Self, LightingError> {
         let file = PathBuf::from(name_or_file);
         let (light, folder) = match light(&name_or_file.to_ascii_lowercase()) {
             Some(light) => (light, None),
             None if panorama::is_picture(&file) => (Light::of_panorama(&file), None),
             None if !file.exists() && file.extension().is_none() => {
-                return Err(unknown(name_or_file));
+                return Err(LightingError::Unknown(unknown(name_or_file)));
             }
-            None => (light_file::read(&file).map_err(Failure::Input)?, file.parent()),
+            None => (light_file::read(&file).map_err(LightingError::File)?, file.parent()),
         };
-        let sky = sky(&light, folder)?;
-        Ok(Self { light, sky })
+        let (sky, warnings) = sky(&light, folder)?;
+        Ok(Self { light, sky, warnings })
     }
 }
 
 /// A light as it is looked up; its panorama's path begins at a folder.
-fn sky(light: &Light, folder: Option<&Path>) -> Result<Sky, Failure> {
-    let Some(picture) = &light.panorama else { return Ok(Sky::new(light, None)) };
+fn sky(light: &Light, folder: Option<&Path>) -> Result<(Sky, Vec<String>), LightingError> {
+    let Some(picture) = &light.panorama else { return Ok((Sky::new(light, None), vec![])) };
     let path = folder.map_or_else(|| picture.file.clone(), |folder| folder.join(&picture.file));
-    let reading = panorama::read(&path).map_err(Failure::Input)?;
-    reading.warnings.iter().for_each(|w| say(&format!("warning: {w}")));
-    Ok(Sky::new(light, Some(&reading.panorama)))
+    let reading = panorama::read(&path).map_err(LightingError::File)?;
+    Ok((Sky::new(light, Some(&reading.panorama)), reading.warnings))
 }
 
 /// What to say of a name that no light has.
-pub fn unknown(name: &str) -> Failure {
+pub fn unknown(name: &str) -> String {
     const SLIPS: usize = 3;
     let near = LIGHTS.iter().map(|n| (strsim::damerau_levenshtein(&name.to_lowercase(), n), n)).min();
     let hint = match near.filter(|(slips, _)| *slips <= SLIPS) {
         Some((_, near)) => format!("; did you mean '{near}'?"),
         None => format!("; known: {}, or give a light file or a panorama", LIGHTS.join(", ")),
     };
-    Failure::Usage(format!("no light '{name}'{hint}"))
+    format!("no light '{name}'{hint}")
 }
 
 #[cfg(test)]
@@ -60,7 +71,7 @@ mod tests {
     use super::*;
     use crate::io::write_rgba_png;
 
-    fn refused(name: &str) -> Failure {
+    fn refused(name: &str) -> LightingError {
         Lighting::load(name).err().unwrap()
     }
 
@@ -92,7 +103,7 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let told = |name: &str| refused(folder.path().join(name).to_str().unwrap()).to_string();
         assert_eq!(refused("stuido").to_string(), "no light 'stuido'; did you mean 'studio'?");
-        assert!(matches!(refused("stuido"), Failure::Usage(_)));
+        assert!(matches!(refused("stuido"), LightingError::Unknown(_)));
         assert!(refused("moonlight").to_string().contains("studio, dome, "));
         assert!(told("none.toml").ends_with("none.toml: there is no such file"));
         assert!(told("none.exr").ends_with("none.exr: there is no such file"));

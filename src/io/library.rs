@@ -1,0 +1,28 @@
+//! The cuts and scenes that come with the program, as the texts of their files.
+
+/// The cuts that come with the program, as their files in `cuts/`.
+pub const CUTS: [(&str, &str); 6] = [
+    ("tolkowsky", include_str!("../../cuts/tolkowsky.toml")),
+    ("modern-ideal", include_str!("../../cuts/modern-ideal.toml")),
+    ("steep-deep", include_str!("../../cuts/steep-deep.toml")),
+    ("shallow", include_str!("../../cuts/shallow.toml")),
+    ("fisheye", include_str!("../../cuts/fisheye.toml")),
+    ("sixty-sixty", include_str!("../../cuts/sixty-sixty.toml")),
+];
+
+/// The file of a cut that comes with the program; capitals do not matter.
+pub fn cut(name: &str) -> Option<&'static str> {
+    CUTS.iter().find(|(n, _)| n.eq_ignore_ascii_case(name)).map(|(_, text)| *text)
+}
+
+/// The scenes that come with the program, as their files in `scenes/`.
+pub const SCENES: [(&str, &str); 3] = [
+    ("trilogy", include_str!("../../scenes/trilogy.toml")),
+    ("ring", include_str!("../../scenes/ring.toml")),
+    ("parcel", include_str!("../../scenes/parcel.toml")),
+];
+
+/// The file of a scene that comes with the program; capitals do not matter.
+pub fn scene(name: &str) -> Option<&'static str> {
+    SCENES.iter().find(|(n, _)| n.eq_ignore_ascii_case(name)).map(|(_, text)| *text)
+}

@@ -1,0 +1,84 @@
+//! The rectangle on which a picture is taken.
+
+use crate::math::{Basis, Polytope};
+use glam::{DAffine2, DMat2, DVec2};
+
+/// Air around the silhouette, as a part of its half width.
+const MARGIN: f64 = 0.04;
+
+/// A picture's pixels in the image plane through the world's origin, x to the right and y up; rows are counted downward.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Film {
+    /// Pixels across and down.
+    pub size: [u32; 2],
+    /// Side of a pixel in world units (for a stone alone, girdle radii), above 0.
+    pub pixel: f64,
+    /// The point of the image plane in the picture's middle.
+    pub centre: DVec2,
+}
+
+impl Film {
+    /// A film of these pixels around the origin.
+    pub fn new(size: [u32; 2], pixel: f64) -> Self {
+        Self { size, pixel, centre: DVec2::ZERO }
+    }
+
+    /// A square of `size` pixels along each side whose half side is `half`, around the origin.
+    pub fn square(size: u32, half: f64) -> Self {
+        Self::new([size; 2], 2.0 * half / f64::from(size))
+    }
+
+    /// A square that takes in the whole stone, seen along parallel rays, with some air around it.
+    pub fn around(polytope: &Polytope, view: &Basis, size: u32) -> Self {
+        let reach = |v| view.project(v).abs().max_element();
+        Self::reaching(polytope.vertices().iter().map(|&v| reach(v)).fold(0.0, f64::max), size)
+    }
+
+    /// A square on which something that reaches so far from the origin has some air around it.
+    pub fn reaching(reach: f64, size: u32) -> Self {
+        Self::square(size, reach * (1.0 + MARGIN))
+    }
+
+    /// Pixels per world unit.
+    pub fn scale(&self) -> f64 {
+        1.0 / self.pixel
+    }
+
+    /// From image coordinates, first mapped by `copy`, to pixels: (0, 0) is the upper left corner.
+    pub fn pixels_from_image(&self, copy: DMat2) -> DAffine2 {
+        let flip = DMat2::from_diagonal(DVec2::new(1.0, -1.0) / self.pixel);
+        DAffine2::from_mat2_translation(flip * copy, self.middle() - flip * self.centre)
+    }
+
+    /// The image coordinates of a point given in pixels.
+    pub fn image_from_pixels(&self, p: DVec2) -> DVec2 {
+        let centred = p - self.middle();
+        DVec2::new(centred.x, -centred.y) * self.pixel + self.centre
+    }
+
+    /// How far a film around the origin is shifted, in pixels, to become this one.
+    pub fn shift(&self) -> DVec2 {
+        DVec2::new(self.centre.x, -self.centre.y) / self.pixel
+    }
+
+    fn middle(&self) -> DVec2 {
+        DVec2::new(f64::from(self.size[0]), f64::from(self.size[1])) / 2.0
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn pixels_and_image_are_one_anothers_inverse() {
+        let film = Film { centre: DVec2::new(0.3, -0.2), ..Film::new([40, 20], 0.05) };
+        assert!(film.image_from_pixels(DVec2::new(20.0, 10.0)).abs_diff_eq(film.centre, 1e-15));
+        assert!(film.image_from_pixels(DVec2::ZERO).abs_diff_eq(DVec2::new(-0.7, 0.3), 1e-15));
+        let map = film.pixels_from_image(DMat2::IDENTITY);
+        let at = DVec2::new(3.25, 17.5);
+        assert!(map.transform_point2(film.image_from_pixels(at)).abs_diff_eq(at, 1e-12));
+        let around = Film { centre: DVec2::ZERO, ..film };
+        assert!(around.image_from_pixels(at + film.shift()).abs_diff_eq(film.image_from_pixels(at), 1e-12));
+    }
+}

@@ -1,0 +1,89 @@
+//! A stone made from a design: its solid, its material, and what is odd about it.
+
+use super::{Medium, Stone};
+use crate::cut::{Design, DesignError};
+use crate::math::Plane;
+use crate::optics::Material;
+
+/// A design and the stone that it describes.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Specimen {
+    /// What its file says.
+    pub design: Design,
+    /// Its solid.
+    pub stone: Stone,
+    /// What it is made of.
+    pub material: Material,
+    /// What its owner may not have meant, in words.
+    pub warnings: Vec<String>,
+}
+
+/// Why a design makes no stone.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum SpecimenError {
+    /// Its numbers cannot be.
+    #[error(transparent)]
+    Design(#[from] DesignError),
+    /// Its planes enclose nothing; with their names.
+    #[error("{0}")]
+    Solid(String),
+}
+
+impl Specimen {
+    /// Builds the stone.
+    ///
+    /// # Errors
+    /// The first thing at fault with the design.
+    pub fn new(design: Design) -> Result<Self, SpecimenError> {
+        let facets = design.facets()?;
+        let told =
+            |e: crate::math::PolytopeError| SpecimenError::Solid(e.told(|i| format!("'{}'", facets[i].0)));
+        let stone = Stone::new(&facets).map_err(told)?;
+        let material = design.material.material().map_err(DesignError::from)?;
+        let mut warnings: Vec<String> = design.warnings()?.iter().map(ToString::to_string).collect();
+        warnings.extend(odd(&stone, &facets));
+        Ok(Self { design, stone, material, warnings })
+    }
+
+    /// Girdle radius in mm.
+    pub fn unit_mm(&self) -> f64 {
+        0.5 * self.design.diameter_mm
+    }
+
+    /// Its weight in carats; `None` where its material's density is not known.
+    pub fn carats(&self) -> Option<f64> {
+        self.material.carats(self.stone.polytope.volume() * self.unit_mm().powi(3))
+    }
+
+    /// Its medium at one wavelength, nm.
+    pub fn medium(&self, nm: f64) -> Medium {
+        Medium::of(&self.material, (nm, nm, nm), self.unit_mm())
+    }
+}
+
+/// What is odd about a solid.
+fn odd(stone: &Stone, facets: &[(String, Plane)]) -> Vec<String> {
+    let polytope = &stone.polytope;
+    let name = |&i: &usize| facets[i].0.as_str();
+    let merged = |(dropped, kept)| {
+        format!("facet '{}' lies in the plane of '{}' and is one with it", name(dropped), name(kept))
+    };
+    let mut told: Vec<String> =
+        polytope.merged().iter().map(|(dropped, kept)| merged((dropped, kept))).collect();
+    if polytope.planes().any(|p| p.offset < 0.0) {
+        let what = "the origin lies outside the stone; pictures are centred there, so move the stone to it";
+        told.push(what.to_owned());
+    }
+    let names: Vec<&str> = polytope.redundant().iter().map(name).collect();
+    if !names.is_empty() {
+        told.push(format!("these facets do not reach the stone: {}", listed(&names)));
+    }
+    told
+}
+
+/// Names in a row, no more than a line of them.
+fn listed(names: &[&str]) -> String {
+    const MOST: usize = 8;
+    let shown = names.iter().take(MOST).map(|n| format!("'{n}'")).collect::<Vec<_>>().join(", ");
+    if names.len() > MOST { format!("{shown} and {} more", names.len() - MOST) } else { shown }
+}
