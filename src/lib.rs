@@ -1,7 +1,7 @@
 //! Exact light in gemstone cuts: proportions or planes in, ASET, Ideal-Scope, hearts and arrows out.
 //!
 //! Floors, each importing only from those before it: `math`, `optics`; `cut`; `scene`; `trace`; `picture`,
-//! `measure`; `io`; `cli`. See docs/architecture.md.
+//! `measure`; `io`; `cli`, `app`. See docs/architecture.md.
 //!
 //! From a cut file to figures:
 //!
@@ -24,6 +24,8 @@
 //! Frame: right-handed, +z out of the table, z = 0 at the crown-side girdle, girdle radius 1. Lengths in files are
 //! percent of the girdle diameter, angles degrees; inside, girdle radii and radians.
 
+#[cfg(feature = "app")]
+pub mod app;
 #[cfg(feature = "cli")]
 pub mod cli;
 pub mod cut;

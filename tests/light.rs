@@ -31,6 +31,8 @@ struct Shoot {
     /// A photograph behind, and how far.
     photo: Option<(Panorama, f64)>,
     options: Options,
+    /// The point in the picture's middle.
+    centre: DVec2,
 }
 
 impl Shoot {
@@ -45,6 +47,7 @@ impl Shoot {
             backdrop: true,
             photo: None,
             options: Options { polarised: true, most_bounces: 64, least_weight: 1e-4 },
+            centre: DVec2::ZERO,
         }
     }
 
@@ -67,7 +70,7 @@ impl Shoot {
             setting: &self.setting,
             surround,
             view: &self.view,
-            film: Film { centre: DVec2::new(0.04, 0.02), ..Film::square(SIZE, 1.1) },
+            film: Film { centre: self.centre, ..Film::square(SIZE, 1.1) },
             options: self.options,
         })
     }
@@ -239,6 +242,32 @@ fn exact_beams_show_what_rays_show() {
         let mean = |b: &[DVec3]| b.iter().sum::<DVec3>() / b.len() as f64;
         let off = (mean(&rays) - mean(&beams)).abs().max_element() / mean(&rays).max_element();
         assert!(off < chance, "{material}, {name}: means are off by {off}");
+    }
+}
+
+#[test]
+fn a_film_that_is_shifted_sees_the_same_elsewhere() {
+    let mut shoot = Shoot::new(&modern(), "diamond", light("studio").unwrap());
+    (shoot.backdrop, shoot.wavelengths) = (false, 2);
+    let (across, up) = (9_u32, 5_u32);
+    let taken = |shoot: &Shoot| {
+        let mut all = vec![shoot.by_rays().0, shoot.by_beams().0];
+        #[cfg(feature = "gpu")]
+        all.extend(card("a_film_that_is_shifted_sees_the_same_elsewhere").map(|gpu| shoot.by_card(&gpu).0));
+        all
+    };
+    let before = taken(&shoot);
+    shoot.centre = DVec2::new(f64::from(across), f64::from(up)) * (2.2 / f64::from(SIZE));
+    let place = |x: u32, y: u32| (y * SIZE + x) as usize;
+    for (before, after) in before.iter().zip(&taken(&shoot)) {
+        let pixels = (up..SIZE).flat_map(|y| (0..SIZE - across).map(move |x| (x, y)));
+        let off = |(x, y)| {
+            colour(&after.pixels[place(x, y)]).distance(colour(&before.pixels[place(x + across, y - up)]))
+        };
+        let (count, apart) = pixels.fold((0, 0), |(n, k), at| (n + 1, k + u32::from(off(at) > 1e-3)));
+        // Rays that run along an edge go either way by rounding.
+        assert!(apart * 500 < count, "{apart} of {count}");
+        assert_ne!(before.pixels, after.pixels);
     }
 }
 

@@ -3,7 +3,8 @@
 
 use super::raster::Rows;
 use super::strips::strips;
-use crate::math::Polytope;
+use crate::math::{Polytope, centroid};
+use crate::optics::{Material, Stratum};
 use crate::scene::Medium;
 use crate::trace::beam::{self, Beam, Beams};
 use crate::trace::sitting::{Exposure, Lit, Look, Sitting};
@@ -68,9 +69,65 @@ impl<'a> ByBeams<'a> {
         })
     }
 
+    /// Adds a look at all wavelengths by the beams of one in their middle, whose directions are spread to first order and
+    /// whose light is absorbed as on the way through the middle of each: quick, for a picture that is about to change.
+    ///
+    /// # Errors
+    /// [`Stopped`] when `watch` asks to stop.
+    pub fn glance(&mut self, strata: &[Stratum], watch: Watch) -> Result<(), Stopped> {
+        let (Some(first), Some(last)) = (strata.first(), strata.last()) else { return Ok(()) };
+        let material = &self.sitting.setting.stones[0].material;
+        let unit_mm = self.sitting.setting.unit_mm;
+        let middle = strata[strata.len() / 2].at(0.5);
+        let whole = Medium::of(material, (first.from_nm, middle, last.to_nm), unit_mm);
+        let clear = Medium { absorption: [0.0; 2], ..whole };
+        let beams = beam::trace(self.stone, clear, self.sitting.view, &self.options, watch)?;
+        let bands: Vec<Band> =
+            strata.iter().map(|s| Band::of(s, material, middle, whole.spread, unit_mm)).collect();
+        self.see_beside(&beams, strata.iter().map(|s| &s.response));
+        let found = self.patches_of(&beams, true, |beam, sweep, copy| {
+            let path = beam.path.at(centroid(beam.outline));
+            bands
+                .iter()
+                .map(|band| {
+                    let toward = (beam.exit + sweep * band.off, sweep * band.part);
+                    let light = self.arriving(&beams, beam, toward, copy) * band.left(path);
+                    band.response.iter().zip(light.to_array()).map(|(&c, l)| c * l).sum::<DVec3>()
+                })
+                .sum()
+        });
+        self.paint(&found);
+        self.unresolved += beams.unresolved();
+        self.looks += 1;
+        Ok(())
+    }
+
+    /// Adds what parallel rays see beside the stone.
+    fn see_beside<'r>(&mut self, beams: &Beams, responses: impl Iterator<Item = &'r [DVec3; 4]>) {
+        if self.sitting.surround.backdrop {
+            let light =
+                self.sitting.surround.radiance(DVec3::ZERO, -beams.view.toward, DVec3::ZERO).to_array();
+            let seen = |r: &[DVec3; 4]| r.iter().zip(light).map(|(&c, l)| c * l).sum::<DVec3>();
+            self.beside += responses.map(seen).sum::<DVec3>();
+        }
+    }
+
     /// The colours of one band's beams, in all copies.
     fn patches(&self, beams: &Beams, look: &Look, band: usize) -> Vec<Patches> {
-        let (response, is_first) = (&look.responses[band], band == 0);
+        let response = &look.responses[band];
+        self.patches_of(beams, band == 0, |beam, sweep, copy| {
+            let light = self.arriving(beams, beam, (look.middle(beam.exit, sweep), sweep), copy);
+            response.iter().zip(light.to_array()).map(|(&c, l)| c * l).sum()
+        })
+    }
+
+    /// All beams, in all copies, in the colour that each has; the silhouette's cover where it is asked for.
+    fn patches_of(
+        &self,
+        beams: &Beams,
+        is_first: bool,
+        colour: impl Fn(&Beam, DVec3, DMat2) -> DVec3 + Sync,
+    ) -> Vec<Patches> {
         let sweeps = beams.sweeps(self.stone);
         let copies: Vec<(DMat2, DAffine2)> = beams
             .symmetry
@@ -86,9 +143,7 @@ impl<'a> ByBeams<'a> {
             {
                 let cover = f64::from(u8::from(is_first && beam.is_surface()));
                 for (copy, pixels) in &copies {
-                    let sweep = sweeps[beam.id as usize];
-                    let light = self.arriving(beams, &beam, (look.middle(beam.exit, sweep), sweep), *copy);
-                    let colour: DVec3 = response.iter().zip(light.to_array()).map(|(&c, l)| c * l).sum();
+                    let colour = colour(&beam, sweeps[beam.id as usize], *copy);
                     out.add(&beam, &beams.medium, pixels, colour.extend(cover));
                 }
             }
@@ -107,6 +162,7 @@ impl<'a> ByBeams<'a> {
 
     fn paint(&mut self, found: &[Patches]) {
         let count = self.pieces.len();
+        let down = f64::from(self.sitting.film.size[1]);
         // The patches that touch each piece, by (list, place).
         let mut touching: Vec<Vec<(u32, u32)>> = vec![vec![]; count];
         for (list, patches) in found.iter().enumerate() {
@@ -114,6 +170,9 @@ impl<'a> ByBeams<'a> {
                 let heights = patches.corners[start as usize..end as usize].iter().map(|c| c.y);
                 let (low, high) =
                     heights.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), y| (l.min(y), h.max(y)));
+                if high <= 0.0 || low >= down {
+                    continue;
+                }
                 let piece = |y: f64| ((y / f64::from(PIECE)) as usize).min(count - 1);
                 touching[piece(low)..=piece(high)]
                     .iter_mut()
@@ -127,6 +186,34 @@ impl<'a> ByBeams<'a> {
                 rows.add(&corners[start as usize..end as usize], 0, colour);
             }
         });
+    }
+}
+
+/// One band of wavelengths seen by the beams of another.
+struct Band {
+    /// Its middle's place, and its width, in the spread of all bands.
+    off: f64,
+    part: f64,
+    response: [DVec3; 4],
+    medium: Medium,
+}
+
+impl Band {
+    fn of(stratum: &Stratum, material: &Material, middle: f64, spread: f64, unit_mm: f64) -> Self {
+        let index = |nm| material.index(nm);
+        let medium = Medium::of(material, (stratum.from_nm, stratum.at(0.5), stratum.to_nm), unit_mm);
+        let share = |change: f64| if spread == 0.0 { 0.0 } else { change / spread };
+        Self {
+            off: share(medium.index - index(middle)),
+            part: share(medium.spread),
+            response: stratum.response,
+            medium,
+        }
+    }
+
+    /// The share of its light that absorption leaves of a path.
+    fn left(&self, path: f64) -> f64 {
+        if self.medium.is_clear() { 1.0 } else { self.medium.transmittance(path.max(0.0)) }
     }
 }
 
@@ -154,11 +241,7 @@ impl<E: From<Stopped>> Exposure<E> for ByBeams<'_> {
         for (band, &medium) in look.media[0].iter().enumerate() {
             let done = |part: f64| watch((band as f64 + part) / bands as f64);
             let beams = beam::trace(self.stone, medium, self.sitting.view, &self.options, &done)?;
-            if self.sitting.surround.backdrop {
-                let light = self.sitting.surround.radiance(DVec3::ZERO, -beams.view.toward, DVec3::ZERO);
-                let response = look.responses[band].iter().zip(light.to_array());
-                self.beside += response.map(|(&c, l)| c * l).sum::<DVec3>();
-            }
+            self.see_beside(&beams, std::iter::once(&look.responses[band]));
             let found = self.patches(&beams, look, band);
             self.paint(&found);
             let whole = f64::from(beams.symmetry.order()) / beams.silhouette_area / bands as f64;

@@ -28,8 +28,7 @@ pub fn expose<E: From<Stopped>, X: Exposure<E>>(
     watch: Watch,
 ) -> Result<(Linear, Remainder), E> {
     let [width, height] = sitting.film.size;
-    let mut pixels = Vec::with_capacity(width as usize * height as usize);
-    let (mut sum, mut cover) = (Remainder::default(), 0.0);
+    let mut sum = Sum::of(width, height);
     for first in (0..height).step_by(most_rows as usize) {
         let rows = first..(first + most_rows).min(height);
         let mut exposure = prepare(rows.clone())?;
@@ -41,19 +40,50 @@ pub fn expose<E: From<Stopped>, X: Exposure<E>>(
             };
             exposure.look(&Look::new(sitting.setting, strata, number), &done)?;
         }
-        exposure.lit(&mut |lit| {
-            sum.unresolved += lit.unresolved;
-            sum.absorbed += lit.absorbed;
-            cover += lit.cover;
-            pixels.push(pixel(lit));
-        })?;
+        exposure.lit(&mut |lit| sum.add(lit))?;
     }
-    let share = if cover > 0.0 { 1.0 / cover } else { 0.0 };
-    let remainder = Remainder { unresolved: sum.unresolved * share, absorbed: sum.absorbed * share };
-    Ok((Linear { width, height, pixels }, remainder))
+    Ok(sum.finish(width, height))
 }
 
-fn pixel(lit: &Lit) -> [f32; 4] {
-    let [red, green, blue] = lit.colour.as_vec3().to_array();
-    [red, green, blue, lit.cover as f32]
+/// What an exposure of a whole picture has seen so far.
+///
+/// # Errors
+/// What the exposure answers.
+pub fn seen<E: From<Stopped>, X: Exposure<E>>(
+    sitting: &Sitting,
+    exposure: &X,
+) -> Result<(Linear, Remainder), E> {
+    let [width, height] = sitting.film.size;
+    let mut sum = Sum::of(width, height);
+    exposure.lit(&mut |lit| sum.add(lit))?;
+    Ok(sum.finish(width, height))
+}
+
+/// Pixels as they come in.
+struct Sum {
+    pixels: Vec<[f32; 4]>,
+    rest: Remainder,
+    cover: f64,
+}
+
+impl Sum {
+    fn of(width: u32, height: u32) -> Self {
+        let pixels = Vec::with_capacity(width as usize * height as usize);
+        Self { pixels, rest: Remainder::default(), cover: 0.0 }
+    }
+
+    fn add(&mut self, lit: &Lit) {
+        self.rest.unresolved += lit.unresolved;
+        self.rest.absorbed += lit.absorbed;
+        self.cover += lit.cover;
+        let [red, green, blue] = lit.colour.as_vec3().to_array();
+        self.pixels.push([red, green, blue, lit.cover as f32]);
+    }
+
+    fn finish(self, width: u32, height: u32) -> (Linear, Remainder) {
+        let share = if self.cover > 0.0 { 1.0 / self.cover } else { 0.0 };
+        let Remainder { unresolved, absorbed } = self.rest;
+        let rest = Remainder { unresolved: unresolved * share, absorbed: absorbed * share };
+        (Linear { width, height, pixels: self.pixels }, rest)
+    }
 }

@@ -1,6 +1,7 @@
 //! A polytope whose facets have names.
 
 use crate::math::{Plane, Polytope, PolytopeError};
+use glam::{DQuat, DVec3};
 
 /// A convex stone. Lengths in girdle radii, +z out of the table.
 #[derive(Debug, Clone, PartialEq)]
@@ -25,6 +26,12 @@ impl Stone {
     /// The name of a facet of the polytope, by its place in [`Polytope::facets`].
     pub fn name(&self, facet: u32) -> &str {
         &self.names[facet as usize]
+    }
+
+    /// The same stone turned about its axis, counter-clockwise from above, radians.
+    pub fn turned(&self, angle: f64) -> Self {
+        let polytope = self.polytope.moved(1.0, DQuat::from_rotation_z(angle), DVec3::ZERO);
+        Self { polytope, names: self.names.clone() }
     }
 
     /// All names, in the order of the facets.

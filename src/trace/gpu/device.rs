@@ -54,6 +54,9 @@ pub enum GpuError {
     },
 }
 
+/// OpenGL draws windows where there is nothing better; its compute shaders are not relied on.
+const UNTRUSTED: wgpu::Backends = wgpu::Backends::GL;
+
 /// An open graphics card with its compiled shaders.
 pub struct Gpu {
     pub(super) device: wgpu::Device,
@@ -76,7 +79,9 @@ impl Gpu {
     }
 
     async fn opened() -> Result<Self, GpuError> {
-        let instance = wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle_from_env());
+        let mut descriptor = wgpu::InstanceDescriptor::new_without_display_handle_from_env();
+        descriptor.backends.remove(UNTRUSTED);
+        let instance = wgpu::Instance::new(descriptor);
         let strongest = wgpu::RequestAdapterOptions {
             power_preference: wgpu::PowerPreference::HighPerformance,
             ..Default::default()
@@ -85,13 +90,30 @@ impl Gpu {
             instance.request_adapter(&strongest).await.map_err(|e| GpuError::NoAdapter(e.to_string()))?;
         let info = adapter.get_info();
         let limited = |why: String| GpuError::TooLimited { name: info.name.clone(), why };
-        let wanted = wgpu::DeviceDescriptor {
+        let wanted = Self::wanted(&adapter);
+        let (device, queue) = adapter.request_device(&wanted).await.map_err(|e| limited(e.to_string()))?;
+        Self::of(device, queue, &info)
+    }
+
+    /// What a device must be asked for on this adapter to be of use.
+    pub fn wanted(adapter: &wgpu::Adapter) -> wgpu::DeviceDescriptor<'static> {
+        wgpu::DeviceDescriptor {
             label: Some("brillianteer"),
             // Photographs may be as large as the card takes them.
             required_limits: wgpu::Limits::downlevel_defaults().using_resolution(adapter.limits()),
             ..Default::default()
-        };
-        let (device, queue) = adapter.request_device(&wanted).await.map_err(|e| limited(e.to_string()))?;
+        }
+    }
+
+    /// Shares a device that is open already, one that was asked for as [`wanted`](Self::wanted).
+    ///
+    /// # Errors
+    /// Where the interface that it is driven by does not compute, or something has gone wrong with it.
+    pub fn of(device: wgpu::Device, queue: wgpu::Queue, info: &wgpu::AdapterInfo) -> Result<Self, GpuError> {
+        if UNTRUSTED.contains(wgpu::Backends::from(info.backend)) {
+            let why = format!("{} does not compute", info.backend);
+            return Err(GpuError::TooLimited { name: info.name.clone(), why });
+        }
         let fault = Arc::new(Mutex::new(None));
         let (lost, other) = (Arc::clone(&fault), Arc::clone(&fault));
         device.set_device_lost_callback(move |_, why| note(&lost, why));

@@ -1,0 +1,264 @@
+//! What is being worked on: a design and its light, with the steps that led there and the file it came from.
+
+use super::history::History;
+use crate::cut::Design;
+use crate::io::{WriteError, cut_file, library, write};
+use crate::scene::{Specimen, SpecimenError};
+use std::io::Write as _;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::time::SystemTime;
+
+/// All that undo goes back over.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Work {
+    /// The stone.
+    pub design: Design,
+    /// The light's name, or its file.
+    pub light: String,
+    /// Stops.
+    pub exposure: f64,
+}
+
+/// What a file was like when it was last read or written.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Stamp(Option<(SystemTime, u64)>);
+
+impl Stamp {
+    /// Of the file as it is now; of one that is not there, none.
+    pub fn of(path: &Path) -> Self {
+        let read = std::fs::metadata(path).and_then(|m| Ok((m.modified()?, m.len())));
+        Self(read.ok())
+    }
+}
+
+/// A design that is open.
+#[derive(Debug)]
+pub struct Document {
+    /// As it is now; changed in place, and taken note of by [`update`](Self::update).
+    pub work: Work,
+    history: History<Work>,
+    saved: Design,
+    path: Option<PathBuf>,
+    stamp: Stamp,
+    /// The stone of the last design that makes one.
+    specimen: Arc<Specimen>,
+    fault: Option<SpecimenError>,
+    /// The design that stone or fault belong to.
+    built: Design,
+}
+
+/// The light that a program starts with.
+pub const FIRST_LIGHT: &str = "studio";
+
+/// The cut that a program starts with.
+const FIRST_CUT: &str = "tolkowsky";
+
+impl Document {
+    /// A design that lies in a file, or in none yet.
+    ///
+    /// # Errors
+    /// What keeps it from being a stone.
+    pub fn new(design: Design, path: Option<PathBuf>) -> Result<Self, SpecimenError> {
+        let specimen = Arc::new(Specimen::new(design.clone())?);
+        let work = Work { design: design.clone(), light: FIRST_LIGHT.to_owned(), exposure: 0.0 };
+        let stamp = path.as_deref().map_or(Stamp(None), Stamp::of);
+        let history = History::new(work.clone());
+        Ok(Self { work, history, saved: design.clone(), path, stamp, specimen, fault: None, built: design })
+    }
+
+    /// A cut that comes with the program, as a design without a file.
+    ///
+    /// # Errors
+    /// Where there is none of that name.
+    pub fn of_library(name: &str) -> Result<Self, String> {
+        let text = library::cut(name).ok_or_else(|| format!("no cut '{name}' comes with the program"))?;
+        let design = cut_file::parse(text, name).map_err(|e| e.to_string())?;
+        Self::new(design, None).map_err(|e| format!("{name}: {e}"))
+    }
+
+    /// The first design that anyone sees.
+    ///
+    /// # Errors
+    /// None, unless the program itself is broken.
+    pub fn first() -> Result<Self, String> {
+        Self::of_library(FIRST_CUT)
+    }
+
+    /// Opens a cut file.
+    ///
+    /// # Errors
+    /// Text that names file, line and key, and what to do.
+    pub fn open(path: &Path) -> Result<Self, String> {
+        let design = cut_file::read(path).map_err(|e| e.to_string())?;
+        Self::new(design, Some(path.to_owned())).map_err(|e| format!("{}: {e}", path.display()))
+    }
+
+    /// A design that was never saved, found after a crash: it counts as changed.
+    ///
+    /// # Errors
+    /// What keeps it from being a stone.
+    pub fn recovered(design: Design, path: Option<PathBuf>) -> Result<Self, String> {
+        let mut document = Self::new(design, path).map_err(|e| e.to_string())?;
+        let on_disk = document.path.as_deref().and_then(|p| cut_file::read(p).ok());
+        document.saved = on_disk.unwrap_or_else(|| Design { name: String::new(), ..document.saved });
+        Ok(document)
+    }
+
+    /// Takes note of changes: builds the stone, or notes why there is none. Whether there is another stone than before.
+    pub fn update(&mut self) -> bool {
+        if self.work.design == self.built {
+            return false;
+        }
+        self.built = self.work.design.clone();
+        match Specimen::new(self.built.clone()) {
+            Ok(specimen) => {
+                (self.specimen, self.fault) = (Arc::new(specimen), None);
+                true
+            }
+            Err(fault) => {
+                self.fault = Some(fault);
+                false
+            }
+        }
+    }
+
+    /// Ends a gesture: what it changed is one step; whether it changed anything.
+    pub fn settle(&mut self) -> bool {
+        self.history.settle(&self.work)
+    }
+
+    /// The last stone that could be built.
+    pub fn specimen(&self) -> &Arc<Specimen> {
+        &self.specimen
+    }
+
+    /// What keeps the design as it is now from being a stone.
+    pub fn fault(&self) -> Option<&SpecimenError> {
+        self.fault.as_ref()
+    }
+
+    /// Where it is saved.
+    pub fn path(&self) -> Option<&Path> {
+        self.path.as_deref()
+    }
+
+    /// What it is called: its file's name, or its own.
+    pub fn title(&self) -> String {
+        let file = self.path.as_deref().and_then(Path::file_name).map(|n| n.to_string_lossy().into_owned());
+        file.unwrap_or_else(|| self.work.design.name.clone())
+    }
+
+    /// The design as it was last saved.
+    pub fn saved(&self) -> &Design {
+        &self.saved
+    }
+
+    /// Whether closing it would lose work.
+    pub fn is_changed(&self) -> bool {
+        self.work.design != self.saved
+    }
+
+    /// Whether its file is another than it was read from or written to.
+    pub fn is_changed_outside(&self) -> bool {
+        self.path.as_deref().is_some_and(|path| Stamp::of(path) != self.stamp)
+    }
+
+    /// Takes the file on disk for what was meant to be there: it is not told of again.
+    pub fn accept_outside(&mut self) {
+        if let Some(path) = &self.path {
+            self.stamp = Stamp::of(path);
+        }
+    }
+
+    /// Whether there is anything to undo, and to do again.
+    pub fn steps(&self) -> (bool, bool) {
+        (self.history.can_undo() || self.work != *self.history.present(), self.history.can_redo())
+    }
+
+    /// Goes one step back.
+    pub fn undo(&mut self) {
+        self.settle();
+        if let Some(work) = self.history.undo() {
+            self.work = work;
+        }
+    }
+
+    /// Does again what was undone.
+    pub fn redo(&mut self) {
+        if !self.settle()
+            && let Some(work) = self.history.redo()
+        {
+            self.work = work;
+        }
+    }
+
+    /// Saves the design where it lies, or elsewhere from now on.
+    ///
+    /// # Errors
+    /// When the design makes no stone, or the file system refuses; the old file stays as it is.
+    pub fn save(&mut self, path: PathBuf) -> Result<(), String> {
+        if let Some(fault) = &self.fault {
+            return Err(format!("this design cannot be read again: {fault}"));
+        }
+        let text = cut_file::write(&self.work.design);
+        write(&path, |file| file.write_all(text.as_bytes()).map_err(|e| WriteError::io(&path, e)))
+            .map_err(|e| e.to_string())?;
+        (self.stamp, self.path) = (Stamp::of(&path), Some(path));
+        self.saved = self.work.design.clone();
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::cut::{Crown, Cut};
+
+    fn crown(document: &mut Document, degrees: f64) {
+        let Cut::RoundBrilliant(brilliant) = &mut document.work.design.cut else { panic!() };
+        brilliant.crown = Crown::Angle(degrees);
+    }
+
+    #[test]
+    fn an_edited_design_is_saved_and_reads_back_equal() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("mine.toml");
+        let mut document = Document::first().unwrap();
+        assert!(!document.is_changed() && document.path().is_none());
+        crown(&mut document, 35.125);
+        assert!(document.update() && document.settle() && document.is_changed());
+        document.save(path.clone()).unwrap();
+        assert!(!document.is_changed() && document.title() == "mine.toml" && !document.is_changed_outside());
+        assert_eq!(Document::open(&path).unwrap().work.design, document.work.design);
+        std::fs::write(&path, "format = 1").unwrap();
+        assert!(document.is_changed_outside());
+        document.accept_outside();
+        assert!(!document.is_changed_outside());
+    }
+
+    #[test]
+    fn a_design_that_makes_no_stone_keeps_the_last_one_and_is_not_saved() {
+        let folder = tempfile::tempdir().unwrap();
+        let mut document = Document::first().unwrap();
+        let stone = Arc::clone(document.specimen());
+        crown(&mut document, 90.0);
+        assert!(!document.update());
+        assert!(document.fault().unwrap().to_string().contains("crown_angle"));
+        assert!(Arc::ptr_eq(&stone, document.specimen()));
+        let path = folder.path().join("mine.toml");
+        assert!(document.save(path.clone()).unwrap_err().contains("crown_angle") && !path.exists());
+        document.undo();
+        assert!(document.update() && document.fault().is_none());
+    }
+
+    #[test]
+    fn undo_in_the_middle_of_a_gesture_undoes_it() {
+        let mut document = Document::first().unwrap();
+        let before = document.work.clone();
+        crown(&mut document, 30.0);
+        assert_eq!(document.steps(), (true, false));
+        document.undo();
+        assert_eq!((&document.work, document.steps()), (&before, (false, true)));
+    }
+}

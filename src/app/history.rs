@@ -1,0 +1,86 @@
+//! What undo goes back over.
+
+/// The most steps kept.
+const MOST: usize = 500;
+
+/// The states that something has been in, and those that were undone.
+#[derive(Debug, Clone)]
+pub struct History<T> {
+    past: Vec<T>,
+    present: T,
+    future: Vec<T>,
+}
+
+impl<T: Clone + PartialEq> History<T> {
+    /// A history that begins here.
+    pub fn new(present: T) -> Self {
+        Self { past: vec![], present, future: vec![] }
+    }
+
+    /// Takes a state as a step of its own if it is another than the last; whether it is.
+    pub fn settle(&mut self, now: &T) -> bool {
+        if *now == self.present {
+            return false;
+        }
+        self.past.push(std::mem::replace(&mut self.present, now.clone()));
+        self.future.clear();
+        if self.past.len() > MOST {
+            self.past.remove(0);
+        }
+        true
+    }
+
+    /// The last state that was settled.
+    pub fn present(&self) -> &T {
+        &self.present
+    }
+
+    /// Whether there is anything to undo.
+    pub fn can_undo(&self) -> bool {
+        !self.past.is_empty()
+    }
+
+    /// Whether there is anything to do again.
+    pub fn can_redo(&self) -> bool {
+        !self.future.is_empty()
+    }
+
+    /// Goes one step back; the state there.
+    pub fn undo(&mut self) -> Option<T> {
+        let before = self.past.pop()?;
+        self.future.push(std::mem::replace(&mut self.present, before));
+        Some(self.present.clone())
+    }
+
+    /// Does a step again that was undone; the state there.
+    pub fn redo(&mut self) -> Option<T> {
+        let after = self.future.pop()?;
+        self.past.push(std::mem::replace(&mut self.present, after));
+        Some(self.present.clone())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn steps_are_undone_and_done_again_in_order() {
+        let mut history = History::new(0);
+        assert!(!history.settle(&0) && !history.can_undo() && history.undo().is_none());
+        assert!([1, 2, 3].into_iter().all(|k| history.settle(&k)));
+        assert_eq!([history.undo(), history.undo(), history.redo()], [Some(2), Some(1), Some(2)]);
+        assert!(history.settle(&7) && !history.can_redo());
+        assert_eq!(
+            [history.undo(), history.undo(), history.undo(), history.undo()],
+            [Some(2), Some(1), Some(0), None]
+        );
+    }
+
+    #[test]
+    fn the_oldest_steps_are_forgotten() {
+        let mut history = History::new(0);
+        (1..=2 * MOST).for_each(|k| drop(history.settle(&k)));
+        assert_eq!(std::iter::from_fn(|| history.undo()).count(), MOST);
+    }
+}

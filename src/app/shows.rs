@@ -1,0 +1,120 @@
+//! What a pane can show.
+
+use crate::picture::{Picture, Scoped, named};
+use crate::scene::Side;
+use serde::{Deserialize, Serialize};
+
+/// The picture in a pane.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+pub enum Shows {
+    /// The stone under a light.
+    Render,
+    /// ASET of a 30 degree cone, leakage dark.
+    Aset,
+    /// The same, lit from behind.
+    AsetWhite,
+    /// ASET of a 40 degree cone.
+    Aset40,
+    /// Red reflector, white from behind.
+    IdealScope,
+    /// The hearts, through the pavilion.
+    Hearts,
+    /// The arrows, through the table.
+    Arrows,
+    /// The side view, editable.
+    Profile,
+    /// Facets and tiers.
+    Diagram,
+}
+
+impl Shows {
+    /// All of them, in the order of menus.
+    pub const ALL: [Self; 9] = [
+        Self::Render,
+        Self::Aset,
+        Self::AsetWhite,
+        Self::Aset40,
+        Self::IdealScope,
+        Self::Hearts,
+        Self::Arrows,
+        Self::Profile,
+        Self::Diagram,
+    ];
+
+    /// What it is called.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Render => "Render",
+            Self::Aset => "ASET",
+            Self::AsetWhite => "ASET white",
+            Self::Aset40 => "ASET 40",
+            Self::IdealScope => "Ideal-Scope",
+            Self::Hearts => "Hearts",
+            Self::Arrows => "Arrows",
+            Self::Profile => "Profile",
+            Self::Diagram => "Facet diagram",
+        }
+    }
+
+    /// What it is, in a sentence.
+    pub fn meaning(self) -> &'static str {
+        match self {
+            Self::Render => "The stone as it looks under the chosen light, with its dispersion.",
+            Self::Aset => {
+                "Angular spectrum evaluation: green is light from low, red from high, blue what the observer's head \
+                 blocks (a cone of 30°), black leaks out behind."
+            }
+            Self::AsetWhite => "ASET lit from behind: what leaks is white.",
+            Self::Aset40 => "ASET whose blue cone is 40° wide, for an observer who comes closer.",
+            Self::IdealScope => {
+                "Red is light returned, black the observer's own shade, white leaks out behind."
+            }
+            Self::Hearts => {
+                "The hearts viewer, face down: eight alike hearts need symmetric pavilion facets."
+            }
+            Self::Arrows => "The arrows viewer, face up: eight arrows from the pavilion mains.",
+            Self::Profile => "The stone from the side with its proportions; drag its edges to change them.",
+            Self::Diagram => "Crown and pavilion facets by tier, with their slopes, as cutters print them.",
+        }
+    }
+
+    /// The scope that it is seen in, if any.
+    pub fn scoped(self) -> Option<Scoped> {
+        let name = match self {
+            Self::Aset => "aset",
+            Self::AsetWhite => "aset-white",
+            Self::Aset40 => "aset-40",
+            Self::IdealScope => "ideal-scope",
+            Self::Hearts => "hearts",
+            Self::Arrows => "arrows",
+            Self::Render | Self::Profile | Self::Diagram => return None,
+        };
+        match named(name) {
+            Some(Picture::Scoped(scoped)) => Some(scoped),
+            _ => None,
+        }
+    }
+
+    /// The side that it is made for; `None` for either.
+    pub fn side(self) -> Option<Side> {
+        self.scoped().and_then(|s| s.side)
+    }
+
+    /// Whether it is looked at from a side that can be chosen, by light.
+    pub fn is_seen(self) -> bool {
+        !matches!(self, Self::Profile | Self::Diagram)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_scope_is_found() {
+        let scopes = Shows::ALL.into_iter().filter(|s| s.scoped().is_some());
+        assert_eq!(scopes.count(), 6);
+        assert_eq!(Shows::Hearts.side(), Some(Side::Culet));
+        assert!(Shows::ALL.into_iter().all(|s| s.meaning().ends_with('.')));
+    }
+}

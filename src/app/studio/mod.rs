@@ -1,0 +1,99 @@
+//! The studio: takes pictures and figures on a thread of its own. What is asked for last counts; what is outdated is
+//! dropped, but for a first rough picture, so that there is always something that follows the hand.
+
+mod order;
+mod pace;
+mod take;
+mod worker;
+
+pub use order::{Answer, Ask, Grade, Order, Shot, Slot, Taken, Tilts, Which};
+pub use worker::TILTS;
+
+use crate::trace::gpu::Gpu;
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::sync::mpsc::{Receiver, channel};
+use std::sync::{Arc, Condvar, Mutex, PoisonError};
+use std::thread::JoinHandle;
+
+/// Asks for nothing but to look at the answers.
+pub type Wake = Arc<dyn Fn() + Send + Sync>;
+
+/// What both threads see.
+struct Desk {
+    /// The last order, and its number; none once it is taken.
+    order: Mutex<Option<(u64, Order)>>,
+    told: Condvar,
+    /// The number of the last order: work for others is outdated.
+    newest: AtomicU64,
+    /// Whether work is going on.
+    busy: AtomicBool,
+    quit: AtomicBool,
+}
+
+/// A thread that takes pictures.
+pub struct Studio {
+    desk: Arc<Desk>,
+    answers: Receiver<Answer>,
+    last: Order,
+    thread: Option<JoinHandle<()>>,
+    told: String,
+}
+
+impl Studio {
+    /// Opens a studio, which uses a card where there is one that is quicker than the processor; `wake` is called whenever
+    /// there is an answer.
+    pub fn open(gpu: Option<Arc<Gpu>>, wake: Wake) -> Self {
+        let desk = Arc::new(Desk {
+            order: Mutex::new(None),
+            told: Condvar::new(),
+            newest: AtomicU64::new(0),
+            busy: AtomicBool::new(false),
+            quit: AtomicBool::new(false),
+        });
+        let gpu = gpu.filter(|gpu| !gpu.is_software());
+        let told = gpu.as_ref().map_or("processor".into(), |gpu| gpu.name().to_owned());
+        let (sender, answers) = channel();
+        let worker = worker::Worker::new(Arc::clone(&desk), sender, gpu, wake);
+        let thread = std::thread::Builder::new().name("studio".into()).spawn(|| worker.work()).ok();
+        Self { desk, answers, last: Order::default(), thread, told }
+    }
+
+    /// What computes, in words.
+    pub fn told(&self) -> &str {
+        &self.told
+    }
+
+    /// Asks for pictures and figures; nothing happens if they were asked for already.
+    pub fn order(&mut self, order: Order) {
+        if order == self.last {
+            return;
+        }
+        self.last = order.clone();
+        let number = self.desk.newest.fetch_add(1, Ordering::SeqCst) + 1;
+        self.desk.busy.store(true, Ordering::SeqCst);
+        *self.desk.order.lock().unwrap_or_else(PoisonError::into_inner) = Some((number, order));
+        self.desk.told.notify_one();
+    }
+
+    /// What has been answered since.
+    pub fn answers(&self) -> impl Iterator<Item = Answer> + '_ {
+        self.answers.try_iter()
+    }
+
+    /// Whether everything asked for is as good as it gets.
+    pub fn is_idle(&self) -> bool {
+        !self.desk.busy.load(Ordering::SeqCst)
+    }
+}
+
+impl Drop for Studio {
+    fn drop(&mut self) {
+        self.desk.quit.store(true, Ordering::SeqCst);
+        self.desk.newest.fetch_add(1, Ordering::SeqCst);
+        self.desk.told.notify_one();
+        if let Some(thread) = self.thread.take() {
+            // A worker that panicked has said so already.
+            let _ = thread.join();
+        }
+    }
+}

@@ -1,0 +1,124 @@
+//! What is asked of the studio, and what it answers.
+
+use crate::app::shows::Shows;
+use crate::io::lighting::Lighting;
+use crate::measure::Figures;
+use crate::picture::Overlay;
+use crate::scene::{Film, Specimen, View};
+use egui::ColorImage;
+use std::sync::Arc;
+
+/// Which of two stones.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Which {
+    /// The one that is worked on.
+    Present,
+    /// The one that it is compared with.
+    Other,
+}
+
+/// A place that a picture is for: a pane, and which stone is in it.
+pub type Slot = (usize, Which);
+
+/// One picture.
+#[derive(Debug, Clone)]
+pub struct Shot {
+    /// The stone, turned as it is seen.
+    pub specimen: Arc<Specimen>,
+    /// What is shown of it.
+    pub shows: Shows,
+    /// Whether a scope shows the strongest exit of each point alone.
+    pub strongest: bool,
+    /// From where.
+    pub view: View,
+    /// The pixels.
+    pub film: Film,
+    /// The light.
+    pub light: Arc<Lighting>,
+    /// Stops.
+    pub exposure: f64,
+    /// Half angle of the observer's head in scopes, degrees; 0 for none.
+    pub head: f64,
+    /// What is drawn over it.
+    pub overlay: Option<Overlay>,
+}
+
+impl PartialEq for Shot {
+    /// Whether both give the same picture. Stones and lights are the same when they are one and the same: they are only
+    /// ever replaced.
+    fn eq(&self, other: &Self) -> bool {
+        let by_light = self.shows == Shows::Render;
+        let seen = self.shows != Shows::Diagram;
+        Arc::ptr_eq(&self.specimen, &other.specimen)
+            && (self.shows, self.strongest, self.overlay, self.film.size)
+                == (other.shows, other.strongest, other.overlay, other.film.size)
+            && (!seen || (self.view, self.film, self.head) == (other.view, other.film, other.head))
+            && (!by_light || (Arc::ptr_eq(&self.light, &other.light) && self.exposure == other.exposure))
+    }
+}
+
+/// Figures of a view, in the common ASET.
+#[derive(Debug, Clone)]
+pub struct Ask {
+    /// The stone.
+    pub specimen: Arc<Specimen>,
+    /// From where.
+    pub view: View,
+    /// Half angle of the observer's head, degrees; 0 for none.
+    pub head: f64,
+}
+
+impl PartialEq for Ask {
+    fn eq(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.specimen, &other.specimen) && (self.view, self.head) == (other.view, other.head)
+    }
+}
+
+/// Everything that is to be seen at one moment.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Order {
+    /// The pictures.
+    pub shots: Vec<(Slot, Shot)>,
+    /// The figures.
+    pub figures: Vec<(Which, Ask)>,
+    /// Figures against tilt, for a view whose own tilt does not matter.
+    pub tilts: Option<Ask>,
+}
+
+/// How far a picture has come.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Grade {
+    /// As good as there was time for.
+    Rough,
+    /// At full size, light followed some way.
+    Fair,
+    /// As it is exported.
+    Fine,
+}
+
+/// A picture that was taken.
+#[derive(Debug, Clone)]
+pub struct Taken {
+    /// The pixels, which a film of fewer may have been used for.
+    pub image: ColorImage,
+    /// Share of the light not followed to its end.
+    pub unresolved: f64,
+    /// What traced it.
+    pub tracer: &'static str,
+}
+
+/// Figures at some tilts, degrees.
+pub type Tilts = Vec<(f64, Figures)>;
+
+/// What the studio answers.
+#[derive(Debug)]
+pub enum Answer {
+    /// A picture.
+    Picture(Slot, Box<Shot>, Grade, Taken),
+    /// Figures.
+    Figures(Which, Ask, Grade, Box<Figures>),
+    /// Figures against tilt.
+    Tilts(Ask, Tilts),
+    /// What went wrong, in words.
+    Trouble(String),
+}

@@ -1,0 +1,70 @@
+//! How much a picture may cost while a hand is moving.
+
+use std::time::Duration;
+
+/// What is given up, step by step: the share of the light that may stay unresolved, how much coarser pixels are, bands of
+/// wavelengths.
+const STEPS: [Effort; 6] = [
+    Effort { unresolved: 5e-3, coarser: 1.0, bands: 12 },
+    Effort { unresolved: 1e-2, coarser: 1.0, bands: 10 },
+    Effort { unresolved: 2e-2, coarser: 1.34, bands: 8 },
+    Effort { unresolved: 3e-2, coarser: 1.67, bands: 6 },
+    Effort { unresolved: 5e-2, coarser: 2.0, bands: 5 },
+    Effort { unresolved: 8e-2, coarser: 3.0, bands: 4 },
+];
+
+/// All pictures together should take about this long: more is coarser next time, less than a third is finer.
+const GOAL: Duration = Duration::from_millis(60);
+
+/// What a picture may cost.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Effort {
+    /// Share of the light that may stay unresolved.
+    pub unresolved: f64,
+    /// How much larger than the film's its pixels are.
+    pub coarser: f64,
+    /// Bands of wavelengths of a render.
+    pub bands: u32,
+}
+
+/// Finds the effort that keeps up with the hand.
+#[derive(Debug, Clone, Copy)]
+pub struct Pace(usize);
+
+impl Default for Pace {
+    fn default() -> Self {
+        Self(2)
+    }
+}
+
+impl Pace {
+    /// The effort for now.
+    pub fn effort(self) -> Effort {
+        STEPS[self.0]
+    }
+
+    /// Learns how long all pictures took.
+    pub fn learn(&mut self, took: Duration) {
+        if took > GOAL {
+            self.0 = (self.0 + 1).min(STEPS.len() - 1);
+        } else if took < GOAL / 3 {
+            self.0 = self.0.saturating_sub(1);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn slow_pictures_become_coarser_and_quick_ones_finer() {
+        let mut pace = Pace::default();
+        (0..9).for_each(|_| pace.learn(2 * GOAL));
+        assert_eq!(pace.effort(), STEPS[5]);
+        pace.learn(GOAL / 2);
+        assert_eq!(pace.effort(), STEPS[5]);
+        (0..9).for_each(|_| pace.learn(GOAL / 4));
+        assert_eq!(pace.effort(), STEPS[0]);
+    }
+}

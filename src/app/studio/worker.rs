@@ -1,0 +1,239 @@
+//! The studio's thread.
+
+use super::order::{Answer, Ask, Grade, Order, Shot, Slot, Taken, Which};
+use super::pace::{Effort, Pace};
+use super::take::{Camera, Growing, Shelf, Trouble};
+use super::{Desk, Wake};
+use crate::measure::{Figures, by_beams};
+use crate::scene::{ASET_CONE, Backing, Scope, View};
+use crate::trace::gpu::Gpu;
+use crate::trace::{Stopped, Watch, beam};
+use std::collections::HashMap;
+use std::ops::ControlFlow;
+use std::sync::atomic::Ordering;
+use std::sync::mpsc::Sender;
+use std::sync::{Arc, PoisonError};
+use std::time::Instant;
+
+/// Tilts that figures are plotted against, degrees.
+pub const TILTS: [f64; 13] =
+    [-30.0, -25.0, -20.0, -15.0, -10.0, -5.0, 0.0, 5.0, 10.0, 15.0, 20.0, 25.0, 30.0];
+
+/// What may stay unresolved: of a fair picture, a fine one, fine figures, figures against tilt.
+const FAIR: f64 = 5e-3;
+const FINE: f64 = 1e-3;
+const FIGURES: f64 = 1.5e-4;
+const TILTED: f64 = 5e-3;
+
+/// How renders grow: fair, fine, and fine where a card takes them.
+const FAIR_RENDER: Growing = Growing { bands: 8, looks: 1, unresolved: 1e-2 };
+const FINE_RENDER: Growing = Growing { bands: 16, looks: 4, unresolved: 2e-3 };
+const FINE_BY_CARD: Growing = Growing { bands: 16, looks: 64, unresolved: 2e-3 };
+
+/// Takes orders, one after the other.
+pub(super) struct Worker {
+    desk: Arc<Desk>,
+    answers: Sender<Answer>,
+    wake: Wake,
+    camera: Camera,
+    pace: Pace,
+    /// What has been answered, and how well.
+    pictures: HashMap<Slot, (Shot, Grade)>,
+    figures: HashMap<Which, (Ask, Grade)>,
+    tilts: Option<Ask>,
+}
+
+/// One order, and how to know that it is outdated.
+struct Turn {
+    number: u64,
+    order: Order,
+}
+
+impl Worker {
+    pub fn new(desk: Arc<Desk>, answers: Sender<Answer>, gpu: Option<Arc<Gpu>>, wake: Wake) -> Self {
+        Self {
+            desk,
+            answers,
+            wake,
+            camera: Camera { gpu, shelf: Shelf::default() },
+            pace: Pace::default(),
+            pictures: HashMap::new(),
+            figures: HashMap::new(),
+            tilts: None,
+        }
+    }
+
+    /// Works until the studio is closed.
+    pub fn work(mut self) {
+        while let Some(turn) = self.next() {
+            if self.rough(&turn).and_then(|()| self.refine(&turn)).is_ok() {
+                self.rest(&turn);
+            }
+        }
+    }
+
+    /// Waits for an order; none when the studio is closed.
+    fn next(&self) -> Option<Turn> {
+        let mut order = self.desk.order.lock().unwrap_or_else(PoisonError::into_inner);
+        loop {
+            if self.desk.quit.load(Ordering::SeqCst) {
+                return None;
+            }
+            if let Some((number, order)) = order.take() {
+                return Some(Turn { number, order });
+            }
+            order = self.desk.told.wait(order).unwrap_or_else(PoisonError::into_inner);
+        }
+    }
+
+    /// Says that all is done, unless there is a new order.
+    fn rest(&self, turn: &Turn) {
+        if self.desk.newest.load(Ordering::SeqCst) == turn.number {
+            self.desk.busy.store(false, Ordering::SeqCst);
+        }
+        (self.wake)();
+    }
+
+    fn answer(&self, answer: Answer) {
+        // Nobody listens once the window is closed.
+        let _ = self.answers.send(answer);
+        (self.wake)();
+    }
+
+    /// Everything that has changed, as well as there is time for while a hand is moving. Not dropped for a newer order,
+    /// which would never come to an end while the hand moves; only for one that closes the studio.
+    fn rough(&mut self, turn: &Turn) -> Result<(), Stopped> {
+        let desk = Arc::clone(&self.desk);
+        let watch = move |_: f64| stop_if(desk.quit.load(Ordering::SeqCst));
+        let effort = self.pace.effort();
+        let begun = Instant::now();
+        let order = &turn.order;
+        self.camera.shelf.keep(|s| {
+            let of_shot = order.shots.iter().any(|(_, shot)| Arc::ptr_eq(&shot.specimen, s));
+            of_shot || order.figures.iter().any(|(_, ask)| Arc::ptr_eq(&ask.specimen, s))
+        });
+        let mut any = false;
+        for (slot, shot) in &order.shots {
+            if self.pictures.get(slot).is_none_or(|(done, _)| done != shot) {
+                any |= shot.shows.is_seen();
+                self.picture((*slot, shot), Grade::Rough, (&effort, None), &watch)?;
+            }
+        }
+        for (which, ask) in &order.figures {
+            if self.figures.get(which).is_none_or(|(done, _)| done != ask) {
+                let beams = self.camera.shelf.beams(&ask.specimen, &ask.view, effort.unresolved, &watch)?;
+                self.told(*which, ask, Grade::Rough, by_beams(&beams, &scope(ask)));
+            }
+        }
+        if any {
+            self.pace.learn(begun.elapsed());
+        }
+        Ok(())
+    }
+
+    /// Everything better and better, until there is a newer order.
+    fn refine(&mut self, turn: &Turn) -> Result<(), Stopped> {
+        let (desk, number) = (Arc::clone(&self.desk), turn.number);
+        let watch = move |_: f64| stop_if(desk.newest.load(Ordering::SeqCst) != number);
+        let fine = if self.camera.gpu.is_some() { FINE_BY_CARD } else { FINE_RENDER };
+        self.pictures(&turn.order, Grade::Fair, (FAIR, &FAIR_RENDER), &watch)?;
+        self.all_figures(&turn.order, Grade::Fair, FINE, &watch)?;
+        self.pictures(&turn.order, Grade::Fine, (FINE, &fine), &watch)?;
+        self.all_figures(&turn.order, Grade::Fine, FIGURES, &watch)?;
+        self.against_tilt(&turn.order, &watch)
+    }
+
+    fn pictures(
+        &mut self,
+        order: &Order,
+        grade: Grade,
+        (unresolved, growing): (f64, &Growing),
+        watch: Watch,
+    ) -> Result<(), Stopped> {
+        let effort = Effort { unresolved, coarser: 1.0, bands: growing.bands };
+        for (slot, shot) in &order.shots {
+            if self.pictures.get(slot).is_none_or(|(done, g)| done != shot || *g < grade) {
+                self.picture((*slot, shot), grade, (&effort, Some(growing)), watch)?;
+            }
+        }
+        Ok(())
+    }
+
+    fn picture(
+        &mut self,
+        (slot, shot): (Slot, &Shot),
+        grade: Grade,
+        (effort, growing): (&Effort, Option<&Growing>),
+        watch: Watch,
+    ) -> Result<(), Stopped> {
+        let (answers, wake) = (self.answers.clone(), Arc::clone(&self.wake));
+        let mut each = |taken: Taken| {
+            let _ = answers.send(Answer::Picture(slot, Box::new(shot.clone()), grade, taken));
+            wake();
+        };
+        match self.camera.take(shot, effort, growing, watch, &mut each) {
+            Ok(()) => {}
+            Err(Trouble::Stopped(stopped)) => return Err(stopped),
+            Err(Trouble::Card(error)) => {
+                // The processor does its work from now on.
+                self.camera.gpu = None;
+                self.answer(Answer::Trouble(format!("{error}: tracing on the processor")));
+                return self.picture((slot, shot), grade, (effort, growing), watch);
+            }
+            Err(Trouble::Other(why)) => self.answer(Answer::Trouble(why)),
+        }
+        self.pictures.insert(slot, (shot.clone(), grade));
+        Ok(())
+    }
+
+    fn all_figures(
+        &mut self,
+        order: &Order,
+        grade: Grade,
+        unresolved: f64,
+        watch: Watch,
+    ) -> Result<(), Stopped> {
+        for (which, ask) in &order.figures {
+            if self.figures.get(which).is_none_or(|(done, g)| done != ask || *g < grade) {
+                let figures = measured(ask, &ask.view, unresolved, watch)?;
+                self.told(*which, ask, grade, figures);
+            }
+        }
+        Ok(())
+    }
+
+    fn told(&mut self, which: Which, ask: &Ask, grade: Grade, figures: Figures) {
+        self.figures.insert(which, (ask.clone(), grade));
+        self.answer(Answer::Figures(which, ask.clone(), grade, Box::new(figures)));
+    }
+
+    fn against_tilt(&mut self, order: &Order, watch: Watch) -> Result<(), Stopped> {
+        let Some(ask) = order.tilts.as_ref().filter(|ask| self.tilts.as_ref() != Some(*ask)) else {
+            return Ok(());
+        };
+        let at = |degrees: f64| -> Result<(f64, Figures), Stopped> {
+            let view = View { tilt: degrees.to_radians(), ..ask.view };
+            Ok((degrees, measured(ask, &view, TILTED, watch)?))
+        };
+        let tilts = TILTS.into_iter().map(at).collect::<Result<_, _>>()?;
+        self.tilts = Some(ask.clone());
+        self.answer(Answer::Tilts(ask.clone(), tilts));
+        Ok(())
+    }
+}
+
+fn stop_if(outdated: bool) -> ControlFlow<()> {
+    if outdated { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+}
+
+fn scope(ask: &Ask) -> Scope {
+    Scope::aset(ASET_CONE, Backing::Black).with_head(ask.head)
+}
+
+/// Figures to a bound, as `measure` gives them.
+fn measured(ask: &Ask, view: &View, unresolved: f64, watch: Watch) -> Result<Figures, Stopped> {
+    let options = beam::Options { unresolved, ..beam::Options::default() };
+    let medium = ask.specimen.medium(crate::optics::line::SODIUM_D);
+    let beams = beam::trace(&ask.specimen.stone.polytope, medium, view, &options, watch)?;
+    Ok(by_beams(&beams, &scope(ask)))
+}
