@@ -7,5 +7,13 @@ use std::process::ExitCode;
 static ALLOCATOR: mimalloc::MiMalloc = mimalloc::MiMalloc;
 
 fn main() -> ExitCode {
-    brillianteer::cli::main()
+    brillianteer::cli::main(editor())
+}
+
+/// What opens the window, where this program has one.
+fn editor() -> Option<brillianteer::cli::Editor> {
+    #[cfg(feature = "app")]
+    return Some(brillianteer::app::run);
+    #[cfg(not(feature = "app"))]
+    None
 }

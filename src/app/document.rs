@@ -105,6 +105,12 @@ impl Document {
         Ok(document)
     }
 
+    /// Begins under a light, which is no step of its own.
+    pub fn begin(&mut self, light: &str, exposure: f64) {
+        (self.work.light, self.work.exposure) = (light.to_owned(), exposure);
+        self.history = History::new(self.work.clone());
+    }
+
     /// Takes note of changes: builds the stone, or notes why there is none. Whether there is another stone than before.
     pub fn update(&mut self) -> bool {
         if self.work.design == self.built {

@@ -1,7 +1,67 @@
 //! Floor 6: the editor, a window in which a stone is cut and its light is watched.
 
+mod command;
+mod compare;
+mod design_panel;
+mod desk;
+mod dialogs;
 mod document;
+mod editor;
+mod export_dialog;
 mod eye;
+mod figures_panel;
+mod files;
 mod history;
+mod menus;
+mod notes;
+mod pane;
+mod probe;
+mod proportions;
 mod shows;
+mod stage;
 mod studio;
+mod theme;
+
+pub use editor::{Editor, Setup};
+
+use crate::trace::gpu::Gpu;
+use eframe::egui_wgpu::{WgpuConfiguration, WgpuSetup, WgpuSetupCreateNew};
+use std::path::PathBuf;
+use std::sync::Arc;
+
+/// What the program is called where windows and folders are kept.
+const ID: &str = "brillianteer";
+
+/// The window's first size, and its least, points.
+const SIZE: [f32; 2] = [1440.0, 900.0];
+const LEAST: [f32; 2] = [900.0, 560.0];
+
+/// Opens the window, on a file if one is given, and waits until it is closed.
+///
+/// # Errors
+/// Where there is no display, or nothing that can draw on it; what to do stands in the text.
+pub fn run(file: Option<PathBuf>) -> Result<(), String> {
+    let mut setup = WgpuSetupCreateNew::without_display_handle();
+    // The tracer shares the device: what it needs is asked for.
+    setup.device_descriptor = Arc::new(|adapter| Gpu::wanted(adapter));
+    let options = eframe::NativeOptions {
+        viewport: egui::ViewportBuilder::default().with_app_id(ID).with_inner_size(SIZE).with_min_inner_size(LEAST),
+        renderer: eframe::Renderer::Wgpu,
+        wgpu_options: WgpuConfiguration { wgpu_setup: WgpuSetup::CreateNew(setup), ..Default::default() },
+        ..Default::default()
+    };
+    let safe = eframe::storage_dir(ID);
+    let create = move |context: &eframe::CreationContext<'_>| -> Result<Box<dyn eframe::App>, _> {
+        Ok(Box::new(Editor::new(context, Setup { file, safe, ..Setup::default() })?))
+    };
+    eframe::run_native(ID, options, Box::new(create)).map_err(|e| {
+        format!(
+            "the window cannot be opened: {e}; it needs a display and a driver for Vulkan or OpenGL (on Debian: \
+             mesa-vulkan-drivers, libx11-xcb1, libxcursor1, libxi6, libxkbcommon-x11-0); `brillianteer --help` lists \
+             what works without"
+        )
+    })
+}
+
+#[cfg(test)]
+mod tests;

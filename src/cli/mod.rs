@@ -85,14 +85,22 @@ impl Failure {
 #[command(name = "brillianteer", version, after_help = EXIT_CODES)]
 struct Arguments {
     #[command(subcommand)]
-    command: Command,
+    command: Option<Command>,
 }
+
+/// What opens the editor, on a file if one is given, and waits until it is closed.
+pub type Editor = fn(Option<PathBuf>) -> Result<(), String>;
 
 const EXIT_CODES: &str = "Exit codes: 0 done, 1 an input is at fault, 2 the command line is, 3 an output could not be \
     written, 130 stopped.";
 
 #[derive(Debug, Subcommand)]
 enum Command {
+    /// Open the editor, as the program does without a command
+    Edit {
+        /// A cut file to open
+        file: Option<PathBuf>,
+    },
     /// Draw a stone in every scope, with its profile, facet diagram and figures
     Export(export::Export),
     /// Show what stones look like under light: fire, colour, sparkle
@@ -117,8 +125,8 @@ enum Command {
     Lights(lists::Lights),
 }
 
-/// Runs the program with the process's arguments.
-pub fn main() -> ExitCode {
+/// Runs the program with the process's arguments; `editor` opens its window.
+pub fn main(editor: Option<Editor>) -> ExitCode {
     let arguments = match Arguments::try_parse() {
         Ok(arguments) => arguments,
         Err(told) => {
@@ -127,8 +135,16 @@ pub fn main() -> ExitCode {
             return ExitCode::from(u8::try_from(told.exit_code()).unwrap_or(2));
         }
     };
-    progress::stop_on_interrupt();
-    let result = match arguments.command {
+    let edit = |file| match editor {
+        Some(open) => open(file).map_err(Failure::Output),
+        None => Err(Failure::Usage("this program was built without its window; see --help".into())),
+    };
+    let command = arguments.command.unwrap_or(Command::Edit { file: None });
+    if !matches!(command, Command::Edit { .. }) {
+        progress::stop_on_interrupt();
+    }
+    let result = match command {
+        Command::Edit { file } => edit(file),
         Command::Export(export) => export.run(),
         Command::Render(render) => render.run(),
         Command::Spin(spin) => spin.run(),

@@ -25,7 +25,7 @@ pub use round_brilliant::{Crown, LowerHalf, Pavilion, RoundBrilliant};
 pub use size::{Size, SizeError};
 pub use warning::Warning;
 
-pub(crate) use names::is_printable;
+pub(crate) use names::{is_printable, tier_stem};
 
 #[cfg(test)]
 pub(crate) use derive::strategy;

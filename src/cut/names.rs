@@ -25,6 +25,14 @@ pub(super) fn unique<'a>(names: impl Iterator<Item = &'a str> + Clone) -> Vec<St
     names.map(name_one).collect()
 }
 
+/// What a tier's facets are called, given one of their names: the name without its number.
+pub(crate) fn tier_stem(name: &str) -> &str {
+    match name.rsplit_once(' ') {
+        Some((stem, number)) if number.chars().all(|c| c.is_ascii_digit()) => stem,
+        _ => name,
+    }
+}
+
 /// The longest name, in bytes: one that fits on a line.
 const LONGEST: usize = 200;
 

@@ -9,6 +9,7 @@ mod labels;
 use super::drawing::{
     ACCENT, Align, Aspect, INK, QUIET, REMARK, Sheet, Type, degrees, shortened, text_width,
 };
+use crate::cut::tier_stem;
 use crate::math::{Basis, Facet};
 use crate::scene::Stone;
 use glam::DVec2;
@@ -124,11 +125,7 @@ fn azimuth(radial: DVec2) -> f64 {
 fn tier_name<'a>(names: impl Iterator<Item = &'a str>) -> String {
     let mut different: Vec<String> = vec![];
     for name in names {
-        let stem = match name.rsplit_once(' ') {
-            Some((stem, number)) if number.chars().all(|c| c.is_ascii_digit()) => stem,
-            _ => name,
-        };
-        let stem = stem.replace('_', " ");
+        let stem = tier_stem(name).replace('_', " ");
         if !different.contains(&stem) {
             different.push(stem);
         }

@@ -7,7 +7,6 @@ mod take;
 mod worker;
 
 pub use order::{Answer, Ask, Grade, Order, Shot, Slot, Taken, Tilts, Which};
-pub use worker::TILTS;
 
 use crate::trace::gpu::Gpu;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
@@ -35,6 +34,7 @@ pub struct Studio {
     desk: Arc<Desk>,
     answers: Receiver<Answer>,
     last: Order,
+    wake: Wake,
     thread: Option<JoinHandle<()>>,
     told: String,
 }
@@ -53,9 +53,14 @@ impl Studio {
         let gpu = gpu.filter(|gpu| !gpu.is_software());
         let told = gpu.as_ref().map_or("processor".into(), |gpu| gpu.name().to_owned());
         let (sender, answers) = channel();
-        let worker = worker::Worker::new(Arc::clone(&desk), sender, gpu, wake);
+        let worker = worker::Worker::new(Arc::clone(&desk), sender, gpu, Arc::clone(&wake));
         let thread = std::thread::Builder::new().name("studio".into()).spawn(|| worker.work()).ok();
-        Self { desk, answers, last: Order::default(), thread, told }
+        Self { desk, answers, last: Order::default(), wake, thread, told }
+    }
+
+    /// What is called whenever there is an answer.
+    pub fn wake(&self) -> Wake {
+        Arc::clone(&self.wake)
     }
 
     /// What computes, in words.

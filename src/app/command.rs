@@ -1,0 +1,198 @@
+//! Everything that can be done by a key or a menu.
+
+use egui::{Key, KeyboardShortcut, Modifiers};
+
+/// One of them.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Command {
+    Open,
+    Save,
+    SaveAs,
+    Export,
+    CopyPicture,
+    Quit,
+    Undo,
+    Redo,
+    Top,
+    Side,
+    Bottom,
+    Free,
+    Fit,
+    Perspective,
+    EyeLeans,
+    One,
+    Two,
+    Four,
+    Wireframe,
+    Facets,
+    Bounces,
+    Unresolved,
+    Total,
+    Strongest,
+    CompareSaved,
+    CompareFile,
+    Split,
+    NoCompare,
+    LightPath,
+    Keys,
+}
+
+/// What a menu holds.
+pub struct Menu {
+    /// Its title.
+    pub title: &'static str,
+    /// Its entries, in groups.
+    pub groups: &'static [&'static [Command]],
+}
+
+use Command::*;
+
+/// All menus; what the program opens besides files stands in the first as well.
+pub const MENUS: [Menu; 4] = [
+    Menu { title: "File", groups: &[&[Open], &[Save, SaveAs], &[Export, CopyPicture], &[Quit]] },
+    Menu { title: "Edit", groups: &[&[Undo, Redo]] },
+    Menu {
+        title: "View",
+        groups: &[
+            &[Top, Side, Bottom, Free, Fit],
+            &[Perspective, EyeLeans],
+            &[One, Two, Four],
+            &[Wireframe, Facets, Bounces, Unresolved, Total, Strongest],
+            &[CompareSaved, CompareFile, Split, NoCompare],
+            &[LightPath],
+        ],
+    },
+    Menu { title: "Help", groups: &[&[Keys]] },
+];
+
+impl Command {
+    /// All of them.
+    pub fn all() -> impl Iterator<Item = Self> {
+        MENUS.iter().flat_map(|m| m.groups.iter()).flat_map(|g| g.iter()).copied()
+    }
+
+    /// As menus call it; three dots where a question follows.
+    pub fn name(self) -> &'static str {
+        match self {
+            Open => "Open…",
+            Save => "Save",
+            SaveAs => "Save as…",
+            Export => "Export…",
+            CopyPicture => "Copy picture",
+            Quit => "Quit",
+            Undo => "Undo",
+            Redo => "Redo",
+            Top => "Top",
+            Side => "Side",
+            Bottom => "Bottom",
+            Free => "Free",
+            Fit => "Fit to view",
+            Perspective => "Perspective",
+            EyeLeans => "Tilt the eye, not the stone",
+            One => "One view",
+            Two => "Two views",
+            Four => "Four views",
+            Wireframe => "Wireframe",
+            Facets => "Facets in colour",
+            Bounces => "Bounces",
+            Unresolved => "Unresolved light",
+            Total => "Total reflections",
+            Strongest => "Strongest exits only",
+            CompareSaved => "Compare with saved",
+            CompareFile => "Compare with file…",
+            Split => "Split views",
+            NoCompare => "Stop comparing",
+            LightPath => "Light path",
+            Keys => "Keys and terms",
+        }
+    }
+
+    /// What it does, in a sentence.
+    pub fn meaning(self) -> &'static str {
+        match self {
+            Open => "Opens a cut file; dropping one on the window does the same.",
+            Save => "Saves the design where it lies.",
+            SaveAs => "Saves the design as another file.",
+            Export => "Writes pictures, drawings and figures as files.",
+            CopyPicture => "Copies the large picture, or the one under the pointer, to the clipboard.",
+            Quit => "Closes the window.",
+            Undo => "Takes the last change back; a drag is one.",
+            Redo => "Does again what was undone.",
+            Top => "Looks at the table.",
+            Side => "Looks along the girdle.",
+            Bottom => "Looks at the culet.",
+            Free => "Goes back to the tilt before.",
+            Fit => "Shows the whole stone.",
+            Perspective => "Sees the stone from nearby instead of along parallel rays.",
+            EyeLeans => "Moves the eye over a still stone and light; else the stone tilts under eye and light.",
+            One => "One large view.",
+            Two => "Two views.",
+            Four => "Four views.",
+            Wireframe => "Draws the edges over pictures.",
+            Facets => "Gives each facet a colour.",
+            Bounces => "Shows how often light is reflected inside.",
+            Unresolved => "Shows where light was not followed to its end.",
+            Total => "Shows how often light is totally reflected before the first way out.",
+            Strongest => "Shows only the zone that each point's strongest light comes from, as many ASET maps do.",
+            CompareSaved => "Shows the design as it was saved while C is held.",
+            CompareFile => "Shows another file's design while C is held.",
+            Split => "Shows both designs side by side in every view.",
+            NoCompare => "Forgets the design compared with.",
+            LightPath => "Follows one ray through the stone: click a point of a view.",
+            Keys => "Lists the keys, and what the trade's terms mean.",
+        }
+    }
+
+    /// Its key, with those held down.
+    pub fn shortcut(self) -> Option<KeyboardShortcut> {
+        let bare = |key| Some(KeyboardShortcut::new(Modifiers::NONE, key));
+        let command = |key| Some(KeyboardShortcut::new(Modifiers::COMMAND, key));
+        let shifted = |key| Some(KeyboardShortcut::new(Modifiers::COMMAND | Modifiers::SHIFT, key));
+        match self {
+            Open => command(Key::O),
+            Save => command(Key::S),
+            SaveAs => shifted(Key::S),
+            Export => command(Key::E),
+            CopyPicture => shifted(Key::C),
+            Quit => command(Key::Q),
+            Undo => command(Key::Z),
+            Redo => shifted(Key::Z),
+            Top => bare(Key::T),
+            Side => bare(Key::S),
+            Bottom => bare(Key::B),
+            Free => bare(Key::F),
+            Fit => bare(Key::Num0),
+            Perspective => bare(Key::P),
+            EyeLeans => bare(Key::E),
+            One => bare(Key::Num1),
+            Two => bare(Key::Num2),
+            Four => bare(Key::Num4),
+            Wireframe => bare(Key::W),
+            Facets => bare(Key::A),
+            Bounces => bare(Key::N),
+            Unresolved => bare(Key::U),
+            Total => bare(Key::I),
+            Strongest => bare(Key::X),
+            Split => bare(Key::D),
+            LightPath => bare(Key::L),
+            Keys => bare(Key::F1),
+            CompareSaved | CompareFile | NoCompare => None,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn no_key_does_two_things() {
+        let keys: Vec<_> = Command::all().filter_map(|c| Some((c, c.shortcut()?))).collect();
+        for (i, (a, key)) in keys.iter().enumerate() {
+            let twin = keys[..i].iter().find(|(_, other)| other == key);
+            assert!(twin.is_none(), "{a:?} and {twin:?}");
+            assert!(key.logical_key != Key::C || key.modifiers != Modifiers::NONE, "C compares");
+        }
+        assert!(keys.len() > 20);
+    }
+}

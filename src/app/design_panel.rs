@@ -1,0 +1,256 @@
+//! The panel of the design: proportions, material, size, light.
+
+use super::editor::Editor;
+use super::files::Purpose;
+use super::proportions::{EXCELLENT_DEPTH, PROPORTIONS, Proportion};
+use super::theme;
+use crate::cut::{Cut, DesignError, MaterialRef, RoundBrilliant, Size, Unit};
+use crate::optics::{line, materials};
+use crate::scene::{LIGHTS, SpecimenError, light};
+use egui::{
+    Color32, ComboBox, DragValue, Panel, Rect, RichText, ScrollArea, Slider, SliderClamping, Ui, WidgetInfo,
+    Role, pos2, vec2,
+};
+use std::ops::RangeInclusive;
+
+/// Widths of a row's parts, points: its name, its number.
+const NAME: f32 = 104.0;
+const NUMBER: f32 = 66.0;
+
+/// Stops that light can be raised or lowered by.
+const STOPS: RangeInclusive<f64> = -4.0..=4.0;
+
+/// Half angles of the observer's head, degrees.
+const HEADS: RangeInclusive<f64> = 0.0..=30.0;
+
+/// Draws the panel.
+pub fn show(editor: &mut Editor, ui: &mut Ui) {
+    Panel::left("design").resizable(true).default_size(330.0).size_range(300.0..=460.0).show(ui, |ui| {
+        ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+            heading(ui, "Proportions", "Drag a slider or type a number; the green mark is the range GIA calls excellent.");
+            proportions(editor, ui);
+            heading(ui, "Stone", "What it is made of, and how large it is.");
+            material(editor, ui);
+            size(editor, ui);
+            heading(ui, "Light", "What the render is lit by; scopes bring their own light.");
+            lighting(editor, ui);
+        });
+    });
+}
+
+fn heading(ui: &mut Ui, text: &str, meaning: &str) {
+    ui.add_space(8.0);
+    ui.label(RichText::new(text).heading()).on_hover_text(meaning);
+    ui.add_space(2.0);
+}
+
+fn proportions(editor: &mut Editor, ui: &mut Ui) {
+    let fault = editor.document.fault().map(ToString::to_string);
+    let key = match editor.document.fault() {
+        Some(SpecimenError::Design(DesignError::Proportion(fault))) => Some(fault.key()),
+        _ => None,
+    };
+    let Cut::RoundBrilliant(brilliant) = &mut editor.document.work.design.cut else {
+        planes(editor, ui);
+        return;
+    };
+    for proportion in &PROPORTIONS {
+        row(ui, proportion, brilliant);
+        if let Some(fault) = fault.as_ref().filter(|_| key == Some(proportion.key)) {
+            wrong(ui, fault);
+        }
+    }
+    derived(ui, brilliant);
+    if let Some(fault) = fault.filter(|_| !PROPORTIONS.iter().any(|p| key == Some(p.key))) {
+        wrong(ui, &fault);
+    }
+}
+
+fn wrong(ui: &mut Ui, fault: &str) {
+    ui.label(RichText::new(fault).color(theme::bad(ui.visuals())));
+}
+
+fn planes(editor: &Editor, ui: &mut Ui) {
+    let stone = &editor.document.specimen().stone;
+    let facets = stone.polytope.facets().len();
+    ui.label(format!("This stone is given by its planes: {facets} facets."));
+    ui.label(RichText::new("Its planes stand in its file; what is changed there shows here at once.").weak());
+}
+
+/// One proportion: name, slider, number, and of a pair whether it is held.
+fn row(ui: &mut Ui, proportion: &Proportion, brilliant: &mut RoundBrilliant) {
+    ui.horizontal(|ui| {
+        let label = named(ui, proportion.name, proportion.meaning);
+        let held = ui.spacing().interact_size.y;
+        ui.spacing_mut().slider_width = (ui.available_width() - NUMBER - held - 24.0).max(40.0);
+        let (first, last) = (*proportion.slider.start(), *proportion.slider.end());
+        let mut value = (proportion.get)(brilliant);
+        let before = value;
+        let whole = proportion.unit == Unit::Count;
+        let decimals = if whole { 0 } else { 2 };
+        let step = if whole { 8.0 } else { 0.1 };
+        let mark = ui.painter().add(egui::Shape::Noop);
+        let slider = Slider::new(&mut value, first..=last).show_value(false).step_by(step).smart_aim(false);
+        let slider = ui.add(slider.clamping(SliderClamping::Never)).labelled_by(label.id).on_hover_text(range(proportion));
+        if let Some(good) = &proportion.excellent {
+            let band = band(slider.rect, good, &proportion.slider);
+            ui.painter().set(mark, egui::Shape::rect_filled(band, 2.0, theme::good(ui.visuals()).gamma_multiply(0.75)));
+        }
+        let number = DragValue::new(&mut value).speed(if whole { 0.2 } else { 0.02 }).max_decimals(decimals);
+        let number = number.min_decimals(if whole { 0 } else { 1 }).suffix(proportion.unit.to_string());
+        let number = number.update_while_editing(false);
+        ui.add_sized(vec2(NUMBER, ui.spacing().interact_size.y), number).labelled_by(label.id);
+        if value != before && value.is_finite() {
+            (proportion.set)(brilliant, value);
+        }
+        hold(ui, proportion, brilliant);
+    });
+}
+
+/// Where on a slider a range lies: a band under its rail.
+fn band(slider: Rect, range: &RangeInclusive<f64>, whole: &RangeInclusive<f64>) -> Rect {
+    let handle = slider.height() / 2.5;
+    let (left, right) = (slider.left() + handle, slider.right() - handle);
+    let x = |v: f64| left + (right - left) * ((v - whole.start()) / (whole.end() - whole.start())) as f32;
+    let y = slider.center().y;
+    Rect::from_min_max(pos2(x(*range.start()), y + 5.0), pos2(x(*range.end()), y + 8.0))
+}
+
+fn range(proportion: &Proportion) -> String {
+    let good = proportion.excellent.as_ref().map(|e| {
+        format!(" GIA calls {} to {}{} excellent.", e.start(), e.end(), proportion.unit)
+    });
+    format!("{}{}", proportion.meaning, good.unwrap_or_default())
+}
+
+fn named(ui: &mut Ui, name: &str, meaning: &str) -> egui::Response {
+    let height = ui.spacing().interact_size.y;
+    ui.allocate_ui_with_layout(vec2(NAME, height), egui::Layout::left_to_right(egui::Align::Center), |ui| {
+        ui.set_min_width(NAME);
+        ui.label(name).on_hover_text(meaning)
+    })
+    .inner
+}
+
+fn hold(ui: &mut Ui, proportion: &Proportion, brilliant: &mut RoundBrilliant) {
+    let Some(hold) = &proportion.hold else { return };
+    let held = (hold.is)(brilliant);
+    let meaning = if held { "Held: it stays when other proportions change." } else { "Hold this one when other proportions change." };
+    let response = ui.selectable_label(held, if held { "🔒" } else { "🔓" }).on_hover_text(meaning);
+    let name = format!("Hold {}", proportion.name.to_lowercase());
+    response.widget_info(|| WidgetInfo::selected(Role::CheckBox, true, held, &name));
+    if response.clicked() && !held {
+        (hold.set)(brilliant);
+    }
+}
+
+/// What follows from the proportions.
+fn derived(ui: &mut Ui, brilliant: &RoundBrilliant) {
+    let Ok(derived) = brilliant.derived() else { return };
+    let depth = derived.total_depth;
+    let colour = if EXCELLENT_DEPTH.contains(&depth) { theme::good(ui.visuals()) } else { ui.visuals().text_color() };
+    ui.add_space(4.0);
+    egui::Grid::new("derived").num_columns(2).spacing(vec2(12.0, 4.0)).show(ui, |ui| {
+        let mut line = |name: &str, value: String, colour: Option<Color32>, meaning: &str| {
+            ui.label(RichText::new(name).weak()).on_hover_text(meaning);
+            let text = RichText::new(value).monospace();
+            ui.label(match colour {
+                Some(colour) => text.color(colour),
+                None => text,
+            });
+            ui.end_row();
+        };
+        line("Total depth", format!("{depth:6.2} %"), Some(colour), "From table to culet. GIA calls 58.1 to 63.6 % excellent.");
+        line("Star angle", format!("{:6.2}°", derived.star_angle), None, "How steep the small facets around the table are.");
+        line("Upper halves", format!("{:6.2}°", derived.upper_half_angle), None, "How steep the crown facets at the girdle are.");
+        line("Lower halves", format!("{:6.2}°", derived.lower_half_angle), None, "How steep the pavilion facets at the girdle are.");
+        let valley = "Thickness of the rim where it is thinnest, between the bezels.";
+        line("Girdle valleys", format!("{:6.2} %", derived.girdle_thickness_valley), None, valley);
+    });
+}
+
+fn material(editor: &mut Editor, ui: &mut Ui) {
+    let design = &mut editor.document.work.design;
+    ui.horizontal(|ui| {
+        let label = named(ui, "Material", "What the stone is made of: it sets refraction, dispersion and colour.");
+        let name = match &design.material {
+            MaterialRef::Name(name) => name.clone(),
+            MaterialRef::Index(index) => format!("index {index}"),
+            MaterialRef::Custom(material) => material.name.clone(),
+        };
+        let combo = ComboBox::from_id_salt("material").selected_text(&name).width(ui.available_width() - 12.0);
+        let combo = combo.height(420.0).show_ui(ui, |ui| {
+            for material in materials() {
+                let chosen = name == material.name;
+                let about = format!("{}\nindex {:.4}", material.description, material.index(line::SODIUM_D));
+                if ui.selectable_label(chosen, &material.name).on_hover_text(about).clicked() && !chosen {
+                    design.material = MaterialRef::Name(material.name.clone());
+                }
+            }
+        });
+        combo.response.labelled_by(label.id);
+    });
+}
+
+fn size(editor: &mut Editor, ui: &mut Ui) {
+    let specimen = std::sync::Arc::clone(editor.document.specimen());
+    let design = &mut editor.document.work.design;
+    ui.horizontal(|ui| {
+        let label = named(ui, "Diameter", "Of the girdle. A larger stone of colour is darker.");
+        let number = DragValue::new(&mut design.diameter_mm).range(0.1..=1000.0).speed(0.01).max_decimals(3).suffix(" mm");
+        ui.add_sized(vec2(92.0, ui.spacing().interact_size.y), number.update_while_editing(false)).labelled_by(label.id);
+    });
+    ui.horizontal(|ui| {
+        let label = named(ui, "Weight", "From the stone's volume and its material's density.");
+        let volume = specimen.stone.polytope.volume() * (0.5 * design.diameter_mm).powi(3);
+        let Some(mut carats) = specimen.material.carats(volume) else {
+            ui.label(RichText::new("this material's density is not known").weak());
+            return;
+        };
+        let before = carats;
+        let number = DragValue::new(&mut carats).range(1e-6..=1e9).speed(0.01).max_decimals(3).suffix(" ct");
+        ui.add_sized(vec2(92.0, ui.spacing().interact_size.y), number.update_while_editing(false)).labelled_by(label.id);
+        let asked = Size::Carats(carats).diameter_mm(&specimen.stone.polytope, &specimen.material);
+        if let (true, Ok(diameter)) = (carats != before, asked) {
+            design.diameter_mm = diameter;
+        }
+    });
+}
+
+fn lighting(editor: &mut Editor, ui: &mut Ui) {
+    let mut asks = false;
+    let work = &mut editor.document.work;
+    ui.horizontal(|ui| {
+        let label = named(ui, "Light", "What stands around the stone in renders.");
+        let name = std::path::Path::new(&work.light).file_name().map_or(work.light.clone(), |n| n.to_string_lossy().into_owned());
+        let combo = ComboBox::from_id_salt("light").selected_text(name).width(ui.available_width() - 12.0);
+        let combo = combo.show_ui(ui, |ui| {
+            for name in LIGHTS {
+                let about = light(name).map_or(String::new(), |l| l.description);
+                let chosen = work.light == name;
+                if ui.selectable_label(chosen, name).on_hover_text(about).clicked() {
+                    work.light = name.to_owned();
+                }
+            }
+            asks = ui.button("From a file…").on_hover_text("A light file, or a panorama: .hdr, .exr, .png or .jpg.").clicked();
+        });
+        combo.response.labelled_by(label.id);
+    });
+    plain(ui, ("Exposure", "How bright renders are shown, in stops: one more is twice the light."), &mut work.exposure, (STOPS, " stops"));
+    plain(ui, ("Head", "Half angle of the observer's head, which shuts out light in ASET and figures; 0 for none."), &mut editor.desk.head, (HEADS, "°"));
+    if asks {
+        editor.choose(Purpose::Light);
+    }
+}
+
+/// A row of name, slider and number.
+fn plain(ui: &mut Ui, (name, meaning): (&str, &str), value: &mut f64, (range, unit): (RangeInclusive<f64>, &str)) {
+    ui.horizontal(|ui| {
+        let label = named(ui, name, meaning);
+        let held = ui.spacing().interact_size.y;
+        ui.spacing_mut().slider_width = (ui.available_width() - NUMBER - held - 24.0).max(40.0);
+        ui.add(Slider::new(value, range.clone()).show_value(false).step_by(0.1)).labelled_by(label.id).on_hover_text(meaning);
+        let number = DragValue::new(value).range(range).speed(0.02).max_decimals(1).suffix(unit);
+        ui.add_sized(vec2(NUMBER, ui.spacing().interact_size.y), number.update_while_editing(false)).labelled_by(label.id);
+    });
+}

@@ -1,0 +1,169 @@
+//! How a person has arranged the window: kept from one start to the next.
+
+use super::eye::Eye;
+use super::shows::Shows;
+use crate::picture::Overlay;
+use serde::{Deserialize, Serialize};
+use std::path::{Path, PathBuf};
+
+/// How many views there are.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+pub enum Layout {
+    /// One.
+    One,
+    /// Two side by side.
+    Two,
+    /// Four.
+    #[default]
+    Four,
+}
+
+impl Layout {
+    /// How many panes it has.
+    pub fn panes(self) -> usize {
+        match self {
+            Self::One => 1,
+            Self::Two => 2,
+            Self::Four => 4,
+        }
+    }
+}
+
+/// One view.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Pane {
+    /// What it shows.
+    pub shows: Shows,
+    /// Its own eye; none where it looks as the others do.
+    pub own: Option<Eye>,
+}
+
+/// The most files remembered.
+const MOST_RECENT: usize = 10;
+
+/// All of it.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Desk {
+    /// How many views.
+    pub layout: Layout,
+    /// The views; a layout of fewer shows the first of them.
+    pub panes: [Pane; 4],
+    /// One of them, shown alone for a while.
+    pub large: Option<usize>,
+    /// The eye of all linked views.
+    pub eye: Eye,
+    /// Half angle of the observer's head in ASET and figures, degrees.
+    pub head: f64,
+    /// Whether scopes show strongest exits alone.
+    pub strongest: bool,
+    /// What is drawn over pictures, by its name.
+    pub overlay: Option<String>,
+    /// Whether figures are those of strongest exits' areas, not of energy.
+    pub by_area: bool,
+    /// Whether both designs are seen side by side.
+    pub is_split: bool,
+    /// Files, the last one first.
+    pub recent: Vec<PathBuf>,
+    /// The file that was open.
+    pub last: Option<PathBuf>,
+    /// The light that was chosen.
+    pub light: String,
+    /// Stops.
+    pub exposure: f64,
+}
+
+impl Default for Desk {
+    fn default() -> Self {
+        let pane = |shows| Pane { shows, own: None };
+        Self {
+            layout: Layout::Four,
+            panes: [Shows::Render, Shows::Aset, Shows::Hearts, Shows::Profile].map(pane),
+            large: None,
+            eye: Eye::default(),
+            head: 0.0,
+            strongest: false,
+            overlay: None,
+            by_area: false,
+            is_split: false,
+            recent: vec![],
+            last: None,
+            light: super::document::FIRST_LIGHT.to_owned(),
+            exposure: 0.0,
+        }
+    }
+}
+
+impl Desk {
+    /// The panes in sight, by their places.
+    pub fn shown(&self) -> Vec<usize> {
+        match self.large.filter(|&k| k < self.layout.panes()) {
+            Some(large) => vec![large],
+            None => (0..self.layout.panes()).collect(),
+        }
+    }
+
+    /// The eye of a pane.
+    pub fn eye(&self, pane: usize) -> &Eye {
+        self.panes[pane].own.as_ref().unwrap_or(&self.eye)
+    }
+
+    /// The same, to be moved.
+    pub fn eye_mut(&mut self, pane: usize) -> &mut Eye {
+        self.panes[pane].own.as_mut().unwrap_or(&mut self.eye)
+    }
+
+    /// What is drawn over pictures.
+    pub fn overlay(&self) -> Option<Overlay> {
+        self.overlay.as_deref().and_then(|name| name.parse().ok())
+    }
+
+    /// Draws something over pictures, or no longer.
+    pub fn toggle_overlay(&mut self, name: &str) {
+        let same = self.overlay.as_deref() == Some(name);
+        self.overlay = (!same).then(|| name.to_owned());
+    }
+
+    /// Remembers a file.
+    pub fn remember(&mut self, path: &Path) {
+        let path = std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
+        self.recent.retain(|p| *p != path);
+        self.recent.insert(0, path.clone());
+        self.recent.truncate(MOST_RECENT);
+        self.last = Some(path);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_desk_is_kept_as_text_and_an_old_one_is_completed() {
+        let mut desk = Desk { layout: Layout::Two, ..Desk::default() };
+        desk.eye.spin(crate::scene::Side::Table, 0.5);
+        desk.remember(Path::new("/a/b.toml"));
+        let text = serde_json::to_string(&desk).unwrap();
+        assert_eq!(serde_json::from_str::<Desk>(&text).unwrap(), desk);
+        assert_eq!(serde_json::from_str::<Desk>("{}").unwrap(), Desk::default());
+    }
+
+    #[test]
+    fn recent_files_are_few_and_each_stands_once() {
+        let mut desk = Desk::default();
+        (0..30).for_each(|k| desk.remember(Path::new(&format!("/{}.toml", k % 20))));
+        assert_eq!(desk.recent.len(), MOST_RECENT);
+        assert_eq!(desk.recent[0], Path::new("/9.toml"));
+    }
+
+    #[test]
+    fn every_overlay_is_toggled() {
+        let mut desk = Desk::default();
+        for name in Overlay::names() {
+            desk.toggle_overlay(name);
+            assert!(desk.overlay().is_some(), "{name}");
+            desk.toggle_overlay(name);
+            assert_eq!(desk.overlay(), None);
+        }
+    }
+}

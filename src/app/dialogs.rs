@@ -1,0 +1,175 @@
+//! Windows that ask or tell something.
+
+use super::command::MENUS;
+use super::document::Document;
+use super::editor::Editor;
+use super::export_dialog::{self, ExportDialog};
+use super::files::Found;
+use super::proportions::PROPORTIONS;
+use super::shows::Shows;
+use egui::{Context, Grid, Id, Key, Modal, RichText, ScrollArea, Ui};
+use std::path::PathBuf;
+
+/// What is to be done once a question is answered.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Then {
+    /// Open this file.
+    Open(PathBuf),
+    /// Ask for a file and open it.
+    OpenAsked,
+    /// Begin from a cut that comes with the program.
+    Library(String),
+    /// Close the window.
+    Close,
+}
+
+/// A window that is open.
+pub enum Dialog {
+    /// Work would be lost.
+    Unsaved(Then),
+    /// A crash has left work behind.
+    Recover(Found),
+    /// Both the file and the design have changed.
+    ChangedOutside,
+    /// What to export.
+    Export(Box<ExportDialog>),
+    /// Keys and terms.
+    Keys,
+}
+
+impl Dialog {
+    /// The export dialog for what is open.
+    pub fn export(editor: &Editor) -> Self {
+        Self::Export(Box::new(ExportDialog::new(editor)))
+    }
+
+    /// Whether it wants an answer before anything else.
+    pub fn is_modal(&self) -> bool {
+        true
+    }
+}
+
+/// Draws the window that is open, if any.
+pub fn show(editor: &mut Editor, ctx: &Context) {
+    let Some(mut dialog) = editor.dialog.take() else { return };
+    let mut is_open = true;
+    let modal = Modal::new(Id::unique("dialog")).show(ctx, |ui| match &mut dialog {
+        Dialog::Unsaved(then) => is_open = unsaved(editor, ui, then),
+        Dialog::Recover(found) => is_open = recover(editor, ui, found),
+        Dialog::ChangedOutside => is_open = changed_outside(editor, ui),
+        Dialog::Export(export) => is_open = export_dialog::show(editor, ui, export),
+        Dialog::Keys => is_open = keys(ui),
+    });
+    let is_question = matches!(dialog, Dialog::Recover(_) | Dialog::ChangedOutside);
+    let escaped = ctx.input(|i| i.key_pressed(Key::Escape)) || modal.should_close();
+    if is_open && !(escaped && !is_question) {
+        // What was asked for meanwhile waits until this one is answered.
+        editor.dialog = Some(dialog);
+    }
+}
+
+/// Buttons in a row, the first the one that is meant most often; which was chosen.
+fn buttons(ui: &mut Ui, names: &[&str]) -> Option<usize> {
+    ui.add_space(10.0);
+    ui.horizontal(|ui| {
+        let mut chosen = None;
+        for (k, name) in names.iter().enumerate() {
+            if ui.button(*name).clicked() {
+                chosen = Some(k);
+            }
+        }
+        chosen
+    })
+    .inner
+}
+
+fn unsaved(editor: &mut Editor, ui: &mut Ui, then: &Then) -> bool {
+    ui.set_width(380.0);
+    ui.heading("Save the changes?");
+    ui.label(format!("{} has changes that are not saved yet.", editor.document.title()));
+    match buttons(ui, &["Save", "Don't save", "Cancel"]) {
+        Some(0) => {
+            if editor.save() {
+                editor.then(then.clone());
+            }
+            false
+        }
+        Some(1) => {
+            editor.then(then.clone());
+            false
+        }
+        Some(_) => false,
+        None => true,
+    }
+}
+
+fn recover(editor: &mut Editor, ui: &mut Ui, found: &Found) -> bool {
+    ui.set_width(400.0);
+    ui.heading("Go on with unsaved work?");
+    let of = found.path.as_ref().map_or(String::new(), |p| format!(", opened from {}", p.display()));
+    ui.label(format!("The program ended before {}{of} was saved.", found.design.name));
+    match buttons(ui, &["Go on", "Forget it"]) {
+        Some(choice) => {
+            if choice == 0 {
+                match Document::recovered(found.design.clone(), found.path.clone()) {
+                    Ok(document) => editor.begin(document),
+                    Err(why) => editor.notes.trouble(why),
+                }
+            }
+            found.clone().forget();
+            false
+        }
+        None => true,
+    }
+}
+
+fn changed_outside(editor: &mut Editor, ui: &mut Ui) -> bool {
+    ui.set_width(400.0);
+    ui.heading("The file has changed");
+    ui.label("Another program has changed the file, and here are changes that are not saved.");
+    match buttons(ui, &["Keep mine", "Read the file again"]) {
+        Some(1) => {
+            if let Some(path) = editor.document.path().map(std::path::Path::to_owned) {
+                editor.open(&path);
+            }
+            false
+        }
+        Some(_) => false,
+        None => true,
+    }
+}
+
+fn keys(ui: &mut Ui) -> bool {
+    ui.set_width(620.0);
+    ui.heading("Keys and terms");
+    ScrollArea::vertical().max_height(520.0).show(ui, |ui| {
+        let ctx = ui.ctx().clone();
+        Grid::new("keys").num_columns(2).striped(true).show(ui, |ui| {
+            let mut line = |key: String, what: &str| {
+                ui.label(RichText::new(key).monospace());
+                ui.label(what);
+                ui.end_row();
+            };
+            line("drag".into(), "Tilts the stone; with Shift or the right button turns it about its axis.");
+            line("wheel".into(), "Zooms at the pointer; the middle button moves the picture.");
+            line("double click".into(), "Shows one view alone.");
+            line("arrows".into(), "Tilt the view that has the focus by 1°, with Shift by 5°; + and - zoom.");
+            line("C held".into(), "Shows the design compared with.");
+            for command in MENUS.iter().flat_map(|m| m.groups.iter()).flat_map(|g| g.iter()) {
+                if let Some(shortcut) = command.shortcut() {
+                    line(ctx.format_shortcut(&shortcut), command.meaning());
+                }
+            }
+        });
+        ui.add_space(10.0);
+        Grid::new("terms").num_columns(2).striped(true).show(ui, |ui| {
+            let shows = Shows::ALL.into_iter().map(|s| (s.name(), s.meaning()));
+            for (name, meaning) in shows.chain(PROPORTIONS.iter().map(|p| (p.name, p.meaning))) {
+                ui.label(RichText::new(name).strong());
+                ui.add(egui::Label::new(meaning).wrap());
+                ui.end_row();
+            }
+        });
+    });
+    buttons(ui, &["Close"]).is_none()
+}

@@ -1,0 +1,254 @@
+//! Choosing files without keeping the window waiting, keeping work safe, and noticing what others change.
+
+use super::document::Stamp;
+use crate::cut::Design;
+use crate::io::{WriteError, cut_file, write};
+use serde::{Deserialize, Serialize};
+use std::fs::File;
+use std::io::Write as _;
+use std::path::{Path, PathBuf};
+use std::sync::mpsc::{Receiver, channel};
+use std::sync::{Arc, Mutex, PoisonError};
+use std::time::Duration;
+
+/// What a file is chosen for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Purpose {
+    /// A design to open.
+    Open,
+    /// Where to save.
+    SaveAs,
+    /// A design to compare with.
+    Compare,
+    /// A light or a panorama.
+    Light,
+    /// A folder to export to.
+    Folder,
+}
+
+/// What is asked of whoever chooses: a purpose, and a name to begin with.
+#[derive(Debug, Clone)]
+pub struct Question {
+    /// What for.
+    pub purpose: Purpose,
+    /// The name that a new file may have.
+    pub name: String,
+}
+
+/// Asks a person for a file, and waits for the answer; none when it is given up.
+pub type Chooser = Arc<dyn Fn(&Question) -> Option<PathBuf> + Send + Sync>;
+
+/// The system's own dialogs.
+pub fn by_dialog(question: &Question) -> Option<PathBuf> {
+    let dialog = rfd::FileDialog::new();
+    let cuts = |d: rfd::FileDialog| d.add_filter("Cut files", &["toml"]).add_filter("All files", &["*"]);
+    let pictures = ["toml", "hdr", "exr", "png", "jpg", "jpeg"];
+    match question.purpose {
+        Purpose::Open => cuts(dialog.set_title("Open a cut")).pick_file(),
+        Purpose::Compare => cuts(dialog.set_title("Compare with a cut")).pick_file(),
+        Purpose::SaveAs => cuts(dialog.set_title("Save the cut as")).set_file_name(&question.name).save_file(),
+        Purpose::Light => dialog.set_title("A light or a panorama").add_filter("Lights", &pictures).pick_file(),
+        Purpose::Folder => dialog.set_title("A folder for the pictures").pick_folder(),
+    }
+}
+
+/// A question that is open.
+pub struct Choosing {
+    /// What for.
+    pub purpose: Purpose,
+    answer: Receiver<Option<PathBuf>>,
+}
+
+impl Choosing {
+    /// Asks, on a thread of its own; `wake` is called when there is an answer.
+    pub fn ask(question: Question, chooser: &Chooser, wake: impl FnOnce() + Send + 'static) -> Self {
+        let (sender, answer) = channel();
+        let (chooser, purpose) = (Arc::clone(chooser), question.purpose);
+        std::thread::spawn(move || {
+            // Nobody waits for it any more where the window is closed.
+            let _ = sender.send(chooser(&question));
+            wake();
+        });
+        Self { purpose, answer }
+    }
+
+    /// The answer, once there is one: given up, or a file.
+    pub fn answer(&self) -> Option<Option<PathBuf>> {
+        match self.answer.try_recv() {
+            Ok(answer) => Some(answer),
+            Err(std::sync::mpsc::TryRecvError::Empty) => None,
+            Err(std::sync::mpsc::TryRecvError::Disconnected) => Some(None),
+        }
+    }
+}
+
+/// Watches a file for changes by others, on a thread of its own.
+pub struct Watching(Arc<Mutex<Option<(PathBuf, Stamp)>>>);
+
+/// From one look at the file to the next.
+const PAUSE: Duration = Duration::from_millis(700);
+
+impl Watching {
+    /// Begins; `wake` is called when the file is another than it was.
+    pub fn begin(wake: impl Fn() + Send + 'static) -> Self {
+        let watched: Arc<Mutex<Option<(PathBuf, Stamp)>>> = Arc::default();
+        let weak = Arc::downgrade(&watched);
+        std::thread::spawn(move || {
+            while let Some(watched) = weak.upgrade() {
+                let mut file = watched.lock().unwrap_or_else(PoisonError::into_inner);
+                if let Some((path, stamp)) = file.as_mut() {
+                    let now = Stamp::of(path);
+                    if now != *stamp {
+                        *stamp = now;
+                        wake();
+                    }
+                }
+                drop(file);
+                drop(watched);
+                std::thread::sleep(PAUSE);
+            }
+        });
+        Self(watched)
+    }
+
+    /// Watches this file from now on.
+    pub fn watch(&self, path: Option<&Path>) {
+        let mut watched = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        if watched.as_ref().map(|(p, _)| p.as_path()) != path {
+            *watched = path.map(|p| (p.to_owned(), Stamp::of(p)));
+        }
+    }
+}
+
+/// Unsaved work on disk, so that a crash loses none.
+///
+/// While the program runs it holds a lock on its file; one without a lock was left behind by a crash.
+pub struct Safe {
+    folder: PathBuf,
+    held: Option<(PathBuf, File)>,
+}
+
+/// What lies in a safe.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+struct Kept {
+    path: Option<PathBuf>,
+    design: String,
+}
+
+/// Work that a crash left behind.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Found {
+    /// The design.
+    pub design: Design,
+    /// The file that it was opened from.
+    pub path: Option<PathBuf>,
+    /// Where it was kept.
+    file: PathBuf,
+}
+
+/// How kept files are called.
+const PREFIX: &str = "unsaved-";
+
+impl Safe {
+    /// A safe in a folder.
+    pub fn new(folder: PathBuf) -> Self {
+        Self { folder, held: None }
+    }
+
+    /// Keeps a design.
+    ///
+    /// # Errors
+    /// When the file system refuses.
+    pub fn keep(&mut self, design: &Design, path: Option<&Path>) -> Result<(), WriteError> {
+        let kept = Kept { path: path.map(Path::to_owned), design: cut_file::write(design) };
+        let text = serde_json::to_string(&kept).map_err(|e| WriteError::io(&self.folder, e))?;
+        let name = self.folder.join(format!("{PREFIX}{}.json", std::process::id()));
+        write(&name, |file| file.write_all(text.as_bytes()).map_err(|e| WriteError::io(&name, e)))?;
+        // Writing has put another file in the place of the one that was locked.
+        let file = File::open(&name).map_err(|e| WriteError::io(&name, e))?;
+        file.try_lock().map_err(|e| WriteError::io(&name, std::io::Error::from(e)))?;
+        self.held = Some((name, file));
+        Ok(())
+    }
+
+    /// Forgets what was kept: it is saved, or not wanted.
+    pub fn empty(&mut self) {
+        if let Some((path, _)) = self.held.take() {
+            // One that cannot be removed is offered again, which loses nothing.
+            let _ = std::fs::remove_file(path);
+        }
+    }
+
+    /// What crashes left behind, the latest first.
+    pub fn found(&self) -> Vec<Found> {
+        let entries = std::fs::read_dir(&self.folder).into_iter().flatten().flatten();
+        let ours = |e: &std::fs::DirEntry| e.file_name().to_string_lossy().starts_with(PREFIX);
+        let mut found: Vec<_> = entries.filter(ours).filter_map(|e| Some((e.metadata().ok()?.modified().ok()?, orphan(e.path())?))).collect();
+        found.sort_by_key(|(time, _)| std::cmp::Reverse(*time));
+        found.into_iter().map(|(_, found)| found).collect()
+    }
+}
+
+impl Found {
+    /// Forgets it.
+    pub fn forget(self) {
+        // One that cannot be removed is offered again, which loses nothing.
+        let _ = std::fs::remove_file(self.file);
+    }
+}
+
+/// What lies in a file that no running program holds.
+fn orphan(path: PathBuf) -> Option<Found> {
+    let file = File::open(&path).ok()?;
+    file.try_lock().ok()?;
+    let kept: Kept = serde_json::from_reader(&file).ok()?;
+    let design = cut_file::parse(&kept.design, "unsaved work").ok()?;
+    Some(Found { design, path: kept.path, file: path })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::app::document::Document;
+
+    #[test]
+    fn work_is_found_after_a_crash_and_only_then() {
+        let folder = tempfile::tempdir().unwrap();
+        let design = Document::first().unwrap().work.design;
+        let mut safe = Safe::new(folder.path().to_owned());
+        safe.keep(&design, Some(Path::new("/x/mine.toml"))).unwrap();
+        safe.keep(&design, Some(Path::new("/x/mine.toml"))).unwrap();
+        let next = Safe::new(folder.path().to_owned());
+        assert_eq!(next.found(), [], "the program still runs");
+        drop(safe);
+        let found = next.found();
+        assert_eq!((found.len(), &found[0].design, found[0].path.as_deref()), (1, &design, Some(Path::new("/x/mine.toml"))));
+        found.into_iter().for_each(Found::forget);
+        assert_eq!(next.found(), []);
+    }
+
+    #[test]
+    fn saved_work_is_not_offered_again_and_rubbish_is_passed_over() {
+        let folder = tempfile::tempdir().unwrap();
+        let mut safe = Safe::new(folder.path().join("new"));
+        assert_eq!(safe.found(), []);
+        safe.keep(&Document::first().unwrap().work.design, None).unwrap();
+        safe.empty();
+        drop(safe);
+        let next = Safe::new(folder.path().join("new"));
+        std::fs::write(folder.path().join("new/unsaved-1.json"), "{").unwrap();
+        assert_eq!(next.found(), []);
+    }
+
+    #[test]
+    fn a_file_changed_by_others_is_noticed() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.toml");
+        std::fs::write(&path, "1").unwrap();
+        let (sender, told) = channel();
+        let watching = Watching::begin(move || drop(sender.send(())));
+        watching.watch(Some(&path));
+        std::fs::write(&path, "22").unwrap();
+        assert!(told.recv_timeout(Duration::from_secs(10)).is_ok());
+    }
+}

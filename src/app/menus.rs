@@ -1,0 +1,205 @@
+//! The menu bar, the line at the bottom, and the keys.
+
+use super::command::{Command, MENUS};
+use super::compare::Compared;
+use super::desk::Layout;
+use super::dialogs::{Dialog, Then};
+use super::editor::Editor;
+use super::files::Purpose;
+use super::theme;
+use crate::io::{cut_file, library};
+use egui::{Align, Button, Context, Key, Modifiers, Panel, RichText, Ui};
+use std::path::PathBuf;
+
+/// Distance of the eye that perspective begins with, girdle radii: a stone of 6.5 mm at 10 cm.
+const DISTANCE: f64 = 30.0;
+
+/// The bar on top.
+pub fn bar(editor: &mut Editor, ui: &mut Ui) {
+    Panel::top("menus").show(ui, |ui| {
+        egui::MenuBar::new().ui(ui, |ui| {
+            for menu in &MENUS {
+                ui.menu_button(menu.title, |ui| {
+                    for (k, group) in menu.groups.iter().enumerate() {
+                        if k > 0 {
+                            ui.separator();
+                        }
+                        group.iter().for_each(|&command| entry(editor, ui, command));
+                        if menu.title == "File" && k == 0 {
+                            opened_before(editor, ui);
+                            from_library(editor, ui);
+                        }
+                    }
+                });
+            }
+            ui.separator();
+            ui.label(RichText::new(editor.document.title()).strong());
+            if editor.document.is_changed() {
+                ui.label(RichText::new("not saved").weak());
+            }
+            ui.with_layout(egui::Layout::right_to_left(Align::Center), |ui| {
+                egui::global_theme_preference_buttons(ui);
+            });
+        });
+    });
+}
+
+fn entry(editor: &mut Editor, ui: &mut Ui, command: Command) {
+    let keys = command.shortcut().map_or(String::new(), |s| ui.ctx().format_shortcut(&s));
+    let button = Button::new(command.name()).shortcut_text(keys).selected(editor.is_chosen(command));
+    if ui.add_enabled(is_possible(editor, command), button).on_hover_text(command.meaning()).clicked() {
+        let ctx = ui.ctx().clone();
+        editor.does(command, &ctx);
+        ui.close();
+    }
+}
+
+fn opened_before(editor: &mut Editor, ui: &mut Ui) {
+    ui.add_enabled_ui(!editor.desk.recent.is_empty(), |ui| {
+        ui.menu_button("Open recent", |ui| {
+            let recent: Vec<PathBuf> = editor.desk.recent.clone();
+            for path in recent {
+                let name = path.file_name().map_or_else(|| path.display().to_string(), |n| n.to_string_lossy().into());
+                if ui.button(name).on_hover_text(path.display().to_string()).clicked() {
+                    editor.ask_before(Then::Open(path));
+                    ui.close();
+                }
+            }
+        });
+    });
+}
+
+fn from_library(editor: &mut Editor, ui: &mut Ui) {
+    ui.menu_button("New from", |ui| {
+        for (name, text) in library::CUTS {
+            let design = cut_file::parse(text, name).ok();
+            let title = design.as_ref().map_or(name, |d| d.name.as_str());
+            let source = design.as_ref().and_then(|d| d.source.as_deref()).unwrap_or("A cut that comes with the program.");
+            if ui.button(title).on_hover_text(source).clicked() {
+                editor.ask_before(Then::Library(name.to_owned()));
+                ui.close();
+            }
+        }
+    });
+}
+
+fn is_possible(editor: &Editor, command: Command) -> bool {
+    let (undo, redo) = editor.document.steps();
+    match command {
+        Command::Undo => undo,
+        Command::Redo => redo,
+        Command::Save => editor.document.is_changed() || editor.document.path().is_none(),
+        Command::Split | Command::NoCompare => editor.compared.is_some(),
+        _ => true,
+    }
+}
+
+/// The line at the bottom.
+pub fn status(editor: &mut Editor, ui: &mut Ui) {
+    Panel::bottom("status").show(ui, |ui| {
+        let troubles: Vec<String> = editor.notes.troubles().to_vec();
+        for (k, trouble) in troubles.iter().enumerate() {
+            ui.horizontal(|ui| {
+                if ui.button("Dismiss").clicked() {
+                    editor.notes.dismiss(k);
+                }
+                ui.add(egui::Label::new(RichText::new(trouble).color(theme::bad(ui.visuals()))).wrap());
+            });
+        }
+        ui.horizontal(|ui| {
+            let told = if editor.told.is_empty() { editor.notes.said().unwrap_or_default() } else { &editor.told };
+            ui.add(egui::Label::new(told).truncate());
+            ui.with_layout(egui::Layout::right_to_left(Align::Center), |ui| {
+                let state = if editor.is_idle() { "done" } else { "tracing…" };
+                ui.label(RichText::new(format!("{state} · {}", editor.studio.told())).weak().small())
+                    .on_hover_text("What computes the pictures: the processor, or a graphics card.");
+            });
+        });
+    });
+}
+
+/// Does what keys ask for.
+pub fn keys(editor: &mut Editor, ctx: &Context) {
+    if editor.dialog.as_ref().is_some_and(Dialog::is_modal) {
+        return;
+    }
+    let typing = ctx.egui_wants_keyboard_input();
+    for command in Command::all() {
+        let Some(shortcut) = command.shortcut() else { continue };
+        if typing && shortcut.modifiers == Modifiers::NONE {
+            continue;
+        }
+        if ctx.input_mut(|i| i.consume_shortcut(&shortcut)) && is_possible(editor, command) {
+            editor.does(command, ctx);
+        }
+    }
+}
+
+/// Whether the design compared with is to be seen in place of the present one.
+pub fn is_other_shown(ctx: &Context) -> bool {
+    !ctx.egui_wants_keyboard_input() && ctx.input(|i| i.key_down(Key::C) && i.modifiers.is_none())
+}
+
+/// Does a command.
+pub fn does(editor: &mut Editor, command: Command, ctx: &Context) {
+    let desk = &mut editor.desk;
+    match command {
+        Command::Open => editor.ask_before(Then::OpenAsked),
+        Command::Save => drop(editor.save()),
+        Command::SaveAs => editor.choose(Purpose::SaveAs),
+        Command::Export => editor.dialog = Some(Dialog::export(editor)),
+        Command::CopyPicture => copy(editor, ctx),
+        Command::Quit => editor.ask_before(Then::Close),
+        Command::Undo => editor.document.undo(),
+        Command::Redo => editor.document.redo(),
+        Command::Top => eye(editor).top(),
+        Command::Side => eye(editor).side(),
+        Command::Bottom => eye(editor).bottom(),
+        Command::Free => eye(editor).free(),
+        Command::Fit => eye(editor).fit(),
+        Command::Perspective => {
+            let eye = eye(editor);
+            eye.distance = if eye.distance.is_some() { None } else { Some(DISTANCE) };
+        }
+        Command::EyeLeans => {
+            let eye = eye(editor);
+            eye.eye_leans = !eye.eye_leans;
+        }
+        Command::One => (desk.layout, desk.large) = (Layout::One, None),
+        Command::Two => (desk.layout, desk.large) = (Layout::Two, None),
+        Command::Four => (desk.layout, desk.large) = (Layout::Four, None),
+        Command::Wireframe => desk.toggle_overlay("wireframe"),
+        Command::Facets => desk.toggle_overlay("facets"),
+        Command::Bounces => desk.toggle_overlay("bounces"),
+        Command::Unresolved => desk.toggle_overlay("unresolved"),
+        Command::Total => desk.toggle_overlay("total"),
+        Command::Strongest => desk.strongest = !desk.strongest,
+        Command::CompareSaved => match Compared::of_saved(&editor.document) {
+            Ok(compared) => editor.compared = Some(compared),
+            Err(why) => editor.notes.trouble(why),
+        },
+        Command::CompareFile => editor.choose(Purpose::Compare),
+        Command::Split => desk.is_split = !desk.is_split,
+        Command::NoCompare => editor.compared = None,
+        Command::LightPath => {}
+        Command::Keys => editor.dialog = Some(Dialog::Keys),
+    }
+}
+
+/// The eye of the pane that keys are for.
+fn eye(editor: &mut Editor) -> &mut super::eye::Eye {
+    let pane = if editor.desk.shown().contains(&editor.hovered) { editor.hovered } else { 0 };
+    editor.desk.eye_mut(pane)
+}
+
+fn copy(editor: &mut Editor, ctx: &Context) {
+    let shown = editor.desk.shown();
+    let pane = if shown.contains(&editor.hovered) { editor.hovered } else { shown[0] };
+    match editor.pictures.get(&(pane, super::studio::Which::Present)) {
+        Some(picture) => {
+            ctx.copy_image(picture.taken.image.clone());
+            editor.notes.say(&format!("{} copied", editor.desk.panes[pane].shows.name()));
+        }
+        None => editor.notes.say("This view holds no picture to copy."),
+    }
+}

@@ -1,0 +1,290 @@
+//! One view: what it shows, and what a hand does to it.
+
+use super::editor::{Editor, Shown};
+use super::eye::Eye;
+use super::menus;
+use super::probe::{Found, Probe};
+use super::shows::Shows;
+use super::studio::{Grade, Which};
+use crate::scene::{ASET_CONE, Backing, Film, Scope, Side, Specimen, View};
+use crate::trace::ray::Camera;
+use egui::{
+    Align, Color32, ComboBox, Key, Modifiers, PointerButton, Rect, Response, RichText, Sense, Stroke, StrokeKind, Ui,
+    UiBuilder, WidgetInfo, Role, pos2, vec2,
+};
+use glam::{DMat2, DVec2};
+use std::sync::Arc;
+
+/// Height of the row over a picture, points.
+const HEAD: f32 = 28.0;
+
+/// A step of the arrow keys, radians, and with Shift.
+const STEP: (f64, f64) = (0.017_453_292_519_943_295, 0.087_266_462_599_716_48);
+
+/// Zoom for a point of the wheel.
+const WHEEL: f64 = 0.004;
+
+/// Draws a view; the size of its picture in pixels.
+pub fn show(editor: &mut Editor, ui: &mut Ui, pane: usize, rect: Rect) -> [u32; 2] {
+    let (head, body) = rect.split_top_bottom_at_y(rect.top() + HEAD);
+    let mut top = ui.new_child(UiBuilder::new().max_rect(head).layout(egui::Layout::left_to_right(Align::Center)));
+    header(editor, &mut top, pane);
+    let size = [body.width(), body.height()].map(|n| (n * ui.pixels_per_point()).round().max(1.0) as u32);
+    match editor.desk.panes[pane].shows {
+        Shows::Profile => profile(editor, ui, body),
+        Shows::Diagram => drawing(editor, ui, pane, body),
+        shows => scene(editor, ui, (pane, shows), body, size),
+    }
+    let edge = ui.visuals().widgets.noninteractive.bg_stroke;
+    ui.painter().rect_stroke(body, 4.0, edge, StrokeKind::Inside);
+    size
+}
+
+fn header(editor: &mut Editor, ui: &mut Ui, pane: usize) {
+    let shows = editor.desk.panes[pane].shows;
+    let title = format!("View {}", pane + 1);
+    let combo = ComboBox::from_id_salt(("shows", pane)).selected_text(shows.name()).width(120.0);
+    let shown = combo.show_ui(ui, |ui| {
+        for other in Shows::ALL {
+            ui.selectable_value(&mut editor.desk.panes[pane].shows, other, other.name()).on_hover_text(other.meaning());
+        }
+    });
+    shown.response.on_hover_text(shows.meaning()).widget_info(|| {
+        WidgetInfo::labeled(Role::ComboBox, true, format!("{title}: {}", shows.name()))
+    });
+    if let Some(compared) = &editor.compared {
+        let other = menus::is_other_shown(ui.ctx());
+        ui.label(RichText::new(if other { compared.name.as_str() } else { "present" }).weak());
+    }
+    ui.with_layout(egui::Layout::right_to_left(Align::Center), |ui| {
+        let large = editor.desk.large == Some(pane);
+        let name = if large { "All views" } else { "Enlarge" };
+        if editor.desk.layout.panes() > 1 && ui.small_button(name).on_hover_text(format!("{title}: alone, or among the others; a double click does the same.")).clicked() {
+            enlarge(editor, pane);
+        }
+        if shows.is_seen() {
+            let mut linked = editor.desk.panes[pane].own.is_none();
+            if ui.checkbox(&mut linked, "Linked").on_hover_text("Tilts and zooms together with all other linked views.").changed() {
+                let eye = editor.desk.eye;
+                editor.desk.panes[pane].own = (!linked).then_some(eye);
+            }
+            state(editor, ui, pane);
+        }
+    });
+}
+
+/// How good the picture is, in a word or two.
+fn state(editor: &Editor, ui: &mut Ui, pane: usize) {
+    let Some(shown) = editor.pictures.get(&(pane, Which::Present)) else { return };
+    let Shown { grade, taken, .. } = shown;
+    let text = match grade {
+        Grade::Fine => format!("± {:.2} %", 100.0 * taken.unresolved),
+        Grade::Fair | Grade::Rough => "…".to_owned(),
+    };
+    ui.label(RichText::new(text).weak().small())
+        .on_hover_text(format!("By {}; at most {:.3} % of the light is not followed to its end.", taken.tracer, 100.0 * taken.unresolved));
+}
+
+fn enlarge(editor: &mut Editor, pane: usize) {
+    let large = &mut editor.desk.large;
+    *large = if *large == Some(pane) { None } else { Some(pane) };
+}
+
+fn profile(editor: &mut Editor, ui: &mut Ui, body: Rect) {
+    let stone = Arc::clone(editor.document.specimen());
+    let brilliant = match &mut editor.document.work.design.cut {
+        crate::cut::Cut::RoundBrilliant(brilliant) => Some(brilliant),
+        crate::cut::Cut::Planes(_) => None,
+    };
+    ui.painter().rect_filled(body, 4.0, ui.visuals().extreme_bg_color);
+    let _ = (stone, brilliant);
+}
+
+fn drawing(editor: &mut Editor, ui: &mut Ui, pane: usize, body: Rect) {
+    let response = ui.interact(body, ui.scope_id().with("drawing"), Sense::click());
+    response.widget_info(|| WidgetInfo::labeled(Role::Image, true, "Facet diagram"));
+    ui.painter().rect_filled(body, 4.0, Color32::WHITE);
+    if let Some(shown) = editor.pictures.get(&(pane, Which::Present)) {
+        let [w, h] = shown.taken.image.size.map(|n| n as f32);
+        let scale = (body.width() / w).min(body.height() / h);
+        let rect = Rect::from_center_size(body.center(), vec2(w, h) * scale);
+        image(ui, shown, rect);
+    }
+    if response.double_clicked() {
+        enlarge(editor, pane);
+    }
+}
+
+fn image(ui: &Ui, shown: &Shown, rect: Rect) {
+    let uv = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
+    ui.painter().image(shown.texture.id(), rect, uv, Color32::WHITE);
+}
+
+/// What a pane looks at now.
+struct Sight {
+    view: View,
+    film: Film,
+    side: Side,
+    body: Rect,
+    scale: f32,
+}
+
+impl Sight {
+    /// The point of the film under a point of the window.
+    fn pixel(&self, at: egui::Pos2) -> DVec2 {
+        let at = (at - self.body.min) * self.scale;
+        DVec2::new(f64::from(at.x), f64::from(at.y))
+    }
+
+    /// The point of the window over one of the film.
+    fn point(&self, pixel: DVec2) -> egui::Pos2 {
+        self.body.min + vec2(pixel.x as f32, pixel.y as f32) / self.scale
+    }
+
+    /// Where a picture that was taken on another film lies.
+    fn place(&self, other: &Film) -> Rect {
+        let map = self.film.pixels_from_image(DMat2::IDENTITY);
+        let corner = |x, y| self.point(map.transform_point2(other.image_from_pixels(DVec2::new(x, y))));
+        let [w, h] = other.size.map(f64::from);
+        Rect::from_two_pos(corner(0.0, 0.0), corner(w, h))
+    }
+}
+
+fn scene(editor: &mut Editor, ui: &mut Ui, (pane, shows): (usize, Shows), body: Rect, size: [u32; 2]) {
+    let response = ui.interact(body, ui.scope_id().with("picture"), Sense::click_and_drag());
+    let name = format!("{} picture", shows.name());
+    response.widget_info(|| WidgetInfo::labeled(Role::Image, true, &name));
+    let specimen = Arc::clone(editor.document.specimen());
+    let reach = specimen.stone.polytope.vertices().iter().map(|v| v.length()).fold(0.0, f64::max);
+    let eye = *editor.desk.eye(pane);
+    let view = eye.view(shows.side());
+    let scale = ui.pixels_per_point();
+    let sight = Sight { view, film: eye.film(size, reach), side: view.side, body, scale };
+    pictures(editor, ui, pane, &sight);
+    ui.painter().rect_stroke(body, 4.0, focus(ui, &response), StrokeKind::Inside);
+    moved(editor.desk.eye_mut(pane), ui, &response, &sight);
+    if response.double_clicked() {
+        enlarge(editor, pane);
+    }
+    if response.hovered() {
+        editor.hovered = pane;
+    }
+    hover(editor, ui, (shows, eye.turn), &response, &sight);
+}
+
+fn focus(ui: &Ui, response: &Response) -> Stroke {
+    if response.has_focus() { ui.visuals().selection.stroke } else { Stroke::NONE }
+}
+
+/// Draws what there is: the present design, or the one that it is compared with, or both.
+fn pictures(editor: &Editor, ui: &mut Ui, pane: usize, sight: &Sight) {
+    let body = sight.body;
+    ui.painter().rect_filled(body, 4.0, ui.visuals().extreme_bg_color);
+    let draw = |which, clip: Rect| {
+        if let Some(shown) = editor.pictures.get(&(pane, which)) {
+            let ui_clip = ui.painter().with_clip_rect(clip.intersect(ui.clip_rect()));
+            let uv = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
+            ui_clip.image(shown.texture.id(), sight.place(&shown.shot.film), uv, Color32::WHITE);
+        }
+    };
+    match &editor.compared {
+        Some(_) if menus::is_other_shown(ui.ctx()) => draw(Which::Other, body),
+        Some(compared) if editor.desk.is_split => {
+            let (left, right) = body.split_left_right_at_fraction(0.5);
+            draw(Which::Present, left);
+            draw(Which::Other, right);
+            split_marks(ui, body, &compared.name);
+        }
+        _ => draw(Which::Present, body),
+    }
+}
+
+fn split_marks(ui: &Ui, body: Rect, other: &str) {
+    let painter = ui.painter();
+    painter.vline(body.center().x, body.y_range(), Stroke::new(1.5, ui.visuals().text_color()));
+    let font = egui::TextStyle::Small.resolve(ui.style());
+    for (text, at, align) in [
+        ("present", body.left_top() + vec2(8.0, 6.0), egui::Align2::LEFT_TOP),
+        (other, body.right_top() + vec2(-8.0, 6.0), egui::Align2::RIGHT_TOP),
+    ] {
+        let galley = painter.layout_no_wrap(text.to_owned(), font.clone(), Color32::WHITE);
+        let rect = align.anchor_size(at, galley.size());
+        painter.rect_filled(rect.expand(3.0), 3.0, Color32::from_black_alpha(150));
+        painter.galley(rect.min, galley, Color32::WHITE);
+    }
+}
+
+/// Moves the eye as hand, wheel and keys say.
+fn moved(eye: &mut Eye, ui: &Ui, response: &Response, sight: &Sight) {
+    let unit = sight.film.pixel * f64::from(sight.scale);
+    let by = response.drag_delta();
+    let by = DVec2::new(f64::from(by.x), -f64::from(by.y)) * unit;
+    let spins = response.dragged_by(PointerButton::Secondary) || ui.input(|i| i.modifiers.shift);
+    if response.dragged_by(PointerButton::Middle) {
+        eye.centre -= by;
+    } else if spins && response.dragged() {
+        eye.spin(sight.side, by.x);
+    } else if response.dragged_by(PointerButton::Primary) {
+        eye.drag(sight.side, by);
+    }
+    if let Some(at) = response.hover_pos().filter(|_| response.hovered()) {
+        let (wheel, pinch) = ui.input(|i| (i.smooth_scroll_delta().y, i.zoom_delta()));
+        let factor = (f64::from(wheel) * WHEEL).exp() * f64::from(pinch);
+        if factor != 1.0 {
+            eye.zoom_at(factor, sight.film.image_from_pixels(sight.pixel(at)));
+        }
+    }
+    if response.has_focus() {
+        by_keys(eye, ui, sight.side);
+    }
+}
+
+fn by_keys(eye: &mut Eye, ui: &Ui, side: Side) {
+    let pressed = |modifiers, key| ui.input_mut(|i| i.count_and_consume_key(modifiers, key)) as f64;
+    for (modifiers, step) in [(Modifiers::SHIFT, STEP.1), (Modifiers::NONE, STEP.0)] {
+        let along = |more, less| pressed(modifiers, more) - pressed(modifiers, less);
+        let by = DVec2::new(along(Key::ArrowRight, Key::ArrowLeft), along(Key::ArrowUp, Key::ArrowDown));
+        eye.drag(side, by * step);
+    }
+    let zoom = pressed(Modifiers::NONE, Key::Plus) + pressed(Modifiers::NONE, Key::Equals) - pressed(Modifiers::NONE, Key::Minus);
+    eye.zoom_at(1.2_f64.powf(zoom), eye.centre);
+}
+
+/// The scope whose zones are named in a view.
+fn zones(shows: Shows) -> Scope {
+    let aset = || Scope::aset(ASET_CONE, Backing::Black);
+    shows.scoped().map_or_else(aset, |s| s.scope)
+}
+
+/// Tells what is under the pointer, outlines its facet, and follows a ray where it is clicked.
+fn hover(editor: &mut Editor, ui: &Ui, (shows, turn): (Shows, f64), response: &Response, sight: &Sight) {
+    if !response.hovered() || response.dragged() {
+        return;
+    }
+    let Some(at) = response.hover_pos() else { return };
+    let specimen = editor.posed(turn);
+    if editor.probe.as_ref().is_none_or(|p| !p.is_about(&specimen)) {
+        editor.probe = Some(Probe::new(Arc::clone(&specimen)));
+    }
+    let Some(probe) = &editor.probe else { return };
+    let scope = zones(shows);
+    let found = probe.at(&sight.view, &sight.film, sight.pixel(at), &scope);
+    editor.told = found.as_ref().map_or(String::new(), Found::told);
+    if let Some(found) = &found {
+        outline(ui, &specimen, found.facet, sight);
+    }
+}
+
+fn outline(ui: &Ui, specimen: &Specimen, facet: u32, sight: &Sight) {
+    let polytope = &specimen.stone.polytope;
+    let camera = Camera::new(&sight.view, polytope);
+    let map = sight.film.pixels_from_image(DMat2::IDENTITY);
+    let corners = polytope.corners(&polytope.facets()[facet as usize]);
+    let points: Option<Vec<egui::Pos2>> =
+        corners.map(|c| Some(sight.point(map.transform_point2(camera.project(c)?.0)))).collect();
+    if let Some(points) = points {
+        let painter = ui.painter().with_clip_rect(sight.body);
+        painter.add(egui::Shape::closed_line(points.clone(), Stroke::new(3.0, Color32::from_black_alpha(120))));
+        painter.add(egui::Shape::closed_line(points, Stroke::new(1.2, Color32::from_white_alpha(220))));
+    }
+}

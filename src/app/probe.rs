@@ -1,0 +1,136 @@
+//! What lies under the pointer: the facet, and where its light comes from.
+
+use crate::cut::tier_stem;
+use crate::optics::line;
+use crate::scene::{Film, Scope, Specimen, View, elevation_deg};
+use crate::trace::ray::{Camera, Options, Tracer};
+use glam::{DVec2, DVec3};
+use std::sync::Arc;
+
+/// A stone that is asked about.
+pub struct Probe {
+    specimen: Arc<Specimen>,
+    tracer: Tracer,
+}
+
+/// What was found.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Found {
+    /// The facet, by its place.
+    pub facet: u32,
+    /// Its name.
+    pub name: String,
+    /// What the names of its tier share, and how many facets there are.
+    pub tier: (String, usize),
+    /// From the girdle plane, degrees: 0 level, 90 upright.
+    pub slope: f64,
+    /// Degrees, counter-clockwise from above; none for a level facet.
+    pub azimuth: Option<f64>,
+    /// The strongest light that is seen here.
+    pub light: Option<Light>,
+}
+
+/// Light that is seen at a point.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Light {
+    /// The scope's zone.
+    pub zone: String,
+    /// Elevation that it comes from, degrees above the scope's plane.
+    pub elevation: f64,
+    /// Its share of what is seen there.
+    pub share: f64,
+}
+
+/// Upright or level, as a sine.
+const LEVEL: f64 = 1e-9;
+
+impl Probe {
+    /// Asks about a stone.
+    pub fn new(specimen: Arc<Specimen>) -> Self {
+        let options = Options { most_bounces: 64, least_weight: 1e-3, polarised: true };
+        let tracer = Tracer::new(&specimen.stone.polytope, specimen.medium(line::SODIUM_D), options);
+        Self { specimen, tracer }
+    }
+
+    /// Whether it is about this stone.
+    pub fn is_about(&self, specimen: &Arc<Specimen>) -> bool {
+        Arc::ptr_eq(&self.specimen, specimen)
+    }
+
+    /// The ray through a point of a film, in its pixels.
+    pub fn ray(&self, view: &View, film: &Film, at: DVec2) -> (DVec3, DVec3) {
+        Camera::new(view, &self.specimen.stone.polytope).ray(film.image_from_pixels(at))
+    }
+
+    /// What lies at a point of a film, in its pixels; none beside the stone.
+    pub fn at(&self, view: &View, film: &Film, at: DVec2, scope: &Scope) -> Option<Found> {
+        let (origin, direction) = self.ray(view, film, at);
+        let (facet, _) = self.tracer.meet(origin, direction)?;
+        let mut strongest: Option<(f64, DVec3)> = None;
+        self.tracer.follow(origin, direction, |exit| {
+            if !exit.surface && strongest.is_none_or(|(weight, _)| exit.weight > weight) {
+                strongest = Some((exit.weight, exit.direction));
+            }
+        });
+        let zenith = view.zenith();
+        let light = strongest.filter(|(weight, _)| *weight > 0.0).map(|(share, toward)| Light {
+            zone: scope.bands[scope.band(toward, zenith)].name.clone(),
+            elevation: elevation_deg(toward, zenith),
+            share,
+        });
+        Some(self.found(facet as u32, light))
+    }
+
+    fn found(&self, facet: u32, light: Option<Light>) -> Found {
+        let stone = &self.specimen.stone;
+        let normal = stone.polytope.facets()[facet as usize].plane.normal;
+        let (name, radial) = (stone.name(facet), normal.truncate());
+        let stem = tier_stem(name);
+        let count = stone.names().iter().filter(|n| tier_stem(n) == stem).count();
+        Found {
+            facet,
+            name: name.to_owned(),
+            tier: (stem.to_owned(), count),
+            slope: radial.length().atan2(normal.z.abs()).to_degrees(),
+            azimuth: (radial.length() > LEVEL).then(|| radial.to_angle().to_degrees().rem_euclid(360.0)),
+            light,
+        }
+    }
+}
+
+impl Found {
+    /// In one line.
+    pub fn told(&self) -> String {
+        let azimuth = self.azimuth.map_or(String::new(), |a| format!(", azimuth {a:.1}°"));
+        let (tier, count) = &self.tier;
+        let tier = if *count > 1 { format!(" of {count} {tier} facets") } else { String::new() };
+        let light = self.light.as_ref().map_or_else(
+            || "no light leaves here".to_owned(),
+            |l| format!("{} light from {:.1}°, {:.0} % of what is seen", l.zone, l.elevation, 100.0 * l.share),
+        );
+        format!("{}{tier} · slope {:.2}°{azimuth} · {light}", self.name, self.slope)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::app::document::Document;
+    use crate::scene::{ASET_CONE, Backing};
+
+    #[test]
+    fn the_table_is_found_in_the_middle_and_a_bezel_beside_it() {
+        let probe = Probe::new(Arc::clone(Document::first().unwrap().specimen()));
+        let (view, film) = (View::default(), Film::square(200, 1.1));
+        let scope = Scope::aset(ASET_CONE, Backing::Black);
+        let at = |x: f64, y: f64| probe.at(&view, &film, film.pixels_from_image(glam::DMat2::IDENTITY).transform_point2(DVec2::new(x, y)), &scope);
+        let table = at(0.01, 0.02).unwrap();
+        assert_eq!((table.name.as_str(), table.slope, table.azimuth), ("table", 0.0, None));
+        let bezel = at(0.75, 0.01).unwrap();
+        assert_eq!(bezel.tier, ("bezel".to_owned(), 8));
+        assert!((bezel.slope - 34.5).abs() < 0.1 && bezel.azimuth.is_some_and(|a| a < 1e-6 || a > 359.9));
+        let light = bezel.light.as_ref().unwrap();
+        assert!(light.share > 0.3 && bezel.told().contains("of 8 bezel facets"), "{}", bezel.told());
+        assert_eq!(at(1.05, 0.0), None);
+    }
+}

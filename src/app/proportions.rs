@@ -1,0 +1,263 @@
+//! The proportions of a round brilliant as people set them: what each is called, its range, what laboratories call
+//! excellent.
+
+use crate::cut::{Crown, Derived, LowerHalf, Pavilion, RoundBrilliant, Unit};
+use std::ops::RangeInclusive;
+
+/// One number that is shown with a slider.
+pub struct Proportion {
+    /// What it is called.
+    pub name: &'static str,
+    /// Its key in cut files.
+    pub key: &'static str,
+    /// What it means, in a sentence.
+    pub meaning: &'static str,
+    /// Percent or degrees, or a count.
+    pub unit: Unit,
+    /// What its slider spans; more may be typed.
+    pub slider: RangeInclusive<f64>,
+    /// GIA's range for the grade Excellent (GIA, 2006), where there is one.
+    pub excellent: Option<RangeInclusive<f64>>,
+    /// The number as it is, given or derived; not finite where it cannot be.
+    pub get: fn(&RoundBrilliant) -> f64,
+    /// Sets it; of a pair, the one that is held stays the one that is given.
+    pub set: fn(&mut RoundBrilliant, f64),
+    /// Of a pair: whether it is the one held while others change, and how to hold it.
+    pub hold: Option<Hold>,
+}
+
+/// How one of a pair is held.
+pub struct Hold {
+    /// Whether it is held.
+    pub is: fn(&RoundBrilliant) -> bool,
+    /// Holds it at its present value.
+    pub set: fn(&mut RoundBrilliant),
+}
+
+/// GIA's range for the total depth of the grade Excellent, percent (GIA, 2006).
+pub const EXCELLENT_DEPTH: RangeInclusive<f64> = 58.1..=63.6;
+
+/// All of them, in the order of the panel.
+pub static PROPORTIONS: [Proportion; 11] = [
+    Proportion {
+        name: "Table",
+        key: "table",
+        meaning: "The flat facet on top, corner to opposite corner, in percent of the girdle's diameter.",
+        unit: Unit::Percent,
+        slider: 45.0..=75.0,
+        excellent: Some(52.0..=62.0),
+        get: |b| b.table,
+        set: |b, v| b.table = v,
+        hold: None,
+    },
+    Proportion {
+        name: "Crown angle",
+        key: "crown_angle",
+        meaning: "How steep the bezels stand on the girdle plane.",
+        unit: Unit::Degrees,
+        slider: 22.0..=44.0,
+        excellent: Some(31.5..=36.5),
+        get: |b| derived(b, |d| d.crown_angle),
+        set: |b, v| set_crown(b, Crown::Angle(v)),
+        hold: Some(Hold {
+            is: |b| matches!(b.crown, Crown::Angle(_)),
+            set: |b| b.crown = Crown::Angle(derived(b, |d| d.crown_angle)),
+        }),
+    },
+    Proportion {
+        name: "Crown height",
+        key: "crown_height",
+        meaning: "From the girdle's upper edge to the table, in percent of the girdle's diameter.",
+        unit: Unit::Percent,
+        slider: 6.0..=24.0,
+        excellent: None,
+        get: |b| derived(b, |d| d.crown_height),
+        set: |b, v| set_crown(b, Crown::Height(v)),
+        hold: Some(Hold {
+            is: |b| matches!(b.crown, Crown::Height(_)),
+            set: |b| b.crown = Crown::Height(derived(b, |d| d.crown_height)),
+        }),
+    },
+    Proportion {
+        name: "Pavilion angle",
+        key: "pavilion_angle",
+        meaning: "How steep the mains, the eight large facets below, stand on the girdle plane. Light return depends \
+                  on nothing as much.",
+        unit: Unit::Degrees,
+        slider: 38.0..=45.0,
+        excellent: Some(40.6..=41.8),
+        get: |b| derived(b, |d| d.pavilion_angle),
+        set: |b, v| set_pavilion(b, Pavilion::Angle(v)),
+        hold: Some(Hold {
+            is: |b| matches!(b.pavilion, Pavilion::Angle(_)),
+            set: |b| b.pavilion = Pavilion::Angle(derived(b, |d| d.pavilion_angle)),
+        }),
+    },
+    Proportion {
+        name: "Pavilion depth",
+        key: "pavilion_depth",
+        meaning: "From the girdle's lower edge to the culet, in percent of the girdle's diameter.",
+        unit: Unit::Percent,
+        slider: 38.0..=50.0,
+        excellent: None,
+        get: |b| derived(b, |d| d.pavilion_depth),
+        set: |b, v| set_pavilion(b, Pavilion::Depth(v)),
+        hold: Some(Hold {
+            is: |b| matches!(b.pavilion, Pavilion::Depth(_)),
+            set: |b| b.pavilion = Pavilion::Depth(derived(b, |d| d.pavilion_depth)),
+        }),
+    },
+    Proportion {
+        name: "Star length",
+        key: "star_length",
+        meaning: "How far the star facets reach from the table's edge to the girdle, seen from above.",
+        unit: Unit::Percent,
+        slider: 30.0..=75.0,
+        excellent: Some(45.0..=65.0),
+        get: |b| b.star_length,
+        set: |b, v| b.star_length = v,
+        hold: None,
+    },
+    Proportion {
+        name: "Lower half",
+        key: "lower_half_length",
+        meaning: "How far the lower halves reach from the girdle to the centre, seen from below. Long ones make narrow \
+                  arrows.",
+        unit: Unit::Percent,
+        slider: 50.0..=95.0,
+        excellent: Some(70.0..=85.0),
+        get: |b| derived(b, |d| d.lower_half_length),
+        set: |b, v| set_lower_half(b, LowerHalf::Radial(v)),
+        hold: Some(Hold {
+            is: |b| matches!(b.lower_half, LowerHalf::Radial(_)),
+            set: |b| b.lower_half = LowerHalf::Radial(derived(b, |d| d.lower_half_length)),
+        }),
+    },
+    Proportion {
+        name: "Lower half, side",
+        key: "lower_half_length_vertical",
+        meaning: "The same length seen from the side, in percent of the pavilion's depth, as some laboratories measure \
+                  it.",
+        unit: Unit::Percent,
+        slider: 50.0..=95.0,
+        excellent: None,
+        get: |b| derived(b, |d| d.lower_half_length_vertical),
+        set: |b, v| set_lower_half(b, LowerHalf::Vertical(v)),
+        hold: Some(Hold {
+            is: |b| matches!(b.lower_half, LowerHalf::Vertical(_)),
+            set: |b| b.lower_half = LowerHalf::Vertical(derived(b, |d| d.lower_half_length_vertical)),
+        }),
+    },
+    Proportion {
+        name: "Girdle",
+        key: "girdle_thickness",
+        meaning: "The stone's rim, measured at the bezels where it is thickest, in percent of its diameter.",
+        unit: Unit::Percent,
+        slider: 0.0..=8.0,
+        excellent: None,
+        get: |b| b.girdle_thickness,
+        set: |b, v| b.girdle_thickness = v,
+        hold: None,
+    },
+    Proportion {
+        name: "Girdle facets",
+        key: "girdle_facets",
+        meaning: "How many small upright facets the rim has; multiples of 8 keep the stone's symmetry.",
+        unit: Unit::Count,
+        slider: 16.0..=128.0,
+        excellent: None,
+        get: |b| f64::from(b.girdle_facets),
+        set: |b, v| b.girdle_facets = v.round().clamp(16.0, 128.0) as u32,
+        hold: None,
+    },
+    Proportion {
+        name: "Culet",
+        key: "culet",
+        meaning: "A flat facet instead of the lowest point, in percent of the girdle's diameter; 0 is a point.",
+        unit: Unit::Percent,
+        slider: 0.0..=12.0,
+        excellent: None,
+        get: |b| b.culet,
+        set: |b, v| b.culet = v,
+        hold: None,
+    },
+];
+
+fn derived(brilliant: &RoundBrilliant, value: fn(&Derived) -> f64) -> f64 {
+    // What is given is never out of reach, whatever is wrong with the rest.
+    brilliant.derived().map_or(f64::NAN, |d| value(&d))
+}
+
+/// Sets a crown by its angle or its height; the one that is held stays the one that is given.
+pub fn set_crown(brilliant: &mut RoundBrilliant, given: Crown) {
+    let derived = RoundBrilliant { crown: given, ..*brilliant }.derived();
+    brilliant.crown = match (brilliant.crown, given, derived) {
+        (Crown::Angle(_), Crown::Height(_), Ok(d)) => Crown::Angle(d.crown_angle),
+        (Crown::Height(_), Crown::Angle(_), Ok(d)) => Crown::Height(d.crown_height),
+        _ => given,
+    };
+}
+
+/// Sets a pavilion by its angle or its depth; the one that is held stays the one that is given.
+pub fn set_pavilion(brilliant: &mut RoundBrilliant, given: Pavilion) {
+    let derived = RoundBrilliant { pavilion: given, ..*brilliant }.derived();
+    brilliant.pavilion = match (brilliant.pavilion, given, derived) {
+        (Pavilion::Angle(_), Pavilion::Depth(_), Ok(d)) => Pavilion::Angle(d.pavilion_angle),
+        (Pavilion::Depth(_), Pavilion::Angle(_), Ok(d)) => Pavilion::Depth(d.pavilion_depth),
+        _ => given,
+    };
+}
+
+fn set_lower_half(brilliant: &mut RoundBrilliant, given: LowerHalf) {
+    let derived = RoundBrilliant { lower_half: given, ..*brilliant }.derived();
+    brilliant.lower_half = match (brilliant.lower_half, given, derived) {
+        (LowerHalf::Radial(_), LowerHalf::Vertical(_), Ok(d)) => LowerHalf::Radial(d.lower_half_length),
+        (LowerHalf::Vertical(_), LowerHalf::Radial(_), Ok(d)) => LowerHalf::Vertical(d.lower_half_length_vertical),
+        _ => given,
+    };
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const TOLKOWSKY: RoundBrilliant = RoundBrilliant {
+        table: 53.0,
+        crown: Crown::Angle(34.5),
+        pavilion: Pavilion::Angle(40.75),
+        star_length: 50.0,
+        lower_half: LowerHalf::Radial(77.0),
+        girdle_thickness: 3.0,
+        girdle_facets: 96,
+        culet: 0.0,
+    };
+
+    #[test]
+    fn what_is_set_is_what_is_read() {
+        for proportion in &PROPORTIONS {
+            let mut brilliant = TOLKOWSKY;
+            let value = (proportion.get)(&brilliant) + 1.0;
+            (proportion.set)(&mut brilliant, value);
+            let off = ((proportion.get)(&brilliant) - value).abs();
+            assert!(off < 1e-9, "{}: off by {off}", proportion.name);
+            assert!(proportion.excellent.as_ref().is_none_or(|e| proportion.slider.contains(e.start())));
+        }
+    }
+
+    #[test]
+    fn the_one_held_of_a_pair_stays_when_something_else_changes() {
+        let [angle, height] = ["crown_angle", "crown_height"].map(|key| {
+            PROPORTIONS.iter().find(|p| p.key == key).unwrap()
+        });
+        let mut brilliant = TOLKOWSKY;
+        (height.set)(&mut brilliant, 16.0);
+        assert!(matches!(brilliant.crown, Crown::Angle(_)), "the angle is still held");
+        let held = (angle.get)(&brilliant);
+        brilliant.table = 57.0;
+        assert_eq!((angle.get)(&brilliant), held);
+        (height.hold.as_ref().unwrap().set)(&mut brilliant);
+        let held = (height.get)(&brilliant);
+        brilliant.table = 60.0;
+        assert!(((height.get)(&brilliant) - held).abs() < 1e-12 && (height.hold.as_ref().unwrap().is)(&brilliant));
+    }
+}

@@ -1,0 +1,107 @@
+//! The editor as a person works it: by the names of what is on the screen.
+
+mod flows;
+
+use super::editor::{Editor, Setup};
+use super::files::{Chooser, Question};
+use super::studio::{Grade, Which};
+use crate::cut::{Cut, RoundBrilliant};
+use egui_kittest::Harness;
+use egui_kittest::kittest::Queryable;
+use std::path::PathBuf;
+use std::sync::{Arc, Mutex};
+use std::time::{Duration, Instant};
+
+/// An editor under test, and the files that whoever is asked will choose, one after the other.
+pub struct Bench {
+    pub harness: Harness<'static, Editor>,
+    pub choices: Arc<Mutex<Vec<PathBuf>>>,
+}
+
+/// How long anything may take.
+const PATIENCE: Duration = Duration::from_secs(120);
+
+impl Bench {
+    /// An editor without files, card or a safe.
+    pub fn new() -> Self {
+        Self::with(Setup::default())
+    }
+
+    /// The same, with a setup of its own.
+    pub fn with(setup: Setup) -> Self {
+        Self::built(setup, Harness::builder())
+    }
+
+    /// The same, whose window is drawn.
+    pub fn drawn(theme: egui::Theme) -> Self {
+        Self::built(Setup::default(), Harness::builder().with_theme(theme).wgpu())
+    }
+
+    fn built(setup: Setup, builder: egui_kittest::HarnessBuilder<Editor>) -> Self {
+        let choices: Arc<Mutex<Vec<PathBuf>>> = Arc::default();
+        let chosen = Arc::clone(&choices);
+        let chooser: Chooser = Arc::new(move |_: &Question| chosen.lock().unwrap().pop());
+        let setup = Setup { chooser, ..setup };
+        let harness = builder.with_size(egui::vec2(1280.0, 800.0)).with_max_steps(20).build_eframe(|context| {
+            Editor::new(context, setup).unwrap()
+        });
+        Self { harness, choices }
+    }
+
+    pub fn editor(&self) -> &Editor {
+        self.harness.state()
+    }
+
+    /// Lets everything asked for come to its end.
+    pub fn settle(&mut self) {
+        let begun = Instant::now();
+        self.harness.run_steps(3);
+        while !self.editor().is_idle() {
+            assert!(begun.elapsed() < PATIENCE, "the studio does not come to rest");
+            std::thread::sleep(Duration::from_millis(5));
+            self.harness.step();
+        }
+        self.harness.run_steps(3);
+    }
+
+    pub fn click(&mut self, label: &str) {
+        self.harness.get_by_label(label).click();
+        self.harness.run_steps(2);
+    }
+
+    /// Chooses an entry of a menu.
+    pub fn choose(&mut self, menu: &str, entry: &str) {
+        self.click(menu);
+        self.harness.run_steps(4);
+        self.harness.get_by_label_contains(entry).click();
+        self.harness.run_steps(4);
+    }
+
+    /// Types a number into the field of this name.
+    pub fn type_number(&mut self, name: &str, number: &str) {
+        let field = self.harness.get_by_role_and_label(egui::Role::SpinButton, name);
+        field.focus();
+        self.harness.run_steps(2);
+        self.harness.get_by_role_and_label(egui::Role::SpinButton, name).click();
+        self.harness.run_steps(2);
+        self.harness.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::A);
+        self.harness.event(egui::Event::Text(number.to_owned()));
+        self.harness.run_steps(1);
+        self.harness.key_press(egui::Key::Enter);
+        self.harness.run_steps(3);
+    }
+
+    pub fn brilliant(&self) -> RoundBrilliant {
+        match self.editor().document.work.design.cut {
+            Cut::RoundBrilliant(brilliant) => brilliant,
+            Cut::Planes(_) => panic!("a round brilliant is expected"),
+        }
+    }
+
+    /// The pixels of a view, as fine as they get.
+    pub fn picture(&self, pane: usize) -> Vec<egui::Color32> {
+        let shown = &self.editor().pictures[&(pane, Which::Present)];
+        assert_eq!(shown.grade, Grade::Fine);
+        shown.taken.image.pixels.clone()
+    }
+}

@@ -1,0 +1,74 @@
+//! Colours and spacing, light and dark.
+
+use egui::{Color32, Context, CornerRadius, FontId, Stroke, Style, TextStyle, Theme, Visuals, vec2};
+
+/// What marks what is chosen, and the range that laboratories call excellent.
+pub fn accent(visuals: &Visuals) -> Color32 {
+    if visuals.dark_mode { Color32::from_rgb(96, 165, 230) } else { Color32::from_rgb(26, 102, 184) }
+}
+
+/// A range that is good.
+pub fn good(visuals: &Visuals) -> Color32 {
+    if visuals.dark_mode { Color32::from_rgb(92, 176, 116) } else { Color32::from_rgb(38, 132, 66) }
+}
+
+/// What needs to be looked at.
+pub fn bad(visuals: &Visuals) -> Color32 {
+    if visuals.dark_mode { Color32::from_rgb(240, 128, 112) } else { Color32::from_rgb(176, 42, 30) }
+}
+
+/// The zones of the ASET, as bars show them.
+pub fn zone(name: &str, visuals: &Visuals) -> Color32 {
+    match name {
+        "red" => Color32::from_rgb(214, 62, 52),
+        "green" => Color32::from_rgb(64, 164, 72),
+        "blue" => Color32::from_rgb(60, 108, 214),
+        _ => visuals.weak_text_color(),
+    }
+}
+
+/// Sets up both themes.
+pub fn apply(ctx: &Context) {
+    for theme in [Theme::Dark, Theme::Light] {
+        ctx.style_mut_of(theme, |style| styled(style, theme));
+    }
+}
+
+fn styled(style: &mut Style, theme: Theme) {
+    style.spacing.item_spacing = vec2(8.0, 6.0);
+    style.spacing.button_padding = vec2(8.0, 3.0);
+    style.spacing.interact_size.y = 22.0;
+    style.spacing.slider_rail_height = 4.0;
+    for (kind, size) in [
+        (TextStyle::Body, 13.5),
+        (TextStyle::Button, 13.5),
+        (TextStyle::Small, 11.5),
+        (TextStyle::Heading, 16.0),
+    ] {
+        style.text_styles.insert(kind, FontId::proportional(size));
+    }
+    let visuals = &mut style.visuals;
+    let grey = Color32::from_gray;
+    if theme == Theme::Dark {
+        visuals.panel_fill = Color32::from_rgb(27, 28, 31);
+        visuals.window_fill = Color32::from_rgb(33, 34, 38);
+        visuals.extreme_bg_color = Color32::from_rgb(18, 19, 21);
+        visuals.override_text_color = Some(grey(222));
+        visuals.weak_text_color = Some(grey(158));
+    } else {
+        visuals.panel_fill = Color32::from_rgb(245, 245, 247);
+        visuals.window_fill = Color32::from_rgb(252, 252, 253);
+        visuals.override_text_color = Some(grey(28));
+        visuals.weak_text_color = Some(grey(92));
+    }
+    visuals.selection.bg_fill = accent(visuals).gamma_multiply(0.45);
+    visuals.selection.stroke = Stroke::new(1.0, if visuals.dark_mode { grey(245) } else { grey(10) });
+    for widget in [
+        &mut visuals.widgets.inactive,
+        &mut visuals.widgets.hovered,
+        &mut visuals.widgets.active,
+        &mut visuals.widgets.open,
+    ] {
+        widget.corner_radius = CornerRadius::same(5);
+    }
+}
