@@ -124,7 +124,9 @@ impl Command {
             Free => "Goes back to the tilt before.",
             Fit => "Shows the whole stone.",
             Perspective => "Sees the stone from nearby instead of along parallel rays.",
-            EyeLeans => "Moves the eye over a still stone and light; else the stone tilts under eye and light.",
+            EyeLeans => {
+                "Moves the eye over a still stone and light; else the stone tilts under eye and light."
+            }
             One => "One large view.",
             Two => "Two views.",
             Four => "Four views.",
@@ -133,7 +135,9 @@ impl Command {
             Bounces => "Shows how often light is reflected inside.",
             Unresolved => "Shows where light was not followed to its end.",
             Total => "Shows how often light is totally reflected before the first way out.",
-            Strongest => "Shows only the zone that each point's strongest light comes from, as many ASET maps do.",
+            Strongest => {
+                "Shows only the zone that each point's strongest light comes from, as many ASET maps do."
+            }
             CompareSaved => "Shows the design as it was saved while C is held.",
             CompareFile => "Shows another file's design while C is held.",
             Split => "Shows both designs side by side in every view.",

@@ -8,8 +8,8 @@ use crate::cut::{Cut, DesignError, MaterialRef, RoundBrilliant, Size, Unit};
 use crate::optics::{line, materials};
 use crate::scene::{LIGHTS, SpecimenError, light};
 use egui::{
-    Color32, ComboBox, DragValue, Panel, Rect, RichText, ScrollArea, Slider, SliderClamping, Ui, WidgetInfo,
-    Role, pos2, vec2,
+    Color32, ComboBox, DragValue, Panel, Rect, RichText, Role, ScrollArea, Sense, Slider, SliderClamping,
+    Stroke, StrokeKind, Ui, WidgetInfo, pos2, vec2,
 };
 use std::ops::RangeInclusive;
 
@@ -25,9 +25,13 @@ const HEADS: RangeInclusive<f64> = 0.0..=30.0;
 
 /// Draws the panel.
 pub fn show(editor: &mut Editor, ui: &mut Ui) {
-    Panel::left("design").resizable(true).default_size(330.0).size_range(300.0..=460.0).show(ui, |ui| {
+    Panel::left("design").resizable(true).default_size(350.0).size_range(300.0..=460.0).show(ui, |ui| {
         ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
-            heading(ui, "Proportions", "Drag a slider or type a number; the green mark is the range GIA calls excellent.");
+            heading(
+                ui,
+                "Proportions",
+                "Drag a slider or type a number; the green mark is the range GIA calls excellent.",
+            );
             proportions(editor, ui);
             heading(ui, "Stone", "What it is made of, and how large it is.");
             material(editor, ui);
@@ -91,10 +95,16 @@ fn row(ui: &mut Ui, proportion: &Proportion, brilliant: &mut RoundBrilliant) {
         let step = if whole { 8.0 } else { 0.1 };
         let mark = ui.painter().add(egui::Shape::Noop);
         let slider = Slider::new(&mut value, first..=last).show_value(false).step_by(step).smart_aim(false);
-        let slider = ui.add(slider.clamping(SliderClamping::Never)).labelled_by(label.id).on_hover_text(range(proportion));
+        let slider = ui
+            .add(slider.clamping(SliderClamping::Never))
+            .labelled_by(label.id)
+            .on_hover_text(range(proportion));
         if let Some(good) = &proportion.excellent {
             let band = band(slider.rect, good, &proportion.slider);
-            ui.painter().set(mark, egui::Shape::rect_filled(band, 2.0, theme::good(ui.visuals()).gamma_multiply(0.75)));
+            ui.painter().set(
+                mark,
+                egui::Shape::rect_filled(band, 2.0, theme::good(ui.visuals()).gamma_multiply(0.75)),
+            );
         }
         let number = DragValue::new(&mut value).speed(if whole { 0.2 } else { 0.02 }).max_decimals(decimals);
         let number = number.min_decimals(if whole { 0 } else { 1 }).suffix(proportion.unit.to_string());
@@ -117,9 +127,10 @@ fn band(slider: Rect, range: &RangeInclusive<f64>, whole: &RangeInclusive<f64>) 
 }
 
 fn range(proportion: &Proportion) -> String {
-    let good = proportion.excellent.as_ref().map(|e| {
-        format!(" GIA calls {} to {}{} excellent.", e.start(), e.end(), proportion.unit)
-    });
+    let good = proportion
+        .excellent
+        .as_ref()
+        .map(|e| format!(" GIA calls {} to {}{} excellent.", e.start(), e.end(), proportion.unit));
     format!("{}{}", proportion.meaning, good.unwrap_or_default())
 }
 
@@ -135,8 +146,15 @@ fn named(ui: &mut Ui, name: &str, meaning: &str) -> egui::Response {
 fn hold(ui: &mut Ui, proportion: &Proportion, brilliant: &mut RoundBrilliant) {
     let Some(hold) = &proportion.hold else { return };
     let held = (hold.is)(brilliant);
-    let meaning = if held { "Held: it stays when other proportions change." } else { "Hold this one when other proportions change." };
-    let response = ui.selectable_label(held, if held { "🔒" } else { "🔓" }).on_hover_text(meaning);
+    let meaning = if held {
+        "Held: it stays when other proportions change."
+    } else {
+        "Hold this one when other proportions change."
+    };
+    let side = ui.spacing().interact_size.y;
+    let (rect, response) = ui.allocate_exact_size(vec2(side, side), Sense::click());
+    lock(ui, rect, held, &response);
+    let response = response.on_hover_text(meaning);
     let name = format!("Hold {}", proportion.name.to_lowercase());
     response.widget_info(|| WidgetInfo::selected(Role::CheckBox, true, held, &name));
     if response.clicked() && !held {
@@ -144,11 +162,36 @@ fn hold(ui: &mut Ui, proportion: &Proportion, brilliant: &mut RoundBrilliant) {
     }
 }
 
+/// Draws a padlock, open or shut.
+fn lock(ui: &Ui, rect: Rect, shut: bool, response: &egui::Response) {
+    let visuals = ui.style().interact(response);
+    let colour =
+        if shut { theme::accent(ui.visuals()) } else { visuals.fg_stroke.color.gamma_multiply(0.55) };
+    let body = Rect::from_center_size(rect.center() + vec2(0.0, 3.0), vec2(10.0, 7.0));
+    ui.painter().rect_filled(body, 1.5, colour);
+    let (left, right) = (body.left() + 2.0, body.right() - 2.0);
+    let lift = if shut { 0.0 } else { 2.5 };
+    let (foot, top) = (body.top(), body.top() - 6.0 - lift);
+    let bow = vec![
+        pos2(left, foot),
+        pos2(left, top + 2.0),
+        pos2(left + 2.0, top),
+        pos2(right - 2.0, top),
+        pos2(right, top + 2.0),
+        pos2(right, foot - 2.0 * lift),
+    ];
+    ui.painter().line(bow, Stroke::new(1.6, colour));
+    if response.has_focus() {
+        ui.painter().rect_stroke(rect.shrink(1.0), 3.0, ui.visuals().selection.stroke, StrokeKind::Inside);
+    }
+}
+
 /// What follows from the proportions.
 fn derived(ui: &mut Ui, brilliant: &RoundBrilliant) {
     let Ok(derived) = brilliant.derived() else { return };
     let depth = derived.total_depth;
-    let colour = if EXCELLENT_DEPTH.contains(&depth) { theme::good(ui.visuals()) } else { ui.visuals().text_color() };
+    let colour =
+        if EXCELLENT_DEPTH.contains(&depth) { theme::good(ui.visuals()) } else { ui.visuals().text_color() };
     ui.add_space(4.0);
     egui::Grid::new("derived").num_columns(2).spacing(vec2(12.0, 4.0)).show(ui, |ui| {
         let mut line = |name: &str, value: String, colour: Option<Color32>, meaning: &str| {
@@ -160,10 +203,30 @@ fn derived(ui: &mut Ui, brilliant: &RoundBrilliant) {
             });
             ui.end_row();
         };
-        line("Total depth", format!("{depth:6.2} %"), Some(colour), "From table to culet. GIA calls 58.1 to 63.6 % excellent.");
-        line("Star angle", format!("{:6.2}°", derived.star_angle), None, "How steep the small facets around the table are.");
-        line("Upper halves", format!("{:6.2}°", derived.upper_half_angle), None, "How steep the crown facets at the girdle are.");
-        line("Lower halves", format!("{:6.2}°", derived.lower_half_angle), None, "How steep the pavilion facets at the girdle are.");
+        line(
+            "Total depth",
+            format!("{depth:6.2} %"),
+            Some(colour),
+            "From table to culet. GIA calls 58.1 to 63.6 % excellent.",
+        );
+        line(
+            "Star angle",
+            format!("{:6.2}°", derived.star_angle),
+            None,
+            "How steep the small facets around the table are.",
+        );
+        line(
+            "Upper halves",
+            format!("{:6.2}°", derived.upper_half_angle),
+            None,
+            "How steep the crown facets at the girdle are.",
+        );
+        line(
+            "Lower halves",
+            format!("{:6.2}°", derived.lower_half_angle),
+            None,
+            "How steep the pavilion facets at the girdle are.",
+        );
         let valley = "Thickness of the rim where it is thinnest, between the bezels.";
         line("Girdle valleys", format!("{:6.2} %", derived.girdle_thickness_valley), None, valley);
     });
@@ -172,13 +235,15 @@ fn derived(ui: &mut Ui, brilliant: &RoundBrilliant) {
 fn material(editor: &mut Editor, ui: &mut Ui) {
     let design = &mut editor.document.work.design;
     ui.horizontal(|ui| {
-        let label = named(ui, "Material", "What the stone is made of: it sets refraction, dispersion and colour.");
+        let label =
+            named(ui, "Material", "What the stone is made of: it sets refraction, dispersion and colour.");
         let name = match &design.material {
             MaterialRef::Name(name) => name.clone(),
             MaterialRef::Index(index) => format!("index {index}"),
             MaterialRef::Custom(material) => material.name.clone(),
         };
-        let combo = ComboBox::from_id_salt("material").selected_text(&name).width(ui.available_width() - 12.0);
+        let combo =
+            ComboBox::from_id_salt("material").selected_text(&name).width(ui.available_width() - 12.0);
         let combo = combo.height(420.0).show_ui(ui, |ui| {
             for material in materials() {
                 let chosen = name == material.name;
@@ -197,8 +262,13 @@ fn size(editor: &mut Editor, ui: &mut Ui) {
     let design = &mut editor.document.work.design;
     ui.horizontal(|ui| {
         let label = named(ui, "Diameter", "Of the girdle. A larger stone of colour is darker.");
-        let number = DragValue::new(&mut design.diameter_mm).range(0.1..=1000.0).speed(0.01).max_decimals(3).suffix(" mm");
-        ui.add_sized(vec2(92.0, ui.spacing().interact_size.y), number.update_while_editing(false)).labelled_by(label.id);
+        let number = DragValue::new(&mut design.diameter_mm)
+            .range(0.1..=1000.0)
+            .speed(0.01)
+            .max_decimals(3)
+            .suffix(" mm");
+        ui.add_sized(vec2(92.0, ui.spacing().interact_size.y), number.update_while_editing(false))
+            .labelled_by(label.id);
     });
     ui.horizontal(|ui| {
         let label = named(ui, "Weight", "From the stone's volume and its material's density.");
@@ -209,7 +279,8 @@ fn size(editor: &mut Editor, ui: &mut Ui) {
         };
         let before = carats;
         let number = DragValue::new(&mut carats).range(1e-6..=1e9).speed(0.01).max_decimals(3).suffix(" ct");
-        ui.add_sized(vec2(92.0, ui.spacing().interact_size.y), number.update_while_editing(false)).labelled_by(label.id);
+        ui.add_sized(vec2(92.0, ui.spacing().interact_size.y), number.update_while_editing(false))
+            .labelled_by(label.id);
         let asked = Size::Carats(carats).diameter_mm(&specimen.stone.polytope, &specimen.material);
         if let (true, Ok(diameter)) = (carats != before, asked) {
             design.diameter_mm = diameter;
@@ -222,7 +293,9 @@ fn lighting(editor: &mut Editor, ui: &mut Ui) {
     let work = &mut editor.document.work;
     ui.horizontal(|ui| {
         let label = named(ui, "Light", "What stands around the stone in renders.");
-        let name = std::path::Path::new(&work.light).file_name().map_or(work.light.clone(), |n| n.to_string_lossy().into_owned());
+        let name = std::path::Path::new(&work.light)
+            .file_name()
+            .map_or(work.light.clone(), |n| n.to_string_lossy().into_owned());
         let combo = ComboBox::from_id_salt("light").selected_text(name).width(ui.available_width() - 12.0);
         let combo = combo.show_ui(ui, |ui| {
             for name in LIGHTS {
@@ -232,25 +305,46 @@ fn lighting(editor: &mut Editor, ui: &mut Ui) {
                     work.light = name.to_owned();
                 }
             }
-            asks = ui.button("From a file…").on_hover_text("A light file, or a panorama: .hdr, .exr, .png or .jpg.").clicked();
+            asks = ui
+                .button("From a file…")
+                .on_hover_text("A light file, or a panorama: .hdr, .exr, .png or .jpg.")
+                .clicked();
         });
         combo.response.labelled_by(label.id);
     });
-    plain(ui, ("Exposure", "How bright renders are shown, in stops: one more is twice the light."), &mut work.exposure, (STOPS, " stops"));
-    plain(ui, ("Head", "Half angle of the observer's head, which shuts out light in ASET and figures; 0 for none."), &mut editor.desk.head, (HEADS, "°"));
+    plain(
+        ui,
+        ("Exposure", "How bright renders are shown, in stops: one more is twice the light."),
+        &mut work.exposure,
+        (STOPS, " stops"),
+    );
+    plain(
+        ui,
+        ("Head", "Half angle of the observer's head, which shuts out light in ASET and figures; 0 for none."),
+        &mut editor.desk.head,
+        (HEADS, "°"),
+    );
     if asks {
         editor.choose(Purpose::Light);
     }
 }
 
 /// A row of name, slider and number.
-fn plain(ui: &mut Ui, (name, meaning): (&str, &str), value: &mut f64, (range, unit): (RangeInclusive<f64>, &str)) {
+fn plain(
+    ui: &mut Ui,
+    (name, meaning): (&str, &str),
+    value: &mut f64,
+    (range, unit): (RangeInclusive<f64>, &str),
+) {
     ui.horizontal(|ui| {
         let label = named(ui, name, meaning);
         let held = ui.spacing().interact_size.y;
         ui.spacing_mut().slider_width = (ui.available_width() - NUMBER - held - 24.0).max(40.0);
-        ui.add(Slider::new(value, range.clone()).show_value(false).step_by(0.1)).labelled_by(label.id).on_hover_text(meaning);
+        ui.add(Slider::new(value, range.clone()).show_value(false).step_by(0.1))
+            .labelled_by(label.id)
+            .on_hover_text(meaning);
         let number = DragValue::new(value).range(range).speed(0.02).max_decimals(1).suffix(unit);
-        ui.add_sized(vec2(NUMBER, ui.spacing().interact_size.y), number.update_while_editing(false)).labelled_by(label.id);
+        ui.add_sized(vec2(NUMBER, ui.spacing().interact_size.y), number.update_while_editing(false))
+            .labelled_by(label.id);
     });
 }

@@ -29,13 +29,21 @@ pub struct Setup {
     pub safe: Option<PathBuf>,
     /// Who is asked for files.
     pub chooser: Chooser,
+    /// How the window is arranged where nothing was kept.
+    pub desk: Desk,
     /// Whether the card may compute, where there is one.
     pub may_compute: bool,
 }
 
 impl Default for Setup {
     fn default() -> Self {
-        Self { file: None, safe: None, chooser: Arc::new(by_dialog), may_compute: true }
+        Self {
+            file: None,
+            safe: None,
+            desk: Desk::default(),
+            chooser: Arc::new(by_dialog),
+            may_compute: true,
+        }
     }
 }
 
@@ -93,7 +101,7 @@ impl Editor {
         theme::apply(&context.egui_ctx);
         let kept = context.storage.and_then(|s| s.get_string(DESK));
         // A desk of a later program that this one cannot read is left aside.
-        let mut desk: Desk = kept.and_then(|text| serde_json::from_str(&text).ok()).unwrap_or_default();
+        let mut desk: Desk = kept.and_then(|text| serde_json::from_str(&text).ok()).unwrap_or(setup.desk);
         let wake = waker(&context.egui_ctx);
         let gpu = if setup.may_compute { shared(context) } else { None };
         let mut notes = Notes::default();
@@ -184,7 +192,9 @@ impl Editor {
         let answers: Vec<Answer> = self.studio.answers().collect();
         for answer in answers {
             match answer {
-                Answer::Picture(slot, shot, grade, taken) => self.show_picture(ctx, slot, *shot, grade, taken),
+                Answer::Picture(slot, shot, grade, taken) => {
+                    self.show_picture(ctx, slot, *shot, grade, taken)
+                }
                 Answer::Figures(which, ask, grade, figures) => {
                     self.figures.insert(which, Measured { ask, grade, figures: *figures });
                 }
@@ -353,7 +363,8 @@ impl Editor {
         if !self.document.settle() {
             return;
         }
-        (self.desk.light, self.desk.exposure) = (self.document.work.light.clone(), self.document.work.exposure);
+        (self.desk.light, self.desk.exposure) =
+            (self.document.work.light.clone(), self.document.work.exposure);
         let Some(safe) = &mut self.safe else { return };
         if !self.document.is_changed() {
             safe.empty();

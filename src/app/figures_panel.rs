@@ -48,8 +48,9 @@ fn how(editor: &mut Editor, ui: &mut Ui) {
     ui.horizontal(|ui| {
         ui.selectable_value(&mut editor.desk.by_area, false, "Energy")
             .on_hover_text("How much of the light comes from each zone, all exits of each point together.");
-        ui.selectable_value(&mut editor.desk.by_area, true, "Area")
-            .on_hover_text("The part of the stone whose strongest light comes from each zone, as most ASET scores count.");
+        ui.selectable_value(&mut editor.desk.by_area, true, "Area").on_hover_text(
+            "The part of the stone whose strongest light comes from each zone, as most ASET scores count.",
+        );
     });
     let tilt = editor.desk.eye.tilt().to_degrees();
     let view = if tilt == 0.0 { "face up".to_owned() } else { format!("tilted {tilt:.1}°") };
@@ -82,10 +83,20 @@ fn table(ui: &mut Ui, measured: &Measured, other: Option<&Measured>, by_area: bo
     let weak = ui.visuals().weak_text_color();
     let text = ui.visuals().text_color();
     let rows: [(&str, &str, &dyn Fn(&Zones) -> f64, bool); 4] = [
-        ("Light return", "Light from above the horizon, glare included: what makes the stone bright.", &Zones::returned, true),
+        (
+            "Light return",
+            "Light from above the horizon, glare included: what makes the stone bright.",
+            &Zones::returned,
+            true,
+        ),
         ("Glare", "Light that the outer surface reflects without having been inside.", &|z| z.glare, false),
         ("Absorbed", "Light that the stone's colour takes away.", &|z| z.absorbed, false),
-        ("Unresolved", "Light that was not followed to its end: no figure is too low by more than this.", &|z| z.unresolved, false),
+        (
+            "Unresolved",
+            "Light that was not followed to its end: no figure is too low by more than this.",
+            &|z| z.unresolved,
+            false,
+        ),
     ];
     for (name, meaning, of, is_strong) in rows {
         let (share, other) = pick(of);
@@ -135,7 +146,10 @@ fn row(ui: &mut Ui, row: &Row) {
     let told = format!("{} {percent:.2} %", row.name);
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Label, true, &told));
     response.on_hover_text(row.meaning);
-    let bar = Rect::from_min_max(pos2(rect.left() + 86.0, rect.top() + 5.0), pos2(rect.right() - 66.0, rect.bottom() - 5.0));
+    let bar = Rect::from_min_max(
+        pos2(rect.left() + 86.0, rect.top() + 5.0),
+        pos2(rect.right() - 66.0, rect.bottom() - 5.0),
+    );
     ui.painter().rect_filled(bar, 2.0, ui.visuals().extreme_bg_color);
     let end = bar.left() + bar.width() * row.share.clamp(0.0, 1.0) as f32;
     ui.painter().rect_filled(Rect::from_min_max(bar.min, pos2(end, bar.bottom())), 2.0, row.colour);
@@ -147,9 +161,11 @@ fn row(ui: &mut Ui, row: &Row) {
         let text = RichText::new(text);
         ui.label(if row.is_strong { text.strong() } else { text })
     };
-    let mut left = ui.new_child(egui::UiBuilder::new().max_rect(rect).layout(Layout::left_to_right(Align::Center)));
+    let mut left =
+        ui.new_child(egui::UiBuilder::new().max_rect(rect).layout(Layout::left_to_right(Align::Center)));
     text(&mut left, row.name.to_owned());
-    let mut right = ui.new_child(egui::UiBuilder::new().max_rect(rect).layout(Layout::right_to_left(Align::Center)));
+    let mut right =
+        ui.new_child(egui::UiBuilder::new().max_rect(rect).layout(Layout::right_to_left(Align::Center)));
     let number = match row.other {
         None => format!("{percent:.2} %"),
         Some(other) => format!("{percent:.1} ({:+.1})", percent - 100.0 * other),
@@ -160,7 +176,11 @@ fn row(ui: &mut Ui, row: &Row) {
 fn plot(ui: &mut Ui, tilts: &Tilts) {
     let scope = Scope::aset(ASET_CONE, Backing::Black);
     let plot = Plot::new("tilts").height(190.0).allow_drag(false).allow_zoom(false).allow_scroll(false);
-    let plot = plot.legend(Legend::default().follow_insertion_order(true)).include_y(0.0).x_axis_label("tilt, degrees").y_axis_label("percent");
+    let plot = plot
+        .legend(Legend::default().follow_insertion_order(true))
+        .include_y(0.0)
+        .x_axis_label("tilt, degrees")
+        .y_axis_label("percent");
     plot.show(ui, |plot| {
         for (name, band, _) in ZONES.into_iter().filter(|(_, band, _)| *band != "head") {
             let Some(k) = scope.bands.iter().position(|b| b.name == band) else { continue };

@@ -46,8 +46,12 @@ pub fn by_dialog(question: &Question) -> Option<PathBuf> {
     match question.purpose {
         Purpose::Open => cuts(dialog.set_title("Open a cut")).pick_file(),
         Purpose::Compare => cuts(dialog.set_title("Compare with a cut")).pick_file(),
-        Purpose::SaveAs => cuts(dialog.set_title("Save the cut as")).set_file_name(&question.name).save_file(),
-        Purpose::Light => dialog.set_title("A light or a panorama").add_filter("Lights", &pictures).pick_file(),
+        Purpose::SaveAs => {
+            cuts(dialog.set_title("Save the cut as")).set_file_name(&question.name).save_file()
+        }
+        Purpose::Light => {
+            dialog.set_title("A light or a panorama").add_filter("Lights", &pictures).pick_file()
+        }
         Purpose::Folder => dialog.set_title("A folder for the pictures").pick_folder(),
     }
 }
@@ -183,7 +187,10 @@ impl Safe {
     pub fn found(&self) -> Vec<Found> {
         let entries = std::fs::read_dir(&self.folder).into_iter().flatten().flatten();
         let ours = |e: &std::fs::DirEntry| e.file_name().to_string_lossy().starts_with(PREFIX);
-        let mut found: Vec<_> = entries.filter(ours).filter_map(|e| Some((e.metadata().ok()?.modified().ok()?, orphan(e.path())?))).collect();
+        let mut found: Vec<_> = entries
+            .filter(ours)
+            .filter_map(|e| Some((e.metadata().ok()?.modified().ok()?, orphan(e.path())?)))
+            .collect();
         found.sort_by_key(|(time, _)| std::cmp::Reverse(*time));
         found.into_iter().map(|(_, found)| found).collect()
     }
@@ -222,7 +229,10 @@ mod tests {
         assert_eq!(next.found(), [], "the program still runs");
         drop(safe);
         let found = next.found();
-        assert_eq!((found.len(), &found[0].design, found[0].path.as_deref()), (1, &design, Some(Path::new("/x/mine.toml"))));
+        assert_eq!(
+            (found.len(), &found[0].design, found[0].path.as_deref()),
+            (1, &design, Some(Path::new("/x/mine.toml")))
+        );
         found.into_iter().for_each(Found::forget);
         assert_eq!(next.found(), []);
     }
@@ -246,7 +256,10 @@ mod tests {
         let path = folder.path().join("a.toml");
         std::fs::write(&path, "1").unwrap();
         let (sender, told) = channel();
-        let watching = Watching::begin(move || drop(sender.send(())));
+        let watching = Watching::begin(move || {
+            // The test may be over.
+            let _ = sender.send(());
+        });
         watching.watch(Some(&path));
         std::fs::write(&path, "22").unwrap();
         assert!(told.recv_timeout(Duration::from_secs(10)).is_ok());

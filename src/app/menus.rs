@@ -8,7 +8,7 @@ use super::editor::Editor;
 use super::files::Purpose;
 use super::theme;
 use crate::io::{cut_file, library};
-use egui::{Align, Button, Context, Key, Modifiers, Panel, RichText, Ui};
+use egui::{Align, Button, Context, Key, Modifiers, Panel, RichText, ThemePreference, Ui};
 use std::path::PathBuf;
 
 /// Distance of the eye that perspective begins with, girdle radii: a stone of 6.5 mm at 10 cm.
@@ -37,10 +37,28 @@ pub fn bar(editor: &mut Editor, ui: &mut Ui) {
             if editor.document.is_changed() {
                 ui.label(RichText::new("not saved").weak());
             }
-            ui.with_layout(egui::Layout::right_to_left(Align::Center), |ui| {
-                egui::global_theme_preference_buttons(ui);
-            });
+            ui.with_layout(egui::Layout::right_to_left(Align::Center), themes);
         });
+    });
+}
+
+/// Light, dark, or as the system has it.
+fn themes(ui: &mut Ui) {
+    let ctx = ui.ctx().clone();
+    let now = ctx.options(|o| o.theme_preference);
+    let all = [
+        (ThemePreference::System, "System"),
+        (ThemePreference::Dark, "Dark"),
+        (ThemePreference::Light, "Light"),
+    ];
+    let name = all.iter().find(|(theme, _)| *theme == now).map_or("Theme", |(_, name)| name);
+    ui.menu_button(format!("Theme: {name}"), |ui| {
+        for (theme, name) in all {
+            if ui.selectable_label(now == theme, name).clicked() {
+                ctx.set_theme(theme);
+                ui.close();
+            }
+        }
     });
 }
 
@@ -59,7 +77,9 @@ fn opened_before(editor: &mut Editor, ui: &mut Ui) {
         ui.menu_button("Open recent", |ui| {
             let recent: Vec<PathBuf> = editor.desk.recent.clone();
             for path in recent {
-                let name = path.file_name().map_or_else(|| path.display().to_string(), |n| n.to_string_lossy().into());
+                let name = path
+                    .file_name()
+                    .map_or_else(|| path.display().to_string(), |n| n.to_string_lossy().into());
                 if ui.button(name).on_hover_text(path.display().to_string()).clicked() {
                     editor.ask_before(Then::Open(path));
                     ui.close();
@@ -74,7 +94,10 @@ fn from_library(editor: &mut Editor, ui: &mut Ui) {
         for (name, text) in library::CUTS {
             let design = cut_file::parse(text, name).ok();
             let title = design.as_ref().map_or(name, |d| d.name.as_str());
-            let source = design.as_ref().and_then(|d| d.source.as_deref()).unwrap_or("A cut that comes with the program.");
+            let source = design
+                .as_ref()
+                .and_then(|d| d.source.as_deref())
+                .unwrap_or("A cut that comes with the program.");
             if ui.button(title).on_hover_text(source).clicked() {
                 editor.ask_before(Then::Library(name.to_owned()));
                 ui.close();
@@ -107,7 +130,8 @@ pub fn status(editor: &mut Editor, ui: &mut Ui) {
             });
         }
         ui.horizontal(|ui| {
-            let told = if editor.told.is_empty() { editor.notes.said().unwrap_or_default() } else { &editor.told };
+            let told =
+                if editor.told.is_empty() { editor.notes.said().unwrap_or_default() } else { &editor.told };
             ui.add(egui::Label::new(told).truncate());
             ui.with_layout(egui::Layout::right_to_left(Align::Center), |ui| {
                 let state = if editor.is_idle() { "done" } else { "tracing…" };

@@ -22,6 +22,7 @@ mod stage;
 mod studio;
 mod theme;
 
+pub use desk::Desk;
 pub use editor::{Editor, Setup};
 
 use crate::trace::gpu::Gpu;
@@ -45,7 +46,10 @@ pub fn run(file: Option<PathBuf>) -> Result<(), String> {
     // The tracer shares the device: what it needs is asked for.
     setup.device_descriptor = Arc::new(|adapter| Gpu::wanted(adapter));
     let options = eframe::NativeOptions {
-        viewport: egui::ViewportBuilder::default().with_app_id(ID).with_inner_size(SIZE).with_min_inner_size(LEAST),
+        viewport: egui::ViewportBuilder::default()
+            .with_app_id(ID)
+            .with_inner_size(SIZE)
+            .with_min_inner_size(LEAST),
         renderer: eframe::Renderer::Wgpu,
         wgpu_options: WgpuConfiguration { wgpu_setup: WgpuSetup::CreateNew(setup), ..Default::default() },
         ..Default::default()

@@ -9,8 +9,8 @@ use super::studio::{Grade, Which};
 use crate::scene::{ASET_CONE, Backing, Film, Scope, Side, Specimen, View};
 use crate::trace::ray::Camera;
 use egui::{
-    Align, Color32, ComboBox, Key, Modifiers, PointerButton, Rect, Response, RichText, Sense, Stroke, StrokeKind, Ui,
-    UiBuilder, WidgetInfo, Role, pos2, vec2,
+    Align, Color32, ComboBox, Key, Modifiers, PointerButton, Rect, Response, RichText, Role, Sense, Stroke,
+    StrokeKind, Ui, UiBuilder, WidgetInfo, pos2, vec2,
 };
 use glam::{DMat2, DVec2};
 use std::sync::Arc;
@@ -27,7 +27,8 @@ const WHEEL: f64 = 0.004;
 /// Draws a view; the size of its picture in pixels.
 pub fn show(editor: &mut Editor, ui: &mut Ui, pane: usize, rect: Rect) -> [u32; 2] {
     let (head, body) = rect.split_top_bottom_at_y(rect.top() + HEAD);
-    let mut top = ui.new_child(UiBuilder::new().max_rect(head).layout(egui::Layout::left_to_right(Align::Center)));
+    let mut top =
+        ui.new_child(UiBuilder::new().max_rect(head).layout(egui::Layout::left_to_right(Align::Center)));
     header(editor, &mut top, pane);
     let size = [body.width(), body.height()].map(|n| (n * ui.pixels_per_point()).round().max(1.0) as u32);
     match editor.desk.panes[pane].shows {
@@ -46,12 +47,14 @@ fn header(editor: &mut Editor, ui: &mut Ui, pane: usize) {
     let combo = ComboBox::from_id_salt(("shows", pane)).selected_text(shows.name()).width(120.0);
     let shown = combo.show_ui(ui, |ui| {
         for other in Shows::ALL {
-            ui.selectable_value(&mut editor.desk.panes[pane].shows, other, other.name()).on_hover_text(other.meaning());
+            ui.selectable_value(&mut editor.desk.panes[pane].shows, other, other.name())
+                .on_hover_text(other.meaning());
         }
     });
-    shown.response.on_hover_text(shows.meaning()).widget_info(|| {
-        WidgetInfo::labeled(Role::ComboBox, true, format!("{title}: {}", shows.name()))
-    });
+    shown
+        .response
+        .on_hover_text(shows.meaning())
+        .widget_info(|| WidgetInfo::labeled(Role::ComboBox, true, format!("{title}: {}", shows.name())));
     if let Some(compared) = &editor.compared {
         let other = menus::is_other_shown(ui.ctx());
         ui.label(RichText::new(if other { compared.name.as_str() } else { "present" }).weak());
@@ -59,12 +62,21 @@ fn header(editor: &mut Editor, ui: &mut Ui, pane: usize) {
     ui.with_layout(egui::Layout::right_to_left(Align::Center), |ui| {
         let large = editor.desk.large == Some(pane);
         let name = if large { "All views" } else { "Enlarge" };
-        if editor.desk.layout.panes() > 1 && ui.small_button(name).on_hover_text(format!("{title}: alone, or among the others; a double click does the same.")).clicked() {
+        if editor.desk.layout.panes() > 1
+            && ui
+                .small_button(name)
+                .on_hover_text(format!("{title}: alone, or among the others; a double click does the same."))
+                .clicked()
+        {
             enlarge(editor, pane);
         }
         if shows.is_seen() {
             let mut linked = editor.desk.panes[pane].own.is_none();
-            if ui.checkbox(&mut linked, "Linked").on_hover_text("Tilts and zooms together with all other linked views.").changed() {
+            if ui
+                .checkbox(&mut linked, "Linked")
+                .on_hover_text("Tilts and zooms together with all other linked views.")
+                .changed()
+            {
                 let eye = editor.desk.eye;
                 editor.desk.panes[pane].own = (!linked).then_some(eye);
             }
@@ -81,8 +93,11 @@ fn state(editor: &Editor, ui: &mut Ui, pane: usize) {
         Grade::Fine => format!("± {:.2} %", 100.0 * taken.unresolved),
         Grade::Fair | Grade::Rough => "…".to_owned(),
     };
-    ui.label(RichText::new(text).weak().small())
-        .on_hover_text(format!("By {}; at most {:.3} % of the light is not followed to its end.", taken.tracer, 100.0 * taken.unresolved));
+    ui.label(RichText::new(text).weak().small()).on_hover_text(format!(
+        "By {}; at most {:.3} % of the light is not followed to its end.",
+        taken.tracer,
+        100.0 * taken.unresolved
+    ));
 }
 
 fn enlarge(editor: &mut Editor, pane: usize) {
@@ -246,7 +261,8 @@ fn by_keys(eye: &mut Eye, ui: &Ui, side: Side) {
         let by = DVec2::new(along(Key::ArrowRight, Key::ArrowLeft), along(Key::ArrowUp, Key::ArrowDown));
         eye.drag(side, by * step);
     }
-    let zoom = pressed(Modifiers::NONE, Key::Plus) + pressed(Modifiers::NONE, Key::Equals) - pressed(Modifiers::NONE, Key::Minus);
+    let zoom = pressed(Modifiers::NONE, Key::Plus) + pressed(Modifiers::NONE, Key::Equals)
+        - pressed(Modifiers::NONE, Key::Minus);
     eye.zoom_at(1.2_f64.powf(zoom), eye.centre);
 }
 
@@ -284,7 +300,8 @@ fn outline(ui: &Ui, specimen: &Specimen, facet: u32, sight: &Sight) {
         corners.map(|c| Some(sight.point(map.transform_point2(camera.project(c)?.0)))).collect();
     if let Some(points) = points {
         let painter = ui.painter().with_clip_rect(sight.body);
-        painter.add(egui::Shape::closed_line(points.clone(), Stroke::new(3.0, Color32::from_black_alpha(120))));
+        painter
+            .add(egui::Shape::closed_line(points.clone(), Stroke::new(3.0, Color32::from_black_alpha(120))));
         painter.add(egui::Shape::closed_line(points, Stroke::new(1.2, Color32::from_white_alpha(220))));
     }
 }

@@ -106,7 +106,9 @@ impl Found {
         let tier = if *count > 1 { format!(" of {count} {tier} facets") } else { String::new() };
         let light = self.light.as_ref().map_or_else(
             || "no light leaves here".to_owned(),
-            |l| format!("{} light from {:.1}°, {:.0} % of what is seen", l.zone, l.elevation, 100.0 * l.share),
+            |l| {
+                format!("{} light from {:.1}°, {:.0} % of what is seen", l.zone, l.elevation, 100.0 * l.share)
+            },
         );
         format!("{}{tier} · slope {:.2}°{azimuth} · {light}", self.name, self.slope)
     }
@@ -123,7 +125,14 @@ mod tests {
         let probe = Probe::new(Arc::clone(Document::first().unwrap().specimen()));
         let (view, film) = (View::default(), Film::square(200, 1.1));
         let scope = Scope::aset(ASET_CONE, Backing::Black);
-        let at = |x: f64, y: f64| probe.at(&view, &film, film.pixels_from_image(glam::DMat2::IDENTITY).transform_point2(DVec2::new(x, y)), &scope);
+        let at = |x: f64, y: f64| {
+            probe.at(
+                &view,
+                &film,
+                film.pixels_from_image(glam::DMat2::IDENTITY).transform_point2(DVec2::new(x, y)),
+                &scope,
+            )
+        };
         let table = at(0.01, 0.02).unwrap();
         assert_eq!((table.name.as_str(), table.slope, table.azimuth), ("table", 0.0, None));
         let bezel = at(0.75, 0.01).unwrap();

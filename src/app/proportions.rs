@@ -212,7 +212,9 @@ fn set_lower_half(brilliant: &mut RoundBrilliant, given: LowerHalf) {
     let derived = RoundBrilliant { lower_half: given, ..*brilliant }.derived();
     brilliant.lower_half = match (brilliant.lower_half, given, derived) {
         (LowerHalf::Radial(_), LowerHalf::Vertical(_), Ok(d)) => LowerHalf::Radial(d.lower_half_length),
-        (LowerHalf::Vertical(_), LowerHalf::Radial(_), Ok(d)) => LowerHalf::Vertical(d.lower_half_length_vertical),
+        (LowerHalf::Vertical(_), LowerHalf::Radial(_), Ok(d)) => {
+            LowerHalf::Vertical(d.lower_half_length_vertical)
+        }
         _ => given,
     };
 }
@@ -246,9 +248,8 @@ mod tests {
 
     #[test]
     fn the_one_held_of_a_pair_stays_when_something_else_changes() {
-        let [angle, height] = ["crown_angle", "crown_height"].map(|key| {
-            PROPORTIONS.iter().find(|p| p.key == key).unwrap()
-        });
+        let [angle, height] =
+            ["crown_angle", "crown_height"].map(|key| PROPORTIONS.iter().find(|p| p.key == key).unwrap());
         let mut brilliant = TOLKOWSKY;
         (height.set)(&mut brilliant, 16.0);
         assert!(matches!(brilliant.crown, Crown::Angle(_)), "the angle is still held");
@@ -258,6 +259,8 @@ mod tests {
         (height.hold.as_ref().unwrap().set)(&mut brilliant);
         let held = (height.get)(&brilliant);
         brilliant.table = 60.0;
-        assert!(((height.get)(&brilliant) - held).abs() < 1e-12 && (height.hold.as_ref().unwrap().is)(&brilliant));
+        assert!(
+            ((height.get)(&brilliant) - held).abs() < 1e-12 && (height.hold.as_ref().unwrap().is)(&brilliant)
+        );
     }
 }

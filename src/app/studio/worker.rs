@@ -16,8 +16,7 @@ use std::sync::{Arc, PoisonError};
 use std::time::Instant;
 
 /// Tilts that figures are plotted against, degrees.
-const TILTS: [f64; 13] =
-    [-30.0, -25.0, -20.0, -15.0, -10.0, -5.0, 0.0, 5.0, 10.0, 15.0, 20.0, 25.0, 30.0];
+const TILTS: [f64; 13] = [-30.0, -25.0, -20.0, -15.0, -10.0, -5.0, 0.0, 5.0, 10.0, 15.0, 20.0, 25.0, 30.0];
 
 /// What may stay unresolved: of a fair picture, a fine one, fine figures, figures against tilt.
 const FAIR: f64 = 5e-3;

@@ -2,6 +2,7 @@
 
 mod flows;
 
+use super::desk::{Desk, Layout};
 use super::editor::{Editor, Setup};
 use super::files::{Chooser, Question};
 use super::studio::{Grade, Which};
@@ -37,14 +38,22 @@ impl Bench {
         Self::built(Setup::default(), Harness::builder().with_theme(theme).wgpu())
     }
 
+    /// Renders take long: they are looked at by themselves.
+    fn small() -> Desk {
+        let [_, aset, hearts, profile] = Desk::default().panes;
+        Desk { layout: Layout::Two, panes: [aset, hearts, aset, profile], ..Desk::default() }
+    }
+
     fn built(setup: Setup, builder: egui_kittest::HarnessBuilder<Editor>) -> Self {
         let choices: Arc<Mutex<Vec<PathBuf>>> = Arc::default();
         let chosen = Arc::clone(&choices);
         let chooser: Chooser = Arc::new(move |_: &Question| chosen.lock().unwrap().pop());
-        let setup = Setup { chooser, ..setup };
-        let harness = builder.with_size(egui::vec2(1280.0, 800.0)).with_max_steps(20).build_eframe(|context| {
-            Editor::new(context, setup).unwrap()
-        });
+        let desk = if setup.desk == Desk::default() { Self::small() } else { setup.desk.clone() };
+        let setup = Setup { chooser, desk, ..setup };
+        let harness = builder
+            .with_size(egui::vec2(1000.0, 520.0))
+            .with_max_steps(20)
+            .build_eframe(|context| Editor::new(context, setup).unwrap());
         Self { harness, choices }
     }
 
