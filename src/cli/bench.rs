@@ -1,8 +1,9 @@
 //! `bench`: how long the tracers take for the same pictures, on this machine.
 
-use super::sampler::{Sampler, Subject};
+use super::sampler::on_card;
 use super::specimen::Specimen;
 use super::{Failure, json, print};
+use crate::io::export::{Sampler, Subject};
 use crate::optics::{line, strata};
 use crate::picture::by_rays::Manner;
 use crate::picture::{ByBeams, Layer, paint};
@@ -55,7 +56,7 @@ struct Task {
 impl Bench {
     pub fn run(&self) -> Result<(), Failure> {
         let specimen = Specimen::load(Path::new("modern-ideal"))?;
-        let card = Sampler::on_card();
+        let card = on_card();
         let mut tasks = vec![];
         for (size, bounces) in SCOPES {
             tasks.push(in_scope(&specimen, card, size, bounces)?);
@@ -138,7 +139,7 @@ fn in_scope(specimen: &Specimen, card: Sampler, size: u32, bounces: u32) -> Resu
 }
 
 /// Rays on the processor, and on the card where there is one.
-fn samplers(card: Sampler) -> Vec<Sampler> {
+fn samplers(card: Sampler<'_>) -> Vec<Sampler<'_>> {
     if card.name() == Sampler::Rays.name() { vec![card] } else { vec![Sampler::Rays, card] }
 }
 
@@ -182,7 +183,7 @@ fn under_light(specimen: &Specimen, card: Sampler) -> Result<Task, Failure> {
 }
 
 fn exposure<'a>(
-    sampler: Sampler,
+    sampler: Sampler<'a>,
     sitting: &Sitting<'a>,
     #[cfg_attr(not(feature = "gpu"), expect(unused_variables, reason = "the card wants to know"))]
     bands: usize,

@@ -15,68 +15,21 @@ mod sampler;
 mod specimen;
 mod spin;
 
-use crate::io::WriteError;
-use crate::io::lighting::LightingError;
-use crate::trace::Stopped;
+use crate::io::Failure;
+use crate::io::export::Told;
 use clap::{Parser, Subcommand};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-/// Why a command did not do all that was asked; the exit code follows from it.
-#[derive(Debug, thiserror::Error)]
-enum Failure {
-    /// The input is at fault: exit code 1.
-    #[error("{0}")]
-    Input(String),
-    /// The command line asks for what cannot be, whatever the input: exit code 2, as for one that clap refuses.
-    #[error("{0}")]
-    Usage(String),
-    /// The output could not be written: exit code 3.
-    #[error("{0}")]
-    Output(String),
-    /// The graphics card failed: caught, and the work done by the processor.
-    #[cfg(feature = "gpu")]
-    #[error(transparent)]
-    Card(#[from] crate::trace::gpu::GpuError),
-    /// Stopped by the user: exit code 130, as shells have it.
-    #[error("stopped")]
-    Stopped,
-}
-
-impl From<WriteError> for Failure {
-    fn from(error: WriteError) -> Self {
-        match error {
-            WriteError::Stopped(_) => Self::Stopped,
-            error @ WriteError::Io { .. } => Self::Output(error.to_string()),
-        }
-    }
-}
-
-impl From<LightingError> for Failure {
-    fn from(error: LightingError) -> Self {
-        match error {
-            LightingError::Unknown(message) => Self::Usage(message),
-            LightingError::File(message) => Self::Input(message),
-        }
-    }
-}
-
-impl From<Stopped> for Failure {
-    fn from(_: Stopped) -> Self {
-        Self::Stopped
-    }
-}
-
-impl Failure {
-    fn code(&self) -> u8 {
-        match self {
-            Self::Input(_) => 1,
-            Self::Usage(_) => 2,
-            Self::Output(_) => 3,
-            #[cfg(feature = "gpu")]
-            Self::Card(_) => 3,
-            Self::Stopped => 130,
-        }
+/// The exit code that a failure ends the program with.
+fn code(failure: &Failure) -> u8 {
+    match failure {
+        Failure::Input(_) => 1,
+        Failure::Usage(_) => 2,
+        Failure::Output(_) => 3,
+        #[cfg(feature = "gpu")]
+        Failure::Card(_) => 3,
+        Failure::Stopped => 130,
     }
 }
 
@@ -161,7 +114,7 @@ pub fn main(editor: Option<Editor>) -> ExitCode {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) => {
             say(&format!("error: {failure}"));
-            ExitCode::from(failure.code())
+            ExitCode::from(code(&failure))
         }
     }
 }
@@ -188,6 +141,17 @@ fn each_file(files: &[PathBuf], mut work: impl FnMut(&Path) -> Result<(), Failur
 fn say(text: &str) {
     use std::io::Write;
     let _ = writeln!(std::io::stderr().lock(), "{text}");
+}
+
+/// Passes on what long work tells: files to standard output, the rest to the person.
+fn tell(told: Told) -> Result<(), Failure> {
+    match told {
+        Told::Begun(_) => {}
+        Told::Written(path) => return print(&path.display().to_string()),
+        Told::Note(text) => say(&format!("note: {text}")),
+        Told::Warning(text) => say(&format!("warning: {text}")),
+    }
+    Ok(())
 }
 
 /// Prints lines to standard output; a reader that has gone away (`| head`) is no error.

@@ -1,13 +1,12 @@
 //! What several commands take: how to look at a stone, and how to trace it.
 
 use super::Failure;
-use super::sampler::Sampler;
+use super::sampler::{on_card, quickest};
 use super::specimen::Specimen;
+use crate::io::export::{Sampler, Tracer, Viewing};
 use crate::optics::line;
-use crate::scene::{Lean, Medium, Projection, Side, View};
-use crate::trace::{beam, ray};
+use crate::scene::{Lean, Medium, Projection, Side, Viewpoint};
 use clap::{Args, ValueEnum};
-use serde_json::{Value, json};
 
 /// From where the stone is seen.
 #[derive(Debug, Clone, Args)]
@@ -43,14 +42,14 @@ pub enum SideName {
 }
 
 impl ViewOptions {
-    /// The view of a side; `side` wins over the option where a picture is made for one side.
-    pub fn view(&self, side: Option<Side>) -> Result<View, Failure> {
-        let own = if self.side == SideName::Table { Side::Table } else { Side::Culet };
-        let (lean, tilt) =
+    /// The view asked for.
+    pub fn viewpoint(&self) -> Result<Viewpoint, Failure> {
+        let side = if self.side == SideName::Table { Side::Table } else { Side::Culet };
+        let (lean, tilt_deg) =
             if self.eye_tilt == 0.0 { (Lean::Stone, self.tilt) } else { (Lean::Eye, self.eye_tilt) };
-        if !(-90.0..=90.0).contains(&tilt) {
+        if !(-90.0..=90.0).contains(&tilt_deg) {
             return Err(Failure::Usage(format!(
-                "a tilt of {tilt} degrees is not from -90 to 90; use --side to turn over"
+                "a tilt of {tilt_deg} degrees is not from -90 to 90; use --side to turn over"
             )));
         }
         if !self.azimuth.is_finite() {
@@ -65,31 +64,7 @@ impl ViewOptions {
                 )));
             }
         };
-        let azimuth = self.azimuth.rem_euclid(360.0).to_radians();
-        Ok(View { side: side.unwrap_or(own), lean, tilt: tilt.to_radians(), azimuth, projection })
-    }
-
-    /// The view in words, for what goes into pictures.
-    pub fn told(&self, view: &View) -> String {
-        let side = if view.side == Side::Table { "table" } else { "culet" };
-        let tilt = match (self.tilt, self.eye_tilt) {
-            (0.0, 0.0) => String::new(),
-            (tilt, 0.0) => format!(", tilted {tilt} degrees toward {}", self.azimuth),
-            (_, eye) => format!(", eye moved {eye} degrees toward {}", self.azimuth),
-        };
-        let near = self.perspective.map_or(String::new(), |d| format!(", from {d} girdle radii"));
-        format!("{side} side{tilt}{near}")
-    }
-
-    /// The view as figures report it.
-    pub fn json(&self, view: &View) -> Value {
-        json!({
-            "side": if view.side == Side::Table { "table" } else { "culet" },
-            "tilt": self.tilt,
-            "eye_tilt": self.eye_tilt,
-            "azimuth": self.azimuth,
-            "projection": self.perspective.map_or_else(|| json!("orthographic"), |d| json!({ "perspective": d })),
-        })
+        Ok(Viewpoint { side, lean, tilt_deg, azimuth_deg: self.azimuth, projection })
     }
 }
 
@@ -131,46 +106,44 @@ pub enum TracerName {
     Gpu,
 }
 
-/// The tracer chosen for a view.
-#[derive(Clone, Copy)]
-pub enum Tracer {
-    /// Exact beams.
-    Beams,
-    /// Point rays.
-    Rays(Sampler),
-}
-
-/// Where no bound was asked for, this part of the light may stay unresolved without a word.
-const UNASKED: f64 = 1e-3;
-
 impl LightOptions {
-    /// The tracer to use, checked against the view of the stone.
-    pub fn tracer(&self, view: &View, specimen: &Specimen) -> Result<Tracer, Failure> {
-        let polytope = &specimen.stone.polytope;
-        if ray::Camera::new(view, polytope).reach(polytope).is_none() {
-            let message = "the eye of --perspective is not in front of the whole stone; move it farther off";
-            return Err(Failure::Input(format!("{}: {message}", specimen.path)));
-        }
-        let flat = view.projection == Projection::Orthographic;
+    /// How a specimen is looked at.
+    pub fn viewing<'a>(&self, specimen: &'a Specimen, view: &ViewOptions) -> Result<Viewing<'a>, Failure> {
+        let viewpoint = view.viewpoint()?;
+        Ok(Viewing {
+            specimen,
+            file: &specimen.path,
+            viewpoint,
+            medium: self.medium(specimen)?,
+            wavelength_nm: self.index.is_none().then(|| self.wavelength()),
+            head_deg: self.head()?,
+            unresolved: self.unresolved()?,
+            polarised: !self.unpolarised,
+            tracer: self.tracer(&viewpoint)?,
+        })
+    }
+
+    fn tracer(&self, viewpoint: &Viewpoint) -> Result<Tracer<'static>, Failure> {
+        let flat = viewpoint.projection == Projection::Orthographic;
         match self.tracer {
             TracerName::Beam if !flat => Err(Failure::Usage(
                 "exact beams are for parallel rays: leave out --perspective, or use --tracer ray".into(),
             )),
             TracerName::Beam => Ok(Tracer::Beams),
             TracerName::Auto if flat => Ok(Tracer::Beams),
-            TracerName::Auto => Ok(Tracer::Rays(Sampler::quickest())),
+            TracerName::Auto => Ok(Tracer::Rays(quickest())),
             TracerName::Ray => Ok(Tracer::Rays(Sampler::Rays)),
-            TracerName::Gpu => Ok(Tracer::Rays(Sampler::on_card())),
+            TracerName::Gpu => Ok(Tracer::Rays(on_card())),
         }
     }
 
     /// The wavelength chosen, nm.
-    pub fn wavelength(&self) -> f64 {
+    fn wavelength(&self) -> f64 {
         self.wavelength.unwrap_or(line::SODIUM_D)
     }
 
     /// The stone's medium at the wavelength chosen.
-    pub fn medium(&self, specimen: &Specimen) -> Result<Medium, Failure> {
+    fn medium(&self, specimen: &Specimen) -> Result<Medium, Failure> {
         let wavelength = self.wavelength();
         if !(100.0..=100_000.0).contains(&wavelength) {
             return Err(Failure::Usage(format!(
@@ -200,46 +173,20 @@ impl LightOptions {
     }
 
     /// The head's half angle, checked.
-    pub fn head(&self) -> Result<f64, Failure> {
+    fn head(&self) -> Result<f64, Failure> {
         if (0.0..90.0).contains(&self.head) {
             return Ok(self.head);
         }
         Err(Failure::Usage(format!("a head of half angle {} degrees is not from 0 to below 90", self.head)))
     }
 
-    fn bound(&self, default: f64) -> Result<f64, Failure> {
-        let bound = self.unresolved.unwrap_or(default);
-        if bound > 0.0 && bound < 1.0 {
-            return Ok(bound);
+    /// The part of the light that may stay unresolved, checked.
+    fn unresolved(&self) -> Result<Option<f64>, Failure> {
+        match self.unresolved {
+            Some(part) if !(part > 0.0 && part < 1.0) => Err(Failure::Usage(format!(
+                "--unresolved {part}: give a part of the light between 0 and 1, such as 0.001"
+            ))),
+            part => Ok(part),
         }
-        Err(Failure::Usage(format!(
-            "--unresolved {bound}: give a part of the light between 0 and 1, such as 0.001"
-        )))
-    }
-
-    /// For beams, with the bound that the command has where none is given.
-    pub fn beams(&self, default: f64) -> Result<beam::Options, Failure> {
-        let unresolved = self.bound(default)?;
-        Ok(beam::Options { unresolved, polarised: !self.unpolarised, ..beam::Options::default() })
-    }
-
-    /// Warns where beams could not be followed to the bound that was asked for, or to one that nobody would ask for.
-    pub fn warn_of_open(&self, specimen: &Specimen, beams: &beam::Beams, options: &beam::Options) {
-        let open = beams.unresolved();
-        let bound = self.unresolved.unwrap_or(options.unresolved.max(UNASKED));
-        if open > bound {
-            let count = beams.len();
-            specimen.say(&format!(
-                "{:.3} % of the light is unresolved, not {:.3} %: it is still caught inside after {count} beams",
-                100.0 * open,
-                100.0 * bound
-            ));
-        }
-    }
-
-    /// For rays: a ray is given up when no more than the bound is left of it.
-    pub fn rays(&self, default: f64) -> Result<ray::Options, Failure> {
-        let least_weight = self.bound(default)?;
-        Ok(ray::Options { least_weight, polarised: !self.unpolarised, ..ray::Options::default() })
     }
 }

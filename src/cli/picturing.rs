@@ -1,10 +1,11 @@
 //! Stones, light and camera put together, and taking a picture of them.
 
-use super::Failure;
 use super::assembly::Assembly;
 use super::options::TracerName;
 use super::picture_options::PictureOptions;
-use super::sampler::Sampler;
+use super::sampler::{on_card, quickest};
+use super::{Failure, tell};
+use crate::io::export::Sampler;
 use crate::io::lighting::Lighting;
 use crate::io::panorama;
 use crate::optics::strata;
@@ -49,7 +50,7 @@ const LOOKS_OF_RAYS: u32 = 64;
 #[derive(Clone, Copy)]
 enum Tracer {
     Beams,
-    Rays(Sampler),
+    Rays(Sampler<'static>),
 }
 
 /// Everything that a picture is taken of, loaded once.
@@ -139,8 +140,8 @@ impl<'a> Studio<'a> {
             )),
             TracerName::Beam => Ok(Tracer::Beams),
             TracerName::Ray => Ok(Tracer::Rays(Sampler::Rays)),
-            TracerName::Gpu => Ok(Tracer::Rays(Sampler::on_card())),
-            TracerName::Auto => Ok(match Sampler::quickest() {
+            TracerName::Gpu => Ok(Tracer::Rays(on_card())),
+            TracerName::Auto => Ok(match quickest() {
                 Sampler::Rays if beams_apply => Tracer::Beams,
                 sampler => Tracer::Rays(sampler),
             }),
@@ -177,7 +178,7 @@ impl<'a> Studio<'a> {
     ) -> Result<Taken, Failure> {
         self.sit(setting, (view, pixel), |sitting| match self.tracer.get() {
             Tracer::Beams => self.by_beams(sitting, watch),
-            Tracer::Rays(sampler) => sampler.or_rays(|used| {
+            Tracer::Rays(sampler) => sampler.or_rays(&tell, |used| {
                 // A card that has failed is not asked again.
                 self.tracer.set(Tracer::Rays(used));
                 self.by_rays(used, sitting, watch)

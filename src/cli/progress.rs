@@ -1,5 +1,7 @@
 //! Progress bars on long work, and stopping it by Ctrl-C.
 
+use super::{Failure, tell};
+use crate::io::export::Told;
 use indicatif::{ProgressBar, ProgressStyle};
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -36,6 +38,14 @@ impl Progress {
             self.0.set_position((done * 1000.0) as u64);
             if STOP.load(Ordering::Relaxed) { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
         }
+    }
+
+    /// Shows what is being made, and passes other things on past the bar.
+    pub fn tell(&self, told: Told) -> Result<(), Failure> {
+        if let Told::Begun(what) = told {
+            self.0.set_message(what.to_string());
+        }
+        self.0.suspend(|| tell(told))
     }
 }
 

@@ -63,7 +63,8 @@ impl Render {
     }
 
     fn render(&self, file: &Path) -> Result<(), Failure> {
-        let view = self.view.view(None)?;
+        let viewpoint = self.view.viewpoint()?;
+        let view = viewpoint.view();
         let studio = Studio::load(&self.picture, file, &view)?;
         let setting = &studio.assembly.setting;
         let pixel = studio.pixel(setting, &view)?;
@@ -74,7 +75,7 @@ impl Render {
             let progress = Progress::new(&studio.assembly.name);
             studio.take(setting, (&view, pixel), &progress.watch())?
         };
-        let told = format!("{}; {}", taken.told, self.view.told(&view));
+        let told = format!("{}; {}", taken.told, viewpoint.told());
         let (path, _) = self.output(file);
         if path.extension().is_some_and(|e| e.eq_ignore_ascii_case("exr")) {
             if let Some(without) = studio.undeveloped() {

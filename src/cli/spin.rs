@@ -53,7 +53,7 @@ impl Spin {
         if self.out.extension().is_some_and(|e| e.eq_ignore_ascii_case("png")) && !self.out.is_dir() {
             return Err(Failure::Usage("--out: give a folder; the frames go there as well".into()));
         }
-        let first = self.view.view(None)?;
+        let first = self.view.viewpoint()?.view();
         let delay_ms = self.delay_ms()?;
         self.check_swing()?;
         let studio = Studio::load(&self.picture, &self.file, &first)?;

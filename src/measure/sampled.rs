@@ -2,7 +2,9 @@
 
 use super::figures::Figures;
 use crate::math::Polytope;
-use crate::scene::{Film, Medium, Scope, View};
+#[cfg(feature = "gpu")]
+use crate::scene::Film;
+use crate::scene::{Medium, Scope, View};
 #[cfg(feature = "gpu")]
 use crate::trace::gpu::{Gpu, GpuError, Seen, Shot};
 use crate::trace::ray::{Camera, Exit, Options, Rest, Tracer};

@@ -12,6 +12,7 @@ mod setting;
 mod specimen;
 mod stone;
 mod view;
+mod viewpoint;
 
 pub use film::Film;
 pub use layout::Layout;
@@ -25,3 +26,4 @@ pub use setting::{Placed, Setting};
 pub use specimen::{Specimen, SpecimenError};
 pub use stone::Stone;
 pub use view::{Lean, Projection, Side, View};
+pub use viewpoint::Viewpoint;

@@ -13,6 +13,16 @@ pub enum Side {
     Culet,
 }
 
+impl Side {
+    /// What figures and pictures call it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Table => "table",
+            Self::Culet => "culet",
+        }
+    }
+}
+
 /// What moves when a view is tilted.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum Lean {

@@ -1,0 +1,224 @@
+//! A stone as files: pictures, drawings and figures, one after the other.
+
+mod figures;
+mod pictures;
+mod sampler;
+mod told;
+mod viewing;
+
+#[cfg(test)]
+mod tests;
+
+pub use figures::{Measured, measure};
+pub use sampler::{Sampler, Subject};
+pub use told::{Tell, Told};
+pub use viewing::{Tracer, Viewing};
+
+use super::{Failure, WriteError, write};
+use crate::picture::Picture;
+use crate::trace::Watch;
+use pictures::Pictures;
+use std::collections::HashSet;
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use told::Pace;
+
+/// The largest side of an EXR, in pixels: it is held in memory, a dozen channels deep.
+pub const MOST_EXR_PIXELS: u32 = 8192;
+
+/// How long a drawing takes, and the figures, where a picture in a scope takes 1: roughly, for progress.
+const DRAWING: f64 = 0.1;
+const FIGURES: f64 = 1.0;
+
+/// A kind of file.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Format {
+    /// Pictures of energy and of strongest exits, and drawings; sRGB.
+    Png,
+    /// The virtual facets as polygons, and drawings.
+    Svg,
+    /// Energy of each zone, 32-bit and linear.
+    Exr,
+    /// Figures of the view.
+    Json,
+}
+
+impl Format {
+    /// All there are.
+    pub const ALL: [Self; 4] = [Self::Png, Self::Svg, Self::Exr, Self::Json];
+
+    /// How its files end, without the dot.
+    pub fn ending(self) -> &'static str {
+        match self {
+            Self::Png => "png",
+            Self::Svg => "svg",
+            Self::Exr => "exr",
+            Self::Json => "json",
+        }
+    }
+}
+
+/// What is written of a stone, and where to.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Outputs {
+    /// The folder; made if it is missing.
+    pub folder: PathBuf,
+    /// What the files' names begin with.
+    pub stem: String,
+    /// Pictures, each with its name in the files' names.
+    pub pictures: Vec<(String, Picture)>,
+    /// Pixels along each side, from 1 to [`MOST_PIXELS`](super::MOST_PIXELS); for EXR to [`MOST_EXR_PIXELS`].
+    pub size: u32,
+    /// Kinds of file.
+    pub formats: Vec<Format>,
+}
+
+impl Outputs {
+    /// Whether they can be written beside each other.
+    ///
+    /// # Errors
+    /// [`Failure::Usage`] where two would bear one name, or the size is too large.
+    pub fn check(&self) -> Result<(), Failure> {
+        if self.wants(Format::Exr) && self.size > MOST_EXR_PIXELS {
+            let size = self.size;
+            let message = format!("{size} pixels along each side: an EXR may have {MOST_EXR_PIXELS}");
+            return Err(Failure::Usage(message));
+        }
+        match first_twice(std::slice::from_ref(self)) {
+            None => Ok(()),
+            Some((_, twice)) => Err(Failure::Usage(format!(
+                "two outputs would be called '{twice}'; give each picture one name"
+            ))),
+        }
+    }
+
+    /// The names of its files, most without ending: no other output may bear one, in whatever format.
+    fn names(&self) -> impl Iterator<Item = String> + '_ {
+        let stem = &self.stem;
+        let pictured = self.pictures.iter().flat_map(move |(name, picture)| {
+            let strongest = matches!(picture, Picture::Scoped(_)).then(|| format!("{stem}-{name}-strongest"));
+            strongest.into_iter().chain([format!("{stem}-{name}")])
+        });
+        pictured.chain([format!("{stem}-figures.json")])
+    }
+
+    fn path(&self, name: &str, format: Format) -> PathBuf {
+        self.folder.join(format!("{}-{name}.{}", self.stem, format.ending()))
+    }
+
+    fn wants(&self, format: Format) -> bool {
+        self.formats.contains(&format)
+    }
+
+    /// The pictures, if more than figures is wanted.
+    fn drawn(&self) -> impl Iterator<Item = &(String, Picture)> {
+        let draws = self.formats.iter().any(|&f| f != Format::Json);
+        self.pictures.iter().filter(move |_| draws)
+    }
+}
+
+/// The first name that comes twice among the outputs of several stones into one folder: the stone where it comes
+/// again, by its place, and the name.
+pub fn first_twice(stones: &[Outputs]) -> Option<(usize, String)> {
+    let mut seen = HashSet::new();
+    let mut all = stones.iter().enumerate().flat_map(|(k, outputs)| outputs.names().map(move |n| (k, n)));
+    all.find(|(_, name)| !seen.insert(name.clone()))
+}
+
+/// A stone to be written to files.
+#[derive(Clone, Copy)]
+pub struct Export<'a> {
+    /// The stone and how it is looked at.
+    pub viewing: Viewing<'a>,
+    /// What to write.
+    pub outputs: &'a Outputs,
+}
+
+impl Export<'_> {
+    /// The files that [`write`](Self::write) writes, in that order.
+    ///
+    /// # Errors
+    /// What keeps all of them from being written: [`Failure::Input`] where the eye is not in front of the whole
+    /// stone, [`Failure::Usage`] where outputs and tracer do not go together.
+    pub fn files(&self) -> Result<Vec<PathBuf>, Failure> {
+        self.check()?;
+        let outputs = self.outputs;
+        let drawn = outputs.drawn().flat_map(|(name, picture)| self.files_of(name, picture));
+        let figures = outputs.wants(Format::Json).then(|| self.figures_path());
+        Ok(drawn.chain(figures).collect())
+    }
+
+    /// Writes the files, each whole or not at all. `watch` is told the part done of all the work.
+    ///
+    /// # Errors
+    /// Those of [`files`](Self::files), before anything is written; [`Failure::Output`]; what `tell` answers; or
+    /// [`Failure::Stopped`] when `watch` asks to stop. Files told as written stay.
+    pub fn write(&self, watch: Watch, tell: Tell) -> Result<(), Failure> {
+        self.check()?;
+        let outputs = self.outputs;
+        let mut pictures = Pictures::new(self, tell);
+        let measured = if outputs.wants(Format::Json) { FIGURES } else { 0.0 };
+        let mut pace = Pace::new(watch, outputs.drawn().map(|(_, p)| effort(p)).sum::<f64>() + measured);
+        for (name, picture) in outputs.drawn() {
+            pace.step(effort(picture), |watch| pictures.make(name, picture, watch))?;
+        }
+        if outputs.wants(Format::Json) {
+            pace.step(FIGURES, |watch| self.write_figures(watch, tell))?;
+        }
+        // Nothing is left to stop.
+        let _ = watch(1.0);
+        Ok(())
+    }
+
+    fn check(&self) -> Result<(), Failure> {
+        let (viewing, outputs) = (&self.viewing, self.outputs);
+        outputs.check()?;
+        for (name, picture) in outputs.drawn() {
+            let Picture::Scoped(scoped) = picture else { continue };
+            viewing.facing(scoped.side).check()?;
+            if matches!(viewing.tracer, Tracer::Rays(_)) && !outputs.wants(Format::Png) {
+                return Err(Failure::Usage(only_png(name)));
+            }
+        }
+        if outputs.wants(Format::Json) { viewing.check() } else { Ok(()) }
+    }
+
+    /// The files of a picture, in the order in which they are finished.
+    fn files_of(&self, name: &str, picture: &Picture) -> Vec<PathBuf> {
+        use Format::{Exr, Png, Svg};
+        let files: &[(&str, Format)] = match (picture, self.viewing.tracer) {
+            (Picture::Profile | Picture::Diagram, _) => &[("", Svg), ("", Png)],
+            (Picture::Scoped(_), Tracer::Beams) => {
+                &[("", Png), ("-strongest", Png), ("", Exr), ("-strongest", Svg), ("", Svg)]
+            }
+            (Picture::Scoped(_), Tracer::Rays(_)) => &[("", Png), ("-strongest", Png)],
+        };
+        let wanted = files.iter().filter(|(_, format)| self.outputs.wants(*format));
+        wanted.map(|(kind, format)| self.outputs.path(&format!("{name}{kind}"), *format)).collect()
+    }
+
+    fn figures_path(&self) -> PathBuf {
+        self.outputs.path("figures", Format::Json)
+    }
+
+    fn write_figures(&self, watch: Watch, tell: Tell) -> Result<(), Failure> {
+        tell(Told::Begun(&format!("measuring {}", self.viewing.file)))?;
+        let measured = measure(&self.viewing, watch, tell)?;
+        write_text(&self.figures_path(), &format!("{:#}\n", measured.json()), tell)
+    }
+}
+
+/// How long a picture takes, roughly.
+fn effort(picture: &Picture) -> f64 {
+    if matches!(picture, Picture::Scoped(_)) { 1.0 } else { DRAWING }
+}
+
+/// What to say of a picture that only exact beams make.
+fn only_png(name: &str) -> String {
+    format!("{name}: rays make PNG pictures only; SVG and EXR need exact beams")
+}
+
+fn write_text(path: &Path, text: &str, tell: Tell) -> Result<(), Failure> {
+    write(path, |file| file.write_all(text.as_bytes()).map_err(|e| WriteError::io(path, e)))?;
+    tell(Told::Written(path))
+}

@@ -1,0 +1,218 @@
+use super::*;
+use crate::io::{cut_file, library};
+use crate::picture::named;
+use crate::scene::{Lean, Medium, Projection, Side, Specimen, Viewpoint};
+use crate::trace::unwatched;
+use std::collections::BTreeMap;
+use std::ops::ControlFlow;
+use std::sync::Mutex;
+
+fn specimen() -> Specimen {
+    Specimen::new(cut_file::parse(library::cut("tolkowsky").unwrap(), "tolkowsky").unwrap()).unwrap()
+}
+
+fn viewing(specimen: &Specimen) -> Viewing<'_> {
+    Viewing {
+        specimen,
+        file: "mine.toml",
+        viewpoint: Viewpoint::default(),
+        medium: specimen.medium(589.3),
+        wavelength_nm: Some(589.3),
+        head_deg: 10.0,
+        unresolved: Some(0.3),
+        polarised: true,
+        tracer: Tracer::Beams,
+    }
+}
+
+fn outputs(folder: &Path, pictures: &[&str], formats: &[Format]) -> Outputs {
+    let pictures = pictures.iter().map(|&name| (name.to_owned(), named(name).unwrap())).collect();
+    Outputs { folder: folder.into(), stem: "mine".into(), pictures, size: 32, formats: formats.into() }
+}
+
+fn in_perspective(viewing: Viewing<'_>, distance: f64) -> Viewing<'_> {
+    let projection = Projection::Perspective { distance };
+    let viewpoint = Viewpoint { projection, ..viewing.viewpoint };
+    Viewing { viewpoint, tracer: Tracer::Rays(Sampler::Rays), ..viewing }
+}
+
+fn found(folder: &Path) -> BTreeMap<PathBuf, Vec<u8>> {
+    let paths = std::fs::read_dir(folder).into_iter().flatten().map(|entry| entry.unwrap().path());
+    paths.map(|path| (path.clone(), std::fs::read(&path).unwrap())).collect()
+}
+
+/// What is told in writing: files, the rest as text, and the parts done.
+fn written(export: &Export) -> (Vec<PathBuf>, Vec<String>, Vec<f64>) {
+    let (files, texts, parts) = (Mutex::new(vec![]), Mutex::new(vec![]), Mutex::new(vec![]));
+    let watch = |part: f64| {
+        parts.lock().unwrap().push(part);
+        ControlFlow::Continue(())
+    };
+    let tell = |told: Told| {
+        match told {
+            Told::Written(path) => files.lock().unwrap().push(path.to_owned()),
+            Told::Begun(text) | Told::Note(text) | Told::Warning(text) => {
+                texts.lock().unwrap().push(text.to_owned());
+            }
+        }
+        Ok(())
+    };
+    export.write(&watch, &tell).unwrap();
+    (files.into_inner().unwrap(), texts.into_inner().unwrap(), parts.into_inner().unwrap())
+}
+
+#[test]
+fn the_files_are_those_that_are_written_and_told_in_their_order() {
+    let specimen = specimen();
+    let beams = viewing(&specimen);
+    let rays = Viewing { tracer: Tracer::Rays(Sampler::Rays), ..beams };
+    let all = ["profile", "aset", "hearts", "diagram"];
+    let cases = [
+        (beams, &all[..], &Format::ALL[..], 2 + 5 + 5 + 2 + 1),
+        (beams, &all, &[Format::Svg], 1 + 2 + 2 + 1),
+        (beams, &all, &[Format::Exr], 2),
+        (beams, &all, &[Format::Json], 1),
+        (beams, &[], &Format::ALL, 1),
+        (rays, &all, &Format::ALL, 2 + 2 + 2 + 2 + 1),
+        (in_perspective(beams, 9.0), &all[1..2], &[Format::Png], 2),
+    ];
+    for (viewing, pictures, formats, count) in cases {
+        let folder = tempfile::tempdir().unwrap();
+        let outputs = outputs(&folder.path().join("deep/er"), pictures, formats);
+        let export = Export { viewing, outputs: &outputs };
+        let files = export.files().unwrap();
+        assert_eq!((files.len(), found(&outputs.folder).len()), (count, 0));
+        let (told, _, parts) = written(&export);
+        assert_eq!(told, files);
+        let mut sorted = files;
+        sorted.sort();
+        assert_eq!(found(&outputs.folder).into_keys().collect::<Vec<_>>(), sorted);
+        assert!(parts.is_sorted() && parts[0] == 0.0 && parts.last() == Some(&1.0), "{parts:?}");
+    }
+}
+
+#[test]
+fn work_that_is_stopped_leaves_whole_files_only() {
+    let specimen = specimen();
+    let folder = tempfile::tempdir().unwrap();
+    let formats = [Format::Png, Format::Exr, Format::Svg];
+    let whole = outputs(&folder.path().join("whole"), &["aset", "profile", "arrows"], &formats);
+    let export = Export { viewing: viewing(&specimen), outputs: &whole };
+    written(&export);
+    let contents = |outputs: &Outputs| -> Vec<Vec<u8>> {
+        let name = |path: PathBuf| outputs.folder.join(path.file_name().unwrap());
+        let files = export.files().unwrap().into_iter().map(name);
+        files.map_while(|path| std::fs::read(path).ok()).collect()
+    };
+    let complete = contents(&whole);
+    for (stop, least) in [(0.0, 0), (0.3, 1), (0.7, 6), (0.99, 10)] {
+        let part = Outputs { folder: folder.path().join(format!("to {stop}")), ..whole.clone() };
+        let watch = |done: f64| if done >= stop { ControlFlow::Break(()) } else { ControlFlow::Continue(()) };
+        let stopped = Export { outputs: &part, ..export }.write(&watch, &|_| Ok(()));
+        assert!(stopped.is_ok() == (stop > 0.9) || matches!(stopped, Err(Failure::Stopped)), "{stop}");
+        let left = contents(&part);
+        assert!(left.len() >= least && left == complete[..left.len()], "{stop}: {} files", left.len());
+        assert_eq!(found(&part.folder).len(), left.len(), "{stop}: others than the first files");
+    }
+}
+
+#[test]
+fn who_is_told_may_end_the_work() {
+    let specimen = specimen();
+    let folder = tempfile::tempdir().unwrap();
+    let outputs = outputs(folder.path(), &["profile", "diagram"], &[Format::Svg]);
+    let tell = |told: Told| match told {
+        Told::Written(path) => Err(Failure::Output(path.display().to_string())),
+        _ => Ok(()),
+    };
+    let ended = Export { viewing: viewing(&specimen), outputs: &outputs }.write(&unwatched, &tell);
+    assert!(matches!(ended, Err(Failure::Output(path)) if path.ends_with("mine-profile.svg")));
+    assert_eq!(found(folder.path()).len(), 1);
+}
+
+#[test]
+fn what_cannot_be_written_is_refused_before_anything_is() {
+    let specimen = specimen();
+    let folder = tempfile::tempdir().unwrap();
+    let beams = viewing(&specimen);
+    let rays = in_perspective(beams, 9.0);
+    let plain = outputs(folder.path(), &["profile", "aset"], &Format::ALL);
+    let twice = outputs(folder.path(), &["profile", "aset", "aset"], &[Format::Svg]);
+    let cases = [
+        (beams, twice, true, "'mine-aset-strongest'"),
+        (beams, Outputs { size: 9000, ..plain.clone() }, true, "8192"),
+        (Viewing { tracer: Tracer::Beams, ..rays }, plain.clone(), true, "parallel"),
+        (
+            rays,
+            Outputs { formats: vec![Format::Svg], ..plain.clone() },
+            true,
+            "aset: rays make PNG pictures only",
+        ),
+        (in_perspective(beams, 0.2), plain, false, "mine.toml: the eye"),
+    ];
+    for (viewing, outputs, is_usage, says) in cases {
+        let export = Export { viewing, outputs: &outputs };
+        for refused in [export.files().err(), export.write(&unwatched, &|_| Ok(())).err()] {
+            let refused = refused.unwrap();
+            assert!(refused.to_string().contains(says), "{refused}");
+            assert!(if is_usage {
+                matches!(refused, Failure::Usage(_))
+            } else {
+                matches!(refused, Failure::Input(_))
+            });
+        }
+    }
+    assert_eq!(found(folder.path()).len(), 0);
+}
+
+#[test]
+fn names_that_come_twice_among_stones_are_found() {
+    let aset = outputs(Path::new("out"), &["aset"], &[Format::Json]);
+    let other = Outputs { stem: "other".into(), ..aset.clone() };
+    assert_eq!(first_twice(&[aset.clone(), other.clone()]), None);
+    let twice = first_twice(&[aset.clone(), other, aset]);
+    assert_eq!(twice, Some((2, "mine-aset-strongest".into())));
+}
+
+#[test]
+fn notes_and_warnings_say_what_is_not_as_asked() {
+    let specimen = specimen();
+    let folder = tempfile::tempdir().unwrap();
+    let drawn = outputs(folder.path(), &["profile"], &[Format::Exr]);
+    let export = Export { viewing: viewing(&specimen), outputs: &drawn };
+    assert!(export.files().unwrap().is_empty());
+    let (_, texts, _) = written(&export);
+    assert_eq!(texts[1], "profile: a drawing comes as PNG and SVG only");
+    let many = outputs(folder.path(), &["aset"], &Format::ALL[..3]);
+    let (_, texts, _) = written(&Export { viewing: in_perspective(viewing(&specimen), 9.0), outputs: &many });
+    assert_eq!(texts[1], "aset: rays make PNG pictures only; SVG and EXR need exact beams");
+    // Of light that is reflected a thousand times, some is left.
+    let cube = cut_file::parse(include_str!("../../../tests/fixtures/cube.toml"), "cube").unwrap();
+    let cube = Specimen::new(cube).unwrap();
+    let caught = Viewing { medium: Medium::clear(1e3), unresolved: Some(1e-9), ..viewing(&cube) };
+    let pictures = outputs(folder.path(), &["aset"], &[Format::Png]);
+    let (_, texts, _) = written(&Export { viewing: caught, outputs: &pictures });
+    assert!(
+        texts[1].starts_with("mine.toml: ") && texts[1].contains("% of the light is unresolved"),
+        "{texts:?}"
+    );
+}
+
+#[test]
+fn figures_are_written_down_as_they_were_given() {
+    let specimen = specimen();
+    let viewpoint = Viewpoint { tilt_deg: 10.1, azimuth_deg: -30.0, lean: Lean::Eye, ..Viewpoint::default() };
+    let viewing = Viewing { viewpoint, wavelength_nm: None, ..viewing(&specimen) };
+    let json = measure(&viewing, &unwatched, &|_| Ok(())).unwrap().json();
+    let view = r#"{"side":"table","tilt":0.0,"eye_tilt":10.1,"azimuth":-30.0,"projection":"orthographic"}"#;
+    assert_eq!(json["view"].to_string(), view);
+    assert_eq!(
+        (&json["file"], &json["tracer"], &json["wavelength_nm"]),
+        (&"mine.toml".into(), &"beam".into(), &serde_json::Value::Null)
+    );
+    assert!(json["surface"]["head"].is_number() && json.get("standard_error").is_none());
+    let rays = Viewing { viewpoint: viewpoint.facing(Some(Side::Culet)), ..in_perspective(viewing, 9.0) };
+    let json = measure(&rays, &unwatched, &|_| Ok(())).unwrap().json();
+    assert_eq!((&json["tracer"], &json["view"]["side"]), (&"ray".into(), &"culet".into()));
+    assert!(json["standard_error"].is_number());
+}

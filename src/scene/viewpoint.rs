@@ -1,0 +1,100 @@
+//! From where a stone is seen, as people give it and read it: in degrees, as given.
+
+use super::{Lean, Projection, Side, View};
+
+/// A [`View`] in degrees.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Viewpoint {
+    /// The side that faces the eye.
+    pub side: Side,
+    /// What the tilt moves.
+    pub lean: Lean,
+    /// Tilt, degrees, -90 to 90.
+    pub tilt_deg: f64,
+    /// The azimuth, degrees in the stone's frame, toward which the tilt leans.
+    pub azimuth_deg: f64,
+    /// Parallel rays or perspective.
+    pub projection: Projection,
+}
+
+impl Viewpoint {
+    /// The same of another side, where a picture is made for one.
+    pub fn facing(self, side: Option<Side>) -> Self {
+        Self { side: side.unwrap_or(self.side), ..self }
+    }
+
+    /// The view that is traced.
+    pub fn view(&self) -> View {
+        View {
+            side: self.side,
+            lean: self.lean,
+            tilt: self.tilt_deg.to_radians(),
+            azimuth: self.azimuth_deg.rem_euclid(360.0).to_radians(),
+            projection: self.projection,
+        }
+    }
+
+    /// In words, for what goes into pictures.
+    pub fn told(&self) -> String {
+        let (side, tilt, azimuth) = (self.side.name(), self.tilt_deg, self.azimuth_deg);
+        let tilt = match self.lean {
+            _ if tilt == 0.0 => String::new(),
+            Lean::Stone => format!(", tilted {tilt} degrees toward {azimuth}"),
+            Lean::Eye => format!(", eye moved {tilt} degrees toward {azimuth}"),
+        };
+        let near = match self.projection {
+            Projection::Orthographic => String::new(),
+            Projection::Perspective { distance } => format!(", from {distance} girdle radii"),
+        };
+        format!("{side} side{tilt}{near}")
+    }
+}
+
+impl From<View> for Viewpoint {
+    fn from(view: View) -> Self {
+        Self {
+            side: view.side,
+            lean: view.lean,
+            tilt_deg: view.tilt.to_degrees(),
+            azimuth_deg: view.azimuth.to_degrees(),
+            projection: view.projection,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_viewpoint_is_its_view_in_degrees() {
+        let projection = Projection::Perspective { distance: 8.5 };
+        let given =
+            Viewpoint { side: Side::Culet, lean: Lean::Eye, tilt_deg: -20.0, azimuth_deg: -45.0, projection };
+        let view = given.view();
+        assert!((view.tilt + 20_f64.to_radians()).abs() < 1e-15);
+        assert!((view.azimuth - 315_f64.to_radians()).abs() < 1e-15);
+        let back = Viewpoint::from(view);
+        assert!((back.tilt_deg + 20.0).abs() < 1e-12 && (back.azimuth_deg - 315.0).abs() < 1e-12);
+        assert_eq!(Viewpoint { tilt_deg: -20.0, azimuth_deg: -45.0, ..back }, given);
+        assert_eq!(given.facing(Some(Side::Table)).view(), View { side: Side::Table, ..view });
+        assert_eq!(given.facing(None), given);
+    }
+
+    #[test]
+    fn words_say_what_differs_from_face_up() {
+        let up = Viewpoint::default();
+        let far = Projection::Perspective { distance: 8.0 };
+        let tilted = Viewpoint { tilt_deg: 7.5, azimuth_deg: -10.0, ..up };
+        let words = [
+            (up, "table side"),
+            (Viewpoint { azimuth_deg: 30.0, ..up }, "table side"),
+            (tilted, "table side, tilted 7.5 degrees toward -10"),
+            (
+                Viewpoint { lean: Lean::Eye, projection: far, ..tilted }.facing(Some(Side::Culet)),
+                "culet side, eye moved 7.5 degrees toward -10, from 8 girdle radii",
+            ),
+        ];
+        words.iter().for_each(|(viewpoint, told)| assert_eq!(viewpoint.told(), *told));
+    }
+}
