@@ -39,13 +39,17 @@ pub enum Dialog {
 
 impl Dialog {
     /// The export dialog for what is open.
-    pub fn export(editor: &Editor) -> Self {
+    pub fn export(editor: &mut Editor) -> Self {
         Self::Export(Box::new(ExportDialog::new(editor)))
     }
 
-    /// Whether it wants an answer before anything else.
-    pub fn is_modal(&self) -> bool {
-        true
+    /// Whether it stays until it is answered, whatever else is clicked or pressed.
+    fn insists(&self) -> bool {
+        match self {
+            Self::Recover(_) | Self::ChangedOutside => true,
+            Self::Export(export) => export.is_busy(),
+            Self::Unsaved(_) | Self::Keys => false,
+        }
     }
 }
 
@@ -60,9 +64,8 @@ pub fn show(editor: &mut Editor, ctx: &Context) {
         Dialog::Export(export) => is_open = export_dialog::show(editor, ui, export),
         Dialog::Keys => is_open = keys(ui),
     });
-    let is_question = matches!(dialog, Dialog::Recover(_) | Dialog::ChangedOutside);
     let escaped = ctx.input(|i| i.key_pressed(Key::Escape)) || modal.should_close();
-    if is_open && !(escaped && !is_question) {
+    if is_open && !(escaped && !dialog.insists()) {
         // What was asked for meanwhile waits until this one is answered.
         editor.dialog = Some(dialog);
     }

@@ -453,6 +453,22 @@ impl Editor {
         })
     }
 
+    /// What the linked views look at, whatever they show.
+    pub(super) fn linked_shot(&mut self) -> Shot {
+        let (light, eye) = (self.light(), self.desk.eye);
+        Shot {
+            specimen: self.posed(eye.turn),
+            shows: Shows::Render,
+            strongest: self.desk.strongest,
+            view: eye.view(None),
+            film: eye.film([1, 1], 1.0),
+            light,
+            exposure: self.document.work.exposure,
+            head: self.desk.head,
+            overlay: None,
+        }
+    }
+
     fn close(&mut self, ctx: &Context) {
         if !ctx.input(|i| i.viewport().close_requested()) {
             if self.may_close {

@@ -1,18 +1,215 @@
 //! The dialog that writes files.
-use super::editor::Editor;
-use egui::Ui;
-use std::path::PathBuf;
 
+use super::editor::Editor;
+use super::export_job::{Job, Plan, thumbnails};
+use super::files::Purpose;
+use super::shows::Shows;
+use super::theme;
+use crate::io::MOST_PIXELS;
+use crate::io::export::Format;
+use egui::{
+    Color32, ColorImage, DragValue, Grid, ProgressBar, Rect, RichText, ScrollArea, Sense, Stroke, StrokeKind,
+    TextEdit, TextureHandle, Ui, WidgetInfo, pos2, vec2,
+};
+use std::collections::HashMap;
+use std::path::PathBuf;
+use std::sync::mpsc::Receiver;
+
+/// Side of a thumbnail, points.
+const THUMBNAIL: f32 = 88.0;
+
+/// The sizes that are offered, least and most.
+const SIZES: std::ops::RangeInclusive<u32> = 16..=MOST_PIXELS;
+
+/// What is chosen so far.
 pub struct ExportDialog {
-    pub folder: PathBuf,
+    pub(super) folder: PathBuf,
+    plan: Plan,
+    thumbnails: Receiver<(Shows, ColorImage)>,
+    pictures: HashMap<Shows, TextureHandle>,
+    job: Option<Job>,
 }
 
 impl ExportDialog {
-    pub fn new(_editor: &Editor) -> Self {
-        Self { folder: PathBuf::from("out") }
+    /// A dialog for what is open, seen as the linked views see it.
+    pub fn new(editor: &mut Editor) -> Self {
+        let folder =
+            editor.document.path().and_then(|p| p.parent()).map_or_else(PathBuf::new, ToOwned::to_owned);
+        let shot = editor.linked_shot();
+        let stem = editor.document.path().and_then(|p| p.file_stem()).map_or_else(
+            || editor.document.work.design.name.to_lowercase().replace([' ', '/'], "-"),
+            |s| s.to_string_lossy().into_owned(),
+        );
+        let views = vec![Shows::Render, Shows::Aset, Shows::Hearts, Shows::Arrows];
+        let formats = vec![Format::Png];
+        let plan = Plan { shot, views, formats, size: 1024, folder: folder.clone(), stem };
+        let wake = editor.studio.wake();
+        let thumbnails = thumbnails(plan.clone(), move || wake());
+        Self { folder: folder.join("out"), plan, thumbnails, pictures: HashMap::new(), job: None }
+    }
+
+    /// Whether files are being written.
+    pub fn is_busy(&self) -> bool {
+        self.job.as_ref().is_some_and(|job| job.end().is_none())
     }
 }
 
-pub fn show(_editor: &mut Editor, _ui: &mut Ui, _export: &mut ExportDialog) -> bool {
-    false
+/// Draws it; whether it stays open.
+pub fn show(editor: &mut Editor, ui: &mut Ui, export: &mut ExportDialog) -> bool {
+    ui.set_width(560.0);
+    ui.heading("Export");
+    for (shows, image) in export.thumbnails.try_iter() {
+        let texture =
+            ui.ctx().load_texture(format!("thumbnail {shows:?}"), image, egui::TextureOptions::LINEAR);
+        export.pictures.insert(shows, texture);
+    }
+    if let Some(job) = &export.job {
+        return working(ui, job);
+    }
+    views(ui, export);
+    ui.add_space(6.0);
+    settings(editor, ui, export);
+    export.plan.folder = export.folder.clone();
+    let files = export.plan.files();
+    listed(ui, &files);
+    ui.add_space(8.0);
+    let mut stays = true;
+    ui.horizontal(|ui| {
+        let can = files.as_ref().is_ok_and(|f| !f.is_empty());
+        if ui.add_enabled(can, egui::Button::new("Write files")).clicked() {
+            let wake = editor.studio.wake();
+            export.job = Some(Job::begin(export.plan.clone(), move || wake()));
+        }
+        stays = !ui.button("Cancel").clicked();
+    });
+    stays
+}
+
+fn views(ui: &mut Ui, export: &mut ExportDialog) {
+    ui.horizontal_wrapped(|ui| {
+        for shows in Shows::ALL {
+            let mut wanted = export.plan.views.contains(&shows);
+            if thumbnail(ui, shows, wanted, export.pictures.get(&shows)) {
+                wanted = !wanted;
+                export.plan.views.retain(|s| *s != shows);
+                if wanted {
+                    export.plan.views.push(shows);
+                }
+            }
+        }
+    });
+}
+
+/// A small picture that can be chosen; whether it was clicked.
+fn thumbnail(ui: &mut Ui, shows: Shows, wanted: bool, picture: Option<&TextureHandle>) -> bool {
+    let (rect, response) = ui.allocate_exact_size(vec2(THUMBNAIL + 12.0, THUMBNAIL + 30.0), Sense::click());
+    response.widget_info(|| WidgetInfo::selected(egui::Role::CheckBox, true, wanted, shows.name()));
+    let square = Rect::from_min_size(rect.min + vec2(6.0, 6.0), vec2(THUMBNAIL, THUMBNAIL));
+    ui.painter().rect_filled(
+        rect,
+        5.0,
+        if wanted { ui.visuals().selection.bg_fill } else { ui.visuals().faint_bg_color },
+    );
+    ui.painter().rect_filled(square, 3.0, ui.visuals().extreme_bg_color);
+    if let Some(texture) = picture {
+        let [w, h] = texture.size().map(|n| n as f32);
+        let size = vec2(w, h) * (THUMBNAIL / w.max(h));
+        let uv = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
+        ui.painter().image(texture.id(), Rect::from_center_size(square.center(), size), uv, Color32::WHITE);
+    }
+    let font = egui::TextStyle::Small.resolve(ui.style());
+    let at = pos2(rect.center().x, rect.bottom() - 11.0);
+    ui.painter().text(at, egui::Align2::CENTER_CENTER, shows.name(), font, ui.visuals().text_color());
+    let edge = if wanted || response.has_focus() {
+        Stroke::new(1.5, theme::accent(ui.visuals()))
+    } else {
+        Stroke::NONE
+    };
+    ui.painter().rect_stroke(rect, 5.0, edge, StrokeKind::Inside);
+    response.on_hover_text(shows.meaning()).clicked()
+}
+
+fn settings(editor: &mut Editor, ui: &mut Ui, export: &mut ExportDialog) {
+    Grid::new("export").num_columns(2).spacing(vec2(16.0, 6.0)).show(ui, |ui| {
+        ui.label("Formats");
+        ui.horizontal(|ui| {
+            for (format, name, meaning) in [
+                (Format::Png, "PNG", "Pictures; of scopes both energy and strongest exits."),
+                (Format::Svg, "SVG", "Drawings, and every virtual facet of scopes as a polygon."),
+                (Format::Exr, "EXR", "The energy of every zone, linear, in 32 bits."),
+                (Format::Json, "JSON", "The figures of this view."),
+            ] {
+                let mut wanted = export.plan.formats.contains(&format);
+                if ui.checkbox(&mut wanted, name).on_hover_text(meaning).changed() {
+                    export.plan.formats.retain(|f| *f != format);
+                    if wanted {
+                        export.plan.formats.push(format);
+                    }
+                }
+            }
+        });
+        ui.end_row();
+        let label = ui.label("Size");
+        ui.add(DragValue::new(&mut export.plan.size).range(SIZES).speed(8.0).suffix(" pixels"))
+            .labelled_by(label.id);
+        ui.end_row();
+        let label = ui.label("Folder");
+        ui.horizontal(|ui| {
+            let mut text = export.folder.display().to_string();
+            let edit = TextEdit::singleline(&mut text).desired_width(360.0);
+            if ui.add(edit).labelled_by(label.id).changed() {
+                export.folder = PathBuf::from(text);
+            }
+            if ui.button("Choose…").clicked() {
+                editor.choose(Purpose::Folder);
+            }
+        });
+        ui.end_row();
+    });
+}
+
+/// What will be written, and what of it is there already.
+fn listed(ui: &mut Ui, files: &Result<Vec<PathBuf>, String>) {
+    match files {
+        Err(why) => drop(ui.label(RichText::new(why).color(theme::bad(ui.visuals())))),
+        Ok(files) if files.is_empty() => drop(ui.label("Nothing is chosen that these formats can hold.")),
+        Ok(files) => {
+            let there = files.iter().filter(|f| f.exists()).count();
+            let already = if there > 0 {
+                format!("; {there} are there already and will be replaced")
+            } else {
+                String::new()
+            };
+            ui.label(RichText::new(format!("{} files{already}", files.len())).weak());
+            ScrollArea::vertical().max_height(96.0).id_salt("files").show(ui, |ui| {
+                for file in files {
+                    let name =
+                        file.file_name().map_or_else(String::new, |n| n.to_string_lossy().into_owned());
+                    let text = RichText::new(name).small();
+                    ui.label(if file.exists() { text.color(theme::bad(ui.visuals())) } else { text.weak() });
+                }
+            });
+        }
+    }
+}
+
+/// How far it has come, and what is written; whether the dialog stays open.
+fn working(ui: &mut Ui, job: &Job) -> bool {
+    let end = job.end();
+    ui.add(ProgressBar::new(if end.is_some() { 1.0 } else { job.done() }).show_percentage());
+    ScrollArea::vertical().max_height(220.0).stick_to_bottom(true).show(ui, |ui| {
+        job.told().iter().for_each(|line| drop(ui.label(RichText::new(line).small())));
+    });
+    match &end {
+        None => ui.ctx().request_repaint_after(std::time::Duration::from_millis(80)),
+        Some(Ok(())) => drop(ui.label(RichText::new("All files are written.").strong())),
+        Some(Err(why)) => drop(ui.label(RichText::new(why).color(theme::bad(ui.visuals())))),
+    }
+    if end.is_some() {
+        return !ui.button("Close").clicked();
+    }
+    if ui.button("Stop").on_hover_text("What is written stays; nothing is left half written.").clicked() {
+        job.stop();
+    }
+    true
 }

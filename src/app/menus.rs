@@ -144,7 +144,7 @@ pub fn status(editor: &mut Editor, ui: &mut Ui) {
 
 /// Does what keys ask for.
 pub fn keys(editor: &mut Editor, ctx: &Context) {
-    if editor.dialog.as_ref().is_some_and(Dialog::is_modal) {
+    if editor.dialog.is_some() {
         return;
     }
     let typing = ctx.egui_wants_keyboard_input();

@@ -8,6 +8,7 @@ mod dialogs;
 mod document;
 mod editor;
 mod export_dialog;
+mod export_job;
 mod eye;
 mod figures_panel;
 mod files;

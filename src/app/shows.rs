@@ -78,18 +78,24 @@ impl Shows {
         }
     }
 
-    /// The scope that it is seen in, if any.
-    pub fn scoped(self) -> Option<Scoped> {
-        let name = match self {
+    /// What files and the command line call it.
+    pub fn key(self) -> &'static str {
+        match self {
+            Self::Render => "render",
             Self::Aset => "aset",
             Self::AsetWhite => "aset-white",
             Self::Aset40 => "aset-40",
             Self::IdealScope => "ideal-scope",
             Self::Hearts => "hearts",
             Self::Arrows => "arrows",
-            Self::Render | Self::Profile | Self::Diagram => return None,
-        };
-        match named(name) {
+            Self::Profile => "profile",
+            Self::Diagram => "diagram",
+        }
+    }
+
+    /// The scope that it is seen in, if any.
+    pub fn scoped(self) -> Option<Scoped> {
+        match named(self.key()) {
             Some(Picture::Scoped(scoped)) => Some(scoped),
             _ => None,
         }

@@ -8,6 +8,10 @@ mod worker;
 
 pub use order::{Answer, Ask, Grade, Order, Shot, Slot, Taken, Tilts, Which};
 
+pub use pace::Effort;
+pub use take::Camera;
+pub use worker::FINE_RENDER;
+
 use crate::trace::gpu::Gpu;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::mpsc::{Receiver, channel};

@@ -3,7 +3,7 @@
 use super::order::{Shot, Taken};
 use super::pace::Effort;
 use crate::app::shows::Shows;
-use crate::io::rasterize;
+use crate::io::{Failure, rasterize};
 use crate::optics::{Stratum, line, strata};
 use crate::picture::by_rays::{self, Manner};
 use crate::picture::{
@@ -46,6 +46,16 @@ pub enum Trouble {
     Other(String),
 }
 
+impl From<Trouble> for Failure {
+    fn from(trouble: Trouble) -> Self {
+        match trouble {
+            Trouble::Stopped(stopped) => stopped.into(),
+            Trouble::Card(error) => error.into(),
+            Trouble::Other(why) => Self::Input(why),
+        }
+    }
+}
+
 /// Beams that several pictures share.
 #[derive(Default)]
 pub struct Shelf(Vec<(Arc<Specimen>, crate::scene::View, f64, Arc<Beams>)>);
@@ -85,6 +95,7 @@ impl Shelf {
 }
 
 /// What takes pictures.
+#[derive(Default)]
 pub struct Camera {
     /// The card that the window is drawn by, if it computes quicker than the processor.
     pub gpu: Option<Arc<Gpu>>,

@@ -24,9 +24,10 @@ const FINE: f64 = 1e-3;
 const FIGURES: f64 = 1.5e-4;
 const TILTED: f64 = 5e-3;
 
-/// How renders grow: fair, fine, and fine where a card takes them.
+/// How renders grow: fair, and fine where a card takes them.
 const FAIR_RENDER: Growing = Growing { bands: 8, looks: 1, unresolved: 1e-2 };
-const FINE_RENDER: Growing = Growing { bands: 16, looks: 4, unresolved: 2e-3 };
+/// A render as it is exported.
+pub const FINE_RENDER: Growing = Growing { bands: 16, looks: 4, unresolved: 2e-3 };
 const FINE_BY_CARD: Growing = Growing { bands: 16, looks: 64, unresolved: 2e-3 };
 
 /// Takes orders, one after the other.

@@ -1,5 +1,6 @@
 //! The editor as a person works it: by the names of what is on the screen.
 
+mod drag;
 mod flows;
 
 use super::desk::{Desk, Layout};
@@ -30,12 +31,18 @@ impl Bench {
 
     /// The same, with a setup of its own.
     pub fn with(setup: Setup) -> Self {
-        Self::built(setup, Harness::builder())
+        Self::sized(setup, egui::vec2(1000.0, 520.0))
+    }
+
+    /// The same, of another size.
+    pub fn sized(setup: Setup, size: egui::Vec2) -> Self {
+        Self::built(setup, Harness::builder().with_size(size))
     }
 
     /// The same, whose window is drawn.
-    pub fn drawn(theme: egui::Theme) -> Self {
-        Self::built(Setup::default(), Harness::builder().with_theme(theme).wgpu())
+    pub fn drawn(setup: Setup, theme: egui::Theme) -> Self {
+        let builder = Harness::builder().with_size(egui::vec2(1440.0, 900.0)).with_theme(theme);
+        Self::built(setup, builder.wgpu())
     }
 
     /// Renders take long: they are looked at by themselves.

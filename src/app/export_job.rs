@@ -1,0 +1,215 @@
+//! Exporting, on a thread of its own: thumbnails of what can be had, then the files.
+
+use super::shows::Shows;
+use super::studio::{Camera, Effort, FINE_RENDER, Shot};
+use crate::io::export::{Export, Format, Outputs, Told, Tracer, Viewing};
+use crate::io::{Failure, write_rgba_png};
+use crate::optics::line;
+use crate::picture::named;
+use crate::scene::{Film, Projection, Viewpoint};
+use crate::trace::unwatched;
+use egui::ColorImage;
+use std::ops::ControlFlow;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::sync::mpsc::{Receiver, Sender, channel};
+use std::sync::{Arc, Mutex, PoisonError};
+
+/// Side of a thumbnail, pixels.
+const THUMBNAIL: u32 = 176;
+
+/// What a render takes where a picture in a scope takes 1, roughly.
+const RENDER: f64 = 4.0;
+
+/// What is to be written.
+#[derive(Clone)]
+pub struct Plan {
+    /// The stone, its light and the view; its film and what it shows do not count.
+    pub shot: Shot,
+    /// What is shown of it.
+    pub views: Vec<Shows>,
+    /// Kinds of file.
+    pub formats: Vec<Format>,
+    /// Pixels along each side.
+    pub size: u32,
+    /// Where to.
+    pub folder: PathBuf,
+    /// What files' names begin with.
+    pub stem: String,
+}
+
+/// How far it has come.
+#[derive(Default)]
+pub struct Progress {
+    /// Thousandths.
+    done: AtomicU64,
+    stop: AtomicBool,
+    /// Files written, and what was said.
+    told: Mutex<Vec<String>>,
+    end: Mutex<Option<Result<(), String>>>,
+}
+
+/// Work that is going on.
+pub struct Job(Arc<Progress>);
+
+impl Plan {
+    fn outputs(&self) -> Outputs {
+        let picture = |shows: &Shows| Some((shows.key().to_owned(), named(shows.key())?));
+        Outputs {
+            folder: self.folder.clone(),
+            stem: self.stem.clone(),
+            pictures: self.views.iter().filter_map(picture).collect(),
+            size: self.size,
+            formats: self.formats.clone(),
+        }
+    }
+
+    fn viewing(&self) -> Viewing<'_> {
+        let flat = self.shot.view.projection == Projection::Orthographic;
+        Viewing {
+            specimen: &self.shot.specimen,
+            file: &self.stem,
+            viewpoint: Viewpoint::from(self.shot.view),
+            medium: self.shot.specimen.medium(line::SODIUM_D),
+            wavelength_nm: Some(line::SODIUM_D),
+            head_deg: self.shot.head,
+            unresolved: None,
+            polarised: true,
+            tracer: if flat { Tracer::Beams } else { Tracer::Rays(crate::io::export::Sampler::Rays) },
+        }
+    }
+
+    fn render_path(&self) -> Option<PathBuf> {
+        let wanted = self.views.contains(&Shows::Render) && self.formats.contains(&Format::Png);
+        wanted.then(|| self.folder.join(format!("{}-render.png", self.stem)))
+    }
+
+    /// The files that will be written.
+    ///
+    /// # Errors
+    /// What keeps them from being written.
+    pub fn files(&self) -> Result<Vec<PathBuf>, String> {
+        let outputs = self.outputs();
+        let export = Export { viewing: self.viewing(), outputs: &outputs };
+        let mut files = export.files().map_err(|e| e.to_string())?;
+        files.extend(self.render_path());
+        Ok(files)
+    }
+
+    /// The picture of a view at a size, the whole stone in it.
+    fn shot(&self, shows: Shows, size: u32) -> Shot {
+        let reach =
+            self.shot.specimen.stone.polytope.vertices().iter().map(|v| v.length()).fold(0.0, f64::max);
+        let view = crate::scene::View { side: shows.side().unwrap_or(self.shot.view.side), ..self.shot.view };
+        Shot { shows, view, film: Film::reaching(reach, size), ..self.shot.clone() }
+    }
+
+    /// Writes all, one after the other.
+    fn write(&self, progress: &Progress) -> Result<(), Failure> {
+        let render = self.render_path();
+        let outputs = self.outputs();
+        let count = outputs.pictures.len() as f64 + f64::from(u8::from(self.formats.contains(&Format::Json)));
+        let most = if render.is_some() { count / (count + RENDER) } else { 1.0 };
+        let export = Export { viewing: self.viewing(), outputs: &outputs };
+        export.write(&|done| progress.at(done * most), &|told| {
+            progress.hear(&told);
+            Ok(())
+        })?;
+        if let Some(path) = render {
+            self.render(&path, &|done| progress.at(most + done * (1.0 - most)))?;
+            progress.hear(&Told::Written(&path));
+        }
+        Ok(())
+    }
+
+    fn render(&self, path: &Path, watch: crate::trace::Watch) -> Result<(), Failure> {
+        let mut last = None;
+        let effort = Effort { unresolved: FINE_RENDER.unresolved, coarser: 1.0, bands: FINE_RENDER.bands };
+        let shot = self.shot(Shows::Render, self.size);
+        Camera::default().take(&shot, &effort, Some(&FINE_RENDER), watch, &mut |taken| last = Some(taken))?;
+        let Some(taken) = last else { return Err(Failure::Stopped) };
+        let rgba: Vec<u8> = taken.image.pixels.iter().flat_map(|p| p.to_srgba_unmultiplied()).collect();
+        let [width, height] = taken.image.size.map(|n| n as u32);
+        let told = format!(
+            "{}: render; light {}; {}, unresolved {:.2e}",
+            self.shot.specimen.design.name, self.shot.light.light.name, taken.tracer, taken.unresolved
+        );
+        Ok(write_rgba_png(path, &rgba, (width, height), &told)?)
+    }
+}
+
+impl Progress {
+    fn at(&self, done: f64) -> ControlFlow<()> {
+        self.done.store((1000.0 * done) as u64, Ordering::Relaxed);
+        if self.stop.load(Ordering::Relaxed) { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    }
+
+    fn hear(&self, told: &Told) {
+        let text = match told {
+            Told::Begun(_) => return,
+            Told::Written(path) => format!("wrote {}", path.display()),
+            Told::Note(text) | Told::Warning(text) => (*text).to_owned(),
+        };
+        self.told.lock().unwrap_or_else(PoisonError::into_inner).push(text);
+    }
+}
+
+impl Job {
+    /// Begins; `wake` is called when it ends.
+    pub fn begin(plan: Plan, wake: impl Fn() + Send + 'static) -> Self {
+        let progress = Arc::new(Progress::default());
+        let seen = Arc::clone(&progress);
+        std::thread::spawn(move || {
+            let end = plan.write(&seen).map_err(|e| e.to_string());
+            *seen.end.lock().unwrap_or_else(PoisonError::into_inner) = Some(end);
+            wake();
+        });
+        Self(progress)
+    }
+
+    /// The part done, 0 to 1.
+    pub fn done(&self) -> f32 {
+        self.0.done.load(Ordering::Relaxed) as f32 / 1000.0
+    }
+
+    /// Asks it to stop: the file that is being written is left out.
+    pub fn stop(&self) {
+        self.0.stop.store(true, Ordering::Relaxed);
+    }
+
+    /// What was said so far.
+    pub fn told(&self) -> Vec<String> {
+        self.0.told.lock().unwrap_or_else(PoisonError::into_inner).clone()
+    }
+
+    /// How it ended, once it has.
+    pub fn end(&self) -> Option<Result<(), String>> {
+        self.0.end.lock().unwrap_or_else(PoisonError::into_inner).clone()
+    }
+}
+
+/// Small pictures of all views, one after the other.
+pub fn thumbnails(plan: Plan, wake: impl Fn() + Send + 'static) -> Receiver<(Shows, ColorImage)> {
+    let (sender, pictures) = channel();
+    std::thread::spawn(move || {
+        let mut camera = Camera::default();
+        for shows in Shows::ALL.into_iter().filter(|s| *s != Shows::Profile) {
+            if !send(&plan, shows, &mut camera, &sender) {
+                return;
+            }
+            wake();
+        }
+    });
+    pictures
+}
+
+/// Whether anyone still wants it.
+fn send(plan: &Plan, shows: Shows, camera: &mut Camera, sender: &Sender<(Shows, ColorImage)>) -> bool {
+    let effort = Effort { unresolved: 2e-2, coarser: 1.0, bands: 6 };
+    let mut is_wanted = true;
+    // A thumbnail that cannot be had stays empty; exporting tells why.
+    let _ = camera.take(&plan.shot(shows, THUMBNAIL), &effort, None, &unwatched, &mut |taken| {
+        is_wanted &= sender.send((shows, taken.image)).is_ok();
+    });
+    is_wanted
+}

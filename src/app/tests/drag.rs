@@ -1,0 +1,54 @@
+//! How quickly the views follow the hand. Not run with the others: it takes time to take time.
+//! `cargo test --lib drag -- --ignored --nocapture`
+
+use super::*;
+use crate::cut::Crown;
+use crate::scene::Side;
+use glam::DVec2;
+
+/// Changes made, one a frame of a screen of 60 Hz.
+const CHANGES: u32 = 120;
+const FRAME: Duration = Duration::from_micros(16_667);
+
+/// A hand that moves something at 60 Hz: how many pictures a second each pane shows, how old they are when they come, and
+/// how long a frame of the window takes, milliseconds.
+fn drag(name: &str, mut change: impl FnMut(&mut Editor, u32)) {
+    let setup = Setup { desk: Desk { head: 1e-9, ..Desk::default() }, ..Setup::default() };
+    let mut bench = Bench::sized(setup, egui::vec2(1440.0, 900.0));
+    bench.settle();
+    let begun = Instant::now();
+    let (mut frames, mut seen) = (vec![], [0_u32; 3]);
+    let mut last = [const { None }; 3];
+    for k in 0..CHANGES {
+        let due = begun + FRAME * k;
+        std::thread::sleep(due.saturating_duration_since(Instant::now()));
+        change(bench.harness.state_mut(), k);
+        let start = Instant::now();
+        bench.harness.step();
+        frames.push(start.elapsed().as_secs_f64() * 1e3);
+        for (pane, (count, last)) in seen.iter_mut().zip(&mut last).enumerate() {
+            let shot = bench.editor().pictures.get(&(pane, Which::Present)).map(|p| p.shot.clone());
+            *count += u32::from(*last != shot);
+            *last = shot;
+        }
+    }
+    let seconds = begun.elapsed().as_secs_f64();
+    frames.sort_by(f64::total_cmp);
+    let each = seen.map(|n| format!("{:.0}", f64::from(n) / seconds)).join(", ");
+    println!(
+        "{name}: {each} pictures a second in render, ASET, hearts; a frame of the window {:.1} ms, the slowest {:.1} ms",
+        frames[frames.len() / 2],
+        frames[frames.len() - 1]
+    );
+}
+
+#[test]
+#[ignore = "takes time to take time"]
+fn the_views_follow_the_hand() {
+    drag("crown angle", |editor, k| {
+        if let Cut::RoundBrilliant(brilliant) = &mut editor.document.work.design.cut {
+            brilliant.crown = Crown::Angle(33.0 + 0.02 * f64::from(k));
+        }
+    });
+    drag("tilt", |editor, _| editor.desk.eye.drag(Side::Table, DVec2::new(0.004, 0.002)));
+}
