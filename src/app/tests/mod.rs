@@ -58,7 +58,6 @@ impl Bench {
         let desk = if setup.desk == Desk::default() { Self::small() } else { setup.desk.clone() };
         let setup = Setup { chooser, desk, ..setup };
         let harness = builder
-            .with_size(egui::vec2(1000.0, 520.0))
             .with_max_steps(20)
             .build_eframe(|context| Editor::new(context, setup).unwrap());
         Self { harness, choices }
