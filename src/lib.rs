@@ -24,6 +24,8 @@
 //! Frame: right-handed, +z out of the table, z = 0 at the crown-side girdle, girdle radius 1. Lengths in files are
 //! percent of the girdle diameter, angles degrees; inside, girdle radii and radians.
 
+#[cfg(feature = "app")]
+pub mod app;
 #[cfg(feature = "cli")]
 pub mod cli;
 pub mod cut;

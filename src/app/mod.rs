@@ -1,0 +1,3 @@
+//! Floor 6: the editor's window.
+
+pub mod profile_view;
