@@ -8,6 +8,7 @@ use super::document::Document;
 use super::files::{Chooser, Choosing, Purpose, Question, Safe, Watching, by_dialog};
 use super::notes::Notes;
 use super::probe::Probe;
+use super::profile_view::ProfileView;
 use super::shows::Shows;
 use super::studio::{Answer, Ask, Grade, Order, Shot, Slot, Studio, Taken, Tilts, Which};
 use super::{design_panel, dialogs, figures_panel, menus, stage, theme};
@@ -72,6 +73,7 @@ pub struct Editor {
     pub(super) tilts: Option<(Ask, Tilts)>,
     pub(super) compared: Option<Compared>,
     pub(super) probe: Option<Probe>,
+    pub(super) profiles: [ProfileView; 4],
     /// What is said in the line at the bottom while the pointer is over a picture.
     pub(super) told: String,
     pub(super) notes: Notes,
@@ -132,6 +134,7 @@ impl Editor {
             tilts: None,
             compared: None,
             probe: None,
+            profiles: Default::default(),
             told: String::new(),
             notes,
             dialog: None,
@@ -507,7 +510,8 @@ impl Editor {
         dialogs::show(self, &ctx);
         self.document.update();
         self.order(&seen);
-        let gesture = ctx.egui_is_using_pointer() || ctx.egui_wants_keyboard_input();
+        let pulled = self.profiles.iter().any(ProfileView::is_dragging);
+        let gesture = pulled || ctx.egui_is_using_pointer() || ctx.egui_wants_keyboard_input();
         if !gesture {
             self.settle();
         }

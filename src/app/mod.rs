@@ -17,6 +17,7 @@ mod menus;
 mod notes;
 mod pane;
 mod probe;
+mod profile_view;
 mod proportions;
 mod shows;
 mod stage;

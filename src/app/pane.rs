@@ -6,6 +6,7 @@ use super::menus;
 use super::probe::{Found, Probe};
 use super::shows::Shows;
 use super::studio::{Grade, Which};
+use crate::cut::Cut;
 use crate::scene::{ASET_CONE, Backing, Film, Scope, Side, Specimen, View};
 use crate::trace::ray::Camera;
 use egui::{
@@ -32,7 +33,7 @@ pub fn show(editor: &mut Editor, ui: &mut Ui, pane: usize, rect: Rect) -> [u32; 
     header(editor, &mut top, pane);
     let size = [body.width(), body.height()].map(|n| (n * ui.pixels_per_point()).round().max(1.0) as u32);
     match editor.desk.panes[pane].shows {
-        Shows::Profile => profile(editor, ui, body),
+        Shows::Profile => profile(editor, ui, pane, body),
         Shows::Diagram => drawing(editor, ui, pane, body),
         shows => scene(editor, ui, (pane, shows), body, size),
     }
@@ -105,14 +106,17 @@ fn enlarge(editor: &mut Editor, pane: usize) {
     *large = if *large == Some(pane) { None } else { Some(pane) };
 }
 
-fn profile(editor: &mut Editor, ui: &mut Ui, body: Rect) {
-    let stone = Arc::clone(editor.document.specimen());
+fn profile(editor: &mut Editor, ui: &mut Ui, pane: usize, body: Rect) {
+    let specimen = Arc::clone(editor.document.specimen());
     let brilliant = match &mut editor.document.work.design.cut {
-        crate::cut::Cut::RoundBrilliant(brilliant) => Some(brilliant),
-        crate::cut::Cut::Planes(_) => None,
+        Cut::RoundBrilliant(brilliant) => Some(brilliant),
+        Cut::Planes(_) => None,
     };
     ui.painter().rect_filled(body, 4.0, ui.visuals().extreme_bg_color);
-    let _ = (stone, brilliant);
+    let response = editor.profiles[pane].show(ui, body, &specimen.stone, brilliant);
+    if response.double_clicked() {
+        enlarge(editor, pane);
+    }
 }
 
 fn drawing(editor: &mut Editor, ui: &mut Ui, pane: usize, body: Rect) {

@@ -7,9 +7,9 @@
 mod lettering;
 
 pub(super) use lettering::{
-    ACCENT, Align, DIMENSION, Frame, INK, QUIET, REMARK, Type, degrees, percent, shortened, text_frame,
-    text_width,
+    ACCENT, Align, DIMENSION, Frame, INK, QUIET, REMARK, Type, shortened, text_frame, text_width,
 };
+pub(crate) use lettering::{degrees, percent};
 
 use crate::math::{Basis, Facet};
 use crate::scene::Stone;

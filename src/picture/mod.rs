@@ -14,7 +14,7 @@ mod linear;
 mod overlay;
 mod paint;
 mod palette;
-mod profile;
+pub(crate) mod profile;
 mod raster;
 pub mod spectral;
 mod strips;

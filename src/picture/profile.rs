@@ -3,9 +3,11 @@
 //! Lengths are percent of the girdle diameter (of the width, for a stone given by its planes), angles degrees from
 //! the girdle plane, as laboratories print them.
 
-mod brilliant;
+pub(crate) mod brilliant;
 
-use super::drawing::{Align, Aspect, DIMENSION, ROOM_FOR_ARROWS, Sheet, percent, text_width};
+pub(crate) use super::drawing::{degrees, percent};
+
+use super::drawing::{Align, Aspect, DIMENSION, ROOM_FOR_ARROWS, Sheet, text_width};
 use crate::cut::RoundBrilliant;
 use crate::math::{Basis, Facet};
 use crate::scene::Stone;
@@ -44,10 +46,10 @@ pub fn profile(stone: &Stone, title: &str, proportions: Option<&RoundBrilliant>)
 
 /// A length along one of the drawing's axes, in radii, and what is written of it.
 #[derive(Debug, Clone, Copy, PartialEq)]
-struct Span {
-    from: f64,
-    to: f64,
-    percent: f64,
+pub(crate) struct Span {
+    pub from: f64,
+    pub to: f64,
+    pub percent: f64,
 }
 
 impl Span {
@@ -55,24 +57,25 @@ impl Span {
         Self { from, to, percent }
     }
 
-    fn length(&self) -> f64 {
+    pub fn length(&self) -> f64 {
         (self.to - self.from).abs()
     }
 }
 
 /// What every stone has; heights go from their upper to their lower end.
 #[derive(Debug, Clone, Copy)]
-struct Dimensions {
-    width: Span,
-    total: Span,
-    table: Option<Span>,
-    crown: Option<Span>,
-    girdle: Option<Span>,
-    pavilion: Option<Span>,
+pub(crate) struct Dimensions {
+    pub width: Span,
+    pub total: Span,
+    pub table: Option<Span>,
+    pub crown: Option<Span>,
+    pub girdle: Option<Span>,
+    pub pavilion: Option<Span>,
 }
 
 impl Dimensions {
-    fn measured(stone: &Stone, basis: &Basis) -> Self {
+    /// What can be measured on any stone, percent of its width.
+    pub fn measured(stone: &Stone, basis: &Basis) -> Self {
         let polytope = &stone.polytope;
         let (left, right) = extent(polytope.vertices().iter().copied(), basis.right);
         let (low, high) = extent(polytope.vertices().iter().copied(), DVec3::Z);
@@ -124,7 +127,7 @@ fn measured_profile(stone: &Stone, title: &str) -> Document {
 
 /// The side view that shows the stone's width: along x or y where it is next to narrowest that way, else wherever it
 /// is narrowest seen from above, which is square to one of the outline's edges.
-fn across_the_width(stone: &Stone) -> Basis {
+pub(crate) fn across_the_width(stone: &Stone) -> Basis {
     let vertices = stone.polytope.vertices();
     let width = |direction: DVec3| {
         let (low, high) = extent(vertices.iter().copied(), direction);
@@ -140,7 +143,7 @@ fn across_the_width(stone: &Stone) -> Basis {
 }
 
 /// The convex hull of some points, counter-clockwise (Andrew's monotone chain).
-fn hull(mut points: Vec<DVec2>) -> Vec<DVec2> {
+pub(crate) fn hull(mut points: Vec<DVec2>) -> Vec<DVec2> {
     points.sort_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
     let half = |points: &mut dyn Iterator<Item = DVec2>| {
         let mut chain: Vec<DVec2> = vec![];
@@ -293,7 +296,7 @@ impl<'a> Drawing<'a> {
             }
         }
         let highest = self.level(1.0) + LINE;
-        let middles = spread(lines.iter().map(|(a, b)| (a + b) / 2.0).collect(), highest);
+        let middles = spread(lines.iter().map(|(a, b)| (a + b) / 2.0).collect(), highest, LINE);
         let mut right = x;
         for ((name, span), y) in parts.iter().zip(middles) {
             let text = format!("{name} {}", percent(span.percent));
@@ -304,17 +307,17 @@ impl<'a> Drawing<'a> {
     }
 }
 
-/// Moves heights, given from the highest down, so that no two lines of text at them touch and none is above `highest`.
-fn spread(mut heights: Vec<f64>, highest: f64) -> Vec<f64> {
+/// Moves heights, given from the highest down, so that any two are at least `line` apart and none is above `highest`.
+pub(crate) fn spread(mut heights: Vec<f64>, highest: f64, line: f64) -> Vec<f64> {
     // The girdle's is held where it is, as it is the shortest; its neighbours give way.
     let middle = heights.len() / 2;
     for k in (0..middle).rev() {
-        heights[k] = heights[k].min(heights[k + 1] - LINE);
+        heights[k] = heights[k].min(heights[k + 1] - line);
     }
     let mut least = highest;
     for height in &mut heights {
         *height = height.max(least);
-        least = *height + LINE;
+        least = *height + line;
     }
     heights
 }
@@ -411,10 +414,10 @@ mod tests {
 
     #[test]
     fn texts_stand_clear_of_one_another_and_of_what_is_above() {
-        assert_eq!(spread(vec![50.0, 100.0, 200.0], 0.0), [50.0, 100.0, 200.0]);
-        assert_eq!(spread(vec![95.0, 100.0, 105.0], 0.0), [80.0, 100.0, 120.0]);
-        assert_eq!(spread(vec![95.0, 100.0, 105.0], 90.0), [90.0, 110.0, 130.0]);
-        assert_eq!(spread(vec![5.0], 0.0), [5.0]);
+        assert_eq!(spread(vec![50.0, 100.0, 200.0], 0.0, 20.0), [50.0, 100.0, 200.0]);
+        assert_eq!(spread(vec![95.0, 100.0, 105.0], 0.0, 20.0), [80.0, 100.0, 120.0]);
+        assert_eq!(spread(vec![95.0, 100.0, 105.0], 90.0, 20.0), [90.0, 110.0, 130.0]);
+        assert_eq!(spread(vec![5.0], 0.0, 20.0), [5.0]);
     }
 
     #[test]

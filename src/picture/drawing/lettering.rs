@@ -90,12 +90,12 @@ pub(in crate::picture) fn rounded(value: f64) -> String {
 }
 
 /// Percent as they are written.
-pub(in crate::picture) fn percent(value: f64) -> String {
+pub(crate) fn percent(value: f64) -> String {
     format!("{} %", rounded(value))
 }
 
 /// Degrees as they are written.
-pub(in crate::picture) fn degrees(value: f64) -> String {
+pub(crate) fn degrees(value: f64) -> String {
     format!("{}°", rounded(value))
 }
 

@@ -3,8 +3,8 @@
 //! Star and lower half are measured in plan, at 22.5 degrees from the drawing's plane, where the projection shortens
 //! the part and the whole alike.
 
-use super::super::drawing::{Align, DIMENSION, degrees, percent};
-use super::{BESIDE, Dimensions, Drawing, GAP, LINE, Overflow, Span};
+use super::super::drawing::{Align, DIMENSION};
+use super::{BESIDE, Dimensions, Drawing, GAP, LINE, Overflow, Span, degrees, percent};
 use crate::cut::{Derived, RoundBrilliant};
 use crate::math::Basis;
 use crate::scene::Stone;
@@ -20,7 +20,7 @@ const NARROW: f64 = 20.0;
 const TOO_NARROW: f64 = 11.0;
 
 /// The bezels at azimuth 0 and 180 degrees edge on, so that crown and pavilion angle are seen in their true size.
-const BRILLIANT_BASIS: Basis = Basis { right: DVec3::X, up: DVec3::Z, toward: DVec3::NEG_Y };
+pub(crate) const BRILLIANT_BASIS: Basis = Basis { right: DVec3::X, up: DVec3::Z, toward: DVec3::NEG_Y };
 
 /// Draws the profile of a round brilliant.
 pub(super) fn draw(stone: &Stone, title: &str, given: &RoundBrilliant, derived: &Derived) -> Document {
@@ -49,8 +49,28 @@ pub(super) fn draw(stone: &Stone, title: &str, given: &RoundBrilliant, derived: 
     drawing.sheet.document(title, subtitle, &remarks)
 }
 
+/// Where a star begins at the table and ends, on the right of the profile, radii.
+pub(crate) fn star_ends(given: &RoundBrilliant, derived: &Derived) -> [DVec2; 2] {
+    let cos = FRAC_PI_8.cos();
+    let edge = given.table / 100.0 * cos;
+    let tip = edge + given.star_length / 100.0 * (1.0 - edge);
+    let tip_height = derived.crown_angle.to_radians().tan() * (1.0 - tip * cos);
+    [DVec2::new(edge * cos, derived.crown_height / 50.0), DVec2::new(tip * cos, tip_height)]
+}
+
+/// Where a lower half ends, or a culet cuts it off, and begins at the girdle, on the right of the profile, radii.
+pub(crate) fn lower_half_ends(given: &RoundBrilliant, derived: &Derived) -> [DVec2; 2] {
+    let cos = FRAC_PI_8.cos();
+    let tip = (1.0 - derived.lower_half_length / 100.0) * cos;
+    let girdle = -given.girdle_thickness / 50.0;
+    let tip_height = girdle - derived.pavilion_angle.to_radians().tan() * (1.0 - tip * cos);
+    let lowest = (derived.crown_height - derived.total_depth) / 50.0;
+    [DVec2::new(tip, tip_height.max(lowest)), DVec2::new(cos, girdle)]
+}
+
 impl Dimensions {
-    fn of_brilliant(given: &RoundBrilliant, derived: &Derived) -> Self {
+    /// A round brilliant's, as given and derived, percent of the girdle diameter.
+    pub(crate) fn of_brilliant(given: &RoundBrilliant, derived: &Derived) -> Self {
         let (crown, girdle) = (derived.crown_height / 50.0, given.girdle_thickness / 50.0);
         let culet = crown - derived.total_depth / 50.0;
         let table = given.table / 100.0;
@@ -69,22 +89,14 @@ impl Dimensions {
 impl Drawing<'_> {
     /// The star's length in plan, over the right half of the crown.
     fn star(&mut self, given: &RoundBrilliant, derived: &Derived) {
-        let cos = FRAC_PI_8.cos();
-        let edge = given.table / 100.0 * cos;
-        let tip = edge + given.star_length / 100.0 * (1.0 - edge);
-        let tip_height = derived.crown_angle.to_radians().tan() * (1.0 - tip * cos);
-        let ends = [self.at(edge * cos, self.dimensions.total.from), self.at(tip * cos, tip_height)];
+        let ends = star_ends(given, derived).map(|end| self.at(end.x, end.y));
         let text = format!("star {}", percent(given.star_length));
         self.across(self.level(1.0), ends, Overflow::Right, &text);
     }
 
     /// The lower half's length in plan, under the right half of the pavilion.
     fn lower_half(&mut self, given: &RoundBrilliant, derived: &Derived) {
-        let cos = FRAC_PI_8.cos();
-        let tip = (1.0 - derived.lower_half_length / 100.0) * cos;
-        let girdle = -given.girdle_thickness / 50.0;
-        let tip_height = girdle - derived.pavilion_angle.to_radians().tan() * (1.0 - tip * cos);
-        let ends = [self.at(tip, tip_height.max(self.dimensions.total.to)), self.at(cos, girdle)];
+        let ends = lower_half_ends(given, derived).map(|end| self.at(end.x, end.y));
         let text = format!("lower half {}", percent(derived.lower_half_length));
         self.across(self.level(-2.0), ends, Overflow::Left, &text);
     }

@@ -1,0 +1,197 @@
+//! The stone from the side, with its dimensions on it: a drawing that can be pulled into shape.
+//!
+//! A round brilliant has handles. Each changes one proportion, by pointer or arrow keys, in steps of a tenth (with
+//! Shift a hundredth) of a percent or degree; of a pair, as crown angle and height, the one that the proportions hold
+//! is still the one held. While a handle is in hand the drawing keeps its size, so that the handle stays under the
+//! pointer; when it is let go the drawing is fitted anew.
+
+mod body;
+mod frame;
+mod grab;
+mod grips;
+mod handle;
+mod ink;
+mod plan;
+mod quantity;
+mod sheet;
+mod sight;
+#[cfg(test)]
+mod tests;
+
+use crate::cut::RoundBrilliant;
+use crate::scene::Stone;
+use egui::accesskit::Role;
+use egui::{CursorIcon, Key, PointerButton, Rect, RectAlign, Response, Sense, Tooltip, Ui, WidgetInfo};
+use frame::{Frame, Measured, Offered};
+use grab::Grab;
+use grips::Grip;
+use handle::Handle;
+use quantity::Quantity;
+use sheet::Label;
+use sight::Extent;
+
+/// How many times shorter than other animations the time is in which most of a new fit is done.
+const QUICKER: f32 = 2.5;
+
+/// The drawing's state from one frame to the next.
+#[derive(Debug, Default)]
+pub struct ProfileView {
+    grab: Option<Grab>,
+    shown: Option<Extent>,
+}
+
+impl ProfileView {
+    /// Draws `stone` within `rect` and lets its proportions, where it is a round brilliant, be pulled.
+    ///
+    /// Whoever calls builds the stone anew when the response says that it [`changed`](Response::changed). One drawing
+    /// to a [`Ui`]: its state goes by that one's identity. Without `proportions`, or with such as cannot be, what can
+    /// be measured is written and nothing can be pulled.
+    pub fn show(
+        &mut self,
+        ui: &mut Ui,
+        rect: Rect,
+        stone: &Stone,
+        proportions: Option<&mut RoundBrilliant>,
+    ) -> Response {
+        let id = ui.make_persistent_id("profile");
+        let mut response = ui.interact(rect, id, Sense::hover());
+        response.widget_info(|| WidgetInfo::labeled(Role::Image, ui.is_enabled(), "Profile of the stone"));
+        let measured = Measured::new(stone, proportions.as_deref());
+        let extent = self.extent(ui, &measured);
+        let frame = Frame::new(ui, id, rect, &measured, extent);
+        let offered = frame.offer(ui);
+        let labels = frame.paint(ui, &offered, self.active(&offered));
+        let Some(given) = proportions.filter(|_| measured.brilliant.is_some()) else {
+            self.grab = None;
+            return response;
+        };
+        let new = self.edited(ui, &frame, &offered, *given);
+        frame.tell(ui, &offered, &new);
+        self.guide(ui, &measured, &offered, &labels);
+        if new != *given {
+            *given = new;
+            response.mark_changed();
+            ui.ctx().request_repaint();
+        }
+        response
+    }
+
+    /// Whether a handle is in hand: what changes until it is let go is one gesture.
+    pub fn is_dragging(&self) -> bool {
+        self.grab.is_some()
+    }
+
+    /// The part of the profile to show: as it was while something is in hand, else on its way to what fits.
+    fn extent(&mut self, ui: &Ui, measured: &Measured<'_>) -> Extent {
+        let fitting = measured.extent();
+        let shown = match (&self.grab, &measured.brilliant) {
+            (Some(grab), Some((given, _))) => grab.shown(given),
+            _ => {
+                let time = (ui.style().animation_time / QUICKER).max(f32::MIN_POSITIVE);
+                let part = 1.0 - (-ui.input(|i| i.stable_dt) / time).exp();
+                self.shown.unwrap_or(fitting).toward(fitting, f64::from(part))
+            }
+        };
+        if shown != fitting && self.grab.is_none() {
+            ui.ctx().request_repaint();
+        }
+        *self.shown.insert(shown)
+    }
+
+    /// The handle in hand, else pointed at, else of the keyboard.
+    fn active(&self, offered: &[Offered]) -> Option<Handle> {
+        let find = |is: fn(&Offered) -> bool| offered.iter().find(|o| is(o)).map(|o| o.grip.handle);
+        let held = self.grab.as_ref().map(Grab::handle);
+        held.or_else(|| find(Offered::is_pointed_at)).or_else(|| find(|o| o.response.has_focus()))
+    }
+
+    /// What pointer and keys make of the proportions.
+    fn edited(
+        &mut self,
+        ui: &Ui,
+        frame: &Frame<'_>,
+        offered: &[Offered],
+        given: RoundBrilliant,
+    ) -> RoundBrilliant {
+        let first = offered.iter().filter(|o| !o.grip.mirrored);
+        let keyed = first.fold(given, |given, o| o.grip.keyed(ui, &o.response, &given));
+        for o in offered.iter().filter(|o| o.response.drag_started_by(PointerButton::Primary)) {
+            self.take(ui, frame, o, keyed);
+        }
+        self.pulled(ui, frame, offered).unwrap_or(keyed)
+    }
+
+    fn take(&mut self, ui: &Ui, frame: &Frame<'_>, offered: &Offered, given: RoundBrilliant) {
+        let Offered { grip, response } = offered;
+        let pressed = ui.input(|i| i.pointer.press_origin()).or(response.interact_pointer_pos());
+        self.grab = self
+            .shown
+            .map(|shown| Grab::new(grip.handle, grip.mirrored, given, shown, pressed.unwrap_or(grip.at)));
+        // So that arrow keys can finish what the hand began.
+        let first = Grip { mirrored: false, ..*grip };
+        ui.memory_mut(|m| m.request_focus(first.id(frame.id)));
+    }
+
+    /// What the handle in hand makes of the proportions; Escape puts it back.
+    fn pulled(&mut self, ui: &Ui, frame: &Frame<'_>, offered: &[Offered]) -> Option<RoundBrilliant> {
+        let mut grab = self.grab.take()?;
+        if ui.input(|i| i.key_pressed(Key::Escape)) {
+            return Some(grab.start);
+        }
+        let held = offered.iter().any(|o| o.response.dragged());
+        // What was let go while the drawing was not shown has no say any more.
+        if !held && !offered.iter().any(|o| o.response.drag_stopped()) {
+            return None;
+        }
+        let (pointer, fine) = ui.input(|i| (i.pointer.interact_pos(), i.modifiers.shift));
+        if let Some(to) = pointer {
+            grab.follow(to, fine);
+        }
+        let new = grab.proportions(&frame.sight);
+        self.grab = held.then_some(grab);
+        Some(new)
+    }
+
+    /// The pointer's look, and a hint beside the handle that it is over. What the drawing shows of a handle in hand or of
+    /// the keyboard is enough; where there is no room for it the hint does it.
+    fn guide(&self, ui: &Ui, measured: &Measured<'_>, offered: &[Offered], labels: &[Label]) {
+        let Some((given, derived)) = &measured.brilliant else { return };
+        for o in offered {
+            let held = self.grab.as_ref().filter(|_| o.response.dragged());
+            if o.is_pointed_at() {
+                ui.ctx().set_cursor_icon(cursor(o.grip.handle, held));
+            }
+            let handle = held.map_or(o.grip.handle, Grab::handle);
+            let quantity = handle.quantity();
+            let value = format!("{} {}", quantity.name(), quantity.written(quantity.of(given, derived)));
+            let is_shown = labels.iter().any(|label| label.about == Some(quantity));
+            if held.is_some() || (o.response.has_focus() && !o.is_pointed_at()) {
+                if !is_shown {
+                    hint(Tooltip::for_widget(&o.response), handle, &value, None);
+                }
+            } else if o.is_pointed_at() {
+                hint(Tooltip::for_enabled(&o.response), handle, &value, Some(handle.hint()));
+            }
+        }
+    }
+}
+
+fn cursor(handle: Handle, held: Option<&Grab>) -> CursorIcon {
+    match held {
+        Some(grab) if !grab.is_undecided() => grab.handle().cursor(),
+        _ if handle == Handle::PavilionDepth => CursorIcon::Move,
+        _ => handle.cursor(),
+    }
+}
+
+fn hint(mut tooltip: Tooltip<'_>, handle: Handle, value: &str, how: Option<&str>) {
+    // Over the stone, where no numbers are.
+    let below = matches!(handle.quantity(), Quantity::Table | Quantity::CrownHeight | Quantity::CrownAngle);
+    tooltip.popup = tooltip.popup.align(if below { RectAlign::BOTTOM } else { RectAlign::TOP });
+    tooltip.gap(8.0).show(|ui| {
+        ui.label(value);
+        if let Some(how) = how {
+            ui.weak(format!("{how} · Shift: finer"));
+        }
+    });
+}

@@ -1,0 +1,100 @@
+//! The stone itself, from the side.
+
+use super::ink::Inks;
+use super::sight::Sight;
+use crate::math::{Basis, Facet};
+use crate::picture::profile::hull;
+use crate::scene::Stone;
+use egui::{Color32, Mesh, Painter, Pos2, Shape, Stroke};
+
+/// A facet whose normal leans less than this toward the eye is seen edge on: rounding of a unit normal.
+const EDGE_ON: f64 = 1e-9;
+/// Widths of lines, points.
+const OUTLINE: f32 = 1.8;
+const EDGE: f32 = 0.9;
+const GIRDLE: f32 = 0.5;
+
+/// The stone as it is seen from one side.
+pub struct Body<'a> {
+    stone: &'a Stone,
+    basis: Basis,
+    sight: &'a Sight,
+}
+
+impl<'a> Body<'a> {
+    /// Of a stone that lies in the profile's plane as `basis` says.
+    pub fn new(stone: &'a Stone, basis: Basis, sight: &'a Sight) -> Self {
+        Self { stone, basis, sight }
+    }
+
+    /// The corners of the stone's outline, on the screen, in order.
+    pub fn outline(&self) -> Vec<Pos2> {
+        let corners = self.stone.polytope.vertices().iter().map(|&v| self.basis.project(v));
+        hull(corners.collect()).into_iter().map(|p| self.sight.at(p)).collect()
+    }
+
+    /// Paints facets, edges in sight and the outline.
+    pub fn paint(&self, painter: &Painter, inks: &Inks, outline: &[Pos2]) {
+        let corners: Vec<Pos2> =
+            self.stone.polytope.vertices().iter().map(|&v| self.sight.at(self.basis.project(v))).collect();
+        painter.add(self.faces(&corners, inks));
+        painter.extend(self.edges(&corners, inks));
+        painter.extend(rounded_line(outline, Stroke::new(OUTLINE, inks.outline)));
+    }
+
+    /// Facets as bare triangles: softened borders of slivers would stick out as long spikes, and lines cover these.
+    fn faces(&self, corners: &[Pos2], inks: &Inks) -> Mesh {
+        let mut mesh = Mesh::default();
+        for facet in self.stone.polytope.facets().iter().filter(|facet| self.shows(facet)) {
+            let (first, shade) = (mesh.vertices.len() as u32, self.shade(facet, inks));
+            facet.outline.iter().for_each(|&v| mesh.colored_vertex(corners[v as usize], shade));
+            for k in 1..facet.outline.len() as u32 - 1 {
+                mesh.add_triangle(first, first + k, first + k + 1);
+            }
+        }
+        mesh
+    }
+
+    /// Each edge in sight once, but for those of the outline.
+    fn edges(&self, corners: &[Pos2], inks: &Inks) -> Vec<Shape> {
+        let facets = self.stone.polytope.facets();
+        let mut edges = vec![];
+        for (id, facet) in facets.iter().enumerate().filter(|(_, facet)| self.shows(facet)) {
+            for (k, &other) in facet.neighbours.iter().enumerate().filter(|&(_, &other)| other > id as u32) {
+                let beyond = &facets[other as usize];
+                if self.shows(beyond) {
+                    let end = facet.outline[(k + 1) % facet.outline.len()];
+                    let ends = [facet.outline[k], end].map(|v| corners[v as usize]);
+                    edges.push(Shape::line_segment(ends, stroke(facet, beyond, inks)));
+                }
+            }
+        }
+        edges
+    }
+
+    fn shows(&self, facet: &Facet) -> bool {
+        facet.plane.normal.dot(self.basis.toward) > EDGE_ON
+    }
+
+    fn shade(&self, facet: &Facet, inks: &Inks) -> Color32 {
+        let facing = facet.plane.normal.dot(self.basis.toward).clamp(0.0, 1.0);
+        inks.faces[1].lerp_to_gamma(inks.faces[0], facing as f32)
+    }
+}
+
+/// A closed line with round corners: joined ones would stick out at a knife edge.
+fn rounded_line(corners: &[Pos2], stroke: Stroke) -> Vec<Shape> {
+    let ends = corners.iter().zip(corners.iter().cycle().skip(1));
+    let lines = ends.map(|(&a, &b)| Shape::line_segment([a, b], stroke));
+    let corners = corners.iter().map(|&p| Shape::circle_filled(p, stroke.width / 2.0, stroke.color));
+    lines.chain(corners).collect()
+}
+
+fn stroke(facet: &Facet, beyond: &Facet, inks: &Inks) -> Stroke {
+    let upright = |facet: &Facet| facet.plane.normal.z.abs() < EDGE_ON;
+    if upright(facet) && upright(beyond) {
+        Stroke::new(GIRDLE, inks.girdle)
+    } else {
+        Stroke::new(EDGE, inks.edge)
+    }
+}

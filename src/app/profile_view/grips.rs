@@ -1,0 +1,158 @@
+//! Handles on the screen: where they can be taken, by pointer and by keyboard, and how they look.
+
+use super::handle::Handle;
+use super::ink::Inks;
+use super::quantity::Grid;
+use super::sight::Sight;
+use crate::cut::{Derived, RoundBrilliant};
+use egui::accesskit::{Action, ActionData};
+use egui::{
+    EventFilter, Id, Key, Modifiers, Painter, Pos2, Rect, Response, Sense, Stroke, Ui, Vec2, WidgetInfo,
+};
+use glam::DVec2;
+
+/// Half the width of the square that takes the pointer, where there is room, points; the window's own tolerance comes
+/// on top.
+const REACH: f32 = 6.0;
+/// The same where handles lie close together.
+const LEAST_REACH: f32 = 1.5;
+/// Radii of a disc at rest, and of one that the pointer is over, points.
+const AT_REST: f32 = 3.5;
+const GROWN: f32 = 6.0;
+/// How strong its rim is while the pointer is elsewhere.
+const RESTING: f32 = 0.65;
+
+/// A handle on the screen.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Grip {
+    /// What it is a handle of.
+    pub handle: Handle,
+    /// Whether it is a second one, on the stone's other side.
+    pub mirrored: bool,
+    /// Its middle.
+    pub at: Pos2,
+    /// Half the width of the square that takes the pointer, points; 0 where only the keyboard reaches it.
+    pub reach: f32,
+}
+
+/// A round brilliant's handles. The table has one at either end; tip and culet are one to the pointer.
+pub fn grips(given: &RoundBrilliant, derived: &Derived, sight: &Sight) -> Vec<Grip> {
+    let mirror = DVec2::new(-1.0, 1.0);
+    let place = |handle: Handle| handle.at(given, derived);
+    let all = Handle::ALL.into_iter().map(|handle| (handle, false, place(handle)));
+    let left = (Handle::TableEdge, true, place(Handle::TableEdge) * mirror);
+    let grip =
+        |(handle, mirrored, p): (Handle, bool, DVec2)| Grip { handle, mirrored, at: sight.at(p), reach: 0.0 };
+    let mut grips: Vec<Grip> = all.chain([left]).map(grip).collect();
+    for k in 0..grips.len() {
+        grips[k].reach = reach(&grips, k);
+    }
+    grips
+}
+
+/// Squares do not overlap, so that the nearest one takes the pointer.
+fn reach(grips: &[Grip], k: usize) -> f32 {
+    let for_keys = |grip: &Grip| grip.handle == Handle::Culet;
+    if for_keys(&grips[k]) {
+        return 0.0;
+    }
+    let others = grips.iter().enumerate().filter(|&(other, grip)| other != k && !for_keys(grip));
+    let nearest = others.map(|(_, grip)| (grip.at - grips[k].at).abs().max_elem()).fold(f32::MAX, f32::min);
+    (nearest / 2.0).clamp(LEAST_REACH, REACH)
+}
+
+impl Grip {
+    /// The square that takes the pointer.
+    pub fn square(&self) -> Rect {
+        Rect::from_center_size(self.at, Vec2::splat(2.0 * self.reach.max(LEAST_REACH)))
+    }
+
+    /// Its identity within the drawing's.
+    pub fn id(&self, drawing: Id) -> Id {
+        drawing.with((self.handle.name(), self.mirrored))
+    }
+
+    /// Offers it to the pointer and, but for a second one, to the keyboard.
+    pub fn offer(&self, ui: &Ui, drawing: Id) -> Response {
+        let sense = match (self.mirrored, self.reach > 0.0) {
+            (true, _) => Sense::DRAG,
+            (false, true) => Sense::drag(),
+            (false, false) => Sense::focusable_noninteractive(),
+        };
+        ui.interact(self.square(), self.id(drawing), sense)
+    }
+
+    /// What keys and screen readers make of the stone.
+    pub fn keyed(&self, ui: &Ui, response: &Response, given: &RoundBrilliant) -> RoundBrilliant {
+        let quantity = self.handle.quantity();
+        // Shift first: keys without a modifier are also found where there is one.
+        let steps = [(Grid::FINE, Modifiers::SHIFT), (Grid::COARSE, Modifiers::NONE)]
+            .map(|(grid, modifiers)| (grid, self.key_steps(ui, response, modifiers)));
+        let asked = (Grid::COARSE, asked_steps(ui, response.id));
+        let stepped = steps.into_iter().chain([asked]).filter(|&(_, steps)| steps != 0);
+        let stepped = stepped.fold(*given, |given, (grid, steps)| quantity.stepped(&given, steps, grid));
+        match asked_for(ui, response.id) {
+            Some(value) => quantity.toward(&stepped, value, Grid::FINE),
+            None => stepped,
+        }
+    }
+
+    /// Arrows move the handle the way they point; left and right lower and raise its value.
+    fn key_steps(&self, ui: &Ui, response: &Response, modifiers: Modifiers) -> i32 {
+        if !response.has_focus() {
+            return 0;
+        }
+        let arrows = EventFilter { horizontal_arrows: true, vertical_arrows: true, ..EventFilter::default() };
+        ui.memory_mut(|m| m.set_focus_lock_filter(response.id, arrows));
+        let (across, up) = ui.input_mut(|i| {
+            let mut presses = |key| i.count_and_consume_key(modifiers, key) as i32;
+            let across = presses(Key::ArrowRight) - presses(Key::ArrowLeft);
+            (across, presses(Key::ArrowUp) - presses(Key::ArrowDown))
+        });
+        across + if self.handle.grows_downward() { -up } else { up }
+    }
+
+    /// Tells screen readers its name and value.
+    pub fn tell(&self, ui: &Ui, response: &Response, value: f64) {
+        let label = format!("{}, {}", self.handle.name(), self.handle.quantity().unit());
+        response.widget_info(|| WidgetInfo::slider(ui.is_enabled(), value, &label));
+        ui.ctx().accesskit_node_builder(response.id, |node| {
+            node.set_numeric_value_step(Grid::COARSE.step());
+            for action in [Action::Increment, Action::Decrement, Action::SetValue] {
+                node.add_action(action);
+            }
+        });
+    }
+
+    /// Paints its disc: stronger the nearer the pointer is to the drawing, larger the more it is pointed at (both 0 to
+    /// 1), with a ring where the keyboard is.
+    pub fn paint(&self, painter: &Painter, inks: &Inks, [near, pointed_at]: [f32; 2], focused: bool) {
+        let rest = AT_REST.min(self.reach).max(LEAST_REACH + 1.0);
+        let radius = rest + (GROWN - AT_REST) * pointed_at;
+        let fill = inks.paper.lerp_to_gamma(inks.accent, pointed_at);
+        let rim = inks.paper.lerp_to_gamma(inks.accent, RESTING + (1.0 - RESTING) * near);
+        painter.circle(self.at, radius, fill, Stroke::new(1.4, rim));
+        if focused {
+            painter.circle_stroke(self.at, radius + 3.0, Stroke::new(1.0, inks.accent));
+        }
+    }
+}
+
+/// The steps that a screen reader asks for.
+fn asked_steps(ui: &Ui, id: Id) -> i32 {
+    ui.input(|i| {
+        let count = |action| i.num_accesskit_action_requests(id, action) as i32;
+        count(Action::Increment) - count(Action::Decrement)
+    })
+}
+
+/// The value that a screen reader asks for.
+fn asked_for(ui: &Ui, id: Id) -> Option<f64> {
+    ui.input(|i| {
+        let values = i.accesskit_action_requests(id, Action::SetValue).filter_map(|r| match r.data {
+            Some(ActionData::NumericValue(value)) => Some(value),
+            _ => None,
+        });
+        values.last()
+    })
+}

@@ -1,0 +1,325 @@
+//! Which dimensions a profile of a given size bears, and where.
+
+use super::quantity::Quantity;
+use super::sheet::{BESIDE, GAP, Label, Line, Sheet, Weight};
+use super::sight::{Margins, Sight};
+use crate::cut::{Derived, RoundBrilliant};
+use crate::picture::profile::brilliant::{lower_half_ends, star_ends};
+use crate::picture::profile::{Dimensions, Span, percent, spread};
+use egui::{Align2, Pos2, Rect, Vec2, pos2, vec2};
+use glam::DVec2;
+
+/// From the stone to the first dimension line, and from one to the next, points.
+const LEVEL: f32 = 22.0;
+/// Between the drawing and the edge of its rectangle, points.
+const EDGE: f32 = 6.0;
+/// The longest text of a height, for which room is kept so that nothing moves when digits come and go.
+const LONGEST: &str = "pavilion 88.88 %";
+/// Largest radius of an angle's arc, points, and the part of the facet's line that it may take.
+const ARC: f32 = 52.0;
+const ARC_PART: f32 = 0.5;
+/// Steps that an arc is drawn in.
+const ARC_STEPS: u32 = 24;
+
+/// How much is written on the drawing.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Detail {
+    /// Nothing.
+    None,
+    /// Table, total depth and angles, without their names.
+    Numbers,
+    /// All heights too, named.
+    Named,
+    /// Star and lower half too.
+    Whole,
+}
+
+impl Detail {
+    /// What can be read in a rectangle of this size.
+    pub fn of(size: Vec2) -> Self {
+        match size.x.min(1.25 * size.y) {
+            ..160.0 => Self::None,
+            160.0..260.0 => Self::Numbers,
+            260.0..380.0 => Self::Named,
+            _ => Self::Whole,
+        }
+    }
+
+    /// The white space that its dimensions need.
+    pub fn margins(self, measure: &dyn Fn(&str) -> Vec2) -> Margins {
+        let text = measure(LONGEST);
+        let across = |levels: f32| EDGE + levels * LEVEL + text.y / 2.0;
+        match self {
+            Self::None => Margins { left: EDGE, right: EDGE, top: EDGE, bottom: EDGE },
+            Self::Numbers => {
+                Margins { left: across(1.0), right: 2.0 * EDGE, top: across(1.0), bottom: 2.0 * EDGE }
+            }
+            Self::Named | Self::Whole => {
+                let levels = if self == Self::Whole { 2.0 } else { 1.0 };
+                let right = EDGE + LEVEL + BESIDE + text.x;
+                Margins { left: across(1.0), right, top: across(levels), bottom: across(levels) }
+            }
+        }
+    }
+}
+
+/// What is to be written of a stone.
+#[derive(Debug, Clone, Copy)]
+pub struct Subject<'a> {
+    /// What every stone has.
+    pub dimensions: &'a Dimensions,
+    /// A round brilliant's proportions.
+    pub brilliant: Option<(&'a RoundBrilliant, &'a Derived)>,
+}
+
+/// Lays out dimensions.
+pub struct Planner<'a, 'b> {
+    subject: Subject<'a>,
+    sight: &'a Sight,
+    detail: Detail,
+    sheet: Sheet<'b>,
+}
+
+impl<'a, 'b> Planner<'a, 'b> {
+    /// Lays out, the most important first, what there is room for.
+    pub fn plan(
+        subject: Subject<'a>,
+        sight: &'a Sight,
+        detail: Detail,
+        sheet: Sheet<'b>,
+    ) -> (Vec<Line>, Vec<Label>) {
+        let mut planner = Self { subject, sight, detail, sheet };
+        if detail > Detail::None {
+            planner.table();
+            planner.total();
+            planner.angles();
+        }
+        if detail > Detail::Numbers {
+            planner.heights();
+            planner.culet();
+        }
+        if detail == Detail::Whole {
+            planner.star_and_lower_half();
+        }
+        planner.sheet.finish()
+    }
+
+    fn at(&self, x: f64, z: f64) -> Pos2 {
+        self.sight.at(DVec2::new(x, z))
+    }
+
+    fn named(&self, name: &str, value: f64) -> String {
+        let value = percent(value);
+        if self.detail == Detail::Numbers { value } else { format!("{name} {value}") }
+    }
+
+    /// The screen height of a dimension line over or, negative, under the stone.
+    fn level(&self, level: f32) -> f32 {
+        let Span { from, to, .. } = self.subject.dimensions.total;
+        self.at(0.0, if level > 0.0 { from } else { to }).y - level * LEVEL
+    }
+
+    fn table(&mut self) {
+        let Some(table) = self.subject.dimensions.table else { return };
+        let ends = [table.from, table.to].map(|x| self.at(x, self.subject.dimensions.total.from));
+        // The star's dimension is the lower one.
+        let level = if self.detail == Detail::Whole && self.subject.brilliant.is_some() { 2.0 } else { 1.0 };
+        let about = self.subject.brilliant.map(|_| Quantity::Table);
+        self.sheet.across(self.level(level), ends, &self.named("table", table.percent), about);
+    }
+
+    /// The total depth on the left, its number in the line, read from the right.
+    fn total(&mut self) {
+        let Dimensions { total, width, .. } = *self.subject.dimensions;
+        let x = self.at(width.from, 0.0).x - LEVEL;
+        let [a, b] = [total.from, total.to].map(|z| pos2(x, self.at(0.0, z).y));
+        let texts = [self.named("total depth", total.percent), percent(total.percent)];
+        let placed = texts.iter().find_map(|text| {
+            let fits = self.sheet.size(text).x + 2.0 * GAP < b.y - a.y;
+            fits.then(|| self.sheet.write_upright(text, a.lerp(b, 0.5), None)).flatten()
+        });
+        if placed.is_none() {
+            return;
+        }
+        self.lead(&[total.from, total.to], x, -1.0);
+        self.sheet.dimension([a, b], None);
+        self.sheet.keep_clear(Rect::from_two_pos(a, b).expand(2.0));
+    }
+
+    /// Lines from the stone at some heights to a dimension at `x`, left (-1) or right (1) of it.
+    fn lead(&mut self, heights: &[f64], x: f32, side: f32) {
+        for (k, &z) in heights.iter().enumerate() {
+            if !heights[..k].contains(&z) {
+                let y = self.at(0.0, z).y;
+                let start = pos2(self.sheet.reach(y, side) + GAP * side, y);
+                self.sheet.line(vec![start, pos2(x + GAP * side, y)], Weight::Extension, None);
+            }
+        }
+    }
+
+    /// Crown, girdle and pavilion in one line on the right.
+    fn heights(&mut self) {
+        let Dimensions { total, crown, girdle, pavilion, width, .. } = *self.subject.dimensions;
+        let parts = [
+            ("crown", crown, Quantity::CrownHeight),
+            ("girdle", girdle, Quantity::Girdle),
+            ("pavilion", pavilion, Quantity::PavilionDepth),
+        ];
+        let parts: Vec<_> = parts.into_iter().filter_map(|(name, span, q)| Some((name, span?, q))).collect();
+        if parts.iter().all(|(_, span, _)| span.length() >= total.length()) {
+            return;
+        }
+        let x = self.at(width.to, 0.0).x + LEVEL;
+        let ends: Vec<f64> = parts.iter().flat_map(|(_, span, _)| [span.from, span.to]).collect();
+        self.lead(&ends, x, 1.0);
+        let middles = parts.iter().map(|(_, s, _)| f64::from(self.at(0.0, (s.from + s.to) / 2.0).y));
+        let line = self.sheet.size(LONGEST).y + 1.0;
+        let middles = spread(middles.collect(), f64::from(self.level(1.0)), f64::from(line));
+        for ((name, span, quantity), y) in parts.into_iter().zip(middles) {
+            let about = self.subject.brilliant.map(|_| quantity);
+            let ends = [span.from, span.to].map(|z| pos2(x, self.at(0.0, z).y));
+            self.sheet.dimension(ends, about);
+            let text = self.named(name, span.percent);
+            self.sheet.write(&text, Align2::LEFT_CENTER, pos2(x + BESIDE, y as f32), about);
+        }
+    }
+
+    /// Crown angle at the table's corner, pavilion angle at the culet's, on the left.
+    fn angles(&mut self) {
+        let Some((given, derived)) = self.subject.brilliant else { return };
+        let total = self.subject.dimensions.total;
+        let table = self.at(-given.table / 100.0, total.from);
+        self.angle(table, self.at(-1.0, 0.0), Quantity::CrownAngle, derived.crown_angle);
+        let (culet, girdle) = (self.at(-given.culet / 100.0, total.to), -given.girdle_thickness / 50.0);
+        self.angle(culet, self.at(-1.0, girdle), Quantity::PavilionAngle, derived.pavilion_angle);
+    }
+
+    /// The angle at `vertex` between the level line to the left and the line to `end`.
+    fn angle(&mut self, vertex: Pos2, end: Pos2, quantity: Quantity, degrees: f64) {
+        let turn = degrees.to_radians() as f32 * (end.y - vertex.y).signum();
+        let arm = |part: f32| vec2(-(part * turn).cos(), (part * turn).sin());
+        let text = quantity.written(degrees);
+        let about = Some(quantity);
+        let largest = ARC.min(ARC_PART * (end - vertex).length());
+        let within = [1.0, 0.7, 0.45].map(|part| (part * largest, arm(0.5) * (part * largest + BESIDE)));
+        // Where the wedge is too narrow: on the other side of the level line.
+        let over = |off: f32, gap: f32| {
+            (largest, -vec2(off, turn.signum() * (self.sheet.size(&text).y / 2.0 + gap)))
+        };
+        let beyond = [over(largest + BESIDE, 2.0), over(BESIDE, 2.0), over(BESIDE + 2.0, BESIDE + 2.0)];
+        let mut places = within.into_iter().chain(beyond);
+        let placed = places
+            .find(|&(_, off)| self.sheet.write(&text, Align2::RIGHT_CENTER, vertex + off, about).is_some());
+        if let Some((radius, _)) = placed {
+            let arc = (0..=ARC_STEPS).map(|k| vertex + arm(k as f32 / ARC_STEPS as f32) * radius);
+            self.sheet.line(arc.collect(), Weight::Dimension, about);
+            let level = vec![vertex - vec2(GAP, 0.0), vertex - vec2(radius + GAP, 0.0)];
+            self.sheet.line(level, Weight::Extension, None);
+        }
+    }
+
+    fn culet(&mut self) {
+        let Some((given, _)) = self.subject.brilliant.filter(|(given, _)| given.culet > 0.0) else { return };
+        let ends =
+            [-1.0, 1.0].map(|side| self.at(side * given.culet / 100.0, self.subject.dimensions.total.to));
+        let text = self.named("culet", given.culet);
+        self.sheet.across(self.level(-1.0), ends, &text, Some(Quantity::Culet));
+    }
+
+    /// Lengths in plan, on the right of crown and pavilion.
+    fn star_and_lower_half(&mut self) {
+        let Some((given, derived)) = self.subject.brilliant else { return };
+        let star = star_ends(given, derived).map(|end| self.at(end.x, end.y));
+        self.sheet.across(self.level(1.0), star, &self.named("star", given.star_length), None);
+        let level = if given.culet > 0.0 { -2.0 } else { -1.0 };
+        let lower = lower_half_ends(given, derived).map(|end| self.at(end.x, end.y));
+        let text = self.named("lower half", derived.lower_half_length);
+        self.sheet.across(self.level(level), lower, &text, None);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::body::Body;
+    use super::super::sight::Extent;
+    use super::super::tests::TOLKOWSKY;
+    use super::*;
+    use crate::cut::{Crown, strategy};
+    use crate::picture::profile::brilliant::BRILLIANT_BASIS;
+    use crate::scene::Stone;
+    use proptest::prelude::*;
+
+    fn measure(text: &str) -> Vec2 {
+        vec2(6.2 * text.chars().count() as f32, 14.0)
+    }
+
+    /// The labels of a brilliant in a rectangle of this size.
+    fn labels(given: &RoundBrilliant, size: Vec2) -> Vec<Label> {
+        let derived = given.derived().unwrap();
+        let dimensions = Dimensions::of_brilliant(given, &derived);
+        let (rect, detail) = (Rect::from_min_size(Pos2::ZERO, size), Detail::of(size));
+        let sight = Sight::fitting(Extent::of(&dimensions), detail.margins(&measure).within(rect));
+        let stone = Stone::new(&given.facets().unwrap()).unwrap();
+        let outline = Body::new(&stone, BRILLIANT_BASIS, &sight).outline();
+        let subject = Subject { dimensions: &dimensions, brilliant: Some((given, &derived)) };
+        Planner::plan(subject, &sight, detail, Sheet::new(rect, &outline, &measure)).1
+    }
+
+    fn texts(given: &RoundBrilliant, size: Vec2) -> Vec<String> {
+        let mut texts: Vec<_> = labels(given, size).into_iter().map(|label| label.text).collect();
+        texts.sort();
+        texts
+    }
+
+    #[test]
+    fn a_large_drawing_bears_every_dimension_and_smaller_ones_less() {
+        let given = RoundBrilliant { culet: 2.0, ..TOLKOWSKY };
+        let all = [
+            "34.5°",
+            "40.75°",
+            "crown 16.15 %",
+            "culet 2 %",
+            "girdle 3 %",
+            "lower half 75 %",
+            "pavilion 42.22 %",
+            "star 50 %",
+            "table 53 %",
+            "total depth 61.37 %",
+        ];
+        assert_eq!(texts(&given, vec2(900.0, 600.0)), all);
+        assert_eq!(texts(&given, vec2(420.0, 360.0)), all);
+        assert_eq!(texts(&given, vec2(240.0, 200.0)), ["34.5°", "40.75°", "53 %", "61.37 %"]);
+        assert_eq!(texts(&given, vec2(140.0, 120.0)), [""; 0]);
+    }
+
+    #[test]
+    fn a_point_has_no_culet_to_measure() {
+        assert!(!texts(&TOLKOWSKY, vec2(900.0, 600.0)).iter().any(|text| text.contains("culet")));
+    }
+
+    #[test]
+    fn angles_of_shallow_and_steep_stones_are_written_too() {
+        for (crown, table) in [(8.0, 80.0), (12.0, 80.0), (20.0, 60.0), (50.0, 50.0), (60.0, 30.0)] {
+            let given = RoundBrilliant { crown: Crown::Angle(crown), table, ..TOLKOWSKY };
+            for size in [vec2(900.0, 600.0), vec2(420.0, 360.0), vec2(300.0, 260.0), vec2(240.0, 200.0)] {
+                assert!(texts(&given, size).contains(&format!("{crown}°")), "{crown} {size}");
+            }
+        }
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(64))]
+
+        #[test]
+        fn no_number_overlaps_another_or_is_cut_off(
+            given in strategy::proportions(), width in 100.0_f32..1000.0, height in 80.0_f32..800.0,
+        ) {
+            let labels = labels(&given, vec2(width, height));
+            let rect = Rect::from_min_size(Pos2::ZERO, vec2(width, height));
+            for (k, label) in labels.iter().enumerate() {
+                prop_assert!(rect.contains_rect(label.frame), "{label:?}");
+                prop_assert!(!labels[..k].iter().any(|other| other.frame.intersects(label.frame)), "{label:?}");
+            }
+        }
+    }
+}
