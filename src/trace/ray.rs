@@ -6,11 +6,14 @@
 
 mod camera;
 mod company;
+mod path;
 mod search;
 mod sight;
 
 pub use self::camera::Camera;
 pub use self::company::ByRays;
+use self::path::{Exiting, Meeting};
+pub use self::path::{Leaving, Path, Step};
 use self::search::Search;
 pub use self::sight::{Glance, Sight, facet_at};
 use crate::math::{Plane, Polytope};
@@ -108,6 +111,7 @@ impl Field {
 }
 
 impl Light {
+    #[inline]
     fn weight(&self) -> f64 {
         match self {
             Self::Unpolarised(weight) => *weight,
@@ -185,11 +189,27 @@ impl Tracer {
     /// the spread of wavelengths: one that may have left another stone. `None` where it runs along the facet.
     pub fn follow_from(
         &self,
+        met: (usize, f64),
+        origin: DVec3,
+        way: (DVec3, DVec3),
+        weight: f64,
+        mut leave: impl FnMut(Exit),
+    ) -> Option<Rest> {
+        self.visit(met, origin, way, weight, |meeting| {
+            if let Some(exit) = meeting.exit() {
+                leave(exit);
+            }
+        })
+    }
+
+    /// The way of a ray through the stone, from the facet where it enters: the one loop behind all that is told of rays.
+    fn visit(
+        &self,
         (facet, distance): (usize, f64),
         origin: DVec3,
         (direction, sweep): (DVec3, DVec3),
         weight: f64,
-        mut leave: impl FnMut(Exit),
+        mut meets: impl FnMut(Meeting),
     ) -> Option<Rest> {
         let normal = self.planes[facet].normal;
         let point = origin + direction * distance;
@@ -200,17 +220,21 @@ impl Tracer {
         let (light, glare) = self.eye_light(direction, weight).split(direction, inward, normal, eta, true);
         let of_eta = -self.medium.spread * eta * eta;
         let swept = refracted_change(direction, normal, eta, (cos_i, cos_t), (sweep, of_eta));
-        leave(Exit {
-            facet: facet as u32,
-            point,
-            path: 0.0,
+        let glare = Exiting {
             direction: reflect(direction, normal, cos_i),
             sweep: mirrored(sweep, normal),
             weight: glare,
+        };
+        meets(Meeting {
+            facet: facet as u32,
+            point,
+            path: 0.0,
             bounce: 0,
-            surface: true,
+            arriving: direction,
+            leaving: Some(glare),
+            onward: light.weight(),
         });
-        Some(self.bounce(point, (inward, swept), light, leave))
+        Some(self.bounce(point, (inward, swept), light, meets))
     }
 
     fn eye_light(&self, direction: DVec3, weight: f64) -> Light {
@@ -226,11 +250,12 @@ impl Tracer {
         mut point: DVec3,
         (mut direction, mut sweep): (DVec3, DVec3),
         mut light: Light,
-        mut leave: impl FnMut(Exit),
+        mut meets: impl FnMut(Meeting),
     ) -> Rest {
         let mut rest = Rest::default();
         let (mut left, mut path) = (1.0, 0.0);
-        while light.weight() * left > self.options.least_weight && rest.bounces < self.options.most_bounces {
+        let mut remaining = light.weight();
+        while remaining > self.options.least_weight && rest.bounces < self.options.most_bounces {
             let (facet, distance, cos_i) = self.next(point, direction);
             let normal = self.planes[facet].normal;
             point += direction * distance;
@@ -246,23 +271,28 @@ impl Tracer {
                 (None, Light::Unpolarised(_)) => (light, 0.0),
                 _ => light.split(direction, reflected, normal, self.medium.index, false),
             };
-            if let Some(cos_t) = cos_t {
+            let leaving = cos_t.map(|cos_t| {
                 let Medium { index, spread, .. } = self.medium;
-                leave(Exit {
-                    facet: facet as u32,
-                    point,
-                    path,
+                Exiting {
                     direction: refract(direction, -normal, index, (cos_i, cos_t)),
                     sweep: refracted_change(direction, -normal, index, (cos_i, cos_t), (sweep, spread)),
                     weight: weight * left,
-                    bounce: rest.bounces + 1,
-                    surface: false,
-                });
-            }
-            (light, direction, sweep) = (onward, reflected, mirrored(sweep, normal));
+                }
+            });
             rest.bounces += 1;
+            remaining = onward.weight() * left;
+            meets(Meeting {
+                facet: facet as u32,
+                point,
+                path,
+                bounce: rest.bounces,
+                arriving: direction,
+                leaving,
+                onward: remaining,
+            });
+            (light, direction, sweep) = (onward, reflected, mirrored(sweep, normal));
         }
-        rest.unresolved = light.weight() * left;
+        rest.unresolved = remaining;
         rest
     }
 

@@ -1,0 +1,105 @@
+//! The way of one ray through a stone: drawn in space, told step by step.
+
+mod drawing;
+mod orbit;
+mod table;
+#[cfg(test)]
+mod tests;
+
+use self::orbit::Orbit;
+use self::table::Table;
+use crate::math::Basis;
+use crate::scene::{Band, Scope, Stone, elevation_deg};
+use crate::trace::ray::Path;
+use eframe::egui::{Align, Color32, CursorIcon, Layout, Sense, Ui, Vec2, WidgetInfo, accesskit::Role, vec2};
+use glam::DVec3;
+
+/// Least width at which the table stands beside the drawing, as a multiple of the table's own.
+const ROOM_FOR_BOTH: f32 = 1.8;
+
+/// Part of the height that the drawing takes above the table.
+const UPPER_PART: f32 = 0.55;
+
+/// How the drawing is turned, for those who do not see it.
+const HELP: &str = "Drag or press arrow keys to turn it, double-click or press Home to turn it back";
+
+/// Sine of the angle to the scope's axis below which light has no azimuth.
+const OVERHEAD: f64 = 1e-6;
+
+/// Shows the path of a ray; keeps from where the stone is looked at, and the step that was picked.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct LightPath {
+    orbit: Orbit,
+    kept: Option<usize>,
+}
+
+/// A path and all that is needed to tell where its light goes.
+struct Reading<'a> {
+    stone: &'a Stone,
+    path: &'a Path,
+    scope: &'a Scope,
+    light: &'a Basis,
+}
+
+impl LightPath {
+    /// Draws the path through its stone, and beside or below it a table of its steps, over all the room there is. `light`
+    /// is the frame of the scope, [`View::light_basis`](crate::scene::View::light_basis): elevations are counted from
+    /// the plane square to its axis, azimuths counter-clockwise from its `right`.
+    pub fn show(&mut self, ui: &mut Ui, stone: &Stone, path: &Path, scope: &Scope, light: &Basis) {
+        let reading = Reading { stone, path, scope, light };
+        let table = Table::new(&reading);
+        let (room, width) = (ui.available_size(), table.width(ui));
+        // In a place that scrolls there may be no end of room.
+        let height = room.y.min(2.0 * room.x);
+        let beside = room.x > ROOM_FOR_BOTH * width;
+        let size = if beside {
+            vec2(room.x - width - ui.spacing().item_spacing.x, height)
+        } else {
+            vec2(room.x, height * UPPER_PART)
+        };
+        let layout = if beside { Layout::left_to_right(Align::Min) } else { Layout::top_down(Align::Min) };
+        self.kept = self.kept.filter(|&k| k < path.steps.len());
+        ui.with_layout(layout, |ui| self.parts(ui, size, &reading, &table));
+    }
+
+    fn parts(&mut self, ui: &mut Ui, size: Vec2, reading: &Reading, table: &Table) {
+        let (response, painter) = ui.allocate_painter(size, Sense::click_and_drag());
+        let response = response.on_hover_cursor(CursorIcon::Grab);
+        self.orbit.turned_by(ui, &response);
+        response.widget_info(|| {
+            let met = reading.path.steps.len();
+            WidgetInfo::labeled(
+                Role::Canvas,
+                true,
+                format!("Light path through the stone, {met} facets met. {HELP}"),
+            )
+        });
+        let hovered = ui.vertical(|ui| table.show(ui, &mut self.kept)).inner;
+        let lit = hovered.or(self.kept);
+        drawing::paint(&painter, ui.visuals(), (self.orbit.eye(), response.has_focus()), reading, lit);
+    }
+}
+
+impl Reading<'_> {
+    fn band(&self, direction: DVec3) -> &Band {
+        &self.scope.bands[self.scope.band(direction, self.light.toward)]
+    }
+
+    /// The colour of the scope where a direction points.
+    fn colour(&self, direction: DVec3) -> Color32 {
+        let [r, g, b] = self.band(direction).colour;
+        Color32::from_rgb(r, g, b)
+    }
+
+    /// Height above the scope's plane, degrees.
+    fn elevation(&self, direction: DVec3) -> f64 {
+        elevation_deg(direction, self.light.toward)
+    }
+
+    /// Counter-clockwise from the frame's right, 0 to 360 degrees; `None` along the scope's axis.
+    fn azimuth(&self, direction: DVec3) -> Option<f64> {
+        let across = self.light.project(direction);
+        let turn = across.y.atan2(across.x).to_degrees().rem_euclid(360.0);
+        (across.length() > OVERHEAD).then_some(turn)
+    }
+}

@@ -1,0 +1,300 @@
+//! The stone as a wireframe, and the light's way through it.
+
+use super::Reading;
+use crate::math::Basis;
+use crate::trace::ray::{Path, Step};
+use eframe::egui::{Align2, FontId, Painter, Pos2, Rect, Shape, Stroke, StrokeKind, Vec2, Visuals};
+use glam::{DVec2, DVec3};
+
+/// Length of the light outside the stone, as parts of the stone's reach: of what enters and of what leaves.
+const OUTSIDE: [f64; 2] = [0.5, 0.36];
+
+/// Air around the drawing, pixels: for heads of arrows and numbers.
+const MARGIN: f32 = 14.0;
+
+/// How much of their colour edges have where the eye sees them, and behind.
+const EDGES: [f32; 2] = [0.6, 0.2];
+
+/// How much of its colour the tint of a facet has: of one that is met, and of the one that is lit.
+const TINTS: [f32; 2] = [0.10, 0.4];
+
+/// Half the angle of an arrow's head, radians.
+const HEAD_ANGLE: f32 = 0.42;
+
+/// Type size of the numbers, points.
+const NUMBER: f32 = 11.0;
+
+/// How far from its facet a number stands, pixels: the first that is free is taken.
+const ASIDE: [f32; 3] = [12.0, 20.0, 30.0];
+
+/// Places around a point at which a number may stand.
+const PLACES: u8 = 8;
+
+/// Share of light below which a step's facet has no tint and no number, nor does its line keep other numbers away.
+const FAINT: f64 = 0.002;
+
+/// A parallel projection onto a painter.
+struct Canvas<'a> {
+    painter: &'a Painter,
+    visuals: &'a Visuals,
+    eye: Basis,
+    centre: DVec3,
+    reach: f64,
+    scale: f64,
+}
+
+/// Light between two places, and the share that it is of the whole.
+struct Stretch {
+    ends: [DVec3; 2],
+    share: f64,
+}
+
+/// Draws the path, seen from `eye`; the step `lit` stands out.
+pub(super) fn paint(
+    painter: &Painter,
+    visuals: &Visuals,
+    (eye, is_focused): (Basis, bool),
+    reading: &Reading,
+    lit: Option<usize>,
+) {
+    let canvas = Canvas::new(painter, visuals, eye, reading);
+    let inside = stretches(reading.path, canvas.reach);
+    canvas.facets(reading, &inside, lit);
+    canvas.edges(reading);
+    // What is strong lies above what is weak, and what is lit above all.
+    let weak_first = || (0..inside.len()).rev().filter(|k| Some(*k) != lit).chain(lit);
+    weak_first().for_each(|k| canvas.stretch(&inside[k], Some(k) == lit));
+    weak_first().for_each(|k| canvas.leaving(reading, k, lit));
+    canvas.numbers(&inside, lit);
+    if is_focused {
+        let frame = painter.clip_rect().shrink(1.0);
+        painter.rect_stroke(frame, 2.0, visuals.selection.stroke, StrokeKind::Inside);
+    }
+}
+
+/// The light on its way to each step.
+fn stretches(path: &Path, reach: f64) -> Vec<Stretch> {
+    let mut from =
+        path.steps.first().map_or(path.origin, |first| first.point - path.direction * (reach * OUTSIDE[0]));
+    let mut share = 1.0;
+    let to_step = |step: &Step| {
+        let stretch = Stretch { ends: [from, step.point], share };
+        (from, share) = (step.point, step.onward);
+        stretch
+    };
+    path.steps.iter().map(to_step).collect()
+}
+
+/// Where the drawing of what leaves at a step ends.
+fn end_of(step: &Step, reach: f64) -> Option<DVec3> {
+    step.leaving.map(|leaving| step.point + leaving.direction * (reach * OUTSIDE[1]))
+}
+
+impl<'a> Canvas<'a> {
+    /// A canvas on which the stone and all its light have room, seen from this height from whatever side.
+    fn new(painter: &'a Painter, visuals: &'a Visuals, eye: Basis, reading: &Reading) -> Self {
+        let corners = reading.stone.polytope.vertices();
+        let low = corners.iter().copied().fold(DVec3::INFINITY, DVec3::min);
+        let high = corners.iter().copied().fold(DVec3::NEG_INFINITY, DVec3::max);
+        let centre = (low + high) / 2.0;
+        let reach = corners.iter().map(|v| v.distance(centre)).fold(0.0, f64::max);
+        let entering = stretches(reading.path, reach).into_iter().take(1).map(|stretch| stretch.ends[0]);
+        let leaving = reading.path.steps.iter().filter_map(|step| end_of(step, reach));
+        let shown = corners.iter().copied().chain(entering).chain(leaving);
+        // How far things come to the side and up when they are turned around the stone's axis.
+        let extent = shown.fold(DVec2::splat(f64::MIN_POSITIVE), |extent, v| {
+            let (out, height) = ((v - centre).truncate().length(), (v - centre).z);
+            extent.max(DVec2::new(out, out * eye.toward.z.abs() + (height * eye.up.z).abs()))
+        });
+        let room = painter.clip_rect().size() / 2.0 - Vec2::splat(MARGIN);
+        let scale = (DVec2::new(room.x.into(), room.y.into()) / extent).min_element().max(1.0);
+        Self { painter, visuals, eye, centre, reach, scale }
+    }
+
+    fn at(&self, v: DVec3) -> Pos2 {
+        let p = self.eye.project(v - self.centre) * self.scale;
+        self.painter.clip_rect().center() + Vec2::new(p.x as f32, -p.y as f32)
+    }
+
+    /// Tints the facets that are met.
+    fn facets(&self, reading: &Reading, inside: &[Stretch], lit: Option<usize>) {
+        let polytope = &reading.stone.polytope;
+        let steps = &reading.path.steps;
+        let lit = lit.map(|k| steps[k].facet);
+        let is_met = |facet| steps.iter().zip(inside).any(|(s, to)| s.facet == facet && to.share >= FAINT);
+        for (k, facet) in (0..).zip(polytope.facets()) {
+            let is_lit = lit == Some(k);
+            if is_lit || is_met(k) {
+                let tint = self.visuals.hyperlink_color.gamma_multiply(TINTS[usize::from(is_lit)]);
+                let outline = polytope.corners(facet).map(|v| self.at(v)).collect();
+                self.painter.add(Shape::convex_polygon(outline, tint, Stroke::NONE));
+            }
+        }
+    }
+
+    /// All edges, those behind first.
+    fn edges(&self, reading: &Reading) {
+        let polytope = &reading.stone.polytope;
+        let faces = |k: usize| polytope.facets()[k].plane.normal.dot(self.eye.toward) > 0.0;
+        for front in [false, true] {
+            let colour = self.visuals.text_color().gamma_multiply(EDGES[usize::from(!front)]);
+            for (k, facet) in polytope.facets().iter().enumerate() {
+                let corners: Vec<Pos2> = polytope.corners(facet).map(|v| self.at(v)).collect();
+                for (i, &other) in facet.neighbours.iter().enumerate() {
+                    // Each edge once: its other facet has it too.
+                    if other as usize > k && (faces(k) || faces(other as usize)) == front {
+                        let ends = [corners[i], corners[(i + 1) % corners.len()]];
+                        self.painter.line_segment(ends, Stroke::new(1.0, colour));
+                    }
+                }
+            }
+        }
+    }
+
+    fn stretch(&self, stretch: &Stretch, is_lit: bool) {
+        let strength = strength(stretch.share);
+        let (colour, opacity, more) = if is_lit {
+            (self.visuals.strong_text_color(), 1.0, 1.2)
+        } else {
+            (self.visuals.warn_fg_color, 0.12 + 0.88 * strength, 0.0)
+        };
+        let width = 0.8 + 2.4 * strength + more;
+        let stroke = Stroke::new(width, colour.gamma_multiply(opacity));
+        let [from, to] = stretch.ends.map(|v| self.at(v));
+        self.painter.line_segment([from, to], stroke);
+        let way = to - from;
+        if way.length() > 4.0 * head(width) {
+            self.head(from + 0.55 * way, way, stroke);
+        }
+    }
+
+    /// What leaves at a step, in the colour of where it goes.
+    fn leaving(&self, reading: &Reading, k: usize, lit: Option<usize>) {
+        let step = &reading.path.steps[k];
+        let (Some(leaving), Some(end)) = (step.leaving, end_of(step, self.reach)) else { return };
+        let strength = if lit == Some(k) { 1.0 } else { strength(leaving.share) };
+        let (from, to) = (self.at(step.point), self.at(end));
+        let width = 1.2 + 1.6 * strength;
+        let opacity = 0.15 + 0.85 * strength;
+        let rim = self.visuals.text_color().gamma_multiply(0.6 * opacity);
+        // A rim, as the scope's colour may be that of the background.
+        for stroke in [
+            Stroke::new(width + 1.6, rim),
+            Stroke::new(width, reading.colour(leaving.direction).gamma_multiply(opacity)),
+        ] {
+            self.painter.line_segment([from, to], stroke);
+            self.head(to, to - from, stroke);
+        }
+    }
+
+    /// The head of an arrow, its tip at a point.
+    fn head(&self, tip: Pos2, way: Vec2, stroke: Stroke) {
+        let length = way.length();
+        if length < 1.0 {
+            return;
+        }
+        let back = -way / length * head(stroke.width).min(length);
+        for angle in [HEAD_ANGLE, -HEAD_ANGLE] {
+            let (sin, cos) = angle.sin_cos();
+            let turned = Vec2::new(cos * back.x - sin * back.y, sin * back.x + cos * back.y);
+            self.painter.line_segment([tip, tip + turned], stroke);
+        }
+    }
+
+    /// The steps' numbers beside their facets, the first ones first: those that find no room are left out.
+    fn numbers(&self, inside: &[Stretch], lit: Option<usize>) {
+        let within = self.painter.clip_rect();
+        let is_seen = |k: &usize| inside[*k].share >= FAINT;
+        let seen = (0..inside.len()).filter(is_seen);
+        let lines: Vec<_> = seen.clone().map(|k| inside[k].ends.map(|v| self.at(v))).collect();
+        let mut taken: Vec<Rect> = vec![];
+        for k in lit.into_iter().chain(seen.filter(|k| Some(*k) != lit)) {
+            let colour = self.visuals.strong_text_color();
+            let text = self.painter.layout_no_wrap((k + 1).to_string(), FontId::proportional(NUMBER), colour);
+            let at = self.at(inside[k].ends[1]);
+            let places = places(at, at - within.center(), text.size() + Vec2::splat(3.0));
+            let Some(rect) = free(places.filter(|rect| within.contains_rect(*rect)), &taken, &lines) else {
+                continue;
+            };
+            taken.push(rect);
+            let fill = if lit == Some(k) { self.visuals.selection.bg_fill } else { self.visuals.panel_fill };
+            self.painter.rect_filled(rect, 3.0, fill.gamma_multiply(0.85));
+            self.painter.galley(
+                Align2::CENTER_CENTER.anchor_size(rect.center(), text.size()).min,
+                text,
+                colour,
+            );
+        }
+    }
+}
+
+/// How strongly a share of light is drawn, 0 to 1: a tenth must be seen beside the whole, and a hundredth beside it.
+fn strength(share: f64) -> f32 {
+    share.clamp(0.0, 1.0).powf(0.4) as f32
+}
+
+/// Length of the head of an arrow whose line is so wide, pixels.
+fn head(width: f32) -> f32 {
+    4.0 + 1.5 * width
+}
+
+/// Places of a size beside a point, those away from the drawing's middle and those near first.
+fn places(at: Pos2, away: Vec2, size: Vec2) -> impl Iterator<Item = Rect> {
+    let outward = if away.length() > 1.0 { away.angle() } else { 0.0 };
+    let turns = (0..PLACES).map(move |k| {
+        // To both sides by turns.
+        let step = f32::from(k.div_ceil(2)) * std::f32::consts::TAU / f32::from(PLACES);
+        outward + if k % 2 == 0 { step } else { -step }
+    });
+    let around = move |far| turns.clone().map(move |turn| at + Vec2::angled(turn) * far);
+    ASIDE.into_iter().flat_map(around).map(move |middle| Rect::from_center_size(middle, size))
+}
+
+/// The first place that overlaps none of those taken and hides as few lines as can be.
+fn free(places: impl Iterator<Item = Rect>, taken: &[Rect], lines: &[[Pos2; 2]]) -> Option<Rect> {
+    let is_free = |rect: &Rect| taken.iter().all(|other| !other.intersects(*rect));
+    let hidden = |rect: &Rect| lines.iter().filter(|line| crosses(*rect, **line)).count();
+    places.filter(is_free).min_by_key(hidden)
+}
+
+/// Whether a line from end to end goes through a rectangle, or nearly.
+fn crosses(rect: Rect, [from, to]: [Pos2; 2]) -> bool {
+    let (way, middle) = (to - from, rect.center());
+    let part = ((middle - from).dot(way) / way.length_sq().max(f32::MIN_POSITIVE)).clamp(0.0, 1.0);
+    (from + way * part).distance(middle) < rect.size().max_elem() / 2.0
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use eframe::egui::{pos2, vec2};
+
+    #[test]
+    fn a_number_stands_beside_its_point_and_apart_from_the_others() {
+        let size = vec2(12.0, 10.0);
+        let mut taken: Vec<Rect> = vec![];
+        // More than have room: every one that is placed stands alone.
+        for _ in 0..100 {
+            taken.extend(free(places(pos2(5.0, 5.0), vec2(1.0, 0.0), size), &taken, &[]));
+        }
+        assert!((8..=24).contains(&taken.len()), "{}", taken.len());
+        for (k, rect) in taken.iter().enumerate() {
+            assert!(taken[..k].iter().all(|other| !other.intersects(*rect)));
+            assert!(rect.center().distance(pos2(5.0, 5.0)) <= 30.1);
+        }
+        assert_eq!(taken[0].center(), pos2(17.0, 5.0));
+    }
+
+    #[test]
+    fn a_number_keeps_off_lines_where_it_can() {
+        let beside = |lines: &[[Pos2; 2]]| {
+            free(places(Pos2::ZERO, vec2(1.0, 0.0), vec2(10.0, 10.0)), &[], lines).map(|rect| rect.center())
+        };
+        assert_eq!(beside(&[]), Some(pos2(12.0, 0.0)));
+        let line = [Pos2::ZERO, pos2(100.0, 0.0)];
+        assert!(beside(&[line]).is_some_and(|at| at.y.abs() > 5.0));
+        let all_round: Vec<_> =
+            (0..64).map(|k| [Pos2::ZERO, Pos2::ZERO + 100.0 * Vec2::angled(k as f32 / 10.0)]).collect();
+        assert!(beside(&all_round).is_some());
+    }
+}

@@ -1,0 +1,304 @@
+//! The steps of a path as rows of figures.
+
+use super::Reading;
+use crate::trace::ray::{Leaving, Step};
+use eframe::egui::{
+    Align, Align2, Color32, FontId, Rect, Response, ScrollArea, Sense, StrokeKind, TextStyle, Ui, WidgetInfo,
+    accesskit::Role, pos2, vec2,
+};
+
+/// Number of columns.
+const COLUMNS: usize = 9;
+
+/// A column: its heading, what it means, and to which side it is flush.
+struct Column {
+    heading: &'static str,
+    meaning: &'static str,
+    align: Align,
+}
+
+const fn column(heading: &'static str, meaning: &'static str, align: Align) -> Column {
+    Column { heading, meaning, align }
+}
+
+const HEADINGS: [Column; COLUMNS] = [
+    column(
+        "step",
+        "The facets in the order in which the light meets them, numbered as in the drawing",
+        Align::Max,
+    ),
+    column("facet", "The facet that the light meets", Align::Min),
+    column("angle", "Angle of incidence, between the light and the facet's normal", Align::Max),
+    column("critical", "Critical angle: beyond it all light is reflected", Align::Max),
+    column("leaves", "Share of the light that leaves here; total: all is reflected", Align::Max),
+    column("elev.", "Where the light that leaves goes: its elevation above the scope's plane", Align::Max),
+    column("azim.", "Where the light that leaves goes: its azimuth around the scope's axis", Align::Max),
+    column("zone", "The zone of the scope to which the light that leaves goes", Align::Min),
+    column("goes on", "Share of the light that goes on inside the stone", Align::Max),
+];
+
+/// The column that has a swatch of the zone's colour before its text.
+const ZONE: usize = 7;
+
+/// Space between columns, points: least and most.
+const GAPS: (f32, f32) = (7.0, 18.0);
+
+/// Least size of type, points: where the columns do not fit in that, they scroll.
+const LEAST_TYPE: f32 = 10.0;
+
+/// Room for the scroll bar, points.
+const BAR: f32 = 8.0;
+
+/// Length above which a facet's name is cut short, characters.
+const LONGEST_NAME: usize = 20;
+
+/// The table's texts.
+pub(super) struct Table {
+    rows: Vec<Row>,
+    summary: String,
+}
+
+struct Row {
+    cells: [String; COLUMNS],
+    /// The colour of the zone, where any light leaves.
+    zone: Option<Color32>,
+    /// The row in words.
+    spoken: String,
+}
+
+/// Where the columns are, in type of a size.
+struct Columns {
+    font: FontId,
+    widths: [f32; COLUMNS],
+    gap: f32,
+}
+
+impl Table {
+    pub fn new(reading: &Reading) -> Self {
+        let steps = &reading.path.steps;
+        let rows = (1..).zip(steps).map(|(number, step)| row(reading, number, step)).collect();
+        let left: f64 = steps.iter().filter_map(|step| step.leaving).map(|leaving| leaving.share).sum();
+        let rest = reading.path.rest;
+        let summary = format!(
+            "{} leaves, {} is absorbed, {} not followed",
+            percent(left),
+            percent(rest.absorbed),
+            percent(rest.unresolved)
+        );
+        Self { rows, summary }
+    }
+
+    /// Its width in type of the usual size, points.
+    pub fn width(&self, ui: &Ui) -> f32 {
+        Columns::new(ui, self, TextStyle::Body.resolve(ui.style())).width() + BAR
+    }
+
+    /// Shows it over all the room there is; the step under the pointer. A click keeps a step lit, or lets it go.
+    pub fn show(&self, ui: &mut Ui, kept: &mut Option<usize>) -> Option<usize> {
+        ui.label(&self.summary);
+        let columns = Columns::fitting(ui, self, ui.available_width() - BAR);
+        let width = columns.width() + BAR;
+        let shown = ScrollArea::horizontal().auto_shrink(false).show(ui, |ui| {
+            ui.set_width(width.max(ui.available_width()));
+            ui.spacing_mut().item_spacing.y = 0.0;
+            columns.headings(ui);
+            self.body(ui, &columns, kept)
+        });
+        shown.inner
+    }
+
+    fn body(&self, ui: &mut Ui, columns: &Columns, kept: &mut Option<usize>) -> Option<usize> {
+        let height = columns.height();
+        let mut hovered = None;
+        ScrollArea::vertical().auto_shrink(false).show_rows(ui, height, self.rows.len(), |ui, range| {
+            for k in range {
+                let response = columns.row(ui, &self.rows[k], k, *kept == Some(k));
+                if response.clicked() {
+                    *kept = if *kept == Some(k) { None } else { Some(k) };
+                }
+                hovered = if response.hovered() { Some(k) } else { hovered };
+            }
+        });
+        hovered
+    }
+}
+
+impl Columns {
+    fn new(ui: &Ui, table: &Table, font: FontId) -> Self {
+        let wide =
+            |text: &str| ui.painter().layout_no_wrap(text.to_owned(), font.clone(), Color32::WHITE).size().x;
+        let widths = std::array::from_fn(|c| {
+            let cells = table.rows.iter().map(|row| wide(&row.cells[c])).fold(0.0, f32::max);
+            wide(HEADINGS[c].heading).max(cells + if c == ZONE { swatch(font.size) } else { 0.0 }).ceil()
+        });
+        Self { font, widths, gap: GAPS.0 }
+    }
+
+    /// Columns that fill a width, in type as large as fits but no larger than usual.
+    fn fitting(ui: &Ui, table: &Table, width: f32) -> Self {
+        let usual = TextStyle::Body.resolve(ui.style());
+        let columns = Self::new(ui, table, usual.clone());
+        let part = (width / columns.width()).min(1.0);
+        // In half points, downward.
+        let size = ((usual.size * part * 2.0).floor() / 2.0).max(LEAST_TYPE.min(usual.size));
+        let mut columns = if part < 1.0 { Self::new(ui, table, FontId { size, ..usual }) } else { columns };
+        let spare = (width - columns.width()) / (COLUMNS - 1) as f32;
+        columns.gap = (GAPS.0 + spare).clamp(GAPS.0, GAPS.1);
+        columns
+    }
+
+    fn width(&self) -> f32 {
+        self.widths.iter().sum::<f32>() + self.gap * (COLUMNS - 1) as f32
+    }
+
+    fn height(&self) -> f32 {
+        (self.font.size * 1.5).ceil()
+    }
+
+    /// The columns' places in a row.
+    fn places(&self, row: Rect) -> [Rect; COLUMNS] {
+        let mut left = row.left();
+        self.widths.map(|width| {
+            let place = Rect::from_min_max(pos2(left, row.top()), pos2(left + width, row.bottom()));
+            left = place.right() + self.gap;
+            place
+        })
+    }
+
+    fn headings(&self, ui: &mut Ui) {
+        let (row, _) = ui.allocate_exact_size(vec2(self.width(), self.height()), Sense::hover());
+        for (place, column) in self.places(row).into_iter().zip(&HEADINGS) {
+            self.text(ui, place, column.align, column.heading, ui.visuals().weak_text_color());
+            let response = ui.interact(
+                place.expand2(vec2(self.gap / 2.0, 0.0)),
+                ui.scope_id().with(column.heading),
+                Sense::hover(),
+            );
+            response.widget_info(|| WidgetInfo::labeled(Role::ColumnHeader, true, column.meaning));
+            response.on_hover_text(column.meaning);
+        }
+    }
+
+    fn row(&self, ui: &mut Ui, row: &Row, k: usize, is_kept: bool) -> Response {
+        let (rect, response) =
+            ui.allocate_exact_size(vec2(ui.available_width(), self.height()), Sense::click());
+        response.widget_info(|| WidgetInfo::selected(Role::Row, true, is_kept, &row.spoken));
+        let visuals = ui.visuals();
+        let is_lit = is_kept || response.hovered();
+        if is_lit {
+            ui.painter().rect_filled(rect, 2.0, visuals.selection.bg_fill);
+        } else if k % 2 == 1 {
+            ui.painter().rect_filled(rect, 0.0, visuals.faint_bg_color);
+        }
+        if response.has_focus() {
+            ui.painter().rect_stroke(rect, 2.0, visuals.selection.stroke, StrokeKind::Inside);
+        }
+        let colour = if is_lit { visuals.selection.stroke.color } else { visuals.text_color() };
+        for (c, mut place) in self.places(rect).into_iter().enumerate() {
+            if c == ZONE
+                && let Some(zone) = row.zone
+            {
+                self.swatch(ui, place, zone);
+                place.min.x += swatch(self.font.size);
+            }
+            self.text(ui, place, HEADINGS[c].align, &row.cells[c], colour);
+        }
+        response
+    }
+
+    fn swatch(&self, ui: &Ui, place: Rect, colour: Color32) {
+        let side = 0.65 * self.font.size;
+        let square = Rect::from_min_size(pos2(place.left(), place.center().y - side / 2.0), vec2(side, side));
+        ui.painter().rect_filled(square.expand(1.0), 2.0, ui.visuals().weak_text_color());
+        ui.painter().rect_filled(square, 1.0, colour);
+    }
+
+    fn text(&self, ui: &Ui, place: Rect, align: Align, text: &str, colour: Color32) {
+        let (anchor, at) = match align {
+            Align::Max => (Align2::RIGHT_CENTER, place.right_center()),
+            _ => (Align2::LEFT_CENTER, place.left_center()),
+        };
+        ui.painter().text(at, anchor, text, self.font.clone(), colour);
+    }
+}
+
+/// Width of a swatch and the space after it, in type of a size.
+fn swatch(size: f32) -> f32 {
+    1.0 * size
+}
+
+fn row(reading: &Reading, number: usize, step: &Step) -> Row {
+    let name = reading.stone.name(step.facet);
+    let angle = degrees(step.incidence);
+    let critical = step.critical.map(degrees);
+    let [leaves, elevation, azimuth, zone] = match step.leaving {
+        None => ["total".to_owned(), String::new(), String::new(), String::new()],
+        Some(leaving) => where_to(reading, leaving),
+    };
+    let goes = match step.leaving {
+        None => "all reflected".to_owned(),
+        Some(_) => format!("{leaves} leaves to {zone}, elevation {elevation}, azimuth {azimuth}"),
+    };
+    let limit = critical.as_ref().map_or(String::new(), |critical| format!(", critical angle {critical}"));
+    let onward = percent(step.onward);
+    let spoken = format!("Step {number}: {name}, incidence {angle}{limit}, {goes}, {onward} goes on");
+    let critical = critical.unwrap_or_else(|| NONE.to_owned());
+    let cells =
+        [number.to_string(), shortened(name), angle, critical, leaves, elevation, azimuth, zone, onward];
+    Row { cells, zone: step.leaving.map(|leaving| reading.colour(leaving.direction)), spoken }
+}
+
+/// Stands for a number that there is not.
+const NONE: &str = "–";
+
+/// Share, elevation, azimuth, zone.
+fn where_to(reading: &Reading, Leaving { share, direction }: Leaving) -> [String; 4] {
+    let azimuth = reading.azimuth(direction).map(|a| format!("{}°", a.round() % 360.0));
+    [
+        percent(share),
+        degrees(reading.elevation(direction)),
+        azimuth.unwrap_or_else(|| NONE.to_owned()),
+        reading.band(direction).name.clone(),
+    ]
+}
+
+/// A tenth of a degree is what cutters' gauges tell.
+fn degrees(angle: f64) -> String {
+    // Plus zero, lest there be a negative one.
+    let rounded = (angle * 10.0).round() / 10.0 + 0.0;
+    format!("{rounded:.1}°").replace('-', "−")
+}
+
+fn percent(share: f64) -> String {
+    match share {
+        s if s > 0.0 && s < 0.0005 => "<0.1 %".to_owned(),
+        s => format!("{:.1} %", 100.0 * s),
+    }
+}
+
+/// A name that is not too wide for its column.
+fn shortened(name: &str) -> String {
+    if name.chars().count() <= LONGEST_NAME {
+        return name.to_owned();
+    }
+    let start: String = name.chars().take(LONGEST_NAME - 1).collect();
+    format!("{}…", start.trim_end())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn figures_have_the_digits_that_mean_something() {
+        assert_eq!([0.04, -0.04, -41.25, 89.96].map(degrees), ["0.0°", "0.0°", "−41.3°", "90.0°"]);
+        let shares = [0.0, 0.0004, 0.0005, 0.17181, 1.0].map(percent);
+        assert_eq!(shares, ["0.0 %", "<0.1 %", "0.1 %", "17.2 %", "100.0 %"]);
+    }
+
+    #[test]
+    fn a_long_name_is_cut_short() {
+        assert_eq!(shortened("lower_half 16"), "lower_half 16");
+        assert_eq!(shortened("äußere untere Hälftenfacette"), "äußere untere Hälft…");
+    }
+}
