@@ -6,6 +6,7 @@ use super::desk::{Desk, Layout};
 use super::dialogs::{Dialog, Then};
 use super::document::Document;
 use super::files::{Chooser, Choosing, Purpose, Question, Safe, Watching, by_dialog};
+use super::following::{self, Following};
 use super::notes::Notes;
 use super::probe::Probe;
 use super::profile_view::ProfileView;
@@ -74,6 +75,7 @@ pub struct Editor {
     pub(super) compared: Option<Compared>,
     pub(super) probe: Option<Probe>,
     pub(super) profiles: [ProfileView; 4],
+    pub(super) following: Following,
     /// What is said in the line at the bottom while the pointer is over a picture.
     pub(super) told: String,
     pub(super) notes: Notes,
@@ -135,6 +137,7 @@ impl Editor {
             compared: None,
             probe: None,
             profiles: Default::default(),
+            following: Following::default(),
             told: String::new(),
             notes,
             dialog: None,
@@ -169,6 +172,12 @@ impl Editor {
         let posed = turned(specimen, turn);
         self.posed = (Arc::clone(specimen), turn, Arc::clone(&posed));
         posed
+    }
+
+    /// What answers questions about a stone.
+    pub(super) fn probe(&mut self, specimen: &Arc<Specimen>) -> &Probe {
+        let known = self.probe.take().filter(|p| p.is_about(specimen));
+        self.probe.insert(known.unwrap_or_else(|| Probe::new(Arc::clone(specimen))))
     }
 
     /// The light that is chosen; the last one where that cannot be had, with a word on why.
@@ -397,6 +406,7 @@ impl Editor {
             Command::Total => overlay("total"),
             Command::Strongest => self.desk.strongest,
             Command::Split => self.desk.is_split,
+            Command::LightPath => self.following.is_open,
             _ => false,
         }
     }
@@ -507,6 +517,7 @@ impl Editor {
         design_panel::show(self, ui);
         figures_panel::show(self, ui);
         let seen = stage::show(self, ui);
+        following::show(self, &ctx);
         dialogs::show(self, &ctx);
         self.document.update();
         self.order(&seen);

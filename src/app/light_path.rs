@@ -11,7 +11,7 @@ use self::table::Table;
 use crate::math::Basis;
 use crate::scene::{Band, Scope, Stone, elevation_deg};
 use crate::trace::ray::Path;
-use eframe::egui::{Align, Color32, CursorIcon, Layout, Sense, Ui, Vec2, WidgetInfo, accesskit::Role, vec2};
+use egui::{Align, Color32, CursorIcon, Layout, Sense, Ui, Vec2, WidgetInfo, accesskit::Role, vec2};
 use glam::DVec3;
 
 /// Least width at which the table stands beside the drawing, as a multiple of the table's own.

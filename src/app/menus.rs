@@ -205,7 +205,7 @@ pub fn does(editor: &mut Editor, command: Command, ctx: &Context) {
         Command::CompareFile => editor.choose(Purpose::Compare),
         Command::Split => desk.is_split = !desk.is_split,
         Command::NoCompare => editor.compared = None,
-        Command::LightPath => {}
+        Command::LightPath => editor.following.is_open = !editor.following.is_open,
         Command::Keys => editor.dialog = Some(Dialog::Keys),
     }
 }

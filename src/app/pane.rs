@@ -3,7 +3,7 @@
 use super::editor::{Editor, Shown};
 use super::eye::Eye;
 use super::menus;
-use super::probe::{Found, Probe};
+use super::probe::Found;
 use super::shows::Shows;
 use super::studio::{Grade, Which};
 use crate::cut::Cut;
@@ -182,13 +182,30 @@ fn scene(editor: &mut Editor, ui: &mut Ui, (pane, shows): (usize, Shows), body: 
     pictures(editor, ui, pane, &sight);
     ui.painter().rect_stroke(body, 4.0, focus(ui, &response), StrokeKind::Inside);
     moved(editor.desk.eye_mut(pane), ui, &response, &sight);
-    if response.double_clicked() {
-        enlarge(editor, pane);
-    }
+    clicked(editor, ui, pane, &response, &sight);
     if response.hovered() {
         editor.hovered = pane;
     }
     hover(editor, ui, (shows, eye.turn), &response, &sight);
+}
+
+/// Follows the ray that is clicked; a double click shows the view alone. Marks the ray that is followed.
+fn clicked(editor: &mut Editor, ui: &Ui, pane: usize, response: &Response, sight: &Sight) {
+    if response.double_clicked() {
+        editor.following.unclick();
+        enlarge(editor, pane);
+    } else if response.clicked()
+        && let Some(at) = response.interact_pointer_pos()
+    {
+        editor.following.click(pane, sight.film.image_from_pixels(sight.pixel(at)), ui.ctx());
+    }
+    let followed = editor.following.at.filter(|(other, _)| editor.following.is_open && *other == pane);
+    if let Some((_, at)) = followed {
+        let at = sight.point(sight.film.pixels_from_image(DMat2::IDENTITY).transform_point2(at));
+        let painter = ui.painter().with_clip_rect(sight.body);
+        painter.circle_stroke(at, 5.0, Stroke::new(3.0, Color32::from_black_alpha(160)));
+        painter.circle_stroke(at, 5.0, Stroke::new(1.5, Color32::WHITE));
+    }
 }
 
 fn focus(ui: &Ui, response: &Response) -> Stroke {
@@ -271,7 +288,7 @@ fn by_keys(eye: &mut Eye, ui: &Ui, side: Side) {
 }
 
 /// The scope whose zones are named in a view.
-fn zones(shows: Shows) -> Scope {
+pub fn zones(shows: Shows) -> Scope {
     let aset = || Scope::aset(ASET_CONE, Backing::Black);
     shows.scoped().map_or_else(aset, |s| s.scope)
 }
@@ -283,12 +300,8 @@ fn hover(editor: &mut Editor, ui: &Ui, (shows, turn): (Shows, f64), response: &R
     }
     let Some(at) = response.hover_pos() else { return };
     let specimen = editor.posed(turn);
-    if editor.probe.as_ref().is_none_or(|p| !p.is_about(&specimen)) {
-        editor.probe = Some(Probe::new(Arc::clone(&specimen)));
-    }
-    let Some(probe) = &editor.probe else { return };
     let scope = zones(shows);
-    let found = probe.at(&sight.view, &sight.film, sight.pixel(at), &scope);
+    let found = editor.probe(&specimen).at(&sight.view, &sight.film, sight.pixel(at), &scope);
     editor.told = found.as_ref().map_or(String::new(), Found::told);
     if let Some(found) = &found {
         outline(ui, &specimen, found.facet, sight);

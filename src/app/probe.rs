@@ -3,7 +3,7 @@
 use crate::cut::tier_stem;
 use crate::optics::line;
 use crate::scene::{Film, Scope, Specimen, View, elevation_deg};
-use crate::trace::ray::{Camera, Options, Tracer};
+use crate::trace::ray::{Camera, Options, Path, Tracer};
 use glam::{DVec2, DVec3};
 use std::sync::Arc;
 
@@ -57,14 +57,20 @@ impl Probe {
         Arc::ptr_eq(&self.specimen, specimen)
     }
 
-    /// The ray through a point of a film, in its pixels.
-    pub fn ray(&self, view: &View, film: &Film, at: DVec2) -> (DVec3, DVec3) {
-        Camera::new(view, &self.specimen.stone.polytope).ray(film.image_from_pixels(at))
+    /// The ray through a point of the image.
+    fn ray(&self, view: &View, at: DVec2) -> (DVec3, DVec3) {
+        Camera::new(view, &self.specimen.stone.polytope).ray(at)
+    }
+
+    /// The way of the ray through a point of the image; none beside the stone.
+    pub fn path(&self, view: &View, at: DVec2) -> Option<Path> {
+        let (origin, direction) = self.ray(view, at);
+        self.tracer.path(origin, direction)
     }
 
     /// What lies at a point of a film, in its pixels; none beside the stone.
     pub fn at(&self, view: &View, film: &Film, at: DVec2, scope: &Scope) -> Option<Found> {
-        let (origin, direction) = self.ray(view, film, at);
+        let (origin, direction) = self.ray(view, film.image_from_pixels(at));
         let (facet, _) = self.tracer.meet(origin, direction)?;
         let mut strongest: Option<(f64, DVec3)> = None;
         self.tracer.follow(origin, direction, |exit| {

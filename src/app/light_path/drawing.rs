@@ -3,7 +3,7 @@
 use super::Reading;
 use crate::math::Basis;
 use crate::trace::ray::{Path, Step};
-use eframe::egui::{Align2, FontId, Painter, Pos2, Rect, Shape, Stroke, StrokeKind, Vec2, Visuals};
+use egui::{Align2, FontId, Painter, Pos2, Rect, Shape, Stroke, StrokeKind, Vec2, Visuals};
 use glam::{DVec2, DVec3};
 
 /// Length of the light outside the stone, as parts of the stone's reach: of what enters and of what leaves.
@@ -267,7 +267,7 @@ fn crosses(rect: Rect, [from, to]: [Pos2; 2]) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use eframe::egui::{pos2, vec2};
+    use egui::{pos2, vec2};
 
     #[test]
     fn a_number_stands_beside_its_point_and_apart_from_the_others() {

@@ -1,7 +1,7 @@
 //! From where the stone is looked at.
 
 use crate::math::Basis;
-use eframe::egui::{EventFilter, Key, Response, Ui, Vec2, vec2};
+use egui::{EventFilter, Key, Response, Ui, Vec2, vec2};
 use glam::DVec3;
 use std::f64::consts::FRAC_PI_2;
 

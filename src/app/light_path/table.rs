@@ -2,7 +2,7 @@
 
 use super::Reading;
 use crate::trace::ray::{Leaving, Step};
-use eframe::egui::{
+use egui::{
     Align, Align2, Color32, FontId, Rect, Response, ScrollArea, Sense, StrokeKind, TextStyle, Ui, WidgetInfo,
     accesskit::Role, pos2, vec2,
 };

@@ -2,7 +2,7 @@ use super::*;
 use crate::io::cut_file;
 use crate::scene::{ASET_CONE, Backing, Medium, View};
 use crate::trace::ray::{Camera, Options, Tracer};
-use eframe::egui::{Event, Key, PointerButton, Pos2, Rect, Shape, Theme, vec2};
+use egui::{Event, Key, PointerButton, Pos2, Rect, Shape, Theme, vec2};
 use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT, Queryable};
 use glam::DVec2;
@@ -155,7 +155,7 @@ fn dragging_and_arrow_keys_turn_the_stone_and_a_double_click_or_home_turns_it_ba
     assert_ne!(harness.state().widget.orbit, at_first);
     let at = drawing(&harness);
     for pressed in [true, false, true, false] {
-        let modifiers = eframe::egui::Modifiers::NONE;
+        let modifiers = egui::Modifiers::NONE;
         harness.event(Event::PointerButton { pos: at, button: PointerButton::Primary, pressed, modifiers });
     }
     harness.run();

@@ -1,0 +1,73 @@
+//! The ray that is followed through the stone: which one, and the window in which it is shown.
+
+use super::editor::Editor;
+use super::light_path::LightPath;
+use super::pane::zones;
+use egui::{Context, RichText, Window, vec2};
+use glam::DVec2;
+
+/// How long a click waits to become a double click, seconds.
+const PATIENCE: f64 = 0.32;
+
+/// Which ray is followed.
+#[derive(Debug, Default)]
+pub struct Following {
+    /// Whether its window is open.
+    pub is_open: bool,
+    /// The view that was clicked, and the point of its image, girdle radii.
+    pub at: Option<(usize, DVec2)>,
+    /// A click that may become a double click, and when it was.
+    waiting: Option<(usize, DVec2, f64)>,
+    view: LightPath,
+}
+
+impl Following {
+    /// A point of a view was clicked.
+    pub fn click(&mut self, pane: usize, at: DVec2, ctx: &Context) {
+        self.waiting = Some((pane, at, ctx.input(|i| i.time)));
+        ctx.request_repaint_after_secs(PATIENCE as f32 + 0.02);
+    }
+
+    /// The click was half of a double click.
+    pub fn unclick(&mut self) {
+        self.waiting = None;
+    }
+
+    fn ripen(&mut self, ctx: &Context) {
+        let now = ctx.input(|i| i.time);
+        if let Some((pane, at, _)) = self.waiting.filter(|(.., since)| now - since > PATIENCE) {
+            (self.waiting, self.at, self.is_open) = (None, Some((pane, at)), true);
+        }
+    }
+}
+
+/// Draws the window, if it is open.
+pub fn show(editor: &mut Editor, ctx: &Context) {
+    editor.following.ripen(ctx);
+    if !editor.following.is_open {
+        return;
+    }
+    let mut is_open = true;
+    let window = Window::new("Light path").open(&mut is_open).default_size(vec2(560.0, 620.0));
+    window.min_size(vec2(400.0, 360.0)).show(ctx, |ui| {
+        let Some((pane, at)) = editor.following.at else {
+            ui.label("Click a point of the stone in any view: its light is followed from there.");
+            return;
+        };
+        let eye = *editor.desk.eye(pane);
+        let shows = editor.desk.panes[pane].shows;
+        let view = eye.view(shows.side());
+        let specimen = editor.posed(eye.turn);
+        let path = editor.probe(&specimen).path(&view, at);
+        match path {
+            Some(path) => {
+                let scope = zones(shows);
+                editor.following.view.show(ui, &specimen.stone, &path, &scope, &view.light_basis());
+            }
+            None => {
+                ui.label(RichText::new("The point lies beside the stone; click one that lies on it.").weak());
+            }
+        }
+    });
+    editor.following.is_open = is_open;
+}
