@@ -48,6 +48,12 @@ impl ExportDialog {
         Self { folder: folder.join("out"), plan, thumbnails, pictures: HashMap::new(), job: None }
     }
 
+    /// How many small pictures have come.
+    #[cfg(test)]
+    pub fn thumbnails_shown(&self) -> usize {
+        self.pictures.len()
+    }
+
     /// Whether files are being written.
     pub fn is_busy(&self) -> bool {
         self.job.as_ref().is_some_and(|job| job.end().is_none())
@@ -113,6 +119,10 @@ fn thumbnail(ui: &mut Ui, shows: Shows, wanted: bool, picture: Option<&TextureHa
     ui.painter().rect_filled(square, 3.0, ui.visuals().extreme_bg_color);
     if let Some(texture) = picture {
         let [w, h] = texture.size().map(|n| n as f32);
+        if w != h {
+            // Drawings are on paper.
+            ui.painter().rect_filled(square, 3.0, Color32::WHITE);
+        }
         let size = vec2(w, h) * (THUMBNAIL / w.max(h));
         let uv = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
         ui.painter().image(texture.id(), Rect::from_center_size(square.center(), size), uv, Color32::WHITE);

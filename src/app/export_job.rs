@@ -2,11 +2,12 @@
 
 use super::shows::Shows;
 use super::studio::{Camera, Effort, FINE_RENDER, Shot};
+use crate::cut::Cut;
 use crate::io::export::{Export, Format, Outputs, Told, Tracer, Viewing};
-use crate::io::{Failure, write_rgba_png};
+use crate::io::{Failure, rasterize, write_rgba_png};
 use crate::optics::line;
-use crate::picture::named;
-use crate::scene::{Film, Projection, Viewpoint};
+use crate::picture::{named, profile};
+use crate::scene::{Film, Projection, Specimen, Viewpoint};
 use crate::trace::unwatched;
 use egui::ColorImage;
 use std::ops::ControlFlow;
@@ -193,7 +194,7 @@ pub fn thumbnails(plan: Plan, wake: impl Fn() + Send + 'static) -> Receiver<(Sho
     let (sender, pictures) = channel();
     std::thread::spawn(move || {
         let mut camera = Camera::default();
-        for shows in Shows::ALL.into_iter().filter(|s| *s != Shows::Profile) {
+        for shows in Shows::ALL {
             if !send(&plan, shows, &mut camera, &sender) {
                 return;
             }
@@ -203,10 +204,25 @@ pub fn thumbnails(plan: Plan, wake: impl Fn() + Send + 'static) -> Receiver<(Sho
     pictures
 }
 
+/// The drawing from the side, small.
+fn side(plan: &Plan) -> Option<ColorImage> {
+    let Specimen { stone, design, .. } = &*plan.shot.specimen;
+    let brilliant = match &design.cut {
+        Cut::RoundBrilliant(brilliant) => Some(brilliant),
+        Cut::Planes(_) => None,
+    };
+    let text = profile(stone, &design.name, brilliant).to_string();
+    let (width, height, rgb) = rasterize(&text, 2 * THUMBNAIL).ok()?;
+    Some(ColorImage::from_rgb([width as usize, height as usize], &rgb))
+}
+
 /// Whether anyone still wants it.
 fn send(plan: &Plan, shows: Shows, camera: &mut Camera, sender: &Sender<(Shows, ColorImage)>) -> bool {
     let effort = Effort { unresolved: 2e-2, coarser: 1.0, bands: 6 };
     let mut is_wanted = true;
+    if shows == Shows::Profile {
+        return side(plan).is_none_or(|image| sender.send((shows, image)).is_ok());
+    }
     // A thumbnail that cannot be had stays empty; exporting tells why.
     let _ = camera.take(&plan.shot(shows, THUMBNAIL), &effort, None, &unwatched, &mut |taken| {
         is_wanted &= sender.send((shows, taken.image)).is_ok();

@@ -6,7 +6,7 @@ use super::theme;
 use crate::measure::Figures;
 use crate::scene::{ASET_CONE, Backing, Scope};
 use egui::{Align, Color32, Layout, Panel, Rect, RichText, ScrollArea, Sense, Ui, pos2, vec2};
-use egui_plot::{Legend, Line, Plot, PlotPoints};
+use egui_plot::{GridInput, GridMark, HoverPosition, Line, Plot, PlotPoint, PlotPoints};
 
 /// A zone as a row shows it: what it is called here, its band in the scope, and what it means.
 const ZONES: [(&str, &str, &str); 5] = [
@@ -173,14 +173,32 @@ fn row(ui: &mut Ui, row: &Row) {
     text(&mut right, number);
 }
 
+/// Marks at the multiples of ten in sight.
+fn tens(input: GridInput) -> Vec<GridMark> {
+    let (first, last) = (input.bounds.0 / 10.0, input.bounds.1 / 10.0);
+    let tens = (first.ceil() as i32)..=(last.floor() as i32);
+    tens.map(|k| GridMark { value: 10.0 * f64::from(k), step_size: 10.0 }).collect()
+}
+
+/// The zones' light against tilt, in the colours of the bars above.
 fn plot(ui: &mut Ui, tilts: &Tilts) {
     let scope = Scope::aset(ASET_CONE, Backing::Black);
-    let plot = Plot::new("tilts").height(190.0).allow_drag(false).allow_zoom(false).allow_scroll(false);
+    let plot = Plot::new("tilts")
+        .height(200.0)
+        .allow_drag(false)
+        .allow_zoom(false)
+        .allow_scroll(false)
+        .show_x(false)
+        .show_y(false);
+    let plot = plot.include_y(0.0).include_y(60.0).x_grid_spacer(tens).y_grid_spacer(tens);
     let plot = plot
-        .legend(Legend::default().follow_insertion_order(true))
-        .include_y(0.0)
-        .x_axis_label("tilt, degrees")
-        .y_axis_label("percent");
+        .x_axis_formatter(|mark, _| format!("{}°", mark.value))
+        .y_axis_formatter(|mark, _| format!("{} %", mark.value));
+    let now = |name: &str, point: &PlotPoint| format!("{name}: {:.1} % at {:.0}°", point.y, point.x);
+    let plot = plot.label_formatter(move |nearest| match nearest {
+        HoverPosition::NearDataPoint { plot_name, position, .. } => Some(now(plot_name, position)),
+        HoverPosition::Elsewhere { .. } => None,
+    });
     plot.show(ui, |plot| {
         for (name, band, _) in ZONES.into_iter().filter(|(_, band, _)| *band != "head") {
             let Some(k) = scope.bands.iter().position(|b| b.name == band) else { continue };

@@ -9,6 +9,9 @@ use glam::DVec2;
 /// How long a click waits to become a double click, seconds.
 const PATIENCE: f64 = 0.32;
 
+/// Where the window is first seen: over the views, beside the design.
+const PLACE: [f32; 2] = [372.0, 220.0];
+
 /// Which ray is followed.
 #[derive(Debug, Default)]
 pub struct Following {
@@ -37,6 +40,8 @@ impl Following {
         let now = ctx.input(|i| i.time);
         if let Some((pane, at, _)) = self.waiting.filter(|(.., since)| now - since > PATIENCE) {
             (self.waiting, self.at, self.is_open) = (None, Some((pane, at)), true);
+        } else if self.waiting.is_some() {
+            ctx.request_repaint_after_secs(0.05);
         }
     }
 }
@@ -48,7 +53,8 @@ pub fn show(editor: &mut Editor, ctx: &Context) {
         return;
     }
     let mut is_open = true;
-    let window = Window::new("Light path").open(&mut is_open).default_size(vec2(560.0, 620.0));
+    let window =
+        Window::new("Light path").open(&mut is_open).default_size(vec2(560.0, 620.0)).default_pos(PLACE);
     window.min_size(vec2(400.0, 360.0)).show(ctx, |ui| {
         let Some((pane, at)) = editor.following.at else {
             ui.label("Click a point of the stone in any view: its light is followed from there.");

@@ -95,8 +95,8 @@ impl Probe {
         let count = stone.names().iter().filter(|n| tier_stem(n) == stem).count();
         Found {
             facet,
-            name: name.to_owned(),
-            tier: (stem.to_owned(), count),
+            name: name.replace('_', " "),
+            tier: (stem.replace('_', " "), count),
             slope: radial.length().atan2(normal.z.abs()).to_degrees(),
             azimuth: (radial.length() > LEVEL).then(|| radial.to_angle().to_degrees().rem_euclid(360.0)),
             light,

@@ -1,12 +1,16 @@
 //! What people do, from the first click to the last.
 
 use super::*;
+use crate::app::dialogs::Dialog;
+use crate::app::document::Document;
+use crate::app::shows::Shows;
 use crate::cut::Crown;
 use crate::io::cut_file;
 use crate::measure::by_beams;
 use crate::optics::line;
 use crate::scene::{ASET_CONE, Backing, Scope, Specimen, View};
 use crate::trace::{beam, unwatched};
+use egui_kittest::kittest::NodeT;
 
 #[test]
 fn a_crown_angle_changes_the_aset_and_undo_brings_it_back_to_the_pixel() {
@@ -154,11 +158,11 @@ fn a_number_out_of_its_limits_is_told_where_it_stands_and_the_last_stone_stays()
 
 #[test]
 fn every_view_shows_a_picture() {
-    for (k, shows) in crate::app::shows::Shows::ALL.into_iter().enumerate() {
+    for (k, shows) in Shows::ALL.into_iter().enumerate() {
         let mut bench = Bench::new();
         bench.harness.state_mut().desk.panes[0].shows = shows;
         bench.settle();
-        if shows != crate::app::shows::Shows::Profile {
+        if shows != Shows::Profile {
             let picture = bench.picture(0);
             assert!(picture.iter().any(|p| *p != picture[0]), "{k}: {shows:?} is empty");
         }
@@ -189,4 +193,123 @@ fn nothing_is_drawn_again_while_nothing_changes() {
     bench.settle();
     let count = bench.harness.run();
     assert!(count <= 3, "{count} frames for nothing");
+}
+
+#[test]
+fn every_view_is_exported_as_a_file() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut bench = Bench::new();
+    bench.choose("File", "Export…");
+    let Some(Dialog::Export(export)) = &mut bench.harness.state_mut().dialog else { panic!() };
+    export.folder = folder.path().join("out");
+    bench.harness.run_steps(2);
+    for shows in Shows::ALL {
+        let box_ = bench.harness.get_by_role_and_label(egui::Role::CheckBox, shows.name());
+        if box_.accesskit_node().toggled() != Some(egui::accesskit::Toggled::True) {
+            box_.click();
+            bench.harness.run_steps(2);
+        }
+    }
+    ["SVG", "JSON"].into_iter().for_each(|name| bench.click(name));
+    let size = bench.harness.get_by_role_and_label(egui::Role::SpinButton, "Size");
+    size.focus();
+    bench.type_number("Size", "96");
+    bench.click("Write files");
+    bench.wait(|editor| matches!(&editor.dialog, Some(Dialog::Export(e)) if !e.is_busy()));
+    assert!(bench.harness.query_by_label("All files are written.").is_some());
+    let names: Vec<String> = std::fs::read_dir(folder.path().join("out"))
+        .unwrap()
+        .map(|f| f.unwrap().file_name().to_string_lossy().into_owned())
+        .collect();
+    for shows in Shows::ALL {
+        let name = format!("tolkowsky-1919-{}.png", shows.key());
+        assert!(names.contains(&name), "{name} is missing in {names:?}");
+    }
+    assert!(names.contains(&"tolkowsky-1919-figures.json".to_owned()) && names.len() > 20, "{names:?}");
+    bench.click("Close");
+    assert!(bench.editor().dialog.is_none());
+}
+
+#[test]
+fn the_profile_is_pulled_into_another_shape() {
+    let mut desk = Bench::small();
+    desk.panes[1].shows = Shows::Profile;
+    let mut bench = Bench::with(Setup { desk, ..Setup::default() });
+    bench.settle();
+    let before = (bench.brilliant(), bench.picture(0));
+    let tip = bench.harness.get_by_label("Pavilion depth, percent").rect().center();
+    bench.harness.hover_at(tip);
+    bench.harness.step();
+    bench.harness.drag_at(tip);
+    bench.harness.step();
+    for down in [4.0, 8.0, 12.0] {
+        bench.harness.hover_at(tip + egui::vec2(0.0, down));
+        bench.harness.step();
+    }
+    bench.harness.drop_at(tip + egui::vec2(0.0, 12.0));
+    bench.settle();
+    let deeper = bench.brilliant().derived().unwrap().pavilion_depth;
+    assert!(deeper > before.0.derived().unwrap().pavilion_depth + 1.0, "{deeper}");
+    assert_ne!(bench.picture(0), before.1);
+    bench.choose("Edit", "Undo");
+    bench.settle();
+    assert_eq!((bench.brilliant(), bench.picture(0)), before, "a drag is one step");
+}
+
+#[test]
+fn a_click_follows_a_ray_and_a_double_click_enlarges() {
+    let mut bench = Bench::new();
+    bench.settle();
+    let at = bench.harness.get_by_label("ASET picture").rect().center() + egui::vec2(30.0, 10.0);
+    bench.click_at(at);
+    (0..40).for_each(|_| bench.harness.step());
+    assert!(bench.editor().following.is_open);
+    assert!(bench.harness.query_by_label_contains("Light path through the stone").is_some());
+    bench.harness.key_press(egui::Key::L);
+    bench.harness.run_steps(3);
+    assert!(!bench.editor().following.is_open);
+    bench.click_at(at);
+    bench.click_at(at);
+    (0..40).for_each(|_| bench.harness.step());
+    assert_eq!((bench.editor().desk.large, bench.editor().following.is_open), (Some(0), false));
+}
+
+#[test]
+fn two_designs_are_compared_and_their_figures_differ() {
+    let mut bench = Bench::new();
+    bench.settle();
+    bench.choose("View", "Compare with saved");
+    bench.type_number("Pavilion angle", "42.2");
+    bench.settle();
+    let figures = |which| &bench.editor().figures[&which].figures;
+    assert_ne!(figures(Which::Present), figures(Which::Other));
+    let pictures = |which| bench.editor().pictures[&(0, which)].taken.image.pixels.clone();
+    assert_ne!(pictures(Which::Present), pictures(Which::Other));
+    assert_eq!(bench.harness.query_all_by_label("present").count(), 2);
+    bench.harness.key_down(egui::Key::C);
+    bench.harness.run_steps(2);
+    assert_eq!(bench.harness.query_all_by_label("as saved").count(), 2);
+    bench.harness.key_up(egui::Key::C);
+    bench.harness.run_steps(2);
+    assert_eq!(bench.harness.query_all_by_label("as saved").count(), 0);
+}
+
+#[test]
+fn a_file_that_others_change_is_read_again_and_asked_about_where_work_would_be_lost() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("mine.toml");
+    let mut design = Document::first().unwrap().work.design;
+    std::fs::write(&path, cut_file::write(&design)).unwrap();
+    let mut bench = Bench::with(Setup { file: Some(path.clone()), ..Setup::default() });
+    bench.harness.run_steps(2);
+    design.name = "Changed outside once".to_owned();
+    std::fs::write(&path, cut_file::write(&design)).unwrap();
+    bench.harness.run_steps(3);
+    assert_eq!(bench.editor().document.work.design.name, design.name);
+    bench.type_number("Table", "57");
+    design.name = "Changed outside a second time".to_owned();
+    std::fs::write(&path, cut_file::write(&design)).unwrap();
+    bench.harness.run_steps(3);
+    bench.click("Keep mine");
+    assert!((bench.brilliant().table - 57.0).abs() < 1e-12);
 }

@@ -2,6 +2,7 @@
 
 mod drag;
 mod flows;
+mod looks;
 
 use super::desk::{Desk, Layout};
 use super::editor::{Editor, Setup};
@@ -75,6 +76,28 @@ impl Bench {
             self.harness.step();
         }
         self.harness.run_steps(3);
+    }
+
+    /// Waits for something.
+    pub fn wait(&mut self, come: impl Fn(&Editor) -> bool) {
+        let begun = Instant::now();
+        while !come(self.editor()) {
+            assert!(begun.elapsed() < PATIENCE, "what is waited for does not come");
+            std::thread::sleep(Duration::from_millis(5));
+            self.harness.step();
+        }
+        self.harness.run_steps(2);
+    }
+
+    /// Presses and lets go at a point.
+    pub fn click_at(&mut self, at: egui::Pos2) {
+        self.harness.hover_at(at);
+        for pressed in [true, false] {
+            let (button, modifiers) = (egui::PointerButton::Primary, egui::Modifiers::NONE);
+            self.harness.step();
+            self.harness.event(egui::Event::PointerButton { pos: at, button, pressed, modifiers });
+        }
+        self.harness.run_steps(2);
     }
 
     pub fn click(&mut self, label: &str) {

@@ -1,0 +1,70 @@
+//! What the window looks like, beside pictures that were looked at. After a change meant to be seen:
+//! `UPDATE_SNAPSHOTS=1 cargo test --lib looks`, and look at what it wrote.
+
+use super::*;
+use crate::app::shows::Shows;
+use crate::trace::gpu::Gpu;
+use egui_kittest::SnapshotOptions;
+
+/// Whether a window can be drawn here; told where not, and a failure where it must.
+fn can_draw(test: &str) -> bool {
+    match Gpu::open() {
+        Ok(_) => true,
+        Err(error) => {
+            assert!(std::env::var_os("BRILLIANTEER_REQUIRE_GPU").is_none(), "{error}");
+            println!("SKIPPED {test}: {error}");
+            false
+        }
+    }
+}
+
+/// Four views that are quickly taken.
+fn desk() -> Desk {
+    let mut desk = Desk::default();
+    desk.panes[0].shows = Shows::Arrows;
+    desk
+}
+
+fn compare(bench: &mut Bench, name: &str) {
+    // Drivers round edges of letters and lines differently by a shade.
+    let options = SnapshotOptions::new().threshold(1.0).max_failed_pixels(60);
+    bench.harness.remove_cursor();
+    bench.harness.run_steps(2);
+    bench.harness.snapshot_options(name, &options);
+}
+
+#[test]
+fn the_first_window_in_the_dark() {
+    if !can_draw("the_first_window_in_the_dark") {
+        return;
+    }
+    let mut bench = Bench::drawn(Setup { desk: desk(), ..Setup::default() }, egui::Theme::Dark);
+    bench.settle();
+    compare(&mut bench, "dark");
+}
+
+#[test]
+fn a_light_path_in_the_light() {
+    if !can_draw("a_light_path_in_the_light") {
+        return;
+    }
+    let mut bench = Bench::drawn(Setup { desk: desk(), ..Setup::default() }, egui::Theme::Light);
+    bench.settle();
+    let at = bench.harness.get_by_label("ASET picture").rect().center() + egui::vec2(60.0, 24.0);
+    bench.click_at(at);
+    (0..40).for_each(|_| bench.harness.step());
+    bench.settle();
+    compare(&mut bench, "light-path");
+}
+
+#[test]
+fn what_may_be_exported() {
+    if !can_draw("what_may_be_exported") {
+        return;
+    }
+    let mut bench = Bench::drawn(Setup { desk: desk(), ..Setup::default() }, egui::Theme::Dark);
+    bench.settle();
+    bench.choose("File", "Export…");
+    bench.wait(|editor| matches!(&editor.dialog, Some(crate::app::dialogs::Dialog::Export(e)) if e.thumbnails_shown() == 9));
+    compare(&mut bench, "export");
+}

@@ -1,0 +1,179 @@
+//! The real program in a real window, on a screen that only exists in memory (Xvfb), worked by keys (xdotool).
+#![cfg(all(feature = "app", target_os = "linux"))]
+#![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a test fails by it; what is skipped is told")]
+
+use std::io::{BufRead, BufReader};
+use std::path::{Path, PathBuf};
+use std::process::{Child, Command, Stdio};
+use std::time::{Duration, Instant};
+
+/// How long a window may take to open or close, and all its pictures to be finished, where cores are few and shared.
+const PATIENCE: Duration = Duration::from_secs(120);
+
+/// A screen that does not change for so long shows all it is going to.
+const STILL: Duration = Duration::from_millis(2500);
+
+/// A screen in memory.
+struct Screen {
+    server: Child,
+    display: String,
+    folder: tempfile::TempDir,
+}
+
+/// Pixels of a screen: width, height, red, green and blue of each.
+#[derive(PartialEq)]
+struct Pixels(u32, u32, Vec<u8>);
+
+impl Screen {
+    /// Opens one; none where there is no Xvfb or no xdotool, which fails where it must be there.
+    fn open(test: &str) -> Option<Self> {
+        let is_there = |name: &str| {
+            Command::new(name).arg("-version").stdout(Stdio::null()).stderr(Stdio::null()).status().is_ok()
+        };
+        if !is_there("Xvfb") || !is_there("xdotool") {
+            assert!(
+                std::env::var_os("BRILLIANTEER_REQUIRE_WINDOW").is_none(),
+                "Xvfb and xdotool are required"
+            );
+            println!("SKIPPED {test}: it needs Xvfb and xdotool");
+            return None;
+        }
+        let folder = tempfile::tempdir().unwrap();
+        let mut server = Command::new("Xvfb")
+            .args(["-displayfd", "1", "-screen", "0", "1480x940x24", "-nolisten", "tcp", "-fbdir"])
+            .arg(folder.path())
+            .stdout(Stdio::piped())
+            .stderr(Stdio::null())
+            .spawn()
+            .unwrap();
+        let mut number = String::new();
+        BufReader::new(server.stdout.take().unwrap()).read_line(&mut number).unwrap();
+        Some(Self { server, display: format!(":{}", number.trim()), folder })
+    }
+
+    /// Starts the program, and waits until its window is there and its pictures are finished.
+    fn start(&self, home: &Path) -> Child {
+        let program = Command::new(env!("CARGO_BIN_EXE_brillianteer"))
+            .env("DISPLAY", &self.display)
+            .env("XDG_DATA_HOME", home)
+            .env("XDG_RUNTIME_DIR", home)
+            .env_remove("WAYLAND_DISPLAY")
+            .spawn()
+            .unwrap();
+        self.until("the window", || !self.asked(&["search", "--name", "Brillianteer"]).trim().is_empty());
+        self.come_to_rest();
+        program
+    }
+
+    /// What xdotool answers.
+    fn asked(&self, line: &[&str]) -> String {
+        let output = Command::new("xdotool").args(line).env("DISPLAY", &self.display).output().unwrap();
+        String::from_utf8_lossy(&output.stdout).into_owned()
+    }
+
+    /// Presses a key in the window.
+    fn press(&self, key: &str) {
+        let window = self.asked(&["search", "--name", "Brillianteer"]);
+        let window = window.lines().next().unwrap().to_owned();
+        self.asked(&["windowfocus", &window]);
+        self.asked(&["key", "--clearmodifiers", key]);
+    }
+
+    fn until(&self, what: &str, come: impl Fn() -> bool) {
+        let begun = Instant::now();
+        while !come() {
+            assert!(begun.elapsed() < PATIENCE, "{what} does not come");
+            std::thread::sleep(Duration::from_millis(50));
+        }
+    }
+
+    /// What the screen shows: the server keeps it in a file, as XWD.
+    fn pixels(&self) -> Pixels {
+        let file = std::fs::read(self.folder.path().join("Xvfb_screen0")).unwrap();
+        let word = |k: usize| u32::from_be_bytes(file[4 * k..4 * k + 4].try_into().unwrap()) as usize;
+        let (width, height, line, start) = (word(4), word(5), word(12), word(0) + 12 * word(19));
+        let row = |y: usize| &file[start + y * line..start + y * line + 4 * width];
+        let rgb =
+            (0..height).flat_map(|y| row(y).as_chunks::<4>().0.iter().flat_map(|&[b, g, r, _]| [r, g, b]));
+        Pixels(width as u32, height as u32, rgb.collect())
+    }
+
+    fn come_to_rest(&self) -> Pixels {
+        let begun = Instant::now();
+        let (mut last, mut since) = (self.pixels(), Instant::now());
+        while since.elapsed() < STILL {
+            assert!(begun.elapsed() < PATIENCE, "the window does not come to rest");
+            std::thread::sleep(Duration::from_millis(100));
+            let now = self.pixels();
+            if now != last {
+                (last, since) = (now, Instant::now());
+            }
+        }
+        last
+    }
+}
+
+impl Drop for Screen {
+    fn drop(&mut self) {
+        let _ = self.server.kill();
+        let _ = self.server.wait();
+    }
+}
+
+impl Pixels {
+    fn save(&self, name: &str) -> PathBuf {
+        let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
+        let mut encoder = png::Encoder::new(std::fs::File::create(&path).unwrap(), self.0, self.1);
+        encoder.set_color(png::ColorType::Rgb);
+        encoder.write_header().unwrap().write_image_data(&self.2).unwrap();
+        println!("the window: {}", path.display());
+        path
+    }
+
+    /// The part of pixels that are another than in another picture.
+    fn changed(&self, other: &Self) -> f64 {
+        let apart = self.2.as_chunks::<3>().0.iter().zip(other.2.as_chunks::<3>().0).filter(|(a, b)| a != b);
+        apart.count() as f64 / f64::from(self.0 * self.1)
+    }
+
+    fn colours(&self) -> usize {
+        self.2.as_chunks::<3>().0.iter().collect::<std::collections::HashSet<_>>().len()
+    }
+}
+
+fn exit_code(program: &mut Child, screen: &Screen) -> Option<i32> {
+    let begun = Instant::now();
+    loop {
+        if let Some(status) = program.try_wait().unwrap() {
+            return status.code();
+        }
+        if begun.elapsed() > PATIENCE {
+            program.kill().unwrap();
+            screen.pixels().save("window-stuck.png");
+            panic!("the program does not end");
+        }
+        std::thread::sleep(Duration::from_millis(50));
+    }
+}
+
+#[test]
+fn the_program_opens_its_window_ends_cleanly_and_comes_back_as_it_was_left() {
+    let Some(screen) = Screen::open("the_program_opens_its_window") else { return };
+    let home = tempfile::tempdir().unwrap();
+    let mut program = screen.start(home.path());
+    let four = screen.come_to_rest();
+    four.save("window.png");
+    assert!(four.colours() > 2000, "only {} colours: no stone is in sight", four.colours());
+    screen.press("2");
+    let two = screen.come_to_rest();
+    assert!(two.changed(&four) > 0.1, "two views look like four");
+    screen.press("ctrl+q");
+    assert_eq!(exit_code(&mut program, &screen), Some(0));
+    let mut again = screen.start(home.path());
+    let restored = screen.come_to_rest();
+    restored.save("window-again.png");
+    let off = restored.changed(&two);
+    assert!(off < 0.01, "{:.1} % of the window is another after a new start", 100.0 * off);
+    screen.press("ctrl+q");
+    assert_eq!(exit_code(&mut again, &screen), Some(0));
+}
