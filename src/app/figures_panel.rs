@@ -177,7 +177,9 @@ fn row(ui: &mut Ui, row: &Row) {
 fn tens(input: GridInput) -> Vec<GridMark> {
     let (first, last) = (input.bounds.0 / 10.0, input.bounds.1 / 10.0);
     let tens = (first.ceil() as i32)..=(last.floor() as i32);
-    tens.map(|k| GridMark { value: 10.0 * f64::from(k), step_size: 10.0 }).collect()
+    // Only marks that are far apart have room for a number on the narrow axis.
+    let far = |k: i32| if k % 3 == 0 { 30.0 } else { 10.0 };
+    tens.map(|k| GridMark { value: 10.0 * f64::from(k), step_size: far(k) }).collect()
 }
 
 /// The zones' light against tilt, in the colours of the bars above.

@@ -50,5 +50,11 @@ fn the_views_follow_the_hand() {
             brilliant.crown = Crown::Angle(33.0 + 0.02 * f64::from(k));
         }
     });
-    drag("tilt", |editor, _| editor.desk.eye.drag(Side::Table, DVec2::new(0.004, 0.002)));
+    // From a lean on: near none it would snap to that.
+    drag("tilt", |editor, k| {
+        if k == 0 {
+            editor.desk.eye.free();
+        }
+        editor.desk.eye.drag(Side::Table, DVec2::new(0.004, 0.002));
+    });
 }

@@ -266,7 +266,8 @@ fn a_click_follows_a_ray_and_a_double_click_enlarges() {
     assert!(bench.editor().following.is_open);
     assert!(bench.harness.query_by_label_contains("Light path through the stone").is_some());
     bench.harness.key_press(egui::Key::L);
-    bench.harness.run_steps(3);
+    // It fades away.
+    bench.harness.run_steps(30);
     assert!(!bench.editor().following.is_open);
     bench.click_at(at);
     bench.click_at(at);

@@ -58,7 +58,10 @@ impl Bench {
         let chooser: Chooser = Arc::new(move |_: &Question| chosen.lock().unwrap().pop());
         let desk = if setup.desk == Desk::default() { Self::small() } else { setup.desk.clone() };
         let setup = Setup { chooser, desk, ..setup };
-        let harness = builder.with_max_steps(20).build_eframe(|context| Editor::new(context, setup).unwrap());
+        let harness = builder
+            .with_max_steps(20)
+            .with_step_dt(1.0 / 60.0)
+            .build_eframe(|context| Editor::new(context, setup).unwrap());
         Self { harness, choices }
     }
 
