@@ -3,7 +3,7 @@
 
 use std::path::{Path, PathBuf};
 
-const FLOORS: [(&str, u32); 9] = [
+const FLOORS: [(&str, u32); 10] = [
     ("math", 0),
     ("optics", 0),
     ("cut", 1),
@@ -13,6 +13,7 @@ const FLOORS: [(&str, u32); 9] = [
     ("measure", 4),
     ("io", 5),
     ("cli", 6),
+    ("app", 6),
 ];
 
 fn sources(folder: &Path) -> Vec<PathBuf> {

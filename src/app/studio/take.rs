@@ -365,3 +365,80 @@ impl Canvas {
         Taken { image: ColorImage::from_rgb(self.size, &self.pixels), unresolved, tracer }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::app::document::Document;
+    use crate::app::eye::Eye;
+    use crate::io::lighting::Lighting;
+    use crate::trace::unwatched;
+    use glam::DVec2;
+
+    fn shot(shows: Shows, distance: Option<f64>) -> Shot {
+        let eye = Eye { lean: DVec2::new(0.1, 0.05), distance, ..Eye::default() };
+        Shot {
+            specimen: Arc::clone(Document::first().unwrap().specimen()),
+            shows,
+            strongest: false,
+            view: eye.view(None),
+            film: eye.film([56, 40], 1.0),
+            light: Arc::new(Lighting::load("dome").unwrap()),
+            exposure: 0.0,
+            head: 0.0,
+            overlay: None,
+        }
+    }
+
+    fn taken(camera: &mut Camera, shot: &Shot, growing: Option<&Growing>) -> Taken {
+        let mut last = None;
+        let effort = Effort { unresolved: 5e-3, coarser: 1.0, bands: 4 };
+        camera.take(shot, &effort, growing, &unwatched, &mut |taken| last = Some(taken)).unwrap();
+        last.unwrap()
+    }
+
+    /// The mean difference of two pictures' channels, in parts of full scale.
+    fn apart(a: &Taken, b: &Taken) -> f64 {
+        assert_eq!(a.image.size, b.image.size);
+        let codes = |t: &Taken| t.image.pixels.iter().flat_map(|p| p.to_array()).collect::<Vec<u8>>();
+        let (a, b) = (codes(a), codes(b));
+        let sum: f64 = a.iter().zip(&b).map(|(a, b)| f64::from(a.abs_diff(*b))).sum();
+        sum / (255.0 * a.len() as f64)
+    }
+
+    #[test]
+    fn a_card_shows_what_the_processor_shows() {
+        let gpu = match Gpu::open() {
+            Ok(gpu) => Arc::new(gpu),
+            Err(error) => {
+                assert!(std::env::var_os("BRILLIANTEER_REQUIRE_GPU").is_none(), "{error}");
+                return println!("SKIPPED a_card_shows_what_the_processor_shows: {error}");
+            }
+        };
+        let mut card = Camera { gpu: Some(gpu), shelf: Shelf::default() };
+        let growing = Growing { bands: 4, looks: 16, unresolved: 5e-3 };
+        for (shows, distance, most) in
+            [(Shows::Aset, Some(8.0), 2e-3), (Shows::Render, Some(8.0), 4e-3), (Shows::Render, None, 7e-3)]
+        {
+            let shot = shot(shows, distance);
+            let [a, b] = [&mut card, &mut Camera::default()].map(|c| taken(c, &shot, Some(&growing)));
+            assert_ne!(a.tracer, b.tracer);
+            let other = Shot { view: Eye::default().view(None), ..shot.clone() };
+            let (off, wrong) = (apart(&a, &b), apart(&taken(&mut card, &other, Some(&growing)), &b));
+            assert!(
+                off < most && wrong > 3.0 * most,
+                "{shows:?} {distance:?}: {off}, and {wrong} of another view"
+            );
+        }
+    }
+
+    #[test]
+    fn a_rough_render_looks_like_the_fine_one() {
+        let shot = shot(Shows::Render, None);
+        let growing = Growing { bands: 16, looks: 4, unresolved: 2e-3 };
+        let mut camera = Camera::default();
+        let (rough, fine) = (taken(&mut camera, &shot, None), taken(&mut camera, &shot, Some(&growing)));
+        let off = apart(&rough, &fine);
+        assert!(off < 0.03, "{off}");
+    }
+}
