@@ -180,7 +180,8 @@ impl Command {
             Split => bare(Key::D),
             LightPath => bare(Key::L),
             Keys => bare(Key::F1),
-            CompareSaved | CompareFile | NoCompare => None,
+            CompareSaved => bare(Key::R),
+            CompareFile | NoCompare => None,
         }
     }
 }

@@ -9,7 +9,7 @@ use crate::optics::{line, materials};
 use crate::scene::{LIGHTS, SpecimenError, light};
 use egui::{
     Color32, ComboBox, DragValue, Panel, Rect, RichText, Role, ScrollArea, Sense, Slider, SliderClamping,
-    Stroke, StrokeKind, Ui, WidgetInfo, pos2, vec2,
+    Stroke, StrokeKind, TextEdit, Ui, WidgetInfo, pos2, vec2,
 };
 use std::ops::RangeInclusive;
 
@@ -27,6 +27,8 @@ const HEADS: RangeInclusive<f64> = 0.0..=30.0;
 pub fn show(editor: &mut Editor, ui: &mut Ui) {
     Panel::left("design").resizable(true).default_size(350.0).size_range(300.0..=460.0).show(ui, |ui| {
         ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+            ui.add_space(8.0);
+            identity(editor, ui);
             heading(
                 ui,
                 "Proportions",
@@ -46,6 +48,23 @@ fn heading(ui: &mut Ui, text: &str, meaning: &str) {
     ui.add_space(8.0);
     ui.label(RichText::new(text).heading()).on_hover_text(meaning);
     ui.add_space(2.0);
+}
+
+/// What it is called, and what it is cut as.
+fn identity(editor: &mut Editor, ui: &mut Ui) {
+    let design = &mut editor.document.work.design;
+    ui.horizontal(|ui| {
+        let label = named(ui, "Name", "What the design is called, in its file and on its pictures.");
+        let field = TextEdit::singleline(&mut design.name).desired_width(ui.available_width() - 12.0);
+        ui.add(field).labelled_by(label.id);
+    });
+    ui.horizontal(|ui| {
+        named(ui, "Cut", "The family: which facets there are, and which numbers shape them.");
+        ui.label(match design.cut {
+            Cut::RoundBrilliant(_) => "Round brilliant",
+            Cut::Planes(_) => "Planes, as its file lists them",
+        });
+    });
 }
 
 fn proportions(editor: &mut Editor, ui: &mut Ui) {

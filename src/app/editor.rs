@@ -522,7 +522,7 @@ impl Editor {
         self.document.update();
         self.order(&seen);
         let pulled = self.profiles.iter().any(ProfileView::is_dragging);
-        let gesture = pulled || ctx.egui_is_using_pointer() || ctx.egui_wants_keyboard_input();
+        let gesture = pulled || ctx.egui_is_using_pointer() || ctx.text_edit_focused();
         if !gesture {
             self.settle();
         }

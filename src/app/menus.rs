@@ -147,7 +147,7 @@ pub fn keys(editor: &mut Editor, ctx: &Context) {
     if editor.dialog.is_some() {
         return;
     }
-    let typing = ctx.egui_wants_keyboard_input();
+    let typing = ctx.text_edit_focused();
     for command in Command::all() {
         let Some(shortcut) = command.shortcut() else { continue };
         if typing && shortcut.modifiers == Modifiers::NONE {
@@ -161,7 +161,7 @@ pub fn keys(editor: &mut Editor, ctx: &Context) {
 
 /// Whether the design compared with is to be seen in place of the present one.
 pub fn is_other_shown(ctx: &Context) -> bool {
-    !ctx.egui_wants_keyboard_input() && ctx.input(|i| i.key_down(Key::C) && i.modifiers.is_none())
+    !ctx.text_edit_focused() && ctx.input(|i| i.key_down(Key::C) && i.modifiers.is_none())
 }
 
 /// Does a command.

@@ -11,6 +11,8 @@ const GAP: f32 = 6.0;
 /// Draws the views; each in sight with the size of its picture in pixels.
 pub fn show(editor: &mut Editor, ui: &mut Ui) -> Vec<(usize, [u32; 2])> {
     let mut seen = vec![];
+    // Said again by the view under the pointer.
+    editor.told.clear();
     let frame = egui::Frame::NONE.fill(ui.visuals().panel_fill);
     CentralPanel::no_frame().frame(frame).show(ui, |ui| {
         let whole = ui.max_rect().shrink(GAP);

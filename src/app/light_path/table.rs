@@ -228,7 +228,7 @@ fn swatch(size: f32) -> f32 {
 }
 
 fn row(reading: &Reading, number: usize, step: &Step) -> Row {
-    let name = reading.stone.name(step.facet);
+    let name = reading.stone.name(step.facet).replace('_', " ");
     let angle = degrees(step.incidence);
     let critical = step.critical.map(degrees);
     let [leaves, elevation, azimuth, zone] = match step.leaving {
@@ -244,7 +244,7 @@ fn row(reading: &Reading, number: usize, step: &Step) -> Row {
     let spoken = format!("Step {number}: {name}, incidence {angle}{limit}, {goes}, {onward} goes on");
     let critical = critical.unwrap_or_else(|| NONE.to_owned());
     let cells =
-        [number.to_string(), shortened(name), angle, critical, leaves, elevation, azimuth, zone, onward];
+        [number.to_string(), shortened(&name), angle, critical, leaves, elevation, azimuth, zone, onward];
     Row { cells, zone: step.leaving.map(|leaving| reading.colour(leaving.direction)), spoken }
 }
 

@@ -314,3 +314,36 @@ fn a_file_that_others_change_is_read_again_and_asked_about_where_work_would_be_l
     bench.click("Keep mine");
     assert!((bench.brilliant().table - 57.0).abs() < 1e-12);
 }
+
+#[test]
+fn keys_work_and_steps_end_while_a_handle_has_the_focus() {
+    let mut desk = Bench::small();
+    desk.panes[1].shows = Shows::Profile;
+    let mut bench = Bench::with(Setup { desk, ..Setup::default() });
+    bench.harness.run_steps(2);
+    bench.harness.get_by_label("Crown angle, degrees").focus();
+    bench.harness.run_steps(2);
+    let before = bench.brilliant();
+    for _ in 0..2 {
+        bench.harness.key_press(egui::Key::ArrowUp);
+        bench.harness.run_steps(3);
+    }
+    assert!(bench.brilliant().derived().unwrap().crown_angle > before.derived().unwrap().crown_angle + 0.15);
+    bench.harness.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::Z);
+    bench.harness.run_steps(2);
+    assert!(bench.brilliant() != before, "each press is a step");
+    bench.harness.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::Z);
+    bench.harness.run_steps(2);
+    assert_eq!(bench.brilliant(), before);
+    bench.harness.key_press(egui::Key::X);
+    bench.harness.run_steps(2);
+    assert!(bench.editor().desk.strongest);
+    bench.type_number("Table", "54");
+    bench.harness.get_by_role_and_label(egui::Role::TextInput, "Name").focus();
+    bench.harness.run_steps(2);
+    bench.harness.event(egui::Event::Text("x".to_owned()));
+    bench.harness.key_press(egui::Key::X);
+    bench.harness.run_steps(2);
+    assert!(bench.editor().desk.strongest, "a letter typed into a name is no command");
+    assert!(bench.editor().document.work.design.name.contains('x'));
+}
