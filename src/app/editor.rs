@@ -451,7 +451,8 @@ impl Editor {
         }
         let eye = *self.desk.eye(pane);
         let specimen = self.specimen(which, eye.turn)?;
-        let reach = specimen.stone.polytope.vertices().iter().map(|v| v.length()).fold(0.0, f64::max);
+        // Both designs are shown on one scale, that of the present one.
+        let reach = reach(self.document.specimen());
         let work = &self.document.work;
         Some(Shot {
             view: eye.view(shows.side()),
@@ -538,6 +539,11 @@ pub fn turned(specimen: &Arc<Specimen>, turn: f64) -> Arc<Specimen> {
     }
     let stone = specimen.stone.turned(turn);
     Arc::new(Specimen { stone, ..(**specimen).clone() })
+}
+
+/// How far a stone reaches from its origin, girdle radii.
+pub fn reach(specimen: &Specimen) -> f64 {
+    specimen.stone.polytope.vertices().iter().map(|v| v.length()).fold(0.0, f64::max)
 }
 
 fn waker(ctx: &Context) -> super::studio::Wake {

@@ -1,5 +1,6 @@
 //! Exporting, on a thread of its own: thumbnails of what can be had, then the files.
 
+use super::editor::reach;
 use super::shows::Shows;
 use super::studio::{Camera, Effort, FINE_RENDER, Shot};
 use crate::cut::Cut;
@@ -99,8 +100,7 @@ impl Plan {
 
     /// The picture of a view at a size, the whole stone in it.
     fn shot(&self, shows: Shows, size: u32) -> Shot {
-        let reach =
-            self.shot.specimen.stone.polytope.vertices().iter().map(|v| v.length()).fold(0.0, f64::max);
+        let reach = reach(&self.shot.specimen);
         let view = crate::scene::View { side: shows.side().unwrap_or(self.shot.view.side), ..self.shot.view };
         Shot { shows, view, film: Film::reaching(reach, size), ..self.shot.clone() }
     }

@@ -1,6 +1,6 @@
 //! One view: what it shows, and what a hand does to it.
 
-use super::editor::{Editor, Shown};
+use super::editor::{Editor, Shown, reach};
 use super::eye::Eye;
 use super::menus;
 use super::probe::Found;
@@ -173,8 +173,7 @@ fn scene(editor: &mut Editor, ui: &mut Ui, (pane, shows): (usize, Shows), body: 
     let response = ui.interact(body, ui.scope_id().with("picture"), Sense::click_and_drag());
     let name = format!("{} picture", shows.name());
     response.widget_info(|| WidgetInfo::labeled(Role::Image, true, &name));
-    let specimen = Arc::clone(editor.document.specimen());
-    let reach = specimen.stone.polytope.vertices().iter().map(|v| v.length()).fold(0.0, f64::max);
+    let reach = reach(editor.document.specimen());
     let eye = *editor.desk.eye(pane);
     let view = eye.view(shows.side());
     let scale = ui.pixels_per_point();
