@@ -15,8 +15,6 @@ use std::path::PathBuf;
 pub enum Then {
     /// Open this file.
     Open(PathBuf),
-    /// Ask for a file and open it.
-    OpenAsked,
     /// Begin from a cut that comes with the program.
     Library(String),
     /// Close the window.
@@ -44,7 +42,7 @@ impl Dialog {
     }
 
     /// Whether it stays until it is answered, whatever else is clicked or pressed.
-    fn insists(&self) -> bool {
+    pub fn insists(&self) -> bool {
         match self {
             Self::Recover(_) | Self::ChangedOutside => true,
             Self::Export(export) => export.is_busy(),
@@ -92,9 +90,7 @@ fn unsaved(editor: &mut Editor, ui: &mut Ui, then: &Then) -> bool {
     ui.label(format!("{} has changes that are not saved yet.", editor.document.title()));
     match buttons(ui, &["Save", "Don't save", "Cancel"]) {
         Some(0) => {
-            if editor.save() {
-                editor.then(then.clone());
-            }
+            editor.save_then(then.clone());
             false
         }
         Some(1) => {
@@ -113,11 +109,15 @@ fn recover(editor: &mut Editor, ui: &mut Ui, found: &Found) -> bool {
     ui.label(format!("The program ended before {}{of} was saved.", found.design.name));
     match buttons(ui, &["Go on", "Forget it"]) {
         Some(choice) => {
-            if choice == 0 {
-                match Document::recovered(found.design.clone(), found.path.clone()) {
-                    Ok(document) => editor.begin(document),
-                    Err(why) => editor.notes.trouble(why),
+            let recovered = Document::recovered(found.design.clone(), found.path.clone());
+            match recovered {
+                // Beginning keeps it safe anew, before what the crash left is forgotten.
+                Ok(document) if choice == 0 => editor.begin(document),
+                Err(why) if choice == 0 => {
+                    editor.notes.trouble(why);
+                    return false;
                 }
+                _ => {}
             }
             found.clone().forget();
             false

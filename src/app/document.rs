@@ -18,6 +18,8 @@ pub struct Work {
     pub light: String,
     /// Stops.
     pub exposure: f64,
+    /// Half angle of the observer's head in ASET and figures, degrees; 0 for none.
+    pub head: f64,
 }
 
 /// What a file was like when it was last read or written.
@@ -41,6 +43,8 @@ pub struct Document {
     saved: Design,
     path: Option<PathBuf>,
     stamp: Stamp,
+    /// Whether the file has gone.
+    is_lost: bool,
     /// The stone of the last design that makes one.
     specimen: Arc<Specimen>,
     fault: Option<SpecimenError>,
@@ -61,10 +65,10 @@ impl Document {
     /// What keeps it from being a stone.
     pub fn new(design: Design, path: Option<PathBuf>) -> Result<Self, SpecimenError> {
         let specimen = Arc::new(Specimen::new(design.clone())?);
-        let work = Work { design: design.clone(), light: FIRST_LIGHT.to_owned(), exposure: 0.0 };
+        let work = Work { design: design.clone(), light: FIRST_LIGHT.to_owned(), exposure: 0.0, head: 0.0 };
         let stamp = path.as_deref().map_or(Stamp(None), Stamp::of);
         let history = History::new(work.clone());
-        Ok(Self { work, history, saved: design.clone(), path, stamp, specimen, fault: None, built: design })
+        Ok(Self { work, history, saved: design.clone(), path, stamp, is_lost: false, specimen, fault: None, built: design })
     }
 
     /// A cut that comes with the program, as a design without a file.
@@ -106,8 +110,8 @@ impl Document {
     }
 
     /// Begins under a light, which is no step of its own.
-    pub fn begin(&mut self, light: &str, exposure: f64) {
-        (self.work.light, self.work.exposure) = (light.to_owned(), exposure);
+    pub fn begin(&mut self, light: &str, exposure: f64, head: f64) {
+        (self.work.light, self.work.exposure, self.work.head) = (light.to_owned(), exposure, head);
         self.history = History::new(self.work.clone());
     }
 
@@ -117,9 +121,11 @@ impl Document {
             return false;
         }
         self.built = self.work.design.clone();
-        match Specimen::new(self.built.clone()) {
+        match self.specimen.remade(self.built.clone()) {
             Ok(specimen) => {
-                (self.specimen, self.fault) = (Arc::new(specimen), None);
+                self.specimen = Arc::new(specimen);
+                // A stone may have a name that no file can hold.
+                self.fault = self.built.check().err().map(SpecimenError::from);
                 true
             }
             Err(fault) => {
@@ -162,7 +168,7 @@ impl Document {
 
     /// Whether closing it would lose work.
     pub fn is_changed(&self) -> bool {
-        self.work.design != self.saved
+        self.work.design != self.saved || self.is_lost
     }
 
     /// Whether its file is another than it was read from or written to.
@@ -170,10 +176,16 @@ impl Document {
         self.path.as_deref().is_some_and(|path| Stamp::of(path) != self.stamp)
     }
 
+    /// Whether its file has gone, as far as is known.
+    pub fn is_lost(&self) -> bool {
+        self.is_lost
+    }
+
     /// Takes the file on disk for what was meant to be there: it is not told of again.
     pub fn accept_outside(&mut self) {
         if let Some(path) = &self.path {
             self.stamp = Stamp::of(path);
+            self.is_lost = !path.exists();
         }
     }
 
@@ -210,7 +222,7 @@ impl Document {
         let text = cut_file::write(&self.work.design);
         write(&path, |file| file.write_all(text.as_bytes()).map_err(|e| WriteError::io(&path, e)))
             .map_err(|e| e.to_string())?;
-        (self.stamp, self.path) = (Stamp::of(&path), Some(path));
+        (self.stamp, self.path, self.is_lost) = (Stamp::of(&path), Some(path), false);
         self.saved = self.work.design.clone();
         Ok(())
     }
@@ -240,7 +252,21 @@ mod tests {
         std::fs::write(&path, "format = 1").unwrap();
         assert!(document.is_changed_outside());
         document.accept_outside();
-        assert!(!document.is_changed_outside());
+        assert!(!document.is_changed_outside() && !document.is_changed());
+        std::fs::remove_file(&path).unwrap();
+        assert!(document.is_changed_outside());
+        document.accept_outside();
+        assert!(document.is_changed(), "what is nowhere any more is not saved");
+    }
+
+    #[test]
+    fn a_name_that_no_file_can_hold_is_not_saved() {
+        let folder = tempfile::tempdir().unwrap();
+        let mut document = Document::first().unwrap();
+        document.work.design.name = " ".to_owned();
+        assert!(document.update());
+        let path = folder.path().join("mine.toml");
+        assert!(document.save(path.clone()).unwrap_err().contains("printable") && !path.exists());
     }
 
     #[test]

@@ -4,7 +4,7 @@ use super::command::Command;
 use super::compare::Compared;
 use super::desk::{Desk, Layout};
 use super::dialogs::{Dialog, Then};
-use super::document::Document;
+use super::document::{Document, FIRST_LIGHT, Work};
 use super::files::{Chooser, Choosing, Purpose, Question, Safe, Watching, by_dialog};
 use super::following::{self, Following};
 use super::notes::Notes;
@@ -13,7 +13,7 @@ use super::profile_view::ProfileView;
 use super::shows::Shows;
 use super::studio::{Answer, Ask, Grade, Order, Shot, Slot, Studio, Taken, Tilts, Which};
 use super::{design_panel, dialogs, figures_panel, menus, stage, theme};
-use crate::io::lighting::Lighting;
+use crate::io::lighting::{Lighting, LightingError};
 use crate::measure::Figures;
 use crate::scene::{Side, Specimen};
 use crate::trace::gpu::Gpu;
@@ -22,6 +22,7 @@ use egui::{Context, TextureHandle, Ui, ViewportCommand};
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
+use std::sync::mpsc::{Receiver, channel};
 
 /// What an editor starts with.
 pub struct Setup {
@@ -82,10 +83,19 @@ pub struct Editor {
     pub(super) dialog: Option<Dialog>,
     /// The pane under the pointer, or the last that was.
     pub(super) hovered: usize,
+    /// The last order's, for knowing whether what is shown is what was asked for.
+    pub(super) asked: Order,
     light: (String, Arc<Lighting>),
-    posed: (Arc<Specimen>, f64, Arc<Specimen>),
+    loading: Option<(String, Receiver<Result<Lighting, LightingError>>)>,
+    posed: Posed,
     chooser: Chooser,
     choosing: Option<Choosing>,
+    /// How many documents were begun: an answer for one must not be taken for another.
+    begun: u64,
+    /// What is put off until the design is saved.
+    after_save: Option<Then>,
+    /// The work as it was last taken note of.
+    kept: Work,
     watching: Watching,
     safe: Option<Safe>,
     /// Whether the window may close without another question.
@@ -110,11 +120,8 @@ impl Editor {
         let gpu = if setup.may_compute { shared(context) } else { None };
         let mut notes = Notes::default();
         let mut document = Document::first()?;
-        let lighting = Lighting::load(&desk.light).or_else(|_| {
-            desk.light = super::document::FIRST_LIGHT.to_owned();
-            Lighting::load(&desk.light)
-        });
-        let light = (desk.light.clone(), Arc::new(lighting.map_err(|e| e.to_string())?));
+        let first = Lighting::load(FIRST_LIGHT).map_err(|e| e.to_string())?;
+        let light = (FIRST_LIGHT.to_owned(), Arc::new(first));
         if let Some(path) = setup.file.clone().or_else(|| desk.last.clone().filter(|p| p.exists())) {
             match Document::open(&path) {
                 Ok(opened) => {
@@ -124,8 +131,8 @@ impl Editor {
                 Err(why) => notes.trouble(why),
             }
         }
-        document.begin(&desk.light, desk.exposure);
-        let specimen = Arc::clone(document.specimen());
+        document.begin(&desk.light, desk.exposure, desk.head);
+        let kept = document.work.clone();
         let watch = wake.clone();
         let mut editor = Self {
             studio: Studio::open(gpu, wake),
@@ -143,9 +150,14 @@ impl Editor {
             dialog: None,
             hovered: 0,
             light,
-            posed: (Arc::clone(&specimen), 0.0, specimen),
+            asked: Order::default(),
+            loading: None,
+            posed: Posed::default(),
             chooser: setup.chooser,
             choosing: None,
+            begun: 0,
+            after_save: None,
+            kept,
             watching: Watching::begin(move || watch()),
             safe: setup.safe.map(Safe::new),
             may_close: false,
@@ -164,14 +176,7 @@ impl Editor {
 
     /// The stone that is worked on, turned as it is seen.
     pub(super) fn posed(&mut self, turn: f64) -> Arc<Specimen> {
-        let specimen = self.document.specimen();
-        let (of, at, posed) = &self.posed;
-        if Arc::ptr_eq(of, specimen) && *at == turn {
-            return Arc::clone(posed);
-        }
-        let posed = turned(specimen, turn);
-        self.posed = (Arc::clone(specimen), turn, Arc::clone(&posed));
-        posed
+        self.posed.of(self.document.specimen(), turn)
     }
 
     /// What answers questions about a stone.
@@ -180,23 +185,37 @@ impl Editor {
         self.probe.insert(known.unwrap_or_else(|| Probe::new(Arc::clone(specimen))))
     }
 
-    /// The light that is chosen; the last one where that cannot be had, with a word on why.
+    /// The light that is chosen; the last one until that is loaded, and where it cannot be had.
     pub(super) fn light(&mut self) -> Arc<Lighting> {
-        let wanted = self.document.work.light.clone();
-        if self.light.0 != wanted {
-            let lighting = match Lighting::load(&wanted) {
-                Ok(lighting) => {
-                    lighting.warnings.iter().for_each(|w| self.notes.say(w));
-                    Arc::new(lighting)
-                }
-                Err(why) => {
-                    self.notes.trouble(why.to_string());
-                    Arc::clone(&self.light.1)
-                }
-            };
-            self.light = (wanted, lighting);
+        let wanted = &self.document.work.light;
+        let is_loading = self.loading.as_ref().is_some_and(|(name, _)| name == wanted);
+        if self.light.0 != *wanted && !is_loading {
+            let (sender, answer) = channel();
+            let (name, wake) = (wanted.clone(), self.studio.wake());
+            std::thread::spawn(move || {
+                // Nobody waits for it any more where another was chosen.
+                let _ = sender.send(Lighting::load(&name));
+                wake();
+            });
+            self.loading = Some((wanted.clone(), answer));
         }
         Arc::clone(&self.light.1)
+    }
+
+    fn take_in_light(&mut self) {
+        let Some((name, Ok(loaded))) = self.loading.as_ref().map(|(n, a)| (n.clone(), a.try_recv())) else { return };
+        self.loading = None;
+        let lighting = match loaded {
+            Ok(lighting) => {
+                lighting.warnings.iter().for_each(|w| self.notes.say(w));
+                Arc::new(lighting)
+            }
+            Err(why) => {
+                self.notes.trouble(format!("{why}; the light stays as it was"));
+                Arc::clone(&self.light.1)
+            }
+        };
+        self.light = (name, lighting);
     }
 
     /// What takes note of what has come in from elsewhere.
@@ -214,14 +233,18 @@ impl Editor {
                 Answer::Trouble(why) => self.notes.trouble(why),
             }
         }
-        if let Some((purpose, answer)) = self.choosing.as_ref().and_then(|c| Some((c.purpose, c.answer()?))) {
+        self.take_in_light();
+        if let Some((purpose, document, answer)) =
+            self.choosing.as_ref().and_then(|c| Some((c.purpose, c.document, c.answer()?)))
+        {
             self.choosing = None;
-            if let Some(path) = answer {
-                self.chosen(purpose, path);
+            match answer {
+                Some(path) => self.chosen(purpose, document, path),
+                None => self.after_save = None,
             }
         }
         self.watching.watch(self.document.path());
-        if self.document.is_changed_outside() && self.dialog.is_none() {
+        if self.dialog.is_none() && self.watching.has_changed() && self.document.is_changed_outside() {
             self.changed_outside();
         }
         let dropped = ctx.input(|i| i.raw.dropped_files.clone());
@@ -245,42 +268,51 @@ impl Editor {
 
     fn changed_outside(&mut self) {
         self.document.accept_outside();
-        if self.document.is_changed() {
-            self.dialog = Some(Dialog::ChangedOutside);
-        } else if let Some(path) = self.document.path().map(Path::to_owned).filter(|p| p.exists()) {
-            // Nothing of one's own is lost: the new file is what is wanted.
-            self.open(&path);
-            self.notes.say("The file was changed by another program and has been read again.");
-        } else {
+        if self.document.is_lost() {
             self.notes.trouble("The file is no longer there; save the design to keep it.".into());
+        } else if self.document.is_changed() {
+            self.dialog = Some(Dialog::ChangedOutside);
+        } else if let Some(path) = self.document.path().map(Path::to_owned) {
+            // Nothing of one's own is lost: the new file is what is wanted.
+            if self.open(&path) {
+                self.notes.say("The file was changed by another program and has been read again.");
+            }
         }
     }
 
-    /// Opens a file in place of what is open.
-    pub(super) fn open(&mut self, path: &Path) {
+    /// Opens a file in place of what is open; whether it could.
+    pub(super) fn open(&mut self, path: &Path) -> bool {
         match Document::open(path) {
             Ok(document) => {
                 self.desk.remember(path);
                 self.begin(document);
+                true
             }
-            Err(why) => self.notes.trouble(why),
+            Err(why) => {
+                self.notes.trouble(why);
+                false
+            }
         }
     }
 
     /// Works on another document, under the light that was chosen.
     pub(super) fn begin(&mut self, mut document: Document) {
         let work = &self.document.work;
-        document.begin(&work.light, work.exposure);
+        document.begin(&work.light, work.exposure, work.head);
         self.document = document;
+        self.begun += 1;
         self.notes.clear();
-        let warnings = self.document.specimen().warnings.clone();
-        warnings.iter().for_each(|w| self.notes.say(w));
-        self.forget_unsaved();
+        if self.compared.as_ref().is_some_and(|c| c.is_saved) {
+            self.compared = None;
+        }
+        self.take_note();
     }
 
     /// Does something that would lose unsaved work, after a question where there is any.
     pub(super) fn ask_before(&mut self, then: Then) {
-        if self.document.is_changed() {
+        if self.dialog.as_ref().is_some_and(Dialog::insists) {
+            self.notes.say("Answer what is asked first.");
+        } else if self.document.is_changed() {
             self.dialog = Some(Dialog::Unsaved(then));
         } else {
             self.then(then);
@@ -290,8 +322,7 @@ impl Editor {
     /// Does what was put off by a question.
     pub(super) fn then(&mut self, then: Then) {
         match then {
-            Then::Open(path) => self.open(&path),
-            Then::OpenAsked => self.choose(Purpose::Open),
+            Then::Open(path) => drop(self.open(&path)),
             Then::Library(name) => match Document::of_library(&name) {
                 Ok(document) => {
                     self.desk.last = None;
@@ -303,21 +334,42 @@ impl Editor {
         }
     }
 
+    /// Saves, and does what was put off once that is done.
+    pub(super) fn save_then(&mut self, then: Then) {
+        if self.save() {
+            self.then(then);
+        } else if self.choosing.is_some() {
+            self.after_save = Some(then);
+        }
+    }
+
     /// Asks for a file.
     pub(super) fn choose(&mut self, purpose: Purpose) {
+        if self.choosing.is_some() {
+            return self.notes.say("Answer the file dialog that is open first.");
+        }
         let name = self.document.path().and_then(Path::file_name).map_or_else(
             || format!("{}.toml", self.document.work.design.name.to_lowercase().replace([' ', '/'], "-")),
             |n| n.to_string_lossy().into_owned(),
         );
         let wake = self.studio.wake();
-        self.choosing = Some(Choosing::ask(Question { purpose, name }, &self.chooser, move || wake()));
+        let question = Question { purpose, name };
+        self.choosing = Some(Choosing::ask(question, self.begun, &self.chooser, move || wake()));
     }
 
-    fn chosen(&mut self, purpose: Purpose, path: PathBuf) {
+    fn chosen(&mut self, purpose: Purpose, document: u64, path: PathBuf) {
         match purpose {
+            Purpose::SaveAs if document != self.begun => {
+                self.notes.trouble("Not saved: another design was opened meanwhile.".into());
+            }
             Purpose::Open => self.ask_before(Then::Open(path)),
             Purpose::SaveAs => {
-                self.save_as(path);
+                let then = self.after_save.take();
+                if self.save_as(path)
+                    && let Some(then) = then
+                {
+                    self.then(then);
+                }
             }
             Purpose::Compare => match Compared::of_file(&path) {
                 Ok(compared) => self.compared = Some(compared),
@@ -344,7 +396,12 @@ impl Editor {
     }
 
     fn save_as(&mut self, path: PathBuf) -> bool {
-        let path = if path.extension().is_some() { path } else { path.with_extension("toml") };
+        let completed = path.with_extension("toml");
+        if path.extension().is_none() && completed.exists() {
+            self.notes.trouble(format!("{} exists; choose it by its whole name to replace it", completed.display()));
+            return false;
+        }
+        let path = if path.extension().is_some() { path } else { completed };
         match self.document.save(path.clone()) {
             Ok(()) => {
                 self.desk.remember(&path);
@@ -369,18 +426,28 @@ impl Editor {
         }
     }
 
-    /// Ends a gesture: what it changed is one step, and is kept safe.
+    /// Ends a gesture: what it changed is one step.
     fn settle(&mut self) {
         self.desk.eye.settle();
-        if !self.document.settle() {
-            return;
+        self.desk.panes.iter_mut().filter_map(|p| p.own.as_mut()).for_each(super::eye::Eye::settle);
+        self.document.settle();
+        if self.kept != self.document.work {
+            self.take_note();
         }
-        (self.desk.light, self.desk.exposure) =
-            (self.document.work.light.clone(), self.document.work.exposure);
+    }
+
+    /// Keeps the work safe as it is now, and remembers what goes with the window. A design that makes no stone is not
+    /// kept in place of the last that does.
+    pub(super) fn take_note(&mut self) {
+        self.kept = self.document.work.clone();
+        let Work { light, exposure, head, .. } = &self.kept;
+        (self.desk.light, self.desk.exposure, self.desk.head) = (light.clone(), *exposure, *head);
         let Some(safe) = &mut self.safe else { return };
         if !self.document.is_changed() {
             safe.empty();
-        } else if let Err(why) = safe.keep(&self.document.work.design, self.document.path()) {
+        } else if self.document.fault().is_none()
+            && let Err(why) = safe.keep(&self.kept.design, self.document.path())
+        {
             self.notes.trouble(format!("unsaved work is not kept safe: {why}"));
         }
     }
@@ -427,13 +494,14 @@ impl Editor {
             let mut view = eye.view(Some(Side::Table));
             view.projection = crate::scene::Projection::Orthographic;
             if let Some(specimen) = self.specimen(which, eye.turn) {
-                let ask = Ask { specimen, view, head: self.desk.head };
+                let ask = Ask { specimen, view, head: self.document.work.head };
                 if which == Which::Present {
                     order.tilts = Some(Ask { view: crate::scene::View { tilt: 0.0, ..view }, ..ask.clone() });
                 }
                 order.figures.push((which, ask));
             }
         }
+        self.asked = order.clone();
         self.studio.order(order);
     }
 
@@ -450,7 +518,9 @@ impl Editor {
             return None;
         }
         let eye = *self.desk.eye(pane);
-        let specimen = self.specimen(which, eye.turn)?;
+        // A diagram has its own index, from which the stone's turn would only take away.
+        let turn = if shows == Shows::Diagram { 0.0 } else { eye.turn };
+        let specimen = self.specimen(which, turn)?;
         // Both designs are shown on one scale, that of the present one.
         let reach = reach(self.document.specimen());
         let work = &self.document.work;
@@ -461,7 +531,7 @@ impl Editor {
             strongest: self.desk.strongest,
             light: Arc::clone(light),
             exposure: work.exposure,
-            head: self.desk.head,
+            head: self.document.work.head,
             overlay: self.desk.overlay().filter(|_| shows.is_seen()),
             specimen,
         })
@@ -478,7 +548,7 @@ impl Editor {
             film: eye.film([1, 1], 1.0),
             light,
             exposure: self.document.work.exposure,
-            head: self.desk.head,
+            head: self.document.work.head,
             overlay: None,
         }
     }
@@ -488,6 +558,9 @@ impl Editor {
             if self.may_close {
                 ctx.send_viewport_cmd(ViewportCommand::Close);
             }
+        } else if self.dialog.as_ref().is_some_and(Dialog::insists) {
+            ctx.send_viewport_cmd(ViewportCommand::CancelClose);
+            self.notes.say("Answer what is asked first, or stop the export.");
         } else if !self.may_close && self.document.is_changed() {
             ctx.send_viewport_cmd(ViewportCommand::CancelClose);
             self.dialog = Some(Dialog::Unsaved(Then::Close));
@@ -505,7 +578,7 @@ impl Editor {
 
     /// Whether all pictures and figures are as good as they get, and nothing is under way.
     pub(super) fn is_idle(&self) -> bool {
-        self.studio.is_idle() && self.choosing.is_none()
+        self.studio.is_idle() && self.choosing.is_none() && self.loading.is_none()
     }
 
     /// Draws the window, and does what is asked for.
@@ -532,8 +605,31 @@ impl Editor {
     }
 }
 
+/// A stone in the few turns that its views show it in: the same turn of the same stone is one and the same.
+#[derive(Default)]
+pub struct Posed(Vec<(Arc<Specimen>, f64, Arc<Specimen>)>);
+
+/// Turns kept: that of the linked views and of each view that looks on its own.
+const TURNS: usize = 5;
+
+impl Posed {
+    /// The stone at a turn.
+    pub fn of(&mut self, specimen: &Arc<Specimen>, turn: f64) -> Arc<Specimen> {
+        self.0.retain(|(of, ..)| Arc::ptr_eq(of, specimen));
+        if let Some((.., posed)) = self.0.iter().find(|(_, at, _)| *at == turn) {
+            return Arc::clone(posed);
+        }
+        let posed = turned(specimen, turn);
+        if self.0.len() == TURNS {
+            self.0.remove(0);
+        }
+        self.0.push((Arc::clone(specimen), turn, Arc::clone(&posed)));
+        posed
+    }
+}
+
 /// A stone turned about its axis.
-pub fn turned(specimen: &Arc<Specimen>, turn: f64) -> Arc<Specimen> {
+fn turned(specimen: &Arc<Specimen>, turn: f64) -> Arc<Specimen> {
     if turn == 0.0 {
         return Arc::clone(specimen);
     }

@@ -7,6 +7,7 @@ use serde::{Deserialize, Serialize};
 use std::fs::File;
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, channel};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
@@ -60,12 +61,14 @@ pub fn by_dialog(question: &Question) -> Option<PathBuf> {
 pub struct Choosing {
     /// What for.
     pub purpose: Purpose,
+    /// The number of the document that it is for.
+    pub document: u64,
     answer: Receiver<Option<PathBuf>>,
 }
 
 impl Choosing {
     /// Asks, on a thread of its own; `wake` is called when there is an answer.
-    pub fn ask(question: Question, chooser: &Chooser, wake: impl FnOnce() + Send + 'static) -> Self {
+    pub fn ask(question: Question, document: u64, chooser: &Chooser, wake: impl FnOnce() + Send + 'static) -> Self {
         let (sender, answer) = channel();
         let (chooser, purpose) = (Arc::clone(chooser), question.purpose);
         std::thread::spawn(move || {
@@ -73,7 +76,7 @@ impl Choosing {
             let _ = sender.send(chooser(&question));
             wake();
         });
-        Self { purpose, answer }
+        Self { purpose, document, answer }
     }
 
     /// The answer, once there is one: given up, or a file.
@@ -87,27 +90,27 @@ impl Choosing {
 }
 
 /// Watches a file for changes by others, on a thread of its own.
-pub struct Watching(Arc<Mutex<Option<(PathBuf, Stamp)>>>);
+pub struct Watching(Arc<Watched>);
+
+#[derive(Default)]
+struct Watched {
+    file: Mutex<Option<(PathBuf, Stamp)>>,
+    has_changed: AtomicBool,
+}
 
 /// From one look at the file to the next.
-const PAUSE: Duration = Duration::from_millis(700);
+const PAUSE: Duration = Duration::from_millis(500);
 
 impl Watching {
     /// Begins; `wake` is called when the file is another than it was.
     pub fn begin(wake: impl Fn() + Send + 'static) -> Self {
-        let watched: Arc<Mutex<Option<(PathBuf, Stamp)>>> = Arc::default();
+        let watched: Arc<Watched> = Arc::default();
         let weak = Arc::downgrade(&watched);
         std::thread::spawn(move || {
             while let Some(watched) = weak.upgrade() {
-                let mut file = watched.lock().unwrap_or_else(PoisonError::into_inner);
-                if let Some((path, stamp)) = file.as_mut() {
-                    let now = Stamp::of(path);
-                    if now != *stamp {
-                        *stamp = now;
-                        wake();
-                    }
+                if watched.look() {
+                    wake();
                 }
-                drop(file);
                 drop(watched);
                 std::thread::sleep(PAUSE);
             }
@@ -117,10 +120,32 @@ impl Watching {
 
     /// Watches this file from now on.
     pub fn watch(&self, path: Option<&Path>) {
-        let mut watched = self.0.lock().unwrap_or_else(PoisonError::into_inner);
-        if watched.as_ref().map(|(p, _)| p.as_path()) != path {
-            *watched = path.map(|p| (p.to_owned(), Stamp::of(p)));
+        let mut file = self.0.file.lock().unwrap_or_else(PoisonError::into_inner);
+        if file.as_ref().map(|(p, _)| p.as_path()) != path {
+            *file = path.map(|p| (p.to_owned(), Stamp::of(p)));
         }
+    }
+
+    /// Whether the file has become another since this was last asked.
+    pub fn has_changed(&self) -> bool {
+        self.0.has_changed.swap(false, Ordering::Relaxed)
+    }
+}
+
+impl Watched {
+    /// Whether the file is another than at the last look. The file system may take its time, in which nobody waits.
+    fn look(&self) -> bool {
+        let lock = || self.file.lock().unwrap_or_else(PoisonError::into_inner);
+        let Some((path, stamp)) = lock().clone() else { return false };
+        let now = Stamp::of(&path);
+        if let Some((_, known)) = lock().as_mut().filter(|(other, _)| *other == path) {
+            *known = now;
+        }
+        let is_another = now != stamp;
+        if is_another {
+            self.has_changed.store(true, Ordering::Relaxed);
+        }
+        is_another
     }
 }
 

@@ -148,8 +148,10 @@ pub fn keys(editor: &mut Editor, ctx: &Context) {
         return;
     }
     let typing = ctx.text_edit_focused();
-    for command in Command::all() {
-        let Some(shortcut) = command.shortcut() else { continue };
+    // Egui lets Shift pass where it is not asked for, so those that ask for it come first.
+    let mut keyed: Vec<_> = Command::all().filter_map(|c| Some((c, c.shortcut()?))).collect();
+    keyed.sort_by_key(|(_, shortcut)| !shortcut.modifiers.shift);
+    for (command, shortcut) in keyed {
         if typing && shortcut.modifiers == Modifiers::NONE {
             continue;
         }
@@ -168,7 +170,7 @@ pub fn is_other_shown(ctx: &Context) -> bool {
 pub fn does(editor: &mut Editor, command: Command, ctx: &Context) {
     let desk = &mut editor.desk;
     match command {
-        Command::Open => editor.ask_before(Then::OpenAsked),
+        Command::Open => editor.choose(Purpose::Open),
         Command::Save => drop(editor.save()),
         Command::SaveAs => editor.choose(Purpose::SaveAs),
         Command::Export => editor.dialog = Some(Dialog::export(editor)),

@@ -1,7 +1,8 @@
 //! The proportions of a round brilliant as people set them: what each is called, its range, what laboratories call
 //! excellent.
 
-use crate::cut::{Crown, Derived, LowerHalf, Pavilion, RoundBrilliant, Unit};
+use crate::cut::{Crown, LowerHalf, Pavilion, RoundBrilliant, Unit};
+use std::f64::consts::FRAC_PI_8;
 use std::ops::RangeInclusive;
 
 /// One number that is shown with a slider.
@@ -57,11 +58,11 @@ pub static PROPORTIONS: [Proportion; 11] = [
         unit: Unit::Degrees,
         slider: 22.0..=44.0,
         excellent: Some(31.5..=36.5),
-        get: |b| derived(b, |d| d.crown_angle),
+        get: |b| crown(b).0,
         set: |b, v| set_crown(b, Crown::Angle(v)),
         hold: Some(Hold {
             is: |b| matches!(b.crown, Crown::Angle(_)),
-            set: |b| b.crown = Crown::Angle(derived(b, |d| d.crown_angle)),
+            set: |b| b.crown = Crown::Angle(crown(b).0),
         }),
     },
     Proportion {
@@ -71,11 +72,11 @@ pub static PROPORTIONS: [Proportion; 11] = [
         unit: Unit::Percent,
         slider: 6.0..=24.0,
         excellent: None,
-        get: |b| derived(b, |d| d.crown_height),
+        get: |b| crown(b).1,
         set: |b, v| set_crown(b, Crown::Height(v)),
         hold: Some(Hold {
             is: |b| matches!(b.crown, Crown::Height(_)),
-            set: |b| b.crown = Crown::Height(derived(b, |d| d.crown_height)),
+            set: |b| b.crown = Crown::Height(crown(b).1),
         }),
     },
     Proportion {
@@ -86,11 +87,11 @@ pub static PROPORTIONS: [Proportion; 11] = [
         unit: Unit::Degrees,
         slider: 38.0..=45.0,
         excellent: Some(40.6..=41.8),
-        get: |b| derived(b, |d| d.pavilion_angle),
+        get: |b| pavilion(b).0,
         set: |b, v| set_pavilion(b, Pavilion::Angle(v)),
         hold: Some(Hold {
             is: |b| matches!(b.pavilion, Pavilion::Angle(_)),
-            set: |b| b.pavilion = Pavilion::Angle(derived(b, |d| d.pavilion_angle)),
+            set: |b| b.pavilion = Pavilion::Angle(pavilion(b).0),
         }),
     },
     Proportion {
@@ -100,11 +101,11 @@ pub static PROPORTIONS: [Proportion; 11] = [
         unit: Unit::Percent,
         slider: 38.0..=50.0,
         excellent: None,
-        get: |b| derived(b, |d| d.pavilion_depth),
+        get: |b| pavilion(b).1,
         set: |b, v| set_pavilion(b, Pavilion::Depth(v)),
         hold: Some(Hold {
             is: |b| matches!(b.pavilion, Pavilion::Depth(_)),
-            set: |b| b.pavilion = Pavilion::Depth(derived(b, |d| d.pavilion_depth)),
+            set: |b| b.pavilion = Pavilion::Depth(pavilion(b).1),
         }),
     },
     Proportion {
@@ -126,11 +127,11 @@ pub static PROPORTIONS: [Proportion; 11] = [
         unit: Unit::Percent,
         slider: 50.0..=95.0,
         excellent: Some(70.0..=85.0),
-        get: |b| derived(b, |d| d.lower_half_length),
+        get: |b| lower_half(b).0,
         set: |b, v| set_lower_half(b, LowerHalf::Radial(v)),
         hold: Some(Hold {
             is: |b| matches!(b.lower_half, LowerHalf::Radial(_)),
-            set: |b| b.lower_half = LowerHalf::Radial(derived(b, |d| d.lower_half_length)),
+            set: |b| b.lower_half = LowerHalf::Radial(lower_half(b).0),
         }),
     },
     Proportion {
@@ -141,11 +142,11 @@ pub static PROPORTIONS: [Proportion; 11] = [
         unit: Unit::Percent,
         slider: 50.0..=95.0,
         excellent: None,
-        get: |b| derived(b, |d| d.lower_half_length_vertical),
+        get: |b| lower_half(b).1,
         set: |b, v| set_lower_half(b, LowerHalf::Vertical(v)),
         hold: Some(Hold {
             is: |b| matches!(b.lower_half, LowerHalf::Vertical(_)),
-            set: |b| b.lower_half = LowerHalf::Vertical(derived(b, |d| d.lower_half_length_vertical)),
+            set: |b| b.lower_half = LowerHalf::Vertical(lower_half(b).1),
         }),
     },
     Proportion {
@@ -183,39 +184,68 @@ pub static PROPORTIONS: [Proportion; 11] = [
     },
 ];
 
-fn derived(brilliant: &RoundBrilliant, value: fn(&Derived) -> f64) -> f64 {
-    // What is given is never out of reach, whatever is wrong with the rest.
-    brilliant.derived().map_or(f64::NAN, |d| value(&d))
+// Both of a pair follow from each other alone, whatever is wrong with the rest of the proportions.
+
+/// Degrees of a slope that rises so far, in the same unit, over a run.
+fn slope(rise: f64, run: f64) -> f64 {
+    (rise / run).atan().to_degrees()
+}
+
+fn rise(degrees: f64, run: f64) -> f64 {
+    degrees.to_radians().tan() * run
+}
+
+/// Angle, degrees, and height, percent, of a crown.
+fn crown(brilliant: &RoundBrilliant) -> (f64, f64) {
+    let run = 50.0 - 0.5 * brilliant.table;
+    match brilliant.crown {
+        Crown::Angle(angle) => (angle, rise(angle, run)),
+        Crown::Height(height) => (slope(height, run), height),
+    }
+}
+
+/// Angle, degrees, and depth, percent, of a pavilion.
+fn pavilion(brilliant: &RoundBrilliant) -> (f64, f64) {
+    let run = 50.0 - 0.5 * brilliant.culet;
+    match brilliant.pavilion {
+        Pavilion::Angle(angle) => (angle, rise(angle, run)),
+        Pavilion::Depth(depth) => (slope(depth, run), depth),
+    }
+}
+
+/// Radial and vertical length of the lower halves, percent.
+fn lower_half(brilliant: &RoundBrilliant) -> (f64, f64) {
+    // Seen from the side the girdle's radius is foreshortened where the halves end, between two mains.
+    let cos = FRAC_PI_8.cos();
+    match brilliant.lower_half {
+        LowerHalf::Radial(radial) => (radial, 100.0 - (100.0 - radial) * cos),
+        LowerHalf::Vertical(vertical) => (100.0 - (100.0 - vertical) / cos, vertical),
+    }
 }
 
 /// Sets a crown by its angle or its height; the one that is held stays the one that is given.
 pub fn set_crown(brilliant: &mut RoundBrilliant, given: Crown) {
-    let derived = RoundBrilliant { crown: given, ..*brilliant }.derived();
-    brilliant.crown = match (brilliant.crown, given, derived) {
-        (Crown::Angle(_), Crown::Height(_), Ok(d)) => Crown::Angle(d.crown_angle),
-        (Crown::Height(_), Crown::Angle(_), Ok(d)) => Crown::Height(d.crown_height),
-        _ => given,
+    let (angle, height) = crown(&RoundBrilliant { crown: given, ..*brilliant });
+    brilliant.crown = match brilliant.crown {
+        Crown::Angle(_) => Crown::Angle(angle),
+        Crown::Height(_) => Crown::Height(height),
     };
 }
 
 /// Sets a pavilion by its angle or its depth; the one that is held stays the one that is given.
 pub fn set_pavilion(brilliant: &mut RoundBrilliant, given: Pavilion) {
-    let derived = RoundBrilliant { pavilion: given, ..*brilliant }.derived();
-    brilliant.pavilion = match (brilliant.pavilion, given, derived) {
-        (Pavilion::Angle(_), Pavilion::Depth(_), Ok(d)) => Pavilion::Angle(d.pavilion_angle),
-        (Pavilion::Depth(_), Pavilion::Angle(_), Ok(d)) => Pavilion::Depth(d.pavilion_depth),
-        _ => given,
+    let (angle, depth) = pavilion(&RoundBrilliant { pavilion: given, ..*brilliant });
+    brilliant.pavilion = match brilliant.pavilion {
+        Pavilion::Angle(_) => Pavilion::Angle(angle),
+        Pavilion::Depth(_) => Pavilion::Depth(depth),
     };
 }
 
 fn set_lower_half(brilliant: &mut RoundBrilliant, given: LowerHalf) {
-    let derived = RoundBrilliant { lower_half: given, ..*brilliant }.derived();
-    brilliant.lower_half = match (brilliant.lower_half, given, derived) {
-        (LowerHalf::Radial(_), LowerHalf::Vertical(_), Ok(d)) => LowerHalf::Radial(d.lower_half_length),
-        (LowerHalf::Vertical(_), LowerHalf::Radial(_), Ok(d)) => {
-            LowerHalf::Vertical(d.lower_half_length_vertical)
-        }
-        _ => given,
+    let (radial, vertical) = lower_half(&RoundBrilliant { lower_half: given, ..*brilliant });
+    brilliant.lower_half = match brilliant.lower_half {
+        LowerHalf::Radial(_) => LowerHalf::Radial(radial),
+        LowerHalf::Vertical(_) => LowerHalf::Vertical(vertical),
     };
 }
 
@@ -244,6 +274,31 @@ mod tests {
             assert!(off < 1e-9, "{}: off by {off}", proportion.name);
             assert!(proportion.excellent.as_ref().is_none_or(|e| proportion.slider.contains(e.start())));
         }
+    }
+
+    #[test]
+    fn pairs_are_what_the_closed_form_derives() {
+        let vertical = RoundBrilliant { lower_half: LowerHalf::Vertical(80.0), culet: 3.0, ..TOLKOWSKY };
+        for given in [TOLKOWSKY, vertical] {
+            let d = given.derived().unwrap();
+            let pairs = [
+                (crown(&given), (d.crown_angle, d.crown_height)),
+                (pavilion(&given), (d.pavilion_angle, d.pavilion_depth)),
+                (lower_half(&given), (d.lower_half_length, d.lower_half_length_vertical)),
+            ];
+            for ((a, b), (c, d)) in pairs {
+                assert!((a - c).abs() < 1e-9 && (b - d).abs() < 1e-9, "{a} {b}, not {c} {d}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_pair_is_known_while_something_else_cannot_be() {
+        let mut brilliant = RoundBrilliant { table: 97.0, ..TOLKOWSKY };
+        assert!(brilliant.derived().is_err());
+        assert!(PROPORTIONS.iter().all(|p| (p.get)(&brilliant).is_finite()));
+        set_crown(&mut brilliant, Crown::Height(1.0));
+        assert!(matches!(brilliant.crown, Crown::Angle(angle) if angle > 30.0));
     }
 
     #[test]

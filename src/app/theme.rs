@@ -32,6 +32,8 @@ pub fn apply(ctx: &Context) {
     for theme in [Theme::Dark, Theme::Light] {
         ctx.style_mut_of(theme, |style| styled(style, theme));
     }
+    // What is typed ends where something else is taken in hand, by a drag as by a click.
+    ctx.options_mut(|o| o.input_options.surrender_focus_on = egui::SurrenderFocusOn::Presses);
 }
 
 fn styled(style: &mut Style, theme: Theme) {

@@ -45,6 +45,18 @@ impl Specimen {
         Ok(Self { design, stone, material, warnings })
     }
 
+    /// The stone of another design; not built anew where the cut is the same.
+    ///
+    /// # Errors
+    /// The first thing at fault with the design.
+    pub fn remade(&self, design: Design) -> Result<Self, SpecimenError> {
+        if design.cut != self.design.cut {
+            return Self::new(design);
+        }
+        let material = design.material.material().map_err(DesignError::from)?;
+        Ok(Self { design, material, ..self.clone() })
+    }
+
     /// Girdle radius in mm.
     pub fn unit_mm(&self) -> f64 {
         0.5 * self.design.diameter_mm
