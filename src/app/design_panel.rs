@@ -58,6 +58,10 @@ fn identity(editor: &mut Editor, ui: &mut Ui) {
         let field = TextEdit::singleline(&mut design.name).desired_width(ui.available_width() - 12.0);
         ui.add(field).labelled_by(label.id);
     });
+    if let Some(fault @ SpecimenError::Design(DesignError::Name)) = editor.document.fault() {
+        wrong(ui, &fault.to_string());
+    }
+    let design = &editor.document.work.design;
     ui.horizontal(|ui| {
         named(ui, "Cut", "The family: which facets there are, and which numbers shape them.");
         ui.label(match design.cut {
@@ -84,7 +88,15 @@ fn proportions(editor: &mut Editor, ui: &mut Ui) {
         }
     }
     derived(ui, brilliant);
-    if let Some(fault) = fault.filter(|_| !PROPORTIONS.iter().any(|p| key == Some(p.key))) {
+    if editor.document.fault().is_none() {
+        for warning in &editor.document.specimen().warnings {
+            ui.add(egui::Label::new(RichText::new(warning).weak().small()).wrap());
+        }
+    }
+    let is_name = matches!(editor.document.fault(), Some(SpecimenError::Design(DesignError::Name)));
+    if let Some(fault) =
+        fault.filter(|_| !is_name).filter(|_| !PROPORTIONS.iter().any(|p| key == Some(p.key)))
+    {
         wrong(ui, &fault);
     }
 }
@@ -125,15 +137,39 @@ fn row(ui: &mut Ui, proportion: &Proportion, brilliant: &mut RoundBrilliant) {
                 egui::Shape::rect_filled(band, 2.0, theme::good(ui.visuals()).gamma_multiply(0.75)),
             );
         }
-        let number = DragValue::new(&mut value).speed(if whole { 0.2 } else { 0.02 }).max_decimals(decimals);
-        let number = number.min_decimals(if whole { 0 } else { 1 }).suffix(proportion.unit.to_string());
-        let number = number.update_while_editing(false);
-        ui.add_sized(vec2(NUMBER, ui.spacing().interact_size.y), number).labelled_by(label.id);
+        let (speed, unit) = (if whole { 0.2 } else { 0.02 }, proportion.unit.to_string());
+        Number { decimals, speed, range: ANY, unit: &unit }.show(ui, (NUMBER, label.id), &mut value);
         if value != before && value.is_finite() {
             (proportion.set)(brilliant, value);
         }
         hold(ui, proportion, brilliant);
     });
+}
+
+/// A field for a number.
+struct Number<'a> {
+    decimals: usize,
+    /// Change for a point that it is dragged by.
+    speed: f64,
+    range: RangeInclusive<f64>,
+    unit: &'a str,
+}
+
+/// Numbers that have limits of their own, which are told.
+const ANY: RangeInclusive<f64> = f64::NEG_INFINITY..=f64::INFINITY;
+
+impl Number<'_> {
+    /// Draws it. Leaving it untouched leaves the number as it is, though more decimals belong to it than are shown.
+    fn show(self, ui: &mut Ui, (width, label): (f32, egui::Id), value: &mut f64) {
+        let before = *value;
+        let Self { decimals, speed, range, unit } = self;
+        let field = DragValue::new(value).range(range).speed(speed).suffix(unit).update_while_editing(false);
+        let field = field.min_decimals(decimals.min(1)).max_decimals(decimals);
+        ui.add_sized(vec2(width, ui.spacing().interact_size.y), field).labelled_by(label);
+        if format!("{before:.decimals$}").parse() == Ok(*value) {
+            *value = before;
+        }
+    }
 }
 
 /// Where on a slider a range lies: a band under its rail.
@@ -281,13 +317,8 @@ fn size(editor: &mut Editor, ui: &mut Ui) {
     let design = &mut editor.document.work.design;
     ui.horizontal(|ui| {
         let label = named(ui, "Diameter", "Of the girdle. A larger stone of colour is darker.");
-        let number = DragValue::new(&mut design.diameter_mm)
-            .range(0.1..=1000.0)
-            .speed(0.01)
-            .max_decimals(3)
-            .suffix(" mm");
-        ui.add_sized(vec2(92.0, ui.spacing().interact_size.y), number.update_while_editing(false))
-            .labelled_by(label.id);
+        let number = Number { decimals: 3, speed: 0.01, range: 0.1..=1000.0, unit: " mm" };
+        number.show(ui, (92.0, label.id), &mut design.diameter_mm);
     });
     ui.horizontal(|ui| {
         let label = named(ui, "Weight", "From the stone's volume and its material's density.");
@@ -297,9 +328,8 @@ fn size(editor: &mut Editor, ui: &mut Ui) {
             return;
         };
         let before = carats;
-        let number = DragValue::new(&mut carats).range(1e-6..=1e9).speed(0.01).max_decimals(3).suffix(" ct");
-        ui.add_sized(vec2(92.0, ui.spacing().interact_size.y), number.update_while_editing(false))
-            .labelled_by(label.id);
+        let number = Number { decimals: 3, speed: 0.01, range: 1e-6..=1e9, unit: " ct" };
+        number.show(ui, (92.0, label.id), &mut carats);
         let asked = Size::Carats(carats).diameter_mm(&specimen.stone.polytope, &specimen.material);
         if let (true, Ok(diameter)) = (carats != before, asked) {
             design.diameter_mm = diameter;
@@ -340,7 +370,7 @@ fn lighting(editor: &mut Editor, ui: &mut Ui) {
     plain(
         ui,
         ("Head", "Half angle of the observer's head, which shuts out light in ASET and figures; 0 for none."),
-        &mut editor.desk.head,
+        &mut editor.document.work.head,
         (HEADS, "°"),
     );
     if asks {
@@ -362,8 +392,6 @@ fn plain(
         ui.add(Slider::new(value, range.clone()).show_value(false).step_by(0.1))
             .labelled_by(label.id)
             .on_hover_text(meaning);
-        let number = DragValue::new(value).range(range).speed(0.02).max_decimals(1).suffix(unit);
-        ui.add_sized(vec2(NUMBER, ui.spacing().interact_size.y), number.update_while_editing(false))
-            .labelled_by(label.id);
+        Number { decimals: 1, speed: 0.02, range, unit }.show(ui, (NUMBER, label.id), value);
     });
 }

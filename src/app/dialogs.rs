@@ -26,7 +26,7 @@ pub enum Dialog {
     /// Work would be lost.
     Unsaved(Then),
     /// A crash has left work behind.
-    Recover(Found),
+    Recover(Box<Found>),
     /// Both the file and the design have changed.
     ChangedOutside,
     /// What to export.
@@ -63,7 +63,7 @@ pub fn show(editor: &mut Editor, ctx: &Context) {
         Dialog::Keys => is_open = keys(ui),
     });
     let escaped = ctx.input(|i| i.key_pressed(Key::Escape)) || modal.should_close();
-    if is_open && !(escaped && !dialog.insists()) {
+    if is_open && (!escaped || dialog.insists()) {
         // What was asked for meanwhile waits until this one is answered.
         editor.dialog = Some(dialog);
     }
@@ -119,7 +119,7 @@ fn recover(editor: &mut Editor, ui: &mut Ui, found: &Found) -> bool {
                 }
                 _ => {}
             }
-            found.clone().forget();
+            Found::clone(found).forget();
             false
         }
         None => true,

@@ -68,7 +68,17 @@ impl Document {
         let work = Work { design: design.clone(), light: FIRST_LIGHT.to_owned(), exposure: 0.0, head: 0.0 };
         let stamp = path.as_deref().map_or(Stamp(None), Stamp::of);
         let history = History::new(work.clone());
-        Ok(Self { work, history, saved: design.clone(), path, stamp, is_lost: false, specimen, fault: None, built: design })
+        Ok(Self {
+            work,
+            history,
+            saved: design.clone(),
+            path,
+            stamp,
+            is_lost: false,
+            specimen,
+            fault: None,
+            built: design,
+        })
     }
 
     /// A cut that comes with the program, as a design without a file.

@@ -170,7 +170,7 @@ impl Editor {
     fn offer_recovery(&mut self) {
         let found = self.safe.as_ref().map_or_else(Vec::new, Safe::found);
         if let Some(first) = found.into_iter().next() {
-            self.dialog = Some(Dialog::Recover(first));
+            self.dialog = Some(Dialog::Recover(Box::new(first)));
         }
     }
 
@@ -203,7 +203,9 @@ impl Editor {
     }
 
     fn take_in_light(&mut self) {
-        let Some((name, Ok(loaded))) = self.loading.as_ref().map(|(n, a)| (n.clone(), a.try_recv())) else { return };
+        let Some((name, Ok(loaded))) = self.loading.as_ref().map(|(n, a)| (n.clone(), a.try_recv())) else {
+            return;
+        };
         self.loading = None;
         let lighting = match loaded {
             Ok(lighting) => {
@@ -398,7 +400,10 @@ impl Editor {
     fn save_as(&mut self, path: PathBuf) -> bool {
         let completed = path.with_extension("toml");
         if path.extension().is_none() && completed.exists() {
-            self.notes.trouble(format!("{} exists; choose it by its whole name to replace it", completed.display()));
+            self.notes.trouble(format!(
+                "{} exists; choose it by its whole name to replace it",
+                completed.display()
+            ));
             return false;
         }
         let path = if path.extension().is_some() { path } else { completed };
@@ -577,6 +582,7 @@ impl Editor {
     }
 
     /// Whether all pictures and figures are as good as they get, and nothing is under way.
+    #[cfg(test)]
     pub(super) fn is_idle(&self) -> bool {
         self.studio.is_idle() && self.choosing.is_none() && self.loading.is_none()
     }

@@ -5,7 +5,6 @@ use super::export_job::{Job, Plan, thumbnails};
 use super::files::Purpose;
 use super::shows::Shows;
 use super::theme;
-use crate::io::MOST_PIXELS;
 use crate::io::export::Format;
 use egui::{
     Color32, ColorImage, DragValue, Grid, ProgressBar, Rect, RichText, ScrollArea, Sense, Stroke, StrokeKind,
@@ -13,13 +12,14 @@ use egui::{
 };
 use std::collections::HashMap;
 use std::path::PathBuf;
+use std::sync::Arc;
 use std::sync::mpsc::Receiver;
 
 /// Side of a thumbnail, points.
 const THUMBNAIL: f32 = 88.0;
 
-/// The sizes that are offered, least and most.
-const SIZES: std::ops::RangeInclusive<u32> = 16..=MOST_PIXELS;
+/// The sizes that are offered, least and most: renders and EXRs are held in memory.
+const SIZES: std::ops::RangeInclusive<u32> = 16..=8192;
 
 /// What is chosen so far.
 pub struct ExportDialog {
@@ -33,8 +33,8 @@ pub struct ExportDialog {
 impl ExportDialog {
     /// A dialog for what is open, seen as the linked views see it.
     pub fn new(editor: &mut Editor) -> Self {
-        let folder =
-            editor.document.path().and_then(|p| p.parent()).map_or_else(PathBuf::new, ToOwned::to_owned);
+        let here = || std::env::current_dir().unwrap_or_default();
+        let folder = editor.document.path().and_then(|p| p.parent()).map_or_else(here, ToOwned::to_owned);
         let shot = editor.linked_shot();
         let stem = editor.document.path().and_then(|p| p.file_stem()).map_or_else(
             || editor.document.work.design.name.to_lowercase().replace([' ', '/'], "-"),
@@ -42,7 +42,8 @@ impl ExportDialog {
         );
         let views = vec![Shows::Render, Shows::Aset, Shows::Hearts, Shows::Arrows];
         let formats = vec![Format::Png];
-        let plan = Plan { shot, views, formats, size: 1024, folder: folder.clone(), stem };
+        let (upright, turn) = (Arc::clone(editor.document.specimen()), editor.desk.eye.turn);
+        let plan = Plan { shot, upright, turn, views, formats, size: 1024, folder: folder.clone(), stem };
         let wake = editor.studio.wake();
         let thumbnails = thumbnails(plan.clone(), move || wake());
         Self { folder: folder.join("out"), plan, thumbnails, pictures: HashMap::new(), job: None }

@@ -4,7 +4,7 @@ use super::editor::reach;
 use super::shows::Shows;
 use super::studio::{Camera, Effort, FINE_RENDER, Shot};
 use crate::cut::Cut;
-use crate::io::export::{Export, Format, Outputs, Told, Tracer, Viewing};
+use crate::io::export::{Export, Format, Outputs, Sampler, Told, Tracer, Viewing};
 use crate::io::{Failure, rasterize, write_rgba_png};
 use crate::optics::line;
 use crate::picture::{named, profile};
@@ -28,6 +28,9 @@ const RENDER: f64 = 4.0;
 pub struct Plan {
     /// The stone, its light and the view; its film and what it shows do not count.
     pub shot: Shot,
+    /// The same stone as the cut has it, and by how much it is turned for the views, radians.
+    pub upright: Arc<Specimen>,
+    pub turn: f64,
     /// What is shown of it.
     pub views: Vec<Shows>,
     /// Kinds of file.
@@ -55,29 +58,47 @@ pub struct Progress {
 pub struct Job(Arc<Progress>);
 
 impl Plan {
-    fn outputs(&self) -> Outputs {
+    /// What is written of the stone as it is turned in the views, and of the stone as the cut has it: drawings and figures
+    /// know of no turn.
+    fn parts(&self) -> [(Outputs, Viewing<'_>); 2] {
+        let is_drawing = |shows: &Shows| !shows.is_seen();
+        let json = self.formats.contains(&Format::Json);
+        let formats = |json: bool| {
+            let pixels = self.formats.iter().copied().filter(|f| *f != Format::Json);
+            pixels.chain(json.then_some(Format::Json)).collect()
+        };
+        let seen = self.outputs(|s| !is_drawing(s), formats(false));
+        let upright = self.outputs(is_drawing, formats(json));
+        let turned = Viewpoint::from(self.shot.view);
+        let azimuth_deg = (turned.azimuth_deg - self.turn.to_degrees()).rem_euclid(360.0);
+        let azimuth_deg = if turned.tilt_deg == 0.0 { 0.0 } else { azimuth_deg };
+        let own = Viewpoint { azimuth_deg, ..turned };
+        [(seen, self.viewing(&self.shot.specimen, turned)), (upright, self.viewing(&self.upright, own))]
+    }
+
+    fn outputs(&self, is_part: impl Fn(&Shows) -> bool, formats: Vec<Format>) -> Outputs {
         let picture = |shows: &Shows| Some((shows.key().to_owned(), named(shows.key())?));
         Outputs {
             folder: self.folder.clone(),
             stem: self.stem.clone(),
-            pictures: self.views.iter().filter_map(picture).collect(),
+            pictures: self.views.iter().filter(|s| is_part(s)).filter_map(picture).collect(),
             size: self.size,
-            formats: self.formats.clone(),
+            formats,
         }
     }
 
-    fn viewing(&self) -> Viewing<'_> {
+    fn viewing<'a>(&'a self, specimen: &'a Specimen, viewpoint: Viewpoint) -> Viewing<'a> {
         let flat = self.shot.view.projection == Projection::Orthographic;
         Viewing {
-            specimen: &self.shot.specimen,
+            specimen,
             file: &self.stem,
-            viewpoint: Viewpoint::from(self.shot.view),
-            medium: self.shot.specimen.medium(line::SODIUM_D),
+            viewpoint,
+            medium: specimen.medium(line::SODIUM_D),
             wavelength_nm: Some(line::SODIUM_D),
             head_deg: self.shot.head,
             unresolved: None,
             polarised: true,
-            tracer: if flat { Tracer::Beams } else { Tracer::Rays(crate::io::export::Sampler::Rays) },
+            tracer: if flat { Tracer::Beams } else { Tracer::Rays(Sampler::Rays) },
         }
     }
 
@@ -91,9 +112,10 @@ impl Plan {
     /// # Errors
     /// What keeps them from being written.
     pub fn files(&self) -> Result<Vec<PathBuf>, String> {
-        let outputs = self.outputs();
-        let export = Export { viewing: self.viewing(), outputs: &outputs };
-        let mut files = export.files().map_err(|e| e.to_string())?;
+        let mut files = vec![];
+        for (outputs, viewing) in &self.parts() {
+            files.extend(Export { viewing: *viewing, outputs }.files().map_err(|e| e.to_string())?);
+        }
         files.extend(self.render_path());
         Ok(files)
     }
@@ -102,22 +124,30 @@ impl Plan {
     fn shot(&self, shows: Shows, size: u32) -> Shot {
         let reach = reach(&self.shot.specimen);
         let view = crate::scene::View { side: shows.side().unwrap_or(self.shot.view.side), ..self.shot.view };
-        Shot { shows, view, film: Film::reaching(reach, size), ..self.shot.clone() }
+        let specimen = if shows.is_seen() { &self.shot.specimen } else { &self.upright };
+        let film = Film::reaching(reach, size);
+        Shot { specimen: Arc::clone(specimen), shows, view, film, ..self.shot.clone() }
     }
 
     /// Writes all, one after the other.
     fn write(&self, progress: &Progress) -> Result<(), Failure> {
         let render = self.render_path();
-        let outputs = self.outputs();
-        let count = outputs.pictures.len() as f64 + f64::from(u8::from(self.formats.contains(&Format::Json)));
-        let most = if render.is_some() { count / (count + RENDER) } else { 1.0 };
-        let export = Export { viewing: self.viewing(), outputs: &outputs };
-        export.write(&|done| progress.at(done * most), &|told| {
-            progress.hear(&told);
-            Ok(())
-        })?;
+        let parts = self.parts();
+        let effort = |o: &Outputs| (o.pictures.len() + usize::from(o.formats.contains(&Format::Json))) as f64;
+        let all =
+            parts.iter().map(|(o, _)| effort(o)).sum::<f64>() + if render.is_some() { RENDER } else { 0.0 };
+        let mut begun = 0.0;
+        for (outputs, viewing) in &parts {
+            let share = effort(outputs);
+            let watch = |done: f64| progress.at((begun + done * share) / all);
+            Export { viewing: *viewing, outputs }.write(&watch, &|told| {
+                progress.hear(&told);
+                Ok(())
+            })?;
+            begun += share;
+        }
         if let Some(path) = render {
-            self.render(&path, &|done| progress.at(most + done * (1.0 - most)))?;
+            self.render(&path, &|done| progress.at((begun + done * RENDER) / all))?;
             progress.hear(&Told::Written(&path));
         }
         Ok(())
@@ -161,7 +191,9 @@ impl Job {
         let progress = Arc::new(Progress::default());
         let seen = Arc::clone(&progress);
         std::thread::spawn(move || {
-            let end = plan.write(&seen).map_err(|e| e.to_string());
+            let write = || plan.write(&seen).map_err(|e| e.to_string());
+            let end = std::panic::catch_unwind(std::panic::AssertUnwindSafe(write))
+                .unwrap_or_else(|_| Err("a fault of the program: please report the design".to_owned()));
             *seen.end.lock().unwrap_or_else(PoisonError::into_inner) = Some(end);
             wake();
         });
@@ -206,7 +238,7 @@ pub fn thumbnails(plan: Plan, wake: impl Fn() + Send + 'static) -> Receiver<(Sho
 
 /// The drawing from the side, small.
 fn side(plan: &Plan) -> Option<ColorImage> {
-    let Specimen { stone, design, .. } = &*plan.shot.specimen;
+    let Specimen { stone, design, .. } = &*plan.upright;
     let brilliant = match &design.cut {
         Cut::RoundBrilliant(brilliant) => Some(brilliant),
         Cut::Planes(_) => None,

@@ -29,14 +29,17 @@ pub fn show(editor: &mut Editor, ui: &mut Ui) {
             how(editor, ui);
             if let Some(measured) = editor.figures.get(&Which::Present) {
                 let other = editor.compared.as_ref().and_then(|_| editor.figures.get(&Which::Other));
+                let is_asked = editor.asked.figures.iter().any(|(_, ask)| *ask == measured.ask);
                 table(ui, measured, other, editor.desk.by_area);
+                let state = if is_asked && measured.grade == Grade::Fine { "as `measure` gives them" } else { "becoming finer…" };
+                ui.label(RichText::new(state).weak().small());
             }
             ui.add_space(8.0);
             ui.label(RichText::new("Against tilt").heading()).on_hover_text(
                 "The same figures while the stone leans toward the azimuth of the linked views, -30° to 30°.",
             );
-            if let Some((_, tilts)) = &editor.tilts {
-                plot(ui, tilts);
+            if let Some((ask, tilts)) = &editor.tilts {
+                ui.add_enabled_ui(editor.asked.tilts.as_ref() == Some(ask), |ui| plot(ui, ask.head, tilts));
             } else {
                 ui.label(RichText::new("comes when all else is done").weak());
             }
@@ -53,7 +56,13 @@ fn how(editor: &mut Editor, ui: &mut Ui) {
         );
     });
     let tilt = editor.desk.eye.tilt().to_degrees();
-    let view = if tilt == 0.0 { "face up".to_owned() } else { format!("tilted {tilt:.1}°") };
+    let azimuth = (editor.desk.eye.view(None).azimuth - editor.desk.eye.turn).to_degrees().rem_euclid(360.0);
+    let what = if editor.desk.eye.eye_leans { "eye" } else { "stone" };
+    let view = if tilt == 0.0 {
+        "face up".to_owned()
+    } else {
+        format!("{what} tilted {tilt:.1}° toward {azimuth:.0}°")
+    };
     ui.label(RichText::new(format!("Table side, {view}")).weak());
 }
 
@@ -82,7 +91,7 @@ fn table(ui: &mut Ui, measured: &Measured, other: Option<&Measured>, by_area: bo
     ui.add_space(4.0);
     let weak = ui.visuals().weak_text_color();
     let text = ui.visuals().text_color();
-    let rows: [(&str, &str, &dyn Fn(&Zones) -> f64, bool); 4] = [
+    let rows: [(&str, &str, Pick, bool); 4] = [
         (
             "Light return",
             "Light from above the horizon, glare included: what makes the stone bright.",
@@ -98,16 +107,20 @@ fn table(ui: &mut Ui, measured: &Measured, other: Option<&Measured>, by_area: bo
             false,
         ),
     ];
+    if by_area {
+        let meaning = "Where a stronger exit may hide in what is unresolved, or nothing leaves the stone.";
+        let (share, other) = pick(&|z| z.unresolved);
+        row(ui, &Row { name: "Undecided", meaning, share, other, colour: weak, is_strong: false });
+        return;
+    }
     for (name, meaning, of, is_strong) in rows {
         let (share, other) = pick(of);
         row(ui, &Row { name, meaning, share, other, colour: if is_strong { text } else { weak }, is_strong });
     }
-    let state = match measured.grade {
-        Grade::Fine => "as `measure` gives them",
-        Grade::Fair | Grade::Rough => "becoming finer…",
-    };
-    ui.label(RichText::new(state).weak().small());
 }
+
+/// Takes a number from what the panel shows.
+type Pick<'a> = &'a dyn Fn(&Zones) -> f64;
 
 /// What the panel shows, as shares of the outline.
 struct Zones {
@@ -183,8 +196,8 @@ fn tens(input: GridInput) -> Vec<GridMark> {
 }
 
 /// The zones' light against tilt, in the colours of the bars above.
-fn plot(ui: &mut Ui, tilts: &Tilts) {
-    let scope = Scope::aset(ASET_CONE, Backing::Black);
+fn plot(ui: &mut Ui, head: f64, tilts: &Tilts) {
+    let scope = Scope::aset(ASET_CONE, Backing::Black).with_head(head);
     let plot = Plot::new("tilts")
         .height(200.0)
         .allow_drag(false)

@@ -68,7 +68,12 @@ pub struct Choosing {
 
 impl Choosing {
     /// Asks, on a thread of its own; `wake` is called when there is an answer.
-    pub fn ask(question: Question, document: u64, chooser: &Chooser, wake: impl FnOnce() + Send + 'static) -> Self {
+    pub fn ask(
+        question: Question,
+        document: u64,
+        chooser: &Chooser,
+        wake: impl FnOnce() + Send + 'static,
+    ) -> Self {
         let (sender, answer) = channel();
         let (chooser, purpose) = (Arc::clone(chooser), question.purpose);
         std::thread::spawn(move || {

@@ -6,6 +6,7 @@ use super::desk::Layout;
 use super::dialogs::{Dialog, Then};
 use super::editor::Editor;
 use super::files::Purpose;
+use super::studio::Which;
 use super::theme;
 use crate::io::{cut_file, library};
 use egui::{Align, Button, Context, Key, Modifiers, Panel, RichText, ThemePreference, Ui};
@@ -134,7 +135,7 @@ pub fn status(editor: &mut Editor, ui: &mut Ui) {
                 if editor.told.is_empty() { editor.notes.said().unwrap_or_default() } else { &editor.told };
             ui.add(egui::Label::new(told).truncate());
             ui.with_layout(egui::Layout::right_to_left(Align::Center), |ui| {
-                let state = if editor.is_idle() { "done" } else { "tracing…" };
+                let state = if editor.studio.is_idle() { "done" } else { "tracing…" };
                 ui.label(RichText::new(format!("{state} · {}", editor.studio.told())).weak().small())
                     .on_hover_text("What computes the pictures: the processor, or a graphics card.");
             });
@@ -214,17 +215,20 @@ pub fn does(editor: &mut Editor, command: Command, ctx: &Context) {
 
 /// The eye of the pane that keys are for.
 fn eye(editor: &mut Editor) -> &mut super::eye::Eye {
-    let pane = if editor.desk.shown().contains(&editor.hovered) { editor.hovered } else { 0 };
+    let shown = editor.desk.shown();
+    let pane = if shown.contains(&editor.hovered) { editor.hovered } else { shown[0] };
     editor.desk.eye_mut(pane)
 }
 
 fn copy(editor: &mut Editor, ctx: &Context) {
     let shown = editor.desk.shown();
     let pane = if shown.contains(&editor.hovered) { editor.hovered } else { shown[0] };
-    match editor.pictures.get(&(pane, super::studio::Which::Present)) {
+    let which = if is_other_shown(ctx) && editor.compared.is_some() { Which::Other } else { Which::Present };
+    let shows = editor.desk.panes[pane].shows;
+    match editor.pictures.get(&(pane, which)).filter(|p| p.shot.shows == shows) {
         Some(picture) => {
             ctx.copy_image(picture.taken.image.clone());
-            editor.notes.say(&format!("{} copied", editor.desk.panes[pane].shows.name()));
+            editor.notes.say(&format!("{} copied", shows.name()));
         }
         None => editor.notes.say("This view holds no picture to copy."),
     }

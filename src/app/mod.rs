@@ -39,7 +39,7 @@ const ID: &str = "brillianteer";
 
 /// The window's first size, and its least, points.
 const SIZE: [f32; 2] = [1440.0, 900.0];
-const LEAST: [f32; 2] = [900.0, 560.0];
+const LEAST: [f32; 2] = [1100.0, 640.0];
 
 /// Opens the window, on a file if one is given, and waits until it is closed.
 ///
@@ -48,7 +48,7 @@ const LEAST: [f32; 2] = [900.0, 560.0];
 pub fn run(file: Option<PathBuf>) -> Result<(), String> {
     let mut setup = WgpuSetupCreateNew::without_display_handle();
     // The tracer shares the device: what it needs is asked for.
-    setup.device_descriptor = Arc::new(|adapter| Gpu::wanted(adapter));
+    setup.device_descriptor = Arc::new(Gpu::wanted);
     let options = eframe::NativeOptions {
         viewport: egui::ViewportBuilder::default()
             .with_app_id(ID)

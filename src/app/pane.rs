@@ -10,8 +10,8 @@ use crate::cut::Cut;
 use crate::scene::{ASET_CONE, Backing, Film, Scope, Side, Specimen, View};
 use crate::trace::ray::Camera;
 use egui::{
-    Align, Color32, ComboBox, Key, Modifiers, PointerButton, Rect, Response, RichText, Role, Sense, Stroke,
-    StrokeKind, Ui, UiBuilder, WidgetInfo, pos2, vec2,
+    Align, Color32, ComboBox, EventFilter, Key, Modifiers, PointerButton, Rect, Response, RichText, Role,
+    Sense, Stroke, StrokeKind, Ui, UiBuilder, WidgetInfo, pos2, vec2,
 };
 use glam::{DMat2, DVec2};
 use std::sync::Arc;
@@ -56,7 +56,7 @@ fn header(editor: &mut Editor, ui: &mut Ui, pane: usize) {
         .response
         .on_hover_text(shows.meaning())
         .widget_info(|| WidgetInfo::labeled(Role::ComboBox, true, format!("{title}: {}", shows.name())));
-    if let Some(compared) = &editor.compared {
+    if let Some(compared) = editor.compared.as_ref().filter(|_| shows.is_seen()) {
         let other = menus::is_other_shown(ui.ctx());
         ui.label(RichText::new(if other { compared.name.as_str() } else { "present" }).weak());
     }
@@ -113,9 +113,14 @@ fn profile(editor: &mut Editor, ui: &mut Ui, pane: usize, body: Rect) {
         Cut::Planes(_) => None,
     };
     ui.painter().rect_filled(body, 4.0, ui.visuals().extreme_bg_color);
-    let response = editor.profiles[pane].show(ui, body, &specimen.stone, brilliant);
-    if response.double_clicked() {
+    let under = ui.interact(body, ui.scope_id().with("profile"), Sense::click());
+    under.widget_info(|| WidgetInfo::labeled(Role::Image, true, "Profile view"));
+    editor.profiles[pane].show(ui, body, &specimen.stone, brilliant);
+    if under.double_clicked() {
         enlarge(editor, pane);
+    }
+    if under.contains_pointer() {
+        editor.hovered = pane;
     }
 }
 
@@ -131,6 +136,9 @@ fn drawing(editor: &mut Editor, ui: &mut Ui, pane: usize, body: Rect) {
     }
     if response.double_clicked() {
         enlarge(editor, pane);
+    }
+    if response.hovered() {
+        editor.hovered = pane;
     }
 }
 
@@ -179,10 +187,13 @@ fn scene(editor: &mut Editor, ui: &mut Ui, (pane, shows): (usize, Shows), body: 
     let scale = ui.pixels_per_point();
     let sight = Sight { view, film: eye.film(size, reach), side: view.side, body, scale };
     pictures(editor, ui, pane, &sight);
+    if let Some(overlay) = editor.desk.overlay() {
+        legend(ui, body, &overlay.legend());
+    }
     ui.painter().rect_stroke(body, 4.0, focus(ui, &response), StrokeKind::Inside);
     moved(editor.desk.eye_mut(pane), ui, &response, &sight);
     clicked(editor, ui, pane, &response, &sight);
-    if response.hovered() {
+    if response.hovered() || response.has_focus() {
         editor.hovered = pane;
     }
     hover(editor, ui, (shows, eye.turn), &response, &sight);
@@ -234,6 +245,25 @@ fn pictures(editor: &Editor, ui: &mut Ui, pane: usize, sight: &Sight) {
     }
 }
 
+/// What the colours of an overlay mean, along the lower edge, as many as there is room for.
+fn legend(ui: &Ui, body: Rect, entries: &[(String, [u8; 3])]) {
+    let painter = ui.painter().with_clip_rect(body);
+    let font = egui::TextStyle::Small.resolve(ui.style());
+    let mut at = body.left_bottom() + vec2(8.0, -22.0);
+    for (text, [r, g, b]) in entries {
+        let galley = painter.layout_no_wrap(text.clone(), font.clone(), Color32::WHITE);
+        let size = galley.size() + vec2(22.0, 4.0);
+        if at.x + size.x > body.right() - 6.0 {
+            break;
+        }
+        painter.rect_filled(Rect::from_min_size(at, size), 3.0, Color32::from_black_alpha(170));
+        let chip = Rect::from_min_size(at + vec2(4.0, size.y / 2.0 - 5.0), vec2(10.0, 10.0));
+        painter.rect_filled(chip, 2.0, Color32::from_rgb(*r, *g, *b));
+        painter.galley(at + vec2(18.0, 2.0), galley, Color32::WHITE);
+        at.x += size.x + 4.0;
+    }
+}
+
 fn split_marks(ui: &Ui, body: Rect, other: &str) {
     let painter = ui.painter();
     painter.vline(body.center().x, body.y_range(), Stroke::new(1.5, ui.visuals().text_color()));
@@ -270,11 +300,13 @@ fn moved(eye: &mut Eye, ui: &Ui, response: &Response, sight: &Sight) {
         }
     }
     if response.has_focus() {
-        by_keys(eye, ui, sight.side);
+        by_keys(eye, ui, sight.side, response.id);
     }
 }
 
-fn by_keys(eye: &mut Eye, ui: &Ui, side: Side) {
+fn by_keys(eye: &mut Eye, ui: &Ui, side: Side, id: egui::Id) {
+    let arrows = EventFilter { horizontal_arrows: true, vertical_arrows: true, ..EventFilter::default() };
+    ui.memory_mut(|m| m.set_focus_lock_filter(id, arrows));
     let pressed = |modifiers, key| ui.input_mut(|i| i.count_and_consume_key(modifiers, key)) as f64;
     for (modifiers, step) in [(Modifiers::SHIFT, STEP.1), (Modifiers::NONE, STEP.0)] {
         let along = |more, less| pressed(modifiers, more) - pressed(modifiers, less);
@@ -300,7 +332,11 @@ fn hover(editor: &mut Editor, ui: &Ui, (shows, turn): (Shows, f64), response: &R
     let Some(at) = response.hover_pos() else { return };
     let specimen = editor.posed(turn);
     let scope = zones(shows);
-    let found = editor.probe(&specimen).at(&sight.view, &sight.film, sight.pixel(at), &scope);
+    let mut found = editor.probe(&specimen).at(&sight.view, &sight.film, sight.pixel(at), &scope);
+    if let Some(azimuth) = found.as_mut().and_then(|f| f.azimuth.as_mut()) {
+        // As the cut has it, not as it is turned here.
+        *azimuth = (*azimuth - turn.to_degrees()).rem_euclid(360.0);
+    }
     editor.told = found.as_ref().map_or(String::new(), Found::told);
     if let Some(found) = &found {
         outline(ui, &specimen, found.facet, sight);

@@ -143,7 +143,10 @@ mod tests {
         assert_eq!((table.name.as_str(), table.slope, table.azimuth), ("table", 0.0, None));
         let bezel = at(0.75, 0.01).unwrap();
         assert_eq!(bezel.tier, ("bezel".to_owned(), 8));
-        assert!((bezel.slope - 34.5).abs() < 0.1 && bezel.azimuth.is_some_and(|a| a < 1e-6 || a > 359.9));
+        assert!(
+            (bezel.slope - 34.5).abs() < 0.1
+                && bezel.azimuth.is_some_and(|a| (a + 0.1).rem_euclid(360.0) < 0.2)
+        );
         let light = bezel.light.as_ref().unwrap();
         assert!(light.share > 0.3 && bezel.told().contains("of 8 bezel facets"), "{}", bezel.told());
         assert_eq!(at(1.05, 0.0), None);

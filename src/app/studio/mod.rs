@@ -97,9 +97,13 @@ impl Studio {
 
 impl Drop for Studio {
     fn drop(&mut self) {
-        self.desk.quit.store(true, Ordering::SeqCst);
-        self.desk.newest.fetch_add(1, Ordering::SeqCst);
-        self.desk.told.notify_one();
+        {
+            // Held, so that the worker is not between looking and waiting.
+            let _order = self.desk.order.lock().unwrap_or_else(PoisonError::into_inner);
+            self.desk.quit.store(true, Ordering::SeqCst);
+            self.desk.newest.fetch_add(1, Ordering::SeqCst);
+            self.desk.told.notify_one();
+        }
         if let Some(thread) = self.thread.take() {
             // A worker that panicked has said so already.
             let _ = thread.join();

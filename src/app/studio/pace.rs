@@ -27,6 +27,13 @@ pub struct Effort {
     pub bands: u32,
 }
 
+impl Effort {
+    /// The most beams that are followed: light that is caught inside takes many for little, and memory is not endless.
+    pub fn most_beams(&self) -> usize {
+        ((600.0 / self.unresolved) as usize).max(30_000)
+    }
+}
+
 /// Finds the effort that keeps up with the hand.
 #[derive(Debug, Clone, Copy)]
 pub struct Pace(usize);

@@ -10,7 +10,7 @@ use crate::picture::{
     Bloom, ByBeams, Develop, Layer, Linear, Overlay, Palette, Rows, by_gpu, develop, diagram, lay, paint,
     spectral,
 };
-use crate::scene::{Film, Placed, Projection, Scope, Setting, Specimen};
+use crate::scene::{Film, Placed, Projection, Scope, Setting, Specimen, View};
 use crate::trace::beam::{self, Beams};
 use crate::trace::gpu::{Around, ByCard, Gpu, GpuError};
 use crate::trace::ray::{self, ByRays};
@@ -58,7 +58,7 @@ impl From<Trouble> for Failure {
 
 /// Beams that several pictures share.
 #[derive(Default)]
-pub struct Shelf(Vec<(Arc<Specimen>, crate::scene::View, f64, Arc<Beams>)>);
+pub struct Shelf(Vec<(Arc<Specimen>, View, f64, Arc<Beams>)>);
 
 /// Sets of beams kept.
 const MOST_KEPT: usize = 6;
@@ -68,17 +68,19 @@ impl Shelf {
     pub fn beams(
         &mut self,
         specimen: &Arc<Specimen>,
-        view: &crate::scene::View,
-        unresolved: f64,
+        view: &View,
+        effort: &Effort,
         watch: Watch,
     ) -> Result<Arc<Beams>, Stopped> {
-        let same = |(s, v, u, _): &&(Arc<Specimen>, crate::scene::View, f64, Arc<Beams>)| {
+        let unresolved = effort.unresolved;
+        let same = |(s, v, u, _): &&(Arc<Specimen>, View, f64, Arc<Beams>)| {
             Arc::ptr_eq(s, specimen) && v == view && *u == unresolved
         };
         if let Some((.., beams)) = self.0.iter().find(same) {
             return Ok(Arc::clone(beams));
         }
-        let options = beam::Options { unresolved, ..beam::Options::default() };
+        let most_beams = effort.most_beams();
+        let options = beam::Options { unresolved, most_beams, ..beam::Options::default() };
         let medium = specimen.medium(line::SODIUM_D);
         let beams = Arc::new(beam::trace(&specimen.stone.polytope, medium, view, &options, watch)?);
         if self.0.len() == MOST_KEPT {
@@ -88,9 +90,9 @@ impl Shelf {
         Ok(beams)
     }
 
-    /// Lets go of the beams of stones that are no longer asked for.
-    pub fn keep(&mut self, wanted: impl Fn(&Arc<Specimen>) -> bool) {
-        self.0.retain(|(specimen, ..)| wanted(specimen));
+    /// Lets go of the beams of stones and views that are no longer asked for.
+    pub fn keep(&mut self, wanted: impl Fn(&Arc<Specimen>, &View) -> bool) {
+        self.0.retain(|(specimen, view, ..)| wanted(specimen, view));
     }
 }
 
@@ -154,7 +156,7 @@ impl Camera {
         watch: Watch,
     ) -> Result<Taken, Trouble> {
         let film = coarser(&shot.film, effort.coarser);
-        let beams = self.shelf.beams(&shot.specimen, &shot.view, effort.unresolved, watch)?;
+        let beams = self.shelf.beams(&shot.specimen, &shot.view, effort, watch)?;
         let layer =
             if shot.strongest { Layer::strongest(&beams, scope) } else { Layer::energy(&beams, scope) };
         let mut canvas = Canvas::new(&film, scope, 0);
@@ -273,7 +275,8 @@ impl Work<'_> {
     ) -> Result<(), Trouble> {
         let looks = self.growing.map_or(1, |g| g.looks);
         for number in 0..looks {
-            exposure.look(&Look::new(self.sitting.setting, self.strata, number), self.watch)?;
+            let done = |part: f64| (self.watch)((f64::from(number) + part) / f64::from(looks));
+            exposure.look(&Look::new(self.sitting.setting, self.strata, number), &done)?;
             if (number + 1).is_power_of_two() || number + 1 == looks {
                 let (picture, rest) = spectral::seen(self.sitting, &exposure)?;
                 each(&picture, rest.unresolved)?;
@@ -407,12 +410,14 @@ mod tests {
     }
 
     #[test]
+    #[expect(clippy::print_stdout, reason = "what is skipped is told")]
     fn a_card_shows_what_the_processor_shows() {
         let gpu = match Gpu::open() {
             Ok(gpu) => Arc::new(gpu),
             Err(error) => {
                 assert!(std::env::var_os("BRILLIANTEER_REQUIRE_GPU").is_none(), "{error}");
-                return println!("SKIPPED a_card_shows_what_the_processor_shows: {error}");
+                println!("SKIPPED a_card_shows_what_the_processor_shows: {error}");
+                return;
             }
         };
         let mut card = Camera { gpu: Some(gpu), shelf: Shelf::default() };

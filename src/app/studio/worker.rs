@@ -66,8 +66,15 @@ impl Worker {
     /// Works until the studio is closed.
     pub fn work(mut self) {
         while let Some(turn) = self.next() {
-            if self.rough(&turn).and_then(|()| self.refine(&turn)).is_ok() {
-                self.rest(&turn);
+            let work = || self.rough(&turn).and_then(|()| self.refine(&turn));
+            match std::panic::catch_unwind(std::panic::AssertUnwindSafe(work)) {
+                Ok(Ok(())) => self.rest(&turn),
+                Ok(Err(Stopped)) => {}
+                Err(_) => {
+                    let why = "a picture failed: a fault of the program; please report the design";
+                    self.answer(Answer::Trouble(why.to_owned()));
+                    self.rest(&turn);
+                }
             }
         }
     }
@@ -108,9 +115,10 @@ impl Worker {
         let effort = self.pace.effort();
         let begun = Instant::now();
         let order = &turn.order;
-        self.camera.shelf.keep(|s| {
-            let of_shot = order.shots.iter().any(|(_, shot)| Arc::ptr_eq(&shot.specimen, s));
-            of_shot || order.figures.iter().any(|(_, ask)| Arc::ptr_eq(&ask.specimen, s))
+        self.camera.shelf.keep(|specimen, view| {
+            let is = |s: &Arc<_>, v: &View| Arc::ptr_eq(s, specimen) && v == view;
+            order.shots.iter().any(|(_, shot)| is(&shot.specimen, &shot.view))
+                || order.figures.iter().any(|(_, ask)| is(&ask.specimen, &ask.view))
         });
         let mut any = false;
         for (slot, shot) in &order.shots {
@@ -121,7 +129,7 @@ impl Worker {
         }
         for (which, ask) in &order.figures {
             if self.figures.get(which).is_none_or(|(done, _)| done != ask) {
-                let beams = self.camera.shelf.beams(&ask.specimen, &ask.view, effort.unresolved, &watch)?;
+                let beams = self.camera.shelf.beams(&ask.specimen, &ask.view, &effort, &watch)?;
                 self.told(*which, ask, Grade::Rough, by_beams(&beams, &scope(ask)));
             }
         }
