@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, channel};
 use std::sync::{Arc, Mutex, PoisonError};
-use std::time::Duration;
+use std::time::{Duration, SystemTime};
 
 /// What a file is chosen for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -159,7 +159,9 @@ impl Watched {
 /// While the program runs it holds a lock on its file; one without a lock was left behind by a crash.
 pub struct Safe {
     folder: PathBuf,
-    held: Option<(PathBuf, File)>,
+    /// The file of this program, which no other, before or after, has used.
+    own: PathBuf,
+    held: Option<File>,
 }
 
 /// What lies in a safe.
@@ -186,7 +188,9 @@ const PREFIX: &str = "unsaved-";
 impl Safe {
     /// A safe in a folder.
     pub fn new(folder: PathBuf) -> Self {
-        Self { folder, held: None }
+        let since = SystemTime::now().duration_since(SystemTime::UNIX_EPOCH).unwrap_or_default();
+        let own = folder.join(format!("{PREFIX}{}-{}.json", std::process::id(), since.as_nanos()));
+        Self { folder, own, held: None }
     }
 
     /// Keeps a design.
@@ -196,20 +200,20 @@ impl Safe {
     pub fn keep(&mut self, design: &Design, path: Option<&Path>) -> Result<(), WriteError> {
         let kept = Kept { path: path.map(Path::to_owned), design: cut_file::write(design) };
         let text = serde_json::to_string(&kept).map_err(|e| WriteError::io(&self.folder, e))?;
-        let name = self.folder.join(format!("{PREFIX}{}.json", std::process::id()));
-        write(&name, |file| file.write_all(text.as_bytes()).map_err(|e| WriteError::io(&name, e)))?;
+        let name = &self.own;
+        write(name, |file| file.write_all(text.as_bytes()).map_err(|e| WriteError::io(name, e)))?;
         // Writing has put another file in the place of the one that was locked.
-        let file = File::open(&name).map_err(|e| WriteError::io(&name, e))?;
-        file.try_lock().map_err(|e| WriteError::io(&name, std::io::Error::from(e)))?;
-        self.held = Some((name, file));
+        let file = File::open(name).map_err(|e| WriteError::io(name, e))?;
+        file.try_lock().map_err(|e| WriteError::io(name, std::io::Error::from(e)))?;
+        self.held = Some(file);
         Ok(())
     }
 
     /// Forgets what was kept: it is saved, or not wanted.
     pub fn empty(&mut self) {
-        if let Some((path, _)) = self.held.take() {
+        if self.held.take().is_some() {
             // One that cannot be removed is offered again, which loses nothing.
-            let _ = std::fs::remove_file(path);
+            let _ = std::fs::remove_file(&self.own);
         }
     }
 

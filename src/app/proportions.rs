@@ -191,8 +191,9 @@ fn slope(rise: f64, run: f64) -> f64 {
     (rise / run).atan().to_degrees()
 }
 
+/// Infinite where it is no slope: tangents come round again.
 fn rise(degrees: f64, run: f64) -> f64 {
-    degrees.to_radians().tan() * run
+    if (0.0..90.0).contains(&degrees) { degrees.to_radians().tan() * run } else { f64::INFINITY }
 }
 
 /// Angle, degrees, and height, percent, of a crown.

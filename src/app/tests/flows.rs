@@ -305,14 +305,18 @@ fn a_file_that_others_change_is_read_again_and_asked_about_where_work_would_be_l
     bench.harness.run_steps(2);
     design.name = "Changed outside once".to_owned();
     std::fs::write(&path, cut_file::write(&design)).unwrap();
-    bench.harness.run_steps(3);
-    assert_eq!(bench.editor().document.work.design.name, design.name);
+    bench.wait(|editor| editor.document.work.design.name == "Changed outside once");
     bench.type_number("Table", "57");
     design.name = "Changed outside a second time".to_owned();
     std::fs::write(&path, cut_file::write(&design)).unwrap();
-    bench.harness.run_steps(3);
+    bench.wait(|editor| editor.dialog.is_some());
     bench.click("Keep mine");
     assert!((bench.brilliant().table - 57.0).abs() < 1e-12);
+    bench.choose("Edit", "Undo");
+    assert!(!bench.editor().document.is_changed());
+    std::fs::remove_file(&path).unwrap();
+    bench.wait(|editor| editor.document.is_changed());
+    assert!(bench.harness.query_by_label_contains("no longer there").is_some());
 }
 
 #[test]
@@ -346,4 +350,92 @@ fn keys_work_and_steps_end_while_a_handle_has_the_focus() {
     bench.harness.run_steps(2);
     assert!(bench.editor().desk.strongest, "a letter typed into a name is no command");
     assert!(bench.editor().document.work.design.name.contains('x'));
+}
+
+#[test]
+fn keys_with_shift_are_not_those_without() {
+    let folder = tempfile::tempdir().unwrap();
+    let [first, second] = ["first.toml", "second.toml"].map(|name| folder.path().join(name));
+    let text = cut_file::write(&Document::first().unwrap().work.design);
+    std::fs::write(&first, &text).unwrap();
+    let mut bench = Bench::with(Setup { file: Some(first.clone()), ..Setup::default() });
+    bench.type_number("Table", "57");
+    let with_shift = egui::Modifiers::COMMAND | egui::Modifiers::SHIFT;
+    bench.harness.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::Z);
+    bench.harness.run_steps(2);
+    assert!(bench.brilliant().table < 56.0);
+    bench.harness.key_press_modifiers(with_shift, egui::Key::Z);
+    bench.harness.run_steps(2);
+    assert!((bench.brilliant().table - 57.0).abs() < 1e-12);
+    bench.choices.lock().unwrap().push(second.clone());
+    bench.harness.key_press_modifiers(with_shift, egui::Key::S);
+    bench.wait(|editor| !editor.document.is_changed());
+    assert_eq!((std::fs::read_to_string(&first).unwrap(), second.exists()), (text, true));
+}
+
+#[test]
+fn what_is_put_off_until_work_is_saved_is_done_once_it_is() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("mine.toml");
+    let mut bench = Bench::new();
+    bench.type_number("Table", "58");
+    bench.choose("File", "New from");
+    bench.harness.get_by_label("Modern ideal").click();
+    bench.harness.run_steps(4);
+    bench.choices.lock().unwrap().push(path.clone());
+    // One is in the menu that still fades.
+    bench.harness.get_all_by_label("Save").last().unwrap().click();
+    bench.wait(|editor| editor.document.work.design.name == "Modern ideal");
+    assert!(path.exists());
+}
+
+#[test]
+fn a_number_that_is_only_looked_at_stays_as_it_is() {
+    let mut bench = Bench::new();
+    bench.settle();
+    let before = bench.editor().document.work.clone();
+    for name in ["Crown height", "Weight", "Lower half, side", "Pavilion depth"] {
+        bench.harness.get_by_role_and_label(egui::Role::SpinButton, name).focus();
+        bench.harness.run_steps(2);
+        bench.harness.key_press(egui::Key::Tab);
+        bench.harness.run_steps(3);
+    }
+    assert_eq!(bench.editor().document.work, before);
+}
+
+#[test]
+fn a_view_of_its_own_turn_comes_to_rest() {
+    let mut bench = Bench::new();
+    bench.settle();
+    bench.harness.get_all_by_label("Linked").next().unwrap().click();
+    bench.harness.run_steps(2);
+    bench.harness.state_mut().desk.panes[0].own.as_mut().unwrap().turn = 0.3;
+    bench.settle();
+    let picture = bench.picture(0);
+    bench.harness.state_mut().desk.panes[0].own = None;
+    bench.settle();
+    assert_ne!(bench.picture(0), picture);
+}
+
+#[test]
+fn what_was_recovered_is_kept_until_it_is_saved() {
+    let folder = tempfile::tempdir().unwrap();
+    let setup = || Setup { safe: Some(folder.path().to_owned()), ..Setup::default() };
+    let mut bench = Bench::with(setup());
+    bench.type_number("Table", "59.5");
+    bench.harness.run_steps(3);
+    drop(bench);
+    for _ in 0..2 {
+        let mut next = Bench::with(setup());
+        next.harness.run_steps(3);
+        next.click("Go on");
+        next.harness.run_steps(3);
+        assert!((next.brilliant().table - 59.5).abs() < 1e-12);
+    }
+    let mut last = Bench::with(setup());
+    last.harness.run_steps(3);
+    last.click("Forget it");
+    drop(last);
+    let none = Bench::with(setup());
+    assert!(none.editor().dialog.is_none());
 }
