@@ -1,7 +1,7 @@
 //! The design that the present one is compared with.
 
 use super::document::Document;
-use super::editor::Posed;
+use super::posed::Posed;
 use crate::scene::Specimen;
 use std::path::Path;
 use std::sync::Arc;

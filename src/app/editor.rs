@@ -5,22 +5,22 @@ use super::compare::Compared;
 use super::desk::{Desk, Layout};
 use super::dialogs::{Dialog, Then};
 use super::document::{Document, FIRST_LIGHT, Work};
-use super::files::{Chooser, Choosing, Purpose, Question, Safe, Watching, by_dialog};
+use super::files::{Chooser, Choosing, Safe, Watching, by_dialog};
 use super::following::{self, Following};
 use super::notes::Notes;
+use super::posed::Posed;
 use super::probe::Probe;
 use super::profile_view::ProfileView;
-use super::shows::Shows;
 use super::studio::{Answer, Ask, Grade, Order, Shot, Slot, Studio, Taken, Tilts, Which};
 use super::{design_panel, dialogs, figures_panel, menus, stage, theme};
 use crate::io::lighting::{Lighting, LightingError};
 use crate::measure::Figures;
-use crate::scene::{Side, Specimen};
+use crate::scene::Specimen;
 use crate::trace::gpu::Gpu;
 use eframe::CreationContext;
 use egui::{Context, TextureHandle, Ui, ViewportCommand};
 use std::collections::HashMap;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, channel};
 
@@ -85,21 +85,21 @@ pub struct Editor {
     pub(super) hovered: usize,
     /// The last order's, for knowing whether what is shown is what was asked for.
     pub(super) asked: Order,
-    light: (String, Arc<Lighting>),
-    loading: Option<(String, Receiver<Result<Lighting, LightingError>>)>,
-    posed: Posed,
-    chooser: Chooser,
-    choosing: Option<Choosing>,
+    pub(super) light: (String, Arc<Lighting>),
+    pub(super) loading: Option<(String, Receiver<Result<Lighting, LightingError>>)>,
+    pub(super) posed: Posed,
+    pub(super) chooser: Chooser,
+    pub(super) choosing: Option<Choosing>,
     /// How many documents were begun: an answer for one must not be taken for another.
-    begun: u64,
+    pub(super) begun: u64,
     /// What is put off until the design is saved.
-    after_save: Option<Then>,
+    pub(super) after_save: Option<Then>,
     /// The work as it was last taken note of.
-    kept: Work,
+    pub(super) kept: Work,
     watching: Watching,
-    safe: Option<Safe>,
+    pub(super) safe: Option<Safe>,
     /// Whether the window may close without another question.
-    may_close: bool,
+    pub(super) may_close: bool,
     title: String,
 }
 
@@ -268,195 +268,6 @@ impl Editor {
         self.pictures.insert(slot, Shown { texture, shot, grade, taken });
     }
 
-    fn changed_outside(&mut self) {
-        self.document.accept_outside();
-        if self.document.is_lost() {
-            self.notes.trouble("The file is no longer there; save the design to keep it.".into());
-        } else if self.document.is_changed() {
-            self.dialog = Some(Dialog::ChangedOutside);
-        } else if let Some(path) = self.document.path().map(Path::to_owned) {
-            // Nothing of one's own is lost: the new file is what is wanted.
-            if self.open(&path) {
-                self.notes.say("The file was changed by another program and has been read again.");
-            }
-        }
-    }
-
-    /// Opens a file in place of what is open; whether it could.
-    pub(super) fn open(&mut self, path: &Path) -> bool {
-        match Document::open(path) {
-            Ok(document) => {
-                self.desk.remember(path);
-                self.begin(document);
-                true
-            }
-            Err(why) => {
-                self.notes.trouble(why);
-                false
-            }
-        }
-    }
-
-    /// Works on another document, under the light that was chosen.
-    pub(super) fn begin(&mut self, mut document: Document) {
-        let work = &self.document.work;
-        document.begin(&work.light, work.exposure, work.head);
-        self.document = document;
-        self.begun += 1;
-        self.notes.clear();
-        if self.compared.as_ref().is_some_and(|c| c.is_saved) {
-            self.compared = None;
-        }
-        self.take_note();
-    }
-
-    /// Does something that would lose unsaved work, after a question where there is any.
-    pub(super) fn ask_before(&mut self, then: Then) {
-        if self.dialog.as_ref().is_some_and(Dialog::insists) {
-            self.notes.say("Answer what is asked first.");
-        } else if self.document.is_changed() {
-            self.dialog = Some(Dialog::Unsaved(then));
-        } else {
-            self.then(then);
-        }
-    }
-
-    /// Does what was put off by a question.
-    pub(super) fn then(&mut self, then: Then) {
-        match then {
-            Then::Open(path) => drop(self.open(&path)),
-            Then::Library(name) => match Document::of_library(&name) {
-                Ok(document) => {
-                    self.desk.last = None;
-                    self.begin(document);
-                }
-                Err(why) => self.notes.trouble(why),
-            },
-            Then::Close => self.may_close = true,
-        }
-    }
-
-    /// Saves, and does what was put off once that is done.
-    pub(super) fn save_then(&mut self, then: Then) {
-        if self.save() {
-            self.then(then);
-        } else if self.choosing.is_some() {
-            self.after_save = Some(then);
-        }
-    }
-
-    /// Asks for a file.
-    pub(super) fn choose(&mut self, purpose: Purpose) {
-        if self.choosing.is_some() {
-            return self.notes.say("Answer the file dialog that is open first.");
-        }
-        let name = self.document.path().and_then(Path::file_name).map_or_else(
-            || format!("{}.toml", self.document.work.design.name.to_lowercase().replace([' ', '/'], "-")),
-            |n| n.to_string_lossy().into_owned(),
-        );
-        let wake = self.studio.wake();
-        let question = Question { purpose, name };
-        self.choosing = Some(Choosing::ask(question, self.begun, &self.chooser, move || wake()));
-    }
-
-    fn chosen(&mut self, purpose: Purpose, document: u64, path: PathBuf) {
-        match purpose {
-            Purpose::SaveAs if document != self.begun => {
-                self.notes.trouble("Not saved: another design was opened meanwhile.".into());
-            }
-            Purpose::Open => self.ask_before(Then::Open(path)),
-            Purpose::SaveAs => {
-                let then = self.after_save.take();
-                if self.save_as(path)
-                    && let Some(then) = then
-                {
-                    self.then(then);
-                }
-            }
-            Purpose::Compare => match Compared::of_file(&path) {
-                Ok(compared) => self.compared = Some(compared),
-                Err(why) => self.notes.trouble(why),
-            },
-            Purpose::Light => self.document.work.light = path.display().to_string(),
-            Purpose::Folder => {
-                if let Some(Dialog::Export(export)) = &mut self.dialog {
-                    export.folder = path;
-                }
-            }
-        }
-    }
-
-    /// Saves; asks where if that is not known yet. Whether it is saved.
-    pub(super) fn save(&mut self) -> bool {
-        match self.document.path().map(Path::to_owned) {
-            Some(path) => self.save_as(path),
-            None => {
-                self.choose(Purpose::SaveAs);
-                false
-            }
-        }
-    }
-
-    fn save_as(&mut self, path: PathBuf) -> bool {
-        let completed = path.with_extension("toml");
-        if path.extension().is_none() && completed.exists() {
-            self.notes.trouble(format!(
-                "{} exists; choose it by its whole name to replace it",
-                completed.display()
-            ));
-            return false;
-        }
-        let path = if path.extension().is_some() { path } else { completed };
-        match self.document.save(path.clone()) {
-            Ok(()) => {
-                self.desk.remember(&path);
-                self.notes.clear();
-                self.notes.say(&format!("Saved {}", path.display()));
-                self.forget_unsaved();
-                if let Some(Compared { is_saved: true, .. }) = self.compared {
-                    self.compared = Compared::of_saved(&self.document).ok();
-                }
-                true
-            }
-            Err(why) => {
-                self.notes.trouble(why);
-                false
-            }
-        }
-    }
-
-    fn forget_unsaved(&mut self) {
-        if let Some(safe) = &mut self.safe {
-            safe.empty();
-        }
-    }
-
-    /// Ends a gesture: what it changed is one step.
-    fn settle(&mut self) {
-        self.desk.eye.settle();
-        self.desk.panes.iter_mut().filter_map(|p| p.own.as_mut()).for_each(super::eye::Eye::settle);
-        self.document.settle();
-        if self.kept != self.document.work {
-            self.take_note();
-        }
-    }
-
-    /// Keeps the work safe as it is now, and remembers what goes with the window. A design that makes no stone is not
-    /// kept in place of the last that does.
-    pub(super) fn take_note(&mut self) {
-        self.kept = self.document.work.clone();
-        let Work { light, exposure, head, .. } = &self.kept;
-        (self.desk.light, self.desk.exposure, self.desk.head) = (light.clone(), *exposure, *head);
-        let Some(safe) = &mut self.safe else { return };
-        if !self.document.is_changed() {
-            safe.empty();
-        } else if self.document.fault().is_none()
-            && let Err(why) = safe.keep(&self.kept.design, self.document.path())
-        {
-            self.notes.trouble(format!("unsaved work is not kept safe: {why}"));
-        }
-    }
-
     /// Does a command.
     pub(super) fn does(&mut self, command: Command, ctx: &Context) {
         menus::does(self, command, ctx);
@@ -480,81 +291,6 @@ impl Editor {
             Command::Split => self.desk.is_split,
             Command::LightPath => self.following.is_open,
             _ => false,
-        }
-    }
-
-    /// Asks the studio for all that is in sight.
-    fn order(&mut self, seen: &[(usize, [u32; 2])]) {
-        let light = self.light();
-        let mut order = Order::default();
-        let compared = self.compared.is_some();
-        let sides = if compared { vec![Which::Present, Which::Other] } else { vec![Which::Present] };
-        for which in sides {
-            for &(pane, size) in seen {
-                if let Some(shot) = self.shot(pane, which, size, &light) {
-                    order.shots.push(((pane, which), shot));
-                }
-            }
-            let eye = self.desk.eye;
-            let mut view = eye.view(Some(Side::Table));
-            view.projection = crate::scene::Projection::Orthographic;
-            if let Some(specimen) = self.specimen(which, eye.turn) {
-                let ask = Ask { specimen, view, head: self.document.work.head };
-                if which == Which::Present {
-                    order.tilts = Some(Ask { view: crate::scene::View { tilt: 0.0, ..view }, ..ask.clone() });
-                }
-                order.figures.push((which, ask));
-            }
-        }
-        self.asked = order.clone();
-        self.studio.order(order);
-    }
-
-    fn specimen(&mut self, which: Which, turn: f64) -> Option<Arc<Specimen>> {
-        match which {
-            Which::Present => Some(self.posed(turn)),
-            Which::Other => self.compared.as_mut().map(|c| c.posed(turn)),
-        }
-    }
-
-    fn shot(&mut self, pane: usize, which: Which, size: [u32; 2], light: &Arc<Lighting>) -> Option<Shot> {
-        let shows = self.desk.panes[pane].shows;
-        if shows == Shows::Profile || size[0] < 8 || size[1] < 8 {
-            return None;
-        }
-        let eye = *self.desk.eye(pane);
-        // A diagram has its own index, from which the stone's turn would only take away.
-        let turn = if shows == Shows::Diagram { 0.0 } else { eye.turn };
-        let specimen = self.specimen(which, turn)?;
-        // Both designs are shown on one scale, that of the present one.
-        let reach = reach(self.document.specimen());
-        let work = &self.document.work;
-        Some(Shot {
-            view: eye.view(shows.side()),
-            film: eye.film(size, reach),
-            shows,
-            strongest: self.desk.strongest,
-            light: Arc::clone(light),
-            exposure: work.exposure,
-            head: self.document.work.head,
-            overlay: self.desk.overlay().filter(|_| shows.is_seen()),
-            specimen,
-        })
-    }
-
-    /// What the linked views look at, whatever they show.
-    pub(super) fn linked_shot(&mut self) -> Shot {
-        let (light, eye) = (self.light(), self.desk.eye);
-        Shot {
-            specimen: self.posed(eye.turn),
-            shows: Shows::Render,
-            strongest: self.desk.strongest,
-            view: eye.view(None),
-            film: eye.film([1, 1], 1.0),
-            light,
-            exposure: self.document.work.exposure,
-            head: self.document.work.head,
-            overlay: None,
         }
     }
 
@@ -609,43 +345,6 @@ impl Editor {
         self.name_window(&ctx);
         self.close(&ctx);
     }
-}
-
-/// A stone in the few turns that its views show it in: the same turn of the same stone is one and the same.
-#[derive(Default)]
-pub struct Posed(Vec<(Arc<Specimen>, f64, Arc<Specimen>)>);
-
-/// Turns kept: that of the linked views and of each view that looks on its own.
-const TURNS: usize = 5;
-
-impl Posed {
-    /// The stone at a turn.
-    pub fn of(&mut self, specimen: &Arc<Specimen>, turn: f64) -> Arc<Specimen> {
-        self.0.retain(|(of, ..)| Arc::ptr_eq(of, specimen));
-        if let Some((.., posed)) = self.0.iter().find(|(_, at, _)| *at == turn) {
-            return Arc::clone(posed);
-        }
-        let posed = turned(specimen, turn);
-        if self.0.len() == TURNS {
-            self.0.remove(0);
-        }
-        self.0.push((Arc::clone(specimen), turn, Arc::clone(&posed)));
-        posed
-    }
-}
-
-/// A stone turned about its axis.
-fn turned(specimen: &Arc<Specimen>, turn: f64) -> Arc<Specimen> {
-    if turn == 0.0 {
-        return Arc::clone(specimen);
-    }
-    let stone = specimen.stone.turned(turn);
-    Arc::new(Specimen { stone, ..(**specimen).clone() })
-}
-
-/// How far a stone reaches from its origin, girdle radii.
-pub fn reach(specimen: &Specimen) -> f64 {
-    specimen.stone.polytope.vertices().iter().map(|v| v.length()).fold(0.0, f64::max)
 }
 
 fn waker(ctx: &Context) -> super::studio::Wake {

@@ -1,6 +1,6 @@
 //! Exporting, on a thread of its own: thumbnails of what can be had, then the files.
 
-use super::editor::reach;
+use super::posed::reach;
 use super::shows::Shows;
 use super::studio::{Camera, Effort, FINE_RENDER, Shot};
 use crate::cut::Cut;

@@ -1,8 +1,9 @@
 //! One view: what it shows, and what a hand does to it.
 
-use super::editor::{Editor, Shown, reach};
+use super::editor::{Editor, Shown};
 use super::eye::Eye;
 use super::menus;
+use super::posed::reach;
 use super::probe::Found;
 use super::shows::Shows;
 use super::studio::{Grade, Which};

@@ -1,0 +1,199 @@
+//! Opening, saving, and keeping work safe.
+
+use super::compare::Compared;
+use super::dialogs::{Dialog, Then};
+use super::document::{Document, Work};
+use super::editor::Editor;
+use super::files::{Choosing, Purpose, Question};
+use std::path::{Path, PathBuf};
+
+impl Editor {
+    pub(super) fn changed_outside(&mut self) {
+        self.document.accept_outside();
+        if self.document.is_lost() {
+            self.notes.trouble("The file is no longer there; save the design to keep it.".into());
+        } else if self.document.is_changed() {
+            self.dialog = Some(Dialog::ChangedOutside);
+        } else if let Some(path) = self.document.path().map(Path::to_owned) {
+            // Nothing of one's own is lost: the new file is what is wanted.
+            if self.open(&path) {
+                self.notes.say("The file was changed by another program and has been read again.");
+            }
+        }
+    }
+
+    /// Opens a file in place of what is open; whether it could.
+    pub(super) fn open(&mut self, path: &Path) -> bool {
+        match Document::open(path) {
+            Ok(document) => {
+                self.desk.remember(path);
+                self.begin(document);
+                true
+            }
+            Err(why) => {
+                self.notes.trouble(why);
+                false
+            }
+        }
+    }
+
+    /// Works on another document, under the light that was chosen.
+    pub(super) fn begin(&mut self, mut document: Document) {
+        let work = &self.document.work;
+        document.begin(&work.light, work.exposure, work.head);
+        self.document = document;
+        self.begun += 1;
+        self.notes.clear();
+        if self.compared.as_ref().is_some_and(|c| c.is_saved) {
+            self.compared = None;
+        }
+        self.take_note();
+    }
+
+    /// Does something that would lose unsaved work, after a question where there is any.
+    pub(super) fn ask_before(&mut self, then: Then) {
+        if self.dialog.as_ref().is_some_and(Dialog::insists) {
+            self.notes.say("Answer what is asked first.");
+        } else if self.document.is_changed() {
+            self.dialog = Some(Dialog::Unsaved(then));
+        } else {
+            self.then(then);
+        }
+    }
+
+    /// Does what was put off by a question.
+    pub(super) fn then(&mut self, then: Then) {
+        match then {
+            Then::Open(path) => drop(self.open(&path)),
+            Then::Library(name) => match Document::of_library(&name) {
+                Ok(document) => {
+                    self.desk.last = None;
+                    self.begin(document);
+                }
+                Err(why) => self.notes.trouble(why),
+            },
+            Then::Close => self.may_close = true,
+        }
+    }
+
+    /// Saves, and does what was put off once that is done.
+    pub(super) fn save_then(&mut self, then: Then) {
+        if self.save() {
+            self.then(then);
+        } else if self.choosing.is_some() {
+            self.after_save = Some(then);
+        }
+    }
+
+    /// Asks for a file.
+    pub(super) fn choose(&mut self, purpose: Purpose) {
+        if self.choosing.is_some() {
+            return self.notes.say("Answer the file dialog that is open first.");
+        }
+        let name = self.document.path().and_then(Path::file_name).map_or_else(
+            || format!("{}.toml", self.document.work.design.name.to_lowercase().replace([' ', '/'], "-")),
+            |n| n.to_string_lossy().into_owned(),
+        );
+        let wake = self.studio.wake();
+        let question = Question { purpose, name };
+        self.choosing = Some(Choosing::ask(question, self.begun, &self.chooser, move || wake()));
+    }
+
+    pub(super) fn chosen(&mut self, purpose: Purpose, document: u64, path: PathBuf) {
+        match purpose {
+            Purpose::SaveAs if document != self.begun => {
+                self.notes.trouble("Not saved: another design was opened meanwhile.".into());
+            }
+            Purpose::Open => self.ask_before(Then::Open(path)),
+            Purpose::SaveAs => {
+                let then = self.after_save.take();
+                if self.save_as(path)
+                    && let Some(then) = then
+                {
+                    self.then(then);
+                }
+            }
+            Purpose::Compare => match Compared::of_file(&path) {
+                Ok(compared) => self.compared = Some(compared),
+                Err(why) => self.notes.trouble(why),
+            },
+            Purpose::Light => self.document.work.light = path.display().to_string(),
+            Purpose::Folder => {
+                if let Some(Dialog::Export(export)) = &mut self.dialog {
+                    export.folder = path;
+                }
+            }
+        }
+    }
+
+    /// Saves; asks where if that is not known yet. Whether it is saved.
+    pub(super) fn save(&mut self) -> bool {
+        match self.document.path().map(Path::to_owned) {
+            Some(path) => self.save_as(path),
+            None => {
+                self.choose(Purpose::SaveAs);
+                false
+            }
+        }
+    }
+
+    pub(super) fn save_as(&mut self, path: PathBuf) -> bool {
+        let completed = path.with_extension("toml");
+        if path.extension().is_none() && completed.exists() {
+            self.notes.trouble(format!(
+                "{} exists; choose it by its whole name to replace it",
+                completed.display()
+            ));
+            return false;
+        }
+        let path = if path.extension().is_some() { path } else { completed };
+        match self.document.save(path.clone()) {
+            Ok(()) => {
+                self.desk.remember(&path);
+                self.notes.clear();
+                self.notes.say(&format!("Saved {}", path.display()));
+                self.forget_unsaved();
+                if let Some(Compared { is_saved: true, .. }) = self.compared {
+                    self.compared = Compared::of_saved(&self.document).ok();
+                }
+                true
+            }
+            Err(why) => {
+                self.notes.trouble(why);
+                false
+            }
+        }
+    }
+
+    pub(super) fn forget_unsaved(&mut self) {
+        if let Some(safe) = &mut self.safe {
+            safe.empty();
+        }
+    }
+
+    /// Ends a gesture: what it changed is one step.
+    pub(super) fn settle(&mut self) {
+        self.desk.eye.settle();
+        self.desk.panes.iter_mut().filter_map(|p| p.own.as_mut()).for_each(super::eye::Eye::settle);
+        self.document.settle();
+        if self.kept != self.document.work {
+            self.take_note();
+        }
+    }
+
+    /// Keeps the work safe as it is now, and remembers what goes with the window. A design that makes no stone is not
+    /// kept in place of the last that does.
+    pub(super) fn take_note(&mut self) {
+        self.kept = self.document.work.clone();
+        let Work { light, exposure, head, .. } = &self.kept;
+        (self.desk.light, self.desk.exposure, self.desk.head) = (light.clone(), *exposure, *head);
+        let Some(safe) = &mut self.safe else { return };
+        if !self.document.is_changed() {
+            safe.empty();
+        } else if self.document.fault().is_none()
+            && let Err(why) = safe.keep(&self.kept.design, self.document.path())
+        {
+            self.notes.trouble(format!("unsaved work is not kept safe: {why}"));
+        }
+    }
+}

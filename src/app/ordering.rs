@@ -1,0 +1,92 @@
+//! What is asked of the studio: all that is in sight.
+
+use super::editor::Editor;
+use super::posed::reach;
+use super::shows::Shows;
+use super::studio::{Ask, Order, Shot, Which};
+use crate::io::lighting::Lighting;
+use crate::scene::{Projection, Side, Specimen, View};
+use std::sync::Arc;
+
+impl Editor {
+    /// Asks the studio for all that is in sight.
+    pub(super) fn order(&mut self, seen: &[(usize, [u32; 2])]) {
+        let light = self.light();
+        let mut order = Order::default();
+        let compared = self.compared.is_some();
+        let sides = if compared { vec![Which::Present, Which::Other] } else { vec![Which::Present] };
+        for which in sides {
+            for &(pane, size) in seen {
+                if let Some(shot) = self.shot(pane, which, size, &light) {
+                    order.shots.push(((pane, which), shot));
+                }
+            }
+            let eye = self.desk.eye;
+            let mut view = eye.view(Some(Side::Table));
+            view.projection = Projection::Orthographic;
+            if let Some(specimen) = self.specimen(which, eye.turn) {
+                let ask = Ask { specimen, view, head: self.document.work.head };
+                if which == Which::Present {
+                    order.tilts = Some(Ask { view: View { tilt: 0.0, ..view }, ..ask.clone() });
+                }
+                order.figures.push((which, ask));
+            }
+        }
+        self.asked = order.clone();
+        self.studio.order(order);
+    }
+
+    pub(super) fn specimen(&mut self, which: Which, turn: f64) -> Option<Arc<Specimen>> {
+        match which {
+            Which::Present => Some(self.posed(turn)),
+            Which::Other => self.compared.as_mut().map(|c| c.posed(turn)),
+        }
+    }
+
+    pub(super) fn shot(
+        &mut self,
+        pane: usize,
+        which: Which,
+        size: [u32; 2],
+        light: &Arc<Lighting>,
+    ) -> Option<Shot> {
+        let shows = self.desk.panes[pane].shows;
+        if shows == Shows::Profile || size[0] < 8 || size[1] < 8 {
+            return None;
+        }
+        let eye = *self.desk.eye(pane);
+        // A diagram has its own index, from which the stone's turn would only take away.
+        let turn = if shows == Shows::Diagram { 0.0 } else { eye.turn };
+        let specimen = self.specimen(which, turn)?;
+        // Both designs are shown on one scale, that of the present one.
+        let reach = reach(self.document.specimen());
+        let work = &self.document.work;
+        Some(Shot {
+            view: eye.view(shows.side()),
+            film: eye.film(size, reach),
+            shows,
+            strongest: self.desk.strongest,
+            light: Arc::clone(light),
+            exposure: work.exposure,
+            head: self.document.work.head,
+            overlay: self.desk.overlay().filter(|_| shows.is_seen()),
+            specimen,
+        })
+    }
+
+    /// What the linked views look at, whatever they show.
+    pub(super) fn linked_shot(&mut self) -> Shot {
+        let (light, eye) = (self.light(), self.desk.eye);
+        Shot {
+            specimen: self.posed(eye.turn),
+            shows: Shows::Render,
+            strongest: self.desk.strongest,
+            view: eye.view(None),
+            film: eye.film([1, 1], 1.0),
+            light,
+            exposure: self.document.work.exposure,
+            head: self.document.work.head,
+            overlay: None,
+        }
+    }
+}
