@@ -295,9 +295,21 @@ fn a_reader_that_goes_away_is_no_reason_to_panic() {
 }
 
 #[test]
+#[cfg(all(feature = "app", target_os = "linux"))]
+fn without_a_screen_the_window_says_what_it_needs() {
+    let desk = Desk::new();
+    for line in ["", "edit cube.toml"] {
+        let mut command = desk.command(line);
+        command.env_remove("DISPLAY").env_remove("WAYLAND_DISPLAY").env_remove("WAYLAND_SOCKET");
+        let (code, _, said) = came_of(line, &command.output().unwrap());
+        assert!(code == 3 && said.contains("the window cannot be opened"), "{code}: {said}");
+    }
+}
+
+#[test]
 fn a_command_line_at_fault_ends_with_code_2() {
     let desk = Desk::new();
-    let ill_formed = ", polish, measure, measure cube.toml --colour, measure cube.toml --index two, export cube.toml --size 15, \
+    let ill_formed = "polish, measure, measure cube.toml --colour, measure cube.toml --index two, export cube.toml --size 15, \
         measure cube.toml --tilt 1 --eye-tilt 1, measure cube.toml --index 2 --wavelength 500, measure cube.toml --side up, \
         export cube.toml --size 16385, export cube.toml --views asset, export cube.toml --format gif";
     let out_of_range = "--index 0.9, --index nan, --wavelength 0, --tilt 91, --eye-tilt nan, --azimuth inf, --head 90, \

@@ -88,11 +88,7 @@ fn proportions(editor: &mut Editor, ui: &mut Ui) {
         }
     }
     derived(ui, brilliant);
-    if editor.document.fault().is_none() {
-        for warning in &editor.document.specimen().warnings {
-            ui.add(egui::Label::new(RichText::new(warning).weak().small()).wrap());
-        }
-    }
+    warnings(editor, ui);
     let is_name = matches!(editor.document.fault(), Some(SpecimenError::Design(DesignError::Name)));
     if let Some(fault) =
         fault.filter(|_| !is_name).filter(|_| !PROPORTIONS.iter().any(|p| key == Some(p.key)))
@@ -110,6 +106,14 @@ fn planes(editor: &Editor, ui: &mut Ui) {
     let facets = stone.polytope.facets().len();
     ui.label(format!("This stone is given by its planes: {facets} facets."));
     ui.label(RichText::new("Its planes stand in its file; what is changed there shows here at once.").weak());
+    warnings(editor, ui);
+}
+
+/// What is odd about the stone.
+fn warnings(editor: &Editor, ui: &mut Ui) {
+    for warning in editor.document.specimen().warnings.iter().filter(|_| editor.document.fault().is_none()) {
+        ui.add(egui::Label::new(RichText::new(warning).weak().small()).wrap());
+    }
 }
 
 /// One proportion: name, slider, number, and of a pair whether it is held.
@@ -165,6 +169,10 @@ impl Number<'_> {
         let Self { decimals, speed, range, unit } = self;
         let field = DragValue::new(value).range(range).speed(speed).suffix(unit).update_while_editing(false);
         let field = field.min_decimals(decimals.min(1)).max_decimals(decimals);
+        // Half the world writes a comma.
+        let field = field.custom_parser(|text| {
+            text.trim().trim_end_matches(unit.trim()).trim().replace(',', ".").parse().ok()
+        });
         ui.add_sized(vec2(width, ui.spacing().interact_size.y), field).labelled_by(label);
         if format!("{before:.decimals$}").parse() == Ok(*value) {
             *value = before;
@@ -282,8 +290,10 @@ fn derived(ui: &mut Ui, brilliant: &RoundBrilliant) {
             None,
             "How steep the pavilion facets at the girdle are.",
         );
+        let thinnest = derived.girdle_thickness_valley;
+        let thinnest = if thinnest > 0.0 { format!("{thinnest:6.2} %") } else { "closed".to_owned() };
         let valley = "Thickness of the rim where it is thinnest, between the bezels.";
-        line("Girdle valleys", format!("{:6.2} %", derived.girdle_thickness_valley), None, valley);
+        line("Girdle valleys", thinnest, None, valley);
     });
 }
 

@@ -131,6 +131,7 @@ impl Editor {
                 Err(why) => notes.trouble(why),
             }
         }
+        desk.eye.top();
         document.begin(&desk.light, desk.exposure, desk.head);
         let kept = document.work.clone();
         let watch = wake.clone();
@@ -239,10 +240,17 @@ impl Editor {
         if let Some((purpose, document, answer)) =
             self.choosing.as_ref().and_then(|c| Some((c.purpose, c.document, c.answer()?)))
         {
-            self.choosing = None;
+            let no_dialog = self.choosing.take().is_some_and(|c| c.was_at_once());
             match answer {
                 Some(path) => self.chosen(purpose, document, path),
-                None => self.after_save = None,
+                None => {
+                    self.after_save = None;
+                    if no_dialog {
+                        let why = "No file dialog could be opened: it needs a desktop portal, such as xdg-desktop-portal. \
+                                   Started with `brillianteer edit FILE`, designs are saved to that file without one.";
+                        self.notes.trouble(why.to_owned());
+                    }
+                }
             }
         }
         self.watching.watch(self.document.path());

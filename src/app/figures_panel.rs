@@ -31,7 +31,7 @@ pub fn show(editor: &mut Editor, ui: &mut Ui) {
                 let other = editor.compared.as_ref().and_then(|_| editor.figures.get(&Which::Other));
                 let is_asked = editor.asked.figures.iter().any(|(_, ask)| *ask == measured.ask);
                 table(ui, measured, other, editor.desk.by_area);
-                let state = if is_asked && measured.grade == Grade::Fine { "as `measure` gives them" } else { "becoming finer…" };
+                let state = if is_asked && measured.grade == Grade::Fine { "final" } else { "becoming finer…" };
                 ui.label(RichText::new(state).weak().small());
             }
             ui.add_space(8.0);

@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, channel};
 use std::sync::{Arc, Mutex, PoisonError};
-use std::time::{Duration, SystemTime};
+use std::time::{Duration, Instant, SystemTime};
 
 /// What a file is chosen for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -57,12 +57,16 @@ pub fn by_dialog(question: &Question) -> Option<PathBuf> {
     }
 }
 
+/// No person answers within this.
+const AT_ONCE: Duration = Duration::from_millis(350);
+
 /// A question that is open.
 pub struct Choosing {
     /// What for.
     pub purpose: Purpose,
     /// The number of the document that it is for.
     pub document: u64,
+    since: Instant,
     answer: Receiver<Option<PathBuf>>,
 }
 
@@ -81,7 +85,12 @@ impl Choosing {
             let _ = sender.send(chooser(&question));
             wake();
         });
-        Self { purpose, document, answer }
+        Self { purpose, document, since: Instant::now(), answer }
+    }
+
+    /// Whether the answer came quicker than anyone can give one.
+    pub fn was_at_once(&self) -> bool {
+        self.since.elapsed() < AT_ONCE
     }
 
     /// The answer, once there is one: given up, or a file.

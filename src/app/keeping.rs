@@ -43,6 +43,8 @@ impl Editor {
         document.begin(&work.light, work.exposure, work.head);
         self.document = document;
         self.begun += 1;
+        // Another stone is first seen face up.
+        self.desk.eye.top();
         self.notes.clear();
         if self.compared.as_ref().is_some_and(|c| c.is_saved) {
             self.compared = None;

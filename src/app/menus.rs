@@ -156,8 +156,12 @@ pub fn keys(editor: &mut Editor, ctx: &Context) {
         if typing && shortcut.modifiers == Modifiers::NONE {
             continue;
         }
-        if ctx.input_mut(|i| i.consume_shortcut(&shortcut)) && is_possible(editor, command) {
-            editor.does(command, ctx);
+        // Two presses may come within one frame.
+        let presses = ctx.input_mut(|i| i.count_and_consume_key(shortcut.modifiers, shortcut.logical_key));
+        for _ in 0..presses {
+            if is_possible(editor, command) {
+                editor.does(command, ctx);
+            }
         }
     }
 }

@@ -64,6 +64,7 @@ fn header(editor: &mut Editor, ui: &mut Ui, pane: usize) {
     ui.with_layout(egui::Layout::right_to_left(Align::Center), |ui| {
         let large = editor.desk.large == Some(pane);
         let name = if large { "All views" } else { "Enlarge" };
+        let has_room = |ui: &Ui, points: f32| ui.available_width() > points;
         if editor.desk.layout.panes() > 1
             && ui
                 .small_button(name)
@@ -72,7 +73,7 @@ fn header(editor: &mut Editor, ui: &mut Ui, pane: usize) {
         {
             enlarge(editor, pane);
         }
-        if shows.is_seen() {
+        if shows.is_seen() && has_room(ui, 80.0) {
             let mut linked = editor.desk.panes[pane].own.is_none();
             if ui
                 .checkbox(&mut linked, "Linked")
@@ -82,7 +83,9 @@ fn header(editor: &mut Editor, ui: &mut Ui, pane: usize) {
                 let eye = editor.desk.eye;
                 editor.desk.panes[pane].own = (!linked).then_some(eye);
             }
-            state(editor, ui, pane);
+            if has_room(ui, 64.0) {
+                state(editor, ui, pane);
+            }
         }
     });
 }

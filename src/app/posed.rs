@@ -35,7 +35,9 @@ fn turned(specimen: &Arc<Specimen>, turn: f64) -> Arc<Specimen> {
     Arc::new(Specimen { stone, ..(**specimen).clone() })
 }
 
-/// How far a stone reaches from its origin, girdle radii.
+/// How far a stone reaches across or along its axis, girdle radii: that is what views are fitted to, so that the girdle keeps
+/// its size while the depth changes.
 pub fn reach(specimen: &Specimen) -> f64 {
-    specimen.stone.polytope.vertices().iter().map(|v| v.length()).fold(0.0, f64::max)
+    let reach = |v: &glam::DVec3| v.truncate().length().max(v.z.abs());
+    specimen.stone.polytope.vertices().iter().map(reach).fold(0.0, f64::max)
 }
