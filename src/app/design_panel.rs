@@ -310,7 +310,9 @@ fn material(editor: &mut Editor, ui: &mut Ui) {
         let combo =
             ComboBox::from_id_salt("material").selected_text(&name).width(ui.available_width() - 12.0);
         let combo = combo.height(420.0).show_ui(ui, |ui| {
-            for material in materials() {
+            let mut all: Vec<_> = materials().iter().collect();
+            all.sort_by_key(|m| m.name.as_str());
+            for material in all {
                 let chosen = name == material.name;
                 let about = format!("{}\nindex {:.4}", material.description, material.index(line::SODIUM_D));
                 if ui.selectable_label(chosen, &material.name).on_hover_text(about).clicked() && !chosen {

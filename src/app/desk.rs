@@ -113,6 +113,12 @@ impl Desk {
         self.panes[pane].own.as_mut().unwrap_or(&mut self.eye)
     }
 
+    /// Looks at the table, in all views.
+    pub fn face_up(&mut self) {
+        self.eye.top();
+        self.panes.iter_mut().filter_map(|p| p.own.as_mut()).for_each(Eye::top);
+    }
+
     /// What is drawn over pictures.
     pub fn overlay(&self) -> Option<Overlay> {
         self.overlay.as_deref().and_then(|name| name.parse().ok())

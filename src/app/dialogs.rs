@@ -69,11 +69,12 @@ pub fn show(editor: &mut Editor, ctx: &Context) {
     }
 }
 
-/// Buttons in a row, the first the one that is meant most often; which was chosen.
+/// Buttons in a row, the first the one that is meant most often, which Return presses as well; which was chosen.
 fn buttons(ui: &mut Ui, names: &[&str]) -> Option<usize> {
     ui.add_space(10.0);
     ui.horizontal(|ui| {
-        let mut chosen = None;
+        let is_answered = ui.memory(|m| m.focused().is_none()) && ui.input(|i| i.key_pressed(Key::Enter));
+        let mut chosen = is_answered.then_some(0);
         for (k, name) in names.iter().enumerate() {
             if ui.button(*name).clicked() {
                 chosen = Some(k);
@@ -105,23 +106,33 @@ fn unsaved(editor: &mut Editor, ui: &mut Ui, then: &Then) -> bool {
 fn recover(editor: &mut Editor, ui: &mut Ui, found: &Found) -> bool {
     ui.set_width(400.0);
     ui.heading("Go on with unsaved work?");
-    let of = found.path.as_ref().map_or(String::new(), |p| format!(", opened from {}", p.display()));
-    ui.label(format!("The program ended before {}{of} was saved.", found.design.name));
-    match buttons(ui, &["Go on", "Forget it"]) {
-        Some(choice) => {
-            let recovered = Document::recovered(found.design.clone(), found.path.clone());
-            match recovered {
+    let of = found.path.as_ref().map_or_else(|| "in no file yet".into(), |p| format!("from {}", p.display()));
+    let minutes = found.when.elapsed().map_or(0, |since| since.as_secs() / 60);
+    let when = match minutes {
+        0..60 => format!("{minutes} minutes ago"),
+        _ => format!("{} hours ago", minutes / 60),
+    };
+    let (name, open) = (&found.design.name, editor.document.title());
+    ui.label(format!(
+        "The program ended {when} before {name}, {of}, was saved. Going on opens it in place of {open}."
+    ));
+    match buttons(ui, &["Go on", "Later", "Forget it"]) {
+        Some(0) => {
+            match Document::recovered(found.design.clone(), found.path.clone()) {
                 // Beginning keeps it safe anew, before what the crash left is forgotten.
-                Ok(document) if choice == 0 => editor.begin(document),
-                Err(why) if choice == 0 => {
-                    editor.notes.trouble(why);
-                    return false;
+                Ok(document) => {
+                    editor.begin(document);
+                    Found::clone(found).forget();
                 }
-                _ => {}
+                Err(why) => editor.notes.trouble(why),
             }
+            false
+        }
+        Some(2) => {
             Found::clone(found).forget();
             false
         }
+        Some(_) => false,
         None => true,
     }
 }
@@ -133,7 +144,7 @@ fn changed_outside(editor: &mut Editor, ui: &mut Ui) -> bool {
     match buttons(ui, &["Keep mine", "Read the file again"]) {
         Some(1) => {
             if let Some(path) = editor.document.path().map(std::path::Path::to_owned) {
-                editor.open(&path);
+                editor.read_again(&path);
             }
             false
         }
@@ -156,7 +167,7 @@ fn keys(ui: &mut Ui) -> bool {
             line("drag".into(), "Tilts the stone; with Shift or the right button turns it about its axis.");
             line("wheel".into(), "Zooms at the pointer; the middle button moves the picture.");
             line("double click".into(), "Shows one view alone.");
-            line("arrows".into(), "Tilt the view that has the focus by 1°, with Shift by 5°; + and - zoom.");
+            line("arrows".into(), "Tilt the view that has the focus by 1°, with Shift by 5°; with Alt they move the picture; comma and full stop turn the stone, + and - zoom, Space follows the ray in the middle.");
             line("C held".into(), "Shows the design compared with.");
             for command in MENUS.iter().flat_map(|m| m.groups.iter()).flat_map(|g| g.iter()) {
                 if let Some(shortcut) = command.shortcut() {

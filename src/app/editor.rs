@@ -34,19 +34,11 @@ pub struct Setup {
     pub chooser: Chooser,
     /// How the window is arranged where nothing was kept.
     pub desk: Desk,
-    /// Whether the card may compute, where there is one.
-    pub may_compute: bool,
 }
 
 impl Default for Setup {
     fn default() -> Self {
-        Self {
-            file: None,
-            safe: None,
-            desk: Desk::default(),
-            chooser: Arc::new(by_dialog),
-            may_compute: true,
-        }
+        Self { file: None, safe: None, desk: Desk::default(), chooser: Arc::new(by_dialog) }
     }
 }
 
@@ -117,7 +109,6 @@ impl Editor {
         // A desk of a later program that this one cannot read is left aside.
         let mut desk: Desk = kept.and_then(|text| serde_json::from_str(&text).ok()).unwrap_or(setup.desk);
         let wake = waker(&context.egui_ctx);
-        let gpu = if setup.may_compute { shared(context) } else { None };
         let mut notes = Notes::default();
         let mut document = Document::first()?;
         let first = Lighting::load(FIRST_LIGHT).map_err(|e| e.to_string())?;
@@ -131,12 +122,12 @@ impl Editor {
                 Err(why) => notes.trouble(why),
             }
         }
-        desk.eye.top();
+        desk.face_up();
         document.begin(&desk.light, desk.exposure, desk.head);
         let kept = document.work.clone();
         let watch = wake.clone();
         let mut editor = Self {
-            studio: Studio::open(gpu, wake),
+            studio: Studio::open(shared(context), wake),
             document,
             desk,
             pictures: HashMap::new(),
@@ -276,20 +267,22 @@ impl Editor {
         self.pictures.insert(slot, Shown { texture, shot, grade, taken });
     }
 
-    /// Does a command.
-    pub(super) fn does(&mut self, command: Command, ctx: &Context) {
-        menus::does(self, command, ctx);
+    /// The view that keys are for: the one under the pointer or with the focus, or the first.
+    pub(super) fn active(&self) -> usize {
+        let shown = self.desk.shown();
+        if shown.contains(&self.hovered) { self.hovered } else { shown[0] }
     }
 
     /// Whether something is chosen already, as menus show it.
     pub(super) fn is_chosen(&self, command: Command) -> bool {
         let overlay = |name| self.desk.overlay.as_deref() == Some(name);
+        let eye = self.desk.eye(self.active());
         match command {
             Command::One => self.desk.layout == Layout::One,
             Command::Two => self.desk.layout == Layout::Two,
             Command::Four => self.desk.layout == Layout::Four,
-            Command::Perspective => self.desk.eye.distance.is_some(),
-            Command::EyeLeans => self.desk.eye.eye_leans,
+            Command::Perspective => eye.distance.is_some(),
+            Command::EyeLeans => eye.eye_leans,
             Command::Wireframe => overlay("wireframe"),
             Command::Facets => overlay("facets"),
             Command::Bounces => overlay("bounces"),
@@ -378,7 +371,9 @@ impl eframe::App for Editor {
     }
 
     fn on_exit(&mut self) {
-        // Whoever closes the window has saved, or said that nothing is to be kept.
-        self.forget_unsaved();
+        // Where the window was taken away, and not closed by someone who was asked, work is kept for the next start.
+        if self.may_close || !self.document.is_changed() {
+            self.forget_unsaved();
+        }
     }
 }

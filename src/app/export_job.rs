@@ -162,8 +162,11 @@ impl Plan {
         let rgba: Vec<u8> = taken.image.pixels.iter().flat_map(|p| p.to_srgba_unmultiplied()).collect();
         let [width, height] = taken.image.size.map(|n| n as u32);
         let told = format!(
-            "{}: render; light {}; {}, unresolved {:.2e}",
-            self.shot.specimen.design.name, self.shot.light.light.name, taken.tracer, taken.unresolved
+            "{}: render; light {}; {}{}",
+            self.shot.specimen.design.name,
+            self.shot.light.light.name,
+            taken.tracer,
+            taken.unresolved.map_or(String::new(), |u| format!(", unresolved {u:.2e}"))
         );
         Ok(write_rgba_png(path, &rgba, (width, height), &told)?)
     }

@@ -145,9 +145,8 @@ impl Eye {
 
     /// The film of a pane of so many pixels that fits something that reaches so far from the origin.
     pub fn film(&self, size: [u32; 2], reach: f64) -> Film {
-        let half = Film::reaching(reach, 1).pixel / 2.0;
-        let pixel = 2.0 * half / (f64::from(size[0].min(size[1]).max(1)) * self.zoom);
-        Film { centre: self.centre, ..Film::new(size, pixel) }
+        let fitting = Film::reaching(reach, size[0].min(size[1]).max(1));
+        Film { size, pixel: fitting.pixel / self.zoom, centre: self.centre }
     }
 }
 

@@ -39,6 +39,7 @@ pub fn show(editor: &mut Editor, ui: &mut Ui) {
                 "The same figures while the stone leans toward the azimuth of the linked views, -30° to 30°.",
             );
             if let Some((ask, tilts)) = &editor.tilts {
+                ui.label(RichText::new("in the colours of the zones above").weak().small());
                 ui.add_enabled_ui(editor.asked.tilts.as_ref() == Some(ask), |ui| plot(ui, ask.head, tilts));
             } else {
                 ui.label(RichText::new("comes when all else is done").weak());

@@ -187,6 +187,8 @@ pub struct Found {
     pub design: Design,
     /// The file that it was opened from.
     pub path: Option<PathBuf>,
+    /// When it was last kept.
+    pub when: SystemTime,
     /// Where it was kept.
     file: PathBuf,
 }
@@ -230,12 +232,9 @@ impl Safe {
     pub fn found(&self) -> Vec<Found> {
         let entries = std::fs::read_dir(&self.folder).into_iter().flatten().flatten();
         let ours = |e: &std::fs::DirEntry| e.file_name().to_string_lossy().starts_with(PREFIX);
-        let mut found: Vec<_> = entries
-            .filter(ours)
-            .filter_map(|e| Some((e.metadata().ok()?.modified().ok()?, orphan(e.path())?)))
-            .collect();
-        found.sort_by_key(|(time, _)| std::cmp::Reverse(*time));
-        found.into_iter().map(|(_, found)| found).collect()
+        let mut found: Vec<Found> = entries.filter(ours).filter_map(|e| orphan(e.path())).collect();
+        found.sort_by_key(|found| std::cmp::Reverse(found.when));
+        found
     }
 }
 
@@ -253,7 +252,8 @@ fn orphan(path: PathBuf) -> Option<Found> {
     file.try_lock().ok()?;
     let kept: Kept = serde_json::from_reader(&file).ok()?;
     let design = cut_file::parse(&kept.design, "unsaved work").ok()?;
-    Some(Found { design, path: kept.path, file: path })
+    let when = file.metadata().and_then(|m| m.modified()).ok()?;
+    Some(Found { design, path: kept.path, when, file: path })
 }
 
 #[cfg(test)]

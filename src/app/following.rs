@@ -67,7 +67,7 @@ pub fn show(editor: &mut Editor, ctx: &Context) {
         let path = editor.probe(&specimen).path(&view, at);
         match path {
             Some(path) => {
-                let scope = zones(shows);
+                let scope = zones(shows, editor.document.work.head);
                 editor.following.view.show(ui, &specimen.stone, &path, &scope, &view.light_basis());
             }
             None => {

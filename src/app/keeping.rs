@@ -5,6 +5,7 @@ use super::dialogs::{Dialog, Then};
 use super::document::{Document, Work};
 use super::editor::Editor;
 use super::files::{Choosing, Purpose, Question};
+use super::studio::Which;
 use std::path::{Path, PathBuf};
 
 impl Editor {
@@ -16,7 +17,7 @@ impl Editor {
             self.dialog = Some(Dialog::ChangedOutside);
         } else if let Some(path) = self.document.path().map(Path::to_owned) {
             // Nothing of one's own is lost: the new file is what is wanted.
-            if self.open(&path) {
+            if self.read_again(&path) {
                 self.notes.say("The file was changed by another program and has been read again.");
             }
         }
@@ -37,6 +38,21 @@ impl Editor {
         }
     }
 
+    /// Opens the file again that is open, without moving any view; whether it could.
+    pub(super) fn read_again(&mut self, path: &Path) -> bool {
+        let (eye, panes) = (self.desk.eye, self.desk.panes);
+        let could = self.open(path);
+        (self.desk.eye, self.desk.panes) = (eye, panes);
+        could
+    }
+
+    /// Forgets the design that was compared with, and what was seen of it.
+    pub(super) fn compare_no_more(&mut self) {
+        self.compared = None;
+        self.pictures.retain(|(_, which), _| *which == Which::Present);
+        self.figures.retain(|which, _| *which == Which::Present);
+    }
+
     /// Works on another document, under the light that was chosen.
     pub(super) fn begin(&mut self, mut document: Document) {
         let work = &self.document.work;
@@ -44,10 +60,10 @@ impl Editor {
         self.document = document;
         self.begun += 1;
         // Another stone is first seen face up.
-        self.desk.eye.top();
+        self.desk.face_up();
         self.notes.clear();
         if self.compared.as_ref().is_some_and(|c| c.is_saved) {
-            self.compared = None;
+            self.compare_no_more();
         }
         self.take_note();
     }

@@ -9,7 +9,7 @@ use super::files::Purpose;
 use super::studio::Which;
 use super::theme;
 use crate::io::{cut_file, library};
-use egui::{Align, Button, Context, Key, Modifiers, Panel, RichText, ThemePreference, Ui};
+use egui::{Align, Button, Context, Event, Key, Panel, RichText, ThemePreference, Ui};
 use std::path::PathBuf;
 
 /// Distance of the eye that perspective begins with, girdle radii: a stone of 6.5 mm at 10 cm.
@@ -68,7 +68,7 @@ fn entry(editor: &mut Editor, ui: &mut Ui, command: Command) {
     let button = Button::new(command.name()).shortcut_text(keys).selected(editor.is_chosen(command));
     if ui.add_enabled(is_possible(editor, command), button).on_hover_text(command.meaning()).clicked() {
         let ctx = ui.ctx().clone();
-        editor.does(command, &ctx);
+        does(editor, command, &ctx);
         ui.close();
     }
 }
@@ -148,20 +148,22 @@ pub fn keys(editor: &mut Editor, ctx: &Context) {
     if editor.dialog.is_some() {
         return;
     }
-    let typing = ctx.text_edit_focused();
-    // Egui lets Shift pass where it is not asked for, so those that ask for it come first.
-    let mut keyed: Vec<_> = Command::all().filter_map(|c| Some((c, c.shortcut()?))).collect();
-    keyed.sort_by_key(|(_, shortcut)| !shortcut.modifiers.shift);
-    for (command, shortcut) in keyed {
-        if typing && shortcut.modifiers == Modifiers::NONE {
+    let pressed = |event: &Event| match event {
+        Event::Key { key, pressed: true, modifiers, .. } => Some((*key, *modifiers)),
+        _ => None,
+    };
+    // One by one, in the order in which they came: several may come within one frame.
+    for (key, modifiers) in ctx.input(|i| i.events.iter().filter_map(pressed).collect::<Vec<_>>()) {
+        let is_meant = |c: &Command| {
+            c.shortcut().is_some_and(|s| s.logical_key == key && modifiers.matches_exact(s.modifiers))
+        };
+        let Some(command) = Command::all().find(is_meant) else { continue };
+        if modifiers.is_none() && ctx.text_edit_focused() {
             continue;
         }
-        // Two presses may come within one frame.
-        let presses = ctx.input_mut(|i| i.count_and_consume_key(shortcut.modifiers, shortcut.logical_key));
-        for _ in 0..presses {
-            if is_possible(editor, command) {
-                editor.does(command, ctx);
-            }
+        ctx.input_mut(|i| i.consume_key(modifiers, key));
+        if is_possible(editor, command) {
+            does(editor, command, ctx);
         }
     }
 }
@@ -211,22 +213,20 @@ pub fn does(editor: &mut Editor, command: Command, ctx: &Context) {
         },
         Command::CompareFile => editor.choose(Purpose::Compare),
         Command::Split => desk.is_split = !desk.is_split,
-        Command::NoCompare => editor.compared = None,
+        Command::NoCompare => editor.compare_no_more(),
         Command::LightPath => editor.following.is_open = !editor.following.is_open,
         Command::Keys => editor.dialog = Some(Dialog::Keys),
     }
 }
 
-/// The eye of the pane that keys are for.
+/// The eye of the view that keys are for.
 fn eye(editor: &mut Editor) -> &mut super::eye::Eye {
-    let shown = editor.desk.shown();
-    let pane = if shown.contains(&editor.hovered) { editor.hovered } else { shown[0] };
+    let pane = editor.active();
     editor.desk.eye_mut(pane)
 }
 
 fn copy(editor: &mut Editor, ctx: &Context) {
-    let shown = editor.desk.shown();
-    let pane = if shown.contains(&editor.hovered) { editor.hovered } else { shown[0] };
+    let pane = editor.active();
     let which = if is_other_shown(ctx) && editor.compared.is_some() { Which::Other } else { Which::Present };
     let shows = editor.desk.panes[pane].shows;
     match editor.pictures.get(&(pane, which)).filter(|p| p.shot.shows == shows) {

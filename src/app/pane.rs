@@ -23,6 +23,9 @@ const HEAD: f32 = 28.0;
 /// A step of the arrow keys, radians, and with Shift.
 const STEP: (f64, f64) = (0.017_453_292_519_943_295, 0.087_266_462_599_716_48);
 
+/// How far Alt and an arrow move the picture, girdle radii of a stone that fits its view.
+const ASIDE: f64 = 0.1;
+
 /// Zoom for a point of the wheel.
 const WHEEL: f64 = 0.004;
 
@@ -94,15 +97,17 @@ fn header(editor: &mut Editor, ui: &mut Ui, pane: usize) {
 fn state(editor: &Editor, ui: &mut Ui, pane: usize) {
     let Some(shown) = editor.pictures.get(&(pane, Which::Present)) else { return };
     let Shown { grade, taken, .. } = shown;
-    let text = match grade {
-        Grade::Fine => format!("± {:.2} %", 100.0 * taken.unresolved),
-        Grade::Fair | Grade::Rough => "…".to_owned(),
+    let (text, meaning) = match (grade, taken.unresolved) {
+        (Grade::Fine, Some(part)) => {
+            let percent = 100.0 * part;
+            (format!("± {percent:.2} %"), format!("{percent:.3} % of the light is not followed to its end."))
+        }
+        (Grade::Fine, None) => {
+            (String::new(), "How much of the light is not followed to its end is not known.".into())
+        }
+        _ => ("…".to_owned(), "Becoming finer.".to_owned()),
     };
-    ui.label(RichText::new(text).weak().small()).on_hover_text(format!(
-        "By {}; at most {:.3} % of the light is not followed to its end.",
-        taken.tracer,
-        100.0 * taken.unresolved
-    ));
+    ui.label(RichText::new(text).weak().small()).on_hover_text(format!("By {}. {meaning}", taken.tracer));
 }
 
 fn enlarge(editor: &mut Editor, pane: usize) {
@@ -208,9 +213,9 @@ fn clicked(editor: &mut Editor, ui: &Ui, pane: usize, response: &Response, sight
     if response.double_clicked() {
         editor.following.unclick();
         enlarge(editor, pane);
-    } else if response.clicked()
-        && let Some(at) = response.interact_pointer_pos()
-    {
+    } else if response.clicked() {
+        // By a key it is the middle that is meant.
+        let at = response.interact_pointer_pos().unwrap_or(sight.body.center());
         editor.following.click(pane, sight.film.image_from_pixels(sight.pixel(at)), ui.ctx());
     }
     let followed = editor.following.at.filter(|(other, _)| editor.following.is_open && *other == pane);
@@ -312,20 +317,25 @@ fn by_keys(eye: &mut Eye, ui: &Ui, side: Side, id: egui::Id) {
     let arrows = EventFilter { horizontal_arrows: true, vertical_arrows: true, ..EventFilter::default() };
     ui.memory_mut(|m| m.set_focus_lock_filter(id, arrows));
     let pressed = |modifiers, key| ui.input_mut(|i| i.count_and_consume_key(modifiers, key)) as f64;
+    let along = |more, less| pressed(Modifiers::ALT, more) - pressed(Modifiers::ALT, less);
+    let aside = DVec2::new(along(Key::ArrowRight, Key::ArrowLeft), along(Key::ArrowUp, Key::ArrowDown));
+    eye.centre += aside * (ASIDE / eye.zoom);
     for (modifiers, step) in [(Modifiers::SHIFT, STEP.1), (Modifiers::NONE, STEP.0)] {
         let along = |more, less| pressed(modifiers, more) - pressed(modifiers, less);
         let by = DVec2::new(along(Key::ArrowRight, Key::ArrowLeft), along(Key::ArrowUp, Key::ArrowDown));
         eye.drag(side, by * step);
     }
+    let turn = pressed(Modifiers::NONE, Key::Period) - pressed(Modifiers::NONE, Key::Comma);
+    eye.spin(side, turn * STEP.1);
     let zoom = pressed(Modifiers::NONE, Key::Plus) + pressed(Modifiers::NONE, Key::Equals)
         - pressed(Modifiers::NONE, Key::Minus);
     eye.zoom_at(1.2_f64.powf(zoom), eye.centre);
 }
 
 /// The scope whose zones are named in a view.
-pub fn zones(shows: Shows) -> Scope {
-    let aset = || Scope::aset(ASET_CONE, Backing::Black);
-    shows.scoped().map_or_else(aset, |s| s.scope)
+pub fn zones(shows: Shows, head: f64) -> Scope {
+    let aset = || Scope::aset(ASET_CONE, Backing::Black).with_head(head);
+    shows.scoped().map_or_else(aset, |s| if s.takes_head { s.scope.with_head(head) } else { s.scope })
 }
 
 /// Tells what is under the pointer, outlines its facet, and follows a ray where it is clicked.
@@ -335,7 +345,7 @@ fn hover(editor: &mut Editor, ui: &Ui, (shows, turn): (Shows, f64), response: &R
     }
     let Some(at) = response.hover_pos() else { return };
     let specimen = editor.posed(turn);
-    let scope = zones(shows);
+    let scope = zones(shows, editor.document.work.head);
     let mut found = editor.probe(&specimen).at(&sight.view, &sight.film, sight.pixel(at), &scope);
     if let Some(azimuth) = found.as_mut().and_then(|f| f.azimuth.as_mut()) {
         // As the cut has it, not as it is turned here.

@@ -253,17 +253,7 @@ fn set_lower_half(brilliant: &mut RoundBrilliant, given: LowerHalf) {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    const TOLKOWSKY: RoundBrilliant = RoundBrilliant {
-        table: 53.0,
-        crown: Crown::Angle(34.5),
-        pavilion: Pavilion::Angle(40.75),
-        star_length: 50.0,
-        lower_half: LowerHalf::Radial(77.0),
-        girdle_thickness: 3.0,
-        girdle_facets: 96,
-        culet: 0.0,
-    };
+    use crate::cut::TOLKOWSKY;
 
     #[test]
     fn what_is_set_is_what_is_read() {

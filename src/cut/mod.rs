@@ -29,3 +29,5 @@ pub(crate) use names::{is_printable, tier_stem};
 
 #[cfg(test)]
 pub(crate) use derive::strategy;
+#[cfg(test)]
+pub(crate) use round_brilliant::TOLKOWSKY;

@@ -70,6 +70,19 @@ pub enum LowerHalf {
     Vertical(f64),
 }
 
+/// Tolkowsky's of 1919 as `cuts/tolkowsky.toml` has it, which the tests bend.
+#[cfg(test)]
+pub(crate) const TOLKOWSKY: RoundBrilliant = RoundBrilliant {
+    table: 53.0,
+    crown: Crown::Angle(34.5),
+    pavilion: Pavilion::Angle(40.75),
+    star_length: 50.0,
+    lower_half: LowerHalf::Radial(75.0),
+    girdle_thickness: 3.0,
+    girdle_facets: 96,
+    culet: 0.0,
+};
+
 /// A modern ideal cut, which the tests bend.
 #[cfg(test)]
 pub(crate) const MODERN: RoundBrilliant = RoundBrilliant {

@@ -72,23 +72,12 @@ const FAMILY: &str = "Ubuntu";
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::cut::{Crown, LowerHalf, Pavilion, RoundBrilliant};
+    use crate::cut::{Crown, LowerHalf, Pavilion, RoundBrilliant, TOLKOWSKY};
     use crate::math::Plane;
     use crate::picture::{diagram, profile};
     use crate::scene::Stone;
     use glam::DVec3;
     use usvg::{Node, Rect};
-
-    const TOLKOWSKY: RoundBrilliant = RoundBrilliant {
-        table: 53.0,
-        crown: Crown::Angle(34.5),
-        pavilion: Pavilion::Angle(40.75),
-        star_length: 50.0,
-        lower_half: LowerHalf::Radial(75.0),
-        girdle_thickness: 3.0,
-        girdle_facets: 96,
-        culet: 0.0,
-    };
 
     /// Brilliants far beyond what is cut: every combination that can be of small, usual and large proportions.
     fn brilliants() -> Vec<RoundBrilliant> {

@@ -325,7 +325,6 @@ pub(crate) fn spread(mut heights: Vec<f64>, highest: f64, line: f64) -> Vec<f64>
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::cut::{Crown, LowerHalf, Pavilion};
     use crate::math::Plane;
     use std::f64::consts::{FRAC_1_SQRT_2, FRAC_PI_2, FRAC_PI_4};
 
@@ -383,16 +382,7 @@ mod tests {
 
     #[test]
     fn a_brilliant_of_planes_is_seen_along_its_axes() {
-        let given = RoundBrilliant {
-            table: 53.0,
-            crown: Crown::Angle(34.5),
-            pavilion: Pavilion::Angle(40.75),
-            star_length: 50.0,
-            lower_half: LowerHalf::Radial(75.0),
-            girdle_thickness: 3.0,
-            girdle_facets: 96,
-            culet: 0.0,
-        };
+        let given = crate::cut::TOLKOWSKY;
         let stone = Stone::new(&given.facets().unwrap()).unwrap();
         assert_eq!(across_the_width(&stone).right, DVec3::X);
         let (found, derived) = (measured(&stone), given.derived().unwrap());

@@ -137,8 +137,8 @@ impl Handle {
 #[cfg(test)]
 mod tests {
     use super::super::sight::{Extent, Sight};
-    use super::super::tests::TOLKOWSKY;
     use super::*;
+    use crate::cut::TOLKOWSKY;
     use crate::cut::{Crown, Pavilion, strategy};
     use egui::{Pos2, Rect, Vec2, vec2};
     use proptest::prelude::*;

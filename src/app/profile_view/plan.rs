@@ -242,8 +242,8 @@ impl<'a, 'b> Planner<'a, 'b> {
 mod tests {
     use super::super::body::Body;
     use super::super::sight::Extent;
-    use super::super::tests::TOLKOWSKY;
     use super::*;
+    use crate::cut::TOLKOWSKY;
     use crate::cut::{Crown, strategy};
     use crate::picture::profile::brilliant::BRILLIANT_BASIS;
     use crate::scene::Stone;

@@ -154,8 +154,8 @@ fn last_possible<T>(mut good: f64, mut bad: f64, at: impl Fn(f64) -> Option<T>) 
 
 #[cfg(test)]
 mod tests {
-    use super::super::tests::TOLKOWSKY;
     use super::*;
+    use crate::cut::TOLKOWSKY;
 
     fn by_lengths() -> RoundBrilliant {
         RoundBrilliant { crown: Crown::Height(15.0), pavilion: Pavilion::Depth(43.0), ..TOLKOWSKY }

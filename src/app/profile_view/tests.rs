@@ -1,23 +1,11 @@
 //! The drawing in a window: by pointer, by keyboard, by name.
 
 use super::ProfileView;
-use crate::cut::{Crown, LowerHalf, Pavilion, RoundBrilliant};
+use crate::cut::{Pavilion, RoundBrilliant, TOLKOWSKY};
 use crate::scene::Stone;
 use egui::{Event, Key, Modifiers, Pos2, Rect, Vec2, vec2};
 use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT, Queryable};
-
-/// What the tests pull at.
-pub const TOLKOWSKY: RoundBrilliant = RoundBrilliant {
-    table: 53.0,
-    crown: Crown::Angle(34.5),
-    pavilion: Pavilion::Angle(40.75),
-    star_length: 50.0,
-    lower_half: LowerHalf::Radial(75.0),
-    girdle_thickness: 3.0,
-    girdle_facets: 96,
-    culet: 0.0,
-};
 
 const SIZE: Vec2 = vec2(700.0, 500.0);
 

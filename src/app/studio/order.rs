@@ -101,8 +101,8 @@ pub enum Grade {
 pub struct Taken {
     /// The pixels, which a film of fewer may have been used for.
     pub image: ColorImage,
-    /// Share of the light not followed to its end.
-    pub unresolved: f64,
+    /// Share of the light not followed to its end; none where that is not known.
+    pub unresolved: Option<f64>,
     /// What traced it.
     pub tracer: &'static str,
 }

@@ -161,7 +161,7 @@ impl Camera {
             if shot.strongest { Layer::strongest(&beams, scope) } else { Layer::energy(&beams, scope) };
         let mut canvas = Canvas::new(&film, scope, 0);
         paint(&layer, &film, watch, |rows| -> Result<(), Trouble> { canvas.take(rows) })?;
-        Ok(canvas.finish(beams.unresolved(), "exact beams"))
+        Ok(canvas.finish(Some(beams.unresolved()), "exact beams"))
     }
 
     fn by_rays(
@@ -180,7 +180,7 @@ impl Camera {
         let first = if shot.strongest { scope.bands.len() } else { 0 };
         let mut canvas = Canvas::new(&film, scope, first);
         let each = |rows: &Rows| canvas.take(rows);
-        let (view, watch) = (&shot.view, watch);
+        let view = &shot.view;
         let tracer = match &self.gpu {
             Some(gpu) => {
                 by_gpu::trace(gpu, polytope, medium, view, scope, &film, &manner, watch, each)?;
@@ -191,7 +191,7 @@ impl Camera {
                 "point rays"
             }
         };
-        Ok(canvas.finish(LEAST_WEIGHT, tracer))
+        Ok(canvas.finish(None, tracer))
     }
 
     fn render(
@@ -326,7 +326,7 @@ fn developed(
     if let Some(overlay) = shot.overlay {
         over(overlay, sitting, &mut image, watch)?;
     }
-    Ok(Taken { image, unresolved, tracer })
+    Ok(Taken { image, unresolved: Some(unresolved), tracer })
 }
 
 fn over(overlay: Overlay, sitting: &Sitting, image: &mut ColorImage, watch: Watch) -> Result<(), Stopped> {
@@ -341,7 +341,7 @@ fn drawing(shot: &Shot) -> Result<Taken, Trouble> {
     let (width, height, rgb) =
         rasterize(&text, shot.film.size[0]).map_err(|e| Trouble::Other(e.to_string()))?;
     let image = ColorImage::from_rgb([width as usize, height as usize], &rgb);
-    Ok(Taken { image, unresolved: 0.0, tracer: "drawn" })
+    Ok(Taken { image, unresolved: None, tracer: "drawn" })
 }
 
 /// Rows of a scope, as they come in.
@@ -364,7 +364,7 @@ impl Canvas {
         Ok(())
     }
 
-    fn finish(self, unresolved: f64, tracer: &'static str) -> Taken {
+    fn finish(self, unresolved: Option<f64>, tracer: &'static str) -> Taken {
         Taken { image: ColorImage::from_rgb(self.size, &self.pixels), unresolved, tracer }
     }
 }

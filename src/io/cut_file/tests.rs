@@ -6,9 +6,7 @@ use glam::DVec3;
 use proptest::prelude::*;
 
 use super::*;
-use crate::cut::{
-    Crown, Cut, DEFAULT_DIAMETER_MM, LowerHalf, MAX_PLANES, MaterialRef, Pavilion, RoundBrilliant, strategy,
-};
+use crate::cut::{Cut, DEFAULT_DIAMETER_MM, MAX_PLANES, MaterialRef, strategy};
 use crate::math::Plane;
 use crate::optics::{self, Absorption, Dispersion, MOST_PER_MM, Material};
 
@@ -48,16 +46,7 @@ fn tolkowskys_file_reads_as_written() {
         notes: None,
         material: MaterialRef::Name("diamond".to_owned()),
         diameter_mm: DEFAULT_DIAMETER_MM,
-        cut: Cut::RoundBrilliant(RoundBrilliant {
-            table: 53.0,
-            crown: Crown::Angle(34.5),
-            pavilion: Pavilion::Angle(40.75),
-            star_length: 50.0,
-            lower_half: LowerHalf::Radial(75.0),
-            girdle_thickness: 3.0,
-            girdle_facets: 96,
-            culet: 0.0,
-        }),
+        cut: Cut::RoundBrilliant(crate::cut::TOLKOWSKY),
     };
     assert_eq!(parse(TOLKOWSKY, "x.toml"), Ok(expected));
 }

@@ -151,20 +151,9 @@ impl Drawing<'_> {
 
 #[cfg(test)]
 mod tests {
-    use crate::cut::{Crown, LowerHalf, Pavilion, RoundBrilliant};
+    use crate::cut::{Crown, LowerHalf, Pavilion, RoundBrilliant, TOLKOWSKY};
     use crate::picture::profile;
     use crate::scene::Stone;
-
-    const TOLKOWSKY: RoundBrilliant = RoundBrilliant {
-        table: 53.0,
-        crown: Crown::Angle(34.5),
-        pavilion: Pavilion::Angle(40.75),
-        star_length: 50.0,
-        lower_half: LowerHalf::Radial(75.0),
-        girdle_thickness: 3.0,
-        girdle_facets: 96,
-        culet: 0.0,
-    };
 
     fn svg(given: &RoundBrilliant) -> String {
         let stone = Stone::new(&given.facets().unwrap()).unwrap();
