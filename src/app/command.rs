@@ -13,6 +13,8 @@ pub enum Command {
     Quit,
     Undo,
     Redo,
+    ViewBack,
+    ViewOn,
     Top,
     Side,
     Bottom,
@@ -48,9 +50,9 @@ pub struct Menu {
 use Command::*;
 
 /// All menus; what the program opens besides files stands in the first as well.
-pub const MENUS: [Menu; 4] = [
+pub const MENUS: [Menu; 5] = [
     Menu { title: "File", groups: &[&[Open], &[Save, SaveAs], &[Export, CopyPicture], &[Quit]] },
-    Menu { title: "Edit", groups: &[&[Undo, Redo]] },
+    Menu { title: "Edit", groups: &[&[Undo, Redo], &[ViewBack, ViewOn]] },
     Menu {
         title: "View",
         groups: &[
@@ -58,10 +60,10 @@ pub const MENUS: [Menu; 4] = [
             &[Perspective, EyeLeans],
             &[One, Two, Four],
             &[Wireframe, Facets, Bounces, Unresolved, Total, Strongest],
-            &[CompareSaved, CompareFile, Split, NoCompare],
             &[LightPath],
         ],
     },
+    Menu { title: "Compare", groups: &[&[CompareSaved, CompareFile], &[Split], &[NoCompare]] },
     Menu { title: "Help", groups: &[&[Keys]] },
 ];
 
@@ -82,6 +84,8 @@ impl Command {
             Quit => "Quit",
             Undo => "Undo",
             Redo => "Redo",
+            ViewBack => "View before",
+            ViewOn => "View after",
             Top => "Top",
             Side => "Side",
             Bottom => "Bottom",
@@ -118,6 +122,8 @@ impl Command {
             Quit => "Closes the window.",
             Undo => "Takes the last change back; a drag is one.",
             Redo => "Does again what was undone.",
+            ViewBack => "Takes the last tilt, zoom, layout or overlay back; the design stays.",
+            ViewOn => "Goes to the view that was gone back from.",
             Top => "Looks at the table.",
             Side => "Looks along the girdle.",
             Bottom => "Looks at the culet.",
@@ -161,6 +167,8 @@ impl Command {
             Quit => command(Key::Q),
             Undo => command(Key::Z),
             Redo => shifted(Key::Z),
+            ViewBack => bare(Key::Backspace),
+            ViewOn => Some(KeyboardShortcut::new(Modifiers::SHIFT, Key::Backspace)),
             Top => bare(Key::T),
             Side => bare(Key::S),
             Bottom => bare(Key::B),

@@ -7,6 +7,7 @@ use super::dialogs::{Dialog, Then};
 use super::document::{Document, FIRST_LIGHT, Work};
 use super::files::{Chooser, Choosing, Safe, Watching, by_dialog};
 use super::following::{self, Following};
+use super::look::Looks;
 use super::notes::Notes;
 use super::posed::Posed;
 use super::probe::Probe;
@@ -61,6 +62,7 @@ pub struct Measured {
 pub struct Editor {
     pub(super) document: Document,
     pub(super) desk: Desk,
+    pub(super) looks: Looks,
     pub(super) studio: Studio,
     pub(super) pictures: HashMap<Slot, Shown>,
     pub(super) figures: HashMap<Which, Measured>,
@@ -129,6 +131,7 @@ impl Editor {
         let mut editor = Self {
             studio: Studio::open(shared(context), wake),
             document,
+            looks: Looks::new(&desk),
             desk,
             pictures: HashMap::new(),
             figures: HashMap::new(),
@@ -341,7 +344,7 @@ impl Editor {
         let pulled = self.profiles.iter().any(ProfileView::is_dragging);
         let gesture = pulled || ctx.egui_is_using_pointer() || ctx.text_edit_focused();
         if !gesture {
-            self.settle();
+            self.settle(ctx.input(|i| i.time));
         }
         self.name_window(&ctx);
         self.close(&ctx);

@@ -3,14 +3,17 @@
 use super::editor::Editor;
 use super::light_path::LightPath;
 use super::pane::zones;
-use egui::{Context, RichText, Window, vec2};
+use egui::{Context, Pos2, Rect, RichText, Vec2, Window, pos2, vec2};
 use glam::DVec2;
 
 /// How long a click waits to become a double click, seconds.
 const PATIENCE: f64 = 0.32;
 
-/// Where the window is first seen: over the views, beside the design.
-const PLACE: [f32; 2] = [372.0, 220.0];
+/// How large the window is first.
+const SIZE: Vec2 = vec2(560.0, 620.0);
+
+/// Where it is first seen, unless a view there is clicked: over the views, beside the design.
+const PLACE: Pos2 = pos2(372.0, 220.0);
 
 /// Which ray is followed.
 #[derive(Debug, Default)]
@@ -21,12 +24,15 @@ pub struct Following {
     pub at: Option<(usize, DVec2)>,
     /// A click that may become a double click, and when it was.
     waiting: Option<(usize, DVec2, f64)>,
+    /// The view that was clicked, on the screen.
+    clicked: Option<Rect>,
     view: LightPath,
 }
 
 impl Following {
     /// A point of a view was clicked.
-    pub fn click(&mut self, pane: usize, at: DVec2, ctx: &Context) {
+    pub fn click(&mut self, pane: usize, at: DVec2, body: Rect, ctx: &Context) {
+        self.clicked = Some(body);
         self.waiting = Some((pane, at, ctx.input(|i| i.time)));
         ctx.request_repaint_after_secs(PATIENCE as f32 + 0.02);
     }
@@ -34,6 +40,12 @@ impl Following {
     /// The click was half of a double click.
     pub fn unclick(&mut self) {
         self.waiting = None;
+    }
+
+    /// Where its window comes up: not over the view that was clicked.
+    fn place(&self) -> Pos2 {
+        let covered = self.clicked.filter(|body| body.left() <= PLACE.x);
+        covered.map_or(PLACE, |body| pos2(body.right(), PLACE.y))
     }
 
     fn ripen(&mut self, ctx: &Context) {
@@ -54,7 +66,7 @@ pub fn show(editor: &mut Editor, ctx: &Context) {
     }
     let mut is_open = true;
     let window =
-        Window::new("Light path").open(&mut is_open).default_size(vec2(560.0, 620.0)).default_pos(PLACE);
+        Window::new("Light path").open(&mut is_open).default_size(SIZE).default_pos(editor.following.place());
     window.min_size(vec2(400.0, 360.0)).show(ctx, |ui| {
         let Some((pane, at)) = editor.following.at else {
             ui.label("Click a point of the stone in any view: its light is followed from there.");

@@ -189,10 +189,11 @@ impl Editor {
         }
     }
 
-    /// Ends a gesture: what it changed is one step.
-    pub(super) fn settle(&mut self) {
+    /// Ends a gesture, at so many seconds: what it changed is one step.
+    pub(super) fn settle(&mut self, now: f64) {
         self.desk.eye.settle();
         self.desk.panes.iter_mut().filter_map(|p| p.own.as_mut()).for_each(super::eye::Eye::settle);
+        self.looks.note(&self.desk, now);
         self.document.settle();
         if self.kept != self.document.work {
             self.take_note();

@@ -109,7 +109,10 @@ fn from_library(editor: &mut Editor, ui: &mut Ui) {
 
 fn is_possible(editor: &Editor, command: Command) -> bool {
     let (undo, redo) = editor.document.steps();
+    let (back, on) = editor.looks.steps();
     match command {
+        Command::ViewBack => back,
+        Command::ViewOn => on,
         Command::Undo => undo,
         Command::Redo => redo,
         Command::Save => editor.document.is_changed() || editor.document.path().is_none(),
@@ -158,7 +161,7 @@ pub fn keys(editor: &mut Editor, ctx: &Context) {
             c.shortcut().is_some_and(|s| s.logical_key == key && modifiers.matches_exact(s.modifiers))
         };
         let Some(command) = Command::all().find(is_meant) else { continue };
-        if modifiers.is_none() && ctx.text_edit_focused() {
+        if !modifiers.command && ctx.text_edit_focused() {
             continue;
         }
         ctx.input_mut(|i| i.consume_key(modifiers, key));
@@ -175,8 +178,11 @@ pub fn is_other_shown(ctx: &Context) -> bool {
 
 /// Does a command.
 pub fn does(editor: &mut Editor, command: Command, ctx: &Context) {
+    editor.looks.settle();
     let desk = &mut editor.desk;
     match command {
+        Command::ViewBack => editor.looks.back(desk),
+        Command::ViewOn => editor.looks.on(desk),
         Command::Open => editor.choose(Purpose::Open),
         Command::Save => drop(editor.save()),
         Command::SaveAs => editor.choose(Purpose::SaveAs),

@@ -16,6 +16,7 @@ mod following;
 mod history;
 mod keeping;
 mod light_path;
+mod look;
 mod menus;
 mod notes;
 mod ordering;

@@ -216,7 +216,7 @@ fn clicked(editor: &mut Editor, ui: &Ui, pane: usize, response: &Response, sight
     } else if response.clicked() {
         // By a key it is the middle that is meant.
         let at = response.interact_pointer_pos().unwrap_or(sight.body.center());
-        editor.following.click(pane, sight.film.image_from_pixels(sight.pixel(at)), ui.ctx());
+        editor.following.click(pane, sight.film.image_from_pixels(sight.pixel(at)), sight.body, ui.ctx());
     }
     let followed = editor.following.at.filter(|(other, _)| editor.following.is_open && *other == pane);
     if let Some((_, at)) = followed {

@@ -31,7 +31,7 @@ const ASIDE: [f32; 3] = [12.0, 20.0, 30.0];
 const PLACES: u8 = 8;
 
 /// Share of light below which a step's facet has no tint and no number, nor does its line keep other numbers away.
-const FAINT: f64 = 0.002;
+pub(super) const FAINT: f64 = 0.05;
 
 /// A parallel projection onto a painter.
 struct Canvas<'a> {
