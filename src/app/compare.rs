@@ -3,7 +3,6 @@
 use super::document::Document;
 use super::posed::Posed;
 use crate::scene::Specimen;
-use std::path::Path;
 use std::sync::Arc;
 
 /// Another design.
@@ -27,12 +26,8 @@ impl Compared {
     }
 
     /// Another file's design.
-    ///
-    /// # Errors
-    /// What is wrong with the file.
-    pub fn of_file(path: &Path) -> Result<Self, String> {
-        let document = Document::open(path)?;
-        Ok(Self::new(document.title(), false, Arc::clone(document.specimen())))
+    pub fn of(document: &Document) -> Self {
+        Self::new(document.title(), false, Arc::clone(document.specimen()))
     }
 
     fn new(name: String, is_saved: bool, specimen: Arc<Specimen>) -> Self {

@@ -5,6 +5,7 @@ use super::document::Document;
 use super::editor::Editor;
 use super::export_dialog::{self, ExportDialog};
 use super::files::Found;
+use super::opening::Wanted;
 use super::proportions::PROPORTIONS;
 use super::shows::Shows;
 use egui::{Context, Grid, Id, Key, Modal, RichText, ScrollArea, Ui};
@@ -144,7 +145,7 @@ fn changed_outside(editor: &mut Editor, ui: &mut Ui) -> bool {
     match buttons(ui, &["Keep mine", "Read the file again"]) {
         Some(1) => {
             if let Some(path) = editor.document.path().map(std::path::Path::to_owned) {
-                editor.read_again(&path);
+                editor.open(&path, Wanted::Again);
             }
             false
         }

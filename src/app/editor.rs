@@ -9,6 +9,7 @@ use super::files::{Chooser, Choosing, Safe, Watching, by_dialog};
 use super::following::{self, Following};
 use super::look::Looks;
 use super::notes::Notes;
+use super::opening::{Opening, Wanted};
 use super::posed::Posed;
 use super::probe::Probe;
 use super::profile_view::ProfileView;
@@ -84,6 +85,7 @@ pub struct Editor {
     pub(super) posed: Posed,
     pub(super) chooser: Chooser,
     pub(super) choosing: Option<Choosing>,
+    pub(super) opening: Vec<Opening>,
     /// How many documents were begun: an answer for one must not be taken for another.
     pub(super) begun: u64,
     /// What is put off until the design is saved.
@@ -111,19 +113,9 @@ impl Editor {
         // A desk of a later program that this one cannot read is left aside.
         let mut desk: Desk = kept.and_then(|text| serde_json::from_str(&text).ok()).unwrap_or(setup.desk);
         let wake = waker(&context.egui_ctx);
-        let mut notes = Notes::default();
         let mut document = Document::first()?;
         let first = Lighting::load(FIRST_LIGHT).map_err(|e| e.to_string())?;
         let light = (FIRST_LIGHT.to_owned(), Arc::new(first));
-        if let Some(path) = setup.file.clone().or_else(|| desk.last.clone().filter(|p| p.exists())) {
-            match Document::open(&path) {
-                Ok(opened) => {
-                    document = opened;
-                    desk.remember(&path);
-                }
-                Err(why) => notes.trouble(why),
-            }
-        }
         desk.face_up();
         document.begin(&desk.light, desk.exposure, desk.head);
         let kept = document.work.clone();
@@ -141,7 +133,7 @@ impl Editor {
             profiles: Default::default(),
             following: Following::default(),
             told: String::new(),
-            notes,
+            notes: Notes::default(),
             dialog: None,
             hovered: 0,
             light,
@@ -151,6 +143,7 @@ impl Editor {
             chooser: setup.chooser,
             choosing: None,
             begun: 0,
+            opening: vec![],
             after_save: None,
             kept,
             watching: Watching::begin(move || watch()),
@@ -158,6 +151,9 @@ impl Editor {
             may_close: false,
             title: String::new(),
         };
+        if let Some(path) = setup.file.or_else(|| editor.desk.last.clone().filter(|p| p.exists())) {
+            editor.open(&path, Wanted::Anew);
+        }
         editor.offer_recovery();
         Ok(editor)
     }
@@ -231,6 +227,7 @@ impl Editor {
             }
         }
         self.take_in_light();
+        self.take_in_files();
         if let Some((purpose, document, answer)) =
             self.choosing.as_ref().and_then(|c| Some((c.purpose, c.document, c.answer()?)))
         {
@@ -324,7 +321,7 @@ impl Editor {
     /// Whether all pictures and figures are as good as they get, and nothing is under way.
     #[cfg(test)]
     pub(super) fn is_idle(&self) -> bool {
-        self.studio.is_idle() && self.choosing.is_none() && self.loading.is_none()
+        self.studio.is_idle() && self.choosing.is_none() && self.loading.is_none() && self.opening.is_empty()
     }
 
     /// Draws the window, and does what is asked for.

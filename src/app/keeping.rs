@@ -5,6 +5,7 @@ use super::dialogs::{Dialog, Then};
 use super::document::{Document, Work};
 use super::editor::Editor;
 use super::files::{Choosing, Purpose, Question};
+use super::opening::Wanted;
 use super::studio::Which;
 use std::path::{Path, PathBuf};
 
@@ -17,33 +18,8 @@ impl Editor {
             self.dialog = Some(Dialog::ChangedOutside);
         } else if let Some(path) = self.document.path().map(Path::to_owned) {
             // Nothing of one's own is lost: the new file is what is wanted.
-            if self.read_again(&path) {
-                self.notes.say("The file was changed by another program and has been read again.");
-            }
+            self.open(&path, Wanted::Again);
         }
-    }
-
-    /// Opens a file in place of what is open; whether it could.
-    pub(super) fn open(&mut self, path: &Path) -> bool {
-        match Document::open(path) {
-            Ok(document) => {
-                self.desk.remember(path);
-                self.begin(document);
-                true
-            }
-            Err(why) => {
-                self.notes.trouble(why);
-                false
-            }
-        }
-    }
-
-    /// Opens the file again that is open, without moving any view; whether it could.
-    pub(super) fn read_again(&mut self, path: &Path) -> bool {
-        let (eye, panes) = (self.desk.eye, self.desk.panes);
-        let could = self.open(path);
-        (self.desk.eye, self.desk.panes) = (eye, panes);
-        could
     }
 
     /// Forgets the design that was compared with, and what was seen of it.
@@ -59,6 +35,7 @@ impl Editor {
         document.begin(&work.light, work.exposure, work.head);
         self.document = document;
         self.begun += 1;
+        self.opening.retain(|o| o.is_beside());
         // Another stone is first seen face up.
         self.desk.face_up();
         self.notes.clear();
@@ -82,7 +59,7 @@ impl Editor {
     /// Does what was put off by a question.
     pub(super) fn then(&mut self, then: Then) {
         match then {
-            Then::Open(path) => drop(self.open(&path)),
+            Then::Open(path) => self.open(&path, Wanted::Anew),
             Then::Library(name) => match Document::of_library(&name) {
                 Ok(document) => {
                     self.desk.last = None;
@@ -131,10 +108,7 @@ impl Editor {
                     self.then(then);
                 }
             }
-            Purpose::Compare => match Compared::of_file(&path) {
-                Ok(compared) => self.compared = Some(compared),
-                Err(why) => self.notes.trouble(why),
-            },
+            Purpose::Compare => self.open(&path, Wanted::Beside),
             Purpose::Light => self.document.work.light = path.display().to_string(),
             Purpose::Folder => {
                 if let Some(Dialog::Export(export)) = &mut self.dialog {

@@ -6,6 +6,7 @@ use super::desk::Layout;
 use super::dialogs::{Dialog, Then};
 use super::editor::Editor;
 use super::files::Purpose;
+use super::opening::Opening;
 use super::studio::Which;
 use super::theme;
 use crate::io::{cut_file, library};
@@ -138,7 +139,9 @@ pub fn status(editor: &mut Editor, ui: &mut Ui) {
                 if editor.told.is_empty() { editor.notes.said().unwrap_or_default() } else { &editor.told };
             ui.add(egui::Label::new(told).truncate());
             ui.with_layout(egui::Layout::right_to_left(Align::Center), |ui| {
-                let state = if editor.studio.is_idle() { "done" } else { "tracing…" };
+                let opening = editor.opening.last().map(Opening::told);
+                let tracing = if editor.studio.is_idle() { "done" } else { "tracing…" };
+                let state = opening.unwrap_or_else(|| tracing.to_owned());
                 ui.label(RichText::new(format!("{state} · {}", editor.studio.told())).weak().small())
                     .on_hover_text("What computes the pictures: the processor, or a graphics card.");
             });

@@ -19,6 +19,7 @@ mod light_path;
 mod look;
 mod menus;
 mod notes;
+mod opening;
 mod ordering;
 mod pane;
 mod posed;

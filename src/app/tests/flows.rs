@@ -3,6 +3,7 @@
 use super::*;
 use crate::app::dialogs::Dialog;
 use crate::app::document::Document;
+use crate::app::opening::Wanted;
 use crate::app::shows::Shows;
 use crate::cut::Crown;
 use crate::io::cut_file;
@@ -313,7 +314,7 @@ fn a_file_that_others_change_is_read_again_and_asked_about_where_work_would_be_l
     let mut design = Document::first().unwrap().work.design;
     std::fs::write(&path, cut_file::write(&design)).unwrap();
     let mut bench = Bench::with(Setup { file: Some(path.clone()), ..Setup::default() });
-    bench.harness.run_steps(2);
+    bench.settle();
     design.name = "Changed outside once".to_owned();
     std::fs::write(&path, cut_file::write(&design)).unwrap();
     bench.wait(|editor| editor.document.work.design.name == "Changed outside once");
@@ -328,6 +329,23 @@ fn a_file_that_others_change_is_read_again_and_asked_about_where_work_would_be_l
     std::fs::remove_file(&path).unwrap();
     bench.wait(|editor| editor.document.is_changed());
     assert!(bench.harness.query_by_label_contains("no longer there").is_some());
+}
+
+#[test]
+fn a_file_that_comes_after_a_change_is_asked_about() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("other.toml");
+    let design = Document::of_library("modern-ideal").unwrap().work.design;
+    std::fs::write(&path, cut_file::write(&design)).unwrap();
+    let mut bench = Bench::new();
+    bench.settle();
+    let editor = bench.harness.state_mut();
+    editor.open(&path, Wanted::Anew);
+    editor.document.work.design.name = "changed meanwhile".to_owned();
+    bench.wait(|editor| editor.dialog.is_some());
+    assert!(!bench.editor().document.work.design.eq(&design));
+    bench.click("Don't save");
+    bench.wait(|editor| editor.document.work.design.eq(&design));
 }
 
 #[test]
@@ -370,6 +388,7 @@ fn keys_with_shift_are_not_those_without() {
     let text = cut_file::write(&Document::first().unwrap().work.design);
     std::fs::write(&first, &text).unwrap();
     let mut bench = Bench::with(Setup { file: Some(first.clone()), ..Setup::default() });
+    bench.settle();
     bench.type_number("Table", "57");
     let with_shift = egui::Modifiers::COMMAND | egui::Modifiers::SHIFT;
     bench.harness.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::Z);

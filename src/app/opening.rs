@@ -1,0 +1,90 @@
+//! Files on their way in: read and built aside, so that the window stays quick whatever their size.
+
+use super::compare::Compared;
+use super::dialogs::{Dialog, Then};
+use super::document::{Document, Work};
+use super::editor::Editor;
+use std::path::{Path, PathBuf};
+use std::sync::mpsc::{Receiver, channel};
+
+/// What a file is opened for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Wanted {
+    /// To be worked on.
+    Anew,
+    /// The file that is open already, without moving any view.
+    Again,
+    /// To be compared with.
+    Beside,
+}
+
+/// A file on its way in.
+pub struct Opening {
+    wanted: Wanted,
+    path: PathBuf,
+    /// The work as it was when the file was asked for.
+    work: Work,
+    answer: Receiver<Result<Document, String>>,
+}
+
+impl Opening {
+    /// Whether what is worked on stays.
+    pub fn is_beside(&self) -> bool {
+        self.wanted == Wanted::Beside
+    }
+
+    /// What is under way, in words.
+    pub fn told(&self) -> String {
+        format!("opening {}…", self.path.file_name().unwrap_or_default().to_string_lossy())
+    }
+}
+
+impl Editor {
+    /// Opens a file; one that is still on its way for the same purpose is forgotten.
+    pub(super) fn open(&mut self, path: &Path, wanted: Wanted) {
+        let (sender, answer) = channel();
+        let (name, wake) = (path.to_owned(), self.studio.wake());
+        std::thread::spawn(move || {
+            // Nobody waits for it any more where another was chosen.
+            let _ = sender.send(Document::open(&name));
+            wake();
+        });
+        let opening = Opening { wanted, path: path.to_owned(), work: self.document.work.clone(), answer };
+        self.opening.retain(|other| other.is_beside() != (wanted == Wanted::Beside));
+        self.opening.push(opening);
+    }
+
+    /// Takes in the files that have come.
+    pub(super) fn take_in_files(&mut self) {
+        for opening in std::mem::take(&mut self.opening) {
+            match opening.answer.try_recv() {
+                Ok(Ok(document)) => self.opened(&opening, document),
+                Ok(Err(why)) => self.notes.trouble(why),
+                Err(std::sync::mpsc::TryRecvError::Empty) => self.opening.push(opening),
+                Err(std::sync::mpsc::TryRecvError::Disconnected) => {
+                    self.notes.trouble(format!("{}: reading it failed", opening.path.display()));
+                }
+            }
+        }
+    }
+
+    fn opened(&mut self, opening: &Opening, document: Document) {
+        // What was changed while the file was on its way is nothing that anyone has given up.
+        let is_later = self.document.work != opening.work;
+        match opening.wanted {
+            Wanted::Beside => self.compared = Some(Compared::of(&document)),
+            Wanted::Anew if is_later => self.ask_before(Then::Open(opening.path.clone())),
+            Wanted::Again if is_later => self.dialog = Some(Dialog::ChangedOutside),
+            Wanted::Anew => {
+                self.desk.remember(&opening.path);
+                self.begin(document);
+            }
+            Wanted::Again => {
+                let (eye, panes) = (self.desk.eye, self.desk.panes);
+                self.begin(document);
+                (self.desk.eye, self.desk.panes) = (eye, panes);
+                self.notes.say("The file was changed by another program and has been read again.");
+            }
+        }
+    }
+}
