@@ -66,6 +66,7 @@ fn identity(editor: &mut Editor, ui: &mut Ui) {
         named(ui, "Cut", "The family: which facets there are, and which numbers shape them.");
         ui.label(match design.cut {
             Cut::RoundBrilliant(_) => "Round brilliant",
+            Cut::Tiers(_) => "Tiers on an index gear",
             Cut::Planes(_) => "Planes, as its file lists them",
         });
     });

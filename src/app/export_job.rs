@@ -3,7 +3,6 @@
 use super::posed::reach;
 use super::shows::Shows;
 use super::studio::{Camera, Effort, FINE_RENDER, Shot};
-use crate::cut::Cut;
 use crate::io::export::{Export, Format, Outputs, Sampler, Told, Tracer, Viewing};
 use crate::io::{Failure, rasterize, write_rgba_png};
 use crate::optics::line;
@@ -242,11 +241,7 @@ pub fn thumbnails(plan: Plan, wake: impl Fn() + Send + 'static) -> Receiver<(Sho
 /// The drawing from the side, small.
 fn side(plan: &Plan) -> Option<ColorImage> {
     let Specimen { stone, design, .. } = &*plan.upright;
-    let brilliant = match &design.cut {
-        Cut::RoundBrilliant(brilliant) => Some(brilliant),
-        Cut::Planes(_) => None,
-    };
-    let text = profile(stone, &design.name, brilliant).to_string();
+    let text = profile(stone, &design.name, design.cut.brilliant()).to_string();
     let (width, height, rgb) = rasterize(&text, 2 * THUMBNAIL).ok()?;
     Some(ColorImage::from_rgb([width as usize, height as usize], &rgb))
 }

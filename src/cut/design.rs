@@ -1,7 +1,7 @@
 //! A design: all that a cut file says of a stone.
 
 use super::material::{MaterialError, MaterialRef};
-use super::{ProportionError, RoundBrilliant, Warning, names};
+use super::{ProportionError, RoundBrilliant, TierFault, Tiers, Warning, names};
 use crate::math::Plane;
 
 /// Girdle diameter of a design that gives none, mm: that of a brilliant of about one carat.
@@ -35,6 +35,8 @@ pub struct Design {
 pub enum Cut {
     /// The round brilliant.
     RoundBrilliant(RoundBrilliant),
+    /// Facets by angle, distance and index, as cutters have them.
+    Tiers(Tiers),
     /// Names, which may repeat, and planes as written: 1 to [`MAX_PLANES`], normals of any length but zero.
     Planes(Vec<(String, Plane)>),
 }
@@ -62,6 +64,20 @@ pub enum DesignError {
     PlaneCount {
         /// How many were given.
         count: usize,
+    },
+    /// A cutter's design without facets, or of more than [`MAX_PLANES`].
+    #[error("tier: {count} facets are cut; from 1 to {MAX_PLANES} are expected")]
+    FacetCount {
+        /// How many are cut.
+        count: usize,
+    },
+    /// A cutter's design of numbers that make no sense.
+    #[error("{}{fault}", .tier.map(|tier| format!("tier {tier}: ")).unwrap_or_default())]
+    Tiers {
+        /// Which tier, from 1; none where it is the gear.
+        tier: Option<usize>,
+        /// What is wrong with it.
+        fault: TierFault,
     },
     /// A plane that bounds nothing.
     #[error("plane {number}: {fault}")]
@@ -98,6 +114,16 @@ impl PlaneFault {
     }
 }
 
+impl Cut {
+    /// The proportions, if it is a round brilliant.
+    pub fn brilliant(&self) -> Option<&RoundBrilliant> {
+        match self {
+            Self::RoundBrilliant(brilliant) => Some(brilliant),
+            Self::Tiers(_) | Self::Planes(_) => None,
+        }
+    }
+}
+
 impl Design {
     /// Checks everything that can be known without building the stone.
     ///
@@ -114,13 +140,15 @@ impl Design {
         self.facets().map(|_| ())
     }
 
-    /// Every facet's name, no two alike, and its plane with a unit normal.
+    /// Every facet's name, no two alike, and its plane with a unit normal: in girdle radii, but for a cutter's design
+    /// in that one's own unit.
     ///
     /// # Errors
     /// The first proportion or plane at fault.
     pub fn facets(&self) -> Result<Vec<(String, Plane)>, DesignError> {
         match &self.cut {
             Cut::RoundBrilliant(proportions) => Ok(proportions.facets()?),
+            Cut::Tiers(tiers) => tiers_facets(tiers),
             Cut::Planes(planes) => named_planes(planes),
         }
     }
@@ -132,9 +160,17 @@ impl Design {
     pub fn warnings(&self) -> Result<Vec<Warning>, DesignError> {
         match &self.cut {
             Cut::RoundBrilliant(proportions) => Ok(proportions.warnings()?),
-            Cut::Planes(_) => Ok(Vec::new()),
+            Cut::Tiers(_) | Cut::Planes(_) => Ok(Vec::new()),
         }
     }
+}
+
+fn tiers_facets(tiers: &Tiers) -> Result<Vec<(String, Plane)>, DesignError> {
+    tiers.check().map_err(|(tier, fault)| DesignError::Tiers { tier, fault })?;
+    if !tiers.has_fitting_count() {
+        return Err(DesignError::FacetCount { count: tiers.count() });
+    }
+    Ok(tiers.facets())
 }
 
 fn named_planes(planes: &[(String, Plane)]) -> Result<Vec<(String, Plane)>, DesignError> {

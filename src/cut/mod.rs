@@ -1,4 +1,5 @@
-//! Floor 1: what a cut is, as numbers: the round brilliant in closed form, plane lists, material and size.
+//! Floor 1: what a cut is, as numbers: the round brilliant in closed form, cutters' tiers, plane lists, material
+//! and size.
 //!
 //! Written numbers are percent of the girdle diameter and degrees; planes come out in the stone's frame: +z out of
 //! the table, z = 0 at the crown-side girdle, girdle radius 1. Bad numbers are errors that name their limit, odd ones
@@ -14,6 +15,7 @@ mod proportion_error;
 mod proportions;
 mod round_brilliant;
 mod size;
+mod tiers;
 mod warning;
 
 pub use design::{Cut, DEFAULT_DIAMETER_MM, Design, DesignError, MAX_PLANES, PlaneFault};
@@ -23,6 +25,7 @@ pub use proportion_error::{Limit, ProportionError, Unit};
 pub use proportions::Derived;
 pub use round_brilliant::{Crown, LowerHalf, Pavilion, RoundBrilliant};
 pub use size::{Size, SizeError};
+pub use tiers::{Indexed, Tier, TierFault, Tiers, Zone};
 pub use warning::Warning;
 
 pub(crate) use names::{is_printable, tier_stem};

@@ -16,6 +16,7 @@ use form::DesignForm;
 
 mod form;
 pub(super) mod material_form;
+mod tier_form;
 pub(super) mod values;
 
 #[cfg(test)]

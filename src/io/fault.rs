@@ -6,7 +6,7 @@ use std::ops::Range;
 use toml::de::{DeTable, DeValue, Error};
 
 /// What the keys mean, for whoever left one out or wrote something else.
-const MEANINGS: [(&str, &str); 51] = [
+const MEANINGS: [(&str, &str); 56] = [
     ("name", "what it is called"),
     ("material", "a material's name, an index, or a table of its own"),
     ("diameter_mm", "girdle diameter in mm"),
@@ -23,6 +23,11 @@ const MEANINGS: [(&str, &str); 51] = [
     ("culet", "percent of the girdle diameter, 0 for a point"),
     ("normal", "outward, [x, y, z]"),
     ("offset", "n·x <= offset, with the girdle radius 1"),
+    ("gear", "teeth of the index gear"),
+    ("angle", "degrees from the girdle plane, below 0 for the pavilion"),
+    ("distance", "from the origin to the facet's plane"),
+    ("indices", "teeth at which the tier is cut"),
+    ("index", "the gear, a table [index]"),
     ("cauchy", "[A, B] of n = A + B / L², L in µm"),
     ("abbe", "[n_d, v_d]"),
     ("sellmeier", "[[B, C], ...], C in µm"),

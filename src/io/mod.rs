@@ -3,6 +3,7 @@
 mod apng;
 mod atomic;
 pub mod cut_file;
+pub mod design_file;
 mod drawing_png;
 pub mod export;
 mod exr;

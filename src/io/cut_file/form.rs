@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::material_form::MaterialForm;
+use super::tier_form::{IndexForm, TierForm};
 use super::values::{Numbers, Table};
 use super::{FORMAT, Fault};
 use crate::cut::{
@@ -27,6 +28,10 @@ pub(super) struct DesignForm<B = Table<RoundBrilliantForm>> {
     material: MaterialForm,
     #[serde(skip_serializing_if = "Option::is_none")]
     round_brilliant: Option<B>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    index: Option<Table<IndexForm>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    tier: Option<Vec<Table<TierForm>>>,
     #[serde(skip_serializing_if = "Option::is_none")]
     plane: Option<Vec<Table<PlaneForm>>>,
 }
@@ -69,21 +74,28 @@ fn nameless() -> String {
 impl DesignForm<RoundBrilliant> {
     /// The form that a design is written in.
     pub fn of(design: &Design) -> Self {
-        let (round_brilliant, plane) = match &design.cut {
-            Cut::RoundBrilliant(given) => (Some(*given), None),
-            Cut::Planes(planes) => {
-                (None, Some(planes.iter().map(|plane| Table(PlaneForm::of(plane))).collect()))
-            }
-        };
-        Self {
+        let form = Self {
             format: FORMAT,
             name: design.name.clone(),
             source: design.source.clone(),
             notes: design.notes.clone(),
             diameter_mm: design.diameter_mm,
             material: MaterialForm::of(&design.material),
-            round_brilliant,
-            plane,
+            round_brilliant: None,
+            index: None,
+            tier: None,
+            plane: None,
+        };
+        match &design.cut {
+            Cut::RoundBrilliant(given) => Self { round_brilliant: Some(*given), ..form },
+            Cut::Tiers(tiers) => Self {
+                index: Some(Table(IndexForm::of(tiers))),
+                tier: Some(tiers.tiers.iter().map(|tier| Table(TierForm::of(tier))).collect()),
+                ..form
+            },
+            Cut::Planes(planes) => {
+                Self { plane: Some(planes.iter().map(|plane| Table(PlaneForm::of(plane))).collect()), ..form }
+            }
         }
     }
 }
@@ -97,7 +109,7 @@ impl DesignForm {
             notes: self.notes,
             material: self.material.material()?,
             diameter_mm: self.diameter_mm,
-            cut: cut(self.round_brilliant, self.plane)?,
+            cut: cut(self.round_brilliant, (self.index, self.tier), self.plane)?,
         };
         match design.check() {
             Ok(()) => Ok(design),
@@ -108,14 +120,35 @@ impl DesignForm {
 
 fn cut(
     round_brilliant: Option<Table<RoundBrilliantForm>>,
+    tiers: (Option<Table<IndexForm>>, Option<Vec<Table<TierForm>>>),
     plane: Option<Vec<Table<PlaneForm>>>,
 ) -> Result<Cut, Fault> {
-    match (round_brilliant, plane) {
-        (Some(Table(form)), None) => Ok(Cut::RoundBrilliant(form.proportions()?)),
-        (None, Some(planes)) => Ok(Cut::Planes(planes.into_iter().map(|Table(form)| form.plane()).collect())),
-        (Some(_), Some(_)) => Err(Fault::at("plane", "plane: give [round_brilliant] or [[plane]], not both")),
-        (None, None) => {
-            Err(Fault::whole("the cut is missing; give [round_brilliant] or a list of [[plane]]"))
+    match (round_brilliant, tiers, plane) {
+        (Some(Table(form)), (None, None), None) => Ok(Cut::RoundBrilliant(form.proportions()?)),
+        (None, (Some(Table(index)), Some(tiers)), None) => Ok(Cut::Tiers(index.tiers(tiers)?)),
+        (None, (None, None), Some(planes)) => {
+            Ok(Cut::Planes(planes.into_iter().map(|Table(form)| form.plane()).collect()))
+        }
+        (None, (Some(_), None), None) => {
+            Err(Fault::at("index", "index: the tiers are missing; give [[tier]]"))
+        }
+        (None, (None, Some(_)), None) => {
+            Err(Fault::at("tier", "tier: the gear is missing; give it as [index], gear = 96"))
+        }
+        (None, (None, None), None) => {
+            Err(Fault::whole("the cut is missing; give [round_brilliant], [[tier]] or a list of [[plane]]"))
+        }
+        (round, (index, _), plane) => {
+            let last = if plane.is_some() {
+                "plane"
+            } else if index.is_some() {
+                "index"
+            } else {
+                "tier"
+            };
+            let forms = if round.is_some() { "[round_brilliant]" } else { "[[tier]]" };
+            let other = if last == "plane" { "[[plane]]" } else { "[[tier]]" };
+            Err(Fault::at(last, format!("{last}: give {forms} or {other}, not both")))
         }
     }
 }
@@ -130,6 +163,9 @@ fn path(error: &DesignError, material: &MaterialRef) -> String {
             MaterialRef::Name(_) | MaterialRef::Index(_) => "material".to_owned(),
         },
         DesignError::Proportion(error) => format!("round_brilliant/{}", error.key()),
+        DesignError::FacetCount { .. } => "tier".to_owned(),
+        DesignError::Tiers { tier: None, fault } => format!("index/{}", fault.key()),
+        DesignError::Tiers { tier: Some(number), fault } => format!("tier/{}/{}", number - 1, fault.key()),
         DesignError::PlaneCount { .. } => format!("plane/{MAX_PLANES}"),
         DesignError::Plane { number, fault } => format!("plane/{}/{}", number - 1, fault.key()),
     }

@@ -299,7 +299,7 @@ fn of_each_pair_one_is_given() {
     );
     assert_told(
         "format = 1\nname = \"x\"\nmaterial = 2",
-        "x.toml: the cut is missing; give [round_brilliant] or a list of [[plane]]",
+        "x.toml: the cut is missing; give [round_brilliant], [[tier]] or a list of [[plane]]",
     );
 }
 

@@ -4,7 +4,6 @@ use super::sampler::{Sampler, Subject};
 use super::told::{Pace, Tell, Told};
 use super::viewing::{Tracer, Viewing};
 use super::{Export, Format, Outputs, only_png, write_text};
-use crate::cut::Cut;
 use crate::io::{Failure, PngRows, WriteError, rasterize, write_exr, write_png};
 use crate::picture::by_rays::Manner;
 use crate::picture::{Layer, Palette, Picture, Rows, Scoped, diagram, paint, profile, vector};
@@ -53,13 +52,7 @@ impl<'a> Pictures<'a> {
         let stone = &self.viewing.specimen.stone;
         (self.tell)(Told::Begun(&self.title(name)))?;
         match picture {
-            Picture::Profile => {
-                let brilliant = match &design.cut {
-                    Cut::RoundBrilliant(brilliant) => Some(brilliant),
-                    Cut::Planes(_) => None,
-                };
-                self.drawing(name, &profile(stone, &design.name, brilliant))
-            }
+            Picture::Profile => self.drawing(name, &profile(stone, &design.name, design.cut.brilliant())),
             Picture::Diagram => self.drawing(name, &diagram(stone, &design.name)),
             Picture::Scoped(scoped) => self.scoped(name, scoped, watch),
         }

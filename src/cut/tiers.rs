@@ -1,0 +1,301 @@
+//! Designs as cutters write them down: tiers of facets that share an angle and a distance, each facet at an index of
+//! the faceting machine's gear. Source: the conventions of GemCad (R. Strickland), as docs/formats.md tells them.
+
+use super::design::MAX_PLANES;
+use super::names;
+use crate::math::Plane;
+use glam::DVec3;
+use std::f64::consts::TAU;
+
+/// Teeth taken, either way round.
+const MOST_TEETH: i32 = 100_000;
+
+/// Indices and distances taken; beyond, planes lose their digits.
+const LARGEST: f64 = 1e9;
+
+/// A cutter's design. Lengths are in its own unit; a stone made of it is scaled to its girdle.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Tiers {
+    /// Teeth of the index gear; below 0 where they are counted the other way round. Not 0.
+    pub gear: i32,
+    /// The tooth at which the azimuth of index 0 would lie, in teeth.
+    pub offset: f64,
+    /// How many times the design repeats around its axis, as its file says; indices are listed whole all the same.
+    pub symmetry: u32,
+    /// Whether its file says that each repeat is its own mirror image.
+    pub mirror: bool,
+    /// What is said at the top, line by line.
+    pub headers: Vec<String>,
+    /// What is said at the end.
+    pub footers: Vec<String>,
+    /// What else its file says, by key, as the date; no key twice.
+    pub remarks: Vec<(String, String)>,
+    /// In the order in which they are cut.
+    pub tiers: Vec<Tier>,
+}
+
+/// Facets cut at one setting of the machine.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Tier {
+    /// From the girdle plane, degrees: above 0 crown, below 0 pavilion, ±90 girdle. At 0 the table, or, with a negative
+    /// sign or distance, the culet.
+    pub angle: f64,
+    /// From the origin along the normal, in the design's unit; its sign matters only at angle 0.
+    pub distance: f64,
+    /// How to cut it; empty for nothing said.
+    pub instructions: String,
+    /// Whether it is cut; a tier that is not is kept and does nothing.
+    pub is_cut: bool,
+    /// Its facets, in the order in which they are listed.
+    pub facets: Vec<Indexed>,
+}
+
+/// A facet of a tier.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Indexed {
+    /// Tooth of the gear, from the gear's offset; may lie between two teeth.
+    pub index: f64,
+    /// Its name; empty for none. Cutters name the first of a tier, which names them all.
+    pub name: String,
+}
+
+/// What is wrong with a cutter's design.
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+pub enum TierFault {
+    /// A gear without teeth, or with too many.
+    #[error("gear: {0} must be from 1 to {MOST_TEETH} teeth, or below 0 where they are counted clockwise")]
+    Gear(i32),
+    /// An offset that is no number, or endless.
+    #[error("offset: {0} must be a number of teeth")]
+    Offset(f64),
+    /// An angle out of range.
+    #[error("angle: {0} must be from -180 to 180 degrees")]
+    Angle(f64),
+    /// A distance out of range.
+    #[error("distance: {0} must be a length, up to {LARGEST}")]
+    Distance(f64),
+    /// An index out of range.
+    #[error("index: {0} must be a tooth of the gear, up to {LARGEST}")]
+    Index(f64),
+}
+
+impl TierFault {
+    /// The key at fault.
+    pub fn key(&self) -> &'static str {
+        match self {
+            Self::Gear(_) => "gear",
+            Self::Offset(_) => "offset",
+            Self::Angle(_) => "angle",
+            Self::Distance(_) => "distance",
+            Self::Index(_) => "indices",
+        }
+    }
+}
+
+/// Where on a stone a tier lies.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Zone {
+    /// The flat on top.
+    Table,
+    /// Above the girdle.
+    Crown,
+    /// Upright.
+    Girdle,
+    /// Below the girdle.
+    Pavilion,
+    /// The flat at the bottom.
+    Culet,
+}
+
+impl Zone {
+    /// As the trade calls it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Table => "table",
+            Self::Crown => "crown",
+            Self::Girdle => "girdle",
+            Self::Pavilion => "pavilion",
+            Self::Culet => "culet",
+        }
+    }
+}
+
+impl Tier {
+    /// Where it lies.
+    pub fn zone(&self) -> Zone {
+        match (self.angle, self.faces_down()) {
+            (0.0, true) => Zone::Culet,
+            (0.0, false) => Zone::Table,
+            (90.0 | -90.0, _) => Zone::Girdle,
+            (_, true) => Zone::Pavilion,
+            (_, false) => Zone::Crown,
+        }
+    }
+
+    /// What its facets are called: by the first name that one of them has; empty for none.
+    pub fn name(&self) -> &str {
+        self.facets.iter().map(|facet| facet.name.as_str()).find(|name| !name.is_empty()).unwrap_or_default()
+    }
+
+    fn faces_down(&self) -> bool {
+        self.angle.is_sign_negative() || (self.angle == 0.0 && self.distance.is_sign_negative())
+    }
+
+    fn check(&self) -> Result<(), TierFault> {
+        if !(-180.0..=180.0).contains(&self.angle) {
+            return Err(TierFault::Angle(self.angle));
+        }
+        if !(self.distance.abs() <= LARGEST) {
+            return Err(TierFault::Distance(self.distance));
+        }
+        let wrong = self.facets.iter().find(|facet| !(facet.index.abs() <= LARGEST));
+        wrong.map_or(Ok(()), |facet| Err(TierFault::Index(facet.index)))
+    }
+}
+
+impl Tiers {
+    /// Checks gear, offset, and every tier; with the number of the tier at fault, from 1, if it is one.
+    ///
+    /// # Errors
+    /// The first number that makes no sense.
+    pub fn check(&self) -> Result<(), (Option<usize>, TierFault)> {
+        if self.gear == 0 || !(-MOST_TEETH..=MOST_TEETH).contains(&self.gear) {
+            return Err((None, TierFault::Gear(self.gear)));
+        }
+        if !(self.offset.abs() <= LARGEST) {
+            return Err((None, TierFault::Offset(self.offset)));
+        }
+        let mut numbered = (1..).zip(&self.tiers);
+        numbered.try_for_each(|(number, tier)| tier.check().map_err(|fault| (Some(number), fault)))
+    }
+
+    /// The plane of a facet of a tier, in the design's unit, with a unit normal: index 0 lies at -y, and indices count
+    /// counter-clockwise seen from above for a gear above 0.
+    pub fn plane(&self, tier: &Tier, index: f64) -> Plane {
+        let down = if tier.faces_down() { -1.0 } else { 1.0 };
+        let (slope_sin, slope_cos) = match tier.angle.abs() {
+            90.0 => (1.0, 0.0),
+            angle => angle.to_radians().sin_cos(),
+        };
+        let (sin, cos) = ((index - self.offset) / f64::from(self.gear) * TAU).sin_cos();
+        let flat = tier.angle == 0.0;
+        let across = if flat { [0.0; 2] } else { [sin * slope_sin, -cos * slope_sin] };
+        Plane::new(DVec3::new(across[0], across[1], down * slope_cos), tier.distance.abs())
+    }
+
+    /// The facets that are cut, each with a name of its own and its plane in the design's unit.
+    pub(super) fn facets(&self) -> Vec<(String, Plane)> {
+        let cut = (1..).zip(&self.tiers).filter(|(_, tier)| tier.is_cut);
+        let bases: Vec<(String, Plane)> = cut
+            .flat_map(|(number, tier)| {
+                let base = base_name(tier, number);
+                tier.facets.iter().map(move |facet| (base.clone(), self.plane(tier, facet.index)))
+            })
+            .collect();
+        let names = names::unique(bases.iter().map(|(name, _)| name.as_str()));
+        names.into_iter().zip(bases.iter().map(|(_, plane)| *plane)).collect()
+    }
+
+    /// How many facets are cut; at most [`MAX_PLANES`] make a stone.
+    pub fn count(&self) -> usize {
+        self.tiers.iter().filter(|tier| tier.is_cut).map(|tier| tier.facets.len()).sum()
+    }
+
+    pub(super) fn has_fitting_count(&self) -> bool {
+        (1..=MAX_PLANES).contains(&self.count())
+    }
+}
+
+/// What a tier's facets are called before they are told apart.
+fn base_name(tier: &Tier, number: usize) -> String {
+    let zone = tier.zone();
+    match tier.name() {
+        name if names::is_printable(name) => name.to_owned(),
+        _ if matches!(zone, Zone::Table | Zone::Culet) => zone.name().to_owned(),
+        _ => format!("{}-{number}", zone.name()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn tier(angle: f64, distance: f64, indices: &[f64]) -> Tier {
+        let facets = indices.iter().map(|&index| Indexed { index, name: String::new() }).collect();
+        Tier { angle, distance, instructions: String::new(), is_cut: true, facets }
+    }
+
+    fn square(gear: i32, offset: f64) -> Tiers {
+        let tiers =
+            vec![tier(-90.0, 1.0, &[0.0, 24.0, 48.0, 72.0]), tier(0.0, 0.5, &[0.0]), tier(-0.0, 0.5, &[0.0])];
+        Tiers {
+            gear,
+            offset,
+            symmetry: 4,
+            mirror: true,
+            headers: vec![],
+            footers: vec![],
+            remarks: vec![],
+            tiers,
+        }
+    }
+
+    #[test]
+    fn indices_count_from_the_bottom_counter_clockwise() {
+        let design = square(96, 0.0);
+        let normals: Vec<DVec3> = design.facets().iter().map(|(_, plane)| plane.normal).collect();
+        for (normal, expected) in
+            normals.iter().zip([DVec3::NEG_Y, DVec3::X, DVec3::Y, DVec3::NEG_X, DVec3::Z, DVec3::NEG_Z])
+        {
+            assert!(normal.abs_diff_eq(expected, 1e-15), "{normal} is not {expected}");
+        }
+        // Girdles stand upright to the last bit.
+        assert!(normals[..4].iter().all(|n| n.z == 0.0));
+        let turned = square(-96, 24.0).facets();
+        assert!(turned[0].1.normal.abs_diff_eq(DVec3::X, 1e-15), "{}", turned[0].1.normal);
+        assert!(turned[2].1.normal.abs_diff_eq(DVec3::NEG_X, 1e-15));
+    }
+
+    #[test]
+    fn the_sign_of_angle_or_distance_tells_table_from_culet() {
+        let zones =
+            [(0.0, 1.0), (0.0, -1.0), (-0.0, 1.0), (41.0, 1.0), (-41.0, 1.0), (90.0, 1.0), (-90.0, 1.0)]
+                .map(|(angle, distance)| tier(angle, distance, &[]).zone());
+        use Zone::*;
+        assert_eq!(zones, [Table, Culet, Culet, Crown, Pavilion, Girdle, Girdle]);
+        let below = square(96, 0.0).plane(&tier(-40.0, 1.0, &[]), 0.0);
+        assert!(
+            (below.normal - DVec3::new(0.0, -40f64.to_radians().sin(), -40f64.to_radians().cos())).length()
+                < 1e-15
+        );
+    }
+
+    #[test]
+    fn a_tier_is_called_by_its_first_name_and_else_by_its_place() {
+        let mut design = square(96, 0.0);
+        design.tiers[0].facets[1].name = "G1".to_owned();
+        let names: Vec<String> = design.facets().into_iter().map(|(name, _)| name).collect();
+        assert_eq!(names, ["G1 1", "G1 2", "G1 3", "G1 4", "table", "culet"]);
+        design.tiers[0].facets[1].name = "\u{7}".to_owned();
+        design.tiers[1].is_cut = false;
+        let names: Vec<String> = design.facets().into_iter().map(|(name, _)| name).collect();
+        assert_eq!(names, ["girdle-1 1", "girdle-1 2", "girdle-1 3", "girdle-1 4", "culet"]);
+    }
+
+    #[test]
+    fn numbers_that_make_no_sense_are_named() {
+        assert_eq!(square(96, 0.0).check(), Ok(()));
+        assert_eq!(square(0, 0.0).check(), Err((None, TierFault::Gear(0))));
+        assert!(matches!(square(96, f64::NAN).check(), Err((None, TierFault::Offset(_)))));
+        for (number, (angle, distance, index)) in
+            [(270.0, 1.0, 0.0), (f64::NAN, 1.0, 0.0), (10.0, f64::INFINITY, 0.0), (10.0, 1.0, 1e300)]
+                .into_iter()
+                .enumerate()
+        {
+            let mut design = square(96, 0.0);
+            design.tiers.insert(1, tier(angle, distance, &[index]));
+            let Err((Some(2), fault)) = design.check() else { panic!("{number}") };
+            assert_eq!(fault.key(), ["angle", "angle", "distance", "indices"][number]);
+        }
+    }
+}
