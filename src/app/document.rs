@@ -2,9 +2,9 @@
 
 use super::history::History;
 use crate::cut::Design;
-use crate::io::{WriteError, cut_file, library, write};
+use crate::io::design_file::{self, Brought, Format};
+use crate::io::{cut_file, library};
 use crate::scene::{Specimen, SpecimenError};
-use std::io::Write as _;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::SystemTime;
@@ -50,6 +50,8 @@ pub struct Document {
     fault: Option<SpecimenError>,
     /// The design that stone or fault belong to.
     built: Design,
+    /// What was odd about its file, in words.
+    odd: Vec<String>,
 }
 
 /// The light that a program starts with.
@@ -78,6 +80,7 @@ impl Document {
             specimen,
             fault: None,
             built: design,
+            odd: vec![],
         })
     }
 
@@ -99,13 +102,15 @@ impl Document {
         Self::of_library(FIRST_CUT)
     }
 
-    /// Opens a cut file.
+    /// Opens a design.
     ///
     /// # Errors
     /// Text that names file, line and key, and what to do.
     pub fn open(path: &Path) -> Result<Self, String> {
-        let design = cut_file::read(path).map_err(|e| e.to_string())?;
-        Self::new(design, Some(path.to_owned())).map_err(|e| format!("{}: {e}", path.display()))
+        let Brought { design, warnings } = design_file::read(path).map_err(|e| e.to_string())?;
+        let document =
+            Self::new(design, Some(path.to_owned())).map_err(|e| format!("{}: {e}", path.display()))?;
+        Ok(Self { odd: warnings, ..document })
     }
 
     /// A design that was never saved, found after a crash: it counts as changed.
@@ -114,8 +119,10 @@ impl Document {
     /// What keeps it from being a stone.
     pub fn recovered(design: Design, path: Option<PathBuf>) -> Result<Self, String> {
         let mut document = Self::new(design, path).map_err(|e| e.to_string())?;
-        let on_disk = document.path.as_deref().and_then(|p| cut_file::read(p).ok());
-        document.saved = on_disk.unwrap_or_else(|| Design { name: String::new(), ..document.saved });
+        let on_disk = document.path.as_deref().and_then(|p| design_file::read(p).ok());
+        document.saved = on_disk
+            .map(|brought| brought.design)
+            .unwrap_or_else(|| Design { name: String::new(), ..document.saved });
         Ok(document)
     }
 
@@ -221,20 +228,26 @@ impl Document {
         }
     }
 
-    /// Saves the design where it lies, or elsewhere from now on.
+    /// What was odd about its file, in words.
+    pub fn odd(&self) -> &[String] {
+        &self.odd
+    }
+
+    /// Saves the design where it lies, or elsewhere from now on, in the format that the file's name asks for; what that
+    /// could not hold, in words.
     ///
     /// # Errors
     /// When the design makes no stone, or the file system refuses; the old file stays as it is.
-    pub fn save(&mut self, path: PathBuf) -> Result<(), String> {
+    pub fn save(&mut self, path: PathBuf) -> Result<Vec<String>, String> {
         if let Some(fault) = &self.fault {
             return Err(format!("this design cannot be read again: {fault}"));
         }
-        let text = cut_file::write(&self.work.design);
-        write(&path, |file| file.write_all(text.as_bytes()).map_err(|e| WriteError::io(&path, e)))
-            .map_err(|e| e.to_string())?;
+        let specimen = self.specimen.remade(self.work.design.clone()).map_err(|e| e.to_string())?;
+        let format = Format::of_name(&path).unwrap_or(Format::Toml);
+        let lost = design_file::write(&specimen, format, &path).map_err(|e| e.to_string())?;
         (self.stamp, self.path, self.is_lost) = (Stamp::of(&path), Some(path), false);
         self.saved = self.work.design.clone();
-        Ok(())
+        Ok(lost)
     }
 }
 

@@ -2,6 +2,7 @@
 
 use super::document::Stamp;
 use crate::cut::Design;
+use crate::io::design_file::Format;
 use crate::io::{WriteError, cut_file, write};
 use serde::{Deserialize, Serialize};
 use std::fs::File;
@@ -42,7 +43,9 @@ pub type Chooser = Arc<dyn Fn(&Question) -> Option<PathBuf> + Send + Sync>;
 /// The system's own dialogs.
 pub fn by_dialog(question: &Question) -> Option<PathBuf> {
     let dialog = rfd::FileDialog::new();
-    let cuts = |d: rfd::FileDialog| d.add_filter("Cut files", &["toml"]).add_filter("All files", &["*"]);
+    let cuts = |d: rfd::FileDialog| {
+        d.add_filter("Designs", &Format::ALL.map(Format::ending)).add_filter("All files", &["*"])
+    };
     let pictures = ["toml", "hdr", "exr", "png", "jpg", "jpeg"];
     match question.purpose {
         Purpose::Open => cuts(dialog.set_title("Open a cut")).pick_file(),

@@ -140,10 +140,14 @@ impl Editor {
         }
         let path = if path.extension().is_some() { path } else { completed };
         match self.document.save(path.clone()) {
-            Ok(()) => {
+            Ok(lost) => {
                 self.desk.remember(&path);
                 self.notes.clear();
                 self.notes.say(&format!("Saved {}", path.display()));
+                if !lost.is_empty() {
+                    let (name, lost) = (path.display(), lost.join("; "));
+                    self.notes.trouble(format!("{name} has no place for: {lost}. As .toml, all is kept."));
+                }
                 self.forget_unsaved();
                 if let Some(Compared { is_saved: true, .. }) = self.compared {
                     self.compared = Compared::of_saved(&self.document).ok();

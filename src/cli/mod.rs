@@ -2,6 +2,7 @@
 
 mod assembly;
 mod bench;
+mod convert;
 mod export;
 mod info;
 mod lists;
@@ -51,7 +52,7 @@ const EXIT_CODES: &str = "Exit codes: 0 done, 1 an input is at fault, 2 the comm
 enum Command {
     /// Open the editor, as the program does without a command
     Edit {
-        /// A cut file to open
+        /// A design to open
         file: Option<PathBuf>,
     },
     /// Draw a stone in every scope, with its profile, facet diagram and figures
@@ -64,6 +65,8 @@ enum Command {
     Measure(measure::Measure),
     /// Show a stone's geometry, proportions and weight, or the stones of a scene
     Info(info::Info),
+    /// Write a stone's design in another format
+    Convert(convert::Convert),
     /// Time the tracers on one and the same picture
     Bench(bench::Bench),
     /// List the materials known by name
@@ -103,6 +106,7 @@ pub fn main(editor: Option<Editor>) -> ExitCode {
         Command::Spin(spin) => spin.run(),
         Command::Measure(measure) => measure.run(),
         Command::Info(info) => info.run(),
+        Command::Convert(convert) => convert.run(),
         Command::Bench(bench) => bench.run(),
         Command::Materials(list) => list.materials(),
         Command::Cuts(cuts) => cuts.run(),

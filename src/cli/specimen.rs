@@ -1,8 +1,8 @@
 //! The stone that a command works on, read and built.
 
 use super::{Failure, say};
-use crate::cut::Design;
 use crate::io::cut_file::{self, CutFileError};
+use crate::io::design_file::{self, Brought};
 use crate::io::library;
 use crate::scene;
 use std::ops::Deref;
@@ -26,7 +26,7 @@ impl Deref for Specimen {
 }
 
 impl Specimen {
-    /// Reads a cut file, or takes a cut that comes with the program by its name; builds the stone, and warns of what
+    /// Reads a design, or takes a cut that comes with the program by its name; builds the stone, and warns of what
     /// is odd.
     pub fn load(file: &Path) -> Result<Self, Failure> {
         let name = file.display().to_string();
@@ -36,22 +36,23 @@ impl Specimen {
         }
     }
 
-    /// Reads a cut file.
+    /// Reads a design.
     pub fn read(file: &Path) -> Result<Self, Failure> {
         let told = |e: CutFileError| Failure::Input(format!("{e}{}", super::lists::hint(file)));
-        Self::of(file.display().to_string(), cut_file::read(file).map_err(told)?)
+        Self::of(file.display().to_string(), design_file::read(file).map_err(told)?)
     }
 
     /// Takes the text of a cut file, which errors call by this path.
     pub fn parse(path: &str, text: &str) -> Result<Self, Failure> {
         let design = cut_file::parse(text, path).map_err(|e| Failure::Input(e.to_string()))?;
-        Self::of(path.to_owned(), design)
+        Self::of(path.to_owned(), Brought { design, warnings: vec![] })
     }
 
-    fn of(path: String, design: Design) -> Result<Self, Failure> {
+    fn of(path: String, Brought { design, warnings }: Brought) -> Result<Self, Failure> {
         let told = |e| Failure::Input(format!("{path}: {e}"));
         let made = scene::Specimen::new(design).map_err(told)?;
         let specimen = Self { path, made };
+        warnings.iter().for_each(|w| specimen.say(w));
         specimen.warnings.iter().for_each(|w| specimen.say(w));
         Ok(specimen)
     }

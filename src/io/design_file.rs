@@ -1,6 +1,24 @@
-//! Files of designs, whatever their format.
+//! Files of designs, whatever their format: told by what is in them, and only where that says nothing by how they end.
 
+use super::cut_file::{self, CutFileError};
+use super::{Failure, asc, write as write_whole};
+use super::{WriteError, text};
 use crate::cut::Design;
+use crate::scene::Specimen;
+use std::io::Write as _;
+use std::path::Path;
+
+/// The largest file taken, bytes.
+pub const MAX_BYTES: u64 = 64 << 20;
+
+/// A format of designs.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Format {
+    /// This program's own cut files, TOML.
+    Toml,
+    /// GemCad's text files.
+    Asc,
+}
 
 /// What a file has brought in.
 #[derive(Debug, Clone, PartialEq)]
@@ -18,4 +36,70 @@ pub struct Written {
     pub bytes: Vec<u8>,
     /// What its format cannot hold, in words.
     pub lost: Vec<String>,
+}
+
+impl Format {
+    /// All there are.
+    pub const ALL: [Self; 2] = [Self::Toml, Self::Asc];
+
+    /// How its files end, without the dot.
+    pub fn ending(self) -> &'static str {
+        match self {
+            Self::Toml => "toml",
+            Self::Asc => "asc",
+        }
+    }
+
+    /// The format that a file's name asks for.
+    pub fn of_name(path: &Path) -> Option<Self> {
+        let ending = path.extension()?.to_string_lossy().to_lowercase();
+        Self::ALL.into_iter().find(|format| format.ending() == ending)
+    }
+
+    /// The format of a file of these bytes and this name.
+    fn of(bytes: &[u8], path: &Path) -> Self {
+        if asc::looks_like(bytes) {
+            return Self::Asc;
+        }
+        Self::of_name(path).unwrap_or(Self::Toml)
+    }
+}
+
+/// Reads a design.
+///
+/// # Errors
+/// What keeps the file from being one, with its path, and line where there is one.
+pub fn read(path: &Path) -> Result<Brought, CutFileError> {
+    let label = path.display().to_string();
+    let fault = |error: text::TextError| CutFileError {
+        path: label.clone(),
+        line: error.line,
+        message: error.message,
+    };
+    let bytes = text::read_bytes(path, MAX_BYTES).map_err(fault)?;
+    match Format::of(&bytes, path) {
+        Format::Asc => asc::read(&bytes, &label),
+        Format::Toml => {
+            let text = text::utf8(bytes).map_err(fault)?;
+            cut_file::parse(&text, &label).map(|design| Brought { design, warnings: vec![] })
+        }
+    }
+}
+
+/// The file of a stone's design.
+pub fn written(specimen: &Specimen, format: Format) -> Written {
+    match format {
+        Format::Toml => Written { bytes: cut_file::write(&specimen.design).into_bytes(), lost: vec![] },
+        Format::Asc => asc::write(specimen),
+    }
+}
+
+/// Writes a stone's design, whole or not at all; what the format could not hold, in words.
+///
+/// # Errors
+/// Where the file system refuses.
+pub fn write(specimen: &Specimen, format: Format, path: &Path) -> Result<Vec<String>, Failure> {
+    let written = written(specimen, format);
+    write_whole(path, |file| file.write_all(&written.bytes).map_err(|e| WriteError::io(path, e)))?;
+    Ok(written.lost)
 }

@@ -1,6 +1,7 @@
 //! Floor 5: files, in and out.
 
 mod apng;
+pub mod asc;
 mod atomic;
 pub mod cut_file;
 pub mod design_file;
@@ -18,6 +19,7 @@ mod png;
 pub mod scene_file;
 pub mod scope_file;
 mod text;
+mod tier_design;
 
 pub use apng::{Animation, Frames, write_apng};
 pub use atomic::{WriteError, write};

@@ -13,8 +13,13 @@ pub(super) struct TextError {
     pub message: String,
 }
 
-/// What a path holds, up to a limit in bytes, which also binds what grows or has no size of its own.
+/// The text that a path holds, up to a limit in bytes.
 pub(super) fn read(path: &Path, limit: u64) -> Result<String, TextError> {
+    utf8(read_bytes(path, limit)?)
+}
+
+/// What a path holds, up to a limit in bytes, which also binds what grows or has no size of its own.
+pub(super) fn read_bytes(path: &Path, limit: u64) -> Result<Vec<u8>, TextError> {
     let whole = |message| TextError { line: None, message };
     let unreadable = |error: std::io::Error| match error.kind() {
         ErrorKind::NotFound => whole("there is no such file".to_owned()),
@@ -28,6 +33,11 @@ pub(super) fn read(path: &Path, limit: u64) -> Result<String, TextError> {
     if bytes.len() as u64 > limit {
         return Err(whole(too_large(limit)));
     }
+    Ok(bytes)
+}
+
+/// Bytes as text.
+pub(super) fn utf8(bytes: Vec<u8>) -> Result<String, TextError> {
     String::from_utf8(bytes).map_err(|error| {
         let valid = &error.as_bytes()[..error.utf8_error().valid_up_to()];
         let message = "this is not UTF-8 text; save the file as UTF-8".to_owned();

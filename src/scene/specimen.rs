@@ -1,7 +1,7 @@
 //! A stone made from a design: its solid, its material, and what is odd about it.
 
 use super::{Medium, Stone};
-use crate::cut::{Design, DesignError};
+use crate::cut::{Cut, Design, DesignError};
 use crate::math::Plane;
 use crate::optics::Material;
 
@@ -39,6 +39,7 @@ impl Specimen {
         let told =
             |e: crate::math::PolytopeError| SpecimenError::Solid(e.told(|i| format!("'{}'", facets[i].0)));
         let stone = Stone::new(&facets).map_err(told)?;
+        let stone = if matches!(design.cut, Cut::Tiers(_)) { stone.girdled() } else { stone };
         let material = design.material.material().map_err(DesignError::from)?;
         let mut warnings: Vec<String> = design.warnings()?.iter().map(ToString::to_string).collect();
         warnings.extend(odd(&stone, &facets));

@@ -1,5 +1,6 @@
 //! A polytope whose facets have names.
 
+use crate::cut::Outline;
 use crate::math::{Plane, Polytope, PolytopeError};
 use glam::{DQuat, DVec3};
 
@@ -32,6 +33,15 @@ impl Stone {
     pub fn turned(&self, angle: f64) -> Self {
         let polytope = self.polytope.moved(1.0, DQuat::from_rotation_z(angle), DVec3::ZERO);
         Self { polytope, names: self.names.clone() }
+    }
+
+    /// The same stone scaled so that half its width is 1 and moved along its axis so that the girdle's upper edge lies at
+    /// z = 0: the frame of all stones, for one in a unit of its own.
+    pub fn girdled(&self) -> Self {
+        let outline = Outline::of(&self.polytope);
+        let scale = 2.0 / outline.width;
+        let shift = DVec3::new(0.0, 0.0, -outline.girdle_top * scale);
+        Self { polytope: self.polytope.moved(scale, DQuat::IDENTITY, shift), names: self.names.clone() }
     }
 
     /// All names, in the order of the facets.

@@ -1,0 +1,40 @@
+//! `convert`: a stone's design in another format.
+
+use super::specimen::Specimen;
+use super::{Failure, say};
+use crate::io::design_file::{self, Format};
+use clap::Args;
+use std::path::PathBuf;
+
+#[derive(Debug, Args)]
+pub struct Convert {
+    /// A file of a design, or the name of a cut that comes with the program
+    input: PathBuf,
+    /// The file to write; its ending names the format: .toml or .asc
+    output: PathBuf,
+}
+
+impl Convert {
+    pub fn run(&self) -> Result<(), Failure> {
+        let format = Format::of_name(&self.output).ok_or_else(|| {
+            let endings: Vec<String> =
+                Format::ALL.iter().map(|format| format!(".{}", format.ending())).collect();
+            let output = self.output.display();
+            Failure::Usage(format!(
+                "{output}: the ending names no format; give one of {}",
+                endings.join(", ")
+            ))
+        })?;
+        let specimen = Specimen::load(&self.input)?;
+        let lost = design_file::write(&specimen, format, &self.output)?;
+        if !lost.is_empty() {
+            say(&format!(
+                "note: {}: not kept, as .{} has no place for it: {}",
+                self.output.display(),
+                format.ending(),
+                lost.join("; ")
+            ));
+        }
+        Ok(())
+    }
+}

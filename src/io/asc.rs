@@ -1,0 +1,344 @@
+//! GemCad's text files, .asc: records of one line, which begin with a letter; facets may go on on lines that begin with a
+//! blank. Facts are in docs/formats.md.
+//!
+//! What is not understood is a warning, and the stone opens; what the file says (names, instructions, headers) is kept.
+
+use super::cut_file::CutFileError;
+use super::design_file::{Brought, Written};
+use super::tier_design::{self, Texts};
+use crate::cut::{Indexed, MAX_PLANES, Tier, Tiers};
+use crate::scene::Specimen;
+use encoding_rs::WINDOWS_1252;
+use std::borrow::Cow;
+use std::fmt::Write;
+
+#[cfg(test)]
+mod tests;
+
+/// The largest file taken, bytes.
+pub const MAX_BYTES: usize = 16 << 20;
+
+/// Facets a line, of those that are written: GemCad's own lines end near there.
+const PER_LINE: usize = 20;
+
+/// The most warnings told one by one.
+const MOST_WARNINGS: usize = 20;
+
+/// Whether a file's first bytes look like one.
+pub fn looks_like(bytes: &[u8]) -> bool {
+    let text = decoded(&bytes[..bytes.len().min(4096)]);
+    let mut lines = text.lines().map(str::trim_start).filter(|line| !line.is_empty());
+    let first = lines.next().unwrap_or_default();
+    let is_facet = |line: &str| {
+        let mut tokens = line.split_ascii_whitespace();
+        tokens.next() == Some("a") && tokens.take(3).filter(|t| t.parse::<f64>().is_ok()).count() == 3
+    };
+    first.get(..6).is_some_and(|word| word.eq_ignore_ascii_case("gemcad"))
+        || is_facet(first)
+        || lines.any(is_facet)
+}
+
+/// Reads a file; `label` stands for its path.
+///
+/// # Errors
+/// Where there is no facet in it, or more than a stone may have, with the line.
+pub fn read(bytes: &[u8], label: &str) -> Result<Brought, CutFileError> {
+    let fault = |line, message: String| CutFileError { path: label.to_owned(), line, message };
+    if bytes.len() > MAX_BYTES {
+        return Err(fault(None, super::text::too_large(MAX_BYTES as u64)));
+    }
+    let mut reader = Reader::default();
+    for (number, line) in (1..).zip(lines(&decoded(bytes))) {
+        reader.number = number;
+        reader.line(line);
+        if reader.count > MAX_PLANES {
+            return Err(fault(
+                Some(number),
+                format!("more than {MAX_PLANES} facets are listed; no stone has so many"),
+            ));
+        }
+    }
+    if reader.count == 0 {
+        let message =
+            "no facet is listed; a line such as `a 41.0 0.65 96 24 48 72` is expected for each tier";
+        return Err(fault(None, message.to_owned()));
+    }
+    let (tiers, ri, warnings) = reader.finished();
+    tier_design::brought(tiers, ri, warnings, label)
+}
+
+/// Text as it is meant: UTF-8, or else Windows-1252; without the padding that some programs leave.
+fn decoded(bytes: &[u8]) -> Cow<'_, str> {
+    let text = std::str::from_utf8(bytes)
+        .map_or_else(|_| WINDOWS_1252.decode_without_bom_handling(bytes).0, Cow::Borrowed);
+    let is_padding = |c: char| matches!(c, '\0' | '\u{1a}' | '\u{feff}');
+    if text.contains(is_padding) { Cow::Owned(text.replace(is_padding, "")) } else { text }
+}
+
+/// Lines that end in LF, CRLF or, as on old Macs, CR.
+fn lines(text: &str) -> impl Iterator<Item = &str> {
+    text.split('\n').flat_map(|line| line.strip_suffix('\r').unwrap_or(line).split('\r'))
+}
+
+#[derive(Default)]
+struct Reader {
+    number: usize,
+    gear: Option<i32>,
+    offset: f64,
+    symmetry: Option<u32>,
+    mirror: bool,
+    ri: Option<f64>,
+    headers: Vec<String>,
+    footers: Vec<String>,
+    tiers: Vec<Tier>,
+    /// Whether the line before was part of a tier, so that this one may go on with it.
+    in_tier: bool,
+    /// A name that stands before its index.
+    name: Option<String>,
+    count: usize,
+    warnings: Vec<String>,
+    unsaid: usize,
+}
+
+impl Reader {
+    fn warn(&mut self, what: &str) {
+        if self.warnings.len() < MOST_WARNINGS {
+            self.warnings.push(format!("line {}: {what}", self.number));
+        } else {
+            self.unsaid += 1;
+        }
+    }
+
+    fn line(&mut self, line: &str) {
+        let trimmed = line.trim_ascii();
+        let Some(first) = trimmed.split_ascii_whitespace().next() else { return };
+        let goes_on =
+            first.parse::<f64>().is_ok() || (line.starts_with([' ', '\t']) && matches!(first, "n" | "G"));
+        if goes_on && (self.in_tier || self.tiers.is_empty()) {
+            return self.go_on(trimmed);
+        }
+        self.in_tier = false;
+        let rest = trimmed[first.len()..].trim_ascii_start();
+        match first {
+            "H" | "h" => self.headers.push(text_after(line)),
+            "F" | "f" => self.footers.push(text_after(line)),
+            "g" => self.gear(rest),
+            "y" => self.symmetry(rest),
+            "I" | "i" => self.index_of_refraction(rest),
+            "a" => self.tier(rest),
+            _ if first.get(..6).is_some_and(|word| word.eq_ignore_ascii_case("gemcad")) => {}
+            _ => self.glued(trimmed),
+        }
+    }
+
+    /// A line that begins with a number: more of a tier, or a gear whose letter was left out.
+    fn go_on(&mut self, line: &str) {
+        if self.in_tier {
+            self.facets(line);
+        } else if self.gear.is_none() {
+            self.gear(line);
+        } else {
+            self.warn(&format!("'{}' belongs to nothing and is left out", short(line)));
+        }
+    }
+
+    /// A letter without a blank behind it.
+    fn glued(&mut self, line: &str) {
+        let rest = line.get(1..).unwrap_or_default();
+        let is_number =
+            rest.split_ascii_whitespace().next().is_some_and(|token| token.parse::<f64>().is_ok());
+        match line.chars().next() {
+            Some('g') if is_number => self.gear(rest),
+            Some('y') if is_number => self.symmetry(rest),
+            Some('I') if is_number => self.index_of_refraction(rest),
+            Some('a') if is_number => self.tier(rest),
+            _ => self.warn(&format!("'{}' is no record that is known, and is left out", short(line))),
+        }
+    }
+
+    fn gear(&mut self, rest: &str) {
+        let mut tokens = rest.split_ascii_whitespace();
+        let teeth =
+            tokens.next().and_then(|token| token.parse::<f64>().ok()).filter(|teeth| teeth.fract() == 0.0);
+        let Some(teeth) = teeth.filter(|teeth| *teeth != 0.0) else {
+            return self.warn(&format!("'{}' is no gear; a number of teeth is expected", short(rest)));
+        };
+        self.gear = Some(teeth as i32);
+        match tokens.next().map(str::parse) {
+            Some(Ok(offset)) => self.offset = offset,
+            Some(Err(_)) => self.warn("the gear's offset is no number and is taken for 0"),
+            None => {}
+        }
+    }
+
+    fn symmetry(&mut self, rest: &str) {
+        let mut tokens = rest.split_ascii_whitespace();
+        match tokens.next().map(str::parse::<f64>) {
+            Some(Ok(fold)) if fold >= 0.0 => self.symmetry = Some(fold as u32),
+            _ => self.warn(&format!("'{}' is no symmetry; a number is expected", short(rest))),
+        }
+        self.mirror = tokens.next().is_some_and(|word| word.starts_with(['y', 'Y']));
+    }
+
+    fn index_of_refraction(&mut self, rest: &str) {
+        match rest.split_ascii_whitespace().next().map(str::parse) {
+            Some(Ok(ri)) => self.ri = Some(ri),
+            _ => self.warn(&format!("'{}' is no index of refraction; a number is expected", short(rest))),
+        }
+    }
+
+    fn tier(&mut self, rest: &str) {
+        let mut numbers = rest.split_ascii_whitespace().map(str::parse::<f64>);
+        let (Some(Ok(angle)), Some(Ok(distance))) = (numbers.next(), numbers.next()) else {
+            return self.warn(&format!("'a {}' has no angle and distance, and is left out", short(rest)));
+        };
+        if !(angle.is_finite() && distance.is_finite()) {
+            return self.warn(&format!("'a {}' is endless, and is left out", short(rest)));
+        }
+        let after = rest
+            .trim_ascii_start()
+            .split_once(|c: char| c.is_ascii_whitespace())
+            .map_or("", |(_, after)| after);
+        let after = after.trim_ascii_start();
+        let after = after.split_once(|c: char| c.is_ascii_whitespace()).map_or("", |(_, after)| after);
+        self.tiers.push(Tier { angle, distance, instructions: String::new(), is_cut: true, facets: vec![] });
+        (self.in_tier, self.name) = (true, None);
+        self.facets(after);
+    }
+
+    /// Indices, names and instructions.
+    fn facets(&mut self, line: &str) {
+        let mut rest = line.trim_ascii_start();
+        while !rest.is_empty() {
+            let (token, after) = rest.split_once(|c: char| c.is_ascii_whitespace()).unwrap_or((rest, ""));
+            rest = after.trim_ascii_start();
+            match token {
+                "G" => return self.instructions(after),
+                "n" => {
+                    let (name, after) =
+                        rest.split_once(|c: char| c.is_ascii_whitespace()).unwrap_or((rest, ""));
+                    rest = after.trim_ascii_start();
+                    self.named(name);
+                }
+                _ => self.index(token),
+            }
+        }
+    }
+
+    fn instructions(&mut self, text: &str) {
+        let Some(tier) = self.tiers.last_mut() else { return };
+        if !tier.instructions.is_empty() {
+            tier.instructions.push(' ');
+        }
+        tier.instructions.push_str(text.trim_ascii_end());
+    }
+
+    fn named(&mut self, name: &str) {
+        let last = self.tiers.last_mut().and_then(|tier| tier.facets.last_mut());
+        match last {
+            _ if name.is_empty() => self.warn("a name is missing after n"),
+            Some(facet) if facet.name.is_empty() => name.clone_into(&mut facet.name),
+            Some(facet) => {
+                let other = std::mem::replace(&mut facet.name, name.to_owned());
+                self.warn(&format!(
+                    "a facet has two names, '{}' and '{}'; the second is taken",
+                    short(&other),
+                    short(name)
+                ));
+            }
+            None => self.name = Some(name.to_owned()),
+        }
+    }
+
+    fn index(&mut self, token: &str) {
+        let Some(tier) = self.tiers.last_mut() else { return };
+        match token.parse::<f64>() {
+            Ok(index) if index.is_finite() => {
+                tier.facets.push(Indexed { index, name: self.name.take().unwrap_or_default() });
+                self.count += 1;
+            }
+            _ => self.warn(&format!("'{}' is no index of a facet, and is left out", short(token))),
+        }
+    }
+
+    fn finished(mut self) -> (Tiers, Option<f64>, Vec<String>) {
+        if self.gear.is_none() {
+            self.warnings.push("the file names no index gear; one of 96 teeth is taken".to_owned());
+        }
+        if self.unsaid > 0 {
+            self.warnings.push(format!("{} more lines are odd", self.unsaid));
+        }
+        let tiers = Tiers {
+            gear: self.gear.unwrap_or(96),
+            offset: self.offset,
+            symmetry: self.symmetry.unwrap_or(1),
+            mirror: self.mirror,
+            headers: self.headers,
+            footers: self.footers,
+            remarks: vec![],
+            tiers: self.tiers,
+        };
+        (tiers, self.ri, self.warnings)
+    }
+}
+
+/// What stands behind a record's letter and one blank.
+fn text_after(line: &str) -> String {
+    let rest = &line.trim_ascii_start()[1..];
+    rest.strip_prefix([' ', '\t']).unwrap_or(rest).to_owned()
+}
+
+/// As much of a text as fits into a message.
+fn short(text: &str) -> String {
+    text.chars().take(40).collect()
+}
+
+/// The file of a design.
+pub fn write(specimen: &Specimen) -> Written {
+    let mut texts = Texts::of(specimen);
+    let tiers = &texts.tiers.clone();
+    let mut out = String::from("GemCad 5.0\n");
+    let _ = writeln!(out, "g {} {:?}", tiers.gear, tiers.offset);
+    let _ = writeln!(out, "y {} {}", tiers.symmetry, if tiers.mirror { 'y' } else { 'n' });
+    let _ = writeln!(out, "I {}", texts.ri);
+    for header in &tiers.headers {
+        let _ = writeln!(out, "{}", record('H', &texts.line(header)));
+    }
+    for tier in tiers.tiers.iter().filter(|tier| tier.is_cut && !tier.facets.is_empty()) {
+        write_tier(&mut out, tier, &mut texts);
+    }
+    for footer in &tiers.footers {
+        let _ = writeln!(out, "{}", record('F', &texts.line(footer)));
+    }
+    texts.uncut();
+    texts.remarks();
+    Written { bytes: encoded(out), lost: texts.lost }
+}
+
+/// Windows-1252, which GemCad expects, unless that cannot hold the text or would be read as another.
+fn encoded(text: String) -> Vec<u8> {
+    let (bytes, _, is_lossy) = WINDOWS_1252.encode(&text);
+    let is_read_as_utf8 = !text.is_ascii() && std::str::from_utf8(&bytes).is_ok();
+    if is_lossy || is_read_as_utf8 { text.into_bytes() } else { bytes.into_owned() }
+}
+
+fn record(letter: char, text: &str) -> String {
+    if text.is_empty() { letter.to_string() } else { format!("{letter} {text}") }
+}
+
+fn write_tier(out: &mut String, tier: &Tier, texts: &mut Texts) {
+    let _ = write!(out, "a {} {}", tier.angle, tier.distance);
+    for (k, facet) in tier.facets.iter().enumerate() {
+        if k > 0 && k % PER_LINE == 0 {
+            out.push('\n');
+        }
+        let _ = write!(out, " {}", facet.index);
+        if !facet.name.is_empty() {
+            let _ = write!(out, " n {}", texts.word(&facet.name));
+        }
+    }
+    if !tier.instructions.is_empty() {
+        let _ = write!(out, " G {}", texts.line(&tier.instructions));
+    }
+    out.push('\n');
+}

@@ -1,0 +1,179 @@
+use super::*;
+use crate::cut::{Cut, MaterialRef};
+use crate::io::cut_file;
+use proptest::prelude::*;
+
+/// What the format has: a gear, an outline, names before and after, a wrapped line, instructions, a culet.
+const STONE: &str = "GemCad 5.0\r\ng 96 0.0\r\ny 4 y\r\nI 1.76\r\nH A square\r\nH\r\nH  by nobody \r\n\
+    a -90.000000 1.00000000 96 n G1 24 48 72 G set the size\r\n\
+    a -45.0 0.9 96 24\r\n 48 72 n P1\r\n G to a point\r\n\
+    a 35.5 0.8 n C1 96 24 48 72\r\n\
+    a 0.0 0.45 0 n T\r\n\
+    F the end\r\n";
+
+fn tiers(text: &str) -> (Tiers, Vec<String>) {
+    let brought = read(text.as_bytes(), "x.asc").unwrap();
+    match brought.design.cut {
+        Cut::Tiers(tiers) => (tiers, brought.warnings),
+        _ => panic!("tiers are expected"),
+    }
+}
+
+fn again(specimen: &Specimen) -> (Specimen, Vec<String>) {
+    let Written { bytes, lost } = write(specimen);
+    (Specimen::new(read(&bytes, "x.asc").unwrap().design).unwrap(), lost)
+}
+
+#[test]
+fn a_file_is_read_as_it_is_meant() {
+    assert!(
+        looks_like(STONE.as_bytes())
+            && !looks_like(b"format = 1\nname = \"a\"\n")
+            && !looks_like(&[0xff; 64])
+    );
+    let brought = read(STONE.as_bytes(), "x.asc").unwrap();
+    assert_eq!(brought.warnings, Vec::<String>::new());
+    assert_eq!(
+        (brought.design.name.as_str(), &brought.design.material),
+        ("A square", &MaterialRef::Index(1.76))
+    );
+    let (tiers, _) = tiers(STONE);
+    assert_eq!((tiers.gear, tiers.offset, tiers.symmetry, tiers.mirror), (96, 0.0, 4, true));
+    assert_eq!(
+        (tiers.headers, tiers.footers),
+        (vec!["A square".into(), String::new(), " by nobody ".into()], vec!["the end".to_owned()])
+    );
+    let told: Vec<_> =
+        tiers.tiers.iter().map(|t| (t.angle, t.facets.len(), t.name(), t.instructions.as_str())).collect();
+    assert_eq!(
+        told,
+        [
+            (-90.0, 4, "G1", "set the size"),
+            (-45.0, 4, "P1", "to a point"),
+            (35.5, 4, "C1", ""),
+            (0.0, 1, "T", "")
+        ]
+    );
+    assert_eq!(tiers.tiers[1].facets[3].name, "P1");
+    assert_eq!(tiers.tiers[2].facets[0].name, "C1");
+}
+
+#[test]
+fn a_stone_is_scaled_to_its_girdle_whatever_its_unit() {
+    let double = STONE
+        .replace("1.00000000", "2")
+        .replace(" 0.9 ", " 1.8 ")
+        .replace(" 0.8 ", " 1.6 ")
+        .replace(" 0.45 ", " 0.9 ");
+    let [a, b] =
+        [STONE, &double].map(|text| Specimen::new(read(text.as_bytes(), "x").unwrap().design).unwrap());
+    let outline = crate::cut::Outline::of(&a.stone.polytope);
+    assert!((outline.width - 2.0).abs() < 1e-12 && outline.girdle_top.abs() < 1e-12, "{outline:?}");
+    for (x, y) in a.stone.polytope.vertices().iter().zip(b.stone.polytope.vertices()) {
+        assert!(x.distance(*y) < 1e-12);
+    }
+}
+
+#[test]
+fn what_is_written_reads_back_the_same_but_for_the_layout() {
+    let specimen = Specimen::new(read(STONE.as_bytes(), "x.asc").unwrap().design).unwrap();
+    let (back, lost) = again(&specimen);
+    assert_eq!((back.design, lost), (specimen.design.clone(), vec![]));
+    // Through this program's own format as well.
+    let toml = cut_file::write(&specimen.design);
+    assert_eq!(cut_file::parse(&toml, "x.toml").unwrap(), specimen.design);
+}
+
+#[test]
+fn a_brilliant_goes_out_with_its_facets_and_says_what_stays_behind() {
+    let design = cut_file::parse(crate::io::library::cut("tolkowsky").unwrap(), "t").unwrap();
+    let specimen = Specimen::new(design).unwrap();
+    let (back, lost) = again(&specimen);
+    assert!(
+        lost.iter().any(|what| what.contains("proportions"))
+            && lost.iter().any(|what| what.contains("material")),
+        "{lost:?}"
+    );
+    let Cut::Tiers(tiers) = &back.design.cut else { panic!() };
+    assert_eq!((tiers.symmetry, tiers.mirror, tiers.tiers.len()), (8, true, 7));
+    assert_eq!(back.stone.names(), specimen.stone.names());
+    // The stone's width is that between corners of the girdle, the design's that of a circle around them.
+    let scale = specimen.stone.polytope.volume() / back.stone.polytope.volume();
+    assert!((1.0 - scale).abs() < 2e-3, "{scale}");
+}
+
+#[test]
+fn what_other_programs_write_is_understood() {
+    for (from, to) in [
+        ("g 96 0.0", "g96 0.0"),
+        ("g 96 0.0", "96 0.0"),
+        ("\r\n", "\n"),
+        ("\r\n", "\r"),
+        ("F the end", "F the end\0\0\u{1a}"),
+        ("GemCad 5.0", "GemCad 4.41_MacGem"),
+    ] {
+        assert_eq!(tiers(&STONE.replace(from, to)), tiers(STONE), "{to:?}");
+    }
+    let latin = [STONE.as_bytes(), b"F 33.22\xba\r\n"].concat();
+    let brought = read(&latin, "x").unwrap();
+    let Cut::Tiers(tiers) = &brought.design.cut else { panic!() };
+    assert_eq!(tiers.footers[1], "33.22º");
+    let bytes = write(&Specimen::new(brought.design).unwrap()).bytes;
+    assert!(bytes.windows(2).any(|pair| pair == b"2\xba"));
+}
+
+#[test]
+fn what_is_odd_is_told_with_its_line_and_the_stone_opens() {
+    let odd = |from: &str, to: &str| tiers(&STONE.replace(from, to)).1.join("; ");
+    assert_eq!(
+        odd("H A square", "Z A square"),
+        "line 5: 'Z A square' is no record that is known, and is left out"
+    );
+    assert_eq!(
+        odd("96 24 48 72\r\na 0.0", "96 x4 48 72\r\na 0.0"),
+        "line 12: 'x4' is no index of a facet, and is left out"
+    );
+    assert_eq!(odd("n T", "n T n U"), "line 13: a facet has two names, 'T' and 'U'; the second is taken");
+    assert_eq!(odd("g 96 0.0\r\n", ""), "the file names no index gear; one of 96 teeth is taken");
+    assert_eq!(odd("I 1.76\r\n", ""), "no index of refraction is named; 1.54 is taken");
+    assert_eq!(odd("I 1.76", "I 0.5"), "the index of refraction 0.5 is none from 1 to 5; 1.54 is taken");
+    assert_eq!(
+        odd("a 35.5 0.8", "a 35.5\r\na 35.5 0.8"),
+        "line 12: 'a 35.5' has no angle and distance, and is left out"
+    );
+}
+
+#[test]
+fn what_is_no_stone_is_refused_with_its_place() {
+    let told = |bytes: &[u8]| read(bytes, "x.asc").unwrap_err().to_string();
+    assert!(told(b"GemCad 5.0\ng 96 0.0\n").starts_with("x.asc: no facet is listed; a line such as"));
+    assert!(told(b"").starts_with("x.asc: no facet"));
+    assert!(
+        told(b"g 0 0\na 1 1e300 5\n").contains("tier 1: distance: "),
+        "{}",
+        told(b"g 0 0\na 1 1e300 5\n")
+    );
+    let many = format!("a 41 0.5{}", " 1".repeat(MAX_PLANES + 1));
+    assert_eq!(told(many.as_bytes()), "x.asc:1: more than 10000 facets are listed; no stone has so many");
+}
+
+proptest! {
+    #[test]
+    fn no_bytes_are_too_much(bytes in prop::collection::vec(any::<u8>(), 0..400), cut in 0..STONE.len(), at in 0..STONE.len()) {
+        let _ = (looks_like(&bytes), read(&bytes, "x"));
+        let mut torn = STONE.as_bytes()[cut..].to_vec();
+        torn.splice(at.min(torn.len())..at.min(torn.len()), bytes);
+        if let Ok(brought) = read(&torn, "x") && let Ok(specimen) = Specimen::new(brought.design) {
+            let Written { bytes, lost } = write(&specimen);
+            let design = read(&bytes, "x").unwrap().design;
+            if lost.is_empty() {
+                prop_assert_eq!(design.cut, specimen.design.cut);
+            }
+        }
+    }
+
+    #[test]
+    fn lines_of_records_are_never_too_much(lines in prop::collection::vec("[agyIHFnG ][-0-9.eE nGa]{0,30}", 0..30)) {
+        let _ = read(lines.join("\n").as_bytes(), "x");
+    }
+}

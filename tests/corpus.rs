@@ -1,0 +1,139 @@
+//! Real files of real cutters, where they are at hand: beside the checkout, in `../shared/data`.
+#![allow(clippy::print_stdout, reason = "what is skipped or measured is told")]
+
+use brillianteer::cut::{Cut, Outline, Tiers};
+use brillianteer::io::design_file::{self, Format, written};
+use brillianteer::math::Polytope;
+use brillianteer::scene::Specimen;
+use serde_json::Value;
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+const CORPUS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../shared/data/asc");
+
+/// The files of these endings, in order; none, loudly, where there is no corpus.
+fn files(endings: &[&str]) -> Vec<PathBuf> {
+    if !Path::new(CORPUS).is_dir() {
+        println!("SKIPPED: {CORPUS} is not there, so no real file is read");
+        return vec![];
+    }
+    let folders = [CORPUS.to_owned(), format!("{CORPUS}/library")];
+    let listed = folders.iter().flat_map(|folder| std::fs::read_dir(folder).unwrap());
+    let mut files: Vec<PathBuf> = listed.map(|entry| entry.unwrap().path()).collect();
+    files.retain(|file| {
+        file.extension().is_some_and(|e| endings.contains(&e.to_string_lossy().to_lowercase().as_str()))
+    });
+    files.sort();
+    assert!(!files.is_empty(), "{CORPUS} holds no file that ends in {endings:?}");
+    files
+}
+
+fn open(file: &Path) -> Result<Specimen, String> {
+    let brought = design_file::read(file).map_err(|e| e.to_string())?;
+    Specimen::new(brought.design).map_err(|e| e.to_string())
+}
+
+/// Files that make no stone, with the reason, as found by looking into each.
+const NO_STONE: [(&str, &str); 9] = [
+    ("gemcadviewer-sample-01.asc", "no facet is listed"),
+    ("gemcadviewer-sample-02.asc", "not closed"),
+    ("gemcadviewer-sample-03.asc", "not closed"),
+    ("PC01747.ASC", "not closed"),
+    ("PC04208.ASC", "not closed"),
+    ("PC07141.ASC", "not closed"),
+    ("PC13026.ASC", "not closed"),
+    ("PC21271.ASC", "not closed"),
+    ("PC21274.ASC", "not closed"),
+];
+
+#[test]
+fn nearly_every_text_file_opens_and_the_others_say_why() {
+    let files = files(&["asc"]);
+    let mut failed = 0;
+    for file in &files {
+        let Err(why) = open(file) else { continue };
+        failed += 1;
+        let name = file.file_name().unwrap().to_string_lossy();
+        println!("{name}: {why}");
+        let known = NO_STONE.iter().find(|(known, _)| *known == name);
+        assert!(known.is_some_and(|(_, reason)| why.contains(reason)), "{name}: {why}");
+    }
+    assert!(failed as f64 <= 0.005 * files.len() as f64, "{failed} of {} do not open", files.len());
+    println!("{} of {} open", files.len() - failed, files.len());
+}
+
+fn tiers(specimen: &Specimen) -> &Tiers {
+    let Cut::Tiers(tiers) = &specimen.design.cut else { panic!("tiers are expected") };
+    tiers
+}
+
+#[test]
+fn what_is_written_reads_back_equal() {
+    for file in files(&["asc"]) {
+        let Ok(specimen) = open(&file) else { continue };
+        for format in Format::ALL {
+            let written = written(&specimen, format);
+            assert_eq!(written.lost, Vec::<String>::new(), "{}", file.display());
+            let folder = tempfile::tempdir().unwrap();
+            let path = folder.path().join(format!("again.{}", format.ending()));
+            std::fs::write(&path, written.bytes).unwrap();
+            let again = design_file::read(&path).unwrap().design;
+            let Cut::Tiers(back) = &again.cut else { panic!("tiers are expected") };
+            assert!(back == tiers(&specimen), "{} as {}", file.display(), format.ending());
+        }
+    }
+}
+
+/// How often figures agree with those that the library gives, and the share that must.
+struct Tally {
+    what: &'static str,
+    least: f64,
+    agree: usize,
+    differ: Vec<String>,
+}
+
+impl Tally {
+    fn count(&mut self, file: &str, ours: f64, theirs: f64) {
+        if (ours - theirs).abs() <= 0.005 * theirs.abs().max(1e-3) {
+            self.agree += 1;
+        } else {
+            self.differ.push(format!("{file}: {ours:.5} against {theirs:.5}"));
+        }
+    }
+}
+
+#[test]
+fn what_is_measured_is_what_the_library_says() {
+    let path = format!("{CORPUS}/library-metadata.json");
+    let Ok(text) = std::fs::read_to_string(&path) else { return println!("SKIPPED: {path} is not there") };
+    let entries: Vec<Value> = serde_json::from_str(&text).unwrap();
+    let told: BTreeMap<&str, &Value> = entries.iter().map(|e| (e["name"].as_str().unwrap(), e)).collect();
+    // The library measures depths in a way that is not published; ours is the nearest found.
+    let keys = [("lw", 0.99), ("pw", 0.985), ("cw", 0.98), ("tw", 0.99), ("uw", 0.99), ("facetCount", 0.985)];
+    let mut tallies = keys.map(|(what, least)| Tally { what, least, agree: 0, differ: vec![] });
+    for file in files(&["asc"]) {
+        let name = file.file_name().unwrap().to_string_lossy().into_owned();
+        let (Some(entry), Ok(specimen)) = (told.get(name.as_str()), open(&file)) else { continue };
+        for (tally, ours) in tallies.iter_mut().zip(measured(&specimen.stone.polytope)) {
+            tally.count(&name, ours, entry[tally.what].as_f64().unwrap());
+        }
+    }
+    for Tally { what, least, agree, differ } in &tallies {
+        let share = *agree as f64 / (agree + differ.len()) as f64;
+        println!(
+            "{what}: {agree} of {} agree, {:.2} %; not {}",
+            agree + differ.len(),
+            100.0 * share,
+            differ.iter().take(8).cloned().collect::<Vec<_>>().join(", ")
+        );
+        assert!(*agree > 1000 && share >= *least, "{what}: {differ:#?}");
+    }
+}
+
+fn measured(stone: &Polytope) -> [f64; 6] {
+    let outline = Outline::of(stone);
+    let depths = [outline.pavilion_depth(), outline.crown_height()];
+    let [pavilion, crown] = depths.map(|depth| depth / outline.width);
+    let [x, y] = outline.table.map(|extent| extent / outline.width);
+    [outline.length / outline.width, pavilion, crown, x, y, stone.facets().len() as f64]
+}
