@@ -3,7 +3,7 @@
 use super::assembly::{self, Assembly};
 use super::specimen::Specimen;
 use super::{Failure, each_file, json, print};
-use crate::cut::Cut;
+use crate::cut::{Cut, Report, Spread};
 use crate::math::Facet;
 use clap::Args;
 use serde_json::{Value, json};
@@ -105,6 +105,7 @@ fn described(specimen: &Specimen) -> Result<Value, Failure> {
         value["given"] = json!(brilliant);
         value["derived"] = json!(derived);
     }
+    value["measured"] = json!(Report::of(polytope, specimen.stone.names()));
     let (low, high) = polytope.bounds();
     value["volume"] = json!(polytope.volume());
     value["surface_area"] = json!(polytope.surface_area());
@@ -156,11 +157,16 @@ fn table(specimen: &Specimen, value: &Value) -> String {
             line(&key.replace('_', " "), format!("{digits}{unit}{mark}"));
         }
     }
+    let report = Report::of(polytope, specimen.stone.names());
+    if specimen.design.cut.brilliant().is_none() {
+        proportions(&report, &mut line);
+    }
     let (facets, vertices) = (polytope.facets().len(), polytope.vertices().len());
     line("facets, edges, vertices", format!("{facets}, {}, {vertices}", polytope.edge_count()));
     line("volume", format!("{:.6} girdle radii³", polytope.volume()));
     line("surface area", format!("{:.6} girdle radii²", polytope.surface_area()));
-    let _ = write!(text, "\n  {:<18}{:>10}{:>11}{:>12}", "facet", "slope deg", "azimuth", "area");
+    tiers(&report, &mut text);
+    let _ = write!(text, "\n\n  {:<18}{:>10}{:>11}{:>12}", "facet", "slope deg", "azimuth", "area");
     for facet in value["facets"].as_array().into_iter().flatten() {
         let number = |key: &str| facet[key].as_f64().unwrap_or(f64::NAN);
         let name = facet["name"].as_str().unwrap_or_default();
@@ -168,4 +174,35 @@ fn table(specimen: &Specimen, value: &Value) -> String {
         let _ = write!(text, "\n  {name:<18}{slope:>10.4}{azimuth:>11.4}{area:>12.6}");
     }
     text
+}
+
+/// What was measured of a stone that has no proportions of its own.
+fn proportions(report: &Report, line: &mut impl FnMut(&str, String)) {
+    line("length to width", format!("{:.4}", report.length_to_width));
+    line("table", format!("{:.2} by {:.2} %", report.table[0], report.table[1]));
+    for (key, value) in [
+        ("crown height", report.crown_height),
+        ("girdle thickness", report.girdle_thickness),
+        ("pavilion depth", report.pavilion_depth),
+        ("total depth", report.total_depth),
+    ] {
+        line(key, format!("{value:.2} %"));
+    }
+}
+
+fn tiers(report: &Report, text: &mut String) {
+    let _ =
+        write!(text, "\n  {:<18}{:<10}{:>7}{:>22}{:>24}", "tier", "zone", "facets", "slope deg", "distance");
+    for tier in &report.tiers {
+        let (slope, distance) = (spread(tier.slope_deg, 2), spread(tier.distance, 4));
+        let _ =
+            write!(text, "\n  {:<18}{:<10}{:>7}{slope:>22}{distance:>24}", tier.name, tier.zone, tier.facets);
+    }
+}
+
+/// A mean, and the range where that is wider than the digits told.
+fn spread(spread: Spread, digits: usize) -> String {
+    let Spread { least, mean, most } = spread;
+    let [low, high] = [least, most].map(|value| format!("{value:.digits$}"));
+    if low == high { format!("{mean:.digits$}") } else { format!("{mean:.digits$} ({low} to {high})") }
 }

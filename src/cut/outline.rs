@@ -9,7 +9,7 @@ use serde::Serialize;
 const UPRIGHT: f64 = 1e-5;
 
 /// A facet whose normal leans less than this from the axis (sine) is a table or a culet.
-const LEVEL: f64 = 1e-5;
+pub(super) const LEVEL: f64 = 1e-5;
 
 /// Where among the corners of the girdle's facets, from below and from above, its edges are taken to lie: a few corners
 /// reach far in a wavy girdle and say little of it. With a tenth, depths agree with those published for GemCad's designs.

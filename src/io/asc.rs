@@ -58,6 +58,7 @@ pub fn read(bytes: &[u8], label: &str) -> Result<Brought, CutFileError> {
             ));
         }
     }
+    reader.end_tier();
     if reader.count == 0 {
         let message =
             "no facet is listed; a line such as `a 41.0 0.65 96 24 48 72` is expected for each tier";
@@ -117,7 +118,7 @@ impl Reader {
         if goes_on && (self.in_tier || self.tiers.is_empty()) {
             return self.go_on(trimmed);
         }
-        self.in_tier = false;
+        self.end_tier();
         let rest = trimmed[first.len()..].trim_ascii_start();
         match first {
             "H" | "h" => self.headers.push(text_after(line)),
@@ -258,6 +259,19 @@ impl Reader {
                 self.count += 1;
             }
             _ => self.warn(&format!("'{}' is no index of a facet, and is left out", short(token))),
+        }
+    }
+
+    /// A tier without indices cuts nothing, but for a table, whose index means nothing.
+    fn end_tier(&mut self) {
+        self.in_tier = false;
+        let Some(tier) = self.tiers.last_mut().filter(|tier| tier.facets.is_empty()) else { return };
+        if tier.angle == 0.0 {
+            tier.facets.push(Indexed { index: 0.0, name: self.name.take().unwrap_or_default() });
+            self.count += 1;
+        } else {
+            self.tiers.pop();
+            self.warn("the tier before has no indices, and is left out");
         }
     }
 

@@ -1,0 +1,158 @@
+//! What a stone's facets come to: its tiers with the spread of their slopes, as laboratories report scanned stones.
+
+use super::outline::{Outline, is_girdle, is_table};
+use super::{Zone, tier_stem};
+use crate::math::{Facet, Polytope};
+use serde::Serialize;
+
+/// Least, mean and most of the facets of a tier.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Spread {
+    /// The least.
+    pub least: f64,
+    /// The mean, each facet counting alike.
+    pub mean: f64,
+    /// The most.
+    pub most: f64,
+}
+
+impl Spread {
+    fn of(values: &[f64]) -> Self {
+        let least = values.iter().copied().fold(f64::INFINITY, f64::min);
+        let most = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        let mean = values.iter().sum::<f64>() / values.len() as f64;
+        // Rounding of the sum must not leave the range.
+        Self { least, mean: mean.clamp(least, most), most }
+    }
+}
+
+/// The facets that share a name but for its number.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct TierReport {
+    /// Their name.
+    pub name: String,
+    /// Where they lie: `table`, `crown`, `girdle`, `pavilion` or `culet`.
+    pub zone: &'static str,
+    /// How many there are.
+    pub facets: usize,
+    /// From the girdle plane, degrees.
+    pub slope_deg: Spread,
+    /// From the stone's axis at the height of z = 0 to their planes along their normals, girdle radii.
+    pub distance: Spread,
+}
+
+/// A stone's proportions, measured on the solid: percent of its width, and tiers.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Report {
+    /// Length by width.
+    pub length_to_width: f64,
+    /// The table's extents along x and y.
+    pub table: [f64; 2],
+    /// From the girdle's upper edge to the highest point.
+    pub crown_height: f64,
+    /// Between the girdle's edges.
+    pub girdle_thickness: f64,
+    /// From the girdle's lower edge to the lowest point.
+    pub pavilion_depth: f64,
+    /// From the lowest point to the highest.
+    pub total_depth: f64,
+    /// Tiers, in the order of their first facets.
+    pub tiers: Vec<TierReport>,
+}
+
+impl Report {
+    /// Of a solid whose facets have these names, in order.
+    pub fn of(stone: &Polytope, names: &[String]) -> Self {
+        let outline = Outline::of(stone);
+        let percent = |length: f64| 100.0 * length / outline.width;
+        Self {
+            length_to_width: outline.length / outline.width,
+            table: outline.table.map(percent),
+            crown_height: percent(outline.crown_height()),
+            girdle_thickness: percent(outline.girdle_top - outline.girdle_bottom),
+            pavilion_depth: percent(outline.pavilion_depth()),
+            total_depth: percent(outline.top - outline.bottom),
+            tiers: tiers(stone, names),
+        }
+    }
+}
+
+/// Where a facet lies.
+fn zone(facet: &Facet) -> Zone {
+    match facet.plane.normal.z > 0.0 {
+        _ if is_girdle(facet) => Zone::Girdle,
+        true if is_table(facet) => Zone::Table,
+        true => Zone::Crown,
+        false if facet.plane.normal.truncate().length() < super::outline::LEVEL => Zone::Culet,
+        false => Zone::Pavilion,
+    }
+}
+
+fn tiers(stone: &Polytope, names: &[String]) -> Vec<TierReport> {
+    let mut tiers: Vec<(&str, Zone, Vec<[f64; 2]>)> = vec![];
+    for (facet, name) in stone.facets().iter().zip(names) {
+        let (stem, zone) = (tier_stem(name), zone(facet));
+        let slope = facet.plane.normal.truncate().length().atan2(facet.plane.normal.z.abs()).to_degrees();
+        let place = tiers.iter().position(|(of, at, _)| *of == stem && *at == zone).unwrap_or_else(|| {
+            tiers.push((stem, zone, vec![]));
+            tiers.len() - 1
+        });
+        tiers[place].2.push([slope, facet.plane.offset]);
+    }
+    let report = |(name, zone, facets): (&str, Zone, Vec<[f64; 2]>)| {
+        let [slopes, distances] = [0, 1].map(|k| facets.iter().map(|facet| facet[k]).collect::<Vec<_>>());
+        TierReport {
+            name: name.to_owned(),
+            zone: zone.name(),
+            facets: facets.len(),
+            slope_deg: Spread::of(&slopes),
+            distance: Spread::of(&distances),
+        }
+    };
+    tiers.into_iter().map(report).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::round_brilliant::MODERN;
+    use super::*;
+    use crate::math::Plane;
+
+    #[test]
+    fn a_brilliant_is_reported_by_its_tiers() {
+        let facets = MODERN.facets().unwrap();
+        let (names, planes): (Vec<String>, Vec<Plane>) = facets.into_iter().unzip();
+        let report = Report::of(&Polytope::from_planes(&planes).unwrap(), &names);
+        let told: Vec<_> = report.tiers.iter().map(|t| (t.name.as_str(), t.zone, t.facets)).collect();
+        assert_eq!(
+            told,
+            [
+                ("table", "table", 1),
+                ("bezel", "crown", 8),
+                ("star", "crown", 8),
+                ("upper_half", "crown", 16),
+                ("girdle", "girdle", 96),
+                ("lower_half", "pavilion", 16),
+                ("main", "pavilion", 8)
+            ]
+        );
+        let bezel = report.tiers[1].slope_deg;
+        assert!((bezel.mean - 34.5).abs() < 1e-12 && bezel.most - bezel.least < 1e-12, "{bezel:?}");
+        assert!((report.table[0] - MODERN.table).abs() < 1e-9, "{report:?}");
+        assert!(
+            (report.crown_height + report.girdle_thickness + report.pavilion_depth - report.total_depth)
+                .abs()
+                < 1e-9
+        );
+    }
+
+    #[test]
+    fn a_facet_that_leans_widens_the_spread_of_its_tier_alone() {
+        let (names, mut planes): (Vec<String>, Vec<Plane>) = MODERN.facets().unwrap().into_iter().unzip();
+        planes[1] = Plane::from_slope(35f64.to_radians(), 0.0, planes[1].offset);
+        let report = Report::of(&Polytope::from_planes(&planes).unwrap(), &names);
+        let width = |k: usize| report.tiers[k].slope_deg.most - report.tiers[k].slope_deg.least;
+        assert!((width(1) - 0.5).abs() < 1e-9 && width(2) < 1e-9);
+        assert!((report.tiers[1].slope_deg.mean - (7.0 * 34.5 + 35.0) / 8.0).abs() < 1e-9);
+    }
+}
