@@ -3,7 +3,7 @@
 use super::editor::Editor;
 use super::files::Purpose;
 use super::proportions::{EXCELLENT_DEPTH, PROPORTIONS, Proportion};
-use super::theme;
+use super::{theme, tier_rows};
 use crate::cut::{Cut, DesignError, MaterialRef, RoundBrilliant, Size, Unit};
 use crate::optics::{line, materials};
 use crate::scene::{LIGHTS, SpecimenError, light};
@@ -15,7 +15,7 @@ use std::ops::RangeInclusive;
 
 /// Widths of a row's parts, points: its name, its number.
 const NAME: f32 = 104.0;
-const NUMBER: f32 = 66.0;
+pub(super) const NUMBER: f32 = 66.0;
 
 /// Stops that light can be raised or lowered by.
 const STOPS: RangeInclusive<f64> = -4.0..=4.0;
@@ -67,7 +67,7 @@ fn identity(editor: &mut Editor, ui: &mut Ui) {
         ui.label(match design.cut {
             Cut::RoundBrilliant(_) => "Round brilliant",
             Cut::Tiers(_) => "Tiers on an index gear",
-            Cut::Planes(_) => "Planes, as its file lists them",
+            Cut::Planes(_) => "Facets by their planes",
         });
     });
 }
@@ -79,7 +79,11 @@ fn proportions(editor: &mut Editor, ui: &mut Ui) {
         _ => None,
     };
     let Cut::RoundBrilliant(brilliant) = &mut editor.document.work.design.cut else {
-        planes(editor, ui);
+        tier_rows::show(&mut editor.document.work.design.cut, ui);
+        warnings(editor, ui);
+        if let Some(fault) = fault {
+            wrong(ui, &fault);
+        }
         return;
     };
     for proportion in &PROPORTIONS {
@@ -100,14 +104,6 @@ fn proportions(editor: &mut Editor, ui: &mut Ui) {
 
 fn wrong(ui: &mut Ui, fault: &str) {
     ui.label(RichText::new(fault).color(theme::bad(ui.visuals())));
-}
-
-fn planes(editor: &Editor, ui: &mut Ui) {
-    let stone = &editor.document.specimen().stone;
-    let facets = stone.polytope.facets().len();
-    ui.label(format!("This stone is given by its planes: {facets} facets."));
-    ui.label(RichText::new("Its planes stand in its file; what is changed there shows here at once.").weak());
-    warnings(editor, ui);
 }
 
 /// What is odd about the stone.
@@ -152,20 +148,20 @@ fn row(ui: &mut Ui, proportion: &Proportion, brilliant: &mut RoundBrilliant) {
 }
 
 /// A field for a number.
-struct Number<'a> {
-    decimals: usize,
+pub(super) struct Number<'a> {
+    pub decimals: usize,
     /// Change for a point that it is dragged by.
-    speed: f64,
-    range: RangeInclusive<f64>,
-    unit: &'a str,
+    pub speed: f64,
+    pub range: RangeInclusive<f64>,
+    pub unit: &'a str,
 }
 
 /// Numbers that have limits of their own, which are told.
-const ANY: RangeInclusive<f64> = f64::NEG_INFINITY..=f64::INFINITY;
+pub(super) const ANY: RangeInclusive<f64> = f64::NEG_INFINITY..=f64::INFINITY;
 
 impl Number<'_> {
     /// Draws it. Leaving it untouched leaves the number as it is, though more decimals belong to it than are shown.
-    fn show(self, ui: &mut Ui, (width, label): (f32, egui::Id), value: &mut f64) {
+    pub fn show(self, ui: &mut Ui, (width, label): (f32, egui::Id), value: &mut f64) -> egui::Response {
         let before = *value;
         let Self { decimals, speed, range, unit } = self;
         let field = DragValue::new(value).range(range).speed(speed).suffix(unit).update_while_editing(false);
@@ -174,10 +170,11 @@ impl Number<'_> {
         let field = field.custom_parser(|text| {
             text.trim().trim_end_matches(unit.trim()).trim().replace(',', ".").parse().ok()
         });
-        ui.add_sized(vec2(width, ui.spacing().interact_size.y), field).labelled_by(label);
+        let response = ui.add_sized(vec2(width, ui.spacing().interact_size.y), field).labelled_by(label);
         if format!("{before:.decimals$}").parse() == Ok(*value) {
             *value = before;
         }
+        response
     }
 }
 
@@ -198,7 +195,7 @@ fn range(proportion: &Proportion) -> String {
     format!("{}{}", proportion.meaning, good.unwrap_or_default())
 }
 
-fn named(ui: &mut Ui, name: &str, meaning: &str) -> egui::Response {
+pub(super) fn named(ui: &mut Ui, name: &str, meaning: &str) -> egui::Response {
     let height = ui.spacing().interact_size.y;
     ui.allocate_ui_with_layout(vec2(NAME, height), egui::Layout::left_to_right(egui::Align::Center), |ui| {
         ui.set_min_width(NAME);

@@ -30,6 +30,7 @@ mod shows;
 mod stage;
 mod studio;
 mod theme;
+mod tier_rows;
 
 pub use desk::Desk;
 pub use editor::{Editor, Setup};

@@ -137,6 +137,16 @@ impl Tier {
         self.facets.iter().map(|facet| facet.name.as_str()).find(|name| !name.is_empty()).unwrap_or_default()
     }
 
+    /// What the facets of this tier, the one of this number, are called before they are told apart.
+    pub(super) fn called(&self, number: usize) -> String {
+        let zone = self.zone();
+        match self.name() {
+            name if names::is_printable(name) => name.to_owned(),
+            _ if matches!(zone, Zone::Table | Zone::Culet) => zone.name().to_owned(),
+            _ => format!("{}-{number}", zone.name()),
+        }
+    }
+
     fn faces_down(&self) -> bool {
         self.angle.is_sign_negative() || (self.angle == 0.0 && self.distance.is_sign_negative())
     }
@@ -188,7 +198,7 @@ impl Tiers {
         let cut = (1..).zip(&self.tiers).filter(|(_, tier)| tier.is_cut);
         let bases: Vec<(String, Plane)> = cut
             .flat_map(|(number, tier)| {
-                let base = base_name(tier, number);
+                let base = tier.called(number);
                 tier.facets.iter().map(move |facet| (base.clone(), self.plane(tier, facet.index)))
             })
             .collect();
@@ -203,16 +213,6 @@ impl Tiers {
 
     pub(super) fn has_fitting_count(&self) -> bool {
         (1..=MAX_PLANES).contains(&self.count())
-    }
-}
-
-/// What a tier's facets are called before they are told apart.
-fn base_name(tier: &Tier, number: usize) -> String {
-    let zone = tier.zone();
-    match tier.name() {
-        name if names::is_printable(name) => name.to_owned(),
-        _ if matches!(zone, Zone::Table | Zone::Culet) => zone.name().to_owned(),
-        _ => format!("{}-{number}", zone.name()),
     }
 }
 

@@ -349,6 +349,32 @@ fn a_file_that_comes_after_a_change_is_asked_about() {
 }
 
 #[test]
+fn a_cutters_file_opens_and_its_tiers_are_set() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("square.asc");
+    let text = "GemCad 5.0\ng 96 0.0\ny 4 y\nI 1.76\nH A square\na -90 1 96 n G1 24 48 72\na -43 0.9 96 n P1 24 48 72\n\
+                a 35 0.8 96 n C1 24 48 72\na 0 0.45 0 n T\nZ odd\n";
+    std::fs::write(&path, text).unwrap();
+    let mut bench = Bench::with(Setup { file: Some(path.clone()), ..Setup::default() });
+    bench.settle();
+    assert!(bench.harness.query_by_label_contains("'Z odd' is no record").is_some());
+    let pictures = bench.picture(0);
+    bench.type_number("P1 · 4 Angle", "-41.5");
+    bench.settle();
+    assert_ne!(bench.picture(0), pictures);
+    bench.harness.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::S);
+    bench.settle();
+    let saved = std::fs::read_to_string(&path).unwrap();
+    assert!(
+        saved.contains("a -41.5 0.9 96 n P1 24 48 72") && !bench.editor().document.is_changed(),
+        "{saved}"
+    );
+    bench.choose("Edit", "Undo");
+    bench.settle();
+    assert_eq!(bench.picture(0), pictures);
+}
+
+#[test]
 fn keys_work_and_steps_end_while_a_handle_has_the_focus() {
     let mut desk = Bench::small();
     desk.panes[1].shows = Shows::Profile;

@@ -134,7 +134,7 @@ impl Bench {
     pub fn brilliant(&self) -> RoundBrilliant {
         match self.editor().document.work.design.cut {
             Cut::RoundBrilliant(brilliant) => brilliant,
-            Cut::Planes(_) => panic!("a round brilliant is expected"),
+            Cut::Tiers(_) | Cut::Planes(_) => panic!("a round brilliant is expected"),
         }
     }
 

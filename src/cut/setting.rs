@@ -1,0 +1,173 @@
+//! The tiers of any cut that lists its facets, each as one angle and one distance that can be set.
+
+use super::{Cut, Zone, tier_stem};
+use crate::math::Plane;
+
+/// A tier as it is set on a faceting machine; of facets that differ, the mean.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Setting {
+    /// What its facets are called, without their numbers.
+    pub name: String,
+    /// How many there are.
+    pub facets: usize,
+    /// From the girdle plane, degrees; below 0 for facets that face down.
+    pub angle: f64,
+    /// From the origin, in the design's own unit.
+    pub distance: f64,
+}
+
+impl Cut {
+    /// Its tiers, in the order in which they are listed; none where proportions say what its facets are.
+    pub fn settings(&self) -> Vec<Setting> {
+        match self {
+            Self::RoundBrilliant(_) => vec![],
+            Self::Tiers(design) => {
+                let numbered = (1..).zip(&design.tiers).filter(|(_, tier)| tier.is_cut);
+                let setting = |(number, tier): (usize, &super::Tier)| Setting {
+                    name: tier.called(number),
+                    facets: tier.facets.len(),
+                    angle: tier.angle,
+                    distance: tier.distance,
+                };
+                numbered.map(setting).collect()
+            }
+            Self::Planes(planes) => groups(planes).iter().map(|group| mean(planes, group)).collect(),
+        }
+    }
+
+    /// Sets the tier at a place of [`settings`](Self::settings): facets that differ are all turned by the same angle and
+    /// moved by the same distance. What is no place changes nothing.
+    pub fn set(&mut self, place: usize, angle: f64, distance: f64) {
+        match self {
+            Self::RoundBrilliant(_) => {}
+            Self::Tiers(design) => {
+                if let Some(tier) = design.tiers.iter_mut().filter(|tier| tier.is_cut).nth(place) {
+                    (tier.angle, tier.distance) = (angle, distance);
+                }
+            }
+            Self::Planes(planes) => {
+                let Some(group) = groups(planes).into_iter().nth(place) else { return };
+                let before = mean(planes, &group);
+                for k in group {
+                    let plane = &mut planes[k].1;
+                    *plane = turned(plane, angle.abs() - before.angle.abs(), distance - before.distance);
+                }
+            }
+        }
+    }
+}
+
+/// The planes that share a name but for its number and face the same way, by their places.
+fn groups(planes: &[(String, Plane)]) -> Vec<Vec<usize>> {
+    let mut groups: Vec<((&str, Zone), Vec<usize>)> = vec![];
+    for (k, (name, plane)) in planes.iter().enumerate() {
+        let key = (tier_stem(name), faces(plane));
+        match groups.iter_mut().find(|(of, _)| *of == key) {
+            Some((_, group)) => group.push(k),
+            None => groups.push((key, vec![k])),
+        }
+    }
+    groups.into_iter().map(|(_, group)| group).collect()
+}
+
+fn faces(plane: &Plane) -> Zone {
+    match plane.normal.z {
+        0.0 => Zone::Girdle,
+        z if z > 0.0 => Zone::Crown,
+        _ => Zone::Pavilion,
+    }
+}
+
+/// Slope from the girdle plane in degrees, and distance, of a plane whose normal may have any length.
+fn slope(plane: &Plane) -> (f64, f64) {
+    let slope = plane.normal.truncate().length().atan2(plane.normal.z.abs()).to_degrees();
+    (slope, plane.offset / plane.normal.length())
+}
+
+fn mean(planes: &[(String, Plane)], group: &[usize]) -> Setting {
+    let count = group.len() as f64;
+    let sum =
+        group.iter().map(|&k| slope(&planes[k].1)).fold((0.0, 0.0), |sum, s| (sum.0 + s.0, sum.1 + s.1));
+    let (name, first) = &planes[group[0]];
+    let name = if group.len() > 1 { tier_stem(name) } else { name };
+    let sign = if first.normal.z > 0.0 { 1.0 } else { -1.0 };
+    Setting {
+        name: name.to_owned(),
+        facets: group.len(),
+        angle: sign * sum.0 / count,
+        distance: sum.1 / count,
+    }
+}
+
+/// A plane of another slope, by so many degrees, and another distance, facing where it did.
+fn turned(plane: &Plane, degrees: f64, further: f64) -> Plane {
+    let (slope, distance) = slope(plane);
+    let across = plane.normal.truncate();
+    let azimuth = if across.length() > 0.0 { across.to_angle() } else { 0.0 };
+    let slope = (slope + degrees).to_radians();
+    let slope = if plane.normal.z > 0.0 { slope } else { std::f64::consts::PI - slope };
+    match degrees == 0.0 {
+        // Not turned, not a digit of the normal changes.
+        true => Plane::new(plane.normal, plane.offset + further * plane.normal.length()),
+        false => Plane::from_slope(slope, azimuth, distance + further),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::round_brilliant::MODERN;
+    use super::*;
+
+    fn planes() -> Cut {
+        Cut::Planes(MODERN.facets().unwrap())
+    }
+
+    #[test]
+    fn tiers_of_planes_are_found_by_name_and_set_together() {
+        let mut cut = planes();
+        let settings = cut.settings();
+        let told: Vec<_> = settings.iter().map(|s| (s.name.as_str(), s.facets)).collect();
+        assert_eq!(
+            told,
+            [
+                ("table", 1),
+                ("bezel", 8),
+                ("star", 8),
+                ("upper_half", 16),
+                ("girdle", 96),
+                ("lower_half", 16),
+                ("main", 8)
+            ]
+        );
+        assert!((settings[1].angle - 34.5).abs() < 1e-12 && (settings[6].angle + MODERN_MAIN).abs() < 1e-12);
+        cut.set(6, -41.3, settings[6].distance + 0.01);
+        let after = cut.settings();
+        assert!(
+            (after[6].angle + 41.3).abs() < 1e-9
+                && (after[6].distance - settings[6].distance - 0.01).abs() < 1e-12
+        );
+        assert_eq!(after[..6], settings[..6]);
+        let Cut::Planes(planes) = &cut else { panic!() };
+        let azimuths = planes
+            .iter()
+            .filter(|(name, _)| name.starts_with("main"))
+            .map(|(_, p)| p.normal.truncate().to_angle());
+        for (k, azimuth) in azimuths.enumerate() {
+            let expected = (k as f64 * 45.0).to_radians();
+            assert!(((azimuth - expected + 1e-9).rem_euclid(std::f64::consts::TAU)) < 2e-9, "{k}: {azimuth}");
+        }
+        cut.set(99, 1.0, 1.0);
+        assert_eq!(cut.settings(), after);
+    }
+
+    /// Pavilion angle of the modern brilliant, degrees.
+    const MODERN_MAIN: f64 = 40.8;
+
+    #[test]
+    fn a_tier_that_stands_as_it_did_keeps_every_digit() {
+        let mut cut = planes();
+        let settings = cut.settings();
+        cut.set(3, settings[3].angle, settings[3].distance);
+        assert_eq!(cut, planes());
+    }
+}
