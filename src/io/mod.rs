@@ -3,12 +3,15 @@
 mod apng;
 mod atomic;
 pub mod cut_file;
+mod cutters;
 pub mod design_file;
 mod drawing_png;
 pub mod export;
 mod exr;
 mod failure;
 mod fault;
+pub mod gcs;
+pub mod gem;
 pub mod library;
 pub mod light_file;
 pub mod lighting;
