@@ -72,6 +72,21 @@ fn stored(bytes: &[u8]) -> Vec<Plane> {
     planes
 }
 
+/// The corners as the file stores them.
+fn corners(bytes: &[u8]) -> Vec<glam::DVec3> {
+    let f64_at = |at: usize| f64::from_le_bytes(bytes[at..at + 8].try_into().unwrap());
+    let (mut at, mut corners) = (0, Vec::new());
+    while f64_at(at) != -99999.0 {
+        at += 28 + 1 + usize::from(bytes[at + 28]);
+        while bytes[at] == 1 {
+            corners.push(glam::DVec3::new(f64_at(at + 4), f64_at(at + 12), f64_at(at + 20)));
+            at += 28;
+        }
+        at += 4;
+    }
+    corners
+}
+
 #[test]
 fn every_real_gem_opens_and_reads_as_it_is_written() {
     let Some(files) = corpus("gem") else { return };
@@ -109,6 +124,59 @@ fn every_real_gem_opens_and_reads_as_it_is_written() {
     assert!(solids * 100 >= files.len() * 95, "{solids} of {}", files.len());
 }
 
+/// What the library that the designs are from says of each, by its own reader.
+#[test]
+fn a_second_opinion_agrees_on_gear_index_lines_and_facets() {
+    let Some(files) = corpus("gem") else { return };
+    let folder =
+        files.iter().find_map(|path| path.ancestors().find(|a| a.join("library-metadata.json").is_file()));
+    let text = std::fs::read_to_string(folder.unwrap().join("library-metadata.json")).unwrap();
+    let entries: Vec<serde_json::Value> = serde_json::from_str(&text).unwrap();
+    let (mut compared, mut unlike) = (0, vec![]);
+    for path in files.iter().filter(|path| path.parent().unwrap().ends_with("library")) {
+        let file = path.file_name().unwrap().to_string_lossy();
+        let Some(entry) = entries.iter().find(|entry| entry["name"] == *file) else { continue };
+        let design = gem::read(&std::fs::read(path).unwrap(), &file).unwrap().design;
+        compared += 1;
+        let cut = tiers(&design);
+        let index = design.material.material().unwrap().index(589.3);
+        let joined = |lines: &[String]| lines.join("\n").trim().to_owned();
+        let text = |key: &str| entry[key].as_str().unwrap().trim().to_owned();
+        let same = [
+            f64::from(cut.gear.abs()) == entry["gear"].as_f64().unwrap(),
+            (index - entry["ri"].as_f64().unwrap()).abs() < 1e-9,
+            joined(&cut.headers) == text("header"),
+            joined(&cut.footers) == text("comments"),
+            cut.count() as f64 == entry["facetCount"].as_f64().unwrap(),
+        ];
+        if same.contains(&false) {
+            unlike.push(format!("{file} {same:?}: {} facets against {}", cut.count(), entry["facetCount"]));
+        }
+    }
+    println!("{compared} compared, unlike: {unlike:#?}");
+    assert!(compared > 0 && unlike.is_empty());
+}
+
+/// The corners that files store are not read; they lie where planes meet all the same.
+#[test]
+fn stones_have_the_corners_that_their_files_store() {
+    let Some(files) = corpus("gem") else { return };
+    let mut offs: Vec<(f64, String)> = vec![];
+    for path in files {
+        let bytes = std::fs::read(&path).unwrap();
+        let Ok(specimen) = Specimen::new(gem::read(&bytes, "x").unwrap().design) else { continue };
+        let (ours, theirs) = (corners(&gem::write(&specimen).bytes), corners(&bytes));
+        let near = |a: &glam::DVec3, all: &[glam::DVec3]| {
+            all.iter().map(|b| b.distance(*a)).fold(f64::INFINITY, f64::min)
+        };
+        let off = theirs.iter().map(|a| near(a, &ours)).fold(0.0, f64::max);
+        offs.push((off, path.file_name().unwrap().to_string_lossy().into_owned()));
+    }
+    offs.sort_by(|a, b| a.0.total_cmp(&b.0));
+    println!("median {:.1e}; worst {:?}", offs[offs.len() / 2].0, &offs[offs.len() - 5..]);
+    assert!(offs[offs.len() / 2].0 < 1e-9);
+}
+
 #[test]
 fn stones_have_the_volumes_that_are_known() {
     let Some(files) = corpus("gem") else { return };
@@ -129,11 +197,11 @@ fn every_real_gcs_opens_and_reads_as_it_is_written() {
         assert!(gcs::looks_like(&bytes) && !gem::looks_like(&bytes));
         let Brought { design, warnings } = gcs::read(&bytes, &label).unwrap_or_else(|e| panic!("{e}"));
         assert_eq!(warnings, Vec::<String>::new());
-        println!("{design:#?}");
+        let cut = tiers(&design);
+        println!("{label}: {} tiers, {} facets, remarks {:?}", cut.tiers.len(), cut.count(), cut.remarks);
         let specimen = Specimen::new(design.clone()).unwrap();
         let written = gcs::write(&specimen);
         assert_eq!(gcs::read(&written.bytes, &label).unwrap().design, design);
-        println!("{}\n{:?}", String::from_utf8(written.bytes).unwrap(), written.lost);
     }
 }
 

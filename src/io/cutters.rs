@@ -13,6 +13,8 @@ use std::f64::consts::TAU;
 use std::path::Path;
 
 mod outward;
+#[cfg(test)]
+pub(super) mod sample;
 
 pub(super) use outward::{Outline, outlines, refractive_index, tiers_of, untold};
 

@@ -11,6 +11,9 @@ use glam::DVec3;
 /// A stone whose reach and height are so near to what the format wants is left as it is, so that it keeps its digits.
 const IN_FORM: f64 = 1e-9;
 
+/// Coordinates of a stone that reaches 1 are rounding, and written as 0, if they are no larger.
+const ROUNDING: f64 = 1e-15;
+
 /// How the stone is placed for the format.
 struct Form {
     scale: f64,
@@ -171,13 +174,17 @@ fn is_culet(tiers: &Tiers, tier: &Tier) -> bool {
     tier.angle == 0.0 && tiers.plane(tier, 0.0).normal.z < 0.0
 }
 
+fn clean(number: f64) -> f64 {
+    if number.abs() <= ROUNDING { 0.0 } else { number }
+}
+
 fn put_facet((plane, corners): &Outline, form: &Form, page: &mut Page) {
-    let [x, y, z] = plane.normal.to_array();
+    let [x, y, z] = plane.normal.to_array().map(clean);
     let azimuth = y.atan2(x).to_degrees();
     let index = if z > 0.0 { 90.0 + azimuth } else { 270.0 - azimuth }.rem_euclid(360.0);
     page.line(2, &format!(r#"<facet nx="{x}" ny="{y}" nz="{z}" index_angle="{index}">"#));
     for corner in corners {
-        let [x, y, z] = form.corner(*corner).to_array();
+        let [x, y, z] = form.corner(*corner).to_array().map(clean);
         page.line(3, &format!(r#"<vertex x="{x}" y="{y}" z="{z}"/>"#));
     }
     page.line(2, "</facet>");
