@@ -137,20 +137,24 @@ fn a_second_opinion_agrees_on_gear_index_lines_and_facets() {
         let file = path.file_name().unwrap().to_string_lossy();
         let Some(entry) = entries.iter().find(|entry| entry["name"] == *file) else { continue };
         let design = gem::read(&std::fs::read(path).unwrap(), &file).unwrap().design;
+        // That reader leaves out facets that have no end.
+        if Specimen::new(design.clone()).is_err() {
+            continue;
+        }
         compared += 1;
         let cut = tiers(&design);
         let index = design.material.material().unwrap().index(589.3);
-        let joined = |lines: &[String]| lines.join("\n").trim().to_owned();
-        let text = |key: &str| entry[key].as_str().unwrap().trim().to_owned();
+        // It trims its lines.
+        let words = |text: &str| text.split_whitespace().map(str::to_owned).collect::<Vec<_>>();
         let same = [
             f64::from(cut.gear.abs()) == entry["gear"].as_f64().unwrap(),
             (index - entry["ri"].as_f64().unwrap()).abs() < 1e-9,
-            joined(&cut.headers) == text("header"),
-            joined(&cut.footers) == text("comments"),
+            words(&cut.headers.join("\n")) == words(entry["header"].as_str().unwrap()),
+            words(&cut.footers.join("\n")) == words(entry["comments"].as_str().unwrap()),
             cut.count() as f64 == entry["facetCount"].as_f64().unwrap(),
         ];
         if same.contains(&false) {
-            unlike.push(format!("{file} {same:?}: {} facets against {}", cut.count(), entry["facetCount"]));
+            unlike.push((file.clone(), same));
         }
     }
     println!("{compared} compared, unlike: {unlike:#?}");
@@ -161,10 +165,15 @@ fn a_second_opinion_agrees_on_gear_index_lines_and_facets() {
 #[test]
 fn stones_have_the_corners_that_their_files_store() {
     let Some(files) = corpus("gem") else { return };
-    let mut offs: Vec<(f64, String)> = vec![];
+    let (mut blanks, mut offs): (usize, Vec<(f64, String)>) = (0, vec![]);
     for path in files {
         let bytes = std::fs::read(&path).unwrap();
-        let Ok(specimen) = Specimen::new(gem::read(&bytes, "x").unwrap().design) else { continue };
+        let Brought { design, warnings } = gem::read(&bytes, "x").unwrap();
+        blanks += usize::from(warnings.iter().any(|warning| warning.contains("block")));
+        if warnings.iter().any(|warning| warning.contains("block")) {
+            continue;
+        }
+        let specimen = Specimen::new(design).unwrap();
         let (ours, theirs) = (corners(&gem::write(&specimen).bytes), corners(&bytes));
         let near = |a: &glam::DVec3, all: &[glam::DVec3]| {
             all.iter().map(|b| b.distance(*a)).fold(f64::INFINITY, f64::min)
@@ -173,7 +182,12 @@ fn stones_have_the_corners_that_their_files_store() {
         offs.push((off, path.file_name().unwrap().to_string_lossy().into_owned()));
     }
     offs.sort_by(|a, b| a.0.total_cmp(&b.0));
-    println!("median {:.1e}; worst {:?}", offs[offs.len() / 2].0, &offs[offs.len() - 5..]);
+    println!(
+        "{blanks} end at the block; {} do not: median {:.1e}; worst {:?}",
+        offs.len(),
+        offs[offs.len() / 2].0,
+        &offs[offs.len() - 5..]
+    );
     assert!(offs[offs.len() / 2].0 < 1e-9);
 }
 
@@ -189,6 +203,14 @@ fn stones_have_the_volumes_that_are_known() {
     }
 }
 
+/// The values of an attribute all through a text.
+fn numbers(xml: &str, key: &str) -> Vec<f64> {
+    xml.split(&format!("{key}=\""))
+        .skip(1)
+        .map(|text| text.split('"').next().unwrap().parse().unwrap())
+        .collect()
+}
+
 #[test]
 fn every_real_gcs_opens_and_reads_as_it_is_written() {
     let Some(files) = corpus("gcs") else { return };
@@ -202,6 +224,15 @@ fn every_real_gcs_opens_and_reads_as_it_is_written() {
         let specimen = Specimen::new(design.clone()).unwrap();
         let written = gcs::write(&specimen);
         assert_eq!(gcs::read(&written.bytes, &label).unwrap().design, design);
+        let [ours, theirs] =
+            [&written.bytes, &bytes].map(|xml| std::str::from_utf8(xml).unwrap().replace("base", "offset"));
+        for key in [" angle", "depth", "index_angle", "nx", "ny", "nz", "gear", "offset", "mirror"] {
+            let (ours, theirs) = (numbers(&ours, key), numbers(&theirs, key));
+            assert_eq!(ours.len(), theirs.len(), "{key}");
+            let off = ours.iter().zip(&theirs).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+            println!("{key}: {} numbers, off by {off:.1e}", ours.len());
+            assert!(off < 1e-9, "{key}");
+        }
     }
 }
 

@@ -7,7 +7,6 @@
 use super::cut_file::CutFileError;
 use super::design_file::Brought;
 use crate::cut::{Cut, DEFAULT_DIAMETER_MM, Design, Indexed, MaterialRef, Tier, Tiers, is_printable};
-use crate::math::Plane;
 use glam::DVec3;
 use std::f64::consts::TAU;
 use std::path::Path;
@@ -260,12 +259,6 @@ pub(super) fn brought(
     let refused = |message: String| CutFileError { path: label.to_owned(), line: None, message };
     design.check().map_err(|error| refused(error.to_string()))?;
     Ok(Brought { design, warnings: told.texts() })
-}
-
-/// The plane with a unit normal that points where this one does, and whose distance is not below 0.
-pub(super) fn unit(normal: DVec3, distance: f64) -> Option<Plane> {
-    let plane = normal.is_finite().then(|| Plane::new(normal, distance).normalized()).flatten()?;
-    (plane.offset >= 0.0).then_some(plane)
 }
 
 #[cfg(test)]

@@ -4,6 +4,7 @@
 //! Angles there are polar: 0 the table, 90 the girdle, 180 the culet. A stone reaches 1 across and is centred in z.
 //! What a file says besides the stone is kept as remarks under the names of its attributes.
 
+mod facets;
 mod guard;
 mod read;
 mod write;

@@ -28,6 +28,13 @@ const END: f64 = -99999.0;
 /// Stands behind the index; nobody knows what for.
 const UNKNOWN: u32 = 0x7fff;
 
+/// GemCad cuts from a block that reaches this far along each axis. Where the facets do not reach the axis within it, its
+/// faces bound the stone that a file stores.
+const BLANK: f64 = 17.0 / 15.0;
+
+/// Coordinates this near to the block's faces lie on them: stored corners are off by less.
+const ON_BLANK: f64 = 1e-9;
+
 /// Lines at the top of a design, and as many at its end.
 const LINES: usize = 4;
 
@@ -40,6 +47,8 @@ struct Raw<'a> {
     tier: i32,
     /// Name, tab, instructions.
     label: &'a [u8],
+    /// Whether its outline ends at the block that GemCad cuts from.
+    on_blank: bool,
 }
 
 /// Reads a design; `label` is the file's path for errors, and names a design that does not name itself.
@@ -85,7 +94,7 @@ fn raw_facets<'a>(cursor: &mut Cursor<'a>) -> Result<Vec<Raw<'a>>, Fault> {
 
 fn raw_facet<'a>(cursor: &mut Cursor<'a>, at: usize, x: f64) -> Result<Raw<'a>, Fault> {
     let p = DVec3::new(x, cursor.f64("a facet")?, cursor.f64("a facet")?);
-    let plane = cutters::unit(p, 1.0).ok_or_else(|| Fault {
+    let plane = Plane::new(p, 1.0).normalized().ok_or_else(|| Fault {
         at,
         message: format!(
             "{p} is no facet's normal over its distance; three finite numbers that are not all 0 are expected, or \
@@ -94,16 +103,22 @@ fn raw_facet<'a>(cursor: &mut Cursor<'a>, at: usize, x: f64) -> Result<Raw<'a>, 
     })?;
     let tier = cursor.i32("a facet")?;
     let label = cursor.text("a facet's name")?;
-    pass_outline(cursor)?;
-    Ok(Raw { at, plane, tier, label })
+    let on_blank = outline(cursor)?;
+    Ok(Raw { at, plane, tier, label, on_blank })
 }
 
-fn pass_outline(cursor: &mut Cursor<'_>) -> Result<(), Fault> {
+/// Passes over an outline, and tells whether it ends at the block that GemCad cuts from.
+fn outline(cursor: &mut Cursor<'_>) -> Result<bool, Fault> {
+    let mut on_blank = false;
     loop {
         let at = cursor.at();
         match cursor.i32("a facet's outline")? {
-            0 => return Ok(()),
-            1 => cursor.skip(24, "a facet's outline")?,
+            0 => return Ok(on_blank),
+            1 => {
+                for _ in 0..3 {
+                    on_blank |= (cursor.f64("a facet's outline")?.abs() - BLANK).abs() < ON_BLANK;
+                }
+            }
             other => {
                 let message = format!(
                     "{other} stands where 1 (a corner follows) or 0 (the facet ends) is expected; the file is spoilt \
@@ -185,5 +200,20 @@ fn pieces(raw: &[Raw<'_>], tiers: &Tiers, told: &mut Told) -> Vec<Piece> {
             is_cut: true,
         }
     };
-    raw.iter().map(piece).collect()
+    let pieces = raw.iter().map(piece).collect();
+    tell_of_the_blank(raw, told);
+    pieces
+}
+
+fn tell_of_the_blank(raw: &[Raw<'_>], told: &mut Told) {
+    let on_blank = || raw.iter().filter(|facet| facet.on_blank);
+    if let Some(first) = on_blank().next() {
+        let (at, count) = (cursor::place(first.at), on_blank().count());
+        told.warn(|| {
+            format!(
+                "{at}{count} facets end at the block that GemCad cuts from, {BLANK:.4} from the middle; here facets \
+                 alone bound the stone, and it may reach farther"
+            )
+        });
+    }
 }

@@ -1,23 +1,15 @@
 //! Reading `.gcs`.
 
 use super::{COLOUR, ROOT, VERSION, guard};
-use crate::cut::{MAX_PLANES, MaterialRef, Tier, Tiers};
+use crate::cut::{MaterialRef, Tiers};
 use crate::io::cut_file::CutFileError;
-use crate::io::cutters::{self, Gear, Piece, Told};
+use crate::io::cutters::{self, Gear, Told};
 use crate::io::design_file::Brought;
 use crate::io::text::TextError;
-use crate::math::Plane;
-use glam::DVec3;
 use roxmltree::{Document, Node, ParsingOptions};
 
 /// Elements and the blanks between them: ten thousand facets of fifty corners each.
 const MOST_NODES: u32 = 1_000_000;
-
-/// How far a tier's depth and angle may differ from its corners and normals, in the stone's unit and in degrees.
-const TOLD_APART: f64 = 1e-6;
-
-/// A normal of another length is badly written.
-const UNIT_LENGTH: f64 = 1e-6;
 
 /// What is read of `<index>`.
 const INDEX: [&str; 4] = ["gear", "base", "symmetry", "mirror"];
@@ -47,9 +39,9 @@ pub fn read(bytes: &[u8], label: &str) -> Result<Brought, CutFileError> {
     cutters::brought(name, material, tiers, reader.told, label)
 }
 
-struct Reader<'d> {
+pub(super) struct Reader<'d> {
     document: &'d Document<'d>,
-    told: Told,
+    pub told: Told,
 }
 
 impl<'d> Reader<'d> {
@@ -57,24 +49,24 @@ impl<'d> Reader<'d> {
         self.document.text_pos_at(node.range().start).row as usize
     }
 
-    fn fault(&self, node: Node<'_, '_>, message: impl Into<String>) -> TextError {
+    pub fn fault(&self, node: Node<'_, '_>, message: impl Into<String>) -> TextError {
         TextError { line: Some(self.line(node)), message: message.into() }
     }
 
-    fn warn(&mut self, node: Node<'_, '_>, text: impl FnOnce() -> String) {
+    pub fn warn(&mut self, node: Node<'_, '_>, text: impl FnOnce() -> String) {
         let document = self.document;
         self.told.warn(|| format!("line {}: {}", document.text_pos_at(node.range().start).row, text()));
     }
 
     /// An attribute as text, with the line breaks that it has in the file; none where it is empty or missing.
-    fn text(&self, node: Node<'_, '_>, key: &str) -> Option<String> {
+    pub fn text(&self, node: Node<'_, '_>, key: &str) -> Option<String> {
         let attribute = node.attribute_node(key).filter(|attribute| !attribute.value().is_empty())?;
         let raw = &self.document.input_text()[attribute.range_value()];
         Some(guard::unfolded(raw, attribute.value()))
     }
 
     /// An attribute as a finite number; none, and a warning, where it is anything else.
-    fn number(&mut self, node: Node<'_, '_>, key: &str) -> Option<f64> {
+    pub fn number(&mut self, node: Node<'_, '_>, key: &str) -> Option<f64> {
         let text = node.attribute(key)?;
         let number = text.trim().parse().ok().filter(|number: &f64| number.is_finite());
         if number.is_none() {
@@ -83,7 +75,7 @@ impl<'d> Reader<'d> {
         number
     }
 
-    fn is(&self, node: Node<'_, '_>, key: &str, otherwise: bool) -> bool {
+    pub fn is(&self, node: Node<'_, '_>, key: &str, otherwise: bool) -> bool {
         match node.attribute(key).map(|text| text.trim().to_ascii_lowercase()).as_deref() {
             Some("true" | "1") => true,
             Some("false" | "0") => false,
@@ -105,7 +97,7 @@ impl<'d> Reader<'d> {
         let material = self.render(root, &mut tiers);
         // So that the same remarks stand in the same order, whatever they went through.
         tiers.remarks.sort();
-        self.cut(root, &mut tiers)?;
+        tiers.tiers = self.tiers(root, Gear { teeth: tiers.gear, offset: tiers.offset })?;
         Ok((tiers, material))
     }
 
@@ -179,172 +171,9 @@ impl<'d> Reader<'d> {
             tiers.remarks.push((key.to_owned(), text));
         }
     }
-
-    fn cut(&mut self, root: Node<'d, 'd>, tiers: &mut Tiers) -> Result<(), TextError> {
-        let gear = Gear { teeth: tiers.gear, offset: tiers.offset };
-        let mut facets = 0;
-        for node in root.children().filter(Node::is_element) {
-            match node.tag_name().name() {
-                "tier" => {
-                    let pieces = self.tier(node, gear)?;
-                    facets += pieces.len();
-                    if facets > MAX_PLANES {
-                        let message =
-                            format!("there are more facets than {MAX_PLANES}, which are the most taken");
-                        return Err(self.fault(node, message));
-                    }
-                    let empty = pieces.is_empty().then(|| self.empty_tier(node)).flatten();
-                    let mut gathered = cutters::gathered(pieces);
-                    cutters::named_once(&mut gathered);
-                    tiers.tiers.extend(gathered.into_iter().chain(empty));
-                }
-                "index" | "render" | "info" => {}
-                other => self.warn(node, || format!("<{other:.40}> is not known here and is not read")),
-            }
-        }
-        Ok(())
-    }
-
-    /// A tier without facets, which is kept for what it says.
-    fn empty_tier(&mut self, node: Node<'_, '_>) -> Option<Tier> {
-        let (polar, depth) = (self.number(node, "angle")?, self.number(node, "depth")?);
-        let setting = Gear { teeth: 96, offset: 0.0 }.setting(slope_normal(polar, 0.0), depth.max(0.0));
-        self.warn(node, || "this tier has no facets".to_owned());
-        let instructions = self.text(node, "instructions").unwrap_or_default();
-        let is_cut = self.is(node, "visible", true);
-        Some(Tier {
-            angle: girdle_below(setting.angle),
-            distance: setting.distance,
-            instructions,
-            is_cut,
-            facets: vec![],
-        })
-    }
-
-    /// The facets of a tier; each has its name and instructions, for whichever begins one of its own.
-    fn tier(&mut self, node: Node<'d, 'd>, gear: Gear) -> Result<Vec<Piece>, TextError> {
-        let (polar, depth) = (self.number(node, "angle"), self.number(node, "depth"));
-        let name = self.text(node, "name").unwrap_or_default();
-        let instructions = self.text(node, "instructions").unwrap_or_default();
-        let is_cut = self.is(node, "visible", true);
-        self.ornaments(node);
-        let mut apart = Apart::default();
-        let mut pieces = Vec::new();
-        for facet in node.children().filter(|child| child.has_tag_name("facet")) {
-            let plane = self.plane(facet, polar, depth)?;
-            apart.look(facet, polar, &plane);
-            let mut setting = gear.setting(plane.normal, plane.offset);
-            setting.angle = girdle_below(setting.angle);
-            let (name, instructions) = (name.clone(), instructions.clone());
-            pieces.push(Piece { tier: 0, setting, name, instructions, is_cut });
-        }
-        if let Some(text) = apart.told(&name) {
-            self.warn(node, || text);
-        }
-        Ok(pieces)
-    }
-
-    /// What a tier says that a design has no place for.
-    fn ornaments(&mut self, node: Node<'_, '_>) {
-        if self.is(node, "guide", false) {
-            self.warn(node, || "guide: that the tier is a guide is not kept".to_owned());
-        }
-        let frosted = |node: &Node<'_, '_>| {
-            node.attribute("frosting").is_some_and(|text| {
-                !matches!(text.trim().to_ascii_lowercase().as_str(), "" | "0" | "false" | "none")
-            })
-        };
-        if frosted(&node) || node.children().any(|facet| frosted(&facet)) {
-            self.warn(node, || "frosting: it is not kept; all facets are polished here".to_owned());
-        }
-    }
-
-    /// The plane of a facet: its own normal, else that of angle and index; its tier's depth, else that of its corners.
-    fn plane(
-        &mut self,
-        facet: Node<'_, '_>,
-        polar: Option<f64>,
-        depth: Option<f64>,
-    ) -> Result<Plane, TextError> {
-        let own = ["nx", "ny", "nz"].map(|key| self.number(facet, key));
-        let own = own.iter().copied().collect::<Option<Vec<f64>>>().map(|n| DVec3::from_slice(&n));
-        let normal = match own.filter(|n| (n.length() - 1.0).abs() < UNIT_LENGTH) {
-            Some(normal) => normal,
-            None => self.told_normal(facet, polar)?,
-        };
-        let depth = match depth.or_else(|| Some(normal.dot(corners(facet).next()?))) {
-            Some(depth) => depth,
-            None => return Err(self.fault(facet, "depth: the tier has none and the facet has no corners")),
-        };
-        cutters::unit(normal, depth).ok_or_else(|| {
-            self.fault(
-                facet,
-                format!("depth: {depth} must be 0 or more; the facets must lie around the origin"),
-            )
-        })
-    }
-
-    fn told_normal(&mut self, facet: Node<'_, '_>, polar: Option<f64>) -> Result<DVec3, TextError> {
-        let Some((polar, index)) = polar.zip(self.number(facet, "index_angle")) else {
-            let message =
-                "nx, ny, nz: a normal of length 1 is expected, or the tier's angle and an index_angle";
-            return Err(self.fault(facet, message));
-        };
-        self.warn(facet, || {
-            "nx, ny, nz: no normal of length 1; that of angle and index_angle is taken".to_owned()
-        });
-        let azimuth = if polar < 90.0 - TOLD_APART { index - 90.0 } else { 270.0 - index };
-        Ok(slope_normal(polar, azimuth))
-    }
 }
 
 /// A child by its name.
 fn child<'d>(node: Node<'d, 'd>, name: &str) -> Option<Node<'d, 'd>> {
     node.children().find(|child| child.has_tag_name(name))
-}
-
-fn slope_normal(polar: f64, azimuth: f64) -> DVec3 {
-    Plane::from_slope(polar.to_radians(), azimuth.to_radians(), 1.0).normal
-}
-
-/// The format counts girdle facets as the pavilion's.
-fn girdle_below(angle: f64) -> f64 {
-    if angle == 90.0 { -90.0 } else { angle }
-}
-
-/// The corners of a facet that are numbers.
-fn corners<'a>(facet: Node<'a, 'a>) -> impl Iterator<Item = DVec3> + use<'a> {
-    let vertices = facet.children().filter(|child| child.has_tag_name("vertex"));
-    vertices.filter_map(|vertex| {
-        let [x, y, z] = ["x", "y", "z"]
-            .map(|key| vertex.attribute(key)?.trim().parse().ok().filter(|v: &f64| v.is_finite()));
-        Some(DVec3::new(x?, y?, z?))
-    })
-}
-
-/// How far a tier's numbers differ from those of its facets.
-#[derive(Default)]
-struct Apart {
-    corners: f64,
-    angle: f64,
-}
-
-impl Apart {
-    fn look(&mut self, facet: Node<'_, '_>, polar: Option<f64>, plane: &Plane) {
-        let off = corners(facet).map(|corner| plane.distance(corner).abs());
-        self.corners = off.fold(self.corners, f64::max);
-        let slope = plane.normal.truncate().length().atan2(plane.normal.z).to_degrees();
-        self.angle = polar.map_or(self.angle, |polar| self.angle.max((polar - slope).abs()));
-    }
-
-    fn told(&self, name: &str) -> Option<String> {
-        let mut told = Vec::new();
-        if self.corners > TOLD_APART {
-            told.push(format!("corners lie up to {:.1e} off its depth, which is taken", self.corners));
-        }
-        if self.angle > TOLD_APART {
-            told.push(format!("normals lie up to {:.1e}° off its angle; they are taken", self.angle));
-        }
-        (!told.is_empty()).then(|| format!("tier '{name:.40}': {}", told.join("; ")))
-    }
 }

@@ -86,6 +86,56 @@ fn stones_are_scaled_and_centred() {
 }
 
 #[test]
+fn a_stone_beside_the_origin_is_moved_along_its_axis() {
+    // Lifted by 1: depths change by the normal's z.
+    let z = 0.5f64.sqrt();
+    let lifted = PYRAMIDS
+        .replacen("depth=\"0.7\"", &format!("depth=\"{}\"", 0.7 + z), 1)
+        .replacen("depth=\"0.7\"", &format!("depth=\"{}\"", 0.7 - z), 1)
+        .replacen("depth=\"0.1\"", "depth=\"-0.9\"", 1);
+    let [flat, lifted] = [PYRAMIDS, &lifted].map(|text| back(text.as_bytes()));
+    assert!(
+        lifted.warnings.iter().any(|text| text.ends_with("beside the origin; it is moved by -1.000000 in z"))
+    );
+    let [flat, lifted] = [flat, lifted].map(|brought| specimen(brought.design));
+    let facets = [&flat, &lifted].map(|specimen| specimen.design.facets().unwrap());
+    for ((_, a), (_, b)) in facets[0].iter().zip(&facets[1]) {
+        assert!((a.normal - b.normal).length() < 1e-12 && (a.offset - b.offset).abs() < 1e-12);
+    }
+}
+
+#[test]
+fn a_stone_whose_middle_lies_outside_stays_where_it_is() {
+    let mut leaning = design();
+    let cut = tiers(&mut leaning);
+    // Two facets that leave the axis only its upper end.
+    cut.tiers[3].angle = -60.0;
+    cut.tiers[3].distance = 0.0;
+    cut.tiers[3].facets.truncate(1);
+    cut.tiers[4].distance = 0.1;
+    let Written { bytes, lost } = write(&specimen(leaning));
+    assert!(lost.iter().any(|text| text.contains("not centred in height")), "{lost:?}");
+    let scaled = back(&bytes);
+    assert_eq!(scaled.warnings, Vec::<String>::new());
+    assert_eq!(back(&write(&specimen(scaled.design.clone())).bytes).design, scaled.design);
+}
+
+#[test]
+fn a_long_name_is_not_multiplied() {
+    let facets: String = (0..9000)
+        .map(|k| format!("<facet nx='0' ny='{}' nz='{}'/>", f64::from(k).sin(), f64::from(k).cos()))
+        .collect();
+    let long = "n".repeat(1 << 20);
+    let text = format!(
+        "<GemCutStudio><tier name='{long}' instructions='{long}' depth='1'>{facets}</tier></GemCutStudio>"
+    );
+    let mut design = back(text.as_bytes()).design;
+    let held: usize =
+        tiers(&mut design).tiers.iter().map(|tier| tier.name().len() + tier.instructions.len()).sum();
+    assert_eq!(held, 2 * long.len());
+}
+
+#[test]
 fn what_the_format_cannot_hold_is_told() {
     let mut full = Design { notes: Some("a note".to_owned()), ..design() };
     let cut = tiers(&mut full);
@@ -121,7 +171,7 @@ fn faults_are_told_with_their_line() {
             with("depth=\"0.7\" name=\"P\"", ""),
             "box.gcs:9: depth: the tier has none and the facet has no corners",
         ),
-        (with("depth=\"0.7\"", "depth=\"-1\""), "box.gcs:5: depth: -1 must be 0 or more"),
+        (with("depth=\"0.7\"", "depth=\"-1\""), "box.gcs:5: depth: -1.000000 must be 0 or more; the facets"),
         (with("depth=\"0.7\"", "depth=\"1e300\""), "tier 1: distance: 1"),
         (with("angle=\"135\"", "angle=\"x\""), "box.gcs:9: nx, ny, nz: a normal of length 1 is expected"),
         ("<GemCutStudio/>".to_owned(), "tier: 0 facets are cut; from 1 to 10000 are expected"),

@@ -73,7 +73,7 @@ pub fn write(specimen: &Specimen) -> Written {
         1,
         &format!(r#"<index gear="{gear}" base="{offset}" symmetry="{symmetry}" mirror="{mirror}"/>"#),
     );
-    put_tiers(&tiers, &mut page);
+    put_tiers(&tiers, &mut page, &mut lost);
     put_render(&tiers, index, &mut page);
     put_info(&tiers, &mut page);
     page.line(0, &format!("</{ROOT}>"));
@@ -121,10 +121,9 @@ impl Form {
         let low = corners().map(|corner| corner.z).fold(f64::INFINITY, f64::min);
         let high = corners().map(|corner| corner.z).fold(f64::NEG_INFINITY, f64::max);
         let middle = (low + high) / 2.0;
-        if !(reach > 0.0 && middle.is_finite()) || (reach - 1.0).abs().max(middle.abs()) < IN_FORM {
-            return Self { scale: 1.0, middle: 0.0 };
-        }
-        Self { scale: 1.0 / reach, middle }
+        let scale = if reach > 0.0 && (reach - 1.0).abs() > IN_FORM { 1.0 / reach } else { 1.0 };
+        let middle = if middle.is_finite() && middle.abs() > IN_FORM { middle } else { 0.0 };
+        Self { scale, middle }
     }
 
     fn depth(&self, plane: &Plane) -> f64 {
@@ -136,9 +135,18 @@ impl Form {
     }
 }
 
-fn put_tiers(tiers: &Tiers, page: &mut Page) {
+fn put_tiers(tiers: &Tiers, page: &mut Page, lost: &mut Vec<String>) {
     let outlines = cutters::outlines(tiers);
-    let form = Form::of(&outlines);
+    let mut form = Form::of(&outlines);
+    let all = tiers.tiers.iter().map(|tier| (tier, tier.facets.first().map_or(0.0, |facet| facet.index)));
+    if all.into_iter().any(|(tier, index)| form.depth(&tiers.plane(tier, index)) < 0.0) {
+        // Around the origin no distance is below 0.
+        form.middle = 0.0;
+        lost.push(
+            "the stone is not centred in height, as the format wants it: a facet would pass the origin"
+                .to_owned(),
+        );
+    }
     let mut outlines = outlines.into_iter();
     for tier in &tiers.tiers {
         let uncut = |facet: &Indexed| (tiers.plane(tier, facet.index), Vec::new());

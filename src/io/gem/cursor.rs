@@ -66,10 +66,6 @@ impl<'a> Cursor<'a> {
         self.array(what).map(i32::from_le_bytes)
     }
 
-    pub fn skip(&mut self, count: usize, what: &str) -> Result<(), Fault> {
-        self.take(count, what).map(drop)
-    }
-
     /// A text behind its length.
     pub fn text(&mut self, what: &str) -> Result<&'a [u8], Fault> {
         let [length] = self.array(what)?;

@@ -115,6 +115,19 @@ fn a_facet_through_the_origin_stays_there() {
 }
 
 #[test]
+fn a_stone_that_ends_at_the_block_it_is_cut_from_is_told() {
+    let mut wide = design();
+    tiers(&mut wide).tiers.iter_mut().for_each(|tier| tier.distance *= BLANK);
+    tiers(&mut wide).tiers[5].distance = BLANK;
+    let told = back(&write(&specimen(wide)).bytes).warnings;
+    assert_eq!(told.len(), 1);
+    assert!(
+        told[0].starts_with("offset 0x") && told[0].contains("block that GemCad cuts from, 1.1333 "),
+        "{told:?}"
+    );
+}
+
+#[test]
 fn faults_are_told_with_their_offset() {
     let good = write(&specimen(design())).bytes;
     let spoilt = |at: usize, with: &[u8]| {
