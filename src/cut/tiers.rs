@@ -155,10 +155,10 @@ impl Tier {
         if !(-180.0..=180.0).contains(&self.angle) {
             return Err(TierFault::Angle(self.angle));
         }
-        if !(self.distance.abs() <= LARGEST) {
+        if !(-LARGEST..=LARGEST).contains(&self.distance) {
             return Err(TierFault::Distance(self.distance));
         }
-        let wrong = self.facets.iter().find(|facet| !(facet.index.abs() <= LARGEST));
+        let wrong = self.facets.iter().find(|facet| !(-LARGEST..=LARGEST).contains(&facet.index));
         wrong.map_or(Ok(()), |facet| Err(TierFault::Index(facet.index)))
     }
 }
@@ -172,7 +172,7 @@ impl Tiers {
         if self.gear == 0 || !(-MOST_TEETH..=MOST_TEETH).contains(&self.gear) {
             return Err((None, TierFault::Gear(self.gear)));
         }
-        if !(self.offset.abs() <= LARGEST) {
+        if !(-LARGEST..=LARGEST).contains(&self.offset) {
             return Err((None, TierFault::Offset(self.offset)));
         }
         let mut numbered = (1..).zip(&self.tiers);

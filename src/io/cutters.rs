@@ -1,0 +1,331 @@
+//! What the files of gem cutters have in common: planes as settings of a faceting machine, facets gathered into
+//! tiers, and what is told of designs that say too much or too little.
+//!
+//! Numbers that come out of planes are rounded, so that they stand as the cutter wrote them and reading what was
+//! written gives the same ones.
+
+use super::cut_file::CutFileError;
+use super::design_file::Brought;
+use crate::cut::{Cut, DEFAULT_DIAMETER_MM, Design, Indexed, MaterialRef, Tier, Tiers, is_printable};
+use glam::DVec3;
+use std::f64::consts::TAU;
+use std::path::Path;
+
+mod outward;
+#[cfg(test)]
+pub(super) mod sample;
+
+pub(super) use outward::{Outline, outlines, refractive_index, tiers_of, untold};
+
+/// Two facets of one tier are cut at one setting if their angles, degrees, and distances, of themselves, differ by no
+/// more; a number this near to one that a cutter would write is that one. Above the noise of stored planes (1e-13),
+/// far below what a machine can set (1e-3).
+const SAME_SETTING: f64 = 1e-9;
+
+/// Angles are written in steps of a millionth of a degree: what cutters' programs print.
+const ANGLE_STEPS: f64 = 1e6;
+
+/// Other angles and indices keep eleven decimals: more than a stored plane's noise leaves, less than 1e-12 in radians.
+const KEPT: f64 = 1e11;
+
+/// Planes nearer to the origin than this, of the farthest, run through it: far below what 8 decimals can mean.
+const THROUGH_ORIGIN: f64 = 1e-15;
+
+/// The index taken where a file's makes no sense: gem cutters take it where nothing is said.
+const USUAL_INDEX: f64 = 1.54;
+
+/// The gear taken where a file's makes no sense: the commonest.
+const USUAL_GEAR: i32 = 96;
+
+/// The most warnings told of one file.
+const MOST_WARNINGS: usize = 100;
+
+/// How a facet is cut; units as in [`Tier`] and [`Indexed`].
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Setting {
+    pub angle: f64,
+    pub distance: f64,
+    pub index: f64,
+}
+
+/// The gear by which settings are told.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Gear {
+    pub teeth: i32,
+    pub offset: f64,
+}
+
+/// A facet on its way into a tier.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Piece {
+    /// What its file calls its tier; facets of different ones are never gathered.
+    pub tier: usize,
+    pub setting: Setting,
+    pub name: String,
+    pub instructions: String,
+    pub is_cut: bool,
+}
+
+/// Warnings, up to a number that people read.
+#[derive(Debug, Default)]
+pub(super) struct Told {
+    texts: Vec<String>,
+    more: usize,
+}
+
+impl Told {
+    /// The text is made only if there is room for it.
+    pub fn warn(&mut self, text: impl FnOnce() -> String) {
+        if self.texts.len() < MOST_WARNINGS {
+            self.texts.push(text());
+        } else {
+            self.more += 1;
+        }
+    }
+
+    pub fn texts(mut self) -> Vec<String> {
+        if self.more > 0 {
+            self.texts.push(format!("{} more of this kind are not told", self.more));
+        }
+        self.texts
+    }
+}
+
+impl Gear {
+    /// The gear that a file gives, or the usual one and a warning.
+    pub fn given(teeth: i32, offset: f64, at: &str, told: &mut Told) -> Self {
+        let given = Self { teeth, offset };
+        match given.tiers().check() {
+            Ok(()) => given,
+            Err((_, fault)) => {
+                told.warn(|| format!("{at}{fault}; the facets are told by a gear of {USUAL_GEAR} teeth"));
+                Self { teeth: USUAL_GEAR, offset: 0.0 }
+            }
+        }
+    }
+
+    /// A design of this gear in which nothing is cut yet.
+    pub fn tiers(self) -> Tiers {
+        Tiers {
+            gear: self.teeth,
+            offset: self.offset,
+            symmetry: 1,
+            mirror: false,
+            headers: vec![],
+            footers: vec![],
+            remarks: vec![],
+            tiers: vec![],
+        }
+    }
+
+    /// How the plane with this unit normal is cut. The sign of `normal.z`, even of zero, tells crown from pavilion.
+    pub fn setting(self, normal: DVec3, distance: f64) -> Setting {
+        let across = normal.x.hypot(normal.y);
+        let slope = as_written(across.atan2(normal.z.abs()).to_degrees(), ANGLE_STEPS);
+        let teeth = f64::from(self.teeth).abs();
+        let index = match slope {
+            // A flat has no azimuth; cutters set the machine to its last tooth.
+            0.0 => teeth,
+            _ => self.index(normal.x.atan2(-normal.y)),
+        };
+        Setting { angle: slope.copysign(normal.z), distance: fourteen_digits(distance), index }
+    }
+
+    /// The index, above 0 and up to the number of teeth, at which a facet lies whose azimuth from -y is this, radians.
+    fn index(self, azimuth: f64) -> f64 {
+        let teeth = f64::from(self.teeth);
+        let index = (self.offset + teeth * azimuth / TAU).rem_euclid(teeth.abs());
+        match as_written(index, 1.0) {
+            0.0 => teeth.abs(),
+            index => index,
+        }
+    }
+}
+
+/// A number as it was probably written, in `steps` to the unit, or without its noise.
+fn as_written(value: f64, steps: f64) -> f64 {
+    let on_step = (value * steps).round() / steps;
+    if (on_step - value).abs() < SAME_SETTING { on_step } else { (value * KEPT).round() / KEPT }
+}
+
+fn fourteen_digits(length: f64) -> f64 {
+    format!("{length:.13e}").parse().unwrap_or(length)
+}
+
+/// Distances at which planes run through the origin become 0.
+pub(super) fn rid_of_noise(distance: f64, farthest: f64) -> f64 {
+    if distance <= farthest * THROUGH_ORIGIN { 0.0 } else { distance }
+}
+
+/// The opposite: a distance that its inverse can be written of.
+pub(super) fn off_the_origin(distance: f64, farthest: f64) -> f64 {
+    let farthest = if farthest > 0.0 { farthest } else { 1.0 };
+    distance.max(farthest * THROUGH_ORIGIN / 100.0)
+}
+
+/// Facets as tiers: those in a row that are cut alike, and told apart by no instructions of their own.
+pub(super) fn gathered(pieces: impl IntoIterator<Item = Piece>) -> Vec<Tier> {
+    let mut tiers: Vec<Tier> = Vec::new();
+    let mut last = None;
+    for piece in pieces {
+        let same = last == Some(piece.tier);
+        last = Some(piece.tier);
+        match tiers.last_mut().filter(|tier| same && piece.belongs_to(tier)) {
+            Some(tier) => piece.join(tier),
+            None => tiers.push(piece.alone()),
+        }
+    }
+    tiers
+}
+
+impl Piece {
+    fn belongs_to(&self, tier: &Tier) -> bool {
+        let Setting { angle, distance, .. } = self.setting;
+        let said = [&self.instructions, &tier.instructions];
+        (angle - tier.angle).abs() <= SAME_SETTING
+            && angle.is_sign_negative() == tier.angle.is_sign_negative()
+            && (distance - tier.distance).abs() <= SAME_SETTING * tier.distance
+            && self.is_cut == tier.is_cut
+            && (said[0] == said[1] || said.iter().any(|text| text.is_empty()))
+    }
+
+    fn join(self, tier: &mut Tier) {
+        if tier.instructions.is_empty() {
+            tier.instructions = self.instructions;
+        }
+        tier.facets.push(Indexed { index: self.setting.index, name: self.name });
+    }
+
+    fn alone(self) -> Tier {
+        let Setting { angle, distance, index } = self.setting;
+        let facets = vec![Indexed { index, name: self.name }];
+        Tier { angle, distance, instructions: self.instructions, is_cut: self.is_cut, facets }
+    }
+}
+
+/// Leaves a tier's name with its first facet alone, where cutters put it.
+pub(super) fn named_once(tiers: &mut [Tier]) {
+    tiers.iter_mut().flat_map(|tier| tier.facets.iter_mut().skip(1)).for_each(|facet| facet.name.clear());
+}
+
+/// What a design is called: by the first of these lines that can be shown, else by its file.
+pub(super) fn title<'a>(lines: impl IntoIterator<Item = &'a String>, label: &str) -> String {
+    let stem = Path::new(label).file_stem().map(|stem| stem.to_string_lossy().into_owned());
+    let lines = lines.into_iter().map(|line| line.trim());
+    let mut names = lines.chain(stem.as_deref()).filter(|name| is_printable(name));
+    names.next().unwrap_or("design").to_owned()
+}
+
+/// Lines without the empty ones at their end.
+pub(super) fn up_to_the_last(mut lines: Vec<String>) -> Vec<String> {
+    lines.truncate(lines.iter().rposition(|line| !line.is_empty()).map_or(0, |last| last + 1));
+    lines
+}
+
+/// A file's symmetry, or 1 and a warning.
+pub(super) fn symmetry(given: i32, at: &str, told: &mut Told) -> u32 {
+    match u32::try_from(given) {
+        Ok(symmetry @ 1..) => symmetry,
+        _ => {
+            told.warn(|| format!("{at}symmetry: {given} must be 1 or more; 1 is taken"));
+            1
+        }
+    }
+}
+
+/// A file's refractive index as a material, or the usual one and a warning.
+pub(super) fn material(index: f64, at: &str, told: &mut Told) -> MaterialRef {
+    let material = MaterialRef::Index(index);
+    match material.check() {
+        Ok(()) => material,
+        Err(fault) => {
+            told.warn(|| format!("{at}{fault}; {USUAL_INDEX} is taken"));
+            MaterialRef::Index(USUAL_INDEX)
+        }
+    }
+}
+
+/// The design that a file has brought, if it is one.
+pub(super) fn brought(
+    name: String,
+    material: MaterialRef,
+    tiers: Tiers,
+    told: Told,
+    label: &str,
+) -> Result<Brought, CutFileError> {
+    let diameter_mm = DEFAULT_DIAMETER_MM;
+    let cut = Cut::Tiers(tiers);
+    let design = Design { name, source: None, notes: None, material, diameter_mm, cut };
+    let refused = |message: String| CutFileError { path: label.to_owned(), line: None, message };
+    design.check().map_err(|error| refused(error.to_string()))?;
+    Ok(Brought { design, warnings: told.texts() })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_plane_gives_back_the_setting_it_was_cut_at() {
+        for (teeth, offset) in [(96, 0.0), (-96, 48.0), (80, 40.0), (-99, 49.5), (77, 0.25)] {
+            let gear = Gear { teeth, offset };
+            for (angle, index) in [(-41.5, 93.0), (34.0, 96.0), (-90.0, 3.0), (90.0, 12.5), (1.234567, 7.0)] {
+                let index: f64 = index;
+                let index = if index > f64::from(teeth.abs()) { index - 24.0 } else { index };
+                let index = if index > f64::from(teeth.abs()) { 1.0 } else { index };
+                let facets = vec![Indexed { index, name: String::new() }];
+                let tier = Tier { angle, distance: 0.7, instructions: String::new(), is_cut: true, facets };
+                let plane = gear.tiers().plane(&tier, index);
+                assert_eq!(gear.setting(plane.normal, plane.offset), Setting { angle, distance: 0.7, index });
+            }
+        }
+    }
+
+    #[test]
+    fn a_flat_lies_at_the_last_tooth_and_its_sign_tells_which() {
+        let gear = Gear { teeth: -96, offset: 48.0 };
+        let table = gear.setting(DVec3::new(1e-16, -3e-15, 1.0), 0.4);
+        assert_eq!(table, Setting { angle: 0.0, distance: 0.4, index: 96.0 });
+        assert!(gear.setting(DVec3::NEG_Z, 0.4).angle.is_sign_negative());
+    }
+
+    #[test]
+    fn facets_that_differ_are_tiers_of_their_own() {
+        let piece = |tier, angle, distance, instructions: &str| Piece {
+            tier,
+            setting: Setting { angle, distance, index: 3.0 },
+            name: "A".to_owned(),
+            instructions: instructions.to_owned(),
+            is_cut: true,
+        };
+        let pieces = [
+            piece(1, 41.0, 1.0, ""),
+            piece(1, 41.0 + 1e-10, 1.0 - 1e-10, "meet"),
+            piece(1, 41.0, 1.0 - 1e-8, "meet"),
+            piece(1, 41.0, 1.0 - 1e-8, "level"),
+            piece(2, 41.0, 1.0 - 1e-8, "level"),
+            piece(2, -41.0, 1.0 - 1e-8, ""),
+        ];
+        let tiers = gathered(pieces);
+        let counts: Vec<usize> = tiers.iter().map(|tier| tier.facets.len()).collect();
+        assert_eq!(counts, [2, 1, 1, 1, 1]);
+        assert_eq!(tiers[0].instructions, "meet");
+    }
+
+    #[test]
+    fn a_design_is_called_by_its_first_printable_line_or_its_file() {
+        let lines = ["", " \u{7}", " Étoile "].map(str::to_owned);
+        assert_eq!(title(&lines, "a/b.gem"), "Étoile");
+        assert_eq!(title(&[], "a/b.gem"), "b");
+        assert_eq!(title(&[], ""), "design");
+    }
+
+    #[test]
+    fn warnings_have_an_end() {
+        let mut told = Told::default();
+        (0..1000).for_each(|k| told.warn(|| format!("{k}")));
+        let texts = told.texts();
+        assert_eq!(texts.len(), MOST_WARNINGS + 1);
+        assert_eq!(texts[MOST_WARNINGS], "900 more of this kind are not told");
+    }
+}

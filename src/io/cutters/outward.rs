@@ -1,0 +1,112 @@
+//! Designs on their way into a cutters' file: as tiers, with their outlines, and what such files cannot hold.
+
+use super::{Gear, Piece, fourteen_digits, gathered, named_once};
+use crate::cut::{Cut, DEFAULT_DIAMETER_MM, Design, MaterialRef, Tiers, tier_stem};
+use crate::math::{Plane, Polytope};
+use crate::optics::line;
+use crate::scene::Specimen;
+use glam::DVec3;
+use std::borrow::Cow;
+
+/// Gears by which a design without one is told, the commonest first.
+const GEARS: [i32; 9] = [96, 80, 72, 64, 120, 84, 88, 77, 100];
+
+/// The plane of a facet and its corners, counter-clockwise seen from outside; none where it does not reach the stone.
+pub(in super::super) type Outline = (Plane, Vec<DVec3>);
+
+/// The design as tiers; one that is not cut by tiers is told by the first gear on which its facets lie.
+pub(in super::super) fn tiers_of<'a>(specimen: &'a Specimen, lost: &mut Vec<String>) -> Cow<'a, Tiers> {
+    let design = &specimen.design;
+    let brilliant = match &design.cut {
+        Cut::Tiers(tiers) => return Cow::Borrowed(tiers),
+        Cut::RoundBrilliant(_) => true,
+        Cut::Planes(_) => false,
+    };
+    let facets = around_the_origin(specimen, lost);
+    let told = |&teeth: &i32| indexed(&facets, Gear { teeth, offset: 0.0 });
+    let is_whole = |tiers: &Tiers| {
+        tiers.tiers.iter().flat_map(|tier| &tier.facets).all(|facet| facet.index.fract() == 0.0)
+    };
+    let mut tiers = GEARS.iter().map(told).find(is_whole).unwrap_or_else(|| told(&GEARS[0]));
+    (tiers.symmetry, tiers.mirror) = if brilliant { (8, true) } else { (1, false) };
+    tiers.headers = std::iter::once(&design.name).chain(&design.source).cloned().collect();
+    Cow::Owned(tiers)
+}
+
+/// The facets of a design, moved where the origin lies outside, since tiers have no place for that.
+fn around_the_origin(specimen: &Specimen, lost: &mut Vec<String>) -> Vec<(String, Plane)> {
+    // A specimen's design has been checked.
+    let mut facets = specimen.design.facets().unwrap_or_default();
+    if facets.iter().any(|(_, plane)| plane.offset < 0.0) {
+        let corners = facets_solid(&facets);
+        let shift = corners.iter().sum::<DVec3>() / corners.len().max(1) as f64;
+        facets.iter_mut().for_each(|(_, plane)| plane.offset -= plane.normal.dot(shift));
+        let [x, y, z] = (-shift).to_array();
+        lost.push(format!(
+            "the stone is moved by ({x:.6}, {y:.6}, {z:.6}), since cutters measure from inside it"
+        ));
+    }
+    facets
+}
+
+fn facets_solid(facets: &[(String, Plane)]) -> Vec<DVec3> {
+    let planes: Vec<Plane> = facets.iter().map(|(_, plane)| *plane).collect();
+    Polytope::from_planes(&planes).map(|solid| solid.vertices().to_vec()).unwrap_or_default()
+}
+
+/// Named planes as tiers: each named once, by its first facet.
+fn indexed(facets: &[(String, Plane)], gear: Gear) -> Tiers {
+    let mut runs = 0;
+    let mut last = "";
+    let pieces = facets.iter().map(|(name, plane)| {
+        let stem = tier_stem(name);
+        runs += usize::from(stem != last);
+        last = stem;
+        let setting = gear.setting(plane.normal, plane.offset.max(0.0));
+        Piece { tier: runs, setting, name: stem.to_owned(), instructions: String::new(), is_cut: true }
+    });
+    let mut tiers = Tiers { tiers: gathered(pieces), ..gear.tiers() };
+    named_once(&mut tiers.tiers);
+    tiers
+}
+
+/// The facets that are cut, in their order, in the design's unit.
+pub(in super::super) fn outlines(tiers: &Tiers) -> Vec<Outline> {
+    let cut = tiers.tiers.iter().filter(|tier| tier.is_cut);
+    let planes: Vec<Plane> =
+        cut.flat_map(|tier| tier.facets.iter().map(|facet| tiers.plane(tier, facet.index))).collect();
+    let mut outlines: Vec<Outline> = planes.iter().map(|plane| (*plane, Vec::new())).collect();
+    if let Ok(solid) = Polytope::from_planes(&planes) {
+        for facet in solid.facets() {
+            outlines[facet.source].1 = solid.corners(facet).collect();
+        }
+    }
+    outlines
+}
+
+/// The one index that stands for the material: that of sodium light.
+pub(in super::super) fn refractive_index(specimen: &Specimen, lost: &mut Vec<String>) -> f64 {
+    if let MaterialRef::Index(index) = specimen.design.material {
+        return index;
+    }
+    let index = fourteen_digits(specimen.material.index(line::SODIUM_D));
+    let name = &specimen.material.name;
+    lost.push(format!("of the material '{name}' only its index in sodium light is kept, {index:.4}"));
+    index
+}
+
+/// What no cutters' file says of a design; `name` is what its reader will call it, if that comes from its lines.
+pub(in super::super) fn untold(design: &Design, name: Option<&String>, lost: &mut Vec<String>) {
+    if name.is_none_or(|name| name.trim() != design.name) {
+        lost.push(format!("the name '{}' is not among the lines at the top", design.name));
+    }
+    if design.source.is_some() && matches!(design.cut, Cut::Tiers(_)) {
+        lost.push("where the design is published has no place in the format".to_owned());
+    }
+    if design.notes.is_some() {
+        lost.push("the design's notes have no place in the format".to_owned());
+    }
+    if design.diameter_mm != DEFAULT_DIAMETER_MM {
+        lost.push(format!("the diameter, {} mm, has no place in the format", design.diameter_mm));
+    }
+}

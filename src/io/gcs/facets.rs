@@ -1,0 +1,234 @@
+//! Reading the tiers of a `.gcs` and their facets.
+
+use super::read::Reader;
+use crate::cut::{MAX_PLANES, Tier, is_printable};
+use crate::io::cutters::{self, Gear, Piece};
+use crate::io::text::TextError;
+use crate::math::Plane;
+use glam::DVec3;
+use roxmltree::Node;
+
+/// How far a tier's depth and angle may differ from its corners and normals, in the stone's unit and in degrees.
+const TOLD_APART: f64 = 1e-6;
+
+/// A normal of another length is badly written.
+const UNIT_LENGTH: f64 = 1e-6;
+
+/// A facet that faces the axis by less (cosine) does not cross it.
+const ALONG_THE_AXIS: f64 = 1e-9;
+
+/// A facet as the file has it.
+struct Raw<'d> {
+    at: Node<'d, 'd>,
+    /// Its distance may be below 0.
+    plane: Plane,
+    name: String,
+    instructions: String,
+    is_cut: bool,
+}
+
+/// The facets of one tier, or what it says without any.
+type RawTier<'d> = (Vec<Raw<'d>>, Option<Tier>);
+
+impl<'d> Reader<'d> {
+    /// All tiers, told by this gear.
+    pub fn tiers(&mut self, root: Node<'d, 'd>, gear: Gear) -> Result<Vec<Tier>, TextError> {
+        let facets = root.descendants().filter(|node| node.has_tag_name("facet")).count();
+        if facets > MAX_PLANES {
+            let message = format!("there are more facets than {MAX_PLANES}, which are the most taken");
+            return Err(self.fault(root, message));
+        }
+        let mut raw: Vec<RawTier<'d>> = Vec::new();
+        for node in root.children().filter(Node::is_element) {
+            match node.tag_name().name() {
+                "tier" => {
+                    let facets = self.tier(node)?;
+                    let empty = facets.is_empty().then(|| self.empty_tier(node)).flatten();
+                    raw.push((facets, empty));
+                }
+                "index" | "render" | "info" => {}
+                other => self.warn(node, || format!("<{other:.40}> is not known here and is not read")),
+            }
+        }
+        let middle = self.middle(&raw)?;
+        let mut tiers = Vec::new();
+        for (facets, empty) in raw {
+            let pieces: Vec<Piece> =
+                facets.into_iter().map(|facet| self.piece(facet, middle, gear)).collect();
+            let mut gathered = cutters::gathered(pieces);
+            cutters::named_once(&mut gathered);
+            tiers.extend(gathered.into_iter().chain(empty));
+        }
+        Ok(tiers)
+    }
+
+    /// The height at which the origin belongs: 0, but where it lies outside the stone half way through it.
+    fn middle(&mut self, raw: &[RawTier<'d>]) -> Result<f64, TextError> {
+        let cut = || raw.iter().flat_map(|(facets, _)| facets).filter(|facet| facet.is_cut);
+        let Some(outer) = cut().find(|facet| facet.plane.offset < 0.0) else { return Ok(0.0) };
+        let (mut low, mut high) = (f64::NEG_INFINITY, f64::INFINITY);
+        for Plane { normal, offset } in cut().map(|facet| facet.plane) {
+            match normal.z {
+                z if z > ALONG_THE_AXIS => high = high.min(offset / z),
+                z if z < -ALONG_THE_AXIS => low = low.max(offset / z),
+                _ if offset < 0.0 => high = f64::NEG_INFINITY,
+                _ => {}
+            }
+        }
+        let middle = (low + high) / 2.0;
+        if !(low <= high && middle.is_finite()) {
+            let depth = outer.plane.offset;
+            let message = format!("depth: {depth:.6} must be 0 or more; the facets must lie around the axis");
+            return Err(self.fault(outer.at, message));
+        }
+        self.warn(outer.at, || {
+            format!("the stone lies beside the origin; it is moved by {:.6} in z", -middle)
+        });
+        Ok(middle)
+    }
+
+    fn piece(&mut self, raw: Raw<'d>, middle: f64, gear: Gear) -> Piece {
+        let Raw { at, plane, name, instructions, is_cut } = raw;
+        let distance = plane.offset - plane.normal.z * middle;
+        // Of what is cut, rounding alone is left below 0.
+        if distance < 0.0 && !is_cut {
+            self.warn(at, || format!("depth: {distance} of a facet that is not cut is taken as 0"));
+        }
+        let mut setting = gear.setting(plane.normal, distance.max(0.0));
+        setting.angle = girdle_below(setting.angle);
+        Piece { tier: 0, setting, name, instructions, is_cut }
+    }
+
+    /// A tier without facets, which is kept for what it says.
+    fn empty_tier(&mut self, node: Node<'_, '_>) -> Option<Tier> {
+        let (polar, depth) = (self.number(node, "angle")?, self.number(node, "depth")?);
+        let setting = Gear { teeth: 96, offset: 0.0 }.setting(slope_normal(polar, 0.0), depth.max(0.0));
+        self.warn(node, || "this tier has no facets".to_owned());
+        let instructions = self.text(node, "instructions").unwrap_or_default();
+        let is_cut = self.is(node, "visible", true);
+        Some(Tier {
+            angle: girdle_below(setting.angle),
+            distance: setting.distance,
+            instructions,
+            is_cut,
+            facets: vec![],
+        })
+    }
+
+    /// The facets of a tier; the first has its instructions, and each its name, for whichever begins one of its own.
+    fn tier(&mut self, node: Node<'d, 'd>) -> Result<Vec<Raw<'d>>, TextError> {
+        let (polar, depth) = (self.number(node, "angle"), self.number(node, "depth"));
+        let name = self.text(node, "name").unwrap_or_default();
+        let mut instructions = self.text(node, "instructions").unwrap_or_default();
+        let is_cut = self.is(node, "visible", true);
+        self.ornaments(node);
+        let mut apart = Apart::default();
+        let mut facets: Vec<Raw<'d>> = Vec::new();
+        for at in node.children().filter(|child| child.has_tag_name("facet")) {
+            let plane = self.plane(at, polar, depth)?;
+            apart.look(at, polar, &plane);
+            // An endless name is not multiplied.
+            let name = if facets.is_empty() || is_printable(&name) { name.clone() } else { String::new() };
+            facets.push(Raw { at, plane, name, instructions: std::mem::take(&mut instructions), is_cut });
+        }
+        if let Some(text) = apart.told(&name) {
+            self.warn(node, || text);
+        }
+        Ok(facets)
+    }
+
+    /// What a tier says that a design has no place for.
+    fn ornaments(&mut self, node: Node<'_, '_>) {
+        if self.is(node, "guide", false) {
+            self.warn(node, || "guide: that the tier is a guide is not kept".to_owned());
+        }
+        let frosted = |node: &Node<'_, '_>| {
+            node.attribute("frosting").is_some_and(|text| {
+                !matches!(text.trim().to_ascii_lowercase().as_str(), "" | "0" | "false" | "none")
+            })
+        };
+        if frosted(&node) || node.children().any(|facet| frosted(&facet)) {
+            self.warn(node, || "frosting: it is not kept; all facets are polished here".to_owned());
+        }
+    }
+
+    /// The plane of a facet: its own normal, else that of angle and index; its tier's depth, else that of its corners.
+    fn plane(
+        &mut self,
+        facet: Node<'_, '_>,
+        polar: Option<f64>,
+        depth: Option<f64>,
+    ) -> Result<Plane, TextError> {
+        let own = ["nx", "ny", "nz"].map(|key| self.number(facet, key));
+        let own = own.iter().copied().collect::<Option<Vec<f64>>>().map(|n| DVec3::from_slice(&n));
+        let normal = match own.filter(|n| (n.length() - 1.0).abs() < UNIT_LENGTH) {
+            Some(normal) => normal,
+            None => self.told_normal(facet, polar)?,
+        };
+        let depth = match depth.or_else(|| Some(normal.dot(corners(facet).next()?))) {
+            Some(depth) => depth,
+            None => return Err(self.fault(facet, "depth: the tier has none and the facet has no corners")),
+        };
+        // The normal is one.
+        Plane::new(normal, depth).normalized().ok_or_else(|| self.fault(facet, "depth: it is no length"))
+    }
+
+    fn told_normal(&mut self, facet: Node<'_, '_>, polar: Option<f64>) -> Result<DVec3, TextError> {
+        let Some((polar, index)) = polar.zip(self.number(facet, "index_angle")) else {
+            let message =
+                "nx, ny, nz: a normal of length 1 is expected, or the tier's angle and an index_angle";
+            return Err(self.fault(facet, message));
+        };
+        self.warn(facet, || {
+            "nx, ny, nz: no normal of length 1; that of angle and index_angle is taken".to_owned()
+        });
+        let azimuth = if polar < 90.0 - TOLD_APART { index - 90.0 } else { 270.0 - index };
+        Ok(slope_normal(polar, azimuth))
+    }
+}
+
+fn slope_normal(polar: f64, azimuth: f64) -> DVec3 {
+    Plane::from_slope(polar.to_radians(), azimuth.to_radians(), 1.0).normal
+}
+
+/// The format counts girdle facets as the pavilion's.
+fn girdle_below(angle: f64) -> f64 {
+    if angle == 90.0 { -90.0 } else { angle }
+}
+
+/// The corners of a facet that are numbers.
+fn corners<'a>(facet: Node<'a, 'a>) -> impl Iterator<Item = DVec3> + use<'a> {
+    let vertices = facet.children().filter(|child| child.has_tag_name("vertex"));
+    vertices.filter_map(|vertex| {
+        let [x, y, z] = ["x", "y", "z"]
+            .map(|key| vertex.attribute(key)?.trim().parse().ok().filter(|v: &f64| v.is_finite()));
+        Some(DVec3::new(x?, y?, z?))
+    })
+}
+
+/// How far a tier's numbers differ from those of its facets.
+#[derive(Default)]
+struct Apart {
+    corners: f64,
+    angle: f64,
+}
+
+impl Apart {
+    fn look(&mut self, facet: Node<'_, '_>, polar: Option<f64>, plane: &Plane) {
+        let off = corners(facet).map(|corner| plane.distance(corner).abs());
+        self.corners = off.fold(self.corners, f64::max);
+        let slope = plane.normal.truncate().length().atan2(plane.normal.z).to_degrees();
+        self.angle = polar.map_or(self.angle, |polar| self.angle.max((polar - slope).abs()));
+    }
+
+    fn told(&self, name: &str) -> Option<String> {
+        let mut told = Vec::new();
+        if self.corners > TOLD_APART {
+            told.push(format!("corners lie up to {:.1e} off its depth, which is taken", self.corners));
+        }
+        if self.angle > TOLD_APART {
+            told.push(format!("normals lie up to {:.1e}° off its angle; they are taken", self.angle));
+        }
+        (!told.is_empty()).then(|| format!("tier '{name:.40}': {}", told.join("; ")))
+    }
+}

@@ -1,0 +1,80 @@
+//! What is refused before XML is parsed, since its parser would take it and not come to an end, and texts as they stand.
+
+use super::MAX_BYTES;
+use crate::io::text::{TextError, line_after, too_large};
+use std::borrow::Cow;
+
+/// Attributes of one element; their parser compares each with each.
+const MOST_ATTRIBUTES: usize = 256;
+
+/// Declarations of namespaces; their parser copies them down the tree.
+const MOST_NAMESPACES: usize = 16;
+
+/// The text of a file of a sane size and build: UTF-8, or UTF-16 behind its mark.
+pub(super) fn text(bytes: &[u8]) -> Result<(Cow<'_, str>, bool), TextError> {
+    let whole = |message| TextError { line: None, message };
+    if bytes.len() > MAX_BYTES {
+        return Err(whole(too_large(MAX_BYTES as u64)));
+    }
+    let (text, _, spoilt) = encoding_rs::UTF_8.decode(bytes);
+    if text.matches("xmlns").count() > MOST_NAMESPACES {
+        return Err(whole(format!("xmlns: more than {MOST_NAMESPACES} namespaces are declared")));
+    }
+    // Values cannot hold a '<', so that no element is longer than from one to the next.
+    let mut begin = 0;
+    for piece in text.split_inclusive('<') {
+        if values(piece) > MOST_ATTRIBUTES {
+            let line = Some(line_after(&text.as_bytes()[..begin]));
+            let message = format!("an element has more than {MOST_ATTRIBUTES} attributes");
+            return Err(TextError { line, message });
+        }
+        begin += piece.len();
+    }
+    Ok((text, spoilt))
+}
+
+fn values(element: &str) -> usize {
+    let behind = element.split('=').skip(1);
+    behind.filter(|text| text.trim_start().starts_with(['"', '\''])).count()
+}
+
+/// A value with its line breaks and tabs, for which XML has blanks; `raw` is the value as the file has it.
+pub(super) fn unfolded(raw: &str, value: &str) -> String {
+    if !raw.contains(['\n', '\r', '\t']) {
+        return value.to_owned();
+    }
+    let raw = raw.replace("\r\n", "\n");
+    let mut raw = raw.chars();
+    // Character by character the same, but that an entity stands for one.
+    let unfold = |character| match raw.next() {
+        Some('&') => {
+            raw.by_ref().find(|c| *c == ';');
+            character
+        }
+        Some('\n' | '\r') => '\n',
+        Some('\t') => '\t',
+        _ => character,
+    };
+    value.chars().map(unfold).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn line_breaks_come_back_and_entities_stay() {
+        assert_eq!(unfolded("a&#10;b\nc &amp;\r\nd\t", "a\nb c & d "), "a\nb\nc &\nd\t");
+        assert_eq!(unfolded("plain", "plain"), "plain");
+    }
+
+    #[test]
+    fn elements_without_end_are_refused() {
+        let many: String = (0..300).map(|k| format!(" a{k} = '1'")).collect();
+        let error = text(format!("\n<x{many}/>").as_bytes()).map(drop).unwrap_err();
+        assert_eq!((error.line, error.message.contains("256 attributes")), (Some(2), true));
+        let lines = format!("<x a='{}'/>", "=".repeat(1000));
+        assert!(text(lines.as_bytes()).is_ok());
+        assert!(text("xmlns ".repeat(20).as_bytes()).is_err());
+    }
+}

@@ -1,0 +1,179 @@
+//! Reading `.gcs`.
+
+use super::{COLOUR, ROOT, VERSION, guard};
+use crate::cut::{MaterialRef, Tiers};
+use crate::io::cut_file::CutFileError;
+use crate::io::cutters::{self, Gear, Told};
+use crate::io::design_file::Brought;
+use crate::io::text::TextError;
+use roxmltree::{Document, Node, ParsingOptions};
+
+/// Elements and the blanks between them: ten thousand facets of fifty corners each.
+const MOST_NODES: u32 = 1_000_000;
+
+/// What is read of `<index>`.
+const INDEX: [&str; 4] = ["gear", "base", "symmetry", "mirror"];
+
+/// Lines at the top and at the end, by the attributes of `<info>`; the last of each takes what follows, line by line.
+const HEADERS: [&str; 3] = ["title", "author", "header2"];
+const FOOTERS: [&str; 2] = ["footer1", "footer2"];
+
+/// Reads a design; `label` is the file's path for errors, and names a design without a title.
+///
+/// # Errors
+/// What keeps it from being a design, with its line.
+pub fn read(bytes: &[u8], label: &str) -> Result<Brought, CutFileError> {
+    let refused =
+        |TextError { line, message }: TextError| CutFileError { path: label.to_owned(), line, message };
+    let (text, spoilt) = guard::text(bytes).map_err(refused)?;
+    let options = ParsingOptions { allow_dtd: false, nodes_limit: MOST_NODES, ..ParsingOptions::default() };
+    let document = Document::parse_with_options(&text, options).map_err(|error| {
+        refused(TextError { line: Some(error.pos().row as usize), message: error.to_string() })
+    })?;
+    let mut reader = Reader { document: &document, told: Told::default() };
+    if spoilt {
+        reader.told.warn(|| "characters that are no UTF-8 are read as '\u{fffd}'".to_owned());
+    }
+    let (tiers, material) = reader.design().map_err(refused)?;
+    let name = cutters::title(tiers.headers.first(), label);
+    cutters::brought(name, material, tiers, reader.told, label)
+}
+
+pub(super) struct Reader<'d> {
+    document: &'d Document<'d>,
+    pub told: Told,
+}
+
+impl<'d> Reader<'d> {
+    fn line(&self, node: Node<'_, '_>) -> usize {
+        self.document.text_pos_at(node.range().start).row as usize
+    }
+
+    pub fn fault(&self, node: Node<'_, '_>, message: impl Into<String>) -> TextError {
+        TextError { line: Some(self.line(node)), message: message.into() }
+    }
+
+    pub fn warn(&mut self, node: Node<'_, '_>, text: impl FnOnce() -> String) {
+        let document = self.document;
+        self.told.warn(|| format!("line {}: {}", document.text_pos_at(node.range().start).row, text()));
+    }
+
+    /// An attribute as text, with the line breaks that it has in the file; none where it is empty or missing.
+    pub fn text(&self, node: Node<'_, '_>, key: &str) -> Option<String> {
+        let attribute = node.attribute_node(key).filter(|attribute| !attribute.value().is_empty())?;
+        let raw = &self.document.input_text()[attribute.range_value()];
+        Some(guard::unfolded(raw, attribute.value()))
+    }
+
+    /// An attribute as a finite number; none, and a warning, where it is anything else.
+    pub fn number(&mut self, node: Node<'_, '_>, key: &str) -> Option<f64> {
+        let text = node.attribute(key)?;
+        let number = text.trim().parse().ok().filter(|number: &f64| number.is_finite());
+        if number.is_none() {
+            self.warn(node, || format!("{key}: '{text:.40}' is no finite number; it is not read"));
+        }
+        number
+    }
+
+    pub fn is(&self, node: Node<'_, '_>, key: &str, otherwise: bool) -> bool {
+        match node.attribute(key).map(|text| text.trim().to_ascii_lowercase()).as_deref() {
+            Some("true" | "1") => true,
+            Some("false" | "0") => false,
+            _ => otherwise,
+        }
+    }
+
+    fn design(&mut self) -> Result<(Tiers, MaterialRef), TextError> {
+        let root = self.document.root_element();
+        if !root.has_tag_name(ROOT) {
+            return Err(self.fault(root, format!("<{ROOT}> is expected; this is another kind of XML")));
+        }
+        if root.attribute("version") != Some(VERSION) {
+            self.warn(root, || format!("version: only {VERSION} is known; it is read as that"));
+        }
+        let mut tiers = self.gear(root).tiers();
+        self.index(root, &mut tiers);
+        self.info(root, &mut tiers);
+        let material = self.render(root, &mut tiers);
+        // So that the same remarks stand in the same order, whatever they went through.
+        tiers.remarks.sort();
+        tiers.tiers = self.tiers(root, Gear { teeth: tiers.gear, offset: tiers.offset })?;
+        Ok((tiers, material))
+    }
+
+    fn gear(&mut self, root: Node<'d, 'd>) -> Gear {
+        let Some(node) = child(root, "index") else {
+            self.warn(root, || "<index> is missing".to_owned());
+            return Gear::given(96, 0.0, "", &mut self.told);
+        };
+        let teeth = self.number(node, "gear").unwrap_or_default();
+        let offset = self.number(node, "base").unwrap_or_default();
+        // What is not whole becomes 0, which no gear has.
+        let teeth = if teeth.fract() == 0.0 { teeth as i32 } else { 0 };
+        let place = format!("line {}: ", self.line(node));
+        Gear::given(teeth, offset, &place, &mut self.told)
+    }
+
+    fn index(&mut self, root: Node<'d, 'd>, tiers: &mut Tiers) {
+        let Some(node) = child(root, "index") else { return };
+        let symmetry = self.number(node, "symmetry").unwrap_or(1.0) as i32;
+        let place = format!("line {}: ", self.line(node));
+        tiers.symmetry = cutters::symmetry(symmetry, &place, &mut self.told);
+        tiers.mirror = self.is(node, "mirror", false);
+        self.remark(node, &INDEX, tiers);
+    }
+
+    fn info(&mut self, root: Node<'d, 'd>, tiers: &mut Tiers) {
+        let Some(node) = child(root, "info") else { return };
+        tiers.headers = self.lines(node, &HEADERS);
+        tiers.footers = self.lines(node, &FOOTERS);
+        self.remark(node, &[HEADERS.as_slice(), &FOOTERS].concat(), tiers);
+    }
+
+    fn lines(&self, node: Node<'_, '_>, keys: &[&str]) -> Vec<String> {
+        let mut texts: Vec<String> =
+            keys.iter().map(|key| self.text(node, key).unwrap_or_default()).collect();
+        let last = texts.pop().unwrap_or_default();
+        texts.extend(last.split('\n').map(str::to_owned));
+        cutters::up_to_the_last(texts)
+    }
+
+    fn render(&mut self, root: Node<'d, 'd>, tiers: &mut Tiers) -> MaterialRef {
+        let Some(node) = child(root, "render") else {
+            return cutters::material(f64::NAN, "", &mut self.told);
+        };
+        self.remark(node, &["refractive_index"], tiers);
+        if let Some(colour) = child(node, "color") {
+            let parts = ["r", "g", "b"].map(|key| colour.attribute(key).unwrap_or("0").trim());
+            self.keep(colour, COLOUR.0, parts.join(" "), tiers);
+        }
+        let index = self.number(node, "refractive_index").unwrap_or(f64::NAN);
+        let place = format!("line {}: ", self.line(node));
+        cutters::material(index, &place, &mut self.told)
+    }
+
+    /// Keeps the attributes that are not in `known` as remarks.
+    fn remark(&mut self, node: Node<'_, '_>, known: &[&str], tiers: &mut Tiers) {
+        for attribute in node.attributes().filter(|attribute| !known.contains(&attribute.name())) {
+            if let Some(text) = self.text(node, attribute.name()) {
+                self.keep(node, attribute.name(), text, tiers);
+            }
+        }
+    }
+
+    fn keep(&mut self, node: Node<'_, '_>, key: &str, text: String, tiers: &mut Tiers) {
+        if super::RENDER.contains(&(key, Some(&text))) || (key, text.as_str()) == COLOUR {
+            return;
+        }
+        if tiers.remarks.iter().any(|(other, _)| other == key) {
+            self.warn(node, || format!("{key}: it is said twice; '{text:.40}' is not kept"));
+        } else {
+            tiers.remarks.push((key.to_owned(), text));
+        }
+    }
+}
+
+/// A child by its name.
+fn child<'d>(node: Node<'d, 'd>, name: &str) -> Option<Node<'d, 'd>> {
+    node.children().find(|child| child.has_tag_name(name))
+}

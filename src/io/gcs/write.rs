@@ -1,0 +1,242 @@
+//! Writing a design as `.gcs`.
+
+use super::{COLOUR, RENDER, ROOT, VERSION};
+use crate::cut::{Indexed, Tier, Tiers};
+use crate::io::cutters::{self, Outline};
+use crate::io::design_file::Written;
+use crate::math::Plane;
+use crate::scene::Specimen;
+use glam::DVec3;
+
+/// A stone whose reach and height are so near to what the format wants is left as it is, so that it keeps its digits.
+const IN_FORM: f64 = 1e-9;
+
+/// Coordinates of a stone that reaches 1 are rounding, and written as 0, if they are no larger.
+const ROUNDING: f64 = 1e-15;
+
+/// How the stone is placed for the format.
+struct Form {
+    scale: f64,
+    /// What lies at z = 0 in the file, in the design's unit.
+    middle: f64,
+}
+
+/// XML on its way, and what befell its texts.
+#[derive(Default)]
+struct Page {
+    text: String,
+    dropped: usize,
+}
+
+impl Page {
+    fn line(&mut self, indent: usize, line: &str) {
+        self.text.extend(std::iter::repeat_n("    ", indent));
+        self.text.push_str(line);
+        self.text.push('\n');
+    }
+
+    /// An attribute with a blank before it.
+    fn attribute(&mut self, key: &str, value: &str) -> String {
+        format!(" {key}=\"{}\"", self.escaped(value))
+    }
+
+    fn escaped(&mut self, value: &str) -> String {
+        let mut escaped = String::with_capacity(value.len());
+        for character in value.chars() {
+            match character {
+                '&' => escaped.push_str("&amp;"),
+                '<' => escaped.push_str("&lt;"),
+                '>' => escaped.push_str("&gt;"),
+                '"' => escaped.push_str("&quot;"),
+                '\t' | '\n' | '\r' => escaped.push_str(&format!("&#{};", u32::from(character))),
+                // These XML cannot hold in any form.
+                '\0'..' ' | '\u{fffe}' | '\u{ffff}' => self.dropped += 1,
+                _ => escaped.push(character),
+            }
+        }
+        escaped
+    }
+}
+
+/// The design of a specimen as `.gcs`, and what the format cannot hold of it.
+pub fn write(specimen: &Specimen) -> Written {
+    let mut lost = Vec::new();
+    let tiers = cutters::tiers_of(specimen, &mut lost);
+    cutters::untold(&specimen.design, tiers.headers.first(), &mut lost);
+    left_out(&tiers, &mut lost);
+    let index = cutters::refractive_index(specimen, &mut lost);
+    let mut page = Page::default();
+    page.line(0, &format!("<{ROOT} version=\"{VERSION}\">"));
+    let Tiers { gear, offset, symmetry, mirror, .. } = &*tiers;
+    let mirror = i32::from(*mirror);
+    page.line(
+        1,
+        &format!(r#"<index gear="{gear}" base="{offset}" symmetry="{symmetry}" mirror="{mirror}"/>"#),
+    );
+    put_tiers(&tiers, &mut page, &mut lost);
+    put_render(&tiers, index, &mut page);
+    put_info(&tiers, &mut page);
+    page.line(0, &format!("</{ROOT}>"));
+    if page.dropped > 0 {
+        lost.push(format!("{} characters that XML cannot hold are left out", page.dropped));
+    }
+    Written { bytes: page.text.into_bytes(), lost }
+}
+
+/// What the format has no place for.
+fn left_out(tiers: &Tiers, lost: &mut Vec<String>) {
+    let named_apart = |tier: &&Tier| tier.facets.iter().any(|f| !f.name.is_empty() && f.name != tier.name());
+    let mut tell = |count: usize, what: &str| {
+        if count > 0 {
+            lost.push(format!("{count} {what}"));
+        }
+    };
+    tell(
+        tiers.tiers.iter().filter(named_apart).count(),
+        "tiers have facets of other names, which are left out",
+    );
+    let above = tiers.tiers.iter().filter(|tier| tier.angle == 90.0);
+    tell(above.count(), "tiers of girdle facets are cut at +90°, for which the format has -90°");
+    let nameless = tiers.tiers.iter().filter(|tier| tier.facets.is_empty());
+    tell(nameless.count(), "tiers have no facets and will be read without a name");
+    tell(
+        tiers.remarks.iter().filter(|(key, _)| !is_key(key)).count(),
+        "remarks have keys that XML cannot hold",
+    );
+}
+
+fn is_key(key: &str) -> bool {
+    let begins = key.starts_with(|c: char| c.is_ascii_alphabetic() || c == '_');
+    let taken = ["title", "author", "header2", "footer1", "footer2", "refractive_index", "xmlns"];
+    begins
+        && key.chars().all(|c| c.is_ascii_alphanumeric() || matches!(c, '_' | '-' | '.'))
+        && !taken.contains(&key)
+}
+
+impl Form {
+    /// How this stone must be placed to reach 1 across and to lie as deep as high.
+    fn of(outlines: &[Outline]) -> Self {
+        let corners = || outlines.iter().flat_map(|(_, corners)| corners);
+        let reach = corners().map(|corner| corner.truncate().abs().max_element()).fold(0.0, f64::max);
+        let low = corners().map(|corner| corner.z).fold(f64::INFINITY, f64::min);
+        let high = corners().map(|corner| corner.z).fold(f64::NEG_INFINITY, f64::max);
+        let middle = (low + high) / 2.0;
+        let scale = if reach > 0.0 && (reach - 1.0).abs() > IN_FORM { 1.0 / reach } else { 1.0 };
+        let middle = if middle.is_finite() && middle.abs() > IN_FORM { middle } else { 0.0 };
+        Self { scale, middle }
+    }
+
+    fn depth(&self, plane: &Plane) -> f64 {
+        (plane.offset - plane.normal.z * self.middle) * self.scale
+    }
+
+    fn corner(&self, corner: DVec3) -> DVec3 {
+        (corner - DVec3::Z * self.middle) * self.scale
+    }
+}
+
+fn put_tiers(tiers: &Tiers, page: &mut Page, lost: &mut Vec<String>) {
+    let outlines = cutters::outlines(tiers);
+    let mut form = Form::of(&outlines);
+    let all = tiers.tiers.iter().map(|tier| (tier, tier.facets.first().map_or(0.0, |facet| facet.index)));
+    if all.into_iter().any(|(tier, index)| form.depth(&tiers.plane(tier, index)) < 0.0) {
+        // Around the origin no distance is below 0.
+        form.middle = 0.0;
+        lost.push(
+            "the stone is not centred in height, as the format wants it: a facet would pass the origin"
+                .to_owned(),
+        );
+    }
+    let mut outlines = outlines.into_iter();
+    for tier in &tiers.tiers {
+        let uncut = |facet: &Indexed| (tiers.plane(tier, facet.index), Vec::new());
+        let facets: Vec<Outline> = match tier.is_cut {
+            true => outlines.by_ref().take(tier.facets.len()).collect(),
+            false => tier.facets.iter().map(uncut).collect(),
+        };
+        put_tier(tiers, tier, &facets, &form, page);
+    }
+}
+
+fn put_tier(tiers: &Tiers, tier: &Tier, facets: &[Outline], form: &Form, page: &mut Page) {
+    let angle = if tier.angle.is_sign_negative() || is_culet(tiers, tier) {
+        180.0 - tier.angle.abs()
+    } else {
+        tier.angle
+    };
+    let depth = form.depth(&tiers.plane(tier, 0.0));
+    let name = page.attribute("name", tier.name());
+    let instructions = page.attribute("instructions", &tier.instructions);
+    let visible = tier.is_cut;
+    page.line(
+        1,
+        &format!(
+            r#"<tier angle="{angle}" depth="{depth}"{name}{instructions} visible="{visible}" guide="false">"#
+        ),
+    );
+    facets.iter().for_each(|facet| put_facet(facet, form, page));
+    page.line(1, "</tier>");
+}
+
+fn is_culet(tiers: &Tiers, tier: &Tier) -> bool {
+    tier.angle == 0.0 && tiers.plane(tier, 0.0).normal.z < 0.0
+}
+
+fn clean(number: f64) -> f64 {
+    if number.abs() <= ROUNDING { 0.0 } else { number }
+}
+
+fn put_facet((plane, corners): &Outline, form: &Form, page: &mut Page) {
+    let [x, y, z] = plane.normal.to_array().map(clean);
+    let azimuth = y.atan2(x).to_degrees();
+    let index = if z > 0.0 { 90.0 + azimuth } else { 270.0 - azimuth }.rem_euclid(360.0);
+    page.line(2, &format!(r#"<facet nx="{x}" ny="{y}" nz="{z}" index_angle="{index}">"#));
+    for corner in corners {
+        let [x, y, z] = form.corner(*corner).to_array().map(clean);
+        page.line(3, &format!(r#"<vertex x="{x}" y="{y}" z="{z}"/>"#));
+    }
+    page.line(2, "</facet>");
+}
+
+fn remark<'a>(tiers: &'a Tiers, key: &str) -> Option<&'a str> {
+    tiers.remarks.iter().find(|(other, _)| other == key).map(|(_, text)| text.as_str())
+}
+
+fn put_render(tiers: &Tiers, index: f64, page: &mut Page) {
+    let mut render = String::new();
+    for (key, usual) in RENDER {
+        if let Some(text) = remark(tiers, key).or(usual) {
+            render += &page.attribute(key, text);
+        }
+        if key == RENDER[0].0 {
+            render += &format!(" refractive_index=\"{index}\"");
+        }
+    }
+    page.line(1, &format!("<render{render}>"));
+    let colour = remark(tiers, COLOUR.0).unwrap_or(COLOUR.1);
+    let parts = ["r", "g", "b"].iter().zip(colour.split_whitespace());
+    let colour: String = parts.map(|(key, part)| page.attribute(key, part)).collect();
+    page.line(2, &format!("<color{colour}/>"));
+    page.line(1, "</render>");
+}
+
+fn put_info(tiers: &Tiers, page: &mut Page) {
+    let line = |lines: &[String], place: usize| lines.get(place).cloned().unwrap_or_default();
+    let rest = |lines: &[String], from: usize| lines.get(from..).unwrap_or_default().join("\n");
+    let said = [
+        ("title", line(&tiers.headers, 0)),
+        ("author", line(&tiers.headers, 1)),
+        ("date", remark(tiers, "date").unwrap_or_default().to_owned()),
+        ("header2", rest(&tiers.headers, 2)),
+        ("footer1", line(&tiers.footers, 0)),
+        ("footer2", rest(&tiers.footers, 1)),
+    ];
+    // The first three stand there even if empty, as the program has them.
+    let kept = said.iter().enumerate().filter(|(place, (_, text))| *place < 3 || !text.is_empty());
+    let mut info: String = kept.map(|(_, (key, text))| page.attribute(key, text)).collect();
+    let render = |key: &str| key == COLOUR.0 || RENDER.iter().any(|(known, _)| *known == key);
+    for (key, text) in tiers.remarks.iter().filter(|(key, _)| is_key(key) && key != "date" && !render(key)) {
+        info += &page.attribute(key, text);
+    }
+    page.line(1, &format!("<info{info}/>"));
+}

@@ -1,0 +1,219 @@
+//! Designs of GemCad in its binary form, `.gem`: planes and outlines, little-endian, in a frame whose y is the negative
+//! of ours. The format is published nowhere; what is known of it is told in docs/formats.md.
+//!
+//! The planes are trusted; outlines are passed over in reading and made anew in writing.
+
+use super::cut_file::CutFileError;
+use super::cutters::{self, Gear, Piece, Told};
+use super::design_file::Brought;
+use crate::cut::{MAX_PLANES, Tiers};
+use crate::math::Plane;
+use cursor::{Cursor, Fault};
+use glam::DVec3;
+
+mod cursor;
+mod write;
+
+#[cfg(test)]
+mod tests;
+
+pub use write::write;
+
+/// The largest file taken, bytes.
+pub const MAX_BYTES: usize = 64 << 20;
+
+/// What follows on the last facet, in place of a coordinate.
+const END: f64 = -99999.0;
+
+/// Stands behind the index; nobody knows what for.
+const UNKNOWN: u32 = 0x7fff;
+
+/// GemCad cuts from a block that reaches this far along each axis. Where the facets do not reach the axis within it, its
+/// faces bound the stone that a file stores.
+const BLANK: f64 = 17.0 / 15.0;
+
+/// Coordinates this near to the block's faces lie on them: stored corners are off by less.
+const ON_BLANK: f64 = 1e-9;
+
+/// Lines at the top of a design, and as many at its end.
+const LINES: usize = 4;
+
+/// A facet as the file has it.
+struct Raw<'a> {
+    /// Where it begins.
+    at: usize,
+    /// In the file's frame, with a unit normal.
+    plane: Plane,
+    tier: i32,
+    /// Name, tab, instructions.
+    label: &'a [u8],
+    /// Whether its outline ends at the block that GemCad cuts from.
+    on_blank: bool,
+}
+
+/// Reads a design; `label` is the file's path for errors, and names a design that does not name itself.
+///
+/// # Errors
+/// What keeps it from being a design, with its offset.
+pub fn read(bytes: &[u8], label: &str) -> Result<Brought, CutFileError> {
+    let refused = |message| CutFileError { path: label.to_owned(), line: None, message };
+    if bytes.len() > MAX_BYTES {
+        return Err(refused(super::text::too_large(MAX_BYTES as u64)));
+    }
+    let mut told = Told::default();
+    let mut cursor = Cursor::new(bytes);
+    let raw = raw_facets(&mut cursor).map_err(|fault| refused(fault.to_string()))?;
+    let (mut tiers, index) = trailer(&mut cursor, &mut told).map_err(|fault| refused(fault.to_string()))?;
+    tiers.tiers = cutters::gathered(pieces(&raw, &tiers, &mut told));
+    let material = cutters::material(index.1, &cursor::place(index.0), &mut told);
+    let name = cutters::title(&tiers.headers, label);
+    cutters::brought(name, material, tiers, told, label)
+}
+
+/// Whether this is a design: facets down to the mark at their end.
+pub fn looks_like(bytes: &[u8]) -> bool {
+    bytes.len() <= MAX_BYTES && raw_facets(&mut Cursor::new(bytes)).is_ok_and(|facets| !facets.is_empty())
+}
+
+/// Facets down to the mark at their end.
+fn raw_facets<'a>(cursor: &mut Cursor<'a>) -> Result<Vec<Raw<'a>>, Fault> {
+    let mut facets = Vec::new();
+    loop {
+        let at = cursor.at();
+        let x = cursor.f64("a facet")?;
+        if x == END {
+            return Ok(facets);
+        }
+        if facets.len() == MAX_PLANES {
+            let message = format!("there are more facets than {MAX_PLANES}, which are the most taken");
+            return Err(Fault { at, message });
+        }
+        facets.push(raw_facet(cursor, at, x)?);
+    }
+}
+
+fn raw_facet<'a>(cursor: &mut Cursor<'a>, at: usize, x: f64) -> Result<Raw<'a>, Fault> {
+    let p = DVec3::new(x, cursor.f64("a facet")?, cursor.f64("a facet")?);
+    let plane = Plane::new(p, 1.0).normalized().ok_or_else(|| Fault {
+        at,
+        message: format!(
+            "{p} is no facet's normal over its distance; three finite numbers that are not all 0 are expected, or \
+             the file is no .gem"
+        ),
+    })?;
+    let tier = cursor.i32("a facet")?;
+    let label = cursor.text("a facet's name")?;
+    let on_blank = outline(cursor)?;
+    Ok(Raw { at, plane, tier, label, on_blank })
+}
+
+/// Passes over an outline, and tells whether it ends at the block that GemCad cuts from.
+fn outline(cursor: &mut Cursor<'_>) -> Result<bool, Fault> {
+    let mut on_blank = false;
+    loop {
+        let at = cursor.at();
+        match cursor.i32("a facet's outline")? {
+            0 => return Ok(on_blank),
+            1 => {
+                for _ in 0..3 {
+                    on_blank |= (cursor.f64("a facet's outline")?.abs() - BLANK).abs() < ON_BLANK;
+                }
+            }
+            other => {
+                let message = format!(
+                    "{other} stands where 1 (a corner follows) or 0 (the facet ends) is expected; the file is spoilt \
+                     or no .gem"
+                );
+                return Err(Fault { at, message });
+            }
+        }
+    }
+}
+
+/// All but the facets, and the refractive index with its place.
+fn trailer(cursor: &mut Cursor<'_>, told: &mut Told) -> Result<(Tiers, (usize, f64)), Fault> {
+    const WHAT: &str = "the symmetry, gear and index that follow on the facets";
+    let at = cursor.at();
+    let (symmetry, mirror, teeth) = (cursor.i32(WHAT)?, cursor.i32(WHAT)?, cursor.i32(WHAT)?);
+    let index = (cursor.at(), cursor.f64(WHAT)?);
+    let unknown = cursor.i32(WHAT)? as u32;
+    if unknown != UNKNOWN {
+        let at = cursor::place(cursor.at() - 4);
+        told.warn(|| format!("{at}{unknown:#x} stands where {UNKNOWN:#x} is usual; it is not kept"));
+    }
+    let offset = cursor.f64(WHAT)?;
+    let place = cursor::place(at);
+    let mut tiers = Gear::given(teeth, offset, &place, told).tiers();
+    tiers.symmetry = cutters::symmetry(symmetry, &place, told);
+    tiers.mirror = mirror != 0;
+    [tiers.headers, tiers.footers] = lines(cursor, told);
+    rest(cursor, told);
+    Ok((tiers, index))
+}
+
+/// The lines at the top and at the end; what is missing of them is told, since the stone is whole without.
+fn lines(cursor: &mut Cursor<'_>, told: &mut Told) -> [Vec<String>; 2] {
+    let mut all = Vec::new();
+    for _ in 0..2 * LINES {
+        match cursor.text("the headers and footers") {
+            Ok(text) => all.push(cursor::decoded(text)),
+            Err(fault) => {
+                told.warn(|| fault.to_string());
+                break;
+            }
+        }
+    }
+    let footers = all.split_off(all.len().min(LINES));
+    [all, footers].map(cutters::up_to_the_last)
+}
+
+/// What follows on the design.
+fn rest(cursor: &mut Cursor<'_>, told: &mut Told) {
+    let (at, left) = (cursor::place(cursor.at()), cursor.left());
+    if left == 0 {
+        return;
+    }
+    match cursor.text("") {
+        Ok(b"preform") => told.warn(|| format!("{at}the preform that follows on the stone is not read")),
+        _ => told.warn(|| format!("{at}{left} bytes follow on the design and are not read")),
+    }
+}
+
+/// The facets by the gear of `tiers`.
+fn pieces(raw: &[Raw<'_>], tiers: &Tiers, told: &mut Told) -> Vec<Piece> {
+    let gear = Gear { teeth: tiers.gear, offset: tiers.offset };
+    let farthest = raw.iter().map(|facet| facet.plane.offset).fold(0.0, f64::max);
+    let piece = |raw: &Raw<'_>| {
+        let label = cursor::decoded(raw.label);
+        let (name, instructions) = label.split_once('\t').unwrap_or((&label, ""));
+        let distance = cutters::rid_of_noise(raw.plane.offset, farthest);
+        if distance == 0.0 {
+            let at = cursor::place(raw.at);
+            told.warn(|| format!("{at}facet '{name}' runs through the origin; its distance is taken as 0"));
+        }
+        let normal = raw.plane.normal * DVec3::new(1.0, -1.0, 1.0);
+        Piece {
+            tier: raw.tier as u32 as usize,
+            setting: gear.setting(normal, distance),
+            name: name.to_owned(),
+            instructions: instructions.to_owned(),
+            is_cut: true,
+        }
+    };
+    let pieces = raw.iter().map(piece).collect();
+    tell_of_the_blank(raw, told);
+    pieces
+}
+
+fn tell_of_the_blank(raw: &[Raw<'_>], told: &mut Told) {
+    let on_blank = || raw.iter().filter(|facet| facet.on_blank);
+    if let Some(first) = on_blank().next() {
+        let (at, count) = (cursor::place(first.at), on_blank().count());
+        told.warn(|| {
+            format!(
+                "{at}{count} facets end at the block that GemCad cuts from, {BLANK:.4} from the middle; here facets \
+                 alone bound the stone, and it may reach farther"
+            )
+        });
+    }
+}

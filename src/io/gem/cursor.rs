@@ -1,0 +1,74 @@
+//! Numbers and texts out of bytes, one after the other.
+
+use std::fmt;
+
+/// What is wrong, and where.
+#[derive(Debug, PartialEq)]
+pub(super) struct Fault {
+    pub at: usize,
+    pub message: String,
+}
+
+impl fmt::Display for Fault {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}{}", place(self.at), self.message)
+    }
+}
+
+/// How a message about this offset begins.
+pub(super) fn place(at: usize) -> String {
+    format!("offset {at:#x}: ")
+}
+
+/// Windows-1252, in which every byte is a character.
+pub(super) fn decoded(bytes: &[u8]) -> String {
+    encoding_rs::WINDOWS_1252.decode_without_bom_handling(bytes).0.into_owned()
+}
+
+pub(super) struct Cursor<'a> {
+    bytes: &'a [u8],
+    at: usize,
+}
+
+impl<'a> Cursor<'a> {
+    pub fn new(bytes: &'a [u8]) -> Self {
+        Self { bytes, at: 0 }
+    }
+
+    pub fn at(&self) -> usize {
+        self.at
+    }
+
+    pub fn left(&self) -> usize {
+        self.bytes.len() - self.at
+    }
+
+    fn take(&mut self, count: usize, what: &str) -> Result<&'a [u8], Fault> {
+        let taken = self.bytes.get(self.at..self.at + count).ok_or_else(|| {
+            let message = format!("the file ends in the middle of {what}; it is cut off or no .gem");
+            Fault { at: self.bytes.len(), message }
+        })?;
+        self.at += count;
+        Ok(taken)
+    }
+
+    fn array<const N: usize>(&mut self, what: &str) -> Result<[u8; N], Fault> {
+        let mut array = [0; N];
+        array.copy_from_slice(self.take(N, what)?);
+        Ok(array)
+    }
+
+    pub fn f64(&mut self, what: &str) -> Result<f64, Fault> {
+        self.array(what).map(f64::from_le_bytes)
+    }
+
+    pub fn i32(&mut self, what: &str) -> Result<i32, Fault> {
+        self.array(what).map(i32::from_le_bytes)
+    }
+
+    /// A text behind its length.
+    pub fn text(&mut self, what: &str) -> Result<&'a [u8], Fault> {
+        let [length] = self.array(what)?;
+        self.take(usize::from(length), what)
+    }
+}
