@@ -10,7 +10,7 @@ use std::path::PathBuf;
 pub struct Convert {
     /// A file of a design, or the name of a cut that comes with the program
     input: PathBuf,
-    /// The file to write; its ending names the format: .toml or .asc
+    /// The file to write; its ending names the format: .toml, .asc, .gem or .gcs
     output: PathBuf,
 }
 

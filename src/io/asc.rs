@@ -4,9 +4,9 @@
 //! What is not understood is a warning, and the stone opens; what the file says (names, instructions, headers) is kept.
 
 use super::cut_file::CutFileError;
+use super::cutters::{self, Told};
 use super::design_file::{Brought, Written};
-use super::tier_design::{self, Texts};
-use crate::cut::{Indexed, MAX_PLANES, Tier, Tiers};
+use crate::cut::{Indexed, MAX_PLANES, Tier, Tiers, is_printable};
 use crate::scene::Specimen;
 use encoding_rs::WINDOWS_1252;
 use std::borrow::Cow;
@@ -21,8 +21,8 @@ pub const MAX_BYTES: usize = 16 << 20;
 /// Facets a line, of those that are written: GemCad's own lines end near there.
 const PER_LINE: usize = 20;
 
-/// The most warnings told one by one.
-const MOST_WARNINGS: usize = 20;
+/// The index of refraction that is taken where a file names none: that of quartz, which most designs are for.
+const USUAL_INDEX: f64 = 1.54;
 
 /// Whether a file's first bytes look like one.
 pub fn looks_like(bytes: &[u8]) -> bool {
@@ -64,8 +64,7 @@ pub fn read(bytes: &[u8], label: &str) -> Result<Brought, CutFileError> {
             "no facet is listed; a line such as `a 41.0 0.65 96 24 48 72` is expected for each tier";
         return Err(fault(None, message.to_owned()));
     }
-    let (tiers, ri, warnings) = reader.finished();
-    tier_design::brought(tiers, ri, warnings, label)
+    reader.brought(label)
 }
 
 /// Text as it is meant: UTF-8, or else Windows-1252; without the padding that some programs leave.
@@ -97,17 +96,13 @@ struct Reader {
     /// A name that stands before its index.
     name: Option<String>,
     count: usize,
-    warnings: Vec<String>,
-    unsaid: usize,
+    told: Told,
 }
 
 impl Reader {
     fn warn(&mut self, what: &str) {
-        if self.warnings.len() < MOST_WARNINGS {
-            self.warnings.push(format!("line {}: {what}", self.number));
-        } else {
-            self.unsaid += 1;
-        }
+        let number = self.number;
+        self.told.warn(|| format!("line {number}: {what}"));
     }
 
     fn line(&mut self, line: &str) {
@@ -275,13 +270,12 @@ impl Reader {
         }
     }
 
-    fn finished(mut self) -> (Tiers, Option<f64>, Vec<String>) {
-        if self.gear.is_none() {
-            self.warnings.push("the file names no index gear; one of 96 teeth is taken".to_owned());
-        }
-        if self.unsaid > 0 {
-            self.warnings.push(format!("{} more lines are odd", self.unsaid));
-        }
+    fn brought(mut self, label: &str) -> Result<Brought, CutFileError> {
+        let mut missing = |what: bool, text: &str| what.then(|| self.told.warn(|| text.to_owned()));
+        missing(self.gear.is_none(), "the file names no index gear; one of 96 teeth is taken");
+        missing(self.ri.is_none(), "the file names no index of refraction; 1.54 is taken");
+        let name = cutters::title(&self.headers, label);
+        let material = cutters::material(self.ri.unwrap_or(USUAL_INDEX), "", &mut self.told);
         let tiers = Tiers {
             gear: self.gear.unwrap_or(96),
             offset: self.offset,
@@ -292,7 +286,7 @@ impl Reader {
             remarks: vec![],
             tiers: self.tiers,
         };
-        (tiers, self.ri, self.warnings)
+        cutters::brought(name, material, tiers, self.told, label)
     }
 }
 
@@ -309,12 +303,16 @@ fn short(text: &str) -> String {
 
 /// The file of a design.
 pub fn write(specimen: &Specimen) -> Written {
-    let mut texts = Texts::of(specimen);
-    let tiers = &texts.tiers.clone();
+    let mut lost = vec![];
+    let tiers = cutters::tiers_of(specimen, &mut lost).into_owned();
+    let ri = cutters::refractive_index(specimen, &mut lost);
+    let title = tiers.headers.iter().find(|header| is_printable(header.trim()));
+    cutters::untold(&specimen.design, title, &mut lost);
     let mut out = String::from("GemCad 5.0\n");
     let _ = writeln!(out, "g {} {:?}", tiers.gear, tiers.offset);
     let _ = writeln!(out, "y {} {}", tiers.symmetry, if tiers.mirror { 'y' } else { 'n' });
-    let _ = writeln!(out, "I {}", texts.ri);
+    let _ = writeln!(out, "I {ri}");
+    let mut texts = Texts::default();
     for header in &tiers.headers {
         let _ = writeln!(out, "{}", record('H', &texts.line(header)));
     }
@@ -324,9 +322,52 @@ pub fn write(specimen: &Specimen) -> Written {
     for footer in &tiers.footers {
         let _ = writeln!(out, "{}", record('F', &texts.line(footer)));
     }
-    texts.uncut();
-    texts.remarks();
-    Written { bytes: encoded(out), lost: texts.lost }
+    lost.extend(texts.lost());
+    lost.extend(left_out(&tiers));
+    Written { bytes: encoded(out), lost }
+}
+
+/// What of a design's tiers has no place in the format.
+fn left_out(tiers: &Tiers) -> Vec<String> {
+    let uncut = tiers.tiers.iter().filter(|tier| !tier.is_cut || tier.facets.is_empty()).count();
+    let keys: Vec<&str> = tiers.remarks.iter().map(|(key, _)| key.as_str()).collect();
+    let mut lost = vec![];
+    if uncut > 0 {
+        lost.push(format!("{uncut} tiers that cut nothing are left out"));
+    }
+    if !keys.is_empty() {
+        lost.push(format!("these remarks have no place in the format: {}", keys.join(", ")));
+    }
+    lost
+}
+
+/// Texts on their way into lines and words.
+#[derive(Default)]
+struct Texts {
+    are_joined: bool,
+    are_filled: bool,
+}
+
+impl Texts {
+    /// Text on one line.
+    fn line(&mut self, text: &str) -> String {
+        let breaks = |c: char| matches!(c, '\n' | '\r' | '\0' | '\u{1a}' | '\u{feff}');
+        self.are_joined |= text.contains(breaks);
+        text.replace(breaks, " ")
+    }
+
+    /// Text as one word.
+    fn word(&mut self, text: &str) -> String {
+        let blank = |c: char| c.is_whitespace() || c.is_control();
+        self.are_filled |= text.contains(blank);
+        text.replace(blank, "_")
+    }
+
+    fn lost(&self) -> impl Iterator<Item = String> {
+        let joined = self.are_joined.then_some("lines within a text are joined");
+        let filled = self.are_filled.then_some("blanks in names of facets become _");
+        joined.into_iter().chain(filled).map(str::to_owned)
+    }
 }
 
 /// Windows-1252, which GemCad expects, unless that cannot hold the text or would be read as another.

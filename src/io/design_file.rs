@@ -1,7 +1,7 @@
 //! Files of designs, whatever their format: told by what is in them, and only where that says nothing by how they end.
 
 use super::cut_file::{self, CutFileError};
-use super::{Failure, asc, write as write_whole};
+use super::{Failure, asc, gcs, gem, write as write_whole};
 use super::{WriteError, text};
 use crate::cut::Design;
 use crate::scene::Specimen;
@@ -18,6 +18,10 @@ pub enum Format {
     Toml,
     /// GemCad's text files.
     Asc,
+    /// GemCad's binary files.
+    Gem,
+    /// Gem Cut Studio's files, XML.
+    Gcs,
 }
 
 /// What a file has brought in.
@@ -40,13 +44,15 @@ pub struct Written {
 
 impl Format {
     /// All there are.
-    pub const ALL: [Self; 2] = [Self::Toml, Self::Asc];
+    pub const ALL: [Self; 4] = [Self::Toml, Self::Asc, Self::Gem, Self::Gcs];
 
     /// How its files end, without the dot.
     pub fn ending(self) -> &'static str {
         match self {
             Self::Toml => "toml",
             Self::Asc => "asc",
+            Self::Gem => "gem",
+            Self::Gcs => "gcs",
         }
     }
 
@@ -58,10 +64,13 @@ impl Format {
 
     /// The format of a file of these bytes and this name.
     fn of(bytes: &[u8], path: &Path) -> Self {
-        if asc::looks_like(bytes) {
-            return Self::Asc;
-        }
-        Self::of_name(path).unwrap_or(Self::Toml)
+        let known = [
+            (Self::Gcs, gcs::looks_like as fn(&[u8]) -> bool),
+            (Self::Gem, gem::looks_like),
+            (Self::Asc, asc::looks_like),
+        ];
+        let told = known.into_iter().find(|(_, looks_like)| looks_like(bytes)).map(|(format, _)| format);
+        told.or_else(|| Self::of_name(path)).unwrap_or(Self::Toml)
     }
 }
 
@@ -79,6 +88,8 @@ pub fn read(path: &Path) -> Result<Brought, CutFileError> {
     let bytes = text::read_bytes(path, MAX_BYTES).map_err(fault)?;
     match Format::of(&bytes, path) {
         Format::Asc => asc::read(&bytes, &label),
+        Format::Gem => gem::read(&bytes, &label),
+        Format::Gcs => gcs::read(&bytes, &label),
         Format::Toml => {
             let text = text::utf8(bytes).map_err(fault)?;
             cut_file::parse(&text, &label).map(|design| Brought { design, warnings: vec![] })
@@ -91,6 +102,8 @@ pub fn written(specimen: &Specimen, format: Format) -> Written {
     match format {
         Format::Toml => Written { bytes: cut_file::write(&specimen.design).into_bytes(), lost: vec![] },
         Format::Asc => asc::write(specimen),
+        Format::Gem => gem::write(specimen),
+        Format::Gcs => gcs::write(specimen),
     }
 }
 

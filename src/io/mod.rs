@@ -22,7 +22,6 @@ mod png;
 pub mod scene_file;
 pub mod scope_file;
 mod text;
-mod tier_design;
 
 pub use apng::{Animation, Frames, write_apng};
 pub use atomic::{WriteError, write};

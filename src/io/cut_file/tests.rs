@@ -189,7 +189,7 @@ fn a_key_that_is_unknown_or_missing_is_told_with_those_that_are_known() {
     assert_told(
         &with("[round_brilliant]", ""),
         "x.toml:7: unknown key `crown_angle`, known here are `format`, `name`, `source`, `notes`, `diameter_mm`, \
-         `material`, `round_brilliant`, `plane`; it belongs below a line [round_brilliant]",
+         `material`, `round_brilliant`, `index`, `tier`, `plane`; it belongs below a line [round_brilliant]",
     );
     assert_told(
         &with("[round_brilliant]", "[round_brillant]"),

@@ -22,6 +22,9 @@ pub(in super::super) fn tiers_of<'a>(specimen: &'a Specimen, lost: &mut Vec<Stri
         Cut::RoundBrilliant(_) => true,
         Cut::Planes(_) => false,
     };
+    if brilliant {
+        lost.push("the proportions have no place in the format, only the facets that they make".to_owned());
+    }
     let facets = around_the_origin(specimen, lost);
     let told = |&teeth: &i32| indexed(&facets, Gear { teeth, offset: 0.0 });
     let is_whole = |tiers: &Tiers| {
