@@ -67,19 +67,65 @@ fn tiers(specimen: &Specimen) -> &Tiers {
     tiers
 }
 
+/// A stone written in a format and read again, with what was said to be lost.
+fn again(specimen: &Specimen, format: Format) -> (Specimen, Vec<String>) {
+    let written = written(specimen, format);
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join(format!("again.{}", format.ending()));
+    std::fs::write(&path, written.bytes).unwrap();
+    (open(&path).unwrap_or_else(|why| panic!("{}: {why}", specimen.design.name)), written.lost)
+}
+
 #[test]
 fn what_is_written_reads_back_equal() {
     for file in files(&["asc"]) {
         let Ok(specimen) = open(&file) else { continue };
-        for format in Format::ALL {
-            let written = written(&specimen, format);
-            assert_eq!(written.lost, Vec::<String>::new(), "{}", file.display());
-            let folder = tempfile::tempdir().unwrap();
-            let path = folder.path().join(format!("again.{}", format.ending()));
-            std::fs::write(&path, written.bytes).unwrap();
-            let again = design_file::read(&path).unwrap().design;
-            let Cut::Tiers(back) = &again.cut else { panic!("tiers are expected") };
-            assert!(back == tiers(&specimen), "{} as {}", file.display(), format.ending());
+        for format in [Format::Toml, Format::Asc] {
+            let (back, lost) = again(&specimen, format);
+            assert!(lost.iter().all(|what| what.starts_with("the name ")), "{}: {lost:?}", file.display());
+            assert!(tiers(&back) == tiers(&specimen), "{} as {}", file.display(), format.ending());
+        }
+    }
+}
+
+/// A plane that goes through other formats is off by no more, girdle radii: the last digit of tiers told by angles.
+const SAME_PLANE: f64 = 1e-8;
+
+#[test]
+fn every_format_holds_every_stone() {
+    for file in files(&["asc"]).iter().step_by(10) {
+        let Ok(specimen) = open(file) else { continue };
+        for format in [Format::Gem, Format::Gcs] {
+            let (back, _) = again(&specimen, format);
+            let (name, ending) = (file.display(), format.ending());
+            assert_eq!(
+                back.stone.polytope.facets().len(),
+                specimen.stone.polytope.facets().len(),
+                "{name} as {ending}"
+            );
+            for (a, b) in back.stone.polytope.planes().zip(specimen.stone.polytope.planes()) {
+                let apart = (a.normal - b.normal).length().max((a.offset - b.offset).abs());
+                assert!(apart < SAME_PLANE, "{name} as {ending}: {apart:e}");
+            }
+        }
+    }
+}
+
+#[test]
+fn twins_of_text_and_bytes_agree() {
+    let all = files(&["asc"]);
+    let twins: Vec<_> =
+        all.iter().map(|asc| (asc, asc.with_extension("gem"))).filter(|(_, gem)| gem.exists()).collect();
+    assert!(all.is_empty() || twins.len() >= 3, "{twins:?}");
+    for (asc, gem) in twins {
+        let [text, bytes] = [asc, &gem].map(|file| design_file::read(file).unwrap().design.facets().unwrap());
+        assert_eq!(text.len(), bytes.len(), "{}", asc.display());
+        for (name, plane) in &text {
+            let apart = bytes.iter().map(|(_, other)| {
+                (other.normal - plane.normal).length().max((other.offset - plane.offset).abs())
+            });
+            let nearest = apart.fold(f64::INFINITY, f64::min);
+            assert!(nearest < 1e-5, "{}: {name} is off by {nearest:e}", asc.display());
         }
     }
 }

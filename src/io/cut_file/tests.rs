@@ -194,7 +194,7 @@ fn a_key_that_is_unknown_or_missing_is_told_with_those_that_are_known() {
     assert_told(
         &with("[round_brilliant]", "[round_brillant]"),
         "x.toml:5: unknown key `round_brillant`, known here are `format`, `name`, `source`, `notes`, `diameter_mm`, \
-         `material`, `round_brilliant`, `plane`; did you mean `round_brilliant`?",
+         `material`, `round_brilliant`, `index`, `tier`, `plane`; did you mean `round_brilliant`?",
     );
     assert_told(
         &with("\"diamond\"", "{ refraction = 2 }"),

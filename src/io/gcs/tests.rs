@@ -2,6 +2,7 @@ use super::*;
 use crate::cut::{Design, MaterialRef, Tier, Zone};
 use crate::io::cutters::sample::{design, others, specimen, tiers};
 use crate::io::design_file::{Brought, Written};
+use crate::math::{Plane, Polytope};
 use proptest::prelude::*;
 
 /// Two pyramids on one base, a quarter told by normals, the rest by angle and index.
@@ -50,8 +51,10 @@ fn all_that_a_file_says_is_kept() {
     assert_eq!(warnings.len(), 6);
     assert!(warnings[0].starts_with("line 7: "), "{}", warnings[0]);
     assert_eq!((design.name.as_str(), &design.material), ("Pyramids", &MaterialRef::Index(1.5)));
-    let stone = specimen(design.clone());
-    assert!((stone.stone.polytope.volume() - 8.0 / 3.0 * 0.98f64.powf(1.5)).abs() < 1e-9);
+    // In the file's own unit; a stone is scaled to its girdle.
+    let planes: Vec<Plane> = design.facets().unwrap().into_iter().map(|(_, plane)| plane).collect();
+    let solid = Polytope::from_planes(&planes).unwrap();
+    assert!((solid.volume() - 8.0 / 3.0 * 0.98f64.powf(1.5)).abs() < 1e-9);
     let tiers = tiers(&mut design);
     assert_eq!(tiers.headers, ["Pyramids", "", "more", "and more"]);
     assert_eq!(tiers.footers, ["", "end"]);
