@@ -10,6 +10,9 @@ use std::f64::consts::TAU;
 /// Teeth taken, either way round.
 const MOST_TEETH: i32 = 100_000;
 
+/// How far the block reaches along each axis.
+const BLOCK: f64 = 17.0 / 15.0;
+
 /// Indices and distances taken; beyond, planes lose their digits.
 const LARGEST: f64 = 1e9;
 
@@ -204,6 +207,13 @@ impl Tiers {
             .collect();
         let names = names::unique(bases.iter().map(|(name, _)| name.as_str()));
         names.into_iter().zip(bases.iter().map(|(_, plane)| *plane)).collect()
+    }
+
+    /// The faces of the block that GemCad cuts from, which close a stone whose facets leave it open: it reaches 17/15 of
+    /// the unit along each axis, as the outlines stored in its files show.
+    pub fn block() -> impl Iterator<Item = (String, Plane)> {
+        let axes = [DVec3::X, DVec3::Y, DVec3::Z].into_iter().flat_map(|axis| [axis, -axis]);
+        (1..).zip(axes).map(|(number, normal)| (format!("block {number}"), Plane::new(normal, BLOCK)))
     }
 
     /// How many facets are cut; at most [`MAX_PLANES`] make a stone.

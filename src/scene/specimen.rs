@@ -1,8 +1,8 @@
 //! A stone made from a design: its solid, its material, and what is odd about it.
 
 use super::{Medium, Stone};
-use crate::cut::{Cut, Design, DesignError};
-use crate::math::Plane;
+use crate::cut::{Cut, Design, DesignError, Tiers};
+use crate::math::{Plane, PolytopeError};
 use crate::optics::Material;
 
 /// A design and the stone that it describes.
@@ -35,14 +35,22 @@ impl Specimen {
     /// # Errors
     /// The first thing at fault with the design.
     pub fn new(design: Design) -> Result<Self, SpecimenError> {
-        let facets = design.facets()?;
-        let told =
-            |e: crate::math::PolytopeError| SpecimenError::Solid(e.told(|i| format!("'{}'", facets[i].0)));
-        let stone = Stone::new(&facets).map_err(told)?;
-        let stone = if matches!(design.cut, Cut::Tiers(_)) { stone.girdled() } else { stone };
-        let material = design.material.material().map_err(DesignError::from)?;
+        let mut facets = design.facets()?;
+        let given = facets.len();
         let mut warnings: Vec<String> = design.warnings()?.iter().map(ToString::to_string).collect();
-        warnings.extend(odd(&stone, &facets));
+        let stone = match (Stone::new(&facets), &design.cut) {
+            (Ok(stone), Cut::Tiers(_)) => stone.girdled(),
+            (Ok(stone), _) => stone,
+            (Err(PolytopeError::Unbounded { .. }), Cut::Tiers(_)) => {
+                facets.extend(Tiers::block());
+                let stone = Stone::new(&facets).map_err(|e| told(&e, &facets))?;
+                warnings.push(closed_by_block(&stone));
+                stone.girdled()
+            }
+            (Err(error), _) => return Err(told(&error, &facets)),
+        };
+        let material = design.material.material().map_err(DesignError::from)?;
+        warnings.extend(odd(&stone, &facets, given));
         Ok(Self { design, stone, material, warnings })
     }
 
@@ -74,8 +82,21 @@ impl Specimen {
     }
 }
 
-/// What is odd about a solid.
-fn odd(stone: &Stone, facets: &[(String, Plane)]) -> Vec<String> {
+fn told(error: &PolytopeError, facets: &[(String, Plane)]) -> SpecimenError {
+    SpecimenError::Solid(error.told(|i| format!("'{}'", facets[i].0)))
+}
+
+fn closed_by_block(stone: &Stone) -> String {
+    let names: Vec<&str> =
+        stone.names().iter().map(String::as_str).filter(|name| name.starts_with("block")).collect();
+    format!(
+        "the facets leave the stone open; it is closed as GemCad does, by the block it is cut from: {}",
+        listed(&names)
+    )
+}
+
+/// What is odd about a solid, the first `given` of whose facets are the design's.
+fn odd(stone: &Stone, facets: &[(String, Plane)], given: usize) -> Vec<String> {
     let polytope = &stone.polytope;
     let name = |&i: &usize| facets[i].0.as_str();
     let merged = |(dropped, kept)| {
@@ -87,7 +108,9 @@ fn odd(stone: &Stone, facets: &[(String, Plane)]) -> Vec<String> {
         let what = "the origin lies outside the stone; pictures are centred there, so move the stone to it";
         told.push(what.to_owned());
     }
-    let names: Vec<&str> = polytope.redundant().iter().map(name).collect();
+    // The block that closes a stone is none of its facets.
+    let redundant = polytope.redundant().iter().filter(|&&i| i < given);
+    let names: Vec<&str> = redundant.map(name).collect();
     if !names.is_empty() {
         told.push(format!("these facets do not reach the stone: {}", listed(&names)));
     }

@@ -69,7 +69,7 @@ fn all_that_a_file_says_is_kept() {
     assert_eq!(indices(&tiers.tiers[1]), [24.0, 96.0, 72.0, 48.0]);
     assert_eq!((tiers.tiers[2].zone(), tiers.tiers[2].is_cut), (Zone::Culet, false));
     // The file is not scaled as the format wants; once it is, it reads as written.
-    let scaled = back(&write(&stone).bytes);
+    let scaled = back(&write(&specimen(design.clone())).bytes);
     assert_eq!(scaled.warnings, Vec::<String>::new());
     assert_eq!(back(&write(&specimen(scaled.design.clone())).bytes).design, scaled.design);
 }
