@@ -16,6 +16,10 @@ const MOST_TURNS: u32 = 24;
 /// this part of the largest: far more than noise does, far less than facets differ.
 const LOOSE: f64 = 0.03;
 
+/// An even stone may lie this many times as far from the corners as the one that was found, or as its tolerance: each
+/// facet of that one could follow the noise of its own corners.
+const EVEN: f64 = 3.0;
+
 /// The most facets of which all are compared with all.
 const MOST_FACETS: usize = 1_000;
 
@@ -110,8 +114,7 @@ pub(super) fn evened(
     if planes.len() > MOST_FACETS {
         return plain;
     }
-    // As near as they were found, or within what was called noise there.
-    let limit = found.deviation + found.tolerance;
+    let limit = EVEN * found.deviation.max(found.tolerance);
     let fits = |even: &Even| {
         let back: Vec<Plane> = even.planes.iter().map(|p| turned(p, even.turn.inverse())).collect();
         Polytope::from_planes(&back).is_ok_and(|solid| deviation(&solid, corners) <= limit)

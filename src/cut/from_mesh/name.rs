@@ -42,7 +42,9 @@ pub(super) fn named(
     for (title, tier) in below {
         tell(title, tier);
     }
-    let own = given.filter(|names| names.iter().all(|name| names::is_printable(name)));
+    // One name for many facets is an object's, not theirs.
+    let different = |names: &Vec<String>| names.iter().collect::<std::collections::BTreeSet<_>>().len() == names.len();
+    let own = given.filter(|names| different(names) && names.iter().all(|name| names::is_printable(name)));
     let name = |title: &String, place: usize| own.as_ref().map_or(title.clone(), |names| names[place].clone());
     let titles: Vec<String> = found.iter().map(|(title, place)| name(title, *place)).collect();
     let unique = names::unique(titles.iter().map(String::as_str));

@@ -17,6 +17,9 @@ const ROUND: f64 = 0.95;
 /// Azimuths nearer than this are one, radians; noise of a thousandth turns facets by less.
 const SAME_AZIMUTH: f64 = 0.02;
 
+/// Areas whose ratio is less are equal.
+const SAME_AREA: f64 = 1.01;
+
 /// Widths whose ratio is nearer to 1 than this are equal.
 const SAME_WIDTH: f64 = 0.005;
 
@@ -65,7 +68,11 @@ fn rim(solid: &Polytope) -> Vec<DVec3> {
 
 /// The azimuth that becomes +x.
 fn azimuth(even: &Even, areas: &[f64], rim: &[DVec3]) -> f64 {
-    let candidates = candidates(even, rim);
+    let mut candidates = candidates(even, rim);
+    // Of equals, the nearest to the surface's own x axis is taken: what lies right is left as it is.
+    let own = even.turn * DVec3::X;
+    let apart = |azimuth: f64| -own.dot(DVec3::new(azimuth.cos(), azimuth.sin(), 0.0));
+    candidates.sort_by(|&a, &b| apart(a).total_cmp(&apart(b)));
     let width = |azimuth: f64| {
         let along = DVec3::new(azimuth.cos(), azimuth.sin(), 0.0);
         let reach = rim.iter().map(|v| v.dot(along));
@@ -77,8 +84,8 @@ fn azimuth(even: &Even, areas: &[f64], rim: &[DVec3]) -> f64 {
     let limit = if least >= ROUND * widest { f64::INFINITY } else { least * (1.0 + SAME_WIDTH) };
     let narrow = candidates.into_iter().filter(|&c| width(c) <= limit);
     let facing = |azimuth: f64| crown_facing(even, areas, azimuth);
-    // Of equals the first.
-    narrow.fold((f64::NEG_INFINITY, 0.0), |best, c| if facing(c) > best.0 * 1.01 { (facing(c), c) } else { best }).1
+    let better = |best: (f64, f64), c: f64| if facing(c) > best.0 * SAME_AREA { (facing(c), c) } else { best };
+    narrow.fold((f64::NEG_INFINITY, 0.0), better).1
 }
 
 /// Directions of mirrors, else of facets, else of the outline.

@@ -70,7 +70,7 @@ fn again(facets: &[(String, Plane)], how: Spoilt, up: Up) -> FromMesh {
 /// The largest angle between planes of one name, degrees, and the largest difference of their offsets.
 fn worst(facets: &[(String, Plane)], back: &[(String, Plane)]) -> (f64, f64) {
     let names = |list: &[(String, Plane)]| list.iter().map(|(name, _)| name.clone()).collect::<Vec<_>>();
-    assert_eq!(names(facets), names(back));
+    assert!(names(facets) == names(back), "{:?}", names(back));
     let off = |((_, a), (_, b)): (&(String, Plane), &(String, Plane))| {
         ((a.normal - b.normal).length().to_degrees(), (a.offset - b.offset).abs())
     };
@@ -180,7 +180,7 @@ fn up_may_be_given_and_must_be_a_direction() {
     let down = from_mesh(&seen, Up::Given(DVec3::new(0.0, 0.01, -3.0))).unwrap();
     let table = down.facets.iter().find(|(name, _)| name == "table").unwrap();
     // Seen from below the culet is the table, and the table the culet.
-    assert!(table.1.offset > 0.8 && down.facets.iter().any(|(name, _)| name == "culet"));
+    assert!(table.1.offset > 0.7 && down.facets.iter().any(|(name, _)| name == "culet"));
     for bad in [DVec3::ZERO, DVec3::NAN] {
         assert!(matches!(from_mesh(&seen, Up::Given(bad)), Err(FromMeshError::Up(_))));
     }

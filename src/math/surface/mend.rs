@@ -59,7 +59,9 @@ impl Surface {
         let mut mending = Mending::default();
         let (mut surface, edges) = close(&exact, size, &mut mending)?;
         (mending.turned, mending.shells) = orient::outward(&mut surface, &edges)?;
-        let surface = weld::exactly(&surface);
+        if surface.triangles.len() < self.triangles.len() || mending.crack > 0.0 {
+            surface = weld::exactly(&surface);
+        }
         mending.welded = self.vertices.len() - surface.vertices.len().min(self.vertices.len());
         if surface.volume().abs() <= FLAT * surface.area() * size {
             return Err(SurfaceError::Flat);

@@ -3,7 +3,7 @@
 use super::Surface;
 use super::edges::{Edges, NONE};
 use super::regions::{NOWHERE, Regions, regions};
-use crate::math::{Plane, Polytope};
+use crate::math::{Facet, Plane, Polytope};
 use glam::DVec3;
 use rayon::prelude::*;
 
@@ -19,6 +19,9 @@ const SAME: f64 = 3.0;
 /// `FURTHER` next tolerances.
 const AS_GOOD: f64 = 2.0;
 const FURTHER: usize = 2;
+
+/// Facets that lean apart by less than this many tolerances at the width of each may be one that noise has split.
+const NEARLY_ONE: f64 = 10.0;
 
 /// The most facets of which a solid is made: beyond it is a surface that is curved, and cutting it takes too long.
 const MOST_FACETS: usize = 2_500;
@@ -77,12 +80,25 @@ pub fn facets(surface: Surface) -> Shape {
     let Some(mut best) = tried.by_ref().flatten().next() else { return Shape::Concave(surface) };
     // Noise may have split facets that a larger tolerance keeps whole.
     let limit = AS_GOOD * best.deviation;
-    for next in tried.take(FURTHER).flatten() {
+    let further = if is_split(&best) { FURTHER } else { 0 };
+    for next in tried.take(further).flatten() {
         if next.deviation <= limit && next.polytope.facets().len() < best.polytope.facets().len() {
             best = next;
         }
     }
     Shape::Convex(Box::new(faceted(moved, centre, best)))
+}
+
+/// Whether facets that are neighbours lean apart by no more than noise could make halves of one lean.
+fn is_split(solid: &Solid) -> bool {
+    let facets = solid.polytope.facets();
+    let fit = |f: &Facet| solid.found.fits[f.source];
+    let near = |f: &Facet, g: &Facet| {
+        let (f, g) = (fit(f), fit(g));
+        let noise = solid.tolerance * (1.0 / f.width + 1.0 / g.width);
+        (f.plane.normal - g.plane.normal).length() < NEARLY_ONE * noise
+    };
+    facets.iter().any(|f| f.neighbours.iter().any(|&n| near(f, &facets[n as usize])))
 }
 
 /// A solid that reproduces a surface.

@@ -3,7 +3,8 @@
 use super::Surface;
 use super::edges::Edges;
 use glam::{DVec3, I64Vec3};
-use std::collections::{HashMap, HashSet};
+use rayon::slice::ParallelSliceMut;
+use std::collections::HashMap;
 
 /// Makes corners at the very same place one, and leaves out those of no triangle.
 pub(super) fn exactly(surface: &Surface) -> Surface {
@@ -79,20 +80,21 @@ impl Clusters {
 /// many of each.
 pub(super) fn tidy(surface: &mut Surface) -> (usize, usize) {
     let (mut degenerate, mut copies) = (0, 0);
-    let mut seen: HashSet<[u32; 3]> = HashSet::with_capacity(surface.triangles.len());
-    let keep: Vec<bool> = surface
-        .triangles
-        .iter()
-        .map(|&[a, b, c]| {
-            let mut key = [a, b, c];
-            key.sort_unstable();
-            let thin = a == b || b == c || c == a;
-            let copy = !thin && !seen.insert(key);
-            degenerate += usize::from(thin);
-            copies += usize::from(copy);
-            !thin && !copy
-        })
-        .collect();
+    let key = |(t, corners): (u32, &[u32; 3])| {
+        let mut key = *corners;
+        key.sort_unstable();
+        (key, t)
+    };
+    let mut keys: Vec<([u32; 3], u32)> = (0..).zip(&surface.triangles).map(key).collect();
+    keys.par_sort_unstable();
+    let mut keep = vec![true; keys.len()];
+    for same in keys.chunk_by(|a, b| a.0 == b.0) {
+        let [a, b, c] = same[0].0;
+        let thin = a == b || b == c;
+        let dropped = if thin { same } else { &same[1..] };
+        dropped.iter().for_each(|(_, t)| keep[*t as usize] = false);
+        *(if thin { &mut degenerate } else { &mut copies }) += dropped.len();
+    }
     if degenerate + copies > 0 {
         let mut keeps = keep.iter();
         surface.triangles.retain(|_| keeps.next() == Some(&true));
