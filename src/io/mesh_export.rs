@@ -57,7 +57,12 @@ pub fn write_stl(stone: &Stone, scale: f64) -> std::io::Result<Vec<u8>> {
 ///
 /// # Errors
 /// None that memory does not make.
-pub fn write_glb(stone: &Stone, name: &str, scale: f64, material: &MaterialHint) -> Result<Vec<u8>, gltf::Error> {
+pub fn write_glb(
+    stone: &Stone,
+    name: &str,
+    scale: f64,
+    material: &MaterialHint,
+) -> Result<Vec<u8>, gltf::Error> {
     let mut parts = Parts::default();
     let mesh = triangulate(&stone.polytope);
     for (number, facet) in stone.polytope.facets().iter().enumerate() {
@@ -101,7 +106,8 @@ impl Parts {
         let places: Vec<[f32; 3]> = corners.iter().map(|&v| floats(v)).collect();
         let low = places.iter().fold([f32::INFINITY; 3], |a, b| [0, 1, 2].map(|i| a[i].min(b[i])));
         let high = places.iter().fold([f32::NEG_INFINITY; 3], |a, b| [0, 1, 2].map(|i| a[i].max(b[i])));
-        let bytes = |list: &[[f32; 3]]| list.iter().flatten().flat_map(|x| x.to_le_bytes()).collect::<Vec<u8>>();
+        let bytes =
+            |list: &[[f32; 3]]| list.iter().flatten().flat_map(|x| x.to_le_bytes()).collect::<Vec<u8>>();
         let position = self.view(&bytes(&places), VERTICES);
         self.accessors.push(json!({ "bufferView": position, "componentType": F32, "count": places.len(),
             "type": "VEC3", "min": low, "max": high }));

@@ -5,7 +5,7 @@
 
 use super::LEAST_UPRIGHT;
 use crate::math::surface::{Faceted, deviation};
-use crate::math::{Plane, Polytope, Symmetry};
+use crate::math::{Facet, Plane, Polytope, Symmetry};
 use glam::{DQuat, DVec3};
 use std::f64::consts::{PI, TAU};
 
@@ -18,7 +18,10 @@ const LOOSE: f64 = 0.03;
 
 /// An even stone may lie this many times as far from the corners as the one that was found, or as its tolerance: each
 /// facet of that one could follow the noise of its own corners.
-const EVEN: f64 = 3.0;
+const EVEN: f64 = 5.0;
+
+/// Slopes of girdle facets, which are thin and whose slope is mostly noise, count this part of others'.
+const THIN: f64 = 0.25;
 
 /// The most facets of which all are compared with all.
 const MOST_FACETS: usize = 1_000;
@@ -36,8 +39,13 @@ impl<'a> Match<'a> {
 
     /// The plane that is nearest to a given one, if it may be the same.
     pub fn find(&self, image: &Plane) -> Option<usize> {
+        let upright = |p: &Plane| p.normal.z.abs() < LEAST_UPRIGHT;
         let off = |p: &Plane| {
-            (p.normal - image.normal).length().max((p.offset - image.offset).abs() / self.size)
+            let mut apart = p.normal - image.normal;
+            if upright(p) && upright(image) {
+                apart.z *= THIN;
+            }
+            apart.length().max((p.offset - image.offset).abs() / self.size)
         };
         let near = self.planes.iter().map(off).enumerate().filter(|(_, d)| *d < LOOSE);
         near.min_by(|a, b| a.1.total_cmp(&b.1)).map(|(i, _)| i)
@@ -102,22 +110,44 @@ fn mirrored(plane: &Plane, azimuth: f64) -> Plane {
     Plane::new(DVec3::new(cos * n.x + sin * n.y, sin * n.x - cos * n.y, n.z), plane.offset)
 }
 
+/// The facets that were found, about a middle.
+pub(super) struct Parts {
+    pub planes: Vec<Plane>,
+    pub areas: Vec<f64>,
+    /// A point in the middle of each facet.
+    middles: Vec<DVec3>,
+    /// The corners of the surface.
+    corners: Vec<DVec3>,
+    /// How far they may lie from an even stone.
+    limit: f64,
+}
+
+impl Parts {
+    /// The facets about a point.
+    pub fn about(found: &Faceted, middle: DVec3) -> Self {
+        let about = |plane: &Plane| Plane::new(plane.normal, -plane.distance(middle));
+        let solid = &found.polytope;
+        let centre = |f: &Facet| solid.corners(f).sum::<DVec3>() / f.outline.len() as f64 - middle;
+        Self {
+            planes: found.faces.iter().map(|f| about(&f.plane)).collect(),
+            areas: found.faces.iter().map(|f| f.area).collect(),
+            middles: solid.facets().iter().map(centre).collect(),
+            corners: found.surface.vertices.iter().map(|&v| v - middle).collect(),
+            limit: EVEN * found.deviation.max(found.tolerance),
+        }
+    }
+}
+
 /// The planes with their axis upright, and evened where the corners allow.
-pub(super) fn evened(
-    planes: &[Plane],
-    areas: &[f64],
-    axis: DVec3,
-    corners: &[DVec3],
-    found: &Faceted,
-) -> Even {
+pub(super) fn evened(parts: &Parts, axis: DVec3) -> Even {
+    let Parts { planes, areas, .. } = parts;
     let plain = upright(planes, axis);
     if planes.len() > MOST_FACETS {
         return plain;
     }
-    let limit = EVEN * found.deviation.max(found.tolerance);
     let fits = |even: &Even| {
         let back: Vec<Plane> = even.planes.iter().map(|p| turned(p, even.turn.inverse())).collect();
-        Polytope::from_planes(&back).is_ok_and(|solid| deviation(&solid, corners) <= limit)
+        Polytope::from_planes(&back).is_ok_and(|solid| deviation(&solid, &parts.corners) <= parts.limit)
     };
     let tried = (1..=MOST_TURNS).rev().flat_map(|turns| {
         let axis = refined(planes, areas, axis, turns);
@@ -126,9 +156,11 @@ pub(super) fn evened(
         [(turns, axis, mirror), (turns, axis, None)]
     });
     let wanted = tried.filter(|(turns, _, mirror)| *turns > 1 || mirror.is_some());
-    let mean = wanted.filter_map(|(turns, axis, mirror)| averaged(&Even { turns, mirror, ..upright(planes, axis) }));
-    let both = mean.flat_map(|even| [squared(&even), even]);
-    let mut fitting = both.filter(fits);
+    let mean =
+        wanted.filter_map(|(turns, axis, mirror)| averaged(&Even { turns, mirror, ..upright(planes, axis) }));
+    // Girdle facets at unlike heights are shifted unlike as they are put upright, so they are averaged anew.
+    let both = mean.flat_map(|even| [averaged(&squared(&even, &parts.middles)), Some(even)]);
+    let mut fitting = both.flatten().filter(fits);
     fitting.next().unwrap_or(plain)
 }
 
@@ -158,23 +190,27 @@ fn refined(planes: &[Plane], areas: &[f64], axis: DVec3, turns: u32) -> DVec3 {
 fn best_mirror(plain: &Even, areas: &[f64]) -> Option<f64> {
     let azimuth = |p: &Plane| p.normal.y.atan2(p.normal.x);
     let level = |i: &usize| plain.planes[*i].normal.truncate().length() > LOOSE;
-    let first = (0..plain.planes.len()).filter(level).max_by(|&a, &b| areas[a].total_cmp(&areas[b]).then(b.cmp(&a)))?;
+    let first = (0..plain.planes.len())
+        .filter(level)
+        .max_by(|&a, &b| areas[a].total_cmp(&areas[b]).then(b.cmp(&a)))?;
     let same = |p: &&Plane| (p.normal.z - plain.planes[first].normal.z).abs() < LOOSE;
     let list = Match::loose(&plain.planes);
-    let tried = plain.planes.iter().filter(same).filter(|p| p.normal.truncate().length() > LOOSE).filter_map(|p| {
-        let guess = (azimuth(&plain.planes[first]) + azimuth(p)) / 2.0;
-        let images = list.permutation(|p| mirrored(p, guess))?;
-        // Twice the mirror's azimuth is the sum of a pair's, weighed by how far the pair leans out.
-        let pair = |(p, i): (&Plane, &usize)| {
-            let (a, b) = (p.normal, plain.planes[*i].normal);
-            DVec3::new(a.x * b.x - a.y * b.y, a.x * b.y + a.y * b.x, 0.0)
-        };
-        let sum: DVec3 = plain.planes.iter().zip(&images).map(pair).sum();
-        let refined = sum.y.atan2(sum.x) / 2.0;
-        let gap = |(p, i): (&Plane, &usize)| (mirrored(p, refined).normal - plain.planes[*i].normal).length();
-        let misfit = plain.planes.iter().zip(&images).map(gap).fold(0.0, f64::max);
-        Some((misfit, refined))
-    });
+    let tried =
+        plain.planes.iter().filter(same).filter(|p| p.normal.truncate().length() > LOOSE).filter_map(|p| {
+            let guess = (azimuth(&plain.planes[first]) + azimuth(p)) / 2.0;
+            let images = list.permutation(|p| mirrored(p, guess))?;
+            // Twice the mirror's azimuth is the sum of a pair's, weighed by how far the pair leans out.
+            let pair = |(p, i): (&Plane, &usize)| {
+                let (a, b) = (p.normal, plain.planes[*i].normal);
+                DVec3::new(a.x * b.x - a.y * b.y, a.x * b.y + a.y * b.x, 0.0)
+            };
+            let sum: DVec3 = plain.planes.iter().zip(&images).map(pair).sum();
+            let refined = sum.y.atan2(sum.x) / 2.0;
+            let gap =
+                |(p, i): (&Plane, &usize)| (mirrored(p, refined).normal - plain.planes[*i].normal).length();
+            let misfit = plain.planes.iter().zip(&images).map(gap).fold(0.0, f64::max);
+            Some((misfit, refined))
+        });
     tried.min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, mirror)| mirror)
 }
 
@@ -208,16 +244,18 @@ fn averaged(even: &Even) -> Option<Even> {
 }
 
 /// The same with its girdle facets upright, and what is level level.
-fn squared(even: &Even) -> Even {
-    let square = |p: &Plane| {
+fn squared(even: &Even, middles: &[DVec3]) -> Even {
+    let square = |(p, middle): (&Plane, &DVec3)| {
         let n = p.normal;
         let snapped = match (n.z.abs() < LOOSE, n.truncate().length() < LOOSE) {
             (true, _) => DVec3::new(n.x, n.y, 0.0),
             (_, true) => DVec3::Z * n.z.signum(),
             _ => n,
         };
-        Plane::new(snapped, 0.0).normalized().map_or(*p, |unit| Plane::new(unit.normal, p.offset))
+        // Turned about the middle of the facet, which stays where it is.
+        let middle = even.turn * *middle;
+        let foot = middle - p.distance(middle) * n;
+        Plane::new(snapped, snapped.dot(foot)).normalized().unwrap_or(*p)
     };
-    Even { planes: even.planes.iter().map(square).collect(), ..*even }
+    Even { planes: even.planes.iter().zip(middles).map(square).collect(), ..*even }
 }
-

@@ -84,14 +84,11 @@ pub enum FromMeshError {
 /// # Errors
 /// A direction up that is none, or facets without a girdle.
 pub fn from_mesh(found: &Faceted, up: Up) -> Result<FromMesh, FromMeshError> {
-    let areas: Vec<f64> = found.faces.iter().map(|f| f.area).collect();
     let middle = even::centroid(&found.polytope);
-    let about = |plane: &Plane| Plane::new(plane.normal, -plane.distance(middle));
-    let planes: Vec<Plane> = found.faces.iter().map(|f| about(&f.plane)).collect();
-    let (axis, table) = aim::axis(&planes, &areas, up)?;
-    let corners: Vec<DVec3> = found.surface.vertices.iter().map(|&v| v - middle).collect();
-    let even = even::evened(&planes, &areas, axis, &corners, found);
-    let upright = outline::placed(&even, &areas)?;
+    let parts = even::Parts::about(found, middle);
+    let (axis, table) = aim::axis(&parts.planes, &parts.areas, up)?;
+    let even = even::evened(&parts, axis);
+    let upright = outline::placed(&even, &parts.areas)?;
     let posed: Vec<Plane> = even.planes.iter().map(|p| upright.plane(p)).collect();
     let polytope = Polytope::from_planes(&posed)?;
     let turn = upright.turn * even.turn;
@@ -100,5 +97,10 @@ pub fn from_mesh(found: &Faceted, up: Up) -> Result<FromMesh, FromMeshError> {
     let points: Vec<DVec3> = found.surface.vertices.iter().map(|&v| pose.of(v + found.centre)).collect();
     let given = found.faces.iter().map(|f| f.name.clone()).collect::<Option<Vec<_>>>();
     let facets = name::named(&posed, table, given, upright.scale * found.tolerance);
-    Ok(FromMesh { facets, pose, deviation: deviation(&polytope, &points), evened: even.symmetry(upright.turn) })
+    Ok(FromMesh {
+        facets,
+        pose,
+        deviation: deviation(&polytope, &points),
+        evened: even.symmetry(upright.turn),
+    })
 }

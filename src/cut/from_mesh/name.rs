@@ -43,9 +43,11 @@ pub(super) fn named(
         tell(title, tier);
     }
     // One name for many facets is an object's, not theirs.
-    let different = |names: &Vec<String>| names.iter().collect::<std::collections::BTreeSet<_>>().len() == names.len();
+    let different =
+        |names: &Vec<String>| names.iter().collect::<std::collections::BTreeSet<_>>().len() == names.len();
     let own = given.filter(|names| different(names) && names.iter().all(|name| names::is_printable(name)));
-    let name = |title: &String, place: usize| own.as_ref().map_or(title.clone(), |names| names[place].clone());
+    let name =
+        |title: &String, place: usize| own.as_ref().map_or(title.clone(), |names| names[place].clone());
     let titles: Vec<String> = found.iter().map(|(title, place)| name(title, *place)).collect();
     let unique = names::unique(titles.iter().map(String::as_str));
     unique.into_iter().zip(&found).map(|(name, (_, place))| (name, planes[*place])).collect()
@@ -67,7 +69,9 @@ fn parts(planes: &[Plane], table: Option<usize>, noise: f64) -> (Vec<Tier>, Tier
 fn tiers(planes: &[Plane], mut places: Vec<usize>, noise: f64) -> Vec<Tier> {
     let level = |i: usize| planes[i].normal.z.abs().min(1.0).acos();
     let offset = |i: usize| planes[i].offset;
-    places.sort_by(|&a, &b| level(b).total_cmp(&level(a)).then(offset(b).total_cmp(&offset(a))).then(a.cmp(&b)));
+    places.sort_by(|&a, &b| {
+        level(b).total_cmp(&level(a)).then(offset(b).total_cmp(&offset(a))).then(a.cmp(&b))
+    });
     let (slope, shift) = (SAME_SLOPE + NOISE * noise, SAME_OFFSET + NOISE * noise);
     let mut tiers: Vec<Tier> = vec![];
     for place in places {
@@ -96,14 +100,18 @@ type Titled<'a> = Vec<(String, &'a Tier)>;
 
 /// What the tiers are called, in the order in which they are listed.
 fn titles<'a>(planes: &[Plane], crown: &'a [Tier], pavilion: &'a [Tier]) -> (Titled<'a>, Titled<'a>) {
-    let (culets, below): (Vec<&Tier>, Vec<&Tier>) =
-        pavilion.iter().partition(|tier| tier.len() == 1 && planes[tier[0]].normal.truncate().length() < LEVEL);
+    let (culets, below): (Vec<&Tier>, Vec<&Tier>) = pavilion
+        .iter()
+        .partition(|tier| tier.len() == 1 && planes[tier[0]].normal.truncate().length() < LEVEL);
     let title = |name: &str, tier: &'a Tier| (name.to_owned(), tier);
     let mut titled: Titled<'a> = match brilliant(planes, crown, &below) {
         Some((crown, pavilion)) => {
             let below = pavilion.map(|(name, tier)| title(name, tier)).to_vec();
             let culet = culets.iter().map(|tier| title("culet", tier));
-            return (crown.map(|(name, tier)| title(name, tier)).to_vec(), below.into_iter().chain(culet).collect());
+            return (
+                crown.map(|(name, tier)| title(name, tier)).to_vec(),
+                below.into_iter().chain(culet).collect(),
+            );
         }
         None => below.iter().enumerate().map(|(i, tier)| (format!("pavilion {}", i + 1), *tier)).collect(),
     };
@@ -120,13 +128,19 @@ fn letters(number: usize) -> String {
 type Named<'a, const N: usize> = [(&'static str, &'a Tier); N];
 
 /// The tiers of a round brilliant: 16, 8 and 8 facets above, 16 and 8 below, stars between bezels and mains below them.
-fn brilliant<'a>(planes: &[Plane], crown: &'a [Tier], below: &[&'a Tier]) -> Option<(Named<'a, 3>, Named<'a, 2>)> {
+fn brilliant<'a>(
+    planes: &[Plane],
+    crown: &'a [Tier],
+    below: &[&'a Tier],
+) -> Option<(Named<'a, 3>, Named<'a, 2>)> {
     let ([upper, bezel, star], [lower, main]) = (crown, below) else { return None };
     let counts = [upper, bezel, star, *lower, *main].map(|tier| tier.len());
     let first = |tier: &Tier| azimuth(&planes[tier[0]]) - BEFORE_ZERO;
     let eighth = TAU / 8.0;
     let at = |tier: &Tier, part: f64| (first(tier) - part * eighth).abs() < 0.1 * eighth;
     let placed = at(bezel, 0.0) && at(star, 0.5) && at(upper, 0.25) && at(main, 0.0) && at(lower, 0.25);
-    (counts == [16, 8, 8, 16, 8] && placed)
-        .then_some(([("bezel", bezel), ("star", star), ("upper_half", upper)], [("lower_half", lower), ("main", main)]))
+    (counts == [16, 8, 8, 16, 8] && placed).then_some((
+        [("bezel", bezel), ("star", star), ("upper_half", upper)],
+        [("lower_half", lower), ("main", main)],
+    ))
 }

@@ -84,7 +84,8 @@ fn azimuth(even: &Even, areas: &[f64], rim: &[DVec3]) -> f64 {
     let limit = if least >= ROUND * widest { f64::INFINITY } else { least * (1.0 + SAME_WIDTH) };
     let narrow = candidates.into_iter().filter(|&c| width(c) <= limit);
     let facing = |azimuth: f64| crown_facing(even, areas, azimuth);
-    let better = |best: (f64, f64), c: f64| if facing(c) > best.0 * SAME_AREA { (facing(c), c) } else { best };
+    let better =
+        |best: (f64, f64), c: f64| if facing(c) > best.0 * SAME_AREA { (facing(c), c) } else { best };
     narrow.fold((f64::NEG_INFINITY, 0.0), better).1
 }
 

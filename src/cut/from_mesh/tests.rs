@@ -104,12 +104,17 @@ fn brilliants() -> impl Strategy<Value = RoundBrilliant> {
 #[test]
 fn a_brilliant_without_noise_comes_back_to_the_last_digits() {
     for (girdle_thickness, girdle_facets) in [(0.0, 96), (3.0, 16), (3.0, 96)] {
-        let facets = RoundBrilliant { girdle_thickness, girdle_facets, culet: 1.0, ..MODERN }.facets().unwrap();
+        let facets =
+            RoundBrilliant { girdle_thickness, girdle_facets, culet: 1.0, ..MODERN }.facets().unwrap();
         let shift = DVec3::new(3.0, -2.0, 5.0);
         let turn = DQuat::from_axis_angle(DVec3::new(0.6, 0.0, 0.8), 2.0);
         let back = again(&facets, Spoilt { scale: 7.0, shift, turn, ..PLAIN }, Up::Found);
         let (angle, offset) = worst(&facets, &back.facets);
-        assert!(angle < 1e-9 && offset < 1e-11 && back.deviation < 1e-11, "{angle} {offset} {}", back.deviation);
+        assert!(
+            angle < 1e-9 && offset < 1e-11 && back.deviation < 1e-11,
+            "{angle} {offset} {}",
+            back.deviation
+        );
         assert_eq!(back.evened.turns, 8);
         let point = back.pose.of(turn * DVec3::new(0.1, 0.2, 0.3) * 7.0 + shift);
         // The turn about the axis may be any of the eight.
@@ -205,8 +210,12 @@ fn a_long_stone_lies_across_and_its_tiers_have_letters_and_numbers() {
     let turn = DQuat::from_rotation_z(0.7) * DQuat::from_rotation_x(1.0);
     let back = again(&planes, Spoilt { turn, scale: 4.0, noise: 1e-5, ..PLAIN }, Up::Found);
     let names: Vec<&str> = back.facets.iter().map(|(name, _)| name.as_str()).collect();
-    assert!(names.contains(&"crown A 1") && names.contains(&"girdle 4") && names.contains(&"pavilion 1 1"), "{names:?}");
-    let girdle: Vec<&Plane> = back.facets.iter().filter(|(n, _)| n.starts_with("girdle")).map(|(_, p)| p).collect();
+    assert!(
+        names.contains(&"crown A 1") && names.contains(&"girdle 4") && names.contains(&"pavilion 1 1"),
+        "{names:?}"
+    );
+    let girdle: Vec<&Plane> =
+        back.facets.iter().filter(|(n, _)| n.starts_with("girdle")).map(|(_, p)| p).collect();
     assert!((girdle[0].normal - DVec3::X).length() < 1e-9 && (girdle[0].offset - 1.0).abs() < 1e-9);
     assert!((girdle[1].normal - DVec3::Y).length() < 1e-9 && (girdle[1].offset - 1.5).abs() < 1e-3);
     assert_eq!(back.evened.turns, 2);

@@ -37,7 +37,8 @@ pub struct MaterialHint {
 impl MaterialHint {
     /// A material as glTF would have it, in a file of so many mm per unit, its colour after one unit.
     pub fn of(material: &Material, mm_per_unit: f64) -> Self {
-        let [n_c, n_d, n_f] = [line::HYDROGEN_C, line::HELIUM_D, line::HYDROGEN_F].map(|nm| material.index(nm));
+        let [n_c, n_d, n_f] =
+            [line::HYDROGEN_C, line::HELIUM_D, line::HYDROGEN_F].map(|nm| material.index(nm));
         let (n_d, dispersion) = match material.dispersion {
             Dispersion::Abbe { n_d, v_d } => (n_d, DISPERSION / v_d),
             _ => (n_d, DISPERSION * (n_f - n_c) / (n_d - 1.0)),
@@ -89,7 +90,8 @@ impl MaterialHint {
 
     fn absorption(&self, mm_per_unit: f64) -> Absorption {
         let Some((colour, distance)) = self.attenuation else { return Absorption::clear() };
-        let per_mm = |share: f64| (-share.clamp(BLACK, 1.0).ln() / (distance * mm_per_unit)).clamp(0.0, MOST_PER_MM);
+        let per_mm =
+            |share: f64| (-share.clamp(BLACK, 1.0).ln() / (distance * mm_per_unit)).clamp(0.0, MOST_PER_MM);
         let coefficients = colour.map(per_mm);
         if coefficients.iter().all(|c| *c == 0.0 || !c.is_finite()) {
             return Absorption::clear();
@@ -113,7 +115,9 @@ mod tests {
             let spread = |m: &Material| m.index(line::HYDROGEN_F) - m.index(line::HYDROGEN_C);
             assert!((spread(&back) / spread(material) - 1.0).abs() < 1e-3, "{name}");
             for nm in CHANNEL_NM {
-                let mean = |m: &Material| -(m.absorption.iter().map(|a| (-a.coefficient(nm) * 0.5).exp()).sum::<f64>() / 2.0).ln();
+                let mean = |m: &Material| {
+                    -(m.absorption.iter().map(|a| (-a.coefficient(nm) * 0.5).exp()).sum::<f64>() / 2.0).ln()
+                };
                 assert!((mean(&back) - mean(material)).abs() < 1e-9, "{name} {nm}");
             }
         }
@@ -129,6 +133,9 @@ mod tests {
         let black = MaterialHint { attenuation: Some(([0.0, 0.5, 1.0], 2.0)), ..glass };
         let material = black.material(1000.0).unwrap().unwrap().material().unwrap();
         assert!((material.absorption[0].coefficient(550.0) - 0.5_f64.ln().abs() / 2000.0).abs() < 1e-12);
-        assert!(material.absorption[0].coefficient(610.0) > 1e-3 && material.absorption[0].coefficient(465.0) == 0.0);
+        assert!(
+            material.absorption[0].coefficient(610.0) > 1e-3
+                && material.absorption[0].coefficient(465.0) == 0.0
+        );
     }
 }

@@ -26,7 +26,10 @@ pub(super) fn bytes(path: &Path) -> Result<Vec<u8>, Fault> {
     let mut bytes = Vec::new();
     File::open(path).and_then(|file| file.take(MAX_BYTES + 1).read_to_end(&mut bytes)).map_err(unreadable)?;
     if bytes.len() as u64 > MAX_BYTES {
-        return Err(Fault::whole(format!("this is larger than {} MiB; save a coarser mesh", MAX_BYTES >> 20)));
+        return Err(Fault::whole(format!(
+            "this is larger than {} MiB; save a coarser mesh",
+            MAX_BYTES >> 20
+        )));
     }
     Ok(bytes)
 }
@@ -34,7 +37,10 @@ pub(super) fn bytes(path: &Path) -> Result<Vec<u8>, Fault> {
 /// A fault where there are more triangles or corners than are taken.
 pub(super) fn count(vertices: usize, triangles: usize) -> Result<(), Fault> {
     let told = |what: &str, most: usize| {
-        Err(Fault::whole(format!("this has more than {} million {what}; save a coarser mesh", most / 1_000_000)))
+        Err(Fault::whole(format!(
+            "this has more than {} million {what}; save a coarser mesh",
+            most / 1_000_000
+        )))
     };
     match (vertices > MAX_VERTICES, triangles > MAX_TRIANGLES) {
         (_, true) => told("triangles", MAX_TRIANGLES),
@@ -51,7 +57,8 @@ pub(super) fn checked(read: Read) -> Result<Read, Fault> {
         return Err(Fault::whole("this holds no triangles; a closed surface is expected"));
     }
     if let Some(place) = surface.vertices.iter().position(|v| !v.is_finite()) {
-        let message = format!("{} is no finite place; finite coordinates are expected", surface.vertices[place]);
+        let message =
+            format!("{} is no finite place; finite coordinates are expected", surface.vertices[place]);
         return Err(Fault::at(format!("corner {}", place + 1), message));
     }
     let known = surface.vertices.len() as u32;

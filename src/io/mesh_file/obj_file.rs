@@ -15,7 +15,8 @@ pub(super) fn read(bytes: &[u8]) -> Result<Read, Fault> {
     limits::count(corners, 0)?;
     let mut odd = Odd::default();
     let (mut lines, line) = Lines::new(bytes, |line, out: &mut Vec<u8>| odd.hand_on(line, out));
-    let options = LoadOptions { single_index: true, triangulate: true, ignore_points: true, ignore_lines: true };
+    let options =
+        LoadOptions { single_index: true, triangulate: true, ignore_points: true, ignore_lines: true };
     let loaded = tobj::load_obj_buf(&mut lines, &options, |_| Err(LoadError::OpenFileFailed));
     let models = loaded.map_err(|error| fault(&error, line.get(), bytes))?.0;
     drop(lines);
@@ -113,7 +114,8 @@ fn first_out_of_bounds(bytes: &[u8]) -> Option<(usize, i64, i64)> {
     let total = text.lines().filter(|line| line.trim_start().starts_with("v ")).count() as i64;
     let lines = text.lines().enumerate().filter(|(_, line)| line.trim_start().starts_with("f "));
     let mut numbers = lines.flat_map(|(number, line)| {
-        let corners = line.split_whitespace().skip(1).filter_map(|c| c.split('/').next()?.parse::<i64>().ok());
+        let corners =
+            line.split_whitespace().skip(1).filter_map(|c| c.split('/').next()?.parse::<i64>().ok());
         corners.map(move |corner| (number + 1, corner, total))
     });
     numbers.find(|(_, corner, total)| corner > total)

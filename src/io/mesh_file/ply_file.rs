@@ -103,7 +103,8 @@ fn check(header: &Header) -> Result<(), Fault> {
         }
     }
     let lacks = |element: &str, names: &[&str]| {
-        let there = header.elements.get(element).is_some_and(|e| names.iter().any(|n| e.properties.contains_key(*n)));
+        let there =
+            header.elements.get(element).is_some_and(|e| names.iter().any(|n| e.properties.contains_key(*n)));
         (!there).then(|| Fault::at("header", format!("`{}` of element `{element}` is expected", names[0])))
     };
     let coordinates = ["x", "y", "z"].iter().find_map(|name| lacks("vertex", &[name]));

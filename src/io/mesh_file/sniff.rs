@@ -35,7 +35,9 @@ pub fn looks_like(bytes: &[u8]) -> Option<MeshFormat> {
         return Some(MeshFormat::Ply);
     }
     // Before text: many binary STL files begin with the word by which text ones are told.
-    if stl_triangles(bytes).is_some_and(|count| bytes.len() as u64 == STL_HEADER as u64 + STL_TRIANGLE * count) {
+    if stl_triangles(bytes)
+        .is_some_and(|count| bytes.len() as u64 == STL_HEADER as u64 + STL_TRIANGLE * count)
+    {
         return Some(MeshFormat::StlBinary);
     }
     let text = String::from_utf8_lossy(&bytes[..bytes.len().min(LOOKED_AT)]);
@@ -67,5 +69,6 @@ fn is_obj(text: &str) -> bool {
     let mut words = text.lines().map(word).filter(|w| !w.is_empty() && !w.starts_with('#')).peekable();
     let begins = words.peek().is_some_and(|first| FIRST.contains(&first.as_str()));
     let numbers = |line: &str| line.split_whitespace().skip(1).take(3).all(|n| n.parse::<f64>().is_ok());
-    begins && text.lines().any(|line| word(line) == "v" && line.split_whitespace().count() >= 4 && numbers(line))
+    begins
+        && text.lines().any(|line| word(line) == "v" && line.split_whitespace().count() >= 4 && numbers(line))
 }

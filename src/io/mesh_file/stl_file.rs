@@ -14,16 +14,16 @@ pub(super) fn read_binary(mut bytes: Vec<u8>) -> Result<Read, Fault> {
     let count = stl_triangles(&bytes).ok_or_else(|| Fault::whole("this is too short for a binary STL"))?;
     let there = (bytes.len() as u64).saturating_sub(STL_HEADER as u64) / STL_TRIANGLE;
     if count > there {
-        let message = format!("{count} triangles are announced, and the file holds {there}; it has been cut off");
+        let message =
+            format!("{count} triangles are announced, and the file holds {there}; it has been cut off");
         return Err(Fault::at("offset 80", message));
     }
     limits::count(0, usize::try_from(count).unwrap_or(usize::MAX))?;
     let name = String::from_utf8_lossy(&bytes[..80]).trim_matches(['\0', ' ']).to_owned();
     // Nothing in the header counts, and the word `solid` there would be taken for a text.
     bytes[..80].fill(0);
-    let surface = triangles(&mut Cursor::new(bytes)).map_err(|(number, message)| {
-        Fault::at(format!("triangle {number}"), message)
-    })?;
+    let surface = triangles(&mut Cursor::new(bytes))
+        .map_err(|(number, message)| Fault::at(format!("triangle {number}"), message))?;
     Ok(Read { surface, name: name.strip_prefix("solid").map(|n| n.trim().to_owned()), ..Read::default() })
 }
 
@@ -50,8 +50,8 @@ pub(super) fn read_text(bytes: &[u8]) -> Result<Read, Fault> {
     // What was left out is put around the whole: the first line by `Rewound`, the last here.
     let (lines, line) = Lines::new(bytes, change);
     let closed = std::io::Read::chain(lines, &b"endsolid stone\n"[..]);
-    let surface =
-        triangles(&mut Rewound::new(FIRST, closed)).map_err(|(_, message)| Fault::line(line.get().max(1), message))?;
+    let surface = triangles(&mut Rewound::new(FIRST, closed))
+        .map_err(|(_, message)| Fault::line(line.get().max(1), message))?;
     let told = |n: usize| format!("{n} solids are in this file; they are taken for one surface");
     let warnings = (solids > 1).then(|| told(solids)).into_iter().collect();
     Ok(Read { surface, warnings, name, hint: None })

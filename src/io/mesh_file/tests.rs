@@ -1,5 +1,9 @@
 //! Mesh files: what is written comes back, what is broken is told, and real ones open.
 
+#![allow(clippy::print_stdout, reason = "what was measured is told")]
+
+mod real;
+
 use super::*;
 use crate::cut::from_mesh::{FromMesh, Up, from_mesh};
 use crate::cut::{Cut, Design};
@@ -222,7 +226,15 @@ fn every_format_is_told_by_content_and_read() {
         let named = matches!(format, MeshFormat::StlText | MeshFormat::Obj);
         assert_eq!(file.name.to_lowercase(), if named { "my stone" } else { "stone" }, "{format:?}");
     }
-    for nothing in [&b""[..], b"\0\0\0", b"hello", b"{}", b"# v 1 2 3", b"<GemCutStudio version=\"1\">", b"GemCad 5.0\ng 96 0"] {
+    for nothing in [
+        &b""[..],
+        b"\0\0\0",
+        b"hello",
+        b"{}",
+        b"# v 1 2 3",
+        b"<GemCutStudio version=\"1\">",
+        b"GemCad 5.0\ng 96 0",
+    ] {
         assert_eq!(looks_like(nothing), None, "{}", String::from_utf8_lossy(nothing));
     }
 }
@@ -256,13 +268,26 @@ fn buffers_are_read_beside_the_file_and_nowhere_else() {
     let file = read_with("my%20buffer.bin").unwrap();
     assert!((volume(&file) - 8.0 / 6.0).abs() < 1e-9 && file.name == "a");
     let secret = folder.path().join("secret.bin").display().to_string();
-    for uri in ["../secret.bin", "%2e%2e/secret.bin", "..%2Fsecret.bin", "..", &secret, "file:///etc/passwd", "a\\\\b"] {
+    for uri in [
+        "../secret.bin",
+        "%2e%2e/secret.bin",
+        "..%2Fsecret.bin",
+        "..",
+        &secret,
+        "file:///etc/passwd",
+        "a\\\\b",
+    ] {
         let error = read_with(uri).unwrap_err().to_string();
-        assert!(error.contains("a.gltf:buffer 0: ") && error.contains("is not a file beside this one"), "{error}");
+        assert!(
+            error.contains("a.gltf:buffer 0: ") && error.contains("is not a file beside this one"),
+            "{error}"
+        );
     }
     let missing = read_with("none.bin").unwrap_err().to_string();
     assert!(missing.ends_with("buffer 0: none.bin: there is no such file"), "{missing}");
-    assert!(read(inner.join("none.glb")).unwrap_err().to_string().ends_with("none.glb: there is no such file"));
+    assert!(
+        read(inner.join("none.glb")).unwrap_err().to_string().ends_with("none.glb: there is no such file")
+    );
     assert!(read(&inner).unwrap_err().to_string().ends_with("this is a directory; a file is expected"));
 }
 
@@ -282,17 +307,32 @@ fn faults_are_told_with_their_place_and_what_was_expected() {
         ("v 0 0 0\n".to_owned(), "f: this holds no triangles"),
         (stl_text().replacen("vertex 1 0 0", "vertex 1 o 0", 1), "f:6: this cannot be read: invalid float"),
         (stl_text().replacen("endloop", "endlop", 1), "f:7: this cannot be read: expected"),
-        (stl_text().replacen("vertex 1 0 0", "vertex 1 inf 0", 1), "f:6: this cannot be read: expected finite"),
+        (
+            stl_text().replacen("vertex 1 0 0", "vertex 1 inf 0", 1),
+            "f:6: this cannot be read: expected finite",
+        ),
         (gltf().replace("\"2.0\"", "\"2.0"), "f:1: this is no glTF 2.0 that can be read"),
-        (gltf().replace("\"count\":4", "\"count\":5"), "f:mesh 0, primitive 0, accessor 0: 5 values of 12 bytes from 0"),
+        (
+            gltf().replace("\"count\":4", "\"count\":5"),
+            "f:mesh 0, primitive 0, accessor 0: 5 values of 12 bytes from 0",
+        ),
         (gltf().replace("\"count\":9", "\"count\":0"), "f:mesh 0, primitive 0, accessor 1: 0 values"),
         (gltf().replace("\"count\":9", "\"count\":18446744073709551615"), "f:"),
         (gltf().replace("\"byteLength\":24", "\"byteLength\":9024"), "f:mesh 0, primitive 0, accessor 1: "),
-        (gltf().replace("\"byteLength\":72", "\"byteLength\":73"), "f:buffer 0: 73 bytes are announced, and 72"),
-        (gltf().replace("\"mesh\":0,", "\"mesh\":7,"), "f: this is no glTF 2.0 that can be read: nodes[1].mesh"),
+        (
+            gltf().replace("\"byteLength\":72", "\"byteLength\":73"),
+            "f:buffer 0: 73 bytes are announced, and 72",
+        ),
+        (
+            gltf().replace("\"mesh\":0,", "\"mesh\":7,"),
+            "f: this is no glTF 2.0 that can be read: nodes[1].mesh",
+        ),
         (gltf().replace("[1,2],\"scale\"", "[1,2,0],\"scale\""), "f:node "),
         (gltf().replace("\"POSITION\"", "\"NORMAL\""), "f:"),
-        (gltf().replacen("5126", "5123", 1), "f:mesh 0, primitive 0, accessor 0: Vec3 of U16 are given; Vec3 of [F32]"),
+        (
+            gltf().replacen("5126", "5123", 1),
+            "f:mesh 0, primitive 0, accessor 0: Vec3 of U16 are given; Vec3 of [F32]",
+        ),
         (
             gltf().replace("[\"KHR_materials_dispersion\"]", "[\"KHR_draco_mesh_compression\"]"),
             "f:extensionsRequired: the shape is written with KHR_draco_mesh_compression, which is not read",
@@ -306,7 +346,10 @@ fn faults_are_told_with_their_place_and_what_was_expected() {
     let cases = [
         (ascii.replace("vertex 4", "vertex 9999999999"), "f:element vertex: 9999999999 rows"),
         (ascii.replace("1 0 0 255", "1 x 0 255"), "f:13: this cannot be read"),
-        (ascii.replace("3 1 2 3", "3 1 2 4"), "f:triangle 3: it refers to corner 4, counted from 0, and there are 4"),
+        (
+            ascii.replace("3 1 2 3", "3 1 2 4"),
+            "f:triangle 3: it refers to corner 4, counted from 0, and there are 4",
+        ),
         (ascii.replace("3 1 2 3", "3 1 2 -3"), "f:face 3: it refers to corner -3"),
         (ascii.replace("property float z\n", ""), "f:header: `z` of element `vertex` is expected"),
         (ascii.replace("end_header", "end_heade"), "f: the header has no end"),
@@ -356,12 +399,9 @@ proptest! {
         if !whole {
             bytes.truncate(cut.index(bytes.len() + 1));
         }
-        if let Ok(file) = parse(bytes, "f", None) {
-            if let Ok(mended) = file.surface.mend() {
-                if let Shape::Convex(found) = facets(mended.surface) {
-                    let _ = from_mesh(&found, Up::Found);
-                }
-            }
+        let mended = parse(bytes, "f", None).ok().and_then(|file| file.surface.mend().ok());
+        if let Some(Shape::Convex(found)) = mended.map(|mended| facets(mended.surface)) {
+            let _ = from_mesh(&found, Up::Found);
         }
     }
 
@@ -369,106 +409,4 @@ proptest! {
     fn no_text_makes_it_panic(text in "(v|f|o|g|solid|facet|vertex|ply|[ \\n0-9./-]|\\{|\"asset\"|[a-z]){0,60}") {
         let _ = parse(text.into_bytes(), "f", None);
     }
-}
-
-/// A mesh among the real ones; `None`, loudly, where they are not there.
-fn real(name: &str) -> Option<MeshFile> {
-    let folder = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../shared/data/mesh"));
-    if !folder.is_dir() {
-        println!("SKIPPED: {} is not there", folder.display());
-        return None;
-    }
-    Some(read(folder.join(name)).unwrap())
-}
-
-/// A stone's tiers: name, number of facets, degrees from the girdle plane.
-fn tiers(stone: &FromMesh) -> Vec<(String, usize, f64)> {
-    let mut tiers: Vec<(String, usize, f64)> = vec![];
-    for (name, plane) in &stone.facets {
-        let stem = crate::cut::tier_stem(name).to_owned();
-        let slope = plane.normal.z.abs().min(1.0).acos().to_degrees();
-        match tiers.last_mut().filter(|t| t.0 == stem) {
-            Some(last) => last.1 += 1,
-            None => tiers.push((stem, 1, (10.0 * slope).round() / 10.0)),
-        }
-    }
-    tiers
-}
-
-#[test]
-fn real_meshes_open_as_what_they_are() {
-    // Facets, the folds they were found to have, and how near they must lie, girdle radii; none for one that is dented.
-    let expected = [
-        ("deepar-princess.obj", Some((69, 4, 5e-4))),
-        ("diamond-webgl-brilliant_cut.obj", Some((89, 8, 1e-5))),
-        ("diamond-webgl-oval_cut.obj", Some((71, 2, 1e-4))),
-        ("gkjohnson-diamond.glb", None),
-    ];
-    for (name, expected) in expected {
-        let Some(file) = real(name) else { return };
-        let mended = file.surface.mend().unwrap();
-        let found = match facets(mended.surface) {
-            Shape::Convex(found) => Some(found),
-            Shape::Concave(_) => None,
-        };
-        println!("{name}: {:?}", mended.mending);
-        assert_eq!(found.is_some(), expected.is_some(), "{name}");
-        let (Some(found), Some((count, turns, within))) = (found, expected) else { continue };
-        let stone = from_mesh(&found, Up::Found).unwrap();
-        println!("  deviation {:.1e}, {:?}", stone.deviation, tiers(&stone));
-        assert_eq!((stone.facets.len(), stone.evened.turns), (count, turns), "{name}");
-        assert!(stone.deviation < within, "{name}: {}", stone.deviation);
-        assert_eq!(stone.facets[0].0, "table");
-    }
-}
-
-#[test]
-fn a_million_triangles_load_in_seconds() {
-    let stone = brilliant(96);
-    let file = open(write_stl(&stone, 3.0).unwrap());
-    let mut surface = file.surface.mend().unwrap().surface;
-    while surface.triangles.len() < 1_000_000 {
-        surface = divided(&surface);
-    }
-    let mut bytes = vec![0; 80];
-    bytes.extend((surface.triangles.len() as u32).to_le_bytes());
-    for t in 0..surface.triangles.len() {
-        bytes.extend([0; 12]);
-        surface.corners(t).iter().flat_map(|c| c.as_vec3().to_array()).for_each(|x| bytes.extend(x.to_le_bytes()));
-        bytes.extend([0; 2]);
-    }
-    let start = std::time::Instant::now();
-    let file = open(bytes);
-    let read = start.elapsed().as_secs_f64();
-    let mended = file.surface.mend().unwrap();
-    let welded = start.elapsed().as_secs_f64();
-    let Shape::Convex(found) = facets(mended.surface) else { panic!("taken for concave") };
-    let faceted = start.elapsed().as_secs_f64();
-    let stone_back = from_mesh(&found, Up::Found).unwrap();
-    let all = start.elapsed().as_secs_f64();
-    println!(
-        "{} triangles: read {read:.2} s, mended {welded:.2} s, facets {faceted:.2} s, posed {all:.2} s; tolerance {:.1e}",
-        surface.triangles.len(),
-        found.tolerance
-    );
-    assert_eq!(stone_back.facets.len(), stone.names().len());
-    assert!(all < 30.0, "{all} s");
-}
-
-/// Every triangle cut into four.
-fn divided(surface: &Surface) -> Surface {
-    let mut middle = std::collections::HashMap::new();
-    let mut vertices = surface.vertices.clone();
-    let mut between = |a: u32, b: u32| {
-        *middle.entry((a.min(b), a.max(b))).or_insert_with(|| {
-            vertices.push((surface.vertices[a as usize] + surface.vertices[b as usize]) / 2.0);
-            vertices.len() as u32 - 1
-        })
-    };
-    let mut triangles = vec![];
-    for &[a, b, c] in &surface.triangles {
-        let [x, y, z] = [between(a, b), between(b, c), between(c, a)];
-        triangles.extend([[a, x, z], [x, b, y], [z, y, c], [x, y, z]]);
-    }
-    Surface::new(vertices, triangles)
 }

@@ -72,7 +72,9 @@ impl Surface {
     /// What makes every other step safe: numbers, numbering and scale.
     fn check(&self) -> Result<(), SurfaceError> {
         let vertices = self.vertices.len();
-        for (triangle, &vertex) in self.triangles.iter().enumerate().flat_map(|(t, c)| c.iter().map(move |v| (t, v))) {
+        for (triangle, &vertex) in
+            self.triangles.iter().enumerate().flat_map(|(t, c)| c.iter().map(move |v| (t, v)))
+        {
             match self.vertices.get(vertex as usize) {
                 None => return Err(SurfaceError::Index { triangle, vertex, vertices }),
                 Some(at) if !at.is_finite() => {
@@ -118,7 +120,8 @@ fn close(exact: &Surface, size: f64, mending: &mut Mending) -> Result<(Surface, 
         first_open = Some((surface, edges));
     }
     let Some((surface, edges)) = first_open else { return Err(SurfaceError::Empty) };
-    let mut open: Vec<[DVec3; 2]> = edges.open.iter().map(|e| e.map(|v| surface.vertices[v as usize])).collect();
+    let mut open: Vec<[DVec3; 2]> =
+        edges.open.iter().map(|e| e.map(|v| surface.vertices[v as usize])).collect();
     let count = open.len();
     open.sort_by(|p, q| q[0].distance(q[1]).total_cmp(&p[0].distance(p[1])));
     open.truncate(MOST_EDGES);

@@ -84,8 +84,7 @@ impl Grower<'_> {
     fn is_sliver(&self, triangle: u32) -> bool {
         let [a, b, c] = self.surface.corners(triangle as usize);
         let longest = (b - a).length().max((c - b).length()).max((a - c).length());
-        // `not more`, so that a triangle without extent is one.
-        !(2.0 * self.areas[triangle as usize].length() > SLIVER * self.tolerance * longest)
+        2.0 * self.areas[triangle as usize].length() <= SLIVER * self.tolerance * longest
     }
 
     fn grow(&mut self, seed: u32) -> Vec<u32> {

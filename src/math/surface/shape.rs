@@ -141,7 +141,8 @@ fn is_round(surface: &Surface, edges: &Edges, found: &Regions) -> bool {
             let outward = unit(n as usize) - normal;
             // Across an edge that stands out, normals lean apart.
             let across = surface.corners(n as usize).iter().sum::<DVec3>() - corners.iter().sum::<DVec3>();
-            let turn = (corners[(k + 1) % 3] - corners[k]).length() * outward.length().copysign(outward.dot(across));
+            let turn =
+                (corners[(k + 1) % 3] - corners[k]).length() * outward.length().copysign(outward.dot(across));
             whole += turn;
             within += if found.of[t] == found.of[n as usize] { turn } else { 0.0 };
         }
@@ -152,7 +153,8 @@ fn is_round(surface: &Surface, edges: &Edges, found: &Regions) -> bool {
 fn faceted(surface: Surface, centre: DVec3, solid: Solid) -> Faceted {
     let Solid { found, polytope, deviation, tolerance } = solid;
     let names = names(&surface, &found);
-    let face = |r: usize| Face { plane: found.fits[r].plane, area: found.fits[r].area, name: names[r].clone() };
+    let face =
+        |r: usize| Face { plane: found.fits[r].plane, area: found.fits[r].area, name: names[r].clone() };
     let faces = polytope.facets().iter().map(|f| face(f.source)).collect();
     Faceted { surface, centre, faces, polytope, deviation, tolerance }
 }

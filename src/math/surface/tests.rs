@@ -66,7 +66,9 @@ fn what_is_whole_stays_as_it_is() {
     let whole = surface(&stone(8));
     let Mended { surface, mending } = whole.mend().unwrap();
     assert_eq!(mending, Mending { shells: 1, ..Mending::default() });
-    assert!((surface.volume() - whole.volume()).abs() < 1e-15 && surface.triangles.len() == whole.triangles.len());
+    assert!(
+        (surface.volume() - whole.volume()).abs() < 1e-15 && surface.triangles.len() == whole.triangles.len()
+    );
 }
 
 #[test]
@@ -101,7 +103,10 @@ fn cracks_are_closed_and_holes_are_refused_with_their_edges() {
     let Err(SurfaceError::Open { count: 3, edges, .. }) = open.mend() else { panic!("a hole was closed") };
     assert!(edges.iter().flatten().all(|end| gone.contains(end)));
     let text = open.mend().unwrap_err().to_string();
-    assert!(text.starts_with("the surface is open: 3 edges lack their neighbour") && text.contains("1, "), "{text}");
+    assert!(
+        text.starts_with("the surface is open: 3 edges lack their neighbour") && text.contains("1, "),
+        "{text}"
+    );
 }
 
 #[test]

@@ -14,13 +14,19 @@ use std::path::Path;
 pub(super) type Data = Vec<Vec<u8>>;
 
 /// Reads all buffers.
-pub(super) fn load(document: &Document, mut blob: Option<Vec<u8>>, folder: Option<&Path>) -> Result<Data, Fault> {
+pub(super) fn load(
+    document: &Document,
+    mut blob: Option<Vec<u8>>,
+    folder: Option<&Path>,
+) -> Result<Data, Fault> {
     let mut data = vec![];
     let mut whole = 0;
     for buffer in document.buffers() {
         let place = format!("buffer {}", buffer.index());
         let bytes = match buffer.source() {
-            Source::Bin => blob.take().ok_or_else(|| Fault::at(&*place, "a binary chunk is expected in the file"))?,
+            Source::Bin => {
+                blob.take().ok_or_else(|| Fault::at(&*place, "a binary chunk is expected in the file"))?
+            }
             Source::Uri(uri) => from_uri(uri, folder).map_err(|message| Fault::at(&*place, message))?,
         };
         if bytes.len() < buffer.length() {
@@ -30,7 +36,10 @@ pub(super) fn load(document: &Document, mut blob: Option<Vec<u8>>, folder: Optio
         whole += bytes.len() as u64;
         if whole > MAX_BYTES {
             let most = MAX_BYTES >> 20;
-            return Err(Fault::at(place, format!("all buffers are larger than {most} MiB; save a coarser mesh")));
+            return Err(Fault::at(
+                place,
+                format!("all buffers are larger than {most} MiB; save a coarser mesh"),
+            ));
         }
         data.push(bytes);
     }
@@ -52,7 +61,12 @@ fn from_uri(uri: &str, folder: Option<&Path>) -> Result<Vec<u8>, String> {
 }
 
 /// Checks that an accessor has one of the types expected and lies within its buffers: the crate looks at neither.
-pub(super) fn check(accessor: &Accessor<'_>, types: &[DataType], shape: Dimensions, data: &Data) -> Result<(), Fault> {
+pub(super) fn check(
+    accessor: &Accessor<'_>,
+    types: &[DataType],
+    shape: Dimensions,
+    data: &Data,
+) -> Result<(), Fault> {
     let fault = |message: String| Err(Fault::at(format!("accessor {}", accessor.index()), message));
     if !types.contains(&accessor.data_type()) || accessor.dimensions() != shape {
         return fault(format!(
@@ -76,9 +90,9 @@ pub(super) fn check(accessor: &Accessor<'_>, types: &[DataType], shape: Dimensio
         view.as_ref().is_some_and(|view| !fits(view, *offset, *count, *size, data))
     };
     match parts.iter().find(|part| outside(part)) {
-        Some((_, offset, count, size)) => {
-            fault(format!("{count} values of {size} bytes from {offset} on are more than its buffer view holds"))
-        }
+        Some((_, offset, count, size)) => fault(format!(
+            "{count} values of {size} bytes from {offset} on are more than its buffer view holds"
+        )),
         None => Ok(()),
     }
 }

@@ -25,7 +25,8 @@ pub(super) fn gather(document: &Document, data: &Data) -> Result<Read, Fault> {
         Some(scene) => scene.nodes().collect(),
         None => rootless(document),
     };
-    let mut gatherer = Gatherer { data, read: Read::default(), visited: 0, materials: BTreeMap::new(), skipped: 0 };
+    let mut gatherer =
+        Gatherer { data, read: Read::default(), visited: 0, materials: BTreeMap::new(), skipped: 0 };
     for root in roots {
         gatherer.node(&root, DAffine3::IDENTITY, 0)?;
     }
@@ -63,7 +64,10 @@ impl Gatherer<'_> {
             for primitive in mesh.primitives() {
                 self.primitive(&primitive, name, placed).map_err(|fault| {
                     let own = format!("mesh {}, primitive {}", mesh.index(), primitive.index());
-                    Fault { place: Some(fault.place.map_or(own.clone(), |at| format!("{own}, {at}"))), ..fault }
+                    Fault {
+                        place: Some(fault.place.map_or(own.clone(), |at| format!("{own}, {at}"))),
+                        ..fault
+                    }
                 })?;
             }
         }
@@ -93,7 +97,10 @@ impl Gatherer<'_> {
             None => (0..vertices.len() as u32).collect(),
         };
         if let Some(bad) = order.iter().find(|&&v| v as usize >= vertices.len()) {
-            return Err(Fault::whole(format!("it refers to corner {bad}, from 0, and there are {}", vertices.len())));
+            return Err(Fault::whole(format!(
+                "it refers to corner {bad}, from 0, and there are {}",
+                vertices.len()
+            )));
         }
         let triangles = triangles(&order, mode);
         let whole = &self.read.surface;
@@ -115,7 +122,10 @@ impl Gatherer<'_> {
             self.materials.len() > 1,
             format!("{} materials are described; that of most triangles is taken", self.materials.len()),
         );
-        warn(document.skins().len() > 0, "the mesh is in the pose in which it was modelled; skins are not read".into());
+        warn(
+            document.skins().len() > 0,
+            "the mesh is in the pose in which it was modelled; skins are not read".into(),
+        );
         Ok(self.read)
     }
 }
@@ -160,7 +170,8 @@ fn hint(material: &Material<'_>) -> Option<MaterialHint> {
     let dispersion = material.extension_value("KHR_materials_dispersion");
     let dispersion = dispersion.and_then(|value| value.get("dispersion")?.as_f64());
     let volume = material.volume();
-    let attenuation = volume.map(|v| (v.attenuation_color().map(f64::from), f64::from(v.attenuation_distance())));
+    let attenuation =
+        volume.map(|v| (v.attenuation_color().map(f64::from), f64::from(v.attenuation_distance())));
     let found = MaterialHint {
         name: material.name().map(str::to_owned),
         ior: material.ior().map(f64::from),
