@@ -12,9 +12,9 @@ use std::f64::consts::{PI, TAU};
 /// The most turns that are looked for: no gem has more of anything but girdle facets.
 const MOST_TURNS: u32 = 24;
 
-/// Planes may be one another's images where their normals differ by this much (1.7 degrees), and their offsets by
+/// Planes may be one another's images where their normals differ by this much (2.9 degrees), and their offsets by
 /// this part of the largest: far more than noise does, far less than facets differ.
-const LOOSE: f64 = 0.03;
+const LOOSE: f64 = 0.05;
 
 /// An even stone may lie this many times as far from the corners as the one that was found, or as its tolerance: each
 /// facet of that one could follow the noise of its own corners.

@@ -20,6 +20,9 @@ const SAME_AZIMUTH: f64 = 0.02;
 /// Areas whose ratio is less are equal.
 const SAME_AREA: f64 = 1.01;
 
+/// An outline whose second moments differ by more than this part of their sum is longer one way: by one percent.
+const LONG: f64 = 0.01;
+
 /// Widths whose ratio is nearer to 1 than this are equal.
 const SAME_WIDTH: f64 = 0.005;
 
@@ -96,20 +99,22 @@ fn candidates(even: &Even, rim: &[DVec3]) -> Vec<f64> {
         (Some(mirror), turns) => {
             (0..2 * turns).map(|k| mirror + f64::from(k) * PI / f64::from(turns)).collect()
         }
-        (None, 3..) => {
-            let crown = even.planes.iter().filter(|p| is_crown(p));
-            crown.map(|p| p.normal.y.atan2(p.normal.x)).collect()
-        }
-        (None, _) => vec![narrow_axis(rim)],
+        (None, 3..) => crown_azimuths(even),
+        (None, _) => narrow_axis(rim).map_or_else(|| crown_azimuths(even), |axis| vec![axis]),
     }
 }
 
-/// The direction across a corner set's longer axis: of the second moments, the lesser.
-fn narrow_axis(rim: &[DVec3]) -> f64 {
+fn crown_azimuths(even: &Even) -> Vec<f64> {
+    even.planes.iter().filter(|p| is_crown(p)).map(|p| p.normal.y.atan2(p.normal.x)).collect()
+}
+
+/// The direction across a corner set's longer axis, by its second moments; `None` where it has none.
+fn narrow_axis(rim: &[DVec3]) -> Option<f64> {
     let middle = rim.iter().sum::<DVec3>() / rim.len() as f64;
     let sum = |f: &dyn Fn(DVec3) -> f64| rim.iter().map(|v| f(*v - middle)).sum::<f64>();
-    let (difference, mixed) = (sum(&|v| v.x * v.x - v.y * v.y), sum(&|v| v.x * v.y));
-    (2.0 * mixed).atan2(difference) / 2.0 + FRAC_PI_2
+    let (difference, mixed) = (sum(&|v| v.x * v.x - v.y * v.y), sum(&|v| 2.0 * v.x * v.y));
+    let whole = sum(&|v| v.x * v.x + v.y * v.y);
+    (difference.hypot(mixed) > LONG * whole).then(|| mixed.atan2(difference) / 2.0 + FRAC_PI_2)
 }
 
 fn is_crown(plane: &Plane) -> bool {

@@ -251,6 +251,8 @@ fn nodes_place_meshes_and_extensions_give_the_material() {
     assert!((material.index(587.6) - 1.76).abs() < 1e-5);
     assert!((material.absorption[0].coefficient(550.0) - 4_f64.ln() / 4.0).abs() < 1e-6);
     assert!(file.warnings.is_empty(), "{:?}", file.warnings);
+    let unbounded = open(gltf().replace(",\"min\":[0,0,0],\"max\":[1,1,1]", "").into_bytes());
+    assert_eq!(unbounded.warnings, ["2 lists of places lack their bounds"]);
 }
 
 #[test]
@@ -329,6 +331,10 @@ fn faults_are_told_with_their_place_and_what_was_expected() {
         ),
         (gltf().replace("[1,2],\"scale\"", "[1,2,0],\"scale\""), "f:node "),
         (gltf().replace("\"POSITION\"", "\"NORMAL\""), "f:"),
+        (
+            gltf().replace("\"POSITION\":0", "\"POSITION\":8"),
+            "f:mesh 0: POSITION refers to accessor 8, and there are 3",
+        ),
         (
             gltf().replacen("5126", "5123", 1),
             "f:mesh 0, primitive 0, accessor 0: Vec3 of U16 are given; Vec3 of [F32]",
