@@ -199,12 +199,12 @@ fn best_mirror(plain: &Even, areas: &[f64]) -> Option<f64> {
         plain.planes.iter().filter(same).filter(|p| p.normal.truncate().length() > LOOSE).filter_map(|p| {
             let guess = (azimuth(&plain.planes[first]) + azimuth(p)) / 2.0;
             let images = list.permutation(|p| mirrored(p, guess))?;
-            // Twice the mirror's azimuth is the sum of a pair's, weighed by how far the pair leans out.
-            let pair = |(p, i): (&Plane, &usize)| {
+            // Twice the mirror's azimuth is the sum of a pair's; thin facets, whose azimuths are noise, count little.
+            let pair = |((p, i), area): ((&Plane, &usize), &f64)| {
                 let (a, b) = (p.normal, plain.planes[*i].normal);
-                DVec3::new(a.x * b.x - a.y * b.y, a.x * b.y + a.y * b.x, 0.0)
+                *area * DVec3::new(a.x * b.x - a.y * b.y, a.x * b.y + a.y * b.x, 0.0)
             };
-            let sum: DVec3 = plain.planes.iter().zip(&images).map(pair).sum();
+            let sum: DVec3 = plain.planes.iter().zip(&images).zip(areas).map(pair).sum();
             let refined = sum.y.atan2(sum.x) / 2.0;
             let gap =
                 |(p, i): (&Plane, &usize)| (mirrored(p, refined).normal - plain.planes[*i].normal).length();

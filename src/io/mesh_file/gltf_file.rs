@@ -83,7 +83,7 @@ fn positions(root: &mut Root) -> Result<Option<String>, Fault> {
             bound.get_or_insert_with(|| serde_json::json!([0.0, 0.0, 0.0]));
         }
     }
-    Ok((unbounded > 0).then(|| format!("{unbounded} lists of places lack their bounds")))
+    Ok((unbounded > 0).then(|| format!("the bounds of places are missing {unbounded} times")))
 }
 
 /// What extensions mean for reading: those that change shapes are faults where the file needs them and warnings where

@@ -252,7 +252,7 @@ fn nodes_place_meshes_and_extensions_give_the_material() {
     assert!((material.absorption[0].coefficient(550.0) - 4_f64.ln() / 4.0).abs() < 1e-6);
     assert!(file.warnings.is_empty(), "{:?}", file.warnings);
     let unbounded = open(gltf().replace(",\"min\":[0,0,0],\"max\":[1,1,1]", "").into_bytes());
-    assert_eq!(unbounded.warnings, ["2 lists of places lack their bounds"]);
+    assert_eq!(unbounded.warnings, ["the bounds of places are missing 1 times"]);
 }
 
 #[test]
