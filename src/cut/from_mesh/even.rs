@@ -130,7 +130,8 @@ impl Parts {
         let centre = |f: &Facet| solid.corners(f).sum::<DVec3>() / f.outline.len() as f64 - middle;
         Self {
             planes: found.faces.iter().map(|f| about(&f.plane)).collect(),
-            areas: found.faces.iter().map(|f| f.area).collect(),
+            // Of the solid, not of triangles, some of which noise has put to a neighbour.
+            areas: solid.facets().iter().map(|f| solid.facet_area(f)).collect(),
             middles: solid.facets().iter().map(centre).collect(),
             corners: found.surface.vertices.iter().map(|&v| v - middle).collect(),
             limit: EVEN * found.deviation.max(found.tolerance),
