@@ -8,6 +8,7 @@
 mod derive;
 mod design;
 mod facets;
+pub mod from_mesh;
 mod limits;
 mod material;
 mod names;

@@ -9,6 +9,7 @@ mod plane;
 mod polygon;
 mod polytope;
 mod polytope_build;
+pub mod surface;
 mod symmetry;
 
 pub use affine::Affine;

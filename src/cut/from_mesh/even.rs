@@ -1,0 +1,262 @@
+//! The symmetry that a stone has but for noise, given to its planes: each becomes the mean of all its images.
+//!
+//! A stone that is uneven by more than its noise keeps its planes: whether that is so is judged by its corners, which
+//! must lie as near to the evened stone as they lay to the one that was found.
+
+use super::LEAST_UPRIGHT;
+use crate::math::surface::{Faceted, deviation};
+use crate::math::{Facet, Plane, Polytope, Symmetry};
+use glam::{DQuat, DVec3};
+use std::f64::consts::{PI, TAU};
+
+/// The most turns that are looked for: no gem has more of anything but girdle facets.
+const MOST_TURNS: u32 = 24;
+
+/// Planes may be one another's images where their normals differ by this much (2.9 degrees), and their offsets by
+/// this part of the largest: far more than noise does, far less than facets differ.
+const LOOSE: f64 = 0.05;
+
+/// An even stone may lie this many times as far from the corners as the one that was found, or as its tolerance: each
+/// facet of that one could follow the noise of its own corners.
+const EVEN: f64 = 5.0;
+
+/// Slopes of girdle facets, which are thin and whose slope is mostly noise, count this part of others'.
+const THIN: f64 = 0.25;
+
+/// The most facets of which all are compared with all.
+const MOST_FACETS: usize = 1_000;
+
+/// Planes among which images are looked for.
+pub(super) struct Match<'a> {
+    planes: &'a [Plane],
+    size: f64,
+}
+
+impl<'a> Match<'a> {
+    pub fn loose(planes: &'a [Plane]) -> Self {
+        Self { planes, size: planes.iter().map(|p| p.offset.abs()).fold(f64::MIN_POSITIVE, f64::max) }
+    }
+
+    /// The plane that is nearest to a given one, if it may be the same.
+    pub fn find(&self, image: &Plane) -> Option<usize> {
+        let upright = |p: &Plane| p.normal.z.abs() < LEAST_UPRIGHT;
+        let off = |p: &Plane| {
+            let mut apart = p.normal - image.normal;
+            if upright(p) && upright(image) {
+                apart.z *= THIN;
+            }
+            apart.length().max((p.offset - image.offset).abs() / self.size)
+        };
+        let near = self.planes.iter().map(off).enumerate().filter(|(_, d)| *d < LOOSE);
+        near.min_by(|a, b| a.1.total_cmp(&b.1)).map(|(i, _)| i)
+    }
+
+    /// The plane that each is carried to, where that is a permutation.
+    fn permutation(&self, map: impl Fn(&Plane) -> Plane) -> Option<Vec<usize>> {
+        let mut taken = vec![false; self.planes.len()];
+        let image = |p| self.find(&map(p)).filter(|&i| !std::mem::replace(&mut taken[i], true));
+        self.planes.iter().map(image).collect()
+    }
+}
+
+/// The plane turned about the origin.
+pub(super) fn turned(plane: &Plane, turn: DQuat) -> Plane {
+    Plane::new(turn * plane.normal, plane.offset)
+}
+
+/// The middle of a solid's content.
+pub(super) fn centroid(polytope: &Polytope) -> DVec3 {
+    let apex = polytope.vertices()[0];
+    let (mut content, mut moment) = (0.0, DVec3::ZERO);
+    for facet in polytope.facets() {
+        let corners: Vec<DVec3> = polytope.corners(facet).map(|c| c - apex).collect();
+        for w in corners[1..].windows(2) {
+            let cone = corners[0].dot(w[0].cross(w[1]));
+            content += cone;
+            moment += cone * (corners[0] + w[0] + w[1]) / 4.0;
+        }
+    }
+    apex + moment / content
+}
+
+/// Planes about a middle with +z along the axis, and the symmetry that they were given.
+pub(super) struct Even {
+    pub planes: Vec<Plane>,
+    /// From the frame of the planes that were found.
+    pub turn: DQuat,
+    pub turns: u32,
+    /// The azimuth of a mirror.
+    pub mirror: Option<f64>,
+}
+
+impl Even {
+    /// The symmetry after a turn about the axis.
+    pub fn symmetry(&self, turn: DQuat) -> Symmetry {
+        let across = |azimuth: f64| turn * DVec3::new(azimuth.cos(), azimuth.sin(), 0.0);
+        let azimuth = |v: DVec3| v.y.atan2(v.x).rem_euclid(PI);
+        Symmetry { turns: self.turns, mirror: self.mirror.map(|m| azimuth(across(m))) }
+    }
+
+    fn mapped(&self, quarter: Option<f64>, turn: u32) -> impl Fn(&Plane) -> Plane + use<> {
+        let rotation = DQuat::from_rotation_z(TAU * f64::from(turn) / f64::from(self.turns));
+        move |plane| turned(&quarter.map_or(*plane, |m| mirrored(plane, m)), rotation)
+    }
+}
+
+/// The plane mirrored in the upright plane of an azimuth.
+fn mirrored(plane: &Plane, azimuth: f64) -> Plane {
+    let (sin, cos) = (2.0 * azimuth).sin_cos();
+    let n = plane.normal;
+    Plane::new(DVec3::new(cos * n.x + sin * n.y, sin * n.x - cos * n.y, n.z), plane.offset)
+}
+
+/// The facets that were found, about a middle.
+pub(super) struct Parts {
+    pub planes: Vec<Plane>,
+    pub areas: Vec<f64>,
+    /// A point in the middle of each facet.
+    middles: Vec<DVec3>,
+    /// The corners of the surface.
+    corners: Vec<DVec3>,
+    /// How far they may lie from an even stone.
+    limit: f64,
+}
+
+impl Parts {
+    /// The facets about a point.
+    pub fn about(found: &Faceted, middle: DVec3) -> Self {
+        let about = |plane: &Plane| Plane::new(plane.normal, -plane.distance(middle));
+        let solid = &found.polytope;
+        let centre = |f: &Facet| solid.corners(f).sum::<DVec3>() / f.outline.len() as f64 - middle;
+        Self {
+            planes: found.faces.iter().map(|f| about(&f.plane)).collect(),
+            // Of the solid, not of triangles, some of which noise has put to a neighbour.
+            areas: solid.facets().iter().map(|f| solid.facet_area(f)).collect(),
+            middles: solid.facets().iter().map(centre).collect(),
+            corners: found.surface.vertices.iter().map(|&v| v - middle).collect(),
+            limit: EVEN * found.deviation.max(found.tolerance),
+        }
+    }
+}
+
+/// The planes with their axis upright, and evened where the corners allow.
+pub(super) fn evened(parts: &Parts, axis: DVec3) -> Even {
+    let Parts { planes, areas, .. } = parts;
+    let plain = upright(planes, axis);
+    if planes.len() > MOST_FACETS {
+        return plain;
+    }
+    let fits = |even: &Even| {
+        let back: Vec<Plane> = even.planes.iter().map(|p| turned(p, even.turn.inverse())).collect();
+        Polytope::from_planes(&back).is_ok_and(|solid| deviation(&solid, &parts.corners) <= parts.limit)
+    };
+    let tried = (1..=MOST_TURNS).rev().flat_map(|turns| {
+        let axis = refined(planes, areas, axis, turns);
+        let plain = Even { turns, ..upright(planes, axis) };
+        let mirror = best_mirror(&plain, areas);
+        [(turns, axis, mirror), (turns, axis, None)]
+    });
+    let wanted = tried.filter(|(turns, _, mirror)| *turns > 1 || mirror.is_some());
+    let mean =
+        wanted.filter_map(|(turns, axis, mirror)| averaged(&Even { turns, mirror, ..upright(planes, axis) }));
+    // Girdle facets at unlike heights are shifted unlike as they are put upright, so they are averaged anew.
+    let both = mean.flat_map(|even| [averaged(&squared(&even, &parts.middles)), Some(even)]);
+    let mut fitting = both.flatten().filter(fits);
+    fitting.next().unwrap_or(plain)
+}
+
+fn upright(planes: &[Plane], axis: DVec3) -> Even {
+    let turn = DQuat::from_rotation_arc(axis, DVec3::Z);
+    Even { planes: planes.iter().map(|p| turned(p, turn)).collect(), turn, turns: 1, mirror: None }
+}
+
+/// The axis as the whole crown and pavilion have it, not the table alone: the normal of the girdle's plane. It is
+/// that of a stone with turns only.
+fn refined(planes: &[Plane], areas: &[f64], axis: DVec3, turns: u32) -> DVec3 {
+    if turns == 1 {
+        return axis;
+    }
+    let sum: DVec3 = planes
+        .iter()
+        .zip(areas)
+        .map(|(p, area)| (p.normal.dot(axis), p.normal * *area))
+        .filter(|(up, _)| up.abs() > LEAST_UPRIGHT)
+        .map(|(up, n)| n * up.signum())
+        .sum();
+    sum.try_normalize().filter(|found| found.dot(axis) > 1.0 - LOOSE * LOOSE).unwrap_or(axis)
+}
+
+/// The mirror that carries the planes onto one another with the least misfit, its azimuth the mean of what each pair
+/// of them says.
+fn best_mirror(plain: &Even, areas: &[f64]) -> Option<f64> {
+    let azimuth = |p: &Plane| p.normal.y.atan2(p.normal.x);
+    let level = |i: &usize| plain.planes[*i].normal.truncate().length() > LOOSE;
+    let first = (0..plain.planes.len())
+        .filter(level)
+        .max_by(|&a, &b| areas[a].total_cmp(&areas[b]).then(b.cmp(&a)))?;
+    let same = |p: &&Plane| (p.normal.z - plain.planes[first].normal.z).abs() < LOOSE;
+    let list = Match::loose(&plain.planes);
+    let tried =
+        plain.planes.iter().filter(same).filter(|p| p.normal.truncate().length() > LOOSE).filter_map(|p| {
+            let guess = (azimuth(&plain.planes[first]) + azimuth(p)) / 2.0;
+            let images = list.permutation(|p| mirrored(p, guess))?;
+            // Twice the mirror's azimuth is the sum of a pair's; thin facets, whose azimuths are noise, count little.
+            let pair = |((p, i), area): ((&Plane, &usize), &f64)| {
+                let (a, b) = (p.normal, plain.planes[*i].normal);
+                *area * DVec3::new(a.x * b.x - a.y * b.y, a.x * b.y + a.y * b.x, 0.0)
+            };
+            let sum: DVec3 = plain.planes.iter().zip(&images).zip(areas).map(pair).sum();
+            let refined = sum.y.atan2(sum.x) / 2.0;
+            let gap =
+                |(p, i): (&Plane, &usize)| (mirrored(p, refined).normal - plain.planes[*i].normal).length();
+            let misfit = plain.planes.iter().zip(&images).map(gap).fold(0.0, f64::max);
+            Some((misfit, refined))
+        });
+    tried.min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, mirror)| mirror)
+}
+
+/// Each plane as the mean of its images, carried back; `None` where the symmetry does not carry planes onto planes.
+fn averaged(even: &Even) -> Option<Even> {
+    let list = Match::loose(&even.planes);
+    let mut sums = vec![(DVec3::ZERO, 0.0); even.planes.len()];
+    let mirrors = std::iter::once(None).chain(even.mirror.map(Some));
+    let mut count = 0.0;
+    for mirror in mirrors {
+        for turn in 0..even.turns {
+            let map = even.mapped(mirror, turn);
+            let images = list.permutation(&map)?;
+            count += 1.0;
+            for (sum, &image) in sums.iter_mut().zip(&images) {
+                let back = match mirror {
+                    // A mirror and a turn after it make a mirror, which is its own inverse.
+                    Some(_) => map(&even.planes[image]),
+                    None => even.mapped(None, even.turns - turn)(&even.planes[image]),
+                };
+                *sum = (sum.0 + back.normal, sum.1 + back.offset);
+            }
+        }
+    }
+    let plane = |(normal, offset): &(DVec3, f64)| {
+        let unit = Plane::new(*normal, 0.0).normalized()?;
+        Some(Plane::new(unit.normal, offset / count))
+    };
+    let planes = sums.iter().map(plane).collect::<Option<Vec<_>>>()?;
+    Some(Even { planes, ..*even })
+}
+
+/// The same with its girdle facets upright, and what is level level.
+fn squared(even: &Even, middles: &[DVec3]) -> Even {
+    let square = |(p, middle): (&Plane, &DVec3)| {
+        let n = p.normal;
+        let snapped = match (n.z.abs() < LOOSE, n.truncate().length() < LOOSE) {
+            (true, _) => DVec3::new(n.x, n.y, 0.0),
+            (_, true) => DVec3::Z * n.z.signum(),
+            _ => n,
+        };
+        // Turned about the middle of the facet, which stays where it is.
+        let middle = even.turn * *middle;
+        let foot = middle - p.distance(middle) * n;
+        Plane::new(snapped, snapped.dot(foot)).normalized().unwrap_or(*p)
+    };
+    Even { planes: even.planes.iter().zip(middles).map(square).collect(), ..*even }
+}

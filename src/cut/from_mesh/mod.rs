@@ -1,0 +1,106 @@
+//! A stone out of the facets that were found on a surface: put upright, evened where noise alone kept it from being
+//! even, scaled by its girdle, and its facets named.
+//!
+//! The stone's frame is that of docs/architecture.md: +z out of the table, z = 0 at the crown's side of the girdle,
+//! +x through a bezel or another facet of the crown that mirrors into itself. A long stone's width lies along x.
+
+mod aim;
+mod even;
+mod name;
+mod outline;
+
+#[cfg(test)]
+mod tests;
+
+use crate::math::surface::{Faceted, deviation};
+use crate::math::{Plane, Polytope, PolytopeError, Symmetry};
+use glam::{DQuat, DVec3};
+
+use outline::LEAST_UPRIGHT;
+
+/// Which way a surface's table faces.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub enum Up {
+    /// To be found: the largest facet around which the others lie evenly; of equals, the one that faces +z, then +y.
+    #[default]
+    Found,
+    /// Given in the surface's frame, any length but zero. The largest facet within 5 degrees is the table.
+    Given(DVec3),
+}
+
+/// How a surface was moved: `stone = scale · (turn · surface) + shift`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Pose {
+    /// Girdle radii per unit of the surface.
+    pub scale: f64,
+    /// From the surface's frame into the stone's.
+    pub turn: DQuat,
+    /// After both, girdle radii.
+    pub shift: DVec3,
+}
+
+impl Pose {
+    /// Where a point of the surface lies in the stone's frame.
+    pub fn of(&self, point: DVec3) -> DVec3 {
+        self.scale * (self.turn * point) + self.shift
+    }
+
+    fn plane(&self, plane: &Plane) -> Plane {
+        let normal = self.turn * plane.normal;
+        Plane::new(normal, self.scale * plane.offset + normal.dot(self.shift))
+    }
+}
+
+/// A stone that was found in a surface.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FromMesh {
+    /// Names, no two alike, and planes in the stone's frame: table, crown, girdle, pavilion, culet.
+    pub facets: Vec<(String, Plane)>,
+    /// How the surface was moved.
+    pub pose: Pose,
+    /// How far the corner of the surface that is farthest off lies from the stone, girdle radii.
+    pub deviation: f64,
+    /// The symmetry that the planes were given where they had it but for noise; [`Symmetry::NONE`] where they were
+    /// left as they are.
+    pub evened: Symmetry,
+}
+
+/// Why facets make no stone.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum FromMeshError {
+    /// A direction that is none.
+    #[error("the direction up, {0}, points nowhere; three finite numbers that are not all 0 are expected")]
+    Up(DVec3),
+    /// Nothing between crown and pavilion.
+    #[error("the stone has no girdle: no edge lies between facets that face up and facets that face down")]
+    NoGirdle,
+    /// The planes as posed enclose nothing.
+    #[error("the facets that were found make no stone: {0}")]
+    Polytope(#[from] PolytopeError),
+}
+
+/// Poses, evens and names the facets of a surface.
+///
+/// # Errors
+/// A direction up that is none, or facets without a girdle.
+pub fn from_mesh(found: &Faceted, up: Up) -> Result<FromMesh, FromMeshError> {
+    let middle = even::centroid(&found.polytope);
+    let parts = even::Parts::about(found, middle);
+    let (axis, table) = aim::axis(&parts.planes, &parts.areas, up)?;
+    let even = even::evened(&parts, axis);
+    let upright = outline::placed(&even, &parts.areas)?;
+    let posed: Vec<Plane> = even.planes.iter().map(|p| upright.plane(p)).collect();
+    let polytope = Polytope::from_planes(&posed)?;
+    let turn = upright.turn * even.turn;
+    let shift = upright.shift - upright.scale * (turn * (found.centre + middle));
+    let pose = Pose { turn, shift, ..upright };
+    let points: Vec<DVec3> = found.surface.vertices.iter().map(|&v| pose.of(v + found.centre)).collect();
+    let given = found.faces.iter().map(|f| f.name.clone()).collect::<Option<Vec<_>>>();
+    let facets = name::named(&posed, table, given, upright.scale * found.tolerance);
+    Ok(FromMesh {
+        facets,
+        pose,
+        deviation: deviation(&polytope, &points),
+        evened: even.symmetry(upright.turn),
+    })
+}

@@ -1,0 +1,146 @@
+//! Facets in the order of the trade, tier by tier, with the names that can be told from their places.
+
+use super::super::names;
+use super::LEAST_UPRIGHT;
+use crate::math::Plane;
+use std::f64::consts::TAU;
+
+/// Slopes of one tier differ by less than this, radians, or by what noise makes of them.
+const SAME_SLOPE: f64 = 2e-3;
+
+/// Offsets of one tier differ by less than this, girdle radii, or by what noise makes of them.
+const SAME_OFFSET: f64 = 2e-3;
+
+/// How many tolerances noise turns and shifts facets of one tier apart: those of a tenth of a radius by ten.
+const NOISE: f64 = 10.0;
+
+/// A facet leaning less than this (sine) is level: the table or the culet.
+const LEVEL: f64 = 0.02;
+
+/// Azimuths this little below 0 count as 0, radians.
+const BEFORE_ZERO: f64 = 0.01;
+
+/// Facets of one slope and offset, by their places in the list of planes, in the order of their azimuths.
+type Tier = Vec<usize>;
+
+/// Every facet with a name of its own: those given, where there are, else what the trade calls it. `noise` is in
+/// girdle radii.
+pub(super) fn named(
+    planes: &[Plane],
+    table: Option<usize>,
+    given: Option<Vec<String>>,
+    noise: f64,
+) -> Vec<(String, Plane)> {
+    let (crown, girdle, pavilion) = parts(planes, table, noise);
+    let (above, below) = titles(planes, &crown, &pavilion);
+    let mut found: Vec<(String, usize)> = table.map(|t| ("table".to_owned(), t)).into_iter().collect();
+    let mut tell = |title: String, tier: &Tier| found.extend(tier.iter().map(|&i| (title.clone(), i)));
+    for (title, tier) in above {
+        tell(title, tier);
+    }
+    tell("girdle".to_owned(), &girdle);
+    for (title, tier) in below {
+        tell(title, tier);
+    }
+    // One name for many facets is an object's, not theirs.
+    let different =
+        |names: &Vec<String>| names.iter().collect::<std::collections::BTreeSet<_>>().len() == names.len();
+    let own = given.filter(|names| different(names) && names.iter().all(|name| names::is_printable(name)));
+    let name =
+        |title: &String, place: usize| own.as_ref().map_or(title.clone(), |names| names[place].clone());
+    let titles: Vec<String> = found.iter().map(|(title, place)| name(title, *place)).collect();
+    let unique = names::unique(titles.iter().map(String::as_str));
+    unique.into_iter().zip(&found).map(|(name, (_, place))| (name, planes[*place])).collect()
+}
+
+/// Tiers of the crown from the girdle up, the girdle, and tiers of the pavilion from the girdle down.
+fn parts(planes: &[Plane], table: Option<usize>, noise: f64) -> (Vec<Tier>, Tier, Vec<Tier>) {
+    let rest = |test: &dyn Fn(f64) -> bool| -> Vec<usize> {
+        (0..planes.len()).filter(|&i| Some(i) != table && test(planes[i].normal.z)).collect()
+    };
+    let crown = tiers(planes, rest(&|z| z >= LEAST_UPRIGHT), noise);
+    let pavilion = tiers(planes, rest(&|z| z <= -LEAST_UPRIGHT), noise);
+    let mut girdle = rest(&|z| z.abs() < LEAST_UPRIGHT);
+    by_azimuth(planes, &mut girdle);
+    (crown, girdle, pavilion)
+}
+
+/// Tiers of like slope and offset, the steepest first.
+fn tiers(planes: &[Plane], mut places: Vec<usize>, noise: f64) -> Vec<Tier> {
+    let level = |i: usize| planes[i].normal.z.abs().min(1.0).acos();
+    let offset = |i: usize| planes[i].offset;
+    places.sort_by(|&a, &b| {
+        level(b).total_cmp(&level(a)).then(offset(b).total_cmp(&offset(a))).then(a.cmp(&b))
+    });
+    let (slope, shift) = (SAME_SLOPE + NOISE * noise, SAME_OFFSET + NOISE * noise);
+    let mut tiers: Vec<Tier> = vec![];
+    for place in places {
+        let same = |tier: &&mut Tier| {
+            let first = tier[0];
+            (level(first) - level(place)).abs() < slope && (offset(first) - offset(place)).abs() < shift
+        };
+        match tiers.iter_mut().find(same) {
+            Some(tier) => tier.push(place),
+            None => tiers.push(vec![place]),
+        }
+    }
+    tiers.iter_mut().for_each(|tier| by_azimuth(planes, tier));
+    tiers
+}
+
+fn azimuth(plane: &Plane) -> f64 {
+    (plane.normal.y.atan2(plane.normal.x) + BEFORE_ZERO).rem_euclid(TAU)
+}
+
+fn by_azimuth(planes: &[Plane], places: &mut [usize]) {
+    places.sort_by(|&a, &b| azimuth(&planes[a]).total_cmp(&azimuth(&planes[b])).then(a.cmp(&b)));
+}
+
+type Titled<'a> = Vec<(String, &'a Tier)>;
+
+/// What the tiers are called, in the order in which they are listed.
+fn titles<'a>(planes: &[Plane], crown: &'a [Tier], pavilion: &'a [Tier]) -> (Titled<'a>, Titled<'a>) {
+    let (culets, below): (Vec<&Tier>, Vec<&Tier>) = pavilion
+        .iter()
+        .partition(|tier| tier.len() == 1 && planes[tier[0]].normal.truncate().length() < LEVEL);
+    let title = |name: &str, tier: &'a Tier| (name.to_owned(), tier);
+    let mut titled: Titled<'a> = match brilliant(planes, crown, &below) {
+        Some((crown, pavilion)) => {
+            let below = pavilion.map(|(name, tier)| title(name, tier)).to_vec();
+            let culet = culets.iter().map(|tier| title("culet", tier));
+            return (
+                crown.map(|(name, tier)| title(name, tier)).to_vec(),
+                below.into_iter().chain(culet).collect(),
+            );
+        }
+        None => below.iter().enumerate().map(|(i, tier)| (format!("pavilion {}", i + 1), *tier)).collect(),
+    };
+    titled.extend(culets.into_iter().map(|tier| title("culet", tier)));
+    (crown.iter().enumerate().map(|(i, tier)| (format!("crown {}", letters(i)), tier)).collect(), titled)
+}
+
+/// A, B, ... Z, AA, AB, ...
+fn letters(number: usize) -> String {
+    let last = char::from(b'A' + (number % 26) as u8);
+    if number < 26 { last.to_string() } else { format!("{}{last}", letters(number / 26 - 1)) }
+}
+
+type Named<'a, const N: usize> = [(&'static str, &'a Tier); N];
+
+/// The tiers of a round brilliant: 16, 8 and 8 facets above, 16 and 8 below, stars between bezels and mains below them.
+fn brilliant<'a>(
+    planes: &[Plane],
+    crown: &'a [Tier],
+    below: &[&'a Tier],
+) -> Option<(Named<'a, 3>, Named<'a, 2>)> {
+    let ([upper, bezel, star], [lower, main]) = (crown, below) else { return None };
+    let counts = [upper, bezel, star, *lower, *main].map(|tier| tier.len());
+    let first = |tier: &Tier| azimuth(&planes[tier[0]]) - BEFORE_ZERO;
+    let eighth = TAU / 8.0;
+    let at = |tier: &Tier, part: f64| (first(tier) - part * eighth).abs() < 0.1 * eighth;
+    let placed = at(bezel, 0.0) && at(star, 0.5) && at(upper, 0.25) && at(main, 0.0) && at(lower, 0.25);
+    (counts == [16, 8, 8, 16, 8] && placed).then_some((
+        [("bezel", bezel), ("star", star), ("upper_half", upper)],
+        [("lower_half", lower), ("main", main)],
+    ))
+}

@@ -1,0 +1,222 @@
+//! Stones made into triangles, spoilt, and found again.
+
+use super::super::round_brilliant::{MODERN, RoundBrilliant};
+use super::*;
+use crate::math::surface::{Shape, Surface, facets};
+use crate::math::triangulate;
+use proptest::prelude::*;
+
+/// Degrees within which a facet's plane must come back.
+const DEGREES: f64 = 0.05;
+
+/// Part of the girdle radius within which a facet's distance must come back.
+const PART: f64 = 1e-3;
+
+/// How a stone is spoilt.
+#[derive(Debug, Clone, Copy)]
+struct Spoilt {
+    /// Of each coordinate, girdle radii, at most.
+    noise: f64,
+    /// Whether each triangle's corners get noise of their own.
+    apart: bool,
+    turn: DQuat,
+    scale: f64,
+    shift: DVec3,
+    seed: u64,
+}
+
+fn random(seed: u64) -> impl FnMut() -> f64 {
+    let mut state = seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1;
+    move || {
+        state ^= state << 13;
+        state ^= state >> 7;
+        state ^= state << 17;
+        (state >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
+    }
+}
+
+fn solid(facets: &[(String, Plane)]) -> Polytope {
+    Polytope::from_planes(&facets.iter().map(|(_, plane)| *plane).collect::<Vec<_>>()).unwrap()
+}
+
+/// The triangles of a stone, every one with its own corners, in any order and from any corner on.
+fn spoil(facets: &[(String, Plane)], how: Spoilt) -> Surface {
+    let mesh = triangulate(&solid(facets));
+    let mut next = random(how.seed);
+    let mut shaken = |v: DVec3| v + how.noise * DVec3::new(next(), next(), next());
+    let shared: Vec<DVec3> = mesh.vertices.iter().map(|&v| shaken(v)).collect();
+    let at = |&v: &u32| if how.apart { shaken(mesh.vertices[v as usize]) } else { shared[v as usize] };
+    let placed = |v: DVec3| how.turn * v * how.scale + how.shift;
+    let vertices: Vec<DVec3> = mesh.triangles.iter().flatten().map(at).map(placed).collect();
+    let mut next = random(how.seed + 1);
+    let mut order: Vec<(f64, u32)> = (0..mesh.triangles.len() as u32).map(|t| (next(), t)).collect();
+    order.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let corner = |t: u32, k: u32| 3 * t + (k + t) % 3;
+    let triangles = order.iter().map(|&(_, t)| [corner(t, 0), corner(t, 1), corner(t, 2)]).collect();
+    Surface::new(vertices, triangles)
+}
+
+fn found(surface: &Surface) -> Faceted {
+    match facets(surface.mend().unwrap().surface) {
+        Shape::Convex(found) => *found,
+        Shape::Concave(_) => panic!("taken for concave"),
+    }
+}
+
+fn again(facets: &[(String, Plane)], how: Spoilt, up: Up) -> FromMesh {
+    from_mesh(&found(&spoil(facets, how)), up).unwrap()
+}
+
+/// The largest angle between planes of one name, degrees, and the largest difference of their offsets.
+fn worst(facets: &[(String, Plane)], back: &[(String, Plane)]) -> (f64, f64) {
+    let names = |list: &[(String, Plane)]| list.iter().map(|(name, _)| name.clone()).collect::<Vec<_>>();
+    assert!(names(facets) == names(back), "{:?}", names(back));
+    let off = |((_, a), (_, b)): (&(String, Plane), &(String, Plane))| {
+        ((a.normal - b.normal).length().to_degrees(), (a.offset - b.offset).abs())
+    };
+    facets.iter().zip(back).map(off).fold((0.0, 0.0), |w, d| (w.0.max(d.0), w.1.max(d.1)))
+}
+
+const PLAIN: Spoilt =
+    Spoilt { noise: 0.0, apart: false, turn: DQuat::IDENTITY, scale: 1.0, shift: DVec3::ZERO, seed: 1 };
+
+fn turns() -> impl Strategy<Value = DQuat> {
+    (prop::array::uniform3(-1.0..1.0_f64), 0.0..6.3_f64).prop_map(|(axis, angle)| {
+        let axis = DVec3::from_array(axis).try_normalize().unwrap_or(DVec3::X);
+        DQuat::from_axis_angle(axis, angle)
+    })
+}
+
+fn brilliants() -> impl Strategy<Value = RoundBrilliant> {
+    let girdle = prop::sample::select(vec![(0.0, 96), (3.0, 16), (3.0, 96), (2.0, 64)]);
+    (girdle, 52.0..60.0_f64, prop::sample::select(vec![0.0, 1.5]), 70.0..82.0_f64).prop_map(
+        |((girdle_thickness, girdle_facets), table, culet, lower)| RoundBrilliant {
+            table,
+            girdle_thickness,
+            girdle_facets,
+            culet,
+            lower_half: super::super::LowerHalf::Radial(lower),
+            ..MODERN
+        },
+    )
+}
+
+#[test]
+fn a_brilliant_without_noise_comes_back_to_the_last_digits() {
+    for (girdle_thickness, girdle_facets) in [(0.0, 96), (3.0, 16), (3.0, 96)] {
+        let facets =
+            RoundBrilliant { girdle_thickness, girdle_facets, culet: 1.0, ..MODERN }.facets().unwrap();
+        let shift = DVec3::new(3.0, -2.0, 5.0);
+        let turn = DQuat::from_axis_angle(DVec3::new(0.6, 0.0, 0.8), 2.0);
+        let back = again(&facets, Spoilt { scale: 7.0, shift, turn, ..PLAIN }, Up::Found);
+        let (angle, offset) = worst(&facets, &back.facets);
+        assert!(
+            angle < 1e-9 && offset < 1e-11 && back.deviation < 1e-11,
+            "{angle} {offset} {}",
+            back.deviation
+        );
+        assert_eq!(back.evened.turns, 8);
+        let point = back.pose.of(turn * DVec3::new(0.1, 0.2, 0.3) * 7.0 + shift);
+        // The turn about the axis may be any of the eight.
+        assert!((point.z - 0.3).abs() < 1e-11 && (point.truncate().length_squared() - 0.05).abs() < 1e-11);
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 48, ..ProptestConfig::default() })]
+
+    #[test]
+    fn a_brilliant_comes_back_from_noise_splits_turns_scales_shifts_and_shuffles(
+        stone in brilliants(),
+        turn in turns(),
+        apart in any::<bool>(),
+        scale in -2.0..3.0_f64,
+        shift in prop::array::uniform3(-10.0..10.0_f64),
+        seed in 1_u64..10_000,
+    ) {
+        let facets = stone.facets().unwrap();
+        let scale = 10_f64.powf(scale);
+        let how = Spoilt { noise: 1e-4, apart, turn, scale, shift: scale * DVec3::from_array(shift), seed };
+        let back = again(&facets, how, Up::Found);
+        let (angle, offset) = worst(&facets, &back.facets);
+        prop_assert!(angle < DEGREES && offset < PART, "{angle} degrees, {offset}");
+        prop_assert!(back.deviation > 1e-5 && back.deviation < 1e-3, "{}", back.deviation);
+        prop_assert_eq!(back.evened.turns, 8);
+    }
+
+    #[test]
+    fn a_stone_that_is_uneven_by_more_than_noise_stays_so(lean in 0.1..2.0_f64, turn in turns()) {
+        let mut facets = RoundBrilliant { girdle_facets: 16, ..MODERN }.facets().unwrap();
+        let bezel = &mut facets[1].1;
+        bezel.normal = DQuat::from_rotation_y(-lean.to_radians()) * bezel.normal;
+        let back = again(&facets, Spoilt { turn, noise: 1e-6, ..PLAIN }, Up::Found);
+        prop_assert_eq!(back.evened.turns, 1);
+        let slope = |p: &Plane| p.normal.z.acos().to_degrees();
+        let least = back.facets.iter().filter(|(n, _)| n != "table").map(|(_, p)| slope(p));
+        let meant = slope(&facets[1].1);
+        prop_assert!(least.map(|s| (s - meant).abs()).fold(9.0, f64::min) < 1e-3);
+    }
+}
+
+#[test]
+fn the_comparison_sees_a_facet_that_is_off() {
+    let facets = RoundBrilliant { girdle_facets: 16, ..MODERN }.facets().unwrap();
+    let mut other = facets.clone();
+    other[3].1.normal = DQuat::from_rotation_x(0.06_f64.to_radians()) * other[3].1.normal;
+    other[5].1.offset += 2e-3;
+    let back = again(&other, PLAIN, Up::Found);
+    let sorted = |mut list: Vec<(String, Plane)>| {
+        list.sort_by(|a, b| a.0.cmp(&b.0));
+        list
+    };
+    let (names, back): (Vec<_>, Vec<_>) = (sorted(facets), sorted(back.facets));
+    let far = |(_, p): &(String, Plane)| {
+        !names.iter().any(|(_, q)| {
+            (p.normal - q.normal).length().to_degrees() < DEGREES && (p.offset - q.offset).abs() < PART
+        })
+    };
+    assert!(back.iter().filter(|p| far(p)).count() >= 2);
+}
+
+#[test]
+fn up_may_be_given_and_must_be_a_direction() {
+    let facets = RoundBrilliant { girdle_facets: 16, culet: 8.0, ..MODERN }.facets().unwrap();
+    let seen = found(&spoil(&facets, PLAIN));
+    let down = from_mesh(&seen, Up::Given(DVec3::new(0.0, 0.01, -3.0))).unwrap();
+    let table = down.facets.iter().find(|(name, _)| name == "table").unwrap();
+    // Seen from below the culet is the table, and the table the culet.
+    assert!(table.1.offset > 0.7 && down.facets.iter().any(|(name, _)| name == "culet"));
+    for bad in [DVec3::ZERO, DVec3::NAN] {
+        assert!(matches!(from_mesh(&seen, Up::Given(bad)), Err(FromMeshError::Up(_))));
+    }
+    let aslant = from_mesh(&seen, Up::Given(DVec3::new(1.0, 0.2, 0.4))).unwrap();
+    assert!(aslant.facets.iter().all(|(name, _)| name != "table"));
+}
+
+#[test]
+fn a_long_stone_lies_across_and_its_tiers_have_letters_and_numbers() {
+    let mut planes = vec![("x".to_owned(), Plane::new(DVec3::Z, 0.3))];
+    let mut ring = |slope: f64, near: f64, far: f64| {
+        for k in 0..4 {
+            let azimuth = f64::from(k) * std::f64::consts::FRAC_PI_2;
+            let reach = if k % 2 == 0 { near } else { far };
+            let s = slope.to_radians();
+            planes.push(("x".to_owned(), Plane::from_slope(s, azimuth, reach * s.sin())));
+        }
+    };
+    ring(40.0, 1.2, 1.7);
+    ring(90.0, 1.0, 1.5);
+    ring(130.0, 1.0, 1.5);
+    let turn = DQuat::from_rotation_z(0.7) * DQuat::from_rotation_x(1.0);
+    let back = again(&planes, Spoilt { turn, scale: 4.0, noise: 1e-5, ..PLAIN }, Up::Found);
+    let names: Vec<&str> = back.facets.iter().map(|(name, _)| name.as_str()).collect();
+    assert!(
+        names.contains(&"crown A 1") && names.contains(&"girdle 4") && names.contains(&"pavilion 1 1"),
+        "{names:?}"
+    );
+    let girdle: Vec<&Plane> =
+        back.facets.iter().filter(|(n, _)| n.starts_with("girdle")).map(|(_, p)| p).collect();
+    assert!((girdle[0].normal - DVec3::X).length() < 1e-9 && (girdle[0].offset - 1.0).abs() < 1e-9);
+    assert!((girdle[1].normal - DVec3::Y).length() < 1e-9 && (girdle[1].offset - 1.5).abs() < 1e-3);
+    assert_eq!(back.evened.turns, 2);
+}

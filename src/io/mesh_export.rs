@@ -1,0 +1,165 @@
+//! Stones as meshes: OBJ with facets as polygons, STL and binary glTF with triangles.
+//!
+//! `scale` is in units of the file per girdle radius: 1 for girdle radii, the radius in mm for OBJ and STL as the
+//! trade has them, the radius in metres for glTF as its standard wants it. OBJ keeps f64 to the last digit; the others
+//! are f32. Read back, OBJ and glTF give the facets their names.
+
+use super::mesh_file::MaterialHint;
+use crate::math::triangulate;
+use crate::scene::Stone;
+use glam::DVec3;
+use serde_json::{Value, json};
+use std::fmt::Write as _;
+
+/// The key of a glTF primitive's extras under which its facet's name is.
+pub(super) const FACET: &str = "facet";
+
+/// glTF's codes: numbers of f32, of u32, and what a buffer view is for.
+const F32: u32 = 5126;
+const U32: u32 = 5125;
+const VERTICES: u32 = 34962;
+const INDICES: u32 = 34963;
+
+/// The stone as OBJ, z up: each facet a polygon in a group of its name.
+pub fn write_obj(stone: &Stone, name: &str, scale: f64) -> String {
+    let mut text = format!("# {} facets\no {name}\n", stone.names().len());
+    for v in stone.polytope.vertices() {
+        let v = *v * scale;
+        // Formatting into a String cannot fail.
+        let _ = writeln!(text, "v {} {} {}", v.x, v.y, v.z);
+    }
+    for (facet, name) in stone.polytope.facets().iter().zip(stone.names()) {
+        let corners: String = facet.outline.iter().map(|v| format!(" {}", v + 1)).collect();
+        let _ = writeln!(text, "g {name}\nf{corners}");
+    }
+    text
+}
+
+/// The stone as binary STL, z up.
+///
+/// # Errors
+/// None that memory does not make: what is written to a list of bytes is never refused.
+pub fn write_stl(stone: &Stone, scale: f64) -> std::io::Result<Vec<u8>> {
+    let mesh = triangulate(&stone.polytope);
+    let vector = |v: DVec3| stl_io::Vector::new(v.as_vec3().to_array());
+    let triangle = |(corners, facet): (&[u32; 3], &u32)| stl_io::Triangle {
+        normal: vector(stone.polytope.facets()[*facet as usize].plane.normal),
+        vertices: corners.map(|v| vector(mesh.vertices[v as usize] * scale)),
+    };
+    let triangles: Vec<stl_io::Triangle> = mesh.triangles.iter().zip(&mesh.facets).map(triangle).collect();
+    let mut bytes = vec![];
+    stl_io::write_stl(&mut bytes, triangles.iter())?;
+    Ok(bytes)
+}
+
+/// The stone as binary glTF, y up: a primitive with flat normals for each facet, its name among its extras, and the
+/// material by its extensions.
+///
+/// # Errors
+/// None that memory does not make.
+pub fn write_glb(
+    stone: &Stone,
+    name: &str,
+    scale: f64,
+    material: &MaterialHint,
+) -> Result<Vec<u8>, gltf::Error> {
+    let mut parts = Parts::default();
+    let mesh = triangulate(&stone.polytope);
+    for (number, facet) in stone.polytope.facets().iter().enumerate() {
+        let of_facet = mesh.triangles.iter().zip(&mesh.facets).filter(|(_, f)| **f as usize == number);
+        let place = |v: u32| facet.outline.iter().position(|o| *o == v).unwrap_or_default() as u32;
+        let triangles: Vec<u32> = of_facet.flat_map(|(t, _)| t.map(place)).collect();
+        let corners: Vec<DVec3> = stone.polytope.corners(facet).map(|v| v * scale).collect();
+        parts.primitive(&stone.names()[number], &corners, facet.plane.normal, &triangles);
+    }
+    let Parts { bin, views, accessors, primitives } = parts;
+    // z up becomes y up by a quarter turn about x.
+    let half = std::f64::consts::FRAC_1_SQRT_2;
+    let root = json!({
+        "asset": { "version": "2.0", "generator": "Brillianteer" },
+        "scene": 0,
+        "scenes": [{ "name": name, "nodes": [0] }],
+        "nodes": [{ "name": name, "mesh": 0, "rotation": [-half, 0.0, 0.0, half] }],
+        "meshes": [{ "name": name, "primitives": primitives }],
+        "materials": [material_json(material)],
+        "extensionsUsed": used(material),
+        "buffers": [{ "byteLength": bin.len() }],
+        "bufferViews": views,
+        "accessors": accessors,
+    });
+    let header = gltf::binary::Header { magic: *b"glTF", version: 2, length: 0 };
+    let json = root.to_string().into_bytes();
+    gltf::Glb { header, json: json.into(), bin: Some(bin.into()) }.to_vec()
+}
+
+#[derive(Default)]
+struct Parts {
+    bin: Vec<u8>,
+    views: Vec<Value>,
+    accessors: Vec<Value>,
+    primitives: Vec<Value>,
+}
+
+impl Parts {
+    fn primitive(&mut self, name: &str, corners: &[DVec3], normal: DVec3, triangles: &[u32]) {
+        let floats = |v: DVec3| v.as_vec3().to_array();
+        let places: Vec<[f32; 3]> = corners.iter().map(|&v| floats(v)).collect();
+        let low = places.iter().fold([f32::INFINITY; 3], |a, b| [0, 1, 2].map(|i| a[i].min(b[i])));
+        let high = places.iter().fold([f32::NEG_INFINITY; 3], |a, b| [0, 1, 2].map(|i| a[i].max(b[i])));
+        let bytes =
+            |list: &[[f32; 3]]| list.iter().flatten().flat_map(|x| x.to_le_bytes()).collect::<Vec<u8>>();
+        let position = self.view(&bytes(&places), VERTICES);
+        self.accessors.push(json!({ "bufferView": position, "componentType": F32, "count": places.len(),
+            "type": "VEC3", "min": low, "max": high }));
+        let normals = self.view(&bytes(&vec![floats(normal); places.len()]), VERTICES);
+        self.accessors.push(json!({ "bufferView": normals, "componentType": F32, "count": places.len(),
+            "type": "VEC3" }));
+        let order = self.view(&triangles.iter().flat_map(|i| i.to_le_bytes()).collect::<Vec<u8>>(), INDICES);
+        self.accessors.push(json!({ "bufferView": order, "componentType": U32, "count": triangles.len(),
+            "type": "SCALAR" }));
+        let attributes = json!({ "POSITION": position, "NORMAL": normals });
+        self.primitives.push(json!({ "attributes": attributes, "indices": order, "material": 0,
+            "extras": { FACET: name } }));
+    }
+
+    /// A buffer view of its own, whose accessor bears the same number.
+    fn view(&mut self, bytes: &[u8], target: u32) -> usize {
+        self.views.push(json!({ "buffer": 0, "byteOffset": self.bin.len(), "byteLength": bytes.len(),
+            "target": target }));
+        self.bin.extend(bytes);
+        self.views.len() - 1
+    }
+}
+
+fn material_json(hint: &MaterialHint) -> Value {
+    let mut extensions = serde_json::Map::new();
+    let mut extend = |name: &str, value: Value| extensions.insert(format!("KHR_materials_{name}"), value);
+    if hint.transmits {
+        extend("transmission", json!({ "transmissionFactor": 1.0 }));
+        // A thickness above 0 says that the surface bounds a volume.
+        let volume = match hint.attenuation {
+            Some((colour, distance)) => {
+                json!({ "thicknessFactor": 1.0, "attenuationColor": colour, "attenuationDistance": distance })
+            }
+            None => json!({ "thicknessFactor": 1.0 }),
+        };
+        extend("volume", volume);
+    }
+    if let Some(ior) = hint.ior {
+        extend("ior", json!({ "ior": ior }));
+    }
+    if let Some(dispersion) = hint.dispersion {
+        extend("dispersion", json!({ "dispersion": dispersion }));
+    }
+    json!({
+        "name": hint.name,
+        "pbrMetallicRoughness": { "metallicFactor": 0.0, "roughnessFactor": 0.0 },
+        "extensions": extensions,
+    })
+}
+
+fn used(hint: &MaterialHint) -> Vec<String> {
+    let value = material_json(hint);
+    let names = value["extensions"].as_object().map(|map| map.keys().cloned().collect());
+    names.unwrap_or_default()
+}

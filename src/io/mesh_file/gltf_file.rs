@@ -1,0 +1,106 @@
+//! glTF 2.0, by the gltf crate: all meshes of the scene where their nodes put them, and the material of most of it.
+
+mod buffers;
+mod scene;
+
+use super::{Fault, Read};
+use gltf::json::validation::Checked;
+use gltf::json::{Root, deserialize};
+use gltf::{Document, Semantic};
+use std::path::Path;
+
+/// The header of a binary glTF file, bytes.
+const GLB_HEADER: usize = 12;
+
+/// Extensions without which shapes cannot be read as they are meant, though a file can be read without any other.
+const NEEDED: [&str; 4] = [
+    "KHR_draco_mesh_compression",
+    "EXT_meshopt_compression",
+    "KHR_mesh_quantization",
+    "EXT_mesh_gpu_instancing",
+];
+
+pub(super) fn read(bytes: &[u8], folder: Option<&Path>) -> Result<Read, Fault> {
+    let (json, blob) = split(bytes)?;
+    let mut root: Root = deserialize::from_slice(&json).map_err(|error| {
+        Fault::line(error.line(), format!("this is no glTF 2.0 that can be read: {error}"))
+    })?;
+    let mut warnings = extensions(&mut root)?;
+    warnings.extend(positions(&mut root)?);
+    let document = Document::from_json(root).map_err(|error| Fault::whole(told(error)))?;
+    let data = buffers::load(&document, blob, folder)?;
+    let mut read = scene::gather(&document, &data)?;
+    warnings.append(&mut read.warnings);
+    let name = document
+        .default_scene()
+        .or_else(|| document.scenes().next())
+        .and_then(|s| s.name().map(str::to_owned));
+    Ok(Read { warnings, name: name.filter(|name| !name.starts_with("Scene")), ..read })
+}
+
+/// The JSON, and the bytes that come with it in a binary file.
+fn split(bytes: &[u8]) -> Result<(Vec<u8>, Option<Vec<u8>>), Fault> {
+    if !bytes.starts_with(b"glTF") {
+        let text = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
+        return Ok((text.to_vec(), None));
+    }
+    // The crate subtracts the header's length from this one without looking.
+    let length = bytes.get(8..GLB_HEADER).and_then(|b| b.try_into().ok()).map_or(0, u32::from_le_bytes);
+    if (length as usize) < GLB_HEADER + 8 || length as usize > bytes.len() {
+        let message =
+            format!("the header says {length} bytes, and the file has {}; it has been cut off", bytes.len());
+        return Err(Fault::at("offset 8", message));
+    }
+    let glb = gltf::Glb::from_slice(bytes).map_err(|error| Fault::whole(told(error)))?;
+    Ok((glb.json.into_owned(), glb.bin.map(std::borrow::Cow::into_owned)))
+}
+
+fn told(error: gltf::Error) -> String {
+    match error {
+        gltf::Error::Validation(faults) => {
+            let first = faults.first().map(|(path, error)| format!("{path}: {error}")).unwrap_or_default();
+            format!("this is no glTF 2.0 that can be read: {first}")
+        }
+        other => format!("this is no glTF 2.0 that can be read: {other}"),
+    }
+}
+
+/// Makes what the crate takes for granted so: that places are in a list that is there, whose bounds are given. The
+/// bounds are not used, so one without any is read all the same.
+fn positions(root: &mut Root) -> Result<Option<String>, Fault> {
+    let mut unbounded = 0;
+    let primitives =
+        root.meshes.iter().enumerate().flat_map(|(m, mesh)| mesh.primitives.iter().map(move |p| (m, p)));
+    for (mesh, primitive) in primitives {
+        let Some(index) = primitive.attributes.get(&Checked::Valid(Semantic::Positions)) else { continue };
+        let count = root.accessors.len();
+        let Some(accessor) = root.accessors.get_mut(index.value()) else {
+            let message = format!("POSITION refers to accessor {}, and there are {count}", index.value());
+            return Err(Fault::at(format!("mesh {mesh}"), message));
+        };
+        unbounded += u32::from(accessor.min.is_none() || accessor.max.is_none());
+        for bound in [&mut accessor.min, &mut accessor.max] {
+            bound.get_or_insert_with(|| serde_json::json!([0.0, 0.0, 0.0]));
+        }
+    }
+    Ok((unbounded > 0).then(|| format!("the bounds of places are missing {unbounded} times")))
+}
+
+/// What extensions mean for reading: those that change shapes are faults where the file needs them and warnings where
+/// it does not. The crate would refuse others too, such as materials'.
+fn extensions(root: &mut Root) -> Result<Vec<String>, Fault> {
+    if let Some(name) = root.extensions_required.iter().find(|name| NEEDED.contains(&name.as_str())) {
+        let message = format!("the shape is written with {name}, which is not read; export it without");
+        return Err(Fault::at("extensionsRequired", message));
+    }
+    let shapeless =
+        |name: &String| ["KHR_materials_", "KHR_texture_", "KHR_lights_"].iter().any(|p| name.starts_with(p));
+    let strange = root.extensions_required.iter().filter(|name| !shapeless(name));
+    let mut warnings: Vec<String> = strange
+        .map(|name| format!("the file needs {name}, which is not known here, and is read without"))
+        .collect();
+    let optional = root.extensions_used.iter().filter(|name| NEEDED.contains(&name.as_str()));
+    warnings.extend(optional.map(|name| format!("{name} is not read; the shape may lack something")));
+    root.extensions_required.clear();
+    Ok(warnings)
+}

@@ -1,0 +1,107 @@
+//! The bytes behind a glTF file: within it, written as text in it, or in files beside it; and whether what points into
+//! them stays within.
+
+use super::super::limits::{self, MAX_BYTES};
+use super::Fault;
+use base64::Engine as _;
+use base64::engine::general_purpose::STANDARD;
+use gltf::accessor::{DataType, Dimensions};
+use gltf::buffer::{Source, View};
+use gltf::{Accessor, Document};
+use std::path::Path;
+
+/// The bytes of each buffer.
+pub(super) type Data = Vec<Vec<u8>>;
+
+/// Reads all buffers.
+pub(super) fn load(
+    document: &Document,
+    mut blob: Option<Vec<u8>>,
+    folder: Option<&Path>,
+) -> Result<Data, Fault> {
+    let mut data = vec![];
+    let mut whole = 0;
+    for buffer in document.buffers() {
+        let place = format!("buffer {}", buffer.index());
+        let bytes = match buffer.source() {
+            Source::Bin => {
+                blob.take().ok_or_else(|| Fault::at(&*place, "a binary chunk is expected in the file"))?
+            }
+            Source::Uri(uri) => from_uri(uri, folder).map_err(|message| Fault::at(&*place, message))?,
+        };
+        if bytes.len() < buffer.length() {
+            let message = format!("{} bytes are announced, and {} are there", buffer.length(), bytes.len());
+            return Err(Fault::at(place, message));
+        }
+        whole += bytes.len() as u64;
+        if whole > MAX_BYTES {
+            let most = MAX_BYTES >> 20;
+            return Err(Fault::at(
+                place,
+                format!("all buffers are larger than {most} MiB; save a coarser mesh"),
+            ));
+        }
+        data.push(bytes);
+    }
+    Ok(data)
+}
+
+fn from_uri(uri: &str, folder: Option<&Path>) -> Result<Vec<u8>, String> {
+    if let Some(rest) = uri.strip_prefix("data:") {
+        let (_, text) = rest.split_once(";base64,").ok_or("a `data:` of base64 is expected")?;
+        return STANDARD.decode(text).map_err(|error| format!("this is no base64: {error}"));
+    }
+    let name = percent_encoding::percent_decode_str(uri).decode_utf8_lossy();
+    // Beside the file and nowhere else: a mesh from somewhere must not make the program read what it likes.
+    let outside = name.contains(['/', '\\', ':', '\0']) || name == ".." || name == "." || name.is_empty();
+    let Some(folder) = folder.filter(|_| !outside) else {
+        return Err(format!("`{name}` is not a file beside this one; put it there, or embed it"));
+    };
+    limits::bytes(&folder.join(&*name)).map_err(|fault| format!("{name}: {}", fault.message))
+}
+
+/// Checks that an accessor has one of the types expected and lies within its buffers: the crate looks at neither.
+pub(super) fn check(
+    accessor: &Accessor<'_>,
+    types: &[DataType],
+    shape: Dimensions,
+    data: &Data,
+) -> Result<(), Fault> {
+    let fault = |message: String| Err(Fault::at(format!("accessor {}", accessor.index()), message));
+    if !types.contains(&accessor.data_type()) || accessor.dimensions() != shape {
+        return fault(format!(
+            "{:?} of {:?} are given; {shape:?} of {types:?} are expected",
+            accessor.dimensions(),
+            accessor.data_type()
+        ));
+    }
+    let (count, size) = (accessor.count(), accessor.size());
+    limits::count(count, count / 3)?;
+    let mut parts = vec![(accessor.view(), accessor.offset(), count, size)];
+    if let Some(sparse) = accessor.sparse() {
+        let (indices, values) = (sparse.indices(), sparse.values());
+        let bytes = indices.index_type().size();
+        parts.push((Some(indices.view()), indices.offset(), sparse.count(), bytes));
+        parts.push((Some(values.view()), values.offset(), sparse.count(), size));
+    } else if accessor.view().is_none() {
+        return fault("it has no values".to_owned());
+    }
+    let outside = |(view, offset, count, size): &(Option<View<'_>>, usize, usize, usize)| {
+        view.as_ref().is_some_and(|view| !fits(view, *offset, *count, *size, data))
+    };
+    match parts.iter().find(|part| outside(part)) {
+        Some((_, offset, count, size)) => fault(format!(
+            "{count} values of {size} bytes from {offset} on are more than its buffer view holds"
+        )),
+        None => Ok(()),
+    }
+}
+
+fn fits(view: &View<'_>, offset: usize, count: usize, size: usize, data: &Data) -> bool {
+    let stride = view.stride().unwrap_or(size);
+    let needed = || stride.checked_mul(count.checked_sub(1)?)?.checked_add(size)?.checked_add(offset);
+    let end = view.offset().checked_add(view.length());
+    stride >= size
+        && needed().is_some_and(|needed| needed <= view.length())
+        && end.is_some_and(|end| end <= data[view.buffer().index()].len())
+}

@@ -1,0 +1,141 @@
+//! What a glTF file says of its material, and what that means for a stone.
+//!
+//! KHR_materials_ior gives the index, KHR_materials_dispersion 20 over the Abbe number, KHR_materials_volume the
+//! colour that white light has after a distance. Three colours are not a spectrum: they are taken as what is seen at
+//! one wavelength each, straight lines between.
+
+use crate::cut::{MaterialError, MaterialRef};
+use crate::optics::{Absorption, Dispersion, MOST_PER_MM, Material, line};
+
+/// Where red, green and blue are taken to be, nm: about the middle of what each primary of sRGB excites.
+const CHANNEL_NM: [f64; 3] = [610.0, 550.0, 465.0];
+
+/// The index where a file has a volume but no index: KHR_materials_ior's own default.
+const DEFAULT_IOR: f64 = 1.5;
+
+/// KHR_materials_dispersion is this over the Abbe number.
+const DISPERSION: f64 = 20.0;
+
+/// The least share of light that a colour is taken to let through: black has no finite absorption.
+const BLACK: f64 = 1e-6;
+
+/// A material in the words of glTF.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct MaterialHint {
+    /// What it is called.
+    pub name: Option<String>,
+    /// Its refractive index at the helium d line.
+    pub ior: Option<f64>,
+    /// 20 over its Abbe number; 0 is none.
+    pub dispersion: Option<f64>,
+    /// The share of red, green and blue, linear, left after a distance in the file's unit (metres by its standard).
+    pub attenuation: Option<([f64; 3], f64)>,
+    /// Whether light is said to pass through it.
+    pub transmits: bool,
+}
+
+impl MaterialHint {
+    /// A material as glTF would have it, in a file of so many mm per unit, its colour after one unit.
+    pub fn of(material: &Material, mm_per_unit: f64) -> Self {
+        let [n_c, n_d, n_f] =
+            [line::HYDROGEN_C, line::HELIUM_D, line::HYDROGEN_F].map(|nm| material.index(nm));
+        let (n_d, dispersion) = match material.dispersion {
+            Dispersion::Abbe { n_d, v_d } => (n_d, DISPERSION / v_d),
+            _ => (n_d, DISPERSION * (n_f - n_c) / (n_d - 1.0)),
+        };
+        let left = |nm: f64| {
+            // Unpolarised light keeps the mean of the two transmittances.
+            let part = |a: &Absorption| (-a.coefficient(nm) * mm_per_unit).exp();
+            material.absorption.iter().map(part).sum::<f64>() / 2.0
+        };
+        let clear = material.absorption.iter().all(Absorption::is_clear);
+        Self {
+            name: Some(material.name.clone()),
+            ior: Some(n_d),
+            dispersion: Some(dispersion).filter(|value| value.is_finite() && *value > 0.0),
+            attenuation: (!clear).then(|| (CHANNEL_NM.map(left), 1.0)),
+            transmits: true,
+        }
+    }
+
+    /// The material that is meant, in a stone of so many mm per unit of the file; `None` where nothing is said.
+    ///
+    /// # Errors
+    /// Numbers that no material has.
+    pub fn material(&self, mm_per_unit: f64) -> Result<Option<MaterialRef>, MaterialError> {
+        let volume = self.transmits || self.attenuation.is_some() || self.dispersion.is_some();
+        let Some(ior) = self.ior.or(volume.then_some(DEFAULT_IOR)) else { return Ok(None) };
+        let absorption = self.absorption(mm_per_unit);
+        let dispersion = match self.dispersion {
+            Some(value) if value != 0.0 => Dispersion::Abbe { n_d: ior, v_d: DISPERSION / value },
+            _ => Dispersion::Constant(ior),
+        };
+        let bare = matches!(dispersion, Dispersion::Constant(_)) && absorption.is_clear();
+        let named = |name: &&String| crate::cut::is_printable(name);
+        let material = if bare {
+            MaterialRef::Index(ior)
+        } else {
+            MaterialRef::Custom(Box::new(Material {
+                name: self.name.as_ref().filter(named).map_or("from the mesh", String::as_str).to_owned(),
+                description: String::new(),
+                dispersion,
+                absorption: [absorption.clone(), absorption],
+                source: "the mesh's glTF material".to_owned(),
+                valid_nm: None,
+                density: None,
+            }))
+        };
+        material.check().map(|()| Some(material))
+    }
+
+    fn absorption(&self, mm_per_unit: f64) -> Absorption {
+        let Some((colour, distance)) = self.attenuation else { return Absorption::clear() };
+        let per_mm =
+            |share: f64| (-share.clamp(BLACK, 1.0).ln() / (distance * mm_per_unit)).clamp(0.0, MOST_PER_MM);
+        let coefficients = colour.map(per_mm);
+        if coefficients.iter().all(|c| *c == 0.0 || !c.is_finite()) {
+            return Absorption::clear();
+        }
+        let samples = CHANNEL_NM.into_iter().zip(coefficients).rev().collect();
+        Absorption::new(samples).unwrap_or_default()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::optics;
+
+    #[test]
+    fn a_material_comes_back_from_its_hint() {
+        for name in ["diamond", "ruby", "sapphire"] {
+            let material = optics::material(name).unwrap();
+            let back = MaterialHint::of(material, 0.5).material(0.5).unwrap().unwrap().material().unwrap();
+            assert!((back.index(line::HELIUM_D) - material.index(line::HELIUM_D)).abs() < 1e-5, "{name}");
+            let spread = |m: &Material| m.index(line::HYDROGEN_F) - m.index(line::HYDROGEN_C);
+            assert!((spread(&back) / spread(material) - 1.0).abs() < 1e-3, "{name}");
+            for nm in CHANNEL_NM {
+                let mean = |m: &Material| {
+                    -(m.absorption.iter().map(|a| (-a.coefficient(nm) * 0.5).exp()).sum::<f64>() / 2.0).ln()
+                };
+                assert!((mean(&back) - mean(material)).abs() < 1e-9, "{name} {nm}");
+            }
+        }
+    }
+
+    #[test]
+    fn what_is_not_said_is_not_made_up() {
+        assert_eq!(MaterialHint::default().material(1.0), Ok(None));
+        let glass = MaterialHint { transmits: true, ..MaterialHint::default() };
+        assert_eq!(glass.material(1.0), Ok(Some(MaterialRef::Index(1.5))));
+        let bad = MaterialHint { ior: Some(0.0), ..MaterialHint::default() };
+        assert!(bad.material(1.0).unwrap_err().to_string().contains("the index 0 must be from 1"));
+        let black = MaterialHint { attenuation: Some(([0.0, 0.5, 1.0], 2.0)), ..glass };
+        let material = black.material(1000.0).unwrap().unwrap().material().unwrap();
+        assert!((material.absorption[0].coefficient(550.0) - 0.5_f64.ln().abs() / 2000.0).abs() < 1e-12);
+        assert!(
+            material.absorption[0].coefficient(610.0) > 1e-3
+                && material.absorption[0].coefficient(465.0) == 0.0
+        );
+    }
+}

@@ -1,0 +1,94 @@
+//! Text handed to a crate's parser line by line, so that its errors can be told with the line they arose in.
+
+use std::cell::Cell;
+use std::io::{BufRead, Read, Seek, SeekFrom};
+use std::rc::Rc;
+
+/// The longest line handed on, bytes: a face of tens of thousands of corners.
+const LONGEST: usize = 1 << 20;
+
+/// A reader of lines, each as `change` makes it.
+pub(super) struct Lines<'a, F> {
+    rest: &'a [u8],
+    current: Vec<u8>,
+    used: usize,
+    line: Rc<Cell<usize>>,
+    change: F,
+}
+
+impl<'a, F: FnMut(&[u8], &mut Vec<u8>)> Lines<'a, F> {
+    /// The reader, and where it tells which line, from 1, was handed on last.
+    pub fn new(text: &'a [u8], change: F) -> (Self, Rc<Cell<usize>>) {
+        let line = Rc::new(Cell::new(0));
+        (Self { rest: text, current: vec![], used: 0, line: line.clone(), change }, line)
+    }
+
+    fn next_line(&mut self) {
+        while self.used == self.current.len() && !self.rest.is_empty() {
+            let end = self.rest.iter().position(|b| *b == b'\n').map_or(self.rest.len(), |at| at + 1);
+            let (line, rest) = self.rest.split_at(end);
+            (self.rest, self.used) = (rest, 0);
+            self.line.set(self.line.get() + 1);
+            self.current.clear();
+            (self.change)(&line[..line.len().min(LONGEST)], &mut self.current);
+        }
+    }
+}
+
+impl<F: FnMut(&[u8], &mut Vec<u8>)> Read for Lines<'_, F> {
+    fn read(&mut self, buffer: &mut [u8]) -> std::io::Result<usize> {
+        let count = self.fill_buf()?.len().min(buffer.len());
+        buffer[..count].copy_from_slice(&self.current[self.used..self.used + count]);
+        self.consume(count);
+        Ok(count)
+    }
+}
+
+impl<F: FnMut(&[u8], &mut Vec<u8>)> BufRead for Lines<'_, F> {
+    fn fill_buf(&mut self) -> std::io::Result<&[u8]> {
+        self.next_line();
+        Ok(&self.current[self.used..])
+    }
+
+    fn consume(&mut self, count: usize) {
+        self.used += count;
+    }
+}
+
+/// A reader that begins with a line of its own, for a parser that looks at the first one twice.
+pub(super) struct Rewound<R> {
+    first: &'static [u8],
+    used: usize,
+    rest: R,
+}
+
+impl<R> Rewound<R> {
+    /// `first`, then what `rest` has.
+    pub fn new(first: &'static [u8], rest: R) -> Self {
+        Self { first, used: 0, rest }
+    }
+}
+
+impl<R: Read> Read for Rewound<R> {
+    fn read(&mut self, buffer: &mut [u8]) -> std::io::Result<usize> {
+        if self.used == self.first.len() {
+            return self.rest.read(buffer);
+        }
+        let count = buffer.len().min(self.first.len() - self.used);
+        buffer[..count].copy_from_slice(&self.first[self.used..self.used + count]);
+        self.used += count;
+        Ok(count)
+    }
+}
+
+impl<R> Seek for Rewound<R> {
+    fn seek(&mut self, to: SeekFrom) -> std::io::Result<u64> {
+        match to {
+            SeekFrom::Start(0) => {
+                self.used = 0;
+                Ok(0)
+            }
+            _ => Err(std::io::ErrorKind::Unsupported.into()),
+        }
+    }
+}

@@ -1,0 +1,131 @@
+//! Mesh files: glTF, OBJ, STL and PLY, each read by its crate into one [`Surface`] of triangles.
+//!
+//! The format is told by content, not by the file's ending. What is merely odd is a warning; what cannot be read is an
+//! error that names the file, the place and what was expected. Nothing is read but the file itself and buffers that
+//! lie beside it.
+
+mod gltf_file;
+mod hint;
+mod limits;
+mod lines;
+mod obj_file;
+mod ply_file;
+mod sniff;
+mod stl_file;
+
+#[cfg(test)]
+mod tests;
+
+use crate::math::surface::Surface;
+use std::path::Path;
+
+pub use hint::MaterialHint;
+pub use limits::{MAX_BYTES, MAX_TRIANGLES, MAX_VERTICES};
+pub use sniff::{MeshFormat, looks_like};
+
+/// What a mesh file holds, as it is written: not yet welded, in the file's unit and frame.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MeshFile {
+    /// How it is written.
+    pub format: MeshFormat,
+    /// All its triangles; its groups are the file's meshes, objects or groups, with their names.
+    pub surface: Surface,
+    /// What it says of its material.
+    pub hint: Option<MaterialHint>,
+    /// What is odd about it.
+    pub warnings: Vec<String>,
+    /// What it is called: by itself, else by its file's name.
+    pub name: String,
+}
+
+/// Why a mesh file could not be read.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error("{path}{}: {message}", .place.as_ref().map(|place| format!(":{place}")).unwrap_or_default())]
+pub struct MeshFileError {
+    /// The file, as it was named.
+    pub path: String,
+    /// The line, from 1, or what part of the file; `None` where it is the file as a whole.
+    pub place: Option<String>,
+    /// What is wrong, and what was expected.
+    pub message: String,
+}
+
+/// A fault, before its file's name is put to it.
+#[derive(Debug)]
+struct Fault {
+    place: Option<String>,
+    message: String,
+}
+
+impl Fault {
+    fn whole(message: impl Into<String>) -> Self {
+        Self { place: None, message: message.into() }
+    }
+
+    fn line(line: usize, message: impl Into<String>) -> Self {
+        Self { place: Some(line.to_string()), message: message.into() }
+    }
+
+    fn at(place: impl Into<String>, message: impl Into<String>) -> Self {
+        Self { place: Some(place.into()), message: message.into() }
+    }
+}
+
+/// What a reader answers, before the file's name is put to it.
+#[derive(Default)]
+struct Read {
+    surface: Surface,
+    hint: Option<MaterialHint>,
+    warnings: Vec<String>,
+    name: Option<String>,
+}
+
+/// Reads a mesh file.
+///
+/// # Errors
+/// What keeps it from being one, with its place.
+pub fn read(path: impl AsRef<Path>) -> Result<MeshFile, MeshFileError> {
+    let path = path.as_ref();
+    let folder = path.parent().unwrap_or(Path::new(""));
+    let bytes = limits::bytes(path).map_err(|fault| named(fault, &path.display().to_string()))?;
+    parse(bytes, &path.display().to_string(), Some(folder))
+}
+
+/// Reads what a mesh file holds; `label` stands for its path in errors, and `folder` is where its buffers lie, if it
+/// may have any.
+///
+/// # Errors
+/// What keeps it from being a mesh file, with its place.
+pub fn parse(bytes: Vec<u8>, label: &str, folder: Option<&Path>) -> Result<MeshFile, MeshFileError> {
+    let Some(format) = looks_like(&bytes) else {
+        let message = "this is no mesh: glTF, OBJ, STL or PLY is expected";
+        return Err(named(Fault::whole(message), label));
+    };
+    let read = match format {
+        MeshFormat::Glb | MeshFormat::Gltf => gltf_file::read(&bytes, folder),
+        MeshFormat::Obj => obj_file::read(&bytes),
+        MeshFormat::StlBinary => stl_file::read_binary(bytes),
+        MeshFormat::StlText => stl_file::read_text(&bytes),
+        MeshFormat::Ply => ply_file::read(&bytes),
+    };
+    let Read { surface, hint, warnings, name } =
+        read.and_then(limits::checked).map_err(|fault| named(fault, label))?;
+    let stem = Path::new(label).file_stem().map(|stem| stem.to_string_lossy().into_owned());
+    let printable = |name: &String| crate::cut::is_printable(name);
+    let name = name.filter(printable).or(stem.filter(printable)).unwrap_or_else(|| "mesh".to_owned());
+    Ok(MeshFile { format, surface, hint, warnings, name })
+}
+
+fn named(fault: Fault, label: &str) -> MeshFileError {
+    MeshFileError { path: label.to_owned(), place: fault.place, message: shortened(fault.message) }
+}
+
+/// A message that quotes something endless, or of several lines, as what a person reads.
+fn shortened(message: String) -> String {
+    const LONGEST: usize = 400;
+    let line = message.split_whitespace().collect::<Vec<_>>().join(" ");
+    match line.char_indices().nth(LONGEST) {
+        Some((end, _)) => format!("{} ...", &line[..end]),
+        None => line,
+    }
+}

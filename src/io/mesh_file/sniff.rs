@@ -1,0 +1,74 @@
+//! Which mesh format a file is in, told by how it begins.
+
+/// The mesh formats that are read.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum MeshFormat {
+    /// Binary glTF 2.0.
+    Glb,
+    /// glTF 2.0 as JSON.
+    Gltf,
+    /// Wavefront OBJ.
+    Obj,
+    /// Binary STL.
+    StlBinary,
+    /// STL as text.
+    StlText,
+    /// PLY, text or binary.
+    Ply,
+}
+
+/// Header and count of a binary STL, bytes.
+pub(super) const STL_HEADER: usize = 84;
+
+/// A triangle of a binary STL, bytes.
+pub(super) const STL_TRIANGLE: u64 = 50;
+
+/// How much of a text is looked at, bytes: OBJ files may begin with long comments.
+const LOOKED_AT: usize = 64 << 10;
+
+/// The format that bytes look like, if it is one of those that are read. The more of the file they are, the surer.
+pub fn looks_like(bytes: &[u8]) -> Option<MeshFormat> {
+    if bytes.starts_with(b"glTF") {
+        return Some(MeshFormat::Glb);
+    }
+    if bytes.starts_with(b"ply\n") || bytes.starts_with(b"ply\r") {
+        return Some(MeshFormat::Ply);
+    }
+    // Before text: many binary STL files begin with the word by which text ones are told.
+    if stl_triangles(bytes)
+        .is_some_and(|count| bytes.len() as u64 == STL_HEADER as u64 + STL_TRIANGLE * count)
+    {
+        return Some(MeshFormat::StlBinary);
+    }
+    let text = String::from_utf8_lossy(&bytes[..bytes.len().min(LOOKED_AT)]);
+    let start = text.trim_start_matches('\u{feff}').trim_start();
+    if start.starts_with('{') {
+        return text.contains("\"asset\"").then_some(MeshFormat::Gltf);
+    }
+    if start.get(..5).is_some_and(|word| word.eq_ignore_ascii_case("solid")) && text.contains("facet") {
+        return Some(MeshFormat::StlText);
+    }
+    if is_obj(&text) {
+        return Some(MeshFormat::Obj);
+    }
+    // One whose length does not agree is told so by its reader, if it is binary at all.
+    let is_binary = bytes.len() > STL_HEADER && bytes[..bytes.len().min(LOOKED_AT)].contains(&0);
+    (is_binary && bytes.starts_with(b"solid")).then_some(MeshFormat::StlBinary)
+}
+
+/// How many triangles a binary STL says it has.
+pub(super) fn stl_triangles(bytes: &[u8]) -> Option<u64> {
+    let count = bytes.get(STL_HEADER - 4..STL_HEADER)?;
+    Some(u64::from(u32::from_le_bytes(count.try_into().ok()?)))
+}
+
+/// Whether the first line that is no comment is one of OBJ's, and one of a corner or a face is there.
+fn is_obj(text: &str) -> bool {
+    const FIRST: [&str; 12] = ["v", "vn", "vt", "vp", "f", "o", "g", "s", "mtllib", "usemtl", "l", "p"];
+    let word = |line: &'_ str| line.split_whitespace().next().unwrap_or_default().to_owned();
+    let mut words = text.lines().map(word).filter(|w| !w.is_empty() && !w.starts_with('#')).peekable();
+    let begins = words.peek().is_some_and(|first| FIRST.contains(&first.as_str()));
+    let numbers = |line: &str| line.split_whitespace().skip(1).take(3).all(|n| n.parse::<f64>().is_ok());
+    begins
+        && text.lines().any(|line| word(line) == "v" && line.split_whitespace().count() >= 4 && numbers(line))
+}

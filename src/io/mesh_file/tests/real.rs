@@ -1,0 +1,110 @@
+//! Real meshes, where they are there, and large ones.
+
+use super::*;
+use crate::math::surface::Surface;
+
+/// A mesh among the real ones; `None`, loudly, where they are not there.
+fn real(name: &str) -> Option<MeshFile> {
+    let folder = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../shared/data/mesh"));
+    if !folder.is_dir() {
+        println!("SKIPPED: {} is not there", folder.display());
+        return None;
+    }
+    Some(read(folder.join(name)).unwrap())
+}
+
+/// A stone's tiers: name, number of facets, degrees from the girdle plane.
+fn tiers(stone: &FromMesh) -> Vec<(String, usize, f64)> {
+    let mut tiers: Vec<(String, usize, f64)> = vec![];
+    for (name, plane) in &stone.facets {
+        let stem = crate::cut::tier_stem(name).to_owned();
+        let slope = plane.normal.z.abs().min(1.0).acos().to_degrees();
+        match tiers.last_mut().filter(|t| t.0 == stem) {
+            Some(last) => last.1 += 1,
+            None => tiers.push((stem, 1, (10.0 * slope).round() / 10.0)),
+        }
+    }
+    tiers
+}
+
+#[test]
+fn real_meshes_open_as_what_they_are() {
+    // Facets, the folds they were found to have, and how near they must lie, girdle radii; none for one that is dented.
+    let expected = [
+        ("deepar-princess.obj", Some((69, 4, 5e-4))),
+        ("diamond-webgl-brilliant_cut.obj", Some((89, 8, 1e-5))),
+        ("diamond-webgl-oval_cut.obj", Some((71, 2, 1e-4))),
+        ("gkjohnson-diamond.glb", None),
+    ];
+    for (name, expected) in expected {
+        let Some(file) = real(name) else { return };
+        let mended = file.surface.mend().unwrap();
+        let found = match facets(mended.surface) {
+            Shape::Convex(found) => Some(found),
+            Shape::Concave(_) => None,
+        };
+        println!("{name}: {:?}", mended.mending);
+        assert_eq!(found.is_some(), expected.is_some(), "{name}");
+        let (Some(found), Some((count, turns, within))) = (found, expected) else { continue };
+        let stone = from_mesh(&found, Up::Found).unwrap();
+        println!("  deviation {:.1e}, {:?}", stone.deviation, tiers(&stone));
+        assert_eq!((stone.facets.len(), stone.evened.turns), (count, turns), "{name}");
+        assert!(stone.deviation < within, "{name}: {}", stone.deviation);
+        assert_eq!(stone.facets[0].0, "table");
+    }
+}
+
+#[test]
+fn a_million_triangles_load_in_seconds() {
+    let stone = brilliant(96);
+    let file = open(write_stl(&stone, 3.0).unwrap());
+    let mut surface = file.surface.mend().unwrap().surface;
+    while surface.triangles.len() < 1_000_000 {
+        surface = divided(&surface);
+    }
+    let mut bytes = vec![0; 80];
+    bytes.extend((surface.triangles.len() as u32).to_le_bytes());
+    for t in 0..surface.triangles.len() {
+        bytes.extend([0; 12]);
+        surface
+            .corners(t)
+            .iter()
+            .flat_map(|c| c.as_vec3().to_array())
+            .for_each(|x| bytes.extend(x.to_le_bytes()));
+        bytes.extend([0; 2]);
+    }
+    let start = std::time::Instant::now();
+    let file = open(bytes);
+    let read = start.elapsed().as_secs_f64();
+    let mended = file.surface.mend().unwrap();
+    let welded = start.elapsed().as_secs_f64();
+    let Shape::Convex(found) = facets(mended.surface) else { panic!("taken for concave") };
+    let faceted = start.elapsed().as_secs_f64();
+    let stone_back = from_mesh(&found, Up::Found).unwrap();
+    let all = start.elapsed().as_secs_f64();
+    println!(
+        "{} triangles: read {read:.2} s, mended {welded:.2} s, facets {faceted:.2} s, posed {all:.2} s; tolerance {:.1e}",
+        surface.triangles.len(),
+        found.tolerance
+    );
+    assert_eq!(stone_back.facets.len(), stone.names().len());
+    assert!(all < 30.0, "{all} s");
+}
+
+/// Every triangle cut into four.
+fn divided(surface: &Surface) -> Surface {
+    let mut middle = std::collections::HashMap::new();
+    let mut vertices = surface.vertices.clone();
+    let mut between = |a: u32, b: u32| {
+        *middle.entry((a.min(b), a.max(b))).or_insert_with(|| {
+            vertices.push((surface.vertices[a as usize] + surface.vertices[b as usize]) / 2.0);
+            vertices.len() as u32 - 1
+        })
+    };
+    let mut triangles = vec![];
+    for &[a, b, c] in &surface.triangles {
+        let [x, y, z] = [between(a, b), between(b, c), between(c, a)];
+        triangles.extend([[a, x, z], [x, b, y], [z, y, c], [x, y, z]]);
+    }
+    Surface::new(vertices, triangles)
+}

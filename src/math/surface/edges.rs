@@ -1,0 +1,42 @@
+//! Which triangles meet at which edges.
+
+use super::Surface;
+use rayon::slice::ParallelSliceMut;
+
+/// No triangle across an edge, or more than one.
+pub(super) const NONE: u32 = u32::MAX;
+
+/// The edges of a surface; those of a triangle are numbered by the corner that they begin at.
+pub(super) struct Edges {
+    /// The triangle across each edge of each triangle, or [`NONE`].
+    pub neighbours: Vec<[u32; 3]>,
+    /// Edges of an odd number of triangles, lower corner first, in order.
+    pub open: Vec<[u32; 2]>,
+}
+
+impl Edges {
+    pub fn of(surface: &Surface) -> Self {
+        let mut sides: Vec<([u32; 2], u32)> = Vec::with_capacity(3 * surface.triangles.len());
+        for (t, corners) in (0..).zip(&surface.triangles) {
+            sides.extend((0..3).map(|k| (ends(corners, k), 3 * t + k as u32)));
+        }
+        sides.par_sort_unstable();
+        let mut neighbours = vec![[NONE; 3]; surface.triangles.len()];
+        let mut open = vec![];
+        for same in sides.chunk_by(|a, b| a.0 == b.0) {
+            if let [(_, one), (_, other)] = same {
+                neighbours[*one as usize / 3][*one as usize % 3] = other / 3;
+                neighbours[*other as usize / 3][*other as usize % 3] = one / 3;
+            } else if same.len() % 2 == 1 {
+                open.push(same[0].0);
+            }
+        }
+        Self { neighbours, open }
+    }
+}
+
+/// The ends of edge `k` of a triangle, the lower first.
+pub(super) fn ends(corners: &[u32; 3], k: usize) -> [u32; 2] {
+    let (a, b) = (corners[k], corners[(k + 1) % 3]);
+    [a.min(b), a.max(b)]
+}

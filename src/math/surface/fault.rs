@@ -1,0 +1,77 @@
+//! Why triangles bound no solid.
+
+use glam::DVec3;
+
+/// Why a surface could not be mended. Triangles and corners are counted from 0; in words, from 1.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum SurfaceError {
+    /// No triangle, or none that has an area.
+    #[error("there is no triangle with an area; a closed surface of triangles is expected")]
+    Empty,
+    /// A triangle refers to a corner that is not there.
+    #[error("triangle {} refers to corner {}, and there are {vertices}", .triangle + 1, .vertex + 1)]
+    Index {
+        /// The triangle.
+        triangle: usize,
+        /// What it refers to.
+        vertex: u32,
+        /// How many there are.
+        vertices: usize,
+    },
+    /// A coordinate that is NaN or infinite.
+    #[error("corner {} is at {at}; finite coordinates are expected", .vertex + 1)]
+    NotFinite {
+        /// The corner.
+        vertex: usize,
+        /// Where it is said to be.
+        at: DVec3,
+    },
+    /// So small or large that areas and volumes cannot be computed, or lost beside its distance from the origin.
+    #[error("the surface is {size:e} across and {distance:e} from the origin; move it there, or rescale it")]
+    OutOfScale {
+        /// Half the diagonal of its box.
+        size: f64,
+        /// How far the middle of its box is from the origin.
+        distance: f64,
+    },
+    /// Edges that lack a triangle on one side, by gaps too wide for cracks.
+    #[error("{}", told_open(*.count, .edges, *.crack))]
+    Open {
+        /// How many such edges there are.
+        count: usize,
+        /// The ends of the longest of them.
+        edges: Vec<[DVec3; 2]>,
+        /// The widest gap that would have been closed.
+        crack: f64,
+    },
+    /// A surface with one side only, as a Möbius strip has.
+    #[error("the surface has no outside: its sides meet at the edge from {} to {}", told(.edge[0]), told(.edge[1]))]
+    OneSided {
+        /// The ends of an edge where the two sides meet.
+        edge: [DVec3; 2],
+    },
+    /// A surface without content: all its triangles are in one plane, or it is folded onto itself.
+    #[error("the surface encloses nothing; a solid is expected")]
+    Flat,
+}
+
+/// The most edges that an error names.
+pub(super) const MOST_EDGES: usize = 4;
+
+fn told(point: DVec3) -> String {
+    // Seven digits are what f32, and so most files, hold.
+    let digits = |x: f64| format!("{}", format!("{x:.6e}").parse::<f64>().unwrap_or(x));
+    format!("({}, {}, {})", digits(point.x), digits(point.y), digits(point.z))
+}
+
+fn told_open(count: usize, edges: &[[DVec3; 2]], crack: f64) -> String {
+    let shown = edges.iter().map(|[a, b]| format!("{} to {}", told(*a), told(*b)));
+    let shown = shown.collect::<Vec<_>>().join("; ");
+    let more = count.saturating_sub(edges.len());
+    let more = if more > 0 { format!("; and {more} more") } else { String::new() };
+    let noun = if count == 1 { "edge lacks its" } else { "edges lack their" };
+    format!(
+        "the surface is open: {count} {noun} neighbour, by more than {crack:.1e}: {shown}{more}; close the holes, and \
+         give each edge two triangles"
+    )
+}

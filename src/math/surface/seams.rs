@@ -1,0 +1,87 @@
+//! Seams where one side has corners that the other lacks: triangles are split at them.
+
+use super::Surface;
+use super::edges::{Edges, ends};
+use std::collections::HashMap;
+
+/// The most open edges for which seams are looked for: the search compares each with the corners that it could
+/// pass, and what has more is no crack but rubble.
+const MOST_OPEN: usize = 5_000;
+
+/// A triangle is split at each of its edges once; rubble could ask for more without end.
+const MOST_ROUNDS: u32 = 3;
+
+/// Splits triangles with open edges at the corners of other open edges that lie on them within `gap`; answers how
+/// many corners were put in.
+pub(super) fn split(surface: &mut Surface, gap: f64) -> usize {
+    let open = Edges::of(surface).open;
+    if open.len() > MOST_OPEN {
+        return 0;
+    }
+    let mut loose: Vec<u32> = open.iter().flatten().copied().collect();
+    loose.sort_by(|&a, &b| x(surface, a).total_cmp(&x(surface, b)).then(a.cmp(&b)));
+    loose.dedup();
+    let between: HashMap<[u32; 2], Vec<u32>> = open
+        .iter()
+        .map(|&edge| (edge, passed(surface, edge, &loose, gap)))
+        .filter(|(_, list)| !list.is_empty())
+        .collect();
+    let before = surface.triangles.len();
+    // What is split is taken out and put back in pieces, each of which may have another edge to split.
+    for t in 0..before {
+        split_one(surface, t, &between, MOST_ROUNDS);
+    }
+    surface.triangles.len() - before
+}
+
+fn x(surface: &Surface, vertex: u32) -> f64 {
+    surface.vertices[vertex as usize].x
+}
+
+/// The corners that lie on an edge, from its lower to its higher end.
+fn passed(surface: &Surface, [a, b]: [u32; 2], loose: &[u32], gap: f64) -> Vec<u32> {
+    let (from, to) = (surface.vertices[a as usize], surface.vertices[b as usize]);
+    let along = to - from;
+    let (low, high) = (from.x.min(to.x) - gap, from.x.max(to.x) + gap);
+    let start = loose.partition_point(|&v| x(surface, v) < low);
+    let near = loose[start..].iter().copied().take_while(|&v| x(surface, v) <= high);
+    let mut on: Vec<(f64, u32)> = near
+        .filter(|&v| v != a && v != b)
+        .map(|v| ((surface.vertices[v as usize] - from).dot(along) / along.length_squared(), v))
+        .filter(|&(part, v)| {
+            let inside = part > 0.0 && part < 1.0;
+            inside && (from + along * part).distance(surface.vertices[v as usize]) <= gap
+        })
+        .collect();
+    on.sort_by(|p, q| p.0.total_cmp(&q.0).then(p.1.cmp(&q.1)));
+    on.into_iter().map(|(_, v)| v).collect()
+}
+
+fn split_one(surface: &mut Surface, triangle: usize, between: &HashMap<[u32; 2], Vec<u32>>, rounds: u32) {
+    let corners = surface.triangles[triangle];
+    let split = |k: &usize| rounds > 0 && between.contains_key(&ends(&corners, *k));
+    let Some(k) = (0..3).find(split) else { return };
+    let [a, b, c] = [corners[k], corners[(k + 1) % 3], corners[(k + 2) % 3]];
+    let mut chain = between[&ends(&corners, k)].clone();
+    chain.retain(|&v| v != c);
+    if chain.is_empty() {
+        return;
+    }
+    if a > b {
+        chain.reverse();
+    }
+    let starts = std::iter::once(a).chain(chain.iter().copied());
+    let pieces = starts.zip(chain.iter().copied().chain([b]));
+    let group = surface.groups[triangle];
+    for (place, (from, to)) in pieces.enumerate() {
+        let piece = [from, to, c];
+        let at = if place == 0 { triangle } else { surface.triangles.len() };
+        if place == 0 {
+            surface.triangles[triangle] = piece;
+        } else {
+            surface.triangles.push(piece);
+            surface.groups.push(group);
+        }
+        split_one(surface, at, between, rounds - 1);
+    }
+}

@@ -1,0 +1,183 @@
+//! What solid a closed surface is: the convex one between its facets' planes, or another.
+
+use super::Surface;
+use super::edges::{Edges, NONE};
+use super::regions::{NOWHERE, Regions, regions};
+use crate::math::{Facet, Plane, Polytope};
+use glam::DVec3;
+use rayon::prelude::*;
+
+/// Tolerances tried one after the other, parts of the size: from the rounding of f32 to a thousandth, the noise that
+/// scans and careless modelling leave.
+const NOISE: [f64; 7] = [1e-6, 1e-5, 4e-5, 1e-4, 2e-4, 4e-4, 1e-3];
+
+/// A solid whose surface no corner leaves by more than this many tolerances is the surface: a corner may be one off
+/// its own plane and, where regions were joined, three.
+const SAME: f64 = 3.0;
+
+/// Fewer facets are better where they fit within this many times the deviation of the first solid found, at one of the
+/// `FURTHER` next tolerances.
+const AS_GOOD: f64 = 2.0;
+const FURTHER: usize = 2;
+
+/// Facets that lean apart by less than this many tolerances at the width of each may be one that noise has split.
+const NEARLY_ONE: f64 = 10.0;
+
+/// The most facets of which a solid is made: beyond it is a surface that is curved, and cutting it takes too long.
+const MOST_FACETS: usize = 2_500;
+
+/// A surface that does this part of its turning within regions and not between them is round.
+const ROUND: f64 = 0.1;
+
+/// A region and a group of the file are one where they share this part of the area of each.
+const ONE: f64 = 0.99;
+
+/// A facet that was found.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Face {
+    /// Its plane, about [`Faceted::centre`].
+    pub plane: Plane,
+    /// Area of its triangles.
+    pub area: f64,
+    /// What the file calls it, where one of its groups is just this facet.
+    pub name: Option<String>,
+}
+
+/// A surface that is a convex solid between planes. Lengths in the surface's unit.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Faceted {
+    /// The surface, with its `centre` moved to the origin.
+    pub surface: Surface,
+    /// Where the origin of the planes lies in the surface's own frame.
+    pub centre: DVec3,
+    /// Its facets, the largest first, in the order of those of `polytope`.
+    pub faces: Vec<Face>,
+    /// The solid between them, about the centre.
+    pub polytope: Polytope,
+    /// How far the corner that is farthest off lies from the solid's surface.
+    pub deviation: f64,
+    /// Within how much of their planes the corners of facets were found.
+    pub tolerance: f64,
+}
+
+/// What a closed surface is.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Shape {
+    /// A convex solid between planes.
+    Convex(Box<Faceted>),
+    /// Anything else: to be traced as triangles, as it was given.
+    Concave(Surface),
+}
+
+/// Finds the facets of a closed surface, as [`Surface::mend`] answers it.
+pub fn facets(surface: Surface) -> Shape {
+    let (low, high) = surface.bounds();
+    let centre = (low + high) / 2.0;
+    let mut moved = surface.clone();
+    moved.vertices.iter_mut().for_each(|v| *v -= centre);
+    let (edges, size) = (Edges::of(&moved), moved.size());
+    let mut tried = NOISE.iter().map(|noise| solid(&moved, &edges, noise * size));
+    let Some(mut best) = tried.by_ref().flatten().next() else { return Shape::Concave(surface) };
+    // Noise may have split facets that a larger tolerance keeps whole.
+    let limit = AS_GOOD * best.deviation;
+    let further = if is_split(&best) { FURTHER } else { 0 };
+    for next in tried.take(further).flatten() {
+        if next.deviation <= limit && next.polytope.facets().len() < best.polytope.facets().len() {
+            best = next;
+        }
+    }
+    Shape::Convex(Box::new(faceted(moved, centre, best)))
+}
+
+/// Whether facets that are neighbours lean apart by no more than noise could make halves of one lean.
+fn is_split(solid: &Solid) -> bool {
+    let facets = solid.polytope.facets();
+    let fit = |f: &Facet| solid.found.fits[f.source];
+    let near = |f: &Facet, g: &Facet| {
+        let (f, g) = (fit(f), fit(g));
+        let noise = solid.tolerance * (1.0 / f.width + 1.0 / g.width);
+        (f.plane.normal - g.plane.normal).length() < NEARLY_ONE * noise
+    };
+    facets.iter().any(|f| f.neighbours.iter().any(|&n| near(f, &facets[n as usize])))
+}
+
+/// A solid that reproduces a surface.
+struct Solid {
+    found: Regions,
+    polytope: Polytope,
+    deviation: f64,
+    tolerance: f64,
+}
+
+/// The solid between the planes of regions of one tolerance, if it is the surface.
+fn solid(surface: &Surface, edges: &Edges, tolerance: f64) -> Option<Solid> {
+    let found = regions(surface, edges, tolerance, MOST_FACETS)?;
+    if is_round(surface, edges, &found) {
+        return None;
+    }
+    let planes: Vec<Plane> = found.fits.iter().map(|f| f.plane).collect();
+    let polytope = Polytope::from_planes(&planes).ok()?;
+    let deviation = deviation(&polytope, &surface.vertices);
+    let swelling = (polytope.volume() - surface.volume()).abs();
+    let same = deviation <= SAME * tolerance && swelling <= SAME * tolerance * polytope.surface_area();
+    same.then_some(Solid { found, polytope, deviation, tolerance })
+}
+
+/// How far the point that is farthest off lies from a solid's surface; of a point outside, how far it lies outside
+/// the plane that it is farthest outside of.
+pub fn deviation(polytope: &Polytope, points: &[DVec3]) -> f64 {
+    let planes: Vec<Plane> = polytope.planes().collect();
+    let depth = |p: &DVec3| planes.iter().map(|plane| plane.distance(*p)).fold(f64::NEG_INFINITY, f64::max);
+    points.par_iter().map(|p| depth(p).abs()).reduce(|| 0.0, f64::max)
+}
+
+/// Whether the surface turns outward within regions, not at their edges alone. Noise turns it as much inward.
+fn is_round(surface: &Surface, edges: &Edges, found: &Regions) -> bool {
+    let unit = |t: usize| surface.area_vector(t).normalize_or_zero();
+    let (mut within, mut whole) = (0.0, 0.0);
+    for (t, neighbours) in edges.neighbours.iter().enumerate() {
+        let (corners, normal) = (surface.corners(t), unit(t));
+        for (k, &n) in neighbours.iter().enumerate().filter(|(_, n)| **n != NONE && **n > t as u32) {
+            let outward = unit(n as usize) - normal;
+            // Across an edge that stands out, normals lean apart.
+            let across = surface.corners(n as usize).iter().sum::<DVec3>() - corners.iter().sum::<DVec3>();
+            let turn =
+                (corners[(k + 1) % 3] - corners[k]).length() * outward.length().copysign(outward.dot(across));
+            whole += turn;
+            within += if found.of[t] == found.of[n as usize] { turn } else { 0.0 };
+        }
+    }
+    within > ROUND * whole
+}
+
+fn faceted(surface: Surface, centre: DVec3, solid: Solid) -> Faceted {
+    let Solid { found, polytope, deviation, tolerance } = solid;
+    let names = names(&surface, &found);
+    let face =
+        |r: usize| Face { plane: found.fits[r].plane, area: found.fits[r].area, name: names[r].clone() };
+    let faces = polytope.facets().iter().map(|f| face(f.source)).collect();
+    Faceted { surface, centre, faces, polytope, deviation, tolerance }
+}
+
+/// The name of each region that is just one group of the file.
+fn names(surface: &Surface, found: &Regions) -> Vec<Option<String>> {
+    let mut shared = std::collections::BTreeMap::<(u32, u32), f64>::new();
+    let mut groups = vec![0.0; surface.names.len()];
+    let mut whole = vec![0.0; found.fits.len()];
+    for (t, (&group, &region)) in surface.groups.iter().zip(&found.of).enumerate() {
+        let area = surface.area_vector(t).length();
+        groups[group as usize] += area;
+        if region != NOWHERE {
+            whole[region as usize] += area;
+            *shared.entry((group, region)).or_default() += area;
+        }
+    }
+    let mut names = vec![None; found.fits.len()];
+    for ((group, region), area) in shared {
+        let (g, r) = (group as usize, region as usize);
+        if area >= ONE * groups[g] && area >= ONE * whole[r] && !surface.names[g].trim().is_empty() {
+            names[r] = Some(surface.names[g].clone());
+        }
+    }
+    names
+}

@@ -1,0 +1,255 @@
+//! Surfaces that are known, spoilt in every way that files are.
+
+use super::*;
+use crate::math::{Plane, Polytope, triangulate};
+use glam::DQuat;
+use proptest::prelude::*;
+
+fn cube() -> Polytope {
+    let sides = [DVec3::X, DVec3::Y, DVec3::Z];
+    let planes: Vec<Plane> = sides.iter().flat_map(|&n| [Plane::new(n, 1.0), Plane::new(-n, 1.0)]).collect();
+    Polytope::from_planes(&planes).unwrap()
+}
+
+/// A solid of `sides` around, two tiers above and one below: fifteen or more facets of any slope.
+fn stone(sides: u32) -> Polytope {
+    let turn = |k: u32, half: f64| (f64::from(k) + half) * std::f64::consts::TAU / f64::from(sides);
+    let mut planes = vec![Plane::new(DVec3::Z, 0.3)];
+    for k in 0..sides {
+        planes.push(Plane::from_slope(0.6, turn(k, 0.0), 0.6));
+        planes.push(Plane::from_slope(1.57, turn(k, 0.0), 1.0));
+        planes.push(Plane::from_slope(2.4, turn(k, 0.5), 0.7));
+    }
+    Polytope::from_planes(&planes).unwrap()
+}
+
+fn surface(polytope: &Polytope) -> Surface {
+    let mesh = triangulate(polytope);
+    let names = (0..polytope.facets().len()).map(|i| format!("facet {i}")).collect();
+    Surface { vertices: mesh.vertices, triangles: mesh.triangles, groups: mesh.facets, names }
+}
+
+/// Every triangle with corners of its own.
+fn split(surface: &Surface) -> Surface {
+    let vertices = (0..surface.triangles.len()).flat_map(|t| surface.corners(t)).collect();
+    let triangles = (0..surface.triangles.len() as u32).map(|t| [3 * t, 3 * t + 1, 3 * t + 2]).collect();
+    Surface { vertices, triangles, ..surface.clone() }
+}
+
+/// Numbers from -1 to 1 that look random and are the same every time.
+fn noise(seed: u64) -> impl FnMut() -> f64 {
+    let mut state = seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1;
+    move || {
+        state ^= state << 13;
+        state ^= state >> 7;
+        state ^= state << 17;
+        (state >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
+    }
+}
+
+fn shaken(surface: &Surface, by: f64, seed: u64) -> Surface {
+    let mut next = noise(seed);
+    let mut shaken = surface.clone();
+    shaken.vertices.iter_mut().for_each(|v| *v += by * DVec3::new(next(), next(), next()));
+    shaken
+}
+
+fn faceted(surface: Surface) -> Faceted {
+    match facets(surface) {
+        Shape::Convex(found) => *found,
+        Shape::Concave(_) => panic!("taken for concave"),
+    }
+}
+
+#[test]
+fn what_is_whole_stays_as_it_is() {
+    let whole = surface(&stone(8));
+    let Mended { surface, mending } = whole.mend().unwrap();
+    assert_eq!(mending, Mending { shells: 1, ..Mending::default() });
+    assert!(
+        (surface.volume() - whole.volume()).abs() < 1e-15 && surface.triangles.len() == whole.triangles.len()
+    );
+}
+
+#[test]
+fn split_corners_copies_and_turned_triangles_are_mended() {
+    let whole = surface(&stone(8));
+    let mut broken = split(&whole);
+    broken.triangles.iter_mut().step_by(3).for_each(|t| t.swap(0, 1));
+    for t in [1, 5, 5] {
+        let [a, b, c] = broken.triangles[t];
+        broken.triangles.push([c, b, a]);
+        broken.groups.push(0);
+    }
+    broken.triangles.push([0, 0, 1]);
+    broken.groups.push(0);
+    let Mended { surface, mending } = broken.mend().unwrap();
+    assert!((surface.volume() - whole.volume()).abs() < 1e-14);
+    assert_eq!((mending.copies, mending.degenerate, mending.crack, mending.shells), (3, 1, 0.0, 1));
+    assert!(mending.turned > 0 && surface.vertices.len() == whole.vertices.len());
+    assert_eq!(surface.mend().unwrap().mending, Mending { shells: 1, ..Mending::default() });
+}
+
+#[test]
+fn cracks_are_closed_and_holes_are_refused_with_their_edges() {
+    let whole = surface(&cube());
+    let cracked = shaken(&split(&whole), 1e-4, 1);
+    let Mended { surface: closed, mending } = cracked.mend().unwrap();
+    assert!(mending.crack > 1e-4 && mending.crack < 1e-3 && closed.vertices.len() == 8, "{mending:?}");
+    assert!((closed.volume() - 8.0).abs() < 1e-2);
+    let mut open = whole.clone();
+    let gone = open.triangles.pop().unwrap().map(|v| whole.vertices[v as usize]);
+    open.groups.pop();
+    let Err(SurfaceError::Open { count: 3, edges, .. }) = open.mend() else { panic!("a hole was closed") };
+    assert!(edges.iter().flatten().all(|end| gone.contains(end)));
+    let text = open.mend().unwrap_err().to_string();
+    assert!(
+        text.starts_with("the surface is open: 3 edges lack their neighbour") && text.contains("1, "),
+        "{text}"
+    );
+}
+
+#[test]
+fn a_corner_on_a_neighbours_edge_is_put_into_it() {
+    let mut seamed = surface(&cube());
+    let [a, b, c] = seamed.triangles[0];
+    let middle = seamed.vertices.len() as u32;
+    seamed.vertices.push((seamed.vertices[a as usize] + seamed.vertices[b as usize]) / 2.0);
+    seamed.triangles[0] = [a, middle, c];
+    seamed.triangles.push([middle, b, c]);
+    seamed.groups.push(seamed.groups[0]);
+    let Mended { surface, mending } = seamed.mend().unwrap();
+    assert_eq!(mending.seams, 1);
+    assert!((surface.volume() - 8.0).abs() < 1e-12);
+}
+
+#[test]
+fn what_is_no_surface_is_refused_with_its_reason() {
+    let told = |vertices: &[[f64; 3]], triangles: &[[u32; 3]]| {
+        let vertices = vertices.iter().map(|&v| DVec3::from_array(v)).collect();
+        Surface::new(vertices, triangles.to_vec()).mend().unwrap_err().to_string()
+    };
+    let flat = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.3, 0.3, 0.0]];
+    let folded = [[0, 1, 2], [0, 1, 3], [1, 2, 3], [2, 0, 3]];
+    assert_eq!(told(&flat, &folded), "the surface encloses nothing; a solid is expected");
+    assert!(told(&flat, &[[0, 1, 4]]).starts_with("triangle 1 refers to corner 5, and there are 4"));
+    let bad = [[0.0; 3], [1.0, f64::NAN, 0.0], [0.0, 1.0, 0.0]];
+    assert!(told(&bad, &[[0, 1, 2]]).starts_with("corner 2 is at [1, NaN, 0]; finite"));
+    assert!(told(&[], &[]).starts_with("there is no triangle"));
+    let far = [[1e12, 0.0, 0.0], [1e12 + 1.0, 0.0, 0.0], [1e12, 1.0, 0.0]];
+    assert!(told(&far, &[[0, 1, 2]]).contains("from the origin; move it there"));
+    let strip: Vec<[f64; 3]> = (0..10)
+        .map(|i| {
+            let (turn, side) = (f64::from(i / 2) * 1.2566, f64::from(i % 2) * 2.0 - 1.0);
+            let out = 2.0 + side * (turn / 2.0).cos();
+            [out * turn.cos(), out * turn.sin(), side * (turn / 2.0).sin()]
+        })
+        .collect();
+    let mut round: Vec<[u32; 3]> =
+        (0..4).flat_map(|k| [[2 * k, 2 * k + 1, 2 * k + 2], [2 * k + 1, 2 * k + 3, 2 * k + 2]]).collect();
+    round.extend([[8, 9, 1], [9, 0, 1]]);
+    assert!(told(&strip, &round).starts_with("the surface"), "a Möbius strip is open along its rim");
+}
+
+#[test]
+fn a_cavity_faces_its_inside_and_two_stones_face_outward() {
+    let outer = surface(&cube());
+    let mut inner = surface(&cube());
+    inner.vertices.iter_mut().for_each(|v| *v *= 0.5);
+    let mut nested = outer.clone();
+    nested.append(inner.clone());
+    let mended = nested.mend().unwrap();
+    assert_eq!(mended.mending.shells, 2);
+    assert!((mended.surface.volume() - 7.0).abs() < 1e-12);
+    assert!(matches!(facets(mended.surface), Shape::Concave(_)));
+    inner.vertices.iter_mut().for_each(|v| *v += 3.0 * DVec3::X);
+    inner.triangles.iter_mut().for_each(|t| t.swap(0, 1));
+    let mut beside = outer;
+    beside.append(inner);
+    assert!((beside.mend().unwrap().surface.volume() - 9.0).abs() < 1e-12);
+}
+
+#[test]
+fn a_dent_is_concave_and_a_dent_within_the_noise_is_not() {
+    let dented = |depth: f64| {
+        let mut dented = surface(&cube());
+        let [a, b, c] = dented.triangles[0];
+        let normal = dented.area_vector(0).normalize_or_zero();
+        let middle = dented.corners(0).iter().sum::<DVec3>() / 3.0 - depth * normal;
+        let new = dented.vertices.len() as u32;
+        dented.vertices.push(middle);
+        dented.triangles[0] = [a, b, new];
+        dented.triangles.extend([[b, c, new], [c, a, new]]);
+        dented.groups.extend([dented.groups[0]; 2]);
+        facets(dented.mend().unwrap().surface)
+    };
+    assert!(matches!(dented(0.02), Shape::Concave(_)));
+    let Shape::Convex(found) = dented(5e-4) else { panic!("noise was taken for a dent") };
+    assert!(found.faces.len() == 6 && found.deviation > 1e-4 && found.deviation < 6e-4);
+}
+
+#[test]
+fn a_ball_is_round_and_not_cut_into_facets() {
+    let (rings, sides) = (60_u32, 120_u32);
+    let at = |i: u32, k: u32| {
+        let (s, c) = (f64::from(i) / f64::from(rings) * std::f64::consts::PI).sin_cos();
+        let turn = f64::from(k) / f64::from(sides) * std::f64::consts::TAU;
+        DVec3::new(s * turn.cos(), s * turn.sin(), c)
+    };
+    let vertices = (0..=rings).flat_map(|i| (0..sides).map(move |k| at(i, k))).collect();
+    let cell = |i: u32, k: u32| {
+        let (a, b) = (i * sides + k, i * sides + (k + 1) % sides);
+        [[a, a + sides, b + sides], [a, b + sides, b]]
+    };
+    let triangles = (0..rings).flat_map(|i| (0..sides).flat_map(move |k| cell(i, k))).collect();
+    let ball = Surface::new(vertices, triangles).mend().unwrap().surface;
+    assert!((ball.volume() / (4.0 / 3.0 * std::f64::consts::PI) - 1.0).abs() < 0.01);
+    assert!(matches!(facets(ball), Shape::Concave(_)));
+}
+
+#[test]
+fn groups_that_are_facets_lend_them_their_names() {
+    let found = faceted(surface(&stone(6)).mend().unwrap().surface);
+    let polytope = stone(6);
+    for face in &found.faces {
+        let name = face.name.as_deref().unwrap();
+        let number: usize = name.strip_prefix("facet ").unwrap().parse().unwrap();
+        assert!((polytope.facets()[number].plane.normal - face.plane.normal).length() < 1e-12);
+    }
+    let mut two = surface(&stone(6));
+    two.groups.iter_mut().for_each(|g| *g /= 2);
+    assert!(faceted(two.mend().unwrap().surface).faces.iter().any(|f| f.name.is_none()));
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 24, ..ProptestConfig::default() })]
+
+    #[test]
+    fn facets_are_found_whatever_noise_turn_scale_and_place(
+        sides in 5_u32..14,
+        axis in prop::array::uniform3(-1.0..1.0_f64),
+        angle in 0.0..6.0_f64,
+        scale in -3.0..3.0_f64,
+        by in prop::array::uniform3(-5.0..5.0_f64),
+        level in 0_usize..4,
+        seed in 1_u64..1000,
+    ) {
+        let original = stone(sides);
+        let level = [0.0, 1e-7, 1e-5, 1e-4][level];
+        let scale = 10_f64.powf(scale);
+        let axis = (DVec3::from_array(axis) + 2.0 * DVec3::X).normalize_or_zero();
+        let turn = DQuat::from_axis_angle(axis, angle);
+        let mut seen = shaken(&split(&surface(&original)), level, seed);
+        seen.vertices.iter_mut().for_each(|v| *v = turn * *v * scale + scale * DVec3::from_array(by));
+        let found = faceted(seen.mend().unwrap().surface);
+        prop_assert_eq!(found.faces.len(), original.facets().len());
+        prop_assert!(found.deviation <= 3.0 * (level + 1e-9) * scale, "{} {}", found.deviation, scale);
+        let moved = original.moved(scale, turn, scale * DVec3::from_array(by) - found.centre);
+        for facet in moved.facets() {
+            let off = |f: &&Face| (f.plane.normal - facet.plane.normal).length();
+            let nearest = found.faces.iter().min_by(|a, b| off(a).total_cmp(&off(b))).unwrap();
+            prop_assert!(off(&nearest) < 30.0 * level + 1e-9, "{} at {level}", off(&nearest));
+            prop_assert!((nearest.plane.offset - facet.plane.offset).abs() < (30.0 * level + 1e-9) * scale);
+        }
+    }
+}
