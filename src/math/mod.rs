@@ -11,6 +11,9 @@ mod plane;
 mod polygon;
 mod polytope;
 mod polytope_build;
+mod regions;
+mod shell;
+mod solid;
 mod surface;
 mod symmetry;
 
@@ -23,5 +26,11 @@ pub use plane::Plane;
 pub use polygon::{area, centroid, clip, contains};
 pub use polytope::{Facet, Polytope};
 pub use polytope_build::PolytopeError;
+pub use shell::{Shell, ShellError};
+pub use solid::{Solid, SolidRef};
 pub use surface::Surface;
 pub use symmetry::Symmetry;
+
+#[cfg(test)]
+#[path = "../../tests/common/solids.rs"]
+pub mod fixture;
