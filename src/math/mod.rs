@@ -27,7 +27,7 @@ pub use polygon::{area, centroid, clip, contains};
 pub use polytope::{Facet, Polytope};
 pub use polytope_build::PolytopeError;
 pub use shell::{Shell, ShellError};
-pub use solid::{Solid, SolidRef};
+pub use solid::{Edge, NotConvex, Solid, SolidRef};
 pub use surface::Surface;
 pub use symmetry::Symmetry;
 

@@ -88,7 +88,7 @@ fn longest(surface: &Surface, triangle: u32) -> f64 {
 }
 
 /// The triangles beside each triangle. Every edge has as many on one side as on the other.
-fn neighbours(triangles: &[[u32; 3]]) -> Result<Vec<[u32; 3]>, ShellError> {
+pub(super) fn neighbours(triangles: &[[u32; 3]]) -> Result<Vec<[u32; 3]>, ShellError> {
     // An edge, whether it is run along from its lower corner, its triangle and place there.
     let edges_of = |(k, t): (usize, &[u32; 3])| {
         let t = *t;

@@ -1,7 +1,7 @@
 //! A closed surface of triangles, ready to be traced: its facets, their planes, and boxes around its triangles.
 
-use super::regions::{planes_of, regions};
-use super::{Bvh, Plane, Polytope, Surface, triangulate};
+use super::regions::{neighbours, planes_of, regions};
+use super::{Bvh, Edge, Plane, Polytope, Surface, triangulate};
 use glam::{DQuat, DVec3};
 
 /// A closed solid of triangles, which need not be convex. Neighbouring triangles in one plane are one facet.
@@ -111,6 +111,20 @@ impl Shell {
         &self.bvh
     }
 
+    /// The edges between facets, each once, in pieces between triangles.
+    pub fn edges(&self) -> Vec<Edge> {
+        let Surface { vertices, triangles } = &self.surface;
+        // Closed since it was made.
+        let beside = neighbours(triangles).unwrap_or_default();
+        let facet = |k: u32| self.facets[k as usize];
+        let edge = |k: u32, i: usize| {
+            let (own, other) = (&triangles[k as usize], beside[k as usize][i]);
+            let ends = [own[i], own[(i + 1) % 3]].map(|v| vertices[v as usize]);
+            (k < other && facet(k) != facet(other)).then(|| Edge { ends, facets: [facet(k), facet(other)] })
+        };
+        (0..beside.len() as u32).flat_map(|k| (0..3).filter_map(move |i| edge(k, i))).collect()
+    }
+
     /// Enclosed volume.
     pub fn volume(&self) -> f64 {
         let apex = self.surface.vertices[0];
@@ -168,6 +182,19 @@ mod tests {
         assert_eq!(Shell::new(surface(fixture::star())).unwrap().planes().len(), 20);
         let heart = Shell::new(heart()).unwrap();
         assert!(heart.planes().len() > 20 && heart.planes().len() <= heart.facets().len());
+    }
+
+    #[test]
+    fn its_edges_are_those_between_facets() {
+        let planes = [DVec3::X, DVec3::Y, DVec3::Z]
+            .into_iter()
+            .flat_map(|a| [Plane::new(a, 1.0), Plane::new(-a, 1.0)]);
+        let polytope = Polytope::from_planes(&planes.collect::<Vec<_>>()).unwrap();
+        let total = |edges: &[Edge]| edges.iter().map(|e| e.ends[0].distance(e.ends[1])).sum::<f64>();
+        let (a, b) = (crate::math::SolidRef::from(&polytope).edges(), cube().edges());
+        assert_eq!((a.len(), b.len()), (12, 12));
+        assert!((total(&a) - 24.0).abs() < 1e-12 && (total(&b) - 24.0).abs() < 1e-12);
+        assert!(a.iter().chain(&b).all(|e| e.facets[0] != e.facets[1]));
     }
 
     #[test]

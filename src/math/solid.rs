@@ -1,6 +1,6 @@
 //! A solid of either kind: between planes, or within triangles.
 
-use super::{Polytope, Shell};
+use super::{Plane, Polytope, Shell};
 use glam::{DQuat, DVec3};
 use std::sync::Arc;
 
@@ -22,6 +22,20 @@ pub enum SolidRef<'a> {
     Triangles(&'a Arc<Shell>),
 }
 
+/// Exact beams do not apply.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+#[error("exact beams need a convex stone, given by its planes; this one is made of triangles: use rays")]
+pub struct NotConvex;
+
+/// An edge between two facets.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Edge {
+    /// Its ends.
+    pub ends: [DVec3; 2],
+    /// The facets on both sides.
+    pub facets: [u32; 2],
+}
+
 impl Solid {
     /// The same, to be lent.
     pub fn by_ref(&self) -> SolidRef<'_> {
@@ -31,11 +45,14 @@ impl Solid {
         }
     }
 
-    /// The polytope of a convex solid; `None` of triangles, even where they are convex.
-    pub fn polytope(&self) -> Option<&Polytope> {
+    /// The polytope of a convex solid, for what needs one.
+    ///
+    /// # Errors
+    /// Of triangles, even where they are convex.
+    pub fn polytope(&self) -> Result<&Polytope, NotConvex> {
         match self {
-            Self::Convex(polytope) => Some(polytope),
-            Self::Triangles(_) => None,
+            Self::Convex(polytope) => Ok(polytope),
+            Self::Triangles(_) => Err(NotConvex),
         }
     }
 
@@ -75,6 +92,36 @@ impl<'a> SolidRef<'a> {
             Self::Triangles(shell) => shell.vertices(),
         }
     }
+
+    /// The plane of a facet.
+    pub fn plane(self, facet: u32) -> Plane {
+        match self {
+            Self::Convex(polytope) => polytope.facets()[facet as usize].plane,
+            Self::Triangles(shell) => shell.planes()[facet as usize],
+        }
+    }
+
+    /// Its edges, each once.
+    pub fn edges(self) -> Vec<Edge> {
+        match self {
+            Self::Convex(polytope) => edges_of_polytope(polytope),
+            Self::Triangles(shell) => shell.edges(),
+        }
+    }
+}
+
+fn edges_of_polytope(polytope: &Polytope) -> Vec<Edge> {
+    let mut edges = vec![];
+    for (k, facet) in (0..).zip(polytope.facets()) {
+        let corners: Vec<DVec3> = polytope.corners(facet).collect();
+        for (i, &other) in facet.neighbours.iter().enumerate() {
+            // Each edge once: its other facet has it too.
+            if other >= k {
+                edges.push(Edge { ends: [corners[i], corners[(i + 1) % corners.len()]], facets: [k, other] });
+            }
+        }
+    }
+    edges
 }
 
 impl From<Polytope> for Solid {

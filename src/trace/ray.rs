@@ -109,6 +109,11 @@ impl Tracer {
         matches!(self.shape, Shape::Planes(_))
     }
 
+    /// Whether the stone itself stands before a point of its surface on the way to the eye.
+    pub fn hides_itself(&self, way: (DVec3, DVec3)) -> bool {
+        matches!(&self.shape, Shape::Triangles(triangles) if triangles.hides(way))
+    }
+
     /// Follows the ray from a point outside, calling `leave` for the surface's glare and for each exit; `None`
     /// where it misses the stone.
     pub fn follow(&self, origin: DVec3, direction: DVec3, leave: impl FnMut(Exit)) -> Option<Rest> {
@@ -132,7 +137,7 @@ impl Tracer {
     ) -> Option<Rest> {
         let start = self.start(met, origin, (direction, sweep), weight);
         match &self.shape {
-            Shape::Planes(planes) => self.pass(&**planes, start, |meeting| {
+            Shape::Planes(planes) => self.passage(&**planes, start, |meeting| {
                 if let Some(exit) = meeting.exit() {
                     leave(exit);
                 }
@@ -154,7 +159,12 @@ impl Tracer {
 
     /// The way of light through the stone, from the facet where it enters until too little is left: the one loop behind all
     /// that is told of rays.
-    fn pass<F: Facets>(&self, facets: &F, inbound: Inbound, mut meets: impl FnMut(Meeting)) -> Option<Rest> {
+    fn passage<F: Facets>(
+        &self,
+        facets: &F,
+        inbound: Inbound,
+        mut meets: impl FnMut(Meeting),
+    ) -> Option<Rest> {
         let Inbound { met: (facet, distance), origin, direction, sweep, left, path, bounce, .. } = inbound;
         let normal = facets.normal(facet);
         let point = origin + direction * distance;

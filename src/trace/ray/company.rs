@@ -2,7 +2,7 @@
 
 use super::sight::{Met, is_near, nearest};
 use super::{Camera, Exit, Tracer};
-use crate::math::Polytope;
+use crate::math::Solid;
 use crate::scene::Medium;
 use crate::trace::sitting::{Exposure, Lit, Look, MOST_WAITING, Sitting};
 use crate::trace::{Stopped, Watch};
@@ -37,7 +37,7 @@ struct Waiting {
 impl<'a> ByRays<'a> {
     /// Prepares some rows of a picture.
     pub fn new(sitting: Sitting<'a>, rows: Range<u32>) -> Self {
-        let tracer = |stone: &Polytope| Tracer::new(stone, Medium::clear(1.0), sitting.options);
+        let tracer = |stone: &Solid| Tracer::new(stone, Medium::clear(1.0), sitting.options);
         Self {
             sitting,
             camera: Camera::reaching(sitting.view, sitting.reach()),

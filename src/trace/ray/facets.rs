@@ -51,6 +51,10 @@ pub(super) struct Triangles {
 /// reaches from the origin: some thousand roundings, and far below any edge meant.
 const BEHIND: f64 = 1e-12;
 
+/// What stands no farther before a point of the surface is taken for the facets there, as a part of how far the solid
+/// reaches: less than a pixel of any picture.
+const CLOSE: f64 = 1e-6;
+
 impl Shape {
     pub fn normal(&self, facet: usize) -> DVec3 {
         match self {
@@ -109,6 +113,15 @@ impl Triangles {
         let is_kept = |triangle| keep(self.normal(facet(triangle)).dot(direction));
         let hit = self.shell.bvh().nearest(origin, direction, self.behind, is_kept)?;
         Some((facet(hit.triangle), hit.distance.max(0.0)))
+    }
+}
+
+impl Triangles {
+    /// Whether the solid stands before a point of its surface.
+    pub fn hides(&self, (origin, direction): (DVec3, DVec3)) -> bool {
+        // Away from the facets that meet in the point.
+        let away = -self.behind / BEHIND * CLOSE;
+        self.entry(origin + direction * away, direction).is_some()
     }
 }
 

@@ -97,8 +97,8 @@ impl Tracer {
         let start = self.start(met, origin, (direction, DVec3::ZERO), 1.0);
         let tell = |meeting: Meeting| steps.push(self.step(&meeting));
         let rest = match &self.shape {
-            Shape::Planes(planes) => self.pass(&**planes, start, tell)?,
-            Shape::Triangles(triangles) => self.pass(triangles, start, tell)?,
+            Shape::Planes(planes) => self.passage(&**planes, start, tell)?,
+            Shape::Triangles(triangles) => self.passage(triangles, start, tell)?,
         };
         Some(Path { origin, direction, steps, rest })
     }

@@ -48,7 +48,7 @@ impl Tracer {
         let mut rest = Rest::default();
         let mut waiting: Vec<Inbound> = vec![];
         let mut next = start;
-        for passage in 0..MOST_PASSAGES {
+        for number in 0..MOST_PASSAGES {
             let mut again = |inbound: Inbound| {
                 if inbound.weight() > self.options.least_weight {
                     waiting.push(inbound);
@@ -56,7 +56,7 @@ impl Tracer {
                     rest.unresolved += inbound.weight();
                 }
             };
-            let passed = self.pass(triangles, next, |meeting| {
+            let passed = self.passage(triangles, next, |meeting| {
                 let Some(exit) = meeting.exit() else { return };
                 let met = triangles.entry(exit.point, exit.direction);
                 match (met.filter(|met| !is_taken(&exit, met.1)), meeting.onward_outside()) {
@@ -75,12 +75,12 @@ impl Tracer {
             });
             match passed {
                 Some(passed) => rest = rest.and(&passed),
-                None if passage == 0 => return None,
+                None if number == 0 => return None,
                 None => rest.unresolved += next.weight(),
             }
             let Some(strongest) = strongest(&waiting) else { break };
             next = waiting.swap_remove(strongest);
-            if passage + 1 == MOST_PASSAGES {
+            if number + 1 == MOST_PASSAGES {
                 rest.unresolved += next.weight();
             }
         }
