@@ -53,7 +53,7 @@ fn taken<T>(stones: Vec<Placed>, light: &Light, work: impl FnOnce(&Sitting) -> T
 
 fn by_rays_of(stones: Vec<Placed>, light: &Light) -> (Linear, Remainder) {
     taken(stones, light, |sitting| {
-        let strata = strata(4, &light.spectrum, true);
+        let strata = strata(2, &light.spectrum, true);
         let prepare = |rows| Ok::<_, Stopped>(ByRays::new(*sitting, rows));
         expose(sitting, (&strata, 1), SIZE, prepare, &unwatched).unwrap()
     })
@@ -172,4 +172,68 @@ fn exact_beams_say_that_they_do_not_apply_to_triangles() {
         ByBeams::new(*sitting, beam::Options::default()).is_none()
     });
     assert!(refused);
+}
+
+#[cfg(feature = "gpu")]
+mod by_card {
+    use super::*;
+    use brillianteer::trace::gpu::{Around, ByCard, Gpu, GpuError};
+
+    #[derive(Debug)]
+    #[expect(dead_code, reason = "what went wrong is printed by its Debug")]
+    struct Failed(String);
+
+    impl From<GpuError> for Failed {
+        fn from(error: GpuError) -> Self {
+            Self(error.to_string())
+        }
+    }
+
+    impl From<Stopped> for Failed {
+        fn from(error: Stopped) -> Self {
+            Self(error.to_string())
+        }
+    }
+
+    fn by_card_of(gpu: &Gpu, stones: Vec<Placed>, light: &Light) -> (Linear, Remainder) {
+        taken(stones, light, |sitting| {
+            let strata = strata(2, &light.spectrum, true);
+            let around = Around::new(gpu, &sitting.surround);
+            let prepare = |rows| Ok::<_, Failed>(ByCard::new(gpu, sitting, &around, rows, strata.len())?);
+            expose(sitting, (&strata, 1), SIZE, prepare, &unwatched).unwrap()
+        })
+    }
+
+    #[test]
+    fn stones_of_triangles_look_under_light_as_by_rays() {
+        let Some(gpu) = card("stones_of_triangles_look_under_light_as_by_rays") else { return };
+        let stone = |solid, name: &str| {
+            let placed = Placed::new(Solid::Triangles(shell(solid)), material(name).unwrap().clone());
+            placed.moved(1.0, DQuat::from_rotation_x(0.11) * DQuat::from_rotation_y(-0.07), DVec3::ZERO)
+        };
+        let brilliant = built(&brilliant((56.0, 34.5, 40.8), (50.0, 77.0), 16)).polytope;
+        let planes = Placed::new(brilliant, material("quartz").unwrap().clone()).moved(
+            0.3,
+            DQuat::from_rotation_x(1.1),
+            DVec3::new(0.35, 0.03, 0.0),
+        );
+        let scenes = [
+            vec![stone(heart(), "diamond")],
+            vec![stone(star(), "ruby")],
+            // A brilliant in the clasp's gap: light goes to and fro between the two.
+            vec![stone(clasp(0.4), "quartz"), planes],
+        ];
+        let light = light("dome").unwrap();
+        for (k, scene) in scenes.into_iter().enumerate() {
+            let (rays, rest) = by_rays_of(scene.clone(), &light);
+            let (card, card_rest) = by_card_of(&gpu, scene, &light);
+            let scale = rays.pixels.iter().map(|p| p[1]).fold(0.0, f32::max);
+            let off = |(a, b): (&[f32; 4], &[f32; 4])| (0..4).any(|i| (a[i] - b[i]).abs() > 0.005 * scale);
+            let apart = rays.pixels.iter().zip(&card.pixels).filter(|&p| off(p)).count();
+            let all = rays.pixels.iter().filter(|p| p[3] > 0.0).count();
+            assert!(all > 300 && apart * 50 < all, "{k}: {apart} of {all}");
+            assert!((rest.unresolved - card_rest.unresolved).abs() < 1e-3, "{k}: {rest:?} {card_rest:?}");
+            assert!((rest.absorbed - card_rest.absorbed).abs() < 1e-3, "{k}: {rest:?} {card_rest:?}");
+        }
+    }
 }

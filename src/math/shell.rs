@@ -141,7 +141,8 @@ fn checked(surface: &Surface) -> Result<(), ShellError> {
     if triangles.len() < 4 {
         return Err(ShellError::TooFew(triangles.len()));
     }
-    if let Some(corner) = vertices.iter().position(|v| !(v.abs().max_element() <= LARGEST) || v.is_nan()) {
+    let is_far = |v: &DVec3| v.is_nan() || v.abs().max_element() > LARGEST;
+    if let Some(corner) = vertices.iter().position(is_far) {
         return Err(ShellError::NotFinite(corner));
     }
     let beyond = |(triangle, t): (usize, &[u32; 3])| {
