@@ -91,7 +91,7 @@ fn ball(rows: u32) -> (Vec<DVec3>, Vec<[u32; 3]>) {
         let (polar, turn) = (f64::from(row) / f64::from(rows), f64::from(column) / f64::from(columns));
         let (polar, turn) = (polar * std::f64::consts::PI, turn * std::f64::consts::TAU);
         // At the poles exactly none, or there would be a hole.
-        let across = if row % rows == 0 { 0.0 } else { polar.sin() };
+        let across = if row.is_multiple_of(rows) { 0.0 } else { polar.sin() };
         let radius = 1.0 + 0.1 * (5.0 * turn).sin() * across * (4.0 * polar).cos();
         DVec3::new(across * turn.cos(), across * turn.sin(), polar.cos()) * radius
     };
