@@ -32,14 +32,15 @@ fn is_near(stone: u32, ray: Ray) -> bool {
     return along > -radius && dot(away, away) - along * along < radius * radius;
 }
 
-// Whether a ray meets a stone other than the one that it left.
-fn meets_any(ray: Ray, left: u32) -> bool {
+// Whether a ray meets a stone other than the one that it left before this distance.
+fn meets_any(ray: Ray, left: u32, before: f32) -> bool {
     let own = body;
     var found = false;
     for (var k = 0u; k < frame.counts.x; k++) {
         if !found && k != left && is_near(k, ray) {
             body = bodies[k];
-            found = entry(ray.origin, ray.direction).distance > 0.0;
+            let distance = entry(ray.origin, ray.direction).distance;
+            found = distance > 0.0 && distance < before;
         }
     }
     body = own;
@@ -47,7 +48,7 @@ fn meets_any(ray: Ray, left: u32) -> bool {
 }
 
 fn leave(ray: Ray, weight: f32, is_surface: bool) {
-    if frame.counts.x > 1u && meets_any(ray, present) {
+    if frame.counts.x > 1u && (meets_any(ray, present, FAR) || is_spent()) {
         if count < MOST_WAITING && weight > frame.limits.x {
             waiting[count] = Waiting(ray, weight, present);
             count += 1u;
@@ -57,6 +58,11 @@ fn leave(ray: Ray, weight: f32, is_surface: bool) {
         return;
     }
     see(ray, weight);
+}
+
+// Whether light that has left the present stone meets another before that distance.
+fn is_taken(ray: Ray, distance: f32) -> bool {
+    return frame.counts.x > 1u && meets_any(ray, present, distance);
 }
 
 // The stone that a ray meets first; it becomes the present one. A negative distance where there is none.
@@ -78,6 +84,10 @@ fn nearest(ray: Ray, left: u32) -> Meeting {
 
 // Follows a ray through the stone that it meets, or to the light.
 fn go(next: Waiting, met: Meeting, wavelength: u32) {
+    if is_spent() {
+        sum.rest.x += next.weight;
+        return;
+    }
     if met.distance < 0.0 {
         see(next.ray, next.weight);
         return;

@@ -97,6 +97,12 @@ fn passed(light: vec4f, f: Fresnel) -> f32 {
     return dot(light.xy, 1.0 - reflectances(f));
 }
 
+// What passes a surface of light; refraction shifts no phase.
+fn transmitted(light: vec4f, f: Fresnel) -> vec4f {
+    let t = max(1.0 - reflectances(f), vec2f(0.0));
+    return vec4f(light.xy * t, light.zw * sqrt(t.x * t.y));
+}
+
 fn unpolarised(light: vec4f) -> vec4f {
     return vec4f(vec2f(0.5 * (light.x + light.y)), 0.0, 0.0);
 }

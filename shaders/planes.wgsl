@@ -31,9 +31,9 @@ fn entry(origin: vec3f, direction: vec3f) -> Meeting {
     return Meeting(facet, select(-1.0, into, into > 0.0 && into < out));
 }
 
-// The facet by which a ray leaves from a point inside: that of the greatest ratio of speed toward a plane to the gap
+// The facet by which a ray leaves from a point inside, and the distance to it: that of the greatest ratio of speed toward a plane to the gap
 // before it, compared without dividing.
-fn next_facet(point: vec3f, direction: vec3f) -> u32 {
+fn next_facet(point: vec3f, direction: vec3f) -> Meeting {
     var best = vec2f(0.0, 1.0);
     var facet = body.range.x;
     for (var k = body.range.x; k < body.range.y; k++) {
@@ -45,5 +45,5 @@ fn next_facet(point: vec3f, direction: vec3f) -> u32 {
             facet = k;
         }
     }
-    return facet;
+    return Meeting(facet, distance_to(planes[facet], point, direction));
 }

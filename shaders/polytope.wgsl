@@ -51,7 +51,7 @@ fn entry(origin: vec3f, direction: vec3f) -> Meeting {
     return Meeting(facet, select(-1.0, into, into > 0.0));
 }
 
-fn next_facet(point: vec3f, direction: vec3f) -> u32 {
+fn next_facet(point: vec3f, direction: vec3f) -> Meeting {
     var best = vec2f(0.0, 1.0);
     var facet = body.range.x;
     let reach = length(point);
@@ -74,5 +74,5 @@ fn next_facet(point: vec3f, direction: vec3f) -> u32 {
             }
         }
     }
-    return facet;
+    return Meeting(facet, distance_to(planes[facet], point, direction));
 }

@@ -34,6 +34,11 @@ fn leave(ray: Ray, weight: f32, is_surface: bool) {
     }
 }
 
+// There is one stone alone.
+fn is_taken(ray: Ray, distance: f32) -> bool {
+    return false;
+}
+
 @compute @workgroup_size(8, 8)
 fn scope(@builtin(global_invocation_id) id: vec3u) {
     let pixel = vec2u(id.x, frame.film.z + id.y);

@@ -60,7 +60,7 @@ impl Shot {
 
     /// The outlines in the picture of a stone's facets that face the eye, turned to run counter-clockwise.
     fn outlines(&self, stone: usize) -> Vec<(u32, Vec<DVec2>)> {
-        let polytope = &self.setting.stones[stone].polytope;
+        let polytope = self.setting.stones[stone].solid.polytope().unwrap();
         let outline = |k: usize| -> Vec<DVec2> {
             let corners = polytope.corners(&polytope.facets()[k]).map(|v| self.seen(v));
             corners.map(|p| DVec2::new(p.x, -p.y)).collect()
@@ -141,7 +141,7 @@ fn the_facet_at_a_point_is_the_one_whose_outline_lies_around_it() {
 /// The faintest that any corner of a facet that faces the eye is drawn: the cover of its own pixel.
 fn faintest_corner(shot: &Shot, drawn: &Shot) -> u8 {
     let picture = drawn.laid(Overlay::Wireframe);
-    let polytope = &shot.setting.stones[0].polytope;
+    let polytope = shot.setting.stones[0].solid.polytope().unwrap();
     let corners =
         shot.outlines(0).into_iter().flat_map(|(k, _)| polytope.corners(&polytope.facets()[k as usize]));
     let pixel = |p: DVec2| picture[(p.y as u32 * SIZE + p.x as u32) as usize];
@@ -184,7 +184,7 @@ fn edges_behind_are_fainter_whichever_stone_they_are_behind() {
 /// What a ray meets first inside the stone: the share of light that went in, and the cosine there, found by trying every
 /// plane in turn; `None` beside the stone and where another plane is nearly as close.
 fn first_inside(shot: &Shot, sitting: &Sitting, index: f64, at: DVec2) -> Option<(f64, f64)> {
-    let planes: Vec<Plane> = shot.setting.stones[0].polytope.planes().collect();
+    let planes: Vec<Plane> = shot.setting.stones[0].solid.polytope().unwrap().planes().collect();
     let eye = shot.view.basis();
     let (d, from) = (-eye.toward, eye.lift(sitting.film.image_from_pixels(at)) + eye.toward * 10.0);
     let way = |p: &Plane, from: DVec3, d: DVec3| -p.distance(from) / p.normal.dot(d);

@@ -222,7 +222,7 @@ fn placed(members: &[Member]) -> Setting {
     };
     let stones: Vec<Placed> = members.iter().map(place).collect();
     // Pictures are taken around the origin.
-    let bounds = stones.iter().map(|s| s.polytope.bounds());
+    let bounds = stones.iter().map(|s| s.solid.bounds());
     let (low, high) =
         bounds.fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(l, h), (a, b)| (l.min(a), h.max(b)));
     let shift =

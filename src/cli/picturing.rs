@@ -151,9 +151,9 @@ impl<'a> Studio<'a> {
     /// The side of a pixel with which the stones fill the picture; an error where the eye is not in front of them.
     pub fn pixel(&self, setting: &Setting, view: &View) -> Result<f64, Failure> {
         let stones = &setting.stones;
-        let reach = stones.iter().flat_map(|s| s.polytope.vertices()).map(|v| v.length()).fold(0.0, f64::max);
+        let reach = stones.iter().flat_map(|s| s.solid.vertices()).map(|v| v.length()).fold(0.0, f64::max);
         let camera = Camera::reaching(view, reach);
-        let extent = stones.iter().try_fold(DVec2::ZERO, |all, s| Some(all.max(camera.extent(&s.polytope)?)));
+        let extent = stones.iter().try_fold(DVec2::ZERO, |all, s| Some(all.max(camera.extent(&s.solid)?)));
         let Some(extent) = extent else {
             let message = "the eye of --perspective is not in front of all of it; move it farther off";
             return Err(Failure::Input(format!("{}: {message}", self.assembly.path)));

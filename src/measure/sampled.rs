@@ -1,7 +1,7 @@
 //! The figures of one view, from point rays: slower and with a sampling error, but by another way.
 
 use super::figures::Figures;
-use crate::math::Polytope;
+use crate::math::SolidRef;
 #[cfg(feature = "gpu")]
 use crate::scene::Film;
 use crate::scene::{Medium, Scope, View};
@@ -35,18 +35,19 @@ struct Tally {
 ///
 /// # Errors
 /// [`Stopped`] when `watch` asks to stop.
-pub fn by_rays(
-    polytope: &Polytope,
+pub fn by_rays<'a>(
+    solid: impl Into<SolidRef<'a>>,
     medium: Medium,
     view: &View,
     scope: &Scope,
     (options, side): (Options, u32),
     watch: Watch,
 ) -> Result<Figures, Stopped> {
-    let tracer = Tracer::new(polytope, medium, options);
-    let camera = Camera::new(view, polytope);
+    let solid = solid.into();
+    let tracer = Tracer::new(solid, medium, options);
+    let camera = Camera::new(view, solid);
     let zenith = view.zenith();
-    over_lattices(polytope, view, scope, watch, |half, shift, _| {
+    over_lattices((solid, side), view, scope, watch, |half, shift, _| {
         // Rows run downward, as a picture's do.
         let point = |i: u32, j: u32| {
             let across = (DVec2::new(f64::from(i), f64::from(j)) + shift) / f64::from(side) * 2.0 - 1.0;
@@ -78,18 +79,19 @@ pub fn by_rays(
 /// # Errors
 /// [`Stopped`] when `watch` asks to stop, or what is wrong with the card, turned into one kind of error.
 #[cfg(feature = "gpu")]
-pub fn by_gpu<E: From<Stopped> + From<GpuError>>(
+pub fn by_gpu<'a, E: From<Stopped> + From<GpuError>>(
     gpu: &Gpu,
-    polytope: &Polytope,
+    solid: impl Into<SolidRef<'a>>,
     medium: Medium,
     view: &View,
     scope: &Scope,
     (options, side): (Options, u32),
     watch: Watch,
 ) -> Result<Figures, E> {
-    over_lattices(polytope, view, scope, watch, |half, shift, done| {
+    let solid = solid.into();
+    over_lattices((solid, side), view, scope, watch, |half, shift, done| {
         let film = Film::square(side, half);
-        let shot = Shot { polytope, medium, view, scope, film, per_side: 1, shift, options };
+        let shot = Shot { solid, medium, view, scope, film, per_side: 1, shift, options };
         let mut tally = Tally::new(scope.bands.len());
         gpu.scope(&shot, &|_| watch(done), |_, pixels| -> Result<(), E> {
             pixels.iter().for_each(|seen| tally.take_in(seen));
@@ -102,15 +104,19 @@ pub fn by_gpu<E: From<Stopped> + From<GpuError>>(
 /// Sums up what lattices see, given half the side of the film, the shift of each in its cells, 0 to 1, and the part of
 /// the work that is done.
 fn over_lattices<E: From<Stopped>>(
-    polytope: &Polytope,
+    (solid, side): (SolidRef, u32),
     view: &View,
     scope: &Scope,
     watch: Watch,
     mut see: impl FnMut(f64, DVec2, f64) -> Result<Tally, E>,
 ) -> Result<Figures, E> {
-    let silhouette = polytope.silhouette_area(view.basis().toward);
-    let Some(half) = Camera::new(view, polytope).reach(polytope) else {
-        return Ok(summary(&vec![Tally::new(scope.bands.len()); LATTICES as usize], silhouette));
+    let known = match solid {
+        SolidRef::Convex(polytope) => Some(polytope.silhouette_area(view.basis().toward)),
+        SolidRef::Triangles(_) => None,
+    };
+    let Some(half) = Camera::new(view, solid).reach(solid) else {
+        let none = vec![Tally::new(scope.bands.len()); LATTICES as usize];
+        return Ok(summary(&none, known.unwrap_or(0.0)));
     };
     let mut lattices = Vec::with_capacity(LATTICES as usize);
     for k in 0..LATTICES {
@@ -122,7 +128,10 @@ fn over_lattices<E: From<Stopped>>(
         let shift = DVec2::new(0.754_877_666_246_693, 0.569_840_290_998_053) * f64::from(k + 1);
         lattices.push(see(half, shift - shift.floor(), done)?);
     }
-    Ok(summary(&lattices, silhouette))
+    // The outline of triangles is not known but by the rays that meet them.
+    let hits: u32 = lattices.iter().map(|t| t.hits).sum();
+    let each = (2.0 * half / f64::from(side)).powi(2) / f64::from(LATTICES);
+    Ok(summary(&lattices, known.unwrap_or(f64::from(hits) * each)))
 }
 
 impl Tally {

@@ -45,8 +45,8 @@ struct Patches {
 }
 
 impl<'a> ByBeams<'a> {
-    /// Prepares a picture; `None` where exact beams do not apply: for several stones, in perspective, with a photograph
-    /// behind.
+    /// Prepares a picture; `None` where exact beams do not apply: for several stones or one of triangles, in
+    /// perspective, with a photograph behind.
     pub fn new(sitting: Sitting<'a>, options: beam::Options) -> Option<Self> {
         let [stone] = sitting.setting.stones.as_slice() else { return None };
         let surround = &sitting.surround;
@@ -56,7 +56,7 @@ impl<'a> ByBeams<'a> {
         let [across, down] = sitting.film.size;
         let piece = |first: u32| Rows::new(first, PIECE.min(down - first), across, 1);
         let pieces = (0..down).step_by(PIECE as usize).map(piece).collect();
-        let stone = &stone.polytope;
+        let stone = stone.solid.polytope().ok()?;
         Some(Self {
             sitting,
             stone,

@@ -2,7 +2,7 @@
 
 use super::Rows;
 use super::by_rays::Manner;
-use crate::math::Polytope;
+use crate::math::SolidRef;
 use crate::scene::{Film, Medium, Scope, View};
 use crate::trace::gpu::{Gpu, GpuError, Seen, Shot};
 use crate::trace::{Stopped, Watch};
@@ -17,9 +17,9 @@ use glam::DVec2;
     clippy::too_many_arguments,
     reason = "a card, a stone, a view, a light, a film and a manner: none derives from another"
 )]
-pub fn trace<E: From<Stopped> + From<GpuError>>(
+pub fn trace<'a, E: From<Stopped> + From<GpuError>>(
     gpu: &Gpu,
-    polytope: &Polytope,
+    solid: impl Into<SolidRef<'a>>,
     medium: Medium,
     view: &View,
     scope: &Scope,
@@ -30,7 +30,7 @@ pub fn trace<E: From<Stopped> + From<GpuError>>(
 ) -> Result<(), E> {
     let Manner { options, per_side } = *manner;
     let (film, shift, size) = (*film, DVec2::splat(0.5), film.size[0]);
-    let shot = Shot { polytope, medium, view, scope, film, per_side, shift, options };
+    let shot = Shot { solid: solid.into(), medium, view, scope, film, per_side, shift, options };
     let bands = scope.bands.len();
     gpu.scope(&shot, watch, |first, pixels| {
         let count = pixels.len() as u32 / size;

@@ -1,7 +1,7 @@
 //! The same pictures by point rays: for perspective, where beams do not apply, and as a check on them.
 
 use super::Rows;
-use crate::math::Polytope;
+use crate::math::SolidRef;
 use crate::scene::{Film, Medium, Scope, View};
 use crate::trace::ray::{Camera, Exit, Options, Tracer};
 use crate::trace::{Stopped, Watch};
@@ -30,8 +30,8 @@ const PIECE: u32 = 16;
     clippy::too_many_arguments,
     reason = "a stone, a view, a light, a film and a manner: none derives from another"
 )]
-pub fn trace<E: From<Stopped>>(
-    polytope: &Polytope,
+pub fn trace<'a, E: From<Stopped>>(
+    solid: impl Into<SolidRef<'a>>,
     medium: Medium,
     view: &View,
     scope: &Scope,
@@ -40,8 +40,9 @@ pub fn trace<E: From<Stopped>>(
     watch: Watch,
     mut each: impl FnMut(&Rows) -> Result<(), E>,
 ) -> Result<(), E> {
-    let tracer = Tracer::new(polytope, medium, manner.options);
-    let camera = Camera::new(view, polytope);
+    let solid = solid.into();
+    let tracer = Tracer::new(solid, medium, manner.options);
+    let camera = Camera::new(view, solid);
     let zenith = view.zenith();
     let channels = 2 * scope.bands.len() + 1;
     let grid = manner.per_side;

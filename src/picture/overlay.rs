@@ -137,6 +137,7 @@ impl Fate {
             origin,
             (direction, glam::DVec3::ZERO),
             1.0,
+            |_, _| false,
             |exit| {
                 if exit.bounce > 0 {
                     first.get_or_insert(exit.bounce - 1);

@@ -1,6 +1,6 @@
 //! The rectangle on which a picture is taken.
 
-use crate::math::{Basis, Polytope};
+use crate::math::{Basis, SolidRef};
 use glam::{DAffine2, DMat2, DVec2};
 
 /// Air around the silhouette, as a part of its half width.
@@ -29,9 +29,9 @@ impl Film {
     }
 
     /// A square that takes in the whole stone, seen along parallel rays, with some air around it.
-    pub fn around(polytope: &Polytope, view: &Basis, size: u32) -> Self {
+    pub fn around<'a>(solid: impl Into<SolidRef<'a>>, view: &Basis, size: u32) -> Self {
         let reach = |v| view.project(v).abs().max_element();
-        Self::reaching(polytope.vertices().iter().map(|&v| reach(v)).fold(0.0, f64::max), size)
+        Self::reaching(solid.into().vertices().iter().map(|&v| reach(v)).fold(0.0, f64::max), size)
     }
 
     /// A square on which something that reaches so far from the origin has some air around it.

@@ -1,35 +1,40 @@
 //! Whether stones are in one another's way.
 
 use super::Placed;
-use crate::math::{Plane, Polytope, PolytopeError};
+use crate::math::{Plane, Polytope, PolytopeError, Shell, Solid};
 use glam::DVec3;
+use std::sync::Arc;
 
 /// Stones that share no more than this part of their size only touch: far above what rounding does to a layout.
 const TOUCHING: f64 = 1e-8;
 
 /// The first two stones, by their places in the list, that share some space; to touch is not to overlap.
 pub fn overlapping(stones: &[Placed]) -> Option<(usize, usize)> {
-    let balls: Vec<_> = stones.iter().map(|s| ball(&s.polytope)).collect();
+    let balls: Vec<_> = stones.iter().map(|s| ball(&s.solid)).collect();
     let are_near = |i: usize, j: usize| balls[i].0.distance(balls[j].0) < balls[i].1 + balls[j].1;
     let pairs = (0..stones.len()).flat_map(|i| (i + 1..stones.len()).map(move |j| (i, j)));
     let meet = |&(i, j): &(usize, usize)| {
-        let (a, b) = (&stones[i].polytope, &stones[j].polytope);
+        let (a, b) = (&stones[i].solid, &stones[j].solid);
         let depth = TOUCHING * (balls[i].1 + balls[j].1);
-        !is_between(a, b, balls[j].0 - balls[i].0) && share(a, b, balls[i].0, depth)
+        let are_one = || match (a, b) {
+            (Solid::Convex(a), Solid::Convex(b)) => share(a, b, balls[i].0, depth),
+            _ => cross(a, b, balls[i].0) || cross(b, a, balls[j].0),
+        };
+        !is_between(a, b, balls[j].0 - balls[i].0) && are_one()
     };
     pairs.filter(|&(i, j)| are_near(i, j)).find(meet)
 }
 
 /// A ball that holds the stone.
-fn ball(polytope: &Polytope) -> (DVec3, f64) {
-    let (low, high) = polytope.bounds();
+fn ball(solid: &Solid) -> (DVec3, f64) {
+    let (low, high) = solid.bounds();
     let middle = 0.5 * (low + high);
-    (middle, polytope.vertices().iter().map(|v| v.distance(middle)).fold(0.0, f64::max))
+    (middle, solid.vertices().iter().map(|v| v.distance(middle)).fold(0.0, f64::max))
 }
 
 /// Whether a plane square to this line has `a` behind it and `b` before it: so it is with most.
-fn is_between(a: &Polytope, b: &Polytope, line: DVec3) -> bool {
-    let along = |p: &Polytope| p.vertices().iter().map(|v| v.dot(line)).collect::<Vec<_>>();
+fn is_between(a: &Solid, b: &Solid, line: DVec3) -> bool {
+    let along = |p: &Solid| p.vertices().iter().map(|v| v.dot(line)).collect::<Vec<_>>();
     let is_line = line != DVec3::ZERO;
     is_line
         && along(a).into_iter().fold(f64::NEG_INFINITY, f64::max)
@@ -45,6 +50,29 @@ fn share(a: &Polytope, b: &Polytope, middle: DVec3, depth: f64) -> bool {
         Polytope::from_planes(&planes),
         Err(PolytopeError::Empty { .. } | PolytopeError::Degenerate { .. })
     )
+}
+
+/// Whether an edge of `a`, shrunk a little toward its middle, runs into `b` or begins inside it.
+fn cross(a: &Solid, b: &Solid, middle: DVec3) -> bool {
+    let (a, b) = (shell(a), shell(b));
+    let shrunk = |v: u32| middle + (a.vertices()[v as usize] - middle) * (1.0 - TOUCHING);
+    let speed =
+        |triangle: u32, way: DVec3| b.planes()[b.facets()[triangle as usize] as usize].normal.dot(way);
+    a.surface().triangles.iter().any(|t| {
+        (0..3).any(|i| {
+            let (from, to) = (shrunk(t[i]), shrunk(t[(i + 1) % 3]));
+            // The first surface on its way is reached within the edge, or from inside.
+            let hit = b.bvh().nearest(from, to - from, 0.0, |_| true);
+            hit.is_some_and(|hit| hit.distance < 1.0 || speed(hit.triangle, to - from) > 0.0)
+        })
+    })
+}
+
+fn shell(solid: &Solid) -> Arc<Shell> {
+    match solid {
+        Solid::Convex(polytope) => Arc::new(Shell::of_polytope(polytope)),
+        Solid::Triangles(shell) => Arc::clone(shell),
+    }
 }
 
 #[cfg(test)]
@@ -75,6 +103,32 @@ mod tests {
         assert_eq!(pair(DVec3::ZERO), Some((0, 1)));
         let far = DVec3::new(0.0, 900.0, 0.0);
         assert_eq!(of(&[(straight, DVec3::X * 5.0), (straight, far), (straight, far * 1.001)]), Some((1, 2)));
+    }
+
+    #[test]
+    fn stones_of_triangles_are_told_apart_like_those_of_planes() {
+        let triangles = |stone: Placed| match &stone.solid {
+            Solid::Convex(polytope) => Placed::new(Shell::of_polytope(polytope), stone.material),
+            Solid::Triangles(_) => stone,
+        };
+        let turned = DQuat::from_rotation_z(std::f64::consts::FRAC_PI_4);
+        let pair = |x: f64| {
+            let other = cube(turned, DVec3::new(x, x, 0.0));
+            let first = triangles(cube(turned, DVec3::ZERO));
+            (overlapping(&[first.clone(), other.clone()]), overlapping(&[triangles(other), first]))
+        };
+        assert_eq!((pair(1.42), pair(1.41)), ((None, None), (Some((0, 1)), Some((0, 1)))));
+        let (vertices, all) = crate::math::fixture::clasp(1.0);
+        let clasp = Shell::new(crate::math::Surface::new(vertices, all)).unwrap();
+        let clasp = Placed::new(clasp, Material::from_index("glass", 1.5).unwrap());
+        // Within the clasp's gap a cube is free; in its bar it is not, nor where it is wholly inside.
+        let small = |x: f64, y: f64, scale: f64| {
+            cube(DQuat::IDENTITY, DVec3::ZERO).moved(scale, DQuat::IDENTITY, DVec3::new(x, y, 0.0))
+        };
+        let of = |stone| overlapping(&[clasp.clone(), stone]);
+        assert_eq!(of(small(0.3, 0.0, 0.35)), None);
+        assert_eq!(of(small(0.3, 0.1, 0.35)), Some((0, 1)));
+        assert_eq!(of(small(-0.75, 0.0, 0.1)), Some((0, 1)));
     }
 
     #[test]

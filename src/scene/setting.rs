@@ -1,15 +1,15 @@
 //! Stones beside one another, each of its own material.
 
 use super::Stone;
-use crate::math::Polytope;
+use crate::math::Solid;
 use crate::optics::Material;
 use glam::{DQuat, DVec3};
 
 /// A stone in its place.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Placed {
-    /// Its facets, in the world's frame and unit.
-    pub polytope: Polytope,
+    /// Its shape, in the world's frame and unit.
+    pub solid: Solid,
     /// What it is made of.
     pub material: Material,
     /// The facets' names, in their order; empty where they have none.
@@ -29,23 +29,23 @@ pub struct Setting {
 
 impl Placed {
     /// A stone without names.
-    pub fn new(polytope: Polytope, material: Material) -> Self {
-        Self { polytope, material, names: Vec::new(), label: String::new() }
+    pub fn new(solid: impl Into<Solid>, material: Material) -> Self {
+        Self { solid: solid.into(), material, names: Vec::new(), label: String::new() }
     }
 
     /// A stone with the names of its facets, where it is.
     pub fn named(stone: &Stone, material: Material, label: &str) -> Self {
         let names = stone.names().to_vec();
-        Self { polytope: stone.polytope.clone(), material, names, label: label.to_owned() }
+        Self { solid: stone.polytope.clone().into(), material, names, label: label.to_owned() }
     }
 
     /// The same stone scaled by a factor above 0, turned, then shifted.
     pub fn moved(self, scale: f64, turn: DQuat, shift: DVec3) -> Self {
-        Self { polytope: self.polytope.moved(scale, turn, shift), ..self }
+        Self { solid: self.solid.moved(scale, turn, shift), ..self }
     }
 
     /// Its weight in carats where the world's unit is `unit_mm` mm; `None` where its density is not known.
     pub fn carats(&self, unit_mm: f64) -> Option<f64> {
-        self.material.carats(self.polytope.volume() * unit_mm.powi(3))
+        self.material.carats(self.solid.volume() * unit_mm.powi(3))
     }
 }

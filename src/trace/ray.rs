@@ -1,26 +1,30 @@
 //! Point rays: the same light as one chain of bounces, in f64.
 //!
 //! A convex stone never takes back a ray that has left it, so a ray needs no branching: at every facet a part
-//! leaves and the rest goes on. Rays know nothing of outlines or symmetry and follow polarisation as fields in
+//! leaves and the rest goes on. Of other solids, given as triangles, see `tree`. Rays know nothing of outlines or symmetry and follow polarisation as fields in
 //! space, so that where rays and beams agree it is not by a shared mistake.
 
 mod camera;
 mod company;
+mod facets;
+mod light;
 mod path;
 mod search;
 mod sight;
+mod tree;
 
 pub use self::camera::Camera;
 pub use self::company::ByRays;
+use self::facets::{Facets, Planes, Shape, Triangles};
+use self::light::Light;
 use self::path::{Exiting, Meeting};
 pub use self::path::{Leaving, Path, Step};
-use self::search::Search;
 pub use self::sight::{Glance, Sight, facet_at};
-use crate::math::{Plane, Polytope};
-use crate::optics::{cos_transmitted, fresnel, reflect, reflectance, refract, refracted_change};
+use self::tree::Inbound;
+use crate::math::SolidRef;
+use crate::optics::{cos_transmitted, reflect, refract, refracted_change};
 use crate::scene::Medium;
 use glam::DVec3;
-use num_complex::Complex64;
 use std::sync::Arc;
 
 /// How far to follow a ray.
@@ -43,7 +47,7 @@ impl Default for Options {
 /// Light that leaves the stone.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Exit {
-    /// The facet, by its place in the polytope.
+    /// The facet, by its place in the solid.
     pub facet: u32,
     /// Where it leaves.
     pub point: DVec3,
@@ -57,7 +61,7 @@ pub struct Exit {
     pub weight: f64,
     /// The bounce inside at which it leaves, from 1; 0 for the glare of the outer surface.
     pub bounce: u32,
-    /// Whether this is the glare of the outer surface.
+    /// Whether this is the glare of the outer surface: light that was never inside.
     pub surface: bool,
 }
 
@@ -68,96 +72,16 @@ pub struct Rest {
     pub absorbed: f64,
     /// Share not followed to its end.
     pub unresolved: f64,
-    /// Bounces inside the stone.
+    /// Bounces inside the stone, on the longest way where there are several.
     pub bounces: u32,
 }
 
 /// Follows single rays through one stone.
 #[derive(Debug, Clone)]
 pub struct Tracer {
-    planes: Arc<[Plane]>,
-    search: Arc<Search>,
+    shape: Shape,
     medium: Medium,
     options: Options,
-}
-
-/// The light on a stretch between two facets, as what the eye's two polarisations have become.
-#[derive(Clone, Copy)]
-enum Light {
-    Unpolarised(f64),
-    Fields([Field; 2]),
-}
-
-/// A complex field in space, square to its ray.
-#[derive(Clone, Copy)]
-struct Field {
-    re: DVec3,
-    im: DVec3,
-}
-
-impl Field {
-    fn along(&self, axis: DVec3) -> Complex64 {
-        Complex64::new(self.re.dot(axis), self.im.dot(axis))
-    }
-
-    fn of(axes: [(Complex64, DVec3); 2]) -> Self {
-        let [(a, x), (b, y)] = axes;
-        Self { re: x * a.re + y * b.re, im: x * a.im + y * b.im }
-    }
-
-    fn power(&self) -> f64 {
-        self.re.length_squared() + self.im.length_squared()
-    }
-}
-
-impl Light {
-    #[inline]
-    fn weight(&self) -> f64 {
-        match self {
-            Self::Unpolarised(weight) => *weight,
-            Self::Fields([a, b]) => (a.power() + b.power()) / 2.0,
-        }
-    }
-
-    /// Splits at a surface: what goes on inside along `onward`, and the weight that is left on the outer side.
-    /// Light that enters goes on through the surface; light inside is reflected.
-    fn split(&self, ray: DVec3, onward: DVec3, normal: DVec3, eta: f64, enters: bool) -> (Self, f64) {
-        let cos_i = ray.dot(normal).abs();
-        let fields = match self {
-            Self::Unpolarised(weight) => {
-                let reflected = reflectance(cos_i, eta).unwrap_or(1.0);
-                let inside = if enters { 1.0 - reflected } else { reflected };
-                return (Self::Unpolarised(weight * inside), weight * (1.0 - inside));
-            }
-            Self::Fields(fields) => fields,
-        };
-        let surface = fresnel(cos_i, eta);
-        let (to_s, to_p) = if enters {
-            (surface.transmission_s().into(), surface.transmission_p().into())
-        } else {
-            (surface.r_s, surface.r_p)
-        };
-        let s = across(ray, normal);
-        let (p, p_onward) = (s.cross(ray), s.cross(onward));
-        let inside = fields.map(|f| Field::of([(to_s * f.along(s), s), (to_p * f.along(p), p_onward)]));
-        let lost = |f: &Field| {
-            let part = |r: Complex64, e: Complex64| {
-                if surface.is_total() { 0.0 } else { (1.0 - r.norm_sqr()) * e.norm_sqr() }
-            };
-            part(to_s, f.along(s)) + part(to_p, f.along(p))
-        };
-        (Self::Fields(inside), (lost(&fields[0]) + lost(&fields[1])) / 2.0)
-    }
-}
-
-/// Sine of the angle below which a ray counts as square to a facet: the cross product there is mostly rounding.
-const SQUARE_ON: f64 = 1e-9;
-
-/// A unit vector square to the ray and to the normal: to the ray alone where the two are one line.
-fn across(ray: DVec3, normal: DVec3) -> DVec3 {
-    let s = ray.cross(normal);
-    let length = s.length();
-    if length > SQUARE_ON { s / length } else { ray.any_orthonormal_vector() }
 }
 
 /// The mirror image of any vector.
@@ -167,10 +91,12 @@ fn mirrored(v: DVec3, normal: DVec3) -> DVec3 {
 
 impl Tracer {
     /// Prepares a stone.
-    pub fn new(polytope: &Polytope, medium: Medium, options: Options) -> Self {
-        let planes: Vec<Plane> = polytope.planes().collect();
-        let search = Arc::new(Search::new(&planes));
-        Self { planes: planes.into(), search, medium, options }
+    pub fn new<'a>(solid: impl Into<SolidRef<'a>>, medium: Medium, options: Options) -> Self {
+        let shape = match solid.into() {
+            SolidRef::Convex(polytope) => Shape::Planes(Arc::new(Planes::new(polytope.planes().collect()))),
+            SolidRef::Triangles(shell) => Shape::Triangles(Triangles::new(shell)),
+        };
+        Self { shape, medium, options }
     }
 
     /// The same stone of another medium.
@@ -178,86 +104,109 @@ impl Tracer {
         Self { medium, ..self.clone() }
     }
 
+    /// Whether light that has left never meets the stone again: so it is of polytopes, and not known of triangles.
+    pub fn is_convex(&self) -> bool {
+        matches!(self.shape, Shape::Planes(_))
+    }
+
+    /// Whether the stone itself stands before a point of its surface on the way to the eye.
+    pub fn hides_itself(&self, way: (DVec3, DVec3)) -> bool {
+        matches!(&self.shape, Shape::Triangles(triangles) if triangles.hides(way))
+    }
+
     /// Follows the ray from a point outside, calling `leave` for the surface's glare and for each exit; `None`
     /// where it misses the stone.
     pub fn follow(&self, origin: DVec3, direction: DVec3, leave: impl FnMut(Exit)) -> Option<Rest> {
         let met = self.meet(origin, direction)?;
-        self.follow_from(met, origin, (direction, DVec3::ZERO), 1.0, leave)
+        self.follow_from(met, origin, (direction, DVec3::ZERO), 1.0, |_, _| false, leave)
     }
 
     /// Follows a ray that is known to [`meet`](Self::meet) the stone, of another weight than 1, whose direction moves over
     /// the spread of wavelengths: one that may have left another stone. `None` where it runs along the facet.
+    ///
+    /// Light that would enter this stone again after some distance leaves it all the same where `is_taken` says that
+    /// something else is met before.
     pub fn follow_from(
         &self,
         met: (usize, f64),
         origin: DVec3,
-        way: (DVec3, DVec3),
+        (direction, sweep): (DVec3, DVec3),
         weight: f64,
+        is_taken: impl Fn(&Exit, f64) -> bool,
         mut leave: impl FnMut(Exit),
     ) -> Option<Rest> {
-        self.visit(met, origin, way, weight, |meeting| {
-            if let Some(exit) = meeting.exit() {
-                leave(exit);
-            }
-        })
+        let start = self.start(met, origin, (direction, sweep), weight);
+        match &self.shape {
+            Shape::Planes(planes) => self.passage(&**planes, start, |meeting| {
+                if let Some(exit) = meeting.exit() {
+                    leave(exit);
+                }
+            }),
+            Shape::Triangles(triangles) => self.branch(triangles, start, is_taken, leave),
+        }
     }
 
-    /// The way of a ray through the stone, from the facet where it enters: the one loop behind all that is told of rays.
-    fn visit(
+    fn start(
         &self,
-        (facet, distance): (usize, f64),
+        met: (usize, f64),
         origin: DVec3,
         (direction, sweep): (DVec3, DVec3),
         weight: f64,
+    ) -> Inbound {
+        let light = Light::of_eye(direction, weight, self.options.polarised);
+        Inbound { met, origin, direction, sweep, light, left: 1.0, path: 0.0, bounce: 0 }
+    }
+
+    /// The way of light through the stone, from the facet where it enters until too little is left: the one loop behind all
+    /// that is told of rays.
+    fn passage<F: Facets>(
+        &self,
+        facets: &F,
+        inbound: Inbound,
         mut meets: impl FnMut(Meeting),
     ) -> Option<Rest> {
-        let normal = self.planes[facet].normal;
+        let Inbound { met: (facet, distance), origin, direction, sweep, left, path, bounce, .. } = inbound;
+        let normal = facets.normal(facet);
         let point = origin + direction * distance;
         let eta = 1.0 / self.medium.index;
         let cos_i = -direction.dot(normal);
         let cos_t = cos_transmitted(cos_i, eta)?;
         let inward = refract(direction, normal, eta, (cos_i, cos_t));
-        let (light, glare) = self.eye_light(direction, weight).split(direction, inward, normal, eta, true);
+        let (light, glare) = inbound.light.split(direction, inward, normal, eta, true);
         let of_eta = -self.medium.spread * eta * eta;
         let swept = refracted_change(direction, normal, eta, (cos_i, cos_t), (sweep, of_eta));
-        let glare = Exiting {
-            direction: reflect(direction, normal, cos_i),
-            sweep: mirrored(sweep, normal),
-            weight: glare,
-        };
+        let back = reflect(direction, normal, cos_i);
+        let outer = F::BRANCHES.then(|| inbound.light.outer((direction, back), normal, eta, true, glare));
         meets(Meeting {
             facet: facet as u32,
             point,
-            path: 0.0,
-            bounce: 0,
+            path,
+            left,
+            bounce,
             arriving: direction,
-            leaving: Some(glare),
-            onward: light.weight(),
+            leaving: Some(Exiting {
+                direction: back,
+                sweep: mirrored(sweep, normal),
+                weight: glare * left,
+                light: outer,
+            }),
+            onward: light.weight() * left,
         });
-        Some(self.bounce(point, (inward, swept), light, meets))
+        Some(self.bounce(
+            facets,
+            Inbound { origin: point, direction: inward, sweep: swept, light, ..inbound },
+            meets,
+        ))
     }
 
-    fn eye_light(&self, direction: DVec3, weight: f64) -> Light {
-        if !self.options.polarised {
-            return Light::Unpolarised(weight);
-        }
-        let (a, b) = direction.any_orthonormal_pair();
-        Light::Fields([a, b].map(|axis| Field { re: axis * weight.sqrt(), im: DVec3::ZERO }))
-    }
-
-    fn bounce(
-        &self,
-        mut point: DVec3,
-        (mut direction, mut sweep): (DVec3, DVec3),
-        mut light: Light,
-        mut meets: impl FnMut(Meeting),
-    ) -> Rest {
-        let mut rest = Rest::default();
-        let (mut left, mut path) = (1.0, 0.0);
-        let mut remaining = light.weight();
+    fn bounce<F: Facets>(&self, facets: &F, inside: Inbound, mut meets: impl FnMut(Meeting)) -> Rest {
+        let Inbound { origin: mut point, mut direction, mut sweep, mut light, mut left, mut path, .. } =
+            inside;
+        let mut rest = Rest { bounces: inside.bounce, ..Rest::default() };
+        let mut remaining = light.weight() * left;
         while remaining > self.options.least_weight && rest.bounces < self.options.most_bounces {
-            let (facet, distance, cos_i) = self.next(point, direction);
-            let normal = self.planes[facet].normal;
+            let Some((facet, distance, cos_i)) = facets.next(point, direction) else { break };
+            let normal = facets.normal(facet);
             point += direction * distance;
             path += distance;
             if !self.medium.is_clear() {
@@ -266,18 +215,18 @@ impl Tracer {
                 left = after;
             }
             let reflected = reflect(direction, -normal, cos_i);
-            let cos_t = cos_transmitted(cos_i, self.medium.index);
+            let Medium { index, spread, .. } = self.medium;
+            let cos_t = cos_transmitted(cos_i, index);
             let (onward, weight) = match (cos_t, light) {
                 (None, Light::Unpolarised(_)) => (light, 0.0),
-                _ => light.split(direction, reflected, normal, self.medium.index, false),
+                _ => light.split(direction, reflected, normal, index, false),
             };
             let leaving = cos_t.map(|cos_t| {
-                let Medium { index, spread, .. } = self.medium;
-                Exiting {
-                    direction: refract(direction, -normal, index, (cos_i, cos_t)),
-                    sweep: refracted_change(direction, -normal, index, (cos_i, cos_t), (sweep, spread)),
-                    weight: weight * left,
-                }
+                let outward = refract(direction, -normal, index, (cos_i, cos_t));
+                let sweep = refracted_change(direction, -normal, index, (cos_i, cos_t), (sweep, spread));
+                let outer =
+                    F::BRANCHES.then(|| light.outer((direction, outward), normal, index, false, weight));
+                Exiting { direction: outward, sweep, weight: weight * left, light: outer }
             });
             rest.bounces += 1;
             remaining = onward.weight() * left;
@@ -285,6 +234,7 @@ impl Tracer {
                 facet: facet as u32,
                 point,
                 path,
+                left,
                 bounce: rest.bounces,
                 arriving: direction,
                 leaving,
@@ -298,18 +248,6 @@ impl Tracer {
 
     /// Facet and distance at which a ray enters from outside; `None` where it misses.
     pub fn meet(&self, origin: DVec3, direction: DVec3) -> Option<(usize, f64)> {
-        let facet = self.search.entry(origin, direction)?;
-        let plane = &self.planes[facet];
-        let distance = -plane.distance(origin) / plane.normal.dot(direction);
-        (distance > 0.0).then_some((facet, distance))
-    }
-
-    /// Facet, distance and cosine of incidence at which a ray inside the stone meets it next.
-    #[inline]
-    fn next(&self, point: DVec3, direction: DVec3) -> (usize, f64, f64) {
-        let facet = self.search.next(point, direction);
-        let plane = &self.planes[facet];
-        let cos_i = plane.normal.dot(direction);
-        (facet, -plane.distance(point) / cos_i, cos_i)
+        self.shape.entry(origin, direction)
     }
 }

@@ -2,7 +2,7 @@
 
 use super::surround::Surround;
 use super::{Stopped, Watch};
-use crate::math::Polytope;
+use crate::math::Solid;
 use crate::optics::Stratum;
 use crate::scene::{Film, Medium, Placed, Setting, View};
 use crate::trace::ray::Options;
@@ -96,7 +96,7 @@ impl Look {
 impl Sitting<'_> {
     /// A ball around each stone.
     pub fn balls(&self) -> Vec<(DVec3, f64)> {
-        let ball = |stone: &Polytope| {
+        let ball = |stone: &Solid| {
             let (low, high) = stone.bounds();
             let middle = (low + high) / 2.0;
             let radius = stone.vertices().iter().map(|v| v.distance(middle)).fold(0.0, f64::max);
@@ -107,12 +107,12 @@ impl Sitting<'_> {
     }
 
     /// The stones' solids.
-    pub fn stones(&self) -> impl Iterator<Item = &Polytope> {
-        self.setting.stones.iter().map(|s| &s.polytope)
+    pub fn stones(&self) -> impl Iterator<Item = &Solid> {
+        self.setting.stones.iter().map(|s| &s.solid)
     }
 
     /// How far the stones reach from the origin.
     pub fn reach(&self) -> f64 {
-        self.stones().flat_map(Polytope::vertices).map(|v| v.length()).fold(0.0, f64::max)
+        self.stones().flat_map(Solid::vertices).map(|v| v.length()).fold(0.0, f64::max)
     }
 }

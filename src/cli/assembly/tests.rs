@@ -20,7 +20,7 @@ fn refused(stones: &str) -> String {
 fn a_stone_alone_lies_as_its_file_has_it_and_takes_another_material_and_size() {
     let stone = load("modern-ideal");
     let specimen = Specimen::load(Path::new("modern-ideal")).unwrap();
-    assert_eq!(stone.setting.stones[0].polytope, specimen.stone.polytope);
+    assert_eq!(*stone.setting.stones[0].solid.polytope().unwrap(), specimen.stone.polytope);
     assert_eq!((stone.setting.unit_mm, stone.name.as_str()), (3.25, "Modern ideal"));
     assert_eq!(stone.setting.stones[0].names, specimen.stone.names());
     // A brilliant of 6.5 mm is the trade's carat, to the proportions.
@@ -45,7 +45,9 @@ fn every_scene_that_comes_with_the_program_is_apart_and_weighs_what_it_asks_for(
     for (name, count) in [("trilogy", 3), ("Ring", 8), ("parcel", 12)] {
         let scene = load(name);
         assert_eq!((scene.setting.stones.len(), scene.places.len()), (count, count));
-        assert!(scene.setting.stones.iter().all(|s| s.names.len() == s.polytope.facets().len()));
+        assert!(
+            scene.setting.stones.iter().all(|s| s.names.len() == s.solid.polytope().unwrap().facets().len())
+        );
         let largest = scene.places.iter().map(|p| p.diameter_mm).fold(0.0, f64::max);
         assert_eq!(scene.setting.unit_mm, 0.5 * largest);
         assert_eq!(load(name).setting, scene.setting);
@@ -65,10 +67,10 @@ fn a_stone_leans_its_table_toward_the_azimuth_and_lies_where_it_is_put() {
     let placed = &scene.setting.stones[0];
     let table = placed.names.iter().position(|name| name == "table").unwrap();
     let (sin, cos) = 20_f64.to_radians().sin_cos();
-    let plane = placed.polytope.facets()[table].plane;
+    let plane = placed.solid.polytope().unwrap().facets()[table].plane;
     assert!(plane.normal.distance(DVec3::new(0.0, sin, cos)) < 1e-12);
     // Pictures are taken around the middle of all that there is.
-    let (low, high) = placed.polytope.bounds();
+    let (low, high) = placed.solid.bounds();
     assert!((low + high).length() < 1e-12);
     assert_eq!((scene.setting.unit_mm, scene.places[0].at_mm), (2.0, DVec3::new(1.0, 2.0, 3.0)));
 }

@@ -1,7 +1,7 @@
 //! The edges of stones, as thin even lines.
 
 use super::{Code, lay_over};
-use crate::math::Polytope;
+use crate::math::{Edge, Solid};
 use crate::trace::ray::Sight;
 use crate::trace::sitting::Sitting;
 use glam::{DMat2, DVec2, DVec3};
@@ -39,7 +39,7 @@ pub(super) struct Wires(Vec<Wire>);
 
 impl Wires {
     pub fn new(sitting: &Sitting, sight: &Sight) -> Self {
-        let of_stone = |(stone, polytope)| wires(sitting, sight, stone, polytope);
+        let of_stone = |(stone, solid)| wires(sitting, sight, stone, solid);
         Self(sitting.stones().enumerate().flat_map(of_stone).collect())
     }
 
@@ -58,27 +58,16 @@ impl Wires {
     }
 }
 
-fn wires(sitting: &Sitting, sight: &Sight, stone: usize, polytope: &Polytope) -> Vec<Wire> {
-    let facets = polytope.facets();
-    let faces = |k: usize| sight.camera.sees(&facets[k].plane);
+fn wires(sitting: &Sitting, sight: &Sight, stone: usize, solid: &Solid) -> Vec<Wire> {
     let pixels = sitting.film.pixels_from_image(DMat2::IDENTITY);
-    let mut wires = vec![];
-    for (k, facet) in facets.iter().enumerate() {
-        let corners: Vec<DVec3> = polytope.corners(facet).collect();
-        for (i, &other) in facet.neighbours.iter().enumerate() {
-            let points = [corners[i], corners[(i + 1) % corners.len()]];
-            // Each edge once: its other facet has it too.
-            if (other as usize) < k {
-                continue;
-            }
-            if let [Some(a), Some(b)] = points.map(|p| sight.camera.project(p)) {
-                let ends = [a.0, b.0].map(|p| pixels.transform_point2(p));
-                let is_front = faces(k) || faces(other as usize);
-                wires.push(Wire { ends, sizes: [a.1, b.1], points, stone, is_front });
-            }
-        }
-    }
-    wires
+    let wire = |edge: Edge| {
+        let [a, b] = edge.ends.map(|p| sight.camera.project(p));
+        let (a, b) = (a?, b?);
+        let ends = [a.0, b.0].map(|p| pixels.transform_point2(p));
+        let is_front = edge.facets.iter().any(|&k| sight.camera.sees(&solid.by_ref().plane(k)));
+        Some(Wire { ends, sizes: [a.1, b.1], points: edge.ends, stone, is_front })
+    };
+    solid.by_ref().edges().into_iter().filter_map(wire).collect()
 }
 
 impl Wire {
@@ -100,9 +89,9 @@ impl Wire {
         }
     }
 
-    /// Whether another stone stands before the point of it at this part of its way through the picture.
+    /// Whether a stone stands before the point of it at this part of its way through the picture.
     fn is_hidden(&self, sight: &Sight, part: f64) -> bool {
-        if sight.tracers.len() < 2 {
+        if sight.tracers.len() < 2 && sight.tracers[0].is_convex() {
             return false;
         }
         sight.is_hidden(self.stone, self.point(part))

@@ -34,6 +34,14 @@ pub enum GpuError {
         /// How many there is room for.
         most: usize,
     },
+    /// There are more triangles than the card has room for.
+    #[error("{count} triangles are traced by rays; the graphics card takes {most}")]
+    TooManyTriangles {
+        /// How many there are.
+        count: usize,
+        /// How many there is room for.
+        most: usize,
+    },
     /// A driver in software would follow too few bounces.
     #[error("{name} follows only {bounces} bounces among {stones} stones")]
     TooFewBounces {

@@ -43,6 +43,8 @@ both_sides! {
         /// How many dispatches the pixels have seen; in scopes the rays along each side of a pixel, under light the first
         /// row that the stage holds; first wavelength and the one after the last.
         turn: vec4u,
+        /// Turns of loops that a ray among triangles may take; nothing in the others.
+        most: vec4u,
     }
 }
 
@@ -63,7 +65,7 @@ both_sides! {
     Body, BODY_WGSL {
         /// Middle and radius of a ball around it.
         middle: vec4f,
-        /// Its first plane, the one after its last, and the same of its bunches.
+        /// Its first plane, the one after its last, and the same of its bunches; or of its triangles and boxes.
         range: vec4u,
     }
 }
@@ -154,6 +156,28 @@ both_sides! {
         middle: vec4f,
         /// How far its normals and its offsets lie from these; first plane; number of planes.
         spread: vec4f,
+    }
+}
+
+both_sides! {
+    /// A triangle, and the normal of its facet in the corners' fourth places.
+    Triangle, TRIANGLE_WGSL {
+        /// One corner; the normal's x.
+        a: vec4f,
+        /// The next; y.
+        b: vec4f,
+        /// The last; z.
+        c: vec4f,
+    }
+}
+
+both_sides! {
+    /// A box around triangles, as [`crate::math::Node`].
+    Node, NODE_WGSL {
+        /// Least coordinates; how many nodes after it the second half stands, or its first triangle.
+        low: vec4f,
+        /// Greatest coordinates; how many triangles stand right in it.
+        high: vec4f,
     }
 }
 

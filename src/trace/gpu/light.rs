@@ -4,7 +4,7 @@ use super::device::{Gpu, GpuError};
 use super::door::{self, Lamp, Response, with};
 use super::solids::Solids;
 use super::stage::{Eye, Stage};
-use crate::math::Plane;
+use crate::math::{Solid, SolidRef};
 use crate::scene;
 use crate::trace::sitting::{Exposure, Lit, Look, Sitting};
 use crate::trace::surround::{HEAD_EDGE, Surround};
@@ -55,7 +55,7 @@ impl<'a> ByCard<'a> {
         rows: Range<u32>,
         wavelengths: usize,
     ) -> Result<Self, GpuError> {
-        let stones: Vec<Vec<Plane>> = sitting.stones().map(|s| s.planes().collect()).collect();
+        let stones: Vec<SolidRef> = sitting.stones().map(Solid::by_ref).collect();
         let solids = Solids::new(gpu, &stones, &sitting.balls())?;
         let copied = |label, bytes: usize, usage| {
             let usage = usage | wgpu::BufferUsages::COPY_DST;
@@ -72,7 +72,7 @@ impl<'a> ByCard<'a> {
             Eye { view: sitting.view, film: sitting.film, reach: sitting.reach(), options: sitting.options };
         let told = eye.frame(gpu, &solids, wavelengths);
         solids.enough(gpu, told.counts[2])?;
-        let pipeline = gpu.lights.pipeline(&gpu.device, solids.is_few);
+        let pipeline = gpu.lights.pipeline(&gpu.device, solids.facets);
         let stage = Stage::new::<door::Lit>(gpu, pipeline, told, rows.len() as u32, entries)?;
         let at_once = Stage::rows(gpu, sitting.film.size);
         Ok(Self {

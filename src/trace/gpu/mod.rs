@@ -11,12 +11,14 @@ mod scope;
 mod shaders;
 mod solids;
 mod stage;
+mod triangles;
 
 pub use device::{Gpu, GpuError};
 pub use door::Seen;
 pub use light::{Around, ByCard, MOST_WAVELENGTHS};
 pub use scope::{MOST_BANDS, MOST_BOUNCES, Shot};
 pub use solids::MOST_BODIES;
+pub use triangles::MOST_TRIANGLES;
 
 #[cfg(test)]
 mod twins;

@@ -4,7 +4,7 @@ use super::device::{Gpu, GpuError};
 use super::door::{Bands, Medium as MediumAtDoor, Seen, with};
 use super::solids::Solids;
 use super::stage::{Eye, Stage};
-use crate::math::{Plane, Polytope};
+use crate::math::SolidRef;
 use crate::scene::{Film, Medium, Scope, View};
 use crate::trace::ray::Options;
 use crate::trace::{Stopped, Watch};
@@ -19,7 +19,7 @@ pub const MOST_BOUNCES: u32 = 64;
 /// One picture to take: its rays on a regular grid in each pixel.
 pub struct Shot<'a> {
     /// The stone.
-    pub polytope: &'a Polytope,
+    pub solid: SolidRef<'a>,
     /// What it is made of.
     pub medium: Medium,
     /// From where it is seen.
@@ -73,9 +73,8 @@ fn stage<'a>(gpu: &'a Gpu, shot: &Shot, rows: u32) -> Result<Stage<'a>, GpuError
     if count > MOST_BANDS {
         return Err(GpuError::TooManyBands { count, most: MOST_BANDS });
     }
-    let planes: Vec<Plane> = shot.polytope.planes().collect();
-    let reach = shot.polytope.vertices().iter().map(|v| v.length()).fold(0.0, f64::max);
-    let solids = Solids::new(gpu, &[planes], &[(DVec3::ZERO, reach)])?;
+    let reach = shot.solid.vertices().iter().map(|v| v.length()).fold(0.0, f64::max);
+    let solids = Solids::new(gpu, &[shot.solid], &[(DVec3::ZERO, reach)])?;
     let bands = gpu.buffer("bands", bytemuck::bytes_of(&bands(shot)), wgpu::BufferUsages::UNIFORM);
     let medium = MediumAtDoor::from(&shot.medium);
     let media = gpu.buffer("media", bytemuck::bytes_of(&medium), wgpu::BufferUsages::STORAGE);
@@ -83,7 +82,7 @@ fn stage<'a>(gpu: &'a Gpu, shot: &Shot, rows: u32) -> Result<Stage<'a>, GpuError
     entries.push(wgpu::BindGroupEntry { binding: 6, resource: bands.as_entire_binding() });
     let eye = Eye { view: shot.view, film: shot.film, reach, options: shot.options };
     let told = eye.frame(gpu, &solids, 1);
-    Stage::new::<Seen>(gpu, gpu.scopes.pipeline(&gpu.device, solids.is_few), told, rows, entries)
+    Stage::new::<Seen>(gpu, gpu.scopes.pipeline(&gpu.device, solids.facets), told, rows, entries)
 }
 
 fn bands(shot: &Shot) -> Bands {

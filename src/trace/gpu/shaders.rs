@@ -2,7 +2,7 @@
 
 use super::door;
 use super::light::{MOST_LAMPS, MOST_WAVELENGTHS};
-use super::solids::{MOST_BODIES, MOST_UNIFORM};
+use super::solids::{MOST_BODIES, MOST_INBOUND, MOST_LEVELS, MOST_UNIFORM};
 use crate::trace::sitting::MOST_WAITING;
 use crate::trace::surround::TEXEL_ANGLE;
 use std::sync::OnceLock;
@@ -14,6 +14,8 @@ pub(super) enum Facets {
     Few,
     /// More, in bunches.
     Many,
+    /// Triangles, not all of them of a convex stone.
+    Triangles,
 }
 
 /// What is looked for.
@@ -25,11 +27,12 @@ pub(super) enum Reading {
     Light,
 }
 
-/// One reading's two pipelines, each compiled when first used.
+/// One reading's pipelines, each compiled when first used.
 pub(super) struct Pipelines {
     reading: Reading,
     few: OnceLock<wgpu::ComputePipeline>,
     many: OnceLock<wgpu::ComputePipeline>,
+    triangles: OnceLock<wgpu::ComputePipeline>,
 }
 
 /// A shader's text, its structs and constants in front.
@@ -38,14 +41,19 @@ pub(super) fn source(facets: Facets, reading: Reading) -> String {
         "const MOST_PLANES: u32 = {MOST_UNIFORM}u;\nconst MOST_BODIES: u32 = {MOST_BODIES}u;\n\
          const MOST_WAITING: u32 = {MOST_WAITING}u;\nconst MOST_LAMPS: u32 = {MOST_LAMPS}u;\n\
          const MOST_WAVELENGTHS: u32 = {MOST_WAVELENGTHS}u;\nconst TEXEL_ANGLE: f32 = {TEXEL_ANGLE};\n\
-         const NONE: u32 = 0xffffffffu;\n"
+         const NONE: u32 = 0xffffffffu;\nconst MOST_INBOUND: u32 = {MOST_INBOUND}u;\n\
+         const MOST_LEVELS: u32 = {MOST_LEVELS}u;\n"
     );
     let stones = "@group(0) @binding(0) var<uniform> frame: Frame;\n\
         @group(0) @binding(4) var<uniform> bodies: array<Body, MOST_BODIES>;\n\
         @group(0) @binding(5) var<storage, read> media: array<Medium>;\n";
-    let facets = match facets {
-        Facets::Few => include_str!("../../../shaders/planes.wgsl"),
-        Facets::Many => include_str!("../../../shaders/polytope.wgsl"),
+    let convex = include_str!("../../../shaders/convex.wgsl");
+    let facets: &[&str] = match facets {
+        Facets::Few => &[include_str!("../../../shaders/planes.wgsl"), convex],
+        Facets::Many => &[door::BUNCH_WGSL, include_str!("../../../shaders/polytope.wgsl"), convex],
+        Facets::Triangles => {
+            &[door::TRIANGLE_WGSL, door::NODE_WGSL, include_str!("../../../shaders/triangles.wgsl")]
+        }
     };
     let reading: &[&str] = match reading {
         Reading::Scope => &[door::BANDS_WGSL, door::SEEN_WGSL, include_str!("../../../shaders/scope.wgsl")],
@@ -62,24 +70,26 @@ pub(super) fn source(facets: Facets, reading: Reading) -> String {
         door::FRAME_WGSL,
         door::BODY_WGSL,
         door::MEDIUM_WGSL,
-        door::BUNCH_WGSL,
         &constants,
         stones,
         include_str!("../../../shaders/optics.wgsl"),
-        facets,
         include_str!("../../../shaders/trace.wgsl"),
         include_str!("../../../shaders/camera.wgsl"),
     ];
-    common.iter().chain(reading).copied().collect()
+    common.iter().chain(facets).chain(reading).copied().collect()
 }
 
 impl Pipelines {
     pub fn new(reading: Reading) -> Self {
-        Self { reading, few: OnceLock::new(), many: OnceLock::new() }
+        Self { reading, few: OnceLock::new(), many: OnceLock::new(), triangles: OnceLock::new() }
     }
 
-    pub fn pipeline(&self, device: &wgpu::Device, is_few: bool) -> &wgpu::ComputePipeline {
-        let (cell, facets) = if is_few { (&self.few, Facets::Few) } else { (&self.many, Facets::Many) };
+    pub fn pipeline(&self, device: &wgpu::Device, facets: Facets) -> &wgpu::ComputePipeline {
+        let cell = match facets {
+            Facets::Few => &self.few,
+            Facets::Many => &self.many,
+            Facets::Triangles => &self.triangles,
+        };
         cell.get_or_init(|| compiled(device, source(facets, self.reading)))
     }
 }

@@ -3,7 +3,9 @@
 use super::bunches::bunches;
 use super::device::Gpu;
 use super::door::{Body, Bunch, with};
-use crate::math::Plane;
+use super::shaders::Facets;
+use super::triangles::Triangles;
+use crate::math::{Plane, SolidRef};
 use crate::trace::gpu::GpuError;
 use crate::trace::sitting::MOST_WAITING;
 
@@ -20,12 +22,30 @@ pub const MOST_BODIES: usize = 256;
 /// below this.
 const MOST_TURNS_IN_SOFTWARE: usize = 60_000;
 
+/// Turns after which the light of a ray among triangles is unresolved, on a card: lest a driver think that it hung.
+const MOST_TURNS: u32 = 1 << 20;
+
+/// The same in software: what is not counted stays below the rest.
+const MOST_COUNTED_IN_SOFTWARE: u32 = 48_000;
+
+/// Light of one ray that may wait to enter a stone of triangles again; the weakest of what rays in hearts and stars leave
+/// waiting at once is some ten.
+pub(super) const MOST_INBOUND: usize = 16;
+
+/// Boxes that may lie within one another.
+pub(super) const MOST_LEVELS: usize = 56;
+
+/// Turns of loops that one ray among triangles may take.
+pub(super) fn most_turns(gpu: &Gpu) -> u32 {
+    if gpu.is_software() { MOST_COUNTED_IN_SOFTWARE } else { MOST_TURNS }
+}
+
 /// With fewer bounces, pictures of stones would be dark.
 const LEAST_BOUNCES: u32 = 12;
 
 /// The planes of all stones, and which are whose.
 pub(super) struct Solids {
-    pub is_few: bool,
+    pub facets: Facets,
     pub bodies: wgpu::Buffer,
     pub planes: wgpu::Buffer,
     pub bunches: wgpu::Buffer,
@@ -35,10 +55,36 @@ pub(super) struct Solids {
 }
 
 impl Solids {
-    pub fn new(gpu: &Gpu, stones: &[Vec<Plane>], balls: &[(glam::DVec3, f64)]) -> Result<Self, GpuError> {
+    pub fn new(gpu: &Gpu, stones: &[SolidRef], balls: &[(glam::DVec3, f64)]) -> Result<Self, GpuError> {
         if stones.len() > MOST_BODIES {
             return Err(GpuError::TooManyStones { count: stones.len(), most: MOST_BODIES });
         }
+        let planes = |s: &SolidRef| match s {
+            SolidRef::Convex(polytope) => Some(polytope.planes().collect()),
+            SolidRef::Triangles(_) => None,
+        };
+        match stones.iter().map(planes).collect::<Option<Vec<Vec<Plane>>>>() {
+            Some(convex) => Ok(Self::of_planes(gpu, &convex, balls)),
+            None => Self::of_triangles(gpu, stones, balls),
+        }
+    }
+
+    /// Once one stone is of triangles all are.
+    fn of_triangles(gpu: &Gpu, stones: &[SolidRef], balls: &[(glam::DVec3, f64)]) -> Result<Self, GpuError> {
+        let Triangles { triangles, nodes, mut bodies } = Triangles::new(stones, balls)?;
+        bodies.resize(MOST_BODIES, Body { middle: [0.0; 4], range: [0; 4] });
+        let storage = wgpu::BufferUsages::STORAGE;
+        Ok(Self {
+            facets: Facets::Triangles,
+            bodies: gpu.buffer("stones", bytemuck::cast_slice(&bodies), wgpu::BufferUsages::UNIFORM),
+            planes: gpu.buffer("triangles", bytemuck::cast_slice(&triangles), storage),
+            bunches: gpu.buffer("boxes", bytemuck::cast_slice(&nodes), storage),
+            count: stones.len(),
+            largest: 0,
+        })
+    }
+
+    fn of_planes(gpu: &Gpu, stones: &[Vec<Plane>], balls: &[(glam::DVec3, f64)]) -> Self {
         let all: usize = stones.iter().map(Vec::len).sum();
         let is_few = all <= MOST_UNIFORM && stones.iter().all(|s| s.len() <= FEW);
         let (mut planes, mut bunched, mut bodies, mut largest) = (vec![], vec![], vec![], 0);
@@ -60,19 +106,20 @@ impl Solids {
         }
         bodies.resize(MOST_BODIES, Body { middle: [0.0; 4], range: [0; 4] });
         let kind = if is_few { wgpu::BufferUsages::UNIFORM } else { wgpu::BufferUsages::STORAGE };
-        Ok(Self {
-            is_few,
+        Self {
+            facets: if is_few { Facets::Few } else { Facets::Many },
             bodies: gpu.buffer("stones", bytemuck::cast_slice(&bodies), wgpu::BufferUsages::UNIFORM),
             planes: gpu.buffer("planes", bytemuck::cast_slice(&planes), kind),
             bunches: gpu.buffer("bunches", bytemuck::cast_slice(&bunched), wgpu::BufferUsages::STORAGE),
             count: stones.len(),
             largest,
-        })
+        }
     }
 
     /// How many bounces the card can follow of those wanted.
     pub fn bounces(&self, gpu: &Gpu, wanted: u32) -> u32 {
-        if !gpu.is_software() {
+        // Rays among triangles count their turns themselves.
+        if !gpu.is_software() || self.facets == Facets::Triangles {
             return wanted;
         }
         if self.count == 1 {
@@ -98,7 +145,7 @@ impl Solids {
             resource: buffer.as_entire_binding(),
         };
         let mut entries = vec![entry(1, &self.planes), entry(4, &self.bodies), entry(5, media)];
-        if !self.is_few {
+        if self.facets != Facets::Few {
             entries.push(entry(3, &self.bunches));
         }
         entries

@@ -3,7 +3,7 @@
 use super::device::{Gpu, GpuError};
 use super::door::{Frame, with};
 use super::scope::MOST_BOUNCES;
-use super::solids::Solids;
+use super::solids::{Solids, most_turns};
 use crate::scene::{Film, Projection, View};
 use crate::trace::ray::Options;
 use bytemuck::Pod;
@@ -46,6 +46,7 @@ impl Eye<'_> {
             counts: [solids.count as u32, wavelengths as u32, bounces, u32::from(self.options.polarised)],
             film: [across, down, 0, 0],
             turn: [0, 1, 0, wavelengths as u32],
+            most: [most_turns(gpu), 0, 0, 0],
         }
     }
 }

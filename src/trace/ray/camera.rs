@@ -1,6 +1,6 @@
 //! The image of a view.
 
-use crate::math::{Basis, Plane, Polytope};
+use crate::math::{Basis, Plane, SolidRef};
 use crate::scene::{Projection, View};
 use glam::{DVec2, DVec3};
 
@@ -16,8 +16,8 @@ pub struct Camera {
 
 impl Camera {
     /// The camera of a view of this stone.
-    pub fn new(view: &View, polytope: &Polytope) -> Self {
-        Self::reaching(view, polytope.vertices().iter().map(|v| v.length()).fold(0.0, f64::max))
+    pub fn new<'a>(view: &View, solid: impl Into<SolidRef<'a>>) -> Self {
+        Self::reaching(view, solid.into().vertices().iter().map(|v| v.length()).fold(0.0, f64::max))
     }
 
     /// The camera of a view of whatever reaches so far from the origin.
@@ -31,14 +31,14 @@ impl Camera {
 
     /// Half the side of the smallest square around the image's origin that holds the whole stone; `None` where the
     /// eye is not in front of all of it.
-    pub fn reach(&self, polytope: &Polytope) -> Option<f64> {
-        self.extent(polytope).map(DVec2::max_element)
+    pub fn reach<'a>(&self, solid: impl Into<SolidRef<'a>>) -> Option<f64> {
+        self.extent(solid).map(DVec2::max_element)
     }
 
     /// Half the width and the height of the smallest rectangle around the image's origin that holds the whole stone;
     /// `None` where the eye is not in front of all of it.
-    pub fn extent(&self, polytope: &Polytope) -> Option<DVec2> {
-        polytope.vertices().iter().try_fold(DVec2::ZERO, |extent, &v| {
+    pub fn extent<'a>(&self, solid: impl Into<SolidRef<'a>>) -> Option<DVec2> {
+        solid.into().vertices().iter().try_fold(DVec2::ZERO, |extent, &v| {
             let nearness = 1.0 - self.basis.toward.dot(v) / self.distance;
             (nearness > 0.0).then(|| extent.max(self.basis.project(v).abs() / nearness))
         })

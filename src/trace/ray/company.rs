@@ -2,7 +2,7 @@
 
 use super::sight::{Met, is_near, nearest};
 use super::{Camera, Exit, Tracer};
-use crate::math::Polytope;
+use crate::math::Solid;
 use crate::scene::Medium;
 use crate::trace::sitting::{Exposure, Lit, Look, MOST_WAITING, Sitting};
 use crate::trace::{Stopped, Watch};
@@ -37,7 +37,7 @@ struct Waiting {
 impl<'a> ByRays<'a> {
     /// Prepares some rows of a picture.
     pub fn new(sitting: Sitting<'a>, rows: Range<u32>) -> Self {
-        let tracer = |stone: &Polytope| Tracer::new(stone, Medium::clear(1.0), sitting.options);
+        let tracer = |stone: &Solid| Tracer::new(stone, Medium::clear(1.0), sitting.options);
         Self {
             sitting,
             camera: Camera::reaching(sitting.view, sitting.reach()),
@@ -74,7 +74,8 @@ impl<'a> ByRays<'a> {
                     }
                 };
                 let (tracer, way) = (&tracers[stone][band], (ray.direction, ray.sweep));
-                if let Some(rest) = tracer.follow_from(met, ray.origin, way, ray.weight, leave) {
+                let is_taken = |exit: &Exit, distance: f64| self.meets_before(exit, stone, distance);
+                if let Some(rest) = tracer.follow_from(met, ray.origin, way, ray.weight, is_taken, leave) {
                     lit.unresolved += rest.unresolved;
                     lit.absorbed += rest.absorbed;
                 }
@@ -106,10 +107,19 @@ impl<'a> ByRays<'a> {
 
     /// Whether a ray meets a stone other than the one that it left.
     fn meets_any(&self, ray: &Waiting) -> bool {
-        self.balls.iter().enumerate().any(|(k, &(middle, radius))| {
-            let is_near = is_near((middle, radius), (ray.origin, ray.direction));
-            Some(k) != ray.left && is_near && self.tracers[k].meet(ray.origin, ray.direction).is_some()
-        })
+        self.others(ray.left, (ray.origin, ray.direction)).next().is_some()
+    }
+
+    /// Whether light that has left a stone meets another at less than this distance.
+    fn meets_before(&self, exit: &Exit, left: usize, distance: f64) -> bool {
+        self.others(Some(left), (exit.point, exit.direction)).any(|other| other < distance)
+    }
+
+    /// The distances at which a ray meets stones other than the one that it left.
+    fn others(&self, left: Option<usize>, way: (DVec3, DVec3)) -> impl Iterator<Item = f64> {
+        let near = move |&(k, &ball): &(usize, &(DVec3, f64))| Some(k) != left && is_near(ball, way);
+        let met = move |(k, _): (usize, _)| self.tracers[k].meet(way.0, way.1).map(|(_, distance)| distance);
+        self.balls.iter().enumerate().filter(near).filter_map(met)
     }
 }
 

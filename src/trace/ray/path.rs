@@ -1,5 +1,7 @@
 //! One ray's way through a stone, facet by facet.
 
+use super::facets::Shape;
+use super::light::Light;
 use super::{Exit, Rest, Tracer};
 use crate::optics::critical_angle;
 use glam::DVec3;
@@ -7,7 +9,7 @@ use glam::DVec3;
 /// A facet that a ray meets on its way.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Step {
-    /// The facet, by its place in the polytope.
+    /// The facet, by its place in the solid.
     pub facet: u32,
     /// Where.
     pub point: DVec3,
@@ -52,6 +54,8 @@ pub(super) struct Meeting {
     pub facet: u32,
     pub point: DVec3,
     pub path: f64,
+    /// The part that has not been absorbed.
+    pub left: f64,
     pub bounce: u32,
     /// The unit direction in which it comes.
     pub arriving: DVec3,
@@ -66,31 +70,42 @@ pub(super) struct Exiting {
     pub direction: DVec3,
     pub sweep: DVec3,
     pub weight: f64,
+    /// Without what has been absorbed; told of solids that it may enter again.
+    pub light: Option<Light>,
 }
 
 impl Meeting {
+    /// The light that leaves, without what has been absorbed.
+    pub fn onward_outside(&self) -> Option<Light> {
+        self.leaving.as_ref()?.light
+    }
+
     #[inline]
     pub fn exit(&self) -> Option<Exit> {
         let &Self { facet, point, path, bounce, .. } = self;
-        let &Exiting { direction, sweep, weight } = self.leaving.as_ref()?;
+        let &Exiting { direction, sweep, weight, .. } = self.leaving.as_ref()?;
         Some(Exit { facet, point, path, direction, sweep, weight, bounce, surface: bounce == 0 })
     }
 }
 
 impl Tracer {
     /// The way of a ray from a point outside, as far as [`follow`](Self::follow) takes it; `None` where it misses the
-    /// stone.
+    /// stone. Of a solid of triangles it is the first passage: light that leaves and enters again is not followed.
     pub fn path(&self, origin: DVec3, direction: DVec3) -> Option<Path> {
         let met = self.meet(origin, direction)?;
         let mut steps = vec![];
-        let rest = self
-            .visit(met, origin, (direction, DVec3::ZERO), 1.0, |meeting| steps.push(self.step(&meeting)))?;
+        let start = self.start(met, origin, (direction, DVec3::ZERO), 1.0);
+        let tell = |meeting: Meeting| steps.push(self.step(&meeting));
+        let rest = match &self.shape {
+            Shape::Planes(planes) => self.passage(&**planes, start, tell)?,
+            Shape::Triangles(triangles) => self.passage(triangles, start, tell)?,
+        };
         Some(Path { origin, direction, steps, rest })
     }
 
     fn step(&self, meeting: &Meeting) -> Step {
-        let &Meeting { facet, point, path, bounce, arriving, ref leaving, onward } = meeting;
-        let normal = self.planes[facet as usize].normal;
+        let &Meeting { facet, point, path, bounce, arriving, ref leaving, onward, .. } = meeting;
+        let normal = self.shape.normal(facet as usize);
         let critical = if bounce > 0 { critical_angle(self.medium.index) } else { None };
         Step {
             facet,

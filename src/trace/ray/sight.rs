@@ -28,7 +28,7 @@ pub struct Glance {
     pub direction: DVec3,
     /// Which of the stones it meets first.
     pub stone: usize,
-    /// At which facet, by its place in the polytope.
+    /// At which facet, by its place in the solid.
     pub facet: u32,
     /// How far from its beginning, in world units.
     pub distance: f64,
@@ -40,7 +40,7 @@ impl<'a> Sight<'a> {
         let at = |nm| (nm, nm, nm);
         let tracer = |stone: &crate::scene::Placed| {
             let medium = Medium::of(&stone.material, at(line::SODIUM_D), sitting.setting.unit_mm);
-            Tracer::new(&stone.polytope, medium, sitting.options)
+            Tracer::new(&stone.solid, medium, sitting.options)
         };
         Self {
             sitting: *sitting,
@@ -59,10 +59,11 @@ impl<'a> Sight<'a> {
         Some(Glance { origin, direction, stone, facet: facet as u32, distance })
     }
 
-    /// Whether another stone stands between a point of this one's surface and the eye.
+    /// Whether another stone, or one that is not convex itself, stands between a point of its surface and the eye.
     pub fn is_hidden(&self, stone: usize, point: DVec3) -> bool {
         let way = (point, self.camera.toward_eye(point));
         nearest(&self.tracers, &self.balls, way, Some(stone)).is_some()
+            || self.tracers[stone].hides_itself(way)
     }
 }
 

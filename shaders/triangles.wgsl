@@ -1,0 +1,179 @@
+// What light meets: triangles in boxes within boxes, the twin of src/math/bvh.rs, of src/trace/ray/facets.rs and, for light
+// that leaves and enters again, of src/trace/ray/tree.rs.
+
+@group(0) @binding(1) var<storage, read> triangles: array<Triangle>;
+@group(0) @binding(3) var<storage, read> nodes: array<Node>;
+
+// A ray's start may lie so far beyond the triangle that it is about to meet, as a part of how far solids reach from the
+// origin: some ten roundings.
+const BEHIND: f32 = 1e-6;
+// Boxes are taken for so much larger, as a part of that and of how far the ray's start is: some thirty roundings.
+const BOX_SLACK: f32 = 4e-6;
+// Components of a direction are divided by as if no smaller.
+const STILLEST: f32 = 1e-20;
+
+// Turns of loops that the ray has taken; with too many its light is unresolved.
+var<private> turns: u32;
+// Light that leaves and enters again.
+var<private> inbound: array<Inbound, MOST_INBOUND>;
+var<private> inbound_count: u32;
+// Weight that has been given up.
+var<private> given_up: f32;
+
+fn plane_of(facet: u32) -> vec4f {
+    let t = triangles[facet];
+    let normal = vec3f(t.a.w, t.b.w, t.c.w);
+    return vec4f(normal, dot(normal, t.a.xyz));
+}
+
+fn is_spent() -> bool {
+    return turns > frame.most.x;
+}
+
+// Axes turned so that the longest component of a direction is z, and not mirrored where that is below 0.
+fn turned_axes(v: vec3f, longest: u32, is_down: bool) -> vec3f {
+    var p = v;
+    if longest == 0u {
+        p = v.yzx;
+    } else if longest == 1u {
+        p = v.zxy;
+    }
+    return select(p, p.yxz, is_down);
+}
+
+// The distance at which a ray is first within a box, negative where it is not before `far`.
+fn enters(node: Node, origin: vec3f, per: vec3f, slack: f32, far: f32) -> f32 {
+    let is_up = per >= vec3f(0.0);
+    let near = (select(node.high.xyz + slack, node.low.xyz - slack, is_up) - origin) * per;
+    let beyond = (select(node.low.xyz - slack, node.high.xyz + slack, is_up) - origin) * per;
+    let into = max(max(near.x, near.y), max(near.z, 0.0));
+    let out = min(min(beyond.x, beyond.y), min(beyond.z, far));
+    return select(-1.0, into, into <= out);
+}
+
+// The first triangle that a ray runs into (side -1) or out of (side 1); a negative distance where there is none. The test of
+// Woop, Benthin and Wald, as in `Sheared::meets`.
+fn nearest_triangle(origin: vec3f, direction: vec3f, side: f32) -> Meeting {
+    let size = abs(direction);
+    var longest = select(0u, 1u, size.y >= size.x);
+    if size.z >= size.x && size.z >= size.y {
+        longest = 2u;
+    }
+    let straight = turned_axes(direction, longest, false);
+    let is_down = straight.z < 0.0;
+    let d = turned_axes(direction, longest, is_down);
+    let shear = vec3f(d.x / d.z, d.y / d.z, 1.0 / d.z);
+    let slack = BOX_SLACK * (frame.right.w + length(origin));
+    let clamped = select(select(vec3f(-STILLEST), vec3f(STILLEST), direction >= vec3f(0.0)), direction, size > vec3f(STILLEST));
+    let per = 1.0 / clamped;
+    var best = Meeting(NONE, FAR);
+    var pending: array<vec2f, MOST_LEVELS>;
+    var waiting = 0u;
+    var at = body.range.z;
+    var is_open = enters(nodes[at], origin, per, slack, FAR) >= 0.0;
+    while is_open && !is_spent() {
+        turns += 1u;
+        let node = nodes[at];
+        let count = u32(node.high.w);
+        var goes_on = false;
+        if count > 0u {
+            let first = u32(node.low.w);
+            for (var k = first; k < first + count; k++) {
+                turns += 1u;
+                let t = triangles[k];
+                if dot(vec3f(t.a.w, t.b.w, t.c.w), direction) * side <= 0.0 {
+                    continue;
+                }
+                let a0 = turned_axes(t.a.xyz - origin, longest, is_down);
+                let b0 = turned_axes(t.b.xyz - origin, longest, is_down);
+                let c0 = turned_axes(t.c.xyz - origin, longest, is_down);
+                let a = a0.xy - shear.xy * a0.z;
+                let b = b0.xy - shear.xy * b0.z;
+                let c = c0.xy - shear.xy * c0.z;
+                let areas = vec3f(c.x * b.y - c.y * b.x, a.x * c.y - a.y * c.x, b.x * a.y - b.y * a.x);
+                let sum = areas.x + areas.y + areas.z;
+                if (any(areas < vec3f(0.0)) && any(areas > vec3f(0.0))) || sum == 0.0 {
+                    continue;
+                }
+                let distance = dot(areas, vec3f(a0.z, b0.z, c0.z)) * shear.z / sum;
+                if distance > -BEHIND * frame.right.w && distance < best.distance {
+                    best = Meeting(k, distance);
+                }
+            }
+        } else {
+            let left = at + 1u;
+            let right = at + u32(node.low.w);
+            let to_left = enters(nodes[left], origin, per, slack, best.distance);
+            let to_right = enters(nodes[right], origin, per, slack, best.distance);
+            goes_on = to_left >= 0.0 || to_right >= 0.0;
+            let is_right_first = to_right >= 0.0 && (to_left < 0.0 || to_right < to_left);
+            at = select(left, right, is_right_first);
+            if to_left >= 0.0 && to_right >= 0.0 {
+                pending[waiting] = select(vec2f(f32(right), to_right), vec2f(f32(left), to_left), is_right_first);
+                waiting += 1u;
+            }
+        }
+        if !goes_on {
+            is_open = false;
+            while waiting > 0u && !is_open {
+                turns += 1u;
+                waiting -= 1u;
+                if pending[waiting].y <= best.distance {
+                    at = u32(pending[waiting].x);
+                    is_open = true;
+                }
+            }
+        }
+    }
+    return Meeting(best.facet, select(-1.0, max(best.distance, 0.0), best.facet != NONE));
+}
+
+fn entry(origin: vec3f, direction: vec3f) -> Meeting {
+    return nearest_triangle(origin, direction, -1.0);
+}
+
+fn next_facet(point: vec3f, direction: vec3f) -> Meeting {
+    return nearest_triangle(point, direction, 1.0);
+}
+
+// Light that leaves for good, or waits to enter again.
+fn depart(ray: Ray, light: vec4f, s: vec3f, left: f32, path: f32, bounce: u32) {
+    let weight = (light.x + light.y) * left;
+    let met = entry(ray.origin, ray.direction);
+    if is_spent() {
+        given_up += weight;
+    } else if met.distance < 0.0 || is_taken(ray, met.distance) {
+        leave(ray, weight, bounce == 0u);
+    } else if weight > frame.limits.x && inbound_count < MOST_INBOUND {
+        inbound[inbound_count] = Inbound(met, ray, light, s, left, path, bounce);
+        inbound_count += 1u;
+    } else {
+        given_up += weight;
+    }
+}
+
+// Follows a ray that enters the body at a facet, of light of this weight, and all of it that enters again.
+fn follow(ray: Ray, entered: Meeting, weight: f32) -> Rest {
+    inbound_count = 0u;
+    given_up = 0.0;
+    var rest = passage(arriving(ray, entered, weight));
+    while inbound_count > 0u {
+        var strongest = 0u;
+        var most = -1.0;
+        for (var k = 0u; k < inbound_count; k++) {
+            turns += 1u;
+            let own = (inbound[k].light.x + inbound[k].light.y) * inbound[k].left;
+            if own > most {
+                most = own;
+                strongest = k;
+            }
+        }
+        let next = inbound[strongest];
+        inbound_count -= 1u;
+        inbound[strongest] = inbound[inbound_count];
+        let passed = passage(next);
+        rest = Rest(rest.absorbed + passed.absorbed, rest.unresolved + passed.unresolved, max(rest.bounces, passed.bounces));
+    }
+    rest.unresolved += given_up;
+    return rest;
+}

@@ -1,0 +1,171 @@
+//! How boxes are put around triangles: halved where rays have the least to try.
+//!
+//! Source: I. Wald, *On fast Construction of SAH-based Bounding Volume Hierarchies*, IEEE Symposium on Interactive Ray
+//! Tracing, 2007.
+
+use super::bvh::Node;
+use glam::DVec3;
+use rayon::prelude::*;
+
+/// Slices of a box, in which its triangles are counted along each axis.
+const BINS: usize = 16;
+
+/// Triangles that may stand in one box.
+const FULL: usize = 4;
+
+/// From this level down boxes are halved by number alone, so that there are no more than this and log2 of their number.
+const LEVELS_BY_AREA: u32 = 30;
+
+/// Boxes of more triangles than this are halved by cores side by side.
+const ALONE: usize = 1 << 13;
+
+/// A triangle while boxes are built.
+#[derive(Clone, Copy)]
+struct Part {
+    low: DVec3,
+    high: DVec3,
+    triangle: u32,
+}
+
+/// Boxes, and the order in which they hold triangles.
+pub(super) fn build(vertices: &[DVec3], triangles: &[[u32; 3]]) -> (Vec<Node>, Vec<u32>) {
+    let part = |(k, t): (usize, &[u32; 3])| {
+        let [a, b, c] = t.map(|v| vertices[v as usize]);
+        Part { low: a.min(b).min(c), high: a.max(b).max(c), triangle: k as u32 }
+    };
+    let mut parts: Vec<Part> = triangles.par_iter().enumerate().map(part).collect();
+    if parts.is_empty() {
+        return (vec![], vec![]);
+    }
+    let nodes = halve(&mut parts, 0, 0);
+    (nodes, parts.iter().map(|p| p.triangle).collect())
+}
+
+/// The boxes of some triangles, of which the first stands at `first` of all.
+fn halve(parts: &mut [Part], first: u32, level: u32) -> Vec<Node> {
+    if parts.len() <= ALONE {
+        let mut nodes = Vec::with_capacity(parts.len());
+        halve_alone(parts, first, level, &mut nodes);
+        return nodes;
+    }
+    let (low, high) = bounds(parts);
+    let middle = parted(parts, level).unwrap_or(parts.len() / 2);
+    let (a, b) = parts.split_at_mut(middle);
+    let (left, right) =
+        rayon::join(|| halve(a, first, level + 1), || halve(b, first + middle as u32, level + 1));
+    let mut nodes = Vec::with_capacity(1 + left.len() + right.len());
+    nodes.push(Node { low, high, start: 1 + left.len() as u32, count: 0 });
+    nodes.extend(left);
+    nodes.extend(right);
+    nodes
+}
+
+fn halve_alone(parts: &mut [Part], first: u32, level: u32, nodes: &mut Vec<Node>) {
+    let (low, high) = bounds(parts);
+    let here = nodes.len();
+    nodes.push(Node { low, high, start: first, count: parts.len() as u32 });
+    let middle = if parts.len() > FULL {
+        parted(parts, level).unwrap_or(parts.len() / 2)
+    } else if let Some(middle) = parted(parts, level).filter(|_| parts.len() > 1) {
+        middle
+    } else {
+        return;
+    };
+    let (a, b) = parts.split_at_mut(middle);
+    halve_alone(a, first, level + 1, nodes);
+    (nodes[here].start, nodes[here].count) = ((nodes.len() - here) as u32, 0);
+    halve_alone(b, first + middle as u32, level + 1, nodes);
+}
+
+fn bounds(parts: &[Part]) -> (DVec3, DVec3) {
+    let start = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+    parts.iter().fold(start, |(low, high), p| (low.min(p.low), high.max(p.high)))
+}
+
+/// Half the surface of a box; 0 of none.
+fn area(low: DVec3, high: DVec3) -> f64 {
+    let d = (high - low).max(DVec3::ZERO);
+    d.x * d.y + d.y * d.z + d.z * d.x
+}
+
+/// One slice of a box along one axis.
+#[derive(Clone, Copy)]
+struct Bin {
+    low: DVec3,
+    high: DVec3,
+    count: usize,
+}
+
+impl Bin {
+    const EMPTY: Self = Self { low: DVec3::INFINITY, high: DVec3::NEG_INFINITY, count: 0 };
+
+    fn joined(self, other: Self) -> Self {
+        Self {
+            low: self.low.min(other.low),
+            high: self.high.max(other.high),
+            count: self.count + other.count,
+        }
+    }
+
+    /// What trying its triangles costs a ray that meets the box around, but for a factor.
+    fn cost(&self) -> f64 {
+        if self.count == 0 { 0.0 } else { area(self.low, self.high) * self.count as f64 }
+    }
+}
+
+/// Sorts triangles into two halves; the place of the second, or `None` where one box for all is no worse.
+fn parted(parts: &mut [Part], level: u32) -> Option<usize> {
+    if level >= LEVELS_BY_AREA {
+        return None;
+    }
+    let middle = |p: &Part| 0.5 * p.low + 0.5 * p.high;
+    let (low, high) = parts.iter().fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), p| {
+        (low.min(middle(p)), high.max(middle(p)))
+    });
+    // Axes without extent, or too long to divide by, give no slices.
+    let scale = (BINS as f64 * (1.0 - 1e-9)) / (high - low);
+    let bin = |p: &Part, axis: usize| (((middle(p) - low) * scale)[axis] as usize).min(BINS - 1);
+    let mut bins = [[Bin::EMPTY; BINS]; 3];
+    for part in parts.iter() {
+        let own = Bin { low: part.low, high: part.high, count: 1 };
+        for (axis, bins) in bins.iter_mut().enumerate() {
+            let k = bin(part, axis);
+            bins[k] = bins[k].joined(own);
+        }
+    }
+    let (axis, border, cost) = (0..3)
+        .filter(|&axis| scale[axis].is_finite() && scale[axis] > 0.0)
+        .filter_map(|axis| cheapest(&bins[axis]).map(|(border, cost)| (axis, border, cost)))
+        .min_by(|a, b| a.2.total_cmp(&b.2))?;
+    let whole = bounds(parts);
+    let whole = area(whole.0, whole.1);
+    // To open a box costs about as much as to try a triangle.
+    if parts.len() <= FULL && whole * (parts.len() as f64 - 1.0) <= cost {
+        return None;
+    }
+    // Stable, lest the order depend on how it was sorted.
+    let (mut before, after): (Vec<Part>, Vec<Part>) = parts.iter().partition(|p| bin(p, axis) < border);
+    let middle = before.len();
+    before.extend(after);
+    parts.copy_from_slice(&before);
+    Some(middle)
+}
+
+/// The border between slices that costs least, neither half being empty, and its cost.
+fn cheapest(bins: &[Bin; BINS]) -> Option<(usize, f64)> {
+    let mut after = [Bin::EMPTY; BINS + 1];
+    for k in (0..BINS).rev() {
+        after[k] = after[k + 1].joined(bins[k]);
+    }
+    let mut before = Bin::EMPTY;
+    let mut best: Option<(usize, f64)> = None;
+    for border in 1..BINS {
+        before = before.joined(bins[border - 1]);
+        let cost = before.cost() + after[border].cost();
+        let is_split = before.count > 0 && after[border].count > 0;
+        if is_split && cost.is_finite() && best.is_none_or(|(_, least)| cost < least) {
+            best = Some((border, cost));
+        }
+    }
+    best
+}

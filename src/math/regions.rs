@@ -1,0 +1,127 @@
+//! Which triangles of a surface lie in one plane beside one another: its facets.
+
+use super::{Plane, ShellError, Surface};
+use glam::DVec3;
+use rayon::prelude::*;
+
+/// A triangle whose corners lie no farther from a plane, as a part of the solid's size, lies in it: some ten roundings of
+/// the f32 in which files hold corners.
+const FLAT: f64 = 1e-6;
+
+/// Cosine of the most by which triangles of one facet are turned against one another: far more than rounding turns any but
+/// slivers, which lie in the plane whichever way they seem to face, and less than a fold.
+const NOT_FOLDED: f64 = 0.9;
+
+/// No facet as yet.
+const NONE: u32 = u32::MAX;
+
+/// The facet of each triangle. Facets are numbered in the order of their first triangles.
+///
+/// # Errors
+/// Where the surface is open.
+pub(super) fn regions(surface: &Surface) -> Result<Vec<u32>, ShellError> {
+    let neighbours = neighbours(&surface.triangles)?;
+    let twice_areas: Vec<DVec3> = surface.triangles.iter().map(|t| twice_area(surface, t)).collect();
+    let size = surface.vertices.iter().map(|v| v.length()).fold(0.0, f64::max);
+    // From the largest triangles outward: their planes are known best.
+    let mut seeds: Vec<u32> = (0..surface.triangles.len() as u32).collect();
+    let area = |k: u32| twice_areas[k as usize].length_squared();
+    seeds.par_sort_by(|&a, &b| area(b).total_cmp(&area(a)));
+    let mut facets = vec![NONE; surface.triangles.len()];
+    let mut edge = vec![];
+    for seed in seeds {
+        if facets[seed as usize] != NONE {
+            continue;
+        }
+        let normal = twice_areas[seed as usize].normalize_or_zero();
+        let plane = Plane { normal, offset: normal.dot(corner(surface, seed, 0)) };
+        facets[seed as usize] = seed;
+        edge.push(seed);
+        while let Some(k) = edge.pop() {
+            for &next in &neighbours[k as usize] {
+                let own = twice_areas[next as usize];
+                let is_turned = own.dot(normal) < NOT_FOLDED * own.length();
+                let is_near = |i| plane.distance(corner(surface, next, i)).abs() <= FLAT * size;
+                let is_sliver = own.length() <= FLAT * size * longest(surface, next);
+                if facets[next as usize] == NONE && (0..3).all(is_near) && (!is_turned || is_sliver) {
+                    facets[next as usize] = seed;
+                    edge.push(next);
+                }
+            }
+        }
+    }
+    Ok(renumbered(facets))
+}
+
+/// The plane of each facet: the mean of its triangles', by area.
+pub(super) fn planes_of(surface: &Surface, facets: &[u32]) -> Vec<Plane> {
+    let count = facets.iter().max().map_or(0, |&last| last as usize + 1);
+    let mut sums = vec![(DVec3::ZERO, DVec3::ZERO, 0.0); count];
+    for (t, &facet) in surface.triangles.iter().zip(facets) {
+        let (area, sum) = (twice_area(surface, t), &mut sums[facet as usize]);
+        let middle = t.iter().map(|&v| surface.vertices[v as usize]).sum::<DVec3>() / 3.0;
+        sum.0 += area;
+        sum.1 += middle * area.length();
+        sum.2 += area.length();
+    }
+    let plane = |(area, middle, weight): (DVec3, DVec3, f64)| {
+        let normal = area.normalize_or(DVec3::Z);
+        // A facet without area is never met.
+        let middle = if weight > 0.0 { middle / weight } else { DVec3::ZERO };
+        Plane { normal, offset: normal.dot(middle) }
+    };
+    sums.into_iter().map(plane).collect()
+}
+
+fn corner(surface: &Surface, triangle: u32, i: usize) -> DVec3 {
+    surface.vertices[surface.triangles[triangle as usize][i] as usize]
+}
+
+fn twice_area(surface: &Surface, triangle: &[u32; 3]) -> DVec3 {
+    let [a, b, c] = triangle.map(|v| surface.vertices[v as usize]);
+    (b - a).cross(c - a)
+}
+
+fn longest(surface: &Surface, triangle: u32) -> f64 {
+    let [a, b, c] = [0, 1, 2].map(|i| corner(surface, triangle, i));
+    a.distance(b).max(b.distance(c)).max(c.distance(a))
+}
+
+/// The triangles beside each triangle. Every edge has as many on one side as on the other.
+pub(super) fn neighbours(triangles: &[[u32; 3]]) -> Result<Vec<[u32; 3]>, ShellError> {
+    // An edge, whether it is run along from its lower corner, its triangle and place there.
+    let edges_of = |(k, t): (usize, &[u32; 3])| {
+        let t = *t;
+        [0, 1, 2].map(|i| {
+            let (a, b) = (t[i], t[(i + 1) % 3]);
+            ((a.min(b), a.max(b)), a > b, k as u32, i)
+        })
+    };
+    let mut edges: Vec<_> = triangles.par_iter().enumerate().flat_map_iter(edges_of).collect();
+    edges.par_sort_unstable();
+    let mut neighbours: Vec<[u32; 3]> = (0..triangles.len() as u32).map(|k| [k; 3]).collect();
+    for same in edges.chunk_by(|a, b| a.0 == b.0) {
+        let up = same.partition_point(|e| !e.1);
+        if 2 * up != same.len() {
+            return Err(ShellError::Open(same[0].0.0, same[0].0.1));
+        }
+        for (a, b) in same[..up].iter().zip(&same[up..]) {
+            neighbours[a.2 as usize][a.3] = b.2;
+            neighbours[b.2 as usize][b.3] = a.2;
+        }
+    }
+    Ok(neighbours)
+}
+
+fn renumbered(mut facets: Vec<u32>) -> Vec<u32> {
+    let (mut number, mut count) = (vec![NONE; facets.len()], 0);
+    for facet in &mut facets {
+        let own = &mut number[*facet as usize];
+        if *own == NONE {
+            *own = count;
+            count += 1;
+        }
+        *facet = *own;
+    }
+    facets
+}

@@ -1,0 +1,261 @@
+//! A closed surface of triangles, ready to be traced: its facets, their planes, and boxes around its triangles.
+
+use super::regions::{neighbours, planes_of, regions};
+use super::{Bvh, Edge, Plane, Polytope, Surface, triangulate};
+use glam::{DQuat, DVec3};
+
+/// A closed solid of triangles, which need not be convex. Neighbouring triangles in one plane are one facet.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Shell {
+    surface: Surface,
+    facets: Vec<u32>,
+    planes: Vec<Plane>,
+    bvh: Bvh,
+}
+
+/// Why triangles enclose no solid.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum ShellError {
+    /// A solid has at least four.
+    #[error("{0} triangles enclose nothing; at least four are needed")]
+    TooFew(usize),
+    /// A triangle names a corner that is not there.
+    #[error("triangle {triangle} names corner {corner}, which is not among the {count} given")]
+    NoCorner {
+        /// The triangle, from 0.
+        triangle: usize,
+        /// The corner that it names.
+        corner: u32,
+        /// How many there are.
+        count: usize,
+    },
+    /// A corner's coordinates are no numbers, or too large for their squares.
+    #[error("corner {0} is too far away to be a number")]
+    NotFinite(usize),
+    /// An edge has triangles on one side only.
+    #[error(
+        "the surface is open at the edge between corners {0} and {1}; close the hole or weld its corners"
+    )]
+    Open(u32, u32),
+    /// It encloses nothing, or its triangles face inward.
+    #[error(
+        "the surface encloses a volume of {0}; its triangles must run counter-clockwise seen from outside"
+    )]
+    InsideOut(f64),
+}
+
+/// The largest coordinate: volumes do not overflow.
+const LARGEST: f64 = 1e60;
+
+impl Shell {
+    /// Finds the facets of a surface and puts boxes around its triangles; a million take a few seconds.
+    ///
+    /// # Errors
+    /// Where the triangles enclose nothing; triangles and corners are told by their places in the lists given.
+    pub fn new(surface: Surface) -> Result<Self, ShellError> {
+        checked(&surface)?;
+        let facets = regions(&surface)?;
+        let planes = planes_of(&surface, &facets);
+        let bvh = Bvh::new(&surface.vertices, &surface.triangles);
+        let shell = Self { surface, facets, planes, bvh };
+        let volume = shell.volume();
+        if volume > 0.0 { Ok(shell) } else { Err(ShellError::InsideOut(volume)) }
+    }
+
+    /// The triangles of a convex solid, its facets in their order.
+    pub fn of_polytope(polytope: &Polytope) -> Self {
+        let mesh = triangulate(polytope);
+        let bvh = Bvh::new(&mesh.vertices, &mesh.triangles);
+        let surface = Surface::new(mesh.vertices, mesh.triangles);
+        Self { surface, facets: mesh.facets, planes: polytope.planes().collect(), bvh }
+    }
+
+    /// The same solid elsewhere: scaled by a factor above 0, turned, then shifted. Facets and triangles keep their order.
+    pub fn moved(&self, scale: f64, turn: DQuat, shift: DVec3) -> Self {
+        let vertices: Vec<DVec3> = self.surface.vertices.iter().map(|&v| turn * v * scale + shift).collect();
+        let plane = |p: &Plane| {
+            let normal = turn * p.normal;
+            Plane { normal, offset: p.offset * scale + normal.dot(shift) }
+        };
+        let triangles = self.surface.triangles.clone();
+        Self {
+            bvh: Bvh::new(&vertices, &triangles),
+            planes: self.planes.iter().map(plane).collect(),
+            facets: self.facets.clone(),
+            surface: Surface::new(vertices, triangles),
+        }
+    }
+
+    /// Its triangles.
+    pub fn surface(&self) -> &Surface {
+        &self.surface
+    }
+
+    /// Its corners.
+    pub fn vertices(&self) -> &[DVec3] {
+        &self.surface.vertices
+    }
+
+    /// The facet that each triangle is part of.
+    pub fn facets(&self) -> &[u32] {
+        &self.facets
+    }
+
+    /// The plane of each facet; its normal points outward.
+    pub fn planes(&self) -> &[Plane] {
+        &self.planes
+    }
+
+    /// The boxes around its triangles.
+    pub fn bvh(&self) -> &Bvh {
+        &self.bvh
+    }
+
+    /// The edges between facets, each once, in pieces between triangles.
+    pub fn edges(&self) -> Vec<Edge> {
+        let Surface { vertices, triangles, .. } = &self.surface;
+        // Closed since it was made.
+        let beside = neighbours(triangles).unwrap_or_default();
+        let facet = |k: u32| self.facets[k as usize];
+        let edge = |k: u32, i: usize| {
+            let (own, other) = (&triangles[k as usize], beside[k as usize][i]);
+            let ends = [own[i], own[(i + 1) % 3]].map(|v| vertices[v as usize]);
+            (k < other && facet(k) != facet(other)).then(|| Edge { ends, facets: [facet(k), facet(other)] })
+        };
+        (0..beside.len() as u32).flat_map(|k| (0..3).filter_map(move |i| edge(k, i))).collect()
+    }
+
+    /// Enclosed volume.
+    pub fn volume(&self) -> f64 {
+        let apex = self.surface.vertices[0];
+        let six_fold = |t: &[u32; 3]| {
+            let [a, b, c] = t.map(|v| self.surface.vertices[v as usize] - apex);
+            a.dot(b.cross(c))
+        };
+        self.surface.triangles.iter().map(six_fold).sum::<f64>() / 6.0
+    }
+}
+
+fn checked(surface: &Surface) -> Result<(), ShellError> {
+    let Surface { vertices, triangles, .. } = surface;
+    if triangles.len() < 4 {
+        return Err(ShellError::TooFew(triangles.len()));
+    }
+    let is_far = |v: &DVec3| v.is_nan() || v.abs().max_element() > LARGEST;
+    if let Some(corner) = vertices.iter().position(is_far) {
+        return Err(ShellError::NotFinite(corner));
+    }
+    let beyond = |(triangle, t): (usize, &[u32; 3])| {
+        let corner = t.iter().copied().find(|&v| v as usize >= vertices.len())?;
+        Some(ShellError::NoCorner { triangle, corner, count: vertices.len() })
+    };
+    triangles.iter().enumerate().find_map(beyond).map_or(Ok(()), Err)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::fixture::{self, Triangles, extruded};
+
+    fn surface((vertices, triangles): Triangles) -> Surface {
+        Surface::new(vertices, triangles)
+    }
+
+    fn heart() -> Surface {
+        surface(fixture::heart())
+    }
+
+    fn cube() -> Shell {
+        let square = [(1.0, 1.0), (-1.0, 1.0), (-1.0, -1.0), (1.0, -1.0)].map(glam::DVec2::from);
+        Shell::new(surface(extruded(&square, 1.0))).unwrap()
+    }
+
+    #[test]
+    fn triangles_in_one_plane_are_one_facet() {
+        let cube = cube();
+        assert_eq!((cube.surface().triangles.len() > 12, cube.planes().len()), (true, 6));
+        assert!((cube.volume() - 8.0).abs() < 1e-12);
+        for (t, &facet) in cube.surface().triangles.iter().zip(cube.facets()) {
+            let plane = cube.planes()[facet as usize];
+            assert!(t.iter().all(|&v| plane.distance(cube.vertices()[v as usize]).abs() < 1e-12));
+        }
+        // A pyramid on each side of a star of five points: twice ten facets, of a triangle each.
+        assert_eq!(Shell::new(surface(fixture::star())).unwrap().planes().len(), 20);
+        let heart = Shell::new(heart()).unwrap();
+        assert!(heart.planes().len() > 20 && heart.planes().len() <= heart.facets().len());
+    }
+
+    #[test]
+    fn its_edges_are_those_between_facets() {
+        let planes = [DVec3::X, DVec3::Y, DVec3::Z]
+            .into_iter()
+            .flat_map(|a| [Plane::new(a, 1.0), Plane::new(-a, 1.0)]);
+        let polytope = Polytope::from_planes(&planes.collect::<Vec<_>>()).unwrap();
+        let total = |edges: &[Edge]| edges.iter().map(|e| e.ends[0].distance(e.ends[1])).sum::<f64>();
+        let (a, b) = (crate::math::SolidRef::from(&polytope).edges(), cube().edges());
+        assert_eq!((a.len(), b.len()), (12, 12));
+        assert!((total(&a) - 24.0).abs() < 1e-12 && (total(&b) - 24.0).abs() < 1e-12);
+        assert!(a.iter().chain(&b).all(|e| e.facets[0] != e.facets[1]));
+    }
+
+    #[test]
+    fn rounding_of_f32_does_not_part_a_facet_and_a_bend_that_can_be_seen_does() {
+        let rough = |v: &DVec3| (*v * 1.234_567).as_vec3().as_dvec3();
+        let Surface { vertices, triangles, .. } = cube().surface().clone();
+        let turned = |v: &DVec3| DQuat::from_rotation_x(0.3) * DQuat::from_rotation_y(0.7) * *v;
+        let rounded = vertices.iter().map(turned).map(|v| rough(&v)).collect();
+        assert_eq!(
+            Shell::new(Surface::new(rounded, triangles.clone())).unwrap().planes().len(),
+            6
+        );
+        // One corner of the cube, where three facets meet, moved a little.
+        let mut bent = vertices;
+        bent[0] += DVec3::splat(1e-4);
+        assert!(Shell::new(Surface::new(bent, triangles)).unwrap().planes().len() > 6);
+    }
+
+    #[test]
+    fn a_moved_shell_is_the_shell_of_what_was_moved() {
+        let (shell, turn, shift) =
+            (Shell::new(heart()).unwrap(), DQuat::from_rotation_y(0.4), DVec3::new(3.0, -1.0, 0.5));
+        let moved = shell.moved(2.0, turn, shift);
+        let anew = Shell::new(moved.surface().clone()).unwrap();
+        assert_eq!(moved.facets(), anew.facets());
+        for (a, b) in moved.planes().iter().zip(anew.planes()) {
+            assert!(a.normal.distance(b.normal) < 1e-12 && (a.offset - b.offset).abs() < 1e-12);
+        }
+        assert!((moved.volume() / shell.volume() - 8.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn what_encloses_nothing_is_refused_with_what_is_at_fault() {
+        let good = cube().surface().clone();
+        let told = |change: &dyn Fn(&mut Surface)| {
+            let mut surface = good.clone();
+            change(&mut surface);
+            Shell::new(surface).unwrap_err()
+        };
+        assert_eq!(told(&|s| s.triangles.truncate(3)), ShellError::TooFew(3));
+        let missing = ShellError::NoCorner { triangle: 2, corner: 99, count: good.vertices.len() };
+        assert_eq!(told(&|s| s.triangles[2][1] = 99), missing);
+        assert_eq!(told(&|s| s.vertices[3].y = f64::NAN), ShellError::NotFinite(3));
+        assert_eq!(told(&|s| s.vertices[1].x = 1e200), ShellError::NotFinite(1));
+        assert!(matches!(told(&|s| s.triangles.truncate(s.triangles.len() - 1)), ShellError::Open(..)));
+        assert!(matches!(told(&|s| s.triangles[0].swap(0, 1)), ShellError::Open(..)));
+        let reversed = told(&|s| s.triangles.iter_mut().for_each(|t| t.swap(0, 1)));
+        assert!(matches!(reversed, ShellError::InsideOut(v) if (v + 8.0).abs() < 1e-12), "{reversed}");
+    }
+
+    #[test]
+    fn a_polytopes_shell_has_its_facets() {
+        let planes = [DVec3::X, DVec3::Y, DVec3::Z]
+            .into_iter()
+            .flat_map(|a| [Plane::new(a, 1.0), Plane::new(-a, 1.0)])
+            .chain([Plane::new(DVec3::ONE, 2.2)]);
+        let polytope = Polytope::from_planes(&planes.collect::<Vec<_>>()).unwrap();
+        let shell = Shell::of_polytope(&polytope);
+        assert!(shell.planes().iter().copied().eq(polytope.planes()));
+        let anew = Shell::new(shell.surface().clone()).unwrap();
+        assert_eq!(anew.facets(), shell.facets());
+    }
+}

@@ -1,0 +1,109 @@
+//! A ray's way through a solid that is not convex: light that leaves may enter again.
+//!
+//! Every passage, from entry until too little is left, is the chain of bounces that a convex stone has; light that leaves on
+//! it and meets the solid again waits to be followed like the first, the strongest first, its polarisation kept. What is not
+//! followed is unresolved, so that all shares still add up to 1.
+
+use super::facets::{Facets, Triangles};
+use super::light::Light;
+use super::{Exit, Rest, Tracer};
+use glam::DVec3;
+
+/// Passages of one ray that are followed; light that waits after so many is unresolved.
+const MOST_PASSAGES: usize = 1000;
+
+/// Light outside on its way into the solid.
+#[derive(Clone, Copy)]
+pub(super) struct Inbound {
+    pub met: (usize, f64),
+    pub origin: DVec3,
+    pub direction: DVec3,
+    pub sweep: DVec3,
+    /// Without what has been absorbed.
+    pub light: Light,
+    /// The part that has not been absorbed.
+    pub left: f64,
+    /// Length of its way inside so far.
+    pub path: f64,
+    /// Bounces inside so far.
+    pub bounce: u32,
+}
+
+impl Inbound {
+    fn weight(&self) -> f64 {
+        self.light.weight() * self.left
+    }
+}
+
+impl Tracer {
+    /// Follows light into triangles and whatever leaves it to enter again, but for what `is_taken` says is met by something
+    /// else before that distance. `None` where it runs along the first facet.
+    pub(super) fn branch(
+        &self,
+        triangles: &Triangles,
+        start: Inbound,
+        is_taken: impl Fn(&Exit, f64) -> bool,
+        mut leave: impl FnMut(Exit),
+    ) -> Option<Rest> {
+        let mut rest = Rest::default();
+        let mut waiting: Vec<Inbound> = vec![];
+        let mut next = start;
+        for number in 0..MOST_PASSAGES {
+            let mut again = |inbound: Inbound| {
+                if inbound.weight() > self.options.least_weight {
+                    waiting.push(inbound);
+                } else {
+                    rest.unresolved += inbound.weight();
+                }
+            };
+            let passed = self.passage(triangles, next, |meeting| {
+                let Some(exit) = meeting.exit() else { return };
+                let met = triangles.entry(exit.point, exit.direction);
+                match (met.filter(|met| !is_taken(&exit, met.1)), meeting.onward_outside()) {
+                    (Some(met), Some(light)) => again(Inbound {
+                        met,
+                        origin: exit.point,
+                        direction: exit.direction,
+                        sweep: exit.sweep,
+                        light,
+                        left: meeting.left,
+                        path: exit.path,
+                        bounce: exit.bounce,
+                    }),
+                    _ => leave(exit),
+                }
+            });
+            match passed {
+                Some(passed) => rest = rest.and(&passed),
+                None if number == 0 => return None,
+                None => rest.unresolved += next.weight(),
+            }
+            let Some(strongest) = strongest(&waiting) else { break };
+            next = waiting.swap_remove(strongest);
+            if number + 1 == MOST_PASSAGES {
+                rest.unresolved += next.weight();
+            }
+        }
+        rest.unresolved += waiting.iter().map(Inbound::weight).sum::<f64>();
+        Some(rest)
+    }
+}
+
+fn strongest(waiting: &[Inbound]) -> Option<usize> {
+    let weights = waiting.iter().map(Inbound::weight).enumerate();
+    weights.max_by(|a, b| a.1.total_cmp(&b.1)).map(|(k, _)| k)
+}
+
+impl Rest {
+    /// What did not leave on either way; the longer one's bounces.
+    fn and(&self, other: &Self) -> Self {
+        Self {
+            absorbed: self.absorbed + other.absorbed,
+            unresolved: self.unresolved + other.unresolved,
+            bounces: self.bounces.max(other.bounces),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

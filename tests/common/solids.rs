@@ -1,0 +1,89 @@
+//! Small solids for tests, built from an outline: some that are not convex.
+#![allow(dead_code, reason = "each test uses its part")]
+
+use glam::{DVec2, DVec3};
+use std::f64::consts::TAU;
+
+/// Corners, and triangles between them, counter-clockwise seen from outside.
+pub type Triangles = (Vec<DVec3>, Vec<[u32; 3]>);
+
+/// An upright prism over an outline that runs counter-clockwise and is seen whole from the origin, from -`half` to `half`.
+pub fn extruded(outline: &[DVec2], half: f64) -> Triangles {
+    let count = outline.len() as u32;
+    let mut vertices: Vec<DVec3> = outline.iter().map(|p| p.extend(half)).collect();
+    vertices.extend(outline.iter().map(|p| p.extend(-half)));
+    vertices.extend([DVec3::Z * half, DVec3::NEG_Z * half]);
+    let sides = |i: u32| {
+        let j = (i + 1) % count;
+        let [top, bottom] = [2 * count, 2 * count + 1];
+        [[top, i, j], [bottom, count + j, count + i], [i, count + i, count + j], [i, count + j, j]]
+    };
+    (vertices, (0..count).flat_map(sides).collect())
+}
+
+/// A pyramid above an outline that runs counter-clockwise and is seen whole from the origin, and one below it.
+pub fn spiked(outline: &[DVec2], above: f64, below: f64) -> Triangles {
+    let count = outline.len() as u32;
+    let mut vertices: Vec<DVec3> = outline.iter().map(|p| p.extend(0.0)).collect();
+    vertices.extend([DVec3::Z * above, DVec3::NEG_Z * below]);
+    let sides = |i: u32| {
+        let j = (i + 1) % count;
+        [[i, j, count], [j, i, count + 1]]
+    };
+    (vertices, (0..count).flat_map(sides).collect())
+}
+
+/// A star of five points.
+pub fn star() -> Triangles {
+    let corner = |k: u32| {
+        let radius = if k.is_multiple_of(2) { 1.0 } else { 0.45 };
+        DVec2::from_angle(0.1 + TAU * f64::from(k) / 10.0) * radius
+    };
+    spiked(&(0..10).map(corner).collect::<Vec<_>>(), 0.45, 0.7)
+}
+
+/// A heart, its cleft upward, flat above and a point below.
+pub fn heart() -> Triangles {
+    let outline: Vec<DVec2> = (0..28).map(heart_corner).collect();
+    let count = outline.len() as u32;
+    let mut vertices: Vec<DVec3> = outline.iter().map(|p| (*p * 0.6).extend(0.35)).collect();
+    vertices.extend(outline.iter().map(|p| p.extend(0.0)));
+    vertices.extend([DVec3::Z * 0.35, DVec3::NEG_Z * 0.75]);
+    let sides = |i: u32| {
+        let j = (i + 1) % count;
+        let [top, bottom] = [2 * count, 2 * count + 1];
+        [[top, i, j], [i, count + i, count + j], [i, count + j, j], [bottom, count + j, count + i]]
+    };
+    (vertices, (0..count).flat_map(sides).collect())
+}
+
+fn heart_corner(k: u32) -> DVec2 {
+    let t = -TAU * (f64::from(k) + 0.5) / 28.0;
+    // A well known curve, 16 sin³, 13 cos - 5 cos 2 - 2 cos 3 - cos 4.
+    let y = 13.0 * t.cos() - 5.0 * (2.0 * t).cos() - 2.0 * (3.0 * t).cos() - (4.0 * t).cos();
+    DVec2::new(16.0 * t.sin().powi(3), y) / 17.0
+}
+
+/// A C, open toward +x: two bars along x and z, 0.6 thick, 0.8 apart, and what joins them; `half` its half length along z.
+pub fn clasp(half: f64) -> Triangles {
+    let outline = [
+        (-1.0, -1.0),
+        (1.0, -1.0),
+        (1.0, -0.4),
+        (-0.5, -0.4),
+        (-0.5, 0.4),
+        (1.0, 0.4),
+        (1.0, 1.0),
+        (-1.0, 1.0),
+    ];
+    let caps = [[0, 1, 2], [0, 2, 3], [0, 3, 4], [0, 4, 7], [7, 4, 5], [7, 5, 6]];
+    let mut vertices: Vec<DVec3> = outline.map(|p| DVec2::from(p).extend(half)).to_vec();
+    vertices.extend(outline.map(|p| DVec2::from(p).extend(-half)));
+    let mut triangles: Vec<[u32; 3]> = caps.to_vec();
+    triangles.extend(caps.map(|[a, b, c]| [a + 8, c + 8, b + 8]));
+    for i in 0..8 {
+        let j = (i + 1) % 8;
+        triangles.extend([[i, i + 8, j + 8], [i, j + 8, j]]);
+    }
+    (vertices, triangles)
+}

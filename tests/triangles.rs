@@ -1,0 +1,239 @@
+//! Solids of triangles: a convex one is that of its planes, one that is not keeps account of all light.
+#![allow(clippy::unwrap_used, reason = "a test fails by it")]
+
+mod common;
+#[path = "common/solids.rs"]
+mod solids;
+
+use brillianteer::math::{Shell, Solid, Surface};
+use brillianteer::measure;
+use brillianteer::optics::{Material, material, strata};
+use brillianteer::picture::by_rays::Manner;
+use brillianteer::picture::spectral::{Remainder, expose};
+use brillianteer::picture::{ByBeams, Linear, Rows, by_rays};
+use brillianteer::scene::{Film, Light, Medium, Placed, Setting, View, light};
+use brillianteer::trace::ray::{ByRays, Camera, Options, facet_at};
+use brillianteer::trace::sitting::Sitting;
+use brillianteer::trace::surround::{Sky, Surround};
+use brillianteer::trace::{Stopped, beam, unwatched};
+use common::*;
+use glam::{DQuat, DVec2, DVec3};
+use solids::{Triangles, clasp, heart, star};
+use std::sync::Arc;
+
+const SIZE: u32 = 48;
+
+fn shell((vertices, triangles): Triangles) -> Arc<Shell> {
+    Arc::new(Shell::new(Surface::new(vertices, triangles)).unwrap())
+}
+
+fn options() -> Options {
+    Options { polarised: true, most_bounces: 64, least_weight: 1e-4 }
+}
+
+fn view() -> View {
+    View { tilt: 0.2, azimuth: 0.4, ..View::default() }
+}
+
+/// A picture under light of stones in one world.
+fn taken<T>(stones: Vec<Placed>, light: &Light, work: impl FnOnce(&Sitting) -> T) -> T {
+    let setting = Setting { stones, unit_mm: 3.25 };
+    let (sky, view) = (Sky::new(light, None), view());
+    let surround = Surround {
+        sky: &sky,
+        basis: view.light_basis(),
+        eye: view.basis(),
+        head: 0.0,
+        behind: None,
+        backdrop: false,
+    };
+    let film = Film::square(SIZE, 1.1);
+    work(&Sitting { setting: &setting, surround, view: &view, film, options: options() })
+}
+
+fn by_rays_of(stones: Vec<Placed>, light: &Light) -> (Linear, Remainder) {
+    taken(stones, light, |sitting| {
+        let strata = strata(2, &light.spectrum, true);
+        let prepare = |rows| Ok::<_, Stopped>(ByRays::new(*sitting, rows));
+        expose(sitting, (&strata, 1), SIZE, prepare, &unwatched).unwrap()
+    })
+}
+
+/// How many pixels differ by more than rounding, and how many show anything.
+fn apart(a: &Linear, b: &Linear) -> (usize, usize) {
+    let off = |(a, b): (&[f32; 4], &[f32; 4])| (0..4).any(|i| (a[i] - b[i]).abs() > 1e-4);
+    (
+        a.pixels.iter().zip(&b.pixels).filter(|&p| off(p)).count(),
+        a.pixels.iter().filter(|p| p[3] > 0.0).count(),
+    )
+}
+
+#[test]
+fn a_brilliant_of_triangles_has_the_figures_and_pictures_of_its_planes() {
+    let stone = built(&brilliant((56.0, 34.5, 40.8), (50.0, 77.0), 16));
+    let shell = Arc::new(Shell::of_polytope(&stone.polytope));
+    let medium = Medium { absorption: [0.1, 0.2], ..Medium::clear(2.4175) };
+    let (view, scope, manner) = (view(), aset(), (options(), 24));
+    let planes = measure::by_rays(&stone.polytope, medium, &view, &scope, manner, &unwatched).unwrap();
+    let triangles = measure::by_rays(&shell, medium, &view, &scope, manner, &unwatched).unwrap();
+    // A ray along an edge may go either way.
+    assert!(largest_difference(&row(&planes), &row(&triangles)) < 1e-3, "{planes:?} {triangles:?}");
+    assert!((triangles.sum() - 1.0).abs() < 1e-9);
+    assert!((planes.silhouette_area / triangles.silhouette_area - 1.0).abs() < 0.02);
+    let film = Film::reaching(Camera::new(&view, &shell).reach(&shell).unwrap(), SIZE);
+    let manner = Manner { options: options(), per_side: 1 };
+    let rows = |solid: &Solid| {
+        let mut all: Vec<Rows> = vec![];
+        let each = |rows: &Rows| -> Result<(), Stopped> {
+            all.push(rows.clone());
+            Ok(())
+        };
+        by_rays::trace(solid, medium, &view, &scope, &film, &manner, &unwatched, each).unwrap();
+        let channels = 2 * scope.bands.len() + 1;
+        let row = |r: &Rows, y: u32| (0..channels).flat_map(|c| r.row(y, c).to_vec()).collect::<Vec<_>>();
+        all.iter()
+            .flat_map(|r| (r.first..r.first + r.count).flat_map(|y| row(r, y)).collect::<Vec<_>>())
+            .collect()
+    };
+    let (a, b): (Vec<f64>, Vec<f64>) =
+        (rows(&stone.polytope.clone().into()), rows(&Solid::Triangles(Arc::clone(&shell))));
+    let off = a.iter().zip(&b).filter(|(a, b)| (*a - *b).abs() > 1e-6).count();
+    assert!(a.len() == b.len() && off * 1000 < a.len(), "{off} of {}", a.len());
+    let diamond = material("diamond").unwrap();
+    let light = light("studio").unwrap();
+    let of = |solid: Solid| by_rays_of(vec![Placed::new(solid, diamond.clone())], &light);
+    let ((a, _), (b, _)) = (of(stone.polytope.clone().into()), of(Solid::Triangles(shell)));
+    let (off, all) = apart(&a, &b);
+    assert!(all > 500 && off * 200 < all, "{off} of {all}");
+}
+
+#[test]
+fn a_white_furnace_is_white_around_solids_that_are_not_convex() {
+    for (name, solid) in [("heart", heart()), ("star", star()), ("clasp", clasp(0.4))] {
+        for index in [1.0, 1.54, 2.4175] {
+            let stone = Placed::new(
+                Solid::Triangles(shell(solid.clone())),
+                Material::from_index("glass", index).unwrap(),
+            );
+            let white = Light { head: 0.0, ..light("white").unwrap() };
+            let (picture, rest) = by_rays_of(vec![stone], &white);
+            let seen: Vec<DVec3> = picture
+                .pixels
+                .iter()
+                .filter(|p| p[3] > 0.0)
+                .map(|p| DVec3::new(p[0].into(), p[1].into(), p[2].into()))
+                .collect();
+            let mean = seen.iter().sum::<DVec3>() / seen.len() as f64;
+            assert!(rest.unresolved < 2e-3, "{name}, {index}: {rest:?}");
+            let most = 3.0 * rest.unresolved + 1e-6;
+            assert!((mean - 1.0).abs().max_element() < most, "{name}, {index}: {mean}, {rest:?}");
+        }
+    }
+}
+
+#[test]
+fn a_stone_in_the_gap_of_another_is_seen_there() {
+    // The same two stones, the clasp as triangles and as three bars side by side: only what touches differs, and in a
+    // medium as thin as air nothing does; a dark cube in the gap is seen through the clasp.
+    let air = Material::from_index("air", 1.0).unwrap();
+    let mut dark = air.clone();
+    dark.absorption = [(); 2].map(|()| brillianteer::optics::Absorption::new(vec![(550.0, 1e3)]).unwrap());
+    let square = [(1.0, 1.0), (-1.0, 1.0), (-1.0, -1.0), (1.0, -1.0)].map(|p| DVec2::from(p) * 0.3);
+    let cube = Placed::new(Solid::Triangles(shell(solids::extruded(&square, 0.3))), dark).moved(
+        1.0,
+        DQuat::from_rotation_x(0.2),
+        DVec3::new(0.3, 0.02, 0.0),
+    );
+    let clasp = Placed::new(Solid::Triangles(shell(clasp(0.4))), air).moved(
+        1.0,
+        DQuat::from_rotation_x(1.3),
+        DVec3::ZERO,
+    );
+    let cube = Placed { solid: cube.solid.moved(1.0, DQuat::from_rotation_x(1.3), DVec3::ZERO), ..cube };
+    let light = light("white").unwrap();
+    let alone = by_rays_of(vec![cube.clone()], &light).0;
+    let both = by_rays_of(vec![clasp, cube], &light).0;
+    let dark = |p: &Linear| p.pixels.iter().map(|p| p[3] > 0.0 && p[1] < 0.01).collect::<Vec<_>>();
+    let (alone, both) = (dark(&alone), dark(&both));
+    let (off, all) =
+        (alone.iter().zip(&both).filter(|(a, b)| a != b).count(), alone.iter().filter(|d| **d).count());
+    assert!(all > 100 && off * 50 < all, "{off} of {all}");
+}
+
+#[test]
+fn exact_beams_say_that_they_do_not_apply_to_triangles() {
+    let solid = Solid::Triangles(shell(heart()));
+    let told = solid.polytope().unwrap_err().to_string();
+    assert!(told.contains("exact beams need a convex stone") && told.contains("use rays"), "{told}");
+    let stone = Placed::new(solid, material("diamond").unwrap().clone());
+    let refused = taken(vec![stone], &light("studio").unwrap(), |sitting| {
+        let facet = facet_at(sitting, 0.5 * f64::from(SIZE), 0.5 * f64::from(SIZE));
+        assert!(facet.is_some_and(|(stone, facet)| stone == 0 && facet < 100), "{facet:?}");
+        ByBeams::new(*sitting, beam::Options::default()).is_none()
+    });
+    assert!(refused);
+}
+
+#[cfg(feature = "gpu")]
+mod by_card {
+    use super::*;
+    use brillianteer::trace::gpu::{Around, ByCard, Gpu, GpuError};
+
+    #[derive(Debug)]
+    #[expect(dead_code, reason = "what went wrong is printed by its Debug")]
+    struct Failed(String);
+
+    impl From<GpuError> for Failed {
+        fn from(error: GpuError) -> Self {
+            Self(error.to_string())
+        }
+    }
+
+    impl From<Stopped> for Failed {
+        fn from(error: Stopped) -> Self {
+            Self(error.to_string())
+        }
+    }
+
+    fn by_card_of(gpu: &Gpu, stones: Vec<Placed>, light: &Light) -> (Linear, Remainder) {
+        taken(stones, light, |sitting| {
+            let strata = strata(2, &light.spectrum, true);
+            let around = Around::new(gpu, &sitting.surround);
+            let prepare = |rows| Ok::<_, Failed>(ByCard::new(gpu, sitting, &around, rows, strata.len())?);
+            expose(sitting, (&strata, 1), SIZE, prepare, &unwatched).unwrap()
+        })
+    }
+
+    #[test]
+    fn stones_of_triangles_look_under_light_as_by_rays() {
+        let Some(gpu) = card("stones_of_triangles_look_under_light_as_by_rays") else { return };
+        let stone = |solid, name: &str| {
+            let placed = Placed::new(Solid::Triangles(shell(solid)), material(name).unwrap().clone());
+            placed.moved(1.0, DQuat::from_rotation_x(0.11) * DQuat::from_rotation_y(-0.07), DVec3::ZERO)
+        };
+        let brilliant = built(&brilliant((56.0, 34.5, 40.8), (50.0, 77.0), 16)).polytope;
+        let planes = Placed::new(brilliant, material("quartz").unwrap().clone()).moved(
+            0.3,
+            DQuat::from_rotation_x(1.1),
+            DVec3::new(0.35, 0.03, 0.0),
+        );
+        let scenes = [
+            vec![stone(heart(), "diamond")],
+            vec![stone(star(), "ruby")],
+            // A brilliant in the clasp's gap: light goes to and fro between the two.
+            vec![stone(clasp(0.4), "quartz"), planes],
+        ];
+        let light = light("dome").unwrap();
+        for (k, scene) in scenes.into_iter().enumerate() {
+            let (rays, rest) = by_rays_of(scene.clone(), &light);
+            let (card, card_rest) = by_card_of(&gpu, scene, &light);
+            let scale = rays.pixels.iter().map(|p| p[1]).fold(0.0, f32::max);
+            let off = |(a, b): (&[f32; 4], &[f32; 4])| (0..4).any(|i| (a[i] - b[i]).abs() > 0.005 * scale);
+            let apart = rays.pixels.iter().zip(&card.pixels).filter(|&p| off(p)).count();
+            let all = rays.pixels.iter().filter(|p| p[3] > 0.0).count();
+            assert!(all > 300 && apart * 50 < all, "{k}: {apart} of {all}");
+            assert!((rest.unresolved - card_rest.unresolved).abs() < 1e-3, "{k}: {rest:?} {card_rest:?}");
+            assert!((rest.absorbed - card_rest.absorbed).abs() < 1e-3, "{k}: {rest:?} {card_rest:?}");
+        }
+    }
+}
