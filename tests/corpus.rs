@@ -59,7 +59,7 @@ fn tiers(specimen: &Specimen) -> &Tiers {
 
 /// A stone written in a format and read again, with what was said to be lost.
 fn again(specimen: &Specimen, format: Format) -> (Specimen, Vec<String>) {
-    let written = written(specimen, format);
+    let written = written(specimen, format).unwrap();
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join(format!("again.{}", format.ending()));
     std::fs::write(&path, written.bytes).unwrap();

@@ -340,7 +340,7 @@ fn size(editor: &mut Editor, ui: &mut Ui) {
         let before = carats;
         let number = Number { decimals: 3, speed: 0.01, range: 1e-6..=1e9, unit: " ct" };
         number.show(ui, (92.0, label.id), &mut carats);
-        let asked = Size::Carats(carats).diameter_mm(&specimen.stone.polytope, &specimen.material);
+        let asked = Size::Carats(carats).diameter_mm(specimen.stone.polytope.volume(), &specimen.material);
         if let (true, Ok(diameter)) = (carats != before, asked) {
             design.diameter_mm = diameter;
         }

@@ -1,15 +1,18 @@
 //! What is put under light: one stone, or the stones of a scene in their places.
 
 use super::Failure;
-use super::specimen::Specimen;
-use crate::cut::{MaterialRef, Size};
+use super::specimen::{Opened, Specimen};
+use crate::cut::{DEFAULT_DIAMETER_MM, MaterialRef, Size};
 use crate::io::library;
+use crate::io::mesh_design::Lump;
 use crate::io::scene_file::{self, Entry, SceneFile};
+use crate::math::Solid;
 use crate::optics::Material;
 use crate::scene::{Placed, Setting, overlapping};
 use glam::{DQuat, DVec3};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 #[cfg(test)]
 mod tests;
@@ -57,7 +60,10 @@ impl Assembly {
         let material = material.map(asked_material).transpose()?;
         match scene(file)? {
             Some(scene) => Self::of_scene(file, scene, material.as_ref(), size),
-            None => Self::of_stone(Specimen::load(file)?, material, size),
+            None => match Specimen::open(file)? {
+                Opened::Stone(specimen) => Self::of_stone(*specimen, material, size),
+                Opened::Lump(lump) => Self::of_lump(file, &lump, material, size),
+            },
         }
     }
 
@@ -73,6 +79,30 @@ impl Assembly {
             places: vec![Place { diameter_mm, at_mm: DVec3::ZERO }],
             light: None,
         })
+    }
+
+    /// A solid of triangles.
+    fn of_lump(
+        file: &Path,
+        lump: &Lump,
+        material: Option<Material>,
+        size: Option<Size>,
+    ) -> Result<Self, Failure> {
+        let path = file.display().to_string();
+        let told = |message: String| Failure::Input(format!("{path}: {message}"));
+        let own = || lump.material.material().map_err(|error| told(error.to_string()));
+        let material = material.map_or_else(own, Ok)?;
+        let volume = lump.shell.volume();
+        let diameter = |size: Size| size.diameter_mm(volume, &material);
+        let diameter_mm =
+            size.map_or(Ok(DEFAULT_DIAMETER_MM), diameter).map_err(|e| told(format!("size: {e}")))?;
+        let stone = Placed {
+            label: lump.name.clone(),
+            ..Placed::new(Solid::Triangles(Arc::clone(&lump.shell)), material)
+        };
+        let setting = Setting { stones: vec![stone], unit_mm: 0.5 * diameter_mm };
+        let places = vec![Place { diameter_mm, at_mm: DVec3::ZERO }];
+        Ok(Self { path, name: lump.name.clone(), setting, places, light: None })
     }
 
     fn of_scene(
@@ -170,7 +200,7 @@ fn at_entry(file: &Path, number: usize, entry: &Entry, message: &str) -> Failure
 }
 
 fn diameter_mm(specimen: &Specimen, material: &Material, size: Option<Size>) -> Result<f64, String> {
-    let diameter = |size: Size| size.diameter_mm(&specimen.stone.polytope, material);
+    let diameter = |size: Size| size.diameter_mm(specimen.stone.polytope.volume(), material);
     size.map_or(Ok(specimen.design.diameter_mm), diameter).map_err(|error| format!("size: {error}"))
 }
 

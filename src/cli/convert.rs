@@ -8,9 +8,9 @@ use std::path::PathBuf;
 
 #[derive(Debug, Args)]
 pub struct Convert {
-    /// A file of a design, or the name of a cut that comes with the program
+    /// A file of a design or a mesh, or the name of a cut that comes with the program
     input: PathBuf,
-    /// The file to write; its ending names the format: .toml, .asc, .gem or .gcs
+    /// The file to write; its ending names the format: .toml, .asc, .gem, .gcs, .obj, .stl or .glb
     output: PathBuf,
 }
 

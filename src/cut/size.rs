@@ -1,7 +1,6 @@
 //! How large a stone is to be: by its girdle or by its weight.
 
 use super::design::DIAMETERS_MM;
-use crate::math::Polytope;
 use crate::optics::Material;
 use std::fmt;
 use std::str::FromStr;
@@ -55,15 +54,15 @@ pub enum SizeError {
 }
 
 impl Size {
-    /// The girdle's diameter in mm for a stone of this shape, whose girdle radius is 1, and material.
+    /// The girdle's diameter in mm for a stone of this volume, where its girdle radius is 1, and material.
     ///
     /// # Errors
     /// A diameter out of range, and a weight where the material has no density.
-    pub fn diameter_mm(self, unit: &Polytope, material: &Material) -> Result<f64, SizeError> {
+    pub fn diameter_mm(self, unit: f64, material: &Material) -> Result<f64, SizeError> {
         let Self::Carats(carats) = self else { return self.checked().map(|_| self.number()) };
         let no_density = || SizeError::NoDensity { material: material.name.clone() };
         let volume_mm3 = material.volume_mm3(carats).ok_or_else(no_density)?;
-        let diameter = 2.0 * (volume_mm3 / unit.volume()).cbrt();
+        let diameter = 2.0 * (volume_mm3 / unit).cbrt();
         let size = || format!("{self} of {}, {diameter:.3} mm,", material.name);
         if DIAMETERS_MM.contains(&diameter) {
             Ok(diameter)
@@ -118,7 +117,7 @@ impl FromStr for Size {
 mod tests {
     use super::super::round_brilliant::MODERN;
     use super::*;
-    use crate::math::Plane;
+    use crate::math::{Plane, Polytope};
     use crate::optics::material;
 
     fn brilliant() -> Polytope {
@@ -157,23 +156,24 @@ mod tests {
     fn a_weight_gives_the_diameter_of_a_stone_that_weighs_it() {
         let (unit, diamond) = (brilliant(), material("diamond").unwrap());
         let size: Size = "1ct".parse().unwrap();
-        let diameter = size.diameter_mm(&unit, diamond).unwrap();
+        let diameter = size.diameter_mm(unit.volume(), diamond).unwrap();
         assert!((6.4..6.6).contains(&diameter), "{diameter}");
         let weight = diamond.carats(unit.volume() * (diameter / 2.0).powi(3)).unwrap();
         assert!((weight - 1.0).abs() < 1e-12);
-        assert_eq!(Size::Millimetres(6.5).diameter_mm(&unit, diamond), Ok(6.5));
+        assert_eq!(Size::Millimetres(6.5).diameter_mm(unit.volume(), diamond), Ok(6.5));
     }
 
     #[test]
     fn a_weight_without_a_density_or_beyond_all_sizes_is_refused() {
         let (unit, glass) = (brilliant(), Material::from_index("index 2.42", 2.42).unwrap());
-        let told = Size::Carats(1.0).diameter_mm(&unit, &glass).unwrap_err().to_string();
+        let told = Size::Carats(1.0).diameter_mm(unit.volume(), &glass).unwrap_err().to_string();
         assert!(told.contains("which index 2.42 lacks; give the size in mm"), "{told}");
-        let told = Size::Carats(1e9).diameter_mm(&unit, material("ruby").unwrap()).unwrap_err().to_string();
+        let told =
+            Size::Carats(1e9).diameter_mm(unit.volume(), material("ruby").unwrap()).unwrap_err().to_string();
         assert!(
             told.starts_with("1000000000 ct of ruby, ") && told.contains("from 0.1 to 1000 mm"),
             "{told}"
         );
-        assert!(Size::Millimetres(f64::NAN).diameter_mm(&unit, &glass).is_err());
+        assert!(Size::Millimetres(f64::NAN).diameter_mm(unit.volume(), &glass).is_err());
     }
 }

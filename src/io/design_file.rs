@@ -1,15 +1,16 @@
 //! Files of designs, whatever their format: told by what is in them, and only where that says nothing by how they end.
 
 use super::cut_file::{self, CutFileError};
+use super::mesh_design::{self, MeshStone};
+use super::mesh_file::{self, MaterialHint};
 use super::{Failure, asc, gcs, gem, write as write_whole};
 use super::{WriteError, text};
+use super::{write_glb, write_obj, write_stl};
 use crate::cut::Design;
+use crate::cut::from_mesh::Up;
 use crate::scene::Specimen;
 use std::io::Write as _;
 use std::path::Path;
-
-/// The largest file taken, bytes.
-pub const MAX_BYTES: u64 = 64 << 20;
 
 /// A format of designs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -22,6 +23,12 @@ pub enum Format {
     Gem,
     /// Gem Cut Studio's files, XML.
     Gcs,
+    /// Wavefront's meshes.
+    Obj,
+    /// STL meshes, binary or text.
+    Stl,
+    /// Binary glTF.
+    Glb,
 }
 
 /// What a file has brought in.
@@ -44,7 +51,7 @@ pub struct Written {
 
 impl Format {
     /// All there are.
-    pub const ALL: [Self; 4] = [Self::Toml, Self::Asc, Self::Gem, Self::Gcs];
+    pub const ALL: [Self; 7] = [Self::Toml, Self::Asc, Self::Gem, Self::Gcs, Self::Obj, Self::Stl, Self::Glb];
 
     /// How its files end, without the dot.
     pub fn ending(self) -> &'static str {
@@ -53,6 +60,9 @@ impl Format {
             Self::Asc => "asc",
             Self::Gem => "gem",
             Self::Gcs => "gcs",
+            Self::Obj => "obj",
+            Self::Stl => "stl",
+            Self::Glb => "glb",
         }
     }
 
@@ -79,32 +89,87 @@ impl Format {
 /// # Errors
 /// What keeps the file from being one, with its path, and line where there is one.
 pub fn read(path: &Path) -> Result<Brought, CutFileError> {
+    match open(path, Up::Found)? {
+        MeshStone::Planes(brought) => Ok(brought),
+        MeshStone::Triangles(lump) => Err(CutFileError {
+            path: path.display().to_string(),
+            line: None,
+            message: format!(
+                "this mesh of {} triangles is not convex, so it has no facets to work on; `render` and `spin` show it",
+                lump.shell.surface().triangles.len()
+            ),
+        }),
+    }
+}
+
+/// Reads a design, or a solid that no planes describe; `up` is the direction of a mesh's table.
+///
+/// # Errors
+/// What keeps the file from being either, with its path, and line where there is one.
+pub fn open(path: &Path, up: Up) -> Result<MeshStone, CutFileError> {
     let label = path.display().to_string();
     let fault = |error: text::TextError| CutFileError {
         path: label.clone(),
         line: error.line,
         message: error.message,
     };
-    let bytes = text::read_bytes(path, MAX_BYTES).map_err(fault)?;
-    match Format::of(&bytes, path) {
+    let bytes = text::read_bytes(path, mesh_file::MAX_BYTES).map_err(fault)?;
+    if mesh_file::looks_like(&bytes).is_some() {
+        return mesh_design::read(bytes, path, up);
+    }
+    let brought = match Format::of(&bytes, path) {
         Format::Asc => asc::read(&bytes, &label),
         Format::Gem => gem::read(&bytes, &label),
         Format::Gcs => gcs::read(&bytes, &label),
+        Format::Obj | Format::Stl | Format::Glb => return mesh_design::read(bytes, path, up),
         Format::Toml => {
             let text = text::utf8(bytes).map_err(fault)?;
             cut_file::parse(&text, &label).map(|design| Brought { design, warnings: vec![] })
         }
-    }
+    };
+    brought.map(MeshStone::Planes)
 }
 
 /// The file of a stone's design.
-pub fn written(specimen: &Specimen, format: Format) -> Written {
-    match format {
+///
+/// # Errors
+/// None that memory does not make.
+pub fn written(specimen: &Specimen, format: Format) -> Result<Written, Failure> {
+    let (name, radius_mm) = (specimen.design.name.as_str(), specimen.unit_mm());
+    let refused = |error: &dyn std::fmt::Display| Failure::Output(format!("{}: {error}", format.ending()));
+    Ok(match format {
         Format::Toml => Written { bytes: cut_file::write(&specimen.design).into_bytes(), lost: vec![] },
         Format::Asc => asc::write(specimen),
         Format::Gem => gem::write(specimen),
         Format::Gcs => gcs::write(specimen),
+        Format::Obj => as_mesh(specimen, format, write_obj(&specimen.stone, name, radius_mm).into_bytes()),
+        Format::Stl => {
+            as_mesh(specimen, format, write_stl(&specimen.stone, radius_mm).map_err(|e| refused(&e))?)
+        }
+        Format::Glb => {
+            // The standard's unit is the metre.
+            let (scale, hint) = (1e-3 * radius_mm, MaterialHint::of(&specimen.material, 1e3));
+            as_mesh(
+                specimen,
+                format,
+                write_glb(&specimen.stone, name, scale, &hint).map_err(|e| refused(&e))?,
+            )
+        }
+    })
+}
+
+/// A mesh, and what meshes have no place for.
+fn as_mesh(specimen: &Specimen, format: Format, bytes: Vec<u8>) -> Written {
+    let mut lost = vec!["all but the facets".to_owned()];
+    match format {
+        Format::Glb => lost[0] += ", their names and the material as three colours see it",
+        Format::Obj => lost[0] += " and their names",
+        _ => {}
     }
+    let depth =
+        specimen.design.cut.brilliant().map(|_| "the proportions, which reading measures anew".to_owned());
+    lost.extend(depth);
+    Written { bytes, lost }
 }
 
 /// Writes a stone's design, whole or not at all; what the format could not hold, in words.
@@ -112,7 +177,7 @@ pub fn written(specimen: &Specimen, format: Format) -> Written {
 /// # Errors
 /// Where the file system refuses.
 pub fn write(specimen: &Specimen, format: Format, path: &Path) -> Result<Vec<String>, Failure> {
-    let written = written(specimen, format);
+    let written = written(specimen, format)?;
     write_whole(path, |file| file.write_all(&written.bytes).map_err(|e| WriteError::io(path, e)))?;
     Ok(written.lost)
 }

@@ -16,6 +16,7 @@ pub mod gem;
 pub mod library;
 pub mod light_file;
 pub mod lighting;
+pub mod mesh_design;
 mod mesh_export;
 pub mod mesh_file;
 pub mod panorama;

@@ -204,10 +204,7 @@ mod tests {
         let Surface { vertices, triangles, .. } = cube().surface().clone();
         let turned = |v: &DVec3| DQuat::from_rotation_x(0.3) * DQuat::from_rotation_y(0.7) * *v;
         let rounded = vertices.iter().map(turned).map(|v| rough(&v)).collect();
-        assert_eq!(
-            Shell::new(Surface::new(rounded, triangles.clone())).unwrap().planes().len(),
-            6
-        );
+        assert_eq!(Shell::new(Surface::new(rounded, triangles.clone())).unwrap().planes().len(), 6);
         // One corner of the cube, where three facets meet, moved a little.
         let mut bent = vertices;
         bent[0] += DVec3::splat(1e-4);

@@ -1,0 +1,144 @@
+//! Stones from meshes: the planes of one that is convex, the triangles of any other.
+
+use super::cut_file::CutFileError;
+use super::design_file::Brought;
+use super::mesh_file::{self, MaterialHint, MeshFile, MeshFormat};
+use crate::cut::from_mesh::{FromMesh, Pose, Up, from_mesh};
+use crate::cut::{Cut, DEFAULT_DIAMETER_MM, Design, MAX_PLANES, MaterialRef, is_printable};
+use crate::math::surface::{Faceted, Mending, Shape, facets};
+use crate::math::{Shell, Surface};
+use glam::{DQuat, DVec3};
+use std::path::Path;
+use std::sync::Arc;
+
+/// The material that is taken where a file says nothing of one.
+const USUAL: &str = "diamond";
+
+/// What a mesh is.
+#[derive(Debug)]
+pub enum MeshStone {
+    /// Convex: its planes.
+    Planes(Brought),
+    /// Anything else.
+    Triangles(Lump),
+}
+
+/// A solid of triangles, which no planes describe: z up, half its width 1, its middle at the origin.
+#[derive(Debug, Clone)]
+pub struct Lump {
+    /// What it is called.
+    pub name: String,
+    /// What it is made of.
+    pub material: MaterialRef,
+    /// Its shape.
+    pub shell: Arc<Shell>,
+    /// What is odd about it, in words.
+    pub warnings: Vec<String>,
+}
+
+/// Reads a mesh of any format, which lies in a file of this path; `up` is the direction of its table in the file's frame.
+///
+/// # Errors
+/// What keeps it from being a stone, with path and place.
+pub fn read(bytes: Vec<u8>, path: &Path, up: Up) -> Result<MeshStone, CutFileError> {
+    let told = |e: mesh_file::MeshFileError| CutFileError {
+        path: e.path,
+        line: None,
+        message: e.place.map_or_else(|| e.message.clone(), |place| format!("{place}: {}", e.message)),
+    };
+    let label = path.display().to_string();
+    let MeshFile { format, surface, hint, mut warnings, name } =
+        mesh_file::parse(bytes, &label, path.parent()).map_err(told)?;
+    let fault = |message: String| CutFileError { path: label.clone(), line: None, message };
+    let mended = surface.mend().map_err(|e| fault(e.to_string()))?;
+    warnings.extend(told_of(&mended.mending));
+    let name = Some(name).filter(|name| is_printable(name)).unwrap_or_else(|| "stone".to_owned());
+    match facets(mended.surface) {
+        Shape::Convex(found) if found.faces.len() <= MAX_PLANES => {
+            let brought = planes(&found, up, name, hint, warnings).map_err(fault)?;
+            Ok(MeshStone::Planes(brought))
+        }
+        Shape::Convex(found) => triangles(found.surface, (up, format), name, hint, warnings).map_err(fault),
+        Shape::Concave(surface) => triangles(surface, (up, format), name, hint, warnings).map_err(fault),
+    }
+}
+
+fn planes(
+    found: &Faceted,
+    up: Up,
+    name: String,
+    hint: Option<MaterialHint>,
+    mut warnings: Vec<String>,
+) -> Result<Brought, String> {
+    let FromMesh { facets, pose, deviation, .. } = from_mesh(found, up).map_err(|e| e.to_string())?;
+    let count = facets.len();
+    warnings.push(format!(
+        "{count} facets were found; no corner lies farther from them than {deviation:.1e} girdle radii"
+    ));
+    let material = material(hint, pose.scale, &mut warnings);
+    let design = Design {
+        name,
+        source: None,
+        notes: None,
+        material,
+        diameter_mm: DEFAULT_DIAMETER_MM,
+        cut: Cut::Planes(facets),
+    };
+    design.check().map_err(|e| e.to_string())?;
+    Ok(Brought { design, warnings })
+}
+
+fn triangles(
+    surface: Surface,
+    (up, format): (Up, MeshFormat),
+    name: String,
+    hint: Option<MaterialHint>,
+    mut warnings: Vec<String>,
+) -> Result<MeshStone, String> {
+    let up = match up {
+        Up::Given(up) => up.try_normalize().ok_or("the direction up points nowhere")?,
+        // The standard of glTF has y up; the others say nothing, and stones are drawn with z up.
+        Up::Found if matches!(format, MeshFormat::Glb | MeshFormat::Gltf) => DVec3::Y,
+        Up::Found => DVec3::Z,
+    };
+    let turn = DQuat::from_rotation_arc(up, DVec3::Z);
+    let shell = Shell::new(surface).map_err(|e| e.to_string())?.moved(1.0, turn, DVec3::ZERO);
+    let start = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+    let (low, high) = shell.vertices().iter().fold(start, |(low, high), v| (low.min(*v), high.max(*v)));
+    let scale = 2.0 / (high - low).truncate().min_element();
+    let shift = -0.5 * scale * (low + high);
+    let pose = Pose { scale, turn, shift };
+    warnings
+        .push(format!("it is not convex, so it is traced as {} triangles", shell.surface().triangles.len()));
+    let material = material(hint, pose.scale, &mut warnings);
+    let shell = Arc::new(shell.moved(pose.scale, DQuat::IDENTITY, pose.shift));
+    Ok(MeshStone::Triangles(Lump { name, material, shell, warnings }))
+}
+
+/// The material that a file asks for; `scale` is in girdle radii per unit of the file.
+fn material(hint: Option<MaterialHint>, scale: f64, warnings: &mut Vec<String>) -> MaterialRef {
+    let mm_per_unit = 0.5 * DEFAULT_DIAMETER_MM / scale;
+    match hint.map(|hint| hint.material(mm_per_unit)).transpose() {
+        Ok(Some(Some(material))) => return material,
+        Ok(_) => warnings.push(format!("the file says of no material that it refracts; {USUAL} is taken")),
+        Err(error) => warnings.push(format!("{error}; {USUAL} is taken")),
+    }
+    MaterialRef::Name(USUAL.to_owned())
+}
+
+/// What was mended of a mesh, where that is more than any file of triangles needs.
+fn told_of(mending: &Mending) -> Vec<String> {
+    let count = |count: usize, what: &str| (count > 0).then(|| format!("{count} {what}"));
+    let crack = (mending.crack > 0.0)
+        .then(|| format!("cracks of up to {:.1e} of its unit were closed", mending.crack));
+    [
+        count(mending.copies, "copies of triangles are left out"),
+        count(mending.degenerate, "triangles without an area are left out"),
+        count(mending.turned, "triangles that faced inward are turned"),
+        count(mending.seams, "pieces were made of triangles whose edges had corners on them"),
+        crack,
+    ]
+    .into_iter()
+    .flatten()
+    .collect()
+}
