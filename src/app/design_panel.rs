@@ -55,8 +55,11 @@ fn identity(editor: &mut Editor, ui: &mut Ui) {
     let design = &mut editor.document.work.design;
     ui.horizontal(|ui| {
         let label = named(ui, "Name", "What the design is called, in its file and on its pictures.");
-        let field = TextEdit::singleline(&mut design.name).desired_width(ui.available_width() - 12.0);
-        ui.add(field).labelled_by(label.id);
+        let mut name = design.name.clone();
+        let field = TextEdit::singleline(&mut name).desired_width(ui.available_width() - 12.0);
+        if ui.add(field).labelled_by(label.id).changed() {
+            design.rename(name);
+        }
     });
     if let Some(fault @ SpecimenError::Design(DesignError::Name)) = editor.document.fault() {
         wrong(ui, &fault.to_string());

@@ -43,9 +43,8 @@ pub type Chooser = Arc<dyn Fn(&Question) -> Option<PathBuf> + Send + Sync>;
 /// The system's own dialogs.
 pub fn by_dialog(question: &Question) -> Option<PathBuf> {
     let dialog = rfd::FileDialog::new();
-    let cuts = |d: rfd::FileDialog| {
-        d.add_filter("Designs", &Format::ALL.map(Format::ending)).add_filter("All files", &["*"])
-    };
+    let cuts =
+        |d: rfd::FileDialog| d.add_filter("Designs and meshes", &endings()).add_filter("All files", &["*"]);
     let pictures = ["toml", "hdr", "exr", "png", "jpg", "jpeg"];
     match question.purpose {
         Purpose::Open => cuts(dialog.set_title("Open a cut")).pick_file(),
@@ -257,6 +256,11 @@ fn orphan(path: PathBuf) -> Option<Found> {
     let design = cut_file::parse(&kept.design, "unsaved work").ok()?;
     let when = file.metadata().and_then(|m| m.modified()).ok()?;
     Some(Found { design, path: kept.path, when, file: path })
+}
+
+/// How files end that can be opened.
+fn endings() -> Vec<&'static str> {
+    Format::ALL.into_iter().map(Format::ending).chain(["ply", "gltf"]).collect()
 }
 
 #[cfg(test)]

@@ -7,7 +7,13 @@ use super::editor::Editor;
 use super::files::{Choosing, Purpose, Question};
 use super::opening::Wanted;
 use super::studio::Which;
+use crate::io::design_file::Format;
 use std::path::{Path, PathBuf};
+
+/// Whether a design can be saved under this name.
+fn holds_designs(path: &Path) -> bool {
+    Format::of_name(path).is_some_and(Format::holds_designs)
+}
 
 impl Editor {
     pub(super) fn changed_outside(&mut self) {
@@ -85,7 +91,11 @@ impl Editor {
         if self.choosing.is_some() {
             return self.notes.say("Answer the file dialog that is open first.");
         }
-        let name = self.document.path().and_then(Path::file_name).map_or_else(
+        let own = self
+            .document
+            .path()
+            .map(|path| if holds_designs(path) { path.to_owned() } else { path.with_extension("toml") });
+        let name = own.as_deref().and_then(Path::file_name).map_or_else(
             || format!("{}.toml", self.document.work.design.name.to_lowercase().replace([' ', '/'], "-")),
             |n| n.to_string_lossy().into_owned(),
         );
@@ -121,8 +131,9 @@ impl Editor {
     /// Saves; asks where if that is not known yet. Whether it is saved.
     pub(super) fn save(&mut self) -> bool {
         match self.document.path().map(Path::to_owned) {
-            Some(path) => self.save_as(path),
-            None => {
+            Some(path) if holds_designs(&path) => self.save_as(path),
+            // A scan stays as it was: what was made of it is another file.
+            _ => {
                 self.choose(Purpose::SaveAs);
                 false
             }
@@ -139,6 +150,13 @@ impl Editor {
             return false;
         }
         let path = if path.extension().is_some() { path } else { completed };
+        if !holds_designs(&path) {
+            let name = path.display();
+            self.notes.trouble(format!(
+                "{name}: designs are saved as .toml, .asc, .gem or .gcs; `brillianteer convert` writes meshes"
+            ));
+            return false;
+        }
         match self.document.save(path.clone()) {
             Ok(lost) => {
                 self.desk.remember(&path);
@@ -146,7 +164,7 @@ impl Editor {
                 self.notes.say(&format!("Saved {}", path.display()));
                 if !lost.is_empty() {
                     let (name, lost) = (path.display(), lost.join("; "));
-                    self.notes.trouble(format!("{name} has no place for: {lost}. As .toml, all is kept."));
+                    self.notes.trouble(format!("{name}: {lost}. As .toml, all is kept."));
                 }
                 self.forget_unsaved();
                 if let Some(Compared { is_saved: true, .. }) = self.compared {

@@ -2,6 +2,7 @@
 
 use super::Failure;
 use super::specimen::{Opened, Specimen};
+use crate::cut::from_mesh::Up;
 use crate::cut::{DEFAULT_DIAMETER_MM, MaterialRef, Size};
 use crate::io::library;
 use crate::io::mesh_design::Lump;
@@ -191,7 +192,7 @@ fn specimen(scene: &Path, cut: &str) -> Result<Specimen, Failure> {
     let beside = scene.parent().unwrap_or(Path::new("")).join(cut);
     match library::cut(cut).filter(|_| !scene.is_file() || !beside.is_file()) {
         Some(text) => Specimen::parse(cut, text),
-        None => Specimen::read(&beside),
+        None => Specimen::read(&beside, Up::Found),
     }
 }
 

@@ -13,7 +13,7 @@ use std::path::{Path, PathBuf};
 
 #[derive(Debug, Args)]
 pub struct Export {
-    /// Cut files, or names of cuts that come with the program
+    /// Designs or meshes, or names of cuts that come with the program
     #[arg(required = true)]
     files: Vec<PathBuf>,
     /// Pictures to make, separated by commas [default: all of them]

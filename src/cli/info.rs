@@ -15,7 +15,7 @@ const LEVEL: f64 = 1e-12;
 
 #[derive(Debug, Args)]
 pub struct Info {
-    /// Cut files and scene files, or names of cuts and scenes that come with the program
+    /// Designs, meshes and scene files, or names of cuts and scenes that come with the program
     #[arg(required = true)]
     files: Vec<PathBuf>,
     /// Print JSON: one object, or for several files one a line
@@ -192,11 +192,11 @@ fn proportions(report: &Report, line: &mut impl FnMut(&str, String)) {
 
 fn tiers(report: &Report, text: &mut String) {
     let _ =
-        write!(text, "\n  {:<18}{:<10}{:>7}{:>22}{:>24}", "tier", "zone", "facets", "slope deg", "distance");
+        write!(text, "\n  {:<18}{:<10}{:>7}{:>24}{:>28}", "tier", "zone", "facets", "slope deg", "distance");
     for tier in &report.tiers {
         let (slope, distance) = (spread(tier.slope_deg, 2), spread(tier.distance, 4));
         let _ =
-            write!(text, "\n  {:<18}{:<10}{:>7}{slope:>22}{distance:>24}", tier.name, tier.zone, tier.facets);
+            write!(text, "\n  {:<18}{:<10}{:>7}{slope:>24}{distance:>28}", tier.name, tier.zone, tier.facets);
     }
 }
 

@@ -12,7 +12,7 @@ use std::path::PathBuf;
 
 #[derive(Debug, Args)]
 pub struct Measure {
-    /// Cut files, or names of cuts that come with the program
+    /// Designs or meshes, or names of cuts that come with the program
     #[arg(required = true)]
     files: Vec<PathBuf>,
     /// Print JSON: one object, or for several files one a line

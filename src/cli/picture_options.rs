@@ -38,7 +38,7 @@ pub struct PictureOptions {
     /// 64 by rays]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=65536))]
     pub samples: Option<u32>,
-    /// What traces the light; beams are for one stone without a photograph behind
+    /// What traces the light; beams are for one convex stone without a photograph behind
     #[arg(long, value_enum, default_value_t = TracerName::Auto)]
     pub tracer: TracerName,
     /// Let every surface see unpolarised light

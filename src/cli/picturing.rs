@@ -131,11 +131,11 @@ impl<'a> Studio<'a> {
 
     fn chosen(&self, view: &View) -> Result<Tracer, Failure> {
         let beams_apply = view.projection == Projection::Orthographic
-            && self.assembly.setting.stones.len() == 1
+            && matches!(&*self.assembly.setting.stones, [only] if only.solid.polytope().is_ok())
             && self.photo.is_none();
         match self.options.tracer {
             TracerName::Beam if !beams_apply => Err(Failure::Usage(
-                "exact beams are for one stone, parallel rays and no photograph behind: use --tracer ray"
+                "exact beams are for one convex stone, parallel rays and no photograph behind: use --tracer ray"
                     .into(),
             )),
             TracerName::Beam => Ok(Tracer::Beams),

@@ -12,7 +12,7 @@ use std::path::{Path, PathBuf};
 
 #[derive(Debug, Args)]
 pub struct Render {
-    /// Cut files, scene files, or names of cuts and scenes that come with the program
+    /// Designs, meshes, scene files, or names of cuts and scenes that come with the program
     #[arg(required = true)]
     files: Vec<PathBuf>,
     /// File (.png or .exr) or folder to write to

@@ -43,7 +43,7 @@ impl Specimen {
         let name = file.display().to_string();
         match library::cut(&name).filter(|_| !file.is_file()) {
             Some(text) => Self::parse(&name, text),
-            None => Self::read(file),
+            None => Self::read(file, Up::Found),
         }
     }
 
@@ -63,10 +63,10 @@ impl Specimen {
         }
     }
 
-    /// Reads a design.
-    pub fn read(file: &Path) -> Result<Self, Failure> {
+    /// Reads a design; `up` is the direction of a mesh's table.
+    pub fn read(file: &Path, up: Up) -> Result<Self, Failure> {
         let told = |e: CutFileError| Failure::Input(format!("{e}{}", super::lists::hint(file)));
-        Self::of(file.display().to_string(), design_file::read(file).map_err(told)?)
+        Self::of(file.display().to_string(), design_file::read_posed(file, up).map_err(told)?)
     }
 
     /// Takes the text of a cut file, which errors call by this path.

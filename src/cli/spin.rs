@@ -15,7 +15,7 @@ use std::path::PathBuf;
 
 #[derive(Debug, Args)]
 pub struct Spin {
-    /// A cut file, a scene file, or the name of a cut or scene that comes with the program
+    /// A design, a mesh, a scene file, or the name of a cut or scene that comes with the program
     file: PathBuf,
     /// Folder to write to: NAME-spin.png, which moves, and its frames in NAME-spin/
     #[arg(long, default_value = "out")]

@@ -125,6 +125,18 @@ impl Cut {
 }
 
 impl Design {
+    /// Calls the design something else: where its own file has its name among its headers, there as well.
+    pub fn rename(&mut self, name: String) {
+        if let Cut::Tiers(tiers) = &mut self.cut {
+            let is_name = |header: &&mut String| header.trim() == self.name;
+            match tiers.headers.iter_mut().find(is_name) {
+                Some(header) => header.clone_from(&name),
+                None => tiers.headers.insert(0, name.clone()),
+            }
+        }
+        self.name = name;
+    }
+
     /// Checks everything that can be known without building the stone.
     ///
     /// # Errors
@@ -259,6 +271,24 @@ mod tests {
         let far = text(vec![plane("x", [0.0, 0.0, 1e-100], 1e300)]);
         assert!(far.starts_with("plane 1: offset: 1000"), "{far}");
         assert!(text(vec![plane("", [0.0, 0.0, 1.0], 1.0)]).starts_with("plane 1: name: "));
+    }
+
+    #[test]
+    fn a_new_name_stands_among_the_headers_of_a_cutters_file() {
+        let headers = vec!["PC 1".to_owned(), " test ".to_owned()];
+        let (footers, remarks, tiers) = (vec![], vec![], vec![]);
+        let tiers =
+            Tiers { gear: 96, offset: 0.0, symmetry: 1, mirror: false, headers, footers, remarks, tiers };
+        let mut design = design(Cut::Tiers(tiers));
+        let headers = |design: &Design| match &design.cut {
+            Cut::Tiers(tiers) => tiers.headers.join("|"),
+            _ => panic!(),
+        };
+        design.rename("mine".to_owned());
+        assert_eq!((design.name.as_str(), headers(&design).as_str()), ("mine", "PC 1|mine"));
+        design.name = "from its file's name".to_owned();
+        design.rename("other".to_owned());
+        assert_eq!(headers(&design), "other|PC 1|mine");
     }
 
     #[test]

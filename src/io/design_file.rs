@@ -66,6 +66,14 @@ impl Format {
         }
     }
 
+    /// Whether it holds a design whole enough to go on with, and not the shape alone.
+    pub fn holds_designs(self) -> bool {
+        match self {
+            Self::Toml | Self::Asc | Self::Gem | Self::Gcs => true,
+            Self::Obj | Self::Stl | Self::Glb => false,
+        }
+    }
+
     /// The format that a file's name asks for.
     pub fn of_name(path: &Path) -> Option<Self> {
         let ending = path.extension()?.to_string_lossy().to_lowercase();
@@ -89,7 +97,15 @@ impl Format {
 /// # Errors
 /// What keeps the file from being one, with its path, and line where there is one.
 pub fn read(path: &Path) -> Result<Brought, CutFileError> {
-    match open(path, Up::Found)? {
+    read_posed(path, Up::Found)
+}
+
+/// Reads a design; `up` is the direction of a mesh's table in its own frame.
+///
+/// # Errors
+/// What keeps the file from being one, with its path, and line where there is one.
+pub fn read_posed(path: &Path, up: Up) -> Result<Brought, CutFileError> {
+    match open(path, up)? {
         MeshStone::Planes(brought) => Ok(brought),
         MeshStone::Triangles(lump) => Err(CutFileError {
             path: path.display().to_string(),
@@ -160,15 +176,14 @@ pub fn written(specimen: &Specimen, format: Format) -> Result<Written, Failure> 
 
 /// A mesh, and what meshes have no place for.
 fn as_mesh(specimen: &Specimen, format: Format, bytes: Vec<u8>) -> Written {
-    let mut lost = vec!["all but the facets".to_owned()];
-    match format {
-        Format::Glb => lost[0] += ", their names and the material as three colours see it",
-        Format::Obj => lost[0] += " and their names",
-        _ => {}
-    }
-    let depth =
-        specimen.design.cut.brilliant().map(|_| "the proportions, which reading measures anew".to_owned());
-    lost.extend(depth);
+    let kept = match format {
+        Format::Glb => "facets, their names and the material as three colours see it",
+        Format::Obj => "facets and their names",
+        _ => "facets",
+    };
+    let mut lost = vec![format!("of the design only this is kept: {kept}")];
+    let measured = "the proportions are not kept; whoever reads the mesh measures them anew";
+    lost.extend(specimen.design.cut.brilliant().map(|_| measured.to_owned()));
     Written { bytes, lost }
 }
 

@@ -7,6 +7,7 @@ use crate::app::opening::Wanted;
 use crate::app::shows::Shows;
 use crate::cut::Crown;
 use crate::io::cut_file;
+use crate::io::design_file::{self, Format};
 use crate::measure::by_beams;
 use crate::optics::line;
 use crate::scene::{ASET_CONE, Backing, Scope, Specimen, View};
@@ -371,6 +372,29 @@ fn a_cutters_file_opens_and_its_tiers_are_set() {
     );
     bench.choose("Edit", "Undo");
     assert!(bench.editor().document.work.design.cut == cut);
+}
+
+#[test]
+fn a_mesh_opens_as_its_facets_and_is_not_written_over() {
+    let folder = tempfile::tempdir().unwrap();
+    let (path, toml) = (folder.path().join("scan.stl"), folder.path().join("scan.toml"));
+    let specimen = Specimen::new(Document::first().unwrap().work.design).unwrap();
+    design_file::write(&specimen, Format::Stl, &path).unwrap();
+    let scan = std::fs::read(&path).unwrap();
+    let mut bench = Bench::with(Setup { file: Some(path.clone()), ..Setup::default() });
+    bench.settle();
+    assert!(bench.harness.query_by_label_contains("153 facets were found").is_some());
+    bench.type_number("main · 8 Angle", "-41");
+    bench.choices.lock().unwrap().push(toml.clone());
+    bench.harness.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::S);
+    bench.wait(|editor| !editor.document.is_changed());
+    assert_eq!(std::fs::read(&path).unwrap(), scan);
+    let Cut::Planes(planes) = design_file::read(&toml).unwrap().design.cut else { panic!() };
+    let slope = |normal: glam::DVec3| normal.truncate().length().atan2(-normal.z).to_degrees();
+    let mains = planes.iter().filter(|(name, _)| name.starts_with("main "));
+    assert!(
+        mains.clone().count() == 8 && mains.into_iter().all(|(_, p)| (slope(p.normal) - 41.0).abs() < 1e-4)
+    );
 }
 
 #[test]
