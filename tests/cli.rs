@@ -170,6 +170,46 @@ fn a_stone_of_planes_is_taken_with_its_own_names_in_every_command() {
 }
 
 #[test]
+fn a_design_goes_through_every_format_and_keeps_its_facets() {
+    let desk = Desk::new();
+    let tiers = |file: &str| {
+        let (code, told, _) = desk.run(&format!("info --json {file}"));
+        assert_eq!(code, 0, "{file}");
+        list(&serde_json::from_str::<Value>(&told).unwrap()["measured"]["tiers"]).to_vec()
+    };
+    let first = tiers("tolkowsky");
+    for ending in ["toml", "asc", "gem", "gcs", "obj", "stl", "glb"] {
+        let file = format!("t.{ending}");
+        let (code, _, told) = desk.run(&format!("convert tolkowsky {file}"));
+        assert_eq!((code, told.is_empty()), (0, ending == "toml"), "{told}");
+        for (a, b) in tiers(&file).iter().zip(&first) {
+            assert_eq!((&a["name"], &a["facets"]), (&b["name"], &b["facets"]), "{file}");
+            near(at(a, "slope_deg/mean"), at(b, "slope_deg/mean"), 1e-4, &file);
+        }
+    }
+    assert!(desk.refused("convert tolkowsky t.doc", 2).contains(".toml, .asc, .gem, .gcs, .obj, .stl, .glb"));
+}
+
+#[test]
+fn a_solid_that_is_not_convex_is_rendered_and_has_no_facets_to_measure() {
+    let desk = Desk::new();
+    // A prism over an L.
+    let outline = [(0, 0), (2, 0), (2, 1), (1, 1), (1, 2), (0, 2)];
+    let mut text = String::new();
+    for z in 0..2 {
+        outline.iter().for_each(|(x, y)| text += &format!("v {x} {y} {z}\n"));
+    }
+    text += "f 7 8 9 10\nf 7 10 11 12\nf 4 3 2 1\nf 6 5 4 1\n";
+    (1..7).for_each(|k| text += &format!("f {k} {} {} {}\n", k % 6 + 1, k % 6 + 7, k + 6));
+    desk.write("l.obj", text);
+    assert!(desk.refused("info l.obj", 1).contains("not convex"));
+    let (code, _, told) = desk.run("render l.obj --out out --size 24 --samples 1");
+    assert!(code == 0 && told.contains("traced as 20 triangles"), "{told}");
+    assert_eq!(files(&desk.at("out")).len(), 1);
+    assert!(desk.refused("render l.obj --tracer beam", 2).contains("convex"));
+}
+
+#[test]
 fn a_file_at_fault_is_named_with_its_line_or_facet_and_nothing_is_written() {
     let desk = Desk::new();
     let line = "x".repeat(1 << 20);
