@@ -1,5 +1,5 @@
 //! Real files of real cutters, where they are at hand: beside the checkout, in `../shared/data`.
-#![allow(clippy::print_stdout, reason = "what is skipped or measured is told")]
+#![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a test fails by it, and tells what it saw")]
 
 use brillianteer::cut::{Cut, Outline, Tiers};
 use brillianteer::io::design_file::{self, Format, written};

@@ -138,7 +138,8 @@ fn a_second_opinion_agrees_on_gear_index_lines_and_facets() {
         let Some(entry) = entries.iter().find(|entry| entry["name"] == *file) else { continue };
         let design = gem::read(&std::fs::read(path).unwrap(), &file).unwrap().design;
         // That reader leaves out facets that have no end.
-        if Specimen::new(design.clone()).is_err() {
+        let specimen = Specimen::new(design.clone()).unwrap();
+        if specimen.stone.names().iter().any(|name| name.starts_with("block")) {
             continue;
         }
         compared += 1;

@@ -47,7 +47,7 @@ fn every_tracer_shows_the_same_stone_and_says_that_it_did() {
     let (_, told) = picture(&desk, "trilogy --perspective 12");
     assert!(told.contains("Trilogy; ") && told.contains("rays"), "{told}");
     let said = desk.refused("render trilogy --tracer beam", 2);
-    assert!(said.contains("exact beams are for one stone"), "{said}");
+    assert!(said.contains("exact beams are for one convex stone"), "{said}");
 }
 
 #[test]
