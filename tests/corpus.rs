@@ -78,6 +78,18 @@ fn what_is_written_reads_back_equal() {
     }
 }
 
+#[test]
+fn a_stone_written_as_a_mesh_is_read_as_a_stone() {
+    // The same however it is turned and scaled.
+    let compact = |s: &Specimen| s.stone.polytope.volume() / s.stone.polytope.surface_area().powf(1.5);
+    for file in files(&["asc"]).iter().step_by(25) {
+        let Ok(specimen) = open(file) else { continue };
+        let (back, _) = again(&specimen, Format::Obj);
+        let (after, before) = (compact(&back), compact(&specimen));
+        assert!((after / before - 1.0).abs() < 1e-3, "{}: {after} {before}", file.display());
+    }
+}
+
 /// A plane that goes through other formats is off by no more, girdle radii: the last digit of tiers told by angles.
 const SAME_PLANE: f64 = 1e-8;
 

@@ -238,7 +238,8 @@ impl Editor {
                     self.after_save = None;
                     if no_dialog {
                         let why = "No file dialog could be opened: it needs a desktop portal, such as xdg-desktop-portal. \
-                                   Started with `brillianteer edit FILE`, designs are saved to that file without one.";
+                                   Without one, designs are saved to the file that they were opened from (`brillianteer edit FILE`), but for meshes: \
+                                   `brillianteer convert MESH FILE.toml` makes a design of one.";
                         self.notes.trouble(why.to_owned());
                     }
                 }

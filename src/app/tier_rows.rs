@@ -28,7 +28,8 @@ pub fn show(cut: &mut Cut, ui: &mut Ui) {
             }
             let is_changed = (angle, distance) != (setting.angle, setting.distance);
             if is_changed && angle.is_finite() && distance.is_finite() {
-                cut.set(place, angle, distance);
+                // Whoever leaves out the sign means the same side: a tier never changes over to the other.
+                cut.set(place, angle.abs().copysign(setting.angle), distance);
             }
         });
     }

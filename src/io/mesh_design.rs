@@ -142,3 +142,34 @@ fn told_of(mending: &Mending) -> Vec<String> {
     .flatten()
     .collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::io::{cut_file, library, write_obj, write_stl};
+    use crate::math::Plane;
+    use crate::scene::Specimen;
+
+    /// Six digits of a cutter's file leave corners where facets nearly meet, and slivers of triangles beside them.
+    #[test]
+    fn facets_that_meet_but_for_the_last_digit_are_found() {
+        let design = cut_file::parse(library::cut("tolkowsky").unwrap(), "t").unwrap();
+        let rounded = |x: f64| (x * 1e6).round() / 1e6;
+        let facets = design.facets().unwrap().into_iter().map(|(name, plane)| {
+            (name, Plane::new(plane.normal.to_array().map(rounded).into(), rounded(plane.offset)))
+        });
+        let specimen = Specimen::new(Design { cut: Cut::Planes(facets.collect()), ..design }).unwrap();
+        let count = specimen.stone.polytope.facets().len();
+        for bytes in
+            [write_obj(&specimen.stone, "t", 1.0).into_bytes(), write_stl(&specimen.stone, 3.0).unwrap()]
+        {
+            let MeshStone::Planes(brought) = read(bytes, Path::new("t"), Up::Found).unwrap() else {
+                panic!("concave")
+            };
+            let Cut::Planes(planes) = &brought.design.cut else { panic!() };
+            assert_eq!(planes.len(), count);
+            let again = Specimen::new(brought.design).unwrap().stone.polytope.volume();
+            assert!((again - specimen.stone.polytope.volume()).abs() < 1e-4);
+        }
+    }
+}

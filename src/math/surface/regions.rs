@@ -80,11 +80,16 @@ struct Grower<'a> {
     round: u32,
 }
 
+/// Whether a triangle is so low that its normal is noise.
+pub(super) fn is_sliver(surface: &Surface, triangle: usize, tolerance: f64) -> bool {
+    let [a, b, c] = surface.corners(triangle);
+    let longest = (b - a).length().max((c - b).length()).max((a - c).length());
+    2.0 * surface.area_vector(triangle).length() <= SLIVER * tolerance * longest
+}
+
 impl Grower<'_> {
     fn is_sliver(&self, triangle: u32) -> bool {
-        let [a, b, c] = self.surface.corners(triangle as usize);
-        let longest = (b - a).length().max((c - b).length()).max((a - c).length());
-        2.0 * self.areas[triangle as usize].length() <= SLIVER * self.tolerance * longest
+        is_sliver(self.surface, triangle as usize, self.tolerance)
     }
 
     fn grow(&mut self, seed: u32) -> Vec<u32> {

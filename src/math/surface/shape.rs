@@ -2,7 +2,7 @@
 
 use super::Surface;
 use super::edges::{Edges, NONE};
-use super::regions::{NOWHERE, Regions, regions};
+use super::regions::{NOWHERE, Regions, is_sliver, regions};
 use crate::math::{Facet, Plane, Polytope};
 use glam::DVec3;
 use rayon::prelude::*;
@@ -112,7 +112,7 @@ struct Solid {
 /// The solid between the planes of regions of one tolerance, if it is the surface.
 fn solid(surface: &Surface, edges: &Edges, tolerance: f64) -> Option<Solid> {
     let found = regions(surface, edges, tolerance, MOST_FACETS)?;
-    if is_round(surface, edges, &found) {
+    if is_round(surface, edges, &found, tolerance) {
         return None;
     }
     let planes: Vec<Plane> = found.fits.iter().map(|f| f.plane).collect();
@@ -132,8 +132,14 @@ pub fn deviation(polytope: &Polytope, points: &[DVec3]) -> f64 {
 }
 
 /// Whether the surface turns outward within regions, not at their edges alone. Noise turns it as much inward.
-fn is_round(surface: &Surface, edges: &Edges, found: &Regions) -> bool {
-    let unit = |t: usize| surface.area_vector(t).normalize_or_zero();
+fn is_round(surface: &Surface, edges: &Edges, found: &Regions, tolerance: f64) -> bool {
+    // A sliver's own normal is noise: it faces as its region does.
+    let unit = |t: usize| match found.of[t] {
+        region if region != NOWHERE && is_sliver(surface, t, tolerance) => {
+            found.fits[region as usize].plane.normal
+        }
+        _ => surface.area_vector(t).normalize_or_zero(),
+    };
     let (mut within, mut whole) = (0.0, 0.0);
     for (t, neighbours) in edges.neighbours.iter().enumerate() {
         let (corners, normal) = (surface.corners(t), unit(t));
