@@ -84,9 +84,12 @@ fn a_stone_written_as_a_mesh_is_read_as_a_stone() {
     let compact = |s: &Specimen| s.stone.polytope.volume() / s.stone.polytope.surface_area().powf(1.5);
     for file in files(&["asc"]).iter().step_by(25) {
         let Ok(specimen) = open(file) else { continue };
-        let (back, _) = again(&specimen, Format::Obj);
-        let (after, before) = (compact(&back), compact(&specimen));
-        assert!((after / before - 1.0).abs() < 1e-3, "{}: {after} {before}", file.display());
+        for format in [Format::Obj, Format::Stl, Format::Glb] {
+            let (back, _) = again(&specimen, format);
+            let (after, before) = (compact(&back), compact(&specimen));
+            let (name, ending) = (file.display(), format.ending());
+            assert!((after / before - 1.0).abs() < 1e-3, "{name} as {ending}: {after} {before}");
+        }
     }
 }
 

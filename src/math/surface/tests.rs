@@ -110,6 +110,22 @@ fn cracks_are_closed_and_holes_are_refused_with_their_edges() {
 }
 
 #[test]
+fn the_two_sides_of_something_flat_are_left_out() {
+    let mut flap = surface(&cube());
+    let before = flap.clone();
+    let [a, b, c] = flap.triangles[0];
+    let other = (0..8).find(|v| ![a, b, c].contains(v)).unwrap();
+    // What a facet leaves whose sides fall together.
+    for triangle in [[a, b, other], [a, other, b]] {
+        flap.triangles.push(triangle);
+        flap.groups.push(0);
+    }
+    let Mended { surface, mending } = flap.mend().unwrap();
+    assert_eq!((mending.copies, surface.triangles.len()), (2, before.triangles.len()));
+    assert!((surface.volume() - 8.0).abs() < 1e-12);
+}
+
+#[test]
 fn a_corner_on_a_neighbours_edge_is_put_into_it() {
     let mut seamed = surface(&cube());
     let [a, b, c] = seamed.triangles[0];

@@ -1,7 +1,7 @@
 //! Corners that are one, whatever the file says, made one.
 
 use super::Surface;
-use super::edges::Edges;
+use super::edges::{Edges, ends};
 use glam::{DVec3, I64Vec3};
 use rayon::slice::ParallelSliceMut;
 use std::collections::HashMap;
@@ -77,7 +77,8 @@ impl Clusters {
 }
 
 /// Leaves out triangles of fewer than three corners, and copies of a triangle, whichever way they run; answers how
-/// many of each.
+/// many of each. Of copies one is kept, unless it would hang on the surface by edges of an odd number of triangles: the
+/// two sides of something flat enclose nothing.
 pub(super) fn tidy(surface: &mut Surface) -> (usize, usize) {
     let (mut degenerate, mut copies) = (0, 0);
     let key = |(t, corners): (u32, &[u32; 3])| {
@@ -88,18 +89,42 @@ pub(super) fn tidy(surface: &mut Surface) -> (usize, usize) {
     let mut keys: Vec<([u32; 3], u32)> = (0..).zip(&surface.triangles).map(key).collect();
     keys.par_sort_unstable();
     let mut keep = vec![true; keys.len()];
+    let mut copied = vec![];
     for same in keys.chunk_by(|a, b| a.0 == b.0) {
         let [a, b, c] = same[0].0;
         let thin = a == b || b == c;
         let dropped = if thin { same } else { &same[1..] };
+        copied.extend((!thin && !dropped.is_empty()).then_some(same[0].0));
         dropped.iter().for_each(|(_, t)| keep[*t as usize] = false);
         *(if thin { &mut degenerate } else { &mut copies }) += dropped.len();
     }
     if degenerate + copies > 0 {
-        let mut keeps = keep.iter();
-        surface.triangles.retain(|_| keeps.next() == Some(&true));
-        let mut keeps = keep.iter();
-        surface.groups.retain(|_| keeps.next() == Some(&true));
+        retain(surface, &keep);
     }
-    (degenerate, copies)
+    (degenerate, copies + flat_left(surface, &copied))
+}
+
+/// Leaves out those of the triangles with these corners, sorted both ways, all of whose edges are open; answers how many.
+fn flat_left(surface: &mut Surface, copied: &[[u32; 3]]) -> usize {
+    if copied.is_empty() {
+        return 0;
+    }
+    let open = Edges::of(surface).open;
+    let is_open = |edge: [u32; 2]| open.binary_search(&edge).is_ok();
+    let is_flat = |t: &[u32; 3]| {
+        let mut key = *t;
+        key.sort_unstable();
+        (0..3).all(|k| is_open(ends(t, k))) && copied.binary_search(&key).is_ok()
+    };
+    let keep: Vec<bool> = surface.triangles.iter().map(|t| !is_flat(t)).collect();
+    retain(surface, &keep);
+    keep.iter().filter(|keep| !**keep).count()
+}
+
+/// Leaves out the triangles that are not to be kept.
+fn retain(surface: &mut Surface, keep: &[bool]) {
+    let mut keeps = keep.iter();
+    surface.triangles.retain(|_| keeps.next() == Some(&true));
+    let mut keeps = keep.iter();
+    surface.groups.retain(|_| keeps.next() == Some(&true));
 }
