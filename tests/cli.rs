@@ -191,9 +191,9 @@ fn a_design_goes_through_every_format_and_keeps_its_facets() {
 }
 
 #[test]
-fn a_solid_that_is_not_convex_is_rendered_and_has_no_facets_to_measure() {
+fn a_solid_that_is_not_convex_is_shown_measured_and_converted_by_its_triangles() {
     let desk = Desk::new();
-    // A prism over an L.
+    // A prism over an L, of volume 3 and two wide.
     let outline = [(0, 0), (2, 0), (2, 1), (1, 1), (1, 2), (0, 2)];
     let mut text = String::new();
     for z in 0..2 {
@@ -202,11 +202,38 @@ fn a_solid_that_is_not_convex_is_rendered_and_has_no_facets_to_measure() {
     text += "f 7 8 9 10\nf 7 10 11 12\nf 4 3 2 1\nf 6 5 4 1\n";
     (1..7).for_each(|k| text += &format!("f {k} {} {} {}\n", k % 6 + 1, k % 6 + 7, k + 6));
     desk.write("l.obj", text);
-    assert!(desk.refused("info l.obj", 1).contains("not convex"));
+    let info = |file: &str| {
+        let (code, told, _) = desk.run(&format!("info --json {file}"));
+        assert_eq!(code, 0, "{file}");
+        serde_json::from_str::<Value>(&told).unwrap()
+    };
+    assert_eq!((info("l.obj")["triangles"].as_u64(), at(&info("l.obj"), "volume")), (Some(20), 3.0));
+    for format in ["toml", "obj", "stl", "glb"] {
+        let (code, _, _) = desk.run(&format!("convert l.obj again.{format}"));
+        let again = info(&format!("again.{format}"));
+        assert_eq!((code, again["triangles"].as_u64()), (0, Some(20)), "{format}");
+        near(at(&again, "volume"), 3.0, 1e-5, format);
+    }
+    for format in ["asc", "gem", "gcs"] {
+        assert!(desk.refused(&format!("convert l.obj again.{format}"), 3).contains("convex"));
+        assert!(!desk.at(&format!("again.{format}")).exists());
+    }
     let (code, _, told) = desk.run("render l.obj --out out --size 24 --samples 1");
     assert!(code == 0 && told.contains("traced as 20 triangles"), "{told}");
     assert_eq!(files(&desk.at("out")).len(), 1);
     assert!(desk.refused("render l.obj --tracer beam", 2).contains("convex"));
+    assert!(desk.refused("measure l.obj --tracer beam", 2).contains("convex"));
+    let (code, told, _) = desk.run("measure l.obj --json --unresolved 0.01");
+    let figures: Value = serde_json::from_str(&told).unwrap();
+    assert_eq!((code, figures["tracer"].as_str()), (0, Some("ray")));
+    let zones = ["surface", "transmitted"]
+        .map(|k| figures[k].as_object().unwrap().values().map(|v| v.as_f64().unwrap()).sum::<f64>());
+    let sum = zones[0] + zones[1] + at(&figures, "absorbed") + at(&figures, "unresolved");
+    near(sum, 1.0, 1e-9, "all light");
+    near(at(&figures, "silhouette_area"), 3.0, 0.02, "the L from above");
+    let (code, _, told) = desk.run("export l.obj --out e --size 24 --views aset,profile --unresolved 0.01");
+    assert!(code == 0 && told.contains("profile: left out"), "{told}");
+    assert_eq!(files(&desk.at("e")).len(), 2, "energy and strongest exits");
 }
 
 #[test]

@@ -81,7 +81,9 @@ fn what_is_written_reads_back_equal() {
 #[test]
 fn a_stone_written_as_a_mesh_is_read_as_a_stone() {
     // The same however it is turned and scaled.
-    let compact = |s: &Specimen| s.stone.polytope.volume() / s.stone.polytope.surface_area().powf(1.5);
+    let compact = |s: &Specimen| {
+        s.stone().unwrap().polytope.volume() / s.stone().unwrap().polytope.surface_area().powf(1.5)
+    };
     for file in files(&["asc"]).iter().step_by(25) {
         let Ok(specimen) = open(file) else { continue };
         for format in [Format::Obj, Format::Stl, Format::Glb] {
@@ -104,11 +106,13 @@ fn every_format_holds_every_stone() {
             let (back, _) = again(&specimen, format);
             let (name, ending) = (file.display(), format.ending());
             assert_eq!(
-                back.stone.polytope.facets().len(),
-                specimen.stone.polytope.facets().len(),
+                back.stone().unwrap().polytope.facets().len(),
+                specimen.stone().unwrap().polytope.facets().len(),
                 "{name} as {ending}"
             );
-            for (a, b) in back.stone.polytope.planes().zip(specimen.stone.polytope.planes()) {
+            for (a, b) in
+                back.stone().unwrap().polytope.planes().zip(specimen.stone().unwrap().polytope.planes())
+            {
                 let apart = (a.normal - b.normal).length().max((a.offset - b.offset).abs());
                 assert!(apart < SAME_PLANE, "{name} as {ending}: {apart:e}");
             }
@@ -165,7 +169,7 @@ fn what_is_measured_is_what_the_library_says() {
     for file in files(&["asc"]) {
         let name = file.file_name().unwrap().to_string_lossy().into_owned();
         let (Some(entry), Ok(specimen)) = (told.get(name.as_str()), open(&file)) else { continue };
-        for (tally, ours) in tallies.iter_mut().zip(measured(&specimen.stone.polytope)) {
+        for (tally, ours) in tallies.iter_mut().zip(measured(&specimen.stone().unwrap().polytope)) {
             tally.count(&name, ours, entry[tally.what].as_f64().unwrap());
         }
     }

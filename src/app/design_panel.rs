@@ -71,6 +71,7 @@ fn identity(editor: &mut Editor, ui: &mut Ui) {
             Cut::RoundBrilliant(_) => "Round brilliant",
             Cut::Tiers(_) => "Tiers on an index gear",
             Cut::Planes(_) => "Facets by their planes",
+            Cut::Mesh(_) => "Mesh, not convex",
         });
     });
 }
@@ -109,10 +110,19 @@ fn wrong(ui: &mut Ui, fault: &str) {
     ui.label(RichText::new(fault).color(theme::bad(ui.visuals())));
 }
 
-/// What is odd about the stone.
+/// Lines of what is odd that a panel has room for.
+const MOST_WARNINGS: usize = 12;
+
+/// What is odd about the stone, and what was about its file.
 fn warnings(editor: &Editor, ui: &mut Ui) {
-    for warning in editor.document.specimen().warnings.iter().filter(|_| editor.document.fault().is_none()) {
-        ui.add(egui::Label::new(RichText::new(warning).weak().small()).wrap());
+    let stones = editor.document.specimen().warnings.iter().filter(|_| editor.document.fault().is_none());
+    let all: Vec<&String> = stones.chain(editor.document.odd()).collect();
+    let small = |text: &str| egui::Label::new(RichText::new(text).weak().small()).wrap();
+    for warning in all.iter().take(MOST_WARNINGS) {
+        ui.add(small(warning));
+    }
+    if all.len() > MOST_WARNINGS {
+        ui.add(small(&format!("and {} more", all.len() - MOST_WARNINGS)));
     }
 }
 
@@ -335,7 +345,7 @@ fn size(editor: &mut Editor, ui: &mut Ui) {
     });
     ui.horizontal(|ui| {
         let label = named(ui, "Weight", "From the stone's volume and its material's density.");
-        let volume = specimen.stone.polytope.volume() * (0.5 * design.diameter_mm).powi(3);
+        let volume = specimen.solid().volume() * (0.5 * design.diameter_mm).powi(3);
         let Some(mut carats) = specimen.material.carats(volume) else {
             ui.label(RichText::new("this material's density is not known").weak());
             return;
@@ -343,7 +353,7 @@ fn size(editor: &mut Editor, ui: &mut Ui) {
         let before = carats;
         let number = Number { decimals: 3, speed: 0.01, range: 1e-6..=1e9, unit: " ct" };
         number.show(ui, (92.0, label.id), &mut carats);
-        let asked = Size::Carats(carats).diameter_mm(specimen.stone.polytope.volume(), &specimen.material);
+        let asked = Size::Carats(carats).diameter_mm(specimen.solid().volume(), &specimen.material);
         if let (true, Ok(diameter)) = (carats != before, asked) {
             design.diameter_mm = diameter;
         }

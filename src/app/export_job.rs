@@ -97,7 +97,11 @@ impl Plan {
             head_deg: self.shot.head,
             unresolved: None,
             polarised: true,
-            tracer: if flat { Tracer::Beams } else { Tracer::Rays(Sampler::Rays) },
+            tracer: if flat && specimen.stone().is_ok() {
+                Tracer::Beams
+            } else {
+                Tracer::Rays(Sampler::Rays)
+            },
         }
     }
 
@@ -240,8 +244,8 @@ pub fn thumbnails(plan: Plan, wake: impl Fn() + Send + 'static) -> Receiver<(Sho
 
 /// The drawing from the side, small.
 fn side(plan: &Plan) -> Option<ColorImage> {
-    let Specimen { stone, design, .. } = &*plan.upright;
-    let text = profile(stone, &design.name, design.cut.brilliant()).to_string();
+    let Specimen { design, .. } = &*plan.upright;
+    let text = profile(plan.upright.stone().ok()?, &design.name, design.cut.brilliant()).to_string();
     let (width, height, rgb) = rasterize(&text, 2 * THUMBNAIL).ok()?;
     Some(ColorImage::from_rgb([width as usize, height as usize], &rgb))
 }

@@ -80,7 +80,7 @@ pub fn show(editor: &mut Editor, ctx: &Context) {
         match path {
             Some(path) => {
                 let scope = zones(shows, editor.document.work.head);
-                editor.following.view.show(ui, &specimen.stone, &path, &scope, &view.light_basis());
+                editor.following.view.show(ui, &specimen.body, &path, &scope, &view.light_basis());
             }
             None => {
                 ui.label(RichText::new("The point lies beside the stone; click one that lies on it.").weak());

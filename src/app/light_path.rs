@@ -9,7 +9,7 @@ mod tests;
 use self::orbit::Orbit;
 use self::table::Table;
 use crate::math::Basis;
-use crate::scene::{Band, Scope, Stone, elevation_deg};
+use crate::scene::{Band, Body, Scope, elevation_deg};
 use crate::trace::ray::Path;
 use egui::{Align, Color32, CursorIcon, Layout, Sense, Ui, Vec2, WidgetInfo, accesskit::Role, vec2};
 use glam::DVec3;
@@ -35,7 +35,7 @@ pub struct LightPath {
 
 /// A path and all that is needed to tell where its light goes.
 struct Reading<'a> {
-    stone: &'a Stone,
+    body: &'a Body,
     path: &'a Path,
     scope: &'a Scope,
     light: &'a Basis,
@@ -45,8 +45,8 @@ impl LightPath {
     /// Draws the path through its stone, and beside or below it a table of its steps, over all the room there is. `light`
     /// is the frame of the scope, [`View::light_basis`](crate::scene::View::light_basis): elevations are counted from
     /// the plane square to its axis, azimuths counter-clockwise from its `right`.
-    pub fn show(&mut self, ui: &mut Ui, stone: &Stone, path: &Path, scope: &Scope, light: &Basis) {
-        let reading = Reading { stone, path, scope, light };
+    pub fn show(&mut self, ui: &mut Ui, body: &Body, path: &Path, scope: &Scope, light: &Basis) {
+        let reading = Reading { body, path, scope, light };
         let table = Table::new(&reading);
         let (room, width) = (ui.available_size(), table.width(ui));
         // In a place that scrolls there may be no end of room.

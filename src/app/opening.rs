@@ -77,9 +77,7 @@ impl Editor {
             Wanted::Again if is_later => self.dialog = Some(Dialog::ChangedOutside),
             Wanted::Anew => {
                 self.desk.remember(&opening.path);
-                let odd = odd(&document);
                 self.begin(document);
-                odd.into_iter().for_each(|odd| self.notes.trouble(odd));
             }
             Wanted::Again => {
                 let (eye, panes) = (self.desk.eye, self.desk.panes);
@@ -89,11 +87,4 @@ impl Editor {
             }
         }
     }
-}
-
-/// What is odd about a file, in one note.
-fn odd(document: &Document) -> Option<String> {
-    let (first, more) = document.odd().split_first()?;
-    let more = if more.is_empty() { String::new() } else { format!(" (and {} more)", more.len()) };
-    Some(format!("{}: {first}{more}", document.title()))
 }

@@ -58,6 +58,9 @@ impl Editor {
         // A diagram has its own index, from which the stone's turn would only take away.
         let turn = if shows == Shows::Diagram { 0.0 } else { eye.turn };
         let specimen = self.specimen(which, turn)?;
+        if shows == Shows::Diagram && specimen.stone().is_err() {
+            return None;
+        }
         // Both designs are shown on one scale, that of the present one.
         let reach = reach(self.document.specimen());
         let work = &self.document.work;

@@ -119,12 +119,15 @@ fn profile(editor: &mut Editor, ui: &mut Ui, pane: usize, body: Rect) {
     let specimen = Arc::clone(editor.document.specimen());
     let brilliant = match &mut editor.document.work.design.cut {
         Cut::RoundBrilliant(brilliant) => Some(brilliant),
-        Cut::Tiers(_) | Cut::Planes(_) => None,
+        Cut::Tiers(_) | Cut::Planes(_) | Cut::Mesh(_) => None,
     };
     ui.painter().rect_filled(body, 4.0, ui.visuals().extreme_bg_color);
     let under = ui.interact(body, ui.scope_id().with("profile"), Sense::click());
     under.widget_info(|| WidgetInfo::labeled(Role::Image, true, "Profile view"));
-    editor.profiles[pane].show(ui, body, &specimen.stone, brilliant);
+    match specimen.stone() {
+        Ok(stone) => drop(editor.profiles[pane].show(ui, body, stone, brilliant)),
+        Err(_) => absent(ui, body, "A profile"),
+    }
     if under.double_clicked() {
         enlarge(editor, pane);
     }
@@ -137,7 +140,9 @@ fn drawing(editor: &mut Editor, ui: &mut Ui, pane: usize, body: Rect) {
     let response = ui.interact(body, ui.scope_id().with("drawing"), Sense::click());
     response.widget_info(|| WidgetInfo::labeled(Role::Image, true, "Facet diagram"));
     ui.painter().rect_filled(body, 4.0, Color32::WHITE);
-    if let Some(shown) = editor.pictures.get(&(pane, Which::Present)) {
+    if editor.document.specimen().stone().is_err() {
+        absent(ui, body, "A diagram");
+    } else if let Some(shown) = editor.pictures.get(&(pane, Which::Present)) {
         let [w, h] = shown.taken.image.size.map(|n| n as f32);
         let scale = (body.width() / w).min(body.height() / h);
         let rect = Rect::from_center_size(body.center(), vec2(w, h) * scale);
@@ -149,6 +154,20 @@ fn drawing(editor: &mut Editor, ui: &mut Ui, pane: usize, body: Rect) {
     if response.hovered() {
         editor.hovered = pane;
     }
+}
+
+/// What stands in the place of a drawing that only convex stones have.
+fn absent(ui: &Ui, body: Rect, what: &str) {
+    ui.painter().rect_filled(body, 4.0, ui.visuals().extreme_bg_color);
+    let text = format!("{what} is drawn of convex stones only.");
+    let colour = ui.visuals().weak_text_color();
+    ui.painter().text(
+        body.center(),
+        egui::Align2::CENTER_CENTER,
+        text,
+        egui::FontId::proportional(14.0),
+        colour,
+    );
 }
 
 fn image(ui: &Ui, shown: &Shown, rect: Rect) {
@@ -358,16 +377,19 @@ fn hover(editor: &mut Editor, ui: &Ui, (shows, turn): (Shows, f64), response: &R
 }
 
 fn outline(ui: &Ui, specimen: &Specimen, facet: u32, sight: &Sight) {
-    let polytope = &specimen.stone.polytope;
-    let camera = Camera::new(&sight.view, polytope);
+    let solid = specimen.solid();
+    let camera = Camera::new(&sight.view, solid);
     let map = sight.film.pixels_from_image(DMat2::IDENTITY);
-    let corners = polytope.corners(&polytope.facets()[facet as usize]);
-    let points: Option<Vec<egui::Pos2>> =
-        corners.map(|c| Some(sight.point(map.transform_point2(camera.project(c)?.0)))).collect();
-    if let Some(points) = points {
-        let painter = ui.painter().with_clip_rect(sight.body);
-        painter
-            .add(egui::Shape::closed_line(points.clone(), Stroke::new(3.0, Color32::from_black_alpha(120))));
-        painter.add(egui::Shape::closed_line(points, Stroke::new(1.2, Color32::from_white_alpha(220))));
+    let painter = ui.painter().with_clip_rect(sight.body);
+    let at = |corner| Some(sight.point(map.transform_point2(camera.project(corner)?.0)));
+    let rim = solid.rim(facet);
+    for stroke in
+        [Stroke::new(3.0, Color32::from_black_alpha(120)), Stroke::new(1.2, Color32::from_white_alpha(220))]
+    {
+        for [from, to] in &rim {
+            if let (Some(from), Some(to)) = (at(*from), at(*to)) {
+                painter.line_segment([from, to], stroke);
+            }
+        }
     }
 }

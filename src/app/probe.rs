@@ -48,7 +48,7 @@ impl Probe {
     /// Asks about a stone.
     pub fn new(specimen: Arc<Specimen>) -> Self {
         let options = Options { most_bounces: 64, least_weight: 1e-3, polarised: true };
-        let tracer = Tracer::new(&specimen.stone.polytope, specimen.medium(line::SODIUM_D), options);
+        let tracer = Tracer::new(specimen.solid(), specimen.medium(line::SODIUM_D), options);
         Self { specimen, tracer }
     }
 
@@ -59,7 +59,7 @@ impl Probe {
 
     /// The ray through a point of the image.
     fn ray(&self, view: &View, at: DVec2) -> (DVec3, DVec3) {
-        Camera::new(view, &self.specimen.stone.polytope).ray(at)
+        Camera::new(view, self.specimen.solid()).ray(at)
     }
 
     /// The way of the ray through a point of the image; none beside the stone.
@@ -88,15 +88,21 @@ impl Probe {
     }
 
     fn found(&self, facet: u32, light: Option<Light>) -> Found {
-        let stone = &self.specimen.stone;
-        let normal = stone.polytope.facets()[facet as usize].plane.normal;
-        let (name, radial) = (stone.name(facet), normal.truncate());
-        let stem = tier_stem(name);
-        let count = stone.names().iter().filter(|n| tier_stem(n) == stem).count();
+        let normal = self.specimen.solid().plane(facet).normal;
+        let names = self.specimen.body.names();
+        let radial = normal.truncate();
+        let (name, tier) = match names.get(facet as usize) {
+            Some(name) => {
+                let stem = tier_stem(name);
+                let count = names.iter().filter(|n| tier_stem(n) == stem).count();
+                (name.replace('_', " "), (stem.replace('_', " "), count))
+            }
+            None => (format!("facet {}", facet + 1), (String::new(), 1)),
+        };
         Found {
             facet,
-            name: name.replace('_', " "),
-            tier: (stem.replace('_', " "), count),
+            name,
+            tier,
             slope: radial.length().atan2(normal.z.abs()).to_degrees(),
             azimuth: (radial.length() > LEVEL).then(|| radial.to_angle().to_degrees().rem_euclid(360.0)),
             light,

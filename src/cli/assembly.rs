@@ -1,19 +1,16 @@
 //! What is put under light: one stone, or the stones of a scene in their places.
 
 use super::Failure;
-use super::specimen::{Opened, Specimen};
+use super::specimen::Specimen;
 use crate::cut::from_mesh::Up;
-use crate::cut::{DEFAULT_DIAMETER_MM, MaterialRef, Size};
+use crate::cut::{MaterialRef, Size};
 use crate::io::library;
-use crate::io::mesh_design::Lump;
 use crate::io::scene_file::{self, Entry, SceneFile};
-use crate::math::Solid;
 use crate::optics::Material;
 use crate::scene::{Placed, Setting, overlapping};
 use glam::{DQuat, DVec3};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
 
 #[cfg(test)]
 mod tests;
@@ -61,10 +58,7 @@ impl Assembly {
         let material = material.map(asked_material).transpose()?;
         match scene(file)? {
             Some(scene) => Self::of_scene(file, scene, material.as_ref(), size),
-            None => match Specimen::open(file)? {
-                Opened::Stone(specimen) => Self::of_stone(*specimen, material, size),
-                Opened::Lump(lump) => Self::of_lump(file, &lump, material, size),
-            },
+            None => Self::of_stone(Specimen::load(file)?, material, size),
         }
     }
 
@@ -72,7 +66,7 @@ impl Assembly {
         let material = material.unwrap_or_else(|| specimen.material.clone());
         let told = |message| Failure::Input(format!("{}: {message}", specimen.path));
         let diameter_mm = diameter_mm(&specimen, &material, size).map_err(told)?;
-        let stone = Placed::named(&specimen.stone, material, &specimen.design.name);
+        let stone = Placed::named(&specimen.body, material, &specimen.design.name);
         Ok(Self {
             path: specimen.path,
             name: specimen.made.design.name,
@@ -80,30 +74,6 @@ impl Assembly {
             places: vec![Place { diameter_mm, at_mm: DVec3::ZERO }],
             light: None,
         })
-    }
-
-    /// A solid of triangles.
-    fn of_lump(
-        file: &Path,
-        lump: &Lump,
-        material: Option<Material>,
-        size: Option<Size>,
-    ) -> Result<Self, Failure> {
-        let path = file.display().to_string();
-        let told = |message: String| Failure::Input(format!("{path}: {message}"));
-        let own = || lump.material.material().map_err(|error| told(error.to_string()));
-        let material = material.map_or_else(own, Ok)?;
-        let volume = lump.shell.volume();
-        let diameter = |size: Size| size.diameter_mm(volume, &material);
-        let diameter_mm =
-            size.map_or(Ok(DEFAULT_DIAMETER_MM), diameter).map_err(|e| told(format!("size: {e}")))?;
-        let stone = Placed {
-            label: lump.name.clone(),
-            ..Placed::new(Solid::Triangles(Arc::clone(&lump.shell)), material)
-        };
-        let setting = Setting { stones: vec![stone], unit_mm: 0.5 * diameter_mm };
-        let places = vec![Place { diameter_mm, at_mm: DVec3::ZERO }];
-        Ok(Self { path, name: lump.name.clone(), setting, places, light: None })
     }
 
     fn of_scene(
@@ -201,7 +171,7 @@ fn at_entry(file: &Path, number: usize, entry: &Entry, message: &str) -> Failure
 }
 
 fn diameter_mm(specimen: &Specimen, material: &Material, size: Option<Size>) -> Result<f64, String> {
-    let diameter = |size: Size| size.diameter_mm(specimen.stone.polytope.volume(), material);
+    let diameter = |size: Size| size.diameter_mm(specimen.solid().volume(), material);
     size.map_or(Ok(specimen.design.diameter_mm), diameter).map_err(|error| format!("size: {error}"))
 }
 
@@ -239,7 +209,7 @@ impl Member<'_> {
     /// Of the circle about its axis that holds it, seen from above, mm.
     fn radius_mm(&self) -> f64 {
         let across = |v: &DVec3| (self.turn * *v).truncate().length();
-        let radii = self.specimen.stone.polytope.vertices().iter().map(across);
+        let radii = self.specimen.solid().vertices().iter().map(across);
         0.5 * self.diameter_mm * radii.fold(0.0, f64::max)
     }
 }
@@ -248,7 +218,7 @@ impl Member<'_> {
 fn placed(members: &[Member]) -> Setting {
     let unit_mm = 0.5 * members.iter().map(|m| m.diameter_mm).fold(0.0, f64::max);
     let place = |m: &Member| {
-        let stone = Placed::named(&m.specimen.stone, m.material.clone(), &m.specimen.design.name);
+        let stone = Placed::named(&m.specimen.body, m.material.clone(), &m.specimen.design.name);
         stone.moved(0.5 * m.diameter_mm / unit_mm, m.turn, m.at_mm / unit_mm)
     };
     let stones: Vec<Placed> = members.iter().map(place).collect();

@@ -4,6 +4,7 @@ use super::sampler::on_card;
 use super::specimen::Specimen;
 use super::{Failure, json, print};
 use crate::io::export::{Sampler, Subject};
+use crate::math::Polytope;
 use crate::optics::{line, strata};
 use crate::picture::by_rays::Manner;
 use crate::picture::{ByBeams, Layer, paint};
@@ -118,7 +119,7 @@ fn in_scope(specimen: &Specimen, card: Sampler, size: u32, bounces: u32) -> Resu
     let (view, scope) = (View::default(), Scope::aset(ASET_CONE, Backing::Black));
     let medium = Medium::clear(specimen.material.index(line::SODIUM_D));
     let look = Subject { specimen, medium, view: &view, scope: &scope };
-    let polytope = &specimen.stone.polytope;
+    let polytope = polytope(specimen)?;
     let film = Film::around(polytope, &view.basis(), size);
     let manner = Manner { options: options(bounces), per_side: 1 };
     let mut rows = vec![];
@@ -135,7 +136,12 @@ fn in_scope(specimen: &Specimen, card: Sampler, size: u32, bounces: u32) -> Resu
     rows.push(Row { tracer: "beam", by, milliseconds: timed(beams)? });
     let planes = polytope.facets().len();
     let what = format!("ASET, {planes} planes, {size} x {size}, {bounces} bounces at most");
-    Ok(Task { what, plane_tests: plane_tests(specimen, &film, medium, bounces), rows })
+    Ok(Task { what, plane_tests: plane_tests(polytope, &film, medium, bounces), rows })
+}
+
+fn polytope(specimen: &Specimen) -> Result<&Polytope, Failure> {
+    let told = |why| Failure::Usage(format!("{}: {why}", specimen.path));
+    Ok(&specimen.stone().map_err(told)?.polytope)
 }
 
 /// Rays on the processor, and on the card where there is one.
@@ -149,8 +155,8 @@ fn under_light(specimen: &Specimen, card: Sampler) -> Result<Task, Failure> {
     let size = if card.is_quick() { with_card } else { without };
     let light = Light::lamps_on_dome();
     let (sky, view) = (Sky::new(&light, None), View::default());
-    let polytope = &specimen.stone.polytope;
-    let stone = Placed::named(&specimen.stone, specimen.material.clone(), &specimen.design.name);
+    let polytope = polytope(specimen)?;
+    let stone = Placed::named(&specimen.body, specimen.material.clone(), &specimen.design.name);
     let setting = Setting { stones: vec![stone], unit_mm: specimen.design.diameter_mm / 2.0 };
     let film = Film::around(polytope, &view.basis(), size);
     let basis = view.light_basis();
@@ -174,7 +180,7 @@ fn under_light(specimen: &Specimen, card: Sampler) -> Result<Task, Failure> {
         let milliseconds = timed(|| exposure.look(&look, &unwatched))?;
         rows.push(Row { tracer: "beam", by: format!("exact beams, unresolved {UNRESOLVED}"), milliseconds });
     }
-    let tests: f64 = look.media[0].iter().map(|&medium| plane_tests(specimen, &film, medium, bounces)).sum();
+    let tests: f64 = look.media[0].iter().map(|&medium| plane_tests(polytope, &film, medium, bounces)).sum();
     let what = format!(
         "diamond under eight lamps, {} planes, {size} x {size}, {bounces} bounces at most, {wavelengths} wavelengths",
         polytope.facets().len()
@@ -201,9 +207,8 @@ fn exposure<'a>(
 }
 
 /// How many planes are tested for a picture, if each ray tests all at each bounce: counted on every eighth line and column.
-fn plane_tests(specimen: &Specimen, film: &Film, medium: Medium, bounces: u32) -> f64 {
+fn plane_tests(polytope: &Polytope, film: &Film, medium: Medium, bounces: u32) -> f64 {
     const STEP: u32 = 8;
-    let polytope = &specimen.stone.polytope;
     let camera = Camera::new(&View::default(), polytope);
     let tracer = Tracer::new(polytope, medium, options(bounces));
     let side = film.size[0] / STEP;

@@ -4,7 +4,8 @@ use super::assembly::{self, Assembly};
 use super::specimen::Specimen;
 use super::{Failure, each_file, json, print};
 use crate::cut::{Cut, Report, Spread};
-use crate::math::Facet;
+use crate::math::{Facet, Polytope};
+use crate::scene::Body;
 use clap::Args;
 use serde_json::{Value, json};
 use std::fmt::Write;
@@ -90,7 +91,6 @@ fn weight(carats: Option<f64>) -> String {
 }
 
 fn described(specimen: &Specimen) -> Result<Value, Failure> {
-    let polytope = &specimen.stone.polytope;
     let mut value = json!({
         "file": specimen.path,
         "name": specimen.design.name,
@@ -105,20 +105,26 @@ fn described(specimen: &Specimen) -> Result<Value, Failure> {
         value["given"] = json!(brilliant);
         value["derived"] = json!(derived);
     }
-    value["measured"] = json!(Report::of(polytope, specimen.stone.names()));
-    let (low, high) = polytope.bounds();
-    value["volume"] = json!(polytope.volume());
+    let (low, high) = specimen.solid().bounds();
+    value["volume"] = json!(specimen.solid().volume());
+    value["size"] = json!((high - low).to_array());
+    if let Body::Mesh(shell) = &specimen.body {
+        value["triangles"] = json!(shell.surface().triangles.len());
+        value["vertices"] = json!(shell.vertices().len());
+    }
+    let Ok(stone) = specimen.stone() else { return Ok(value) };
+    let polytope = &stone.polytope;
+    value["measured"] = json!(Report::of(polytope, stone.names()));
     value["surface_area"] = json!(polytope.surface_area());
     value["silhouette_area"] = json!(polytope.silhouette_area(glam::DVec3::Z));
-    value["size"] = json!((high - low).to_array());
     value["edges"] = json!(polytope.edge_count());
     value["vertices"] = json!(polytope.vertices().iter().map(|v| v.to_array()).collect::<Vec<_>>());
-    let facets = polytope.facets().iter().zip(specimen.stone.names());
-    value["facets"] = facets.map(|(facet, name)| facet_json(specimen, facet, name)).collect();
+    let facets = polytope.facets().iter().zip(stone.names());
+    value["facets"] = facets.map(|(facet, name)| facet_json(polytope, facet, name)).collect();
     Ok(value)
 }
 
-fn facet_json(specimen: &Specimen, facet: &Facet, name: &str) -> Value {
+fn facet_json(polytope: &Polytope, facet: &Facet, name: &str) -> Value {
     let n = facet.plane.normal;
     let across = n.truncate();
     json!({
@@ -127,13 +133,12 @@ fn facet_json(specimen: &Specimen, facet: &Facet, name: &str) -> Value {
         "offset": facet.plane.offset,
         "slope_deg": across.length().atan2(n.z.abs()).to_degrees(),
         "azimuth_deg": if across.length() > LEVEL { across.to_angle().to_degrees().rem_euclid(360.0) } else { 0.0 },
-        "area": specimen.stone.polytope.facet_area(facet),
+        "area": polytope.facet_area(facet),
         "corners": facet.outline,
     })
 }
 
 fn table(specimen: &Specimen, value: &Value) -> String {
-    let polytope = &specimen.stone.polytope;
     let mut text = format!("{}: {}\n", specimen.path, specimen.design.name);
     let mut line = |key: &str, what: String| {
         let _ = writeln!(text, "  {key:<28}{what}");
@@ -157,7 +162,17 @@ fn table(specimen: &Specimen, value: &Value) -> String {
             line(&key.replace('_', " "), format!("{digits}{unit}{mark}"));
         }
     }
-    let report = Report::of(polytope, specimen.stone.names());
+    let Ok(stone) = specimen.stone() else {
+        let (low, high) = specimen.solid().bounds();
+        let [x, y, z] = (high - low).to_array();
+        line("size", format!("{x:.4} by {y:.4} by {z:.4} girdle radii"));
+        line("triangles, vertices", format!("{}, {}", value["triangles"], value["vertices"]));
+        line("volume", format!("{:.6} girdle radii³", specimen.solid().volume()));
+        let _ = write!(text, "\n  not convex: it has no facets to list");
+        return text;
+    };
+    let polytope = &stone.polytope;
+    let report = Report::of(polytope, stone.names());
     if specimen.design.cut.brilliant().is_none() {
         proportions(&report, &mut line);
     }

@@ -18,7 +18,9 @@ mod spin;
 
 use crate::io::Failure;
 use crate::io::export::Told;
-use clap::{Parser, Subcommand};
+use crate::io::library;
+use clap::{CommandFactory, Parser, Subcommand};
+use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
@@ -83,7 +85,7 @@ enum Command {
 
 /// Runs the program with the process's arguments; `editor` opens its window.
 pub fn main(editor: Option<Editor>) -> ExitCode {
-    let arguments = match Arguments::try_parse() {
+    let arguments = match Arguments::try_parse_from(spelt_out(std::env::args_os().collect())) {
         Ok(arguments) => arguments,
         Err(told) => {
             // Help that nobody takes is no failure; clap's own exit would panic over it.
@@ -121,6 +123,17 @@ pub fn main(editor: Option<Editor>) -> ExitCode {
             ExitCode::from(code(&failure))
         }
     }
+}
+
+/// A file alone, or a cut's name, is for the editor.
+fn spelt_out(mut arguments: Vec<OsString>) -> Vec<OsString> {
+    if let [_, only] = arguments.as_slice()
+        && !Arguments::command().get_subcommands().any(|command| command.get_name() == only)
+        && (Path::new(only).is_file() || library::cut(&only.to_string_lossy()).is_some())
+    {
+        arguments.insert(1, "edit".into());
+    }
+    arguments
 }
 
 /// Does `work` for each file; a file at fault does not keep the others from being done.
@@ -170,4 +183,24 @@ fn print(text: &str) -> Result<(), Failure> {
 /// JSON for people and programs: indented, keys in the order given.
 fn json(value: &serde_json::Value) -> String {
     format!("{value:#}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_file_alone_is_for_the_editor() {
+        let words = |text: &str| text.split(' ').map(OsString::from).collect::<Vec<_>>();
+        let file = env!("CARGO_MANIFEST_DIR").to_owned() + "/cuts/tolkowsky.toml";
+        for only in [file.as_str(), "tolkowsky"] {
+            let arguments = Arguments::try_parse_from(spelt_out(words(&format!("b {only}")))).unwrap();
+            assert!(
+                matches!(arguments.command, Some(Command::Edit { file: Some(f) }) if f == Path::new(only))
+            );
+        }
+        for other in ["b", "b cuts", "b polish", "b info tolkowsky", "b --help"] {
+            assert_eq!(spelt_out(words(other)), words(other));
+        }
+    }
 }

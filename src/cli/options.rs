@@ -119,18 +119,19 @@ impl LightOptions {
             head_deg: self.head()?,
             unresolved: self.unresolved()?,
             polarised: !self.unpolarised,
-            tracer: self.tracer(&viewpoint)?,
+            tracer: self.tracer(&viewpoint, specimen)?,
         })
     }
 
-    fn tracer(&self, viewpoint: &Viewpoint) -> Result<Tracer<'static>, Failure> {
+    fn tracer(&self, viewpoint: &Viewpoint, specimen: &Specimen) -> Result<Tracer<'static>, Failure> {
         let flat = viewpoint.projection == Projection::Orthographic;
+        let is_for_beams = flat && specimen.stone().is_ok();
         match self.tracer {
             TracerName::Beam if !flat => Err(Failure::Usage(
                 "exact beams are for parallel rays: leave out --perspective, or use --tracer ray".into(),
             )),
             TracerName::Beam => Ok(Tracer::Beams),
-            TracerName::Auto if flat => Ok(Tracer::Beams),
+            TracerName::Auto if is_for_beams => Ok(Tracer::Beams),
             TracerName::Auto => Ok(Tracer::Rays(quickest())),
             TracerName::Ray => Ok(Tracer::Rays(Sampler::Rays)),
             TracerName::Gpu => Ok(Tracer::Rays(on_card())),

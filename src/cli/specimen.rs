@@ -5,7 +5,6 @@ use crate::cut::from_mesh::Up;
 use crate::io::cut_file::{self, CutFileError};
 use crate::io::design_file::{self, Brought};
 use crate::io::library;
-use crate::io::mesh_design::{Lump, MeshStone};
 use crate::scene;
 use std::ops::Deref;
 use std::path::Path;
@@ -17,15 +16,6 @@ pub struct Specimen {
     pub path: String,
     /// The stone.
     pub made: scene::Specimen,
-}
-
-/// What lies in a file.
-#[derive(Debug)]
-pub enum Opened {
-    /// A stone between planes.
-    Stone(Box<Specimen>),
-    /// Any other solid.
-    Lump(Lump),
 }
 
 impl Deref for Specimen {
@@ -44,22 +34,6 @@ impl Specimen {
         match library::cut(&name).filter(|_| !file.is_file()) {
             Some(text) => Self::parse(&name, text),
             None => Self::read(file, Up::Found),
-        }
-    }
-
-    /// The same, or a solid of triangles.
-    pub fn open(file: &Path) -> Result<Opened, Failure> {
-        let name = file.display().to_string();
-        if let Some(text) = library::cut(&name).filter(|_| !file.is_file()) {
-            return Ok(Opened::Stone(Box::new(Self::parse(&name, text)?)));
-        }
-        let told = |e: CutFileError| Failure::Input(format!("{e}{}", super::lists::hint(file)));
-        match design_file::open(file, Up::Found).map_err(told)? {
-            MeshStone::Planes(brought) => Ok(Opened::Stone(Box::new(Self::of(name, brought)?))),
-            MeshStone::Triangles(lump) => {
-                lump.warnings.iter().for_each(|w| say(&format!("warning: {name}: {w}")));
-                Ok(Opened::Lump(lump))
-            }
         }
     }
 

@@ -1,8 +1,8 @@
 //! A design: all that a cut file says of a stone.
 
 use super::material::{MaterialError, MaterialRef};
-use super::{ProportionError, RoundBrilliant, TierFault, Tiers, Warning, names};
-use crate::math::Plane;
+use super::{MeshShape, ProportionError, RoundBrilliant, TierFault, Tiers, Warning, names};
+use crate::math::{NotConvex, Plane};
 
 /// Girdle diameter of a design that gives none, mm: that of a brilliant of about one carat.
 pub const DEFAULT_DIAMETER_MM: f64 = 6.5;
@@ -30,7 +30,7 @@ pub struct Design {
     pub cut: Cut,
 }
 
-/// The shape of a stone: a family with its proportions, or the planes themselves.
+/// The shape of a stone: a family with its proportions, the planes themselves, or a mesh.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Cut {
     /// The round brilliant.
@@ -39,6 +39,8 @@ pub enum Cut {
     Tiers(Tiers),
     /// Names, which may repeat, and planes as written: 1 to [`MAX_PLANES`], normals of any length but zero.
     Planes(Vec<(String, Plane)>),
+    /// Triangles around a solid that is not convex.
+    Mesh(MeshShape),
 }
 
 /// What is wrong with a design.
@@ -59,6 +61,9 @@ pub enum DesignError {
     /// Proportions that cannot be.
     #[error(transparent)]
     Proportion(#[from] ProportionError),
+    /// It has no planes.
+    #[error(transparent)]
+    NotConvex(#[from] NotConvex),
     /// No plane, or more than [`MAX_PLANES`].
     #[error("plane: {count} planes are given; from 1 to {MAX_PLANES} are expected")]
     PlaneCount {
@@ -119,7 +124,7 @@ impl Cut {
     pub fn brilliant(&self) -> Option<&RoundBrilliant> {
         match self {
             Self::RoundBrilliant(brilliant) => Some(brilliant),
-            Self::Tiers(_) | Self::Planes(_) => None,
+            Self::Tiers(_) | Self::Planes(_) | Self::Mesh(_) => None,
         }
     }
 }
@@ -149,19 +154,23 @@ impl Design {
             return Err(DesignError::Diameter { value: self.diameter_mm });
         }
         self.material.check()?;
-        self.facets().map(|_| ())
+        match &self.cut {
+            Cut::Mesh(_) => Ok(()),
+            Cut::RoundBrilliant(_) | Cut::Tiers(_) | Cut::Planes(_) => self.facets().map(|_| ()),
+        }
     }
 
     /// Every facet's name, no two alike, and its plane with a unit normal: in girdle radii, but for a cutter's design
     /// in that one's own unit.
     ///
     /// # Errors
-    /// The first proportion or plane at fault.
+    /// The first proportion or plane at fault; [`DesignError::NotConvex`] where it has no planes.
     pub fn facets(&self) -> Result<Vec<(String, Plane)>, DesignError> {
         match &self.cut {
             Cut::RoundBrilliant(proportions) => Ok(proportions.facets()?),
             Cut::Tiers(tiers) => tiers_facets(tiers),
             Cut::Planes(planes) => named_planes(planes),
+            Cut::Mesh(_) => Err(NotConvex.into()),
         }
     }
 
@@ -172,7 +181,7 @@ impl Design {
     pub fn warnings(&self) -> Result<Vec<Warning>, DesignError> {
         match &self.cut {
             Cut::RoundBrilliant(proportions) => Ok(proportions.warnings()?),
-            Cut::Tiers(_) | Cut::Planes(_) => Ok(Vec::new()),
+            Cut::Tiers(_) | Cut::Planes(_) | Cut::Mesh(_) => Ok(Vec::new()),
         }
     }
 }

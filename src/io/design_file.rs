@@ -1,7 +1,7 @@
 //! Files of designs, whatever their format: told by what is in them, and only where that says nothing by how they end.
 
 use super::cut_file::{self, CutFileError};
-use super::mesh_design::{self, MeshStone};
+use super::mesh_design;
 use super::mesh_file::{self, MaterialHint};
 use super::{Failure, asc, gcs, gem, write as write_whole};
 use super::{WriteError, text};
@@ -105,24 +105,6 @@ pub fn read(path: &Path) -> Result<Brought, CutFileError> {
 /// # Errors
 /// What keeps the file from being one, with its path, and line where there is one.
 pub fn read_posed(path: &Path, up: Up) -> Result<Brought, CutFileError> {
-    match open(path, up)? {
-        MeshStone::Planes(brought) => Ok(brought),
-        MeshStone::Triangles(lump) => Err(CutFileError {
-            path: path.display().to_string(),
-            line: None,
-            message: format!(
-                "this mesh of {} triangles is not convex, so it has no facets to work on; `render` and `spin` show it",
-                lump.shell.surface().triangles.len()
-            ),
-        }),
-    }
-}
-
-/// Reads a design, or a solid that no planes describe; `up` is the direction of a mesh's table.
-///
-/// # Errors
-/// What keeps the file from being either, with its path, and line where there is one.
-pub fn open(path: &Path, up: Up) -> Result<MeshStone, CutFileError> {
     let label = path.display().to_string();
     let fault = |error: text::TextError| CutFileError {
         path: label.clone(),
@@ -133,43 +115,49 @@ pub fn open(path: &Path, up: Up) -> Result<MeshStone, CutFileError> {
     if mesh_file::looks_like(&bytes).is_some() {
         return mesh_design::read(bytes, path, up);
     }
-    let brought = match Format::of(&bytes, path) {
+    match Format::of(&bytes, path) {
         Format::Asc => asc::read(&bytes, &label),
         Format::Gem => gem::read(&bytes, &label),
         Format::Gcs => gcs::read(&bytes, &label),
-        Format::Obj | Format::Stl | Format::Glb => return mesh_design::read(bytes, path, up),
+        Format::Obj | Format::Stl | Format::Glb => mesh_design::read(bytes, path, up),
         Format::Toml => {
             let text = text::utf8(bytes).map_err(fault)?;
             cut_file::parse(&text, &label).map(|design| Brought { design, warnings: vec![] })
         }
-    };
-    brought.map(MeshStone::Planes)
+    }
 }
 
 /// The file of a stone's design.
 ///
 /// # Errors
-/// None that memory does not make.
+/// [`Failure::Output`] where the format has no place for a mesh, or for so large a one.
 pub fn written(specimen: &Specimen, format: Format) -> Result<Written, Failure> {
     let (name, radius_mm) = (specimen.design.name.as_str(), specimen.unit_mm());
     let refused = |error: &dyn std::fmt::Display| Failure::Output(format!("{}: {error}", format.ending()));
+    if matches!(format, Format::Asc | Format::Gem | Format::Gcs) {
+        specimen.stone().map_err(|error| refused(&error))?;
+    }
     Ok(match format {
-        Format::Toml => Written { bytes: cut_file::write(&specimen.design).into_bytes(), lost: vec![] },
+        Format::Toml => {
+            let bytes = cut_file::write(&specimen.design).into_bytes();
+            if bytes.len() as u64 > cut_file::MAX_BYTES {
+                return Err(refused(
+                    &"this mesh is too large for a cut file; write it as .glb, .stl or .obj",
+                ));
+            }
+            Written { bytes, lost: vec![] }
+        }
         Format::Asc => asc::write(specimen),
         Format::Gem => gem::write(specimen),
         Format::Gcs => gcs::write(specimen),
-        Format::Obj => as_mesh(specimen, format, write_obj(&specimen.stone, name, radius_mm).into_bytes()),
+        Format::Obj => as_mesh(specimen, format, write_obj(&specimen.body, name, radius_mm).into_bytes()),
         Format::Stl => {
-            as_mesh(specimen, format, write_stl(&specimen.stone, radius_mm).map_err(|e| refused(&e))?)
+            as_mesh(specimen, format, write_stl(&specimen.body, radius_mm).map_err(|e| refused(&e))?)
         }
         Format::Glb => {
             // The standard's unit is the metre.
             let (scale, hint) = (1e-3 * radius_mm, MaterialHint::of(&specimen.material, 1e3));
-            as_mesh(
-                specimen,
-                format,
-                write_glb(&specimen.stone, name, scale, &hint).map_err(|e| refused(&e))?,
-            )
+            as_mesh(specimen, format, write_glb(&specimen.body, name, scale, &hint).map_err(|e| refused(&e))?)
         }
     })
 }

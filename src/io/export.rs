@@ -9,7 +9,7 @@ mod viewing;
 #[cfg(test)]
 mod tests;
 
-pub use figures::{Measured, measure};
+pub use figures::{LATTICE, Measured, measure};
 pub use sampler::{Sampler, Subject};
 pub use told::{Tell, Told};
 pub use viewing::{Tracer, Viewing};
@@ -187,6 +187,7 @@ impl Export<'_> {
     fn files_of(&self, name: &str, picture: &Picture) -> Vec<PathBuf> {
         use Format::{Exr, Png, Svg};
         let files: &[(&str, Format)] = match (picture, self.viewing.tracer) {
+            (Picture::Profile | Picture::Diagram, _) if self.viewing.specimen.stone().is_err() => &[],
             (Picture::Profile | Picture::Diagram, _) => &[("", Svg), ("", Png)],
             (Picture::Scoped(_), Tracer::Beams) => {
                 &[("", Png), ("-strongest", Png), ("", Exr), ("-strongest", Svg), ("", Svg)]

@@ -4,7 +4,7 @@ use super::cut_file::CutFileError;
 use super::design_file::Brought;
 use super::mesh_file::{self, MaterialHint, MeshFile, MeshFormat};
 use crate::cut::from_mesh::{FromMesh, Pose, Up, from_mesh};
-use crate::cut::{Cut, DEFAULT_DIAMETER_MM, Design, MAX_PLANES, MaterialRef, is_printable};
+use crate::cut::{Cut, DEFAULT_DIAMETER_MM, Design, MAX_PLANES, MaterialRef, MeshShape, is_printable};
 use crate::math::surface::{Faceted, Mending, Shape, facets};
 use crate::math::{Shell, Surface};
 use glam::{DQuat, DVec3};
@@ -14,33 +14,11 @@ use std::sync::Arc;
 /// The material that is taken where a file says nothing of one.
 const USUAL: &str = "diamond";
 
-/// What a mesh is.
-#[derive(Debug)]
-pub enum MeshStone {
-    /// Convex: its planes.
-    Planes(Brought),
-    /// Anything else.
-    Triangles(Lump),
-}
-
-/// A solid of triangles, which no planes describe: z up, half its width 1, its middle at the origin.
-#[derive(Debug, Clone)]
-pub struct Lump {
-    /// What it is called.
-    pub name: String,
-    /// What it is made of.
-    pub material: MaterialRef,
-    /// Its shape.
-    pub shell: Arc<Shell>,
-    /// What is odd about it, in words.
-    pub warnings: Vec<String>,
-}
-
 /// Reads a mesh of any format, which lies in a file of this path; `up` is the direction of its table in the file's frame.
 ///
 /// # Errors
 /// What keeps it from being a stone, with path and place.
-pub fn read(bytes: Vec<u8>, path: &Path, up: Up) -> Result<MeshStone, CutFileError> {
+pub fn read(bytes: Vec<u8>, path: &Path, up: Up) -> Result<Brought, CutFileError> {
     let told = |e: mesh_file::MeshFileError| CutFileError {
         path: e.path,
         line: None,
@@ -55,8 +33,7 @@ pub fn read(bytes: Vec<u8>, path: &Path, up: Up) -> Result<MeshStone, CutFileErr
     let name = Some(name).filter(|name| is_printable(name)).unwrap_or_else(|| "stone".to_owned());
     match facets(mended.surface) {
         Shape::Convex(found) if found.faces.len() <= MAX_PLANES => {
-            let brought = planes(&found, up, name, hint, warnings).map_err(fault)?;
-            Ok(MeshStone::Planes(brought))
+            planes(&found, up, name, hint, warnings).map_err(fault)
         }
         Shape::Convex(found) => triangles(found.surface, (up, format), name, hint, warnings).map_err(fault),
         Shape::Concave(surface) => triangles(surface, (up, format), name, hint, warnings).map_err(fault),
@@ -76,16 +53,13 @@ fn planes(
         "{count} facets were found; no corner lies farther from them than {deviation:.1e} girdle radii"
     ));
     let material = material(hint, pose.scale, &mut warnings);
-    let design = Design {
-        name,
-        source: None,
-        notes: None,
-        material,
-        diameter_mm: DEFAULT_DIAMETER_MM,
-        cut: Cut::Planes(facets),
-    };
+    let design = design(name, material, Cut::Planes(facets));
     design.check().map_err(|e| e.to_string())?;
     Ok(Brought { design, warnings })
+}
+
+fn design(name: String, material: MaterialRef, cut: Cut) -> Design {
+    Design { name, source: None, notes: None, material, diameter_mm: DEFAULT_DIAMETER_MM, cut }
 }
 
 fn triangles(
@@ -94,7 +68,7 @@ fn triangles(
     name: String,
     hint: Option<MaterialHint>,
     mut warnings: Vec<String>,
-) -> Result<MeshStone, String> {
+) -> Result<Brought, String> {
     let up = match up {
         Up::Given(up) => up.try_normalize().ok_or("the direction up points nowhere")?,
         // The standard of glTF has y up; the others say nothing, and stones are drawn with z up.
@@ -112,7 +86,7 @@ fn triangles(
         .push(format!("it is not convex, so it is traced as {} triangles", shell.surface().triangles.len()));
     let material = material(hint, pose.scale, &mut warnings);
     let shell = Arc::new(shell.moved(pose.scale, DQuat::IDENTITY, pose.shift));
-    Ok(MeshStone::Triangles(Lump { name, material, shell, warnings }))
+    Ok(Brought { design: design(name, material, Cut::Mesh(MeshShape(shell))), warnings })
 }
 
 /// The material that a file asks for; `scale` is in girdle radii per unit of the file.
@@ -159,17 +133,15 @@ mod tests {
             (name, Plane::new(plane.normal.to_array().map(rounded).into(), rounded(plane.offset)))
         });
         let specimen = Specimen::new(Design { cut: Cut::Planes(facets.collect()), ..design }).unwrap();
-        let count = specimen.stone.polytope.facets().len();
+        let count = specimen.stone().unwrap().polytope.facets().len();
         for bytes in
-            [write_obj(&specimen.stone, "t", 1.0).into_bytes(), write_stl(&specimen.stone, 3.0).unwrap()]
+            [write_obj(&specimen.body, "t", 1.0).into_bytes(), write_stl(&specimen.body, 3.0).unwrap()]
         {
-            let MeshStone::Planes(brought) = read(bytes, Path::new("t"), Up::Found).unwrap() else {
-                panic!("concave")
-            };
-            let Cut::Planes(planes) = &brought.design.cut else { panic!() };
+            let brought = read(bytes, Path::new("t"), Up::Found).unwrap();
+            let Cut::Planes(planes) = &brought.design.cut else { panic!("concave") };
             assert_eq!(planes.len(), count);
-            let again = Specimen::new(brought.design).unwrap().stone.polytope.volume();
-            assert!((again - specimen.stone.polytope.volume()).abs() < 1e-4);
+            let again = Specimen::new(brought.design).unwrap().solid().volume();
+            assert!((again - specimen.solid().volume()).abs() < 1e-4);
         }
     }
 }

@@ -2,11 +2,11 @@
 //!
 //! `scale` is in units of the file per girdle radius: 1 for girdle radii, the radius in mm for OBJ and STL as the
 //! trade has them, the radius in metres for glTF as its standard wants it. OBJ keeps f64 to the last digit; the others
-//! are f32. Read back, OBJ and glTF give the facets their names.
+//! are f32. Read back, OBJ and glTF give the facets their names. A solid that is not convex is written by its triangles.
 
 use super::mesh_file::MaterialHint;
 use crate::math::triangulate;
-use crate::scene::Stone;
+use crate::scene::Body;
 use glam::DVec3;
 use serde_json::{Value, json};
 use std::fmt::Write as _;
@@ -20,57 +20,104 @@ const U32: u32 = 5125;
 const VERTICES: u32 = 34962;
 const INDICES: u32 = 34963;
 
-/// The stone as OBJ, z up: each facet a polygon in a group of its name.
-pub fn write_obj(stone: &Stone, name: &str, scale: f64) -> String {
-    let mut text = format!("# {} facets\no {name}\n", stone.names().len());
-    for v in stone.polytope.vertices() {
+/// A facet, or of a mesh a triangle: its name, its normal and its corners, counter-clockwise seen from outside.
+struct Face<'a> {
+    name: Option<&'a str>,
+    normal: DVec3,
+    corners: Vec<u32>,
+    /// Its triangles, by corners of the solid.
+    triangles: Vec<[u32; 3]>,
+}
+
+fn faces(body: &Body) -> Vec<Face<'_>> {
+    match body {
+        Body::Stone(stone) => {
+            let mut triangles = vec![vec![]; stone.names().len()];
+            let mesh = triangulate(&stone.polytope);
+            mesh.triangles.iter().zip(&mesh.facets).for_each(|(t, &f)| triangles[f as usize].push(*t));
+            let named = stone.polytope.facets().iter().zip(stone.names()).zip(triangles);
+            named
+                .map(|((facet, name), triangles)| Face {
+                    name: Some(name.as_str()),
+                    normal: facet.plane.normal,
+                    corners: facet.outline.clone(),
+                    triangles,
+                })
+                .collect()
+        }
+        Body::Mesh(shell) => {
+            let face = |(t, &f): (&[u32; 3], &u32)| Face {
+                name: None,
+                normal: shell.planes()[f as usize].normal,
+                corners: t.to_vec(),
+                triangles: vec![*t],
+            };
+            shell.surface().triangles.iter().zip(shell.facets()).map(face).collect()
+        }
+    }
+}
+
+/// The solid as OBJ, z up: each facet a polygon in a group of its name.
+pub fn write_obj(body: &Body, name: &str, scale: f64) -> String {
+    let faces = faces(body);
+    let mut text = format!("# {} facets\no {name}\n", faces.len());
+    for v in body.solid().vertices() {
         let v = *v * scale;
         // Formatting into a String cannot fail.
         let _ = writeln!(text, "v {} {} {}", v.x, v.y, v.z);
     }
-    for (facet, name) in stone.polytope.facets().iter().zip(stone.names()) {
-        let corners: String = facet.outline.iter().map(|v| format!(" {}", v + 1)).collect();
-        let _ = writeln!(text, "g {name}\nf{corners}");
+    for face in faces {
+        if let Some(name) = face.name {
+            let _ = writeln!(text, "g {name}");
+        }
+        let corners: String = face.corners.iter().map(|v| format!(" {}", v + 1)).collect();
+        let _ = writeln!(text, "f{corners}");
     }
     text
 }
 
-/// The stone as binary STL, z up.
+/// The solid as binary STL, z up.
 ///
 /// # Errors
 /// None that memory does not make: what is written to a list of bytes is never refused.
-pub fn write_stl(stone: &Stone, scale: f64) -> std::io::Result<Vec<u8>> {
-    let mesh = triangulate(&stone.polytope);
+pub fn write_stl(body: &Body, scale: f64) -> std::io::Result<Vec<u8>> {
+    let (faces, vertices) = (faces(body), body.solid().vertices());
     let vector = |v: DVec3| stl_io::Vector::new(v.as_vec3().to_array());
-    let triangle = |(corners, facet): (&[u32; 3], &u32)| stl_io::Triangle {
-        normal: vector(stone.polytope.facets()[*facet as usize].plane.normal),
-        vertices: corners.map(|v| vector(mesh.vertices[v as usize] * scale)),
+    let triangle = |face: &Face, corners: [u32; 3]| stl_io::Triangle {
+        normal: vector(face.normal),
+        vertices: corners.map(|v| vector(vertices[v as usize] * scale)),
     };
-    let triangles: Vec<stl_io::Triangle> = mesh.triangles.iter().zip(&mesh.facets).map(triangle).collect();
+    let each = faces.iter().flat_map(|face| face.triangles.iter().map(move |t| triangle(face, *t)));
+    let triangles: Vec<stl_io::Triangle> = each.collect();
     let mut bytes = vec![];
     stl_io::write_stl(&mut bytes, triangles.iter())?;
     Ok(bytes)
 }
 
-/// The stone as binary glTF, y up: a primitive with flat normals for each facet, its name among its extras, and the
-/// material by its extensions.
+/// The solid as binary glTF, y up: a primitive with flat normals for each named facet, its name among its extras, one for
+/// all triangles of a mesh, and the material by its extensions.
 ///
 /// # Errors
 /// None that memory does not make.
 pub fn write_glb(
-    stone: &Stone,
+    body: &Body,
     name: &str,
     scale: f64,
     material: &MaterialHint,
 ) -> Result<Vec<u8>, gltf::Error> {
     let mut parts = Parts::default();
-    let mesh = triangulate(&stone.polytope);
-    for (number, facet) in stone.polytope.facets().iter().enumerate() {
-        let of_facet = mesh.triangles.iter().zip(&mesh.facets).filter(|(_, f)| **f as usize == number);
-        let place = |v: u32| facet.outline.iter().position(|o| *o == v).unwrap_or_default() as u32;
-        let triangles: Vec<u32> = of_facet.flat_map(|(t, _)| t.map(place)).collect();
-        let corners: Vec<DVec3> = stone.polytope.corners(facet).map(|v| v * scale).collect();
-        parts.primitive(&stone.names()[number], &corners, facet.plane.normal, &triangles);
+    let vertices = body.solid().vertices();
+    let mut nameless = Primitive::default();
+    for face in faces(body) {
+        let mut own = Primitive::default();
+        let primitive = if face.name.is_some() { &mut own } else { &mut nameless };
+        primitive.add(&face, vertices, scale);
+        if let Some(name) = face.name {
+            parts.primitive(Some(name), &own);
+        }
+    }
+    if !nameless.triangles.is_empty() {
+        parts.primitive(None, &nameless);
     }
     let Parts { bin, views, accessors, primitives } = parts;
     // z up becomes y up by a quarter turn about x.
@@ -100,8 +147,27 @@ struct Parts {
     primitives: Vec<Value>,
 }
 
+/// Corners, each with the normal of its facet, and triangles by their places.
+#[derive(Default)]
+struct Primitive {
+    corners: Vec<DVec3>,
+    normals: Vec<DVec3>,
+    triangles: Vec<u32>,
+}
+
+impl Primitive {
+    fn add(&mut self, face: &Face, vertices: &[DVec3], scale: f64) {
+        let first = self.corners.len();
+        let place = |v: &u32| (first + face.corners.iter().position(|o| o == v).unwrap_or_default()) as u32;
+        self.triangles.extend(face.triangles.iter().flatten().map(place));
+        self.corners.extend(face.corners.iter().map(|&v| vertices[v as usize] * scale));
+        self.normals.resize(self.corners.len(), face.normal);
+    }
+}
+
 impl Parts {
-    fn primitive(&mut self, name: &str, corners: &[DVec3], normal: DVec3, triangles: &[u32]) {
+    fn primitive(&mut self, name: Option<&str>, shape: &Primitive) {
+        let Primitive { corners, normals, triangles } = shape;
         let floats = |v: DVec3| v.as_vec3().to_array();
         let places: Vec<[f32; 3]> = corners.iter().map(|&v| floats(v)).collect();
         let low = places.iter().fold([f32::INFINITY; 3], |a, b| [0, 1, 2].map(|i| a[i].min(b[i])));
@@ -111,15 +177,20 @@ impl Parts {
         let position = self.view(&bytes(&places), VERTICES);
         self.accessors.push(json!({ "bufferView": position, "componentType": F32, "count": places.len(),
             "type": "VEC3", "min": low, "max": high }));
-        let normals = self.view(&bytes(&vec![floats(normal); places.len()]), VERTICES);
+        let normals: Vec<[f32; 3]> = normals.iter().map(|&v| floats(v)).collect();
+        let normals = self.view(&bytes(&normals), VERTICES);
         self.accessors.push(json!({ "bufferView": normals, "componentType": F32, "count": places.len(),
             "type": "VEC3" }));
-        let order = self.view(&triangles.iter().flat_map(|i| i.to_le_bytes()).collect::<Vec<u8>>(), INDICES);
+        let numbers: Vec<u8> = triangles.iter().flat_map(|i| i.to_le_bytes()).collect();
+        let order = self.view(&numbers, INDICES);
         self.accessors.push(json!({ "bufferView": order, "componentType": U32, "count": triangles.len(),
             "type": "SCALAR" }));
         let attributes = json!({ "POSITION": position, "NORMAL": normals });
-        self.primitives.push(json!({ "attributes": attributes, "indices": order, "material": 0,
-            "extras": { FACET: name } }));
+        let mut primitive = json!({ "attributes": attributes, "indices": order, "material": 0 });
+        if let Some(name) = name {
+            primitive["extras"] = json!({ FACET: name });
+        }
+        self.primitives.push(primitive);
     }
 
     /// A buffer view of its own, whose accessor bears the same number.

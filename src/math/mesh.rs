@@ -44,7 +44,12 @@ fn facet_triangles(polytope: &Polytope, facet: &Facet) -> Vec<[u32; 3]> {
 fn delaunay(flat: &[DVec2]) -> Option<Vec<[usize; 3]>> {
     let points = flat.iter().map(|p| Point2::new(p.x, p.y)).collect();
     let edges = (0..flat.len()).map(|i| [i, (i + 1) % flat.len()]).collect();
-    let cdt = ConstrainedDelaunayTriangulation::<Point2<f64>>::bulk_load_cdt(points, edges).ok()?;
+    // Corners that fall together leave edges that begin where they end.
+    let mut is_sound = true;
+    let unfit = |_| is_sound = false;
+    let cdt =
+        ConstrainedDelaunayTriangulation::<Point2<f64>>::try_bulk_load_cdt(points, edges, unfit).ok()?;
+    is_sound.then_some(())?;
     // Loading merges equal points and so may renumber: then the outline is degenerate.
     (cdt.num_vertices() == flat.len()).then_some(())?;
     let triangles: Vec<[usize; 3]> = cdt
@@ -69,4 +74,21 @@ fn same_area(flat: &[DVec2], triangles: &[[usize; 3]]) -> bool {
 
 fn fan(corners: usize) -> Vec<[usize; 3]> {
     (1..corners - 1).map(|i| [0, i, i + 1]).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn corners_that_fall_together_are_no_reason_to_panic() {
+        let square = [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)].map(DVec2::from);
+        assert_eq!(delaunay(&square).map(|t| t.len()), Some(2));
+        for twice in 0..4 {
+            let mut corners = square.to_vec();
+            corners.insert(twice, square[twice]);
+            assert_eq!(delaunay(&corners), None);
+        }
+        assert_eq!(delaunay(&[DVec2::ZERO; 4]), None);
+    }
 }

@@ -22,9 +22,9 @@ pub enum SolidRef<'a> {
     Triangles(&'a Arc<Shell>),
 }
 
-/// Exact beams do not apply.
+/// What only a convex stone between planes has: facets to name and draw, and exact beams.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
-#[error("exact beams need a convex stone, given by its planes; this one is made of triangles: use rays")]
+#[error("this takes a convex stone, given by its planes, and this one is made of triangles: rays show it")]
 pub struct NotConvex;
 
 /// An edge between two facets.
@@ -63,16 +63,12 @@ impl Solid {
 
     /// The smallest box with sides along the axes that holds it: (least, greatest) coordinates.
     pub fn bounds(&self) -> (DVec3, DVec3) {
-        let start = (DVec3::INFINITY, DVec3::NEG_INFINITY);
-        self.vertices().iter().fold(start, |(low, high), &v| (low.min(v), high.max(v)))
+        self.by_ref().bounds()
     }
 
     /// Enclosed volume.
     pub fn volume(&self) -> f64 {
-        match self {
-            Self::Convex(polytope) => polytope.volume(),
-            Self::Triangles(shell) => shell.volume(),
-        }
+        self.by_ref().volume()
     }
 
     /// The same solid elsewhere: scaled by a factor above 0, turned, then shifted.
@@ -93,11 +89,57 @@ impl<'a> SolidRef<'a> {
         }
     }
 
+    /// The smallest box with sides along the axes that holds it: (least, greatest) coordinates.
+    pub fn bounds(self) -> (DVec3, DVec3) {
+        let start = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+        self.vertices().iter().fold(start, |(low, high), &v| (low.min(v), high.max(v)))
+    }
+
+    /// Enclosed volume.
+    pub fn volume(self) -> f64 {
+        match self {
+            Self::Convex(polytope) => polytope.volume(),
+            Self::Triangles(shell) => shell.volume(),
+        }
+    }
+
+    /// A solid of one's own.
+    pub fn owned(self) -> Solid {
+        match self {
+            Self::Convex(polytope) => Solid::Convex(polytope.clone()),
+            Self::Triangles(shell) => Solid::Triangles(Arc::clone(shell)),
+        }
+    }
+
     /// The plane of a facet.
     pub fn plane(self, facet: u32) -> Plane {
         match self {
             Self::Convex(polytope) => polytope.facets()[facet as usize].plane,
             Self::Triangles(shell) => shell.planes()[facet as usize],
+        }
+    }
+
+    /// Triangles that cover a facet.
+    pub fn triangles_of(self, facet: u32) -> Vec<[DVec3; 3]> {
+        match self {
+            Self::Convex(polytope) => {
+                let corners: Vec<DVec3> = polytope.corners(&polytope.facets()[facet as usize]).collect();
+                corners.windows(2).skip(1).map(|pair| [corners[0], pair[0], pair[1]]).collect()
+            }
+            Self::Triangles(shell) => {
+                shell.triangles_of(facet).map(|t| t.map(|v| shell.vertices()[v as usize])).collect()
+            }
+        }
+    }
+
+    /// The edges around a facet.
+    pub fn rim(self, facet: u32) -> Vec<[DVec3; 2]> {
+        match self {
+            Self::Convex(polytope) => {
+                let corners: Vec<DVec3> = polytope.corners(&polytope.facets()[facet as usize]).collect();
+                (0..corners.len()).map(|i| [corners[i], corners[(i + 1) % corners.len()]]).collect()
+            }
+            Self::Triangles(shell) => shell.rim(facet),
         }
     }
 

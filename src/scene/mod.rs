@@ -1,5 +1,6 @@
 //! Floor 2: what is looked at, from where and under which light. Data only.
 
+mod body;
 mod film;
 mod layout;
 mod light;
@@ -14,6 +15,7 @@ mod stone;
 mod view;
 mod viewpoint;
 
+pub use body::Body;
 pub use film::Film;
 pub use layout::Layout;
 pub use light::{Dome, Field, Lamp, Light, LightError, MOST_LAMPS, PanoramaRef, SoftBox, toward};

@@ -1,6 +1,6 @@
 //! Stones beside one another, each of its own material.
 
-use super::Stone;
+use super::Body;
 use crate::math::Solid;
 use crate::optics::Material;
 use glam::{DQuat, DVec3};
@@ -34,9 +34,8 @@ impl Placed {
     }
 
     /// A stone with the names of its facets, where it is.
-    pub fn named(stone: &Stone, material: Material, label: &str) -> Self {
-        let names = stone.names().to_vec();
-        Self { solid: stone.polytope.clone().into(), material, names, label: label.to_owned() }
+    pub fn named(body: &Body, material: Material, label: &str) -> Self {
+        Self { solid: body.into(), material, names: body.names().to_vec(), label: label.to_owned() }
     }
 
     /// The same stone scaled by a factor above 0, turned, then shifted.

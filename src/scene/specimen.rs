@@ -1,9 +1,10 @@
 //! A stone made from a design: its solid, its material, and what is odd about it.
 
-use super::{Medium, Stone};
+use super::{Body, Medium, Stone};
 use crate::cut::{Cut, Design, DesignError, Tiers};
-use crate::math::{Plane, PolytopeError};
+use crate::math::{NotConvex, Plane, PolytopeError, SolidRef};
 use crate::optics::Material;
+use std::sync::Arc;
 
 /// A design and the stone that it describes.
 #[derive(Debug, Clone, PartialEq)]
@@ -11,7 +12,7 @@ pub struct Specimen {
     /// What its file says.
     pub design: Design,
     /// Its solid.
-    pub stone: Stone,
+    pub body: Body,
     /// What it is made of.
     pub material: Material,
     /// What its owner may not have meant, in words.
@@ -35,6 +36,11 @@ impl Specimen {
     /// # Errors
     /// The first thing at fault with the design.
     pub fn new(design: Design) -> Result<Self, SpecimenError> {
+        let material = design.material.material().map_err(DesignError::from)?;
+        if let Cut::Mesh(shape) = &design.cut {
+            let body = Body::Mesh(Arc::clone(&shape.0));
+            return Ok(Self { design, body, material, warnings: vec![] });
+        }
         let mut facets = design.facets()?;
         let given = facets.len();
         let mut warnings: Vec<String> = design.warnings()?.iter().map(ToString::to_string).collect();
@@ -49,9 +55,21 @@ impl Specimen {
             }
             (Err(error), _) => return Err(told(&error, &facets)),
         };
-        let material = design.material.material().map_err(DesignError::from)?;
         warnings.extend(odd(&stone, &facets, given));
-        Ok(Self { design, stone, material, warnings })
+        Ok(Self { design, body: Body::Stone(stone), material, warnings })
+    }
+
+    /// Its shape, to be traced.
+    pub fn solid(&self) -> SolidRef<'_> {
+        self.body.solid()
+    }
+
+    /// Its facets with their names.
+    ///
+    /// # Errors
+    /// Where it has none.
+    pub fn stone(&self) -> Result<&Stone, NotConvex> {
+        self.body.stone()
     }
 
     /// The stone of another design; not built anew where the cut is the same.
@@ -73,7 +91,7 @@ impl Specimen {
 
     /// Its weight in carats; `None` where its material's density is not known.
     pub fn carats(&self) -> Option<f64> {
-        self.material.carats(self.stone.polytope.volume() * self.unit_mm().powi(3))
+        self.material.carats(self.solid().volume() * self.unit_mm().powi(3))
     }
 
     /// Its medium at one wavelength, nm.

@@ -1,9 +1,9 @@
 //! The stone as a wireframe, and the light's way through it.
 
 use super::Reading;
-use crate::math::Basis;
-use crate::trace::ray::{Path, Step};
-use egui::{Align2, FontId, Painter, Pos2, Rect, Shape, Stroke, StrokeKind, Vec2, Visuals};
+use crate::math::{Basis, Edge};
+use crate::trace::ray::{Leaving, Path, Step};
+use egui::{Align2, Color32, FontId, Mesh, Painter, Pos2, Rect, Shape, Stroke, StrokeKind, Vec2, Visuals};
 use glam::{DVec2, DVec3};
 
 /// Length of the light outside the stone, as parts of the stone's reach: of what enters and of what leaves.
@@ -87,13 +87,13 @@ fn stretches(path: &Path, reach: f64) -> Vec<Stretch> {
 
 /// Where the drawing of what leaves at a step ends.
 fn end_of(step: &Step, reach: f64) -> Option<DVec3> {
-    step.leaving.map(|leaving| step.point + leaving.direction * (reach * OUTSIDE[1]))
+    step.leaving.map(|leaving| step.point + leaving.direction * leaving.again.unwrap_or(reach * OUTSIDE[1]))
 }
 
 impl<'a> Canvas<'a> {
     /// A canvas on which the stone and all its light have room, seen from this height from whatever side.
     fn new(painter: &'a Painter, visuals: &'a Visuals, eye: Basis, reading: &Reading) -> Self {
-        let corners = reading.stone.polytope.vertices();
+        let corners = reading.body.solid().vertices();
         let low = corners.iter().copied().fold(DVec3::INFINITY, DVec3::min);
         let high = corners.iter().copied().fold(DVec3::NEG_INFINITY, DVec3::max);
         let centre = (low + high) / 2.0;
@@ -118,35 +118,40 @@ impl<'a> Canvas<'a> {
 
     /// Tints the facets that are met.
     fn facets(&self, reading: &Reading, inside: &[Stretch], lit: Option<usize>) {
-        let polytope = &reading.stone.polytope;
         let steps = &reading.path.steps;
         let lit = lit.map(|k| steps[k].facet);
-        let is_met = |facet| steps.iter().zip(inside).any(|(s, to)| s.facet == facet && to.share >= FAINT);
-        for (k, facet) in (0..).zip(polytope.facets()) {
-            let is_lit = lit == Some(k);
-            if is_lit || is_met(k) {
-                let tint = self.visuals.hyperlink_color.gamma_multiply(TINTS[usize::from(is_lit)]);
-                let outline = polytope.corners(facet).map(|v| self.at(v)).collect();
-                self.painter.add(Shape::convex_polygon(outline, tint, Stroke::NONE));
+        let mut met: Vec<u32> = steps
+            .iter()
+            .zip(inside)
+            .filter(|(_, to)| to.share >= FAINT)
+            .map(|(s, _)| s.facet)
+            .chain(lit)
+            .collect();
+        met.sort_unstable();
+        met.dedup();
+        for facet in met {
+            let tint = self.visuals.hyperlink_color.gamma_multiply(TINTS[usize::from(lit == Some(facet))]);
+            // In one mesh, as triangles one by one would show their seams.
+            let mut cover = Mesh::default();
+            for corner in reading.body.solid().triangles_of(facet).into_iter().flatten() {
+                cover.indices.push(cover.vertices.len() as u32);
+                cover.colored_vertex(self.at(corner), tint);
             }
+            self.painter.add(Shape::mesh(cover));
         }
     }
 
     /// All edges, those behind first.
     fn edges(&self, reading: &Reading) {
-        let polytope = &reading.stone.polytope;
-        let faces = |k: usize| polytope.facets()[k].plane.normal.dot(self.eye.toward) > 0.0;
+        let solid = reading.body.solid();
+        let faces = |facet: u32| solid.plane(facet).normal.dot(self.eye.toward) > 0.0;
+        let edges = solid.edges();
         for front in [false, true] {
             let colour = self.visuals.text_color().gamma_multiply(EDGES[usize::from(!front)]);
-            for (k, facet) in polytope.facets().iter().enumerate() {
-                let corners: Vec<Pos2> = polytope.corners(facet).map(|v| self.at(v)).collect();
-                for (i, &other) in facet.neighbours.iter().enumerate() {
-                    // Each edge once: its other facet has it too.
-                    if other as usize > k && (faces(k) || faces(other as usize)) == front {
-                        let ends = [corners[i], corners[(i + 1) % corners.len()]];
-                        self.painter.line_segment(ends, Stroke::new(1.0, colour));
-                    }
-                }
+            for Edge { ends, .. } in
+                edges.iter().filter(|edge| edge.facets.iter().any(|&f| faces(f)) == front)
+            {
+                self.painter.line_segment(ends.map(|v| self.at(v)), Stroke::new(1.0, colour));
             }
         }
     }
@@ -180,10 +185,18 @@ impl<'a> Canvas<'a> {
         // A rim, as the scope's colour may be that of the background.
         for stroke in [
             Stroke::new(width + 1.6, rim),
-            Stroke::new(width, reading.colour(leaving.direction).gamma_multiply(opacity)),
+            Stroke::new(width, self.colour(reading, &leaving).gamma_multiply(opacity)),
         ] {
             self.painter.line_segment([from, to], stroke);
             self.head(to, to - from, stroke);
+        }
+    }
+
+    /// Of where light goes; light that enters again goes to no zone yet.
+    fn colour(&self, reading: &Reading, leaving: &Leaving) -> Color32 {
+        match leaving.again {
+            None => reading.colour(leaving.direction),
+            Some(_) => self.visuals.warn_fg_color,
         }
     }
 

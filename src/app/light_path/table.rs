@@ -228,7 +228,8 @@ fn swatch(size: f32) -> f32 {
 }
 
 fn row(reading: &Reading, number: usize, step: &Step) -> Row {
-    let name = reading.stone.name(step.facet).replace('_', " ");
+    let name = reading.body.names().get(step.facet as usize);
+    let name = name.map_or_else(|| format!("facet {}", step.facet + 1), |name| name.replace('_', " "));
     let angle = degrees(step.incidence);
     let critical = step.critical.map(degrees);
     let [leaves, elevation, azimuth, zone] = match step.leaving {
@@ -245,20 +246,24 @@ fn row(reading: &Reading, number: usize, step: &Step) -> Row {
     let critical = critical.unwrap_or_else(|| NONE.to_owned());
     let cells =
         [number.to_string(), shortened(&name), angle, critical, leaves, elevation, azimuth, zone, onward];
-    Row { cells, zone: step.leaving.map(|leaving| reading.colour(leaving.direction)), spoken }
+    let outside = step.leaving.filter(|leaving| leaving.again.is_none());
+    Row { cells, zone: outside.map(|leaving| reading.colour(leaving.direction)), spoken }
 }
 
 /// Stands for a number that there is not.
 const NONE: &str = "–";
 
+/// Stands for the zone of light that goes to none yet.
+const AGAIN: &str = "in again";
+
 /// Share, elevation, azimuth, zone.
-fn where_to(reading: &Reading, Leaving { share, direction }: Leaving) -> [String; 4] {
+fn where_to(reading: &Reading, Leaving { share, direction, again }: Leaving) -> [String; 4] {
     let azimuth = reading.azimuth(direction).map(|a| format!("{}°", a.round() % 360.0));
     [
         percent(share),
         degrees(reading.elevation(direction)),
         azimuth.unwrap_or_else(|| NONE.to_owned()),
-        reading.band(direction).name.clone(),
+        again.map_or_else(|| reading.band(direction).name.clone(), |_| AGAIN.to_owned()),
     ]
 }
 

@@ -1,6 +1,6 @@
 use super::*;
 use crate::io::cut_file;
-use crate::scene::{ASET_CONE, Backing, Medium, View};
+use crate::scene::{ASET_CONE, Backing, Medium, Specimen, View};
 use crate::trace::ray::{Camera, Options, Tracer};
 use egui::{Event, Key, PointerButton, Pos2, Rect, Shape, Theme, vec2};
 use egui_kittest::Harness;
@@ -10,7 +10,7 @@ use glam::DVec2;
 /// What the tests look at: a path through a brilliant, seen face up.
 struct Shown {
     widget: LightPath,
-    stone: Stone,
+    body: Body,
     path: Path,
     scope: Scope,
 }
@@ -18,18 +18,18 @@ struct Shown {
 impl Shown {
     fn new(least_weight: f64) -> Self {
         let design = cut_file::read(concat!(env!("CARGO_MANIFEST_DIR"), "/cuts/modern-ideal.toml")).unwrap();
-        let stone = Stone::new(&design.facets().unwrap()).unwrap();
+        let body = Specimen::new(design).unwrap().body;
         let options = Options { least_weight, ..Options::default() };
-        let tracer = Tracer::new(&stone.polytope, Medium::clear(2.4173), options);
-        let (origin, direction) = Camera::new(&View::default(), &stone.polytope).ray(DVec2::new(0.33, 0.21));
+        let tracer = Tracer::new(body.solid(), Medium::clear(2.4173), options);
+        let (origin, direction) = Camera::new(&View::default(), body.solid()).ray(DVec2::new(0.33, 0.21));
         let path = tracer.path(origin, direction).unwrap();
         let scope = Scope::aset(ASET_CONE, Backing::Black);
-        Self { widget: LightPath::default(), stone, path, scope }
+        Self { widget: LightPath::default(), body, path, scope }
     }
 
     fn show(&mut self, ui: &mut Ui) {
-        let Self { widget, stone, path, scope } = self;
-        widget.show(ui, stone, path, scope, &View::default().light_basis());
+        let Self { widget, body, path, scope } = self;
+        widget.show(ui, body, path, scope, &View::default().light_basis());
     }
 
     /// In a window of a size.
@@ -202,9 +202,9 @@ fn a_step_that_the_next_path_does_not_have_is_let_go() {
 
 #[test]
 fn light_along_the_axis_has_no_azimuth_and_others_have_theirs_in_the_scopes_frame() {
-    let Shown { stone, path, scope, .. } = Shown::new(1e-3);
+    let Shown { body, path, scope, .. } = Shown::new(1e-3);
     let light = Basis::FACE_DOWN;
-    let reading = Reading { stone: &stone, path: &path, scope: &scope, light: &light };
+    let reading = Reading { body: &body, path: &path, scope: &scope, light: &light };
     assert_eq!(reading.azimuth(DVec3::NEG_Z), None);
     let azimuths = [DVec3::NEG_X, DVec3::Y, DVec3::X, DVec3::NEG_Y].map(|d| reading.azimuth(d).unwrap());
     assert!(

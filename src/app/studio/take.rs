@@ -4,6 +4,7 @@ use super::order::{Shot, Taken};
 use super::pace::Effort;
 use crate::app::shows::Shows;
 use crate::io::{Failure, rasterize};
+use crate::math::NotConvex;
 use crate::optics::{Stratum, line, strata};
 use crate::picture::by_rays::{self, Manner};
 use crate::picture::{
@@ -41,6 +42,9 @@ pub enum Trouble {
     /// The card failed; rays on the processor do its work from now on.
     #[error(transparent)]
     Card(#[from] GpuError),
+    /// Beams and drawings are for other stones.
+    #[error(transparent)]
+    NotConvex(#[from] NotConvex),
     /// What else.
     #[error("{0}")]
     Other(String),
@@ -51,6 +55,7 @@ impl From<Trouble> for Failure {
         match trouble {
             Trouble::Stopped(stopped) => stopped.into(),
             Trouble::Card(error) => error.into(),
+            Trouble::NotConvex(why) => Self::Usage(why.to_string()),
             Trouble::Other(why) => Self::Input(why),
         }
     }
@@ -71,7 +76,7 @@ impl Shelf {
         view: &View,
         effort: &Effort,
         watch: Watch,
-    ) -> Result<Arc<Beams>, Stopped> {
+    ) -> Result<Arc<Beams>, Trouble> {
         let unresolved = effort.unresolved;
         let same = |(s, v, u, _): &&(Arc<Specimen>, View, f64, Arc<Beams>)| {
             Arc::ptr_eq(s, specimen) && v == view && *u == unresolved
@@ -82,7 +87,7 @@ impl Shelf {
         let most_beams = effort.most_beams();
         let options = beam::Options { unresolved, most_beams, ..beam::Options::default() };
         let medium = specimen.medium(line::SODIUM_D);
-        let beams = Arc::new(beam::trace(&specimen.stone.polytope, medium, view, &options, watch)?);
+        let beams = Arc::new(beam::trace(&specimen.stone()?.polytope, medium, view, &options, watch)?);
         if self.0.len() == MOST_KEPT {
             self.0.remove(0);
         }
@@ -142,7 +147,7 @@ impl Camera {
         let Some(scoped) = shot.shows.scoped() else { return Err(Trouble::Other("no scope".into())) };
         let head = if scoped.takes_head { shot.head } else { 0.0 };
         let scope = scoped.scope.with_head(head);
-        if shot.view.projection == Projection::Orthographic {
+        if is_for_beams(shot) {
             return self.by_beams(shot, effort, &scope, watch);
         }
         self.by_rays(shot, effort, (&scope, if fine { 3 } else { 1 }), watch)
@@ -176,18 +181,18 @@ impl Camera {
         let options =
             ray::Options { most_bounces: MOST_BOUNCES, least_weight: LEAST_WEIGHT, polarised: true };
         let manner = Manner { options, per_side };
-        let (polytope, medium) = (&shot.specimen.stone.polytope, shot.specimen.medium(line::SODIUM_D));
+        let (solid, medium) = (shot.specimen.solid(), shot.specimen.medium(line::SODIUM_D));
         let first = if shot.strongest { scope.bands.len() } else { 0 };
         let mut canvas = Canvas::new(&film, scope, first);
         let each = |rows: &Rows| canvas.take(rows);
         let view = &shot.view;
         let tracer = match &self.gpu {
             Some(gpu) => {
-                by_gpu::trace(gpu, polytope, medium, view, scope, &film, &manner, watch, each)?;
+                by_gpu::trace(gpu, solid, medium, view, scope, &film, &manner, watch, each)?;
                 "rays on the graphics card"
             }
             None => {
-                by_rays::trace(polytope, medium, view, scope, &film, &manner, watch, each)?;
+                by_rays::trace(solid, medium, view, scope, &film, &manner, watch, each)?;
                 "point rays"
             }
         };
@@ -202,9 +207,9 @@ impl Camera {
         watch: Watch,
         each: &mut dyn FnMut(Taken),
     ) -> Result<(), Trouble> {
-        let stone = Placed::named(&shot.specimen.stone, shot.specimen.material.clone(), "");
+        let stone = Placed::named(&shot.specimen.body, shot.specimen.material.clone(), "");
         let setting = Setting { stones: vec![stone], unit_mm: shot.specimen.unit_mm() };
-        let flat = shot.view.projection == Projection::Orthographic;
+        let flat = is_for_beams(shot);
         let by_card = self.gpu.clone().filter(|_| growing.is_some() || !flat);
         let slower = if by_card.is_none() && !flat && growing.is_none() { RAYS_COARSER } else { 1.0 };
         let mut film = coarser(&shot.film, effort.coarser * slower);
@@ -248,7 +253,7 @@ impl Camera {
 
     fn overlaid(&self, shot: &Shot, mut taken: Taken, watch: Watch) -> Result<Taken, Trouble> {
         let Some(overlay) = shot.overlay else { return Ok(taken) };
-        let stone = Placed::named(&shot.specimen.stone, shot.specimen.material.clone(), "");
+        let stone = Placed::named(&shot.specimen.body, shot.specimen.material.clone(), "");
         let setting = Setting { stones: vec![stone], unit_mm: shot.specimen.unit_mm() };
         let [across, down] = taken.image.size.map(|n| n as u32);
         let pixel = shot.film.pixel * f64::from(shot.film.size[0]) / f64::from(across);
@@ -256,6 +261,11 @@ impl Camera {
         over(overlay, &sitting(shot, &setting, film), &mut taken.image, watch)?;
         Ok(taken)
     }
+}
+
+/// Whether exact beams show it: a convex stone by parallel rays.
+fn is_for_beams(shot: &Shot) -> bool {
+    shot.view.projection == Projection::Orthographic && shot.specimen.stone().is_ok()
 }
 
 /// Looks to be added up.
@@ -337,7 +347,7 @@ fn over(overlay: Overlay, sitting: &Sitting, image: &mut ColorImage, watch: Watc
 }
 
 fn drawing(shot: &Shot) -> Result<Taken, Trouble> {
-    let text = diagram(&shot.specimen.stone, &shot.specimen.design.name).to_string();
+    let text = diagram(shot.specimen.stone()?, &shot.specimen.design.name).to_string();
     let (width, height, rgb) =
         rasterize(&text, shot.film.size[0]).map_err(|e| Trouble::Other(e.to_string()))?;
     let image = ColorImage::from_rgb([width as usize, height as usize], &rgb);

@@ -4,10 +4,11 @@ use super::order::{Answer, Ask, Grade, Order, Shot, Slot, Taken, Which};
 use super::pace::{Effort, Pace};
 use super::take::{Camera, Growing, Shelf, Trouble};
 use super::{Desk, Wake};
-use crate::measure::{Figures, by_beams};
+use crate::io::export::LATTICE;
+use crate::measure::{Figures, by_beams, by_rays};
 use crate::scene::{ASET_CONE, Backing, Scope, View};
 use crate::trace::gpu::Gpu;
-use crate::trace::{Stopped, Watch, beam};
+use crate::trace::{Stopped, Watch, beam, ray};
 use std::collections::HashMap;
 use std::ops::ControlFlow;
 use std::sync::atomic::Ordering;
@@ -129,8 +130,8 @@ impl Worker {
         }
         for (which, ask) in &order.figures {
             if self.figures.get(which).is_none_or(|(done, _)| done != ask) {
-                let beams = self.camera.shelf.beams(&ask.specimen, &ask.view, &effort, &watch)?;
-                self.told(*which, ask, Grade::Rough, by_beams(&beams, &scope(ask)));
+                let figures = self.glanced(ask, &effort, &watch)?;
+                self.told(*which, ask, Grade::Rough, figures);
             }
         }
         if any {
@@ -145,9 +146,9 @@ impl Worker {
         let watch = move |_: f64| stop_if(desk.newest.load(Ordering::SeqCst) != number);
         let fine = if self.camera.gpu.is_some() { FINE_BY_CARD } else { FINE_RENDER };
         self.pictures(&turn.order, Grade::Fair, (FAIR, &FAIR_RENDER), &watch)?;
-        self.all_figures(&turn.order, Grade::Fair, FINE, &watch)?;
+        self.all_figures(&turn.order, Grade::Fair, (FINE, LATTICE / 4), &watch)?;
         self.pictures(&turn.order, Grade::Fine, (FINE, &fine), &watch)?;
-        self.all_figures(&turn.order, Grade::Fine, FIGURES, &watch)?;
+        self.all_figures(&turn.order, Grade::Fine, (FIGURES, LATTICE), &watch)?;
         self.against_tilt(&turn.order, &watch)
     }
 
@@ -188,6 +189,7 @@ impl Worker {
                 self.answer(Answer::Trouble(format!("{error}: tracing on the processor")));
                 return self.picture((slot, shot), grade, (effort, growing), watch);
             }
+            Err(Trouble::NotConvex(why)) => self.answer(Answer::Trouble(why.to_string())),
             Err(Trouble::Other(why)) => self.answer(Answer::Trouble(why)),
         }
         self.pictures.insert(slot, (shot.clone(), grade));
@@ -198,16 +200,25 @@ impl Worker {
         &mut self,
         order: &Order,
         grade: Grade,
-        unresolved: f64,
+        bound: Bound,
         watch: Watch,
     ) -> Result<(), Stopped> {
         for (which, ask) in &order.figures {
             if self.figures.get(which).is_none_or(|(done, g)| done != ask || *g < grade) {
-                let figures = measured(ask, &ask.view, unresolved, watch)?;
+                let figures = measured(ask, &ask.view, bound, watch)?;
                 self.told(*which, ask, grade, figures);
             }
         }
         Ok(())
+    }
+
+    /// Figures at the first glance, of beams that the pictures share.
+    fn glanced(&mut self, ask: &Ask, effort: &Effort, watch: Watch) -> Result<Figures, Stopped> {
+        match self.camera.shelf.beams(&ask.specimen, &ask.view, effort, watch) {
+            Ok(beams) => Ok(by_beams(&beams, &scope(ask))),
+            Err(Trouble::Stopped(stopped)) => Err(stopped),
+            Err(_) => measured(ask, &ask.view, (effort.unresolved, LATTICE / 16), watch),
+        }
     }
 
     fn told(&mut self, which: Which, ask: &Ask, grade: Grade, figures: Figures) {
@@ -221,7 +232,7 @@ impl Worker {
         };
         let at = |degrees: f64| -> Result<(f64, Figures), Stopped> {
             let view = View { tilt: degrees.to_radians(), ..ask.view };
-            Ok((degrees, measured(ask, &view, TILTED, watch)?))
+            Ok((degrees, measured(ask, &view, (TILTED, LATTICE / 4), watch)?))
         };
         let tilts = TILTS.into_iter().map(at).collect::<Result<_, _>>()?;
         self.tilts = Some(ask.clone());
@@ -238,10 +249,17 @@ fn scope(ask: &Ask) -> Scope {
     Scope::aset(ASET_CONE, Backing::Black).with_head(ask.head)
 }
 
+/// The part of the light that may stay unresolved, and the side of the lattices where figures are sampled.
+type Bound = (f64, u32);
+
 /// Figures to a bound, as `measure` gives them.
-fn measured(ask: &Ask, view: &View, unresolved: f64, watch: Watch) -> Result<Figures, Stopped> {
-    let options = beam::Options { unresolved, ..beam::Options::default() };
+fn measured(ask: &Ask, view: &View, (unresolved, side): Bound, watch: Watch) -> Result<Figures, Stopped> {
     let medium = ask.specimen.medium(crate::optics::line::SODIUM_D);
-    let beams = beam::trace(&ask.specimen.stone.polytope, medium, view, &options, watch)?;
+    let Ok(stone) = ask.specimen.stone() else {
+        let options = ray::Options { least_weight: unresolved, ..ray::Options::default() };
+        return by_rays(ask.specimen.solid(), medium, view, &scope(ask), (options, side), watch);
+    };
+    let options = beam::Options { unresolved, ..beam::Options::default() };
+    let beams = beam::trace(&stone.polytope, medium, view, &options, watch)?;
     Ok(by_beams(&beams, &scope(ask)))
 }

@@ -7,7 +7,6 @@ use crate::app::opening::Wanted;
 use crate::app::shows::Shows;
 use crate::cut::Crown;
 use crate::io::cut_file;
-use crate::io::design_file::{self, Format};
 use crate::measure::by_beams;
 use crate::optics::line;
 use crate::scene::{ASET_CONE, Backing, Scope, Specimen, View};
@@ -85,7 +84,8 @@ fn what_is_edited_and_saved_opens_again_equal_and_its_figures_are_those_of_the_f
     let options = beam::Options { unresolved: 1.5e-4, ..beam::Options::default() };
     let medium = specimen.medium(line::SODIUM_D);
     let beams =
-        beam::trace(&specimen.stone.polytope, medium, &View::default(), &options, &unwatched).unwrap();
+        beam::trace(&specimen.stone().unwrap().polytope, medium, &View::default(), &options, &unwatched)
+            .unwrap();
     assert_eq!(shown.grade, Grade::Fine);
     assert_eq!(shown.figures, by_beams(&beams, &Scope::aset(ASET_CONE, Backing::Black)));
     let mut again = Bench::with(Setup { file: Some(path), ..Setup::default() });
@@ -347,54 +347,6 @@ fn a_file_that_comes_after_a_change_is_asked_about() {
     assert!(!bench.editor().document.work.design.eq(&design));
     bench.click("Don't save");
     bench.wait(|editor| editor.document.work.design.eq(&design));
-}
-
-#[test]
-fn a_cutters_file_opens_and_its_tiers_are_set() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("square.asc");
-    let text = "GemCad 5.0\ng 96 0.0\ny 4 y\nI 1.76\nH A square\na -90 1 96 n G1 24 48 72\na -43 0.9 96 n P1 24 48 72\n\
-                a 35 0.8 96 n C1 24 48 72\na 0 0.45 0 n T\nZ odd\n";
-    std::fs::write(&path, text).unwrap();
-    let mut bench = Bench::with(Setup { file: Some(path.clone()), ..Setup::default() });
-    bench.settle();
-    assert!(bench.harness.query_by_label_contains("'Z odd' is no record").is_some());
-    let (picture, cut) = (bench.picture(0), bench.editor().document.work.design.cut.clone());
-    bench.type_number("P1 · 4 Angle", "-41.5");
-    bench.settle();
-    assert!(bench.picture(0) != picture);
-    bench.harness.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::S);
-    bench.settle();
-    let saved = std::fs::read_to_string(&path).unwrap();
-    assert!(
-        saved.contains("a -41.5 0.9 96 n P1 24 48 72") && !bench.editor().document.is_changed(),
-        "{saved}"
-    );
-    bench.choose("Edit", "Undo");
-    assert!(bench.editor().document.work.design.cut == cut);
-}
-
-#[test]
-fn a_mesh_opens_as_its_facets_and_is_not_written_over() {
-    let folder = tempfile::tempdir().unwrap();
-    let (path, toml) = (folder.path().join("scan.stl"), folder.path().join("scan.toml"));
-    let specimen = Specimen::new(Document::first().unwrap().work.design).unwrap();
-    design_file::write(&specimen, Format::Stl, &path).unwrap();
-    let scan = std::fs::read(&path).unwrap();
-    let mut bench = Bench::with(Setup { file: Some(path.clone()), ..Setup::default() });
-    bench.settle();
-    assert!(bench.harness.query_by_label_contains("153 facets were found").is_some());
-    bench.type_number("main · 8 Angle", "-41");
-    bench.choices.lock().unwrap().push(toml.clone());
-    bench.harness.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::S);
-    bench.wait(|editor| !editor.document.is_changed());
-    assert_eq!(std::fs::read(&path).unwrap(), scan);
-    let Cut::Planes(planes) = design_file::read(&toml).unwrap().design.cut else { panic!() };
-    let slope = |normal: glam::DVec3| normal.truncate().length().atan2(-normal.z).to_degrees();
-    let mains = planes.iter().filter(|(name, _)| name.starts_with("main "));
-    assert!(
-        mains.clone().count() == 8 && mains.into_iter().all(|(_, p)| (slope(p.normal) - 41.0).abs() < 1e-4)
-    );
 }
 
 #[test]

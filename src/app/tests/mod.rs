@@ -3,6 +3,7 @@
 
 mod drag;
 mod flows;
+mod formats;
 mod looks;
 
 use super::desk::{Desk, Layout};
@@ -134,7 +135,7 @@ impl Bench {
     pub fn brilliant(&self) -> RoundBrilliant {
         match self.editor().document.work.design.cut {
             Cut::RoundBrilliant(brilliant) => brilliant,
-            Cut::Tiers(_) | Cut::Planes(_) => panic!("a round brilliant is expected"),
+            Cut::Tiers(_) | Cut::Planes(_) | Cut::Mesh(_) => panic!("a round brilliant is expected"),
         }
     }
 

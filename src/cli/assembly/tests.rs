@@ -20,9 +20,9 @@ fn refused(stones: &str) -> String {
 fn a_stone_alone_lies_as_its_file_has_it_and_takes_another_material_and_size() {
     let stone = load("modern-ideal");
     let specimen = Specimen::load(Path::new("modern-ideal")).unwrap();
-    assert_eq!(*stone.setting.stones[0].solid.polytope().unwrap(), specimen.stone.polytope);
+    assert_eq!(*stone.setting.stones[0].solid.polytope().unwrap(), specimen.stone().unwrap().polytope);
     assert_eq!((stone.setting.unit_mm, stone.name.as_str()), (3.25, "Modern ideal"));
-    assert_eq!(stone.setting.stones[0].names, specimen.stone.names());
+    assert_eq!(stone.setting.stones[0].names, specimen.stone().unwrap().names());
     // A brilliant of 6.5 mm is the trade's carat, to the proportions.
     assert!(stone.carats().is_some_and(|carats| (0.97..1.03).contains(&carats)), "{:?}", stone.carats());
     let ruby = Assembly::load(Path::new("modern-ideal"), Some("Ruby"), "2ct".parse().ok()).unwrap();

@@ -67,9 +67,9 @@ fn a_stone_is_scaled_to_its_girdle_whatever_its_unit() {
         .replace(" 0.45 ", " 0.9 ");
     let [a, b] =
         [STONE, &double].map(|text| Specimen::new(read(text.as_bytes(), "x").unwrap().design).unwrap());
-    let outline = crate::cut::Outline::of(&a.stone.polytope);
+    let outline = crate::cut::Outline::of(&a.stone().unwrap().polytope);
     assert!((outline.width - 2.0).abs() < 1e-12 && outline.girdle_top.abs() < 1e-12, "{outline:?}");
-    for (x, y) in a.stone.polytope.vertices().iter().zip(b.stone.polytope.vertices()) {
+    for (x, y) in a.stone().unwrap().polytope.vertices().iter().zip(b.stone().unwrap().polytope.vertices()) {
         assert!(x.distance(*y) < 1e-12);
     }
 }
@@ -96,9 +96,9 @@ fn a_brilliant_goes_out_with_its_facets_and_says_what_stays_behind() {
     );
     let Cut::Tiers(tiers) = &back.design.cut else { panic!() };
     assert_eq!((tiers.symmetry, tiers.mirror, tiers.tiers.len()), (8, true, 7));
-    assert_eq!(back.stone.names(), specimen.stone.names());
+    assert_eq!(back.stone().unwrap().names(), specimen.stone().unwrap().names());
     // The stone's width is that between corners of the girdle, the design's that of a circle around them.
-    let scale = specimen.stone.polytope.volume() / back.stone.polytope.volume();
+    let scale = specimen.stone().unwrap().polytope.volume() / back.stone().unwrap().polytope.volume();
     assert!((1.0 - scale).abs() < 2e-3, "{scale}");
 }
 

@@ -7,10 +7,11 @@ use super::tier_form::{IndexForm, TierForm};
 use super::values::{Numbers, Table};
 use super::{FORMAT, Fault};
 use crate::cut::{
-    Crown, Cut, DEFAULT_DIAMETER_MM, Design, DesignError, LowerHalf, MAX_PLANES, MaterialRef, Pavilion,
-    RoundBrilliant, girdle_facets,
+    Crown, Cut, DEFAULT_DIAMETER_MM, Design, DesignError, LowerHalf, MAX_PLANES, MaterialRef, MeshShape,
+    Pavilion, RoundBrilliant, girdle_facets,
 };
-use crate::math::Plane;
+use crate::math::{Plane, Shell, Surface};
+use std::sync::Arc;
 
 /// The whole file, `B` being its round brilliant as read or as written. Values come before tables, as TOML wants them
 /// written.
@@ -34,6 +35,8 @@ pub(super) struct DesignForm<B = Table<RoundBrilliantForm>> {
     tier: Option<Vec<Table<TierForm>>>,
     #[serde(skip_serializing_if = "Option::is_none")]
     plane: Option<Vec<Table<PlaneForm>>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    mesh: Option<Table<MeshForm>>,
 }
 
 fn default_diameter() -> f64 {
@@ -67,6 +70,14 @@ struct PlaneForm {
     offset: f64,
 }
 
+/// `[mesh]`
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct MeshForm {
+    vertices: Vec<Numbers<3>>,
+    triangles: Vec<[u32; 3]>,
+}
+
 fn nameless() -> String {
     "facet".to_owned()
 }
@@ -85,6 +96,7 @@ impl DesignForm<RoundBrilliant> {
             index: None,
             tier: None,
             plane: None,
+            mesh: None,
         };
         match &design.cut {
             Cut::RoundBrilliant(given) => Self { round_brilliant: Some(*given), ..form },
@@ -96,6 +108,7 @@ impl DesignForm<RoundBrilliant> {
             Cut::Planes(planes) => {
                 Self { plane: Some(planes.iter().map(|plane| Table(PlaneForm::of(plane))).collect()), ..form }
             }
+            Cut::Mesh(shape) => Self { mesh: Some(Table(MeshForm::of(shape))), ..form },
         }
     }
 }
@@ -103,13 +116,14 @@ impl DesignForm<RoundBrilliant> {
 impl DesignForm {
     /// The design that the form describes, checked.
     pub fn design(self) -> Result<Design, Fault> {
+        let Self { round_brilliant, index, tier, plane, mesh, .. } = self;
         let design = Design {
             name: self.name,
             source: self.source,
             notes: self.notes,
             material: self.material.material()?,
             diameter_mm: self.diameter_mm,
-            cut: cut(self.round_brilliant, (self.index, self.tier), self.plane)?,
+            cut: cut(Cuts { round_brilliant, index, tier, plane, mesh })?,
         };
         match design.check() {
             Ok(()) => Ok(design),
@@ -118,37 +132,44 @@ impl DesignForm {
     }
 }
 
-fn cut(
+/// All the ways in which a file may give a cut.
+struct Cuts {
     round_brilliant: Option<Table<RoundBrilliantForm>>,
-    tiers: (Option<Table<IndexForm>>, Option<Vec<Table<TierForm>>>),
+    index: Option<Table<IndexForm>>,
+    tier: Option<Vec<Table<TierForm>>>,
     plane: Option<Vec<Table<PlaneForm>>>,
-) -> Result<Cut, Fault> {
-    match (round_brilliant, tiers, plane) {
-        (Some(Table(form)), (None, None), None) => Ok(Cut::RoundBrilliant(form.proportions()?)),
-        (None, (Some(Table(index)), Some(tiers)), None) => Ok(Cut::Tiers(index.tiers(tiers)?)),
-        (None, (None, None), Some(planes)) => {
-            Ok(Cut::Planes(planes.into_iter().map(|Table(form)| form.plane()).collect()))
-        }
-        (None, (Some(_), None), None) => {
-            Err(Fault::at("index", "index: the tiers are missing; give [[tier]]"))
-        }
-        (None, (None, Some(_)), None) => {
-            Err(Fault::at("tier", "tier: the gear is missing; give it as [index], gear = 96"))
-        }
-        (None, (None, None), None) => {
+    mesh: Option<Table<MeshForm>>,
+}
+
+/// The one cut that a file gives.
+fn cut(form: Cuts) -> Result<Cut, Fault> {
+    let Cuts { round_brilliant, index, tier, plane, mesh } = form;
+    let given = [
+        ("round_brilliant", "[round_brilliant]", round_brilliant.is_some()),
+        ("tier", "[[tier]]", tier.is_some() || index.is_some()),
+        ("plane", "[[plane]]", plane.is_some()),
+        ("mesh", "[mesh]", mesh.is_some()),
+    ];
+    let mut given = given.into_iter().filter(|(.., is_given)| *is_given);
+    if let (Some((_, first, _)), Some((key, other, _))) = (given.next(), given.next()) {
+        let key = if key == "tier" && tier.is_none() { "index" } else { key };
+        return Err(Fault::at(key, format!("{key}: give {first} or {other}, not both")));
+    }
+    if let Some(Table(form)) = round_brilliant {
+        return Ok(Cut::RoundBrilliant(form.proportions()?));
+    }
+    if let Some(planes) = plane {
+        return Ok(Cut::Planes(planes.into_iter().map(|Table(form)| form.plane()).collect()));
+    }
+    if let Some(Table(form)) = mesh {
+        return form.shape().map(Cut::Mesh);
+    }
+    match (index, tier) {
+        (Some(Table(index)), Some(tiers)) => Ok(Cut::Tiers(index.tiers(tiers)?)),
+        (Some(_), None) => Err(Fault::at("index", "index: the tiers are missing; give [[tier]]")),
+        (None, Some(_)) => Err(Fault::at("tier", "tier: the gear is missing; give it as [index], gear = 96")),
+        (None, None) => {
             Err(Fault::whole("the cut is missing; give [round_brilliant], [[tier]] or a list of [[plane]]"))
-        }
-        (round, (index, _), plane) => {
-            let last = if plane.is_some() {
-                "plane"
-            } else if index.is_some() {
-                "index"
-            } else {
-                "tier"
-            };
-            let forms = if round.is_some() { "[round_brilliant]" } else { "[[tier]]" };
-            let other = if last == "plane" { "[[plane]]" } else { "[[tier]]" };
-            Err(Fault::at(last, format!("{last}: give {forms} or {other}, not both")))
         }
     }
 }
@@ -166,6 +187,7 @@ fn path(error: &DesignError, material: &MaterialRef) -> String {
         DesignError::FacetCount { .. } => "tier".to_owned(),
         DesignError::Tiers { tier: None, fault } => format!("index/{}", fault.key()),
         DesignError::Tiers { tier: Some(number), fault } => format!("tier/{}/{}", number - 1, fault.key()),
+        DesignError::NotConvex(_) => "mesh".to_owned(),
         DesignError::PlaneCount { .. } => format!("plane/{MAX_PLANES}"),
         DesignError::Plane { number, fault } => format!("plane/{}/{}", number - 1, fault.key()),
     }
@@ -222,5 +244,19 @@ impl PlaneForm {
 
     fn plane(self) -> (String, Plane) {
         (self.name, Plane::new(self.normal.0.into(), self.offset))
+    }
+}
+
+impl MeshForm {
+    fn of(shape: &MeshShape) -> Self {
+        let Surface { vertices, triangles, .. } = shape.surface();
+        let vertices = vertices.iter().map(|v| Numbers(v.to_array())).collect();
+        Self { vertices, triangles: triangles.clone() }
+    }
+
+    fn shape(self) -> Result<MeshShape, Fault> {
+        let vertices = self.vertices.iter().map(|v| v.0.into()).collect();
+        let shell = Shell::new(Surface::new(vertices, self.triangles));
+        Ok(MeshShape(Arc::new(shell.map_err(|error| Fault::at("mesh", format!("mesh: {error}")))?)))
     }
 }

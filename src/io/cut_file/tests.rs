@@ -1,13 +1,14 @@
 //! What a cut file may say, what it may not and how that is told, and that reading undoes writing.
 
 use std::fs;
+use std::sync::Arc;
 
-use glam::DVec3;
+use glam::{DQuat, DVec3};
 use proptest::prelude::*;
 
 use super::*;
-use crate::cut::{Cut, DEFAULT_DIAMETER_MM, MAX_PLANES, MaterialRef, strategy};
-use crate::math::Plane;
+use crate::cut::{Cut, DEFAULT_DIAMETER_MM, MAX_PLANES, MaterialRef, MeshShape, strategy};
+use crate::math::{Plane, Shell, Surface};
 use crate::optics::{self, Absorption, Dispersion, MOST_PER_MM, Material};
 
 /// The example that every guide shows.
@@ -189,12 +190,12 @@ fn a_key_that_is_unknown_or_missing_is_told_with_those_that_are_known() {
     assert_told(
         &with("[round_brilliant]", ""),
         "x.toml:7: unknown key `crown_angle`, known here are `format`, `name`, `source`, `notes`, `diameter_mm`, \
-         `material`, `round_brilliant`, `index`, `tier`, `plane`; it belongs below a line [round_brilliant]",
+         `material`, `round_brilliant`, `index`, `tier`, `plane`, `mesh`; it belongs below a line [round_brilliant]",
     );
     assert_told(
         &with("[round_brilliant]", "[round_brillant]"),
         "x.toml:5: unknown key `round_brillant`, known here are `format`, `name`, `source`, `notes`, `diameter_mm`, \
-         `material`, `round_brilliant`, `index`, `tier`, `plane`; did you mean `round_brilliant`?",
+         `material`, `round_brilliant`, `index`, `tier`, `plane`, `mesh`; did you mean `round_brilliant`?",
     );
     assert_told(
         &with("\"diamond\"", "{ refraction = 2 }"),
@@ -301,6 +302,29 @@ fn of_each_pair_one_is_given() {
         "format = 1\nname = \"x\"\nmaterial = 2",
         "x.toml: the cut is missing; give [round_brilliant], [[tier]] or a list of [[plane]]",
     );
+}
+
+#[test]
+fn a_mesh_is_written_and_read_to_the_last_bit_and_what_encloses_nothing_is_told() {
+    let (vertices, triangles) = crate::math::fixture::heart();
+    let shell = Shell::new(Surface::new(vertices, triangles)).unwrap().moved(
+        1.0 / 3.0,
+        DQuat::from_rotation_x(0.3),
+        DVec3::splat(0.1),
+    );
+    let cut = Cut::Mesh(MeshShape(Arc::new(shell)));
+    let design = Design { cut, ..parse(TOLKOWSKY, "x").unwrap() };
+    let text = write(&design);
+    assert_eq!(parse(&text, "x").unwrap(), design);
+    let line = 1 + text.lines().position(|line| line == "[mesh]").unwrap();
+    let open = text.replacen("triangles = [[", "triangles = [[0, 0, 0], [", 1);
+    let told = parse(&open, "x.toml").unwrap_err().to_string();
+    assert!(
+        told.starts_with(&format!("x.toml:{line}: mesh: the surface is open at the edge between ")),
+        "{told}"
+    );
+    let both = format!("{text}\n[[plane]]\nnormal = [0, 0, 1]\noffset = 1");
+    assert!(parse(&both, "x").unwrap_err().message.ends_with("give [[plane]] or [mesh], not both"));
 }
 
 #[test]

@@ -54,8 +54,11 @@ pub(in super::super) fn tiers(design: &mut Design) -> &mut Tiers {
 /// Stones that are not cut by tiers: a brilliant, and planes that do not lie around the origin.
 pub(in super::super) fn others() -> [Specimen; 2] {
     let brilliant = Design { cut: Cut::RoundBrilliant(crate::cut::TOLKOWSKY), ..design() };
-    let solid =
-        specimen(brilliant.clone()).stone.polytope.moved(1.0, glam::DQuat::IDENTITY, glam::DVec3::X * 5.0);
+    let solid = specimen(brilliant.clone()).stone().unwrap().polytope.moved(
+        1.0,
+        glam::DQuat::IDENTITY,
+        glam::DVec3::X * 5.0,
+    );
     let planes = solid.planes().enumerate().map(|(k, plane)| (format!("f {k}"), plane)).collect();
     let aside = Design { cut: Cut::Planes(planes), source: Some("a book".to_owned()), ..design() };
     [brilliant, aside].map(specimen)

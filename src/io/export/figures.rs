@@ -14,7 +14,7 @@ use std::time::Instant;
 const UNRESOLVED: f64 = 1.5e-4;
 
 /// Rays along each side of one of the lattices that figures by rays are sampled on.
-const LATTICE: u32 = 256;
+pub const LATTICE: u32 = 256;
 
 /// Figures with what says how they came about.
 pub struct Measured<'a> {
@@ -49,7 +49,7 @@ pub fn measure<'a>(viewing: &Viewing<'a>, watch: Watch, tell: Tell) -> Result<Me
 }
 
 fn of_beams(viewing: &Viewing, scope: &Scope, watch: Watch, tell: Tell) -> Result<Figures, Failure> {
-    let (polytope, view) = (&viewing.specimen.stone.polytope, viewing.viewpoint.view());
+    let (polytope, view) = (&viewing.stone()?.polytope, viewing.viewpoint.view());
     let options = viewing.beams(UNRESOLVED);
     let beams = beam::trace(polytope, viewing.medium, &view, &options, watch)?;
     viewing.warn_of_open(&beams, &options, tell)?;

@@ -49,12 +49,16 @@ impl<'a> Pictures<'a> {
     /// Writes the files of one.
     pub fn make(&mut self, name: &str, picture: &Picture, watch: Watch) -> Result<(), Failure> {
         let design = &self.viewing.specimen.design;
-        let stone = &self.viewing.specimen.stone;
         (self.tell)(Told::Begun(&self.title(name)))?;
-        match picture {
-            Picture::Profile => self.drawing(name, &profile(stone, &design.name, design.cut.brilliant())),
-            Picture::Diagram => self.drawing(name, &diagram(stone, &design.name)),
-            Picture::Scoped(scoped) => self.scoped(name, scoped, watch),
+        match (picture, self.viewing.specimen.stone()) {
+            (Picture::Profile, Ok(stone)) => {
+                self.drawing(name, &profile(stone, &design.name, design.cut.brilliant()))
+            }
+            (Picture::Diagram, Ok(stone)) => self.drawing(name, &diagram(stone, &design.name)),
+            (Picture::Profile | Picture::Diagram, Err(why)) => {
+                (self.tell)(Told::Note(&format!("{name}: left out: {why}")))
+            }
+            (Picture::Scoped(scoped), _) => self.scoped(name, scoped, watch),
         }
     }
 
@@ -97,7 +101,7 @@ impl<'a> Pictures<'a> {
         let parts = 1.0 + 2.0 * wants(Format::Png) + wants(Format::Exr) + wants(Format::Svg);
         let mut pace = Pace::new(watch, parts);
         let beams = pace.step(1.0, |watch| self.traced(plate, watch))?;
-        let film = Film::around(&plate.viewing.specimen.stone.polytope, &beams.view, self.outputs.size);
+        let film = Film::around(plate.viewing.specimen.solid(), &beams.view, self.outputs.size);
         if self.outputs.wants(Format::Png) {
             pace.step(1.0, |watch| {
                 let layer = Layer::energy(&beams, &plate.scope);
@@ -125,7 +129,7 @@ impl<'a> Pictures<'a> {
             Some((last, beams)) if last == *view => Ok(beams),
             _ => {
                 let options = viewing.beams(UNRESOLVED);
-                let polytope = &viewing.specimen.stone.polytope;
+                let polytope = &viewing.stone()?.polytope;
                 let beams = beam::trace(polytope, viewing.medium, view, &options, watch)?;
                 viewing.warn_of_open(&beams, &options, self.tell)?;
                 Ok(beams)
@@ -158,7 +162,7 @@ impl<'a> Pictures<'a> {
 
     fn drawn(&self, plate: &Plate, beams: &Beams, watch: Watch) -> Result<(), Failure> {
         let Plate { name, scope, viewing, view } = plate;
-        let stone = &viewing.specimen.stone;
+        let stone = viewing.stone()?;
         let options = viewing.beams(UNRESOLVED);
         let title = format!("{}, {}", self.title(name), viewing.viewpoint.told());
         let copies = beams.symmetry.order() as usize;
@@ -179,9 +183,9 @@ impl<'a> Pictures<'a> {
         if self.outputs.wants(Format::Exr) || self.outputs.wants(Format::Svg) {
             (self.tell)(Told::Note(&only_png(name)))?;
         }
-        let polytope = &viewing.specimen.stone.polytope;
+        let solid = viewing.specimen.solid();
         let options = viewing.rays(UNRESOLVED);
-        let reach = Camera::new(view, polytope).reach(polytope).unwrap_or(1.0);
+        let reach = Camera::new(view, solid).reach(solid).unwrap_or(1.0);
         let film = Film::reaching(reach, self.outputs.size);
         let palette = Palette::of(scope);
         let tracer = format!("{}, each followed to {:.2e}", sampler.told(), options.least_weight);

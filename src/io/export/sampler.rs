@@ -96,13 +96,13 @@ impl Sampler<'_> {
         mut each: impl FnMut(&Rows) -> Result<(), WriteError>,
     ) -> Result<(), Failure> {
         let Subject { specimen, medium, view, scope } = look;
-        let polytope = &specimen.stone.polytope;
+        let solid = specimen.solid();
         let each = |rows: &Rows| each(rows).map_err(Failure::from);
         match self {
-            Self::Rays => by_rays::trace(polytope, medium, view, scope, film, manner, watch, each),
+            Self::Rays => by_rays::trace(solid, medium, view, scope, film, manner, watch, each),
             #[cfg(feature = "gpu")]
             Self::Card(gpu) => {
-                crate::picture::by_gpu::trace(gpu, polytope, medium, view, scope, film, manner, watch, each)
+                crate::picture::by_gpu::trace(gpu, solid, medium, view, scope, film, manner, watch, each)
             }
         }
     }
@@ -119,11 +119,11 @@ impl Sampler<'_> {
         watch: Watch,
     ) -> Result<Figures, Failure> {
         let Subject { specimen, medium, view, scope } = look;
-        let polytope = &specimen.stone.polytope;
+        let solid = specimen.solid();
         match self {
-            Self::Rays => Ok(measure::by_rays(polytope, medium, view, scope, (options, side), watch)?),
+            Self::Rays => Ok(measure::by_rays(solid, medium, view, scope, (options, side), watch)?),
             #[cfg(feature = "gpu")]
-            Self::Card(gpu) => measure::by_gpu(gpu, polytope, medium, view, scope, (options, side), watch),
+            Self::Card(gpu) => measure::by_gpu(gpu, solid, medium, view, scope, (options, side), watch),
         }
     }
 }

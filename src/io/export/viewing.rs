@@ -3,7 +3,7 @@
 use super::sampler::Sampler;
 use super::told::{Tell, Told};
 use crate::io::Failure;
-use crate::scene::{Medium, Projection, Side, Specimen, Viewpoint};
+use crate::scene::{Medium, Projection, Side, Specimen, Stone, Viewpoint};
 use crate::trace::beam::{self, Beams};
 use crate::trace::ray::{self, Camera};
 
@@ -52,10 +52,10 @@ impl Viewing<'_> {
     ///
     /// # Errors
     /// [`Failure::Input`] where the eye is not in front of the whole stone, [`Failure::Usage`] where exact beams are
-    /// to trace a perspective.
+    /// to trace a perspective, or what is not convex.
     pub fn check(&self) -> Result<(), Failure> {
-        let (view, polytope) = (self.viewpoint.view(), &self.specimen.stone.polytope);
-        if Camera::new(&view, polytope).reach(polytope).is_none() {
+        let (view, solid) = (self.viewpoint.view(), self.specimen.solid());
+        if Camera::new(&view, solid).reach(solid).is_none() {
             let message =
                 "the eye of the perspective is not in front of the whole stone; move it farther off";
             return Err(Failure::Input(format!("{}: {message}", self.file)));
@@ -65,7 +65,18 @@ impl Viewing<'_> {
                 "exact beams are for parallel rays: trace a perspective by rays".into(),
             ));
         }
+        if matches!(self.tracer, Tracer::Beams) {
+            self.stone()?;
+        }
         Ok(())
+    }
+
+    /// The stone, for what only convex ones have.
+    ///
+    /// # Errors
+    /// [`Failure::Usage`] where it is none.
+    pub(super) fn stone(&self) -> Result<&Stone, Failure> {
+        self.specimen.stone().map_err(|e| Failure::Usage(format!("{}: {e}", self.file)))
     }
 
     /// For beams, with the bound that is usual.

@@ -89,7 +89,7 @@ fn stones_that_are_not_cut_by_tiers_are_written_by_a_gear_that_fits() {
         let Written { bytes, lost } = write(&stone);
         let Brought { mut design, warnings } = back(&bytes);
         assert_eq!(warnings, Vec::<String>::new());
-        let volumes = [&stone, &specimen(design.clone())].map(|s| s.stone.polytope.volume());
+        let volumes = [&stone, &specimen(design.clone())].map(|s| s.stone().unwrap().polytope.volume());
         assert!((volumes[0] - volumes[1]).abs() < 1e-10, "{volumes:?}");
         let moved = matches!(stone.design.cut, crate::cut::Cut::Planes(_));
         assert_eq!(lost.iter().any(|text| text.contains("is moved by (-5.0")), moved, "{lost:?}");

@@ -71,6 +71,16 @@ impl Shape {
     }
 }
 
+impl Shape {
+    /// After which distance light that leaves enters again.
+    pub fn again(&self, (origin, direction): (DVec3, DVec3)) -> Option<f64> {
+        match self {
+            Self::Planes(_) => None,
+            Self::Triangles(triangles) => triangles.entry(origin, direction).map(|(_, distance)| distance),
+        }
+    }
+}
+
 impl Planes {
     pub fn new(planes: Vec<Plane>) -> Self {
         Self { search: Search::new(&planes), planes }

@@ -34,6 +34,8 @@ pub struct Leaving {
     pub share: f64,
     /// Its unit direction.
     pub direction: DVec3,
+    /// After which distance it enters the solid again, where it does: a path ends there, the light does not.
+    pub again: Option<f64>,
 }
 
 /// A ray's way through a stone. All that leaves on it, and the rest, add up to 1.
@@ -90,7 +92,7 @@ impl Meeting {
 
 impl Tracer {
     /// The way of a ray from a point outside, as far as [`follow`](Self::follow) takes it; `None` where it misses the
-    /// stone. Of a solid of triangles it is the first passage: light that leaves and enters again is not followed.
+    /// stone. Of a solid that is not convex it is the first passage: what leaves and enters again is told and not followed.
     pub fn path(&self, origin: DVec3, direction: DVec3) -> Option<Path> {
         let met = self.meet(origin, direction)?;
         let mut steps = vec![];
@@ -115,7 +117,11 @@ impl Tracer {
             // Of sine and cosine, as an arc cosine alone has few digits near the normal.
             incidence: arriving.cross(normal).length().atan2(arriving.dot(normal).abs()).to_degrees(),
             critical: critical.map(f64::to_degrees),
-            leaving: leaving.as_ref().map(|l| Leaving { share: l.weight, direction: l.direction }),
+            leaving: leaving.as_ref().map(|l| Leaving {
+                share: l.weight,
+                direction: l.direction,
+                again: self.shape.again((point, l.direction)),
+            }),
             onward,
         }
     }
@@ -240,7 +246,11 @@ mod tests {
             spoil(&mut path.steps[at]);
             faults(&path, &planes, CLEAR.index)
         };
-        let lost = Some(Leaving { share: 0.0, direction: planes[path.steps[total].facet as usize].normal });
+        let lost = Some(Leaving {
+            share: 0.0,
+            direction: planes[path.steps[total].facet as usize].normal,
+            again: None,
+        });
         assert!(told(leaves, &|s| s.point += DVec3::splat(1e-9)).contains(&"plane"));
         assert!(told(leaves, &|s| s.incidence += 1e-3).contains(&"incidence"));
         assert!(told(leaves, &|s| s.path += 1e-9).contains(&"length"));

@@ -45,6 +45,14 @@ proptest! {
         prop_assert!((sum(&exits) + rest.absorbed + rest.unresolved - 1.0).abs() < 1e-9);
         // What total reflection keeps inside for ever is rare.
         prop_assert!(rest.unresolved < 0.05 || medium.absorption == [0.0; 2], "{rest:?}");
+        // A path tells what leaves for good, as it is followed, from what enters again.
+        let (origin, direction) = Camera::new(&view, &shell).ray(DVec2::new(x, y));
+        for step in tracer.path(origin, direction).unwrap().steps {
+            let Some(leaving) = step.leaving else { continue };
+            let is_it = |e: &&Exit| e.point == step.point && e.direction == leaving.direction;
+            let exit = exits.iter().find(is_it);
+            prop_assert_eq!(exit.map(|e| e.weight), leaving.again.is_none().then_some(leaving.share));
+        }
         for exit in exits {
             let plane = shell.planes()[exit.facet as usize];
             prop_assert!(plane.distance(exit.point).abs() < 1e-9 && (exit.direction.length() - 1.0).abs() < 1e-9);

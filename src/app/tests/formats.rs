@@ -1,0 +1,84 @@
+//! Files of other formats: opened, changed, saved.
+
+use super::*;
+use crate::app::document::Document;
+use crate::app::shows::Shows;
+use crate::cut::{Design, MeshShape};
+use crate::io::design_file::{self, Format};
+use crate::math::{Shell, Surface, fixture};
+use crate::scene::Specimen;
+use std::sync::Arc;
+
+#[test]
+fn a_cutters_file_opens_and_its_tiers_are_set() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("square.asc");
+    let text = "GemCad 5.0\ng 96 0.0\ny 4 y\nI 1.76\nH A square\na -90 1 96 n G1 24 48 72\na -43 0.9 96 n P1 24 48 72\n\
+                a 35 0.8 96 n C1 24 48 72\na 0 0.45 0 n T\nZ odd\n";
+    std::fs::write(&path, text).unwrap();
+    let mut bench = Bench::with(Setup { file: Some(path.clone()), ..Setup::default() });
+    bench.settle();
+    assert!(bench.harness.query_by_label_contains("'Z odd' is no record").is_some());
+    let (picture, cut) = (bench.picture(0), bench.editor().document.work.design.cut.clone());
+    bench.type_number("P1 · 4 Angle", "-41.5");
+    bench.settle();
+    assert!(bench.picture(0) != picture);
+    bench.harness.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::S);
+    bench.settle();
+    let saved = std::fs::read_to_string(&path).unwrap();
+    assert!(
+        saved.contains("a -41.5 0.9 96 n P1 24 48 72") && !bench.editor().document.is_changed(),
+        "{saved}"
+    );
+    bench.choose("Edit", "Undo");
+    assert!(bench.editor().document.work.design.cut == cut);
+}
+
+#[test]
+fn a_mesh_opens_as_its_facets_and_is_not_written_over() {
+    let folder = tempfile::tempdir().unwrap();
+    let (path, toml) = (folder.path().join("scan.stl"), folder.path().join("scan.toml"));
+    let specimen = Specimen::new(Document::first().unwrap().work.design).unwrap();
+    design_file::write(&specimen, Format::Stl, &path).unwrap();
+    let scan = std::fs::read(&path).unwrap();
+    let mut bench = Bench::with(Setup { file: Some(path.clone()), ..Setup::default() });
+    bench.settle();
+    assert!(bench.harness.query_by_label_contains("153 facets were found").is_some());
+    bench.type_number("main · 8 Angle", "-41");
+    bench.choices.lock().unwrap().push(toml.clone());
+    bench.harness.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::S);
+    bench.wait(|editor| !editor.document.is_changed());
+    assert_eq!(std::fs::read(&path).unwrap(), scan);
+    let Cut::Planes(planes) = design_file::read(&toml).unwrap().design.cut else { panic!() };
+    let slope = |normal: glam::DVec3| normal.truncate().length().atan2(-normal.z).to_degrees();
+    let mains = planes.iter().filter(|(name, _)| name.starts_with("main "));
+    assert!(
+        mains.clone().count() == 8 && mains.into_iter().all(|(_, p)| (slope(p.normal) - 41.0).abs() < 1e-4)
+    );
+}
+
+#[test]
+fn a_solid_that_is_not_convex_is_shown_by_rays_and_measured() {
+    let folder = tempfile::tempdir().unwrap();
+    let (path, toml) = (folder.path().join("heart.glb"), folder.path().join("heart.toml"));
+    let (vertices, triangles) = fixture::heart();
+    let shape = MeshShape(Arc::new(Shell::new(Surface::new(vertices, triangles)).unwrap()));
+    let first = Document::first().unwrap().work.design;
+    let design = Design { name: "heart".into(), cut: Cut::Mesh(shape), ..first };
+    design_file::write(&Specimen::new(design).unwrap(), Format::Glb, &path).unwrap();
+    let mut desk = Bench::small();
+    desk.panes[1].shows = Shows::Diagram;
+    let mut bench = Bench::with(Setup { file: Some(path), desk, ..Setup::default() });
+    bench.settle();
+    assert!(bench.harness.query_by_label_contains("Mesh, not convex").is_some());
+    assert!(bench.harness.query_by_label_contains("not convex, so it is traced as").is_some());
+    let picture = bench.picture(0);
+    assert!(picture.iter().any(|p| p != &picture[0]));
+    let figures = &bench.editor().figures[&Which::Present];
+    assert!((figures.figures.sum() - 1.0).abs() < 1e-9 && figures.figures.standard_error > 0.0);
+    bench.type_number("Diameter", "9");
+    bench.choices.lock().unwrap().push(toml.clone());
+    bench.harness.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::S);
+    bench.wait(|editor| !editor.document.is_changed());
+    assert_eq!(design_file::read(&toml).unwrap().design, bench.editor().document.work.design);
+}
