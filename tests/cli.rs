@@ -233,7 +233,7 @@ fn a_solid_that_is_not_convex_is_shown_measured_and_converted_by_its_triangles()
     near(at(&figures, "silhouette_area"), 3.0, 0.02, "the L from above");
     let (code, _, told) = desk.run("export l.obj --out e --size 24 --views aset,profile --unresolved 0.01");
     assert!(code == 0 && told.contains("profile: left out"), "{told}");
-    assert_eq!(files(&desk.at("e")).len(), 2, "energy and strongest exits");
+    assert_eq!(files(&desk.at("e")).len(), 3, "energy, strongest exits, figures");
 }
 
 #[test]
