@@ -1,0 +1,88 @@
+//! The body of a form in its own frame, any shear aside: an outline drawn out along an axis, and a ball rolled around that.
+
+use super::jet::Jet;
+use super::profile::{Profile, Triangle};
+use glam::{DVec2, DVec3};
+use std::f64::consts::PI;
+
+/// A convex body around the origin.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Body {
+    pub profile: Profile,
+    /// Along which the outline is drawn out.
+    pub axis: DVec3,
+    /// Half the length of the core.
+    pub half: f64,
+    /// Radius of the ball.
+    pub edge: f64,
+}
+
+impl Body {
+    pub fn pill(size: DVec3, edge: f64) -> Self {
+        let size = size / 2.0;
+        let round = size.x.min(size.y);
+        let half = DVec2::new(size.x - round, size.y - round);
+        let profile = Profile::Rectangle { half, round: round - edge };
+        Self { profile, axis: DVec3::Z, half: size.z - edge, edge }
+    }
+
+    pub fn block(size: DVec3, edge: f64) -> Self {
+        let half = size / 2.0 - edge;
+        let profile = Profile::Rectangle { half: half.truncate(), round: 0.0 };
+        Self { profile, axis: DVec3::Z, half: half.z, edge }
+    }
+
+    pub fn prism(size: DVec3, edge: f64) -> Self {
+        let profile = Profile::Triangle(Triangle::new(size.y, size.z, edge));
+        Self { profile, axis: DVec3::X, half: size.x / 2.0 - edge, edge }
+    }
+
+    /// Signed distance. For a point `on_surface`, or a way to it, a sharp edge has the normal of a face: rounding would give
+    /// it any between.
+    #[inline]
+    pub fn jet(&self, p: DVec3, on_surface: bool) -> Jet {
+        let sharp = on_surface && self.edge == 0.0;
+        let along = p.dot(self.axis);
+        let end = Jet::plane(along.abs() - self.half, self.axis * 1.0_f64.copysign(along));
+        self.profile.jet(p, sharp).and(end, sharp).less(self.edge)
+    }
+
+    /// Value and slope along a line.
+    #[inline]
+    pub fn along(&self, p: DVec3, direction: DVec3) -> (f64, f64) {
+        let jet = self.jet(p, true);
+        (jet.value, jet.gradient.dot(direction))
+    }
+
+    /// Greatest coordinate along a unit direction.
+    pub fn support(&self, direction: DVec3) -> f64 {
+        self.profile.support(direction) + direction.dot(self.axis).abs() * self.half + self.edge
+    }
+
+    /// Distance of its farthest point from the origin.
+    pub fn reach(&self) -> f64 {
+        self.profile.reach().hypot(self.half) + self.edge
+    }
+
+    /// Steiner's formula, V + S r + M r² + 4π/3 r³; a cylinder's M, its mean curvature, is π (length + circumference / 2).
+    pub fn volume(&self) -> f64 {
+        let (area, length, r) = (self.profile.area(), 2.0 * self.half, self.edge);
+        let around = self.profile.circumference(DVec3::ZERO, 1.0);
+        let surface = 2.0 * area + length * around;
+        area * length + r * (surface + r * (PI * (length + around / 2.0) + 4.0 * PI / 3.0 * r))
+    }
+
+    /// Area of its shadow along a unit direction: Steiner's formula in the plane, A + L r + π r².
+    pub fn silhouette_area(&self, direction: DVec3) -> f64 {
+        let cos = direction.dot(self.axis);
+        let sideways = direction - self.axis * cos;
+        let sin = sideways.length();
+        // The core's shadow is its outline's, drawn out along the axis's.
+        let drawn = 2.0 * self.half * sin;
+        let across = self.axis.cross(sideways).try_normalize().unwrap_or(DVec3::ZERO);
+        let width = self.profile.support(across) + self.profile.support(-across);
+        let area = self.profile.area() * cos.abs() + drawn * width;
+        let around = self.profile.circumference(sideways, cos.abs()) + 2.0 * drawn;
+        area + self.edge * (around + PI * self.edge)
+    }
+}

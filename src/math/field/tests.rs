@@ -1,0 +1,473 @@
+//! Laws of the function and of rays; `measures` has those of volumes, meshes and shadows.
+
+mod measures;
+
+use super::*;
+use crate::math::{Plane, Polytope};
+use std::f64::consts::{PI, TAU};
+
+/// Numbers from -1 to 1 that look like chance (Marsaglia, Xorshift RNGs, 2003).
+struct Chance(u64);
+
+impl Chance {
+    fn number(&mut self) -> f64 {
+        self.0 ^= self.0 << 13;
+        self.0 ^= self.0 >> 7;
+        self.0 ^= self.0 << 17;
+        (self.0 >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
+    }
+
+    fn point(&mut self) -> DVec3 {
+        DVec3::new(self.number(), self.number(), self.number())
+    }
+
+    fn direction(&mut self) -> DVec3 {
+        loop {
+            let p = self.point();
+            if let Some(unit) = p.try_normalize().filter(|_| p.length() < 1.0 && p.length() > 0.1) {
+                return unit;
+            }
+        }
+    }
+}
+
+fn chance(seed: u64) -> Chance {
+    Chance(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1)
+}
+
+fn plate(size: DVec3, edge: f64, amplitude: f64, wavelength: f64) -> Form {
+    Form::Plate { size, edge, amplitude, wavelength, phase: 0.7 }
+}
+
+/// Every form, sharp and round, as round as can be, and in the demo's own measures.
+fn forms() -> Vec<Field> {
+    let pixels = |x, y, z| DVec3::new(x, y, z) / 200.0;
+    let all = [
+        Form::Pill { size: pixels(400.0, 115.0, 62.0), edge: 0.155 },
+        Form::Pill { size: pixels(115.0, 400.0, 162.0), edge: 0.1 },
+        Form::Pill { size: pixels(300.0, 300.0, 300.0), edge: 0.75 },
+        Form::Pill { size: pixels(400.0, 100.0, 200.0), edge: 0.25 },
+        Form::Pill { size: pixels(400.0, 100.0, 200.0), edge: 0.0 },
+        Form::Block { size: pixels(230.0, 230.0, 230.0), edge: 0.22 },
+        Form::Block { size: pixels(100.0, 230.0, 330.0), edge: 0.0 },
+        Form::Block { size: pixels(100.0, 230.0, 330.0), edge: 0.25 },
+        Form::Prism { size: pixels(393.0, 149.0, 117.0), edge: 0.0 },
+        Form::Prism { size: pixels(400.0, 80.0, 80.0), edge: 0.05 },
+        Form::Prism { size: pixels(100.0, 300.0, 80.0), edge: 0.1 },
+        Form::Prism { size: pixels(400.0, 80.0, 240.0), edge: super::profile::inradius(0.4, 1.2) },
+        plate(pixels(346.0, 346.0, 60.0), 0.0525, 0.085, 2.675),
+        plate(pixels(400.0, 400.0, 100.0), 0.05, 0.1, 1.5),
+        plate(pixels(400.0, 300.0, 100.0), 0.0, 0.3, 0.8),
+        plate(pixels(400.0, 400.0, 60.0), 0.0525, 0.3, 0.3),
+    ];
+    all.into_iter().map(|form| Field::new(form).unwrap()).collect()
+}
+
+fn turn() -> DQuat {
+    DQuat::from_euler(glam::EulerRot::XYZ, 0.4, -1.1, 2.3)
+}
+
+fn moved(field: &Field) -> Field {
+    field.moved(1.7, turn(), DVec3::new(0.3, -2.0, 1.1))
+}
+
+/// Rays from around a form, toward it and past it; every other one grazes it: it is square to the normal of the surface
+/// point where a first ray hits, but for a little.
+fn rays(field: &Field, count: usize, seed: u64) -> Vec<(DVec3, DVec3)> {
+    let mut chance = chance(seed);
+    let (middle, reach) = (field.shift, field.own_reach() * field.scale);
+    let mut rays: Vec<(DVec3, DVec3)> = vec![];
+    while rays.len() < count {
+        let aim = middle + chance.point() * reach * 0.8;
+        let direction = chance.direction();
+        let origin = aim - direction * 2.5 * reach;
+        rays.push((origin, direction));
+        if let Some(t) = field.entry(origin, direction) {
+            let point = origin + direction * t;
+            let normal = field.normal(point);
+            let lean = chance.number().powi(3) * 0.1;
+            let along = (normal.any_orthonormal_vector() + normal * lean).try_normalize().unwrap();
+            rays.push((point - along * 2.5 * reach, along));
+        }
+    }
+    rays
+}
+
+#[test]
+fn derivatives_are_those_of_the_function() {
+    let mut chance = chance(1);
+    let (mut tried, mut apart) = (0, 0);
+    // Fourth order: what it leaves out and rounding are both below 1e-10.
+    let h = 1e-4;
+    for field in forms().into_iter().flat_map(|field| [field, moved(&field)]) {
+        for _ in 0..3000 {
+            let p = field.shift + chance.point() * field.own_reach() * field.scale * 1.5;
+            let jet = field.jet(p);
+            for axis in DVec3::AXES {
+                let [a, b, c, d] = [-2.0, -1.0, 1.0, 2.0].map(|s| field.jet(p + axis * (s * h)));
+                let slope = (8.0 * (c.value - b.value) - (d.value - a.value)) / (12.0 * h);
+                let bend = ((c.gradient - b.gradient) * 8.0 - (d.gradient - a.gradient)) / (12.0 * h);
+                tried += 1;
+                let room = 1e-7 * (1.0 + (jet.hessian * axis).length());
+                let is_same = (slope - jet.gradient.dot(axis)).abs() < room
+                    && bend.distance(jet.hessian * axis) < 10.0 * room * (1.0 + bend.length());
+                apart += i32::from(!is_same);
+            }
+        }
+    }
+    // All but where a crease or the seam of two pieces lies between.
+    assert!(tried > 250_000 && f64::from(apart) < 0.01 * f64::from(tried), "{apart} of {tried}");
+}
+
+#[test]
+fn the_function_of_a_convex_form_is_the_distance_from_its_surface() {
+    let mut chance = chance(2);
+    for field in forms().iter().flat_map(|field| [*field, moved(field)]).filter(Field::is_convex) {
+        let scale = field.scale;
+        for _ in 0..2000 {
+            let p = field.shift + chance.point() * field.own_reach() * scale * 1.3;
+            let jet = field.jet(p);
+            assert!((jet.gradient.length() - 1.0).abs() < 1e-12, "{field:?} {p} {jet:?}");
+            // The nearest point of the surface lies down the gradient, and is no nearer than the value says.
+            let foot = p - jet.gradient * jet.value;
+            assert!(field.value(foot).abs() < 1e-12 * scale, "{field:?} {p}");
+            let off = chance.direction();
+            assert!(field.value(p + off * jet.value.abs()) * jet.value.signum() > -1e-12, "{field:?} {p}");
+        }
+    }
+}
+
+/// Where a ray's function changes its sign, by looking at every step, and the value farthest from 0 within each stretch.
+fn changes(field: &Field, origin: DVec3, direction: DVec3, far: f64, steps: usize) -> Vec<(f64, f64)> {
+    let at = |i: usize| field.value(origin + direction * (far * i as f64 / steps as f64));
+    let mut found = vec![(0.0, 0.0_f64)];
+    let mut last = at(0);
+    for i in 1..=steps {
+        let value = at(i);
+        if (value < 0.0) != (last < 0.0) {
+            found.push((far * i as f64 / steps as f64, 0.0));
+        }
+        if let Some(stretch) = found.last_mut().filter(|s| s.1.abs() < value.abs()) {
+            stretch.1 = value;
+        }
+        last = value;
+    }
+    found
+}
+
+/// What a ray finds, one after the other, until it leaves, and whether it was given up.
+fn walk(field: &Field, origin: DVec3, direction: DVec3) -> (Vec<f64>, bool) {
+    let mut found = vec![];
+    let mut t = 0.0;
+    loop {
+        let goes_in = found.len() % 2 == 0;
+        let from = origin + direction * t;
+        let (step, steps) =
+            if goes_in { field.entry_counted(from, direction) } else { field.exit_counted(from, direction) };
+        let Some(step) = step else { return (found, !goes_in || steps >= roots::MOST_STEPS) };
+        let stays = t + step <= t && found.len() > 2;
+        t += step;
+        found.push(t);
+        // A ray that only touches, to the last digit.
+        if stays {
+            return (found, true);
+        }
+    }
+}
+
+#[test]
+fn rays_go_in_and_out_where_looking_everywhere_says() {
+    let (mut crossings, mut looked, mut lost) = (0, 0, 0);
+    for (seed, field) in (3..).zip(forms()) {
+        for (i, (origin, direction)) in
+            rays(&field, if field.is_convex() { 100_000 } else { 25_000 }, seed).into_iter().enumerate()
+        {
+            let (found, is_lost) = walk(&field, origin, direction);
+            lost += i32::from(is_lost);
+            assert!(!is_lost || !field.is_convex(), "{field:?} {origin} {direction} {found:?}");
+            for (k, &t) in found.iter().enumerate() {
+                let p = origin + direction * t;
+                let cos = field.normal(p).dot(direction);
+                assert!(field.value(p).abs() < 1e-12, "{field:?} {p} {direction}");
+                assert!(
+                    if k % 2 == 0 { cos < 1e-12 } else { cos > -1e-7 },
+                    "{field:?} {p} {direction} {k} {cos}"
+                );
+            }
+            crossings += found.len();
+            // Inside between an entry and its exit, outside elsewhere.
+            for (k, pair) in found.windows(2).enumerate() {
+                for part in [0.01, 0.3, 0.5, 0.9] {
+                    let value = field.value(origin + direction * (pair[0] + (pair[1] - pair[0]) * part));
+                    let wrong = if k % 2 == 0 { value } else { -value };
+                    assert!(wrong < 1e-13, "{field:?} {origin} {direction} {found:?} {k} {part} {value}");
+                }
+            }
+            if i % 40 > 1 || is_lost {
+                continue;
+            }
+            looked += 1;
+            let (far, steps) = (6.0 * field.own_reach(), 3000);
+            let seen = changes(&field, origin, direction, far, steps);
+            // Every stretch that a look sees well is found; what is found is there, as was seen above.
+            for stretch in seen.windows(2).filter(|s| s[0].1.abs() > 1e-12 && s[1].1.abs() > 1e-12) {
+                let t = stretch[1].0;
+                let near = found.iter().any(|f| (f - t).abs() < 2.0 * far / steps as f64);
+                assert!(near, "{field:?} {origin} {direction} {t} {found:?} {seen:?}");
+            }
+        }
+    }
+    assert!(crossings > 1_000_000 && looked > 40_000, "{crossings} {looked}");
+    // Every other ray was made to touch, and a wave may be touched to the last digit from inside.
+    assert!(lost < 300, "{lost}");
+}
+
+#[test]
+fn light_reflected_inside_stays_on_the_surface_and_few_ways_are_lost() {
+    let (mut lost, mut ways) = (0, 0);
+    for (seed, field) in (30..).zip(forms()) {
+        for (origin, mut direction) in rays(&field, 2_000, seed) {
+            let Some(t) = field.entry(origin, direction) else { continue };
+            let mut p = origin + direction * t;
+            // As refracted there, at an index of 2.
+            let normal = field.normal(p);
+            direction = (direction * 0.5 - normal * 0.5).try_normalize().unwrap();
+            for _ in 0..30 {
+                ways += 1;
+                let Some(t) = field.exit(p, direction) else {
+                    lost += 1;
+                    break;
+                };
+                p += direction * t;
+                let normal = field.normal(p);
+                assert!(field.value(p).abs() < 1e-13, "{field:?} {p} {direction}");
+                assert!(direction.dot(normal) > -1e-7, "{field:?} {p} {direction} {t}");
+                // A convex form is not met again.
+                let again = field.entry(p, direction);
+                let cos = direction.dot(normal);
+                let touches = cos < 1e-9 || !field.is_convex();
+                assert!(touches || again.is_none(), "{field:?} {p} {direction} {again:?}");
+                direction -= normal * (2.0 * direction.dot(normal));
+            }
+        }
+    }
+    assert!(ways > 400_000 && lost <= 4, "{lost} of {ways}");
+}
+
+#[test]
+fn a_pill_as_round_as_can_be_is_a_sphere() {
+    let sphere = Field::new(Form::Pill { size: DVec3::splat(2.0), edge: 1.0 }).unwrap();
+    for (o, d) in rays(&sphere, 20_000, 50) {
+        let (middle, off) = (-o.dot(d), (o - d * o.dot(d)).length_squared());
+        if (1.0 - off).abs() < 1e-4 {
+            continue;
+        }
+        let expected = (off < 1.0).then(|| middle - (1.0 - off).sqrt());
+        let found = sphere.entry(o, d);
+        assert_eq!(found.is_some(), expected.is_some());
+        if let Some((a, b)) = found.zip(expected) {
+            let p = o + d * a;
+            assert!((a - b).abs() < 1e-12, "{a} {b}");
+            assert!((sphere.exit(p, d).unwrap() - 2.0 * (1.0 - off).sqrt()).abs() < 1e-12);
+            assert!(sphere.normal(p).distance(p) < 1e-14 * 100.0);
+            let across = d.cross(p).cross(p);
+            assert!(
+                (sphere.bend(p) * across).distance(across) < 1e-12 && (sphere.bend(p) * p).length() < 1e-12
+            );
+        }
+    }
+    assert!((sphere.volume() - 4.0 / 3.0 * PI).abs() < 1e-14);
+    assert!((sphere.silhouette_area(DVec3::new(0.6, 0.0, 0.8)).unwrap() - PI).abs() < 1e-14);
+}
+
+/// Where a ray enters and leaves the solid between planes.
+fn between(planes: &[Plane], o: DVec3, d: DVec3) -> Option<(f64, f64)> {
+    let (mut near, mut far) = (f64::NEG_INFINITY, f64::INFINITY);
+    for plane in planes {
+        let (speed, t) = (plane.normal.dot(d), -plane.distance(o) / plane.normal.dot(d));
+        if speed < 0.0 { near = near.max(t) } else { far = far.min(t) }
+    }
+    (near < far).then_some((near, far))
+}
+
+#[test]
+fn sharp_forms_are_the_solids_between_their_planes_and_hardly_rounded_ones_nearly_so() {
+    let size = DVec3::new(1.9, 0.8, 0.7);
+    let flank = DVec3::new(0.0, size.z, size.y / 2.0);
+    let ends = [DVec3::X, -DVec3::X].map(|n| Plane::new(n, size.x / 2.0));
+    let sides = [flank, flank * DVec3::new(1.0, -1.0, 1.0)].map(|n| Plane::new(n, size.y * size.z / 4.0));
+    let prism = [ends.to_vec(), sides.to_vec(), vec![Plane::new(-DVec3::Z, size.z / 2.0)]].concat();
+    let faces = |axis: usize| [1.0, -1.0].map(|s| Plane::new(DVec3::AXES[axis] * s, size[axis] / 2.0));
+    let block: Vec<Plane> = (0..3).flat_map(faces).collect();
+    let form =
+        |is_prism, edge| if is_prism { Form::Prism { size, edge } } else { Form::Block { size, edge } };
+    for (is_prism, planes) in [(true, prism), (false, block)] {
+        let polytope = Polytope::from_planes(&planes).unwrap();
+        let planes: Vec<Plane> = polytope.planes().collect();
+        let sharp = Field::new(form(is_prism, 0.0)).unwrap();
+        let round = Field::new(form(is_prism, 1e-6)).unwrap();
+        assert!((sharp.volume() - polytope.volume()).abs() < 1e-14 && sharp.reach() < 2.0);
+        let mut both = 0;
+        for (o, d) in rays(&sharp, 20_000, 60) {
+            let (expected, found) = (between(&planes, o, d), sharp.entry(o, d));
+            if let Some((near, far)) = expected.filter(|(near, far)| far - near > 1e-9) {
+                both += 1;
+                let (t, p) = (found.unwrap(), o + d * found.unwrap());
+                let speed = planes.iter().map(|plane| plane.normal.dot(d).abs()).filter(|s| *s > 0.0);
+                let room = 1e-14 / speed.fold(1.0, f64::min);
+                assert!((t - near).abs() < room, "{o} {d}");
+                assert!((sharp.exit(p, d).unwrap() - (far - near)).abs() < room, "{o} {d}");
+                let own = planes.iter().filter(|plane| plane.distance(p).abs() < 1e-12);
+                assert!(own.map(|plane| plane.normal.distance(sharp.normal(p))).fold(2.0, f64::min) < 1e-15);
+                assert_eq!(sharp.bend(p), DMat3::ZERO);
+            }
+            // Rounding takes no more than twice the edge off the sharpest corner.
+            if let Some((near, far)) = expected {
+                assert!(
+                    round.value(o + d * near).abs() < 3e-6 && round.value(o + d * (near + far) / 2.0) < 3e-6
+                );
+                let grazes = round.entry(o, d).is_some_and(|t| round.normal(o + d * t).dot(d) > -1e-3);
+                assert!(grazes || round.entry(o, d).is_none_or(|t| t > near - 1e-11));
+            }
+        }
+        assert!(both > 5000);
+    }
+}
+
+#[test]
+fn moving_a_form_moves_all_that_is_told_of_it() {
+    let mut chance = chance(7);
+    let (scale, shift) = (1.7, DVec3::new(0.3, -2.0, 1.1));
+    let world = |p: DVec3| turn() * p * scale + shift;
+    for field in forms() {
+        let there = field
+            .moved(0.5, turn().inverse(), DVec3::X)
+            .moved(scale / 0.5, turn() * turn(), { shift - turn() * turn() * DVec3::X * (scale / 0.5) });
+        assert!((there.volume() / field.volume() / scale.powi(3) - 1.0).abs() < 1e-12);
+        assert!(there.reach() <= field.reach() * scale + shift.length() + 1e-12);
+        let d = chance.direction();
+        let (a, b) = (field.silhouette_area(d), there.silhouette_area(turn() * d));
+        assert!(a.zip(b).is_none_or(|(a, b)| (a * scale * scale - b).abs() < 1e-12));
+        for (o, d) in rays(&field, 300, 70) {
+            let (a, b) = (field.jet(o), there.jet(world(o)));
+            let q = DMat3::from_quat(turn());
+            assert!(
+                (a.value * scale - b.value).abs() < 1e-12
+                    && (turn() * a.gradient).distance(b.gradient) < 1e-12
+            );
+            let (near, far) = (field.jet(o / 2.0), there.jet(world(o / 2.0)));
+            let turned = q * near.hessian * q.transpose() * (1.0 / scale);
+            assert!(turned.abs_diff_eq(far.hessian, 1e-11), "{field:?} {near:?} {far:?}");
+            let (s, t) = (field.entry(o, d), there.entry(world(o), turn() * d));
+            let Some((s, t)) = s.zip(t) else { continue };
+            let p = o + d * s;
+            let cos = field.normal(p).dot(d);
+            if cos > -1e-3 {
+                continue;
+            }
+            assert!((s * scale - t).abs() < 1e-11 && there.value(world(p)).abs() < 1e-13 * 50.0);
+            let (low, high) = there.bounds();
+            assert!((world(p).clamp(low, high)).distance(world(p)) < 1e-12);
+            if let Some((s, t)) = field.exit(p, d).zip(there.exit(world(p), turn() * d)) {
+                let cos = field.normal(p + d * s).dot(d);
+                assert!((s * scale - t).abs() * cos < 1e-11, "{field:?} {s} {t}");
+            }
+        }
+    }
+}
+
+#[test]
+fn facets_are_told_by_their_faces() {
+    for field in forms() {
+        let mut seen = vec![0; field.facets().len()];
+        for (o, d) in rays(&field, 4000, 80) {
+            let Some(t) = field.entry(o, d) else { continue };
+            let p = o + d * t;
+            let facet = field.facet(p) as usize;
+            seen[facet] += 1;
+            // A flat face of a convex form does not bend.
+            let flat =
+                field.is_convex() && field.facets()[facet] != "edge" && field.facets()[facet] != "side";
+            assert!(!flat || field.bend(p) == DMat3::ZERO, "{field:?} {p} {facet}");
+        }
+        let sharp = field.body.edge == 0.0;
+        let (edge, faces) = seen.split_last().unwrap();
+        assert!(
+            (*edge > 0) != sharp && faces.iter().all(|n| *n > 0) | (field.body.half == 0.0 || !sharp),
+            "{seen:?}"
+        );
+    }
+}
+
+#[test]
+fn what_is_no_shape_is_refused_with_what_is_at_fault() {
+    let size = DVec3::new(2.0, 1.0, 0.5);
+    let told = |form| Field::new(form).unwrap_err();
+    for bad in [f64::NAN, f64::INFINITY, 0.0, -1.0, 1e300] {
+        let error = told(Form::Block { size: DVec3::new(1.0, bad, 1.0), edge: 0.1 });
+        assert!(matches!(error, FieldError::Dimension { name: "the size along y", .. }), "{error}");
+        let error = told(plate(size, 0.1, 0.1, bad));
+        let wave = matches!(error, FieldError::Dimension { name: "the wavelength", .. });
+        assert!(wave, "{error}");
+        if bad != 0.0 {
+            let edge = told(Form::Pill { size, edge: bad });
+            assert!(matches!(edge, FieldError::Number { name: "the edge's radius", .. }), "{edge}");
+            let amplitude = told(plate(size, 0.1, bad, 1.0));
+            assert!(matches!(amplitude, FieldError::Number { name: "the amplitude", .. }), "{amplitude}");
+        }
+    }
+    assert_eq!(told(Form::Pill { size, edge: 0.3 }), FieldError::Edge { edge: 0.3, most: 0.25 });
+    let most = 1.0 * 0.5 / (1.0 + 2.0_f64.sqrt());
+    assert!(
+        matches!(told(Form::Prism { size, edge: 0.25 }), FieldError::Edge { most: m, .. } if (m - most).abs() < 1e-15)
+    );
+    assert!(
+        matches!(told(plate(size, 0.1, 1.5, 1.0)), FieldError::Slope { slope } if (slope - 1.5 * TAU).abs() < 1e-12)
+    );
+    assert_eq!(told(plate(size, 0.1, 0.0, 0.001)), FieldError::Wavelength { wavelength: 0.001, least: 0.01 });
+    assert!(Field::new(plate(size, 0.1, 0.0, 1.0)).unwrap().is_convex());
+    // No ray and no point makes it panic or run on.
+    for field in forms() {
+        for bad in [DVec3::ZERO, DVec3::NAN, DVec3::INFINITY, DVec3::splat(1e300), DVec3::X * 1e-300] {
+            let _ =
+                (field.entry(bad, DVec3::X), field.exit(bad, DVec3::X), field.facet(bad), field.bend(bad));
+            let _ = (field.entry(DVec3::ONE, bad), field.exit(DVec3::ZERO, bad), field.silhouette_area(bad));
+        }
+    }
+}
+
+/// Prints steps and times: `cargo test --release field_times -- --ignored --nocapture`.
+#[test]
+#[ignore = "measures"]
+#[allow(clippy::print_stdout)]
+fn field_times() {
+    for (seed, field) in (90..).zip(forms()) {
+        let rays = rays(&field, 100_000, seed);
+        let (mut steps, mut most, mut lost) = ([0_u64; 2], [0; 2], 0);
+        let mut met = vec![];
+        for &(o, d) in &rays {
+            let (t, count) = field.entry_counted(o, d);
+            (steps[0], most[0]) = (steps[0] + u64::from(count), most[0].max(count));
+            lost += i32::from(t.is_none() && count >= roots::MOST_STEPS);
+            if let Some(t) = t {
+                let (exit, count) = field.exit_counted(o + d * t, d);
+                (steps[1], most[1]) = (steps[1] + u64::from(count), most[1].max(count));
+                lost += i32::from(exit.is_none());
+                met.push((o + d * t, d));
+            }
+        }
+        let start = std::time::Instant::now();
+        let a: f64 = rays.iter().filter_map(|&(o, d)| field.entry(o, d)).sum();
+        let entry = start.elapsed().as_secs_f64() / rays.len() as f64 * 1e9;
+        let start = std::time::Instant::now();
+        let b: f64 = met.iter().filter_map(|&(o, d)| field.exit(o, d)).sum();
+        let exit = start.elapsed().as_secs_f64() / met.len() as f64 * 1e9;
+        let mean = [steps[0] as f64 / rays.len() as f64, steps[1] as f64 / met.len() as f64];
+        println!(
+            "{:?}\n  entry {entry:.0} ns, exit {exit:.0} ns, steps {mean:.2?} at most {most:?}, lost {lost} of {} ({:.0})",
+            field.form,
+            met.len(),
+            a + b
+        );
+    }
+}
