@@ -71,7 +71,7 @@ impl Probe {
     /// What lies at a point of a film, in its pixels; none beside the stone.
     pub fn at(&self, view: &View, film: &Film, at: DVec2, scope: &Scope) -> Option<Found> {
         let (origin, direction) = self.ray(view, film.image_from_pixels(at));
-        let (facet, _) = self.tracer.meet(origin, direction)?;
+        let (facet, distance) = self.tracer.meet(origin, direction)?;
         let mut strongest: Option<(f64, DVec3)> = None;
         self.tracer.follow(origin, direction, |exit| {
             if !exit.surface && strongest.is_none_or(|(weight, _)| exit.weight > weight) {
@@ -84,11 +84,11 @@ impl Probe {
             elevation: elevation_deg(toward, zenith),
             share,
         });
-        Some(self.found(facet as u32, light))
+        Some(self.found((facet as u32, origin + direction * distance), light))
     }
 
-    fn found(&self, facet: u32, light: Option<Light>) -> Found {
-        let normal = self.specimen.solid().plane(facet).normal;
+    fn found(&self, (facet, point): (u32, DVec3), light: Option<Light>) -> Found {
+        let normal = self.specimen.solid().normal(facet, point);
         let names = self.specimen.body.names();
         let radial = normal.truncate();
         let (name, tier) = match names.get(facet as usize) {

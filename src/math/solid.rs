@@ -1,7 +1,8 @@
-//! A solid of either kind: between planes, or within triangles.
+//! A solid of any kind: between planes, within triangles, or within a smooth surface.
 
-use super::{Plane, Polytope, Shell};
+use super::{Field, Polytope, Shell, Smooth, Surface};
 use glam::{DQuat, DVec3};
+use std::collections::BTreeSet;
 use std::sync::Arc;
 
 /// What a stone's shape can be.
@@ -11,6 +12,8 @@ pub enum Solid {
     Convex(Polytope),
     /// Within triangles; it need not be convex. Shared, as it may be large.
     Triangles(Arc<Shell>),
+    /// Within a smooth surface.
+    Smooth(Smooth),
 }
 
 /// A solid that something else owns.
@@ -20,20 +23,22 @@ pub enum SolidRef<'a> {
     Convex(&'a Polytope),
     /// Within triangles.
     Triangles(&'a Arc<Shell>),
+    /// Within a smooth surface.
+    Smooth(&'a Smooth),
 }
 
 /// What only a convex stone between planes has: facets to name and draw, and exact beams.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
-#[error("this takes a convex stone, given by its planes, and this one is made of triangles: rays show it")]
+#[error("this takes a convex stone, given by its planes, and this is none: rays show it")]
 pub struct NotConvex;
 
-/// An edge between two facets.
+/// An edge between two facets, or a line on a smooth surface.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Edge {
     /// Its ends.
     pub ends: [DVec3; 2],
-    /// The facets on both sides.
-    pub facets: [u32; 2],
+    /// Outward normals of the facets on both sides; of a smooth surface those at both ends.
+    pub normals: [DVec3; 2],
 }
 
 impl Solid {
@@ -42,21 +47,22 @@ impl Solid {
         match self {
             Self::Convex(polytope) => SolidRef::Convex(polytope),
             Self::Triangles(shell) => SolidRef::Triangles(shell),
+            Self::Smooth(smooth) => SolidRef::Smooth(smooth),
         }
     }
 
     /// The polytope of a convex solid, for what needs one.
     ///
     /// # Errors
-    /// Of triangles, even where they are convex.
+    /// Of any other kind, even where it is convex.
     pub fn polytope(&self) -> Result<&Polytope, NotConvex> {
         match self {
             Self::Convex(polytope) => Ok(polytope),
-            Self::Triangles(_) => Err(NotConvex),
+            Self::Triangles(_) | Self::Smooth(_) => Err(NotConvex),
         }
     }
 
-    /// Its corners.
+    /// Its corners; points that a smooth one lies between.
     pub fn vertices(&self) -> &[DVec3] {
         self.by_ref().vertices()
     }
@@ -76,16 +82,18 @@ impl Solid {
         match self {
             Self::Convex(polytope) => Self::Convex(polytope.moved(scale, turn, shift)),
             Self::Triangles(shell) => Self::Triangles(Arc::new(shell.moved(scale, turn, shift))),
+            Self::Smooth(smooth) => Self::Smooth(smooth.moved(scale, turn, shift)),
         }
     }
 }
 
 impl<'a> SolidRef<'a> {
-    /// Its corners.
+    /// Its corners; points that a smooth one lies between.
     pub fn vertices(self) -> &'a [DVec3] {
         match self {
             Self::Convex(polytope) => polytope.vertices(),
             Self::Triangles(shell) => shell.vertices(),
+            Self::Smooth(smooth) => smooth.corners(),
         }
     }
 
@@ -100,6 +108,7 @@ impl<'a> SolidRef<'a> {
         match self {
             Self::Convex(polytope) => polytope.volume(),
             Self::Triangles(shell) => shell.volume(),
+            Self::Smooth(smooth) => smooth.field().volume(),
         }
     }
 
@@ -108,14 +117,16 @@ impl<'a> SolidRef<'a> {
         match self {
             Self::Convex(polytope) => Solid::Convex(polytope.clone()),
             Self::Triangles(shell) => Solid::Triangles(Arc::clone(shell)),
+            Self::Smooth(smooth) => Solid::Smooth(smooth.clone()),
         }
     }
 
-    /// The plane of a facet.
-    pub fn plane(self, facet: u32) -> Plane {
+    /// The unit outward normal at a point of a facet.
+    pub fn normal(self, facet: u32, point: DVec3) -> DVec3 {
         match self {
-            Self::Convex(polytope) => polytope.facets()[facet as usize].plane,
-            Self::Triangles(shell) => shell.planes()[facet as usize],
+            Self::Convex(polytope) => polytope.facets()[facet as usize].plane.normal,
+            Self::Triangles(shell) => shell.planes()[facet as usize].normal,
+            Self::Smooth(smooth) => smooth.field().normal(point),
         }
     }
 
@@ -126,30 +137,35 @@ impl<'a> SolidRef<'a> {
                 let corners: Vec<DVec3> = polytope.corners(&polytope.facets()[facet as usize]).collect();
                 corners.windows(2).skip(1).map(|pair| [corners[0], pair[0], pair[1]]).collect()
             }
-            Self::Triangles(shell) => {
-                shell.triangles_of(facet).map(|t| t.map(|v| shell.vertices()[v as usize])).collect()
-            }
+            Self::Triangles(shell) => picked(shell.surface(), shell.facets(), facet),
+            Self::Smooth(smooth) => picked(smooth.surface(), &smooth.surface().groups, facet),
         }
     }
 
     /// The edges around a facet.
     pub fn rim(self, facet: u32) -> Vec<[DVec3; 2]> {
-        match self {
-            Self::Convex(polytope) => {
-                let corners: Vec<DVec3> = polytope.corners(&polytope.facets()[facet as usize]).collect();
-                (0..corners.len()).map(|i| [corners[i], corners[(i + 1) % corners.len()]]).collect()
-            }
-            Self::Triangles(shell) => shell.rim(facet),
-        }
+        let sides: Vec<[DVec3; 2]> =
+            self.triangles_of(facet).into_iter().flat_map(|[a, b, c]| [[a, b], [b, c], [c, a]]).collect();
+        // Within the facet every side has another triangle on it, which runs the other way.
+        let key = |ends: [DVec3; 2]| ends.map(|v| v.to_array().map(f64::to_bits));
+        let all: BTreeSet<_> = sides.iter().map(|ends| key(*ends)).collect();
+        sides.into_iter().filter(|[a, b]| !all.contains(&key([*b, *a]))).collect()
     }
 
-    /// Its edges, each once.
+    /// Its edges, each once; of a smooth solid the lines between its triangles.
     pub fn edges(self) -> Vec<Edge> {
         match self {
             Self::Convex(polytope) => edges_of_polytope(polytope),
             Self::Triangles(shell) => shell.edges(),
+            Self::Smooth(smooth) => smooth.edges(),
         }
     }
+}
+
+/// The triangles of one facet, given the facet of each.
+fn picked(surface: &Surface, facets: &[u32], facet: u32) -> Vec<[DVec3; 3]> {
+    let all = surface.triangles.iter().zip(facets).filter(|(_, own)| **own == facet);
+    all.map(|(t, _)| t.map(|v| surface.vertices[v as usize])).collect()
 }
 
 fn edges_of_polytope(polytope: &Polytope) -> Vec<Edge> {
@@ -159,7 +175,10 @@ fn edges_of_polytope(polytope: &Polytope) -> Vec<Edge> {
         for (i, &other) in facet.neighbours.iter().enumerate() {
             // Each edge once: its other facet has it too.
             if other >= k {
-                edges.push(Edge { ends: [corners[i], corners[(i + 1) % corners.len()]], facets: [k, other] });
+                edges.push(Edge {
+                    ends: [corners[i], corners[(i + 1) % corners.len()]],
+                    normals: [k, other].map(|f| polytope.facets()[f as usize].plane.normal),
+                });
             }
         }
     }
@@ -175,6 +194,18 @@ impl From<Polytope> for Solid {
 impl From<Shell> for Solid {
     fn from(shell: Shell) -> Self {
         Self::Triangles(Arc::new(shell))
+    }
+}
+
+impl From<Field> for Solid {
+    fn from(field: Field) -> Self {
+        Self::Smooth(Smooth::new(field))
+    }
+}
+
+impl<'a> From<&'a Smooth> for SolidRef<'a> {
+    fn from(smooth: &'a Smooth) -> Self {
+        Self::Smooth(smooth)
     }
 }
 

@@ -113,6 +113,7 @@ fn over_lattices<E: From<Stopped>>(
     let known = match solid {
         SolidRef::Convex(polytope) => Some(polytope.silhouette_area(view.basis().toward)),
         SolidRef::Triangles(_) => None,
+        SolidRef::Smooth(smooth) => smooth.field().silhouette_area(view.basis().toward),
     };
     let Some(half) = Camera::new(view, solid).reach(solid) else {
         let none = vec![Tally::new(scope.bands.len()); LATTICES as usize];

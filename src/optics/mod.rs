@@ -24,6 +24,8 @@ pub use fresnel::{Fresnel, fresnel, reflectance};
 pub use illuminant::{DAYLIGHT_KELVIN, Illuminant, IlluminantError};
 pub use material::{Material, UnknownMaterial, material, materials};
 pub use observer::{D65_WHITE, OBSERVER_NM, SRGB_FROM_XYZ, adaptation, matching, seen};
-pub use snell::{brewster_angle, cos_transmitted, critical_angle, reflect, refract, refracted_change};
+pub use snell::{
+    brewster_angle, cos_transmitted, critical_angle, reflect, reflected_change, refract, refracted_change,
+};
 pub use strata::{SAMPLED_NM, Stratum, basis, strata};
 pub use weight::MG_PER_CARAT;

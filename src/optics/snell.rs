@@ -30,19 +30,26 @@ pub fn refract(d: DVec3, n: DVec3, eta: f64, (cos_i, cos_t): (f64, f64)) -> DVec
     d * eta + n * (eta * cos_i - cos_t)
 }
 
-/// How the refracted direction changes when the ray's does by `of_d` and eta by `of_eta`: the differential of [`refract`],
-/// with `cos_t` above 0.
+/// How the reflected direction changes when the ray's does by `of_d` and the normal by `of_n`: the differential of
+/// [`reflect`], whose normal's sense does not matter.
+#[inline]
+pub fn reflected_change(d: DVec3, n: DVec3, (of_d, of_n): (DVec3, DVec3)) -> DVec3 {
+    of_d - n * (2.0 * (of_d.dot(n) + d.dot(of_n))) - of_n * (2.0 * d.dot(n))
+}
+
+/// How the refracted direction changes when the ray's does by `of_d`, the normal by `of_n` and eta by `of_eta`: the
+/// differential of [`refract`], with `cos_t` above 0.
 #[inline]
 pub fn refracted_change(
     d: DVec3,
     n: DVec3,
     eta: f64,
     (cos_i, cos_t): (f64, f64),
-    (of_d, of_eta): (DVec3, f64),
+    (of_d, of_n, of_eta): (DVec3, DVec3, f64),
 ) -> DVec3 {
-    let of_cos_i = -of_d.dot(n);
+    let of_cos_i = -of_d.dot(n) - d.dot(of_n);
     let of_cos_t = eta * (eta * cos_i * of_cos_i - (1.0 - cos_i * cos_i) * of_eta) / cos_t;
-    d * of_eta + of_d * eta + n * (of_eta * cos_i + eta * of_cos_i - of_cos_t)
+    d * of_eta + of_d * eta + n * (of_eta * cos_i + eta * of_cos_i - of_cos_t) + of_n * (eta * cos_i - cos_t)
 }
 
 /// A caller's mistake, seen in debug builds alone.
@@ -139,20 +146,27 @@ mod tests {
     }
 
     #[test]
-    fn the_change_of_a_refracted_ray_is_what_a_small_step_makes_of_it() {
+    fn the_change_of_a_refracted_or_reflected_ray_is_what_a_small_step_makes_of_it() {
         for_each_case(|d, n, eta| {
             let (cos_i, step) = (-n.dot(d), 1e-6);
             let Some(cos_t) = cos_transmitted(cos_i, eta).filter(|&cos_t| cos_t > 0.05) else { return };
             let of_d = DVec3::new(0.3, -0.2, 0.5).reject_from_normalized(d);
+            let of_n = DVec3::new(-0.1, 0.4, 0.2).reject_from_normalized(n);
             let moved = |s: f64| {
-                let d = d + of_d * s;
+                let (d, n) = (d + of_d * s, n + of_n * s);
                 let (cos_i, eta) = (-n.dot(d), eta + 0.7 * s);
                 let cos_t = (1.0 - eta * eta * (1.0 - cos_i * cos_i)).sqrt();
-                d * eta + n * (eta * cos_i - cos_t)
+                (d * eta + n * (eta * cos_i - cos_t), d + n * (2.0 * cos_i))
             };
-            let expected = (moved(step) - moved(-step)) / (2.0 * step);
-            let change = refracted_change(d, n, eta, (cos_i, cos_t), (of_d, 0.7));
+            let (ahead, behind) = (moved(step), moved(-step));
+            let expected = (ahead.0 - behind.0) / (2.0 * step);
+            let change = refracted_change(d, n, eta, (cos_i, cos_t), (of_d, of_n, 0.7));
             assert!((change - expected).length() < 1e-5, "{change} for {expected} at {d}, {n}, {eta}");
+            let expected = (ahead.1 - behind.1) / (2.0 * step);
+            for n in [n, -n] {
+                let change = reflected_change(d, n, (of_d, if n.dot(d) == -cos_i { of_n } else { -of_n }));
+                assert!((change - expected).length() < 1e-8, "{change} for {expected} at {d}, {n}");
+            }
         });
     }
 

@@ -54,7 +54,7 @@ fn share(a: &Polytope, b: &Polytope, middle: DVec3, depth: f64) -> bool {
 
 /// Whether an edge of `a`, shrunk a little toward its middle, runs into `b` or begins inside it.
 fn cross(a: &Solid, b: &Solid, middle: DVec3) -> bool {
-    let (a, b) = (shell(a), shell(b));
+    let (Some(a), Some(b)) = (shell(a), shell(b)) else { return false };
     let shrunk = |v: u32| middle + (a.vertices()[v as usize] - middle) * (1.0 - TOUCHING);
     let speed =
         |triangle: u32, way: DVec3| b.planes()[b.facets()[triangle as usize] as usize].normal.dot(way);
@@ -68,10 +68,12 @@ fn cross(a: &Solid, b: &Solid, middle: DVec3) -> bool {
     })
 }
 
-fn shell(solid: &Solid) -> Arc<Shell> {
+/// The triangles of a solid; those of a smooth one are within it, by as much as they differ from it.
+fn shell(solid: &Solid) -> Option<Arc<Shell>> {
     match solid {
-        Solid::Convex(polytope) => Arc::new(Shell::of_polytope(polytope)),
-        Solid::Triangles(shell) => Arc::clone(shell),
+        Solid::Convex(polytope) => Some(Arc::new(Shell::of_polytope(polytope))),
+        Solid::Triangles(shell) => Some(Arc::clone(shell)),
+        Solid::Smooth(smooth) => Shell::new(smooth.surface().clone()).ok().map(Arc::new),
     }
 }
 
@@ -109,7 +111,7 @@ mod tests {
     fn stones_of_triangles_are_told_apart_like_those_of_planes() {
         let triangles = |stone: Placed| match &stone.solid {
             Solid::Convex(polytope) => Placed::new(Shell::of_polytope(polytope), stone.material),
-            Solid::Triangles(_) => stone,
+            Solid::Triangles(_) | Solid::Smooth(_) => stone,
         };
         let turned = DQuat::from_rotation_z(std::f64::consts::FRAC_PI_4);
         let pair = |x: f64| {

@@ -15,14 +15,14 @@ mod tree;
 
 pub use self::camera::Camera;
 pub use self::company::ByRays;
-use self::facets::{Facets, Planes, Shape, Triangles};
+use self::facets::{Facets, Planes, Shape, Smooth, Triangles, Wavy};
 use self::light::Light;
 use self::path::{Exiting, Meeting};
 pub use self::path::{Leaving, Path, Step};
 pub use self::sight::{Glance, Sight, facet_at};
 use self::tree::Inbound;
 use crate::math::SolidRef;
-use crate::optics::{cos_transmitted, reflect, refract, refracted_change};
+use crate::optics::{cos_transmitted, reflect, reflected_change, refract, refracted_change};
 use crate::scene::Medium;
 use glam::DVec3;
 use std::sync::Arc;
@@ -84,9 +84,10 @@ pub struct Tracer {
     options: Options,
 }
 
-/// The mirror image of any vector.
-fn mirrored(v: DVec3, normal: DVec3) -> DVec3 {
-    v - normal * (2.0 * v.dot(normal))
+/// How far the point moves in which a ray meets a surface, when the ray there moves by this much.
+#[inline]
+fn along_surface(by: DVec3, direction: DVec3, normal: DVec3) -> DVec3 {
+    by - direction * (normal.dot(by) / normal.dot(direction))
 }
 
 impl Tracer {
@@ -95,6 +96,8 @@ impl Tracer {
         let shape = match solid.into() {
             SolidRef::Convex(polytope) => Shape::Planes(Arc::new(Planes::new(polytope.planes().collect()))),
             SolidRef::Triangles(shell) => Shape::Triangles(Triangles::new(shell)),
+            SolidRef::Smooth(smooth) if smooth.field().is_convex() => Shape::Smooth(Smooth(*smooth.field())),
+            SolidRef::Smooth(smooth) => Shape::Wavy(Wavy(*smooth.field())),
         };
         Self { shape, medium, options }
     }
@@ -104,14 +107,18 @@ impl Tracer {
         Self { medium, ..self.clone() }
     }
 
-    /// Whether light that has left never meets the stone again: so it is of polytopes, and not known of triangles.
+    /// Whether light that has left never meets the stone again; not known of triangles.
     pub fn is_convex(&self) -> bool {
-        matches!(self.shape, Shape::Planes(_))
+        matches!(self.shape, Shape::Planes(_) | Shape::Smooth(_))
     }
 
     /// Whether the stone itself stands before a point of its surface on the way to the eye.
     pub fn hides_itself(&self, way: (DVec3, DVec3)) -> bool {
-        matches!(&self.shape, Shape::Triangles(triangles) if triangles.hides(way))
+        match &self.shape {
+            Shape::Planes(_) | Shape::Smooth(_) => false,
+            Shape::Triangles(triangles) => triangles.hides(way),
+            Shape::Wavy(wavy) => wavy.hides(way),
+        }
     }
 
     /// Follows the ray from a point outside, calling `leave` for the surface's glare and for each exit; `None`
@@ -133,17 +140,24 @@ impl Tracer {
         (direction, sweep): (DVec3, DVec3),
         weight: f64,
         is_taken: impl Fn(&Exit, f64) -> bool,
-        mut leave: impl FnMut(Exit),
+        leave: impl FnMut(Exit),
     ) -> Option<Rest> {
         let start = self.start(met, origin, (direction, sweep), weight);
         match &self.shape {
-            Shape::Planes(planes) => self.passage(&**planes, start, |meeting| {
-                if let Some(exit) = meeting.exit() {
-                    leave(exit);
-                }
-            }),
+            Shape::Planes(planes) => self.chain(&**planes, start, leave),
+            Shape::Smooth(smooth) => self.chain(smooth, start, leave),
             Shape::Triangles(triangles) => self.branch(triangles, start, is_taken, leave),
+            Shape::Wavy(wavy) => self.branch(wavy, start, is_taken, leave),
         }
+    }
+
+    /// Through a solid that never takes back what has left it.
+    fn chain<F: Facets>(&self, facets: &F, start: Inbound, mut leave: impl FnMut(Exit)) -> Option<Rest> {
+        self.passage(facets, start, |meeting| {
+            if let Some(exit) = meeting.exit() {
+                leave(exit);
+            }
+        })
     }
 
     fn start(
@@ -154,7 +168,7 @@ impl Tracer {
         weight: f64,
     ) -> Inbound {
         let light = Light::of_eye(direction, weight, self.options.polarised);
-        Inbound { met, origin, direction, sweep, light, left: 1.0, path: 0.0, bounce: 0 }
+        Inbound { met, origin, direction, sweep, shift: DVec3::ZERO, light, left: 1.0, path: 0.0, bounce: 0 }
     }
 
     /// The way of light through the stone, from the facet where it enters until too little is left: the one loop behind all
@@ -166,15 +180,17 @@ impl Tracer {
         mut meets: impl FnMut(Meeting),
     ) -> Option<Rest> {
         let Inbound { met: (facet, distance), origin, direction, sweep, left, path, bounce, .. } = inbound;
-        let normal = facets.normal(facet);
         let point = origin + direction * distance;
+        let normal = facets.normal(facet, point);
         let eta = 1.0 / self.medium.index;
         let cos_i = -direction.dot(normal);
         let cos_t = cos_transmitted(cos_i, eta)?;
         let inward = refract(direction, normal, eta, (cos_i, cos_t));
         let (light, glare) = inbound.light.split(direction, inward, normal, eta, true);
         let of_eta = -self.medium.spread * eta * eta;
-        let swept = refracted_change(direction, normal, eta, (cos_i, cos_t), (sweep, of_eta));
+        let shift = along_surface(inbound.shift + sweep * distance, direction, normal);
+        let of_normal = facets.turned(point, shift);
+        let swept = refracted_change(direction, normal, eta, (cos_i, cos_t), (sweep, of_normal, of_eta));
         let back = reflect(direction, normal, cos_i);
         let outer = F::BRANCHES.then(|| inbound.light.outer((direction, back), normal, eta, true, glare));
         meets(Meeting {
@@ -186,7 +202,8 @@ impl Tracer {
             arriving: direction,
             leaving: Some(Exiting {
                 direction: back,
-                sweep: mirrored(sweep, normal),
+                sweep: reflected_change(direction, normal, (sweep, of_normal)),
+                shift,
                 weight: glare * left,
                 light: outer,
             }),
@@ -194,21 +211,32 @@ impl Tracer {
         });
         Some(self.bounce(
             facets,
-            Inbound { origin: point, direction: inward, sweep: swept, light, ..inbound },
+            Inbound { origin: point, direction: inward, sweep: swept, shift, light, ..inbound },
             meets,
         ))
     }
 
     fn bounce<F: Facets>(&self, facets: &F, inside: Inbound, mut meets: impl FnMut(Meeting)) -> Rest {
-        let Inbound { origin: mut point, mut direction, mut sweep, mut light, mut left, mut path, .. } =
-            inside;
+        let Inbound {
+            origin: mut point,
+            mut direction,
+            mut sweep,
+            mut shift,
+            mut light,
+            mut left,
+            mut path,
+            ..
+        } = inside;
         let mut rest = Rest { bounces: inside.bounce, ..Rest::default() };
         let mut remaining = light.weight() * left;
         while remaining > self.options.least_weight && rest.bounces < self.options.most_bounces {
-            let Some((facet, distance, cos_i)) = facets.next(point, direction) else { break };
-            let normal = facets.normal(facet);
+            let Some((facet, distance)) = facets.next(point, direction) else { break };
             point += direction * distance;
             path += distance;
+            let normal = facets.normal(facet, point);
+            let cos_i = normal.dot(direction);
+            shift = along_surface(shift + sweep * distance, direction, normal);
+            let of_normal = facets.turned(point, shift);
             if !self.medium.is_clear() {
                 let after = self.medium.transmittance(path);
                 rest.absorbed += light.weight() * (left - after);
@@ -222,11 +250,12 @@ impl Tracer {
                 _ => light.split(direction, reflected, normal, index, false),
             };
             let leaving = cos_t.map(|cos_t| {
-                let outward = refract(direction, -normal, index, (cos_i, cos_t));
-                let sweep = refracted_change(direction, -normal, index, (cos_i, cos_t), (sweep, spread));
+                let cosines = (cos_i, cos_t);
+                let outward = refract(direction, -normal, index, cosines);
+                let sweep = refracted_change(direction, -normal, index, cosines, (sweep, -of_normal, spread));
                 let outer =
                     F::BRANCHES.then(|| light.outer((direction, outward), normal, index, false, weight));
-                Exiting { direction: outward, sweep, weight: weight * left, light: outer }
+                Exiting { direction: outward, sweep, shift, weight: weight * left, light: outer }
             });
             rest.bounces += 1;
             remaining = onward.weight() * left;
@@ -240,7 +269,8 @@ impl Tracer {
                 leaving,
                 onward: remaining,
             });
-            (light, direction, sweep) = (onward, reflected, mirrored(sweep, normal));
+            sweep = reflected_change(direction, normal, (sweep, of_normal));
+            (light, direction) = (onward, reflected);
         }
         rest.unresolved = remaining;
         rest

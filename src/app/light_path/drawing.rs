@@ -144,13 +144,11 @@ impl<'a> Canvas<'a> {
     /// All edges, those behind first.
     fn edges(&self, reading: &Reading) {
         let solid = reading.body.solid();
-        let faces = |facet: u32| solid.plane(facet).normal.dot(self.eye.toward) > 0.0;
+        let faces = |normal: &DVec3| normal.dot(self.eye.toward) > 0.0;
         let edges = solid.edges();
         for front in [false, true] {
             let colour = self.visuals.text_color().gamma_multiply(EDGES[usize::from(!front)]);
-            for Edge { ends, .. } in
-                edges.iter().filter(|edge| edge.facets.iter().any(|&f| faces(f)) == front)
-            {
+            for Edge { ends, .. } in edges.iter().filter(|edge| edge.normals.iter().any(faces) == front) {
                 self.painter.line_segment(ends.map(|v| self.at(v)), Stroke::new(1.0, colour));
             }
         }

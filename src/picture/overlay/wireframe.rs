@@ -1,7 +1,7 @@
 //! The edges of stones, as thin even lines.
 
 use super::{Code, lay_over};
-use crate::math::{Edge, Solid};
+use crate::math::{Edge, Plane, Solid};
 use crate::trace::ray::Sight;
 use crate::trace::sitting::Sitting;
 use glam::{DMat2, DVec2, DVec3};
@@ -64,7 +64,8 @@ fn wires(sitting: &Sitting, sight: &Sight, stone: usize, solid: &Solid) -> Vec<W
         let [a, b] = edge.ends.map(|p| sight.camera.project(p));
         let (a, b) = (a?, b?);
         let ends = [a.0, b.0].map(|p| pixels.transform_point2(p));
-        let is_front = edge.facets.iter().any(|&k| sight.camera.sees(&solid.by_ref().plane(k)));
+        let faces = |n: &DVec3| sight.camera.sees(&Plane::new(*n, n.dot(edge.ends[0])));
+        let is_front = edge.normals.iter().any(faces);
         Some(Wire { ends, sizes: [a.1, b.1], points: edge.ends, stone, is_front })
     };
     solid.by_ref().edges().into_iter().filter_map(wire).collect()

@@ -20,14 +20,14 @@ impl Beams {
                     let (ray, eta) = (-self.view.toward, 1.0 / index);
                     let cos_i = -ray.dot(normal);
                     let cosines = (cos_i, cos_transmitted(cos_i, eta).unwrap_or(1.0));
-                    let change = (DVec3::ZERO, -spread * eta * eta);
+                    let change = (DVec3::ZERO, DVec3::ZERO, -spread * eta * eta);
                     (refract(ray, normal, eta, cosines), refracted_change(ray, normal, eta, cosines, change))
                 }
                 Some(parent) => {
                     let (ray, change) = onward[parent as usize];
                     let cos_i = ray.dot(normal);
                     if let Some(cos_t) = cos_transmitted(cos_i, index) {
-                        let both = (change, spread);
+                        let both = (change, DVec3::ZERO, spread);
                         sweeps[beam.id as usize] =
                             refracted_change(ray, -normal, index, (cos_i, cos_t), both);
                     }

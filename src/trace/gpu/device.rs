@@ -42,6 +42,9 @@ pub enum GpuError {
         /// How many there is room for.
         most: usize,
     },
+    /// There are smooth solids beside others.
+    #[error("glass beside stones is traced by rays; the graphics card takes one kind at a time")]
+    MixedKinds,
     /// A driver in software would follow too few bounces.
     #[error("{name} follows only {bounces} bounces among {stones} stones")]
     TooFewBounces {

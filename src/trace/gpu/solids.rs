@@ -61,8 +61,11 @@ impl Solids {
         }
         let planes = |s: &SolidRef| match s {
             SolidRef::Convex(polytope) => Some(polytope.planes().collect()),
-            SolidRef::Triangles(_) => None,
+            SolidRef::Triangles(_) | SolidRef::Smooth(_) => None,
         };
+        if stones.iter().any(|s| matches!(s, SolidRef::Smooth(_))) {
+            return Err(GpuError::MixedKinds);
+        }
         match stones.iter().map(planes).collect::<Option<Vec<Vec<Plane>>>>() {
             Some(convex) => Ok(Self::of_planes(gpu, &convex, balls)),
             None => Self::of_triangles(gpu, stones, balls),

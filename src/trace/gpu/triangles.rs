@@ -21,7 +21,7 @@ pub(super) struct Triangles {
 impl Triangles {
     pub fn new(stones: &[SolidRef], balls: &[(DVec3, f64)]) -> Result<Self, GpuError> {
         let mut all = Self { triangles: vec![], nodes: vec![], bodies: vec![] };
-        let shells: Vec<Arc<Shell>> = stones.iter().map(shell).collect();
+        let shells = stones.iter().map(shell).collect::<Result<Vec<Arc<Shell>>, GpuError>>()?;
         let count = shells.iter().map(|s| s.facets().len()).sum();
         if count > MOST_TRIANGLES || shells.iter().any(|s| s.bvh().depth() as usize > MOST_LEVELS) {
             return Err(GpuError::TooManyTriangles { count, most: MOST_TRIANGLES });
@@ -37,10 +37,11 @@ impl Triangles {
     }
 }
 
-fn shell(solid: &SolidRef) -> Arc<Shell> {
+fn shell(solid: &SolidRef) -> Result<Arc<Shell>, GpuError> {
     match solid {
-        SolidRef::Convex(polytope) => Arc::new(Shell::of_polytope(polytope)),
-        SolidRef::Triangles(shell) => Arc::clone(shell),
+        SolidRef::Convex(polytope) => Ok(Arc::new(Shell::of_polytope(polytope))),
+        SolidRef::Triangles(shell) => Ok(Arc::clone(shell)),
+        SolidRef::Smooth(_) => Err(GpuError::MixedKinds),
     }
 }
 

@@ -90,8 +90,13 @@ fn meeting(cos_i: f64, eta: f64, turn: f64) -> [[f64; 4]; 6] {
         (cos * cos - sin * sin) * re + sin * cos * (pp - ss),
         im,
     ];
-    let moved = refracted_change(d, n, eta, (cos_i, cos_t.max(1e-9)), (DVec3::new(0.03, -0.01, 0.02), 0.05))
-        * cos_t
+    let moved = refracted_change(
+        d,
+        n,
+        eta,
+        (cos_i, cos_t.max(1e-9)),
+        (DVec3::new(0.03, -0.01, 0.02), DVec3::ZERO, 0.05),
+    ) * cos_t
         * cos_t;
     let Fresnel { r_s, r_p, .. } = f;
     let cross = r_s * r_p.conj() * num_complex::Complex64::new(light[2], light[3]);

@@ -1,10 +1,10 @@
-//! What a ray meets: a convex stone's planes, or the triangles of any solid.
+//! What a ray meets: a convex stone's planes, the triangles of any solid, or a smooth surface.
 //!
 //! Whether a ray is inside or outside is known from how it came, never asked of the solid. Outside it meets only what it
 //! runs into, inside only what it runs out of; so it cannot meet the facet again that it starts from.
 
 use super::search::Search;
-use crate::math::{Plane, Shell};
+use crate::math::{Field, Plane, Shell};
 use glam::DVec3;
 use std::sync::Arc;
 
@@ -13,16 +13,22 @@ pub(super) trait Facets {
     /// Whether light that has left may meet the solid again.
     const BRANCHES: bool;
 
-    /// A facet's outward normal.
-    fn normal(&self, facet: usize) -> DVec3;
+    /// The unit outward normal at a point of a facet.
+    fn normal(&self, facet: usize, point: DVec3) -> DVec3;
+
+    /// How that normal changes where the point moves along the surface.
+    #[inline]
+    fn turned(&self, _point: DVec3, _by: DVec3) -> DVec3 {
+        DVec3::ZERO
+    }
 
     /// Facet and distance, not below 0, at which a ray from a point outside or on the surface enters; `None` where it
     /// misses.
     fn entry(&self, origin: DVec3, direction: DVec3) -> Option<(usize, f64)>;
 
-    /// Facet, distance and cosine of incidence at which a ray from a point inside or on the surface leaves; `None` where
-    /// rounding has let it slip out.
-    fn next(&self, point: DVec3, direction: DVec3) -> Option<(usize, f64, f64)>;
+    /// Facet and distance at which a ray from a point inside or on the surface leaves; `None` where rounding has let it slip
+    /// out.
+    fn next(&self, point: DVec3, direction: DVec3) -> Option<(usize, f64)>;
 }
 
 /// The facets of either kind of solid.
@@ -30,7 +36,17 @@ pub(super) trait Facets {
 pub(super) enum Shape {
     Planes(Arc<Planes>),
     Triangles(Triangles),
+    Smooth(Smooth),
+    Wavy(Wavy),
 }
+
+/// A smooth convex surface.
+#[derive(Debug, Clone)]
+pub(super) struct Smooth(pub Field);
+
+/// A smooth surface that need not be convex.
+#[derive(Debug, Clone)]
+pub(super) struct Wavy(pub Field);
 
 /// The planes of a convex solid.
 #[derive(Debug)]
@@ -56,10 +72,11 @@ const BEHIND: f64 = 1e-12;
 const CLOSE: f64 = 1e-6;
 
 impl Shape {
-    pub fn normal(&self, facet: usize) -> DVec3 {
+    pub fn normal(&self, facet: usize, point: DVec3) -> DVec3 {
         match self {
-            Self::Planes(planes) => planes.normal(facet),
-            Self::Triangles(triangles) => triangles.normal(facet),
+            Self::Planes(planes) => planes.normal(facet, point),
+            Self::Triangles(triangles) => triangles.normal(facet, point),
+            Self::Smooth(Smooth(field)) | Self::Wavy(Wavy(field)) => field.normal(point),
         }
     }
 
@@ -67,16 +84,17 @@ impl Shape {
         match self {
             Self::Planes(planes) => planes.entry(origin, direction),
             Self::Triangles(triangles) => triangles.entry(origin, direction),
+            Self::Smooth(smooth) => smooth.entry(origin, direction),
+            Self::Wavy(wavy) => wavy.entry(origin, direction),
         }
     }
-}
 
-impl Shape {
     /// After which distance light that leaves enters again.
     pub fn again(&self, (origin, direction): (DVec3, DVec3)) -> Option<f64> {
         match self {
-            Self::Planes(_) => None,
+            Self::Planes(_) | Self::Smooth(_) => None,
             Self::Triangles(triangles) => triangles.entry(origin, direction).map(|(_, distance)| distance),
+            Self::Wavy(Wavy(field)) => field.entry(origin, direction),
         }
     }
 }
@@ -91,7 +109,7 @@ impl Facets for Planes {
     const BRANCHES: bool = false;
 
     #[inline]
-    fn normal(&self, facet: usize) -> DVec3 {
+    fn normal(&self, facet: usize, _: DVec3) -> DVec3 {
         self.planes[facet].normal
     }
 
@@ -103,11 +121,10 @@ impl Facets for Planes {
     }
 
     #[inline]
-    fn next(&self, point: DVec3, direction: DVec3) -> Option<(usize, f64, f64)> {
+    fn next(&self, point: DVec3, direction: DVec3) -> Option<(usize, f64)> {
         let facet = self.search.next(point, direction);
         let plane = &self.planes[facet];
-        let cos_i = plane.normal.dot(direction);
-        Some((facet, -plane.distance(point) / cos_i, cos_i))
+        Some((facet, -plane.distance(point) / plane.normal.dot(direction)))
     }
 }
 
@@ -120,7 +137,7 @@ impl Triangles {
     /// Facet and distance of the first triangle whose normal's part along the ray `keep` takes.
     fn first(&self, origin: DVec3, direction: DVec3, keep: impl Fn(f64) -> bool) -> Option<(usize, f64)> {
         let facet = |triangle: u32| self.shell.facets()[triangle as usize] as usize;
-        let is_kept = |triangle| keep(self.normal(facet(triangle)).dot(direction));
+        let is_kept = |triangle| keep(self.shell.planes()[facet(triangle)].normal.dot(direction));
         let hit = self.shell.bvh().nearest(origin, direction, self.behind, is_kept)?;
         Some((facet(hit.triangle), hit.distance.max(0.0)))
     }
@@ -135,10 +152,21 @@ impl Triangles {
     }
 }
 
+impl Wavy {
+    /// Whether the solid stands before a point of its surface, or of one of the lines drawn on it.
+    pub fn hides(&self, (origin, direction): (DVec3, DVec3)) -> bool {
+        let jet = self.0.jet(origin);
+        let steep = jet.gradient.length();
+        // From the surface above the point, and a little more.
+        let lift = ((-jet.value).max(0.0) / steep + CLOSE * self.0.reach()) / steep;
+        self.0.entry(origin + jet.gradient * lift, direction).is_some()
+    }
+}
+
 impl Facets for Triangles {
     const BRANCHES: bool = true;
 
-    fn normal(&self, facet: usize) -> DVec3 {
+    fn normal(&self, facet: usize, _: DVec3) -> DVec3 {
         self.shell.planes()[facet].normal
     }
 
@@ -146,8 +174,38 @@ impl Facets for Triangles {
         self.first(origin, direction, |speed| speed < 0.0)
     }
 
-    fn next(&self, point: DVec3, direction: DVec3) -> Option<(usize, f64, f64)> {
-        let (facet, distance) = self.first(point, direction, |speed| speed > 0.0)?;
-        Some((facet, distance, self.normal(facet).dot(direction)))
+    fn next(&self, point: DVec3, direction: DVec3) -> Option<(usize, f64)> {
+        self.first(point, direction, |speed| speed > 0.0)
     }
 }
+
+/// A smooth surface's facets: whether it `branches` is known when it is made.
+macro_rules! smooth {
+    ($kind:ident, $branches:literal) => {
+        impl Facets for $kind {
+            const BRANCHES: bool = $branches;
+
+            #[inline]
+            fn normal(&self, _: usize, point: DVec3) -> DVec3 {
+                self.0.normal(point)
+            }
+
+            fn turned(&self, point: DVec3, by: DVec3) -> DVec3 {
+                self.0.bend(point) * by
+            }
+
+            fn entry(&self, origin: DVec3, direction: DVec3) -> Option<(usize, f64)> {
+                let distance = self.0.entry(origin, direction)?;
+                Some((self.0.facet(origin + direction * distance) as usize, distance))
+            }
+
+            fn next(&self, point: DVec3, direction: DVec3) -> Option<(usize, f64)> {
+                let distance = self.0.exit(point, direction)?;
+                Some((self.0.facet(point + direction * distance) as usize, distance))
+            }
+        }
+    };
+}
+
+smooth!(Smooth, false);
+smooth!(Wavy, true);

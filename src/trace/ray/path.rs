@@ -71,15 +71,18 @@ pub(super) struct Meeting {
 pub(super) struct Exiting {
     pub direction: DVec3,
     pub sweep: DVec3,
+    /// How far the point moves over the spread of wavelengths.
+    pub shift: DVec3,
     pub weight: f64,
     /// Without what has been absorbed; told of solids that it may enter again.
     pub light: Option<Light>,
 }
 
 impl Meeting {
-    /// The light that leaves, without what has been absorbed.
-    pub fn onward_outside(&self) -> Option<Light> {
-        self.leaving.as_ref()?.light
+    /// The light that leaves, without what has been absorbed, and how far it is shifted.
+    pub fn onward_outside(&self) -> Option<(Light, DVec3)> {
+        let leaving = self.leaving.as_ref()?;
+        Some((leaving.light?, leaving.shift))
     }
 
     #[inline]
@@ -101,13 +104,15 @@ impl Tracer {
         let rest = match &self.shape {
             Shape::Planes(planes) => self.passage(&**planes, start, tell)?,
             Shape::Triangles(triangles) => self.passage(triangles, start, tell)?,
+            Shape::Smooth(smooth) => self.passage(smooth, start, tell)?,
+            Shape::Wavy(wavy) => self.passage(wavy, start, tell)?,
         };
         Some(Path { origin, direction, steps, rest })
     }
 
     fn step(&self, meeting: &Meeting) -> Step {
         let &Meeting { facet, point, path, bounce, arriving, ref leaving, onward, .. } = meeting;
-        let normal = self.shape.normal(facet as usize);
+        let normal = self.shape.normal(facet as usize, point);
         let critical = if bounce > 0 { critical_angle(self.medium.index) } else { None };
         Step {
             facet,

@@ -4,7 +4,7 @@
 //! it and meets the solid again waits to be followed like the first, the strongest first, its polarisation kept. What is not
 //! followed is unresolved, so that all shares still add up to 1.
 
-use super::facets::{Facets, Triangles};
+use super::facets::Facets;
 use super::light::Light;
 use super::{Exit, Rest, Tracer};
 use glam::DVec3;
@@ -19,6 +19,8 @@ pub(super) struct Inbound {
     pub origin: DVec3,
     pub direction: DVec3,
     pub sweep: DVec3,
+    /// How far its origin moves over the spread of wavelengths.
+    pub shift: DVec3,
     /// Without what has been absorbed.
     pub light: Light,
     /// The part that has not been absorbed.
@@ -36,11 +38,11 @@ impl Inbound {
 }
 
 impl Tracer {
-    /// Follows light into triangles and whatever leaves it to enter again, but for what `is_taken` says is met by something
+    /// Follows light into a solid and whatever leaves it to enter again, but for what `is_taken` says is met by something
     /// else before that distance. `None` where it runs along the first facet.
-    pub(super) fn branch(
+    pub(super) fn branch<F: Facets>(
         &self,
-        triangles: &Triangles,
+        facets: &F,
         start: Inbound,
         is_taken: impl Fn(&Exit, f64) -> bool,
         mut leave: impl FnMut(Exit),
@@ -56,15 +58,16 @@ impl Tracer {
                     rest.unresolved += inbound.weight();
                 }
             };
-            let passed = self.passage(triangles, next, |meeting| {
+            let passed = self.passage(facets, next, |meeting| {
                 let Some(exit) = meeting.exit() else { return };
-                let met = triangles.entry(exit.point, exit.direction);
+                let met = facets.entry(exit.point, exit.direction);
                 match (met.filter(|met| !is_taken(&exit, met.1)), meeting.onward_outside()) {
-                    (Some(met), Some(light)) => again(Inbound {
+                    (Some(met), Some((light, shift))) => again(Inbound {
                         met,
                         origin: exit.point,
                         direction: exit.direction,
                         sweep: exit.sweep,
+                        shift,
                         light,
                         left: meeting.left,
                         path: exit.path,
