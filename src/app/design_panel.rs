@@ -72,6 +72,7 @@ fn identity(editor: &mut Editor, ui: &mut Ui) {
             Cut::Tiers(_) => "Tiers on an index gear",
             Cut::Planes(_) => "Facets by their planes",
             Cut::Mesh(_) => "Mesh, not convex",
+            Cut::Glass(glass) => glass.called().1,
         });
     });
 }

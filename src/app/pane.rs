@@ -119,7 +119,7 @@ fn profile(editor: &mut Editor, ui: &mut Ui, pane: usize, body: Rect) {
     let specimen = Arc::clone(editor.document.specimen());
     let brilliant = match &mut editor.document.work.design.cut {
         Cut::RoundBrilliant(brilliant) => Some(brilliant),
-        Cut::Tiers(_) | Cut::Planes(_) | Cut::Mesh(_) => None,
+        Cut::Tiers(_) | Cut::Planes(_) | Cut::Mesh(_) | Cut::Glass(_) => None,
     };
     ui.painter().rect_filled(body, 4.0, ui.visuals().extreme_bg_color);
     let under = ui.interact(body, ui.scope_id().with("profile"), Sense::click());

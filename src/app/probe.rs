@@ -89,16 +89,13 @@ impl Probe {
 
     fn found(&self, (facet, point): (u32, DVec3), light: Option<Light>) -> Found {
         let normal = self.specimen.solid().normal(facet, point);
-        let names = self.specimen.body.names();
-        let radial = normal.truncate();
-        let (name, tier) = match names.get(facet as usize) {
-            Some(name) => {
-                let stem = tier_stem(name);
-                let count = names.iter().filter(|n| tier_stem(n) == stem).count();
-                (name.replace('_', " "), (stem.replace('_', " "), count))
-            }
-            None => (format!("facet {}", facet + 1), (String::new(), 1)),
-        };
+        let (body, radial) = (&self.specimen.body, normal.truncate());
+        let tier = body.stone().map_or((String::new(), 1), |stone| {
+            let stem = tier_stem(stone.name(facet));
+            let count = stone.names().iter().filter(|n| tier_stem(n) == stem).count();
+            (stem.replace('_', " "), count)
+        });
+        let name = body.name(facet);
         Found {
             facet,
             name,

@@ -1,7 +1,9 @@
 //! A design: all that a cut file says of a stone.
 
 use super::material::{MaterialError, MaterialRef};
-use super::{MeshShape, ProportionError, RoundBrilliant, TierFault, Tiers, Warning, names};
+use super::{
+    Glass, GlassError, MeshShape, ProportionError, RoundBrilliant, TierFault, Tiers, Warning, names,
+};
 use crate::math::{NotConvex, Plane};
 
 /// Girdle diameter of a design that gives none, mm: that of a brilliant of about one carat.
@@ -30,7 +32,7 @@ pub struct Design {
     pub cut: Cut,
 }
 
-/// The shape of a stone: a family with its proportions, the planes themselves, or a mesh.
+/// The shape of a stone: a family with its proportions, the planes themselves, a mesh, or a glass shape.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Cut {
     /// The round brilliant.
@@ -41,6 +43,8 @@ pub enum Cut {
     Planes(Vec<(String, Plane)>),
     /// Triangles around a solid that is not convex.
     Mesh(MeshShape),
+    /// A glass shape.
+    Glass(Glass),
 }
 
 /// What is wrong with a design.
@@ -61,6 +65,9 @@ pub enum DesignError {
     /// Proportions that cannot be.
     #[error(transparent)]
     Proportion(#[from] ProportionError),
+    /// Dimensions of a glass shape that cannot be.
+    #[error(transparent)]
+    Glass(#[from] GlassError),
     /// It has no planes.
     #[error(transparent)]
     NotConvex(#[from] NotConvex),
@@ -124,7 +131,7 @@ impl Cut {
     pub fn brilliant(&self) -> Option<&RoundBrilliant> {
         match self {
             Self::RoundBrilliant(brilliant) => Some(brilliant),
-            Self::Tiers(_) | Self::Planes(_) | Self::Mesh(_) => None,
+            Self::Tiers(_) | Self::Planes(_) | Self::Mesh(_) | Self::Glass(_) => None,
         }
     }
 }
@@ -156,6 +163,7 @@ impl Design {
         self.material.check()?;
         match &self.cut {
             Cut::Mesh(_) => Ok(()),
+            Cut::Glass(glass) => Ok(glass.field().map(|_| ())?),
             Cut::RoundBrilliant(_) | Cut::Tiers(_) | Cut::Planes(_) => self.facets().map(|_| ()),
         }
     }
@@ -171,6 +179,10 @@ impl Design {
             Cut::Tiers(tiers) => tiers_facets(tiers),
             Cut::Planes(planes) => named_planes(planes),
             Cut::Mesh(_) => Err(NotConvex.into()),
+            Cut::Glass(glass) => {
+                glass.field()?;
+                glass.planes().ok_or_else(|| NotConvex.into())
+            }
         }
     }
 
@@ -181,7 +193,7 @@ impl Design {
     pub fn warnings(&self) -> Result<Vec<Warning>, DesignError> {
         match &self.cut {
             Cut::RoundBrilliant(proportions) => Ok(proportions.warnings()?),
-            Cut::Tiers(_) | Cut::Planes(_) | Cut::Mesh(_) => Ok(Vec::new()),
+            Cut::Tiers(_) | Cut::Planes(_) | Cut::Mesh(_) | Cut::Glass(_) => Ok(Vec::new()),
         }
     }
 }

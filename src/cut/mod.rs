@@ -9,6 +9,7 @@ mod derive;
 mod design;
 mod facets;
 pub mod from_mesh;
+mod glass;
 mod limits;
 mod material;
 mod mesh_shape;
@@ -24,6 +25,7 @@ mod tiers;
 mod warning;
 
 pub use design::{Cut, DEFAULT_DIAMETER_MM, Design, DesignError, MAX_PLANES, PlaneFault};
+pub use glass::{Dimension, Glass, GlassError, Plate, Sides};
 pub use limits::girdle_facets;
 pub use material::{MaterialError, MaterialRef};
 pub use mesh_shape::MeshShape;

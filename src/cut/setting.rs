@@ -20,7 +20,7 @@ impl Cut {
     /// Its tiers, in the order in which they are listed; none where proportions say what its facets are, or triangles.
     pub fn settings(&self) -> Vec<Setting> {
         match self {
-            Self::RoundBrilliant(_) | Self::Mesh(_) => vec![],
+            Self::RoundBrilliant(_) | Self::Mesh(_) | Self::Glass(_) => vec![],
             Self::Tiers(design) => {
                 let numbered = (1..).zip(&design.tiers).filter(|(_, tier)| tier.is_cut);
                 let setting = |(number, tier): (usize, &super::Tier)| Setting {
@@ -39,7 +39,7 @@ impl Cut {
     /// moved by the same distance. What is no place changes nothing.
     pub fn set(&mut self, place: usize, angle: f64, distance: f64) {
         match self {
-            Self::RoundBrilliant(_) | Self::Mesh(_) => {}
+            Self::RoundBrilliant(_) | Self::Mesh(_) | Self::Glass(_) => {}
             Self::Tiers(design) => {
                 if let Some(tier) = design.tiers.iter_mut().filter(|tier| tier.is_cut).nth(place) {
                     (tier.angle, tier.distance) = (angle, distance);

@@ -5,10 +5,11 @@
 //! are f32. Read back, OBJ and glTF give the facets their names. A solid that is not convex is written by its triangles.
 
 use super::mesh_file::MaterialHint;
-use crate::math::triangulate;
+use crate::math::{Surface, triangulate};
 use crate::scene::Body;
 use glam::DVec3;
 use serde_json::{Value, json};
+use std::borrow::Cow;
 use std::fmt::Write as _;
 
 /// The key of a glTF primitive's extras under which its facet's name is.
@@ -20,48 +21,62 @@ const U32: u32 = 5125;
 const VERTICES: u32 = 34962;
 const INDICES: u32 = 34963;
 
-/// A facet, or of a mesh a triangle: its name, its normal and its corners, counter-clockwise seen from outside.
+/// Steps that a quarter of a turn of a smooth surface is cut into.
+pub const FINENESS: usize = 24;
+
+/// A facet, or of a mesh a triangle: its name, its corners, counter-clockwise seen from outside, and the normals there.
 struct Face<'a> {
     name: Option<&'a str>,
-    normal: DVec3,
     corners: Vec<u32>,
+    normals: Vec<DVec3>,
     /// Its triangles, by corners of the solid.
     triangles: Vec<[u32; 3]>,
 }
 
-fn faces(body: &Body) -> Vec<Face<'_>> {
+/// Corners of a solid, and what lies between them.
+struct Faces<'a> {
+    vertices: Cow<'a, [DVec3]>,
+    faces: Vec<Face<'a>>,
+}
+
+fn faces(body: &Body) -> Faces<'_> {
     match body {
         Body::Stone(stone) => {
             let mut triangles = vec![vec![]; stone.names().len()];
             let mesh = triangulate(&stone.polytope);
             mesh.triangles.iter().zip(&mesh.facets).for_each(|(t, &f)| triangles[f as usize].push(*t));
             let named = stone.polytope.facets().iter().zip(stone.names()).zip(triangles);
-            named
-                .map(|((facet, name), triangles)| Face {
-                    name: Some(name.as_str()),
-                    normal: facet.plane.normal,
-                    corners: facet.outline.clone(),
-                    triangles,
-                })
-                .collect()
+            let face = named.map(|((facet, name), triangles)| Face {
+                name: Some(name.as_str()),
+                normals: vec![facet.plane.normal; facet.outline.len()],
+                corners: facet.outline.clone(),
+                triangles,
+            });
+            Faces { faces: face.collect(), vertices: stone.polytope.vertices().into() }
         }
         Body::Mesh(shell) => {
-            let face = |(t, &f): (&[u32; 3], &u32)| Face {
-                name: None,
-                normal: shell.planes()[f as usize].normal,
-                corners: t.to_vec(),
-                triangles: vec![*t],
-            };
-            shell.surface().triangles.iter().zip(shell.facets()).map(face).collect()
+            let face = |(t, &f): (&[u32; 3], &u32)| nameless(*t, [shell.planes()[f as usize].normal; 3]);
+            let faces = shell.surface().triangles.iter().zip(shell.facets()).map(face).collect();
+            Faces { faces, vertices: shell.vertices().into() }
+        }
+        Body::Glass(smooth) => {
+            let Surface { vertices, triangles, .. } = smooth.field().surface(FINENESS);
+            let normals: Vec<DVec3> = vertices.iter().map(|v| smooth.field().normal(*v)).collect();
+            let face = |t: &[u32; 3]| nameless(*t, t.map(|v| normals[v as usize]));
+            Faces { faces: triangles.iter().map(face).collect(), vertices: vertices.into() }
         }
     }
 }
 
+fn nameless<'a>(triangle: [u32; 3], normals: [DVec3; 3]) -> Face<'a> {
+    Face { name: None, corners: triangle.to_vec(), normals: normals.to_vec(), triangles: vec![triangle] }
+}
+
 /// The solid as OBJ, z up: each facet a polygon in a group of its name.
 pub fn write_obj(body: &Body, name: &str, scale: f64) -> String {
-    let faces = faces(body);
+    let Faces { faces, vertices } = faces(body);
     let mut text = format!("# {} facets\no {name}\n", faces.len());
-    for v in body.solid().vertices() {
+    for v in vertices.iter() {
         let v = *v * scale;
         // Formatting into a String cannot fail.
         let _ = writeln!(text, "v {} {} {}", v.x, v.y, v.z);
@@ -81,10 +96,10 @@ pub fn write_obj(body: &Body, name: &str, scale: f64) -> String {
 /// # Errors
 /// None that memory does not make: what is written to a list of bytes is never refused.
 pub fn write_stl(body: &Body, scale: f64) -> std::io::Result<Vec<u8>> {
-    let (faces, vertices) = (faces(body), body.solid().vertices());
+    let Faces { faces, vertices } = faces(body);
     let vector = |v: DVec3| stl_io::Vector::new(v.as_vec3().to_array());
     let triangle = |face: &Face, corners: [u32; 3]| stl_io::Triangle {
-        normal: vector(face.normal),
+        normal: vector(face.normals[0]),
         vertices: corners.map(|v| vector(vertices[v as usize] * scale)),
     };
     let each = faces.iter().flat_map(|face| face.triangles.iter().map(move |t| triangle(face, *t)));
@@ -106,12 +121,12 @@ pub fn write_glb(
     material: &MaterialHint,
 ) -> Result<Vec<u8>, gltf::Error> {
     let mut parts = Parts::default();
-    let vertices = body.solid().vertices();
+    let Faces { faces, vertices } = faces(body);
     let mut nameless = Primitive::default();
-    for face in faces(body) {
+    for face in faces {
         let mut own = Primitive::default();
         let primitive = if face.name.is_some() { &mut own } else { &mut nameless };
-        primitive.add(&face, vertices, scale);
+        primitive.add(&face, &vertices, scale);
         if let Some(name) = face.name {
             parts.primitive(Some(name), &own);
         }
@@ -161,7 +176,7 @@ impl Primitive {
         let place = |v: &u32| (first + face.corners.iter().position(|o| o == v).unwrap_or_default()) as u32;
         self.triangles.extend(face.triangles.iter().flatten().map(place));
         self.corners.extend(face.corners.iter().map(|&v| vertices[v as usize] * scale));
-        self.normals.resize(self.corners.len(), face.normal);
+        self.normals.extend(&face.normals);
     }
 }
 

@@ -1,7 +1,7 @@
 //! What a design makes: a stone between planes, or a solid of another kind.
 
 use super::Stone;
-use crate::math::{NotConvex, Shell, Solid, SolidRef};
+use crate::math::{NotConvex, Shell, Smooth, Solid, SolidRef};
 use glam::{DQuat, DVec3};
 use std::sync::Arc;
 
@@ -12,6 +12,8 @@ pub enum Body {
     Stone(Stone),
     /// Within triangles; not convex.
     Mesh(Arc<Shell>),
+    /// Within a smooth surface.
+    Glass(Smooth),
 }
 
 impl Body {
@@ -20,6 +22,7 @@ impl Body {
         match self {
             Self::Stone(stone) => SolidRef::Convex(&stone.polytope),
             Self::Mesh(shell) => SolidRef::Triangles(shell),
+            Self::Glass(smooth) => SolidRef::Smooth(smooth),
         }
     }
 
@@ -30,13 +33,26 @@ impl Body {
     pub fn stone(&self) -> Result<&Stone, NotConvex> {
         match self {
             Self::Stone(stone) => Ok(stone),
-            Self::Mesh(_) => Err(NotConvex),
+            Self::Mesh(_) | Self::Glass(_) => Err(NotConvex),
         }
     }
 
     /// The names of its facets, in their order; empty where they have none.
-    pub fn names(&self) -> &[String] {
-        self.stone().map_or(&[], Stone::names)
+    pub fn names(&self) -> Vec<String> {
+        match self {
+            Self::Stone(stone) => stone.names().to_vec(),
+            Self::Mesh(_) => vec![],
+            Self::Glass(smooth) => smooth.field().facets().iter().map(|name| (*name).to_owned()).collect(),
+        }
+    }
+
+    /// The name of a facet, by its place.
+    pub fn name(&self, facet: u32) -> String {
+        match self {
+            Self::Stone(stone) => stone.name(facet).replace('_', " "),
+            Self::Mesh(_) => format!("facet {}", facet + 1),
+            Self::Glass(smooth) => smooth.field().facets()[facet as usize].to_owned(),
+        }
     }
 
     /// The same turned about its axis, counter-clockwise from above, radians.
@@ -46,6 +62,7 @@ impl Body {
             Self::Mesh(shell) => {
                 Self::Mesh(Arc::new(shell.moved(1.0, DQuat::from_rotation_z(angle), DVec3::ZERO)))
             }
+            Self::Glass(smooth) => Self::Glass(smooth.moved(1.0, DQuat::from_rotation_z(angle), DVec3::ZERO)),
         }
     }
 }

@@ -35,7 +35,7 @@ impl Placed {
 
     /// A stone with the names of its facets, where it is.
     pub fn named(body: &Body, material: Material, label: &str) -> Self {
-        Self { solid: body.into(), material, names: body.names().to_vec(), label: label.to_owned() }
+        Self { solid: body.into(), material, names: body.names(), label: label.to_owned() }
     }
 
     /// The same stone scaled by a factor above 0, turned, then shifted.

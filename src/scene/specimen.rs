@@ -2,7 +2,7 @@
 
 use super::{Body, Medium, Stone};
 use crate::cut::{Cut, Design, DesignError, Tiers};
-use crate::math::{NotConvex, Plane, PolytopeError, SolidRef};
+use crate::math::{NotConvex, Plane, PolytopeError, Smooth, SolidRef};
 use crate::optics::Material;
 use std::sync::Arc;
 
@@ -37,8 +37,14 @@ impl Specimen {
     /// The first thing at fault with the design.
     pub fn new(design: Design) -> Result<Self, SpecimenError> {
         let material = design.material.material().map_err(DesignError::from)?;
-        if let Cut::Mesh(shape) = &design.cut {
-            let body = Body::Mesh(Arc::clone(&shape.0));
+        let body = match &design.cut {
+            Cut::Mesh(shape) => Some(Body::Mesh(Arc::clone(&shape.0))),
+            Cut::Glass(glass) if glass.planes().is_none() => {
+                Some(Body::Glass(Smooth::new(glass.field().map_err(DesignError::from)?)))
+            }
+            _ => None,
+        };
+        if let Some(body) = body {
             return Ok(Self { design, body, material, warnings: vec![] });
         }
         let mut facets = design.facets()?;

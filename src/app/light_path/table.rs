@@ -228,8 +228,7 @@ fn swatch(size: f32) -> f32 {
 }
 
 fn row(reading: &Reading, number: usize, step: &Step) -> Row {
-    let name = reading.body.names().get(step.facet as usize);
-    let name = name.map_or_else(|| format!("facet {}", step.facet + 1), |name| name.replace('_', " "));
+    let name = reading.body.name(step.facet);
     let angle = degrees(step.incidence);
     let critical = step.critical.map(degrees);
     let [leaves, elevation, azimuth, zone] = match step.leaving {

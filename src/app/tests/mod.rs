@@ -135,7 +135,9 @@ impl Bench {
     pub fn brilliant(&self) -> RoundBrilliant {
         match self.editor().document.work.design.cut {
             Cut::RoundBrilliant(brilliant) => brilliant,
-            Cut::Tiers(_) | Cut::Planes(_) | Cut::Mesh(_) => panic!("a round brilliant is expected"),
+            Cut::Tiers(_) | Cut::Planes(_) | Cut::Mesh(_) | Cut::Glass(_) => {
+                panic!("a round brilliant is expected")
+            }
         }
     }
 

@@ -7,8 +7,8 @@ use super::tier_form::{IndexForm, TierForm};
 use super::values::{Numbers, Table};
 use super::{FORMAT, Fault};
 use crate::cut::{
-    Crown, Cut, DEFAULT_DIAMETER_MM, Design, DesignError, LowerHalf, MAX_PLANES, MaterialRef, MeshShape,
-    Pavilion, RoundBrilliant, girdle_facets,
+    Crown, Cut, DEFAULT_DIAMETER_MM, Design, DesignError, Glass, LowerHalf, MAX_PLANES, MaterialRef,
+    MeshShape, Pavilion, Plate, RoundBrilliant, Sides, girdle_facets,
 };
 use crate::math::{Plane, Shell, Surface};
 use std::sync::Arc;
@@ -37,6 +37,14 @@ pub(super) struct DesignForm<B = Table<RoundBrilliantForm>> {
     plane: Option<Vec<Table<PlaneForm>>>,
     #[serde(skip_serializing_if = "Option::is_none")]
     mesh: Option<Table<MeshForm>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pill: Option<Table<Sides>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    cube: Option<Table<Sides>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    prism: Option<Table<Sides>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    plate: Option<Table<Plate>>,
 }
 
 fn default_diameter() -> f64 {
@@ -97,6 +105,10 @@ impl DesignForm<RoundBrilliant> {
             tier: None,
             plane: None,
             mesh: None,
+            pill: None,
+            cube: None,
+            prism: None,
+            plate: None,
         };
         match &design.cut {
             Cut::RoundBrilliant(given) => Self { round_brilliant: Some(*given), ..form },
@@ -109,6 +121,10 @@ impl DesignForm<RoundBrilliant> {
                 Self { plane: Some(planes.iter().map(|plane| Table(PlaneForm::of(plane))).collect()), ..form }
             }
             Cut::Mesh(shape) => Self { mesh: Some(Table(MeshForm::of(shape))), ..form },
+            Cut::Glass(Glass::Pill(sides)) => Self { pill: Some(Table(*sides)), ..form },
+            Cut::Glass(Glass::Cube(sides)) => Self { cube: Some(Table(*sides)), ..form },
+            Cut::Glass(Glass::Prism(sides)) => Self { prism: Some(Table(*sides)), ..form },
+            Cut::Glass(Glass::Plate(plate)) => Self { plate: Some(Table(*plate)), ..form },
         }
     }
 }
@@ -116,18 +132,30 @@ impl DesignForm<RoundBrilliant> {
 impl DesignForm {
     /// The design that the form describes, checked.
     pub fn design(self) -> Result<Design, Fault> {
-        let Self { round_brilliant, index, tier, plane, mesh, .. } = self;
+        let Self { round_brilliant, index, tier, plane, mesh, pill, cube, prism, plate, .. } = self;
+        let glass = [
+            pill.map(|Table(s)| ("pill", Glass::Pill(s))),
+            cube.map(|Table(s)| ("cube", Glass::Cube(s))),
+            prism.map(|Table(s)| ("prism", Glass::Prism(s))),
+            plate.map(|Table(p)| ("plate", Glass::Plate(p))),
+        ];
+        let mut glass = glass.into_iter().flatten();
+        let (first, second) = (glass.next(), glass.next());
+        if let (Some((one, _)), Some((other, _))) = (first, second) {
+            return Err(Fault::at(other, format!("{other}: give [{one}] or [{other}], not both")));
+        }
+        let glass = first;
         let design = Design {
             name: self.name,
             source: self.source,
             notes: self.notes,
             material: self.material.material()?,
             diameter_mm: self.diameter_mm,
-            cut: cut(Cuts { round_brilliant, index, tier, plane, mesh })?,
+            cut: cut(Cuts { round_brilliant, index, tier, plane, mesh, glass })?,
         };
         match design.check() {
             Ok(()) => Ok(design),
-            Err(error) => Err(Fault::at(path(&error, &design.material), error.to_string())),
+            Err(error) => Err(Fault::at(path(&error, &design), error.to_string())),
         }
     }
 }
@@ -139,16 +167,21 @@ struct Cuts {
     tier: Option<Vec<Table<TierForm>>>,
     plane: Option<Vec<Table<PlaneForm>>>,
     mesh: Option<Table<MeshForm>>,
+    /// With its key.
+    glass: Option<(&'static str, Glass)>,
 }
 
 /// The one cut that a file gives.
 fn cut(form: Cuts) -> Result<Cut, Fault> {
-    let Cuts { round_brilliant, index, tier, plane, mesh } = form;
+    let Cuts { round_brilliant, index, tier, plane, mesh, glass } = form;
+    let glass_key = glass.map_or("glass", |(key, _)| key);
+    let glass_form = format!("[{glass_key}]");
     let given = [
         ("round_brilliant", "[round_brilliant]", round_brilliant.is_some()),
         ("tier", "[[tier]]", tier.is_some() || index.is_some()),
         ("plane", "[[plane]]", plane.is_some()),
         ("mesh", "[mesh]", mesh.is_some()),
+        (glass_key, glass_form.as_str(), glass.is_some()),
     ];
     let mut given = given.into_iter().filter(|(.., is_given)| *is_given);
     if let (Some((_, first, _)), Some((key, other, _))) = (given.next(), given.next()) {
@@ -164,6 +197,9 @@ fn cut(form: Cuts) -> Result<Cut, Fault> {
     if let Some(Table(form)) = mesh {
         return form.shape().map(Cut::Mesh);
     }
+    if let Some((_, glass)) = glass {
+        return Ok(Cut::Glass(glass));
+    }
     match (index, tier) {
         (Some(Table(index)), Some(tiers)) => Ok(Cut::Tiers(index.tiers(tiers)?)),
         (Some(_), None) => Err(Fault::at("index", "index: the tiers are missing; give [[tier]]")),
@@ -175,11 +211,11 @@ fn cut(form: Cuts) -> Result<Cut, Fault> {
 }
 
 /// Where a file says what the design's check refuses.
-fn path(error: &DesignError, material: &MaterialRef) -> String {
+fn path(error: &DesignError, design: &Design) -> String {
     match error {
         DesignError::Name => "name".to_owned(),
         DesignError::Diameter { .. } => "diameter_mm".to_owned(),
-        DesignError::Material(error) => match material {
+        DesignError::Material(error) => match design.material {
             MaterialRef::Custom(_) => format!("material/{}", error.key()),
             MaterialRef::Name(_) | MaterialRef::Index(_) => "material".to_owned(),
         },
@@ -188,6 +224,10 @@ fn path(error: &DesignError, material: &MaterialRef) -> String {
         DesignError::Tiers { tier: None, fault } => format!("index/{}", fault.key()),
         DesignError::Tiers { tier: Some(number), fault } => format!("tier/{}/{}", number - 1, fault.key()),
         DesignError::NotConvex(_) => "mesh".to_owned(),
+        DesignError::Glass(error) => match design.cut {
+            Cut::Glass(glass) => format!("{}/{}", glass.called().0, error.key),
+            _ => error.key.to_owned(),
+        },
         DesignError::PlaneCount { .. } => format!("plane/{MAX_PLANES}"),
         DesignError::Plane { number, fault } => format!("plane/{}/{}", number - 1, fault.key()),
     }

@@ -20,7 +20,7 @@ pub(in super::super) fn tiers_of<'a>(specimen: &'a Specimen, lost: &mut Vec<Stri
     let brilliant = match &design.cut {
         Cut::Tiers(tiers) => return Cow::Borrowed(tiers),
         Cut::RoundBrilliant(_) => true,
-        Cut::Planes(_) | Cut::Mesh(_) => false,
+        Cut::Planes(_) | Cut::Mesh(_) | Cut::Glass(_) => false,
     };
     if brilliant {
         lost.push("the proportions have no place in the format, only the facets that they make".to_owned());

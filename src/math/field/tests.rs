@@ -340,9 +340,11 @@ fn moving_a_form_moves_all_that_is_told_of_it() {
     let (scale, shift) = (1.7, DVec3::new(0.3, -2.0, 1.1));
     let world = |p: DVec3| turn() * p * scale + shift;
     for field in forms() {
-        let there = field
-            .moved(0.5, turn().inverse(), DVec3::X)
-            .moved(scale / 0.5, turn() * turn(), { shift - turn() * turn() * DVec3::X * (scale / 0.5) });
+        let there = field.moved(0.5, turn().inverse(), DVec3::X).moved(
+            scale / 0.5,
+            turn() * turn(),
+            shift - turn() * turn() * DVec3::X * (scale / 0.5),
+        );
         assert!((there.volume() / field.volume() / scale.powi(3) - 1.0).abs() < 1e-12);
         assert!(there.reach() <= field.reach() * scale + shift.length() + 1e-12);
         let d = chance.direction();
