@@ -11,14 +11,14 @@ use crate::io::refraction_map::{self as files, Coding, MOST_BANDS, MOST_PIXELS};
 use crate::io::refraction_page::{Page, write_page};
 use crate::io::write_rgba_png;
 use crate::optics::strata;
-use crate::picture::{Backdrop, Carried, Develop, RefractionMap, Survey, develop, refract};
+use crate::picture::{Backdrop, Bloom, Carried, Develop, RefractionMap, Survey, Tone, develop, refract};
 use crate::scene::View;
 use clap::{Args, ValueEnum};
 use glam::DVec2;
 use std::path::{Path, PathBuf};
 
 /// Looks that the diffuse layer is made of when not told.
-const LOOKS: u32 = 8;
+const LOOKS: u32 = 4;
 
 /// The largest picture that is put into a page as it is, bytes.
 const MOST_BYTES_IN_PAGE: usize = 32 << 20;
@@ -65,7 +65,7 @@ enum Kind {
 
 impl RefractionMaps {
     pub fn run(&self) -> Result<(), Failure> {
-        let PictureOptions { size, tracer, overlay, background, .. } = &self.picture;
+        let PictureOptions { size, tracer, overlay, background, bloom, .. } = &self.picture;
         let refuse = |message: String| Err(Failure::Usage(message));
         if size.iter().any(|&side| side > MOST_PIXELS) {
             return refuse(format!("--size: a map has {MOST_PIXELS} pixels each way at most"));
@@ -73,8 +73,13 @@ impl RefractionMaps {
         if !matches!(tracer, TracerName::Auto | TracerName::Ray) {
             return refuse("refraction maps are traced by rays: leave out --tracer".into());
         }
-        if !overlay.is_empty() || background == "light" {
-            return refuse("maps have no overlays, and their background is a photograph's file".into());
+        if !overlay.is_empty() || ![0.0, Bloom::default().strength].contains(bloom) {
+            return refuse(
+                "refraction maps have no overlays and no glow: leave out --overlay and --bloom".into(),
+            );
+        }
+        if background == "light" {
+            return refuse("--background: give a photograph's file, or leave it out".into());
         }
         within("span", self.span, 1.0, 100.0)?;
         each_file(&self.files, |file| self.make(file))
@@ -87,6 +92,7 @@ impl RefractionMaps {
         let kinds = self.kinds(studio.photo.is_some())?;
         let bar = Progress::new(&studio.assembly.name);
         let (map, carried) = self.trace(&studio, &view, &bar)?;
+        let map = map.developed(&studio.develop);
         let Carried { behind, single } = carried;
         let (name, light) = (&studio.assembly.name, studio.light());
         let told = format!(
@@ -131,7 +137,6 @@ impl RefractionMaps {
             bands: &seen(self.bands),
             shades: &seen(self.picture.wavelengths),
             looks: self.picture.samples.unwrap_or(LOOKS),
-            gain: self.picture.exposure.exp2(),
         };
         let setting = &studio.assembly.setting;
         studio.sit(setting, (view, pixel), |sitting| {
@@ -172,8 +177,8 @@ impl RefractionMaps {
         }
         if let (true, Some(photo)) = (kinds.contains(&Kind::Preview), &studio.photo) {
             let path = self.out.join(format!("{stem}-refraction-preview.png"));
-            // The diffuse layer is exposed already, and the photograph shows as it is.
-            let manner = Develop { exposure: 0.0, ..studio.develop };
+            // The diffuse layer is developed already, and the photograph shows as it is.
+            let manner = Develop { bloom: None, tone: Tone::Linear, ..Develop::default() };
             let [width, height] = map.size;
             write_rgba_png(&path, &develop(&refract(map, photo), &manner), (width, height), told)?;
             written(path)?;
