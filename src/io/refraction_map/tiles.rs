@@ -42,7 +42,7 @@ pub(super) fn code_of(place: &Place) -> [u8; 3] {
 /// Tile and fine part of one coordinate.
 fn split(at: f64) -> (u8, u8) {
     // What is no number counts as 0.
-    let tiles = at.max(0.0).min(1.0) * BYTE / TILES;
+    let tiles = if at > 0.0 { at.min(1.0) * BYTE / TILES } else { 0.0 };
     let tile = tiles.floor().min(TILES - 1.0);
     (tile as u8, ((tiles - tile) * BYTE).round() as u8)
 }
