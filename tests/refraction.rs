@@ -220,9 +220,9 @@ fn refracting_by_the_map_is_tracing_to_40_db() {
         for bands in [1, 5] {
             let shoot = Shoot { view, bands, ..Shoot::of(solid.clone(), material.clone()) };
             let (map, _) = shoot.map();
-            let (own, traced) = (refract(&map, &photo), shoot.traced(&photo));
+            let (own, traced) = (refract(&map, &photo, DVec2::ZERO), shoot.traced(&photo));
             for coding in [Coding::Tiles, Coding::Sixteen, Coding::Float] {
-                let found = refract(&written(&map, coding), &photo);
+                let found = refract(&written(&map, coding), &photo, DVec2::ZERO);
                 let (to_map, to_all) = (psnr(&found, &own), psnr(&found, &traced));
                 assert!(to_map >= 40.0, "{name}, {bands} bands, {coding:?}: {to_map}");
                 // Between parallel faces all paths come out side by side, into nearly the same place.
@@ -239,7 +239,7 @@ fn a_white_background_and_a_white_light_leave_no_trace_of_a_clear_stone() {
         let mut shoot = Shoot::of(brilliant(), diamond());
         (shoot.light, shoot.bands, shoot.both_sides) = (Light::white(), 3, both_sides);
         let (map, carried) = shoot.map();
-        for pixel in refract(&map, &white).pixels {
+        for pixel in refract(&map, &white, DVec2::ZERO).pixels {
             assert!(pixel[..3].iter().all(|c| (c - 1.0).abs() < 1e-3), "{pixel:?}");
         }
         // Face up, a brilliant sends back nearly all.
@@ -260,7 +260,7 @@ fn bands_keep_the_rainbow_and_one_band_has_none() {
     let colour = |bands| {
         let mut shoot = Shoot { bands, ..Shoot::of(prism.clone(), diamond()) };
         shoot.span = 4.0;
-        let picture = refract(&shoot.map().0, &lines);
+        let picture = refract(&shoot.map().0, &lines, DVec2::ZERO);
         let spread = |p: &[f32; 4]| {
             p[..3].iter().copied().fold(0.0, f32::max) - p[..3].iter().copied().fold(1.0, f32::min)
         };
@@ -268,6 +268,20 @@ fn bands_keep_the_rainbow_and_one_band_has_none() {
     };
     let (one, many) = (colour(1), colour(8));
     assert!(one < 1e-5 && many > 0.2, "{one}, {many}");
+}
+
+#[test]
+fn a_background_that_moves_is_seen_moving_and_mirrored_beyond_its_border() {
+    // Nothing but a photograph: a stone that is out of the picture.
+    let mut shoot = Shoot::of(boxed(DVec3::splat(8.0), DVec3::splat(8.1)), glass(1.5));
+    shoot.span = 1.0;
+    let (map, _) = shoot.map();
+    let ramp =
+        Panorama { width: 96, height: 72, pixels: (0..96 * 72).map(|k| [(k % 96) as f32; 3]).collect() };
+    for (offset, first, last) in [(0.0, 0.0, 95.0), (0.25, 24.0, 72.0), (1.0, 95.0, 0.0), (-2.0, 0.0, 95.0)] {
+        let row = &refract(&map, &ramp, DVec2::new(offset, 0.0)).pixels[96 * 30..96 * 31];
+        assert!((row[0][0] - first).abs() < 1e-3 && (row[95][0] - last).abs() < 1e-3, "{offset}");
+    }
 }
 
 #[test]

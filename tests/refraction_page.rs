@@ -6,6 +6,7 @@
 use brillianteer::io::{panorama, refraction_map};
 use brillianteer::optics::encoded_from_linear;
 use brillianteer::picture::{Linear, refract};
+use glam::DVec2;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
@@ -76,12 +77,12 @@ fn made(options: &str) -> tempfile::TempDir {
 }
 
 /// The picture that the map refracts, in eight-bit codes.
-fn expected(folder: &Path, bands: usize) -> Vec<[u8; 3]> {
+fn expected(folder: &Path, bands: usize, offset: DVec2) -> Vec<[u8; 3]> {
     let stem = "modern-ideal";
     let paths = refraction_map::paths(folder, stem, bands, refraction_map::Coding::Tiles);
     let map = refraction_map::read(&paths, &refraction_map::diffuse_path(folder, stem)).unwrap();
     let photo = panorama::read_photo(&folder.join("photo.png")).unwrap().panorama;
-    let Linear { pixels, .. } = refract(&map, &photo);
+    let Linear { pixels, .. } = refract(&map, &photo, offset);
     let code = |c: f32| (encoded_from_linear(f64::from(c).clamp(0.0, 1.0)) * 255.0).round() as u8;
     pixels.iter().map(|&[r, g, b, _]| [r, g, b].map(code)).collect()
 }
@@ -107,12 +108,14 @@ fn psnr(a: &[[u8; 3]], b: &[[u8; 3]]) -> f64 {
 fn the_page_shows_what_the_program_refracts() {
     let Some(browser) = browser() else { return };
     for (bands, options) in [(1, "--tilt 20"), (5, "--bands 5 --both-sides --perspective 6")] {
+        let offset = DVec2::new(0.375, -0.25) * f64::from(bands - 1);
         let folder = made(&format!("--background photo.png {options}"));
         let picture = folder.path().join("shot.png");
         let shoot = format!("--screenshot={}", picture.display());
         let more = ["--window-size=400,300", "--virtual-time-budget=5000", &shoot];
-        open(&browser, folder.path(), "modern-ideal-refraction.html#still", &[&SOFTWARE[..], &more].concat());
-        let (found, wanted) = (shot(&picture), expected(folder.path(), bands));
+        let page = format!("modern-ideal-refraction.html#still,{},{}", offset.x, offset.y);
+        open(&browser, folder.path(), &page, &[&SOFTWARE[..], &more].concat());
+        let (found, wanted) = (shot(&picture), expected(folder.path(), bands as usize, offset));
         let (same, mut mirrored) = (psnr(&found, &wanted), wanted.clone());
         mirrored.chunks_mut(200).for_each(<[_]>::reverse);
         let other = psnr(&found, &mirrored);

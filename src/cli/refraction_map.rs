@@ -180,7 +180,12 @@ impl RefractionMaps {
             // The diffuse layer is developed already, and the photograph shows as it is.
             let manner = Develop { bloom: None, tone: Tone::Linear, ..Develop::default() };
             let [width, height] = map.size;
-            write_rgba_png(&path, &develop(&refract(map, photo), &manner), (width, height), told)?;
+            write_rgba_png(
+                &path,
+                &develop(&refract(map, photo, DVec2::ZERO), &manner),
+                (width, height),
+                told,
+            )?;
             written(path)?;
         }
         Ok(())

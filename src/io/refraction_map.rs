@@ -64,7 +64,7 @@ impl About {
 pub fn paths(folder: &Path, stem: &str, bands: usize, coding: Coding) -> Vec<PathBuf> {
     let kind = match coding {
         Coding::Tiles => "",
-        Coding::Sixteen => "-16",
+        Coding::Sixteen => "-16bit",
         Coding::Float => return vec![folder.join(format!("{stem}-refraction.exr"))],
     };
     let name = |band: usize| match bands {

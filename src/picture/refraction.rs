@@ -107,9 +107,10 @@ impl RefractionMap {
 
 /// Refracts a background by a map: linear light, all covered.
 ///
-/// The background fills the map's plane and is cut where it is longer. It is looked up between its four nearest pixels;
-/// one much finer than the map is best halved before.
-pub fn refract(map: &RefractionMap, background: &Panorama) -> Linear {
+/// The background fills the map's plane and is cut where it is longer; it is moved to the left and up by `offset`, in parts
+/// of itself, and goes on beyond its borders as in a mirror. It is looked up between its four nearest pixels; one much finer
+/// than the map is best halved before.
+pub fn refract(map: &RefractionMap, background: &Panorama, offset: DVec2) -> Linear {
     let [width, height] = map.size;
     let shape = f64::from(width) / f64::from(height.max(1));
     let whole = DVec2::new(f64::from(background.width), f64::from(background.height));
@@ -121,8 +122,9 @@ pub fn refract(map: &RefractionMap, background: &Panorama) -> Linear {
         for band in &map.bands {
             let Place { u, v, weight } = band.places.get(k).copied().unwrap_or_default();
             if weight > 0.0 {
-                let at = (DVec2::new(f64::from(u), f64::from(v)) - 0.5) * scale + 0.5 * whole - 0.5;
-                light += band.response * background.between(at) * f64::from(weight);
+                let at = (DVec2::new(f64::from(u), f64::from(v)) - 0.5) * scale + (0.5 + offset) * whole;
+                let folded = whole - (at.rem_euclid(2.0 * whole) - whole).abs();
+                light += band.response * background.between(folded - 0.5) * f64::from(weight);
             }
         }
         let [red, green, blue] = light.as_vec3().to_array();

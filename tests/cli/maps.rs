@@ -10,7 +10,7 @@ fn a_refraction_map_comes_in_every_coding_with_its_diffuse_layer_a_page_and_a_pr
     let line =
         "refraction-map cube.toml --size 48x32 --samples 1 --wavelengths 2 --tilt 20 --background photo.png";
     let printed = desk.done(&format!("{line} --out maps --format tiled,png16,exr,page,preview"));
-    let endings = [".png", "-16.png", ".exr", "-diffuse.png", ".html", "-preview.png"];
+    let endings = [".png", "-16bit.png", ".exr", "-diffuse.png", ".html", "-preview.png"];
     let expected = endings.map(|ending| format!("maps/cube-refraction{ending}"));
     assert_eq!(printed.lines().collect::<Vec<_>>(), expected);
     assert_eq!(files(&desk.at("maps")).len(), 6, "nothing else is left");

@@ -163,6 +163,13 @@ fn float(bytes: &[u8]) -> Result<Found, String> {
     let meta = MetaData::read_from_buffered(Cursor::new(bytes), false).map_err(damaged)?;
     for header in &meta.headers {
         check([header.layer_size.width() as u64, header.layer_size.height() as u64], bytes.len())?;
+        if header.channels.list.len() > 3 * MOST_BANDS as usize {
+            return Err(format!(
+                "{} channels; a map has {} at most",
+                header.channels.list.len(),
+                3 * MOST_BANDS
+            ));
+        }
     }
     let image = reader()
         .no_deep_data()

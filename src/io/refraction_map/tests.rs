@@ -146,7 +146,8 @@ fn what_is_no_map_is_told_by_its_name_and_never_panics() {
     assert_eq!(read(&[at("bare.png")], &diffuse).unwrap().bands[0].response, DMat3::IDENTITY);
     assert!(refused(&[at("bare.png"), at("bare.png")], &diffuse).contains("wavelength"));
     // Cut, spoilt and lying files: whatever comes of them, it comes soon.
-    for name in ["a-refraction.png", "a-refraction-16.png", "a-refraction.exr", "a-refraction-diffuse.png"] {
+    for name in ["a-refraction.png", "a-refraction-16bit.png", "a-refraction.exr", "a-refraction-diffuse.png"]
+    {
         let bytes = std::fs::read(at(name)).unwrap();
         for k in 0..150 {
             let mut spoilt = bytes.clone();
