@@ -4,6 +4,8 @@
 
 #[path = "cli/desk.rs"]
 mod desk;
+#[path = "cli/maps.rs"]
+mod maps;
 #[path = "cli/pictures.rs"]
 mod pictures;
 #[path = "cli/renders.rs"]

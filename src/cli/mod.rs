@@ -11,6 +11,7 @@ mod options;
 mod picture_options;
 mod picturing;
 mod progress;
+mod refraction_map;
 mod render;
 mod sampler;
 mod specimen;
@@ -63,6 +64,8 @@ enum Command {
     Render(render::Render),
     /// Show a stone turning, rocking or wobbling under light, as an animated PNG and its frames
     Spin(spin::Spin),
+    /// Map where the light behind each pixel comes from, for pages that refract a moving background by looking it up
+    RefractionMap(refraction_map::RefractionMaps),
     /// Measure the light of one view: what comes from where, with its error
     Measure(measure::Measure),
     /// Show a stone's geometry, proportions and weight, or the stones of a scene
@@ -106,6 +109,7 @@ pub fn main(editor: Option<Editor>) -> ExitCode {
         Command::Export(export) => export.run(),
         Command::Render(render) => render.run(),
         Command::Spin(spin) => spin.run(),
+        Command::RefractionMap(maps) => maps.run(),
         Command::Measure(measure) => measure.run(),
         Command::Info(info) => info.run(),
         Command::Convert(convert) => convert.run(),

@@ -8,7 +8,7 @@ use super::{Failure, tell};
 use crate::io::export::Sampler;
 use crate::io::lighting::Lighting;
 use crate::io::panorama;
-use crate::optics::strata;
+use crate::optics::{Illuminant, strata};
 use crate::picture::spectral::{Remainder, expose};
 use crate::picture::{Background, Bloom, ByBeams, Develop, Linear, Overlay, Tone, develop, lay};
 use crate::scene::{Film, Panorama, Projection, Setting, View};
@@ -58,7 +58,7 @@ pub struct Studio<'a> {
     options: &'a PictureOptions,
     pub assembly: Assembly,
     lighting: Lighting,
-    photo: Option<Panorama>,
+    pub photo: Option<Panorama>,
     backdrop: bool,
     pub develop: Develop,
     tracer: Cell<Tracer>,
@@ -78,7 +78,8 @@ fn kept(mut photo: Panorama) -> Panorama {
     photo
 }
 
-fn within(key: &str, value: f64, least: f64, most: f64) -> Result<f64, Failure> {
+/// A number that an option takes, if it is in its range.
+pub fn within(key: &str, value: f64, least: f64, most: f64) -> Result<f64, Failure> {
     if (least..=most).contains(&value) {
         return Ok(value);
     }
@@ -222,6 +223,16 @@ impl<'a> Studio<'a> {
         format!("light {}; {tracer}", self.lighting.light.name)
     }
 
+    /// The light's name.
+    pub fn light(&self) -> &str {
+        &self.lighting.light.name
+    }
+
+    /// The light's spectrum, to which eyes are used.
+    pub fn spectrum(&self) -> &Illuminant {
+        &self.lighting.light.spectrum
+    }
+
     /// What was asked for that a file of bare light does not hold, in words.
     pub fn undeveloped(&self) -> Option<&'static str> {
         let Develop { exposure, tone, .. } = self.develop;
@@ -243,7 +254,12 @@ impl<'a> Studio<'a> {
     }
 
     /// Does work with everything in its place.
-    fn sit<T>(&self, setting: &Setting, (view, pixel): (&View, f64), work: impl FnOnce(&Sitting) -> T) -> T {
+    pub fn sit<T>(
+        &self,
+        setting: &Setting,
+        (view, pixel): (&View, f64),
+        work: impl FnOnce(&Sitting) -> T,
+    ) -> T {
         let turn = DQuat::from_rotation_z(self.options.turn.to_radians());
         let mut basis = view.light_basis();
         let turned = |x: DVec3| basis.right * x.x + basis.up * x.y + basis.toward * x.z;
@@ -257,7 +273,7 @@ impl<'a> Studio<'a> {
             Behind {
                 picture,
                 distance,
-                width: pixel * across.max(down * shape) * self.nearness(view, distance),
+                width: pixel * across.max(down * shape) * Self::nearness(view, distance),
             }
         });
         work(&Sitting {
@@ -281,7 +297,7 @@ impl<'a> Studio<'a> {
     }
 
     /// How much larger than in the image's plane a photograph must be to fill it from behind.
-    fn nearness(&self, view: &View, behind: f64) -> f64 {
+    pub fn nearness(view: &View, behind: f64) -> f64 {
         match view.projection {
             Projection::Orthographic => 1.0,
             Projection::Perspective { distance } => (distance + behind) / distance,

@@ -4,7 +4,7 @@ use super::atomic::{WriteError, write};
 use crate::picture::{Layer, paint};
 use crate::scene::Film;
 use crate::trace::Watch;
-use exr::meta::attribute::Chromaticities;
+use exr::meta::attribute::{AttributeValue, Chromaticities};
 use exr::prelude::{
     AnyChannel, AnyChannels, Encoding, FlatSamples, Image, ImageAttributes, Layer as ExrLayer,
     LayerAttributes, LineOrder, Text, WritableImage,
@@ -37,20 +37,24 @@ pub fn write_exr(
     let named = layer.channels.iter().zip(channels);
     let list: SmallVec<[AnyChannel<FlatSamples>; 4]> =
         named.map(|(name, values)| AnyChannel::new(name.as_str(), FlatSamples::F32(values))).collect();
-    write_channels(path, size, list, description, None)
+    write_channels(path, size, list, (description, None), None)
 }
 
-/// Writes one layer, `light`, of these channels.
+/// Writes one layer, `light`, of these channels, with a description and another text under a name of its own.
 pub(super) fn write_channels(
     path: &Path,
     size: (usize, usize),
     channels: SmallVec<[AnyChannel<FlatSamples>; 4]>,
-    description: &str,
+    (description, more): (&str, Option<(&str, &str)>),
     chromaticities: Option<Chromaticities>,
 ) -> Result<(), WriteError> {
     let mut attributes = LayerAttributes::named("light");
     attributes.comments = Text::new_or_none(description);
     attributes.software_name = Text::new_or_none("Brillianteer");
+    let more = more.and_then(|(name, text)| {
+        Some((Text::new_or_none(name)?, AttributeValue::Text(Text::new_or_none(text)?)))
+    });
+    attributes.other.extend(more);
     // In any other order the threads' race would decide where in the file a tile comes to lie.
     let encoding = Encoding { line_order: LineOrder::Increasing, ..Encoding::FAST_LOSSLESS };
     let data = ExrLayer::new(size, attributes, encoding, AnyChannels::sort(channels));

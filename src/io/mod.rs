@@ -22,6 +22,8 @@ pub mod mesh_file;
 pub mod panorama;
 mod picture_file;
 mod png;
+pub mod refraction_map;
+pub mod refraction_page;
 pub mod scene_file;
 pub mod scope_file;
 mod text;

@@ -60,7 +60,7 @@ pub fn write_linear_exr(path: &Path, picture: &Linear, description: &str) -> Res
         AnyChannel::new(name, FlatSamples::F32(picture.pixels.iter().map(|pixel| pixel[c]).collect()))
     };
     let channels = ["R", "G", "B", "A"].into_iter().enumerate().map(channel).collect();
-    exr::write_channels(path, size, channels, description, Some(SRGB))
+    exr::write_channels(path, size, channels, (description, None), Some(SRGB))
 }
 
 /// What is wrong with so many pixels.

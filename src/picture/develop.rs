@@ -59,7 +59,7 @@ pub fn develop(picture: &Linear, manner: &Develop) -> Vec<u8> {
 }
 
 /// The light as exposed and spread.
-fn exposed(picture: &Linear, manner: &Develop) -> Linear {
+pub(super) fn exposed(picture: &Linear, manner: &Develop) -> Linear {
     let gain = manner.exposure.clamp(-MOST_STOPS, MOST_STOPS).exp2() as f32;
     let sane = |v: f32, least: f32, most: f32| if v.is_nan() { 0.0 } else { v.clamp(least, most) };
     let mut out = picture.clone().whole();
@@ -75,7 +75,7 @@ fn exposed(picture: &Linear, manner: &Develop) -> Linear {
 }
 
 /// What a screen can show of a pixel.
-fn shown([r, g, b, cover]: [f32; 4], manner: &Develop) -> [f32; 4] {
+pub(super) fn shown([r, g, b, cover]: [f32; 4], manner: &Develop) -> [f32; 4] {
     let white = 1000_f64.min(manner.white).max(0.1) as f32;
     let [r, g, b] = manner.tone.shown(reachable([r, g, b]), white);
     [r, g, b, cover]

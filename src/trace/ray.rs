@@ -14,7 +14,7 @@ mod sight;
 mod tree;
 
 pub use self::camera::Camera;
-pub use self::company::ByRays;
+pub use self::company::{ByRays, Company, First, Waiting};
 use self::facets::{Facets, Planes, Shape, Smooth, Triangles, Wavy};
 use self::light::Light;
 use self::path::{Exiting, Meeting};

@@ -168,13 +168,17 @@ impl Surround<'_> {
     }
 }
 
+/// Where in the eye's image a ray meets the plane at a distance behind the origin, square to the axis to the eye; `None`
+/// where it does not.
+pub fn met_behind(eye: &Basis, distance: f64, from: DVec3, direction: DVec3) -> Option<DVec2> {
+    let (speed, height) = (-direction.dot(eye.toward), from.dot(eye.toward) + distance);
+    let meets = speed > ALONG && height > 0.0;
+    meets.then(|| eye.project(from + direction * (height / speed)))
+}
+
 impl Behind<'_> {
     fn at(&self, eye: &Basis, from: DVec3, direction: DVec3) -> Option<DVec3> {
-        let (speed, height) = (-direction.dot(eye.toward), from.dot(eye.toward) + self.distance);
-        if speed <= ALONG || height <= 0.0 {
-            return None;
-        }
-        let p = eye.project(from + direction * (height / speed)) * DVec2::new(1.0, -1.0) / self.width + 0.5;
+        let p = met_behind(eye, self.distance, from, direction)? * DVec2::new(1.0, -1.0) / self.width + 0.5;
         let size = DVec2::new(f64::from(self.picture.width), f64::from(self.picture.height));
         let at = DVec2::new(p.x, (p.y - 0.5) * size.x / size.y + 0.5) * size - 0.5;
         let inside = at.cmpge(DVec2::splat(-0.5)).all() && at.cmple(size - 0.5).all();

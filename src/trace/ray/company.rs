@@ -1,7 +1,7 @@
 //! Pictures under light by point rays: stones beside one another, light going from one to the next.
 
 use super::sight::{Met, is_near, nearest};
-use super::{Camera, Exit, Tracer};
+use super::{Camera, Exit, Rest, Tracer};
 use crate::math::Solid;
 use crate::scene::Medium;
 use crate::trace::sitting::{Exposure, Lit, Look, MOST_WAITING, Sitting};
@@ -9,100 +9,107 @@ use crate::trace::{Stopped, Watch};
 use glam::{DVec2, DVec3, DVec4};
 use rayon::prelude::*;
 use std::ops::Range;
+use std::sync::Arc;
 
 /// Rows traced between two calls of the watch.
 const PIECE: usize = 8;
 
-/// Rows of a picture, traced by the processor in f64.
-pub struct ByRays<'a> {
-    sitting: Sitting<'a>,
-    camera: Camera,
+/// Stones beside one another, each of one medium, and the light that goes from one to the next.
+#[derive(Clone)]
+pub struct Company {
     tracers: Vec<Tracer>,
-    balls: Vec<(DVec3, f64)>,
-    rows: Range<u32>,
-    looks: u32,
-    sums: Vec<Lit>,
+    balls: Arc<[(DVec3, f64)]>,
+    least_weight: f64,
 }
 
 /// A ray on its way, and the stone that it left.
-#[derive(Clone, Copy)]
-struct Waiting {
-    origin: DVec3,
-    direction: DVec3,
-    sweep: DVec3,
-    weight: f64,
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Waiting {
+    /// Where it begins.
+    pub origin: DVec3,
+    /// Its unit direction.
+    pub direction: DVec3,
+    /// How far that direction moves over the medium's spread of indices.
+    pub sweep: DVec3,
+    /// The share of light from that direction which reaches the eye.
+    pub weight: f64,
     left: Option<usize>,
 }
 
-impl<'a> ByRays<'a> {
-    /// Prepares some rows of a picture.
-    pub fn new(sitting: Sitting<'a>, rows: Range<u32>) -> Self {
+impl Waiting {
+    /// A ray from the eye.
+    pub fn from_eye((origin, direction): (DVec3, DVec3)) -> Self {
+        Self { origin, direction, sweep: DVec3::ZERO, weight: 1.0, left: None }
+    }
+}
+
+impl Company {
+    /// The stones of a sitting, of no medium yet.
+    pub fn new(sitting: &Sitting) -> Self {
         let tracer = |stone: &Solid| Tracer::new(stone, Medium::clear(1.0), sitting.options);
         Self {
-            sitting,
-            camera: Camera::reaching(sitting.view, sitting.reach()),
             tracers: sitting.stones().map(tracer).collect(),
-            balls: sitting.balls(),
-            sums: vec![Lit::default(); rows.len() * sitting.film.size[0] as usize],
-            rows,
-            looks: 0,
+            balls: sitting.balls().into(),
+            least_weight: sitting.options.least_weight,
         }
     }
 
-    /// What one ray of a pixel sees, over all wavelengths.
-    fn see(&self, tracers: &[Vec<Tracer>], look: &Look, at: DVec2) -> Lit {
-        let (origin, direction) = self.camera.ray(at);
-        let start = Waiting { origin, direction, sweep: DVec3::ZERO, weight: 1.0, left: None };
-        // Where it meets the first stone is the same for all wavelengths.
-        let first = self.nearest(&start);
-        let is_seen = first.is_some() || self.sitting.surround.backdrop;
-        let mut lit = Lit { cover: f64::from(u8::from(is_seen)), ..Lit::default() };
-        let mut waiting = Vec::with_capacity(MOST_WAITING);
-        for (band, response) in look.responses.iter().enumerate() {
-            let (mut light, mut unseen) = (DVec4::ZERO, 0.0);
-            let mut through = |ray: &Waiting, met: Option<Met>, waiting: &mut Vec<Waiting>| {
-                let Some((stone, met)) = met else { return light += self.arriving(ray, look) };
-                let leave = |exit: Exit| {
-                    let Exit { point: origin, direction, sweep, weight, .. } = exit;
-                    let ray = Waiting { origin, direction, sweep, weight, left: Some(stone) };
-                    if !self.meets_any(&ray) {
-                        light += self.arriving(&ray, look);
-                    } else if waiting.len() < MOST_WAITING && weight > self.sitting.options.least_weight {
-                        waiting.push(ray);
-                    } else {
-                        unseen += weight;
-                    }
-                };
-                let (tracer, way) = (&tracers[stone][band], (ray.direction, ray.sweep));
-                let is_taken = |exit: &Exit, distance: f64| self.meets_before(exit, stone, distance);
-                if let Some(rest) = tracer.follow_from(met, ray.origin, way, ray.weight, is_taken, leave) {
-                    lit.unresolved += rest.unresolved;
-                    lit.absorbed += rest.absorbed;
-                }
-            };
-            if is_seen {
-                through(&start, first, &mut waiting);
-            }
-            while let Some(ray) = waiting.pop() {
-                through(&ray, self.nearest(&ray), &mut waiting);
-            }
-            lit.colour += response.iter().zip(light.to_array()).map(|(&c, l)| c * l).sum::<DVec3>();
-            lit.unresolved += unseen;
-        }
-        let share = 1.0 / look.responses.len() as f64;
-        let Lit { unresolved, absorbed, .. } = lit;
-        Lit { unresolved: unresolved * share, absorbed: absorbed * share, ..lit }
-    }
-
-    /// The light that comes down a ray from what stands around.
-    fn arriving(&self, ray: &Waiting, look: &Look) -> DVec4 {
-        let middle = look.middle(ray.direction, ray.sweep);
-        self.sitting.surround.radiance(ray.origin, middle, ray.sweep) * ray.weight
+    /// The stones at each band of a look.
+    pub fn made_of(&self, look: &Look) -> Vec<Self> {
+        let of_band = |band: usize| {
+            let made = |(tracer, media): (&Tracer, &Vec<Medium>)| tracer.made_of(media[band]);
+            Self { tracers: self.tracers.iter().zip(&look.media).map(made).collect(), ..self.clone() }
+        };
+        (0..look.responses.len()).map(of_band).collect()
     }
 
     /// The stone that a ray meets first, and where.
-    fn nearest(&self, ray: &Waiting) -> Option<Met> {
-        nearest(&self.tracers, &self.balls, (ray.origin, ray.direction), ray.left)
+    pub fn first(&self, ray: &Waiting) -> Option<First> {
+        nearest(&self.tracers, &self.balls, (ray.origin, ray.direction), ray.left).map(First)
+    }
+
+    /// Follows a ray through all stones, from the one that it is known to meet, calling `leave` with what goes to none any
+    /// more.
+    pub fn follow(&self, start: &Waiting, first: &First, mut leave: impl FnMut(&Waiting)) -> Rest {
+        let mut waiting = Vec::new();
+        let mut rest = self.through(start, first.0, &mut waiting, &mut leave);
+        while let Some(ray) = waiting.pop() {
+            match self.first(&ray) {
+                Some(first) => {
+                    let more = self.through(&ray, first.0, &mut waiting, &mut leave);
+                    rest.unresolved += more.unresolved;
+                    rest.absorbed += more.absorbed;
+                }
+                None => leave(&ray),
+            }
+        }
+        rest
+    }
+
+    /// Follows a ray through one stone; what goes on to others is put with those that wait.
+    fn through(
+        &self,
+        ray: &Waiting,
+        (stone, met): Met,
+        waiting: &mut Vec<Waiting>,
+        mut leave: impl FnMut(&Waiting),
+    ) -> Rest {
+        let mut unseen = 0.0;
+        let exits = |exit: Exit| {
+            let Exit { point: origin, direction, sweep, weight, .. } = exit;
+            let ray = Waiting { origin, direction, sweep, weight, left: Some(stone) };
+            if !self.meets_any(&ray) {
+                leave(&ray);
+            } else if waiting.len() < MOST_WAITING && weight > self.least_weight {
+                waiting.push(ray);
+            } else {
+                unseen += weight;
+            }
+        };
+        let (tracer, way) = (&self.tracers[stone], (ray.direction, ray.sweep));
+        let is_taken = |exit: &Exit, distance: f64| self.meets_before(exit, stone, distance);
+        let rest = tracer.follow_from(met, ray.origin, way, ray.weight, is_taken, exits).unwrap_or_default();
+        Rest { unresolved: rest.unresolved + unseen, ..rest }
     }
 
     /// Whether a ray meets a stone other than the one that it left.
@@ -123,11 +130,68 @@ impl<'a> ByRays<'a> {
     }
 }
 
+/// The stone that a ray meets first.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct First(Met);
+
+/// Rows of a picture, traced by the processor in f64.
+pub struct ByRays<'a> {
+    sitting: Sitting<'a>,
+    camera: Camera,
+    company: Company,
+    rows: Range<u32>,
+    looks: u32,
+    sums: Vec<Lit>,
+}
+
+impl<'a> ByRays<'a> {
+    /// Prepares some rows of a picture.
+    pub fn new(sitting: Sitting<'a>, rows: Range<u32>) -> Self {
+        Self {
+            sitting,
+            camera: Camera::reaching(sitting.view, sitting.reach()),
+            company: Company::new(&sitting),
+            sums: vec![Lit::default(); rows.len() * sitting.film.size[0] as usize],
+            rows,
+            looks: 0,
+        }
+    }
+
+    /// What one ray of a pixel sees, over all wavelengths.
+    fn see(&self, bands: &[Company], look: &Look, at: DVec2) -> Lit {
+        let start = Waiting::from_eye(self.camera.ray(at));
+        // Where it meets the first stone is the same for all wavelengths.
+        let first = self.company.first(&start);
+        let is_seen = first.is_some() || self.sitting.surround.backdrop;
+        let mut lit = Lit { cover: f64::from(u8::from(is_seen)), ..Lit::default() };
+        for (company, response) in bands.iter().zip(&look.responses) {
+            let mut light = DVec4::ZERO;
+            match &first {
+                Some(first) => {
+                    let rest = company.follow(&start, first, |ray| light += self.arriving(ray, look));
+                    lit.unresolved += rest.unresolved;
+                    lit.absorbed += rest.absorbed;
+                }
+                None if is_seen => light = self.arriving(&start, look),
+                None => {}
+            }
+            lit.colour += response.iter().zip(light.to_array()).map(|(&c, l)| c * l).sum::<DVec3>();
+        }
+        let share = 1.0 / look.responses.len() as f64;
+        let Lit { unresolved, absorbed, .. } = lit;
+        Lit { unresolved: unresolved * share, absorbed: absorbed * share, ..lit }
+    }
+
+    /// The light that comes down a ray from what stands around.
+    fn arriving(&self, ray: &Waiting, look: &Look) -> DVec4 {
+        let middle = look.middle(ray.direction, ray.sweep);
+        self.sitting.surround.radiance(ray.origin, middle, ray.sweep) * ray.weight
+    }
+}
+
 impl<E: From<Stopped>> Exposure<E> for ByRays<'_> {
     fn look(&mut self, look: &Look, watch: Watch) -> Result<(), E> {
-        let made =
-            |(tracer, media): (&Tracer, &Vec<Medium>)| media.iter().map(|&m| tracer.made_of(m)).collect();
-        let tracers: Vec<Vec<Tracer>> = self.tracers.iter().zip(&look.media).map(made).collect();
+        let bands = self.company.made_of(look);
         let across = self.sitting.film.size[0] as usize;
         let mut sums = std::mem::take(&mut self.sums);
         let pieces = sums.chunks_mut(across * PIECE).enumerate();
@@ -141,7 +205,7 @@ impl<E: From<Stopped>> Exposure<E> for ByRays<'_> {
             pixels.par_iter_mut().enumerate().for_each(|(k, sum)| {
                 let (x, y) = ((k % across) as u32, self.rows.start + (piece * PIECE + k / across) as u32);
                 let lit = self.see(
-                    &tracers,
+                    &bands,
                     look,
                     self.sitting.film.image_from_pixels(DVec2::new(f64::from(x), f64::from(y)) + look.shift),
                 );

@@ -1,0 +1,210 @@
+//! `refraction-map`: where the light behind each pixel comes from, for pages and programs that refract by looking it up.
+
+use super::options::{TracerName, ViewOptions};
+use super::picture_options::PictureOptions;
+use super::picturing::{Studio, within};
+use super::progress::Progress;
+use super::specimen::stem;
+use super::{Failure, each_file, say};
+use crate::io::export::{Sampler, Told};
+use crate::io::refraction_map::{self as files, Coding, MOST_BANDS, MOST_PIXELS};
+use crate::io::refraction_page::{Page, write_page};
+use crate::io::write_rgba_png;
+use crate::optics::strata;
+use crate::picture::{Backdrop, Bloom, Carried, Develop, RefractionMap, Survey, Tone, develop, refract};
+use crate::scene::View;
+use clap::{Args, ValueEnum};
+use glam::DVec2;
+use std::path::{Path, PathBuf};
+
+/// Looks that the diffuse layer is made of when not told.
+const LOOKS: u32 = 4;
+
+/// The largest picture that is put into a page as it is, bytes.
+const MOST_BYTES_IN_PAGE: usize = 32 << 20;
+
+#[derive(Debug, Args)]
+pub struct RefractionMaps {
+    /// Designs, meshes, scene files, or names of cuts and scenes that come with the program
+    #[arg(required = true)]
+    files: Vec<PathBuf>,
+    /// Folder to write to
+    #[arg(long, default_value = "out")]
+    out: PathBuf,
+    /// What to write, separated by commas [default: tiled,page, and preview with a photograph]
+    #[arg(long, value_enum, value_delimiter = ',', value_name = "KIND")]
+    format: Vec<Kind>,
+    /// Maps of N bands of wavelengths instead of one for all light, so that the look-up keeps its rainbow, 1 to 16
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=i64::from(MOST_BANDS)))]
+    bands: u32,
+    /// How many times as wide as the picture the background is; light from beyond it is in the diffuse layer
+    #[arg(long, value_name = "TIMES", default_value_t = 2.0)]
+    span: f64,
+    /// Hang the same background before the stones too, so that what they send back to the eye's side shows it
+    #[arg(long)]
+    both_sides: bool,
+    #[command(flatten)]
+    view: ViewOptions,
+    #[command(flatten)]
+    picture: PictureOptions,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Kind {
+    /// 8-bit PNG of 16 by 16 tiles, and the diffuse layer
+    Tiled,
+    /// 16-bit PNG: u, v and weight, and the diffuse layer
+    Png16,
+    /// OpenEXR: u, v and weight in 32 bits, and the diffuse layer
+    Exr,
+    /// A web page that refracts a moving background
+    Page,
+    /// The photograph of --background, refracted by the map
+    Preview,
+}
+
+impl RefractionMaps {
+    pub fn run(&self) -> Result<(), Failure> {
+        let PictureOptions { size, tracer, overlay, background, bloom, .. } = &self.picture;
+        let refuse = |message: String| Err(Failure::Usage(message));
+        if size.iter().any(|&side| side > MOST_PIXELS) {
+            return refuse(format!("--size: a map has {MOST_PIXELS} pixels each way at most"));
+        }
+        if !matches!(tracer, TracerName::Auto | TracerName::Ray) {
+            return refuse("refraction maps are traced by rays: leave out --tracer".into());
+        }
+        if !overlay.is_empty() || ![0.0, Bloom::default().strength].contains(bloom) {
+            return refuse(
+                "refraction maps have no overlays and no glow: leave out --overlay and --bloom".into(),
+            );
+        }
+        if background == "light" {
+            return refuse("--background: give a photograph's file, or leave it out".into());
+        }
+        within("span", self.span, 1.0, 100.0)?;
+        each_file(&self.files, |file| self.make(file))
+    }
+
+    fn make(&self, file: &Path) -> Result<(), Failure> {
+        let viewpoint = self.view.viewpoint()?;
+        let view = viewpoint.view();
+        let studio = Studio::load(&self.picture, file, &view)?;
+        let kinds = self.kinds(studio.photo.is_some())?;
+        let bar = Progress::new(&studio.assembly.name);
+        let (map, carried) = self.trace(&studio, &view, &bar)?;
+        let map = map.developed(&studio.develop);
+        let Carried { behind, single } = carried;
+        let (name, light) = (&studio.assembly.name, studio.light());
+        let told = format!(
+            "{name}; refraction map, bands {}; background {} behind, {} times as wide{}; light {light}; {}; {:.1} % of the \
+             light comes from the background, {:.1} % of that from the map's places; {}",
+            self.bands,
+            self.picture.photo_distance,
+            self.span,
+            if self.both_sides { ", on both sides" } else { "" },
+            Sampler::Rays.told(),
+            100.0 * behind,
+            100.0 * single,
+            viewpoint.told()
+        );
+        self.write(file, &studio, &map, (&kinds, &told), &bar)
+    }
+
+    fn kinds(&self, has_photo: bool) -> Result<Vec<Kind>, Failure> {
+        if self.format.contains(&Kind::Preview) && !has_photo {
+            return Err(Failure::Usage("--format preview: give a photograph by --background".into()));
+        }
+        let usual = [Kind::Tiled, Kind::Page].into_iter().chain(has_photo.then_some(Kind::Preview));
+        Ok(if self.format.is_empty() { usual.collect() } else { self.format.clone() })
+    }
+
+    fn trace(
+        &self,
+        studio: &Studio,
+        view: &View,
+        bar: &Progress,
+    ) -> Result<(RefractionMap, Carried), Failure> {
+        let pixel = studio.pixel(&studio.assembly.setting, view)?;
+        let distance = self.picture.photo_distance;
+        let [across, down] = self.picture.size.map(f64::from);
+        let plane = Backdrop {
+            distance,
+            size: DVec2::new(across, down) * pixel * self.span * Studio::nearness(view, distance),
+            both_sides: self.both_sides,
+        };
+        let seen = |count| strata(count, studio.spectrum(), !self.picture.unadapted);
+        let survey = Survey {
+            bands: &seen(self.bands),
+            shades: &seen(self.picture.wavelengths),
+            looks: self.picture.samples.unwrap_or(LOOKS),
+        };
+        let setting = &studio.assembly.setting;
+        studio.sit(setting, (view, pixel), |sitting| {
+            Ok(RefractionMap::trace(sitting, &plane, &survey, &bar.watch())?)
+        })
+    }
+
+    fn write(
+        &self,
+        file: &Path,
+        studio: &Studio,
+        map: &RefractionMap,
+        (kinds, told): (&[Kind], &str),
+        bar: &Progress,
+    ) -> Result<(), Failure> {
+        let stem = stem(file);
+        let written = |path: PathBuf| bar.tell(Told::Written(&path));
+        for (kind, coding) in
+            [(Kind::Tiled, Coding::Tiles), (Kind::Png16, Coding::Sixteen), (Kind::Exr, Coding::Float)]
+        {
+            if kinds.contains(&kind) {
+                let paths = files::paths(&self.out, &stem, map.bands.len(), coding);
+                files::write_places(&paths, map, coding, told)?;
+                paths.into_iter().try_for_each(written)?;
+            }
+        }
+        if kinds.iter().any(|kind| matches!(kind, Kind::Tiled | Kind::Png16 | Kind::Exr)) {
+            let path = files::diffuse_path(&self.out, &stem);
+            files::write_diffuse(&path, map, told)?;
+            written(path)?;
+        }
+        if kinds.contains(&Kind::Page) {
+            let path = self.out.join(format!("{stem}-refraction.html"));
+            let background = self.background(studio)?;
+            let (title, background) = (studio.assembly.name.as_str(), background.as_deref());
+            write_page(&path, map, &Page { title, told, span: self.span, background })?;
+            written(path)?;
+        }
+        if let (true, Some(photo)) = (kinds.contains(&Kind::Preview), &studio.photo) {
+            let path = self.out.join(format!("{stem}-refraction-preview.png"));
+            // The diffuse layer is developed already, and the photograph shows as it is.
+            let manner = Develop { bloom: None, tone: Tone::Linear, ..Develop::default() };
+            let [width, height] = map.size;
+            write_rgba_png(
+                &path,
+                &develop(&refract(map, photo, DVec2::ZERO), &manner),
+                (width, height),
+                told,
+            )?;
+            written(path)?;
+        }
+        Ok(())
+    }
+
+    /// The photograph's file, where browsers can show it.
+    fn background(&self, studio: &Studio) -> Result<Option<Vec<u8>>, Failure> {
+        if studio.photo.is_none() {
+            return Ok(None);
+        }
+        let path = &self.picture.background;
+        let bytes =
+            std::fs::read(path).map_err(|e| Failure::Input(format!("{path}: cannot be read: {e}")))?;
+        let shows = bytes.starts_with(b"\x89PNG") || bytes.starts_with(b"\xff\xd8");
+        if shows && bytes.len() <= MOST_BYTES_IN_PAGE {
+            return Ok(Some(bytes));
+        }
+        let most = MOST_BYTES_IN_PAGE >> 20;
+        say(&format!("note: {path}: not put into the page, which takes PNG and JPEG of up to {most} MiB"));
+        Ok(None)
+    }
+}

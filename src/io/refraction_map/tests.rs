@@ -1,0 +1,182 @@
+use super::*;
+use glam::DVec2;
+
+/// A map of all sorts of places, 61 by 37 pixels.
+fn map(bands: usize) -> RefractionMap {
+    let [width, height] = [61_u32, 37];
+    let place = |k: u32, band: usize| {
+        let k = f64::from(k) + 0.37 * band as f64;
+        let part = |step: f64| (k * step).fract() as f32;
+        // Borders, and pixels that nothing behind is seen through.
+        let edge = [0.0, 1.0, part(0.618_034), part(0.754_877)];
+        let weight = if k as u32 % 7 == 3 { 0.0 } else { part(0.569_840) };
+        Place { u: edge[k as usize % 4], v: edge[(k as usize / 4) % 4], weight }
+    };
+    let band = |band: usize| MapBand {
+        nm: 400.0 + 60.0 * band as f64,
+        response: DMat3::from_diagonal(glam::DVec3::splat(1.0 / bands as f64)),
+        places: (0..width * height).map(|k| place(k, band)).collect(),
+    };
+    let light = |k: u32| {
+        let part = |step: f32| (k as f32 * step).fract();
+        [part(0.31), part(0.17), part(0.53), 1.0 - place(k, 0).weight]
+    };
+    let pixels = (0..width * height).map(light).collect();
+    RefractionMap {
+        size: [width, height],
+        bands: (0..bands).map(band).collect(),
+        diffuse: Linear { width, height, pixels },
+    }
+}
+
+/// The same map, written and read.
+fn again(map: &RefractionMap, coding: Coding) -> RefractionMap {
+    let folder = tempfile::tempdir().unwrap();
+    let paths = paths(folder.path(), "a", map.bands.len(), coding);
+    let diffuse = diffuse_path(folder.path(), "a");
+    write_places(&paths, map, coding, "a test").unwrap();
+    write_diffuse(&diffuse, map, "a test").unwrap();
+    read(&paths, &diffuse).unwrap()
+}
+
+/// How far places, and weights, of two maps lie apart where something comes from behind.
+fn apart(a: &RefractionMap, b: &RefractionMap) -> (f64, f64) {
+    let both = a.bands.iter().zip(&b.bands).flat_map(|(a, b)| a.places.iter().zip(&b.places));
+    both.filter(|(a, _)| a.weight > 0.0).fold((0.0, 0.0), |(place, weight), (a, b)| {
+        let off = |a: f32, b: f32| f64::from((a - b).abs());
+        (off(a.u, b.u).max(off(a.v, b.v)).max(place), off(a.weight, b.weight).max(weight))
+    })
+}
+
+#[test]
+fn every_code_of_the_tiles_is_a_place_and_the_nearest_one_to_itself() {
+    for blue in 0..=255 {
+        for fine in 0..=255 {
+            let code = [fine, 255 - fine, blue];
+            let at = tiles::place(code);
+            // What is printed of it: in numbers of 0 to 1, but for blue of 1, which is beyond its last column.
+            let [r, g, b] = code.map(|byte| f64::from(byte) / 255.0);
+            let column = (16.0 * b).floor().min(15.0);
+            let printed =
+                DVec2::new(16.0 * r + 16.0 * column, 16.0 * g + 16.0 * (255.0 * b).round().rem_euclid(16.0));
+            assert!(at.abs_diff_eq(printed / 255.0, 1e-12), "{code:?}");
+            assert!(at.min_element() >= 0.0 && at.max_element() <= 256.0 / 255.0 + 1e-12);
+            if at.max_element() <= 1.0 {
+                assert!(tiles::place(tiles::code(at)).abs_diff_eq(at, 1e-12), "{code:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn tiles_keep_a_place_within_a_4096th() {
+    let mut worst = 0.0_f64;
+    for k in 0..=200_000 {
+        let u = f64::from(k) / 200_000.0;
+        let at = DVec2::new(u, (u * 77.0).fract());
+        worst = (tiles::place(tiles::code(at)) - at).abs().max_element().max(worst);
+    }
+    assert!(worst > 1.0 / 8200.0 && worst <= 1.0 / 8128.0 + 1e-12, "{worst}");
+    for (odd, kept) in [(f64::NAN, 0.0), (-1.0, 0.0), (7.0, 1.0), (f64::INFINITY, 1.0)] {
+        assert!((tiles::place(tiles::code(DVec2::splat(odd))) - kept).abs().max_element() < 1.0 / 8128.0);
+    }
+}
+
+#[test]
+fn a_map_comes_back_from_every_coding() {
+    for bands in [1, 3] {
+        let map = map(bands);
+        for (coding, place, weight) in [
+            (Coding::Tiles, 1.0 / 4096.0, 2.0),
+            (Coding::Sixteen, 0.5001 / 65_535.0, 0.5001 / 65_535.0),
+            (Coding::Float, 0.0, 0.0),
+        ] {
+            let found = again(&map, coding);
+            let weight = if coding == Coding::Tiles && bands > 1 { 0.5001 / 255.0 } else { weight };
+            let (places, weights) = apart(&map, &found);
+            assert!(places <= place && weights <= weight, "{coding:?}: {places}, {weights}");
+            assert_eq!((found.size, found.bands.len()), (map.size, bands));
+            for (a, b) in found.bands.iter().zip(&map.bands) {
+                assert!(a.nm == b.nm && a.response == b.response, "{coding:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn the_diffuse_layer_keeps_its_light_and_what_it_hides() {
+    let map = map(1);
+    let found = again(&map, Coding::Tiles);
+    for (k, (a, b)) in map.diffuse.pixels.iter().zip(&found.diffuse.pixels).enumerate() {
+        let most = a[..3].iter().copied().fold(a[3], f32::max);
+        assert!((b[3] - most).abs() <= 1.001 / 255.0, "{k}: cover {}, not {most}", b[3]);
+        for c in 0..3 {
+            // A code of sRGB is 0.9 % of the light at the brightest.
+            assert!((a[c] - b[c]).abs() < 0.006, "{k}: {} is not {}", b[c], a[c]);
+        }
+        // Without weights of their own, tiles take what the layer leaves.
+        assert_eq!(found.bands[0].places[k].weight, 1.0 - b[3]);
+    }
+}
+
+#[test]
+fn what_is_no_map_is_told_by_its_name_and_never_panics() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = |name: &str| folder.path().join(name);
+    let map = map(1);
+    for coding in [Coding::Tiles, Coding::Sixteen, Coding::Float] {
+        write_places(&paths(folder.path(), "a", 1, coding), &map, coding, "").unwrap();
+    }
+    let diffuse = diffuse_path(folder.path(), "a");
+    write_diffuse(&diffuse, &map, "").unwrap();
+    let refused = |places: &[PathBuf], diffuse: &Path| read(places, diffuse).unwrap_err();
+    let tiled = at("a-refraction.png");
+    assert!(refused(&[at("none.png")], &diffuse).ends_with("none.png: there is no such file"));
+    assert!(refused(std::slice::from_ref(&tiled), &at("none.png")).contains("none.png"));
+    assert!(refused(&[], &diffuse).contains("0 maps"));
+    assert!(refused(std::slice::from_ref(&diffuse), &diffuse).contains("RGB of 8 or 16 bits"));
+    assert!(refused(std::slice::from_ref(&tiled), &tiled).contains("RGBA of 8 bits"));
+    std::fs::write(at("text.png"), "no picture").unwrap();
+    assert!(refused(&[at("text.png")], &diffuse).contains("text.png: this is no PNG or OpenEXR"));
+    let small = RefractionMap { size: [1, 1], bands: Vec::new(), diffuse: Linear::new(1, 1) };
+    write_diffuse(&at("small.png"), &small, "").unwrap();
+    assert!(refused(std::slice::from_ref(&tiled), &at("small.png")).contains("give files of one map"));
+    let bare = super::png([61, 37], (ColorType::Rgb, BitDepth::Eight), &[0; 61 * 37 * 3], &[]).unwrap();
+    std::fs::write(at("bare.png"), &bare).unwrap();
+    assert_eq!(read(&[at("bare.png")], &diffuse).unwrap().bands[0].response, DMat3::IDENTITY);
+    assert!(refused(&[at("bare.png"), at("bare.png")], &diffuse).contains("wavelength"));
+    // Cut, spoilt and lying files: whatever comes of them, it comes soon.
+    for name in ["a-refraction.png", "a-refraction-16bit.png", "a-refraction.exr", "a-refraction-diffuse.png"]
+    {
+        let bytes = std::fs::read(at(name)).unwrap();
+        for k in 0..150 {
+            let mut spoilt = bytes.clone();
+            match k % 3 {
+                0 => spoilt.truncate(k * bytes.len() / 150),
+                1 => spoilt[(k * 7919) % bytes.len().min(400)] ^= 1 << (k % 8),
+                _ => spoilt[(k * 104_729) % bytes.len()] = 255,
+            }
+            std::fs::write(at("spoilt"), spoilt).unwrap();
+            let _ = read(&[at("spoilt")], &diffuse);
+            let _ = read(std::slice::from_ref(&tiled), &at("spoilt"));
+        }
+    }
+}
+
+#[test]
+fn maps_that_lack_pixels_are_not_written() {
+    let folder = tempfile::tempdir().unwrap();
+    for broken in [
+        RefractionMap { size: [60, 37], ..map(1) },
+        RefractionMap { size: [0, 0], bands: map(1).bands, diffuse: Linear::new(0, 0) },
+    ] {
+        for coding in [Coding::Tiles, Coding::Sixteen, Coding::Float] {
+            assert!(write_places(&paths(folder.path(), "a", 1, coding), &broken, coding, "").is_err());
+        }
+    }
+    assert!(
+        write_diffuse(&folder.path().join("a"), &RefractionMap { diffuse: Linear::new(0, 4), ..map(1) }, "")
+            .is_err()
+    );
+    assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
+}

@@ -1,0 +1,192 @@
+//! Tracing a refraction map.
+
+use super::{Backdrop, Carried, MapBand, Place, RefractionMap, Survey};
+use crate::optics::Stratum;
+use crate::picture::{LUMINANCE, Linear};
+use crate::trace::ray::{Camera, Company, First, Waiting};
+use crate::trace::sitting::{Look, Sitting};
+use crate::trace::surround::Surround;
+use crate::trace::{Stopped, Watch};
+use glam::{DMat3, DVec2, DVec3};
+use rayon::prelude::*;
+
+/// Rows traced between two calls of the watch.
+const PIECE: u32 = 8;
+
+/// What is found of one row: its places band by band, its diffuse layer, and sums of what is carried with their number.
+struct Row {
+    places: Vec<Vec<Place>>,
+    diffuse: Vec<[f32; 4]>,
+    behind: f64,
+    single: f64,
+    hits: u32,
+}
+
+/// What is surveyed.
+struct Scene<'a> {
+    sitting: &'a Sitting<'a>,
+    surround: Surround<'a>,
+    plane: &'a Backdrop,
+    camera: Camera,
+    company: Company,
+}
+
+impl RefractionMap {
+    /// Traces a map of what a sitting shows; a photograph behind it is left out.
+    ///
+    /// # Errors
+    /// [`Stopped`] when `watch` asks to stop.
+    pub fn trace(
+        sitting: &Sitting,
+        plane: &Backdrop,
+        survey: &Survey,
+        watch: Watch,
+    ) -> Result<(Self, Carried), Stopped> {
+        let scene = Scene {
+            sitting,
+            surround: Surround { behind: None, ..sitting.surround },
+            plane,
+            camera: Camera::reaching(sitting.view, sitting.reach()),
+            company: Company::new(sitting),
+        };
+        let looks = |strata, count: u32| -> Vec<(Look, Vec<Company>)> {
+            let look = |number| Look::new(sitting.setting, strata, number);
+            (0..count).map(look).map(|look| (look.clone(), scene.company.made_of(&look))).collect()
+        };
+        let (middle, shades) = (looks(survey.bands, 1), looks(survey.shades, survey.looks.max(1)));
+        let [width, height] = sitting.film.size;
+        let band = |s: &Stratum| {
+            let [_, red, green, blue] = s.response;
+            MapBand { nm: s.at(0.5), response: DMat3::from_cols(red, green, blue), places: Vec::new() }
+        };
+        let mut map = Self {
+            size: [width, height],
+            bands: survey.bands.iter().map(band).collect(),
+            diffuse: Linear { width, height, pixels: Vec::new() },
+        };
+        let (mut carried, mut hits) = (Carried::default(), 0);
+        for first in (0..height).step_by(PIECE as usize) {
+            if watch(f64::from(first) / f64::from(height)).is_break() {
+                return Err(Stopped);
+            }
+            let rows: Vec<Row> = (first..height.min(first + PIECE))
+                .into_par_iter()
+                .map(|y| scene.row(y, &middle[0].1, &shades))
+                .collect();
+            for row in rows {
+                map.bands.iter_mut().zip(row.places).for_each(|(band, places)| band.places.extend(places));
+                map.diffuse.pixels.extend(row.diffuse);
+                carried.behind += row.behind;
+                carried.single += row.single;
+                hits += row.hits;
+            }
+        }
+        let part = |of: f64, all: f64| if all > 0.0 { of / all } else { 0.0 };
+        let rays = f64::from(hits) * survey.bands.len() as f64;
+        let carried =
+            Carried { behind: part(carried.behind, rays), single: part(carried.single, carried.behind) };
+        Ok((map, carried))
+    }
+}
+
+impl Scene<'_> {
+    fn row(&self, y: u32, bands: &[Company], shades: &[(Look, Vec<Company>)]) -> Row {
+        let width = self.sitting.film.size[0];
+        let mut row = Row {
+            places: vec![Vec::with_capacity(width as usize); bands.len()],
+            diffuse: Vec::with_capacity(width as usize),
+            behind: 0.0,
+            single: 0.0,
+            hits: 0,
+        };
+        for x in 0..width {
+            let corner = DVec2::new(f64::from(x), f64::from(y));
+            let (start, first) = self.start(corner + 0.5);
+            row.hits += u32::from(first.is_some());
+            for (company, places) in bands.iter().zip(&mut row.places) {
+                let (place, single) = self.strongest(company, &start, first);
+                places.push(place);
+                if first.is_some() {
+                    row.behind += f64::from(place.weight);
+                    row.single += single;
+                }
+            }
+            let light: Shade = shades.iter().map(|(look, bands)| self.shade(look, bands, corner)).sum();
+            row.diffuse.push(light.pixel(shades.len()));
+        }
+        row
+    }
+
+    /// The ray through a point of the picture, in pixels, and the stone that it meets first.
+    fn start(&self, at: DVec2) -> (Waiting, Option<First>) {
+        let start = Waiting::from_eye(self.camera.ray(self.sitting.film.image_from_pixels(at)));
+        (start, self.company.first(&start))
+    }
+
+    /// The strongest path to the background with the weight of all of them, and its own.
+    fn strongest(&self, company: &Company, start: &Waiting, first: Option<First>) -> (Place, f64) {
+        let (mut at, mut most, mut sum) = (DVec2::ZERO, 0.0, 0.0);
+        let mut leave = |ray: &Waiting| {
+            if let Some(place) = self.plane.place(&self.surround.eye, ray.origin, ray.direction) {
+                sum += ray.weight;
+                if ray.weight > most {
+                    (at, most) = (place, ray.weight);
+                }
+            }
+        };
+        match &first {
+            Some(first) => drop(company.follow(start, first, leave)),
+            None => leave(start),
+        }
+        (Place { u: at.x as f32, v: at.y as f32, weight: sum.min(1.0) as f32 }, most)
+    }
+
+    /// What one look sees at a pixel.
+    fn shade(&self, look: &Look, bands: &[Company], corner: DVec2) -> Shade {
+        let (start, first) = self.start(corner + look.shift);
+        let mut light = Shade::default();
+        let Some(first) = first else {
+            light.behind = DVec3::ONE;
+            return light;
+        };
+        for (company, response) in bands.iter().zip(&look.responses) {
+            company.follow(&start, &first, |ray| {
+                let way = look.middle(ray.direction, ray.sweep);
+                if self.plane.place(&self.surround.eye, ray.origin, way).is_some() {
+                    light.behind += response[1..].iter().sum::<DVec3>() * ray.weight;
+                } else {
+                    let arriving = self.surround.radiance(ray.origin, way, ray.sweep) * ray.weight;
+                    let seen = response.iter().zip(arriving.to_array()).map(|(&c, l)| c * l);
+                    light.elsewhere += seen.sum::<DVec3>();
+                }
+            });
+        }
+        light
+    }
+}
+
+/// Linear light of a pixel: from a white background, and from elsewhere.
+#[derive(Clone, Copy, Default)]
+struct Shade {
+    behind: DVec3,
+    elsewhere: DVec3,
+}
+
+impl std::iter::Sum for Shade {
+    fn sum<I: Iterator<Item = Self>>(all: I) -> Self {
+        all.fold(Self::default(), |a, b| Self {
+            behind: a.behind + b.behind,
+            elsewhere: a.elsewhere + b.elsewhere,
+        })
+    }
+}
+
+impl Shade {
+    /// The diffuse layer's pixel, of the sum of so many looks.
+    fn pixel(&self, looks: usize) -> [f32; 4] {
+        let share = 1.0 / looks as f64;
+        let [red, green, blue] = (self.elsewhere * share).as_vec3().to_array();
+        let white = self.behind.dot(DVec3::from_array(LUMINANCE.map(f64::from))) * share;
+        [red, green, blue, 1.0 - white.clamp(0.0, 1.0) as f32]
+    }
+}

@@ -1,0 +1,76 @@
+//! What `refraction-map` makes.
+
+use super::desk::*;
+use brillianteer::io::refraction_map::{Coding, diffuse_path, paths, read};
+
+#[test]
+fn a_refraction_map_comes_in_every_coding_with_its_diffuse_layer_a_page_and_a_preview() {
+    let desk = Desk::new();
+    desk.done("render cube.toml --background #c08040 --size 40 --samples 1 --wavelengths 2 --out photo.png");
+    let line =
+        "refraction-map cube.toml --size 48x32 --samples 1 --wavelengths 2 --tilt 20 --background photo.png";
+    let printed = desk.done(&format!("{line} --out maps --format tiled,png16,exr,page,preview"));
+    let endings = [".png", "-16bit.png", ".exr", "-diffuse.png", ".html", "-preview.png"];
+    let expected = endings.map(|ending| format!("maps/cube-refraction{ending}"));
+    assert_eq!(printed.lines().collect::<Vec<_>>(), expected);
+    assert_eq!(files(&desk.at("maps")).len(), 6, "nothing else is left");
+    let maps = [Coding::Tiles, Coding::Sixteen, Coding::Float].map(|coding| {
+        let folder = desk.at("maps");
+        read(&paths(&folder, "cube", 1, coding), &diffuse_path(&folder, "cube")).unwrap()
+    });
+    for k in 0..48 * 32 {
+        let [tiles, sixteen, float] = maps.each_ref().map(|map| map.bands[0].places[k]);
+        if float.weight > 0.0 {
+            near(tiles.u.into(), float.u.into(), 1.0 / 4096.0, "tiles");
+            near(tiles.v.into(), float.v.into(), 1.0 / 4096.0, "tiles");
+            near(sixteen.u.into(), float.u.into(), 1e-5, "16 bits");
+        }
+    }
+    let (size, _, told) = png(&desk.at("maps/cube-refraction-preview.png"));
+    assert_eq!(size, (48, 32));
+    assert!(told.contains("refraction map, bands 1; background 3 behind, 2 times as wide"), "{told}");
+    assert!(told.contains("% of the light comes from the background"), "{told}");
+    let page = desk.read("maps/cube-refraction.html");
+    assert!(page.contains("<h1>Cube</h1>") && page.contains("data:image/png;base64,"));
+    // Of several bands each has its maps; without a photograph there is no preview.
+    let printed =
+        desk.done("refraction-map cube.toml --size 32 --samples 1 --wavelengths 2 --bands 3 --out three");
+    let names = ["-01.png", "-02.png", "-03.png", "-diffuse.png", ".html"];
+    assert_eq!(printed.lines().collect::<Vec<_>>(), names.map(|n| format!("three/cube-refraction{n}")));
+    let three = paths(&desk.at("three"), "cube", 3, Coding::Tiles);
+    let map = read(&three, &diffuse_path(&desk.at("three"), "cube")).unwrap();
+    assert!(map.bands.len() == 3 && map.bands[0].nm < map.bands[2].nm);
+}
+
+#[test]
+fn a_refraction_map_is_the_same_bytes_on_any_number_of_threads() {
+    let desk = Desk::new();
+    for threads in ["1", "2"] {
+        let line = format!(
+            "refraction-map tolkowsky --size 40 --samples 2 --wavelengths 2 --format tiled,exr --out {threads}"
+        );
+        let run = desk.command(&line).env("RAYON_NUM_THREADS", threads).output().unwrap();
+        assert_eq!(came_of(&line, &run).0, 0);
+    }
+    assert!(files(&desk.at("1")) == files(&desk.at("2")));
+}
+
+#[test]
+fn what_a_refraction_map_cannot_be_is_told() {
+    let desk = Desk::new();
+    for (options, told) in [
+        ("--format preview", "--background"),
+        ("--size 5000", "4096"),
+        ("--tracer beam", "--tracer"),
+        ("--overlay wireframe", "--overlay"),
+        ("--bloom 0.5", "--bloom"),
+        ("--background light", "photograph"),
+        ("--span 0.5", "--span"),
+        ("--bands 17", "17"),
+    ] {
+        let said = desk.refused(&format!("refraction-map cube.toml --out none {options}"), 2);
+        assert!(said.contains(told), "{options}: {said}");
+    }
+    assert!(desk.refused("refraction-map none.toml --out none", 1).contains("none.toml"));
+    assert!(!desk.at("none").exists());
+}
