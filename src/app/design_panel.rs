@@ -3,7 +3,7 @@
 use super::editor::Editor;
 use super::files::Purpose;
 use super::proportions::{EXCELLENT_DEPTH, PROPORTIONS, Proportion};
-use super::{theme, tier_rows};
+use super::{glass_rows, theme, tier_rows};
 use crate::cut::{Cut, DesignError, MaterialRef, RoundBrilliant, Size, Unit};
 use crate::optics::{line, materials};
 use crate::scene::{LIGHTS, SpecimenError, light};
@@ -84,7 +84,11 @@ fn proportions(editor: &mut Editor, ui: &mut Ui) {
         _ => None,
     };
     let Cut::RoundBrilliant(brilliant) = &mut editor.document.work.design.cut else {
-        tier_rows::show(&mut editor.document.work.design.cut, ui);
+        match &mut editor.document.work.design.cut {
+            Cut::Glass(glass) => glass_rows::show(glass, ui),
+            Cut::Mesh(_) => {}
+            cut => tier_rows::show(cut, ui),
+        }
         warnings(editor, ui);
         if let Some(fault) = fault {
             wrong(ui, &fault);

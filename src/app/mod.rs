@@ -13,6 +13,7 @@ mod eye;
 mod figures_panel;
 mod files;
 mod following;
+mod glass_rows;
 mod history;
 mod keeping;
 mod light_path;

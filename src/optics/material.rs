@@ -2,7 +2,7 @@
 
 use super::absorption::Absorption;
 use super::dispersion::{Dispersion, DispersionError};
-use super::gems;
+use super::{gems, glasses};
 use std::fmt;
 use std::sync::LazyLock;
 
@@ -105,12 +105,12 @@ pub fn material(name: &str) -> Result<&'static Material, UnknownMaterial> {
 }
 
 /// All materials that we know by name: diamond first, then the other published laws, all colourless; then those from
-/// trade tables and the coloured gems.
+/// trade tables and the coloured gems; then glasses.
 pub fn materials() -> &'static [Material] {
     static MATERIALS: LazyLock<Vec<Material>> = LazyLock::new(|| {
         let colourless = [published(), ordinary_rays()].concat();
         let gems = gems::gems(&colourless);
-        [colourless, gems].concat()
+        [colourless, gems, glasses::glasses()].concat()
     });
     &MATERIALS
 }
@@ -273,7 +273,7 @@ mod tests {
 
     #[test]
     fn every_material_has_an_index_that_falls_with_wavelength_throughout_visible_light() {
-        assert_eq!(materials().len(), 29);
+        assert_eq!(materials().len(), 41);
         for m in materials() {
             assert_eq!(m.dispersion.clone().checked().as_ref(), Ok(&m.dispersion), "{}", m.name);
             let indices: Vec<f64> = (360..=830).map(|nm| m.index(nm.into())).collect();

@@ -10,6 +10,7 @@ pub mod colour;
 pub mod dispersion;
 pub mod fresnel;
 mod gems;
+mod glasses;
 pub mod illuminant;
 pub mod material;
 pub mod observer;
