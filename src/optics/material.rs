@@ -333,8 +333,8 @@ mod tests {
             "{text}"
         );
         assert_eq!(material("Saphire").unwrap_err().near, ["sapphire"]);
-        let stranger = material("unobtainium").unwrap_err();
-        assert!(stranger.near.is_empty() && stranger.to_string().contains("'unobtainium'; known: diamond"));
+        let stranger = material("kryptonite").unwrap_err();
+        assert!(stranger.near.is_empty() && stranger.to_string().contains("'kryptonite'; known: diamond"));
         assert!(material("").unwrap_err().near.is_empty());
     }
 

@@ -190,12 +190,12 @@ fn a_key_that_is_unknown_or_missing_is_told_with_those_that_are_known() {
     assert_told(
         &with("[round_brilliant]", ""),
         "x.toml:7: unknown key `crown_angle`, known here are `format`, `name`, `source`, `notes`, `diameter_mm`, \
-         `material`, `round_brilliant`, `index`, `tier`, `plane`, `mesh`; it belongs below a line [round_brilliant]",
+         `material`, `round_brilliant`, `index`, `tier`, `plane`, `mesh`, `pill`, `cube`, `prism`, `plate`; it belongs below a line [round_brilliant]",
     );
     assert_told(
         &with("[round_brilliant]", "[round_brillant]"),
         "x.toml:5: unknown key `round_brillant`, known here are `format`, `name`, `source`, `notes`, `diameter_mm`, \
-         `material`, `round_brilliant`, `index`, `tier`, `plane`, `mesh`; did you mean `round_brilliant`?",
+         `material`, `round_brilliant`, `index`, `tier`, `plane`, `mesh`, `pill`, `cube`, `prism`, `plate`; did you mean `round_brilliant`?",
     );
     assert_told(
         &with("\"diamond\"", "{ refraction = 2 }"),
