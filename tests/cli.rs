@@ -218,7 +218,7 @@ fn a_solid_that_is_not_convex_is_shown_measured_and_converted_by_its_triangles()
     }
     for format in ["asc", "gem", "gcs"] {
         assert!(desk.refused(&format!("convert l.obj again.{format}"), 3).contains("convex"));
-        assert!(!desk.at(&format!("again.{format}")).exists());
+        assert!(!desk.at(format!("again.{format}")).exists());
     }
     let (code, _, told) = desk.run("render l.obj --out out --size 24 --samples 1");
     assert!(code == 0 && told.contains("traced as 20 triangles"), "{told}");

@@ -1,5 +1,5 @@
 //! Glass shapes refract as textbooks say.
-#![allow(clippy::unwrap_used, reason = "a test fails by it")]
+#![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a test fails by it; what was found is told")]
 
 use brillianteer::cut::Glass;
 use brillianteer::math::{Field, Form, Plane, Polytope, Solid, SolidRef};
