@@ -15,6 +15,7 @@ use super::probe::Probe;
 use super::profile_view::ProfileView;
 use super::studio::{Answer, Ask, Grade, Order, Shot, Slot, Studio, Taken, Tilts, Which};
 use super::{design_panel, dialogs, figures_panel, menus, stage, theme};
+use crate::io::library;
 use crate::io::lighting::{Lighting, LightingError};
 use crate::measure::Figures;
 use crate::scene::Specimen;
@@ -22,7 +23,7 @@ use crate::trace::gpu::Gpu;
 use eframe::CreationContext;
 use egui::{Context, TextureHandle, Ui, ViewportCommand};
 use std::collections::HashMap;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, channel};
 
@@ -151,8 +152,11 @@ impl Editor {
             may_close: false,
             title: String::new(),
         };
-        if let Some(path) = setup.file.or_else(|| editor.desk.last.clone().filter(|p| p.exists())) {
-            editor.open(&path, Wanted::Anew);
+        let named = |path: &Path| library::cut(&path.to_string_lossy()).filter(|_| !path.is_file()).is_some();
+        match setup.file.or_else(|| editor.desk.last.clone().filter(|p| p.exists())) {
+            Some(path) if named(&path) => editor.begin_from_library(&path.to_string_lossy()),
+            Some(path) => editor.open(&path, Wanted::Anew),
+            None => {}
         }
         editor.offer_recovery();
         Ok(editor)
@@ -238,7 +242,7 @@ impl Editor {
                     self.after_save = None;
                     if no_dialog {
                         let why = "No file dialog could be opened: it needs a desktop portal, such as xdg-desktop-portal. \
-                                   Without one, designs are saved to the file that they were opened from (`brillianteer edit FILE`), but for meshes: \
+                                   Without one, designs are saved to the file that they were opened from (`brillianteer FILE`), but for meshes: \
                                    `brillianteer convert MESH FILE.toml` makes a design of one.";
                         self.notes.trouble(why.to_owned());
                     }

@@ -43,7 +43,17 @@ impl ExportDialog {
         let views = vec![Shows::Render, Shows::Aset, Shows::Hearts, Shows::Arrows];
         let formats = vec![Format::Png];
         let (upright, turn) = (Arc::clone(editor.document.specimen()), editor.desk.eye.turn);
-        let plan = Plan { shot, upright, turn, views, formats, size: 1024, folder: folder.clone(), stem };
+        let plan = Plan {
+            shot,
+            upright,
+            turn,
+            views,
+            formats,
+            map: false,
+            size: 1024,
+            folder: folder.clone(),
+            stem,
+        };
         let wake = editor.studio.wake();
         let thumbnails = thumbnails(plan.clone(), move || wake());
         Self { folder: folder.join("out"), plan, thumbnails, pictures: HashMap::new(), job: None }
@@ -159,6 +169,11 @@ fn settings(editor: &mut Editor, ui: &mut Ui, export: &mut ExportDialog) {
                 }
             }
         });
+        ui.end_row();
+        ui.label("Web");
+        let meaning = "Where the light behind each pixel comes from, as a picture; the layer of all other light; and a page \
+            that refracts a moving background through both.";
+        ui.checkbox(&mut export.plan.map, "Refraction map and page").on_hover_text(meaning);
         ui.end_row();
         let label = ui.label("Size");
         ui.add(DragValue::new(&mut export.plan.size).range(SIZES).speed(8.0).suffix(" pixels"))

@@ -1,9 +1,10 @@
 //! Exporting, on a thread of its own: thumbnails of what can be had, then the files.
 
-use super::posed::reach;
 use super::shows::Shows;
-use super::studio::{Camera, Effort, FINE_RENDER, Shot};
+use super::studio::{Camera, Effort, FINE_RENDER, SPAN, Shot, survey};
 use crate::io::export::{Export, Format, Outputs, Sampler, Told, Tracer, Viewing};
+use crate::io::refraction_map::{self, Coding};
+use crate::io::refraction_page::{Page, write_page};
 use crate::io::{Failure, rasterize, write_rgba_png};
 use crate::optics::line;
 use crate::picture::{named, profile};
@@ -34,6 +35,8 @@ pub struct Plan {
     pub views: Vec<Shows>,
     /// Kinds of file.
     pub formats: Vec<Format>,
+    /// Whether a refraction map is written, with a page that shows it.
+    pub map: bool,
     /// Pixels along each side.
     pub size: u32,
     /// Where to.
@@ -105,6 +108,14 @@ impl Plan {
         }
     }
 
+    /// The map, the diffuse layer, the page.
+    fn map_paths(&self) -> Option<[PathBuf; 3]> {
+        let map = refraction_map::paths(&self.folder, &self.stem, 1, Coding::Tiles).pop();
+        let page = self.folder.join(format!("{}-refraction.html", self.stem));
+        let paths = [map?, refraction_map::diffuse_path(&self.folder, &self.stem), page];
+        self.map.then_some(paths)
+    }
+
     fn render_path(&self) -> Option<PathBuf> {
         let wanted = self.views.contains(&Shows::Render) && self.formats.contains(&Format::Png);
         wanted.then(|| self.folder.join(format!("{}-render.png", self.stem)))
@@ -120,12 +131,13 @@ impl Plan {
             files.extend(Export { viewing: *viewing, outputs }.files().map_err(|e| e.to_string())?);
         }
         files.extend(self.render_path());
+        files.extend(self.map_paths().into_iter().flatten());
         Ok(files)
     }
 
     /// The picture of a view at a size, the whole stone in it.
     fn shot(&self, shows: Shows, size: u32) -> Shot {
-        let reach = reach(&self.shot.specimen);
+        let reach = self.shot.specimen.reach;
         let view = crate::scene::View { side: shows.side().unwrap_or(self.shot.view.side), ..self.shot.view };
         let specimen = if shows.is_seen() { &self.shot.specimen } else { &self.upright };
         let film = Film::reaching(reach, size);
@@ -137,8 +149,8 @@ impl Plan {
         let render = self.render_path();
         let parts = self.parts();
         let effort = |o: &Outputs| (o.pictures.len() + usize::from(o.formats.contains(&Format::Json))) as f64;
-        let all =
-            parts.iter().map(|(o, _)| effort(o)).sum::<f64>() + if render.is_some() { RENDER } else { 0.0 };
+        let more = [render.is_some(), self.map].map(|is_wanted| if is_wanted { RENDER } else { 0.0 });
+        let all = parts.iter().map(|(o, _)| effort(o)).sum::<f64>() + more[0] + more[1];
         let mut begun = 0.0;
         for (outputs, viewing) in &parts {
             let share = effort(outputs);
@@ -152,8 +164,32 @@ impl Plan {
         if let Some(path) = render {
             self.render(&path, &|done| progress.at((begun + done * RENDER) / all))?;
             progress.hear(&Told::Written(&path));
+            begun += RENDER;
+        }
+        if let Some(paths) = self.map_paths() {
+            self.write_map(&paths, &|done| progress.at((begun + done * RENDER) / all))?;
+            paths.iter().for_each(|path| progress.hear(&Told::Written(path)));
         }
         Ok(())
+    }
+
+    fn write_map(
+        &self,
+        [map_path, diffuse, page]: &[PathBuf; 3],
+        watch: crate::trace::Watch,
+    ) -> Result<(), Failure> {
+        let (map, carried) = survey(&self.shot(Shows::Render, self.size), watch)?;
+        let title = self.shot.specimen.design.name.as_str();
+        let told = format!(
+            "{title}; refraction map; light {}; {:.1} % of the light comes from the background, {:.1} % of that from the \
+             map's places",
+            self.shot.light.light.name,
+            100.0 * carried.behind,
+            100.0 * carried.single
+        );
+        refraction_map::write_places(std::slice::from_ref(map_path), &map, Coding::Tiles, &told)?;
+        refraction_map::write_diffuse(diffuse, &map, &told)?;
+        Ok(write_page(page, &map, &Page { title, told: &told, span: SPAN, background: None })?)
     }
 
     fn render(&self, path: &Path, watch: crate::trace::Watch) -> Result<(), Failure> {

@@ -1,4 +1,4 @@
-//! The panel of figures: where the light comes from, by exact beams, and how that changes when the stone is tilted.
+//! The panel of figures: where the light comes from, by exact beams or by rays, and how that changes when the stone is tilted.
 
 use super::editor::{Editor, Measured};
 use super::studio::{Grade, Tilts, Which};
@@ -24,7 +24,8 @@ pub fn show(editor: &mut Editor, ui: &mut Ui) {
             ui.add_space(8.0);
             ui.label(RichText::new("Figures").heading()).on_hover_text(
                 "What becomes of the light of the linked view in the common ASET, in percent of the stone's outline, at \
-                 sodium's 589.3 nm. Each may be too low by what is unresolved.",
+                 sodium's 589.3 nm. Each may be too low by what is unresolved; by rays, as of meshes and glass, there is the \
+                 error of sampling as well.",
             );
             how(editor, ui);
             if let Some(measured) = editor.figures.get(&Which::Present) {
@@ -32,6 +33,9 @@ pub fn show(editor: &mut Editor, ui: &mut Ui) {
                 let is_asked = editor.asked.figures.iter().any(|(_, ask)| *ask == measured.ask);
                 table(ui, measured, other, editor.desk.by_area);
                 let state = if is_asked && measured.grade == Grade::Fine { "final" } else { "becoming finer…" };
+                let sampled = measured.figures.standard_error;
+                let error = format!("{state}; by rays, standard error {:.2} %", 100.0 * sampled);
+                let state = if sampled > 0.0 { error.as_str() } else { state };
                 ui.label(RichText::new(state).weak().small());
             }
             ui.add_space(8.0);
@@ -103,7 +107,7 @@ fn table(ui: &mut Ui, measured: &Measured, other: Option<&Measured>, by_area: bo
         ("Absorbed", "Light that the stone's colour takes away.", &|z| z.absorbed, false),
         (
             "Unresolved",
-            "Light that was not followed to its end: no figure is too low by more than this.",
+            "Light that was not followed to its end: by it, figures may be too low.",
             &|z| z.unresolved,
             false,
         ),

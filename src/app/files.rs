@@ -1,10 +1,13 @@
 //! Choosing files without keeping the window waiting, keeping work safe, and noticing what others change.
 
 use super::document::Stamp;
-use crate::cut::Design;
-use crate::io::design_file::Format;
+use crate::cut::{Cut, Design};
+use crate::io::design_file::{self, Format};
 use crate::io::{WriteError, cut_file, write};
+use crate::math::Plane;
+use glam::DVec3;
 use serde::{Deserialize, Serialize};
+use std::borrow::Cow;
 use std::fs::File;
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
@@ -179,6 +182,9 @@ pub struct Safe {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 struct Kept {
     path: Option<PathBuf>,
+    /// Whether its cut is the mesh in its file.
+    #[serde(default)]
+    mesh: bool,
     design: String,
 }
 
@@ -211,7 +217,14 @@ impl Safe {
     /// # Errors
     /// When the file system refuses.
     pub fn keep(&mut self, design: &Design, path: Option<&Path>) -> Result<(), WriteError> {
-        let kept = Kept { path: path.map(Path::to_owned), design: cut_file::write(design) };
+        // A mesh lies in its file already, and may be large: what was changed beside it is kept.
+        let (mesh, design) = match (&design.cut, path) {
+            (Cut::Mesh(_), Some(_)) => {
+                (true, Cow::Owned(Design { cut: Cut::Planes(vec![stand_in()]), ..design.clone() }))
+            }
+            _ => (false, Cow::Borrowed(design)),
+        };
+        let kept = Kept { path: path.map(Path::to_owned), mesh, design: cut_file::write(&design) };
         let text = serde_json::to_string(&kept).map_err(|e| WriteError::io(&self.folder, e))?;
         let name = &self.own;
         write(name, |file| file.write_all(text.as_bytes()).map_err(|e| WriteError::io(name, e)))?;
@@ -248,12 +261,20 @@ impl Found {
     }
 }
 
+/// Stands for a mesh that is not kept.
+fn stand_in() -> (String, Plane) {
+    ("mesh".to_owned(), Plane::new(DVec3::Z, 1.0))
+}
+
 /// What lies in a file that no running program holds.
 fn orphan(path: PathBuf) -> Option<Found> {
     let file = File::open(&path).ok()?;
     file.try_lock().ok()?;
     let kept: Kept = serde_json::from_reader(&file).ok()?;
-    let design = cut_file::parse(&kept.design, "unsaved work").ok()?;
+    let mut design = cut_file::parse(&kept.design, "unsaved work").ok()?;
+    if kept.mesh {
+        design.cut = design_file::read(kept.path.as_deref()?).ok()?.design.cut;
+    }
     let when = file.metadata().and_then(|m| m.modified()).ok()?;
     Some(Found { design, path: kept.path, when, file: path })
 }
@@ -285,6 +306,26 @@ mod tests {
         );
         found.into_iter().for_each(Found::forget);
         assert_eq!(next.found(), []);
+    }
+
+    #[test]
+    fn of_a_mesh_what_was_changed_is_kept_and_the_mesh_is_taken_from_its_file() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("heart.toml");
+        let (vertices, triangles) = crate::math::fixture::heart();
+        let shell = crate::math::Shell::new(crate::math::Surface::new(vertices, triangles)).unwrap();
+        let first = Document::first().unwrap().work.design;
+        let cut = Cut::Mesh(crate::cut::MeshShape(Arc::new(shell)));
+        std::fs::write(&path, cut_file::write(&Design { cut, ..first })).unwrap();
+        let mesh = design_file::read(&path).unwrap().design;
+        let changed = Design { name: "changed".to_owned(), diameter_mm: 9.0, ..mesh };
+        let mut safe = Safe::new(folder.path().join("safe"));
+        safe.keep(&changed, Some(&path)).unwrap();
+        drop(safe);
+        let next = Safe::new(folder.path().join("safe"));
+        assert!(next.found()[0].design == changed);
+        let kept = std::fs::read_dir(folder.path().join("safe")).unwrap().next().unwrap().unwrap();
+        assert!(kept.metadata().unwrap().len() < 1000);
     }
 
     #[test]

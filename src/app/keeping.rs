@@ -40,6 +40,10 @@ impl Editor {
         let work = &self.document.work;
         document.begin(&work.light, work.exposure, work.head);
         self.document = document;
+        // What was seen and measured of another stone is nothing of this one's.
+        self.pictures.retain(|(_, which), _| *which != Which::Present);
+        self.figures.retain(|which, _| *which != Which::Present);
+        self.tilts = None;
         self.begun += 1;
         self.opening.retain(|o| o.is_beside());
         // Another stone is first seen face up.
@@ -66,14 +70,19 @@ impl Editor {
     pub(super) fn then(&mut self, then: Then) {
         match then {
             Then::Open(path) => self.open(&path, Wanted::Anew),
-            Then::Library(name) => match Document::of_library(&name) {
-                Ok(document) => {
-                    self.desk.last = None;
-                    self.begin(document);
-                }
-                Err(why) => self.notes.trouble(why),
-            },
+            Then::Library(name) => self.begin_from_library(&name),
             Then::Close => self.may_close = true,
+        }
+    }
+
+    /// Begins a design from one that comes with the program.
+    pub(super) fn begin_from_library(&mut self, name: &str) {
+        match Document::of_library(name) {
+            Ok(document) => {
+                self.desk.last = None;
+                self.begin(document);
+            }
+            Err(why) => self.notes.trouble(why),
         }
     }
 

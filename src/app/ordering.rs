@@ -1,7 +1,6 @@
 //! What is asked of the studio: all that is in sight.
 
 use super::editor::Editor;
-use super::posed::reach;
 use super::shows::Shows;
 use super::studio::{Ask, Order, Shot, Which};
 use crate::io::lighting::Lighting;
@@ -11,6 +10,10 @@ use std::sync::Arc;
 impl Editor {
     /// Asks the studio for all that is in sight.
     pub(super) fn order(&mut self, seen: &[(usize, [u32; 2])]) {
+        // What is about to go is not worth the work, which the file on its way needs.
+        if self.opening.iter().any(|opening| !opening.is_beside()) {
+            return self.studio.order(Order::default());
+        }
         let light = self.light();
         let mut order = Order::default();
         let compared = self.compared.is_some();
@@ -62,7 +65,7 @@ impl Editor {
             return None;
         }
         // Both designs are shown on one scale, that of the present one.
-        let reach = reach(self.document.specimen());
+        let reach = self.document.specimen().reach;
         let work = &self.document.work;
         Some(Shot {
             view: eye.view(shows.side()),

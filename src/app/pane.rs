@@ -3,7 +3,6 @@
 use super::editor::{Editor, Shown};
 use super::eye::Eye;
 use super::menus;
-use super::posed::reach;
 use super::probe::Found;
 use super::shows::Shows;
 use super::studio::{Grade, Which};
@@ -209,7 +208,7 @@ fn scene(editor: &mut Editor, ui: &mut Ui, (pane, shows): (usize, Shows), body: 
     let response = ui.interact(body, ui.scope_id().with("picture"), Sense::click_and_drag());
     let name = format!("{} picture", shows.name());
     response.widget_info(|| WidgetInfo::labeled(Role::Image, true, &name));
-    let reach = reach(editor.document.specimen());
+    let reach = editor.document.specimen().reach;
     let eye = *editor.desk.eye(pane);
     let view = eye.view(shows.side());
     let scale = ui.pixels_per_point();

@@ -34,10 +34,3 @@ fn turned(specimen: &Arc<Specimen>, turn: f64) -> Arc<Specimen> {
     let body = specimen.body.turned(turn);
     Arc::new(Specimen { body, ..(**specimen).clone() })
 }
-
-/// How far a stone reaches across or along its axis, girdle radii: that is what views are fitted to, so that the girdle keeps
-/// its size while the depth changes.
-pub fn reach(specimen: &Specimen) -> f64 {
-    let reach = |v: &glam::DVec3| v.truncate().length().max(v.z.abs());
-    specimen.solid().vertices().iter().map(reach).fold(0.0, f64::max)
-}

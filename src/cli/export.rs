@@ -65,6 +65,12 @@ impl Export {
             let outputs = self.outputs(file, &pictures);
             let progress = Progress::new(&specimen.design.name);
             let export = export::Export { viewing, outputs: &outputs };
+            if let (true, Err(why)) = (export.files()?.is_empty(), specimen.stone()) {
+                return Err(Failure::Usage(format!(
+                    "{}: nothing of this can be drawn: {why}",
+                    specimen.path
+                )));
+            }
             export.write(&progress.watch(), &|told| progress.tell(told))
         })
     }

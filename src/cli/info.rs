@@ -110,7 +110,7 @@ fn described(specimen: &Specimen) -> Result<Value, Failure> {
     value["size"] = json!((high - low).to_array());
     if let Body::Mesh(shell) = &specimen.body {
         value["triangles"] = json!(shell.surface().triangles.len());
-        value["vertices"] = json!(shell.vertices().len());
+        value["corners"] = json!(shell.vertices().len());
     }
     let Ok(stone) = specimen.stone() else { return Ok(value) };
     let polytope = &stone.polytope;
@@ -166,7 +166,7 @@ fn table(specimen: &Specimen, value: &Value) -> String {
         let (low, high) = specimen.solid().bounds();
         let [x, y, z] = (high - low).to_array();
         line("size", format!("{x:.4} by {y:.4} by {z:.4} girdle radii"));
-        line("triangles, vertices", format!("{}, {}", value["triangles"], value["vertices"]));
+        line("triangles, vertices", format!("{}, {}", value["triangles"], value["corners"]));
         line("volume", format!("{:.6} girdle radii³", specimen.solid().volume()));
         let _ = write!(text, "\n  not convex: it has no facets to list");
         return text;

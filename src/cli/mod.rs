@@ -39,7 +39,7 @@ fn code(failure: &Failure) -> u8 {
 
 /// Exact light in gemstone cuts: ASET, Ideal-Scope, hearts and arrows, with an error bound on every figure.
 #[derive(Debug, Parser)]
-#[command(name = "brillianteer", version, after_help = EXIT_CODES)]
+#[command(name = "brillianteer", version, after_help = EXIT_CODES, override_usage = USAGE)]
 struct Arguments {
     #[command(subcommand)]
     command: Option<Command>,
@@ -48,6 +48,8 @@ struct Arguments {
 /// What opens the editor, on a file if one is given, and waits until it is closed.
 pub type Editor = fn(Option<PathBuf>) -> Result<(), String>;
 
+const USAGE: &str = "brillianteer [FILE]\n       brillianteer COMMAND";
+
 const EXIT_CODES: &str = "Exit codes: 0 done, 1 an input is at fault, 2 the command line is, 3 an output could not be \
     written, 130 stopped.";
 
@@ -55,7 +57,7 @@ const EXIT_CODES: &str = "Exit codes: 0 done, 1 an input is at fault, 2 the comm
 enum Command {
     /// Open the editor, as the program does without a command
     Edit {
-        /// A design to open
+        /// A design to open, or the name of one that comes with the program
         file: Option<PathBuf>,
     },
     /// Draw a stone in every scope, with its profile, facet diagram and figures
@@ -96,7 +98,12 @@ pub fn main(editor: Option<Editor>) -> ExitCode {
             return ExitCode::from(u8::try_from(told.exit_code()).unwrap_or(2));
         }
     };
-    let edit = |file| match editor {
+    let edit = |file: Option<PathBuf>| match editor {
+        _ if let Some(file) =
+            file.as_ref().filter(|f| !f.is_file() && library::cut(&f.to_string_lossy()).is_none()) =>
+        {
+            Err(Failure::Input(format!("{}: there is no such file{}", file.display(), lists::hint(file))))
+        }
         Some(open) => open(file).map_err(Failure::Output),
         None => Err(Failure::Usage("this program was built without its window; see --help".into())),
     };
@@ -133,7 +140,11 @@ pub fn main(editor: Option<Editor>) -> ExitCode {
 fn spelt_out(mut arguments: Vec<OsString>) -> Vec<OsString> {
     if let [_, only] = arguments.as_slice()
         && !Arguments::command().get_subcommands().any(|command| command.get_name() == only)
-        && (Path::new(only).is_file() || library::cut(&only.to_string_lossy()).is_some())
+        && only != "help"
+        && (Path::new(only).components().count() > 1
+            || Path::new(only).extension().is_some()
+            || library::cut(&only.to_string_lossy()).is_some())
+        && !only.to_string_lossy().starts_with('-')
     {
         arguments.insert(1, "edit".into());
     }
@@ -203,7 +214,7 @@ mod tests {
                 matches!(arguments.command, Some(Command::Edit { file: Some(f) }) if f == Path::new(only))
             );
         }
-        for other in ["b", "b cuts", "b polish", "b info tolkowsky", "b --help"] {
+        for other in ["b", "b cuts", "b polish", "b help", "b info tolkowsky", "b --help"] {
             assert_eq!(spelt_out(words(other)), words(other));
         }
     }

@@ -246,7 +246,8 @@ impl<'a> Studio<'a> {
         let found = self.sit(setting, (view, pixel), |sitting| ray::facet_at(sitting, at.x, at.y));
         let Some((stone, facet)) = found else { return "nothing".into() };
         let placed = &self.assembly.setting.stones[stone];
-        let name = placed.names.get(facet as usize).map_or("a facet", String::as_str);
+        let name =
+            placed.names.get(facet as usize).cloned().unwrap_or_else(|| format!("facet {}", facet + 1));
         if self.assembly.setting.stones.len() == 1 {
             return name.into();
         }

@@ -28,6 +28,9 @@ pub const FORMAT: i64 = 1;
 /// The largest file taken, bytes.
 pub const MAX_BYTES: u64 = 4 << 20;
 
+/// The largest one that holds a mesh: some millions of triangles.
+pub const MAX_MESH_BYTES: u64 = 256 << 20;
+
 /// Why a cut file could not be read.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("{path}{}: {message}", .line.map(|line| format!(":{line}")).unwrap_or_default())]
@@ -47,7 +50,7 @@ pub struct CutFileError {
 pub fn read(path: impl AsRef<Path>) -> Result<Design, CutFileError> {
     let path = path.as_ref();
     let label = path.display().to_string();
-    match text::read(path, MAX_BYTES) {
+    match text::read(path, MAX_MESH_BYTES) {
         Ok(text) => parse(&text, &label),
         Err(TextError { line, message }) => Err(CutFileError { path: label, line, message }),
     }
@@ -74,12 +77,19 @@ pub fn write(design: &Design) -> String {
 }
 
 fn design(text: &str) -> Result<Design, Fault> {
-    if text.len() as u64 > MAX_BYTES {
-        return Err(Fault::whole(text::too_large(MAX_BYTES)));
+    let most = if holds_mesh(text) { MAX_MESH_BYTES } else { MAX_BYTES };
+    if text.len() as u64 > most {
+        return Err(Fault::whole(text::too_large(most)));
     }
     let table = DeTable::parse(text).map_err(|error| Fault::syntax(text, &error))?;
     check_format(table.get_ref())?;
     DesignForm::deserialize(Deserializer::from(table)).map_err(Fault::form)?.design()
+}
+
+/// Whether a mesh stands in it, as far as its beginning tells.
+fn holds_mesh(text: &str) -> bool {
+    const BEGINNING: usize = 64 << 10;
+    text.lines().take_while(|line| line.len() < BEGINNING).take(1000).any(|line| line.trim() == "[mesh]")
 }
 
 /// Read before all else, since another format may have other keys.

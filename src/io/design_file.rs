@@ -2,13 +2,14 @@
 
 use super::cut_file::{self, CutFileError};
 use super::mesh_design;
+use super::mesh_export::FINENESS;
 use super::mesh_file::{self, MaterialHint};
 use super::{Failure, asc, gcs, gem, write as write_whole};
 use super::{WriteError, text};
 use super::{write_glb, write_obj, write_stl};
 use crate::cut::Design;
 use crate::cut::from_mesh::Up;
-use crate::scene::Specimen;
+use crate::scene::{Body, Specimen};
 use std::io::Write as _;
 use std::path::Path;
 
@@ -87,6 +88,11 @@ impl Format {
             (Self::Gem, gem::looks_like),
             (Self::Asc, asc::looks_like),
         ];
+        let is_mesh = |ending: &str| path.extension().is_some_and(|e| e.eq_ignore_ascii_case(ending));
+        if is_mesh("ply") || is_mesh("gltf") {
+            // Its reader says what is wrong with it.
+            return Self::Glb;
+        }
         let told = known.into_iter().find(|(_, looks_like)| looks_like(bytes)).map(|(format, _)| format);
         told.or_else(|| Self::of_name(path)).unwrap_or(Self::Toml)
     }
@@ -115,16 +121,20 @@ pub fn read_posed(path: &Path, up: Up) -> Result<Brought, CutFileError> {
     if mesh_file::looks_like(&bytes).is_some() {
         return mesh_design::read(bytes, path, up);
     }
-    match Format::of(&bytes, path) {
+    let mut brought = match Format::of(&bytes, path) {
         Format::Asc => asc::read(&bytes, &label),
         Format::Gem => gem::read(&bytes, &label),
         Format::Gcs => gcs::read(&bytes, &label),
-        Format::Obj | Format::Stl | Format::Glb => mesh_design::read(bytes, path, up),
+        Format::Obj | Format::Stl | Format::Glb => return mesh_design::read(bytes, path, up),
         Format::Toml => {
             let text = text::utf8(bytes).map_err(fault)?;
             cut_file::parse(&text, &label).map(|design| Brought { design, warnings: vec![] })
         }
+    }?;
+    if up != Up::Found {
+        brought.warnings.push("a direction up is for meshes; this design has its own".to_owned());
     }
+    Ok(brought)
 }
 
 /// The file of a stone's design.
@@ -134,13 +144,16 @@ pub fn read_posed(path: &Path, up: Up) -> Result<Brought, CutFileError> {
 pub fn written(specimen: &Specimen, format: Format) -> Result<Written, Failure> {
     let (name, radius_mm) = (specimen.design.name.as_str(), specimen.unit_mm());
     let refused = |error: &dyn std::fmt::Display| Failure::Output(format!("{}: {error}", format.ending()));
-    if matches!(format, Format::Asc | Format::Gem | Format::Gcs) {
-        specimen.stone().map_err(|error| refused(&error))?;
+    if matches!(format, Format::Asc | Format::Gem | Format::Gcs) && specimen.stone().is_err() {
+        return Err(Failure::Input(format!(
+            "{name}: .{} takes convex stones between planes, and this is none; write .toml, .obj, .stl or .glb",
+            format.ending()
+        )));
     }
     Ok(match format {
         Format::Toml => {
             let bytes = cut_file::write(&specimen.design).into_bytes();
-            if bytes.len() as u64 > cut_file::MAX_BYTES {
+            if bytes.len() as u64 > cut_file::MAX_MESH_BYTES {
                 return Err(refused(
                     &"this mesh is too large for a cut file; write it as .glb, .stl or .obj",
                 ));
@@ -164,14 +177,22 @@ pub fn written(specimen: &Specimen, format: Format) -> Result<Written, Failure> 
 
 /// A mesh, and what meshes have no place for.
 fn as_mesh(specimen: &Specimen, format: Format, bytes: Vec<u8>) -> Written {
-    let kept = match format {
-        Format::Glb => "facets, their names and the material as three colours see it",
-        Format::Obj => "facets and their names",
+    let kept = match (format, &specimen.body) {
+        (Format::Glb, Body::Mesh(_) | Body::Glass(_)) => {
+            "its triangles and the material as three colours see it"
+        }
+        (_, Body::Mesh(_) | Body::Glass(_)) => "its triangles",
+        (Format::Glb, _) => "facets, their names and the material as three colours see it",
+        (Format::Obj, _) => "facets and their names",
         _ => "facets",
     };
     let mut lost = vec![format!("of the design only this is kept: {kept}")];
     let measured = "the proportions are not kept; whoever reads the mesh measures them anew";
     lost.extend(specimen.design.cut.brilliant().map(|_| measured.to_owned()));
+    if let Body::Glass(smooth) = &specimen.body {
+        let off = smooth.field().deviation(FINENESS) * specimen.unit_mm();
+        lost.push(format!("its smooth surface is written as triangles, {off:.1e} mm off it at most"));
+    }
     Written { bytes, lost }
 }
 

@@ -156,6 +156,11 @@ impl Export<'_> {
     pub fn write(&self, watch: Watch, tell: Tell) -> Result<(), Failure> {
         self.check()?;
         let outputs = self.outputs;
+        let is_scoped = |(_, picture): &(String, Picture)| matches!(picture, Picture::Scoped(_));
+        let wants_more = outputs.wants(Format::Exr) || outputs.wants(Format::Svg);
+        if wants_more && matches!(self.viewing.tracer, Tracer::Rays(_)) && outputs.drawn().any(is_scoped) {
+            tell(Told::Note(&only_png("pictures in scopes")))?;
+        }
         let mut pictures = Pictures::new(self, tell);
         let measured = if outputs.wants(Format::Json) { FIGURES } else { 0.0 };
         let mut pace = Pace::new(watch, outputs.drawn().map(|(_, p)| effort(p)).sum::<f64>() + measured);

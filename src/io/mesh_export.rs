@@ -75,7 +75,7 @@ fn nameless<'a>(triangle: [u32; 3], normals: [DVec3; 3]) -> Face<'a> {
 /// The solid as OBJ, z up: each facet a polygon in a group of its name.
 pub fn write_obj(body: &Body, name: &str, scale: f64) -> String {
     let Faces { faces, vertices } = faces(body);
-    let mut text = format!("# {} facets\no {name}\n", faces.len());
+    let mut text = format!("# {} faces\no {name}\n", faces.len());
     for v in vertices.iter() {
         let v = *v * scale;
         // Formatting into a String cannot fail.

@@ -4,6 +4,7 @@ use super::{Body, Medium, Stone};
 use crate::cut::{Cut, Design, DesignError, Tiers};
 use crate::math::{NotConvex, Plane, PolytopeError, Smooth, SolidRef};
 use crate::optics::Material;
+use glam::DVec3;
 use std::sync::Arc;
 
 /// A design and the stone that it describes.
@@ -17,6 +18,9 @@ pub struct Specimen {
     pub material: Material,
     /// What its owner may not have meant, in words.
     pub warnings: Vec<String>,
+    /// How far it reaches across or along its axis, girdle radii: to this views are fitted, so that the girdle keeps its
+    /// size while the depth changes.
+    pub reach: f64,
 }
 
 /// Why a design makes no stone.
@@ -45,7 +49,7 @@ impl Specimen {
             _ => None,
         };
         if let Some(body) = body {
-            return Ok(Self { design, body, material, warnings: vec![] });
+            return Ok(Self::made(design, body, material, vec![]));
         }
         let mut facets = design.facets()?;
         let given = facets.len();
@@ -62,7 +66,13 @@ impl Specimen {
             (Err(error), _) => return Err(told(&error, &facets)),
         };
         warnings.extend(odd(&stone, &facets, given));
-        Ok(Self { design, body: Body::Stone(stone), material, warnings })
+        Ok(Self::made(design, Body::Stone(stone), material, warnings))
+    }
+
+    fn made(design: Design, body: Body, material: Material, warnings: Vec<String>) -> Self {
+        let reach = |v: &DVec3| v.truncate().length().max(v.z.abs());
+        let reach = body.solid().vertices().iter().map(reach).fold(0.0, f64::max);
+        Self { design, body, material, warnings, reach }
     }
 
     /// Its shape, to be traced.

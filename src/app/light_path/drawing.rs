@@ -6,6 +6,12 @@ use crate::trace::ray::{Leaving, Path, Step};
 use egui::{Align2, Color32, FontId, Mesh, Painter, Pos2, Rect, Shape, Stroke, StrokeKind, Vec2, Visuals};
 use glam::{DVec2, DVec3};
 
+/// Edges that are all drawn; of solids of more, those that make its outline.
+const MOST_EDGES: usize = 3000;
+
+/// Facets whose normals' cosine is below this meet in an edge that is seen.
+const TRUE_EDGE: f64 = 0.8;
+
 /// Length of the light outside the stone, as parts of the stone's reach: of what enters and of what leaves.
 const OUTSIDE: [f64; 2] = [0.5, 0.36];
 
@@ -145,7 +151,15 @@ impl<'a> Canvas<'a> {
     fn edges(&self, reading: &Reading) {
         let solid = reading.body.solid();
         let faces = |normal: &DVec3| normal.dot(self.eye.toward) > 0.0;
-        let edges = solid.edges();
+        let mut edges = solid.edges();
+        if edges.len() > MOST_EDGES {
+            // Only where the surface turns away, or has a true edge: all others would hide the path.
+            let is_drawn = |e: &Edge| {
+                let [a, b] = e.normals;
+                a.dot(b) < TRUE_EDGE || faces(&a) != faces(&b)
+            };
+            edges.retain(is_drawn);
+        }
         for front in [false, true] {
             let colour = self.visuals.text_color().gamma_multiply(EDGES[usize::from(!front)]);
             for Edge { ends, .. } in edges.iter().filter(|edge| edge.normals.iter().any(faces) == front) {

@@ -3,12 +3,14 @@
 
 mod order;
 mod pace;
+mod survey;
 mod take;
 mod worker;
 
 pub use order::{Answer, Ask, Grade, Order, Shot, Slot, Taken, Tilts, Which};
 
 pub use pace::Effort;
+pub use survey::{SPAN, survey};
 pub use take::Camera;
 pub use worker::FINE_RENDER;
 

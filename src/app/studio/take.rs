@@ -207,8 +207,7 @@ impl Camera {
         watch: Watch,
         each: &mut dyn FnMut(Taken),
     ) -> Result<(), Trouble> {
-        let stone = Placed::named(&shot.specimen.body, shot.specimen.material.clone(), "");
-        let setting = Setting { stones: vec![stone], unit_mm: shot.specimen.unit_mm() };
+        let setting = setting(shot);
         let flat = is_for_beams(shot);
         let by_card = self.gpu.clone().filter(|_| growing.is_some() || !flat);
         let slower = if by_card.is_none() && !flat && growing.is_none() { RAYS_COARSER } else { 1.0 };
@@ -253,8 +252,7 @@ impl Camera {
 
     fn overlaid(&self, shot: &Shot, mut taken: Taken, watch: Watch) -> Result<Taken, Trouble> {
         let Some(overlay) = shot.overlay else { return Ok(taken) };
-        let stone = Placed::named(&shot.specimen.body, shot.specimen.material.clone(), "");
-        let setting = Setting { stones: vec![stone], unit_mm: shot.specimen.unit_mm() };
+        let setting = setting(shot);
         let [across, down] = taken.image.size.map(|n| n as u32);
         let pixel = shot.film.pixel * f64::from(shot.film.size[0]) / f64::from(across);
         let film = Film { size: [across, down], pixel, ..shot.film };
@@ -302,8 +300,14 @@ fn coarser(film: &Film, factor: f64) -> Film {
     Film { size, pixel: film.pixel * f64::from(film.size[0]) / f64::from(size[0]), ..*film }
 }
 
+/// What a shot is taken of.
+pub fn setting(shot: &Shot) -> Setting {
+    let stone = Placed::named(&shot.specimen.body, shot.specimen.material.clone(), "");
+    Setting { stones: vec![stone], unit_mm: shot.specimen.unit_mm() }
+}
+
 /// A stone under its light, and the camera.
-fn sitting<'a>(shot: &'a Shot, setting: &'a Setting, film: Film) -> Sitting<'a> {
+pub fn sitting<'a>(shot: &'a Shot, setting: &'a Setting, film: Film) -> Sitting<'a> {
     Sitting {
         setting,
         surround: Surround {

@@ -3,7 +3,7 @@
 use super::*;
 use crate::app::document::Document;
 use crate::app::shows::Shows;
-use crate::cut::{Design, MeshShape};
+use crate::cut::{Design, Glass, MeshShape};
 use crate::io::design_file::{self, Format};
 use crate::math::{Shell, Surface, fixture};
 use crate::scene::Specimen;
@@ -81,4 +81,26 @@ fn a_solid_that_is_not_convex_is_shown_by_rays_and_measured() {
     bench.harness.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::S);
     bench.wait(|editor| !editor.document.is_changed());
     assert_eq!(design_file::read(&toml).unwrap().design, bench.editor().document.work.design);
+}
+
+#[test]
+fn a_glass_shape_is_taken_from_the_library_and_its_dimensions_are_set() {
+    let mut bench = Bench::with(Setup { file: Some("plate".into()), ..Setup::default() });
+    bench.settle();
+    let cut = bench.editor().document.work.design.cut.clone();
+    let Cut::Glass(Glass::Plate(plate)) = &cut else { panic!("{cut:?}") };
+    assert!(bench.harness.query_all_by_label("Wavy plate").count() > 1 && plate.amplitude == 4.91);
+    let before = bench.picture(0);
+    bench.type_number("Amplitude", "9.5");
+    bench.settle();
+    assert!(bench.picture(0) != before);
+    let Cut::Glass(Glass::Plate(plate)) = bench.editor().document.work.design.cut else { panic!() };
+    assert_eq!(plate.amplitude, 9.5);
+    bench.type_number("Edge", "40");
+    assert!(
+        bench.harness.query_by_label_contains("edge: 40 % is rounder than the shape has room for").is_some()
+    );
+    bench.choose("Edit", "Undo");
+    bench.choose("Edit", "Undo");
+    assert!(bench.editor().document.work.design.cut == cut);
 }

@@ -10,7 +10,9 @@ use crate::cut::{
     Crown, Cut, DEFAULT_DIAMETER_MM, Design, DesignError, Glass, LowerHalf, MAX_PLANES, MaterialRef,
     MeshShape, Pavilion, Plate, RoundBrilliant, Sides, girdle_facets,
 };
-use crate::math::{Plane, Shell, Surface};
+use crate::math::{Plane, Shell, SolidRef, Surface};
+use glam::{DQuat, DVec3};
+use std::collections::HashSet;
 use std::sync::Arc;
 
 /// The whole file, `B` being its round brilliant as read or as written. Values come before tables, as TOML wants them
@@ -77,6 +79,9 @@ struct PlaneForm {
     normal: Numbers<3>,
     offset: f64,
 }
+
+/// A mesh this near to the stone's frame, half its width 1 around the origin, was written in it: rounding.
+const IN_FRAME: f64 = 1e-9;
 
 /// `[mesh]`
 #[derive(Serialize, Deserialize)]
@@ -204,9 +209,9 @@ fn cut(form: Cuts) -> Result<Cut, Fault> {
         (Some(Table(index)), Some(tiers)) => Ok(Cut::Tiers(index.tiers(tiers)?)),
         (Some(_), None) => Err(Fault::at("index", "index: the tiers are missing; give [[tier]]")),
         (None, Some(_)) => Err(Fault::at("tier", "tier: the gear is missing; give it as [index], gear = 96")),
-        (None, None) => {
-            Err(Fault::whole("the cut is missing; give [round_brilliant], [[tier]] or a list of [[plane]]"))
-        }
+        (None, None) => Err(Fault::whole(
+            "the cut is missing; give [round_brilliant], [[tier]], [[plane]], [mesh] or a glass shape such as [pill]",
+        )),
     }
 }
 
@@ -294,9 +299,38 @@ impl MeshForm {
         Self { vertices, triangles: triangles.clone() }
     }
 
+    /// The shape, in the stone's frame if it was written in another.
     fn shape(self) -> Result<MeshShape, Fault> {
-        let vertices = self.vertices.iter().map(|v| v.0.into()).collect();
-        let shell = Shell::new(Surface::new(vertices, self.triangles));
-        Ok(MeshShape(Arc::new(shell.map_err(|error| Fault::at("mesh", format!("mesh: {error}")))?)))
+        let fault = |message: String| Fault::at("mesh", format!("mesh: {message}"));
+        let vertices: Vec<DVec3> = self.vertices.iter().map(|v| v.0.into()).collect();
+        if let Some(corner) = vertices.iter().position(|v| !v.is_finite()) {
+            return Err(fault(format!(
+                "vertices: place {corner} is no point; three finite numbers are expected"
+            )));
+        }
+        let mut is_used = vec![false; vertices.len()];
+        let mut seen = HashSet::new();
+        for (number, triangle) in self.triangles.iter().enumerate() {
+            let mut corners = *triangle;
+            corners
+                .iter()
+                .for_each(|&c| is_used.get_mut(c as usize).into_iter().for_each(|used| *used = true));
+            corners.sort_unstable();
+            if !seen.insert(corners) {
+                return Err(fault(format!("triangles: {triangle:?}, at place {number}, is listed twice")));
+            }
+        }
+        if let Some(corner) = is_used.iter().position(|used| !used) {
+            return Err(fault(format!(
+                "vertices: no triangle has the corner at place {corner}; leave it out"
+            )));
+        }
+        let shell =
+            Shell::new(Surface::new(vertices, self.triangles)).map_err(|error| fault(error.to_string()))?;
+        let (low, high) = SolidRef::from(&Arc::new(shell.clone())).bounds();
+        let (middle, half) = (0.5 * (low + high), 0.5 * (high - low).truncate().min_element());
+        let is_framed = (half - 1.0).abs() < IN_FRAME && middle.length() < IN_FRAME;
+        let framed = || shell.moved(1.0 / half, DQuat::IDENTITY, -middle / half);
+        Ok(MeshShape(Arc::new(if is_framed { shell.clone() } else { framed() })))
     }
 }

@@ -8,7 +8,7 @@ use proptest::prelude::*;
 
 use super::*;
 use crate::cut::{Cut, DEFAULT_DIAMETER_MM, MAX_PLANES, MaterialRef, MeshShape, strategy};
-use crate::math::{Plane, Shell, Surface};
+use crate::math::{Plane, Shell, Solid, Surface};
 use crate::optics::{self, Absorption, Dispersion, MOST_PER_MM, Material};
 
 /// The example that every guide shows.
@@ -300,18 +300,19 @@ fn of_each_pair_one_is_given() {
     );
     assert_told(
         "format = 1\nname = \"x\"\nmaterial = 2",
-        "x.toml: the cut is missing; give [round_brilliant], [[tier]] or a list of [[plane]]",
+        "x.toml: the cut is missing; give [round_brilliant], [[tier]], [[plane]], [mesh] or a glass shape such as [pill]",
     );
 }
 
 #[test]
 fn a_mesh_is_written_and_read_to_the_last_bit_and_what_encloses_nothing_is_told() {
     let (vertices, triangles) = crate::math::fixture::heart();
-    let shell = Shell::new(Surface::new(vertices, triangles)).unwrap().moved(
-        1.0 / 3.0,
-        DQuat::from_rotation_x(0.3),
-        DVec3::splat(0.1),
-    );
+    let shell = Shell::new(Surface::new(vertices, triangles)).unwrap();
+    let turned = shell.moved(1.0, DQuat::from_rotation_x(0.3), DVec3::ZERO);
+    // In the stone's frame: half its width is 1, its middle the origin.
+    let (low, high) = Solid::from(turned.clone()).bounds();
+    let half = 0.5 * (high - low).truncate().min_element();
+    let shell = turned.moved(1.0 / half, DQuat::IDENTITY, -0.5 * (low + high) / half);
     let cut = Cut::Mesh(MeshShape(Arc::new(shell)));
     let design = Design { cut, ..parse(TOLKOWSKY, "x").unwrap() };
     let text = write(&design);
@@ -323,6 +324,23 @@ fn a_mesh_is_written_and_read_to_the_last_bit_and_what_encloses_nothing_is_told(
         told.starts_with(&format!("x.toml:{line}: mesh: the surface is open at the edge between ")),
         "{told}"
     );
+    let unused = text.replacen("vertices = [", "vertices = [[0.0, 0.0, 0.0], ", 1).replace("[0, ", "[1, ");
+    assert!(parse(&unused, "x").unwrap_err().message.starts_with("mesh: "));
+    let line_of = |key: &str| text.lines().find(|line| line.starts_with(key)).unwrap().to_owned();
+    let triangles = line_of("triangles");
+    let first = &triangles[triangles.find("[[").unwrap() + 1..=triangles.find(']').unwrap()];
+    let twice = text.replacen("triangles = [", &format!("triangles = [{first}, "), 1);
+    assert!(parse(&twice, "x").unwrap_err().message.contains("is listed twice"), "{twice}");
+    // One written in another frame is moved into the stone's.
+    let Cut::Mesh(shape) = &design.cut else { panic!() };
+    let aside = Design {
+        cut: Cut::Mesh(MeshShape(Arc::new(shape.moved(7.0, DQuat::IDENTITY, DVec3::new(3.0, 0.0, -1.0))))),
+        ..design.clone()
+    };
+    let Cut::Mesh(back) = parse(&write(&aside), "x").unwrap().cut else { panic!() };
+    let farthest =
+        shape.vertices().iter().zip(back.vertices()).map(|(a, b)| a.distance(*b)).fold(0.0, f64::max);
+    assert!(farthest < 1e-12, "{farthest}");
     let both = format!("{text}\n[[plane]]\nnormal = [0, 0, 1]\noffset = 1");
     assert!(parse(&both, "x").unwrap_err().message.ends_with("give [[plane]] or [mesh], not both"));
 }

@@ -3,7 +3,7 @@
 use super::sampler::{Sampler, Subject};
 use super::told::{Pace, Tell, Told};
 use super::viewing::{Tracer, Viewing};
-use super::{Export, Format, Outputs, only_png, write_text};
+use super::{Export, Format, Outputs, write_text};
 use crate::io::{Failure, PngRows, WriteError, rasterize, write_exr, write_png};
 use crate::picture::by_rays::Manner;
 use crate::picture::{Layer, Palette, Picture, Rows, Scoped, diagram, paint, profile, vector};
@@ -180,9 +180,6 @@ impl<'a> Pictures<'a> {
 
     fn by_rays(&self, sampler: Sampler, plate: &Plate, watch: Watch) -> Result<(), Failure> {
         let Plate { name, scope, viewing, view } = plate;
-        if self.outputs.wants(Format::Exr) || self.outputs.wants(Format::Svg) {
-            (self.tell)(Told::Note(&only_png(name)))?;
-        }
         let solid = viewing.specimen.solid();
         let options = viewing.rays(UNRESOLVED);
         let reach = Camera::new(view, solid).reach(solid).unwrap_or(1.0);

@@ -185,7 +185,7 @@ fn notes_and_warnings_say_what_is_not_as_asked() {
     assert_eq!(texts[1], "profile: a drawing comes as PNG and SVG only");
     let many = outputs(folder.path(), &["aset"], &Format::ALL[..3]);
     let (_, texts, _) = written(&Export { viewing: in_perspective(viewing(&specimen), 9.0), outputs: &many });
-    assert_eq!(texts[1], "aset: rays make PNG pictures only; SVG and EXR need exact beams");
+    assert_eq!(texts[0], "pictures in scopes: rays make PNG pictures only; SVG and EXR need exact beams");
     // Of light that is reflected a thousand times, some is left.
     let cube = cut_file::parse(include_str!("../../../tests/fixtures/cube.toml"), "cube").unwrap();
     let cube = Specimen::new(cube).unwrap();

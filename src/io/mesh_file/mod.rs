@@ -21,6 +21,7 @@ use std::path::Path;
 
 pub use hint::MaterialHint;
 pub use limits::{MAX_BYTES, MAX_TRIANGLES, MAX_VERTICES};
+use sniff::STL_HEADER;
 pub use sniff::{MeshFormat, looks_like};
 
 /// What a mesh file holds, as it is written: not yet welded, in the file's unit and frame.
@@ -97,7 +98,11 @@ pub fn read(path: impl AsRef<Path>) -> Result<MeshFile, MeshFileError> {
 /// # Errors
 /// What keeps it from being a mesh file, with its place.
 pub fn parse(bytes: Vec<u8>, label: &str, folder: Option<&Path>) -> Result<MeshFile, MeshFileError> {
-    let Some(format) = looks_like(&bytes) else {
+    // One that was cut off, or whose count is wrong, has nothing but its name to be known by.
+    let is_named = Path::new(label).extension().is_some_and(|e| e.eq_ignore_ascii_case("stl"));
+    let binary =
+        (is_named && bytes.len() >= STL_HEADER && bytes.contains(&0)).then_some(MeshFormat::StlBinary);
+    let Some(format) = looks_like(&bytes).or(binary) else {
         let message = "this is no mesh: glTF, OBJ, STL or PLY is expected";
         return Err(named(Fault::whole(message), label));
     };

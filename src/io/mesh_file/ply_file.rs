@@ -6,6 +6,7 @@ use crate::math::surface::Surface;
 use glam::DVec3;
 use ply_rs_bw::parser::{ParseError, Parser, Reader};
 use ply_rs_bw::ply::{Header, Property, PropertyAccess, PropertyAccessResult};
+use std::io::Read as _;
 
 /// The longest header taken, bytes: hundreds of comments.
 const MAX_HEADER: usize = 1 << 20;
@@ -69,11 +70,14 @@ fn number(value: &Property) -> Option<f64> {
 
 pub(super) fn read(bytes: &[u8]) -> Result<Read, Fault> {
     let end = b"end_header";
-    if !bytes[..bytes.len().min(MAX_HEADER)].windows(end.len()).any(|w| w == end) {
+    let beginning = &bytes[..bytes.len().min(MAX_HEADER)];
+    let Some(header) = beginning.windows(end.len()).position(|w| w == end) else {
         return Err(Fault::whole("the header has no end; a line `end_header` is expected"));
-    }
+    };
+    // Comments may be in any encoding.
+    let readable: Vec<u8> = bytes[..header].iter().map(|b| if b.is_ascii() { *b } else { b'?' }).collect();
     let parser = Parser::<Row>::new();
-    let mut reader = Reader::new(bytes);
+    let mut reader = Reader::new(readable.as_slice().chain(&bytes[header..]));
     let header = parser.read_header(&mut reader).map_err(fault)?;
     check(&header)?;
     let mut surface = Surface::new(vec![], vec![]);

@@ -165,6 +165,11 @@ fn facet(primitive: &Primitive<'_>) -> Option<String> {
     Some(extras.get(FACET)?.as_str()?.to_owned())
 }
 
+/// The number that someone wrote: the shortest one that f32 rounds to this, and not all the digits that f32 adds.
+fn as_written(number: f32) -> f64 {
+    number.to_string().parse().unwrap_or_else(|_| number.into())
+}
+
 /// What a material says of how light passes through it, if it says anything.
 fn hint(material: &Material<'_>) -> Option<MaterialHint> {
     let dispersion = material.extension_value("KHR_materials_dispersion");
@@ -174,7 +179,7 @@ fn hint(material: &Material<'_>) -> Option<MaterialHint> {
         volume.map(|v| (v.attenuation_color().map(f64::from), f64::from(v.attenuation_distance())));
     let found = MaterialHint {
         name: material.name().map(str::to_owned),
-        ior: material.ior().map(f64::from),
+        ior: material.ior().map(as_written),
         dispersion,
         attenuation: attenuation.filter(|(_, distance)| distance.is_finite() && *distance > 0.0),
         transmits: material.transmission().is_some_and(|t| t.transmission_factor() > 0.0),
