@@ -29,7 +29,7 @@ pub enum SolidRef<'a> {
 
 /// What only a convex stone between planes has: facets to name and draw, and exact beams.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
-#[error("this takes a convex stone between planes; meshes that are not convex, and glass, are for rays")]
+#[error("exact beams and drawings are for convex stones between planes, and this is none: use rays")]
 pub struct NotConvex;
 
 /// An edge between two facets, or a line on a smooth surface.
