@@ -258,3 +258,16 @@ proptest! {
         }
     }
 }
+
+#[test]
+fn a_facet_that_is_nothing_but_rounding_is_none() {
+    let mut planes: Vec<Plane> =
+        DVec3::AXES.iter().flat_map(|&a| [Plane::new(a, 1.0), Plane::new(-a, 1.0)]).collect();
+    let corner = |depth: f64| Plane::new(DVec3::ONE, 3.0 - depth);
+    planes.push(corner(1e-8));
+    let cube = Polytope::from_planes(&planes).unwrap();
+    assert_eq!((cube.facets().len(), cube.vertices().len(), cube.redundant()), (6, 8, [6].as_slice()));
+    // One that a machine could cut stays.
+    planes[6] = corner(1e-3);
+    assert_eq!(Polytope::from_planes(&planes).unwrap().facets().len(), 7);
+}

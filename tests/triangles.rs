@@ -164,7 +164,10 @@ fn a_stone_in_the_gap_of_another_is_seen_there() {
 fn exact_beams_say_that_they_do_not_apply_to_triangles() {
     let solid = Solid::Triangles(shell(heart()));
     let told = solid.polytope().unwrap_err().to_string();
-    assert!(told.contains("exact beams and drawings are for convex stones") && told.contains("use rays"), "{told}");
+    assert!(
+        told.contains("exact beams and drawings are for convex stones") && told.contains("use rays"),
+        "{told}"
+    );
     let stone = Placed::new(solid, material("diamond").unwrap().clone());
     let refused = taken(vec![stone], &light("studio").unwrap(), |sitting| {
         let facet = facet_at(sitting, 0.5 * f64::from(SIZE), 0.5 * f64::from(SIZE));

@@ -23,6 +23,9 @@ const FIRST_BOX: f64 = 4.0;
 /// A solid that still touches a box this many times the largest offset is called unbounded.
 const LAST_BOX: f64 = 1e6;
 
+/// Facets below this part of the surface are rounding: some thousand roundings squared, and far below any facet meant.
+const SLIVER: f64 = 1e-13;
+
 /// The largest offset must lie in this range, so that volumes neither overflow nor vanish.
 const SCALES: RangeInclusive<f64> = 1e-60..=1e60;
 
@@ -133,14 +136,25 @@ struct Draft {
 
 pub(super) fn build(planes: &[Plane]) -> Result<Polytope, PolytopeError> {
     let unit = validate(planes)?;
-    let (kept, merged) = merge(&unit);
+    let (all, merged) = merge(&unit);
+    let mut kept = all.clone();
+    let mut whole = None;
     let scale = unit.iter().map(|p| p.offset.abs()).fold(0.0, f64::max);
     let scale = if scale > 0.0 { scale } else { 1.0 };
     let mut half = FIRST_BOX * scale;
     loop {
         let error = match cut_box(&unit, &kept, half) {
             Ok(draft) => match draft.unbounded(planes.len()) {
-                None => return draft.finish(&unit, &kept, merged),
+                None => {
+                    let solid = draft.finish(&unit, &all, merged.clone())?;
+                    let slivers = slivers(&solid);
+                    if slivers.is_empty() {
+                        return Ok(solid);
+                    }
+                    kept.retain(|plane| !slivers.contains(plane));
+                    whole = Some(solid);
+                    continue;
+                }
                 Some(open) => PolytopeError::Unbounded { planes: open },
             },
             // The box itself may be what left nothing: a larger one tells.
@@ -150,13 +164,24 @@ pub(super) fn build(planes: &[Plane]) -> Result<Polytope, PolytopeError> {
                 }
                 PolytopeError::Empty { planes: blamed.into_iter().filter(|&p| p < planes.len()).collect() }
             }
-            Err(other) => return Err(other),
+            Err(other) => return whole.ok_or(other),
         };
+        if let Some(solid) = whole {
+            // Without its slivers it does not close: then they are some of it.
+            return Ok(solid);
+        }
         half *= 8.0;
         if half > LAST_BOX * scale {
             return Err(error);
         }
     }
+}
+
+/// The planes of facets that are nothing but rounding: those that run through an edge or a corner of what the others enclose.
+fn slivers(solid: &Polytope) -> Vec<usize> {
+    let least = SLIVER * solid.surface_area();
+    let is_sliver = |facet: &&Facet| solid.facet_area(facet) < least;
+    solid.facets().iter().filter(is_sliver).map(|facet| facet.source).collect()
 }
 
 fn validate(planes: &[Plane]) -> Result<Vec<Plane>, PolytopeError> {
