@@ -1,5 +1,6 @@
 //! The panel of the design: proportions, material, size, light.
 
+use super::desk::WAVELENGTHS;
 use super::editor::Editor;
 use super::files::Purpose;
 use super::proportions::{EXCELLENT_DEPTH, PROPORTIONS, Proportion};
@@ -395,6 +396,17 @@ fn lighting(editor: &mut Editor, ui: &mut Ui) {
         &mut work.exposure,
         (STOPS, " stops"),
     );
+    ui.horizontal(|ui| {
+        let meaning = "Into how many bands of wavelengths renders take light apart; few show as bands in the colours. Hold Z \
+            to see what three show.";
+        let label = named(ui, "Wavelengths", meaning);
+        let wavelengths = &mut editor.desk.wavelengths;
+        let combo = ComboBox::from_id_salt("wavelengths").selected_text(wavelengths.to_string()).width(64.0);
+        let combo = combo.show_ui(ui, |ui| {
+            WAVELENGTHS.into_iter().for_each(|n| drop(ui.selectable_value(wavelengths, n, n.to_string())));
+        });
+        combo.response.labelled_by(label.id);
+    });
     plain(
         ui,
         ("Head", "Half angle of the observer's head, which shuts out light in ASET and figures; 0 for none."),

@@ -71,7 +71,12 @@ pub struct Desk {
     pub light: String,
     /// Stops.
     pub exposure: f64,
+    /// Bands of wavelengths of renders.
+    pub wavelengths: u32,
 }
+
+/// Bands of wavelengths that are offered; of three each shows.
+pub const WAVELENGTHS: [u32; 5] = [3, 8, 16, 32, 64];
 
 impl Default for Desk {
     fn default() -> Self {
@@ -90,6 +95,7 @@ impl Default for Desk {
             last: None,
             light: super::document::FIRST_LIGHT.to_owned(),
             exposure: 0.0,
+            wavelengths: WAVELENGTHS[2],
         }
     }
 }

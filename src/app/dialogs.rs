@@ -170,6 +170,7 @@ fn keys(ui: &mut Ui) -> bool {
             line("double click".into(), "Shows one view alone.");
             line("arrows".into(), "Tilt the view that has the focus by 1°, with Shift by 5°; with Alt they move the picture; comma and full stop turn the stone, + and - zoom, Space follows the ray in the middle.");
             line("C held".into(), "Shows the design compared with.");
+            line("Z held".into(), "Shows renders in three bands of wavelengths alone.");
             for command in MENUS.iter().flat_map(|m| m.groups.iter()).flat_map(|g| g.iter()) {
                 if let Some(shortcut) = command.shortcut() {
                     line(ctx.format_shortcut(&shortcut), command.meaning());

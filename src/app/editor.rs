@@ -97,6 +97,8 @@ pub struct Editor {
     pub(super) safe: Option<Safe>,
     /// Whether the window may close without another question.
     pub(super) may_close: bool,
+    /// Whether renders are seen in three bands of wavelengths for as long as a key is down.
+    pub(super) shows_three: bool,
     title: String,
 }
 
@@ -150,6 +152,7 @@ impl Editor {
             watching: Watching::begin(move || watch()),
             safe: setup.safe.map(Safe::new),
             may_close: false,
+            shows_three: false,
             title: String::new(),
         };
         let named = |path: &Path| library::cut(&path.to_string_lossy()).filter(|_| !path.is_file()).is_some();
@@ -334,6 +337,7 @@ impl Editor {
         let ctx = ui.ctx().clone();
         self.take_in(&ctx);
         menus::keys(self, &ctx);
+        self.shows_three = menus::are_three_shown(&ctx);
         menus::bar(self, ui);
         menus::status(self, ui);
         design_panel::show(self, ui);

@@ -176,7 +176,16 @@ pub fn keys(editor: &mut Editor, ctx: &Context) {
 
 /// Whether the design compared with is to be seen in place of the present one.
 pub fn is_other_shown(ctx: &Context) -> bool {
-    !ctx.text_edit_focused() && ctx.input(|i| i.key_down(Key::C) && i.modifiers.is_none())
+    is_down(ctx, Key::C)
+}
+
+/// Whether renders are to be seen in three bands of wavelengths alone.
+pub fn are_three_shown(ctx: &Context) -> bool {
+    is_down(ctx, Key::Z)
+}
+
+fn is_down(ctx: &Context, key: Key) -> bool {
+    !ctx.text_edit_focused() && ctx.input(|i| i.key_down(key) && i.modifiers.is_none())
 }
 
 /// Does a command.

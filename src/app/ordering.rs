@@ -39,6 +39,11 @@ impl Editor {
         self.studio.order(order);
     }
 
+    /// Bands of wavelengths of renders; three while they are compared with what three show.
+    fn bands(&self) -> u32 {
+        if self.shows_three { 3 } else { self.desk.wavelengths }
+    }
+
     pub(super) fn specimen(&mut self, which: Which, turn: f64) -> Option<Arc<Specimen>> {
         match which {
             Which::Present => Some(self.posed(turn)),
@@ -74,6 +79,7 @@ impl Editor {
             strongest: self.desk.strongest,
             light: Arc::clone(light),
             exposure: work.exposure,
+            bands: self.bands(),
             head: self.document.work.head,
             overlay: self.desk.overlay().filter(|_| shows.is_seen()),
             specimen,
@@ -91,6 +97,7 @@ impl Editor {
             film: eye.film([1, 1], 1.0),
             light,
             exposure: self.document.work.exposure,
+            bands: self.desk.wavelengths,
             head: self.document.work.head,
             overlay: None,
         }

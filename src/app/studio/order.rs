@@ -37,6 +37,8 @@ pub struct Shot {
     pub light: Arc<Lighting>,
     /// Stops.
     pub exposure: f64,
+    /// Bands of wavelengths of a render, at its finest.
+    pub bands: u32,
     /// Half angle of the observer's head in scopes, degrees; 0 for none.
     pub head: f64,
     /// What is drawn over it.
@@ -53,7 +55,9 @@ impl PartialEq for Shot {
             && (self.shows, self.strongest, self.overlay, self.film.size)
                 == (other.shows, other.strongest, other.overlay, other.film.size)
             && (!seen || (self.view, self.film, self.head) == (other.view, other.film, other.head))
-            && (!by_light || (Arc::ptr_eq(&self.light, &other.light) && self.exposure == other.exposure))
+            && (!by_light
+                || (Arc::ptr_eq(&self.light, &other.light)
+                    && (self.exposure, self.bands) == (other.exposure, other.bands)))
     }
 }
 

@@ -112,7 +112,7 @@ pub struct Camera {
 
 /// A render that grows clearer.
 pub struct Growing {
-    /// Bands of wavelengths of each look.
+    /// Bands of wavelengths of each look, at most.
     pub bands: u32,
     /// Looks.
     pub looks: u32,
@@ -216,7 +216,7 @@ impl Camera {
             film = coarser(&film, 2.0);
         }
         let sitting = sitting(shot, &setting, film);
-        let bands = growing.map_or(effort.bands, |g| g.bands);
+        let bands = growing.map_or(effort.bands, |g| g.bands).min(shot.bands);
         let strata = strata(bands, &shot.light.light.spectrum, true);
         let develop = |picture: &Linear, unresolved, tracer| {
             developed(shot, (picture, growing.is_some()), (unresolved, tracer), &sitting, watch)
@@ -401,6 +401,7 @@ mod tests {
             view: eye.view(None),
             film: eye.film([56, 40], 1.0),
             light: Arc::new(Lighting::load("dome").unwrap()),
+            bands: 16,
             exposure: 0.0,
             head: 0.0,
             overlay: None,

@@ -28,8 +28,8 @@ const TILTED: f64 = 5e-3;
 /// How renders grow: fair, and fine where a card takes them.
 const FAIR_RENDER: Growing = Growing { bands: 8, looks: 1, unresolved: 1e-2 };
 /// A render as it is exported.
-pub const FINE_RENDER: Growing = Growing { bands: 16, looks: 4, unresolved: 2e-3 };
-const FINE_BY_CARD: Growing = Growing { bands: 16, looks: 64, unresolved: 2e-3 };
+pub const FINE_RENDER: Growing = Growing { bands: u32::MAX, looks: 4, unresolved: 2e-3 };
+const FINE_BY_CARD: Growing = Growing { bands: u32::MAX, looks: 64, unresolved: 2e-3 };
 
 /// Takes orders, one after the other.
 pub(super) struct Worker {

@@ -104,3 +104,19 @@ fn a_glass_shape_is_taken_from_the_library_and_its_dimensions_are_set() {
     bench.choose("Edit", "Undo");
     assert!(bench.editor().document.work.design.cut == cut);
 }
+
+#[test]
+fn renders_show_three_bands_of_wavelengths_while_a_key_is_down() {
+    let [render, ..] = Desk::default().panes;
+    let desk = Desk { layout: Layout::One, panes: [render; 4], ..Desk::default() };
+    let mut bench = Bench::with(Setup { file: Some("prism".into()), desk, ..Setup::default() });
+    bench.settle();
+    let many = bench.picture(0);
+    bench.harness.key_down(egui::Key::Z);
+    bench.settle();
+    let three = bench.picture(0);
+    assert!(three != many);
+    bench.harness.key_up(egui::Key::Z);
+    bench.settle();
+    assert!(bench.picture(0) == many);
+}
