@@ -4,6 +4,7 @@ use super::Failure;
 use super::specimen::Specimen;
 use crate::cut::from_mesh::Up;
 use crate::cut::{MaterialRef, Size};
+use crate::io::background::BackgroundRef;
 use crate::io::library;
 use crate::io::scene_file::{self, Entry, SceneFile};
 use crate::optics::Material;
@@ -28,6 +29,12 @@ pub struct Assembly {
     pub places: Vec<Place>,
     /// The light that the scene asks for: the name of one that comes with the program, or a file.
     pub light: Option<PathBuf>,
+    /// What the scene wants behind.
+    pub background: Option<BackgroundRef>,
+    /// How far behind the origin, mm.
+    pub background_distance_mm: Option<f64>,
+    /// The strength of refraction, 0 to 1.
+    pub strength: f64,
 }
 
 /// A stone's size and place.
@@ -73,6 +80,9 @@ impl Assembly {
             setting: Setting { stones: vec![stone], unit_mm: 0.5 * diameter_mm },
             places: vec![Place { diameter_mm, at_mm: DVec3::ZERO }],
             light: None,
+            background: None,
+            background_distance_mm: None,
+            strength: 1.0,
         })
     }
 
@@ -102,7 +112,8 @@ impl Assembly {
             return Err(Failure::Input(format!("{path}: {a} and {b} overlap; move one of them away")));
         }
         let places = members.iter().map(|m| Place { diameter_mm: m.diameter_mm, at_mm: m.at_mm }).collect();
-        Ok(Self { path, name: scene.name, setting, places, light: scene.light })
+        let SceneFile { name, light, background, background_distance_mm, strength, .. } = scene;
+        Ok(Self { path, name, setting, places, light, background, background_distance_mm, strength })
     }
 
     /// The weight of all stones in carats; `None` if one has no density.

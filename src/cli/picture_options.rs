@@ -7,9 +7,6 @@ use clap::Args;
 /// The largest side of a picture under light: it is held in memory.
 pub const MOST_PIXELS: u32 = 8192;
 
-/// How far behind the stones a photograph stands when not told, in girdle radii.
-const PHOTO_DISTANCE: f64 = 3.0;
-
 /// Stones, light and picture.
 #[derive(Debug, Clone, Args)]
 pub struct PictureOptions {
@@ -38,6 +35,13 @@ pub struct PictureOptions {
     /// 64 by rays]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=65536))]
     pub samples: Option<u32>,
+    /// Take the middle of each band of wavelengths in every look, instead of another one each time
+    #[arg(long)]
+    pub no_jitter: bool,
+    /// How much of the way that refraction turns light is followed, 0 to 1; less than 1 is a mixture for its looks, by rays
+    /// [default: the scene's, or 1: physics]
+    #[arg(long, value_name = "PART")]
+    pub strength: Option<f64>,
     /// What traces the light; beams are for one convex stone without a photograph behind
     #[arg(long, value_enum, default_value_t = TracerName::Auto)]
     pub tracer: TracerName,
@@ -57,16 +61,17 @@ pub struct PictureOptions {
     #[arg(long, value_name = "PART", default_value_t = Bloom::default().strength)]
     pub bloom: f64,
     /// What lies behind: transparent, a colour (white, #20262e), two from top to bottom (#404850-#101215), `light` for
-    /// what shines, or a photograph's file
-    #[arg(long, value_name = "WHAT", default_value = "#33373d-#0e0f11")]
-    pub background: String,
+    /// what shines, a pattern (page, grid, checks, stripes, dots, slit), or a photograph's file [default: the scene's, or
+    /// #33373d-#0e0f11]
+    #[arg(long, value_name = "WHAT")]
+    pub background: Option<String>,
     /// What to draw over the stones, separated by commas: wireframe, facets, bounces, unresolved, total (how often light is
     /// totally reflected before some leaves)
     #[arg(long, value_name = "WHAT", value_delimiter = ',')]
     pub overlay: Vec<Overlay>,
-    /// How far behind the stones the photograph stands, in girdle radii
-    #[arg(long, value_name = "DISTANCE", default_value_t = PHOTO_DISTANCE)]
-    pub photo_distance: f64,
+    /// How far behind the stones the pattern or photograph stands, in girdle radii [default: the scene's, or 3]
+    #[arg(long, value_name = "DISTANCE")]
+    pub photo_distance: Option<f64>,
 }
 
 fn film_size(text: &str) -> Result<[u32; 2], String> {

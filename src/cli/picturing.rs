@@ -5,46 +5,32 @@ use super::options::TracerName;
 use super::picture_options::PictureOptions;
 use super::sampler::{on_card, quickest};
 use super::{Failure, tell};
+use crate::io::background::{BackgroundError, BackgroundRef};
 use crate::io::export::Sampler;
 use crate::io::lighting::Lighting;
-use crate::io::panorama;
-use crate::optics::{Illuminant, strata};
-use crate::picture::spectral::{Remainder, expose};
-use crate::picture::{Background, Bloom, ByBeams, Develop, Linear, Overlay, Tone, develop, lay};
+use crate::optics::Illuminant;
+use crate::picture::{Bloom, Develop, Linear, Overlay, Tone, develop, lay};
 use crate::scene::{Film, Panorama, Projection, Setting, View};
-use crate::trace::ray::{self, ByRays, Camera};
+use crate::trace::Watch;
+use crate::trace::ray::{self, Camera};
 use crate::trace::sitting::Sitting;
 use crate::trace::surround::{Behind, Surround};
-use crate::trace::{Watch, beam};
 use glam::{DQuat, DVec2, DVec3};
 use std::cell::Cell;
 use std::path::Path;
 
+mod tracing;
+
 /// Air around the stones, as a part of half the picture.
 const MARGIN: f64 = 0.06;
 
-/// What exact beams leave unresolved, and below which weight rays are given up.
-const UNRESOLVED: f64 = 2e-3;
+/// Bounces that rays are followed for, and the weight below which they are given up.
+const MOST_BOUNCES: u32 = 64;
 const LEAST_WEIGHT: f64 = 5e-4;
 
-/// Beams of one wavelength: without symmetry 2e-3 would take many times as long as what else there is to do.
-const MOST_BEAMS: usize = 100_000;
-
-/// Bounces that rays are followed for.
-const MOST_BOUNCES: u32 = 64;
-
-/// Rows that rays are traced for at once: what they have seen so far is held.
-const ROWS_OF_RAYS: u32 = 256;
-
-/// Where more of the light is unresolved than this, a person is told.
-const MUCH_UNRESOLVED: f64 = 0.02;
-
-/// The widest photograph that is kept as it is; wider ones are halved.
-const WIDEST_PHOTO: u32 = 4096;
-
-/// Looks that a picture is made of when not told: rays need many for smooth edges, beams only for the wavelengths.
-const LOOKS_OF_BEAMS: u32 = 4;
-const LOOKS_OF_RAYS: u32 = 64;
+/// What lies behind when not told, and how far a pattern or photograph does, in girdle radii.
+const BACKGROUND: &str = "#33373d-#0e0f11";
+const PHOTO_DISTANCE: f64 = 3.0;
 
 /// What traces a picture.
 #[derive(Clone, Copy)]
@@ -58,8 +44,13 @@ pub struct Studio<'a> {
     options: &'a PictureOptions,
     pub assembly: Assembly,
     lighting: Lighting,
+    pub background: BackgroundRef,
+    /// The pattern or photograph behind.
     pub photo: Option<Panorama>,
-    backdrop: bool,
+    /// How far behind the origin it stands, in girdle radii.
+    pub distance: f64,
+    /// The strength of refraction, 0 to 1.
+    pub strength: f64,
     pub develop: Develop,
     tracer: Cell<Tracer>,
 }
@@ -70,20 +61,21 @@ pub struct Taken {
     pub told: String,
 }
 
-/// A photograph of no more pixels than are of use.
-fn kept(mut photo: Panorama) -> Panorama {
-    while photo.width > WIDEST_PHOTO || photo.height > WIDEST_PHOTO {
-        photo = photo.halved();
-    }
-    photo
-}
-
 /// A number that an option takes, if it is in its range.
 pub fn within(key: &str, value: f64, least: f64, most: f64) -> Result<f64, Failure> {
     if (least..=most).contains(&value) {
         return Ok(value);
     }
     Err(Failure::Usage(format!("--{key} {value}: give {least} to {most}")))
+}
+
+impl From<BackgroundError> for Failure {
+    fn from(error: BackgroundError) -> Self {
+        match error {
+            BackgroundError::Unknown(told) => Self::Usage(told),
+            BackgroundError::NoFile(_) => Self::Input(error.to_string()),
+        }
+    }
 }
 
 impl<'a> Studio<'a> {
@@ -98,7 +90,10 @@ impl<'a> Studio<'a> {
             lighting.light.head = within("head", head, 0.0, 89.0)?;
         }
         within("turn", options.turn, -1e6, 1e6)?;
-        within("photo-distance", options.photo_distance, 0.0, 1e6)?;
+        let own = assembly.background_distance_mm.map(|mm| mm / assembly.setting.unit_mm);
+        let distance = options.photo_distance.or(own).unwrap_or(PHOTO_DISTANCE);
+        within("photo-distance", distance, 0.0, 1e6)?;
+        let strength = within("strength", options.strength.unwrap_or(assembly.strength), 0.0, 1.0)?;
         let bloom = Bloom { strength: within("bloom", options.bloom, 0.0, 1.0)?, ..Bloom::default() };
         let mut develop = Develop {
             exposure: within("exposure", options.exposure, -40.0, 40.0)?,
@@ -107,25 +102,19 @@ impl<'a> Studio<'a> {
             bloom: (bloom.strength > 0.0 && options.overlay.is_empty()).then_some(bloom),
             ..Develop::default()
         };
-        let backdrop = options.background == "light";
-        let mut photo = None;
-        if !backdrop {
-            match options.background.parse::<Background>() {
-                Ok(background) => develop.background = background,
-                Err(_) if Path::new(&options.background).exists() => {
-                    let reading =
-                        panorama::read_photo(Path::new(&options.background)).map_err(Failure::Input)?;
-                    reading.warnings.iter().for_each(|w| super::say(&format!("warning: {w}")));
-                    photo = Some(kept(reading.panorama));
-                }
-                Err(_) if Path::new(&options.background).extension().is_some() => {
-                    return Err(Failure::Input(format!("{}: there is no such file", options.background)));
-                }
-                Err(why) => return Err(Failure::Usage(format!("{why}, `light`, or a photograph's file"))),
-            }
+        let background = match (&options.background, &assembly.background) {
+            (None, Some(own)) => own.clone(),
+            (asked, _) => BackgroundRef::read(asked.as_deref().unwrap_or(BACKGROUND), Path::new(""))?,
+        };
+        if let BackgroundRef::Plain(plain) = background {
+            develop.background = plain;
         }
+        let reading = background.picture().map_err(Failure::Input)?;
+        reading.iter().flat_map(|r| &r.warnings).for_each(|w| super::say(&format!("warning: {w}")));
+        let photo = reading.map(|reading| reading.panorama);
+        let tracer = Cell::new(Tracer::Beams);
         let studio =
-            Self { options, assembly, lighting, photo, backdrop, develop, tracer: Cell::new(Tracer::Beams) };
+            Self { options, assembly, lighting, background, photo, distance, strength, develop, tracer };
         studio.tracer.set(studio.chosen(view)?);
         Ok(studio)
     }
@@ -134,9 +123,18 @@ impl<'a> Studio<'a> {
         let beams_apply = view.projection == Projection::Orthographic
             && matches!(&*self.assembly.setting.stones, [only] if only.solid.polytope().is_ok())
             && self.photo.is_none();
+        if self.strength < 1.0 {
+            return match self.options.tracer {
+                TracerName::Auto | TracerName::Ray => Ok(Tracer::Rays(Sampler::Rays)),
+                TracerName::Beam | TracerName::Gpu => Err(Failure::Usage(format!(
+                    "--strength {}: less than 1 is by rays on the processor: use --tracer ray, or --strength 1",
+                    self.strength
+                ))),
+            };
+        }
         match self.options.tracer {
             TracerName::Beam if !beams_apply => Err(Failure::Usage(
-                "exact beams are for one convex stone, parallel rays and no photograph behind: use --tracer ray"
+                "exact beams are for one convex stone, parallel rays and no pattern or photograph behind: use --tracer ray"
                     .into(),
             )),
             TracerName::Beam => Ok(Tracer::Beams),
@@ -220,7 +218,7 @@ impl<'a> Studio<'a> {
             Tracer::Beams => "exact beams".into(),
             Tracer::Rays(sampler) => sampler.told(),
         };
-        format!("light {}; {tracer}", self.lighting.light.name)
+        format!("light {}; {tracer}{}", self.lighting.light.name, self.mixture())
     }
 
     /// The light's name.
@@ -266,7 +264,7 @@ impl<'a> Studio<'a> {
         let turned = |x: DVec3| basis.right * x.x + basis.up * x.y + basis.toward * x.z;
         let (right, up) = (turned(turn * DVec3::X), turned(turn * DVec3::Y));
         (basis.right, basis.up) = (right, up);
-        let distance = self.options.photo_distance;
+        let distance = self.distance;
         // Wide enough to fill the picture, whatever its shape.
         let behind = self.photo.as_ref().map(|picture| {
             let [across, down] = self.options.size.map(f64::from);
@@ -285,7 +283,7 @@ impl<'a> Studio<'a> {
                 eye: view.basis(),
                 head: self.lighting.light.head.to_radians(),
                 behind,
-                backdrop: self.backdrop || behind.is_some(),
+                backdrop: self.background == BackgroundRef::Light || behind.is_some(),
             },
             view,
             film: Film::new(self.options.size, pixel),
@@ -303,64 +301,5 @@ impl<'a> Studio<'a> {
             Projection::Orthographic => 1.0,
             Projection::Perspective { distance } => (distance + behind) / distance,
         }
-    }
-
-    fn by_beams(&self, sitting: &Sitting, watch: Watch) -> Result<Taken, Failure> {
-        let samples = self.options.samples.unwrap_or(LOOKS_OF_BEAMS);
-        let options = beam::Options {
-            unresolved: UNRESOLVED,
-            polarised: !self.options.unpolarised,
-            most_beams: MOST_BEAMS,
-            ..beam::Options::default()
-        };
-        let unfit = || Failure::Usage("exact beams do not apply here: use --tracer ray".into());
-        let prepare = |_| ByBeams::new(*sitting, options).ok_or_else(unfit);
-        let most_rows = sitting.film.size[1];
-        let taken = expose(sitting, (&self.strata(), samples), most_rows, prepare, watch)?;
-        Ok(self.taken(taken, samples, "exact beams"))
-    }
-
-    fn by_rays(&self, sampler: Sampler, sitting: &Sitting, watch: Watch) -> Result<Taken, Failure> {
-        let (strata, samples) = (self.strata(), self.options.samples.unwrap_or(LOOKS_OF_RAYS));
-        let looks = (strata.as_slice(), samples);
-        let taken = match sampler {
-            Sampler::Rays => {
-                let prepare = |rows| Ok::<_, Failure>(ByRays::new(*sitting, rows));
-                expose(sitting, looks, ROWS_OF_RAYS, prepare, watch)?
-            }
-            #[cfg(feature = "gpu")]
-            Sampler::Card(gpu) => {
-                use crate::trace::gpu::{Around, ByCard};
-                let around = Around::new(gpu, &sitting.surround);
-                let prepare =
-                    |rows| Ok::<_, Failure>(ByCard::new(gpu, sitting, &around, rows, strata.len())?);
-                expose(sitting, looks, ByCard::most_rows(sitting.film.size[0]), prepare, watch)?
-            }
-        };
-        Ok(self.taken(taken, samples, &sampler.told()))
-    }
-
-    fn strata(&self) -> Vec<crate::optics::Stratum> {
-        strata(self.options.wavelengths, &self.lighting.light.spectrum, !self.options.unadapted)
-    }
-
-    fn taken(&self, (picture, rest): (Linear, Remainder), samples: u32, tracer: &str) -> Taken {
-        if rest.unresolved > MUCH_UNRESOLVED {
-            let percent = 100.0 * rest.unresolved;
-            super::say(&format!(
-                "warning: {}: {percent:.1} % of the light is unresolved by {tracer} and missing in the picture; \
-                 --tracer beam or ray may follow it farther",
-                self.assembly.path
-            ));
-        }
-        let light = &self.lighting.light.name;
-        let looks = if samples == 1 { "1 look".to_owned() } else { format!("{samples} looks") };
-        let polarised = if self.options.unpolarised { "unpolarised" } else { "polarised" };
-        let told = format!(
-            "{}; light {light}; {} wavelengths in {looks}, {polarised}; {tracer}, unresolved {:.2e}, absorbed \
-             {:.3}",
-            self.assembly.name, self.options.wavelengths, rest.unresolved, rest.absorbed
-        );
-        Taken { picture, told }
     }
 }

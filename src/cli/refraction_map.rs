@@ -6,6 +6,7 @@ use super::picturing::{Studio, within};
 use super::progress::Progress;
 use super::specimen::stem;
 use super::{Failure, each_file, say};
+use crate::io::background::BackgroundRef;
 use crate::io::export::{Sampler, Told};
 use crate::io::refraction_map::{self as files, Coding, MOST_BANDS, MOST_PIXELS};
 use crate::io::refraction_page::{Page, write_page};
@@ -65,7 +66,7 @@ enum Kind {
 
 impl RefractionMaps {
     pub fn run(&self) -> Result<(), Failure> {
-        let PictureOptions { size, tracer, overlay, background, bloom, .. } = &self.picture;
+        let PictureOptions { size, tracer, overlay, bloom, no_jitter, .. } = &self.picture;
         let refuse = |message: String| Err(Failure::Usage(message));
         if size.iter().any(|&side| side > MOST_PIXELS) {
             return refuse(format!("--size: a map has {MOST_PIXELS} pixels each way at most"));
@@ -78,8 +79,10 @@ impl RefractionMaps {
                 "refraction maps have no overlays and no glow: leave out --overlay and --bloom".into(),
             );
         }
-        if background == "light" {
-            return refuse("--background: give a photograph's file, or leave it out".into());
+        if *no_jitter {
+            return refuse(
+                "a refraction map takes the middles of its bands anyway: leave out --no-jitter".into(),
+            );
         }
         within("span", self.span, 1.0, 100.0)?;
         each_file(&self.files, |file| self.make(file))
@@ -89,6 +92,14 @@ impl RefractionMaps {
         let viewpoint = self.view.viewpoint()?;
         let view = viewpoint.view();
         let studio = Studio::load(&self.picture, file, &view)?;
+        if studio.background == BackgroundRef::Light {
+            return Err(Failure::Usage(
+                "--background: give a pattern or a photograph, or leave it out".into(),
+            ));
+        }
+        if studio.strength < 1.0 {
+            return Err(Failure::Usage("a refraction map is physics: give --strength 1".into()));
+        }
         let kinds = self.kinds(studio.photo.is_some())?;
         let bar = Progress::new(&studio.assembly.name);
         let (map, carried) = self.trace(&studio, &view, &bar)?;
@@ -99,7 +110,7 @@ impl RefractionMaps {
             "{name}; refraction map, bands {}; background {} behind, {} times as wide{}; light {light}; {}; {:.1} % of the \
              light comes from the background, {:.1} % of that from the map's places; {}",
             self.bands,
-            self.picture.photo_distance,
+            studio.distance,
             self.span,
             if self.both_sides { ", on both sides" } else { "" },
             Sampler::Rays.told(),
@@ -112,7 +123,9 @@ impl RefractionMaps {
 
     fn kinds(&self, has_photo: bool) -> Result<Vec<Kind>, Failure> {
         if self.format.contains(&Kind::Preview) && !has_photo {
-            return Err(Failure::Usage("--format preview: give a photograph by --background".into()));
+            return Err(Failure::Usage(
+                "--format preview: give a pattern or a photograph by --background".into(),
+            ));
         }
         let usual = [Kind::Tiled, Kind::Page].into_iter().chain(has_photo.then_some(Kind::Preview));
         Ok(if self.format.is_empty() { usual.collect() } else { self.format.clone() })
@@ -125,7 +138,7 @@ impl RefractionMaps {
         bar: &Progress,
     ) -> Result<(RefractionMap, Carried), Failure> {
         let pixel = studio.pixel(&studio.assembly.setting, view)?;
-        let distance = self.picture.photo_distance;
+        let distance = studio.distance;
         let [across, down] = self.picture.size.map(f64::from);
         let plane = Backdrop {
             distance,
@@ -191,20 +204,17 @@ impl RefractionMaps {
         Ok(())
     }
 
-    /// The photograph's file, where browsers can show it.
+    /// The pattern's or photograph's file, where browsers can show it.
     fn background(&self, studio: &Studio) -> Result<Option<Vec<u8>>, Failure> {
-        if studio.photo.is_none() {
-            return Ok(None);
-        }
-        let path = &self.picture.background;
-        let bytes =
-            std::fs::read(path).map_err(|e| Failure::Input(format!("{path}: cannot be read: {e}")))?;
+        let Some(bytes) = studio.background.bytes().map_err(Failure::Input)? else { return Ok(None) };
         let shows = bytes.starts_with(b"\x89PNG") || bytes.starts_with(b"\xff\xd8");
         if shows && bytes.len() <= MOST_BYTES_IN_PAGE {
             return Ok(Some(bytes));
         }
         let most = MOST_BYTES_IN_PAGE >> 20;
-        say(&format!("note: {path}: not put into the page, which takes PNG and JPEG of up to {most} MiB"));
+        say(&format!(
+            "note: the photograph is not put into the page, which takes PNG and JPEG of up to {most} MiB"
+        ));
         Ok(None)
     }
 }

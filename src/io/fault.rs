@@ -6,7 +6,7 @@ use std::ops::Range;
 use toml::de::{DeTable, DeValue, Error};
 
 /// What the keys mean, for whoever left one out or wrote something else.
-const MEANINGS: [(&str, &str); 56] = [
+const MEANINGS: [(&str, &str); 59] = [
     ("name", "what it is called"),
     ("material", "a material's name, an index, or a table of its own"),
     ("diameter_mm", "girdle diameter in mm"),
@@ -38,6 +38,9 @@ const MEANINGS: [(&str, &str); 56] = [
     ("light", "a light's name, or a file"),
     ("layout", "row, ring or parcel"),
     ("gap_mm", "mm between the girdles of a layout"),
+    ("strength", "of refraction, 0 to 1; 1 is physics"),
+    ("background", "a colour, light, a pattern's name, or a photograph"),
+    ("background_distance_mm", "mm behind the middle of the stones"),
     ("stone", "a table [[stone]] for each kind"),
     ("cut", "a cut's name, or a cut file"),
     ("count", "how many"),

@@ -20,10 +20,15 @@ pub fn cut(name: &str) -> Option<&'static str> {
 }
 
 /// The scenes that come with the program, as their files in `scenes/`.
-pub const SCENES: [(&str, &str); 3] = [
+pub const SCENES: [(&str, &str); 8] = [
     ("trilogy", include_str!("../../scenes/trilogy.toml")),
     ("ring", include_str!("../../scenes/ring.toml")),
     ("parcel", include_str!("../../scenes/parcel.toml")),
+    ("subtle-pill", include_str!("../../scenes/subtle-pill.toml")),
+    ("prism-rainbow", include_str!("../../scenes/prism-rainbow.toml")),
+    ("rotating-cube", include_str!("../../scenes/rotating-cube.toml")),
+    ("wavy-plate", include_str!("../../scenes/wavy-plate.toml")),
+    ("free-diamond", include_str!("../../scenes/free-diamond.toml")),
 ];
 
 /// The file of a scene that comes with the program; capitals do not matter.

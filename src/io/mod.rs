@@ -3,6 +3,7 @@
 mod apng;
 pub mod asc;
 mod atomic;
+pub mod background;
 pub mod cut_file;
 mod cutters;
 pub mod design_file;

@@ -160,7 +160,7 @@ pub(super) fn diffuse_png(diffuse: &Linear, description: &str) -> Result<Vec<u8>
     png(size, (ColorType::Rgba, BitDepth::Eight), &data, &[("Description", description)])
 }
 
-fn png(
+pub(super) fn png(
     [width, height]: [u32; 2],
     (colour, depth): (ColorType, BitDepth),
     data: &[u8],

@@ -2,6 +2,7 @@
 //!
 //! Lengths are in mm, angles in degrees. Every error names file, line and key, and says what was expected.
 
+use super::background::BackgroundRef;
 use super::cut_file::check_format;
 use super::fault::Fault;
 use super::text::{self, TextError};
@@ -38,6 +39,12 @@ pub struct SceneFile {
     pub layout: Option<Layout>,
     /// Least distance between two stones of a layout, seen from the table, mm.
     pub gap_mm: f64,
+    /// What lies behind them.
+    pub background: Option<BackgroundRef>,
+    /// How far behind the middle of all stones a pattern or photograph lies, mm, from 0.
+    pub background_distance_mm: Option<f64>,
+    /// How much of the way that refraction turns light is followed, 0 to 1; 1 is physics.
+    pub strength: f64,
     /// At least one; with their counts at most [`MOST_STONES`].
     pub stones: Vec<Entry>,
 }
@@ -111,7 +118,14 @@ fn scene(text: &str, folder: Option<&Path>) -> Result<SceneFile, Fault> {
     check_format(table.get_ref())?;
     let form = Form::deserialize(Deserializer::from(table)).map_err(Fault::form)?;
     let line = |number| Fault::at(format!("stone/{number}"), "").line(text).unwrap_or(1);
-    form.scene(&Surroundings { light: &|given| found(given, folder), line: &line })
+    let behind = |given: &str| behind(given, folder);
+    form.scene(&Surroundings { light: &|given| found(given, folder), background: &behind, line: &line })
+}
+
+/// What lies behind, a file from the scene's folder.
+fn behind(given: &str, folder: Option<&Path>) -> Result<BackgroundRef, Fault> {
+    BackgroundRef::read(given, folder.unwrap_or(Path::new("")))
+        .map_err(|error| Fault::at("background", format!("background: {error}")))
 }
 
 /// A light by its name, or its file.

@@ -2,7 +2,7 @@
 
 use super::Linear;
 use crate::optics::Stratum;
-use crate::trace::sitting::{Exposure, Lit, Look, Sitting};
+use crate::trace::sitting::{Exposure, Lit, Looks, Sitting};
 use crate::trace::{Stopped, Watch};
 use std::ops::Range;
 
@@ -27,18 +27,32 @@ pub fn expose<E: From<Stopped>, X: Exposure<E>>(
     prepare: impl Fn(Range<u32>) -> Result<X, E>,
     watch: Watch,
 ) -> Result<(Linear, Remainder), E> {
+    expose_in(sitting, (strata, Looks::of(samples)), most_rows, prepare, watch)
+}
+
+/// Takes a picture as [`expose`] does, of looks in a manner of their own.
+///
+/// # Errors
+/// As [`expose`].
+pub fn expose_in<E: From<Stopped>, X: Exposure<E>>(
+    sitting: &Sitting,
+    (strata, looks): (&[Stratum], Looks),
+    most_rows: u32,
+    prepare: impl Fn(Range<u32>) -> Result<X, E>,
+    watch: Watch,
+) -> Result<(Linear, Remainder), E> {
     let [width, height] = sitting.film.size;
     let mut sum = Sum::of(width, height);
     for first in (0..height).step_by(most_rows as usize) {
         let rows = first..(first + most_rows).min(height);
         let mut exposure = prepare(rows.clone())?;
-        for number in 0..samples {
+        for number in 0..looks.count {
             let done = |part: f64| {
                 let rows_done = f64::from(rows.start)
-                    + rows.len() as f64 * (f64::from(number) + part) / f64::from(samples);
+                    + rows.len() as f64 * (f64::from(number) + part) / f64::from(looks.count);
                 watch(rows_done / f64::from(height))
             };
-            exposure.look(&Look::new(sitting.setting, strata, number), &done)?;
+            exposure.look(&looks.look(sitting.setting, strata, number), &done)?;
         }
         exposure.lit(&mut |lit| sum.add(lit))?;
     }

@@ -34,6 +34,21 @@ pub struct Look {
     pub media: Vec<Vec<Medium>>,
     /// For each band the colour of light of radiance 1 in the surround's four channels.
     pub responses: Vec<[DVec3; 4]>,
+    /// How much of the way that refraction turns light is followed, 0 to 1; see [`Looks::strength`].
+    pub strength: f64,
+}
+
+/// How the looks of a picture are taken.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Looks {
+    /// How many, at least 1.
+    pub count: u32,
+    /// Whether each takes other wavelengths, so that together they are a whole spectrum; else all take the middles of their
+    /// bands.
+    pub jitter: bool,
+    /// How much of the way that refraction turns light is followed, 0 to 1: 1 is physics. Below, light that goes on away
+    /// from the eye is looked up on a mixture of its own ray and the straight one, for its looks.
+    pub strength: f64,
 }
 
 /// Rays of one pixel that may wait to meet another stone.
@@ -71,25 +86,59 @@ pub trait Exposure<E: From<Stopped>> {
 /// many are taken. It is not random, so that pictures repeat.
 const STEPS: DVec3 = DVec3::new(0.819_172_513_396_164_4, 0.671_043_606_703_789_2, 0.549_700_477_901_970_3);
 
-impl Look {
+impl Looks {
+    /// So many looks at what is there, each at other wavelengths.
+    pub fn of(count: u32) -> Self {
+        Self { count, jitter: true, strength: 1.0 }
+    }
+
     /// The look of a number, from 0: looks of many numbers fill pixels and strata evenly. The first is through the middle
     /// of both.
-    pub fn new(setting: &Setting, strata: &[Stratum], number: u32) -> Self {
-        let at = (STEPS * f64::from(number) + 0.5).fract();
+    pub fn look(&self, setting: &Setting, strata: &[Stratum], number: u32) -> Look {
+        let mut at = (STEPS * f64::from(number) + 0.5).fract();
+        if !self.jitter {
+            at.z = 0.5;
+        }
         let band = |s: &Stratum| (s.from_nm, s.at(at.z), s.to_nm);
         let medium = |stone: &Placed, s: &Stratum| Medium::of(&stone.material, band(s), setting.unit_mm);
-        Self {
+        Look {
             shift: at.truncate(),
             part: at.z,
             media: setting.stones.iter().map(|p| strata.iter().map(|s| medium(p, s)).collect()).collect(),
             responses: strata.iter().map(|s| s.response).collect(),
+            strength: self.strength,
         }
+    }
+}
+
+impl Look {
+    /// The look of a number at what is there, as [`Looks::look`].
+    pub fn new(setting: &Setting, strata: &[Stratum], number: u32) -> Self {
+        Looks::of(1).look(setting, strata, number)
     }
 
     /// The direction for which a ray stands that leaves in `direction`, at the wavelength taken: that of the middle of its
     /// band, around which `sweep` reaches half to either side.
     pub fn middle(&self, direction: DVec3, sweep: DVec3) -> DVec3 {
         direction + sweep * (0.5 - self.part)
+    }
+
+    /// The ray on which light is looked up that goes on as `ray` (its point, unit direction and sweep) where without any
+    /// stone it would go as `straight` (a point and the unit direction): itself at full strength, and when it goes back to
+    /// the eye's side; else the mixture of both.
+    pub fn mixed(
+        &self,
+        straight: (DVec3, DVec3),
+        (from, direction, sweep): (DVec3, DVec3, DVec3),
+    ) -> (DVec3, DVec3, DVec3) {
+        if self.strength >= 1.0 || direction.dot(straight.1) <= 0.0 {
+            return (from, direction, sweep);
+        }
+        let beside = straight.0 + straight.1 * (from - straight.0).dot(straight.1);
+        // Both go the same way, so that what is between them is never short.
+        let between = straight.1.lerp(direction, self.strength);
+        let length = between.length();
+        (beside.lerp(from, self.strength), between / length, sweep * (self.strength / length))
     }
 }
 

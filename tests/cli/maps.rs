@@ -32,6 +32,10 @@ fn a_refraction_map_comes_in_every_coding_with_its_diffuse_layer_a_page_and_a_pr
     assert!(told.contains("% of the light comes from the background"), "{told}");
     let page = desk.read("maps/cube-refraction.html");
     assert!(page.contains("<h1>Cube</h1>") && page.contains("data:image/png;base64,"));
+    let printed = desk
+        .done("refraction-map cube.toml --size 32 --samples 1 --wavelengths 2 --background dots --out dots");
+    assert_eq!(printed.lines().count(), 3, "{printed}");
+    assert!(desk.read("dots/cube-refraction.html").contains("\"background\":\"data:image/png;base64,"));
     // Of several bands each has its maps; without a photograph there is no preview.
     let printed =
         desk.done("refraction-map cube.toml --size 32 --samples 1 --wavelengths 2 --bands 3 --out three");
@@ -65,6 +69,8 @@ fn what_a_refraction_map_cannot_be_is_told() {
         ("--overlay wireframe", "--overlay"),
         ("--bloom 0.5", "--bloom"),
         ("--background light", "photograph"),
+        ("--strength 0.5", "--strength 1"),
+        ("--no-jitter", "--no-jitter"),
         ("--span 0.5", "--span"),
         ("--bands 17", "17"),
     ] {

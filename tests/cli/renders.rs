@@ -116,7 +116,39 @@ fn what_lies_behind_is_a_colour_nothing_or_a_photograph() {
         photo[0]
     );
     let said = desk.refused("render modern-ideal --background mauve", 2);
-    assert!(said.contains("mauve") && said.contains("photograph"), "{said}");
+    assert!(
+        said.contains("mauve") && said.contains("page, grid, checks") && said.contains("photograph"),
+        "{said}"
+    );
+}
+
+#[test]
+fn a_pattern_is_seen_through_glass_with_the_strength_asked_for() {
+    let desk = Desk::new();
+    let of = |options: &str| picture(&desk, &format!("prism --light dome --background checks {options}"));
+    let (physics, told) = of("");
+    assert!(told.contains("rays") && !told.contains("strength") && !told.contains("jitter"), "{told}");
+    assert_eq!(physics, of("--strength 1").0);
+    let (mixed, told) = of("--strength 0.1 --no-jitter");
+    assert!(told.contains("4 wavelengths in 2 looks, without jitter"), "{told}");
+    assert!(told.contains("strength 0.1: a mixture for its looks, not physics"), "{told}");
+    assert!((mean(&physics) - mean(&mixed)).abs().max_element() < 0.5 && physics != mixed);
+    // Straight on, and with a film of no reflection to speak of, the squares are where they are without glass.
+    let (bare, _) = of("--material 1.0001");
+    let (straight, _) = of("--material 1.0001 --strength 0");
+    assert!(bare.iter().zip(&straight).all(|(a, b)| (*a - *b).abs().max_element() < 0.02));
+    // A scene's own, and another asked for instead.
+    let (_, told) = picture(&desk, "subtle-pill");
+    assert!(
+        told.starts_with("Subtle pill; light dome") && told.contains("strength 0.035: a mixture"),
+        "{told}"
+    );
+    let (_, told) = picture(&desk, "subtle-pill --strength 1 --background black");
+    assert!(!told.contains("mixture"), "{told}");
+    for options in ["--tracer beam", "--tracer gpu"] {
+        let said = desk.refused(&format!("render modern-ideal --strength 0.5 {options}"), 2);
+        assert!(said.contains("--tracer ray, or --strength 1"), "{said}");
+    }
 }
 
 #[test]
@@ -170,6 +202,7 @@ fn a_render_at_fault_is_refused_and_says_why() {
         ("render modern-ideal --head 90", 2, "--head 90: give 0 to 89"),
         ("render modern-ideal --bloom 2", 2, "--bloom 2: give 0 to 1"),
         ("render modern-ideal --overlay hair", 2, "wireframe"),
+        ("render modern-ideal --strength 1.1", 2, "--strength 1.1: give 0 to 1"),
         ("render modern-ideal --out a.jpg", 2, ".jpg is not written"),
         ("render modern-ideal --background none.png", 1, "none.png: there is no such file"),
         ("spin modern-ideal --out a.png", 2, "give a folder"),

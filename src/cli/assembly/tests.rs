@@ -52,6 +52,24 @@ fn every_scene_that_comes_with_the_program_is_apart_and_weighs_what_it_asks_for(
         assert_eq!(scene.setting.unit_mm, 0.5 * largest);
         assert_eq!(load(name).setting, scene.setting);
     }
+    for (name, count) in [
+        ("subtle-pill", 4),
+        ("prism-rainbow", 4),
+        ("rotating-cube", 4),
+        ("wavy-plate", 4),
+        ("free-diamond", 1),
+    ] {
+        let scene = load(name);
+        assert_eq!(scene.setting.stones.len(), count, "{name}");
+        assert!(scene.strength < 1.0 && scene.background.is_some(), "{name}");
+        // As wide as in the demonstration, but for what leans.
+        let (low, high) = scene.setting.stones[0].solid.bounds();
+        let wide = (high - low).x * scene.setting.unit_mm;
+        let expected = [("subtle-pill", 40.0), ("prism-rainbow", 39.3), ("wavy-plate", 34.6)];
+        if let Some((_, mm)) = expected.iter().find(|(n, _)| *n == name) {
+            assert!((wide - mm).abs() < 0.02, "{name}: {wide}");
+        }
+    }
     let small = Assembly::load(Path::new("ring"), Some("diamond"), "3mm".parse().ok()).unwrap();
     assert!(small.places.iter().all(|p| p.diameter_mm == 3.0));
     assert!(small.setting.stones.iter().all(|s| s.material.name == "diamond"));

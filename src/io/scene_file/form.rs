@@ -1,5 +1,6 @@
 //! The keys of a scene file, and what they may be.
 
+use super::super::background::BackgroundRef;
 use super::super::cut_file::material_form::MaterialForm;
 use super::super::cut_file::values::{Numbers, OneOf, Pairs, Table};
 use super::super::fault::Fault;
@@ -22,6 +23,9 @@ pub(super) struct Form {
     light: Option<String>,
     layout: Option<String>,
     gap_mm: Option<f64>,
+    background: Option<String>,
+    background_distance_mm: Option<f64>,
+    strength: Option<f64>,
     stone: Vec<Table<StoneForm>>,
 }
 
@@ -72,6 +76,8 @@ impl TryFrom<OneOf<Pairs>> for SizeForm {
 pub(super) struct Surroundings<'a> {
     /// What a light's name or file comes to.
     pub light: &'a dyn Fn(&str) -> Result<PathBuf, Fault>,
+    /// What a background's name or file comes to.
+    pub background: &'a dyn Fn(&str) -> Result<BackgroundRef, Fault>,
     /// The line where the stones of an index begin.
     pub line: &'a dyn Fn(usize) -> usize,
 }
@@ -79,6 +85,7 @@ pub(super) struct Surroundings<'a> {
 const DEGREES: RangeInclusive<f64> = -1e6..=1e6;
 const LEANING: RangeInclusive<f64> = -180.0..=180.0;
 const GAPS_MM: RangeInclusive<f64> = 0.0..=1000.0;
+const DISTANCES_MM: RangeInclusive<f64> = 0.0..=10_000.0;
 const PLACES_MM: RangeInclusive<f64> = -10_000.0..=10_000.0;
 
 impl Form {
@@ -94,6 +101,20 @@ impl Form {
         }
         let gap_mm = self.gap_mm.unwrap_or(DEFAULT_GAP_MM);
         within("gap_mm", "gap_mm", gap_mm, GAPS_MM, "mm")?;
+        let background = self.background.as_deref().map(around.background).transpose()?;
+        if let Some(distance) = self.background_distance_mm {
+            if !matches!(background, Some(BackgroundRef::Pattern(_) | BackgroundRef::Photo(_))) {
+                let message = "background_distance_mm: only a pattern or a photograph has a distance; give background, or \
+                               leave it out";
+                return Err(Fault::at("background_distance_mm", message));
+            }
+            within("background_distance_mm", "background_distance_mm", distance, DISTANCES_MM, "mm")?;
+        }
+        let strength = self.strength.unwrap_or(1.0);
+        if !(0.0..=1.0).contains(&strength) {
+            let message = format!("strength: {strength} must be from 0, straight on, to 1, physics");
+            return Err(Fault::at("strength", message));
+        }
         check_counts(&self.stone)?;
         let alone = self.stone.len() == 1;
         let entry = |(index, Table(form)): (usize, Table<StoneForm>)| {
@@ -102,7 +123,8 @@ impl Form {
             form.check_place(layout, alone).and_then(|()| form.entry((around.line)(index))).map_err(told)
         };
         let stones = self.stone.into_iter().enumerate().map(entry).collect::<Result<_, _>>()?;
-        Ok(SceneFile { name: self.name, light, layout, gap_mm, stones })
+        let Self { name, background_distance_mm, .. } = self;
+        Ok(SceneFile { name, light, layout, gap_mm, background, background_distance_mm, strength, stones })
     }
 }
 

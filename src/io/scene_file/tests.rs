@@ -46,6 +46,15 @@ fn a_layout_and_places_read_as_written() {
     assert_eq!(scene.stones[1].at_mm, DVec3::new(8.0, -1.5, 2.0));
     let glass = scene.stones[1].material.as_ref().unwrap().material().unwrap();
     assert_eq!(glass.index(SODIUM_D), 1.5);
+    assert_eq!((&scene.background, scene.background_distance_mm, scene.strength), (&None, None, 1.0));
+    let behind = with(
+        PLACED,
+        "[[stone]]",
+        "background = \"Page\"\nbackground_distance_mm = 12\nstrength = 0.5\n[[stone]]",
+    );
+    let scene = parse(&behind, "x.toml", None).unwrap();
+    assert_eq!(scene.background, Some(BackgroundRef::Pattern(crate::picture::Pattern::Page)));
+    assert_eq!((scene.background_distance_mm, scene.strength), (Some(12.0), 0.5));
     let alone = "format = 1\nname = \"One\"\nstone = [{ cut = \"shallow\" }]";
     assert_eq!(parse(alone, "x.toml", None).unwrap().stones.len(), 1);
 }
@@ -88,6 +97,27 @@ fn what_is_wrong_with_a_scene_is_told_with_line_and_key() {
         ("azimuth", "azimut", "x.toml:15: stone: unknown key `azimut`"),
     ] {
         assert_told(&with(TRILOGY, part, other), told);
+    }
+    for (lines, told) in [
+        ("background = \"pages\"", "x.toml:3: background: background 'pages': give"),
+        ("background = \"none.png\"", "x.toml:3: background: none.png: there is no such file"),
+        (
+            "background = 3",
+            "x.toml:3: background: invalid type: integer `3`, expected text (a colour, light,",
+        ),
+        ("background_distance_mm = 3", "x.toml:3: background_distance_mm: only a pattern or a photograph"),
+        (
+            "background = \"black\"\nbackground_distance_mm = 3",
+            "x.toml:4: background_distance_mm: only a pattern",
+        ),
+        (
+            "background = \"page\"\nbackground_distance_mm = -3",
+            "x.toml:4: background_distance_mm: -3 must be from 0",
+        ),
+        ("strength = 1.5", "x.toml:3: strength: 1.5 must be from 0, straight on, to 1, physics"),
+        ("strength = nan", "x.toml:3: strength: NaN must be"),
+    ] {
+        assert_told(&with(PLACED, "[[stone]]", &format!("{lines}\n[[stone]]")), told);
     }
     for (part, other, told) in [
         ("at = [8, -1.5, 2]", "", "x.toml:6: stone 2: at is missing: give [x, y, z] in mm, or a layout"),

@@ -159,7 +159,8 @@ impl<'a> ByRays<'a> {
 
     /// What one ray of a pixel sees, over all wavelengths.
     fn see(&self, bands: &[Company], look: &Look, at: DVec2) -> Lit {
-        let start = Waiting::from_eye(self.camera.ray(at));
+        let straight = self.camera.ray(at);
+        let start = Waiting::from_eye(straight);
         // Where it meets the first stone is the same for all wavelengths.
         let first = self.company.first(&start);
         let is_seen = first.is_some() || self.sitting.surround.backdrop;
@@ -168,11 +169,12 @@ impl<'a> ByRays<'a> {
             let mut light = DVec4::ZERO;
             match &first {
                 Some(first) => {
-                    let rest = company.follow(&start, first, |ray| light += self.arriving(ray, look));
+                    let rest =
+                        company.follow(&start, first, |ray| light += self.arriving(ray, straight, look));
                     lit.unresolved += rest.unresolved;
                     lit.absorbed += rest.absorbed;
                 }
-                None if is_seen => light = self.arriving(&start, look),
+                None if is_seen => light = self.arriving(&start, straight, look),
                 None => {}
             }
             lit.colour += response.iter().zip(light.to_array()).map(|(&c, l)| c * l).sum::<DVec3>();
@@ -182,10 +184,11 @@ impl<'a> ByRays<'a> {
         Lit { unresolved: unresolved * share, absorbed: absorbed * share, ..lit }
     }
 
-    /// The light that comes down a ray from what stands around.
-    fn arriving(&self, ray: &Waiting, look: &Look) -> DVec4 {
-        let middle = look.middle(ray.direction, ray.sweep);
-        self.sitting.surround.radiance(ray.origin, middle, ray.sweep) * ray.weight
+    /// The light that comes down a ray from what stands around; `straight` is the one from the eye that it goes back to.
+    fn arriving(&self, ray: &Waiting, straight: (DVec3, DVec3), look: &Look) -> DVec4 {
+        let own = (ray.origin, ray.direction, ray.sweep);
+        let (from, direction, sweep) = look.mixed(straight, own);
+        self.sitting.surround.radiance(from, look.middle(direction, sweep), sweep) * ray.weight
     }
 }
 

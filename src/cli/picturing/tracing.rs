@@ -1,0 +1,109 @@
+//! A picture by each tracer, and what it says of how it was made.
+
+use super::{Failure, Studio, Taken};
+use crate::io::export::Sampler;
+use crate::optics::{Stratum, strata};
+use crate::picture::spectral::{Remainder, expose_in};
+use crate::picture::{ByBeams, Linear};
+use crate::trace::ray::ByRays;
+use crate::trace::sitting::{Looks, Sitting};
+use crate::trace::{Watch, beam};
+
+/// What exact beams leave unresolved.
+const UNRESOLVED: f64 = 2e-3;
+
+/// Beams of one wavelength: without symmetry 2e-3 would take many times as long as what else there is to do.
+const MOST_BEAMS: usize = 100_000;
+
+/// Rows that rays are traced for at once: what they have seen so far is held.
+const ROWS_OF_RAYS: u32 = 256;
+
+/// Where more of the light is unresolved than this, a person is told.
+const MUCH_UNRESOLVED: f64 = 0.02;
+
+/// Looks that a picture is made of when not told: rays need many for smooth edges, beams only for the wavelengths.
+const LOOKS_OF_BEAMS: u32 = 4;
+const LOOKS_OF_RAYS: u32 = 64;
+
+impl Studio<'_> {
+    pub(super) fn by_beams(&self, sitting: &Sitting, watch: Watch) -> Result<Taken, Failure> {
+        let looks = self.looks(LOOKS_OF_BEAMS);
+        let options = beam::Options {
+            unresolved: UNRESOLVED,
+            polarised: !self.options.unpolarised,
+            most_beams: MOST_BEAMS,
+            ..beam::Options::default()
+        };
+        let unfit = || Failure::Usage("exact beams do not apply here: use --tracer ray".into());
+        let prepare = |_| ByBeams::new(*sitting, options).ok_or_else(unfit);
+        let most_rows = sitting.film.size[1];
+        let taken = expose_in(sitting, (&self.strata(), looks), most_rows, prepare, watch)?;
+        Ok(self.taken(taken, looks, "exact beams"))
+    }
+
+    pub(super) fn by_rays(
+        &self,
+        sampler: Sampler,
+        sitting: &Sitting,
+        watch: Watch,
+    ) -> Result<Taken, Failure> {
+        let (strata, looks) = (self.strata(), self.looks(LOOKS_OF_RAYS));
+        let seen = (strata.as_slice(), looks);
+        let taken = match sampler {
+            Sampler::Rays => {
+                let prepare = |rows| Ok::<_, Failure>(ByRays::new(*sitting, rows));
+                expose_in(sitting, seen, ROWS_OF_RAYS, prepare, watch)?
+            }
+            #[cfg(feature = "gpu")]
+            Sampler::Card(gpu) => {
+                use crate::trace::gpu::{Around, ByCard};
+                let around = Around::new(gpu, &sitting.surround);
+                let prepare =
+                    |rows| Ok::<_, Failure>(ByCard::new(gpu, sitting, &around, rows, strata.len())?);
+                expose_in(sitting, seen, ByCard::most_rows(sitting.film.size[0]), prepare, watch)?
+            }
+        };
+        Ok(self.taken(taken, looks, &sampler.told()))
+    }
+
+    fn strata(&self) -> Vec<Stratum> {
+        strata(self.options.wavelengths, &self.lighting.light.spectrum, !self.options.unadapted)
+    }
+
+    fn looks(&self, usual: u32) -> Looks {
+        let count = self.options.samples.unwrap_or(usual);
+        Looks { count, jitter: !self.options.no_jitter, strength: self.strength }
+    }
+
+    fn taken(&self, (picture, rest): (Linear, Remainder), taken: Looks, tracer: &str) -> Taken {
+        if rest.unresolved > MUCH_UNRESOLVED {
+            let percent = 100.0 * rest.unresolved;
+            crate::cli::say(&format!(
+                "warning: {}: {percent:.1} % of the light is unresolved by {tracer} and missing in the picture; \
+                 --tracer beam or ray may follow it farther",
+                self.assembly.path
+            ));
+        }
+        let light = &self.lighting.light.name;
+        let looks = if taken.count == 1 { "1 look".to_owned() } else { format!("{} looks", taken.count) };
+        let jitter = if taken.jitter { "" } else { ", without jitter" };
+        let polarised = if self.options.unpolarised { "unpolarised" } else { "polarised" };
+        let told = format!(
+            "{}; light {light}; {} wavelengths in {looks}{jitter}, {polarised}; {tracer}, unresolved {:.2e}, absorbed \
+             {:.3}{}",
+            self.assembly.name,
+            self.options.wavelengths,
+            rest.unresolved,
+            rest.absorbed,
+            self.mixture()
+        );
+        Taken { picture, told }
+    }
+
+    /// What pictures say that are no physics; nothing of others.
+    pub(super) fn mixture(&self) -> String {
+        let strength = self.strength;
+        let told = || format!("; strength {strength}: a mixture for its looks, not physics");
+        (strength < 1.0).then(told).unwrap_or_default()
+    }
+}

@@ -1,0 +1,168 @@
+//! What lies behind the stones, as people ask for it: the light itself, a colour, a pattern of the program's, a photograph.
+
+use super::panorama::{self, Reading};
+use super::refraction_map::png;
+use super::{DrawingError, rasterize};
+use crate::optics::linear_from_encoded;
+use crate::picture::{Background, PATTERN_SIDE, Pattern};
+use crate::scene::Panorama;
+use ::png::{BitDepth, ColorType};
+use std::path::{Path, PathBuf};
+
+/// The widest photograph that is kept as it is; wider ones are halved.
+const WIDEST: u32 = 4096;
+
+/// What was asked for.
+#[derive(Debug, Clone, PartialEq)]
+pub enum BackgroundRef {
+    /// `light`: what shines.
+    Light,
+    /// Colours, or nothing.
+    Plain(Background),
+    /// A drawing that comes with the program.
+    Pattern(Pattern),
+    /// A picture's file, which was there.
+    Photo(PathBuf),
+}
+
+/// Why there is no such background.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+pub enum BackgroundError {
+    /// What is neither a name, nor a colour, nor a file.
+    #[error("{0}")]
+    Unknown(String),
+    /// A file that is not there.
+    #[error("{0}: there is no such file")]
+    NoFile(String),
+}
+
+impl BackgroundRef {
+    /// Reads what was asked for; names stand before files, which are looked for from `folder`.
+    ///
+    /// # Errors
+    /// For what is none of all, or a file that is not there.
+    pub fn read(text: &str, folder: &Path) -> Result<Self, BackgroundError> {
+        if text.eq_ignore_ascii_case("light") {
+            return Ok(Self::Light);
+        }
+        if let Some(pattern) = Pattern::named(text) {
+            return Ok(Self::Pattern(pattern));
+        }
+        let path = folder.join(text);
+        match text.parse::<Background>() {
+            Ok(background) => Ok(Self::Plain(background)),
+            Err(_) if path.is_file() => Ok(Self::Photo(path)),
+            Err(_) if path.extension().is_some() => Err(BackgroundError::NoFile(path.display().to_string())),
+            Err(why) => {
+                let names = Pattern::NAMES.map(|(name, _)| name).join(", ");
+                let message = format!("{why}, `light`, a pattern ({names}), or a photograph's file");
+                Err(BackgroundError::Unknown(message))
+            }
+        }
+    }
+
+    /// The picture that hangs behind, of no more pixels than are of use; `None` where there is none.
+    ///
+    /// # Errors
+    /// What is wrong with a photograph's file, in words that name it.
+    pub fn picture(&self) -> Result<Option<Reading>, String> {
+        match self {
+            Self::Light | Self::Plain(_) => Ok(None),
+            Self::Pattern(pattern) => {
+                let panorama = drawn(*pattern).map_err(|error| error.to_string())?;
+                Ok(Some(Reading { panorama, warnings: vec![] }))
+            }
+            Self::Photo(path) => {
+                let mut reading = panorama::read_photo(path)?;
+                while reading.panorama.width > WIDEST || reading.panorama.height > WIDEST {
+                    reading.panorama = reading.panorama.halved();
+                }
+                Ok(Some(reading))
+            }
+        }
+    }
+
+    /// The same picture as a file's bytes, a photograph's as they are; `None` where there is none.
+    ///
+    /// # Errors
+    /// What is wrong with a photograph's file, in words that name it.
+    pub fn bytes(&self) -> Result<Option<Vec<u8>>, String> {
+        match self {
+            Self::Light | Self::Plain(_) => Ok(None),
+            Self::Pattern(pattern) => {
+                let (width, height, rgb) = rastered(*pattern).map_err(|error| error.to_string())?;
+                let file = png([width, height], (ColorType::Rgb, BitDepth::Eight), &rgb, &[]);
+                file.map(Some).map_err(|error| error.to_string())
+            }
+            Self::Photo(path) => {
+                let told = |e| format!("{}: cannot be read: {e}", path.display());
+                std::fs::read(path).map(Some).map_err(told)
+            }
+        }
+    }
+}
+
+fn rastered(pattern: Pattern) -> Result<(u32, u32, Vec<u8>), DrawingError> {
+    rasterize(&pattern.drawing().to_string(), PATTERN_SIDE)
+}
+
+/// A pattern in linear light.
+fn drawn(pattern: Pattern) -> Result<Panorama, DrawingError> {
+    let (width, height, rgb) = rastered(pattern)?;
+    let linear: Vec<f32> = (0..=255_u8).map(|c| linear_from_encoded(f64::from(c) / 255.0) as f32).collect();
+    let pixels = rgb.as_chunks::<3>().0.iter().map(|p| p.map(|c| linear[usize::from(c)])).collect();
+    Ok(Panorama { width, height, pixels })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The mean of a pattern, and the share of pixels that are neither black nor white nor of a colour that it is drawn in.
+    fn mean(picture: &Panorama) -> f64 {
+        let sum: f64 = picture.pixels.iter().map(|p| f64::from(p[1])).sum();
+        sum / picture.pixels.len() as f64
+    }
+
+    #[test]
+    fn patterns_are_crisp_and_hold_as_much_ink_as_they_are_drawn_with() {
+        // Green light of each: the share of paper. A dot of a quarter of the step covers pi / 16 of its square.
+        let lines = 1.0 - (1.0 - 4.0 / 64.0_f64).powi(2);
+        for (name, least, most) in [
+            ("page", 0.75, 0.95),
+            ("grid", 1.0 - lines, 1.0 - lines * 0.95),
+            ("checks", 0.4999, 0.5001),
+            ("stripes", 0.4999, 0.5001),
+            ("dots", 1.0 - 0.1964 - 0.002, 1.0 - 0.1964 + 0.002),
+            ("slit", 0.005_85, 0.005_86),
+        ] {
+            let asked = BackgroundRef::read(name, Path::new("")).unwrap();
+            let picture = asked.picture().unwrap().unwrap().panorama;
+            assert_eq!((picture.width, picture.height), (PATTERN_SIDE, PATTERN_SIDE), "{name}");
+            let mean = mean(&picture);
+            assert!((least..=most).contains(&mean), "{name}: {mean}");
+            if ["checks", "stripes", "slit"].contains(&name) {
+                assert!(picture.pixels.iter().all(|p| *p == [0.0; 3] || *p == [1.0; 3]), "{name}");
+            }
+        }
+    }
+
+    #[test]
+    fn names_stand_before_files_and_what_is_neither_is_told() {
+        let folder = tempfile::tempdir().unwrap();
+        for file in ["page", "white", "photo.png", "odd"] {
+            std::fs::write(folder.path().join(file), "").unwrap();
+        }
+        let read = |text: &str| BackgroundRef::read(text, folder.path());
+        assert_eq!(read("Light"), Ok(BackgroundRef::Light));
+        assert_eq!(read("page"), Ok(BackgroundRef::Pattern(Pattern::Page)));
+        assert_eq!(read("white"), Ok(BackgroundRef::Plain(Background::Plain([1.0; 3]))));
+        assert_eq!(read("odd"), Ok(BackgroundRef::Photo(folder.path().join("odd"))));
+        assert!(read("photo.png").unwrap().picture().unwrap_err().contains("photo.png"));
+        assert!(matches!(read("none.png"), Err(BackgroundError::NoFile(path)) if path.ends_with("none.png")));
+        let Err(BackgroundError::Unknown(told)) = read("pages") else { panic!("no error") };
+        assert!(
+            told.contains("'pages'") && told.contains("page, grid, checks") && told.contains("photograph")
+        );
+    }
+}

@@ -1,0 +1,150 @@
+//! Backgrounds that the program draws itself: square drawings of 2048 units, black or in colours on white, their edges on
+//! whole units, so that as many pixels show them crisp.
+
+use std::fmt::Write as _;
+use svg::Document;
+use svg::node::element::{Path, Rectangle, Text};
+
+/// Side of a pattern, units of its drawing.
+pub const PATTERN_SIDE: u32 = 2048;
+
+/// A background by its name.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Pattern {
+    /// A page of text.
+    Page,
+    /// Fine lines, of one colour across and of another down.
+    Grid,
+    /// Black and white squares.
+    Checks,
+    /// Black and white stripes across.
+    Stripes,
+    /// Black discs, row beside row.
+    Dots,
+    /// One white line across the dark, as a spectroscope has it.
+    Slit,
+}
+
+const INK: &str = "#000000";
+const PAPER: &str = "#ffffff";
+
+/// Side of a square and width of a stripe; from line to line and from disc to disc.
+const STEP: u32 = 64;
+
+/// Half the height of the slit: so narrow that a prism near it keeps three images of it apart.
+const HALF_SLIT: u32 = 6;
+
+/// What is written on the page: about what is seen there.
+const WORDS: &str = "Light that enters glass is bent toward the normal, blue more than red, and bent back where it leaves. \
+    Between parallel faces both cancel and the page only shifts; at a rounded rim they do not, and letters are drawn out, \
+    turned over and given coloured edges. How far they move depends on how far behind the glass the page lies: laid against \
+    it they are read as they are, a hand's breadth away they swim. What is dark here is ink, what is bright the lamp behind \
+    you, sent back by the paper. ";
+
+impl Pattern {
+    /// The patterns by name.
+    pub const NAMES: [(&str, Self); 6] = [
+        ("page", Self::Page),
+        ("grid", Self::Grid),
+        ("checks", Self::Checks),
+        ("stripes", Self::Stripes),
+        ("dots", Self::Dots),
+        ("slit", Self::Slit),
+    ];
+
+    /// The pattern of a name; capitals do not matter.
+    pub fn named(name: &str) -> Option<Self> {
+        Self::NAMES.iter().find(|(known, _)| known.eq_ignore_ascii_case(name)).map(|(_, pattern)| *pattern)
+    }
+
+    /// Draws it.
+    pub fn drawing(self) -> Document {
+        let sheet = Document::new().set("viewBox", (0, 0, PATTERN_SIDE, PATTERN_SIDE));
+        let all = || 0..PATTERN_SIDE / STEP;
+        match self {
+            Self::Page => page(sheet),
+            Self::Grid => {
+                let across = all().map(|k| (0, k * STEP + STEP / 2 - 2, PATTERN_SIDE, 4));
+                let down = all().map(|k| (k * STEP + STEP / 2 - 2, 0, 4, PATTERN_SIDE));
+                let paper = sheet.add(rectangle((0, 0, PATTERN_SIDE, PATTERN_SIDE)).set("fill", PAPER));
+                paper
+                    .add(rectangles(across).set("fill", "#c01020"))
+                    .add(rectangles(down).set("fill", "#1030c0"))
+            }
+            Self::Checks => {
+                let squares = all().flat_map(|y| (0..PATTERN_SIDE / STEP / 2).map(move |x| (x, y)));
+                let place = |(x, y)| ((2 * x + y % 2) * STEP, y * STEP, STEP, STEP);
+                sheet.add(rectangles(squares.map(place)).set("fill", INK))
+            }
+            Self::Stripes => {
+                let stripes = all().step_by(2).map(|y| (0, y * STEP, PATTERN_SIDE, STEP));
+                sheet.add(rectangles(stripes).set("fill", INK))
+            }
+            Self::Dots => {
+                let (radius, middle) = (STEP / 4, STEP / 2);
+                let mut discs = String::new();
+                for (x, y) in all().flat_map(|y| all().map(move |x| (x * STEP, y * STEP + middle))) {
+                    let (left, across) = (x + middle - radius, 2 * radius);
+                    // Writing to a string cannot fail.
+                    let _ = write!(
+                        discs,
+                        "M{left},{y}a{radius},{radius} 0 1 0 {across},0a{radius},{radius} 0 1 0 -{across},0"
+                    );
+                }
+                sheet.add(Path::new().set("d", discs).set("fill", INK))
+            }
+            Self::Slit => {
+                let dark = rectangle((0, 0, PATTERN_SIDE, PATTERN_SIDE)).set("fill", INK);
+                let slit = (0, PATTERN_SIDE / 2 - HALF_SLIT, PATTERN_SIDE, 2 * HALF_SLIT);
+                sheet.add(dark).add(rectangle(slit).set("fill", PAPER))
+            }
+        }
+    }
+}
+
+type Corner = (u32, u32, u32, u32);
+
+fn rectangle((x, y, width, height): Corner) -> Rectangle {
+    Rectangle::new().set("x", x).set("y", y).set("width", width).set("height", height)
+}
+
+/// Many of one colour, as one path.
+fn rectangles(all: impl Iterator<Item = Corner>) -> Path {
+    let mut data = String::new();
+    for (x, y, width, height) in all {
+        let _ = write!(data, "M{x},{y}h{width}v{height}h-{width}z");
+    }
+    Path::new().set("d", data)
+}
+
+/// Lines of even length, broken between words, down to the foot of the page.
+fn page(sheet: Document) -> Document {
+    const SIZE: u32 = 56;
+    const LEADING: u32 = 84;
+    // Letters are half as wide as high, on average.
+    const LETTERS: usize = (PATTERN_SIDE as usize - 2 * SIZE as usize) * 2 / SIZE as usize;
+    let mut words = WORDS.split_whitespace().cycle().peekable();
+    (1..PATTERN_SIDE / LEADING).fold(sheet, |sheet, line| {
+        let mut text = String::new();
+        while words.peek().is_some_and(|word| text.len() + word.len() < LETTERS) {
+            text.extend(words.next());
+            text.push(' ');
+        }
+        let text = Text::new(text.trim_end()).set("x", SIZE).set("y", line * LEADING);
+        sheet.add(text.set("font-family", "Ubuntu").set("font-size", SIZE).set("fill", INK))
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn patterns_are_found_by_their_names() {
+        for (name, pattern) in Pattern::NAMES {
+            assert_eq!(Pattern::named(&name.to_uppercase()), Some(pattern));
+            assert!(pattern.drawing().to_string().len() < 1 << 17, "{name}");
+        }
+        assert_eq!(Pattern::named("pages"), None);
+    }
+}

@@ -1,0 +1,150 @@
+//! Three wavelengths show three bands, sixteen do not: the hues along a cut through a rainbow.
+#![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a test fails by it; what was found is told")]
+
+use brillianteer::cut::Glass;
+use brillianteer::io::background::BackgroundRef;
+use brillianteer::math::{Plane, Polytope};
+use brillianteer::optics::{Dispersion, Illuminant, Material, strata};
+use brillianteer::picture::LUMINANCE;
+use brillianteer::picture::spectral::expose_in;
+use brillianteer::scene::{Film, Light, Panorama, Placed, Setting, View};
+use brillianteer::trace::ray::{ByRays, Options};
+use brillianteer::trace::sitting::{Looks, Sitting};
+use brillianteer::trace::surround::{Behind, Sky, Surround};
+use brillianteer::trace::{Stopped, unwatched};
+use glam::{DMat3, DVec2, DVec3};
+use std::path::Path;
+
+/// Pixels of the cut.
+const PIXELS: u32 = 1024;
+
+/// Hues closer than this are one, degrees of CIELAB.
+const GAP: f64 = 12.0;
+
+/// Pixels dimmer than this part of the brightest have no hue that anyone sees.
+const DIM: f64 = 0.02;
+
+/// XYZ from linear sRGB (IEC 61966-2-1).
+const XYZ_FROM_SRGB: DMat3 =
+    DMat3::from_cols_array(&[0.4124, 0.2126, 0.0193, 0.3576, 0.7152, 0.1192, 0.1805, 0.0722, 0.9505]);
+
+/// The prism of 1.6 and 12 before a slit, as `render prism --background slit` has it, in the dark; the cut runs across the
+/// upper rainbow.
+fn cut(wavelengths: u32, looks: Looks) -> Vec<DVec3> {
+    let planes: Vec<Plane> = Glass::ALL[1].2.planes().unwrap().into_iter().map(|(_, plane)| plane).collect();
+    let mut material = Material::from_index("prism glass", 1.6).unwrap();
+    material.dispersion = Dispersion::Abbe { n_d: 1.6, v_d: 12.0 };
+    let stone = Placed::new(Polytope::from_planes(&planes).unwrap(), material);
+    let setting = Setting { stones: vec![stone], unit_mm: 20.0 };
+    let slit = BackgroundRef::read("slit", Path::new("")).unwrap().picture().unwrap().unwrap().panorama;
+    shot(&setting, &slit, wavelengths, looks)
+}
+
+fn shot(setting: &Setting, slit: &Panorama, wavelengths: u32, looks: Looks) -> Vec<DVec3> {
+    let dark = Light { dome: vec![], ..Light::white() };
+    let (sky, view) = (Sky::new(&dark, None), View::default());
+    let behind = Behind { picture: slit, distance: 0.3, width: 2.12 };
+    let surround = Surround {
+        sky: &sky,
+        basis: view.light_basis(),
+        eye: view.basis(),
+        head: 0.0,
+        behind: Some(behind),
+        backdrop: true,
+    };
+    // A column from the slit up over the upper face.
+    let film = Film { centre: DVec2::new(0.0, 0.17), ..Film::new([1, PIXELS], 0.40 / f64::from(PIXELS)) };
+    let options = Options { polarised: true, most_bounces: 16, least_weight: 1e-4 };
+    let sitting = Sitting { setting, surround, view: &view, film, options };
+    let strata = strata(wavelengths, &Illuminant::D65, true);
+    let prepare = |rows| Ok::<_, Stopped>(ByRays::new(sitting, rows));
+    let (picture, _) = expose_in(&sitting, (&strata, looks), PIXELS, prepare, &unwatched).unwrap();
+    picture.pixels.iter().map(|p| DVec3::new(p[0].into(), p[1].into(), p[2].into())).collect()
+}
+
+/// Hue in CIELAB, degrees; negative light is not cut off, so that what no screen shows keeps its hue too.
+fn hue(colour: DVec3, white: f64) -> f64 {
+    let xyz = XYZ_FROM_SRGB * colour / (XYZ_FROM_SRGB * DVec3::splat(white));
+    let f = |t: f64| if t > 0.008_856 { t.cbrt() } else { 7.787 * t + 16.0 / 116.0 };
+    let [x, y, z] = xyz.to_array().map(f);
+    (200.0 * (y - z)).atan2(500.0 * (x - y)).to_degrees().rem_euclid(360.0)
+}
+
+/// The hues along a cut, in its order, `None` where it is dark.
+fn hues(cut: &[DVec3]) -> Vec<Option<f64>> {
+    let brightness = |c: &DVec3| c.dot(DVec3::from_array(LUMINANCE.map(f64::from)));
+    let most = cut.iter().map(brightness).fold(0.0, f64::max);
+    assert!(most > 0.0, "no light");
+    cut.iter().map(|c| (brightness(c) > DIM * most).then(|| hue(*c, most))).collect()
+}
+
+/// The angle between two hues.
+fn apart(a: f64, b: f64) -> f64 {
+    let difference = (a - b).abs();
+    difference.min(360.0 - difference)
+}
+
+/// The most hues, taken one after the other, of which no two are nearer than the gap.
+fn distinct(hues: &[Option<f64>]) -> usize {
+    let mut found: Vec<f64> = vec![];
+    for &hue in hues.iter().flatten() {
+        if found.iter().all(|&other| apart(hue, other) > GAP) {
+            found.push(hue);
+        }
+    }
+    found.len()
+}
+
+/// The widest step from one lit pixel to the next, and how often the dark lies between.
+fn steps(hues: &[Option<f64>]) -> (f64, usize) {
+    let pairs = || hues.windows(2);
+    let step = pairs().filter_map(|w| Some(apart(w[0]?, w[1]?))).fold(0.0, f64::max);
+    let lit =
+        hues.iter().position(Option::is_some).unwrap()..=hues.iter().rposition(Option::is_some).unwrap();
+    let dark = hues[lit].windows(2).filter(|w| w[0].is_some() && w[1].is_none()).count();
+    (step, dark)
+}
+
+#[test]
+fn three_wavelengths_show_three_hues_and_sixteen_a_rainbow() {
+    let still = |count| Looks { jitter: false, ..Looks::of(count) };
+    let mut told = vec![];
+    for (wavelengths, looks) in [
+        (3, still(16)),
+        (8, still(16)),
+        (16, still(16)),
+        (3, Looks::of(64)),
+        (16, Looks::of(64)),
+        (64, Looks::of(64)),
+    ] {
+        let found = hues(&cut(wavelengths, looks));
+        let (step, dark) = steps(&found);
+        println!(
+            "{wavelengths} wavelengths, jitter {}: {} hues, widest step {step:.1} degrees, {dark} gaps",
+            looks.jitter,
+            distinct(&found)
+        );
+        told.push((distinct(&found), step, dark));
+    }
+    assert_eq!((told[0].0, told[0].2), (3, 2), "three lines, apart");
+    assert!(told[2].0 >= 12 && told[2].2 == 0, "a whole rainbow: {:?}", told[2]);
+    assert!(told[4].0 >= 12 && told[4].1 < GAP && told[4].2 == 0, "a smooth one: {:?}", told[4]);
+}
+
+#[test]
+fn no_strength_at_all_leaves_the_slit_where_it_is_and_full_strength_is_physics() {
+    let at = |strength| {
+        let cut = cut(8, Looks { strength, ..Looks::of(4) });
+        let lit: Vec<usize> = (0..cut.len()).filter(|&k| cut[k].y > 0.2).collect();
+        (lit.first().copied(), lit.len())
+    };
+    // The cut begins above the slit, whose image is moved up less and less.
+    let moved = [1.0, 0.5, 0.2].map(at);
+    assert!(moved[0].1 > 0 && moved[0].0 < moved[1].0 && moved[1].0 < moved[2].0, "{moved:?}");
+    let (straight, bare) = (cut(8, Looks { strength: 0.0, ..Looks::of(4) }), cut(8, Looks::of(4)));
+    // Straight on, each pixel sees what is behind it: of one colour, but for what the faces take.
+    assert!(
+        straight.iter().all(|c| (c.max_element() - c.min_element()).abs() < 0.05 * c.max_element() + 1e-6)
+    );
+    assert!(bare.iter().any(|c| (c.max_element() - c.min_element()).abs() > 0.05));
+}
