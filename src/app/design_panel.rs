@@ -7,6 +7,7 @@ use super::proportions::{EXCELLENT_DEPTH, PROPORTIONS, Proportion};
 use super::{glass_rows, theme, tier_rows};
 use crate::cut::{Cut, DesignError, MaterialRef, RoundBrilliant, Size, Unit};
 use crate::optics::{line, materials};
+use crate::picture::Pattern;
 use crate::scene::{LIGHTS, SpecimenError, light};
 use egui::{
     Color32, ComboBox, DragValue, Panel, Rect, RichText, Role, ScrollArea, Sense, Slider, SliderClamping,
@@ -407,6 +408,7 @@ fn lighting(editor: &mut Editor, ui: &mut Ui) {
         });
         combo.response.labelled_by(label.id);
     });
+    let asks_picture = behind(editor, ui);
     plain(
         ui,
         ("Head", "Half angle of the observer's head, which shuts out light in ASET and figures; 0 for none."),
@@ -416,7 +418,43 @@ fn lighting(editor: &mut Editor, ui: &mut Ui) {
     if asks {
         editor.choose(Purpose::Light);
     }
+    if asks_picture {
+        editor.choose(Purpose::Behind);
+    }
 }
+
+/// What hangs behind the stone in renders; whether a file is asked for.
+fn behind(editor: &mut Editor, ui: &mut Ui) -> bool {
+    let mut asks = false;
+    let desk = &mut editor.desk;
+    ui.horizontal(|ui| {
+        let label =
+            named(ui, "Behind", "A picture behind the stone in renders, refracted where each ray meets it.");
+        let name = desk.behind.as_deref().map_or("nothing", |name| {
+            std::path::Path::new(name).file_name().and_then(|n| n.to_str()).unwrap_or(name)
+        });
+        let combo = ComboBox::from_id_salt("behind")
+            .selected_text(name.to_owned())
+            .width(ui.available_width() - 12.0);
+        let combo = combo.show_ui(ui, |ui| {
+            ui.selectable_value(&mut desk.behind, None, "nothing");
+            for (name, _) in Pattern::NAMES {
+                ui.selectable_value(&mut desk.behind, Some(name.to_owned()), name);
+            }
+            asks = ui.button("From a file…").on_hover_text("A picture: .png, .jpg, .hdr or .exr.").clicked();
+        });
+        combo.response.labelled_by(label.id);
+    });
+    if desk.behind.is_some() {
+        let meaning = "How much of the way that refraction turns light is followed: 1 is physics, less a mixture with the \
+            straight ray, for its looks.";
+        plain(ui, ("Strength", meaning), &mut desk.strength, (STRENGTHS, ""));
+    }
+    asks
+}
+
+/// From the straight ray to physics.
+const STRENGTHS: RangeInclusive<f64> = 0.0..=1.0;
 
 /// A row of name, slider and number.
 fn plain(
@@ -429,9 +467,14 @@ fn plain(
         let label = named(ui, name, meaning);
         let held = ui.spacing().interact_size.y;
         ui.spacing_mut().slider_width = (ui.available_width() - NUMBER - held - 24.0).max(40.0);
-        ui.add(Slider::new(value, range.clone()).show_value(false).step_by(0.1))
-            .labelled_by(label.id)
-            .on_hover_text(meaning);
-        Number { decimals: 1, speed: 0.02, range, unit }.show(ui, (NUMBER, label.id), value);
+        ui.add(Slider::new(value, range.clone()).show_value(false).step_by(if *range.end() > 1.0 {
+            0.1
+        } else {
+            0.005
+        }))
+        .labelled_by(label.id)
+        .on_hover_text(meaning);
+        let decimals = if *range.end() > 1.0 { 1 } else { 3 };
+        Number { decimals, speed: 0.02, range, unit }.show(ui, (NUMBER, label.id), value);
     });
 }

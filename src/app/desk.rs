@@ -2,6 +2,7 @@
 
 use super::eye::Eye;
 use super::shows::Shows;
+use crate::io::background::BackgroundRef;
 use crate::picture::Overlay;
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
@@ -73,6 +74,10 @@ pub struct Desk {
     pub exposure: f64,
     /// Bands of wavelengths of renders.
     pub wavelengths: u32,
+    /// What hangs behind stones in renders: the name of a pattern, or a photograph's file.
+    pub behind: Option<String>,
+    /// How much of the way that refraction turns light is followed before it: 1 is physics.
+    pub strength: f64,
 }
 
 /// Bands of wavelengths that are offered; of three each shows.
@@ -96,11 +101,23 @@ impl Default for Desk {
             light: super::document::FIRST_LIGHT.to_owned(),
             exposure: 0.0,
             wavelengths: WAVELENGTHS[2],
+            behind: None,
+            strength: 1.0,
         }
     }
 }
 
 impl Desk {
+    /// What hangs behind stones in renders; a file that has gone is none.
+    pub fn background(&self) -> Option<BackgroundRef> {
+        BackgroundRef::read(self.behind.as_deref()?, Path::new("")).ok()
+    }
+
+    /// How much of the way that refraction turns light is followed; without a picture behind all of it.
+    pub fn strength(&self) -> f64 {
+        if self.behind.is_some() { self.strength.clamp(0.0, 1.0) } else { 1.0 }
+    }
+
     /// The panes in sight, by their places.
     pub fn shown(&self) -> Vec<usize> {
         match self.large.filter(|&k| k < self.layout.panes()) {

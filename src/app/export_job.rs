@@ -116,6 +116,14 @@ impl Plan {
         self.map.then_some(paths)
     }
 
+    /// Says that a render is no physics, where it is none.
+    fn mixture(&self) -> String {
+        match self.shot.strength {
+            s if s < 1.0 => format!("strength {s}: a mixture for its looks, not physics; "),
+            _ => String::new(),
+        }
+    }
+
     fn render_path(&self) -> Option<PathBuf> {
         let wanted = self.views.contains(&Shows::Render) && self.formats.contains(&Format::Png);
         wanted.then(|| self.folder.join(format!("{}-render.png", self.stem)))
@@ -204,7 +212,7 @@ impl Plan {
             "{}: render; light {}; {}{}",
             self.shot.specimen.design.name,
             self.shot.light.light.name,
-            taken.tracer,
+            self.mixture() + taken.tracer,
             taken.unresolved.map_or(String::new(), |u| format!(", unresolved {u:.2e}"))
         );
         Ok(write_rgba_png(path, &rgba, (width, height), &told)?)

@@ -27,6 +27,8 @@ pub enum Purpose {
     Compare,
     /// A light or a panorama.
     Light,
+    /// A picture to hang behind the stone.
+    Behind,
     /// A folder to export to.
     Folder,
 }
@@ -57,6 +59,9 @@ pub fn by_dialog(question: &Question) -> Option<PathBuf> {
         }
         Purpose::Light => {
             dialog.set_title("A light or a panorama").add_filter("Lights", &pictures).pick_file()
+        }
+        Purpose::Behind => {
+            dialog.set_title("A picture behind the stone").add_filter("Pictures", &pictures[1..]).pick_file()
         }
         Purpose::Folder => dialog.set_title("A folder for the pictures").pick_folder(),
     }

@@ -129,6 +129,7 @@ impl Editor {
             }
             Purpose::Compare => self.open(&path, Wanted::Beside),
             Purpose::Light => self.document.work.light = path.display().to_string(),
+            Purpose::Behind => self.desk.behind = Some(path.display().to_string()),
             Purpose::Folder => {
                 if let Some(Dialog::Export(export)) = &mut self.dialog {
                     export.folder = path;

@@ -1,6 +1,7 @@
 //! What is asked of the studio, and what it answers.
 
 use crate::app::shows::Shows;
+use crate::io::background::BackgroundRef;
 use crate::io::lighting::Lighting;
 use crate::measure::Figures;
 use crate::picture::Overlay;
@@ -39,6 +40,12 @@ pub struct Shot {
     pub exposure: f64,
     /// Bands of wavelengths of a render, at its finest.
     pub bands: u32,
+    /// Whether looks at a render take other wavelengths each.
+    pub jitter: bool,
+    /// The picture that hangs behind the stone of a render, if any.
+    pub behind: Option<BackgroundRef>,
+    /// How much of the way that refraction turns light is followed: 1 is physics.
+    pub strength: f64,
     /// Half angle of the observer's head in scopes, degrees; 0 for none.
     pub head: f64,
     /// What is drawn over it.
@@ -55,9 +62,14 @@ impl PartialEq for Shot {
             && (self.shows, self.strongest, self.overlay, self.film.size)
                 == (other.shows, other.strongest, other.overlay, other.film.size)
             && (!seen || (self.view, self.film, self.head) == (other.view, other.film, other.head))
-            && (!by_light
-                || (Arc::ptr_eq(&self.light, &other.light)
-                    && (self.exposure, self.bands) == (other.exposure, other.bands)))
+            && (!by_light || (Arc::ptr_eq(&self.light, &other.light) && self.manner() == other.manner()))
+    }
+}
+
+impl Shot {
+    /// What only renders go by.
+    fn manner(&self) -> (f64, u32, bool, Option<&BackgroundRef>, f64) {
+        (self.exposure, self.bands, self.jitter, self.behind.as_ref(), self.strength)
     }
 }
 

@@ -3,6 +3,7 @@
 use super::order::{Shot, Taken};
 use super::pace::Effort;
 use crate::app::shows::Shows;
+use crate::io::background::BackgroundRef;
 use crate::io::{Failure, rasterize};
 use crate::math::NotConvex;
 use crate::optics::{Stratum, line, strata};
@@ -11,12 +12,12 @@ use crate::picture::{
     Bloom, ByBeams, Develop, Layer, Linear, Overlay, Palette, Rows, by_gpu, develop, diagram, lay, paint,
     spectral,
 };
-use crate::scene::{Film, Placed, Projection, Scope, Setting, Specimen, View};
+use crate::scene::{Film, Panorama, Placed, Projection, Scope, Setting, Specimen, View};
 use crate::trace::beam::{self, Beams};
 use crate::trace::gpu::{Around, ByCard, Gpu, GpuError};
 use crate::trace::ray::{self, ByRays};
-use crate::trace::sitting::{Exposure, Look, Sitting};
-use crate::trace::surround::Surround;
+use crate::trace::sitting::{Exposure, Looks, Sitting};
+use crate::trace::surround::{Behind, Surround};
 use crate::trace::{Stopped, Watch};
 use egui::ColorImage;
 use std::sync::Arc;
@@ -108,6 +109,8 @@ pub struct Camera {
     pub gpu: Option<Arc<Gpu>>,
     /// Beams taken.
     pub shelf: Shelf,
+    /// The picture that hung behind last.
+    behind: Option<(BackgroundRef, Arc<Panorama>)>,
 }
 
 /// A render that grows clearer.
@@ -121,6 +124,11 @@ pub struct Growing {
 }
 
 impl Camera {
+    /// One that has a card, or none.
+    pub fn by(gpu: Option<Arc<Gpu>>) -> Self {
+        Self { gpu, ..Self::default() }
+    }
+
     /// Takes a picture with an effort; `Effort::coarser` of 1 is at full size. `growing` says that a render is to be taken
     /// as it will be exported, and `each` is called with what there is of it so far.
     pub fn take(
@@ -209,19 +217,21 @@ impl Camera {
     ) -> Result<(), Trouble> {
         let setting = setting(shot);
         let flat = is_for_beams(shot);
-        let by_card = self.gpu.clone().filter(|_| growing.is_some() || !flat);
+        let behind = self.picture_behind(shot)?;
+        let by_card = self.gpu.clone().filter(|_| (growing.is_some() || !flat) && shot.strength == 1.0);
         let slower = if by_card.is_none() && !flat && growing.is_none() { RAYS_COARSER } else { 1.0 };
         let mut film = coarser(&shot.film, effort.coarser * slower);
         if by_card.is_some() && film.size[1] > ByCard::most_rows(film.size[0]) {
             film = coarser(&film, 2.0);
         }
-        let sitting = sitting(shot, &setting, film);
+        let sitting = sitting(shot, &setting, film, behind.as_deref());
         let bands = growing.map_or(effort.bands, |g| g.bands).min(shot.bands);
         let strata = strata(bands, &shot.light.light.spectrum, true);
         let develop = |picture: &Linear, unresolved, tracer| {
             developed(shot, (picture, growing.is_some()), (unresolved, tracer), &sitting, watch)
         };
-        let work = Work { sitting: &sitting, strata: &strata, growing, watch };
+        let manner = Looks { count: 1, jitter: shot.jitter, strength: shot.strength };
+        let work = Work { sitting: &sitting, strata: &strata, manner, growing, watch };
         match by_card {
             Some(gpu) => {
                 let around = Around::new(&gpu, &sitting.surround);
@@ -250,26 +260,40 @@ impl Camera {
         }
     }
 
+    /// The picture behind a render, read or drawn once.
+    fn picture_behind(&mut self, shot: &Shot) -> Result<Option<Arc<Panorama>>, Trouble> {
+        let Some(asked) = &shot.behind else { return Ok(None) };
+        if let Some((_, picture)) = self.behind.as_ref().filter(|(last, _)| last == asked) {
+            return Ok(Some(Arc::clone(picture)));
+        }
+        let read = asked.picture().map_err(Trouble::Other)?;
+        let picture = read.map(|reading| Arc::new(reading.panorama));
+        self.behind = picture.clone().map(|picture| (asked.clone(), picture));
+        Ok(picture)
+    }
+
     fn overlaid(&self, shot: &Shot, mut taken: Taken, watch: Watch) -> Result<Taken, Trouble> {
         let Some(overlay) = shot.overlay else { return Ok(taken) };
         let setting = setting(shot);
         let [across, down] = taken.image.size.map(|n| n as u32);
         let pixel = shot.film.pixel * f64::from(shot.film.size[0]) / f64::from(across);
         let film = Film { size: [across, down], pixel, ..shot.film };
-        over(overlay, &sitting(shot, &setting, film), &mut taken.image, watch)?;
+        over(overlay, &sitting(shot, &setting, film, None), &mut taken.image, watch)?;
         Ok(taken)
     }
 }
 
-/// Whether exact beams show it: a convex stone by parallel rays.
+/// Whether exact beams show it: a convex stone by parallel rays, and no picture behind it.
 fn is_for_beams(shot: &Shot) -> bool {
-    shot.view.projection == Projection::Orthographic && shot.specimen.stone().is_ok()
+    let is_behind = shot.shows == Shows::Render && shot.behind.is_some();
+    !is_behind && shot.view.projection == Projection::Orthographic && shot.specimen.stone().is_ok()
 }
 
 /// Looks to be added up.
 struct Work<'a> {
     sitting: &'a Sitting<'a>,
     strata: &'a [Stratum],
+    manner: Looks,
     growing: Option<&'a Growing>,
     watch: Watch<'a>,
 }
@@ -284,7 +308,7 @@ impl Work<'_> {
         let looks = self.growing.map_or(1, |g| g.looks);
         for number in 0..looks {
             let done = |part: f64| (self.watch)((f64::from(number) + part) / f64::from(looks));
-            exposure.look(&Look::new(self.sitting.setting, self.strata, number), &done)?;
+            exposure.look(&self.manner.look(self.sitting.setting, self.strata, number), &done)?;
             if (number + 1).is_power_of_two() || number + 1 == looks {
                 let (picture, rest) = spectral::seen(self.sitting, &exposure)?;
                 each(&picture, rest.unresolved)?;
@@ -300,6 +324,17 @@ fn coarser(film: &Film, factor: f64) -> Film {
     Film { size, pixel: film.pixel * f64::from(film.size[0]) / f64::from(size[0]), ..*film }
 }
 
+/// How far behind the stone a picture hangs, girdle radii.
+pub const BEHIND: f64 = 3.0;
+
+/// How much larger than in the image's plane a picture must be to fill it from there.
+pub fn nearness(view: &View) -> f64 {
+    match view.projection {
+        Projection::Orthographic => 1.0,
+        Projection::Perspective { distance } => (distance + BEHIND) / distance,
+    }
+}
+
 /// What a shot is taken of.
 pub fn setting(shot: &Shot) -> Setting {
     let stone = Placed::named(&shot.specimen.body, shot.specimen.material.clone(), "");
@@ -307,7 +342,19 @@ pub fn setting(shot: &Shot) -> Setting {
 }
 
 /// A stone under its light, and the camera.
-pub fn sitting<'a>(shot: &'a Shot, setting: &'a Setting, film: Film) -> Sitting<'a> {
+pub fn sitting<'a>(
+    shot: &'a Shot,
+    setting: &'a Setting,
+    film: Film,
+    picture: Option<&'a Panorama>,
+) -> Sitting<'a> {
+    let behind = picture.map(|picture| {
+        let [across, down] = film.size.map(f64::from);
+        let shape = f64::from(picture.width) / f64::from(picture.height);
+        // Wide enough to fill the view, whatever its shape.
+        let width = film.pixel * across.max(down * shape) * nearness(&shot.view);
+        Behind { picture, distance: BEHIND, width }
+    });
     Sitting {
         setting,
         surround: Surround {
@@ -315,8 +362,8 @@ pub fn sitting<'a>(shot: &'a Shot, setting: &'a Setting, film: Film) -> Sitting<
             basis: shot.view.light_basis(),
             eye: shot.view.basis(),
             head: shot.light.light.head.to_radians(),
-            behind: None,
-            backdrop: false,
+            behind,
+            backdrop: behind.is_some(),
         },
         view: &shot.view,
         film,
@@ -402,6 +449,9 @@ mod tests {
             film: eye.film([56, 40], 1.0),
             light: Arc::new(Lighting::load("dome").unwrap()),
             bands: 16,
+            jitter: true,
+            behind: None,
+            strength: 1.0,
             exposure: 0.0,
             head: 0.0,
             overlay: None,
@@ -435,7 +485,7 @@ mod tests {
                 return;
             }
         };
-        let mut card = Camera { gpu: Some(gpu), shelf: Shelf::default() };
+        let mut card = Camera::by(Some(gpu));
         let growing = Growing { bands: 4, looks: 16, unresolved: 5e-3 };
         for (shows, distance, most) in
             [(Shows::Aset, Some(8.0), 2e-3), (Shows::Render, Some(8.0), 4e-3), (Shows::Render, None, 7e-3)]

@@ -2,7 +2,7 @@
 
 use super::order::{Answer, Ask, Grade, Order, Shot, Slot, Taken, Which};
 use super::pace::{Effort, Pace};
-use super::take::{Camera, Growing, Shelf, Trouble};
+use super::take::{Camera, Growing, Trouble};
 use super::{Desk, Wake};
 use crate::io::export::LATTICE;
 use crate::measure::{Figures, by_beams, by_rays};
@@ -56,7 +56,7 @@ impl Worker {
             desk,
             answers,
             wake,
-            camera: Camera { gpu, shelf: Shelf::default() },
+            camera: Camera::by(gpu),
             pace: Pace::default(),
             pictures: HashMap::new(),
             figures: HashMap::new(),

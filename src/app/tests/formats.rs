@@ -120,3 +120,20 @@ fn renders_show_three_bands_of_wavelengths_while_a_key_is_down() {
     bench.settle();
     assert!(bench.picture(0) == many);
 }
+
+#[test]
+fn a_pattern_hangs_behind_glass_and_is_refracted_as_strongly_as_asked() {
+    let [render, ..] = Desk::default().panes;
+    let desk = Desk { layout: Layout::One, panes: [render; 4], ..Desk::default() };
+    let mut bench = Bench::with(Setup { file: Some("cube".into()), desk, ..Setup::default() });
+    bench.settle();
+    let plain = bench.picture(0);
+    bench.harness.state_mut().desk.behind = Some("grid".into());
+    bench.settle();
+    let refracted = bench.picture(0);
+    assert!(refracted != plain);
+    assert!(bench.harness.query_by_role_and_label(egui::Role::SpinButton, "Strength").is_some());
+    bench.harness.state_mut().desk.strength = 0.1;
+    bench.settle();
+    assert!(bench.picture(0) != refracted);
+}
