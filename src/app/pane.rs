@@ -158,7 +158,7 @@ fn drawing(editor: &mut Editor, ui: &mut Ui, pane: usize, body: Rect) {
 /// What stands in the place of a drawing that only convex stones have.
 fn absent(ui: &Ui, body: Rect, what: &str) {
     ui.painter().rect_filled(body, 4.0, ui.visuals().extreme_bg_color);
-    let text = format!("{what} is drawn of convex stones only.");
+    let text = format!("{what} is drawn of convex stones between planes only.");
     let colour = ui.visuals().weak_text_color();
     ui.painter().text(
         body.center(),
