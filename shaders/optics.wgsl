@@ -24,16 +24,25 @@ fn refract_ray(d: vec3f, n: vec3f, eta: f32, cos_i: f32, cos_t: f32) -> vec3f {
     return d * eta + n * (eta * cos_i - cos_t);
 }
 
-// The mirror image of any vector.
-fn mirrored(v: vec3f, n: vec3f) -> vec3f {
-    return v - n * (2.0 * dot(v, n));
+// How the reflected direction changes when the ray's does by `of_d` and the normal by `of_n`.
+fn reflected_change(d: vec3f, n: vec3f, of_d: vec3f, of_n: vec3f) -> vec3f {
+    return of_d - n * (2.0 * (dot(of_d, n) + dot(d, of_n))) - of_n * (2.0 * dot(d, n));
 }
 
-// How the refracted direction changes when the ray's does by `of_d` and eta by `of_eta`; cos_t above 0.
-fn refracted_change(d: vec3f, n: vec3f, eta: f32, cos_i: f32, cos_t: f32, of_d: vec3f, of_eta: f32) -> vec3f {
-    let of_cos_i = -dot(of_d, n);
+// How the refracted direction changes when the ray's does by `of_d`, the normal by `of_n` and eta by `of_eta`; cos_t above 0.
+fn refracted_change(
+    d: vec3f,
+    n: vec3f,
+    eta: f32,
+    cos_i: f32,
+    cos_t: f32,
+    of_d: vec3f,
+    of_n: vec3f,
+    of_eta: f32,
+) -> vec3f {
+    let of_cos_i = -dot(of_d, n) - dot(d, of_n);
     let of_cos_t = eta * (eta * cos_i * of_cos_i - (1.0 - cos_i * cos_i) * of_eta) / max(cos_t, LEAST_COS_T);
-    return d * of_eta + of_d * eta + n * (of_eta * cos_i + eta * of_cos_i - of_cos_t);
+    return d * of_eta + of_d * eta + n * (of_eta * cos_i + eta * of_cos_i - of_cos_t) + of_n * (eta * cos_i - cos_t);
 }
 
 // Complex amplitudes; cos_t is 0 where reflection is total.

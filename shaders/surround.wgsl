@@ -114,7 +114,10 @@ fn radiance(ray: Ray) -> vec4f {
         let lamp = lamps[k];
         sum += lamp.radiance * share_inside(d - lamp.toward.xyz, sweep, lamp.toward.w);
     }
-    // The observer's head stands before the light, with an edge as wide as the sweep.
+    // The observer's head, where there is one, stands before the light, with an edge as wide as the sweep.
+    if surround.photo.z > 1.0 {
+        return sum;
+    }
     let width = max(swept, surround.photo.w);
     let clear = (surround.photo.z - dot(ray.direction, frame.toward.xyz)) / width + 0.5;
     return sum * clamp(clear, 0.0, 1.0);

@@ -1,12 +1,17 @@
 // One chain of bounces: the twin of src/trace/ray.rs. What leaves the stone goes to `depart` and from there to `leave`, which
-// the reading defines; what the stone is made of comes from `entry`, `next_facet` and `plane_of`.
+// the reading defines; what the stone is made of comes from `entry`, `next_facet` and `facet_normal`. A curved one is followed
+// in its own frame, of which `arriving`, `outward` and `unit` know.
 
 const LEAST_GAP: f32 = 1e-30;
 const FAR: f32 = 1e30;
+// A sweep beyond the whole sphere, or a shift beyond the solid, grows no further than this: each bounce may multiply it.
+const MOST_SWEPT: f32 = 1e4;
 
 // The stone that is traced, and what it is made of.
 var<private> body: Body;
 var<private> medium: Medium;
+// Turns of loops that the ray has taken, where they are counted; with too many its light is unresolved.
+var<private> turns: u32;
 
 struct Meeting {
     facet: u32,
@@ -31,11 +36,16 @@ fn transmittance(path: f32) -> f32 {
     return 0.5 * (exp(-medium.absorption_o * path) + exp(-medium.absorption_e * path));
 }
 
-// Light outside on its way into the body: along `s` and direction × s, without what has been absorbed, and the part that has
+fn is_spent() -> bool {
+    return turns > frame.most.x;
+}
+
+// Light outside on its way into the body, or away from it, and how far the ray's origin moves as its direction sweeps: along `s` and direction × s, without what has been absorbed, and the part that has
 // not been; length of its way and bounces inside so far.
 struct Inbound {
     met: Meeting,
     ray: Ray,
+    shift: vec3f,
     light: vec4f,
     s: vec3f,
     left: f32,
@@ -44,9 +54,26 @@ struct Inbound {
 }
 
 // Light of this weight, of all polarisations alike, that meets the body.
-fn arriving(ray: Ray, met: Meeting, weight: f32) -> Inbound {
-    let s = s_axis(ray.direction, plane_of(met.facet).xyz, frame.right.xyz);
-    return Inbound(met, ray, vec4f(vec2f(0.5 * weight), 0.0, 0.0), s, 1.0, 0.0, 0u);
+fn inbound_of(ray: Ray, shift: vec3f, met: Meeting, weight: f32) -> Inbound {
+    let normal = facet_normal(met.facet, ray.origin + ray.direction * met.distance);
+    let s = s_axis(ray.direction, normal, frame.right.xyz);
+    return Inbound(met, ray, shift, vec4f(vec2f(0.5 * weight), 0.0, 0.0), s, 1.0, 0.0, 0u);
+}
+
+// Not longer than it may get.
+fn tamed(v: vec3f) -> vec3f {
+    if !IS_CURVED {
+        return v;
+    }
+    let size = abs(v);
+    return v * min(MOST_SWEPT / max(max(size.x, size.y), max(size.z, LEAST_GAP)), 1.0);
+}
+
+// How far the point moves in which a ray meets a surface, when the ray there moves by this much.
+fn along_surface(by: vec3f, direction: vec3f, normal: vec3f) -> vec3f {
+    let speed = dot(normal, direction);
+    let divisor = select(min(speed, -LEAST_COS_T), max(speed, LEAST_COS_T), speed > 0.0);
+    return tamed(by - direction * (dot(normal, by) / divisor));
 }
 
 // How far it is to a plane that a ray inside runs toward.
@@ -58,8 +85,14 @@ fn distance_to(plane: vec4f, point: vec3f, direction: vec3f) -> f32 {
 fn passage(inbound: Inbound) -> Rest {
     let ray = inbound.ray;
     let is_polarised = frame.counts.w == 1u;
-    var normal = plane_of(inbound.met.facet).xyz;
     var point = ray.origin + ray.direction * inbound.met.distance;
+    var normal = facet_normal(inbound.met.facet, point);
+    var shift = vec3f(0.0);
+    var of_normal = vec3f(0.0);
+    if IS_CURVED {
+        shift = along_surface(inbound.shift + ray.sweep * inbound.met.distance, ray.direction, normal);
+        of_normal = turned_normal(point, shift);
+    }
     let outside = -dot(ray.direction, normal);
     let surface = fresnel(outside, 1.0 / medium.index);
     var s = s_axis(ray.direction, normal, inbound.s);
@@ -76,21 +109,28 @@ fn passage(inbound: Inbound) -> Rest {
         glare = unpolarised(glare);
         light = unpolarised(light);
     }
-    let back = Ray(point, reflect_ray(ray.direction, normal, outside), mirrored(ray.sweep, normal));
-    depart(back, glare, s, left, path, rest.bounces);
+    let turned_back = tamed(reflected_change(ray.direction, normal, ray.sweep, of_normal));
+    let back = Ray(point, reflect_ray(ray.direction, normal, outside), turned_back);
+    depart(Inbound(Meeting(NONE, 0.0), back, shift, glare, s, left, path, rest.bounces));
     let of_eta = -medium.spread / (medium.index * medium.index);
     var direction = refract_ray(ray.direction, normal, 1.0 / medium.index, outside, surface.cos_t);
-    var sweep = refracted_change(ray.direction, normal, 1.0 / medium.index, outside, surface.cos_t, ray.sweep, of_eta);
+    let eta = 1.0 / medium.index;
+    var sweep =
+        tamed(refracted_change(ray.direction, normal, eta, outside, surface.cos_t, ray.sweep, of_normal, of_eta));
     while (light.x + light.y) * left > frame.limits.x && rest.bounces < frame.counts.z {
         let next = next_facet(point, direction);
         // Rounding has let it slip out.
         if next.distance < 0.0 {
             break;
         }
-        normal = plane_of(next.facet).xyz;
-        let cos_i = dot(direction, normal);
         point += direction * next.distance;
-        path += next.distance;
+        path += next.distance * unit();
+        normal = facet_normal(next.facet, point);
+        let cos_i = dot(direction, normal);
+        if IS_CURVED {
+            shift = along_surface(shift + sweep * next.distance, direction, normal);
+            of_normal = turned_normal(point, shift);
+        }
         let after = transmittance(path);
         rest.absorbed += (light.x + light.y) * (left - after);
         left = after;
@@ -103,19 +143,21 @@ fn passage(inbound: Inbound) -> Rest {
         rest.bounces += 1u;
         if f.cos_t > 0.0 {
             let onward = refract_ray(direction, -normal, medium.index, cos_i, f.cos_t);
-            let swept = refracted_change(direction, -normal, medium.index, cos_i, f.cos_t, sweep, medium.spread);
+            let swept =
+                refracted_change(direction, -normal, medium.index, cos_i, f.cos_t, sweep, -of_normal, medium.spread);
             var gone = transmitted(light, f);
             if !is_polarised {
                 gone = unpolarised(gone);
             }
-            depart(Ray(point, onward, swept), gone, s, left, path, rest.bounces);
+            let out = Ray(point, onward, tamed(swept));
+            depart(Inbound(Meeting(NONE, 0.0), out, shift, gone, s, left, path, rest.bounces));
         }
         light = reflected(light, f);
         if !is_polarised {
             light = unpolarised(light);
         }
+        sweep = tamed(reflected_change(direction, normal, sweep, of_normal));
         direction = reflect_ray(direction, -normal, cos_i);
-        sweep = mirrored(sweep, normal);
     }
     rest.unresolved = (light.x + light.y) * left;
     return rest;

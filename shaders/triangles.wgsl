@@ -1,5 +1,4 @@
-// What light meets: triangles in boxes within boxes, the twin of src/math/bvh.rs, of src/trace/ray/facets.rs and, for light
-// that leaves and enters again, of src/trace/ray/tree.rs.
+// What light meets: triangles in boxes within boxes, the twin of src/math/bvh.rs and of src/trace/ray/facets.rs.
 
 @group(0) @binding(1) var<storage, read> triangles: array<Triangle>;
 @group(0) @binding(3) var<storage, read> nodes: array<Node>;
@@ -12,22 +11,10 @@ const BOX_SLACK: f32 = 4e-6;
 // Components of a direction are divided by as if no smaller.
 const STILLEST: f32 = 1e-20;
 
-// Turns of loops that the ray has taken; with too many its light is unresolved.
-var<private> turns: u32;
-// Light that leaves and enters again.
-var<private> inbound: array<Inbound, MOST_INBOUND>;
-var<private> inbound_count: u32;
-// Weight that has been given up.
-var<private> given_up: f32;
-
 fn plane_of(facet: u32) -> vec4f {
     let t = triangles[facet];
     let normal = vec3f(t.a.w, t.b.w, t.c.w);
     return vec4f(normal, dot(normal, t.a.xyz));
-}
-
-fn is_spent() -> bool {
-    return turns > frame.most.x;
 }
 
 // Axes turned so that the longest component of a direction is z, and not mirrored where that is below 0.
@@ -134,46 +121,4 @@ fn entry(origin: vec3f, direction: vec3f) -> Meeting {
 
 fn next_facet(point: vec3f, direction: vec3f) -> Meeting {
     return nearest_triangle(point, direction, 1.0);
-}
-
-// Light that leaves for good, or waits to enter again.
-fn depart(ray: Ray, light: vec4f, s: vec3f, left: f32, path: f32, bounce: u32) {
-    let weight = (light.x + light.y) * left;
-    let met = entry(ray.origin, ray.direction);
-    if is_spent() {
-        given_up += weight;
-    } else if met.distance < 0.0 || is_taken(ray, met.distance) {
-        leave(ray, weight, bounce == 0u);
-    } else if weight > frame.limits.x && inbound_count < MOST_INBOUND {
-        inbound[inbound_count] = Inbound(met, ray, light, s, left, path, bounce);
-        inbound_count += 1u;
-    } else {
-        given_up += weight;
-    }
-}
-
-// Follows a ray that enters the body at a facet, of light of this weight, and all of it that enters again.
-fn follow(ray: Ray, entered: Meeting, weight: f32) -> Rest {
-    inbound_count = 0u;
-    given_up = 0.0;
-    var rest = passage(arriving(ray, entered, weight));
-    while inbound_count > 0u {
-        var strongest = 0u;
-        var most = -1.0;
-        for (var k = 0u; k < inbound_count; k++) {
-            turns += 1u;
-            let own = (inbound[k].light.x + inbound[k].light.y) * inbound[k].left;
-            if own > most {
-                most = own;
-                strongest = k;
-            }
-        }
-        let next = inbound[strongest];
-        inbound_count -= 1u;
-        inbound[strongest] = inbound[inbound_count];
-        let passed = passage(next);
-        rest = Rest(rest.absorbed + passed.absorbed, rest.unresolved + passed.unresolved, max(rest.bounces, passed.bounces));
-    }
-    rest.unresolved += given_up;
-    return rest;
 }

@@ -2,116 +2,21 @@
 #![allow(clippy::unwrap_used, reason = "a test fails by it")]
 
 mod common;
+#[path = "common/shoot.rs"]
+mod shoot;
 
 use brillianteer::math::Polytope;
-use brillianteer::optics::{Illuminant, material, materials, strata};
-use brillianteer::picture::spectral::{Remainder, expose};
-use brillianteer::picture::{ByBeams, Linear};
+use brillianteer::optics::{Illuminant, material, materials};
 #[cfg(feature = "gpu")]
 use brillianteer::scene::Projection;
-use brillianteer::scene::{Film, Light, Panorama, Placed, Setting, View, light};
-use brillianteer::trace::beam;
-use brillianteer::trace::ray::{ByRays, Options};
-use brillianteer::trace::sitting::Sitting;
-use brillianteer::trace::surround::{Behind, Sky, Surround};
-use brillianteer::trace::{Stopped, unwatched};
+use brillianteer::scene::{Light, Panorama, Placed, View, light};
 use common::*;
 use glam::{DVec2, DVec3};
-
-const SIZE: u32 = 64;
-
-/// A picture to take.
-struct Shoot {
-    setting: Setting,
-    light: Light,
-    view: View,
-    wavelengths: u32,
-    samples: u32,
-    backdrop: bool,
-    /// A photograph behind, and how far.
-    photo: Option<(Panorama, f64)>,
-    options: Options,
-    /// The point in the picture's middle.
-    centre: DVec2,
-}
-
-impl Shoot {
-    fn new(polytope: &Polytope, material_name: &str, light: Light) -> Self {
-        let stone = Placed::new(polytope.clone(), material(material_name).unwrap().clone());
-        Self {
-            setting: Setting { stones: vec![stone], unit_mm: 3.25 },
-            light: Light { head: 0.0, ..light },
-            view: View { tilt: 0.2, azimuth: 0.4, ..View::default() },
-            wavelengths: 8,
-            samples: 1,
-            backdrop: true,
-            photo: None,
-            options: Options { polarised: true, most_bounces: 64, least_weight: 1e-4 },
-            centre: DVec2::ZERO,
-        }
-    }
-
-    fn with<T>(&self, work: impl FnOnce(&Sitting) -> T) -> T {
-        let sky = Sky::new(&self.light, None);
-        let eye = self.view.basis();
-        let surround = Surround {
-            sky: &sky,
-            basis: self.view.light_basis(),
-            eye,
-            head: self.light.head.to_radians(),
-            behind: self.photo.as_ref().map(|(picture, distance)| Behind {
-                picture,
-                distance: *distance,
-                width: 3.0,
-            }),
-            backdrop: self.backdrop,
-        };
-        work(&Sitting {
-            setting: &self.setting,
-            surround,
-            view: &self.view,
-            film: Film { centre: self.centre, ..Film::square(SIZE, 1.1) },
-            options: self.options,
-        })
-    }
-
-    fn by_rays(&self) -> (Linear, Remainder) {
-        let strata = strata(self.wavelengths, &self.light.spectrum, true);
-        self.with(|sitting| {
-            let prepare = |rows| Ok::<_, Stopped>(ByRays::new(*sitting, rows));
-            expose(sitting, (&strata, self.samples), SIZE, prepare, &unwatched).unwrap()
-        })
-    }
-
-    fn by_beams(&self) -> (Linear, Remainder) {
-        let strata = strata(self.wavelengths, &self.light.spectrum, true);
-        let options = beam::Options { unresolved: 1e-3, ..beam::Options::default() };
-        self.with(|sitting| {
-            let prepare = |_| Ok::<_, Stopped>(ByBeams::new(*sitting, options).unwrap());
-            expose(sitting, (&strata, self.samples), SIZE, prepare, &unwatched).unwrap()
-        })
-    }
-
-    #[cfg(feature = "gpu")]
-    fn by_card(&self, gpu: &brillianteer::trace::gpu::Gpu) -> (Linear, Remainder) {
-        use brillianteer::trace::gpu::{Around, ByCard};
-        let strata = strata(self.wavelengths, &self.light.spectrum, true);
-        self.with(|sitting| {
-            let around = Around::new(gpu, &sitting.surround);
-            let prepare = |rows| Ok::<_, Failed>(ByCard::new(gpu, sitting, &around, rows, strata.len())?);
-            // A strip at a time, as large pictures are taken.
-            expose(sitting, (&strata, self.samples), 40, prepare, &unwatched).unwrap()
-        })
-    }
-}
+use shoot::*;
 
 /// A modern ideal cut, with a coarse girdle that is quickly traced.
 fn modern() -> Polytope {
     built(&brilliant((56.0, 34.5, 40.8), (50.0, 77.0), 16)).polytope
-}
-
-fn colour(pixel: &[f32; 4]) -> DVec3 {
-    DVec3::new(f64::from(pixel[0]), f64::from(pixel[1]), f64::from(pixel[2]))
 }
 
 #[test]
@@ -334,48 +239,13 @@ fn a_stone_as_thin_as_air_still_covers_what_is_behind() {
     assert!((rays.pixels[middle][3] - 1.0).abs() < 1e-6 && (beams.pixels[middle][3] - 1.0).abs() < 1e-6);
 }
 
-/// Means of 8 x 8 pixels.
-fn blocks(picture: &Linear) -> Vec<DVec3> {
-    let (across, down) = (picture.width / 8, picture.height / 8);
-    let mean = |k: u32| {
-        let pixels = (0..64).map(|p| (k / across * 8 + p / 8) * picture.width + k % across * 8 + p % 8);
-        pixels.map(|at| colour(&picture.pixels[at as usize])).sum::<DVec3>() / 64.0
-    };
-    (0..across * down).map(mean).collect()
-}
-
-#[cfg(feature = "gpu")]
-#[derive(Debug)]
-#[expect(dead_code, reason = "what went wrong is printed by its Debug")]
-struct Failed(String);
-
 #[cfg(feature = "gpu")]
 mod card {
     use super::*;
-    use brillianteer::trace::gpu::{Gpu, GpuError};
-
-    impl From<GpuError> for Failed {
-        fn from(error: GpuError) -> Self {
-            Self(error.to_string())
-        }
-    }
-
-    impl From<Stopped> for Failed {
-        fn from(error: Stopped) -> Self {
-            Self(error.to_string())
-        }
-    }
-
-    /// The largest difference of any block's mean, as a part of full scale: the brightest block.
-    fn differ(shoot: &Shoot, twin: &Shoot, gpu: &Gpu) -> f64 {
-        let (exact, card) = (blocks(&shoot.by_rays().0), blocks(&twin.by_card(gpu).0));
-        let scale = exact.iter().map(|b| b.max_element()).fold(0.0, f64::max);
-        exact.iter().zip(&card).map(|(a, b)| (*a - *b).abs().max_element()).fold(0.0, f64::max) / scale
-    }
 
     #[test]
     fn the_card_shows_what_rays_show() {
-        let Some(gpu) = super::common::card("the_card_shows_what_rays_show") else { return };
+        let Some(gpu) = common::card("the_card_shows_what_rays_show") else { return };
         let fine = built(&brilliant((56.0, 34.5, 40.8), (50.0, 77.0), 96)).polytope;
         let shoot = |wavelengths, samples| {
             let mut shoot = Shoot::new(&fine, "diamond", light("lamps").unwrap());
@@ -415,7 +285,7 @@ mod card {
 
     #[test]
     fn the_card_shows_stones_beside_one_another_as_rays_do() {
-        let Some(gpu) = super::common::card("the_card_shows_stones_beside_one_another_as_rays_do") else {
+        let Some(gpu) = common::card("the_card_shows_stones_beside_one_another_as_rays_do") else {
             return;
         };
         let shoot = |index: f64| {
@@ -447,7 +317,7 @@ mod card {
 
     #[test]
     fn a_stone_of_many_planes_is_lit_by_bunches_as_well() {
-        let Some(gpu) = super::common::card("a_stone_of_many_planes_is_lit_by_bunches_as_well") else {
+        let Some(gpu) = common::card("a_stone_of_many_planes_is_lit_by_bunches_as_well") else {
             return;
         };
         let planes: Vec<_> = (0..600)

@@ -8,6 +8,8 @@
 mod body;
 mod error;
 mod jet;
+#[cfg(feature = "gpu")]
+mod parts;
 mod profile;
 mod roots;
 mod triangles;
@@ -19,6 +21,8 @@ mod tests;
 use self::body::Body;
 pub use self::error::FieldError;
 pub use self::jet::Jet;
+#[cfg(feature = "gpu")]
+pub(crate) use self::parts::Parts;
 use self::profile::{Profile, Triangle};
 use self::wave::Wave;
 use super::Surface;

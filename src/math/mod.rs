@@ -23,6 +23,8 @@ pub use affine::Affine;
 pub use basis::Basis;
 pub use bvh::{Bvh, Hit, Node};
 pub use decay::integral_of_decay;
+#[cfg(feature = "gpu")]
+pub(crate) use field::Parts;
 pub use field::{Field, FieldError, Form, Jet};
 pub use mesh::{Mesh, triangulate};
 pub use plane::Plane;

@@ -23,7 +23,7 @@ pub(super) struct Triangle {
     /// Outward unit normal of the flank at +y.
     pub normal: DVec2,
     /// Length of a flank.
-    flank: f64,
+    pub flank: f64,
 }
 
 /// Radius of the circle in an isosceles triangle: area over half the circumference.

@@ -18,6 +18,12 @@ impl Wave {
         Self { amplitude, number: TAU / wavelength, phase }
     }
 
+    /// Amplitude and waves per unit of length, and the phase as a part of a turn, 0 to 1.
+    #[cfg(feature = "gpu")]
+    pub fn parts(&self, unit: f64) -> [f64; 3] {
+        [self.amplitude / unit, self.number * unit / TAU, (self.phase / TAU).rem_euclid(1.0)]
+    }
+
     /// The arguments of the two cosines.
     #[inline]
     fn angles(&self, p: DVec3) -> [f64; 2] {

@@ -42,7 +42,7 @@ pub enum GpuError {
         /// How many there is room for.
         most: usize,
     },
-    /// There are smooth solids beside others.
+    /// There are smooth solids and others beside one another.
     #[error("glass beside stones is traced by rays; the graphics card takes one kind at a time")]
     MixedKinds,
     /// A driver in software would follow too few bounces.

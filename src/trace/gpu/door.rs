@@ -43,7 +43,7 @@ both_sides! {
         /// How many dispatches the pixels have seen; in scopes the rays along each side of a pixel, under light the first
         /// row that the stage holds; first wavelength and the one after the last.
         turn: vec4u,
-        /// Turns of loops that a ray among triangles may take; nothing in the others.
+        /// Turns of loops that a ray may take where it counts them; nothing in the others.
         most: vec4u,
     }
 }
@@ -65,7 +65,8 @@ both_sides! {
     Body, BODY_WGSL {
         /// Middle and radius of a ball around it.
         middle: vec4f,
-        /// Its first plane, the one after its last, and the same of its bunches; or of its triangles and boxes.
+        /// Its first plane, the one after its last, and the same of its bunches; or of its triangles and boxes; or its place
+        /// among the shapes.
         range: vec4u,
     }
 }
@@ -168,6 +169,26 @@ both_sides! {
         b: vec4f,
         /// The last; z.
         c: vec4f,
+    }
+}
+
+both_sides! {
+    /// A glass shape: [`crate::math::Field`] in its own frame, in which it reaches 1 from the origin.
+    Field, FIELD_WGSL {
+        /// The frame's x axis in the world; half the length of the core.
+        right: vec4f,
+        /// Its y axis; radius of the ball that is rolled around the core.
+        back: vec4f,
+        /// Its z axis; how far the body without its wave reaches.
+        up: vec4f,
+        /// Its origin; the length of its unit in the world.
+        shift: vec4f,
+        /// Half sides of the outline, radius of the disc around it, 0; or a triangle's corner at +y, its apex, 1.
+        outline: vec4f,
+        /// Normal and length of a triangle's flank at +y; 1 where there is a wave.
+        flank: vec4f,
+        /// The wave's amplitude; its waves per unit; its phase in turns; nothing.
+        wave: vec4f,
     }
 }
 

@@ -6,6 +6,7 @@
 mod bunches;
 mod device;
 mod door;
+mod fields;
 mod light;
 mod scope;
 mod shaders;

@@ -16,6 +16,20 @@ pub(super) enum Facets {
     Many,
     /// Triangles, not all of them of a convex stone.
     Triangles,
+    /// Glass shapes that are convex.
+    Smooth,
+    /// Glass shapes, not all of them convex.
+    Wavy,
+}
+
+impl Facets {
+    /// All kinds.
+    pub const ALL: [Self; 5] = [Self::Few, Self::Many, Self::Triangles, Self::Smooth, Self::Wavy];
+
+    /// Whether rays count the turns of their loops.
+    pub fn count_turns(self) -> bool {
+        matches!(self, Self::Triangles | Self::Smooth | Self::Wavy)
+    }
 }
 
 /// What is looked for.
@@ -30,9 +44,7 @@ pub(super) enum Reading {
 /// One reading's pipelines, each compiled when first used.
 pub(super) struct Pipelines {
     reading: Reading,
-    few: OnceLock<wgpu::ComputePipeline>,
-    many: OnceLock<wgpu::ComputePipeline>,
-    triangles: OnceLock<wgpu::ComputePipeline>,
+    by_facets: [OnceLock<wgpu::ComputePipeline>; Facets::ALL.len()],
 }
 
 /// A shader's text, its structs and constants in front.
@@ -47,13 +59,23 @@ pub(super) fn source(facets: Facets, reading: Reading) -> String {
     let stones = "@group(0) @binding(0) var<uniform> frame: Frame;\n\
         @group(0) @binding(4) var<uniform> bodies: array<Body, MOST_BODIES>;\n\
         @group(0) @binding(5) var<storage, read> media: array<Medium>;\n";
+    let flat = include_str!("../../../shaders/flat.wgsl");
+    let fields = include_str!("../../../shaders/fields.wgsl");
+    let jets = include_str!("../../../shaders/jets.wgsl");
     let convex = include_str!("../../../shaders/convex.wgsl");
+    let branching = include_str!("../../../shaders/branching.wgsl");
     let facets: &[&str] = match facets {
-        Facets::Few => &[include_str!("../../../shaders/planes.wgsl"), convex],
-        Facets::Many => &[door::BUNCH_WGSL, include_str!("../../../shaders/polytope.wgsl"), convex],
-        Facets::Triangles => {
-            &[door::TRIANGLE_WGSL, door::NODE_WGSL, include_str!("../../../shaders/triangles.wgsl")]
-        }
+        Facets::Few => &[include_str!("../../../shaders/planes.wgsl"), flat, convex],
+        Facets::Many => &[door::BUNCH_WGSL, include_str!("../../../shaders/polytope.wgsl"), flat, convex],
+        Facets::Triangles => &[
+            door::TRIANGLE_WGSL,
+            door::NODE_WGSL,
+            include_str!("../../../shaders/triangles.wgsl"),
+            flat,
+            branching,
+        ],
+        Facets::Smooth => &[door::FIELD_WGSL, jets, fields, convex],
+        Facets::Wavy => &[door::FIELD_WGSL, jets, fields, branching],
     };
     let reading: &[&str] = match reading {
         Reading::Scope => &[door::BANDS_WGSL, door::SEEN_WGSL, include_str!("../../../shaders/scope.wgsl")],
@@ -81,16 +103,11 @@ pub(super) fn source(facets: Facets, reading: Reading) -> String {
 
 impl Pipelines {
     pub fn new(reading: Reading) -> Self {
-        Self { reading, few: OnceLock::new(), many: OnceLock::new(), triangles: OnceLock::new() }
+        Self { reading, by_facets: Default::default() }
     }
 
     pub fn pipeline(&self, device: &wgpu::Device, facets: Facets) -> &wgpu::ComputePipeline {
-        let cell = match facets {
-            Facets::Few => &self.few,
-            Facets::Many => &self.many,
-            Facets::Triangles => &self.triangles,
-        };
-        cell.get_or_init(|| compiled(device, source(facets, self.reading)))
+        self.by_facets[facets as usize].get_or_init(|| compiled(device, source(facets, self.reading)))
     }
 }
 

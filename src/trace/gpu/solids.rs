@@ -3,9 +3,10 @@
 use super::bunches::bunches;
 use super::device::Gpu;
 use super::door::{Body, Bunch, with};
+use super::fields::field;
 use super::shaders::Facets;
 use super::triangles::Triangles;
-use crate::math::{Plane, SolidRef};
+use crate::math::{Field, Plane, SolidRef};
 use crate::trace::gpu::GpuError;
 use crate::trace::sitting::MOST_WAITING;
 
@@ -22,20 +23,20 @@ pub const MOST_BODIES: usize = 256;
 /// below this.
 const MOST_TURNS_IN_SOFTWARE: usize = 60_000;
 
-/// Turns after which the light of a ray among triangles is unresolved, on a card: lest a driver think that it hung.
+/// Turns after which the light of a ray that counts them is unresolved, on a card: lest a driver think that it hung.
 const MOST_TURNS: u32 = 1 << 20;
 
 /// The same in software: what is not counted stays below the rest.
 const MOST_COUNTED_IN_SOFTWARE: u32 = 48_000;
 
-/// Light of one ray that may wait to enter a stone of triangles again; the weakest of what rays in hearts and stars leave
+/// Light of one ray that may wait to enter a stone that is not convex again; the weakest of what rays in hearts and stars leave
 /// waiting at once is some ten.
 pub(super) const MOST_INBOUND: usize = 16;
 
 /// Boxes that may lie within one another.
 pub(super) const MOST_LEVELS: usize = 56;
 
-/// Turns of loops that one ray among triangles may take.
+/// Turns of loops that one ray may take where it counts them.
 pub(super) fn most_turns(gpu: &Gpu) -> u32 {
     if gpu.is_software() { MOST_COUNTED_IN_SOFTWARE } else { MOST_TURNS }
 }
@@ -63,8 +64,12 @@ impl Solids {
             SolidRef::Convex(polytope) => Some(polytope.planes().collect()),
             SolidRef::Triangles(_) | SolidRef::Smooth(_) => None,
         };
-        if stones.iter().any(|s| matches!(s, SolidRef::Smooth(_))) {
-            return Err(GpuError::MixedKinds);
+        let smooth = stones.iter().map(|s| match s {
+            SolidRef::Smooth(smooth) => Some(*smooth.field()),
+            SolidRef::Convex(_) | SolidRef::Triangles(_) => None,
+        });
+        if let Some(fields) = smooth.collect::<Option<Vec<Field>>>().filter(|f| !f.is_empty()) {
+            return Ok(Self::of_fields(gpu, &fields, balls));
         }
         match stones.iter().map(planes).collect::<Option<Vec<Vec<Plane>>>>() {
             Some(convex) => Ok(Self::of_planes(gpu, &convex, balls)),
@@ -85,6 +90,26 @@ impl Solids {
             count: stones.len(),
             largest: 0,
         })
+    }
+
+    fn of_fields(gpu: &Gpu, fields: &[Field], balls: &[(glam::DVec3, f64)]) -> Self {
+        let body = |(k, &(middle, radius)): (usize, &(glam::DVec3, f64))| Body {
+            middle: with(middle, radius),
+            range: [k as u32, 0, 0, 0],
+        };
+        let mut bodies: Vec<Body> = balls.iter().enumerate().map(body).collect();
+        bodies.resize(MOST_BODIES, Body { middle: [0.0; 4], range: [0; 4] });
+        let is_convex = fields.iter().all(Field::is_convex);
+        let shapes: Vec<_> = fields.iter().map(field).collect();
+        let storage = wgpu::BufferUsages::STORAGE;
+        Self {
+            facets: if is_convex { Facets::Smooth } else { Facets::Wavy },
+            bodies: gpu.buffer("stones", bytemuck::cast_slice(&bodies), wgpu::BufferUsages::UNIFORM),
+            planes: gpu.buffer("shapes", bytemuck::cast_slice(&shapes), storage),
+            bunches: gpu.buffer("none", &[0; 16], storage),
+            count: fields.len(),
+            largest: 0,
+        }
     }
 
     fn of_planes(gpu: &Gpu, stones: &[Vec<Plane>], balls: &[(glam::DVec3, f64)]) -> Self {
@@ -121,8 +146,7 @@ impl Solids {
 
     /// How many bounces the card can follow of those wanted.
     pub fn bounces(&self, gpu: &Gpu, wanted: u32) -> u32 {
-        // Rays among triangles count their turns themselves.
-        if !gpu.is_software() || self.facets == Facets::Triangles {
+        if !gpu.is_software() || self.facets.count_turns() {
             return wanted;
         }
         if self.count == 1 {
@@ -148,7 +172,7 @@ impl Solids {
             resource: buffer.as_entire_binding(),
         };
         let mut entries = vec![entry(1, &self.planes), entry(4, &self.bodies), entry(5, media)];
-        if self.facets != Facets::Few {
+        if matches!(self.facets, Facets::Many | Facets::Triangles) {
             entries.push(entry(3, &self.bunches));
         }
         entries

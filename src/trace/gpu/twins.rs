@@ -1,18 +1,18 @@
 //! The shaders beside their twins: valid without a card, and with one the same numbers from both.
 
+mod glass;
+
 use super::Gpu;
 use super::door;
 use super::shaders::{Facets, Reading, compiled, source};
-use crate::optics::{Fresnel, fresnel, reflect, refract, refracted_change};
+use crate::optics::{Fresnel, fresnel, reflect, reflected_change, refract, refracted_change};
 use glam::DVec3;
 use std::io::Write;
 use wgpu::naga::{front, valid};
 
 #[test]
 fn every_shader_is_valid_and_its_structs_are_laid_out_as_in_rust() {
-    for (facets, reading) in [Facets::Few, Facets::Many, Facets::Triangles]
-        .into_iter()
-        .flat_map(|f| [(f, Reading::Scope), (f, Reading::Light)])
+    for (facets, reading) in Facets::ALL.into_iter().flat_map(|f| [(f, Reading::Scope), (f, Reading::Light)])
     {
         let text = source(facets, reading);
         let module = front::wgsl::parse_str(&text).unwrap_or_else(|e| panic!("{}", e.emit_to_string(&text)));
@@ -34,6 +34,9 @@ fn every_shader_is_valid_and_its_structs_are_laid_out_as_in_rust() {
             assert_eq!(size("Triangle"), Some(size_of::<door::Triangle>()));
             assert_eq!(size("Node"), Some(size_of::<door::Node>()));
         }
+        if matches!(facets, Facets::Smooth | Facets::Wavy) {
+            assert_eq!(size("Field"), Some(size_of::<door::Field>()));
+        }
         assert_eq!(size("Body"), Some(size_of::<door::Body>()));
         assert_eq!(size("Medium"), Some(size_of::<door::Medium>()));
         if reading == Reading::Scope {
@@ -51,7 +54,10 @@ fn every_shader_is_valid_and_its_structs_are_laid_out_as_in_rust() {
 /// One meeting of a ray and a surface on the card: (cos_i, eta, a turn, unused) to what the shader makes of it.
 const MEETING_WGSL: &str = "
 @group(0) @binding(0) var<storage, read> given: array<vec4f>;
-@group(0) @binding(1) var<storage, read_write> found: array<array<vec4f, 6>>;
+@group(0) @binding(1) var<storage, read_write> found: array<array<vec4f, 7>>;
+
+const OF_D = vec3f(0.03, -0.01, 0.02);
+const OF_N = vec3f(0.02, 0.04, 0.0);
 
 @compute @workgroup_size(64)
 fn meeting(@builtin(global_invocation_id) id: vec3u) {
@@ -64,20 +70,21 @@ fn meeting(@builtin(global_invocation_id) id: vec3u) {
     let d = vec3f(sqrt(max(1.0 - cos_i * cos_i, 0.0)), 0.0, -cos_i);
     let n = vec3f(0.0, 0.0, 1.0);
     let light = turned(vec4f(0.6, 0.25, 0.1, -0.2), cos(given[id.x].z), sin(given[id.x].z));
-    found[id.x] = array<vec4f, 6>(
+    found[id.x] = array<vec4f, 7>(
         vec4f(f.r_s, f.r_p),
         vec4f(reflect_ray(d, n, cos_i), f.cos_t),
         vec4f(refract_ray(d, n, eta, cos_i, f.cos_t), passed(light, f)),
         light,
         reflected(light, f),
         // Near the critical angle the change grows beyond what f32 holds.
-        vec4f(refracted_change(d, n, eta, cos_i, f.cos_t, vec3f(0.03, -0.01, 0.02), 0.05) * f.cos_t * f.cos_t, 0.0),
+        vec4f(refracted_change(d, n, eta, cos_i, f.cos_t, OF_D, OF_N, 0.05) * f.cos_t * f.cos_t, 0.0),
+        vec4f(reflected_change(d, n, OF_D, OF_N), 0.0),
     );
 }
 ";
 
 /// The same in f64; the coherency matrix as J J† of fields, written out anew.
-fn meeting(cos_i: f64, eta: f64, turn: f64) -> [[f64; 4]; 6] {
+fn meeting(cos_i: f64, eta: f64, turn: f64) -> [[f64; 4]; 7] {
     let f = fresnel(cos_i, eta);
     let (d, n) = (DVec3::new((1.0 - cos_i * cos_i).max(0.0).sqrt(), 0.0, -cos_i), DVec3::Z);
     let cos_t = f.cos_t.unwrap_or(0.0);
@@ -90,14 +97,9 @@ fn meeting(cos_i: f64, eta: f64, turn: f64) -> [[f64; 4]; 6] {
         (cos * cos - sin * sin) * re + sin * cos * (pp - ss),
         im,
     ];
-    let moved = refracted_change(
-        d,
-        n,
-        eta,
-        (cos_i, cos_t.max(1e-9)),
-        (DVec3::new(0.03, -0.01, 0.02), DVec3::ZERO, 0.05),
-    ) * cos_t
-        * cos_t;
+    let (of_d, of_n) = (DVec3::new(0.03, -0.01, 0.02), DVec3::new(0.02, 0.04, 0.0));
+    let moved = refracted_change(d, n, eta, (cos_i, cos_t.max(1e-9)), (of_d, of_n, 0.05)) * cos_t * cos_t;
+    let mirrored = reflected_change(d, n, (of_d, of_n));
     let Fresnel { r_s, r_p, .. } = f;
     let cross = r_s * r_p.conj() * num_complex::Complex64::new(light[2], light[3]);
     let (s, p) = (f.reflectance_s(), f.reflectance_p());
@@ -108,24 +110,18 @@ fn meeting(cos_i: f64, eta: f64, turn: f64) -> [[f64; 4]; 6] {
         light,
         [light[0] * s, light[1] * p, cross.re, cross.im],
         [moved.x, moved.y, moved.z, 0.0],
+        [mirrored.x, mirrored.y, mirrored.z, 0.0],
     ]
 }
 
 #[test]
 fn the_shaders_optics_are_those_of_the_library() {
-    let gpu = match Gpu::open() {
-        Ok(gpu) => gpu,
-        Err(error) if std::env::var_os("BRILLIANTEER_REQUIRE_GPU").is_some() => panic!("{error}"),
-        Err(error) => {
-            let _ =
-                writeln!(std::io::stderr(), "SKIPPED the_shaders_optics_are_those_of_the_library: {error}");
-            return;
-        }
-    };
+    let Some(gpu) = card("the_shaders_optics_are_those_of_the_library") else { return };
     let etas = [1.0 / 2.4175, 0.75, 1.33, 1.77, 2.4175, 2.9];
     let given: Vec<[f32; 4]> =
         (0..6000).map(|k| [(k / 6) as f32 / 999.0, etas[k % 6], 0.001 * k as f32, 0.0]).collect();
-    let found = run(&gpu, &given);
+    let text = include_str!("../../../shaders/optics.wgsl").to_owned() + MEETING_WGSL;
+    let found = run(&gpu, text, &given, None);
     // Allowed is what the root of 1e-3 loses in f32.
     let (count, largest) = compared(&given, &found, 1.0);
     assert!(count > 5900 && largest < 5e-5, "{count} compared, off by {largest:e}");
@@ -134,7 +130,7 @@ fn the_shaders_optics_are_those_of_the_library() {
 }
 
 /// How many meetings were compared with those at `factor` times the index, and the largest difference.
-fn compared(given: &[[f32; 4]], found: &[[[f32; 4]; 6]], factor: f64) -> (u32, f64) {
+fn compared(given: &[[f32; 4]], found: &[[[f32; 4]; 7]], factor: f64) -> (u32, f64) {
     let (mut compared, mut largest) = (0, 0.0_f64);
     for (given, found) in given.iter().zip(found) {
         let [cos_i, eta, turn, _] = given.map(f64::from);
@@ -154,24 +150,41 @@ fn compared(given: &[[f32; 4]], found: &[[[f32; 4]; 6]], factor: f64) -> (u32, f
     (compared, largest)
 }
 
-fn run(gpu: &Gpu, given: &[[f32; 4]]) -> Vec<[[f32; 4]; 6]> {
+/// The card, where there is one; loudly none where there is not, and an error where one is required.
+fn card(test: &str) -> Option<Gpu> {
+    match Gpu::open() {
+        Ok(gpu) => Some(gpu),
+        Err(error) if std::env::var_os("BRILLIANTEER_REQUIRE_GPU").is_some() => panic!("{test}: {error}"),
+        Err(error) => {
+            let _ = writeln!(std::io::stderr(), "SKIPPED {test}: {error}");
+            None
+        }
+    }
+}
+
+/// What a shader of one entry makes of every four numbers, with other data where it needs some.
+fn run<T: bytemuck::Pod>(gpu: &Gpu, text: String, given: &[[f32; 4]], other: Option<&[u8]>) -> Vec<T> {
     let device = &gpu.device;
-    let text = include_str!("../../../shaders/optics.wgsl").to_owned() + MEETING_WGSL;
     let pipeline = compiled(device, text);
     let input = gpu.buffer("given", bytemuck::cast_slice(given), wgpu::BufferUsages::STORAGE);
-    let size = (given.len() * size_of::<[[f32; 4]; 6]>()) as u64;
+    let size = (given.len() * size_of::<T>()) as u64;
     let buffer = |usage| {
         device.create_buffer(&wgpu::BufferDescriptor { label: None, size, usage, mapped_at_creation: false })
     };
     let output = buffer(wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_SRC);
     let back = buffer(wgpu::BufferUsages::MAP_READ | wgpu::BufferUsages::COPY_DST);
+    let other = other.map(|bytes| gpu.buffer("other", bytes, wgpu::BufferUsages::STORAGE));
+    let buffers = [Some(&input), Some(&output), other.as_ref()];
+    let entries: Vec<_> = buffers
+        .into_iter()
+        .flatten()
+        .enumerate()
+        .map(|(k, b)| wgpu::BindGroupEntry { binding: k as u32, resource: b.as_entire_binding() })
+        .collect();
     let bound = device.create_bind_group(&wgpu::BindGroupDescriptor {
         label: None,
         layout: &pipeline.get_bind_group_layout(0),
-        entries: &[
-            wgpu::BindGroupEntry { binding: 0, resource: input.as_entire_binding() },
-            wgpu::BindGroupEntry { binding: 1, resource: output.as_entire_binding() },
-        ],
+        entries: &entries,
     });
     let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
     {

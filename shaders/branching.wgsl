@@ -1,0 +1,51 @@
+// Where light goes from solids that need not be convex, which it leaves and enters again: the twin of src/trace/ray/tree.rs.
+
+// Light that leaves and enters again.
+var<private> inbound: array<Inbound, MOST_INBOUND>;
+var<private> inbound_count: u32;
+// Weight that has been given up.
+var<private> given_up: f32;
+
+// Light that leaves for good, or waits to enter again.
+fn depart(departing: Inbound) {
+    let weight = (departing.light.x + departing.light.y) * departing.left;
+    let met = again(departing.ray.origin, departing.ray.direction);
+    let ray = outward(departing.ray);
+    if is_spent() {
+        given_up += weight;
+    } else if met.distance < 0.0 || is_taken(ray, met.distance * unit()) {
+        leave(ray, weight, departing.bounce == 0u);
+    } else if weight > frame.limits.x && inbound_count < MOST_INBOUND {
+        inbound[inbound_count] = departing;
+        inbound[inbound_count].met = met;
+        inbound_count += 1u;
+    } else {
+        given_up += weight;
+    }
+}
+
+// Follows a ray that enters the body at a facet, of light of this weight, and all of it that enters again.
+fn follow(ray: Ray, entered: Meeting, weight: f32) -> Rest {
+    inbound_count = 0u;
+    given_up = 0.0;
+    var rest = passage(arriving(ray, entered, weight));
+    while inbound_count > 0u {
+        var strongest = 0u;
+        var most = -1.0;
+        for (var k = 0u; k < inbound_count; k++) {
+            turns += 1u;
+            let own = (inbound[k].light.x + inbound[k].light.y) * inbound[k].left;
+            if own > most {
+                most = own;
+                strongest = k;
+            }
+        }
+        let next = inbound[strongest];
+        inbound_count -= 1u;
+        inbound[strongest] = inbound[inbound_count];
+        let passed = passage(next);
+        rest = Rest(rest.absorbed + passed.absorbed, rest.unresolved + passed.unresolved, max(rest.bounces, passed.bounces));
+    }
+    rest.unresolved += given_up;
+    return rest;
+}

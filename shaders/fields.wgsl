@@ -1,0 +1,181 @@
+// What light meets: glass shapes, each followed in its own frame, in which it reaches 1 from the origin. The twin of
+// src/math/field/roots.rs and of src/trace/ray/facets.rs.
+
+@group(0) @binding(1) var<storage, read> fields: array<Field>;
+
+const IS_CURVED: bool = true;
+// A point this near is on the surface: some roundings.
+const ROUNDING: f32 = 5e-7;
+// Steps to a root; with more the ray only touches the shape.
+const MOST_STEPS: u32 = 200u;
+// Less is no step.
+const LEAST_STEP: f32 = 1e-7;
+
+// The present body's function.
+fn present_field() -> Field {
+    return fields[body.range.x];
+}
+
+// The length of the frame's unit in the world.
+fn unit() -> f32 {
+    return fields[body.range.x].shift.w;
+}
+
+fn own_vector(shape: Field, v: vec3f) -> vec3f {
+    return vec3f(dot(shape.right.xyz, v), dot(shape.back.xyz, v), dot(shape.up.xyz, v));
+}
+
+fn world_vector(shape: Field, v: vec3f) -> vec3f {
+    return shape.right.xyz * v.x + shape.back.xyz * v.y + shape.up.xyz * v.z;
+}
+
+fn own(shape: Field, point: vec3f) -> vec3f {
+    return own_vector(shape, point - shape.shift.xyz) / shape.shift.w;
+}
+
+// A ray of the frame in the world.
+fn outward(ray: Ray) -> Ray {
+    let shape = present_field();
+    let origin = world_vector(shape, ray.origin) * shape.shift.w + shape.shift.xyz;
+    return Ray(origin, world_vector(shape, ray.direction), world_vector(shape, ray.sweep));
+}
+
+// Light of this weight, of all polarisations alike, that meets the body: in its frame, and on its surface, so that a way from
+// afar costs no digits.
+fn arriving(ray: Ray, met: Meeting, weight: f32) -> Inbound {
+    let shape = present_field();
+    let direction = own_vector(shape, ray.direction);
+    let distance = met.distance / shape.shift.w;
+    let point = own(shape, ray.origin) + direction * distance;
+    let jet = jet_at(shape, point, vec3f(0.0));
+    let polished = point - jet.gradient * (jet.value / max(dot(jet.gradient, jet.gradient), LEAST_RADIUS));
+    let own_ray = Ray(polished, direction, own_vector(shape, ray.sweep));
+    return inbound_of(own_ray, own_ray.sweep * distance, Meeting(met.facet, 0.0), weight);
+}
+
+fn facet_normal(facet: u32, point: vec3f) -> vec3f {
+    return normal_of(jet_at(present_field(), point, vec3f(0.0)));
+}
+
+fn turned_normal(point: vec3f, by: vec3f) -> vec3f {
+    return tamed(bend(present_field(), point, by));
+}
+
+fn entry(origin: vec3f, direction: vec3f) -> Meeting {
+    let shape = present_field();
+    let distance = way_in(shape, own(shape, origin), own_vector(shape, direction));
+    return Meeting(0u, distance * shape.shift.w);
+}
+
+// Where light that leaves enters again.
+fn again(origin: vec3f, direction: vec3f) -> Meeting {
+    let shape = present_field();
+    if !has_wave(shape) {
+        return Meeting(0u, -1.0);
+    }
+    return Meeting(0u, way_in(shape, origin, direction));
+}
+
+fn next_facet(point: vec3f, direction: vec3f) -> Meeting {
+    return Meeting(0u, way_out(present_field(), point, direction));
+}
+
+// A point and a direction with the shear taken back: of the line, its curve's tangent.
+fn tangent(shape: Field, p: vec3f, v: vec3f) -> array<vec3f, 2> {
+    if !has_wave(shape) {
+        return array<vec3f, 2>(p, v);
+    }
+    let wave = wave_at(shape, p);
+    return array<vec3f, 2>(
+        p - vec3f(0.0, 0.0, wave.height),
+        v - vec3f(0.0, 0.0, dot(wave.rise, v.xy)),
+    );
+}
+
+// The distance at which a ray goes in; negative where it does not.
+fn way_in(shape: Field, o: vec3f, v: vec3f) -> f32 {
+    let nearest = -dot(o, v);
+    let closest = o + v * nearest;
+    if dot(closest, closest) > 1.0 || nearest < -1.0 {
+        return -1.0;
+    }
+    // From where it is near, so that a way from afar costs no digits.
+    let start = max(nearest - 1.0, 0.0);
+    let from_start = o + v * start;
+    let beyond = nearest + 1.0 - start;
+    let bend_at_most = most_bend(shape, v);
+    var t = 0.0;
+    for (var k = 0u; k < MOST_STEPS; k++) {
+        turns += 1u;
+        let on = tangent(shape, from_start + v * t, v);
+        let at = along(shape, on[0], on[1]);
+        let value = max(at.x, 0.0);
+        let slope = at.y;
+        // The root of value + slope s - bend s²/2.
+        let root = sqrt(slope * slope + 2.0 * bend_at_most * value);
+        if slope < 0.0 {
+            let step = 2.0 * value / max(root - slope, LEAST_GAP);
+            if value <= ROUNDING {
+                return start + t + min(step, ROUNDING);
+            }
+            t += max(step, LEAST_STEP);
+        } else {
+            t += max((slope + root) / max(bend_at_most, LEAST_GAP), LEAST_STEP);
+        }
+        if t > beyond {
+            return -1.0;
+        }
+    }
+    return -1.0;
+}
+
+// The distance at which a ray from inside goes out; negative where rounding has let it slip out.
+fn way_out(shape: Field, p: vec3f, v: vec3f) -> f32 {
+    let bend_at_most = most_bend(shape, v);
+    var t = 0.0;
+    for (var k = 0u; k < MOST_STEPS && !is_spent(); k++) {
+        let on = tangent(shape, p + v * t, v);
+        let at = along(shape, on[0], on[1]);
+        if at.x >= -ROUNDING && at.y >= 0.0 {
+            return t;
+        }
+        // What rounding has put outside is on the surface: a ray that enters at a glance would miss from there.
+        let step = far_root(shape, on[0], on[1], bend_at_most, max(at.x, 0.0));
+        if step.y < 0.0 {
+            return -1.0;
+        }
+        t += max(step.x, 0.0);
+        if bend_at_most == 0.0 {
+            return t;
+        }
+    }
+    return -1.0;
+}
+
+// The greatest distance along a line from `p` at which the body's function has the value `level`, where the point is off the
+// line by `bend_at_most` s²/2 up or down, whichever is farther from the middle; with a negative number where there is none.
+fn far_root(shape: Field, p: vec3f, on: vec3f, bend_at_most: f32, level: f32) -> vec2f {
+    let squared = dot(on, on);
+    let beyond = shape.up.w / sqrt(squared) - dot(p, on) / squared;
+    // Farther off, any point is above the body.
+    var s = min(beyond, sqrt(2.0 * (shape.right.w + shape.back.w) / max(bend_at_most, LEAST_GAP)));
+    for (var k = 0u; k < MOST_STEPS; k++) {
+        turns += 1u;
+        let at_s = p + on * s;
+        let off = vec3f(0.0, 0.0, bend_at_most * sign_of(at_s.z) * s);
+        let at = along(shape, at_s + off * (0.5 * s), on + off);
+        let value = at.x - level;
+        if at.y <= 0.0 {
+            return vec2f(s, select(-1.0, 1.0, value <= ROUNDING));
+        }
+        // The last step is worth its digits where the root is the surface itself.
+        let is_there = value <= ROUNDING;
+        if !is_there || bend_at_most == 0.0 {
+            s -= max(value, 0.0) / at.y;
+        }
+        if is_there {
+            return vec2f(s, 1.0);
+        }
+    }
+    return vec2f(s, -1.0);
+}

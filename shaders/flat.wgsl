@@ -1,0 +1,28 @@
+// Facets that are flat, in the world's frame.
+
+const IS_CURVED: bool = false;
+
+fn facet_normal(facet: u32, point: vec3f) -> vec3f {
+    return plane_of(facet).xyz;
+}
+
+fn turned_normal(point: vec3f, by: vec3f) -> vec3f {
+    return vec3f(0.0);
+}
+
+fn unit() -> f32 {
+    return 1.0;
+}
+
+fn outward(ray: Ray) -> Ray {
+    return ray;
+}
+
+// Light of this weight, of all polarisations alike, that meets the body.
+fn arriving(ray: Ray, met: Meeting, weight: f32) -> Inbound {
+    return inbound_of(ray, vec3f(0.0), met, weight);
+}
+
+fn again(origin: vec3f, direction: vec3f) -> Meeting {
+    return entry(origin, direction);
+}

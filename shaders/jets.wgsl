@@ -1,0 +1,164 @@
+// Glass shapes as functions of space: the twin of src/math/field/jet.rs, profile.rs, body.rs and wave.rs, in the shape's own
+// frame and in units of its reach. Of second derivatives only what they make of one displacement is computed.
+
+// What is divided by is not less; no radius is meant to be so small.
+const LEAST_RADIUS: f32 = 1e-6;
+const TURN: f32 = 6.2831853;
+
+// A function near a point: its value, its gradient, and how that changes where the point moves by some displacement.
+struct Jet {
+    value: f32,
+    gradient: vec3f,
+    change: vec3f,
+}
+
+fn plane_jet(value: f32, normal: vec3f) -> Jet {
+    return Jet(value, normal, vec3f(0.0));
+}
+
+// Distance from an axis or a point, `away` from it; `by` is the displacement's part square to the axis.
+fn radial(away: vec3f, by: vec3f) -> Jet {
+    let value = max(length(away), LEAST_RADIUS);
+    let gradient = away / value;
+    return Jet(value, gradient, (by - gradient * dot(gradient, by)) / value);
+}
+
+// `Jet::and`: the signed distance from what two solids share, of their signed distances along directions that are square to
+// each other.
+fn shared_by(a: Jet, b: Jet, by: vec3f, sharp: bool) -> Jet {
+    if sharp || min(a.value, b.value) <= 0.0 {
+        if a.value > b.value {
+            return a;
+        }
+        return b;
+    }
+    let value = max(length(vec2f(a.value, b.value)), LEAST_RADIUS);
+    let gradient = (a.gradient * a.value + b.gradient * b.value) / value;
+    let sum = a.gradient * dot(a.gradient, by) + b.gradient * dot(b.gradient, by) + a.change * a.value
+        + b.change * b.value - gradient * dot(gradient, by);
+    return Jet(value, gradient, sum / value);
+}
+
+fn sign_of(x: f32) -> f32 {
+    return select(-1.0, 1.0, x >= 0.0);
+}
+
+fn rectangle_jet(shape: Field, p: vec3f, by: vec3f, sharp: bool) -> Jet {
+    let x = plane_jet(abs(p.x) - shape.outline.x, vec3f(sign_of(p.x), 0.0, 0.0));
+    let y = plane_jet(abs(p.y) - shape.outline.y, vec3f(0.0, sign_of(p.y), 0.0));
+    var jet = shared_by(x, y, by, sharp && shape.outline.z == 0.0);
+    jet.value -= shape.outline.z;
+    return jet;
+}
+
+fn triangle_jet(shape: Field, p: vec3f, by: vec3f, sharp: bool) -> Jet {
+    let side = sign_of(p.y);
+    let folded = vec2f(abs(p.y), p.z);
+    let from_corner = folded - shape.outline.xy;
+    let up = dot(from_corner, vec2f(-shape.flank.y, shape.flank.x));
+    // Beyond a flank's end the nearest point is a corner; elsewhere it lies on a side.
+    let is_above = up > shape.flank.z;
+    if !sharp && (is_above || (up < 0.0 && from_corner.x > 0.0)) {
+        let away = select(from_corner, folded - vec2f(0.0, shape.outline.z), is_above);
+        return radial(vec3f(0.0, side * away.x, away.y), vec3f(0.0, by.yz));
+    }
+    let base = plane_jet(-from_corner.y, vec3f(0.0, 0.0, -1.0));
+    let flank = plane_jet(dot(shape.flank.xy, from_corner), vec3f(0.0, side * shape.flank.x, shape.flank.y));
+    if base.value > flank.value {
+        return base;
+    }
+    return flank;
+}
+
+// `Body::jet` on the surface or a way to it.
+fn body_jet(shape: Field, p: vec3f, by: vec3f) -> Jet {
+    let sharp = shape.back.w == 0.0;
+    var outline: Jet;
+    var end: Jet;
+    if shape.outline.w > 0.0 {
+        outline = triangle_jet(shape, p, by, sharp);
+        end = plane_jet(abs(p.x) - shape.right.w, vec3f(sign_of(p.x), 0.0, 0.0));
+    } else {
+        outline = rectangle_jet(shape, p, by, sharp);
+        end = plane_jet(abs(p.z) - shape.right.w, vec3f(0.0, 0.0, sign_of(p.z)));
+    }
+    var jet = shared_by(outline, end, by, sharp);
+    jet.value -= shape.back.w;
+    return jet;
+}
+
+// Value and slope of the body's function along a line.
+fn along(shape: Field, p: vec3f, direction: vec3f) -> vec2f {
+    let jet = body_jet(shape, p, vec3f(0.0));
+    return vec2f(jet.value, dot(jet.gradient, direction));
+}
+
+fn has_wave(shape: Field) -> bool {
+    return shape.flank.w > 0.0;
+}
+
+// Sines and cosines of turns, to some roundings: cards' own are only said to be good to 2^-11, and the wave's slope must be
+// that of its height. Polynomials: S. L. Moshier, Cephes, sinf.c.
+fn sin_cos(turns_given: vec2f) -> array<vec2f, 2> {
+    let part = turns_given - round(turns_given);
+    let quarter = round(part * 4.0);
+    let x = (part - quarter * 0.25) * TURN;
+    let z = x * x;
+    let sine = x + x * z * ((-1.9515295891e-4 * z + 8.3321608736e-3) * z - 1.6666654611e-1);
+    let cosine =
+        1.0 - 0.5 * z + z * z * ((2.443315711809948e-5 * z - 1.388731625493765e-3) * z + 4.166664568298827e-2);
+    let is_odd = abs(quarter) == vec2f(1.0);
+    let is_half = abs(quarter) == vec2f(2.0);
+    let sines = select(sine, cosine * quarter, is_odd);
+    let cosines = select(cosine, -sine * quarter, is_odd);
+    return array<vec2f, 2>(select(sines, -sine, is_half), select(cosines, -cosine, is_half));
+}
+
+// The wave at a point: how its height changes with x and y, its height; and the second changes of x with x, and of x with y.
+struct Wave {
+    rise: vec2f,
+    height: f32,
+    bend: vec2f,
+}
+
+fn wave_at(shape: Field, p: vec3f) -> Wave {
+    let angles = sin_cos(vec2f(p.x - p.y, p.x + p.y) * shape.wave.y + vec2f(0.0, 2.0 * shape.wave.z));
+    let sines = angles[0];
+    let cosines = angles[1];
+    let number = TURN * shape.wave.y;
+    let half = 0.5 * shape.wave.x;
+    let rise = vec2f(sines.y - sines.x, sines.y + sines.x) * (half * number);
+    let bend = vec2f(cosines.y - cosines.x, cosines.y + cosines.x) * (half * number * number);
+    return Wave(rise, half * (cosines.x - cosines.y), bend);
+}
+
+// No less than how fast the wave's slope changes along a line.
+fn most_bend(shape: Field, direction: vec3f) -> f32 {
+    let number = TURN * shape.wave.y;
+    return shape.wave.x * number * number * dot(direction.xy, direction.xy);
+}
+
+// The function on the surface. `Wave::shear` of the body's.
+fn jet_at(shape: Field, p: vec3f, by: vec3f) -> Jet {
+    if !has_wave(shape) {
+        return body_jet(shape, p, by);
+    }
+    let wave = wave_at(shape, p);
+    let rise = vec3f(wave.rise, 0.0);
+    let jet = body_jet(shape, p - vec3f(0.0, 0.0, wave.height), by - vec3f(0.0, 0.0, dot(rise, by)));
+    let falling = jet.gradient.z;
+    let bent = vec3f(wave.bend.x * by.x + wave.bend.y * by.y, wave.bend.y * by.x + wave.bend.x * by.y, 0.0);
+    return Jet(jet.value, jet.gradient - rise * falling, jet.change - rise * jet.change.z - bent * falling);
+}
+
+// `Jet::normal`
+fn normal_of(jet: Jet) -> vec3f {
+    return jet.gradient / max(length(jet.gradient), LEAST_RADIUS);
+}
+
+// `Field::bend` times a displacement: how far the unit normal changes over its part along the surface.
+fn bend(shape: Field, p: vec3f, by: vec3f) -> vec3f {
+    let normal = normal_of(jet_at(shape, p, vec3f(0.0)));
+    let jet = jet_at(shape, p, by - normal * dot(normal, by));
+    return (jet.change - normal * dot(normal, jet.change)) / max(length(jet.gradient), LEAST_RADIUS);
+}

@@ -1,0 +1,116 @@
+//! The functions of glass shapes: value, gradient and bend, on the card and in the library.
+
+use super::super::door;
+use super::super::fields::field;
+use super::{Gpu, card, run};
+use crate::math::{Field, Form, Jet};
+use glam::{DMat3, DQuat, DVec3};
+
+/// A point and the number of its shape to the function's gradient and value there, and what bends for each axis.
+const JETS_WGSL: &str = "
+@group(0) @binding(0) var<storage, read> given: array<vec4f>;
+@group(0) @binding(1) var<storage, read_write> found: array<array<vec4f, 4>>;
+@group(0) @binding(2) var<storage, read> fields: array<Field>;
+
+@compute @workgroup_size(64)
+fn jets(@builtin(global_invocation_id) id: vec3u) {
+    if id.x >= arrayLength(&given) {
+        return;
+    }
+    let shape = fields[u32(given[id.x].w)];
+    let p = given[id.x].xyz;
+    let jet = jet_at(shape, p, vec3f(0.0));
+    found[id.x] = array<vec4f, 4>(
+        vec4f(jet.gradient, jet.value),
+        vec4f(bend(shape, p, vec3f(1.0, 0.0, 0.0)), 0.0),
+        vec4f(bend(shape, p, vec3f(0.0, 1.0, 0.0)), 0.0),
+        vec4f(bend(shape, p, vec3f(0.0, 0.0, 1.0)), 0.0),
+    );
+}
+";
+
+/// Every form, sharp and round, reaching 1.
+fn shapes() -> Vec<Field> {
+    let plate = |edge, amplitude, wavelength| Form::Plate {
+        size: DVec3::new(1.7, 1.6, 0.3),
+        edge,
+        amplitude,
+        wavelength,
+        phase: 0.7,
+    };
+    let forms = [
+        Form::Pill { size: DVec3::splat(1.5), edge: 0.75 },
+        Form::Pill { size: DVec3::new(2.0, 0.575, 0.8), edge: 0.155 },
+        Form::Pill { size: DVec3::new(0.6, 1.8, 0.8), edge: 0.0 },
+        Form::Block { size: DVec3::splat(1.15), edge: 0.22 },
+        Form::Block { size: DVec3::new(0.5, 1.15, 1.65), edge: 0.0 },
+        Form::Prism { size: DVec3::new(1.965, 0.745, 0.585), edge: 0.0 },
+        Form::Prism { size: DVec3::new(1.6, 0.9, 0.8), edge: 0.15 },
+        plate(0.0, 0.1, 1.5),
+        plate(0.1, 0.02, 0.4),
+    ];
+    let unit = |form| {
+        let field = Field::new(form).unwrap();
+        field.moved(1.0 / field.parts().unit, DQuat::IDENTITY, DVec3::ZERO)
+    };
+    forms.into_iter().map(unit).collect()
+}
+
+/// Gradient, value, and how far the unit normal changes for each axis.
+fn jet(shape: &Field, p: DVec3) -> ([f64; 4], DMat3) {
+    let Jet { value, gradient, hessian } = shape.jet(p);
+    let n = gradient.normalize_or_zero();
+    let within = DMat3::IDENTITY - DMat3::from_cols(n * n.x, n * n.y, n * n.z);
+    (gradient.extend(value).to_array(), within * hessian * within * gradient.length().recip())
+}
+
+/// Points a little inside or outside the surface all around; inside alone where it is sharp, where the library has the
+/// distance from an edge and the card that from its faces.
+fn points(shape: &Field) -> impl Iterator<Item = DVec3> + '_ {
+    let is_sharp = shape.parts().edge == 0.0;
+    (0..2000).filter_map(move |k| {
+        let z: f64 = 1.0 - 2.0 * (f64::from(k) + 0.5) / 2000.0;
+        let turn = 2.399_963 * f64::from(k);
+        let out = DVec3::new((1.0 - z * z).sqrt() * turn.cos(), (1.0 - z * z).sqrt() * turn.sin(), z);
+        let point = out * 2.0 - out * shape.entry(out * 2.0, -out)?;
+        let off = 0.02 * turn.sin();
+        Some(point + shape.normal(point) * if is_sharp { -off.abs() } else { off })
+    })
+}
+
+#[test]
+fn glass_has_the_same_value_gradient_and_bend_on_the_card() {
+    let Some(gpu) = card("glass_has_the_same_value_gradient_and_bend_on_the_card") else { return };
+    let shapes = shapes();
+    let given: Vec<(usize, DVec3)> =
+        shapes.iter().enumerate().flat_map(|(k, shape)| points(shape).map(move |p| (k, p))).collect();
+    let narrow: Vec<[f32; 4]> = given.iter().map(|&(k, p)| door::with(p, k as f64)).collect();
+    let told: Vec<door::Field> = shapes.iter().map(field).collect();
+    let text = door::FIELD_WGSL.to_owned() + include_str!("../../../../shaders/jets.wgsl") + JETS_WGSL;
+    let found: Vec<[[f32; 4]; 4]> = run(&gpu, text, &narrow, Some(bytemuck::cast_slice(&told)));
+    let (mut value, mut gradient, mut bend, mut compared) = (0.0_f64, 0.0_f64, 0.0_f64, 0);
+    for ((&(k, _), narrow), found) in given.iter().zip(&narrow).zip(&found) {
+        let p = DVec3::new(narrow[0].into(), narrow[1].into(), narrow[2].into());
+        let (own, bent) = jet(&shapes[k], p);
+        let apart = |a: DMat3, b: DMat3| (0..3).map(|i| a.col(i).distance(b.col(i))).fold(0.0, f64::max);
+        // Where two pieces of a surface meet, rounding decides which it is.
+        let beside = DVec3::AXES.into_iter().flat_map(|a| [a, -a]).map(|a| jet(&shapes[k], p + a * 1e-6));
+        let size = 1.0 + apart(bent, DMat3::ZERO);
+        if beside.into_iter().any(|(_, b)| apart(b, bent) > 0.01 * size) {
+            continue;
+        }
+        compared += 1;
+        let found = found.map(|row| row.map(f64::from));
+        value = value.max((found[0][3] - own[3]).abs());
+        gradient = (0..3).map(|i| (found[0][i] - own[i]).abs()).fold(gradient, f64::max);
+        let columns = [1, 2, 3].map(|i| DVec3::new(found[i][0], found[i][1], found[i][2]));
+        let [x, y, z] = columns;
+        bend = bend.max(apart(DMat3::from_cols(x, y, z), bent) / size);
+    }
+    assert!(compared * 10 > given.len() * 9, "{compared} of {} compared", given.len());
+    // Coordinates reach 1 and are rounded to 6e-8; a gradient changes by up to 20 over a unit, and a bend by that squared.
+    assert!(
+        value < 1e-6 && gradient < 1e-5 && bend < 1e-4,
+        "value {value:e}, gradient {gradient:e}, bend {bend:e}"
+    );
+}

@@ -1,0 +1,228 @@
+//! Glass shapes on the graphics card against point rays in f64: the same ways in and out, pixel by pixel.
+#![cfg(feature = "gpu")]
+#![allow(clippy::unwrap_used, reason = "a test fails by it")]
+
+mod common;
+#[path = "common/pixels.rs"]
+mod pixels;
+#[path = "common/shoot.rs"]
+mod shoot;
+
+use brillianteer::math::{Field, Form, Smooth};
+use brillianteer::optics::{Material, material};
+use brillianteer::picture::Linear;
+use brillianteer::scene::{Light, Medium, Placed, View, light};
+use brillianteer::trace::gpu::{Around, ByCard, GpuError};
+use brillianteer::trace::ray::Options;
+use common::*;
+use glam::{DQuat, DVec3};
+use pixels::{ALLOWED, Case, views};
+use shoot::{Shoot, colour, differ};
+use std::io::Write;
+
+/// Turned a little: edges that lie along the rays of a view would be met or missed by rounding.
+fn smooth(form: Form) -> Smooth {
+    let turn = DQuat::from_rotation_x(0.31) * DQuat::from_rotation_y(-0.27) * DQuat::from_rotation_z(0.19);
+    Smooth::new(Field::new(form).unwrap().moved(1.1, turn, DVec3::new(0.05, -0.1, 0.2)))
+}
+
+fn plate(size: DVec3, edge: f64, (amplitude, wavelength): (f64, f64), phase: f64) -> Form {
+    Form::Plate { size, edge, amplitude, wavelength, phase }
+}
+
+const CUBE: DVec3 = DVec3::splat(1.15);
+const TILE: DVec3 = DVec3::new(1.7, 1.7, 0.3);
+
+fn forms() -> [(&'static str, Form); 9] {
+    [
+        ("ball", Form::Pill { size: DVec3::splat(1.5), edge: 0.75 }),
+        ("pill", Form::Pill { size: DVec3::new(2.0, 0.575, 0.31), edge: 0.155 }),
+        ("upright pill", Form::Pill { size: DVec3::new(0.6, 1.8, 0.8), edge: 0.1 }),
+        ("cube", Form::Block { size: CUBE, edge: 0.22 }),
+        ("sharp block", Form::Block { size: DVec3::new(0.5, 1.15, 1.65), edge: 0.0 }),
+        ("sharp prism", Form::Prism { size: DVec3::new(1.965, 0.745, 0.585), edge: 0.0 }),
+        ("prism", Form::Prism { size: DVec3::new(1.6, 0.9, 0.8), edge: 0.08 }),
+        ("rippled plate", plate(TILE, 0.0525, (0.02, 0.4), 0.7)),
+        ("wavy plate", plate(TILE, 0.0525, (0.1, 1.5), 0.3)),
+    ]
+}
+
+/// A curved surface spreads neighbouring rays two- to tenfold at a bounce, and what rounding does to them with it: after so
+/// many, f32 has no digits left for single pixels in some. Whole ways are compared under light, in blocks of pixels.
+const BOUNCES: u32 = 6;
+
+#[test]
+fn glass_looks_as_by_rays() {
+    let Some(gpu) = card("glass_looks_as_by_rays") else { return };
+    let media = [
+        Medium::clear(2.4175),
+        Medium { absorption: [0.1, 0.5], ..Medium::clear(1.77) },
+        Medium::clear(1.54),
+    ];
+    let (mut left_out, mut all) = (0, 0);
+    for (k, (name, form)) in forms().into_iter().enumerate() {
+        let smooth = smooth(form);
+        for (i, (view, medium)) in views().iter().zip(media.iter().cycle().skip(k)).enumerate() {
+            let case = Case::new(&smooth, *medium, view, (i + k) % 3 != 0);
+            let options = Options { most_bounces: BOUNCES, ..case.options };
+            let found = Case { options, twin_options: options, ..case }.compared(&gpu);
+            assert!(found.largest <= ALLOWED, "{name}, {medium:?}, {view:?}: {:e}", found.largest);
+            assert!(found.energy <= 1e-4, "{name}, {medium:?}, {view:?}: energy off by {:e}", found.energy);
+            left_out += found.left_out;
+            all += found.counted + found.left_out;
+        }
+    }
+    assert!(left_out * 500 <= all, "{left_out} of {all} pixels are left out");
+}
+
+#[test]
+fn the_comparison_of_glass_sees_every_small_change() {
+    let Some(gpu) = card("the_comparison_of_glass_sees_every_small_change") else { return };
+    let view = View { tilt: 0.5, azimuth: 1.4, ..View::default() };
+    let glass = Medium::clear(1.54);
+    let cube = smooth(Form::Block { size: CUBE, edge: 0.22 });
+    let rounder = smooth(Form::Block { size: CUBE, edge: 0.2205 });
+    let wavy = smooth(plate(TILE, 0.05, (0.1, 1.5), 0.3));
+    let later = smooth(plate(TILE, 0.05, (0.1, 1.5), 0.302));
+    let higher = smooth(plate(TILE, 0.05, (0.1005, 1.5), 0.3));
+    for (name, smooth, changed) in
+        [("cube", &cube, [&rounder, &rounder]), ("plate", &wavy, [&later, &higher])]
+    {
+        let case = || Case::new(smooth, glass, &view, true);
+        let plain = Options { polarised: false, ..case().options };
+        let shorter = Options { most_bounces: 3, ..case().options };
+        for (change, mutant) in [
+            ("index", Case { twin_medium: Medium::clear(1.541), ..case() }),
+            ("shape", Case { twin: changed[0].into(), ..case() }),
+            ("shape", Case { twin: changed[1].into(), ..case() }),
+            ("polarisation", Case { twin_options: plain, ..case() }),
+            (
+                "bounces",
+                Case { options: Options { most_bounces: 4, ..shorter }, twin_options: shorter, ..case() },
+            ),
+            ("absorption", Case { twin_medium: Medium { absorption: [0.01; 2], ..glass }, ..case() }),
+        ] {
+            let found = mutant.compared(&gpu);
+            assert!(found.largest > 10.0 * ALLOWED, "{name}, {change}: only {:e}", found.largest);
+        }
+        let found = case().compared(&gpu);
+        assert!(found.largest <= ALLOWED, "{name}: {:e}", found.largest);
+    }
+    let case = Case { comes_back: false, ..Case::new(&wavy, glass, &view, true) };
+    let found = case.compared(&gpu);
+    assert!(found.largest > 10.0 * ALLOWED, "light that enters again: only {:e}", found.largest);
+}
+
+fn pill(middle: DVec3) -> Field {
+    let turn = DQuat::from_rotation_x(0.5) * DQuat::from_rotation_z(0.4);
+    let form = Form::Pill { size: DVec3::new(1.5, 0.7, 0.5), edge: 0.2 };
+    Field::new(form).unwrap().moved(1.0, turn, middle)
+}
+
+fn small_plate(middle: DVec3, phase: f64) -> Field {
+    let (size, edge) = (DVec3::new(1.5, 1.5, 0.25), 0.05);
+    let form = Form::Plate { size, edge, amplitude: 0.06, wavelength: 1.1, phase };
+    Field::new(form).unwrap().moved(1.0, DQuat::from_rotation_y(0.2), middle)
+}
+
+fn lit(field: Field, material: &str, light_name: &str, most_bounces: u32) -> Shoot {
+    let mut shoot = Shoot::of(field, material, light(light_name).unwrap());
+    (shoot.samples, shoot.options.most_bounces) = (4, most_bounces);
+    shoot
+}
+
+/// A pill before a plate whose wave begins there.
+fn pill_and_plate(phase: f64, most_bounces: u32) -> Shoot {
+    let mut both = lit(pill(DVec3::new(0.1, 0.1, 0.6)), "quartz", "studio", most_bounces);
+    let glass = Material::from_index("glass", 1.6).unwrap();
+    both.setting.stones.push(Placed::new(small_plate(DVec3::new(-0.1, -0.2, -0.3), phase), glass));
+    both
+}
+
+#[test]
+fn the_card_shows_glass_as_rays_do() {
+    let Some(gpu) = card("the_card_shows_glass_as_rays_do") else { return };
+    let off = |shoot: Shoot| differ(&shoot, &shoot, &gpu);
+    for (material, name) in [("quartz", "lamps"), ("diamond", "studio")] {
+        let found = off(lit(pill(DVec3::ZERO), material, name, BOUNCES));
+        assert!(found < 0.005, "a pill of {material}: {found}");
+        let found = off(lit(small_plate(DVec3::ZERO, 0.4), material, name, BOUNCES));
+        assert!(found < 0.005, "a plate of {material}: {found}");
+    }
+    let found = off(pill_and_plate(0.4, BOUNCES));
+    assert!(found < 0.005, "a pill before a plate: {found}");
+    assert!(differ(&pill_and_plate(0.4, BOUNCES), &pill_and_plate(0.45, BOUNCES), &gpu) > 0.01);
+}
+
+#[test]
+fn whole_ways_through_glass_bring_as_much_light_on_the_card() {
+    let Some(gpu) = card("whole_ways_through_glass_bring_as_much_light_on_the_card") else { return };
+    let mean =
+        |picture: &Linear| picture.pixels.iter().map(colour).sum::<DVec3>() / picture.pixels.len() as f64;
+    for shoot in [
+        lit(pill(DVec3::ZERO), "quartz", "dome", 64),
+        lit(small_plate(DVec3::ZERO, 0.4), "quartz", "dome", 64),
+        pill_and_plate(0.4, 64),
+    ] {
+        let (rays, card) = (mean(&shoot.by_rays().0), mean(&shoot.by_card(&gpu).0));
+        let off = (rays - card).abs().max_element() / rays.max_element();
+        assert!(off < 0.002, "means are off by {off}");
+        let found = differ(&shoot, &shoot, &gpu);
+        assert!(found < 0.02, "a block is off by {found}");
+    }
+}
+
+#[test]
+#[ignore = "tells times"]
+fn how_long_glass_takes() {
+    let Some(gpu) = card("how_long_glass_takes") else { return };
+    for (name, form) in forms() {
+        let mut shoot = lit(*smooth(form).field(), "quartz", "studio", 64);
+        (shoot.samples, shoot.size, shoot.wavelengths) = (1, 256, 1);
+        shoot.by_card(&gpu);
+        for wavelengths in [3, 8, 16] {
+            shoot.wavelengths = wavelengths;
+            let seconds = |work: &dyn Fn()| {
+                let start = std::time::Instant::now();
+                work();
+                start.elapsed().as_secs_f64() * 1e3
+            };
+            let rays = seconds(&|| drop(shoot.by_rays()));
+            let card = seconds(&|| drop(shoot.by_card(&gpu)));
+            let told = format!("{name}, {wavelengths}: rays {rays:.0} ms, card {card:.0} ms");
+            writeln!(std::io::stderr(), "{told}").unwrap();
+        }
+    }
+}
+
+#[test]
+fn glass_in_a_furnace_is_white_on_the_card() {
+    let Some(gpu) = card("glass_in_a_furnace_is_white_on_the_card") else { return };
+    let block = Form::Block { size: DVec3::splat(0.9), edge: 0.1 };
+    let prism = Form::Prism { size: DVec3::new(1.2, 0.8, 0.8), edge: 0.06 };
+    let ball = Form::Pill { size: DVec3::splat(1.4), edge: 0.7 };
+    let turn = DQuat::from_rotation_x(0.5) * DQuat::from_rotation_y(0.4);
+    let convex = [block, prism, ball].map(|form| Field::new(form).unwrap().moved(1.0, turn, DVec3::ZERO));
+    for field in convex.into_iter().chain([pill(DVec3::ZERO), small_plate(DVec3::ZERO, 0.4)]) {
+        let mut shoot = Shoot::of(field, "quartz", Light::white());
+        shoot.options.least_weight = 1e-5;
+        let (picture, remainder) = shoot.by_card(&gpu);
+        let mean = picture.pixels.iter().map(colour).sum::<DVec3>() / picture.pixels.len() as f64;
+        let missing = (1.0 - mean).abs().max_element();
+        assert!(remainder.unresolved < 0.01, "{field:?}: {remainder:?}");
+        assert!(missing < 3.0 * remainder.unresolved + 1e-4, "{field:?}: {missing}, {remainder:?}");
+    }
+}
+
+#[test]
+fn glass_beside_a_stone_is_not_for_the_card() {
+    let Some(gpu) = card("glass_beside_a_stone_is_not_for_the_card") else { return };
+    let stone = built(&brilliant((56.0, 34.5, 40.8), (50.0, 77.0), 16)).polytope;
+    let mut shoot = Shoot::new(&stone, "diamond", light("dome").unwrap());
+    shoot.setting.stones.push(Placed::new(pill(DVec3::X * 3.0), material("quartz").unwrap().clone()));
+    shoot.with(|sitting| {
+        let around = Around::new(&gpu, &sitting.surround);
+        let refused = ByCard::new(&gpu, sitting, &around, 0..8, 3).err();
+        assert_eq!(refused, Some(GpuError::MixedKinds));
+    });
+}
