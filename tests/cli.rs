@@ -6,6 +6,8 @@
 mod desk;
 #[path = "cli/maps.rs"]
 mod maps;
+#[path = "cli/panes.rs"]
+mod panes;
 #[path = "cli/pictures.rs"]
 mod pictures;
 #[path = "cli/renders.rs"]

@@ -5,6 +5,7 @@ mod bench;
 mod convert;
 mod export;
 mod info;
+mod liquid_glass;
 mod lists;
 mod measure;
 mod options;
@@ -68,6 +69,8 @@ enum Command {
     Spin(spin::Spin),
     /// Map where the light behind each pixel comes from, for pages that refract a moving background by looking it up
     RefractionMap(refraction_map::RefractionMaps),
+    /// Draw a pane of liquid glass over a background as screens do, and trace the same pane beside it
+    LiquidGlass(liquid_glass::LiquidGlass),
     /// Measure the light of one view: what comes from where, with its error
     Measure(measure::Measure),
     /// Show a stone's geometry, proportions and weight, or the stones of a scene
@@ -117,6 +120,7 @@ pub fn main(editor: Option<Editor>) -> ExitCode {
         Command::Render(render) => render.run(),
         Command::Spin(spin) => spin.run(),
         Command::RefractionMap(maps) => maps.run(),
+        Command::LiquidGlass(glass) => glass.run(),
         Command::Measure(measure) => measure.run(),
         Command::Info(info) => info.run(),
         Command::Convert(convert) => convert.run(),

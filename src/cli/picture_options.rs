@@ -74,7 +74,8 @@ pub struct PictureOptions {
     pub photo_distance: Option<f64>,
 }
 
-fn film_size(text: &str) -> Result<[u32; 2], String> {
+/// A picture's size in pixels: a number for a square, or two.
+pub fn film_size(text: &str) -> Result<[u32; 2], String> {
     let side = |text: &str| match text.trim().parse() {
         Ok(side) if (16..=MOST_PIXELS).contains(&side) => Ok(side),
         _ => Err(format!("give 16 to {MOST_PIXELS} pixels, or WIDTHxHEIGHT such as 1600x900")),

@@ -45,6 +45,15 @@ pub enum Form {
         /// Radius of its edges and corners; at most half of its least dimension.
         edge: f64,
     },
+    /// A rounded rectangle in x and y, drawn out along z.
+    Pane {
+        /// Its outer dimensions.
+        size: DVec3,
+        /// Radius of the outline's corners; at most half of the lesser of x and y.
+        corner: f64,
+        /// Radius of the edges around both faces; at most half of z, and `corner`.
+        edge: f64,
+    },
     /// An isosceles triangle in y and z, its base down and its apex up, drawn out along x.
     Prism {
         /// Length x, base y and height z between its flat faces' planes; rounding takes the edges away, not the faces.
@@ -92,6 +101,7 @@ impl Field {
         let (body, wave) = match form {
             Form::Pill { size, edge } => (Body::pill(size, edge), None),
             Form::Block { size, edge } => (Body::block(size, edge), None),
+            Form::Pane { size, corner, edge } => (Body::pane(size, corner, edge), None),
             Form::Prism { size, edge } => (Body::prism(size, edge), None),
             Form::Plate { size, edge, amplitude, wavelength, phase } => {
                 (Body::block(size, edge), (amplitude > 0.0).then(|| Wave::new(amplitude, wavelength, phase)))
@@ -192,7 +202,7 @@ impl Field {
     pub fn facets(&self) -> &'static [&'static str] {
         match self.form {
             Form::Pill { .. } => &["side", "top", "bottom", "edge"],
-            Form::Block { .. } | Form::Plate { .. } => {
+            Form::Block { .. } | Form::Pane { .. } | Form::Plate { .. } => {
                 &["right", "left", "back", "front", "top", "bottom", "edge"]
             }
             Form::Prism { .. } => &["base", "back flank", "front flank", "right end", "left end", "edge"],

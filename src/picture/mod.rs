@@ -14,6 +14,7 @@ mod linear;
 mod overlay;
 mod paint;
 mod palette;
+pub mod pane;
 mod patterns;
 pub(crate) mod profile;
 mod raster;

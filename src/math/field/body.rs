@@ -2,7 +2,7 @@
 
 use super::jet::Jet;
 use super::profile::{Profile, Triangle};
-use glam::{DVec2, DVec3};
+use glam::DVec3;
 use std::f64::consts::PI;
 
 /// A convex body around the origin.
@@ -19,10 +19,12 @@ pub(super) struct Body {
 
 impl Body {
     pub fn pill(size: DVec3, edge: f64) -> Self {
+        Self::pane(size, size.x.min(size.y) / 2.0, edge)
+    }
+
+    pub fn pane(size: DVec3, corner: f64, edge: f64) -> Self {
         let size = size / 2.0;
-        let round = size.x.min(size.y);
-        let half = DVec2::new(size.x - round, size.y - round);
-        let profile = Profile::Rectangle { half, round: round - edge };
+        let profile = Profile::Rectangle { half: size.truncate() - corner, round: corner - edge };
         Self { profile, axis: DVec3::Z, half: size.z - edge, edge }
     }
 

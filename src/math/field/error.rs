@@ -31,7 +31,7 @@ pub enum FieldError {
         /// What was given.
         value: f64,
     },
-    /// The edge is rounder than the shape is wide.
+    /// An edge, of a pane also an outline's corner, is rounder than the shape is wide.
     #[error("the edge's radius is {edge}; in this shape there is room for {most}")]
     Edge {
         /// What was given.
@@ -61,6 +61,7 @@ pub enum FieldError {
 pub fn check(form: &Form) -> Result<(), FieldError> {
     let (Form::Pill { size, edge }
     | Form::Block { size, edge }
+    | Form::Pane { size, edge, .. }
     | Form::Prism { size, edge }
     | Form::Plate { size, edge, .. }) = *form;
     for (name, value) in
@@ -69,7 +70,15 @@ pub fn check(form: &Form) -> Result<(), FieldError> {
         dimension(name, value)?;
     }
     number("the edge's radius", edge)?;
-    let most = match form {
+    if let Form::Pane { corner, .. } = *form {
+        number("the corners' radius", corner)?;
+        let most = size.x.min(size.y) / 2.0;
+        if corner > most {
+            return Err(FieldError::Edge { edge: corner, most });
+        }
+    }
+    let most = match *form {
+        Form::Pane { corner, .. } => corner.min(size.z / 2.0),
         Form::Prism { .. } => (size.x / 2.0).min(inradius(size.y, size.z)),
         _ => size.min_element() / 2.0,
     };

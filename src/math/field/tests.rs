@@ -51,6 +51,9 @@ fn forms() -> Vec<Field> {
         Form::Block { size: pixels(230.0, 230.0, 230.0), edge: 0.22 },
         Form::Block { size: pixels(100.0, 230.0, 330.0), edge: 0.0 },
         Form::Block { size: pixels(100.0, 230.0, 330.0), edge: 0.25 },
+        Form::Pane { size: pixels(400.0, 250.0, 48.0), corner: 0.4, edge: 0.12 },
+        Form::Pane { size: pixels(250.0, 400.0, 60.0), corner: 0.1, edge: 0.1 },
+        Form::Pane { size: pixels(300.0, 300.0, 60.0), corner: 0.3, edge: 0.0 },
         Form::Prism { size: pixels(393.0, 149.0, 117.0), edge: 0.0 },
         Form::Prism { size: pixels(400.0, 80.0, 80.0), edge: 0.05 },
         Form::Prism { size: pixels(100.0, 300.0, 80.0), edge: 0.1 },
@@ -419,6 +422,11 @@ fn what_is_no_shape_is_refused_with_what_is_at_fault() {
         }
     }
     assert_eq!(told(Form::Pill { size, edge: 0.3 }), FieldError::Edge { edge: 0.3, most: 0.25 });
+    let pane = |corner, edge| told(Form::Pane { size, corner, edge });
+    assert_eq!(pane(0.6, 0.1), FieldError::Edge { edge: 0.6, most: 0.5 });
+    assert_eq!(pane(0.1, 0.2), FieldError::Edge { edge: 0.2, most: 0.1 });
+    assert_eq!(pane(0.4, 0.3), FieldError::Edge { edge: 0.3, most: 0.25 });
+    assert!(matches!(pane(f64::NAN, 0.0), FieldError::Number { name: "the corners' radius", .. }));
     let most = 1.0 * 0.5 / (1.0 + 2.0_f64.sqrt());
     assert!(
         matches!(told(Form::Prism { size, edge: 0.25 }), FieldError::Edge { most: m, .. } if (m - most).abs() < 1e-15)

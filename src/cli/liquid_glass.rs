@@ -1,0 +1,244 @@
+//! `liquid-glass`: a pane over a background as screens draw it, and beside it the same pane traced.
+
+use super::picture_options::film_size;
+use super::picturing::within;
+use super::progress::Progress;
+use super::{Failure, print, say};
+use crate::io::{panorama, write_rgba_png};
+use crate::optics::{Illuminant, linear_from_encoded, strata};
+use crate::picture::pane::{Around, Comparison, Cost, Pane, PaneError, Quality, Shifts};
+use crate::picture::pane::{compare, filling, pane, surroundings};
+use crate::picture::{Background, Develop, Linear, Tone, develop};
+use crate::scene::Panorama;
+use crate::trace::surround::Sky;
+use clap::Args;
+use glam::{DVec2, DVec4};
+use std::path::{Path, PathBuf};
+
+/// Parts of the picture that a pane takes up, and of its shorter side that its corners are round by, when not told.
+const EXTENT: DVec2 = DVec2::new(0.625, 0.5);
+const ROUND: f64 = 0.3;
+
+/// Wavelengths side by side of the traced pane.
+const WAVELENGTHS: u32 = 12;
+
+#[derive(Debug, Args)]
+pub struct LiquidGlass {
+    /// What lies behind: a photograph's file, a colour (white, #20262e), or two from top to bottom (#404850-#101215)
+    #[arg(long, value_name = "WHAT")]
+    background: String,
+    /// Folder to write to
+    #[arg(long, default_value = "out")]
+    out: PathBuf,
+    /// Pixels of the picture: a number for a square, or WIDTHxHEIGHT
+    #[arg(long, value_name = "PIXELS", default_value = "960x600", value_parser = film_size)]
+    size: [u32; 2],
+    /// The pane: WIDTHxHEIGHT+X+Y in pixels, X and Y from the upper left corner; without them in the middle [default: 5/8
+    /// by half of the picture, in the middle]
+    #[arg(long, value_name = "WxH+X+Y", value_parser = geometry)]
+    pane: Option<Geometry>,
+    /// Radius of the pane's corners in pixels [default: 0.3 of its shorter side]
+    #[arg(long, value_name = "PIXELS")]
+    radius: Option<f64>,
+    /// Strength of the refraction, 0 to 100
+    #[arg(long, value_name = "STRENGTH", default_value_t = 100.0)]
+    refraction: f64,
+    /// Strength of the depth, 0 to 100
+    #[arg(long, value_name = "STRENGTH", default_value_t = 100.0)]
+    depth: f64,
+    /// Strength of the dispersion, 0 to 100
+    #[arg(long, value_name = "STRENGTH", default_value_t = 100.0)]
+    dispersion: f64,
+    /// Strength of the frost, 0 to 100
+    #[arg(long, value_name = "STRENGTH", default_value_t = 0.0)]
+    frost: f64,
+    /// Strength of the light, 0 to 100
+    #[arg(long, value_name = "STRENGTH", default_value_t = 50.0)]
+    light: f64,
+    /// The base colour and how much of it covers what is behind
+    #[arg(long, value_name = "#rrggbbaa", default_value = "#00000000", value_parser = tint)]
+    tint: DVec4,
+    /// high (all), medium (frost by three samples, dispersion 30 at most) or low (refraction alone)
+    #[arg(long, default_value = "high")]
+    quality: Quality,
+    /// Trace the same pane as well, and tell what the approximation costs
+    #[arg(long)]
+    compare: bool,
+    /// How far above the background the traced pane lies, in parts of its shorter side
+    #[arg(long, value_name = "DISTANCE", default_value_t = 0.02)]
+    gap: f64,
+    /// Looks of the comparison, 1 to 1024
+    #[arg(long, value_name = "N", default_value_t = 16, value_parser = clap::value_parser!(u32).range(1..=1024))]
+    samples: u32,
+}
+
+/// A pane's size and place in pixels; the middle of the picture where it has no place.
+#[derive(Debug, Clone, Copy)]
+struct Geometry {
+    size: DVec2,
+    corner: Option<DVec2>,
+}
+
+fn geometry(text: &str) -> Result<Geometry, String> {
+    let wrong = || "give WIDTHxHEIGHT+X+Y such as 400x240+80+60, or WIDTHxHEIGHT".to_owned();
+    let both = |text: &str, between: char| {
+        let (a, b) = text.split_once(between)?;
+        let number = |text: &str| text.trim().parse::<u16>().ok().map(f64::from);
+        Some(DVec2::new(number(a)?, number(b)?))
+    };
+    let (size, corner) = match text.split_once('+') {
+        Some((size, corner)) => (size, Some(both(corner, '+').ok_or_else(wrong)?)),
+        None => (text, None),
+    };
+    Ok(Geometry { size: both(size, 'x').ok_or_else(wrong)?, corner })
+}
+
+fn tint(text: &str) -> Result<DVec4, String> {
+    let digits =
+        text.trim().strip_prefix('#').filter(|d| d.len() == 8 && d.bytes().all(|b| b.is_ascii_hexdigit()));
+    let code = digits.and_then(|d| u32::from_str_radix(d, 16).ok());
+    let code = code.ok_or("give red, green, blue and alpha in hexadecimal, such as #3060ff40")?;
+    let [red, green, blue, alpha] = code.to_be_bytes().map(|byte| f64::from(byte) / 255.0);
+    let [red, green, blue] = [red, green, blue].map(linear_from_encoded);
+    Ok(DVec4::new(red, green, blue, alpha))
+}
+
+impl LiquidGlass {
+    pub fn run(&self) -> Result<(), Failure> {
+        let (pane_asked, gap) = (self.asked()?, within("gap", self.gap, 1e-3, 100.0)?);
+        let background = self.ground()?;
+        let told = self.told(&pane_asked);
+        self.write("liquid-glass", &pane(&pane_asked, &background, 1), &told)?;
+        if !self.compare {
+            return Ok(());
+        }
+        let light = surroundings(pane_asked.effective().light);
+        let around = Around {
+            sky: &Sky::new(&light, None),
+            gap,
+            strata: &strata(WAVELENGTHS, &Illuminant::D65, true),
+            looks: self.samples,
+        };
+        let Comparison { traced, cost, .. } = {
+            let bar = Progress::new("liquid glass, traced");
+            compare(&pane_asked, &background, &around, &bar.watch()).map_err(failure)?
+        };
+        let told =
+            format!("{told}; traced by rays, gap {gap}, {WAVELENGTHS} wavelengths in {} looks", self.samples);
+        self.write("liquid-glass-traced", &traced, &told)?;
+        let both = beside(&pane(&pane_asked, &background, 1), &traced);
+        self.write("liquid-glass-both", &both, &format!("left drawn, right traced; {told}"))?;
+        print(&figures(&cost))
+    }
+
+    /// The pane, checked.
+    fn asked(&self) -> Result<Pane, Failure> {
+        let whole = DVec2::from(self.size.map(f64::from));
+        let usual = Geometry { size: (whole * EXTENT).round(), corner: None };
+        let Geometry { size, corner } = self.pane.unwrap_or(usual);
+        let corner = corner.unwrap_or(((whole - size) / 2.0).floor());
+        let inside =
+            size.min_element() >= 8.0 && corner.min_element() >= 0.0 && (corner + size).cmple(whole).all();
+        if !inside {
+            let [width, height] = self.size;
+            return Err(Failure::Usage(format!(
+                "--pane: give a pane of 8 pixels and more each way within the picture of {width} by {height}"
+            )));
+        }
+        let most = size.min_element() / 2.0;
+        let strength = |key, value| within(key, value, 0.0, 100.0);
+        Ok(Pane {
+            refraction: strength("refraction", self.refraction)?,
+            depth: strength("depth", self.depth)?,
+            dispersion: strength("dispersion", self.dispersion)?,
+            frost: strength("frost", self.frost)?,
+            light: strength("light", self.light)?,
+            tint: self.tint,
+            quality: self.quality,
+            ..Pane::clear(
+                corner,
+                size,
+                within("radius", self.radius.unwrap_or(2.0 * ROUND * most), 0.0, most)?,
+            )
+        })
+    }
+
+    /// The background, as large as the picture.
+    fn ground(&self) -> Result<Panorama, Failure> {
+        let [width, height] = self.size;
+        let rows = match self.background.parse() {
+            Ok(Background::Transparent) => {
+                return Err(Failure::Usage(
+                    "--background transparent: a pane needs something behind it".into(),
+                ));
+            }
+            Ok(background) => (0..height).filter_map(move |y| background.row(y, height)),
+            Err(_) if Path::new(&self.background).exists() => {
+                let reading = panorama::read_photo(Path::new(&self.background)).map_err(Failure::Input)?;
+                reading.warnings.iter().for_each(|w| say(&format!("warning: {w}")));
+                return Ok(filling(&reading.panorama, self.size));
+            }
+            Err(_) if Path::new(&self.background).extension().is_some() => {
+                return Err(Failure::Input(format!("{}: there is no such file", self.background)));
+            }
+            Err(why) => return Err(Failure::Usage(format!("{why}, or a photograph's file"))),
+        };
+        let pixels = rows.flat_map(|colour| std::iter::repeat_n(colour, width as usize)).collect();
+        Ok(Panorama { width, height, pixels })
+    }
+
+    fn told(&self, pane: &Pane) -> String {
+        let Pane { size, corner, radius, refraction, depth, dispersion, frost, light, .. } = pane.effective();
+        let quality = format!("{:?}", self.quality).to_lowercase();
+        let tint = pane.effective().tint.to_array().map(|part| format!("{part:.3}")).join(" ");
+        format!(
+            "liquid glass, quality {quality}; pane {}x{}+{}+{}, corners {radius:.1}; refraction {refraction}, depth {depth}, \
+             dispersion {dispersion}, frost {frost}, light {light}; tint {tint}, linear with alpha",
+            size.x, size.y, corner.x, corner.y
+        )
+    }
+
+    fn write(&self, stem: &str, picture: &Linear, told: &str) -> Result<(), Failure> {
+        let path = self.out.join(format!("{stem}.png"));
+        // As screens composite: neither exposure nor tone.
+        let manner = Develop { bloom: None, tone: Tone::Linear, ..Develop::default() };
+        write_rgba_png(&path, &develop(picture, &manner), (picture.width, picture.height), told)?;
+        print(&path.display().to_string())
+    }
+}
+
+fn failure(error: PaneError) -> Failure {
+    match error {
+        PaneError::Stopped(_) => Failure::Stopped,
+        other => Failure::Usage(other.to_string()),
+    }
+}
+
+/// Two pictures of one size side by side, a white line between.
+fn beside(left: &Linear, right: &Linear) -> Linear {
+    let line = (left.width / 100).max(1);
+    let row = left.width.max(1) as usize;
+    let pairs = left.pixels.chunks(row).zip(right.pixels.chunks(row));
+    let pixels = pairs.flat_map(|(a, b)| [a, &vec![[1.0; 4]; line as usize], b].concat()).collect();
+    Linear { width: 2 * left.width + line, height: left.height, pixels }
+}
+
+fn figures(cost: &Cost) -> String {
+    let Cost { mean_difference, psnr_db, pane, traced, apart, fringe, behind, blind } = cost;
+    let line = |what: &str, Shifts { mean, greatest }: &Shifts| {
+        format!("{what:<36}mean {mean:7.2} px   greatest {greatest:7.2} px")
+    };
+    [
+        line("drawn: what is behind is moved by", pane),
+        line("traced: it is moved by", traced),
+        line("the places shown are apart by", apart),
+        format!(
+            "{:<36}drawn {:6.2} px   traced {:9.2} px",
+            "red and blue are apart by, mean", fringe[0], fringe[1]
+        ),
+        format!("{:<36}{:.4} of white, {psnr_db:.1} dB", "mean difference in linear light", mean_difference),
+        format!("{:<36}{:.1} %", "traced light from the background", 100.0 * behind),
+        format!("{:<36}{:.1} % of the pane", "traced, shows no background", 100.0 * blind),
+    ]
+    .join("\n")
+}

@@ -1,0 +1,245 @@
+//! Liquid glass: a pane that only looks as if it refracted, by five parts of arithmetic in each pixel and no ray.
+//!
+//! The effect is that of screens: flat, cheap, approximate by design. What its specification says, and what it leaves open
+//! and was chosen here, is in docs/optics.md, "Liquid glass". [`compare`] traces the same pane rightly.
+//!
+//! Lengths are parts of the pane's shorter side, x to the right and y down, from the pane's middle; places are looked up
+//! there, so that a shift toward the middle makes what is behind look larger.
+
+mod compare;
+mod frost;
+mod outline;
+mod parts;
+
+pub use compare::{Around, Comparison, Cost, PaneError, Shifts, compare, surroundings};
+pub use outline::{Dome, Outline};
+pub use parts::{depth, dispersion, falloff, light, refraction};
+
+use super::Linear;
+use crate::scene::{Panorama, Setting};
+use crate::trace::sitting::Look;
+use frost::taps;
+use glam::{DVec2, DVec3, DVec4};
+use rayon::prelude::*;
+use std::str::FromStr;
+
+/// Pixels beyond which no pane lies or reaches: sums of them stay whole numbers.
+const FARTHEST: f64 = 1e6;
+
+/// How much of the effect is computed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Quality {
+    /// All, frost by five samples.
+    #[default]
+    High,
+    /// Frost by three samples, and dispersion of strength 30 at most.
+    Medium,
+    /// Refraction alone: no depth, dispersion, frost, light or tint.
+    Low,
+}
+
+/// A pane over a picture.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Pane {
+    /// Its upper left corner, in pixels from the picture's.
+    pub corner: DVec2,
+    /// Its width and height in pixels, above 0.
+    pub size: DVec2,
+    /// Radius of its outline's corners in pixels, 0 to half of its shorter side.
+    pub radius: f64,
+    /// Strength of the refraction, 0 to 100, as all strengths.
+    pub refraction: f64,
+    /// Strength of the depth.
+    pub depth: f64,
+    /// Strength of the dispersion.
+    pub dispersion: f64,
+    /// Strength of the frost.
+    pub frost: f64,
+    /// Strength of the light.
+    pub light: f64,
+    /// Linear sRGB of its base colour, and how much of that covers what is behind, 0 to 1.
+    pub tint: DVec4,
+    /// How much of the effect is computed.
+    pub quality: Quality,
+}
+
+impl Pane {
+    /// A clear pane of this place and size, refraction, depth and dispersion in full, with half the light and no frost.
+    pub fn clear(corner: DVec2, size: DVec2, radius: f64) -> Self {
+        Self {
+            corner,
+            size,
+            radius,
+            refraction: 100.0,
+            depth: 100.0,
+            dispersion: 100.0,
+            frost: 0.0,
+            light: 50.0,
+            tint: DVec4::ZERO,
+            quality: Quality::High,
+        }
+    }
+
+    /// The strengths that its quality leaves; numbers out of their range count as its end, no numbers as 0.
+    pub fn effective(&self) -> Self {
+        let strength = |v: f64| v.max(0.0).min(100.0);
+        let high = Self {
+            refraction: strength(self.refraction),
+            depth: strength(self.depth),
+            dispersion: strength(self.dispersion),
+            frost: strength(self.frost),
+            light: strength(self.light),
+            ..*self
+        };
+        match self.quality {
+            Quality::High => high,
+            Quality::Medium => Self { dispersion: high.dispersion.min(30.0), ..high },
+            Quality::Low => {
+                Self { depth: 0.0, dispersion: 0.0, frost: 0.0, light: 0.0, tint: DVec4::ZERO, ..high }
+            }
+        }
+    }
+
+    /// Whether it has a place and an extent.
+    fn is_somewhere(&self) -> bool {
+        let range = -FARTHEST..=FARTHEST;
+        let within = |v: DVec2| range.contains(&v.x) && range.contains(&v.y);
+        within(self.corner)
+            && within(self.size)
+            && self.unit() > 0.0
+            && (0.0..=self.unit() / 2.0).contains(&self.radius)
+    }
+
+    /// Its shorter side in pixels: the unit of all that is computed.
+    pub fn unit(&self) -> f64 {
+        self.size.min_element()
+    }
+
+    /// Its outline in its own unit.
+    pub fn outline(&self) -> Outline {
+        let unit = self.unit();
+        Outline { half: self.size / (2.0 * unit), radius: self.radius / unit }
+    }
+
+    /// A place of the picture, in pixels, in the pane's own frame and unit.
+    pub fn own(&self, at: DVec2) -> DVec2 {
+        (at - self.corner - self.size / 2.0) / self.unit()
+    }
+
+    /// How much of a pixel whose middle is given in pixels the pane covers: from nothing to all over a pixel's width.
+    pub fn cover(&self, at: DVec2) -> f64 {
+        (0.5 - self.outline().distance(self.own(at)) * self.unit()).clamp(0.0, 1.0)
+    }
+
+    /// How far from a place of the pane, in pixels, red, green and blue are looked up, in pixels; frost aside.
+    pub fn shifts(&self, at: DVec2) -> [DVec2; 3] {
+        let pane = self.effective();
+        let dome = pane.outline().dome(pane.own(at));
+        let all = refraction(&dome, pane.refraction) + depth(&dome, pane.depth);
+        dispersion(&dome, pane.dispersion).map(|apart| (apart - all) * pane.unit())
+    }
+
+    /// The colour of a place of the pane, in pixels.
+    fn colour(&self, background: &Panorama, at: DVec2) -> DVec3 {
+        let pane = self.effective();
+        let own = pane.own(at);
+        let dome = pane.outline().dome(own);
+        let count = if self.quality == Quality::High { 5 } else { 3 };
+        let taps = taps(own, &dome, pane.frost, count);
+        let places = pane.shifts(at).map(|shift| at + shift - 0.5);
+        let seen = |&tap: &DVec2| {
+            let look = |place: DVec2| background.between(place + tap * pane.unit());
+            if pane.dispersion == 0.0 {
+                return look(places[1]);
+            }
+            DVec3::new(look(places[0]).x, look(places[1]).y, look(places[2]).z)
+        };
+        let sum: DVec3 = taps.iter().map(seen).sum();
+        pane.tinted(sum / taps.len() as f64) + light(dome.normal, pane.light)
+    }
+
+    /// A colour with the base colour laid over.
+    fn tinted(&self, colour: DVec3) -> DVec3 {
+        // A sum, for which no tint leaves the colour to the bit.
+        colour + (self.tint.truncate() - colour) * self.tint.w
+    }
+}
+
+/// A picture of the background, which is as large as the picture, with the pane over it; all covered.
+///
+/// With one look a pixel is what its middle shows, as on screens; with more it is evened out over as many places. A pane
+/// without extent, or rounder than it is wide, is not there.
+pub fn pane(pane: &Pane, background: &Panorama, looks: u32) -> Linear {
+    let shifts: Vec<DVec2> = places(looks);
+    let mut picture = plain(background);
+    if !pane.is_somewhere() {
+        return picture;
+    }
+    let row_length = background.width.max(1) as usize;
+    picture.pixels.par_chunks_mut(row_length).enumerate().for_each(|(y, row)| {
+        for (x, pixel) in row.iter_mut().enumerate() {
+            let corner = DVec2::new(x as f64, y as f64);
+            let cover = pane.cover(corner + 0.5);
+            if cover > 0.0 {
+                let seen: DVec3 = shifts.iter().map(|&at| pane.colour(background, corner + at)).sum();
+                laid(pixel, seen / shifts.len() as f64, cover);
+            }
+        }
+    });
+    picture
+}
+
+/// Where in a pixel so many looks stand; the first in its middle.
+fn places(looks: u32) -> Vec<DVec2> {
+    let nothing = Setting { stones: Vec::new(), unit_mm: 1.0 };
+    (0..looks.max(1)).map(|number| Look::new(&nothing, &[], number).shift).collect()
+}
+
+/// The background alone.
+fn plain(background: &Panorama) -> Linear {
+    let pixels = background.pixels.iter().map(|&[r, g, b]| [r, g, b, 1.0]).collect();
+    Linear { width: background.width, height: background.height, pixels }.whole()
+}
+
+/// Lays a colour over a pixel.
+fn laid(pixel: &mut [f32; 4], colour: DVec3, cover: f64) {
+    for (own, new) in pixel.iter_mut().zip(colour.to_array()) {
+        *own = (f64::from(*own) + (new - f64::from(*own)) * cover) as f32;
+    }
+}
+
+/// A picture that fills a size: as large as may be around its middle, cut where it is longer.
+pub fn filling(picture: &Panorama, size: [u32; 2]) -> Panorama {
+    let [width, height] = size.map(|side| f64::from(side.max(1)));
+    let scale = |p: &Panorama| (f64::from(p.width) / width).min(f64::from(p.height) / height);
+    let mut picture = std::borrow::Cow::Borrowed(picture);
+    // Each pixel then stands for fewer than two of the picture's each way, and none is passed over.
+    while scale(&picture) >= 2.0 {
+        picture = std::borrow::Cow::Owned(picture.halved());
+    }
+    let step = scale(&picture);
+    let middle = DVec2::new(f64::from(picture.width), f64::from(picture.height)) / 2.0;
+    let light = |k: usize| {
+        let at = DVec2::new((k % size[0] as usize) as f64, (k / size[0] as usize) as f64) + 0.5;
+        let from_middle = at - DVec2::new(width, height) / 2.0;
+        picture.between(middle + from_middle * step - 0.5).as_vec3().to_array()
+    };
+    let pixels = (0..size[0] as usize * size[1] as usize).into_par_iter().map(light).collect();
+    Panorama { width: size[0], height: size[1], pixels }
+}
+
+impl FromStr for Quality {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        match text.to_ascii_lowercase().as_str() {
+            "high" => Ok(Self::High),
+            "medium" => Ok(Self::Medium),
+            "low" => Ok(Self::Low),
+            _ => Err("give high, medium or low".into()),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,263 @@
+//! The same pane traced rightly, and what the approximation costs.
+//!
+//! The body is a slab of glass of the pane's outline, with both edges rolled around, lying a little above the background and
+//! seen along parallel rays. Strengths are taken as: depth the thickness, as the specification has it; refraction the index,
+//! 1 at 0 and 1.5 at 100; dispersion the Abbe number, 55 at 100. Frost is left out, for rough surfaces are not traced. The
+//! tint is laid over as it is over the pane.
+
+mod cost;
+
+pub use cost::{Cost, Shifts};
+
+use super::parts::{TOWARD_LIGHT, thickness};
+use super::{Pane, laid, pane as approximated, plain};
+use crate::math::{Field, FieldError, Form};
+use crate::optics::{Dispersion, DispersionError, Illuminant, Material, Stratum, strata};
+use crate::picture::{Backdrop, Linear, RefractionMap, Survey, spectral};
+use crate::scene::{Dome, Film, Lamp, Light, Panorama, Placed, Setting, View};
+use crate::trace::ray::{ByRays, Options};
+use crate::trace::sitting::Sitting;
+use crate::trace::surround::{Behind, Sky, Surround};
+use crate::trace::{Stopped, Watch};
+use cost::Sums;
+use glam::{DQuat, DVec2, DVec3};
+
+/// What the index is above 1 at strength 100, and the Abbe number there.
+const INDEX: f64 = 0.5;
+const ABBE: f64 = 55.0;
+
+/// Rows that rays are traced for at once: what they have seen so far is held.
+const ROWS: u32 = 256;
+
+/// Share of light that glass of index 1.5 reflects square on.
+const SQUARE_ON: f64 = 0.04;
+
+/// What a pane is traced in.
+#[derive(Debug, Clone, Copy)]
+pub struct Around<'a> {
+    /// The light around.
+    pub sky: &'a Sky,
+    /// Between pane and background, in the pane's shorter side, above 0.
+    pub gap: f64,
+    /// Wavelengths side by side.
+    pub strata: &'a [Stratum],
+    /// Looks that both pictures are made of, at least 1.
+    pub looks: u32,
+}
+
+/// A pane and what it stands for.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Comparison {
+    /// The pane, of as many looks as the traced one.
+    pub pane: Linear,
+    /// The traced pane.
+    pub traced: Linear,
+    /// What the difference is.
+    pub cost: Cost,
+}
+
+/// Why a pane cannot be compared.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum PaneError {
+    /// The pane covers no pixel of the picture.
+    #[error(
+        "the pane covers nothing of the picture: give it a place within, 1 pixel or more each way, and corners no \
+        rounder than half of its shorter side"
+    )]
+    Nowhere,
+    /// There is no such body.
+    #[error(transparent)]
+    Body(#[from] FieldError),
+    /// There is no such glass.
+    #[error(transparent)]
+    Glass(#[from] DispersionError),
+    /// The work was stopped.
+    #[error(transparent)]
+    Stopped(#[from] Stopped),
+}
+
+/// The light that a pane's strength of light stands for: a lamp that glass shows as bright as the specification's shine and
+/// about as large, and an even sky that shows at the rim as bright as its rim. Glass has nothing of its Lambert.
+pub fn surroundings(strength: f64) -> Light {
+    let part = strength.max(0.0).min(100.0) / 100.0;
+    let sky = Dome { from: -90.0, to: 90.0, soft: 0.0, radiance: 0.3 * part, end: None, colour: None };
+    let lamp = Lamp {
+        azimuth: 90.0,
+        elevation: TOWARD_LIGHT.z.asin().to_degrees(),
+        // A mirror turned by an angle turns light by twice that; cos³² is a half at 12 degrees.
+        radius: 24.0,
+        radiance: 0.5 * part / SQUARE_ON,
+        colour: None,
+    };
+    Light { name: "pane".into(), dome: vec![sky], lamp: vec![lamp], ..Light::white() }
+}
+
+/// Traces the pane before the background, which is as large as the picture, and compares.
+///
+/// # Errors
+/// What is wrong with the pane, or [`Stopped`] when `watch` asks to stop.
+pub fn compare(
+    pane: &Pane,
+    background: &Panorama,
+    around: &Around,
+    watch: Watch,
+) -> Result<Comparison, PaneError> {
+    let scene = Scene::new(pane, background)?;
+    let plane = Backdrop { distance: scene.distance(around.gap), size: scene.size, both_sides: false };
+    let bands = strata(3, &Illuminant::D65, true);
+    let survey = Survey { bands: &bands, shades: &[], looks: 1 };
+    let (map, carried) =
+        scene.sit(background, around, |sitting| RefractionMap::trace(sitting, &plane, &survey, watch))?;
+    let traced = scene.traced(background, around, watch)?;
+    let pane = approximated(pane, background, around.looks);
+    let cost = Cost { behind: carried.behind, ..scene.cost(&map, &pane, &traced) };
+    Ok(Comparison { pane, traced, cost })
+}
+
+/// The pane as a body, in a world whose unit is the pane's shorter side and whose origin is the picture's middle.
+struct Scene<'a> {
+    pane: &'a Pane,
+    setting: Setting,
+    /// Of the whole picture.
+    size: DVec2,
+    thickness: f64,
+    /// What of the picture is traced: the first pixel, and how many.
+    first: [u32; 2],
+    count: [u32; 2],
+    film: Film,
+}
+
+impl<'a> Scene<'a> {
+    fn new(pane: &'a Pane, background: &Panorama) -> Result<Self, PaneError> {
+        if !pane.is_somewhere() {
+            return Err(PaneError::Nowhere);
+        }
+        let (strengths, unit) = (pane.effective(), pane.unit());
+        let whole = DVec2::new(f64::from(background.width), f64::from(background.height));
+        let low = (pane.corner - 1.0).floor().clamp(DVec2::ZERO, whole);
+        let high = (pane.corner + pane.size + 1.0).ceil().clamp(DVec2::ZERO, whole);
+        let (first, count) = (low.as_uvec2().to_array(), (high - low).as_uvec2().to_array());
+        if count.contains(&0) {
+            return Err(PaneError::Nowhere);
+        }
+        let up = DVec2::new(1.0, -1.0) / unit;
+        let middle = (pane.corner + pane.size / 2.0 - whole / 2.0) * up;
+        let thickness = thickness(strengths.depth);
+        let mut stones = Vec::new();
+        if thickness > 0.0 {
+            let corner = pane.radius / unit;
+            let size = (pane.size / unit).extend(thickness);
+            let body = Field::new(Form::Pane { size, corner, edge: corner.min(thickness / 2.0) })?;
+            let glass = glass(strengths.refraction, strengths.dispersion)?;
+            stones.push(Placed::new(body, glass).moved(1.0, DQuat::IDENTITY, middle.extend(0.0)));
+        }
+        let centre = (0.5 * (low + high) - whole / 2.0) * up;
+        Ok(Self {
+            pane,
+            setting: Setting { stones, unit_mm: 1.0 },
+            size: whole / unit,
+            thickness,
+            first,
+            count,
+            film: Film { centre, ..Film::new(count, 1.0 / unit) },
+        })
+    }
+
+    fn distance(&self, gap: f64) -> f64 {
+        self.thickness / 2.0 + gap
+    }
+
+    fn sit<T>(&self, background: &Panorama, around: &Around, work: impl FnOnce(&Sitting) -> T) -> T {
+        let view = View::default();
+        let distance = self.distance(around.gap);
+        work(&Sitting {
+            setting: &self.setting,
+            surround: Surround {
+                sky: around.sky,
+                basis: view.light_basis(),
+                eye: view.basis(),
+                head: 0.0,
+                behind: Some(Behind { picture: background, distance, width: self.size.x }),
+                backdrop: true,
+            },
+            view: &view,
+            film: self.film,
+            options: Options { polarised: true, most_bounces: 64, least_weight: 1e-4 },
+        })
+    }
+
+    /// The pixels traced, by their place in what is traced and in the picture, with their middles.
+    fn pixels(&self, width: u32) -> impl Iterator<Item = (usize, usize, DVec2)> {
+        let ([across, down], [left, top]) = (self.count, self.first);
+        let place = move |k: u32| {
+            let (x, y) = (left + k % across, top + k / across);
+            let middle = DVec2::new(f64::from(x), f64::from(y)) + 0.5;
+            (k as usize, y as usize * width as usize + x as usize, middle)
+        };
+        (0..across * down).map(place)
+    }
+
+    fn traced(&self, background: &Panorama, around: &Around, watch: Watch) -> Result<Linear, Stopped> {
+        let looks = (around.strata, around.looks.max(1));
+        let (piece, _) = self.sit(background, around, |sitting| {
+            let prepare = |rows| Ok::<_, Stopped>(ByRays::new(*sitting, rows));
+            spectral::expose(sitting, looks, ROWS, prepare, watch)
+        })?;
+        let (mut picture, tint) = (plain(background), self.pane.effective());
+        for (k, at, middle) in self.pixels(background.width) {
+            let cover = self.pane.cover(middle);
+            if cover > 0.0 {
+                let [red, green, blue, _] = piece.pixels[k].map(f64::from);
+                laid(&mut picture.pixels[at], tint.tinted(DVec3::new(red, green, blue)), cover);
+            }
+        }
+        Ok(picture)
+    }
+
+    fn cost(&self, map: &RefractionMap, pane: &Linear, traced: &Linear) -> Cost {
+        let mut sums = Sums::default();
+        let whole = self.size * self.pane.unit();
+        for (k, at, middle) in self.pixels(pane.width) {
+            // Half of the pixel and more.
+            if self.pane.cover(middle) <= 0.5 {
+                continue;
+            }
+            sums.pixels += 1.0;
+            for (a, b) in pane.pixels[at].iter().zip(traced.pixels[at]).take(3) {
+                let off = f64::from(a.clamp(0.0, 1.0) - b.clamp(0.0, 1.0)).abs();
+                sums.off += off / 3.0;
+                sums.squares += off * off / 3.0;
+            }
+            let place = |band: usize| {
+                let place = map.bands[band].places[k];
+                let at = DVec2::new(f64::from(place.u), f64::from(place.v)) * whole;
+                (place.weight > 0.0).then_some(at)
+            };
+            let [red, green, blue] = self.pane.shifts(middle);
+            let (Some(short), Some(mid), Some(long)) = (place(0), place(1), place(2)) else {
+                sums.blind += 1.0;
+                continue;
+            };
+            sums.pane.add(green.length());
+            sums.traced.add((mid - middle).length());
+            sums.apart.add((mid - middle - green).length());
+            sums.fringe[0].add((red - blue).length());
+            sums.fringe[1].add((long - short).length());
+        }
+        sums.cost()
+    }
+}
+
+/// The glass that strengths of refraction and dispersion stand for.
+fn glass(refraction: f64, dispersion: f64) -> Result<Material, DispersionError> {
+    let n_d = 1.0 + INDEX * refraction / 100.0;
+    let glass = Material::from_index("glass", n_d)?;
+    if dispersion == 0.0 {
+        return Ok(glass);
+    }
+    let law = Dispersion::Abbe { n_d, v_d: ABBE * 100.0 / dispersion };
+    Ok(Material { dispersion: law.checked()?, ..glass })
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,54 @@
+//! Laws of the traced pane, and of what tells it from the drawn one.
+
+use super::*;
+use crate::picture::pane::tests::{apart, even, full, none, pattern};
+use crate::trace::unwatched;
+
+/// The traced pane in a light.
+fn traced(pane: &Pane, background: &Panorama, light: &Light, looks: u32) -> Comparison {
+    let bands = strata(4, &Illuminant::D65, true);
+    let around = Around { sky: &Sky::new(light, None), gap: 0.02, strata: &bands, looks };
+    compare(pane, background, &around, &unwatched).unwrap()
+}
+
+#[test]
+fn the_traced_pane_over_white_in_white_is_white_and_symmetric_over_what_is() {
+    let white = even([1.0; 3]);
+    let seen = traced(&full(), &white, &Light::white(), 2);
+    assert!(apart(&seen.traced, &plain(&white)) < 2e-3);
+    let background = pattern(true);
+    let Comparison { traced, cost, .. } =
+        traced(&Pane { light: 0.0, ..full() }, &background, &surroundings(0.0), 1);
+    let off = traced.pixels.chunks(72).flat_map(|row| row.iter().zip(row.iter().rev()));
+    let off = off.map(|(a, b)| (a[1] - b[1]).abs()).fold(0.0, f32::max);
+    assert!(off < 1e-3, "{off}");
+    assert!(cost.behind > 0.8 && cost.behind < 0.93, "{cost:?}");
+}
+
+#[test]
+fn without_refraction_the_traced_pane_is_the_pane() {
+    let background = pattern(false);
+    for depth in [0.0, 100.0] {
+        let bare = Pane { depth, ..none() };
+        let seen = traced(&bare, &background, &surroundings(0.0), 2);
+        // Depth is no refraction here, but air: what the specification moves by it, air does not.
+        assert!(seen.cost.traced.greatest < 1e-4 && seen.cost.blind == 0.0, "{:?}", seen.cost);
+        let unmoved = approximated(&none(), &background, 2);
+        assert!(apart(&seen.traced, &unmoved) < 1e-4);
+        assert_eq!(seen.cost.apart.greatest > 0.1, depth > 0.0, "{:?}", seen.cost);
+    }
+}
+
+#[test]
+fn the_cost_tells_glass_from_its_approximation() {
+    let Cost { mean_difference, psnr_db, traced: by_glass, apart, fringe, .. } =
+        traced(&Pane { frost: 0.0, ..full() }, &pattern(false), &surroundings(100.0), 2).cost;
+    assert!(mean_difference > 0.01 && (5.0..30.0).contains(&psnr_db), "{mean_difference} {psnr_db}");
+    assert!(apart.greatest >= apart.mean && apart.greatest <= by_glass.greatest + 38.0 * 0.04);
+    // Two thirds of 0.003 ⋅ 2.0 of 38 pixels, over the pane.
+    assert!((0.1..0.2).contains(&fringe[0]), "{fringe:?}");
+    let nowhere = Pane { corner: DVec2::splat(500.0), ..full() };
+    let bands = strata(2, &Illuminant::D65, true);
+    let around = Around { sky: &Sky::new(&Light::white(), None), gap: 0.02, strata: &bands, looks: 1 };
+    assert_eq!(compare(&nowhere, &pattern(false), &around, &unwatched), Err(PaneError::Nowhere));
+}

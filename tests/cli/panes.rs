@@ -1,0 +1,96 @@
+//! What `liquid-glass` makes.
+
+use super::desk::*;
+use brillianteer::optics::linear_from_encoded;
+use glam::DVec3;
+
+/// A desk with a photograph on it.
+fn desk() -> Desk {
+    let desk = Desk::new();
+    desk.done(
+        "render cube.toml --background #c08040 --size 64x48 --samples 1 --wavelengths 2 --out photo.png",
+    );
+    desk
+}
+
+/// The number behind a name in what is printed, and the unit.
+fn figure(printed: &str, name: &str) -> f64 {
+    let line = printed.lines().find(|line| line.starts_with(name)).unwrap();
+    line.split_whitespace().find_map(|word| word.parse().ok()).unwrap()
+}
+
+#[test]
+fn liquid_glass_comes_drawn_traced_and_side_by_side_with_what_the_drawing_costs() {
+    let desk = desk();
+    let line = "liquid-glass --background photo.png --size 64x48 --pane 40x30+8+6 --samples 2";
+    assert_eq!(desk.done(&format!("{line} --out alone")), "alone/liquid-glass.png\n");
+    let printed = desk.done(&format!("{line} --out all --compare --tint #3060ff40 --frost 50"));
+    let names = ["", "-traced", "-both"].map(|name| format!("all/liquid-glass{name}.png"));
+    assert_eq!(printed.lines().take(3).collect::<Vec<_>>(), names);
+    assert_eq!(files(&desk.at("all")).len(), 3, "nothing else is left");
+    // As drawn, at most (0.015 + 0.008 + 0.012 0.7 + ...) of 30 pixels.
+    let moved = figure(&printed, "drawn: what is behind is moved by");
+    assert!(moved > 0.2 && moved < 1.5, "{printed}");
+    assert!(figure(&printed, "traced: it is moved by") > 0.0, "{printed}");
+    assert!(figure(&printed, "mean difference in linear light") > 0.01, "{printed}");
+    let (size, _, told) = png(&desk.at("all/liquid-glass.png"));
+    assert_eq!(size, (64, 48));
+    assert!(told.contains("quality high; pane 40x30+8+6, corners 9.0; refraction 100"), "{told}");
+    assert!(told.contains("frost 50, light 50; tint 0.030 0.117 1.000 0.251"), "{told}");
+    let (size, _, told) = png(&desk.at("all/liquid-glass-traced.png"));
+    assert_eq!(size, (64, 48));
+    assert!(told.contains("traced by rays, gap 0.02, 12 wavelengths in 2 looks"), "{told}");
+    assert_eq!(png(&desk.at("all/liquid-glass-both.png")).0, (129, 48));
+    // The same bytes on any number of threads.
+    for threads in ["1", "2"] {
+        let line = format!("{line} --compare --frost 80 --out {threads}");
+        let run = desk.command(&line).env("RAYON_NUM_THREADS", threads).output().unwrap();
+        assert_eq!(came_of(&line, &run).0, 0);
+    }
+    assert!(files(&desk.at("1")) == files(&desk.at("2")));
+}
+
+#[test]
+fn a_pane_without_strength_is_its_background() {
+    let desk = desk();
+    let off = "--refraction 0 --depth 0 --dispersion 0 --light 0";
+    desk.done(&format!("liquid-glass --background #336699 --size 32 {off}"));
+    let (size, pixels, _) = png(&desk.at("out/liquid-glass.png"));
+    let own = DVec3::from([0x33, 0x66, 0x99].map(|code: u8| linear_from_encoded(f64::from(code) / 255.0)));
+    assert_eq!((size, pixels.len()), ((32, 32), 32 * 32));
+    assert!(pixels.iter().all(|p| *p == own));
+    desk.done(&format!("liquid-glass --background #336699 --size 32 {off} --tint #00000080"));
+    let (_, tinted, _) = png(&desk.at("out/liquid-glass.png"));
+    assert!(tinted != pixels);
+    desk.done(&format!("liquid-glass --background #336699 --size 32 {off} --tint #00000080 --quality low"));
+    assert!(png(&desk.at("out/liquid-glass.png")).1 == pixels);
+}
+
+#[test]
+fn what_liquid_glass_cannot_be_is_told() {
+    let desk = desk();
+    let line = "liquid-glass --size 64x48 --background";
+    for (options, code, expected) in [
+        ("photo.png --pane 70x20", 2, "within the picture of 64 by 48"),
+        ("photo.png --pane 40x30+30+6", 2, "within the picture of 64 by 48"),
+        ("photo.png --pane 4x30", 2, "8 pixels and more"),
+        ("photo.png --pane 40", 2, "WIDTHxHEIGHT+X+Y"),
+        ("photo.png --pane 40x30+8", 2, "WIDTHxHEIGHT+X+Y"),
+        ("photo.png --pane 40x30 --radius 16", 2, "--radius 16: give 0 to 15"),
+        ("photo.png --refraction 101", 2, "--refraction 101: give 0 to 100"),
+        ("photo.png --depth NaN", 2, "--depth NaN: give 0 to 100"),
+        ("photo.png --tint #3060ff", 2, "#3060ff40"),
+        ("photo.png --tint #é0é0é0", 2, "#3060ff40"),
+        ("photo.png --quality best", 2, "high, medium or low"),
+        ("photo.png --compare --gap 0", 2, "--gap 0: give 0.001 to 100"),
+        ("photo.png --size 8", 2, "give 16 to 8192 pixels"),
+        ("none.png", 1, "none.png: there is no such file"),
+        ("mauve", 2, "or a photograph's file"),
+        ("transparent", 2, "needs something behind it"),
+        ("cube.toml", 1, "no picture that is known"),
+    ] {
+        let said = desk.refused(&format!("{line} {options}"), code);
+        assert!(said.contains(expected), "{options}: {said}");
+    }
+    assert!(desk.run("liquid-glass").1.is_empty());
+}
