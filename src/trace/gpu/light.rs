@@ -71,7 +71,7 @@ impl<'a> ByCard<'a> {
         let eye =
             Eye { view: sitting.view, film: sitting.film, reach: sitting.reach(), options: sitting.options };
         let told = eye.frame(gpu, &solids, wavelengths);
-        solids.enough(gpu, told.counts[2])?;
+        solids.enough(gpu, told.counts[2], sitting.options.most_bounces)?;
         let pipeline = gpu.lights.pipeline(&gpu.device, solids.facets);
         let stage = Stage::new::<door::Lit>(gpu, pipeline, told, rows.len() as u32, entries)?;
         let at_once = Stage::rows(gpu, sitting.film.size);

@@ -157,9 +157,9 @@ impl Solids {
         wanted.min((turns / (self.largest * (1 + self.count))) as u32)
     }
 
-    /// Whether so many bounces are enough for a picture.
-    pub fn enough(&self, gpu: &Gpu, bounces: u32) -> Result<(), GpuError> {
-        if bounces >= LEAST_BOUNCES || !gpu.is_software() {
+    /// Whether so many bounces are enough for a picture of as many as wanted.
+    pub fn enough(&self, gpu: &Gpu, bounces: u32, wanted: u32) -> Result<(), GpuError> {
+        if bounces >= LEAST_BOUNCES.min(wanted) || !gpu.is_software() {
             return Ok(());
         }
         Err(GpuError::TooFewBounces { name: gpu.name().to_owned(), bounces, stones: self.count })

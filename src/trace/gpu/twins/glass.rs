@@ -2,7 +2,7 @@
 
 use super::super::door;
 use super::super::fields::field;
-use super::{Gpu, card, run};
+use super::{card, run};
 use crate::math::{Field, Form, Jet};
 use glam::{DMat3, DQuat, DVec3};
 
