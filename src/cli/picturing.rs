@@ -247,7 +247,7 @@ impl<'a> Studio<'a> {
         let name =
             placed.names.get(facet as usize).cloned().unwrap_or_else(|| format!("facet {}", facet + 1));
         if self.assembly.setting.stones.len() == 1 {
-            return name.into();
+            return name;
         }
         format!("{name} of stone {}, {}, {}", stone + 1, placed.label, placed.material.name)
     }

@@ -82,7 +82,7 @@ impl Pane {
 
     /// The strengths that its quality leaves; numbers out of their range count as its end, no numbers as 0.
     pub fn effective(&self) -> Self {
-        let strength = |v: f64| v.max(0.0).min(100.0);
+        let strength = |v: f64| if v > 0.0 { v.min(100.0) } else { 0.0 };
         let high = Self {
             refraction: strength(self.refraction),
             depth: strength(self.depth),

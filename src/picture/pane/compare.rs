@@ -79,7 +79,8 @@ pub enum PaneError {
 /// The light that a pane's strength of light stands for: a lamp that glass shows as bright as the specification's shine and
 /// about as large, and an even sky that shows at the rim as bright as its rim. Glass has nothing of its Lambert.
 pub fn surroundings(strength: f64) -> Light {
-    let part = strength.max(0.0).min(100.0) / 100.0;
+    // What is no number is none.
+    let part = if strength > 0.0 { strength.min(100.0) / 100.0 } else { 0.0 };
     let sky = Dome { from: -90.0, to: 90.0, soft: 0.0, radiance: 0.3 * part, end: None, colour: None };
     let lamp = Lamp {
         azimuth: 90.0,
