@@ -53,7 +53,7 @@ pub struct LiquidGlass {
     #[arg(long, value_name = "STRENGTH", default_value_t = 0.0)]
     frost: f64,
     /// Strength of the light, 0 to 100
-    #[arg(long, value_name = "STRENGTH", default_value_t = 50.0)]
+    #[arg(long, value_name = "STRENGTH", default_value_t = 30.0)]
     light: f64,
     /// The base colour and how much of it covers what is behind
     #[arg(long, value_name = "#rrggbbaa", default_value = "#00000000", value_parser = tint)]

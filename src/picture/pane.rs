@@ -64,7 +64,7 @@ pub struct Pane {
 }
 
 impl Pane {
-    /// A clear pane of this place and size, refraction, depth and dispersion in full, with half the light and no frost.
+    /// A clear pane of this place and size, refraction, depth and dispersion in full, with a light of 30 and no frost.
     pub fn clear(corner: DVec2, size: DVec2, radius: f64) -> Self {
         Self {
             corner,
@@ -74,7 +74,7 @@ impl Pane {
             depth: 100.0,
             dispersion: 100.0,
             frost: 0.0,
-            light: 50.0,
+            light: 30.0,
             tint: DVec4::ZERO,
             quality: Quality::High,
         }

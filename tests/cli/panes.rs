@@ -36,7 +36,7 @@ fn liquid_glass_comes_drawn_traced_and_side_by_side_with_what_the_drawing_costs(
     let (size, _, told) = png(&desk.at("all/liquid-glass.png"));
     assert_eq!(size, (64, 48));
     assert!(told.contains("quality high; pane 40x30+8+6, corners 9.0; refraction 100"), "{told}");
-    assert!(told.contains("frost 50, light 50; tint 0.030 0.117 1.000 0.251"), "{told}");
+    assert!(told.contains("frost 50, light 30; tint 0.030 0.117 1.000 0.251"), "{told}");
     let (size, _, told) = png(&desk.at("all/liquid-glass-traced.png"));
     assert_eq!(size, (64, 48));
     assert!(told.contains("traced by rays, gap 0.02, 12 wavelengths in 2 looks"), "{told}");
