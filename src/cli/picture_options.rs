@@ -61,8 +61,8 @@ pub struct PictureOptions {
     #[arg(long, value_name = "PART", default_value_t = Bloom::default().strength)]
     pub bloom: f64,
     /// What lies behind: transparent, a colour (white, #20262e), two from top to bottom (#404850-#101215), `light` for
-    /// what shines, a pattern (page, grid, checks, stripes, dots, slit), or a photograph's file [default: the scene's, or
-    /// #33373d-#0e0f11]
+    /// what shines, a pattern (page, grid, checks, stripes, dots, slit), or a photograph's file (by default the scene's, or
+    /// #33373d-#0e0f11)
     #[arg(long, value_name = "WHAT")]
     pub background: Option<String>,
     /// What to draw over the stones, separated by commas: wireframe, facets, bounces, unresolved, total (how often light is
