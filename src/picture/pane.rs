@@ -1,7 +1,7 @@
 //! Liquid glass: a pane that only looks as if it refracted, by five parts of arithmetic in each pixel and no ray.
 //!
 //! The effect is that of screens: flat, cheap, approximate by design. What its specification says, and what it leaves open
-//! and was chosen here, is in docs/optics.md, "Liquid glass". [`mod@compare`] traces the same pane rightly.
+//! and was chosen here, is in docs/optics.md, "Liquid glass". `compare` traces the same pane rightly.
 //!
 //! Lengths are parts of the pane's shorter side, x to the right and y down, from the pane's middle; places are looked up
 //! there, so that a shift toward the middle makes what is behind look larger.
