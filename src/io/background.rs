@@ -133,7 +133,8 @@ mod tests {
             ("grid", 1.0 - lines, 1.0 - lines * 0.95),
             ("checks", 0.4999, 0.5001),
             ("stripes", 0.4999, 0.5001),
-            ("dots", 1.0 - 0.1964 - 0.002, 1.0 - 0.1964 + 0.002),
+            // Their rims are evened out in sRGB, which is darker in light.
+            ("dots", 1.0 - 0.1964 - 0.004, 1.0 - 0.1964),
             ("slit", 0.005_85, 0.005_86),
         ] {
             let asked = BackgroundRef::read(name, Path::new("")).unwrap();
