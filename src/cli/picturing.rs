@@ -32,6 +32,9 @@ const LEAST_WEIGHT: f64 = 5e-4;
 const BACKGROUND: &str = "#33373d-#0e0f11";
 const PHOTO_DISTANCE: f64 = 3.0;
 
+/// How many times as wide as the picture a pattern is, so that light from beyond the border finds more of it.
+const PATTERN_SPAN: f64 = 2.0;
+
 /// What traces a picture.
 #[derive(Clone, Copy)]
 enum Tracer {
@@ -266,13 +269,14 @@ impl<'a> Studio<'a> {
         (basis.right, basis.up) = (right, up);
         let distance = self.distance;
         // Wide enough to fill the picture, whatever its shape.
+        let span = if matches!(self.background, BackgroundRef::Pattern(_)) { PATTERN_SPAN } else { 1.0 };
         let behind = self.photo.as_ref().map(|picture| {
             let [across, down] = self.options.size.map(f64::from);
             let shape = f64::from(picture.width) / f64::from(picture.height);
             Behind {
                 picture,
                 distance,
-                width: pixel * across.max(down * shape) * Self::nearness(view, distance),
+                width: span * pixel * across.max(down * shape) * Self::nearness(view, distance),
             }
         });
         work(&Sitting {

@@ -32,7 +32,7 @@ const PAPER: &str = "#ffffff";
 const STEP: u32 = 64;
 
 /// Half the height of the slit: so narrow that a prism near it keeps three images of it apart.
-const HALF_SLIT: u32 = 6;
+const HALF_SLIT: u32 = 5;
 
 /// What is written on the page: about what is seen there.
 const WORDS: &str = "Light that enters glass is bent toward the normal, blue more than red, and bent back where it leaves. \
@@ -64,8 +64,8 @@ impl Pattern {
         match self {
             Self::Page => page(sheet),
             Self::Grid => {
-                let across = all().map(|k| (0, k * STEP + STEP / 2 - 2, PATTERN_SIDE, 4));
-                let down = all().map(|k| (k * STEP + STEP / 2 - 2, 0, 4, PATTERN_SIDE));
+                let across = all().map(|k| (0, k * STEP + STEP / 2 - 3, PATTERN_SIDE, 6));
+                let down = all().map(|k| (k * STEP + STEP / 2 - 3, 0, 6, PATTERN_SIDE));
                 let paper = sheet.add(rectangle((0, 0, PATTERN_SIDE, PATTERN_SIDE)).set("fill", PAPER));
                 paper
                     .add(rectangles(across).set("fill", "#c01020"))
@@ -119,10 +119,10 @@ fn rectangles(all: impl Iterator<Item = Corner>) -> Path {
 
 /// Lines of even length, broken between words, down to the foot of the page.
 fn page(sheet: Document) -> Document {
-    const SIZE: u32 = 56;
-    const LEADING: u32 = 84;
-    // Letters are half as wide as high, on average.
-    const LETTERS: usize = (PATTERN_SIDE as usize - 2 * SIZE as usize) * 2 / SIZE as usize;
+    const SIZE: u32 = 40;
+    const LEADING: u32 = 60;
+    // Letters are 0.44 of the size wide, on average.
+    const LETTERS: usize = (PATTERN_SIDE as usize - 2 * SIZE as usize) * 25 / (11 * SIZE as usize);
     let mut words = WORDS.split_whitespace().cycle().peekable();
     (1..PATTERN_SIDE / LEADING).fold(sheet, |sheet, line| {
         let mut text = String::new();
@@ -131,7 +131,8 @@ fn page(sheet: Document) -> Document {
             text.push(' ');
         }
         let text = Text::new(text.trim_end()).set("x", SIZE).set("y", line * LEADING);
-        sheet.add(text.set("font-family", "Ubuntu").set("font-size", SIZE).set("fill", INK))
+        sheet
+            .add(text.set("font-family", "Ubuntu").set("font-size", SIZE).set("fill", INK).set("stroke", INK))
     })
 }
 
