@@ -99,6 +99,9 @@ impl<'a> SolidRef<'a> {
 
     /// The smallest box with sides along the axes that holds it: (least, greatest) coordinates.
     pub fn bounds(self) -> (DVec3, DVec3) {
+        if let Self::Smooth(smooth) = self {
+            return smooth.field().bounds();
+        }
         let start = (DVec3::INFINITY, DVec3::NEG_INFINITY);
         self.vertices().iter().fold(start, |(low, high), &v| (low.min(v), high.max(v)))
     }
