@@ -34,7 +34,7 @@ fn a_refraction_map_comes_in_every_coding_with_its_diffuse_layer_a_page_and_a_pr
     assert!(page.contains("<h1>Cube</h1>") && page.contains("data:image/png;base64,"));
     let printed = desk
         .done("refraction-map cube.toml --size 32 --samples 1 --wavelengths 2 --background dots --out dots");
-    assert_eq!(printed.lines().count(), 3, "{printed}");
+    assert_eq!(printed.lines().count(), 4, "{printed}");
     assert!(desk.read("dots/cube-refraction.html").contains("\"background\":\"data:image/png;base64,"));
     // Of several bands each has its maps; without a photograph there is no preview.
     let printed =
