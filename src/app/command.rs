@@ -36,6 +36,10 @@ pub enum Command {
     Split,
     NoCompare,
     LightPath,
+    Play,
+    LayOut,
+    NextBehind,
+    Panels,
     Keys,
 }
 
@@ -61,6 +65,8 @@ pub const MENUS: [Menu; 5] = [
             &[One, Two, Four],
             &[Wireframe, Facets, Bounces, Unresolved, Total, Strongest],
             &[LightPath],
+            &[Play, LayOut, NextBehind],
+            &[Panels],
         ],
     },
     Menu { title: "Compare", groups: &[&[CompareSaved, CompareFile], &[Split], &[NoCompare]] },
@@ -107,6 +113,10 @@ impl Command {
             Split => "Split views",
             NoCompare => "Stop comparing",
             LightPath => "Light path",
+            Play => "Motion",
+            LayOut => "Lay copies out anew",
+            NextBehind => "Next background",
+            Panels => "Views alone",
             Keys => "Keys and terms",
         }
     }
@@ -149,6 +159,10 @@ impl Command {
             Split => "Shows both designs side by side in every view.",
             NoCompare => "Forgets the design compared with.",
             LightPath => "Follows one ray through the stone: click a point of a view.",
+            Play => "Copies tumble and plates wave in renders, until it is chosen again.",
+            LayOut => "Scatters the copies that renders show.",
+            NextBehind => "Hangs the next pattern behind renders.",
+            Panels => "Hides the panels at both sides, until it is chosen again.",
             Keys => "Lists the keys, and what the trade's terms mean.",
         }
     }
@@ -187,6 +201,10 @@ impl Command {
             Strongest => bare(Key::X),
             Split => bare(Key::D),
             LightPath => bare(Key::L),
+            Play => bare(Key::M),
+            LayOut => bare(Key::Space),
+            NextBehind => bare(Key::G),
+            Panels => bare(Key::H),
             Keys => bare(Key::F1),
             CompareSaved => bare(Key::R),
             CompareFile | NoCompare => None,

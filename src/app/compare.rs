@@ -11,7 +11,8 @@ pub struct Compared {
     pub name: String,
     /// Whether it is the present one as it was saved.
     pub is_saved: bool,
-    specimen: Arc<Specimen>,
+    /// Its stone, as the design has it.
+    pub specimen: Arc<Specimen>,
     posed: Posed,
 }
 

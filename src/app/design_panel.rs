@@ -4,7 +4,8 @@ use super::desk::WAVELENGTHS;
 use super::editor::Editor;
 use super::files::Purpose;
 use super::proportions::{EXCELLENT_DEPTH, PROPORTIONS, Proportion};
-use super::{glass_rows, theme, tier_rows};
+use super::studio::BEHIND;
+use super::{company_rows, glass_rows, theme, tier_rows};
 use crate::cut::{Cut, DesignError, MaterialRef, RoundBrilliant, Size, Unit};
 use crate::optics::{line, materials};
 use crate::picture::Pattern;
@@ -31,6 +32,9 @@ pub fn show(editor: &mut Editor, ui: &mut Ui) {
         ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
             ui.add_space(8.0);
             identity(editor, ui);
+            if matches!(editor.document.work.design.cut, Cut::Glass(_)) {
+                company_rows::presets(editor, ui);
+            }
             heading(
                 ui,
                 "Proportions",
@@ -40,6 +44,8 @@ pub fn show(editor: &mut Editor, ui: &mut Ui) {
             heading(ui, "Stone", "What it is made of, and how large it is.");
             material(editor, ui);
             size(editor, ui);
+            heading(ui, "Copies", "Renders show several of it, and let them move.");
+            company_rows::show(editor, ui);
             heading(ui, "Light", "What the render is lit by; scopes bring their own light.");
             lighting(editor, ui);
         });
@@ -316,6 +322,7 @@ fn derived(ui: &mut Ui, brilliant: &RoundBrilliant) {
 }
 
 fn material(editor: &mut Editor, ui: &mut Ui) {
+    let known = editor.document.specimen().material.clone();
     let design = &mut editor.document.work.design;
     ui.horizontal(|ui| {
         let label =
@@ -340,6 +347,9 @@ fn material(editor: &mut Editor, ui: &mut Ui) {
         });
         combo.response.labelled_by(label.id);
     });
+    if matches!(design.cut, Cut::Glass(_)) {
+        company_rows::two_numbers(&mut design.material, &known, ui);
+    }
 }
 
 fn size(editor: &mut Editor, ui: &mut Ui) {
@@ -438,6 +448,8 @@ fn behind(editor: &mut Editor, ui: &mut Ui) -> bool {
             .width(ui.available_width() - 12.0);
         let combo = combo.show_ui(ui, |ui| {
             ui.selectable_value(&mut desk.behind, None, "nothing");
+            ui.selectable_value(&mut desk.behind, Some("light".to_owned()), "light")
+                .on_hover_text("What shines, a panorama for one.");
             for (name, _) in Pattern::NAMES {
                 ui.selectable_value(&mut desk.behind, Some(name.to_owned()), name);
             }
@@ -448,6 +460,16 @@ fn behind(editor: &mut Editor, ui: &mut Ui) -> bool {
     if desk.behind.is_some() {
         let meaning = "How much of the way that refraction turns light is followed: 1 is physics, less a mixture with the \
             straight ray, for its looks.";
+        if desk.behind.as_deref() != Some("light") {
+            let unit_mm = editor.document.specimen().unit_mm();
+            let mut mm = desk.behind_mm.unwrap_or(BEHIND * unit_mm);
+            let before = mm;
+            let about = "How far behind the middle it hangs; never nearer than the stones reach.";
+            plain(ui, ("Distance", about), &mut mm, (0.0..=20.0 * unit_mm, " mm"));
+            if mm != before {
+                desk.behind_mm = Some(mm);
+            }
+        }
         plain(ui, ("Strength", meaning), &mut desk.strength, (STRENGTHS, ""));
     }
     asks

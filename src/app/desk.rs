@@ -2,8 +2,9 @@
 
 use super::eye::Eye;
 use super::shows::Shows;
+use super::studio::Smoothing;
 use crate::io::background::BackgroundRef;
-use crate::picture::Overlay;
+use crate::picture::{Overlay, Pattern};
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 
@@ -76,8 +77,14 @@ pub struct Desk {
     pub wavelengths: u32,
     /// What hangs behind stones in renders: the name of a pattern, or a photograph's file.
     pub behind: Option<String>,
+    /// How far behind the middle that hangs, mm; none for a distance that goes with the stone.
+    pub behind_mm: Option<f64>,
     /// How much of the way that refraction turns light is followed before it: 1 is physics.
     pub strength: f64,
+    /// How edges of renders are evened out.
+    pub smoothing: Smoothing,
+    /// Whether views have the window to themselves.
+    pub hides_panels: bool,
 }
 
 /// Bands of wavelengths that are offered; of three each shows.
@@ -102,7 +109,10 @@ impl Default for Desk {
             exposure: 0.0,
             wavelengths: WAVELENGTHS[2],
             behind: None,
+            behind_mm: None,
             strength: 1.0,
+            smoothing: Smoothing::None,
+            hides_panels: false,
         }
     }
 }
@@ -111,6 +121,19 @@ impl Desk {
     /// What hangs behind stones in renders; a file that has gone is none.
     pub fn background(&self) -> Option<BackgroundRef> {
         BackgroundRef::read(self.behind.as_deref()?, Path::new("")).ok()
+    }
+
+    /// Hangs the pattern behind that comes next in their order, after the last of them nothing.
+    pub fn next_behind(&mut self) {
+        let next = match self
+            .behind
+            .as_deref()
+            .map(|now| Pattern::NAMES.iter().position(|(name, _)| *name == now))
+        {
+            Some(Some(now)) => now + 1,
+            Some(None) | None => 0,
+        };
+        self.behind = Pattern::NAMES.get(next).map(|(name, _)| (*name).to_owned());
     }
 
     /// How much of the way that refraction turns light is followed; without a picture behind all of it.
@@ -183,6 +206,18 @@ mod tests {
         (0..30).for_each(|k| desk.remember(Path::new(&format!("/{}.toml", k % 20))));
         assert_eq!(desk.recent.len(), MOST_RECENT);
         assert_eq!(desk.recent[0], Path::new("/9.toml"));
+    }
+
+    #[test]
+    fn backgrounds_come_one_after_the_other_and_around() {
+        let mut desk = Desk { behind: Some("/a/photo.png".to_owned()), ..Desk::default() };
+        let mut seen = vec![];
+        for _ in 0..Pattern::NAMES.len() + 1 {
+            desk.next_behind();
+            seen.push(desk.behind.clone());
+        }
+        assert_eq!(seen.iter().flatten().count(), Pattern::NAMES.len());
+        assert_eq!((seen[0].as_deref(), seen.last()), (Some("page"), Some(&None)));
     }
 
     #[test]

@@ -18,6 +18,8 @@ pub enum Then {
     Open(PathBuf),
     /// Begin from a cut that comes with the program.
     Library(String),
+    /// Begin a scene of glass that comes with the program.
+    Preset(String),
     /// Close the window.
     Close,
 }

@@ -4,7 +4,7 @@ use super::history::History;
 use crate::cut::Design;
 use crate::io::design_file::{self, Brought, Format};
 use crate::io::{cut_file, library};
-use crate::scene::{Specimen, SpecimenError};
+use crate::scene::{Company, Specimen, SpecimenError};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::SystemTime;
@@ -14,6 +14,8 @@ use std::time::SystemTime;
 pub struct Work {
     /// The stone.
     pub design: Design,
+    /// Its copies in renders.
+    pub company: Company,
     /// The light's name, or its file.
     pub light: String,
     /// Stops.
@@ -67,7 +69,13 @@ impl Document {
     /// What keeps it from being a stone.
     pub fn new(design: Design, path: Option<PathBuf>) -> Result<Self, SpecimenError> {
         let specimen = Arc::new(Specimen::new(design.clone())?);
-        let work = Work { design: design.clone(), light: FIRST_LIGHT.to_owned(), exposure: 0.0, head: 0.0 };
+        let work = Work {
+            design: design.clone(),
+            company: Company::default(),
+            light: FIRST_LIGHT.to_owned(),
+            exposure: 0.0,
+            head: 0.0,
+        };
         let stamp = path.as_deref().map_or(Stamp(None), Stamp::of);
         let history = History::new(work.clone());
         Ok(Self {

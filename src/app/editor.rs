@@ -8,11 +8,13 @@ use super::document::{Document, FIRST_LIGHT, Work};
 use super::files::{Chooser, Choosing, Safe, Watching, by_dialog};
 use super::following::{self, Following};
 use super::look::Looks;
+use super::moving::Moving;
 use super::notes::Notes;
 use super::opening::{Opening, Wanted};
 use super::posed::Posed;
 use super::probe::Probe;
 use super::profile_view::ProfileView;
+use super::shows::Shows;
 use super::studio::{Answer, Ask, Grade, Order, Shot, Slot, Studio, Taken, Tilts, Which};
 use super::{design_panel, dialogs, figures_panel, menus, stage, theme};
 use crate::io::library;
@@ -73,6 +75,14 @@ pub struct Editor {
     pub(super) probe: Option<Probe>,
     pub(super) profiles: [ProfileView; 4],
     pub(super) following: Following,
+    /// What moves in time.
+    pub(super) moving: Moving,
+    /// The copy that a hand holds, and the view that it does so in.
+    pub(super) held: Option<(usize, usize)>,
+    /// Whether a picture has the focus: Space is for its copies then.
+    pub(super) is_picture_focused: bool,
+    /// How often copies were laid out.
+    pub(super) layings: u64,
     /// What is said in the line at the bottom while the pointer is over a picture.
     pub(super) told: String,
     pub(super) notes: Notes,
@@ -135,6 +145,10 @@ impl Editor {
             probe: None,
             profiles: Default::default(),
             following: Following::default(),
+            moving: Moving::default(),
+            held: None,
+            is_picture_focused: false,
+            layings: 0,
             told: String::new(),
             notes: Notes::default(),
             dialog: None,
@@ -157,6 +171,9 @@ impl Editor {
         };
         let named = |path: &Path| library::cut(&path.to_string_lossy()).filter(|_| !path.is_file()).is_some();
         match setup.file.or_else(|| editor.desk.last.clone().filter(|p| p.exists())) {
+            Some(path) if !path.is_file() && library::scene(&path.to_string_lossy()).is_some() => {
+                editor.begin_preset(&path.to_string_lossy().to_lowercase());
+            }
             Some(path) if named(&path) => editor.begin_from_library(&path.to_string_lossy()),
             Some(path) => editor.open(&path, Wanted::Anew),
             None => {}
@@ -299,6 +316,8 @@ impl Editor {
             Command::Strongest => self.desk.strongest,
             Command::Split => self.desk.is_split,
             Command::LightPath => self.following.is_open,
+            Command::Play => self.moving.is_on,
+            Command::Panels => self.desk.hides_panels,
             _ => false,
         }
     }
@@ -340,12 +359,18 @@ impl Editor {
         self.shows_three = menus::are_three_shown(&ctx);
         menus::bar(self, ui);
         menus::status(self, ui);
-        design_panel::show(self, ui);
-        figures_panel::show(self, ui);
+        if !self.desk.hides_panels {
+            design_panel::show(self, ui);
+            figures_panel::show(self, ui);
+        }
+        self.is_picture_focused = false;
         let seen = stage::show(self, ui);
         following::show(self, &ctx);
         dialogs::show(self, &ctx);
         self.document.update();
+        if seen.iter().any(|(pane, _)| self.desk.panes[*pane].shows == Shows::Render) {
+            self.moving.advance(&ctx);
+        }
         self.order(&seen);
         let pulled = self.profiles.iter().any(ProfileView::is_dragging);
         let gesture = pulled || ctx.egui_is_using_pointer() || ctx.text_edit_focused();

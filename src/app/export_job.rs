@@ -1,7 +1,7 @@
 //! Exporting, on a thread of its own: thumbnails of what can be had, then the files.
 
 use super::shows::Shows;
-use super::studio::{Camera, Effort, FINE_RENDER, SPAN, Shot, survey};
+use super::studio::{Camera, Effort, FINE_RENDER, SPAN, Shot, Which, fitting, survey};
 use crate::io::export::{Export, Format, Outputs, Sampler, Told, Tracer, Viewing};
 use crate::io::refraction_map::{self, Coding};
 use crate::io::refraction_page::{Page, write_page};
@@ -145,7 +145,7 @@ impl Plan {
 
     /// The picture of a view at a size, the whole stone in it.
     fn shot(&self, shows: Shows, size: u32) -> Shot {
-        let reach = self.shot.specimen.reach;
+        let reach = if shows == Shows::Render { fitting(&self.shot) } else { self.shot.specimen.reach };
         let view = crate::scene::View { side: shows.side().unwrap_or(self.shot.view.side), ..self.shot.view };
         let specimen = if shows.is_seen() { &self.shot.specimen } else { &self.upright };
         let film = Film::reaching(reach, size);
@@ -204,7 +204,13 @@ impl Plan {
         let mut last = None;
         let effort = Effort { unresolved: FINE_RENDER.unresolved, coarser: 1.0, bands: FINE_RENDER.bands };
         let shot = self.shot(Shows::Render, self.size);
-        Camera::default().take(&shot, &effort, Some(&FINE_RENDER), watch, &mut |taken| last = Some(taken))?;
+        Camera::default().take(
+            ((0, Which::Present), &shot),
+            &effort,
+            Some(&FINE_RENDER),
+            watch,
+            &mut |taken| last = Some(taken),
+        )?;
         let Some(taken) = last else { return Err(Failure::Stopped) };
         let rgba: Vec<u8> = taken.image.pixels.iter().flat_map(|p| p.to_srgba_unmultiplied()).collect();
         let [width, height] = taken.image.size.map(|n| n as u32);
@@ -302,8 +308,14 @@ fn send(plan: &Plan, shows: Shows, camera: &mut Camera, sender: &Sender<(Shows, 
         return side(plan).is_none_or(|image| sender.send((shows, image)).is_ok());
     }
     // A thumbnail that cannot be had stays empty; exporting tells why.
-    let _ = camera.take(&plan.shot(shows, THUMBNAIL), &effort, None, &unwatched, &mut |taken| {
-        is_wanted &= sender.send((shows, taken.image)).is_ok();
-    });
+    let _ = camera.take(
+        ((0, Which::Present), &plan.shot(shows, THUMBNAIL)),
+        &effort,
+        None,
+        &unwatched,
+        &mut |taken| {
+            is_wanted &= sender.send((shows, taken.image)).is_ok();
+        },
+    );
     is_wanted
 }

@@ -40,6 +40,7 @@ impl Editor {
         let work = &self.document.work;
         document.begin(&work.light, work.exposure, work.head);
         self.document = document;
+        self.moving.rest();
         // What was seen and measured of another stone is nothing of this one's.
         self.pictures.retain(|(_, which), _| *which != Which::Present);
         self.figures.retain(|which, _| *which != Which::Present);
@@ -71,6 +72,7 @@ impl Editor {
         match then {
             Then::Open(path) => self.open(&path, Wanted::Anew),
             Then::Library(name) => self.begin_from_library(&name),
+            Then::Preset(name) => self.begin_preset(&name),
             Then::Close => self.may_close = true,
         }
     }

@@ -7,6 +7,7 @@ use super::dialogs::{Dialog, Then};
 use super::editor::Editor;
 use super::files::Purpose;
 use super::opening::Opening;
+use super::preset::PRESETS;
 use super::studio::Which;
 use super::theme;
 use crate::io::{cut_file, library};
@@ -106,6 +107,15 @@ fn from_library(editor: &mut Editor, ui: &mut Ui) {
             }
         }
     });
+    ui.menu_button("Scene of glass", |ui| {
+        for (name, title, _) in PRESETS {
+            let about = "A preset of a published demonstration of spectral refraction.";
+            if ui.button(title).on_hover_text(about).clicked() {
+                editor.ask_before(Then::Preset(name.to_owned()));
+                ui.close();
+            }
+        }
+    });
 }
 
 fn is_possible(editor: &Editor, command: Command) -> bool {
@@ -117,6 +127,7 @@ fn is_possible(editor: &Editor, command: Command) -> bool {
         Command::Undo => undo,
         Command::Redo => redo,
         Command::Save => editor.document.is_changed() || editor.document.path().is_none(),
+        Command::LayOut => editor.document.work.company.poses.len() > 1,
         Command::Split | Command::NoCompare => editor.compared.is_some(),
         _ => true,
     }
@@ -165,6 +176,11 @@ pub fn keys(editor: &mut Editor, ctx: &Context) {
         };
         let Some(command) = Command::all().find(is_meant) else { continue };
         if !modifiers.command && ctx.text_edit_focused() {
+            continue;
+        }
+        // Space presses the button that has the focus.
+        let is_busy = ctx.memory(|m| m.focused().is_some()) && !editor.is_picture_focused;
+        if command == Command::LayOut && is_busy {
             continue;
         }
         ctx.input_mut(|i| i.consume_key(modifiers, key));
@@ -232,6 +248,10 @@ pub fn does(editor: &mut Editor, command: Command, ctx: &Context) {
         Command::CompareFile => editor.choose(Purpose::Compare),
         Command::Split => desk.is_split = !desk.is_split,
         Command::NoCompare => editor.compare_no_more(),
+        Command::Play => editor.moving.is_on = !editor.moving.is_on,
+        Command::NextBehind => desk.next_behind(),
+        Command::Panels => desk.hides_panels = !desk.hides_panels,
+        Command::LayOut => editor.lay_out(editor.document.work.company.poses.len()),
         Command::LightPath => editor.following.is_open = !editor.following.is_open,
         Command::Keys => editor.dialog = Some(Dialog::Keys),
     }

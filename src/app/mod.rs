@@ -1,7 +1,9 @@
 //! Floor 6: the editor, a window in which a stone is cut and its light is watched.
 
 mod command;
+mod company_rows;
 mod compare;
+mod copies;
 mod design_panel;
 mod desk;
 mod dialogs;
@@ -19,11 +21,13 @@ mod keeping;
 mod light_path;
 mod look;
 mod menus;
+mod moving;
 mod notes;
 mod opening;
 mod ordering;
 mod pane;
 mod posed;
+mod preset;
 mod probe;
 mod profile_view;
 mod proportions;

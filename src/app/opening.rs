@@ -4,6 +4,8 @@ use super::compare::Compared;
 use super::dialogs::{Dialog, Then};
 use super::document::{Document, Work};
 use super::editor::Editor;
+use super::preset::Preset;
+use crate::io::scene_file;
 use std::path::{Path, PathBuf};
 use std::sync::mpsc::{Receiver, channel};
 
@@ -39,9 +41,20 @@ impl Opening {
     }
 }
 
+/// Whether a file is a scene; what has another ending is not looked into.
+fn is_scene(path: &Path) -> bool {
+    path.extension().is_some_and(|e| e.eq_ignore_ascii_case("toml")) && scene_file::is_scene(path)
+}
+
 impl Editor {
     /// Opens a file; one that is still on its way for the same purpose is forgotten.
     pub(super) fn open(&mut self, path: &Path, wanted: Wanted) {
+        if wanted == Wanted::Anew && is_scene(path) {
+            return match Preset::read(path) {
+                Ok(preset) => self.begin_scene(preset),
+                Err(why) => self.notes.trouble(why),
+            };
+        }
         let (sender, answer) = channel();
         let (name, wake) = (path.to_owned(), self.studio.wake());
         std::thread::spawn(move || {

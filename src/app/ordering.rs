@@ -2,9 +2,9 @@
 
 use super::editor::Editor;
 use super::shows::Shows;
-use super::studio::{Ask, Order, Shot, Which};
+use super::studio::{Ask, BEHIND, Order, Shot, Smoothing, Which};
 use crate::io::lighting::Lighting;
-use crate::scene::{Projection, Side, Specimen, View};
+use crate::scene::{Company, Pose, Projection, Side, Specimen, View};
 use std::sync::Arc;
 
 impl Editor {
@@ -63,14 +63,17 @@ impl Editor {
             return None;
         }
         let eye = *self.desk.eye(pane);
+        let reach = self.reach(shows);
         // A diagram has its own index, from which the stone's turn would only take away.
         let turn = if shows == Shows::Diagram { 0.0 } else { eye.turn };
         let specimen = self.specimen(which, turn)?;
         if shows == Shows::Diagram && specimen.stone().is_err() {
             return None;
         }
-        // Both designs are shown on one scale, that of the present one.
-        let reach = self.document.specimen().reach;
+        let (specimen, company) = match shows {
+            Shows::Render => self.company(which, eye.turn)?,
+            _ => (specimen, vec![Pose::STILL]),
+        };
         let work = &self.document.work;
         Some(Shot {
             view: eye.view(shows.side()),
@@ -82,16 +85,45 @@ impl Editor {
             bands: self.bands(),
             jitter: !self.shows_three,
             behind: self.desk.background(),
+            distance: self.distance(),
             strength: self.desk.strength(),
+            company,
+            smoothing: self.desk.smoothing,
             head: self.document.work.head,
             overlay: self.desk.overlay().filter(|_| shows.is_seen()),
             specimen,
         })
     }
 
+    /// What a render shows: the body, and where its copies are.
+    fn company(&mut self, which: Which, turn: f64) -> Option<(Arc<Specimen>, Vec<Pose>)> {
+        let company = &self.document.work.company;
+        if *company == Company::default() && self.moving.seconds == 0.0 {
+            return Some((self.specimen(which, turn)?, vec![Pose::STILL]));
+        }
+        let specimen = match which {
+            Which::Present => self.document.specimen(),
+            Which::Other => &self.compared.as_ref()?.specimen,
+        };
+        Some(self.moving.now(specimen, company, turn))
+    }
+
+    /// How far a view's picture reaches from its middle. Both designs are shown on one scale, that of the present one.
+    pub(super) fn reach(&self, shows: Shows) -> f64 {
+        let alone = self.document.specimen().reach;
+        if shows == Shows::Render { self.document.work.company.reach(alone) } else { alone }
+    }
+
+    /// How far behind the middle pictures hang, girdle radii.
+    fn distance(&self) -> f64 {
+        self.desk.behind_mm.map_or(BEHIND, |mm| mm / self.document.specimen().unit_mm())
+    }
+
     /// What the linked views look at, whatever they show.
     pub(super) fn linked_shot(&mut self) -> Shot {
         let (light, eye) = (self.light(), self.desk.eye);
+        // Of a company every file but the render shows one, at rest.
+        let (_, company) = self.company(Which::Present, 0.0).unwrap_or((self.posed(0.0), vec![Pose::STILL]));
         Shot {
             specimen: self.posed(eye.turn),
             shows: Shows::Render,
@@ -103,7 +135,10 @@ impl Editor {
             bands: self.desk.wavelengths,
             jitter: true,
             behind: self.desk.background(),
+            distance: self.distance(),
             strength: self.desk.strength(),
+            company,
+            smoothing: Smoothing::None,
             head: self.document.work.head,
             overlay: None,
         }

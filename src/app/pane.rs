@@ -1,5 +1,6 @@
 //! One view: what it shows, and what a hand does to it.
 
+use super::copies;
 use super::editor::{Editor, Shown};
 use super::eye::Eye;
 use super::menus;
@@ -7,13 +8,14 @@ use super::probe::Found;
 use super::shows::Shows;
 use super::studio::{Grade, Which};
 use crate::cut::Cut;
+use crate::math::SolidRef;
 use crate::scene::{ASET_CONE, Backing, Film, Scope, Side, Specimen, View};
 use crate::trace::ray::Camera;
 use egui::{
     Align, Color32, ComboBox, EventFilter, Key, Modifiers, PointerButton, Rect, Response, RichText, Role,
     Sense, Stroke, StrokeKind, Ui, UiBuilder, WidgetInfo, pos2, vec2,
 };
-use glam::{DMat2, DVec2};
+use glam::{DMat2, DVec2, DVec3};
 use std::sync::Arc;
 
 /// Height of the row over a picture, points.
@@ -175,23 +177,23 @@ fn image(ui: &Ui, shown: &Shown, rect: Rect) {
 }
 
 /// What a pane looks at now.
-struct Sight {
-    view: View,
-    film: Film,
+pub(super) struct Sight {
+    pub view: View,
+    pub film: Film,
     side: Side,
-    body: Rect,
+    pub body: Rect,
     scale: f32,
 }
 
 impl Sight {
     /// The point of the film under a point of the window.
-    fn pixel(&self, at: egui::Pos2) -> DVec2 {
+    pub fn pixel(&self, at: egui::Pos2) -> DVec2 {
         let at = (at - self.body.min) * self.scale;
         DVec2::new(f64::from(at.x), f64::from(at.y))
     }
 
     /// The point of the window over one of the film.
-    fn point(&self, pixel: DVec2) -> egui::Pos2 {
+    pub fn point(&self, pixel: DVec2) -> egui::Pos2 {
         self.body.min + vec2(pixel.x as f32, pixel.y as f32) / self.scale
     }
 
@@ -208,7 +210,7 @@ fn scene(editor: &mut Editor, ui: &mut Ui, (pane, shows): (usize, Shows), body: 
     let response = ui.interact(body, ui.scope_id().with("picture"), Sense::click_and_drag());
     let name = format!("{} picture", shows.name());
     response.widget_info(|| WidgetInfo::labeled(Role::Image, true, &name));
-    let reach = editor.document.specimen().reach;
+    let reach = editor.reach(shows);
     let eye = *editor.desk.eye(pane);
     let view = eye.view(shows.side());
     let scale = ui.pixels_per_point();
@@ -218,20 +220,36 @@ fn scene(editor: &mut Editor, ui: &mut Ui, (pane, shows): (usize, Shows), body: 
         legend(ui, body, &overlay.legend());
     }
     ui.painter().rect_stroke(body, 4.0, focus(ui, &response), StrokeKind::Inside);
-    moved(editor.desk.eye_mut(pane), ui, &response, &sight);
-    clicked(editor, ui, pane, &response, &sight);
+    if response.has_focus() {
+        editor.is_picture_focused = true;
+    }
+    if !copies::carried(editor, ui, pane, &response, &sight) {
+        moved(editor.desk.eye_mut(pane), ui, &response, &sight);
+    }
+    let is_alone = shows != Shows::Render || copies::are_none(editor);
+    clicked(editor, ui, (pane, is_alone), &response, &sight);
     if response.hovered() || response.has_focus() {
         editor.hovered = pane;
     }
-    hover(editor, ui, (shows, eye.turn), &response, &sight);
+    if is_alone {
+        hover(editor, ui, (shows, eye.turn), &response, &sight);
+    } else {
+        copies::hover(editor, ui, pane, &response, &sight);
+    }
 }
 
 /// Follows the ray that is clicked; a double click shows the view alone. Marks the ray that is followed.
-fn clicked(editor: &mut Editor, ui: &Ui, pane: usize, response: &Response, sight: &Sight) {
+fn clicked(
+    editor: &mut Editor,
+    ui: &Ui,
+    (pane, is_alone): (usize, bool),
+    response: &Response,
+    sight: &Sight,
+) {
     if response.double_clicked() {
         editor.following.unclick();
         enlarge(editor, pane);
-    } else if response.clicked() {
+    } else if response.clicked() && is_alone {
         // By a key it is the middle that is meant.
         let at = response.interact_pointer_pos().unwrap_or(sight.body.center());
         editor.following.click(pane, sight.film.image_from_pixels(sight.pixel(at)), sight.body, ui.ctx());
@@ -376,11 +394,15 @@ fn hover(editor: &mut Editor, ui: &Ui, (shows, turn): (Shows, f64), response: &R
 }
 
 fn outline(ui: &Ui, specimen: &Specimen, facet: u32, sight: &Sight) {
-    let solid = specimen.solid();
-    let camera = Camera::new(&sight.view, solid);
+    rim(ui, (specimen.solid(), facet), |corner| corner, sight);
+}
+
+/// Outlines a facet of a body that lies elsewhere.
+pub(super) fn rim(ui: &Ui, (solid, facet): (SolidRef, u32), place: impl Fn(DVec3) -> DVec3, sight: &Sight) {
+    let camera = Camera::reaching(&sight.view, 1.0);
     let map = sight.film.pixels_from_image(DMat2::IDENTITY);
     let painter = ui.painter().with_clip_rect(sight.body);
-    let at = |corner| Some(sight.point(map.transform_point2(camera.project(corner)?.0)));
+    let at = |corner| Some(sight.point(map.transform_point2(camera.project(place(corner))?.0)));
     let rim = solid.rim(facet);
     for stroke in
         [Stroke::new(3.0, Color32::from_black_alpha(120)), Stroke::new(1.2, Color32::from_white_alpha(220))]

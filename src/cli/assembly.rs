@@ -102,7 +102,7 @@ impl Assembly {
                 .map_err(|message| at_entry(file, number, entry, &message))?;
             for _ in 0..entry.count {
                 let more = scene.layout.map_or(0.0, |layout| layout.turn(members.len()));
-                members.push(Member { turn: turned(entry, more), ..member.clone() });
+                members.push(Member { turn: entry.turned(more), ..member.clone() });
             }
         }
         lay(&mut members, &scene);
@@ -196,15 +196,7 @@ fn member<'a>(
     let own = || entry.material.as_ref().map_or(Ok(specimen.material.clone()), MaterialRef::material);
     let material = material.cloned().map_or_else(own, Ok).map_err(|error| error.to_string())?;
     let diameter_mm = diameter_mm(specimen, &material, size)?;
-    Ok(Member { specimen, material, diameter_mm, turn: turned(entry, 0.0), at_mm: entry.at_mm, told })
-}
-
-/// The world's frame from the cut's: turned about its axis, then leaning toward its azimuth.
-fn turned(entry: &Entry, more: f64) -> DQuat {
-    let azimuth = entry.azimuth.to_radians();
-    let axis = DVec3::new(-azimuth.sin(), azimuth.cos(), 0.0);
-    let turn = DQuat::from_rotation_z((entry.turn + more).to_radians());
-    DQuat::from_axis_angle(axis, entry.tilt.to_radians()) * turn
+    Ok(Member { specimen, material, diameter_mm, turn: entry.turned(0.0), at_mm: entry.at_mm, told })
 }
 
 /// Puts the stones where the scene's layout has them.

@@ -102,9 +102,7 @@ pub fn main(editor: Option<Editor>) -> ExitCode {
         }
     };
     let edit = |file: Option<PathBuf>| match editor {
-        _ if let Some(file) =
-            file.as_ref().filter(|f| !f.is_file() && library::cut(&f.to_string_lossy()).is_none()) =>
-        {
+        _ if let Some(file) = file.as_ref().filter(|f| !f.is_file() && !is_known(f)) => {
             Err(Failure::Input(format!("{}: there is no such file{}", file.display(), lists::hint(file))))
         }
         Some(open) => open(file).map_err(Failure::Output),
@@ -140,6 +138,12 @@ pub fn main(editor: Option<Editor>) -> ExitCode {
     }
 }
 
+/// Whether a cut or a scene of this name comes with the program.
+fn is_known(name: &Path) -> bool {
+    let name = name.to_string_lossy();
+    library::cut(&name).is_some() || library::scene(&name).is_some()
+}
+
 /// A file alone, or a cut's name, is for the editor.
 fn spelt_out(mut arguments: Vec<OsString>) -> Vec<OsString> {
     if let [_, only] = arguments.as_slice()
@@ -147,7 +151,7 @@ fn spelt_out(mut arguments: Vec<OsString>) -> Vec<OsString> {
         && only != "help"
         && (Path::new(only).components().count() > 1
             || Path::new(only).extension().is_some()
-            || library::cut(&only.to_string_lossy()).is_some())
+            || is_known(Path::new(only)))
         && !only.to_string_lossy().starts_with('-')
     {
         arguments.insert(1, "edit".into());

@@ -9,7 +9,7 @@ use crate::io::background::{BackgroundError, BackgroundRef};
 use crate::io::export::Sampler;
 use crate::io::lighting::Lighting;
 use crate::optics::Illuminant;
-use crate::picture::{Bloom, Develop, Linear, Overlay, Tone, develop, lay};
+use crate::picture::{Bloom, Develop, Linear, Overlay, PATTERN_SPAN, Tone, develop, lay};
 use crate::scene::{Film, Panorama, Projection, Setting, View};
 use crate::trace::Watch;
 use crate::trace::ray::{self, Camera};
@@ -31,9 +31,6 @@ const LEAST_WEIGHT: f64 = 5e-4;
 /// What lies behind when not told, and how far a pattern or photograph does, in girdle radii.
 const BACKGROUND: &str = "#33373d-#0e0f11";
 const PHOTO_DISTANCE: f64 = 3.0;
-
-/// How many times as wide as the picture a pattern is, so that light from beyond the border finds more of it.
-const PATTERN_SPAN: f64 = 2.0;
 
 /// What traces a picture.
 #[derive(Clone, Copy)]

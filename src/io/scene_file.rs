@@ -9,7 +9,7 @@ use super::text::{self, TextError};
 use crate::cut::{MaterialRef, Size};
 use crate::scene::{LIGHTS, Layout, light};
 use form::{Form, Surroundings};
-use glam::DVec3;
+use glam::{DQuat, DVec3};
 use serde::Deserialize;
 use std::path::{Path, PathBuf};
 use toml::de::{DeTable, Deserializer};
@@ -70,6 +70,17 @@ pub struct Entry {
     pub at_mm: DVec3,
     /// The line of the file where it begins, from 1.
     pub line: usize,
+}
+
+impl Entry {
+    /// The world's frame from the cut's: turned about its axis, by some degrees more than it says, then leaning toward its
+    /// azimuth.
+    pub fn turned(&self, more: f64) -> DQuat {
+        let azimuth = self.azimuth.to_radians();
+        let axis = DVec3::new(-azimuth.sin(), azimuth.cos(), 0.0);
+        let turn = DQuat::from_rotation_z((self.turn + more).to_radians());
+        DQuat::from_axis_angle(axis, self.tilt.to_radians()) * turn
+    }
 }
 
 /// Reads a scene.

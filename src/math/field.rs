@@ -198,6 +198,12 @@ impl Field {
         self.is_convex().then(|| self.body.silhouette_area(own) * self.scale * self.scale)
     }
 
+    /// Where a point of this shape's matter is in `to`, the same shape at another place or time: a wave carries it up and down.
+    pub fn carried(&self, point: DVec3, to: &Self) -> DVec3 {
+        let body = self.unsheared(self.own(point));
+        to.world(body + DVec3::Z * to.wave.map_or(0.0, |wave| wave.height(body)))
+    }
+
     /// Names of its facets: faces that are flat or, of a pill, the side, and last what is rounded.
     pub fn facets(&self) -> &'static [&'static str] {
         match self.form {

@@ -39,6 +39,16 @@ impl Material {
         Ok(Self::clear(name, "One index for all wavelengths.", dispersion, source, None))
     }
 
+    /// A clear glass of an index n_d and an Abbe number V_d.
+    ///
+    /// # Errors
+    /// Numbers that no index can be had from throughout visible light.
+    pub fn from_abbe(name: &str, n_d: f64, v_d: f64) -> Result<Self, DispersionError> {
+        let dispersion = Dispersion::Abbe { n_d, v_d }.checked()?;
+        let source = "an index and an Abbe number, given by the user";
+        Ok(Self::clear(name, "A glass of two numbers.", dispersion, source, None))
+    }
+
     /// The index at a wavelength; panics as [`Dispersion::index`] does.
     pub fn index(&self, wavelength_nm: f64) -> f64 {
         self.dispersion.index(wavelength_nm)

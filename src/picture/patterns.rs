@@ -8,6 +8,9 @@ use svg::node::element::{Path, Rectangle, Text};
 /// Side of a pattern, units of its drawing.
 pub const PATTERN_SIDE: u32 = 2048;
 
+/// How many times as wide as the picture patterns hang behind it: light is bent in from beside.
+pub const PATTERN_SPAN: f64 = 2.0;
+
 /// A background by its name.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Pattern {
@@ -55,6 +58,11 @@ impl Pattern {
     /// The pattern of a name; capitals do not matter.
     pub fn named(name: &str) -> Option<Self> {
         Self::NAMES.iter().find(|(known, _)| known.eq_ignore_ascii_case(name)).map(|(_, pattern)| *pattern)
+    }
+
+    /// What it is called.
+    pub fn name(self) -> &'static str {
+        Self::NAMES.iter().find(|(_, pattern)| *pattern == self).map_or("", |(name, _)| name)
     }
 
     /// Draws it.

@@ -49,7 +49,7 @@ impl Layout {
 }
 
 /// A number from 0 to below 1 that looks like chance (Steele et al., SplitMix64, OOPSLA 2014).
-fn scattered(number: u64) -> f64 {
+pub(super) fn scattered(number: u64) -> f64 {
     let z = (number + 1).wrapping_mul(0x9e37_79b9_7f4a_7c15);
     let z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
     let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);

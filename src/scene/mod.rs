@@ -1,6 +1,7 @@
 //! Floor 2: what is looked at, from where and under which light. Data only.
 
 mod body;
+mod company;
 mod film;
 mod layout;
 mod light;
@@ -16,6 +17,7 @@ mod view;
 mod viewpoint;
 
 pub use body::Body;
+pub use company::{Company, MOST_COPIES, Pose};
 pub use film::Film;
 pub use layout::Layout;
 pub use light::{Dome, Field, Lamp, Light, LightError, MOST_LAMPS, PanoramaRef, SoftBox, toward};

@@ -1,15 +1,18 @@
 //! The studio: takes pictures and figures on a thread of its own. What is asked for last counts; what is outdated is
 //! dropped, but for a first rough picture, so that there is always something that follows the hand.
 
+mod motion;
 mod order;
 mod pace;
+mod render;
 mod survey;
 mod take;
 mod worker;
 
-pub use order::{Answer, Ask, Grade, Order, Shot, Slot, Taken, Tilts, Which};
+pub use order::{Answer, Ask, Grade, Order, Shot, Slot, Smoothing, Taken, Tilts, Which};
 
 pub use pace::Effort;
+pub use render::{BEHIND, fitting, picked};
 pub use survey::{SPAN, survey};
 pub use take::Camera;
 pub use worker::FINE_RENDER;

@@ -5,8 +5,9 @@ use crate::io::background::BackgroundRef;
 use crate::io::lighting::Lighting;
 use crate::measure::Figures;
 use crate::picture::Overlay;
-use crate::scene::{Film, Specimen, View};
+use crate::scene::{Film, Pose, Specimen, View};
 use egui::ColorImage;
+use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
 /// Which of two stones.
@@ -20,6 +21,21 @@ pub enum Which {
 
 /// A place that a picture is for: a pane, and which stone is in it.
 pub type Slot = (usize, Which);
+
+/// How the edges of a render are evened out. At rest many looks at each pixel do that, whatever is chosen here.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+pub enum Smoothing {
+    /// Not at all.
+    #[default]
+    None,
+    /// In the finished picture.
+    Fxaa,
+    /// Over time, while anything moves: what was seen before is brought to where it is now.
+    Temporal {
+        /// The share of the newest picture, above 0 to 1.
+        newest: f64,
+    },
+}
 
 /// One picture.
 #[derive(Debug, Clone)]
@@ -44,8 +60,14 @@ pub struct Shot {
     pub jitter: bool,
     /// The picture that hangs behind the stone of a render, if any.
     pub behind: Option<BackgroundRef>,
+    /// How far behind the middle of a render that hangs, girdle radii.
+    pub distance: f64,
     /// How much of the way that refraction turns light is followed: 1 is physics.
     pub strength: f64,
+    /// Where the copies of the stone are in a render, at least one; all else shows it alone.
+    pub company: Vec<Pose>,
+    /// How a render's edges are evened out.
+    pub smoothing: Smoothing,
     /// Half angle of the observer's head in scopes, degrees; 0 for none.
     pub head: f64,
     /// What is drawn over it.
@@ -68,8 +90,10 @@ impl PartialEq for Shot {
 
 impl Shot {
     /// What only renders go by.
-    fn manner(&self) -> (f64, u32, bool, Option<&BackgroundRef>, f64) {
-        (self.exposure, self.bands, self.jitter, self.behind.as_ref(), self.strength)
+    fn manner(&self) -> (f64, u32, bool, Option<&BackgroundRef>, [f64; 2], &[Pose], Smoothing) {
+        let numbers = [self.distance, self.strength];
+        let Self { exposure, bands, jitter, smoothing, .. } = *self;
+        (exposure, bands, jitter, self.behind.as_ref(), numbers, &self.company, smoothing)
     }
 }
 

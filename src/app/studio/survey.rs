@@ -1,7 +1,8 @@
 //! Refraction maps of what a view shows.
 
 use super::order::Shot;
-use super::take::{BEHIND, Trouble, nearness, setting, sitting};
+use super::render::{hung, nearness, setting, sitting};
+use super::take::Trouble;
 use crate::optics::strata;
 use crate::picture::{Backdrop, Carried, Develop, RefractionMap, Survey};
 use crate::trace::Watch;
@@ -17,8 +18,10 @@ const LOOKS: u32 = 4;
 /// Traces the map of a shot, on its film.
 pub fn survey(shot: &Shot, watch: Watch) -> Result<(RefractionMap, Carried), Trouble> {
     let setting = setting(shot);
-    let size = DVec2::from(shot.film.size.map(f64::from)) * shot.film.pixel * SPAN * nearness(&shot.view);
-    let plane = Backdrop { distance: BEHIND, size, both_sides: false };
+    let distance = hung(shot);
+    let size =
+        DVec2::from(shot.film.size.map(f64::from)) * shot.film.pixel * SPAN * nearness(&shot.view, distance);
+    let plane = Backdrop { distance, size, both_sides: false };
     let spectrum = &shot.light.light.spectrum;
     let survey =
         Survey { bands: &strata(1, spectrum, true), shades: &strata(SHADES, spectrum, true), looks: LOOKS };

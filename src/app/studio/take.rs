@@ -1,38 +1,33 @@
 //! Takes one picture.
 
-use super::order::{Shot, Taken};
+use super::motion::Trails;
+use super::order::{Shot, Slot, Taken};
 use super::pace::Effort;
+use super::render::{Growing, is_for_beams, setting, sitting};
 use crate::app::shows::Shows;
 use crate::io::background::BackgroundRef;
 use crate::io::{Failure, rasterize};
 use crate::math::NotConvex;
-use crate::optics::{Stratum, line, strata};
+use crate::optics::line;
 use crate::picture::by_rays::{self, Manner};
-use crate::picture::{
-    Bloom, ByBeams, Develop, Layer, Linear, Overlay, Palette, Rows, by_gpu, develop, diagram, lay, paint,
-    spectral,
-};
-use crate::scene::{Film, Panorama, Placed, Projection, Scope, Setting, Specimen, View};
+use crate::picture::{Layer, Overlay, Palette, Rows, by_gpu, diagram, lay, paint};
+use crate::scene::{Film, Panorama, Scope, Specimen, View};
 use crate::trace::beam::{self, Beams};
-use crate::trace::gpu::{Around, ByCard, Gpu, GpuError};
-use crate::trace::ray::{self, ByRays};
-use crate::trace::sitting::{Exposure, Looks, Sitting};
-use crate::trace::surround::{Behind, Surround};
+use crate::trace::gpu::{Gpu, GpuError};
+use crate::trace::ray;
+use crate::trace::sitting::Sitting;
 use crate::trace::{Stopped, Watch};
 use egui::ColorImage;
 use std::sync::Arc;
 
 /// Bounces that rays are followed for.
-const MOST_BOUNCES: u32 = 64;
+pub(super) const MOST_BOUNCES: u32 = 64;
 
 /// Below this weight rays are given up.
-const LEAST_WEIGHT: f64 = 5e-4;
+pub(super) const LEAST_WEIGHT: f64 = 5e-4;
 
 /// How much coarser rays on the processor see while the hand moves, beyond what the pace says.
-const RAYS_COARSER: f64 = 3.0;
-
-/// Beams of one wavelength of a render: without symmetry the bound would take many times as long.
-const MOST_BEAMS: usize = 100_000;
+pub(super) const RAYS_COARSER: f64 = 3.0;
 
 /// Why there is no picture.
 #[derive(Debug, thiserror::Error)]
@@ -110,17 +105,9 @@ pub struct Camera {
     /// Beams taken.
     pub shelf: Shelf,
     /// The picture that hung behind last.
-    behind: Option<(BackgroundRef, Arc<Panorama>)>,
-}
-
-/// A render that grows clearer.
-pub struct Growing {
-    /// Bands of wavelengths of each look, at most.
-    pub bands: u32,
-    /// Looks.
-    pub looks: u32,
-    /// Share of the light that may stay unresolved.
-    pub unresolved: f64,
+    pub(super) behind: Option<(BackgroundRef, Arc<Panorama>)>,
+    /// Rough renders of what moves, laid over one another.
+    pub(super) trails: Trails,
 }
 
 impl Camera {
@@ -133,7 +120,7 @@ impl Camera {
     /// as it will be exported, and `each` is called with what there is of it so far.
     pub fn take(
         &mut self,
-        shot: &Shot,
+        (slot, shot): (Slot, &Shot),
         effort: &Effort,
         growing: Option<&Growing>,
         watch: Watch,
@@ -142,7 +129,7 @@ impl Camera {
         match shot.shows {
             Shows::Profile => Ok(()),
             Shows::Diagram => drawing(shot).map(each),
-            Shows::Render => self.render(shot, effort, growing, watch, each),
+            Shows::Render => self.render((slot, shot), effort, growing, watch, each),
             _ => {
                 let taken = self.scoped(shot, effort, growing.is_some(), watch)?;
                 each(self.overlaid(shot, taken, watch)?);
@@ -207,71 +194,6 @@ impl Camera {
         Ok(canvas.finish(None, tracer))
     }
 
-    fn render(
-        &mut self,
-        shot: &Shot,
-        effort: &Effort,
-        growing: Option<&Growing>,
-        watch: Watch,
-        each: &mut dyn FnMut(Taken),
-    ) -> Result<(), Trouble> {
-        let setting = setting(shot);
-        let flat = is_for_beams(shot);
-        let behind = self.picture_behind(shot)?;
-        let by_card = self.gpu.clone().filter(|_| (growing.is_some() || !flat) && shot.strength == 1.0);
-        let slower = if by_card.is_none() && !flat && growing.is_none() { RAYS_COARSER } else { 1.0 };
-        let mut film = coarser(&shot.film, effort.coarser * slower);
-        if by_card.is_some() && film.size[1] > ByCard::most_rows(film.size[0]) {
-            film = coarser(&film, 2.0);
-        }
-        let sitting = sitting(shot, &setting, film, behind.as_deref());
-        let bands = growing.map_or(effort.bands, |g| g.bands).min(shot.bands);
-        let strata = strata(bands, &shot.light.light.spectrum, true);
-        let develop = |picture: &Linear, unresolved, tracer| {
-            developed(shot, (picture, growing.is_some()), (unresolved, tracer), &sitting, watch)
-        };
-        let manner = Looks { count: 1, jitter: shot.jitter, strength: shot.strength };
-        let work = Work { sitting: &sitting, strata: &strata, manner, growing, watch };
-        match by_card {
-            Some(gpu) => {
-                let around = Around::new(&gpu, &sitting.surround);
-                let rows = 0..film.size[1];
-                let exposure = ByCard::new(&gpu, &sitting, &around, rows, strata.len())?;
-                work.grow(exposure, |p, u| develop(p, u, "rays on the graphics card").map(&mut *each))
-            }
-            None if flat => {
-                let unresolved = growing.map_or(effort.unresolved, |g| g.unresolved);
-                let options =
-                    beam::Options { unresolved, most_beams: MOST_BEAMS, ..beam::Options::default() };
-                let Some(mut exposure) = ByBeams::new(sitting, options) else {
-                    return Err(Trouble::Other("exact beams do not apply here".into()));
-                };
-                if growing.is_some() {
-                    return work.grow(exposure, |p, u| develop(p, u, "exact beams").map(&mut *each));
-                }
-                exposure.glance(&strata, watch)?;
-                let (picture, rest) = spectral::seen::<Trouble, _>(&sitting, &exposure)?;
-                develop(&picture, rest.unresolved, "exact beams").map(each)
-            }
-            None => {
-                let exposure = ByRays::new(sitting, 0..film.size[1]);
-                work.grow(exposure, |p, u| develop(p, u, "point rays").map(&mut *each))
-            }
-        }
-    }
-
-    /// The picture behind a render, read or drawn once.
-    fn picture_behind(&mut self, shot: &Shot) -> Result<Option<Arc<Panorama>>, Trouble> {
-        let Some(asked) = &shot.behind else { return Ok(None) };
-        if let Some((_, picture)) = self.behind.as_ref().filter(|(last, _)| last == asked) {
-            return Ok(Some(Arc::clone(picture)));
-        }
-        let read = asked.picture().map_err(Trouble::Other)?;
-        let picture = read.map(|reading| Arc::new(reading.panorama));
-        self.behind = picture.clone().map(|picture| (asked.clone(), picture));
-        Ok(picture)
-    }
-
     fn overlaid(&self, shot: &Shot, mut taken: Taken, watch: Watch) -> Result<Taken, Trouble> {
         let Some(overlay) = shot.overlay else { return Ok(taken) };
         let setting = setting(shot);
@@ -283,114 +205,18 @@ impl Camera {
     }
 }
 
-/// Whether exact beams show it: a convex stone by parallel rays, and no picture behind it.
-fn is_for_beams(shot: &Shot) -> bool {
-    let is_behind = shot.shows == Shows::Render && shot.behind.is_some();
-    !is_behind && shot.view.projection == Projection::Orthographic && shot.specimen.stone().is_ok()
-}
-
-/// Looks to be added up.
-struct Work<'a> {
-    sitting: &'a Sitting<'a>,
-    strata: &'a [Stratum],
-    manner: Looks,
-    growing: Option<&'a Growing>,
-    watch: Watch<'a>,
-}
-
-impl Work<'_> {
-    /// Adds look to look, and hands on what there is after the first, the second, the fourth and so on.
-    fn grow<X: Exposure<Trouble>>(
-        &self,
-        mut exposure: X,
-        mut each: impl FnMut(&Linear, f64) -> Result<(), Trouble>,
-    ) -> Result<(), Trouble> {
-        let looks = self.growing.map_or(1, |g| g.looks);
-        for number in 0..looks {
-            let done = |part: f64| (self.watch)((f64::from(number) + part) / f64::from(looks));
-            exposure.look(&self.manner.look(self.sitting.setting, self.strata, number), &done)?;
-            if (number + 1).is_power_of_two() || number + 1 == looks {
-                let (picture, rest) = spectral::seen(self.sitting, &exposure)?;
-                each(&picture, rest.unresolved)?;
-            }
-        }
-        Ok(())
-    }
-}
-
 /// The same film with larger pixels.
-fn coarser(film: &Film, factor: f64) -> Film {
+pub(super) fn coarser(film: &Film, factor: f64) -> Film {
     let size = film.size.map(|n| ((f64::from(n) / factor).ceil() as u32).max(1));
     Film { size, pixel: film.pixel * f64::from(film.size[0]) / f64::from(size[0]), ..*film }
 }
 
-/// How far behind the stone a picture hangs, girdle radii.
-pub const BEHIND: f64 = 3.0;
-
-/// How much larger than in the image's plane a picture must be to fill it from there.
-pub fn nearness(view: &View) -> f64 {
-    match view.projection {
-        Projection::Orthographic => 1.0,
-        Projection::Perspective { distance } => (distance + BEHIND) / distance,
-    }
-}
-
-/// What a shot is taken of.
-pub fn setting(shot: &Shot) -> Setting {
-    let stone = Placed::named(&shot.specimen.body, shot.specimen.material.clone(), "");
-    Setting { stones: vec![stone], unit_mm: shot.specimen.unit_mm() }
-}
-
-/// A stone under its light, and the camera.
-pub fn sitting<'a>(
-    shot: &'a Shot,
-    setting: &'a Setting,
-    film: Film,
-    picture: Option<&'a Panorama>,
-) -> Sitting<'a> {
-    let behind = picture.map(|picture| {
-        let [across, down] = film.size.map(f64::from);
-        let shape = f64::from(picture.width) / f64::from(picture.height);
-        // Wide enough to fill the view, whatever its shape.
-        let width = film.pixel * across.max(down * shape) * nearness(&shot.view);
-        Behind { picture, distance: BEHIND, width }
-    });
-    Sitting {
-        setting,
-        surround: Surround {
-            sky: &shot.light.sky,
-            basis: shot.view.light_basis(),
-            eye: shot.view.basis(),
-            head: shot.light.light.head.to_radians(),
-            behind,
-            backdrop: behind.is_some(),
-        },
-        view: &shot.view,
-        film,
-        options: ray::Options { polarised: true, most_bounces: MOST_BOUNCES, least_weight: LEAST_WEIGHT },
-    }
-}
-
-fn developed(
-    shot: &Shot,
-    (picture, fine): (&Linear, bool),
-    (unresolved, tracer): (f64, &'static str),
+pub(super) fn over(
+    overlay: Overlay,
     sitting: &Sitting,
+    image: &mut ColorImage,
     watch: Watch,
-) -> Result<Taken, Trouble> {
-    // Glow would stand out around what is drawn over the stone, and it takes longer than the rest of a rough picture.
-    let bloom = (fine && shot.overlay.is_none()).then(Bloom::default);
-    let manner = Develop { exposure: shot.exposure, bloom, ..Develop::default() };
-    let rgba = develop(picture, &manner);
-    let size = [picture.width as usize, picture.height as usize];
-    let mut image = ColorImage::from_rgba_unmultiplied(size, &rgba);
-    if let Some(overlay) = shot.overlay {
-        over(overlay, sitting, &mut image, watch)?;
-    }
-    Ok(Taken { image, unresolved: Some(unresolved), tracer })
-}
-
-fn over(overlay: Overlay, sitting: &Sitting, image: &mut ColorImage, watch: Watch) -> Result<(), Stopped> {
+) -> Result<(), Stopped> {
     let mut rgba: Vec<u8> = image.pixels.iter().flat_map(|p| p.to_srgba_unmultiplied()).collect();
     lay(overlay, sitting, &mut rgba, watch)?;
     *image = ColorImage::from_rgba_unmultiplied(image.size, &rgba);
@@ -435,7 +261,10 @@ mod tests {
     use super::*;
     use crate::app::document::Document;
     use crate::app::eye::Eye;
+    use crate::app::studio::order::{Smoothing, Which};
+    use crate::app::studio::render::BEHIND;
     use crate::io::lighting::Lighting;
+    use crate::scene::Pose;
     use crate::trace::unwatched;
     use glam::DVec2;
 
@@ -452,6 +281,9 @@ mod tests {
             jitter: true,
             behind: None,
             strength: 1.0,
+            company: vec![Pose::STILL],
+            distance: BEHIND,
+            smoothing: Smoothing::None,
             exposure: 0.0,
             head: 0.0,
             overlay: None,
@@ -461,7 +293,9 @@ mod tests {
     fn taken(camera: &mut Camera, shot: &Shot, growing: Option<&Growing>) -> Taken {
         let mut last = None;
         let effort = Effort { unresolved: 5e-3, coarser: 1.0, bands: 4 };
-        camera.take(shot, &effort, growing, &unwatched, &mut |taken| last = Some(taken)).unwrap();
+        camera
+            .take(((0, Which::Present), shot), &effort, growing, &unwatched, &mut |taken| last = Some(taken))
+            .unwrap();
         last.unwrap()
     }
 
@@ -486,7 +320,7 @@ mod tests {
             }
         };
         let mut card = Camera::by(Some(gpu));
-        let growing = Growing { bands: 4, looks: 16, unresolved: 5e-3 };
+        let growing = Growing { bands: 4, looks: 16, after: 0, unresolved: 5e-3 };
         for (shows, distance, most) in
             [(Shows::Aset, Some(8.0), 2e-3), (Shows::Render, Some(8.0), 4e-3), (Shows::Render, None, 7e-3)]
         {
@@ -505,7 +339,7 @@ mod tests {
     #[test]
     fn a_rough_render_looks_like_the_fine_one() {
         let shot = shot(Shows::Render, None);
-        let growing = Growing { bands: 16, looks: 4, unresolved: 2e-3 };
+        let growing = Growing { bands: 16, looks: 4, after: 0, unresolved: 2e-3 };
         let mut camera = Camera::default();
         let (rough, fine) = (taken(&mut camera, &shot, None), taken(&mut camera, &shot, Some(&growing)));
         let off = apart(&rough, &fine);

@@ -2,8 +2,10 @@
 
 use super::order::{Answer, Ask, Grade, Order, Shot, Slot, Taken, Which};
 use super::pace::{Effort, Pace};
-use super::take::{Camera, Growing, Trouble};
+use super::render::Growing;
+use super::take::{Camera, Trouble};
 use super::{Desk, Wake};
+use crate::app::shows::Shows;
 use crate::io::export::LATTICE;
 use crate::measure::{Figures, by_beams, by_rays};
 use crate::scene::{ASET_CONE, Backing, Scope, View};
@@ -26,10 +28,13 @@ const FIGURES: f64 = 1.5e-4;
 const TILTED: f64 = 5e-3;
 
 /// How renders grow: fair, and fine where a card takes them.
-const FAIR_RENDER: Growing = Growing { bands: 8, looks: 1, unresolved: 1e-2 };
+const FAIR_RENDER: Growing = Growing { bands: 8, looks: 1, after: 0, unresolved: 1e-2 };
 /// A render as it is exported.
-pub const FINE_RENDER: Growing = Growing { bands: u32::MAX, looks: 4, unresolved: 2e-3 };
-const FINE_BY_CARD: Growing = Growing { bands: u32::MAX, looks: 64, unresolved: 2e-3 };
+pub const FINE_RENDER: Growing = Growing { bands: u32::MAX, looks: 4, after: 0, unresolved: 2e-3 };
+const FINE_BY_CARD: Growing = Growing { looks: 64, ..FINE_RENDER };
+
+/// What a render by rays becomes when all else is done, for as long as it stands.
+const SHARP: Growing = Growing { looks: 64, after: FINE_RENDER.looks, ..FINE_RENDER };
 
 /// Takes orders, one after the other.
 pub(super) struct Worker {
@@ -42,6 +47,8 @@ pub(super) struct Worker {
     pictures: HashMap<Slot, (Shot, Grade)>,
     figures: HashMap<Which, (Ask, Grade)>,
     tilts: Option<Ask>,
+    /// Renders that are as sharp as they get.
+    sharp: HashMap<Slot, Shot>,
 }
 
 /// One order, and how to know that it is outdated.
@@ -61,6 +68,7 @@ impl Worker {
             pictures: HashMap::new(),
             figures: HashMap::new(),
             tilts: None,
+            sharp: HashMap::new(),
         }
     }
 
@@ -149,7 +157,8 @@ impl Worker {
         self.all_figures(&turn.order, Grade::Fair, (FINE, LATTICE / 4), &watch)?;
         self.pictures(&turn.order, Grade::Fine, (FINE, &fine), &watch)?;
         self.all_figures(&turn.order, Grade::Fine, (FIGURES, LATTICE), &watch)?;
-        self.against_tilt(&turn.order, &watch)
+        self.against_tilt(&turn.order, &watch)?;
+        self.sharpen(&turn.order, &watch)
     }
 
     fn pictures(
@@ -168,6 +177,19 @@ impl Worker {
         Ok(())
     }
 
+    /// Renders by rays before what hangs behind, more and more looks at them.
+    fn sharpen(&mut self, order: &Order, watch: Watch) -> Result<(), Stopped> {
+        let effort = Effort { unresolved: SHARP.unresolved, coarser: 1.0, bands: SHARP.bands };
+        for (slot, shot) in &order.shots {
+            let grows = shot.shows == Shows::Render && shot.behind.is_some() && self.camera.gpu.is_none();
+            if grows && self.sharp.get(slot) != Some(shot) {
+                self.picture((*slot, shot), Grade::Fine, (&effort, Some(&SHARP)), watch)?;
+                self.sharp.insert(*slot, shot.clone());
+            }
+        }
+        Ok(())
+    }
+
     fn picture(
         &mut self,
         (slot, shot): (Slot, &Shot),
@@ -180,7 +202,7 @@ impl Worker {
             let _ = answers.send(Answer::Picture(slot, Box::new(shot.clone()), grade, taken));
             wake();
         };
-        match self.camera.take(shot, effort, growing, watch, &mut each) {
+        match self.camera.take((slot, shot), effort, growing, watch, &mut each) {
             Ok(()) => {}
             Err(Trouble::Stopped(stopped)) => return Err(stopped),
             Err(Trouble::Card(error)) => {

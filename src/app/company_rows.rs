@@ -1,0 +1,166 @@
+//! Presets, copies, their motion, and how moving edges are smoothed: what glass shapes are shown with, and gems may be.
+
+use super::design_panel::{NUMBER, Number, named};
+use super::editor::Editor;
+use super::preset::PRESETS;
+use super::studio::Smoothing;
+use crate::cut::MaterialRef;
+use crate::optics::{Material, line};
+use crate::scene::{Company, MOST_COPIES, Pose};
+use egui::{Button, ComboBox, Slider, Ui};
+use glam::DVec3;
+use std::ops::RangeInclusive;
+
+/// Shares of the newest picture in temporal antialiasing.
+const NEWEST: RangeInclusive<f64> = 0.05..=1.0;
+
+/// The share that it begins with.
+const FIRST_NEWEST: f64 = 0.5;
+
+/// Indices and Abbe numbers of glasses, known and invented.
+const INDICES: RangeInclusive<f64> = 1.0..=3.5;
+const ABBE_NUMBERS: RangeInclusive<f64> = 1.0..=90.0;
+
+/// The scenes of glass that come with the program; one that is clicked is begun.
+pub fn presets(editor: &mut Editor, ui: &mut Ui) {
+    let mut chosen = None;
+    ui.horizontal_wrapped(|ui| {
+        for (name, title, _) in PRESETS {
+            let meaning = "Begins this scene: its shape, material, copies, light and what lies behind.";
+            if ui.small_button(title).on_hover_text(meaning).clicked() {
+                chosen = Some(name);
+            }
+        }
+    });
+    if let Some(name) = chosen {
+        editor.ask_before(super::dialogs::Then::Preset(name.to_owned()));
+    }
+}
+
+/// Rows for copies, motion and smoothing.
+pub fn show(editor: &mut Editor, ui: &mut Ui) {
+    copies(editor, ui);
+    ui.horizontal(|ui| {
+        named(ui, "Motion", "Copies tumble, plates wave, in renders alone. M lets it go on and stops it.");
+        let (name, meaning) = if editor.moving.is_on {
+            ("Pause", "Stops here; the picture grows sharper for as long as it stands.")
+        } else {
+            ("Play", "Lets time go on.")
+        };
+        if ui.button(name).on_hover_text(meaning).clicked() {
+            editor.moving.is_on = !editor.moving.is_on;
+        }
+        let rests = editor.moving.seconds == 0.0;
+        if ui
+            .add_enabled(!rests, Button::new("At rest"))
+            .on_hover_text("Goes back to the pose of the design.")
+            .clicked()
+        {
+            editor.moving.rest();
+        }
+    });
+    smoothing(editor, ui);
+}
+
+fn copies(editor: &mut Editor, ui: &mut Ui) {
+    let mut count = editor.document.work.company.poses.len();
+    let before = count;
+    ui.horizontal(|ui| {
+        let meaning = "How many of it renders show. Light that leaves one enters another. Drag one in a render to move it; \
+            Space lays all out anew.";
+        let label = named(ui, "Copies", meaning);
+        let again = 74.0;
+        ui.spacing_mut().slider_width = (ui.available_width() - NUMBER - again - 24.0).max(40.0);
+        ui.add(Slider::new(&mut count, 1..=MOST_COPIES)).labelled_by(label.id).on_hover_text(meaning);
+        let button = Button::new("Lay out");
+        if ui.add_enabled(count > 1, button).on_hover_text("Lays the copies out anew, as Space does.").clicked() {
+            editor.lay_out(count);
+        }
+    });
+    if count != before {
+        editor.lay_out(count);
+    }
+}
+
+fn smoothing(editor: &mut Editor, ui: &mut Ui) {
+    let smoothing = &mut editor.desk.smoothing;
+    let meaning = "How the edges of renders are evened out. Not at all; in each finished picture (FXAA); or over time while \
+        anything moves (temporal). At rest many looks at each pixel do it.";
+    ui.horizontal(|ui| {
+        let label = named(ui, "Smoothing", meaning);
+        let newest = match *smoothing {
+            Smoothing::Temporal { newest } => newest,
+            _ => FIRST_NEWEST,
+        };
+        let all = [
+            (Smoothing::None, "none"),
+            (Smoothing::Fxaa, "FXAA"),
+            (Smoothing::Temporal { newest }, "temporal"),
+        ];
+        let name = all.iter().find(|(s, _)| s == smoothing).map_or("", |(_, name)| name);
+        let combo = ComboBox::from_id_salt("smoothing").selected_text(name).width(110.0);
+        let combo = combo.show_ui(ui, |ui| {
+            for (each, name) in all {
+                ui.selectable_value(smoothing, each, name);
+            }
+        });
+        combo.response.labelled_by(label.id);
+    });
+    if let Smoothing::Temporal { newest } = smoothing {
+        ui.horizontal(|ui| {
+            let meaning = "The share of the newest picture: less is smoother, and slower to follow.";
+            let label = named(ui, "Newest part", meaning);
+            ui.spacing_mut().slider_width = (ui.available_width() - NUMBER - 24.0).max(40.0);
+            ui.add(Slider::new(newest, NEWEST).show_value(false))
+                .labelled_by(label.id)
+                .on_hover_text(meaning);
+            let number = Number { decimals: 2, speed: 0.01, range: NEWEST, unit: "" };
+            number.show(ui, (NUMBER, label.id), newest);
+        });
+    }
+}
+
+/// The two numbers of a glass, its index and its Abbe number; changing one makes it a glass of its own.
+pub fn two_numbers(material: &mut MaterialRef, known: &Material, ui: &mut Ui) {
+    let law = &known.dispersion;
+    let [index, abbe] = [known.index(line::HELIUM_D), law.abbe_number().unwrap_or(*ABBE_NUMBERS.end())];
+    let (mut n, mut v) = (index, abbe);
+    let mut row = |name, meaning, value: &mut f64, (range, decimals): (RangeInclusive<f64>, usize)| {
+        ui.horizontal(|ui| {
+            let label = named(ui, name, meaning);
+            ui.spacing_mut().slider_width = (ui.available_width() - NUMBER - 24.0).max(40.0);
+            let slider = Slider::new(value, range.clone()).show_value(false).smart_aim(false);
+            ui.add(slider).labelled_by(label.id).on_hover_text(meaning);
+            Number { decimals, speed: 0.01, range, unit: "" }.show(ui, (NUMBER, label.id), value);
+        });
+    };
+    row("Index", "Refractive index n_d, of helium's yellow line at 587.6 nm.", &mut n, (INDICES, 3));
+    row(
+        "Abbe number",
+        "V_d: the less, the wider the rainbow. Below 20 no real glass is.",
+        &mut v,
+        (ABBE_NUMBERS, 1),
+    );
+    if (n, v) != (index, abbe)
+        && let Ok(custom) = Material::from_abbe(&format!("index {n:.3}, Abbe number {v:.1}"), n, v)
+    {
+        *material = MaterialRef::Custom(Box::new(custom));
+    }
+}
+
+impl Editor {
+    /// Lays so many copies out anew, each turned as it was.
+    pub(super) fn lay_out(&mut self, count: usize) {
+        self.layings += 1;
+        let specimen = std::sync::Arc::clone(self.document.specimen());
+        let (solid, company) = (specimen.solid(), &mut self.document.work.company);
+        let turn = |k: usize| company.poses.get(k).map_or(Pose::STILL.turn, |pose| pose.turn);
+        let corners: Vec<DVec3> = (0..count)
+            .flat_map(|k| solid.vertices().iter().map(move |c| (k, *c)))
+            .map(|(k, c)| turn(k) * c)
+            .collect();
+        let mut laid = Company::scattered(count, &corners, self.layings);
+        laid.poses.iter_mut().enumerate().for_each(|(k, pose)| pose.turn = turn(k));
+        *company = laid;
+    }
+}

@@ -1,0 +1,64 @@
+//! Copies in a render: which one is under the pointer, and moving it by hand.
+
+use super::editor::Editor;
+use super::pane::{Sight, rim};
+use super::shows::Shows;
+use super::studio::{Shot, Which, picked};
+use egui::{CursorIcon, PointerButton, Response, Ui};
+use glam::DVec2;
+
+/// Whether renders show the body alone and at rest.
+pub fn are_none(editor: &Editor) -> bool {
+    editor.document.work.company.poses.len() == 1 && editor.moving.seconds == 0.0
+}
+
+/// Moves the copy that a hand has taken hold of; whether it has.
+pub fn carried(editor: &mut Editor, ui: &Ui, pane: usize, response: &Response, sight: &Sight) -> bool {
+    let several = editor.document.work.company.poses.len() > 1;
+    let is_render = editor.desk.panes[pane].shows == Shows::Render;
+    let is_start = response.drag_started_by(PointerButton::Primary);
+    if is_start && several && is_render && !ui.input(|i| i.modifiers.shift) {
+        let from = ui.input(|i| i.pointer.press_origin());
+        let found = from.and_then(|at| picked(shot(editor, pane)?, &sight.film, sight.pixel(at)));
+        editor.held = found.map(|glance| (pane, glance.stone));
+    }
+    let Some((_, copy)) = editor.held.filter(|(held, _)| *held == pane) else { return false };
+    let way = match (is_start, ui.input(|i| i.pointer.press_origin()), response.interact_pointer_pos()) {
+        // A hand moves some way before that counts as a drag.
+        (true, Some(from), Some(at)) => at - from,
+        _ => response.drag_delta(),
+    };
+    let by = way * ui.pixels_per_point();
+    // A pixel of the film is so long where the copy is.
+    let pose = &mut editor.document.work.company.poses[copy];
+    let nearness =
+        crate::trace::ray::Camera::reaching(&sight.view, 1.0).project(pose.at).map_or(1.0, |(_, s)| s);
+    let by = DVec2::new(f64::from(by.x), -f64::from(by.y)) * sight.film.pixel / nearness;
+    pose.at += sight.view.basis().lift(by);
+    ui.ctx().set_cursor_icon(CursorIcon::Grabbing);
+    if !response.dragged() {
+        editor.held = None;
+    }
+    true
+}
+
+/// Tells the copy and facet under the pointer, and outlines it.
+pub fn hover(editor: &mut Editor, ui: &Ui, pane: usize, response: &Response, sight: &Sight) {
+    let Some(at) = response.hover_pos().filter(|_| response.hovered() && !response.dragged()) else { return };
+    if editor.moving.is_on {
+        return;
+    }
+    let Some(shot) = shot(editor, pane) else { return };
+    let Some(found) = picked(shot, &sight.film, sight.pixel(at)) else { return };
+    let Some(pose) = shot.company.get(found.stone) else { return };
+    rim(ui, (shot.specimen.solid(), found.facet), |corner| pose.place(corner), sight);
+    let name = shot.specimen.body.name(found.facet);
+    let told = format!("copy {} of {}: {name}", found.stone + 1, shot.company.len());
+    editor.told = told;
+}
+
+/// What a view was last asked to show.
+fn shot(editor: &Editor, pane: usize) -> Option<&Shot> {
+    let own = (pane, Which::Present);
+    editor.asked.shots.iter().find(|(slot, _)| *slot == own).map(|(_, shot)| shot)
+}

@@ -1,0 +1,114 @@
+//! What moves in time: copies tumble, plates wave. Renders show it; figures and scopes are of the design at rest.
+
+use crate::cut::{Cut, Glass};
+use crate::scene::{Company, Pose, Specimen};
+use egui::Context;
+use glam::DQuat;
+use std::sync::Arc;
+
+/// The longest step that time takes from one frame to the next, seconds: after a pause it goes on where it was.
+const LONGEST: f32 = 0.1;
+
+/// How fast a wave runs, radians a second.
+const WAVING: f64 = 2.0;
+
+/// Time as renders have it.
+#[derive(Default)]
+pub struct Moving {
+    /// Whether it goes on.
+    pub is_on: bool,
+    /// Since rest.
+    pub seconds: f64,
+    /// Plates as they are now: what they are at rest, when, and what they have become.
+    waved: Vec<(Arc<Specimen>, f64, Arc<Specimen>)>,
+}
+
+/// Plates kept: the present one and that it is compared with.
+const PLATES: usize = 2;
+
+impl Moving {
+    /// Time that stands so long after rest.
+    #[cfg(test)]
+    pub fn at(seconds: f64) -> Self {
+        Self { seconds, ..Self::default() }
+    }
+
+    /// Lets time go on with the window's frames.
+    pub fn advance(&mut self, ctx: &Context) {
+        if self.is_on {
+            self.seconds += f64::from(ctx.input(|i| i.stable_dt).min(LONGEST));
+            ctx.request_repaint();
+        }
+    }
+
+    /// Goes back to rest.
+    pub fn rest(&mut self) {
+        (self.is_on, self.seconds) = (false, 0.0);
+    }
+
+    /// The body now, and where its copies are, each turned about its own axis, radians.
+    pub fn now(
+        &mut self,
+        specimen: &Arc<Specimen>,
+        company: &Company,
+        turn: f64,
+    ) -> (Arc<Specimen>, Vec<Pose>) {
+        let waves = waves(specimen);
+        let specimen = if waves && self.seconds > 0.0 { self.waved(specimen) } else { Arc::clone(specimen) };
+        let tumbling = (!waves && self.seconds > 0.0).then_some(self.seconds);
+        let mut poses = company.poses(specimen.solid().vertices(), tumbling);
+        let turn = DQuat::from_rotation_z(turn);
+        poses.iter_mut().for_each(|pose| pose.turn *= turn);
+        (specimen, poses)
+    }
+
+    /// The plate as its wave is now.
+    fn waved(&mut self, specimen: &Arc<Specimen>) -> Arc<Specimen> {
+        if let Some((.., now)) =
+            self.waved.iter().find(|(of, at, _)| Arc::ptr_eq(of, specimen) && *at == self.seconds)
+        {
+            return Arc::clone(now);
+        }
+        let mut design = specimen.design.clone();
+        if let Cut::Glass(Glass::Plate(plate)) = &mut design.cut {
+            plate.phase = (plate.phase + (WAVING * self.seconds).to_degrees()).rem_euclid(360.0);
+        }
+        // What makes a plate at rest makes one in any phase.
+        let now = specimen.remade(design).map_or_else(|_| Arc::clone(specimen), Arc::new);
+        if self.waved.len() == PLATES {
+            self.waved.remove(0);
+        }
+        self.waved.push((Arc::clone(specimen), self.seconds, Arc::clone(&now)));
+        now
+    }
+}
+
+/// Whether it waves in time, and so does not tumble.
+fn waves(specimen: &Specimen) -> bool {
+    matches!(specimen.design.cut, Cut::Glass(Glass::Plate(plate)) if plate.amplitude > 0.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::app::document::Document;
+
+    #[test]
+    fn a_plate_waves_and_anything_else_tumbles() {
+        let mut moving = Moving::at(0.7);
+        let of = |name| Arc::clone(Document::of_library(name).unwrap().specimen());
+        let (plate, cube) = (of("plate"), of("cube"));
+        let company = Company::default();
+        let (waved, poses) = moving.now(&plate, &company, 0.0);
+        let Cut::Glass(Glass::Plate(now)) = waved.design.cut else { panic!() };
+        assert!((now.phase - 1.4_f64.to_degrees()).abs() < 1e-9 && poses == [Pose::STILL]);
+        assert!(Arc::ptr_eq(&waved, &moving.now(&plate, &company, 0.0).0), "made once");
+        let (still, poses) = moving.now(&cube, &company, 0.0);
+        assert!(Arc::ptr_eq(&still, &cube) && poses[0].turn.angle_between(DQuat::IDENTITY) > 0.3);
+        moving.rest();
+        assert_eq!(moving.now(&cube, &company, 0.0).1, [Pose::STILL]);
+        assert!(Arc::ptr_eq(&moving.now(&plate, &company, 0.0).0, &plate));
+        let (_, turned) = moving.now(&cube, &company, 0.5);
+        assert!((turned[0].turn.angle_between(DQuat::IDENTITY) - 0.5).abs() < 1e-12);
+    }
+}

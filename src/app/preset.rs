@@ -1,0 +1,182 @@
+//! Scenes that the editor takes in: copies of one design, their light, and what lies behind them.
+
+use super::document::Document;
+use super::editor::Editor;
+use crate::cut::Design;
+use crate::io::background::BackgroundRef;
+use crate::io::scene_file::{self, Entry, SceneFile};
+use crate::io::{cut_file, design_file, library};
+use crate::scene::{Company, MOST_COPIES, Pose, Specimen};
+use glam::DVec3;
+use std::path::Path;
+
+/// The scenes of glass that come with the program: their names, what they are called, whether they begin to move at once.
+pub const PRESETS: [(&str, &str, bool); 5] = [
+    ("subtle-pill", "Subtle pill", false),
+    ("prism-rainbow", "Prism rainbow", false),
+    ("rotating-cube", "Rotating cube", true),
+    ("wavy-plate", "Wavy plate", true),
+    ("free-diamond", "Free diamond", true),
+];
+
+/// A scene as the editor has it.
+pub struct Preset {
+    /// The design, with its material and size.
+    pub design: Design,
+    /// Its copies.
+    pub company: Company,
+    /// The rest.
+    pub scene: SceneFile,
+}
+
+impl Preset {
+    /// A scene that comes with the program.
+    ///
+    /// # Errors
+    /// Where there is none of that name, or it is of several designs.
+    pub fn of_library(name: &str) -> Result<Self, String> {
+        let text = library::scene(name).ok_or_else(|| format!("no scene '{name}' comes with the program"))?;
+        Self::new(scene_file::parse(text, name, None)?, name, None)
+    }
+
+    /// A scene's file.
+    ///
+    /// # Errors
+    /// Text that names file, line and key, or why the editor cannot show the scene.
+    pub fn read(path: &Path) -> Result<Self, String> {
+        Self::new(scene_file::read(path)?, &path.display().to_string(), path.parent())
+    }
+
+    fn new(scene: SceneFile, told: &str, folder: Option<&Path>) -> Result<Self, String> {
+        let first = &scene.stones[0];
+        let kind = |e: &Entry| (e.cut.clone(), e.material.clone(), e.size);
+        let count: usize = scene.stones.iter().map(|e| e.count).sum();
+        if scene.stones.iter().any(|e| kind(e) != kind(first)) || count > MOST_COPIES {
+            return Err(format!(
+                "{told}: the editor shows scenes of up to {MOST_COPIES} stones of one cut, material and size; \
+                 `brillianteer render {told}` draws any"
+            ));
+        }
+        let mut design = design(&first.cut, folder).map_err(|e| format!("{told}: {e}"))?;
+        if let Some(material) = &first.material {
+            design.material = material.clone();
+        }
+        let specimen = Specimen::new(design.clone()).map_err(|e| format!("{told}: {e}"))?;
+        let corners = specimen.solid().vertices();
+        if let Some(size) = first.size {
+            let volume = specimen.solid().volume();
+            design.diameter_mm =
+                size.diameter_mm(volume, &specimen.material).map_err(|e| format!("{told}: size: {e}"))?;
+        }
+        let poses = poses(&scene, corners, 0.5 * design.diameter_mm);
+        Ok(Self { company: Company::at(poses, corners), design, scene })
+    }
+}
+
+/// A cut beside the scene, or one that comes with the program.
+fn design(cut: &str, folder: Option<&Path>) -> Result<Design, String> {
+    let beside = folder.map(|folder| folder.join(cut)).filter(|path| path.is_file());
+    match (beside, library::cut(cut)) {
+        (Some(path), _) => design_file::read(&path).map(|brought| brought.design).map_err(|e| e.to_string()),
+        (None, Some(text)) => cut_file::parse(text, cut).map_err(|e| e.to_string()),
+        (None, None) => {
+            Err(format!("there is no file '{cut}', and no cut of that name comes with the program"))
+        }
+    }
+}
+
+/// Where the stones are, in girdle radii around the middle of all.
+fn poses(scene: &SceneFile, corners: &[DVec3], unit_mm: f64) -> Vec<Pose> {
+    let entries: Vec<&Entry> = scene.stones.iter().flat_map(|e| std::iter::repeat_n(e, e.count)).collect();
+    let more = |k: usize| scene.layout.map_or(0.0, |layout| layout.turn(k));
+    let turns: Vec<_> = entries.iter().enumerate().map(|(k, e)| e.turned(more(k))).collect();
+    let places = match scene.layout {
+        Some(layout) => {
+            let across = |turn: &glam::DQuat| {
+                corners.iter().map(|c| (*turn * *c).truncate().length()).fold(0.0, f64::max)
+            };
+            let radii: Vec<f64> = turns.iter().map(across).collect();
+            layout.places(&radii, scene.gap_mm / unit_mm).into_iter().map(|at| at.extend(0.0)).collect()
+        }
+        None => entries.iter().map(|e| e.at_mm / unit_mm).collect::<Vec<_>>(),
+    };
+    let mut poses: Vec<Pose> = places.into_iter().zip(turns).map(|(at, turn)| Pose { at, turn }).collect();
+    if poses.len() > 1 || poses[0].at != DVec3::ZERO {
+        let all = || poses.iter().flat_map(|pose| corners.iter().map(|c| pose.place(*c)));
+        let middle = 0.5
+            * (all().reduce(DVec3::min).unwrap_or_default() + all().reduce(DVec3::max).unwrap_or_default());
+        poses.iter_mut().for_each(|pose| pose.at -= middle);
+    }
+    poses
+}
+
+impl Editor {
+    /// Begins a scene that comes with the program.
+    pub(super) fn begin_preset(&mut self, name: &str) {
+        let moves = PRESETS.iter().any(|(known, _, moves)| *known == name && *moves);
+        match Preset::of_library(name) {
+            Ok(preset) => {
+                self.begin_scene(preset);
+                self.moving.is_on = moves;
+            }
+            Err(why) => self.notes.trouble(why),
+        }
+    }
+
+    /// Works on a scene: its design, which is not saved anywhere yet, its copies, its light and what lies behind.
+    pub(super) fn begin_scene(&mut self, preset: Preset) {
+        let Preset { design, company, scene } = preset;
+        let mut document = match Document::new(design, None) {
+            Ok(document) => document,
+            Err(why) => return self.notes.trouble(why.to_string()),
+        };
+        document.work.company = company;
+        self.desk.last = None;
+        self.desk.behind = scene.background.as_ref().and_then(kept);
+        self.desk.behind_mm = scene.background_distance_mm;
+        self.desk.strength = scene.strength;
+        if let Some(light) = scene.light {
+            self.document.work.light = light.to_string_lossy().into_owned();
+        }
+        self.begin(document);
+        self.notes.say(&format!("{}: renders show its copies, all else shows one", scene.name));
+    }
+}
+
+/// What lies behind, as the desk keeps it; of colours nothing.
+fn kept(background: &BackgroundRef) -> Option<String> {
+    match background {
+        BackgroundRef::Light => Some("light".to_owned()),
+        BackgroundRef::Plain(_) => None,
+        BackgroundRef::Pattern(pattern) => Some(pattern.name().to_owned()),
+        BackgroundRef::Photo(path) => Some(path.to_string_lossy().into_owned()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_presets_are_as_their_files_say_and_no_copy_is_put_behind_another() {
+        for (name, _, _) in PRESETS {
+            let preset = Preset::of_library(name).unwrap();
+            let specimen = Specimen::new(preset.design.clone()).unwrap();
+            let corners = specimen.solid().vertices();
+            assert_eq!(preset.company.poses(corners, None), preset.company.poses, "{name}");
+            assert_eq!(preset.company.poses.len(), if name == "free-diamond" { 1 } else { 4 });
+        }
+        let pill = Preset::of_library("subtle-pill").unwrap();
+        assert_eq!((pill.design.diameter_mm, pill.scene.strength), (40.0, 0.035));
+        // Twenty millimetres are a radius.
+        assert!((pill.company.poses[0].at - DVec3::new(-0.25, 1.005, 0.0)).length() < 1e-9);
+    }
+
+    #[test]
+    fn scenes_of_several_designs_are_refused_with_what_draws_them() {
+        for name in ["trilogy", "ring", "parcel"] {
+            let why = Preset::of_library(name).err().unwrap();
+            assert!(why.contains("brillianteer render"), "{why}");
+        }
+    }
+}

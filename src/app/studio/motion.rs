@@ -1,0 +1,201 @@
+//! What has moved between two renders of a view, for temporal antialiasing.
+
+use super::order::{Shot, Slot};
+use crate::picture::{Linear, Moved, Trail};
+use crate::scene::{Body, Film, Pose, Specimen, View};
+use crate::trace::ray;
+use crate::trace::sitting::Sitting;
+use glam::{DMat2, DVec2, DVec3};
+use rayon::prelude::*;
+use std::collections::HashMap;
+use std::sync::Arc;
+
+/// Points of a picture whose motion is found: of larger pictures one for several pixels.
+const MOST_POINTS: f64 = 40_000.0;
+
+/// Where bodies, eye and film were when a picture was taken.
+pub struct Moment {
+    specimen: Arc<Specimen>,
+    company: Vec<Pose>,
+    view: View,
+    film: Film,
+}
+
+/// The pictures laid over one another in each place, and when the last of them was taken.
+pub type Trails = HashMap<Slot, (Trail, Moment)>;
+
+impl Moment {
+    /// That of a shot, taken on a film.
+    pub fn of(shot: &Shot, film: Film) -> Self {
+        let (specimen, company) = (Arc::clone(&shot.specimen), shot.company.clone());
+        Self { specimen, company, view: shot.view, film }
+    }
+
+    /// Lays the picture taken now over those before.
+    pub fn lay<'a>(
+        self,
+        trails: &'a mut Trails,
+        (slot, picture): (Slot, &Linear),
+        sitting: &Sitting,
+        newest: f64,
+    ) -> &'a Linear {
+        let before = trails.remove(&slot);
+        let moved = self.moved(before.as_ref().map_or(&self, |(_, moment)| moment), sitting);
+        let trail = match before {
+            Some((mut trail, _)) => {
+                trail.lay(picture.clone(), &moved, newest);
+                trail
+            }
+            None => Trail::begin(picture.clone(), &moved),
+        };
+        &trails.entry(slot).insert_entry((trail, self)).into_mut().0.picture
+    }
+
+    /// What each pixel shows, and where that was at another moment.
+    fn moved(&self, before: &Self, sitting: &Sitting) -> Vec<Moved> {
+        let sight = ray::Sight::new(sitting);
+        let eye = ray::Camera::reaching(&before.view, 1.0);
+        let pixels = before.film.pixels_from_image(DMat2::IDENTITY);
+        let [width, height] = self.film.size.map(|n| n as usize);
+        let step = ((width * height) as f64 / MOST_POINTS).sqrt().ceil().max(1.0) as usize;
+        let middle = |k: usize| (k / step * step) as f64 + 0.5 * step as f64;
+        let at = |x: usize, y: usize| {
+            let at = DVec2::new(middle(x), middle(y));
+            let Some(glance) = sight.through(at.x, at.y) else {
+                // What hangs behind stays before the eye.
+                return (None, pixels.transform_point2(self.film.image_from_pixels(at)) - at);
+            };
+            let was = self.was(before, glance.stone, glance.origin + glance.direction * glance.distance);
+            let from = was.and_then(|point| Some(pixels.transform_point2(eye.project(point)?.0) - at));
+            (Some(glance.stone as u32), from.unwrap_or(DVec2::NAN))
+        };
+        let columns: Vec<usize> = (0..width).step_by(step).collect();
+        let points: Vec<Vec<_>> = (0..height)
+            .into_par_iter()
+            .step_by(step)
+            .map(|y| columns.iter().map(|x| at(*x, y)).collect())
+            .collect();
+        let pixel = |k: usize| {
+            let (x, y) = (k % width, k / width);
+            let (body, by) = points[y / step][x / step];
+            Moved { body, from: DVec2::new(x as f64, y as f64) + 0.5 + by }
+        };
+        (0..width * height).map(pixel).collect()
+    }
+
+    /// Where a point of a body was; `None` where it is another body's.
+    fn was(&self, before: &Self, number: usize, point: DVec3) -> Option<DVec3> {
+        let own = self.company[number].point(point);
+        let was = match (&self.specimen.body, &before.specimen.body) {
+            (Body::Glass(now), Body::Glass(then)) => now.field().carried(own, then.field()),
+            _ if Arc::ptr_eq(&self.specimen, &before.specimen) => own,
+            _ => return None,
+        };
+        Some(before.company.get(number)?.place(was))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::app::document::Document;
+    use crate::app::eye::Eye;
+    use crate::app::moving::Moving;
+    use crate::app::shows::Shows;
+    use crate::app::studio::order::{Smoothing, Which};
+    use crate::app::studio::render::{setting, sitting};
+    use crate::io::lighting::Lighting;
+    use crate::scene::Company;
+
+    const SLOT: Slot = (0, Which::Present);
+
+    /// Copies of a cut at a time, seen by an eye.
+    fn shot(cut: &str, seconds: f64, eye: &Eye) -> Shot {
+        let design = Arc::clone(Document::of_library(cut).unwrap().specimen());
+        let company = Company::scattered(3, design.solid().vertices(), 4);
+        let mut moving = Moving::at(seconds);
+        let (specimen, company) = moving.now(&design, &company, eye.turn);
+        Shot {
+            specimen,
+            shows: Shows::Render,
+            strongest: false,
+            view: eye.view(None),
+            film: eye.film([48, 40], 3.0),
+            light: Arc::new(Lighting::load("dome").unwrap()),
+            bands: 3,
+            jitter: true,
+            behind: None,
+            distance: 3.0,
+            strength: 1.0,
+            company,
+            smoothing: Smoothing::None,
+            exposure: 0.0,
+            head: 0.0,
+            overlay: None,
+        }
+    }
+
+    fn eye(distance: Option<f64>, zoom: f64) -> Eye {
+        Eye { lean: DVec2::new(0.2, 0.1), centre: DVec2::new(0.1, 0.0), distance, zoom, ..Eye::default() }
+    }
+
+    #[test]
+    fn the_same_point_of_a_body_was_seen_where_its_motion_says() {
+        for (cut, distance) in [("cube", None), ("cube", Some(12.0)), ("plate", None), ("plate", Some(9.0))] {
+            let [before, now] = [(1.0, 1.0), (1.06, 1.1)].map(|(t, zoom)| shot(cut, t, &eye(distance, zoom)));
+            let settings = [setting(&before), setting(&now)];
+            let [was, is] = [(&before, 0), (&now, 1)].map(|(s, k)| sitting(s, &settings[k], s.film, None));
+            let moments = [Moment::of(&before, before.film), Moment::of(&now, now.film)];
+            let moved = moments[1].moved(&moments[0], &is);
+            let (eyes, [width, _]) = ([ray::Sight::new(&was), ray::Sight::new(&is)], now.film.size);
+            let (mut same, mut hidden, mut farthest) = (0, 0, 0.0_f64);
+            for (k, moved) in moved.iter().enumerate() {
+                let at = DVec2::new((k as u32 % width).into(), (k as u32 / width).into()) + 0.5;
+                let Some(seen) = eyes[1].through(at.x, at.y) else { continue };
+                assert_eq!(moved.body, Some(seen.stone as u32));
+                farthest = farthest.max(moved.from.distance(at));
+                let place = |g: &ray::Glance| g.origin + g.direction * g.distance;
+                let expected = moments[1].was(&moments[0], seen.stone, place(&seen)).unwrap();
+                match eyes[0].through(moved.from.x, moved.from.y) {
+                    Some(g) if g.stone == seen.stone && place(&g).distance(expected) < 1e-6 => same += 1,
+                    // It had turned away, or another stood before it.
+                    _ => hidden += 1,
+                }
+            }
+            assert!(same > 300 && hidden * 20 < same, "{cut}: {same} of {}", same + hidden);
+            assert!(farthest > 1.0, "{cut}: {farthest} pixels");
+        }
+    }
+
+    #[test]
+    fn a_wave_carries_points_along_and_another_body_is_not_followed() {
+        let eye = eye(None, 1.0);
+        let [before, now] = [1.0, 1.2].map(|t| shot("plate", t, &eye));
+        let moments = [Moment::of(&before, before.film), Moment::of(&now, now.film)];
+        let Body::Glass(plate) = &now.specimen.body else { panic!() };
+        for vertex in plate.surface().vertices.iter().step_by(7) {
+            let was = moments[1].was(&moments[0], 0, now.company[0].place(*vertex)).unwrap();
+            let Body::Glass(then) = &before.specimen.body else { panic!() };
+            assert!(then.field().value(before.company[0].point(was)).abs() < 1e-9, "on the surface then");
+        }
+        let stone = shot("tolkowsky", 1.0, &eye);
+        let other = Moment::of(&stone, stone.film);
+        assert_eq!(other.was(&Moment::of(&shot("tolkowsky", 1.0, &eye), stone.film), 0, DVec3::ZERO), None);
+    }
+
+    #[test]
+    fn rough_pictures_of_a_moving_body_become_smoother() {
+        let eye = eye(None, 1.0);
+        let mut trails = Trails::new();
+        let mut counts = vec![];
+        for k in 0..4 {
+            let shot = shot("cube", 1.0 + 0.01 * f64::from(k), &eye);
+            let (setting, film) = (setting(&shot), shot.film);
+            let picture = Linear::new(film.size[0], film.size[1]);
+            let sitting = sitting(&shot, &setting, film, None);
+            Moment::of(&shot, film).lay(&mut trails, (SLOT, &picture), &sitting, 0.5);
+            counts.push(trails[&SLOT].0.count);
+        }
+        assert_eq!(counts, [1, 2, 3, 4]);
+    }
+}

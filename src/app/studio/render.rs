@@ -1,0 +1,248 @@
+//! Takes renders: what is seen under a light, of one body or of its company, before what hangs behind them.
+
+use super::motion::Moment;
+use super::order::{Shot, Slot, Smoothing, Taken};
+use super::pace::Effort;
+use super::take::{Camera, LEAST_WEIGHT, MOST_BOUNCES, RAYS_COARSER, Trouble, coarser, over};
+use crate::app::shows::Shows;
+use crate::io::background::BackgroundRef;
+use crate::optics::{Stratum, strata};
+use crate::picture::{Background, Bloom, ByBeams, Develop, Linear, PATTERN_SPAN, develop, fxaa, spectral};
+use crate::scene::{Film, Panorama, Placed, Pose, Projection, Setting, View};
+use crate::trace::gpu::{Around, ByCard};
+use crate::trace::ray::{self, ByRays};
+use crate::trace::sitting::{Exposure, Looks, Sitting};
+use crate::trace::surround::{Behind, Surround};
+use crate::trace::{Watch, beam};
+use egui::ColorImage;
+use glam::DVec2;
+use std::sync::Arc;
+
+/// Beams of one wavelength of a render: without symmetry the bound would take many times as long.
+const MOST_BEAMS: usize = 100_000;
+
+/// A render that grows clearer.
+pub struct Growing {
+    /// Bands of wavelengths of each look, at most.
+    pub bands: u32,
+    /// Looks.
+    pub looks: u32,
+    /// Looks that must be taken before anything is shown: what is in sight is as good.
+    pub after: u32,
+    /// Share of the light that may stay unresolved.
+    pub unresolved: f64,
+}
+
+impl Camera {
+    pub(super) fn render(
+        &mut self,
+        (slot, shot): (Slot, &Shot),
+        effort: &Effort,
+        growing: Option<&Growing>,
+        watch: Watch,
+        each: &mut dyn FnMut(Taken),
+    ) -> Result<(), Trouble> {
+        let setting = setting(shot);
+        let flat = is_for_beams(shot);
+        let behind = self.picture_behind(shot)?;
+        let by_card = self.gpu.clone().filter(|_| (growing.is_some() || !flat) && shot.strength == 1.0);
+        let slower = if by_card.is_none() && !flat && growing.is_none() { RAYS_COARSER } else { 1.0 };
+        let mut film = coarser(&shot.film, effort.coarser * slower);
+        if by_card.is_some() && film.size[1] > ByCard::most_rows(film.size[0]) {
+            film = coarser(&film, 2.0);
+        }
+        let sitting = sitting(shot, &setting, film, behind.as_deref());
+        let bands = growing.map_or(effort.bands, |g| g.bands).min(shot.bands);
+        let strata = strata(bands, &shot.light.light.spectrum, true);
+        let moving = match shot.smoothing {
+            Smoothing::Temporal { newest } if growing.is_none() => Some(newest),
+            _ => None,
+        };
+        let first = moving.and_then(|_| self.trails.get(&slot)).map_or(0, |(trail, _)| trail.count);
+        let mut develop = |picture: &Linear, unresolved, tracer| {
+            let laid = moving.map(|newest| {
+                Moment::of(shot, film).lay(&mut self.trails, (slot, picture), &sitting, newest).clone()
+            });
+            let picture = laid.as_ref().unwrap_or(picture);
+            developed(shot, (picture, growing.is_some()), (unresolved, tracer), &sitting, watch)
+        };
+        let manner = Looks { count: 1, jitter: shot.jitter, strength: shot.strength };
+        let work = Work { sitting: &sitting, strata: &strata, manner, growing, first, watch };
+        match by_card {
+            Some(gpu) => {
+                let around = Around::new(&gpu, &sitting.surround);
+                let rows = 0..film.size[1];
+                let exposure = ByCard::new(&gpu, &sitting, &around, rows, strata.len())?;
+                work.grow(exposure, |p, u| develop(p, u, "rays on the graphics card").map(&mut *each))
+            }
+            None if flat => {
+                let unresolved = growing.map_or(effort.unresolved, |g| g.unresolved);
+                let options =
+                    beam::Options { unresolved, most_beams: MOST_BEAMS, ..beam::Options::default() };
+                let Some(mut exposure) = ByBeams::new(sitting, options) else {
+                    return Err(Trouble::Other("exact beams do not apply here".into()));
+                };
+                if growing.is_some() {
+                    return work.grow(exposure, |p, u| develop(p, u, "exact beams").map(&mut *each));
+                }
+                exposure.glance(&strata, watch)?;
+                let (picture, rest) = spectral::seen::<Trouble, _>(&sitting, &exposure)?;
+                develop(&picture, rest.unresolved, "exact beams").map(each)
+            }
+            None => {
+                let exposure = ByRays::new(sitting, 0..film.size[1]);
+                work.grow(exposure, |p, u| develop(p, u, "point rays").map(&mut *each))
+            }
+        }
+    }
+
+    /// The picture behind a render, read or drawn once.
+    fn picture_behind(&mut self, shot: &Shot) -> Result<Option<Arc<Panorama>>, Trouble> {
+        let Some(asked) = &shot.behind else { return Ok(None) };
+        if let Some((_, picture)) = self.behind.as_ref().filter(|(last, _)| last == asked) {
+            return Ok(Some(Arc::clone(picture)));
+        }
+        let read = asked.picture().map_err(Trouble::Other)?;
+        let picture = read.map(|reading| Arc::new(reading.panorama));
+        self.behind = picture.clone().map(|picture| (asked.clone(), picture));
+        Ok(picture)
+    }
+}
+
+/// Whether exact beams show it: one convex stone by parallel rays, and no picture behind it.
+pub fn is_for_beams(shot: &Shot) -> bool {
+    let is_render = shot.shows == Shows::Render;
+    let is_more = is_render && (shot.behind.is_some() || shot.company.len() > 1);
+    !is_more && shot.view.projection == Projection::Orthographic && shot.specimen.stone().is_ok()
+}
+
+/// Looks to be added up.
+struct Work<'a> {
+    sitting: &'a Sitting<'a>,
+    strata: &'a [Stratum],
+    manner: Looks,
+    growing: Option<&'a Growing>,
+    /// The number of the first look.
+    first: u32,
+    watch: Watch<'a>,
+}
+
+impl Work<'_> {
+    /// Adds look to look, and hands on what there is after the first, the second, the fourth and so on.
+    fn grow<X: Exposure<Trouble>>(
+        &self,
+        mut exposure: X,
+        mut each: impl FnMut(&Linear, f64) -> Result<(), Trouble>,
+    ) -> Result<(), Trouble> {
+        let looks = self.growing.map_or(1, |g| g.looks);
+        for number in 0..looks {
+            let done = |part: f64| (self.watch)((f64::from(number) + part) / f64::from(looks));
+            let look = self.manner.look(self.sitting.setting, self.strata, self.first.wrapping_add(number));
+            exposure.look(&look, &done)?;
+            let is_shown = number + 1 > self.growing.map_or(0, |g| g.after);
+            if is_shown && ((number + 1).is_power_of_two() || number + 1 == looks) {
+                let (picture, rest) = spectral::seen(self.sitting, &exposure)?;
+                each(&picture, rest.unresolved)?;
+            }
+        }
+        Ok(())
+    }
+}
+
+/// How far behind the middle a picture hangs where nothing else is asked for, girdle radii.
+pub const BEHIND: f64 = 3.0;
+
+/// How far behind the middle the picture hangs, girdle radii: as asked, but behind all bodies however they are turned.
+pub fn hung(shot: &Shot) -> f64 {
+    let own = shot.specimen.solid().vertices().iter().map(|v| v.length()).fold(0.0, f64::max);
+    let farthest = shot.company.iter().map(|pose| pose.at.length() + own).fold(0.0, f64::max);
+    shot.distance.max(farthest)
+}
+
+/// How far a render of all copies reaches from its middle, girdle radii.
+pub fn fitting(shot: &Shot) -> f64 {
+    let reach = shot.specimen.reach;
+    let sides = shot.company.iter().map(|pose| pose.at.truncate().abs().max_element() + reach);
+    sides.fold(reach, f64::max)
+}
+
+/// How much larger than in the image's plane a picture must be to fill it from so far behind.
+pub fn nearness(view: &View, behind: f64) -> f64 {
+    match view.projection {
+        Projection::Orthographic => 1.0,
+        Projection::Perspective { distance } => (distance + behind) / distance,
+    }
+}
+
+/// What a shot is taken of.
+pub fn setting(shot: &Shot) -> Setting {
+    let placed = |pose: &Pose| {
+        let body = Placed::named(&shot.specimen.body, shot.specimen.material.clone(), "");
+        if *pose == Pose::STILL { body } else { body.moved(1.0, pose.turn, pose.at) }
+    };
+    Setting { stones: shot.company.iter().map(placed).collect(), unit_mm: shot.specimen.unit_mm() }
+}
+
+/// Bodies under their light, and the camera.
+pub fn sitting<'a>(
+    shot: &'a Shot,
+    setting: &'a Setting,
+    film: Film,
+    picture: Option<&'a Panorama>,
+) -> Sitting<'a> {
+    let distance = hung(shot);
+    let behind = picture.map(|picture| {
+        let [across, down] = film.size.map(f64::from);
+        let shape = f64::from(picture.width) / f64::from(picture.height);
+        let span = if matches!(shot.behind, Some(BackgroundRef::Pattern(_))) { PATTERN_SPAN } else { 1.0 };
+        // Wide enough to fill the view, whatever its shape.
+        let width = span * film.pixel * across.max(down * shape) * nearness(&shot.view, distance);
+        Behind { picture, distance, width }
+    });
+    Sitting {
+        setting,
+        surround: Surround {
+            sky: &shot.light.sky,
+            basis: shot.view.light_basis(),
+            eye: shot.view.basis(),
+            head: shot.light.light.head.to_radians(),
+            behind,
+            backdrop: behind.is_some() || shot.behind == Some(BackgroundRef::Light),
+        },
+        view: &shot.view,
+        film,
+        options: ray::Options { polarised: true, most_bounces: MOST_BOUNCES, least_weight: LEAST_WEIGHT },
+    }
+}
+
+/// What is seen first at a point of a film, in its pixels; `None` beside all bodies.
+pub fn picked(shot: &Shot, film: &Film, at: DVec2) -> Option<ray::Glance> {
+    let setting = setting(shot);
+    ray::Sight::new(&sitting(shot, &setting, *film, None)).through(at.x, at.y)
+}
+
+fn developed(
+    shot: &Shot,
+    (picture, fine): (&Linear, bool),
+    (unresolved, tracer): (f64, &'static str),
+    sitting: &Sitting,
+    watch: Watch,
+) -> Result<Taken, Trouble> {
+    // Glow would stand out around what is drawn over the stone, and it takes longer than the rest of a rough picture.
+    let bloom = (fine && shot.overlay.is_none()).then(Bloom::default);
+    let background = match &shot.behind {
+        Some(BackgroundRef::Plain(background)) => *background,
+        _ => Background::Transparent,
+    };
+    let manner = Develop { exposure: shot.exposure, bloom, background, ..Develop::default() };
+    let mut rgba = develop(picture, &manner);
+    if shot.smoothing == Smoothing::Fxaa {
+        fxaa(&mut rgba, picture.width);
+    }
+    let size = [picture.width as usize, picture.height as usize];
+    let mut image = ColorImage::from_rgba_unmultiplied(size, &rgba);
+    if let Some(overlay) = shot.overlay {
+        over(overlay, sitting, &mut image, watch)?;
+    }
+    Ok(Taken { image, unresolved: Some(unresolved), tracer })
+}

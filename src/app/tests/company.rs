@@ -1,0 +1,125 @@
+//! Copies of a glass shape, as a person moves them.
+
+use super::Bench;
+use crate::app::desk::{Desk, Layout, Pane};
+use crate::app::editor::{Editor, Setup};
+use crate::app::shows::Shows;
+use crate::app::studio::{Smoothing, Which};
+use egui::{Key, Pos2};
+use egui_kittest::kittest::Queryable;
+use std::path::PathBuf;
+
+/// One render of a scene that comes with the program.
+fn bench(scene: &str) -> Bench {
+    let pane = Pane { shows: Shows::Render, own: None };
+    let desk = Desk { layout: Layout::One, panes: [pane; 4], wavelengths: 3, ..Desk::default() };
+    let setup = Setup { file: Some(PathBuf::from(scene)), desk, ..Setup::default() };
+    let mut bench = Bench::sized(setup, egui::vec2(860.0, 780.0));
+    bench.harness.run_steps(3);
+    bench
+}
+
+fn poses(editor: &Editor) -> Vec<crate::scene::Pose> {
+    editor.document.work.company.poses.clone()
+}
+
+/// Where a point of the film lies in the window.
+fn at(bench: &Bench, x: f64, y: f64) -> Pos2 {
+    let body = bench.harness.get_by_label("Render picture").rect();
+    let film = bench.editor().asked.shots[0].1.film;
+    let pixel = film.pixels_from_image(glam::DMat2::IDENTITY).transform_point2(glam::DVec2::new(x, y));
+    body.min + egui::vec2(pixel.x as f32, pixel.y as f32)
+}
+
+fn drag(bench: &mut Bench, from: Pos2, by: egui::Vec2) {
+    let (button, modifiers) = (egui::PointerButton::Primary, egui::Modifiers::NONE);
+    bench.harness.hover_at(from);
+    bench.harness.step();
+    bench.harness.event(egui::Event::PointerButton { pos: from, button, pressed: true, modifiers });
+    bench.harness.step();
+    for k in 1..=8 {
+        bench.harness.hover_at(from + by * (k as f32 / 8.0));
+        bench.harness.step();
+    }
+    let pos = from + by;
+    bench.harness.event(egui::Event::PointerButton { pos, button, pressed: false, modifiers });
+    bench.harness.run_steps(3);
+}
+
+#[test]
+fn a_preset_is_one_click_and_its_copies_are_dragged_scattered_and_counted() {
+    let mut bench = bench("prism-rainbow");
+    assert_eq!(poses(bench.editor()).len(), 4);
+    bench.click("Subtle pill");
+    let desk = &bench.editor().desk;
+    assert_eq!((desk.behind.as_deref(), desk.behind_mm, desk.strength), (Some("page"), Some(100.0), 0.035));
+    let before = poses(bench.editor());
+    let (lean, middle) = (bench.editor().desk.eye.lean, before[2].at);
+    let from = at(&bench, middle.x, middle.y);
+    let pixel = bench.editor().asked.shots[0].1.film.pixel;
+    drag(&mut bench, from, egui::vec2(40.0, -25.0));
+    let after = poses(bench.editor());
+    assert!((after[2].at - before[2].at - glam::DVec3::new(40.0, 25.0, 0.0) * pixel).length() < 1e-5);
+    assert!([0, 1, 3].iter().all(|&k| after[k] == before[k]) && bench.editor().desk.eye.lean == lean);
+    bench.harness.key_press_modifiers(egui::Modifiers::COMMAND, Key::Z);
+    bench.harness.run_steps(3);
+    assert_eq!(poses(bench.editor()), before, "a drag is one step");
+    // Beside all of them it is the view that is dragged.
+    let beside = at(&bench, 0.0, 1.65);
+    drag(&mut bench, beside, egui::vec2(30.0, 0.0));
+    assert!(poses(bench.editor()) == before && bench.editor().desk.eye.lean != lean);
+    bench.harness.key_press(Key::Space);
+    bench.harness.run_steps(3);
+    let scattered = poses(bench.editor());
+    assert!(scattered != before && scattered.len() == 4);
+    bench.click("Lay out");
+    assert_ne!(poses(bench.editor()), scattered);
+    bench.type_number("Copies", "7");
+    assert_eq!(poses(bench.editor()).len(), 7);
+}
+
+#[test]
+fn what_moves_is_shown_moving_and_stands_still_when_stopped() {
+    let mut bench = bench("rotating-cube");
+    assert!(bench.editor().moving.is_on);
+    bench.harness.state_mut().desk.smoothing = Smoothing::Temporal { newest: 0.5 };
+    let pictures = |bench: &Bench| {
+        let shown = &bench.editor().pictures[&(0, Which::Present)];
+        (shown.shot.company.clone(), shown.taken.image.pixels.clone())
+    };
+    bench.wait(|editor| editor.pictures.contains_key(&(0, Which::Present)));
+    let first = pictures(&bench);
+    let later = first.0.clone();
+    bench.wait(move |editor| {
+        editor.pictures.get(&(0, Which::Present)).is_some_and(|shown| shown.shot.company != later)
+    });
+    let second = pictures(&bench);
+    assert!(first.0 != second.0 && first.1 != second.1);
+    bench.harness.key_press(Key::M);
+    bench.harness.run_steps(3);
+    assert!(!bench.editor().moving.is_on);
+    let (seconds, asked) = (bench.editor().moving.seconds, bench.editor().asked.clone());
+    bench.harness.run_steps(5);
+    assert!(seconds > 0.0 && bench.editor().moving.seconds == seconds && bench.editor().asked == asked);
+    bench.click("At rest");
+    assert_eq!(bench.editor().moving.seconds, 0.0);
+    bench.harness.key_press(Key::H);
+    bench.harness.run_steps(3);
+    assert!(bench.harness.query_by_label("Copies").is_none(), "views alone");
+}
+
+#[test]
+fn scene_files_open_and_those_of_several_designs_are_refused_in_words() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("mine.toml");
+    let text = "format = 1\nname = \"Mine\"\nlayout = \"row\"\n[[stone]]\ncut = \"cube\"\nsize = \"12mm\"\ncount = 3\n";
+    std::fs::write(&path, text).unwrap();
+    let mut bench = bench(&path.to_string_lossy());
+    assert_eq!((poses(bench.editor()).len(), bench.editor().document.work.design.diameter_mm), (3, 12.0));
+    std::fs::write(&path, format!("{text}[[stone]]\ncut = \"pill\"\n")).unwrap();
+    bench.choices.lock().unwrap().push(path);
+    bench.harness.key_press_modifiers(egui::Modifiers::COMMAND, Key::O);
+    bench.wait(|editor| !editor.notes.troubles().is_empty());
+    assert!(bench.editor().notes.troubles()[0].contains("brillianteer render"));
+    assert_eq!(poses(bench.editor()).len(), 3);
+}

@@ -1,0 +1,229 @@
+//! Copies of one body beside one another: where each lies, how they are laid out anew, how they tumble in time.
+//!
+//! Lengths are in the body's own unit, girdle radii; times in seconds. The same numbers give the same places.
+
+use super::layout::scattered;
+use glam::{DQuat, DVec2, DVec3};
+
+/// The most copies that there may be.
+pub const MOST_COPIES: usize = 8;
+
+/// How fast a copy turns about its own axis of tumbling, and how fast that axis itself turns about z, radians a second.
+const TUMBLING: f64 = 0.7;
+const SWINGING: f64 = 0.31;
+
+/// Clear space between two copies, as a part of what they measure.
+const CLEAR: f64 = 0.02;
+
+/// Places that are tried for a copy before its room is made larger, and how much larger.
+const TRIES: u64 = 256;
+const LARGER: f64 = 1.04;
+
+/// Where a copy is: turned about the body's origin, then moved.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Pose {
+    /// Where the body's origin is.
+    pub at: DVec3,
+    /// How it is turned.
+    pub turn: DQuat,
+}
+
+impl Pose {
+    /// A body that stays as it is.
+    pub const STILL: Self = Self { at: DVec3::ZERO, turn: DQuat::IDENTITY };
+
+    /// Where a point of the body is.
+    pub fn place(&self, point: DVec3) -> DVec3 {
+        self.turn * point + self.at
+    }
+
+    /// The point of the body that is there.
+    pub fn point(&self, place: DVec3) -> DVec3 {
+        self.turn.inverse() * (place - self.at)
+    }
+}
+
+/// Copies at rest.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Company {
+    /// Where each is; at least one.
+    pub poses: Vec<Pose>,
+    /// Half the side of the square in which they were laid out: to this views are fitted, so that nothing shrinks while a copy
+    /// is moved. `None` for a body alone, whose own reach counts.
+    pub room: Option<f64>,
+}
+
+impl Default for Company {
+    fn default() -> Self {
+        Self { poses: vec![Pose::STILL], room: None }
+    }
+}
+
+impl Company {
+    /// So many copies, 1 to [`MOST_COPIES`], each as the body is, of these corners, scattered without touching in the plane
+    /// across the axis; another `number` scatters them otherwise. One copy stays in the middle.
+    pub fn scattered(count: usize, corners: &[DVec3], number: u64) -> Self {
+        let count = count.clamp(1, MOST_COPIES);
+        if count == 1 {
+            return Self::default();
+        }
+        let half = corners.iter().fold(DVec2::ZERO, |half, c| half.max(c.truncate().abs())) * (1.0 + CLEAR);
+        let mut room = (half.x * half.y * 4.0 * count as f64).sqrt().max(half.max_element());
+        loop {
+            if let Some(places) = places(count, half, room, number) {
+                let poses = places.into_iter().map(|at| Pose { at: at.extend(0.0), ..Pose::STILL });
+                return Self { poses: poses.collect(), room: Some(room) };
+            }
+            room *= LARGER;
+        }
+    }
+
+    /// Copies at given places, in a room that holds bodies of these corners there.
+    pub fn at(poses: Vec<Pose>, corners: &[DVec3]) -> Self {
+        if poses.len() == 1 && poses[0].at == DVec3::ZERO {
+            return Self { poses, room: None };
+        }
+        let all = poses.iter().flat_map(|pose| corners.iter().map(|c| pose.place(*c).truncate().abs()));
+        let room = all.fold(0.0, |room: f64, c| room.max(c.max_element()));
+        Self { poses, room: Some(room) }
+    }
+
+    /// Half the side of the square that a view is fitted to, of a body that alone reaches so far.
+    pub fn reach(&self, alone: f64) -> f64 {
+        self.room.unwrap_or(alone)
+    }
+
+    /// Where the copies are at a time, as bodies of these corners that tumble, or do not. Copies that would meet lie in layers
+    /// behind one another, the later ones farther from the eye of the view face up.
+    pub fn poses(&self, corners: &[DVec3], tumbling: Option<f64>) -> Vec<Pose> {
+        let reach = corners.iter().map(|c| c.length()).fold(0.0, f64::max) * (1.0 + CLEAR);
+        let mut placed: Vec<(Pose, [DVec3; 2])> = Vec::with_capacity(self.poses.len());
+        for (number, pose) in self.poses.iter().enumerate() {
+            let turn = tumbling.map_or(pose.turn, |seconds| tumbled(number, seconds) * pose.turn);
+            let around = match tumbling {
+                // Whatever way it turns.
+                Some(_) => [DVec3::splat(-reach), DVec3::splat(reach)],
+                None => bounds(turn, corners),
+            };
+            let mut pose = Pose { turn, ..*pose };
+            let meets = |at: DVec3| {
+                let apart = |other: &(Pose, [DVec3; 2])| match tumbling {
+                    Some(_) => other.0.at.distance(at) >= 2.0 * reach,
+                    None => are_apart(around.map(|c| c + at), other.1),
+                };
+                !placed.iter().all(apart)
+            };
+            while meets(pose.at) {
+                pose.at.z -= 2.0 * reach;
+            }
+            placed.push((pose, around.map(|c| c + pose.at)));
+        }
+        placed.into_iter().map(|(pose, _)| pose).collect()
+    }
+}
+
+/// How a copy of a number has turned after so many seconds: not at all at first, and no two alike.
+fn tumbled(number: usize, seconds: f64) -> DQuat {
+    let way = scattered(number as u64) * std::f64::consts::TAU;
+    let axis = DVec3::new(way.cos(), way.sin(), 0.0);
+    let speed = TUMBLING * (0.85 + 0.3 * scattered(100 + number as u64));
+    DQuat::from_rotation_z(SWINGING * seconds) * DQuat::from_axis_angle(axis, speed * seconds)
+}
+
+/// Places for rectangles of half these sides within a square; `None` where they are not soon found.
+fn places(count: usize, half: DVec2, room: f64, number: u64) -> Option<Vec<DVec2>> {
+    let free = DVec2::splat(room) - half;
+    let mut places: Vec<DVec2> = Vec::with_capacity(count);
+    for k in 0..count as u64 {
+        let place = |try_: u64| {
+            let seed = (((number * 8 + k) * TRIES) + try_) * 2;
+            DVec2::new(2.0 * scattered(seed) - 1.0, 2.0 * scattered(seed + 1) - 1.0) * free
+        };
+        let fits =
+            |at: &DVec2| places.iter().all(|other| ((*at - *other).abs() / (2.0 * half)).max_element() > 1.0);
+        places.push((0..TRIES).map(place).find(fits)?);
+    }
+    Some(places)
+}
+
+/// The box around a body of these corners, turned.
+fn bounds(turn: DQuat, corners: &[DVec3]) -> [DVec3; 2] {
+    let turned = corners.iter().map(|c| turn * *c);
+    turned.fold([DVec3::INFINITY, DVec3::NEG_INFINITY], |[low, high], c| [low.min(c), high.max(c)])
+}
+
+fn are_apart(a: [DVec3; 2], b: [DVec3; 2]) -> bool {
+    (a[0] - b[1]).max_element() > 0.0 || (b[0] - a[1]).max_element() > 0.0
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The corners of a brick.
+    fn brick() -> Vec<DVec3> {
+        let sign = |bit: usize| if bit == 0 { -1.0 } else { 1.0 };
+        (0..8).map(|k| DVec3::new(sign(k & 1), 0.3 * sign(k & 2), 0.2 * sign(k & 4))).collect()
+    }
+
+    #[test]
+    fn any_number_is_scattered_within_the_room_and_nothing_touches() {
+        for count in 1..=MOST_COPIES {
+            for number in 0..40 {
+                let company = Company::scattered(count, &brick(), number);
+                assert_eq!(company.poses.len(), count);
+                let boxes: Vec<_> =
+                    company.poses.iter().map(|p| bounds(p.turn, &brick()).map(|c| c + p.at)).collect();
+                for (k, b) in boxes.iter().enumerate() {
+                    let reach = b[0].truncate().abs().max(b[1].truncate().abs()).max_element();
+                    assert!(reach <= company.reach(1.0), "{count} {number}: {reach}");
+                    assert!(boxes[..k].iter().all(|other| are_apart(*b, *other)));
+                }
+                assert_eq!(company, Company::scattered(count, &brick(), number));
+                assert_eq!(company.poses(&brick(), None), company.poses, "none is put behind another");
+            }
+        }
+        assert_ne!(Company::scattered(4, &brick(), 1), Company::scattered(4, &brick(), 2));
+    }
+
+    #[test]
+    fn copies_that_would_meet_lie_behind_one_another_at_every_time() {
+        let near = |x: f64| Pose { at: DVec3::new(x, 0.0, 0.0), ..Pose::STILL };
+        let company = Company::at((0..8).map(|k| near(0.1 * f64::from(k))).collect(), &brick());
+        for tumbling in [None, Some(0.0), Some(1.3), Some(77.0)] {
+            let poses = company.poses(&brick(), tumbling);
+            let reach = brick()[0].length();
+            for (k, pose) in poses.iter().enumerate() {
+                assert!(poses[..k].iter().all(|other| other.at.distance(pose.at) > 2.0 * reach));
+                assert_eq!(pose.at.truncate(), company.poses[k].at.truncate());
+            }
+        }
+        let apart = Company::at(vec![near(0.0), near(2.01)], &brick());
+        assert_eq!(apart.poses(&brick(), None), apart.poses);
+        assert_ne!(apart.poses(&brick(), Some(0.0)), apart.poses, "they would meet as they tumble");
+    }
+
+    #[test]
+    fn tumbling_begins_at_rest_and_goes_on_evenly() {
+        let company = Company::scattered(3, &brick(), 5);
+        let turns =
+            |seconds| company.poses(&brick(), Some(seconds)).into_iter().map(|p| p.turn).collect::<Vec<_>>();
+        for (now, rest) in turns(0.0).iter().zip(&company.poses) {
+            assert!(now.angle_between(rest.turn) < 1e-7);
+        }
+        for k in 0..100 {
+            let at = f64::from(k) * 0.37;
+            let angles: Vec<f64> =
+                turns(at).iter().zip(turns(at + 0.01)).map(|(a, b)| a.angle_between(b)).collect();
+            assert!(angles.iter().all(|a| (0.002..0.015).contains(a)), "{angles:?}");
+            assert!(angles.windows(2).all(|w| w[0] != w[1]), "no two turn alike");
+        }
+    }
+
+    #[test]
+    fn a_pose_takes_points_there_and_back() {
+        let pose = Pose { at: DVec3::new(1.0, -2.0, 0.5), turn: tumbled(3, 2.0) };
+        let point = DVec3::new(0.3, 0.2, -0.9);
+        assert!(pose.point(pose.place(point)).distance(point) < 1e-15 * 10.0);
+    }
+}
