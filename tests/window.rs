@@ -11,7 +11,7 @@ use std::time::{Duration, Instant};
 const PATIENCE: Duration = Duration::from_secs(120);
 
 /// A screen that does not change for so long shows all it is going to.
-const STILL: Duration = Duration::from_millis(2500);
+const STILL: Duration = Duration::from_millis(4000);
 
 /// A screen in memory.
 struct Screen {

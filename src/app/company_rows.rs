@@ -3,6 +3,7 @@
 use super::design_panel::{NUMBER, Number, named};
 use super::editor::Editor;
 use super::preset::PRESETS;
+use super::shows::Shows;
 use super::studio::Smoothing;
 use crate::cut::MaterialRef;
 use crate::optics::{Material, line};
@@ -16,6 +17,9 @@ const NEWEST: RangeInclusive<f64> = 0.05..=1.0;
 
 /// The share that it begins with.
 const FIRST_NEWEST: f64 = 0.5;
+
+/// Angles of view, degrees; from nearer the eye would be in the glass.
+const ANGLES: RangeInclusive<f64> = 1.0..=75.0;
 
 /// Indices and Abbe numbers of glasses, known and invented.
 const INDICES: RangeInclusive<f64> = 1.0..=3.5;
@@ -60,6 +64,31 @@ pub fn show(editor: &mut Editor, ui: &mut Ui) {
         }
     });
     smoothing(editor, ui);
+    view_angle(editor, ui);
+}
+
+/// From how near the linked views look, as the angle that fits into them.
+fn view_angle(editor: &mut Editor, ui: &mut Ui) {
+    let reach = editor.reach(Shows::Render);
+    let Some(distance) = &mut editor.desk.eye.distance else { return };
+    ui.horizontal(|ui| {
+        let meaning = "The angle that the linked views take in; P looks along parallel rays.";
+        let label = named(ui, "View angle", meaning);
+        let mut degrees = 2.0 * (reach / *distance).atan().to_degrees();
+        let before = degrees;
+        ui.spacing_mut().slider_width = (ui.available_width() - NUMBER - 24.0).max(40.0);
+        ui.add(Slider::new(&mut degrees, ANGLES).show_value(false))
+            .labelled_by(label.id)
+            .on_hover_text(meaning);
+        Number { decimals: 1, speed: 0.2, range: ANGLES, unit: "°" }.show(
+            ui,
+            (NUMBER, label.id),
+            &mut degrees,
+        );
+        if degrees != before {
+            *distance = reach / (0.5 * degrees).to_radians().tan();
+        }
+    });
 }
 
 fn copies(editor: &mut Editor, ui: &mut Ui) {
