@@ -1,6 +1,7 @@
 //! How a person has arranged the window: kept from one start to the next.
 
 use super::eye::Eye;
+use super::liquid::Liquid;
 use super::shows::Shows;
 use crate::io::background::BackgroundRef;
 use crate::picture::Overlay;
@@ -78,6 +79,8 @@ pub struct Desk {
     pub behind: Option<String>,
     /// How much of the way that refraction turns light is followed before it: 1 is physics.
     pub strength: f64,
+    /// The pane of liquid glass.
+    pub liquid: Liquid,
 }
 
 /// Bands of wavelengths that are offered; of three each shows.
@@ -103,6 +106,7 @@ impl Default for Desk {
             wavelengths: WAVELENGTHS[2],
             behind: None,
             strength: 1.0,
+            liquid: Liquid::default(),
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use super::editor::{Editor, Measured};
 use super::studio::{Grade, Tilts, Which};
-use super::theme;
+use super::{pane_rows, theme};
 use crate::measure::Figures;
 use crate::scene::{ASET_CONE, Backing, Scope};
 use egui::{Align, Color32, Layout, Panel, Rect, RichText, ScrollArea, Sense, Ui, pos2, vec2};
@@ -48,6 +48,7 @@ pub fn show(editor: &mut Editor, ui: &mut Ui) {
             } else {
                 ui.label(RichText::new("comes when all else is done").weak());
             }
+            pane_rows::show(editor, ui);
         });
     });
 }

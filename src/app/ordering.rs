@@ -20,7 +20,9 @@ impl Editor {
         let sides = if compared { vec![Which::Present, Which::Other] } else { vec![Which::Present] };
         for which in sides {
             for &(pane, size) in seen {
-                if let Some(shot) = self.shot(pane, which, size, &light) {
+                // Looked up, and not traced.
+                let is_drawn = self.desk.panes[pane].shows == Shows::LiquidGlass;
+                if let Some(shot) = self.shot(pane, which, size, &light).filter(|_| !is_drawn) {
                     order.shots.push(((pane, which), shot));
                 }
             }
@@ -59,7 +61,8 @@ impl Editor {
         light: &Arc<Lighting>,
     ) -> Option<Shot> {
         let shows = self.desk.panes[pane].shows;
-        if shows == Shows::Profile || size[0] < 8 || size[1] < 8 {
+        let is_other_pane = shows.is_pane() && which == Which::Other;
+        if shows == Shows::Profile || is_other_pane || size[0] < 8 || size[1] < 8 {
             return None;
         }
         let eye = *self.desk.eye(pane);
@@ -84,7 +87,8 @@ impl Editor {
             behind: self.desk.background(),
             strength: self.desk.strength(),
             head: self.document.work.head,
-            overlay: self.desk.overlay().filter(|_| shows.is_seen()),
+            overlay: self.desk.overlay().filter(|_| shows.takes_overlay()),
+            liquid: self.desk.liquid,
             specimen,
         })
     }
@@ -106,6 +110,7 @@ impl Editor {
             strength: self.desk.strength(),
             head: self.document.work.head,
             overlay: None,
+            liquid: self.desk.liquid,
         }
     }
 }

@@ -3,6 +3,7 @@
 
 mod order;
 mod pace;
+mod refracted;
 mod survey;
 mod take;
 mod worker;

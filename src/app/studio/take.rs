@@ -2,6 +2,7 @@
 
 use super::order::{Shot, Taken};
 use super::pace::Effort;
+use super::refracted::{glass, mapped};
 use crate::app::shows::Shows;
 use crate::io::background::BackgroundRef;
 use crate::io::{Failure, rasterize};
@@ -29,7 +30,7 @@ const MOST_BOUNCES: u32 = 64;
 const LEAST_WEIGHT: f64 = 5e-4;
 
 /// How much coarser rays on the processor see while the hand moves, beyond what the pace says.
-const RAYS_COARSER: f64 = 3.0;
+pub(super) const RAYS_COARSER: f64 = 3.0;
 
 /// Beams of one wavelength of a render: without symmetry the bound would take many times as long.
 const MOST_BEAMS: usize = 100_000;
@@ -140,9 +141,11 @@ impl Camera {
         each: &mut dyn FnMut(Taken),
     ) -> Result<(), Trouble> {
         match shot.shows {
-            Shows::Profile => Ok(()),
+            Shows::Profile | Shows::LiquidGlass => Ok(()),
             Shows::Diagram => drawing(shot).map(each),
             Shows::Render => self.render(shot, effort, growing, watch, each),
+            Shows::Refraction => mapped(shot, effort, growing, watch).map(each),
+            Shows::TracedPane => glass(self, shot, effort, growing, watch).map(each),
             _ => {
                 let taken = self.scoped(shot, effort, growing.is_some(), watch)?;
                 each(self.overlaid(shot, taken, watch)?);
@@ -217,7 +220,7 @@ impl Camera {
     ) -> Result<(), Trouble> {
         let setting = setting(shot);
         let flat = is_for_beams(shot);
-        let behind = self.picture_behind(shot)?;
+        let behind = self.picture_behind(shot.behind.as_ref())?;
         let by_card = self.gpu.clone().filter(|_| (growing.is_some() || !flat) && shot.strength == 1.0);
         let slower = if by_card.is_none() && !flat && growing.is_none() { RAYS_COARSER } else { 1.0 };
         let mut film = coarser(&shot.film, effort.coarser * slower);
@@ -261,8 +264,11 @@ impl Camera {
     }
 
     /// The picture behind a render, read or drawn once.
-    fn picture_behind(&mut self, shot: &Shot) -> Result<Option<Arc<Panorama>>, Trouble> {
-        let Some(asked) = &shot.behind else { return Ok(None) };
+    pub(super) fn picture_behind(
+        &mut self,
+        asked: Option<&BackgroundRef>,
+    ) -> Result<Option<Arc<Panorama>>, Trouble> {
+        let Some(asked) = asked else { return Ok(None) };
         if let Some((_, picture)) = self.behind.as_ref().filter(|(last, _)| last == asked) {
             return Ok(Some(Arc::clone(picture)));
         }
@@ -319,7 +325,7 @@ impl Work<'_> {
 }
 
 /// The same film with larger pixels.
-fn coarser(film: &Film, factor: f64) -> Film {
+pub(super) fn coarser(film: &Film, factor: f64) -> Film {
     let size = film.size.map(|n| ((f64::from(n) / factor).ceil() as u32).max(1));
     Film { size, pixel: film.pixel * f64::from(film.size[0]) / f64::from(size[0]), ..*film }
 }
@@ -387,7 +393,7 @@ fn developed(
     if let Some(overlay) = shot.overlay {
         over(overlay, sitting, &mut image, watch)?;
     }
-    Ok(Taken { image, unresolved: Some(unresolved), tracer })
+    Ok(Taken { image, unresolved: Some(unresolved), tracer, map: None })
 }
 
 fn over(overlay: Overlay, sitting: &Sitting, image: &mut ColorImage, watch: Watch) -> Result<(), Stopped> {
@@ -402,7 +408,7 @@ fn drawing(shot: &Shot) -> Result<Taken, Trouble> {
     let (width, height, rgb) =
         rasterize(&text, shot.film.size[0]).map_err(|e| Trouble::Other(e.to_string()))?;
     let image = ColorImage::from_rgb([width as usize, height as usize], &rgb);
-    Ok(Taken { image, unresolved: None, tracer: "drawn" })
+    Ok(Taken { image, unresolved: None, tracer: "drawn", map: None })
 }
 
 /// Rows of a scope, as they come in.
@@ -426,7 +432,7 @@ impl Canvas {
     }
 
     fn finish(self, unresolved: Option<f64>, tracer: &'static str) -> Taken {
-        Taken { image: ColorImage::from_rgb(self.size, &self.pixels), unresolved, tracer }
+        Taken { image: ColorImage::from_rgb(self.size, &self.pixels), unresolved, tracer, map: None }
     }
 }
 
@@ -435,6 +441,7 @@ mod tests {
     use super::*;
     use crate::app::document::Document;
     use crate::app::eye::Eye;
+    use crate::app::liquid::Liquid;
     use crate::io::lighting::Lighting;
     use crate::trace::unwatched;
     use glam::DVec2;
@@ -455,6 +462,7 @@ mod tests {
             exposure: 0.0,
             head: 0.0,
             overlay: None,
+            liquid: Liquid::default(),
         }
     }
 

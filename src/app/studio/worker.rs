@@ -4,6 +4,7 @@ use super::order::{Answer, Ask, Grade, Order, Shot, Slot, Taken, Which};
 use super::pace::{Effort, Pace};
 use super::take::{Camera, Growing, Trouble};
 use super::{Desk, Wake};
+use crate::app::shows::Shows;
 use crate::io::export::LATTICE;
 use crate::measure::{Figures, by_beams, by_rays};
 use crate::scene::{ASET_CONE, Backing, Scope, View};
@@ -124,7 +125,7 @@ impl Worker {
         let mut any = false;
         for (slot, shot) in &order.shots {
             if self.pictures.get(slot).is_none_or(|(done, _)| done != shot) {
-                any |= shot.shows.is_seen();
+                any |= shot.shows != Shows::Diagram;
                 self.picture((*slot, shot), Grade::Rough, (&effort, None), &watch)?;
             }
         }
