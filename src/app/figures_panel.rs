@@ -21,6 +21,7 @@ const ZONES: [(&str, &str, &str); 5] = [
 pub fn show(editor: &mut Editor, ui: &mut Ui) {
     Panel::right("figures").resizable(true).default_size(280.0).size_range(250.0..=420.0).show(ui, |ui| {
         ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+            pane_rows::show(editor, ui);
             ui.add_space(8.0);
             ui.label(RichText::new("Figures").heading()).on_hover_text(
                 "What becomes of the light of the linked view in the common ASET, in percent of the stone's outline, at \
@@ -48,7 +49,6 @@ pub fn show(editor: &mut Editor, ui: &mut Ui) {
             } else {
                 ui.label(RichText::new("comes when all else is done").weak());
             }
-            pane_rows::show(editor, ui);
         });
     });
 }

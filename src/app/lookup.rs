@@ -139,8 +139,13 @@ struct Worker {
 
 impl Worker {
     fn work(mut self) {
+        // Threads of its own: those that the studio keeps busy would come to it last.
+        let pool = rayon::ThreadPoolBuilder::new().thread_name(|k| format!("look-up {k}")).build().ok();
         while let Some((slot, ask)) = self.next() {
-            let seen = std::panic::AssertUnwindSafe(|| self.seen(&ask));
+            let seen = std::panic::AssertUnwindSafe(|| match &pool {
+                Some(pool) => pool.install(|| self.seen(&ask)),
+                None => self.seen(&ask),
+            });
             let taken = std::panic::catch_unwind(seen)
                 .unwrap_or_else(|_| Err("a fault of the program; please report the design".to_owned()));
             // Nobody listens once the window is closed.

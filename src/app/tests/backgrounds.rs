@@ -118,3 +118,35 @@ fn liquid_glass_is_drawn_and_traced_as_strong_as_it_is_set() {
     bench.settle();
     assert!(both(&bench) == first);
 }
+
+/// How long a look-up takes. Not run with the others: it takes time to take time.
+/// `cargo test --lib backgrounds -- --ignored --nocapture`
+#[test]
+#[ignore = "takes time to take time"]
+fn looking_up_keeps_up_with_the_window() {
+    let mut desk = Bench::small();
+    desk.layout = Layout::One;
+    desk.panes[0].shows = Shows::Refraction;
+    let setup = Setup { desk, file: Some("plate".into()), ..Setup::default() };
+    let mut bench = Bench::sized(setup, egui::vec2(1144.0, 600.0));
+    bench.settle();
+    let size = bench.editor().shown((0, Which::Present)).unwrap().taken.image.size;
+    for shows in [Shows::Refraction, Shows::LiquidGlass] {
+        bench.harness.state_mut().desk.panes[0].shows = shows;
+        bench.settle();
+        let mut took: Vec<f64> = vec![];
+        for k in 1..=40 {
+            let editor = bench.harness.state_mut();
+            editor.moving[0].moved.x = 0.01 * f64::from(k);
+            editor.desk.liquid.at.x = 0.4 + 0.004 * f64::from(k);
+            bench.harness.step();
+            let begun = Instant::now();
+            while !bench.editor().is_idle() {
+                std::thread::yield_now();
+            }
+            took.push(begun.elapsed().as_secs_f64() * 1e3);
+        }
+        took.sort_by(f64::total_cmp);
+        println!("{shows:?} {size:?}: {:.1} ms, the slowest {:.1} ms", took[20], took[39]);
+    }
+}
