@@ -1,6 +1,7 @@
 //! How a person has arranged the window: kept from one start to the next.
 
 use super::eye::Eye;
+use super::liquid::Liquid;
 use super::shows::Shows;
 use super::studio::Smoothing;
 use crate::io::background::BackgroundRef;
@@ -85,6 +86,8 @@ pub struct Desk {
     pub smoothing: Smoothing,
     /// Whether views have the window to themselves.
     pub hides_panels: bool,
+    /// The pane of liquid glass.
+    pub liquid: Liquid,
 }
 
 /// Bands of wavelengths that are offered; of three each shows.
@@ -113,6 +116,7 @@ impl Default for Desk {
             strength: 1.0,
             smoothing: Smoothing::None,
             hides_panels: false,
+            liquid: Liquid::default(),
         }
     }
 }

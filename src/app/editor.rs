@@ -8,12 +8,14 @@ use super::document::{Document, FIRST_LIGHT, Work};
 use super::files::{Chooser, Choosing, Safe, Watching, by_dialog};
 use super::following::{self, Following};
 use super::look::Looks;
+use super::lookup::Looker;
 use super::moving::Moving;
 use super::notes::Notes;
 use super::opening::{Opening, Wanted};
 use super::posed::Posed;
 use super::probe::Probe;
 use super::profile_view::ProfileView;
+use super::refraction_view::Flowing;
 use super::shows::Shows;
 use super::studio::{Answer, Ask, Grade, Order, Shot, Slot, Studio, Taken, Tilts, Which};
 use super::{design_panel, dialogs, figures_panel, menus, stage, theme};
@@ -69,6 +71,11 @@ pub struct Editor {
     pub(super) looks: Looks,
     pub(super) studio: Studio,
     pub(super) pictures: HashMap<Slot, Shown>,
+    /// What looks pictures up, and those that were.
+    pub(super) looker: Looker,
+    pub(super) looked: HashMap<Slot, Shown>,
+    /// How backgrounds stand in views of refraction maps.
+    pub(super) flowing: [Flowing; 4],
     pub(super) figures: HashMap<Which, Measured>,
     pub(super) tilts: Option<(Ask, Tilts)>,
     pub(super) compared: Option<Compared>,
@@ -134,6 +141,9 @@ impl Editor {
         let kept = document.work.clone();
         let watch = wake.clone();
         let mut editor = Self {
+            looker: Looker::open(wake.clone()),
+            looked: HashMap::new(),
+            flowing: Default::default(),
             studio: Studio::open(shared(context), wake),
             document,
             looks: Looks::new(&desk),
@@ -241,7 +251,7 @@ impl Editor {
         for answer in answers {
             match answer {
                 Answer::Picture(slot, shot, grade, taken) => {
-                    self.show_picture(ctx, slot, *shot, grade, taken)
+                    hang(ctx, &mut self.pictures, slot, (*shot, grade, taken));
                 }
                 Answer::Figures(which, ask, grade, figures) => {
                     self.figures.insert(which, Measured { ask, grade, figures: *figures });
@@ -250,6 +260,7 @@ impl Editor {
                 Answer::Trouble(why) => self.notes.trouble(why),
             }
         }
+        self.take_in_looked(ctx);
         self.take_in_light();
         self.take_in_files();
         if let Some((purpose, document, answer)) =
@@ -279,17 +290,25 @@ impl Editor {
         }
     }
 
-    fn show_picture(&mut self, ctx: &Context, slot: Slot, shot: Shot, grade: Grade, taken: Taken) {
-        let image = taken.image.clone();
-        let options = egui::TextureOptions::LINEAR;
-        let texture = match self.pictures.remove(&slot) {
-            Some(mut shown) => {
-                shown.texture.set(image, options);
-                shown.texture
+    fn take_in_looked(&mut self, ctx: &Context) {
+        let answers: Vec<_> = self.looker.answers().collect();
+        for (slot, ask, taken) in answers {
+            match taken {
+                Ok(taken) => hang(ctx, &mut self.looked, slot, (ask.shot, ask.grade, taken)),
+                Err(why) => self.notes.trouble(why),
             }
-            None => ctx.load_texture(format!("{slot:?}"), image, options),
-        };
-        self.pictures.insert(slot, Shown { texture, shot, grade, taken });
+        }
+    }
+
+    /// The picture of a view: looked up, where that is what it shows, or as it was taken.
+    pub(super) fn shown(&self, slot: Slot) -> Option<&Shown> {
+        let shows = self.desk.panes[slot.0].shows;
+        let is_looked_up =
+            shows == Shows::LiquidGlass || (shows == Shows::Refraction && !self.flowing[slot.0].is_map);
+        if is_looked_up {
+            return self.looked.get(&slot).filter(|shown| shown.shot.shows == shows);
+        }
+        self.pictures.get(&slot)
     }
 
     /// The view that keys are for: the one under the pointer or with the focus, or the first.
@@ -348,7 +367,11 @@ impl Editor {
     /// Whether all pictures and figures are as good as they get, and nothing is under way.
     #[cfg(test)]
     pub(super) fn is_idle(&self) -> bool {
-        self.studio.is_idle() && self.choosing.is_none() && self.loading.is_none() && self.opening.is_empty()
+        self.studio.is_idle()
+            && self.looker.is_idle()
+            && self.choosing.is_none()
+            && self.loading.is_none()
+            && self.opening.is_empty()
     }
 
     /// Draws the window, and does what is asked for.
@@ -368,7 +391,7 @@ impl Editor {
         following::show(self, &ctx);
         dialogs::show(self, &ctx);
         self.document.update();
-        if seen.iter().any(|(pane, _)| self.desk.panes[*pane].shows == Shows::Render) {
+        if seen.iter().any(|(pane, _)| self.desk.panes[*pane].shows.has_company()) {
             self.moving.advance(&ctx);
         }
         self.order(&seen);
@@ -380,6 +403,25 @@ impl Editor {
         self.name_window(&ctx);
         self.close(&ctx);
     }
+}
+
+/// Puts a picture where the last one was.
+fn hang(
+    ctx: &Context,
+    pictures: &mut HashMap<Slot, Shown>,
+    slot: Slot,
+    (shot, grade, taken): (Shot, Grade, Taken),
+) {
+    let image = taken.image.clone();
+    let options = egui::TextureOptions::LINEAR;
+    let texture = match pictures.remove(&slot) {
+        Some(mut shown) => {
+            shown.texture.set(image, options);
+            shown.texture
+        }
+        None => ctx.load_texture(format!("{slot:?}"), image, options),
+    };
+    pictures.insert(slot, Shown { texture, shot, grade, taken });
 }
 
 fn waker(ctx: &Context) -> super::studio::Wake {

@@ -2,9 +2,10 @@
 
 use super::shows::Shows;
 use super::studio::{Camera, Effort, FINE_RENDER, SPAN, Shot, Which, fitting, survey};
+use crate::io::background::BackgroundRef;
 use crate::io::export::{Export, Format, Outputs, Sampler, Told, Tracer, Viewing};
 use crate::io::refraction_map::{self, Coding};
-use crate::io::refraction_page::{Page, write_page};
+use crate::io::refraction_page::{Page, takes, write_page};
 use crate::io::{Failure, rasterize, write_rgba_png};
 use crate::optics::line;
 use crate::picture::{named, profile};
@@ -197,7 +198,11 @@ impl Plan {
         );
         refraction_map::write_places(std::slice::from_ref(map_path), &map, Coding::Tiles, &told)?;
         refraction_map::write_diffuse(diffuse, &map, &told)?;
-        Ok(write_page(page, &map, &Page { title, told: &told, span: SPAN, background: None })?)
+        let behind =
+            self.shot.behind.as_ref().map(BackgroundRef::bytes).transpose().map_err(Failure::Input)?;
+        let background = behind.flatten().filter(|bytes| takes(bytes));
+        let background = background.as_deref();
+        Ok(write_page(page, &map, &Page { title, told: &told, span: SPAN, background })?)
     }
 
     fn render(&self, path: &Path, watch: crate::trace::Watch) -> Result<(), Failure> {
@@ -282,7 +287,7 @@ pub fn thumbnails(plan: Plan, wake: impl Fn() + Send + 'static) -> Receiver<(Sho
     let (sender, pictures) = channel();
     std::thread::spawn(move || {
         let mut camera = Camera::default();
-        for shows in Shows::ALL {
+        for shows in Shows::EXPORTED {
             if !send(&plan, shows, &mut camera, &sender) {
                 return;
             }

@@ -2,7 +2,7 @@
 
 use super::editor::{Editor, Measured};
 use super::studio::{Grade, Tilts, Which};
-use super::theme;
+use super::{pane_rows, theme};
 use crate::measure::Figures;
 use crate::scene::{ASET_CONE, Backing, Scope};
 use egui::{Align, Color32, Layout, Panel, Rect, RichText, ScrollArea, Sense, Ui, pos2, vec2};
@@ -21,6 +21,7 @@ const ZONES: [(&str, &str, &str); 5] = [
 pub fn show(editor: &mut Editor, ui: &mut Ui) {
     Panel::right("figures").resizable(true).default_size(280.0).size_range(250.0..=420.0).show(ui, |ui| {
         ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+            pane_rows::show(editor, ui);
             ui.add_space(8.0);
             ui.label(RichText::new("Figures").heading()).on_hover_text(
                 "What becomes of the light of the linked view in the common ASET, in percent of the stone's outline, at \

@@ -32,6 +32,7 @@ impl Editor {
     pub(super) fn compare_no_more(&mut self) {
         self.compared = None;
         self.pictures.retain(|(_, which), _| *which == Which::Present);
+        self.looked.retain(|(_, which), _| *which == Which::Present);
         self.figures.retain(|which, _| *which == Which::Present);
     }
 

@@ -267,7 +267,7 @@ fn copy(editor: &mut Editor, ctx: &Context) {
     let pane = editor.active();
     let which = if is_other_shown(ctx) && editor.compared.is_some() { Which::Other } else { Which::Present };
     let shows = editor.desk.panes[pane].shows;
-    match editor.pictures.get(&(pane, which)).filter(|p| p.shot.shows == shows) {
+    match editor.shown((pane, which)).filter(|p| p.shot.shows == shows) {
         Some(picture) => {
             ctx.copy_image(picture.taken.image.clone());
             editor.notes.say(&format!("{} copied", shows.name()));

@@ -20,7 +20,9 @@ impl Editor {
         let sides = if compared { vec![Which::Present, Which::Other] } else { vec![Which::Present] };
         for which in sides {
             for &(pane, size) in seen {
-                if let Some(shot) = self.shot(pane, which, size, &light) {
+                // Looked up, and not traced.
+                let is_drawn = self.desk.panes[pane].shows == Shows::LiquidGlass;
+                if let Some(shot) = self.shot(pane, which, size, &light).filter(|_| !is_drawn) {
                     order.shots.push(((pane, which), shot));
                 }
             }
@@ -59,7 +61,8 @@ impl Editor {
         light: &Arc<Lighting>,
     ) -> Option<Shot> {
         let shows = self.desk.panes[pane].shows;
-        if shows == Shows::Profile || size[0] < 8 || size[1] < 8 {
+        let is_other_pane = shows.is_pane() && which == Which::Other;
+        if shows == Shows::Profile || is_other_pane || size[0] < 8 || size[1] < 8 {
             return None;
         }
         let eye = *self.desk.eye(pane);
@@ -70,9 +73,9 @@ impl Editor {
         if shows == Shows::Diagram && specimen.stone().is_err() {
             return None;
         }
-        let (specimen, company) = match shows {
-            Shows::Render => self.company(which, eye.turn)?,
-            _ => (specimen, vec![Pose::STILL]),
+        let (specimen, company) = match shows.has_company() {
+            true => self.company(which, eye.turn)?,
+            false => (specimen, vec![Pose::STILL]),
         };
         let work = &self.document.work;
         Some(Shot {
@@ -90,7 +93,8 @@ impl Editor {
             company,
             smoothing: self.desk.smoothing,
             head: self.document.work.head,
-            overlay: self.desk.overlay().filter(|_| shows.is_seen()),
+            overlay: self.desk.overlay().filter(|_| shows.takes_overlay()),
+            liquid: self.desk.liquid,
             specimen,
         })
     }
@@ -111,7 +115,7 @@ impl Editor {
     /// How far a view's picture reaches from its middle. Both designs are shown on one scale, that of the present one.
     pub(super) fn reach(&self, shows: Shows) -> f64 {
         let alone = self.document.specimen().reach;
-        if shows == Shows::Render { self.document.work.company.reach(alone) } else { alone }
+        if shows.has_company() { self.document.work.company.reach(alone) } else { alone }
     }
 
     /// How far behind the middle pictures hang, girdle radii.
@@ -141,6 +145,7 @@ impl Editor {
             smoothing: Smoothing::None,
             head: self.document.work.head,
             overlay: None,
+            liquid: self.desk.liquid,
         }
     }
 }

@@ -3,10 +3,10 @@
 use super::copies;
 use super::editor::{Editor, Shown};
 use super::eye::Eye;
-use super::menus;
 use super::probe::Found;
 use super::shows::Shows;
 use super::studio::{Grade, Which};
+use super::{liquid, menus, refraction_view};
 use crate::cut::Cut;
 use crate::math::SolidRef;
 use crate::scene::{ASET_CONE, Backing, Film, Scope, Side, Specimen, View};
@@ -40,6 +40,7 @@ pub fn show(editor: &mut Editor, ui: &mut Ui, pane: usize, rect: Rect) -> [u32; 
     match editor.desk.panes[pane].shows {
         Shows::Profile => profile(editor, ui, pane, body),
         Shows::Diagram => drawing(editor, ui, pane, body),
+        shows if shows.is_pane() => liquid::show(editor, ui, (pane, shows), body, size),
         shows => scene(editor, ui, (pane, shows), body, size),
     }
     let edge = ui.visuals().widgets.noninteractive.bg_stroke;
@@ -50,7 +51,8 @@ pub fn show(editor: &mut Editor, ui: &mut Ui, pane: usize, rect: Rect) -> [u32; 
 fn header(editor: &mut Editor, ui: &mut Ui, pane: usize) {
     let shows = editor.desk.panes[pane].shows;
     let title = format!("View {}", pane + 1);
-    let combo = ComboBox::from_id_salt(("shows", pane)).selected_text(shows.name()).width(120.0);
+    let combo =
+        ComboBox::from_id_salt(("shows", pane)).selected_text(shows.name()).width(120.0).height(420.0);
     let shown = combo.show_ui(ui, |ui| {
         for other in Shows::ALL {
             ui.selectable_value(&mut editor.desk.panes[pane].shows, other, other.name())
@@ -68,7 +70,6 @@ fn header(editor: &mut Editor, ui: &mut Ui, pane: usize) {
     ui.with_layout(egui::Layout::right_to_left(Align::Center), |ui| {
         let large = editor.desk.large == Some(pane);
         let name = if large { "All views" } else { "Enlarge" };
-        let has_room = |ui: &Ui, points: f32| ui.available_width() > points;
         if editor.desk.layout.panes() > 1
             && ui
                 .small_button(name)
@@ -76,6 +77,9 @@ fn header(editor: &mut Editor, ui: &mut Ui, pane: usize) {
                 .clicked()
         {
             enlarge(editor, pane);
+        }
+        if shows == Shows::Refraction {
+            refraction_view::choices(&mut editor.flowing[pane], ui);
         }
         if shows.is_seen() && has_room(ui, 80.0) {
             let mut linked = editor.desk.panes[pane].own.is_none();
@@ -87,16 +91,21 @@ fn header(editor: &mut Editor, ui: &mut Ui, pane: usize) {
                 let eye = editor.desk.eye;
                 editor.desk.panes[pane].own = (!linked).then_some(eye);
             }
-            if has_room(ui, 64.0) {
-                state(editor, ui, pane);
-            }
+        }
+        if (shows.is_seen() || shows == Shows::TracedPane) && has_room(ui, 64.0) {
+            state(editor, ui, pane);
         }
     });
 }
 
+/// Whether so many points are left in a row.
+pub fn has_room(ui: &Ui, points: f32) -> bool {
+    ui.available_width() > points
+}
+
 /// How good the picture is, in a word or two.
 fn state(editor: &Editor, ui: &mut Ui, pane: usize) {
-    let Some(shown) = editor.pictures.get(&(pane, Which::Present)) else { return };
+    let Some(shown) = editor.shown((pane, Which::Present)) else { return };
     let Shown { grade, taken, .. } = shown;
     let (text, meaning) = match (grade, taken.unresolved) {
         (Grade::Fine, Some(part)) => {
@@ -111,7 +120,7 @@ fn state(editor: &Editor, ui: &mut Ui, pane: usize) {
     ui.label(RichText::new(text).weak().small()).on_hover_text(format!("By {}. {meaning}", taken.tracer));
 }
 
-fn enlarge(editor: &mut Editor, pane: usize) {
+pub fn enlarge(editor: &mut Editor, pane: usize) {
     let large = &mut editor.desk.large;
     *large = if *large == Some(pane) { None } else { Some(pane) };
 }
@@ -216,7 +225,11 @@ fn scene(editor: &mut Editor, ui: &mut Ui, (pane, shows): (usize, Shows), body: 
     let scale = ui.pixels_per_point();
     let sight = Sight { view, film: eye.film(size, reach), side: view.side, body, scale };
     pictures(editor, ui, pane, &sight);
-    if let Some(overlay) = editor.desk.overlay() {
+    let moves = shows == Shows::Refraction && refraction_view::is_held(ui);
+    if shows == Shows::Refraction {
+        refraction_view::show(editor, ui, pane, &response);
+    }
+    if let Some(overlay) = editor.desk.overlay().filter(|_| shows.takes_overlay()) {
         legend(ui, body, &overlay.legend());
     }
     ui.painter().rect_stroke(body, 4.0, focus(ui, &response), StrokeKind::Inside);
@@ -224,9 +237,9 @@ fn scene(editor: &mut Editor, ui: &mut Ui, (pane, shows): (usize, Shows), body: 
         editor.is_picture_focused = true;
     }
     if !copies::carried(editor, ui, pane, &response, &sight) {
-        moved(editor.desk.eye_mut(pane), ui, &response, &sight);
+        moved(editor.desk.eye_mut(pane), ui, &response, (&sight, moves));
     }
-    let is_alone = shows != Shows::Render || copies::are_none(editor);
+    let is_alone = !shows.has_company() || copies::are_none(editor);
     clicked(editor, ui, (pane, is_alone), &response, &sight);
     if response.hovered() || response.has_focus() {
         editor.hovered = pane;
@@ -263,7 +276,7 @@ fn clicked(
     }
 }
 
-fn focus(ui: &Ui, response: &Response) -> Stroke {
+pub fn focus(ui: &Ui, response: &Response) -> Stroke {
     if response.has_focus() { ui.visuals().selection.stroke } else { Stroke::NONE }
 }
 
@@ -272,7 +285,7 @@ fn pictures(editor: &Editor, ui: &mut Ui, pane: usize, sight: &Sight) {
     let body = sight.body;
     ui.painter().rect_filled(body, 4.0, ui.visuals().extreme_bg_color);
     let draw = |which, clip: Rect| {
-        if let Some(shown) = editor.pictures.get(&(pane, which)) {
+        if let Some(shown) = editor.shown((pane, which)) {
             let ui_clip = ui.painter().with_clip_rect(clip.intersect(ui.clip_rect()));
             let uv = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
             ui_clip.image(shown.texture.id(), sight.place(&shown.shot.film), uv, Color32::WHITE);
@@ -324,8 +337,8 @@ fn split_marks(ui: &Ui, body: Rect, other: &str) {
     }
 }
 
-/// Moves the eye as hand, wheel and keys say.
-fn moved(eye: &mut Eye, ui: &Ui, response: &Response, sight: &Sight) {
+/// Moves the eye as hand, wheel and keys say; but for a drag that moves what is behind.
+fn moved(eye: &mut Eye, ui: &Ui, response: &Response, (sight, is_held): (&Sight, bool)) {
     let unit = sight.film.pixel * f64::from(sight.scale);
     let by = response.drag_delta();
     let by = DVec2::new(f64::from(by.x), -f64::from(by.y)) * unit;
@@ -334,7 +347,7 @@ fn moved(eye: &mut Eye, ui: &Ui, response: &Response, sight: &Sight) {
         eye.centre -= by;
     } else if spins && response.dragged() {
         eye.spin(sight.side, by.x);
-    } else if response.dragged_by(PointerButton::Primary) {
+    } else if response.dragged_by(PointerButton::Primary) && !is_held {
         eye.drag(sight.side, by);
     }
     if let Some(at) = response.hover_pos().filter(|_| response.hovered()) {

@@ -25,11 +25,33 @@ pub enum Shows {
     Profile,
     /// Facets and tiers.
     Diagram,
+    /// A background that moves, refracted by a map of the stone.
+    Refraction,
+    /// A pane of liquid glass, drawn.
+    LiquidGlass,
+    /// The same pane, traced.
+    TracedPane,
 }
 
 impl Shows {
     /// All of them, in the order of menus.
-    pub const ALL: [Self; 9] = [
+    pub const ALL: [Self; 12] = [
+        Self::Render,
+        Self::Aset,
+        Self::AsetWhite,
+        Self::Aset40,
+        Self::IdealScope,
+        Self::Hearts,
+        Self::Arrows,
+        Self::Profile,
+        Self::Diagram,
+        Self::Refraction,
+        Self::LiquidGlass,
+        Self::TracedPane,
+    ];
+
+    /// Those that are exported as pictures of the stone. Maps are exported as maps; panes are no pictures of it.
+    pub const EXPORTED: [Self; 9] = [
         Self::Render,
         Self::Aset,
         Self::AsetWhite,
@@ -53,6 +75,9 @@ impl Shows {
             Self::Arrows => "Arrows",
             Self::Profile => "Profile",
             Self::Diagram => "Facet diagram",
+            Self::Refraction => "Refraction map",
+            Self::LiquidGlass => "Liquid glass",
+            Self::TracedPane => "Liquid glass, traced",
         }
     }
 
@@ -75,6 +100,16 @@ impl Shows {
             Self::Arrows => "The arrows viewer, face up: eight arrows from the pavilion mains.",
             Self::Profile => "The stone from the side with its proportions; drag its edges to change them.",
             Self::Diagram => "Crown and pavilion facets by tier, with their slopes, as cutters print them.",
+            Self::Refraction => {
+                "A background that moves behind the stone: traced once as a map of where light comes from, then looked up. \
+                 Drag it; with Ctrl the stone tilts."
+            }
+            Self::LiquidGlass => {
+                "A pane before the background as screens draw it, by arithmetic and without a ray; drag the pane."
+            }
+            Self::TracedPane => {
+                "The same pane as real glass of its outline, thickness, index and dispersion, traced ray by ray."
+            }
         }
     }
 
@@ -90,6 +125,9 @@ impl Shows {
             Self::Arrows => "arrows",
             Self::Profile => "profile",
             Self::Diagram => "diagram",
+            Self::Refraction => "refraction",
+            Self::LiquidGlass => "liquid-glass",
+            Self::TracedPane => "liquid-glass-traced",
         }
     }
 
@@ -106,9 +144,24 @@ impl Shows {
         self.scoped().and_then(|s| s.side)
     }
 
+    /// Whether it shows all copies, as they move; else the design alone, at rest.
+    pub fn has_company(self) -> bool {
+        matches!(self, Self::Render | Self::Refraction)
+    }
+
     /// Whether it is looked at from a side that can be chosen, by light.
     pub fn is_seen(self) -> bool {
-        !matches!(self, Self::Profile | Self::Diagram)
+        !matches!(self, Self::Profile | Self::Diagram) && !self.is_pane()
+    }
+
+    /// Whether it is a pane of liquid glass, and nothing of the stone.
+    pub fn is_pane(self) -> bool {
+        matches!(self, Self::LiquidGlass | Self::TracedPane)
+    }
+
+    /// Whether something can be drawn over it.
+    pub fn takes_overlay(self) -> bool {
+        self.is_seen() && self != Self::Refraction
     }
 }
 

@@ -4,11 +4,12 @@ use super::picture_options::film_size;
 use super::picturing::within;
 use super::progress::Progress;
 use super::{Failure, print, say};
-use crate::io::{panorama, write_rgba_png};
+use crate::io::background::BackgroundRef;
+use crate::io::write_rgba_png;
 use crate::optics::{Illuminant, linear_from_encoded, strata};
 use crate::picture::pane::{Around, Comparison, Cost, Pane, PaneError, Quality, Shifts};
-use crate::picture::pane::{compare, filling, pane, surroundings};
-use crate::picture::{Background, Develop, Linear, Tone, develop};
+use crate::picture::pane::{compare, pane, surroundings};
+use crate::picture::{Develop, Linear, Tone, develop};
 use crate::scene::Panorama;
 use crate::trace::surround::Sky;
 use clap::Args;
@@ -24,7 +25,8 @@ const WAVELENGTHS: u32 = 12;
 
 #[derive(Debug, Args)]
 pub struct LiquidGlass {
-    /// What lies behind: a photograph's file, a colour (white, #20262e), or two from top to bottom (#404850-#101215)
+    /// What lies behind: a colour (white, #20262e), two from top to bottom (#404850-#101215), a pattern (page, grid, checks,
+    /// stripes, dots, slit), or a photograph's file
     #[arg(long, value_name = "WHAT")]
     background: String,
     /// Folder to write to
@@ -165,26 +167,13 @@ impl LiquidGlass {
 
     /// The background, as large as the picture.
     fn ground(&self) -> Result<Panorama, Failure> {
-        let [width, height] = self.size;
-        let rows = match self.background.parse() {
-            Ok(Background::Transparent) => {
-                return Err(Failure::Usage(
-                    "--background transparent: a pane needs something behind it".into(),
-                ));
-            }
-            Ok(background) => (0..height).filter_map(move |y| background.row(y, height)),
-            Err(_) if Path::new(&self.background).exists() => {
-                let reading = panorama::read_photo(Path::new(&self.background)).map_err(Failure::Input)?;
-                reading.warnings.iter().for_each(|w| say(&format!("warning: {w}")));
-                return Ok(filling(&reading.panorama, self.size));
-            }
-            Err(_) if Path::new(&self.background).extension().is_some() => {
-                return Err(Failure::Input(format!("{}: there is no such file", self.background)));
-            }
-            Err(why) => return Err(Failure::Usage(format!("{why}, or a photograph's file"))),
+        let asked = BackgroundRef::read(&self.background, Path::new(""))?;
+        let Some(reading) = asked.filling(self.size).map_err(Failure::Input)? else {
+            let told = format!("--background {}: a pane needs something behind it", self.background);
+            return Err(Failure::Usage(told));
         };
-        let pixels = rows.flat_map(|colour| std::iter::repeat_n(colour, width as usize)).collect();
-        Ok(Panorama { width, height, pixels })
+        reading.warnings.iter().for_each(|w| say(&format!("warning: {w}")));
+        Ok(reading.panorama)
     }
 
     fn told(&self, pane: &Pane) -> String {

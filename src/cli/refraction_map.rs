@@ -9,7 +9,7 @@ use super::{Failure, each_file, say};
 use crate::io::background::BackgroundRef;
 use crate::io::export::{Sampler, Told};
 use crate::io::refraction_map::{self as files, Coding, MOST_BANDS, MOST_PIXELS};
-use crate::io::refraction_page::{Page, write_page};
+use crate::io::refraction_page::{MOST_MEGABYTES, Page, takes, write_page};
 use crate::io::write_rgba_png;
 use crate::optics::strata;
 use crate::picture::{Backdrop, Bloom, Carried, Develop, RefractionMap, Survey, Tone, develop, refract};
@@ -20,9 +20,6 @@ use std::path::{Path, PathBuf};
 
 /// Looks that the diffuse layer is made of when not told.
 const LOOKS: u32 = 4;
-
-/// The largest picture that is put into a page as it is, bytes.
-const MOST_BYTES_IN_PAGE: usize = 32 << 20;
 
 #[derive(Debug, Args)]
 pub struct RefractionMaps {
@@ -207,13 +204,11 @@ impl RefractionMaps {
     /// The pattern's or photograph's file, where browsers can show it.
     fn background(&self, studio: &Studio) -> Result<Option<Vec<u8>>, Failure> {
         let Some(bytes) = studio.background.bytes().map_err(Failure::Input)? else { return Ok(None) };
-        let shows = bytes.starts_with(b"\x89PNG") || bytes.starts_with(b"\xff\xd8");
-        if shows && bytes.len() <= MOST_BYTES_IN_PAGE {
+        if takes(&bytes) {
             return Ok(Some(bytes));
         }
-        let most = MOST_BYTES_IN_PAGE >> 20;
         say(&format!(
-            "note: the photograph is not put into the page, which takes PNG and JPEG of up to {most} MiB"
+            "note: the photograph is not put into the page, which takes PNG and JPEG of up to {MOST_MEGABYTES} MiB"
         ));
         Ok(None)
     }

@@ -4,6 +4,7 @@ use super::panorama::{self, Reading};
 use super::refraction_map::png;
 use super::{DrawingError, rasterize};
 use crate::optics::linear_from_encoded;
+use crate::picture::pane::filling;
 use crate::picture::{Background, PATTERN_SIDE, Pattern};
 use crate::scene::Panorama;
 use ::png::{BitDepth, ColorType};
@@ -82,6 +83,23 @@ impl BackgroundRef {
         }
     }
 
+    /// What a picture of a size shows where nothing stands before it: a pattern or photograph that fills it, or colours;
+    /// `None` where there is neither.
+    ///
+    /// # Errors
+    /// What is wrong with a photograph's file, in words that name it.
+    pub fn filling(&self, [width, height]: [u32; 2]) -> Result<Option<Reading>, String> {
+        if let Self::Plain(colours) = self {
+            let rows: Option<Vec<_>> = (0..height).map(|y| colours.row(y, height)).collect();
+            let row = |colour| std::iter::repeat_n(colour, width as usize);
+            let pixels = rows.map(|rows| rows.into_iter().flat_map(row).collect());
+            let plain = |pixels| Reading { panorama: Panorama { width, height, pixels }, warnings: vec![] };
+            return Ok(pixels.map(plain));
+        }
+        let filled = |r: Reading| Reading { panorama: filling(&r.panorama, [width, height]), ..r };
+        Ok(self.picture()?.map(filled))
+    }
+
     /// The same picture as a file's bytes, a photograph's as they are; `None` where there is none.
     ///
     /// # Errors
@@ -146,6 +164,18 @@ mod tests {
                 assert!(picture.pixels.iter().all(|p| *p == [0.0; 3] || *p == [1.0; 3]), "{name}");
             }
         }
+    }
+
+    #[test]
+    fn a_picture_is_filled_by_patterns_and_colours() {
+        let filled = |name: &str| BackgroundRef::read(name, Path::new("")).unwrap().filling([6, 4]).unwrap();
+        let picture = filled("white-black").unwrap().panorama;
+        assert_eq!((picture.width, picture.height, picture.pixels.len()), (6, 4, 24));
+        assert_eq!((picture.pixels[5], picture.pixels[23]), ([0.875; 3], [0.125; 3]));
+        let checks = filled("checks").unwrap().panorama;
+        assert_eq!((checks.width, checks.height, checks.pixels.len()), (6, 4, 24));
+        assert!((mean(&checks) - 0.5).abs() < 0.1);
+        assert!(filled("light").is_none() && filled("transparent").is_none());
     }
 
     #[test]

@@ -24,6 +24,15 @@ pub struct Page<'a> {
     pub background: Option<&'a [u8]>,
 }
 
+/// The largest picture that is put into a page, in MiB.
+pub const MOST_MEGABYTES: usize = 32;
+
+/// Whether a picture's bytes are put into a page: a PNG or JPEG, which browsers show, and not too large.
+pub fn takes(picture: &[u8]) -> bool {
+    let shows = picture.starts_with(b"\x89PNG") || picture.starts_with(b"\xff\xd8");
+    shows && picture.len() <= MOST_MEGABYTES << 20
+}
+
 /// Writes the page of a map.
 ///
 /// # Errors

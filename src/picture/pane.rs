@@ -11,7 +11,7 @@ mod frost;
 mod outline;
 mod parts;
 
-pub use compare::{Around, Comparison, Cost, PaneError, Shifts, compare, surroundings};
+pub use compare::{Around, Comparison, Cost, PaneError, Shifts, compare, surroundings, traced};
 pub use outline::{Dome, Outline};
 pub use parts::{depth, dispersion, falloff, light, refraction};
 
@@ -21,13 +21,15 @@ use crate::trace::sitting::Look;
 use frost::taps;
 use glam::{DVec2, DVec3, DVec4};
 use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
 use std::str::FromStr;
 
 /// Pixels beyond which no pane lies or reaches: sums of them stay whole numbers.
 const FARTHEST: f64 = 1e6;
 
 /// How much of the effect is computed.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
 pub enum Quality {
     /// All, frost by five samples.
     #[default]

@@ -67,6 +67,19 @@ fn a_pane_without_strength_is_its_background() {
 }
 
 #[test]
+fn a_pane_lies_over_patterns_as_it_does_over_photographs() {
+    let desk = desk();
+    let mut seen = vec![];
+    for name in ["page", "grid", "checks", "stripes", "dots", "slit"] {
+        desk.done(&format!("liquid-glass --background {name} --size 64x48 --out {name}"));
+        let (size, pixels, _) = png(&desk.at(&format!("{name}/liquid-glass.png")));
+        assert_eq!(size, (64, 48));
+        assert!(!seen.contains(&pixels), "{name} is another pattern's");
+        seen.push(pixels);
+    }
+}
+
+#[test]
 fn what_liquid_glass_cannot_be_is_told() {
     let desk = desk();
     let line = "liquid-glass --size 64x48 --background";
@@ -86,6 +99,8 @@ fn what_liquid_glass_cannot_be_is_told() {
         ("none.png", 1, "none.png: there is no such file"),
         ("mauve", 2, "or a photograph's file"),
         ("transparent", 2, "needs something behind it"),
+        ("light", 2, "needs something behind it"),
+        ("pages", 2, "page, grid, checks"),
         ("cube.toml", 1, "no picture that is known"),
     ] {
         let said = desk.refused(&format!("{line} {options}"), code);

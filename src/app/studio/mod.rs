@@ -4,6 +4,7 @@
 mod motion;
 mod order;
 mod pace;
+mod refracted;
 mod render;
 mod survey;
 mod take;

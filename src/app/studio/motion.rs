@@ -100,6 +100,7 @@ mod tests {
     use super::*;
     use crate::app::document::Document;
     use crate::app::eye::Eye;
+    use crate::app::liquid::Liquid;
     use crate::app::moving::Moving;
     use crate::app::shows::Shows;
     use crate::app::studio::order::{Smoothing, Which};
@@ -132,6 +133,7 @@ mod tests {
             exposure: 0.0,
             head: 0.0,
             overlay: None,
+            liquid: Liquid::default(),
         }
     }
 

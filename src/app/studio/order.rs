@@ -1,10 +1,11 @@
 //! What is asked of the studio, and what it answers.
 
+use crate::app::liquid::Liquid;
 use crate::app::shows::Shows;
 use crate::io::background::BackgroundRef;
 use crate::io::lighting::Lighting;
 use crate::measure::Figures;
-use crate::picture::Overlay;
+use crate::picture::{Overlay, RefractionMap};
 use crate::scene::{Film, Pose, Specimen, View};
 use egui::ColorImage;
 use serde::{Deserialize, Serialize};
@@ -72,13 +73,19 @@ pub struct Shot {
     pub head: f64,
     /// What is drawn over it.
     pub overlay: Option<Overlay>,
+    /// The pane of liquid glass.
+    pub liquid: Liquid,
 }
 
 impl PartialEq for Shot {
     /// Whether both give the same picture. Stones and lights are the same when they are one and the same: they are only
     /// ever replaced.
     fn eq(&self, other: &Self) -> bool {
-        let by_light = self.shows == Shows::Render;
+        if self.shows.is_pane() {
+            let glass = |shot: &Self| (shot.shows, shot.film.size, shot.liquid);
+            return glass(self) == glass(other) && self.behind == other.behind;
+        }
+        let by_light = matches!(self.shows, Shows::Render | Shows::Refraction);
         let seen = self.shows != Shows::Diagram;
         Arc::ptr_eq(&self.specimen, &other.specimen)
             && (self.shows, self.strongest, self.overlay, self.film.size)
@@ -89,8 +96,11 @@ impl PartialEq for Shot {
 }
 
 impl Shot {
-    /// What only renders go by.
+    /// What only renders go by, and of that what maps do.
     fn manner(&self) -> (f64, u32, bool, Option<&BackgroundRef>, [f64; 2], &[Pose], Smoothing) {
+        if self.shows == Shows::Refraction {
+            return (self.exposure, 0, false, None, [self.distance, 1.0], &self.company, Smoothing::None);
+        }
         let numbers = [self.distance, self.strength];
         let Self { exposure, bands, jitter, smoothing, .. } = *self;
         (exposure, bands, jitter, self.behind.as_ref(), numbers, &self.company, smoothing)
@@ -145,6 +155,8 @@ pub struct Taken {
     pub unresolved: Option<f64>,
     /// What traced it.
     pub tracer: &'static str,
+    /// The map that it shows the codes of, to be looked up.
+    pub map: Option<Arc<RefractionMap>>,
 }
 
 /// Figures at some tilts, degrees.

@@ -44,7 +44,7 @@ impl Camera {
     ) -> Result<(), Trouble> {
         let setting = setting(shot);
         let flat = is_for_beams(shot);
-        let behind = self.picture_behind(shot)?;
+        let behind = self.picture_behind(shot.behind.as_ref())?;
         let by_card = self.gpu.clone().filter(|_| (growing.is_some() || !flat) && shot.strength == 1.0);
         let slower = if by_card.is_none() && !flat && growing.is_none() { RAYS_COARSER } else { 1.0 };
         let mut film = coarser(&shot.film, effort.coarser * slower);
@@ -97,8 +97,11 @@ impl Camera {
     }
 
     /// The picture behind a render, read or drawn once.
-    fn picture_behind(&mut self, shot: &Shot) -> Result<Option<Arc<Panorama>>, Trouble> {
-        let Some(asked) = &shot.behind else { return Ok(None) };
+    pub(super) fn picture_behind(
+        &mut self,
+        asked: Option<&BackgroundRef>,
+    ) -> Result<Option<Arc<Panorama>>, Trouble> {
+        let Some(asked) = asked else { return Ok(None) };
         if let Some((_, picture)) = self.behind.as_ref().filter(|(last, _)| last == asked) {
             return Ok(Some(Arc::clone(picture)));
         }
@@ -244,5 +247,5 @@ fn developed(
     if let Some(overlay) = shot.overlay {
         over(overlay, sitting, &mut image, watch)?;
     }
-    Ok(Taken { image, unresolved: Some(unresolved), tracer })
+    Ok(Taken { image, unresolved: Some(unresolved), tracer, map: None })
 }

@@ -5,28 +5,45 @@ use super::render::{hung, nearness, setting, sitting};
 use super::take::Trouble;
 use crate::optics::strata;
 use crate::picture::{Backdrop, Carried, Develop, RefractionMap, Survey};
+use crate::scene::Film;
 use crate::trace::Watch;
 use glam::DVec2;
 
 /// How many times as wide as the picture the background is: as on the command line where nothing else is asked for.
 pub const SPAN: f64 = 2.0;
 
-/// Wavelengths and looks of the diffuse layer.
-const SHADES: u32 = 16;
-const LOOKS: u32 = 4;
+/// How finely a map is traced.
+pub struct Detail {
+    /// Bands of wavelengths of its places.
+    pub bands: u32,
+    /// Wavelengths of the diffuse layer,
+    pub shades: u32,
+    /// and its looks.
+    pub looks: u32,
+}
 
-/// Traces the map of a shot, on its film.
+/// A map as it is exported.
+const EXPORTED: Detail = Detail { bands: 1, shades: 16, looks: 4 };
+
+/// Traces the map of a shot as it is exported.
 pub fn survey(shot: &Shot, watch: Watch) -> Result<(RefractionMap, Carried), Trouble> {
+    traced(shot, shot.film, &EXPORTED, watch)
+}
+
+/// Traces the map of a shot on another film.
+pub fn traced(
+    shot: &Shot,
+    film: Film,
+    detail: &Detail,
+    watch: Watch,
+) -> Result<(RefractionMap, Carried), Trouble> {
     let setting = setting(shot);
     let distance = hung(shot);
-    let size =
-        DVec2::from(shot.film.size.map(f64::from)) * shot.film.pixel * SPAN * nearness(&shot.view, distance);
+    let size = DVec2::from(film.size.map(f64::from)) * film.pixel * SPAN * nearness(&shot.view, distance);
     let plane = Backdrop { distance, size, both_sides: false };
-    let spectrum = &shot.light.light.spectrum;
-    let survey =
-        Survey { bands: &strata(1, spectrum, true), shades: &strata(SHADES, spectrum, true), looks: LOOKS };
-    let (map, carried) =
-        RefractionMap::trace(&sitting(shot, &setting, shot.film, None), &plane, &survey, watch)?;
+    let bands = |count| strata(count, &shot.light.light.spectrum, true);
+    let survey = Survey { bands: &bands(detail.bands), shades: &bands(detail.shades), looks: detail.looks };
+    let (map, carried) = RefractionMap::trace(&sitting(shot, &setting, film, None), &plane, &survey, watch)?;
     let manner = Develop { exposure: shot.exposure, bloom: None, ..Develop::default() };
     Ok((map.developed(&manner), carried))
 }

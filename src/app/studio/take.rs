@@ -3,6 +3,7 @@
 use super::motion::Trails;
 use super::order::{Shot, Slot, Taken};
 use super::pace::Effort;
+use super::refracted::{glass, mapped};
 use super::render::{Growing, is_for_beams, setting, sitting};
 use crate::app::shows::Shows;
 use crate::io::background::BackgroundRef;
@@ -127,9 +128,11 @@ impl Camera {
         each: &mut dyn FnMut(Taken),
     ) -> Result<(), Trouble> {
         match shot.shows {
-            Shows::Profile => Ok(()),
+            Shows::Profile | Shows::LiquidGlass => Ok(()),
             Shows::Diagram => drawing(shot).map(each),
             Shows::Render => self.render((slot, shot), effort, growing, watch, each),
+            Shows::Refraction => mapped(shot, effort, growing, watch).map(each),
+            Shows::TracedPane => glass(self, shot, effort, growing, watch).map(each),
             _ => {
                 let taken = self.scoped(shot, effort, growing.is_some(), watch)?;
                 each(self.overlaid(shot, taken, watch)?);
@@ -228,7 +231,7 @@ fn drawing(shot: &Shot) -> Result<Taken, Trouble> {
     let (width, height, rgb) =
         rasterize(&text, shot.film.size[0]).map_err(|e| Trouble::Other(e.to_string()))?;
     let image = ColorImage::from_rgb([width as usize, height as usize], &rgb);
-    Ok(Taken { image, unresolved: None, tracer: "drawn" })
+    Ok(Taken { image, unresolved: None, tracer: "drawn", map: None })
 }
 
 /// Rows of a scope, as they come in.
@@ -252,7 +255,7 @@ impl Canvas {
     }
 
     fn finish(self, unresolved: Option<f64>, tracer: &'static str) -> Taken {
-        Taken { image: ColorImage::from_rgb(self.size, &self.pixels), unresolved, tracer }
+        Taken { image: ColorImage::from_rgb(self.size, &self.pixels), unresolved, tracer, map: None }
     }
 }
 
@@ -261,6 +264,7 @@ mod tests {
     use super::*;
     use crate::app::document::Document;
     use crate::app::eye::Eye;
+    use crate::app::liquid::Liquid;
     use crate::app::studio::order::{Smoothing, Which};
     use crate::app::studio::render::BEHIND;
     use crate::io::lighting::Lighting;
@@ -287,6 +291,7 @@ mod tests {
             exposure: 0.0,
             head: 0.0,
             overlay: None,
+            liquid: Liquid::default(),
         }
     }
 

@@ -132,7 +132,7 @@ impl Worker {
         let mut any = false;
         for (slot, shot) in &order.shots {
             if self.pictures.get(slot).is_none_or(|(done, _)| done != shot) {
-                any |= shot.shows.is_seen();
+                any |= shot.shows != Shows::Diagram;
                 self.picture((*slot, shot), Grade::Rough, (&effort, None), &watch)?;
             }
         }

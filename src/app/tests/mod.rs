@@ -1,6 +1,7 @@
 //! The editor as a person works it: by the names of what is on the screen.
 #![allow(clippy::print_stdout, reason = "what is skipped or measured is told")]
 
+mod backgrounds;
 mod company;
 mod drag;
 mod flows;

@@ -35,7 +35,7 @@ pub fn place([red, green, blue]: [u8; 3]) -> DVec2 {
 }
 
 /// The code of a map's pixel: black where nothing comes from behind, which its weight tells.
-pub(super) fn code_of(place: &Place) -> [u8; 3] {
+pub fn code_of(place: &Place) -> [u8; 3] {
     if place.weight > 0.0 { code(DVec2::new(f64::from(place.u), f64::from(place.v))) } else { [0; 3] }
 }
 

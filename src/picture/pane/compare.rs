@@ -115,6 +115,19 @@ pub fn compare(
     Ok(Comparison { pane, traced, cost })
 }
 
+/// Traces the pane before the background, and compares nothing.
+///
+/// # Errors
+/// What is wrong with the pane, or [`Stopped`] when `watch` asks to stop.
+pub fn traced(
+    pane: &Pane,
+    background: &Panorama,
+    around: &Around,
+    watch: Watch,
+) -> Result<Linear, PaneError> {
+    Ok(Scene::new(pane, background)?.traced(background, around, watch)?)
+}
+
 /// The pane as a body, in a world whose unit is the pane's shorter side and whose origin is the picture's middle.
 struct Scene<'a> {
     pane: &'a Pane,

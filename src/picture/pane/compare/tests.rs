@@ -1,6 +1,7 @@
 //! Laws of the traced pane, and of what tells it from the drawn one.
 
 use super::*;
+use crate::optics::line;
 use crate::picture::pane::tests::{apart, even, full, none, pattern};
 use crate::trace::unwatched;
 
@@ -37,6 +38,28 @@ fn without_refraction_the_traced_pane_is_the_pane() {
         assert!(apart(&seen.traced, &unmoved) < 1e-4);
         assert_eq!(seen.cost.apart.greatest > 0.1, depth > 0.0, "{:?}", seen.cost);
     }
+}
+
+#[test]
+fn the_traced_pane_stands_where_the_drawn_one_does() {
+    let costs = [DVec2::ZERO, DVec2::new(-4.0, 5.0)].map(|by| {
+        let pane = Pane { corner: full().corner + by, ..full() };
+        traced(&pane, &pattern(false), &surroundings(0.0), 1).cost
+    });
+    let [a, b] = costs.map(|cost| cost.traced);
+    assert!((a.mean - b.mean).abs() < 1e-3 && (a.greatest - b.greatest).abs() < 1e-3, "{a:?} {b:?}");
+    assert!(a.mean > 0.1 && costs[0].blind < 0.05, "{:?}", costs[0]);
+}
+
+#[test]
+fn strengths_stand_for_the_glass_that_is_told() {
+    let full = glass(100.0, 100.0).unwrap();
+    assert!((full.index(line::HELIUM_D) - 1.5).abs() < 1e-4);
+    assert!((full.dispersion.abbe_number().unwrap() - 55.0).abs() < 0.1);
+    let half = glass(50.0, 50.0).unwrap();
+    assert!((half.index(line::HELIUM_D) - 1.25).abs() < 1e-4);
+    assert!((half.dispersion.abbe_number().unwrap() - 110.0).abs() < 0.2);
+    assert_eq!(glass(40.0, 0.0).unwrap().index(400.0), 1.2);
 }
 
 #[test]

@@ -1,0 +1,251 @@
+//! Pictures that need no tracing: backgrounds seen through a refraction map, and liquid glass as screens draw it. They are
+//! made on a thread of their own, of the last that was asked for, so that they follow the hand while the studio traces.
+
+use super::studio::{Grade, SPAN, Shot, Slot, Taken, Wake};
+use crate::io::background::BackgroundRef;
+use crate::picture::pane::{filling, pane};
+use crate::picture::{Develop, Linear, Pattern, RefractionMap, Tone, develop, refract};
+use crate::scene::Panorama;
+use egui::ColorImage;
+use glam::DVec2;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::{Receiver, Sender, channel};
+use std::sync::{Arc, Condvar, Mutex, PoisonError};
+use std::thread::JoinHandle;
+
+/// What hangs behind where a picture must hang and none is chosen.
+const FIRST: Pattern = Pattern::Page;
+
+/// What hangs behind where a picture must hang: a pattern if nothing else was asked for.
+pub fn hung(asked: Option<&BackgroundRef>) -> BackgroundRef {
+    let is_picture = |a: &&BackgroundRef| matches!(a, BackgroundRef::Pattern(_) | BackgroundRef::Photo(_));
+    asked.filter(is_picture).cloned().unwrap_or(BackgroundRef::Pattern(FIRST))
+}
+
+/// What is asked for.
+#[derive(Debug, Clone)]
+pub struct Ask {
+    /// What the picture is of.
+    pub shot: Shot,
+    /// How good the map is.
+    pub grade: Grade,
+    /// The map, and how far the background has been moved to the right and down, in parts of the map's plane; none for
+    /// liquid glass.
+    pub map: Option<(Arc<RefractionMap>, DVec2)>,
+    /// What hangs behind.
+    pub behind: BackgroundRef,
+}
+
+impl PartialEq for Ask {
+    /// Whether both give the same picture.
+    fn eq(&self, other: &Self) -> bool {
+        let same = match (&self.map, &other.map) {
+            (Some((a, by)), Some((b, other))) => Arc::ptr_eq(a, b) && by == other,
+            (None, None) => {
+                (self.shot.liquid, self.shot.film.size) == (other.shot.liquid, other.shot.film.size)
+            }
+            _ => false,
+        };
+        same && self.behind == other.behind
+    }
+}
+
+/// A picture that was asked for; words where it could not be had.
+pub type Looked = (Slot, Box<Ask>, Result<Taken, String>);
+
+/// What both threads see.
+#[derive(Default)]
+struct Desk {
+    /// What is asked for, one of each slot, the first first.
+    asked: Mutex<Vec<(Slot, Ask)>>,
+    told: Condvar,
+    busy: AtomicBool,
+    quit: AtomicBool,
+}
+
+/// A thread that looks up.
+pub struct Looker {
+    desk: Arc<Desk>,
+    answers: Receiver<Looked>,
+    last: Vec<(Slot, Ask)>,
+    thread: Option<JoinHandle<()>>,
+}
+
+impl Looker {
+    /// Opens it; `wake` is called whenever there is an answer.
+    pub fn open(wake: Wake) -> Self {
+        let desk = Arc::new(Desk::default());
+        let (sender, answers) = channel();
+        let worker = Worker { desk: Arc::clone(&desk), answers: sender, wake, behind: None, filled: None };
+        let thread = std::thread::Builder::new().name("look-up".into()).spawn(|| worker.work()).ok();
+        Self { desk, answers, last: vec![], thread }
+    }
+
+    /// Asks for a picture; nothing happens if it was asked for already.
+    pub fn ask(&mut self, slot: Slot, ask: Ask) {
+        if self.last.iter().any(|(at, last)| *at == slot && *last == ask) {
+            return;
+        }
+        put(&mut self.last, slot, ask.clone());
+        self.desk.busy.store(true, Ordering::SeqCst);
+        put(&mut self.desk.asked.lock().unwrap_or_else(PoisonError::into_inner), slot, ask);
+        self.desk.told.notify_one();
+    }
+
+    /// What has been answered since.
+    pub fn answers(&self) -> impl Iterator<Item = Looked> + '_ {
+        self.answers.try_iter()
+    }
+
+    /// Whether everything asked for has been answered.
+    #[cfg(test)]
+    pub fn is_idle(&self) -> bool {
+        !self.desk.busy.load(Ordering::SeqCst)
+    }
+}
+
+impl Drop for Looker {
+    fn drop(&mut self) {
+        {
+            // Held, so that the worker is not between looking and waiting.
+            let _asked = self.desk.asked.lock().unwrap_or_else(PoisonError::into_inner);
+            self.desk.quit.store(true, Ordering::SeqCst);
+            self.desk.told.notify_one();
+        }
+        if let Some(thread) = self.thread.take() {
+            // A worker that panicked has said so already.
+            let _ = thread.join();
+        }
+    }
+}
+
+/// Puts what is asked for into the place of what was asked for before.
+fn put(asked: &mut Vec<(Slot, Ask)>, slot: Slot, ask: Ask) {
+    match asked.iter_mut().find(|(at, _)| *at == slot) {
+        Some((_, last)) => *last = ask,
+        None => asked.push((slot, ask)),
+    }
+}
+
+struct Worker {
+    desk: Arc<Desk>,
+    answers: Sender<Looked>,
+    wake: Wake,
+    /// The background that was read last.
+    behind: Option<(BackgroundRef, Levels)>,
+    /// The one that filled a picture last.
+    filled: Option<(BackgroundRef, Panorama)>,
+}
+
+impl Worker {
+    fn work(mut self) {
+        // Threads of its own: those that the studio keeps busy would come to it last.
+        let pool = rayon::ThreadPoolBuilder::new().thread_name(|k| format!("look-up {k}")).build().ok();
+        while let Some((slot, ask)) = self.next() {
+            let seen = std::panic::AssertUnwindSafe(|| match &pool {
+                Some(pool) => pool.install(|| self.seen(&ask)),
+                None => self.seen(&ask),
+            });
+            let taken = std::panic::catch_unwind(seen)
+                .unwrap_or_else(|_| Err("a fault of the program; please report the design".to_owned()));
+            // Nobody listens once the window is closed.
+            let _ = self.answers.send((slot, Box::new(ask), taken));
+            let asked = self.desk.asked.lock().unwrap_or_else(PoisonError::into_inner);
+            self.desk.busy.store(!asked.is_empty(), Ordering::SeqCst);
+            drop(asked);
+            (self.wake)();
+        }
+    }
+
+    /// Waits for what is asked for; none when the window is closed.
+    fn next(&self) -> Option<(Slot, Ask)> {
+        let mut asked = self.desk.asked.lock().unwrap_or_else(PoisonError::into_inner);
+        loop {
+            if self.desk.quit.load(Ordering::SeqCst) {
+                return None;
+            }
+            if !asked.is_empty() {
+                return Some(asked.remove(0));
+            }
+            asked = self.desk.told.wait(asked).unwrap_or_else(PoisonError::into_inner);
+        }
+    }
+
+    fn seen(&mut self, ask: &Ask) -> Result<Taken, String> {
+        let (picture, tracer) = match &ask.map {
+            Some((map, moved)) => {
+                let behind = self.levels(&ask.behind)?.for_map(map.size);
+                (refracted(map, &behind, *moved), "look-up in the map")
+            }
+            None => {
+                let size = ask.shot.film.size;
+                let glass = ask.shot.liquid.pane(size);
+                (pane(&glass, self.filled(&ask.behind, size)?, 1), "arithmetic")
+            }
+        };
+        Ok(Taken { image: as_screens(&picture), unresolved: None, tracer, map: None })
+    }
+
+    /// A background as it is, and halved again and again as far as was of use yet.
+    fn levels(&mut self, asked: &BackgroundRef) -> Result<&mut Levels, String> {
+        let levels = match self.behind.take().filter(|(last, _)| last == asked) {
+            Some((_, levels)) => levels,
+            None => {
+                let reading = asked.picture()?.ok_or("what hangs behind is no picture")?;
+                Levels { whole: Arc::new(reading.panorama), halved: vec![] }
+            }
+        };
+        Ok(&mut self.behind.insert((asked.clone(), levels)).1)
+    }
+
+    /// A background as large as a picture.
+    fn filled(&mut self, asked: &BackgroundRef, size: [u32; 2]) -> Result<&Panorama, String> {
+        let is = |(last, p): &(BackgroundRef, Panorama)| last == asked && [p.width, p.height] == size;
+        let picture = match self.filled.take().filter(is) {
+            Some((_, picture)) => picture,
+            None => filling(&self.levels(asked)?.whole, size),
+        };
+        Ok(&self.filled.insert((asked.clone(), picture)).1)
+    }
+}
+
+/// A background in several sizes.
+struct Levels {
+    whole: Arc<Panorama>,
+    /// Each half as large as the one before.
+    halved: Vec<Arc<Panorama>>,
+}
+
+impl Levels {
+    /// The one that is less than twice as fine as the plane of a map of so many pixels.
+    fn for_map(&mut self, size: [u32; 2]) -> Arc<Panorama> {
+        let plane = size.map(|side| SPAN * f64::from(side));
+        let finer = |p: &Panorama| (f64::from(p.width) / plane[0]).min(f64::from(p.height) / plane[1]);
+        let (mut level, mut rest) = (Arc::clone(&self.whole), 0);
+        while finer(&level) >= 2.0 {
+            if rest == self.halved.len() {
+                self.halved.push(Arc::new(level.halved()));
+            }
+            level = Arc::clone(&self.halved[rest]);
+            rest += 1;
+        }
+        level
+    }
+}
+
+/// A background through a map, moved by parts of the map's plane.
+fn refracted(map: &RefractionMap, behind: &Panorama, moved: DVec2) -> Linear {
+    let [width, height] = map.size.map(f64::from);
+    let shape = width / height;
+    let whole = DVec2::new(f64::from(behind.width), f64::from(behind.height));
+    // What of the background the plane holds: it fills the plane and is cut where it is longer.
+    let held = whole.y.min(whole.x / shape) * DVec2::new(shape, 1.0);
+    refract(map, behind, -moved * held / whole)
+}
+
+/// A picture whose light is shown as it is, without exposure or tone.
+pub fn as_screens(picture: &Linear) -> ColorImage {
+    let manner = Develop { bloom: None, tone: Tone::Linear, ..Develop::default() };
+    let size = [picture.width as usize, picture.height as usize];
+    ColorImage::from_rgba_unmultiplied(size, &develop(picture, &manner))
+}

@@ -1,0 +1,116 @@
+//! What liquid glass is made of: rows that are there while a view shows it.
+
+use super::design_panel::{NUMBER, Number, named};
+use super::editor::Editor;
+use super::liquid::Liquid;
+use super::shows::Shows;
+use crate::picture::pane::Quality;
+use egui::{ComboBox, RichText, Slider, Ui};
+use std::ops::RangeInclusive;
+
+/// Percent of the view, of the shorter side, and strengths.
+const EXTENTS: RangeInclusive<f64> = 10.0..=100.0;
+const CORNERS: RangeInclusive<f64> = 0.0..=50.0;
+const STRENGTHS: RangeInclusive<f64> = 0.0..=100.0;
+
+/// Between pane and background, in the pane's shorter side.
+const GAPS: RangeInclusive<f64> = 0.001..=1.0;
+
+/// Qualities, what they are called and what they leave.
+const QUALITIES: [(Quality, &str, &str); 3] = [
+    (Quality::High, "high", "All, frost by five samples."),
+    (Quality::Medium, "medium", "Frost by three samples, dispersion of 30 at most."),
+    (Quality::Low, "low", "Refraction alone: no depth, dispersion, frost, light or tint."),
+];
+
+/// Draws them, where liquid glass is in sight.
+pub fn show(editor: &mut Editor, ui: &mut Ui) {
+    let is_seen = |shows| editor.desk.shown().iter().any(|&pane| editor.desk.panes[pane].shows == shows);
+    let [drawn, traced] = [Shows::LiquidGlass, Shows::TracedPane].map(is_seen);
+    if !drawn && !traced {
+        return;
+    }
+    ui.add_space(8.0);
+    ui.label(RichText::new("Liquid glass").heading()).on_hover_text(
+        "A pane before what hangs behind: as screens draw it, by five parts of arithmetic, and as glass is. Strengths run \
+         from 0 to 100.",
+    );
+    let liquid = &mut editor.desk.liquid;
+    let Liquid { size, corners, refraction, depth, dispersion, frost, light, gap, .. } = liquid;
+    for (name, meaning, value, range, unit) in [
+        ("Pane width", "How wide the pane is, in percent of the view.", &mut size.x, EXTENTS, " %"),
+        ("Pane height", "How high the pane is, in percent of the view.", &mut size.y, EXTENTS, " %"),
+        ("Corners", "How round its corners are, in percent of its shorter side.", corners, CORNERS, " %"),
+        (
+            "Refraction",
+            "Bends what is behind at the rim; of the traced glass the index, 1 to 1.5.",
+            refraction,
+            STRENGTHS,
+            "",
+        ),
+        ("Pane depth", "How thick the pane looks; of the traced glass its thickness.", depth, STRENGTHS, ""),
+        (
+            "Dispersion",
+            "Draws red and blue apart; of the traced glass the Abbe number, 55 at 100.",
+            dispersion,
+            STRENGTHS,
+            "",
+        ),
+        ("Frost", "Blurs by noise toward the rim; the traced glass is always clear.", frost, STRENGTHS, ""),
+        (
+            "Pane light",
+            "Shine, shade and rim; around the traced glass a lamp and a sky as bright.",
+            light,
+            STRENGTHS,
+            "",
+        ),
+    ] {
+        row(ui, (name, meaning), value, (range, unit));
+    }
+    if traced {
+        let meaning = "How far the traced pane lies above what is behind, in parts of its shorter side.";
+        row(ui, ("Gap", meaning), gap, (GAPS, ""));
+    }
+    last(liquid, ui);
+}
+
+/// Tint and quality.
+fn last(liquid: &mut Liquid, ui: &mut Ui) {
+    ui.horizontal(|ui| {
+        let meaning = "A colour laid over the pane, and by its alpha how much of what is behind it covers.";
+        let label = named(ui, "Tint", meaning);
+        ui.color_edit_button_srgba_unmultiplied(&mut liquid.tint).labelled_by(label.id);
+    });
+    ui.horizontal(|ui| {
+        let label = named(ui, "Quality", "How much of the effect is drawn.");
+        let chosen = QUALITIES.iter().find(|(q, ..)| *q == liquid.quality).map_or("", |(_, name, _)| name);
+        let combo = ComboBox::from_id_salt("quality").selected_text(chosen).width(84.0).show_ui(ui, |ui| {
+            for (quality, name, meaning) in QUALITIES {
+                ui.selectable_value(&mut liquid.quality, quality, name).on_hover_text(meaning);
+            }
+        });
+        combo.response.labelled_by(label.id);
+        if ui.button("Reset").on_hover_text("The pane as it was at first.").clicked() {
+            *liquid = Liquid::default();
+        }
+    });
+}
+
+/// A row of name, slider and number.
+fn row(
+    ui: &mut Ui,
+    (name, meaning): (&str, &str),
+    value: &mut f64,
+    (range, unit): (RangeInclusive<f64>, &str),
+) {
+    ui.horizontal(|ui| {
+        let label = named(ui, name, meaning);
+        ui.spacing_mut().slider_width = (ui.available_width() - NUMBER - 24.0).max(40.0);
+        let is_fine = *range.end() <= 1.0;
+        let (step, decimals, speed) = if is_fine { (0.001, 3, 0.002) } else { (1.0, 0, 0.2) };
+        ui.add(Slider::new(value, range.clone()).show_value(false).step_by(step).logarithmic(is_fine))
+            .labelled_by(label.id)
+            .on_hover_text(meaning);
+        Number { decimals, speed, range, unit }.show(ui, (NUMBER, label.id), value);
+    });
+}

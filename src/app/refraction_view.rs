@@ -1,0 +1,70 @@
+//! The view of a refraction map: a background that moves behind the stone. The studio traces the map; what is seen through
+//! it is looked up, as often as the background moves.
+
+use super::editor::Editor;
+use super::lookup::{Ask, hung};
+use super::pane::has_room;
+use super::studio::{SPAN, Which};
+use egui::{Context, PointerButton, Response, Ui};
+use glam::DVec2;
+
+/// How far the background flows in a second, in parts of the map's plane.
+const FLOW: DVec2 = DVec2::new(0.06, 0.02);
+
+/// The longest step of a flow, seconds: a window that was hidden goes on where it was.
+const LONGEST: f32 = 0.1;
+
+/// How the background of a view stands.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Flowing {
+    /// How far it has been moved to the right and down, in parts of the map's plane.
+    pub moved: DVec2,
+    /// Whether it moves by itself.
+    pub flows: bool,
+    /// Whether the map itself is shown.
+    pub is_map: bool,
+}
+
+/// What is chosen over the picture, from the right.
+pub fn choices(flowing: &mut Flowing, ui: &mut Ui) {
+    if has_room(ui, 64.0) {
+        ui.checkbox(&mut flowing.flows, "Flow")
+            .on_hover_text("Lets the background move by itself. Else drag it; with Ctrl the stone tilts.");
+    }
+    if has_room(ui, 64.0) {
+        ui.checkbox(&mut flowing.is_map, "Map").on_hover_text(
+            "Shows the map itself: where on the background the light of each pixel comes from, in 16 by 16 tiles. Blue \
+             tells the tile, red and green the place in it.",
+        );
+    }
+}
+
+/// Whether the hand moves the background, and not the stone.
+pub fn is_held(ui: &Ui) -> bool {
+    ui.input(|i| !i.modifiers.shift && !i.modifiers.command)
+}
+
+/// Moves the background of a view by hand or by itself, and asks for what is then seen.
+pub fn show(editor: &mut Editor, ui: &Ui, pane: usize, response: &Response) {
+    let flowing = &mut editor.flowing[pane];
+    if response.dragged_by(PointerButton::Primary) && is_held(ui) {
+        let by = response.drag_delta() / response.rect.size();
+        flowing.moved += DVec2::new(by.x.into(), by.y.into()) / SPAN;
+    }
+    if flowing.flows && !flowing.is_map && is_visible(ui.ctx()) {
+        flowing.moved += FLOW * f64::from(ui.input(|i| i.stable_dt).min(LONGEST));
+        ui.ctx().request_repaint();
+    }
+    let (moved, behind) = (flowing.moved, hung(editor.desk.background().as_ref()));
+    for which in [Which::Present, Which::Other] {
+        let Some(shown) = editor.pictures.get(&(pane, which)) else { continue };
+        if let Some(map) = &shown.taken.map {
+            let (shot, grade, map) = (shown.shot.clone(), shown.grade, Some((map.clone(), moved)));
+            editor.looker.ask((pane, which), Ask { shot, grade, map, behind: behind.clone() });
+        }
+    }
+}
+
+fn is_visible(ctx: &Context) -> bool {
+    ctx.input(|i| i.viewport().minimized != Some(true) && i.viewport().occluded != Some(true))
+}

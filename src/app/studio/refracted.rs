@@ -1,0 +1,82 @@
+//! Pictures of backgrounds behind glass: refraction maps, which are looked up elsewhere, and liquid glass traced.
+
+use super::order::{Shot, Taken};
+use super::pace::Effort;
+use super::render::Growing;
+use super::survey::{Detail, traced};
+use super::take::{Camera, RAYS_COARSER, Trouble, coarser};
+use crate::app::lookup::{as_screens, hung};
+use crate::io::refraction_map::tiles::code_of;
+use crate::optics::{Illuminant, strata};
+use crate::picture::RefractionMap;
+use crate::picture::pane::{self, Around, PaneError, filling, surroundings};
+use crate::trace::Watch;
+use crate::trace::surround::Sky;
+use egui::ColorImage;
+use std::sync::Arc;
+
+/// What maps take that are looked up at once: one of several bands takes as many times as long to look up.
+const ROUGH: Detail = Detail { bands: 1, shades: 3, looks: 1 };
+const FAIR: Detail = Detail { bands: 1, shades: 4, looks: 1 };
+const FINE: Detail = Detail { bands: 3, shades: 6, looks: 4 };
+
+/// Bands of wavelengths of a traced pane: while the hand moves, and at its finest.
+const FEW: u32 = 3;
+const MANY: u32 = 12;
+
+impl From<PaneError> for Trouble {
+    fn from(error: PaneError) -> Self {
+        match error {
+            PaneError::Stopped(stopped) => stopped.into(),
+            other => Self::Other(other.to_string()),
+        }
+    }
+}
+
+/// The map of a shot, and as its picture the codes of its places.
+pub(super) fn mapped(
+    shot: &Shot,
+    effort: &Effort,
+    growing: Option<&Growing>,
+    watch: Watch,
+) -> Result<Taken, Trouble> {
+    let (detail, factor) = match growing {
+        None => (ROUGH, effort.coarser * RAYS_COARSER),
+        Some(growing) if growing.looks == 1 => (FAIR, 1.0),
+        Some(_) => (FINE, 1.0),
+    };
+    let (map, _) = traced(shot, coarser(&shot.film, factor), &detail, watch)?;
+    Ok(Taken { image: codes(&map), unresolved: None, tracer: "point rays", map: Some(Arc::new(map)) })
+}
+
+/// The codes of a map's middle band.
+fn codes(map: &RefractionMap) -> ColorImage {
+    let places = map.bands.get(map.bands.len() / 2).map_or(&[][..], |band| &band.places);
+    let rgb: Vec<u8> = places.iter().flat_map(code_of).collect();
+    ColorImage::from_rgb(map.size.map(|n| n as usize), &rgb)
+}
+
+/// The pane of a shot, traced.
+pub(super) fn glass(
+    camera: &mut Camera,
+    shot: &Shot,
+    effort: &Effort,
+    growing: Option<&Growing>,
+    watch: Watch,
+) -> Result<Taken, Trouble> {
+    let factor = if growing.is_none() { effort.coarser * RAYS_COARSER } else { 1.0 };
+    let size = coarser(&shot.film, factor).size;
+    let Some(behind) = camera.picture_behind(Some(&hung(shot.behind.as_ref())))? else {
+        return Err(Trouble::Other("nothing hangs behind the pane".into()));
+    };
+    let pane = shot.liquid.pane(size);
+    let bands = if growing.is_none_or(|g| g.looks == 1) { FEW } else { MANY };
+    let around = Around {
+        sky: &Sky::new(&surroundings(pane.effective().light), None),
+        gap: shot.liquid.gap,
+        strata: &strata(bands, &Illuminant::D65, true),
+        looks: growing.map_or(1, |g| g.looks),
+    };
+    let picture = pane::traced(&pane, &filling(&behind, size), &around, watch)?;
+    Ok(Taken { image: as_screens(&picture), unresolved: None, tracer: "point rays", map: None })
+}

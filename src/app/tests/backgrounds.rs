@@ -1,0 +1,152 @@
+//! Views of a background behind glass: refraction maps, and liquid glass.
+
+use super::*;
+use crate::app::shows::Shows;
+use crate::picture::RefractionMap;
+
+impl Bench {
+    /// Chooses what a view shows, by its name.
+    fn show(&mut self, view: usize, shows: Shows) {
+        let before = self.editor().desk.panes[view].shows;
+        self.click(&format!("View {}: {}", view + 1, before.name()));
+        self.harness.run_steps(4);
+        self.click(shows.name());
+        self.settle();
+        assert_eq!(self.editor().desk.panes[view].shows, shows);
+    }
+
+    /// What a view shows, looked up or taken.
+    fn seen(&self, view: usize) -> Vec<egui::Color32> {
+        self.editor().shown((view, Which::Present)).unwrap().taken.image.pixels.clone()
+    }
+
+    /// The map that a view looks up in.
+    fn map(&self, view: usize) -> Arc<RefractionMap> {
+        self.editor().pictures[&(view, Which::Present)].taken.map.clone().unwrap()
+    }
+
+    /// Drags in a picture, to the right and up.
+    fn drag(&mut self, picture: &str) {
+        let at = self.harness.get_by_label(picture).rect().center();
+        self.harness.hover_at(at);
+        self.harness.step();
+        self.harness.drag_at(at);
+        self.harness.step();
+        for by in [10.0, 20.0, 30.0] {
+            self.harness.hover_at(at + egui::vec2(by, -by / 2.0));
+            self.harness.step();
+        }
+        self.harness.drop_at(at + egui::vec2(30.0, -15.0));
+        self.settle();
+    }
+}
+
+/// Whether a picture is not of one colour.
+fn is_drawn(picture: &[egui::Color32]) -> bool {
+    picture.iter().any(|p| *p != picture[0])
+}
+
+#[test]
+fn a_background_is_dragged_through_a_map_that_is_not_traced_again() {
+    let mut bench = Bench::new();
+    bench.show(0, Shows::Refraction);
+    let (first, map) = (bench.seen(0), bench.map(0));
+    assert!(is_drawn(&first) && bench.picture(0) != first);
+    bench.drag("Refraction map picture");
+    assert!(bench.seen(0) != first, "the background has moved");
+    assert!(Arc::ptr_eq(&bench.map(0), &map) && bench.editor().desk.eye.tilt() == 0.0);
+    // Another picture behind the same map.
+    let moved = bench.seen(0);
+    bench.harness.state_mut().desk.behind = Some("stripes".to_owned());
+    bench.settle();
+    assert!(bench.seen(0) != moved && Arc::ptr_eq(&bench.map(0), &map));
+    bench.click("Map");
+    bench.settle();
+    assert!(bench.seen(0) == bench.picture(0), "the codes are shown");
+    bench.click("Map");
+    // What the other view tilts is traced again, and what is tilted in this one.
+    bench.drag("Hearts picture");
+    assert!(bench.editor().desk.eye.tilt() > 0.1 && !Arc::ptr_eq(&bench.map(0), &map));
+    let tilt = bench.editor().desk.eye.lean;
+    bench.harness.event(egui::Event::ModifiersChanged(egui::Modifiers::COMMAND));
+    bench.drag("Refraction map picture");
+    assert!(bench.editor().desk.eye.lean != tilt);
+}
+
+#[test]
+fn a_background_flows_until_it_is_stopped_and_nothing_is_drawn_after() {
+    let mut bench = Bench::new();
+    bench.show(0, Shows::Refraction);
+    let (first, map) = (bench.seen(0), bench.map(0));
+    bench.click("Flow");
+    bench.wait(|editor| editor.flowing[0].moved.x > 0.02);
+    assert!(bench.harness.try_run().is_err(), "it is drawn again and again");
+    bench.click("Flow");
+    bench.settle();
+    let moved = bench.editor().flowing[0].moved;
+    let count = bench.harness.run();
+    assert!(count <= 3, "{count} frames for nothing");
+    assert_eq!(bench.editor().flowing[0].moved, moved);
+    assert!(bench.seen(0) != first && Arc::ptr_eq(&bench.map(0), &map));
+}
+
+#[test]
+fn liquid_glass_is_drawn_and_traced_as_strong_as_it_is_set() {
+    let mut bench = Bench::new();
+    assert!(bench.harness.query_by_label("Pane depth").is_none(), "no liquid glass is in sight");
+    bench.show(0, Shows::LiquidGlass);
+    bench.show(1, Shows::TracedPane);
+    let both = |bench: &Bench| [bench.seen(0), bench.picture(1)];
+    let first = both(&bench);
+    assert!(first.iter().all(|picture| is_drawn(picture)) && first[0] != first[1]);
+    for (name, number) in [("Refraction", "30"), ("Pane depth", "60"), ("Pane width", "40")] {
+        let before = both(&bench);
+        bench.type_number(name, number);
+        bench.settle();
+        let after = both(&bench);
+        assert!(before[0] != after[0] && before[1] != after[1], "{name}");
+    }
+    let before = both(&bench);
+    bench.drag("Liquid glass picture");
+    let after = both(&bench);
+    assert!(before[0] != after[0] && before[1] != after[1] && bench.editor().desk.liquid.at.x > 0.55);
+    bench.click("Reset");
+    bench.settle();
+    assert!(both(&bench) == first);
+    // What belongs to the stone has no part in it.
+    bench.type_number("Crown angle", "33");
+    bench.settle();
+    assert!(both(&bench) == first);
+}
+
+/// How long a look-up takes. Not run with the others: it takes time to take time.
+/// `cargo test --lib backgrounds -- --ignored --nocapture`
+#[test]
+#[ignore = "takes time to take time"]
+fn looking_up_keeps_up_with_the_window() {
+    let mut desk = Bench::small();
+    desk.layout = Layout::One;
+    desk.panes[0].shows = Shows::Refraction;
+    let setup = Setup { desk, file: Some("plate".into()), ..Setup::default() };
+    let mut bench = Bench::sized(setup, egui::vec2(1144.0, 600.0));
+    bench.settle();
+    let size = bench.editor().shown((0, Which::Present)).unwrap().taken.image.size;
+    for shows in [Shows::Refraction, Shows::LiquidGlass] {
+        bench.harness.state_mut().desk.panes[0].shows = shows;
+        bench.settle();
+        let mut took: Vec<f64> = vec![];
+        for k in 1..=40 {
+            let editor = bench.harness.state_mut();
+            editor.flowing[0].moved.x = 0.01 * f64::from(k);
+            editor.desk.liquid.at.x = 0.4 + 0.004 * f64::from(k);
+            bench.harness.step();
+            let begun = Instant::now();
+            while !bench.editor().is_idle() {
+                std::thread::yield_now();
+            }
+            took.push(begun.elapsed().as_secs_f64() * 1e3);
+        }
+        took.sort_by(f64::total_cmp);
+        println!("{shows:?} {size:?}: {:.1} ms, the slowest {:.1} ms", took[20], took[39]);
+    }
+}
