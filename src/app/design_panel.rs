@@ -489,13 +489,10 @@ fn plain(
         let label = named(ui, name, meaning);
         let held = ui.spacing().interact_size.y;
         ui.spacing_mut().slider_width = (ui.available_width() - NUMBER - held - 24.0).max(40.0);
-        ui.add(Slider::new(value, range.clone()).show_value(false).step_by(if *range.end() > 1.0 {
-            0.1
-        } else {
-            0.005
-        }))
-        .labelled_by(label.id)
-        .on_hover_text(meaning);
+        let step = if *range.end() > 1.0 { 0.1 } else { 0.005 };
+        // What is not touched keeps its decimals.
+        let slider = Slider::new(value, range.clone()).show_value(false).clamping(SliderClamping::Never);
+        ui.add(slider.step_by(step)).labelled_by(label.id).on_hover_text(meaning);
         let decimals = if *range.end() > 1.0 { 1 } else { 3 };
         Number { decimals, speed: 0.02, range, unit }.show(ui, (NUMBER, label.id), value);
     });

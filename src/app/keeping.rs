@@ -42,6 +42,8 @@ impl Editor {
         document.begin(&work.light, work.exposure, work.head);
         self.document = document;
         self.moving.rest();
+        // A distance goes with the size of what it is behind.
+        self.desk.behind_mm = None;
         // What was seen and measured of another stone is nothing of this one's.
         self.pictures.retain(|(_, which), _| *which != Which::Present);
         self.figures.retain(|which, _| *which != Which::Present);

@@ -133,12 +133,12 @@ impl Editor {
         document.work.company = company;
         self.desk.last = None;
         self.desk.behind = scene.background.as_ref().and_then(kept);
-        self.desk.behind_mm = scene.background_distance_mm;
         self.desk.strength = scene.strength;
         if let Some(light) = scene.light {
             self.document.work.light = light.to_string_lossy().into_owned();
         }
         self.begin(document);
+        self.desk.behind_mm = scene.background_distance_mm;
         self.notes.say(&format!("{}: renders show its copies, all else shows one", scene.name));
     }
 }
