@@ -72,7 +72,7 @@ fn a_pane_lies_over_patterns_as_it_does_over_photographs() {
     let mut seen = vec![];
     for name in ["page", "grid", "checks", "stripes", "dots", "slit"] {
         desk.done(&format!("liquid-glass --background {name} --size 64x48 --out {name}"));
-        let (size, pixels, _) = png(&desk.at(&format!("{name}/liquid-glass.png")));
+        let (size, pixels, _) = png(&desk.at(format!("{name}/liquid-glass.png")));
         assert_eq!(size, (64, 48));
         assert!(!seen.contains(&pixels), "{name} is another pattern's");
         seen.push(pixels);
