@@ -218,7 +218,7 @@ impl Camera {
         let setting = setting(shot);
         let flat = is_for_beams(shot);
         let behind = self.picture_behind(shot)?;
-        let by_card = self.gpu.clone().filter(|_| (growing.is_some() || !flat) && shot.strength == 1.0);
+        let by_card = self.gpu.clone().filter(|_| growing.is_some() || !flat);
         let slower = if by_card.is_none() && !flat && growing.is_none() { RAYS_COARSER } else { 1.0 };
         let mut film = coarser(&shot.film, effort.coarser * slower);
         if by_card.is_some() && film.size[1] > ByCard::most_rows(film.size[0]) {
@@ -438,6 +438,7 @@ mod tests {
     use crate::io::lighting::Lighting;
     use crate::trace::unwatched;
     use glam::DVec2;
+    use std::path::Path;
 
     fn shot(shows: Shows, distance: Option<f64>) -> Shot {
         let eye = Eye { lean: DVec2::new(0.1, 0.05), distance, ..Eye::default() };
@@ -487,17 +488,22 @@ mod tests {
         };
         let mut card = Camera::by(Some(gpu));
         let growing = Growing { bands: 4, looks: 16, unresolved: 5e-3 };
-        for (shows, distance, most) in
-            [(Shows::Aset, Some(8.0), 2e-3), (Shows::Render, Some(8.0), 4e-3), (Shows::Render, None, 7e-3)]
-        {
-            let shot = shot(shows, distance);
+        let checks = BackgroundRef::read("checks", Path::new("")).unwrap();
+        let mixed = Shot { behind: Some(checks), strength: 0.2, ..shot(Shows::Render, None) };
+        for (shot, most) in [
+            (shot(Shows::Aset, Some(8.0)), 2e-3),
+            (shot(Shows::Render, Some(8.0)), 4e-3),
+            (shot(Shows::Render, None), 7e-3),
+            (mixed, 4e-3),
+        ] {
+            let (shows, projection) = (shot.shows, shot.view.projection);
             let [a, b] = [&mut card, &mut Camera::default()].map(|c| taken(c, &shot, Some(&growing)));
             assert_ne!(a.tracer, b.tracer);
             let other = Shot { view: Eye::default().view(None), ..shot.clone() };
             let (off, wrong) = (apart(&a, &b), apart(&taken(&mut card, &other, Some(&growing)), &b));
             assert!(
                 off < most && wrong > 3.0 * most,
-                "{shows:?} {distance:?}: {off}, and {wrong} of another view"
+                "{shows:?} {projection:?}: {off}, and {wrong} of another view"
             );
         }
     }
