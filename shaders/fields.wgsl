@@ -8,6 +8,10 @@ const IS_CURVED: bool = true;
 const ROUNDING: f32 = 5e-7;
 // Steps to a root; with more the ray only touches the shape.
 const MOST_STEPS: u32 = 200u;
+// A bound's root is near where the bound is no more than this part of the start's depth.
+const NEAR: f32 = 0.5;
+// The last steps, from less deep, are worth all their digits.
+const FINE: f32 = 1e-3;
 // Less is no step.
 const LEAST_STEP: f32 = 1e-7;
 
@@ -139,8 +143,7 @@ fn way_out(shape: Field, p: vec3f, v: vec3f) -> f32 {
         if at.x >= -ROUNDING && at.y >= 0.0 {
             return t;
         }
-        // What rounding has put outside is on the surface: a ray that enters at a glance would miss from there.
-        let step = far_root(shape, on[0], on[1], bend_at_most, max(at.x, 0.0));
+        let step = far_step(shape, on[0], on[1], at, bend_at_most);
         if step.y < 0.0 {
             return -1.0;
         }
@@ -152,26 +155,36 @@ fn way_out(shape: Field, p: vec3f, v: vec3f) -> f32 {
     return -1.0;
 }
 
-// The greatest distance along a line from `p` at which the body's function has the value `level`, where the point is off the
-// line by `bend_at_most` s²/2 up or down, whichever is farther from the middle; with a negative number where there is none.
-fn far_root(shape: Field, p: vec3f, on: vec3f, bend_at_most: f32, level: f32) -> vec2f {
+// A distance along a line from `p`, where the body's function has the value `at.x` and the slope `at.y`, no greater than the
+// greatest at which it has its value on the surface where the point is off the line by `bend_at_most` s²/2 up or down, whichever
+// is farther from the middle; with a negative number where there is none. Straight lines are followed to the end.
+fn far_step(shape: Field, p: vec3f, on: vec3f, at: vec2f, bend_at_most: f32) -> vec2f {
+    // What rounding has put outside is on the surface: a ray that enters at a glance would miss from there.
+    let level = max(at.x, 0.0);
+    let depth = max(-at.x, 0.0);
     let squared = dot(on, on);
     let beyond = shape.up.w / sqrt(squared) - dot(p, on) / squared;
-    // Farther off, any point is above the body.
+    // Farther off, any point is above the body; and so it is above the tangent's.
     var s = min(beyond, sqrt(2.0 * (shape.right.w + shape.back.w) / max(bend_at_most, LEAST_GAP)));
+    if at.y > 0.0 {
+        s = min(s, depth / at.y);
+    }
     for (var k = 0u; k < MOST_STEPS; k++) {
         turns += 1u;
         let at_s = p + on * s;
         let off = vec3f(0.0, 0.0, bend_at_most * sign_of(at_s.z) * s);
-        let at = along(shape, at_s + off * (0.5 * s), on + off);
-        let value = at.x - level;
-        if at.y <= 0.0 {
+        let there = along(shape, at_s + off * (0.5 * s), on + off);
+        let value = there.x - level;
+        if there.y <= 0.0 {
             return vec2f(s, select(-1.0, 1.0, value <= ROUNDING));
+        }
+        if bend_at_most > 0.0 && depth > FINE && value < NEAR * depth {
+            return vec2f(s * depth / (depth + value), 1.0);
         }
         // The last step is worth its digits where the root is the surface itself.
         let is_there = value <= ROUNDING;
         if !is_there || bend_at_most == 0.0 {
-            s -= max(value, 0.0) / at.y;
+            s -= max(value, 0.0) / there.y;
         }
         if is_there {
             return vec2f(s, 1.0);

@@ -16,8 +16,23 @@ var<private> response: Response;
 var<private> present: u32;
 var<private> waiting: array<Waiting, MOST_WAITING>;
 var<private> count: u32;
+// The ray from the eye.
+var<private> straight: Ray;
 
-fn see(ray: Ray, weight: f32) {
+// The ray on which light is looked up: the twin of `mixed` in src/trace/sitting.rs.
+fn mixed(ray: Ray) -> Ray {
+    let strength = frame.strength.x;
+    if strength >= 1.0 || dot(ray.direction, straight.direction) <= 0.0 {
+        return ray;
+    }
+    let beside = straight.origin + straight.direction * dot(ray.origin - straight.origin, straight.direction);
+    let between = mix(straight.direction, ray.direction, strength);
+    let length = length(between);
+    return Ray(mix(beside, ray.origin, strength), between / length, ray.sweep * (strength / length));
+}
+
+fn see(leaving: Ray, weight: f32) {
+    let ray = mixed(leaving);
     // It stands for its band's middle.
     let middle = Ray(ray.origin, ray.direction + ray.sweep * frame.limits.y, ray.sweep);
     let light = radiance(middle) * weight;
@@ -108,7 +123,8 @@ fn light(@builtin(global_invocation_id) id: vec3u) {
     }
     sum = Lit();
     let start = pixel_ray(pixel, frame.limits.zw);
-    let eye = Waiting(Ray(start[0], start[1], vec3f(0.0)), 1.0, NONE);
+    straight = Ray(start[0], start[1], vec3f(0.0));
+    let eye = Waiting(straight, 1.0, NONE);
     // Where it meets the first stone is the same for all wavelengths.
     let met = nearest(eye.ray, NONE);
     let first = present;

@@ -54,17 +54,18 @@ fn sky_at(direction: vec3f, angle: f32) -> vec4f {
 // The part of a lamp's disc that a sweep of directions, from half before to half after the ray's, runs through.
 fn share_inside(from_middle: vec3f, sweep: vec3f, chord_squared: f32) -> f32 {
     let a = dot(sweep, sweep);
-    let b = dot(from_middle, sweep);
-    let c = dot(from_middle, from_middle) - chord_squared;
     if a < STILL {
-        return select(0.0, 1.0, c < 0.0);
+        return select(0.0, 1.0, dot(from_middle, from_middle) < chord_squared);
     }
-    let under_root = b * b - a * c;
-    if under_root <= 0.0 {
+    // By way of the nearest point: b² - ac has no digits in f32 where curved surfaces make sweeps of many radians.
+    let nearest = -dot(from_middle, sweep) / a;
+    let apart = from_middle + sweep * nearest;
+    let inside = chord_squared - dot(apart, apart);
+    if inside <= 0.0 {
         return 0.0;
     }
-    let root = sqrt(under_root);
-    return max(min((root - b) / a, 0.5) - max((-root - b) / a, -0.5), 0.0);
+    let half = sqrt(inside / a);
+    return max(min(nearest + half, 0.5) - max(nearest - half, -0.5), 0.0);
 }
 
 // The photograph on the plane behind the stones, where a ray meets it; a is 0 where it does not.

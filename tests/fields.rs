@@ -18,7 +18,6 @@ use common::*;
 use glam::{DQuat, DVec3};
 use pixels::{ALLOWED, Case, views};
 use shoot::{Shoot, colour, differ};
-use std::io::Write;
 
 /// Turned a little: edges that lie along the rays of a view would be met or missed by rounding.
 fn smooth(form: Form) -> Smooth {
@@ -143,11 +142,13 @@ fn pill_and_plate(phase: f64, most_bounces: u32) -> Shoot {
 fn the_card_shows_glass_as_rays_do() {
     let Some(gpu) = card("the_card_shows_glass_as_rays_do") else { return };
     let off = |shoot: Shoot| differ(&shoot, &shoot, &gpu);
+    // After more than three bounces in a wave rounding decides which pixel a lamp's glint is in, and one glint is a tenth of its
+    // block's light: there a plate stands under broad light.
     for (material, name) in [("quartz", "lamps"), ("diamond", "studio")] {
         let found = off(lit(pill(DVec3::ZERO), material, name, BOUNCES));
         assert!(found < 0.005, "a pill of {material}: {found}");
-        // Waves make caustics of small lamps, which f32 puts elsewhere by a part of a pixel: a plate stands under broad light.
-        let found = off(lit(small_plate(DVec3::ZERO, 0.4), material, "dome", BOUNCES));
+        let plate = |name, bounces| off(lit(small_plate(DVec3::ZERO, 0.4), material, name, bounces));
+        let found = plate(name, 3).max(plate("dome", BOUNCES));
         assert!(found < 0.005, "a plate of {material}: {found}");
     }
     let found = off(pill_and_plate(0.4, BOUNCES));
@@ -170,29 +171,6 @@ fn whole_ways_through_glass_bring_as_much_light_on_the_card() {
         assert!(off < 0.002, "means are off by {off}");
         let found = differ(&shoot, &shoot, &gpu);
         assert!(found < 0.02, "a block is off by {found}");
-    }
-}
-
-#[test]
-#[ignore = "tells times"]
-fn how_long_glass_takes() {
-    let Some(gpu) = card("how_long_glass_takes") else { return };
-    for (name, form) in forms() {
-        let mut shoot = lit(*smooth(form).field(), "quartz", "studio", 64);
-        (shoot.samples, shoot.size, shoot.wavelengths) = (1, 256, 1);
-        shoot.by_card(&gpu);
-        for wavelengths in [3, 8, 16] {
-            shoot.wavelengths = wavelengths;
-            let seconds = |work: &dyn Fn()| {
-                let start = std::time::Instant::now();
-                work();
-                start.elapsed().as_secs_f64() * 1e3
-            };
-            let rays = seconds(&|| drop(shoot.by_rays()));
-            let card = seconds(&|| drop(shoot.by_card(&gpu)));
-            let told = format!("{name}, {wavelengths}: rays {rays:.0} ms, card {card:.0} ms");
-            writeln!(std::io::stderr(), "{told}").unwrap();
-        }
     }
 }
 

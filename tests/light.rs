@@ -284,6 +284,32 @@ mod card {
     }
 
     #[test]
+    fn the_card_mixes_refracted_and_straight_rays_as_rays_do() {
+        let Some(gpu) = common::card("the_card_mixes_refracted_and_straight_rays_as_rays_do") else { return };
+        let shoot = |strength, projection| {
+            let mut shoot = Shoot::new(&modern(), "quartz", light("lamps").unwrap());
+            (shoot.strength, shoot.samples, shoot.view.projection) = (strength, 8, projection);
+            shoot
+        };
+        let before_stripes = |strength| {
+            let mut shoot = shoot(strength, Projection::Perspective { distance: 6.0 });
+            shoot.photo = Some((stripes(), 1.5));
+            shoot
+        };
+        for strength in [0.0, 0.1, 0.6] {
+            let found = differ(&before_stripes(strength), &before_stripes(strength), &gpu);
+            assert!(found < 0.005, "strength {strength} before a photograph: {found}");
+            let alone = || shoot(strength, Projection::Orthographic);
+            let found = differ(&alone(), &alone(), &gpu);
+            assert!(found < 0.005, "strength {strength} under lamps: {found}");
+        }
+        for mutant in [0.2, 1.0] {
+            let found = differ(&before_stripes(0.1), &before_stripes(mutant), &gpu);
+            assert!(found > 0.01, "strength {mutant} for 0.1 makes only {found}");
+        }
+    }
+
+    #[test]
     fn the_card_shows_stones_beside_one_another_as_rays_do() {
         let Some(gpu) = common::card("the_card_shows_stones_beside_one_another_as_rays_do") else {
             return;

@@ -122,17 +122,13 @@ impl<'a> Studio<'a> {
     fn chosen(&self, view: &View) -> Result<Tracer, Failure> {
         let beams_apply = view.projection == Projection::Orthographic
             && matches!(&*self.assembly.setting.stones, [only] if only.solid.polytope().is_ok())
-            && self.photo.is_none();
-        if self.strength < 1.0 {
-            return match self.options.tracer {
-                TracerName::Auto | TracerName::Ray => Ok(Tracer::Rays(Sampler::Rays)),
-                TracerName::Beam | TracerName::Gpu => Err(Failure::Usage(format!(
-                    "--strength {}: less than 1 is by rays on the processor: use --tracer ray, or --strength 1",
-                    self.strength
-                ))),
-            };
-        }
+            && self.photo.is_none()
+            && self.strength >= 1.0;
         match self.options.tracer {
+            TracerName::Beam if self.strength < 1.0 => Err(Failure::Usage(format!(
+                "--strength {}: exact beams know no mixture: use --tracer ray, or --strength 1",
+                self.strength
+            ))),
             TracerName::Beam if !beams_apply => Err(Failure::Usage(
                 "exact beams are for one convex stone, parallel rays and no pattern or photograph behind: use --tracer ray"
                     .into(),

@@ -187,7 +187,7 @@ impl Behind<'_> {
 }
 
 /// The part of a disc that a sweep of directions, from half before to half after the ray's, runs through.
-fn share_inside(from_middle: DVec3, sweep: DVec3, chord_squared: f64) -> f64 {
+pub(super) fn share_inside(from_middle: DVec3, sweep: DVec3, chord_squared: f64) -> f64 {
     let (a, b) = (sweep.length_squared(), from_middle.dot(sweep));
     let c = from_middle.length_squared() - chord_squared;
     if a < STILL {

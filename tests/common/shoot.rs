@@ -3,14 +3,14 @@
 
 use brillianteer::math::{Polytope, Solid};
 use brillianteer::optics::{material, strata};
-use brillianteer::picture::spectral::{Remainder, expose};
+use brillianteer::picture::spectral::{Remainder, expose_in};
 use brillianteer::picture::{ByBeams, Linear};
 use brillianteer::scene::{Film, Light, Panorama, Placed, Setting, View};
 use brillianteer::trace::beam;
 #[cfg(feature = "gpu")]
 use brillianteer::trace::gpu::{Around, ByCard, Gpu, GpuError};
 use brillianteer::trace::ray::{ByRays, Options};
-use brillianteer::trace::sitting::Sitting;
+use brillianteer::trace::sitting::{Looks, Sitting};
 use brillianteer::trace::surround::{Behind, Sky, Surround};
 use brillianteer::trace::{Stopped, unwatched};
 use glam::{DVec2, DVec3};
@@ -24,6 +24,8 @@ pub struct Shoot {
     pub view: View,
     pub wavelengths: u32,
     pub samples: u32,
+    /// How much of the way that refraction turns light is followed.
+    pub strength: f64,
     pub backdrop: bool,
     /// A photograph behind, and how far.
     pub photo: Option<(Panorama, f64)>,
@@ -47,6 +49,7 @@ impl Shoot {
             view: View { tilt: 0.2, azimuth: 0.4, ..View::default() },
             wavelengths: 8,
             samples: 1,
+            strength: 1.0,
             backdrop: true,
             photo: None,
             options: Options { polarised: true, most_bounces: 64, least_weight: 1e-4 },
@@ -79,11 +82,15 @@ impl Shoot {
         })
     }
 
+    fn looks(&self) -> Looks {
+        Looks { strength: self.strength, ..Looks::of(self.samples) }
+    }
+
     pub fn by_rays(&self) -> (Linear, Remainder) {
         let strata = strata(self.wavelengths, &self.light.spectrum, true);
         self.with(|sitting| {
             let prepare = |rows| Ok::<_, Stopped>(ByRays::new(*sitting, rows));
-            expose(sitting, (&strata, self.samples), self.size, prepare, &unwatched).unwrap()
+            expose_in(sitting, (&strata, self.looks()), self.size, prepare, &unwatched).unwrap()
         })
     }
 
@@ -92,7 +99,7 @@ impl Shoot {
         let options = beam::Options { unresolved: 1e-3, ..beam::Options::default() };
         self.with(|sitting| {
             let prepare = |_| Ok::<_, Stopped>(ByBeams::new(*sitting, options).unwrap());
-            expose(sitting, (&strata, self.samples), self.size, prepare, &unwatched).unwrap()
+            expose_in(sitting, (&strata, self.looks()), self.size, prepare, &unwatched).unwrap()
         })
     }
 
@@ -103,7 +110,7 @@ impl Shoot {
             let around = Around::new(gpu, &sitting.surround);
             let prepare = |rows| Ok::<_, Failed>(ByCard::new(gpu, sitting, &around, rows, strata.len())?);
             // A strip at a time, as large pictures are taken.
-            expose(sitting, (&strata, self.samples), 40, prepare, &unwatched).unwrap()
+            expose_in(sitting, (&strata, self.looks()), 40, prepare, &unwatched).unwrap()
         })
     }
 }

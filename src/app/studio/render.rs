@@ -45,7 +45,7 @@ impl Camera {
         let setting = setting(shot);
         let flat = is_for_beams(shot);
         let behind = self.picture_behind(shot.behind.as_ref())?;
-        let by_card = self.gpu.clone().filter(|_| (growing.is_some() || !flat) && shot.strength == 1.0);
+        let by_card = self.gpu.clone().filter(|_| growing.is_some() || !flat);
         let slower = if by_card.is_none() && !flat && growing.is_none() { RAYS_COARSER } else { 1.0 };
         let mut film = coarser(&shot.film, effort.coarser * slower);
         if by_card.is_some() && film.size[1] > ByCard::most_rows(film.size[0]) {

@@ -271,6 +271,7 @@ mod tests {
     use crate::scene::Pose;
     use crate::trace::unwatched;
     use glam::DVec2;
+    use std::path::Path;
 
     fn shot(shows: Shows, distance: Option<f64>) -> Shot {
         let eye = Eye { lean: DVec2::new(0.1, 0.05), distance, ..Eye::default() };
@@ -326,17 +327,22 @@ mod tests {
         };
         let mut card = Camera::by(Some(gpu));
         let growing = Growing { bands: 4, looks: 16, after: 0, unresolved: 5e-3 };
-        for (shows, distance, most) in
-            [(Shows::Aset, Some(8.0), 2e-3), (Shows::Render, Some(8.0), 4e-3), (Shows::Render, None, 7e-3)]
-        {
-            let shot = shot(shows, distance);
+        let checks = BackgroundRef::read("checks", Path::new("")).unwrap();
+        let mixed = Shot { behind: Some(checks), strength: 0.2, ..shot(Shows::Render, None) };
+        for (shot, most) in [
+            (shot(Shows::Aset, Some(8.0)), 2e-3),
+            (shot(Shows::Render, Some(8.0)), 4e-3),
+            (shot(Shows::Render, None), 7e-3),
+            (mixed, 4e-3),
+        ] {
+            let (shows, projection) = (shot.shows, shot.view.projection);
             let [a, b] = [&mut card, &mut Camera::default()].map(|c| taken(c, &shot, Some(&growing)));
             assert_ne!(a.tracer, b.tracer);
             let other = Shot { view: Eye::default().view(None), ..shot.clone() };
             let (off, wrong) = (apart(&a, &b), apart(&taken(&mut card, &other, Some(&growing)), &b));
             assert!(
                 off < most && wrong > 3.0 * most,
-                "{shows:?} {distance:?}: {off}, and {wrong} of another view"
+                "{shows:?} {projection:?}: {off}, and {wrong} of another view"
             );
         }
     }

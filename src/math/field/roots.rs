@@ -5,17 +5,22 @@
 //! moves on a curve whose second derivative is no more than m. So after a step s it differs by no more than m s²/2 from its
 //! value on the curve's tangent: less this, and with a tangent to the body's function, it is bounded from below, for a step
 //! that stays outside. A curve that is bent along z alone is no farther from the middle than its tangent and m s²/2 more: of
-//! that the function is convex, and its far root is a step that stays inside. Either step is Newton's near the root. Nothing else is needed of a start on the surface: the root it is on is never the far one.
+//! that the function is convex, and a step up to its far root stays inside: Newton's method comes to this root from beyond, and
+//! where it is near, so much depth as the start has left, a chord leads to a point before it. Either step is Newton's near the
+//! root. Nothing else is needed of a start on the surface: the root it is on is never the far one.
 
 use super::Field;
 use glam::DVec3;
 
-/// Steps to a root: two to nine on the mean for convex forms, 27 at most, and some sixty out of a plate. A ray that touches
+/// Steps to a root: two to nine on the mean for convex forms, 27 at most, and some twenty-five out of a plate. A ray that touches
 /// a wave from inside to the last digit may need more, as there the bound is far from the function: it is given up.
 pub(super) const MOST_STEPS: u32 = 1000;
 
 /// A point this near is on the surface, as a part of how far coordinates and distances go: some roundings.
 const ROUNDING: f64 = 4.0 * f64::EPSILON;
+
+/// A bound's root is near where the bound is no more than this part of the start's depth.
+const NEAR: f64 = 0.5;
 
 impl Field {
     /// As [`entry`](Self::entry), with the steps taken.
@@ -73,13 +78,13 @@ impl Field {
         let bend = self.wave.map_or(0.0, |wave| wave.most_bend(v));
         let mut t = 0.0;
         while *steps < MOST_STEPS {
+            *steps += 1;
             let (p, along) = self.tangent(o + v * t, v);
             let (value, slope) = self.body.along(p, along);
             if value >= -ROUNDING * self.own_reach() && slope >= 0.0 {
                 return Some(t);
             }
-            // What rounding has put outside is on the surface: a ray that enters at a glance would miss from there.
-            t += self.far_root(p, along, bend, value.max(0.0), steps)?.max(0.0);
+            t += self.far_step((p, along), (value, slope), bend, steps)?.max(0.0);
             if bend == 0.0 {
                 return Some(t);
             }
@@ -87,13 +92,25 @@ impl Field {
         None
     }
 
-    /// The greatest distance along a line from `p` at which the body's function has the value `level`, where the point is
-    /// off the line by `bend` s²/2 up or down, whichever is farther from the middle; `None` where there is none.
-    fn far_root(&self, p: DVec3, along: DVec3, bend: f64, level: f64, steps: &mut u32) -> Option<f64> {
+    /// A distance along a line from `p`, where the body's function has this value and slope, no greater than the greatest at
+    /// which it has its value on the surface where the point is off the line by `bend` s²/2 up or down, whichever is farther
+    /// from the middle; `None` where there is none. Straight lines are followed to the end.
+    fn far_step(
+        &self,
+        (p, along): (DVec3, DVec3),
+        (value, slope): (f64, f64),
+        bend: f64,
+        steps: &mut u32,
+    ) -> Option<f64> {
+        // What rounding has put outside is on the surface: a ray that enters at a glance would miss from there.
+        let (level, depth) = (value.max(0.0), -value.min(0.0));
         let squared = along.length_squared();
         let beyond = self.body.reach() / squared.sqrt() - p.dot(along) / squared;
-        // Farther off, any point is above the body.
+        // Farther off, any point is above the body; and so it is above the tangent's.
         let mut s = beyond.min((2.0 * (self.body.half + self.body.edge) / bend).sqrt());
+        if slope > 0.0 {
+            s = s.min(depth / slope);
+        }
         while *steps < MOST_STEPS {
             *steps += 1;
             let on = p + along * s;
@@ -102,6 +119,9 @@ impl Field {
             let value = value - level;
             if value <= ROUNDING * self.body.reach() {
                 return Some(s);
+            }
+            if bend > 0.0 && value < NEAR * depth {
+                return Some(s * depth / (depth + value));
             }
             // Also where it is no number.
             if slope.is_nan() || slope <= 0.0 {

@@ -45,6 +45,8 @@ both_sides! {
         turn: vec4u,
         /// Turns of loops that a ray may take where it counts them; nothing in the others.
         most: vec4u,
+        /// How much of the way that refraction turns light is followed, 1 for physics; nothing in the others.
+        strength: vec4f,
     }
 }
 

@@ -105,6 +105,7 @@ impl<'a> ByCard<'a> {
 impl<E: From<Stopped> + From<GpuError>> Exposure<E> for ByCard<'_> {
     fn look(&mut self, look: &Look, watch: Watch) -> Result<(), E> {
         self.tell(look);
+        self.stage.told.strength[0] = look.strength as f32;
         let step = if self.stage.gpu.is_software() { 1 } else { AT_ONCE };
         let bands: Vec<usize> = (0..self.wavelengths).step_by(step).collect();
         for (done, &band) in bands.iter().enumerate() {

@@ -47,6 +47,7 @@ impl Eye<'_> {
             film: [across, down, 0, 0],
             turn: [0, 1, 0, wavelengths as u32],
             most: [most_turns(gpu), 0, 0, 0],
+            strength: [1.0, 0.0, 0.0, 0.0],
         }
     }
 }

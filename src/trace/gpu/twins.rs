@@ -1,6 +1,7 @@
 //! The shaders beside their twins: valid without a card, and with one the same numbers from both.
 
 mod glass;
+mod lamps;
 
 use super::Gpu;
 use super::door;
