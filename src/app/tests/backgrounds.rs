@@ -64,8 +64,7 @@ fn a_background_is_dragged_through_a_map_that_is_not_traced_again() {
     bench.harness.state_mut().desk.behind = Some("stripes".to_owned());
     bench.settle();
     let other = bench.picture(0);
-    assert!(other != moved, "another picture is behind");
-    assert!(Arc::ptr_eq(&bench.map(0), &map), "the map is the same");
+    assert!(other != moved && Arc::ptr_eq(&bench.map(0), &map));
     bench.click("Map");
     assert!(is_drawn(&bench.picture(0)) && bench.picture(0) != other, "the codes are shown");
 }
@@ -98,9 +97,8 @@ fn a_background_flows_until_it_is_stopped_and_nothing_is_drawn_after() {
     let moved = bench.editor().flowing[0].moved;
     let count = bench.harness.run();
     assert!(count <= 3, "{count} frames for nothing");
-    let other = bench.picture(0);
-    assert!(other != moved, "another picture is behind");
-    assert!(Arc::ptr_eq(&bench.map(0), &map), "the map is the same");
+    assert_eq!(bench.editor().flowing[0].moved, moved);
+    assert!(bench.picture(0) != first && Arc::ptr_eq(&bench.map(0), &map));
 }
 
 #[test]
