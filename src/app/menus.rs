@@ -151,7 +151,11 @@ pub fn status(editor: &mut Editor, ui: &mut Ui) {
             ui.add(egui::Label::new(told).truncate());
             ui.with_layout(egui::Layout::right_to_left(Align::Center), |ui| {
                 let opening = editor.opening.last().map(Opening::told);
-                let tracing = if editor.studio.is_idle() { "done" } else { "tracing…" };
+                let tracing = match (editor.studio.is_idle(), editor.studio.sharpens()) {
+                    (false, _) => "tracing…",
+                    (true, true) => "sharpening…",
+                    (true, false) => "done",
+                };
                 let state = opening.unwrap_or_else(|| tracing.to_owned());
                 ui.label(RichText::new(format!("{state} · {}", editor.studio.told())).weak().small())
                     .on_hover_text("What computes the pictures: the processor, or a graphics card.");

@@ -151,7 +151,12 @@ impl From<Stopped> for Failed {
 /// The largest difference of any block's mean, as a part of full scale: the brightest block.
 #[cfg(feature = "gpu")]
 pub fn differ(shoot: &Shoot, twin: &Shoot, gpu: &Gpu) -> f64 {
-    let (exact, card) = (blocks(&shoot.by_rays().0), blocks(&twin.by_card(gpu).0));
+    apart(&shoot.by_rays().0, &twin.by_card(gpu).0)
+}
+
+/// The same of two pictures that were taken.
+pub fn apart(exact: &Linear, card: &Linear) -> f64 {
+    let (exact, card) = (blocks(exact), blocks(card));
     let scale = exact.iter().map(|b| b.max_element()).fold(0.0, f64::max);
     exact.iter().zip(&card).map(|(a, b)| (*a - *b).abs().max_element()).fold(0.0, f64::max) / scale
 }

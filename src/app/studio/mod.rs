@@ -36,6 +36,8 @@ struct Desk {
     newest: AtomicU64,
     /// Whether work is going on.
     busy: AtomicBool,
+    /// Whether more looks are taken at what is as good as it needs to be.
+    sharpens: AtomicBool,
     quit: AtomicBool,
 }
 
@@ -58,6 +60,7 @@ impl Studio {
             told: Condvar::new(),
             newest: AtomicU64::new(0),
             busy: AtomicBool::new(false),
+            sharpens: AtomicBool::new(false),
             quit: AtomicBool::new(false),
         });
         let gpu = gpu.filter(|gpu| !gpu.is_software());
@@ -95,7 +98,12 @@ impl Studio {
         self.answers.try_iter()
     }
 
-    /// Whether everything asked for is as good as it gets.
+    /// Whether more looks are taken at what is asked for, though all of it is as good as it needs to be.
+    pub fn sharpens(&self) -> bool {
+        self.desk.sharpens.load(Ordering::SeqCst)
+    }
+
+    /// Whether everything asked for is as good as it needs to be.
     pub fn is_idle(&self) -> bool {
         !self.desk.busy.load(Ordering::SeqCst)
     }

@@ -77,7 +77,10 @@ impl Worker {
         while let Some(turn) = self.next() {
             let work = || self.rough(&turn).and_then(|()| self.refine(&turn));
             match std::panic::catch_unwind(std::panic::AssertUnwindSafe(work)) {
-                Ok(Ok(())) => self.rest(&turn),
+                Ok(Ok(())) => {
+                    self.rest(&turn);
+                    self.sharpen(&turn);
+                }
                 Ok(Err(Stopped)) => {}
                 Err(_) => {
                     let why = "a picture failed: a fault of the program; please report the design";
@@ -157,8 +160,7 @@ impl Worker {
         self.all_figures(&turn.order, Grade::Fair, (FINE, LATTICE / 4), &watch)?;
         self.pictures(&turn.order, Grade::Fine, (FINE, &fine), &watch)?;
         self.all_figures(&turn.order, Grade::Fine, (FIGURES, LATTICE), &watch)?;
-        self.against_tilt(&turn.order, &watch)?;
-        self.sharpen(&turn.order, &watch)
+        self.against_tilt(&turn.order, &watch)
     }
 
     fn pictures(
@@ -177,17 +179,25 @@ impl Worker {
         Ok(())
     }
 
-    /// Renders by rays before what hangs behind, more and more looks at them.
-    fn sharpen(&mut self, order: &Order, watch: Watch) -> Result<(), Stopped> {
+    /// Renders by rays before what hangs behind, more and more looks at them until there is a newer order.
+    fn sharpen(&mut self, turn: &Turn) {
+        let (desk, number) = (Arc::clone(&self.desk), turn.number);
+        let watch = move |_: f64| stop_if(desk.newest.load(Ordering::SeqCst) != number);
         let effort = Effort { unresolved: SHARP.unresolved, coarser: 1.0, bands: SHARP.bands };
-        for (slot, shot) in &order.shots {
+        for (slot, shot) in &turn.order.shots {
             let grows = shot.shows == Shows::Render && shot.behind.is_some() && self.camera.gpu.is_none();
-            if grows && self.sharp.get(slot) != Some(shot) {
-                self.picture((*slot, shot), Grade::Fine, (&effort, Some(&SHARP)), watch)?;
-                self.sharp.insert(*slot, shot.clone());
+            if !grows || self.sharp.get(slot) == Some(shot) {
+                continue;
             }
+            self.desk.sharpens.store(true, Ordering::SeqCst);
+            let sharpened = self.picture((*slot, shot), Grade::Fine, (&effort, Some(&SHARP)), &watch);
+            self.desk.sharpens.store(false, Ordering::SeqCst);
+            if sharpened.is_err() {
+                return;
+            }
+            self.sharp.insert(*slot, shot.clone());
+            (self.wake)();
         }
-        Ok(())
     }
 
     fn picture(

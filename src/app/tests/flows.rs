@@ -161,7 +161,8 @@ fn a_number_out_of_its_limits_is_told_where_it_stands_and_the_last_stone_stays()
 #[test]
 fn every_view_shows_a_picture() {
     for (k, shows) in Shows::ALL.into_iter().enumerate() {
-        let mut bench = Bench::new();
+        // Small, for maps and renders take long.
+        let mut bench = Bench::sized(Setup::default(), egui::vec2(900.0, 300.0));
         bench.harness.state_mut().desk.panes[0].shows = shows;
         bench.settle();
         if shows != Shows::Profile {
