@@ -18,6 +18,7 @@ use common::*;
 use glam::{DQuat, DVec3};
 use pixels::{ALLOWED, Case, views};
 use shoot::{Shoot, apart, colour, differ};
+use std::io::Write;
 
 /// Turned a little: edges that lie along the rays of a view would be met or missed by rounding.
 fn smooth(form: Form) -> Smooth {
@@ -126,7 +127,7 @@ fn small_plate(middle: DVec3, phase: f64) -> Field {
 
 fn lit(field: Field, material: &str, light_name: &str, most_bounces: u32) -> Shoot {
     let mut shoot = Shoot::of(field, material, light(light_name).unwrap());
-    (shoot.samples, shoot.options.most_bounces) = (4, most_bounces);
+    (shoot.samples, shoot.options.most_bounces, shoot.size) = (4, most_bounces, 40);
     shoot
 }
 
@@ -172,6 +173,29 @@ fn whole_ways_through_glass_bring_as_much_light_on_the_card() {
         assert!(off < 0.002, "means are off by {off}");
         let found = apart(&by_rays, &by_card);
         assert!(found < 0.02, "a block is off by {found}");
+    }
+}
+
+#[test]
+#[ignore = "tells times"]
+fn how_long_glass_takes() {
+    let Some(gpu) = card("how_long_glass_takes") else { return };
+    for (name, form) in forms() {
+        let mut shoot = lit(*smooth(form).field(), "quartz", "studio", 64);
+        (shoot.samples, shoot.size, shoot.wavelengths) = (1, 256, 1);
+        shoot.by_card(&gpu);
+        for wavelengths in [3, 8, 16] {
+            shoot.wavelengths = wavelengths;
+            let seconds = |work: &dyn Fn()| {
+                let start = std::time::Instant::now();
+                work();
+                start.elapsed().as_secs_f64() * 1e3
+            };
+            let rays = seconds(&|| drop(shoot.by_rays()));
+            let card = seconds(&|| drop(shoot.by_card(&gpu)));
+            let told = format!("{name}, {wavelengths}: rays {rays:.0} ms, card {card:.0} ms");
+            writeln!(std::io::stderr(), "{told}").unwrap();
+        }
     }
 }
 

@@ -44,10 +44,10 @@ pub fn show(editor: &mut Editor, ui: &mut Ui) {
             heading(ui, "Stone", "What it is made of, and how large it is.");
             material(editor, ui);
             size(editor, ui);
-            heading(ui, "Copies", "Renders show several of it, and let them move.");
-            company_rows::show(editor, ui);
             heading(ui, "Light", "What the render is lit by; scopes bring their own light.");
             lighting(editor, ui);
+            heading(ui, "Copies", "Renders show several of it, and let them move.");
+            company_rows::show(editor, ui);
         });
     });
 }
