@@ -176,25 +176,33 @@ fn whole_ways_through_glass_bring_as_much_light_on_the_card() {
     }
 }
 
+/// One look at each shape, by the number of wavelengths: the table in docs/performance.md.
 #[test]
 #[ignore = "tells times"]
 fn how_long_glass_takes() {
     let Some(gpu) = card("how_long_glass_takes") else { return };
-    for (name, form) in forms() {
-        let mut shoot = lit(*smooth(form).field(), "quartz", "studio", 64);
-        (shoot.samples, shoot.size, shoot.wavelengths) = (1, 256, 1);
+    let stone = built(&brilliant((56.0, 34.5, 40.8), (50.0, 77.0), 64)).polytope;
+    let glass = |k: usize| lit(*smooth(forms()[k].1).field(), "quartz", "studio", 64);
+    let shapes = [
+        ("pill", glass(1)),
+        ("cube", glass(3)),
+        ("prism", glass(6)),
+        ("plate", glass(8)),
+        ("brilliant", Shoot::new(&stone, "diamond", light("studio").unwrap())),
+    ];
+    for (name, mut shoot) in shapes {
+        (shoot.samples, shoot.size, shoot.wavelengths) = (1, 192, 1);
         shoot.by_card(&gpu);
-        for wavelengths in [3, 8, 16] {
+        for wavelengths in [3, 8, 16, 32, 64] {
             shoot.wavelengths = wavelengths;
-            let seconds = |work: &dyn Fn()| {
+            let ms = |work: &dyn Fn()| {
                 let start = std::time::Instant::now();
                 work();
                 start.elapsed().as_secs_f64() * 1e3
             };
-            let rays = seconds(&|| drop(shoot.by_rays()));
-            let card = seconds(&|| drop(shoot.by_card(&gpu)));
-            let told = format!("{name}, {wavelengths}: rays {rays:.0} ms, card {card:.0} ms");
-            writeln!(std::io::stderr(), "{told}").unwrap();
+            let rays = ms(&|| drop(shoot.by_rays()));
+            let card = ms(&|| drop(shoot.by_card(&gpu)));
+            writeln!(std::io::stderr(), "| {name} | {wavelengths} | {rays:.0} | {card:.0} |").unwrap();
         }
     }
 }
