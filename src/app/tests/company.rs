@@ -14,7 +14,7 @@ fn bench(scene: &str) -> Bench {
     let pane = Pane { shows: Shows::Render, own: None };
     let desk = Desk { layout: Layout::One, panes: [pane; 4], wavelengths: 3, ..Desk::default() };
     let setup = Setup { file: Some(PathBuf::from(scene)), desk, ..Setup::default() };
-    let mut bench = Bench::sized(setup, egui::vec2(860.0, 780.0));
+    let mut bench = Bench::sized(setup, egui::vec2(860.0, 1040.0));
     bench.harness.run_steps(3);
     bench
 }
