@@ -9,6 +9,9 @@ use proptest::prelude::*;
 /// Degrees within which a facet's plane must come back.
 const DEGREES: f64 = 0.05;
 
+/// The same of a girdle's facets, which are so narrow that noise tilts them more: now and then one by 0.06.
+const GIRDLE_DEGREES: f64 = 0.08;
+
 /// Part of the girdle radius within which a facet's distance must come back.
 const PART: f64 = 1e-3;
 
@@ -139,7 +142,12 @@ proptest! {
         let how = Spoilt { noise: 1e-4, apart, turn, scale, shift: scale * DVec3::from_array(shift), seed };
         let back = again(&facets, how, Up::Found);
         let (angle, offset) = worst(&facets, &back.facets);
-        prop_assert!(angle < DEGREES && offset < PART, "{angle} degrees, {offset}");
+        prop_assert!(angle < GIRDLE_DEGREES && offset < PART, "{angle} degrees, {offset}");
+        let broad = |list: &[(String, Plane)]| {
+            list.iter().filter(|(name, _)| !name.starts_with("girdle")).cloned().collect::<Vec<_>>()
+        };
+        let (angle, _) = worst(&broad(&facets), &broad(&back.facets));
+        prop_assert!(angle < DEGREES, "{angle} degrees");
         prop_assert!(back.deviation > 1e-5 && back.deviation < 1e-3, "{}", back.deviation);
         prop_assert_eq!(back.evened.turns, 8);
     }
