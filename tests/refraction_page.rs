@@ -112,7 +112,7 @@ fn the_page_shows_what_the_program_refracts() {
         let folder = made(&format!("--background photo.png {options}"));
         let picture = folder.path().join("shot.png");
         let shoot = format!("--screenshot={}", picture.display());
-        let more = ["--window-size=400,300", "--virtual-time-budget=5000", &shoot];
+        let more = ["--window-size=400,300", &shoot];
         let page = format!("modern-ideal-refraction.html#still,{},{}", offset.x, offset.y);
         open(&browser, folder.path(), &page, &[&SOFTWARE[..], &more].concat());
         let (found, wanted) = (shot(&picture), expected(folder.path(), bands as usize, offset));
@@ -128,7 +128,7 @@ fn the_page_shows_what_the_program_refracts() {
 fn the_page_moves_has_its_controls_and_says_when_it_cannot() {
     let Some(browser) = browser() else { return };
     let folder = made("--background #203040");
-    let dump = ["--dump-dom", "--virtual-time-budget=3000"];
+    let dump = ["--dump-dom"];
     let page = "modern-ideal-refraction.html";
     let shown = open(&browser, folder.path(), page, &[&SOFTWARE[..], &dump].concat());
     assert!(shown.contains("role=\"alert\" hidden"), "the page reports a fault");
