@@ -3,8 +3,8 @@
 use super::editor::Editor;
 use super::pane::{Sight, rim};
 use super::shows::Shows;
-use super::studio::{Shot, Which, picked};
-use egui::{CursorIcon, PointerButton, Response, Ui};
+use super::studio::{Shot, Which};
+use egui::{CursorIcon, PointerButton, Pos2, Response, Ui};
 use glam::DVec2;
 
 /// Whether renders show the body alone and at rest.
@@ -19,8 +19,8 @@ pub fn carried(editor: &mut Editor, ui: &Ui, pane: usize, response: &Response, s
     let is_start = response.drag_started_by(PointerButton::Primary);
     if is_start && several && is_render && !ui.input(|i| i.modifiers.shift) {
         let from = ui.input(|i| i.pointer.press_origin());
-        let found = from.and_then(|at| picked(shot(editor, pane)?, &sight.film, sight.pixel(at)));
-        editor.held = found.map(|glance| (pane, glance.stone));
+        let found = from.and_then(|at| found(editor, pane, sight, at));
+        editor.held = found.map(|(_, copy, _)| (pane, copy));
     }
     let Some((_, copy)) = editor.held.filter(|(held, _)| *held == pane) else { return false };
     let way = match (is_start, ui.input(|i| i.pointer.press_origin()), response.interact_pointer_pos()) {
@@ -48,17 +48,16 @@ pub fn hover(editor: &mut Editor, ui: &Ui, pane: usize, response: &Response, sig
     if editor.moving.is_on {
         return;
     }
-    let Some(shot) = shot(editor, pane) else { return };
-    let Some(found) = picked(shot, &sight.film, sight.pixel(at)) else { return };
-    let Some(pose) = shot.company.get(found.stone) else { return };
-    rim(ui, (shot.specimen.solid(), found.facet), |corner| pose.place(corner), sight);
-    let name = shot.specimen.body.name(found.facet);
-    let told = format!("copy {} of {}: {name}", found.stone + 1, shot.company.len());
-    editor.told = told;
+    let Some((shot, copy, facet)) = found(editor, pane, sight, at) else { return };
+    rim(ui, (shot.specimen.solid(), facet), |corner| shot.company[copy].place(corner), sight);
+    editor.told = format!("copy {} of {}: {}", copy + 1, shot.company.len(), shot.specimen.body.name(facet));
 }
 
-/// What a view was last asked to show.
-fn shot(editor: &Editor, pane: usize) -> Option<&Shot> {
+/// What a view was last asked to show, and which copy and facet of it lie at a point of the window.
+fn found(editor: &mut Editor, pane: usize, sight: &Sight, at: Pos2) -> Option<(Shot, usize, u32)> {
     let own = (pane, Which::Present);
-    editor.asked.shots.iter().find(|(slot, _)| *slot == own).map(|(_, shot)| shot)
+    let shot = editor.asked.shots.iter().find(|(slot, _)| *slot == own)?.1.clone();
+    let probe = editor.probe(&shot.specimen);
+    let (copy, facet) = probe.among(&shot.company, &sight.view, &sight.film, sight.pixel(at))?;
+    Some((shot, copy, facet))
 }

@@ -45,6 +45,7 @@ impl ExportDialog {
         let (upright, turn) = (Arc::clone(editor.document.specimen()), editor.desk.eye.turn);
         let plan = Plan {
             shot,
+            turned: editor.posed(turn),
             upright,
             turn,
             views,

@@ -9,7 +9,7 @@ use crate::io::refraction_page::{Page, takes, write_page};
 use crate::io::{Failure, rasterize, write_rgba_png};
 use crate::optics::line;
 use crate::picture::{named, profile};
-use crate::scene::{Film, Projection, Specimen, Viewpoint};
+use crate::scene::{Film, Pose, Projection, Specimen, Viewpoint};
 use crate::trace::unwatched;
 use egui::ColorImage;
 use std::ops::ControlFlow;
@@ -27,8 +27,10 @@ const RENDER: f64 = 4.0;
 /// What is to be written.
 #[derive(Clone)]
 pub struct Plan {
-    /// The stone, its light and the view; its film and what it shows do not count.
+    /// What renders show, its light and the view; its film does not count.
     pub shot: Shot,
+    /// The stone at rest, turned as in the views, for scopes.
+    pub turned: Arc<Specimen>,
     /// The same stone as the cut has it, and by how much it is turned for the views, radians.
     pub upright: Arc<Specimen>,
     pub turn: f64,
@@ -76,7 +78,7 @@ impl Plan {
         let azimuth_deg = (turned.azimuth_deg - self.turn.to_degrees()).rem_euclid(360.0);
         let azimuth_deg = if turned.tilt_deg == 0.0 { 0.0 } else { azimuth_deg };
         let own = Viewpoint { azimuth_deg, ..turned };
-        [(seen, self.viewing(&self.shot.specimen, turned)), (upright, self.viewing(&self.upright, own))]
+        [(seen, self.viewing(&self.turned, turned)), (upright, self.viewing(&self.upright, own))]
     }
 
     fn outputs(&self, is_part: impl Fn(&Shows) -> bool, formats: Vec<Format>) -> Outputs {
@@ -146,11 +148,13 @@ impl Plan {
 
     /// The picture of a view at a size, the whole stone in it.
     fn shot(&self, shows: Shows, size: u32) -> Shot {
-        let reach = if shows == Shows::Render { fitting(&self.shot) } else { self.shot.specimen.reach };
         let view = crate::scene::View { side: shows.side().unwrap_or(self.shot.view.side), ..self.shot.view };
-        let specimen = if shows.is_seen() { &self.shot.specimen } else { &self.upright };
-        let film = Film::reaching(reach, size);
-        Shot { specimen: Arc::clone(specimen), shows, view, film, ..self.shot.clone() }
+        let shot = Shot { shows, view, ..self.shot.clone() };
+        if shows.has_company() {
+            return Shot { film: Film::reaching(fitting(&shot), size), ..shot };
+        }
+        let specimen = Arc::clone(if shows.is_seen() { &self.turned } else { &self.upright });
+        Shot { film: Film::reaching(specimen.reach, size), specimen, company: vec![Pose::STILL], ..shot }
     }
 
     /// Writes all, one after the other.

@@ -126,10 +126,10 @@ impl Editor {
     /// What the linked views look at, whatever they show.
     pub(super) fn linked_shot(&mut self) -> Shot {
         let (light, eye) = (self.light(), self.desk.eye);
-        // Of a company every file but the render shows one, at rest.
-        let (_, company) = self.company(Which::Present, 0.0).unwrap_or((self.posed(0.0), vec![Pose::STILL]));
+        let (specimen, company) =
+            self.company(Which::Present, eye.turn).unwrap_or((self.posed(eye.turn), vec![Pose::STILL]));
         Shot {
-            specimen: self.posed(eye.turn),
+            specimen,
             shows: Shows::Render,
             strongest: self.desk.strongest,
             view: eye.view(None),

@@ -2,7 +2,7 @@
 
 use crate::cut::tier_stem;
 use crate::optics::line;
-use crate::scene::{Film, Scope, Specimen, View, elevation_deg};
+use crate::scene::{Film, Pose, Scope, Specimen, View, elevation_deg};
 use crate::trace::ray::{Camera, Options, Path, Tracer};
 use glam::{DVec2, DVec3};
 use std::sync::Arc;
@@ -87,6 +87,19 @@ impl Probe {
         Some(self.found((facet as u32, origin + direction * distance), light))
     }
 
+    /// Which of its copies lies first at a point of a film, in its pixels, and which of its facets; none beside all.
+    pub fn among(&self, copies: &[Pose], view: &View, film: &Film, at: DVec2) -> Option<(usize, u32)> {
+        let farthest = copies.iter().map(|pose| pose.at.length()).fold(0.0, f64::max);
+        let eye = Camera::reaching(view, farthest + self.specimen.radius);
+        let (origin, direction) = eye.ray(film.image_from_pixels(at));
+        let meet = |(copy, pose): (usize, &Pose)| {
+            let (facet, distance) = self.tracer.meet(pose.point(origin), pose.turn.inverse() * direction)?;
+            Some((copy, facet as u32, distance))
+        };
+        let first = copies.iter().enumerate().filter_map(meet).min_by(|a, b| a.2.total_cmp(&b.2));
+        first.map(|(copy, facet, _)| (copy, facet))
+    }
+
     fn found(&self, (facet, point): (u32, DVec3), light: Option<Light>) -> Found {
         let normal = self.specimen.solid().normal(facet, point);
         let (body, radial) = (&self.specimen.body, normal.truncate());
@@ -153,5 +166,30 @@ mod tests {
         let light = bezel.light.as_ref().unwrap();
         assert!(light.share > 0.3 && bezel.told().contains("of 8 bezel facets"), "{}", bezel.told());
         assert_eq!(at(1.05, 0.0), None);
+    }
+
+    #[test]
+    fn of_copies_the_one_before_the_others_is_found_however_it_is_turned() {
+        let probe = Probe::new(Arc::clone(Document::first().unwrap().specimen()));
+        let turned = Pose { at: DVec3::new(1.5, 0.2, -4.0), turn: glam::DQuat::from_rotation_x(std::f64::consts::PI) };
+        let copies = [turned, Pose { at: DVec3::new(-1.5, 0.0, 0.0), ..Pose::STILL }, Pose::STILL];
+        let film = Film::square(200, 3.0);
+        let perspective = View { projection: crate::scene::Projection::Perspective { distance: 9.0 }, ..View::default() };
+        for view in [View::default(), perspective] {
+            let found = |place: DVec3| {
+                let at = Camera::reaching(&view, 1.0).project(place).unwrap().0;
+                let pixels = film.pixels_from_image(glam::DMat2::IDENTITY).transform_point2(at);
+                let (copy, facet) = probe.among(&copies, &view, &film, pixels)?;
+                Some((copy, probe.specimen.body.name(facet)))
+            };
+            // Face down its culet is nearest to the eye, and beside that a pavilion main.
+            let main = found(turned.place(DVec3::new(0.1, 0.01, -0.8))).unwrap();
+            assert!(main.0 == 0 && main.1.starts_with("pavilion_main"), "{main:?}");
+            assert_eq!(found(DVec3::new(-1.9, 0.0, 0.3)), Some((1, "table".to_owned())));
+            assert_eq!(found(DVec3::new(0.1, 0.0, 0.3)), Some((2, "table".to_owned())));
+            // Where two overlap in sight the nearer one is found.
+            assert_eq!(found(DVec3::new(-0.7, 0.0, 0.0)).map(|f| f.0), Some(2));
+            assert_eq!(found(DVec3::new(0.0, 2.5, 0.0)), None);
+        }
     }
 }

@@ -96,10 +96,16 @@ impl Company {
     /// Where the copies are at a time, as bodies of these corners that tumble, or do not. Copies that would meet lie in layers
     /// behind one another, the later ones farther from the eye of the view face up.
     pub fn poses(&self, corners: &[DVec3], tumbling: Option<f64>) -> Vec<Pose> {
+        let turned = |(number, pose): (usize, &Pose)| {
+            tumbling.map_or(pose.turn, |seconds| tumbled(number, seconds) * pose.turn)
+        };
+        if let [alone] = &self.poses[..] {
+            return vec![Pose { turn: turned((0, alone)), ..*alone }];
+        }
         let reach = corners.iter().map(|c| c.length()).fold(0.0, f64::max) * (1.0 + CLEAR);
         let mut placed: Vec<(Pose, [DVec3; 2])> = Vec::with_capacity(self.poses.len());
         for (number, pose) in self.poses.iter().enumerate() {
-            let turn = tumbling.map_or(pose.turn, |seconds| tumbled(number, seconds) * pose.turn);
+            let turn = turned((number, pose));
             let around = match tumbling {
                 // Whatever way it turns.
                 Some(_) => [DVec3::splat(-reach), DVec3::splat(reach)],

@@ -21,6 +21,8 @@ pub struct Specimen {
     /// How far it reaches across or along its axis, girdle radii: to this views are fitted, so that the girdle keeps its
     /// size while the depth changes.
     pub reach: f64,
+    /// How far it reaches from the origin in any direction, girdle radii.
+    pub radius: f64,
 }
 
 /// Why a design makes no stone.
@@ -70,9 +72,10 @@ impl Specimen {
     }
 
     fn made(design: Design, body: Body, material: Material, warnings: Vec<String>) -> Self {
-        let reach = |v: &DVec3| v.truncate().length().max(v.z.abs());
-        let reach = body.solid().vertices().iter().map(reach).fold(0.0, f64::max);
-        Self { design, body, material, warnings, reach }
+        let farthest = |far: &dyn Fn(&DVec3) -> f64| body.solid().vertices().iter().map(far).fold(0.0, f64::max);
+        let reach = farthest(&|v| v.truncate().length().max(v.z.abs()));
+        let radius = farthest(&|v| v.length());
+        Self { design, body, material, warnings, reach, radius }
     }
 
     /// Its shape, to be traced.

@@ -15,7 +15,6 @@ use crate::trace::sitting::{Exposure, Looks, Sitting};
 use crate::trace::surround::{Behind, Surround};
 use crate::trace::{Watch, beam};
 use egui::ColorImage;
-use glam::DVec2;
 use std::sync::Arc;
 
 /// Beams of one wavelength of a render: without symmetry the bound would take many times as long.
@@ -157,9 +156,8 @@ pub const BEHIND: f64 = 3.0;
 
 /// How far behind the middle the picture hangs, girdle radii: as asked, but behind all bodies however they are turned.
 pub fn hung(shot: &Shot) -> f64 {
-    let own = shot.specimen.solid().vertices().iter().map(|v| v.length()).fold(0.0, f64::max);
-    let farthest = shot.company.iter().map(|pose| pose.at.length() + own).fold(0.0, f64::max);
-    shot.distance.max(farthest)
+    let farthest = shot.company.iter().map(|pose| pose.at.length()).fold(0.0, f64::max);
+    shot.distance.max(farthest + shot.specimen.radius)
 }
 
 /// How far a render of all copies reaches from its middle, girdle radii.
@@ -216,12 +214,6 @@ pub fn sitting<'a>(
         film,
         options: ray::Options { polarised: true, most_bounces: MOST_BOUNCES, least_weight: LEAST_WEIGHT },
     }
-}
-
-/// What is seen first at a point of a film, in its pixels; `None` beside all bodies.
-pub fn picked(shot: &Shot, film: &Film, at: DVec2) -> Option<ray::Glance> {
-    let setting = setting(shot);
-    ray::Sight::new(&sitting(shot, &setting, *film, None)).through(at.x, at.y)
 }
 
 fn developed(
