@@ -1,8 +1,8 @@
 //! Presets, copies, their motion, and how moving edges are smoothed: what glass shapes are shown with, and gems may be.
 
-use super::design_panel::{NUMBER, Number, named};
 use super::editor::Editor;
 use super::preset::PRESETS;
+use super::rows::{NUMBER, Row, named};
 use super::shows::Shows;
 use super::studio::Smoothing;
 use crate::cut::MaterialRef;
@@ -71,24 +71,14 @@ pub fn show(editor: &mut Editor, ui: &mut Ui) {
 fn view_angle(editor: &mut Editor, ui: &mut Ui) {
     let reach = editor.reach(Shows::Render);
     let Some(distance) = &mut editor.desk.eye.distance else { return };
-    ui.horizontal(|ui| {
-        let meaning = "The angle that the linked views take in; P looks along parallel rays.";
-        let label = named(ui, "View angle", meaning);
-        let mut degrees = 2.0 * (reach / *distance).atan().to_degrees();
-        let before = degrees;
-        ui.spacing_mut().slider_width = (ui.available_width() - NUMBER - 24.0).max(40.0);
-        ui.add(Slider::new(&mut degrees, ANGLES).show_value(false))
-            .labelled_by(label.id)
-            .on_hover_text(meaning);
-        Number { decimals: 1, speed: 0.2, range: ANGLES, unit: "°" }.show(
-            ui,
-            (NUMBER, label.id),
-            &mut degrees,
-        );
-        if degrees != before {
-            *distance = reach / (0.5 * degrees).to_radians().tan();
-        }
-    });
+    let mut degrees = 2.0 * (reach / *distance).atan().to_degrees();
+    let before = degrees;
+    let meaning = "The angle that the linked views take in; P looks along parallel rays.";
+    let row = Row::new("View angle", meaning, ANGLES);
+    Row { decimals: 1, speed: 0.2, unit: "°", ..row }.show(ui, &mut degrees);
+    if degrees != before {
+        *distance = reach / (0.5 * degrees).to_radians().tan();
+    }
 }
 
 fn copies(editor: &mut Editor, ui: &mut Ui) {
@@ -136,43 +126,27 @@ fn smoothing(editor: &mut Editor, ui: &mut Ui) {
         combo.response.labelled_by(label.id);
     });
     if let Smoothing::Temporal { newest } = smoothing {
-        ui.horizontal(|ui| {
-            let meaning = "The share of the newest picture: less is smoother, and slower to follow.";
-            let label = named(ui, "Newest part", meaning);
-            ui.spacing_mut().slider_width = (ui.available_width() - NUMBER - 24.0).max(40.0);
-            ui.add(Slider::new(newest, NEWEST).show_value(false))
-                .labelled_by(label.id)
-                .on_hover_text(meaning);
-            let number = Number { decimals: 2, speed: 0.01, range: NEWEST, unit: "" };
-            number.show(ui, (NUMBER, label.id), newest);
-        });
+        let meaning = "The share of the newest picture: less is smoother, and slower to follow.";
+        Row { speed: 0.01, ..Row::new("Newest part", meaning, NEWEST) }.show(ui, newest);
     }
 }
 
 /// The two numbers of a glass, its index and its Abbe number; changing one makes it a glass of its own.
 pub fn two_numbers(material: &mut MaterialRef, known: &Material, ui: &mut Ui) {
     let law = &known.dispersion;
-    let [index, abbe] = [known.index(line::HELIUM_D), law.abbe_number().unwrap_or(*ABBE_NUMBERS.end())];
+    let (index, abbe) = (known.index(line::HELIUM_D), law.abbe_number().unwrap_or(f64::INFINITY));
     let (mut n, mut v) = (index, abbe);
-    let mut row = |name, meaning, value: &mut f64, (range, decimals): (RangeInclusive<f64>, usize)| {
-        ui.horizontal(|ui| {
-            let label = named(ui, name, meaning);
-            ui.spacing_mut().slider_width = (ui.available_width() - NUMBER - 24.0).max(40.0);
-            let slider = Slider::new(value, range.clone()).show_value(false).smart_aim(false);
-            ui.add(slider).labelled_by(label.id).on_hover_text(meaning);
-            Number { decimals, speed: 0.01, range, unit: "" }.show(ui, (NUMBER, label.id), value);
-        });
+    let meaning = "Refractive index n_d, of helium's yellow line at 587.6 nm.";
+    Row { decimals: 3, speed: 0.01, ..Row::new("Index", meaning, INDICES) }.show(ui, &mut n);
+    let meaning = "V_d: the less, the wider the rainbow; inf for none. Below 20 no real glass is.";
+    let limits = *ABBE_NUMBERS.start()..=f64::INFINITY;
+    let row = Row::new("Abbe number", meaning, ABBE_NUMBERS);
+    Row { limits, decimals: 1, speed: 0.1, ..row }.show(ui, &mut v);
+    let custom = match v.is_finite() {
+        true => Material::from_abbe(&format!("index {n:.3}, Abbe number {v:.1}"), n, v),
+        false => Material::from_index(&format!("index {n:.3}"), n),
     };
-    row("Index", "Refractive index n_d, of helium's yellow line at 587.6 nm.", &mut n, (INDICES, 3));
-    row(
-        "Abbe number",
-        "V_d: the less, the wider the rainbow. Below 20 no real glass is.",
-        &mut v,
-        (ABBE_NUMBERS, 1),
-    );
-    if (n, v) != (index, abbe)
-        && let Ok(custom) = Material::from_abbe(&format!("index {n:.3}, Abbe number {v:.1}"), n, v)
-    {
+    if let Some(custom) = custom.ok().filter(|_| (n, v) != (index, abbe)) {
         *material = MaterialRef::Custom(Box::new(custom));
     }
 }

@@ -4,6 +4,7 @@ use super::desk::WAVELENGTHS;
 use super::editor::Editor;
 use super::files::Purpose;
 use super::proportions::{EXCELLENT_DEPTH, PROPORTIONS, Proportion};
+use super::rows::{ANY, NUMBER, Number, Row, named};
 use super::studio::BEHIND;
 use super::{company_rows, glass_rows, theme, tier_rows};
 use crate::cut::{Cut, DesignError, MaterialRef, RoundBrilliant, Size, Unit};
@@ -11,14 +12,10 @@ use crate::optics::{line, materials};
 use crate::picture::Pattern;
 use crate::scene::{LIGHTS, SpecimenError, light};
 use egui::{
-    Color32, ComboBox, DragValue, Panel, Rect, RichText, Role, ScrollArea, Sense, Slider, SliderClamping,
-    Stroke, StrokeKind, TextEdit, Ui, WidgetInfo, pos2, vec2,
+    Color32, ComboBox, Panel, Rect, RichText, Role, ScrollArea, Sense, Slider, SliderClamping, Stroke,
+    StrokeKind, TextEdit, Ui, WidgetInfo, pos2, vec2,
 };
 use std::ops::RangeInclusive;
-
-/// Widths of a row's parts, points: its name, its number.
-const NAME: f32 = 104.0;
-pub(super) const NUMBER: f32 = 66.0;
 
 /// Stops that light can be raised or lowered by.
 const STOPS: RangeInclusive<f64> = -4.0..=4.0;
@@ -173,37 +170,6 @@ fn row(ui: &mut Ui, proportion: &Proportion, brilliant: &mut RoundBrilliant) {
     });
 }
 
-/// A field for a number.
-pub(super) struct Number<'a> {
-    pub decimals: usize,
-    /// Change for a point that it is dragged by.
-    pub speed: f64,
-    pub range: RangeInclusive<f64>,
-    pub unit: &'a str,
-}
-
-/// Numbers that have limits of their own, which are told.
-pub(super) const ANY: RangeInclusive<f64> = f64::NEG_INFINITY..=f64::INFINITY;
-
-impl Number<'_> {
-    /// Draws it. Leaving it untouched leaves the number as it is, though more decimals belong to it than are shown.
-    pub fn show(self, ui: &mut Ui, (width, label): (f32, egui::Id), value: &mut f64) -> egui::Response {
-        let before = *value;
-        let Self { decimals, speed, range, unit } = self;
-        let field = DragValue::new(value).range(range).speed(speed).suffix(unit).update_while_editing(false);
-        let field = field.min_decimals(decimals.min(1)).max_decimals(decimals);
-        // Half the world writes a comma.
-        let field = field.custom_parser(|text| {
-            text.trim().trim_end_matches(unit.trim()).trim().replace(',', ".").parse().ok()
-        });
-        let response = ui.add_sized(vec2(width, ui.spacing().interact_size.y), field).labelled_by(label);
-        if format!("{before:.decimals$}").parse() == Ok(*value) {
-            *value = before;
-        }
-        response
-    }
-}
-
 /// Where on a slider a range lies: a band under its rail.
 fn band(slider: Rect, range: &RangeInclusive<f64>, whole: &RangeInclusive<f64>) -> Rect {
     let handle = slider.height() / 2.5;
@@ -219,15 +185,6 @@ fn range(proportion: &Proportion) -> String {
         .as_ref()
         .map(|e| format!(" GIA calls {} to {}{} excellent.", e.start(), e.end(), proportion.unit));
     format!("{}{}", proportion.meaning, good.unwrap_or_default())
-}
-
-pub(super) fn named(ui: &mut Ui, name: &str, meaning: &str) -> egui::Response {
-    let height = ui.spacing().interact_size.y;
-    ui.allocate_ui_with_layout(vec2(NAME, height), egui::Layout::left_to_right(egui::Align::Center), |ui| {
-        ui.set_min_width(NAME);
-        ui.label(name).on_hover_text(meaning)
-    })
-    .inner
 }
 
 fn hold(ui: &mut Ui, proportion: &Proportion, brilliant: &mut RoundBrilliant) {
@@ -401,12 +358,9 @@ fn lighting(editor: &mut Editor, ui: &mut Ui) {
         });
         combo.response.labelled_by(label.id);
     });
-    plain(
-        ui,
-        ("Exposure", "How bright renders are shown, in stops: one more is twice the light."),
-        &mut work.exposure,
-        (STOPS, " stops"),
-    );
+    let meaning = "How bright renders are shown, in stops: one more is twice the light.";
+    let exposure = Row { step: 0.1, decimals: 1, unit: " stops", ..Row::new("Exposure", meaning, STOPS) };
+    exposure.show(ui, &mut work.exposure);
     ui.horizontal(|ui| {
         let meaning = "Into how many bands of wavelengths renders take light apart; few show as bands in the colours. Hold Z \
             to see what three show.";
@@ -419,12 +373,9 @@ fn lighting(editor: &mut Editor, ui: &mut Ui) {
         combo.response.labelled_by(label.id);
     });
     let asks_picture = behind(editor, ui);
-    plain(
-        ui,
-        ("Head", "Half angle of the observer's head, which shuts out light in ASET and figures; 0 for none."),
-        &mut editor.document.work.head,
-        (HEADS, "°"),
-    );
+    let meaning = "Half angle of the observer's head, which shuts out light in ASET and figures; 0 for none.";
+    let head = Row { step: 0.1, decimals: 1, unit: "°", ..Row::new("Head", meaning, HEADS) };
+    head.show(ui, &mut editor.document.work.head);
     if asks {
         editor.choose(Purpose::Light);
     }
@@ -465,35 +416,17 @@ fn behind(editor: &mut Editor, ui: &mut Ui) -> bool {
             let mut mm = desk.behind_mm.unwrap_or(BEHIND * unit_mm);
             let before = mm;
             let about = "How far behind the middle it hangs; never nearer than the stones reach.";
-            plain(ui, ("Distance", about), &mut mm, (0.0..=20.0 * unit_mm, " mm"));
+            let row = Row::new("Distance", about, 0.0..=20.0 * unit_mm);
+            Row { limits: 0.0..=f64::INFINITY, step: 0.1, decimals: 1, unit: " mm", ..row }.show(ui, &mut mm);
             if mm != before {
                 desk.behind_mm = Some(mm);
             }
         }
-        plain(ui, ("Strength", meaning), &mut desk.strength, (STRENGTHS, ""));
+        let row = Row::new("Strength", meaning, STRENGTHS);
+        Row { step: 0.005, decimals: 3, ..row }.show(ui, &mut desk.strength);
     }
     asks
 }
 
 /// From the straight ray to physics.
 const STRENGTHS: RangeInclusive<f64> = 0.0..=1.0;
-
-/// A row of name, slider and number.
-fn plain(
-    ui: &mut Ui,
-    (name, meaning): (&str, &str),
-    value: &mut f64,
-    (range, unit): (RangeInclusive<f64>, &str),
-) {
-    ui.horizontal(|ui| {
-        let label = named(ui, name, meaning);
-        let held = ui.spacing().interact_size.y;
-        ui.spacing_mut().slider_width = (ui.available_width() - NUMBER - held - 24.0).max(40.0);
-        let step = if *range.end() > 1.0 { 0.1 } else { 0.005 };
-        // What is not touched keeps its decimals.
-        let slider = Slider::new(value, range.clone()).show_value(false).clamping(SliderClamping::Never);
-        ui.add(slider.step_by(step)).labelled_by(label.id).on_hover_text(meaning);
-        let decimals = if *range.end() > 1.0 { 1 } else { 3 };
-        Number { decimals, speed: 0.02, range, unit }.show(ui, (NUMBER, label.id), value);
-    });
-}

@@ -105,7 +105,7 @@ pub fn show(editor: &mut Editor, ui: &mut Ui, export: &mut ExportDialog) -> bool
 
 fn views(ui: &mut Ui, export: &mut ExportDialog) {
     ui.horizontal_wrapped(|ui| {
-        for shows in Shows::EXPORTED {
+        for shows in Shows::EXPORTED.iter().copied() {
             let mut wanted = export.plan.views.contains(&shows);
             if thumbnail(ui, shows, wanted, export.pictures.get(&shows)) {
                 wanted = !wanted;

@@ -291,7 +291,7 @@ pub fn thumbnails(plan: Plan, wake: impl Fn() + Send + 'static) -> Receiver<(Sho
     let (sender, pictures) = channel();
     std::thread::spawn(move || {
         let mut camera = Camera::default();
-        for shows in Shows::EXPORTED {
+        for shows in Shows::EXPORTED.iter().copied() {
             if !send(&plan, shows, &mut camera, &sender) {
                 return;
             }

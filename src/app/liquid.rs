@@ -1,7 +1,7 @@
 //! A pane of liquid glass in a view: over the background and moved by hand, drawn as screens draw it or traced.
 
 use super::editor::{Editor, Shown};
-use super::lookup::{Ask, hung};
+use super::lookup::{Ask, backdrop};
 use super::pane::{enlarge, focus};
 use super::shows::Shows;
 use super::studio::{Grade, Which};
@@ -140,7 +140,7 @@ fn by_keys(liquid: &mut Liquid, ui: &Ui, response: &Response) {
 fn ask(editor: &mut Editor, pane: usize, size: [u32; 2]) {
     let light = editor.light();
     if let Some(shot) = editor.shot(pane, Which::Present, size, &light) {
-        let behind = hung(shot.behind.as_ref());
+        let behind = backdrop(shot.behind.as_ref());
         let ask = Ask { shot, grade: Grade::Fine, map: None, behind };
         editor.looker.ask((pane, Which::Present), ask);
     }

@@ -17,7 +17,7 @@ use std::thread::JoinHandle;
 const FIRST: Pattern = Pattern::Page;
 
 /// What hangs behind where a picture must hang: a pattern if nothing else was asked for.
-pub fn hung(asked: Option<&BackgroundRef>) -> BackgroundRef {
+pub fn backdrop(asked: Option<&BackgroundRef>) -> BackgroundRef {
     let is_picture = |a: &&BackgroundRef| matches!(a, BackgroundRef::Pattern(_) | BackgroundRef::Photo(_));
     asked.filter(is_picture).cloned().unwrap_or(BackgroundRef::Pattern(FIRST))
 }

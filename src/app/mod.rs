@@ -35,6 +35,7 @@ mod probe;
 mod profile_view;
 mod proportions;
 mod refraction_view;
+mod rows;
 mod shows;
 mod stage;
 mod studio;

@@ -81,7 +81,7 @@ impl Editor {
         }
     }
 
-    fn opened(&mut self, opening: &Opening, document: Document) {
+    fn opened(&mut self, opening: &Opening, mut document: Document) {
         // What was changed while the file was on its way is nothing that anyone has given up.
         let is_later = self.document.work != opening.work;
         match opening.wanted {
@@ -93,9 +93,10 @@ impl Editor {
                 self.begin(document);
             }
             Wanted::Again => {
-                let (eye, panes) = (self.desk.eye, self.desk.panes);
+                let (eye, panes, behind_mm) = (self.desk.eye, self.desk.panes, self.desk.behind_mm);
+                document.work.company = self.document.work.company.clone();
                 self.begin(document);
-                (self.desk.eye, self.desk.panes) = (eye, panes);
+                (self.desk.eye, self.desk.panes, self.desk.behind_mm) = (eye, panes, behind_mm);
                 self.notes.say("The file was changed by another program and has been read again.");
             }
         }

@@ -1,11 +1,11 @@
 //! What liquid glass is made of: rows that are there while a view shows it.
 
-use super::design_panel::{NUMBER, Number, named};
 use super::editor::Editor;
 use super::liquid::Liquid;
+use super::rows::{Row, named};
 use super::shows::Shows;
 use crate::picture::pane::Quality;
-use egui::{ComboBox, RichText, Slider, Ui};
+use egui::{ComboBox, RichText, Ui};
 use std::ops::RangeInclusive;
 
 /// Percent of the view, of the shorter side, and strengths.
@@ -65,11 +65,12 @@ pub fn show(editor: &mut Editor, ui: &mut Ui) {
             "",
         ),
     ] {
-        row(ui, (name, meaning), value, (range, unit));
+        Row { step: 1.0, decimals: 0, speed: 0.2, unit, ..Row::new(name, meaning, range) }.show(ui, value);
     }
     if traced {
         let meaning = "How far the traced pane lies above what is behind, in parts of its shorter side.";
-        row(ui, ("Gap", meaning), gap, (GAPS, ""));
+        let row = Row::new("Gap", meaning, GAPS);
+        Row { step: 0.001, decimals: 3, speed: 0.002, logarithmic: true, ..row }.show(ui, gap);
     }
     last(liquid, ui);
 }
@@ -93,24 +94,5 @@ fn last(liquid: &mut Liquid, ui: &mut Ui) {
         if ui.button("Reset").on_hover_text("The pane as it was at first.").clicked() {
             *liquid = Liquid::default();
         }
-    });
-}
-
-/// A row of name, slider and number.
-fn row(
-    ui: &mut Ui,
-    (name, meaning): (&str, &str),
-    value: &mut f64,
-    (range, unit): (RangeInclusive<f64>, &str),
-) {
-    ui.horizontal(|ui| {
-        let label = named(ui, name, meaning);
-        ui.spacing_mut().slider_width = (ui.available_width() - NUMBER - 24.0).max(40.0);
-        let is_fine = *range.end() <= 1.0;
-        let (step, decimals, speed) = if is_fine { (0.001, 3, 0.002) } else { (1.0, 0, 0.2) };
-        ui.add(Slider::new(value, range.clone()).show_value(false).step_by(step).logarithmic(is_fine))
-            .labelled_by(label.id)
-            .on_hover_text(meaning);
-        Number { decimals, speed, range, unit }.show(ui, (NUMBER, label.id), value);
     });
 }

@@ -7,7 +7,7 @@ use crate::io::background::BackgroundRef;
 use crate::io::scene_file::{self, Entry, SceneFile};
 use crate::io::{cut_file, design_file, library};
 use crate::scene::{Company, MOST_COPIES, Pose, Specimen};
-use glam::DVec3;
+use glam::{DQuat, DVec3};
 use std::path::Path;
 
 /// The scenes of glass that come with the program: their names, what they are called, whether they begin to move at once.
@@ -87,20 +87,11 @@ fn design(cut: &str, folder: Option<&Path>) -> Result<Design, String> {
 
 /// Where the stones are, in girdle radii around the middle of all.
 fn poses(scene: &SceneFile, corners: &[DVec3], unit_mm: f64) -> Vec<Pose> {
-    let entries: Vec<&Entry> = scene.stones.iter().flat_map(|e| std::iter::repeat_n(e, e.count)).collect();
-    let more = |k: usize| scene.layout.map_or(0.0, |layout| layout.turn(k));
-    let turns: Vec<_> = entries.iter().enumerate().map(|(k, e)| e.turned(more(k))).collect();
-    let places = match scene.layout {
-        Some(layout) => {
-            let across = |turn: &glam::DQuat| {
-                corners.iter().map(|c| (*turn * *c).truncate().length()).fold(0.0, f64::max)
-            };
-            let radii: Vec<f64> = turns.iter().map(across).collect();
-            layout.places(&radii, scene.gap_mm / unit_mm).into_iter().map(|at| at.extend(0.0)).collect()
-        }
-        None => entries.iter().map(|e| e.at_mm / unit_mm).collect::<Vec<_>>(),
-    };
-    let mut poses: Vec<Pose> = places.into_iter().zip(turns).map(|(at, turn)| Pose { at, turn }).collect();
+    let turns: Vec<_> = scene.turns().into_iter().map(|(_, turn)| turn).collect();
+    let across = |turn: &DQuat| corners.iter().map(|c| (*turn * *c).truncate().length()).fold(0.0, f64::max);
+    let radii: Vec<f64> = turns.iter().map(|turn| across(turn) * unit_mm).collect();
+    let places = scene.places_mm(&radii).into_iter().map(|at| at / unit_mm);
+    let mut poses: Vec<Pose> = places.zip(turns).map(|(at, turn)| Pose { at, turn }).collect();
     if poses.len() > 1 || poses[0].at != DVec3::ZERO {
         let all = || poses.iter().flat_map(|pose| corners.iter().map(|c| pose.place(*c)));
         let middle = 0.5

@@ -171,10 +171,12 @@ mod tests {
     #[test]
     fn of_copies_the_one_before_the_others_is_found_however_it_is_turned() {
         let probe = Probe::new(Arc::clone(Document::first().unwrap().specimen()));
-        let turned = Pose { at: DVec3::new(1.5, 0.2, -4.0), turn: glam::DQuat::from_rotation_x(std::f64::consts::PI) };
+        let turned =
+            Pose { at: DVec3::new(1.5, 0.2, -4.0), turn: glam::DQuat::from_rotation_x(std::f64::consts::PI) };
         let copies = [turned, Pose { at: DVec3::new(-1.5, 0.0, 0.0), ..Pose::STILL }, Pose::STILL];
         let film = Film::square(200, 3.0);
-        let perspective = View { projection: crate::scene::Projection::Perspective { distance: 9.0 }, ..View::default() };
+        let perspective =
+            View { projection: crate::scene::Projection::Perspective { distance: 9.0 }, ..View::default() };
         for view in [View::default(), perspective] {
             let found = |place: DVec3| {
                 let at = Camera::reaching(&view, 1.0).project(place).unwrap().0;

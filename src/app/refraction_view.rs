@@ -2,7 +2,7 @@
 //! it is looked up, as often as the background moves.
 
 use super::editor::Editor;
-use super::lookup::{Ask, hung};
+use super::lookup::{Ask, backdrop};
 use super::pane::has_room;
 use super::studio::{SPAN, Which};
 use egui::{Context, PointerButton, Response, Ui};
@@ -55,7 +55,7 @@ pub fn show(editor: &mut Editor, ui: &Ui, pane: usize, response: &Response) {
         flowing.moved += FLOW * f64::from(ui.input(|i| i.stable_dt).min(LONGEST));
         ui.ctx().request_repaint();
     }
-    let (moved, behind) = (flowing.moved, hung(editor.desk.background().as_ref()));
+    let (moved, behind) = (flowing.moved, backdrop(editor.desk.background().as_ref()));
     for which in [Which::Present, Which::Other] {
         let Some(shown) = editor.pictures.get(&(pane, which)) else { continue };
         if let Some(map) = &shown.taken.map {

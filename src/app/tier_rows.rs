@@ -1,6 +1,6 @@
 //! The tiers of a cut that lists its facets: a row each, with angle and distance.
 
-use super::design_panel::{ANY, NUMBER, Number, named};
+use super::rows::{ANY, NUMBER, Number, named};
 use crate::cut::Cut;
 use egui::{Align, Layout, RichText, Ui, vec2};
 

@@ -94,18 +94,17 @@ impl Assembly {
     ) -> Result<Self, Failure> {
         let path = file.display().to_string();
         let specimens = specimens(file, &scene)?;
-        let mut members = Vec::new();
-        for (number, entry) in scene.stones.iter().enumerate() {
+        let member = |(number, entry): (usize, &Entry)| {
             let specimen = &specimens[&entry.cut];
             let told = format!("stone {} ({})", number + 1, entry.cut);
-            let member = member(specimen, entry, material, size.or(entry.size), told)
-                .map_err(|message| at_entry(file, number, entry, &message))?;
-            for _ in 0..entry.count {
-                let more = scene.layout.map_or(0.0, |layout| layout.turn(members.len()));
-                members.push(Member { turn: entry.turned(more), ..member.clone() });
-            }
-        }
-        lay(&mut members, &scene);
+            member(specimen, entry, material, size.or(entry.size), told)
+                .map_err(|message| at_entry(file, number, entry, &message))
+        };
+        let kinds = scene.stones.iter().enumerate().map(member).collect::<Result<Vec<_>, _>>()?;
+        let turned = |(kind, turn): (usize, DQuat)| Member { turn, ..kinds[kind].clone() };
+        let mut members: Vec<Member> = scene.turns().into_iter().map(turned).collect();
+        let radii: Vec<f64> = members.iter().map(Member::radius_mm).collect();
+        members.iter_mut().zip(scene.places_mm(&radii)).for_each(|(member, at)| member.at_mm = at);
         let setting = placed(&members);
         if let Some((a, b)) = overlapping(&setting.stones) {
             let (a, b) = (&members[a].told, &members[b].told);
@@ -196,16 +195,7 @@ fn member<'a>(
     let own = || entry.material.as_ref().map_or(Ok(specimen.material.clone()), MaterialRef::material);
     let material = material.cloned().map_or_else(own, Ok).map_err(|error| error.to_string())?;
     let diameter_mm = diameter_mm(specimen, &material, size)?;
-    Ok(Member { specimen, material, diameter_mm, turn: entry.turned(0.0), at_mm: entry.at_mm, told })
-}
-
-/// Puts the stones where the scene's layout has them.
-fn lay(members: &mut [Member], scene: &SceneFile) {
-    let Some(layout) = scene.layout else { return };
-    let radii: Vec<f64> = members.iter().map(Member::radius_mm).collect();
-    for (member, at) in members.iter_mut().zip(layout.places(&radii, scene.gap_mm)) {
-        member.at_mm = at.extend(0.0);
-    }
+    Ok(Member { specimen, material, diameter_mm, turn: DQuat::IDENTITY, at_mm: entry.at_mm, told })
 }
 
 impl Member<'_> {

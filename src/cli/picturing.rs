@@ -9,7 +9,7 @@ use crate::io::background::{BackgroundError, BackgroundRef};
 use crate::io::export::Sampler;
 use crate::io::lighting::Lighting;
 use crate::optics::Illuminant;
-use crate::picture::{Bloom, Develop, Linear, Overlay, PATTERN_SPAN, Tone, develop, lay};
+use crate::picture::{Bloom, Develop, Linear, Overlay, Tone, develop, lay};
 use crate::scene::{Film, Panorama, Projection, Setting, View};
 use crate::trace::Watch;
 use crate::trace::ray::{self, Camera};
@@ -260,18 +260,9 @@ impl<'a> Studio<'a> {
         let turned = |x: DVec3| basis.right * x.x + basis.up * x.y + basis.toward * x.z;
         let (right, up) = (turned(turn * DVec3::X), turned(turn * DVec3::Y));
         (basis.right, basis.up) = (right, up);
-        let distance = self.distance;
-        // Wide enough to fill the picture, whatever its shape.
-        let span = if matches!(self.background, BackgroundRef::Pattern(_)) { PATTERN_SPAN } else { 1.0 };
-        let behind = self.photo.as_ref().map(|picture| {
-            let [across, down] = self.options.size.map(f64::from);
-            let shape = f64::from(picture.width) / f64::from(picture.height);
-            Behind {
-                picture,
-                distance,
-                width: span * pixel * across.max(down * shape) * Self::nearness(view, distance),
-            }
-        });
+        let film = Film::new(self.options.size, pixel);
+        let hung = |picture| Behind::filling(picture, self.background.span(), self.distance, view, &film);
+        let behind = self.photo.as_ref().map(hung);
         work(&Sitting {
             setting,
             surround: Surround {
@@ -283,20 +274,12 @@ impl<'a> Studio<'a> {
                 backdrop: self.background == BackgroundRef::Light || behind.is_some(),
             },
             view,
-            film: Film::new(self.options.size, pixel),
+            film,
             options: ray::Options {
                 polarised: !self.options.unpolarised,
                 most_bounces: MOST_BOUNCES,
                 least_weight: LEAST_WEIGHT,
             },
         })
-    }
-
-    /// How much larger than in the image's plane a photograph must be to fill it from behind.
-    pub fn nearness(view: &View, behind: f64) -> f64 {
-        match view.projection {
-            Projection::Orthographic => 1.0,
-            Projection::Perspective { distance } => (distance + behind) / distance,
-        }
     }
 }

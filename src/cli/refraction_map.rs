@@ -139,7 +139,7 @@ impl RefractionMaps {
         let [across, down] = self.picture.size.map(f64::from);
         let plane = Backdrop {
             distance,
-            size: DVec2::new(across, down) * pixel * self.span * Studio::nearness(view, distance),
+            size: DVec2::new(across, down) * pixel * self.span * view.widening(distance),
             both_sides: self.both_sides,
         };
         let seen = |count| strata(count, studio.spectrum(), !self.picture.unadapted);

@@ -5,7 +5,7 @@ use super::refraction_map::png;
 use super::{DrawingError, rasterize};
 use crate::optics::linear_from_encoded;
 use crate::picture::pane::filling;
-use crate::picture::{Background, PATTERN_SIDE, Pattern};
+use crate::picture::{Background, PATTERN_SIDE, PATTERN_SPAN, Pattern};
 use crate::scene::Panorama;
 use ::png::{BitDepth, ColorType};
 use std::path::{Path, PathBuf};
@@ -38,6 +38,11 @@ pub enum BackgroundError {
 }
 
 impl BackgroundRef {
+    /// How many times as wide as what it fills it hangs: patterns go on beside the picture.
+    pub fn span(&self) -> f64 {
+        if matches!(self, Self::Pattern(_)) { PATTERN_SPAN } else { 1.0 }
+    }
+
     /// Reads what was asked for; names stand before files, which are looked for from `folder`.
     ///
     /// # Errors

@@ -72,6 +72,29 @@ pub struct Entry {
     pub line: usize,
 }
 
+impl SceneFile {
+    /// Its stones one by one: each by the place of its entry, and how it is turned.
+    pub fn turns(&self) -> Vec<(usize, DQuat)> {
+        let counted = self
+            .stones
+            .iter()
+            .enumerate()
+            .flat_map(|(k, entry)| std::iter::repeat_n((k, entry), entry.count));
+        let more = |number| self.layout.map_or(0.0, |layout| layout.turn(number));
+        counted.enumerate().map(|(number, (k, entry))| (k, entry.turned(more(number)))).collect()
+    }
+
+    /// Where its stones are, mm, each of which a circle of such a radius around its axis holds, seen from above.
+    pub fn places_mm(&self, radii_mm: &[f64]) -> Vec<DVec3> {
+        match self.layout {
+            Some(layout) => {
+                layout.places(radii_mm, self.gap_mm).into_iter().map(|at| at.extend(0.0)).collect()
+            }
+            None => self.stones.iter().map(|entry| entry.at_mm).collect(),
+        }
+    }
+}
+
 impl Entry {
     /// The world's frame from the cut's: turned about its axis, by some degrees more than it says, then leaning toward its
     /// azimuth.

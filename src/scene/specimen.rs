@@ -72,7 +72,8 @@ impl Specimen {
     }
 
     fn made(design: Design, body: Body, material: Material, warnings: Vec<String>) -> Self {
-        let farthest = |far: &dyn Fn(&DVec3) -> f64| body.solid().vertices().iter().map(far).fold(0.0, f64::max);
+        let farthest =
+            |far: &dyn Fn(&DVec3) -> f64| body.solid().vertices().iter().map(far).fold(0.0, f64::max);
         let reach = farthest(&|v| v.truncate().length().max(v.z.abs()));
         let radius = farthest(&|v| v.length());
         Self { design, body, material, warnings, reach, radius }

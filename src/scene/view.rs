@@ -89,6 +89,14 @@ impl View {
         }
     }
 
+    /// How much larger than in the image's plane a picture must be to fill it from so far behind the origin, girdle radii.
+    pub fn widening(&self, behind: f64) -> f64 {
+        match self.projection {
+            Projection::Orthographic => 1.0,
+            Projection::Perspective { distance } => (distance + behind) / distance,
+        }
+    }
+
     fn rest(&self) -> Basis {
         match self.side {
             Side::Table => Basis::FACE_UP,

@@ -9,7 +9,7 @@
 mod drawing;
 
 use crate::math::Basis;
-use crate::scene::{Light, Panorama, toward};
+use crate::scene::{Film, Light, Panorama, View, toward};
 use drawing::{channels, shine};
 use glam::{DVec2, DVec3, DVec4, IVec2, Vec2Swizzles as _, Vec4Swizzles as _};
 use rayon::prelude::*;
@@ -176,7 +176,15 @@ pub fn met_behind(eye: &Basis, distance: f64, from: DVec3, direction: DVec3) -> 
     meets.then(|| eye.project(from + direction * (height / speed)))
 }
 
-impl Behind<'_> {
+impl<'a> Behind<'a> {
+    /// A picture that hangs so far behind the origin, wide enough to fill a view's film `span` times over, whatever its shape.
+    pub fn filling(picture: &'a Panorama, span: f64, distance: f64, view: &View, film: &Film) -> Self {
+        let [across, down] = film.size.map(f64::from);
+        let shape = f64::from(picture.width) / f64::from(picture.height);
+        let width = span * film.pixel * across.max(down * shape) * view.widening(distance);
+        Self { picture, distance, width }
+    }
+
     fn at(&self, eye: &Basis, from: DVec3, direction: DVec3) -> Option<DVec3> {
         let p = met_behind(eye, self.distance, from, direction)? * DVec2::new(1.0, -1.0) / self.width + 0.5;
         let size = DVec2::new(f64::from(self.picture.width), f64::from(self.picture.height));

@@ -5,7 +5,7 @@ use super::pace::Effort;
 use super::render::Growing;
 use super::survey::{Detail, traced};
 use super::take::{Camera, RAYS_COARSER, Trouble, coarser};
-use crate::app::lookup::{as_screens, hung};
+use crate::app::lookup::{as_screens, backdrop};
 use crate::io::refraction_map::tiles::code_of;
 use crate::optics::{Illuminant, strata};
 use crate::picture::RefractionMap;
@@ -66,7 +66,7 @@ pub(super) fn glass(
 ) -> Result<Taken, Trouble> {
     let factor = if growing.is_none() { effort.coarser * RAYS_COARSER } else { 1.0 };
     let size = coarser(&shot.film, factor).size;
-    let Some(behind) = camera.picture_behind(Some(&hung(shot.behind.as_ref())))? else {
+    let Some(behind) = camera.picture_behind(Some(&backdrop(shot.behind.as_ref())))? else {
         return Err(Trouble::Other("nothing hangs behind the pane".into()));
     };
     let pane = shot.liquid.pane(size);

@@ -7,8 +7,8 @@ use super::take::{Camera, LEAST_WEIGHT, MOST_BOUNCES, RAYS_COARSER, Trouble, coa
 use crate::app::shows::Shows;
 use crate::io::background::BackgroundRef;
 use crate::optics::{Stratum, strata};
-use crate::picture::{Background, Bloom, ByBeams, Develop, Linear, PATTERN_SPAN, develop, fxaa, spectral};
-use crate::scene::{Film, Panorama, Placed, Pose, Projection, Setting, View};
+use crate::picture::{Background, Bloom, ByBeams, Develop, Linear, develop, fxaa, spectral};
+use crate::scene::{Film, Panorama, Placed, Pose, Projection, Setting};
 use crate::trace::gpu::{Around, ByCard};
 use crate::trace::ray::{self, ByRays};
 use crate::trace::sitting::{Exposure, Looks, Sitting};
@@ -167,14 +167,6 @@ pub fn fitting(shot: &Shot) -> f64 {
     sides.fold(reach, f64::max)
 }
 
-/// How much larger than in the image's plane a picture must be to fill it from so far behind.
-pub fn nearness(view: &View, behind: f64) -> f64 {
-    match view.projection {
-        Projection::Orthographic => 1.0,
-        Projection::Perspective { distance } => (distance + behind) / distance,
-    }
-}
-
 /// What a shot is taken of.
 pub fn setting(shot: &Shot) -> Setting {
     let placed = |pose: &Pose| {
@@ -191,15 +183,8 @@ pub fn sitting<'a>(
     film: Film,
     picture: Option<&'a Panorama>,
 ) -> Sitting<'a> {
-    let distance = hung(shot);
-    let behind = picture.map(|picture| {
-        let [across, down] = film.size.map(f64::from);
-        let shape = f64::from(picture.width) / f64::from(picture.height);
-        let span = if matches!(shot.behind, Some(BackgroundRef::Pattern(_))) { PATTERN_SPAN } else { 1.0 };
-        // Wide enough to fill the view, whatever its shape.
-        let width = span * film.pixel * across.max(down * shape) * nearness(&shot.view, distance);
-        Behind { picture, distance, width }
-    });
+    let span = shot.behind.as_ref().map_or(1.0, BackgroundRef::span);
+    let behind = picture.map(|picture| Behind::filling(picture, span, hung(shot), &shot.view, &film));
     Sitting {
         setting,
         surround: Surround {

@@ -1,7 +1,7 @@
 //! Refraction maps of what a view shows.
 
 use super::order::Shot;
-use super::render::{hung, nearness, setting, sitting};
+use super::render::{hung, setting, sitting};
 use super::take::Trouble;
 use crate::optics::strata;
 use crate::picture::{Backdrop, Carried, Develop, RefractionMap, Survey};
@@ -39,7 +39,7 @@ pub fn traced(
 ) -> Result<(RefractionMap, Carried), Trouble> {
     let setting = setting(shot);
     let distance = hung(shot);
-    let size = DVec2::from(film.size.map(f64::from)) * film.pixel * SPAN * nearness(&shot.view, distance);
+    let size = DVec2::from(film.size.map(f64::from)) * film.pixel * SPAN * shot.view.widening(distance);
     let plane = Backdrop { distance, size, both_sides: false };
     let bands = |count| strata(count, &shot.light.light.spectrum, true);
     let survey = Survey { bands: &bands(detail.bands), shades: &bands(detail.shades), looks: detail.looks };
