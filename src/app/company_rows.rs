@@ -1,7 +1,7 @@
 //! Presets, copies, their motion, and how moving edges are smoothed: what glass shapes are shown with, and gems may be.
 
 use super::editor::Editor;
-use super::preset::PRESETS;
+use super::preset::{Known, PRESETS};
 use super::rows::{NUMBER, Row, named};
 use super::shows::Shows;
 use super::studio::Smoothing;
@@ -29,7 +29,7 @@ const ABBE_NUMBERS: RangeInclusive<f64> = 1.0..=90.0;
 pub fn presets(editor: &mut Editor, ui: &mut Ui) {
     let mut chosen = None;
     ui.horizontal_wrapped(|ui| {
-        for (name, title, _) in PRESETS {
+        for Known { name, title, .. } in PRESETS {
             let meaning = "Begins this scene: its shape, material, copies, light and what lies behind.";
             if ui.small_button(title).on_hover_text(meaning).clicked() {
                 chosen = Some(name);

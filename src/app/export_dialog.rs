@@ -6,6 +6,7 @@ use super::files::Purpose;
 use super::shows::Shows;
 use super::theme;
 use crate::io::export::Format;
+use crate::io::refraction_map::MOST_BANDS;
 use egui::{
     Color32, ColorImage, DragValue, Grid, ProgressBar, Rect, RichText, ScrollArea, Sense, Stroke, StrokeKind,
     TextEdit, TextureHandle, Ui, WidgetInfo, pos2, vec2,
@@ -24,7 +25,7 @@ const SIZES: std::ops::RangeInclusive<u32> = 16..=8192;
 /// What is chosen so far.
 pub struct ExportDialog {
     pub(super) folder: PathBuf,
-    plan: Plan,
+    pub(super) plan: Plan,
     thumbnails: Receiver<(Shows, ColorImage)>,
     pictures: HashMap<Shows, TextureHandle>,
     job: Option<Job>,
@@ -43,6 +44,10 @@ impl ExportDialog {
         let views = vec![Shows::Render, Shows::Aset, Shows::Hearts, Shows::Arrows];
         let formats = vec![Format::Png];
         let (upright, turn) = (Arc::clone(editor.document.specimen()), editor.desk.eye.turn);
+        let light = match PathBuf::from(&editor.light.0) {
+            file if file.is_file() => std::path::absolute(&file).unwrap_or(file),
+            name => name,
+        };
         let plan = Plan {
             shot,
             turned: editor.posed(turn),
@@ -51,6 +56,9 @@ impl ExportDialog {
             views,
             formats,
             map: false,
+            bands: 1,
+            scene: false,
+            light,
             size: 1024,
             folder: folder.clone(),
             stem,
@@ -64,6 +72,12 @@ impl ExportDialog {
     #[cfg(test)]
     pub fn thumbnails_shown(&self) -> usize {
         self.pictures.len()
+    }
+
+    /// How writing ended, once it has.
+    #[cfg(test)]
+    pub fn end(&self) -> Option<Result<(), String>> {
+        self.job.as_ref()?.end()
     }
 
     /// Whether files are being written.
@@ -171,10 +185,18 @@ fn settings(editor: &mut Editor, ui: &mut Ui, export: &mut ExportDialog) {
             }
         });
         ui.end_row();
-        ui.label("Web");
+        ui.label("Also");
         let meaning = "Where the light behind each pixel comes from, as a picture; the layer of all other light; and a page \
             that refracts a moving background through both.";
-        ui.checkbox(&mut export.plan.map, "Refraction map and page").on_hover_text(meaning);
+        ui.horizontal(|ui| {
+            ui.checkbox(&mut export.plan.map, "Refraction map and page").on_hover_text(meaning);
+            let meaning = "Bands of wavelengths: of one the map is grey and small, of several its look-up keeps the rainbow.";
+            let bands = DragValue::new(&mut export.plan.bands).range(1..=MOST_BANDS).prefix("bands ");
+            ui.add_enabled(export.plan.map, bands).on_hover_text(meaning);
+            let meaning = "The copies as they lie now, with their light and what hangs behind: a scene file and its cut, \
+                which this program opens again and draws.";
+            ui.checkbox(&mut export.plan.scene, "Scene file and its cut").on_hover_text(meaning);
+        });
         ui.end_row();
         let label = ui.label("Size");
         ui.add(DragValue::new(&mut export.plan.size).range(SIZES).speed(8.0).suffix(" pixels"))

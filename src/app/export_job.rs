@@ -1,5 +1,6 @@
 //! Exporting, on a thread of its own: thumbnails of what can be had, then the files.
 
+use super::export_scene::SceneOut;
 use super::shows::Shows;
 use super::studio::{Camera, Effort, FINE_RENDER, SPAN, Shot, Which, fitting, survey};
 use crate::io::background::BackgroundRef;
@@ -38,8 +39,13 @@ pub struct Plan {
     pub views: Vec<Shows>,
     /// Kinds of file.
     pub formats: Vec<Format>,
-    /// Whether a refraction map is written, with a page that shows it.
+    /// Whether a refraction map is written, with a page that shows it, and of how many bands of wavelengths.
     pub map: bool,
+    pub bands: u32,
+    /// Whether what renders show is written as a scene, with its cut.
+    pub scene: bool,
+    /// The light, as scenes name it.
+    pub light: PathBuf,
     /// Pixels along each side.
     pub size: u32,
     /// Where to.
@@ -111,12 +117,12 @@ impl Plan {
         }
     }
 
-    /// The map, the diffuse layer, the page.
-    fn map_paths(&self) -> Option<[PathBuf; 3]> {
-        let map = refraction_map::paths(&self.folder, &self.stem, 1, Coding::Tiles).pop();
+    /// The maps, the diffuse layer, the page.
+    fn map_paths(&self) -> Option<(Vec<PathBuf>, [PathBuf; 2])> {
+        let maps = refraction_map::paths(&self.folder, &self.stem, self.bands as usize, Coding::Tiles);
         let page = self.folder.join(format!("{}-refraction.html", self.stem));
-        let paths = [map?, refraction_map::diffuse_path(&self.folder, &self.stem), page];
-        self.map.then_some(paths)
+        let others = [refraction_map::diffuse_path(&self.folder, &self.stem), page];
+        self.map.then_some((maps, others))
     }
 
     /// Says that a render is no physics, where it is none.
@@ -142,7 +148,8 @@ impl Plan {
             files.extend(Export { viewing: *viewing, outputs }.files().map_err(|e| e.to_string())?);
         }
         files.extend(self.render_path());
-        files.extend(self.map_paths().into_iter().flatten());
+        files.extend(self.map_paths().into_iter().flat_map(|(maps, others)| maps.into_iter().chain(others)));
+        files.extend(self.scene.then(|| SceneOut::paths(self)).into_iter().flatten());
         Ok(files)
     }
 
@@ -179,28 +186,34 @@ impl Plan {
             progress.hear(&Told::Written(&path));
             begun += RENDER;
         }
-        if let Some(paths) = self.map_paths() {
-            self.write_map(&paths, &|done| progress.at((begun + done * RENDER) / all))?;
-            paths.iter().for_each(|path| progress.hear(&Told::Written(path)));
+        if let Some((maps, others)) = self.map_paths() {
+            self.write_map(&maps, &others, &|done| progress.at((begun + done * RENDER) / all))?;
+            maps.iter().chain(&others).for_each(|path| progress.hear(&Told::Written(path)));
+        }
+        if self.scene {
+            SceneOut::of(self).write()?;
+            SceneOut::paths(self).iter().for_each(|path| progress.hear(&Told::Written(path)));
         }
         Ok(())
     }
 
     fn write_map(
         &self,
-        [map_path, diffuse, page]: &[PathBuf; 3],
+        maps: &[PathBuf],
+        [diffuse, page]: &[PathBuf; 2],
         watch: crate::trace::Watch,
     ) -> Result<(), Failure> {
-        let (map, carried) = survey(&self.shot(Shows::Render, self.size), watch)?;
+        let (map, carried) = survey(&self.shot(Shows::Render, self.size), self.bands, watch)?;
         let title = self.shot.specimen.design.name.as_str();
         let told = format!(
-            "{title}; refraction map; light {}; {:.1} % of the light comes from the background, {:.1} % of that from the \
+            "{title}; refraction map, bands {}; light {}; {:.1} % of the light comes from the background, {:.1} % of that from the \
              map's places",
+            self.bands,
             self.shot.light.light.name,
             100.0 * carried.behind,
             100.0 * carried.single
         );
-        refraction_map::write_places(std::slice::from_ref(map_path), &map, Coding::Tiles, &told)?;
+        refraction_map::write_places(maps, &map, Coding::Tiles, &told)?;
         refraction_map::write_diffuse(diffuse, &map, &told)?;
         let behind =
             self.shot.behind.as_ref().map(BackgroundRef::bytes).transpose().map_err(Failure::Input)?;

@@ -1,5 +1,6 @@
 //! The ray that is followed through the stone: which one, and the window in which it is shown.
 
+use super::copies;
 use super::editor::Editor;
 use super::light_path::LightPath;
 use super::pane::zones;
@@ -74,6 +75,12 @@ pub fn show(editor: &mut Editor, ctx: &Context) {
         };
         let eye = *editor.desk.eye(pane);
         let shows = editor.desk.panes[pane].shows;
+        if shows.has_company() && !copies::are_none(editor) {
+            ui.label(
+                "A ray is followed through one stone at rest: show a single copy, at rest, or click a scope.",
+            );
+            return;
+        }
         let view = eye.view(shows.side());
         let specimen = editor.posed(eye.turn);
         let path = editor.probe(&specimen).path(&view, at);

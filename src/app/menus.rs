@@ -7,7 +7,7 @@ use super::dialogs::{Dialog, Then};
 use super::editor::Editor;
 use super::files::Purpose;
 use super::opening::Opening;
-use super::preset::PRESETS;
+use super::preset::{Known, PRESETS};
 use super::studio::Which;
 use super::theme;
 use crate::io::{cut_file, library};
@@ -108,7 +108,7 @@ fn from_library(editor: &mut Editor, ui: &mut Ui) {
         }
     });
     ui.menu_button("Scene of glass", |ui| {
-        for (name, title, _) in PRESETS {
+        for Known { name, title, .. } in PRESETS {
             let about = "A preset of a published demonstration of spectral refraction.";
             if ui.button(title).on_hover_text(about).clicked() {
                 editor.ask_before(Then::Preset(name.to_owned()));

@@ -11,6 +11,7 @@ mod document;
 mod editor;
 mod export_dialog;
 mod export_job;
+mod export_scene;
 mod eye;
 mod figures_panel;
 mod files;

@@ -10,13 +10,25 @@ use crate::scene::{Company, MOST_COPIES, Pose, Specimen};
 use glam::{DQuat, DVec3};
 use std::path::Path;
 
-/// The scenes of glass that come with the program: their names, what they are called, whether they begin to move at once.
-pub const PRESETS: [(&str, &str, bool); 5] = [
-    ("subtle-pill", "Subtle pill", false),
-    ("prism-rainbow", "Prism rainbow", false),
-    ("rotating-cube", "Rotating cube", true),
-    ("wavy-plate", "Wavy plate", true),
-    ("free-diamond", "Free diamond", true),
+/// A scene of glass that comes with the program.
+pub struct Known {
+    /// By which [`Preset::of_library`] has it.
+    pub name: &'static str,
+    /// What it is called.
+    pub title: &'static str,
+    /// Whether it begins to move at once.
+    moves: bool,
+    /// In how many wavelengths it is seen.
+    wavelengths: u32,
+}
+
+/// All of them.
+pub const PRESETS: [Known; 5] = [
+    Known { name: "subtle-pill", title: "Subtle pill", moves: false, wavelengths: 8 },
+    Known { name: "prism-rainbow", title: "Prism rainbow", moves: false, wavelengths: 16 },
+    Known { name: "rotating-cube", title: "Rotating cube", moves: true, wavelengths: 16 },
+    Known { name: "wavy-plate", title: "Wavy plate", moves: true, wavelengths: 16 },
+    Known { name: "free-diamond", title: "Free diamond", moves: true, wavelengths: 16 },
 ];
 
 /// A scene as the editor has it.
@@ -104,11 +116,12 @@ fn poses(scene: &SceneFile, corners: &[DVec3], unit_mm: f64) -> Vec<Pose> {
 impl Editor {
     /// Begins a scene that comes with the program.
     pub(super) fn begin_preset(&mut self, name: &str) {
-        let moves = PRESETS.iter().any(|(known, _, moves)| *known == name && *moves);
         match Preset::of_library(name) {
             Ok(preset) => {
                 self.begin_scene(preset);
-                self.moving.is_on = moves;
+                if let Some(known) = PRESETS.iter().find(|known| known.name == name) {
+                    (self.moving.is_on, self.desk.wavelengths) = (known.moves, known.wavelengths);
+                }
             }
             Err(why) => self.notes.trouble(why),
         }
@@ -123,7 +136,9 @@ impl Editor {
         };
         document.work.company = company;
         self.desk.last = None;
-        self.desk.behind = scene.background.as_ref().and_then(kept);
+        // Of colours the desk knows none.
+        let behind = scene.background.as_ref().filter(|behind| !matches!(behind, BackgroundRef::Plain(_)));
+        self.desk.behind = behind.map(ToString::to_string);
         self.desk.strength = scene.strength;
         if let Some(light) = scene.light {
             self.document.work.light = light.to_string_lossy().into_owned();
@@ -134,23 +149,13 @@ impl Editor {
     }
 }
 
-/// What lies behind, as the desk keeps it; of colours nothing.
-fn kept(background: &BackgroundRef) -> Option<String> {
-    match background {
-        BackgroundRef::Light => Some("light".to_owned()),
-        BackgroundRef::Plain(_) => None,
-        BackgroundRef::Pattern(pattern) => Some(pattern.name().to_owned()),
-        BackgroundRef::Photo(path) => Some(path.to_string_lossy().into_owned()),
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
     fn the_presets_are_as_their_files_say_and_no_copy_is_put_behind_another() {
-        for (name, _, _) in PRESETS {
+        for Known { name, .. } in PRESETS {
             let preset = Preset::of_library(name).unwrap();
             let specimen = Specimen::new(preset.design.clone()).unwrap();
             let corners = specimen.solid().vertices();

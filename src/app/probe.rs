@@ -186,7 +186,7 @@ mod tests {
             };
             // Face down its culet is nearest to the eye, and beside that a pavilion main.
             let main = found(turned.place(DVec3::new(0.1, 0.01, -0.8))).unwrap();
-            assert!(main.0 == 0 && main.1.starts_with("pavilion_main"), "{main:?}");
+            assert!(main.0 == 0 && main.1.starts_with("main "), "{main:?}");
             assert_eq!(found(DVec3::new(-1.9, 0.0, 0.3)), Some((1, "table".to_owned())));
             assert_eq!(found(DVec3::new(0.1, 0.0, 0.3)), Some((2, "table".to_owned())));
             // Where two overlap in sight the nearer one is found.

@@ -8,6 +8,7 @@ use crate::picture::pane::filling;
 use crate::picture::{Background, PATTERN_SIDE, PATTERN_SPAN, Pattern};
 use crate::scene::Panorama;
 use ::png::{BitDepth, ColorType};
+use std::fmt;
 use std::path::{Path, PathBuf};
 
 /// The widest photograph that is kept as it is; wider ones are halved.
@@ -24,6 +25,18 @@ pub enum BackgroundRef {
     Pattern(Pattern),
     /// A picture's file, which was there.
     Photo(PathBuf),
+}
+
+impl fmt::Display for BackgroundRef {
+    /// What reads back as the same from any folder.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Light => f.write_str("light"),
+            Self::Plain(background) => background.fmt(f),
+            Self::Pattern(pattern) => f.write_str(pattern.name()),
+            Self::Photo(path) => std::path::absolute(path).as_deref().unwrap_or(path).display().fmt(f),
+        }
+    }
 }
 
 /// Why there is no such background.

@@ -15,6 +15,7 @@ use std::path::{Path, PathBuf};
 use toml::de::{DeTable, Deserializer};
 
 mod form;
+mod written;
 
 #[cfg(test)]
 mod tests;
@@ -96,6 +97,25 @@ impl SceneFile {
 }
 
 impl Entry {
+    /// A cut as its file says, turned so and put there, mm.
+    pub fn placed(cut: &str, turned: DQuat, at_mm: DVec3) -> Self {
+        let axis = turned * DVec3::Z;
+        let leaning = Self {
+            cut: cut.to_owned(),
+            material: None,
+            size: None,
+            count: 1,
+            turn: 0.0,
+            tilt: axis.truncate().length().atan2(axis.z).to_degrees(),
+            azimuth: axis.y.atan2(axis.x).to_degrees(),
+            at_mm,
+            line: 0,
+        };
+        // What is left is about its axis.
+        let about = leaning.turned(0.0).inverse() * turned;
+        Self { turn: 2.0 * about.z.atan2(about.w).to_degrees(), ..leaning }
+    }
+
     /// The world's frame from the cut's: turned about its axis, by some degrees more than it says, then leaning toward its
     /// azimuth.
     pub fn turned(&self, more: f64) -> DQuat {
@@ -129,6 +149,14 @@ pub fn parse(text: &str, label: &str, folder: Option<&Path>) -> Result<SceneFile
         let line = fault.line(text).map_or(String::new(), |line| format!(":{line}"));
         format!("{label}{line}: {}", fault.message)
     })
+}
+
+/// The text of a scene file that reads back as the same scene, from the same folder; colours behind it to 8 bits.
+///
+/// A scene that [`parse`] refuses is written too, but not read back.
+pub fn write(scene: &SceneFile) -> String {
+    // TOML lacks a form only for maps without text keys and integers beyond 64 bits, and here are neither.
+    toml::to_string(&written::Written::of(scene)).expect("a scene's form is text, numbers, lists and tables")
 }
 
 /// Whether a file is meant as a scene: it has a key that cut files lack. `false` for what cannot be read.

@@ -1,6 +1,7 @@
 //! What is seen where no stone covers the picture.
 
-use crate::optics::linear_from_encoded;
+use crate::optics::{encoded_from_linear, linear_from_encoded};
+use std::fmt;
 use std::str::FromStr;
 
 /// What lies behind the stones; colours are linear sRGB.
@@ -51,6 +52,21 @@ impl FromStr for Background {
             Some((top, bottom)) => {
                 Ok(Self::Gradient { top: colour(top.trim())?, bottom: colour(bottom.trim())? })
             }
+        }
+    }
+}
+
+impl fmt::Display for Background {
+    /// What reads back as the same, each colour to 8 bits.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let code = |colour: &[f32; 3]| {
+            let code = |c: &f32| (encoded_from_linear(f64::from(*c)).clamp(0.0, 1.0) * 255.0).round() as u8;
+            colour.iter().fold("#".to_owned(), |text, c| text + &format!("{:02x}", code(c)))
+        };
+        match self {
+            Self::Transparent => f.write_str("transparent"),
+            Self::Plain(colour) => f.write_str(&code(colour)),
+            Self::Gradient { top, bottom } => write!(f, "{}-{}", code(top), code(bottom)),
         }
     }
 }

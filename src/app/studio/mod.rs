@@ -13,7 +13,7 @@ mod worker;
 pub use order::{Answer, Ask, Grade, Order, Shot, Slot, Smoothing, Taken, Tilts, Which};
 
 pub use pace::Effort;
-pub use render::{BEHIND, fitting};
+pub use render::{BEHIND, fitting, hung};
 pub use survey::{SPAN, survey};
 pub use take::Camera;
 pub use worker::FINE_RENDER;

@@ -22,12 +22,9 @@ pub struct Detail {
     pub looks: u32,
 }
 
-/// A map as it is exported.
-const EXPORTED: Detail = Detail { bands: 1, shades: 16, looks: 4 };
-
-/// Traces the map of a shot as it is exported.
-pub fn survey(shot: &Shot, watch: Watch) -> Result<(RefractionMap, Carried), Trouble> {
-    traced(shot, shot.film, &EXPORTED, watch)
+/// Traces the map of a shot as it is exported, of so many bands.
+pub fn survey(shot: &Shot, bands: u32, watch: Watch) -> Result<(RefractionMap, Carried), Trouble> {
+    traced(shot, shot.film, &Detail { bands, shades: 16, looks: 4 }, watch)
 }
 
 /// Traces the map of a shot on another film.

@@ -3,8 +3,13 @@
 use super::Bench;
 use crate::app::desk::{Desk, Layout, Pane};
 use crate::app::editor::{Editor, Setup};
+use crate::app::export_dialog::ExportDialog;
+use crate::app::export_scene::SceneOut;
+use crate::app::moving::Moving;
+use crate::app::preset::Preset;
 use crate::app::shows::Shows;
 use crate::app::studio::{Smoothing, Which};
+use crate::scene::{Company, Pose};
 use egui::{Key, Pos2};
 use egui_kittest::kittest::Queryable;
 use std::path::PathBuf;
@@ -122,4 +127,37 @@ fn scene_files_open_and_those_of_several_designs_are_refused_in_words() {
     bench.wait(|editor| !editor.notes.troubles().is_empty());
     assert!(bench.editor().notes.troubles()[0].contains("brillianteer render"));
     assert_eq!(poses(bench.editor()).len(), 3);
+}
+
+/// Where copies are beside the first, and how they are turned.
+fn arrangement(company: &Company, unit_mm: f64) -> Vec<(glam::DVec3, glam::DQuat)> {
+    let first = company.poses[0].at;
+    company.poses.iter().map(|pose| ((pose.at - first) * unit_mm, pose.turn)).collect()
+}
+
+#[test]
+fn copies_are_saved_as_a_scene_that_is_opened_again_as_it_was() {
+    for (scene, seconds) in [("rotating-cube", 1.3), ("wavy-plate", 0.4), ("modern-ideal", 0.0)] {
+        let folder = tempfile::tempdir().unwrap();
+        let mut bench = bench(scene);
+        bench.harness.state_mut().moving = Moving::at(seconds);
+        bench.harness.state_mut().desk.eye.turn = 0.3;
+        bench.harness.run_steps(2);
+        let mut plan = ExportDialog::new(bench.harness.state_mut()).plan;
+        (plan.folder, plan.stem) = (folder.path().to_owned(), "mine".to_owned());
+        SceneOut::of(&plan).write().unwrap();
+        let again = Preset::read(&folder.path().join("mine-scene.toml")).unwrap();
+        let shot = &plan.shot;
+        let is_alone = scene == "modern-ideal";
+        assert_eq!(again.scene.stones.len(), if is_alone { 1 } else { 4 });
+        assert_eq!((&again.scene.background, again.scene.strength), (&shot.behind, shot.strength));
+        assert!(again.design == if is_alone { &plan.upright } else { &shot.specimen }.design);
+        let unit_mm = shot.specimen.unit_mm();
+        let turned = Pose { turn: glam::DQuat::from_rotation_z(0.3), ..Pose::STILL };
+        let poses = if is_alone { vec![turned] } else { shot.company.clone() };
+        let shown = arrangement(&Company { poses, room: None }, unit_mm);
+        for ((at, turn), (there, turned)) in arrangement(&again.company, unit_mm).into_iter().zip(shown) {
+            assert!(at.distance(there) < 1e-9 && turn.dot(turned).abs() > 1.0 - 1e-12, "{at} {there}");
+        }
+    }
 }

@@ -224,12 +224,16 @@ fn every_view_is_exported_as_a_file() {
             bench.harness.run_steps(2);
         }
     }
-    ["SVG", "JSON", "Refraction map and page"].into_iter().for_each(|name| bench.click(name));
+    ["SVG", "JSON", "Refraction map and page", "Scene file and its cut"]
+        .into_iter()
+        .for_each(|name| bench.click(name));
     let size = bench.harness.get_by_role_and_label(egui::Role::SpinButton, "Size");
     size.focus();
     bench.type_number("Size", "96");
     bench.click("Write files");
     bench.wait(|editor| matches!(&editor.dialog, Some(Dialog::Export(e)) if !e.is_busy()));
+    let Some(Dialog::Export(export)) = &bench.editor().dialog else { panic!() };
+    assert_eq!(export.end(), Some(Ok(())));
     assert!(bench.harness.query_by_label("All files are written.").is_some());
     let names: Vec<String> = std::fs::read_dir(folder.path().join("out"))
         .unwrap()
@@ -240,7 +244,8 @@ fn every_view_is_exported_as_a_file() {
         assert!(names.contains(&name), "{name} is missing in {names:?}");
     }
     assert!(names.contains(&"tolkowsky-1919-figures.json".to_owned()) && names.len() > 20, "{names:?}");
-    let map = ["refraction.png", "refraction.html"].map(|end| format!("tolkowsky-1919-{end}"));
+    let map = ["refraction.png", "refraction.html", "scene.toml", "cut.toml"]
+        .map(|end| format!("tolkowsky-1919-{end}"));
     assert!(map.iter().all(|name| names.contains(name)), "{names:?}");
     bench.click("Close");
     assert!(bench.editor().dialog.is_none());

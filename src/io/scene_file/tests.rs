@@ -1,6 +1,7 @@
 //! What a scene file may say, what it may not and how that is told.
 
 use super::*;
+use crate::io::library;
 use crate::optics::line::SODIUM_D;
 
 const TRILOGY: &str = "format = 1\nname = \"Three\"\nlight = \"studio\"\nlayout = \"row\"\ngap_mm = 0.6\n\
@@ -161,5 +162,46 @@ proptest::proptest! {
             let (start, end) = whole.split_at(at.min(whole.len()));
             let _ = parse(&format!("{start}{patch}{end}"), "x.toml", None);
         }
+    }
+}
+
+#[test]
+fn what_is_written_reads_back_as_the_same_scene() {
+    let behind = |text: &str| with(PLACED, "[[stone]]", &format!("{text}\nstrength = 0.25\n[[stone]]"));
+    let alone = "format = 1\nname = \"One\"\nstone = [{ cut = \"shallow\", turn = 1e5, size = \"0.37ct\" }]";
+    let own = "material = { name = \"mine\", index = 1.7, density = 3.1 }";
+    let [own, pattern, colours] = [
+        with(PLACED, "material = { index = 1.5 }", own),
+        behind("background = \"Dots\"\nbackground_distance_mm = 12.5"),
+        behind("background = \"#404850-#101215\""),
+    ];
+    let library = library::SCENES.into_iter().map(|(_, text)| text);
+    let ours = [TRILOGY, PLACED, alone, &own, &pattern, &colours];
+    for text in ours.into_iter().chain(library) {
+        let lineless = |mut scene: SceneFile| {
+            scene.stones.iter_mut().for_each(|entry| entry.line = 0);
+            scene
+        };
+        let scene = lineless(parse(text, "x.toml", None).unwrap());
+        let again = lineless(parse(&write(&scene), "again.toml", None).unwrap());
+        assert_eq!(scene, again);
+    }
+}
+
+#[test]
+fn any_turn_is_told_in_three_angles() {
+    let mut turns = vec![DQuat::IDENTITY, DQuat::from_rotation_x(std::f64::consts::PI)];
+    for k in 0..200 {
+        let [a, b, c] = [1.7, 0.9, 2.3].map(|step| f64::from(k) * step);
+        turns.push(DQuat::from_euler(glam::EulerRot::ZYX, a, b, c));
+    }
+    for turned in turns {
+        let entry = Entry::placed("cube", turned, DVec3::ONE);
+        assert!((0.0..=180.0).contains(&entry.tilt), "{entry:?}");
+        assert!(
+            entry.turned(0.0).dot(turned).abs() > 1.0 - 1e-12,
+            "{turned} came back as {}",
+            entry.turned(0.0)
+        );
     }
 }

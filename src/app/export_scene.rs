@@ -1,0 +1,64 @@
+//! What renders show, as a scene file.
+
+use super::export_job::Plan;
+use super::studio::hung;
+use crate::io::background::BackgroundRef;
+use crate::io::scene_file::{self, DEFAULT_GAP_MM, Entry, SceneFile};
+use crate::io::{Failure, WriteError, cut_file, write};
+use crate::scene::Pose;
+use glam::DQuat;
+use std::io::Write as _;
+use std::path::PathBuf;
+
+/// A scene and the cut that it is of.
+pub struct SceneOut {
+    paths: [PathBuf; 2],
+    scene: String,
+    cut: String,
+}
+
+impl SceneOut {
+    /// Where both go.
+    pub fn paths(plan: &Plan) -> [PathBuf; 2] {
+        ["scene", "cut"].map(|part| plan.folder.join(format!("{}-{part}.toml", plan.stem)))
+    }
+
+    /// The scene of what a plan's renders show.
+    pub fn of(plan: &Plan) -> Self {
+        let shot = &plan.shot;
+        let paths = Self::paths(plan);
+        let cut = format!("{}-cut.toml", plan.stem);
+        let is_turned = shot.company == [Pose::STILL];
+        // A stone alone has been turned itself.
+        let turned = [Pose { turn: DQuat::from_rotation_z(plan.turn), ..Pose::STILL }];
+        let (design, poses) = match is_turned {
+            true => (&plan.upright.design, &turned[..]),
+            false => (&shot.specimen.design, &shot.company[..]),
+        };
+        let unit_mm = 0.5 * design.diameter_mm;
+        let is_picture = matches!(shot.behind, Some(BackgroundRef::Pattern(_) | BackgroundRef::Photo(_)));
+        let scene = SceneFile {
+            name: design.name.clone(),
+            light: Some(plan.light.clone()),
+            layout: None,
+            gap_mm: DEFAULT_GAP_MM,
+            background: shot.behind.clone(),
+            background_distance_mm: is_picture.then(|| hung(shot) * unit_mm),
+            strength: shot.strength,
+            stones: poses.iter().map(|pose| Entry::placed(&cut, pose.turn, pose.at * unit_mm)).collect(),
+        };
+        Self { paths, scene: scene_file::write(&scene), cut: cut_file::write(design) }
+    }
+
+    /// Writes both, each whole or not at all.
+    pub fn write(&self) -> Result<(), Failure> {
+        let [scene, cut] = &self.paths;
+        let folder = scene.parent();
+        // A scene farther apart than scenes may be is told before anything is written.
+        scene_file::parse(&self.scene, &scene.display().to_string(), folder).map_err(Failure::Input)?;
+        for (path, text) in [(cut, &self.cut), (scene, &self.scene)] {
+            write(path, |file| file.write_all(text.as_bytes()).map_err(|e| WriteError::io(path, e)))?;
+        }
+        Ok(())
+    }
+}
