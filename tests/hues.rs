@@ -106,7 +106,7 @@ fn steps(hues: &[Option<f64>]) -> (f64, usize) {
 }
 
 #[test]
-fn three_wavelengths_show_three_hues_and_sixteen_a_rainbow() {
+fn three_wavelengths_show_three_hues_and_sixteen_nearly_all() {
     let still = |count| Looks { jitter: false, ..Looks::of(count) };
     let mut told = vec![];
     for (wavelengths, looks) in [

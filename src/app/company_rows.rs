@@ -18,7 +18,7 @@ const NEWEST: RangeInclusive<f64> = 0.05..=1.0;
 /// The share that it begins with.
 const FIRST_NEWEST: f64 = 0.5;
 
-/// Angles of view, degrees; from nearer the eye would be in the glass.
+/// Angles of view, degrees; from nearer the eye may be in the glass.
 const ANGLES: RangeInclusive<f64> = 1.0..=75.0;
 
 /// Indices and Abbe numbers of glasses, known and invented.

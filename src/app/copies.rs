@@ -4,12 +4,14 @@ use super::editor::Editor;
 use super::pane::{Sight, rim};
 use super::shows::Shows;
 use super::studio::{Shot, Which};
+use crate::scene::Company;
+use crate::trace::ray::Camera;
 use egui::{CursorIcon, PointerButton, Pos2, Response, Ui};
-use glam::DVec2;
+use glam::{DQuat, DVec2};
 
 /// Whether renders show the body alone and at rest.
 pub fn are_none(editor: &Editor) -> bool {
-    editor.document.work.company.poses.len() == 1 && editor.moving.seconds == 0.0
+    editor.document.work.company == Company::default() && editor.moving.seconds == 0.0
 }
 
 /// Moves the copy that a hand has taken hold of; whether it has.
@@ -23,6 +25,12 @@ pub fn carried(editor: &mut Editor, ui: &Ui, pane: usize, response: &Response, s
         editor.held = found.map(|(_, copy, _)| (pane, copy));
     }
     let Some((_, copy)) = editor.held.filter(|(held, _)| *held == pane) else { return false };
+    let turn = DQuat::from_rotation_z(editor.desk.eye(pane).turn);
+    // Whoever goes a step back while holding a copy may be left with fewer.
+    let Some(pose) = editor.document.work.company.poses.get_mut(copy).filter(|_| several) else {
+        editor.held = None;
+        return false;
+    };
     let way = match (is_start, ui.input(|i| i.pointer.press_origin()), response.interact_pointer_pos()) {
         // A hand moves some way before that counts as a drag.
         (true, Some(from), Some(at)) => at - from,
@@ -30,11 +38,10 @@ pub fn carried(editor: &mut Editor, ui: &Ui, pane: usize, response: &Response, s
     };
     let by = way * ui.pixels_per_point();
     // A pixel of the film is so long where the copy is.
-    let pose = &mut editor.document.work.company.poses[copy];
-    let nearness =
-        crate::trace::ray::Camera::reaching(&sight.view, 1.0).project(pose.at).map_or(1.0, |(_, s)| s);
-    let by = DVec2::new(f64::from(by.x), -f64::from(by.y)) * sight.film.pixel / nearness;
-    pose.at += sight.view.basis().lift(by);
+    let seen = Camera::reaching(&sight.view, 1.0).project(turn * pose.at);
+    let larger = seen.map_or(1.0, |(_, larger)| larger);
+    let by = DVec2::new(f64::from(by.x), -f64::from(by.y)) * sight.film.pixel / larger;
+    pose.at += turn.inverse() * sight.view.basis().lift(by);
     ui.ctx().set_cursor_icon(CursorIcon::Grabbing);
     if !response.dragged() {
         editor.held = None;

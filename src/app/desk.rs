@@ -140,9 +140,14 @@ impl Desk {
         self.behind = Pattern::NAMES.get(next).map(|(name, _)| (*name).to_owned());
     }
 
+    /// Forgets what goes with one stone: distances with its size, mixtures with its scene.
+    pub fn rest(&mut self) {
+        (self.behind_mm, self.strength) = (None, 1.0);
+    }
+
     /// How much of the way that refraction turns light is followed; without a picture behind all of it.
     pub fn strength(&self) -> f64 {
-        if self.behind.is_some() { self.strength.clamp(0.0, 1.0) } else { 1.0 }
+        if self.background().is_some() { self.strength.clamp(0.0, 1.0) } else { 1.0 }
     }
 
     /// The panes in sight, by their places.

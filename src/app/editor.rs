@@ -137,6 +137,7 @@ impl Editor {
         let first = Lighting::load(FIRST_LIGHT).map_err(|e| e.to_string())?;
         let light = (FIRST_LIGHT.to_owned(), Arc::new(first));
         desk.face_up();
+        desk.rest();
         document.begin(&desk.light, desk.exposure, desk.head);
         let kept = document.work.clone();
         let watch = wake.clone();

@@ -158,7 +158,8 @@ impl Plan {
         let view = crate::scene::View { side: shows.side().unwrap_or(self.shot.view.side), ..self.shot.view };
         let shot = Shot { shows, view, ..self.shot.clone() };
         if shows.has_company() {
-            return Shot { film: Film::reaching(fitting(&shot), size), ..shot };
+            let film = Film::reaching(fitting(&shot), size);
+            return Shot { film, whole: film, ..shot };
         }
         let specimen = Arc::clone(if shows.is_seen() { &self.turned } else { &self.upright });
         Shot { film: Film::reaching(specimen.reach, size), specimen, company: vec![Pose::STILL], ..shot }

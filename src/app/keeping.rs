@@ -3,7 +3,7 @@
 use super::compare::Compared;
 use super::dialogs::{Dialog, Then};
 use super::document::{Document, Work};
-use super::editor::Editor;
+use super::editor::{Editor, Shown};
 use super::files::{Choosing, Purpose, Question};
 use super::opening::Wanted;
 use super::studio::Which;
@@ -42,10 +42,12 @@ impl Editor {
         document.begin(&work.light, work.exposure, work.head);
         self.document = document;
         self.moving.rest();
-        // A distance goes with the size of what it is behind.
-        self.desk.behind_mm = None;
+        self.desk.rest();
+        self.held = None;
         // What was seen and measured of another stone is nothing of this one's.
-        self.pictures.retain(|(_, which), _| *which != Which::Present);
+        let stays = |which: Which, shown: &Shown| which != Which::Present || shown.shot.shows.is_pane();
+        self.pictures.retain(|(_, which), shown| stays(*which, shown));
+        self.looked.retain(|(_, which), shown| stays(*which, shown));
         self.figures.retain(|which, _| *which != Which::Present);
         self.tilts = None;
         self.begun += 1;

@@ -87,8 +87,10 @@ impl Looker {
             return;
         }
         put(&mut self.last, slot, ask.clone());
+        let mut asked = self.desk.asked.lock().unwrap_or_else(PoisonError::into_inner);
         self.desk.busy.store(true, Ordering::SeqCst);
-        put(&mut self.desk.asked.lock().unwrap_or_else(PoisonError::into_inner), slot, ask);
+        put(&mut asked, slot, ask);
+        drop(asked);
         self.desk.told.notify_one();
     }
 

@@ -26,6 +26,17 @@ pub struct Moving {
 /// Plates kept: the present one and that it is compared with.
 const PLATES: usize = 2;
 
+/// By how much time goes on with a frame of the window, which another frame follows, seconds; none while the window is hidden.
+pub fn step(ctx: &Context) -> f64 {
+    let is_hidden =
+        ctx.input(|i| i.viewport().minimized == Some(true) || i.viewport().occluded == Some(true));
+    if is_hidden {
+        return 0.0;
+    }
+    ctx.request_repaint();
+    f64::from(ctx.input(|i| i.stable_dt).min(LONGEST))
+}
+
 impl Moving {
     /// Time that stands so long after rest.
     #[cfg(test)]
@@ -36,8 +47,7 @@ impl Moving {
     /// Lets time go on with the window's frames.
     pub fn advance(&mut self, ctx: &Context) {
         if self.is_on {
-            self.seconds += f64::from(ctx.input(|i| i.stable_dt).min(LONGEST));
-            ctx.request_repaint();
+            self.seconds += step(ctx);
         }
     }
 
@@ -46,7 +56,7 @@ impl Moving {
         (self.is_on, self.seconds) = (false, 0.0);
     }
 
-    /// The body now, and where its copies are, each turned about its own axis, radians.
+    /// The body now, and where its copies are, all of them turned about the middle's axis, radians.
     pub fn now(
         &mut self,
         specimen: &Arc<Specimen>,
@@ -58,7 +68,7 @@ impl Moving {
         let tumbling = (!waves && self.seconds > 0.0).then_some(self.seconds);
         let mut poses = company.poses(specimen.solid().vertices(), tumbling);
         let turn = DQuat::from_rotation_z(turn);
-        poses.iter_mut().for_each(|pose| pose.turn *= turn);
+        poses.iter_mut().for_each(|pose| (pose.at, pose.turn) = (turn * pose.at, turn * pose.turn));
         (specimen, poses)
     }
 

@@ -26,7 +26,23 @@ pub struct Opening {
     path: PathBuf,
     /// The work as it was when the file was asked for.
     work: Work,
-    answer: Receiver<Result<Document, String>>,
+    answer: Receiver<Result<Came, String>>,
+}
+
+/// What was in a file.
+enum Came {
+    Design(Box<Document>),
+    Scene(Box<Preset>),
+}
+
+impl Came {
+    /// Reads a file; scenes are taken only to be worked on.
+    fn of(path: &Path, wanted: Wanted) -> Result<Self, String> {
+        match wanted == Wanted::Anew && is_scene(path) {
+            true => Preset::read(path).map(Box::new).map(Self::Scene),
+            false => Document::open(path).map(Box::new).map(Self::Design),
+        }
+    }
 }
 
 impl Opening {
@@ -49,17 +65,11 @@ fn is_scene(path: &Path) -> bool {
 impl Editor {
     /// Opens a file; one that is still on its way for the same purpose is forgotten.
     pub(super) fn open(&mut self, path: &Path, wanted: Wanted) {
-        if wanted == Wanted::Anew && is_scene(path) {
-            return match Preset::read(path) {
-                Ok(preset) => self.begin_scene(preset),
-                Err(why) => self.notes.trouble(why),
-            };
-        }
         let (sender, answer) = channel();
         let (name, wake) = (path.to_owned(), self.studio.wake());
         std::thread::spawn(move || {
             // Nobody waits for it any more where another was chosen.
-            let _ = sender.send(Document::open(&name));
+            let _ = sender.send(Came::of(&name, wanted));
             wake();
         });
         let opening = Opening { wanted, path: path.to_owned(), work: self.document.work.clone(), answer };
@@ -71,7 +81,7 @@ impl Editor {
     pub(super) fn take_in_files(&mut self) {
         for opening in std::mem::take(&mut self.opening) {
             match opening.answer.try_recv() {
-                Ok(Ok(document)) => self.opened(&opening, document),
+                Ok(Ok(came)) => self.opened(&opening, came),
                 Ok(Err(why)) => self.notes.trouble(why),
                 Err(std::sync::mpsc::TryRecvError::Empty) => self.opening.push(opening),
                 Err(std::sync::mpsc::TryRecvError::Disconnected) => {
@@ -81,22 +91,26 @@ impl Editor {
         }
     }
 
-    fn opened(&mut self, opening: &Opening, mut document: Document) {
+    fn opened(&mut self, opening: &Opening, came: Came) {
         // What was changed while the file was on its way is nothing that anyone has given up.
         let is_later = self.document.work != opening.work;
-        match opening.wanted {
-            Wanted::Beside => self.compared = Some(Compared::of(&document)),
-            Wanted::Anew if is_later => self.ask_before(Then::Open(opening.path.clone())),
-            Wanted::Again if is_later => self.dialog = Some(Dialog::ChangedOutside),
-            Wanted::Anew => {
+        match (opening.wanted, came) {
+            (Wanted::Anew, _) if is_later => self.ask_before(Then::Open(opening.path.clone())),
+            (Wanted::Again, _) if is_later => self.dialog = Some(Dialog::ChangedOutside),
+            (_, Came::Scene(preset)) => {
+                self.begin_scene(*preset);
                 self.desk.remember(&opening.path);
-                self.begin(document);
             }
-            Wanted::Again => {
-                let (eye, panes, behind_mm) = (self.desk.eye, self.desk.panes, self.desk.behind_mm);
+            (Wanted::Beside, Came::Design(document)) => self.compared = Some(Compared::of(&document)),
+            (Wanted::Anew, Came::Design(document)) => {
+                self.desk.remember(&opening.path);
+                self.begin(*document);
+            }
+            (Wanted::Again, Came::Design(mut document)) => {
+                let desk = self.desk.clone();
                 document.work.company = self.document.work.company.clone();
-                self.begin(document);
-                (self.desk.eye, self.desk.panes, self.desk.behind_mm) = (eye, panes, behind_mm);
+                self.begin(*document);
+                self.desk = desk;
                 self.notes.say("The file was changed by another program and has been read again.");
             }
         }

@@ -1,6 +1,7 @@
 //! What is asked of the studio: all that is in sight.
 
 use super::editor::Editor;
+use super::eye::Eye;
 use super::shows::Shows;
 use super::studio::{Ask, BEHIND, Order, Shot, Smoothing, Which};
 use crate::io::lighting::Lighting;
@@ -81,6 +82,7 @@ impl Editor {
         Some(Shot {
             view: eye.view(shows.side()),
             film: eye.film(size, reach),
+            whole: Eye::default().film(size, reach),
             shows,
             strongest: self.desk.strongest,
             light: Arc::clone(light),
@@ -114,8 +116,13 @@ impl Editor {
 
     /// How far a view's picture reaches from its middle. Both designs are shown on one scale, that of the present one.
     pub(super) fn reach(&self, shows: Shows) -> f64 {
-        let alone = self.document.specimen().reach;
-        if shows.has_company() { self.document.work.company.reach(alone) } else { alone }
+        let Specimen { reach, radius, .. } = **self.document.specimen();
+        if !shows.has_company() {
+            return reach;
+        }
+        // What tumbles shows all its sides.
+        let alone = if self.moving.seconds > 0.0 { radius } else { reach };
+        self.document.work.company.reach(alone)
     }
 
     /// How far behind the middle pictures hang, girdle radii.
@@ -134,6 +141,7 @@ impl Editor {
             strongest: self.desk.strongest,
             view: eye.view(None),
             film: eye.film([1, 1], 1.0),
+            whole: Eye::default().film([1, 1], 1.0),
             light,
             exposure: self.document.work.exposure,
             bands: self.desk.wavelengths,

@@ -134,18 +134,21 @@ impl Editor {
             Ok(document) => document,
             Err(why) => return self.notes.trouble(why.to_string()),
         };
+        let laid = company.poses(document.specimen().solid().vertices(), None);
+        let layers =
+            if laid == company.poses { "" } else { ", those whose boxes would meet behind one another" };
         document.work.company = company;
         self.desk.last = None;
         // Of colours the desk knows none.
         let behind = scene.background.as_ref().filter(|behind| !matches!(behind, BackgroundRef::Plain(_)));
         self.desk.behind = behind.map(ToString::to_string);
-        self.desk.strength = scene.strength;
         if let Some(light) = scene.light {
+            let light = if light.is_file() { std::path::absolute(&light).unwrap_or(light) } else { light };
             self.document.work.light = light.to_string_lossy().into_owned();
         }
         self.begin(document);
-        self.desk.behind_mm = scene.background_distance_mm;
-        self.notes.say(&format!("{}: renders show its copies, all else shows one", scene.name));
+        (self.desk.behind_mm, self.desk.strength) = (scene.background_distance_mm, scene.strength);
+        self.notes.say(&format!("{}: renders show its copies{layers}, all else shows one", scene.name));
     }
 }
 

@@ -3,16 +3,14 @@
 
 use super::editor::Editor;
 use super::lookup::{Ask, backdrop};
+use super::moving::step;
 use super::pane::has_room;
 use super::studio::{SPAN, Which};
-use egui::{Context, PointerButton, Response, Ui};
+use egui::{PointerButton, Response, Ui};
 use glam::DVec2;
 
 /// How far the background flows in a second, in parts of the map's plane.
 const FLOW: DVec2 = DVec2::new(0.06, 0.02);
-
-/// The longest step of a flow, seconds: a window that was hidden goes on where it was.
-const LONGEST: f32 = 0.1;
 
 /// How the background of a view stands.
 #[derive(Debug, Clone, Copy, Default)]
@@ -46,14 +44,14 @@ pub fn is_held(ui: &Ui) -> bool {
 
 /// Moves the background of a view by hand or by itself, and asks for what is then seen.
 pub fn show(editor: &mut Editor, ui: &Ui, pane: usize, response: &Response) {
+    let zoom = editor.desk.eye(pane).zoom;
     let flowing = &mut editor.flowing[pane];
     if response.dragged_by(PointerButton::Primary) && is_held(ui) {
         let by = response.drag_delta() / response.rect.size();
-        flowing.moved += DVec2::new(by.x.into(), by.y.into()) / SPAN;
+        flowing.moved += DVec2::new(by.x.into(), by.y.into()) / (SPAN * zoom);
     }
-    if flowing.flows && !flowing.is_map && is_visible(ui.ctx()) {
-        flowing.moved += FLOW * f64::from(ui.input(|i| i.stable_dt).min(LONGEST));
-        ui.ctx().request_repaint();
+    if flowing.flows && !flowing.is_map {
+        flowing.moved += FLOW * step(ui.ctx());
     }
     let (moved, behind) = (flowing.moved, backdrop(editor.desk.background().as_ref()));
     for which in [Which::Present, Which::Other] {
@@ -63,8 +61,4 @@ pub fn show(editor: &mut Editor, ui: &Ui, pane: usize, response: &Response) {
             editor.looker.ask((pane, which), Ask { shot, grade, map, behind: behind.clone() });
         }
     }
-}
-
-fn is_visible(ctx: &Context) -> bool {
-    ctx.input(|i| i.viewport().minimized != Some(true) && i.viewport().occluded != Some(true))
 }

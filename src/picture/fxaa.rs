@@ -191,12 +191,12 @@ mod tests {
         let row = |y: usize| if y < 3 { [255; 4] } else { [0, 0, 0, 255] }.repeat(6);
         let straight: Vec<u8> = (0..6).flat_map(row).collect();
         let dim: Vec<u8> = (0..30).flat_map(|k| [100 + k % 3, 100, 100, 255]).collect();
-        for picture in [even, straight, dim] {
+        // A straight edge counts as standing out a little.
+        for (picture, most) in [(even, 0), (straight, 13), (dim, 0)] {
             let mut smooth = picture.clone();
             fxaa(&mut smooth, 6);
-            // A straight edge counts as standing out a little.
-            let most = smooth.iter().zip(&picture).map(|(a, b)| a.abs_diff(*b)).max();
-            assert!(most <= Some(13), "{most:?}");
+            let off = smooth.iter().zip(&picture).map(|(a, b)| a.abs_diff(*b)).max();
+            assert!(off <= Some(most), "{off:?} of {most}");
         }
     }
 

@@ -56,7 +56,7 @@ impl Trail {
             let now = next.picture.pixels[k];
             let Some(before) = self.before(film.from(k)) else { return now };
             let [least, most] = film.around(k);
-            let held = |c: usize| before[c].clamp(least[c], most[c]);
+            let held = |c: usize| before[c].max(least[c]).min(most[c]);
             std::array::from_fn(|c| held(c) + (now[c] - held(c)) * newest)
         });
         self.picture.pixels = pixels.collect();
@@ -87,7 +87,7 @@ impl Trail {
             let pixel = self.picture.pixels[y * width + x];
             (0..4).for_each(|c| sum[c] += pixel[c] * share as f32);
         }
-        is_known.then_some(sum)
+        (is_known && sum.iter().all(|light| light.is_finite())).then_some(sum)
     }
 }
 

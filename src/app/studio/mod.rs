@@ -87,9 +87,11 @@ impl Studio {
             return;
         }
         self.last = order.clone();
+        let mut next = self.desk.order.lock().unwrap_or_else(PoisonError::into_inner);
         let number = self.desk.newest.fetch_add(1, Ordering::SeqCst) + 1;
         self.desk.busy.store(true, Ordering::SeqCst);
-        *self.desk.order.lock().unwrap_or_else(PoisonError::into_inner) = Some((number, order));
+        *next = Some((number, order));
+        drop(next);
         self.desk.told.notify_one();
     }
 

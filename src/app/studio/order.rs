@@ -63,6 +63,8 @@ pub struct Shot {
     pub behind: Option<BackgroundRef>,
     /// How far behind the middle of a render that hangs, girdle radii.
     pub distance: f64,
+    /// The film where nothing is zoomed or moved aside: what hangs behind fills it.
+    pub whole: Film,
     /// How much of the way that refraction turns light is followed: 1 is physics.
     pub strength: f64,
     /// Where the copies of the stone are in a render, at least one; all else shows it alone.
@@ -97,11 +99,12 @@ impl PartialEq for Shot {
 
 impl Shot {
     /// What only renders go by, and of that what maps do.
-    fn manner(&self) -> (f64, u32, bool, Option<&BackgroundRef>, [f64; 2], &[Pose], Smoothing) {
+    fn manner(&self) -> (f64, u32, bool, Option<&BackgroundRef>, [f64; 3], &[Pose], Smoothing) {
+        let numbers = [self.distance, self.whole.pixel, self.strength];
         if self.shows == Shows::Refraction {
-            return (self.exposure, 0, false, None, [self.distance, 1.0], &self.company, Smoothing::None);
+            let numbers = [numbers[0], numbers[1], 1.0];
+            return (self.exposure, 0, false, None, numbers, &self.company, Smoothing::None);
         }
-        let numbers = [self.distance, self.strength];
         let Self { exposure, bands, jitter, smoothing, .. } = *self;
         (exposure, bands, jitter, self.behind.as_ref(), numbers, &self.company, smoothing)
     }

@@ -5,6 +5,7 @@ use super::pace::Effort;
 use super::render::Growing;
 use super::survey::{Detail, traced};
 use super::take::{Camera, RAYS_COARSER, Trouble, coarser};
+use super::worker::FINE_RENDER;
 use crate::app::lookup::{as_screens, backdrop};
 use crate::io::refraction_map::tiles::code_of;
 use crate::optics::{Illuminant, strata};
@@ -75,7 +76,8 @@ pub(super) fn glass(
         sky: &Sky::new(&surroundings(pane.effective().light), None),
         gap: shot.liquid.gap,
         strata: &strata(bands, &Illuminant::D65, true),
-        looks: growing.map_or(1, |g| g.looks),
+        // Always by the processor, which takes no more than that.
+        looks: growing.map_or(1, |g| g.looks.min(FINE_RENDER.looks)),
     };
     let picture = pane::traced(&pane, &filling(&behind, size), &around, watch)?;
     Ok(Taken { image: as_screens(&picture), unresolved: None, tracer: "point rays", map: None })

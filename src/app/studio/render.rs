@@ -8,13 +8,14 @@ use crate::app::shows::Shows;
 use crate::io::background::BackgroundRef;
 use crate::optics::{Stratum, strata};
 use crate::picture::{Background, Bloom, ByBeams, Develop, Linear, develop, fxaa, spectral};
-use crate::scene::{Film, Panorama, Placed, Pose, Projection, Setting};
+use crate::scene::{Film, Panorama, Placed, Pose, Projection, Setting, Specimen};
 use crate::trace::gpu::{Around, ByCard};
 use crate::trace::ray::{self, ByRays};
 use crate::trace::sitting::{Exposure, Looks, Sitting};
 use crate::trace::surround::{Behind, Surround};
 use crate::trace::{Watch, beam};
 use egui::ColorImage;
+use glam::DVec3;
 use std::sync::Arc;
 
 /// Beams of one wavelength of a render: without symmetry the bound would take many times as long.
@@ -162,8 +163,9 @@ pub fn hung(shot: &Shot) -> f64 {
 
 /// How far a render of all copies reaches from its middle, girdle radii.
 pub fn fitting(shot: &Shot) -> f64 {
-    let reach = shot.specimen.reach;
-    let sides = shot.company.iter().map(|pose| pose.at.truncate().abs().max_element() + reach);
+    let Specimen { reach, radius, .. } = *shot.specimen;
+    let own = |pose: &Pose| if (pose.turn * DVec3::Z).z == 1.0 { reach } else { radius };
+    let sides = shot.company.iter().map(|pose| pose.at.truncate().abs().max_element() + own(pose));
     sides.fold(reach, f64::max)
 }
 
@@ -184,7 +186,7 @@ pub fn sitting<'a>(
     picture: Option<&'a Panorama>,
 ) -> Sitting<'a> {
     let span = shot.behind.as_ref().map_or(1.0, BackgroundRef::span);
-    let behind = picture.map(|picture| Behind::filling(picture, span, hung(shot), &shot.view, &film));
+    let behind = picture.map(|picture| Behind::filling(picture, span, hung(shot), &shot.view, &shot.whole));
     Sitting {
         setting,
         surround: Surround {

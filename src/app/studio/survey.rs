@@ -36,7 +36,8 @@ pub fn traced(
 ) -> Result<(RefractionMap, Carried), Trouble> {
     let setting = setting(shot);
     let distance = hung(shot);
-    let size = DVec2::from(film.size.map(f64::from)) * film.pixel * SPAN * shot.view.widening(distance);
+    let whole = DVec2::from(shot.whole.size.map(f64::from)) * shot.whole.pixel;
+    let size = whole * SPAN * shot.view.widening(distance);
     let plane = Backdrop { distance, size, both_sides: false };
     let bands = |count| strata(count, &shot.light.light.spectrum, true);
     let survey = Survey { bands: &bands(detail.bands), shades: &bands(detail.shades), looks: detail.looks };

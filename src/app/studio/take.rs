@@ -281,6 +281,7 @@ mod tests {
             strongest: false,
             view: eye.view(None),
             film: eye.film([56, 40], 1.0),
+            whole: eye.film([56, 40], 1.0),
             light: Arc::new(Lighting::load("dome").unwrap()),
             bands: 16,
             jitter: true,

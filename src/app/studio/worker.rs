@@ -2,7 +2,7 @@
 
 use super::order::{Answer, Ask, Grade, Order, Shot, Slot, Taken, Which};
 use super::pace::{Effort, Pace};
-use super::render::Growing;
+use super::render::{Growing, is_for_beams};
 use super::take::{Camera, Trouble};
 use super::{Desk, Wake};
 use crate::app::shows::Shows;
@@ -75,18 +75,18 @@ impl Worker {
     /// Works until the studio is closed.
     pub fn work(mut self) {
         while let Some(turn) = self.next() {
-            let work = || self.rough(&turn).and_then(|()| self.refine(&turn));
-            match std::panic::catch_unwind(std::panic::AssertUnwindSafe(work)) {
-                Ok(Ok(())) => {
-                    self.rest(&turn);
-                    self.sharpen(&turn);
-                }
-                Ok(Err(Stopped)) => {}
-                Err(_) => {
-                    let why = "a picture failed: a fault of the program; please report the design";
-                    self.answer(Answer::Trouble(why.to_owned()));
-                    self.rest(&turn);
-                }
+            let work = || {
+                self.rough(&turn)?;
+                self.refine(&turn)?;
+                self.rest(&turn);
+                self.sharpen(&turn)
+            };
+            let end = std::panic::catch_unwind(std::panic::AssertUnwindSafe(work));
+            self.desk.sharpens.store(false, Ordering::SeqCst);
+            if end.is_err() {
+                let why = "a picture failed: a fault of the program; please report the design";
+                self.answer(Answer::Trouble(why.to_owned()));
+                self.rest(&turn);
             }
         }
     }
@@ -107,8 +107,12 @@ impl Worker {
 
     /// Says that all is done, unless there is a new order.
     fn rest(&self, turn: &Turn) {
-        if self.desk.newest.load(Ordering::SeqCst) == turn.number {
-            self.desk.busy.store(false, Ordering::SeqCst);
+        {
+            // Held, so that no order comes in between.
+            let _order = self.desk.order.lock().unwrap_or_else(PoisonError::into_inner);
+            if self.desk.newest.load(Ordering::SeqCst) == turn.number {
+                self.desk.busy.store(false, Ordering::SeqCst);
+            }
         }
         (self.wake)();
     }
@@ -179,25 +183,23 @@ impl Worker {
         Ok(())
     }
 
-    /// Renders by rays before what hangs behind, more and more looks at them until there is a newer order.
-    fn sharpen(&mut self, turn: &Turn) {
+    /// Renders by rays, more and more looks at them until there is a newer order.
+    fn sharpen(&mut self, turn: &Turn) -> Result<(), Stopped> {
         let (desk, number) = (Arc::clone(&self.desk), turn.number);
         let watch = move |_: f64| stop_if(desk.newest.load(Ordering::SeqCst) != number);
         let effort = Effort { unresolved: SHARP.unresolved, coarser: 1.0, bands: SHARP.bands };
         for (slot, shot) in &turn.order.shots {
-            let grows = shot.shows == Shows::Render && shot.behind.is_some() && self.camera.gpu.is_none();
+            let grows = shot.shows == Shows::Render && !is_for_beams(shot) && self.camera.gpu.is_none();
             if !grows || self.sharp.get(slot) == Some(shot) {
                 continue;
             }
             self.desk.sharpens.store(true, Ordering::SeqCst);
-            let sharpened = self.picture((*slot, shot), Grade::Fine, (&effort, Some(&SHARP)), &watch);
+            self.picture((*slot, shot), Grade::Fine, (&effort, Some(&SHARP)), &watch)?;
             self.desk.sharpens.store(false, Ordering::SeqCst);
-            if sharpened.is_err() {
-                return;
-            }
             self.sharp.insert(*slot, shot.clone());
             (self.wake)();
         }
+        Ok(())
     }
 
     fn picture(
@@ -207,6 +209,8 @@ impl Worker {
         (effort, growing): (&Effort, Option<&Growing>),
         watch: Watch,
     ) -> Result<(), Stopped> {
+        // What is taken anew is to be sharpened anew.
+        self.sharp.remove(&slot);
         let (answers, wake) = (self.answers.clone(), Arc::clone(&self.wake));
         let mut each = |taken: Taken| {
             let _ = answers.send(Answer::Picture(slot, Box::new(shot.clone()), grade, taken));
