@@ -14,6 +14,8 @@ pub use order::{Answer, Ask, Grade, Order, Shot, Slot, Smoothing, Taken, Tilts, 
 
 pub use pace::Effort;
 pub use render::{BEHIND, fitting, hung};
+#[cfg(test)]
+pub use render::{setting, sitting};
 pub use survey::{SPAN, survey};
 pub use take::Camera;
 pub use worker::FINE_RENDER;

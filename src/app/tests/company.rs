@@ -8,8 +8,8 @@ use crate::app::export_scene::SceneOut;
 use crate::app::moving::Moving;
 use crate::app::preset::Preset;
 use crate::app::shows::Shows;
-use crate::app::studio::{Smoothing, Which};
-use crate::scene::{Company, Pose};
+use crate::app::studio::{Smoothing, Which, setting, sitting};
+use crate::scene::{Company, Panorama, Pose};
 use egui::{Key, Pos2};
 use egui_kittest::kittest::Queryable;
 use std::path::PathBuf;
@@ -120,7 +120,8 @@ fn scene_files_open_and_those_of_several_designs_are_refused_in_words() {
     let text = "format = 1\nname = \"Mine\"\nlayout = \"row\"\n[[stone]]\ncut = \"cube\"\nsize = \"12mm\"\ncount = 3\n";
     std::fs::write(&path, text).unwrap();
     let mut bench = bench(&path.to_string_lossy());
-    assert_eq!((poses(bench.editor()).len(), bench.editor().document.work.design.diameter_mm), (3, 12.0));
+    bench.wait(|editor| editor.document.work.company.poses.len() == 3);
+    assert_eq!(bench.editor().document.work.design.diameter_mm, 12.0);
     std::fs::write(&path, format!("{text}[[stone]]\ncut = \"pill\"\n")).unwrap();
     bench.choices.lock().unwrap().push(path);
     bench.harness.key_press_modifiers(egui::Modifiers::COMMAND, Key::O);
@@ -160,4 +161,68 @@ fn copies_are_saved_as_a_scene_that_is_opened_again_as_it_was() {
             assert!(at.distance(there) < 1e-9 && turn.dot(turned).abs() > 1.0 - 1e-12, "{at} {there}");
         }
     }
+}
+
+#[test]
+fn whoever_holds_a_copy_that_goes_lets_go_of_it() {
+    let mut bench = bench("cube");
+    bench.harness.state_mut().lay_out(4);
+    bench.harness.run_steps(3);
+    let last = poses(bench.editor())[3].at;
+    let (pos, button) = (at(&bench, last.x, last.y), egui::PointerButton::Primary);
+    let modifiers = egui::Modifiers::NONE;
+    bench.harness.hover_at(pos);
+    bench.harness.step();
+    bench.harness.event(egui::Event::PointerButton { pos, button, pressed: true, modifiers });
+    bench.harness.step();
+    for k in 1..=3 {
+        bench.harness.hover_at(pos + egui::vec2(8.0 * k as f32, 0.0));
+        bench.harness.step();
+    }
+    assert_eq!(bench.editor().held, Some((0, 3)));
+    bench.harness.state_mut().document.work.company = Company::default();
+    bench.harness.hover_at(pos + egui::vec2(40.0, 0.0));
+    bench.harness.step();
+    assert_eq!(bench.editor().held, None);
+    assert_eq!(bench.editor().document.work.company, Company::default());
+}
+
+#[test]
+fn turning_all_keeps_copies_apart_and_the_hand_on_the_one_it_holds() {
+    let mut bench = bench("subtle-pill");
+    let shown = |bench: &Bench| bench.editor().asked.shots[0].1.company.clone();
+    let before = shown(&bench);
+    bench.harness.state_mut().desk.eye.turn = 1.2;
+    bench.harness.run_steps(2);
+    let turned = shown(&bench);
+    for (k, pose) in turned.iter().enumerate() {
+        for (other, was) in turned[..k].iter().zip(&before) {
+            assert!((other.at.distance(pose.at) - was.at.distance(before[k].at)).abs() < 1e-12);
+            assert!(pose.turn.angle_between(other.turn) < 1e-7);
+        }
+    }
+    let (middle, pixel) = (turned[2].at, bench.editor().asked.shots[0].1.film.pixel);
+    let from = at(&bench, middle.x, middle.y);
+    drag(&mut bench, from, egui::vec2(40.0, -25.0));
+    let moved = shown(&bench)[2].at - middle;
+    assert!((moved - glam::DVec3::new(40.0, 25.0, 0.0) * pixel).length() < 1e-5, "{moved}");
+}
+
+#[test]
+fn zooming_shows_the_same_light_nearer_and_another_design_is_seen_as_physics() {
+    let mut bench = bench("subtle-pill");
+    let seen = |bench: &Bench| {
+        let shot = bench.editor().asked.shots[0].1.clone();
+        let (setting, page) = (setting(&shot), Panorama { width: 2, height: 2, pixels: vec![[1.0; 3]; 4] });
+        let width = sitting(&shot, &setting, shot.film, Some(&page)).surround.behind.unwrap().width;
+        (width, shot.film.pixel, shot.strength)
+    };
+    let before = seen(&bench);
+    bench.harness.state_mut().desk.eye.zoom_at(4.0, glam::DVec2::new(0.8, 0.3));
+    bench.harness.run_steps(2);
+    let after = seen(&bench);
+    assert!(after.0 == before.0 && after.1 < before.1 && before.2 == 0.035);
+    bench.harness.state_mut().begin_from_library("modern-ideal");
+    bench.harness.run_steps(2);
+    assert_eq!(seen(&bench).2, 1.0);
 }
