@@ -10,7 +10,7 @@ use super::{company_rows, glass_rows, theme, tier_rows};
 use crate::cut::{Cut, DesignError, MaterialRef, RoundBrilliant, Size, Unit};
 use crate::optics::{line, materials};
 use crate::picture::Pattern;
-use crate::scene::{LIGHTS, SpecimenError, light};
+use crate::scene::{Company, LIGHTS, SpecimenError, light};
 use egui::{
     Color32, ComboBox, Panel, Rect, RichText, Role, ScrollArea, Sense, Slider, SliderClamping, Stroke,
     StrokeKind, TextEdit, Ui, WidgetInfo, pos2, vec2,
@@ -29,7 +29,8 @@ pub fn show(editor: &mut Editor, ui: &mut Ui) {
         ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
             ui.add_space(8.0);
             identity(editor, ui);
-            if matches!(editor.document.work.design.cut, Cut::Glass(_)) {
+            let work = &editor.document.work;
+            if matches!(work.design.cut, Cut::Glass(_)) || work.company != Company::default() {
                 company_rows::presets(editor, ui);
             }
             heading(

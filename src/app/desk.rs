@@ -78,6 +78,8 @@ pub struct Desk {
     pub wavelengths: u32,
     /// What hangs behind stones in renders: the name of a pattern, or a photograph's file.
     pub behind: Option<String>,
+    /// What a scene has hung there; another stone goes without.
+    pub behind_of_scene: Option<String>,
     /// How far behind the middle that hangs, mm; none for a distance that goes with the stone.
     pub behind_mm: Option<f64>,
     /// How much of the way that refraction turns light is followed before it: 1 is physics.
@@ -112,6 +114,7 @@ impl Default for Desk {
             exposure: 0.0,
             wavelengths: WAVELENGTHS[2],
             behind: None,
+            behind_of_scene: None,
             behind_mm: None,
             strength: 1.0,
             smoothing: Smoothing::None,
@@ -140,8 +143,11 @@ impl Desk {
         self.behind = Pattern::NAMES.get(next).map(|(name, _)| (*name).to_owned());
     }
 
-    /// Forgets what goes with one stone: distances with its size, mixtures with its scene.
+    /// Forgets what goes with one stone: distances with its size, what its scene hung behind it, mixtures.
     pub fn rest(&mut self) {
+        if self.behind_of_scene.take().is_some_and(|hung| self.behind == Some(hung)) {
+            self.behind = None;
+        }
         (self.behind_mm, self.strength) = (None, 1.0);
     }
 

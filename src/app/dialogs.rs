@@ -112,7 +112,8 @@ fn recover(editor: &mut Editor, ui: &mut Ui, found: &Found) -> bool {
     let of = found.path.as_ref().map_or_else(|| "in no file yet".into(), |p| format!("from {}", p.display()));
     let minutes = found.when.elapsed().map_or(0, |since| since.as_secs() / 60);
     let when = match minutes {
-        0..60 => format!("{minutes} minutes ago"),
+        0..2 => "just now".to_owned(),
+        2..120 => format!("{minutes} minutes ago"),
         _ => format!("{} hours ago", minutes / 60),
     };
     let (name, open) = (&found.design.name, editor.document.title());
@@ -123,8 +124,11 @@ fn recover(editor: &mut Editor, ui: &mut Ui, found: &Found) -> bool {
         Some(0) => {
             match Document::recovered(found.design.clone(), found.path.clone()) {
                 // Beginning keeps it safe anew, before what the crash left is forgotten.
-                Ok(document) => {
+                Ok(mut document) => {
+                    document.work.company = found.around.company.clone();
                     editor.begin(document);
+                    editor.desk.behind_mm = found.around.behind_mm;
+                    editor.take_note();
                     Found::clone(found).forget();
                 }
                 Err(why) => editor.notes.trouble(why),

@@ -5,6 +5,7 @@ use super::compare::Compared;
 use super::desk::{Desk, Layout};
 use super::dialogs::{Dialog, Then};
 use super::document::{Document, FIRST_LIGHT, Work};
+use super::export_job::Selection;
 use super::files::{Chooser, Choosing, Safe, Watching, by_dialog};
 use super::following::{self, Following};
 use super::look::Looks;
@@ -94,6 +95,8 @@ pub struct Editor {
     pub(super) told: String,
     pub(super) notes: Notes,
     pub(super) dialog: Option<Dialog>,
+    /// What was exported last.
+    pub(super) selection: Selection,
     /// The pane under the pointer, or the last that was.
     pub(super) hovered: usize,
     /// The last order's, for knowing whether what is shown is what was asked for.
@@ -163,6 +166,7 @@ impl Editor {
             told: String::new(),
             notes: Notes::default(),
             dialog: None,
+            selection: Selection::default(),
             hovered: 0,
             light,
             asked: Order::default(),

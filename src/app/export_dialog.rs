@@ -41,28 +41,25 @@ impl ExportDialog {
             || editor.document.work.design.name.to_lowercase().replace([' ', '/'], "-"),
             |s| s.to_string_lossy().into_owned(),
         );
-        let views = vec![Shows::Render, Shows::Aset, Shows::Hearts, Shows::Arrows];
-        let formats = vec![Format::Png];
         let (upright, turn) = (Arc::clone(editor.document.specimen()), editor.desk.eye.turn);
         let light = match PathBuf::from(&editor.light.0) {
             file if file.is_file() => std::path::absolute(&file).unwrap_or(file),
             name => name,
         };
-        let plan = Plan {
+        let selection = editor.selection.clone();
+        let mut plan = Plan {
             shot,
             turned: editor.posed(turn),
             upright,
             turn,
-            views,
-            formats,
-            map: false,
-            bands: 1,
-            scene: false,
+            reach: editor.reach(Shows::Render),
+            selection,
             light,
-            size: 1024,
             folder: folder.clone(),
             stem,
         };
+        let can_be_shown: Vec<Shows> = plan.can_be_shown().collect();
+        plan.selection.views.retain(|shows| can_be_shown.contains(shows));
         let wake = editor.studio.wake();
         let thumbnails = thumbnails(plan.clone(), move || wake());
         Self { folder: folder.join("out"), plan, thumbnails, pictures: HashMap::new(), job: None }
@@ -104,6 +101,7 @@ pub fn show(editor: &mut Editor, ui: &mut Ui, export: &mut ExportDialog) -> bool
     export.plan.folder = export.folder.clone();
     let files = export.plan.files();
     listed(ui, &files);
+    editor.selection.clone_from(&export.plan.selection);
     ui.add_space(8.0);
     let mut stays = true;
     ui.horizontal(|ui| {
@@ -119,13 +117,13 @@ pub fn show(editor: &mut Editor, ui: &mut Ui, export: &mut ExportDialog) -> bool
 
 fn views(ui: &mut Ui, export: &mut ExportDialog) {
     ui.horizontal_wrapped(|ui| {
-        for shows in Shows::EXPORTED.iter().copied() {
-            let mut wanted = export.plan.views.contains(&shows);
+        for shows in export.plan.can_be_shown().collect::<Vec<_>>() {
+            let mut wanted = export.plan.selection.views.contains(&shows);
             if thumbnail(ui, shows, wanted, export.pictures.get(&shows)) {
                 wanted = !wanted;
-                export.plan.views.retain(|s| *s != shows);
+                export.plan.selection.views.retain(|s| *s != shows);
                 if wanted {
-                    export.plan.views.push(shows);
+                    export.plan.selection.views.push(shows);
                 }
             }
         }
@@ -175,11 +173,11 @@ fn settings(editor: &mut Editor, ui: &mut Ui, export: &mut ExportDialog) {
                 (Format::Exr, "EXR", "The energy of every zone, linear, in 32 bits."),
                 (Format::Json, "JSON", "The figures of this view."),
             ] {
-                let mut wanted = export.plan.formats.contains(&format);
+                let mut wanted = export.plan.selection.formats.contains(&format);
                 if ui.checkbox(&mut wanted, name).on_hover_text(meaning).changed() {
-                    export.plan.formats.retain(|f| *f != format);
+                    export.plan.selection.formats.retain(|f| *f != format);
                     if wanted {
-                        export.plan.formats.push(format);
+                        export.plan.selection.formats.push(format);
                     }
                 }
             }
@@ -189,17 +187,17 @@ fn settings(editor: &mut Editor, ui: &mut Ui, export: &mut ExportDialog) {
         let meaning = "Where the light behind each pixel comes from, as a picture; the layer of all other light; and a page \
             that refracts a moving background through both.";
         ui.horizontal(|ui| {
-            ui.checkbox(&mut export.plan.map, "Refraction map and page").on_hover_text(meaning);
+            ui.checkbox(&mut export.plan.selection.map, "Refraction map and page").on_hover_text(meaning);
             let meaning = "Bands of wavelengths: of one the map is grey and small, of several its look-up keeps the rainbow.";
-            let bands = DragValue::new(&mut export.plan.bands).range(1..=MOST_BANDS).prefix("bands ");
-            ui.add_enabled(export.plan.map, bands).on_hover_text(meaning);
+            let bands = DragValue::new(&mut export.plan.selection.bands).range(1..=MOST_BANDS).prefix("bands ");
+            ui.add_enabled(export.plan.selection.map, bands).on_hover_text(meaning);
             let meaning = "The copies as they lie now, with their light and what hangs behind: a scene file and its cut, \
                 which this program opens again and draws.";
-            ui.checkbox(&mut export.plan.scene, "Scene file and its cut").on_hover_text(meaning);
+            ui.checkbox(&mut export.plan.selection.scene, "Scene file and its cut").on_hover_text(meaning);
         });
         ui.end_row();
         let label = ui.label("Size");
-        ui.add(DragValue::new(&mut export.plan.size).range(SIZES).speed(8.0).suffix(" pixels"))
+        ui.add(DragValue::new(&mut export.plan.selection.size).range(SIZES).speed(8.0).suffix(" pixels"))
             .labelled_by(label.id);
         ui.end_row();
         let label = ui.label("Folder");
@@ -217,6 +215,9 @@ fn settings(editor: &mut Editor, ui: &mut Ui, export: &mut ExportDialog) {
     });
 }
 
+/// Height of the list of files, points: the same for any number, so that nothing moves under the pointer.
+const LISTED: f32 = 96.0;
+
 /// What will be written, and what of it is there already.
 fn listed(ui: &mut Ui, files: &Result<Vec<PathBuf>, String>) {
     match files {
@@ -229,15 +230,31 @@ fn listed(ui: &mut Ui, files: &Result<Vec<PathBuf>, String>) {
             } else {
                 String::new()
             };
-            ui.label(RichText::new(format!("{} files{already}", files.len())).weak());
-            ScrollArea::vertical().max_height(96.0).id_salt("files").show(ui, |ui| {
-                for file in files {
-                    let name =
-                        file.file_name().map_or_else(String::new, |n| n.to_string_lossy().into_owned());
-                    let text = RichText::new(name).small();
-                    ui.label(if file.exists() { text.color(theme::bad(ui.visuals())) } else { text.weak() });
-                }
-            });
+            ui.label(
+                RichText::new(format!(
+                    "{} file{}{already}",
+                    files.len(),
+                    if files.len() == 1 { "" } else { "s" }
+                ))
+                .weak(),
+            );
+            ScrollArea::vertical()
+                .max_height(LISTED)
+                .min_scrolled_height(LISTED)
+                .auto_shrink(false)
+                .id_salt("files")
+                .show(ui, |ui| {
+                    for file in files {
+                        let name =
+                            file.file_name().map_or_else(String::new, |n| n.to_string_lossy().into_owned());
+                        let text = RichText::new(name).small();
+                        ui.label(if file.exists() {
+                            text.color(theme::bad(ui.visuals()))
+                        } else {
+                            text.weak()
+                        });
+                    }
+                });
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use super::export_scene::SceneOut;
 use super::shows::Shows;
-use super::studio::{Camera, Effort, FINE_RENDER, SPAN, Shot, Which, fitting, survey};
+use super::studio::{Camera, Effort, FINE_RENDER, SPAN, Shot, Which, survey};
 use crate::io::background::BackgroundRef;
 use crate::io::export::{Export, Format, Outputs, Sampler, Told, Tracer, Viewing};
 use crate::io::refraction_map::{self, Coding};
@@ -25,6 +25,29 @@ const THUMBNAIL: u32 = 176;
 /// What a render takes where a picture in a scope takes 1, roughly.
 const RENDER: f64 = 4.0;
 
+/// What of a stone is to be written.
+#[derive(Clone)]
+pub struct Selection {
+    /// What is shown of it.
+    pub views: Vec<Shows>,
+    /// Kinds of file.
+    pub formats: Vec<Format>,
+    /// Whether a refraction map is written, with a page that shows it, and of how many bands of wavelengths.
+    pub map: bool,
+    pub bands: u32,
+    /// Whether what renders show is written as a scene, with its cut.
+    pub scene: bool,
+    /// Pixels along each side.
+    pub size: u32,
+}
+
+impl Default for Selection {
+    fn default() -> Self {
+        let views = vec![Shows::Render, Shows::Aset, Shows::Hearts, Shows::Arrows];
+        Self { views, formats: vec![Format::Png], map: false, bands: 1, scene: false, size: 1024 }
+    }
+}
+
 /// What is to be written.
 #[derive(Clone)]
 pub struct Plan {
@@ -35,19 +58,12 @@ pub struct Plan {
     /// The same stone as the cut has it, and by how much it is turned for the views, radians.
     pub upright: Arc<Specimen>,
     pub turn: f64,
-    /// What is shown of it.
-    pub views: Vec<Shows>,
-    /// Kinds of file.
-    pub formats: Vec<Format>,
-    /// Whether a refraction map is written, with a page that shows it, and of how many bands of wavelengths.
-    pub map: bool,
-    pub bands: u32,
-    /// Whether what renders show is written as a scene, with its cut.
-    pub scene: bool,
+    /// Half the side of what renders show.
+    pub reach: f64,
+    /// What of it is written.
+    pub selection: Selection,
     /// The light, as scenes name it.
     pub light: PathBuf,
-    /// Pixels along each side.
-    pub size: u32,
     /// Where to.
     pub folder: PathBuf,
     /// What files' names begin with.
@@ -73,9 +89,9 @@ impl Plan {
     /// know of no turn.
     fn parts(&self) -> [(Outputs, Viewing<'_>); 2] {
         let is_drawing = |shows: &Shows| !shows.is_seen();
-        let json = self.formats.contains(&Format::Json);
+        let json = self.selection.formats.contains(&Format::Json);
         let formats = |json: bool| {
-            let pixels = self.formats.iter().copied().filter(|f| *f != Format::Json);
+            let pixels = self.selection.formats.iter().copied().filter(|f| *f != Format::Json);
             pixels.chain(json.then_some(Format::Json)).collect()
         };
         let seen = self.outputs(|s| !is_drawing(s), formats(false));
@@ -92,8 +108,8 @@ impl Plan {
         Outputs {
             folder: self.folder.clone(),
             stem: self.stem.clone(),
-            pictures: self.views.iter().filter(|s| is_part(s)).filter_map(picture).collect(),
-            size: self.size,
+            pictures: self.selection.views.iter().filter(|s| is_part(s)).filter_map(picture).collect(),
+            size: self.selection.size,
             formats,
         }
     }
@@ -119,10 +135,11 @@ impl Plan {
 
     /// The maps, the diffuse layer, the page.
     fn map_paths(&self) -> Option<(Vec<PathBuf>, [PathBuf; 2])> {
-        let maps = refraction_map::paths(&self.folder, &self.stem, self.bands as usize, Coding::Tiles);
+        let maps =
+            refraction_map::paths(&self.folder, &self.stem, self.selection.bands as usize, Coding::Tiles);
         let page = self.folder.join(format!("{}-refraction.html", self.stem));
         let others = [refraction_map::diffuse_path(&self.folder, &self.stem), page];
-        self.map.then_some((maps, others))
+        self.selection.map.then_some((maps, others))
     }
 
     /// Says that a render is no physics, where it is none.
@@ -134,8 +151,15 @@ impl Plan {
     }
 
     fn render_path(&self) -> Option<PathBuf> {
-        let wanted = self.views.contains(&Shows::Render) && self.formats.contains(&Format::Png);
+        let wanted =
+            self.selection.views.contains(&Shows::Render) && self.selection.formats.contains(&Format::Png);
         wanted.then(|| self.folder.join(format!("{}-render.png", self.stem)))
+    }
+
+    /// What can be shown of it: drawings need facets.
+    pub fn can_be_shown(&self) -> impl Iterator<Item = Shows> {
+        let has_facets = self.upright.stone().is_ok();
+        Shows::EXPORTED.iter().copied().filter(move |shows| has_facets || shows.is_seen())
     }
 
     /// The files that will be written.
@@ -149,7 +173,7 @@ impl Plan {
         }
         files.extend(self.render_path());
         files.extend(self.map_paths().into_iter().flat_map(|(maps, others)| maps.into_iter().chain(others)));
-        files.extend(self.scene.then(|| SceneOut::paths(self)).into_iter().flatten());
+        files.extend(self.selection.scene.then(|| SceneOut::paths(self)).into_iter().flatten());
         Ok(files)
     }
 
@@ -158,7 +182,7 @@ impl Plan {
         let view = crate::scene::View { side: shows.side().unwrap_or(self.shot.view.side), ..self.shot.view };
         let shot = Shot { shows, view, ..self.shot.clone() };
         if shows.has_company() {
-            let film = Film::reaching(fitting(&shot), size);
+            let film = Film::reaching(self.reach, size);
             return Shot { film, whole: film, ..shot };
         }
         let specimen = Arc::clone(if shows.is_seen() { &self.turned } else { &self.upright });
@@ -170,7 +194,8 @@ impl Plan {
         let render = self.render_path();
         let parts = self.parts();
         let effort = |o: &Outputs| (o.pictures.len() + usize::from(o.formats.contains(&Format::Json))) as f64;
-        let more = [render.is_some(), self.map].map(|is_wanted| if is_wanted { RENDER } else { 0.0 });
+        let more =
+            [render.is_some(), self.selection.map].map(|is_wanted| if is_wanted { RENDER } else { 0.0 });
         let all = parts.iter().map(|(o, _)| effort(o)).sum::<f64>() + more[0] + more[1];
         let mut begun = 0.0;
         for (outputs, viewing) in &parts {
@@ -191,7 +216,7 @@ impl Plan {
             self.write_map(&maps, &others, &|done| progress.at((begun + done * RENDER) / all))?;
             maps.iter().chain(&others).for_each(|path| progress.hear(&Told::Written(path)));
         }
-        if self.scene {
+        if self.selection.scene {
             SceneOut::of(self).write()?;
             SceneOut::paths(self).iter().for_each(|path| progress.hear(&Told::Written(path)));
         }
@@ -204,12 +229,13 @@ impl Plan {
         [diffuse, page]: &[PathBuf; 2],
         watch: crate::trace::Watch,
     ) -> Result<(), Failure> {
-        let (map, carried) = survey(&self.shot(Shows::Render, self.size), self.bands, watch)?;
+        let (map, carried) =
+            survey(&self.shot(Shows::Render, self.selection.size), self.selection.bands, watch)?;
         let title = self.shot.specimen.design.name.as_str();
         let told = format!(
             "{title}; refraction map, bands {}; light {}; {:.1} % of the light comes from the background, {:.1} % of that from the \
              map's places",
-            self.bands,
+            self.selection.bands,
             self.shot.light.light.name,
             100.0 * carried.behind,
             100.0 * carried.single
@@ -226,7 +252,7 @@ impl Plan {
     fn render(&self, path: &Path, watch: crate::trace::Watch) -> Result<(), Failure> {
         let mut last = None;
         let effort = Effort { unresolved: FINE_RENDER.unresolved, coarser: 1.0, bands: FINE_RENDER.bands };
-        let shot = self.shot(Shows::Render, self.size);
+        let shot = self.shot(Shows::Render, self.selection.size);
         Camera::default().take(
             ((0, Which::Present), &shot),
             &effort,
@@ -305,7 +331,7 @@ pub fn thumbnails(plan: Plan, wake: impl Fn() + Send + 'static) -> Receiver<(Sho
     let (sender, pictures) = channel();
     std::thread::spawn(move || {
         let mut camera = Camera::default();
-        for shows in Shows::EXPORTED.iter().copied() {
+        for shows in plan.can_be_shown() {
             if !send(&plan, shows, &mut camera, &sender) {
                 return;
             }

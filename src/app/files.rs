@@ -5,6 +5,7 @@ use crate::cut::{Cut, Design};
 use crate::io::design_file::{self, Format};
 use crate::io::{WriteError, cut_file, write};
 use crate::math::Plane;
+use crate::scene::{Company, MOST_COPIES};
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
@@ -191,6 +192,17 @@ struct Kept {
     #[serde(default)]
     mesh: bool,
     design: String,
+    #[serde(default)]
+    around: Around,
+}
+
+/// What else is kept of unsaved work: of its scene.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+pub struct Around {
+    /// Its copies.
+    pub company: Company,
+    /// How far behind it a picture hangs, mm, if that was set.
+    pub behind_mm: Option<f64>,
 }
 
 /// Work that a crash left behind.
@@ -198,6 +210,8 @@ struct Kept {
 pub struct Found {
     /// The design.
     pub design: Design,
+    /// What is around it.
+    pub around: Around,
     /// The file that it was opened from.
     pub path: Option<PathBuf>,
     /// When it was last kept.
@@ -217,11 +231,11 @@ impl Safe {
         Self { folder, own, held: None }
     }
 
-    /// Keeps a design.
+    /// Keeps a design, with what is around it.
     ///
     /// # Errors
     /// When the file system refuses.
-    pub fn keep(&mut self, design: &Design, path: Option<&Path>) -> Result<(), WriteError> {
+    pub fn keep(&mut self, design: &Design, around: &Around, path: Option<&Path>) -> Result<(), WriteError> {
         // A mesh lies in its file already, and may be large: what was changed beside it is kept.
         let (mesh, design) = match (&design.cut, path) {
             (Cut::Mesh(_), Some(_)) => {
@@ -229,7 +243,12 @@ impl Safe {
             }
             _ => (false, Cow::Borrowed(design)),
         };
-        let kept = Kept { path: path.map(Path::to_owned), mesh, design: cut_file::write(&design) };
+        let kept = Kept {
+            path: path.map(Path::to_owned),
+            mesh,
+            design: cut_file::write(&design),
+            around: around.clone(),
+        };
         let text = serde_json::to_string(&kept).map_err(|e| WriteError::io(&self.folder, e))?;
         let name = &self.own;
         write(name, |file| file.write_all(text.as_bytes()).map_err(|e| WriteError::io(name, e)))?;
@@ -275,13 +294,16 @@ fn stand_in() -> (String, Plane) {
 fn orphan(path: PathBuf) -> Option<Found> {
     let file = File::open(&path).ok()?;
     file.try_lock().ok()?;
-    let kept: Kept = serde_json::from_reader(&file).ok()?;
+    let mut kept: Kept = serde_json::from_reader(&file).ok()?;
+    if !(1..=MOST_COPIES).contains(&kept.around.company.poses.len()) {
+        kept.around.company = Company::default();
+    }
     let mut design = cut_file::parse(&kept.design, "unsaved work").ok()?;
     if kept.mesh {
         design.cut = design_file::read(kept.path.as_deref()?).ok()?.design.cut;
     }
     let when = file.metadata().and_then(|m| m.modified()).ok()?;
-    Some(Found { design, path: kept.path, when, file: path })
+    Some(Found { design, around: kept.around, path: kept.path, when, file: path })
 }
 
 /// How files end that can be opened.
@@ -299,8 +321,10 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let design = Document::first().unwrap().work.design;
         let mut safe = Safe::new(folder.path().to_owned());
-        safe.keep(&design, Some(Path::new("/x/mine.toml"))).unwrap();
-        safe.keep(&design, Some(Path::new("/x/mine.toml"))).unwrap();
+        let corners = [DVec3::ONE, -DVec3::ONE];
+        let around = Around { company: Company::scattered(3, &corners, 2), behind_mm: Some(12.5) };
+        safe.keep(&design, &around, Some(Path::new("/x/mine.toml"))).unwrap();
+        safe.keep(&design, &around, Some(Path::new("/x/mine.toml"))).unwrap();
         let next = Safe::new(folder.path().to_owned());
         assert_eq!(next.found(), [], "the program still runs");
         drop(safe);
@@ -309,6 +333,7 @@ mod tests {
             (found.len(), &found[0].design, found[0].path.as_deref()),
             (1, &design, Some(Path::new("/x/mine.toml")))
         );
+        assert_eq!(found[0].around, around);
         found.into_iter().for_each(Found::forget);
         assert_eq!(next.found(), []);
     }
@@ -325,7 +350,7 @@ mod tests {
         let mesh = design_file::read(&path).unwrap().design;
         let changed = Design { name: "changed".to_owned(), diameter_mm: 9.0, ..mesh };
         let mut safe = Safe::new(folder.path().join("safe"));
-        safe.keep(&changed, Some(&path)).unwrap();
+        safe.keep(&changed, &Around::default(), Some(&path)).unwrap();
         drop(safe);
         let next = Safe::new(folder.path().join("safe"));
         assert!(next.found()[0].design == changed);
@@ -338,7 +363,7 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let mut safe = Safe::new(folder.path().join("new"));
         assert_eq!(safe.found(), []);
-        safe.keep(&Document::first().unwrap().work.design, None).unwrap();
+        safe.keep(&Document::first().unwrap().work.design, &Around::default(), None).unwrap();
         safe.empty();
         drop(safe);
         let next = Safe::new(folder.path().join("new"));

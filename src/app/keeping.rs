@@ -4,7 +4,7 @@ use super::compare::Compared;
 use super::dialogs::{Dialog, Then};
 use super::document::{Document, Work};
 use super::editor::{Editor, Shown};
-use super::files::{Choosing, Purpose, Question};
+use super::files::{Around, Choosing, Purpose, Question};
 use super::opening::Wanted;
 use super::studio::Which;
 use crate::io::design_file::Format;
@@ -219,11 +219,12 @@ impl Editor {
         self.kept = self.document.work.clone();
         let Work { light, exposure, head, .. } = &self.kept;
         (self.desk.light, self.desk.exposure, self.desk.head) = (light.clone(), *exposure, *head);
+        let around = Around { company: self.kept.company.clone(), behind_mm: self.desk.behind_mm };
         let Some(safe) = &mut self.safe else { return };
         if !self.document.is_changed() {
             safe.empty();
         } else if self.document.fault().is_none()
-            && let Err(why) = safe.keep(&self.kept.design, self.document.path())
+            && let Err(why) = safe.keep(&self.kept.design, &around, self.document.path())
         {
             self.notes.trouble(format!("unsaved work is not kept safe: {why}"));
         }

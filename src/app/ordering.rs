@@ -120,9 +120,16 @@ impl Editor {
         if !shows.has_company() {
             return reach;
         }
-        // What tumbles shows all its sides.
-        let alone = if self.moving.seconds > 0.0 { radius } else { reach };
-        self.document.work.company.reach(alone)
+        let company = &self.document.work.company;
+        match self.moving.seconds > 0.0 {
+            // What tumbles shows all its sides.
+            true => company
+                .poses
+                .iter()
+                .map(|p| p.at.truncate().abs().max_element() + radius)
+                .fold(company.reach(radius), f64::max),
+            false => company.reach(reach),
+        }
     }
 
     /// How far behind the middle pictures hang, girdle radii.

@@ -5,8 +5,8 @@ use super::editor::{Editor, Shown};
 use super::eye::Eye;
 use super::probe::Found;
 use super::shows::Shows;
-use super::studio::{Grade, Which};
-use super::{liquid, menus, refraction_view};
+use super::studio::{Grade, Shot, Which};
+use super::{liquid, menus, refraction_view, theme};
 use crate::cut::Cut;
 use crate::math::SolidRef;
 use crate::scene::{ASET_CONE, Backing, Film, Scope, Side, Specimen, View};
@@ -106,7 +106,13 @@ pub fn has_room(ui: &Ui, points: f32) -> bool {
 /// How good the picture is, in a word or two.
 fn state(editor: &Editor, ui: &mut Ui, pane: usize) {
     let Some(shown) = editor.shown((pane, Which::Present)) else { return };
-    let Shown { grade, taken, .. } = shown;
+    let Shown { grade, taken, shot, .. } = shown;
+    if shows_mixture(shot) {
+        let meaning = "Strength below 1: a mixture of the refracted and the straight ray, for its looks, and no physics.";
+        let colour = theme::bad(ui.visuals());
+        ui.label(RichText::new(format!("strength {:.3}", shot.strength)).color(colour).small())
+            .on_hover_text(meaning);
+    }
     let (text, meaning) = match (grade, taken.unresolved) {
         (Grade::Fine, Some(part)) => {
             let percent = 100.0 * part;
@@ -118,6 +124,11 @@ fn state(editor: &Editor, ui: &mut Ui, pane: usize) {
         _ => ("…".to_owned(), "Becoming finer.".to_owned()),
     };
     ui.label(RichText::new(text).weak().small()).on_hover_text(format!("By {}. {meaning}", taken.tracer));
+}
+
+/// Whether a picture is no physics.
+fn shows_mixture(shot: &Shot) -> bool {
+    shot.shows == Shows::Render && shot.strength < 1.0
 }
 
 pub fn enlarge(editor: &mut Editor, pane: usize) {

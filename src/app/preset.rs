@@ -2,6 +2,7 @@
 
 use super::document::Document;
 use super::editor::Editor;
+use super::shows::Shows;
 use crate::cut::Design;
 use crate::io::background::BackgroundRef;
 use crate::io::scene_file::{self, Entry, SceneFile};
@@ -121,6 +122,8 @@ impl Editor {
                 self.begin_scene(preset);
                 if let Some(known) = PRESETS.iter().find(|known| known.name == name) {
                     (self.moving.is_on, self.desk.wavelengths) = (known.moves, known.wavelengths);
+                    // What it is about is its render.
+                    self.desk.large = self.desk.panes.iter().position(|pane| pane.shows == Shows::Render);
                 }
             }
             Err(why) => self.notes.trouble(why),
@@ -139,14 +142,15 @@ impl Editor {
             if laid == company.poses { "" } else { ", those whose boxes would meet behind one another" };
         document.work.company = company;
         self.desk.last = None;
-        // Of colours the desk knows none.
-        let behind = scene.background.as_ref().filter(|behind| !matches!(behind, BackgroundRef::Plain(_)));
-        self.desk.behind = behind.map(ToString::to_string);
         if let Some(light) = scene.light {
             let light = if light.is_file() { std::path::absolute(&light).unwrap_or(light) } else { light };
             self.document.work.light = light.to_string_lossy().into_owned();
         }
         self.begin(document);
+        // Of colours the desk knows none.
+        let behind = scene.background.as_ref().filter(|behind| !matches!(behind, BackgroundRef::Plain(_)));
+        self.desk.behind = behind.map(ToString::to_string);
+        self.desk.behind_of_scene.clone_from(&self.desk.behind);
         (self.desk.behind_mm, self.desk.strength) = (scene.background_distance_mm, scene.strength);
         self.notes.say(&format!("{}: renders show its copies{layers}, all else shows one", scene.name));
     }

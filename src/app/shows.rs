@@ -91,8 +91,8 @@ impl Shows {
             Self::Profile => "The stone from the side with its proportions; drag its edges to change them.",
             Self::Diagram => "Crown and pavilion facets by tier, with their slopes, as cutters print them.",
             Self::Refraction => {
-                "A background that moves behind the stone: traced once as a map of where light comes from, then looked up. \
-                 Drag it; with Ctrl the stone tilts."
+                "A background that moves behind the stone: traced once as a map of where light comes from, then looked up, by \
+                 physics whatever the strength of renders. Drag it; with Ctrl the stone tilts."
             }
             Self::LiquidGlass => {
                 "A pane before the background as screens draw it, by arithmetic and without a ray; drag the pane."

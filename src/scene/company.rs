@@ -4,6 +4,7 @@
 
 use super::layout::scattered;
 use glam::{DQuat, DVec2, DVec3};
+use serde::{Deserialize, Serialize};
 
 /// The most copies that there may be.
 pub const MOST_COPIES: usize = 8;
@@ -20,7 +21,7 @@ const TRIES: u64 = 256;
 const LARGER: f64 = 1.04;
 
 /// Where a copy is: turned about the body's origin, then moved.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Pose {
     /// Where the body's origin is.
     pub at: DVec3,
@@ -44,7 +45,7 @@ impl Pose {
 }
 
 /// Copies at rest.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Company {
     /// Where each is; at least one.
     pub poses: Vec<Pose>,

@@ -13,7 +13,7 @@ mod worker;
 pub use order::{Answer, Ask, Grade, Order, Shot, Slot, Smoothing, Taken, Tilts, Which};
 
 pub use pace::Effort;
-pub use render::{BEHIND, fitting, hung};
+pub use render::{BEHIND, hung};
 #[cfg(test)]
 pub use render::{setting, sitting};
 pub use survey::{SPAN, survey};

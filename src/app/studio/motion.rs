@@ -2,6 +2,7 @@
 
 use super::order::{Shot, Slot};
 use crate::cut::{Cut, Glass};
+use crate::io::background::BackgroundRef;
 use crate::picture::{Linear, Moved, Trail};
 use crate::scene::{Body, Film, Pose, Specimen, View};
 use crate::trace::ray;
@@ -21,6 +22,7 @@ pub struct Moment {
     company: Vec<Pose>,
     view: View,
     film: Film,
+    behind: Option<BackgroundRef>,
 }
 
 /// The pictures laid over one another in each place, and when the last of them was taken.
@@ -30,7 +32,7 @@ impl Moment {
     /// That of a shot, taken on a film.
     pub fn of(shot: &Shot, film: Film) -> Self {
         let (specimen, company) = (Arc::clone(&shot.specimen), shot.company.clone());
-        Self { specimen, company, view: shot.view, film }
+        Self { specimen, company, view: shot.view, film, behind: shot.behind.clone() }
     }
 
     /// Lays the picture taken now over those before.
@@ -41,7 +43,7 @@ impl Moment {
         sitting: &Sitting,
         newest: f64,
     ) -> &'a Linear {
-        let before = trails.remove(&slot);
+        let before = trails.remove(&slot).filter(|(_, moment)| moment.goes_on_in(&self));
         let moved = self.moved(before.as_ref().map_or(&self, |(_, moment)| moment), sitting);
         let trail = match before {
             Some((mut trail, _)) => {
@@ -51,6 +53,12 @@ impl Moment {
             None => Trail::begin(picture.clone(), &moved),
         };
         &trails.entry(slot).insert_entry((trail, self)).into_mut().0.picture
+    }
+
+    /// Whether another moment shows the same bodies before the same background, moved or changed in their dimensions.
+    fn goes_on_in(&self, other: &Self) -> bool {
+        let kind = |moment: &Self| (std::mem::discriminant(&moment.specimen.design.cut), moment.form());
+        kind(self) == kind(other) && self.company.len() == other.company.len() && self.behind == other.behind
     }
 
     /// What each pixel shows, and where that was at another moment.

@@ -8,14 +8,13 @@ use crate::app::shows::Shows;
 use crate::io::background::BackgroundRef;
 use crate::optics::{Stratum, strata};
 use crate::picture::{Background, Bloom, ByBeams, Develop, Linear, develop, fxaa, spectral};
-use crate::scene::{Film, Panorama, Placed, Pose, Projection, Setting, Specimen};
+use crate::scene::{Film, Panorama, Placed, Pose, Projection, Setting};
 use crate::trace::gpu::{Around, ByCard};
 use crate::trace::ray::{self, ByRays};
 use crate::trace::sitting::{Exposure, Looks, Sitting};
 use crate::trace::surround::{Behind, Surround};
 use crate::trace::{Watch, beam};
 use egui::ColorImage;
-use glam::DVec3;
 use std::sync::Arc;
 
 /// Beams of one wavelength of a render: without symmetry the bound would take many times as long.
@@ -159,14 +158,6 @@ pub const BEHIND: f64 = 3.0;
 pub fn hung(shot: &Shot) -> f64 {
     let farthest = shot.company.iter().map(|pose| pose.at.length()).fold(0.0, f64::max);
     shot.distance.max(farthest + shot.specimen.radius)
-}
-
-/// How far a render of all copies reaches from its middle, girdle radii.
-pub fn fitting(shot: &Shot) -> f64 {
-    let Specimen { reach, radius, .. } = *shot.specimen;
-    let own = |pose: &Pose| if (pose.turn * DVec3::Z).z == 1.0 { reach } else { radius };
-    let sides = shot.company.iter().map(|pose| pose.at.truncate().abs().max_element() + own(pose));
-    sides.fold(reach, f64::max)
 }
 
 /// What a shot is taken of.

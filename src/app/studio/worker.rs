@@ -3,7 +3,7 @@
 use super::order::{Answer, Ask, Grade, Order, Shot, Slot, Taken, Which};
 use super::pace::{Effort, Pace};
 use super::render::{Growing, is_for_beams};
-use super::take::{Camera, Trouble};
+use super::take::{Camera, RAYS_COARSER, Trouble};
 use super::{Desk, Wake};
 use crate::app::shows::Shows;
 use crate::io::export::LATTICE;
@@ -29,6 +29,8 @@ const TILTED: f64 = 5e-3;
 
 /// How renders grow: fair, and fine where a card takes them.
 const FAIR_RENDER: Growing = Growing { bands: 8, looks: 1, after: 0, unresolved: 1e-2 };
+/// A render by rays on its way from rough to fair: of pixels twice as large.
+const HALFWAY: Effort = Effort { unresolved: FAIR, coarser: 2.0 / RAYS_COARSER, bands: FAIR_RENDER.bands };
 /// A render as it is exported.
 pub const FINE_RENDER: Growing = Growing { bands: u32::MAX, looks: 4, after: 0, unresolved: 2e-3 };
 const FINE_BY_CARD: Growing = Growing { looks: 64, ..FINE_RENDER };
@@ -160,6 +162,13 @@ impl Worker {
         let (desk, number) = (Arc::clone(&self.desk), turn.number);
         let watch = move |_: f64| stop_if(desk.newest.load(Ordering::SeqCst) != number);
         let fine = if self.camera.gpu.is_some() { FINE_BY_CARD } else { FINE_RENDER };
+        for (slot, shot) in &turn.order.shots {
+            let is_by_rays = shot.shows == Shows::Render && !is_for_beams(shot) && self.camera.gpu.is_none();
+            if is_by_rays && self.pictures.get(slot).is_none_or(|(done, g)| done != shot || *g < Grade::Fair)
+            {
+                self.picture((*slot, shot), Grade::Rough, (&HALFWAY, None), &watch)?;
+            }
+        }
         self.pictures(&turn.order, Grade::Fair, (FAIR, &FAIR_RENDER), &watch)?;
         self.all_figures(&turn.order, Grade::Fair, (FINE, LATTICE / 4), &watch)?;
         self.pictures(&turn.order, Grade::Fine, (FINE, &fine), &watch)?;
