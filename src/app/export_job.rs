@@ -245,7 +245,8 @@ impl Plan {
         let behind =
             self.shot.behind.as_ref().map(BackgroundRef::bytes).transpose().map_err(Failure::Input)?;
         let background = behind.flatten().filter(|bytes| takes(bytes));
-        let background = background.as_deref();
+        let ground = self.shot.behind.as_ref().map_or_else(String::new, BackgroundRef::title);
+        let background = background.as_deref().map(|bytes| (ground.as_str(), bytes));
         Ok(write_page(page, &map, &Page { title, told: &told, span: SPAN, background })?)
     }
 

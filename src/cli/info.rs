@@ -166,9 +166,13 @@ fn table(specimen: &Specimen, value: &Value) -> String {
         let (low, high) = specimen.solid().bounds();
         let [x, y, z] = (high - low).to_array();
         line("size", format!("{x:.4} by {y:.4} by {z:.4} girdle radii"));
-        line("triangles, vertices", format!("{}, {}", value["triangles"], value["corners"]));
+        let is_mesh = matches!(specimen.design.cut, Cut::Mesh(_));
+        if is_mesh {
+            line("triangles, vertices", format!("{}, {}", value["triangles"], value["corners"]));
+        }
         line("volume", format!("{:.6} girdle radii³", specimen.solid().volume()));
-        let _ = write!(text, "\n  not convex: it has no facets to list");
+        let why = if is_mesh { "not convex" } else { "curved" };
+        let _ = write!(text, "\n  {why}: it has no facets to list");
         return text;
     };
     let polytope = &stone.polytope;

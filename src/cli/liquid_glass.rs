@@ -40,22 +40,22 @@ pub struct LiquidGlass {
     #[arg(long, value_name = "WxH+X+Y", value_parser = geometry)]
     pane: Option<Geometry>,
     /// Radius of the pane's corners in pixels [default: 0.3 of its shorter side]
-    #[arg(long, value_name = "PIXELS")]
+    #[arg(long, allow_negative_numbers = true, value_name = "PIXELS")]
     radius: Option<f64>,
     /// Strength of the refraction, 0 to 100
-    #[arg(long, value_name = "STRENGTH", default_value_t = 100.0)]
+    #[arg(long, allow_negative_numbers = true, value_name = "STRENGTH", default_value_t = 100.0)]
     refraction: f64,
     /// Strength of the depth, 0 to 100
-    #[arg(long, value_name = "STRENGTH", default_value_t = 100.0)]
+    #[arg(long, allow_negative_numbers = true, value_name = "STRENGTH", default_value_t = 100.0)]
     depth: f64,
     /// Strength of the dispersion, 0 to 100
-    #[arg(long, value_name = "STRENGTH", default_value_t = 100.0)]
+    #[arg(long, allow_negative_numbers = true, value_name = "STRENGTH", default_value_t = 100.0)]
     dispersion: f64,
     /// Strength of the frost, 0 to 100
-    #[arg(long, value_name = "STRENGTH", default_value_t = 0.0)]
+    #[arg(long, allow_negative_numbers = true, value_name = "STRENGTH", default_value_t = 0.0)]
     frost: f64,
     /// Strength of the light, 0 to 100
-    #[arg(long, value_name = "STRENGTH", default_value_t = 30.0)]
+    #[arg(long, allow_negative_numbers = true, value_name = "STRENGTH", default_value_t = 30.0)]
     light: f64,
     /// The base colour and how much of it covers what is behind
     #[arg(long, value_name = "#rrggbbaa", default_value = "#00000000", value_parser = tint)]
@@ -67,10 +67,16 @@ pub struct LiquidGlass {
     #[arg(long)]
     compare: bool,
     /// How far above the background the traced pane lies, in parts of its shorter side
-    #[arg(long, value_name = "DISTANCE", default_value_t = 0.02)]
+    #[arg(
+        long,
+        allow_negative_numbers = true,
+        value_name = "DISTANCE",
+        default_value_t = 0.02,
+        requires = "compare"
+    )]
     gap: f64,
     /// Looks of the comparison, 1 to 1024
-    #[arg(long, value_name = "N", default_value_t = 16, value_parser = clap::value_parser!(u32).range(1..=1024))]
+    #[arg(long, allow_negative_numbers = true, value_name = "N", default_value_t = 16, value_parser = clap::value_parser!(u32).range(1..=1024))]
     samples: u32,
 }
 
@@ -107,6 +113,12 @@ fn tint(text: &str) -> Result<DVec4, String> {
 
 impl LiquidGlass {
     pub fn run(&self) -> Result<(), Failure> {
+        if let Some(ending) = self.out.extension().filter(|_| !self.out.is_dir()) {
+            let ending = ending.display();
+            return Err(Failure::Usage(format!(
+                "--out: several files are written: give a folder, not a .{ending}"
+            )));
+        }
         let (pane_asked, gap) = (self.asked()?, within("gap", self.gap, 1e-3, 100.0)?);
         let background = self.ground()?;
         let told = self.told(&pane_asked);

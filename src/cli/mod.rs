@@ -159,6 +159,21 @@ fn spelt_out(mut arguments: Vec<OsString>) -> Vec<OsString> {
     arguments
 }
 
+/// Refuses files whose outputs would be called alike.
+fn distinct(files: &[PathBuf]) -> Result<(), Failure> {
+    for (k, file) in files.iter().enumerate() {
+        let stem = specimen::stem(file);
+        if let Some(other) = files[..k].iter().find(|other| specimen::stem(other) == stem) {
+            let (a, b) = (other.display(), file.display());
+            let message = format!(
+                "{a} and {b}: both would be written as '{stem}-...'; write to different --out folders"
+            );
+            return Err(Failure::Usage(message));
+        }
+    }
+    Ok(())
+}
+
 /// Does `work` for each file; a file at fault does not keep the others from being done.
 fn each_file(files: &[PathBuf], mut work: impl FnMut(&Path) -> Result<(), Failure>) -> Result<(), Failure> {
     let mut failed = Vec::new();

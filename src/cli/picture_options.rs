@@ -17,7 +17,7 @@ pub struct PictureOptions {
     #[arg(long, value_name = "DEGREES", default_value_t = 0.0, allow_negative_numbers = true)]
     pub turn: f64,
     /// Half angle of the observer's head, which keeps out light, in DEGREES [default: the light's]
-    #[arg(long, value_name = "DEGREES")]
+    #[arg(long, allow_negative_numbers = true, value_name = "DEGREES")]
     pub head: Option<f64>,
     /// A material's name, or an index, instead of the file's
     #[arg(long, value_name = "MATERIAL")]
@@ -29,18 +29,18 @@ pub struct PictureOptions {
     #[arg(long, value_name = "PIXELS", default_value = "1024", value_parser = film_size)]
     pub size: [u32; 2],
     /// Wavelengths side by side, 1 to 64
-    #[arg(long, value_name = "N", default_value_t = 16, value_parser = clap::value_parser!(u32).range(1..=64))]
+    #[arg(long, allow_negative_numbers = true, value_name = "N", default_value_t = 16, value_parser = clap::value_parser!(u32).range(1..=64))]
     pub wavelengths: u32,
     /// Looks that the picture is made of, each at other wavelengths and places in the pixel [default: 4 by exact beams,
     /// 64 by rays]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=65536))]
+    #[arg(long, allow_negative_numbers = true, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=65536))]
     pub samples: Option<u32>,
     /// Take the middle of each band of wavelengths in every look, instead of another one each time
     #[arg(long)]
     pub no_jitter: bool,
     /// How much of the way that refraction turns light is followed, 0 to 1; less than 1 is a mixture for its looks, by rays
     /// [default: the scene's, or 1: physics]
-    #[arg(long, value_name = "PART")]
+    #[arg(long, allow_negative_numbers = true, value_name = "PART")]
     pub strength: Option<f64>,
     /// What traces the light; beams are for one convex stone without a photograph behind
     #[arg(long, value_enum, default_value_t = TracerName::Auto)]
@@ -58,7 +58,7 @@ pub struct PictureOptions {
     #[arg(long, value_name = "CURVE", default_value = "neutral")]
     pub tone: Tone,
     /// Part of the brightest light that is spread as glow and sparkle, 0 to 1
-    #[arg(long, value_name = "PART", default_value_t = Bloom::default().strength)]
+    #[arg(long, allow_negative_numbers = true, value_name = "PART", default_value_t = Bloom::default().strength)]
     pub bloom: f64,
     /// What lies behind: transparent, a colour (white, #20262e), two from top to bottom (#404850-#101215), `light` for
     /// what shines, a pattern (page, grid, checks, stripes, dots, slit), or a photograph's file (by default the scene's, or
@@ -70,7 +70,7 @@ pub struct PictureOptions {
     #[arg(long, value_name = "WHAT", value_delimiter = ',')]
     pub overlay: Vec<Overlay>,
     /// How far behind the stones the pattern or photograph stands, in girdle radii [default: the scene's, or 3]
-    #[arg(long, value_name = "DISTANCE")]
+    #[arg(long, allow_negative_numbers = true, value_name = "DISTANCE")]
     pub photo_distance: Option<f64>,
 }
 

@@ -112,6 +112,12 @@ impl<'a> Studio<'a> {
         let reading = background.picture().map_err(Failure::Input)?;
         reading.iter().flat_map(|r| &r.warnings).for_each(|w| super::say(&format!("warning: {w}")));
         let photo = reading.map(|reading| reading.panorama);
+        if photo.is_none() && options.photo_distance.is_some() {
+            return Err(Failure::Usage(
+                "--photo-distance: only a pattern or a photograph has a distance; give one by --background"
+                    .into(),
+            ));
+        }
         let tracer = Cell::new(Tracer::Beams);
         let studio =
             Self { options, assembly, lighting, background, photo, distance, strength, develop, tracer };

@@ -5,7 +5,7 @@ use super::picture_options::PictureOptions;
 use super::picturing::{Studio, within};
 use super::progress::Progress;
 use super::specimen::stem;
-use super::{Failure, each_file, say};
+use super::{Failure, distinct, each_file, say};
 use crate::io::background::BackgroundRef;
 use crate::io::export::{Sampler, Told};
 use crate::io::refraction_map::{self as files, Coding, MOST_BANDS, MOST_PIXELS};
@@ -33,10 +33,10 @@ pub struct RefractionMaps {
     #[arg(long, value_enum, value_delimiter = ',', value_name = "KIND")]
     format: Vec<Kind>,
     /// Maps of N bands of wavelengths instead of one for all light, so that the look-up keeps its rainbow, 1 to 16
-    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=i64::from(MOST_BANDS)))]
+    #[arg(long, allow_negative_numbers = true, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=i64::from(MOST_BANDS)))]
     bands: u32,
     /// How many times as wide as the picture the background is; light from beyond it is in the diffuse layer
-    #[arg(long, value_name = "TIMES", default_value_t = 2.0)]
+    #[arg(long, allow_negative_numbers = true, value_name = "TIMES", default_value_t = 2.0)]
     span: f64,
     /// Hang the same background before the stones too, so that what they send back to the eye's side shows it
     #[arg(long)]
@@ -82,20 +82,31 @@ impl RefractionMaps {
             );
         }
         within("span", self.span, 1.0, 100.0)?;
+        distinct(&self.files)?;
         each_file(&self.files, |file| self.make(file))
     }
 
     fn make(&self, file: &Path) -> Result<(), Failure> {
         let viewpoint = self.view.viewpoint()?;
         let view = viewpoint.view();
-        let studio = Studio::load(&self.picture, file, &view)?;
-        if studio.background == BackgroundRef::Light {
+        // By rays whatever there is: no card is looked for.
+        let picture = PictureOptions { tracer: TracerName::Ray, ..self.picture.clone() };
+        let mut studio = Studio::load(&picture, file, &view)?;
+        let is_plain = self.picture.background.is_some() && studio.photo.is_none();
+        if is_plain || studio.background == BackgroundRef::Light {
             return Err(Failure::Usage(
                 "--background: give a pattern or a photograph, or leave it out".into(),
             ));
         }
+        if self.picture.strength.is_some_and(|strength| strength < 1.0) {
+            return Err(Failure::Usage("a refraction map is physics: leave out --strength".into()));
+        }
         if studio.strength < 1.0 {
-            return Err(Failure::Usage("a refraction map is physics: give --strength 1".into()));
+            let (name, strength) = (&studio.assembly.name, studio.strength);
+            say(&format!(
+                "note: {name}: its strength of {strength} is left aside: a refraction map is physics"
+            ));
+            studio.strength = 1.0;
         }
         let kinds = self.kinds(studio.photo.is_some())?;
         let bar = Progress::new(&studio.assembly.name);
@@ -104,7 +115,7 @@ impl RefractionMaps {
         let Carried { behind, single } = carried;
         let (name, light) = (&studio.assembly.name, studio.light());
         let told = format!(
-            "{name}; refraction map, bands {}; background {} behind, {} times as wide{}; light {light}; {}; {:.1} % of the \
+            "{name}; refraction map, bands {}; background {} girdle radii behind, {} times as wide{}; light {light}; {}; {:.1} % of the \
              light comes from the background, {:.1} % of that from the map's places; {}",
             self.bands,
             studio.distance,
@@ -181,7 +192,9 @@ impl RefractionMaps {
         if kinds.contains(&Kind::Page) {
             let path = self.out.join(format!("{stem}-refraction.html"));
             let background = self.background(studio)?;
-            let (title, background) = (studio.assembly.name.as_str(), background.as_deref());
+            let ground = studio.background.title();
+            let title = studio.assembly.name.as_str();
+            let background = background.as_deref().map(|bytes| (ground.as_str(), bytes));
             write_page(&path, map, &Page { title, told, span: self.span, background })?;
             written(path)?;
         }

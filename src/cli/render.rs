@@ -5,7 +5,7 @@ use super::picture_options::PictureOptions;
 use super::picturing::Studio;
 use super::progress::Progress;
 use super::specimen::stem;
-use super::{Failure, each_file, print, say};
+use super::{Failure, distinct, each_file, print, say};
 use crate::io::{write_linear_exr, write_rgba_png};
 use clap::Args;
 use std::path::{Path, PathBuf};
@@ -49,6 +49,9 @@ impl Render {
         let (_, is_file) = self.output(Path::new("x"));
         if is_file && self.files.len() > 1 {
             return Err(Failure::Usage("several stones need a folder: --out FOLDER".into()));
+        }
+        if self.probe.is_none() {
+            distinct(&self.files)?;
         }
         each_file(&self.files, |file| self.render(file))
     }

@@ -56,6 +56,19 @@ impl BackgroundRef {
         if matches!(self, Self::Pattern(_)) { PATTERN_SPAN } else { 1.0 }
     }
 
+    /// What people are told that hangs behind.
+    pub fn title(&self) -> String {
+        let mut title = match self {
+            Self::Light => "light",
+            Self::Plain(_) => "colours",
+            Self::Pattern(pattern) => pattern.name(),
+            Self::Photo(_) => "photograph",
+        }
+        .to_owned();
+        title[..1].make_ascii_uppercase();
+        title
+    }
+
     /// Reads what was asked for; names stand before files, which are looked for from `folder`.
     ///
     /// # Errors

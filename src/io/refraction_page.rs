@@ -20,8 +20,8 @@ pub struct Page<'a> {
     pub told: &'a str,
     /// How many times as wide as the map its background is, at least 1.
     pub span: f64,
-    /// A picture to begin with, as the bytes of a PNG or JPEG; without one the page draws its own.
-    pub background: Option<&'a [u8]>,
+    /// A picture to begin with, what it is called and the bytes of its PNG or JPEG; without one the page draws its own.
+    pub background: Option<(&'a str, &'a [u8])>,
 }
 
 /// The largest picture that is put into a page, in MiB.
@@ -53,7 +53,7 @@ fn html(map: &RefractionMap, page: &Page) -> Result<String, png::EncodingError> 
         "span": page.span,
         "bands": bands.collect::<Result<Vec<_>, png::EncodingError>>()?,
         "diffuse": png(diffuse_png(&map.diffuse, page.title)?),
-        "background": page.background.map(|bytes| uri(mime(bytes), bytes)),
+        "background": page.background.map(|(name, bytes)| json!({ "name": name, "picture": uri(mime(bytes), bytes) })),
     });
     // In a script element nothing else can end it or begin another.
     let data = data.to_string().replace('<', "\\u003c");
@@ -87,7 +87,7 @@ mod tests {
         let band = MapBand { nm: 555.0, response: DMat3::IDENTITY, places: vec![Place::default(); 4] };
         let map = RefractionMap { size: [2, 2], bands: vec![band], diffuse: Linear::new(2, 2) };
         let title = "</script><script>alert(1)</script>{{data}}\"&";
-        let page = Page { title, told: title, span: 2.0, background: Some(b"\xff\xd8x") };
+        let page = Page { title, told: title, span: 2.0, background: Some(("Photograph", b"\xff\xd8x")) };
         let html = html(&map, &page).unwrap();
         assert!(!html.contains("alert(1)</script>") && !html.contains("{{"));
         assert_eq!(html.matches("<script").count(), 2);

@@ -41,7 +41,7 @@ pub enum FieldError {
     },
     /// The wave is too steep.
     #[error(
-        "the wave is as steep as {slope}; at most 8: make its amplitude smaller or the wavelength longer"
+        "the wave is as steep as {slope:.2}; at most 8: make its amplitude smaller or the wavelength longer"
     )]
     Slope {
         /// Its greatest slope, 2π amplitude / wavelength.
