@@ -1,5 +1,6 @@
 //! Windows that ask or tell something.
 
+use super::asked_path::{self, AskedPath};
 use super::command::MENUS;
 use super::document::Document;
 use super::editor::Editor;
@@ -34,6 +35,8 @@ pub enum Dialog {
     ChangedOutside,
     /// What to export.
     Export(Box<ExportDialog>),
+    /// A path, where the system does not ask for it.
+    Path(AskedPath),
     /// Keys and terms.
     Keys,
 }
@@ -49,7 +52,7 @@ impl Dialog {
         match self {
             Self::Recover(_) | Self::ChangedOutside => true,
             Self::Export(export) => export.is_busy(),
-            Self::Unsaved(_) | Self::Keys => false,
+            Self::Unsaved(_) | Self::Path(_) | Self::Keys => false,
         }
     }
 }
@@ -63,17 +66,20 @@ pub fn show(editor: &mut Editor, ctx: &Context) {
         Dialog::Recover(found) => is_open = recover(editor, ui, found),
         Dialog::ChangedOutside => is_open = changed_outside(editor, ui),
         Dialog::Export(export) => is_open = export_dialog::show(editor, ui, export),
+        Dialog::Path(asked) => is_open = asked_path::show(editor, ui, asked),
         Dialog::Keys => is_open = keys(ui),
     });
     let escaped = ctx.input(|i| i.key_pressed(Key::Escape)) || modal.should_close();
     if is_open && (!escaped || dialog.insists()) {
         // What was asked for meanwhile waits until this one is answered.
         editor.dialog = Some(dialog);
+    } else if is_open && matches!(dialog, Dialog::Path(_)) {
+        editor.after_save = None;
     }
 }
 
 /// Buttons in a row, the first the one that is meant most often, which Return presses as well; which was chosen.
-fn buttons(ui: &mut Ui, names: &[&str]) -> Option<usize> {
+pub(super) fn buttons(ui: &mut Ui, names: &[&str]) -> Option<usize> {
     ui.add_space(10.0);
     ui.horizontal(|ui| {
         let is_answered = ui.memory(|m| m.focused().is_none()) && ui.input(|i| i.key_pressed(Key::Enter));

@@ -274,15 +274,9 @@ impl Editor {
             let no_dialog = self.choosing.take().is_some_and(|c| c.was_at_once());
             match answer {
                 Some(path) => self.chosen(purpose, document, path),
-                None => {
-                    self.after_save = None;
-                    if no_dialog {
-                        let why = "No file dialog could be opened: it needs a desktop portal, such as xdg-desktop-portal. \
-                                   Without one, designs are saved to the file that they were opened from (`brillianteer FILE`), but for meshes: \
-                                   `brillianteer convert MESH FILE.toml` makes a design of one.";
-                        self.notes.trouble(why.to_owned());
-                    }
-                }
+                // The export dialog has a field of its own.
+                None if no_dialog && self.dialog.is_none() => self.ask_path(purpose),
+                None => self.after_save = None,
             }
         }
         self.watching.watch(self.document.path());

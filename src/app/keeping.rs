@@ -1,5 +1,6 @@
 //! Opening, saving, and keeping work safe.
 
+use super::asked_path::AskedPath;
 use super::compare::Compared;
 use super::dialogs::{Dialog, Then};
 use super::document::{Document, Work};
@@ -107,17 +108,29 @@ impl Editor {
         if self.choosing.is_some() {
             return self.notes.say("Answer the file dialog that is open first.");
         }
+        let wake = self.studio.wake();
+        let question = Question { purpose, name: self.suggested() };
+        self.choosing = Some(Choosing::ask(question, self.begun, &self.chooser, move || wake()));
+    }
+
+    /// The name that a new file may have.
+    fn suggested(&self) -> String {
         let own = self
             .document
             .path()
             .map(|path| if holds_designs(path) { path.to_owned() } else { path.with_extension("toml") });
-        let name = own.as_deref().and_then(Path::file_name).map_or_else(
+        own.as_deref().and_then(Path::file_name).map_or_else(
             || format!("{}.toml", self.document.work.design.name.to_lowercase().replace([' ', '/'], "-")),
             |n| n.to_string_lossy().into_owned(),
-        );
-        let wake = self.studio.wake();
-        let question = Question { purpose, name };
-        self.choosing = Some(Choosing::ask(question, self.begun, &self.chooser, move || wake()));
+        )
+    }
+
+    /// Asks for a path in the window.
+    pub(super) fn ask_path(&mut self, purpose: Purpose) {
+        let here = || std::env::current_dir().unwrap_or_default();
+        let folder = self.document.path().and_then(Path::parent).map_or_else(here, Path::to_owned);
+        let begin = if purpose == Purpose::SaveAs { folder.join(self.suggested()) } else { folder };
+        self.dialog = Some(Dialog::Path(AskedPath::new(purpose, self.begun, &begin)));
     }
 
     pub(super) fn chosen(&mut self, purpose: Purpose, document: u64, path: PathBuf) {

@@ -1,5 +1,6 @@
 //! Floor 6: the editor, a window in which a stone is cut and its light is watched.
 
+mod asked_path;
 mod command;
 mod company_rows;
 mod compare;

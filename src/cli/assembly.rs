@@ -159,7 +159,7 @@ fn specimens(file: &Path, scene: &SceneFile) -> Result<BTreeMap<String, Specimen
             continue;
         }
         let specimen = specimen(file, &entry.cut).map_err(|failure| match failure {
-            Failure::Input(message) => at_entry(file, number, entry, &message),
+            Failure::Input(message) => at_entry(file, number, entry, &format!("cut: {message}")),
             other => other,
         })?;
         specimens.insert(entry.cut.clone(), specimen);

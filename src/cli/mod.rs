@@ -21,6 +21,7 @@ mod spin;
 use crate::io::Failure;
 use crate::io::export::Told;
 use crate::io::library;
+use clap::error::ErrorKind;
 use clap::{CommandFactory, Parser, Subcommand};
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
@@ -93,11 +94,17 @@ enum Command {
 
 /// Runs the program with the process's arguments; `editor` opens its window.
 pub fn main(editor: Option<Editor>) -> ExitCode {
-    let arguments = match Arguments::try_parse_from(spelt_out(std::env::args_os().collect())) {
+    let given = spelt_out(std::env::args_os().collect());
+    let arguments = match Arguments::try_parse_from(&given) {
         Ok(arguments) => arguments,
         Err(told) => {
             // Help that nobody takes is no failure; clap's own exit would panic over it.
             let _ = told.print();
+            let meant = given.get(1).filter(|_| told.kind() == ErrorKind::InvalidSubcommand);
+            if let Some(hint) = meant.map(|name| lists::hint(Path::new(name))).filter(|hint| !hint.is_empty())
+            {
+                say(hint.trim_start_matches("; "));
+            }
             return ExitCode::from(u8::try_from(told.exit_code()).unwrap_or(2));
         }
     };

@@ -478,3 +478,22 @@ fn what_was_recovered_is_kept_until_it_is_saved() {
     let none = Bench::with(setup());
     assert!(none.editor().dialog.is_none());
 }
+
+#[test]
+fn where_the_system_opens_no_dialog_the_path_is_typed() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("typed.toml");
+    let mut bench = Bench::new();
+    // Nobody answers, and at once.
+    bench.choose("File", "Save as…");
+    bench.wait(|editor| matches!(editor.dialog, Some(Dialog::Path(_))));
+    bench.harness.get_by_role_and_label(egui::Role::TextInput, "Path").focus();
+    bench.harness.run_steps(2);
+    bench.harness.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::A);
+    bench.harness.event(egui::Event::Text(path.display().to_string()));
+    bench.harness.run_steps(2);
+    bench.click("Save");
+    assert!(bench.editor().dialog.is_none());
+    assert_eq!(cut_file::read(&path).unwrap(), bench.editor().document.work.design);
+    assert_eq!(bench.editor().document.path(), Some(path.as_path()));
+}

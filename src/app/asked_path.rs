@@ -1,0 +1,61 @@
+//! Asks for a file by its path, where the system has no dialog for that.
+
+use super::dialogs::buttons;
+use super::editor::Editor;
+use super::files::Purpose;
+use super::theme;
+use egui::{Key, RichText, TextEdit, Ui};
+use std::path::{Path, PathBuf};
+
+/// A path that is being typed.
+pub struct AskedPath {
+    purpose: Purpose,
+    /// The number of the document that it is for.
+    document: u64,
+    text: String,
+}
+
+impl AskedPath {
+    /// Asks for a path, beginning with a folder or a file.
+    pub fn new(purpose: Purpose, document: u64, begin: &Path) -> Self {
+        Self { purpose, document, text: begin.display().to_string() }
+    }
+}
+
+/// What is asked, and the button that takes the answer.
+fn words(purpose: Purpose) -> (&'static str, &'static str) {
+    match purpose {
+        Purpose::Open => ("Open a cut", "Open"),
+        Purpose::SaveAs => ("Save the cut as", "Save"),
+        Purpose::Compare => ("Compare with a cut", "Open"),
+        Purpose::Light => ("A light or a panorama", "Open"),
+        Purpose::Behind => ("A picture behind the stone", "Open"),
+        Purpose::Folder => ("A folder for the pictures", "Choose"),
+    }
+}
+
+/// Draws it; whether it stays open.
+pub fn show(editor: &mut Editor, ui: &mut Ui, asked: &mut AskedPath) -> bool {
+    ui.set_width(460.0);
+    let (heading, verb) = words(asked.purpose);
+    ui.heading(heading);
+    let why = "The system opened no file dialog, which takes a desktop portal such as xdg-desktop-portal: type the path.";
+    ui.label(RichText::new(why).weak());
+    ui.add_space(6.0);
+    let label = ui.label("Path");
+    let field = ui.add(TextEdit::singleline(&mut asked.text).desired_width(440.0)).labelled_by(label.id);
+    let path = PathBuf::from(asked.text.trim());
+    if asked.purpose == Purpose::SaveAs && path.is_file() {
+        ui.label(RichText::new("It is there already and will be replaced.").color(theme::bad(ui.visuals())));
+    } else if asked.purpose != Purpose::SaveAs && !path.exists() {
+        ui.label(RichText::new("There is no such file.").weak());
+    }
+    let is_entered = field.lost_focus() && ui.input(|i| i.key_pressed(Key::Enter));
+    match buttons(ui, &[verb, "Cancel"]) {
+        _ if is_entered => editor.chosen(asked.purpose, asked.document, path),
+        Some(0) => editor.chosen(asked.purpose, asked.document, path),
+        Some(_) => editor.after_save = None,
+        None => return true,
+    }
+    false
+}
