@@ -6,7 +6,7 @@ use super::desk::{Desk, Layout};
 use super::dialogs::{Dialog, Then};
 use super::document::{Document, FIRST_LIGHT, Work};
 use super::export_job::Selection;
-use super::files::{Chooser, Choosing, Safe, Watching, by_dialog};
+use super::files::{Choice, Chooser, Choosing, Safe, Watching, by_dialog};
 use super::following::{self, Following};
 use super::look::Looks;
 use super::lookup::Looker;
@@ -271,12 +271,12 @@ impl Editor {
         if let Some((purpose, document, answer)) =
             self.choosing.as_ref().and_then(|c| Some((c.purpose, c.document, c.answer()?)))
         {
-            let no_dialog = self.choosing.take().is_some_and(|c| c.was_at_once());
+            self.choosing = None;
             match answer {
-                Some(path) => self.chosen(purpose, document, path),
+                Choice::File(path) => self.chosen(purpose, document, path),
                 // The export dialog has a field of its own.
-                None if no_dialog && self.dialog.is_none() => self.ask_path(purpose),
-                None => self.after_save = None,
+                Choice::NoDialog if self.dialog.is_none() => self.ask_path(purpose),
+                Choice::NoDialog | Choice::GivenUp => self.after_save = None,
             }
         }
         self.watching.watch(self.document.path());

@@ -43,11 +43,45 @@ pub struct Question {
     pub name: String,
 }
 
-/// Asks a person for a file, and waits for the answer; none when it is given up.
-pub type Chooser = Arc<dyn Fn(&Question) -> Option<PathBuf> + Send + Sync>;
+/// What came of a question.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Choice {
+    /// A file.
+    File(PathBuf),
+    /// Whoever was asked wants none.
+    GivenUp,
+    /// Nobody was asked: the system has no dialog.
+    NoDialog,
+}
 
-/// The system's own dialogs.
-pub fn by_dialog(question: &Question) -> Option<PathBuf> {
+/// Asks a person for a file, and waits for the answer.
+pub type Chooser = Arc<dyn Fn(&Question) -> Choice + Send + Sync>;
+
+/// No person answers within this.
+const AT_ONCE: Duration = Duration::from_millis(350);
+
+/// Asks by the system's own dialogs.
+pub fn by_dialog(question: &Question) -> Choice {
+    let since = Instant::now();
+    match dialog(question) {
+        Some(path) => Choice::File(path),
+        // What has failed is not told apart from what was given up.
+        None if since.elapsed() < AT_ONCE || !may_have_dialogs() => Choice::NoDialog,
+        None => Choice::GivenUp,
+    }
+}
+
+/// Whether the system may have dialogs: free desktops have them by a bus or by a program.
+fn may_have_dialogs() -> bool {
+    let folders = std::env::var_os("PATH").unwrap_or_default();
+    let bus = std::env::var_os("XDG_RUNTIME_DIR").map(|folder| Path::new(&folder).join("bus"));
+    cfg!(any(windows, target_os = "macos"))
+        || std::env::var_os("DBUS_SESSION_BUS_ADDRESS").is_some()
+        || bus.is_some_and(|bus| bus.exists())
+        || std::env::split_paths(&folders).any(|folder| folder.join("zenity").is_file())
+}
+
+fn dialog(question: &Question) -> Option<PathBuf> {
     let dialog = rfd::FileDialog::new();
     let cuts =
         |d: rfd::FileDialog| d.add_filter("Designs and meshes", &endings()).add_filter("All files", &["*"]);
@@ -68,17 +102,13 @@ pub fn by_dialog(question: &Question) -> Option<PathBuf> {
     }
 }
 
-/// No person answers within this.
-const AT_ONCE: Duration = Duration::from_millis(350);
-
 /// A question that is open.
 pub struct Choosing {
     /// What for.
     pub purpose: Purpose,
     /// The number of the document that it is for.
     pub document: u64,
-    since: Instant,
-    answer: Receiver<Option<PathBuf>>,
+    answer: Receiver<Choice>,
 }
 
 impl Choosing {
@@ -96,20 +126,15 @@ impl Choosing {
             let _ = sender.send(chooser(&question));
             wake();
         });
-        Self { purpose, document, since: Instant::now(), answer }
+        Self { purpose, document, answer }
     }
 
-    /// Whether the answer came quicker than anyone can give one.
-    pub fn was_at_once(&self) -> bool {
-        self.since.elapsed() < AT_ONCE
-    }
-
-    /// The answer, once there is one: given up, or a file.
-    pub fn answer(&self) -> Option<Option<PathBuf>> {
+    /// The answer, once there is one.
+    pub fn answer(&self) -> Option<Choice> {
         match self.answer.try_recv() {
             Ok(answer) => Some(answer),
             Err(std::sync::mpsc::TryRecvError::Empty) => None,
-            Err(std::sync::mpsc::TryRecvError::Disconnected) => Some(None),
+            Err(std::sync::mpsc::TryRecvError::Disconnected) => Some(Choice::NoDialog),
         }
     }
 }

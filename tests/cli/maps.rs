@@ -28,14 +28,20 @@ fn a_refraction_map_comes_in_every_coding_with_its_diffuse_layer_a_page_and_a_pr
     }
     let (size, _, told) = png(&desk.at("maps/cube-refraction-preview.png"));
     assert_eq!(size, (48, 32));
-    assert!(told.contains("refraction map, bands 1; background 3 behind, 2 times as wide"), "{told}");
+    assert!(
+        told.contains("refraction map, bands 1; background 3 girdle radii behind, 2 times as wide"),
+        "{told}"
+    );
     assert!(told.contains("% of the light comes from the background"), "{told}");
     let page = desk.read("maps/cube-refraction.html");
     assert!(page.contains("<h1>Cube</h1>") && page.contains("data:image/png;base64,"));
     let printed = desk
         .done("refraction-map cube.toml --size 32 --samples 1 --wavelengths 2 --background dots --out dots");
     assert_eq!(printed.lines().count(), 4, "{printed}");
-    assert!(desk.read("dots/cube-refraction.html").contains("\"background\":\"data:image/png;base64,"));
+    assert!(
+        desk.read("dots/cube-refraction.html")
+            .contains("\"background\":{\"name\":\"Dots\",\"picture\":\"data:image/")
+    );
     // Of several bands each has its maps; without a photograph there is no preview.
     let printed =
         desk.done("refraction-map cube.toml --size 32 --samples 1 --wavelengths 2 --bands 3 --out three");
@@ -69,7 +75,10 @@ fn what_a_refraction_map_cannot_be_is_told() {
         ("--overlay wireframe", "--overlay"),
         ("--bloom 0.5", "--bloom"),
         ("--background light", "photograph"),
-        ("--strength 0.5", "--strength 1"),
+        ("--strength 0.5", "--strength"),
+        ("--strength -1", "give 0 to 1"),
+        ("--background #ff0000", "a pattern or a photograph"),
+        ("--photo-distance 3", "--background"),
         ("--no-jitter", "--no-jitter"),
         ("--span 0.5", "--span"),
         ("--bands 17", "17"),
@@ -77,6 +86,19 @@ fn what_a_refraction_map_cannot_be_is_told() {
         let said = desk.refused(&format!("refraction-map cube.toml --out none {options}"), 2);
         assert!(said.contains(told), "{options}: {said}");
     }
+    std::fs::create_dir(desk.at("a")).unwrap();
+    std::fs::copy(desk.at("cube.toml"), desk.at("a/cube.toml")).unwrap();
+    let twins = desk.refused("refraction-map cube.toml a/cube.toml --out none", 2);
+    assert!(twins.contains("cube.toml and a/cube.toml"), "{twins}");
+    assert!(desk.refused("render cube.toml a/cube.toml --out none", 2).contains("a/cube.toml"));
     assert!(desk.refused("refraction-map none.toml --out none", 1).contains("none.toml"));
     assert!(!desk.at("none").exists());
+}
+
+#[test]
+fn a_scenes_mixture_is_left_aside_and_that_is_told() {
+    let desk = Desk::new();
+    let line = "refraction-map prism-rainbow --size 32 --samples 1 --wavelengths 2 --format tiled --out maps";
+    let (code, _, said) = came_of(line, &desk.command(line).output().unwrap());
+    assert!(code == 0 && said.contains("strength of 0.155 is left aside"), "{code}: {said}");
 }

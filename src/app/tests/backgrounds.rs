@@ -1,7 +1,6 @@
 //! Views of a background behind glass: refraction maps, and liquid glass.
 
 use super::*;
-use crate::app::shows::Shows;
 use crate::picture::RefractionMap;
 
 impl Bench {
@@ -103,7 +102,7 @@ fn a_background_flows_until_it_is_stopped_and_nothing_is_drawn_after() {
 
 #[test]
 fn liquid_glass_is_drawn_and_traced_as_strong_as_it_is_set() {
-    let mut bench = Bench::new();
+    let mut bench = Bench::sized(Setup::default(), egui::vec2(900.0, 340.0));
     assert!(bench.harness.query_by_label("Pane depth").is_none(), "no liquid glass is in sight");
     bench.show(0, Shows::LiquidGlass);
     bench.show(1, Shows::TracedPane);
@@ -113,21 +112,21 @@ fn liquid_glass_is_drawn_and_traced_as_strong_as_it_is_set() {
     for (name, number) in [("Refraction", "30"), ("Pane depth", "60"), ("Pane width", "40")] {
         let before = both(&bench);
         bench.type_number(name, number);
-        bench.settle();
+        bench.look();
         let after = both(&bench);
         assert!(before[0] != after[0] && before[1] != after[1], "{name}");
     }
     let before = both(&bench);
     bench.drag("Liquid glass picture");
-    bench.settle();
+    bench.look();
     let after = both(&bench);
     assert!(before[0] != after[0] && before[1] != after[1] && bench.editor().desk.liquid.at.x > 0.55);
     bench.click("Reset");
-    bench.settle();
+    bench.look();
     assert!(both(&bench) == first);
     // What belongs to the stone has no part in it.
     bench.type_number("Crown angle", "33");
-    bench.settle();
+    bench.look();
     assert!(both(&bench) == first);
 }
 

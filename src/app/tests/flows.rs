@@ -4,7 +4,6 @@ use super::*;
 use crate::app::dialogs::Dialog;
 use crate::app::document::Document;
 use crate::app::opening::Wanted;
-use crate::app::shows::Shows;
 use crate::cut::Crown;
 use crate::io::cut_file;
 use crate::measure::by_beams;
@@ -164,7 +163,7 @@ fn every_view_shows_a_picture() {
         // Small, for maps and renders take long.
         let mut bench = Bench::sized(Setup::default(), egui::vec2(900.0, 300.0));
         bench.harness.state_mut().desk.panes[0].shows = shows;
-        bench.settle();
+        bench.look();
         if shows != Shows::Profile {
             let picture = bench.picture(0);
             assert!(picture.iter().any(|p| *p != picture[0]), "{k}: {shows:?} is empty");

@@ -2,7 +2,6 @@
 
 use super::*;
 use crate::app::document::Document;
-use crate::app::shows::Shows;
 use crate::cut::{Design, Glass, MeshShape};
 use crate::io::design_file::{self, Format};
 use crate::math::{Shell, Surface, fixture};
@@ -69,7 +68,11 @@ fn a_solid_that_is_not_convex_is_shown_by_rays_and_measured() {
     let mut desk = Bench::small();
     desk.panes[1].shows = Shows::Diagram;
     let mut bench = Bench::with(Setup { file: Some(path), desk, ..Setup::default() });
-    bench.settle();
+    // A diagram there is none, and figures are waited for no longer than until there are some.
+    bench.wait(|editor| {
+        let shown = editor.pictures.get(&(0, Which::Present));
+        shown.is_some_and(|shown| shown.grade == Grade::Fine) && editor.figures.contains_key(&Which::Present)
+    });
     assert!(bench.harness.query_by_label_contains("Mesh, not convex").is_some());
     assert!(bench.harness.query_by_label_contains("not convex, so it is traced as").is_some());
     let picture = bench.picture(0);
@@ -125,15 +128,16 @@ fn renders_show_three_bands_of_wavelengths_while_a_key_is_down() {
 fn a_pattern_hangs_behind_glass_and_is_refracted_as_strongly_as_asked() {
     let [render, ..] = Desk::default().panes;
     let desk = Desk { layout: Layout::One, panes: [render; 4], ..Desk::default() };
-    let mut bench = Bench::with(Setup { file: Some("cube".into()), desk, ..Setup::default() });
-    bench.settle();
+    let setup = Setup { file: Some("cube".into()), desk, ..Setup::default() };
+    let mut bench = Bench::sized(setup, egui::vec2(900.0, 300.0));
+    bench.look();
     let plain = bench.picture(0);
     bench.harness.state_mut().desk.behind = Some("grid".into());
-    bench.settle();
+    bench.look();
     let refracted = bench.picture(0);
     assert!(refracted != plain);
     assert!(bench.harness.query_by_role_and_label(egui::Role::SpinButton, "Strength").is_some());
     bench.harness.state_mut().desk.strength = 0.1;
-    bench.settle();
+    bench.look();
     assert!(bench.picture(0) != refracted);
 }

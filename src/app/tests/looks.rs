@@ -2,7 +2,6 @@
 //! `UPDATE_SNAPSHOTS=1 cargo test --lib looks`, and look at what it wrote.
 
 use super::*;
-use crate::app::shows::Shows;
 use crate::trace::gpu::Gpu;
 use egui_kittest::SnapshotOptions;
 

@@ -9,9 +9,10 @@ mod formats;
 mod looks;
 
 use super::desk::{Desk, Layout};
-use super::editor::{Editor, Setup};
-use super::files::{Chooser, Question};
-use super::studio::{Grade, Which};
+use super::editor::{Editor, Setup, Shown};
+use super::files::{Choice, Chooser, Question};
+use super::shows::Shows;
+use super::studio::{Grade, Shot, Slot, Which};
 use crate::cut::{Cut, RoundBrilliant};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
@@ -59,7 +60,8 @@ impl Bench {
     fn built(setup: Setup, builder: egui_kittest::HarnessBuilder<Editor>) -> Self {
         let choices: Arc<Mutex<Vec<PathBuf>>> = Arc::default();
         let chosen = Arc::clone(&choices);
-        let chooser: Chooser = Arc::new(move |_: &Question| chosen.lock().unwrap().pop());
+        let chooser: Chooser =
+            Arc::new(move |_: &Question| chosen.lock().unwrap().pop().map_or(Choice::NoDialog, Choice::File));
         let desk = if setup.desk == Desk::default() { Self::small() } else { setup.desk.clone() };
         let setup = Setup { chooser, desk, ..setup };
         let harness = builder
@@ -89,6 +91,24 @@ impl Bench {
                 return;
             }
         }
+    }
+
+    /// Lets pictures come to their end; figures may be on their way, which by rays take longer.
+    pub fn look(&mut self) {
+        self.harness.run_steps(3);
+        self.wait(|editor| {
+            let is_fine = |shown: &Shown| shown.grade == Grade::Fine;
+            let is_taken = |(slot, shot): &(Slot, Shot)| {
+                editor.pictures.get(slot).is_some_and(|shown| is_fine(shown) && shown.shot == *shot)
+            };
+            let is_shown = |&pane: &usize| {
+                let is_own = editor.desk.panes[pane].shows == Shows::Profile;
+                is_own || editor.shown((pane, Which::Present)).is_some_and(is_fine)
+            };
+            editor.asked.shots.iter().all(is_taken)
+                && editor.desk.shown().iter().all(is_shown)
+                && editor.looker.is_idle()
+        });
     }
 
     /// Waits for something.

@@ -104,7 +104,7 @@ fn stones_in_one_anothers_way_and_cuts_that_are_not_there_are_named() {
     assert_eq!(told, "x.toml: stone 1 (tolkowsky) and stone 2 (shallow) overlap; move one of them away");
     assert_eq!(
         two(9.0, "shalow"),
-        "x.toml:6: stone 2: /shalow: there is no such file; did you mean the cut 'shallow'?"
+        "x.toml:6: stone 2: cut: /shalow: there is no such file; did you mean the cut 'shallow'?"
     );
     let told = refused("[[stone]]\ncut = \"shallow\"\nmaterial = 2.4\nsize = \"1ct\"");
     assert!(
