@@ -127,7 +127,7 @@ fn the_page_shows_what_the_program_refracts() {
 #[test]
 fn the_page_moves_has_its_controls_and_says_when_it_cannot() {
     let Some(browser) = browser() else { return };
-    let folder = made("--background #203040");
+    let folder = made("");
     let dump = ["--dump-dom"];
     let page = "modern-ideal-refraction.html";
     let shown = open(&browser, folder.path(), page, &[&SOFTWARE[..], &dump].concat());
