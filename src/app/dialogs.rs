@@ -35,6 +35,8 @@ pub enum Dialog {
     ChangedOutside,
     /// What to export.
     Export(Box<ExportDialog>),
+    /// Copies were moved, which no cut's file holds; what waits for the answer.
+    Moved(Then),
     /// A path, where the system does not ask for it.
     Path(AskedPath),
     /// Keys and terms.
@@ -52,7 +54,7 @@ impl Dialog {
         match self {
             Self::Recover(_) | Self::ChangedOutside => true,
             Self::Export(export) => export.is_busy(),
-            Self::Unsaved(_) | Self::Path(_) | Self::Keys => false,
+            Self::Unsaved(_) | Self::Moved(_) | Self::Path(_) | Self::Keys => false,
         }
     }
 }
@@ -63,6 +65,7 @@ pub fn show(editor: &mut Editor, ctx: &Context) {
     let mut is_open = true;
     let modal = Modal::new(Id::unique("dialog")).show(ctx, |ui| match &mut dialog {
         Dialog::Unsaved(then) => is_open = unsaved(editor, ui, then),
+        Dialog::Moved(then) => is_open = moved(editor, ui, then),
         Dialog::Recover(found) => is_open = recover(editor, ui, found),
         Dialog::ChangedOutside => is_open = changed_outside(editor, ui),
         Dialog::Export(export) => is_open = export_dialog::show(editor, ui, export),
@@ -101,6 +104,27 @@ fn unsaved(editor: &mut Editor, ui: &mut Ui, then: &Then) -> bool {
     match buttons(ui, &["Save", "Don't save", "Cancel"]) {
         Some(0) => {
             editor.save_then(then.clone());
+            false
+        }
+        Some(1) => {
+            editor.then(then.clone());
+            false
+        }
+        Some(_) => false,
+        None => true,
+    }
+}
+
+fn moved(editor: &mut Editor, ui: &mut Ui, then: &Then) -> bool {
+    ui.set_width(380.0);
+    ui.heading("Leave these copies?");
+    ui.label(
+        "They lie otherwise than they did at first. No cut's file holds them: Export writes them as a scene.",
+    );
+    match buttons(ui, &["Export…", "Leave them", "Cancel"]) {
+        Some(0) => {
+            editor.selection.scene = true;
+            editor.dialog = Some(Dialog::export(editor));
             false
         }
         Some(1) => {

@@ -43,6 +43,8 @@ pub struct Document {
     pub work: Work,
     history: History<Work>,
     saved: Design,
+    /// Its copies as they began, or were last written as a scene.
+    laid: Company,
     path: Option<PathBuf>,
     stamp: Stamp,
     /// Whether the file has gone.
@@ -82,6 +84,7 @@ impl Document {
             work,
             history,
             saved: design.clone(),
+            laid: Company::default(),
             path,
             stamp,
             is_lost: false,
@@ -138,6 +141,17 @@ impl Document {
     pub fn begin(&mut self, light: &str, exposure: f64, head: f64) {
         (self.work.light, self.work.exposure, self.work.head) = (light.to_owned(), exposure, head);
         self.history = History::new(self.work.clone());
+        self.keep_copies();
+    }
+
+    /// The copies are safe as they lie.
+    pub fn keep_copies(&mut self) {
+        self.laid.clone_from(&self.work.company);
+    }
+
+    /// Whether copies lie otherwise than they began, or were last written.
+    pub fn has_moved_copies(&self) -> bool {
+        self.laid != self.work.company
     }
 
     /// Takes note of changes: builds the stone, or notes why there is none. Whether there is another stone than before.

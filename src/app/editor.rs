@@ -351,6 +351,9 @@ impl Editor {
         } else if !self.may_close && self.document.is_changed() {
             ctx.send_viewport_cmd(ViewportCommand::CancelClose);
             self.dialog = Some(Dialog::Unsaved(Then::Close));
+        } else if !self.may_close && self.document.has_moved_copies() {
+            ctx.send_viewport_cmd(ViewportCommand::CancelClose);
+            self.dialog = Some(Dialog::Moved(Then::Close));
         }
     }
 

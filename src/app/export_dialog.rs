@@ -108,6 +108,9 @@ pub fn show(editor: &mut Editor, ui: &mut Ui, export: &mut ExportDialog) -> bool
         let can = files.as_ref().is_ok_and(|f| !f.is_empty());
         if ui.add_enabled(can, egui::Button::new("Write files")).clicked() {
             let wake = editor.studio.wake();
+            if export.plan.selection.scene {
+                editor.document.keep_copies();
+            }
             export.job = Some(Job::begin(export.plan.clone(), move || wake()));
         }
         stays = !ui.button("Cancel").clicked();

@@ -68,6 +68,8 @@ impl Editor {
             self.notes.say("Answer what is asked first.");
         } else if self.document.is_changed() {
             self.dialog = Some(Dialog::Unsaved(then));
+        } else if self.document.has_moved_copies() {
+            self.dialog = Some(Dialog::Moved(then));
         } else {
             self.then(then);
         }

@@ -102,7 +102,7 @@ fn a_background_flows_until_it_is_stopped_and_nothing_is_drawn_after() {
 
 #[test]
 fn liquid_glass_is_drawn_and_traced_as_strong_as_it_is_set() {
-    let mut bench = Bench::sized(Setup::default(), egui::vec2(900.0, 340.0));
+    let mut bench = Bench::new();
     assert!(bench.harness.query_by_label("Pane depth").is_none(), "no liquid glass is in sight");
     bench.show(0, Shows::LiquidGlass);
     bench.show(1, Shows::TracedPane);

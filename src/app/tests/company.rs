@@ -2,6 +2,7 @@
 
 use super::Bench;
 use crate::app::desk::{Desk, Layout, Pane};
+use crate::app::dialogs::Dialog;
 use crate::app::editor::{Editor, Setup};
 use crate::app::export_dialog::ExportDialog;
 use crate::app::export_scene::SceneOut;
@@ -225,4 +226,22 @@ fn zooming_shows_the_same_light_nearer_and_another_design_is_seen_as_physics() {
     bench.harness.state_mut().begin_from_library("modern-ideal");
     bench.harness.run_steps(2);
     assert_eq!(seen(&bench).2, 1.0);
+}
+
+#[test]
+fn copies_that_were_moved_are_asked_about_before_they_go() {
+    let mut bench = bench("rotating-cube");
+    bench.harness.state_mut().moving.rest();
+    bench.click("Prism rainbow");
+    assert_eq!(bench.editor().desk.strength, 0.155, "nothing was moved");
+    bench.click("Lay out");
+    bench.click("Subtle pill");
+    assert_eq!(bench.editor().desk.strength, 0.155);
+    bench.click("Export…");
+    let Some(Dialog::Export(export)) = &bench.editor().dialog else { panic!() };
+    assert!(export.plan.selection.scene);
+    bench.click("Cancel");
+    bench.click("Subtle pill");
+    bench.click("Leave them");
+    assert_eq!(bench.editor().desk.strength, 0.035);
 }
