@@ -183,7 +183,7 @@ fn rays_go_in_and_out_where_looking_everywhere_says() {
     let (mut crossings, mut looked, mut lost) = (0, 0, 0);
     for (seed, field) in (3..).zip(forms()) {
         for (i, (origin, direction)) in
-            rays(&field, if field.is_convex() { 100_000 } else { 25_000 }, seed).into_iter().enumerate()
+            rays(&field, if field.is_convex() { 50_000 } else { 12_500 }, seed).into_iter().enumerate()
         {
             let (found, is_lost) = walk(&field, origin, direction);
             lost += i32::from(is_lost);
