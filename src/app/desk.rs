@@ -78,8 +78,8 @@ pub struct Desk {
     pub wavelengths: u32,
     /// What hangs behind stones in renders: the name of a pattern, or a photograph's file.
     pub behind: Option<String>,
-    /// What a scene has hung there; another stone goes without.
-    pub behind_of_scene: Option<String>,
+    /// What a scene has hung there and set; with another stone it is again as it was.
+    pub of_scene: Option<OfScene>,
     /// How far behind the middle that hangs, mm; none for a distance that goes with the stone.
     pub behind_mm: Option<f64>,
     /// How much of the way that refraction turns light is followed before it: 1 is physics.
@@ -90,6 +90,13 @@ pub struct Desk {
     pub hides_panels: bool,
     /// The pane of liquid glass.
     pub liquid: Liquid,
+}
+
+/// What hangs behind and how many wavelengths there are: as a scene has set it, and before that.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct OfScene {
+    set: (Option<String>, u32),
+    before: (Option<String>, u32),
 }
 
 /// Bands of wavelengths that are offered; of three each shows.
@@ -114,7 +121,7 @@ impl Default for Desk {
             exposure: 0.0,
             wavelengths: WAVELENGTHS[2],
             behind: None,
-            behind_of_scene: None,
+            of_scene: None,
             behind_mm: None,
             strength: 1.0,
             smoothing: Smoothing::None,
@@ -143,10 +150,32 @@ impl Desk {
         self.behind = Pattern::NAMES.get(next).map(|(name, _)| (*name).to_owned());
     }
 
+    /// Hangs what a scene wants behind it, seen in so many wavelengths.
+    pub fn enter_scene(&mut self, behind: Option<String>, wavelengths: Option<u32>) {
+        let before = (self.behind.take(), self.wavelengths);
+        (self.behind, self.wavelengths) = (behind, wavelengths.unwrap_or(self.wavelengths));
+        self.of_scene = Some(OfScene { set: (self.behind.clone(), self.wavelengths), before });
+    }
+
+    /// Shows a render alone.
+    pub fn enlarge_render(&mut self) {
+        let panes = &mut self.panes[..self.layout.panes()];
+        let found = panes.iter().position(|pane| pane.shows == Shows::Render);
+        if found.is_none() {
+            panes[0].shows = Shows::Render;
+        }
+        self.large = (panes.len() > 1).then_some(found.unwrap_or(0));
+    }
+
     /// Forgets what goes with one stone: distances with its size, what its scene hung behind it, mixtures.
     pub fn rest(&mut self) {
-        if self.behind_of_scene.take().is_some_and(|hung| self.behind == Some(hung)) {
-            self.behind = None;
+        if let Some(OfScene { set, before }) = self.of_scene.take() {
+            if self.behind == set.0 {
+                self.behind = before.0;
+            }
+            if self.wavelengths == set.1 {
+                self.wavelengths = before.1;
+            }
         }
         (self.behind_mm, self.strength) = (None, 1.0);
     }
@@ -213,6 +242,33 @@ mod tests {
         let text = serde_json::to_string(&desk).unwrap();
         assert_eq!(serde_json::from_str::<Desk>(&text).unwrap(), desk);
         assert_eq!(serde_json::from_str::<Desk>("{}").unwrap(), Desk::default());
+    }
+
+    #[test]
+    fn what_a_scene_hangs_and_sets_goes_with_it_but_not_what_was_chosen_since() {
+        let own = Desk { behind: Some("grid".to_owned()), wavelengths: 64, ..Desk::default() };
+        let mut desk = own.clone();
+        desk.enter_scene(Some("page".to_owned()), Some(8));
+        (desk.strength, desk.behind_mm) = (0.1, Some(3.0));
+        assert_eq!((desk.behind.as_deref(), desk.wavelengths), (Some("page"), 8));
+        let mut chosen = Desk { behind: Some("dots".to_owned()), ..desk.clone() };
+        desk.rest();
+        assert_eq!(desk, own);
+        chosen.rest();
+        assert_eq!(chosen, Desk { behind: Some("dots".to_owned()), ..own });
+    }
+
+    #[test]
+    fn a_render_is_shown_alone_wherever_it_is_and_where_there_is_none() {
+        let mut desk = Desk { layout: Layout::Two, ..Desk::default() };
+        desk.panes[..2].iter_mut().for_each(|pane| pane.shows = Shows::Aset);
+        desk.panes[3].shows = Shows::Render;
+        desk.enlarge_render();
+        assert_eq!((desk.shown(), desk.panes[0].shows), (vec![0], Shows::Render));
+        desk.layout = Layout::Four;
+        desk.panes[0].shows = Shows::Aset;
+        desk.enlarge_render();
+        assert_eq!((desk.shown(), desk.panes[0].shows), (vec![3], Shows::Aset));
     }
 
     #[test]

@@ -5,7 +5,7 @@ use super::command::MENUS;
 use super::document::Document;
 use super::editor::Editor;
 use super::export_dialog::{self, ExportDialog};
-use super::files::Found;
+use super::files::{Around, Found};
 use super::opening::Wanted;
 use super::proportions::PROPORTIONS;
 use super::shows::Shows;
@@ -123,8 +123,9 @@ fn moved(editor: &mut Editor, ui: &mut Ui, then: &Then) -> bool {
     );
     match buttons(ui, &["Export…", "Leave them", "Cancel"]) {
         Some(0) => {
-            editor.selection.scene = true;
-            editor.dialog = Some(Dialog::export(editor));
+            let mut export = ExportDialog::new(editor);
+            export.plan.selection.scene = true;
+            editor.dialog = Some(Dialog::Export(Box::new(export)));
             false
         }
         Some(1) => {
@@ -155,9 +156,12 @@ fn recover(editor: &mut Editor, ui: &mut Ui, found: &Found) -> bool {
             match Document::recovered(found.design.clone(), found.path.clone()) {
                 // Beginning keeps it safe anew, before what the crash left is forgotten.
                 Ok(mut document) => {
-                    document.work.company = found.around.company.clone();
+                    let Around { company, behind, behind_mm, strength } = found.around.clone();
+                    document.work.company = company;
                     editor.begin(document);
-                    editor.desk.behind_mm = found.around.behind_mm;
+                    let desk = &mut editor.desk;
+                    desk.behind = behind.or(desk.behind.take());
+                    (desk.behind_mm, desk.strength) = (behind_mm, strength.unwrap_or(1.0));
                     editor.take_note();
                     Found::clone(found).forget();
                 }

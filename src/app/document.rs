@@ -141,7 +141,12 @@ impl Document {
     pub fn begin(&mut self, light: &str, exposure: f64, head: f64) {
         (self.work.light, self.work.exposure, self.work.head) = (light.to_owned(), exposure, head);
         self.history = History::new(self.work.clone());
-        self.keep_copies();
+    }
+
+    /// Takes over the copies of another, and whether they are safe.
+    pub fn take_copies(&mut self, other: &Self) {
+        self.work.company.clone_from(&other.work.company);
+        self.laid.clone_from(&other.laid);
     }
 
     /// The copies are safe as they lie.

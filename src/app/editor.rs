@@ -450,7 +450,8 @@ impl eframe::App for Editor {
 
     fn on_exit(&mut self) {
         // Where the window was taken away, and not closed by someone who was asked, work is kept for the next start.
-        if self.may_close || !self.document.is_changed() {
+        let is_safe = !self.document.is_changed() && !self.document.has_moved_copies();
+        if self.may_close || is_safe {
             self.forget_unsaved();
         }
     }

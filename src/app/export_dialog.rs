@@ -1,12 +1,13 @@
 //! The dialog that writes files.
 
 use super::editor::Editor;
-use super::export_job::{Job, Plan, thumbnails};
+use super::export_job::{Job, Plan, Selection, thumbnails};
 use super::files::Purpose;
 use super::shows::Shows;
 use super::theme;
 use crate::io::export::Format;
 use crate::io::refraction_map::MOST_BANDS;
+use crate::scene::Company;
 use egui::{
     Color32, ColorImage, DragValue, Grid, ProgressBar, Rect, RichText, ScrollArea, Sense, Stroke, StrokeKind,
     TextEdit, TextureHandle, Ui, WidgetInfo, pos2, vec2,
@@ -47,12 +48,15 @@ impl ExportDialog {
             name => name,
         };
         let selection = editor.selection.clone();
+        // As large as in the view, and no copy left out.
+        let copies = Company::at(shot.company.clone(), shot.specimen.solid().vertices());
+        let reach = editor.reach(Shows::Render).max(copies.reach(0.0));
         let mut plan = Plan {
             shot,
             turned: editor.posed(turn),
             upright,
             turn,
-            reach: editor.reach(Shows::Render),
+            reach,
             selection,
             light,
             folder: folder.clone(),
@@ -93,6 +97,9 @@ pub fn show(editor: &mut Editor, ui: &mut Ui, export: &mut ExportDialog) -> bool
         export.pictures.insert(shows, texture);
     }
     if let Some(job) = &export.job {
+        if export.plan.selection.scene && job.end() == Some(Ok(())) {
+            editor.document.keep_copies();
+        }
         return working(ui, job);
     }
     views(ui, export);
@@ -101,16 +108,13 @@ pub fn show(editor: &mut Editor, ui: &mut Ui, export: &mut ExportDialog) -> bool
     export.plan.folder = export.folder.clone();
     let files = export.plan.files();
     listed(ui, &files);
-    editor.selection.clone_from(&export.plan.selection);
+    editor.selection = Selection { scene: false, ..export.plan.selection.clone() };
     ui.add_space(8.0);
     let mut stays = true;
     ui.horizontal(|ui| {
         let can = files.as_ref().is_ok_and(|f| !f.is_empty());
         if ui.add_enabled(can, egui::Button::new("Write files")).clicked() {
             let wake = editor.studio.wake();
-            if export.plan.selection.scene {
-                editor.document.keep_copies();
-            }
             export.job = Some(Job::begin(export.plan.clone(), move || wake()));
         }
         stays = !ui.button("Cancel").clicked();

@@ -5,7 +5,7 @@ use super::shows::Shows;
 use super::studio::{Camera, Effort, FINE_RENDER, SPAN, Shot, Which, survey};
 use crate::io::background::BackgroundRef;
 use crate::io::export::{Export, Format, Outputs, Sampler, Told, Tracer, Viewing};
-use crate::io::refraction_map::{self, Coding};
+use crate::io::refraction_map::{self, Coding, MOST_PIXELS};
 use crate::io::refraction_page::{Page, takes, write_page};
 use crate::io::{Failure, rasterize, write_rgba_png};
 use crate::optics::line;
@@ -167,6 +167,11 @@ impl Plan {
     /// # Errors
     /// What keeps them from being written.
     pub fn files(&self) -> Result<Vec<PathBuf>, String> {
+        if self.selection.map && self.selection.size > MOST_PIXELS {
+            return Err(format!(
+                "A refraction map has {MOST_PIXELS} pixels each way at most: take a smaller size."
+            ));
+        }
         let mut files = vec![];
         for (outputs, viewing) in &self.parts() {
             files.extend(Export { viewing: *viewing, outputs }.files().map_err(|e| e.to_string())?);
@@ -177,7 +182,7 @@ impl Plan {
         Ok(files)
     }
 
-    /// The picture of a view at a size, the whole stone in it.
+    /// The picture of a view at a size, as large in it as it is fitted to the window's views.
     fn shot(&self, shows: Shows, size: u32) -> Shot {
         let view = crate::scene::View { side: shows.side().unwrap_or(self.shot.view.side), ..self.shot.view };
         let shot = Shot { shows, view, ..self.shot.clone() };

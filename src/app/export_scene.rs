@@ -5,10 +5,11 @@ use super::studio::hung;
 use crate::io::background::BackgroundRef;
 use crate::io::scene_file::{self, DEFAULT_GAP_MM, Entry, SceneFile};
 use crate::io::{Failure, WriteError, cut_file, write};
-use crate::scene::Pose;
+use crate::scene::{Pose, middle};
 use glam::DQuat;
 use std::io::Write as _;
 use std::path::PathBuf;
+use std::sync::Arc;
 
 /// A scene and the cut that it is of.
 pub struct SceneOut {
@@ -28,7 +29,7 @@ impl SceneOut {
         let shot = &plan.shot;
         let paths = Self::paths(plan);
         let cut = format!("{}-cut.toml", plan.stem);
-        let is_turned = shot.company == [Pose::STILL];
+        let is_turned = shot.company == [Pose::STILL] && Arc::ptr_eq(&shot.specimen, &plan.turned);
         // A stone alone has been turned itself.
         let turned = [Pose { turn: DQuat::from_rotation_z(plan.turn), ..Pose::STILL }];
         let (design, poses) = match is_turned {
@@ -36,6 +37,8 @@ impl SceneOut {
             false => (&shot.specimen.design, &shot.company[..]),
         };
         let unit_mm = 0.5 * design.diameter_mm;
+        // Scenes are seen around their middle.
+        let middle = middle(poses, shot.specimen.solid().vertices());
         let is_picture = matches!(shot.behind, Some(BackgroundRef::Pattern(_) | BackgroundRef::Photo(_)));
         let scene = SceneFile {
             name: design.name.clone(),
@@ -43,9 +46,12 @@ impl SceneOut {
             layout: None,
             gap_mm: DEFAULT_GAP_MM,
             background: shot.behind.clone(),
-            background_distance_mm: is_picture.then(|| hung(shot) * unit_mm),
+            background_distance_mm: is_picture.then(|| (hung(shot) + middle.z) * unit_mm),
             strength: shot.strength,
-            stones: poses.iter().map(|pose| Entry::placed(&cut, pose.turn, pose.at * unit_mm)).collect(),
+            stones: poses
+                .iter()
+                .map(|pose| Entry::placed(&cut, pose.turn, (pose.at - middle) * unit_mm))
+                .collect(),
         };
         Self { paths, scene: scene_file::write(&scene), cut: cut_file::write(design) }
     }

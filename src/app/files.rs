@@ -226,8 +226,14 @@ struct Kept {
 pub struct Around {
     /// Its copies.
     pub company: Company,
-    /// How far behind it a picture hangs, mm, if that was set.
+    /// What hangs behind it.
+    #[serde(default)]
+    pub behind: Option<String>,
+    /// How far behind it that hangs, mm, if that was set.
     pub behind_mm: Option<f64>,
+    /// The strength of refraction, 0 to 1.
+    #[serde(default)]
+    pub strength: Option<f64>,
 }
 
 /// Work that a crash left behind.
@@ -347,7 +353,9 @@ mod tests {
         let design = Document::first().unwrap().work.design;
         let mut safe = Safe::new(folder.path().to_owned());
         let corners = [DVec3::ONE, -DVec3::ONE];
-        let around = Around { company: Company::scattered(3, &corners, 2), behind_mm: Some(12.5) };
+        let company = Company::scattered(3, &corners, 2);
+        let around =
+            Around { company, behind: Some("page".into()), behind_mm: Some(12.5), strength: Some(0.2) };
         safe.keep(&design, &around, Some(Path::new("/x/mine.toml"))).unwrap();
         safe.keep(&design, &around, Some(Path::new("/x/mine.toml"))).unwrap();
         let next = Safe::new(folder.path().to_owned());

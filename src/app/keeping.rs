@@ -2,6 +2,7 @@
 
 use super::asked_path::AskedPath;
 use super::compare::Compared;
+use super::desk::Desk;
 use super::dialogs::{Dialog, Then};
 use super::document::{Document, Work};
 use super::editor::{Editor, Shown};
@@ -99,7 +100,7 @@ impl Editor {
     /// Saves, and does what was put off once that is done.
     pub(super) fn save_then(&mut self, then: Then) {
         if self.save() {
-            self.then(then);
+            self.ask_before(then);
         } else if self.choosing.is_some() {
             self.after_save = Some(then);
         }
@@ -110,6 +111,7 @@ impl Editor {
         if self.choosing.is_some() {
             return self.notes.say("Answer the file dialog that is open first.");
         }
+        self.after_save = None;
         let wake = self.studio.wake();
         let question = Question { purpose, name: self.suggested() };
         self.choosing = Some(Choosing::ask(question, self.begun, &self.chooser, move || wake()));
@@ -146,7 +148,7 @@ impl Editor {
                 if self.save_as(path)
                     && let Some(then) = then
                 {
-                    self.then(then);
+                    self.ask_before(then);
                 }
             }
             Purpose::Compare => self.open(&path, Wanted::Beside),
@@ -234,9 +236,11 @@ impl Editor {
         self.kept = self.document.work.clone();
         let Work { light, exposure, head, .. } = &self.kept;
         (self.desk.light, self.desk.exposure, self.desk.head) = (light.clone(), *exposure, *head);
-        let around = Around { company: self.kept.company.clone(), behind_mm: self.desk.behind_mm };
+        let Desk { behind, behind_mm, strength, .. } = &self.desk;
+        let (company, behind) = (self.kept.company.clone(), behind.clone());
+        let around = Around { company, behind, behind_mm: *behind_mm, strength: Some(*strength) };
         let Some(safe) = &mut self.safe else { return };
-        if !self.document.is_changed() {
+        if !self.document.is_changed() && !self.document.has_moved_copies() {
             safe.empty();
         } else if self.document.fault().is_none()
             && let Err(why) = safe.keep(&self.kept.design, &around, self.document.path())

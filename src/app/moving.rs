@@ -56,6 +56,11 @@ impl Moving {
         (self.is_on, self.seconds) = (false, 0.0);
     }
 
+    /// Whether a body tumbles now.
+    pub fn tumbles(&self, specimen: &Specimen) -> bool {
+        self.seconds > 0.0 && !waves(specimen)
+    }
+
     /// The body now, and where its copies are, all of them turned about the middle's axis, radians.
     pub fn now(
         &mut self,

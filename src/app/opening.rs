@@ -108,7 +108,7 @@ impl Editor {
             }
             (Wanted::Again, Came::Design(mut document)) => {
                 let desk = self.desk.clone();
-                document.work.company = self.document.work.company.clone();
+                document.take_copies(&self.document);
                 self.begin(*document);
                 self.desk = desk;
                 self.notes.say("The file was changed by another program and has been read again.");

@@ -121,7 +121,7 @@ impl Editor {
             return reach;
         }
         let company = &self.document.work.company;
-        match self.moving.seconds > 0.0 {
+        match self.moving.tumbles(self.document.specimen()) {
             // What tumbles shows all its sides.
             true => company
                 .poses

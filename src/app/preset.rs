@@ -2,12 +2,11 @@
 
 use super::document::Document;
 use super::editor::Editor;
-use super::shows::Shows;
 use crate::cut::Design;
 use crate::io::background::BackgroundRef;
 use crate::io::scene_file::{self, Entry, SceneFile};
 use crate::io::{cut_file, design_file, library};
-use crate::scene::{Company, MOST_COPIES, Pose, Specimen};
+use crate::scene::{Company, MOST_COPIES, Pose, Specimen, middle};
 use glam::{DQuat, DVec3};
 use std::path::Path;
 
@@ -38,6 +37,8 @@ pub struct Preset {
     pub design: Design,
     /// Its copies.
     pub company: Company,
+    /// In how many wavelengths it is seen, if that is known.
+    wavelengths: Option<u32>,
     /// The rest.
     pub scene: SceneFile,
 }
@@ -49,7 +50,8 @@ impl Preset {
     /// Where there is none of that name, or it is of several designs.
     pub fn of_library(name: &str) -> Result<Self, String> {
         let text = library::scene(name).ok_or_else(|| format!("no scene '{name}' comes with the program"))?;
-        Self::new(scene_file::parse(text, name, None)?, name, None)
+        let wavelengths = PRESETS.iter().find(|known| known.name == name).map(|known| known.wavelengths);
+        Ok(Self { wavelengths, ..Self::new(scene_file::parse(text, name, None)?, name, None)? })
     }
 
     /// A scene's file.
@@ -82,7 +84,7 @@ impl Preset {
                 size.diameter_mm(volume, &specimen.material).map_err(|e| format!("{told}: size: {e}"))?;
         }
         let poses = poses(&scene, corners, 0.5 * design.diameter_mm);
-        Ok(Self { company: Company::at(poses, corners), design, scene })
+        Ok(Self { company: Company::at(poses, corners), design, scene, wavelengths: None })
     }
 }
 
@@ -105,12 +107,8 @@ fn poses(scene: &SceneFile, corners: &[DVec3], unit_mm: f64) -> Vec<Pose> {
     let radii: Vec<f64> = turns.iter().map(|turn| across(turn) * unit_mm).collect();
     let places = scene.places_mm(&radii).into_iter().map(|at| at / unit_mm);
     let mut poses: Vec<Pose> = places.zip(turns).map(|(at, turn)| Pose { at, turn }).collect();
-    if poses.len() > 1 || poses[0].at != DVec3::ZERO {
-        let all = || poses.iter().flat_map(|pose| corners.iter().map(|c| pose.place(*c)));
-        let middle = 0.5
-            * (all().reduce(DVec3::min).unwrap_or_default() + all().reduce(DVec3::max).unwrap_or_default());
-        poses.iter_mut().for_each(|pose| pose.at -= middle);
-    }
+    let middle = middle(&poses, corners);
+    poses.iter_mut().for_each(|pose| pose.at -= middle);
     poses
 }
 
@@ -120,11 +118,9 @@ impl Editor {
         match Preset::of_library(name) {
             Ok(preset) => {
                 self.begin_scene(preset);
-                if let Some(known) = PRESETS.iter().find(|known| known.name == name) {
-                    (self.moving.is_on, self.desk.wavelengths) = (known.moves, known.wavelengths);
-                    // What it is about is its render.
-                    self.desk.large = self.desk.panes.iter().position(|pane| pane.shows == Shows::Render);
-                }
+                // What it is about is its render.
+                self.desk.enlarge_render();
+                self.moving.is_on = PRESETS.iter().any(|known| known.name == name && known.moves);
             }
             Err(why) => self.notes.trouble(why),
         }
@@ -132,7 +128,7 @@ impl Editor {
 
     /// Works on a scene: its design, which is not saved anywhere yet, its copies, its light and what lies behind.
     pub(super) fn begin_scene(&mut self, preset: Preset) {
-        let Preset { design, company, scene } = preset;
+        let Preset { design, company, scene, wavelengths } = preset;
         let mut document = match Document::new(design, None) {
             Ok(document) => document,
             Err(why) => return self.notes.trouble(why.to_string()),
@@ -141,6 +137,7 @@ impl Editor {
         let layers =
             if laid == company.poses { "" } else { ", those whose boxes would meet behind one another" };
         document.work.company = company;
+        document.keep_copies();
         self.desk.last = None;
         if let Some(light) = scene.light {
             let light = if light.is_file() { std::path::absolute(&light).unwrap_or(light) } else { light };
@@ -149,8 +146,7 @@ impl Editor {
         self.begin(document);
         // Of colours the desk knows none.
         let behind = scene.background.as_ref().filter(|behind| !matches!(behind, BackgroundRef::Plain(_)));
-        self.desk.behind = behind.map(ToString::to_string);
-        self.desk.behind_of_scene.clone_from(&self.desk.behind);
+        self.desk.enter_scene(behind.map(ToString::to_string), wavelengths);
         (self.desk.behind_mm, self.desk.strength) = (scene.background_distance_mm, scene.strength);
         self.notes.say(&format!("{}: renders show its copies{layers}, all else shows one", scene.name));
     }

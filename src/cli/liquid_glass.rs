@@ -20,6 +20,9 @@ use std::path::{Path, PathBuf};
 const EXTENT: DVec2 = DVec2::new(0.625, 0.5);
 const ROUND: f64 = 0.3;
 
+/// Endings of pictures, which nobody gives a folder.
+const PICTURES: [&str; 7] = ["png", "jpg", "jpeg", "exr", "gif", "webp", "svg"];
+
 /// Wavelengths side by side of the traced pane.
 const WAVELENGTHS: u32 = 12;
 
@@ -113,7 +116,9 @@ fn tint(text: &str) -> Result<DVec4, String> {
 
 impl LiquidGlass {
     pub fn run(&self) -> Result<(), Failure> {
-        if let Some(ending) = self.out.extension().filter(|_| !self.out.is_dir()) {
+        let is_picture =
+            |ending: &&std::ffi::OsStr| PICTURES.iter().any(|known| ending.eq_ignore_ascii_case(known));
+        if let Some(ending) = self.out.extension().filter(is_picture).filter(|_| !self.out.is_dir()) {
             let ending = ending.display();
             return Err(Failure::Usage(format!(
                 "--out: several files are written: give a folder, not a .{ending}"

@@ -112,17 +112,22 @@ impl<'a> Studio<'a> {
         let reading = background.picture().map_err(Failure::Input)?;
         reading.iter().flat_map(|r| &r.warnings).for_each(|w| super::say(&format!("warning: {w}")));
         let photo = reading.map(|reading| reading.panorama);
-        if photo.is_none() && options.photo_distance.is_some() {
-            return Err(Failure::Usage(
-                "--photo-distance: only a pattern or a photograph has a distance; give one by --background"
-                    .into(),
-            ));
-        }
         let tracer = Cell::new(Tracer::Beams);
         let studio =
             Self { options, assembly, lighting, background, photo, distance, strength, develop, tracer };
         studio.tracer.set(studio.chosen(view)?);
         Ok(studio)
+    }
+
+    /// Refuses a distance at which nothing hangs.
+    pub fn with_what_has_a_distance(self) -> Result<Self, Failure> {
+        if self.photo.is_some() || self.options.photo_distance.is_none() {
+            return Ok(self);
+        }
+        Err(Failure::Usage(
+            "--photo-distance: only a pattern or a photograph has a distance; give one by --background"
+                .into(),
+        ))
     }
 
     fn chosen(&self, view: &View) -> Result<Tracer, Failure> {

@@ -12,7 +12,9 @@ use crate::io::refraction_map::{self as files, Coding, MOST_BANDS, MOST_PIXELS};
 use crate::io::refraction_page::{MOST_MEGABYTES, Page, takes, write_page};
 use crate::io::write_rgba_png;
 use crate::optics::strata;
-use crate::picture::{Backdrop, Bloom, Carried, Develop, RefractionMap, Survey, Tone, develop, refract};
+use crate::picture::{
+    Backdrop, Background, Bloom, Carried, Develop, RefractionMap, Survey, Tone, develop, refract,
+};
 use crate::scene::View;
 use clap::{Args, ValueEnum};
 use glam::DVec2;
@@ -92,11 +94,14 @@ impl RefractionMaps {
         // By rays whatever there is: no card is looked for.
         let picture = PictureOptions { tracer: TracerName::Ray, ..self.picture.clone() };
         let mut studio = Studio::load(&picture, file, &view)?;
-        let is_plain = self.picture.background.is_some() && studio.photo.is_none();
-        if is_plain || studio.background == BackgroundRef::Light {
-            return Err(Failure::Usage(
-                "--background: give a pattern or a photograph, or leave it out".into(),
-            ));
+        if studio.photo.is_none() {
+            if self.picture.background.is_some() {
+                return Err(Failure::Usage(
+                    "--background: give a pattern or a photograph, or leave it out".into(),
+                ));
+            }
+            // Of a scene's own, which is none, nothing shows.
+            studio.background = BackgroundRef::Plain(Background::Transparent);
         }
         if self.picture.strength.is_some_and(|strength| strength < 1.0) {
             return Err(Failure::Usage("a refraction map is physics: leave out --strength".into()));

@@ -68,7 +68,7 @@ impl Render {
     fn render(&self, file: &Path) -> Result<(), Failure> {
         let viewpoint = self.view.viewpoint()?;
         let view = viewpoint.view();
-        let studio = Studio::load(&self.picture, file, &view)?;
+        let studio = Studio::load(&self.picture, file, &view)?.with_what_has_a_distance()?;
         let setting = &studio.assembly.setting;
         let pixel = studio.pixel(setting, &view)?;
         if let Some(at) = self.probe {

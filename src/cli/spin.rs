@@ -56,7 +56,7 @@ impl Spin {
         let first = self.view.viewpoint()?.view();
         let delay_ms = self.delay_ms()?;
         self.check_swing()?;
-        let studio = Studio::load(&self.picture, &self.file, &first)?;
+        let studio = Studio::load(&self.picture, &self.file, &first)?.with_what_has_a_distance()?;
         let frames: Vec<(Setting, View)> = (0..self.frames).map(|k| self.frame(&studio, &first, k)).collect();
         // The stones keep their size: that at which they fit in every frame.
         let mut pixels = frames.iter().map(|(setting, view)| studio.pixel(setting, view));

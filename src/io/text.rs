@@ -42,10 +42,7 @@ pub(super) fn utf8(bytes: Vec<u8>) -> Result<String, TextError> {
         let kinds: [(&[u8], &str); 4] =
             [(b"\x89PNG", "PNG"), (b"\xff\xd8\xff", "JPEG"), (b"GIF8", "GIF"), (b"%PDF", "PDF")];
         if let Some((_, kind)) = kinds.iter().find(|(start, _)| error.as_bytes().starts_with(start)) {
-            return TextError {
-                line: None,
-                message: format!("this is a {kind}; give a design, a mesh or a scene"),
-            };
+            return TextError { line: None, message: format!("this is a {kind}, where text is expected") };
         }
         let valid = &error.as_bytes()[..error.utf8_error().valid_up_to()];
         let message = "this is not UTF-8 text; save the file as UTF-8".to_owned();

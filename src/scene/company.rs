@@ -129,6 +129,15 @@ impl Company {
     }
 }
 
+/// The middle of the box that holds bodies of these corners; the origin for one that lies there.
+pub fn middle(poses: &[Pose], corners: &[DVec3]) -> DVec3 {
+    if matches!(poses, [alone] if alone.at == DVec3::ZERO) {
+        return DVec3::ZERO;
+    }
+    let all = || poses.iter().flat_map(|pose| corners.iter().map(|c| pose.place(*c)));
+    0.5 * (all().reduce(DVec3::min).unwrap_or_default() + all().reduce(DVec3::max).unwrap_or_default())
+}
+
 /// How a copy of a number has turned after so many seconds: not at all at first, and no two alike.
 fn tumbled(number: usize, seconds: f64) -> DQuat {
     let way = scattered(number as u64) * std::f64::consts::TAU;

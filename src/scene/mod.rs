@@ -17,7 +17,7 @@ mod view;
 mod viewpoint;
 
 pub use body::Body;
-pub use company::{Company, MOST_COPIES, Pose};
+pub use company::{Company, MOST_COPIES, Pose, middle};
 pub use film::Film;
 pub use layout::Layout;
 pub use light::{Dome, Field, Lamp, Light, LightError, MOST_LAMPS, PanoramaRef, SoftBox, toward};

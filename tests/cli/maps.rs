@@ -78,7 +78,6 @@ fn what_a_refraction_map_cannot_be_is_told() {
         ("--strength 0.5", "--strength"),
         ("--strength -1", "give 0 to 1"),
         ("--background #ff0000", "a pattern or a photograph"),
-        ("--photo-distance 3", "--background"),
         ("--no-jitter", "--no-jitter"),
         ("--span 0.5", "--span"),
         ("--bands 17", "17"),

@@ -1,6 +1,6 @@
 //! The studio's thread.
 
-use super::order::{Answer, Ask, Grade, Order, Shot, Slot, Taken, Which};
+use super::order::{Answer, Ask, Grade, Order, Shot, Slot, Smoothing, Taken, Which};
 use super::pace::{Effort, Pace};
 use super::render::{Growing, is_for_beams};
 use super::take::{Camera, RAYS_COARSER, Trouble};
@@ -163,8 +163,12 @@ impl Worker {
         let watch = move |_: f64| stop_if(desk.newest.load(Ordering::SeqCst) != number);
         let fine = if self.camera.gpu.is_some() { FINE_BY_CARD } else { FINE_RENDER };
         for (slot, shot) in &turn.order.shots {
+            // Pictures laid over one another are all of one size.
+            let is_laid = matches!(shot.smoothing, Smoothing::Temporal { .. });
             let is_by_rays = shot.shows == Shows::Render && !is_for_beams(shot) && self.camera.gpu.is_none();
-            if is_by_rays && self.pictures.get(slot).is_none_or(|(done, g)| done != shot || *g < Grade::Fair)
+            if is_by_rays
+                && !is_laid
+                && self.pictures.get(slot).is_none_or(|(done, g)| done != shot || *g < Grade::Fair)
             {
                 self.picture((*slot, shot), Grade::Rough, (&HALFWAY, None), &watch)?;
             }

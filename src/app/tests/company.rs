@@ -9,7 +9,7 @@ use crate::app::export_scene::SceneOut;
 use crate::app::moving::Moving;
 use crate::app::preset::Preset;
 use crate::app::shows::Shows;
-use crate::app::studio::{Smoothing, Which, setting, sitting};
+use crate::app::studio::{Smoothing, Which, hung, setting, sitting};
 use crate::scene::{Company, Panorama, Pose};
 use egui::{Key, Pos2};
 use egui_kittest::kittest::Queryable;
@@ -139,11 +139,22 @@ fn arrangement(company: &Company, unit_mm: f64) -> Vec<(glam::DVec3, glam::DQuat
 
 #[test]
 fn copies_are_saved_as_a_scene_that_is_opened_again_as_it_was() {
-    for (scene, seconds) in [("rotating-cube", 1.3), ("wavy-plate", 0.4), ("modern-ideal", 0.0)] {
+    let scenes = [
+        ("rotating-cube", 1.3, 0.3),
+        ("wavy-plate", 0.4, 0.3),
+        ("plate", 0.4, 0.0),
+        ("modern-ideal", 0.0, 0.3),
+    ];
+    for (scene, seconds, turn) in scenes {
         let folder = tempfile::tempdir().unwrap();
         let mut bench = bench(scene);
         bench.harness.state_mut().moving = Moving::at(seconds);
-        bench.harness.state_mut().desk.eye.turn = 0.3;
+        bench.harness.state_mut().desk.eye.turn = turn;
+        bench.harness.state_mut().desk.behind.get_or_insert("page".to_owned());
+        // A layer behind the others, so that the middle of all is not that of the first.
+        if let [.., last] = &mut bench.harness.state_mut().document.work.company.poses[1..] {
+            last.at.z -= 3.0;
+        }
         bench.harness.run_steps(2);
         let mut plan = ExportDialog::new(bench.harness.state_mut()).plan;
         (plan.folder, plan.stem) = (folder.path().to_owned(), "mine".to_owned());
@@ -151,11 +162,15 @@ fn copies_are_saved_as_a_scene_that_is_opened_again_as_it_was() {
         let again = Preset::read(&folder.path().join("mine-scene.toml")).unwrap();
         let shot = &plan.shot;
         let is_alone = scene == "modern-ideal";
-        assert_eq!(again.scene.stones.len(), if is_alone { 1 } else { 4 });
+        assert_eq!(again.scene.stones.len(), if ["plate", "modern-ideal"].contains(&scene) { 1 } else { 4 });
         assert_eq!((&again.scene.background, again.scene.strength), (&shot.behind, shot.strength));
         assert!(again.design == if is_alone { &plan.upright } else { &shot.specimen }.design);
         let unit_mm = shot.specimen.unit_mm();
-        let turned = Pose { turn: glam::DQuat::from_rotation_z(0.3), ..Pose::STILL };
+        // What hangs behind is as far from each stone.
+        let farther = again.scene.background_distance_mm.unwrap() / unit_mm - hung(shot);
+        let deeper = again.company.poses[0].at.z - shot.company[0].at.z;
+        assert!((farther + deeper).abs() < 1e-9, "{scene}: {farther} {deeper}");
+        let turned = Pose { turn: glam::DQuat::from_rotation_z(turn), ..Pose::STILL };
         let poses = if is_alone { vec![turned] } else { shot.company.clone() };
         let shown = arrangement(&Company { poses, room: None }, unit_mm);
         for ((at, turn), (there, turned)) in arrangement(&again.company, unit_mm).into_iter().zip(shown) {
