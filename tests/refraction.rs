@@ -29,6 +29,7 @@ struct Shoot {
     light: Light,
     span: f64,
     bands: u32,
+    places: u32,
     both_sides: bool,
 }
 
@@ -53,10 +54,15 @@ fn dark() -> Light {
     Light { dome: Vec::new(), ..Light::white() }
 }
 
-/// A photograph: one of the program's own, which has all sorts of edges and colours.
+/// A photograph of the pictures' shape: one of the program's own, which has all sorts of edges and colours.
 fn photo() -> Panorama {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/images/gallery/ring.png");
-    panorama::read_photo(&path).unwrap().panorama
+    let Panorama { width, height, pixels } = panorama::read_photo(&path).unwrap().panorama;
+    // What a ray meets beside the map's plane is not in the map.
+    let (across, down) = (width.min(height * 4 / 3), height.min(width * 3 / 4));
+    let (left, top) = ((width - across) / 2, (height - down) / 2);
+    let row = |y: u32| &pixels[((top + y) * width + left) as usize..][..across as usize];
+    Panorama { width: across, height: down, pixels: (0..down).flat_map(row).copied().collect() }
 }
 
 impl Shoot {
@@ -68,6 +74,7 @@ impl Shoot {
             light: dark(),
             span: 2.0,
             bands: 1,
+            places: 1,
             both_sides: false,
         }
     }
@@ -108,7 +115,7 @@ impl Shoot {
 
     fn map(&self) -> (RefractionMap, Carried) {
         let bands = strata(self.bands, &Illuminant::D65, true);
-        let survey = Survey { bands: &bands, shades: &bands, looks: 1 };
+        let survey = Survey { bands: &bands, places: self.places, shades: &bands, looks: 1 };
         self.sit(None, |s| RefractionMap::trace(s, &self.plane(), &survey, &unwatched)).unwrap()
     }
 
@@ -217,16 +224,18 @@ fn refracting_by_the_map_is_tracing_to_40_db() {
         ("a diamond", brilliant(), View::default(), diamond()),
         ("a diamond from near by", brilliant(), from_near, diamond()),
     ] {
-        for bands in [1, 5] {
-            let shoot = Shoot { view, bands, ..Shoot::of(solid.clone(), material.clone()) };
+        // Of one place what is seen twice through a pixel from near by is lost; four leave little but their coding.
+        let alone = if view == from_near { 29.0 } else { 40.0 };
+        for (bands, places, least) in [(1, 1, alone), (5, 1, alone), (1, 2, 40.0), (5, 2, 40.0), (1, 4, 45.0)]
+        {
+            let shoot = Shoot { view, bands, places, ..Shoot::of(solid.clone(), material.clone()) };
             let (map, _) = shoot.map();
             let (own, traced) = (refract(&map, &photo, DVec2::ZERO), shoot.traced(&photo));
             for coding in [Coding::Tiles, Coding::Sixteen, Coding::Float] {
                 let found = refract(&written(&map, coding), &photo, DVec2::ZERO);
                 let (to_map, to_all) = (psnr(&found, &own), psnr(&found, &traced));
-                assert!(to_map >= 40.0, "{name}, {bands} bands, {coding:?}: {to_map}");
-                // Between parallel faces all paths come out side by side, into nearly the same place.
-                assert!(to_all >= 40.0 || view != leaning, "{name}, {bands} bands, {coding:?}: {to_all}");
+                let told = format!("{name}, {bands} bands, {places} places, {coding:?}");
+                assert!(to_map >= 40.0 && to_all >= least, "{told}: {to_map} and {to_all}");
             }
         }
     }
@@ -289,7 +298,7 @@ fn a_map_is_the_same_every_time_and_can_be_stopped() {
     let shoot = Shoot::of(brilliant(), diamond());
     assert_eq!(shoot.map(), shoot.map());
     let bands = strata(1, &Illuminant::D65, true);
-    let survey = Survey { bands: &bands, shades: &bands, looks: 1 };
+    let survey = Survey { bands: &bands, places: 1, shades: &bands, looks: 1 };
     let stop = |part: f64| if part > 0.3 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) };
     let stopped = shoot.sit(None, |s| RefractionMap::trace(s, &shoot.plane(), &survey, &stop));
     assert_eq!(stopped.err(), Some(Stopped));

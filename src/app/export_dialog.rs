@@ -6,7 +6,7 @@ use super::files::Purpose;
 use super::shows::Shows;
 use super::theme;
 use crate::io::export::Format;
-use crate::io::refraction_map::MOST_BANDS;
+use crate::io::refraction_map::{MOST_BANDS, MOST_PLACES};
 use crate::scene::Company;
 use egui::{
     Color32, ColorImage, DragValue, Grid, ProgressBar, Rect, RichText, ScrollArea, Sense, Stroke, StrokeKind,
@@ -198,6 +198,10 @@ fn settings(editor: &mut Editor, ui: &mut Ui, export: &mut ExportDialog) {
             let meaning = "Bands of wavelengths: of one the map is grey and small, of several its look-up keeps the rainbow.";
             let bands = DragValue::new(&mut export.plan.selection.bands).range(1..=MOST_BANDS).prefix("bands ");
             ui.add_enabled(export.plan.selection.map, bands).on_hover_text(meaning);
+            let meaning = "Places of each pixel: of several, what is seen twice through it shows twice; bands times places \
+                maps are written.";
+            let places = DragValue::new(&mut export.plan.selection.places).range(1..=MOST_PLACES).prefix("places ");
+            ui.add_enabled(export.plan.selection.map, places).on_hover_text(meaning);
             let meaning = "The copies as they lie now, with their light and what hangs behind: a scene file and its cut, \
                 which this program opens again and draws.";
             ui.checkbox(&mut export.plan.selection.scene, "Scene file and its cut").on_hover_text(meaning);

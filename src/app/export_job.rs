@@ -5,7 +5,7 @@ use super::shows::Shows;
 use super::studio::{Camera, Effort, FINE_RENDER, SPAN, Shot, Which, survey};
 use crate::io::background::BackgroundRef;
 use crate::io::export::{Export, Format, Outputs, Sampler, Told, Tracer, Viewing};
-use crate::io::refraction_map::{self, Coding, MOST_PIXELS};
+use crate::io::refraction_map::{self, Coding, MOST_BANDS, MOST_PIXELS};
 use crate::io::refraction_page::{Page, takes, write_page};
 use crate::io::{Failure, rasterize, write_rgba_png};
 use crate::optics::line;
@@ -35,6 +35,8 @@ pub struct Selection {
     /// Whether a refraction map is written, with a page that shows it, and of how many bands of wavelengths.
     pub map: bool,
     pub bands: u32,
+    /// Places of a pixel in each of its bands.
+    pub places: u32,
     /// Whether what renders show is written as a scene, with its cut.
     pub scene: bool,
     /// Pixels along each side.
@@ -44,7 +46,7 @@ pub struct Selection {
 impl Default for Selection {
     fn default() -> Self {
         let views = vec![Shows::Render, Shows::Aset, Shows::Hearts, Shows::Arrows];
-        Self { views, formats: vec![Format::Png], map: false, bands: 1, scene: false, size: 1024 }
+        Self { views, formats: vec![Format::Png], map: false, bands: 1, places: 1, scene: false, size: 1024 }
     }
 }
 
@@ -135,8 +137,8 @@ impl Plan {
 
     /// The maps, the diffuse layer, the page.
     fn map_paths(&self) -> Option<(Vec<PathBuf>, [PathBuf; 2])> {
-        let maps =
-            refraction_map::paths(&self.folder, &self.stem, self.selection.bands as usize, Coding::Tiles);
+        let count = (self.selection.bands * self.selection.places) as usize;
+        let maps = refraction_map::paths(&self.folder, &self.stem, count, Coding::Tiles);
         let page = self.folder.join(format!("{}-refraction.html", self.stem));
         let others = [refraction_map::diffuse_path(&self.folder, &self.stem), page];
         self.selection.map.then_some((maps, others))
@@ -171,6 +173,9 @@ impl Plan {
             return Err(format!(
                 "A refraction map has {MOST_PIXELS} pixels each way at most: take a smaller size."
             ));
+        }
+        if self.selection.map && self.selection.bands * self.selection.places > MOST_BANDS {
+            return Err(format!("Bands times places are {MOST_BANDS} at most: take fewer."));
         }
         let mut files = vec![];
         for (outputs, viewing) in &self.parts() {
@@ -234,13 +239,17 @@ impl Plan {
         [diffuse, page]: &[PathBuf; 2],
         watch: crate::trace::Watch,
     ) -> Result<(), Failure> {
-        let (map, carried) =
-            survey(&self.shot(Shows::Render, self.selection.size), self.selection.bands, watch)?;
+        let (map, carried) = survey(
+            &self.shot(Shows::Render, self.selection.size),
+            [self.selection.bands, self.selection.places],
+            watch,
+        )?;
         let title = self.shot.specimen.design.name.as_str();
         let told = format!(
-            "{title}; refraction map, bands {}; light {}; {:.1} % of the light comes from the background, {:.1} % of that from the \
+            "{title}; refraction map, bands {}, places {}; light {}; {:.1} % of the light comes from the background, {:.1} % of that from the \
              map's places",
             self.selection.bands,
+            self.selection.places,
             self.shot.light.light.name,
             100.0 * carried.behind,
             100.0 * carried.single

@@ -8,7 +8,7 @@ use super::specimen::stem;
 use super::{Failure, distinct, each_file, say};
 use crate::io::background::BackgroundRef;
 use crate::io::export::{Sampler, Told};
-use crate::io::refraction_map::{self as files, Coding, MOST_BANDS, MOST_PIXELS};
+use crate::io::refraction_map::{self as files, Coding, MOST_BANDS, MOST_PIXELS, MOST_PLACES};
 use crate::io::refraction_page::{MOST_MEGABYTES, Page, takes, write_page};
 use crate::io::write_rgba_png;
 use crate::optics::strata;
@@ -37,6 +37,10 @@ pub struct RefractionMaps {
     /// Maps of N bands of wavelengths instead of one for all light, so that the look-up keeps its rainbow, 1 to 16
     #[arg(long, allow_negative_numbers = true, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=i64::from(MOST_BANDS)))]
     bands: u32,
+    /// Places of a pixel, 1 to 8: of one each pixel shows what its strongest path leads to, of more what is seen twice through
+    /// a pixel shows twice; each band has as many maps
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=i64::from(MOST_PLACES)))]
+    places: u32,
     /// How many times as wide as the picture the background is; light from beyond it is in the diffuse layer
     #[arg(long, allow_negative_numbers = true, value_name = "TIMES", default_value_t = 2.0)]
     span: f64,
@@ -83,6 +87,12 @@ impl RefractionMaps {
                 "a refraction map takes the middles of its bands anyway: leave out --no-jitter".into(),
             );
         }
+        if self.bands * self.places > MOST_BANDS {
+            let all = self.bands * self.places;
+            return refuse(format!(
+                "--bands, --places: {all} maps in all, and a page takes {MOST_BANDS}: take fewer"
+            ));
+        }
         within("span", self.span, 1.0, 100.0)?;
         distinct(&self.files)?;
         each_file(&self.files, |file| self.make(file))
@@ -120,9 +130,10 @@ impl RefractionMaps {
         let Carried { behind, single } = carried;
         let (name, light) = (&studio.assembly.name, studio.light());
         let told = format!(
-            "{name}; refraction map, bands {}; background {} girdle radii behind, {} times as wide{}; light {light}; {}; {:.1} % of the \
+            "{name}; refraction map, bands {}, places {}; background {} girdle radii behind, {} times as wide{}; light {light}; {}; {:.1} % of the \
              light comes from the background, {:.1} % of that from the map's places; {}",
             self.bands,
+            self.places,
             studio.distance,
             self.span,
             if self.both_sides { ", on both sides" } else { "" },
@@ -161,6 +172,7 @@ impl RefractionMaps {
         let seen = |count| strata(count, studio.spectrum(), !self.picture.unadapted);
         let survey = Survey {
             bands: &seen(self.bands),
+            places: self.places,
             shades: &seen(self.picture.wavelengths),
             looks: self.picture.samples.unwrap_or(LOOKS),
         };

@@ -24,8 +24,11 @@ use std::path::{Path, PathBuf};
 /// The largest side of a map, in pixels.
 pub const MOST_PIXELS: u32 = 4096;
 
-/// The most bands of one map.
+/// The most bands of one map, each counted as often as pixels have places.
 pub const MOST_BANDS: u32 = 16;
+
+/// The most places of a pixel in one band.
+pub const MOST_PLACES: u32 = 8;
 
 /// The text, or attribute, in which a map tells what its bands are.
 const ABOUT: &str = "Refraction";

@@ -1,9 +1,9 @@
 //! Refraction maps: for each pixel the place on a background where the light behind it comes from. Traced once, looked up
 //! ever after: a background that moves is refracted without tracing.
 //!
-//! A pixel has one place, that of the strongest path which reaches the background through it. The paths beside it, inner
-//! reflections that come out elsewhere, are counted to its weight: what is white behind stays white. All light from
-//! elsewhere is in the diffuse layer, as it is under the light given.
+//! A pixel has one place, that of the strongest path which reaches the background through it, or several. The paths beside
+//! them, inner reflections that come out elsewhere, are counted to the weight of the nearest: what is white behind stays
+//! white. All light from elsewhere is in the diffuse layer, as it is under the light given.
 
 mod trace;
 
@@ -39,13 +39,14 @@ pub struct Place {
     pub weight: f32,
 }
 
-/// A map at one wavelength.
+/// One place of each pixel at one wavelength.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MapBand {
     /// The wavelength in nm.
     pub nm: f64,
     /// The linear colour in which red, green and blue light of the background is seen that comes in this band alone: its
-    /// columns. Over all bands the sum is 1.
+    /// columns. Over all bands the sum is 1; where pixels have several places, each is of a band of its own, one after the
+    /// other, and all of them have the same response.
     pub response: DMat3,
     /// Row by row from the top.
     pub places: Vec<Place>,
@@ -56,7 +57,7 @@ pub struct MapBand {
 pub struct RefractionMap {
     /// Pixels across and down.
     pub size: [u32; 2],
-    /// One band for all light, or several, so that the look-up keeps its rainbow.
+    /// One band for all light, or several, so that the look-up keeps its rainbow; each as often as pixels have places.
     pub bands: Vec<MapBand>,
     /// The diffuse layer: light that does not come from the background, premultiplied, and as cover what it hides of the
     /// background: 1 less the weight, as seen in white light and evened out over the pixel.
@@ -68,6 +69,8 @@ pub struct RefractionMap {
 pub struct Survey<'a> {
     /// The map's bands.
     pub bands: &'a [Stratum],
+    /// Places of a pixel in each band, at least 1: of more, what is seen twice through a pixel is looked up twice.
+    pub places: u32,
     /// The wavelengths of the diffuse layer.
     pub shades: &'a [Stratum],
     /// Looks that the diffuse layer is made of, at least 1; the first is through the pixels' middles.

@@ -29,7 +29,7 @@ fn a_refraction_map_comes_in_every_coding_with_its_diffuse_layer_a_page_and_a_pr
     let (size, _, told) = png(&desk.at("maps/cube-refraction-preview.png"));
     assert_eq!(size, (48, 32));
     assert!(
-        told.contains("refraction map, bands 1; background 3 girdle radii behind, 2 times as wide"),
+        told.contains("refraction map, bands 1, places 1; background 3 girdle radii behind, 2 times as wide"),
         "{told}"
     );
     assert!(told.contains("% of the light comes from the background"), "{told}");
@@ -50,6 +50,15 @@ fn a_refraction_map_comes_in_every_coding_with_its_diffuse_layer_a_page_and_a_pr
     let three = paths(&desk.at("three"), "cube", 3, Coding::Tiles);
     let map = read(&three, &diffuse_path(&desk.at("three"), "cube")).unwrap();
     assert!(map.bands.len() == 3 && map.bands[0].nm < map.bands[2].nm);
+    // Of several places as well, the stronger one first.
+    desk.done(
+        "refraction-map cube.toml --size 32 --samples 1 --wavelengths 2 --bands 2 --places 2 --tilt 25 --perspective 5 --out four",
+    );
+    let four = paths(&desk.at("four"), "cube", 4, Coding::Tiles);
+    let map = read(&four, &diffuse_path(&desk.at("four"), "cube")).unwrap();
+    assert!(map.bands[0].nm == map.bands[1].nm && map.bands[1].nm < map.bands[2].nm);
+    let weight = |band: usize| map.bands[band].places.iter().map(|place| place.weight).sum::<f32>();
+    assert!(weight(1) > 0.0 && weight(0) > weight(1), "{} {}", weight(0), weight(1));
 }
 
 #[test]
@@ -81,6 +90,8 @@ fn what_a_refraction_map_cannot_be_is_told() {
         ("--no-jitter", "--no-jitter"),
         ("--span 0.5", "--span"),
         ("--bands 17", "17"),
+        ("--bands 8 --places 3", "24 maps in all"),
+        ("--places 9", "9"),
     ] {
         let said = desk.refused(&format!("refraction-map cube.toml --out none {options}"), 2);
         assert!(said.contains(told), "{options}: {said}");

@@ -17,9 +17,9 @@ use egui::ColorImage;
 use std::sync::Arc;
 
 /// What maps take that are looked up at once: one of several bands takes as many times as long to look up.
-const ROUGH: Detail = Detail { bands: 1, shades: 3, looks: 1 };
-const FAIR: Detail = Detail { bands: 1, shades: 4, looks: 1 };
-const FINE: Detail = Detail { bands: 3, shades: 6, looks: 4 };
+const ROUGH: Detail = Detail { bands: 1, places: 1, shades: 3, looks: 1 };
+const FAIR: Detail = Detail { bands: 1, places: 1, shades: 4, looks: 1 };
+const FINE: Detail = Detail { bands: 3, places: 1, shades: 6, looks: 4 };
 
 /// Bands of wavelengths of a traced pane: while the hand moves, and at its finest.
 const FEW: u32 = 3;

@@ -16,15 +16,21 @@ pub const SPAN: f64 = 2.0;
 pub struct Detail {
     /// Bands of wavelengths of its places.
     pub bands: u32,
+    /// Places of a pixel in each.
+    pub places: u32,
     /// Wavelengths of the diffuse layer,
     pub shades: u32,
     /// and its looks.
     pub looks: u32,
 }
 
-/// Traces the map of a shot as it is exported, of so many bands.
-pub fn survey(shot: &Shot, bands: u32, watch: Watch) -> Result<(RefractionMap, Carried), Trouble> {
-    traced(shot, shot.film, &Detail { bands, shades: 16, looks: 4 }, watch)
+/// Traces the map of a shot as it is exported, of so many bands and so many places of a pixel in each.
+pub fn survey(
+    shot: &Shot,
+    [bands, places]: [u32; 2],
+    watch: Watch,
+) -> Result<(RefractionMap, Carried), Trouble> {
+    traced(shot, shot.film, &Detail { bands, places, shades: 16, looks: 4 }, watch)
 }
 
 /// Traces the map of a shot on another film.
@@ -40,7 +46,12 @@ pub fn traced(
     let size = whole * SPAN * shot.view.widening(distance);
     let plane = Backdrop { distance, size, both_sides: false };
     let bands = |count| strata(count, &shot.light.light.spectrum, true);
-    let survey = Survey { bands: &bands(detail.bands), shades: &bands(detail.shades), looks: detail.looks };
+    let survey = Survey {
+        bands: &bands(detail.bands),
+        places: detail.places,
+        shades: &bands(detail.shades),
+        looks: detail.looks,
+    };
     let (map, carried) = RefractionMap::trace(&sitting(shot, &setting, film, None), &plane, &survey, watch)?;
     let manner = Develop { exposure: shot.exposure, bloom: None, ..Develop::default() };
     Ok((map.developed(&manner), carried))

@@ -106,7 +106,7 @@ pub fn compare(
     let scene = Scene::new(pane, background)?;
     let plane = Backdrop { distance: scene.distance(around.gap), size: scene.size, both_sides: false };
     let bands = strata(3, &Illuminant::D65, true);
-    let survey = Survey { bands: &bands, shades: &[], looks: 1 };
+    let survey = Survey { bands: &bands, places: 1, shades: &[], looks: 1 };
     let (map, carried) =
         scene.sit(background, around, |sitting| RefractionMap::trace(sitting, &plane, &survey, watch))?;
     let traced = scene.traced(background, around, watch)?;

@@ -10,6 +10,9 @@ use crate::trace::{Stopped, Watch};
 use glam::{DMat3, DVec2, DVec3};
 use rayon::prelude::*;
 
+/// Places that are nearer than this, pixels of the picture, are one.
+const SAME: f64 = 0.25;
+
 /// Rows traced between two calls of the watch.
 const PIECE: u32 = 8;
 
@@ -27,6 +30,8 @@ struct Scene<'a> {
     sitting: &'a Sitting<'a>,
     surround: Surround<'a>,
     plane: &'a Backdrop,
+    /// Pixels of the picture that the plane is wide and high, seen straight on.
+    pixels: DVec2,
     camera: Camera,
     company: Company,
 }
@@ -46,6 +51,7 @@ impl RefractionMap {
             sitting,
             surround: Surround { behind: None, ..sitting.surround },
             plane,
+            pixels: plane.size / sitting.film.pixel,
             camera: Camera::reaching(sitting.view, sitting.reach()),
             company: Company::new(sitting),
         };
@@ -59,9 +65,10 @@ impl RefractionMap {
             let [_, red, green, blue] = s.response;
             MapBand { nm: s.at(0.5), response: DMat3::from_cols(red, green, blue), places: Vec::new() }
         };
+        let places = survey.places.max(1) as usize;
         let mut map = Self {
             size: [width, height],
-            bands: survey.bands.iter().map(band).collect(),
+            bands: survey.bands.iter().flat_map(|s| std::iter::repeat_n(s, places)).map(band).collect(),
             diffuse: Linear { width, height, pixels: Vec::new() },
         };
         let (mut carried, mut hits) = (Carried::default(), 0);
@@ -71,7 +78,7 @@ impl RefractionMap {
             }
             let rows: Vec<Row> = (first..height.min(first + PIECE))
                 .into_par_iter()
-                .map(|y| scene.row(y, &middle[0].1, &shades))
+                .map(|y| scene.row(y, (&middle[0].1, places), &shades))
                 .collect();
             for row in rows {
                 map.bands.iter_mut().zip(row.places).for_each(|(band, places)| band.places.extend(places));
@@ -90,10 +97,10 @@ impl RefractionMap {
 }
 
 impl Scene<'_> {
-    fn row(&self, y: u32, bands: &[Company], shades: &[(Look, Vec<Company>)]) -> Row {
+    fn row(&self, y: u32, (bands, places): (&[Company], usize), shades: &[(Look, Vec<Company>)]) -> Row {
         let width = self.sitting.film.size[0];
         let mut row = Row {
-            places: vec![Vec::with_capacity(width as usize); bands.len()],
+            places: vec![Vec::with_capacity(width as usize); bands.len() * places],
             diffuse: Vec::with_capacity(width as usize),
             behind: 0.0,
             single: 0.0,
@@ -103,12 +110,14 @@ impl Scene<'_> {
             let corner = DVec2::new(f64::from(x), f64::from(y));
             let (start, first) = self.start(corner + 0.5);
             row.hits += u32::from(first.is_some());
-            for (company, places) in bands.iter().zip(&mut row.places) {
-                let (place, single) = self.strongest(company, &start, first);
-                places.push(place);
+            for (company, columns) in bands.iter().zip(row.places.chunks_mut(places)) {
+                let (found, own) = self.strongest(company, &start, first, places);
+                let all: f64 = found.iter().map(|place| f64::from(place.weight)).sum();
+                let padded = found.into_iter().chain(std::iter::repeat(Place::default()));
+                columns.iter_mut().zip(padded).for_each(|(column, place)| column.push(place));
                 if first.is_some() {
-                    row.behind += f64::from(place.weight);
-                    row.single += single;
+                    row.behind += all;
+                    row.single += own;
                 }
             }
             let light: Shade = shades.iter().map(|(look, bands)| self.shade(look, bands, corner)).sum();
@@ -123,22 +132,48 @@ impl Scene<'_> {
         (start, self.company.first(&start))
     }
 
-    /// The strongest path to the background with the weight of all of them, and its own.
-    fn strongest(&self, company: &Company, start: &Waiting, first: Option<First>) -> (Place, f64) {
-        let (mut at, mut most, mut sum) = (DVec2::ZERO, 0.0, 0.0);
+    /// The places of the strongest paths to the background, so many at most, which have the weight of all paths between them;
+    /// and the weight that is their own.
+    fn strongest(
+        &self,
+        company: &Company,
+        start: &Waiting,
+        first: Option<First>,
+        most: usize,
+    ) -> (Vec<Place>, f64) {
+        let mut paths: Vec<(DVec2, f64)> = vec![];
         let mut leave = |ray: &Waiting| {
-            if let Some(place) = self.plane.place(&self.surround.eye, ray.origin, ray.direction) {
-                sum += ray.weight;
-                if ray.weight > most {
-                    (at, most) = (place, ray.weight);
-                }
-            }
+            let met = self.plane.place(&self.surround.eye, ray.origin, ray.direction);
+            paths.extend(met.filter(|_| ray.weight > 0.0).map(|place| (place, ray.weight)));
         };
         match &first {
             Some(first) => drop(company.follow(start, first, leave)),
             None => leave(start),
         }
-        (Place { u: at.x as f32, v: at.y as f32, weight: sum.min(1.0) as f32 }, most)
+        // Of paths as strong as one another the first stays the first.
+        paths.sort_by(|a, b| b.1.total_cmp(&a.1));
+        let (mut kept, mut own): (Vec<(DVec2, f64)>, f64) = (Vec::with_capacity(most), 0.0);
+        for (at, weight) in paths {
+            let apart = |kept: &(DVec2, f64)| ((kept.0 - at) * self.pixels).length_squared();
+            let nearest = (0..kept.len()).min_by(|&a, &b| apart(&kept[a]).total_cmp(&apart(&kept[b])));
+            match nearest {
+                Some(nearest) if kept.len() == most || apart(&kept[nearest]) < SAME * SAME => {
+                    kept[nearest].1 += weight;
+                }
+                _ => {
+                    kept.push((at, weight));
+                    own += weight;
+                }
+            }
+        }
+        // What rounding has made too much.
+        let scale = 1.0 / kept.iter().map(|(_, weight)| weight).sum::<f64>().max(1.0);
+        let place = |(at, weight): (DVec2, f64)| Place {
+            u: at.x as f32,
+            v: at.y as f32,
+            weight: (weight * scale) as f32,
+        };
+        (kept.into_iter().map(place).collect(), own)
     }
 
     /// What one look sees at a pixel.
