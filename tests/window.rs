@@ -51,8 +51,8 @@ impl Screen {
         Some(Self { server, display: format!(":{}", number.trim()), folder })
     }
 
-    /// Starts the program, and waits until its window is there and its pictures are finished.
-    fn start(&self, home: &Path) -> Child {
+    /// Starts the program, waits until its window is there and its pictures are finished, and what it shows then.
+    fn start(&self, home: &Path) -> (Child, Pixels) {
         let program = Command::new(env!("CARGO_BIN_EXE_brillianteer"))
             .env("DISPLAY", &self.display)
             .env("XDG_DATA_HOME", home)
@@ -61,8 +61,7 @@ impl Screen {
             .spawn()
             .unwrap();
         self.until("the window", || !self.asked(&["search", "--name", "Brillianteer"]).trim().is_empty());
-        self.come_to_rest();
-        program
+        (program, self.come_to_rest())
     }
 
     /// What xdotool answers.
@@ -160,8 +159,7 @@ fn exit_code(program: &mut Child, screen: &Screen) -> Option<i32> {
 fn the_program_opens_its_window_ends_cleanly_and_comes_back_as_it_was_left() {
     let Some(screen) = Screen::open("the_program_opens_its_window") else { return };
     let home = tempfile::tempdir().unwrap();
-    let mut program = screen.start(home.path());
-    let four = screen.come_to_rest();
+    let (mut program, four) = screen.start(home.path());
     four.save("window.png");
     assert!(four.colours() > 2000, "only {} colours: no stone is in sight", four.colours());
     screen.press("2");
@@ -169,8 +167,7 @@ fn the_program_opens_its_window_ends_cleanly_and_comes_back_as_it_was_left() {
     assert!(two.changed(&four) > 0.1, "two views look like four");
     screen.press("ctrl+q");
     assert_eq!(exit_code(&mut program, &screen), Some(0));
-    let mut again = screen.start(home.path());
-    let restored = screen.come_to_rest();
+    let (mut again, restored) = screen.start(home.path());
     restored.save("window-again.png");
     let off = restored.changed(&two);
     assert!(off < 0.01, "{:.1} % of the window is another after a new start", 100.0 * off);

@@ -97,44 +97,40 @@ pub(super) fn buttons(ui: &mut Ui, names: &[&str]) -> Option<usize> {
     .inner
 }
 
-fn unsaved(editor: &mut Editor, ui: &mut Ui, then: &Then) -> bool {
+/// Asks before something is left behind: it can be kept, as `keep` does, left, or nothing done at all. Whether it stays open.
+fn parting(
+    editor: &mut Editor,
+    ui: &mut Ui,
+    then: &Then,
+    (heading, text, [kept, left]): (&str, &str, [&str; 2]),
+    keep: impl FnOnce(&mut Editor),
+) -> bool {
     ui.set_width(380.0);
-    ui.heading("Save the changes?");
-    ui.label(format!("{} has changes that are not saved yet.", editor.document.title()));
-    match buttons(ui, &["Save", "Don't save", "Cancel"]) {
-        Some(0) => {
-            editor.save_then(then.clone());
-            false
-        }
-        Some(1) => {
-            editor.then(then.clone());
-            false
-        }
-        Some(_) => false,
-        None => true,
+    ui.heading(heading);
+    ui.label(text);
+    match buttons(ui, &[kept, left, "Cancel"]) {
+        Some(0) => keep(editor),
+        Some(1) => editor.then(then.clone()),
+        Some(_) => {}
+        None => return true,
     }
+    false
+}
+
+fn unsaved(editor: &mut Editor, ui: &mut Ui, then: &Then) -> bool {
+    let text = format!("{} has changes that are not saved yet.", editor.document.title());
+    let words = ("Save the changes?", text.as_str(), ["Save", "Don't save"]);
+    parting(editor, ui, then, words, |editor| editor.save_then(then.clone()))
 }
 
 fn moved(editor: &mut Editor, ui: &mut Ui, then: &Then) -> bool {
-    ui.set_width(380.0);
-    ui.heading("Leave these copies?");
-    ui.label(
-        "They lie otherwise than they did at first. No cut's file holds them: Export writes them as a scene.",
-    );
-    match buttons(ui, &["Export…", "Leave them", "Cancel"]) {
-        Some(0) => {
-            let mut export = ExportDialog::new(editor);
-            export.plan.selection.scene = true;
-            editor.dialog = Some(Dialog::Export(Box::new(export)));
-            false
-        }
-        Some(1) => {
-            editor.then(then.clone());
-            false
-        }
-        Some(_) => false,
-        None => true,
-    }
+    let text =
+        "They lie otherwise than they did at first. No cut's file holds them: Export writes them as a scene.";
+    parting(editor, ui, then, ("Leave these copies?", text, ["Export…", "Leave them"]), |editor| {
+        let mut export = ExportDialog::new(editor);
+        export.plan.selection.scene = true;
+        editor.dialog = Some(Dialog::Export(Box::new(export)));
+    })
 }
 
 fn recover(editor: &mut Editor, ui: &mut Ui, found: &Found) -> bool {

@@ -1,0 +1,156 @@
+//! What is at fault, in files, command lines and outputs, and how that is told.
+
+use super::desk::*;
+use serde_json::{Value, json};
+
+#[test]
+fn a_file_at_fault_is_named_with_its_line_or_facet_and_nothing_is_written() {
+    let desk = Desk::new();
+    let line = "x".repeat(1 << 20);
+    let cube = desk.read("cube.toml");
+    let named = |(name, text): (&String, &Vec<u8>)| {
+        let first = String::from_utf8_lossy(text).lines().next().unwrap().to_string();
+        (name.clone(), first.strip_prefix("# says: ").unwrap().to_string())
+    };
+    let mut cases: Vec<(String, String)> = files(&desk.at("bad")).iter().map(named).collect();
+    for (name, says, text) in [
+        ("empty", ":1: format", vec![]),
+        ("rubbish", ":1: this is not UTF-8", (0..4096_u32).map(|i| ((i * i * 7) >> 3) as u8 | 128).collect()),
+        ("noughts", ":1: ", vec![0; 4096]),
+        ("long-line", ":2: ", format!("format = 1\n{line}\n").into_bytes()),
+        ("long-name", ":3: material", cube.replace("diamond", &line).into_bytes()),
+        ("large", "larger than 4 MiB", vec![b'#'; (4 << 20) + 1]),
+        ("missing", "no such file", vec![]),
+        ("directory", "directory", vec![]),
+    ] {
+        desk.write(&format!("bad/{name}.toml"), text);
+        cases.push((format!("{name}.toml"), says.into()));
+    }
+    std::fs::remove_file(desk.at("bad/missing.toml")).unwrap();
+    std::fs::remove_file(desk.at("bad/directory.toml")).unwrap();
+    std::fs::create_dir(desk.at("bad/directory.toml")).unwrap();
+    for (name, says) in cases {
+        for command in ["export --out out", "info --json", "measure"] {
+            let said = desk.refused(&format!("{command} bad/{name}"), 1);
+            assert!(said.starts_with(&format!("error: bad/{name}:")) && said.contains(&says), "{said:.500}");
+            assert!(said.lines().count() == 1 && said.len() < 1000, "{} bytes: {said:.500}", said.len());
+        }
+        assert!(!desk.at("out").exists(), "{name}: something is written");
+    }
+}
+
+#[test]
+fn what_has_no_figures_is_refused_and_never_measured_as_nothing() {
+    let desk = Desk::new();
+    let wrong = |(offset, options): &(&str, &str)| {
+        let text = desk.read("cube.toml").replace("offset = 1", &format!("offset = {offset}"));
+        desk.write("other.toml", text);
+        let (code, printed, said) = desk.run(&format!("measure other.toml --json {options}"));
+        if code == 1 {
+            return !said.starts_with("error: other.toml");
+        }
+        let figures: Value = serde_json::from_str(&printed).unwrap();
+        figures["unresolved"].is_null() || (energy(&figures) - 1.0).abs() > 1e-9
+    };
+    let mut cases = vec![
+        ("1e300", ""),
+        ("1e-300", ""),
+        ("1e60", ""),
+        ("1e-60", ""),
+        ("10", "--perspective 5"),
+        ("10", "--perspective 9.9"),
+    ];
+    cases.retain(wrong);
+    assert!(cases.is_empty(), "cubes of these offsets have figures that do not add up: {cases:?}");
+}
+
+#[test]
+fn one_bad_file_keeps_no_other_from_being_done_and_two_of_one_name_are_refused() {
+    let desk = Desk::new();
+    let three = "tolkowsky bad/nan.toml cube.toml";
+    let said = desk.refused(&format!("export --views profile --format svg {three}"), 1);
+    assert!(
+        said.starts_with("error: bad/nan.toml:6: ") && said.ends_with("1 of 3 files failed: bad/nan.toml\n")
+    );
+    let made: Vec<String> = files(&desk.at("out")).into_keys().collect();
+    assert_eq!(made, ["cube-profile.svg", "tolkowsky-profile.svg"]);
+    for command in ["info", "measure"] {
+        let (code, printed, _) = desk.run(&format!("{command} --json {three}"));
+        let file = |line| serde_json::from_str::<Value>(line).unwrap()["file"].clone();
+        assert_eq!(
+            (code, printed.lines().map(file).collect()),
+            (1, vec![json!("tolkowsky"), json!("cube.toml")])
+        );
+    }
+    std::fs::copy(desk.at("cube.toml"), desk.at("bad/cube.toml")).unwrap();
+    let (code, _, said) = desk.run("export cube.toml bad/cube.toml --out twins");
+    assert!(code != 0 && said.contains("bad/cube.toml") && !desk.at("twins").exists(), "{said}");
+    desk.write("strongest.toml", desk.done("scopes aset").replace("\"aset\"", "\"strongest\""));
+    std::fs::copy(desk.at("cube.toml"), desk.at("cube-aset.toml")).unwrap();
+    let line = "export cube.toml cube-aset.toml --views aset --scope strongest.toml --out twins";
+    assert!(desk.refused(line, 2).contains("'cube-aset-strongest'") && !desk.at("twins").exists());
+}
+
+#[test]
+fn an_output_that_cannot_be_written_ends_with_code_3_and_leaves_no_pieces() {
+    let desk = Desk::new();
+    for out in ["cube.toml", "cube.toml/deeper"] {
+        let said = desk.refused(&format!("export cube.toml --size 16 --out {out}"), 3);
+        assert!(said.starts_with("error: cube.toml") && said.lines().count() == 1, "{said}");
+    }
+    std::fs::create_dir_all(desk.at("out/cube-aset.png")).unwrap();
+    assert!(desk.refused("export cube.toml --size 16 --views aset", 3).contains("cube-aset.png"));
+    assert_eq!(std::fs::read_dir(desk.at("out")).unwrap().count(), 1);
+    if let Ok(full) = std::fs::File::options().write(true).open("/dev/full") {
+        assert_eq!(desk.command("info cube.toml").stdout(full).output().unwrap().status.code(), Some(3));
+    }
+}
+
+#[test]
+fn a_reader_that_goes_away_is_no_reason_to_panic() {
+    let desk = Desk::new();
+    let gone = || std::io::pipe().unwrap().1;
+    for line in [
+        "info tolkowsky",
+        "measure cube.toml --json",
+        "materials",
+        "cuts",
+        "scenes",
+        "scopes aset",
+        "lights fire",
+        "--help",
+    ] {
+        let (code, _, said) = came_of(line, &desk.command(line).stdout(gone()).output().unwrap());
+        assert!(code == 0 && said.is_empty(), "{line}: code {code}: {said}");
+    }
+    let line = "info bad/nan.toml tolkowsky";
+    let (code, printed, _) = came_of(line, &desk.command(line).stderr(gone()).output().unwrap());
+    assert!(code == 1 && printed.contains("Tolkowsky"), "code {code}");
+}
+
+#[test]
+#[cfg(all(feature = "app", target_os = "linux"))]
+fn without_a_screen_the_window_says_what_it_needs() {
+    let desk = Desk::new();
+    for line in ["", "edit cube.toml"] {
+        let mut command = desk.command(line);
+        command.env_remove("DISPLAY").env_remove("WAYLAND_DISPLAY").env_remove("WAYLAND_SOCKET");
+        let (code, _, said) = came_of(line, &command.output().unwrap());
+        assert!(code == 3 && said.contains("the window cannot be opened"), "{code}: {said}");
+    }
+}
+
+#[test]
+fn a_command_line_at_fault_ends_with_code_2() {
+    let desk = Desk::new();
+    let ill_formed = "polish, measure, measure cube.toml --colour, measure cube.toml --index two, export cube.toml --size 15, \
+        measure cube.toml --tilt 1 --eye-tilt 1, measure cube.toml --index 2 --wavelength 500, measure cube.toml --side up, \
+        export cube.toml --size 16385, export cube.toml --views asset, export cube.toml --format gif";
+    let out_of_range = "--index 0.9, --index nan, --wavelength 0, --tilt 91, --eye-tilt nan, --azimuth inf, --head 90, \
+        --unresolved 0, --unresolved nan, --perspective 1, --perspective 5 --tracer beam";
+    let impossible = "export cube.toml --format exr --size 9000, export cube.toml --views aset,aset, cuts none, scopes none, lights none";
+    let ranged = out_of_range.split(", ").map(|options| format!("measure cube.toml {options}"));
+    let lines = ill_formed.split(", ").chain(impossible.split(", ")).map(String::from).chain(ranged);
+    let wrong: Vec<_> = lines.map(|line| (desk.run(&line).0, line)).filter(|(code, _)| *code != 2).collect();
+    assert!(wrong.is_empty() && !desk.at("out").exists(), "not code 2: {wrong:?}");
+}
