@@ -2,16 +2,14 @@
 #![cfg(all(feature = "app", target_os = "linux"))]
 #![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a test fails by it; what is skipped is told")]
 
+use serde_json::Value;
 use std::io::{BufRead, BufReader};
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 
 /// How long a window may take to open or close, and all its pictures to be finished, where cores are few and shared.
-const PATIENCE: Duration = Duration::from_secs(120);
-
-/// A screen that does not change for so long shows all it is going to.
-const STILL: Duration = Duration::from_millis(4000);
+const PATIENCE: Duration = Duration::from_secs(600);
 
 /// A screen in memory.
 struct Screen {
@@ -51,17 +49,20 @@ impl Screen {
         Some(Self { server, display: format!(":{}", number.trim()), folder })
     }
 
-    /// Starts the program, waits until its window is there and its pictures are finished, and what it shows then.
-    fn start(&self, home: &Path) -> (Child, Pixels) {
+    /// Starts the program, and answers it with what the window shows once it rests with its views arranged so.
+    fn start(&self, home: &Path, layout: &str) -> (Child, Pixels) {
+        // What an earlier window said is not about this one.
+        let _ = std::fs::remove_file(self.state_file());
         let program = Command::new(env!("CARGO_BIN_EXE_brillianteer"))
             .env("DISPLAY", &self.display)
             .env("XDG_DATA_HOME", home)
             .env("XDG_RUNTIME_DIR", home)
+            .env("BRILLIANTEER_STATE_FILE", self.state_file())
             .env_remove("WAYLAND_DISPLAY")
             .spawn()
             .unwrap();
         self.until("the window", || !self.asked(&["search", "--name", "Brillianteer"]).trim().is_empty());
-        (program, self.come_to_rest())
+        (program, self.at_rest(layout))
     }
 
     /// What xdotool answers.
@@ -97,18 +98,19 @@ impl Screen {
         Pixels(width as u32, height as u32, rgb.collect())
     }
 
-    fn come_to_rest(&self) -> Pixels {
-        let begun = Instant::now();
-        let (mut last, mut since) = (self.pixels(), Instant::now());
-        while since.elapsed() < STILL {
-            assert!(begun.elapsed() < PATIENCE, "the window does not come to rest");
-            std::thread::sleep(Duration::from_millis(100));
-            let now = self.pixels();
-            if now != last {
-                (last, since) = (now, Instant::now());
-            }
-        }
-        last
+    /// Where the program says whether its window is at rest.
+    fn state_file(&self) -> PathBuf {
+        self.folder.path().join("state.json")
+    }
+
+    /// What the screen shows once the program says that its window rests, with its views arranged so.
+    fn at_rest(&self, layout: &str) -> Pixels {
+        let state =
+            || -> Option<Value> { serde_json::from_slice(&std::fs::read(self.state_file()).ok()?).ok() };
+        self.until("a window at rest", || {
+            state().is_some_and(|state| state["at_rest"] == true && state["layout"] == layout)
+        });
+        self.pixels()
     }
 }
 
@@ -159,15 +161,15 @@ fn exit_code(program: &mut Child, screen: &Screen) -> Option<i32> {
 fn the_program_opens_its_window_ends_cleanly_and_comes_back_as_it_was_left() {
     let Some(screen) = Screen::open("the_program_opens_its_window") else { return };
     let home = tempfile::tempdir().unwrap();
-    let (mut program, four) = screen.start(home.path());
+    let (mut program, four) = screen.start(home.path(), "Four");
     four.save("window.png");
     assert!(four.colours() > 2000, "only {} colours: no stone is in sight", four.colours());
     screen.press("2");
-    let two = screen.come_to_rest();
+    let two = screen.at_rest("Two");
     assert!(two.changed(&four) > 0.1, "two views look like four");
     screen.press("ctrl+q");
     assert_eq!(exit_code(&mut program, &screen), Some(0));
-    let (mut again, restored) = screen.start(home.path());
+    let (mut again, restored) = screen.start(home.path(), "Two");
     restored.save("window-again.png");
     let off = restored.changed(&two);
     assert!(off < 0.01, "{:.1} % of the window is another after a new start", 100.0 * off);

@@ -18,6 +18,7 @@ use super::probe::Probe;
 use super::profile_view::ProfileView;
 use super::refraction_view::Flowing;
 use super::shows::Shows;
+use super::state_file::StateFile;
 use super::studio::{Answer, Ask, Grade, Order, Shot, Slot, Studio, Taken, Tilts, Which};
 use super::{design_panel, dialogs, figures_panel, menus, stage, theme};
 use crate::io::library;
@@ -42,11 +43,13 @@ pub struct Setup {
     pub chooser: Chooser,
     /// How the window is arranged where nothing was kept.
     pub desk: Desk,
+    /// Where the window says whether it is at rest; none for no such file.
+    pub state_file: Option<StateFile>,
 }
 
 impl Default for Setup {
     fn default() -> Self {
-        Self { file: None, safe: None, desk: Desk::default(), chooser: Arc::new(by_dialog) }
+        Self { file: None, safe: None, desk: Desk::default(), chooser: Arc::new(by_dialog), state_file: None }
     }
 }
 
@@ -120,6 +123,7 @@ pub struct Editor {
     /// Whether renders are seen in three bands of wavelengths for as long as a key is down.
     pub(super) shows_three: bool,
     title: String,
+    state_file: Option<StateFile>,
 }
 
 /// Where a desk is kept between starts.
@@ -183,6 +187,7 @@ impl Editor {
             may_close: false,
             shows_three: false,
             title: String::new(),
+            state_file: setup.state_file,
         };
         let named = |path: &Path| library::cut(&path.to_string_lossy()).filter(|_| !path.is_file()).is_some();
         match setup.file.or_else(|| editor.desk.last.clone().filter(|p| p.exists())) {
@@ -367,7 +372,6 @@ impl Editor {
     }
 
     /// Whether all pictures and figures are as good as they get, and nothing is under way.
-    #[cfg(test)]
     pub(super) fn is_idle(&self) -> bool {
         self.studio.is_idle()
             && self.looker.is_idle()
@@ -404,6 +408,15 @@ impl Editor {
         }
         self.name_window(&ctx);
         self.close(&ctx);
+        self.publish_state(&ctx);
+    }
+
+    /// Tells a test that waits whether the window is at rest.
+    fn publish_state(&mut self, ctx: &Context) {
+        let is_quiet = self.is_idle() && !self.studio.sharpens() && !ctx.has_requested_repaint();
+        if self.state_file.as_mut().is_some_and(|file| file.note(is_quiet, self.desk.layout)) {
+            ctx.request_repaint();
+        }
     }
 }
 

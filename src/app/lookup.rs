@@ -100,7 +100,6 @@ impl Looker {
     }
 
     /// Whether everything asked for has been answered.
-    #[cfg(test)]
     pub fn is_idle(&self) -> bool {
         !self.desk.busy.load(Ordering::SeqCst)
     }

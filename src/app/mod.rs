@@ -40,6 +40,7 @@ mod refraction_view;
 mod rows;
 mod shows;
 mod stage;
+mod state_file;
 mod studio;
 mod theme;
 mod tier_rows;
@@ -49,6 +50,7 @@ pub use editor::{Editor, Setup};
 
 use crate::trace::gpu::Gpu;
 use eframe::egui_wgpu::{WgpuConfiguration, WgpuSetup, WgpuSetupCreateNew};
+use state_file::StateFile;
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -78,7 +80,10 @@ pub fn run(file: Option<PathBuf>) -> Result<(), String> {
     };
     let safe = eframe::storage_dir(ID);
     let create = move |context: &eframe::CreationContext<'_>| -> Result<Box<dyn eframe::App>, _> {
-        Ok(Box::new(Editor::new(context, Setup { file, safe, ..Setup::default() })?))
+        Ok(Box::new(Editor::new(
+            context,
+            Setup { file, safe, state_file: StateFile::from_environment(), ..Setup::default() },
+        )?))
     };
     eframe::run_native(ID, options, Box::new(create)).map_err(|e| {
         format!(

@@ -1,0 +1,84 @@
+//! A small file that says whether the window is at rest, for tests that work the real program: they wait for what it
+//! says instead of for time to pass.
+
+use super::desk::Layout;
+use crate::io::{WriteError, write};
+use serde::Serialize;
+use std::io::Write;
+use std::path::PathBuf;
+
+/// The environment variable that names the file; without it none is written.
+const VARIABLE: &str = "BRILLIANTEER_STATE_FILE";
+
+/// How many quiet frames in a row make a window that rests. A frame has still to be painted when it is noted, and a
+/// driver keeps up to three painted frames before it shows them.
+const QUIET_FRAMES: u32 = 4;
+
+/// What the file holds, as JSON.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+struct State {
+    /// Whether every picture and figure is final, and the screen shows them.
+    at_rest: bool,
+    /// How the views are arranged.
+    layout: Layout,
+}
+
+/// Writes the file whenever the state has changed.
+#[derive(Debug)]
+pub struct StateFile {
+    path: PathBuf,
+    written: Option<State>,
+    quiet_frames: u32,
+}
+
+impl StateFile {
+    /// The file that the environment names, if it names one.
+    pub fn from_environment() -> Option<Self> {
+        let path = std::env::var_os(VARIABLE).filter(|path| !path.is_empty())?;
+        Some(Self { path: path.into(), written: None, quiet_frames: 0 })
+    }
+
+    /// Takes note of a frame, at its end; `is_quiet` says that nothing is under way and no further frame was asked for.
+    /// Answers whether one more frame is needed to find out whether the window rests.
+    pub fn note(&mut self, is_quiet: bool, layout: Layout) -> bool {
+        self.quiet_frames = if is_quiet { self.quiet_frames.saturating_add(1) } else { 0 };
+        let at_rest = self.quiet_frames >= QUIET_FRAMES;
+        let state = State { at_rest, layout };
+        // A file that cannot be written makes the test fail that waits for it, and nobody else needs to know.
+        if self.written != Some(state) && self.put(&state).is_ok() {
+            self.written = Some(state);
+        }
+        is_quiet && !at_rest
+    }
+
+    fn put(&self, state: &State) -> Result<(), WriteError> {
+        let text = serde_json::to_vec(state).map_err(|e| WriteError::io(&self.path, e))?;
+        write(&self.path, |file| file.write_all(&text).map_err(|e| WriteError::io(&self.path, e)))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_window_rests_after_enough_quiet_frames_and_stops_resting_at_once() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("state.json");
+        let mut file = StateFile { path: path.clone(), written: None, quiet_frames: 0 };
+        let mut note = |is_quiet| {
+            let needs_another = file.note(is_quiet, Layout::Two);
+            let text = std::fs::read(&path).unwrap();
+            let state: serde_json::Value = serde_json::from_slice(&text).unwrap();
+            (needs_another, state["at_rest"].as_bool().unwrap())
+        };
+        for _ in 0..2 {
+            assert_eq!(note(false), (false, false));
+            for _ in 1..QUIET_FRAMES {
+                assert_eq!(note(true), (true, false));
+            }
+            assert_eq!(note(true), (false, true));
+            assert_eq!(note(true), (false, true));
+        }
+    }
+}
