@@ -3,6 +3,7 @@
 use super::history::History;
 use crate::cut::Design;
 use crate::io::design_file::{self, Brought, Format};
+use crate::io::mesh_options::MeshOptions;
 use crate::io::{cut_file, library};
 use crate::scene::{Company, Specimen, SpecimenError};
 use std::path::{Path, PathBuf};
@@ -113,12 +114,13 @@ impl Document {
         Self::of_library(FIRST_CUT)
     }
 
-    /// Opens a design.
+    /// Opens a design; the options are those of meshes.
     ///
     /// # Errors
     /// Text that names file, line and key, and what to do.
-    pub fn open(path: &Path) -> Result<Self, String> {
-        let Brought { design, warnings } = design_file::read(path).map_err(|e| e.to_string())?;
+    pub fn open(path: &Path, mesh: MeshOptions) -> Result<Self, String> {
+        let Brought { design, warnings, .. } =
+            design_file::read_with(path, mesh).map_err(|e| e.to_string())?;
         let document =
             Self::new(design, Some(path.to_owned())).map_err(|e| format!("{}: {e}", path.display()))?;
         Ok(Self { odd: warnings, ..document })
@@ -298,7 +300,7 @@ mod tests {
         assert!(document.update() && document.settle() && document.is_changed());
         document.save(path.clone()).unwrap();
         assert!(!document.is_changed() && document.title() == "mine.toml" && !document.is_changed_outside());
-        assert_eq!(Document::open(&path).unwrap().work.design, document.work.design);
+        assert_eq!(Document::open(&path, MeshOptions::default()).unwrap().work.design, document.work.design);
         std::fs::write(&path, "format = 1").unwrap();
         assert!(document.is_changed_outside());
         document.accept_outside();

@@ -23,6 +23,7 @@ use super::studio::{Answer, Ask, Grade, Order, Shot, Slot, Studio, Taken, Tilts,
 use super::{design_panel, dialogs, figures_panel, menus, stage, theme};
 use crate::io::library;
 use crate::io::lighting::{Lighting, LightingError};
+use crate::io::mesh_options::MeshOptions;
 use crate::measure::Figures;
 use crate::scene::Specimen;
 use crate::trace::gpu::Gpu;
@@ -37,6 +38,8 @@ use std::sync::mpsc::{Receiver, channel};
 pub struct Setup {
     /// A file to open.
     pub file: Option<PathBuf>,
+    /// How it is read where it is a mesh.
+    pub mesh: MeshOptions,
     /// Where unsaved work is kept; none to keep none.
     pub safe: Option<PathBuf>,
     /// Who is asked for files.
@@ -49,7 +52,14 @@ pub struct Setup {
 
 impl Default for Setup {
     fn default() -> Self {
-        Self { file: None, safe: None, desk: Desk::default(), chooser: Arc::new(by_dialog), state_file: None }
+        Self {
+            file: None,
+            mesh: MeshOptions::default(),
+            safe: None,
+            desk: Desk::default(),
+            chooser: Arc::new(by_dialog),
+            state_file: None,
+        }
     }
 }
 
@@ -195,7 +205,7 @@ impl Editor {
                 editor.begin_preset(&path.to_string_lossy().to_lowercase());
             }
             Some(path) if named(&path) => editor.begin_from_library(&path.to_string_lossy()),
-            Some(path) => editor.open(&path, Wanted::Anew),
+            Some(path) => editor.open_with(&path, Wanted::Anew, setup.mesh),
             None => {}
         }
         editor.offer_recovery();

@@ -48,6 +48,7 @@ mod tier_rows;
 pub use desk::Desk;
 pub use editor::{Editor, Setup};
 
+use crate::io::mesh_options::MeshOptions;
 use crate::trace::gpu::Gpu;
 use eframe::egui_wgpu::{WgpuConfiguration, WgpuSetup, WgpuSetupCreateNew};
 use state_file::StateFile;
@@ -61,11 +62,11 @@ const ID: &str = "brillianteer";
 const SIZE: [f32; 2] = [1440.0, 900.0];
 const LEAST: [f32; 2] = [1100.0, 640.0];
 
-/// Opens the window, on a file if one is given, and waits until it is closed.
+/// Opens the window, on a file if one is given, read with these options where it is a mesh, and waits until it is closed.
 ///
 /// # Errors
 /// Where there is no display, or nothing that can draw on it; what to do stands in the text.
-pub fn run(file: Option<PathBuf>) -> Result<(), String> {
+pub fn run(file: Option<PathBuf>, mesh: MeshOptions) -> Result<(), String> {
     let mut setup = WgpuSetupCreateNew::without_display_handle();
     // The tracer shares the device: what it needs is asked for.
     setup.device_descriptor = Arc::new(Gpu::wanted);
@@ -80,10 +81,8 @@ pub fn run(file: Option<PathBuf>) -> Result<(), String> {
     };
     let safe = eframe::storage_dir(ID);
     let create = move |context: &eframe::CreationContext<'_>| -> Result<Box<dyn eframe::App>, _> {
-        Ok(Box::new(Editor::new(
-            context,
-            Setup { file, safe, state_file: StateFile::from_environment(), ..Setup::default() },
-        )?))
+        let state_file = StateFile::from_environment();
+        Ok(Box::new(Editor::new(context, Setup { file, mesh, safe, state_file, ..Setup::default() })?))
     };
     eframe::run_native(ID, options, Box::new(create)).map_err(|e| {
         format!(

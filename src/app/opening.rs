@@ -5,6 +5,7 @@ use super::dialogs::{Dialog, Then};
 use super::document::{Document, Work};
 use super::editor::Editor;
 use super::preset::Preset;
+use crate::io::mesh_options::MeshOptions;
 use crate::io::scene_file;
 use std::path::{Path, PathBuf};
 use std::sync::mpsc::{Receiver, channel};
@@ -37,10 +38,10 @@ enum Came {
 
 impl Came {
     /// Reads a file; scenes are taken only to be worked on.
-    fn of(path: &Path, wanted: Wanted) -> Result<Self, String> {
+    fn of(path: &Path, wanted: Wanted, mesh: MeshOptions) -> Result<Self, String> {
         match wanted == Wanted::Anew && is_scene(path) {
             true => Preset::read(path).map(Box::new).map(Self::Scene),
-            false => Document::open(path).map(Box::new).map(Self::Design),
+            false => Document::open(path, mesh).map(Box::new).map(Self::Design),
         }
     }
 }
@@ -65,11 +66,16 @@ fn is_scene(path: &Path) -> bool {
 impl Editor {
     /// Opens a file; one that is still on its way for the same purpose is forgotten.
     pub(super) fn open(&mut self, path: &Path, wanted: Wanted) {
+        self.open_with(path, wanted, MeshOptions::default());
+    }
+
+    /// Opens a file as [`open`](Self::open) does; the options are those of meshes.
+    pub(super) fn open_with(&mut self, path: &Path, wanted: Wanted, mesh: MeshOptions) {
         let (sender, answer) = channel();
         let (name, wake) = (path.to_owned(), self.studio.wake());
         std::thread::spawn(move || {
             // Nobody waits for it any more where another was chosen.
-            let _ = sender.send(Came::of(&name, wanted));
+            let _ = sender.send(Came::of(&name, wanted, mesh));
             wake();
         });
         let opening = Opening { wanted, path: path.to_owned(), work: self.document.work.clone(), answer };

@@ -2,10 +2,10 @@
 
 use super::Failure;
 use super::specimen::Specimen;
-use crate::cut::from_mesh::Up;
 use crate::cut::{MaterialRef, Size};
 use crate::io::background::BackgroundRef;
 use crate::io::library;
+use crate::io::mesh_options::MeshOptions;
 use crate::io::scene_file::{self, Entry, SceneFile};
 use crate::optics::Material;
 use crate::scene::{Placed, Setting, overlapping};
@@ -60,12 +60,18 @@ struct Member<'a> {
 
 impl Assembly {
     /// Reads a cut file or a scene file, or takes a cut or a scene that comes with the program by its name, and warns of
-    /// what is odd. A material (a name or an index) and a size that are given are those of every stone.
-    pub fn load(file: &Path, material: Option<&str>, size: Option<Size>) -> Result<Self, Failure> {
+    /// what is odd. A material (a name or an index) and a size that are given are those of every stone, and every mesh
+    /// is read with the same options.
+    pub fn load(
+        file: &Path,
+        material: Option<&str>,
+        size: Option<Size>,
+        mesh: MeshOptions,
+    ) -> Result<Self, Failure> {
         let material = material.map(asked_material).transpose()?;
         match scene(file)? {
-            Some(scene) => Self::of_scene(file, scene, material.as_ref(), size),
-            None => Self::of_stone(Specimen::load(file)?, material, size),
+            Some(scene) => Self::of_scene(file, scene, material.as_ref(), (size, mesh)),
+            None => Self::of_stone(Specimen::load(file, mesh)?, material, size),
         }
     }
 
@@ -90,10 +96,10 @@ impl Assembly {
         file: &Path,
         scene: SceneFile,
         material: Option<&Material>,
-        size: Option<Size>,
+        (size, mesh): (Option<Size>, MeshOptions),
     ) -> Result<Self, Failure> {
         let path = file.display().to_string();
-        let specimens = specimens(file, &scene)?;
+        let specimens = specimens(file, &scene, mesh)?;
         let member = |(number, entry): (usize, &Entry)| {
             let specimen = &specimens[&entry.cut];
             let told = format!("stone {} ({})", number + 1, entry.cut);
@@ -152,13 +158,17 @@ fn asked_material(text: &str) -> Result<Material, Failure> {
 }
 
 /// The cuts of a scene, each read once, by what the scene calls them.
-fn specimens(file: &Path, scene: &SceneFile) -> Result<BTreeMap<String, Specimen>, Failure> {
+fn specimens(
+    file: &Path,
+    scene: &SceneFile,
+    mesh: MeshOptions,
+) -> Result<BTreeMap<String, Specimen>, Failure> {
     let mut specimens = BTreeMap::new();
     for (number, entry) in scene.stones.iter().enumerate() {
         if specimens.contains_key(&entry.cut) {
             continue;
         }
-        let specimen = specimen(file, &entry.cut).map_err(|failure| match failure {
+        let specimen = specimen(file, &entry.cut, mesh).map_err(|failure| match failure {
             Failure::Input(message) => at_entry(file, number, entry, &format!("cut: {message}")),
             other => other,
         })?;
@@ -168,11 +178,11 @@ fn specimens(file: &Path, scene: &SceneFile) -> Result<BTreeMap<String, Specimen
 }
 
 /// A file beside the scene's, or else a cut that comes with the program.
-fn specimen(scene: &Path, cut: &str) -> Result<Specimen, Failure> {
+fn specimen(scene: &Path, cut: &str, mesh: MeshOptions) -> Result<Specimen, Failure> {
     let beside = scene.parent().unwrap_or(Path::new("")).join(cut);
     match library::cut(cut).filter(|_| !scene.is_file() || !beside.is_file()) {
         Some(text) => Specimen::parse(cut, text),
-        None => Specimen::read(&beside, Up::Found),
+        None => Specimen::read(&beside, mesh),
     }
 }
 

@@ -4,6 +4,7 @@ use super::sampler::on_card;
 use super::specimen::Specimen;
 use super::{Failure, json, print};
 use crate::io::export::{Sampler, Subject};
+use crate::io::mesh_options::MeshOptions;
 use crate::math::Polytope;
 use crate::optics::{line, strata};
 use crate::picture::by_rays::Manner;
@@ -56,7 +57,7 @@ struct Task {
 
 impl Bench {
     pub fn run(&self) -> Result<(), Failure> {
-        let specimen = Specimen::load(Path::new("modern-ideal"))?;
+        let specimen = Specimen::load(Path::new("modern-ideal"), MeshOptions::default())?;
         let card = on_card();
         let mut tasks = vec![];
         for (size, bounces) in SCOPES {

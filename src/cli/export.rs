@@ -1,5 +1,6 @@
 //! `export`: pictures, drawings and figures of a stone, as files.
 
+use super::mesh_options::MeshArguments;
 use super::options::{LightOptions, ViewOptions};
 use super::progress::Progress;
 use super::specimen::{Specimen, stem};
@@ -35,6 +36,8 @@ pub struct Export {
     view: ViewOptions,
     #[command(flatten)]
     light: LightOptions,
+    #[command(flatten)]
+    mesh: MeshArguments,
 }
 
 impl ValueEnum for Format {
@@ -60,7 +63,7 @@ impl Export {
         self.distinct(&all)?;
         all.iter().try_for_each(Outputs::check)?;
         each_file(&self.files, |file| {
-            let specimen = Specimen::load(file)?;
+            let specimen = Specimen::load(file, self.mesh.options())?;
             let viewing = self.light.viewing(&specimen, &self.view)?;
             let outputs = self.outputs(file, &pictures);
             let progress = Progress::new(&specimen.design.name);

@@ -1,6 +1,7 @@
 //! `info`: a stone's geometry, proportions and weight, or the stones of a scene.
 
 use super::assembly::{self, Assembly};
+use super::mesh_options::MeshArguments;
 use super::specimen::Specimen;
 use super::{Failure, each_file, json, print};
 use crate::cut::{Cut, Report, Spread};
@@ -22,16 +23,19 @@ pub struct Info {
     /// Print JSON: one object, or for several files one a line
     #[arg(long)]
     json: bool,
+    #[command(flatten)]
+    mesh: MeshArguments,
 }
 
 impl Info {
     pub fn run(&self) -> Result<(), Failure> {
+        let mesh = self.mesh.options();
         each_file(&self.files, |file| {
             if assembly::is_scene(file) {
-                let assembly = Assembly::load(file, None, None)?;
+                let assembly = Assembly::load(file, None, None, mesh)?;
                 return self.tell(&scene_json(&assembly), || scene_table(&assembly));
             }
-            let specimen = Specimen::load(file)?;
+            let specimen = Specimen::load(file, mesh)?;
             let value = described(&specimen)?;
             self.tell(&value, || table(&specimen, &value))
         })

@@ -1,5 +1,6 @@
 //! `measure`: the figures of one view.
 
+use super::mesh_options::MeshArguments;
 use super::options::{LightOptions, ViewOptions};
 use super::progress::Progress;
 use super::specimen::Specimen;
@@ -22,12 +23,14 @@ pub struct Measure {
     view: ViewOptions,
     #[command(flatten)]
     light: LightOptions,
+    #[command(flatten)]
+    mesh: MeshArguments,
 }
 
 impl Measure {
     pub fn run(&self) -> Result<(), Failure> {
         each_file(&self.files, |file| {
-            let specimen = Specimen::load(file)?;
+            let specimen = Specimen::load(file, self.mesh.options())?;
             let viewing = self.light.viewing(&specimen, &self.view)?;
             let measured = {
                 let progress = Progress::new(&format!("measuring {}", specimen.path));

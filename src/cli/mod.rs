@@ -8,6 +8,7 @@ mod info;
 mod liquid_glass;
 mod lists;
 mod measure;
+mod mesh_options;
 mod options;
 mod picture_options;
 mod picturing;
@@ -21,8 +22,10 @@ mod spin;
 use crate::io::Failure;
 use crate::io::export::Told;
 use crate::io::library;
+use crate::io::mesh_options::MeshOptions;
 use clap::error::ErrorKind;
 use clap::{CommandFactory, Parser, Subcommand};
+use mesh_options::MeshArguments;
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -47,8 +50,9 @@ struct Arguments {
     command: Option<Command>,
 }
 
-/// What opens the editor, on a file if one is given, and waits until it is closed.
-pub type Editor = fn(Option<PathBuf>) -> Result<(), String>;
+/// What opens the editor, on a file if one is given, read with these options where it is a mesh, and waits until it is
+/// closed.
+pub type Editor = fn(Option<PathBuf>, MeshOptions) -> Result<(), String>;
 
 const USAGE: &str = "brillianteer [FILE]\n       brillianteer COMMAND";
 
@@ -61,6 +65,8 @@ enum Command {
     Edit {
         /// A design to open, or the name of one that comes with the program
         file: Option<PathBuf>,
+        #[command(flatten)]
+        mesh: MeshArguments,
     },
     /// Draw a stone in every scope, with its profile, facet diagram and figures
     Export(export::Export),
@@ -108,19 +114,19 @@ pub fn main(editor: Option<Editor>) -> ExitCode {
             return ExitCode::from(u8::try_from(told.exit_code()).unwrap_or(2));
         }
     };
-    let edit = |file: Option<PathBuf>| match editor {
+    let edit = |file: Option<PathBuf>, mesh: MeshOptions| match editor {
         _ if let Some(file) = file.as_ref().filter(|f| !f.is_file() && !is_known(f)) => {
             Err(Failure::Input(format!("{}: there is no such file{}", file.display(), lists::hint(file))))
         }
-        Some(open) => open(file).map_err(Failure::Output),
+        Some(open) => open(file, mesh).map_err(Failure::Output),
         None => Err(Failure::Usage("this program was built without its window; see --help".into())),
     };
-    let command = arguments.command.unwrap_or(Command::Edit { file: None });
+    let command = arguments.command.unwrap_or(Command::Edit { file: None, mesh: MeshArguments::default() });
     if !matches!(command, Command::Edit { .. }) {
         progress::stop_on_interrupt();
     }
     let result = match command {
-        Command::Edit { file } => edit(file),
+        Command::Edit { file, mesh } => edit(file, mesh.options()),
         Command::Export(export) => export.run(),
         Command::Render(render) => render.run(),
         Command::Spin(spin) => spin.run(),
@@ -241,7 +247,7 @@ mod tests {
         for only in [file.as_str(), "tolkowsky"] {
             let arguments = Arguments::try_parse_from(spelt_out(words(&format!("b {only}")))).unwrap();
             assert!(
-                matches!(arguments.command, Some(Command::Edit { file: Some(f) }) if f == Path::new(only))
+                matches!(arguments.command, Some(Command::Edit { file: Some(f), .. }) if f == Path::new(only))
             );
         }
         for other in ["b", "b cuts", "b polish", "b help", "b info tolkowsky", "b --help"] {

@@ -1,5 +1,6 @@
 //! The options of `render` and `spin`: stones, light and picture.
 
+use super::mesh_options::MeshArguments;
 use super::options::TracerName;
 use crate::picture::{Bloom, Overlay, Tone};
 use clap::Args;
@@ -72,6 +73,8 @@ pub struct PictureOptions {
     /// How far behind the stones the pattern or photograph stands, in girdle radii [default: the scene's, or 3]
     #[arg(long, allow_negative_numbers = true, value_name = "DISTANCE")]
     pub photo_distance: Option<f64>,
+    #[command(flatten)]
+    pub mesh: MeshArguments,
 }
 
 /// A picture's size in pixels: a number for a square, or two.

@@ -81,7 +81,8 @@ impl From<BackgroundError> for Failure {
 impl<'a> Studio<'a> {
     /// Loads stones, light and background, and chooses the tracer for a view.
     pub fn load(options: &'a PictureOptions, file: &Path, view: &View) -> Result<Self, Failure> {
-        let assembly = Assembly::load(file, options.material.as_deref(), options.stone)?;
+        let assembly =
+            Assembly::load(file, options.material.as_deref(), options.stone, options.mesh.options())?;
         let own = assembly.light.as_ref().map(|light| light.display().to_string());
         let light = options.light.as_ref().or(own.as_ref());
         let mut lighting = Lighting::load(light.map_or("studio", String::as_str))?;

@@ -1,10 +1,10 @@
 //! The stone that a command works on, read and built.
 
 use super::{Failure, say};
-use crate::cut::from_mesh::Up;
 use crate::io::cut_file::{self, CutFileError};
 use crate::io::design_file::{self, Brought};
 use crate::io::library;
+use crate::io::mesh_options::MeshOptions;
 use crate::scene;
 use std::ops::Deref;
 use std::path::Path;
@@ -27,32 +27,33 @@ impl Deref for Specimen {
 }
 
 impl Specimen {
-    /// Reads a design, or takes a cut that comes with the program by its name; builds the stone, and warns of what
-    /// is odd.
-    pub fn load(file: &Path) -> Result<Self, Failure> {
+    /// Reads a design, or takes a cut that comes with the program by its name; builds the stone, and tells what is
+    /// noteworthy and odd about it.
+    pub fn load(file: &Path, mesh: MeshOptions) -> Result<Self, Failure> {
         let name = file.display().to_string();
         match library::cut(&name).filter(|_| !file.is_file()) {
             Some(text) => Self::parse(&name, text),
-            None => Self::read(file, Up::Found),
+            None => Self::read(file, mesh),
         }
     }
 
-    /// Reads a design; `up` is the direction of a mesh's table.
-    pub fn read(file: &Path, up: Up) -> Result<Self, Failure> {
+    /// Reads a design; the options are those of meshes.
+    pub fn read(file: &Path, mesh: MeshOptions) -> Result<Self, Failure> {
         let told = |e: CutFileError| Failure::Input(format!("{e}{}", super::lists::hint(file)));
-        Self::of(file.display().to_string(), design_file::read_posed(file, up).map_err(told)?)
+        Self::of(file.display().to_string(), design_file::read_with(file, mesh).map_err(told)?)
     }
 
     /// Takes the text of a cut file, which errors call by this path.
     pub fn parse(path: &str, text: &str) -> Result<Self, Failure> {
         let design = cut_file::parse(text, path).map_err(|e| Failure::Input(e.to_string()))?;
-        Self::of(path.to_owned(), Brought { design, warnings: vec![] })
+        Self::of(path.to_owned(), Brought::of(design))
     }
 
-    fn of(path: String, Brought { design, warnings }: Brought) -> Result<Self, Failure> {
+    fn of(path: String, Brought { design, notes, warnings }: Brought) -> Result<Self, Failure> {
         let told = |e| Failure::Input(format!("{path}: {e}"));
         let made = scene::Specimen::new(design).map_err(told)?;
         let specimen = Self { path, made };
+        notes.iter().for_each(|note| say(&format!("note: {}: {note}", specimen.path)));
         warnings.iter().for_each(|w| specimen.say(w));
         specimen.warnings.iter().for_each(|w| specimen.say(w));
         Ok(specimen)

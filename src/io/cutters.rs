@@ -258,7 +258,7 @@ pub(super) fn brought(
     let design = Design { name, source: None, notes: None, material, diameter_mm, cut };
     let refused = |message: String| CutFileError { path: label.to_owned(), line: None, message };
     design.check().map_err(|error| refused(error.to_string()))?;
-    Ok(Brought { design, warnings: told.texts() })
+    Ok(Brought { warnings: told.texts(), ..Brought::of(design) })
 }
 
 #[cfg(test)]

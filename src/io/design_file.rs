@@ -4,11 +4,11 @@ use super::cut_file::{self, CutFileError};
 use super::mesh_design;
 use super::mesh_export::FINENESS;
 use super::mesh_file::{self, MaterialHint};
+use super::mesh_options::MeshOptions;
 use super::{Failure, asc, gcs, gem, write as write_whole};
 use super::{WriteError, text};
 use super::{write_glb, write_obj, write_stl};
 use crate::cut::Design;
-use crate::cut::from_mesh::Up;
 use crate::scene::{Body, Specimen};
 use std::io::Write as _;
 use std::path::Path;
@@ -37,8 +37,17 @@ pub enum Format {
 pub struct Brought {
     /// The design that it tells of.
     pub design: Design,
+    /// How the file was understood, in words, where it could be understood otherwise.
+    pub notes: Vec<String>,
     /// What is odd about the file, in words, each with its line or offset where it has one.
     pub warnings: Vec<String>,
+}
+
+impl Brought {
+    /// A design of which there is nothing to say.
+    pub fn of(design: Design) -> Self {
+        Self { design, notes: vec![], warnings: vec![] }
+    }
 }
 
 /// A design as a file.
@@ -103,14 +112,14 @@ impl Format {
 /// # Errors
 /// What keeps the file from being one, with its path, and line where there is one.
 pub fn read(path: &Path) -> Result<Brought, CutFileError> {
-    read_posed(path, Up::Found)
+    read_with(path, MeshOptions::default())
 }
 
-/// Reads a design; `up` is the direction of a mesh's table in its own frame.
+/// Reads a design; the options are those of meshes, which other designs need not.
 ///
 /// # Errors
 /// What keeps the file from being one, with its path, and line where there is one.
-pub fn read_posed(path: &Path, up: Up) -> Result<Brought, CutFileError> {
+pub fn read_with(path: &Path, mesh: MeshOptions) -> Result<Brought, CutFileError> {
     let label = path.display().to_string();
     let fault = |error: text::TextError| CutFileError {
         path: label.clone(),
@@ -119,20 +128,20 @@ pub fn read_posed(path: &Path, up: Up) -> Result<Brought, CutFileError> {
     };
     let bytes = text::read_bytes(path, mesh_file::MAX_BYTES).map_err(fault)?;
     if mesh_file::looks_like(&bytes).is_some() {
-        return mesh_design::read(bytes, path, up);
+        return mesh_design::read(bytes, path, mesh);
     }
     let mut brought = match Format::of(&bytes, path) {
         Format::Asc => asc::read(&bytes, &label),
         Format::Gem => gem::read(&bytes, &label),
         Format::Gcs => gcs::read(&bytes, &label),
-        Format::Obj | Format::Stl | Format::Glb => return mesh_design::read(bytes, path, up),
+        Format::Obj | Format::Stl | Format::Glb => return mesh_design::read(bytes, path, mesh),
         Format::Toml => {
             let text = text::utf8(bytes).map_err(fault)?;
-            cut_file::parse(&text, &label).map(|design| Brought { design, warnings: vec![] })
+            cut_file::parse(&text, &label).map(Brought::of)
         }
     }?;
-    if up != Up::Found {
-        brought.warnings.push("a direction up is for meshes; this design has its own".to_owned());
+    if mesh != MeshOptions::default() {
+        brought.notes.push("--up and --as are for meshes; this design says both itself".to_owned());
     }
     Ok(brought)
 }

@@ -3,6 +3,7 @@
 use super::cut_file::CutFileError;
 use super::design_file::Brought;
 use super::mesh_file::{self, MaterialHint, MeshFile, MeshFormat};
+use super::mesh_options::{MeshForm, MeshOptions};
 use crate::cut::from_mesh::{FromMesh, Pose, Up, from_mesh};
 use crate::cut::{Cut, DEFAULT_DIAMETER_MM, Design, MAX_PLANES, MaterialRef, MeshShape, is_printable};
 use crate::math::surface::{Faceted, Mending, Shape, facets};
@@ -14,90 +15,116 @@ use std::sync::Arc;
 /// The material that is taken where a file says nothing of one.
 const USUAL: &str = "diamond";
 
-/// Reads a mesh of any format, which lies in a file of this path; `up` is the direction of its table in the file's frame.
+/// Reads a mesh of any format, which lies in a file of this path.
 ///
 /// # Errors
 /// What keeps it from being a stone, with path and place.
-pub fn read(bytes: Vec<u8>, path: &Path, up: Up) -> Result<Brought, CutFileError> {
+pub fn read(bytes: Vec<u8>, path: &Path, options: MeshOptions) -> Result<Brought, CutFileError> {
     let told = |e: mesh_file::MeshFileError| CutFileError {
         path: e.path,
         line: None,
         message: e.place.map_or_else(|| e.message.clone(), |place| format!("{place}: {}", e.message)),
     };
     let label = path.display().to_string();
-    let MeshFile { format, surface, hint, mut warnings, name } =
+    let MeshFile { format, surface, hint, warnings, name } =
         mesh_file::parse(bytes, &label, path.parent()).map_err(told)?;
     let fault = |message: String| CutFileError { path: label.clone(), line: None, message };
     let mended = surface.mend().map_err(|e| fault(e.to_string()))?;
-    warnings.extend(told_of(&mended.mending));
     let name = Some(name).filter(|name| is_printable(name)).unwrap_or_else(|| "stone".to_owned());
-    match facets(mended.surface) {
-        Shape::Convex(found) if found.faces.len() <= MAX_PLANES => {
-            planes(&found, up, name, hint, warnings).map_err(fault)
+    let file = File { format, hint, name, up: options.up };
+    let shape = facets(mended.surface);
+    let mut brought = match (options.form, shape) {
+        (MeshForm::Found | MeshForm::Faceted, Shape::Convex(found)) if found.faces.len() <= MAX_PLANES => {
+            file.planes(&found)
         }
-        Shape::Convex(found) => triangles(found.surface, (up, format), name, hint, warnings).map_err(fault),
-        Shape::Concave(surface) => triangles(surface, (up, format), name, hint, warnings).map_err(fault),
+        (MeshForm::Faceted, Shape::Convex(found)) => Err(format!(
+            "it has {} facets, and a faceted stone has {MAX_PLANES} at most; save a coarser mesh, or read it with --as \
+             triangles",
+            found.faces.len()
+        )),
+        (MeshForm::Faceted, Shape::Concave(_)) => {
+            Err("it is not convex, so it is no faceted stone; read it with --as triangles".to_owned())
+        }
+        (_, Shape::Convex(found)) => file.triangles(found.surface),
+        (_, Shape::Concave(surface)) => file.triangles(surface),
     }
+    .map_err(fault)?;
+    brought.notes.splice(0..0, told_of(&mended.mending));
+    brought.warnings.splice(0..0, warnings);
+    Ok(brought)
 }
 
-fn planes(
-    found: &Faceted,
+/// What a file says beside its shape, and which way its table is said to face.
+struct File {
+    format: MeshFormat,
+    hint: Option<MaterialHint>,
+    name: String,
     up: Up,
-    name: String,
-    hint: Option<MaterialHint>,
-    mut warnings: Vec<String>,
-) -> Result<Brought, String> {
-    let FromMesh { facets, pose, deviation, .. } = from_mesh(found, up).map_err(|e| e.to_string())?;
-    let count = facets.len();
-    warnings.push(format!(
-        "{count} facets were found; no corner lies farther from them than {deviation:.1e} girdle radii"
-    ));
-    let material = material(hint, pose.scale, &mut warnings);
-    let design = design(name, material, Cut::Planes(facets));
-    design.check().map_err(|e| e.to_string())?;
-    Ok(Brought { design, warnings })
 }
 
-fn design(name: String, material: MaterialRef, cut: Cut) -> Design {
-    Design { name, source: None, notes: None, material, diameter_mm: DEFAULT_DIAMETER_MM, cut }
-}
-
-fn triangles(
-    surface: Surface,
-    (up, format): (Up, MeshFormat),
-    name: String,
-    hint: Option<MaterialHint>,
-    mut warnings: Vec<String>,
-) -> Result<Brought, String> {
-    let up = match up {
-        Up::Given(up) => up.try_normalize().ok_or("the direction up points nowhere")?,
-        // The standard of glTF has y up; the others say nothing, and stones are drawn with z up.
-        Up::Found if matches!(format, MeshFormat::Glb | MeshFormat::Gltf) => DVec3::Y,
-        Up::Found => DVec3::Z,
-    };
-    let turn = DQuat::from_rotation_arc(up, DVec3::Z);
-    let shell = Shell::new(surface).map_err(|e| e.to_string())?.moved(1.0, turn, DVec3::ZERO);
-    let start = (DVec3::INFINITY, DVec3::NEG_INFINITY);
-    let (low, high) = shell.vertices().iter().fold(start, |(low, high), v| (low.min(*v), high.max(*v)));
-    let scale = 2.0 / (high - low).truncate().min_element();
-    let shift = -0.5 * scale * (low + high);
-    let pose = Pose { scale, turn, shift };
-    warnings
-        .push(format!("it is not convex, so it is traced as {} triangles", shell.surface().triangles.len()));
-    let material = material(hint, pose.scale, &mut warnings);
-    let shell = Arc::new(shell.moved(pose.scale, DQuat::IDENTITY, pose.shift));
-    Ok(Brought { design: design(name, material, Cut::Mesh(MeshShape(shell))), warnings })
-}
-
-/// The material that a file asks for; `scale` is in girdle radii per unit of the file.
-fn material(hint: Option<MaterialHint>, scale: f64, warnings: &mut Vec<String>) -> MaterialRef {
-    let mm_per_unit = 0.5 * DEFAULT_DIAMETER_MM / scale;
-    match hint.map(|hint| hint.material(mm_per_unit)).transpose() {
-        Ok(Some(Some(material))) => return material,
-        Ok(_) => warnings.push(format!("the file says of no material that it refracts; {USUAL} is taken")),
-        Err(error) => warnings.push(format!("{error}; {USUAL} is taken")),
+impl File {
+    fn planes(self, found: &Faceted) -> Result<Brought, String> {
+        let FromMesh { facets, pose, deviation, .. } =
+            from_mesh(found, self.up).map_err(|e| e.to_string())?;
+        let count = facets.len();
+        let note = format!(
+            "{count} facets were found; no corner lies farther from them than {deviation:.1e} girdle radii"
+        );
+        let brought = self.brought(Cut::Planes(facets), pose.scale, note);
+        brought.design.check().map_err(|e| e.to_string())?;
+        Ok(brought)
     }
-    MaterialRef::Name(USUAL.to_owned())
+
+    fn triangles(self, surface: Surface) -> Result<Brought, String> {
+        let up = match self.up {
+            Up::Given(up) => up.try_normalize().ok_or("the direction up points nowhere")?,
+            // The standard of glTF has y up; the others say nothing, and stones are drawn with z up.
+            Up::Found if matches!(self.format, MeshFormat::Glb | MeshFormat::Gltf) => DVec3::Y,
+            Up::Found => DVec3::Z,
+        };
+        let turn = DQuat::from_rotation_arc(up, DVec3::Z);
+        let shell = Shell::new(surface).map_err(|e| e.to_string())?.moved(1.0, turn, DVec3::ZERO);
+        let start = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+        let (low, high) = shell.vertices().iter().fold(start, |(low, high), v| (low.min(*v), high.max(*v)));
+        let scale = 2.0 / (high - low).truncate().min_element();
+        let shift = -0.5 * scale * (low + high);
+        let shell = Arc::new(shell.moved(scale, DQuat::IDENTITY, shift));
+        let note = format!("it is traced as {} triangles", shell.surface().triangles.len());
+        Ok(self.brought(Cut::Mesh(MeshShape(shell)), scale, note))
+    }
+
+    /// The design of a cut with `scale` girdle radii per unit of the file.
+    fn brought(self, cut: Cut, scale: f64, note: String) -> Brought {
+        let (material, told) = material(self.hint, scale);
+        let design = Design {
+            name: self.name,
+            source: None,
+            notes: None,
+            material,
+            diameter_mm: DEFAULT_DIAMETER_MM,
+            cut,
+        };
+        let mut brought = Brought { notes: vec![note], ..Brought::of(design) };
+        match told {
+            Ok(note) => brought.notes.extend(note),
+            Err(warning) => brought.warnings.push(warning),
+        }
+        brought
+    }
+}
+
+/// The material that a file asks for, and a note where it asks for none or a warning where there is no such material;
+/// `scale` is in girdle radii per unit of the file.
+fn material(hint: Option<MaterialHint>, scale: f64) -> (MaterialRef, Result<Option<String>, String>) {
+    let mm_per_unit = 0.5 * DEFAULT_DIAMETER_MM / scale;
+    let usual = MaterialRef::Name(USUAL.to_owned());
+    match hint.map(|hint| hint.material(mm_per_unit)).transpose() {
+        Ok(Some(Some(material))) => (material, Ok(None)),
+        Ok(_) => {
+            (usual, Ok(Some(format!("the file says of no material that it refracts; {USUAL} is taken"))))
+        }
+        Err(error) => (usual, Err(format!("{error}; {USUAL} is taken"))),
+    }
 }
 
 /// What was mended of a mesh, where that is more than any file of triangles needs.
@@ -137,7 +164,7 @@ mod tests {
         for bytes in
             [write_obj(&specimen.body, "t", 1.0).into_bytes(), write_stl(&specimen.body, 3.0).unwrap()]
         {
-            let brought = read(bytes, Path::new("t"), Up::Found).unwrap();
+            let brought = read(bytes, Path::new("t"), MeshOptions::default()).unwrap();
             let Cut::Planes(planes) = &brought.design.cut else { panic!("concave") };
             assert_eq!(planes.len(), count);
             let again = Specimen::new(brought.design).unwrap().solid().volume();

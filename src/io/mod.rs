@@ -20,6 +20,7 @@ pub mod lighting;
 pub mod mesh_design;
 mod mesh_export;
 pub mod mesh_file;
+pub mod mesh_options;
 pub mod panorama;
 mod picture_file;
 mod png;

@@ -4,7 +4,7 @@ use super::*;
 use crate::optics::material;
 
 fn load(file: impl AsRef<Path>) -> Assembly {
-    Assembly::load(file.as_ref(), None, None).unwrap()
+    Assembly::load(file.as_ref(), None, None, MeshOptions::default()).unwrap()
 }
 
 /// What is said of a scene of these stones.
@@ -12,26 +12,36 @@ fn refused(stones: &str) -> String {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("x.toml");
     std::fs::write(&path, format!("format = 1\nname = \"x\"\n{stones}")).unwrap();
-    let Err(Failure::Input(told)) = Assembly::load(&path, None, None) else { panic!("no input error") };
+    let Err(Failure::Input(told)) = Assembly::load(&path, None, None, MeshOptions::default()) else {
+        panic!("no input error")
+    };
     told.replace(&path.display().to_string(), "x.toml").replace(&folder.path().display().to_string(), "")
 }
 
 #[test]
 fn a_stone_alone_lies_as_its_file_has_it_and_takes_another_material_and_size() {
     let stone = load("modern-ideal");
-    let specimen = Specimen::load(Path::new("modern-ideal")).unwrap();
+    let specimen = Specimen::load(Path::new("modern-ideal"), MeshOptions::default()).unwrap();
     assert_eq!(*stone.setting.stones[0].solid.polytope().unwrap(), specimen.stone().unwrap().polytope);
     assert_eq!((stone.setting.unit_mm, stone.name.as_str()), (3.25, "Modern ideal"));
     assert_eq!(stone.setting.stones[0].names, specimen.stone().unwrap().names());
     // A brilliant of 6.5 mm is the trade's carat, to the proportions.
     assert!(stone.carats().is_some_and(|carats| (0.97..1.03).contains(&carats)), "{:?}", stone.carats());
-    let ruby = Assembly::load(Path::new("modern-ideal"), Some("Ruby"), "2ct".parse().ok()).unwrap();
+    let ruby =
+        Assembly::load(Path::new("modern-ideal"), Some("Ruby"), "2ct".parse().ok(), MeshOptions::default())
+            .unwrap();
     assert_eq!(&ruby.setting.stones[0].material, material("ruby").unwrap());
     assert!((ruby.carats().unwrap() - 2.0).abs() < 1e-9);
-    let index = Assembly::load(Path::new("modern-ideal"), Some("2.42"), "8mm".parse().ok()).unwrap();
+    let index =
+        Assembly::load(Path::new("modern-ideal"), Some("2.42"), "8mm".parse().ok(), MeshOptions::default())
+            .unwrap();
     assert_eq!((index.setting.unit_mm, index.carats()), (4.0, None));
-    assert!(matches!(Assembly::load(Path::new("trilogy"), Some("rubby"), None), Err(Failure::Usage(_))));
-    let heavy = Assembly::load(Path::new("modern-ideal"), Some("2.42"), "1ct".parse().ok());
+    assert!(matches!(
+        Assembly::load(Path::new("trilogy"), Some("rubby"), None, MeshOptions::default()),
+        Err(Failure::Usage(_))
+    ));
+    let heavy =
+        Assembly::load(Path::new("modern-ideal"), Some("2.42"), "1ct".parse().ok(), MeshOptions::default());
     assert!(matches!(heavy, Err(Failure::Input(_))));
 }
 
@@ -70,7 +80,9 @@ fn every_scene_that_comes_with_the_program_is_apart_and_weighs_what_it_asks_for(
             assert!((wide - mm).abs() < 0.02, "{name}: {wide}");
         }
     }
-    let small = Assembly::load(Path::new("ring"), Some("diamond"), "3mm".parse().ok()).unwrap();
+    let small =
+        Assembly::load(Path::new("ring"), Some("diamond"), "3mm".parse().ok(), MeshOptions::default())
+            .unwrap();
     assert!(small.places.iter().all(|p| p.diameter_mm == 3.0));
     assert!(small.setting.stones.iter().all(|s| s.material.name == "diamond"));
 }

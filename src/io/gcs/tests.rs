@@ -41,12 +41,12 @@ fn a_design_reads_as_it_is_written() {
     let Written { bytes, lost } = write(&specimen(design.clone()));
     assert_eq!(lost, Vec::<String>::new());
     assert!(looks_like(&bytes));
-    assert_eq!(back(&bytes), Brought { design, warnings: vec![] });
+    assert_eq!(back(&bytes), Brought::of(design));
 }
 
 #[test]
 fn all_that_a_file_says_is_kept() {
-    let Brought { mut design, warnings } = back(PYRAMIDS.as_bytes());
+    let Brought { mut design, warnings, .. } = back(PYRAMIDS.as_bytes());
     assert!(warnings.iter().all(|warning| warning.contains("that of angle and index_angle is taken")));
     assert_eq!(warnings.len(), 6);
     assert!(warnings[0].starts_with("line 7: "), "{}", warnings[0]);
@@ -78,7 +78,7 @@ fn all_that_a_file_says_is_kept() {
 fn stones_are_scaled_and_centred() {
     for stone in others() {
         let Written { bytes, .. } = write(&stone);
-        let Brought { design, warnings } = back(&bytes);
+        let Brought { design, warnings, .. } = back(&bytes);
         assert_eq!(warnings, Vec::<String>::new());
         let scaled = specimen(design);
         let planes: Vec<_> = scaled.design.facets().unwrap().into_iter().map(|(_, plane)| plane).collect();

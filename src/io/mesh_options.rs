@@ -1,0 +1,36 @@
+//! What a reader of meshes is asked for, since a mesh file says neither which way its table faces nor whether its
+//! triangles stand for flat facets.
+
+use crate::cut::from_mesh::Up;
+
+/// How a mesh is read as a stone. The default finds out both.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct MeshOptions {
+    /// The direction in which the table faces, in the mesh's own frame.
+    pub up: Up,
+    /// Whether the stone lies between planes or within triangles.
+    pub form: MeshForm,
+}
+
+/// What the triangles of a mesh stand for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+pub enum MeshForm {
+    /// To be found: facets where the mesh means a convex stone, else triangles.
+    #[default]
+    Found,
+    /// A convex stone between the planes of its facets.
+    Faceted,
+    /// The triangles themselves.
+    Triangles,
+}
+
+impl MeshForm {
+    /// What it is called on command lines; `None` where it is to be found.
+    pub fn name(self) -> Option<&'static str> {
+        match self {
+            Self::Found => None,
+            Self::Faceted => Some("faceted"),
+            Self::Triangles => Some("triangles"),
+        }
+    }
+}
