@@ -1,7 +1,7 @@
 //! Real files of real cutters, where they are at hand: beside the checkout, in `../shared/data`.
 #![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a test fails by it, and tells what it saw")]
 
-use brillianteer::cut::{Cut, Outline, Tiers};
+use brillianteer::cut::{AlongAxes, Cut, Outline, Tiers};
 use brillianteer::io::design_file::{self, Format, written};
 use brillianteer::math::{Facet, Polytope};
 use brillianteer::scene::{Specimen, Stone};
@@ -206,18 +206,25 @@ fn measured(stone: &Stone) -> [f64; 6] {
     let (names, stone) = (stone.names(), &stone.polytope);
     // The library counts facets in one plane one by one, and none of the block's.
     let facets = names.iter().filter(|name| !name.starts_with("block")).count() + stone.merged().len();
-    let outline = Outline::of(stone);
+    let (outline, AlongAxes { length_to_width, table }) = (Outline::of(stone), AlongAxes::of(stone));
+    let width = width_along_axes(stone);
     let depths = [outline.pavilion_depth(), outline.crown_height()];
-    let [pavilion, crown] = depths.map(|depth| depth / outline.width);
-    let [x, y] = outline.table.map(|extent| extent / outline.width);
-    [outline.length / outline.width, pavilion, crown, x, y, facets as f64]
+    let [pavilion, crown] = depths.map(|depth| depth / width);
+    let [x, y] = table.map(|percent| percent / 100.0);
+    [length_to_width, pavilion, crown, x, y, facets as f64]
+}
+
+/// The width by which the library gives its figures: the smaller of the extents along x and y.
+fn width_along_axes(stone: &Polytope) -> f64 {
+    let (low, high) = stone.bounds();
+    (high - low).truncate().min_element()
 }
 
 /// Depths of pavilion and crown by width, as the library takes them. Each upright facet falls into a fan of triangles;
 /// of the corners of all triangles, from below, those a tenth and nine tenths of the way tell where the girdle's edges
 /// lie.
 fn depths_by_their_rule(stone: &Polytope) -> [f64; 2] {
-    let Outline { width, bottom, top, .. } = Outline::of(stone);
+    let (Outline { bottom, top, .. }, width) = (Outline::of(stone), width_along_axes(stone));
     let upright = stone.facets().iter().filter(|facet| facet.plane.normal.z.abs() < 1f64.to_radians().sin());
     let mut levels: Vec<f64> = upright.flat_map(|facet| levels_of_fan(stone, facet)).collect();
     levels.sort_by(f64::total_cmp);

@@ -1,7 +1,7 @@
 //! What a stone measures, whatever its cut: length, width, where its girdle lies, its depths and its table.
 
-use crate::math::{Facet, Polytope};
-use glam::DVec3;
+use crate::math::{Calipers, Facet, Polytope, hull};
+use glam::{DVec2, DVec3};
 use serde::Serialize;
 
 /// A facet whose normal leans less than this from the girdle plane (sine) is part of the girdle: what a cutter's file of
@@ -21,12 +21,12 @@ const EDGE: f64 = 0.1;
 /// the last digit of a cutter's file splits their corner.
 const SAME_CORNER: f64 = 1e-7;
 
-/// What a stone measures. Lengths in the unit of the stone, from the side and from above as it lies.
+/// What a stone measures, however it is turned about its axis. Lengths in the unit of the stone.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Outline {
-    /// The larger of its extents along x and y.
+    /// The extent square to the width, seen along the axis.
     pub length: f64,
-    /// The smaller.
+    /// The least distance between two lines, seen along the axis, that are parallel and hold the stone.
     pub width: f64,
     /// z of the girdle's lower edge.
     pub girdle_bottom: f64,
@@ -36,8 +36,13 @@ pub struct Outline {
     pub bottom: f64,
     /// z of the highest point.
     pub top: f64,
-    /// Extents of the table along x and y; 0 without one.
+    /// Width and length of the table, measured as those of the stone are; 0 without one.
     pub table: [f64; 2],
+    /// The greatest distance between two corners of the table, by which the trade gives a round brilliant's; 0 without one.
+    pub table_corners: f64,
+    /// Where the middle of the stone lies, seen along the axis: the point about which its outline can be turned onto
+    /// itself, or else the middle of the rectangle of length and width.
+    pub middle: DVec2,
 }
 
 impl Outline {
@@ -45,16 +50,25 @@ impl Outline {
     pub fn of(stone: &Polytope) -> Self {
         let (low, high) = stone.bounds();
         let across = high - low;
-        let width = across.x.min(across.y);
+        // A solid so thin that rounding leaves no outline is measured along its axes.
+        let calipers = seen(stone.vertices().iter().copied());
+        let (length, width, middle) = calipers.map_or_else(
+            || (across.max_element(), across.truncate().min_element(), ((low + high) / 2.0).truncate()),
+            |found| (found.length, found.width, found.middle),
+        );
         let (girdle_bottom, girdle_top) = girdle(stone, SAME_CORNER * width);
+        let facet = table(stone);
+        let table = facet.and_then(|facet| seen(stone.corners(facet)));
         Self {
-            length: across.x.max(across.y),
+            length,
             width,
             girdle_bottom,
             girdle_top,
             bottom: low.z,
             top: high.z,
-            table: table(stone),
+            table: table.map_or([0.0; 2], |found| [found.width, found.length]),
+            table_corners: facet.map_or(0.0, |facet| farthest_apart(stone, facet)),
+            middle,
         }
     }
 
@@ -69,6 +83,34 @@ impl Outline {
     }
 }
 
+/// What GemCad prints of a stone, whose sides it takes along the axes of the design, whichever way the stone lies.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct AlongAxes {
+    /// L/W: the larger of the stone's extents along x and y by the smaller.
+    pub length_to_width: f64,
+    /// T/W and U/W: the table's extents along x and y by the smaller of the stone's, in percent; 0 without a table.
+    pub table: [f64; 2],
+}
+
+impl AlongAxes {
+    /// Measures a stone that lies as its design has it.
+    pub fn of(stone: &Polytope) -> Self {
+        let (low, high) = stone.bounds();
+        let across = (high - low).truncate();
+        let table = table(stone).map_or(DVec2::ZERO, |facet| {
+            let start = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+            let (low, high) =
+                stone.corners(facet).fold(start, |(low, high), corner| (low.min(corner), high.max(corner)));
+            (high - low).truncate()
+        });
+        let percent = 100.0 / across.min_element();
+        Self {
+            length_to_width: across.max_element() / across.min_element(),
+            table: (percent * table).to_array(),
+        }
+    }
+}
+
 /// Whether a facet stands upright: part of the girdle.
 pub fn is_girdle(facet: &Facet) -> bool {
     facet.plane.normal.z.abs() < UPRIGHT
@@ -79,12 +121,20 @@ pub fn is_table(facet: &Facet) -> bool {
     facet.plane.normal.z > 0.0 && facet.plane.normal.truncate().length() < LEVEL
 }
 
-fn table(stone: &Polytope) -> [f64; 2] {
-    let Some(facet) = stone.facets().iter().find(|facet| is_table(facet)) else { return [0.0; 2] };
-    let corners = || stone.corners(facet);
-    let low = corners().fold(DVec3::INFINITY, DVec3::min);
-    let high = corners().fold(DVec3::NEG_INFINITY, DVec3::max);
-    [high.x - low.x, high.y - low.y]
+fn table(stone: &Polytope) -> Option<&Facet> {
+    stone.facets().iter().find(|facet| is_table(facet))
+}
+
+/// How wide and long corners are, seen along the axis.
+fn seen(corners: impl Iterator<Item = DVec3>) -> Option<Calipers> {
+    Calipers::of(&hull(corners.map(DVec3::truncate).collect()))
+}
+
+/// The greatest distance between two corners of a facet.
+fn farthest_apart(stone: &Polytope, facet: &Facet) -> f64 {
+    let corners: Vec<DVec3> = stone.corners(facet).collect();
+    let apart = corners.iter().flat_map(|a| corners.iter().map(|b| a.distance_squared(*b)));
+    apart.fold(0.0, f64::max).sqrt()
 }
 
 /// z of the girdle's edges, the lower first. Corners nearer than this are one.
@@ -142,7 +192,10 @@ mod tests {
         for girdle_facets in [16, 64, 96] {
             let measured = Outline::of(&stone(RoundBrilliant { girdle_facets, ..MODERN }));
             let derived = MODERN.derived().unwrap();
-            assert!((measured.table[0] / 2.0 - MODERN.table / 100.0).abs() < 1e-12, "{measured:?}");
+            // The table is an octagon, whose corners lie on a circle of the table's size.
+            let flats = MODERN.table / 100.0 * (std::f64::consts::PI / 8.0).cos();
+            assert!((measured.table[0] / 2.0 - flats).abs() < 1e-12, "{measured:?}");
+            assert!((measured.table_corners / 2.0 - MODERN.table / 100.0).abs() < 1e-12, "{measured:?}");
             assert!(
                 (measured.crown_height() / 2.0 - derived.crown_height / 100.0).abs() < 0.01,
                 "{measured:?} {derived:?}"
@@ -152,6 +205,39 @@ mod tests {
             let depth = measured.top - measured.bottom;
             assert!((depth / 2.0 - derived.total_depth / 100.0).abs() < 1e-12);
         }
+    }
+
+    #[test]
+    fn a_stone_measures_the_same_however_it_is_turned_about_its_axis() {
+        // A rectangle of 2 by 1.3 with a table that is turned against it, cut off at one corner.
+        let sides = [(0.0, 1.0), (90.0, 0.65), (180.0, 1.0), (270.0, 0.65), (40.0, 1.1)];
+        let upright = |(azimuth, offset): (f64, f64)| {
+            Plane::new(DVec2::from_angle(azimuth.to_radians()).extend(0.0), offset)
+        };
+        let leaning = |k: u32| Plane::from_slope(0.7, 0.3 + f64::from(k) * 1.1, 0.9);
+        let levels = [Plane::new(DVec3::Z, 0.6), Plane::new(DVec3::NEG_Z, 0.5)];
+        let planes: Vec<Plane> =
+            sides.map(upright).into_iter().chain((0..6).map(leaning)).chain(levels).collect();
+        let stone = Polytope::from_planes(&planes).unwrap();
+        let plain = Outline::of(&stone);
+        assert!((plain.width - 1.3).abs() < 1e-12 && (plain.length - 2.0).abs() < 1e-12, "{plain:?}");
+        assert!(plain.table[0] > 0.1 && plain.table[1] > 1.01 * plain.table[0], "{plain:?}");
+        let moved = |angle| {
+            Outline::of(&stone.moved(1.0, glam::DQuat::from_rotation_z(angle), DVec3::ZERO))
+        };
+        for step in 1..40 {
+            let again = moved(0.31 * f64::from(step));
+            let pairs = [
+                (again.width, plain.width),
+                (again.length, plain.length),
+                (again.table[0], plain.table[0]),
+                (again.table[1], plain.table[1]),
+            ];
+            assert!(pairs.iter().all(|(a, b)| (a - b).abs() < 1e-12), "{step}: {again:?} {plain:?}");
+        }
+        // What GemCad prints does depend on the turn, or this test would see nothing.
+        let turned = AlongAxes::of(&stone.moved(1.0, glam::DQuat::from_rotation_z(0.5), DVec3::ZERO));
+        assert!((turned.length_to_width - AlongAxes::of(&stone).length_to_width).abs() > 0.1);
     }
 
     #[test]

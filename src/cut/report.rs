@@ -1,6 +1,6 @@
 //! What a stone's facets come to: its tiers with the spread of their slopes, as laboratories report scanned stones.
 
-use super::outline::{Outline, is_girdle, is_table};
+use super::outline::{AlongAxes, Outline, is_girdle, is_table};
 use super::{Zone, tier_stem};
 use crate::math::{Facet, Polytope};
 use serde::Serialize;
@@ -46,8 +46,10 @@ pub struct TierReport {
 pub struct Report {
     /// Length by width.
     pub length_to_width: f64,
-    /// The table's extents along x and y.
+    /// Width and length of the table, however it lies.
     pub table: [f64; 2],
+    /// The greatest distance between two corners of the table.
+    pub table_corners: f64,
     /// From the girdle's upper edge to the highest point.
     pub crown_height: f64,
     /// Between the girdle's edges.
@@ -58,6 +60,8 @@ pub struct Report {
     pub total_depth: f64,
     /// Tiers, in the order of their first facets.
     pub tiers: Vec<TierReport>,
+    /// What GemCad prints of it.
+    pub along_axes: AlongAxes,
 }
 
 impl Report {
@@ -68,11 +72,13 @@ impl Report {
         Self {
             length_to_width: outline.length / outline.width,
             table: outline.table.map(percent),
+            table_corners: percent(outline.table_corners),
             crown_height: percent(outline.crown_height()),
             girdle_thickness: percent(outline.girdle_top - outline.girdle_bottom),
             pavilion_depth: percent(outline.pavilion_depth()),
             total_depth: percent(outline.top - outline.bottom),
             tiers: tiers(stone, names),
+            along_axes: AlongAxes::of(stone),
         }
     }
 }
@@ -138,7 +144,9 @@ mod tests {
         );
         let bezel = report.tiers[1].slope_deg;
         assert!((bezel.mean - 34.5).abs() < 1e-12 && bezel.most - bezel.least < 1e-12, "{bezel:?}");
-        assert!((report.table[0] - MODERN.table).abs() < 1e-9, "{report:?}");
+        // Its girdle's corners lie on a circle, by which its proportions go, and its width is that between two sides.
+        let width = (std::f64::consts::PI / 96.0).cos();
+        assert!((report.table_corners * width - MODERN.table).abs() < 1e-9, "{report:?}");
         assert!(
             (report.crown_height + report.girdle_thickness + report.pavilion_depth - report.total_depth)
                 .abs()

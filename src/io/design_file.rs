@@ -7,7 +7,7 @@ use super::mesh_file::{self, MaterialHint};
 use super::mesh_options::MeshOptions;
 use super::{Failure, asc, gcs, gem, write as write_whole};
 use super::{WriteError, text};
-use super::{write_glb, write_obj, write_stl};
+use super::{write_glb, write_obj, write_ply, write_stl};
 use crate::cut::Design;
 use crate::scene::{Body, Specimen};
 use std::io::Write as _;
@@ -28,6 +28,8 @@ pub enum Format {
     Obj,
     /// STL meshes, binary or text.
     Stl,
+    /// Binary PLY.
+    Ply,
     /// Binary glTF.
     Glb,
 }
@@ -61,7 +63,8 @@ pub struct Written {
 
 impl Format {
     /// All there are.
-    pub const ALL: [Self; 7] = [Self::Toml, Self::Asc, Self::Gem, Self::Gcs, Self::Obj, Self::Stl, Self::Glb];
+    pub const ALL: [Self; 8] =
+        [Self::Toml, Self::Asc, Self::Gem, Self::Gcs, Self::Obj, Self::Stl, Self::Ply, Self::Glb];
 
     /// How its files end, without the dot.
     pub fn ending(self) -> &'static str {
@@ -72,6 +75,7 @@ impl Format {
             Self::Gcs => "gcs",
             Self::Obj => "obj",
             Self::Stl => "stl",
+            Self::Ply => "ply",
             Self::Glb => "glb",
         }
     }
@@ -80,7 +84,7 @@ impl Format {
     pub fn holds_designs(self) -> bool {
         match self {
             Self::Toml | Self::Asc | Self::Gem | Self::Gcs => true,
-            Self::Obj | Self::Stl | Self::Glb => false,
+            Self::Obj | Self::Stl | Self::Ply | Self::Glb => false,
         }
     }
 
@@ -98,7 +102,7 @@ impl Format {
             (Self::Asc, asc::looks_like),
         ];
         let is_mesh = |ending: &str| path.extension().is_some_and(|e| e.eq_ignore_ascii_case(ending));
-        if is_mesh("ply") || is_mesh("gltf") {
+        if is_mesh("gltf") {
             // Its reader says what is wrong with it.
             return Self::Glb;
         }
@@ -134,7 +138,7 @@ pub fn read_with(path: &Path, mesh: MeshOptions) -> Result<Brought, CutFileError
         Format::Asc => asc::read(&bytes, &label),
         Format::Gem => gem::read(&bytes, &label),
         Format::Gcs => gcs::read(&bytes, &label),
-        Format::Obj | Format::Stl | Format::Glb => return mesh_design::read(bytes, path, mesh),
+        Format::Obj | Format::Stl | Format::Ply | Format::Glb => return mesh_design::read(bytes, path, mesh),
         Format::Toml => {
             let text = text::utf8(bytes).map_err(fault)?;
             cut_file::parse(&text, &label).map(Brought::of)
@@ -152,10 +156,11 @@ pub fn read_with(path: &Path, mesh: MeshOptions) -> Result<Brought, CutFileError
 /// [`Failure::Output`] where the format has no place for a mesh, or for so large a one.
 pub fn written(specimen: &Specimen, format: Format) -> Result<Written, Failure> {
     let (name, radius_mm) = (specimen.design.name.as_str(), specimen.unit_mm());
+    let material = &specimen.design.material;
     let refused = |error: &dyn std::fmt::Display| Failure::Output(format!("{}: {error}", format.ending()));
     if matches!(format, Format::Asc | Format::Gem | Format::Gcs) && specimen.stone().is_err() {
         return Err(Failure::Input(format!(
-            "{name}: .{} takes convex stones between planes, and this is none; write .toml, .obj, .stl or .glb",
+            "{name}: .{} takes convex stones between planes, and this is none; write .toml, .obj, .stl, .ply or .glb",
             format.ending()
         )));
     }
@@ -164,7 +169,7 @@ pub fn written(specimen: &Specimen, format: Format) -> Result<Written, Failure> 
             let bytes = cut_file::write(&specimen.design).into_bytes();
             if bytes.len() as u64 > cut_file::MAX_MESH_BYTES {
                 return Err(refused(
-                    &"this mesh is too large for a cut file; write it as .glb, .stl or .obj",
+                    &"this mesh is too large for a cut file; write it as .glb, .ply, .stl or .obj",
                 ));
             }
             Written { bytes, lost: vec![] }
@@ -172,14 +177,23 @@ pub fn written(specimen: &Specimen, format: Format) -> Result<Written, Failure> 
         Format::Asc => asc::write(specimen),
         Format::Gem => gem::write(specimen),
         Format::Gcs => gcs::write(specimen),
-        Format::Obj => as_mesh(specimen, format, write_obj(&specimen.body, name, radius_mm).into_bytes()),
+        Format::Obj => {
+            let text = write_obj(&specimen.body, name, radius_mm, Some(material));
+            as_mesh(specimen, format, text.into_bytes())
+        }
         Format::Stl => {
-            as_mesh(specimen, format, write_stl(&specimen.body, radius_mm).map_err(|e| refused(&e))?)
+            let bytes = write_stl(&specimen.body, radius_mm, Some(material)).map_err(|e| refused(&e))?;
+            as_mesh(specimen, format, bytes)
+        }
+        Format::Ply => {
+            let bytes = write_ply(&specimen.body, radius_mm, Some(material)).map_err(|e| refused(&e))?;
+            as_mesh(specimen, format, bytes)
         }
         Format::Glb => {
             // The standard's unit is the metre.
             let (scale, hint) = (1e-3 * radius_mm, MaterialHint::of(&specimen.material, 1e3));
-            as_mesh(specimen, format, write_glb(&specimen.body, name, scale, &hint).map_err(|e| refused(&e))?)
+            let bytes = write_glb(&specimen.body, name, scale, (&hint, Some(material))).map_err(|e| refused(&e))?;
+            as_mesh(specimen, format, bytes)
         }
     })
 }
@@ -188,12 +202,12 @@ pub fn written(specimen: &Specimen, format: Format) -> Result<Written, Failure> 
 fn as_mesh(specimen: &Specimen, format: Format, bytes: Vec<u8>) -> Written {
     let kept = match (format, &specimen.body) {
         (Format::Glb, Body::Mesh(_) | Body::Glass(_)) => {
-            "its triangles and the material as three colours see it"
+            "its triangles, its size and the material as three colours see it"
         }
-        (_, Body::Mesh(_) | Body::Glass(_)) => "its triangles",
-        (Format::Glb, _) => "facets, their names and the material as three colours see it",
-        (Format::Obj, _) => "facets and their names",
-        _ => "facets",
+        (_, Body::Mesh(_) | Body::Glass(_)) => "its triangles and its size",
+        (Format::Glb, _) => "facets, their names, its size and the material as three colours see it",
+        (Format::Obj, _) => "facets, their names and its size",
+        _ => "facets and its size",
     };
     let mut lost = vec![format!("of the design only this is kept: {kept}")];
     let measured = "the proportions are not kept; whoever reads the mesh measures them anew";

@@ -1,14 +1,17 @@
 //! Stones from meshes: the planes of one that is convex, the triangles of any other.
 
+mod place;
+
 use super::cut_file::CutFileError;
 use super::design_file::Brought;
-use super::mesh_file::{self, MaterialHint, MeshFile, MeshFormat};
+use super::mesh_file::{self, MaterialHint, MeshFile};
 use super::mesh_options::{MeshForm, MeshOptions};
-use crate::cut::from_mesh::{FromMesh, Pose, Up, from_mesh};
+use crate::cut::from_mesh::{FromMesh, Up, directions, from_mesh};
 use crate::cut::{Cut, DEFAULT_DIAMETER_MM, Design, MAX_PLANES, MaterialRef, MeshShape, is_printable};
 use crate::math::surface::{Faceted, Mending, Shape, facets};
 use crate::math::{Shell, Surface};
-use glam::{DQuat, DVec3};
+use glam::DVec3;
+use place::{Place, Told, axes, doubtful, upright};
 use std::path::Path;
 use std::sync::Arc;
 
@@ -26,12 +29,12 @@ pub fn read(bytes: Vec<u8>, path: &Path, options: MeshOptions) -> Result<Brought
         message: e.place.map_or_else(|| e.message.clone(), |place| format!("{place}: {}", e.message)),
     };
     let label = path.display().to_string();
-    let MeshFile { format, surface, hint, warnings, name } =
+    let MeshFile { format, surface, hint, statement, warnings, name } =
         mesh_file::parse(bytes, &label, path.parent()).map_err(told)?;
     let fault = |message: String| CutFileError { path: label.clone(), line: None, message };
     let mended = surface.mend().map_err(|e| fault(e.to_string()))?;
     let name = Some(name).filter(|name| is_printable(name)).unwrap_or_else(|| "stone".to_owned());
-    let file = File { format, hint, name, up: options.up };
+    let file = File { hint, name, place: Place::of(format, options.up, statement) };
     let shape = facets(mended.surface);
     let mut brought = match (options.form, shape) {
         (MeshForm::Found | MeshForm::Faceted, Shape::Convex(found)) if found.faces.len() <= MAX_PLANES => {
@@ -54,77 +57,80 @@ pub fn read(bytes: Vec<u8>, path: &Path, options: MeshOptions) -> Result<Brought
     Ok(brought)
 }
 
-/// What a file says beside its shape, and which way its table is said to face.
+/// What a file says beside its shape, and how its stone lies.
 struct File {
-    format: MeshFormat,
     hint: Option<MaterialHint>,
     name: String,
-    up: Up,
+    place: Place,
 }
 
 impl File {
-    fn planes(self, found: &Faceted) -> Result<Brought, String> {
-        let FromMesh { facets, pose, deviation, .. } =
-            from_mesh(found, self.up).map_err(|e| e.to_string())?;
+    fn planes(mut self, found: &Faceted) -> Result<Brought, String> {
+        let mut told = Told::default();
+        let surface = found.surface.moved(found.centre);
+        let up = self.place.up(&surface, || directions(&found.polytope), &mut told);
+        let made = from_mesh(found, up).map_err(|e| e.to_string())?;
+        let FromMesh { mut facets, pose, deviation, .. } = made;
+        // A size that is known counts, whatever the stone's width.
+        let scale = self.place.scale.unwrap_or(pose.scale);
+        facets.iter_mut().for_each(|(_, plane)| plane.offset *= scale / pose.scale);
         let count = facets.len();
-        let note = format!(
+        told.notes.push(format!(
             "{count} facets were found; no corner lies farther from them than {deviation:.1e} girdle radii"
-        );
-        let brought = self.brought(Cut::Planes(facets), pose.scale, note);
+        ));
+        told.notes.extend(made.doubt.map(|doubt| doubtful(made.up, doubt.other)));
+        let brought = self.brought(Cut::Planes(facets), scale, told);
         brought.design.check().map_err(|e| e.to_string())?;
         Ok(brought)
     }
 
-    fn triangles(self, surface: Surface) -> Result<Brought, String> {
-        let up = match self.up {
-            Up::Given(up) => up.try_normalize().ok_or("the direction up points nowhere")?,
-            // The standard of glTF has y up; the others say nothing, and stones are drawn with z up.
-            Up::Found if matches!(self.format, MeshFormat::Glb | MeshFormat::Gltf) => DVec3::Y,
-            Up::Found => DVec3::Z,
+    fn triangles(mut self, surface: Surface) -> Result<Brought, String> {
+        let mut told = Told::default();
+        let up = self.place.up(&surface, || axes().to_vec(), &mut told);
+        let shell = Shell::new(surface).map_err(|e| e.to_string())?;
+        let pose = match up {
+            Up::Posed(pose) => pose,
+            Up::Given(up) | Up::FoundBy(up) => upright(&shell, up, self.place.scale)?,
+            Up::Found => upright(&shell, DVec3::Z, self.place.scale)?,
         };
-        let turn = DQuat::from_rotation_arc(up, DVec3::Z);
-        let shell = Shell::new(surface).map_err(|e| e.to_string())?.moved(1.0, turn, DVec3::ZERO);
-        let start = (DVec3::INFINITY, DVec3::NEG_INFINITY);
-        let (low, high) = shell.vertices().iter().fold(start, |(low, high), v| (low.min(*v), high.max(*v)));
-        let scale = 2.0 / (high - low).truncate().min_element();
-        let shift = -0.5 * scale * (low + high);
-        let shell = Arc::new(shell.moved(scale, DQuat::IDENTITY, shift));
-        let note = format!("it is traced as {} triangles", shell.surface().triangles.len());
-        Ok(self.brought(Cut::Mesh(MeshShape(shell)), scale, note))
+        let shell = Arc::new(shell.moved(pose.scale, pose.turn, pose.shift));
+        told.notes.push(format!("it is traced as {} triangles", shell.surface().triangles.len()));
+        Ok(self.brought(Cut::Mesh(MeshShape(shell)), pose.scale, told))
     }
 
     /// The design of a cut with `scale` girdle radii per unit of the file.
-    fn brought(self, cut: Cut, scale: f64, note: String) -> Brought {
-        let (material, told) = material(self.hint, scale);
-        let design = Design {
-            name: self.name,
-            source: None,
-            notes: None,
-            material,
-            diameter_mm: DEFAULT_DIAMETER_MM,
-            cut,
-        };
-        let mut brought = Brought { notes: vec![note], ..Brought::of(design) };
-        match told {
-            Ok(note) => brought.notes.extend(note),
-            Err(warning) => brought.warnings.push(warning),
+    fn brought(self, cut: Cut, scale: f64, told: Told) -> Brought {
+        let Told { mut notes, mut warnings } = told;
+        let diameter_mm = self.place.diameter_mm.unwrap_or(DEFAULT_DIAMETER_MM);
+        let (material, why) = self.material(0.5 * diameter_mm / scale);
+        match why {
+            Ok(note) => notes.extend(note),
+            Err(warning) => warnings.push(warning),
         }
-        brought
+        let design = Design { name: self.name, source: None, notes: None, material, diameter_mm, cut };
+        Brought { notes, warnings, ..Brought::of(design) }
+    }
+
+    /// The material that the file asks for, and a note where it asks for none or a warning where there is no such
+    /// material.
+    fn material(&self, mm_per_unit: f64) -> (MaterialRef, Result<Option<String>, String>) {
+        let usual = MaterialRef::Name(USUAL.to_owned());
+        match (&self.place.material, &self.hint) {
+            (Some(stated), hint) if hint.as_ref().is_none_or(|hint| hint.is_of(stated, mm_per_unit)) => {
+                (stated.clone(), Ok(None))
+            }
+            (_, Some(hint)) => match hint.material(mm_per_unit) {
+                Ok(Some(material)) => (material, Ok(None)),
+                Ok(None) => (usual, Ok(Some(unsaid()))),
+                Err(error) => (usual, Err(format!("{error}; {USUAL} is taken"))),
+            },
+            (_, None) => (usual, Ok(Some(unsaid()))),
+        }
     }
 }
 
-/// The material that a file asks for, and a note where it asks for none or a warning where there is no such material;
-/// `scale` is in girdle radii per unit of the file.
-fn material(hint: Option<MaterialHint>, scale: f64) -> (MaterialRef, Result<Option<String>, String>) {
-    let mm_per_unit = 0.5 * DEFAULT_DIAMETER_MM / scale;
-    let usual = MaterialRef::Name(USUAL.to_owned());
-    match hint.map(|hint| hint.material(mm_per_unit)).transpose() {
-        Ok(Some(Some(material))) => (material, Ok(None)),
-        Ok(_) => {
-            (usual, Ok(Some(format!("the file says of no material that it refracts; {USUAL} is taken"))))
-        }
-        Err(error) => (usual, Err(format!("{error}; {USUAL} is taken"))),
-    }
+fn unsaid() -> String {
+    format!("the file says of no material that it refracts; {USUAL} is taken")
 }
 
 /// What was mended of a mesh, where that is more than any file of triangles needs.
@@ -162,7 +168,7 @@ mod tests {
         let specimen = Specimen::new(Design { cut: Cut::Planes(facets.collect()), ..design }).unwrap();
         let count = specimen.stone().unwrap().polytope.facets().len();
         for bytes in
-            [write_obj(&specimen.body, "t", 1.0).into_bytes(), write_stl(&specimen.body, 3.0).unwrap()]
+            [write_obj(&specimen.body, "t", 1.0, None).into_bytes(), write_stl(&specimen.body, 3.0, None).unwrap()]
         {
             let brought = read(bytes, Path::new("t"), MeshOptions::default()).unwrap();
             let Cut::Planes(planes) = &brought.design.cut else { panic!("concave") };

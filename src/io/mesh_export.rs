@@ -1,10 +1,14 @@
-//! Stones as meshes: OBJ with facets as polygons, STL and binary glTF with triangles.
+//! Stones as meshes: OBJ and PLY with facets as polygons, STL and binary glTF with triangles.
 //!
-//! `scale` is in units of the file per girdle radius: 1 for girdle radii, the radius in mm for OBJ and STL as the
-//! trade has them, the radius in metres for glTF as its standard wants it. OBJ keeps f64 to the last digit; the others
-//! are f32. Read back, OBJ and glTF give the facets their names. A solid that is not convex is written by its triangles.
+//! `scale` is in units of the file per girdle radius: the radius in mm for OBJ, PLY and STL as the trade has them, the radius
+//! in metres for glTF as its standard wants it. OBJ and PLY keep f64 to the last digit; the others are f32. Every file says
+//! how its stone lies, how large it is and of what, in a [`Statement`]. Read back, OBJ and glTF give the facets their names. A
+//! solid that is not convex is written by its triangles.
 
-use super::mesh_file::MaterialHint;
+mod ply;
+
+use super::mesh_file::{MaterialHint, Statement};
+use crate::cut::MaterialRef;
 use crate::math::{Surface, triangulate};
 use crate::scene::Body;
 use glam::DVec3;
@@ -14,6 +18,18 @@ use std::fmt::Write as _;
 
 /// The key of a glTF primitive's extras under which its facet's name is.
 pub(super) const FACET: &str = "facet";
+
+/// The key of a glTF node's extras under which the statement is.
+pub(super) const STATEMENT: &str = "brillianteer";
+
+/// The header of a binary STL, bytes.
+const STL_HEADER: usize = 80;
+
+/// The most bytes of a statement where there is no other limit.
+const LONGEST: usize = 400;
+
+/// Millimetres in glTF's unit, the metre.
+const METRE: f64 = 1000.0;
 
 /// glTF's codes: numbers of f32, of u32, and what a buffer view is for.
 const F32: u32 = 5126;
@@ -37,6 +53,15 @@ struct Face<'a> {
 struct Faces<'a> {
     vertices: Cow<'a, [DVec3]>,
     faces: Vec<Face<'a>>,
+}
+
+impl Faces<'_> {
+    /// The statement of a file in which +z or, as in glTF, +y is up, with so many mm per unit.
+    fn statement(&self, up: DVec3, mm_per_unit: f64, scale: f64, material: Option<&MaterialRef>) -> Statement {
+        let triangles = self.faces.iter().flat_map(|face| face.triangles.iter().copied()).collect();
+        let stone = Surface::new(self.vertices.to_vec(), triangles);
+        Statement::of(&stone, up, mm_per_unit, scale * mm_per_unit, material)
+    }
 }
 
 fn faces(body: &Body) -> Faces<'_> {
@@ -73,9 +98,11 @@ fn nameless<'a>(triangle: [u32; 3], normals: [DVec3; 3]) -> Face<'a> {
 }
 
 /// The solid as OBJ, z up: each facet a polygon in a group of its name.
-pub fn write_obj(body: &Body, name: &str, scale: f64) -> String {
-    let Faces { faces, vertices } = faces(body);
-    let mut text = format!("# {} faces\no {name}\n", faces.len());
+pub fn write_obj(body: &Body, name: &str, scale: f64, material: Option<&MaterialRef>) -> String {
+    let all = faces(body);
+    let statement = all.statement(DVec3::Z, 1.0, scale, material).text(LONGEST);
+    let Faces { faces, vertices } = all;
+    let mut text = format!("# {} faces, mm, z up\n# {statement}\no {name}\n", faces.len());
     for v in vertices.iter() {
         let v = *v * scale;
         // Formatting into a String cannot fail.
@@ -95,8 +122,10 @@ pub fn write_obj(body: &Body, name: &str, scale: f64) -> String {
 ///
 /// # Errors
 /// None that memory does not make: what is written to a list of bytes is never refused.
-pub fn write_stl(body: &Body, scale: f64) -> std::io::Result<Vec<u8>> {
-    let Faces { faces, vertices } = faces(body);
+pub fn write_stl(body: &Body, scale: f64, material: Option<&MaterialRef>) -> std::io::Result<Vec<u8>> {
+    let all = faces(body);
+    let statement = all.statement(DVec3::Z, 1.0, scale, material).text(STL_HEADER);
+    let Faces { faces, vertices } = all;
     let vector = |v: DVec3| stl_io::Vector::new(v.as_vec3().to_array());
     let triangle = |face: &Face, corners: [u32; 3]| stl_io::Triangle {
         normal: vector(face.normals[0]),
@@ -106,7 +135,21 @@ pub fn write_stl(body: &Body, scale: f64) -> std::io::Result<Vec<u8>> {
     let triangles: Vec<stl_io::Triangle> = each.collect();
     let mut bytes = vec![];
     stl_io::write_stl(&mut bytes, triangles.iter())?;
+    // One that found no room is left out whole.
+    if let Some(header) = bytes.get_mut(..statement.len()).filter(|header| header.len() <= STL_HEADER) {
+        header.copy_from_slice(statement.as_bytes());
+    }
     Ok(bytes)
+}
+
+/// The solid as binary PLY, z up: each facet a polygon.
+///
+/// # Errors
+/// None that memory does not make.
+pub fn write_ply(body: &Body, scale: f64, material: Option<&MaterialRef>) -> std::io::Result<Vec<u8>> {
+    let all = faces(body);
+    let statement = all.statement(DVec3::Z, 1.0, scale, material).text(LONGEST);
+    ply::written(&all, scale, statement)
 }
 
 /// The solid as binary glTF, y up: a primitive with flat normals for each named facet, its name among its extras, one for
@@ -118,10 +161,12 @@ pub fn write_glb(
     body: &Body,
     name: &str,
     scale: f64,
-    material: &MaterialHint,
+    (hint, material): (&MaterialHint, Option<&MaterialRef>),
 ) -> Result<Vec<u8>, gltf::Error> {
     let mut parts = Parts::default();
-    let Faces { faces, vertices } = faces(body);
+    let all = faces(body);
+    let statement = all.statement(DVec3::Y, METRE, scale, material).text(LONGEST);
+    let Faces { faces, vertices } = all;
     let mut nameless = Primitive::default();
     for face in faces {
         let mut own = Primitive::default();
@@ -141,10 +186,11 @@ pub fn write_glb(
         "asset": { "version": "2.0", "generator": "Brillianteer" },
         "scene": 0,
         "scenes": [{ "name": name, "nodes": [0] }],
-        "nodes": [{ "name": name, "mesh": 0, "rotation": [-half, 0.0, 0.0, half] }],
+        "nodes": [{ "name": name, "mesh": 0, "rotation": [-half, 0.0, 0.0, half],
+            "extras": { STATEMENT: statement } }],
         "meshes": [{ "name": name, "primitives": primitives }],
-        "materials": [material_json(material)],
-        "extensionsUsed": used(material),
+        "materials": [material_json(hint)],
+        "extensionsUsed": used(hint),
         "buffers": [{ "byteLength": bin.len() }],
         "bufferViews": views,
         "accessors": accessors,

@@ -35,6 +35,6 @@ pub use atomic::{WriteError, write};
 pub use drawing_png::{DrawingError, rasterize};
 pub use exr::write_exr;
 pub use failure::Failure;
-pub use mesh_export::{write_glb, write_obj, write_stl};
+pub use mesh_export::{write_glb, write_obj, write_ply, write_stl};
 pub use picture_file::{write_linear_exr, write_rgba_png};
 pub use png::{MOST_PIXELS, PngRows, write_png};

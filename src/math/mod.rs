@@ -5,6 +5,7 @@ mod affine;
 mod basis;
 mod bvh;
 mod bvh_build;
+mod calipers;
 mod decay;
 mod field;
 mod mesh;
@@ -22,6 +23,7 @@ mod symmetry;
 pub use affine::Affine;
 pub use basis::Basis;
 pub use bvh::{Bvh, Hit, Node};
+pub use calipers::{Calipers, hull};
 pub use decay::integral_of_decay;
 #[cfg(feature = "gpu")]
 pub(crate) use field::Parts;

@@ -9,7 +9,7 @@ pub(crate) use super::drawing::{degrees, percent};
 
 use super::drawing::{Align, Aspect, DIMENSION, ROOM_FOR_ARROWS, Sheet, text_width};
 use crate::cut::RoundBrilliant;
-use crate::math::{Basis, Facet};
+use crate::math::{Basis, Calipers, Facet, hull};
 use crate::scene::Stone;
 use glam::{DVec2, DVec3};
 use svg::Document;
@@ -126,7 +126,7 @@ fn measured_profile(stone: &Stone, title: &str) -> Document {
 }
 
 /// The side view that shows the stone's width: along x or y where it is next to narrowest that way, else wherever it
-/// is narrowest seen from above, which is square to one of the outline's edges.
+/// is narrowest seen from above.
 pub(crate) fn across_the_width(stone: &Stone) -> Basis {
     let vertices = stone.polytope.vertices();
     let width = |direction: DVec3| {
@@ -135,33 +135,9 @@ pub(crate) fn across_the_width(stone: &Stone) -> Basis {
     };
     let axis = if width(DVec3::X) <= width(DVec3::Y) { DVec3::X } else { DVec3::Y };
     let outline = hull(vertices.iter().map(|v| v.truncate()).collect());
-    let edges = outline.iter().zip(outline.iter().cycle().skip(1));
-    let across = edges.filter_map(|(&a, &b)| Some((b - a).perp().try_normalize()?.extend(0.0)));
-    let narrowest = across.min_by(|&a, &b| width(a).total_cmp(&width(b))).unwrap_or(axis);
+    let narrowest = Calipers::of(&outline).map_or(axis, |found| found.across.extend(0.0));
     let right = if width(axis) <= NEARLY_NARROWEST * width(narrowest) { axis } else { narrowest };
     Basis { right, up: DVec3::Z, toward: right.cross(DVec3::Z) }
-}
-
-/// The convex hull of some points, counter-clockwise (Andrew's monotone chain).
-pub(crate) fn hull(mut points: Vec<DVec2>) -> Vec<DVec2> {
-    points.sort_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
-    let half = |points: &mut dyn Iterator<Item = DVec2>| {
-        let mut chain: Vec<DVec2> = vec![];
-        for p in points {
-            while let [.., a, b] = chain[..] {
-                if (b - a).perp_dot(p - b) > 0.0 {
-                    break;
-                }
-                chain.pop();
-            }
-            chain.push(p);
-        }
-        chain.pop();
-        chain
-    };
-    let mut lower = half(&mut points.iter().copied());
-    lower.extend(half(&mut points.iter().rev().copied()));
-    lower
 }
 
 /// A sheet with the stone on it, and what its dimensions are measured between.
@@ -408,12 +384,5 @@ mod tests {
         assert_eq!(spread(vec![95.0, 100.0, 105.0], 0.0, 20.0), [80.0, 100.0, 120.0]);
         assert_eq!(spread(vec![95.0, 100.0, 105.0], 90.0, 20.0), [90.0, 110.0, 130.0]);
         assert_eq!(spread(vec![5.0], 0.0, 20.0), [5.0]);
-    }
-
-    #[test]
-    fn a_hull_keeps_the_corners_alone() {
-        let points = [[0.0, 0.0], [1.0, 0.0], [2.0, 0.0], [2.0, 1.0], [1.0, 0.5], [0.0, 1.0], [0.0, 0.0]];
-        let hull = hull(points.map(DVec2::from_array).to_vec());
-        assert_eq!(hull, [[0.0, 0.0], [2.0, 0.0], [2.0, 1.0], [0.0, 1.0]].map(DVec2::from_array));
     }
 }

@@ -2,7 +2,11 @@
 
 use crate::cut::Outline;
 use crate::math::{Plane, Polytope, PolytopeError};
-use glam::{DQuat, DVec3};
+use glam::{DQuat, DVec2, DVec3};
+
+/// A stone whose middle lies nearer to the axis than this part of its width is centred: more than the six digits of
+/// cutters' files leave, less than is seen.
+const CENTRED: f64 = 1e-4;
 
 /// A convex stone. Lengths in girdle radii, +z out of the table.
 #[derive(Debug, Clone, PartialEq)]
@@ -35,12 +39,14 @@ impl Stone {
         Self { polytope, names: self.names.clone() }
     }
 
-    /// The same stone scaled so that half its width is 1 and moved along its axis so that the girdle's upper edge lies at
-    /// z = 0: the frame of all stones, for one in a unit of its own.
+    /// The same stone scaled so that half its width is 1, and moved so that its middle lies on the axis and the girdle's
+    /// upper edge at z = 0: the frame of all stones, for one in a unit of its own.
     pub fn girdled(&self) -> Self {
         let outline = Outline::of(&self.polytope);
         let scale = 2.0 / outline.width;
-        let shift = DVec3::new(0.0, 0.0, -outline.girdle_top * scale);
+        // What lies on the axis but for the last digits stays there to all digits.
+        let off = if outline.middle.length() > CENTRED * outline.width { outline.middle } else { DVec2::ZERO };
+        let shift = -scale * off.extend(outline.girdle_top);
         Self { polytope: self.polytope.moved(scale, DQuat::IDENTITY, shift), names: self.names.clone() }
     }
 

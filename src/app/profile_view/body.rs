@@ -2,8 +2,7 @@
 
 use super::ink::Inks;
 use super::sight::Sight;
-use crate::math::{Basis, Facet};
-use crate::picture::profile::hull;
+use crate::math::{Basis, Facet, hull};
 use crate::scene::Stone;
 use egui::{Color32, Mesh, Painter, Pos2, Shape, Stroke};
 

@@ -1,52 +1,199 @@
-//! Which facet is the table, and so where up is.
+//! Which way is up, found as a person would: by the file's own axes where a facet is square to them, by a girdle, by
+//! symmetry about the axis, by a crown that is flatter than the pavilion, and by the size of the table.
 
-use super::even::{self, Match};
-use super::{FromMeshError, Up};
-use crate::math::Plane;
-use glam::{DQuat, DVec3};
+use super::cues::Cues;
+use super::even::{self, Match, Parts};
+use super::{Doubt, FromMeshError, Up};
+use crate::math::{Plane, Polytope};
+use glam::{DMat3, DQuat, DVec3};
+use std::cmp::Ordering;
 
 /// A facet whose normal is this near (cosine, 5 degrees) to a direction given as up is the table.
 const NEAR_UP: f64 = 0.996_194_698;
 
-/// Facets smaller than this part of the largest are not taken for the table.
-const LEAST_TABLE: f64 = 0.25;
+/// Directions that differ by less than this (length of the difference of unit vectors) are one.
+const ONE: f64 = 1e-3;
 
-/// A facet around which nothing lies evenly counts this part of one around which all does.
-const UNEVEN: f64 = 0.2;
+/// How many of the largest facets may be the table.
+const MOST_TABLES: usize = 120;
 
-/// Facets whose scores differ by less than this part are equals, and the one that faces up is taken.
-const EQUAL: f64 = 0.02;
+/// So many parallel edges, at least, make a direction that is tried: those between the facets of a girdle.
+const LEAST_PARALLEL: usize = 4;
 
-/// The most facets of which all are compared with all, for each facet that may be the table.
+/// The most directions of edges that are compared.
+const MOST_EDGES: usize = 1_500;
+
+/// How many directions are looked at closely: symmetry takes long to see.
+const MOST_CLOSE: usize = 24;
+
+/// The most facets of which all are compared with all, for each direction that is looked at closely.
 const MOST_COMPARED: usize = 400;
 
-/// The axis up, a unit vector, and the facet that is the table, where there is one. Planes are about the middle.
-pub(super) fn axis(planes: &[Plane], areas: &[f64], up: Up) -> Result<(DVec3, Option<usize>), FromMeshError> {
-    let largest = |of: &dyn Fn(usize) -> bool| {
-        (0..planes.len()).filter(|&i| of(i)).max_by(|&a, &b| areas[a].total_cmp(&areas[b]).then(b.cmp(&a)))
+/// What each cue counts for. Chosen on real cutters' designs, in their own frames and turned.
+mod weight {
+    /// A girdle all around.
+    pub const GIRDLE: f64 = 1.0;
+    /// Symmetry of all facets.
+    pub const EVEN: f64 = 0.6;
+    /// A table, however small.
+    pub const TABLE: f64 = 0.3;
+    /// A table as large as the outline, beyond what any table counts for.
+    pub const TABLE_AREA: f64 = 0.4;
+    /// A stone that is all pavilion and no crown.
+    pub const FLAT: f64 = 0.5;
+    /// An axis of the file, where a facet is square to it on either side.
+    pub const OWN_AXIS: f64 = 0.4;
+    /// The axis that is up by the custom of the file's format; half of it for the other axis that is often up.
+    pub const CUSTOM: f64 = 0.25;
+}
+
+/// A direction whose score comes within this of the best is one that a person might take.
+const DOUBTFUL: f64 = 0.1;
+
+/// The axis up, and which facet is the table.
+pub(super) struct Aim {
+    /// A unit vector.
+    pub axis: DVec3,
+    /// Its place among the facets, where there is one.
+    pub table: Option<usize>,
+    /// What else may be up.
+    pub doubt: Option<Doubt>,
+}
+
+/// Finds the axis, unless it is given. Parts are about the middle of the solid, whose facets they are in order.
+pub(super) fn aim(solid: &Polytope, parts: &Parts, up: Up) -> Result<Aim, FromMeshError> {
+    let custom = match up {
+        Up::Found => DVec3::Z,
+        Up::FoundBy(custom) => custom,
+        Up::Given(given) => return toward(solid, given).ok_or(FromMeshError::Up(given)),
+        Up::Posed(pose) => {
+            let given = pose.turn.inverse() * DVec3::Z;
+            return toward(solid, given).map(|aim| Aim { axis: given, ..aim }).ok_or(FromMeshError::Up(given));
+        }
     };
-    if let Up::Given(given) = up {
-        let Some(unit) = Plane::new(given, 0.0).normalized().map(|p| p.normal) else {
-            return Err(FromMeshError::Up(given));
-        };
-        let table = largest(&|i| planes[i].normal.dot(unit) >= NEAR_UP);
-        return Ok((table.map_or(unit, |t| planes[t].normal), table));
-    }
-    let most = areas.iter().copied().fold(0.0, f64::max);
-    let scores: Vec<(f64, usize)> = (0..planes.len())
-        .filter(|&i| areas[i] >= LEAST_TABLE * most)
-        .map(|i| (areas[i] * (UNEVEN + (1.0 - UNEVEN) * evenness(planes, areas, planes[i].normal)), i))
+    let mut scored: Vec<(f64, Cues)> = directions(solid)
+        .into_iter()
+        .filter_map(|up| Cues::of(solid, up))
+        .map(|cues| (at_sight(&cues, custom), cues))
         .collect();
-    let best = scores.iter().map(|s| s.0).fold(0.0, f64::max);
-    // Whether it faces +z, then +y, decides among equals.
-    let faces_up = |i: usize| planes[i].normal.z.max(0.9 * planes[i].normal.y);
-    let equals = scores.into_iter().filter(|s| s.0 >= (1.0 - EQUAL) * best).map(|s| s.1);
-    let table = equals.max_by(|&a, &b| faces_up(a).total_cmp(&faces_up(b)).then(b.cmp(&a)));
-    Ok((table.map_or(DVec3::Z, |t| planes[t].normal), table))
+    let best_first = |a: &(f64, Cues), b: &(f64, Cues)| b.0.total_cmp(&a.0);
+    scored.sort_by(best_first);
+    scored.truncate(MOST_CLOSE);
+    for (score, cues) in &mut scored {
+        *score += weight::EVEN * evenness(parts, cues.up);
+    }
+    scored.sort_by(best_first);
+    let Some((most, best)) = scored.first().copied() else {
+        return Ok(Aim { axis: custom, table: None, doubt: None });
+    };
+    let other = scored.iter().skip(1).find(|(_, cues)| !is_alike(cues, &best));
+    let doubt = other.filter(|(score, _)| most - score < DOUBTFUL).map(|(_, cues)| Doubt { other: cues.up });
+    let axis = best.table.map_or(best.up, |table| solid.facets()[table].plane.normal);
+    Ok(Aim { axis, table: best.table, doubt })
+}
+
+/// The axis where up is given: the normal of the largest facet near to it, or else what was given. `None` where that
+/// points nowhere.
+fn toward(solid: &Polytope, given: DVec3) -> Option<Aim> {
+    let unit = Plane::new(given, 0.0).normalized()?.normal;
+    let facets = solid.facets().iter().enumerate();
+    let near = facets.filter(|(_, f)| f.plane.normal.dot(unit) >= NEAR_UP);
+    let larger = |a: &(usize, _), b: &(usize, _)| compare(solid, a.0, b.0);
+    let table = near.max_by(larger).map(|(place, _)| place);
+    Some(Aim { axis: table.map_or(unit, |t| solid.facets()[t].plane.normal), table, doubt: None })
+}
+
+/// Facets by area; of equals the earlier is the larger.
+fn compare(solid: &Polytope, a: usize, b: usize) -> Ordering {
+    let size = |f: usize| solid.facet_area(&solid.facets()[f]);
+    size(a).total_cmp(&size(b)).then(b.cmp(&a))
+}
+
+/// Whether two directions show the same stone: those of a cube do.
+fn is_alike(a: &Cues, b: &Cues) -> bool {
+    let near = |x: f64, y: f64| (x - y).abs() < 1e-3;
+    near(a.girdle, b.girdle)
+        && near(a.table_area, b.table_area)
+        && near(a.culet_area, b.culet_area)
+        && near(a.crown, b.crown)
+        && near(a.height, b.height)
+        && near(a.length, b.length)
+}
+
+/// What is seen of a direction at a glance.
+fn at_sight(cues: &Cues, custom: DVec3) -> f64 {
+    let worth = |area: f64| if area > 0.0 { weight::TABLE + weight::TABLE_AREA * area.min(1.0) } else { 0.0 };
+    weight::GIRDLE * cues.girdle.min(1.0)
+        + worth(cues.table_area) - worth(cues.culet_area)
+        + weight::FLAT * (1.0 - cues.crown)
+        + own(cues, custom)
+}
+
+/// What the file's own axes say.
+fn own(cues: &Cues, custom: DVec3) -> f64 {
+    let is = |axis: DVec3| (cues.up - axis).length() < ONE;
+    let square = cues.table_area > 0.0 || cues.culet_area > 0.0;
+    let axes = [DVec3::X, DVec3::Y, DVec3::Z];
+    let along = axes.iter().any(|axis| is(*axis) || is(-*axis)) && square;
+    let second = if custom == DVec3::Y { DVec3::Z } else { DVec3::Y };
+    let usual = if is(custom) { 1.0 } else if is(second) { 0.5 } else { 0.0 };
+    weight::CUSTOM * usual + if along { weight::OWN_AXIS } else { 0.0 }
+}
+
+/// All directions that may be up, each once: normals of facets, axes of the file, principal axes, and what many edges
+/// are parallel to; and their opposites.
+pub fn directions(solid: &Polytope) -> Vec<DVec3> {
+    let mut places: Vec<usize> = (0..solid.facets().len()).collect();
+    places.sort_by(|&a, &b| compare(solid, b, a));
+    let normals = places.iter().take(MOST_TABLES).map(|&f| solid.facets()[f].plane.normal);
+    let mut found: Vec<DVec3> = vec![];
+    let axes = [DVec3::X, DVec3::Y, DVec3::Z];
+    for axis in normals.chain(parallels(solid)).chain(principal(solid)).chain(axes) {
+        for direction in [axis, -axis] {
+            if found.iter().all(|other| (*other - direction).length() >= ONE) {
+                found.push(direction);
+            }
+        }
+    }
+    found
+}
+
+/// Directions that many edges have.
+fn parallels(solid: &Polytope) -> Vec<DVec3> {
+    let vertices = solid.vertices();
+    let size = vertices.iter().map(|v| v.length()).fold(0.0, f64::max);
+    let mut groups: Vec<(DVec3, usize)> = vec![];
+    for (place, facet) in solid.facets().iter().enumerate().take(MOST_EDGES) {
+        for (k, &other) in facet.neighbours.iter().enumerate().filter(|(_, other)| **other as usize > place) {
+            let [a, b] = [k, (k + 1) % facet.outline.len()].map(|at| vertices[facet.outline[at] as usize]);
+            // The line in which two planes meet, which is surer than its ends where these are near.
+            let line = facet.plane.normal.cross(solid.facets()[other as usize].plane.normal);
+            let Some(line) = line.try_normalize().filter(|_| a.distance(b) > 1e-4 * size) else { continue };
+            match groups.iter_mut().find(|(of, _)| of.cross(line).length() < ONE) {
+                Some((_, count)) => *count += 1,
+                None => groups.push((line, 1)),
+            }
+        }
+    }
+    groups.sort_by_key(|(_, count)| std::cmp::Reverse(*count));
+    groups.into_iter().filter(|(_, count)| *count >= LEAST_PARALLEL).take(12).map(|(line, _)| line).collect()
+}
+
+/// The principal axes of the surface.
+fn principal(solid: &Polytope) -> Vec<DVec3> {
+    let middle = even::centroid(solid);
+    let mut spread = DMat3::ZERO;
+    for facet in solid.facets() {
+        let area = solid.facet_area(facet);
+        let centre = solid.corners(facet).sum::<DVec3>() / facet.outline.len() as f64 - middle;
+        spread += DMat3::from_cols(centre * centre.x, centre * centre.y, centre * centre.z) * area;
+    }
+    crate::math::surface::eigen(spread).1.to_vec()
 }
 
 /// The largest part of the area that some turn about an axis carries onto other facets.
-fn evenness(planes: &[Plane], areas: &[f64], axis: DVec3) -> f64 {
+fn evenness(parts: &Parts, axis: DVec3) -> f64 {
+    let Parts { planes, areas, .. } = parts;
     if planes.len() > MOST_COMPARED {
         return 0.0;
     }

@@ -80,6 +80,7 @@ pub(super) fn centroid(polytope: &Polytope) -> DVec3 {
 }
 
 /// Planes about a middle with +z along the axis, and the symmetry that they were given.
+#[derive(Clone)]
 pub(super) struct Even {
     pub planes: Vec<Plane>,
     /// From the frame of the planes that were found.
@@ -139,8 +140,9 @@ impl Parts {
     }
 }
 
-/// The planes with their axis upright, and evened where the corners allow.
-pub(super) fn evened(parts: &Parts, axis: DVec3) -> Even {
+/// The planes with their axis upright, and evened where the corners allow. The axis may follow the symmetry, unless it is
+/// fixed.
+pub(super) fn evened(parts: &Parts, axis: DVec3, is_fixed: bool) -> Even {
     let Parts { planes, areas, .. } = parts;
     let plain = upright(planes, axis);
     if planes.len() > MOST_FACETS {
@@ -151,7 +153,7 @@ pub(super) fn evened(parts: &Parts, axis: DVec3) -> Even {
         Polytope::from_planes(&back).is_ok_and(|solid| deviation(&solid, &parts.corners) <= parts.limit)
     };
     let tried = (1..=MOST_TURNS).rev().flat_map(|turns| {
-        let axis = refined(planes, areas, axis, turns);
+        let axis = if is_fixed { axis } else { refined(planes, areas, axis, turns) };
         let plain = Even { turns, ..upright(planes, axis) };
         let mirror = best_mirror(&plain, areas);
         [(turns, axis, mirror), (turns, axis, None)]

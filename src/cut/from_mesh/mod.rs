@@ -5,6 +5,7 @@
 //! +x through a bezel or another facet of the crown that mirrors into itself. A long stone's width lies along x.
 
 mod aim;
+mod cues;
 mod even;
 mod name;
 mod outline;
@@ -16,16 +17,29 @@ use crate::math::surface::{Faceted, deviation};
 use crate::math::{Plane, Polytope, PolytopeError, Symmetry};
 use glam::{DQuat, DVec3};
 
+pub use aim::directions;
+use aim::{Aim, aim};
 use outline::LEAST_UPRIGHT;
 
 /// Which way a surface's table faces.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub enum Up {
-    /// To be found: the largest facet around which the others lie evenly; of equals, the one that faces +z, then +y.
+    /// To be found from the shape, where z is up by custom.
     #[default]
     Found,
+    /// To be found from the shape, where this axis of the surface's frame is up by custom: y in glTF.
+    FoundBy(DVec3),
     /// Given in the surface's frame, any length but zero. The largest facet within 5 degrees is the table.
     Given(DVec3),
+    /// Known with all else of where the stone lies: the surface is moved so and not otherwise.
+    Posed(Pose),
+}
+
+/// Another direction that a person might have taken for up.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Doubt {
+    /// In the surface's frame, a unit vector.
+    pub other: DVec3,
 }
 
 /// How a surface was moved: `stone = scale · (turn · surface) + shift`.
@@ -43,6 +57,11 @@ impl Pose {
     /// Where a point of the surface lies in the stone's frame.
     pub fn of(&self, point: DVec3) -> DVec3 {
         self.scale * (self.turn * point) + self.shift
+    }
+
+    /// The point of the surface that becomes the origin.
+    pub fn origin(&self) -> DVec3 {
+        self.turn.inverse() * (-self.shift / self.scale)
     }
 
     fn plane(&self, plane: &Plane) -> Plane {
@@ -63,6 +82,10 @@ pub struct FromMesh {
     /// The symmetry that the planes were given where they had it but for noise; [`Symmetry::NONE`] where they were
     /// left as they are.
     pub evened: Symmetry,
+    /// The direction that was taken for up, in the surface's frame, a unit vector.
+    pub up: DVec3,
+    /// What else may be up, where the shape leaves a doubt.
+    pub doubt: Option<Doubt>,
 }
 
 /// Why facets make no stone.
@@ -71,9 +94,6 @@ pub enum FromMeshError {
     /// A direction that is none.
     #[error("the direction up, {0}, points nowhere; three finite numbers that are not all 0 are expected")]
     Up(DVec3),
-    /// Nothing between crown and pavilion.
-    #[error("the stone has no girdle: no edge lies between facets that face up and facets that face down")]
-    NoGirdle,
     /// The planes as posed enclose nothing.
     #[error("the facets that were found make no stone: {0}")]
     Polytope(#[from] PolytopeError),
@@ -82,13 +102,24 @@ pub enum FromMeshError {
 /// Poses, evens and names the facets of a surface.
 ///
 /// # Errors
-/// A direction up that is none, or facets without a girdle.
+/// A direction up that is none, or facets that enclose nothing once they are evened.
 pub fn from_mesh(found: &Faceted, up: Up) -> Result<FromMesh, FromMeshError> {
-    let middle = even::centroid(&found.polytope);
+    let middle = match up {
+        Up::Posed(pose) => pose.origin() - found.centre,
+        _ => even::centroid(&found.polytope),
+    };
     let parts = even::Parts::about(found, middle);
-    let (axis, table) = aim::axis(&parts.planes, &parts.areas, up)?;
-    let even = even::evened(&parts, axis);
-    let upright = outline::placed(&even, &parts.areas)?;
+    let Aim { axis, table, doubt } = aim(&found.polytope, &parts, up)?;
+    let (even, upright) = match up {
+        Up::Posed(pose) => {
+            let even = even::evened(&parts, axis, true);
+            (even.clone(), outline::as_posed(&even, &pose))
+        }
+        _ => {
+            let even = even::evened(&parts, axis, false);
+            (even.clone(), outline::placed(&even, &parts.areas)?)
+        }
+    };
     let posed: Vec<Plane> = even.planes.iter().map(|p| upright.plane(p)).collect();
     let polytope = Polytope::from_planes(&posed)?;
     let turn = upright.turn * even.turn;
@@ -102,5 +133,7 @@ pub fn from_mesh(found: &Faceted, up: Up) -> Result<FromMesh, FromMeshError> {
         pose,
         deviation: deviation(&polytope, &points),
         evened: even.symmetry(upright.turn),
+        up: axis,
+        doubt,
     })
 }

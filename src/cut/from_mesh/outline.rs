@@ -2,16 +2,17 @@
 
 use super::even::Even;
 use super::{FromMeshError, Pose};
-use crate::math::{Plane, Polytope};
-use glam::{DQuat, DVec3};
+use crate::cut::Outline;
+use crate::math::{Calipers, Plane, Polytope, hull};
+use glam::{DQuat, DVec2, DVec3};
 use std::f64::consts::{FRAC_PI_2, PI};
 
 /// Facets whose normals rise or fall by less than this (sine, 6 degrees) are the girdle's: steep steps of a pavilion
 /// lean more.
 pub(super) const LEAST_UPRIGHT: f64 = 0.104_528_463;
 
-/// An outline whose narrowest radius is at least this part of its widest is round, and its radius is that of its
-/// corners: a decagon is.
+/// An outline whose least width along the directions that may be +x is at least this part of the greatest is round: a
+/// decagon is.
 const ROUND: f64 = 0.95;
 
 /// Azimuths nearer than this are one, radians; noise of a thousandth turns facets by less.
@@ -20,64 +21,40 @@ const SAME_AZIMUTH: f64 = 0.02;
 /// Areas whose ratio is less are equal.
 const SAME_AREA: f64 = 1.01;
 
-/// An outline whose second moments differ by more than this part of their sum is longer one way: by one percent.
+/// An outline longer than its width by more than this part of it has a width that a person sees.
 const LONG: f64 = 0.01;
 
 /// Widths whose ratio is nearer to 1 than this are equal.
 const SAME_WIDTH: f64 = 0.005;
 
-/// The pose of an even stone whose axis is up already: width along x, girdle at z = 0 with radius 1.
+/// The pose of an even stone whose axis is up already: width along x, its middle on the axis, girdle at z = 0, and half its
+/// width 1.
 pub(super) fn placed(even: &Even, areas: &[f64]) -> Result<Pose, FromMeshError> {
     let solid = Polytope::from_planes(&even.planes)?;
-    let rim = rim(&solid);
-    let top = rim.iter().map(|v| v.z).fold(f64::NEG_INFINITY, f64::max);
-    if rim.is_empty() {
-        return Err(FromMeshError::NoGirdle);
-    }
-    let about = DQuat::from_rotation_z(-azimuth(even, areas, &rim));
-    let flat: Vec<DVec3> = rim.iter().map(|v| about * *v).collect();
-    let (low, high) = flat.iter().fold((flat[0], flat[0]), |(low, high), v| (low.min(*v), high.max(*v)));
-    // About an axis the middle is known; else it is that of the box.
-    let middle = if even.turns > 1 { DVec3::ZERO } else { (low + high) / 2.0 };
-    let middle = DVec3::new(middle.x, middle.y, top);
-    let scale = 1.0 / half_width(&solid, &flat, middle, high - low);
-    Ok(Pose { scale, turn: about, shift: -scale * middle })
+    let rim = hull(solid.vertices().iter().map(|v| v.truncate()).collect());
+    let turn = DQuat::from_rotation_z(-azimuth(even, areas, &rim));
+    let Outline { width, girdle_top, middle, .. } = Outline::of(&solid.moved(1.0, turn, DVec3::ZERO));
+    // About an axis the middle is known to the last digit.
+    let middle = if even.turns > 1 { DVec2::ZERO } else { middle };
+    let scale = 2.0 / width;
+    Ok(Pose { scale, turn, shift: -scale * middle.extend(girdle_top) })
 }
 
-fn half_width(solid: &Polytope, rim: &[DVec3], middle: DVec3, extent: DVec3) -> f64 {
-    let widest = rim.iter().map(|v| (*v - middle).truncate().length()).fold(0.0, f64::max);
-    let girdle = solid.planes().filter(|p| p.normal.z.abs() < LEAST_UPRIGHT);
-    // Without girdle facets the outline is judged by its extent alone.
-    let narrowest = girdle.map(|p| p.offset).fold(extent.x.min(extent.y) / 2.0, f64::min);
-    if narrowest >= ROUND * widest { widest } else { extent.x.min(extent.y) / 2.0 }
-}
-
-/// The corners of the girdle: of its facets, or between facets that face up and down.
-fn rim(solid: &Polytope) -> Vec<DVec3> {
-    let facing = |test: &dyn Fn(f64) -> bool| {
-        let mut on = vec![false; solid.vertices().len()];
-        let facets = solid.facets().iter().filter(|f| test(f.plane.normal.z));
-        facets.flat_map(|f| &f.outline).for_each(|&v| on[v as usize] = true);
-        on
-    };
-    let (up, down) = (facing(&|z| z >= LEAST_UPRIGHT), facing(&|z| z <= -LEAST_UPRIGHT));
-    let upright = facing(&|z| z.abs() < LEAST_UPRIGHT);
-    let at = |test: &dyn Fn(usize) -> bool| -> Vec<DVec3> {
-        (0..up.len()).filter(|&v| test(v)).map(|v| solid.vertices()[v]).collect()
-    };
-    let girdle = at(&|v| up[v] && upright[v]);
-    if girdle.is_empty() { at(&|v| up[v] && down[v]) } else { girdle }
+/// What is left of a pose that is known, once the axis is up and the origin where it belongs.
+pub(super) fn as_posed(even: &Even, pose: &Pose) -> Pose {
+    let right = pose.turn * (even.turn.inverse() * DVec3::X);
+    Pose { scale: pose.scale, turn: DQuat::from_rotation_z(right.y.atan2(right.x)), shift: DVec3::ZERO }
 }
 
 /// The azimuth that becomes +x.
-fn azimuth(even: &Even, areas: &[f64], rim: &[DVec3]) -> f64 {
+fn azimuth(even: &Even, areas: &[f64], rim: &[DVec2]) -> f64 {
     let mut candidates = candidates(even, rim);
     // Of equals, the nearest to the surface's own x axis is taken: what lies right is left as it is.
     let own = even.turn * DVec3::X;
     let apart = |azimuth: f64| -own.dot(DVec3::new(azimuth.cos(), azimuth.sin(), 0.0));
     candidates.sort_by(|&a, &b| apart(a).total_cmp(&apart(b)));
     let width = |azimuth: f64| {
-        let along = DVec3::new(azimuth.cos(), azimuth.sin(), 0.0);
+        let along = DVec2::from_angle(azimuth);
         let reach = rim.iter().map(|v| v.dot(along));
         reach.clone().fold(f64::NEG_INFINITY, f64::max) - reach.fold(f64::INFINITY, f64::min)
     };
@@ -93,7 +70,7 @@ fn azimuth(even: &Even, areas: &[f64], rim: &[DVec3]) -> f64 {
 }
 
 /// Directions of mirrors, else of facets, else of the outline.
-fn candidates(even: &Even, rim: &[DVec3]) -> Vec<f64> {
+fn candidates(even: &Even, rim: &[DVec2]) -> Vec<f64> {
     match (even.mirror, even.turns) {
         (Some(mirror), 1 | 2) => (0..4).map(|k| mirror + f64::from(k) * FRAC_PI_2).collect(),
         (Some(mirror), turns) => {
@@ -108,13 +85,10 @@ fn crown_azimuths(even: &Even) -> Vec<f64> {
     even.planes.iter().filter(|p| is_crown(p)).map(|p| p.normal.y.atan2(p.normal.x)).collect()
 }
 
-/// The direction across a corner set's longer axis, by its second moments; `None` where it has none.
-fn narrow_axis(rim: &[DVec3]) -> Option<f64> {
-    let middle = rim.iter().sum::<DVec3>() / rim.len() as f64;
-    let sum = |f: &dyn Fn(DVec3) -> f64| rim.iter().map(|v| f(*v - middle)).sum::<f64>();
-    let (difference, mixed) = (sum(&|v| v.x * v.x - v.y * v.y), sum(&|v| 2.0 * v.x * v.y));
-    let whole = sum(&|v| v.x * v.x + v.y * v.y);
-    (difference.hypot(mixed) > LONG * whole).then(|| mixed.atan2(difference) / 2.0 + FRAC_PI_2)
+/// The direction in which an outline is narrowest; `None` where it is as wide as long.
+fn narrow_axis(rim: &[DVec2]) -> Option<f64> {
+    let found = Calipers::of(rim).filter(|found| found.length > (1.0 + LONG) * found.width)?;
+    Some(found.across.to_angle())
 }
 
 fn is_crown(plane: &Plane) -> bool {

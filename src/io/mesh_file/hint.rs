@@ -16,6 +16,9 @@ const DEFAULT_IOR: f64 = 1.5;
 /// KHR_materials_dispersion is this over the Abbe number.
 const DISPERSION: f64 = 20.0;
 
+/// Numbers that differ by less are the same: a hundred roundings of f32.
+const SAME: f64 = 1e-5;
+
 /// The least share of light that a colour is taken to let through: black has no finite absorption.
 const BLACK: f64 = 1e-6;
 
@@ -56,6 +59,26 @@ impl MaterialHint {
             attenuation: (!clear).then(|| (CHANNEL_NM.map(left), 1.0)),
             transmits: true,
         }
+    }
+
+    /// Whether this is what is written of a material, in a file of so many mm per unit.
+    pub fn is_of(&self, material: &MaterialRef, mm_per_unit: f64) -> bool {
+        let Ok(material) = material.material() else { return false };
+        let written = Self::of(&material, mm_per_unit);
+        let near = |a: Option<f64>, b: Option<f64>| match (a, b) {
+            (Some(a), Some(b)) => (a - b).abs() <= SAME * b.abs().max(1.0),
+            (a, b) => a.unwrap_or(0.0).abs() <= SAME && b.unwrap_or(0.0).abs() <= SAME,
+        };
+        let distances = (self.attenuation, written.attenuation);
+        let attenuated = match distances {
+            (Some((a, one)), Some((b, other))) => {
+                // What is left after one unit, whatever the distance that it is told for.
+                let left = |share: f64, distance: f64| share.max(BLACK).powf(1.0 / distance);
+                (0..3).all(|k| (left(a[k], one) - left(b[k], other)).abs() <= SAME)
+            }
+            (a, b) => a.is_none() && b.is_none(),
+        };
+        near(self.ior, written.ior) && near(self.dispersion, written.dispersion) && attenuated
     }
 
     /// The material that is meant, in a stone of so many mm per unit of the file; `None` where nothing is said.

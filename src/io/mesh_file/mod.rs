@@ -11,6 +11,7 @@ mod lines;
 mod obj_file;
 mod ply_file;
 mod sniff;
+mod statement;
 mod stl_file;
 
 #[cfg(test)]
@@ -23,6 +24,7 @@ pub use hint::MaterialHint;
 pub use limits::{MAX_BYTES, MAX_TRIANGLES, MAX_VERTICES};
 use sniff::STL_HEADER;
 pub use sniff::{MeshFormat, looks_like};
+pub use statement::{Stands, Statement};
 
 /// What a mesh file holds, as it is written: not yet welded, in the file's unit and frame.
 #[derive(Debug, Clone, PartialEq)]
@@ -33,6 +35,8 @@ pub struct MeshFile {
     pub surface: Surface,
     /// What it says of its material.
     pub hint: Option<MaterialHint>,
+    /// What it says of its stone, where this program wrote it.
+    pub statement: Option<Statement>,
     /// What is odd about it.
     pub warnings: Vec<String>,
     /// What it is called: by itself, else by its file's name.
@@ -79,6 +83,8 @@ struct Read {
     hint: Option<MaterialHint>,
     warnings: Vec<String>,
     name: Option<String>,
+    /// The text of the statement that this program writes into meshes.
+    said: Option<String>,
 }
 
 /// Reads a mesh file.
@@ -113,12 +119,19 @@ pub fn parse(bytes: Vec<u8>, label: &str, folder: Option<&Path>) -> Result<MeshF
         MeshFormat::StlText => stl_file::read_text(&bytes),
         MeshFormat::Ply => ply_file::read(&bytes),
     };
-    let Read { surface, hint, warnings, name } =
+    let Read { surface, hint, mut warnings, name, said } =
         read.and_then(limits::checked).map_err(|fault| named(fault, label))?;
     let stem = Path::new(label).file_stem().map(|stem| stem.to_string_lossy().into_owned());
     let printable = |name: &String| crate::cut::is_printable(name);
     let name = name.filter(printable).or(stem.filter(printable)).unwrap_or_else(|| "mesh".to_owned());
-    Ok(MeshFile { format, surface, hint, warnings, name })
+    let statement = said.and_then(|said| match Statement::parse(&said) {
+        Ok(statement) => Some(statement),
+        Err(why) => {
+            warnings.push(format!("what it says of how its stone lies cannot be read: {why}"));
+            None
+        }
+    });
+    Ok(MeshFile { format, surface, hint, statement, warnings, name })
 }
 
 fn named(fault: Fault, label: &str) -> MeshFileError {

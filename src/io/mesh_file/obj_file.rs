@@ -2,7 +2,7 @@
 //! are not, since nothing of them is used and faults in them are no reason to refuse a stone.
 
 use super::lines::Lines;
-use super::{Fault, Read, limits};
+use super::{Fault, Read, Statement, limits};
 use crate::math::surface::Surface;
 use glam::DVec3;
 use tobj::{LoadError, LoadOptions, Model};
@@ -25,8 +25,8 @@ pub(super) fn read(bytes: &[u8]) -> Result<Read, Fault> {
         limits::count(surface.vertices.len() + model.mesh.positions.len() / 3, surface.triangles.len())?;
         surface.append(part(model));
     }
-    let name = odd.object.take();
-    Ok(Read { surface, warnings: odd.warnings(), name, hint: None })
+    let (name, said) = (odd.object.take(), odd.said.take());
+    Ok(Read { surface, warnings: odd.warnings(), name, said, hint: None })
 }
 
 fn part(model: Model) -> Surface {
@@ -43,12 +43,17 @@ struct Odd {
     curves: usize,
     short: usize,
     object: Option<String>,
+    said: Option<String>,
 }
 
 impl Odd {
     fn hand_on(&mut self, line: &[u8], out: &mut Vec<u8>) {
         let text = String::from_utf8_lossy(line);
-        let text = text.split('#').next().unwrap_or_default().trim();
+        let (text, comment) = text.split_once('#').unwrap_or((&text, ""));
+        if self.said.is_none() && Statement::is_meant(comment) {
+            self.said = Some(comment.to_owned());
+        }
+        let text = text.trim();
         let (text, more) = text.strip_suffix('\\').map_or((text, false), |text| (text, true));
         let continued = std::mem::replace(&mut self.continues, more);
         let (key, rest) = text.split_once(char::is_whitespace).unwrap_or((text, ""));

@@ -1,7 +1,7 @@
 //! PLY, text and binary, by ply-rs-bw.
 
 use super::limits::{self, MAX_VERTICES};
-use super::{Fault, Read};
+use super::{Fault, Read, Statement};
 use crate::math::surface::Surface;
 use glam::DVec3;
 use ply_rs_bw::parser::{ParseError, Parser, Reader};
@@ -91,7 +91,8 @@ pub(super) fn read(bytes: &[u8]) -> Result<Read, Fault> {
             _ => {}
         }
     }
-    Ok(Read { surface, warnings, name: None, hint: None })
+    let said = header.comments.iter().find(|comment| Statement::is_meant(comment)).cloned();
+    Ok(Read { surface, warnings, said, ..Read::default() })
 }
 
 /// Counts of a sane size, before anything is read by them.

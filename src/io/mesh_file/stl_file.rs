@@ -2,7 +2,7 @@
 
 use super::lines::{Lines, Rewound};
 use super::sniff::{STL_HEADER, STL_TRIANGLE, stl_triangles};
-use super::{Fault, Read, limits};
+use super::{Fault, Read, Statement, limits};
 use crate::math::surface::Surface;
 use glam::DVec3;
 use std::io::Cursor;
@@ -24,7 +24,9 @@ pub(super) fn read_binary(mut bytes: Vec<u8>) -> Result<Read, Fault> {
     bytes[..80].fill(0);
     let surface = triangles(&mut Cursor::new(bytes))
         .map_err(|(number, message)| Fault::at(format!("triangle {number}"), message))?;
-    Ok(Read { surface, name: name.strip_prefix("solid").map(|n| n.trim().to_owned()), ..Read::default() })
+    let said = Statement::is_meant(&name).then(|| name.clone());
+    let name = name.strip_prefix("solid").map(|n| n.trim().to_owned());
+    Ok(Read { surface, name, said, ..Read::default() })
 }
 
 pub(super) fn read_text(bytes: &[u8]) -> Result<Read, Fault> {
@@ -54,7 +56,7 @@ pub(super) fn read_text(bytes: &[u8]) -> Result<Read, Fault> {
         .map_err(|(_, message)| Fault::line(line.get().max(1), message))?;
     let told = |n: usize| format!("{n} solids are in this file; they are taken for one surface");
     let warnings = (solids > 1).then(|| told(solids)).into_iter().collect();
-    Ok(Read { surface, warnings, name, hint: None })
+    Ok(Read { surface, warnings, name, ..Read::default() })
 }
 
 /// All triangles, each with corners of its own; else the number, from 1, of the one that cannot be read, and why.

@@ -66,17 +66,17 @@ fn what_is_written_comes_back_with_its_planes_and_names() {
     let clear = MaterialHint::of(optics::material("diamond").unwrap(), 1.0);
     for (count, scale) in [(16, 1.0), (16, 3.25), (96, 3.25)] {
         let (stone, body) = (brilliant(count), body(count));
-        let obj = open(write_obj(&body, "a stone", scale).into_bytes());
+        let obj = open(write_obj(&body, "a stone", scale, None).into_bytes());
         assert_eq!((obj.format, obj.name.as_str(), &obj.warnings), (MeshFormat::Obj, "a stone", &vec![]));
         let (normal, offset) = difference(&stone, &faceted(&obj), scale, true);
         println!("obj {count} {scale}: normals {normal:.1e}, offsets {offset:.1e}");
         assert!(normal < 1e-12 && offset < 1e-12, "{normal} {offset}");
-        let stl = open(write_stl(&body, scale).unwrap());
+        let stl = open(write_stl(&body, scale, None).unwrap());
         assert_eq!(stl.format, MeshFormat::StlBinary);
         let (normal, offset) = difference(&stone, &faceted(&stl), scale, false);
         println!("stl {count} {scale}: normals {normal:.1e}, offsets {offset:.1e}");
         assert!(normal < 1e-5 && offset < 1e-6, "{normal} {offset}");
-        let glb = upright(open(write_glb(&body, "a stone", scale / 1000.0, &clear).unwrap()));
+        let glb = upright(open(write_glb(&body, "a stone", scale / 1000.0, (&clear, None)).unwrap()));
         assert_eq!((glb.format, glb.name.as_str()), (MeshFormat::Glb, "a stone"));
         let (normal, offset) = difference(&stone, &faceted(&glb), scale / 1000.0, true);
         println!("glb {count} {scale}: normals {normal:.1e}, offsets {offset:.1e}");
@@ -89,9 +89,9 @@ fn a_stone_posed_from_a_file_is_the_one_that_was_written() {
     let (stone, body) = (brilliant(96), body(96));
     let clear = MaterialHint::of(optics::material("diamond").unwrap(), 1.0);
     let files = [
-        (write_obj(&body, "x", 3.0).into_bytes(), 1e-12),
-        (write_stl(&body, 3.0).unwrap(), 1e-6),
-        (write_glb(&body, "x", 3e-3, &clear).unwrap(), 1e-6),
+        (write_obj(&body, "x", 3.0, None).into_bytes(), 1e-12),
+        (write_stl(&body, 3.0, None).unwrap(), 1e-6),
+        (write_glb(&body, "x", 3e-3, (&clear, None)).unwrap(), 1e-6),
     ];
     for (bytes, within) in files {
         let FromMesh { facets, deviation, .. } = from_mesh(&faceted(&open(bytes)), Up::Found).unwrap();
@@ -111,7 +111,7 @@ fn a_stone_posed_from_a_file_is_the_one_that_was_written() {
 fn the_material_of_a_glb_comes_back() {
     let ruby = optics::material("ruby").unwrap();
     let hint = MaterialHint::of(ruby, 1000.0);
-    let back = open(write_glb(&body(16), "ruby", 2e-3, &hint).unwrap()).hint.unwrap();
+    let back = open(write_glb(&body(16), "ruby", 2e-3, (&hint, None)).unwrap()).hint.unwrap();
     let near = |a: Option<f64>, b: Option<f64>| (a.unwrap() - b.unwrap()).abs() < 1e-6;
     assert!(near(back.ior, hint.ior) && near(back.dispersion, hint.dispersion) && back.transmits);
     let ((a, one), (b, other)) = (back.attenuation.unwrap(), hint.attenuation.unwrap());
@@ -369,12 +369,12 @@ fn faults_are_told_with_their_place_and_what_was_expected() {
         let error = told(text);
         assert!(error.starts_with(expected), "{error}\nexpected {expected}");
     }
-    let glb = write_glb(&body(16), "x", 1.0, &MaterialHint::default()).unwrap();
+    let glb = write_glb(&body(16), "x", 1.0, (&MaterialHint::default(), None)).unwrap();
     assert!(told(&glb[..2000]).starts_with("f:offset 8: the header says "));
     let mut short = glb.clone();
     short[8..12].copy_from_slice(&3_u32.to_le_bytes());
     assert!(told(short).starts_with("f:offset 8: the header says 3 bytes"));
-    let stl = write_stl(&body(16), 1.0).unwrap();
+    let stl = write_stl(&body(16), 1.0, None).unwrap();
     let mut many = b"solid".to_vec();
     many.extend(&stl[5..80]);
     many.extend(u32::MAX.to_le_bytes());
@@ -398,8 +398,8 @@ proptest! {
             2 => stl_text().into_bytes(),
             3 => obj_text().into_bytes(),
             4 => gltf().into_bytes(),
-            5 => write_glb(&body(16), "x", 1.0, &MaterialHint::default()).unwrap(),
-            6 => write_stl(&body(16), 1.0).unwrap(),
+            5 => write_glb(&body(16), "x", 1.0, (&MaterialHint::default(), None)).unwrap(),
+            6 => write_stl(&body(16), 1.0, None).unwrap(),
             _ => ply("binary_big_endian"),
         };
         for (place, value) in changes {

@@ -53,7 +53,7 @@ fn outer(v: DVec3) -> DMat3 {
 }
 
 /// Eigenvalues, rising, and eigenvectors of a symmetric matrix (C. G. J. Jacobi 1846).
-fn eigen(mut m: DMat3) -> ([f64; 3], [DVec3; 3]) {
+pub fn eigen(mut m: DMat3) -> ([f64; 3], [DVec3; 3]) {
     let mut turned = DMat3::IDENTITY;
     for _ in 0..SWEEPS {
         for (p, q) in [(0, 1), (0, 2), (1, 2)] {

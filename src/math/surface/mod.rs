@@ -20,6 +20,7 @@ mod tests;
 use glam::DVec3;
 
 pub use fault::SurfaceError;
+pub(crate) use fit::eigen;
 pub use mend::{Mended, Mending};
 pub use shape::{Face, Faceted, Shape, deviation, facets};
 
@@ -87,6 +88,11 @@ impl Surface {
     pub fn size(&self) -> f64 {
         let (low, high) = self.bounds();
         (high - low).length() / 2.0
+    }
+
+    /// The same surface elsewhere.
+    pub fn moved(&self, shift: DVec3) -> Self {
+        Self { vertices: self.vertices.iter().map(|&v| v + shift).collect(), ..self.clone() }
     }
 
     /// Adds another surface, its groups after those that are here.

@@ -3,7 +3,7 @@
 use super::super::{MaterialHint, limits};
 use super::buffers::{self, Data};
 use super::{Fault, Read};
-use crate::io::mesh_export::FACET;
+use crate::io::mesh_export::{FACET, STATEMENT};
 use crate::math::surface::Surface;
 use glam::{DAffine3, DMat4, DQuat, DVec3};
 use gltf::accessor::{DataType, Dimensions};
@@ -59,6 +59,9 @@ impl Gatherer<'_> {
             return Err(Fault::at(format!("node {}", node.index()), message));
         }
         let placed = above * transform(&node.transform());
+        if self.read.said.is_none() {
+            self.read.said = text_of(node.extras(), STATEMENT);
+        }
         if let Some(mesh) = node.mesh() {
             let name = mesh.name().or(node.name()).unwrap_or_default();
             for primitive in mesh.primitives() {
@@ -161,8 +164,13 @@ fn triangles(order: &[u32], mode: Mode) -> Vec<[u32; 3]> {
 
 /// The name of the facet that a primitive is, where this program wrote it.
 fn facet(primitive: &Primitive<'_>) -> Option<String> {
-    let extras: serde_json::Value = serde_json::from_str(primitive.extras().as_ref()?.get()).ok()?;
-    Some(extras.get(FACET)?.as_str()?.to_owned())
+    text_of(primitive.extras(), FACET)
+}
+
+/// The text under a key of something's extras.
+fn text_of(extras: &gltf::json::Extras, key: &str) -> Option<String> {
+    let extras: serde_json::Value = serde_json::from_str(extras.as_ref()?.get()).ok()?;
+    Some(extras.get(key)?.as_str()?.to_owned())
 }
 
 /// The number that someone wrote: the shortest one that f32 rounds to this, and not all the digits that f32 adds.

@@ -56,7 +56,7 @@ fn real_meshes_open_as_what_they_are() {
 
 #[test]
 fn a_million_triangles_load_in_seconds() {
-    let file = open(write_stl(&body(96), 3.0).unwrap());
+    let file = open(write_stl(&body(96), 3.0, None).unwrap());
     let mut surface = file.surface.mend().unwrap().surface;
     while surface.triangles.len() < 1_000_000 {
         surface = divided(&surface);

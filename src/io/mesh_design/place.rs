@@ -1,0 +1,138 @@
+//! How the stone of a mesh lies in its file: as a person says, as the file itself says, or as is to be found.
+
+use crate::cut::MaterialRef;
+use crate::cut::from_mesh::{Pose, Up};
+use crate::io::mesh_file::{MeshFormat, Stands, Statement};
+use crate::math::{Calipers, Shell, Surface, hull};
+use glam::{DQuat, DVec3};
+
+/// A direction that is this near to an axis (length of the difference) is told by the axis's name.
+const ON_AXIS: f64 = 1e-4;
+
+/// Sizes that differ by less than this part are one.
+const SAME_SIZE: f64 = 2e-3;
+
+/// What is told of how a mesh was understood.
+#[derive(Debug, Default)]
+pub(super) struct Told {
+    pub notes: Vec<String>,
+    pub warnings: Vec<String>,
+}
+
+/// What is known of how a stone lies, before its shape is looked at.
+#[derive(Debug)]
+pub(super) struct Place {
+    given: Up,
+    statement: Option<Statement>,
+    /// Girdle radii per unit of the file, where it is known.
+    pub scale: Option<f64>,
+    /// Girdle diameter, mm, where it is known.
+    pub diameter_mm: Option<f64>,
+    /// What the stone is made of, where the file says so by name.
+    pub material: Option<MaterialRef>,
+}
+
+impl Place {
+    /// For a file of a format; a direction up that a person gives stands above all else.
+    pub fn of(format: MeshFormat, given: Up, statement: Option<Statement>) -> Self {
+        let given = match given {
+            // The standard of glTF has y up; the others say nothing, and stones are drawn with z up.
+            Up::Found if matches!(format, MeshFormat::Glb | MeshFormat::Gltf) => Up::FoundBy(DVec3::Y),
+            Up::Found => Up::FoundBy(DVec3::Z),
+            other => other,
+        };
+        Self { given, statement, scale: None, diameter_mm: None, material: None }
+    }
+
+    /// Which way is up in the file's surface, by what the file says where that fits its shape. `directions` are those in
+    /// which the table may face.
+    pub fn up(&mut self, surface: &Surface, directions: impl Fn() -> Vec<DVec3>, told: &mut Told) -> Up {
+        let Some(statement) = self.statement.take() else { return self.given };
+        let stands = statement.of_solid(surface, std::iter::once_with(directions).flatten());
+        if stands == Stands::Otherwise {
+            told.warnings.push(format!(
+                "the file says that {} is up and that the stone is {} mm across, but its shape is another than it speaks \
+                 of; all that it says is passed over",
+                axis(statement.up),
+                statement.diameter_mm
+            ));
+            return self.given;
+        }
+        self.diameter_mm = Some(statement.diameter_mm);
+        self.scale = Some(match stands {
+            Stands::Moved { scale, .. } => scale,
+            _ => statement.scale(),
+        });
+        self.material.clone_from(&statement.material);
+        match (self.given, stands) {
+            (Up::FoundBy(_), Stands::AsStated) => {
+                Up::Posed(Pose { scale: statement.scale(), turn: statement.turn(), shift: DVec3::ZERO })
+            }
+            (Up::FoundBy(_), Stands::Moved { up, scale }) => {
+                told.warnings.extend(changes(&statement, up, scale));
+                Up::Given(up)
+            }
+            (given, _) => given,
+        }
+    }
+}
+
+/// What was done to a stone since its file was written, where that is more than a shift.
+fn changes(statement: &Statement, up: DVec3, scale: f64) -> Option<String> {
+    let turned = (up - statement.up).length() > ON_AXIS;
+    let factor = statement.scale() / scale;
+    let scaled = (factor - 1.0).abs() > SAME_SIZE;
+    let by = format!("its corners have been scaled by {factor:.4} since");
+    let to = format!("its corners have been turned since, so that its table faces {}", axis(up));
+    let (said, size) = (axis(statement.up), statement.diameter_mm);
+    match (turned, scaled) {
+        (true, true) => Some(format!("the file says that {said} is up and {size} mm its size, but {to}, and {by}; {size} mm is kept")),
+        (true, false) => Some(format!("the file says that {said} is up, but {to}")),
+        (false, true) => Some(format!("the file says that the stone is {size} mm across, but {by}; {size} mm is kept")),
+        (false, false) => None,
+    }
+}
+
+/// A note on a direction that was found, where another is nearly as likely.
+pub(super) fn doubtful(up: DVec3, other: DVec3) -> String {
+    let option = axis(other);
+    format!(
+        "its shape leaves a doubt which way its table faces: {} was taken, and {option} is nearly as likely; \
+         --up {option} takes that",
+        axis(up)
+    )
+}
+
+/// A direction as `--up` takes it.
+fn axis(direction: DVec3) -> String {
+    let named = [("x", DVec3::X), ("y", DVec3::Y), ("z", DVec3::Z)];
+    let is = |(name, axis): &(&str, DVec3)| match () {
+        () if (direction - *axis).length() < ON_AXIS => Some((*name).to_owned()),
+        () if (direction + *axis).length() < ON_AXIS => Some(format!("-{name}")),
+        () => None,
+    };
+    named.iter().find_map(is).unwrap_or_else(|| {
+        // Rounded first, so that a rounding below 0 is no -0.
+        let [x, y, z] = direction.to_array().map(|x| (x * 1e4).round() / 1e4 + 0.0);
+        format!("{x},{y},{z}")
+    })
+}
+
+/// The axes of a file, either way.
+pub(super) fn axes() -> [DVec3; 6] {
+    [DVec3::Z, DVec3::Y, DVec3::X, DVec3::NEG_Z, DVec3::NEG_Y, DVec3::NEG_X]
+}
+
+/// The pose of a solid of triangles: up along +z, the middle of its height at z = 0, its middle seen from above on the
+/// axis, and half its width 1, unless a scale is known.
+pub(super) fn upright(shell: &Shell, up: DVec3, scale: Option<f64>) -> Result<Pose, String> {
+    let up = up.try_normalize().ok_or("the direction up points nowhere")?;
+    let turn = DQuat::from_rotation_arc(up, DVec3::Z);
+    let corners: Vec<DVec3> = shell.vertices().iter().map(|&v| turn * v).collect();
+    let outline = hull(corners.iter().map(|v| v.truncate()).collect());
+    let found = Calipers::of(&outline).ok_or("it has no extent across the direction up")?;
+    let (low, high) =
+        corners.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| (low.min(v.z), high.max(v.z)));
+    let scale = scale.unwrap_or(2.0 / found.width);
+    Ok(Pose { scale, turn, shift: -scale * found.middle.extend((low + high) / 2.0) })
+}
