@@ -2,13 +2,13 @@
 
 use super::editor::Editor;
 use super::preset::{Known, PRESETS};
-use super::rows::{NUMBER, Row, named};
+use super::rows::{ANY, NUMBER, Number, Row, control_width, field_width, named, skip_name};
 use super::shows::Shows;
 use super::studio::Smoothing;
 use crate::cut::MaterialRef;
 use crate::optics::{Material, line};
 use crate::scene::{Company, MOST_COPIES, Pose};
-use egui::{Button, ComboBox, Slider, Ui};
+use egui::{Button, ComboBox, Slider, Ui, vec2};
 use glam::DVec3;
 use std::ops::RangeInclusive;
 
@@ -51,16 +51,23 @@ pub fn show(editor: &mut Editor, ui: &mut Ui) {
         } else {
             ("Play", "Lets time go on.")
         };
-        if ui.button(name).on_hover_text(meaning).clicked() {
+        let size = vec2(control_width(ui), ui.spacing().interact_size.y);
+        if ui.add_sized(size, Button::new(name)).on_hover_text(meaning).clicked() {
             editor.moving.is_on = !editor.moving.is_on;
         }
         let rests = editor.moving.seconds == 0.0;
-        if ui
-            .add_enabled(!rests, Button::new("At rest"))
-            .on_hover_text("Goes back to the pose of the design.")
-            .clicked()
-        {
+        let rest = Button::new("At rest").min_size(vec2(NUMBER, size.y));
+        if ui.add_enabled(!rests, rest).on_hover_text("Goes back to the pose of the design.").clicked() {
             editor.moving.rest();
+        }
+    });
+    ui.horizontal(|ui| {
+        let count = editor.document.work.company.poses.len();
+        skip_name(ui);
+        let size = vec2(field_width(ui), ui.spacing().interact_size.y);
+        let again = Button::new("Lay out").min_size(size);
+        if ui.add_enabled(count > 1, again).on_hover_text("Lays the copies out anew, as Space does.").clicked() {
+            editor.lay_out(count);
         }
     });
     smoothing(editor, ui);
@@ -82,20 +89,20 @@ fn view_angle(editor: &mut Editor, ui: &mut Ui) {
 }
 
 fn copies(editor: &mut Editor, ui: &mut Ui) {
-    let mut count = editor.document.work.company.poses.len();
-    let before = count;
+    let before = editor.document.work.company.poses.len();
+    let mut count = before as f64;
+    let most = MOST_COPIES as f64;
+    let meaning = "How many of it renders show. Light that leaves one enters another. Drag one in a render to move it; Space \
+        lays all out anew.";
     ui.horizontal(|ui| {
-        let meaning = "How many of it renders show. Light that leaves one enters another. Drag one in a render to move it; \
-            Space lays all out anew.";
         let label = named(ui, "Copies", meaning);
-        let again = 74.0;
-        ui.spacing_mut().slider_width = (ui.available_width() - NUMBER - again - 24.0).max(40.0);
-        ui.add(Slider::new(&mut count, 1..=MOST_COPIES)).labelled_by(label.id).on_hover_text(meaning);
-        let button = Button::new("Lay out");
-        if ui.add_enabled(count > 1, button).on_hover_text("Lays the copies out anew, as Space does.").clicked() {
-            editor.lay_out(count);
-        }
+        ui.spacing_mut().slider_width = control_width(ui);
+        let slider = Slider::new(&mut count, 1.0..=most).step_by(1.0).show_value(false);
+        ui.add(slider).labelled_by(label.id).on_hover_text(meaning);
+        let number = Number { decimals: 0, speed: 0.05, range: ANY, unit: "" };
+        number.show(ui, (NUMBER, label.id), &mut count);
     });
+    let count = count.round().clamp(1.0, most) as usize;
     if count != before {
         editor.lay_out(count);
     }
@@ -117,7 +124,7 @@ fn smoothing(editor: &mut Editor, ui: &mut Ui) {
             (Smoothing::Temporal { newest }, "temporal"),
         ];
         let name = all.iter().find(|(s, _)| s == smoothing).map_or("", |(_, name)| name);
-        let combo = ComboBox::from_id_salt("smoothing").selected_text(name).width(110.0);
+        let combo = ComboBox::from_id_salt("smoothing").selected_text(name).width(field_width(ui));
         let combo = combo.show_ui(ui, |ui| {
             for (each, name) in all {
                 ui.selectable_value(smoothing, each, name);
@@ -142,12 +149,14 @@ pub fn two_numbers(material: &mut MaterialRef, known: &Material, ui: &mut Ui) {
     let limits = *ABBE_NUMBERS.start()..=f64::INFINITY;
     let row = Row::new("Abbe number", meaning, ABBE_NUMBERS);
     Row { limits, decimals: 1, speed: 0.1, ..row }.show(ui, &mut v);
+    // A density that was set by hand is kept: it is not a known glass that loses its own.
+    let own = matches!(material, MaterialRef::Custom(_)).then_some(known.density).flatten();
     let custom = match v.is_finite() {
         true => Material::from_abbe(&format!("index {n:.3}, Abbe number {v:.1}"), n, v),
         false => Material::from_index(&format!("index {n:.3}"), n),
     };
     if let Some(custom) = custom.ok().filter(|_| (n, v) != (index, abbe)) {
-        *material = MaterialRef::Custom(Box::new(custom));
+        *material = MaterialRef::Custom(Box::new(Material { density: own, ..custom }));
     }
 }
 

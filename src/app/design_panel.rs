@@ -4,11 +4,10 @@ use super::desk::WAVELENGTHS;
 use super::editor::Editor;
 use super::files::Purpose;
 use super::proportions::{EXCELLENT_DEPTH, PROPORTIONS, Proportion};
-use super::rows::{ANY, NUMBER, Number, Row, named};
+use super::rows::{ANY, NUMBER, Number, Row, control_width, field_width, named};
 use super::studio::BEHIND;
-use super::{company_rows, glass_rows, theme, tier_rows};
-use crate::cut::{Cut, DesignError, MaterialRef, RoundBrilliant, Size, Unit};
-use crate::optics::{line, materials};
+use super::{company_rows, glass_rows, stone_rows, theme, tier_rows};
+use crate::cut::{Cut, Design, DesignError, MaterialRef, RoundBrilliant, Unit};
 use crate::picture::Pattern;
 use crate::scene::{Company, LIGHTS, SpecimenError, light};
 use egui::{
@@ -33,21 +32,26 @@ pub fn show(editor: &mut Editor, ui: &mut Ui) {
             if matches!(work.design.cut, Cut::Glass(_)) || work.company != Company::default() {
                 company_rows::presets(editor, ui);
             }
-            heading(
-                ui,
-                "Proportions",
-                "Drag a slider or type a number; the green mark is the range GIA calls excellent.",
-            );
+            let meaning = match is_graded(&editor.document.work.design) {
+                true => "Drag a slider or type a number; the green mark is the range GIA calls excellent.",
+                false => "Drag a slider or type a number.",
+            };
+            heading(ui, "Proportions", meaning);
             proportions(editor, ui);
             heading(ui, "Stone", "What it is made of, and how large it is.");
-            material(editor, ui);
-            size(editor, ui);
+            stone_rows::show(editor, ui);
             heading(ui, "Light", "What the render is lit by; scopes bring their own light.");
             lighting(editor, ui);
             heading(ui, "Copies", "Renders show several of it, and let them move.");
             company_rows::show(editor, ui);
         });
     });
+}
+
+/// Whether GIA's ranges of the grade Excellent apply: they are those of round brilliants of diamond.
+fn is_graded(design: &Design) -> bool {
+    let is_diamond = matches!(&design.material, MaterialRef::Name(name) if name.eq_ignore_ascii_case("diamond"));
+    is_diamond && matches!(design.cut, Cut::RoundBrilliant(_))
 }
 
 fn heading(ui: &mut Ui, text: &str, meaning: &str) {
@@ -62,7 +66,7 @@ fn identity(editor: &mut Editor, ui: &mut Ui) {
     ui.horizontal(|ui| {
         let label = named(ui, "Name", "What the design is called, in its file and on its pictures.");
         let mut name = design.name.clone();
-        let field = TextEdit::singleline(&mut name).desired_width(ui.available_width() - 12.0);
+        let field = TextEdit::singleline(&mut name).desired_width(field_width(ui) - 8.0);
         if ui.add(field).labelled_by(label.id).changed() {
             design.rename(name);
         }
@@ -89,11 +93,13 @@ fn proportions(editor: &mut Editor, ui: &mut Ui) {
         Some(SpecimenError::Design(DesignError::Proportion(fault))) => Some(fault.key()),
         _ => None,
     };
+    let is_graded = is_graded(&editor.document.work.design);
+    let unit_mm = editor.document.specimen().unit_mm();
     let Cut::RoundBrilliant(brilliant) = &mut editor.document.work.design.cut else {
         match &mut editor.document.work.design.cut {
             Cut::Glass(glass) => glass_rows::show(glass, ui),
             Cut::Mesh(_) => {}
-            cut => tier_rows::show(cut, ui),
+            cut => tier_rows::show(cut, unit_mm, ui),
         }
         warnings(editor, ui);
         if let Some(fault) = fault {
@@ -102,12 +108,12 @@ fn proportions(editor: &mut Editor, ui: &mut Ui) {
         return;
     };
     for proportion in &PROPORTIONS {
-        row(ui, proportion, brilliant);
+        row(ui, proportion, brilliant, is_graded);
         if let Some(fault) = fault.as_ref().filter(|_| key == Some(proportion.key)) {
             wrong(ui, fault);
         }
     }
-    derived(ui, brilliant);
+    derived(ui, brilliant, is_graded);
     warnings(editor, ui);
     let is_name = matches!(editor.document.fault(), Some(SpecimenError::Design(DesignError::Name)));
     if let Some(fault) =
@@ -137,12 +143,12 @@ fn warnings(editor: &Editor, ui: &mut Ui) {
     }
 }
 
-/// One proportion: name, slider, number, and of a pair whether it is held.
-fn row(ui: &mut Ui, proportion: &Proportion, brilliant: &mut RoundBrilliant) {
+/// One proportion: name, slider, number, and of a pair whether it is held; where GIA grades it, the range of the grade
+/// Excellent.
+fn row(ui: &mut Ui, proportion: &Proportion, brilliant: &mut RoundBrilliant, is_graded: bool) {
     ui.horizontal(|ui| {
         let label = named(ui, proportion.name, proportion.meaning);
-        let held = ui.spacing().interact_size.y;
-        ui.spacing_mut().slider_width = (ui.available_width() - NUMBER - held - 24.0).max(40.0);
+        ui.spacing_mut().slider_width = control_width(ui);
         let (first, last) = (*proportion.slider.start(), *proportion.slider.end());
         let mut value = (proportion.get)(brilliant);
         let before = value;
@@ -154,8 +160,8 @@ fn row(ui: &mut Ui, proportion: &Proportion, brilliant: &mut RoundBrilliant) {
         let slider = ui
             .add(slider.clamping(SliderClamping::Never))
             .labelled_by(label.id)
-            .on_hover_text(range(proportion));
-        if let Some(good) = &proportion.excellent {
+            .on_hover_text(range(proportion, is_graded));
+        if let Some(good) = proportion.excellent.as_ref().filter(|_| is_graded) {
             let band = band(slider.rect, good, &proportion.slider);
             ui.painter().set(
                 mark,
@@ -180,10 +186,11 @@ fn band(slider: Rect, range: &RangeInclusive<f64>, whole: &RangeInclusive<f64>) 
     Rect::from_min_max(pos2(x(*range.start()), y + 5.0), pos2(x(*range.end()), y + 8.0))
 }
 
-fn range(proportion: &Proportion) -> String {
+fn range(proportion: &Proportion, is_graded: bool) -> String {
     let good = proportion
         .excellent
         .as_ref()
+        .filter(|_| is_graded)
         .map(|e| format!(" GIA calls {} to {}{} excellent.", e.start(), e.end(), proportion.unit));
     format!("{}{}", proportion.meaning, good.unwrap_or_default())
 }
@@ -232,11 +239,12 @@ fn lock(ui: &Ui, rect: Rect, shut: bool, response: &egui::Response) {
 }
 
 /// What follows from the proportions.
-fn derived(ui: &mut Ui, brilliant: &RoundBrilliant) {
+fn derived(ui: &mut Ui, brilliant: &RoundBrilliant, is_graded: bool) {
     let Ok(derived) = brilliant.derived() else { return };
     let depth = derived.total_depth;
-    let colour =
-        if EXCELLENT_DEPTH.contains(&depth) { theme::good(ui.visuals()) } else { ui.visuals().text_color() };
+    let is_excellent = is_graded && EXCELLENT_DEPTH.contains(&depth);
+    let colour = if is_excellent { theme::good(ui.visuals()) } else { ui.visuals().text_color() };
+    let about = if is_graded { " GIA calls 58.1 to 63.6 % excellent." } else { "" };
     ui.add_space(4.0);
     egui::Grid::new("derived").num_columns(2).spacing(vec2(12.0, 4.0)).show(ui, |ui| {
         let mut line = |name: &str, value: String, colour: Option<Color32>, meaning: &str| {
@@ -252,7 +260,7 @@ fn derived(ui: &mut Ui, brilliant: &RoundBrilliant) {
             "Total depth",
             format!("{depth:6.2} %"),
             Some(colour),
-            "From table to culet. GIA calls 58.1 to 63.6 % excellent.",
+            &format!("From table to culet.{about}"),
         );
         line(
             "Star angle",
@@ -279,62 +287,6 @@ fn derived(ui: &mut Ui, brilliant: &RoundBrilliant) {
     });
 }
 
-fn material(editor: &mut Editor, ui: &mut Ui) {
-    let known = editor.document.specimen().material.clone();
-    let design = &mut editor.document.work.design;
-    ui.horizontal(|ui| {
-        let label =
-            named(ui, "Material", "What the stone is made of: it sets refraction, dispersion and colour.");
-        let name = match &design.material {
-            MaterialRef::Name(name) => name.clone(),
-            MaterialRef::Index(index) => format!("index {index}"),
-            MaterialRef::Custom(material) => material.name.clone(),
-        };
-        let combo =
-            ComboBox::from_id_salt("material").selected_text(&name).width(ui.available_width() - 12.0);
-        let combo = combo.height(420.0).show_ui(ui, |ui| {
-            let mut all: Vec<_> = materials().iter().collect();
-            all.sort_by_key(|m| m.name.as_str());
-            for material in all {
-                let chosen = name == material.name;
-                let about = format!("{}\nindex {:.4}", material.description, material.index(line::SODIUM_D));
-                if ui.selectable_label(chosen, &material.name).on_hover_text(about).clicked() && !chosen {
-                    design.material = MaterialRef::Name(material.name.clone());
-                }
-            }
-        });
-        combo.response.labelled_by(label.id);
-    });
-    if matches!(design.cut, Cut::Glass(_)) {
-        company_rows::two_numbers(&mut design.material, &known, ui);
-    }
-}
-
-fn size(editor: &mut Editor, ui: &mut Ui) {
-    let specimen = std::sync::Arc::clone(editor.document.specimen());
-    let design = &mut editor.document.work.design;
-    ui.horizontal(|ui| {
-        let label = named(ui, "Diameter", "Of the girdle. A larger stone of colour is darker.");
-        let number = Number { decimals: 3, speed: 0.01, range: 0.1..=1000.0, unit: " mm" };
-        number.show(ui, (92.0, label.id), &mut design.diameter_mm);
-    });
-    ui.horizontal(|ui| {
-        let label = named(ui, "Weight", "From the stone's volume and its material's density.");
-        let volume = specimen.solid().volume() * (0.5 * design.diameter_mm).powi(3);
-        let Some(mut carats) = specimen.material.carats(volume) else {
-            ui.label(RichText::new("this material's density is not known").weak());
-            return;
-        };
-        let before = carats;
-        let number = Number { decimals: 3, speed: 0.01, range: 1e-6..=1e9, unit: " ct" };
-        number.show(ui, (92.0, label.id), &mut carats);
-        let asked = Size::Carats(carats).diameter_mm(specimen.solid().volume(), &specimen.material);
-        if let (true, Ok(diameter)) = (carats != before, asked) {
-            design.diameter_mm = diameter;
-        }
-    });
-}
-
 fn lighting(editor: &mut Editor, ui: &mut Ui) {
     let mut asks = false;
     let work = &mut editor.document.work;
@@ -343,7 +295,7 @@ fn lighting(editor: &mut Editor, ui: &mut Ui) {
         let name = std::path::Path::new(&work.light)
             .file_name()
             .map_or(work.light.clone(), |n| n.to_string_lossy().into_owned());
-        let combo = ComboBox::from_id_salt("light").selected_text(name).width(ui.available_width() - 12.0);
+        let combo = ComboBox::from_id_salt("light").selected_text(name).width(field_width(ui));
         let combo = combo.show_ui(ui, |ui| {
             for name in LIGHTS {
                 let about = light(name).map_or(String::new(), |l| l.description);
@@ -367,7 +319,8 @@ fn lighting(editor: &mut Editor, ui: &mut Ui) {
             to see what three show.";
         let label = named(ui, "Wavelengths", meaning);
         let wavelengths = &mut editor.desk.wavelengths;
-        let combo = ComboBox::from_id_salt("wavelengths").selected_text(wavelengths.to_string()).width(64.0);
+        let combo = ComboBox::from_id_salt("wavelengths").selected_text(wavelengths.to_string());
+        let combo = combo.width(field_width(ui));
         let combo = combo.show_ui(ui, |ui| {
             WAVELENGTHS.into_iter().for_each(|n| drop(ui.selectable_value(wavelengths, n, n.to_string())));
         });
@@ -397,7 +350,7 @@ fn behind(editor: &mut Editor, ui: &mut Ui) -> bool {
         });
         let combo = ComboBox::from_id_salt("behind")
             .selected_text(name.to_owned())
-            .width(ui.available_width() - 12.0);
+            .width(field_width(ui));
         let combo = combo.show_ui(ui, |ui| {
             ui.selectable_value(&mut desk.behind, None, "nothing");
             ui.selectable_value(&mut desk.behind, Some("light".to_owned()), "light")

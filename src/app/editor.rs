@@ -8,6 +8,7 @@ use super::document::{Document, FIRST_LIGHT, Work};
 use super::export_job::Selection;
 use super::files::{Choice, Chooser, Choosing, Safe, Watching, by_dialog};
 use super::following::{self, Following};
+use super::framing::Framing;
 use super::look::Looks;
 use super::lookup::Looker;
 use super::moving::Moving;
@@ -81,6 +82,8 @@ pub struct Measured {
 /// The window.
 pub struct Editor {
     pub(super) document: Document,
+    /// The stone that views are fitted to.
+    pub(super) framing: Framing,
     pub(super) desk: Desk,
     pub(super) looks: Looks,
     pub(super) studio: Studio,
@@ -163,6 +166,7 @@ impl Editor {
             looked: HashMap::new(),
             flowing: Default::default(),
             studio: Studio::open(shared(context), wake),
+            framing: Framing::new(document.specimen()),
             document,
             looks: Looks::new(&desk),
             desk,
@@ -410,9 +414,13 @@ impl Editor {
         if seen.iter().any(|(pane, _)| self.desk.panes[*pane].shows.has_company()) {
             self.moving.advance(&ctx);
         }
-        self.order(&seen);
         let pulled = self.profiles.iter().any(ProfileView::is_dragging);
         let gesture = pulled || ctx.egui_is_using_pointer() || ctx.text_edit_focused();
+        if !gesture && self.framing.settle(self.document.specimen()) {
+            // The views were laid out for the stone as it was fitted before.
+            ctx.request_repaint();
+        }
+        self.order(&seen);
         if !gesture {
             self.settle(ctx.input(|i| i.time));
         }

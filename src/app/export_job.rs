@@ -1,6 +1,7 @@
 //! Exporting, on a thread of its own: thumbnails of what can be had, then the files.
 
 use super::export_scene::SceneOut;
+use super::framing::{Fit, Framing};
 use super::shows::Shows;
 use super::studio::{Camera, Effort, FINE_RENDER, SPAN, Shot, Which, survey};
 use crate::io::background::BackgroundRef;
@@ -10,7 +11,7 @@ use crate::io::refraction_page::{Page, takes, write_page};
 use crate::io::{Failure, rasterize, write_rgba_png};
 use crate::optics::line;
 use crate::picture::{named, profile};
-use crate::scene::{Film, Pose, Projection, Specimen, Viewpoint};
+use crate::scene::{Pose, Projection, Specimen, Viewpoint};
 use crate::trace::unwatched;
 use egui::ColorImage;
 use std::ops::ControlFlow;
@@ -191,12 +192,15 @@ impl Plan {
     fn shot(&self, shows: Shows, size: u32) -> Shot {
         let view = crate::scene::View { side: shows.side().unwrap_or(self.shot.view.side), ..self.shot.view };
         let shot = Shot { shows, view, ..self.shot.clone() };
-        if shows.has_company() {
-            let film = Film::reaching(self.reach, size);
-            return Shot { film, whole: film, ..shot };
+        let size = [size; 2];
+        if shows.has_company() && self.shot.company.as_slice() != [Pose::STILL] {
+            let fit = Fit::reaching(self.reach);
+            return Shot { film: fit.film(size), whole: fit.whole(size), ..shot };
         }
         let specimen = Arc::clone(if shows.is_seen() { &self.turned } else { &self.upright });
-        Shot { film: Film::reaching(specimen.reach, size), specimen, company: vec![Pose::STILL], ..shot }
+        let fit = Framing::new(&specimen).fit(0.0, &shot.view);
+        let (film, whole) = (fit.film(size), fit.whole(size));
+        Shot { film, whole, specimen, company: vec![Pose::STILL], ..shot }
     }
 
     /// Writes all, one after the other.

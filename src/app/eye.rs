@@ -1,5 +1,6 @@
 //! From where all linked views look: a lean of the stone, a turn about its axis, a zoom.
 
+use super::framing::Fit;
 use crate::scene::{Film, Lean, Projection, Side, View};
 use glam::DVec2;
 use serde::{Deserialize, Serialize};
@@ -28,7 +29,7 @@ pub struct Eye {
     pub turn: f64,
     /// How much larger than fitting its pane the stone is shown.
     pub zoom: f64,
-    /// The point in the pane's middle, girdle radii.
+    /// How far the point in the pane's middle lies from the middle of what the view is fitted to, girdle radii.
     pub centre: DVec2,
     /// Distance of the eye, girdle radii; none for parallel rays.
     pub distance: Option<f64>,
@@ -94,7 +95,7 @@ impl Eye {
         self.turn = (self.turn + sense * by).rem_euclid(TAU);
     }
 
-    /// Zooms by a factor around a point of the image, girdle radii.
+    /// Zooms by a factor around a point of the image, girdle radii from the middle of what the view is fitted to.
     pub fn zoom_at(&mut self, factor: f64, at: DVec2) {
         let zoom = (self.zoom * factor).clamp(*ZOOMS.start(), *ZOOMS.end());
         self.centre = at + (self.centre - at) * (self.zoom / zoom);
@@ -143,10 +144,10 @@ impl Eye {
         }
     }
 
-    /// The film of a pane of so many pixels that fits something that reaches so far from the origin.
-    pub fn film(&self, size: [u32; 2], reach: f64) -> Film {
-        let fitting = Film::reaching(reach, size[0].min(size[1]).max(1));
-        Film { size, pixel: fitting.pixel / self.zoom, centre: self.centre }
+    /// The film of a pane of so many pixels, of what a view takes in where nothing is zoomed or moved aside.
+    pub fn film(&self, size: [u32; 2], fit: &Fit) -> Film {
+        let fitting = fit.film(size);
+        Film { pixel: fitting.pixel / self.zoom, centre: fitting.centre + self.centre, ..fitting }
     }
 }
 
@@ -190,7 +191,7 @@ mod tests {
     fn zooming_keeps_the_point_under_the_hand() {
         let mut eye = Eye { centre: DVec2::new(0.1, 0.2), ..Eye::default() };
         let pixel = |eye: &Eye, at: DVec2| {
-            eye.film([100, 80], 1.0).pixels_from_image(glam::DMat2::IDENTITY).transform_point2(at)
+            eye.film([100, 80], &Fit::reaching(1.0)).pixels_from_image(glam::DMat2::IDENTITY).transform_point2(at)
         };
         let at = DVec2::new(-0.4, 0.3);
         let before = pixel(&eye, at);

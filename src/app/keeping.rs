@@ -43,6 +43,7 @@ impl Editor {
         let work = &self.document.work;
         document.begin(&work.light, work.exposure, work.head);
         self.document = document;
+        self.framing.renew(self.document.specimen());
         self.moving.rest();
         self.desk.rest();
         self.held = None;

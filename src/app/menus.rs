@@ -223,11 +223,7 @@ pub fn does(editor: &mut Editor, command: Command, ctx: &Context) {
         Command::Quit => editor.ask_before(Then::Close),
         Command::Undo => editor.document.undo(),
         Command::Redo => editor.document.redo(),
-        Command::Top => eye(editor).top(),
-        Command::Side => eye(editor).side(),
-        Command::Bottom => eye(editor).bottom(),
-        Command::Free => eye(editor).free(),
-        Command::Fit => eye(editor).fit(),
+        Command::Top | Command::Side | Command::Bottom | Command::Free | Command::Fit => look(editor, command),
         Command::Perspective => {
             let eye = eye(editor);
             eye.distance = if eye.distance.is_some() { None } else { Some(DISTANCE) };
@@ -258,6 +254,19 @@ pub fn does(editor: &mut Editor, command: Command, ctx: &Context) {
         Command::LayOut => editor.lay_out(editor.document.work.company.poses.len()),
         Command::LightPath => editor.following.is_open = !editor.following.is_open,
         Command::Keys => editor.dialog = Some(Dialog::Keys),
+    }
+}
+
+/// Looks from another side at the stone as it is now, of which all is shown.
+fn look(editor: &mut Editor, command: Command) {
+    editor.framing.renew(editor.document.specimen());
+    let eye = eye(editor);
+    match command {
+        Command::Top => eye.top(),
+        Command::Side => eye.side(),
+        Command::Bottom => eye.bottom(),
+        Command::Free => eye.free(),
+        _ => eye.fit(),
     }
 }
 

@@ -13,10 +13,12 @@ mod editor;
 mod export_dialog;
 mod export_job;
 mod export_scene;
+mod extent;
 mod eye;
 mod figures_panel;
 mod files;
 mod following;
+mod framing;
 mod glass_rows;
 mod history;
 mod keeping;
@@ -41,6 +43,7 @@ mod rows;
 mod shows;
 mod stage;
 mod state_file;
+mod stone_rows;
 mod studio;
 mod theme;
 mod tier_rows;
@@ -60,7 +63,7 @@ const ID: &str = "brillianteer";
 
 /// The window's first size, and its least, points.
 const SIZE: [f32; 2] = [1440.0, 900.0];
-const LEAST: [f32; 2] = [1100.0, 640.0];
+const LEAST: [f32; 2] = [800.0, 600.0];
 
 /// Opens the window, on a file if one is given, read with these options where it is a mesh, and waits until it is closed.
 ///

@@ -113,10 +113,10 @@ impl Editor {
                 self.begin(*document);
             }
             (Wanted::Again, Came::Design(mut document)) => {
-                let desk = self.desk.clone();
+                let (desk, framing) = (self.desk.clone(), self.framing.clone());
                 document.take_copies(&self.document);
                 self.begin(*document);
-                self.desk = desk;
+                (self.desk, self.framing) = (desk, framing);
                 self.notes.say("The file was changed by another program and has been read again.");
             }
         }

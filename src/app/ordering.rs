@@ -1,7 +1,7 @@
 //! What is asked of the studio: all that is in sight.
 
 use super::editor::Editor;
-use super::eye::Eye;
+use super::framing::Fit;
 use super::shows::Shows;
 use super::studio::{Ask, BEHIND, Order, Shot, Smoothing, Which};
 use crate::io::lighting::Lighting;
@@ -67,7 +67,8 @@ impl Editor {
             return None;
         }
         let eye = *self.desk.eye(pane);
-        let reach = self.reach(shows);
+        let view = eye.view(shows.side());
+        let fit = self.fit(shows, (eye.turn, &view));
         // A diagram has its own index, from which the stone's turn would only take away.
         let turn = if shows == Shows::Diagram { 0.0 } else { eye.turn };
         let specimen = self.specimen(which, turn)?;
@@ -80,9 +81,9 @@ impl Editor {
         };
         let work = &self.document.work;
         Some(Shot {
-            view: eye.view(shows.side()),
-            film: eye.film(size, reach),
-            whole: Eye::default().film(size, reach),
+            film: eye.film(size, &fit),
+            whole: fit.whole(size),
+            view,
             shows,
             strongest: self.desk.strongest,
             light: Arc::clone(light),
@@ -114,6 +115,15 @@ impl Editor {
         Some(self.moving.now(specimen, company, turn))
     }
 
+    /// What a view takes in, whose stone is turned about its axis: the stone that views are fitted to, or all copies.
+    pub(super) fn fit(&self, shows: Shows, (turn, view): (f64, &View)) -> Fit {
+        let is_alone = self.document.work.company == Company::default();
+        match shows.has_company() && !(is_alone && self.moving.seconds == 0.0) {
+            true => Fit::reaching(self.reach(shows)),
+            false => self.framing.fit(turn, view),
+        }
+    }
+
     /// How far a view's picture reaches from its middle. Both designs are shown on one scale, that of the present one.
     pub(super) fn reach(&self, shows: Shows) -> f64 {
         let Specimen { reach, radius, .. } = **self.document.specimen();
@@ -142,13 +152,15 @@ impl Editor {
         let (light, eye) = (self.light(), self.desk.eye);
         let (specimen, company) =
             self.company(Which::Present, eye.turn).unwrap_or((self.posed(eye.turn), vec![Pose::STILL]));
+        let view = eye.view(None);
+        let fit = self.fit(Shows::Render, (eye.turn, &view));
         Shot {
             specimen,
             shows: Shows::Render,
             strongest: self.desk.strongest,
-            view: eye.view(None),
-            film: eye.film([1, 1], 1.0),
-            whole: Eye::default().film([1, 1], 1.0),
+            view,
+            film: fit.film([1, 1]),
+            whole: fit.whole([1, 1]),
             light,
             exposure: self.document.work.exposure,
             bands: self.desk.wavelengths,

@@ -200,6 +200,8 @@ fn image(ui: &Ui, shown: &Shown, rect: Rect) {
 pub(super) struct Sight {
     pub view: View,
     pub film: Film,
+    /// The middle of what the view is fitted to, girdle radii from the origin.
+    middle: DVec2,
     side: Side,
     pub body: Rect,
     scale: f32,
@@ -230,11 +232,12 @@ fn scene(editor: &mut Editor, ui: &mut Ui, (pane, shows): (usize, Shows), body: 
     let response = ui.interact(body, ui.scope_id().with("picture"), Sense::click_and_drag());
     let name = format!("{} picture", shows.name());
     response.widget_info(|| WidgetInfo::labeled(Role::Image, true, &name));
-    let reach = editor.reach(shows);
     let eye = *editor.desk.eye(pane);
     let view = eye.view(shows.side());
     let scale = ui.pixels_per_point();
-    let sight = Sight { view, film: eye.film(size, reach), side: view.side, body, scale };
+    let fit = editor.fit(shows, (eye.turn, &view));
+    let sight =
+        Sight { view, film: eye.film(size, &fit), middle: fit.middle, side: view.side, body, scale };
     pictures(editor, ui, pane, &sight);
     let moves = shows == Shows::Refraction && refraction_view::is_held(ui);
     if shows == Shows::Refraction {
@@ -365,7 +368,7 @@ fn moved(eye: &mut Eye, ui: &Ui, response: &Response, (sight, is_held): (&Sight,
         let (wheel, pinch) = ui.input(|i| (i.smooth_scroll_delta().y, i.zoom_delta()));
         let factor = (f64::from(wheel) * WHEEL).exp() * f64::from(pinch);
         if factor != 1.0 {
-            eye.zoom_at(factor, sight.film.image_from_pixels(sight.pixel(at)));
+            eye.zoom_at(factor, sight.film.image_from_pixels(sight.pixel(at)) - sight.middle);
         }
     }
     if response.has_focus() {

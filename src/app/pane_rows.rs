@@ -2,10 +2,10 @@
 
 use super::editor::Editor;
 use super::liquid::Liquid;
-use super::rows::{Row, named};
+use super::rows::{NUMBER, Row, control_width, named};
 use super::shows::Shows;
 use crate::picture::pane::Quality;
-use egui::{ComboBox, RichText, Ui};
+use egui::{Button, ComboBox, RichText, Ui, vec2};
 use std::ops::RangeInclusive;
 
 /// Percent of the view, of the shorter side, and strengths.
@@ -85,13 +85,15 @@ fn last(liquid: &mut Liquid, ui: &mut Ui) {
     ui.horizontal(|ui| {
         let label = named(ui, "Quality", "How much of the effect is drawn.");
         let chosen = QUALITIES.iter().find(|(q, ..)| *q == liquid.quality).map_or("", |(_, name, _)| name);
-        let combo = ComboBox::from_id_salt("quality").selected_text(chosen).width(84.0).show_ui(ui, |ui| {
+        let width = control_width(ui);
+        let combo = ComboBox::from_id_salt("quality").selected_text(chosen).width(width).show_ui(ui, |ui| {
             for (quality, name, meaning) in QUALITIES {
                 ui.selectable_value(&mut liquid.quality, quality, name).on_hover_text(meaning);
             }
         });
         combo.response.labelled_by(label.id);
-        if ui.button("Reset").on_hover_text("The pane as it was at first.").clicked() {
+        let reset = ui.add_sized(vec2(NUMBER, ui.spacing().interact_size.y), Button::new("Reset"));
+        if reset.on_hover_text("The pane as it was at first.").clicked() {
             *liquid = Liquid::default();
         }
     });

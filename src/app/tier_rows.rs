@@ -1,31 +1,41 @@
 //! The tiers of a cut that lists its facets: a row each, with angle and distance.
+//!
+//! Distances are shown in mm: those of the design are in units of half its diameter, which is what files say.
 
-use super::rows::{ANY, NUMBER, Number, named};
+use super::rows::{ANY, NUMBER, Number, named, skip_control};
 use crate::cut::Cut;
 use egui::{Align, Layout, RichText, Ui, vec2};
 
 const MEANING: &str = "A tier: facets of one angle and one distance, as a faceting machine is set for them. Each tier \
     is set by itself; where facets meet follows.";
 
-/// Draws them, and takes what is set.
-pub fn show(cut: &mut Cut, ui: &mut Ui) {
+/// Draws the tiers of a cut whose unit of length is `unit_mm` mm, and takes what is set.
+pub fn show(cut: &mut Cut, unit_mm: f64, ui: &mut Ui) {
+    let about = format!(
+        "From the origin to the facets, in mm at the stone's present size: 1 in a file is half the diameter, {unit_mm:.3} mm."
+    );
     let heads = ui.horizontal(|ui| {
         named(ui, "Tier", MEANING);
+        skip_angle(ui);
         [
-            ("Angle", "From the girdle plane; below 0 for the pavilion."),
-            ("Distance", "From the origin to the facets."),
+            ("Angle", "From the girdle plane, in degrees; below 0 for the pavilion."),
+            ("Distance", about.as_str()),
         ]
         .map(|(head, meaning)| head_of_column(ui, head, meaning))
     });
     for (place, setting) in cut.settings().into_iter().enumerate() {
         ui.horizontal(|ui| {
             let label = named(ui, &format!("{} · {}", setting.name, setting.facets), MEANING);
-            let (mut angle, mut distance) = (setting.angle, setting.distance);
-            let fields = [(&mut angle, 2, 0.02, "°"), (&mut distance, 4, 0.0005, "")];
+            skip_angle(ui);
+            let (mut angle, mut distance_mm) = (setting.angle, setting.distance * unit_mm);
+            let before_mm = distance_mm;
+            let fields = [(&mut angle, 2, 0.02, "°"), (&mut distance_mm, 3, 0.002, " mm")];
             for ((value, decimals, speed, unit), head) in fields.into_iter().zip(heads.inner) {
                 let number = Number { decimals, speed, range: ANY, unit };
                 number.show(ui, (NUMBER, label.id), value).labelled_by(head);
             }
+            // What is not touched keeps all its digits.
+            let distance = if distance_mm == before_mm { setting.distance } else { distance_mm / unit_mm };
             let is_changed = (angle, distance) != (setting.angle, setting.distance);
             if is_changed && angle.is_finite() && distance.is_finite() {
                 // Whoever leaves out the sign means the same side: a tier never changes over to the other.
@@ -33,6 +43,11 @@ pub fn show(cut: &mut Cut, ui: &mut Ui) {
             }
         });
     }
+}
+
+/// Leaves room so that the angle stands left of the column of numbers, in which the distance stands.
+fn skip_angle(ui: &mut Ui) {
+    skip_control(ui, NUMBER + ui.spacing().item_spacing.x);
 }
 
 fn head_of_column(ui: &mut Ui, head: &str, meaning: &str) -> egui::Id {

@@ -36,7 +36,14 @@ impl Film {
 
     /// A square on which something that reaches so far from the origin has some air around it.
     pub fn reaching(reach: f64, size: u32) -> Self {
-        Self::square(size, reach * (1.0 + MARGIN))
+        Self::holding(DVec2::splat(reach), [size; 2])
+    }
+
+    /// A film of these pixels on which something that reaches so far from the origin to either side, and up and down, has
+    /// some air around it.
+    pub fn holding(half: DVec2, size: [u32; 2]) -> Self {
+        let pixels = DVec2::new(f64::from(size[0].max(1)), f64::from(size[1].max(1)));
+        Self::new(size, (2.0 * half * (1.0 + MARGIN) / pixels).max_element())
     }
 
     /// Pixels per world unit.

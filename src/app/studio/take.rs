@@ -264,6 +264,7 @@ mod tests {
     use super::*;
     use crate::app::document::Document;
     use crate::app::eye::Eye;
+    use crate::app::framing::Fit;
     use crate::app::liquid::Liquid;
     use crate::app::studio::order::{Smoothing, Which};
     use crate::app::studio::render::BEHIND;
@@ -280,8 +281,8 @@ mod tests {
             shows,
             strongest: false,
             view: eye.view(None),
-            film: eye.film([56, 40], 1.0),
-            whole: eye.film([56, 40], 1.0),
+            film: eye.film([56, 40], &Fit::reaching(1.0)),
+            whole: Fit::reaching(1.0).film([56, 40]),
             light: Arc::new(Lighting::load("dome").unwrap()),
             bands: 16,
             jitter: true,
