@@ -46,7 +46,9 @@ pub fn show(editor: &mut Editor, ui: &mut Ui, asked: &mut AskedPath) -> bool {
     let field = ui.add(TextEdit::singleline(&mut asked.text).desired_width(440.0)).labelled_by(label.id);
     let path = PathBuf::from(asked.text.trim());
     if asked.purpose == Purpose::SaveAs && path.is_file() {
-        ui.label(RichText::new("It is there already and will be replaced.").color(theme::bad(ui.visuals())));
+        ui.label(
+            RichText::new("It is there already and will be replaced.").color(theme::caution(ui.visuals())),
+        );
     } else if asked.purpose != Purpose::SaveAs && !path.exists() {
         ui.label(RichText::new("There is no such file.").weak());
     }

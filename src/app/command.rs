@@ -41,6 +41,7 @@ pub enum Command {
     NextBehind,
     Panels,
     Keys,
+    About,
 }
 
 /// What a menu holds.
@@ -70,7 +71,7 @@ pub const MENUS: [Menu; 5] = [
         ],
     },
     Menu { title: "Compare", groups: &[&[CompareSaved, CompareFile], &[Split], &[NoCompare]] },
-    Menu { title: "Help", groups: &[&[Keys]] },
+    Menu { title: "Help", groups: &[&[Keys], &[About]] },
 ];
 
 impl Command {
@@ -118,6 +119,7 @@ impl Command {
             NextBehind => "Next background",
             Panels => "Views alone",
             Keys => "Keys and terms",
+            About => "About Brillianteer",
         }
     }
 
@@ -164,6 +166,7 @@ impl Command {
             NextBehind => "Hangs the next pattern behind renders.",
             Panels => "Hides the panels at both sides, until it is chosen again.",
             Keys => "Lists the keys, and what the trade's terms mean.",
+            About => "The program's version, its licences, and what it is built of.",
         }
     }
 
@@ -207,7 +210,7 @@ impl Command {
             Panels => bare(Key::H),
             Keys => bare(Key::F1),
             CompareSaved => bare(Key::R),
-            CompareFile | NoCompare => None,
+            CompareFile | NoCompare | About => None,
         }
     }
 }

@@ -66,7 +66,11 @@ pub fn show(editor: &mut Editor, ui: &mut Ui) {
         skip_name(ui);
         let size = vec2(field_width(ui), ui.spacing().interact_size.y);
         let again = Button::new("Lay out").min_size(size);
-        if ui.add_enabled(count > 1, again).on_hover_text("Lays the copies out anew, as Space does.").clicked() {
+        if ui
+            .add_enabled(count > 1, again)
+            .on_hover_text("Lays the copies out anew, as Space does.")
+            .clicked()
+        {
             editor.lay_out(count);
         }
     });

@@ -1,12 +1,13 @@
 //! The panel of the design: proportions, material, size, light.
 
+use super::desk::Side;
 use super::desk::WAVELENGTHS;
 use super::editor::Editor;
 use super::files::Purpose;
 use super::proportions::{EXCELLENT_DEPTH, PROPORTIONS, Proportion};
 use super::rows::{ANY, NUMBER, Number, Row, control_width, field_width, named};
 use super::studio::BEHIND;
-use super::{company_rows, glass_rows, stone_rows, theme, tier_rows};
+use super::{company_rows, glass_rows, side_panels, stone_rows, theme, tier_rows};
 use crate::cut::{Cut, Design, DesignError, MaterialRef, RoundBrilliant, Unit};
 use crate::picture::Pattern;
 use crate::scene::{Company, LIGHTS, SpecimenError, light};
@@ -23,10 +24,10 @@ const STOPS: RangeInclusive<f64> = -4.0..=4.0;
 const HEADS: RangeInclusive<f64> = 0.0..=30.0;
 
 /// Draws the panel.
-pub fn show(editor: &mut Editor, ui: &mut Ui) {
-    Panel::left("design").resizable(true).default_size(350.0).size_range(300.0..=460.0).show(ui, |ui| {
+pub fn show(editor: &mut Editor, ui: &mut Ui, widths: RangeInclusive<f32>) {
+    Panel::left("design").resizable(true).default_size(360.0).size_range(widths).show(ui, |ui| {
+        side_panels::head(editor, ui, Side::Design);
         ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
-            ui.add_space(8.0);
             identity(editor, ui);
             let work = &editor.document.work;
             if matches!(work.design.cut, Cut::Glass(_)) || work.company != Company::default() {
@@ -50,7 +51,8 @@ pub fn show(editor: &mut Editor, ui: &mut Ui) {
 
 /// Whether GIA's ranges of the grade Excellent apply: they are those of round brilliants of diamond.
 fn is_graded(design: &Design) -> bool {
-    let is_diamond = matches!(&design.material, MaterialRef::Name(name) if name.eq_ignore_ascii_case("diamond"));
+    let is_diamond =
+        matches!(&design.material, MaterialRef::Name(name) if name.eq_ignore_ascii_case("diamond"));
     is_diamond && matches!(design.cut, Cut::RoundBrilliant(_))
 }
 
@@ -256,12 +258,7 @@ fn derived(ui: &mut Ui, brilliant: &RoundBrilliant, is_graded: bool) {
             });
             ui.end_row();
         };
-        line(
-            "Total depth",
-            format!("{depth:6.2} %"),
-            Some(colour),
-            &format!("From table to culet.{about}"),
-        );
+        line("Total depth", format!("{depth:6.2} %"), Some(colour), &format!("From table to culet.{about}"));
         line(
             "Star angle",
             format!("{:6.2}°", derived.star_angle),
@@ -348,9 +345,7 @@ fn behind(editor: &mut Editor, ui: &mut Ui) -> bool {
         let name = desk.behind.as_deref().map_or("nothing", |name| {
             std::path::Path::new(name).file_name().and_then(|n| n.to_str()).unwrap_or(name)
         });
-        let combo = ComboBox::from_id_salt("behind")
-            .selected_text(name.to_owned())
-            .width(field_width(ui));
+        let combo = ComboBox::from_id_salt("behind").selected_text(name.to_owned()).width(field_width(ui));
         let combo = combo.show_ui(ui, |ui| {
             ui.selectable_value(&mut desk.behind, None, "nothing");
             ui.selectable_value(&mut desk.behind, Some("light".to_owned()), "light")

@@ -32,6 +32,53 @@ impl Layout {
     }
 }
 
+/// A panel beside the views.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Side {
+    /// The design, on the left.
+    Design,
+    /// The figures, on the right.
+    Figures,
+}
+
+/// Which panels are open. The others are folded to strips, which open them again.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Panels {
+    /// Whether the design is, in a window that has room for both.
+    pub design: bool,
+    /// Whether the figures are, in a window that has room for both.
+    pub figures: bool,
+    /// The one that is in a window that has room for one.
+    pub narrow: Option<Side>,
+}
+
+impl Default for Panels {
+    fn default() -> Self {
+        Self { design: true, figures: true, narrow: Some(Side::Design) }
+    }
+}
+
+impl Panels {
+    /// Whether a panel is open.
+    pub fn is_open(&self, side: Side, has_room_for_both: bool) -> bool {
+        match (has_room_for_both, side) {
+            (false, _) => self.narrow == Some(side),
+            (true, Side::Design) => self.design,
+            (true, Side::Figures) => self.figures,
+        }
+    }
+
+    /// Opens a panel, or folds it.
+    pub fn set(&mut self, side: Side, has_room_for_both: bool, is_open: bool) {
+        match (has_room_for_both, side) {
+            (false, _) => self.narrow = is_open.then_some(side),
+            (true, Side::Design) => self.design = is_open,
+            (true, Side::Figures) => self.figures = is_open,
+        }
+    }
+}
+
 /// One view.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Pane {
@@ -88,6 +135,8 @@ pub struct Desk {
     pub smoothing: Smoothing,
     /// Whether views have the window to themselves.
     pub hides_panels: bool,
+    /// Which panels are open else.
+    pub panels: Panels,
     /// The pane of liquid glass.
     pub liquid: Liquid,
 }
@@ -126,6 +175,7 @@ impl Default for Desk {
             strength: 1.0,
             smoothing: Smoothing::None,
             hides_panels: false,
+            panels: Panels::default(),
             liquid: Liquid::default(),
         }
     }

@@ -1,5 +1,6 @@
 //! Windows that ask or tell something.
 
+use super::about::{self, About};
 use super::asked_path::{self, AskedPath};
 use super::command::MENUS;
 use super::document::Document;
@@ -41,6 +42,8 @@ pub enum Dialog {
     Path(AskedPath),
     /// Keys and terms.
     Keys,
+    /// What the program is.
+    About(Box<About>),
 }
 
 impl Dialog {
@@ -49,28 +52,43 @@ impl Dialog {
         Self::Export(Box::new(ExportDialog::new(editor)))
     }
 
+    /// The same, with one view chosen alone.
+    pub fn export_of(editor: &mut Editor, shows: Shows) -> Self {
+        let mut export = ExportDialog::new(editor);
+        export.plan.selection.views = vec![shows];
+        Self::Export(Box::new(export))
+    }
+
     /// Whether it stays until it is answered, whatever else is clicked or pressed.
     pub fn insists(&self) -> bool {
         match self {
             Self::Recover(_) | Self::ChangedOutside => true,
             Self::Export(export) => export.is_busy(),
-            Self::Unsaved(_) | Self::Moved(_) | Self::Path(_) | Self::Keys => false,
+            Self::Unsaved(_) | Self::Moved(_) | Self::Path(_) | Self::Keys | Self::About(_) => false,
         }
     }
 }
+
+/// Space that dialogs leave free above and below, margins of their own included, points.
+const AROUND_DIALOG: f32 = 48.0;
 
 /// Draws the window that is open, if any.
 pub fn show(editor: &mut Editor, ctx: &Context) {
     let Some(mut dialog) = editor.dialog.take() else { return };
     let mut is_open = true;
-    let modal = Modal::new(Id::unique("dialog")).show(ctx, |ui| match &mut dialog {
-        Dialog::Unsaved(then) => is_open = unsaved(editor, ui, then),
-        Dialog::Moved(then) => is_open = moved(editor, ui, then),
-        Dialog::Recover(found) => is_open = recover(editor, ui, found),
-        Dialog::ChangedOutside => is_open = changed_outside(editor, ui),
-        Dialog::Export(export) => is_open = export_dialog::show(editor, ui, export),
-        Dialog::Path(asked) => is_open = asked_path::show(editor, ui, asked),
-        Dialog::Keys => is_open = keys(ui),
+    let modal = Modal::new(Id::unique("dialog")).show(ctx, |ui| {
+        // A window lower than the dialog scrolls it.
+        let room = ctx.content_rect().height() - AROUND_DIALOG;
+        ScrollArea::vertical().id_salt("dialog").max_height(room).show(ui, |ui| match &mut dialog {
+            Dialog::Unsaved(then) => is_open = unsaved(editor, ui, then),
+            Dialog::Moved(then) => is_open = moved(editor, ui, then),
+            Dialog::Recover(found) => is_open = recover(editor, ui, found),
+            Dialog::ChangedOutside => is_open = changed_outside(editor, ui),
+            Dialog::Export(export) => is_open = export_dialog::show(editor, ui, export),
+            Dialog::Path(asked) => is_open = asked_path::show(editor, ui, asked),
+            Dialog::Keys => is_open = keys(ui),
+            Dialog::About(about) => is_open = about::show(editor, ui, about),
+        });
     });
     let escaped = ctx.input(|i| i.key_pressed(Key::Escape)) || modal.should_close();
     if is_open && (!escaped || dialog.insists()) {
@@ -193,7 +211,8 @@ fn changed_outside(editor: &mut Editor, ui: &mut Ui) -> bool {
 fn keys(ui: &mut Ui) -> bool {
     ui.set_width(620.0);
     ui.heading("Keys and terms");
-    ScrollArea::vertical().max_height(520.0).show(ui, |ui| {
+    let room = ui.ctx().content_rect().height() - AROUND_DIALOG - 90.0;
+    ScrollArea::vertical().max_height(room.min(520.0)).show(ui, |ui| {
         let ctx = ui.ctx().clone();
         Grid::new("keys").num_columns(2).striped(true).show(ui, |ui| {
             let mut line = |key: String, what: &str| {

@@ -2,6 +2,7 @@
 
 use super::command::Command;
 use super::compare::Compared;
+use super::copying::Copying;
 use super::desk::{Desk, Layout};
 use super::dialogs::{Dialog, Then};
 use super::document::{Document, FIRST_LIGHT, Work};
@@ -13,6 +14,7 @@ use super::look::Looks;
 use super::lookup::Looker;
 use super::moving::Moving;
 use super::notes::Notes;
+use super::opener::{Opener, by_system};
 use super::opening::{Opening, Wanted};
 use super::posed::Posed;
 use super::probe::Probe;
@@ -20,8 +22,8 @@ use super::profile_view::ProfileView;
 use super::refraction_view::Flowing;
 use super::shows::Shows;
 use super::state_file::StateFile;
-use super::studio::{Answer, Ask, Grade, Order, Shot, Slot, Studio, Taken, Tilts, Which};
-use super::{design_panel, dialogs, figures_panel, menus, stage, theme};
+use super::studio::{Answer, Ask, Grade, Order, Paper, Shot, Slot, Studio, Taken, Tilts, Which};
+use super::{dialogs, drops, menus, side_panels, stage, theme};
 use crate::io::library;
 use crate::io::lighting::{Lighting, LightingError};
 use crate::io::mesh_options::MeshOptions;
@@ -49,6 +51,8 @@ pub struct Setup {
     pub desk: Desk,
     /// Where the window says whether it is at rest; none for no such file.
     pub state_file: Option<StateFile>,
+    /// What opens folders and pages outside the program.
+    pub opener: Opener,
 }
 
 impl Default for Setup {
@@ -59,6 +63,7 @@ impl Default for Setup {
             safe: None,
             desk: Desk::default(),
             chooser: Arc::new(by_dialog),
+            opener: Arc::new(by_system),
             state_file: None,
         }
     }
@@ -85,6 +90,8 @@ pub struct Editor {
     /// The stone that views are fitted to.
     pub(super) framing: Framing,
     pub(super) desk: Desk,
+    /// What drawings are drawn on.
+    pub(super) paper: Paper,
     pub(super) looks: Looks,
     pub(super) studio: Studio,
     pub(super) pictures: HashMap<Slot, Shown>,
@@ -121,6 +128,9 @@ pub struct Editor {
     pub(super) loading: Option<(String, Receiver<Result<Lighting, LightingError>>)>,
     pub(super) posed: Posed,
     pub(super) chooser: Chooser,
+    pub(super) opener: Opener,
+    /// A picture for the clipboard that is being made.
+    pub(super) copying: Option<Copying>,
     pub(super) choosing: Option<Choosing>,
     pub(super) opening: Vec<Opening>,
     /// How many documents were begun: an answer for one must not be taken for another.
@@ -169,6 +179,7 @@ impl Editor {
             framing: Framing::new(document.specimen()),
             document,
             looks: Looks::new(&desk),
+            paper: Paper::default(),
             desk,
             pictures: HashMap::new(),
             figures: HashMap::new(),
@@ -191,6 +202,8 @@ impl Editor {
             loading: None,
             posed: Posed::default(),
             chooser: setup.chooser,
+            opener: setup.opener,
+            copying: None,
             choosing: None,
             begun: 0,
             opening: vec![],
@@ -302,10 +315,12 @@ impl Editor {
         if self.dialog.is_none() && self.watching.has_changed() && self.document.is_changed_outside() {
             self.changed_outside();
         }
-        let dropped = ctx.input(|i| i.raw.dropped_files.clone());
-        if let Some(file) = dropped.first() {
-            self.ask_before(Then::Open(file.path().to_owned()));
+        let dropped: Vec<PathBuf> =
+            ctx.input(|i| i.raw.dropped_files.iter().map(|file| file.path().to_owned()).collect());
+        if !dropped.is_empty() {
+            self.dropped(&dropped);
         }
+        self.take_in_copy(ctx);
     }
 
     fn take_in_looked(&mut self, ctx: &Context) {
@@ -359,6 +374,13 @@ impl Editor {
         }
     }
 
+    /// Opens a folder or a page outside the program.
+    pub(super) fn open_outside(&mut self, what: &str) {
+        if let Err(why) = (self.opener)(what) {
+            self.notes.trouble(why);
+        }
+    }
+
     fn close(&mut self, ctx: &Context) {
         if !ctx.input(|i| i.viewport().close_requested()) {
             if self.may_close {
@@ -400,16 +422,17 @@ impl Editor {
         self.take_in(&ctx);
         menus::keys(self, &ctx);
         self.shows_three = menus::are_three_shown(&ctx);
+        self.paper = theme::paper(&ctx);
         menus::bar(self, ui);
         menus::status(self, ui);
         if !self.desk.hides_panels {
-            design_panel::show(self, ui);
-            figures_panel::show(self, ui);
+            side_panels::show(self, ui);
         }
         self.is_picture_focused = false;
         let seen = stage::show(self, ui);
         following::show(self, &ctx);
         dialogs::show(self, &ctx);
+        drops::invite(&ctx);
         self.document.update();
         if seen.iter().any(|(pane, _)| self.desk.panes[*pane].shows.has_company()) {
             self.moving.advance(&ctx);

@@ -100,7 +100,14 @@ pub fn show(editor: &mut Editor, ui: &mut Ui, export: &mut ExportDialog) -> bool
         if export.plan.selection.scene && job.end() == Some(Ok(())) {
             editor.document.keep_copies();
         }
-        return working(ui, job);
+        let stays = working(ui, job);
+        let is_done = job.end().is_some();
+        let folder = std::path::absolute(&export.plan.folder).unwrap_or_else(|_| export.plan.folder.clone());
+        let about = "Shows the files that were written.";
+        if is_done && ui.button("Open folder").on_hover_text(about).clicked() {
+            editor.open_outside(&folder.display().to_string());
+        }
+        return stays;
     }
     views(ui, export);
     ui.add_space(6.0);
@@ -260,7 +267,7 @@ fn listed(ui: &mut Ui, files: &Result<Vec<PathBuf>, String>) {
                             file.file_name().map_or_else(String::new, |n| n.to_string_lossy().into_owned());
                         let text = RichText::new(name).small();
                         ui.label(if file.exists() {
-                            text.color(theme::bad(ui.visuals()))
+                            text.color(theme::caution(ui.visuals()))
                         } else {
                             text.weak()
                         });

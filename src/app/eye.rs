@@ -191,7 +191,9 @@ mod tests {
     fn zooming_keeps_the_point_under_the_hand() {
         let mut eye = Eye { centre: DVec2::new(0.1, 0.2), ..Eye::default() };
         let pixel = |eye: &Eye, at: DVec2| {
-            eye.film([100, 80], &Fit::reaching(1.0)).pixels_from_image(glam::DMat2::IDENTITY).transform_point2(at)
+            eye.film([100, 80], &Fit::reaching(1.0))
+                .pixels_from_image(glam::DMat2::IDENTITY)
+                .transform_point2(at)
         };
         let at = DVec2::new(-0.4, 0.3);
         let before = pixel(&eye, at);

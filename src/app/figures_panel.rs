@@ -1,15 +1,18 @@
 //! The panel of figures: where the light comes from, by exact beams or by rays, and how that changes when the stone is tilted.
 
+use super::desk::Side;
 use super::editor::{Editor, Measured};
+use super::figures_text::{self, About};
 use super::studio::{Grade, Tilts, Which};
-use super::{pane_rows, theme};
+use super::{pane_rows, side_panels, theme};
 use crate::measure::Figures;
 use crate::scene::{ASET_CONE, Backing, Scope};
-use egui::{Align, Color32, Layout, Panel, Rect, RichText, ScrollArea, Sense, Ui, pos2, vec2};
-use egui_plot::{GridInput, GridMark, HoverPosition, Line, Plot, PlotPoint, PlotPoints};
+use egui::{Align, Button, Color32, Layout, Panel, Rect, RichText, ScrollArea, Sense, Ui, pos2, vec2};
+use egui_plot::{GridInput, GridMark, HoverPosition, Plot, PlotPoint, PlotPoints};
+use std::ops::RangeInclusive;
 
 /// A zone as a row shows it: what it is called here, its band in the scope, and what it means.
-const ZONES: [(&str, &str, &str); 5] = [
+pub(super) const ZONES: [(&str, &str, &str); 5] = [
     ("Red", "red", "Light from 45° to 75° above the horizon: the brightest that rooms have."),
     ("Green", "green", "Light from the horizon to 45°: walls and windows."),
     ("Blue", "blue", "Light from straight above, which an observer's head blocks: it makes the contrast."),
@@ -18,39 +21,115 @@ const ZONES: [(&str, &str, &str); 5] = [
 ];
 
 /// Draws the panel.
-pub fn show(editor: &mut Editor, ui: &mut Ui) {
-    Panel::right("figures").resizable(true).default_size(280.0).size_range(250.0..=420.0).show(ui, |ui| {
+pub fn show(editor: &mut Editor, ui: &mut Ui, widths: RangeInclusive<f32>) {
+    Panel::right("figures").resizable(true).default_size(280.0).size_range(widths).show(ui, |ui| {
+        side_panels::head(editor, ui, Side::Figures);
         ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
             pane_rows::show(editor, ui);
             ui.add_space(8.0);
-            ui.label(RichText::new("Figures").heading()).on_hover_text(
-                "What becomes of the light of the linked view in the common ASET, in percent of the stone's outline, at \
-                 sodium's 589.3 nm. Each may be too low by what is unresolved; by rays, as of meshes and glass, there is the \
-                 error of sampling as well.",
-            );
-            how(editor, ui);
-            if let Some(measured) = editor.figures.get(&Which::Present) {
-                let other = editor.compared.as_ref().and_then(|_| editor.figures.get(&Which::Other));
-                let is_asked = editor.asked.figures.iter().any(|(_, ask)| *ask == measured.ask);
-                table(ui, measured, other, editor.desk.by_area);
-                let state = if is_asked && measured.grade == Grade::Fine { "final" } else { "becoming finer…" };
-                let sampled = measured.figures.standard_error;
-                let error = format!("{state}; by rays, standard error {:.2} %", 100.0 * sampled);
-                let state = if sampled > 0.0 { error.as_str() } else { state };
-                ui.label(RichText::new(state).weak().small());
-            }
-            ui.add_space(8.0);
-            ui.label(RichText::new("Against tilt").heading()).on_hover_text(
-                "The same figures while the stone leans toward the azimuth of the linked views, -30° to 30°.",
-            );
-            if let Some((ask, tilts)) = &editor.tilts {
-                ui.label(RichText::new("in the colours of the zones above").weak().small());
-                ui.add_enabled_ui(editor.asked.tilts.as_ref() == Some(ask), |ui| plot(ui, ask.head, tilts));
-            } else {
-                ui.label(RichText::new("comes when all else is done").weak());
-            }
+            let whole = ui.scope(|ui| {
+                figures(editor, ui);
+                against_tilt(editor, ui);
+            });
+            whole.response.container_context_menu(|ui| copies(editor, ui));
         });
     });
+}
+
+fn figures(editor: &mut Editor, ui: &mut Ui) {
+    ui.horizontal(|ui| {
+        ui.label(RichText::new("Figures").heading()).on_hover_text(
+            "What becomes of the light of the linked view in the common ASET, in percent of the stone's outline, at \
+             sodium's 589.3 nm. Each may be too low by what is unresolved; by rays, as of meshes and glass, there is the \
+             error of sampling as well.",
+        );
+        ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+            ui.menu_button("Copy", |ui| copies(editor, ui));
+        });
+    });
+    how(editor, ui);
+    if let Some(measured) = editor.figures.get(&Which::Present) {
+        table(ui, &lines(measured, other(editor), editor.desk.by_area));
+        ui.label(RichText::new(state(editor, measured)).weak().small());
+    }
+}
+
+/// The figures of the design compared with.
+fn other(editor: &Editor) -> Option<&Measured> {
+    editor.compared.as_ref().and_then(|_| editor.figures.get(&Which::Other))
+}
+
+/// How far figures have come, and their error where they are sampled.
+fn state(editor: &Editor, measured: &Measured) -> String {
+    let is_asked = editor.asked.figures.iter().any(|(_, ask)| *ask == measured.ask);
+    let state = if is_asked && measured.grade == Grade::Fine { "final" } else { "becoming finer…" };
+    match measured.figures.standard_error {
+        error if error > 0.0 => format!("{state}; by rays, standard error {:.2} %", 100.0 * error),
+        _ => state.to_owned(),
+    }
+}
+
+fn against_tilt(editor: &mut Editor, ui: &mut Ui) {
+    ui.add_space(8.0);
+    ui.label(RichText::new("Against tilt").heading()).on_hover_text(
+        "The same figures while the stone leans toward the azimuth of the linked views, -30° to 30°.",
+    );
+    if let Some((ask, tilts)) = &editor.tilts {
+        ui.label(RichText::new("in the colours of the zones above").weak().small());
+        ui.add_enabled_ui(editor.asked.tilts.as_ref() == Some(ask), |ui| plot(ui, ask.head, tilts));
+    } else {
+        ui.label(RichText::new("comes when all else is done").weak());
+    }
+}
+
+/// What can be copied of the figures, as entries of a menu.
+fn copies(editor: &mut Editor, ui: &mut Ui) {
+    let copied = |editor: &mut Editor, ui: &mut Ui, text: String| {
+        ui.ctx().copy_text(text);
+        editor.notes.say("Figures copied");
+        ui.close();
+    };
+    let measured = editor.figures.get(&Which::Present);
+    let has_figures = measured.is_some();
+    let about = "The figures as they are shown, a line each.";
+    if ui.add_enabled(has_figures, Button::new("Copy as text")).on_hover_text(about).clicked()
+        && let Some(text) = as_text(editor, false)
+    {
+        copied(editor, ui, text);
+    }
+    let about = "A table for spreadsheets: energy and area of every figure, in percent.";
+    if ui.add_enabled(has_figures, Button::new("Copy as CSV")).on_hover_text(about).clicked()
+        && let Some(text) = as_text(editor, true)
+    {
+        copied(editor, ui, text);
+    }
+    let tilts = editor.tilts.as_ref().map(|(ask, tilts)| (ask.head, tilts.clone()));
+    let about = "A table for spreadsheets: the zones' energy at each tilt, in percent.";
+    if ui.add_enabled(tilts.is_some(), Button::new("Copy tilts as CSV")).on_hover_text(about).clicked()
+        && let Some((head, tilts)) = tilts
+    {
+        copied(editor, ui, figures_text::tilts(head, &tilts));
+    }
+}
+
+/// The figures as text, or as a table.
+fn as_text(editor: &Editor, as_table: bool) -> Option<String> {
+    let measured = editor.figures.get(&Which::Present)?;
+    let other = other(editor);
+    let by_area = editor.desk.by_area;
+    let by = if by_area { "area of strongest exits" } else { "energy" };
+    let (view, state) = (view(editor), format!("ASET, {by}; {}", state(editor, measured)));
+    let about = About {
+        design: &editor.document.work.design.name,
+        view: &view,
+        state: &state,
+        other: editor.compared.as_ref().filter(|_| other.is_some()).map(|compared| compared.name.as_str()),
+    };
+    let lines = |by_area| lines(measured, other, by_area);
+    Some(match as_table {
+        true => figures_text::csv(&about, &lines(false), &lines(true)),
+        false => figures_text::text(&about, &lines(by_area)),
+    })
 }
 
 fn how(editor: &mut Editor, ui: &mut Ui) {
@@ -61,6 +140,11 @@ fn how(editor: &mut Editor, ui: &mut Ui) {
             "The part of the stone whose strongest light comes from each zone, as most ASET scores count.",
         );
     });
+    ui.label(RichText::new(view(editor)).weak());
+}
+
+/// From where the figures are seen.
+fn view(editor: &Editor) -> String {
     let tilt = editor.desk.eye.tilt().to_degrees();
     let azimuth = (editor.desk.eye.view(None).azimuth - editor.desk.eye.turn).to_degrees().rem_euclid(360.0);
     let what = if editor.desk.eye.eye_leans { "eye" } else { "stone" };
@@ -69,67 +153,90 @@ fn how(editor: &mut Editor, ui: &mut Ui) {
     } else {
         format!("{what} tilted {tilt:.1}° toward {azimuth:.0}°")
     };
-    ui.label(RichText::new(format!("Table side, {view}")).weak());
+    format!("Table side, {view}")
 }
 
-/// One number, and where it is shown.
-struct Row<'a> {
-    name: &'a str,
-    meaning: &'a str,
-    share: f64,
-    other: Option<f64>,
-    colour: Color32,
-    is_strong: bool,
+/// One figure, as the panel shows it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Line {
+    /// What it is called, and what it means.
+    pub name: &'static str,
+    pub meaning: &'static str,
+    /// Its part of the stone's outline, and that of the design compared with.
+    pub share: f64,
+    pub other: Option<f64>,
+    /// The zone whose colour it has, if any.
+    pub band: Option<&'static str>,
+    /// Whether it stands out among the others.
+    pub is_strong: bool,
 }
 
-fn table(ui: &mut Ui, measured: &Measured, other: Option<&Measured>, by_area: bool) {
+/// Figures of what is no zone: what each is called and means, and whether it stands out.
+const TOTALS: [(&str, &str, Pick, bool); 4] = [
+    (
+        "Light return",
+        "Light from above the horizon, glare included: what makes the stone bright.",
+        |zones| zones.lit,
+        true,
+    ),
+    (
+        "Glare",
+        "Light that the outer surface reflects without having been inside.",
+        |zones| zones.glare,
+        false,
+    ),
+    ("Absorbed", "Light that the stone's colour takes away.", |zones| zones.absorbed, false),
+    (
+        "Unresolved",
+        "Light that was not followed to its end: by it, figures may be too low.",
+        |zones| zones.unresolved,
+        false,
+    ),
+];
+
+/// All figures in the order of the panel: those of zones first.
+pub(super) fn lines(measured: &Measured, other: Option<&Measured>, by_area: bool) -> Vec<Line> {
     let zones = |m: &Measured| Zones::of(&m.figures, m.ask.head, by_area);
     let (present, other) = (zones(measured), other.map(zones));
-    let pick = |f: &dyn Fn(&Zones) -> f64| (f(&present), other.as_ref().map(f));
-    for (name, band, meaning) in ZONES {
-        if band == "head" && measured.ask.head == 0.0 {
-            continue;
+    let shown = ZONES.iter().filter(|(_, band, _)| *band != "head" || measured.ask.head > 0.0);
+    let of_zones = shown.map(|&(name, band, meaning)| Line {
+        name,
+        meaning,
+        share: present.band(band),
+        other: other.as_ref().map(|zones| zones.band(band)),
+        band: Some(band),
+        is_strong: false,
+    });
+    let total = |&(name, meaning, of, is_strong): &(&'static str, &'static str, Pick, bool)| Line {
+        name,
+        meaning,
+        share: of(&present),
+        other: other.as_ref().map(of),
+        band: None,
+        is_strong,
+    };
+    let undecided = "Where a stronger exit may hide in what is unresolved, or nothing leaves the stone.";
+    match by_area {
+        true => of_zones.chain([total(&("Undecided", undecided, |zones| zones.unresolved, false))]).collect(),
+        false => of_zones.chain(TOTALS.iter().map(total)).collect(),
+    }
+}
+
+fn table(ui: &mut Ui, lines: &[Line]) {
+    let zones = lines.iter().filter(|line| line.band.is_some()).count();
+    for (k, line) in lines.iter().enumerate() {
+        if k == zones {
+            ui.add_space(4.0);
         }
-        let (share, other) = pick(&|z| z.band(band));
-        let colour = theme::zone(band, ui.visuals());
-        row(ui, &Row { name, meaning, share, other, colour, is_strong: false });
-    }
-    ui.add_space(4.0);
-    let weak = ui.visuals().weak_text_color();
-    let text = ui.visuals().text_color();
-    let rows: [(&str, &str, Pick, bool); 4] = [
-        (
-            "Light return",
-            "Light from above the horizon, glare included: what makes the stone bright.",
-            &Zones::returned,
-            true,
-        ),
-        ("Glare", "Light that the outer surface reflects without having been inside.", &|z| z.glare, false),
-        ("Absorbed", "Light that the stone's colour takes away.", &|z| z.absorbed, false),
-        (
-            "Unresolved",
-            "Light that was not followed to its end: by it, figures may be too low.",
-            &|z| z.unresolved,
-            false,
-        ),
-    ];
-    if by_area {
-        let meaning = "Where a stronger exit may hide in what is unresolved, or nothing leaves the stone.";
-        let (share, other) = pick(&|z| z.unresolved);
-        row(ui, &Row { name: "Undecided", meaning, share, other, colour: weak, is_strong: false });
-        return;
-    }
-    for (name, meaning, of, is_strong) in rows {
-        let (share, other) = pick(of);
-        row(ui, &Row { name, meaning, share, other, colour: if is_strong { text } else { weak }, is_strong });
+        row(ui, line);
     }
 }
 
 /// Takes a number from what the panel shows.
-type Pick<'a> = &'a dyn Fn(&Zones) -> f64;
+type Pick = fn(&Zones) -> f64;
 
 /// What the panel shows, as shares of the outline.
-struct Zones {
+pub(super) struct Zones {
     bands: Vec<(String, f64)>,
     glare: f64,
     absorbed: f64,
@@ -152,13 +259,12 @@ impl Zones {
     fn band(&self, name: &str) -> f64 {
         self.bands.iter().find(|(n, _)| n == name).map_or(0.0, |(_, share)| *share)
     }
-
-    fn returned(&self) -> f64 {
-        self.lit
-    }
 }
 
-fn row(ui: &mut Ui, row: &Row) {
+fn row(ui: &mut Ui, row: &Line) {
+    let visuals = ui.visuals();
+    let plain = if row.is_strong { visuals.text_color() } else { visuals.weak_text_color() };
+    let colour: Color32 = row.band.map_or(plain, |band| theme::zone(band, visuals));
     let percent = 100.0 * row.share;
     let (width, height) = (ui.available_width(), 20.0);
     let (rect, response) = ui.allocate_exact_size(vec2(width, height), Sense::hover());
@@ -171,7 +277,7 @@ fn row(ui: &mut Ui, row: &Row) {
     );
     ui.painter().rect_filled(bar, 2.0, ui.visuals().extreme_bg_color);
     let end = bar.left() + bar.width() * row.share.clamp(0.0, 1.0) as f32;
-    ui.painter().rect_filled(Rect::from_min_max(bar.min, pos2(end, bar.bottom())), 2.0, row.colour);
+    ui.painter().rect_filled(Rect::from_min_max(bar.min, pos2(end, bar.bottom())), 2.0, colour);
     if let Some(other) = row.other {
         let x = bar.left() + bar.width() * other.clamp(0.0, 1.0) as f32;
         ui.painter().vline(x, bar.y_range().expand(3.0), egui::Stroke::new(2.0, ui.visuals().text_color()));
@@ -225,13 +331,13 @@ fn plot(ui: &mut Ui, head: f64, tilts: &Tilts) {
             let Some(k) = scope.bands.iter().position(|b| b.name == band) else { continue };
             let points = tilts.iter().map(|(tilt, f)| [*tilt, 100.0 * energy(f, k)]);
             let colour = theme::zone(band, &plot.ctx().global_style().visuals);
-            plot.line(Line::new(name, PlotPoints::from_iter(points)).color(colour).width(1.8));
+            plot.line(egui_plot::Line::new(name, PlotPoints::from_iter(points)).color(colour).width(1.8));
         }
     });
 }
 
 /// The light of a band, whether or not the head is among the scope's bands.
-fn energy(figures: &Figures, band: usize) -> f64 {
+pub(super) fn energy(figures: &Figures, band: usize) -> f64 {
     let of = |zones: &[f64]| zones.get(band).copied().unwrap_or(0.0);
     of(&figures.surface) + of(&figures.transmitted)
 }

@@ -139,7 +139,8 @@ fn outermost(points: &[DVec3]) -> Vec<DVec3> {
     if points.len() <= MOST_POINTS {
         return points.to_vec();
     }
-    let farthest = |toward: DVec3| points.iter().copied().max_by(|a, b| a.dot(toward).total_cmp(&b.dot(toward)));
+    let farthest =
+        |toward: DVec3| points.iter().copied().max_by(|a, b| a.dot(toward).total_cmp(&b.dot(toward)));
     (0..DIRECTIONS).map(direction).filter_map(farthest).collect()
 }
 

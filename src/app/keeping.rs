@@ -21,7 +21,7 @@ impl Editor {
     pub(super) fn changed_outside(&mut self) {
         self.document.accept_outside();
         if self.document.is_lost() {
-            self.notes.trouble("The file is no longer there; save the design to keep it.".into());
+            self.notes.warn("The file is no longer there; save the design to keep it.".into());
         } else if self.document.is_changed() {
             self.dialog = Some(Dialog::ChangedOutside);
         } else if let Some(path) = self.document.path().map(Path::to_owned) {
@@ -199,7 +199,7 @@ impl Editor {
                 self.notes.say(&format!("Saved {}", path.display()));
                 if !lost.is_empty() {
                     let (name, lost) = (path.display(), lost.join("; "));
-                    self.notes.trouble(format!("{name}: {lost}. As .toml, all is kept."));
+                    self.notes.warn(format!("{name}: {lost}. As .toml, all is kept."));
                 }
                 self.forget_unsaved();
                 if let Some(Compared { is_saved: true, .. }) = self.compared {

@@ -5,6 +5,7 @@ use super::lookup::{Ask, backdrop};
 use super::pane::{enlarge, focus};
 use super::shows::Shows;
 use super::studio::{Grade, Which};
+use super::view_menu;
 use crate::optics::linear_from_encoded;
 use crate::picture::pane::{Pane, Quality};
 use egui::{
@@ -117,6 +118,7 @@ pub fn show(editor: &mut Editor, ui: &mut Ui, (pane, shows): (usize, Shows), bod
         ui.painter().image(texture.id(), body, uv, Color32::WHITE);
     }
     ui.painter().rect_stroke(body, 4.0, focus(ui, &response), StrokeKind::Inside);
+    view_menu::attach(editor, &response, pane);
     if response.double_clicked() {
         enlarge(editor, pane);
     }

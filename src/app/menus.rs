@@ -1,6 +1,6 @@
 //! The menu bar, the line at the bottom, and the keys.
 
-use super::command::{Command, MENUS};
+use super::command::{Command, MENUS, Menu};
 use super::compare::Compared;
 use super::desk::Layout;
 use super::dialogs::{Dialog, Then};
@@ -9,7 +9,6 @@ use super::files::Purpose;
 use super::opening::Opening;
 use super::preset::{Known, PRESETS};
 use super::studio::Which;
-use super::theme;
 use crate::io::{cut_file, library};
 use egui::{Align, Button, Context, Event, Key, Panel, RichText, ThemePreference, Ui};
 use std::path::PathBuf;
@@ -22,27 +21,50 @@ pub fn bar(editor: &mut Editor, ui: &mut Ui) {
     Panel::top("menus").show(ui, |ui| {
         egui::MenuBar::new().ui(ui, |ui| {
             for menu in &MENUS {
-                ui.menu_button(menu.title, |ui| {
-                    for (k, group) in menu.groups.iter().enumerate() {
-                        if k > 0 {
-                            ui.separator();
-                        }
-                        group.iter().for_each(|&command| entry(editor, ui, command));
-                        if menu.title == "File" && k == 0 {
-                            opened_before(editor, ui);
-                            from_library(editor, ui);
-                        }
-                    }
-                });
+                ui.menu_button(menu.title, |ui| within_window(ui, |ui| entries(editor, ui, menu)));
             }
             ui.separator();
-            ui.label(RichText::new(editor.document.title()).strong());
-            if editor.document.is_changed() {
-                ui.label(RichText::new("not saved").weak());
-            }
-            ui.with_layout(egui::Layout::right_to_left(Align::Center), themes);
+            ui.with_layout(egui::Layout::right_to_left(Align::Center), |ui| {
+                themes(ui);
+                ui.with_layout(egui::Layout::left_to_right(Align::Center), |ui| title(editor, ui));
+            });
         });
     });
+}
+
+/// What is open; shortened where the window is narrow.
+fn title(editor: &Editor, ui: &mut Ui) {
+    let mark = "not saved";
+    let room = if editor.document.is_changed() { 80.0 } else { 0.0 };
+    ui.scope(|ui| {
+        ui.set_max_width((ui.available_width() - room).max(0.0));
+        ui.add(egui::Label::new(RichText::new(editor.document.title()).strong()).truncate());
+    });
+    if room > 0.0 {
+        ui.label(RichText::new(mark).weak());
+    }
+}
+
+/// Space that menus leave free below the bar and above the lower edge of the window, points.
+const AROUND_MENU: f32 = 56.0;
+
+/// The contents of a menu, which scroll where the window is lower than they are.
+fn within_window(ui: &mut Ui, contents: impl FnOnce(&mut Ui)) {
+    let height = ui.ctx().content_rect().height() - AROUND_MENU;
+    egui::ScrollArea::vertical().max_height(height).show(ui, contents);
+}
+
+fn entries(editor: &mut Editor, ui: &mut Ui, menu: &Menu) {
+    for (k, group) in menu.groups.iter().enumerate() {
+        if k > 0 {
+            ui.separator();
+        }
+        group.iter().for_each(|&command| entry(editor, ui, command));
+        if menu.title == "File" && k == 0 {
+            opened_before(editor, ui);
+            from_library(editor, ui);
+        }
+    }
 }
 
 /// Light, dark, or as the system has it.
@@ -65,7 +87,8 @@ fn themes(ui: &mut Ui) {
     });
 }
 
-fn entry(editor: &mut Editor, ui: &mut Ui, command: Command) {
+/// An entry of a menu that does a command.
+pub fn entry(editor: &mut Editor, ui: &mut Ui, command: Command) {
     let keys = command.shortcut().map_or(String::new(), |s| ui.ctx().format_shortcut(&s));
     let button = Button::new(command.name()).shortcut_text(keys).selected(editor.is_chosen(command));
     if ui.add_enabled(is_possible(editor, command), button).on_hover_text(command.meaning()).clicked() {
@@ -136,19 +159,8 @@ fn is_possible(editor: &Editor, command: Command) -> bool {
 /// The line at the bottom.
 pub fn status(editor: &mut Editor, ui: &mut Ui) {
     Panel::bottom("status").show(ui, |ui| {
-        let troubles: Vec<String> = editor.notes.troubles().to_vec();
-        for (k, trouble) in troubles.iter().enumerate() {
-            ui.horizontal(|ui| {
-                if ui.button("Dismiss").clicked() {
-                    editor.notes.dismiss(k);
-                }
-                ui.add(egui::Label::new(RichText::new(trouble).color(theme::bad(ui.visuals()))).wrap());
-            });
-        }
         ui.horizontal(|ui| {
-            let told =
-                if editor.told.is_empty() { editor.notes.said().unwrap_or_default() } else { &editor.told };
-            ui.add(egui::Label::new(told).truncate());
+            // What it says of itself comes first, so that a long line is shortened and does not push it out.
             ui.with_layout(egui::Layout::right_to_left(Align::Center), |ui| {
                 let opening = editor.opening.last().map(Opening::told);
                 let tracing = match (editor.studio.is_idle(), editor.studio.sharpens()) {
@@ -159,6 +171,11 @@ pub fn status(editor: &mut Editor, ui: &mut Ui) {
                 let state = opening.unwrap_or_else(|| tracing.to_owned());
                 ui.label(RichText::new(format!("{state} · {}", editor.studio.told())).weak().small())
                     .on_hover_text("What computes the pictures: the processor, or a graphics card.");
+                let said = editor.notes.said().unwrap_or_default();
+                let told = if editor.told.is_empty() { said } else { &editor.told };
+                ui.with_layout(egui::Layout::left_to_right(Align::Center), |ui| {
+                    ui.add(egui::Label::new(told).truncate());
+                });
             });
         });
     });
@@ -223,7 +240,9 @@ pub fn does(editor: &mut Editor, command: Command, ctx: &Context) {
         Command::Quit => editor.ask_before(Then::Close),
         Command::Undo => editor.document.undo(),
         Command::Redo => editor.document.redo(),
-        Command::Top | Command::Side | Command::Bottom | Command::Free | Command::Fit => look(editor, command),
+        Command::Top | Command::Side | Command::Bottom | Command::Free | Command::Fit => {
+            look(editor, command)
+        }
         Command::Perspective => {
             let eye = eye(editor);
             eye.distance = if eye.distance.is_some() { None } else { Some(DISTANCE) };
@@ -254,6 +273,7 @@ pub fn does(editor: &mut Editor, command: Command, ctx: &Context) {
         Command::LayOut => editor.lay_out(editor.document.work.company.poses.len()),
         Command::LightPath => editor.following.is_open = !editor.following.is_open,
         Command::Keys => editor.dialog = Some(Dialog::Keys),
+        Command::About => editor.dialog = Some(Dialog::About(Box::default())),
     }
 }
 

@@ -1,14 +1,17 @@
 //! Floor 6: the editor, a window in which a stone is cut and its light is watched.
 
+mod about;
 mod asked_path;
 mod command;
 mod company_rows;
 mod compare;
 mod copies;
+mod copying;
 mod design_panel;
 mod desk;
 mod dialogs;
 mod document;
+mod drops;
 mod editor;
 mod export_dialog;
 mod export_job;
@@ -16,11 +19,13 @@ mod export_scene;
 mod extent;
 mod eye;
 mod figures_panel;
+mod figures_text;
 mod files;
 mod following;
 mod framing;
 mod glass_rows;
 mod history;
+mod icon;
 mod keeping;
 mod light_path;
 mod liquid;
@@ -29,6 +34,7 @@ mod lookup;
 mod menus;
 mod moving;
 mod notes;
+mod opener;
 mod opening;
 mod ordering;
 mod pane;
@@ -41,12 +47,15 @@ mod proportions;
 mod refraction_view;
 mod rows;
 mod shows;
+mod side_panels;
 mod stage;
 mod state_file;
 mod stone_rows;
 mod studio;
 mod theme;
 mod tier_rows;
+mod trouble_bar;
+mod view_menu;
 
 pub use desk::Desk;
 pub use editor::{Editor, Setup};
@@ -73,11 +82,14 @@ pub fn run(file: Option<PathBuf>, mesh: MeshOptions) -> Result<(), String> {
     let mut setup = WgpuSetupCreateNew::without_display_handle();
     // The tracer shares the device: what it needs is asked for.
     setup.device_descriptor = Arc::new(Gpu::wanted);
+    let viewport =
+        egui::ViewportBuilder::default().with_app_id(ID).with_inner_size(SIZE).with_min_inner_size(LEAST);
+    let viewport = match icon::icon() {
+        Some(icon) => viewport.with_icon(icon),
+        None => viewport,
+    };
     let options = eframe::NativeOptions {
-        viewport: egui::ViewportBuilder::default()
-            .with_app_id(ID)
-            .with_inner_size(SIZE)
-            .with_min_inner_size(LEAST),
+        viewport,
         renderer: eframe::Renderer::Wgpu,
         wgpu_options: WgpuConfiguration { wgpu_setup: WgpuSetup::CreateNew(setup), ..Default::default() },
         ..Default::default()

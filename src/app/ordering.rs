@@ -3,7 +3,7 @@
 use super::editor::Editor;
 use super::framing::Fit;
 use super::shows::Shows;
-use super::studio::{Ask, BEHIND, Order, Shot, Smoothing, Which};
+use super::studio::{Ask, BEHIND, Order, Paper, Shot, Smoothing, Which};
 use crate::io::lighting::Lighting;
 use crate::scene::{Company, Pose, Projection, Side, Specimen, View};
 use std::sync::Arc;
@@ -98,6 +98,7 @@ impl Editor {
             head: self.document.work.head,
             overlay: self.desk.overlay().filter(|_| shows.takes_overlay()),
             liquid: self.desk.liquid,
+            paper: self.paper,
             specimen,
         })
     }
@@ -173,6 +174,7 @@ impl Editor {
             head: self.document.work.head,
             overlay: None,
             liquid: self.desk.liquid,
+            paper: Paper::default(),
         }
     }
 }

@@ -6,7 +6,7 @@ use super::eye::Eye;
 use super::probe::Found;
 use super::shows::Shows;
 use super::studio::{Grade, Shot, Which};
-use super::{liquid, menus, refraction_view, theme};
+use super::{liquid, menus, refraction_view, theme, view_menu};
 use crate::cut::Cut;
 use crate::math::SolidRef;
 use crate::scene::{ASET_CONE, Backing, Film, Scope, Side, Specimen, View};
@@ -109,7 +109,7 @@ fn state(editor: &Editor, ui: &mut Ui, pane: usize) {
     let Shown { grade, taken, shot, .. } = shown;
     if shows_mixture(shot) {
         let meaning = "Strength below 1: a mixture of the refracted and the straight ray, for its looks, and no physics.";
-        let colour = theme::bad(ui.visuals());
+        let colour = theme::caution(ui.visuals());
         ui.label(RichText::new(format!("strength {:.3}", shot.strength)).color(colour).small())
             .on_hover_text(meaning);
     }
@@ -149,6 +149,7 @@ fn profile(editor: &mut Editor, ui: &mut Ui, pane: usize, body: Rect) {
         Ok(stone) => drop(editor.profiles[pane].show(ui, body, stone, brilliant)),
         Err(_) => absent(ui, body, "A profile"),
     }
+    view_menu::attach(editor, &under, pane);
     if under.double_clicked() {
         enlarge(editor, pane);
     }
@@ -160,7 +161,8 @@ fn profile(editor: &mut Editor, ui: &mut Ui, pane: usize, body: Rect) {
 fn drawing(editor: &mut Editor, ui: &mut Ui, pane: usize, body: Rect) {
     let response = ui.interact(body, ui.scope_id().with("drawing"), Sense::click());
     response.widget_info(|| WidgetInfo::labeled(Role::Image, true, "Facet diagram"));
-    ui.painter().rect_filled(body, 4.0, Color32::WHITE);
+    let [red, green, blue] = editor.paper.inks.paper;
+    ui.painter().rect_filled(body, 4.0, Color32::from_rgb(red, green, blue));
     if editor.document.specimen().stone().is_err() {
         absent(ui, body, "A diagram");
     } else if let Some(shown) = editor.pictures.get(&(pane, Which::Present)) {
@@ -169,6 +171,7 @@ fn drawing(editor: &mut Editor, ui: &mut Ui, pane: usize, body: Rect) {
         let rect = Rect::from_center_size(body.center(), vec2(w, h) * scale);
         image(ui, shown, rect);
     }
+    view_menu::attach(editor, &response, pane);
     if response.double_clicked() {
         enlarge(editor, pane);
     }
@@ -236,8 +239,7 @@ fn scene(editor: &mut Editor, ui: &mut Ui, (pane, shows): (usize, Shows), body: 
     let view = eye.view(shows.side());
     let scale = ui.pixels_per_point();
     let fit = editor.fit(shows, (eye.turn, &view));
-    let sight =
-        Sight { view, film: eye.film(size, &fit), middle: fit.middle, side: view.side, body, scale };
+    let sight = Sight { view, film: eye.film(size, &fit), middle: fit.middle, side: view.side, body, scale };
     pictures(editor, ui, pane, &sight);
     let moves = shows == Shows::Refraction && refraction_view::is_held(ui);
     if shows == Shows::Refraction {
@@ -253,6 +255,7 @@ fn scene(editor: &mut Editor, ui: &mut Ui, (pane, shows): (usize, Shows), body: 
     if !copies::carried(editor, ui, pane, &response, &sight) {
         moved(editor.desk.eye_mut(pane), ui, &response, (&sight, moves));
     }
+    view_menu::attach(editor, &response, pane);
     let is_alone = !shows.has_company() || copies::are_none(editor);
     clicked(editor, ui, (pane, is_alone), &response, &sight);
     if response.hovered() || response.has_focus() {

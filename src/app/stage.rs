@@ -2,7 +2,7 @@
 
 use super::desk::Layout;
 use super::editor::Editor;
-use super::pane;
+use super::{pane, trouble_bar};
 use egui::{CentralPanel, Rect, Ui, UiBuilder, pos2};
 
 /// Between views, points.
@@ -24,6 +24,7 @@ pub fn show(editor: &mut Editor, ui: &mut Ui) -> Vec<(usize, [u32; 2])> {
             ui.set_clip_rect(rect.intersect(ui.clip_rect()));
             seen.push((pane, pane::show(editor, &mut ui, pane, rect)));
         }
+        trouble_bar::show(editor, ui.ctx(), whole);
     });
     seen
 }

@@ -68,7 +68,8 @@ fn material(design: &mut Design, known: &Material, ui: &mut Ui) {
 /// The density, which a material of the library has of its own; setting one makes it a material of the design's own.
 fn density(design: &mut Design, known: &Material, ui: &mut Ui) {
     let mut density = known.density.unwrap_or(f64::NAN);
-    let meaning = "What the stone's weight follows from. An index alone says nothing of it: type the density here.";
+    let meaning =
+        "What the stone's weight follows from. An index alone says nothing of it: type the density here.";
     let number = Number { decimals: 3, speed: 0.01, range: DENSITIES, unit: " g/cm³" };
     number_row(ui, ("Density", meaning), number, &mut density);
     if density.is_finite() && known.density != Some(density) {
@@ -85,7 +86,11 @@ fn size(design: &mut Design, extent: Extent, ui: &mut Ui) {
         return number_row(ui, ("Diameter", meaning), number(), &mut design.diameter_mm);
     }
     let rows = [
-        ("Length", "The greater side of the stone from above. The whole stone is scaled by it.", extent.length),
+        (
+            "Length",
+            "The greater side of the stone from above. The whole stone is scaled by it.",
+            extent.length,
+        ),
         ("Width", "The smaller side of the stone from above. The whole stone is scaled by it.", extent.width),
     ];
     for (name, meaning, across) in rows {
@@ -106,7 +111,8 @@ fn weight(design: &mut Design, volume: f64, material: &Material, ui: &mut Ui) {
             named(ui, "Weight", meaning);
             skip_control(ui, 0.0);
             let reason = "The density is not known: type it above.";
-            ui.add_sized([NUMBER, ui.spacing().interact_size.y], egui::Label::new(UNKNOWN)).on_hover_text(reason);
+            ui.add_sized([NUMBER, ui.spacing().interact_size.y], egui::Label::new(UNKNOWN))
+                .on_hover_text(reason);
         });
         return;
     };

@@ -1,5 +1,7 @@
 //! Colours and spacing, light and dark.
 
+use super::studio::Paper;
+use crate::picture::Inks;
 use egui::{Color32, Context, CornerRadius, FontId, Stroke, Style, TextStyle, Theme, Visuals, vec2};
 
 /// What marks what is chosen, and the range that laboratories call excellent.
@@ -12,7 +14,12 @@ pub fn good(visuals: &Visuals) -> Color32 {
     if visuals.dark_mode { Color32::from_rgb(92, 176, 116) } else { Color32::from_rgb(38, 132, 66) }
 }
 
-/// What needs to be looked at.
+/// What deserves attention and is no error.
+pub fn caution(visuals: &Visuals) -> Color32 {
+    if visuals.dark_mode { Color32::from_rgb(226, 178, 84) } else { Color32::from_rgb(140, 92, 0) }
+}
+
+/// Errors, and nothing else.
 pub fn bad(visuals: &Visuals) -> Color32 {
     if visuals.dark_mode { Color32::from_rgb(240, 128, 112) } else { Color32::from_rgb(176, 42, 30) }
 }
@@ -25,6 +32,13 @@ pub fn zone(name: &str, visuals: &Visuals) -> Color32 {
         "blue" => Color32::from_rgb(60, 108, 214),
         _ => visuals.weak_text_color(),
     }
+}
+
+/// What drawings are drawn on: light or dark as the window is.
+pub fn paper(ctx: &Context) -> Paper {
+    let is_dark = ctx.global_style().visuals.dark_mode;
+    let inks = if is_dark { Inks::DARK } else { Inks::PAPER };
+    Paper { inks, pixels_per_point: Some(ctx.pixels_per_point()) }
 }
 
 /// Sets up both themes.

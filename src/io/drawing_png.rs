@@ -36,17 +36,46 @@ pub enum DrawingError {
 /// Where the text is no SVG, or the picture would have a side of no pixels or more than 16,384.
 pub fn rasterize(svg: &str, width: u32) -> Result<(u32, u32, Vec<u8>), DrawingError> {
     let tree = parse(svg)?;
+    let pixmap = drawn(&tree, width, Color::WHITE)?;
+    let mut rgb = Vec::with_capacity(pixmap.data().len() / 4 * 3);
+    pixmap.data().chunks_exact(4).for_each(|pixel| rgb.extend_from_slice(&pixel[..3]));
+    Ok((pixmap.width(), pixmap.height(), rgb))
+}
+
+/// Rasterises an SVG as large as it fits into so many pixels across and down, otherwise as [`rasterize`].
+///
+/// # Errors
+/// As of [`rasterize`].
+pub fn rasterize_within(svg: &str, [across, down]: [u32; 2]) -> Result<(u32, u32, Vec<u8>), DrawingError> {
+    let size = parse(svg)?.size();
+    let width = f64::from(down) * f64::from(size.width()) / f64::from(size.height());
+    rasterize(svg, across.min(width.floor() as u32).max(1))
+}
+
+/// Rasterises an SVG at a width in pixels on nothing: (width, height, straight RGBA with a byte each, rows from the top).
+///
+/// # Errors
+/// As of [`rasterize`].
+pub fn rasterize_clear(svg: &str, width: u32) -> Result<(u32, u32, Vec<u8>), DrawingError> {
+    let pixmap = drawn(&parse(svg)?, width, Color::TRANSPARENT)?;
+    let straight = |pixel: &resvg::tiny_skia::PremultipliedColorU8| {
+        let colour = pixel.demultiply();
+        [colour.red(), colour.green(), colour.blue(), colour.alpha()]
+    };
+    let rgba = pixmap.pixels().iter().flat_map(straight).collect();
+    Ok((pixmap.width(), pixmap.height(), rgba))
+}
+
+fn drawn(tree: &Tree, width: u32, paper: Color) -> Result<Pixmap, DrawingError> {
     let scale = width as f32 / tree.size().width();
     let height = (tree.size().height() * scale).round() as u32;
     let allowed = 1..=MOST_ALONG_A_SIDE;
     let fits = allowed.contains(&width) && allowed.contains(&height);
     let pixmap = if fits { Pixmap::new(width, height) } else { None };
     let mut pixmap = pixmap.ok_or(DrawingError::Size { width, height })?;
-    pixmap.fill(Color::WHITE);
-    resvg::render(&tree, Transform::from_scale(scale, scale), &mut pixmap.as_mut());
-    let mut rgb = Vec::with_capacity(pixmap.data().len() / 4 * 3);
-    pixmap.data().chunks_exact(4).for_each(|pixel| rgb.extend_from_slice(&pixel[..3]));
-    Ok((width, height, rgb))
+    pixmap.fill(paper);
+    resvg::render(tree, Transform::from_scale(scale, scale), &mut pixmap.as_mut());
+    Ok(pixmap)
 }
 
 fn parse(svg: &str) -> Result<Tree, DrawingError> {
@@ -74,7 +103,7 @@ mod tests {
     use super::*;
     use crate::cut::{Crown, LowerHalf, Pavilion, RoundBrilliant, TOLKOWSKY};
     use crate::math::Plane;
-    use crate::picture::{diagram, profile};
+    use crate::picture::{DiagramStyle, Inks, diagram, profile};
     use crate::scene::Stone;
     use glam::DVec3;
     use usvg::{Node, Rect};
@@ -177,14 +206,27 @@ mod tests {
     #[test]
     fn no_text_of_a_facet_diagram_leaves_it_or_overlaps_another() {
         for given in brilliants().iter().step_by(7) {
-            assert_legible(&diagram(&built(given), &"A long title ".repeat(20)).to_string());
+            assert_legible(
+                &diagram(&built(given), &"A long title ".repeat(20), &DiagramStyle::SHEET).to_string(),
+            );
+        }
+    }
+
+    #[test]
+    fn no_text_of_a_small_diagram_leaves_it_or_overlaps_another() {
+        for given in brilliants().iter().step_by(23) {
+            for points in [[400.0, 380.0], [230.0, 240.0], [700.0, 300.0]] {
+                let stone = built(given);
+                let style = DiagramStyle::fitting(&stone, Inks::DARK, points);
+                assert_legible(&diagram(&stone, "small", &style).to_string());
+            }
         }
     }
 
     #[test]
     fn stones_without_a_table_or_with_strange_names_are_drawn_legibly() {
         for stone in odd_stones() {
-            assert_legible(&diagram(&stone, "A <title> & more").to_string());
+            assert_legible(&diagram(&stone, "A <title> & more", &DiagramStyle::SHEET).to_string());
             assert_legible(&profile(&stone, "\u{1}", None).to_string());
         }
     }

@@ -32,7 +32,7 @@ mod text;
 
 pub use apng::{Animation, Frames, write_apng};
 pub use atomic::{WriteError, write};
-pub use drawing_png::{DrawingError, rasterize};
+pub use drawing_png::{DrawingError, rasterize, rasterize_clear, rasterize_within};
 pub use exr::write_exr;
 pub use failure::Failure;
 pub use mesh_export::{write_glb, write_obj, write_ply, write_stl};

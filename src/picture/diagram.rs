@@ -5,54 +5,48 @@
 //! over about its y axis, so azimuths there run clockwise from the left.
 
 mod labels;
+mod style;
 
-use super::drawing::{
-    ACCENT, Align, Aspect, INK, QUIET, REMARK, Sheet, Type, degrees, shortened, text_width,
-};
+pub use style::DiagramStyle;
+
+use super::drawing::{Align, Aspect, Ink, REMARK, Sheet, Type, degrees, shortened, text_width};
 use crate::cut::tier_stem;
 use crate::math::{Basis, Facet};
 use crate::scene::Stone;
 use glam::DVec2;
 use svg::Document;
 
-/// Radius of the circle that holds the stone, units of the drawing.
-const RADIUS: f64 = 174.0;
-/// Half the distance between the middles of the two views, and half the room that each has.
-const HALF_APART: f64 = 242.0;
-const HALF_ROOM: f64 = 222.0;
-/// Radii of the index: where its ticks begin, where its longest end, where leaders end.
-const TICKS: f64 = RADIUS + 8.0;
+/// How far from the circle that holds the stone the ticks of the index begin, and where the longest end.
+const TICKS: f64 = 8.0;
 const TICKS_END: f64 = TICKS + 11.0;
-const LEADERS: f64 = RADIUS + 38.0;
 
 /// Names of tiers in the views, and their slopes.
-const NAME: Type = Type { size: 12.5, colour: INK };
-const SLOPE: Type = Type { size: 12.5, colour: ACCENT };
-const INDEX: Type = Type { size: 11.0, colour: QUIET };
+const NAME: Type = Type { size: 12.5, colour: Ink::Ink };
+const SLOPE: Type = Type { size: 12.5, colour: Ink::Accent };
+const INDEX: Type = Type { size: 11.0, colour: Ink::Quiet };
 /// From one line of the list to the next.
 const LIST_LINE: f64 = 20.0;
-/// Lines of a list; further tiers are only counted.
-const MOST_LINES: usize = 40;
 
 /// Facets are of one tier if slope (its cosine) and distance, in radii, agree to this: a hundred times finer than
 /// machines cut, far above rounding.
 const SAME_TIER: f64 = 1e-6;
 
-/// Draws the facet diagram. Every facet is a polygon with its name in `data-name` and as its title; upright ones, seen
+/// Draws the facet diagram in a style, which decides on colours and on how much of it there is. Every facet is a polygon with its name in `data-name` and as its title; upright ones, seen
 /// edge on, are among those of the crown.
-pub fn diagram(stone: &Stone, title: &str) -> Document {
+pub fn diagram(stone: &Stone, title: &str, style: &DiagramStyle) -> Document {
     let tiers = tiers(stone);
-    let mut sheet = Sheet::new();
-    let views = [
-        View::new(stone, Basis::FACE_UP, -HALF_APART, "crown, from above"),
-        View::new(stone, Basis::FACE_DOWN, HALF_APART, "pavilion, from below"),
-    ];
-    for view in views {
+    let mut sheet = Sheet::new(style.inks);
+    for view in [Basis::FACE_UP, Basis::FACE_DOWN].map(|basis| View::new(stone, basis, style)) {
         view.draw(&mut sheet, stone);
         let shown: Vec<&Tier> =
             tiers.iter().filter(|tier| view.holds(&stone.polytope.facets()[tier.first()])).collect();
-        view.list(&mut sheet, &shown);
+        if style.most_lines > 0 {
+            view.list(&mut sheet, &shown);
+        }
         labels::Labels::new(&view, stone).write(&mut sheet, &shown);
+    }
+    if !style.is_sheet {
+        return sheet.bare(title, style.margin());
     }
     let facets = stone.polytope.facets().len();
     let subtitle = format!(
@@ -133,19 +127,30 @@ fn tier_name<'a>(names: impl Iterator<Item = &'a str>) -> String {
     different.join(", ")
 }
 
-/// One of the two views.
+/// One of the two views: the crown from above on the left, the pavilion from below on the right.
 struct View {
     aspect: Aspect,
-    name: &'static str,
+    style: DiagramStyle,
 }
 
 impl View {
-    fn new(stone: &Stone, basis: Basis, x: f64, name: &'static str) -> Self {
+    fn new(stone: &Stone, basis: Basis, style: &DiagramStyle) -> Self {
         let (low, high) = stone.polytope.bounds();
         let centre = basis.project((low + high) / 2.0);
         let corners = stone.polytope.vertices().iter().map(|&v| basis.project(v).distance(centre));
-        let scale = RADIUS / corners.fold(0.0, f64::max);
-        Self { aspect: Aspect { basis, centre, scale, place: DVec2::new(x, 0.0) }, name }
+        let scale = style.radius / corners.fold(0.0, f64::max);
+        let side = if basis == Basis::FACE_UP { -1.0 } else { 1.0 };
+        let place = DVec2::new(side * style.half_apart(), 0.0);
+        Self { aspect: Aspect { basis, centre, scale, place }, style: *style }
+    }
+
+    fn name(&self) -> &'static str {
+        match (self.is_crown(), self.style.is_sheet) {
+            (true, true) => "crown, from above",
+            (true, false) => "crown",
+            (false, true) => "pavilion, from below",
+            (false, false) => "pavilion",
+        }
     }
 
     /// Whether a facet is drawn in this view.
@@ -173,6 +178,20 @@ impl View {
     }
 
     fn draw(&self, sheet: &mut Sheet, stone: &Stone) {
+        if self.style.is_sheet {
+            self.ticks(sheet);
+        }
+        sheet.stone(stone, &self.aspect, |facet| self.holds(facet));
+        for (at, number) in self.index() {
+            sheet.plain_text(INDEX, Align::Middle, at, &number);
+        }
+        let above = self.polar(self.style.name_above(), 90.0);
+        sheet.text(Type { size: 14.0, colour: Ink::Ink }, Align::Middle, above, self.name());
+    }
+
+    /// The marks of the index round the stone.
+    fn ticks(&self, sheet: &mut Sheet) {
+        let begin = self.style.radius + TICKS;
         let (mut fine, mut coarse) = (vec![], vec![]);
         for k in 0..72 {
             let angle = f64::from(5 * k);
@@ -182,60 +201,65 @@ impl View {
                 _ => 4.0,
             };
             let lines = if k % 9 == 0 { &mut coarse } else { &mut fine };
-            lines.push((self.polar(TICKS, angle), self.polar(TICKS + length, angle)));
+            lines.push((self.polar(begin, angle), self.polar(begin + length, angle)));
         }
         sheet.quiet_lines(&fine, "index", 0.7);
         sheet.quiet_lines(&coarse, "index", 1.3);
-        sheet.stone(stone, &self.aspect, |facet| self.holds(facet));
-        for (at, number) in self.index() {
-            sheet.plain_text(INDEX, Align::Middle, at, &number);
-        }
-        let above = self.polar(LEADERS + 32.0, 90.0);
-        sheet.text(Type { size: 14.0, colour: INK }, Align::Middle, above, self.name);
     }
 
-    /// The index's numbers and where they stand.
+    /// The index's numbers and where they stand; a small diagram has none.
     fn index(&self) -> Vec<(DVec2, String)> {
         let number = |k: i32| {
             let (text, angle) = (degrees(45.0 * f64::from(k)), self.on_paper(45.0 * f64::from(k)));
             // As far out as the box of the text needs in this direction.
             let half = DVec2::new(text_width(&text, INDEX.size), INDEX.size) / 2.0;
             let toward = DVec2::from_angle(angle.to_radians()).abs();
-            (self.polar(TICKS_END + 5.0 + half.dot(toward), angle), text)
+            (self.polar(self.style.radius + TICKS_END + 5.0 + half.dot(toward), angle), text)
         };
-        (0..8).map(number).collect()
+        (0..if self.style.is_sheet { 8 } else { 0 }).map(number).collect()
     }
 
     /// The tiers seen in this view, line by line.
     fn list(&self, sheet: &mut Sheet, tiers: &[&Tier]) {
-        let top = LEADERS + 46.0;
+        let (top, half_room) = (self.style.list_below(), self.style.half_room());
         let x = self.aspect.place.x;
         let head = ["", "tier", "facets", "slope", "first azimuth"].map(str::to_owned);
         self.line(sheet, top, [INDEX; 5], &head);
-        let rule = [-HALF_ROOM, HALF_ROOM].map(|side| DVec2::new(x + side, top + 11.0));
+        let rule = [-half_room, half_room].map(|side| DVec2::new(x + side, top + 11.0));
         sheet.quiet_lines(&[(rule[0], rule[1])], "rule", 0.8);
         let (name, slope) = (Type { size: REMARK.size, ..NAME }, Type { size: REMARK.size, ..SLOPE });
         let height = |k: usize| top + 9.0 + LIST_LINE * (k as f64 + 0.8);
-        for (k, tier) in tiers.iter().take(MOST_LINES).enumerate() {
+        for (k, tier) in tiers.iter().take(self.style.most_lines).enumerate() {
             let cells = [
                 tier.number.to_string(),
-                shortened(&tier.name, REMARK.size, 210.0),
+                shortened(&tier.name, REMARK.size, self.room_for_names()),
                 tier.facets.len().to_string(),
                 degrees(tier.slope_degrees),
                 tier.azimuth_degrees.map_or("–".to_owned(), degrees),
             ];
             self.line(sheet, height(k), [INDEX, name, REMARK, slope, REMARK], &cells);
         }
-        if let Some(more) = tiers.len().checked_sub(MOST_LINES).filter(|&more| more > 0) {
+        if let Some(more) = tiers.len().checked_sub(self.style.most_lines).filter(|&more| more > 0) {
             let rest = ["", &format!("and {} more", counted(more, "tier"))].map(str::to_owned);
-            self.line(sheet, height(MOST_LINES), [REMARK; 5], &rest);
+            self.line(sheet, height(self.style.most_lines), [REMARK; 5], &rest);
         }
     }
 
-    /// One line of the list: number and name from the left, the rest against the right.
+    /// Width of a tier's name in the list.
+    fn room_for_names(&self) -> f64 {
+        if self.style.is_sheet { 210.0 } else { 2.0 * self.style.half_room() - 26.0 - 90.0 }
+    }
+
+    /// One line of the list: number and name from the left, the rest against the right. A small diagram leaves out the
+    /// last column.
     fn line(&self, sheet: &mut Sheet, y: f64, kinds: [Type; 5], cells: &[String]) {
-        let columns = [-HALF_ROOM, -HALF_ROOM + 26.0, 64.0, 134.0, HALF_ROOM];
-        for (k, cell) in cells.iter().enumerate().filter(|(_, cell)| !cell.is_empty()) {
+        let half_room = self.style.half_room();
+        let columns = match self.style.is_sheet {
+            true => vec![-half_room, -half_room + 26.0, 64.0, 134.0, half_room],
+            false => vec![-half_room, -half_room + 22.0, half_room - 50.0, half_room],
+        };
+        let shown = cells.iter().take(columns.len()).enumerate();
+        for (k, cell) in shown.filter(|(_, cell)| !cell.is_empty()) {
             let align = if k < 2 { Align::Start } else { Align::End };
             sheet.plain_text(kinds[k], align, DVec2::new(self.aspect.place.x + columns[k], y), cell);
         }
@@ -276,7 +300,7 @@ mod tests {
     #[test]
     fn every_facet_is_one_polygon_that_bears_its_name() {
         for stone in [brilliant(), cube()] {
-            let svg = diagram(&stone, "Test").to_string();
+            let svg = diagram(&stone, "Test", &DiagramStyle::SHEET).to_string();
             let document = roxmltree::Document::parse(&svg).unwrap();
             let mut found: BTreeMap<&str, usize> = BTreeMap::new();
             for polygon in document.descendants().filter(|node| node.has_tag_name("polygon")) {
@@ -322,7 +346,7 @@ mod tests {
 
     #[test]
     fn every_tier_of_a_brilliant_is_labelled_and_listed_with_its_slope() {
-        let svg = diagram(&brilliant(), "Test").to_string();
+        let svg = diagram(&brilliant(), "Test", &DiagramStyle::SHEET).to_string();
         let lines = |text: &str| svg.lines().filter(|line| line.trim() == text).count();
         for (name, slope) in
             [("star", "23.07°"), ("upper half", "40.58°"), ("lower half", "42.01°"), ("main", "40.75°")]
@@ -350,13 +374,14 @@ mod tests {
     #[test]
     fn from_below_azimuths_run_clockwise_from_the_left() {
         let stone = cube();
-        let below = View::new(&stone, Basis::FACE_DOWN, 0.0, "");
+        let below = View::new(&stone, Basis::FACE_DOWN, &DiagramStyle::SHEET);
         let right_on_paper = below.aspect.at(DVec3::X);
-        assert!(right_on_paper.x < 0.0);
+        assert!(right_on_paper.x < below.aspect.place.x);
         for azimuth in [0.0, 45.0, 130.0] {
             let toward = DVec2::from_angle(f64::to_radians(azimuth)).extend(0.0);
+            let middle = below.aspect.place;
             let (stone, index) = (below.aspect.at(toward), below.polar(1.0, below.on_paper(azimuth)));
-            assert!(stone.normalize_or_zero().distance(index) < 1e-12);
+            assert!((stone - middle).normalize_or_zero().distance(index - middle) < 1e-12);
         }
     }
 
@@ -367,13 +392,43 @@ mod tests {
             let z = 1.0 - f64::from(2 * k + 1) / 400.0;
             (format!("{k}"), Plane::from_slope(z.acos(), golden * f64::from(k), 1.0))
         };
-        let svg = diagram(&Stone::new(&(0..400).map(plane).collect::<Vec<_>>()).unwrap(), "Ball").to_string();
+        let ball = Stone::new(&(0..400).map(plane).collect::<Vec<_>>()).unwrap();
+        let svg = diagram(&ball, "Ball", &DiagramStyle::SHEET).to_string();
         assert!(svg.contains("and 160 tiers more"));
         assert_eq!(svg.matches("<polygon").count(), 400);
     }
 
     #[test]
     fn the_same_stone_gives_the_same_bytes() {
-        assert_eq!(diagram(&brilliant(), "Test").to_string(), diagram(&brilliant(), "Test").to_string());
+        let drawn = || diagram(&brilliant(), "Test", &DiagramStyle::SHEET).to_string();
+        assert_eq!(drawn(), drawn());
+    }
+
+    /// The least height of a text in points, and the colour of the paper, where a diagram is shown so large.
+    fn shown(stone: &Stone, points: [f64; 2]) -> (f64, String, String) {
+        let style = DiagramStyle::fitting(stone, super::super::Inks::DARK, points);
+        let svg = diagram(stone, "Test", &style).to_string();
+        let document = roxmltree::Document::parse(&svg).unwrap();
+        let size = |name| document.root_element().attribute(name).unwrap().parse::<f64>().unwrap();
+        let scale = (points[0] / size("width")).min(points[1] / size("height"));
+        let types = document.descendants().filter_map(|node| node.attribute("font-size"));
+        let least = types.map(|text| text.parse::<f64>().unwrap()).fold(f64::INFINITY, f64::min);
+        let paper = document.descendants().find(|node| node.has_tag_name("rect")).unwrap();
+        (least * scale, paper.attribute("fill").unwrap().to_owned(), svg)
+    }
+
+    #[test]
+    fn a_diagram_in_a_quarter_of_a_window_is_read_without_a_glass() {
+        for points in [[400.0, 380.0], [360.0, 330.0], [900.0, 760.0]] {
+            let (height, paper, svg) = shown(&brilliant(), points);
+            assert!(height > 8.0, "{points:?}: type of {height} points");
+            assert_eq!(paper, "#1b1c1f");
+            // Every tier stands in the list with its slope.
+            for slope in ["34.5°", "23.07°", "40.58°", "42.01°", "40.75°"] {
+                assert!(svg.contains(slope), "{points:?}: {slope} is missing");
+            }
+        }
+        let sheet = diagram(&brilliant(), "Test", &DiagramStyle::SHEET).to_string();
+        assert!(sheet.contains("fill=\"#ffffff\"") && !sheet.contains("#1b1c1f"), "exports stay light");
     }
 }

@@ -4,23 +4,21 @@
 //! how far what is drawn on it reaches, so nothing is clipped. Text is set in Ubuntu Light, which `io` rasterises
 //! with; other viewers fall back on their own sans-serif of about the same widths.
 
+mod inks;
 mod lettering;
 
-pub(super) use lettering::{
-    ACCENT, Align, DIMENSION, Frame, INK, QUIET, REMARK, Type, shortened, text_frame, text_width,
-};
+pub use inks::Inks;
+pub(super) use inks::{Ink, hex};
+pub(super) use lettering::{Align, DIMENSION, Frame, REMARK, Type, shortened, text_frame, text_width};
 pub(crate) use lettering::{degrees, percent};
 
 use crate::math::{Basis, Facet};
 use crate::scene::Stone;
 use glam::{DVec2, DVec3};
-use lettering::{EDGE, MIDDLE_OF_FIGURES, TITLE, printable};
+use lettering::{MIDDLE_OF_FIGURES, TITLE, printable};
 use std::fmt::{Display, Write};
 use svg::Document;
 use svg::node::element::{Circle, Group, Path, Polygon, Rectangle, Text, Title};
-
-/// The lighter colour of the lines that lead from a dimension to what it measures.
-const EXTENSION: &str = "#a9c2da";
 
 /// Width that a drawing has unless it needs more.
 const LEAST_WIDTH: f64 = 1000.0;
@@ -100,25 +98,28 @@ pub(super) struct Sheet {
     dimensions: Group,
     texts: Group,
     frame: Frame,
+    inks: Inks,
 }
 
 impl Sheet {
-    pub fn new() -> Self {
-        let lines = |class: &str, colour: &str, width: f64| {
-            Group::new().set("class", class).set("stroke", colour).set("stroke-width", width)
+    /// An empty sheet, to be drawn on in these colours.
+    pub fn new(inks: Inks) -> Self {
+        let lines = |class: &str, colour: Ink, width: f64| {
+            Group::new().set("class", class).set("stroke", inks.of(colour)).set("stroke-width", width)
         };
         Self {
             stone: Group::new().set("class", "stone").set("stroke-linecap", "round").set("fill", "none"),
-            extensions: lines("extensions", EXTENSION, 0.8),
-            dimensions: lines("dimensions", ACCENT, 1.0).set("fill", "none"),
+            extensions: lines("extensions", Ink::Extension, 0.8),
+            dimensions: lines("dimensions", Ink::Accent, 1.0).set("fill", "none"),
             texts: Group::new()
                 .set("class", "text")
                 .set("font-family", "Ubuntu, 'Ubuntu Light', sans-serif")
                 .set("font-weight", 300)
                 .set("paint-order", "stroke")
-                .set("stroke", "#ffffff")
+                .set("stroke", inks.of(Ink::Paper))
                 .set("stroke-linejoin", "round"),
             frame: Frame::EMPTY,
+            inks,
         }
     }
 
@@ -131,7 +132,7 @@ impl Sheet {
             let corners = aspect.outline(stone, facet);
             corners.iter().for_each(|&p| self.frame.include(p));
             if drawn(facet) {
-                faces = faces.add(face(stone.name(id as u32), &corners, shade(facet, aspect)));
+                faces = faces.add(face(stone.name(id as u32), &corners, self.shade(facet, aspect)));
             }
             for (k, &other) in facet.neighbours.iter().enumerate().filter(|_| aspect.shows(facet)) {
                 let line = (corners[k], corners[(k + 1) % corners.len()]);
@@ -145,19 +146,26 @@ impl Sheet {
             }
         }
         self.onto_stone(faces.set("stroke", "none"));
-        for (lines, class, colour, width) in
-            [(girdle, "girdle", EDGE, 0.35), (edges, "edges", EDGE, 0.9), (outline, "outline", INK, 1.8)]
-        {
-            self.onto_stone(
-                segments(&lines).set("class", class).set("stroke", colour).set("stroke-width", width),
-            );
+        for (lines, class, colour, width) in [
+            (girdle, "girdle", Ink::Edge, 0.35),
+            (edges, "edges", Ink::Edge, 0.9),
+            (outline, "outline", Ink::Ink, 1.8),
+        ] {
+            let lines = segments(&lines).set("class", class).set("stroke", self.inks.of(colour));
+            self.onto_stone(lines.set("stroke-width", width));
         }
+    }
+
+    /// A trace of shade on facets that turn away, so that the eye sees relief.
+    fn shade(&self, facet: &Facet, aspect: &Aspect) -> String {
+        self.inks.face(facet.plane.normal.dot(aspect.basis.toward).clamp(0.0, 1.0))
     }
 
     /// Quiet lines beside the stone, as those of a scale.
     pub fn quiet_lines(&mut self, lines: &[(DVec2, DVec2)], class: &str, width: f64) {
         lines.iter().for_each(|&(a, b)| [a, b].into_iter().for_each(|p| self.frame.include(p)));
-        self.onto_stone(segments(lines).set("class", class).set("stroke", EDGE).set("stroke-width", width));
+        let lines = segments(lines).set("class", class).set("stroke", self.inks.of(Ink::Edge));
+        self.onto_stone(lines.set("stroke-width", width));
     }
 
     fn onto_stone(&mut self, element: impl Into<Box<dyn svg::Node>>) {
@@ -184,13 +192,15 @@ impl Sheet {
     pub fn arrow_head(&mut self, tip: DVec2, toward: DVec2) {
         let (back, side) = (tip - toward * ARROW.x, toward.perp() * ARROW.y);
         let data = format!("M{}L{}L{}Z", point(tip), point(back + side), point(back - side));
-        self.onto_dimensions(Path::new().set("d", data).set("fill", ACCENT).set("stroke", "none"));
+        self.onto_dimensions(
+            Path::new().set("d", data).set("fill", self.inks.of(Ink::Accent)).set("stroke", "none"),
+        );
     }
 
     /// A small disc, where a leader ends on a facet or two short dimensions meet.
     pub fn dot(&mut self, at: DVec2) {
         let disc = Circle::new().set("cx", coordinate(at.x)).set("cy", coordinate(at.y)).set("r", 2);
-        self.onto_dimensions(disc.set("fill", ACCENT).set("stroke", "none"));
+        self.onto_dimensions(disc.set("fill", self.inks.of(Ink::Accent)).set("stroke", "none"));
     }
 
     /// A dimension line between two points, with its arrows outside where there is no room between; whether there
@@ -199,9 +209,8 @@ impl Sheet {
         let Some(along) = (b - a).try_normalize() else { return false };
         let inside = (b - a).length() >= ROOM_FOR_ARROWS;
         // Whatever the line crosses is broken there, so that it reads as lying on top.
-        let halo =
-            segments(&[(a + along * 3.0, b - along * 3.0)]).set("stroke", "#ffffff").set("stroke-width", 5);
-        self.onto_dimensions(halo);
+        let halo = segments(&[(a + along * 3.0, b - along * 3.0)]).set("stroke", self.inks.of(Ink::Paper));
+        self.onto_dimensions(halo.set("stroke-width", 5));
         let outward = if inside { 1.0 } else { -1.0 };
         self.stroke(a, b);
         for (tip, toward) in [(a, -along * outward), (b, along * outward)] {
@@ -221,7 +230,7 @@ impl Sheet {
             .set("y", coordinate(low.y))
             .set("width", coordinate(size.x))
             .set("height", coordinate(size.y));
-        self.onto_dimensions(blank.set("fill", "#ffffff").set("stroke", "none"));
+        self.onto_dimensions(blank.set("fill", self.inks.of(Ink::Paper)).set("stroke", "none"));
     }
 
     /// An arc of dimension weight about `centre`, from `from` to `to`, both at its radius, the short way round; arrow
@@ -282,7 +291,7 @@ impl Sheet {
             .set("x", coordinate(at.x))
             .set("y", coordinate(at.y + MIDDLE_OF_FIGURES * kind.size))
             .set("font-size", kind.size)
-            .set("fill", kind.colour)
+            .set("fill", self.inks.of(kind.colour))
             .set("text-anchor", anchor);
         self.texts = std::mem::take(&mut self.texts).add(finish(text));
         frame
@@ -302,8 +311,20 @@ impl Sheet {
             let below = drawn.high.y + 14.0 + FOOT_LINE * (k + 1) as f64;
             self.plain_text(REMARK, Align::Start, DVec2::new(left, below), remark);
         }
-        let shift = DVec2::new(MARGIN - left, MARGIN - top).map(f64::round);
-        let size = (DVec2::new(left + inner, self.frame.high.y) + shift + MARGIN).map(f64::ceil);
+        let frame = Frame { low: DVec2::new(left, top), high: DVec2::new(left + inner, self.frame.high.y) };
+        self.finish(title, frame, MARGIN)
+    }
+
+    /// The drawing without a heading, as wide as what was drawn, with so much paper all round.
+    pub fn bare(self, title: &str, margin: f64) -> Document {
+        let frame = self.frame;
+        self.finish(title, frame, margin)
+    }
+
+    fn finish(self, title: &str, frame: Frame, margin: f64) -> Document {
+        let shift = (DVec2::splat(margin) - frame.low).map(f64::round);
+        let size = (frame.high + shift + margin).map(f64::ceil);
+        let paper = self.inks.of(Ink::Paper);
         let all = [self.stone, self.extensions, self.dimensions, self.texts];
         let content = all.into_iter().fold(Group::new(), Group::add);
         Document::new()
@@ -311,7 +332,7 @@ impl Sheet {
             .set("width", size.x)
             .set("height", size.y)
             .add(Title::new(printable(title)))
-            .add(Rectangle::new().set("width", "100%").set("height", "100%").set("fill", "#ffffff"))
+            .add(Rectangle::new().set("width", "100%").set("height", "100%").set("fill", paper))
             .add(content.set("transform", format!("translate({} {})", shift.x, shift.y)))
     }
 }
@@ -328,13 +349,6 @@ fn face(name: &str, corners: &[DVec2], fill: String) -> Polygon {
 
 fn is_vertical(facet: &Facet) -> bool {
     facet.plane.normal.z.abs() < EDGE_ON
-}
-
-/// A trace of grey on facets that turn away, so that the eye sees relief.
-fn shade(facet: &Facet, aspect: &Aspect) -> String {
-    let facing = facet.plane.normal.dot(aspect.basis.toward).clamp(0.0, 1.0);
-    let grey = (232.0 + 23.0 * facing).round();
-    format!("#{0:02x}{0:02x}{1:02x}", grey as u8, (grey + 3.0).min(255.0) as u8)
 }
 
 #[cfg(test)]
@@ -367,7 +381,7 @@ mod tests {
         let toward = DVec3::new(0.6, -0.48, 0.64);
         let stone = cube();
         let aspect = aspect(Basis::FACE_UP.aimed(toward));
-        let mut sheet = Sheet::new();
+        let mut sheet = Sheet::new(Inks::PAPER);
         sheet.stone(&stone, &aspect, |facet| aspect.shows(facet));
         let svg = sheet.document("cube", "", &[]).to_string();
         let count = |class: &str| {
@@ -379,7 +393,7 @@ mod tests {
 
     #[test]
     fn a_drawing_holds_all_that_is_on_it_within_its_margins() {
-        let mut sheet = Sheet::new();
+        let mut sheet = Sheet::new(Inks::PAPER);
         sheet.stroke(DVec2::new(-900.0, 30.0), DVec2::new(700.0, 40.0));
         let svg = sheet.document("Wide", "", &["a remark".to_owned()]).to_string();
         assert!(svg.contains("width=\"1672\""), "{svg}");
@@ -389,7 +403,7 @@ mod tests {
     #[test]
     fn arrows_stand_outside_where_there_is_no_room_between_them() {
         let arrows = |length: f64| {
-            let mut sheet = Sheet::new();
+            let mut sheet = Sheet::new(Inks::PAPER);
             let inside = sheet.arrows(DVec2::ZERO, DVec2::X * length);
             (inside, sheet.frame.high.x - sheet.frame.low.x)
         };
@@ -400,7 +414,7 @@ mod tests {
 
     #[test]
     fn upright_text_fills_a_box_turned_by_a_right_angle() {
-        let mut sheet = Sheet::new();
+        let mut sheet = Sheet::new(Inks::PAPER);
         sheet.upright_text(DIMENSION, Align::Start, DVec2::ZERO, "crown");
         let size = sheet.frame.high - sheet.frame.low;
         assert!(

@@ -7,7 +7,7 @@ pub(crate) mod brilliant;
 
 pub(crate) use super::drawing::{degrees, percent};
 
-use super::drawing::{Align, Aspect, DIMENSION, ROOM_FOR_ARROWS, Sheet, text_width};
+use super::drawing::{Align, Aspect, DIMENSION, Inks, ROOM_FOR_ARROWS, Sheet, text_width};
 use crate::cut::RoundBrilliant;
 use crate::math::{Basis, Calipers, Facet, hull};
 use crate::scene::Stone;
@@ -157,7 +157,7 @@ enum Overflow {
 
 impl<'a> Drawing<'a> {
     fn new(stone: &'a Stone, dimensions: Dimensions, basis: Basis) -> Self {
-        let mut sheet = Sheet::new();
+        let mut sheet = Sheet::new(Inks::PAPER);
         let aspect = dimensions.aspect(basis);
         sheet.stone(stone, &aspect, |facet| aspect.shows(facet));
         Self { sheet, stone, aspect, dimensions }

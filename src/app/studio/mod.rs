@@ -10,7 +10,7 @@ mod survey;
 mod take;
 mod worker;
 
-pub use order::{Answer, Ask, Grade, Order, Shot, Slot, Smoothing, Taken, Tilts, Which};
+pub use order::{Answer, Ask, Grade, Order, Paper, Shot, Slot, Smoothing, Taken, Tilts, Which};
 
 pub use pace::Effort;
 pub use render::{BEHIND, hung};

@@ -120,10 +120,11 @@ mod tests {
     use super::*;
     use crate::app::document::Document;
     use crate::app::eye::Eye;
+    use crate::app::framing::Fit;
     use crate::app::liquid::Liquid;
     use crate::app::moving::Moving;
     use crate::app::shows::Shows;
-    use crate::app::studio::order::{Smoothing, Which};
+    use crate::app::studio::order::{Paper, Smoothing, Which};
     use crate::app::studio::render::{setting, sitting};
     use crate::io::lighting::Lighting;
     use crate::scene::Company;
@@ -156,6 +157,7 @@ mod tests {
             head: 0.0,
             overlay: None,
             liquid: Liquid::default(),
+            paper: Paper::default(),
         }
     }
 

@@ -5,7 +5,7 @@ use crate::app::shows::Shows;
 use crate::io::background::BackgroundRef;
 use crate::io::lighting::Lighting;
 use crate::measure::Figures;
-use crate::picture::{Overlay, RefractionMap};
+use crate::picture::{Inks, Overlay, RefractionMap};
 use crate::scene::{Film, Pose, Specimen, View};
 use egui::ColorImage;
 use serde::{Deserialize, Serialize};
@@ -77,6 +77,24 @@ pub struct Shot {
     pub overlay: Option<Overlay>,
     /// The pane of liquid glass.
     pub liquid: Liquid,
+    /// What a drawing is drawn on.
+    pub paper: Paper,
+}
+
+/// What a drawing is drawn on.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Paper {
+    /// Its colours.
+    pub inks: Inks,
+    /// Pixels to a point of the screen, by which type is kept legible; none for the whole sheet, as it is exported.
+    pub pixels_per_point: Option<f32>,
+}
+
+impl Default for Paper {
+    /// The sheet, as it is exported.
+    fn default() -> Self {
+        Self { inks: Inks::PAPER, pixels_per_point: None }
+    }
 }
 
 impl PartialEq for Shot {
@@ -92,6 +110,7 @@ impl PartialEq for Shot {
         Arc::ptr_eq(&self.specimen, &other.specimen)
             && (self.shows, self.strongest, self.overlay, self.film.size)
                 == (other.shows, other.strongest, other.overlay, other.film.size)
+            && (seen || self.paper == other.paper)
             && (!seen || (self.view, self.film, self.head) == (other.view, other.film, other.head))
             && (!by_light || (Arc::ptr_eq(&self.light, &other.light) && self.manner() == other.manner()))
     }

@@ -7,11 +7,11 @@ use super::refracted::{glass, mapped};
 use super::render::{Growing, is_for_beams, setting, sitting};
 use crate::app::shows::Shows;
 use crate::io::background::BackgroundRef;
-use crate::io::{Failure, rasterize};
+use crate::io::{Failure, rasterize_within};
 use crate::math::NotConvex;
 use crate::optics::line;
 use crate::picture::by_rays::{self, Manner};
-use crate::picture::{Layer, Overlay, Palette, Rows, by_gpu, diagram, lay, paint};
+use crate::picture::{DiagramStyle, Layer, Overlay, Palette, Rows, by_gpu, diagram, lay, paint};
 use crate::scene::{Film, Panorama, Scope, Specimen, View};
 use crate::trace::beam::{self, Beams};
 use crate::trace::gpu::{Gpu, GpuError};
@@ -227,9 +227,17 @@ pub(super) fn over(
 }
 
 fn drawing(shot: &Shot) -> Result<Taken, Trouble> {
-    let text = diagram(shot.specimen.stone()?, &shot.specimen.design.name).to_string();
+    let stone = shot.specimen.stone()?;
+    let style = match shot.paper.pixels_per_point.map(f64::from) {
+        Some(scale) => {
+            let points = shot.film.size.map(|pixels| f64::from(pixels) / scale);
+            DiagramStyle::fitting(stone, shot.paper.inks, points)
+        }
+        None => DiagramStyle::sheet(shot.paper.inks),
+    };
+    let text = diagram(stone, &shot.specimen.design.name, &style).to_string();
     let (width, height, rgb) =
-        rasterize(&text, shot.film.size[0]).map_err(|e| Trouble::Other(e.to_string()))?;
+        rasterize_within(&text, shot.film.size).map_err(|e| Trouble::Other(e.to_string()))?;
     let image = ColorImage::from_rgb([width as usize, height as usize], &rgb);
     Ok(Taken { image, unresolved: None, tracer: "drawn", map: None })
 }
@@ -266,7 +274,7 @@ mod tests {
     use crate::app::eye::Eye;
     use crate::app::framing::Fit;
     use crate::app::liquid::Liquid;
-    use crate::app::studio::order::{Smoothing, Which};
+    use crate::app::studio::order::{Paper, Smoothing, Which};
     use crate::app::studio::render::BEHIND;
     use crate::io::lighting::Lighting;
     use crate::scene::Pose;
@@ -295,6 +303,7 @@ mod tests {
             head: 0.0,
             overlay: None,
             liquid: Liquid::default(),
+            paper: Paper::default(),
         }
     }
 

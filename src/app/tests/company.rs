@@ -127,7 +127,7 @@ fn scene_files_open_and_those_of_several_designs_are_refused_in_words() {
     bench.choices.lock().unwrap().push(path);
     bench.harness.key_press_modifiers(egui::Modifiers::COMMAND, Key::O);
     bench.wait(|editor| !editor.notes.troubles().is_empty());
-    assert!(bench.editor().notes.troubles()[0].contains("brillianteer render"));
+    assert!(bench.editor().notes.troubles()[0].text.contains("brillianteer render"));
     assert_eq!(poses(bench.editor()).len(), 3);
 }
 

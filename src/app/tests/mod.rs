@@ -6,6 +6,8 @@ mod company;
 mod drag;
 mod flows;
 mod formats;
+mod handed_out;
+mod layout;
 mod looks;
 
 use super::desk::{Desk, Layout};
@@ -24,6 +26,8 @@ use std::time::{Duration, Instant};
 pub struct Bench {
     pub harness: Harness<'static, Editor>,
     pub choices: Arc<Mutex<Vec<PathBuf>>>,
+    /// Folders and pages that were opened outside the program.
+    pub opened: Arc<Mutex<Vec<String>>>,
 }
 
 /// How long anything may take.
@@ -63,12 +67,18 @@ impl Bench {
         let chooser: Chooser =
             Arc::new(move |_: &Question| chosen.lock().unwrap().pop().map_or(Choice::NoDialog, Choice::File));
         let desk = if setup.desk == Desk::default() { Self::small() } else { setup.desk.clone() };
-        let setup = Setup { chooser, desk, ..setup };
+        let opened: Arc<Mutex<Vec<String>>> = Arc::default();
+        let outside = Arc::clone(&opened);
+        let opener: crate::app::opener::Opener = Arc::new(move |what: &str| {
+            outside.lock().unwrap().push(what.to_owned());
+            Ok(())
+        });
+        let setup = Setup { chooser, opener, desk, ..setup };
         let harness = builder
             .with_max_steps(20)
             .with_step_dt(1.0 / 60.0)
             .build_eframe(|context| Editor::new(context, setup).unwrap());
-        Self { harness, choices }
+        Self { harness, choices, opened }
     }
 
     pub fn editor(&self) -> &Editor {

@@ -6,7 +6,7 @@ use super::viewing::{Tracer, Viewing};
 use super::{Export, Format, Outputs, write_text};
 use crate::io::{Failure, PngRows, WriteError, rasterize, write_exr, write_png};
 use crate::picture::by_rays::Manner;
-use crate::picture::{Layer, Palette, Picture, Rows, Scoped, diagram, paint, profile, vector};
+use crate::picture::{DiagramStyle, Layer, Palette, Picture, Rows, Scoped, diagram, paint, profile, vector};
 use crate::scene::{Film, Scope, View};
 use crate::trace::Watch;
 use crate::trace::beam::{self, Beams};
@@ -54,7 +54,9 @@ impl<'a> Pictures<'a> {
             (Picture::Profile, Ok(stone)) => {
                 self.drawing(name, &profile(stone, &design.name, design.cut.brilliant()))
             }
-            (Picture::Diagram, Ok(stone)) => self.drawing(name, &diagram(stone, &design.name)),
+            (Picture::Diagram, Ok(stone)) => {
+                self.drawing(name, &diagram(stone, &design.name, &DiagramStyle::SHEET))
+            }
             (Picture::Profile | Picture::Diagram, Err(why)) => {
                 (self.tell)(Told::Note(&format!("{name}: left out: {why}")))
             }

@@ -1,7 +1,7 @@
 //! Labels for the tiers of a view: inside a facet where there is room, else outside with a leader.
 
 use super::super::drawing::{Align, Frame, Sheet, Type, degrees, text_frame, text_width};
-use super::{HALF_ROOM, INDEX, LEADERS, NAME, SLOPE, Tier, View};
+use super::{INDEX, NAME, SLOPE, Tier, View};
 use crate::math::{Affine, area, centroid, clip};
 use crate::scene::Stone;
 use glam::DVec2;
@@ -11,9 +11,9 @@ const EVEN: f64 = 1e-6;
 
 /// Angles at which leaders end, degrees from the x axis in each quarter of a view.
 const SLOTS: [f64; 3] = [74.0, 56.0, 40.0];
-/// Leaders as long as one from the middle are read with ease while they are few, else only shorter ones.
+/// Leaders as long as one from the middle, and a little more, are read with ease while they are few, else only shorter ones.
 const FEW: usize = 6;
-const LONGEST_OF_FEW: f64 = LEADERS + 4.0;
+const MORE_OF_FEW: f64 = 4.0;
 const LONGEST_OF_MANY: f64 = 120.0;
 /// With more tiers than this left, the few leaders that there is room for would say little of the stone.
 const MOST_LED: usize = 200;
@@ -114,7 +114,8 @@ struct Leader {
 impl<'a> Labels<'a> {
     pub fn new(view: &'a View, stone: &'a Stone) -> Self {
         let quarters = |a: f64| [a, 180.0 - a, 180.0 + a, -a];
-        let slots = SLOTS.into_iter().flat_map(quarters).map(|a| view.polar(LEADERS, a)).collect();
+        let slots =
+            SLOTS.into_iter().flat_map(quarters).map(|a| view.polar(view.style.leaders(), a)).collect();
         let numbers = view.index().into_iter();
         let taken = numbers.map(|(at, text)| text_frame(INDEX.size, Align::Middle, at, &text)).collect();
         let shown = stone.polytope.facets().iter().filter(|facet| view.aspect.shows(facet));
@@ -135,7 +136,8 @@ impl<'a> Labels<'a> {
             !labels.iter().any(|label| self.inside(sheet, tier, label))
         });
         // The shortest leader first, whosever it is.
-        let longest = if rest.len() <= FEW { LONGEST_OF_FEW } else { LONGEST_OF_MANY };
+        let longest =
+            if rest.len() <= FEW { self.view.style.leaders() + MORE_OF_FEW } else { LONGEST_OF_MANY };
         while rest.len() <= MOST_LED
             && let Some((leader, k)) = self.best_leader(&rest, longest)
         {
@@ -187,7 +189,7 @@ impl<'a> Labels<'a> {
     /// A leader's length, and more for what it touches; none where it crosses something or has no room for its label of
     /// this size.
     fn cost(&self, from: DVec2, to: DVec2, size: DVec2) -> Option<f64> {
-        if size.x > HALF_ROOM - (to.x - self.view.aspect.place.x).abs() - BESIDE {
+        if size.x > self.view.style.half_room() - (to.x - self.view.aspect.place.x).abs() - BESIDE {
             return None;
         }
         let (label, length) = (self.frame_beside(to, size), from.distance(to));

@@ -1,30 +1,23 @@
-//! Lettering of drawings: colours, type, how wide text is, and how numbers are written.
+//! Lettering of drawings: type, how wide text is, and how numbers are written.
 
+use super::inks::Ink;
 use glam::DVec2;
 
-/// Colour of outlines and names.
-pub(in crate::picture) const INK: &str = "#2a2e34";
-/// Colour of edges between facets.
-pub(in crate::picture) const EDGE: &str = "#868c95";
-/// Colour of remarks, and of what is there only to be read against.
-pub(in crate::picture) const QUIET: &str = "#70767f";
-/// Colour of dimensions.
-pub(in crate::picture) const ACCENT: &str = "#1c5a94";
 /// A size and a colour of text.
 #[derive(Debug, Clone, Copy)]
 pub(in crate::picture) struct Type {
     /// Height of the type, in units of the drawing.
     pub size: f64,
     /// Its colour.
-    pub colour: &'static str,
+    pub colour: Ink,
 }
 
 /// Of the drawing's title.
-pub(in crate::picture) const TITLE: Type = Type { size: 24.0, colour: INK };
+pub(in crate::picture) const TITLE: Type = Type { size: 24.0, colour: Ink::Ink };
 /// Of dimensions.
-pub(in crate::picture) const DIMENSION: Type = Type { size: 15.0, colour: ACCENT };
+pub(in crate::picture) const DIMENSION: Type = Type { size: 15.0, colour: Ink::Accent };
 /// Of remarks.
-pub(in crate::picture) const REMARK: Type = Type { size: 13.0, colour: QUIET };
+pub(in crate::picture) const REMARK: Type = Type { size: 13.0, colour: Ink::Quiet };
 
 /// Which part of a text stands at the point given.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -1,0 +1,147 @@
+//! What the program is: its version, its licences, and what it is built of.
+
+use super::dialogs::buttons;
+use super::editor::Editor;
+use super::icon::icon;
+use egui::{ColorImage, Grid, RichText, ScrollArea, TextEdit, TextureHandle, Ui, vec2};
+
+/// The program's own licences: what each is called, and its text.
+const LICENCES: [(&str, &str); 2] =
+    [("MIT", include_str!("../../LICENSE-MIT")), ("Apache-2.0", include_str!("../../LICENSE-APACHE"))];
+
+/// The crates that it is built of, as tests keep them current.
+const CRATES: &str = include_str!("../../docs/licences.md");
+
+/// Height of lists and texts, points, where the window is high enough.
+const LIST: f32 = 300.0;
+
+/// What the lower part of the window shows.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+enum Page {
+    #[default]
+    Crates,
+    Licence(usize),
+}
+
+/// The window that says what the program is.
+#[derive(Default)]
+pub struct About {
+    page: Page,
+    /// What the names of crates shown have in common.
+    sought: String,
+    icon: Option<TextureHandle>,
+}
+
+/// A crate that the program is built of.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Crate<'a> {
+    /// Its name and version.
+    pub name: &'a str,
+    pub version: &'a str,
+    /// Its licence, as it states it.
+    pub licence: &'a str,
+    /// Where it is found; empty where it does not say.
+    pub link: &'a str,
+}
+
+/// All crates, from rows of a table.
+pub fn crates() -> impl Iterator<Item = Crate<'static>> {
+    CRATES.lines().filter(|line| line.starts_with("| ") && !line.starts_with("| crate")).filter_map(|line| {
+        let mut cells = line.trim_matches('|').split('|').map(str::trim);
+        let mut next = || cells.next();
+        Some(Crate { name: next()?, version: next()?, licence: next()?, link: next()? })
+    })
+}
+
+/// Draws it; whether it stays open.
+pub fn show(editor: &mut Editor, ui: &mut Ui, about: &mut About) -> bool {
+    ui.set_width(560.0_f32.min(ui.ctx().content_rect().width() - 60.0));
+    ui.horizontal(|ui| {
+        if about.icon.is_none() {
+            about.icon = icon().map(|icon| {
+                let size = [icon.width as usize, icon.height as usize];
+                let image = ColorImage::from_rgba_unmultiplied(size, &icon.rgba);
+                ui.ctx().load_texture("icon", image, egui::TextureOptions::LINEAR)
+            });
+        }
+        if let Some(texture) = &about.icon {
+            ui.image((texture.id(), vec2(72.0, 72.0)));
+        }
+        ui.vertical(|ui| {
+            ui.heading(format!("Brillianteer {}", env!("CARGO_PKG_VERSION")));
+            ui.label(env!("CARGO_PKG_DESCRIPTION"));
+            ui.label(RichText::new("Licensed under MIT or Apache-2.0, as you choose.").weak());
+            let home = env!("CARGO_PKG_REPOSITORY");
+            if !home.is_empty() {
+                link(editor, ui, home);
+            }
+        });
+    });
+    ui.separator();
+    ui.horizontal_wrapped(|ui| {
+        ui.selectable_value(&mut about.page, Page::Crates, "Built of");
+        for (k, (name, _)) in LICENCES.iter().enumerate() {
+            ui.selectable_value(&mut about.page, Page::Licence(k), format!("Licence {name}"));
+        }
+    });
+    let height = (ui.ctx().content_rect().height() - 300.0).clamp(120.0, LIST);
+    match about.page {
+        Page::Crates => list(editor, ui, &mut about.sought, height),
+        Page::Licence(k) => {
+            ScrollArea::vertical().id_salt(("licence", k)).max_height(height).auto_shrink(false).show(
+                ui,
+                |ui| {
+                    ui.label(RichText::new(LICENCES[k].1).small());
+                },
+            );
+        }
+    }
+    buttons(ui, &["Close"]).is_none()
+}
+
+fn list(editor: &mut Editor, ui: &mut Ui, sought: &mut String, height: f32) {
+    let seek = sought.to_lowercase();
+    let found: Vec<Crate> =
+        crates().filter(|c| c.name.contains(&seek) || c.licence.to_lowercase().contains(&seek)).collect();
+    ui.horizontal(|ui| {
+        let label = ui.label("Find");
+        ui.add(TextEdit::singleline(sought).desired_width(180.0)).labelled_by(label.id);
+        ui.label(RichText::new(format!("{} of {} crates", found.len(), crates().count())).weak());
+    });
+    ScrollArea::vertical().id_salt("crates").max_height(height).auto_shrink(false).show(ui, |ui| {
+        Grid::new("crates").num_columns(3).striped(true).show(ui, |ui| {
+            for Crate { name, version, licence, link: address } in found {
+                let text = format!("{name} {version}");
+                match address.is_empty() {
+                    true => drop(ui.label(text)),
+                    false => named_link(editor, ui, &text, address),
+                }
+                ui.label(licence);
+                ui.end_row();
+            }
+        });
+    });
+}
+
+fn link(editor: &mut Editor, ui: &mut Ui, address: &str) {
+    named_link(editor, ui, address, address);
+}
+
+/// A link that is opened by the system.
+fn named_link(editor: &mut Editor, ui: &mut Ui, text: &str, address: &str) {
+    if ui.link(text).on_hover_text(address).clicked() {
+        editor.open_outside(address);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_crates_of_the_list_are_read() {
+        let egui = crates().find(|c| c.name == "egui").unwrap();
+        assert!(egui.licence.contains("MIT") && egui.link.starts_with("https://"), "{egui:?}");
+        assert!(crates().count() > 200);
+    }
+}

@@ -1,0 +1,119 @@
+//! Pictures for the clipboard at a size that is chosen: made anew on a thread of their own.
+
+use super::editor::Editor;
+use super::shows::Shows;
+use super::studio::{Camera, Effort, FINE_RENDER, Paper, Shot, Which};
+use crate::io::rasterize;
+use crate::picture::profile;
+use crate::scene::{Film, Specimen};
+use egui::{ColorImage, Context};
+use std::ops::ControlFlow;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::{Receiver, channel};
+
+/// Pixels of the longer side that are offered.
+pub const SIZES: [u32; 4] = [512, 1024, 2048, 4096];
+
+/// Share of the light that may stay unresolved in a scope, as in exported pictures.
+const UNRESOLVED: f64 = 1e-3;
+
+/// A picture under way.
+pub struct Copying {
+    name: &'static str,
+    answer: Receiver<Result<ColorImage, String>>,
+    stop: Arc<AtomicBool>,
+}
+
+impl Drop for Copying {
+    fn drop(&mut self) {
+        self.stop.store(true, Ordering::Relaxed);
+    }
+}
+
+/// What the picture is made from.
+enum Original {
+    Shot(Box<Shot>),
+    Profile(Arc<Specimen>),
+}
+
+/// Whether a view can be copied at a size of its own: what is looked up is as large as its view.
+pub fn can_copy(editor: &Editor, pane: usize) -> bool {
+    let shows = editor.desk.panes[pane].shows;
+    let needs_facets = matches!(shows, Shows::Profile | Shows::Diagram);
+    Shows::EXPORTED.contains(&shows) && (!needs_facets || editor.document.specimen().stone().is_ok())
+}
+
+impl Editor {
+    /// Copies the picture of a view to the clipboard, once it is made with so many pixels along its longer side.
+    pub(super) fn copy_at(&mut self, pane: usize, side: u32) {
+        let shows = self.desk.panes[pane].shows;
+        let own = (pane, Which::Present);
+        let shot = self.asked.shots.iter().find(|(slot, _)| *slot == own).map(|(_, shot)| shot.clone());
+        let original = match (shows, shot) {
+            (Shows::Profile, _) => Original::Profile(Arc::clone(self.document.specimen())),
+            (_, Some(shot)) => Original::Shot(Box::new(scaled(shot, side))),
+            (_, None) => return self.notes.say("This view holds no picture to copy."),
+        };
+        let (sender, answer) = channel();
+        let stop = Arc::new(AtomicBool::new(false));
+        let (stopped, wake) = (Arc::clone(&stop), self.studio.wake());
+        std::thread::spawn(move || {
+            // Nobody waits for it any more where another was asked for.
+            let _ = sender.send(taken(&original, side, &stopped));
+            wake();
+        });
+        self.copying = Some(Copying { name: shows.name(), answer, stop });
+        self.notes.say(&format!("Making a picture of {side} pixels…"));
+    }
+
+    /// Copies the picture under way, once it is done.
+    pub(super) fn take_in_copy(&mut self, ctx: &Context) {
+        let Some(Ok(made)) = self.copying.as_ref().map(|copying| copying.answer.try_recv()) else { return };
+        let Some(copying) = self.copying.take() else { return };
+        match made {
+            Ok(image) => {
+                let [width, height] = image.size;
+                ctx.copy_image(image);
+                self.notes.say(&format!("{} copied, {width} × {height} pixels", copying.name));
+            }
+            Err(why) => self.notes.trouble(format!("{} was not copied: {why}", copying.name)),
+        }
+    }
+}
+
+/// The same picture with so many pixels along its longer side.
+fn scaled(shot: Shot, side: u32) -> Shot {
+    let factor = f64::from(side) / f64::from(shot.film.size[0].max(shot.film.size[1]).max(1));
+    let film = |film: Film| {
+        let size = film.size.map(|n| ((f64::from(n) * factor).round() as u32).max(1));
+        Film { size, pixel: film.pixel / factor, ..film }
+    };
+    Shot { film: film(shot.film), whole: film(shot.whole), paper: Paper::default(), ..shot }
+}
+
+fn taken(original: &Original, side: u32, stop: &AtomicBool) -> Result<ColorImage, String> {
+    let shot = match original {
+        Original::Shot(shot) => shot,
+        Original::Profile(specimen) => return drawn(specimen, side),
+    };
+    let watch = |_: f64| match stop.load(Ordering::Relaxed) {
+        true => ControlFlow::Break(()),
+        false => ControlFlow::Continue(()),
+    };
+    let effort = Effort { unresolved: UNRESOLVED, coarser: 1.0, bands: FINE_RENDER.bands };
+    let mut last = None;
+    let slot = (0, Which::Present);
+    let made = Camera::default()
+        .take((slot, shot), &effort, Some(&FINE_RENDER), &watch, &mut |taken| last = Some(taken.image));
+    made.map_err(|e| e.to_string())?;
+    last.ok_or_else(|| "nothing was drawn".to_owned())
+}
+
+/// The drawing from the side, as it is exported.
+fn drawn(specimen: &Specimen, side: u32) -> Result<ColorImage, String> {
+    let stone = specimen.stone().map_err(|e| e.to_string())?;
+    let text = profile(stone, &specimen.design.name, specimen.design.cut.brilliant()).to_string();
+    let (width, height, rgb) = rasterize(&text, side).map_err(|e| e.to_string())?;
+    Ok(ColorImage::from_rgb([width as usize, height as usize], &rgb))
+}

@@ -1,0 +1,114 @@
+//! Figures as text and as tables, for the clipboard.
+
+use super::figures_panel::{Line, ZONES, energy};
+use super::studio::Tilts;
+use crate::scene::{ASET_CONE, Backing, Scope};
+use std::fmt::Write as _;
+
+/// What figures are of, in words.
+pub struct About<'a> {
+    /// The design's name.
+    pub design: &'a str,
+    /// From where it is seen.
+    pub view: &'a str,
+    /// How they are counted, and whether they are final.
+    pub state: &'a str,
+    /// The design that it is compared with, if any.
+    pub other: Option<&'a str>,
+}
+
+/// The figures that the panel shows, a line each under what they are of.
+pub fn text(about: &About, lines: &[Line]) -> String {
+    let About { design, view, state, other } = about;
+    let mut text = format!("{design}: {view}; {state}\n");
+    if let Some(other) = other {
+        // Writing to a string cannot fail.
+        let _ = writeln!(text, "in brackets what is more than in {other}");
+    }
+    for Line { name, share, other, .. } in lines {
+        let _ = match other {
+            None => writeln!(text, "{name:<14}{:>8.3} %", 100.0 * share),
+            Some(other) => {
+                writeln!(text, "{name:<14}{:>8.3} % ({:+.3})", 100.0 * share, 100.0 * (share - other))
+            }
+        };
+    }
+    text
+}
+
+/// The same as a table, of comma-separated values as RFC 4180 has them. What is not counted one way is empty there.
+pub fn csv(about: &About, energies: &[Line], areas: &[Line]) -> String {
+    let mut table = String::from("design,view,figure,energy_percent,area_percent");
+    if about.other.is_some() {
+        table.push_str(",compared_energy_percent,compared_area_percent");
+    }
+    table.push_str("\r\n");
+    let only_areas = areas.iter().filter(|line| !energies.iter().any(|other| other.name == line.name));
+    for Line { name, .. } in energies.iter().chain(only_areas) {
+        let [energy, area] = [energies, areas].map(|lines| lines.iter().find(|line| line.name == *name));
+        let percent =
+            |share: Option<f64>| share.map_or_else(String::new, |share| format!("{:.4}", 100.0 * share));
+        let mut cells = vec![quoted(about.design), quoted(about.view), quoted(name)];
+        cells.extend([energy, area].map(|line| percent(line.map(|line| line.share))));
+        if about.other.is_some() {
+            cells.extend([energy, area].map(|line| percent(line.and_then(|line| line.other))));
+        }
+        table.push_str(&cells.join(","));
+        table.push_str("\r\n");
+    }
+    table
+}
+
+/// The figures against tilt as a table: degrees, then percent of each zone.
+pub fn tilts(head: f64, tilts: &Tilts) -> String {
+    let scope = Scope::aset(ASET_CONE, Backing::Black).with_head(head);
+    let zones = ZONES
+        .iter()
+        .filter_map(|(name, band, _)| Some((*name, scope.bands.iter().position(|b| b.name == *band)?)));
+    let zones: Vec<(&str, usize)> = zones.collect();
+    let heads = zones.iter().map(|(name, _)| format!("{}_percent", name.to_lowercase()));
+    let mut table = format!("tilt_degrees,{}\r\n", heads.collect::<Vec<_>>().join(","));
+    for (tilt, figures) in tilts {
+        let cells = zones.iter().map(|(_, band)| format!("{:.4}", 100.0 * energy(figures, *band)));
+        let _ = write!(table, "{tilt},{}\r\n", cells.collect::<Vec<_>>().join(","));
+    }
+    table
+}
+
+/// A cell, in quotes where it must be.
+fn quoted(cell: &str) -> String {
+    match cell.contains([',', '"', '\n', '\r']) {
+        true => format!("\"{}\"", cell.replace('"', "\"\"")),
+        false => cell.to_owned(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn line(name: &'static str, share: f64, other: Option<f64>) -> Line {
+        Line { name, meaning: "", share, other, band: None, is_strong: false }
+    }
+
+    #[test]
+    fn a_table_has_a_cell_for_every_way_of_counting() {
+        let about = About { design: "a, \"b\"", view: "face up", state: "final", other: None };
+        let (energies, areas) =
+            ([line("Red", 0.5, None), line("Glare", 0.01, None)], [line("Red", 0.25, None)]);
+        let expected = "design,view,figure,energy_percent,area_percent\r\n\
+            \"a, \"\"b\"\"\",face up,Red,50.0000,25.0000\r\n\
+            \"a, \"\"b\"\"\",face up,Glare,1.0000,\r\n";
+        assert_eq!(csv(&about, &energies, &areas), expected);
+    }
+
+    #[test]
+    fn a_text_tells_the_difference_from_what_is_compared_with() {
+        let about = About { design: "a", view: "face up", state: "energy, final", other: Some("b") };
+        let told = text(&about, &[line("Red", 0.5, Some(0.375))]);
+        assert_eq!(
+            told,
+            "a: face up; energy, final\nin brackets what is more than in b\nRed             50.000 % (+12.500)\n"
+        );
+    }
+}

@@ -1,0 +1,234 @@
+//! What the window hands to others: by the clipboard, by files, by what is opened outside; and what is dropped on it.
+
+use super::*;
+use crate::app::dialogs::Dialog;
+use crate::app::document::Document;
+use crate::cut::Design;
+use crate::io::design_file::{self, Format};
+use crate::io::{cut_file, write_rgba_png};
+use crate::scene::Specimen;
+use egui::OutputCommand;
+use egui_kittest::kittest::NodeT;
+use std::path::Path;
+
+/// What was copied by the last frames: a text, or the size of a picture.
+fn copied(bench: &mut Bench, steps: usize) -> (Vec<String>, Vec<[usize; 2]>) {
+    let (mut texts, mut pictures) = (vec![], vec![]);
+    for _ in 0..steps {
+        bench.harness.step();
+        for command in &bench.harness.output().platform_output.commands {
+            match command {
+                OutputCommand::CopyText(text) => texts.push(text.clone()),
+                OutputCommand::CopyImage(image) => pictures.push(image.size),
+                _ => {}
+            }
+        }
+    }
+    (texts, pictures)
+}
+
+/// Clicks with the right button at a point.
+fn open_menu(bench: &mut Bench, at: egui::Pos2) {
+    bench.harness.hover_at(at);
+    bench.harness.step();
+    for pressed in [true, false] {
+        let (button, modifiers) = (egui::PointerButton::Secondary, egui::Modifiers::NONE);
+        bench.harness.event(egui::Event::PointerButton { pos: at, button, pressed, modifiers });
+        bench.harness.step();
+    }
+    bench.harness.run_steps(4);
+}
+
+fn open_menu_of(bench: &mut Bench, name: &str) {
+    let at = bench.harness.get_by_label(name).rect().center();
+    open_menu(bench, at);
+}
+
+#[test]
+fn a_right_click_opens_a_menu_of_the_view_and_a_right_drag_turns_the_stone() {
+    let mut bench = Bench::new();
+    bench.settle();
+    open_menu_of(&mut bench, "ASET picture");
+    assert_eq!(bench.editor().desk.eye.turn, 0.0);
+    bench.harness.get_by_label("Export this view…").click();
+    bench.harness.run_steps(4);
+    let Some(Dialog::Export(export)) = &bench.editor().dialog else { panic!("no export") };
+    assert_eq!(export.plan.selection.views, [Shows::Aset]);
+    bench.click("Cancel");
+    open_menu_of(&mut bench, "Hearts picture");
+    bench.click("Draw over it");
+    bench.harness.run_steps(4);
+    bench.harness.get_by_label_contains("Wireframe").click();
+    bench.harness.run_steps(4);
+    assert_eq!(bench.editor().desk.overlay.as_deref(), Some("wireframe"));
+    bench.harness.state_mut().desk.eye.lean = glam::DVec2::new(0.3, 0.1);
+    open_menu_of(&mut bench, "ASET picture");
+    bench.click("Reset view");
+    assert_eq!(bench.editor().desk.eye.lean, glam::DVec2::ZERO);
+    open_menu_of(&mut bench, "ASET picture");
+    bench.click("Show");
+    bench.harness.run_steps(4);
+    bench.harness.get_by_label("Ideal-Scope").click();
+    bench.harness.run_steps(4);
+    assert_eq!(bench.editor().desk.panes[0].shows, Shows::IdealScope);
+}
+
+#[test]
+fn a_picture_is_copied_at_a_size_that_is_chosen() {
+    let mut bench = Bench::new();
+    bench.settle();
+    let own = bench.editor().pictures[&(0, Which::Present)].taken.image.size;
+    open_menu_of(&mut bench, "ASET picture");
+    bench.click("Copy picture at size");
+    bench.harness.run_steps(4);
+    bench.harness.get_by_label("512 pixels").click();
+    bench.harness.step();
+    let begun = Instant::now();
+    let mut pictures = vec![];
+    while pictures.is_empty() {
+        assert!(begun.elapsed() < PATIENCE, "no picture is copied");
+        pictures = copied(&mut bench, 1).1;
+        std::thread::sleep(Duration::from_millis(5));
+    }
+    let [width, height] = pictures[0];
+    assert_eq!(width.max(height), 512);
+    let shape = |[w, h]: [usize; 2]| w as f64 / h as f64;
+    assert!((shape(own) / shape(pictures[0]) - 1.0).abs() < 0.01, "{own:?} became {width} x {height}");
+    assert!(bench.editor().notes.said().unwrap().contains("ASET copied, "));
+}
+
+#[test]
+fn figures_are_copied_as_text_and_as_a_table() {
+    let mut bench = Bench::new();
+    bench.settle();
+    let copy = |bench: &mut Bench, entry: &str| {
+        bench.click("Copy");
+        bench.harness.run_steps(4);
+        bench.harness.get_by_label(entry).click();
+        copied(bench, 4).0.pop().unwrap()
+    };
+    let text = copy(&mut bench, "Copy as text");
+    let shown = bench.harness.get_by_label_contains("Light return").accesskit_node().label().unwrap();
+    let percent: f64 = shown.trim_start_matches("Light return").trim_end_matches('%').trim().parse().unwrap();
+    let line = text.lines().find(|line| line.starts_with("Light return")).unwrap();
+    let told: f64 = line.trim_start_matches("Light return").trim_end_matches('%').trim().parse().unwrap();
+    assert!((told - percent).abs() < 0.0051, "{line} beside {shown}");
+    assert!(text.starts_with("Tolkowsky 1919: Table side, face up; ASET, energy; final"), "{text}");
+    let table = copy(&mut bench, "Copy as CSV");
+    let rows: Vec<Vec<&str>> = table.lines().map(|line| line.split(',').collect()).collect();
+    // The view has a comma, and so stands in quotes.
+    assert!(rows.len() == 9 && rows[1..].iter().all(|row| row.len() == 6), "{table}");
+    let tilts = copy(&mut bench, "Copy tilts as CSV");
+    assert_eq!(tilts.lines().count(), 14, "{tilts}");
+    assert_eq!(
+        tilts.lines().next(),
+        Some("tilt_degrees,red_percent,green_percent,blue_percent,leakage_percent")
+    );
+    let heading = bench.harness.get_by_label("Against tilt").rect().center();
+    open_menu(&mut bench, heading);
+    assert!(bench.harness.query_by_label("Copy as CSV").is_some(), "the right button offers the same");
+}
+
+#[test]
+fn the_folder_of_an_export_is_opened() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut bench = Bench::new();
+    bench.choose("File", "Export…");
+    let Some(Dialog::Export(export)) = &mut bench.harness.state_mut().dialog else { panic!() };
+    export.folder = folder.path().join("out");
+    export.plan.selection.views = vec![Shows::Profile];
+    export.plan.selection.size = 64;
+    bench.harness.run_steps(2);
+    bench.click("Write files");
+    bench.wait(|editor| matches!(&editor.dialog, Some(Dialog::Export(e)) if !e.is_busy()));
+    bench.click("Open folder");
+    assert_eq!(*bench.opened.lock().unwrap(), [folder.path().join("out").display().to_string()]);
+}
+
+#[test]
+fn the_program_says_what_it_is_and_what_it_is_built_of() {
+    let mut bench = Bench::sized(Setup::default(), egui::vec2(1000.0, 800.0));
+    bench.choose("Help", "About Brillianteer");
+    let version = format!("Brillianteer {}", env!("CARGO_PKG_VERSION"));
+    assert!(bench.harness.query_by_label(&version).is_some());
+    bench.click("Licence MIT");
+    assert!(bench.harness.query_by_label_contains("WITHOUT WARRANTY OF ANY KIND").is_some());
+    bench.click("Built of");
+    bench.harness.get_by_role_and_label(egui::Role::TextInput, "Find").focus();
+    bench.harness.run_steps(2);
+    bench.harness.event(egui::Event::Text("egui_plot".to_owned()));
+    bench.harness.run_steps(3);
+    bench.harness.get_by_label_contains("egui_plot 0").click();
+    bench.harness.run_steps(2);
+    let opened = bench.opened.lock().unwrap().clone();
+    assert!(opened.len() == 1 && opened[0].starts_with("https://"), "{opened:?}");
+}
+
+/// A file as the window system hands it over.
+#[derive(Debug)]
+struct Dropped(PathBuf);
+
+impl egui::DroppedFile for Dropped {
+    fn path(&self) -> &Path {
+        &self.0
+    }
+
+    fn bytes(&self) -> Result<Vec<u8>, String> {
+        std::fs::read(&self.0).map_err(|e| e.to_string())
+    }
+}
+
+fn drop_on(bench: &mut Bench, files: &[&Path]) {
+    let files = files.iter().map(|path| Arc::new(Dropped((*path).to_owned())) as egui::DroppedFileHandle);
+    bench.harness.input_mut().dropped_files = files.collect();
+    bench.harness.run_steps(2);
+}
+
+#[test]
+fn files_of_every_kind_are_dropped_on_the_window() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = |name: &str| folder.path().join(name);
+    let first = Document::first().unwrap();
+    let design = Design { name: "dropped".into(), ..first.work.design.clone() };
+    std::fs::write(at("design.toml"), cut_file::write(&design)).unwrap();
+    design_file::write(&Specimen::new(first.work.design.clone()).unwrap(), Format::Stl, &at("mesh.stl"))
+        .unwrap();
+    let scene = crate::io::library::scene("subtle-pill").unwrap();
+    std::fs::write(at("scene.toml"), scene).unwrap();
+    let grey: Vec<u8> = [128, 128, 128, 255].repeat(8 * 4);
+    write_rgba_png(&at("photo.png"), &grey, (8, 4), "grey").unwrap();
+    std::fs::write(
+        at("lamp.toml"),
+        crate::io::light_file::text(&crate::scene::light("ring").unwrap()).unwrap(),
+    )
+    .unwrap();
+    let mut hdr = b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 2 +X 4\n".to_vec();
+    hdr.extend([128, 128, 128, 129].repeat(8));
+    std::fs::write(at("sky.hdr"), hdr).unwrap();
+
+    let mut bench = Bench::new();
+    bench.settle();
+    drop_on(&mut bench, &[&at("design.toml")]);
+    bench.wait(|editor| editor.document.work.design.name == "dropped");
+    drop_on(&mut bench, &[&at("mesh.stl")]);
+    bench.wait(|editor| matches!(editor.document.work.design.cut, Cut::Planes(_)));
+    drop_on(&mut bench, &[&at("photo.png")]);
+    assert_eq!(bench.editor().desk.behind, Some(at("photo.png").display().to_string()));
+    for light in ["lamp.toml", "sky.hdr"] {
+        drop_on(&mut bench, &[&at(light)]);
+        bench.wait(|editor| editor.loading.is_none() && editor.light.0.ends_with(light));
+        assert!(bench.editor().notes.troubles().is_empty(), "{:?}", bench.editor().notes);
+    }
+    drop_on(&mut bench, &[&at("scene.toml"), &at("design.toml")]);
+    bench.wait(|editor| editor.document.work.company.poses.len() > 1 || editor.dialog.is_some());
+    assert!(bench.editor().dialog.is_none());
+    drop_on(&mut bench, &[&at("nothing.xyz")]);
+    bench.wait(|editor| !editor.notes.troubles().is_empty());
+    assert!(bench.harness.query_by_label_contains("nothing.xyz").is_some());
+    bench.harness.input_mut().hovered_files = vec![egui::HoveredFile::default()];
+    bench.harness.run_steps(1);
+    let is_invited = bench.harness.output().shapes.iter().any(|clipped| {
+        matches!(&clipped.shape, egui::Shape::Text(text) if text.galley.text().starts_with("Drop a cut"))
+    });
+    assert!(is_invited);
+}

@@ -1,0 +1,324 @@
+//! How the window is laid out: on small screens, beside errors, for stones of any outline.
+
+use super::*;
+use crate::app::dialogs::Dialog;
+use crate::app::document::Document;
+use crate::app::theme;
+use crate::cut::{Design, MaterialRef};
+use crate::io::{cut_file, design_file};
+use egui::{Color32, Rect, Role, vec2};
+use egui_kittest::kittest::NodeT;
+
+/// The least size of the window, points.
+const SMALL: egui::Vec2 = vec2(800.0, 600.0);
+
+/// A window of two scopes.
+fn small(pixels_per_point: f32) -> Bench {
+    let setup = Setup { desk: Bench::small(), ..Setup::default() };
+    let mut bench =
+        Bench::built(setup, Harness::builder().with_size(SMALL).with_pixels_per_point(pixels_per_point));
+    bench.harness.run_steps(3);
+    bench
+}
+
+fn window(bench: &Bench) -> Rect {
+    bench.harness.ctx.content_rect()
+}
+
+/// The places of all fields of a role on the left of the views.
+fn fields(bench: &Bench, role: Role) -> Vec<(String, Rect)> {
+    let nodes = bench.harness.query_all_by_role(role);
+    let named = nodes.map(|node| (node.accesskit_node().label().unwrap_or_default(), node.rect()));
+    named.filter(|(_, rect)| rect.right() < 500.0).collect()
+}
+
+/// Colours that texts in sight have.
+fn colours_of_texts(bench: &Bench) -> Vec<(Color32, String)> {
+    fn add(shape: &egui::Shape, found: &mut Vec<(Color32, String)>) {
+        match shape {
+            egui::Shape::Text(text) => {
+                let colours = text.galley.job.sections.iter().map(|section| section.format.color);
+                let own =
+                    text.override_text_color.or(colours.into_iter().next()).unwrap_or(text.fallback_color);
+                found.push((own, text.galley.text().to_owned()));
+            }
+            egui::Shape::Vec(shapes) => shapes.iter().for_each(|shape| add(shape, found)),
+            _ => {}
+        }
+    }
+    let mut found = vec![];
+    bench.harness.output().shapes.iter().for_each(|clipped| add(&clipped.shape, &mut found));
+    found
+}
+
+#[test]
+fn a_small_window_folds_one_panel_and_a_click_opens_it_in_place_of_the_other() {
+    for pixels_per_point in [1.0, 1.5] {
+        let mut bench = small(pixels_per_point);
+        let whole = window(&bench);
+        let is_within = |bench: &Bench, name: &str| {
+            let rect = bench.harness.get_by_label(name).rect();
+            whole.contains_rect(rect) && rect.width() > 60.0
+        };
+        assert!(bench.harness.query_by_role_and_label(Role::SpinButton, "Table").is_some());
+        assert!(bench.harness.query_by_label("Against tilt").is_none(), "there is no room for both panels");
+        assert!(is_within(&bench, "ASET picture") && is_within(&bench, "Hearts picture"));
+        bench.click("Open figures");
+        bench.harness.run_steps(3);
+        assert!(bench.harness.query_by_label("Against tilt").is_some());
+        assert!(bench.harness.query_by_role_and_label(Role::SpinButton, "Table").is_none());
+        assert!(is_within(&bench, "ASET picture"));
+        bench.click("Fold figures");
+        bench.harness.run_steps(3);
+        assert!(
+            bench.harness.query_by_label("Open figures").is_some()
+                && bench.harness.query_by_label("Open design").is_some()
+        );
+        bench.click("Open design");
+        bench.harness.run_steps(3);
+        assert!(bench.harness.query_by_role_and_label(Role::SpinButton, "Table").is_some());
+    }
+}
+
+#[test]
+fn in_a_small_window_every_entry_of_a_menu_and_every_button_of_a_dialog_is_reached() {
+    let mut bench = small(1.0);
+    let whole = window(&bench);
+    for (menu, last) in [("File", "Quit"), ("View", "Views alone"), ("Help", "About Brillianteer")] {
+        bench.click(menu);
+        bench.harness.run_steps(4);
+        let reached = |bench: &Bench| whole.contains_rect(bench.harness.get_by_label_contains(last).rect());
+        if !reached(&bench) {
+            bench.harness.get_by_label_contains(last).scroll_to_me();
+            bench.harness.run_steps(30);
+        }
+        assert!(reached(&bench), "{menu}: {last}");
+        bench.harness.key_press(egui::Key::Escape);
+        bench.harness.run_steps(4);
+    }
+    for (menu, entry, last) in [
+        ("File", "Export…", "Cancel"),
+        ("Help", "Keys and terms", "Close"),
+        ("Help", "About Brillianteer", "Close"),
+    ] {
+        bench.choose(menu, entry);
+        bench.harness.run_steps(4);
+        if !whole.contains_rect(bench.harness.get_by_label(last).rect()) {
+            bench.harness.get_by_label(last).scroll_to_me();
+            bench.harness.run_steps(30);
+        }
+        assert!(whole.contains_rect(bench.harness.get_by_label(last).rect()), "{entry}: {last}");
+        bench.click(last);
+        assert!(bench.editor().dialog.is_none(), "{entry}");
+    }
+}
+
+#[test]
+fn errors_take_one_line_over_the_views_which_keep_their_size_and_can_be_opened() {
+    let mut bench = small(1.0);
+    let before = bench.harness.get_by_label("ASET picture").rect();
+    let long = "a word that is said again and again; ".repeat(20);
+    let notes = &mut bench.harness.state_mut().notes;
+    (0..6).for_each(|k| notes.trouble(format!("trouble {k}: {long}")));
+    bench.harness.run_steps(4);
+    assert_eq!(bench.harness.get_by_label("ASET picture").rect(), before, "views are as they were");
+    let line = bench.harness.get_by_label_contains("trouble 5").rect();
+    assert!(line.height() < 24.0 && window(&bench).contains_rect(line), "{line}");
+    assert!(bench.harness.query_by_label_contains("trouble 4").is_none());
+    bench.click("Show all 6");
+    bench.harness.run_steps(4);
+    assert_eq!(bench.harness.query_all_by_label_contains("trouble").count(), 6);
+    assert!(window(&bench).contains_rect(bench.harness.get_by_label("Dismiss all").rect()));
+    bench.click("Dismiss all");
+    bench.harness.run_steps(4);
+    assert!(bench.harness.query_by_label_contains("trouble").is_none());
+}
+
+#[test]
+fn the_fields_of_a_panel_stand_in_one_column() {
+    let pill = Some("subtle-pill".into());
+    let mut tiers = Document::first().unwrap().work.design;
+    tiers.cut = Cut::Planes(tiers.cut.brilliant().unwrap().facets().unwrap());
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("planes.toml");
+    std::fs::write(&path, cut_file::write(&tiers)).unwrap();
+    for file in [None, pill, Some(path)] {
+        let mut desk = Bench::small();
+        desk.behind = Some("grid".into());
+        let mut bench =
+            Bench::sized(Setup { file: file.clone(), desk, ..Setup::default() }, vec2(1200.0, 900.0));
+        bench.wait(|editor| editor.opening.is_empty());
+        let numbers = fields(&bench, Role::SpinButton);
+        let numbers: Vec<_> = numbers.into_iter().filter(|(name, _)| !name.contains("Angle")).collect();
+        assert!(numbers.len() > 5, "{numbers:?}");
+        let right = numbers[0].1.right();
+        for (name, rect) in &numbers {
+            assert!((rect.right() - right).abs() < 0.6, "{name} ends at {}, not at {right}", rect.right());
+            assert!((rect.width() - numbers[0].1.width()).abs() < 0.6, "{name}: {rect}");
+        }
+        let choices = fields(&bench, Role::ComboBox);
+        assert!(choices.len() > 3);
+        for (name, rect) in &choices {
+            assert!((rect.right() - right).abs() < 0.6, "{name} ends at {}, not at {right}", rect.right());
+            assert!((rect.left() - choices[0].1.left()).abs() < 0.6, "{name}: {rect}");
+        }
+        let sliders = fields(&bench, Role::Slider);
+        assert!(
+            sliders.iter().all(|(_, rect)| (rect.left() - choices[0].1.left()).abs() < 0.6),
+            "{sliders:?}"
+        );
+    }
+}
+
+#[test]
+fn nothing_is_red_while_nothing_is_wrong() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut desk = Bench::small();
+    desk.panes[0].shows = Shows::Render;
+    (desk.behind, desk.strength) = (Some("grid".into()), 0.5);
+    let mut bench =
+        Bench::sized(Setup { file: Some("cube".into()), desk, ..Setup::default() }, vec2(1200.0, 700.0));
+    bench.harness.state_mut().desk.strength = 0.5;
+    bench.look();
+    bench.harness.state_mut().notes.warn("it was saved, but not all of it".into());
+    let editor = bench.harness.state_mut();
+    let mut dialog = Dialog::export(editor);
+    let Dialog::Export(export) = &mut dialog else { panic!() };
+    export.folder = folder.path().to_owned();
+    export.plan.folder.clone_from(&export.folder);
+    for file in export.plan.files().unwrap() {
+        std::fs::write(file, "").unwrap();
+    }
+    editor.dialog = Some(dialog);
+    bench.harness.run_steps(4);
+    let red = theme::bad(&bench.harness.ctx.global_style().visuals);
+    let is_red = |bench: &Bench| -> Vec<String> {
+        colours_of_texts(bench)
+            .into_iter()
+            .filter(|(colour, _)| *colour == red)
+            .map(|(_, text)| text)
+            .collect()
+    };
+    assert!(bench.harness.query_by_label_contains("are there already").is_some());
+    assert_eq!(is_red(&bench), Vec::<String>::new());
+    let editor = bench.harness.state_mut();
+    (editor.dialog, editor.notes) = (None, Default::default());
+    editor.notes.trouble("it was not saved".into());
+    bench.harness.run_steps(4);
+    assert_eq!(is_red(&bench), ["it was not saved"]);
+}
+
+#[test]
+fn laboratories_ranges_are_for_round_brilliants_of_diamond_alone() {
+    let mut bench = Bench::sized(Setup::default(), vec2(1200.0, 900.0));
+    bench.harness.run_steps(3);
+    let green = |bench: &Bench| {
+        let good = theme::good(&bench.harness.ctx.global_style().visuals);
+        let marks = [good, good.gamma_multiply(0.75)];
+        let shapes = bench.harness.output().shapes.iter();
+        let bands = shapes.filter(
+            |clipped| matches!(&clipped.shape, egui::Shape::Rect(rect) if marks.contains(&rect.fill)),
+        );
+        (bands.count(), colours_of_texts(bench).iter().filter(|(colour, _)| *colour == good).count())
+    };
+    assert_eq!(green(&bench), (5, 1), "five bands and the total depth");
+    bench.harness.state_mut().document.work.design.material = MaterialRef::Name("sapphire".into());
+    bench.harness.run_steps(3);
+    assert_eq!(green(&bench), (0, 0));
+    bench.harness.state_mut().document.work.design.material = MaterialRef::Name("Diamond".into());
+    bench.harness.run_steps(3);
+    assert_eq!(green(&bench), (5, 1));
+}
+
+#[test]
+fn a_stone_that_is_not_round_has_length_and_width_and_a_tier_its_distance_in_mm() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("oblong.asc");
+    let text = "GemCad 5.0\ng 96 0.0\ny 2 y\nI 1.76\nH An oblong\na -90 1.5 24 n G1 72\na -90 1 96 n G2 48\n\
+                a -43 0.9 96 n P1 24 48 72\na 35 0.8 96 n C1 24 48 72\na 0 0.45 0 n T\n";
+    std::fs::write(&path, text).unwrap();
+    let mut bench = Bench::sized(Setup { file: Some(path), ..Setup::default() }, vec2(1200.0, 900.0));
+    bench.wait(|editor| editor.opening.is_empty());
+    let size = |bench: &Bench| {
+        let specimen = bench.editor().document.specimen();
+        let (low, high) = specimen.stone().unwrap().polytope.bounds();
+        (high - low).truncate() * specimen.unit_mm()
+    };
+    assert!(bench.harness.query_by_label("Diameter").is_none());
+    bench.type_number("Width", "8");
+    assert!((size(&bench) - glam::DVec2::new(12.0, 8.0)).length() < 1e-9, "{}", size(&bench));
+    bench.type_number("Length", "6");
+    assert!((size(&bench) - glam::DVec2::new(6.0, 4.0)).length() < 1e-9, "{}", size(&bench));
+    let value = |bench: &Bench, name: &str| {
+        let field = bench.harness.get_by_role_and_label(Role::SpinButton, name);
+        field.accesskit_node().value().unwrap_or_default()
+    };
+    assert_eq!(value(&bench, "Width"), "4.0 mm");
+    assert_eq!(value(&bench, "G2 · 2 Distance"), "2.0 mm");
+    bench.type_number("G2 · 2 Distance", "2.5");
+    assert!((size(&bench).y - 5.0).abs() < 1e-9, "{}", size(&bench));
+    assert!((size(&bench).x - 6.0).abs() < 1e-9);
+}
+
+#[test]
+fn a_stone_of_a_bare_index_has_a_weight_once_its_density_is_set() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("bare.toml");
+    let first = Document::first().unwrap().work.design;
+    let bare = Design { material: MaterialRef::Index(1.54), ..first };
+    std::fs::write(&path, cut_file::write(&bare)).unwrap();
+    let mut bench = Bench::with(Setup { file: Some(path.clone()), ..Setup::default() });
+    bench.wait(|editor| editor.opening.is_empty());
+    assert!(bench.harness.query_by_role_and_label(Role::SpinButton, "Weight").is_none());
+    bench.type_number("Density", "2.65");
+    let carats = bench.editor().document.specimen().carats().unwrap();
+    assert!((bench.editor().document.specimen().medium(589.3).index - 1.54).abs() < 1e-12);
+    bench.type_number("Weight", "2");
+    assert!((bench.editor().document.specimen().carats().unwrap() - 2.0).abs() < 1e-9 && carats != 2.0);
+    bench.harness.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::S);
+    bench.wait(|editor| !editor.document.is_changed());
+    assert_eq!(design_file::read(&path).unwrap().design, bench.editor().document.work.design);
+    // A material of the library weighs what it weighs.
+    bench.harness.state_mut().document.work.design.material = MaterialRef::Name("diamond".into());
+    bench.harness.run_steps(3);
+    assert!(bench.harness.query_by_role_and_label(Role::SpinButton, "Density").is_none());
+}
+
+/// How many pixels one girdle radius has in the first view, and where the origin is.
+fn film(bench: &Bench) -> (f64, glam::DVec2) {
+    let shot = &bench.editor().asked.shots[0].1;
+    (shot.film.pixel, shot.film.centre)
+}
+
+#[test]
+fn a_stone_keeps_its_scale_while_one_number_changes() {
+    let mut bench = Bench::with(Setup { file: Some("pill".into()), ..Setup::default() });
+    bench.wait(|editor| editor.opening.is_empty());
+    bench.harness.run_steps(3);
+    let before = film(&bench);
+    let width = bench.harness.get_by_role_and_label(Role::SpinButton, "Width").rect();
+    assert!(width.width() > 0.0);
+    let reach = bench.editor().document.specimen().reach;
+    bench.type_number("Length", "80");
+    bench.harness.run_steps(3);
+    assert_ne!(bench.editor().document.specimen().reach, reach, "the stone is another");
+    assert_eq!(film(&bench), before, "its scale is not");
+    bench.harness.key_press(egui::Key::Num0);
+    bench.harness.run_steps(3);
+    assert!(film(&bench).0 < before.0, "fitted anew, it is larger");
+}
+
+#[test]
+fn a_diagram_is_dark_in_the_dark_and_light_in_the_light() {
+    for (theme, is_dark) in [(egui::ThemePreference::Dark, true), (egui::ThemePreference::Light, false)] {
+        let mut desk = Bench::small();
+        desk.panes[1].shows = Shows::Diagram;
+        let mut bench = Bench::with(Setup { desk, ..Setup::default() });
+        bench.harness.ctx.set_theme(theme);
+        bench.harness.run_steps(3);
+        bench.look();
+        let picture = bench.picture(1);
+        let light = picture.iter().filter(|p| p.r() > 200).count() as f64 / picture.len() as f64;
+        assert_eq!(light < 0.2, is_dark, "{theme:?}: {light} of it is light");
+    }
+}

@@ -1,0 +1,74 @@
+//! The bar that says what went wrong: one line over the lower edge of the views, which keep their size. It can be opened.
+
+use super::editor::Editor;
+use super::notes::Trouble;
+use super::theme;
+use egui::{
+    Align, Align2, Area, Color32, Context, Frame, Id, Label, Layout, Order, Rect, RichText, ScrollArea, Ui,
+};
+
+/// The part of the views' height that the list of all troubles takes at most.
+const MOST_OF_HEIGHT: f32 = 0.6;
+
+/// Draws the bar over the views, if there is anything to say.
+pub fn show(editor: &mut Editor, ctx: &Context, stage: Rect) {
+    if editor.notes.troubles().is_empty() {
+        return;
+    }
+    let area = Area::new(Id::unique("troubles")).order(Order::Middle).fixed_pos(stage.left_bottom());
+    area.pivot(Align2::LEFT_BOTTOM).constrain(true).show(ctx, |ui| {
+        let frame = Frame::popup(ui.style()).inner_margin(6.0);
+        frame.show(ui, |ui| {
+            ui.set_width(stage.width() - 14.0);
+            match editor.notes.is_open {
+                true => list(editor, ui, stage.height() * MOST_OF_HEIGHT),
+                false => last(editor, ui),
+            }
+        });
+    });
+}
+
+fn coloured(ui: &Ui, trouble: &Trouble) -> RichText {
+    let colour: fn(&egui::Visuals) -> Color32 = if trouble.is_error { theme::bad } else { theme::caution };
+    RichText::new(&trouble.text).color(colour(ui.visuals()))
+}
+
+/// The last trouble alone, on one line; a click on it lists all, each as long as it is.
+fn last(editor: &mut Editor, ui: &mut Ui) {
+    let troubles = editor.notes.troubles();
+    let (count, Some(trouble)) = (troubles.len(), troubles.last().cloned()) else { return };
+    ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+        if ui.button("Dismiss").on_hover_text("Forgets this message.").clicked() {
+            editor.notes.dismiss(count - 1);
+        }
+        let open = if count > 1 { format!("Show all {count}") } else { "Show all of it".to_owned() };
+        if ui.button(open).on_hover_text("Lists every message in full.").clicked() {
+            editor.notes.is_open = true;
+        }
+        ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
+            ui.add(Label::new(coloured(ui, &trouble)).truncate());
+        });
+    });
+}
+
+fn list(editor: &mut Editor, ui: &mut Ui, height: f32) {
+    let troubles = editor.notes.troubles().to_vec();
+    ScrollArea::vertical().max_height(height).show(ui, |ui| {
+        for (k, trouble) in troubles.iter().enumerate().rev() {
+            ui.horizontal_top(|ui| {
+                if ui.small_button("Dismiss").clicked() {
+                    editor.notes.dismiss(k);
+                }
+                ui.add(Label::new(coloured(ui, trouble)).wrap().selectable(true));
+            });
+        }
+    });
+    ui.horizontal(|ui| {
+        if ui.button("Dismiss all").clicked() {
+            (0..troubles.len()).rev().for_each(|k| editor.notes.dismiss(k));
+        }
+        if ui.button("Show one line").clicked() {
+            editor.notes.is_open = false;
+        }
+    });
+}

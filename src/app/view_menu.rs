@@ -1,0 +1,78 @@
+//! The menu of a view, at the right mouse button.
+
+use super::command::Command;
+use super::copying;
+use super::dialogs::Dialog;
+use super::editor::Editor;
+use super::menus::entry;
+use super::pane::enlarge;
+use super::shows::Shows;
+use egui::{Response, Ui};
+
+/// What can be drawn over a picture.
+const OVERLAYS: [Command; 6] = [
+    Command::Wireframe,
+    Command::Facets,
+    Command::Bounces,
+    Command::Unresolved,
+    Command::Total,
+    Command::Strongest,
+];
+
+/// Opens the menu of a view where it is clicked with the right button; a drag with it turns the stone.
+pub fn attach(editor: &mut Editor, response: &Response, pane: usize) {
+    response.context_menu(|ui| {
+        // Commands are for the view whose menu this is.
+        editor.hovered = pane;
+        contents(editor, ui, pane);
+    });
+}
+
+fn contents(editor: &mut Editor, ui: &mut Ui, pane: usize) {
+    let shows = editor.desk.panes[pane].shows;
+    ui.menu_button("Show", |ui| {
+        for other in Shows::ALL {
+            let choice = ui.selectable_label(shows == other, other.name());
+            if choice.on_hover_text(other.meaning()).clicked() {
+                editor.desk.panes[pane].shows = other;
+                ui.close();
+            }
+        }
+    });
+    if shows.takes_overlay() {
+        ui.menu_button("Draw over it", |ui| OVERLAYS.iter().for_each(|&command| entry(editor, ui, command)));
+    }
+    ui.separator();
+    entry(editor, ui, Command::CopyPicture);
+    if copying::can_copy(editor, pane) {
+        ui.menu_button("Copy picture at size", |ui| {
+            for side in copying::SIZES {
+                let about =
+                    "Pixels of the longer side; the picture is made anew, and copied once it is done.";
+                if ui.button(format!("{side} pixels")).on_hover_text(about).clicked() {
+                    editor.copy_at(pane, side);
+                    ui.close();
+                }
+            }
+        });
+    }
+    if Shows::EXPORTED.contains(&shows) && ui.button("Export this view…").clicked() {
+        editor.dialog = Some(Dialog::export_of(editor, shows));
+        ui.close();
+    }
+    ui.separator();
+    if shows.is_seen()
+        && ui.button("Reset view").on_hover_text("Face up, all of the stone, along parallel rays.").clicked()
+    {
+        editor.framing.renew(editor.document.specimen());
+        *editor.desk.eye_mut(pane) = super::eye::Eye::default();
+        ui.close();
+    }
+    if editor.desk.layout.panes() > 1 {
+        let name = if editor.desk.large == Some(pane) { "Show all views" } else { "Show alone" };
+        if ui.button(name).clicked() {
+            enlarge(editor, pane);
+            ui.close();
+        }
+    }
+}

@@ -1,0 +1,82 @@
+//! Colours of drawings: what is drawn in which, on paper and on a dark screen.
+
+/// Colours of a drawing, in sRGB codes of red, green and blue.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Inks {
+    /// Behind everything.
+    pub paper: [u8; 3],
+    /// Outlines and names.
+    pub ink: [u8; 3],
+    /// Edges between facets.
+    pub edge: [u8; 3],
+    /// Remarks, and what is there only to be read against.
+    pub quiet: [u8; 3],
+    /// Dimensions and slopes.
+    pub accent: [u8; 3],
+    /// Lines that lead from a dimension to what it measures.
+    pub extension: [u8; 3],
+    /// Facets seen edge on, and facets that face the eye; those in between are mixtures.
+    pub faces: [[u8; 3]; 2],
+}
+
+impl Inks {
+    /// Dark on white, as exported drawings are.
+    pub const PAPER: Self = Self {
+        paper: [255; 3],
+        ink: [0x2a, 0x2e, 0x34],
+        edge: [0x86, 0x8c, 0x95],
+        quiet: [0x70, 0x76, 0x7f],
+        accent: [0x1c, 0x5a, 0x94],
+        extension: [0xa9, 0xc2, 0xda],
+        faces: [[232, 232, 235], [255; 3]],
+    };
+
+    /// Light on dark, for dark windows.
+    pub const DARK: Self = Self {
+        paper: [0x1b, 0x1c, 0x1f],
+        ink: [0xe4, 0xe6, 0xea],
+        edge: [0x84, 0x8a, 0x94],
+        quiet: [0xa4, 0xa9, 0xb2],
+        accent: [0x7d, 0xbc, 0xf2],
+        extension: [0x3f, 0x5a, 0x74],
+        faces: [[0x22, 0x24, 0x28], [0x33, 0x36, 0x3c]],
+    };
+
+    /// One of the colours, as SVG writes it.
+    pub(in crate::picture) fn of(&self, ink: Ink) -> String {
+        hex(match ink {
+            Ink::Paper => self.paper,
+            Ink::Ink => self.ink,
+            Ink::Edge => self.edge,
+            Ink::Quiet => self.quiet,
+            Ink::Accent => self.accent,
+            Ink::Extension => self.extension,
+        })
+    }
+
+    /// The fill of a facet, by the cosine of the angle at which it turns away from the eye.
+    pub(super) fn face(&self, facing: f64) -> String {
+        let [edge_on, square] = self.faces;
+        let mixed = |k: usize| {
+            let [from, to] = [edge_on, square].map(|colour| f64::from(colour[k]));
+            (from + (to - from) * facing).round() as u8
+        };
+        hex([mixed(0), mixed(1), mixed(2)])
+    }
+}
+
+/// A colour in SVG.
+pub(in crate::picture) fn hex([red, green, blue]: [u8; 3]) -> String {
+    format!("#{red:02x}{green:02x}{blue:02x}")
+}
+
+/// One of the colours.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(in crate::picture) enum Ink {
+    Paper,
+    Ink,
+    Edge,
+    Quiet,
+    Accent,
+    Extension,
+}

@@ -1,0 +1,51 @@
+//! The program's own sign: a stone from above, each facet as bright as it is turned to a light.
+
+use super::drawing::{Aspect, hex};
+use crate::math::{Basis, Facet};
+use crate::scene::Stone;
+use glam::{DVec2, DVec3};
+use svg::Document;
+use svg::node::element::{Group, Polygon};
+
+/// Side of the drawing, and the radius of the stone in it.
+const SIDE: f64 = 256.0;
+const RADIUS: f64 = 122.0;
+
+/// Darkest and brightest facets, and the lines between facets, in sRGB.
+const SHADES: [[u8; 3]; 2] = [[14, 44, 92], [206, 232, 255]];
+const LINE: [u8; 3] = [240, 248, 255];
+
+/// Width of the lines.
+const LINE_WIDTH: f64 = 3.0;
+
+/// From where the light comes; of no unit length.
+const LIGHT: DVec3 = DVec3::new(-0.8, 1.0, 0.9);
+
+/// How much brighter a facet becomes from one that turns away from the light to one that faces it.
+const CONTRAST: f64 = 1.6;
+
+/// Draws the facets of a stone that are seen from above, on nothing.
+pub fn icon(stone: &Stone) -> Document {
+    let reach = stone.polytope.vertices().iter().map(|v| v.truncate().length()).fold(0.0, f64::max);
+    let place = DVec2::splat(SIDE / 2.0);
+    let aspect = Aspect { basis: Basis::FACE_UP, centre: DVec2::ZERO, scale: RADIUS / reach, place };
+    let seen = stone.polytope.facets().iter().filter(|facet| aspect.shows(facet));
+    let line = hex(LINE);
+    let group =
+        Group::new().set("stroke", line).set("stroke-width", LINE_WIDTH).set("stroke-linejoin", "round");
+    let group = seen.fold(group, |group, facet| group.add(face(stone, facet, &aspect)));
+    Document::new().set("viewBox", (0, 0, SIDE, SIDE)).set("width", SIDE).set("height", SIDE).add(group)
+}
+
+fn face(stone: &Stone, facet: &Facet, aspect: &Aspect) -> Polygon {
+    let corners = aspect.outline(stone, facet);
+    let points = corners.iter().map(|p| format!("{:.2},{:.2}", p.x, p.y)).collect::<Vec<_>>().join(" ");
+    let lit = facet.plane.normal.dot(LIGHT) / LIGHT.length();
+    // A table, square to the eye, is neither among the brightest nor among the darkest.
+    let part = (0.5 + CONTRAST * (lit - LIGHT.z / LIGHT.length())).clamp(0.0, 1.0);
+    let mixed = |k: usize| {
+        let [dark, bright] = SHADES.map(|shade| f64::from(shade[k]));
+        (dark + (bright - dark) * part).round() as u8
+    };
+    Polygon::new().set("points", points).set("fill", hex([mixed(0), mixed(1), mixed(2)]))
+}
