@@ -3,7 +3,7 @@
 use brillianteer::cut::{Crown, LowerHalf, Pavilion, RoundBrilliant};
 use brillianteer::io::{WriteError, write_png};
 use brillianteer::picture::{Layer, Palette, paint};
-use brillianteer::scene::{ASET_CONE, Backing, Film, Medium, Scope, Stone, View};
+use brillianteer::scene::{ASET_CONE, Backing, Film, Glare, Medium, Scope, Stone, View};
 use brillianteer::trace::{beam, ray, unwatched};
 use criterion::{Criterion, criterion_group, criterion_main};
 use glam::DVec2;
@@ -56,7 +56,7 @@ fn energy_picture(c: &mut Criterion) {
             let film = Film::around(&stone.polytope, &beams.view, 1024);
             let palette = Palette::of(&scope);
             write_png(&path, (1024, 1024), "", |png| {
-                paint(&Layer::energy(&beams, &scope), &film, &unwatched, |rows| -> Result<(), WriteError> {
+                paint(&Layer::energy(&beams, &scope, Glare::Included), &film, &unwatched, |rows| -> Result<(), WriteError> {
                     let mut pixels = Vec::new();
                     (rows.first..rows.first + rows.count)
                         .for_each(|y| palette.encode(rows, 0, y, &mut pixels));

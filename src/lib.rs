@@ -6,20 +6,15 @@
 //! From a cut file to figures:
 //!
 //! ```
-//! use brillianteer::io::cut_file;
-//! use brillianteer::measure::by_beams;
-//! use brillianteer::scene::{ASET_CONE, Backing, Medium, Scope, Stone, View};
-//! use brillianteer::trace::{beam, unwatched};
-//!
-//! let design = cut_file::read("cuts/tolkowsky.toml")?;
-//! let stone = Stone::new(&design.facets()?)?;
-//! let view = View { tilt: 5_f64.to_radians(), ..View::default() };
-//! let options = beam::Options { unresolved: 0.01, ..beam::Options::default() };
-//! let beams = beam::trace(&stone.polytope, Medium::clear(2.4175), &view, &options, &unwatched)?;
-//! let figures = by_beams(&beams, &Scope::aset(ASET_CONE, Backing::Black));
-//! assert!((figures.sum() - 1.0).abs() < 1e-9 && figures.unresolved <= 0.01);
+//! let design = brillianteer::io::cut_file::read("cuts/tolkowsky.toml")?;
+//! let measured = brillianteer::measure(&design, &Default::default())?;
+//! assert!((measured.light_return() - 0.748).abs() < 0.001 + measured.error());
+//! assert!((measured.figures.sum() - 1.0).abs() < 1e-9);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
+//!
+//! [`measure::Options`] choose the view, the scope, the wavelength and the bound on what is unresolved. The folder
+//! `examples/` measures a design, sweeps an angle, writes an ASET picture and reads a mesh.
 //!
 //! Frame: right-handed, +z out of the table, z = 0 at the crown-side girdle, girdle radius 1. Lengths in files are
 //! percent of the girdle diameter, angles degrees; inside, girdle radii and radians.
@@ -38,3 +33,4 @@ pub mod scene;
 pub mod trace;
 
 pub use glam;
+pub use measure::measure;

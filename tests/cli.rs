@@ -39,8 +39,8 @@ fn reflected(index: f64, cos_i: f64) -> f64 {
 fn measured(desk: &Desk, options: &str) -> Value {
     let figures = desk.json(&format!("measure --json {options}"));
     let keys = |v: &Value| v.as_object().unwrap().keys().map(String::as_str).collect::<Vec<_>>().join(" ");
-    let documented = "file name silhouette_area surface transmitted strongest_exit_area absorbed unresolved beams seconds \
-        index wavelength_nm head_deg tracer polarised view";
+    let documented = "file name scope silhouette_area light_return light_return_with_glare surface transmitted \
+        strongest_exit_area absorbed unresolved beams material index wavelength_nm head_deg tracer polarised view";
     assert_eq!(keys(&figures).trim_end_matches(" standard_error"), documented);
     for (part, also) in PARTS.into_iter().zip(["", "", " undecided"]) {
         let zones =
@@ -48,6 +48,10 @@ fn measured(desk: &Desk, options: &str) -> Value {
         assert_eq!(keys(&figures[part]), format!("{zones}{also}"));
     }
     near(energy(&figures), 1.0, 1e-9, options);
+    let lit = |part: &str| ["green", "red", "blue"].map(|zone| at(&figures, &format!("{part}/{zone}"))).iter().sum();
+    let [inner, glare]: [f64; 2] = ["transmitted", "surface"].map(lit);
+    near(at(&figures, "light_return"), inner, 1e-12, options);
+    near(at(&figures, "light_return_with_glare"), inner + glare, 1e-12, options);
     near(sum(&figures["strongest_exit_area"]), 1.0, 1e-9, options);
     figures
 }
@@ -255,8 +259,17 @@ fn what_the_program_knows_by_name_it_lists_and_takes_back_from_a_file() {
     for material in list(&desk.json("materials --json")) {
         let name = material["name"].as_str().unwrap();
         desk.write("known.toml", cube.replace("diamond", name));
-        let index = at(&desk.json("measure known.toml --unresolved 0.5 --json"), "index");
-        assert!(listed("materials", name) && index == at(material, "n_D"), "{name}: {index}");
+        let (code, printed, said) = desk.run("measure known.toml --unresolved 0.5 --json");
+        let figures: Value = serde_json::from_str(&printed).unwrap();
+        let index = at(&figures, "index");
+        assert!(code == 0 && listed("materials", name) && index == at(material, "n_D"), "{name}: {index}");
+        // A colour that is no measurement is called illustrative wherever it is chosen.
+        let is_illustrative = material["colour_is_illustrative"] == true;
+        assert_eq!(is_illustrative, said.contains(&format!("the colour of {name} is illustrative")), "{said}");
+        assert_eq!(is_illustrative, figures["colour_is_illustrative"] == true, "{name}");
+        assert!(is_illustrative || said.is_empty(), "{said}");
+        let source = material["source"].as_str().unwrap();
+        assert_eq!(is_illustrative, source.contains("colour: illustrative"), "{source}");
     }
     for cut in list(&desk.json("cuts --json")) {
         let name = cut["name"].as_str().unwrap();
@@ -295,7 +308,7 @@ fn a_perspective_is_traced_by_rays_which_say_so() {
     let desk = Desk::new();
     let figures = measured(&desk, "cube.toml --perspective 8");
     assert_eq!((&figures["tracer"], at(&figures, "view/projection/perspective")), (&json!("ray"), 8.0));
-    assert!(desk.done("measure cube.toml --perspective 8").contains(" rays in "));
+    assert!(desk.done("measure cube.toml --perspective 8").contains(" by point rays"));
     desk.done("export cube.toml --perspective 8 --size 32 --views aset --format png");
     for ending in ["", "-strongest"] {
         let told = png(&desk.at(format!("out/cube-aset{ending}.png"))).2;

@@ -7,7 +7,7 @@ use brillianteer::measure;
 use brillianteer::optics::Dispersion;
 use brillianteer::picture::by_rays;
 use brillianteer::picture::by_rays::Manner;
-use brillianteer::scene::{ASET_CONE, Backing, Film, Medium, Projection, Scope, View};
+use brillianteer::scene::{ASET_CONE, Backing, Film, Glare, Medium, Projection, Scope, View};
 use brillianteer::trace::ray::{Camera, Exit, Options, Tracer};
 use brillianteer::trace::unwatched;
 use glam::{DQuat, DVec2, DVec3};
@@ -189,7 +189,7 @@ fn a_prism_is_the_same_between_planes_and_as_a_distance() {
                     &view,
                     &scope,
                     &film,
-                    &Manner { options, per_side: 1 },
+                    &Manner { options, per_side: 1, glare: Glare::Included },
                     &unwatched,
                     |rows| {
                         (rows.first..rows.first + rows.count).for_each(|y| {

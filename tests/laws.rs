@@ -6,7 +6,7 @@ mod common;
 use brillianteer::math::{Plane, Polytope};
 use brillianteer::measure::{by_beams, by_rays};
 use brillianteer::picture::{Layer, Palette, paint};
-use brillianteer::scene::{Film, Lean, Medium, Projection, Scope, Side, View};
+use brillianteer::scene::{Film, Glare, Lean, Medium, Projection, Scope, Side, View};
 use brillianteer::trace::ray::{Camera, Exit, Options, Tracer};
 use brillianteer::trace::{Stopped, beam, unwatched};
 use common::*;
@@ -171,7 +171,7 @@ fn a_white_world_looks_white_through_any_stone() {
         let beams = traced(&stone, Medium::clear(index), &view, 2e-3, true);
         let film = Film::around(&stone.polytope, &beams.view, 64);
         let (mut light, mut cover) = (0.0, 0.0);
-        paint(&Layer::energy(&beams, &white), &film, &unwatched, |rows| -> Result<(), Stopped> {
+        paint(&Layer::energy(&beams, &white, Glare::Included), &film, &unwatched, |rows| -> Result<(), Stopped> {
             let sum = |y, c: usize| rows.row(y, c).iter().sum::<f64>();
             for y in rows.first..rows.first + rows.count {
                 light += (0..rows.channels - 1).map(|c| sum(y, c)).sum::<f64>();
@@ -197,7 +197,7 @@ fn work_that_is_stopped_says_so() {
     assert!(matches!(beams, Err(Stopped)));
     let beams = traced(&stone, Medium::clear(2.4), &View::default(), 0.05, true);
     let film = Film::around(&stone.polytope, &beams.view, 32);
-    let painted = paint(&Layer::energy(&beams, &aset()), &film, &stop, |_| Ok(()));
+    let painted = paint(&Layer::energy(&beams, &aset(), Glare::Included), &film, &stop, |_| Ok(()));
     assert_eq!(painted, Err(Stopped));
 }
 

@@ -3,10 +3,15 @@
 
 mod common;
 
-use brillianteer::io::cut_file;
-use brillianteer::measure::{Figures, by_beams, by_rays};
-use brillianteer::scene::{Medium, Scope, Stone, View};
-use brillianteer::trace::{ray, unwatched};
+use brillianteer::cut::{Cut, Design, MaterialRef};
+use brillianteer::io::{cut_file, library};
+use brillianteer::measure::{Bounds, Figures, MeasureError, Options, by_beams, by_rays};
+use brillianteer::picture::{Picture, named};
+use brillianteer::scene::{
+    ASET_CONE, Backing, Band, Medium, Projection, Scope, Side, Stone, View, Viewpoint,
+};
+use brillianteer::trace::beam::Beam;
+use brillianteer::trace::{CannotTrace, Sampler, Tracer, ray, unwatched};
 use common::*;
 
 const DIAMOND: Medium = Medium::clear(2.4175);
@@ -73,6 +78,173 @@ fn the_tables_reflection_turns_from_green_to_red_at_its_angle() {
         assert!(elevation(expected - 1e-4) < 45.0, "index {index}: green below the border");
         assert!(elevation(expected + 1e-4) > 45.0, "index {index}: red above it");
     }
+}
+
+/// The virtual facets that make the shafts of a brilliant's arrows, under the table, and their heads, on the bezels: light
+/// that is reflected by two mains. Each as its exit's angle from the axis in degrees and whether a scope's band is black.
+fn arrows(stone: &Stone, scope: &Scope) -> [Vec<(f64, bool)>; 2] {
+    let beams = traced(stone, DIAMOND, &View::default(), 0.02, true);
+    let kinds = [["table", "main", "main", "bezel"], ["bezel", "main", "main", "table"]];
+    kinds.map(|kinds| {
+        let is_it = |b: &Beam| {
+            let met = beams.facets(b.id);
+            met.len() == 4 && met.iter().zip(kinds).all(|(&f, kind)| stone.name(f).starts_with(kind))
+        };
+        let strong = beams.iter().filter(|b| b.weight > 0.5 && b.area > 1e-4 && is_it(b));
+        let told = |b: Beam| {
+            let band = &scope.bands[scope.band(b.exit, beams.zenith)];
+            (b.exit.z.acos().to_degrees(), band.colour == [0; 3])
+        };
+        strong.map(told).collect()
+    })
+}
+
+/// docs/optics.md, "Ideal-Scope's hole": how far from the axis the light of the shafts and of the heads leaves, degrees.
+fn arrows_angles(crown: f64, pavilion: f64) -> [f64; 2] {
+    let sin = |degrees: f64| degrees.to_radians().sin();
+    let outside = |inside: f64| (DIAMOND.index * sin(inside)).asin().to_degrees();
+    let turned = 180.0 - 4.0 * pavilion;
+    let entered = crown - (sin(crown) / DIAMOND.index).asin().to_degrees();
+    [(outside(crown - turned) - crown).abs(), outside(entered - turned).abs()]
+}
+
+fn ideal_scope() -> Scope {
+    let Some(Picture::Scoped(scoped)) = named("ideal-scope") else { panic!("no Ideal-Scope") };
+    scoped.scope
+}
+
+#[test]
+fn ideal_cuts_have_whole_dark_arrows_in_ideal_scope_and_others_do_not() {
+    let scope = ideal_scope();
+    let library = |name: &str| {
+        let design = cut_file::parse(library::cut(name).unwrap(), name).unwrap();
+        Stone::new(&design.facets().unwrap()).unwrap()
+    };
+    let is_dark = |facets: &Vec<(f64, bool)>| !facets.is_empty() && facets.iter().all(|(_, dark)| *dark);
+    for name in ["modern-ideal", "tolkowsky"] {
+        let [shafts, heads] = arrows(&library(name), &scope);
+        assert!(is_dark(&shafts) && is_dark(&heads), "{name}: {shafts:?} {heads:?}");
+    }
+    for name in ["steep-deep", "fisheye"] {
+        let [shafts, heads] = arrows(&library(name), &scope);
+        assert!(!is_dark(&shafts), "{name}: {shafts:?} {heads:?}");
+    }
+    let hole = 90.0 - scope.bands.last().unwrap().from;
+    let mut whole = 0;
+    for crown in [34.0, 34.5, 35.0] {
+        for pavilion in [40.6, 40.7, 40.75, 40.8, 40.85, 40.9, 41.0] {
+            let stone = built(&brilliant((56.0, crown, pavilion), (50.0, 77.0), 16));
+            let found = arrows(&stone, &scope);
+            for (facets, expected) in found.iter().zip(arrows_angles(crown, pavilion)) {
+                assert!(facets.len() == 1, "one wedge holds one of each: {facets:?}");
+                assert!((facets[0].0 - expected).abs() < 1e-6, "{crown}, {pavilion}: {facets:?}, not {expected}");
+                assert_eq!(facets[0].1, expected < hole);
+            }
+            // What docs/optics.md says of the range.
+            let last = 40.956 - 0.178 * (crown - 34.5);
+            assert_eq!(found.iter().all(is_dark), pavilion < last, "{crown}, {pavilion}: {found:?}");
+            whole += usize::from(pavilion < last);
+        }
+    }
+    assert_eq!(whole, 7 + 6 + 5);
+}
+
+#[test]
+fn the_bright_facets_beside_the_arrows_of_ideal_cuts_stay_red() {
+    // Light of a star and a main, 73.2 to 74.8 degrees up: a wider hole would swallow it and blur the arrows.
+    for (angles, lengths) in [((56.0, 34.5, 40.8), (50.0, 77.0)), ((53.0, 34.5, 40.75), (50.0, 75.0))] {
+        let stone = built(&brilliant(angles, lengths, 16));
+        let figures = by_beams(&traced(&stone, DIAMOND, &View::default(), 1e-3, true), &ideal_scope());
+        let dark = figures.strongest_exit_area[2];
+        let wider = by_beams(&traced(&stone, DIAMOND, &View::default(), 1e-3, true), &Scope::ideal_scope(17.0));
+        assert!((0.19..0.25).contains(&dark), "{angles:?}: {dark} of the face is dark");
+        assert!(wider.strongest_exit_area[2] > dark + 0.05, "{angles:?}: {wider:?}");
+    }
+}
+
+fn design(name: &str) -> Design {
+    cut_file::parse(library::cut(name).unwrap(), name).unwrap()
+}
+
+#[test]
+fn one_call_measures_a_design_as_the_tracers_do() {
+    let tolkowsky = design("tolkowsky");
+    let bounds = Bounds { unresolved: 2e-3, ..Bounds::default() };
+    let options = Options { bounds, ..Options::default() };
+    let measured = brillianteer::measure(&tolkowsky, &options).unwrap();
+    let stone = Stone::new(&tolkowsky.facets().unwrap()).unwrap();
+    let medium = Medium::clear(measured.index);
+    let by_hand = by_beams(&traced(&stone, medium, &View::default(), 2e-3, true), &aset());
+    assert_eq!((&measured.figures, measured.tracer), (&by_hand, "beam"));
+    let zones = ["green", "red", "blue", "below"].map(|name| measured.zone(name).unwrap());
+    let lit = zones[..3].iter().map(|z| z.transmitted).sum::<f64>();
+    assert!((measured.light_return() - lit).abs() < 1e-15 && (0.74..0.76).contains(&lit), "{lit}");
+    assert_eq!(measured.leakage(), zones[3].transmitted);
+    assert!((measured.glare() - zones.iter().map(|z| z.glare).sum::<f64>()).abs() < 1e-15);
+    let glare = zones[..3].iter().map(|z| z.glare).sum::<f64>();
+    assert!((measured.glare_return() - glare).abs() < 1e-15 && measured.zone("purple").is_none());
+    assert_eq!(measured.error(), measured.figures.unresolved);
+    // An observer's head sends no light, and Ideal-Scope's returned light is its red.
+    let head = brillianteer::measure(&tolkowsky, &Options { head_deg: 10.0, ..options.clone() }).unwrap();
+    assert!(head.light_return() < lit - 0.01 && head.scope.bands.last().unwrap().name == "head");
+    let red = brillianteer::measure(&tolkowsky, &Options { scope: ideal_scope(), ..options.clone() }).unwrap();
+    assert_eq!(red.light_return(), red.zone("red").unwrap().transmitted);
+}
+
+#[test]
+fn light_return_counts_from_the_horizon_whatever_the_borders_of_the_scope() {
+    let tolkowsky = design("tolkowsky");
+    let band = |name: &str, from, colour| Band { name: name.into(), from, colour };
+    let bands = vec![band("low", -90.0, [9, 9, 9]), band("wide", -30.0, [255, 0, 0]), band("high", 50.0, [0, 0, 255])];
+    let scope = Scope { name: "mine".into(), bands };
+    for tracer in [Tracer::Beams, Tracer::Rays(Sampler::Rays)] {
+        let bounds = Bounds { unresolved: 2e-3, lattice: 48, ..Bounds::default() };
+        let options = Options { bounds, tracer: Some(tracer), ..Options::default() };
+        let usual = brillianteer::measure(&tolkowsky, &options).unwrap();
+        let mine = brillianteer::measure(&tolkowsky, &Options { scope: scope.clone(), ..options }).unwrap();
+        assert!((mine.light_return() - usual.light_return()).abs() < 1e-12);
+        assert!((mine.glare_return() - usual.glare_return()).abs() < 1e-12);
+        assert_eq!((mine.scope.bands.len(), mine.figures.transmitted.len()), (3, 3));
+        assert!((mine.figures.sum() - 1.0).abs() < 1e-9);
+        let wide = mine.zone("wide").unwrap().transmitted;
+        assert!(wide > 0.3, "{wide}");
+    }
+}
+
+#[test]
+fn what_cannot_be_measured_is_refused_by_name() {
+    let tolkowsky = design("tolkowsky");
+    let refused = |options: Options| brillianteer::measure(&tolkowsky, &options).unwrap_err();
+    let cases = [
+        (Options { head_deg: 90.0, ..Options::default() }, "head_deg is 90; give 0 to below 90 degrees"),
+        (Options { index: Some(0.5), ..Options::default() }, "index is 0.5; give 1 (air) to 5"),
+        (Options { wavelength_nm: f64::NAN, ..Options::default() }, "wavelength_nm is NaN"),
+        (
+            Options { bounds: Bounds { unresolved: 0.0, ..Bounds::default() }, ..Options::default() },
+            "unresolved is 0; give a part between 0 and 1",
+        ),
+        (
+            Options { viewpoint: Viewpoint { tilt_deg: 91.0, ..Viewpoint::default() }, ..Options::default() },
+            "tilt_deg is 91",
+        ),
+    ];
+    for (options, says) in cases {
+        let error = refused(options);
+        assert!(error.to_string().starts_with(says), "{error}");
+    }
+    let near = Viewpoint { projection: Projection::Perspective { distance: 8.0 }, ..Viewpoint::default() };
+    let by_beams = Options { viewpoint: near, tracer: Some(Tracer::Beams), ..Options::default() };
+    assert!(matches!(refused(by_beams), MeasureError::CannotTrace(CannotTrace::Perspective)));
+    let inside = Viewpoint { projection: Projection::Perspective { distance: 0.2 }, ..near };
+    let inside = Options { viewpoint: inside, ..Options::default() };
+    assert!(matches!(refused(inside), MeasureError::CannotTrace(CannotTrace::Eye)));
+    let broken = Design { material: MaterialRef::Index(9.0), ..tolkowsky.clone() };
+    let error = brillianteer::measure(&broken, &Options::default()).unwrap_err();
+    assert!(matches!(error, MeasureError::Specimen(_)), "{error}");
+    assert!(matches!(tolkowsky.cut, Cut::RoundBrilliant(_)) && near.side == Side::Table);
+    let aset = Scope::aset(ASET_CONE, Backing::White);
+    let twice = Scope { bands: [&aset.bands[..], &aset.bands[..]].concat(), ..aset };
+    assert!(matches!(refused(Options { scope: twice, ..Options::default() }), MeasureError::Scope(_)));
 }
 
 #[test]

@@ -11,7 +11,7 @@ use brillianteer::optics::{Material, material, strata};
 use brillianteer::picture::by_rays::Manner;
 use brillianteer::picture::spectral::{Remainder, expose};
 use brillianteer::picture::{ByBeams, Linear, Rows, by_rays};
-use brillianteer::scene::{Film, Light, Medium, Placed, Setting, View, light};
+use brillianteer::scene::{Film, Glare, Light, Medium, Placed, Setting, View, light};
 use brillianteer::trace::ray::{ByRays, Camera, Options, facet_at};
 use brillianteer::trace::sitting::Sitting;
 use brillianteer::trace::surround::{Sky, Surround};
@@ -81,7 +81,7 @@ fn a_brilliant_of_triangles_has_the_figures_and_pictures_of_its_planes() {
     assert!((triangles.sum() - 1.0).abs() < 1e-9);
     assert!((planes.silhouette_area / triangles.silhouette_area - 1.0).abs() < 0.02);
     let film = Film::reaching(Camera::new(&view, &shell).reach(&shell).unwrap(), SIZE);
-    let manner = Manner { options: options(), per_side: 1 };
+    let manner = Manner { options: options(), per_side: 1, glare: Glare::Included };
     let rows = |solid: &Solid| {
         let mut all: Vec<Rows> = vec![];
         let each = |rows: &Rows| -> Result<(), Stopped> {

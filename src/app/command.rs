@@ -31,6 +31,7 @@ pub enum Command {
     Unresolved,
     Total,
     Strongest,
+    Glare,
     CompareSaved,
     CompareFile,
     Split,
@@ -64,7 +65,7 @@ pub const MENUS: [Menu; 5] = [
             &[Top, Side, Bottom, Free, Fit],
             &[Perspective, EyeLeans],
             &[One, Two, Four],
-            &[Wireframe, Facets, Bounces, Unresolved, Total, Strongest],
+            &[Wireframe, Facets, Bounces, Unresolved, Total, Strongest, Glare],
             &[LightPath],
             &[Play, LayOut, NextBehind],
             &[Panels],
@@ -109,6 +110,7 @@ impl Command {
             Unresolved => "Unresolved light",
             Total => "Total reflections",
             Strongest => "Strongest exits only",
+            Glare => "Glare in scopes",
             CompareSaved => "Compare with saved",
             CompareFile => "Compare with file…",
             Split => "Split views",
@@ -156,6 +158,10 @@ impl Command {
             Strongest => {
                 "Shows only the zone that each point's strongest light comes from, as many ASET maps do."
             }
+            Glare => {
+                "Adds the light that the stone's outer surface reflects to scopes and to the zones of figures: what a camera \
+                 records, but oranges and pinks where graders look for red."
+            }
             CompareSaved => "Shows the design as it was saved while C is held.",
             CompareFile => "Shows another file's design while C is held.",
             Split => "Shows both designs side by side in every view.",
@@ -202,6 +208,7 @@ impl Command {
             Unresolved => bare(Key::U),
             Total => bare(Key::I),
             Strongest => bare(Key::X),
+            Glare => bare(Key::V),
             Split => bare(Key::D),
             LightPath => bare(Key::L),
             Play => bare(Key::M),

@@ -6,6 +6,7 @@ use super::shows::Shows;
 use super::studio::Smoothing;
 use crate::io::background::BackgroundRef;
 use crate::picture::{Overlay, Pattern};
+use crate::scene::Glare;
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 
@@ -107,6 +108,8 @@ pub struct Desk {
     pub head: f64,
     /// Whether scopes show strongest exits alone.
     pub strongest: bool,
+    /// Whether scopes and the zones of figures hold the glare of the stone's outer surface.
+    pub glare: bool,
     /// What is drawn over pictures, by its name.
     pub overlay: Option<String>,
     /// Whether figures are those of strongest exits' areas, not of energy.
@@ -161,6 +164,7 @@ impl Default for Desk {
             eye: Eye::default(),
             head: 0.0,
             strongest: false,
+            glare: false,
             overlay: None,
             by_area: false,
             is_split: false,
@@ -182,6 +186,11 @@ impl Default for Desk {
 }
 
 impl Desk {
+    /// Whether scopes hold glare.
+    pub fn glare(&self) -> Glare {
+        if self.glare { Glare::Included } else { Glare::LeftOut }
+    }
+
     /// What hangs behind stones in renders; a file that has gone is none.
     pub fn background(&self) -> Option<BackgroundRef> {
         BackgroundRef::read(self.behind.as_deref()?, Path::new("")).ok()

@@ -366,6 +366,7 @@ impl Editor {
             Command::Unresolved => overlay("unresolved"),
             Command::Total => overlay("total"),
             Command::Strongest => self.desk.strongest,
+            Command::Glare => self.desk.glare,
             Command::Split => self.desk.is_split,
             Command::LightPath => self.following.is_open,
             Command::Play => self.moving.is_on,

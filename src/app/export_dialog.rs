@@ -197,6 +197,11 @@ fn settings(editor: &mut Editor, ui: &mut Ui, export: &mut ExportDialog) {
             }
         });
         ui.end_row();
+        ui.label("Scopes");
+        let meaning = "Under each picture in a scope: what each colour means, how the stone is tilted, what is unresolved, the \
+            stone and the program.";
+        ui.checkbox(&mut export.plan.selection.caption, "Caption and legend").on_hover_text(meaning);
+        ui.end_row();
         ui.label("Also");
         let meaning = "Where the light behind each pixel comes from, as a picture; the layer of all other light; and a page \
             that refracts a moving background through both.";

@@ -5,14 +5,14 @@ use super::framing::{Fit, Framing};
 use super::shows::Shows;
 use super::studio::{Camera, Effort, FINE_RENDER, SPAN, Shot, Which, survey};
 use crate::io::background::BackgroundRef;
-use crate::io::export::{Export, Format, Outputs, Sampler, Told, Tracer, Viewing};
+use crate::io::export::{Export, Format, Outputs, Told, Viewing};
 use crate::io::refraction_map::{self, Coding, MOST_BANDS, MOST_PIXELS};
 use crate::io::refraction_page::{Page, takes, write_page};
 use crate::io::{Failure, rasterize, write_rgba_png};
 use crate::optics::line;
 use crate::picture::{named, profile};
-use crate::scene::{Pose, Projection, Specimen, Viewpoint};
-use crate::trace::unwatched;
+use crate::scene::{Glare, Pose, Specimen, Viewpoint};
+use crate::trace::{Tracer, unwatched};
 use egui::ColorImage;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
@@ -42,12 +42,15 @@ pub struct Selection {
     pub scene: bool,
     /// Pixels along each side.
     pub size: u32,
+    /// Whether pictures in scopes have a caption with a legend under them.
+    pub caption: bool,
 }
 
 impl Default for Selection {
     fn default() -> Self {
         let views = vec![Shows::Render, Shows::Aset, Shows::Hearts, Shows::Arrows];
-        Self { views, formats: vec![Format::Png], map: false, bands: 1, places: 1, scene: false, size: 1024 }
+        let formats = vec![Format::Png];
+        Self { views, formats, map: false, bands: 1, places: 1, scene: false, size: 1024, caption: false }
     }
 }
 
@@ -114,11 +117,12 @@ impl Plan {
             pictures: self.selection.views.iter().filter(|s| is_part(s)).filter_map(picture).collect(),
             size: self.selection.size,
             formats,
+            caption: self.selection.caption,
+            timing: false,
         }
     }
 
     fn viewing<'a>(&'a self, specimen: &'a Specimen, viewpoint: Viewpoint) -> Viewing<'a> {
-        let flat = self.shot.view.projection == Projection::Orthographic;
         Viewing {
             specimen,
             file: &self.stem,
@@ -128,11 +132,9 @@ impl Plan {
             head_deg: self.shot.head,
             unresolved: None,
             polarised: true,
-            tracer: if flat && specimen.stone().is_ok() {
-                Tracer::Beams
-            } else {
-                Tracer::Rays(Sampler::Rays)
-            },
+            // Without glare pictures leave it out; figures list it in any case.
+            glare: Some(self.shot.glare).filter(|glare| *glare == Glare::Included),
+            tracer: Tracer::best(specimen, &viewpoint.view()),
         }
     }
 

@@ -6,7 +6,7 @@ use super::figures_text::{self, About};
 use super::studio::{Grade, Tilts, Which};
 use super::{pane_rows, side_panels, theme};
 use crate::measure::Figures;
-use crate::scene::{ASET_CONE, Backing, Scope};
+use crate::scene::{ASET_CONE, Backing, Glare, Scope};
 use egui::{Align, Button, Color32, Layout, Panel, Rect, RichText, ScrollArea, Sense, Ui, pos2, vec2};
 use egui_plot::{GridInput, GridMark, HoverPosition, Plot, PlotPoint, PlotPoints};
 use std::ops::RangeInclusive;
@@ -49,7 +49,7 @@ fn figures(editor: &mut Editor, ui: &mut Ui) {
     });
     how(editor, ui);
     if let Some(measured) = editor.figures.get(&Which::Present) {
-        table(ui, &lines(measured, other(editor), editor.desk.by_area));
+        table(ui, &lines(measured, other(editor), (editor.desk.by_area, editor.desk.glare())));
         ui.label(RichText::new(state(editor, measured)).weak().small());
     }
 }
@@ -63,9 +63,10 @@ fn other(editor: &Editor) -> Option<&Measured> {
 fn state(editor: &Editor, measured: &Measured) -> String {
     let is_asked = editor.asked.figures.iter().any(|(_, ask)| *ask == measured.ask);
     let state = if is_asked && measured.grade == Grade::Fine { "final" } else { "becoming finer…" };
+    let glare = editor.desk.glare().told();
     match measured.figures.standard_error {
-        error if error > 0.0 => format!("{state}; by rays, standard error {:.2} %", 100.0 * error),
-        _ => state.to_owned(),
+        error if error > 0.0 => format!("{state}; by rays, standard error {:.2} %; {glare}", 100.0 * error),
+        _ => format!("{state}; {glare}"),
     }
 }
 
@@ -76,7 +77,8 @@ fn against_tilt(editor: &mut Editor, ui: &mut Ui) {
     );
     if let Some((ask, tilts)) = &editor.tilts {
         ui.label(RichText::new("in the colours of the zones above").weak().small());
-        ui.add_enabled_ui(editor.asked.tilts.as_ref() == Some(ask), |ui| plot(ui, ask.head, tilts));
+        let (is_asked, glare) = (editor.asked.tilts.as_ref() == Some(ask), editor.desk.glare());
+        ui.add_enabled_ui(is_asked, |ui| plot(ui, (ask.head, glare), tilts));
     } else {
         ui.label(RichText::new("comes when all else is done").weak());
     }
@@ -108,7 +110,8 @@ fn copies(editor: &mut Editor, ui: &mut Ui) {
     if ui.add_enabled(tilts.is_some(), Button::new("Copy tilts as CSV")).on_hover_text(about).clicked()
         && let Some((head, tilts)) = tilts
     {
-        copied(editor, ui, figures_text::tilts(head, &tilts));
+        let text = figures_text::tilts((head, editor.desk.glare()), &tilts);
+        copied(editor, ui, text);
     }
 }
 
@@ -125,7 +128,8 @@ fn as_text(editor: &Editor, as_table: bool) -> Option<String> {
         state: &state,
         other: editor.compared.as_ref().filter(|_| other.is_some()).map(|compared| compared.name.as_str()),
     };
-    let lines = |by_area| lines(measured, other, by_area);
+    let glare = editor.desk.glare();
+    let lines = |by_area| lines(measured, other, (by_area, glare));
     Some(match as_table {
         true => figures_text::csv(&about, &lines(false), &lines(true)),
         false => figures_text::text(&about, &lines(by_area)),
@@ -172,13 +176,14 @@ pub(super) struct Line {
 }
 
 /// Figures of what is no zone: what each is called and means, and whether it stands out.
-const TOTALS: [(&str, &str, Pick, bool); 4] = [
+const TOTALS: [(&str, &str, Pick, bool); 5] = [
     (
         "Light return",
-        "Light from above the horizon, glare included: what makes the stone bright.",
+        "Light from above the horizon that has been inside the stone: what makes it bright. Glare is not in it.",
         |zones| zones.lit,
         true,
     ),
+    (WITH_GLARE, "Light return, and the glare from above the horizon.", |zones| zones.lit_with_glare, false),
     (
         "Glare",
         "Light that the outer surface reflects without having been inside.",
@@ -194,9 +199,16 @@ const TOTALS: [(&str, &str, Pick, bool); 4] = [
     ),
 ];
 
+/// A row that is there where glare is asked for.
+const WITH_GLARE: &str = "With glare";
+
 /// All figures in the order of the panel: those of zones first.
-pub(super) fn lines(measured: &Measured, other: Option<&Measured>, by_area: bool) -> Vec<Line> {
-    let zones = |m: &Measured| Zones::of(&m.figures, m.ask.head, by_area);
+pub(super) fn lines(
+    measured: &Measured,
+    other: Option<&Measured>,
+    (by_area, glare): (bool, Glare),
+) -> Vec<Line> {
+    let zones = |m: &Measured| Zones::of(&m.figures, m.ask.head, (by_area, glare));
     let (present, other) = (zones(measured), other.map(zones));
     let shown = ZONES.iter().filter(|(_, band, _)| *band != "head" || measured.ask.head > 0.0);
     let of_zones = shown.map(|&(name, band, meaning)| Line {
@@ -218,7 +230,10 @@ pub(super) fn lines(measured: &Measured, other: Option<&Measured>, by_area: bool
     let undecided = "Where a stronger exit may hide in what is unresolved, or nothing leaves the stone.";
     match by_area {
         true => of_zones.chain([total(&("Undecided", undecided, |zones| zones.unresolved, false))]).collect(),
-        false => of_zones.chain(TOTALS.iter().map(total)).collect(),
+        false => {
+            let is_shown = |(name, ..): &&(&str, &str, Pick, bool)| *name != WITH_GLARE || glare == Glare::Included;
+            of_zones.chain(TOTALS.iter().filter(is_shown).map(total)).collect()
+        }
     }
 }
 
@@ -241,19 +256,22 @@ pub(super) struct Zones {
     glare: f64,
     absorbed: f64,
     unresolved: f64,
-    /// From above the horizon, but for what the head shuts out.
+    /// From above the horizon, but for what the head shuts out; of light from inside, and of all.
     lit: f64,
+    lit_with_glare: f64,
 }
 
 impl Zones {
-    fn of(figures: &Figures, head: f64, by_area: bool) -> Self {
+    fn of(figures: &Figures, head: f64, (by_area, glare): (bool, Glare)) -> Self {
         let scope = Scope::aset(ASET_CONE, Backing::Black).with_head(head);
-        let energy = |k: usize| figures.surface[k] + figures.transmitted[k];
-        let share = |k: usize| if by_area { figures.strongest_exit_area[k] } else { energy(k) };
+        let share =
+            |k: usize| if by_area { figures.strongest_exit_area[k] } else { energy(figures, k, glare) };
         let bands = scope.bands.iter().enumerate().map(|(k, b)| (b.name.clone(), share(k))).collect();
-        let lit = (1..scope.bands.len()).filter(|&k| scope.bands[k].name != "head").map(energy).sum();
+        let lit = figures.light_return(&scope);
+        let lit_with_glare = lit + figures.glare_return(&scope);
         let unresolved = if by_area { figures.strongest_exit_undecided } else { figures.unresolved };
-        Self { bands, glare: figures.surface.iter().sum(), absorbed: figures.absorbed, unresolved, lit }
+        let glare = figures.surface.iter().sum();
+        Self { bands, glare, absorbed: figures.absorbed, unresolved, lit, lit_with_glare }
     }
 
     fn band(&self, name: &str) -> f64 {
@@ -308,7 +326,7 @@ fn tens(input: GridInput) -> Vec<GridMark> {
 }
 
 /// The zones' light against tilt, in the colours of the bars above.
-fn plot(ui: &mut Ui, head: f64, tilts: &Tilts) {
+fn plot(ui: &mut Ui, (head, glare): (f64, Glare), tilts: &Tilts) {
     let scope = Scope::aset(ASET_CONE, Backing::Black).with_head(head);
     let plot = Plot::new("tilts")
         .height(200.0)
@@ -329,15 +347,15 @@ fn plot(ui: &mut Ui, head: f64, tilts: &Tilts) {
     plot.show(ui, |plot| {
         for (name, band, _) in ZONES.into_iter().filter(|(_, band, _)| *band != "head") {
             let Some(k) = scope.bands.iter().position(|b| b.name == band) else { continue };
-            let points = tilts.iter().map(|(tilt, f)| [*tilt, 100.0 * energy(f, k)]);
+            let points = tilts.iter().map(|(tilt, f)| [*tilt, 100.0 * energy(f, k, glare)]);
             let colour = theme::zone(band, &plot.ctx().global_style().visuals);
             plot.line(egui_plot::Line::new(name, PlotPoints::from_iter(points)).color(colour).width(1.8));
         }
     });
 }
 
-/// The light of a band, whether or not the head is among the scope's bands.
-pub(super) fn energy(figures: &Figures, band: usize) -> f64 {
+/// The light of a band, with or without glare, whether or not the head is among the scope's bands.
+pub(super) fn energy(figures: &Figures, band: usize, glare: Glare) -> f64 {
     let of = |zones: &[f64]| zones.get(band).copied().unwrap_or(0.0);
-    of(&figures.surface) + of(&figures.transmitted)
+    of(&figures.transmitted) + if glare == Glare::Included { of(&figures.surface) } else { 0.0 }
 }

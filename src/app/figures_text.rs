@@ -2,7 +2,7 @@
 
 use super::figures_panel::{Line, ZONES, energy};
 use super::studio::Tilts;
-use crate::scene::{ASET_CONE, Backing, Scope};
+use crate::scene::{ASET_CONE, Backing, Glare, Scope};
 use std::fmt::Write as _;
 
 /// What figures are of, in words.
@@ -60,7 +60,7 @@ pub fn csv(about: &About, energies: &[Line], areas: &[Line]) -> String {
 }
 
 /// The figures against tilt as a table: degrees, then percent of each zone.
-pub fn tilts(head: f64, tilts: &Tilts) -> String {
+pub fn tilts((head, glare): (f64, Glare), tilts: &Tilts) -> String {
     let scope = Scope::aset(ASET_CONE, Backing::Black).with_head(head);
     let zones = ZONES
         .iter()
@@ -69,7 +69,7 @@ pub fn tilts(head: f64, tilts: &Tilts) -> String {
     let heads = zones.iter().map(|(name, _)| format!("{}_percent", name.to_lowercase()));
     let mut table = format!("tilt_degrees,{}\r\n", heads.collect::<Vec<_>>().join(","));
     for (tilt, figures) in tilts {
-        let cells = zones.iter().map(|(_, band)| format!("{:.4}", 100.0 * energy(figures, *band)));
+        let cells = zones.iter().map(|(_, band)| format!("{:.4}", 100.0 * energy(figures, *band, glare)));
         let _ = write!(table, "{tilt},{}\r\n", cells.collect::<Vec<_>>().join(","));
     }
     table

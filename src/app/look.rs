@@ -16,20 +16,22 @@ pub struct Look {
     large: Option<usize>,
     eye: Eye,
     strongest: bool,
+    glare: bool,
     overlay: Option<String>,
     is_split: bool,
 }
 
 impl Look {
     fn of(desk: &Desk) -> Self {
-        let Desk { layout, panes, large, eye, strongest, is_split, .. } = *desk;
-        Self { layout, panes, large, eye, strongest, overlay: desk.overlay.clone(), is_split }
+        let Desk { layout, panes, large, eye, strongest, glare, is_split, .. } = *desk;
+        Self { layout, panes, large, eye, strongest, glare, overlay: desk.overlay.clone(), is_split }
     }
 
     fn lay(self, desk: &mut Desk) {
-        let Self { layout, panes, large, eye, strongest, overlay, is_split } = self;
+        let Self { layout, panes, large, eye, strongest, glare, overlay, is_split } = self;
         (desk.layout, desk.panes, desk.large, desk.eye) = (layout, panes, large, eye);
-        (desk.strongest, desk.overlay, desk.is_split) = (strongest, overlay, is_split);
+        (desk.strongest, desk.glare) = (strongest, glare);
+        (desk.overlay, desk.is_split) = (overlay, is_split);
     }
 }
 

@@ -260,6 +260,7 @@ pub fn does(editor: &mut Editor, command: Command, ctx: &Context) {
         Command::Unresolved => desk.toggle_overlay("unresolved"),
         Command::Total => desk.toggle_overlay("total"),
         Command::Strongest => desk.strongest = !desk.strongest,
+        Command::Glare => desk.glare = !desk.glare,
         Command::CompareSaved => match Compared::of_saved(&editor.document) {
             Ok(compared) => editor.compared = Some(compared),
             Err(why) => editor.notes.trouble(why),

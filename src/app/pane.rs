@@ -9,7 +9,7 @@ use super::studio::{Grade, Shot, Which};
 use super::{liquid, menus, refraction_view, theme, view_menu};
 use crate::cut::Cut;
 use crate::math::SolidRef;
-use crate::scene::{ASET_CONE, Backing, Film, Scope, Side, Specimen, View};
+use crate::scene::{ASET_CONE, Backing, Film, Glare, Scope, Side, Specimen, View};
 use crate::trace::ray::Camera;
 use egui::{
     Align, Color32, ComboBox, EventFilter, Key, Modifiers, PointerButton, Rect, Response, RichText, Role,
@@ -123,7 +123,24 @@ fn state(editor: &Editor, ui: &mut Ui, pane: usize) {
         }
         _ => ("…".to_owned(), "Becoming finer.".to_owned()),
     };
+    if let Some((reading, meaning)) = reading(shot).filter(|_| has_room(ui, 150.0)) {
+        ui.label(RichText::new(reading).weak().small()).on_hover_text(meaning);
+    }
     ui.label(RichText::new(text).weak().small()).on_hover_text(format!("By {}. {meaning}", taken.tracer));
+}
+
+/// What a picture in a scope shows of the light, in two words and in a sentence.
+fn reading(shot: &Shot) -> Option<(&'static str, &'static str)> {
+    shot.shows.scoped()?;
+    Some(match (shot.strongest, shot.glare) {
+        (true, _) => ("strongest exits", "The zone of the strongest light at each point alone."),
+        (false, Glare::LeftOut) => {
+            ("without glare", "All light that has been inside the stone; what the outer surface reflects is left out.")
+        }
+        (false, Glare::Included) => {
+            ("with glare", "All light, with what the outer surface reflects, as a camera records it.")
+        }
+    })
 }
 
 /// Whether a picture is no physics.

@@ -6,7 +6,7 @@ use super::extent::Extent;
 use super::rows::{NUMBER, Number, UNKNOWN, field_width, named, number_row, skip_control};
 use crate::cut::{Cut, Design, MaterialRef, Size};
 use crate::optics::{Material, line, materials};
-use egui::{ComboBox, Ui};
+use egui::{ComboBox, RichText, Ui};
 use std::ops::RangeInclusive;
 use std::sync::Arc;
 
@@ -37,6 +37,10 @@ fn is_own(material: &MaterialRef) -> bool {
     !matches!(material, MaterialRef::Name(_))
 }
 
+/// What is said of a material whose colour is no measurement.
+const ILLUSTRATIVE: &str = "\nIts colour is illustrative: chosen to look like the gem's, and not measured. What the stone \
+    absorbs follows from it.";
+
 fn material(design: &mut Design, known: &Material, ui: &mut Ui) {
     ui.horizontal(|ui| {
         let meaning = "What the stone is made of: it sets refraction, dispersion and colour.";
@@ -52,14 +56,24 @@ fn material(design: &mut Design, known: &Material, ui: &mut Ui) {
             all.sort_by_key(|m| m.name.as_str());
             for material in all {
                 let chosen = name == material.name;
-                let about = format!("{}\nindex {:.4}", material.description, material.index(line::SODIUM_D));
-                if ui.selectable_label(chosen, &material.name).on_hover_text(about).clicked() && !chosen {
+                let colour = if material.colour_is_illustrative { ILLUSTRATIVE } else { "" };
+                let about =
+                    format!("{}\nindex {:.4}{colour}", material.description, material.index(line::SODIUM_D));
+                let entry = if material.colour_is_illustrative {
+                    format!("{}   (illustrative colour)", material.name)
+                } else {
+                    material.name.clone()
+                };
+                if ui.selectable_label(chosen, entry).on_hover_text(about).clicked() && !chosen {
                     design.material = MaterialRef::Name(material.name.clone());
                 }
             }
         });
         combo.response.labelled_by(label.id);
     });
+    if known.colour_is_illustrative {
+        ui.label(RichText::new("illustrative colour").weak().small()).on_hover_text(ILLUSTRATIVE.trim_start());
+    }
     if matches!(design.cut, Cut::Glass(_)) {
         company_rows::two_numbers(&mut design.material, known, ui);
     }

@@ -1,7 +1,7 @@
 //! What is put under light: one stone, or the stones of a scene in their places.
 
 use super::Failure;
-use super::specimen::Specimen;
+use super::specimen::{Specimen, asked_material, note_colour};
 use crate::cut::{MaterialRef, Size};
 use crate::io::background::BackgroundRef;
 use crate::io::library;
@@ -68,7 +68,7 @@ impl Assembly {
         size: Option<Size>,
         mesh: MeshOptions,
     ) -> Result<Self, Failure> {
-        let material = material.map(asked_material).transpose()?;
+        let material = material.map(|text| asked_material(text).map(|(_, material)| material)).transpose()?;
         match scene(file)? {
             Some(scene) => Self::of_scene(file, scene, material.as_ref(), (size, mesh)),
             None => Self::of_stone(Specimen::load(file, mesh)?, material, size),
@@ -146,15 +146,6 @@ pub fn is_scene(file: &Path) -> bool {
         true => scene_file::is_scene(file),
         false => library::scene(&file.to_string_lossy()).is_some(),
     }
-}
-
-/// The material that a command line asks for.
-fn asked_material(text: &str) -> Result<Material, Failure> {
-    let asked = text.parse().map_or_else(|_| MaterialRef::Name(text.to_owned()), MaterialRef::Index);
-    let told = |error: crate::cut::MaterialError| {
-        Failure::Usage(format!("--material: {}", error.to_string().trim_start_matches("material: ")))
-    };
-    asked.material().map_err(told)
 }
 
 /// The cuts of a scene, each read once, by what the scene calls them.

@@ -3,17 +3,16 @@
 use super::sampler::on_card;
 use super::specimen::Specimen;
 use super::{Failure, json, print};
-use crate::io::export::{Sampler, Subject};
 use crate::io::mesh_options::MeshOptions;
 use crate::math::Polytope;
 use crate::optics::{line, strata};
 use crate::picture::by_rays::Manner;
 use crate::picture::{ByBeams, Layer, paint};
-use crate::scene::{ASET_CONE, Backing, Film, Light, Medium, Placed, Scope, Setting, View};
+use crate::scene::{ASET_CONE, Backing, Film, Glare, Light, Medium, Placed, Scope, Setting, View};
 use crate::trace::ray::{ByRays, Camera, Options, Tracer};
 use crate::trace::sitting::{Exposure, Look, Sitting};
 use crate::trace::surround::{Sky, Surround};
-use crate::trace::{beam, unwatched};
+use crate::trace::{Sampler, Subject, beam, unwatched};
 use clap::Args;
 use glam::DVec2;
 use serde_json::{Value, json};
@@ -122,7 +121,7 @@ fn in_scope(specimen: &Specimen, card: Sampler, size: u32, bounces: u32) -> Resu
     let look = Subject { specimen, medium, view: &view, scope: &scope };
     let polytope = polytope(specimen)?;
     let film = Film::around(polytope, &view.basis(), size);
-    let manner = Manner { options: options(bounces), per_side: 1 };
+    let manner = Manner { options: options(bounces), per_side: 1, glare: Glare::Included };
     let mut rows = vec![];
     for sampler in samplers(card) {
         let picture = || sampler.rows(look, &film, &manner, &unwatched, |_| Ok(()));
@@ -131,7 +130,7 @@ fn in_scope(specimen: &Specimen, card: Sampler, size: u32, bounces: u32) -> Resu
     let options = beam::Options { unresolved: UNRESOLVED, ..beam::Options::default() };
     let beams = || {
         let beams = beam::trace(polytope, medium, &view, &options, &unwatched)?;
-        paint(&Layer::energy(&beams, &scope), &film, &unwatched, |_| Ok::<_, Failure>(()))
+        paint(&Layer::energy(&beams, &scope, Glare::Included), &film, &unwatched, |_| Ok::<_, Failure>(()))
     };
     let by = format!("exact beams, unresolved {UNRESOLVED}");
     rows.push(Row { tracer: "beam", by, milliseconds: timed(beams)? });

@@ -1,13 +1,13 @@
 //! `export`: pictures, drawings and figures of a stone, as files.
 
 use super::mesh_options::MeshArguments;
-use super::options::{LightOptions, ViewOptions};
+use super::options::{LightOptions, ViewOptions, scoped};
 use super::progress::Progress;
-use super::specimen::{Specimen, stem};
+use super::specimen::stem;
 use super::{Failure, each_file};
 use crate::io::export::{self, Format, Outputs, first_twice};
-use crate::io::{MOST_PIXELS, scope_file};
-use crate::picture::{Picture, Scoped, named, names};
+use crate::io::MOST_PIXELS;
+use crate::picture::{Picture, named, names};
 use clap::builder::PossibleValue;
 use clap::{Args, ValueEnum};
 use std::path::{Path, PathBuf};
@@ -20,8 +20,8 @@ pub struct Export {
     /// Pictures to make, separated by commas [default: all of them]
     #[arg(long, value_delimiter = ',', value_parser = names().to_vec())]
     views: Vec<String>,
-    /// A scope of your own, as a file (see `scopes`); may be given several times
-    #[arg(long, value_name = "FILE")]
+    /// A scope of your own, as a file, or a scope's name (see `scopes`); may be given several times
+    #[arg(long, value_name = "SCOPE")]
     scope: Vec<PathBuf>,
     /// Pixels along each side
     #[arg(long, default_value_t = 1024, value_parser = clap::value_parser!(u32).range(16..=i64::from(MOST_PIXELS)))]
@@ -32,6 +32,12 @@ pub struct Export {
     /// Folder to write to
     #[arg(long, default_value = "out")]
     out: PathBuf,
+    /// Draw a caption under pictures in scopes: what each colour means, view, error, stone and program
+    #[arg(long)]
+    caption: bool,
+    /// Tell in the figures how long they took, which differs from run to run
+    #[arg(long)]
+    timing: bool,
     #[command(flatten)]
     view: ViewOptions,
     #[command(flatten)]
@@ -63,7 +69,7 @@ impl Export {
         self.distinct(&all)?;
         all.iter().try_for_each(Outputs::check)?;
         each_file(&self.files, |file| {
-            let specimen = Specimen::load(file, self.mesh.options())?;
+            let specimen = self.light.specimen(file, self.mesh.options())?;
             let viewing = self.light.viewing(&specimen, &self.view)?;
             let outputs = self.outputs(file, &pictures);
             let progress = Progress::new(&specimen.design.name);
@@ -85,6 +91,8 @@ impl Export {
             pictures: pictures.to_vec(),
             size: self.size,
             formats: self.format.clone(),
+            caption: self.caption,
+            timing: self.timing,
         }
     }
 
@@ -94,9 +102,8 @@ impl Export {
         let mut pictures: Vec<(String, Picture)> =
             wanted.into_iter().filter_map(|name| named(&name).map(|p| (name, p))).collect();
         for path in &self.scope {
-            let scope = scope_file::read(path).map_err(Failure::Input)?;
-            let name = scope.name.clone();
-            pictures.push((name, Picture::Scoped(Scoped { scope, side: None, takes_head: true })));
+            let scoped = scoped(path)?;
+            pictures.push((scoped.scope.name.clone(), Picture::Scoped(scoped)));
         }
         Ok(pictures)
     }

@@ -45,6 +45,7 @@ impl List {
                     "source": m.source,
                     "valid_nm": m.valid_nm,
                     "density": m.density,
+                    "colour_is_illustrative": m.colour_is_illustrative,
                 })
             };
             return print(&json(&Value::Array(materials().iter().map(entry).collect())));

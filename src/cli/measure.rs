@@ -1,12 +1,13 @@
 //! `measure`: the figures of one view.
 
 use super::mesh_options::MeshArguments;
-use super::options::{LightOptions, ViewOptions};
+use super::options::{LightOptions, ViewOptions, scoped};
 use super::progress::Progress;
-use super::specimen::Specimen;
 use super::{Failure, each_file, json, print};
-use crate::io::export::{Measured, measure};
-use crate::scene::Band;
+use crate::io::export::{Report, measure};
+use crate::picture::Scoped;
+use crate::scene::Glare;
+use crate::trace::Tracer;
 use clap::Args;
 use std::fmt::Write;
 use std::path::PathBuf;
@@ -19,6 +20,12 @@ pub struct Measure {
     /// Print JSON: one object, or for several files one a line
     #[arg(long)]
     json: bool,
+    /// The scope whose zones are measured: a scope's name (see `scopes`), or a scope file [default: aset]
+    #[arg(long, value_name = "SCOPE")]
+    scope: Option<PathBuf>,
+    /// Tell how long it took, which differs from run to run
+    #[arg(long)]
+    timing: bool,
     #[command(flatten)]
     view: ViewOptions,
     #[command(flatten)]
@@ -29,66 +36,71 @@ pub struct Measure {
 
 impl Measure {
     pub fn run(&self) -> Result<(), Failure> {
+        let scoped = self.scope.as_deref().map_or_else(|| Ok(Scoped::aset()), scoped)?;
         each_file(&self.files, |file| {
-            let specimen = Specimen::load(file, self.mesh.options())?;
+            let specimen = self.light.specimen(file, self.mesh.options())?;
             let viewing = self.light.viewing(&specimen, &self.view)?;
-            let measured = {
+            let report = {
                 let progress = Progress::new(&format!("measuring {}", specimen.path));
-                measure(&viewing, &progress.watch(), &|told| progress.tell(told))?
+                measure(&viewing, &scoped, &progress.watch(), &|told| progress.tell(told))?
             };
             if self.json {
-                let value = measured.json();
+                let value = report.json(self.timing);
                 return print(&if self.files.len() > 1 { value.to_string() } else { json(&value) });
             }
-            print(&table(&measured))
+            print(&table(&report, self.timing))
         })
     }
 }
 
 /// A table for people, in percent of the silhouette.
-fn table(measured: &Measured) -> String {
-    let Measured { viewing, figures: f, .. } = measured;
+fn table(report: &Report, timing: bool) -> String {
+    let Report { viewing, measured, .. } = report;
+    let (f, scope) = (&measured.figures, &measured.scope);
+    let has_glare = viewing.glare != Some(Glare::LeftOut);
     let mut text = format!(
-        "{}: {}, index {:.4}, {}\n\n{:<12}{:>12}{:>12}{:>12}\n",
+        "{}: {}, {}, index {:.4}, {}, in {}\n\n",
         viewing.file,
         viewing.specimen.design.name,
+        viewing.specimen.material.name,
         viewing.medium.index,
         viewing.viewpoint.told(),
-        "% of face",
-        "glare",
-        "transmitted",
-        "strongest"
+        scope.name,
     );
-    let mut line = |name: &str, values: [f64; 3]| {
-        let [a, b, c] = values.map(|v| 100.0 * v);
-        let _ = writeln!(text, "{name:<12}{a:>12.3}{b:>12.3}{c:>12.3}");
+    let mut line = |name: &str, [glare, rest @ ..]: [String; 3]| {
+        let columns = Some(glare).filter(|_| has_glare).into_iter().chain(rest);
+        let columns: String = columns.map(|column| format!("{column:>12}")).collect();
+        let _ = writeln!(text, "{name:<12}{columns}");
     };
-    for (i, band) in measured.scope.bands.iter().enumerate().rev() {
-        line(&band.name, [f.surface[i], f.transmitted[i], f.strongest_exit_area[i]]);
+    line("% of face", ["glare", "transmitted", "strongest"].map(String::from));
+    let mut row = |name: &str, values: [f64; 3]| line(name, values.map(|v| format!("{:.3}", 100.0 * v)));
+    for (i, band) in scope.bands.iter().enumerate().rev() {
+        row(&band.name, [f.surface[i], f.transmitted[i], f.strongest_exit_area[i]]);
     }
-    line("undecided", [0.0, 0.0, f.strongest_exit_undecided]);
+    row("undecided", [0.0, 0.0, f.strongest_exit_undecided]);
     let sum = |zones: &[f64]| zones.iter().sum::<f64>();
-    line(
-        "sum",
-        [sum(&f.surface), sum(&f.transmitted), sum(&f.strongest_exit_area) + f.strongest_exit_undecided],
-    );
-    let lit = |(i, band): &(usize, &Band)| *i > 0 && band.name != "head";
-    let bands = measured.scope.bands.iter().enumerate().filter(lit);
-    let returned: f64 = bands.map(|(i, _)| f.surface[i] + f.transmitted[i]).sum();
+    row("sum", [sum(&f.surface), sum(&f.transmitted), sum(&f.strongest_exit_area) + f.strongest_exit_undecided]);
+    let (returned, glare) = (measured.light_return(), measured.glare_return());
+    let glare = match has_glare {
+        true => format!("with glare {:.3} %", 100.0 * (returned + glare)),
+        false => format!("glare of {:.3} % is left out", 100.0 * measured.glare()),
+    };
     let _ = write!(
         text,
-        "\nlight from above the horizon {:.3} %, absorbed {:.3} %, unresolved {:.3} %{}\n{} by {} {} in {:.3} s",
+        "\nlight return {:.3} %, {glare}, absorbed {:.3} %, unresolved {:.3} %{}\n{} by {} {}",
         100.0 * returned,
         100.0 * f.absorbed,
         100.0 * f.unresolved,
-        match measured.sampler {
-            None => " (the most by which any light is too low)".to_string(),
-            Some(_) => format!(", standard error {:.3} %", 100.0 * f.standard_error),
+        match report.tracer {
+            Tracer::Beams => " (the most by which any light is too low)".to_string(),
+            Tracer::Rays(_) => format!(", standard error {:.3} %", 100.0 * f.standard_error),
         },
         if viewing.polarised { "polarised," } else { "unpolarised," },
         f.beams,
-        measured.sampler.map_or_else(|| "exact beams".into(), |s| s.told()),
-        measured.seconds,
+        report.tracer.told(),
     );
+    if timing {
+        let _ = write!(text, " in {:.3} s", report.seconds);
+    }
     text
 }

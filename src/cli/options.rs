@@ -2,11 +2,17 @@
 
 use super::Failure;
 use super::sampler::{on_card, quickest};
-use super::specimen::Specimen;
-use crate::io::export::{Sampler, Tracer, Viewing};
+use super::specimen::{Specimen, note_colour};
+use crate::cut::Size;
+use crate::io::export::Viewing;
+use crate::io::mesh_options::MeshOptions;
+use crate::io::scope_file;
 use crate::optics::line;
-use crate::scene::{Lean, Medium, Projection, Side, Viewpoint};
+use crate::picture::{Picture, Scoped, named, names};
+use crate::scene::{Glare, Lean, Medium, Projection, Side, Viewpoint};
+use crate::trace::{Sampler, Tracer};
 use clap::{Args, ValueEnum};
+use std::path::Path;
 
 /// From where the stone is seen.
 #[derive(Debug, Clone, Args)]
@@ -72,6 +78,19 @@ impl ViewOptions {
 #[derive(Debug, Clone, Args)]
 #[command(next_help_heading = "Light")]
 pub struct LightOptions {
+    /// A material's name, or an index, instead of the file's
+    #[arg(long, value_name = "MATERIAL")]
+    pub material: Option<String>,
+    /// The stone's size, such as 6.5mm or 1.2ct, instead of the file's
+    #[arg(long, value_name = "SIZE")]
+    pub stone: Option<Size>,
+    /// Add glare, the light that the stone's outer surface reflects, to pictures: what a camera in the scope records, but
+    /// orange and pink where graders look for red
+    #[arg(long, conflicts_with = "no_glare")]
+    pub glare: bool,
+    /// Leave glare out of figures as well: pictures hold none unless --glare is given, and figures list it beside the rest
+    #[arg(long)]
+    pub no_glare: bool,
     /// Use this refractive index instead of the material's
     #[arg(long, value_name = "N", conflicts_with = "wavelength", allow_negative_numbers = true)]
     pub index: Option<f64>,
@@ -106,10 +125,32 @@ pub enum TracerName {
     Gpu,
 }
 
+/// A scope that comes with the program, by its name, or one of the user's own, by its file.
+pub fn scoped(given: &Path) -> Result<Scoped, Failure> {
+    let name = given.to_string_lossy();
+    if let Some(Picture::Scoped(scoped)) = named(&name).filter(|_| !given.is_file()) {
+        return Ok(scoped);
+    }
+    let is_name = !given.exists() && given.components().count() == 1 && given.extension().is_none();
+    if is_name {
+        let is_scope = |name: &&str| matches!(named(name), Some(Picture::Scoped(_)));
+        let known = names().into_iter().filter(is_scope).collect::<Vec<_>>().join(", ");
+        return Err(Failure::Usage(format!("--scope {name}: give the file of a scope, or one of {known}")));
+    }
+    let scope = scope_file::read(given).map_err(Failure::Input)?;
+    Ok(Scoped { scope, side: None, takes_head: true })
+}
+
 impl LightOptions {
+    /// Reads a stone, made of the material and as large as the options say.
+    pub fn specimen(&self, file: &Path, mesh: MeshOptions) -> Result<Specimen, Failure> {
+        Specimen::load(file, mesh)?.made_of(self.material.as_deref(), self.stone)
+    }
+
     /// How a specimen is looked at.
     pub fn viewing<'a>(&self, specimen: &'a Specimen, view: &ViewOptions) -> Result<Viewing<'a>, Failure> {
         let viewpoint = view.viewpoint()?;
+        note_colour(&specimen.material);
         Ok(Viewing {
             specimen,
             file: &specimen.path,
@@ -119,6 +160,11 @@ impl LightOptions {
             head_deg: self.head()?,
             unresolved: self.unresolved()?,
             polarised: !self.unpolarised,
+            glare: match (self.glare, self.no_glare) {
+                (true, _) => Some(Glare::Included),
+                (_, true) => Some(Glare::LeftOut),
+                _ => None,
+            },
             tracer: self.tracer(&viewpoint, specimen)?,
         })
     }

@@ -6,7 +6,7 @@ use super::picture_options::PictureOptions;
 use super::sampler::{on_card, quickest};
 use super::{Failure, tell};
 use crate::io::background::{BackgroundError, BackgroundRef};
-use crate::io::export::Sampler;
+use crate::trace::Sampler;
 use crate::io::lighting::Lighting;
 use crate::optics::Illuminant;
 use crate::picture::{Bloom, Develop, Linear, Overlay, Tone, develop, lay};

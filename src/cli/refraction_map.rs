@@ -7,7 +7,7 @@ use super::progress::Progress;
 use super::specimen::stem;
 use super::{Failure, distinct, each_file, say};
 use crate::io::background::BackgroundRef;
-use crate::io::export::{Sampler, Told};
+use crate::io::export::Told;
 use crate::io::refraction_map::{self as files, Coding, MOST_BANDS, MOST_PIXELS, MOST_PLACES};
 use crate::io::refraction_page::{MOST_MEGABYTES, Page, takes, write_page};
 use crate::io::write_rgba_png;
@@ -16,6 +16,7 @@ use crate::picture::{
     Backdrop, Background, Bloom, Carried, Develop, RefractionMap, Survey, Tone, develop, refract,
 };
 use crate::scene::View;
+use crate::trace::Sampler;
 use clap::{Args, ValueEnum};
 use glam::DVec2;
 use std::path::{Path, PathBuf};

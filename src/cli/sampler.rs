@@ -1,7 +1,7 @@
 //! What follows rays: a graphics card where that is asked for or quicker, else the processor.
 
 use super::say;
-use crate::io::export::Sampler;
+use crate::trace::Sampler;
 
 #[cfg(feature = "gpu")]
 mod card {

@@ -1,13 +1,17 @@
 //! The stone that a command works on, read and built.
 
 use super::{Failure, say};
+use crate::cut::{MaterialError, MaterialRef, Size};
 use crate::io::cut_file::{self, CutFileError};
 use crate::io::design_file::{self, Brought};
 use crate::io::library;
 use crate::io::mesh_options::MeshOptions;
+use crate::optics::Material;
 use crate::scene;
+use std::collections::BTreeSet;
 use std::ops::Deref;
 use std::path::Path;
+use std::sync::{Mutex, PoisonError};
 
 /// A stone, and the file that it was read from.
 #[derive(Debug)]
@@ -59,9 +63,47 @@ impl Specimen {
         Ok(specimen)
     }
 
+    /// The same stone of another material (a name or an index) and size, where they are given.
+    pub fn made_of(self, material: Option<&str>, size: Option<Size>) -> Result<Self, Failure> {
+        let Self { path, made } = self;
+        let mut design = made.design.clone();
+        let mut of = made.material.clone();
+        if let Some(text) = material {
+            (design.material, of) = asked_material(text)?;
+        }
+        if let Some(size) = size {
+            let diameter = size.diameter_mm(made.solid().volume(), &of);
+            design.diameter_mm = diameter.map_err(|e| Failure::Input(format!("{path}: size: {e}")))?;
+        }
+        let made = made.remade(design).map_err(|e| Failure::Input(format!("{path}: {e}")))?;
+        Ok(Self { path, made })
+    }
+
     /// Says that something about it is odd.
     pub fn say(&self, what: &str) {
         say(&format!("warning: {}: {what}", self.path));
+    }
+}
+
+/// The material that a command line asks for: a name or an index.
+pub fn asked_material(text: &str) -> Result<(MaterialRef, Material), Failure> {
+    let asked = text.parse().map_or_else(|_| MaterialRef::Name(text.to_owned()), MaterialRef::Index);
+    let told = |error: MaterialError| {
+        Failure::Usage(format!("--material: {}", error.to_string().trim_start_matches("material: ")))
+    };
+    let material = asked.material().map_err(told)?;
+    Ok((asked, material))
+}
+
+/// Says of a material whose colour is no measurement that it is none, once a run.
+pub fn note_colour(material: &Material) {
+    static SAID: Mutex<BTreeSet<String>> = Mutex::new(BTreeSet::new());
+    let is_new = || SAID.lock().unwrap_or_else(PoisonError::into_inner).insert(material.name.clone());
+    if material.colour_is_illustrative && is_new() {
+        say(&format!(
+            "note: the colour of {} is illustrative: chosen to look like the gem's, and not measured",
+            material.name
+        ));
     }
 }
 

@@ -9,14 +9,13 @@ mod viewing;
 #[cfg(test)]
 mod tests;
 
-pub use figures::{LATTICE, Measured, measure};
-pub use sampler::{Sampler, Subject};
+pub use figures::{Report, measure};
 pub use told::{Tell, Told};
-pub use viewing::{Tracer, Viewing};
+pub use viewing::Viewing;
 
 use super::{Failure, WriteError, write};
-use crate::picture::Picture;
-use crate::trace::Watch;
+use crate::picture::{Picture, Scoped};
+use crate::trace::{Tracer, Watch};
 use pictures::Pictures;
 use std::collections::HashSet;
 use std::io::Write;
@@ -25,6 +24,9 @@ use told::Pace;
 
 /// The largest side of an EXR, in pixels: it is held in memory, a dozen channels deep.
 pub const MOST_EXR_PIXELS: u32 = 8192;
+
+/// The least side of a picture with a caption, in pixels.
+pub const LEAST_CAPTIONED: u32 = 192;
 
 /// How long a drawing takes, and the figures, where a picture in a scope takes 1: roughly, for progress.
 const DRAWING: f64 = 0.1;
@@ -71,6 +73,10 @@ pub struct Outputs {
     pub size: u32,
     /// Kinds of file.
     pub formats: Vec<Format>,
+    /// Whether a caption with the legend of the scope's zones is drawn under pictures in scopes, of PNG and SVG.
+    pub caption: bool,
+    /// Whether the figures hold the time that they took, which makes files differ from run to run.
+    pub timing: bool,
 }
 
 impl Outputs {
@@ -83,6 +89,12 @@ impl Outputs {
             let size = self.size;
             let message = format!("{size} pixels along each side: an EXR may have {MOST_EXR_PIXELS}");
             return Err(Failure::Usage(message));
+        }
+        if self.caption && self.size < LEAST_CAPTIONED {
+            let size = self.size;
+            return Err(Failure::Usage(format!(
+                "{size} pixels along each side: a caption needs {LEAST_CAPTIONED}"
+            )));
         }
         match first_twice(std::slice::from_ref(self)) {
             None => Ok(()),
@@ -209,8 +221,8 @@ impl Export<'_> {
 
     fn write_figures(&self, watch: Watch, tell: Tell) -> Result<(), Failure> {
         tell(Told::Begun(&format!("measuring {}", self.viewing.file)))?;
-        let measured = measure(&self.viewing, watch, tell)?;
-        write_text(&self.figures_path(), &format!("{:#}\n", measured.json()), tell)
+        let report = measure(&self.viewing, &Scoped::aset(), watch, tell)?;
+        write_text(&self.figures_path(), &format!("{:#}\n", report.json(self.outputs.timing)), tell)
     }
 }
 

@@ -40,6 +40,26 @@ impl Figures {
     pub fn sum(&self) -> f64 {
         self.surface.iter().chain(&self.transmitted).sum::<f64>() + self.absorbed + self.unresolved
     }
+
+    /// The light return under the scope that these figures are of: light that has been inside the stone and comes from
+    /// bands above the horizon that shine. For a scope with a border at the horizon; of a band on both sides of it,
+    /// nothing is counted.
+    pub fn light_return(&self, scope: &Scope) -> f64 {
+        scope.shining().map(|k| self.transmitted[k]).sum()
+    }
+
+    /// The glare out of the same bands.
+    pub fn glare_return(&self, scope: &Scope) -> f64 {
+        scope.shining().map(|k| self.surface[k]).sum()
+    }
+
+    /// Adds the zone after `k` to zone `k`.
+    pub(super) fn join(&mut self, k: usize) {
+        for zones in [&mut self.surface, &mut self.transmitted, &mut self.strongest_exit_area] {
+            let next = zones.remove(k + 1);
+            zones[k] += next;
+        }
+    }
 }
 
 /// The figures of exact beams under a scope.

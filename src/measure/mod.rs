@@ -1,9 +1,15 @@
 //! Floor 4: figures. How much light comes from where, each with its error.
+//!
+//! [`measure`](measure()) does all of it in one call.
 
 mod figures;
+mod measured;
 mod sampled;
 
 pub use figures::{Figures, Zones, by_beams};
+pub use measured::{
+    Bounds, LATTICE, MeasureError, Measured, Options, UNRESOLVED, Zone, measure, measure_subject,
+};
 #[cfg(feature = "gpu")]
 pub use sampled::by_gpu;
 pub use sampled::by_rays;

@@ -26,6 +26,8 @@ pub struct Material {
     pub valid_nm: Option<(f64, f64)>,
     /// What it weighs, g/cm³; `None` where that is not known.
     pub density: Option<f64>,
+    /// Whether its colour is chosen to look like the gem's, and not measured.
+    pub colour_is_illustrative: bool,
 }
 
 impl Material {
@@ -76,6 +78,7 @@ impl Material {
             source,
             valid_nm,
             density: None,
+            colour_is_illustrative: false,
         }
     }
 

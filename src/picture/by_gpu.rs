@@ -3,7 +3,7 @@
 use super::Rows;
 use super::by_rays::Manner;
 use crate::math::SolidRef;
-use crate::scene::{Film, Medium, Scope, View};
+use crate::scene::{Film, Glare, Medium, Scope, View};
 use crate::trace::gpu::{Gpu, GpuError, Seen, Shot};
 use crate::trace::{Stopped, Watch};
 use glam::DVec2;
@@ -28,10 +28,11 @@ pub fn trace<'a, E: From<Stopped> + From<GpuError>>(
     watch: Watch,
     mut each: impl FnMut(&Rows) -> Result<(), E>,
 ) -> Result<(), E> {
-    let Manner { options, per_side } = *manner;
+    let Manner { options, per_side, glare } = *manner;
     let (film, shift, size) = (*film, DVec2::splat(0.5), film.size[0]);
     let shot = Shot { solid: solid.into(), medium, view, scope, film, per_side, shift, options };
     let bands = scope.bands.len();
+    let share = if glare == Glare::Included { 1.0 } else { 0.0 };
     gpu.scope(&shot, watch, |first, pixels| {
         let count = pixels.len() as u32 / size;
         let mut rows = Rows::new(first, count, size, 2 * bands + 1);
@@ -41,7 +42,7 @@ pub fn trace<'a, E: From<Stopped> + From<GpuError>>(
                 to.zip(line).for_each(|(to, seen)| *to = f64::from(value(seen)));
             };
             for band in 0..bands {
-                fill(band, &|seen| seen.transmitted[band] + seen.surface[band]);
+                fill(band, &|seen| seen.transmitted[band] + share * seen.surface[band]);
                 fill(bands + band, &|seen| seen.strongest[band]);
             }
             fill(2 * bands, &Seen::hit);

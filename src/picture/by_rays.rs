@@ -2,7 +2,7 @@
 
 use super::Rows;
 use crate::math::SolidRef;
-use crate::scene::{Film, Medium, Scope, View};
+use crate::scene::{Film, Glare, Medium, Scope, View};
 use crate::trace::ray::{Camera, Exit, Options, Tracer};
 use crate::trace::{Stopped, Watch};
 use glam::{DVec2, DVec3};
@@ -15,6 +15,8 @@ pub struct Manner {
     pub options: Options,
     /// Rays along each side of a pixel, at least 1.
     pub per_side: u32,
+    /// Whether glare is part of the energy.
+    pub glare: Glare,
 }
 
 /// Rows handed on at once.
@@ -52,7 +54,7 @@ pub fn trace<'a, E: From<Stopped>>(
             let step = DVec2::new(f64::from(k % grid), f64::from(k / grid)) + 0.5;
             let at = DVec2::new(f64::from(x), f64::from(y)) + step / f64::from(grid);
             let ray = camera.ray(film.image_from_pixels(at));
-            put_down(&tracer, ray, |exit| scope.band(exit.direction, zenith), &mut values);
+            put_down(&tracer, ray, |exit| scope.band(exit.direction, zenith), manner.glare, &mut values);
         }
         values.iter_mut().for_each(|v| *v /= f64::from(grid * grid));
         values
@@ -81,13 +83,16 @@ fn put_down(
     tracer: &Tracer,
     (origin, direction): (DVec3, DVec3),
     band: impl Fn(&Exit) -> usize,
+    glare: Glare,
     values: &mut [f64],
 ) {
     let cover = values.len() - 1;
     let mut strongest = (0.0, None);
     let hit = tracer.follow(origin, direction, |exit| {
         let band = band(&exit);
-        values[band] += exit.weight;
+        if glare.shows(exit.surface) {
+            values[band] += exit.weight;
+        }
         if !exit.surface && exit.weight > strongest.0 {
             strongest = (exit.weight, Some(band));
         }

@@ -9,13 +9,15 @@ mod lettering;
 
 pub use inks::Inks;
 pub(super) use inks::{Ink, hex};
-pub(super) use lettering::{Align, DIMENSION, Frame, REMARK, Type, shortened, text_frame, text_width};
+pub(super) use lettering::{
+    Align, DIMENSION, Frame, REMARK, TITLE, Type, printable, shortened, text_frame, text_width,
+};
 pub(crate) use lettering::{degrees, percent};
 
 use crate::math::{Basis, Facet};
 use crate::scene::Stone;
 use glam::{DVec2, DVec3};
-use lettering::{MIDDLE_OF_FIGURES, TITLE, printable};
+use lettering::MIDDLE_OF_FIGURES;
 use std::fmt::{Display, Write};
 use svg::Document;
 use svg::node::element::{Circle, Group, Path, Polygon, Rectangle, Text, Title};

@@ -2,7 +2,7 @@
 
 use super::strips::strips;
 use crate::math::Affine;
-use crate::scene::Scope;
+use crate::scene::{Glare, Scope};
 use crate::trace::beam::{Beam, Beams};
 use glam::{DMat2, DVec2};
 
@@ -35,10 +35,10 @@ const COVER: &str = "cover";
 
 impl Layer {
     /// What a camera in the scope records: a channel for each band, with the energy that comes from it through
-    /// each pixel, glare included; and the stone's cover.
-    pub fn energy(beams: &Beams, scope: &Scope) -> Self {
+    /// each pixel, with or without glare; and the stone's cover.
+    pub fn energy(beams: &Beams, scope: &Scope, glare: Glare) -> Self {
         let mut layer = Self::new(beams, scope.bands.iter().map(|b| b.name.clone()).collect());
-        for beam in beams.iter().filter(|b| b.weight > 0.0) {
+        for beam in beams.iter().filter(|b| b.weight > 0.0 && glare.shows(b.is_surface())) {
             layer.add_faded(
                 beams,
                 &beam,

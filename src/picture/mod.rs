@@ -6,6 +6,7 @@ mod by_beams;
 #[cfg(feature = "gpu")]
 pub mod by_gpu;
 pub mod by_rays;
+mod caption;
 mod develop;
 mod diagram;
 mod drawing;
@@ -31,6 +32,7 @@ mod views;
 pub use background::Background;
 pub use bloom::Bloom;
 pub use by_beams::ByBeams;
+pub use caption::Caption;
 pub use develop::{Develop, develop};
 pub use diagram::{DiagramStyle, diagram};
 pub use drawing::Inks;

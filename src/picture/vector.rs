@@ -2,14 +2,14 @@
 
 use crate::math::{Basis, Plane};
 use crate::optics::{LinearRgb, encoded_from_linear};
-use crate::scene::{Film, Scope, Stone, elevation_deg};
+use crate::scene::{Film, Glare, Scope, Stone, elevation_deg};
 use crate::trace::beam::Beams;
 use glam::{DMat2, DVec2, DVec3};
 use svg::Document;
 use svg::node::element::{Description, Group, Polygon, Rectangle, Title};
 
 /// Side of the drawing, in its own units; coordinates carry four digits behind the point.
-const SIDE: u32 = 1000;
+pub const SIDE: u32 = 1000;
 
 /// Polygons that cover less than this, in square units of the drawing, would be lost in the rounding.
 const SPECK: f64 = 1e-5;
@@ -44,15 +44,15 @@ pub fn strongest(stone: &Stone, beams: &Beams, scope: &Scope, title: &str) -> Do
 }
 
 /// Draws the energy picture: the finest subdivision of the image that was traced, each polygon in the colour of
-/// all the light seen through it, with the facets that light has met (`data-path`).
-pub fn energy(stone: &Stone, beams: &Beams, scope: &Scope, title: &str) -> Document {
+/// all the light seen through it, with or without glare, and with the facets that light has met (`data-path`).
+pub fn energy(stone: &Stone, beams: &Beams, (scope, glare): (&Scope, Glare), title: &str) -> Document {
     let page = Page::new(stone, beams);
     let colours = scope.colours();
     let mut seen: Vec<LinearRgb> = Vec::with_capacity(beams.len());
     for beam in beams.iter() {
         let above = beam.parent.map_or(LinearRgb::ZERO, |p| seen[p as usize]);
-        let own =
-            if beam.weight > 0.0 { colours[scope.band(beam.exit, beams.zenith)] } else { LinearRgb::ZERO };
+        let is_shown = beam.weight > 0.0 && glare.shows(beam.is_surface());
+        let own = if is_shown { colours[scope.band(beam.exit, beams.zenith)] } else { LinearRgb::ZERO };
         seen.push(above + own * beam.weight);
     }
     let mut group = Group::new().set("class", "energy");

@@ -25,7 +25,7 @@ pub use lights::{LIGHTS, light};
 pub use medium::Medium;
 pub use overlap::overlapping;
 pub use panorama::Panorama;
-pub use scope::{ASET_CONE, Backing, Band, MOST_BANDS, Scope, ScopeError, elevation_deg};
+pub use scope::{ASET_CONE, Backing, Band, Glare, MOST_BANDS, Scope, ScopeError, elevation_deg};
 pub use setting::{Placed, Setting};
 pub use specimen::{Specimen, SpecimenError};
 pub use stone::Stone;

@@ -86,6 +86,31 @@ pub enum Backing {
     White,
 }
 
+/// Whether what a scope shows holds glare, the light that the stone's outer surface reflects.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub enum Glare {
+    /// Light that has been inside the stone alone: the zones have the colours that graders are taught.
+    #[default]
+    LeftOut,
+    /// All light, as a camera in the scope records it: the crown's glare tints what is behind it.
+    Included,
+}
+
+impl Glare {
+    /// Whether light is shown that has been at the outer surface alone (`is_glare`), or inside.
+    pub fn shows(self, is_glare: bool) -> bool {
+        !is_glare || self == Self::Included
+    }
+
+    /// In words.
+    pub fn told(self) -> &'static str {
+        match self {
+            Self::LeftOut => "glare left out",
+            Self::Included => "glare included",
+        }
+    }
+}
+
 const BLACK: [u8; 3] = [0, 0, 0];
 const WHITE: [u8; 3] = [255, 255, 255];
 const GREEN: [u8; 3] = [0, 255, 0];
@@ -135,6 +160,32 @@ impl Scope {
             self.bands.push(Band { name: "head".into(), from, colour: BLACK });
         }
         self
+    }
+
+    /// This scope with a border at the horizon, for figures of the light from above. Where that splits a band in two, the
+    /// place of the lower part is told; the upper one comes after it.
+    pub fn with_horizon(mut self) -> (Self, Option<usize>) {
+        let Some(k) = self.bands.iter().rposition(|b| b.from <= 0.0).filter(|&k| self.bands[k].from < 0.0)
+        else {
+            return (self, None);
+        };
+        let upper = Band { from: 0.0, ..self.bands[k].clone() };
+        self.bands.insert(k + 1, upper);
+        (self, Some(k))
+    }
+
+    /// The places of the bands from the horizon up that send light: black ones send none.
+    pub fn shining(&self) -> impl Iterator<Item = usize> + '_ {
+        let bands = self.bands.iter().enumerate();
+        bands.filter(|(_, b)| b.from >= 0.0 && b.colour != BLACK).map(|(k, _)| k)
+    }
+
+    /// A band's elevations, the lowest and the highest, degrees.
+    ///
+    /// # Panics
+    /// Where there is no such band.
+    pub fn elevations(&self, band: usize) -> [f64; 2] {
+        [self.bands[band].from, self.bands.get(band + 1).map_or(90.0, |next| next.from)]
     }
 
     /// Whether its bands begin at the nadir and rise.
@@ -215,6 +266,19 @@ mod tests {
         let names: Vec<&str> = scope.bands.iter().map(|b| b.name.as_str()).collect();
         assert_eq!(names, ["below", "green", "red", "head"]);
         assert_eq!(scope.validate(), Ok(()));
+    }
+
+    #[test]
+    fn a_horizon_splits_the_band_that_lies_on_it_and_black_bands_do_not_shine() {
+        let aset = Scope::aset(ASET_CONE, Backing::Black).with_head(20.0);
+        assert_eq!(aset.clone().with_horizon(), (aset.clone(), None));
+        assert_eq!(aset.shining().collect::<Vec<_>>(), [1, 2]);
+        assert_eq!(Scope::ideal_scope(15.0).shining().collect::<Vec<_>>(), [1]);
+        let wide = Scope::new("wide", WHITE, &[("red", -20.0, RED), ("blue", 60.0, BLUE)]);
+        let (split, lower) = wide.clone().with_horizon();
+        assert_eq!((lower, split.bands.len(), split.elevations(2)), (Some(1), 4, [0.0, 60.0]));
+        assert_eq!(split.shining().collect::<Vec<_>>(), [2, 3]);
+        assert_eq!(wide.elevations(2), [60.0, 90.0]);
     }
 
     #[test]

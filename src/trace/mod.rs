@@ -4,8 +4,11 @@ pub mod beam;
 #[cfg(feature = "gpu")]
 pub mod gpu;
 pub mod ray;
+mod sampler;
 pub mod sitting;
 pub mod surround;
+
+pub use sampler::{CannotTrace, Sampler, Subject, Tracer};
 
 use std::ops::ControlFlow;
 

@@ -142,6 +142,7 @@ mod tests {
             specimen,
             shows: Shows::Render,
             strongest: false,
+            glare: Glare::LeftOut,
             view: eye.view(None),
             film: eye.film([48, 40], &Fit::reaching(3.0)),
             whole: Fit::reaching(3.0).film([48, 40]),

@@ -6,7 +6,7 @@ use crate::io::background::BackgroundRef;
 use crate::io::lighting::Lighting;
 use crate::measure::Figures;
 use crate::picture::{Inks, Overlay, RefractionMap};
-use crate::scene::{Film, Pose, Specimen, View};
+use crate::scene::{Film, Glare, Pose, Specimen, View};
 use egui::ColorImage;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
@@ -47,6 +47,8 @@ pub struct Shot {
     pub shows: Shows,
     /// Whether a scope shows the strongest exit of each point alone.
     pub strongest: bool,
+    /// Whether a scope that shows energy holds glare.
+    pub glare: Glare,
     /// From where.
     pub view: View,
     /// The pixels.
@@ -107,11 +109,13 @@ impl PartialEq for Shot {
         }
         let by_light = matches!(self.shows, Shows::Render | Shows::Refraction);
         let seen = self.shows != Shows::Diagram;
+        let has_glare = seen && !by_light && !self.strongest;
         Arc::ptr_eq(&self.specimen, &other.specimen)
             && (self.shows, self.strongest, self.overlay, self.film.size)
                 == (other.shows, other.strongest, other.overlay, other.film.size)
             && (seen || self.paper == other.paper)
             && (!seen || (self.view, self.film, self.head) == (other.view, other.film, other.head))
+            && (!has_glare || self.glare == other.glare)
             && (!by_light || (Arc::ptr_eq(&self.light, &other.light) && self.manner() == other.manner()))
     }
 }

@@ -161,7 +161,7 @@ impl Camera {
         let film = coarser(&shot.film, effort.coarser);
         let beams = self.shelf.beams(&shot.specimen, &shot.view, effort, watch)?;
         let layer =
-            if shot.strongest { Layer::strongest(&beams, scope) } else { Layer::energy(&beams, scope) };
+            if shot.strongest { Layer::strongest(&beams, scope) } else { Layer::energy(&beams, scope, shot.glare) };
         let mut canvas = Canvas::new(&film, scope, 0);
         paint(&layer, &film, watch, |rows| -> Result<(), Trouble> { canvas.take(rows) })?;
         Ok(canvas.finish(Some(beams.unresolved()), "exact beams"))
@@ -178,7 +178,7 @@ impl Camera {
         let film = coarser(&shot.film, effort.coarser * slower);
         let options =
             ray::Options { most_bounces: MOST_BOUNCES, least_weight: LEAST_WEIGHT, polarised: true };
-        let manner = Manner { options, per_side };
+        let manner = Manner { options, per_side, glare: shot.glare };
         let (solid, medium) = (shot.specimen.solid(), shot.specimen.medium(line::SODIUM_D));
         let first = if shot.strongest { scope.bands.len() } else { 0 };
         let mut canvas = Canvas::new(&film, scope, first);
@@ -277,7 +277,7 @@ mod tests {
     use crate::app::studio::order::{Paper, Smoothing, Which};
     use crate::app::studio::render::BEHIND;
     use crate::io::lighting::Lighting;
-    use crate::scene::Pose;
+    use crate::scene::{Glare, Pose};
     use crate::trace::unwatched;
     use glam::DVec2;
     use std::path::Path;
@@ -288,6 +288,7 @@ mod tests {
             specimen: Arc::clone(Document::first().unwrap().specimen()),
             shows,
             strongest: false,
+            glare: Glare::Included,
             view: eye.view(None),
             film: eye.film([56, 40], &Fit::reaching(1.0)),
             whole: Fit::reaching(1.0).film([56, 40]),

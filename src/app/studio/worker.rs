@@ -6,11 +6,10 @@ use super::render::{Growing, is_for_beams};
 use super::take::{Camera, RAYS_COARSER, Trouble};
 use super::{Desk, Wake};
 use crate::app::shows::Shows;
-use crate::io::export::LATTICE;
-use crate::measure::{Figures, by_beams, by_rays};
+use crate::measure::{Bounds, Figures, LATTICE, MeasureError, UNRESOLVED, by_beams, measure_subject};
 use crate::scene::{ASET_CONE, Backing, Scope, View};
 use crate::trace::gpu::Gpu;
-use crate::trace::{Stopped, Watch, beam, ray};
+use crate::trace::{Stopped, Subject, Tracer, Watch};
 use std::collections::HashMap;
 use std::ops::ControlFlow;
 use std::sync::atomic::Ordering;
@@ -24,7 +23,7 @@ const TILTS: [f64; 13] = [-30.0, -25.0, -20.0, -15.0, -10.0, -5.0, 0.0, 5.0, 10.
 /// What may stay unresolved: of a fair picture, a fine one, fine figures, figures against tilt.
 const FAIR: f64 = 5e-3;
 const FINE: f64 = 1e-3;
-const FIGURES: f64 = 1.5e-4;
+const FIGURES: f64 = UNRESOLVED;
 const TILTED: f64 = 5e-3;
 
 /// How renders grow: fair, and fine where a card takes them.
@@ -302,13 +301,15 @@ fn scope(ask: &Ask) -> Scope {
 type Bound = (f64, u32);
 
 /// Figures to a bound, as `measure` gives them.
-fn measured(ask: &Ask, view: &View, (unresolved, side): Bound, watch: Watch) -> Result<Figures, Stopped> {
-    let medium = ask.specimen.medium(crate::optics::line::SODIUM_D);
-    let Ok(stone) = ask.specimen.stone() else {
-        let options = ray::Options { least_weight: unresolved, ..ray::Options::default() };
-        return by_rays(ask.specimen.solid(), medium, view, &scope(ask), (options, side), watch);
-    };
-    let options = beam::Options { unresolved, ..beam::Options::default() };
-    let beams = beam::trace(&stone.polytope, medium, view, &options, watch)?;
-    Ok(by_beams(&beams, &scope(ask)))
+fn measured(ask: &Ask, view: &View, (unresolved, lattice): Bound, watch: Watch) -> Result<Figures, Stopped> {
+    let (specimen, scope) = (&*ask.specimen, scope(ask));
+    let medium = specimen.medium(crate::optics::line::SODIUM_D);
+    let subject = Subject { specimen, medium, view, scope: &scope };
+    let bounds = Bounds { unresolved, lattice, ..Bounds::default() };
+    match measure_subject(subject, Tracer::best(specimen, view), &bounds, watch) {
+        Ok(measured) => Ok(measured.figures),
+        Err(MeasureError::Stopped(stopped)) => Err(stopped),
+        // Figures are asked for along parallel rays alone, by the tracer that is best for them.
+        Err(other) => unreachable!("{other}"),
+    }
 }

@@ -1,7 +1,7 @@
 //! A picture by each tracer, and what it says of how it was made.
 
 use super::{Failure, Studio, Taken};
-use crate::io::export::Sampler;
+use crate::trace::Sampler;
 use crate::optics::{Stratum, strata};
 use crate::picture::spectral::{Remainder, expose_in};
 use crate::picture::{ByBeams, Linear};

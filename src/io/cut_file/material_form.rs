@@ -40,6 +40,9 @@ pub(in crate::io) struct TableForm {
     valid_nm: Option<Numbers<2>>,
     #[serde(skip_serializing_if = "Option::is_none")]
     density: Option<f64>,
+    /// Whether the colour is chosen for its looks, and not measured.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    illustrative: bool,
     /// A law that has no key of its own, as [`Dispersion`] spells it.
     #[serde(skip_serializing_if = "Option::is_none")]
     dispersion: Option<Dispersion>,
@@ -73,10 +76,11 @@ impl MaterialForm {
 
 impl TableForm {
     fn of(material: &Material) -> Self {
-        let Material { name, description, dispersion, absorption, source, valid_nm, density } =
+        let Material { name, description, dispersion, absorption, source, valid_nm, density, .. } =
             material.clone();
+        let illustrative = material.colour_is_illustrative;
         let valid_nm = valid_nm.map(|range| Numbers(range.into()));
-        let mut form = Self { name, description, source, valid_nm, density, ..Self::default() };
+        let mut form = Self { name, description, source, valid_nm, density, illustrative, ..Self::default() };
         match dispersion {
             Dispersion::Constant(n) => form.index = Some(n),
             Dispersion::Sellmeier { constant: 1.0, terms } if !terms.is_empty() => {
@@ -121,6 +125,7 @@ impl TableForm {
             source: self.source,
             valid_nm: self.valid_nm.map(|range| range.0.into()),
             density: self.density,
+            colour_is_illustrative: self.illustrative,
         })
     }
 }

@@ -73,6 +73,7 @@ fn custom(dispersion: Dispersion) -> Material {
         source: String::new(),
         valid_nm: None,
         density: None,
+        colour_is_illustrative: false,
     }
 }
 
@@ -112,6 +113,7 @@ fn a_material_is_a_name_an_index_or_a_table() {
             source: "by eye".to_owned(),
             valid_nm: Some((400.0, 700.0)),
             density: Some(3.0),
+            colour_is_illustrative: false,
         };
         let read = material(&format!("{{ {smoke}, {text} }}")).unwrap();
         assert_eq!(read, MaterialRef::Custom(Box::new(expected)));
@@ -201,7 +203,7 @@ fn a_key_that_is_unknown_or_missing_is_told_with_those_that_are_known() {
     assert_told(
         &with("\"diamond\"", "{ refraction = 2 }"),
         "x.toml:4: material: unknown key `refraction`, known here are `name`, `description`, `source`, `index`, \
-         `sellmeier`, `cauchy`, `abbe`, `absorption`, `absorption_e`, `valid_nm`, `density`, `dispersion`",
+         `sellmeier`, `cauchy`, `abbe`, `absorption`, `absorption_e`, `valid_nm`, `density`, `illustrative`, `dispersion`",
     );
     assert_told(
         &planes_with("offset = 1", "distance = 1"),

@@ -1,105 +1,127 @@
 //! The figures of a view, and how they are written down.
 
-use super::sampler::{Sampler, Subject};
 use super::told::Tell;
-use super::viewing::{Tracer, Viewing};
+use super::viewing::Viewing;
 use crate::io::Failure;
-use crate::measure::{Figures, by_beams};
-use crate::scene::{ASET_CONE, Backing, Lean, Projection, Scope, Viewpoint};
-use crate::trace::{Watch, beam};
+use crate::measure::{Bounds, LATTICE, MeasureError, Measured, UNRESOLVED, measure_subject};
+use crate::picture::Scoped;
+use crate::scene::{Glare, Lean, Projection, Viewpoint};
+use crate::trace::{Subject, Tracer, Watch};
 use serde_json::{Map, Value, json};
 use std::time::Instant;
 
-/// Where figures stop following beams when not told: face up a few hundredths of a second's work, tilted some seconds.
-const UNRESOLVED: f64 = 1.5e-4;
-
-/// Rays along each side of one of the lattices that figures by rays are sampled on.
-pub const LATTICE: u32 = 256;
-
 /// Figures with what says how they came about.
-pub struct Measured<'a> {
+pub struct Report<'a> {
     /// How the stone was looked at.
     pub viewing: Viewing<'a>,
-    /// The light whose bands are the zones: the ASET's, with the head.
-    pub scope: Scope,
+    /// The zones, as they are before an observer's head hides some.
+    pub scoped: Scoped,
     /// What came of it.
-    pub figures: Figures,
-    /// What followed rays; none for exact beams.
-    pub sampler: Option<Sampler<'a>>,
-    /// How long it took.
+    pub measured: Measured,
+    /// What traced the light.
+    pub tracer: Tracer<'a>,
+    /// How long that took, seconds.
     pub seconds: f64,
 }
 
-/// Measures a stone's ASET zones.
+/// Measures a stone by the zones of a scope, from the side that the scope is for.
 ///
 /// # Errors
 /// Those of [`Viewing::check`], what `tell` answers, or [`Failure::Stopped`] when `watch` asks to stop.
-pub fn measure<'a>(viewing: &Viewing<'a>, watch: Watch, tell: Tell) -> Result<Measured<'a>, Failure> {
+pub fn measure<'a>(
+    viewing: &Viewing<'a>,
+    scoped: &Scoped,
+    watch: Watch,
+    tell: Tell,
+) -> Result<Report<'a>, Failure> {
+    let viewing = viewing.facing(scoped.side);
     viewing.check()?;
-    let scope = Scope::aset(ASET_CONE, Backing::Black).with_head(viewing.head_deg);
+    let scope = scoped.with_head(viewing.head_deg);
+    let unresolved = viewing.unresolved.unwrap_or(UNRESOLVED);
+    let bounds = Bounds { unresolved, polarised: viewing.polarised, lattice: LATTICE };
+    let view = viewing.viewpoint.view();
+    let subject =
+        Subject { specimen: viewing.specimen, medium: viewing.medium, view: &view, scope: &scope };
     let start = Instant::now();
-    let (figures, sampler) = match viewing.tracer {
-        Tracer::Beams => (of_beams(viewing, &scope, watch, tell)?, None),
-        Tracer::Rays(first) => {
-            first.or_rays(tell, |used| Ok((of_rays(viewing, &scope, used, watch)?, Some(used))))?
-        }
+    let by = |tracer| {
+        let measured = measure_subject(subject, tracer, &bounds, watch).map_err(|e| failure(&viewing, e))?;
+        Ok((measured, tracer))
+    };
+    let (measured, tracer) = match viewing.tracer {
+        Tracer::Beams => by(Tracer::Beams)?,
+        Tracer::Rays(first) => first.or_rays(tell, |used| by(Tracer::Rays(used)))?,
     };
     let seconds = start.elapsed().as_secs_f64();
-    Ok(Measured { viewing: *viewing, scope, figures, sampler, seconds })
+    if matches!(tracer, Tracer::Beams) {
+        viewing.warn_of_open((measured.figures.unresolved, measured.figures.beams), bounds.unresolved, tell)?;
+    }
+    Ok(Report { viewing, scoped: scoped.clone(), measured, tracer, seconds })
 }
 
-fn of_beams(viewing: &Viewing, scope: &Scope, watch: Watch, tell: Tell) -> Result<Figures, Failure> {
-    let (polytope, view) = (&viewing.stone()?.polytope, viewing.viewpoint.view());
-    let options = viewing.beams(UNRESOLVED);
-    let beams = beam::trace(polytope, viewing.medium, &view, &options, watch)?;
-    viewing.warn_of_open(&beams, &options, tell)?;
-    Ok(by_beams(&beams, scope))
+fn failure(viewing: &Viewing, error: MeasureError) -> Failure {
+    match error {
+        MeasureError::CannotTrace(why) => viewing.cannot(why),
+        #[cfg(feature = "gpu")]
+        MeasureError::Card(error) => Failure::Card(error),
+        MeasureError::Stopped(stopped) => stopped.into(),
+        other => Failure::Input(format!("{}: {other}", viewing.file)),
+    }
 }
 
-fn of_rays(viewing: &Viewing, scope: &Scope, sampler: Sampler, watch: Watch) -> Result<Figures, Failure> {
-    let view = viewing.viewpoint.view();
-    let look = Subject { specimen: viewing.specimen, medium: viewing.medium, view: &view, scope };
-    sampler.figures(look, viewing.rays(UNRESOLVED), LATTICE, watch)
-}
-
-impl Measured<'_> {
-    /// The figures and how they came about, as docs/formats.md has them; numbers are fractions of the silhouette.
-    pub fn json(&self) -> Value {
-        let (figures, viewing) = (&self.figures, &self.viewing);
+impl Report<'_> {
+    /// The figures and how they came about, as docs/formats.md has them; numbers are fractions of the silhouette. The time
+    /// that it took is among them only if `timing`, so that equal input gives equal files.
+    pub fn json(&self, timing: bool) -> Value {
+        let (viewing, measured) = (&self.viewing, &self.measured);
+        let (figures, material) = (&measured.figures, &viewing.specimen.material);
         let mut strongest = self.zones(&figures.strongest_exit_area);
         strongest.insert("undecided".into(), json!(figures.strongest_exit_undecided));
+        let glare = viewing.glare.unwrap_or(Glare::Included);
         let mut value = json!({
             "file": viewing.file,
             "name": viewing.specimen.design.name,
+            "scope": measured.scope.name,
             "silhouette_area": figures.silhouette_area,
-            "surface": self.zones(&figures.surface),
-            "transmitted": self.zones(&figures.transmitted),
-            "strongest_exit_area": strongest,
-            "absorbed": figures.absorbed,
-            "unresolved": figures.unresolved,
-            "beams": figures.beams,
-            "seconds": self.seconds,
-            "index": viewing.medium.index,
-            "wavelength_nm": viewing.wavelength_nm,
-            "head_deg": viewing.head_deg,
-            "tracer": self.sampler.map_or("beam", Sampler::name),
-            "polarised": viewing.polarised,
-            "view": seen_from(&viewing.viewpoint),
+            "light_return": measured.light_return(),
         });
-        if self.sampler.is_some() {
-            value["standard_error"] = json!(figures.standard_error);
+        let mut set = |key: &str, what: Value| value[key] = what;
+        match glare {
+            Glare::Included => {
+                set("light_return_with_glare", json!(measured.light_return() + measured.glare_return()));
+                set("surface", Value::Object(self.zones(&figures.surface)));
+            }
+            Glare::LeftOut => set("glare_left_out", json!(measured.glare())),
+        }
+        set("transmitted", Value::Object(self.zones(&figures.transmitted)));
+        set("strongest_exit_area", Value::Object(strongest));
+        set("absorbed", json!(figures.absorbed));
+        set("unresolved", json!(figures.unresolved));
+        set("beams", json!(figures.beams));
+        if timing {
+            set("seconds", json!(self.seconds));
+        }
+        set("material", json!(material.name));
+        if material.colour_is_illustrative {
+            set("colour_is_illustrative", json!(true));
+        }
+        set("index", json!(viewing.medium.index));
+        set("wavelength_nm", json!(viewing.wavelength_nm));
+        set("head_deg", json!(viewing.head_deg));
+        set("tracer", json!(self.tracer.name()));
+        set("polarised", json!(viewing.polarised));
+        set("view", seen_from(&viewing.viewpoint));
+        if matches!(self.tracer, Tracer::Rays(_)) {
+            set("standard_error", json!(figures.standard_error));
         }
         value
     }
 
-    /// Bands by name, those of the ASET always there.
+    /// Bands by name, the lowest last; those that the observer's head hides are there with nothing in them.
     fn zones(&self, values: &[f64]) -> Map<String, Value> {
-        let mut zones: Map<String, Value> = ["green", "red", "blue", "below"]
-            .map(|name| (name.to_string(), json!(0.0)))
-            .into_iter()
-            .collect();
-        zones.extend(self.scope.bands.iter().zip(values).map(|(b, v)| (b.name.clone(), json!(v))));
-        zones
+        let bands = &self.scoped.scope.bands;
+        let all = bands.iter().skip(1).chain(bands.first()).map(|b| (b.name.clone(), json!(0.0)));
+        let seen = self.measured.scope.bands.iter().zip(values).map(|(b, v)| (b.name.clone(), json!(v)));
+        all.chain(seen).collect()
     }
 }
 

@@ -1,16 +1,17 @@
 //! The pictures and drawings of a stone, written one after the other.
 
-use super::sampler::{Sampler, Subject};
 use super::told::{Pace, Tell, Told};
-use super::viewing::{Tracer, Viewing};
+use super::viewing::Viewing;
 use super::{Export, Format, Outputs, write_text};
 use crate::io::{Failure, PngRows, WriteError, rasterize, write_exr, write_png};
 use crate::picture::by_rays::Manner;
-use crate::picture::{DiagramStyle, Layer, Palette, Picture, Rows, Scoped, diagram, paint, profile, vector};
-use crate::scene::{Film, Scope, View};
-use crate::trace::Watch;
+use crate::picture::{
+    Caption, DiagramStyle, Layer, Palette, Picture, Rows, Scoped, diagram, paint, profile, vector,
+};
+use crate::scene::{Film, Glare, Scope, View};
 use crate::trace::beam::{self, Beams};
 use crate::trace::ray::Camera;
+use crate::trace::{Sampler, Subject, Tracer, Watch};
 
 /// Where pictures stop following beams when not told: below what eight bits can show.
 const UNRESOLVED: f64 = 1e-3;
@@ -39,7 +40,14 @@ struct Plate<'a> {
     scope: Scope,
     viewing: Viewing<'a>,
     view: View,
+    glare: Glare,
 }
+
+/// What a picture of a scope shows of each point, in words.
+const STRONGEST: &str = "strongest exits";
+
+/// Below this width in pixels a caption's type is set no smaller, and its lines are broken instead.
+const CAPTION_WIDTH: u32 = 1000;
 
 impl<'a> Pictures<'a> {
     pub fn new(export: &Export<'a>, tell: Tell<'a>) -> Self {
@@ -89,9 +97,9 @@ impl<'a> Pictures<'a> {
 
     fn scoped(&mut self, name: &str, scoped: &Scoped, watch: Watch) -> Result<(), Failure> {
         let viewing = self.viewing.facing(scoped.side);
-        let head = if scoped.takes_head { viewing.head_deg } else { 0.0 };
-        let scope = scoped.scope.clone().with_head(head);
-        let plate = Plate { name, scope, viewing, view: viewing.viewpoint.view() };
+        let scope = scoped.with_head(viewing.head_deg);
+        let glare = viewing.glare.unwrap_or_default();
+        let plate = Plate { name, scope, viewing, view: viewing.viewpoint.view(), glare };
         match viewing.tracer {
             Tracer::Beams => self.by_beams(&plate, watch),
             Tracer::Rays(first) => first.or_rays(self.tell, |used| self.by_rays(used, &plate, watch)),
@@ -106,12 +114,12 @@ impl<'a> Pictures<'a> {
         let film = Film::around(plate.viewing.specimen.solid(), &beams.view, self.outputs.size);
         if self.outputs.wants(Format::Png) {
             pace.step(1.0, |watch| {
-                let layer = Layer::energy(&beams, &plate.scope);
-                self.paint(plate, ("", &layer, "unresolved"), &film, watch)
+                let layer = Layer::energy(&beams, &plate.scope, plate.glare);
+                self.paint(plate, (Reading::Energy, &layer), &film, watch)
             })?;
             pace.step(1.0, |watch| {
                 let layer = Layer::strongest(&beams, &plate.scope);
-                self.paint(plate, ("-strongest", &layer, "undecided"), &film, watch)
+                self.paint(plate, (Reading::Strongest, &layer), &film, watch)
             })?;
         }
         if self.outputs.wants(Format::Exr) {
@@ -133,37 +141,79 @@ impl<'a> Pictures<'a> {
                 let options = viewing.beams(UNRESOLVED);
                 let polytope = &viewing.stone()?.polytope;
                 let beams = beam::trace(polytope, viewing.medium, view, &options, watch)?;
-                viewing.warn_of_open(&beams, &options, self.tell)?;
+                viewing.warn_of_open((beams.unresolved(), beams.len()), options.unresolved, self.tell)?;
                 Ok(beams)
             }
         }
     }
 
-    /// A layer in colour; `open` is what its description calls the part that is open.
+    /// A layer in colour, with its caption under it.
     fn paint(
         &self,
         plate: &Plate,
-        (kind, layer, open): (&str, &Layer, &str),
+        (reading, layer): (Reading, &Layer),
         film: &Film,
         watch: Watch,
     ) -> Result<(), Failure> {
-        let path = self.outputs.path(&format!("{}{kind}", plate.name), Format::Png);
+        let path = self.outputs.path(&format!("{}{}", plate.name, reading.kind()), Format::Png);
         let palette = Palette::of(&plate.scope);
-        write_png(&path, film.size.into(), &self.told_of_beams(plate, open, layer.open), |png| {
-            paint(layer, film, watch, |rows| encode(rows, (&palette, 0), png))
+        let how = reading.how(layer.open);
+        let caption = self.caption_pixels(plate, reading, &reading.in_percent(layer.open))?;
+        let size = (film.size[0], film.size[1] + caption.0);
+        write_png(&path, size, &self.told(plate, &reading.told(plate.glare), &how), |png| {
+            paint(layer, film, watch, |rows| encode(rows, (&palette, 0), png))?;
+            png.push(&caption.1).map_err(Failure::from)
         })?;
         (self.tell)(Told::Written(&path))
+    }
+
+    /// The caption of a picture, if one is wanted: `how` says what traced the picture.
+    fn caption(&self, plate: &Plate, reading: Reading, how: &str) -> Option<Caption> {
+        if !self.outputs.caption {
+            return None;
+        }
+        let Plate { scope, viewing, .. } = plate;
+        let Viewing { viewpoint, medium, polarised, wavelength_nm, specimen, .. } = viewing;
+        let material = &specimen.material;
+        let light = match wavelength_nm {
+            Some(nm) => format!("{}, index {:.4} at {nm} nm", material.name, medium.index),
+            None => format!("index {}", medium.index),
+        };
+        let colour = if material.colour_is_illustrative { ", colour illustrative" } else { "" };
+        let polarised = if *polarised { "polarised" } else { "unpolarised" };
+        let view = format!("{}: {}; {}", scope.name, reading.told(plate.glare), viewpoint.told());
+        let program = concat!("Brillianteer ", env!("CARGO_PKG_VERSION"));
+        let remarks = vec![view, format!("{light}{colour}, {polarised}; {how}; {program}")];
+        Some(Caption::new(&specimen.design.name, remarks, scope))
+    }
+
+    /// The caption as rows of pixels as wide as the picture: how many, and the pixels.
+    fn caption_pixels(&self, plate: &Plate, reading: Reading, how: &str) -> Result<(u32, Vec<u8>), Failure> {
+        let Some(caption) = self.caption(plate, reading, how) else { return Ok((0, vec![])) };
+        let size = self.outputs.size;
+        let text = caption.document(f64::from(size.min(CAPTION_WIDTH))).to_string();
+        let (_, height, pixels) = rasterize(&text, size).map_err(|e| Failure::Output(e.to_string()))?;
+        Ok((height, pixels))
+    }
+
+    /// A drawing's text, with its caption under it.
+    fn captioned(&self, drawn: svg::Document, plate: &Plate, reading: Reading, open: f64) -> String {
+        match self.caption(plate, reading, &reading.in_percent(open)) {
+            Some(caption) => caption.under(drawn, f64::from(vector::SIDE)).to_string(),
+            None => drawn.to_string(),
+        }
     }
 
     fn bare(&self, plate: &Plate, beams: &Beams, film: &Film, watch: Watch) -> Result<(), Failure> {
         let path = self.outputs.path(plate.name, Format::Exr);
         let layer = Layer::full(beams, &plate.scope);
-        write_exr(&path, &layer, film, &self.told_of_beams(plate, "unresolved", layer.open), watch)?;
+        let how = Reading::Energy.how(layer.open);
+        write_exr(&path, &layer, film, &self.told(plate, "all light, by channels", &how), watch)?;
         (self.tell)(Told::Written(&path))
     }
 
     fn drawn(&self, plate: &Plate, beams: &Beams, watch: Watch) -> Result<(), Failure> {
-        let Plate { name, scope, viewing, view } = plate;
+        let Plate { name, scope, viewing, view, .. } = plate;
         let stone = viewing.stone()?;
         let options = viewing.beams(UNRESOLVED);
         let title = format!("{}, {}", self.title(name), viewing.viewpoint.told());
@@ -173,50 +223,98 @@ impl<'a> Pictures<'a> {
         let coarse = beam::trace(&stone.polytope, viewing.medium, view, &coarse, watch)?;
         let is_small = beams.strongest_exits().len() * copies <= DRAWN_POLYGONS;
         let mapped = if is_small { beams } else { &coarse };
-        let strongest = vector::strongest(stone, mapped, scope, &format!("{title}, strongest exits"));
+        let strongest = vector::strongest(stone, mapped, scope, &format!("{title}, {STRONGEST}"));
+        let undecided = mapped.undecided(&mapped.strongest_exits());
+        let strongest = self.captioned(strongest, plate, Reading::Strongest, undecided);
         let path = self.outputs.path(&format!("{name}-strongest"), Format::Svg);
-        write_text(&path, &strongest.to_string(), self.tell)?;
-        let energy = vector::energy(stone, &coarse, scope, &format!("{title}, energy"));
-        write_text(&self.outputs.path(name, Format::Svg), &energy.to_string(), self.tell)
+        write_text(&path, &strongest, self.tell)?;
+        let reading = Reading::Energy.told(plate.glare);
+        let energy = vector::energy(stone, &coarse, (scope, plate.glare), &format!("{title}, {reading}"));
+        let energy = self.captioned(energy, plate, Reading::Energy, coarse.unresolved());
+        write_text(&self.outputs.path(name, Format::Svg), &energy, self.tell)
     }
 
     fn by_rays(&self, sampler: Sampler, plate: &Plate, watch: Watch) -> Result<(), Failure> {
-        let Plate { name, scope, viewing, view } = plate;
+        let Plate { name, scope, viewing, view, glare } = plate;
         let solid = viewing.specimen.solid();
         let options = viewing.rays(UNRESOLVED);
         let reach = Camera::new(view, solid).reach(solid).unwrap_or(1.0);
         let film = Film::reaching(reach, self.outputs.size);
         let palette = Palette::of(scope);
-        let tracer = format!("{}, each followed to {:.2e}", sampler.told(), options.least_weight);
-        let told = self.told(plate, &tracer);
-        let manner = Manner { options, per_side: RAYS_PER_SIDE };
+        let how = format!("{}, each followed to {:.2e}", sampler.told(), options.least_weight);
+        let manner = Manner { options, per_side: RAYS_PER_SIDE, glare: *glare };
         let look = Subject { specimen: viewing.specimen, medium: viewing.medium, view, scope };
         let path = |name: &str| self.outputs.path(name, Format::Png);
         let (energy, strongest) = (path(name), path(&format!("{name}-strongest")));
-        let size = film.size.into();
+        let both = [Reading::Energy, Reading::Strongest];
+        let [told, strongest_told] = both.map(|reading| self.told(plate, &reading.told(*glare), &how));
+        let caption = self.caption_pixels(plate, Reading::Energy, &how)?;
+        let strongest_caption = self.caption_pixels(plate, Reading::Strongest, &how)?;
+        let size = |caption: &(u32, Vec<u8>)| (film.size[0], film.size[1] + caption.0);
         // Both pictures come from the same rays.
-        write_png(&energy, size, &told, |energy| {
-            write_png(&strongest, size, &told, |strongest| {
+        write_png(&energy, size(&caption), &told, |energy| {
+            write_png(&strongest, size(&strongest_caption), &strongest_told, |strongest| {
                 sampler.rows(look, &film, &manner, watch, |rows| {
                     encode(rows, (&palette, 0), energy)?;
                     encode(rows, (&palette, scope.bands.len()), strongest)
-                })
-            })
+                })?;
+                strongest.push(&strongest_caption.1).map_err(Failure::from)
+            })?;
+            energy.push(&caption.1).map_err(Failure::from)
         })?;
         (self.tell)(Told::Written(&energy))?;
         (self.tell)(Told::Written(&strongest))
     }
 
-    fn told_of_beams(&self, plate: &Plate, open: &str, part: f64) -> String {
-        self.told(plate, &format!("exact beams, {open} {part:.2e}"))
-    }
-
-    /// What goes into a picture as text.
-    fn told(&self, plate: &Plate, tracer: &str) -> String {
+    /// What goes into a picture as text: what it shows, and how it was traced.
+    fn told(&self, plate: &Plate, reading: &str, how: &str) -> String {
         let Viewing { viewpoint, medium, polarised, .. } = &plate.viewing;
         let polarised = if *polarised { "polarised" } else { "unpolarised" };
         let (title, view) = (self.title(plate.name), viewpoint.told());
-        format!("{title}; {view}; index {}, {polarised}; {tracer}", medium.index)
+        format!("{title}; {view}; index {}, {polarised}; {reading}; {how}", medium.index)
+    }
+}
+
+/// Which of the two readings of a scope a picture shows.
+#[derive(Clone, Copy)]
+enum Reading {
+    Energy,
+    Strongest,
+}
+
+impl Reading {
+    /// What follows the scope's name in the name of its file.
+    fn kind(self) -> &'static str {
+        match self {
+            Self::Energy => "",
+            Self::Strongest => "-strongest",
+        }
+    }
+
+    /// In words.
+    fn told(self, glare: Glare) -> String {
+        match self {
+            Self::Energy => format!("energy, {}", glare.told()),
+            Self::Strongest => STRONGEST.to_owned(),
+        }
+    }
+
+    /// What traced it, where that is exact beams that leave such a part open.
+    fn how(self, part: f64) -> String {
+        let open = match self {
+            Self::Energy => "unresolved",
+            Self::Strongest => "undecided",
+        };
+        format!("exact beams, {open} {part:.2e}")
+    }
+
+    /// The same for people.
+    fn in_percent(self, part: f64) -> String {
+        let what = match self {
+            Self::Energy => "light unresolved",
+            Self::Strongest => "area undecided",
+        };
+        format!("exact beams, {:.2} % of the {what}", 100.0 * part)
     }
 }
 

@@ -1,68 +1,13 @@
-//! Point rays: on a graphics card or, and where the card fails, on the processor.
+//! Pictures by point rays: on a graphics card or, and where the card fails, on the processor.
 
 use super::told::Tell;
 use crate::io::{Failure, WriteError};
-use crate::measure::{self, Figures};
 use crate::picture::Rows;
 use crate::picture::by_rays::{self, Manner};
-use crate::scene::{Film, Medium, Scope, Specimen, View};
-use crate::trace::Watch;
-use crate::trace::ray::Options;
-
-/// What follows rays.
-#[derive(Clone, Copy)]
-pub enum Sampler<'a> {
-    /// The processor, in f64.
-    Rays,
-    /// A graphics card, in f32.
-    #[cfg(feature = "gpu")]
-    Card(&'a crate::trace::gpu::Gpu),
-    /// Never: this build knows no cards.
-    #[cfg(not(feature = "gpu"))]
-    Card(std::convert::Infallible, std::marker::PhantomData<&'a ()>),
-}
-
-/// What is looked at, by which light.
-#[derive(Clone, Copy)]
-pub struct Subject<'a> {
-    /// The stone.
-    pub specimen: &'a Specimen,
-    /// What it is made of, at one wavelength.
-    pub medium: Medium,
-    /// From where; its eye is in front of the whole stone.
-    pub view: &'a View,
-    /// The structured light.
-    pub scope: &'a Scope,
-}
+use crate::scene::Film;
+use crate::trace::{Sampler, Subject, Watch};
 
 impl Sampler<'_> {
-    /// What figures call it.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Rays => "ray",
-            #[cfg(feature = "gpu")]
-            Self::Card(_) => "gpu",
-        }
-    }
-
-    /// Whether it is a real card.
-    pub fn is_quick(self) -> bool {
-        match self {
-            Self::Rays => false,
-            #[cfg(feature = "gpu")]
-            Self::Card(gpu) => !gpu.is_software(),
-        }
-    }
-
-    /// In words.
-    pub fn told(self) -> String {
-        match self {
-            Self::Rays => "point rays".into(),
-            #[cfg(feature = "gpu")]
-            Self::Card(gpu) => format!("point rays in f32 on {}", gpu.name()),
-        }
-    }
-
     /// Does work, and again on the processor where the card fails, with a note of why.
     ///
     /// # Errors
@@ -104,26 +49,6 @@ impl Sampler<'_> {
             Self::Card(gpu) => {
                 crate::picture::by_gpu::trace(gpu, solid, medium, view, scope, film, manner, watch, each)
             }
-        }
-    }
-
-    /// The figures of a view, by lattices of `side` squared rays.
-    ///
-    /// # Errors
-    /// A card that fails, or [`Failure::Stopped`] when `watch` asks to stop.
-    pub fn figures(
-        self,
-        look: Subject,
-        options: Options,
-        side: u32,
-        watch: Watch,
-    ) -> Result<Figures, Failure> {
-        let Subject { specimen, medium, view, scope } = look;
-        let solid = specimen.solid();
-        match self {
-            Self::Rays => Ok(measure::by_rays(solid, medium, view, scope, (options, side), watch)?),
-            #[cfg(feature = "gpu")]
-            Self::Card(gpu) => measure::by_gpu(gpu, solid, medium, view, scope, (options, side), watch),
         }
     }
 }

@@ -1,23 +1,12 @@
 //! A stone, from where it is seen, and how its light is traced.
 
-use super::sampler::Sampler;
 use super::told::{Tell, Told};
 use crate::io::Failure;
-use crate::scene::{Medium, Projection, Side, Specimen, Stone, Viewpoint};
-use crate::trace::beam::{self, Beams};
-use crate::trace::ray::{self, Camera};
+use crate::scene::{Glare, Medium, Side, Specimen, Stone, Viewpoint};
+use crate::trace::{CannotTrace, Tracer, beam, ray};
 
 /// Where no bound was asked for, this part of the light may stay unresolved without a word.
 const UNASKED: f64 = 1e-3;
-
-/// What traces the light.
-#[derive(Clone, Copy)]
-pub enum Tracer<'a> {
-    /// Exact beams, for parallel rays.
-    Beams,
-    /// Point rays.
-    Rays(Sampler<'a>),
-}
 
 /// How a stone is looked at.
 #[derive(Clone, Copy)]
@@ -38,6 +27,8 @@ pub struct Viewing<'a> {
     pub unresolved: Option<f64>,
     /// Whether surfaces see how light is polarised.
     pub polarised: bool,
+    /// Whether glare is shown; where nothing is said, pictures leave it out and figures list it beside the rest.
+    pub glare: Option<Glare>,
     /// What traces the light.
     pub tracer: Tracer<'a>,
 }
@@ -54,21 +45,17 @@ impl Viewing<'_> {
     /// [`Failure::Input`] where the eye is not in front of the whole stone, [`Failure::Usage`] where exact beams are
     /// to trace a perspective, or what is not convex.
     pub fn check(&self) -> Result<(), Failure> {
-        let (view, solid) = (self.viewpoint.view(), self.specimen.solid());
-        if Camera::new(&view, solid).reach(solid).is_none() {
-            let message =
-                "the eye of the perspective is not in front of the whole stone; move it farther off";
-            return Err(Failure::Input(format!("{}: {message}", self.file)));
+        let can = self.tracer.check(self.specimen, &self.viewpoint.view());
+        can.map_err(|why| self.cannot(why))
+    }
+
+    /// What to answer where the tracer cannot see the stone.
+    pub(super) fn cannot(&self, why: CannotTrace) -> Failure {
+        match why {
+            CannotTrace::Eye => Failure::Input(format!("{}: {why}", self.file)),
+            CannotTrace::Perspective => Failure::Usage(why.to_string()),
+            CannotTrace::NotConvex(why) => Failure::Usage(format!("{}: {why}", self.file)),
         }
-        if matches!(self.tracer, Tracer::Beams) && view.projection != Projection::Orthographic {
-            return Err(Failure::Usage(
-                "exact beams are for parallel rays: trace a perspective by rays".into(),
-            ));
-        }
-        if matches!(self.tracer, Tracer::Beams) {
-            self.stone()?;
-        }
-        Ok(())
     }
 
     /// The stone, for what only convex ones have.
@@ -91,23 +78,42 @@ impl Viewing<'_> {
         ray::Options { least_weight, polarised: self.polarised, ..ray::Options::default() }
     }
 
-    /// Warns where beams could not be followed to the bound that was asked for, or to one that nobody would ask for.
+    /// Warns where beams left more of the light unresolved than they were to: than was asked for or, where nothing was,
+    /// more than would be shown without a word. `aim` is the bound that they were followed to.
     pub(super) fn warn_of_open(
         &self,
-        beams: &Beams,
-        options: &beam::Options,
+        (open, count): (f64, usize),
+        aim: f64,
         tell: Tell,
     ) -> Result<(), Failure> {
-        let open = beams.unresolved();
-        let bound = self.unresolved.unwrap_or(options.unresolved.max(UNASKED));
-        if open <= bound {
+        if open <= self.unresolved.unwrap_or(aim.max(UNASKED)) {
             return Ok(());
         }
-        let (file, count) = (self.file, beams.len());
+        let (file, whose) = (self.file, if self.unresolved.is_some() { "asked for" } else { "aimed at" });
         tell(Told::Warning(&format!(
-            "{file}: {:.3} % of the light is unresolved, not {:.3} %: it is still caught inside after {count} beams",
-            100.0 * open,
-            100.0 * bound
+            "{file}: {} % of the light is unresolved, more than the {} % {whose}: after {count} beams it is still \
+             reflected to and fro inside, and every figure may be too low by that much",
+            told_percent(open),
+            told_percent(aim)
         )))
+    }
+}
+
+/// A part in percent, to four digits.
+fn told_percent(part: f64) -> String {
+    let percent = 100.0 * part;
+    let digits = 3 - percent.abs().max(1e-12).log10().floor() as i32;
+    let scale = 10_f64.powi(digits);
+    format!("{}", (percent * scale).round() / scale)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn percents_are_told_to_four_digits_however_small() {
+        let parts = [0.016_679_87, 1.5e-4, 1e-9, 0.5, 0.001];
+        assert_eq!(parts.map(told_percent), ["1.668", "0.015", "0.0000001", "50", "0.1"]);
     }
 }

@@ -106,6 +106,7 @@ impl MaterialHint {
                 source: "the mesh's glTF material".to_owned(),
                 valid_nm: None,
                 density: None,
+                colour_is_illustrative: false,
             }))
         };
         material.check().map(|()| Some(material))

@@ -16,8 +16,8 @@ const STEP_NM: usize = 5;
 /// 4 ln 2: exp(-4 ln 2 x²) is a half where x, in full widths, is a half.
 const PER_WIDTH_SQUARED: f64 = 4.0 * std::f64::consts::LN_2;
 const TRADE: &str = "trade tables, from memory, not yet checked";
-const COLOUR: &str = "band positions from the literature, from memory, not yet checked; strengths chosen for a stone of \
-                      6.5 mm";
+const COLOUR: &str = "illustrative: band positions from the literature, from memory, not yet checked; strengths chosen \
+                      for a stone of 6.5 mm";
 
 /// A gem and its colour.
 struct Gem {
@@ -65,7 +65,9 @@ impl Gem {
             [] => clear.source,
             _ => format!("index: {}; colour: {COLOUR}", clear.source),
         };
-        Material { name: self.name.to_owned(), description, absorption: self.absorption(), source, ..clear }
+        let colour_is_illustrative = !self.bands.is_empty();
+        let (name, absorption) = (self.name.to_owned(), self.absorption());
+        Material { name, description, absorption, source, colour_is_illustrative, ..clear }
     }
 
     fn absorption(&self) -> [Absorption; 2] {

@@ -93,7 +93,7 @@ pub(crate) fn degrees(value: f64) -> String {
 }
 
 /// What XML cannot hold is shown by the sign for it.
-pub(super) fn printable(text: &str) -> String {
+pub(in crate::picture) fn printable(text: &str) -> String {
     let replaced =
         |c: char| if c.is_control() || matches!(c, '\u{fffe}' | '\u{ffff}') { '\u{fffd}' } else { c };
     text.chars().map(replaced).collect()

@@ -57,8 +57,17 @@ fn materials() -> impl Strategy<Value = MaterialRef> {
         (texts, dispersions(), [absorptions(), absorptions()], any::<bool>(), (range, densities)).prop_map(
             |((name, description, source), dispersion, [o, e], pleochroic, (valid_nm, density))| {
                 let absorption = if pleochroic { [o, e] } else { [o.clone(), o] };
-                let material =
-                    Material { name, description, dispersion, absorption, source, valid_nm, density };
+                let colour_is_illustrative = pleochroic;
+                let material = Material {
+                    name,
+                    description,
+                    dispersion,
+                    absorption,
+                    source,
+                    valid_nm,
+                    density,
+                    colour_is_illustrative,
+                };
                 MaterialRef::Custom(Box::new(material))
             }
         ),

@@ -1,0 +1,263 @@
+//! From a design to its figures in one call.
+
+use super::figures::{Figures, by_beams};
+use super::sampled::by_rays;
+use crate::cut::Design;
+use crate::optics::{DispersionError, line};
+use crate::scene::{ASET_CONE, Backing, Medium, Scope, ScopeError, Specimen, SpecimenError, Viewpoint};
+use crate::trace::{CannotTrace, Stopped, Subject, Tracer, Watch, beam, ray, unwatched};
+
+/// The part of the light that may stay unresolved where nothing else is asked for. Face up this takes a few hundredths of
+/// a second, tilted some seconds.
+pub const UNRESOLVED: f64 = 1.5e-4;
+
+/// Rays along each side of each of the lattices that figures by rays are sampled on, where nothing else is asked for.
+pub const LATTICE: u32 = 256;
+
+/// The least and the greatest index that is traced.
+const INDICES: std::ops::RangeInclusive<f64> = 1.0..=5.0;
+
+/// How a design is measured.
+#[derive(Clone)]
+pub struct Options<'a> {
+    /// From where the stone is seen; face up by default.
+    pub viewpoint: Viewpoint,
+    /// The structured light whose bands are the zones of the figures; the common ASET by default.
+    pub scope: Scope,
+    /// Half angle in degrees of an observer's head before the scope, which sends no light; 0, the default, for none.
+    pub head_deg: f64,
+    /// Wavelength in nm, at which the material's index and absorption are taken; 589.3 by default.
+    pub wavelength_nm: f64,
+    /// An index to use instead of the material's.
+    pub index: Option<f64>,
+    /// How far light is followed, and on how many rays.
+    pub bounds: Bounds,
+    /// What traces the light. `None`, the default, takes exact beams where they apply and else rays on the processor.
+    pub tracer: Option<Tracer<'a>>,
+}
+
+impl Default for Options<'_> {
+    fn default() -> Self {
+        Self {
+            viewpoint: Viewpoint::default(),
+            scope: Scope::aset(ASET_CONE, Backing::Black),
+            head_deg: 0.0,
+            wavelength_nm: line::SODIUM_D,
+            index: None,
+            bounds: Bounds::default(),
+            tracer: None,
+        }
+    }
+}
+
+/// How far light is followed, and on how many rays.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Bounds {
+    /// Beams are followed until no more than this part of all light is unresolved; a ray until no more than this part of its
+    /// own light is left. Above 0, below 1.
+    pub unresolved: f64,
+    /// Whether surfaces see how light is polarised.
+    pub polarised: bool,
+    /// Rays along each side of a lattice, 1 to 16,384; beams need none.
+    pub lattice: u32,
+}
+
+impl Default for Bounds {
+    fn default() -> Self {
+        Self { unresolved: UNRESOLVED, polarised: true, lattice: LATTICE }
+    }
+}
+
+/// The figures of a stone in a scope, with what they mean.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Measured {
+    /// Where all light goes, by the bands of `scope`.
+    pub figures: Figures,
+    /// The scope, with the observer's head if there was one.
+    pub scope: Scope,
+    /// The refractive index that was traced.
+    pub index: f64,
+    /// The tracer's short name: `beam`, `ray` or `gpu`.
+    pub tracer: &'static str,
+    light_return: f64,
+    glare_return: f64,
+}
+
+/// One zone of a scope, as parts of the silhouette.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Zone {
+    /// Light of this zone that the outer surface reflects.
+    pub glare: f64,
+    /// Light of this zone that has been inside the stone.
+    pub transmitted: f64,
+    /// The part of the silhouette whose strongest light from inside comes from this zone.
+    pub strongest_exit_area: f64,
+}
+
+/// Why a design was not measured.
+#[derive(Debug, thiserror::Error)]
+pub enum MeasureError {
+    /// The design makes no stone.
+    #[error(transparent)]
+    Specimen(#[from] SpecimenError),
+    /// The scope makes no sense.
+    #[error(transparent)]
+    Scope(#[from] ScopeError),
+    /// The material has no index at this wavelength.
+    #[error(transparent)]
+    Dispersion(#[from] DispersionError),
+    /// An option is out of its range; the text names it, its value and its range.
+    #[error("{option} is {value}; give {range}")]
+    Option {
+        /// The option's name in [`Options`] or [`Bounds`].
+        option: &'static str,
+        /// What was given.
+        value: f64,
+        /// What it may be.
+        range: &'static str,
+    },
+    /// The tracer cannot show this stone from there.
+    #[error(transparent)]
+    CannotTrace(#[from] CannotTrace),
+    /// The graphics card failed; the processor can do the same work.
+    #[cfg(feature = "gpu")]
+    #[error(transparent)]
+    Card(#[from] crate::trace::gpu::GpuError),
+    /// The work was stopped by its watch.
+    #[error(transparent)]
+    Stopped(#[from] Stopped),
+}
+
+/// Measures a design: builds its stone, traces its light and sums it up by the zones of a scope.
+///
+/// # Errors
+/// What keeps the design from being a stone, or the stone from being traced as asked.
+pub fn measure(design: &Design, options: &Options) -> Result<Measured, MeasureError> {
+    options.check()?;
+    let specimen = Specimen::new(design.clone())?;
+    let material = &specimen.material;
+    let index = options.index.map_or_else(|| material.dispersion.try_index(options.wavelength_nm), Ok)?;
+    let absorption = Medium::absorption_of(material, options.wavelength_nm, specimen.unit_mm());
+    let medium = Medium { index, absorption, spread: 0.0 };
+    let view = options.viewpoint.view();
+    let scope = options.scope.clone().with_head(options.head_deg);
+    let tracer = options.tracer.unwrap_or_else(|| Tracer::best(&specimen, &view));
+    let subject = Subject { specimen: &specimen, medium, view: &view, scope: &scope };
+    measure_subject(subject, tracer, &options.bounds, &unwatched)
+}
+
+/// Measures a stone that is built already; `watch` is told the part done and may stop the work.
+///
+/// # Errors
+/// [`MeasureError::CannotTrace`], [`MeasureError::Stopped`], or a graphics card that fails.
+pub fn measure_subject(
+    subject: Subject,
+    tracer: Tracer,
+    bounds: &Bounds,
+    watch: Watch,
+) -> Result<Measured, MeasureError> {
+    tracer.check(subject.specimen, subject.view)?;
+    let (split, below) = subject.scope.clone().with_horizon();
+    let mut figures = traced(Subject { scope: &split, ..subject }, tracer, bounds, watch)?;
+    let light_return = figures.light_return(&split);
+    let glare_return = figures.glare_return(&split);
+    if let Some(below) = below {
+        figures.join(below);
+    }
+    let (scope, index) = (subject.scope.clone(), subject.medium.index);
+    Ok(Measured { figures, scope, index, tracer: tracer.name(), light_return, glare_return })
+}
+
+fn traced(
+    subject: Subject,
+    tracer: Tracer,
+    bounds: &Bounds,
+    watch: Watch,
+) -> Result<Figures, MeasureError> {
+    let Subject { specimen, medium, view, scope } = subject;
+    let &Bounds { unresolved, polarised, lattice } = bounds;
+    let options = ray::Options { least_weight: unresolved, polarised, ..ray::Options::default() };
+    match tracer {
+        Tracer::Beams => {
+            let polytope = &specimen.stone().map_err(CannotTrace::from)?.polytope;
+            let options = beam::Options { unresolved, polarised, ..beam::Options::default() };
+            Ok(by_beams(&beam::trace(polytope, medium, view, &options, watch)?, scope))
+        }
+        Tracer::Rays(crate::trace::Sampler::Rays) => {
+            Ok(by_rays(specimen.solid(), medium, view, scope, (options, lattice), watch)?)
+        }
+        #[cfg(feature = "gpu")]
+        Tracer::Rays(crate::trace::Sampler::Card(gpu)) => {
+            super::by_gpu(gpu, specimen.solid(), medium, view, scope, (options, lattice), watch)
+        }
+    }
+}
+
+impl Options<'_> {
+    /// Whether every number is in its range.
+    fn check(&self) -> Result<(), MeasureError> {
+        self.scope.validate()?;
+        let Bounds { unresolved, lattice, .. } = self.bounds;
+        let view = &self.viewpoint;
+        let checks = [
+            ("head_deg", self.head_deg, (0.0..90.0).contains(&self.head_deg), "0 to below 90 degrees"),
+            ("wavelength_nm", self.wavelength_nm, self.wavelength_nm > 0.0, "a wavelength above 0 nm"),
+            (
+                "index",
+                self.index.unwrap_or(1.0),
+                INDICES.contains(&self.index.unwrap_or(1.0)),
+                "1 (air) to 5",
+            ),
+            ("unresolved", unresolved, unresolved > 0.0 && unresolved < 1.0, "a part between 0 and 1"),
+            ("lattice", f64::from(lattice), (1..=16_384).contains(&lattice), "1 to 16,384"),
+            ("tilt_deg", view.tilt_deg, (-90.0..=90.0).contains(&view.tilt_deg), "-90 to 90 degrees"),
+            ("azimuth_deg", view.azimuth_deg, view.azimuth_deg.is_finite(), "a finite angle"),
+        ];
+        match checks.into_iter().find(|(.., is_right, _)| !is_right) {
+            Some((option, value, _, range)) => Err(MeasureError::Option { option, value, range }),
+            None => Ok(()),
+        }
+    }
+}
+
+impl Measured {
+    /// The light return, as a part of the silhouette: light that has been inside the stone and comes from bands above the
+    /// horizon that shine. Glare is not in it, and a black band, such as an observer's head, sends no light.
+    pub fn light_return(&self) -> f64 {
+        self.light_return
+    }
+
+    /// Glare out of bands above the horizon that shine: with [`light_return`](Self::light_return) all the light from
+    /// above that reaches the eye.
+    pub fn glare_return(&self) -> f64 {
+        self.glare_return
+    }
+
+    /// All the light that the outer surface reflects, whatever its zone.
+    pub fn glare(&self) -> f64 {
+        self.figures.surface.iter().sum()
+    }
+
+    /// The light that has been inside the stone and comes from the scope's lowest band: in all scopes that come with the
+    /// program, the light that leaks in from behind.
+    pub fn leakage(&self) -> f64 {
+        self.figures.transmitted.first().copied().unwrap_or(0.0)
+    }
+
+    /// The zone of this name; `None` where the scope has no such band.
+    pub fn zone(&self, name: &str) -> Option<Zone> {
+        let k = self.scope.bands.iter().position(|band| band.name == name)?;
+        let Figures { surface, transmitted, strongest_exit_area, .. } = &self.figures;
+        Some(Zone {
+            glare: surface[k],
+            transmitted: transmitted[k],
+            strongest_exit_area: strongest_exit_area[k],
+        })
+    }
+
+    /// How far off a figure of light may be: with beams, each may be too low by up to this and none is too high; with
+    /// rays, twice the standard error of sampling is added, which may be in both directions.
+    pub fn error(&self) -> f64 {
+        self.figures.unresolved + 2.0 * self.figures.standard_error
+    }
+}
