@@ -56,12 +56,17 @@ fn energy_picture(c: &mut Criterion) {
             let film = Film::around(&stone.polytope, &beams.view, 1024);
             let palette = Palette::of(&scope);
             write_png(&path, (1024, 1024), "", |png| {
-                paint(&Layer::energy(&beams, &scope, Glare::Included), &film, &unwatched, |rows| -> Result<(), WriteError> {
-                    let mut pixels = Vec::new();
-                    (rows.first..rows.first + rows.count)
-                        .for_each(|y| palette.encode(rows, 0, y, &mut pixels));
-                    png.push(&pixels)
-                })
+                paint(
+                    &Layer::energy(&beams, &scope, Glare::Included),
+                    &film,
+                    &unwatched,
+                    |rows| -> Result<(), WriteError> {
+                        let mut pixels = Vec::new();
+                        (rows.first..rows.first + rows.count)
+                            .for_each(|y| palette.encode(rows, 0, y, &mut pixels));
+                        png.push(&pixels)
+                    },
+                )
             })
         });
     });

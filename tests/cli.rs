@@ -48,7 +48,9 @@ fn measured(desk: &Desk, options: &str) -> Value {
         assert_eq!(keys(&figures[part]), format!("{zones}{also}"));
     }
     near(energy(&figures), 1.0, 1e-9, options);
-    let lit = |part: &str| ["green", "red", "blue"].map(|zone| at(&figures, &format!("{part}/{zone}"))).iter().sum();
+    let lit = |part: &str| {
+        ["green", "red", "blue"].map(|zone| at(&figures, &format!("{part}/{zone}"))).iter().sum()
+    };
     let [inner, glare]: [f64; 2] = ["transmitted", "surface"].map(lit);
     near(at(&figures, "light_return"), inner, 1e-12, options);
     near(at(&figures, "light_return_with_glare"), inner + glare, 1e-12, options);
@@ -265,7 +267,11 @@ fn what_the_program_knows_by_name_it_lists_and_takes_back_from_a_file() {
         assert!(code == 0 && listed("materials", name) && index == at(material, "n_D"), "{name}: {index}");
         // A colour that is no measurement is called illustrative wherever it is chosen.
         let is_illustrative = material["colour_is_illustrative"] == true;
-        assert_eq!(is_illustrative, said.contains(&format!("the colour of {name} is illustrative")), "{said}");
+        assert_eq!(
+            is_illustrative,
+            said.contains(&format!("the colour of {name} is illustrative")),
+            "{said}"
+        );
         assert_eq!(is_illustrative, figures["colour_is_illustrative"] == true, "{name}");
         assert!(is_illustrative || said.is_empty(), "{said}");
         let source = material["source"].as_str().unwrap();
@@ -308,7 +314,7 @@ fn a_perspective_is_traced_by_rays_which_say_so() {
     let desk = Desk::new();
     let figures = measured(&desk, "cube.toml --perspective 8");
     assert_eq!((&figures["tracer"], at(&figures, "view/projection/perspective")), (&json!("ray"), 8.0));
-    assert!(desk.done("measure cube.toml --perspective 8").contains(" by point rays"));
+    assert!(desk.done("measure cube.toml --perspective 8").contains(" point rays"));
     desk.done("export cube.toml --perspective 8 --size 32 --views aset --format png");
     for ending in ["", "-strongest"] {
         let told = png(&desk.at(format!("out/cube-aset{ending}.png"))).2;

@@ -171,18 +171,23 @@ fn a_white_world_looks_white_through_any_stone() {
         let beams = traced(&stone, Medium::clear(index), &view, 2e-3, true);
         let film = Film::around(&stone.polytope, &beams.view, 64);
         let (mut light, mut cover) = (0.0, 0.0);
-        paint(&Layer::energy(&beams, &white, Glare::Included), &film, &unwatched, |rows| -> Result<(), Stopped> {
-            let sum = |y, c: usize| rows.row(y, c).iter().sum::<f64>();
-            for y in rows.first..rows.first + rows.count {
-                light += (0..rows.channels - 1).map(|c| sum(y, c)).sum::<f64>();
-                cover += sum(y, rows.channels - 1);
-                let mut pixels = vec![];
-                Palette::of(&white).encode(rows, 0, y, &mut pixels);
-                let darkest = pixels.into_iter().min().unwrap();
-                assert!(darkest > 200, "index {index}: a pixel of {darkest} in row {y}");
-            }
-            Ok(())
-        })
+        paint(
+            &Layer::energy(&beams, &white, Glare::Included),
+            &film,
+            &unwatched,
+            |rows| -> Result<(), Stopped> {
+                let sum = |y, c: usize| rows.row(y, c).iter().sum::<f64>();
+                for y in rows.first..rows.first + rows.count {
+                    light += (0..rows.channels - 1).map(|c| sum(y, c)).sum::<f64>();
+                    cover += sum(y, rows.channels - 1);
+                    let mut pixels = vec![];
+                    Palette::of(&white).encode(rows, 0, y, &mut pixels);
+                    let darkest = pixels.into_iter().min().unwrap();
+                    assert!(darkest > 200, "index {index}: a pixel of {darkest} in row {y}");
+                }
+                Ok(())
+            },
+        )
         .unwrap();
         assert!((light / cover + beams.unresolved() - 1.0).abs() < 1e-9, "index {index}");
     }

@@ -9,8 +9,8 @@ use brillianteer::io::design_file::{self, Format, written};
 use brillianteer::io::mesh_design;
 use brillianteer::io::mesh_options::MeshOptions;
 use brillianteer::scene::Specimen;
-use meshes::{stripped, turned};
 use glam::DQuat;
+use meshes::{stripped, turned};
 use rayon::prelude::*;
 use std::path::{Path, PathBuf};
 
@@ -49,7 +49,11 @@ impl Figures {
         Self {
             volume_mm3: stone.volume() * specimen.unit_mm().powi(3),
             carats: specimen.carats(),
-            table: if stone.facets().iter().any(is_table) { outline.table.map(|t| t / outline.width) } else { [0.0; 2] },
+            table: if stone.facets().iter().any(is_table) {
+                outline.table.map(|t| t / outline.width)
+            } else {
+                [0.0; 2]
+            },
             length_to_width: outline.length / outline.width,
             crown: outline.crown_height() / outline.width,
             depth: (outline.top - outline.bottom) / outline.width,
@@ -76,7 +80,8 @@ impl Figures {
             return Some(format!("weight {:?} for {:?}", other.carats, self.carats));
         }
         // Where the girdle's edges lie is told by corners, which rounding may add: a crown is compared less closely.
-        let close = |what: &str, a: f64, b: f64| if what == "crown" { (a - b).abs() < 0.01 } else { near(a, b) };
+        let close =
+            |what: &str, a: f64, b: f64| if what == "crown" { (a - b).abs() < 0.01 } else { near(a, b) };
         pairs
             .into_iter()
             .find(|(what, a, b)| !close(what, *a, *b))

@@ -231,7 +231,8 @@ pub(super) fn lines(
     match by_area {
         true => of_zones.chain([total(&("Undecided", undecided, |zones| zones.unresolved, false))]).collect(),
         false => {
-            let is_shown = |(name, ..): &&(&str, &str, Pick, bool)| *name != WITH_GLARE || glare == Glare::Included;
+            let is_shown =
+                |(name, ..): &&(&str, &str, Pick, bool)| *name != WITH_GLARE || glare == Glare::Included;
             of_zones.chain(TOTALS.iter().filter(is_shown).map(total)).collect()
         }
     }

@@ -134,9 +134,10 @@ fn reading(shot: &Shot) -> Option<(&'static str, &'static str)> {
     shot.shows.scoped()?;
     Some(match (shot.strongest, shot.glare) {
         (true, _) => ("strongest exits", "The zone of the strongest light at each point alone."),
-        (false, Glare::LeftOut) => {
-            ("without glare", "All light that has been inside the stone; what the outer surface reflects is left out.")
-        }
+        (false, Glare::LeftOut) => (
+            "without glare",
+            "All light that has been inside the stone; what the outer surface reflects is left out.",
+        ),
         (false, Glare::Included) => {
             ("with glare", "All light, with what the outer surface reflects, as a camera records it.")
         }

@@ -72,7 +72,8 @@ fn material(design: &mut Design, known: &Material, ui: &mut Ui) {
         combo.response.labelled_by(label.id);
     });
     if known.colour_is_illustrative {
-        ui.label(RichText::new("illustrative colour").weak().small()).on_hover_text(ILLUSTRATIVE.trim_start());
+        ui.label(RichText::new("illustrative colour").weak().small())
+            .on_hover_text(ILLUSTRATIVE.trim_start());
     }
     if matches!(design.cut, Cut::Glass(_)) {
         company_rows::two_numbers(&mut design.material, known, ui);

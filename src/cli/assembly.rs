@@ -1,7 +1,7 @@
 //! What is put under light: one stone, or the stones of a scene in their places.
 
 use super::Failure;
-use super::specimen::{Specimen, asked_material, note_colour};
+use super::specimen::{Specimen, asked_material};
 use crate::cut::{MaterialRef, Size};
 use crate::io::background::BackgroundRef;
 use crate::io::library;

@@ -79,7 +79,10 @@ fn table(report: &Report, timing: bool) -> String {
     }
     row("undecided", [0.0, 0.0, f.strongest_exit_undecided]);
     let sum = |zones: &[f64]| zones.iter().sum::<f64>();
-    row("sum", [sum(&f.surface), sum(&f.transmitted), sum(&f.strongest_exit_area) + f.strongest_exit_undecided]);
+    row(
+        "sum",
+        [sum(&f.surface), sum(&f.transmitted), sum(&f.strongest_exit_area) + f.strongest_exit_undecided],
+    );
     let (returned, glare) = (measured.light_return(), measured.glare_return());
     let glare = match has_glare {
         true => format!("with glare {:.3} %", 100.0 * (returned + glare)),

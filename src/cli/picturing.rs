@@ -4,13 +4,14 @@ use super::assembly::Assembly;
 use super::options::TracerName;
 use super::picture_options::PictureOptions;
 use super::sampler::{on_card, quickest};
+use super::specimen::note_colour;
 use super::{Failure, tell};
 use crate::io::background::{BackgroundError, BackgroundRef};
-use crate::trace::Sampler;
 use crate::io::lighting::Lighting;
 use crate::optics::Illuminant;
 use crate::picture::{Bloom, Develop, Linear, Overlay, Tone, develop, lay};
 use crate::scene::{Film, Panorama, Projection, Setting, View};
+use crate::trace::Sampler;
 use crate::trace::Watch;
 use crate::trace::ray::{self, Camera};
 use crate::trace::sitting::Sitting;
@@ -83,6 +84,7 @@ impl<'a> Studio<'a> {
     pub fn load(options: &'a PictureOptions, file: &Path, view: &View) -> Result<Self, Failure> {
         let assembly =
             Assembly::load(file, options.material.as_deref(), options.stone, options.mesh.options())?;
+        assembly.setting.stones.iter().for_each(|stone| note_colour(&stone.material));
         let own = assembly.light.as_ref().map(|light| light.display().to_string());
         let light = options.light.as_ref().or(own.as_ref());
         let mut lighting = Lighting::load(light.map_or("studio", String::as_str))?;

@@ -222,9 +222,7 @@ mod tests {
         let plain = Outline::of(&stone);
         assert!((plain.width - 1.3).abs() < 1e-12 && (plain.length - 2.0).abs() < 1e-12, "{plain:?}");
         assert!(plain.table[0] > 0.1 && plain.table[1] > 1.01 * plain.table[0], "{plain:?}");
-        let moved = |angle| {
-            Outline::of(&stone.moved(1.0, glam::DQuat::from_rotation_z(angle), DVec3::ZERO))
-        };
+        let moved = |angle| Outline::of(&stone.moved(1.0, glam::DQuat::from_rotation_z(angle), DVec3::ZERO));
         for step in 1..40 {
             let again = moved(0.31 * f64::from(step));
             let pairs = [

@@ -192,7 +192,8 @@ pub fn written(specimen: &Specimen, format: Format) -> Result<Written, Failure> 
         Format::Glb => {
             // The standard's unit is the metre.
             let (scale, hint) = (1e-3 * radius_mm, MaterialHint::of(&specimen.material, 1e3));
-            let bytes = write_glb(&specimen.body, name, scale, (&hint, Some(material))).map_err(|e| refused(&e))?;
+            let bytes =
+                write_glb(&specimen.body, name, scale, (&hint, Some(material))).map_err(|e| refused(&e))?;
             as_mesh(specimen, format, bytes)
         }
     })

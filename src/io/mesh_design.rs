@@ -167,9 +167,10 @@ mod tests {
         });
         let specimen = Specimen::new(Design { cut: Cut::Planes(facets.collect()), ..design }).unwrap();
         let count = specimen.stone().unwrap().polytope.facets().len();
-        for bytes in
-            [write_obj(&specimen.body, "t", 1.0, None).into_bytes(), write_stl(&specimen.body, 3.0, None).unwrap()]
-        {
+        for bytes in [
+            write_obj(&specimen.body, "t", 1.0, None).into_bytes(),
+            write_stl(&specimen.body, 3.0, None).unwrap(),
+        ] {
             let brought = read(bytes, Path::new("t"), MeshOptions::default()).unwrap();
             let Cut::Planes(planes) = &brought.design.cut else { panic!("concave") };
             assert_eq!(planes.len(), count);

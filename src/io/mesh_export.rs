@@ -57,7 +57,13 @@ struct Faces<'a> {
 
 impl Faces<'_> {
     /// The statement of a file in which +z or, as in glTF, +y is up, with so many mm per unit.
-    fn statement(&self, up: DVec3, mm_per_unit: f64, scale: f64, material: Option<&MaterialRef>) -> Statement {
+    fn statement(
+        &self,
+        up: DVec3,
+        mm_per_unit: f64,
+        scale: f64,
+        material: Option<&MaterialRef>,
+    ) -> Statement {
         let triangles = self.faces.iter().flat_map(|face| face.triangles.iter().copied()).collect();
         let stone = Surface::new(self.vertices.to_vec(), triangles);
         Statement::of(&stone, up, mm_per_unit, scale * mm_per_unit, material)

@@ -1,30 +1,42 @@
 //! Floor 5: files, in and out.
 
 mod apng;
+#[cfg(feature = "interchange")]
 pub mod asc;
 mod atomic;
 pub mod background;
 pub mod cut_file;
+#[cfg(feature = "interchange")]
 mod cutters;
+#[cfg(feature = "interchange")]
 pub mod design_file;
 mod drawing_png;
+#[cfg(feature = "exr")]
 pub mod export;
+#[cfg(feature = "exr")]
 mod exr;
 mod failure;
 mod fault;
+#[cfg(feature = "interchange")]
 pub mod gcs;
+#[cfg(feature = "interchange")]
 pub mod gem;
 pub mod library;
 pub mod light_file;
 pub mod lighting;
+#[cfg(feature = "interchange")]
 pub mod mesh_design;
+#[cfg(feature = "interchange")]
 mod mesh_export;
+#[cfg(feature = "interchange")]
 pub mod mesh_file;
 pub mod mesh_options;
 pub mod panorama;
 mod picture_file;
 mod png;
+#[cfg(feature = "exr")]
 pub mod refraction_map;
+#[cfg(feature = "exr")]
 pub mod refraction_page;
 pub mod scene_file;
 pub mod scope_file;
@@ -33,8 +45,12 @@ mod text;
 pub use apng::{Animation, Frames, write_apng};
 pub use atomic::{WriteError, write};
 pub use drawing_png::{DrawingError, rasterize, rasterize_clear, rasterize_within};
+#[cfg(feature = "exr")]
 pub use exr::write_exr;
 pub use failure::Failure;
+#[cfg(feature = "interchange")]
 pub use mesh_export::{write_glb, write_obj, write_ply, write_stl};
-pub use picture_file::{write_linear_exr, write_rgba_png};
+#[cfg(feature = "exr")]
+pub use picture_file::write_linear_exr;
+pub use picture_file::write_rgba_png;
 pub use png::{MOST_PIXELS, PngRows, write_png};

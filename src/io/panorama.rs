@@ -2,6 +2,7 @@
 //!
 //! Headers may lie: sides are bound, and a file must be large enough to hold what its header promises.
 
+#[cfg(feature = "exr")]
 mod exr;
 mod raster;
 
@@ -95,7 +96,13 @@ fn raw(path: &Path) -> Result<Raw, String> {
     let mut start = Vec::new();
     file.by_ref().take(4).read_to_end(&mut start).and_then(|_| file.rewind()).map_err(unreadable)?;
     match start.as_slice() {
+        #[cfg(feature = "exr")]
         start if start == EXR => exr::read(file, about.len()),
+        #[cfg(not(feature = "exr"))]
+        start if start == EXR => {
+            Err("this build reads no OpenEXR: build it with the feature `exr`, or save the picture as PNG"
+                .into())
+        }
         other => raster::read(file, about.len(), other),
     }
 }

@@ -1,14 +1,21 @@
 //! Finished pictures: developed as PNG, in linear light as OpenEXR.
 
 use super::atomic::{WriteError, write};
-use super::{exr, png::encoder};
+#[cfg(feature = "exr")]
+use super::exr;
+use super::png::encoder;
+#[cfg(feature = "exr")]
 use crate::picture::Linear;
-use ::exr::math::Vec2;
-use ::exr::meta::attribute::Chromaticities;
-use ::exr::prelude::{AnyChannel, FlatSamples};
+#[cfg(feature = "exr")]
+use ::exr::{
+    math::Vec2,
+    meta::attribute::Chromaticities,
+    prelude::{AnyChannel, FlatSamples},
+};
 use std::path::Path;
 
 /// The primaries and the white of sRGB, as CIE x and y (ITU-R BT.709-6, §1).
+#[cfg(feature = "exr")]
 pub(super) const SRGB: Chromaticities = Chromaticities {
     red: Vec2(0.64, 0.33),
     green: Vec2(0.30, 0.60),
@@ -51,6 +58,7 @@ pub(super) fn without_cover(rgba: &[u8]) -> Vec<u8> {
 ///
 /// # Errors
 /// When the file system refuses, or the pixels are not as many as the size says.
+#[cfg(feature = "exr")]
 pub fn write_linear_exr(path: &Path, picture: &Linear, description: &str) -> Result<(), WriteError> {
     let size = (picture.width as usize, picture.height as usize);
     if size.0 * size.1 != picture.pixels.len() || picture.pixels.is_empty() {

@@ -68,7 +68,8 @@ impl Calipers {
         let length = narrow().map(|(_, length, _)| *length).fold(0.0, f64::max);
         let long = narrow().filter(|(_, l, _)| *l >= length * (1.0 - EQUAL));
         // The last of equals, by direction, so that the order of the corners decides nothing.
-        let across = long.map(|(.., across)| *across).max_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)))?;
+        let across =
+            long.map(|(.., across)| *across).max_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)))?;
         let middle = centre_of_turns(outline, SAME * width).unwrap_or_else(|| {
             let middle = |along: DVec2| {
                 let (low, high) = extent(outline, along);
@@ -118,7 +119,12 @@ mod tests {
     use super::*;
 
     fn turned(points: &[[f64; 2]], angle: f64) -> Vec<DVec2> {
-        hull(points.iter().map(|p| DVec2::from_angle(angle).rotate(DVec2::from(*p)) + DVec2::new(3.0, -2.0)).collect())
+        hull(
+            points
+                .iter()
+                .map(|p| DVec2::from_angle(angle).rotate(DVec2::from(*p)) + DVec2::new(3.0, -2.0))
+                .collect(),
+        )
     }
 
     #[test]
@@ -164,7 +170,9 @@ mod tests {
             (0..=32).map(|k| DVec2::from_angle(TAU / 2.0 * f64::from(k) / 32.0).to_array()).collect();
         let found = Calipers::of(&turned(&half, 0.0)).unwrap();
         assert!((found.middle - DVec2::new(3.0, -1.5)).length() < 1e-12, "{found:?}");
-        assert!((found.width - 1.0).abs() < 1e-12 && (found.length - 2.0).abs() < 1e-12 && found.across.y > 0.999);
+        assert!(
+            (found.width - 1.0).abs() < 1e-12 && (found.length - 2.0).abs() < 1e-12 && found.across.y > 0.999
+        );
     }
 
     #[test]

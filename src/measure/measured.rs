@@ -168,12 +168,7 @@ pub fn measure_subject(
     Ok(Measured { figures, scope, index, tracer: tracer.name(), light_return, glare_return })
 }
 
-fn traced(
-    subject: Subject,
-    tracer: Tracer,
-    bounds: &Bounds,
-    watch: Watch,
-) -> Result<Figures, MeasureError> {
+fn traced(subject: Subject, tracer: Tracer, bounds: &Bounds, watch: Watch) -> Result<Figures, MeasureError> {
     let Subject { specimen, medium, view, scope } = subject;
     let &Bounds { unresolved, polarised, lattice } = bounds;
     let options = ray::Options { least_weight: unresolved, polarised, ..ray::Options::default() };

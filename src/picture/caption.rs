@@ -54,9 +54,8 @@ impl Caption {
     /// Its elements from the origin on, and the height that they take.
     fn drawn(&self, width: f64) -> (Group, f64) {
         let room = width - 2.0 * MARGIN.0;
-        let mut texts = Group::new()
-            .set("font-family", "Ubuntu, 'Ubuntu Light', sans-serif")
-            .set("font-weight", 300);
+        let mut texts =
+            Group::new().set("font-family", "Ubuntu, 'Ubuntu Light', sans-serif").set("font-weight", 300);
         let mut fields = Group::new().set("stroke", Inks::PAPER.of(Ink::Edge)).set("stroke-width", 0.8);
         let mut y = MARGIN.1 + TITLE_LINE / 2.0;
         texts = texts.add(line(TITLE, [MARGIN.0, y], &shortened(&self.title, TITLE.size, room)));
@@ -72,7 +71,10 @@ impl Caption {
             if x > MARGIN.0 && x + wide > width - MARGIN.0 {
                 (x, y) = (MARGIN.0, y + LINE);
             }
-            let field = Rectangle::new().set("x", x).set("y", y - FIELD / 2.0).set("fill", format!("#{r:02x}{g:02x}{b:02x}"));
+            let field = Rectangle::new()
+                .set("x", x)
+                .set("y", y - FIELD / 2.0)
+                .set("fill", format!("#{r:02x}{g:02x}{b:02x}"));
             fields = fields.add(field.set("width", FIELD).set("height", FIELD));
             texts = texts.add(line(REMARK, [x + FIELD + GAPS.0, y], &told));
             x += wide + GAPS.1;
@@ -87,7 +89,10 @@ impl Caption {
 fn told_of(scope: &Scope, band: usize) -> String {
     let name = &scope.bands[band].name;
     match scope.elevations(band) {
-        [-90.0, 0.0] => format!("{name} the horizon: light from behind"),
+        [-90.0, to] => format!(
+            "{name} {}: light from behind",
+            if to == 0.0 { "the horizon".into() } else { degrees(to) }
+        ),
         [from, to] => format!("{name}, {} to {}", degrees(from), degrees(to)),
     }
 }

@@ -140,9 +140,12 @@ impl Scope {
         )
     }
 
-    /// Ideal-Scope: a red reflector with a black hole of this half angle (degrees) for the eye, backlit white.
+    /// Ideal-Scope: a red reflector with a black hole of this half angle (degrees) for the eye, and a white light behind the
+    /// stone, which ends some way below the horizon: between it and the reflector nothing shines.
     pub fn ideal_scope(hole: f64) -> Self {
-        Self::new("ideal-scope", WHITE, &[("red", 0.0, [228, 0, 43]), ("black", 90.0 - hole, BLACK)])
+        let bands =
+            [("side", BACKLIGHT_END, BLACK), ("red", 0.0, [228, 0, 43]), ("black", 90.0 - hole, BLACK)];
+        Self::new("ideal-scope", WHITE, &bands)
     }
 
     /// The viewer for arrows (face up) and hearts (face down): the camera's dark cone, a coloured ring around it,
@@ -237,6 +240,11 @@ pub fn elevation_deg(direction: DVec3, zenith: DVec3) -> f64 {
     direction.dot(zenith).atan2(direction.cross(zenith).length()).to_degrees()
 }
 
+/// The elevation up to which Ideal-Scope's light behind the stone reaches, degrees: above what ideal cuts leak (40 degrees
+/// below the horizon and lower), below the 21 degrees from which an eighth of the light of their arrows' shafts comes, which
+/// graders see dark (docs/optics.md, "Ideal-Scope's hole").
+const BACKLIGHT_END: f64 = -30.0;
+
 /// Full angle in degrees of the observer's cone, blue, of the common ASET.
 pub const ASET_CONE: f64 = 30.0;
 
@@ -273,7 +281,7 @@ mod tests {
         let aset = Scope::aset(ASET_CONE, Backing::Black).with_head(20.0);
         assert_eq!(aset.clone().with_horizon(), (aset.clone(), None));
         assert_eq!(aset.shining().collect::<Vec<_>>(), [1, 2]);
-        assert_eq!(Scope::ideal_scope(15.0).shining().collect::<Vec<_>>(), [1]);
+        assert_eq!(Scope::ideal_scope(15.0).shining().collect::<Vec<_>>(), [2]);
         let wide = Scope::new("wide", WHITE, &[("red", -20.0, RED), ("blue", 60.0, BLUE)]);
         let (split, lower) = wide.clone().with_horizon();
         assert_eq!((lower, split.bands.len(), split.elevations(2)), (Some(1), 4, [0.0, 60.0]));
@@ -284,10 +292,10 @@ mod tests {
     #[test]
     fn bands_out_of_order_are_named() {
         let mut scope = Scope::ideal_scope(12.0);
-        scope.bands.swap(1, 2);
+        scope.bands.swap(2, 3);
         assert!(matches!(scope.validate(), Err(ScopeError::OutOfOrder { band, .. }) if band == "red"));
-        scope.bands.swap(1, 2);
-        scope.bands[2].name = "red".into();
+        scope.bands.swap(2, 3);
+        scope.bands[3].name = "red".into();
         assert!(matches!(scope.validate(), Err(ScopeError::Twice { band, .. }) if band == "red"));
         scope.bands[0].from = 0.0;
         assert!(scope.validate().is_err());

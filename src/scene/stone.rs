@@ -45,7 +45,8 @@ impl Stone {
         let outline = Outline::of(&self.polytope);
         let scale = 2.0 / outline.width;
         // What lies on the axis but for the last digits stays there to all digits.
-        let off = if outline.middle.length() > CENTRED * outline.width { outline.middle } else { DVec2::ZERO };
+        let off =
+            if outline.middle.length() > CENTRED * outline.width { outline.middle } else { DVec2::ZERO };
         let shift = -scale * off.extend(outline.girdle_top);
         Self { polytope: self.polytope.moved(scale, DQuat::IDENTITY, shift), names: self.names.clone() }
     }

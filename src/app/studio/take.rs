@@ -160,8 +160,11 @@ impl Camera {
     ) -> Result<Taken, Trouble> {
         let film = coarser(&shot.film, effort.coarser);
         let beams = self.shelf.beams(&shot.specimen, &shot.view, effort, watch)?;
-        let layer =
-            if shot.strongest { Layer::strongest(&beams, scope) } else { Layer::energy(&beams, scope, shot.glare) };
+        let layer = if shot.strongest {
+            Layer::strongest(&beams, scope)
+        } else {
+            Layer::energy(&beams, scope, shot.glare)
+        };
         let mut canvas = Canvas::new(&film, scope, 0);
         paint(&layer, &film, watch, |rows| -> Result<(), Trouble> { canvas.take(rows) })?;
         Ok(canvas.finish(Some(beams.unresolved()), "exact beams"))

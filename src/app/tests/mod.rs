@@ -6,6 +6,7 @@ mod company;
 mod drag;
 mod flows;
 mod formats;
+mod grading;
 mod handed_out;
 mod layout;
 mod looks;

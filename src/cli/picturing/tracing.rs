@@ -1,10 +1,10 @@
 //! A picture by each tracer, and what it says of how it was made.
 
 use super::{Failure, Studio, Taken};
-use crate::trace::Sampler;
 use crate::optics::{Stratum, strata};
 use crate::picture::spectral::{Remainder, expose_in};
 use crate::picture::{ByBeams, Linear};
+use crate::trace::Sampler;
 use crate::trace::ray::ByRays;
 use crate::trace::sitting::{Looks, Sitting};
 use crate::trace::{Watch, beam};

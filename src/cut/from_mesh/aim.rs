@@ -68,7 +68,9 @@ pub(super) fn aim(solid: &Polytope, parts: &Parts, up: Up) -> Result<Aim, FromMe
         Up::Given(given) => return toward(solid, given).ok_or(FromMeshError::Up(given)),
         Up::Posed(pose) => {
             let given = pose.turn.inverse() * DVec3::Z;
-            return toward(solid, given).map(|aim| Aim { axis: given, ..aim }).ok_or(FromMeshError::Up(given));
+            return toward(solid, given)
+                .map(|aim| Aim { axis: given, ..aim })
+                .ok_or(FromMeshError::Up(given));
         }
     };
     let mut scored: Vec<(f64, Cues)> = directions(solid)
@@ -123,8 +125,7 @@ fn is_alike(a: &Cues, b: &Cues) -> bool {
 /// What is seen of a direction at a glance.
 fn at_sight(cues: &Cues, custom: DVec3) -> f64 {
     let worth = |area: f64| if area > 0.0 { weight::TABLE + weight::TABLE_AREA * area.min(1.0) } else { 0.0 };
-    weight::GIRDLE * cues.girdle.min(1.0)
-        + worth(cues.table_area) - worth(cues.culet_area)
+    weight::GIRDLE * cues.girdle.min(1.0) + worth(cues.table_area) - worth(cues.culet_area)
         + weight::FLAT * (1.0 - cues.crown)
         + own(cues, custom)
 }
@@ -136,7 +137,13 @@ fn own(cues: &Cues, custom: DVec3) -> f64 {
     let axes = [DVec3::X, DVec3::Y, DVec3::Z];
     let along = axes.iter().any(|axis| is(*axis) || is(-*axis)) && square;
     let second = if custom == DVec3::Y { DVec3::Z } else { DVec3::Y };
-    let usual = if is(custom) { 1.0 } else if is(second) { 0.5 } else { 0.0 };
+    let usual = if is(custom) {
+        1.0
+    } else if is(second) {
+        0.5
+    } else {
+        0.0
+    };
     weight::CUSTOM * usual + if along { weight::OWN_AXIS } else { 0.0 }
 }
 

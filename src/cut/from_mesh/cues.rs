@@ -51,7 +51,8 @@ impl Cues {
         let (perimeter, covered) = (around.sum::<f64>(), area(&outline));
         let Calipers { width, length, .. } = Calipers::of(&outline)?;
         let heights = || solid.vertices().iter().map(|v| v.dot(up));
-        let (low, high) = heights().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), z| (l.min(z), h.max(z)));
+        let (low, high) =
+            heights().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), z| (l.min(z), h.max(z)));
         let pieces = pieces(solid, up);
         let middle = |p: &Piece| (p.low + p.high) / 2.0;
         let whole: f64 = pieces.iter().map(|p| p.length).sum();
@@ -59,9 +60,11 @@ impl Cues {
         let square = |direction: DVec3| {
             let facets = solid.facets().iter().enumerate();
             let near = facets.filter(|(_, f)| f.plane.normal.dot(direction) >= SQUARE);
-            near.max_by(|a, b| solid.facet_area(a.1).total_cmp(&solid.facet_area(b.1))).map(|(place, _)| place)
+            near.max_by(|a, b| solid.facet_area(a.1).total_cmp(&solid.facet_area(b.1)))
+                .map(|(place, _)| place)
         };
-        let part = |facet: Option<usize>| facet.map_or(0.0, |f| solid.facet_area(&solid.facets()[f]) / covered);
+        let part =
+            |facet: Option<usize>| facet.map_or(0.0, |f| solid.facet_area(&solid.facets()[f]) / covered);
         let table = square(up);
         Some(Self {
             up,
@@ -96,7 +99,8 @@ fn pieces(solid: &Polytope, up: DVec3) -> Vec<Piece> {
         let corners: Vec<DVec3> = solid.corners(facet).collect();
         let between = |of: &[DVec3]| {
             let heights = of.iter().map(|c| c.dot(up));
-            let (low, high) = heights.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), z| (l.min(z), h.max(z)));
+            let (low, high) =
+                heights.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), z| (l.min(z), h.max(z)));
             let along = of.iter().flat_map(|a| of.iter().map(move |b| (*a - *b).reject_from_normalized(up)));
             Piece { length: along.map(DVec3::length).fold(0.0, f64::max), low, high }
         };
@@ -117,8 +121,7 @@ fn pieces(solid: &Polytope, up: DVec3) -> Vec<Piece> {
 /// are none of it.
 fn level_edge(pieces: &[Piece], within: f64) -> f64 {
     let flat = || pieces.iter().filter(|p| p.high - p.low <= within && p.length > 0.0);
-    let at = |level: f64| -> f64 {
-        flat().filter(|p| (p.low - level).abs() <= within).map(|p| p.length).sum()
-    };
+    let at =
+        |level: f64| -> f64 { flat().filter(|p| (p.low - level).abs() <= within).map(|p| p.length).sum() };
     flat().map(|p| at(p.low)).fold(0.0, f64::max)
 }

@@ -40,8 +40,7 @@ pub fn measure<'a>(
     let unresolved = viewing.unresolved.unwrap_or(UNRESOLVED);
     let bounds = Bounds { unresolved, polarised: viewing.polarised, lattice: LATTICE };
     let view = viewing.viewpoint.view();
-    let subject =
-        Subject { specimen: viewing.specimen, medium: viewing.medium, view: &view, scope: &scope };
+    let subject = Subject { specimen: viewing.specimen, medium: viewing.medium, view: &view, scope: &scope };
     let start = Instant::now();
     let by = |tracer| {
         let measured = measure_subject(subject, tracer, &bounds, watch).map_err(|e| failure(&viewing, e))?;
@@ -53,7 +52,11 @@ pub fn measure<'a>(
     };
     let seconds = start.elapsed().as_secs_f64();
     if matches!(tracer, Tracer::Beams) {
-        viewing.warn_of_open((measured.figures.unresolved, measured.figures.beams), bounds.unresolved, tell)?;
+        viewing.warn_of_open(
+            (measured.figures.unresolved, measured.figures.beams),
+            bounds.unresolved,
+            tell,
+        )?;
     }
     Ok(Report { viewing, scoped: scoped.clone(), measured, tracer, seconds })
 }

@@ -112,6 +112,47 @@ mod tests {
     use super::*;
 
     #[test]
+    fn a_warning_names_the_bound_that_was_aimed_at_or_asked_for() {
+        let design = crate::io::cut_file::parse(crate::io::library::cut("tolkowsky").unwrap(), "x").unwrap();
+        let specimen = Specimen::new(design).unwrap();
+        let viewing = |unresolved| Viewing {
+            specimen: &specimen,
+            file: "mine.toml",
+            viewpoint: Viewpoint::default(),
+            medium: Medium::clear(2.4),
+            wavelength_nm: None,
+            head_deg: 0.0,
+            unresolved,
+            polarised: true,
+            glare: None,
+            tracer: Tracer::Beams,
+        };
+        let said = |unresolved, open, aim| {
+            let said = std::cell::RefCell::new(String::new());
+            let tell = |told: Told| {
+                if let Told::Warning(text) = told {
+                    *said.borrow_mut() = text.to_owned();
+                }
+                Ok(())
+            };
+            viewing(unresolved).warn_of_open((open, 6_000_000), aim, &tell).unwrap();
+            said.into_inner()
+        };
+        let usual = said(None, 0.016_68, 1.5e-4);
+        assert!(
+            usual
+                .starts_with("mine.toml: 1.668 % of the light is unresolved, more than the 0.015 % aimed at")
+        );
+        let asked = said(Some(1e-4), 0.000_5, 1e-4);
+        assert!(
+            asked.contains("0.05 % of the light is unresolved, more than the 0.01 % asked for"),
+            "{asked}"
+        );
+        // What is not asked for is told only where it could be seen.
+        assert_eq!((said(None, 5e-4, 1.5e-4), said(Some(1e-3), 1e-3, 1e-3)), (String::new(), String::new()));
+    }
+
+    #[test]
     fn percents_are_told_to_four_digits_however_small() {
         let parts = [0.016_679_87, 1.5e-4, 1e-9, 0.5, 0.001];
         assert_eq!(parts.map(told_percent), ["1.668", "0.015", "0.0000001", "50", "0.1"]);

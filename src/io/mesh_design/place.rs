@@ -86,9 +86,13 @@ fn changes(statement: &Statement, up: DVec3, scale: f64) -> Option<String> {
     let to = format!("its corners have been turned since, so that its table faces {}", axis(up));
     let (said, size) = (axis(statement.up), statement.diameter_mm);
     match (turned, scaled) {
-        (true, true) => Some(format!("the file says that {said} is up and {size} mm its size, but {to}, and {by}; {size} mm is kept")),
+        (true, true) => Some(format!(
+            "the file says that {said} is up and {size} mm its size, but {to}, and {by}; {size} mm is kept"
+        )),
         (true, false) => Some(format!("the file says that {said} is up, but {to}")),
-        (false, true) => Some(format!("the file says that the stone is {size} mm across, but {by}; {size} mm is kept")),
+        (false, true) => {
+            Some(format!("the file says that the stone is {size} mm across, but {by}; {size} mm is kept"))
+        }
         (false, false) => None,
     }
 }
@@ -131,8 +135,9 @@ pub(super) fn upright(shell: &Shell, up: DVec3, scale: Option<f64>) -> Result<Po
     let corners: Vec<DVec3> = shell.vertices().iter().map(|&v| turn * v).collect();
     let outline = hull(corners.iter().map(|v| v.truncate()).collect());
     let found = Calipers::of(&outline).ok_or("it has no extent across the direction up")?;
-    let (low, high) =
-        corners.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| (low.min(v.z), high.max(v.z)));
+    let (low, high) = corners
+        .iter()
+        .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| (low.min(v.z), high.max(v.z)));
     let scale = scale.unwrap_or(2.0 / found.width);
     Ok(Pose { scale, turn, shift: -scale * found.middle.extend((low + high) / 2.0) })
 }

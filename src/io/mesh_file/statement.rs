@@ -89,7 +89,13 @@ pub enum Stands {
 
 impl Statement {
     /// Of a solid in its own frame (`stone`), in a file whose `up` axis is up and whose unit is so many mm.
-    pub fn of(stone: &Surface, up: DVec3, mm_per_unit: f64, radius_mm: f64, material: Option<&MaterialRef>) -> Self {
+    pub fn of(
+        stone: &Surface,
+        up: DVec3,
+        mm_per_unit: f64,
+        radius_mm: f64,
+        material: Option<&MaterialRef>,
+    ) -> Self {
         let material = material.filter(|material| !matches!(material, MaterialRef::Custom(_))).cloned();
         let measures = Measures::of(stone, DVec3::Z);
         Self { up, mm_per_unit, diameter_mm: 2.0 * radius_mm, material, measures }
@@ -149,7 +155,8 @@ impl Statement {
     pub fn parse(text: &str) -> Result<Self, String> {
         let end = text.char_indices().nth(LONGEST).map_or(text.len(), |(end, _)| end);
         let text = text[..end].trim();
-        let (pairs, material) = text.split_once(" n=").map_or((text, None), |(pairs, name)| (pairs, Some(name)));
+        let (pairs, material) =
+            text.split_once(" n=").map_or((text, None), |(pairs, name)| (pairs, Some(name)));
         let mut found = Found::default();
         for pair in pairs.split_whitespace().skip(1) {
             found.take(pair)?;
@@ -247,4 +254,3 @@ fn material_of(name: &str) -> Result<MaterialRef, String> {
     let material = name.parse().map_or_else(|_| MaterialRef::Name(name.to_owned()), MaterialRef::Index);
     material.check().map(|()| material).map_err(|error| error.to_string())
 }
-

@@ -1,0 +1,79 @@
+//! What a grader looks for: scopes without glare unless it is asked for, captions, colours that are called illustrative.
+
+use super::*;
+use crate::app::dialogs::Dialog;
+use crate::scene::Glare;
+use egui_kittest::kittest::NodeT;
+
+/// The share that a row of the figures shows, in percent.
+fn share(bench: &Bench, name: &str) -> Option<f64> {
+    let labels = bench.harness.query_all_by_label_contains(name);
+    let told = labels.filter_map(|node| node.accesskit_node().label());
+    told.filter_map(|text| text.strip_prefix(name)?.trim().strip_suffix(" %")?.parse().ok()).next()
+}
+
+#[test]
+fn scopes_show_no_glare_until_it_is_asked_for_and_then_only_they_are_taken_anew() {
+    let desk = Desk { layout: Layout::One, ..Bench::small() };
+    let mut bench = Bench::with(Setup { desk, ..Setup::default() });
+    bench.settle();
+    assert_eq!(bench.editor().shown((0, Which::Present)).unwrap().shot.glare, Glare::LeftOut);
+    assert!(bench.harness.query_by_label("without glare").is_some(), "the view says what it shows");
+    let (bare, red) = (bench.picture(0), share(&bench, "Red").unwrap());
+    assert!(share(&bench, "With glare").is_none());
+    let returned = share(&bench, "Light return").unwrap();
+    bench.harness.key_press(egui::Key::V);
+    bench.settle();
+    assert!(bench.harness.query_by_label("with glare").is_some());
+    assert_ne!(bench.picture(0), bare);
+    assert!(share(&bench, "Red").unwrap() > red + 1.0, "glare is red light as well");
+    assert_eq!(share(&bench, "Light return"), Some(returned), "light return holds no glare");
+    let with = share(&bench, "With glare").unwrap();
+    assert!(with > returned + 10.0, "{returned} without, {with} with");
+    bench.harness.key_press(egui::Key::V);
+    bench.settle();
+    assert_eq!(bench.picture(0), bare);
+    // Strongest exits have no glare in any case, and are not taken twice.
+    let strongest = |glare| {
+        let shot = bench.editor().shown((0, Which::Present)).unwrap().shot.clone();
+        Shot { strongest: true, glare, ..shot }
+    };
+    assert_eq!(strongest(Glare::Included), strongest(Glare::LeftOut));
+}
+
+#[test]
+fn a_gem_whose_colour_is_no_measurement_is_called_so_where_it_is_chosen() {
+    let mut bench = Bench::new();
+    bench.harness.run_steps(2);
+    assert!(bench.harness.query_by_label("illustrative colour").is_none());
+    bench.harness.get_by_role_and_label(egui::Role::ComboBox, "Material").click();
+    bench.harness.run_steps(4);
+    assert!(bench.harness.query_by_label("spinel").is_some(), "one that is measured bears its name alone");
+    let entry = bench.harness.get_by_label_contains("almandine");
+    assert!(entry.accesskit_node().label().unwrap().contains("illustrative colour"));
+    entry.click();
+    bench.harness.run_steps(4);
+    assert_eq!(bench.editor().document.specimen().material.name, "almandine");
+    assert!(bench.harness.query_by_label("illustrative colour").is_some());
+}
+
+#[test]
+fn pictures_of_scopes_are_exported_with_a_caption_where_it_is_wanted() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut bench = Bench::new();
+    bench.settle();
+    bench.choose("File", "Export…");
+    let Some(Dialog::Export(export)) = &mut bench.harness.state_mut().dialog else { panic!() };
+    export.folder = folder.path().join("out");
+    export.plan.selection.views = vec![Shows::Aset];
+    bench.harness.run_steps(2);
+    bench.click("Caption and legend");
+    bench.type_number("Size", "200");
+    bench.click("Write files");
+    bench.wait(|editor| matches!(&editor.dialog, Some(Dialog::Export(e)) if !e.is_busy()));
+    let Some(Dialog::Export(export)) = &bench.editor().dialog else { panic!() };
+    assert_eq!(export.end(), Some(Ok(())));
+    let written = std::fs::read_dir(folder.path().join("out")).unwrap().map(|f| f.unwrap().path());
+    let pictures: Vec<_> = written.map(|path| image::image_dimensions(path).unwrap()).collect();
+    assert!(pictures.len() == 2 && pictures.iter().all(|&(w, h)| w == 200 && h > 240), "{pictures:?}");
+}
