@@ -3,7 +3,7 @@
 #![allow(clippy::print_stdout, reason = "an example shows what it finds")]
 
 use brillianteer::cut::Report;
-use brillianteer::io::{cut_file, design_file, write_obj};
+use brillianteer::io::{cut_file, design_file};
 use brillianteer::measure::{Bounds, Options};
 use brillianteer::scene::Specimen;
 use std::path::PathBuf;
@@ -15,12 +15,12 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         None => {
             let stone = Specimen::new(cut_file::read("cuts/tolkowsky.toml")?)?;
             let file = folder.path().join("tolkowsky.obj");
-            std::fs::write(&file, write_obj(&stone.body, "Tolkowsky", stone.unit_mm()))?;
+            design_file::write(&stone, design_file::Format::Obj, &file)?;
             file
         }
     };
     let read = design_file::read(&file)?;
-    read.warnings.iter().for_each(|warning| println!("note: {warning}"));
+    read.notes.iter().chain(&read.warnings).for_each(|said| println!("{said}"));
     let specimen = Specimen::new(read.design.clone())?;
     let carats = specimen.carats().map_or("of unknown weight".into(), |carats| format!("{carats:.3} ct"));
     println!("{}: {}, {carats}", read.design.name, specimen.material.name);

@@ -65,16 +65,13 @@ impl Caption {
             y += LINE;
         }
         let mut x = MARGIN.0;
-        for (told, [r, g, b]) in &self.zones {
+        for (told, colour) in &self.zones {
             let told = shortened(told, REMARK.size, room - FIELD - GAPS.0);
             let wide = FIELD + GAPS.0 + text_width(&told, REMARK.size);
             if x > MARGIN.0 && x + wide > width - MARGIN.0 {
                 (x, y) = (MARGIN.0, y + LINE);
             }
-            let field = Rectangle::new()
-                .set("x", x)
-                .set("y", y - FIELD / 2.0)
-                .set("fill", format!("#{r:02x}{g:02x}{b:02x}"));
+            let field = Rectangle::new().set("x", x).set("y", y - FIELD / 2.0).set("fill", hex(*colour));
             fields = fields.add(field.set("width", FIELD).set("height", FIELD));
             texts = texts.add(line(REMARK, [x + FIELD + GAPS.0, y], &told));
             x += wide + GAPS.1;

@@ -128,6 +128,7 @@ mod tests {
     use crate::app::studio::render::{setting, sitting};
     use crate::io::lighting::Lighting;
     use crate::scene::Company;
+    use crate::scene::Glare;
     use crate::trace::surround::met_behind;
 
     const SLOT: Slot = (0, Which::Present);

@@ -2,7 +2,7 @@ use super::*;
 use crate::io::{cut_file, library};
 use crate::picture::named;
 use crate::scene::{Lean, Medium, Projection, Side, Specimen, Viewpoint};
-use crate::trace::unwatched;
+use crate::trace::{Sampler, unwatched};
 use std::collections::BTreeMap;
 use std::ops::ControlFlow;
 use std::sync::Mutex;
@@ -21,13 +21,22 @@ fn viewing(specimen: &Specimen) -> Viewing<'_> {
         head_deg: 10.0,
         unresolved: Some(0.3),
         polarised: true,
+        glare: None,
         tracer: Tracer::Beams,
     }
 }
 
 fn outputs(folder: &Path, pictures: &[&str], formats: &[Format]) -> Outputs {
     let pictures = pictures.iter().map(|&name| (name.to_owned(), named(name).unwrap())).collect();
-    Outputs { folder: folder.into(), stem: "mine".into(), pictures, size: 32, formats: formats.into() }
+    Outputs {
+        folder: folder.into(),
+        stem: "mine".into(),
+        pictures,
+        size: 32,
+        formats: formats.into(),
+        caption: false,
+        timing: false,
+    }
 }
 
 fn in_perspective(viewing: Viewing<'_>, distance: f64) -> Viewing<'_> {
@@ -203,7 +212,7 @@ fn figures_are_written_down_as_they_were_given() {
     let specimen = specimen();
     let viewpoint = Viewpoint { tilt_deg: 10.1, azimuth_deg: -30.0, lean: Lean::Eye, ..Viewpoint::default() };
     let viewing = Viewing { viewpoint, wavelength_nm: None, ..viewing(&specimen) };
-    let json = measure(&viewing, &unwatched, &|_| Ok(())).unwrap().json();
+    let json = measure(&viewing, &Scoped::aset(), &unwatched, &|_| Ok(())).unwrap().json(false);
     let view = r#"{"side":"table","tilt":0.0,"eye_tilt":10.1,"azimuth":-30.0,"projection":"orthographic"}"#;
     assert_eq!(json["view"].to_string(), view);
     assert_eq!(
@@ -212,7 +221,7 @@ fn figures_are_written_down_as_they_were_given() {
     );
     assert!(json["surface"]["head"].is_number() && json.get("standard_error").is_none());
     let rays = Viewing { viewpoint: viewpoint.facing(Some(Side::Culet)), ..in_perspective(viewing, 9.0) };
-    let json = measure(&rays, &unwatched, &|_| Ok(())).unwrap().json();
+    let json = measure(&rays, &Scoped::aset(), &unwatched, &|_| Ok(())).unwrap().json(false);
     assert_eq!((&json["tracer"], &json["view"]["side"]), (&"ray".into(), &"culet".into()));
     assert!(json["standard_error"].is_number());
 }
