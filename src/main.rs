@@ -13,7 +13,7 @@ fn main() -> ExitCode {
 /// What opens the window, where this program has one.
 fn editor() -> Option<brillianteer::cli::Editor> {
     #[cfg(feature = "app")]
-    return Some(brillianteer::app::run);
+    return Some(|file, mesh| brillianteer::app::run(file, mesh).map_err(|error| error.to_string()));
     #[cfg(not(feature = "app"))]
     None
 }

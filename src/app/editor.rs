@@ -30,7 +30,8 @@ use crate::io::mesh_options::MeshOptions;
 use crate::measure::Figures;
 use crate::scene::Specimen;
 use crate::trace::gpu::Gpu;
-use eframe::CreationContext;
+use super::window::PaintedBy;
+use eframe::{CreationContext, Storage};
 use egui::{Context, TextureHandle, Ui, ViewportCommand};
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
@@ -53,6 +54,8 @@ pub struct Setup {
     pub state_file: Option<StateFile>,
     /// What opens folders and pages outside the program.
     pub opener: Opener,
+    /// What paints the window.
+    pub painted_by: PaintedBy,
 }
 
 impl Default for Setup {
@@ -64,6 +67,7 @@ impl Default for Setup {
             desk: Desk::default(),
             chooser: Arc::new(by_dialog),
             opener: Arc::new(by_system),
+            painted_by: PaintedBy::default(),
             state_file: None,
         }
     }
@@ -147,22 +151,37 @@ pub struct Editor {
     pub(super) shows_three: bool,
     title: String,
     state_file: Option<StateFile>,
+    /// What paints the window.
+    pub(super) painted_by: PaintedBy,
 }
 
 /// Where a desk is kept between starts.
 const DESK: &str = "desk";
 
 impl Editor {
-    /// Opens the window's content.
+    /// Opens the content of a window of eframe's; see [`within`](Self::within).
+    ///
+    /// # Errors
+    /// As there.
+    pub fn new(context: &CreationContext<'_>, setup: Setup) -> Result<Self, String> {
+        Self::within(&context.egui_ctx, context.storage, shared(context), setup)
+    }
+
+    /// Opens the window's content, as it was left, which `storage` knows; `gpu` is a card that pictures may be computed on.
     ///
     /// # Errors
     /// Only where the program itself is broken: it comes with the cut and the light that it starts with.
-    pub fn new(context: &CreationContext<'_>, setup: Setup) -> Result<Self, String> {
-        theme::apply(&context.egui_ctx);
-        let kept = context.storage.and_then(|s| s.get_string(DESK));
+    pub fn within(
+        context: &Context,
+        storage: Option<&dyn Storage>,
+        gpu: Option<Arc<Gpu>>,
+        setup: Setup,
+    ) -> Result<Self, String> {
+        theme::apply(context);
+        let kept = storage.and_then(|s| s.get_string(DESK));
         // A desk of a later program that this one cannot read is left aside.
         let mut desk: Desk = kept.and_then(|text| serde_json::from_str(&text).ok()).unwrap_or(setup.desk);
-        let wake = waker(&context.egui_ctx);
+        let wake = waker(context);
         let mut document = Document::first()?;
         let first = Lighting::load(FIRST_LIGHT).map_err(|e| e.to_string())?;
         let light = (FIRST_LIGHT.to_owned(), Arc::new(first));
@@ -175,7 +194,7 @@ impl Editor {
             looker: Looker::open(wake.clone()),
             looked: HashMap::new(),
             flowing: Default::default(),
-            studio: Studio::open(shared(context), wake),
+            studio: Studio::open(gpu, wake),
             framing: Framing::new(document.specimen()),
             document,
             looks: Looks::new(&desk),
@@ -215,6 +234,7 @@ impl Editor {
             shows_three: false,
             title: String::new(),
             state_file: setup.state_file,
+            painted_by: setup.painted_by,
         };
         let named = |path: &Path| library::cut(&path.to_string_lossy()).filter(|_| !path.is_file()).is_some();
         match setup.file.or_else(|| editor.desk.last.clone().filter(|p| p.exists())) {

@@ -170,7 +170,10 @@ pub fn status(editor: &mut Editor, ui: &mut Ui) {
                 };
                 let state = opening.unwrap_or_else(|| tracing.to_owned());
                 ui.label(RichText::new(format!("{state} · {}", editor.studio.told())).weak().small())
-                    .on_hover_text("What computes the pictures: the processor, or a graphics card.");
+                    .on_hover_text(format!(
+                        "What computes the pictures: the processor, or a graphics card. The window is painted by the {}.",
+                        editor.painted_by.name()
+                    ));
                 let said = editor.notes.said().unwrap_or_default();
                 let told = if editor.told.is_empty() { said } else { &editor.told };
                 ui.with_layout(egui::Layout::left_to_right(Align::Center), |ui| {

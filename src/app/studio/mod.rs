@@ -20,6 +20,7 @@ pub use survey::{SPAN, survey};
 pub use take::Camera;
 pub use worker::FINE_RENDER;
 
+use crate::app::urgency;
 use crate::trace::gpu::Gpu;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::mpsc::{Receiver, channel};
@@ -69,7 +70,11 @@ impl Studio {
         let told = gpu.as_ref().map_or("processor".into(), |gpu| gpu.name().to_owned());
         let (sender, answers) = channel();
         let worker = worker::Worker::new(Arc::clone(&desk), sender, gpu, Arc::clone(&wake));
-        let thread = std::thread::Builder::new().name("studio".into()).spawn(|| worker.work()).ok();
+        let work = || {
+            urgency::lower();
+            worker.work();
+        };
+        let thread = std::thread::Builder::new().name("studio".into()).spawn(work).ok();
         Self { desk, answers, last: Order::default(), wake, thread, told }
     }
 

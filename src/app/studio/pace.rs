@@ -13,8 +13,9 @@ const STEPS: [Effort; 6] = [
     Effort { unresolved: 8e-2, coarser: 3.0, bands: 4 },
 ];
 
-/// All pictures together should take about this long: more is coarser next time, less than a third is finer.
-const GOAL: Duration = Duration::from_millis(60);
+/// All pictures together should take about this long, so that more than 20 sets of them come in a second: where they take
+/// longer the next ones are coarser, where they take less than a third they are finer.
+const GOAL: Duration = Duration::from_millis(40);
 
 /// What a picture may cost.
 #[derive(Debug, Clone, Copy, PartialEq)]

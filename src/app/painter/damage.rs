@@ -1,0 +1,105 @@
+//! Finds what has to be painted anew: the image is divided into tiles, and each has a hash of all pieces that are seen in it.
+
+use super::area::Area;
+use super::pieces::{Piece, combined};
+use super::texture::{Patch, Texture, Textures};
+
+/// Pixels across and down of a tile: high enough for a line of letters.
+const TILE: [i32; 2] = [64, 32];
+
+/// The tiles of an image, and the hash of each for this image and for the last one.
+#[derive(Default)]
+pub struct Tiles {
+    size: [usize; 2],
+    across: usize,
+    hashes: Vec<u64>,
+    last: Vec<u64>,
+}
+
+/// A hash that no tile ever has; it says that the content of a tile is not known.
+const UNKNOWN: u64 = 0;
+
+impl Tiles {
+    /// The areas where these pieces show something else than those of the last call, which do not overlap; all where the
+    /// image has another size than then.
+    pub fn changed(
+        &mut self,
+        size: [usize; 2],
+        pieces: &[Piece],
+        textures: &Textures,
+        patches: &[Patch],
+    ) -> Vec<Area> {
+        let [across, down] = [size[0].div_ceil(TILE[0] as usize), size[1].div_ceil(TILE[1] as usize)];
+        if self.size != size {
+            *self = Self { size, across, hashes: vec![], last: vec![UNKNOWN; across * down] };
+        }
+        self.hashes.clear();
+        self.hashes.resize(across * down, 1);
+        for piece in pieces {
+            let texture = textures.get(piece.texture);
+            let hash = combined(piece.hash, texture.map_or(0, |t| t.version));
+            let is_patched = texture.is_some_and(|texture| reads_one_of(piece, texture, patches));
+            self.add(piece.bounds, hash, is_patched);
+        }
+        let areas = self.differing();
+        std::mem::swap(&mut self.hashes, &mut self.last);
+        areas
+    }
+
+    /// Adds the hash of a piece to all tiles that its area touches.
+    fn add(&mut self, area: Area, hash: u64, is_patched: bool) {
+        let columns = (area.left / TILE[0]) as usize..=((area.right - 1) / TILE[0]) as usize;
+        for row in area.top / TILE[1]..=(area.bottom - 1) / TILE[1] {
+            let start = row as usize * self.across;
+            for tile in start + columns.start()..=start + columns.end() {
+                self.hashes[tile] = combined(self.hashes[tile], hash).max(1);
+                if is_patched {
+                    self.last[tile] = UNKNOWN;
+                }
+            }
+        }
+    }
+
+    /// The tiles whose hash differs from the last one, joined to areas: first along rows, then downwards where they are equally wide.
+    fn differing(&self) -> Vec<Area> {
+        let whole = Area::of(self.size);
+        let mut areas: Vec<Area> = vec![];
+        let rows = self.hashes.chunks(self.across.max(1)).zip(self.last.chunks(self.across.max(1)));
+        for (row, (hashes, last)) in rows.enumerate() {
+            let differs = |column: usize| hashes.get(column) != last.get(column);
+            let mut column = 0;
+            while column < hashes.len() {
+                let start = column;
+                while column < hashes.len() && differs(column) {
+                    column += 1;
+                }
+                if column > start {
+                    let (top, bottom) = (row as i32 * TILE[1], (row as i32 + 1) * TILE[1]);
+                    let (left, right) = (start as i32 * TILE[0], column as i32 * TILE[0]);
+                    let area = Area { left, top, right, bottom }.cut(whole);
+                    let is_below = |a: &&mut Area| (a.left, a.right, a.bottom) == (area.left, area.right, top);
+                    match areas.iter_mut().find(is_below) {
+                        Some(above) => above.bottom = area.bottom,
+                        None => areas.push(area),
+                    }
+                }
+                column += 1;
+            }
+        }
+        areas
+    }
+}
+
+/// Whether a piece shows a part of its texture that has been replaced since the last image.
+fn reads_one_of(piece: &Piece, texture: &Texture, patches: &[Patch]) -> bool {
+    let mut patches = patches.iter().filter(|(id, ..)| *id == piece.texture).peekable();
+    if patches.peek().is_none() {
+        return false;
+    }
+    let (least, most) = piece.shape.read();
+    // Between pixels the next ones are read as well.
+    let scale = |uv: f32, axis: usize, by: f32| uv * texture.size[axis] as f32 + by;
+    patches.any(|(_, first, end)| {
+        (0..2).all(|k| scale(least[k], k, -1.0) < end[k] && scale(most[k], k, 1.0) > first[k])
+    })
+}

@@ -1,0 +1,110 @@
+//! Paints the window on the processor, where there is no graphics card: egui's triangles into an image in memory.
+//!
+//! Only what differs from the last image is painted: [`damage`] finds the areas, by a hash of all pieces that are seen
+//! in each tile of the image. The picture is that of egui's painter for graphics cards but for roundings, of which
+//! [`tests`] says how large they are.
+
+mod area;
+mod blend;
+mod damage;
+mod pieces;
+mod rectangle;
+mod texture;
+mod triangle;
+
+#[cfg(test)]
+mod tests;
+
+pub use area::Area;
+pub use blend::Pixel;
+
+use blend::pixel;
+use damage::Tiles;
+use egui::epaint::ClippedPrimitive;
+use egui::{Color32, TexturesDelta};
+use pieces::{Piece, Shape, pieces};
+use texture::Textures;
+
+/// What lies behind everything. The window's panels leave nothing of it to be seen.
+const BEHIND: Color32 = Color32::BLACK;
+
+/// An image in memory.
+#[derive(Default)]
+pub struct Canvas {
+    size: [usize; 2],
+    pixels: Vec<Pixel>,
+}
+
+impl Canvas {
+    /// Columns and rows.
+    pub fn size(&self) -> [usize; 2] {
+        self.size
+    }
+
+    /// The part of a row that lies in an area, which must lie in the image.
+    #[inline(always)]
+    fn row(&mut self, y: i32, area: Area) -> &mut [Pixel] {
+        let start = y as usize * self.size[0];
+        &mut self.pixels[start + area.left as usize..start + area.right as usize]
+    }
+
+    /// The rows of an area, which must lie in the image.
+    pub fn rows(&self, area: Area) -> impl Iterator<Item = &[Pixel]> {
+        (area.top..area.bottom).map(move |y| {
+            let start = y as usize * self.size[0];
+            &self.pixels[start + area.left as usize..start + area.right as usize]
+        })
+    }
+}
+
+/// Paints one image after the other.
+#[derive(Default)]
+pub struct Painter {
+    canvas: Canvas,
+    textures: Textures,
+    tiles: Tiles,
+    pieces: Vec<Piece>,
+}
+
+impl Painter {
+    /// Paints what egui wants to be seen, in an image of `size` pixels, and returns the areas that have changed since the
+    /// last one; they do not overlap. Takes over and empties the changes of textures.
+    pub fn paint(
+        &mut self,
+        size: [usize; 2],
+        pixels_per_point: f32,
+        primitives: &[ClippedPrimitive],
+        delta: &mut TexturesDelta,
+    ) -> Vec<Area> {
+        let patches = self.textures.set(delta);
+        if self.canvas.size != size {
+            self.canvas = Canvas { size, pixels: vec![pixel(BEHIND); size[0] * size[1]] };
+        }
+        pieces(size, pixels_per_point, primitives, &mut self.pieces);
+        let areas = self.tiles.changed(size, &self.pieces, &self.textures, &patches);
+        areas.iter().for_each(|&area| self.draw(area));
+        self.textures.free(delta);
+        areas
+    }
+
+    /// The last image.
+    pub fn canvas(&self) -> &Canvas {
+        &self.canvas
+    }
+
+    fn draw(&mut self, area: Area) {
+        let Self { canvas, textures, pieces, .. } = self;
+        (area.top..area.bottom).for_each(|y| canvas.row(y, area).fill(pixel(BEHIND)));
+        for piece in pieces {
+            let seen = piece.bounds.cut(area);
+            if seen.is_empty() {
+                continue;
+            }
+            let Some(texture) = textures.get(piece.texture) else { continue };
+            match &piece.shape {
+                Shape::Rectangle(corners) => rectangle::draw(canvas, corners, texture, seen),
+                Shape::Triangle(corners) => triangle::draw(canvas, corners, texture, seen),
+            }
+        }
+    }
+}

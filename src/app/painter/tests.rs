@@ -1,0 +1,144 @@
+//! Compares this painter with egui's own for graphics cards, which Mesa's driver computes on the processor.
+#![allow(clippy::print_stdout, reason = "what is measured is told")]
+
+use super::Painter;
+use crate::app::desk::Desk;
+use crate::app::editor::{Editor, Setup};
+use crate::app::shows::Shows;
+use egui::{Context, FullOutput, Theme, TexturesDelta};
+use egui_kittest::wgpu::WgpuTestRenderer;
+use egui_kittest::{Harness, TestRenderer};
+use image::RgbaImage;
+use std::sync::{Arc, Mutex};
+use std::time::{Duration, Instant};
+
+/// Paints everything twice: by egui's painter and by this one.
+struct Twice {
+    other: WgpuTestRenderer,
+    painter: Painter,
+    image: Arc<Mutex<RgbaImage>>,
+}
+
+impl TestRenderer for Twice {
+    fn handle_delta(&mut self, delta: &mut TexturesDelta) {
+        let mut ours = delta.clone();
+        // Nothing is painted yet: only the textures are taken over.
+        self.painter.textures.set(&mut ours);
+        self.painter.textures.free(&mut ours);
+        self.other.handle_delta(delta);
+    }
+
+    fn render(&mut self, context: &Context, output: &FullOutput) -> Result<RgbaImage, String> {
+        let theirs = self.other.render(context, output)?;
+        let (width, height) = theirs.dimensions();
+        let primitives = context.tessellate(output.shapes.clone(), output.pixels_per_point);
+        let size = [width as usize, height as usize];
+        let areas =
+            self.painter.paint(size, output.pixels_per_point, &primitives, &mut TexturesDelta::default());
+        let count: u32 = areas.iter().map(|area| area.size()[0] * area.size()[1]).sum();
+        assert!(count <= width * height, "areas overlap");
+        let bytes = self.painter.canvas.pixels.iter().flat_map(|p| p.to_le_bytes()).collect();
+        *self.image.lock().unwrap() = RgbaImage::from_raw(width, height, bytes).unwrap();
+        Ok(theirs)
+    }
+}
+
+/// The mean difference of two images' red, green and blue, and the part of them that differ by more than 4 of 255.
+fn apart(a: &RgbaImage, b: &RgbaImage) -> (f64, f64) {
+    assert_eq!(a.dimensions(), b.dimensions());
+    let colours = |image: &RgbaImage| image.pixels().flat_map(|p| [p[0], p[1], p[2]]).collect::<Vec<u8>>();
+    let each: Vec<u8> = colours(a).into_iter().zip(colours(b)).map(|(a, b)| a.abs_diff(b)).collect();
+    let part = |sum: f64| sum / each.len() as f64;
+    (part(each.iter().copied().map(f64::from).sum()), part(each.iter().filter(|d| **d > 4).count() as f64))
+}
+
+/// The window in a theme and at a scale, by both painters.
+fn painted(theme: Theme, scale: f32) -> (RgbaImage, RgbaImage) {
+    let image = Arc::new(Mutex::new(RgbaImage::new(1, 1)));
+    let twice = Twice { other: WgpuTestRenderer::new(), painter: Painter::default(), image: Arc::clone(&image) };
+    let [_, aset, hearts, profile] = Desk::default().panes;
+    let mut diagram = aset.clone();
+    diagram.shows = Shows::Diagram;
+    let setup = Setup { desk: Desk { panes: [aset, diagram, hearts, profile], ..Desk::default() }, ..Setup::default() };
+    let mut harness = Harness::builder()
+        .with_size(egui::vec2(1280.0, 800.0))
+        .with_pixels_per_point(scale)
+        .with_theme(theme)
+        .renderer(twice)
+        .build_eframe(|context| Editor::new(context, setup).unwrap());
+    let begun = Instant::now();
+    harness.run_steps(3);
+    while !harness.state().is_idle() {
+        assert!(begun.elapsed() < Duration::from_secs(120), "the editor does not come to rest");
+        std::thread::sleep(Duration::from_millis(5));
+        harness.step();
+    }
+    // A menu lies over the rest, with a shadow.
+    use egui_kittest::kittest::Queryable;
+    harness.get_by_label("View").click();
+    harness.run_steps(12);
+    let theirs = harness.render().unwrap();
+    let ours = image.lock().unwrap().clone();
+    (ours, theirs)
+}
+
+#[test]
+fn the_window_looks_as_a_card_paints_it() {
+    for theme in [Theme::Dark, Theme::Light] {
+        for scale in [1.0, 1.5] {
+            let (ours, theirs) = painted(theme, scale);
+            let name = format!("{theme:?}-{scale}");
+            let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("target/tmp");
+            std::fs::create_dir_all(&folder).unwrap();
+            ours.save(folder.join(format!("painted-{name}-processor.png"))).unwrap();
+            theirs.save(folder.join(format!("painted-{name}-card.png"))).unwrap();
+            let (mean, far) = apart(&ours, &theirs);
+            println!("{name}: mean difference {mean:.4} of 255, {:.4} % of colours differ by more than 4", 100.0 * far);
+            assert!(mean < 0.05 && far < 1e-4, "{name}: mean {mean}, far {far}");
+        }
+    }
+}
+
+/// A frame of egui at 400 × 300 points, painted.
+fn paint(painter: &mut Painter, context: &Context, draw: impl FnMut(&mut egui::Ui)) -> Vec<super::Area> {
+    let screen = egui::Rect::from_min_size(egui::Pos2::ZERO, egui::vec2(400.0, 300.0));
+    let input = egui::RawInput { screen_rect: Some(screen), ..Default::default() };
+    let mut output = context.run_ui(input, draw);
+    let primitives = context.tessellate(output.shapes, output.pixels_per_point);
+    painter.paint([400, 300], output.pixels_per_point, &primitives, &mut output.textures_delta)
+}
+
+#[test]
+fn only_what_changes_is_painted_and_the_image_is_the_same_as_painted_at_once() {
+    let context = Context::default();
+    let mut painter = Painter::default();
+    let image = egui::ColorImage::filled([40, 30], egui::Color32::RED);
+    let mut texture = context.load_texture("picture", image.clone(), egui::TextureOptions::LINEAR);
+    let place = egui::Rect::from_min_size(egui::pos2(300.0, 200.0), egui::vec2(80.0, 60.0));
+    let show = |painter: &mut Painter, texture: &egui::TextureHandle, number: u32| {
+        let id = texture.id();
+        paint(painter, &context, |ui| {
+            ui.heading("A line that stays");
+            ui.label(format!("number {number}"));
+            egui::Image::new((id, place.size())).paint_at(ui, place);
+        })
+    };
+    let whole = |areas: &[super::Area]| areas.iter().map(|a| a.size()[0] * a.size()[1]).sum::<u32>();
+    let all = show(&mut painter, &texture, 11);
+    assert_eq!(whole(&all), 400 * 300);
+    // Layout comes to rest in a few frames.
+    (0..3).for_each(|_| drop(show(&mut painter, &texture, 11)));
+    assert_eq!(show(&mut painter, &texture, 11), []);
+    let one = show(&mut painter, &texture, 14);
+    assert!(!one.is_empty() && one.iter().all(|a| a.bottom <= 96 && a.right <= 128), "{one:?}");
+    texture.set(egui::ColorImage::filled([40, 30], egui::Color32::BLUE), egui::TextureOptions::LINEAR);
+    let picture = show(&mut painter, &texture, 14);
+    assert!(!picture.is_empty() && picture.iter().all(|a| a.top >= 192 && a.left >= 256), "{picture:?}");
+    // Letters that were not seen before change the texture of letters, of which only they are read.
+    let letters = show(&mut painter, &texture, 56);
+    assert!(letters.iter().all(|a| a.bottom <= 96), "{letters:?}");
+    let kept = painter.canvas.pixels.clone();
+    painter.tiles = super::Tiles::default();
+    assert_eq!(whole(&show(&mut painter, &texture, 56)), 400 * 300);
+    assert!(kept == painter.canvas.pixels, "what was painted piece by piece is another image");
+}

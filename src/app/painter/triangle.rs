@@ -1,0 +1,126 @@
+//! Draws triangles, whose colours and places in a texture run evenly from corner to corner.
+
+use super::Canvas;
+use super::area::{Area, first};
+use super::blend::{Pixel, lay, over, product};
+use super::pieces::Corner;
+use super::texture::Texture;
+
+/// Draws the part of a triangle that lies in an area: all pixels whose middles lie in it. Of two triangles with a common
+/// edge each such pixel belongs to exactly one.
+pub fn draw(canvas: &mut Canvas, corners: &[Corner; 3], texture: &Texture, area: Area) {
+    let mut sorted = *corners;
+    sorted.sort_by(|a, b| a.at[1].total_cmp(&b.at[1]));
+    let [a, b, c] = sorted;
+    let [long, upper, lower] = [(a, c), (a, b), (b, c)].map(|(from, to)| Edge::new(&from, &to));
+    let rows = first(a.at[1]).max(area.top)..first(c.at[1]).min(area.bottom);
+    let is_one_place = a.uv == b.uv && b.uv == c.uv;
+    let is_one_colour = a.colour == b.colour && b.colour == c.colour;
+    let texel = texture.at(a.uv[0], a.uv[1]);
+    let colours = Plane::new(&sorted, |c| c.colour.to_le_bytes().map(f32::from));
+    let places = Plane::new(&sorted, |c| [c.uv[0], c.uv[1], 0.0, 0.0]);
+    for y in rows {
+        let middle = y as f32 + 0.5;
+        let short = if middle < b.at[1] { &upper } else { &lower };
+        let (p, q) = (long.at(middle), short.at(middle));
+        let (left, right) = (first(p.min(q)).max(area.left), first(p.max(q)).min(area.right));
+        if left >= right {
+            continue;
+        }
+        let row = canvas.row(y, Area { left, right, top: y, bottom: y + 1 });
+        let mut tints = colours.walk(left, middle);
+        if is_one_place && is_one_colour {
+            lay(product(a.colour, texel), row);
+        } else if is_one_place {
+            row.iter_mut().for_each(|back| *back = over(product(bytes(tints.next()), texel), *back));
+        } else {
+            let mut places = places.walk(left, middle);
+            for back in row {
+                let [u, v, ..] = places.next();
+                *back = over(product(bytes(tints.next()), texture.at(u, v)), *back);
+            }
+        }
+    }
+}
+
+/// An edge, from its upper end to its lower one.
+struct Edge {
+    from: [f32; 2],
+    /// Columns for each row.
+    slope: f32,
+}
+
+impl Edge {
+    fn new(from: &Corner, to: &Corner) -> Self {
+        Self { from: from.at, slope: (to.at[0] - from.at[0]) / (to.at[1] - from.at[1]) }
+    }
+
+    /// Its column at a height.
+    #[inline(always)]
+    fn at(&self, y: f32) -> f32 {
+        self.from[0] + (y - self.from[1]) * self.slope
+    }
+}
+
+/// Four numbers that run evenly over the image.
+struct Plane {
+    at: [f32; 2],
+    value: [f32; 4],
+    across: [f32; 4],
+    down: [f32; 4],
+    least: [f32; 4],
+    most: [f32; 4],
+}
+
+impl Plane {
+    /// The plane through what three corners have.
+    fn new([a, b, c]: &[Corner; 3], of: impl Fn(&Corner) -> [f32; 4]) -> Self {
+        let (u, v) = (apart(a, b), apart(a, c));
+        let doubled = u[0] * v[1] - u[1] * v[0];
+        let [p, q, r] = [of(a), of(b), of(c)];
+        let each = |f: &dyn Fn(usize) -> f32| std::array::from_fn(f);
+        Self {
+            at: a.at,
+            value: p,
+            across: each(&|k| ((q[k] - p[k]) * v[1] - (r[k] - p[k]) * u[1]) / doubled),
+            down: each(&|k| ((r[k] - p[k]) * u[0] - (q[k] - p[k]) * v[0]) / doubled),
+            least: each(&|k| p[k].min(q[k]).min(r[k])),
+            most: each(&|k| p[k].max(q[k]).max(r[k])),
+        }
+    }
+
+    /// Along a row, from the middle of a column on.
+    #[inline(always)]
+    fn walk(&self, column: i32, y: f32) -> Walk<'_> {
+        let (x, y) = (column as f32 + 0.5 - self.at[0], y - self.at[1]);
+        let next = std::array::from_fn(|k| self.value[k] + x * self.across[k] + y * self.down[k]);
+        Walk { plane: self, next }
+    }
+}
+
+fn apart(a: &Corner, b: &Corner) -> [f32; 2] {
+    [b.at[0] - a.at[0], b.at[1] - a.at[1]]
+}
+
+/// The numbers of a plane along a row.
+struct Walk<'a> {
+    plane: &'a Plane,
+    next: [f32; 4],
+}
+
+impl Walk<'_> {
+    /// The numbers of the next pixel. They stay between those of the corners: a sliver is too thin for its plane to be known.
+    #[inline(always)]
+    fn next(&mut self) -> [f32; 4] {
+        let Plane { least, most, across, .. } = self.plane;
+        let here = std::array::from_fn(|k| self.next[k].max(least[k]).min(most[k]));
+        self.next = std::array::from_fn(|k| self.next[k] + across[k]);
+        here
+    }
+}
+
+/// The nearest colour in bytes.
+#[inline(always)]
+fn bytes(of: [f32; 4]) -> Pixel {
+    u32::from_le_bytes(of.map(|c| (c + 0.5) as u8))
+}

@@ -1,0 +1,21 @@
+//! Lowers the priority of the threads that trace light, so that the thread that draws the window comes first.
+
+use thread_priority::{ThreadPriority, ThreadPriorityValue, set_current_thread_priority};
+
+/// The priority of work that nobody's hand waits for, 0 to 99; on Linux this becomes niceness 9.
+const BEHIND: u8 = 25;
+
+/// Lowers the priority of this thread. If the system refuses, the window follows the hand less quickly; nothing else
+/// changes.
+pub fn lower() {
+    if let Ok(behind) = ThreadPriorityValue::try_from(BEHIND) {
+        let _ = set_current_thread_priority(ThreadPriority::Crossplatform(behind));
+    }
+}
+
+/// Lowers the priority of rayon's threads. To be called before the first of them has work.
+pub fn lower_the_pool() {
+    let pool = rayon::ThreadPoolBuilder::new().thread_name(|k| format!("tracing {k}")).start_handler(|_| lower());
+    // This fails if the threads run already; then they keep their priority.
+    let _ = pool.build_global();
+}

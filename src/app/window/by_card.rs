@@ -1,0 +1,42 @@
+//! Opens a window that a graphics card paints, by eframe and wgpu.
+
+use super::{ID, WindowError, viewport};
+use crate::app::editor::{Editor, Setup};
+use crate::trace::gpu::Gpu;
+use eframe::egui_wgpu::{WgpuConfiguration, WgpuSetup, WgpuSetupCreateNew};
+use std::sync::Arc;
+
+/// Whether there is a graphics card with a driver; drivers that compute on the processor do not count.
+pub fn is_there() -> bool {
+    // OpenGL comes last: its driver need not be loaded where Vulkan, Metal or Direct3D find a card.
+    [wgpu::Backends::PRIMARY, wgpu::Backends::SECONDARY].into_iter().any(|backends| {
+        let mut descriptor = wgpu::InstanceDescriptor::new_without_display_handle_from_env();
+        descriptor.backends &= backends;
+        if descriptor.backends.is_empty() {
+            return false;
+        }
+        let instance = wgpu::Instance::new(descriptor);
+        let adapters = pollster::block_on(instance.enumerate_adapters(backends));
+        adapters.iter().any(|adapter| adapter.get_info().device_type != wgpu::DeviceType::Cpu)
+    })
+}
+
+/// Opens the window and waits until it is closed.
+pub fn run(setup: Setup) -> Result<(), WindowError> {
+    let mut device = WgpuSetupCreateNew::without_display_handle();
+    // The tracer shares the device: what it needs is asked for.
+    device.device_descriptor = Arc::new(Gpu::wanted);
+    let options = eframe::NativeOptions {
+        viewport: viewport(),
+        renderer: eframe::Renderer::Wgpu,
+        wgpu_options: WgpuConfiguration { wgpu_setup: WgpuSetup::CreateNew(device), ..Default::default() },
+        ..Default::default()
+    };
+    let create = move |context: &eframe::CreationContext<'_>| -> Result<Box<dyn eframe::App>, _> {
+        Ok(Box::new(Editor::new(context, setup)?))
+    };
+    eframe::run_native(ID, options, Box::new(create)).map_err(|error| match error {
+        eframe::Error::WinitEventLoop(why) => WindowError::NoDisplay(why.to_string()),
+        error => WindowError::NoWindow(error.to_string()),
+    })
+}

@@ -1,0 +1,136 @@
+//! Opens the window: a graphics card paints it where there is one, else the processor does.
+//!
+//! A driver that computes on the processor (Mesa's llvmpipe, Microsoft's Basic Render Driver) counts as no card: it needs
+//! many times as long to paint a window as [`painter`](super::painter), on the cores that trace light.
+
+mod by_card;
+mod by_processor;
+mod pacer;
+mod storage;
+mod surface;
+
+use super::editor::Setup;
+use super::icon::icon;
+use super::state_file::StateFile;
+use super::urgency;
+use crate::io::mesh_options::MeshOptions;
+use egui::ViewportBuilder;
+use std::path::PathBuf;
+
+/// The program's name for the window system, and that of its folder of settings.
+const ID: &str = "brillianteer";
+
+/// The window's first size, and its least, points.
+const SIZE: [f32; 2] = [1440.0, 900.0];
+const LEAST: [f32; 2] = [800.0, 600.0];
+
+/// The environment variable that chooses what paints the window: `card` or `processor`.
+const CHOICE: &str = "BRILLIANTEER_PAINTER";
+
+/// The libraries that a window needs, by the names of their packages in Debian.
+const PACKAGES: &str = "libx11-xcb1, libxcursor1, libxi6, libxkbcommon-x11-0";
+
+/// Why no window could be opened.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+pub enum WindowError {
+    /// There is no screen to open it on.
+    #[error("the window cannot be opened: there is no display ({0}); `brillianteer --help` lists what works without")]
+    NoDisplay(String),
+    /// There is a screen, but opening a window or painting in it failed.
+    #[error(
+        "the window cannot be opened: {0}; on Debian it needs {PACKAGES}; `brillianteer --help` lists what works without"
+    )]
+    NoWindow(String),
+    /// The environment asks for a painter that does not exist.
+    #[error("{CHOICE}={0} is unknown; set it to `card` or `processor`, or leave it out and the program chooses")]
+    NoSuchPainter(String),
+}
+
+/// What paints the window.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum PaintedBy {
+    /// A graphics card.
+    #[default]
+    Card,
+    /// The processor.
+    Processor,
+}
+
+impl PaintedBy {
+    /// Its name in the status line and in the environment variable.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Card => "card",
+            Self::Processor => "processor",
+        }
+    }
+
+    /// The painter that is asked for by name; without a name the card where there is one.
+    fn chosen(asked: Option<&str>, has_card: impl FnOnce() -> bool) -> Result<Self, WindowError> {
+        match asked {
+            None | Some("") => Ok(if has_card() { Self::Card } else { Self::Processor }),
+            Some(name) => [Self::Card, Self::Processor]
+                .into_iter()
+                .find(|by| by.name() == name)
+                .ok_or_else(|| WindowError::NoSuchPainter(name.to_owned())),
+        }
+    }
+}
+
+/// Opens the window, on a file if one is given, read with these options where it is a mesh, and waits until it is closed.
+///
+/// # Errors
+/// Where there is no display, or no window can be opened on it; what to do stands in the text.
+pub fn run(file: Option<PathBuf>, mesh: MeshOptions) -> Result<(), WindowError> {
+    check_display()?;
+    let asked = std::env::var(CHOICE).ok();
+    let painted_by = PaintedBy::chosen(asked.as_deref(), by_card::is_there)?;
+    urgency::lower_the_pool();
+    let state_file = StateFile::from_environment();
+    let safe = eframe::storage_dir(ID);
+    let setup = Setup { file, mesh, safe, painted_by, state_file, ..Setup::default() };
+    match painted_by {
+        PaintedBy::Card => by_card::run(setup),
+        PaintedBy::Processor => by_processor::run(setup),
+    }
+}
+
+/// Checks that a display is named at all, before any graphics driver is loaded.
+fn check_display() -> Result<(), WindowError> {
+    let is_named = |name: &str| std::env::var_os(name).is_some_and(|value| !value.is_empty());
+    let names = ["WAYLAND_DISPLAY", "WAYLAND_SOCKET", "DISPLAY"];
+    let is_named_by_variable = cfg!(all(unix, not(target_os = "macos")));
+    if is_named_by_variable && !names.iter().any(|name| is_named(name)) {
+        return Err(WindowError::NoDisplay("none of WAYLAND_DISPLAY and DISPLAY is set".to_owned()));
+    }
+    Ok(())
+}
+
+fn viewport() -> ViewportBuilder {
+    let viewport = ViewportBuilder::default()
+        .with_app_id(ID)
+        .with_title("Brillianteer")
+        .with_inner_size(SIZE)
+        .with_min_inner_size(LEAST);
+    match icon() {
+        Some(icon) => viewport.with_icon(icon),
+        None => viewport,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_processor_paints_where_there_is_no_card_unless_a_painter_is_asked_for() {
+        let chosen = |asked: Option<&str>, card: bool| PaintedBy::chosen(asked, || card);
+        assert_eq!(chosen(None, true), Ok(PaintedBy::Card));
+        assert_eq!(chosen(None, false), Ok(PaintedBy::Processor));
+        assert_eq!(chosen(Some(""), false), Ok(PaintedBy::Processor));
+        assert_eq!(chosen(Some("card"), false), Ok(PaintedBy::Card));
+        assert_eq!(chosen(Some("processor"), true), Ok(PaintedBy::Processor));
+        let wrong = chosen(Some("crayon"), true).unwrap_err().to_string();
+        assert!(wrong.contains("BRILLIANTEER_PAINTER=crayon") && wrong.contains("`processor`"), "{wrong}");
+    }
+}

@@ -1,0 +1,79 @@
+//! Decides when the next image is painted.
+
+use std::time::{Duration, Instant};
+
+/// The shortest time from the begin of one image to that of the next; screens show 60 a second.
+const SHORTEST: Duration = Duration::from_micros(16_600);
+
+/// The same while the window is minimised.
+const HIDDEN: Duration = Duration::from_millis(100);
+
+/// When the next image is due, and how long the last one took.
+#[derive(Debug, Default)]
+pub struct FramePacer {
+    due: Option<Instant>,
+    begun: Option<Instant>,
+    took: Duration,
+    /// Whether the window is minimised.
+    pub is_hidden: bool,
+}
+
+impl FramePacer {
+    /// Requests an image at a time; an earlier request stays in force.
+    pub fn ask(&mut self, when: Instant) {
+        self.due = Some(self.due.map_or(when, |due| due.min(when)));
+    }
+
+    /// When the next image is to be painted, or `None` if none was requested. At least half of the time is left to other
+    /// work, because few cores have to trace light as well.
+    pub fn next(&self) -> Option<Instant> {
+        let shortest = if self.is_hidden { HIDDEN } else { SHORTEST.max(2 * self.took) };
+        self.due.map(|due| self.begun.map_or(due, |begun| due.max(begun + shortest)))
+    }
+
+    /// Whether the next image is to be painted now.
+    pub fn is_due(&self, now: Instant) -> bool {
+        self.next().is_some_and(|next| next <= now)
+    }
+
+    /// Notes that painting begins; later requests are for the next image.
+    pub fn begin(&mut self, now: Instant) {
+        (self.due, self.begun) = (None, Some(now));
+    }
+
+    /// Notes that painting has ended.
+    pub fn end(&mut self, now: Instant) {
+        self.took = self.begun.map_or(Duration::ZERO, |begun| now.saturating_duration_since(begun));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_first_image_comes_at_once_and_the_next_leaves_time_for_other_work() {
+        let start = Instant::now();
+        let after = |millis: u64| start + Duration::from_millis(millis);
+        let mut frames = FramePacer::default();
+        assert_eq!(frames.next(), None);
+        frames.ask(after(9));
+        frames.ask(after(5));
+        frames.ask(after(7));
+        assert_eq!(frames.next(), Some(after(5)));
+        assert!(frames.is_due(after(5)) && !frames.is_due(after(4)));
+        frames.begin(after(5));
+        assert_eq!(frames.next(), None);
+        frames.end(after(6));
+        frames.ask(after(6));
+        assert_eq!(frames.next(), Some(after(5) + SHORTEST));
+        frames.end(after(25));
+        assert_eq!(frames.next(), Some(after(45)));
+        frames.is_hidden = true;
+        assert_eq!(frames.next(), Some(after(105)));
+        frames.is_hidden = false;
+        frames.begin(after(45));
+        frames.ask(after(500));
+        assert_eq!(frames.next(), Some(after(500)));
+    }
+}
