@@ -17,7 +17,9 @@ use std::os::unix::fs::FileExt;
 use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 use x11rb::connection::Connection;
-use x11rb::protocol::xproto::{BUTTON_PRESS_EVENT, BUTTON_RELEASE_EVENT, ConnectionExt as _, MOTION_NOTIFY_EVENT};
+use x11rb::protocol::xproto::{
+    BUTTON_PRESS_EVENT, BUTTON_RELEASE_EVENT, ConnectionExt as _, MOTION_NOTIFY_EVENT,
+};
 use x11rb::protocol::xtest::ConnectionExt as _;
 use x11rb::rust_connection::RustConnection;
 
@@ -321,7 +323,10 @@ fn the_window_follows_the_hand() {
         let tell = |k: usize| format!("{:.0} ({:.0})", delays[k][0], delays[k][1]);
         println!(
             "{name}: milliseconds after a step, the middle of 24 and the slowest: number {}, profile {}, ASET {}, figures {}",
-            tell(0), tell(1), tell(2), tell(3)
+            tell(0),
+            tell(1),
+            tell(2),
+            tell(3)
         );
         if name == "crown angle" {
             judge.most("milliseconds from hand to number", delays[0][0], NUMBER);
@@ -339,7 +344,9 @@ fn the_window_follows_the_hand() {
     let hovering = used(&stage)[1];
     let rate = stage.changes(entries, &[list], DRAG)[0];
     let hovering = (used(&stage)[1] - hovering) / DRAG.as_secs_f64();
-    println!("menus: {rate:.1} images a second, by {hovering:.2} of a core for all of program, server and test");
+    println!(
+        "menus: {rate:.1} images a second, by {hovering:.2} of a core for all of program, server and test"
+    );
     judge.least("images a second over menus", rate, MENUS);
     let after = used(&stage);
     let others = (after[0] - before[0] - (after[1] - before[1])) / (begun.elapsed().as_secs_f64() * cores);

@@ -15,7 +15,8 @@ pub fn lower() {
 
 /// Lowers the priority of rayon's threads. To be called before the first of them has work.
 pub fn lower_the_pool() {
-    let pool = rayon::ThreadPoolBuilder::new().thread_name(|k| format!("tracing {k}")).start_handler(|_| lower());
+    let pool =
+        rayon::ThreadPoolBuilder::new().thread_name(|k| format!("tracing {k}")).start_handler(|_| lower());
     // This fails if the threads run already; then they keep their priority.
     let _ = pool.build_global();
 }

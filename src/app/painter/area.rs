@@ -62,11 +62,16 @@ mod tests {
 
     #[test]
     fn pixels_belong_to_the_side_that_their_middle_is_on() {
-        for edge in [-3.0_f32, -2.51, -2.5, -2.49, -0.5, 0.0, 0.49, 0.5, 0.51, 1.0, 7.5, 7.500_001, 1e12, -1e12] {
+        for edge in
+            [-3.0_f32, -2.51, -2.5, -2.49, -0.5, 0.0, 0.49, 0.5, 0.51, 1.0, 7.5, 7.500_001, 1e12, -1e12]
+        {
             let middle = |pixel: i32| f64::from(pixel) + 0.5;
             let pixel = first(edge);
             if edge.abs() < 1e9 {
-                assert!(middle(pixel) >= f64::from(edge) && middle(pixel - 1) < f64::from(edge), "{edge}: {pixel}");
+                assert!(
+                    middle(pixel) >= f64::from(edge) && middle(pixel - 1) < f64::from(edge),
+                    "{edge}: {pixel}"
+                );
             } else {
                 assert_eq!(pixel, if edge > 0.0 { i32::MAX } else { i32::MIN });
             }

@@ -95,9 +95,11 @@ mod tests {
 
     fn some_pixels() -> impl Iterator<Item = Pixel> {
         // A multiplicative walk through all bytes.
-        std::iter::successors(Some(0x9e37_79b9_u32), |n| Some(n.wrapping_mul(0x85eb_ca6b).wrapping_add(0x1234_5671)))
-            .take(4000)
-            .chain([0, u32::MAX, 0xff00_0000, 0x00ff_ffff, 0x8080_8080])
+        std::iter::successors(Some(0x9e37_79b9_u32), |n| {
+            Some(n.wrapping_mul(0x85eb_ca6b).wrapping_add(0x1234_5671))
+        })
+        .take(4000)
+        .chain([0, u32::MAX, 0xff00_0000, 0x00ff_ffff, 0x8080_8080])
     }
 
     #[test]
@@ -115,9 +117,8 @@ mod tests {
     fn a_pixel_over_another_hides_what_its_alpha_says_and_never_wraps() {
         for (a, b) in some_pixels().zip(some_pixels().skip(11)) {
             let rest = 255.0 - real(a)[3];
-            let each: [u8; 4] = std::array::from_fn(|k| {
-                (real(a)[k] + (real(b)[k] * rest / 255.0).round()).min(255.0) as u8
-            });
+            let each: [u8; 4] =
+                std::array::from_fn(|k| (real(a)[k] + (real(b)[k] * rest / 255.0).round()).min(255.0) as u8);
             assert_eq!(over(a, b), u32::from_le_bytes(each), "{a:08x} over {b:08x}");
         }
     }

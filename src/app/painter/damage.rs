@@ -77,7 +77,8 @@ impl Tiles {
                     let (top, bottom) = (row as i32 * TILE[1], (row as i32 + 1) * TILE[1]);
                     let (left, right) = (start as i32 * TILE[0], column as i32 * TILE[0]);
                     let area = Area { left, top, right, bottom }.cut(whole);
-                    let is_below = |a: &&mut Area| (a.left, a.right, a.bottom) == (area.left, area.right, top);
+                    let is_below =
+                        |a: &&mut Area| (a.left, a.right, a.bottom) == (area.left, area.right, top);
                     match areas.iter_mut().find(is_below) {
                         Some(above) => above.bottom = area.bottom,
                         None => areas.push(area),

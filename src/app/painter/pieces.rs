@@ -39,14 +39,20 @@ pub struct Piece {
 }
 
 /// The pieces that can be seen in an image of this size, from the back to the front.
-pub fn pieces(size: [usize; 2], pixels_per_point: f32, primitives: &[ClippedPrimitive], into: &mut Vec<Piece>) {
+pub fn pieces(
+    size: [usize; 2],
+    pixels_per_point: f32,
+    primitives: &[ClippedPrimitive],
+    into: &mut Vec<Piece>,
+) {
     into.clear();
     for ClippedPrimitive { clip_rect, primitive } in primitives {
         // A callback is for a graphics card; this program has none.
         let Primitive::Mesh(mesh) = primitive else { continue };
         let edge = |points: f32| (points * pixels_per_point).round() as i32;
         let (least, most) = (clip_rect.min, clip_rect.max);
-        let clip = Area { left: edge(least.x), top: edge(least.y), right: edge(most.x), bottom: edge(most.y) };
+        let clip =
+            Area { left: edge(least.x), top: edge(least.y), right: edge(most.x), bottom: edge(most.y) };
         let clip = clip.cut(Area::of(size));
         if !clip.is_empty() {
             of_mesh(mesh, pixels_per_point, clip, into);
@@ -200,7 +206,9 @@ mod tests {
             let found = all(&mesh, 2.0);
             assert_eq!(found.len(), 1);
             assert_eq!(found[0].bounds, Area { left: 20, top: 8, right: 60, bottom: 17 });
-            assert!(matches!(found[0].shape, Shape::Rectangle([a, b]) if a.at == [20.0, 8.0] && b.at == [60.0, 17.0]));
+            assert!(
+                matches!(found[0].shape, Shape::Rectangle([a, b]) if a.at == [20.0, 8.0] && b.at == [60.0, 17.0])
+            );
         }
         assert_eq!(all(&square(true), 1.0).len(), 2);
         let mut coloured = square(false);
@@ -239,7 +247,10 @@ mod tests {
             change(|m| m.texture_id = TextureId::User(0)),
         ];
         for (k, other) in others.iter().enumerate() {
-            assert!(*other != hash(&plain) && !others[..k].contains(other), "change {k} leaves the hash as it was");
+            assert!(
+                *other != hash(&plain) && !others[..k].contains(other),
+                "change {k} leaves the hash as it was"
+            );
         }
     }
 }

@@ -1,10 +1,10 @@
 //! Draws rectangles along the axes: of one colour, letters pixel by pixel, pictures that are stretched.
 
+use super::Canvas;
 use super::area::Area;
 use super::blend::{Pixel, WHOLE, alpha, lay, mixed, over, pixel, product};
 use super::pieces::Corner;
 use super::texture::Texture;
-use super::Canvas;
 
 /// How far off the middle of a pixel a texture may be read as though it were there, in its pixels.
 const SLACK: f32 = 1.0 / 64.0;
@@ -60,7 +60,8 @@ impl Line {
     /// The first of the texture's pixels, where each of the image is one of them.
     fn whole(&self, size: usize) -> Option<usize> {
         let count = self.places.len();
-        let off = (self.start - 0.5 - (self.start - 0.5).round()).abs() + (self.step - 1.0).abs() * count as f32;
+        let off =
+            (self.start - 0.5 - (self.start - 0.5).round()).abs() + (self.step - 1.0).abs() * count as f32;
         let begin = (self.start - 0.5).round();
         let is_inside = begin >= 0.0 && begin as usize + count <= size;
         (off < SLACK && is_inside).then_some(begin as usize)

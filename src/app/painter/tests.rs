@@ -5,7 +5,7 @@ use super::Painter;
 use crate::app::desk::Desk;
 use crate::app::editor::{Editor, Setup};
 use crate::app::shows::Shows;
-use egui::{Context, FullOutput, Theme, TexturesDelta};
+use egui::{Context, FullOutput, TexturesDelta, Theme};
 use egui_kittest::wgpu::WgpuTestRenderer;
 use egui_kittest::{Harness, TestRenderer};
 use image::RgbaImage;
@@ -55,11 +55,15 @@ fn apart(a: &RgbaImage, b: &RgbaImage) -> (f64, f64) {
 /// The window in a theme and at a scale, by both painters.
 fn painted(theme: Theme, scale: f32) -> (RgbaImage, RgbaImage) {
     let image = Arc::new(Mutex::new(RgbaImage::new(1, 1)));
-    let twice = Twice { other: WgpuTestRenderer::new(), painter: Painter::default(), image: Arc::clone(&image) };
+    let twice =
+        Twice { other: WgpuTestRenderer::new(), painter: Painter::default(), image: Arc::clone(&image) };
     let [_, aset, hearts, profile] = Desk::default().panes;
     let mut diagram = aset.clone();
     diagram.shows = Shows::Diagram;
-    let setup = Setup { desk: Desk { panes: [aset, diagram, hearts, profile], ..Desk::default() }, ..Setup::default() };
+    let setup = Setup {
+        desk: Desk { panes: [aset, diagram, hearts, profile], ..Desk::default() },
+        ..Setup::default()
+    };
     let mut harness = Harness::builder()
         .with_size(egui::vec2(1280.0, 800.0))
         .with_pixels_per_point(scale)
@@ -93,7 +97,10 @@ fn the_window_looks_as_a_card_paints_it() {
             ours.save(folder.join(format!("painted-{name}-processor.png"))).unwrap();
             theirs.save(folder.join(format!("painted-{name}-card.png"))).unwrap();
             let (mean, far) = apart(&ours, &theirs);
-            println!("{name}: mean difference {mean:.4} of 255, {:.4} % of colours differ by more than 4", 100.0 * far);
+            println!(
+                "{name}: mean difference {mean:.4} of 255, {:.4} % of colours differ by more than 4",
+                100.0 * far
+            );
             assert!(mean < 0.05 && far < 1e-4, "{name}: mean {mean}, far {far}");
         }
     }

@@ -111,9 +111,8 @@ impl Texture {
         let weight = |part: f32| (part * WHOLE as f32 + 0.5) as u32;
         let (across, down) = (weight(x - column), weight(y - row));
         let (column, row) = (column as i32, row as i32);
-        let line = |row: i32| {
-            mixed(self.texel(column, row), self.texel(column.saturating_add(1), row), across)
-        };
+        let line =
+            |row: i32| mixed(self.texel(column, row), self.texel(column.saturating_add(1), row), across);
         mixed(line(row), line(row.saturating_add(1)), down)
     }
 

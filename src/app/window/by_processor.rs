@@ -8,7 +8,9 @@ use super::{ID, WindowError, viewport};
 use crate::app::editor::{Editor, Setup};
 use crate::app::painter::Painter;
 use eframe::{App, Storage};
-use egui::{Context, Event, FullOutput, ViewportBuilder, ViewportCommand, ViewportEvent, ViewportId, ViewportInfo};
+use egui::{
+    Context, Event, FullOutput, ViewportBuilder, ViewportCommand, ViewportEvent, ViewportId, ViewportInfo,
+};
 use egui_winit::winit::application::ApplicationHandler;
 use egui_winit::winit::event::{StartCause, WindowEvent};
 use egui_winit::winit::event_loop::{ActiveEventLoop, ControlFlow, EventLoop, EventLoopProxy};
@@ -146,7 +148,11 @@ struct OpenWindow {
 }
 
 impl OpenWindow {
-    fn new(events: &ActiveEventLoop, proxy: &EventLoopProxy<UserEvent>, setup: Setup) -> Result<Self, String> {
+    fn new(
+        events: &ActiveEventLoop,
+        proxy: &EventLoopProxy<UserEvent>,
+        setup: Setup,
+    ) -> Result<Self, String> {
         let kept = eframe::storage_dir(ID).map(|folder| FileStorage::read(&folder));
         let storage = kept.as_ref().map(|kept| kept as &dyn Storage);
         let context = context(storage);
@@ -162,12 +168,14 @@ impl OpenWindow {
         egui_winit::update_viewport_info(&mut info, &context, &window, true);
         let scale = window.scale_factor() as f32;
         let theme = events.system_theme();
-        let mut input = State::new(context.clone(), ViewportId::ROOT, events, Some(scale), theme, Some(LARGEST));
+        let mut input =
+            State::new(context.clone(), ViewportId::ROOT, events, Some(scale), theme, Some(LARGEST));
         input.init_accesskit(events, &window, proxy.clone());
         connect_repaint(&context, proxy);
         let editor = Editor::within(&context, storage, None, setup)?;
-        let is_paced_by_system =
-            events.display_handle().is_ok_and(|handle| matches!(handle.as_raw(), RawDisplayHandle::Wayland(_)));
+        let is_paced_by_system = events
+            .display_handle()
+            .is_ok_and(|handle| matches!(handle.as_raw(), RawDisplayHandle::Wayland(_)));
         let now = Instant::now();
         let mut pacer = FramePacer::default();
         pacer.ask(now);
@@ -217,7 +225,9 @@ impl OpenWindow {
     /// Handles an event of the window system.
     fn handle_window_event(&mut self, events: &ActiveEventLoop, event: &WindowEvent) -> Result<(), String> {
         match event {
-            WindowEvent::RedrawRequested if std::mem::take(&mut self.is_promised) => return self.paint(events),
+            WindowEvent::RedrawRequested if std::mem::take(&mut self.is_promised) => {
+                return self.paint(events);
+            }
             // A part of the window has been uncovered.
             WindowEvent::RedrawRequested if self.is_shown => {
                 return self.surface.show_again(self.painter.canvas()).map_err(|e| e.to_string());
@@ -270,7 +280,8 @@ impl OpenWindow {
         self.info.events.clear();
         let FullOutput { platform_output, mut textures_delta, shapes, pixels_per_point, mut viewport_output } =
             output;
-        let commands = viewport_output.remove(&ViewportId::ROOT).map_or_else(Vec::new, |output| output.commands);
+        let commands =
+            viewport_output.remove(&ViewportId::ROOT).map_or_else(Vec::new, |output| output.commands);
         self.input.handle_platform_output_with_event_loop(&self.window, events, platform_output);
         let primitives = self.context.tessellate(shapes, pixels_per_point);
         let size = self.window.inner_size();
@@ -377,7 +388,9 @@ fn placed(settings: Option<WindowSettings>, context: &Context, events: &ActiveEv
 fn connect_repaint(context: &Context, proxy: &EventLoopProxy<UserEvent>) {
     let proxy = Mutex::new(proxy.clone());
     context.set_request_repaint_callback(move |asked| {
-        let when = Instant::now().checked_add(asked.delay).unwrap_or_else(|| Instant::now() + Duration::from_secs(1 << 20));
+        let when = Instant::now()
+            .checked_add(asked.delay)
+            .unwrap_or_else(|| Instant::now() + Duration::from_secs(1 << 20));
         let event = UserEvent::Repaint { when, pass: asked.current_cumulative_pass_nr };
         // This fails once the window is closed, when there is nothing to paint.
         let _ = proxy.lock().unwrap_or_else(PoisonError::into_inner).send_event(event);

@@ -34,7 +34,9 @@ const PACKAGES: &str = "libx11-xcb1, libxcursor1, libxi6, libxkbcommon-x11-0";
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum WindowError {
     /// There is no screen to open it on.
-    #[error("the window cannot be opened: there is no display ({0}); `brillianteer --help` lists what works without")]
+    #[error(
+        "the window cannot be opened: there is no display ({0}); `brillianteer --help` lists what works without"
+    )]
     NoDisplay(String),
     /// There is a screen, but opening a window or painting in it failed.
     #[error(
@@ -42,7 +44,9 @@ pub enum WindowError {
     )]
     NoWindow(String),
     /// The environment asks for a painter that does not exist.
-    #[error("{CHOICE}={0} is unknown; set it to `card` or `processor`, or leave it out and the program chooses")]
+    #[error(
+        "{CHOICE}={0} is unknown; set it to `card` or `processor`, or leave it out and the program chooses"
+    )]
     NoSuchPainter(String),
 }
 
