@@ -150,6 +150,7 @@ fn lost(files: &[PathBuf], format: Format, way: Way) -> Vec<String> {
     let fate = |(file, turn): (&PathBuf, &DQuat)| {
         let specimen = Specimen::new(design_file::read(file).ok()?.design).ok()?;
         let name = file.file_name()?.to_string_lossy().into_owned();
+        if std::env::var_os("STONES_DUMP").is_some() { println!("FILE {name}"); }
         fate(&specimen, format, way, *turn).err().map(|why| format!("{name}: {why}"))
     };
     files.par_iter().zip(&turns).filter_map(fate).collect()

@@ -7,7 +7,7 @@ use super::files::Purpose;
 use super::proportions::{EXCELLENT_DEPTH, PROPORTIONS, Proportion};
 use super::rows::{ANY, NUMBER, Number, Row, control_width, field_width, named};
 use super::studio::BEHIND;
-use super::{company_rows, glass_rows, side_panels, stone_rows, theme, tier_rows};
+use super::{company_rows, glass_rows, mesh_rows, side_panels, stone_rows, theme, tier_rows};
 use crate::cut::{Cut, Design, DesignError, MaterialRef, RoundBrilliant, Unit};
 use crate::picture::Pattern;
 use crate::scene::{Company, LIGHTS, SpecimenError, light};
@@ -38,6 +38,7 @@ pub fn show(editor: &mut Editor, ui: &mut Ui, widths: RangeInclusive<f32>) {
                 false => "Drag a slider or type a number.",
             };
             heading(ui, "Proportions", meaning);
+            mesh_rows::show(editor, ui);
             proportions(editor, ui);
             heading(ui, "Stone", "What it is made of, and how large it is.");
             stone_rows::show(editor, ui);

@@ -23,6 +23,19 @@ pub struct Work {
     pub exposure: f64,
     /// Half angle of the observer's head in ASET and figures, degrees; 0 for none.
     pub head: f64,
+    /// The mesh that the stone was read from, if it was one.
+    pub mesh: Option<ReadMesh>,
+}
+
+/// A mesh file, and how it was read.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ReadMesh {
+    /// The file.
+    pub path: PathBuf,
+    /// How it was read.
+    pub options: MeshOptions,
+    /// Whether its shape leaves a doubt which way its table faces.
+    pub is_doubtful: bool,
 }
 
 /// What a file was like when it was last read or written.
@@ -78,6 +91,7 @@ impl Document {
             light: FIRST_LIGHT.to_owned(),
             exposure: 0.0,
             head: 0.0,
+            mesh: None,
         };
         let stamp = path.as_deref().map_or(Stamp(None), Stamp::of);
         let history = History::new(work.clone());
@@ -119,11 +133,23 @@ impl Document {
     /// # Errors
     /// Text that names file, line and key, and what to do.
     pub fn open(path: &Path, mesh: MeshOptions) -> Result<Self, String> {
-        let Brought { design, warnings, .. } =
+        let Brought { design, notes, warnings, doubt } =
             design_file::read_with(path, mesh).map_err(|e| e.to_string())?;
-        let document =
+        let mut document =
             Self::new(design, Some(path.to_owned())).map_err(|e| format!("{}: {e}", path.display()))?;
-        Ok(Self { odd: warnings, ..document })
+        document.odd = warnings.into_iter().chain(notes).collect();
+        let read = |is_doubtful| ReadMesh { path: path.to_owned(), options: mesh, is_doubtful };
+        document.work.mesh = doubt.map(read);
+        document.history = History::new(document.work.clone());
+        Ok(document)
+    }
+
+    /// Takes the shape of a mesh that was read once more, in another way; all else of the work stays. A step that can be
+    /// undone.
+    pub fn take_shape(&mut self, other: Self) {
+        self.work.design.cut = other.work.design.cut;
+        self.work.mesh = other.work.mesh;
+        self.odd = other.odd;
     }
 
     /// A design that was never saved, found after a crash: it counts as changed.

@@ -32,6 +32,7 @@ mod liquid;
 mod look;
 mod lookup;
 mod menus;
+mod mesh_rows;
 mod moving;
 mod notes;
 mod opener;

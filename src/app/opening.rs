@@ -19,7 +19,13 @@ pub enum Wanted {
     Again,
     /// To be compared with.
     Beside,
+    /// The mesh that is open already, read in another way.
+    Otherwise,
 }
+
+/// What is said of a mesh whose table may face another way.
+const DOUBTFUL: &str = "The shape of this mesh leaves a doubt which way its table faces: choose it in the panel Design, by \
+    Table faces.";
 
 /// A file on its way in.
 pub struct Opening {
@@ -66,7 +72,10 @@ fn is_scene(path: &Path) -> bool {
 impl Editor {
     /// Opens a file; one that is still on its way for the same purpose is forgotten.
     pub(super) fn open(&mut self, path: &Path, wanted: Wanted) {
-        self.open_with(path, wanted, MeshOptions::default());
+        // A mesh that has changed is read as it was.
+        let again = self.document.work.mesh.as_ref().filter(|_| wanted == Wanted::Again);
+        let mesh = again.map_or(MeshOptions::default(), |mesh| mesh.options);
+        self.open_with(path, wanted, mesh);
     }
 
     /// Opens a file as [`open`](Self::open) does; the options are those of meshes.
@@ -110,7 +119,18 @@ impl Editor {
             (Wanted::Beside, Came::Design(document)) => self.compared = Some(Compared::of(&document)),
             (Wanted::Anew, Came::Design(document)) => {
                 self.desk.remember(&opening.path);
+                let is_doubtful = document.work.mesh.as_ref().is_some_and(|mesh| mesh.is_doubtful);
                 self.begin(*document);
+                if is_doubtful {
+                    self.notes.say(DOUBTFUL);
+                }
+            }
+            (Wanted::Otherwise, Came::Design(document)) => {
+                // Another design may have been opened meanwhile.
+                let path = |work: &Work| work.mesh.as_ref().map(|mesh| mesh.path.clone());
+                if path(&self.document.work) == path(&document.work) {
+                    self.document.take_shape(*document);
+                }
             }
             (Wanted::Again, Came::Design(mut document)) => {
                 let (desk, framing) = (self.desk.clone(), self.framing.clone());

@@ -202,7 +202,8 @@ fn table(specimen: &Specimen, value: &Value) -> String {
 /// What was measured of a stone that has no proportions of its own.
 fn proportions(report: &Report, line: &mut impl FnMut(&str, String)) {
     line("length to width", format!("{:.4}", report.length_to_width));
-    line("table", format!("{:.2} by {:.2} %", report.table[0], report.table[1]));
+    let [width, length] = report.table;
+    line("table", format!("{width:.2} by {length:.2} %, {:.2} % from corner to corner", report.table_corners));
     for (key, value) in [
         ("crown height", report.crown_height),
         ("girdle thickness", report.girdle_thickness),

@@ -9,26 +9,12 @@ use glam::DVec3;
 #[derive(Debug, Clone, Copy, Default, Args)]
 #[command(next_help_heading = "Meshes")]
 pub struct MeshArguments {
-    /// The direction in which the table of a mesh faces, in its own frame [default: as found]
-    #[arg(long, value_name = "AXIS", value_enum, allow_hyphen_values = true)]
-    up: Option<Axis>,
+    /// The direction in which the table of a mesh faces, in its own frame: x, -x, y, -y, z, -z, or X,Y,Z [default: as found]
+    #[arg(long, value_name = "DIRECTION", value_parser = direction, allow_hyphen_values = true)]
+    up: Option<Up>,
     /// What the triangles of a mesh stand for [default: as found]
     #[arg(long = "as", value_name = "FORM", value_enum)]
     form: Option<Form>,
-}
-
-/// An axis of a mesh's frame.
-#[derive(Debug, Clone, Copy, ValueEnum)]
-enum Axis {
-    X,
-    Y,
-    Z,
-    #[value(name = "-x")]
-    MinusX,
-    #[value(name = "-y")]
-    MinusY,
-    #[value(name = "-z")]
-    MinusZ,
 }
 
 #[derive(Debug, Clone, Copy, ValueEnum)]
@@ -43,7 +29,7 @@ impl MeshArguments {
     /// The options that were given.
     pub fn options(self) -> MeshOptions {
         MeshOptions {
-            up: self.up.map_or(Up::Found, Axis::up),
+            up: self.up.unwrap_or_default(),
             form: match self.form {
                 None => MeshForm::Found,
                 Some(Form::Faceted) => MeshForm::Faceted,
@@ -53,15 +39,58 @@ impl MeshArguments {
     }
 }
 
-impl Axis {
-    fn up(self) -> Up {
-        Up::Given(match self {
-            Self::X => DVec3::X,
-            Self::Y => DVec3::Y,
-            Self::Z => DVec3::Z,
-            Self::MinusX => DVec3::NEG_X,
-            Self::MinusY => DVec3::NEG_Y,
-            Self::MinusZ => DVec3::NEG_Z,
-        })
+/// A direction as a command line gives it.
+fn direction(text: &str) -> Result<Up, String> {
+    let (sign, name) = text.strip_prefix('-').map_or((1.0, text), |name| (-1.0, name));
+    let axis = match name {
+        "x" => Some(DVec3::X),
+        "y" => Some(DVec3::Y),
+        "z" => Some(DVec3::Z),
+        _ => None,
+    };
+    if let Some(axis) = axis {
+        return Ok(Up::Given(sign * axis));
+    }
+    let numbers: Option<Vec<f64>> = text.split(',').map(|number| number.trim().parse().ok()).collect();
+    let vector = numbers.filter(|numbers| numbers.len() == 3).map(|numbers| DVec3::from_slice(&numbers));
+    match vector.filter(|vector| vector.is_finite() && *vector != DVec3::ZERO) {
+        Some(vector) => Ok(Up::Given(vector)),
+        None => Err("give x, -x, y, -y, z, -z, or three numbers that are not all 0, such as 0,0.6,0.8".to_owned()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use clap::Parser;
+
+    #[derive(Debug, Parser)]
+    struct Command {
+        #[command(flatten)]
+        mesh: MeshArguments,
+    }
+
+    fn up(arguments: &[&str]) -> Result<Up, String> {
+        let given = std::iter::once(&"b").chain(arguments);
+        Command::try_parse_from(given).map(|c| c.mesh.options().up).map_err(|e| e.to_string())
+    }
+
+    #[test]
+    fn a_direction_is_an_axis_or_three_numbers_and_may_begin_with_a_minus() {
+        for (text, expected) in [
+            ("z", DVec3::Z),
+            ("-z", DVec3::NEG_Z),
+            ("-x", DVec3::NEG_X),
+            ("0,0.6,-0.8", DVec3::new(0.0, 0.6, -0.8)),
+            ("-1, 2,3e-1", DVec3::new(-1.0, 2.0, 0.3)),
+        ] {
+            assert_eq!(up(&["--up", text]), Ok(Up::Given(expected)), "{text}");
+            assert_eq!(up(&[&format!("--up={text}")]), Ok(Up::Given(expected)), "{text}");
+        }
+        assert_eq!(up(&[]), Ok(Up::Found));
+        for bad in ["w", "--z", "1,2", "0,0,0", "1,nan,0", "1,2,3,4", ""] {
+            let told = up(&[&format!("--up={bad}")]).unwrap_err();
+            assert!(told.contains("give x, -x, y, -y, z, -z, or three numbers"), "{bad}: {told}");
+        }
     }
 }

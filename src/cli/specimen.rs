@@ -53,7 +53,7 @@ impl Specimen {
         Self::of(path.to_owned(), Brought::of(design))
     }
 
-    fn of(path: String, Brought { design, notes, warnings }: Brought) -> Result<Self, Failure> {
+    fn of(path: String, Brought { design, notes, warnings, .. }: Brought) -> Result<Self, Failure> {
         let told = |e| Failure::Input(format!("{path}: {e}"));
         let made = scene::Specimen::new(design).map_err(told)?;
         let specimen = Self { path, made };

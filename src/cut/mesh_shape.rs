@@ -1,12 +1,39 @@
 //! The shape of a stone that no planes describe.
 
-use crate::math::Shell;
+use super::outline;
+use crate::math::{Calipers, Shell, hull};
+use glam::{DQuat, DVec3};
 use std::ops::Deref;
 use std::sync::Arc;
 
-/// A closed surface of triangles in the stone's frame: z up, half its width 1. Shared, as it may be large.
+/// A surface this near to the stone's frame lies in it: rounding.
+const IN_FRAME: f64 = 1e-9;
+
+/// A closed surface of triangles in the stone's frame: z up, half its diameter 1 (see [`Outline`](super::Outline)), the
+/// middle of its outline on the axis, and the middle of its height at z = 0. Shared, as it may be large.
 #[derive(Debug, Clone)]
 pub struct MeshShape(pub Arc<Shell>);
+
+impl MeshShape {
+    /// A surface turned, and put into the stone's frame if it does not lie there already; with how much it was scaled by.
+    /// `None` where it has no extent across.
+    pub fn framed(shell: &Shell, turn: DQuat) -> Option<(Self, f64)> {
+        let corners: Vec<DVec3> = shell.vertices().iter().map(|&v| turn * v).collect();
+        let around = hull(corners.iter().map(|v| v.truncate()).collect());
+        let Calipers { width, middle, .. } = Calipers::of(&around)?;
+        let heights = corners.iter().map(|v| v.z);
+        let (low, high) =
+            heights.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), z| (low.min(z), high.max(z)));
+        let scale = 2.0 / outline::diameter(&around, middle, width);
+        let shift = -scale * middle.extend((low + high) / 2.0);
+        let is_framed = (scale - 1.0).abs() < IN_FRAME && shift.length() < IN_FRAME;
+        let shell = match is_framed && turn == DQuat::IDENTITY {
+            true => shell.clone(),
+            false => shell.moved(scale, turn, shift),
+        };
+        Some((Self(Arc::new(shell)), if is_framed { 1.0 } else { scale }))
+    }
+}
 
 impl PartialEq for MeshShape {
     /// By corners and triangles: what else a shell has follows from them, but for the rounding of the way it was made.

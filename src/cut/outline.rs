@@ -11,6 +11,12 @@ const UPRIGHT: f64 = 1e-5;
 /// A facet whose normal leans less than this from the axis (sine) is a table or a culet.
 pub(super) const LEVEL: f64 = 1e-5;
 
+/// Corners of a round outline lie no nearer to its middle than this part of the farthest.
+const ON_CIRCLE: f64 = 0.99;
+
+/// The width of a round outline is at least this part of its diameter.
+const ROUND: f64 = 0.95;
+
 /// Where among the corners of the girdle's facets, from below and from above, its edges are taken to lie: a few corners
 /// reach far in a wavy girdle and say little of it. Depths published for GemCad's designs are taken at a tenth too, yet
 /// of the corners of triangles into which facets fall by chance; so one design in a hundred, whose tenth corner lies where
@@ -28,6 +34,10 @@ pub struct Outline {
     pub length: f64,
     /// The least distance between two lines, seen along the axis, that are parallel and hold the stone.
     pub width: f64,
+    /// What sizes and percentages are measured by. Of a round stone it is the diameter of the circle that holds the corners
+    /// of its outline; of any other it is the width. A stone is round whose corners all lie on that circle, but for 1 % of
+    /// its radius, and whose width is at least 95 % of its diameter: one of ten sides is, one of eight is not.
+    pub diameter: f64,
     /// z of the girdle's lower edge.
     pub girdle_bottom: f64,
     /// z of its upper edge.
@@ -51,17 +61,21 @@ impl Outline {
         let (low, high) = stone.bounds();
         let across = high - low;
         // A solid so thin that rounding leaves no outline is measured along its axes.
-        let calipers = seen(stone.vertices().iter().copied());
-        let (length, width, middle) = calipers.map_or_else(
-            || (across.max_element(), across.truncate().min_element(), ((low + high) / 2.0).truncate()),
-            |found| (found.length, found.width, found.middle),
-        );
+        let outline = hull(stone.vertices().iter().map(|v| v.truncate()).collect());
+        let Calipers { length, width, middle, .. } = Calipers::of(&outline).unwrap_or_else(|| Calipers {
+            length: across.max_element(),
+            width: across.truncate().min_element(),
+            across: DVec2::X,
+            middle: ((low + high) / 2.0).truncate(),
+        });
         let (girdle_bottom, girdle_top) = girdle(stone, SAME_CORNER * width);
         let facet = table(stone);
-        let table = facet.and_then(|facet| seen(stone.corners(facet)));
+        let flat = |facet| hull(stone.corners(facet).map(DVec3::truncate).collect());
+        let table = facet.and_then(|facet| Calipers::of(&flat(facet)));
         Self {
             length,
             width,
+            diameter: diameter(&outline, middle, width),
             girdle_bottom,
             girdle_top,
             bottom: low.z,
@@ -125,9 +139,12 @@ fn table(stone: &Polytope) -> Option<&Facet> {
     stone.facets().iter().find(|facet| is_table(facet))
 }
 
-/// How wide and long corners are, seen along the axis.
-fn seen(corners: impl Iterator<Item = DVec3>) -> Option<Calipers> {
-    Calipers::of(&hull(corners.map(DVec3::truncate).collect()))
+/// The diameter of an outline of this middle and width, as [`Outline::diameter`] has it.
+pub(super) fn diameter(outline: &[DVec2], middle: DVec2, width: f64) -> f64 {
+    let radii = || outline.iter().map(|corner| corner.distance(middle));
+    let (least, most) = (radii().fold(f64::INFINITY, f64::min), radii().fold(0.0, f64::max));
+    let is_round = least >= ON_CIRCLE * most && width >= ROUND * 2.0 * most;
+    if is_round { 2.0 * most } else { width }
 }
 
 /// The greatest distance between two corners of a facet.
@@ -201,7 +218,9 @@ mod tests {
                 "{measured:?} {derived:?}"
             );
             assert!((measured.pavilion_depth() / 2.0 - derived.pavilion_depth / 100.0).abs() < 0.01);
-            assert!((measured.length - 2.0).abs() < 5e-3 && (measured.width - 2.0).abs() < 5e-3);
+            let sides = 2.0 * (std::f64::consts::PI / f64::from(girdle_facets)).cos();
+            assert!((measured.length - sides).abs() < 1e-12 && (measured.width - sides).abs() < 1e-12);
+            assert!((measured.diameter - 2.0).abs() < 1e-12, "{measured:?}");
             let depth = measured.top - measured.bottom;
             assert!((depth / 2.0 - derived.total_depth / 100.0).abs() < 1e-12);
         }
@@ -221,6 +240,7 @@ mod tests {
         let stone = Polytope::from_planes(&planes).unwrap();
         let plain = Outline::of(&stone);
         assert!((plain.width - 1.3).abs() < 1e-12 && (plain.length - 2.0).abs() < 1e-12, "{plain:?}");
+        assert_eq!(plain.diameter, plain.width);
         assert!(plain.table[0] > 0.1 && plain.table[1] > 1.01 * plain.table[0], "{plain:?}");
         let moved = |angle| Outline::of(&stone.moved(1.0, glam::DQuat::from_rotation_z(angle), DVec3::ZERO));
         for step in 1..40 {

@@ -43,12 +43,14 @@ pub struct Brought {
     pub notes: Vec<String>,
     /// What is odd about the file, in words, each with its line or offset where it has one.
     pub warnings: Vec<String>,
+    /// Of a mesh, whether its shape leaves a doubt which way its table faces; none of other designs.
+    pub doubt: Option<bool>,
 }
 
 impl Brought {
     /// A design of which there is nothing to say.
     pub fn of(design: Design) -> Self {
-        Self { design, notes: vec![], warnings: vec![] }
+        Self { design, notes: vec![], warnings: vec![], doubt: None }
     }
 }
 

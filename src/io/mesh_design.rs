@@ -10,10 +10,9 @@ use crate::cut::from_mesh::{FromMesh, Up, directions, from_mesh};
 use crate::cut::{Cut, DEFAULT_DIAMETER_MM, Design, MAX_PLANES, MaterialRef, MeshShape, is_printable};
 use crate::math::surface::{Faceted, Mending, Shape, facets};
 use crate::math::{Shell, Surface};
-use glam::DVec3;
-use place::{Place, Told, axes, doubtful, upright};
+use glam::{DQuat, DVec3};
+use place::{Place, Told, axes, doubtful};
 use std::path::Path;
-use std::sync::Arc;
 
 /// The material that is taken where a file says nothing of one.
 const USUAL: &str = "diamond";
@@ -78,6 +77,7 @@ impl File {
         told.notes.push(format!(
             "{count} facets were found; no corner lies farther from them than {deviation:.1e} girdle radii"
         ));
+        told.is_doubtful = made.doubt.is_some();
         told.notes.extend(made.doubt.map(|doubt| doubtful(made.up, doubt.other)));
         let brought = self.brought(Cut::Planes(facets), scale, told);
         brought.design.check().map_err(|e| e.to_string())?;
@@ -88,19 +88,26 @@ impl File {
         let mut told = Told::default();
         let up = self.place.up(&surface, || axes().to_vec(), &mut told);
         let shell = Shell::new(surface).map_err(|e| e.to_string())?;
-        let pose = match up {
-            Up::Posed(pose) => pose,
-            Up::Given(up) | Up::FoundBy(up) => upright(&shell, up, self.place.scale)?,
-            Up::Found => upright(&shell, DVec3::Z, self.place.scale)?,
+        let turn = match up {
+            Up::Posed(pose) => pose.turn,
+            Up::Given(up) | Up::Known(up) | Up::FoundBy(up) => {
+                let up = up.try_normalize().ok_or("the direction up points nowhere")?;
+                DQuat::from_rotation_arc(up, DVec3::Z)
+            }
+            Up::Found => DQuat::IDENTITY,
         };
-        let shell = Arc::new(shell.moved(pose.scale, pose.turn, pose.shift));
-        told.notes.push(format!("it is traced as {} triangles", shell.surface().triangles.len()));
-        Ok(self.brought(Cut::Mesh(MeshShape(shell)), pose.scale, told))
+        let (shape, scale) = MeshShape::framed(&shell, turn).ok_or("it has no extent across the direction up")?;
+        // A size that is known is one of mm, whatever the frame of the stone that was written.
+        if let (Some(known), Some(diameter_mm)) = (self.place.scale, &mut self.place.diameter_mm) {
+            *diameter_mm *= known / scale;
+        }
+        told.notes.push(format!("it is traced as {} triangles", shape.surface().triangles.len()));
+        Ok(self.brought(Cut::Mesh(shape), scale, told))
     }
 
     /// The design of a cut with `scale` girdle radii per unit of the file.
     fn brought(self, cut: Cut, scale: f64, told: Told) -> Brought {
-        let Told { mut notes, mut warnings } = told;
+        let Told { mut notes, mut warnings, is_doubtful } = told;
         let diameter_mm = self.place.diameter_mm.unwrap_or(DEFAULT_DIAMETER_MM);
         let (material, why) = self.material(0.5 * diameter_mm / scale);
         match why {
@@ -108,7 +115,7 @@ impl File {
             Err(warning) => warnings.push(warning),
         }
         let design = Design { name: self.name, source: None, notes: None, material, diameter_mm, cut };
-        Brought { notes, warnings, ..Brought::of(design) }
+        Brought { notes, warnings, doubt: Some(is_doubtful), ..Brought::of(design) }
     }
 
     /// The material that the file asks for, and a note where it asks for none or a warning where there is no such

@@ -2,7 +2,7 @@
 
 use super::{Body, Medium, Stone};
 use crate::cut::{Cut, Design, DesignError, Tiers};
-use crate::math::{NotConvex, Plane, PolytopeError, Smooth, SolidRef};
+use crate::math::{NotConvex, Plane, Polytope, PolytopeError, Smooth, SolidRef};
 use crate::optics::Material;
 use glam::DVec3;
 use std::sync::Arc;
@@ -142,8 +142,8 @@ fn odd(stone: &Stone, facets: &[(String, Plane)], given: usize) -> Vec<String> {
     };
     let mut told: Vec<String> =
         polytope.merged().iter().map(|(dropped, kept)| merged((dropped, kept))).collect();
-    if polytope.planes().any(|p| p.offset < 0.0) {
-        let what = "the origin lies outside the stone; pictures are centred there, so move the stone to it";
+    if !meets_axis(polytope) {
+        let what = "the stone lies beside its axis, x = y = 0, around which pictures are centred; move it there";
         told.push(what.to_owned());
     }
     // The block that closes a stone is none of its facets.
@@ -153,6 +153,20 @@ fn odd(stone: &Stone, facets: &[(String, Plane)], given: usize) -> Vec<String> {
         told.push(format!("these facets do not reach the stone: {}", listed(&names)));
     }
     told
+}
+
+/// Whether the axis, on which pictures are centred, runs through the stone.
+fn meets_axis(stone: &Polytope) -> bool {
+    let (mut low, mut high) = (f64::NEG_INFINITY, f64::INFINITY);
+    for plane in stone.planes() {
+        match plane.normal.z {
+            up if up > 0.0 => high = high.min(plane.offset / up),
+            down if down < 0.0 => low = low.max(plane.offset / down),
+            _ if plane.offset < 0.0 => return false,
+            _ => {}
+        }
+    }
+    low < high
 }
 
 /// Names in a row, no more than a line of them.

@@ -39,11 +39,11 @@ impl Stone {
         Self { polytope, names: self.names.clone() }
     }
 
-    /// The same stone scaled so that half its width is 1, and moved so that its middle lies on the axis and the girdle's
+    /// The same stone scaled so that half its diameter is 1, and moved so that its middle lies on the axis and the girdle's
     /// upper edge at z = 0: the frame of all stones, for one in a unit of its own.
     pub fn girdled(&self) -> Self {
         let outline = Outline::of(&self.polytope);
-        let scale = 2.0 / outline.width;
+        let scale = 2.0 / outline.diameter;
         // What lies on the axis but for the last digits stays there to all digits.
         let off =
             if outline.middle.length() > CENTRED * outline.width { outline.middle } else { DVec2::ZERO };

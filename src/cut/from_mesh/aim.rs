@@ -66,12 +66,8 @@ pub(super) fn aim(solid: &Polytope, parts: &Parts, up: Up) -> Result<Aim, FromMe
         Up::Found => DVec3::Z,
         Up::FoundBy(custom) => custom,
         Up::Given(given) => return toward(solid, given).ok_or(FromMeshError::Up(given)),
-        Up::Posed(pose) => {
-            let given = pose.turn.inverse() * DVec3::Z;
-            return toward(solid, given)
-                .map(|aim| Aim { axis: given, ..aim })
-                .ok_or(FromMeshError::Up(given));
-        }
+        Up::Known(up) => return Ok(known(solid, up)),
+        Up::Posed(pose) => return Ok(known(solid, pose.turn.inverse() * DVec3::Z)),
     };
     let mut scored: Vec<(f64, Cues)> = directions(solid)
         .into_iter()
@@ -105,6 +101,11 @@ fn toward(solid: &Polytope, given: DVec3) -> Option<Aim> {
     Some(Aim { axis: table.map_or(unit, |t| solid.facets()[t].plane.normal), table, doubt: None })
 }
 
+/// The axis where up is known: what is square to it is the table.
+fn known(solid: &Polytope, axis: DVec3) -> Aim {
+    Aim { axis, table: Cues::of(solid, axis).and_then(|cues| cues.table), doubt: None }
+}
+
 /// Facets by area; of equals the earlier is the larger.
 fn compare(solid: &Polytope, a: usize, b: usize) -> Ordering {
     let size = |f: usize| solid.facet_area(&solid.facets()[f]);
@@ -125,7 +126,8 @@ fn is_alike(a: &Cues, b: &Cues) -> bool {
 /// What is seen of a direction at a glance.
 fn at_sight(cues: &Cues, custom: DVec3) -> f64 {
     let worth = |area: f64| if area > 0.0 { weight::TABLE + weight::TABLE_AREA * area.min(1.0) } else { 0.0 };
-    weight::GIRDLE * cues.girdle.min(1.0) + worth(cues.table_area) - worth(cues.culet_area)
+    weight::GIRDLE * cues.girdle.min(1.0)
+        + worth(cues.table_area) - worth(cues.culet_area)
         + weight::FLAT * (1.0 - cues.crown)
         + own(cues, custom)
 }
@@ -137,13 +139,7 @@ fn own(cues: &Cues, custom: DVec3) -> f64 {
     let axes = [DVec3::X, DVec3::Y, DVec3::Z];
     let along = axes.iter().any(|axis| is(*axis) || is(-*axis)) && square;
     let second = if custom == DVec3::Y { DVec3::Z } else { DVec3::Y };
-    let usual = if is(custom) {
-        1.0
-    } else if is(second) {
-        0.5
-    } else {
-        0.0
-    };
+    let usual = if is(custom) { 1.0 } else if is(second) { 0.5 } else { 0.0 };
     weight::CUSTOM * usual + if along { weight::OWN_AXIS } else { 0.0 }
 }
 

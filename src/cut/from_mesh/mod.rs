@@ -31,6 +31,8 @@ pub enum Up {
     FoundBy(DVec3),
     /// Given in the surface's frame, any length but zero. The largest facet within 5 degrees is the table.
     Given(DVec3),
+    /// Known to the last digit, in the surface's frame, of length 1. Only a facet square to it is the table.
+    Known(DVec3),
     /// Known with all else of where the stone lies: the surface is moved so and not otherwise.
     Posed(Pose),
 }

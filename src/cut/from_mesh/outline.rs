@@ -28,16 +28,34 @@ const LONG: f64 = 0.01;
 const SAME_WIDTH: f64 = 0.005;
 
 /// The pose of an even stone whose axis is up already: width along x, its middle on the axis, girdle at z = 0, and half its
-/// width 1.
+/// diameter 1.
 pub(super) fn placed(even: &Even, areas: &[f64]) -> Result<Pose, FromMeshError> {
     let solid = Polytope::from_planes(&even.planes)?;
-    let rim = hull(solid.vertices().iter().map(|v| v.truncate()).collect());
-    let turn = DQuat::from_rotation_z(-azimuth(even, areas, &rim));
-    let Outline { width, girdle_top, middle, .. } = Outline::of(&solid.moved(1.0, turn, DVec3::ZERO));
+    let around = hull(solid.vertices().iter().map(|v| v.truncate()).collect());
+    let turn = DQuat::from_rotation_z(-azimuth(even, areas, &around));
+    let Outline { diameter, girdle_top, middle, .. } = Outline::of(&solid.moved(1.0, turn, DVec3::ZERO));
+    let top = girdle_edge(&solid).unwrap_or(girdle_top);
     // About an axis the middle is known to the last digit.
     let middle = if even.turns > 1 { DVec2::ZERO } else { middle };
-    let scale = 2.0 / width;
-    Ok(Pose { scale, turn, shift: -scale * middle.extend(girdle_top) })
+    let scale = 2.0 / diameter;
+    Ok(Pose { scale, turn, shift: -scale * middle.extend(top) })
+}
+
+/// z of the highest corner in which the girdle's facets meet the crown's, or, without such facets, the pavilion's meet the
+/// crown's; `None` where neither do.
+fn girdle_edge(solid: &Polytope) -> Option<f64> {
+    let facing = |test: &dyn Fn(f64) -> bool| {
+        let mut on = vec![false; solid.vertices().len()];
+        let facets = solid.facets().iter().filter(|f| test(f.plane.normal.z));
+        facets.flat_map(|f| &f.outline).for_each(|&v| on[v as usize] = true);
+        on
+    };
+    let (up, down) = (facing(&|z| z >= LEAST_UPRIGHT), facing(&|z| z <= -LEAST_UPRIGHT));
+    let upright = facing(&|z| z.abs() < LEAST_UPRIGHT);
+    let highest = |test: &dyn Fn(usize) -> bool| {
+        (0..up.len()).filter(|&v| test(v)).map(|v| solid.vertices()[v].z).max_by(f64::total_cmp)
+    };
+    highest(&|v| up[v] && upright[v]).or_else(|| highest(&|v| up[v] && down[v]))
 }
 
 /// What is left of a pose that is known, once the axis is up and the origin where it belongs.

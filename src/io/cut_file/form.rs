@@ -10,10 +10,9 @@ use crate::cut::{
     Crown, Cut, DEFAULT_DIAMETER_MM, Design, DesignError, Glass, LowerHalf, MAX_PLANES, MaterialRef,
     MeshShape, Pavilion, Plate, RoundBrilliant, Sides, girdle_facets,
 };
-use crate::math::{Plane, Shell, SolidRef, Surface};
+use crate::math::{Plane, Shell, Surface};
 use glam::{DQuat, DVec3};
 use std::collections::HashSet;
-use std::sync::Arc;
 
 /// The whole file, `B` being its round brilliant as read or as written. Values come before tables, as TOML wants them
 /// written.
@@ -79,9 +78,6 @@ struct PlaneForm {
     normal: Numbers<3>,
     offset: f64,
 }
-
-/// A mesh this near to the stone's frame, half its width 1 around the origin, was written in it: rounding.
-const IN_FRAME: f64 = 1e-9;
 
 /// `[mesh]`
 #[derive(Serialize, Deserialize)]
@@ -327,10 +323,7 @@ impl MeshForm {
         }
         let shell =
             Shell::new(Surface::new(vertices, self.triangles)).map_err(|error| fault(error.to_string()))?;
-        let (low, high) = SolidRef::from(&Arc::new(shell.clone())).bounds();
-        let (middle, half) = (0.5 * (low + high), 0.5 * (high - low).truncate().min_element());
-        let is_framed = (half - 1.0).abs() < IN_FRAME && middle.length() < IN_FRAME;
-        let framed = || shell.moved(1.0 / half, DQuat::IDENTITY, -middle / half);
-        Ok(MeshShape(Arc::new(if is_framed { shell.clone() } else { framed() })))
+        let framed = MeshShape::framed(&shell, DQuat::IDENTITY);
+        framed.map(|(shape, _)| shape).ok_or_else(|| fault("it has no extent across z".to_owned()))
     }
 }

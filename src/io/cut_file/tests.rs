@@ -7,7 +7,7 @@ use glam::{DQuat, DVec3};
 
 use super::*;
 use crate::cut::{Cut, DEFAULT_DIAMETER_MM, MAX_PLANES, MaterialRef, MeshShape};
-use crate::math::{Plane, Shell, Solid, Surface};
+use crate::math::{Plane, Shell, Surface};
 use crate::optics::{self, Absorption, Dispersion, Material};
 
 mod random;
@@ -312,11 +312,7 @@ fn a_mesh_is_written_and_read_to_the_last_bit_and_what_encloses_nothing_is_told(
     let (vertices, triangles) = crate::math::fixture::heart();
     let shell = Shell::new(Surface::new(vertices, triangles)).unwrap();
     let turned = shell.moved(1.0, DQuat::from_rotation_x(0.3), DVec3::ZERO);
-    // In the stone's frame: half its width is 1, its middle the origin.
-    let (low, high) = Solid::from(turned.clone()).bounds();
-    let half = 0.5 * (high - low).truncate().min_element();
-    let shell = turned.moved(1.0 / half, DQuat::IDENTITY, -0.5 * (low + high) / half);
-    let cut = Cut::Mesh(MeshShape(Arc::new(shell)));
+    let cut = Cut::Mesh(MeshShape::framed(&turned, DQuat::IDENTITY).unwrap().0);
     let design = Design { cut, ..parse(TOLKOWSKY, "x").unwrap() };
     let text = write(&design);
     assert_eq!(parse(&text, "x").unwrap(), design);

@@ -3,8 +3,8 @@
 use crate::cut::MaterialRef;
 use crate::cut::from_mesh::{Pose, Up};
 use crate::io::mesh_file::{MeshFormat, Stands, Statement};
-use crate::math::{Calipers, Shell, Surface, hull};
-use glam::{DQuat, DVec3};
+use crate::math::Surface;
+use glam::DVec3;
 
 /// A direction that is this near to an axis (length of the difference) is told by the axis's name.
 const ON_AXIS: f64 = 1e-4;
@@ -17,6 +17,8 @@ const SAME_SIZE: f64 = 2e-3;
 pub(super) struct Told {
     pub notes: Vec<String>,
     pub warnings: Vec<String>,
+    /// Whether the table may face another way.
+    pub is_doubtful: bool,
 }
 
 /// What is known of how a stone lies, before its shape is looked at.
@@ -70,7 +72,7 @@ impl Place {
             }
             (Up::FoundBy(_), Stands::Moved { up, scale }) => {
                 told.warnings.extend(changes(&statement, up, scale));
-                Up::Given(up)
+                Up::Known(up)
             }
             (given, _) => given,
         }
@@ -86,13 +88,9 @@ fn changes(statement: &Statement, up: DVec3, scale: f64) -> Option<String> {
     let to = format!("its corners have been turned since, so that its table faces {}", axis(up));
     let (said, size) = (axis(statement.up), statement.diameter_mm);
     match (turned, scaled) {
-        (true, true) => Some(format!(
-            "the file says that {said} is up and {size} mm its size, but {to}, and {by}; {size} mm is kept"
-        )),
+        (true, true) => Some(format!("the file says that {said} is up and {size} mm its size, but {to}, and {by}; {size} mm is kept")),
         (true, false) => Some(format!("the file says that {said} is up, but {to}")),
-        (false, true) => {
-            Some(format!("the file says that the stone is {size} mm across, but {by}; {size} mm is kept"))
-        }
+        (false, true) => Some(format!("the file says that the stone is {size} mm across, but {by}; {size} mm is kept")),
         (false, false) => None,
     }
 }
@@ -102,7 +100,7 @@ pub(super) fn doubtful(up: DVec3, other: DVec3) -> String {
     let option = axis(other);
     format!(
         "its shape leaves a doubt which way its table faces: {} was taken, and {option} is nearly as likely; \
-         --up {option} takes that",
+         --up {option} takes that, as does Table faces in the editor",
         axis(up)
     )
 }
@@ -125,19 +123,4 @@ fn axis(direction: DVec3) -> String {
 /// The axes of a file, either way.
 pub(super) fn axes() -> [DVec3; 6] {
     [DVec3::Z, DVec3::Y, DVec3::X, DVec3::NEG_Z, DVec3::NEG_Y, DVec3::NEG_X]
-}
-
-/// The pose of a solid of triangles: up along +z, the middle of its height at z = 0, its middle seen from above on the
-/// axis, and half its width 1, unless a scale is known.
-pub(super) fn upright(shell: &Shell, up: DVec3, scale: Option<f64>) -> Result<Pose, String> {
-    let up = up.try_normalize().ok_or("the direction up points nowhere")?;
-    let turn = DQuat::from_rotation_arc(up, DVec3::Z);
-    let corners: Vec<DVec3> = shell.vertices().iter().map(|&v| turn * v).collect();
-    let outline = hull(corners.iter().map(|v| v.truncate()).collect());
-    let found = Calipers::of(&outline).ok_or("it has no extent across the direction up")?;
-    let (low, high) = corners
-        .iter()
-        .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| (low.min(v.z), high.max(v.z)));
-    let scale = scale.unwrap_or(2.0 / found.width);
-    Ok(Pose { scale, turn, shift: -scale * found.middle.extend((low + high) / 2.0) })
 }

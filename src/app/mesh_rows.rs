@@ -1,0 +1,51 @@
+//! How the mesh that is open is read: which way its table faces.
+
+use super::document::ReadMesh;
+use super::editor::Editor;
+use super::opening::Wanted;
+use super::rows::named;
+use crate::cut::from_mesh::Up;
+use crate::io::mesh_options::MeshOptions;
+use egui::{ComboBox, Ui};
+use glam::DVec3;
+
+const MEANING: &str = "Which direction of the mesh's own frame the table faces. The mesh is read anew, and the views show at \
+    once what comes of it.";
+
+/// What can be chosen.
+const DIRECTIONS: [(&str, Up); 7] = [
+    ("As found", Up::Found),
+    ("+x", Up::Given(DVec3::X)),
+    ("−x", Up::Given(DVec3::NEG_X)),
+    ("+y", Up::Given(DVec3::Y)),
+    ("−y", Up::Given(DVec3::NEG_Y)),
+    ("+z", Up::Given(DVec3::Z)),
+    ("−z", Up::Given(DVec3::NEG_Z)),
+];
+
+/// Draws the row, for a design that was read from a mesh, and reads the mesh anew where another direction is chosen.
+pub fn show(editor: &mut Editor, ui: &mut Ui) {
+    let Some(ReadMesh { path, options, .. }) = editor.document.work.mesh.clone() else { return };
+    let mut chosen = options.up;
+    ui.horizontal(|ui| {
+        let label = named(ui, "Table faces", MEANING);
+        let combo = ComboBox::from_id_salt("table faces").selected_text(told(chosen)).width(112.0);
+        let combo = combo.show_ui(ui, |ui| {
+            for (name, up) in DIRECTIONS {
+                ui.selectable_value(&mut chosen, up, name);
+            }
+        });
+        combo.response.labelled_by(label.id).on_hover_text(MEANING);
+    });
+    if chosen != options.up {
+        editor.open_with(&path, Wanted::Otherwise, MeshOptions { up: chosen, ..options });
+    }
+}
+
+fn told(up: Up) -> String {
+    let name = DIRECTIONS.iter().find(|(_, direction)| *direction == up).map(|(name, _)| (*name).to_owned());
+    name.unwrap_or_else(|| match up {
+        Up::Given(DVec3 { x, y, z }) => format!("{x}, {y}, {z}"),
+        _ => DIRECTIONS[0].0.to_owned(),
+    })
+}
