@@ -3,7 +3,7 @@
 use super::document::ReadMesh;
 use super::editor::Editor;
 use super::opening::Wanted;
-use super::rows::named;
+use super::rows::{field_width, named};
 use crate::cut::from_mesh::Up;
 use crate::io::mesh_options::MeshOptions;
 use egui::{ComboBox, Ui};
@@ -29,7 +29,7 @@ pub fn show(editor: &mut Editor, ui: &mut Ui) {
     let mut chosen = options.up;
     ui.horizontal(|ui| {
         let label = named(ui, "Table faces", MEANING);
-        let combo = ComboBox::from_id_salt("table faces").selected_text(told(chosen)).width(112.0);
+        let combo = ComboBox::from_id_salt("table faces").selected_text(told(chosen)).width(field_width(ui));
         let combo = combo.show_ui(ui, |ui| {
             for (name, up) in DIRECTIONS {
                 ui.selectable_value(&mut chosen, up, name);

@@ -203,7 +203,10 @@ fn table(specimen: &Specimen, value: &Value) -> String {
 fn proportions(report: &Report, line: &mut impl FnMut(&str, String)) {
     line("length to width", format!("{:.4}", report.length_to_width));
     let [width, length] = report.table;
-    line("table", format!("{width:.2} by {length:.2} %, {:.2} % from corner to corner", report.table_corners));
+    line(
+        "table",
+        format!("{width:.2} by {length:.2} %, {:.2} % from corner to corner", report.table_corners),
+    );
     for (key, value) in [
         ("crown height", report.crown_height),
         ("girdle thickness", report.girdle_thickness),

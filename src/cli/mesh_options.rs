@@ -55,7 +55,9 @@ fn direction(text: &str) -> Result<Up, String> {
     let vector = numbers.filter(|numbers| numbers.len() == 3).map(|numbers| DVec3::from_slice(&numbers));
     match vector.filter(|vector| vector.is_finite() && *vector != DVec3::ZERO) {
         Some(vector) => Ok(Up::Given(vector)),
-        None => Err("give x, -x, y, -y, z, -z, or three numbers that are not all 0, such as 0,0.6,0.8".to_owned()),
+        None => {
+            Err("give x, -x, y, -y, z, -z, or three numbers that are not all 0, such as 0,0.6,0.8".to_owned())
+        }
     }
 }
 

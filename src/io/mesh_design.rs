@@ -96,7 +96,8 @@ impl File {
             }
             Up::Found => DQuat::IDENTITY,
         };
-        let (shape, scale) = MeshShape::framed(&shell, turn).ok_or("it has no extent across the direction up")?;
+        let (shape, scale) =
+            MeshShape::framed(&shell, turn).ok_or("it has no extent across the direction up")?;
         // A size that is known is one of mm, whatever the frame of the stone that was written.
         if let (Some(known), Some(diameter_mm)) = (self.place.scale, &mut self.place.diameter_mm) {
             *diameter_mm *= known / scale;

@@ -143,7 +143,8 @@ fn odd(stone: &Stone, facets: &[(String, Plane)], given: usize) -> Vec<String> {
     let mut told: Vec<String> =
         polytope.merged().iter().map(|(dropped, kept)| merged((dropped, kept))).collect();
     if !meets_axis(polytope) {
-        let what = "the stone lies beside its axis, x = y = 0, around which pictures are centred; move it there";
+        let what =
+            "the stone lies beside its axis, x = y = 0, around which pictures are centred; move it there";
         told.push(what.to_owned());
     }
     // The block that closes a stone is none of its facets.

@@ -32,23 +32,34 @@ const MOST_COMPARED: usize = 400;
 /// What each cue counts for. Chosen on real cutters' designs, in their own frames and turned.
 mod weight {
     /// A girdle all around.
-    pub const GIRDLE: f64 = 1.0;
-    /// Symmetry of all facets.
-    pub const EVEN: f64 = 0.6;
-    /// A table, however small.
+    pub const GIRDLE: f64 = 2.0;
+    /// Symmetry of all facets; what only some of them have counts less by its cube.
+    pub const EVEN: f64 = 0.8;
+    /// A table, unless it is next to nothing.
     pub const TABLE: f64 = 0.3;
     /// A table as large as the outline, beyond what any table counts for.
     pub const TABLE_AREA: f64 = 0.4;
+    /// A base: a facet as large as the outline, below.
+    pub const BASE: f64 = 0.15;
     /// A stone that is all pavilion and no crown.
     pub const FLAT: f64 = 0.5;
-    /// An axis of the file, where a facet is square to it on either side.
+    /// An axis of the file that fits the shape.
     pub const OWN_AXIS: f64 = 0.4;
     /// The axis that is up by the custom of the file's format; half of it for the other axis that is often up.
-    pub const CUSTOM: f64 = 0.25;
+    pub const CUSTOM: f64 = 0.5;
 }
 
-/// A direction whose score comes within this of the best is one that a person might take.
-const DOUBTFUL: f64 = 0.1;
+/// A table of this part of the outline's area, or a larger one, is surely meant.
+const MEANT: f64 = 0.01;
+
+/// A facet of this part of the outline's area is a base.
+const WHOLE: f64 = 0.97;
+
+/// A girdle of this part of the outline, or symmetry of this part of the facets, is one that an axis of the file fits.
+const FITS: f64 = 0.8;
+
+/// A direction whose shape speaks for it as much as that of the best does, but for this, is one that a person might take.
+const DOUBTFUL: f64 = 0.15;
 
 /// The axis up, and which facet is the table.
 pub(super) struct Aim {
@@ -69,25 +80,48 @@ pub(super) fn aim(solid: &Polytope, parts: &Parts, up: Up) -> Result<Aim, FromMe
         Up::Known(up) => return Ok(known(solid, up)),
         Up::Posed(pose) => return Ok(known(solid, pose.turn.inverse() * DVec3::Z)),
     };
-    let mut scored: Vec<(f64, Cues)> = directions(solid)
-        .into_iter()
-        .filter_map(|up| Cues::of(solid, up))
-        .map(|cues| (at_sight(&cues, custom), cues))
-        .collect();
-    let best_first = |a: &(f64, Cues), b: &(f64, Cues)| b.0.total_cmp(&a.0);
-    scored.sort_by(best_first);
-    scored.truncate(MOST_CLOSE);
-    for (score, cues) in &mut scored {
-        *score += weight::EVEN * evenness(parts, cues.up);
+    let mut seen: Vec<Seen> =
+        directions(solid).into_iter().filter_map(|up| Seen::of(Cues::of(solid, up)?, custom)).collect();
+    let best_first = |a: &Seen, b: &Seen| b.score().total_cmp(&a.score());
+    seen.sort_by(best_first);
+    seen.truncate(MOST_CLOSE);
+    seen.iter_mut().for_each(|seen| seen.look_closely(parts));
+    seen.sort_by(best_first);
+    let Some(best) = seen.first() else { return Ok(Aim { axis: custom, table: None, doubt: None }) };
+    let might = |other: &&Seen| other.shape > best.shape - DOUBTFUL && !is_alike(&other.cues, &best.cues);
+    let doubt = seen.iter().skip(1).find(might).map(|other| Doubt { other: other.cues.up });
+    let table = best.cues.table;
+    let axis = table.map_or(best.cues.up, |table| solid.facets()[table].plane.normal);
+    Ok(Aim { axis, table, doubt })
+}
+
+/// A direction, and what speaks for it.
+struct Seen {
+    cues: Cues,
+    /// What the shape says.
+    shape: f64,
+    /// What the file's axes say.
+    own: f64,
+    custom: DVec3,
+}
+
+impl Seen {
+    fn of(cues: Cues, custom: DVec3) -> Option<Self> {
+        let mut seen = Self { cues, shape: shape(&cues), own: 0.0, custom };
+        seen.own = own(&cues, 0.0, custom);
+        seen.shape.is_finite().then_some(seen)
     }
-    scored.sort_by(best_first);
-    let Some((most, best)) = scored.first().copied() else {
-        return Ok(Aim { axis: custom, table: None, doubt: None });
-    };
-    let other = scored.iter().skip(1).find(|(_, cues)| !is_alike(cues, &best));
-    let doubt = other.filter(|(score, _)| most - score < DOUBTFUL).map(|(_, cues)| Doubt { other: cues.up });
-    let axis = best.table.map_or(best.up, |table| solid.facets()[table].plane.normal);
-    Ok(Aim { axis, table: best.table, doubt })
+
+    fn score(&self) -> f64 {
+        self.shape + self.own
+    }
+
+    /// Adds what takes longer to see.
+    fn look_closely(&mut self, parts: &Parts) {
+        let even = evenness(parts, self.cues.up);
+        self.shape += weight::EVEN * even.powi(3);
+        self.own = own(&self.cues, even, self.custom);
+    }
 }
 
 /// The axis where up is given: the normal of the largest facet near to it, or else what was given. `None` where that
@@ -123,23 +157,31 @@ fn is_alike(a: &Cues, b: &Cues) -> bool {
         && near(a.length, b.length)
 }
 
-/// What is seen of a direction at a glance.
-fn at_sight(cues: &Cues, custom: DVec3) -> f64 {
-    let worth = |area: f64| if area > 0.0 { weight::TABLE + weight::TABLE_AREA * area.min(1.0) } else { 0.0 };
-    weight::GIRDLE * cues.girdle.min(1.0)
-        + worth(cues.table_area) - worth(cues.culet_area)
-        + weight::FLAT * (1.0 - cues.crown)
-        + own(cues, custom)
+/// What the shape says of a direction at a glance.
+fn shape(cues: &Cues) -> f64 {
+    let worth = |area: f64| weight::TABLE * (area / MEANT).min(1.0) + weight::TABLE_AREA * area.min(1.0);
+    let (table, flat) = match (cues.table_area > WHOLE, cues.culet_area > WHOLE) {
+        (true, false) => (-weight::BASE, 0.5),
+        (false, true) => (weight::BASE, 0.5),
+        // Of a prism neither is larger.
+        (true, true) => (0.0, 0.5),
+        (false, false) => (worth(cues.table_area) - worth(cues.culet_area), 1.0 - cues.crown),
+    };
+    weight::GIRDLE * cues.girdle.min(1.0) + table + weight::FLAT * flat
 }
 
-/// What the file's own axes say.
-fn own(cues: &Cues, custom: DVec3) -> f64 {
+/// What the file's own axes say, where so large a part of the facets is even.
+fn own(cues: &Cues, even: f64, custom: DVec3) -> f64 {
     let is = |axis: DVec3| (cues.up - axis).length() < ONE;
-    let square = cues.table_area > 0.0 || cues.culet_area > 0.0;
+    let fits = cues.table_area > 0.0 || cues.culet_area > 0.0 || cues.girdle > FITS || even > FITS;
     let axes = [DVec3::X, DVec3::Y, DVec3::Z];
-    let along = axes.iter().any(|axis| is(*axis) || is(-*axis)) && square;
+    let along = fits && axes.iter().any(|axis| is(*axis) || is(-*axis));
     let second = if custom == DVec3::Y { DVec3::Z } else { DVec3::Y };
-    let usual = if is(custom) { 1.0 } else if is(second) { 0.5 } else { 0.0 };
+    let usual = match () {
+        () if is(custom) => 1.0,
+        () if is(second) => 0.5,
+        () => 0.0,
+    };
     weight::CUSTOM * usual + if along { weight::OWN_AXIS } else { 0.0 }
 }
 

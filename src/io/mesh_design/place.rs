@@ -88,9 +88,13 @@ fn changes(statement: &Statement, up: DVec3, scale: f64) -> Option<String> {
     let to = format!("its corners have been turned since, so that its table faces {}", axis(up));
     let (said, size) = (axis(statement.up), statement.diameter_mm);
     match (turned, scaled) {
-        (true, true) => Some(format!("the file says that {said} is up and {size} mm its size, but {to}, and {by}; {size} mm is kept")),
+        (true, true) => Some(format!(
+            "the file says that {said} is up and {size} mm its size, but {to}, and {by}; {size} mm is kept"
+        )),
         (true, false) => Some(format!("the file says that {said} is up, but {to}")),
-        (false, true) => Some(format!("the file says that the stone is {size} mm across, but {by}; {size} mm is kept")),
+        (false, true) => {
+            Some(format!("the file says that the stone is {size} mm across, but {by}; {size} mm is kept"))
+        }
         (false, false) => None,
     }
 }
