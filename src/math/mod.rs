@@ -8,6 +8,7 @@ mod bvh_build;
 mod calipers;
 mod decay;
 mod field;
+mod hull;
 mod mesh;
 mod plane;
 mod polygon;
@@ -28,6 +29,7 @@ pub use decay::integral_of_decay;
 #[cfg(feature = "gpu")]
 pub(crate) use field::Parts;
 pub use field::{Field, FieldError, Form, Jet};
+pub use hull::convex_hull;
 pub use mesh::{Mesh, triangulate};
 pub use plane::Plane;
 pub use polygon::{area, centroid, clip, contains};

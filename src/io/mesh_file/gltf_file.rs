@@ -2,11 +2,13 @@
 
 mod buffers;
 mod scene;
+mod shape_only;
 
 use super::{Fault, Read};
 use gltf::json::validation::Checked;
 use gltf::json::{Root, deserialize};
 use gltf::{Document, Semantic};
+use shape_only::shape_alone;
 use std::path::Path;
 
 /// The header of a binary glTF file, bytes.
@@ -22,12 +24,7 @@ const NEEDED: [&str; 4] = [
 
 pub(super) fn read(bytes: &[u8], folder: Option<&Path>) -> Result<Read, Fault> {
     let (json, blob) = split(bytes)?;
-    let mut root: Root = deserialize::from_slice(&json).map_err(|error| {
-        Fault::line(error.line(), format!("this is no glTF 2.0 that can be read: {error}"))
-    })?;
-    let mut warnings = extensions(&mut root)?;
-    warnings.extend(positions(&mut root)?);
-    let document = Document::from_json(root).map_err(|error| Fault::whole(told(error)))?;
+    let (document, mut warnings) = document(&json)?;
     let data = buffers::load(&document, blob, folder)?;
     let mut read = scene::gather(&document, &data)?;
     warnings.append(&mut read.warnings);
@@ -36,6 +33,34 @@ pub(super) fn read(bytes: &[u8], folder: Option<&Path>) -> Result<Read, Fault> {
         .or_else(|| document.scenes().next())
         .and_then(|s| s.name().map(str::to_owned));
     Ok(Read { warnings, name: name.filter(|name| !name.starts_with("Scene")), ..read })
+}
+
+/// What the JSON describes, and what is odd about it. Where something beside the shape is broken, such as a texture, the
+/// shape is read without it.
+fn document(json: &[u8]) -> Result<(Document, Vec<String>), Fault> {
+    let fault = match parsed(json) {
+        Ok(read) => return Ok(read),
+        Err(fault) => fault,
+    };
+    for (keeps_materials, lost) in [(true, "textures and what else is"), (false, "materials, textures and what else is")] {
+        let alone = shape_alone(json, keeps_materials);
+        if let Some((document, mut warnings)) = alone.and_then(|json| parsed(&json).ok()) {
+            let place = fault.place.as_ref().map(|place| format!("line {place}: ")).unwrap_or_default();
+            warnings.insert(0, format!("{lost} beside the shape are left out, since the file is broken: {place}{}", fault.message));
+            return Ok((document, warnings));
+        }
+    }
+    Err(fault)
+}
+
+fn parsed(json: &[u8]) -> Result<(Document, Vec<String>), Fault> {
+    let mut root: Root = deserialize::from_slice(json).map_err(|error| {
+        Fault::line(error.line(), format!("this is no glTF 2.0 that can be read: {error}"))
+    })?;
+    let mut warnings = extensions(&mut root)?;
+    warnings.extend(positions(&mut root)?);
+    let document = Document::from_json(root).map_err(|error| Fault::whole(told(error)))?;
+    Ok((document, warnings))
 }
 
 /// The JSON, and the bytes that come with it in a binary file.

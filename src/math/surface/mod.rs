@@ -4,13 +4,17 @@
 //! mended, and whether it is the convex solid between them. Lengths are in the file's own unit; tolerances are parts
 //! of [`Surface::size`].
 
+mod change;
 mod edges;
 mod fault;
 mod fit;
+mod hull;
 mod mend;
+mod noise;
 mod orient;
 mod regions;
 mod seams;
+mod settle;
 mod shape;
 mod weld;
 
@@ -19,10 +23,11 @@ mod tests;
 
 use glam::DVec3;
 
+pub use change::Change;
 pub use fault::SurfaceError;
 pub(crate) use fit::eigen;
 pub use mend::{Mended, Mending};
-pub use shape::{Face, Faceted, Shape, deviation, facets};
+pub use shape::{Face, Faceted, Shape, TooCurved, deviation, faceted_hull, facets};
 
 /// Triangles over shared corners; each is part of a group, which may have a name.
 ///

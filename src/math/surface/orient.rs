@@ -4,6 +4,13 @@ use super::edges::{Edges, NONE};
 use super::{Surface, SurfaceError};
 use glam::DVec3;
 use std::collections::VecDeque;
+use std::f64::consts::PI;
+
+/// Points of a shell that are asked whether another holds them.
+const SAMPLES: usize = 24;
+
+/// How often a shell winds around a point of its wall, with room for walls that are bent there.
+const ON_WALL: f64 = 0.6;
 
 /// The most shells that are looked at for lying within one another: a stone's inclusions, not a heap of stones.
 const MOST_NESTED: usize = 64;
@@ -77,19 +84,41 @@ fn is_cavity(surface: &Surface, shells: &[Vec<u32>], shell: &[u32]) -> bool {
     if shells.len() == 1 || shells.len() > MOST_NESTED {
         return false;
     }
-    let from = surface.corners(shell[0] as usize)[0];
-    let others = shells.iter().filter(|s| s[0] != shell[0]).flatten();
-    others.filter(|&&t| is_crossed(surface.corners(t as usize), from)).count() % 2 == 1
+    let (low, high) = bounds(surface, shell);
+    let step = shell.len().div_ceil(SAMPLES);
+    let samples: Vec<DVec3> = shell.iter().step_by(step).map(|&t| surface.corners(t as usize)[0]).collect();
+    let holds = |other: &&Vec<u32>| {
+        let (least, most) = bounds(surface, other);
+        let fits = other[0] != shell[0] && least.cmple(low).all() && most.cmpge(high).all();
+        fits && is_within(surface, other, &samples)
+    };
+    shells.iter().filter(holds).count() % 2 == 1
 }
 
-/// Whether the ray from a point in a direction that no edge is likely to have crosses a triangle (T. Möller and
-/// B. Trumbore 1997).
-fn is_crossed([a, b, c]: [DVec3; 3], from: DVec3) -> bool {
-    const TOWARD: DVec3 = DVec3::new(0.423_616_5, 0.291_731_8, 0.857_580_4);
-    let (e, f) = (b - a, c - a);
-    let across = TOWARD.cross(f);
-    let part = e.dot(across);
-    let along = (from - a).cross(e);
-    let (u, v, t) = ((from - a).dot(across) / part, TOWARD.dot(along) / part, f.dot(along) / part);
-    u >= 0.0 && v >= 0.0 && u + v <= 1.0 && t > 0.0
+/// The smallest box with sides along the axes that holds a shell: (least, greatest).
+fn bounds(surface: &Surface, shell: &[u32]) -> (DVec3, DVec3) {
+    let corners = shell.iter().flat_map(|&t| surface.corners(t as usize));
+    corners.fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), v| (low.min(v), high.max(v)))
+}
+
+/// Whether points of one shell say that it lies within another, whose wall it may touch.
+///
+/// A closed shell winds once around a point within, half around one on its wall, and not around one outside, whichever
+/// way its triangles run. Shells that touch from outside, or overlap, have points around which the other does not wind.
+fn is_within(surface: &Surface, shell: &[u32], points: &[DVec3]) -> bool {
+    let winds = |point: &DVec3| {
+        let angle = |&t: &u32| solid_angle(surface.corners(t as usize).map(|v| v - *point));
+        (shell.iter().map(angle).sum::<f64>() / (4.0 * PI)).abs()
+    };
+    let winds: Vec<f64> = points.iter().map(winds).collect();
+    let mean = winds.iter().sum::<f64>() / winds.len() as f64;
+    winds.iter().all(|winds| *winds > ON_WALL / 2.0) && mean > ON_WALL
+}
+
+/// The solid angle that a triangle takes up seen from the origin, below 0 seen from behind (A. van Oosterom and
+/// J. Strackee, The Solid Angle of a Plane Triangle, IEEE Trans. Biomed. Eng. 30, 1983).
+fn solid_angle([a, b, c]: [DVec3; 3]) -> f64 {
+    let [x, y, z] = [a.length(), b.length(), c.length()];
+    let below = x * y * z + a.dot(b) * z + b.dot(c) * x + c.dot(a) * y;
+    2.0 * a.dot(b.cross(c)).atan2(below)
 }

@@ -61,12 +61,22 @@ pub(super) fn regions(surface: &Surface, edges: &Edges, tolerance: f64, most: us
             }
         }
     }
-    let Grower { of, .. } = grower;
+    let joined = joined(surface, edges, tolerance, grower.of, members);
+    (joined.fits.len() <= most).then_some(joined)
+}
+
+/// Regions whose triangles are given, those joined that are of one plane.
+pub(super) fn joined(
+    surface: &Surface,
+    edges: &Edges,
+    tolerance: f64,
+    of: Vec<u32>,
+    members: Vec<Vec<u32>>,
+) -> Regions {
     let fits = members.iter().map(|m| fit(surface, m)).collect();
     let mut joiner = Joiner { surface, edges, tolerance, of, members, fits };
     joiner.join();
-    let joined = joiner.finish();
-    (joined.fits.len() <= most).then_some(joined)
+    joiner.finish()
 }
 
 struct Grower<'a> {

@@ -1,19 +1,28 @@
 //! What solid a closed surface is: the convex one between its facets' planes, or another.
 
-use super::Surface;
+use super::change::Change;
 use super::edges::{Edges, NONE};
+use super::fit::Fit;
+use super::hull::Hull;
 use super::regions::{NOWHERE, Regions, is_sliver, regions};
+use super::{Surface, noise, settle};
 use crate::math::{Facet, Plane, Polytope};
 use glam::DVec3;
 use rayon::prelude::*;
 
 /// Tolerances tried one after the other, parts of the size: from the rounding of f32 to a thousandth, the noise that
-/// scans and careless modelling leave.
-const NOISE: [f64; 7] = [1e-6, 1e-5, 4e-5, 1e-4, 2e-4, 4e-4, 1e-3];
+/// careless modelling leaves.
+pub(super) const NOISE: [f64; 7] = [1e-6, 1e-5, 4e-5, 1e-4, 2e-4, 4e-4, 1e-3];
+
+/// Tolerances for scans, which are taken only where noise is what moves corners off their planes.
+const SCANS: [f64; 5] = [4e-4, 1e-3, 1.5e-3, 2e-3, 4e-3];
 
 /// A solid whose surface no corner leaves by more than this many tolerances is the surface: a corner may be one off
 /// its own plane and, where regions were joined, three.
-const SAME: f64 = 3.0;
+pub(super) const SAME: f64 = 3.0;
+
+/// How far a scan's corners may leave the solid, a part of the size: noise hides a culet that is less wide than that.
+const SAME_SCAN: f64 = 6e-3;
 
 /// Fewer facets are better where they fit within this many times the deviation of the first solid found, at one of the
 /// `FURTHER` next tolerances.
@@ -58,6 +67,8 @@ pub struct Faceted {
     pub deviation: f64,
     /// Within how much of their planes the corners of facets were found.
     pub tolerance: f64,
+    /// What the solid changes of a surface that is not convex itself; `None` of one that is but for a thousandth.
+    pub change: Option<Change>,
 }
 
 /// What a closed surface is.
@@ -76,8 +87,20 @@ pub fn facets(surface: Surface) -> Shape {
     let mut moved = surface.clone();
     moved.vertices.iter_mut().for_each(|v| *v -= centre);
     let (edges, size) = (Edges::of(&moved), moved.size());
-    let mut tried = NOISE.iter().map(|noise| solid(&moved, &edges, noise * size));
-    let Some(mut best) = tried.by_ref().flatten().next() else { return Shape::Concave(surface) };
+    let Some(hull) = Hull::of(&moved) else { return Shape::Concave(surface) };
+    let mut tried = NOISE.iter().map(|noise| solid(&moved, &edges, &hull, (noise * size, SAME)));
+    let Some(mut best) = tried.by_ref().flatten().next() else {
+        let smooth = noise::smoothed(&moved);
+        let of_scan = |noise: &f64| {
+            let limits = (noise * size, SAME_SCAN / noise);
+            let is_noise = |solid: &Solid| noise::is_noise(&moved, &solid.polytope);
+            let rough = solid(&moved, &edges, &hull, limits).filter(is_noise);
+            rough.or_else(|| of_smooth(&moved, &smooth, &edges, &hull, limits).filter(is_noise))
+        };
+        let scan = SCANS.iter().find_map(of_scan);
+        let Some(solid) = scan.or_else(|| hull.meant(&moved)) else { return Shape::Concave(surface) };
+        return Shape::Convex(Box::new(changed(moved, centre, solid)));
+    };
     // Noise may have split facets that a larger tolerance keeps whole.
     let limit = AS_GOOD * best.deviation;
     let further = if is_split(&best) { FURTHER } else { 0 };
@@ -88,6 +111,29 @@ pub fn facets(surface: Surface) -> Shape {
     }
     Shape::Convex(Box::new(faceted(moved, centre, best)))
 }
+
+/// The convex solid of a closed surface's corners, whatever lies between them: its own facets where it is convex, else
+/// those of its hull.
+///
+/// # Errors
+/// Where the hull is curved: it would take too many facets.
+pub fn faceted_hull(surface: Surface) -> Result<Box<Faceted>, TooCurved> {
+    let surface = match facets(surface) {
+        Shape::Convex(found) => return Ok(found),
+        Shape::Concave(surface) => surface,
+    };
+    let (low, high) = surface.bounds();
+    let centre = (low + high) / 2.0;
+    let mut moved = surface;
+    moved.vertices.iter_mut().for_each(|v| *v -= centre);
+    let solid = Hull::of(&moved).and_then(|hull| hull.solid()).ok_or(TooCurved)?;
+    Ok(Box::new(changed(moved, centre, solid)))
+}
+
+/// The hull of a surface's corners is curved, or has too many facets.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+#[error("its convex hull is curved, or has more than {MOST_FACETS} facets")]
+pub struct TooCurved;
 
 /// Whether facets that are neighbours lean apart by no more than noise could make halves of one lean.
 fn is_split(solid: &Solid) -> bool {
@@ -102,25 +148,57 @@ fn is_split(solid: &Solid) -> bool {
 }
 
 /// A solid that reproduces a surface.
-struct Solid {
-    found: Regions,
-    polytope: Polytope,
-    deviation: f64,
-    tolerance: f64,
+pub(super) struct Solid {
+    pub found: Regions,
+    pub polytope: Polytope,
+    pub deviation: f64,
+    pub tolerance: f64,
 }
 
-/// The solid between the planes of regions of one tolerance, if it is the surface.
-fn solid(surface: &Surface, edges: &Edges, tolerance: f64) -> Option<Solid> {
+/// The solid between the planes of regions of one tolerance, if no corner of the surface leaves it by more than `same`
+/// tolerances.
+pub(super) fn solid(
+    surface: &Surface,
+    edges: &Edges,
+    hull: &Hull,
+    (tolerance, same): (f64, f64),
+) -> Option<Solid> {
     let found = regions(surface, edges, tolerance, MOST_FACETS)?;
     if is_round(surface, edges, &found, tolerance) {
         return None;
     }
+    // Where no plane cuts anything away there is nothing to settle, so most surfaces are done at once.
+    let cuts = |fit: &Fit| hull.outside(&fit.plane) > SAME * tolerance;
+    let found = match found.fits.iter().any(cuts) {
+        true => settle::settled(surface, edges, hull, found, tolerance)?,
+        false => found,
+    };
+    reproduced(surface, found, (tolerance, same))
+}
+
+/// The same with regions that are found on a smoother copy of the surface: noise tilts triangles that are small beside it
+/// so much that no region would grow from them.
+fn of_smooth(
+    surface: &Surface,
+    smooth: &Surface,
+    edges: &Edges,
+    hull: &Hull,
+    (tolerance, same): (f64, f64),
+) -> Option<Solid> {
+    let found = regions(smooth, edges, tolerance, MOST_FACETS)?;
+    let found = (!is_round(smooth, edges, &found, tolerance)).then_some(found)?;
+    let found = settle::settled(surface, edges, hull, found, tolerance)?;
+    reproduced(surface, found, (tolerance, same))
+}
+
+/// The solid between the planes of regions, if it is the surface.
+fn reproduced(surface: &Surface, found: Regions, (tolerance, same): (f64, f64)) -> Option<Solid> {
     let planes: Vec<Plane> = found.fits.iter().map(|f| f.plane).collect();
     let polytope = Polytope::from_planes(&planes).ok()?;
     let deviation = deviation(&polytope, &surface.vertices);
     let swelling = (polytope.volume() - surface.volume()).abs();
-    let same = deviation <= SAME * tolerance && swelling <= SAME * tolerance * polytope.surface_area();
-    same.then_some(Solid { found, polytope, deviation, tolerance })
+    let is_same = deviation <= same * tolerance && swelling <= SAME * tolerance * polytope.surface_area();
+    is_same.then_some(Solid { found, polytope, deviation, tolerance })
 }
 
 /// How far the point that is farthest off lies from a solid's surface; of a point outside, how far it lies outside
@@ -156,13 +234,19 @@ fn is_round(surface: &Surface, edges: &Edges, found: &Regions, tolerance: f64) -
     within > ROUND * whole
 }
 
+/// What is found where a surface that is not convex is read as a convex solid.
+fn changed(surface: Surface, centre: DVec3, solid: Solid) -> Faceted {
+    let change = Change::of(&surface, &solid.polytope);
+    Faceted { change: Some(change), ..faceted(surface, centre, solid) }
+}
+
 fn faceted(surface: Surface, centre: DVec3, solid: Solid) -> Faceted {
     let Solid { found, polytope, deviation, tolerance } = solid;
     let names = names(&surface, &found);
     let face =
         |r: usize| Face { plane: found.fits[r].plane, area: found.fits[r].area, name: names[r].clone() };
     let faces = polytope.facets().iter().map(|f| face(f.source)).collect();
-    Faceted { surface, centre, faces, polytope, deviation, tolerance }
+    Faceted { surface, centre, faces, polytope, deviation, tolerance, change: None }
 }
 
 /// The name of each region that is just one group of the file.

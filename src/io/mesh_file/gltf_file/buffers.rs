@@ -7,13 +7,14 @@ use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
 use gltf::accessor::{DataType, Dimensions};
 use gltf::buffer::{Source, View};
-use gltf::{Accessor, Document};
+use gltf::{Accessor, Document, Semantic};
+use std::collections::BTreeSet;
 use std::path::Path;
 
-/// The bytes of each buffer.
+/// The bytes of each buffer; none of one that no shape needs.
 pub(super) type Data = Vec<Vec<u8>>;
 
-/// Reads all buffers.
+/// Reads the buffers that shapes need; those of textures may be missing.
 pub(super) fn load(
     document: &Document,
     mut blob: Option<Vec<u8>>,
@@ -21,7 +22,12 @@ pub(super) fn load(
 ) -> Result<Data, Fault> {
     let mut data = vec![];
     let mut whole = 0;
+    let needed = needed(document);
     for buffer in document.buffers() {
+        if !needed.contains(&buffer.index()) {
+            data.push(vec![]);
+            continue;
+        }
         let place = format!("buffer {}", buffer.index());
         let bytes = match buffer.source() {
             Source::Bin => {
@@ -44,6 +50,17 @@ pub(super) fn load(
         data.push(bytes);
     }
     Ok(data)
+}
+
+/// The buffers that hold places of corners, or which of them make triangles.
+fn needed(document: &Document) -> BTreeSet<usize> {
+    let primitives = document.meshes().flat_map(|mesh| mesh.primitives().collect::<Vec<_>>());
+    let accessors = primitives.flat_map(|p| [p.get(&Semantic::Positions), p.indices()]).flatten();
+    let views = accessors.flat_map(|accessor| {
+        let sparse = accessor.sparse().map(|sparse| [sparse.indices().view(), sparse.values().view()]);
+        accessor.view().into_iter().chain(sparse.into_iter().flatten()).collect::<Vec<_>>()
+    });
+    views.map(|view| view.buffer().index()).collect()
 }
 
 fn from_uri(uri: &str, folder: Option<&Path>) -> Result<Vec<u8>, String> {

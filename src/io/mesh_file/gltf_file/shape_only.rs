@@ -1,0 +1,104 @@
+//! A glTF file's shape without what else is in it, for files in which something else is broken.
+
+use serde_json::{Map, Value, json};
+use std::collections::BTreeSet;
+
+/// What extensions of materials say of how light passes through them, as far as it is read.
+const OF_MATERIALS: [(&str, &[&str]); 4] = [
+    ("KHR_materials_ior", &["ior"]),
+    ("KHR_materials_dispersion", &["dispersion"]),
+    ("KHR_materials_transmission", &["transmissionFactor"]),
+    ("KHR_materials_volume", &["thicknessFactor", "attenuationDistance", "attenuationColor"]),
+];
+
+/// The JSON of a glTF file with nothing but its scenes, the places of corners and the triangles, and what materials say of
+/// light where that is wanted. `None` where it is no JSON object.
+pub(super) fn shape_alone(json: &[u8], keeps_materials: bool) -> Option<Vec<u8>> {
+    let mut root: Value = serde_json::from_slice(json).ok()?;
+    let root = root.as_object_mut()?;
+    for key in ["animations", "cameras", "images", "samplers", "skins", "textures", "extensions", "extras"] {
+        root.remove(key);
+    }
+    if !keeps_materials {
+        root.remove("materials");
+    }
+    let materials = list(root, "materials").iter_mut().map(|material| *material = of_light(material)).count();
+    for node in list(root, "nodes").iter_mut().filter_map(Value::as_object_mut) {
+        keep(node, &["name", "children", "mesh", "matrix", "translation", "rotation", "scale"]);
+    }
+    let mut accessors = BTreeSet::new();
+    for mesh in list(root, "meshes").iter_mut().filter_map(Value::as_object_mut) {
+        keep(mesh, &["name", "primitives"]);
+        for primitive in list(mesh, "primitives").iter_mut().filter_map(Value::as_object_mut) {
+            keep(primitive, &["attributes", "indices", "mode", "material", "extras"]);
+            if let Some(attributes) = primitive.get_mut("attributes").and_then(Value::as_object_mut) {
+                keep(attributes, &["POSITION"]);
+                accessors.extend(attributes.values().filter_map(Value::as_u64));
+            }
+            accessors.extend(primitive.get("indices").and_then(Value::as_u64));
+            if primitive.get("material").and_then(Value::as_u64).is_none_or(|place| place >= materials as u64) {
+                primitive.remove("material");
+            }
+        }
+    }
+    let unused = json!({ "componentType": 5126, "count": 1, "type": "SCALAR" });
+    let views = only(list(root, "accessors"), &accessors, &unused, &view_of_accessor);
+    let unused = json!({ "buffer": 0, "byteLength": 1 });
+    let buffers = only(list(root, "bufferViews"), &views, &unused, &|view| index(view, "buffer").into_iter().collect());
+    only(list(root, "buffers"), &buffers, &json!({ "byteLength": 1 }), &|_| vec![]);
+    serde_json::to_vec(root).ok()
+}
+
+/// A list of an object; an empty one where it has none.
+fn list<'a>(object: &'a mut Map<String, Value>, key: &str) -> &'a mut [Value] {
+    object.get_mut(key).and_then(Value::as_array_mut).map_or(&mut [], Vec::as_mut_slice)
+}
+
+fn keep(object: &mut Map<String, Value>, keys: &[&str]) {
+    object.retain(|key, _| keys.contains(&key.as_str()));
+}
+
+/// A material of which only the name is left and what is said of light.
+fn of_light(material: &Value) -> Value {
+    let mut extensions = Map::new();
+    for (name, keys) in OF_MATERIALS {
+        if let Some(extension) = material.pointer(&format!("/extensions/{name}")).and_then(Value::as_object) {
+            let mut extension = extension.clone();
+            keep(&mut extension, keys);
+            extensions.insert(name.to_owned(), Value::Object(extension));
+        }
+    }
+    match material.get("name") {
+        Some(name) => json!({ "name": name, "extensions": extensions }),
+        None => json!({ "extensions": extensions }),
+    }
+}
+
+fn index(object: &Value, key: &str) -> Option<u64> {
+    object.get(key)?.as_u64()
+}
+
+/// The buffer views of an accessor.
+fn view_of_accessor(accessor: &Value) -> Vec<u64> {
+    let sparse = ["/sparse/indices/bufferView", "/sparse/values/bufferView"];
+    let sparse = sparse.iter().filter_map(|at| accessor.pointer(at)?.as_u64());
+    index(accessor, "bufferView").into_iter().chain(sparse).collect()
+}
+
+/// Puts `unused` in the place of all but the entries that are needed, and answers what those need in turn.
+fn only(
+    entries: &mut [Value],
+    needed: &BTreeSet<u64>,
+    unused: &Value,
+    needs: &dyn Fn(&Value) -> Vec<u64>,
+) -> BTreeSet<u64> {
+    let mut further = BTreeSet::new();
+    for (place, entry) in (0..).zip(entries) {
+        if needed.contains(&place) {
+            further.extend(needs(entry));
+        } else {
+            *entry = unused.clone();
+        }
+    }
+    further
+}

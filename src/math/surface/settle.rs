@@ -1,0 +1,52 @@
+//! Planes of regions that noise has spoilt, put right by what a convex solid must be.
+//!
+//! A region of a few triangles that noise has tilted has a plane that cuts the solid. No facet of a convex solid does, so
+//! such planes are left out, and each triangle is given to the facet that it lies on.
+
+use super::Surface;
+use super::edges::Edges;
+use super::hull::Hull;
+use super::regions::{Regions, joined};
+use super::shape::SAME;
+use glam::DVec3;
+use rayon::prelude::*;
+
+/// How often triangles are shared out anew. Planes that noise has tilted settle in three or four rounds.
+const ROUNDS: usize = 6;
+
+/// The most distances of triangles from planes that are looked at in a round: above it, what is read is no cut stone.
+const MOST_DISTANCES: usize = 200_000_000;
+
+/// The regions with each triangle in that of the facet it lies on; `None` where too few planes are left.
+pub(super) fn settled(
+    surface: &Surface,
+    edges: &Edges,
+    hull: &Hull,
+    found: Regions,
+    tolerance: f64,
+) -> Option<Regions> {
+    let mut regions = found;
+    let middles: Vec<DVec3> =
+        (0..surface.triangles.len()).map(|t| surface.corners(t).iter().sum::<DVec3>() / 3.0).collect();
+    for _ in 0..ROUNDS {
+        let mut planes: Vec<_> = regions.fits.iter().map(|fit| fit.plane).collect();
+        planes.retain(|plane| hull.outside(plane) <= SAME * tolerance);
+        if planes.len() < 4 || planes.len() * middles.len() > MOST_DISTANCES {
+            return None;
+        }
+        let nearest = |middle: &DVec3| {
+            let distance = |place: &usize| planes[*place].distance(*middle);
+            (0..planes.len()).max_by(|a, b| distance(a).total_cmp(&distance(b)).then(b.cmp(a)))
+        };
+        let of: Vec<u32> = middles.par_iter().map(|m| nearest(m).unwrap_or_default() as u32).collect();
+        let mut members = vec![vec![]; planes.len()];
+        (0..).zip(&of).for_each(|(t, &region)| members[region as usize].push(t));
+        let next = joined(surface, edges, tolerance, of, members);
+        let is_settled = next.of == regions.of;
+        regions = next;
+        if is_settled {
+            break;
+        }
+    }
+    Some(regions)
+}
