@@ -1,6 +1,6 @@
 //! Asks for a file by its path, where the system has no dialog for that.
 
-use super::dialogs::buttons;
+use super::dialogs::buttons_alone;
 use super::editor::Editor;
 use super::files::Purpose;
 use super::theme;
@@ -13,12 +13,16 @@ pub struct AskedPath {
     /// The number of the document that it is for.
     document: u64,
     text: String,
+    /// Whether the field was given the focus.
+    has_begun: bool,
+    /// Whether anyone has typed: Return takes nothing that was only suggested.
+    is_typed: bool,
 }
 
 impl AskedPath {
     /// Asks for a path, beginning with a folder or a file.
     pub fn new(purpose: Purpose, document: u64, begin: &Path) -> Self {
-        Self { purpose, document, text: begin.display().to_string() }
+        Self { purpose, document, text: begin.display().to_string(), has_begun: false, is_typed: false }
     }
 }
 
@@ -44,6 +48,12 @@ pub fn show(editor: &mut Editor, ui: &mut Ui, asked: &mut AskedPath) -> bool {
     ui.add_space(6.0);
     let label = ui.label("Path");
     let field = ui.add(TextEdit::singleline(&mut asked.text).desired_width(440.0)).labelled_by(label.id);
+    let is_entered = field.lost_focus() && ui.input(|i| i.key_pressed(Key::Enter));
+    asked.is_typed |= field.changed();
+    if !asked.has_begun || (is_entered && !asked.is_typed) {
+        asked.has_begun = true;
+        field.request_focus();
+    }
     let path = PathBuf::from(asked.text.trim());
     if asked.purpose == Purpose::SaveAs && path.is_file() {
         ui.label(
@@ -52,9 +62,8 @@ pub fn show(editor: &mut Editor, ui: &mut Ui, asked: &mut AskedPath) -> bool {
     } else if asked.purpose != Purpose::SaveAs && !path.exists() {
         ui.label(RichText::new("There is no such file.").weak());
     }
-    let is_entered = field.lost_focus() && ui.input(|i| i.key_pressed(Key::Enter));
-    match buttons(ui, &[verb, "Cancel"]) {
-        _ if is_entered => editor.chosen(asked.purpose, asked.document, path),
+    match buttons_alone(ui, &[verb, "Cancel"]) {
+        None if is_entered && asked.is_typed => editor.chosen(asked.purpose, asked.document, path),
         Some(0) => editor.chosen(asked.purpose, asked.document, path),
         Some(_) => editor.after_save = None,
         None => return true,

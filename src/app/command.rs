@@ -41,6 +41,9 @@ pub enum Command {
     LayOut,
     NextBehind,
     Panels,
+    ResetView,
+    ResetLayout,
+    FullScreen,
     Keys,
     About,
 }
@@ -51,6 +54,13 @@ pub struct Menu {
     pub title: &'static str,
     /// Its entries, in groups.
     pub groups: &'static [&'static [Command]],
+}
+
+impl Menu {
+    /// The letter that opens it together with Alt: the first of its title.
+    pub fn key(&self) -> Option<Key> {
+        Key::from_name(self.title.get(..1)?)
+    }
 }
 
 use Command::*;
@@ -68,7 +78,8 @@ pub const MENUS: [Menu; 5] = [
             &[Wireframe, Facets, Bounces, Unresolved, Total, Strongest, Glare],
             &[LightPath],
             &[Play, LayOut, NextBehind],
-            &[Panels],
+            &[Panels, FullScreen],
+            &[ResetView, ResetLayout],
         ],
     },
     Menu { title: "Compare", groups: &[&[CompareSaved, CompareFile], &[Split], &[NoCompare]] },
@@ -120,6 +131,9 @@ impl Command {
             LayOut => "Lay copies out anew",
             NextBehind => "Next background",
             Panels => "Views alone",
+            FullScreen => "Full screen",
+            ResetView => "Reset view",
+            ResetLayout => "Reset layout",
             Keys => "Keys and terms",
             About => "About Brillianteer",
         }
@@ -143,7 +157,7 @@ impl Command {
             Bottom => "Looks at the culet.",
             Free => "Goes back to the tilt before.",
             Fit => "Shows the whole stone.",
-            Perspective => "Sees the stone from nearby instead of along parallel rays.",
+            Perspective => "Sees the stone of this view from nearby instead of along parallel rays.",
             EyeLeans => {
                 "Moves the eye over a still stone and light; else the stone tilts under eye and light."
             }
@@ -171,6 +185,13 @@ impl Command {
             LayOut => "Scatters the copies that renders show.",
             NextBehind => "Hangs the next pattern behind renders.",
             Panels => "Hides the panels at both sides, until it is chosen again.",
+            FullScreen => "Fills the screen with the window, until it is chosen again.",
+            ResetView => {
+                "Shows the whole stone face up in all views, linked, along parallel rays, with nothing drawn over it."
+            }
+            ResetLayout => {
+                "Shows the four views of the first start, and both panels as wide as they were then."
+            }
             Keys => "Lists the keys, and what the trade's terms mean.",
             About => "The program's version, its licences, and what it is built of.",
         }
@@ -215,10 +236,17 @@ impl Command {
             LayOut => bare(Key::Space),
             NextBehind => bare(Key::G),
             Panels => bare(Key::H),
+            FullScreen => bare(Key::F11),
             Keys => bare(Key::F1),
             CompareSaved => bare(Key::R),
-            CompareFile | NoCompare | About => None,
+            CompareFile | NoCompare | ResetView | ResetLayout | About => None,
         }
+    }
+
+    /// All keys that do it: that of menus, and one that other programs use.
+    pub fn shortcuts(self) -> impl Iterator<Item = KeyboardShortcut> {
+        let other = (self == Redo).then(|| KeyboardShortcut::new(Modifiers::COMMAND, Key::Y));
+        self.shortcut().into_iter().chain(other)
     }
 }
 
@@ -227,8 +255,14 @@ mod tests {
     use super::*;
 
     #[test]
+    fn every_menu_opens_by_a_letter_of_its_own() {
+        let keys: Vec<Key> = MENUS.iter().filter_map(Menu::key).collect();
+        assert_eq!(keys, [Key::F, Key::E, Key::V, Key::C, Key::H]);
+    }
+
+    #[test]
     fn no_key_does_two_things() {
-        let keys: Vec<_> = Command::all().filter_map(|c| Some((c, c.shortcut()?))).collect();
+        let keys: Vec<_> = Command::all().flat_map(|c| c.shortcuts().map(move |key| (c, key))).collect();
         for (i, (a, key)) in keys.iter().enumerate() {
             let twin = keys[..i].iter().find(|(_, other)| other == key);
             assert!(twin.is_none(), "{a:?} and {twin:?}");

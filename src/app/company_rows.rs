@@ -2,7 +2,7 @@
 
 use super::editor::Editor;
 use super::preset::{Known, PRESETS};
-use super::rows::{ANY, NUMBER, Number, Row, control_width, field_width, named, skip_name};
+use super::rows::{ANY, NUMBER, Number, Row, control_width, explain, field_width, named, skip_name};
 use super::shows::Shows;
 use super::studio::Smoothing;
 use crate::cut::MaterialRef;
@@ -78,17 +78,20 @@ pub fn show(editor: &mut Editor, ui: &mut Ui) {
     view_angle(editor, ui);
 }
 
-/// From how near the linked views look, as the angle that fits into them.
+/// From how near views in perspective look, as the angle that fits into them.
 fn view_angle(editor: &mut Editor, ui: &mut Ui) {
     let reach = editor.reach(Shows::Render);
-    let Some(distance) = &mut editor.desk.eye.distance else { return };
-    let mut degrees = 2.0 * (reach / *distance).atan().to_degrees();
+    let desk = &mut editor.desk;
+    if !desk.shown().iter().any(|&pane| desk.panes[pane].is_near) {
+        return;
+    }
+    let mut degrees = 2.0 * (reach / desk.distance).atan().to_degrees();
     let before = degrees;
-    let meaning = "The angle that the linked views take in; P looks along parallel rays.";
+    let meaning = "The angle that views in perspective take in; P looks along parallel rays.";
     let row = Row::new("View angle", meaning, ANGLES);
     Row { decimals: 1, speed: 0.2, unit: "°", ..row }.show(ui, &mut degrees);
     if degrees != before {
-        *distance = reach / (0.5 * degrees).to_radians().tan();
+        desk.distance = reach / (0.5 * degrees).to_radians().tan();
     }
 }
 
@@ -102,7 +105,8 @@ fn copies(editor: &mut Editor, ui: &mut Ui) {
         let label = named(ui, "Copies", meaning);
         ui.spacing_mut().slider_width = control_width(ui);
         let slider = Slider::new(&mut count, 1.0..=most).step_by(1.0).show_value(false);
-        ui.add(slider).labelled_by(label.id).on_hover_text(meaning);
+        let slider = ui.add(slider).labelled_by(label.id);
+        explain(ui, slider, meaning);
         let number = Number { decimals: 0, speed: 0.05, range: ANY, unit: "" };
         number.show(ui, (NUMBER, label.id), &mut count);
     });

@@ -51,7 +51,7 @@ impl Editor {
         let own = (pane, Which::Present);
         let shot = self.asked.shots.iter().find(|(slot, _)| *slot == own).map(|(_, shot)| shot.clone());
         let original = match (shows, shot) {
-            (Shows::Profile, _) => Original::Profile(Arc::clone(self.document.specimen())),
+            (Shows::Profile, _) => Original::Profile(self.document.named(self.document.specimen())),
             (_, Some(shot)) => Original::Shot(Box::new(scaled(shot, side))),
             (_, None) => return self.notes.say("This view holds no picture to copy."),
         };

@@ -4,8 +4,9 @@ use super::desk::Side;
 use super::desk::WAVELENGTHS;
 use super::editor::Editor;
 use super::files::Purpose;
+use super::impossible::{self, Said};
 use super::proportions::{EXCELLENT_DEPTH, PROPORTIONS, Proportion};
-use super::rows::{ANY, NUMBER, Number, Row, control_width, field_width, named};
+use super::rows::{ANY, NUMBER, Number, Row, control_width, explain, field_width, named};
 use super::studio::BEHIND;
 use super::{company_rows, glass_rows, mesh_rows, side_panels, stone_rows, theme, tier_rows};
 use crate::cut::{Cut, Design, DesignError, MaterialRef, RoundBrilliant, Unit};
@@ -59,7 +60,8 @@ fn is_graded(design: &Design) -> bool {
 
 fn heading(ui: &mut Ui, text: &str, meaning: &str) {
     ui.add_space(8.0);
-    ui.label(RichText::new(text).heading()).on_hover_text(meaning);
+    let label = ui.label(RichText::new(text).heading());
+    explain(ui, label, meaning);
     ui.add_space(2.0);
 }
 
@@ -92,10 +94,8 @@ fn identity(editor: &mut Editor, ui: &mut Ui) {
 
 fn proportions(editor: &mut Editor, ui: &mut Ui) {
     let fault = editor.document.fault().map(ToString::to_string);
-    let key = match editor.document.fault() {
-        Some(SpecimenError::Design(DesignError::Proportion(fault))) => Some(fault.key()),
-        _ => None,
-    };
+    let said = impossible(editor);
+    let mut edited = editor.edited;
     let is_graded = is_graded(&editor.document.work.design);
     let unit_mm = editor.document.specimen().unit_mm();
     let Cut::RoundBrilliant(brilliant) = &mut editor.document.work.design.cut else {
@@ -111,19 +111,30 @@ fn proportions(editor: &mut Editor, ui: &mut Ui) {
         return;
     };
     for proportion in &PROPORTIONS {
-        row(ui, proportion, brilliant, is_graded);
-        if let Some(fault) = fault.as_ref().filter(|_| key == Some(proportion.key)) {
-            wrong(ui, fault);
+        if row(ui, proportion, brilliant, is_graded) {
+            edited = Some(proportion.key);
+        }
+        if let Some(said) = said.as_ref().filter(|said| said.key == proportion.key) {
+            wrong(ui, &said.text);
         }
     }
     derived(ui, brilliant, is_graded);
+    editor.edited = edited;
     warnings(editor, ui);
     let is_name = matches!(editor.document.fault(), Some(SpecimenError::Design(DesignError::Name)));
-    if let Some(fault) =
-        fault.filter(|_| !is_name).filter(|_| !PROPORTIONS.iter().any(|p| key == Some(p.key)))
-    {
+    if let Some(fault) = fault.filter(|_| !is_name && said.is_none()) {
         wrong(ui, &fault);
     }
+}
+
+/// What is wrong with the proportions of a round brilliant, and at which row that is said.
+fn impossible(editor: &Editor) -> Option<Said> {
+    let Some(SpecimenError::Design(DesignError::Proportion(fault))) = editor.document.fault() else {
+        return None;
+    };
+    let given = editor.document.work.design.cut.brilliant()?;
+    let last = editor.document.specimen().design.cut.brilliant()?;
+    Some(impossible::said(given, last, editor.edited, fault))
 }
 
 fn wrong(ui: &mut Ui, fault: &str) {
@@ -147,8 +158,8 @@ fn warnings(editor: &Editor, ui: &mut Ui) {
 }
 
 /// One proportion: name, slider, number, and of a pair whether it is held; where GIA grades it, the range of the grade
-/// Excellent.
-fn row(ui: &mut Ui, proportion: &Proportion, brilliant: &mut RoundBrilliant, is_graded: bool) {
+/// Excellent. Whether it was changed.
+fn row(ui: &mut Ui, proportion: &Proportion, brilliant: &mut RoundBrilliant, is_graded: bool) -> bool {
     ui.horizontal(|ui| {
         let label = named(ui, proportion.name, proportion.meaning);
         ui.spacing_mut().slider_width = control_width(ui);
@@ -160,10 +171,8 @@ fn row(ui: &mut Ui, proportion: &Proportion, brilliant: &mut RoundBrilliant, is_
         let step = if whole { 8.0 } else { 0.1 };
         let mark = ui.painter().add(egui::Shape::Noop);
         let slider = Slider::new(&mut value, first..=last).show_value(false).step_by(step).smart_aim(false);
-        let slider = ui
-            .add(slider.clamping(SliderClamping::Never))
-            .labelled_by(label.id)
-            .on_hover_text(range(proportion, is_graded));
+        let slider = ui.add(slider.clamping(SliderClamping::Never)).labelled_by(label.id);
+        let slider = explain(ui, slider, &range(proportion, is_graded));
         if let Some(good) = proportion.excellent.as_ref().filter(|_| is_graded) {
             let band = band(slider.rect, good, &proportion.slider);
             ui.painter().set(
@@ -173,11 +182,14 @@ fn row(ui: &mut Ui, proportion: &Proportion, brilliant: &mut RoundBrilliant, is_
         }
         let (speed, unit) = (if whole { 0.2 } else { 0.02 }, proportion.unit.to_string());
         Number { decimals, speed, range: ANY, unit: &unit }.show(ui, (NUMBER, label.id), &mut value);
-        if value != before && value.is_finite() {
+        let is_changed = value != before && value.is_finite();
+        if is_changed {
             (proportion.set)(brilliant, value);
         }
         hold(ui, proportion, brilliant);
-    });
+        is_changed
+    })
+    .inner
 }
 
 /// Where on a slider a range lies: a band under its rail.
@@ -209,7 +221,7 @@ fn hold(ui: &mut Ui, proportion: &Proportion, brilliant: &mut RoundBrilliant) {
     let side = ui.spacing().interact_size.y;
     let (rect, response) = ui.allocate_exact_size(vec2(side, side), Sense::click());
     lock(ui, rect, held, &response);
-    let response = response.on_hover_text(meaning);
+    let response = explain(ui, response, meaning);
     let name = format!("Hold {}", proportion.name.to_lowercase());
     response.widget_info(|| WidgetInfo::selected(Role::CheckBox, true, held, &name));
     if response.clicked() && !held {
@@ -251,7 +263,8 @@ fn derived(ui: &mut Ui, brilliant: &RoundBrilliant, is_graded: bool) {
     ui.add_space(4.0);
     egui::Grid::new("derived").num_columns(2).spacing(vec2(12.0, 4.0)).show(ui, |ui| {
         let mut line = |name: &str, value: String, colour: Option<Color32>, meaning: &str| {
-            ui.label(RichText::new(name).weak()).on_hover_text(meaning);
+            let label = ui.label(RichText::new(name).weak());
+            explain(ui, label, meaning);
             let text = RichText::new(value).monospace();
             ui.label(match colour {
                 Some(colour) => text.color(colour),
@@ -294,7 +307,7 @@ fn lighting(editor: &mut Editor, ui: &mut Ui) {
             .file_name()
             .map_or(work.light.clone(), |n| n.to_string_lossy().into_owned());
         let combo = ComboBox::from_id_salt("light").selected_text(name).width(field_width(ui));
-        let combo = combo.show_ui(ui, |ui| {
+        let combo = combo.height(420.0).show_ui(ui, |ui| {
             for name in LIGHTS {
                 let about = light(name).map_or(String::new(), |l| l.description);
                 let chosen = work.light == name;
@@ -347,7 +360,7 @@ fn behind(editor: &mut Editor, ui: &mut Ui) -> bool {
             std::path::Path::new(name).file_name().and_then(|n| n.to_str()).unwrap_or(name)
         });
         let combo = ComboBox::from_id_salt("behind").selected_text(name.to_owned()).width(field_width(ui));
-        let combo = combo.show_ui(ui, |ui| {
+        let combo = combo.height(420.0).show_ui(ui, |ui| {
             ui.selectable_value(&mut desk.behind, None, "nothing");
             ui.selectable_value(&mut desk.behind, Some("light".to_owned()), "light")
                 .on_hover_text("What shines, a panorama for one.");

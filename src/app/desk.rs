@@ -6,7 +6,7 @@ use super::shows::Shows;
 use super::studio::Smoothing;
 use crate::io::background::BackgroundRef;
 use crate::picture::{Overlay, Pattern};
-use crate::scene::Glare;
+use crate::scene::{Glare, Projection, View};
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 
@@ -87,7 +87,13 @@ pub struct Pane {
     pub shows: Shows,
     /// Its own eye; none where it looks as the others do.
     pub own: Option<Eye>,
+    /// Whether it shows the stone in perspective, from nearby; else along parallel rays.
+    #[serde(default)]
+    pub is_near: bool,
 }
+
+/// Distance of the eye that perspective begins with, girdle radii: a stone of 6.5 mm at 10 cm.
+const DISTANCE: f64 = 30.0;
 
 /// The most files remembered.
 const MOST_RECENT: usize = 10;
@@ -104,6 +110,8 @@ pub struct Desk {
     pub large: Option<usize>,
     /// The eye of all linked views.
     pub eye: Eye,
+    /// How far from the stone's origin the eye is in views in perspective, girdle radii.
+    pub distance: f64,
     /// Half angle of the observer's head in ASET and figures, degrees.
     pub head: f64,
     /// Whether scopes show strongest exits alone.
@@ -156,12 +164,13 @@ pub const WAVELENGTHS: [u32; 5] = [3, 8, 16, 32, 64];
 
 impl Default for Desk {
     fn default() -> Self {
-        let pane = |shows| Pane { shows, own: None };
+        let pane = |shows| Pane { shows, own: None, is_near: false };
         Self {
             layout: Layout::Four,
             panes: [Shows::Render, Shows::Aset, Shows::Hearts, Shows::Profile].map(pane),
             large: None,
             eye: Eye::default(),
+            distance: DISTANCE,
             head: 0.0,
             strongest: false,
             glare: false,
@@ -255,6 +264,39 @@ impl Desk {
     /// The eye of a pane.
     pub fn eye(&self, pane: usize) -> &Eye {
         self.panes[pane].own.as_ref().unwrap_or(&self.eye)
+    }
+
+    /// How a pane looks at the stone: from the side that its picture is made for.
+    pub fn view(&self, pane: usize) -> View {
+        let Pane { shows, is_near, .. } = self.panes[pane];
+        let view = self.eye(pane).view(shows.side());
+        match is_near && shows.is_seen() {
+            true => View { projection: Projection::Perspective { distance: self.distance }, ..view },
+            false => view,
+        }
+    }
+
+    /// Shows something else in a pane. A scope is seen along parallel rays until perspective is asked for.
+    pub fn show(&mut self, pane: usize, shows: Shows) {
+        let now = &mut self.panes[pane];
+        now.is_near &= now.shows == shows || shows.scoped().is_none();
+        now.shows = shows;
+    }
+
+    /// Looks at the table of the whole stone in all views, linked and along parallel rays, with nothing drawn over it.
+    pub fn reset_view(&mut self) {
+        self.panes.iter_mut().for_each(|pane| (pane.own, pane.is_near) = (None, false));
+        let Self { eye, distance, strongest, glare, overlay, .. } = Self::default();
+        (self.eye, self.distance, self.overlay) = (eye, distance, overlay);
+        (self.strongest, self.glare) = (strongest, glare);
+    }
+
+    /// Shows the views that there were at the very first, and the panels; every view looks from where it did.
+    pub fn reset_layout(&mut self) {
+        let Self { layout, panes, large, is_split, hides_panels, panels, .. } = Self::default();
+        (0..panes.len()).for_each(|pane| self.show(pane, panes[pane].shows));
+        (self.layout, self.large) = (layout, large);
+        (self.is_split, self.hides_panels, self.panels) = (is_split, hides_panels, panels);
     }
 
     /// The same, to be moved.

@@ -12,6 +12,7 @@ use super::proportions::PROPORTIONS;
 use super::shows::Shows;
 use egui::{Context, Grid, Id, Key, Modal, RichText, ScrollArea, Ui};
 use std::path::PathBuf;
+use std::time::Duration;
 
 /// What is to be done once a question is answered.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -59,7 +60,7 @@ impl Dialog {
         Self::Export(Box::new(export))
     }
 
-    /// Whether it stays until it is answered, whatever else is clicked or pressed.
+    /// Whether it stays until it is answered, whatever is clicked beside it. Escape is an answer: the one that changes nothing.
     pub fn insists(&self) -> bool {
         match self {
             Self::Recover(_) | Self::ChangedOutside => true,
@@ -90,8 +91,15 @@ pub fn show(editor: &mut Editor, ctx: &Context) {
             Dialog::About(about) => is_open = about::show(editor, ui, about),
         });
     });
-    let escaped = ctx.input(|i| i.key_pressed(Key::Escape)) || modal.should_close();
-    if is_open && (!escaped || dialog.insists()) {
+    let is_escaped = !modal.any_popup_open && ctx.input(|i| i.key_pressed(Key::Escape));
+    let is_left = modal.should_close() && !dialog.insists();
+    if let Dialog::Export(export) = &dialog
+        && is_escaped
+        && export.stop()
+    {
+        // It stays, to say how far it came.
+        editor.dialog = Some(dialog);
+    } else if is_open && !is_escaped && !is_left {
         // What was asked for meanwhile waits until this one is answered.
         editor.dialog = Some(dialog);
     } else if is_open && matches!(dialog, Dialog::Path(_)) {
@@ -101,10 +109,15 @@ pub fn show(editor: &mut Editor, ctx: &Context) {
 
 /// Buttons in a row, the first the one that is meant most often, which Return presses as well; which was chosen.
 pub(super) fn buttons(ui: &mut Ui, names: &[&str]) -> Option<usize> {
+    let is_answered = ui.memory(|m| m.focused().is_none()) && ui.input(|i| i.key_pressed(Key::Enter));
+    buttons_alone(ui, names).or(is_answered.then_some(0))
+}
+
+/// Buttons in a row; which was chosen.
+pub(super) fn buttons_alone(ui: &mut Ui, names: &[&str]) -> Option<usize> {
     ui.add_space(10.0);
     ui.horizontal(|ui| {
-        let is_answered = ui.memory(|m| m.focused().is_none()) && ui.input(|i| i.key_pressed(Key::Enter));
-        let mut chosen = is_answered.then_some(0);
+        let mut chosen = None;
         for (k, name) in names.iter().enumerate() {
             if ui.button(*name).clicked() {
                 chosen = Some(k);
@@ -155,15 +168,10 @@ fn recover(editor: &mut Editor, ui: &mut Ui, found: &Found) -> bool {
     ui.set_width(400.0);
     ui.heading("Go on with unsaved work?");
     let of = found.path.as_ref().map_or_else(|| "in no file yet".into(), |p| format!("from {}", p.display()));
-    let minutes = found.when.elapsed().map_or(0, |since| since.as_secs() / 60);
-    let when = match minutes {
-        0..2 => "just now".to_owned(),
-        2..120 => format!("{minutes} minutes ago"),
-        _ => format!("{} hours ago", minutes / 60),
-    };
     let (name, open) = (&found.design.name, editor.document.title());
+    let when = ago(found.when.elapsed().unwrap_or_default());
     ui.label(format!(
-        "The program ended {when} before {name}, {of}, was saved. Going on opens it in place of {open}."
+        "The program ended before {name}, {of}, was saved. It was last changed {when}. Going on opens it in place of {open}."
     ));
     match buttons(ui, &["Go on", "Later", "Forget it"]) {
         Some(0) => {
@@ -189,6 +197,18 @@ fn recover(editor: &mut Editor, ui: &mut Ui, found: &Found) -> bool {
         }
         Some(_) => false,
         None => true,
+    }
+}
+
+/// How long ago something was, in words.
+fn ago(since: Duration) -> String {
+    let counted = |count: u64, unit: &str| format!("{count} {unit}{} ago", if count == 1 { "" } else { "s" });
+    match since.as_secs() {
+        0..5 => "just now".to_owned(),
+        seconds @ 5..60 => counted(seconds, "second"),
+        seconds @ 60..3600 => counted(seconds / 60, "minute"),
+        seconds @ 3600..172_800 => counted(seconds / 3600, "hour"),
+        seconds => counted(seconds / 86_400, "day"),
     }
 }
 
@@ -243,4 +263,26 @@ fn keys(ui: &mut Ui) -> bool {
         });
     });
     buttons(ui, &["Close"]).is_none()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn times_are_told_in_the_largest_unit_that_has_passed() {
+        let told = [0, 4, 20, 60, 119, 7200, 200_000].map(|seconds| ago(Duration::from_secs(seconds)));
+        assert_eq!(
+            told,
+            [
+                "just now",
+                "just now",
+                "20 seconds ago",
+                "1 minute ago",
+                "1 minute ago",
+                "2 hours ago",
+                "2 days ago"
+            ]
+        );
+    }
 }

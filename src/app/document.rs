@@ -1,7 +1,7 @@
 //! What is being worked on: a design and its light, with the steps that led there and the file it came from.
 
 use super::history::History;
-use crate::cut::Design;
+use crate::cut::{Cut, Design};
 use crate::io::design_file::{self, Brought, Format};
 use crate::io::mesh_options::MeshOptions;
 use crate::io::{cut_file, library};
@@ -63,13 +63,22 @@ pub struct Document {
     stamp: Stamp,
     /// Whether the file has gone.
     is_lost: bool,
-    /// The stone of the last design that makes one.
+    /// The stone of the last design that makes one. What changes no light, as the name, may be older in it than in `built`.
     specimen: Arc<Specimen>,
     fault: Option<SpecimenError>,
     /// The design that stone or fault belong to.
     built: Design,
     /// What was odd about its file, in words.
     odd: Vec<String>,
+}
+
+/// Whether two designs make the same stone, whatever they are called and whatever is said of them.
+fn is_same_stone(a: &Design, b: &Design) -> bool {
+    let is_same_cut = match (&a.cut, &b.cut) {
+        (Cut::Tiers(a), Cut::Tiers(b)) => (a.gear, a.offset, &a.tiers) == (b.gear, b.offset, &b.tiers),
+        (a, b) => a == b,
+    };
+    is_same_cut && a.diameter_mm == b.diameter_mm && a.material == b.material
 }
 
 /// The light that a program starts with.
@@ -187,12 +196,17 @@ impl Document {
         self.laid != self.work.company
     }
 
-    /// Takes note of changes: builds the stone, or notes why there is none. Whether there is another stone than before.
+    /// Takes note of changes: builds the stone, or notes why there is none. Whether there is another stone than before, which
+    /// has to be traced: a new name makes none.
     pub fn update(&mut self) -> bool {
         if self.work.design == self.built {
             return false;
         }
         self.built = self.work.design.clone();
+        if is_same_stone(&self.specimen.design, &self.built) {
+            self.fault = self.built.check().err().map(SpecimenError::from);
+            return false;
+        }
         match self.specimen.remade(self.built.clone()) {
             Ok(specimen) => {
                 self.specimen = Arc::new(specimen);
@@ -215,6 +229,25 @@ impl Document {
     /// The last stone that could be built.
     pub fn specimen(&self) -> &Arc<Specimen> {
         &self.specimen
+    }
+
+    /// A stone of this document, as [`specimen`](Self::specimen) or turned, under the name that its design has now.
+    pub fn named(&self, specimen: &Arc<Specimen>) -> Arc<Specimen> {
+        let now = &self.specimen.design;
+        if *now == self.built || !is_same_stone(now, &self.built) {
+            return Arc::clone(specimen);
+        }
+        let mut design = self.built.clone();
+        // A plate that waves is in another phase than its design.
+        if let Cut::Glass(_) = design.cut {
+            design.cut = specimen.design.cut.clone();
+        }
+        Arc::new(Specimen { design, ..(**specimen).clone() })
+    }
+
+    /// Whether the design makes no stone, and [`specimen`](Self::specimen) is the last one that it made.
+    pub fn shows_last_possible(&self) -> bool {
+        self.fault.is_some() && !is_same_stone(&self.specimen.design, &self.built)
     }
 
     /// What keeps the design as it is now from being a stone.
@@ -309,7 +342,7 @@ impl Document {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::cut::{Crown, Cut};
+    use crate::cut::Crown;
 
     fn crown(document: &mut Document, degrees: f64) {
         let Cut::RoundBrilliant(brilliant) = &mut document.work.design.cut else { panic!() };
@@ -342,7 +375,7 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let mut document = Document::first().unwrap();
         document.work.design.name = " ".to_owned();
-        assert!(document.update());
+        assert!(!document.update() && document.fault().is_some() && !document.shows_last_possible());
         let path = folder.path().join("mine.toml");
         assert!(document.save(path.clone()).unwrap_err().contains("printable") && !path.exists());
     }
@@ -355,11 +388,12 @@ mod tests {
         crown(&mut document, 90.0);
         assert!(!document.update());
         assert!(document.fault().unwrap().to_string().contains("crown_angle"));
-        assert!(Arc::ptr_eq(&stone, document.specimen()));
+        assert!(Arc::ptr_eq(&stone, document.specimen()) && document.shows_last_possible());
         let path = folder.path().join("mine.toml");
         assert!(document.save(path.clone()).unwrap_err().contains("crown_angle") && !path.exists());
         document.undo();
-        assert!(document.update() && document.fault().is_none());
+        assert!(!document.update() && document.fault().is_none(), "it is the stone that is in sight");
+        assert!(Arc::ptr_eq(&stone, document.specimen()) && !document.shows_last_possible());
     }
 
     #[test]

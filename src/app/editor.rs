@@ -10,6 +10,7 @@ use super::export_job::Selection;
 use super::files::{Choice, Chooser, Choosing, Safe, Watching, by_dialog};
 use super::following::{self, Following};
 use super::framing::Framing;
+use super::hands::Hands;
 use super::look::Looks;
 use super::lookup::Looker;
 use super::moving::Moving;
@@ -116,6 +117,8 @@ pub struct Editor {
     pub(super) held: Option<(usize, usize)>,
     /// Whether a picture has the focus: Space is for its copies then.
     pub(super) is_picture_focused: bool,
+    /// The key of the proportion that was edited last in the panel.
+    pub(super) edited: Option<&'static str>,
     /// How often copies were laid out.
     pub(super) layings: u64,
     /// What is said in the line at the bottom while the pointer is over a picture.
@@ -178,6 +181,7 @@ impl Editor {
         setup: Setup,
     ) -> Result<Self, String> {
         theme::apply(context);
+        context.add_plugin(Hands::default());
         let kept = storage.and_then(|s| s.get_string(DESK));
         // A desk of a later program that this one cannot read is left aside.
         let mut desk: Desk = kept.and_then(|text| serde_json::from_str(&text).ok()).unwrap_or(setup.desk);
@@ -210,6 +214,7 @@ impl Editor {
             moving: Moving::default(),
             held: None,
             is_picture_focused: false,
+            edited: None,
             layings: 0,
             told: String::new(),
             notes: Notes::default(),
@@ -378,7 +383,7 @@ impl Editor {
             Command::One => self.desk.layout == Layout::One,
             Command::Two => self.desk.layout == Layout::Two,
             Command::Four => self.desk.layout == Layout::Four,
-            Command::Perspective => eye.distance.is_some(),
+            Command::Perspective => self.desk.panes[self.active()].is_near,
             Command::EyeLeans => eye.eye_leans,
             Command::Wireframe => overlay("wireframe"),
             Command::Facets => overlay("facets"),

@@ -1,16 +1,18 @@
 //! The dialog that writes files.
 
 use super::editor::Editor;
-use super::export_job::{Job, Plan, Selection, thumbnails};
+use super::export_job::{Aspect, Job, Plan, Selection, thumbnails};
 use super::files::Purpose;
+use super::posed::Posed;
 use super::shows::Shows;
+use super::studio::Shot;
 use super::theme;
 use crate::io::export::Format;
 use crate::io::refraction_map::{MOST_BANDS, MOST_PLACES};
-use crate::scene::Company;
+use crate::scene::{Company, Specimen, View};
 use egui::{
-    Color32, ColorImage, DragValue, Grid, ProgressBar, Rect, RichText, ScrollArea, Sense, Stroke, StrokeKind,
-    TextEdit, TextureHandle, Ui, WidgetInfo, pos2, vec2,
+    Color32, ColorImage, DragValue, Grid, Label, ProgressBar, Rect, RichText, ScrollArea, Sense, Stroke,
+    StrokeKind, TextEdit, TextureHandle, Ui, WidgetInfo, pos2, vec2,
 };
 use std::collections::HashMap;
 use std::path::PathBuf;
@@ -37,12 +39,21 @@ impl ExportDialog {
     pub fn new(editor: &mut Editor) -> Self {
         let here = || std::env::current_dir().unwrap_or_default();
         let folder = editor.document.path().and_then(|p| p.parent()).map_or_else(here, ToOwned::to_owned);
-        let shot = editor.linked_shot();
         let stem = editor.document.path().and_then(|p| p.file_stem()).map_or_else(
             || editor.document.work.design.name.to_lowercase().replace([' ', '/'], "-"),
             |s| s.to_string_lossy().into_owned(),
         );
-        let (upright, turn) = (Arc::clone(editor.document.specimen()), editor.desk.eye.turn);
+        let upright = editor.document.named(editor.document.specimen());
+        let (linked, own) = aspects(editor, &upright);
+        let render =
+            own.iter().find(|(shows, _)| *shows == Shows::Render).map_or(&linked, |(_, aspect)| aspect);
+        let shot = editor.render_shot(render.view, render.turn);
+        let specimen = match Arc::ptr_eq(&shot.specimen, &editor.posed(render.turn)) {
+            // One alone and at rest is the one that scopes show.
+            true => Arc::clone(&render.turned),
+            false => editor.document.named(&shot.specimen),
+        };
+        let shot = Shot { specimen, ..shot };
         let light = match PathBuf::from(&editor.light.0) {
             file if file.is_file() => std::path::absolute(&file).unwrap_or(file),
             name => name,
@@ -51,17 +62,8 @@ impl ExportDialog {
         // As large as in the view, and no copy left out.
         let copies = Company::at(shot.company.clone(), shot.specimen.solid().vertices());
         let reach = editor.reach(Shows::Render).max(copies.reach(0.0));
-        let mut plan = Plan {
-            shot,
-            turned: editor.posed(turn),
-            upright,
-            turn,
-            reach,
-            selection,
-            light,
-            folder: folder.clone(),
-            stem,
-        };
+        let mut plan =
+            Plan { shot, upright, linked, own, reach, selection, light, folder: folder.clone(), stem };
         let can_be_shown: Vec<Shows> = plan.can_be_shown().collect();
         plan.selection.views.retain(|shows| can_be_shown.contains(shows));
         let wake = editor.studio.wake();
@@ -69,10 +71,22 @@ impl ExportDialog {
         Self { folder: folder.join("out"), plan, thumbnails, pictures: HashMap::new(), job: None }
     }
 
+    /// Asks files that are being written to stop; whether there are any.
+    pub fn stop(&self) -> bool {
+        let job = self.job.as_ref().filter(|job| job.end().is_none());
+        job.map(Job::stop).is_some()
+    }
+
     /// How many small pictures have come.
     #[cfg(test)]
     pub fn thumbnails_shown(&self) -> usize {
         self.pictures.len()
+    }
+
+    /// The files that are being written, or were.
+    #[cfg(test)]
+    pub fn job(&self) -> Option<&Job> {
+        self.job.as_ref()
     }
 
     /// How writing ended, once it has.
@@ -85,6 +99,30 @@ impl ExportDialog {
     pub fn is_busy(&self) -> bool {
         self.job.as_ref().is_some_and(|job| job.end().is_none())
     }
+}
+
+/// How the linked views see a stone, and each picture whose view looks on its own. Of several views that show the same it is
+/// the one that keys are for, or the first.
+fn aspects(editor: &Editor, upright: &Arc<Specimen>) -> (Aspect, Vec<(Shows, Aspect)>) {
+    let desk = &editor.desk;
+    // What is posed for the views stays theirs.
+    let mut posed = Posed::default();
+    let mut aspect = |view: View, turn: f64| Aspect { view, turn, turned: posed.of(upright, turn) };
+    let linked = aspect(desk.eye.view(None), desk.eye.turn);
+    let mut panes = desk.shown();
+    panes.sort_by_key(|&pane| (pane != editor.active(), pane));
+    let mut own: Vec<(Shows, Aspect)> = vec![];
+    for pane in panes {
+        let shows = desk.panes[pane].shows;
+        if shows.is_seen() && own.iter().all(|(other, _)| *other != shows) {
+            own.push((shows, aspect(desk.view(pane), desk.eye(pane).turn)));
+        }
+    }
+    let side = |shows: Shows| shows.side().unwrap_or(linked.view.side);
+    own.retain(|(shows, aspect)| {
+        (aspect.view, aspect.turn) != (View { side: side(*shows), ..linked.view }, linked.turn)
+    });
+    (linked, own)
 }
 
 /// Draws it; whether it stays open.
@@ -110,6 +148,11 @@ pub fn show(editor: &mut Editor, ui: &mut Ui, export: &mut ExportDialog) -> bool
         return stays;
     }
     views(ui, export);
+    if !export.plan.own.is_empty() {
+        let names: Vec<&str> = export.plan.own.iter().map(|(shows, _)| shows.name()).collect();
+        let text = format!("As seen in their own views: {}.", names.join(", "));
+        ui.label(RichText::new(text).weak().small());
+    }
     ui.add_space(6.0);
     settings(editor, ui, export);
     export.plan.folder = export.folder.clone();
@@ -282,22 +325,35 @@ fn listed(ui: &mut Ui, files: &Result<Vec<PathBuf>, String>) {
     }
 }
 
+/// Height of what is told of the work, points: the same however much that is, so that the button below stays in its place.
+const TOLD: f32 = 220.0;
+
 /// How far it has come, and what is written; whether the dialog stays open.
 fn working(ui: &mut Ui, job: &Job) -> bool {
     let end = job.end();
-    ui.add(ProgressBar::new(if end.is_some() { 1.0 } else { job.done() }).show_percentage());
-    ScrollArea::vertical().max_height(220.0).stick_to_bottom(true).show(ui, |ui| {
+    ui.add(ProgressBar::new(job.done()).show_percentage());
+    ui.add(Label::new(job.standing()).truncate());
+    let lines = ScrollArea::vertical().max_height(TOLD).min_scrolled_height(TOLD).auto_shrink(false);
+    lines.stick_to_bottom(true).show(ui, |ui| {
         job.told().iter().for_each(|line| drop(ui.label(RichText::new(line).small())));
+        match &end {
+            Some(Err(why)) if !job.is_stopped() => {
+                ui.label(RichText::new(why).color(theme::bad(ui.visuals())));
+            }
+            _ => {}
+        }
     });
-    match &end {
-        None => ui.ctx().request_repaint_after(std::time::Duration::from_millis(80)),
-        Some(Ok(())) => drop(ui.label(RichText::new("All files are written.").strong())),
-        Some(Err(why)) => drop(ui.label(RichText::new(why).color(theme::bad(ui.visuals())))),
-    }
+    // A line that is always there keeps the button in its place.
+    ui.label(RichText::new(if end == Some(Ok(())) { "All files are written." } else { "" }).strong());
     if end.is_some() {
         return !ui.button("Close").clicked();
     }
-    if ui.button("Stop").on_hover_text("What is written stays; nothing is left half written.").clicked() {
+    ui.ctx().request_repaint_after(std::time::Duration::from_millis(80));
+    let stop = ui.add_enabled(!job.is_stopped(), egui::Button::new("Stop"));
+    if stop
+        .on_hover_text("What is written stays; nothing is left half written. Escape does the same.")
+        .clicked()
+    {
         job.stop();
     }
     true

@@ -11,14 +11,15 @@ use crate::io::refraction_page::{Page, takes, write_page};
 use crate::io::{Failure, rasterize, write_rgba_png};
 use crate::optics::line;
 use crate::picture::{named, profile};
-use crate::scene::{Glare, Pose, Specimen, Viewpoint};
+use crate::scene::{Glare, Pose, Specimen, View, Viewpoint};
 use crate::trace::{Tracer, unwatched};
 use egui::ColorImage;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
-use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::sync::{Arc, Mutex, PoisonError};
+use std::time::{Duration, Instant};
 
 /// Side of a thumbnail, pixels.
 const THUMBNAIL: u32 = 176;
@@ -54,16 +55,28 @@ impl Default for Selection {
     }
 }
 
+/// How some pictures see the stone.
+#[derive(Clone)]
+pub struct Aspect {
+    /// From where; pictures that are made for one side have their own.
+    pub view: View,
+    /// By how much the stone is turned about its axis, radians.
+    pub turn: f64,
+    /// The stone at rest, turned so.
+    pub turned: Arc<Specimen>,
+}
+
 /// What is to be written.
 #[derive(Clone)]
 pub struct Plan {
     /// What renders show, its light and the view; its film does not count.
     pub shot: Shot,
-    /// The stone at rest, turned as in the views, for scopes.
-    pub turned: Arc<Specimen>,
-    /// The same stone as the cut has it, and by how much it is turned for the views, radians.
+    /// The stone as the cut has it.
     pub upright: Arc<Specimen>,
-    pub turn: f64,
+    /// How the linked views see the stone: so do pictures and figures that have no view of their own.
+    pub linked: Aspect,
+    /// How views that look on their own see it, by what they show.
+    pub own: Vec<(Shows, Aspect)>,
     /// Half the side of what renders show.
     pub reach: f64,
     /// What of it is written.
@@ -84,29 +97,49 @@ pub struct Progress {
     stop: AtomicBool,
     /// Files written, and what was said.
     told: Mutex<Vec<String>>,
+    /// How many files are written.
+    written: AtomicUsize,
     end: Mutex<Option<Result<(), String>>>,
 }
 
 /// Work that is going on.
-pub struct Job(Arc<Progress>);
+pub struct Job {
+    progress: Arc<Progress>,
+    /// The files, in the order in which they are written.
+    files: Vec<PathBuf>,
+    begun: Instant,
+}
 
 impl Plan {
-    /// What is written of the stone as it is turned in the views, and of the stone as the cut has it: drawings and figures
-    /// know of no turn.
-    fn parts(&self) -> [(Outputs, Viewing<'_>); 2] {
+    /// How a picture sees the stone.
+    pub fn aspect(&self, shows: Shows) -> &Aspect {
+        self.own.iter().find(|(own, _)| *own == shows).map_or(&self.linked, |(_, aspect)| aspect)
+    }
+
+    /// What is written of the stone as it is turned in the linked views, as it is turned in each view of its own, and as the
+    /// cut has it: drawings and figures know of no turn.
+    fn parts(&self) -> Vec<(Outputs, Viewing<'_>)> {
         let is_drawing = |shows: &Shows| !shows.is_seen();
+        let is_own = |shows: &Shows| self.own.iter().any(|(own, _)| own == shows);
         let json = self.selection.formats.contains(&Format::Json);
         let formats = |json: bool| {
             let pixels = self.selection.formats.iter().copied().filter(|f| *f != Format::Json);
             pixels.chain(json.then_some(Format::Json)).collect()
         };
-        let seen = self.outputs(|s| !is_drawing(s), formats(false));
+        let seen = self.outputs(|s| !is_drawing(s) && !is_own(s), formats(false));
+        let linked = Viewpoint::from(self.linked.view);
+        let mut parts = vec![(seen, self.viewing(&self.linked.turned, linked))];
+        for (shows, aspect) in self.own.iter().filter(|(shows, _)| shows.is_seen()) {
+            let alone = self.outputs(|s| s == shows, formats(false));
+            if !alone.pictures.is_empty() {
+                parts.push((alone, self.viewing(&aspect.turned, Viewpoint::from(aspect.view))));
+            }
+        }
+        let azimuth_deg = (linked.azimuth_deg - self.linked.turn.to_degrees()).rem_euclid(360.0);
+        let azimuth_deg = if linked.tilt_deg == 0.0 { 0.0 } else { azimuth_deg };
         let upright = self.outputs(is_drawing, formats(json));
-        let turned = Viewpoint::from(self.shot.view);
-        let azimuth_deg = (turned.azimuth_deg - self.turn.to_degrees()).rem_euclid(360.0);
-        let azimuth_deg = if turned.tilt_deg == 0.0 { 0.0 } else { azimuth_deg };
-        let own = Viewpoint { azimuth_deg, ..turned };
-        [(seen, self.viewing(&self.turned, turned)), (upright, self.viewing(&self.upright, own))]
+        parts.push((upright, self.viewing(&self.upright, Viewpoint { azimuth_deg, ..linked })));
+        parts
     }
 
     fn outputs(&self, is_part: impl Fn(&Shows) -> bool, formats: Vec<Format>) -> Outputs {
@@ -192,14 +225,15 @@ impl Plan {
 
     /// The picture of a view at a size, as large in it as it is fitted to the window's views.
     fn shot(&self, shows: Shows, size: u32) -> Shot {
-        let view = crate::scene::View { side: shows.side().unwrap_or(self.shot.view.side), ..self.shot.view };
+        let seen = self.aspect(shows).view;
+        let view = View { side: shows.side().unwrap_or(seen.side), ..seen };
         let shot = Shot { shows, view, ..self.shot.clone() };
         let size = [size; 2];
         if shows.has_company() && self.shot.company.as_slice() != [Pose::STILL] {
             let fit = Fit::reaching(self.reach);
             return Shot { film: fit.film(size), whole: fit.whole(size), ..shot };
         }
-        let specimen = Arc::clone(if shows.is_seen() { &self.turned } else { &self.upright });
+        let specimen = Arc::clone(if shows.is_seen() { &self.aspect(shows).turned } else { &self.upright });
         let fit = Framing::new(&specimen).fit(0.0, &shot.view);
         let (film, whole) = (fit.film(size), fit.whole(size));
         Shot { film, whole, specimen, company: vec![Pose::STILL], ..shot }
@@ -250,7 +284,7 @@ impl Plan {
             [self.selection.bands, self.selection.places],
             watch,
         )?;
-        let title = self.shot.specimen.design.name.as_str();
+        let title = self.shot.title.as_str();
         let told = format!(
             "{title}; refraction map, bands {}, places {}; light {}; {:.1} % of the light comes from the background, {:.1} % of that from the \
              map's places",
@@ -286,7 +320,7 @@ impl Plan {
         let [width, height] = taken.image.size.map(|n| n as u32);
         let told = format!(
             "{}: render; light {}; {}{}",
-            self.shot.specimen.design.name,
+            self.shot.title,
             self.shot.light.light.name,
             self.mixture() + taken.tracer,
             taken.unresolved.map_or(String::new(), |u| format!(", unresolved {u:.2e}"))
@@ -304,7 +338,10 @@ impl Progress {
     fn hear(&self, told: &Told) {
         let text = match told {
             Told::Begun(_) => return,
-            Told::Written(path) => format!("wrote {}", path.display()),
+            Told::Written(path) => {
+                self.written.fetch_add(1, Ordering::Relaxed);
+                format!("wrote {}", path.display())
+            }
             Told::Note(text) | Told::Warning(text) => (*text).to_owned(),
         };
         self.told.lock().unwrap_or_else(PoisonError::into_inner).push(text);
@@ -316,6 +353,8 @@ impl Job {
     pub fn begin(plan: Plan, wake: impl Fn() + Send + 'static) -> Self {
         let progress = Arc::new(Progress::default());
         let seen = Arc::clone(&progress);
+        // Where they cannot be known, writing tells why.
+        let files = plan.files().unwrap_or_default();
         std::thread::spawn(move || {
             let write = || plan.write(&seen).map_err(|e| e.to_string());
             let end = std::panic::catch_unwind(std::panic::AssertUnwindSafe(write))
@@ -323,27 +362,77 @@ impl Job {
             *seen.end.lock().unwrap_or_else(PoisonError::into_inner) = Some(end);
             wake();
         });
-        Self(progress)
+        Self { progress, files, begun: Instant::now() }
     }
 
-    /// The part done, 0 to 1.
+    /// The part done, 0 to 1. Of work that was stopped it is as far as that came.
     pub fn done(&self) -> f32 {
-        self.0.done.load(Ordering::Relaxed) as f32 / 1000.0
+        if self.end() == Some(Ok(())) {
+            return 1.0;
+        }
+        self.progress.done.load(Ordering::Relaxed) as f32 / 1000.0
+    }
+
+    /// Which file is being written, and about how long all takes from now on; how far it came, once it has ended.
+    pub fn standing(&self) -> String {
+        let (written, all) = (self.written(), self.files.len());
+        match (self.end(), self.files.get(written)) {
+            (Some(Ok(())), _) => format!("{written} of {all} files written"),
+            (Some(Err(_)), _) => {
+                let how = if self.is_stopped() { "Stopped" } else { "Ended" };
+                format!("{how} at {:.0} %, {written} of {all} files written", 100.0 * self.done())
+            }
+            (None, _) if self.is_stopped() => "stopping…".to_owned(),
+            (None, file) => {
+                let name =
+                    file.and_then(|f| f.file_name()).unwrap_or_default().to_string_lossy().into_owned();
+                let left = left(self.begun.elapsed(), f64::from(self.done()));
+                let left = left.map_or(String::new(), |left| format!(", about {} left", spoken(left)));
+                format!("{name}, file {} of {all}{left}", (written + 1).min(all))
+            }
+        }
+    }
+
+    /// How many files are written.
+    pub fn written(&self) -> usize {
+        self.progress.written.load(Ordering::Relaxed)
     }
 
     /// Asks it to stop: the file that is being written is left out.
     pub fn stop(&self) {
-        self.0.stop.store(true, Ordering::Relaxed);
+        self.progress.stop.store(true, Ordering::Relaxed);
+    }
+
+    /// Whether it was asked to stop.
+    pub fn is_stopped(&self) -> bool {
+        self.progress.stop.load(Ordering::Relaxed)
     }
 
     /// What was said so far.
     pub fn told(&self) -> Vec<String> {
-        self.0.told.lock().unwrap_or_else(PoisonError::into_inner).clone()
+        self.progress.told.lock().unwrap_or_else(PoisonError::into_inner).clone()
     }
 
     /// How it ended, once it has.
     pub fn end(&self) -> Option<Result<(), String>> {
-        self.0.end.lock().unwrap_or_else(PoisonError::into_inner).clone()
+        self.progress.end.lock().unwrap_or_else(PoisonError::into_inner).clone()
+    }
+}
+
+/// What must have passed, and the part that must be done, before anything is said of the time left.
+const FIRST_SECOND: Duration = Duration::from_secs(1);
+const FIRST_PART: f64 = 0.02;
+
+/// How long work takes from now on, if it goes on as it did until its part `done`, 0 to 1.
+fn left(passed: Duration, done: f64) -> Option<Duration> {
+    (passed >= FIRST_SECOND && done >= FIRST_PART).then(|| passed.mul_f64((1.0 - done).max(0.0) / done))
+}
+
+/// A time in words: minutes from two on.
+fn spoken(time: Duration) -> String {
+    match time.as_secs() {
+        seconds @ 0..120 => format!("{} s", seconds + 1),
+        seconds => format!("{} min", seconds.div_ceil(60)),
     }
 }
 
@@ -388,4 +477,18 @@ fn send(plan: &Plan, shows: Shows, camera: &mut Camera, sender: &Sender<(Shows, 
         },
     );
     is_wanted
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_time_left_is_told_once_enough_is_done() {
+        let seconds = Duration::from_secs;
+        assert_eq!(left(seconds(30), 0.01), None);
+        assert_eq!(left(Duration::from_millis(300), 0.5), None);
+        assert_eq!(left(seconds(30), 0.25), Some(seconds(90)));
+        assert_eq!([seconds(0), seconds(90), seconds(150)].map(spoken), ["1 s", "91 s", "3 min"]);
+    }
 }

@@ -1,6 +1,7 @@
 //! What renders show, as a scene file.
 
 use super::export_job::Plan;
+use super::shows::Shows;
 use super::studio::hung;
 use crate::io::background::BackgroundRef;
 use crate::io::scene_file::{self, DEFAULT_GAP_MM, Entry, SceneFile};
@@ -29,9 +30,10 @@ impl SceneOut {
         let shot = &plan.shot;
         let paths = Self::paths(plan);
         let cut = format!("{}-cut.toml", plan.stem);
-        let is_turned = shot.company == [Pose::STILL] && Arc::ptr_eq(&shot.specimen, &plan.turned);
+        let render = plan.aspect(Shows::Render);
+        let is_turned = shot.company == [Pose::STILL] && Arc::ptr_eq(&shot.specimen, &render.turned);
         // A stone alone has been turned itself.
-        let turned = [Pose { turn: DQuat::from_rotation_z(plan.turn), ..Pose::STILL }];
+        let turned = [Pose { turn: DQuat::from_rotation_z(render.turn), ..Pose::STILL }];
         let (design, poses) = match is_turned {
             true => (&plan.upright.design, &turned[..]),
             false => (&shot.specimen.design, &shot.company[..]),

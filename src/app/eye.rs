@@ -31,8 +31,6 @@ pub struct Eye {
     pub zoom: f64,
     /// How far the point in the pane's middle lies from the middle of what the view is fitted to, girdle radii.
     pub centre: DVec2,
-    /// Distance of the eye, girdle radii; none for parallel rays.
-    pub distance: Option<f64>,
     /// The lean to which [`free`](Self::free) goes back.
     pub before: DVec2,
 }
@@ -46,14 +44,13 @@ impl Default for Eye {
             turn: 0.0,
             zoom: 1.0,
             centre: DVec2::ZERO,
-            distance: None,
             before: THREE_QUARTER,
         }
     }
 }
 
 impl Eye {
-    /// The view of the stone; `side` is one that the picture is made for.
+    /// The view of the stone along parallel rays; `side` is one that the picture is made for.
     pub fn view(&self, side: Option<Side>) -> View {
         let own = if self.from_below { Side::Culet } else { Side::Table };
         View {
@@ -61,9 +58,7 @@ impl Eye {
             lean: if self.eye_leans { Lean::Eye } else { Lean::Stone },
             tilt: self.tilt(),
             azimuth: if self.lean == DVec2::ZERO { 0.0 } else { self.lean.to_angle().rem_euclid(TAU) },
-            projection: self
-                .distance
-                .map_or(Projection::Orthographic, |distance| Projection::Perspective { distance }),
+            projection: Projection::Orthographic,
         }
     }
 

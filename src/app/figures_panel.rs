@@ -3,6 +3,7 @@
 use super::desk::Side;
 use super::editor::{Editor, Measured};
 use super::figures_text::{self, About};
+use super::rows::explain;
 use super::studio::{Grade, Tilts, Which};
 use super::{pane_rows, side_panels, theme};
 use crate::measure::Figures;
@@ -62,7 +63,11 @@ fn other(editor: &Editor) -> Option<&Measured> {
 /// How far figures have come, and their error where they are sampled.
 fn state(editor: &Editor, measured: &Measured) -> String {
     let is_asked = editor.asked.figures.iter().any(|(_, ask)| *ask == measured.ask);
-    let state = if is_asked && measured.grade == Grade::Fine { "final" } else { "becoming finer…" };
+    let state = match is_asked && measured.grade == Grade::Fine {
+        true if editor.document.shows_last_possible() => "those of the last possible stone",
+        true => "final",
+        false => "becoming finer…",
+    };
     let glare = editor.desk.glare().told();
     match measured.figures.standard_error {
         error if error > 0.0 => format!("{state}; by rays, standard error {:.2} %; {glare}", 100.0 * error),
@@ -169,10 +174,35 @@ pub(super) struct Line {
     /// Its part of the stone's outline, and that of the design compared with.
     pub share: f64,
     pub other: Option<f64>,
+    /// How far apart both may be in one and the same stone; 0 once both are final.
+    pub error: f64,
     /// The zone whose colour it has, if any.
     pub band: Option<&'static str>,
     /// Whether it stands out among the others.
     pub is_strong: bool,
+}
+
+impl Line {
+    /// By how much the present design has more than the one compared with; `None` while that may be no more than what both
+    /// are still uncertain by.
+    pub fn difference(&self) -> Option<f64> {
+        let difference = self.share - self.other?;
+        (self.error == 0.0 || difference.abs() > self.error).then_some(difference)
+    }
+}
+
+/// Standard errors within which figures by rays all but always are.
+const SIGMAS: f64 = 4.0;
+
+/// How far apart two figures of the same stone may be, one or both of which are becoming finer: each may be too low by what is
+/// unresolved. Those that are final are compared as they are.
+fn error(present: &Measured, other: &Measured, by_area: bool) -> f64 {
+    if [present, other].iter().all(|measured| measured.grade == Grade::Fine) {
+        return 0.0;
+    }
+    let unresolved = |m: &Measured| Zones::of(&m.figures, m.ask.head, (by_area, Glare::Included)).unresolved;
+    let sampled = SIGMAS * (present.figures.standard_error + other.figures.standard_error);
+    unresolved(present).max(unresolved(other)) + sampled
 }
 
 /// Figures of what is no zone: what each is called and means, and whether it stands out.
@@ -208,6 +238,7 @@ pub(super) fn lines(
     other: Option<&Measured>,
     (by_area, glare): (bool, Glare),
 ) -> Vec<Line> {
+    let error = other.map_or(0.0, |other| error(measured, other, by_area));
     let zones = |m: &Measured| Zones::of(&m.figures, m.ask.head, (by_area, glare));
     let (present, other) = (zones(measured), other.map(zones));
     let shown = ZONES.iter().filter(|(_, band, _)| *band != "head" || measured.ask.head > 0.0);
@@ -216,6 +247,7 @@ pub(super) fn lines(
         meaning,
         share: present.band(band),
         other: other.as_ref().map(|zones| zones.band(band)),
+        error,
         band: Some(band),
         is_strong: false,
     });
@@ -224,6 +256,7 @@ pub(super) fn lines(
         meaning,
         share: of(&present),
         other: other.as_ref().map(of),
+        error,
         band: None,
         is_strong,
     };
@@ -289,7 +322,6 @@ fn row(ui: &mut Ui, row: &Line) {
     let (rect, response) = ui.allocate_exact_size(vec2(width, height), Sense::hover());
     let told = format!("{} {percent:.2} %", row.name);
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Label, true, &told));
-    response.on_hover_text(row.meaning);
     let bar = Rect::from_min_max(
         pos2(rect.left() + 86.0, rect.top() + 5.0),
         pos2(rect.right() - 66.0, rect.bottom() - 5.0),
@@ -310,11 +342,15 @@ fn row(ui: &mut Ui, row: &Line) {
     text(&mut left, row.name.to_owned());
     let mut right =
         ui.new_child(egui::UiBuilder::new().max_rect(rect).layout(Layout::right_to_left(Align::Center)));
-    let number = match row.other {
-        None => format!("{percent:.2} %"),
-        Some(other) => format!("{percent:.1} ({:+.1})", percent - 100.0 * other),
+    let number = match (row.other, row.difference()) {
+        (None, _) => format!("{percent:.2} %"),
+        (Some(_), Some(difference)) => format!("{percent:.1} ({:+.1})", 100.0 * difference),
+        (Some(_), None) => format!("{percent:.1} (…)"),
     };
     text(&mut right, number);
+    // Over all of the row, the words too.
+    let over = ui.interact(rect, response.id.with("row"), Sense::hover());
+    explain(ui, over, row.meaning);
 }
 
 /// Marks at the multiples of ten in sight.
@@ -359,4 +395,47 @@ fn plot(ui: &mut Ui, (head, glare): (f64, Glare), tilts: &Tilts) {
 pub(super) fn energy(figures: &Figures, band: usize, glare: Glare) -> f64 {
     let of = |zones: &[f64]| zones.get(band).copied().unwrap_or(0.0);
     of(&figures.transmitted) + if glare == Glare::Included { of(&figures.surface) } else { 0.0 }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::app::document::Document;
+    use crate::app::studio::Ask;
+    use crate::measure::by_beams;
+    use crate::optics::line;
+    use crate::scene::View;
+    use crate::trace::{beam, unwatched};
+    use std::sync::Arc;
+
+    /// The first stone's figures, with so much left unresolved.
+    fn measured(unresolved: f64, grade: Grade) -> Measured {
+        let specimen = Arc::clone(Document::first().unwrap().specimen());
+        let options = beam::Options { unresolved, ..beam::Options::default() };
+        let (medium, view) = (specimen.medium(line::SODIUM_D), View::default());
+        let beams =
+            beam::trace(&specimen.stone().unwrap().polytope, medium, &view, &options, &unwatched).unwrap();
+        let figures = by_beams(&beams, &Scope::aset(ASET_CONE, Backing::Black));
+        Measured { ask: Ask { specimen, view, head: 0.0 }, grade, figures }
+    }
+
+    #[test]
+    fn two_grades_of_the_same_stone_are_never_different() {
+        let fine = measured(1.5e-4, Grade::Fine);
+        let mut apart: f64 = 0.0;
+        for unresolved in [2e-3, 2e-2, 8e-2] {
+            let rough = measured(unresolved, Grade::Rough);
+            for by_area in [false, true] {
+                let error = error(&rough, &fine, by_area);
+                let [a, b] = [&rough, &fine].map(|m| Zones::of(&m.figures, 0.0, (by_area, Glare::Included)));
+                for (_, band, _) in ZONES {
+                    let difference = (a.band(band) - b.band(band)).abs();
+                    assert!(difference <= error, "{band} at {unresolved}: {difference} is above {error}");
+                    apart = apart.max(difference);
+                }
+            }
+        }
+        assert!(apart > 5e-3, "the grades differ visibly: by {apart}");
+        assert_eq!(error(&fine, &fine, false), 0.0);
+    }
 }

@@ -25,12 +25,14 @@ pub fn text(about: &About, lines: &[Line]) -> String {
         // Writing to a string cannot fail.
         let _ = writeln!(text, "in brackets what is more than in {other}");
     }
-    for Line { name, share, other, .. } in lines {
-        let _ = match other {
-            None => writeln!(text, "{name:<14}{:>8.3} %", 100.0 * share),
-            Some(other) => {
-                writeln!(text, "{name:<14}{:>8.3} % ({:+.3})", 100.0 * share, 100.0 * (share - other))
+    for line in lines {
+        let (name, percent) = (line.name, 100.0 * line.share);
+        let _ = match (line.other, line.difference()) {
+            (None, _) => writeln!(text, "{name:<14}{percent:>8.3} %"),
+            (Some(_), Some(difference)) => {
+                writeln!(text, "{name:<14}{percent:>8.3} % ({:+.3})", 100.0 * difference)
             }
+            (Some(_), None) => writeln!(text, "{name:<14}{percent:>8.3} % (…)"),
         };
     }
     text
@@ -88,7 +90,7 @@ mod tests {
     use super::*;
 
     fn line(name: &'static str, share: f64, other: Option<f64>) -> Line {
-        Line { name, meaning: "", share, other, band: None, is_strong: false }
+        Line { name, meaning: "", share, other, error: 0.0, band: None, is_strong: false }
     }
 
     #[test]

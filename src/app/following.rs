@@ -4,7 +4,8 @@ use super::copies;
 use super::editor::Editor;
 use super::light_path::LightPath;
 use super::pane::zones;
-use egui::{Context, Pos2, Rect, RichText, Vec2, Window, pos2, vec2};
+use super::profile_view::ProfileView;
+use egui::{Context, Key, Modifiers, Popup, Pos2, Rect, RichText, Vec2, Window, pos2, vec2};
 use glam::DVec2;
 
 /// How long a click waits to become a double click, seconds.
@@ -25,6 +26,8 @@ pub struct Following {
     pub at: Option<(usize, DVec2)>,
     /// A click that may become a double click, and when it was.
     waiting: Option<(usize, DVec2, f64)>,
+    /// Whether Escape was for something else in the last frame.
+    waits: bool,
     /// The view that was clicked, on the screen.
     clicked: Option<Rect>,
     view: LightPath,
@@ -59,13 +62,22 @@ impl Following {
     }
 }
 
+/// Whether Escape ends something else before it closes the window: what is asked, in hand, typed or open before it.
+fn comes_first(editor: &Editor, ctx: &Context) -> bool {
+    let is_held = editor.profiles.iter().any(ProfileView::is_dragging);
+    editor.dialog.is_some() || is_held || ctx.text_edit_focused() || Popup::is_any_open(ctx)
+}
+
 /// Draws the window, if it is open.
 pub fn show(editor: &mut Editor, ctx: &Context) {
     editor.following.ripen(ctx);
+    // By now the key has ended what comes first: it counts what there was in the frame before.
+    let waits = comes_first(editor, ctx);
+    let is_free = !std::mem::replace(&mut editor.following.waits, waits);
     if !editor.following.is_open {
         return;
     }
-    let mut is_open = true;
+    let mut is_open = !(is_free && ctx.input_mut(|i| i.consume_key(Modifiers::NONE, Key::Escape)));
     let window =
         Window::new("Light path").open(&mut is_open).default_size(SIZE).default_pos(editor.following.place());
     window.min_size(vec2(400.0, 360.0)).show(ctx, |ui| {
@@ -81,7 +93,7 @@ pub fn show(editor: &mut Editor, ctx: &Context) {
             );
             return;
         }
-        let view = eye.view(shows.side());
+        let view = editor.desk.view(pane);
         let specimen = editor.posed(eye.turn);
         let path = editor.probe(&specimen).path(&view, at);
         match path {

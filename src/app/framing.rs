@@ -158,6 +158,7 @@ mod tests {
     use crate::app::eye::Eye;
     use crate::cut::{Cut, Design};
     use crate::math::Plane;
+    use crate::scene::Projection;
 
     /// A stone of planes: half a prism, which lies beside the origin.
     fn half_round(reach: f64) -> Arc<Specimen> {
@@ -187,8 +188,10 @@ mod tests {
         for (name, specimen) in [("half", half_round(1.0)), ("pill", pill), ("first", first)] {
             for size in [[400, 300], [300, 400]] {
                 for (lean, distance) in [(0.0, None), (0.7, None), (1.57, None), (0.4, Some(6.0))] {
-                    let eye = Eye { lean: DVec2::new(0.0, lean), distance, ..Eye::default() };
-                    let view = eye.view(None);
+                    let eye = Eye { lean: DVec2::new(0.0, lean), ..Eye::default() };
+                    let near = |distance| Projection::Perspective { distance };
+                    let projection = distance.map_or(Projection::Orthographic, near);
+                    let view = View { projection, ..eye.view(None) };
                     let fit = Framing::new(&specimen).fit(0.0, &view);
                     let [left, right, above, below] = air(&specimen, &eye.film(size, &fit), &view);
                     let off = (left - right).abs().max((above - below).abs());

@@ -15,6 +15,7 @@ pub struct Look {
     panes: [Pane; 4],
     large: Option<usize>,
     eye: Eye,
+    distance: f64,
     strongest: bool,
     glare: bool,
     overlay: Option<String>,
@@ -23,14 +24,15 @@ pub struct Look {
 
 impl Look {
     fn of(desk: &Desk) -> Self {
-        let Desk { layout, panes, large, eye, strongest, glare, is_split, .. } = *desk;
-        Self { layout, panes, large, eye, strongest, glare, overlay: desk.overlay.clone(), is_split }
+        let Desk { layout, panes, large, eye, distance, strongest, glare, is_split, .. } = *desk;
+        let overlay = desk.overlay.clone();
+        Self { layout, panes, large, eye, distance, strongest, glare, overlay, is_split }
     }
 
     fn lay(self, desk: &mut Desk) {
-        let Self { layout, panes, large, eye, strongest, glare, overlay, is_split } = self;
+        let Self { layout, panes, large, eye, distance, strongest, glare, overlay, is_split } = self;
         (desk.layout, desk.panes, desk.large, desk.eye) = (layout, panes, large, eye);
-        (desk.strongest, desk.glare) = (strongest, glare);
+        (desk.distance, desk.strongest, desk.glare) = (distance, strongest, glare);
         (desk.overlay, desk.is_split) = (overlay, is_split);
     }
 }

@@ -10,18 +10,25 @@ use super::opening::Opening;
 use super::preset::{Known, PRESETS};
 use super::studio::Which;
 use crate::io::{cut_file, library};
-use egui::{Align, Button, Context, Event, Key, Panel, RichText, ThemePreference, Ui};
+use egui::{
+    Align, Button, Context, Event, Key, Modifiers, Panel, PanelState, Popup, RichText, ThemePreference, Ui,
+    ViewportCommand,
+};
 use std::path::PathBuf;
-
-/// Distance of the eye that perspective begins with, girdle radii: a stone of 6.5 mm at 10 cm.
-const DISTANCE: f64 = 30.0;
 
 /// The bar on top.
 pub fn bar(editor: &mut Editor, ui: &mut Ui) {
     Panel::top("menus").show(ui, |ui| {
         egui::MenuBar::new().ui(ui, |ui| {
             for menu in &MENUS {
-                ui.menu_button(menu.title, |ui| within_window(ui, |ui| entries(editor, ui, menu)));
+                let shown =
+                    ui.menu_button(menu.title, |ui| within_window(ui, |ui| entries(editor, ui, menu)));
+                let is_asked = |key| ui.input_mut(|i| i.consume_key(Modifiers::ALT, key));
+                if editor.dialog.is_none() && menu.key().is_some_and(is_asked) {
+                    // The arrow keys go on from there.
+                    shown.response.request_focus();
+                    Popup::toggle_id(ui.ctx(), Popup::default_response_id(&shown.response));
+                }
             }
             ui.separator();
             ui.with_layout(egui::Layout::right_to_left(Align::Center), |ui| {
@@ -195,9 +202,8 @@ pub fn keys(editor: &mut Editor, ctx: &Context) {
     };
     // One by one, in the order in which they came: several may come within one frame.
     for (key, modifiers) in ctx.input(|i| i.events.iter().filter_map(pressed).collect::<Vec<_>>()) {
-        let is_meant = |c: &Command| {
-            c.shortcut().is_some_and(|s| s.logical_key == key && modifiers.matches_exact(s.modifiers))
-        };
+        let is_meant =
+            |c: &Command| c.shortcuts().any(|s| s.logical_key == key && modifiers.matches_exact(s.modifiers));
         let Some(command) = Command::all().find(is_meant) else { continue };
         if !modifiers.command && ctx.text_edit_focused() {
             continue;
@@ -247,8 +253,9 @@ pub fn does(editor: &mut Editor, command: Command, ctx: &Context) {
             look(editor, command)
         }
         Command::Perspective => {
-            let eye = eye(editor);
-            eye.distance = if eye.distance.is_some() { None } else { Some(DISTANCE) };
+            let pane = editor.active();
+            let pane = &mut editor.desk.panes[pane];
+            pane.is_near = pane.shows.is_seen() && !pane.is_near;
         }
         Command::EyeLeans => {
             let eye = eye(editor);
@@ -274,6 +281,19 @@ pub fn does(editor: &mut Editor, command: Command, ctx: &Context) {
         Command::Play => editor.moving.is_on = !editor.moving.is_on,
         Command::NextBehind => desk.next_behind(),
         Command::Panels => desk.hides_panels = !desk.hides_panels,
+        Command::FullScreen => {
+            let is_full = ctx.input(|i| i.viewport().fullscreen == Some(true));
+            ctx.send_viewport_cmd(ViewportCommand::Fullscreen(!is_full));
+        }
+        Command::ResetView => {
+            desk.reset_view();
+            editor.framing.renew(editor.document.specimen());
+        }
+        Command::ResetLayout => {
+            desk.reset_layout();
+            // Panels are as wide as a hand has made them until that is forgotten.
+            ctx.data_mut(|data| data.remove_by_type::<PanelState>());
+        }
         Command::LayOut => editor.lay_out(editor.document.work.company.poses.len()),
         Command::LightPath => editor.following.is_open = !editor.following.is_open,
         Command::Keys => editor.dialog = Some(Dialog::Keys),

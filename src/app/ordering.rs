@@ -5,7 +5,7 @@ use super::framing::Fit;
 use super::shows::Shows;
 use super::studio::{Ask, BEHIND, Order, Paper, Shot, Smoothing, Which};
 use crate::io::lighting::Lighting;
-use crate::scene::{Company, Pose, Projection, Side, Specimen, View};
+use crate::scene::{Company, Pose, Side, Specimen, View};
 use std::sync::Arc;
 
 impl Editor {
@@ -28,8 +28,7 @@ impl Editor {
                 }
             }
             let eye = self.desk.eye;
-            let mut view = eye.view(Some(Side::Table));
-            view.projection = Projection::Orthographic;
+            let view = eye.view(Some(Side::Table));
             if let Some(specimen) = self.specimen(which, eye.turn) {
                 let ask = Ask { specimen, view, head: self.document.work.head };
                 if which == Which::Present {
@@ -67,7 +66,7 @@ impl Editor {
             return None;
         }
         let eye = *self.desk.eye(pane);
-        let view = eye.view(shows.side());
+        let view = self.desk.view(pane);
         let fit = self.fit(shows, (eye.turn, &view));
         // A diagram has its own index, from which the stone's turn would only take away.
         let turn = if shows == Shows::Diagram { 0.0 } else { eye.turn };
@@ -84,6 +83,7 @@ impl Editor {
             film: eye.film(size, &fit),
             whole: fit.whole(size),
             view,
+            title: self.document.work.design.name.clone(),
             shows,
             strongest: self.desk.strongest,
             glare: self.desk.glare(),
@@ -149,15 +149,15 @@ impl Editor {
         self.desk.behind_mm.map_or(BEHIND, |mm| mm / self.document.specimen().unit_mm())
     }
 
-    /// What the linked views look at, whatever they show.
-    pub(super) fn linked_shot(&mut self) -> Shot {
-        let (light, eye) = (self.light(), self.desk.eye);
+    /// What a render shows that is seen so, at a turn.
+    pub(super) fn render_shot(&mut self, view: View, turn: f64) -> Shot {
+        let light = self.light();
         let (specimen, company) =
-            self.company(Which::Present, eye.turn).unwrap_or((self.posed(eye.turn), vec![Pose::STILL]));
-        let view = eye.view(None);
-        let fit = self.fit(Shows::Render, (eye.turn, &view));
+            self.company(Which::Present, turn).unwrap_or((self.posed(turn), vec![Pose::STILL]));
+        let fit = self.fit(Shows::Render, (turn, &view));
         Shot {
             specimen,
+            title: self.document.work.design.name.clone(),
             shows: Shows::Render,
             strongest: self.desk.strongest,
             glare: self.desk.glare(),

@@ -6,7 +6,7 @@ use super::eye::Eye;
 use super::probe::Found;
 use super::shows::Shows;
 use super::studio::{Grade, Shot, Which};
-use super::{liquid, menus, refraction_view, theme, view_menu};
+use super::{liquid, menus, modes, refraction_view, theme, view_menu};
 use crate::cut::Cut;
 use crate::math::SolidRef;
 use crate::scene::{ASET_CONE, Backing, Film, Glare, Scope, Side, Specimen, View};
@@ -20,6 +20,13 @@ use std::sync::Arc;
 
 /// Height of the row over a picture, points.
 const HEAD: f32 = 28.0;
+
+/// Widths of the choice of what a view shows, where the view is narrow and where it is not, points.
+const LEAST_CHOICE: f32 = 64.0;
+const CHOICE: f32 = 120.0;
+
+/// Room for the button at the end of that row, points.
+const ENLARGE: f32 = 76.0;
 
 /// A step of the arrow keys, radians, and with Shift.
 const STEP: (f64, f64) = (0.017_453_292_519_943_295, 0.087_266_462_599_716_48);
@@ -51,14 +58,16 @@ pub fn show(editor: &mut Editor, ui: &mut Ui, pane: usize, rect: Rect) -> [u32; 
 fn header(editor: &mut Editor, ui: &mut Ui, pane: usize) {
     let shows = editor.desk.panes[pane].shows;
     let title = format!("View {}", pane + 1);
-    let combo =
-        ComboBox::from_id_salt(("shows", pane)).selected_text(shows.name()).width(120.0).height(420.0);
+    let width = (ui.available_width() - ENLARGE).clamp(LEAST_CHOICE, CHOICE);
+    let combo = ComboBox::from_id_salt(("shows", pane)).selected_text(shows.name()).width(width);
+    let combo = combo.height(420.0).truncate();
+    let mut chosen = shows;
     let shown = combo.show_ui(ui, |ui| {
         for other in Shows::ALL {
-            ui.selectable_value(&mut editor.desk.panes[pane].shows, other, other.name())
-                .on_hover_text(other.meaning());
+            ui.selectable_value(&mut chosen, other, other.name()).on_hover_text(other.meaning());
         }
     });
+    editor.desk.show(pane, chosen);
     shown
         .response
         .on_hover_text(shows.meaning())
@@ -67,6 +76,10 @@ fn header(editor: &mut Editor, ui: &mut Ui, pane: usize) {
         let other = menus::is_other_shown(ui.ctx());
         ui.label(RichText::new(if other { compared.name.as_str() } else { "present" }).weak());
     }
+    if editor.document.shows_last_possible() && !shows.is_pane() {
+        last_possible(editor, ui);
+    }
+    modes::show(editor, ui, pane, ui.available_width() - ENLARGE);
     ui.with_layout(egui::Layout::right_to_left(Align::Center), |ui| {
         let large = editor.desk.large == Some(pane);
         let name = if large { "All views" } else { "Enlarge" };
@@ -81,15 +94,17 @@ fn header(editor: &mut Editor, ui: &mut Ui, pane: usize) {
         if shows == Shows::Refraction {
             refraction_view::choices(&mut editor.flowing[pane], ui);
         }
-        if shows.is_seen() && has_room(ui, 80.0) {
-            let mut linked = editor.desk.panes[pane].own.is_none();
+        let is_linked = editor.desk.panes[pane].own.is_none();
+        // A view that is not linked says so among its modes.
+        if shows.is_seen() && is_linked && has_room(ui, 80.0) {
+            let mut linked = true;
             if ui
                 .checkbox(&mut linked, "Linked")
                 .on_hover_text("Tilts and zooms together with all other linked views.")
                 .changed()
             {
                 let eye = editor.desk.eye;
-                editor.desk.panes[pane].own = (!linked).then_some(eye);
+                editor.desk.panes[pane].own = Some(eye);
             }
         }
         if (shows.is_seen() || shows == Shows::TracedPane) && has_room(ui, 64.0) {
@@ -107,12 +122,6 @@ pub fn has_room(ui: &Ui, points: f32) -> bool {
 fn state(editor: &Editor, ui: &mut Ui, pane: usize) {
     let Some(shown) = editor.shown((pane, Which::Present)) else { return };
     let Shown { grade, taken, shot, .. } = shown;
-    if shows_mixture(shot) {
-        let meaning = "Strength below 1: a mixture of the refracted and the straight ray, for its looks, and no physics.";
-        let colour = theme::caution(ui.visuals());
-        ui.label(RichText::new(format!("strength {:.3}", shot.strength)).color(colour).small())
-            .on_hover_text(meaning);
-    }
     let (text, meaning) = match (grade, taken.unresolved) {
         (Grade::Fine, Some(part)) => {
             let percent = 100.0 * part;
@@ -129,24 +138,20 @@ fn state(editor: &Editor, ui: &mut Ui, pane: usize) {
     ui.label(RichText::new(text).weak().small()).on_hover_text(format!("By {}. {meaning}", taken.tracer));
 }
 
-/// What a picture in a scope shows of the light, in two words and in a sentence.
+/// What a picture in a scope shows of the light where no mode says so, in two words and in a sentence.
 fn reading(shot: &Shot) -> Option<(&'static str, &'static str)> {
     shot.shows.scoped()?;
-    Some(match (shot.strongest, shot.glare) {
-        (true, _) => ("strongest exits", "The zone of the strongest light at each point alone."),
-        (false, Glare::LeftOut) => (
-            "without glare",
-            "All light that has been inside the stone; what the outer surface reflects is left out.",
-        ),
-        (false, Glare::Included) => {
-            ("with glare", "All light, with what the outer surface reflects, as a camera records it.")
-        }
-    })
+    (!shot.strongest && shot.glare == Glare::LeftOut).then_some((
+        "without glare",
+        "All light that has been inside the stone; what the outer surface reflects is left out.",
+    ))
 }
 
-/// Whether a picture is no physics.
-fn shows_mixture(shot: &Shot) -> bool {
-    shot.shows == Shows::Render && shot.strength < 1.0
+/// Says that the design makes no stone, and that the view shows the last one that did.
+fn last_possible(editor: &Editor, ui: &mut Ui) {
+    let why = editor.document.fault().map(ToString::to_string).unwrap_or_default();
+    let text = RichText::new("last possible stone").color(theme::bad(ui.visuals())).small();
+    ui.label(text).on_hover_text(format!("The design makes no stone, so this is the one before. {why}"));
 }
 
 pub fn enlarge(editor: &mut Editor, pane: usize) {
@@ -254,7 +259,7 @@ fn scene(editor: &mut Editor, ui: &mut Ui, (pane, shows): (usize, Shows), body: 
     let name = format!("{} picture", shows.name());
     response.widget_info(|| WidgetInfo::labeled(Role::Image, true, &name));
     let eye = *editor.desk.eye(pane);
-    let view = eye.view(shows.side());
+    let view = editor.desk.view(pane);
     let scale = ui.pixels_per_point();
     let fit = editor.fit(shows, (eye.turn, &view));
     let sight = Sight { view, film: eye.film(size, &fit), middle: fit.middle, side: view.side, body, scale };
@@ -300,7 +305,11 @@ fn clicked(
     } else if response.clicked() && is_alone {
         // By a key it is the middle that is meant.
         let at = response.interact_pointer_pos().unwrap_or(sight.body.center());
-        editor.following.click(pane, sight.film.image_from_pixels(sight.pixel(at)), sight.body, ui.ctx());
+        let at = sight.film.image_from_pixels(sight.pixel(at));
+        let specimen = editor.posed(editor.desk.eye(pane).turn);
+        if editor.probe(&specimen).is_on(&sight.view, at) {
+            editor.following.click(pane, at, sight.body, ui.ctx());
+        }
     }
     let followed = editor.following.at.filter(|(other, _)| editor.following.is_open && *other == pane);
     if let Some((_, at)) = followed {

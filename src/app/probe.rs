@@ -68,6 +68,12 @@ impl Probe {
         self.tracer.path(origin, direction)
     }
 
+    /// Whether a point of the image lies on the stone.
+    pub fn is_on(&self, view: &View, at: DVec2) -> bool {
+        let (origin, direction) = self.ray(view, at);
+        self.tracer.meet(origin, direction).is_some()
+    }
+
     /// What lies at a point of a film, in its pixels; none beside the stone.
     pub fn at(&self, view: &View, film: &Film, at: DVec2, scope: &Scope) -> Option<Found> {
         let (origin, direction) = self.ray(view, film.image_from_pixels(at));

@@ -193,7 +193,7 @@ fn slope(rise: f64, run: f64) -> f64 {
 
 /// Infinite where it is no slope: tangents come round again.
 fn rise(degrees: f64, run: f64) -> f64 {
-    if (0.0..90.0).contains(&degrees) { degrees.to_radians().tan() * run } else { f64::INFINITY }
+    if degrees.abs() < 90.0 { degrees.to_radians().tan() * run } else { f64::INFINITY }
 }
 
 /// Angle, degrees, and height, percent, of a crown.

@@ -4,7 +4,11 @@
 //! ([`control_width`]); the number, [`NUMBER`] wide; and room for a small button such as a padlock, which rows without one
 //! leave empty. Fields without a slider fill the columns of control and number ([`field_width`]).
 
-use egui::{DragValue, Label, Slider, SliderClamping, Ui, vec2};
+use egui::emath::format_with_decimals_in_range;
+use egui::{
+    Color32, DragValue, Label, Rect, RectAlign, Response, RichText, Slider, SliderClamping, TextStyle,
+    Tooltip, Ui, vec2,
+};
 use std::ops::RangeInclusive;
 
 /// Widths of the columns of names and numbers, points.
@@ -84,7 +88,8 @@ impl<'a> Row<'a> {
             ui.spacing_mut().slider_width = control_width(ui);
             let slider = Slider::new(value, range).show_value(false).clamping(SliderClamping::Edits);
             let slider = slider.step_by(step).logarithmic(logarithmic).smart_aim(false);
-            ui.add(slider).labelled_by(label.id).on_hover_text(meaning);
+            let slider = ui.add(slider).labelled_by(label.id);
+            explain(ui, slider, meaning);
             Number { decimals, speed, range: limits, unit }.show(ui, (NUMBER, label.id), value);
         });
     }
@@ -111,16 +116,21 @@ impl Number<'_> {
         let field = DragValue::new(value).range(range).clamp_existing_to_range(false).speed(speed);
         let field = field.suffix(unit).update_while_editing(false);
         let field = field.min_decimals(decimals.min(1)).max_decimals(decimals);
-        let field = field.custom_formatter(|number, places| match number.is_nan() {
-            true => UNKNOWN.to_owned(),
-            false => egui::emath::format_with_decimals_in_range(number, places),
-        });
+        let room = width - 2.0 * ui.spacing().button_padding.x;
+        let (painter, font) = (ui.painter().clone(), TextStyle::Button.resolve(ui.style()));
+        let fits = |text: &str| {
+            let text = painter.layout_no_wrap(format!("{text}{unit}"), font.clone(), Color32::WHITE);
+            text.size().x <= room
+        };
+        let field = field.custom_formatter(|number, places| written(number, places, &fits));
+        let shown = written(before, decimals.min(1)..=decimals, &fits);
         // Half the world writes a comma.
         let field = field.custom_parser(|text| {
             text.trim().trim_end_matches(unit.trim()).trim().replace(',', ".").parse().ok()
         });
         let response = ui.add_sized(vec2(width, ui.spacing().interact_size.y), field).labelled_by(label);
-        if format!("{before:.decimals$}").parse() == Ok(*value) {
+        let is_as_shown = |text: String| text.parse() == Ok(*value);
+        if is_as_shown(format!("{before:.decimals$}")) || is_as_shown(shown) {
             *value = before;
         }
         response
@@ -139,12 +149,41 @@ pub fn number_row(ui: &mut Ui, (name, meaning): (&str, &str), number: Number, va
     });
 }
 
+/// A number as its field shows it, with fewer decimals where they do not fit: no number, however large, makes its row wider.
+fn written(number: f64, places: RangeInclusive<usize>, fits: &dyn Fn(&str) -> bool) -> String {
+    if !number.is_finite() {
+        return UNKNOWN.to_owned();
+    }
+    let most = *places.end();
+    let usual = format_with_decimals_in_range(number, places);
+    let shorter = (0..most).rev().map(|places| format!("{number:.places$}"));
+    std::iter::once(usual).chain(shorter).find(|text| fits(text)).unwrap_or_else(|| format!("{number:.0e}"))
+}
+
+/// Explains a part of a row while the pointer rests on it: beside its panel, so that no row is covered, and not while
+/// something is typed.
+pub fn explain(ui: &Ui, response: Response, meaning: &str) -> Response {
+    if ui.ctx().text_edit_focused() {
+        return response;
+    }
+    let panel = ui.clip_rect();
+    let row = Rect::from_x_y_ranges(panel.x_range(), response.rect.y_range());
+    let is_left = panel.center().x < ui.ctx().content_rect().center().x;
+    let sides = [RectAlign::RIGHT_START, RectAlign::LEFT_START];
+    let (first, other) = if is_left { (sides[0], &sides[1..]) } else { (sides[1], &sides[..1]) };
+    let mut tooltip = Tooltip::for_enabled(&response);
+    tooltip.popup = tooltip.popup.anchor(row).align(first).align_alternatives(other);
+    tooltip.show(|ui| ui.add(Label::new(RichText::new(meaning)).wrap()));
+    response
+}
+
 /// What a row is called, with its meaning; as wide in all rows, and shortened where it is wider.
 pub fn named(ui: &mut Ui, name: &str, meaning: &str) -> egui::Response {
     let height = ui.spacing().interact_size.y;
     ui.allocate_ui_with_layout(vec2(NAME, height), egui::Layout::left_to_right(egui::Align::Center), |ui| {
         ui.set_min_width(NAME);
-        ui.add(Label::new(name).truncate()).on_hover_text(meaning)
+        let label = ui.add(Label::new(name).truncate());
+        explain(ui, label, meaning)
     })
     .inner
 }

@@ -2,7 +2,7 @@
 //!
 //! Distances are shown in mm: those of the design are in units of half its diameter, which is what files say.
 
-use super::rows::{ANY, NUMBER, Number, named, skip_control};
+use super::rows::{ANY, NUMBER, Number, explain, named, skip_control};
 use crate::cut::Cut;
 use egui::{Align, Layout, RichText, Ui, vec2};
 
@@ -55,7 +55,8 @@ fn head_of_column(ui: &mut Ui, head: &str, meaning: &str) -> egui::Id {
     let layout = Layout::left_to_right(Align::Center);
     let shown = ui.allocate_ui_with_layout(size, layout, |ui| {
         ui.set_min_width(NUMBER);
-        ui.label(RichText::new(head).weak()).on_hover_text(meaning).id
+        let label = ui.label(RichText::new(head).weak());
+        explain(ui, label, meaning).id
     });
     shown.inner
 }

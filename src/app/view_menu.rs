@@ -34,7 +34,7 @@ fn contents(editor: &mut Editor, ui: &mut Ui, pane: usize) {
         for other in Shows::ALL {
             let choice = ui.selectable_label(shows == other, other.name());
             if choice.on_hover_text(other.meaning()).clicked() {
-                editor.desk.panes[pane].shows = other;
+                editor.desk.show(pane, other);
                 ui.close();
             }
         }
@@ -61,13 +61,7 @@ fn contents(editor: &mut Editor, ui: &mut Ui, pane: usize) {
         ui.close();
     }
     ui.separator();
-    if shows.is_seen()
-        && ui.button("Reset view").on_hover_text("Face up, all of the stone, along parallel rays.").clicked()
-    {
-        editor.framing.renew(editor.document.specimen());
-        *editor.desk.eye_mut(pane) = super::eye::Eye::default();
-        ui.close();
-    }
+    entry(editor, ui, Command::ResetView);
     if editor.desk.layout.panes() > 1 {
         let name = if editor.desk.large == Some(pane) { "Show all views" } else { "Show alone" };
         if ui.button(name).clicked() {

@@ -30,6 +30,14 @@ impl ProportionError {
             Self::TooSmall(limit) | Self::TooLarge(limit) => limit.key,
         }
     }
+
+    /// The limit that is crossed; `None` for a number that is not finite.
+    pub fn limit(&self) -> Option<&Limit> {
+        match self {
+            Self::NotFinite { .. } => None,
+            Self::TooSmall(limit) | Self::TooLarge(limit) => Some(limit),
+        }
+    }
 }
 
 /// A limit, and the value that crosses it.

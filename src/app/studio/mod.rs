@@ -8,6 +8,7 @@ mod refracted;
 mod render;
 mod survey;
 mod take;
+mod undeveloped;
 mod worker;
 
 pub use order::{Answer, Ask, Grade, Order, Paper, Shot, Slot, Smoothing, Taken, Tilts, Which};
@@ -41,6 +42,8 @@ struct Desk {
     busy: AtomicBool,
     /// Whether more looks are taken at what is as good as it needs to be.
     sharpens: AtomicBool,
+    /// How many pictures, figures and figures against tilt were begun to be traced.
+    traced: AtomicU64,
     quit: AtomicBool,
 }
 
@@ -64,6 +67,7 @@ impl Studio {
             newest: AtomicU64::new(0),
             busy: AtomicBool::new(false),
             sharpens: AtomicBool::new(false),
+            traced: AtomicU64::new(0),
             quit: AtomicBool::new(false),
         });
         let gpu = gpu.filter(|gpu| !gpu.is_software());
@@ -110,6 +114,13 @@ impl Studio {
     /// Whether more looks are taken at what is asked for, though all of it is as good as it needs to be.
     pub fn sharpens(&self) -> bool {
         self.desk.sharpens.load(Ordering::SeqCst)
+    }
+
+    /// How many pictures, figures and figures against tilt were begun to be traced since the studio was opened: what has
+    /// not changed is not counted again.
+    #[cfg(test)]
+    pub fn traced(&self) -> u64 {
+        self.desk.traced.load(Ordering::SeqCst)
     }
 
     /// Whether everything asked for is as good as it needs to be.

@@ -127,24 +127,24 @@ mod tests {
     use crate::app::studio::order::{Paper, Smoothing, Which};
     use crate::app::studio::render::{setting, sitting};
     use crate::io::lighting::Lighting;
-    use crate::scene::Company;
-    use crate::scene::Glare;
+    use crate::scene::{Company, Glare, Projection};
     use crate::trace::surround::met_behind;
 
     const SLOT: Slot = (0, Which::Present);
 
     /// Copies of a cut at a time, seen by an eye.
-    fn shot(cut: &str, seconds: f64, eye: &Eye) -> Shot {
+    fn shot(cut: &str, seconds: f64, (eye, projection): &(Eye, Projection)) -> Shot {
         let design = Arc::clone(Document::of_library(cut).unwrap().specimen());
         let company = Company::scattered(3, design.solid().vertices(), 4);
         let mut moving = Moving::at(seconds);
         let (specimen, company) = moving.now(&design, &company, eye.turn);
         Shot {
             specimen,
+            title: String::new(),
             shows: Shows::Render,
             strongest: false,
             glare: Glare::LeftOut,
-            view: eye.view(None),
+            view: View { projection: *projection, ..eye.view(None) },
             film: eye.film([48, 40], &Fit::reaching(3.0)),
             whole: Fit::reaching(3.0).film([48, 40]),
             light: Arc::new(Lighting::load("dome").unwrap()),
@@ -163,8 +163,10 @@ mod tests {
         }
     }
 
-    fn eye(distance: Option<f64>, zoom: f64) -> Eye {
-        Eye { lean: DVec2::new(0.2, 0.1), centre: DVec2::new(0.1, 0.0), distance, zoom, ..Eye::default() }
+    fn eye(distance: Option<f64>, zoom: f64) -> (Eye, Projection) {
+        let eye = Eye { lean: DVec2::new(0.2, 0.1), centre: DVec2::new(0.1, 0.0), zoom, ..Eye::default() };
+        let near = |distance| Projection::Perspective { distance };
+        (eye, distance.map_or(Projection::Orthographic, near))
     }
 
     #[test]

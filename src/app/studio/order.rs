@@ -41,8 +41,10 @@ pub enum Smoothing {
 /// One picture.
 #[derive(Debug, Clone)]
 pub struct Shot {
-    /// The stone, turned as it is seen.
+    /// The stone, turned as it is seen. Its design may have an older name.
     pub specimen: Arc<Specimen>,
+    /// What the design is called, which drawings bear.
+    pub title: String,
     /// What is shown of it.
     pub shows: Shows,
     /// Whether a scope shows the strongest exit of each point alone.
@@ -116,6 +118,7 @@ impl PartialEq for Shot {
             && (seen || self.paper == other.paper)
             && (!seen || (self.view, self.film, self.head) == (other.view, other.film, other.head))
             && (!has_glare || self.glare == other.glare)
+            && (seen || self.title == other.title)
             && (!by_light || (Arc::ptr_eq(&self.light, &other.light) && self.manner() == other.manner()))
     }
 }

@@ -1,10 +1,11 @@
 //! Pictures of backgrounds behind glass: refraction maps, which are looked up elsewhere, and liquid glass traced.
 
-use super::order::{Shot, Taken};
+use super::order::{Shot, Slot, Taken};
 use super::pace::Effort;
 use super::render::Growing;
 use super::survey::{Detail, traced};
 use super::take::{Camera, RAYS_COARSER, Trouble, coarser};
+use super::undeveloped::{Light, map_taken};
 use super::worker::FINE_RENDER;
 use crate::app::lookup::{as_screens, backdrop};
 use crate::io::refraction_map::tiles::code_of;
@@ -14,7 +15,6 @@ use crate::picture::pane::{self, Around, PaneError, filling, surroundings};
 use crate::trace::Watch;
 use crate::trace::surround::Sky;
 use egui::ColorImage;
-use std::sync::Arc;
 
 /// What maps take that are looked up at once: one of several bands takes as many times as long to look up.
 const ROUGH: Detail = Detail { bands: 1, places: 1, shades: 3, looks: 1 };
@@ -34,24 +34,30 @@ impl From<PaneError> for Trouble {
     }
 }
 
-/// The map of a shot, and as its picture the codes of its places.
-pub(super) fn mapped(
-    shot: &Shot,
-    effort: &Effort,
-    growing: Option<&Growing>,
-    watch: Watch,
-) -> Result<Taken, Trouble> {
-    let (detail, factor) = match growing {
-        None => (ROUGH, effort.coarser * RAYS_COARSER),
-        Some(growing) if growing.looks == 1 => (FAIR, 1.0),
-        Some(_) => (FINE, 1.0),
-    };
-    let (map, _) = traced(shot, coarser(&shot.film, factor), &detail, watch)?;
-    Ok(Taken { image: codes(&map), unresolved: None, tracer: "point rays", map: Some(Arc::new(map)) })
+impl Camera {
+    /// The map of a shot, and as its picture the codes of its places.
+    pub(super) fn mapped(
+        &mut self,
+        (slot, shot): (Slot, &Shot),
+        effort: &Effort,
+        growing: Option<&Growing>,
+        watch: Watch,
+    ) -> Result<Taken, Trouble> {
+        let (detail, factor) = match growing {
+            None => (ROUGH, effort.coarser * RAYS_COARSER),
+            Some(growing) if growing.looks == 1 => (FAIR, 1.0),
+            Some(_) => (FINE, 1.0),
+        };
+        let (map, _) = traced(shot, coarser(&shot.film, factor), &detail, watch)?;
+        if growing.is_some() {
+            self.kept.insert(slot, (shot.clone(), Light::Map(map.clone())));
+        }
+        Ok(map_taken(shot, map))
+    }
 }
 
 /// The codes of a map's middle band.
-fn codes(map: &RefractionMap) -> ColorImage {
+pub(super) fn codes(map: &RefractionMap) -> ColorImage {
     let places = map.bands.get(map.bands.len() / 2).map_or(&[][..], |band| &band.places);
     let rgb: Vec<u8> = places.iter().flat_map(code_of).collect();
     ColorImage::from_rgb(map.size.map(|n| n as usize), &rgb)

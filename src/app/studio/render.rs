@@ -3,7 +3,8 @@
 use super::motion::Moment;
 use super::order::{Shot, Slot, Smoothing, Taken};
 use super::pace::Effort;
-use super::take::{Camera, LEAST_WEIGHT, MOST_BOUNCES, RAYS_COARSER, Trouble, coarser, over};
+use super::take::{Camera, LEAST_WEIGHT, MOST_BOUNCES, RAYS_COARSER, Trouble, coarser, overlaid};
+use super::undeveloped::Light;
 use crate::app::shows::Shows;
 use crate::io::background::BackgroundRef;
 use crate::optics::{Stratum, strata};
@@ -63,7 +64,11 @@ impl Camera {
                 Moment::of(shot, film).lay(&mut self.trails, (slot, picture), &sitting, newest).clone()
             });
             let picture = laid.as_ref().unwrap_or(picture);
-            developed(shot, (picture, growing.is_some()), (unresolved, tracer), &sitting, watch)
+            if growing.is_some() {
+                let light = Light::Render { picture: picture.clone(), unresolved, tracer };
+                self.kept.insert(slot, (shot.clone(), light));
+            }
+            developed(shot, (picture, growing.is_some()), (unresolved, tracer), watch)
         };
         let manner = Looks { count: 1, jitter: shot.jitter, strength: shot.strength };
         let work = Work { sitting: &sitting, strata: &strata, manner, growing, first, watch };
@@ -194,11 +199,12 @@ pub fn sitting<'a>(
     }
 }
 
-fn developed(
+/// The picture of a shot out of its light; `fine` where there is time for glow. `unresolved` is the share of the light that
+/// was not followed to its end.
+pub(super) fn developed(
     shot: &Shot,
     (picture, fine): (&Linear, bool),
     (unresolved, tracer): (f64, &'static str),
-    sitting: &Sitting,
     watch: Watch,
 ) -> Result<Taken, Trouble> {
     // Glow would stand out around what is drawn over the stone, and it takes longer than the rest of a rough picture.
@@ -215,7 +221,7 @@ fn developed(
     let size = [picture.width as usize, picture.height as usize];
     let mut image = ColorImage::from_rgba_unmultiplied(size, &rgba);
     if let Some(overlay) = shot.overlay {
-        over(overlay, sitting, &mut image, watch)?;
+        overlaid(shot, overlay, &mut image, watch)?;
     }
     Ok(Taken { image, unresolved: Some(unresolved), tracer, map: None })
 }

@@ -30,10 +30,12 @@ pub fn survey(
     [bands, places]: [u32; 2],
     watch: Watch,
 ) -> Result<(RefractionMap, Carried), Trouble> {
-    traced(shot, shot.film, &Detail { bands, places, shades: 16, looks: 4 }, watch)
+    let detail = Detail { bands, places, shades: 16, looks: 4 };
+    let (map, carried) = traced(shot, shot.film, &detail, watch)?;
+    Ok((map.developed(&Develop { exposure: shot.exposure, bloom: None, ..Develop::default() }), carried))
 }
 
-/// Traces the map of a shot on another film.
+/// Traces the map of a shot on another film; its diffuse layer is not developed.
 pub fn traced(
     shot: &Shot,
     film: Film,
@@ -52,7 +54,5 @@ pub fn traced(
         shades: &bands(detail.shades),
         looks: detail.looks,
     };
-    let (map, carried) = RefractionMap::trace(&sitting(shot, &setting, film, None), &plane, &survey, watch)?;
-    let manner = Develop { exposure: shot.exposure, bloom: None, ..Develop::default() };
-    Ok((map.developed(&manner), carried))
+    Ok(RefractionMap::trace(&sitting(shot, &setting, film, None), &plane, &survey, watch)?)
 }

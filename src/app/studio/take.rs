@@ -3,8 +3,9 @@
 use super::motion::Trails;
 use super::order::{Shot, Slot, Taken};
 use super::pace::Effort;
-use super::refracted::{glass, mapped};
+use super::refracted::glass;
 use super::render::{Growing, is_for_beams, setting, sitting};
+use super::undeveloped::Kept;
 use crate::app::shows::Shows;
 use crate::io::background::BackgroundRef;
 use crate::io::{Failure, rasterize_within};
@@ -16,7 +17,6 @@ use crate::scene::{Film, Panorama, Scope, Specimen, View};
 use crate::trace::beam::{self, Beams};
 use crate::trace::gpu::{Gpu, GpuError};
 use crate::trace::ray;
-use crate::trace::sitting::Sitting;
 use crate::trace::{Stopped, Watch};
 use egui::ColorImage;
 use std::sync::Arc;
@@ -109,6 +109,8 @@ pub struct Camera {
     pub(super) behind: Option<(BackgroundRef, Arc<Panorama>)>,
     /// Rough renders of what moves, laid over one another.
     pub(super) trails: Trails,
+    /// The light of what each view shows, as it was traced.
+    pub(super) kept: Kept,
 }
 
 impl Camera {
@@ -131,11 +133,14 @@ impl Camera {
             Shows::Profile | Shows::LiquidGlass => Ok(()),
             Shows::Diagram => drawing(shot).map(each),
             Shows::Render => self.render((slot, shot), effort, growing, watch, each),
-            Shows::Refraction => mapped(shot, effort, growing, watch).map(each),
+            Shows::Refraction => self.mapped((slot, shot), effort, growing, watch).map(each),
             Shows::TracedPane => glass(self, shot, effort, growing, watch).map(each),
             _ => {
-                let taken = self.scoped(shot, effort, growing.is_some(), watch)?;
-                each(self.overlaid(shot, taken, watch)?);
+                let mut taken = self.scoped(shot, effort, growing.is_some(), watch)?;
+                if let Some(overlay) = shot.overlay {
+                    overlaid(shot, overlay, &mut taken.image, watch)?;
+                }
+                each(taken);
                 Ok(())
             }
         }
@@ -199,16 +204,6 @@ impl Camera {
         };
         Ok(canvas.finish(None, tracer))
     }
-
-    fn overlaid(&self, shot: &Shot, mut taken: Taken, watch: Watch) -> Result<Taken, Trouble> {
-        let Some(overlay) = shot.overlay else { return Ok(taken) };
-        let setting = setting(shot);
-        let [across, down] = taken.image.size.map(|n| n as u32);
-        let pixel = shot.film.pixel * f64::from(shot.film.size[0]) / f64::from(across);
-        let film = Film { size: [across, down], pixel, ..shot.film };
-        over(overlay, &sitting(shot, &setting, film, None), &mut taken.image, watch)?;
-        Ok(taken)
-    }
 }
 
 /// The same film with larger pixels.
@@ -217,14 +212,19 @@ pub(super) fn coarser(film: &Film, factor: f64) -> Film {
     Film { size, pixel: film.pixel * f64::from(film.size[0]) / f64::from(size[0]), ..*film }
 }
 
-pub(super) fn over(
+/// Draws an overlay over the picture of a shot.
+pub(super) fn overlaid(
+    shot: &Shot,
     overlay: Overlay,
-    sitting: &Sitting,
     image: &mut ColorImage,
     watch: Watch,
 ) -> Result<(), Stopped> {
+    let setting = setting(shot);
+    let [across, down] = image.size.map(|n| n as u32);
+    let pixel = shot.film.pixel * f64::from(shot.film.size[0]) / f64::from(across);
+    let film = Film { size: [across, down], pixel, ..shot.film };
     let mut rgba: Vec<u8> = image.pixels.iter().flat_map(|p| p.to_srgba_unmultiplied()).collect();
-    lay(overlay, sitting, &mut rgba, watch)?;
+    lay(overlay, &sitting(shot, &setting, film, None), &mut rgba, watch)?;
     *image = ColorImage::from_rgba_unmultiplied(image.size, &rgba);
     Ok(())
 }
@@ -238,7 +238,7 @@ fn drawing(shot: &Shot) -> Result<Taken, Trouble> {
         }
         None => DiagramStyle::sheet(shot.paper.inks),
     };
-    let text = diagram(stone, &shot.specimen.design.name, &style).to_string();
+    let text = diagram(stone, &shot.title, &style).to_string();
     let (width, height, rgb) =
         rasterize_within(&text, shot.film.size).map_err(|e| Trouble::Other(e.to_string()))?;
     let image = ColorImage::from_rgb([width as usize, height as usize], &rgb);
@@ -280,19 +280,22 @@ mod tests {
     use crate::app::studio::order::{Paper, Smoothing, Which};
     use crate::app::studio::render::BEHIND;
     use crate::io::lighting::Lighting;
-    use crate::scene::{Glare, Pose};
+    use crate::scene::{Glare, Pose, Projection};
     use crate::trace::unwatched;
     use glam::DVec2;
     use std::path::Path;
 
     fn shot(shows: Shows, distance: Option<f64>) -> Shot {
-        let eye = Eye { lean: DVec2::new(0.1, 0.05), distance, ..Eye::default() };
+        let eye = Eye { lean: DVec2::new(0.1, 0.05), ..Eye::default() };
+        let projection =
+            distance.map_or(Projection::Orthographic, |distance| Projection::Perspective { distance });
         Shot {
             specimen: Arc::clone(Document::first().unwrap().specimen()),
+            title: String::new(),
             shows,
             strongest: false,
             glare: Glare::Included,
-            view: eye.view(None),
+            view: View { projection, ..eye.view(None) },
             film: eye.film([56, 40], &Fit::reaching(1.0)),
             whole: Fit::reaching(1.0).film([56, 40]),
             light: Arc::new(Lighting::load("dome").unwrap()),
@@ -359,6 +362,15 @@ mod tests {
                 off < most && wrong > 3.0 * most,
                 "{shows:?} {projection:?}: {off}, and {wrong} of another view"
             );
+        }
+    }
+
+    #[test]
+    fn under_a_new_name_it_is_another_drawing_and_the_same_light() {
+        for (shows, is_same) in [(Shows::Diagram, false), (Shows::Aset, true), (Shows::Render, true)] {
+            let shot = shot(shows, None);
+            let renamed = Shot { title: "another".to_owned(), ..shot.clone() };
+            assert_eq!(shot == renamed, is_same, "{shows:?}");
         }
     }
 

@@ -118,6 +118,11 @@ impl Worker {
         (self.wake)();
     }
 
+    /// Counts something that is begun to be traced.
+    fn count(&self) {
+        self.desk.traced.fetch_add(1, Ordering::SeqCst);
+    }
+
     fn answer(&self, answer: Answer) {
         // Nobody listens once the window is closed.
         let _ = self.answers.send(answer);
@@ -137,15 +142,18 @@ impl Worker {
             order.shots.iter().any(|(_, shot)| is(&shot.specimen, &shot.view))
                 || order.figures.iter().any(|(_, ask)| is(&ask.specimen, &ask.view))
         });
+        self.camera.kept.retain(|slot, _| order.shots.iter().any(|(wanted, _)| wanted == slot));
         let mut any = false;
         for (slot, shot) in &order.shots {
-            if self.pictures.get(slot).is_none_or(|(done, _)| done != shot) {
+            let is_done = self.pictures.get(slot).is_some_and(|(done, _)| done == shot);
+            if !is_done && !self.develop_again((*slot, shot), &watch)? {
                 any |= shot.shows != Shows::Diagram;
                 self.picture((*slot, shot), Grade::Rough, (&effort, None), &watch)?;
             }
         }
         for (which, ask) in &order.figures {
             if self.figures.get(which).is_none_or(|(done, _)| done != ask) {
+                self.count();
                 let figures = self.glanced(ask, &effort, &watch)?;
                 self.told(*which, ask, Grade::Rough, figures);
             }
@@ -154,6 +162,23 @@ impl Worker {
             self.pace.learn(begun.elapsed());
         }
         Ok(())
+    }
+
+    /// Answers with light that was traced before, where the shot differs from the one before in exposure and overlay alone;
+    /// whether it does. The picture is then as good as the one before.
+    fn develop_again(&mut self, (slot, shot): (Slot, &Shot), watch: Watch) -> Result<bool, Stopped> {
+        let before = self.pictures.get(&slot).filter(|(done, _)| done.has_light_of(shot));
+        let Some((done, grade)) = before.cloned() else { return Ok(false) };
+        match self.camera.develop_again(slot, shot, watch) {
+            Some(Ok(taken)) => self.answer(Answer::Picture(slot, Box::new(shot.clone()), grade, taken)),
+            Some(Err(Trouble::Stopped(stopped))) => return Err(stopped),
+            Some(Err(_)) | None => return Ok(false),
+        }
+        if self.sharp.get(&slot) == Some(&done) {
+            self.sharp.insert(slot, shot.clone());
+        }
+        self.pictures.insert(slot, (shot.clone(), grade));
+        Ok(true)
     }
 
     /// Everything better and better, until there is a newer order.
@@ -223,6 +248,7 @@ impl Worker {
     ) -> Result<(), Stopped> {
         // What is taken anew is to be sharpened anew.
         self.sharp.remove(&slot);
+        self.count();
         let (answers, wake) = (self.answers.clone(), Arc::clone(&self.wake));
         let mut each = |taken: Taken| {
             let _ = answers.send(Answer::Picture(slot, Box::new(shot.clone()), grade, taken));
@@ -253,6 +279,7 @@ impl Worker {
     ) -> Result<(), Stopped> {
         for (which, ask) in &order.figures {
             if self.figures.get(which).is_none_or(|(done, g)| done != ask || *g < grade) {
+                self.count();
                 let figures = measured(ask, &ask.view, bound, watch)?;
                 self.told(*which, ask, grade, figures);
             }
@@ -282,6 +309,7 @@ impl Worker {
             let view = View { tilt: degrees.to_radians(), ..ask.view };
             Ok((degrees, measured(ask, &view, (TILTED, LATTICE / 4), watch)?))
         };
+        self.count();
         let tilts = TILTS.into_iter().map(at).collect::<Result<_, _>>()?;
         self.tilts = Some(ask.clone());
         self.answer(Answer::Tilts(ask.clone(), tilts));

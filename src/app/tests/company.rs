@@ -17,7 +17,7 @@ use std::path::PathBuf;
 
 /// One render of a scene that comes with the program.
 fn bench(scene: &str) -> Bench {
-    let pane = Pane { shows: Shows::Render, own: None };
+    let pane = Pane { shows: Shows::Render, own: None, is_near: false };
     let desk = Desk { layout: Layout::One, panes: [pane; 4], wavelengths: 3, ..Desk::default() };
     let setup = Setup { file: Some(PathBuf::from(scene)), desk, ..Setup::default() };
     let mut bench = Bench::sized(setup, egui::vec2(860.0, 1040.0));

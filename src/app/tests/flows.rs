@@ -153,7 +153,7 @@ fn a_number_out_of_its_limits_is_told_where_it_stands_and_the_last_stone_stays()
     bench.settle();
     let stone = Arc::clone(bench.editor().document.specimen());
     bench.type_number("Table", "97");
-    assert!(bench.harness.query_by_label_contains("table: 97 % must be below").is_some());
+    assert!(bench.harness.query_by_label_contains("Table: 97 % makes no stone").is_some());
     assert!(Arc::ptr_eq(&stone, bench.editor().document.specimen()));
 }
 

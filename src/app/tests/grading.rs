@@ -24,7 +24,7 @@ fn scopes_show_no_glare_until_it_is_asked_for_and_then_only_they_are_taken_anew(
     let returned = share(&bench, "Light return").unwrap();
     bench.harness.key_press(egui::Key::V);
     bench.settle();
-    assert!(bench.harness.query_by_label("with glare").is_some());
+    assert!(bench.harness.query_by_label("with glare ×").is_some());
     assert_ne!(bench.picture(0), bare);
     assert!(share(&bench, "Red").unwrap() > red + 1.0, "glare is red light as well");
     assert_eq!(share(&bench, "Light return"), Some(returned), "light return holds no glare");

@@ -1,6 +1,7 @@
 //! The editor as a person works it: by the names of what is on the screen.
 #![allow(clippy::print_stdout, reason = "what is skipped or measured is told")]
 
+mod asking;
 mod backgrounds;
 mod company;
 mod drag;
@@ -10,6 +11,7 @@ mod grading;
 mod handed_out;
 mod layout;
 mod looks;
+mod views;
 
 use super::desk::{Desk, Layout};
 use super::editor::{Editor, Setup, Shown};
@@ -169,6 +171,17 @@ impl Bench {
         self.harness.run_steps(1);
         self.harness.key_press(egui::Key::Enter);
         self.harness.run_steps(3);
+    }
+
+    /// A field of this name.
+    pub fn field<'a>(&'a self, role: egui::Role, name: &'a str) -> egui_kittest::Node<'a> {
+        self.harness.get_by_role_and_label(role, name)
+    }
+
+    /// Lets events come all at once, as they do where a frame takes long.
+    pub fn at_once(&mut self, events: Vec<egui::Event>) {
+        self.harness.input_mut().events.extend(events);
+        self.harness.run_steps(4);
     }
 
     pub fn brilliant(&self) -> RoundBrilliant {

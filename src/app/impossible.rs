@@ -1,0 +1,154 @@
+//! What the panel says of proportions that no stone can have: at the row that was edited, and in that row's terms.
+
+use super::proportions::{PROPORTIONS, Proportion};
+use crate::cut::{Limit, ProportionError, RoundBrilliant, Unit};
+
+/// Halvings that find a limit: more than a number has digits.
+const HALVINGS: u32 = 80;
+
+/// What is wrong, in words, and the key of the row that it is said at.
+pub struct Said {
+    /// The row.
+    pub key: &'static str,
+    /// The message.
+    pub text: String,
+}
+
+/// What is wrong with proportions that make no stone. `last` are those of the last stone, `edited` is the key of the row that
+/// was edited last.
+pub fn said(
+    given: &RoundBrilliant,
+    last: &RoundBrilliant,
+    edited: Option<&str>,
+    fault: &ProportionError,
+) -> Said {
+    let heals = |p: &&Proportion| (p.get)(given) != (p.get)(last) && makes_stone(given, p, (p.get)(last));
+    let row = |key: &str| PROPORTIONS.iter().find(|p| p.key == key);
+    let at = edited.and_then(row).filter(heals).or_else(|| row(fault.key()).filter(heals));
+    if let Some(proportion) = at.or_else(|| PROPORTIONS.iter().find(heals)) {
+        return Said { key: proportion.key, text: in_its_terms(given, last, proportion, fault) };
+    }
+    // No row alone makes a stone of it.
+    let at = edited.and_then(row).or_else(|| row(fault.key())).unwrap_or(&PROPORTIONS[0]);
+    Said { key: at.key, text: format!("{} More than one proportion is out of its limits.", told(fault)) }
+}
+
+/// Whether a stone has these proportions once one of them is set to a value.
+fn makes_stone(given: &RoundBrilliant, proportion: &Proportion, value: f64) -> bool {
+    let mut changed = *given;
+    (proportion.set)(&mut changed, value);
+    changed.derived().is_ok()
+}
+
+fn in_its_terms(
+    given: &RoundBrilliant,
+    last: &RoundBrilliant,
+    proportion: &Proportion,
+    fault: &ProportionError,
+) -> String {
+    let (value, possible) = ((proportion.get)(given), (proportion.get)(last));
+    let limit = limit(given, proportion, (possible, value));
+    let side = if value > possible { "most" } else { "least" };
+    let (name, unit) = (proportion.name, proportion.unit);
+    let value = number(value, unit);
+    let limit = format!("{limit}{unit}");
+    let reason = match fault.limit() {
+        Some(Limit { key, limit, unit, reason, .. }) if *key == proportion.key => {
+            format!("The limit is {}, {reason}.", number(*limit, *unit))
+        }
+        _ => told(fault),
+    };
+    format!(
+        "{name}: {value} makes no stone. With the other proportions as they are, it can be at {side} {limit}. {reason}"
+    )
+}
+
+/// The value nearest to an impossible one that makes a stone, to two decimals; whole for counts.
+fn limit(given: &RoundBrilliant, proportion: &Proportion, (possible, value): (f64, f64)) -> f64 {
+    let far = if value.is_finite() { value } else { 1e9_f64.copysign(value - possible) };
+    let (mut inside, mut outside) = (possible, far);
+    for _ in 0..HALVINGS {
+        let middle = 0.5 * (inside + outside);
+        if makes_stone(given, proportion, middle) { inside = middle } else { outside = middle }
+    }
+    let parts = if proportion.unit == Unit::Count { 1.0 } else { 100.0 };
+    let rounded = if far > possible { (inside * parts).floor() } else { (inside * parts).ceil() } / parts;
+    // Between two steps there is none that makes a stone.
+    if makes_stone(given, proportion, rounded) { rounded } else { inside }
+}
+
+/// A fault in the panel's words.
+fn told(fault: &ProportionError) -> String {
+    let key = fault.key();
+    let name = PROPORTIONS.iter().find(|p| p.key == key).map_or("Total depth", |p| p.name);
+    match fault.limit() {
+        None => format!("{name}: there is no such number."),
+        Some(limit) => {
+            let (value, bound) = (number(limit.value, limit.unit), number(limit.limit, limit.unit));
+            format!("{name} would be {value}; the limit is {bound}, {}.", limit.reason)
+        }
+    }
+}
+
+/// A number with its unit, to two decimals; short, however large it is.
+fn number(value: f64, unit: Unit) -> String {
+    let rounded = (value * 100.0).round() / 100.0;
+    if value.abs() < 1e6 { format!("{rounded}{unit}") } else { format!("{value:.1e}{unit}") }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::cut::TOLKOWSKY;
+
+    /// A brilliant with one proportion set to a value.
+    fn with(key: &str, value: f64) -> RoundBrilliant {
+        let mut given = TOLKOWSKY;
+        (PROPORTIONS.iter().find(|p| p.key == key).unwrap().set)(&mut given, value);
+        given
+    }
+
+    fn text(given: &RoundBrilliant, edited: &str) -> Said {
+        said(given, &TOLKOWSKY, Some(edited), &given.derived().unwrap_err())
+    }
+
+    #[test]
+    fn the_row_that_was_edited_says_how_far_it_can_go() {
+        let said = text(&with("crown_angle", 89.0), "crown_angle");
+        assert_eq!(said.key, "crown_angle");
+        assert!(said.text.starts_with("Crown angle: 89° makes no stone."), "{}", said.text);
+        assert!(
+            said.text.contains("it can be at most 84.") && said.text.contains("Total depth would be 1392.4")
+        );
+        // The same stone, had its height been edited.
+        let said = text(&with("crown_angle", 89.0), "crown_height");
+        assert!(said.key == "crown_height" && said.text.contains("Crown height: 1346.31 %"), "{}", said.text);
+    }
+
+    #[test]
+    fn what_is_told_as_the_limit_makes_a_stone_and_the_next_step_does_not() {
+        for proportion in PROPORTIONS.iter().filter(|p| p.unit != Unit::Count) {
+            for value in [-40.0, 0.0, 96.0, 150.0, 1e7] {
+                let given = with(proportion.key, value);
+                if given.derived().is_ok() {
+                    continue;
+                }
+                let from = ((proportion.get)(&TOLKOWSKY), (proportion.get)(&given));
+                let limit = limit(&given, proportion, from);
+                assert!(makes_stone(&given, proportion, limit), "{} {value}: {limit}", proportion.key);
+                let next = limit + 0.02_f64.copysign(from.1 - from.0);
+                assert!(!makes_stone(&given, proportion, next), "{} {value}: {limit}", proportion.key);
+            }
+        }
+    }
+
+    #[test]
+    fn an_innocent_row_that_is_edited_later_is_not_blamed() {
+        let mut given = with("crown_angle", 89.0);
+        given.table = 55.0;
+        assert_eq!(text(&given, "table").key, "crown_angle");
+        given.culet = 120.0;
+        let said = text(&given, "culet");
+        assert!(said.key == "culet" && said.text.contains("More than one"), "{}", said.text);
+    }
+}

@@ -1,0 +1,172 @@
+//! Modes of a view: what makes its picture another than the plain one. Each is named in the view's head, with a click that
+//! ends it.
+
+use super::editor::Editor;
+use super::shows::Shows;
+use egui::{Button, RichText, TextStyle, Ui};
+
+/// Something that is switched on in a view.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Mode {
+    /// It has an eye of its own.
+    Unlinked,
+    /// It is seen from nearby.
+    Perspective,
+    /// The eye tilts over a still stone.
+    EyeTilts,
+    /// Something is drawn over the picture; its name.
+    Overlay(String),
+    /// A scope shows the strongest exit of each point alone.
+    Strongest,
+    /// The observer's head shuts out light; its half angle, degrees.
+    Head(f64),
+    /// Scopes hold the light that the outer surface reflects.
+    Glare,
+    /// Refraction is followed part of the way, 0 to 1: no physics.
+    Strength(f64),
+}
+
+impl Mode {
+    /// Those that are on in a view.
+    pub fn of(editor: &Editor, pane: usize) -> Vec<Self> {
+        let desk = &editor.desk;
+        let shows = desk.panes[pane].shows;
+        if !shows.is_seen() {
+            return vec![];
+        }
+        let scoped = shows.scoped();
+        let head = editor.document.work.head;
+        let strength = if shows == Shows::Render { desk.strength() } else { 1.0 };
+        let overlay = desk.overlay.clone().filter(|_| shows.takes_overlay() && desk.overlay().is_some());
+        [
+            desk.panes[pane].own.map(|_| Self::Unlinked),
+            desk.panes[pane].is_near.then_some(Self::Perspective),
+            desk.eye(pane).eye_leans.then_some(Self::EyeTilts),
+            overlay.map(Self::Overlay),
+            (desk.strongest && scoped.is_some()).then_some(Self::Strongest),
+            (head > 0.0 && scoped.is_some_and(|s| s.takes_head)).then_some(Self::Head(head)),
+            (desk.glare && !desk.strongest && scoped.is_some()).then_some(Self::Glare),
+            (strength < 1.0).then_some(Self::Strength(strength)),
+        ]
+        .into_iter()
+        .flatten()
+        .collect()
+    }
+
+    /// What it is called, in a word or two.
+    pub fn name(&self) -> String {
+        match self {
+            Self::Unlinked => "unlinked".to_owned(),
+            Self::Perspective => "perspective".to_owned(),
+            Self::EyeTilts => "eye tilts".to_owned(),
+            Self::Overlay(name) => name.clone(),
+            Self::Strongest => "strongest exits".to_owned(),
+            Self::Head(degrees) => format!("head {degrees:.1}°"),
+            Self::Glare => "with glare".to_owned(),
+            Self::Strength(strength) => format!("strength {strength:.3}"),
+        }
+    }
+
+    /// What it does to the picture, in a sentence.
+    fn meaning(&self) -> &'static str {
+        match self {
+            Self::Unlinked => "This view has a tilt and a zoom of its own.",
+            Self::Perspective => "The stone is seen from nearby, not along parallel rays.",
+            Self::EyeTilts => "The eye moves over a still stone and light; else the stone tilts.",
+            Self::Overlay(_) => "Something is drawn over all pictures.",
+            Self::Strongest => "Scopes show the zone of each point's strongest light alone.",
+            Self::Head(_) => "The observer's head shuts out light, here and in the figures.",
+            Self::Glare => "Scopes show what the outer surface reflects as well, as a camera records it.",
+            Self::Strength(_) => {
+                "Strength below 1: a mixture of the refracted and the straight ray, for its looks, and no physics."
+            }
+        }
+    }
+
+    /// Switches it off.
+    pub fn end(&self, editor: &mut Editor, pane: usize) {
+        let desk = &mut editor.desk;
+        match self {
+            Self::Unlinked => desk.panes[pane].own = None,
+            Self::Perspective => desk.panes[pane].is_near = false,
+            Self::EyeTilts => desk.eye_mut(pane).eye_leans = false,
+            Self::Overlay(_) => desk.overlay = None,
+            Self::Strongest => desk.strongest = false,
+            Self::Head(_) => editor.document.work.head = 0.0,
+            Self::Glare => desk.glare = false,
+            Self::Strength(_) => desk.strength = 1.0,
+        }
+    }
+}
+
+/// Names the modes of a view, in a row; those that `width` points have no room for are in a menu at its end.
+pub fn show(editor: &mut Editor, ui: &mut Ui, pane: usize, width: f32) {
+    let modes = Mode::of(editor, pane);
+    let names: Vec<String> = modes.iter().map(|mode| format!("{} ×", mode.name())).collect();
+    let gap = ui.spacing().item_spacing.x;
+    let widths: Vec<f32> = names.iter().map(|name| button_width(ui, name) + gap).collect();
+    let more = button_width(ui, &rest(modes.len())) + gap;
+    let shown = match widths.iter().sum::<f32>() <= width {
+        true => modes.len(),
+        false => fitting(&widths, width - more),
+    };
+    let mut ended = None;
+    for (mode, name) in modes.iter().zip(&names).take(shown) {
+        if chip(ui, name, mode) {
+            ended = Some(mode);
+        }
+    }
+    if shown < modes.len() {
+        let menu = ui.menu_button(RichText::new(rest(modes.len() - shown)).small(), |ui| {
+            for (mode, name) in modes.iter().zip(&names).skip(shown) {
+                if chip(ui, name, mode) {
+                    ended = Some(mode);
+                    ui.close();
+                }
+            }
+        });
+        let hidden: Vec<String> = modes[shown..].iter().map(Mode::name).collect();
+        menu.response.on_hover_text(format!("Also on in this view: {}.", hidden.join(", ")));
+    }
+    if let Some(mode) = ended {
+        editor.looks.settle();
+        mode.end(editor, pane);
+    }
+}
+
+/// What the menu of modes is called that have no room.
+fn rest(count: usize) -> String {
+    format!("+{count}")
+}
+
+fn chip(ui: &mut Ui, name: &str, mode: &Mode) -> bool {
+    let button = Button::new(RichText::new(name).small()).selected(true);
+    ui.add(button).on_hover_text(format!("{} Click to end it.", mode.meaning())).clicked()
+}
+
+fn button_width(ui: &Ui, text: &str) -> f32 {
+    let font = TextStyle::Small.resolve(ui.style());
+    let text = ui.painter().layout_no_wrap(text.to_owned(), font, ui.visuals().text_color()).size().x;
+    text + 2.0 * ui.spacing().button_padding.x
+}
+
+/// How many of these widths fit into another, from the first on.
+fn fitting(widths: &[f32], width: f32) -> usize {
+    let ends = widths.iter().scan(0.0, |end, width| {
+        *end += width;
+        Some(*end)
+    });
+    ends.take_while(|end| *end <= width).count()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn as_many_fit_as_there_is_room_for() {
+        let widths = [50.0, 40.0, 30.0];
+        let counts = [-1.0, 49.0, 50.0, 95.0, 120.0, 500.0].map(|width| fitting(&widths, width));
+        assert_eq!(counts, [0, 0, 1, 2, 3, 3]);
+    }
+}
