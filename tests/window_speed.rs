@@ -27,7 +27,7 @@ use x11rb::rust_connection::RustConnection;
 const SIZE: [f32; 2] = [1440.0, 900.0];
 
 /// How long anything may take to begin.
-const PATIENCE: Duration = Duration::from_secs(120);
+const PATIENCE: Duration = Duration::from_secs(600);
 
 /// From one event of the pointer to the next: most mice tell 125 times a second or more, of which screens show 60.
 const HAND: Duration = Duration::from_micros(16_667);

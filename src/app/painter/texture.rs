@@ -3,7 +3,7 @@
 use super::blend::{Pixel, WHOLE, mixed, pixel};
 use egui::epaint::{ImageData, ImageDelta};
 use egui::{Color32, ColorImage, TextureFilter, TextureId, TextureOptions, TextureWrapMode, TexturesDelta};
-use std::collections::HashMap;
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 /// A picture on the processor.
@@ -26,7 +26,7 @@ pub type Patch = (TextureId, [f32; 2], [f32; 2]);
 /// All textures that egui has made.
 #[derive(Default)]
 pub struct Textures {
-    all: HashMap<TextureId, Texture>,
+    all: BTreeMap<TextureId, Texture>,
     versions: u64,
 }
 
