@@ -163,8 +163,8 @@ fn shape(cues: &Cues) -> f64 {
     let (table, flat) = match (cues.table_area > WHOLE, cues.culet_area > WHOLE) {
         (true, false) => (-weight::BASE, 0.5),
         (false, true) => (weight::BASE, 0.5),
-        // Of a prism neither is larger.
-        (true, true) => (0.0, 0.5),
+        // A prism stands on one of its ends.
+        (true, true) => (weight::TABLE, 0.5),
         (false, false) => (worth(cues.table_area) - worth(cues.culet_area), 1.0 - cues.crown),
     };
     weight::GIRDLE * cues.girdle.min(1.0) + table + weight::FLAT * flat

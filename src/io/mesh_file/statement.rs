@@ -98,7 +98,9 @@ impl Statement {
     ) -> Self {
         let material = material.filter(|material| !matches!(material, MaterialRef::Custom(_))).cloned();
         let measures = Measures::of(stone, DVec3::Z);
-        Self { up, mm_per_unit, diameter_mm: 2.0 * radius_mm, material, measures }
+        // Rounding of the unit must not be read as a size.
+        let diameter_mm = (2e12 * radius_mm).round() / 1e12;
+        Self { up, mm_per_unit, diameter_mm, material, measures }
     }
 
     /// From the file's frame into the stone's.
@@ -180,7 +182,9 @@ impl Statement {
         if is_as_stated {
             return Stands::AsStated;
         }
-        let scale = (volume / there.volume).cbrt();
+        // What is said of the size has more digits than the volume.
+        let scale =
+            Some((volume / there.volume).cbrt()).filter(|scale| !near(scale / stated, 1.0)).unwrap_or(stated);
         let off = |up: DVec3| {
             let [below, above] = span(surface, up).map(|z| scale * (z - there.middle.dot(up)));
             (below - (low - middle.z)).abs().max((above - (high - middle.z)).abs())
