@@ -4,7 +4,7 @@ use super::assembly::{self, Assembly};
 use super::mesh_options::MeshArguments;
 use super::specimen::Specimen;
 use super::{Failure, each_file, json, print};
-use crate::cut::{Cut, Report, Spread};
+use crate::cut::{AlongAxes, Cut, Report, Spread};
 use crate::math::{Facet, Polytope};
 use crate::scene::Body;
 use clap::Args;
@@ -183,6 +183,10 @@ fn table(specimen: &Specimen, value: &Value) -> String {
     let report = Report::of(polytope, stone.names());
     if specimen.design.cut.brilliant().is_none() {
         proportions(&report, &mut line);
+    }
+    if matches!(specimen.design.cut, Cut::Tiers(_)) {
+        let AlongAxes { length_to_width, table: [t, u] } = report.along_axes;
+        line("L/W, T/W, U/W of GemCad", format!("{length_to_width:.3}, {:.3}, {:.3}", t / 100.0, u / 100.0));
     }
     let (facets, vertices) = (polytope.facets().len(), polytope.vertices().len());
     line("facets, edges, vertices", format!("{facets}, {}, {vertices}", polytope.edge_count()));

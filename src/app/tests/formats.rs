@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::app::document::Document;
+use crate::cut::from_mesh::Up;
 use crate::cut::{Design, Glass, MeshShape};
 use crate::io::design_file::{self, Format};
 use crate::math::{Shell, Surface, fixture};
@@ -54,6 +55,36 @@ fn a_mesh_opens_as_its_facets_and_is_not_written_over() {
     assert!(
         mains.clone().count() == 8 && mains.into_iter().all(|(_, p)| (slope(p.normal) - 41.0).abs() < 1e-4)
     );
+}
+
+#[test]
+fn the_direction_of_a_meshs_table_is_chosen_and_seen_at_once() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("stone.obj");
+    let specimen = Specimen::new(Document::first().unwrap().work.design).unwrap();
+    design_file::write(&specimen, Format::Obj, &path).unwrap();
+    let mut bench = Bench::with(Setup { file: Some(path), ..Setup::default() });
+    bench.settle();
+    let (picture, cut) = (bench.picture(0), bench.editor().document.work.design.cut.clone());
+    bench.harness.get_by_role_and_label(egui::Role::ComboBox, "Table faces").click();
+    bench.harness.run_steps(4);
+    bench.harness.get_by_label("−z").click();
+    bench.harness.run_steps(4);
+    bench.wait(|editor| editor.document.work.mesh.as_ref().is_some_and(|mesh| mesh.options.up != Up::Found));
+    bench.settle();
+    assert!(bench.picture(0) != picture && bench.editor().document.work.design.cut != cut);
+    let up = |cut: &Cut| match cut {
+        Cut::Planes(planes) => {
+            planes.iter().find(|(name, _)| name == "table").map(|(_, plane)| plane.normal.z)
+        }
+        _ => None,
+    };
+    let (before, after) = (up(&cut), up(&bench.editor().document.work.design.cut));
+    assert!(before.unwrap() > 0.999 && after.unwrap() < -0.999, "{before:?} {after:?}");
+    bench.choose("Edit", "Undo");
+    bench.settle();
+    assert!(bench.editor().document.work.design.cut == cut);
+    assert_eq!(bench.editor().document.work.mesh.as_ref().map(|mesh| mesh.options.up), Some(Up::Found));
 }
 
 #[test]

@@ -42,11 +42,19 @@ fn document(json: &[u8]) -> Result<(Document, Vec<String>), Fault> {
         Ok(read) => return Ok(read),
         Err(fault) => fault,
     };
-    for (keeps_materials, lost) in [(true, "textures and what else is"), (false, "materials, textures and what else is")] {
+    for (keeps_materials, lost) in
+        [(true, "textures and what else is"), (false, "materials, textures and what else is")]
+    {
         let alone = shape_alone(json, keeps_materials);
         if let Some((document, mut warnings)) = alone.and_then(|json| parsed(&json).ok()) {
             let place = fault.place.as_ref().map(|place| format!("line {place}: ")).unwrap_or_default();
-            warnings.insert(0, format!("{lost} beside the shape are left out, since the file is broken: {place}{}", fault.message));
+            warnings.insert(
+                0,
+                format!(
+                    "{lost} beside the shape are left out, since the file is broken: {place}{}",
+                    fault.message
+                ),
+            );
             return Ok((document, warnings));
         }
     }

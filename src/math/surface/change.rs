@@ -45,7 +45,8 @@ fn bends(surface: &Surface) -> Vec<f64> {
     for (t, neighbours) in Edges::of(surface).neighbours.iter().enumerate() {
         for &n in neighbours.iter().filter(|n| **n != NONE && **n > t as u32) {
             let (one, other) = (normal(t), normal(n as usize));
-            let across = surface.corners(n as usize).iter().sum::<DVec3>() - surface.corners(t).iter().sum::<DVec3>();
+            let across =
+                surface.corners(n as usize).iter().sum::<DVec3>() - surface.corners(t).iter().sum::<DVec3>();
             let angle = one.cross(other).length().atan2(one.dot(other));
             if angle > BENT && (other - one).dot(across) < 0.0 {
                 angles.push(angle);

@@ -1,10 +1,10 @@
 //! The convex hull of a surface's corners, and whether the surface means it: as where facets of four corners were cut
 //! into triangles along the wrong diagonal, which bends them inward.
 
+use super::Surface;
 use super::change::Change;
 use super::edges::Edges;
 use super::shape::{NOISE, SAME, Solid, deviation, solid};
-use super::Surface;
 use crate::math::{Plane, Polytope, convex_hull};
 use glam::DVec3;
 

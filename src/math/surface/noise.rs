@@ -23,7 +23,8 @@ pub(super) fn smoothed(surface: &Surface) -> Surface {
             for k in 0..3 {
                 let sum = &mut sums[corners[k] as usize];
                 // Every edge has two triangles, and so counts once in all.
-                let beside = [corners[(k + 1) % 3], corners[(k + 2) % 3]].map(|v| smooth.vertices[v as usize]);
+                let beside =
+                    [corners[(k + 1) % 3], corners[(k + 2) % 3]].map(|v| smooth.vertices[v as usize]);
                 *sum = (sum.0 + (beside[0] + beside[1]) / 2.0, sum.1 + 1.0);
             }
         }

@@ -36,7 +36,8 @@ pub(super) fn shape_alone(json: &[u8], keeps_materials: bool) -> Option<Vec<u8>>
                 accessors.extend(attributes.values().filter_map(Value::as_u64));
             }
             accessors.extend(primitive.get("indices").and_then(Value::as_u64));
-            if primitive.get("material").and_then(Value::as_u64).is_none_or(|place| place >= materials as u64) {
+            if primitive.get("material").and_then(Value::as_u64).is_none_or(|place| place >= materials as u64)
+            {
                 primitive.remove("material");
             }
         }
@@ -44,7 +45,8 @@ pub(super) fn shape_alone(json: &[u8], keeps_materials: bool) -> Option<Vec<u8>>
     let unused = json!({ "componentType": 5126, "count": 1, "type": "SCALAR" });
     let views = only(list(root, "accessors"), &accessors, &unused, &view_of_accessor);
     let unused = json!({ "buffer": 0, "byteLength": 1 });
-    let buffers = only(list(root, "bufferViews"), &views, &unused, &|view| index(view, "buffer").into_iter().collect());
+    let buffers =
+        only(list(root, "bufferViews"), &views, &unused, &|view| index(view, "buffer").into_iter().collect());
     only(list(root, "buffers"), &buffers, &json!({ "byteLength": 1 }), &|_| vec![]);
     serde_json::to_vec(root).ok()
 }
