@@ -11,7 +11,7 @@ use std::path::PathBuf;
 pub struct Convert {
     /// A file of a design or a mesh, or the name of a cut that comes with the program
     input: PathBuf,
-    /// The file to write; its ending names the format: .toml, .asc, .gem, .gcs, .obj, .stl or .glb
+    /// The file to write; its ending names the format: .toml, .asc, .gem, .gcs, .obj, .stl, .ply or .glb
     output: PathBuf,
     #[command(flatten)]
     mesh: MeshArguments,
