@@ -86,7 +86,7 @@ fn identity(editor: &mut Editor, ui: &mut Ui) {
             Cut::RoundBrilliant(_) => "Round brilliant",
             Cut::Tiers(_) => "Tiers on an index gear",
             Cut::Planes(_) => "Facets by their planes",
-            Cut::Mesh(_) => "Mesh, not convex",
+            Cut::Mesh(_) => "Triangles of a mesh",
             Cut::Glass(glass) => glass.called().1,
         });
     });

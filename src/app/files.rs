@@ -3,6 +3,7 @@
 use super::document::Stamp;
 use crate::cut::{Cut, Design};
 use crate::io::design_file::{self, Format};
+use crate::io::mesh_options::{MeshForm, MeshOptions};
 use crate::io::{WriteError, cut_file, write};
 use crate::math::Plane;
 use crate::scene::{Company, MOST_COPIES};
@@ -331,7 +332,8 @@ fn orphan(path: PathBuf) -> Option<Found> {
     }
     let mut design = cut_file::parse(&kept.design, "unsaved work").ok()?;
     if kept.mesh {
-        design.cut = design_file::read(kept.path.as_deref()?).ok()?.design.cut;
+        let triangles = MeshOptions { form: MeshForm::Triangles, ..MeshOptions::default() };
+        design.cut = design_file::read_with(kept.path.as_deref()?, triangles).ok()?.design.cut;
     }
     let when = file.metadata().and_then(|m| m.modified()).ok()?;
     Some(Found { design, around: kept.around, path: kept.path, when, file: path })

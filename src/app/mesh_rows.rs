@@ -1,11 +1,12 @@
-//! How the mesh that is open is read: which way its table faces.
+//! How the mesh that is open is read: whether as flat facets, and which way its table faces.
 
 use super::document::ReadMesh;
 use super::editor::Editor;
 use super::opening::Wanted;
 use super::rows::{field_width, named};
+use crate::cut::Cut;
 use crate::cut::from_mesh::Up;
-use crate::io::mesh_options::MeshOptions;
+use crate::io::mesh_options::{MeshForm, MeshOptions};
 use egui::{ComboBox, Ui};
 use glam::DVec3;
 
@@ -23,8 +24,15 @@ const DIRECTIONS: [(&str, Up); 7] = [
     ("−z", Up::Given(DVec3::NEG_Z)),
 ];
 
-/// Draws the row, for a design that was read from a mesh, and reads the mesh anew where another direction is chosen.
+/// What the triangles of a mesh can be read as.
+const FORMS: [(&str, MeshForm, &str); 2] = [
+    ("Facets", MeshForm::Faceted, "The convex stone between flat facets, as a cutter makes it."),
+    ("Triangles", MeshForm::Triangles, "The mesh as it is, traced by rays."),
+];
+
+/// Draws the rows, for a design that was read from a mesh, and reads the mesh anew where something else is chosen.
 pub fn show(editor: &mut Editor, ui: &mut Ui) {
+    form(editor, ui);
     let Some(ReadMesh { path, options, .. }) = editor.document.work.mesh.clone() else { return };
     let mut chosen = options.up;
     ui.horizontal(|ui| {
@@ -40,6 +48,25 @@ pub fn show(editor: &mut Editor, ui: &mut Ui) {
     if chosen != options.up {
         editor.open_with(&path, Wanted::Otherwise, MeshOptions { up: chosen, ..options });
     }
+}
+
+/// The row of forms; that which the design has is marked, whoever chose it.
+fn form(editor: &mut Editor, ui: &mut Ui) {
+    let Some(ReadMesh { path, options, .. }) = editor.document.work.mesh.clone() else { return };
+    let present = match editor.document.work.design.cut {
+        Cut::Planes(_) => MeshForm::Faceted,
+        Cut::Mesh(_) => MeshForm::Triangles,
+        _ => return,
+    };
+    ui.horizontal(|ui| {
+        named(ui, "Read as", "What the triangles of the file stand for. The mesh is read anew.");
+        for (name, form, meaning) in FORMS {
+            let is_present = form == present;
+            if ui.selectable_label(is_present, name).on_hover_text(meaning).clicked() && !is_present {
+                editor.open_with(&path, Wanted::Otherwise, MeshOptions { form, ..options });
+            }
+        }
+    });
 }
 
 fn told(up: Up) -> String {

@@ -175,7 +175,7 @@ fn table(specimen: &Specimen, value: &Value) -> String {
             line("triangles, vertices", format!("{}, {}", value["triangles"], value["corners"]));
         }
         line("volume", format!("{:.6} girdle radii³", specimen.solid().volume()));
-        let why = if is_mesh { "not convex" } else { "curved" };
+        let why = if is_mesh { "traced as triangles" } else { "curved" };
         let _ = write!(text, "\n  {why}: it has no facets to list");
         return text;
     };

@@ -7,8 +7,8 @@ use super::design_file::Brought;
 use super::mesh_file::{self, MaterialHint, MeshFile};
 use super::mesh_options::{MeshForm, MeshOptions};
 use crate::cut::from_mesh::{FromMesh, Up, directions, from_mesh};
-use crate::cut::{Cut, DEFAULT_DIAMETER_MM, Design, MAX_PLANES, MaterialRef, MeshShape, is_printable};
-use crate::math::surface::{Faceted, Mending, Shape, facets};
+use crate::cut::{Cut, DEFAULT_DIAMETER_MM, Design, MaterialRef, MeshShape, is_printable};
+use crate::math::surface::{Change, Faceted, Mending, Shape, TooCurved, faceted_hull, facets};
 use crate::math::{Shell, Surface};
 use glam::{DQuat, DVec3};
 use place::{Place, Told, axes, doubtful};
@@ -34,26 +34,43 @@ pub fn read(bytes: Vec<u8>, path: &Path, options: MeshOptions) -> Result<Brought
     let mended = surface.mend().map_err(|e| fault(e.to_string()))?;
     let name = Some(name).filter(|name| is_printable(name)).unwrap_or_else(|| "stone".to_owned());
     let file = File { hint, name, place: Place::of(format, options.up, statement) };
-    let shape = facets(mended.surface);
-    let mut brought = match (options.form, shape) {
-        (MeshForm::Found | MeshForm::Faceted, Shape::Convex(found)) if found.faces.len() <= MAX_PLANES => {
-            file.planes(&found)
+    let mut brought = match options.form {
+        MeshForm::Triangles => file.triangles(mended.surface, None),
+        MeshForm::Faceted => {
+            faceted_hull(mended.surface).map_err(impossible).and_then(|found| file.planes(&found))
         }
-        (MeshForm::Faceted, Shape::Convex(found)) => Err(format!(
-            "it has {} facets, and a faceted stone has {MAX_PLANES} at most; save a coarser mesh, or read it with --as \
-             triangles",
-            found.faces.len()
-        )),
-        (MeshForm::Faceted, Shape::Concave(_)) => {
-            Err("it is not convex, so it is no faceted stone; read it with --as triangles".to_owned())
-        }
-        (_, Shape::Convex(found)) => file.triangles(found.surface),
-        (_, Shape::Concave(surface)) => file.triangles(surface),
+        MeshForm::Found => match facets(mended.surface) {
+            Shape::Convex(found) => file.planes(&found),
+            Shape::Concave(surface) => file.triangles(surface, Some(NOT_CONVEX)),
+        },
     }
     .map_err(fault)?;
     brought.notes.splice(0..0, told_of(&mended.mending));
     brought.warnings.splice(0..0, warnings);
     Ok(brought)
+}
+
+/// What is told of a mesh that is traced as triangles though nobody asked for them.
+const NOT_CONVEX: &str = "it is not convex; --as faceted reads the convex stone around it";
+
+/// Why a mesh cannot be read as a faceted stone, and what to do.
+fn impossible(error: TooCurved) -> String {
+    format!(
+        "it cannot be read as a faceted stone: {error}; save a coarser mesh, or read it with --as triangles"
+    )
+}
+
+/// What taking a convex stone for a mesh has changed; lengths of the file times `scale` are girdle radii.
+fn changed(change: &Change, tolerance: f64, scale: f64) -> String {
+    let (sharpest, volume) = (change.sharpest.to_degrees(), 100.0 * change.volume);
+    let [deepest, tolerance] = [change.deepest, tolerance].map(|length| scale * length);
+    format!(
+        "the mesh bends inward at {} edges, by up to {sharpest:.1} degrees, and is read as the convex stone that it \
+         stands for: the volume changes by {volume:+.3} %, the deepest point of the mesh lies {deepest:.4} girdle radii \
+         below the stone's facets, and corners within {tolerance:.1e} girdle radii of a plane share a facet; --as \
+         triangles keeps the mesh as it is",
+        change.bent
+    )
 }
 
 /// What a file says beside its shape, and how its stone lies.
@@ -78,13 +95,14 @@ impl File {
             "{count} facets were found; no corner lies farther from them than {deviation:.1e} girdle radii"
         ));
         told.is_doubtful = made.doubt.is_some();
+        told.notes.extend(found.change.map(|change| changed(&change, found.tolerance, scale)));
         told.notes.extend(made.doubt.map(|doubt| doubtful(made.up, doubt.other)));
         let brought = self.brought(Cut::Planes(facets), scale, told);
         brought.design.check().map_err(|e| e.to_string())?;
         Ok(brought)
     }
 
-    fn triangles(mut self, surface: Surface) -> Result<Brought, String> {
+    fn triangles(mut self, surface: Surface, why: Option<&str>) -> Result<Brought, String> {
         let mut told = Told::default();
         let up = self.place.up(&surface, || axes().to_vec(), &mut told);
         let shell = Shell::new(surface).map_err(|e| e.to_string())?;
@@ -102,6 +120,7 @@ impl File {
         if let (Some(known), Some(diameter_mm)) = (self.place.scale, &mut self.place.diameter_mm) {
             *diameter_mm *= known / scale;
         }
+        told.notes.extend(why.map(str::to_owned));
         told.notes.push(format!("it is traced as {} triangles", shape.surface().triangles.len()));
         Ok(self.brought(Cut::Mesh(shape), scale, told))
     }

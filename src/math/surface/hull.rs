@@ -5,7 +5,7 @@ use super::Surface;
 use super::change::Change;
 use super::edges::Edges;
 use super::shape::{NOISE, SAME, Solid, deviation, solid};
-use crate::math::{Plane, Polytope, convex_hull};
+use crate::math::{Plane, convex_hull};
 use glam::DVec3;
 
 /// Corners of a surface that means its hull lie within this part of its size of it: what careless modelling leaves.
