@@ -8,6 +8,8 @@ mod desk;
 mod faults;
 #[path = "cli/maps.rs"]
 mod maps;
+#[path = "cli/meshes.rs"]
+mod meshes;
 #[path = "cli/panes.rs"]
 mod panes;
 #[path = "cli/pictures.rs"]

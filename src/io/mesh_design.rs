@@ -178,11 +178,84 @@ fn told_of(mending: &Mending) -> Vec<String> {
 }
 
 #[cfg(test)]
+#[allow(clippy::print_stdout, reason = "a test that is left out says so")]
 mod tests {
     use super::*;
     use crate::io::{cut_file, library, write_obj, write_stl};
     use crate::math::Plane;
     use crate::scene::Specimen;
+
+    /// The diamond that most demos load: every corner is one of its hull, and its kites are bent over the wrong diagonal.
+    #[test]
+    fn a_diamond_of_the_web_is_read_as_the_stone_it_means() {
+        let path =
+            Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../shared/data/mesh/gkjohnson-diamond.glb"));
+        let Ok(bytes) = std::fs::read(path) else {
+            println!("SKIPPED: {} is not there", path.display());
+            return;
+        };
+        let open = |form| read(bytes.clone(), path, MeshOptions { form, ..MeshOptions::default() }).unwrap();
+        let found = open(MeshForm::Found);
+        let told = found.notes.join("\n");
+        assert!(found.warnings.is_empty() && told.contains("69 facets were found"), "{told}");
+        assert!(told.contains("bends inward at 20 edges, by up to 24.7 degrees"), "{told}");
+        assert!(told.contains("the volume changes by +1.375 %"), "{told}");
+        let stone = Specimen::new(found.design.clone()).unwrap();
+        let names = stone.stone().unwrap().names().to_vec();
+        assert!(
+            names[0] == "table" && names.iter().filter(|n| n.starts_with("pavilion 1")).count() == 20,
+            "{names:?}"
+        );
+        assert!(names.iter().filter(|n| n.starts_with("crown A")).count() == 20, "{names:?}");
+        assert_eq!(open(MeshForm::Faceted).design, found.design);
+        let triangles = open(MeshForm::Triangles);
+        let Cut::Mesh(shape) = &triangles.design.cut else { panic!("no triangles") };
+        assert_eq!(shape.surface().triangles.len(), 96);
+        assert!(triangles.notes.iter().any(|note| note == "it is traced as 96 triangles"));
+    }
+
+    #[test]
+    fn a_solid_that_is_not_convex_is_faceted_only_where_that_is_asked_for_and_possible() {
+        let obj = |(vertices, triangles): crate::math::fixture::Triangles| {
+            let corner = |v: &DVec3| format!("v {} {} {}\n", v.x, v.y, v.z);
+            let face = |t: &[u32; 3]| format!("f {} {} {}\n", t[0] + 1, t[1] + 1, t[2] + 1);
+            let corners: String = vertices.iter().map(corner).collect();
+            (corners + &triangles.iter().map(face).collect::<String>()).into_bytes()
+        };
+        let open = |bytes: Vec<u8>, form| {
+            read(bytes, Path::new("x.obj"), MeshOptions { form, ..MeshOptions::default() })
+        };
+        let heart = obj(crate::math::fixture::heart());
+        let found = open(heart.clone(), MeshForm::Found).unwrap();
+        assert!(
+            matches!(found.design.cut, Cut::Mesh(_)) && found.notes.iter().any(|note| note == NOT_CONVEX)
+        );
+        let faceted = open(heart, MeshForm::Faceted).unwrap();
+        assert!(
+            matches!(faceted.design.cut, Cut::Planes(_)) && faceted.mesh.unwrap().form == MeshForm::Faceted
+        );
+        let [before, after] = [found, faceted].map(|b| {
+            let solid = Specimen::new(b.design).unwrap();
+            let (low, high) = solid.solid().bounds();
+            solid.solid().volume() / (high - low).element_product()
+        });
+        assert!(after > 1.05 * before, "{after} {before}");
+        let golden = std::f64::consts::PI * (3.0 - 5.0_f64.sqrt());
+        let at = |k: i32| {
+            let z = 1.0 - (2.0 * f64::from(k) + 1.0) / 4000.0;
+            let (sin, cos) = (golden * f64::from(k)).sin_cos();
+            DVec3::new((1.0 - z * z).sqrt() * cos, (1.0 - z * z).sqrt() * sin, z)
+        };
+        let vertices: Vec<DVec3> = (0..4000).map(at).collect();
+        let triangles = crate::math::convex_hull(&vertices).unwrap();
+        let ball = obj((vertices, triangles));
+        assert!(matches!(open(ball.clone(), MeshForm::Found).unwrap().design.cut, Cut::Mesh(_)));
+        let told = open(ball, MeshForm::Faceted).unwrap_err().to_string();
+        assert!(
+            told.contains("cannot be read as a faceted stone") && told.contains("--as triangles"),
+            "{told}"
+        );
+    }
 
     /// Six digits of a cutter's file leave corners where facets nearly meet, and slivers of triangles beside them.
     #[test]

@@ -88,6 +88,37 @@ fn the_direction_of_a_meshs_table_is_chosen_and_seen_at_once() {
 }
 
 #[test]
+fn a_mesh_is_read_in_another_form_by_a_click_which_can_be_undone() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("heart.glb");
+    let (vertices, triangles) = fixture::heart();
+    let shape = MeshShape(Arc::new(Shell::new(Surface::new(vertices, triangles)).unwrap()));
+    let first = Document::first().unwrap().work.design;
+    let design = Design { name: "heart".into(), cut: Cut::Mesh(shape), ..first };
+    design_file::write(&Specimen::new(design).unwrap(), Format::Glb, &path).unwrap();
+    let mut bench = Bench::with(Setup { file: Some(path), ..Setup::default() });
+    let is_mesh = |editor: &Editor| matches!(editor.document.work.design.cut, Cut::Mesh(_));
+    bench.wait(is_mesh);
+    bench.harness.run_steps(3);
+    let volume = bench.editor().document.specimen().solid().volume();
+    bench.harness.get_by_label("Facets").click();
+    bench.wait(|editor| !is_mesh(editor));
+    bench.harness.run_steps(3);
+    let editor = bench.editor();
+    assert!(editor.document.specimen().stone().is_ok() && editor.document.is_changed());
+    assert!(editor.document.notes().iter().any(|note| note.contains("bends inward")));
+    let scale = |editor: &Editor| editor.document.specimen().solid().volume() / volume;
+    assert!(scale(editor) > 1.05, "{}", scale(editor));
+    bench.harness.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::Z);
+    bench.wait(is_mesh);
+    bench.harness.run_steps(3);
+    assert!((scale(bench.editor()) - 1.0).abs() < 1e-12 && !bench.editor().document.is_changed());
+    assert!(bench.editor().document.notes().iter().any(|note| note.contains("traced as")));
+    bench.harness.key_press_modifiers(egui::Modifiers::COMMAND | egui::Modifiers::SHIFT, egui::Key::Z);
+    bench.wait(|editor| !is_mesh(editor));
+}
+
+#[test]
 fn a_solid_that_is_not_convex_is_shown_by_rays_and_measured() {
     let folder = tempfile::tempdir().unwrap();
     let (path, toml) = (folder.path().join("heart.glb"), folder.path().join("heart.toml"));
@@ -104,8 +135,8 @@ fn a_solid_that_is_not_convex_is_shown_by_rays_and_measured() {
         let shown = editor.pictures.get(&(0, Which::Present));
         shown.is_some_and(|shown| shown.grade == Grade::Fine) && editor.figures.contains_key(&Which::Present)
     });
-    assert!(bench.harness.query_by_label_contains("Mesh, not convex").is_some());
-    assert!(bench.harness.query_by_label_contains("not convex, so it is traced as").is_some());
+    assert!(bench.harness.query_by_label_contains("Triangles of a mesh").is_some());
+    assert!(bench.harness.query_by_label_contains("it is not convex; --as faceted reads").is_some());
     let picture = bench.picture(0);
     assert!(picture.iter().any(|p| p != &picture[0]));
     let figures = &bench.editor().figures[&Which::Present];

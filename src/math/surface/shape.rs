@@ -2,8 +2,7 @@
 
 use super::change::Change;
 use super::edges::{Edges, NONE};
-use super::fit::Fit;
-use super::hull::Hull;
+use super::hull::{Hull, LazyHull};
 use super::regions::{NOWHERE, Regions, is_sliver, regions};
 use super::{Surface, noise, settle};
 use crate::math::{Facet, Plane, Polytope};
@@ -87,7 +86,7 @@ pub fn facets(surface: Surface) -> Shape {
     let mut moved = surface.clone();
     moved.vertices.iter_mut().for_each(|v| *v -= centre);
     let (edges, size) = (Edges::of(&moved), moved.size());
-    let Some(hull) = Hull::of(&moved) else { return Shape::Concave(surface) };
+    let hull = LazyHull::of(&moved);
     let mut tried = NOISE.iter().map(|noise| solid(&moved, &edges, &hull, (noise * size, SAME)));
     let Some(mut best) = tried.by_ref().flatten().next() else {
         let smooth = noise::smoothed(&moved);
@@ -98,7 +97,7 @@ pub fn facets(surface: Surface) -> Shape {
             rough.or_else(|| of_smooth(&moved, &smooth, &edges, &hull, limits).filter(is_noise))
         };
         let scan = SCANS.iter().find_map(of_scan);
-        let Some(solid) = scan.or_else(|| hull.meant(&moved)) else { return Shape::Concave(surface) };
+        let Some(solid) = scan.or_else(|| hull.get()?.meant(&moved)) else { return Shape::Concave(surface) };
         return Shape::Convex(Box::new(changed(moved, centre, solid)));
     };
     // Noise may have split facets that a larger tolerance keeps whole.
@@ -126,7 +125,7 @@ pub fn faceted_hull(surface: Surface) -> Result<Box<Faceted>, TooCurved> {
     let centre = (low + high) / 2.0;
     let mut moved = surface;
     moved.vertices.iter_mut().for_each(|v| *v -= centre);
-    let solid = Hull::of(&moved).and_then(|hull| hull.solid()).ok_or(TooCurved)?;
+    let solid = LazyHull::of(&moved).get().and_then(Hull::solid).ok_or(TooCurved)?;
     Ok(Box::new(changed(moved, centre, solid)))
 }
 
@@ -160,20 +159,20 @@ pub(super) struct Solid {
 pub(super) fn solid(
     surface: &Surface,
     edges: &Edges,
-    hull: &Hull,
+    hull: &LazyHull<'_>,
     (tolerance, same): (f64, f64),
 ) -> Option<Solid> {
     let found = regions(surface, edges, tolerance, MOST_FACETS)?;
     if is_round(surface, edges, &found, tolerance) {
         return None;
     }
-    // Where no plane cuts anything away there is nothing to settle, so most surfaces are done at once.
-    let cuts = |fit: &Fit| hull.outside(&fit.plane) > SAME * tolerance;
-    let found = match found.fits.iter().any(cuts) {
-        true => settle::settled(surface, edges, hull, found, tolerance)?,
-        false => found,
-    };
-    reproduced(surface, found, (tolerance, same))
+    match reproduced(surface, found, (tolerance, same)) {
+        Ok(solid) => Some(solid),
+        Err(found) => {
+            let found = settle::settled(surface, edges, hull.get()?, found, tolerance)?;
+            reproduced(surface, found, (tolerance, same)).ok()
+        }
+    }
 }
 
 /// The same with regions that are found on a smoother copy of the surface: noise tilts triangles that are small beside it
@@ -182,23 +181,23 @@ fn of_smooth(
     surface: &Surface,
     smooth: &Surface,
     edges: &Edges,
-    hull: &Hull,
+    hull: &LazyHull<'_>,
     (tolerance, same): (f64, f64),
 ) -> Option<Solid> {
     let found = regions(smooth, edges, tolerance, MOST_FACETS)?;
     let found = (!is_round(smooth, edges, &found, tolerance)).then_some(found)?;
-    let found = settle::settled(surface, edges, hull, found, tolerance)?;
-    reproduced(surface, found, (tolerance, same))
+    let found = settle::settled(surface, edges, hull.get()?, found, tolerance)?;
+    reproduced(surface, found, (tolerance, same)).ok()
 }
 
-/// The solid between the planes of regions, if it is the surface.
-fn reproduced(surface: &Surface, found: Regions, (tolerance, same): (f64, f64)) -> Option<Solid> {
+/// The solid between the planes of regions, if it is the surface; else the regions.
+fn reproduced(surface: &Surface, found: Regions, (tolerance, same): (f64, f64)) -> Result<Solid, Regions> {
     let planes: Vec<Plane> = found.fits.iter().map(|f| f.plane).collect();
-    let polytope = Polytope::from_planes(&planes).ok()?;
+    let Ok(polytope) = Polytope::from_planes(&planes) else { return Err(found) };
     let deviation = deviation(&polytope, &surface.vertices);
     let swelling = (polytope.volume() - surface.volume()).abs();
     let is_same = deviation <= same * tolerance && swelling <= SAME * tolerance * polytope.surface_area();
-    is_same.then_some(Solid { found, polytope, deviation, tolerance })
+    if is_same { Ok(Solid { found, polytope, deviation, tolerance }) } else { Err(found) }
 }
 
 /// How far the point that is farthest off lies from a solid's surface; of a point outside, how far it lies outside

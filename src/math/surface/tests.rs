@@ -1,5 +1,7 @@
 //! Surfaces that are known, spoilt in every way that files are.
 
+mod meant;
+
 use super::*;
 use crate::math::{Plane, Polytope, triangulate};
 use glam::DQuat;

@@ -34,7 +34,7 @@ fn real_meshes_open_as_what_they_are() {
         ("deepar-princess.obj", Some((69, 4, 5e-4))),
         ("diamond-webgl-brilliant_cut.obj", Some((89, 8, 1e-5))),
         ("diamond-webgl-oval_cut.obj", Some((71, 2, 1e-4))),
-        ("gkjohnson-diamond.glb", None),
+        ("gkjohnson-diamond.glb", Some((69, 1, 2e-3))),
     ];
     for (name, expected) in expected {
         let Some(file) = real(name) else { return };

@@ -1,0 +1,138 @@
+//! glTF files in which something beside the shape is broken: the shape is read, and a warning says so.
+
+use super::*;
+
+/// The test file with a texture, an image in it and an animation: none of it wrong.
+fn textured() -> serde_json::Value {
+    let mut root: serde_json::Value = serde_json::from_str(&gltf()).unwrap();
+    root["images"] = serde_json::json!([{ "bufferView": 1, "mimeType": "image/png" }]);
+    root["samplers"] = serde_json::json!([{ "wrapS": 10497 }]);
+    root["textures"] = serde_json::json!([{ "source": 0, "sampler": 0 }]);
+    root["materials"][0]["pbrMetallicRoughness"] = serde_json::json!({ "baseColorTexture": { "index": 0 } });
+    root["materials"][0]["name"] = "glass".into();
+    root["meshes"][0]["primitives"][0]["attributes"]["TEXCOORD_0"] = 0.into();
+    root
+}
+
+fn opened(root: &serde_json::Value) -> Result<MeshFile, MeshFileError> {
+    parse(root.to_string().into_bytes(), "f.gltf", None)
+}
+
+#[test]
+fn broken_textures_and_materials_are_a_warning_and_the_shape_is_read() {
+    let whole = opened(&textured()).unwrap();
+    assert_eq!((whole.warnings.as_slice(), whole.surface.triangles.len()), ([].as_slice(), 4));
+    let json = |text: &str| serde_json::from_str::<serde_json::Value>(text).unwrap();
+    let faults = [
+        // What is broken, the place, what stands there instead, and whether what is said of light survives.
+        (
+            "a texture that is not there",
+            "/materials/0/pbrMetallicRoughness/baseColorTexture/index",
+            "7",
+            true,
+        ),
+        ("a texture without a number", "/materials/0/pbrMetallicRoughness/baseColorTexture", "{}", true),
+        ("an image that is not there", "/textures/0/source", "3", true),
+        (
+            "a texture without an image, as webp has it",
+            "/textures/0",
+            r#"{"extensions":{"EXT_texture_webp":{"source":0}}}"#,
+            true,
+        ),
+        ("a sampler that is not there", "/textures/0/sampler", "9", true),
+        ("a sampler of no kind", "/samplers/0/wrapS", "1", true),
+        ("an image in no buffer view", "/images/0/bufferView", "99", true),
+        ("a type that is a number", "/images/0/mimeType", "5", true),
+        ("an image that is text", "/images/0", r#""cat.png""#, true),
+        ("images that are no list", "/images", "{}", true),
+        ("a colour in words", "/materials/0/pbrMetallicRoughness", r#"{"baseColorFactor":"red"}"#, true),
+        (
+            "a colour beyond white",
+            "/materials/0/pbrMetallicRoughness",
+            r#"{"baseColorFactor":[9,0,0,1]}"#,
+            true,
+        ),
+        ("an alpha mode of no name", "/materials/0/alphaMode", r#""SEE""#, true),
+        (
+            "coordinates of a texture that are not there",
+            "/meshes/0/primitives/0/attributes/TEXCOORD_0",
+            "99",
+            true,
+        ),
+        ("a material that is not there", "/meshes/0/primitives/0/material", "4", false),
+        ("a material in words", "/meshes/0/primitives/0/material", r#""gold""#, false),
+        ("an index in words", "/materials/0/extensions/KHR_materials_ior/ior", r#""high""#, false),
+        ("a name that is a list", "/materials/0/name", "[]", false),
+    ];
+    for (what, place, instead, keeps_light) in faults {
+        let mut root = textured();
+        match root.pointer_mut(place) {
+            Some(found) => *found = json(instead),
+            None => root["materials"][0]["alphaMode"] = json(instead),
+        }
+        let file = opened(&root).unwrap_or_else(|e| panic!("{what}: {e}"));
+        assert_eq!(file.surface, whole.surface, "{what}");
+        let told = file.warnings.join("; ");
+        assert!(told.contains("beside the shape") && told.contains("left out"), "{what}: {told}");
+        assert_eq!(file.hint.is_some(), keeps_light, "{what}: {:?}", file.hint);
+        assert!(!keeps_light || file.hint == whole.hint, "{what}: {:?}", file.hint);
+    }
+}
+
+#[test]
+fn textures_whose_files_are_missing_keep_no_shape_from_being_read() {
+    let mut root = textured();
+    root["images"] = serde_json::json!([{ "uri": "missing.png" }, { "bufferView": 2 }]);
+    root["buffers"]
+        .as_array_mut()
+        .unwrap()
+        .push(serde_json::json!({ "byteLength": 10, "uri": "missing.bin" }));
+    root["bufferViews"].as_array_mut().unwrap().push(serde_json::json!({ "buffer": 1, "byteLength": 10 }));
+    let file = opened(&root).unwrap();
+    assert_eq!(file.surface.triangles.len(), 4);
+    for name in ["EXT_texture_webp", "KHR_texture_basisu", "MSFT_texture_dds", "KHR_materials_unknown"] {
+        root["extensionsRequired"] = serde_json::json!([name]);
+        assert_eq!(opened(&root).unwrap().surface, file.surface, "{name}");
+    }
+}
+
+#[test]
+fn a_broken_shape_is_an_error_though_textures_are_broken_too() {
+    for (place, instead) in [
+        ("/accessors/0/bufferView", "99"),
+        ("/accessors/0/count", "1000"),
+        ("/meshes/0/primitives/0/indices", "99"),
+        ("/nodes/1/mesh", "5"),
+        ("/extensionsRequired/0", r#""KHR_draco_mesh_compression""#),
+    ] {
+        for breaks_texture in [false, true] {
+            let mut root = textured();
+            *root.pointer_mut(place).unwrap() = serde_json::from_str(instead).unwrap();
+            if breaks_texture {
+                root["textures"][0]["source"] = 9.into();
+            }
+            assert!(opened(&root).is_err(), "{place}");
+        }
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 300, ..ProptestConfig::default() })]
+
+    #[test]
+    fn whatever_stands_beside_the_shape_the_shape_is_read(
+        key in prop::sample::select(vec!["images", "textures", "samplers", "materials", "animations", "cameras", "skins"]),
+        value in prop::sample::select(vec![
+            "null", "1", "-1", "true", "\"x\"", "{}", "[]", "[null]", "[1]", "[{}]", "[[]]", "[{\"name\":1}]",
+            "[{\"source\":-1}]", "[{\"uri\":\"../x\"}]", "[{\"extensions\":{\"KHR_materials_volume\":[]}}]",
+            "[{\"extensions\":{\"KHR_materials_ior\":{\"ior\":null}}}]",
+            "[{\"channels\":[{}]}]", "[{\"joints\":[99]}]",
+        ]),
+    ) {
+        let mut root = textured();
+        root[key] = serde_json::from_str(value).unwrap();
+        let file = opened(&root);
+        prop_assert!(file.is_ok(), "{key} {value}: {}", file.unwrap_err());
+        prop_assert_eq!(file.unwrap().surface.triangles.len(), 4);
+    }
+}
