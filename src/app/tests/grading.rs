@@ -15,7 +15,7 @@ fn share(bench: &Bench, name: &str) -> Option<f64> {
 #[test]
 fn scopes_show_no_glare_until_it_is_asked_for_and_then_only_they_are_taken_anew() {
     let desk = Desk { layout: Layout::One, ..Bench::small() };
-    let mut bench = Bench::with(Setup { desk, ..Setup::default() });
+    let mut bench = Bench::sized(Setup { desk, ..Setup::default() }, egui::vec2(1280.0, 560.0));
     bench.settle();
     assert_eq!(bench.editor().shown((0, Which::Present)).unwrap().shot.glare, Glare::LeftOut);
     assert!(bench.harness.query_by_label("without glare").is_some(), "the view says what it shows");
@@ -48,7 +48,7 @@ fn a_gem_whose_colour_is_no_measurement_is_called_so_where_it_is_chosen() {
     assert!(bench.harness.query_by_label("illustrative colour").is_none());
     bench.harness.get_by_role_and_label(egui::Role::ComboBox, "Material").click();
     bench.harness.run_steps(4);
-    assert!(bench.harness.query_by_label("spinel").is_some(), "one that is measured bears its name alone");
+    assert!(bench.harness.query_by_label("cubic zirconia").is_some(), "one that is measured bears its name alone");
     let entry = bench.harness.get_by_label_contains("almandine");
     assert!(entry.accesskit_node().label().unwrap().contains("illustrative colour"));
     entry.click();
@@ -61,7 +61,7 @@ fn a_gem_whose_colour_is_no_measurement_is_called_so_where_it_is_chosen() {
 fn pictures_of_scopes_are_exported_with_a_caption_where_it_is_wanted() {
     let folder = tempfile::tempdir().unwrap();
     let mut bench = Bench::new();
-    bench.settle();
+    bench.harness.run_steps(3);
     bench.choose("File", "Export…");
     let Some(Dialog::Export(export)) = &mut bench.harness.state_mut().dialog else { panic!() };
     export.folder = folder.path().join("out");
