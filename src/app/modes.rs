@@ -34,7 +34,9 @@ impl Mode {
         if !shows.is_seen() {
             return vec![];
         }
-        let scoped = shows.scoped();
+        let scope = shows.scoped();
+        let is_scoped = scope.is_some();
+        let takes_head = scope.is_some_and(|scope| scope.takes_head);
         let head = editor.document.work.head;
         let strength = if shows == Shows::Render { desk.strength() } else { 1.0 };
         let overlay = desk.overlay.clone().filter(|_| shows.takes_overlay() && desk.overlay().is_some());
@@ -43,9 +45,9 @@ impl Mode {
             desk.panes[pane].is_near.then_some(Self::Perspective),
             desk.eye(pane).eye_leans.then_some(Self::EyeTilts),
             overlay.map(Self::Overlay),
-            (desk.strongest && scoped.is_some()).then_some(Self::Strongest),
-            (head > 0.0 && scoped.is_some_and(|s| s.takes_head)).then_some(Self::Head(head)),
-            (desk.glare && !desk.strongest && scoped.is_some()).then_some(Self::Glare),
+            (desk.strongest && is_scoped).then_some(Self::Strongest),
+            (head > 0.0 && takes_head).then_some(Self::Head(head)),
+            (desk.glare && !desk.strongest && is_scoped).then_some(Self::Glare),
             (strength < 1.0).then_some(Self::Strength(strength)),
         ]
         .into_iter()
