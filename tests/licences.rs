@@ -67,7 +67,7 @@ fn needed() -> BTreeSet<(String, String)> {
 /// Rows of the list: name, version, licence, link.
 fn listed() -> Vec<[String; 4]> {
     let text = read(LIST);
-    let rows = text.lines().filter(|line| line.starts_with("| ") && !line.starts_with("| crate"));
+    let rows = text.lines().filter(|line| line.starts_with("| ") && !line.starts_with("| crate |"));
     let cells = rows.map(|line| line.trim_matches('|').split('|').map(|cell| cell.trim().to_owned()));
     cells.map(|row| row.collect::<Vec<_>>().try_into().unwrap()).collect()
 }
@@ -93,16 +93,21 @@ fn write(needed: &BTreeSet<(String, String)>) {
         "# Licences of what Brillianteer is built of\n\nThe program itself is licensed under [MIT](../LICENSE-MIT) or \
          [Apache-2.0](../LICENSE-APACHE), as you choose. Below are the {} crates that it is built of or with on any platform, \
          each with the licence that it states; their texts come with their sources. Drawings and the window carry the fonts \
-         Ubuntu Light (Ubuntu-font-1.0), Hack and Noto Emoji (OFL-1.1, by way of `epaint_default_fonts`).\n\n\
+         of `epaint_default_fonts`: Ubuntu Light, Hack, Noto Emoji and emoji-icon-font, under the licences that it states.\n\n\
          `UPDATE_LICENCES=1 cargo test --test licences` writes this list; the same test fails where it is not current.\n\n\
          | crate | version | licence | where |\n|---|---|---|---|\n",
         needed.len()
     );
     for key in needed {
         let (licence, link) = &rows[key];
-        writeln!(list, "| {} | {} | {} | {} |", key.0, key.1, licence.replace('/', " OR "), link).unwrap();
+        writeln!(list, "| {} | {} | {} | {} |", key.0, key.1, plain(licence), link).unwrap();
     }
     std::fs::write(Path::new(env!("CARGO_MANIFEST_DIR")).join(LIST), list).unwrap();
+}
+
+/// A licence in the form of SPDX: older crates write a slash for a choice.
+fn plain(licence: &str) -> String {
+    licence.replace('/', " OR ").split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
 /// Whether a licence, or one of those that may be chosen, is accepted. Brackets are only ever around choices.

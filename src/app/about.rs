@@ -46,11 +46,13 @@ pub struct Crate<'a> {
 
 /// All crates, from rows of a table.
 pub fn crates() -> impl Iterator<Item = Crate<'static>> {
-    CRATES.lines().filter(|line| line.starts_with("| ") && !line.starts_with("| crate")).filter_map(|line| {
-        let mut cells = line.trim_matches('|').split('|').map(str::trim);
-        let mut next = || cells.next();
-        Some(Crate { name: next()?, version: next()?, licence: next()?, link: next()? })
-    })
+    CRATES.lines().filter(|line| line.starts_with("| ") && !line.starts_with("| crate |")).filter_map(
+        |line| {
+            let mut cells = line.trim_matches('|').split('|').map(str::trim);
+            let mut next = || cells.next();
+            Some(Crate { name: next()?, version: next()?, licence: next()?, link: next()? })
+        },
+    )
 }
 
 /// Draws it; whether it stays open.

@@ -41,8 +41,7 @@ pub fn skip_name(ui: &mut Ui) {
 
 /// Leaves the column of the control empty, but for so much room of its right end as further fields need, points.
 pub fn skip_control(ui: &mut Ui, needed: f32) {
-    // The gap to what follows is added by the layout.
-    ui.add_space((control_width(ui) - needed).max(0.0));
+    ui.add_space((control_width(ui) + ui.spacing().item_spacing.x - needed).max(0.0));
 }
 
 /// A row of name, slider and number.

@@ -100,13 +100,22 @@ fn size(design: &mut Design, extent: Extent, ui: &mut Ui) {
         let meaning = "Of the girdle. A larger stone of colour is darker.";
         return number_row(ui, ("Diameter", meaning), number(), &mut design.diameter_mm);
     }
+    // The dimensions of glass shapes, in percent, have the bare names.
+    let names = match design.cut {
+        Cut::Glass(_) => ["Length in mm", "Width in mm"],
+        _ => ["Length", "Width"],
+    };
     let rows = [
         (
-            "Length",
+            names[0],
             "The greater side of the stone from above. The whole stone is scaled by it.",
             extent.length,
         ),
-        ("Width", "The smaller side of the stone from above. The whole stone is scaled by it.", extent.width),
+        (
+            names[1],
+            "The smaller side of the stone from above. The whole stone is scaled by it.",
+            extent.width,
+        ),
     ];
     for (name, meaning, across) in rows {
         let before = 0.5 * design.diameter_mm * across;

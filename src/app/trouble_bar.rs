@@ -37,17 +37,19 @@ fn coloured(ui: &Ui, trouble: &Trouble) -> RichText {
 fn last(editor: &mut Editor, ui: &mut Ui) {
     let troubles = editor.notes.troubles();
     let (count, Some(trouble)) = (troubles.len(), troubles.last().cloned()) else { return };
-    ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-        if ui.button("Dismiss").on_hover_text("Forgets this message.").clicked() {
-            editor.notes.dismiss(count - 1);
-        }
-        let open = if count > 1 { format!("Show all {count}") } else { "Show all of it".to_owned() };
-        if ui.button(open).on_hover_text("Lists every message in full.").clicked() {
-            editor.notes.is_open = true;
-        }
-        ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
-            ui.add(Label::new(coloured(ui, &trouble)).truncate());
-        });
+    ui.horizontal(|ui| {
+        ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+            if ui.button("Dismiss").on_hover_text("Forgets this message.").clicked() {
+                editor.notes.dismiss(count - 1);
+            }
+            let open = if count > 1 { format!("Show all {count}") } else { "Show all of it".to_owned() };
+            if ui.button(open).on_hover_text("Lists every message in full.").clicked() {
+                editor.notes.is_open = true;
+            }
+            ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
+                ui.add(Label::new(coloured(ui, &trouble)).truncate());
+            });
+        })
     });
 }
 
