@@ -80,6 +80,7 @@ pub fn show(editor: &mut Editor, ctx: &Context) {
     let modal = Modal::new(Id::unique("dialog")).show(ctx, |ui| {
         // A window lower than the dialog scrolls it.
         let room = ctx.content_rect().height() - AROUND_DIALOG;
+        ui.set_max_height(room);
         ScrollArea::vertical().id_salt("dialog").max_height(room).show(ui, |ui| match &mut dialog {
             Dialog::Unsaved(then) => is_open = unsaved(editor, ui, then),
             Dialog::Moved(then) => is_open = moved(editor, ui, then),

@@ -1,6 +1,7 @@
 //! How far a stone reaches from above: what its size is told by.
 
 use crate::cut::Outline;
+use crate::math::{Calipers, hull};
 use crate::scene::Specimen;
 use glam::{DVec2, DVec3};
 
@@ -22,7 +23,7 @@ pub struct Extent {
 }
 
 impl Extent {
-    /// Measures a stone. Of a solid without facets, length and width are its extents along x and y.
+    /// Measures a stone, with or without facets: length and width are those of [`Outline`].
     pub fn of(specimen: &Specimen) -> Self {
         let points = specimen.solid().vertices();
         let (length, width) = match specimen.stone() {
@@ -30,15 +31,24 @@ impl Extent {
                 let Outline { length, width, .. } = Outline::of(&stone.polytope);
                 (length, width)
             }
-            Err(_) => {
-                let across = DVec2::new(breadth(points, DVec2::X), breadth(points, DVec2::Y));
-                (across.max_element(), across.min_element())
-            }
+            Err(_) => across(points),
         };
         let angles = (0..DIRECTIONS).map(|k| std::f64::consts::PI * f64::from(k) / f64::from(DIRECTIONS));
         let breadths = angles.map(|angle| breadth(points, DVec2::from_angle(angle)));
         let (least, most) = breadths.fold((f64::INFINITY, 0.0_f64), |(a, b), w| (a.min(w), b.max(w)));
         Self { length, width, is_round: most <= (1.0 + ROUND) * least }
+    }
+}
+
+/// Length and width of points, seen along the axis.
+fn across(points: &[DVec3]) -> (f64, f64) {
+    match Calipers::of(&hull(points.iter().map(|p| p.truncate()).collect())) {
+        Some(Calipers { length, width, .. }) => (length, width),
+        // A solid so thin that rounding leaves no outline is measured along its axes.
+        None => {
+            let across = DVec2::new(breadth(points, DVec2::X), breadth(points, DVec2::Y));
+            (across.max_element(), across.min_element())
+        }
     }
 }
 

@@ -88,6 +88,9 @@ fn quoted(cell: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::measure::by_beams;
+    use crate::scene::View;
+    use crate::trace::{beam, unwatched};
 
     fn line(name: &'static str, share: f64, other: Option<f64>) -> Line {
         Line { name, meaning: "", share, other, error: 0.0, band: None, is_strong: false }
@@ -102,6 +105,25 @@ mod tests {
             \"a, \"\"b\"\"\",face up,Red,50.0000,25.0000\r\n\
             \"a, \"\"b\"\"\",face up,Glare,1.0000,\r\n";
         assert_eq!(csv(&about, &energies, &areas), expected);
+    }
+
+    #[test]
+    fn tilts_are_a_table_of_the_zones() {
+        let document = crate::app::document::Document::first().unwrap();
+        let specimen = document.specimen();
+        let scope = Scope::aset(ASET_CONE, Backing::Black);
+        let options = beam::Options { unresolved: 0.05, ..beam::Options::default() };
+        let (view, medium) = (View::default(), specimen.medium(589.3));
+        let stone = specimen.stone().unwrap();
+        let beams = beam::trace(&stone.polytope, medium, &view, &options, &unwatched).unwrap();
+        let figures = by_beams(&beams, &scope);
+        let table = tilts(0.0, &vec![(-30.0, figures.clone()), (0.0, figures.clone())]);
+        let lines: Vec<&str> = table.lines().collect();
+        assert_eq!(lines[0], "tilt_degrees,red_percent,green_percent,blue_percent,leakage_percent");
+        let numbers: Vec<f64> = lines[1].split(',').map(|cell| cell.parse().unwrap()).collect();
+        let red = scope.bands.iter().position(|band| band.name == "red").unwrap();
+        assert!(lines.len() == 3 && numbers[0] == -30.0 && numbers.len() == 5);
+        assert!((numbers[1] - 100.0 * energy(&figures, red)).abs() < 1e-4 && numbers[1] > 10.0);
     }
 
     #[test]

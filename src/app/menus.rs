@@ -58,6 +58,8 @@ const AROUND_MENU: f32 = 56.0;
 /// The contents of a menu, which scroll where the window is lower than they are.
 fn within_window(ui: &mut Ui, contents: impl FnOnce(&mut Ui)) {
     let height = ui.ctx().content_rect().height() - AROUND_MENU;
+    // A menu of its own accord would be no higher than areas are by default.
+    ui.set_max_height(height);
     egui::ScrollArea::vertical().max_height(height).show(ui, contents);
 }
 

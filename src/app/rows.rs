@@ -121,8 +121,12 @@ impl Number<'_> {
             let text = painter.layout_no_wrap(format!("{text}{unit}"), font.clone(), Color32::WHITE);
             text.size().x <= room
         };
-        let field = field.custom_formatter(|number, places| written(number, places, &fits));
-        let shown = written(before, decimals.min(1)..=decimals, &fits);
+        let text = |number: f64, places| match number == NOT_KNOWN {
+            true => UNKNOWN.to_owned(),
+            false => written(number, places, &fits),
+        };
+        let field = field.custom_formatter(&text);
+        let shown = text(before, decimals.min(1)..=decimals);
         // Half the world writes a comma.
         let field = field.custom_parser(|text| {
             text.trim().trim_end_matches(unit.trim()).trim().replace(',', ".").parse().ok()
@@ -136,7 +140,9 @@ impl Number<'_> {
     }
 }
 
-/// What a field shows in place of a number that is not known, which is NaN.
+/// A number that is not known, and what a field shows in its place. It equals itself, as NaN does not: a field that is
+/// edited compares it with itself.
+pub const NOT_KNOWN: f64 = f64::NEG_INFINITY;
 pub const UNKNOWN: &str = "–";
 
 /// A number without a slider: its name, nothing, and the field in the column of numbers.

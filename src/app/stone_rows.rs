@@ -3,7 +3,7 @@
 use super::company_rows;
 use super::editor::Editor;
 use super::extent::Extent;
-use super::rows::{NUMBER, Number, UNKNOWN, field_width, named, number_row, skip_control};
+use super::rows::{NOT_KNOWN, NUMBER, Number, UNKNOWN, field_width, named, number_row, skip_control};
 use crate::cut::{Cut, Design, MaterialRef, Size};
 use crate::optics::{Material, line, materials};
 use egui::{ComboBox, RichText, Ui};
@@ -82,7 +82,7 @@ fn material(design: &mut Design, known: &Material, ui: &mut Ui) {
 
 /// The density, which a material of the library has of its own; setting one makes it a material of the design's own.
 fn density(design: &mut Design, known: &Material, ui: &mut Ui) {
-    let mut density = known.density.unwrap_or(f64::NAN);
+    let mut density = known.density.unwrap_or(NOT_KNOWN);
     let meaning =
         "What the stone's weight follows from. An index alone says nothing of it: type the density here.";
     let number = Number { decimals: 3, speed: 0.01, range: DENSITIES, unit: " g/cm³" };

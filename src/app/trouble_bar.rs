@@ -20,6 +20,7 @@ pub fn show(editor: &mut Editor, ctx: &Context, stage: Rect) {
         let frame = Frame::popup(ui.style()).inner_margin(6.0);
         frame.show(ui, |ui| {
             ui.set_width(stage.width() - 14.0);
+            ui.set_max_height(stage.height());
             match editor.notes.is_open {
                 true => list(editor, ui, stage.height() * MOST_OF_HEIGHT),
                 false => last(editor, ui),

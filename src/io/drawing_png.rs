@@ -42,14 +42,14 @@ pub fn rasterize(svg: &str, width: u32) -> Result<(u32, u32, Vec<u8>), DrawingEr
     Ok((pixmap.width(), pixmap.height(), rgb))
 }
 
-/// Rasterises an SVG as large as it fits into so many pixels across and down, otherwise as [`rasterize`].
+/// Rasterises an SVG as large as it fits into so many pixels across and down, otherwise as [`rasterize_clear`].
 ///
 /// # Errors
 /// As of [`rasterize`].
 pub fn rasterize_within(svg: &str, [across, down]: [u32; 2]) -> Result<(u32, u32, Vec<u8>), DrawingError> {
     let size = parse(svg)?.size();
     let width = f64::from(down) * f64::from(size.width()) / f64::from(size.height());
-    rasterize(svg, across.min(width.floor() as u32).max(1))
+    rasterize_clear(svg, across.min(width.floor() as u32).max(1))
 }
 
 /// Rasterises an SVG at a width in pixels on nothing: (width, height, straight RGBA with a byte each, rows from the top).

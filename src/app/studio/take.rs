@@ -239,9 +239,9 @@ fn drawing(shot: &Shot) -> Result<Taken, Trouble> {
         None => DiagramStyle::sheet(shot.paper.inks),
     };
     let text = diagram(stone, &shot.title, &style).to_string();
-    let (width, height, rgb) =
+    let (width, height, rgba) =
         rasterize_within(&text, shot.film.size).map_err(|e| Trouble::Other(e.to_string()))?;
-    let image = ColorImage::from_rgb([width as usize, height as usize], &rgb);
+    let image = ColorImage::from_rgba_unmultiplied([width as usize, height as usize], &rgba);
     Ok(Taken { image, unresolved: None, tracer: "drawn", map: None })
 }
 

@@ -47,7 +47,7 @@ fn open_menu_of(bench: &mut Bench, name: &str) {
 #[test]
 fn a_right_click_opens_a_menu_of_the_view_and_a_right_drag_turns_the_stone() {
     let mut bench = Bench::new();
-    bench.settle();
+    bench.harness.run_steps(3);
     open_menu_of(&mut bench, "ASET picture");
     assert_eq!(bench.editor().desk.eye.turn, 0.0);
     bench.harness.get_by_label("Export this view…").click();
@@ -76,8 +76,8 @@ fn a_right_click_opens_a_menu_of_the_view_and_a_right_drag_turns_the_stone() {
 #[test]
 fn a_picture_is_copied_at_a_size_that_is_chosen() {
     let mut bench = Bench::new();
-    bench.settle();
-    let own = bench.editor().pictures[&(0, Which::Present)].taken.image.size;
+    bench.harness.run_steps(3);
+    let own = bench.editor().asked.shots[0].1.film.size.map(|n| n as usize);
     open_menu_of(&mut bench, "ASET picture");
     bench.click("Copy picture at size");
     bench.harness.run_steps(4);
@@ -100,32 +100,31 @@ fn a_picture_is_copied_at_a_size_that_is_chosen() {
 #[test]
 fn figures_are_copied_as_text_and_as_a_table() {
     let mut bench = Bench::new();
-    bench.settle();
+    bench.wait(|editor| editor.figures.contains_key(&Which::Present));
     let copy = |bench: &mut Bench, entry: &str| {
         bench.click("Copy");
         bench.harness.run_steps(4);
         bench.harness.get_by_label(entry).click();
         copied(bench, 4).0.pop().unwrap()
     };
+    let shown = |bench: &Bench| {
+        let labels = bench.harness.query_all_by_label_contains("Light return");
+        let shown =
+            labels.filter_map(|node| node.accesskit_node().value()).find(|text| text.ends_with('%')).unwrap();
+        shown.trim_start_matches("Light return").trim_end_matches('%').trim().parse::<f64>().unwrap()
+    };
+    // They may become finer meanwhile.
+    let before = shown(&bench);
     let text = copy(&mut bench, "Copy as text");
-    let labels = bench.harness.query_all_by_label_contains("Light return");
-    let shown =
-        labels.filter_map(|node| node.accesskit_node().label()).find(|text| text.ends_with('%')).unwrap();
-    let percent: f64 = shown.trim_start_matches("Light return").trim_end_matches('%').trim().parse().unwrap();
+    let percents = [before, shown(&bench)];
     let line = text.lines().find(|line| line.starts_with("Light return")).unwrap();
     let told: f64 = line.trim_start_matches("Light return").trim_end_matches('%').trim().parse().unwrap();
-    assert!((told - percent).abs() < 0.0051, "{line} beside {shown}");
-    assert!(text.starts_with("Tolkowsky 1919: Table side, face up; ASET, energy; final"), "{text}");
+    assert!(percents.iter().any(|percent| (told - percent).abs() < 0.0051), "{line} beside {percents:?}");
+    assert!(text.starts_with("Tolkowsky 1919: Table side, face up; ASET, energy; "), "{text}");
     let table = copy(&mut bench, "Copy as CSV");
     let rows: Vec<Vec<&str>> = table.lines().map(|line| line.split(',').collect()).collect();
     // The view has a comma, and so stands in quotes.
     assert!(rows.len() == 10 && rows[1..].iter().all(|row| row.len() == 6), "{table}");
-    let tilts = copy(&mut bench, "Copy tilts as CSV");
-    assert_eq!(tilts.lines().count(), 14, "{tilts}");
-    assert_eq!(
-        tilts.lines().next(),
-        Some("tilt_degrees,red_percent,green_percent,blue_percent,leakage_percent")
-    );
     let heading = bench.harness.get_by_label("Against tilt").rect().center();
     open_menu(&mut bench, heading);
     assert!(bench.harness.query_by_label("Copy as CSV").is_some(), "the right button offers the same");
@@ -209,7 +208,7 @@ fn files_of_every_kind_are_dropped_on_the_window() {
     std::fs::write(at("sky.hdr"), hdr).unwrap();
 
     let mut bench = Bench::new();
-    bench.settle();
+    bench.harness.run_steps(3);
     drop_on(&mut bench, &[&at("design.toml")]);
     bench.wait(|editor| editor.document.work.design.name == "dropped");
     drop_on(&mut bench, &[&at("mesh.stl")]);

@@ -329,3 +329,76 @@ fn a_diagram_is_dark_in_the_dark_and_light_in_the_light() {
         assert_eq!(light < 0.2, is_dark, "{theme:?}: {light} of it is light");
     }
 }
+
+#[test]
+#[ignore]
+fn scratch_look() {
+    let out = std::path::PathBuf::from(std::env::var("LOOK").unwrap());
+    let save = |bench: &mut Bench, name: &str| {
+        bench.harness.run_steps(8);
+        bench.harness.render().unwrap().save(out.join(format!("{name}.png"))).unwrap();
+    };
+    for (theme, t) in [(egui::Theme::Dark, "dark"), (egui::Theme::Light, "light")] {
+        let mut desk = Desk::default();
+        desk.panes[0].shows = Shows::Diagram;
+        desk.panes[3].shows = Shows::Profile;
+        let setup = || Setup { desk: desk.clone(), ..Setup::default() };
+        let builder = Harness::builder().with_size(SMALL).with_theme(theme).wgpu();
+        let mut bench = Bench::built(setup(), builder);
+        let begun = std::time::Instant::now();
+        while begun.elapsed().as_secs() < 12 {
+            bench.harness.step();
+            std::thread::sleep(std::time::Duration::from_millis(30));
+        }
+        save(&mut bench, &format!("small-{t}"));
+        if t == "dark" {
+            bench.click("View");
+            save(&mut bench, "menu");
+            bench.harness.key_press(egui::Key::Escape);
+            bench.choose("File", "Export…");
+            save(&mut bench, "export");
+            bench.click("Cancel");
+            bench.choose("Help", "Keys and terms");
+            save(&mut bench, "keys");
+            println!("{:?}", bench.harness.get_by_label("Close").rect());
+            bench.click("Close");
+            bench.choose("Help", "About Brillianteer");
+            save(&mut bench, "about");
+            bench.click("Close");
+            bench.click("Open figures");
+            (0..6).for_each(|k| {
+                bench
+                    .harness
+                    .state_mut()
+                    .notes
+                    .trouble(format!("trouble {k}: {}", "a word that is said; ".repeat(20)))
+            });
+            save(&mut bench, "troubles");
+            bench.click("Show all 6");
+            save(&mut bench, "troubles-open");
+        }
+        drop(bench);
+        let builder = Harness::builder().with_size(vec2(1440.0, 900.0)).with_theme(theme).wgpu();
+        let mut bench = Bench::built(
+            Setup { file: Some("subtle-pill".into()).filter(|_| t == "light"), ..setup() },
+            builder,
+        );
+        let begun = std::time::Instant::now();
+        while begun.elapsed().as_secs() < 12 {
+            bench.harness.step();
+            std::thread::sleep(std::time::Duration::from_millis(30));
+        }
+        save(&mut bench, &format!("large-{t}"));
+        if t == "dark" {
+            let at = bench.harness.get_by_label("ASET picture").rect().center();
+            bench.harness.hover_at(at);
+            bench.harness.step();
+            for pressed in [true, false] {
+                let (button, modifiers) = (egui::PointerButton::Secondary, egui::Modifiers::NONE);
+                bench.harness.event(egui::Event::PointerButton { pos: at, button, pressed, modifiers });
+                bench.harness.step();
+            }
+            save(&mut bench, "context");
+        }
+    }
+}

@@ -36,6 +36,9 @@ pub struct Bench {
 /// How long anything may take.
 const PATIENCE: Duration = Duration::from_secs(120);
 
+/// Steps that scrolling takes.
+const SCROLLED: usize = 24;
+
 impl Bench {
     /// An editor without files, card or a safe.
     pub fn new() -> Self {
@@ -146,7 +149,12 @@ impl Bench {
         self.harness.run_steps(2);
     }
 
+    /// Clicks what has this label; in a dialog that is higher than the window it is scrolled to first.
     pub fn click(&mut self, label: &str) {
+        if self.editor().dialog.is_some() {
+            self.harness.get_by_label(label).scroll_to_me();
+            self.harness.run_steps(SCROLLED);
+        }
         self.harness.get_by_label(label).click();
         self.harness.run_steps(2);
     }
