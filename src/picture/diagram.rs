@@ -139,8 +139,7 @@ impl View {
         let centre = basis.project((low + high) / 2.0);
         let corners = stone.polytope.vertices().iter().map(|&v| basis.project(v).distance(centre));
         let scale = style.radius / corners.fold(0.0, f64::max);
-        let side = if basis == Basis::FACE_UP { -1.0 } else { 1.0 };
-        let place = DVec2::new(side * style.half_apart(), 0.0);
+        let place = style.place(basis == Basis::FACE_UP);
         Self { aspect: Aspect { basis, centre, scale, place }, style: *style }
     }
 
@@ -419,6 +418,8 @@ mod tests {
 
     #[test]
     fn a_diagram_in_a_quarter_of_a_window_is_read_without_a_glass() {
+        let [across, down] = [shown(&brilliant(), [400.0, 200.0]).0, shown(&brilliant(), [200.0, 400.0]).0];
+        assert!(across > 7.5 && down > 7.5, "{across}, {down}: it goes by the shape of its place");
         for points in [[400.0, 380.0], [360.0, 330.0], [900.0, 760.0]] {
             let (height, paper, svg) = shown(&brilliant(), points);
             assert!(height > 8.0, "{points:?}: type of {height} points");

@@ -2,7 +2,9 @@
 
 use super::super::drawing::Inks;
 use super::{LIST_LINE, NAME, View, tiers};
+use crate::math::Basis;
 use crate::scene::Stone;
+use glam::DVec2;
 
 /// Space between the two views of a sheet, and of a small diagram.
 const APART: [f64; 2] = [40.0, 12.0];
@@ -39,12 +41,14 @@ pub struct DiagramStyle {
     pub(super) is_sheet: bool,
     /// Lines of the list; further tiers are only counted, and with none there is no list.
     pub(super) most_lines: usize,
+    /// Whether the views stand one below the other, without lists.
+    pub(super) is_stacked: bool,
 }
 
 impl DiagramStyle {
     /// The whole sheet, dark on white, as it is exported.
     pub const SHEET: Self =
-        Self { inks: Inks::PAPER, radius: RADIUS, is_sheet: true, most_lines: MOST_LINES };
+        Self { inks: Inks::PAPER, radius: RADIUS, is_sheet: true, most_lines: MOST_LINES, is_stacked: false };
 
     /// The whole sheet in other colours.
     pub fn sheet(inks: Inks) -> Self {
@@ -52,30 +56,51 @@ impl DiagramStyle {
     }
 
     /// The style in which names are large enough to be read where the diagram is shown so many points wide and high: the
-    /// whole sheet if it can be, else a diagram without heading and index, at last without the list.
+    /// whole sheet if it can be, else a diagram without heading and index, at last without the list, its views side by side
+    /// or one below the other. Where none is, the one whose names are largest.
     pub fn fitting(stone: &Stone, inks: Inks, points: [f64; 2]) -> Self {
         let tiers = tiers(stone);
         let lines = |basis| {
             let view = View::new(stone, basis, &Self::SHEET);
             tiers.iter().filter(|tier| view.holds(&stone.polytope.facets()[tier.first()])).count()
         };
-        let lines =
-            lines(crate::math::Basis::FACE_UP).max(lines(crate::math::Basis::FACE_DOWN)).min(MOST_LINES);
+        let lines = lines(Basis::FACE_UP).max(lines(Basis::FACE_DOWN)).min(MOST_LINES);
         let sheet = Self::sheet(inks);
         let radii =
             || (0..).map(|k| RADIUS - STEP * f64::from(k)).take_while(|&radius| radius >= LEAST_RADIUS);
-        let small = |most_lines| move |radius| Self { inks, radius, is_sheet: false, most_lines };
-        let all = std::iter::once(sheet).chain(radii().map(small(MOST_LINES))).chain(radii().map(small(0)));
-        let is_legible = |style: &Self| style.type_points(lines, points) >= LEAST_TYPE;
-        all.clone().find(is_legible).or_else(|| all.last()).unwrap_or(sheet)
+        let small = |most_lines, is_stacked| {
+            radii().map(move |radius| Self { inks, radius, is_sheet: false, most_lines, is_stacked })
+        };
+        let all =
+            [sheet].into_iter().chain(small(MOST_LINES, false)).chain(small(0, false)).chain(small(0, true));
+        let type_points = |style: &Self| style.type_points(lines, points);
+        let largest = || all.clone().max_by(|a, b| type_points(a).total_cmp(&type_points(b)));
+        all.clone().find(|style| type_points(style) >= LEAST_TYPE).or_else(largest).unwrap_or(sheet)
     }
 
     /// Height of names in points, where the list has so many lines.
     fn type_points(&self, lines: usize, points: [f64; 2]) -> f64 {
         let list = if self.most_lines == 0 { 0.0 } else { LIST_LINE * (lines as f64 + 0.8) };
         let extra = if self.is_sheet { SHEET_EXTRA } else { SMALL_EXTRA };
-        let size = [2.0 * (self.half_apart() + self.half_room()), 2.0 * self.leaders() + list + extra];
+        let size = match self.is_stacked {
+            true => [2.0 * self.half_room(), 4.0 * self.half_height()],
+            false => [2.0 * (self.half_apart() + self.half_room()), 2.0 * self.leaders() + list + extra],
+        };
         NAME.size * (points[0] / size[0]).min(points[1] / size[1])
+    }
+
+    /// Where the middle of a view stands: the crown's to the left of the pavilion's, or above it.
+    pub(super) fn place(&self, is_crown: bool) -> DVec2 {
+        let side = if is_crown { -1.0 } else { 1.0 };
+        match self.is_stacked {
+            true => DVec2::new(0.0, side * self.half_height()),
+            false => DVec2::new(side * self.half_apart(), 0.0),
+        }
+    }
+
+    /// Half the height that a view without a list takes, its name included.
+    fn half_height(&self) -> f64 {
+        self.leaders() + 26.0
     }
 
     /// Half the room that each of the two views has.
@@ -84,7 +109,7 @@ impl DiagramStyle {
     }
 
     /// Half the distance between the middles of the two views.
-    pub(super) fn half_apart(&self) -> f64 {
+    fn half_apart(&self) -> f64 {
         self.half_room() + APART[usize::from(!self.is_sheet)] / 2.0
     }
 
