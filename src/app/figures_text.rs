@@ -117,13 +117,13 @@ mod tests {
         let stone = specimen.stone().unwrap();
         let beams = beam::trace(&stone.polytope, medium, &view, &options, &unwatched).unwrap();
         let figures = by_beams(&beams, &scope);
-        let table = tilts(0.0, &vec![(-30.0, figures.clone()), (0.0, figures.clone())]);
+        let table = tilts((0.0, Glare::Included), &vec![(-30.0, figures.clone()), (0.0, figures.clone())]);
         let lines: Vec<&str> = table.lines().collect();
         assert_eq!(lines[0], "tilt_degrees,red_percent,green_percent,blue_percent,leakage_percent");
         let numbers: Vec<f64> = lines[1].split(',').map(|cell| cell.parse().unwrap()).collect();
         let red = scope.bands.iter().position(|band| band.name == "red").unwrap();
         assert!(lines.len() == 3 && numbers[0] == -30.0 && numbers.len() == 5);
-        assert!((numbers[1] - 100.0 * energy(&figures, red)).abs() < 1e-4 && numbers[1] > 10.0);
+        assert!((numbers[1] - 100.0 * energy(&figures, red, Glare::Included)).abs() < 1e-4 && numbers[1] > 10.0);
     }
 
     #[test]

@@ -121,12 +121,8 @@ impl Number<'_> {
             let text = painter.layout_no_wrap(format!("{text}{unit}"), font.clone(), Color32::WHITE);
             text.size().x <= room
         };
-        let text = |number: f64, places| match number == NOT_KNOWN {
-            true => UNKNOWN.to_owned(),
-            false => written(number, places, &fits),
-        };
-        let field = field.custom_formatter(&text);
-        let shown = text(before, decimals.min(1)..=decimals);
+        let field = field.custom_formatter(|number, places| written(number, places, &fits));
+        let shown = written(before, decimals.min(1)..=decimals, &fits);
         // Half the world writes a comma.
         let field = field.custom_parser(|text| {
             text.trim().trim_end_matches(unit.trim()).trim().replace(',', ".").parse().ok()
