@@ -2,8 +2,9 @@
 
 use thread_priority::{ThreadPriority, ThreadPriorityValue, set_current_thread_priority};
 
-/// The priority of work that nobody's hand waits for, 0 to 99; on Linux this becomes niceness 9.
-const BEHIND: u8 = 25;
+/// The priority of work that nobody's hand waits for, 0 to 99; on Linux this becomes niceness 2. A window that is painted
+/// sleeps in between and so comes first anyway; much less would let other busy programs stop the tracing.
+const BEHIND: u8 = 42;
 
 /// Lowers the priority of this thread. If the system refuses, the window follows the hand less quickly; nothing else
 /// changes.
