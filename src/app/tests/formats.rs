@@ -106,14 +106,13 @@ fn a_mesh_is_read_in_another_form_by_a_click_which_can_be_undone() {
     bench.harness.run_steps(3);
     let editor = bench.editor();
     assert!(editor.document.specimen().stone().is_ok() && editor.document.is_changed());
-    assert!(editor.document.notes().iter().any(|note| note.contains("bends inward")));
+    assert!(editor.document.odd().iter().any(|note| note.contains("bends inward")));
     let scale = |editor: &Editor| editor.document.specimen().solid().volume() / volume;
     assert!(scale(editor) > 1.05, "{}", scale(editor));
     bench.harness.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::Z);
     bench.wait(is_mesh);
     bench.harness.run_steps(3);
     assert!((scale(bench.editor()) - 1.0).abs() < 1e-12 && !bench.editor().document.is_changed());
-    assert!(bench.editor().document.notes().iter().any(|note| note.contains("traced as")));
     bench.harness.key_press_modifiers(egui::Modifiers::COMMAND | egui::Modifiers::SHIFT, egui::Key::Z);
     bench.wait(|editor| !is_mesh(editor));
 }
