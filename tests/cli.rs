@@ -4,8 +4,12 @@
 
 #[path = "cli/desk.rs"]
 mod desk;
+#[path = "cli/ends.rs"]
+mod ends;
 #[path = "cli/faults.rs"]
 mod faults;
+#[path = "cli/helps.rs"]
+mod helps;
 #[path = "cli/maps.rs"]
 mod maps;
 #[path = "cli/meshes.rs"]
@@ -16,6 +20,8 @@ mod panes;
 mod pictures;
 #[path = "cli/renders.rs"]
 mod renders;
+#[path = "cli/streams.rs"]
+mod streams;
 
 use brillianteer::io::light_file;
 use brillianteer::picture::names;
@@ -319,7 +325,7 @@ fn a_perspective_is_traced_by_rays_which_say_so() {
     assert!(desk.done("measure cube.toml --perspective 8").contains(" point rays"));
     desk.done("export cube.toml --perspective 8 --size 32 --views aset --format png");
     for ending in ["", "-strongest"] {
-        let told = png(&desk.at(format!("out/cube-aset{ending}.png"))).2;
+        let told = png(&desk.at(format!("out/cube-perspective-8-aset{ending}.png"))).2;
         assert!(told.contains("point rays") && !told.contains("beams"), "{told}");
     }
     desk.done("export cube.toml --perspective 8 --format json --out figures");
@@ -391,8 +397,8 @@ fn a_card_measures_and_draws_as_rays_do_and_is_named() {
     for tracer in ["gpu", "ray"] {
         desk.run(&format!("{export} {tracer} --out {tracer}"));
     }
-    for file in ["tolkowsky-aset.png", "tolkowsky-aset-strongest.png"] {
-        let [(_, card, told), (_, rays, _)] = ["gpu", "ray"].map(|folder| png(&desk.at(folder).join(file)));
+    for file in ["aset.png", "aset-strongest.png"].map(|end| format!("tolkowsky-tilt-7-azimuth-20-{end}")) {
+        let [(_, card, told), (_, rays, _)] = ["gpu", "ray"].map(|folder| png(&desk.at(folder).join(&file)));
         assert!(told.contains("point rays in f32 on "), "{told}");
         let off = card.iter().zip(&rays).filter(|(a, b)| (*a - *b).abs().max_element() > 0.01).count();
         assert!(off * 500 <= card.len(), "{file}: {off} pixels of {} differ", card.len());

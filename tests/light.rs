@@ -93,6 +93,19 @@ fn more_looks_and_more_wavelengths_come_to_the_same_picture() {
 }
 
 #[test]
+fn a_picture_by_beams_is_the_same_to_the_bit_whole_and_some_rows_at_a_time() {
+    let mut shoot = Shoot::new(&modern(), "ruby", light("studio").unwrap());
+    shoot.view = View { tilt: 0.2, azimuth: 0.3, ..View::default() };
+    (shoot.wavelengths, shoot.samples) = (2, 2);
+    let (whole, rest) = shoot.by_beams();
+    for rows in [16, 48] {
+        assert!(rows < shoot.size);
+        let (parts, rest_of_parts) = shoot.by_beams_in(rows);
+        assert!(parts == whole && rest_of_parts == rest, "{rows} rows at a time");
+    }
+}
+
+#[test]
 fn a_stone_behind_another_is_seen_through_it_and_hidden_beside_it() {
     // A clear cube of index 1 in front changes nothing; a dark one hides what is behind.
     let cube = |middle: DVec3, half: f64| {

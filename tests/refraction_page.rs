@@ -77,8 +77,7 @@ fn made(options: &str) -> tempfile::TempDir {
 }
 
 /// The picture that the map refracts, in eight-bit codes.
-fn expected(folder: &Path, bands: usize, offset: DVec2) -> Vec<[u8; 3]> {
-    let stem = "modern-ideal";
+fn expected(folder: &Path, stem: &str, bands: usize, offset: DVec2) -> Vec<[u8; 3]> {
     let paths = refraction_map::paths(folder, stem, bands, refraction_map::Coding::Tiles);
     let map = refraction_map::read(&paths, &refraction_map::diffuse_path(folder, stem)).unwrap();
     let photo = panorama::read_photo(&folder.join("photo.png")).unwrap().panorama;
@@ -107,15 +106,17 @@ fn psnr(a: &[[u8; 3]], b: &[[u8; 3]]) -> f64 {
 #[test]
 fn the_page_shows_what_the_program_refracts() {
     let Some(browser) = browser() else { return };
-    for (bands, options) in [(1, "--tilt 20"), (5, "--bands 5 --both-sides --perspective 6")] {
+    let tilted = (1, "--tilt 20", "modern-ideal-tilt-20");
+    let near = (5, "--bands 5 --both-sides --perspective 6", "modern-ideal-perspective-6");
+    for (bands, options, stem) in [tilted, near] {
         let offset = DVec2::new(0.375, -0.25) * f64::from(bands - 1);
         let folder = made(&format!("--background photo.png {options}"));
         let picture = folder.path().join("shot.png");
         let shoot = format!("--screenshot={}", picture.display());
         let more = ["--window-size=400,300", &shoot];
-        let page = format!("modern-ideal-refraction.html#still,{},{}", offset.x, offset.y);
+        let page = format!("{stem}-refraction.html#still,{},{}", offset.x, offset.y);
         open(&browser, folder.path(), &page, &[&SOFTWARE[..], &more].concat());
-        let (found, wanted) = (shot(&picture), expected(folder.path(), bands as usize, offset));
+        let (found, wanted) = (shot(&picture), expected(folder.path(), stem, bands as usize, offset));
         let (same, mut mirrored) = (psnr(&found, &wanted), wanted.clone());
         mirrored.chunks_mut(200).for_each(<[_]>::reverse);
         let other = psnr(&found, &mirrored);

@@ -84,9 +84,6 @@ fn is_same_stone(a: &Design, b: &Design) -> bool {
 /// The light that a program starts with.
 pub const FIRST_LIGHT: &str = "studio";
 
-/// The cut that a program starts with.
-const FIRST_CUT: &str = "tolkowsky";
-
 impl Document {
     /// A design that lies in a file, or in none yet.
     ///
@@ -134,7 +131,7 @@ impl Document {
     /// # Errors
     /// None, unless the program itself is broken.
     pub fn first() -> Result<Self, String> {
-        Self::of_library(FIRST_CUT)
+        Self::of_library(library::FIRST_CUT)
     }
 
     /// Opens a design; the options are those of meshes.

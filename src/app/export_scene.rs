@@ -8,7 +8,6 @@ use crate::io::scene_file::{self, DEFAULT_GAP_MM, Entry, SceneFile};
 use crate::io::{Failure, WriteError, cut_file, write};
 use crate::scene::{Pose, middle};
 use glam::DQuat;
-use std::io::Write as _;
 use std::path::PathBuf;
 use std::sync::Arc;
 

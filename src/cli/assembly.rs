@@ -4,9 +4,9 @@ use super::Failure;
 use super::specimen::{Specimen, asked_material};
 use crate::cut::{MaterialRef, Size};
 use crate::io::background::BackgroundRef;
-use crate::io::library;
 use crate::io::mesh_options::MeshOptions;
 use crate::io::scene_file::{self, Entry, SceneFile};
+use crate::io::{is_standard, library};
 use crate::optics::Material;
 use crate::scene::{Placed, Setting, overlapping};
 use glam::{DQuat, DVec3};
@@ -129,7 +129,7 @@ impl Assembly {
 
 /// The scene of a file, or of that name; `None` where it is none.
 fn scene(file: &Path) -> Result<Option<SceneFile>, Failure> {
-    if file.is_file() {
+    if file.is_file() || is_standard(file) {
         return scene_file::is_scene(file)
             .then(|| scene_file::read(file))
             .transpose()
@@ -142,7 +142,7 @@ fn scene(file: &Path) -> Result<Option<SceneFile>, Failure> {
 
 /// Whether a path means a scene: a file of one, or the name of one that comes with the program.
 pub fn is_scene(file: &Path) -> bool {
-    match file.is_file() {
+    match file.is_file() || is_standard(file) {
         true => scene_file::is_scene(file),
         false => library::scene(&file.to_string_lossy()).is_some(),
     }

@@ -58,18 +58,23 @@ impl Bench {
     pub fn run(&self) -> Result<(), Failure> {
         let specimen = Specimen::load(Path::new("modern-ideal"), MeshOptions::default())?;
         let card = on_card();
-        let mut tasks = vec![];
-        for (size, bounces) in SCOPES {
-            tasks.push(in_scope(&specimen, card, size, bounces)?);
-        }
-        tasks.push(under_light(&specimen, card)?);
         let threads = rayon::current_num_threads();
-        if self.json {
-            let tasks: Vec<Value> = tasks.iter().map(Task::json).collect();
-            return print(&json(&json!({ "threads": threads, "card": card.told(), "tasks": tasks })));
+        if !self.json {
+            print(&format!("modern ideal face up; {threads} threads"))?;
         }
-        let tables: Vec<String> = tasks.iter().map(Task::table).collect();
-        print(&format!("modern ideal face up; {threads} threads\n\n{}", tables.join("\n\n")))
+        let mut tasks = vec![];
+        let mut done = |task: Task| {
+            tasks.push(task.json());
+            if self.json { Ok(()) } else { print(&format!("\n{}", task.table())) }
+        };
+        for (size, bounces) in SCOPES {
+            done(in_scope(&specimen, card, size, bounces)?)?;
+        }
+        done(under_light(&specimen, card)?)?;
+        if !self.json {
+            return Ok(());
+        }
+        print(&json(&json!({ "threads": threads, "card": card.told(), "tasks": tasks })))
     }
 }
 

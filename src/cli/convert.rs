@@ -4,27 +4,52 @@ use super::mesh_options::MeshArguments;
 use super::specimen::Specimen;
 use super::{Failure, say};
 use crate::io::design_file::{self, Format};
-use clap::Args;
+use clap::builder::PossibleValue;
+use clap::{Args, ValueEnum};
 use std::path::PathBuf;
 
 #[derive(Debug, Args)]
 pub struct Convert {
     /// A file of a design or a mesh, or the name of a cut that comes with the program
     input: PathBuf,
-    /// The file to write; its ending names the format: .toml, .asc, .gem, .gcs, .obj, .stl, .ply or .glb
+    /// The file to write; its ending names the format: .toml, .asc, .gem, .gcs, .obj, .stl, .ply or .glb. `-` is standard output,
+    /// for which --format names it
     output: PathBuf,
+    /// The format to write, whatever the ending
+    #[arg(long, value_enum)]
+    format: Option<Format>,
     #[command(flatten)]
     mesh: MeshArguments,
 }
 
+impl ValueEnum for Format {
+    fn value_variants<'a>() -> &'a [Self] {
+        &Self::ALL
+    }
+
+    fn to_possible_value(&self) -> Option<PossibleValue> {
+        let help = match self {
+            Self::Toml => "This program's own cut files",
+            Self::Asc => "GemCad's text files",
+            Self::Gem => "GemCad's binary files",
+            Self::Gcs => "Gem Cut Studio's files",
+            Self::Obj => "Wavefront's meshes, facets as polygons",
+            Self::Stl => "Binary STL meshes",
+            Self::Ply => "PLY meshes",
+            Self::Glb => "Binary glTF meshes",
+        };
+        Some(PossibleValue::new(self.ending()).help(help))
+    }
+}
+
 impl Convert {
     pub fn run(&self) -> Result<(), Failure> {
-        let format = Format::of_name(&self.output).ok_or_else(|| {
+        let format = self.format.or_else(|| Format::of_name(&self.output)).ok_or_else(|| {
             let endings: Vec<String> =
                 Format::ALL.iter().map(|format| format!(".{}", format.ending())).collect();
             let output = self.output.display();
             Failure::Usage(format!(
-                "{output}: the ending names no format; give one of {}",
+                "{output}: the ending names no format; give one of {}, or --format",
                 endings.join(", ")
             ))
         })?;

@@ -5,8 +5,8 @@ use super::options::{LightOptions, ViewOptions, scoped};
 use super::progress::Progress;
 use super::specimen::stem;
 use super::{Failure, each_file};
-use crate::io::MOST_PIXELS;
 use crate::io::export::{self, Format, Outputs, first_twice};
+use crate::io::{MOST_PIXELS, is_standard};
 use crate::picture::{Picture, named, names};
 use clap::builder::PossibleValue;
 use clap::{Args, ValueEnum};
@@ -29,7 +29,7 @@ pub struct Export {
     /// Kinds of file to write, separated by commas
     #[arg(long, value_enum, value_delimiter = ',', default_values_t = [Format::Png, Format::Svg, Format::Json])]
     format: Vec<Format>,
-    /// Folder to write to
+    /// Folder to write to; `-` is standard output, for one file
     #[arg(long, default_value = "out")]
     out: PathBuf,
     /// Draw a caption under pictures in scopes: what each colour means, view, error, stone and program
@@ -64,6 +64,9 @@ impl ValueEnum for Format {
 
 impl Export {
     pub fn run(&self) -> Result<(), Failure> {
+        if is_standard(&self.out) && self.files.len() > 1 {
+            return Err(Failure::Usage("--out -: several stones need a folder".into()));
+        }
         let pictures = self.pictures()?;
         let all: Vec<Outputs> = self.files.iter().map(|file| self.outputs(file, &pictures)).collect();
         self.distinct(&all)?;

@@ -8,12 +8,16 @@ use crate::cut::{AlongAxes, Cut, Report, Spread};
 use crate::math::{Facet, Polytope};
 use crate::scene::Body;
 use clap::Args;
+use glam::DVec2;
 use serde_json::{Value, json};
 use std::fmt::Write;
 use std::path::PathBuf;
 
 /// A facet whose normal leans less than this (sine of the angle) has no azimuth: rounding would choose it.
 const LEVEL: f64 = 1e-12;
+
+/// An azimuth less than this below 360 degrees is 0, but for rounding.
+const ROUNDING_DEG: f64 = 1e-9;
 
 #[derive(Debug, Args)]
 pub struct Info {
@@ -23,6 +27,9 @@ pub struct Info {
     /// Print JSON: one object, or for several files one a line
     #[arg(long)]
     json: bool,
+    /// List every facet after the tiers
+    #[arg(long)]
+    facets: bool,
     #[command(flatten)]
     mesh: MeshArguments,
 }
@@ -37,7 +44,7 @@ impl Info {
             }
             let specimen = Specimen::load(file, mesh)?;
             let value = described(&specimen)?;
-            self.tell(&value, || table(&specimen, &value))
+            self.tell(&value, || table(&specimen, &value, self.facets))
         })
     }
 
@@ -134,15 +141,39 @@ fn facet_json(polytope: &Polytope, facet: &Facet, name: &str) -> Value {
     json!({
         "name": name,
         "normal": n.to_array(),
-        "offset": facet.plane.offset,
+        // Of a plane through the origin 0, and never -0.
+        "offset": facet.plane.offset + 0.0,
         "slope_deg": across.length().atan2(n.z.abs()).to_degrees(),
-        "azimuth_deg": if across.length() > LEVEL { across.to_angle().to_degrees().rem_euclid(360.0) } else { 0.0 },
+        "azimuth_deg": azimuth_deg(across),
         "area": polytope.facet_area(facet),
         "corners": facet.outline,
     })
 }
 
-fn table(specimen: &Specimen, value: &Value) -> String {
+/// The azimuth of a normal's part in the girdle plane, degrees, 0 to below 360; 0 where there is none.
+fn azimuth_deg(across: DVec2) -> f64 {
+    if across.length() <= LEVEL {
+        return 0.0;
+    }
+    let azimuth = across.to_angle().to_degrees().rem_euclid(360.0);
+    // A hair below 0 comes out as 360, or a hair below that.
+    if 360.0 - azimuth < ROUNDING_DEG { 0.0 } else { azimuth }
+}
+
+/// A number to so many digits, without the sign of what is rounded to 0.
+fn fixed(value: f64, digits: usize) -> String {
+    let text = format!("{value:.digits$}");
+    let is_nought = !text.bytes().any(|digit| matches!(digit, b'1'..=b'9'));
+    if is_nought { text.trim_start_matches('-').to_owned() } else { text }
+}
+
+/// An azimuth for people.
+fn shown_azimuth(azimuth_deg: f64) -> String {
+    let text = fixed(azimuth_deg, 4);
+    if text == "360.0000" { fixed(0.0, 4) } else { text }
+}
+
+fn table(specimen: &Specimen, value: &Value, with_facets: bool) -> String {
     let mut text = format!("{}: {}\n", specimen.path, specimen.design.name);
     let mut line = |key: &str, what: String| {
         let _ = writeln!(text, "  {key:<28}{what}");
@@ -193,12 +224,16 @@ fn table(specimen: &Specimen, value: &Value) -> String {
     line("volume", format!("{:.6} girdle radii³", polytope.volume()));
     line("surface area", format!("{:.6} girdle radii²", polytope.surface_area()));
     tiers(&report, &mut text);
+    if !with_facets {
+        return text;
+    }
     let _ = write!(text, "\n\n  {:<18}{:>10}{:>11}{:>12}", "facet", "slope deg", "azimuth", "area");
     for facet in value["facets"].as_array().into_iter().flatten() {
         let number = |key: &str| facet[key].as_f64().unwrap_or(f64::NAN);
         let name = facet["name"].as_str().unwrap_or_default();
-        let (slope, azimuth, area) = (number("slope_deg"), number("azimuth_deg"), number("area"));
-        let _ = write!(text, "\n  {name:<18}{slope:>10.4}{azimuth:>11.4}{area:>12.6}");
+        let (slope, azimuth) = (number("slope_deg"), shown_azimuth(number("azimuth_deg")));
+        let area = number("area");
+        let _ = write!(text, "\n  {name:<18}{slope:>10.4}{azimuth:>11}{area:>12.6}");
     }
     text
 }
@@ -234,6 +269,26 @@ fn tiers(report: &Report, text: &mut String) {
 /// A mean, and the range where that is wider than the digits told.
 fn spread(spread: Spread, digits: usize) -> String {
     let Spread { least, mean, most } = spread;
-    let [low, high] = [least, most].map(|value| format!("{value:.digits$}"));
-    if low == high { format!("{mean:.digits$}") } else { format!("{mean:.digits$} ({low} to {high})") }
+    let [low, mean, high] = [least, mean, most].map(|value| fixed(value, digits));
+    if low == high { mean } else { format!("{mean} ({low} to {high})") }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rounding_shows_neither_a_full_turn_nor_a_minus_before_nought() {
+        for angle in [-1e-17, -1e-12, 0.0, 1e-17] {
+            assert!(azimuth_deg(DVec2::from_angle(angle)) < 1e-9, "{angle}");
+        }
+        assert!((azimuth_deg(DVec2::from_angle(-1e-6)) - 359.999_942_7).abs() < 1e-6);
+        assert_eq!([359.999_99, 359.99, 0.0].map(shown_azimuth), ["0.0000", "359.9900", "0.0000"]);
+        assert_eq!(
+            [-1e-9, -0.0, -0.0001, 2.0].map(|v| fixed(v, 4)),
+            ["0.0000", "0.0000", "-0.0001", "2.0000"]
+        );
+        let flat = Spread { least: -1e-17, mean: -1e-18, most: 1e-17 };
+        assert_eq!(spread(flat, 4), "0.0000");
+    }
 }

@@ -3,9 +3,9 @@
 use super::picture_options::film_size;
 use super::picturing::within;
 use super::progress::Progress;
-use super::{Failure, print, say};
+use super::{Failure, print, say, written};
 use crate::io::background::BackgroundRef;
-use crate::io::write_rgba_png;
+use crate::io::{STANDARD, is_standard, write_rgba_png};
 use crate::optics::{Illuminant, linear_from_encoded, strata};
 use crate::picture::pane::{Around, Comparison, Cost, Pane, PaneError, Quality, Shifts};
 use crate::picture::pane::{compare, pane, surroundings};
@@ -32,7 +32,7 @@ pub struct LiquidGlass {
     /// stripes, dots, slit), or a photograph's file
     #[arg(long, value_name = "WHAT")]
     background: String,
-    /// Folder to write to
+    /// Folder to write to; without --compare `-` is standard output
     #[arg(long, default_value = "out")]
     out: PathBuf,
     /// Pixels of the picture: a number for a square, or WIDTHxHEIGHT
@@ -124,6 +124,11 @@ impl LiquidGlass {
                 "--out: several files are written: give a folder, not a .{ending}"
             )));
         }
+        if is_standard(&self.out) && self.compare {
+            return Err(Failure::Usage(
+                "--out -: several files are written; give a folder, or leave out --compare".into(),
+            ));
+        }
         let (pane_asked, gap) = (self.asked()?, within("gap", self.gap, 1e-3, 100.0)?);
         let background = self.ground()?;
         let told = self.told(&pane_asked);
@@ -205,11 +210,14 @@ impl LiquidGlass {
     }
 
     fn write(&self, stem: &str, picture: &Linear, told: &str) -> Result<(), Failure> {
-        let path = self.out.join(format!("{stem}.png"));
+        let path = match is_standard(&self.out) {
+            true => STANDARD.into(),
+            false => self.out.join(format!("{stem}.png")),
+        };
         // As screens composite: neither exposure nor tone.
         let manner = Develop { bloom: None, tone: Tone::Linear, ..Develop::default() };
         write_rgba_png(&path, &develop(picture, &manner), (picture.width, picture.height), told)?;
-        print(&path.display().to_string())
+        written(&path)
     }
 }
 

@@ -64,8 +64,8 @@ impl List {
 pub struct Cuts {
     /// Print the file of this cut
     name: Option<String>,
-    /// Print JSON
-    #[arg(long)]
+    /// Print the list as JSON
+    #[arg(long, conflicts_with = "name")]
     json: bool,
 }
 
@@ -94,8 +94,8 @@ impl Cuts {
 pub struct Scenes {
     /// Print the file of this scene
     name: Option<String>,
-    /// Print JSON
-    #[arg(long)]
+    /// Print the list as JSON
+    #[arg(long, conflicts_with = "name")]
     json: bool,
 }
 
@@ -124,16 +124,23 @@ impl Scenes {
 pub struct Scopes {
     /// Print this scope as a file, which `export --scope` takes
     name: Option<String>,
+    /// Print the list as JSON, each scope with the keys of its file
+    #[arg(long, conflicts_with = "name")]
+    json: bool,
 }
 
 impl Scopes {
     pub fn run(&self) -> Result<(), Failure> {
+        let all = || names().into_iter().filter_map(scope);
+        if self.json {
+            return print(&json(&json!(all().collect::<Vec<_>>())));
+        }
         let Some(name) = &self.name else {
             let line = |scope: Scope| {
                 let band = |b: &crate::scene::Band| format!("{} from {}", b.name, b.from);
                 format!("{:<14}{}", scope.name, scope.bands.iter().map(band).collect::<Vec<_>>().join(", "))
             };
-            return print(&names().into_iter().filter_map(scope).map(line).collect::<Vec<_>>().join("\n"));
+            return print(&all().map(line).collect::<Vec<_>>().join("\n"));
         };
         let known = || names().into_iter().filter(|n| scope(n).is_some()).collect::<Vec<_>>().join(", ");
         let scope =
@@ -154,12 +161,18 @@ fn scope(name: &str) -> Option<Scope> {
 pub struct Lights {
     /// Print this light as a file to start from
     name: Option<String>,
+    /// Print the list as JSON, each light with the keys of its file
+    #[arg(long, conflicts_with = "name")]
+    json: bool,
 }
 
 impl Lights {
     pub fn run(&self) -> Result<(), Failure> {
+        let known = LIGHTS.into_iter().filter_map(light);
+        if self.json {
+            return print(&json(&json!(known.collect::<Vec<_>>())));
+        }
         let Some(name) = &self.name else {
-            let known = LIGHTS.into_iter().filter_map(light);
             let line = |light: crate::scene::Light| format!("{:<14}{}", light.name, light.description);
             return print(&known.map(line).collect::<Vec<_>>().join("\n"));
         };

@@ -16,13 +16,15 @@ mod progress;
 mod refraction_map;
 mod render;
 mod sampler;
+mod shell;
 mod specimen;
 mod spin;
+mod without_window;
 
 use crate::io::Failure;
 use crate::io::export::Told;
-use crate::io::library;
 use crate::io::mesh_options::MeshOptions;
+use crate::io::{is_standard, library};
 use clap::error::ErrorKind;
 use clap::{CommandFactory, Parser, Subcommand};
 use mesh_options::MeshArguments;
@@ -35,7 +37,7 @@ fn code(failure: &Failure) -> u8 {
     match failure {
         Failure::Input(_) => 1,
         Failure::Usage(_) => 2,
-        Failure::Output(_) => 3,
+        Failure::Output(_) | Failure::NoWindow(_) => 3,
         #[cfg(feature = "gpu")]
         Failure::Card(_) => 3,
         Failure::Stopped => 130,
@@ -50,18 +52,19 @@ struct Arguments {
     command: Option<Command>,
 }
 
-/// What opens the editor, on a file if one is given, read with these options where it is a mesh, and waits until it is
-/// closed.
-pub type Editor = fn(Option<PathBuf>, MeshOptions) -> Result<(), String>;
+/// What opens the editor, on a file if one is given, read with these options where it is a mesh, and waits until it is closed;
+/// [`Failure::NoWindow`] where it cannot be opened.
+pub type Editor = fn(Option<PathBuf>, MeshOptions) -> Result<(), Failure>;
 
 const USAGE: &str = "brillianteer [FILE]\n       brillianteer COMMAND";
 
 const EXIT_CODES: &str = "Exit codes: 0 done, 1 an input is at fault, 2 the command line is, 3 an output could not be \
-    written, 130 stopped.";
+    written or no window opened, 130 stopped by Ctrl-C, 143 by SIGTERM. Without a command and without a screen, the main \
+    pictures and figures are written to the folder out. For FILE, - is standard input.";
 
 #[derive(Debug, Subcommand)]
 enum Command {
-    /// Open the editor, as the program does without a command
+    /// Open the editor, as the program does without a command; without a screen this fails
     Edit {
         /// A design to open, or the name of one that comes with the program
         file: Option<PathBuf>,
@@ -96,11 +99,16 @@ enum Command {
     Scopes(lists::Scopes),
     /// List the lights, or print one as a file to start from
     Lights(lists::Lights),
+    /// Print a script that completes the program's commands and options in a shell
+    Completions(shell::Completions),
+    /// Print the manual page of the program, or of one of its commands
+    Man(shell::Manual),
 }
 
 /// Runs the program with the process's arguments; `editor` opens its window.
 pub fn main(editor: Option<Editor>) -> ExitCode {
-    let given = spelt_out(std::env::args_os().collect());
+    let typed: Vec<OsString> = std::env::args_os().collect();
+    let given = spelt_out(typed.clone());
     let arguments = match Arguments::try_parse_from(&given) {
         Ok(arguments) => arguments,
         Err(told) => {
@@ -114,39 +122,74 @@ pub fn main(editor: Option<Editor>) -> ExitCode {
             return ExitCode::from(u8::try_from(told.exit_code()).unwrap_or(2));
         }
     };
-    let edit = |file: Option<PathBuf>, mesh: MeshOptions| match editor {
-        _ if let Some(file) = file.as_ref().filter(|f| !f.is_file() && !is_known(f)) => {
-            Err(Failure::Input(format!("{}: there is no such file{}", file.display(), lists::hint(file))))
-        }
-        Some(open) => open(file, mesh).map_err(Failure::Output),
-        None => Err(Failure::Usage("this program was built without its window; see --help".into())),
-    };
+    // Who names the command wants the editor and nothing else.
+    let is_named = typed.len() == given.len() && given.len() > 1;
     let command = arguments.command.unwrap_or(Command::Edit { file: None, mesh: MeshArguments::default() });
-    if !matches!(command, Command::Edit { .. }) {
-        progress::stop_on_interrupt();
-    }
     let result = match command {
-        Command::Edit { file, mesh } => edit(file, mesh.options()),
-        Command::Export(export) => export.run(),
-        Command::Render(render) => render.run(),
-        Command::Spin(spin) => spin.run(),
-        Command::RefractionMap(maps) => maps.run(),
-        Command::LiquidGlass(glass) => glass.run(),
-        Command::Measure(measure) => measure.run(),
-        Command::Info(info) => info.run(),
-        Command::Convert(convert) => convert.run(),
-        Command::Bench(bench) => bench.run(),
-        Command::Materials(list) => list.materials(),
-        Command::Cuts(cuts) => cuts.run(),
-        Command::Scenes(scenes) => scenes.run(),
-        Command::Scopes(scopes) => scopes.run(),
-        Command::Lights(lights) => lights.run(),
+        Command::Edit { file, mesh } => edit(editor, file, mesh.options(), is_named),
+        command => {
+            progress::end_on_signals();
+            command.run()
+        }
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) => {
             say(&format!("error: {failure}"));
             ExitCode::from(code(&failure))
+        }
+    }
+}
+
+/// Opens the editor. Where that cannot be, the stone's pictures and figures are written to files, unless the command was
+/// named.
+fn edit(
+    editor: Option<Editor>,
+    file: Option<PathBuf>,
+    mesh: MeshOptions,
+    is_named: bool,
+) -> Result<(), Failure> {
+    if let Some(file) = file.as_ref().filter(|f| !f.is_file() && !is_known(f)) {
+        let message = format!("{}: there is no such file{}", file.display(), lists::hint(file));
+        return Err(Failure::Input(message));
+    }
+    let opened = match editor {
+        Some(open) => open(file.clone(), mesh),
+        None => Err(Failure::NoWindow("this program was built without its window".into())),
+    };
+    match opened {
+        Err(Failure::NoWindow(why)) if !is_named => {
+            progress::end_on_signals();
+            without_window::write(file, &why)
+        }
+        Err(Failure::NoWindow(why)) => Err(Failure::NoWindow(format!(
+            "{why}; `brillianteer export` and `brillianteer render` write files without it"
+        ))),
+        done => done,
+    }
+}
+
+impl Command {
+    /// Does what the command says, but for opening the editor, which needs one.
+    fn run(self) -> Result<(), Failure> {
+        match self {
+            Self::Edit { file, mesh } => edit(None, file, mesh.options(), true),
+            Self::Export(export) => export.run(),
+            Self::Render(render) => render.run(),
+            Self::Spin(spin) => spin.run(),
+            Self::RefractionMap(maps) => maps.run(),
+            Self::LiquidGlass(glass) => glass.run(),
+            Self::Measure(measure) => measure.run(),
+            Self::Info(info) => info.run(),
+            Self::Convert(convert) => convert.run(),
+            Self::Bench(bench) => bench.run(),
+            Self::Materials(list) => list.materials(),
+            Self::Cuts(cuts) => cuts.run(),
+            Self::Scenes(scenes) => scenes.run(),
+            Self::Scopes(scopes) => scopes.run(),
+            Self::Lights(lights) => lights.run(),
+            Self::Completions(completions) => completions.run(),
+            Self::Man(manual) => manual.run(),
         }
     }
 }
@@ -215,11 +258,16 @@ fn say(text: &str) {
 fn tell(told: Told) -> Result<(), Failure> {
     match told {
         Told::Begun(_) => {}
-        Told::Written(path) => return print(&path.display().to_string()),
+        Told::Written(path) => return written(path),
         Told::Note(text) => say(&format!("note: {text}")),
         Told::Warning(text) => say(&format!("warning: {text}")),
     }
     Ok(())
+}
+
+/// Prints the path of a file that is written, unless its content was printed.
+fn written(path: &Path) -> Result<(), Failure> {
+    if is_standard(path) { Ok(()) } else { print(&path.display().to_string()) }
 }
 
 /// Prints lines to standard output; a reader that has gone away (`| head`) is no error.

@@ -1,4 +1,4 @@
-//! The options of `render` and `spin`: stones, light and picture.
+//! What pictures under light take: stones, light and picture for all of them, tracing and finish for `render` and `spin`.
 
 use super::mesh_options::MeshArguments;
 use super::options::TracerName;
@@ -36,16 +36,6 @@ pub struct PictureOptions {
     /// 64 by rays]
     #[arg(long, allow_negative_numbers = true, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=65536))]
     pub samples: Option<u32>,
-    /// Take the middle of each band of wavelengths in every look, instead of another one each time
-    #[arg(long)]
-    pub no_jitter: bool,
-    /// How much of the way that refraction turns light is followed, 0 to 1; less than 1 is a mixture for its looks, by rays
-    /// [default: the scene's, or 1: physics]
-    #[arg(long, allow_negative_numbers = true, value_name = "PART")]
-    pub strength: Option<f64>,
-    /// What traces the light; beams are for one convex stone without a photograph behind
-    #[arg(long, value_enum, default_value_t = TracerName::Auto)]
-    pub tracer: TracerName,
     /// Let every surface see unpolarised light
     #[arg(long)]
     pub unpolarised: bool,
@@ -58,23 +48,45 @@ pub struct PictureOptions {
     /// Tone curve: linear, neutral or filmic
     #[arg(long, value_name = "CURVE", default_value = "neutral")]
     pub tone: Tone,
-    /// Part of the brightest light that is spread as glow and sparkle, 0 to 1
-    #[arg(long, allow_negative_numbers = true, value_name = "PART", default_value_t = Bloom::default().strength)]
-    pub bloom: f64,
     /// What lies behind: transparent, a colour (white, #20262e), two from top to bottom (#404850-#101215), `light` for
     /// what shines, a pattern (page, grid, checks, stripes, dots, slit), or a photograph's file (by default the scene's, or
     /// #33373d-#0e0f11)
     #[arg(long, value_name = "WHAT")]
     pub background: Option<String>,
-    /// What to draw over the stones, separated by commas: wireframe, facets, bounces, unresolved, total (how often light is
-    /// totally reflected before some leaves)
-    #[arg(long, value_name = "WHAT", value_delimiter = ',')]
-    pub overlay: Vec<Overlay>,
     /// How far behind the stones the pattern or photograph stands, in girdle radii [default: the scene's, or 3]
     #[arg(long, allow_negative_numbers = true, value_name = "DISTANCE")]
     pub photo_distance: Option<f64>,
     #[command(flatten)]
     pub mesh: MeshArguments,
+}
+
+/// How a picture is traced and finished, which maps have no use for.
+#[derive(Debug, Clone, Args)]
+pub struct FinishOptions {
+    /// Take the middle of each band of wavelengths in every look, instead of another one each time
+    #[arg(long)]
+    pub no_jitter: bool,
+    /// How much of the way that refraction turns light is followed, 0 to 1; less than 1 is a mixture for its looks, by rays
+    /// [default: the scene's, or 1: physics]
+    #[arg(long, allow_negative_numbers = true, value_name = "PART")]
+    pub strength: Option<f64>,
+    /// What traces the light; beams are for one convex stone without a photograph behind
+    #[arg(long, value_enum, default_value_t = TracerName::Auto)]
+    pub tracer: TracerName,
+    /// Part of the brightest light that is spread as glow and sparkle, 0 to 1
+    #[arg(long, allow_negative_numbers = true, value_name = "PART", default_value_t = Bloom::default().strength)]
+    pub bloom: f64,
+    /// What to draw over the stones, separated by commas: wireframe, facets, bounces, unresolved, total (how often light is
+    /// totally reflected before some leaves)
+    #[arg(long, value_name = "WHAT", value_delimiter = ',')]
+    pub overlay: Vec<Overlay>,
+}
+
+impl Default for FinishOptions {
+    /// The processor's rays at full strength, without glow and overlays.
+    fn default() -> Self {
+        Self { no_jitter: false, strength: None, tracer: TracerName::Ray, bloom: 0.0, overlay: vec![] }
+    }
 }
 
 /// A picture's size in pixels: a number for a square, or two.

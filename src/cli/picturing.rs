@@ -2,14 +2,14 @@
 
 use super::assembly::Assembly;
 use super::options::TracerName;
-use super::picture_options::PictureOptions;
+use super::picture_options::{FinishOptions, PictureOptions};
 use super::sampler::{on_card, quickest};
 use super::specimen::note_colour;
 use super::{Failure, tell};
 use crate::io::background::{BackgroundError, BackgroundRef};
 use crate::io::lighting::Lighting;
 use crate::optics::Illuminant;
-use crate::picture::{Bloom, Develop, Linear, Overlay, Tone, develop, lay};
+use crate::picture::{Bloom, Develop, Linear, Overlay, Tone, developed, lay};
 use crate::scene::{Film, Panorama, Projection, Setting, View};
 use crate::trace::Sampler;
 use crate::trace::Watch;
@@ -43,6 +43,7 @@ enum Tracer {
 /// Everything that a picture is taken of, loaded once.
 pub struct Studio<'a> {
     options: &'a PictureOptions,
+    finish: &'a FinishOptions,
     pub assembly: Assembly,
     lighting: Lighting,
     pub background: BackgroundRef,
@@ -81,7 +82,11 @@ impl From<BackgroundError> for Failure {
 
 impl<'a> Studio<'a> {
     /// Loads stones, light and background, and chooses the tracer for a view.
-    pub fn load(options: &'a PictureOptions, file: &Path, view: &View) -> Result<Self, Failure> {
+    pub fn load(
+        (options, finish): (&'a PictureOptions, &'a FinishOptions),
+        file: &Path,
+        view: &View,
+    ) -> Result<Self, Failure> {
         let assembly =
             Assembly::load(file, options.material.as_deref(), options.stone, options.mesh.options())?;
         assembly.setting.stones.iter().for_each(|stone| note_colour(&stone.material));
@@ -96,13 +101,13 @@ impl<'a> Studio<'a> {
         let own = assembly.background_distance_mm.map(|mm| mm / assembly.setting.unit_mm);
         let distance = options.photo_distance.or(own).unwrap_or(PHOTO_DISTANCE);
         within("photo-distance", distance, 0.0, 1e6)?;
-        let strength = within("strength", options.strength.unwrap_or(assembly.strength), 0.0, 1.0)?;
-        let bloom = Bloom { strength: within("bloom", options.bloom, 0.0, 1.0)?, ..Bloom::default() };
+        let strength = within("strength", finish.strength.unwrap_or(assembly.strength), 0.0, 1.0)?;
+        let bloom = Bloom { strength: within("bloom", finish.bloom, 0.0, 1.0)?, ..Bloom::default() };
         let mut develop = Develop {
             exposure: within("exposure", options.exposure, -40.0, 40.0)?,
             tone: options.tone,
             // Glow would stand out around what is drawn over the stones.
-            bloom: (bloom.strength > 0.0 && options.overlay.is_empty()).then_some(bloom),
+            bloom: (bloom.strength > 0.0 && finish.overlay.is_empty()).then_some(bloom),
             ..Develop::default()
         };
         let background = match (&options.background, &assembly.background) {
@@ -116,8 +121,18 @@ impl<'a> Studio<'a> {
         reading.iter().flat_map(|r| &r.warnings).for_each(|w| super::say(&format!("warning: {w}")));
         let photo = reading.map(|reading| reading.panorama);
         let tracer = Cell::new(Tracer::Beams);
-        let studio =
-            Self { options, assembly, lighting, background, photo, distance, strength, develop, tracer };
+        let studio = Self {
+            options,
+            finish,
+            assembly,
+            lighting,
+            background,
+            photo,
+            distance,
+            strength,
+            develop,
+            tracer,
+        };
         studio.tracer.set(studio.chosen(view)?);
         Ok(studio)
     }
@@ -138,7 +153,7 @@ impl<'a> Studio<'a> {
             && matches!(&*self.assembly.setting.stones, [only] if only.solid.polytope().is_ok())
             && self.photo.is_none()
             && self.strength >= 1.0;
-        match self.options.tracer {
+        match self.finish.tracer {
             TracerName::Beam if self.strength < 1.0 => Err(Failure::Usage(format!(
                 "--strength {}: exact beams know no mixture: use --tracer ray, or --strength 1",
                 self.strength
@@ -195,16 +210,16 @@ impl<'a> Studio<'a> {
         })
     }
 
-    /// A picture in eight bits, with the overlays asked for.
+    /// A picture in eight bits, with the overlays asked for; its light is given away, for memory.
     pub fn developed(
         &self,
         setting: &Setting,
         (view, pixel): (&View, f64),
-        picture: &Linear,
+        picture: Linear,
         watch: Watch,
     ) -> Result<Vec<u8>, Failure> {
-        let mut rgba = develop(picture, &self.develop);
-        for &overlay in &self.options.overlay {
+        let mut rgba = developed(picture, &self.develop);
+        for &overlay in &self.finish.overlay {
             self.sit(setting, (view, pixel), |sitting| lay(overlay, sitting, &mut rgba, watch))?;
         }
         Ok(rgba)
@@ -219,7 +234,7 @@ impl<'a> Studio<'a> {
             };
             overlay.legend().into_iter().map(line).collect::<Vec<_>>()
         };
-        self.options.overlay.iter().flat_map(lines).collect()
+        self.finish.overlay.iter().flat_map(lines).collect()
     }
 
     /// What lights and traces the pictures, in words.
@@ -244,7 +259,7 @@ impl<'a> Studio<'a> {
     /// What was asked for that a file of bare light does not hold, in words.
     pub fn undeveloped(&self) -> Option<&'static str> {
         let Develop { exposure, tone, .. } = self.develop;
-        let is_told = exposure != 0.0 || tone != Tone::default() || !self.options.overlay.is_empty();
+        let is_told = exposure != 0.0 || tone != Tone::default() || !self.finish.overlay.is_empty();
         is_told.then_some("an EXR holds the bare light: exposure, tone and overlays are for PNG")
     }
 

@@ -1,22 +1,49 @@
-//! Progress bars on long work, and stopping it by Ctrl-C.
+//! Progress bars on long work, and ending it by Ctrl-C or SIGTERM.
 
-use super::{Failure, tell};
+use super::{Failure, say, tell};
+use crate::io::abandon_writes;
 use crate::io::export::Told;
 use indicatif::{ProgressBar, ProgressStyle};
+#[cfg(unix)]
+use signal_hook::{
+    consts::{SIGINT, SIGTERM},
+    iterator::Signals,
+};
 use std::ops::ControlFlow;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Mutex, PoisonError};
 use std::time::Duration;
 
-static STOP: AtomicBool = AtomicBool::new(false);
+/// The bar that is shown, to be cleared when a signal ends the program.
+static SHOWN: Mutex<Option<ProgressBar>> = Mutex::new(None);
 
-/// Lets Ctrl-C stop the work in hand, so that no temporary file stays behind. A second one ends the program at once.
-pub fn stop_on_interrupt() {
-    // Without a handler Ctrl-C still ends the program, only less tidily: no reason to fail.
-    let _ = ctrlc::set_handler(|| {
-        if STOP.swap(true, Ordering::Relaxed) {
-            std::process::exit(130);
-        }
-    });
+/// Ends the program at once when it is interrupted (Ctrl-C) or asked to terminate, whatever it is doing: temporary files are
+/// removed, finished files stay, and the exit code is 128 and the signal's number.
+pub fn end_on_signals() {
+    // Without this a signal still ends the program, only less tidily: no reason to fail.
+    #[cfg(unix)]
+    if let Ok(mut signals) = Signals::new([SIGINT, SIGTERM]) {
+        std::thread::spawn(move || signals.forever().next().map(|signal| end(signal)));
+    }
+    #[cfg(not(unix))]
+    let _ = ctrlc::set_handler(|| end(SIGINT));
+}
+
+/// The number of an interruption where the system has no signals.
+#[cfg(not(unix))]
+const SIGINT: i32 = 2;
+
+/// Ends the program as a signal asks to.
+fn end(signal: i32) -> ! {
+    let _until_the_end = abandon_writes();
+    if let Some(bar) = SHOWN.lock().unwrap_or_else(PoisonError::into_inner).take() {
+        bar.finish_and_clear();
+    }
+    say("error: stopped");
+    // Other threads are still at work: what they use must not be torn down under them.
+    #[cfg(unix)]
+    signal_hook::low_level::exit(128 + signal);
+    #[cfg(not(unix))]
+    std::process::exit(128 + signal)
 }
 
 /// A bar for one piece of work; it shows itself after a moment, and only on a terminal.
@@ -29,6 +56,7 @@ impl Progress {
             bar.set_style(style);
         }
         bar.enable_steady_tick(Duration::from_millis(200));
+        *SHOWN.lock().unwrap_or_else(PoisonError::into_inner) = Some(bar.clone());
         Self(bar)
     }
 
@@ -36,7 +64,7 @@ impl Progress {
     pub fn watch(&self) -> impl Fn(f64) -> ControlFlow<()> + Sync + '_ {
         |done| {
             self.0.set_position((done * 1000.0) as u64);
-            if STOP.load(Ordering::Relaxed) { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+            ControlFlow::Continue(())
         }
     }
 
@@ -51,6 +79,7 @@ impl Progress {
 
 impl Drop for Progress {
     fn drop(&mut self) {
+        *SHOWN.lock().unwrap_or_else(PoisonError::into_inner) = None;
         self.0.finish_and_clear();
     }
 }

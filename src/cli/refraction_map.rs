@@ -1,7 +1,7 @@
 //! `refraction-map`: where the light behind each pixel comes from, for pages and programs that refract by looking it up.
 
-use super::options::{TracerName, ViewOptions};
-use super::picture_options::PictureOptions;
+use super::options::ViewOptions;
+use super::picture_options::{FinishOptions, PictureOptions};
 use super::picturing::{Studio, within};
 use super::progress::Progress;
 use super::specimen::stem;
@@ -10,11 +10,9 @@ use crate::io::background::BackgroundRef;
 use crate::io::export::Told;
 use crate::io::refraction_map::{self as files, Coding, MOST_BANDS, MOST_PIXELS, MOST_PLACES};
 use crate::io::refraction_page::{MOST_MEGABYTES, Page, takes, write_page};
-use crate::io::write_rgba_png;
+use crate::io::{is_standard, write_rgba_png};
 use crate::optics::strata;
-use crate::picture::{
-    Backdrop, Background, Bloom, Carried, Develop, RefractionMap, Survey, Tone, develop, refract,
-};
+use crate::picture::{Backdrop, Background, Carried, Develop, RefractionMap, Survey, Tone, develop, refract};
 use crate::scene::View;
 use crate::trace::Sampler;
 use clap::{Args, ValueEnum};
@@ -70,23 +68,12 @@ enum Kind {
 
 impl RefractionMaps {
     pub fn run(&self) -> Result<(), Failure> {
-        let PictureOptions { size, tracer, overlay, bloom, no_jitter, .. } = &self.picture;
         let refuse = |message: String| Err(Failure::Usage(message));
-        if size.iter().any(|&side| side > MOST_PIXELS) {
+        if self.picture.size.iter().any(|&side| side > MOST_PIXELS) {
             return refuse(format!("--size: a map has {MOST_PIXELS} pixels each way at most"));
         }
-        if !matches!(tracer, TracerName::Auto | TracerName::Ray) {
-            return refuse("refraction maps are traced by rays: leave out --tracer".into());
-        }
-        if !overlay.is_empty() || ![0.0, Bloom::default().strength].contains(bloom) {
-            return refuse(
-                "refraction maps have no overlays and no glow: leave out --overlay and --bloom".into(),
-            );
-        }
-        if *no_jitter {
-            return refuse(
-                "a refraction map takes the middles of its bands anyway: leave out --no-jitter".into(),
-            );
+        if is_standard(&self.out) {
+            return refuse("--out -: several files are written; give a folder".into());
         }
         if self.bands * self.places > MOST_BANDS {
             let all = self.bands * self.places;
@@ -103,8 +90,8 @@ impl RefractionMaps {
         let viewpoint = self.view.viewpoint()?;
         let view = viewpoint.view();
         // By rays whatever there is: no card is looked for.
-        let picture = PictureOptions { tracer: TracerName::Ray, ..self.picture.clone() };
-        let mut studio = Studio::load(&picture, file, &view)?;
+        let finish = FinishOptions::default();
+        let mut studio = Studio::load((&self.picture, &finish), file, &view)?;
         if studio.photo.is_none() {
             if self.picture.background.is_some() {
                 return Err(Failure::Usage(
@@ -113,9 +100,6 @@ impl RefractionMaps {
             }
             // Of a scene's own, which is none, nothing shows.
             studio.background = BackgroundRef::Plain(Background::Transparent);
-        }
-        if self.picture.strength.is_some_and(|strength| strength < 1.0) {
-            return Err(Failure::Usage("a refraction map is physics: leave out --strength".into()));
         }
         if studio.strength < 1.0 {
             let (name, strength) = (&studio.assembly.name, studio.strength);
@@ -143,7 +127,7 @@ impl RefractionMaps {
             100.0 * single,
             viewpoint.told()
         );
-        self.write(file, &studio, &map, (&kinds, &told), &bar)
+        self.write(file, &studio, &map, (&kinds, &told, &viewpoint.suffix()), &bar)
     }
 
     fn kinds(&self, has_photo: bool) -> Result<Vec<Kind>, Failure> {
@@ -188,10 +172,10 @@ impl RefractionMaps {
         file: &Path,
         studio: &Studio,
         map: &RefractionMap,
-        (kinds, told): (&[Kind], &str),
+        (kinds, told, suffix): (&[Kind], &str, &str),
         bar: &Progress,
     ) -> Result<(), Failure> {
-        let stem = stem(file);
+        let stem = format!("{}{suffix}", stem(file));
         let written = |path: PathBuf| bar.tell(Told::Written(&path));
         for (kind, coding) in
             [(Kind::Tiled, Coding::Tiles), (Kind::Png16, Coding::Sixteen), (Kind::Exr, Coding::Float)]

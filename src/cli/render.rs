@@ -1,12 +1,12 @@
 //! `render`: what stones look like under light.
 
 use super::options::ViewOptions;
-use super::picture_options::PictureOptions;
+use super::picture_options::{FinishOptions, PictureOptions};
 use super::picturing::Studio;
 use super::progress::Progress;
 use super::specimen::stem;
-use super::{Failure, distinct, each_file, print, say};
-use crate::io::{write_linear_exr, write_rgba_png};
+use super::{Failure, distinct, each_file, print, say, written};
+use crate::io::{STANDARD, is_standard, write_linear_exr, write_rgba_png};
 use clap::Args;
 use std::path::{Path, PathBuf};
 
@@ -15,7 +15,7 @@ pub struct Render {
     /// Designs, meshes, scene files, or names of cuts and scenes that come with the program
     #[arg(required = true)]
     files: Vec<PathBuf>,
-    /// File (.png or .exr) or folder to write to
+    /// File (.png or .exr) or folder to write to; `-` is standard output, as PNG
     #[arg(long, default_value = "out")]
     out: PathBuf,
     /// Instead of a picture, tell which facet lies at X,Y: pixels from the upper left corner
@@ -25,6 +25,8 @@ pub struct Render {
     view: ViewOptions,
     #[command(flatten)]
     picture: PictureOptions,
+    #[command(flatten)]
+    finish: FinishOptions,
 }
 
 fn point(text: &str) -> Result<glam::DVec2, String> {
@@ -46,9 +48,9 @@ impl Render {
                 "--out: .{ending} is not written; give a .png, an .exr or a folder"
             )));
         }
-        let (_, is_file) = self.output(Path::new("x"));
+        let (_, is_file) = self.output(Path::new("x"), "");
         if is_file && self.files.len() > 1 {
-            return Err(Failure::Usage("several stones need a folder: --out FOLDER".into()));
+            return Err(Failure::Usage("--out: several stones need a folder".into()));
         }
         if self.probe.is_none() {
             distinct(&self.files)?;
@@ -56,19 +58,22 @@ impl Render {
         each_file(&self.files, |file| self.render(file))
     }
 
-    /// Where the picture of a file goes, and whether --out is a file itself.
-    fn output(&self, file: &Path) -> (PathBuf, bool) {
+    /// Where the picture of a file goes, seen as a viewpoint's suffix says, and whether --out is a file itself.
+    fn output(&self, file: &Path, suffix: &str) -> (PathBuf, bool) {
+        if is_standard(&self.out) {
+            return (STANDARD.into(), true);
+        }
         let ending = self.out.extension().and_then(|e| e.to_str()).map(str::to_ascii_lowercase);
         match ending.as_deref() {
             Some("png" | "exr") if !self.out.is_dir() => (self.out.clone(), true),
-            _ => (self.out.join(format!("{}-render.png", stem(file))), false),
+            _ => (self.out.join(format!("{}{suffix}-render.png", stem(file))), false),
         }
     }
 
     fn render(&self, file: &Path) -> Result<(), Failure> {
         let viewpoint = self.view.viewpoint()?;
         let view = viewpoint.view();
-        let studio = Studio::load(&self.picture, file, &view)?.with_what_has_a_distance()?;
+        let studio = Studio::load((&self.picture, &self.finish), file, &view)?.with_what_has_a_distance()?;
         let setting = &studio.assembly.setting;
         let pixel = studio.pixel(setting, &view)?;
         if let Some(at) = self.probe {
@@ -79,7 +84,7 @@ impl Render {
             studio.take(setting, (&view, pixel), &progress.watch())?
         };
         let told = format!("{}; {}", taken.told, viewpoint.told());
-        let (path, _) = self.output(file);
+        let (path, _) = self.output(file, &viewpoint.suffix());
         if path.extension().is_some_and(|e| e.eq_ignore_ascii_case("exr")) {
             if let Some(without) = studio.undeveloped() {
                 say(&format!("note: {}: {without}", path.display()));
@@ -88,10 +93,10 @@ impl Render {
         } else {
             let size = (taken.picture.width, taken.picture.height);
             let progress = Progress::new(&format!("{}: overlays", studio.assembly.name));
-            let rgba = studio.developed(setting, (&view, pixel), &taken.picture, &progress.watch())?;
+            let rgba = studio.developed(setting, (&view, pixel), taken.picture, &progress.watch())?;
             write_rgba_png(&path, &rgba, size, &told)?;
-            studio.legend().iter().try_for_each(|line| print(line))?;
+            studio.legend().iter().for_each(|line| say(&format!("note: {line}")));
         }
-        print(&path.display().to_string())
+        written(&path)
     }
 }

@@ -4,8 +4,8 @@ use super::{Failure, say};
 use crate::cut::{MaterialError, MaterialRef, Size};
 use crate::io::cut_file::{self, CutFileError};
 use crate::io::design_file::{self, Brought};
-use crate::io::library;
 use crate::io::mesh_options::MeshOptions;
+use crate::io::{is_standard, library};
 use crate::optics::Material;
 use crate::scene;
 use std::collections::BTreeSet;
@@ -107,7 +107,10 @@ pub fn note_colour(material: &Material) {
     }
 }
 
-/// A file's name without its ending, for the files made of it.
+/// A file's name without its ending, for the files made of it; of standard input `stdin`.
 pub fn stem(file: &Path) -> String {
+    if is_standard(file) {
+        return "stdin".into();
+    }
     file.file_stem().map_or_else(|| "stone".into(), |s| s.to_string_lossy().into_owned())
 }

@@ -1,12 +1,12 @@
 //! `spin`: a stone that turns, rocks or wobbles, as numbered pictures and as one that moves.
 
 use super::options::ViewOptions;
-use super::picture_options::PictureOptions;
+use super::picture_options::{FinishOptions, PictureOptions};
 use super::picturing::Studio;
 use super::progress::Progress;
 use super::specimen::stem;
-use super::{Failure, print, say};
-use crate::io::{Frames, write_apng, write_rgba_png};
+use super::{Failure, say, written};
+use crate::io::{Frames, is_standard, write_apng, write_rgba_png};
 use crate::picture::Background;
 use crate::scene::{Setting, View};
 use clap::{Args, ValueEnum};
@@ -36,6 +36,8 @@ pub struct Spin {
     view: ViewOptions,
     #[command(flatten)]
     picture: PictureOptions,
+    #[command(flatten)]
+    finish: FinishOptions,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -53,15 +55,20 @@ impl Spin {
         if self.out.extension().is_some_and(|e| e.eq_ignore_ascii_case("png")) && !self.out.is_dir() {
             return Err(Failure::Usage("--out: give a folder; the frames go there as well".into()));
         }
-        let first = self.view.viewpoint()?.view();
+        if is_standard(&self.out) {
+            return Err(Failure::Usage("--out -: several files are written; give a folder".into()));
+        }
+        let viewpoint = self.view.viewpoint()?;
+        let first = viewpoint.view();
         let delay_ms = self.delay_ms()?;
         self.check_swing()?;
-        let studio = Studio::load(&self.picture, &self.file, &first)?.with_what_has_a_distance()?;
+        let studio =
+            Studio::load((&self.picture, &self.finish), &self.file, &first)?.with_what_has_a_distance()?;
         let frames: Vec<(Setting, View)> = (0..self.frames).map(|k| self.frame(&studio, &first, k)).collect();
         // The stones keep their size: that at which they fit in every frame.
         let mut pixels = frames.iter().map(|(setting, view)| studio.pixel(setting, view));
         let pixel = pixels.try_fold(0.0_f64, |most, pixel| pixel.map(|p| most.max(p)))?;
-        let name = format!("{}-spin", stem(&self.file));
+        let name = format!("{}{}-spin", stem(&self.file), viewpoint.suffix());
         let folder = self.out.join(&name);
         let path = self.out.join(format!("{name}.png"));
         let [width, height] = self.picture.size;
@@ -79,7 +86,7 @@ impl Spin {
             for (number, (setting, view)) in frames.iter().enumerate() {
                 let done = |part: f64| bar.watch()((number as f64 + part) / frames.len() as f64);
                 let taken = studio.take(setting, (view, pixel), &done)?;
-                let rgba = studio.developed(setting, (view, pixel), &taken.picture, &done)?;
+                let rgba = studio.developed(setting, (view, pixel), taken.picture, &done)?;
                 let still = folder.join(format!("{:04}.png", number + 1));
                 write_rgba_png(&still, &rgba, (width, height), &taken.told)?;
                 animation.push(&rgba)?;
@@ -95,7 +102,7 @@ impl Spin {
                 "note: all {frames} frames look the same, by the symmetry of the stone; take another number"
             ));
         }
-        print(&path.display().to_string())
+        written(&path)
     }
 
     /// How long a frame is shown.

@@ -103,7 +103,8 @@ fn tiers(stone: &Polytope, names: &[String]) -> Vec<TierReport> {
             tiers.push((stem, zone, vec![]));
             tiers.len() - 1
         });
-        tiers[place].2.push([slope, facet.plane.offset]);
+        // Of a plane through the origin 0, and never -0.
+        tiers[place].2.push([slope, facet.plane.offset + 0.0]);
     }
     let report = |(name, zone, facets): (&str, Zone, Vec<[f64; 2]>)| {
         let [slopes, distances] = [0, 1].map(|k| facets.iter().map(|facet| facet[k]).collect::<Vec<_>>());

@@ -74,7 +74,6 @@ pub fn write_apng<E: From<WriteError>>(
     fill: impl FnOnce(&mut Animation) -> Result<(), E>,
 ) -> Result<(), E> {
     write(path, |file| -> Result<(), E> {
-        let file: &mut dyn Write = file;
         let writer = opened(file, frames, description).map_err(|e| WriteError::io(path, e))?;
         let mut animation = Animation { path, frames, writer, pushed: 0 };
         fill(&mut animation)?;

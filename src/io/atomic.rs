@@ -1,9 +1,13 @@
 //! Files that are either written whole or not at all.
 
+use super::standard::is_standard;
 use crate::trace::Stopped;
-use std::io::{self, BufWriter, Write};
+use std::collections::BTreeSet;
+use std::fs::OpenOptions;
+use std::io::{self, BufWriter, Seek, Write};
 use std::path::{Path, PathBuf};
-use tempfile::NamedTempFile;
+use std::sync::{Mutex, MutexGuard, PoisonError};
+use tempfile::{NamedTempFile, SpooledTempFile};
 
 /// Why a file was not written. Nothing of it is left behind.
 #[derive(Debug, thiserror::Error)]
@@ -28,29 +32,156 @@ impl WriteError {
     }
 }
 
-/// Writes a file under a temporary name beside it, and renames it when `fill` has filled it without error. Missing
-/// folders are made.
+/// What a file's content is written to.
+pub trait Sink: Write + Seek {}
+
+impl<T: Write + Seek> Sink for T {}
+
+/// Symbolic links that are followed one after the other; Linux gives up at as many.
+const MOST_LINKS: usize = 40;
+
+/// Content for a pipe or a device is kept in memory up to this many bytes, and beyond in a file without a name.
+const KEPT: usize = 16 << 20;
+
+/// The temporary files of all writes that are under way.
+static UNDER_WAY: Mutex<BTreeSet<PathBuf>> = Mutex::new(BTreeSet::new());
+
+fn under_way() -> MutexGuard<'static, BTreeSet<PathBuf>> {
+    UNDER_WAY.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// Keeps all writes from beginning or ending while it lives; see [`abandon_writes`].
+#[derive(Debug)]
+pub struct Abandoned(
+    #[expect(dead_code, reason = "the lock is held by it")] MutexGuard<'static, BTreeSet<PathBuf>>,
+);
+
+/// Removes the temporary files of all writes that are under way, in every thread, for a program that is about to end. No
+/// file is begun or finished until the answer is dropped.
+pub fn abandon_writes() -> Abandoned {
+    let mut files = under_way();
+    while let Some(file) = files.pop_first() {
+        let _ = std::fs::remove_file(file);
+    }
+    Abandoned(files)
+}
+
+/// Writes a file under a temporary name beside it, and renames it when `fill` has filled it without error. Missing folders
+/// are made. A symbolic link stays, and the file that it leads to is written. The path `-` is standard output; that, pipes
+/// and devices are written to when `fill` has ended without error.
 ///
 /// # Errors
 /// When the file system refuses, or with what `fill` answers.
 pub fn write<E: From<WriteError>>(
     path: &Path,
-    fill: impl FnOnce(&mut BufWriter<&mut NamedTempFile>) -> Result<(), E>,
+    fill: impl FnOnce(&mut dyn Sink) -> Result<(), E>,
 ) -> Result<(), E> {
-    let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    std::fs::create_dir_all(folder).map_err(|e| match e.kind() {
-        io::ErrorKind::AlreadyExists | io::ErrorKind::NotADirectory => {
-            WriteError::io(folder, io::Error::new(e.kind(), "this is a file, and a folder is needed"))
-        }
-        _ => WriteError::io(folder, e),
-    })?;
-    let mut temporary = new_file(folder).map_err(|e| WriteError::io(path, e.kind()))?;
-    let mut buffer = BufWriter::with_capacity(1 << 16, &mut temporary);
+    if is_standard(path) {
+        return match through(path, fill, || Ok(io::stdout().lock())) {
+            // A reader that has gone away wants no more.
+            Err(Through::Write(e)) if e.kind() == io::ErrorKind::BrokenPipe => Ok(()),
+            done => done.map_err(|e| e.at(path)),
+        };
+    }
+    let target = destination(path).map_err(|e| WriteError::io(path, e))?;
+    if target.metadata().is_ok_and(|found| !found.is_file() && !found.is_dir()) {
+        return through(path, fill, || OpenOptions::new().write(true).open(&target)).map_err(|e| e.at(path));
+    }
+    let mut temporary = Temporary::beside(path, &target)?;
+    let mut buffer = BufWriter::with_capacity(1 << 16, &mut temporary.file);
     fill(&mut buffer)?;
     buffer.flush().map_err(|e| WriteError::io(path, e))?;
     drop(buffer);
-    temporary.persist(path).map_err(|e| WriteError::io(path, e.error))?;
-    Ok(())
+    Ok(temporary.persist(&target).map_err(|e| WriteError::io(path, e))?)
+}
+
+/// The place to which a path leads by symbolic links, whether something is there or not.
+fn destination(path: &Path) -> io::Result<PathBuf> {
+    let mut target = path.to_path_buf();
+    for _ in 0..MOST_LINKS {
+        // What is no link, or not there, cannot be read as one.
+        let Ok(next) = std::fs::read_link(&target) else { return Ok(target) };
+        target = target.parent().unwrap_or(Path::new("")).join(next);
+    }
+    Err(io::Error::other("too many symbolic links lead from one to another"))
+}
+
+/// Why nothing was written to what is no file.
+enum Through<E> {
+    Fill(E),
+    Write(io::Error),
+}
+
+impl<E: From<WriteError>> Through<E> {
+    fn at(self, path: &Path) -> E {
+        match self {
+            Self::Fill(error) => error,
+            Self::Write(error) => WriteError::io(path, error).into(),
+        }
+    }
+}
+
+/// Fills a store and empties it into what `open` opens.
+fn through<E: From<WriteError>, W: Write>(
+    path: &Path,
+    fill: impl FnOnce(&mut dyn Sink) -> Result<(), E>,
+    open: impl FnOnce() -> io::Result<W>,
+) -> Result<(), Through<E>> {
+    let mut store = SpooledTempFile::new(KEPT);
+    let mut buffer = BufWriter::new(&mut store);
+    fill(&mut buffer).map_err(Through::Fill)?;
+    buffer.flush().map_err(|e| Through::Fill(WriteError::io(path, e).into()))?;
+    drop(buffer);
+    let copy = || {
+        store.rewind()?;
+        let mut output = open()?;
+        io::copy(&mut store, &mut output)?;
+        output.flush()
+    };
+    copy().map_err(Through::Write)
+}
+
+/// A temporary file, which goes with its owner unless it is renamed.
+struct Temporary {
+    file: NamedTempFile,
+    entry: Entry,
+}
+
+/// A temporary file's place among those that are under way.
+struct Entry(PathBuf);
+
+impl Drop for Entry {
+    fn drop(&mut self) {
+        under_way().remove(&self.0);
+    }
+}
+
+impl Temporary {
+    /// A new one in the folder of `target`; errors name `path`, or the folder.
+    fn beside(path: &Path, target: &Path) -> Result<Self, WriteError> {
+        let folder = target.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
+        std::fs::create_dir_all(folder).map_err(|e| match e.kind() {
+            io::ErrorKind::AlreadyExists | io::ErrorKind::NotADirectory => {
+                WriteError::io(folder, io::Error::new(e.kind(), "this is a file, and a folder is needed"))
+            }
+            _ => WriteError::io(folder, e),
+        })?;
+        let mut files = under_way();
+        let file = new_file(folder).map_err(|e| WriteError::io(path, e.kind()))?;
+        let entry = Entry(file.path().to_path_buf());
+        files.insert(entry.0.clone());
+        Ok(Self { file, entry })
+    }
+
+    /// Renames it to `target`.
+    fn persist(self, target: &Path) -> io::Result<()> {
+        let Self { file, entry } = self;
+        let files = under_way();
+        let renamed = file.persist(target).map(drop).map_err(|e| e.error);
+        drop(files);
+        drop(entry);
+        renamed
+    }
 }
 
 fn new_file(folder: &Path) -> io::Result<NamedTempFile> {
@@ -66,11 +197,15 @@ fn new_file(folder: &Path) -> io::Result<NamedTempFile> {
 mod tests {
     use super::*;
 
+    fn put(path: &Path, text: &str) -> Result<(), WriteError> {
+        write(path, |w| w.write_all(text.as_bytes()).map_err(|e| WriteError::io(path, e)))
+    }
+
     #[test]
     fn a_file_that_fails_half_way_leaves_the_old_one_and_no_trace() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("deep/er/a.txt");
-        write(&path, |w| w.write_all(b"old").map_err(|e| WriteError::io(&path, e))).unwrap();
+        put(&path, "old").unwrap();
         let failed = write(&path, |w| {
             w.write_all(b"half").map_err(|e| WriteError::io(&path, e))?;
             Err(WriteError::Stopped(Stopped))
@@ -85,5 +220,39 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let error = write(folder.path(), |_| Ok::<(), WriteError>(())).unwrap_err().to_string();
         assert!(error.contains(folder.path().to_str().unwrap()), "{error}");
+        assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
+    }
+
+    #[test]
+    #[cfg(unix)]
+    fn links_stay_and_the_file_that_they_lead_to_is_written() {
+        use std::os::unix::fs::symlink;
+        let folder = tempfile::tempdir().unwrap();
+        let at = |name: &str| folder.path().join(name);
+        std::fs::create_dir(at("far")).unwrap();
+        symlink("far/real.txt", at("near.txt")).unwrap();
+        symlink(at("near.txt"), at("nearer.txt")).unwrap();
+        for text in ["made through links that led nowhere", "written again"] {
+            put(&at("nearer.txt"), text).unwrap();
+            assert_eq!(std::fs::read_to_string(at("far/real.txt")).unwrap(), text);
+        }
+        assert!(at("near.txt").is_symlink() && at("nearer.txt").is_symlink());
+        assert_eq!(std::fs::read_dir(at("far")).unwrap().count(), 1);
+        symlink("round.txt", at("round.txt")).unwrap();
+        let error = put(&at("round.txt"), "").unwrap_err().to_string();
+        assert!(error.contains("too many symbolic links"), "{error}");
+    }
+
+    #[test]
+    #[cfg(unix)]
+    fn a_device_is_written_to_and_not_replaced() {
+        let folder = tempfile::tempdir().unwrap();
+        std::os::unix::fs::symlink("/dev/null", folder.path().join("null")).unwrap();
+        put(&folder.path().join("null"), "gone").unwrap();
+        assert!(!Path::new("/dev/null").metadata().unwrap().is_file());
+        assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1);
+        if Path::new("/dev/full").exists() {
+            assert!(put(Path::new("/dev/full"), "no room").is_err());
+        }
     }
 }

@@ -10,7 +10,6 @@ use super::{WriteError, text};
 use super::{write_glb, write_obj, write_ply, write_stl};
 use crate::cut::Design;
 use crate::scene::{Body, Specimen};
-use std::io::Write as _;
 use std::path::Path;
 
 /// A format of designs.

@@ -13,12 +13,11 @@ pub use figures::{Report, measure};
 pub use told::{Tell, Told};
 pub use viewing::Viewing;
 
-use super::{Failure, WriteError, write};
+use super::{Failure, WriteError, is_standard, write};
 use crate::picture::{Picture, Scoped};
 use crate::trace::{Tracer, Watch};
 use pictures::Pictures;
 use std::collections::HashSet;
-use std::io::Write;
 use std::path::{Path, PathBuf};
 use told::Pace;
 
@@ -63,9 +62,10 @@ impl Format {
 /// What is written of a stone, and where to.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Outputs {
-    /// The folder; made if it is missing.
+    /// The folder; made if it is missing. `-` is standard output, which takes one file.
     pub folder: PathBuf,
-    /// What the files' names begin with.
+    /// What the files' names begin with; the [`suffix`](crate::scene::Viewpoint::suffix) of the view follows where the file
+    /// shows it.
     pub stem: String,
     /// Pictures, each with its name in the files' names.
     pub pictures: Vec<(String, Picture)>,
@@ -114,8 +114,12 @@ impl Outputs {
         pictured.chain([format!("{stem}-figures.json")])
     }
 
-    fn path(&self, name: &str, format: Format) -> PathBuf {
-        self.folder.join(format!("{}-{name}.{}", self.stem, format.ending()))
+    /// The file of a name; `suffix` says from where the stone is seen.
+    fn path(&self, suffix: &str, name: &str, format: Format) -> PathBuf {
+        if is_standard(&self.folder) {
+            return self.folder.clone();
+        }
+        self.folder.join(format!("{}{suffix}-{name}.{}", self.stem, format.ending()))
     }
 
     fn wants(&self, format: Format) -> bool {
@@ -154,10 +158,14 @@ impl Export<'_> {
     /// stone, [`Failure::Usage`] where outputs and tracer do not go together.
     pub fn files(&self) -> Result<Vec<PathBuf>, Failure> {
         self.check()?;
+        Ok(self.paths())
+    }
+
+    fn paths(&self) -> Vec<PathBuf> {
         let outputs = self.outputs;
         let drawn = outputs.drawn().flat_map(|(name, picture)| self.files_of(name, picture));
         let figures = outputs.wants(Format::Json).then(|| self.figures_path());
-        Ok(drawn.chain(figures).collect())
+        drawn.chain(figures).collect()
     }
 
     /// Writes the files, each whole or not at all. `watch` is told the part done of all the work.
@@ -190,6 +198,7 @@ impl Export<'_> {
     fn check(&self) -> Result<(), Failure> {
         let (viewing, outputs) = (&self.viewing, self.outputs);
         outputs.check()?;
+        self.fits_standard_output()?;
         for (name, picture) in outputs.drawn() {
             let Picture::Scoped(scoped) = picture else { continue };
             viewing.facing(scoped.side).check()?;
@@ -198,6 +207,24 @@ impl Export<'_> {
             }
         }
         if outputs.wants(Format::Json) { viewing.check() } else { Ok(()) }
+    }
+
+    /// Refuses several files where standard output is to take them.
+    fn fits_standard_output(&self) -> Result<(), Failure> {
+        if !is_standard(&self.outputs.folder) {
+            return Ok(());
+        }
+        let named = Outputs { folder: PathBuf::new(), ..self.outputs.clone() };
+        let paths = Export { outputs: &named, ..*self }.paths();
+        if paths.len() == 1 {
+            return Ok(());
+        }
+        let names: Vec<String> = paths.iter().map(|path| path.display().to_string()).collect();
+        Err(Failure::Usage(format!(
+            "standard output takes one file, and {} would be written ({}); choose one of them, or give a folder",
+            names.len(),
+            names.join(", ")
+        )))
     }
 
     /// The files of a picture, in the order in which they are finished.
@@ -212,11 +239,15 @@ impl Export<'_> {
             (Picture::Scoped(_), Tracer::Rays(_)) => &[("", Png), ("-strongest", Png)],
         };
         let wanted = files.iter().filter(|(_, format)| self.outputs.wants(*format));
-        wanted.map(|(kind, format)| self.outputs.path(&format!("{name}{kind}"), *format)).collect()
+        let suffix = match picture {
+            Picture::Scoped(scoped) => self.viewing.suffix(scoped),
+            Picture::Profile | Picture::Diagram => String::new(),
+        };
+        wanted.map(|(kind, format)| self.outputs.path(&suffix, &format!("{name}{kind}"), *format)).collect()
     }
 
     fn figures_path(&self) -> PathBuf {
-        self.outputs.path("figures", Format::Json)
+        self.outputs.path(&self.viewing.viewpoint.suffix(), "figures", Format::Json)
     }
 
     fn write_figures(&self, watch: Watch, tell: Tell) -> Result<(), Failure> {

@@ -4,6 +4,7 @@ use super::atomic::{WriteError, write};
 use crate::picture::{Layer, paint};
 use crate::scene::Film;
 use crate::trace::Watch;
+use exr::image::write::layers::WritableLayers;
 use exr::meta::attribute::{AttributeValue, Chromaticities};
 use exr::prelude::{
     AnyChannel, AnyChannels, Encoding, FlatSamples, Image, ImageAttributes, Layer as ExrLayer,
@@ -40,14 +41,24 @@ pub fn write_exr(
     write_channels(path, size, list, (description, None), None)
 }
 
-/// Writes one layer, `light`, of these channels, with a description and another text under a name of its own.
+/// Writes [`image`] of channels that are held one by one.
 pub(super) fn write_channels(
     path: &Path,
     size: (usize, usize),
     channels: SmallVec<[AnyChannel<FlatSamples>; 4]>,
-    (description, more): (&str, Option<(&str, &str)>),
+    texts: (&str, Option<(&str, &str)>),
     chromaticities: Option<Chromaticities>,
 ) -> Result<(), WriteError> {
+    write_image(path, &image(size, AnyChannels::sort(channels), texts, chromaticities))
+}
+
+/// One layer, `light`, of these channels, with a description and another text under a name of its own.
+pub(super) fn image<C>(
+    size: (usize, usize),
+    channels: C,
+    (description, more): (&str, Option<(&str, &str)>),
+    chromaticities: Option<Chromaticities>,
+) -> Image<ExrLayer<C>> {
     let mut attributes = LayerAttributes::named("light");
     attributes.comments = Text::new_or_none(description);
     attributes.software_name = Text::new_or_none("Brillianteer");
@@ -57,10 +68,17 @@ pub(super) fn write_channels(
     attributes.other.extend(more);
     // In any other order the threads' race would decide where in the file a tile comes to lie.
     let encoding = Encoding { line_order: LineOrder::Increasing, ..Encoding::FAST_LOSSLESS };
-    let data = ExrLayer::new(size, attributes, encoding, AnyChannels::sort(channels));
-    let mut image = Image::from_layer(data);
-    image.attributes = ImageAttributes::with_size(size);
-    image.attributes.chromaticities = chromaticities;
+    let layer_data = ExrLayer { channel_data: channels, attributes, size: size.into(), encoding };
+    let mut attributes = ImageAttributes::with_size(size);
+    attributes.chromaticities = chromaticities;
+    Image { attributes, layer_data }
+}
+
+/// Writes an image, whole or not at all.
+pub(super) fn write_image<'i, C>(path: &Path, image: &'i Image<ExrLayer<C>>) -> Result<(), WriteError>
+where
+    ExrLayer<C>: WritableLayers<'i>,
+{
     write(path, |file| {
         image.write().to_buffered(file).map_err(|e| match e {
             exr::error::Error::Io(e) => WriteError::io(path, e),

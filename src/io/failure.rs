@@ -16,6 +16,9 @@ pub enum Failure {
     /// The output could not be written.
     #[error("{0}")]
     Output(String),
+    /// No window could be opened: there is no screen, or nothing that draws on it; in words that say which.
+    #[error("{0}")]
+    NoWindow(String),
     /// The graphics card failed; the processor can do the same work.
     #[cfg(feature = "gpu")]
     #[error(transparent)]

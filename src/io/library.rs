@@ -14,6 +14,9 @@ pub const CUTS: [(&str, &str); 10] = [
     ("plate", include_str!("../../cuts/plate.toml")),
 ];
 
+/// The cut that the program begins with.
+pub const FIRST_CUT: &str = "tolkowsky";
+
 /// The file of a cut that comes with the program; capitals do not matter.
 pub fn cut(name: &str) -> Option<&'static str> {
     CUTS.iter().find(|(n, _)| n.eq_ignore_ascii_case(name)).map(|(_, text)| *text)

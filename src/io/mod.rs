@@ -1,4 +1,4 @@
-//! Floor 5: files, in and out.
+//! Floor 5: files, in and out. The path `-` is standard input and output everywhere.
 
 mod apng;
 #[cfg(feature = "interchange")]
@@ -40,10 +40,11 @@ pub mod refraction_map;
 pub mod refraction_page;
 pub mod scene_file;
 pub mod scope_file;
+mod standard;
 mod text;
 
 pub use apng::{Animation, Frames, write_apng};
-pub use atomic::{WriteError, write};
+pub use atomic::{Abandoned, Sink, WriteError, abandon_writes, write};
 pub use drawing_png::{DrawingError, rasterize, rasterize_clear, rasterize_within};
 #[cfg(feature = "exr")]
 pub use exr::write_exr;
@@ -54,3 +55,4 @@ pub use mesh_export::{write_glb, write_obj, write_ply, write_stl};
 pub use picture_file::write_linear_exr;
 pub use picture_file::write_rgba_png;
 pub use png::{MOST_PIXELS, PngRows, write_png};
+pub use standard::{STANDARD, is_standard};

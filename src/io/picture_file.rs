@@ -7,11 +7,7 @@ use super::png::encoder;
 #[cfg(feature = "exr")]
 use crate::picture::Linear;
 #[cfg(feature = "exr")]
-use ::exr::{
-    math::Vec2,
-    meta::attribute::Chromaticities,
-    prelude::{AnyChannel, FlatSamples},
-};
+use ::exr::{math::Vec2, meta::attribute::Chromaticities, prelude::SpecificChannels};
 use std::path::Path;
 
 /// The primaries and the white of sRGB, as CIE x and y (ITU-R BT.709-6, §1).
@@ -64,11 +60,10 @@ pub fn write_linear_exr(path: &Path, picture: &Linear, description: &str) -> Res
     if size.0 * size.1 != picture.pixels.len() || picture.pixels.is_empty() {
         return Err(WriteError::io(path, unfit(picture.pixels.len(), (picture.width, picture.height))));
     }
-    let channel = |(c, name): (usize, &str)| {
-        AnyChannel::new(name, FlatSamples::F32(picture.pixels.iter().map(|pixel| pixel[c]).collect()))
-    };
-    let channels = ["R", "G", "B", "A"].into_iter().enumerate().map(channel).collect();
-    exr::write_channels(path, size, channels, (description, None), Some(SRGB))
+    // Pixels are handed on from where they are: channels of their own would take as much memory again.
+    let pixel = |at: Vec2<usize>| -> (f32, f32, f32, f32) { picture.pixels[at.y() * size.0 + at.x()].into() };
+    let channels = SpecificChannels::rgba(pixel);
+    exr::write_image(path, &exr::image(size, channels, (description, None), Some(SRGB)))
 }
 
 /// What is wrong with so many pixels.

@@ -1,5 +1,6 @@
 //! Reading text that people wrote: of a sane size, in UTF-8, or an error that says what is wrong.
 
+use super::standard::{self, is_standard};
 use std::fs::File;
 use std::io::{ErrorKind, Read};
 use std::path::Path;
@@ -18,20 +19,29 @@ pub(super) fn read(path: &Path, limit: u64) -> Result<String, TextError> {
     utf8(read_bytes(path, limit)?)
 }
 
-/// What a path holds, up to a limit in bytes, which also binds what grows or has no size of its own.
+/// What a path holds, up to a limit in bytes, which also binds what grows or has no size of its own. The path `-` is standard
+/// input.
 pub(super) fn read_bytes(path: &Path, limit: u64) -> Result<Vec<u8>, TextError> {
     let whole = |message| TextError { line: None, message };
     let unreadable = |error: std::io::Error| match error.kind() {
         ErrorKind::NotFound => whole("there is no such file".to_owned()),
         _ => whole(format!("cannot be read: {error}")),
     };
+    if is_standard(path) {
+        return within(standard::input().map_err(unreadable)?.to_vec(), limit);
+    }
     if path.metadata().map_err(unreadable)?.is_dir() {
         return Err(whole("this is a directory; a file is expected".to_owned()));
     }
     let mut bytes = Vec::new();
     File::open(path).and_then(|file| file.take(limit + 1).read_to_end(&mut bytes)).map_err(unreadable)?;
+    within(bytes, limit)
+}
+
+/// Bytes that are no more than a limit.
+fn within(bytes: Vec<u8>, limit: u64) -> Result<Vec<u8>, TextError> {
     if bytes.len() as u64 > limit {
-        return Err(whole(too_large(limit)));
+        return Err(TextError { line: None, message: too_large(limit) });
     }
     Ok(bytes)
 }

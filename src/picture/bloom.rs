@@ -71,14 +71,28 @@ impl Bloom {
             return;
         }
         let mut glare = self.spread(&source, f64::from(picture.width) / f64::from(1_u32 << halvings));
-        for level in (0..halvings).rev() {
+        let spread = |pixel: &mut [f32; 4], own: Vec4, light: Vec4| {
+            let sum = Vec4::from_array(*pixel) - own + light;
+            *pixel = [sum.x, sum.y, sum.z, pixel[3]];
+        };
+        if halvings == 0 {
+            let cells = source.cells.par_iter().zip(&glare.cells);
+            picture
+                .pixels
+                .par_iter_mut()
+                .zip(cells)
+                .for_each(|(pixel, (&own, &light))| spread(pixel, own, light));
+            return;
+        }
+        drop(source);
+        for level in (1..halvings).rev() {
             let (width, height) = (halved(picture.width, level), halved(picture.height, level));
             glare = glare.doubled(width as usize, height as usize);
         }
-        picture.pixels.par_iter_mut().enumerate().zip(&glare.cells).for_each(|((k, pixel), &light)| {
-            let own = if halvings == 0 { source.cells[k] } else { taken(pixel) };
-            let sum = Vec4::from_array(*pixel) - own + light;
-            *pixel = [sum.x, sum.y, sum.z, pixel[3]];
+        // The last doubling would be as large as the picture: each row is made when it is added.
+        picture.pixels.par_chunks_mut(picture.width as usize).enumerate().for_each(|(y, row)| {
+            let light = glare.doubled_row(y);
+            row.iter_mut().enumerate().for_each(|(x, pixel)| spread(pixel, taken(pixel), light(x)));
         });
     }
 

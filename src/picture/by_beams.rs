@@ -11,6 +11,7 @@ use crate::trace::sitting::{Exposure, Lit, Look, Sitting};
 use crate::trace::{Stopped, Watch};
 use glam::{DAffine2, DMat2, DVec2, DVec3, DVec4};
 use rayon::prelude::*;
+use std::ops::Range;
 
 /// Where absorption changes a beam's light by more than this part across its outline, it is painted in strips. A beam is a
 /// part of a part of what a pixel shows, and the strip's mean is exact.
@@ -19,15 +20,19 @@ const UNEVEN: f64 = 1.0 / 16.0;
 /// Rows painted as one piece of work.
 const PIECE: u32 = 16;
 
+/// Bytes of colour and cover that are held at once where a picture is taken some rows after the others.
+const MOST_BYTES: usize = 256 << 20;
+
 /// Beams whose colours are found as one piece of work.
 const AT_ONCE: usize = 512;
 
-/// A whole picture of one stone, by exact beams.
+/// A picture of one stone, or some rows of it, by exact beams.
 pub struct ByBeams<'a> {
     sitting: Sitting<'a>,
     stone: &'a Polytope,
     options: beam::Options,
     looks: u32,
+    rows: Range<u32>,
     /// Colour and cover, as the changes that edges leave.
     pieces: Vec<Rows<DVec4>>,
     unresolved: f64,
@@ -45,23 +50,37 @@ struct Patches {
 }
 
 impl<'a> ByBeams<'a> {
-    /// Prepares a picture; `None` where exact beams do not apply: for several stones or one of triangles, in
+    /// Prepares a whole picture; `None` where exact beams do not apply: for several stones or one of triangles, in
     /// perspective, with a photograph behind.
     pub fn new(sitting: Sitting<'a>, options: beam::Options) -> Option<Self> {
+        Self::of_rows(sitting, options, 0..sitting.film.size[1])
+    }
+
+    /// How many rows of a picture so wide may be prepared at once, so that what is held of them takes no more than
+    /// [`MOST_BYTES`].
+    pub fn most_rows(width: u32) -> u32 {
+        let piece = PIECE as usize * (width as usize + 1) * size_of::<DVec4>();
+        ((MOST_BYTES / piece).max(1) as u32).saturating_mul(PIECE)
+    }
+
+    /// Prepares some rows of a picture, as [`new`](Self::new) does; each look traces the beams of all of it. Where rows begin
+    /// at a multiple of [`most_rows`](Self::most_rows), they are those of the whole picture to the bit.
+    pub fn of_rows(sitting: Sitting<'a>, options: beam::Options, rows: Range<u32>) -> Option<Self> {
         let [stone] = sitting.setting.stones.as_slice() else { return None };
         let surround = &sitting.surround;
         if sitting.view.projection != crate::scene::Projection::Orthographic || surround.behind.is_some() {
             return None;
         }
-        let [across, down] = sitting.film.size;
-        let piece = |first: u32| Rows::new(first, PIECE.min(down - first), across, 1);
-        let pieces = (0..down).step_by(PIECE as usize).map(piece).collect();
+        let across = sitting.film.size[0];
+        let piece = |first: u32| Rows::new(first, PIECE.min(rows.end - first), across, 1);
+        let pieces = rows.clone().step_by(PIECE as usize).map(piece).collect();
         let stone = stone.solid.polytope().ok()?;
         Some(Self {
             sitting,
             stone,
             options,
             looks: 0,
+            rows,
             pieces,
             unresolved: 0.0,
             absorbed: 0.0,
@@ -162,7 +181,7 @@ impl<'a> ByBeams<'a> {
 
     fn paint(&mut self, found: &[Patches]) {
         let count = self.pieces.len();
-        let down = f64::from(self.sitting.film.size[1]);
+        let (top, bottom) = (f64::from(self.rows.start), f64::from(self.rows.end));
         // The patches that touch each piece, by (list, place).
         let mut touching: Vec<Vec<(u32, u32)>> = vec![vec![]; count];
         for (list, patches) in found.iter().enumerate() {
@@ -170,10 +189,10 @@ impl<'a> ByBeams<'a> {
                 let heights = patches.corners[start as usize..end as usize].iter().map(|c| c.y);
                 let (low, high) =
                     heights.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), y| (l.min(y), h.max(y)));
-                if high <= 0.0 || low >= down {
+                if high <= top || low >= bottom {
                     continue;
                 }
-                let piece = |y: f64| ((y / f64::from(PIECE)) as usize).min(count - 1);
+                let piece = |y: f64| (((y - top) / f64::from(PIECE)) as usize).min(count - 1);
                 touching[piece(low)..=piece(high)]
                     .iter_mut()
                     .for_each(|t| t.push((list as u32, place as u32)));

@@ -44,13 +44,18 @@ const MOST_STOPS: f64 = 40.0;
 /// Without a background, glare beside the stones has light but no cover, which eight-bit pictures cannot hold; there,
 /// cover is raised to the brightest encoded channel, so that over black the picture looks as it would have.
 pub fn develop(picture: &Linear, manner: &Develop) -> Vec<u8> {
+    developed(picture.clone(), manner)
+}
+
+/// The same of a picture that is not needed any more, in half the memory.
+pub fn developed(picture: Linear, manner: &Develop) -> Vec<u8> {
     let exposed = exposed(picture, manner);
     let encoder = SrgbEncoder::new();
-    let row_length = picture.width.max(1) as usize;
+    let row_length = exposed.width.max(1) as usize;
     let mut out = vec![0; exposed.pixels.len() * 4];
     let rows = out.par_chunks_mut(4 * row_length).zip(exposed.pixels.par_chunks(row_length)).enumerate();
     rows.for_each(|(y, (codes, pixels))| {
-        let behind = manner.background.row(y as u32, picture.height);
+        let behind = manner.background.row(y as u32, exposed.height);
         for (code, &pixel) in codes.chunks_exact_mut(4).zip(pixels) {
             code.copy_from_slice(&encoded(shown(pixel, manner), behind, &encoder));
         }
@@ -59,10 +64,10 @@ pub fn develop(picture: &Linear, manner: &Develop) -> Vec<u8> {
 }
 
 /// The light as exposed and spread.
-pub(super) fn exposed(picture: &Linear, manner: &Develop) -> Linear {
+pub(super) fn exposed(picture: Linear, manner: &Develop) -> Linear {
     let gain = manner.exposure.clamp(-MOST_STOPS, MOST_STOPS).exp2() as f32;
     let sane = |v: f32, least: f32, most: f32| if v.is_nan() { 0.0 } else { v.clamp(least, most) };
-    let mut out = picture.clone().whole();
+    let mut out = picture.whole();
     out.pixels.par_iter_mut().for_each(|pixel| {
         let [r, g, b, cover] = *pixel;
         let [r, g, b] = [r, g, b].map(|c| sane(c * gain, -BRIGHTEST, BRIGHTEST));

@@ -33,7 +33,7 @@ pub use background::Background;
 pub use bloom::Bloom;
 pub use by_beams::ByBeams;
 pub use caption::Caption;
-pub use develop::{Develop, develop};
+pub use develop::{Develop, develop, developed};
 pub use diagram::{DiagramStyle, diagram};
 pub use drawing::Inks;
 pub use fxaa::fxaa;

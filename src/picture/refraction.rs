@@ -102,7 +102,7 @@ impl RefractionMap {
     /// The same map with its diffuse layer developed as a render is, by exposure and tone, but without glow. The background
     /// shows as it is.
     pub fn developed(mut self, manner: &Develop) -> Self {
-        self.diffuse = exposed(&self.diffuse, &Develop { bloom: None, ..*manner });
+        self.diffuse = exposed(self.diffuse, &Develop { bloom: None, ..*manner });
         self.diffuse.pixels.iter_mut().for_each(|pixel| *pixel = shown(*pixel, manner));
         self
     }

@@ -34,6 +34,25 @@ impl Viewpoint {
         }
     }
 
+    /// What tells the files of this view from those of the plain one, face up by parallel rays, of which it is empty: such as
+    /// `-tilt-15-azimuth-22.5`.
+    pub fn suffix(&self) -> String {
+        let mut suffix = String::new();
+        // What comes from radians has more digits than it means.
+        let mut add =
+            |what: &str, number: f64| suffix += &format!("-{what}-{}", (number * 1e6).round() / 1e6);
+        if self.tilt_deg != 0.0 {
+            add(if self.lean == Lean::Stone { "tilt" } else { "eye-tilt" }, self.tilt_deg);
+        }
+        if self.tilt_deg != 0.0 && self.azimuth_deg != 0.0 {
+            add("azimuth", self.azimuth_deg);
+        }
+        if let Projection::Perspective { distance } = self.projection {
+            add("perspective", distance);
+        }
+        if self.side == Side::Culet { format!("-culet{suffix}") } else { suffix }
+    }
+
     /// In words, for what goes into pictures.
     pub fn told(&self) -> String {
         let (side, tilt, azimuth) = (self.side.name(), self.tilt_deg, self.azimuth_deg);
@@ -79,6 +98,23 @@ mod tests {
         assert_eq!(Viewpoint { tilt_deg: -20.0, azimuth_deg: -45.0, ..back }, given);
         assert_eq!(given.facing(Some(Side::Table)).view(), View { side: Side::Table, ..view });
         assert_eq!(given.facing(None), given);
+    }
+
+    #[test]
+    fn names_of_files_say_what_differs_from_face_up() {
+        let up = Viewpoint::default();
+        let tilted = Viewpoint { tilt_deg: 7.5, azimuth_deg: -10.0, ..up };
+        let eye = Viewpoint { lean: Lean::Eye, tilt_deg: -4.0, ..up };
+        let far = Viewpoint { projection: Projection::Perspective { distance: 8.0 }, ..up };
+        let names = [
+            (up, ""),
+            (Viewpoint { azimuth_deg: 30.0, ..up }, ""),
+            (tilted, "-tilt-7.5-azimuth--10"),
+            (eye, "-eye-tilt--4"),
+            (far, "-perspective-8"),
+            (tilted.facing(Some(Side::Culet)), "-culet-tilt-7.5-azimuth--10"),
+        ];
+        names.iter().for_each(|(viewpoint, suffix)| assert_eq!(viewpoint.suffix(), *suffix));
     }
 
     #[test]

@@ -129,18 +129,6 @@ fn a_reader_that_goes_away_is_no_reason_to_panic() {
 }
 
 #[test]
-#[cfg(all(feature = "app", target_os = "linux"))]
-fn without_a_screen_the_window_says_what_it_needs() {
-    let desk = Desk::new();
-    for line in ["", "edit cube.toml"] {
-        let mut command = desk.command(line);
-        command.env_remove("DISPLAY").env_remove("WAYLAND_DISPLAY").env_remove("WAYLAND_SOCKET");
-        let (code, _, said) = came_of(line, &command.output().unwrap());
-        assert!(code == 3 && said.contains("the window cannot be opened"), "{code}: {said}");
-    }
-}
-
-#[test]
 fn a_command_line_at_fault_ends_with_code_2() {
     let desk = Desk::new();
     let ill_formed = "polish, measure, measure cube.toml --colour, measure cube.toml --index two, export cube.toml --size 15, \

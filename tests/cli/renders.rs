@@ -160,8 +160,9 @@ fn a_spin_is_numbered_frames_and_an_animation_of_them() {
             "spin modern-ideal --motion {motion} --frames 3 --seconds 0.6 --size 40 --wavelengths 2 --samples 1 --eye-tilt 10 --out {motion}"
         );
         let line = if motion == "wobble" { line.replace("--eye-tilt 10", "") } else { line };
-        assert_eq!(desk.done(&line).trim(), format!("{motion}/modern-ideal-spin.png"));
-        let frames = files(&desk.at(format!("{motion}/modern-ideal-spin")));
+        let name = if motion == "wobble" { "modern-ideal-spin" } else { "modern-ideal-eye-tilt-10-spin" };
+        assert_eq!(desk.done(&line).trim(), format!("{motion}/{name}.png"));
+        let frames = files(&desk.at(format!("{motion}/{name}")));
         assert!(frames.keys().eq(["0001.png", "0002.png", "0003.png"]), "{:?}", frames.keys());
         assert!(frames["0001.png"] != frames["0002.png"]);
         if motion == "turn" {
@@ -170,9 +171,9 @@ fn a_spin_is_numbered_frames_and_an_animation_of_them() {
             let dark = files(&desk.at("dark/modern-ideal-spin"));
             assert!(dark["0001.png"] != dark["0002.png"]);
         }
-        let (moving, animation) = frame(&desk.at(format!("{motion}/modern-ideal-spin.png")));
+        let (moving, animation) = frame(&desk.at(format!("{motion}/{name}.png")));
         assert_eq!(animation, Some((3, 0)));
-        let (still, none) = frame(&desk.at(format!("{motion}/modern-ideal-spin/0001.png")));
+        let (still, none) = frame(&desk.at(format!("{motion}/{name}/0001.png")));
         assert!(moving == still && none.is_none(), "{motion}");
     }
 }

@@ -95,11 +95,16 @@ impl Shoot {
     }
 
     pub fn by_beams(&self) -> (Linear, Remainder) {
+        self.by_beams_in(self.size)
+    }
+
+    /// So many rows at a time.
+    pub fn by_beams_in(&self, rows: u32) -> (Linear, Remainder) {
         let strata = strata(self.wavelengths, &self.light.spectrum, true);
         let options = beam::Options { unresolved: 1e-3, ..beam::Options::default() };
         self.with(|sitting| {
-            let prepare = |_| Ok::<_, Stopped>(ByBeams::new(*sitting, options).unwrap());
-            expose_in(sitting, (&strata, self.looks()), self.size, prepare, &unwatched).unwrap()
+            let prepare = |rows| Ok::<_, Stopped>(ByBeams::of_rows(*sitting, options, rows).unwrap());
+            expose_in(sitting, (&strata, self.looks()), rows, prepare, &unwatched).unwrap()
         })
     }
 

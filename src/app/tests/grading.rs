@@ -48,7 +48,10 @@ fn a_gem_whose_colour_is_no_measurement_is_called_so_where_it_is_chosen() {
     assert!(bench.harness.query_by_label("illustrative colour").is_none());
     bench.harness.get_by_role_and_label(egui::Role::ComboBox, "Material").click();
     bench.harness.run_steps(4);
-    assert!(bench.harness.query_by_label("cubic zirconia").is_some(), "one that is measured bears its name alone");
+    assert!(
+        bench.harness.query_by_label("cubic zirconia").is_some(),
+        "one that is measured bears its name alone"
+    );
     let entry = bench.harness.get_by_label_contains("almandine");
     assert!(entry.accesskit_node().label().unwrap().contains("illustrative colour"));
     entry.click();

@@ -34,14 +34,10 @@ const PACKAGES: &str = "libx11-xcb1, libxcursor1, libxi6, libxkbcommon-x11-0";
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum WindowError {
     /// There is no screen to open it on.
-    #[error(
-        "the window cannot be opened: there is no display ({0}); `brillianteer --help` lists what works without"
-    )]
+    #[error("the window cannot be opened: there is no display ({0})")]
     NoDisplay(String),
     /// There is a screen, but opening a window or painting in it failed.
-    #[error(
-        "the window cannot be opened: {0}; on Debian it needs {PACKAGES}; `brillianteer --help` lists what works without"
-    )]
+    #[error("the window cannot be opened: {0}; on Debian it needs {PACKAGES}")]
     NoWindow(String),
     /// The environment asks for a painter that does not exist.
     #[error(

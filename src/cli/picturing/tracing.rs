@@ -35,8 +35,8 @@ impl Studio<'_> {
             ..beam::Options::default()
         };
         let unfit = || Failure::Usage("exact beams do not apply here: use --tracer ray".into());
-        let prepare = |_| ByBeams::new(*sitting, options).ok_or_else(unfit);
-        let most_rows = sitting.film.size[1];
+        let prepare = |rows| ByBeams::of_rows(*sitting, options, rows).ok_or_else(unfit);
+        let most_rows = ByBeams::most_rows(sitting.film.size[0]);
         let taken = expose_in(sitting, (&self.strata(), looks), most_rows, prepare, watch)?;
         Ok(self.taken(taken, looks, "exact beams"))
     }
@@ -72,7 +72,7 @@ impl Studio<'_> {
 
     fn looks(&self, usual: u32) -> Looks {
         let count = self.options.samples.unwrap_or(usual);
-        Looks { count, jitter: !self.options.no_jitter, strength: self.strength }
+        Looks { count, jitter: !self.finish.no_jitter, strength: self.strength }
     }
 
     fn taken(&self, (picture, rest): (Linear, Remainder), taken: Looks, tracer: &str) -> Taken {

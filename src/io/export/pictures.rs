@@ -37,6 +37,8 @@ pub(super) struct Pictures<'a> {
 /// A picture in a scope.
 struct Plate<'a> {
     name: &'a str,
+    /// What its files' names say of the view.
+    suffix: String,
     scope: Scope,
     viewing: Viewing<'a>,
     view: View,
@@ -83,10 +85,10 @@ impl<'a> Pictures<'a> {
         }
         let text = document.to_string();
         if outputs.wants(Format::Svg) {
-            write_text(&outputs.path(name, Format::Svg), &text, self.tell)?;
+            write_text(&outputs.path("", name, Format::Svg), &text, self.tell)?;
         }
         if outputs.wants(Format::Png) {
-            let path = outputs.path(name, Format::Png);
+            let path = outputs.path("", name, Format::Png);
             let (width, height, pixels) =
                 rasterize(&text, outputs.size).map_err(|e| Failure::Output(e.to_string()))?;
             write_png(&path, (width, height), &self.title(name), |rows| rows.push(&pixels))?;
@@ -98,8 +100,8 @@ impl<'a> Pictures<'a> {
     fn scoped(&mut self, name: &str, scoped: &Scoped, watch: Watch) -> Result<(), Failure> {
         let viewing = self.viewing.facing(scoped.side);
         let scope = scoped.with_head(viewing.head_deg);
-        let glare = viewing.glare.unwrap_or_default();
-        let plate = Plate { name, scope, viewing, view: viewing.viewpoint.view(), glare };
+        let (suffix, view) = (self.viewing.suffix(scoped), viewing.viewpoint.view());
+        let plate = Plate { name, suffix, scope, viewing, view, glare: viewing.glare.unwrap_or_default() };
         match viewing.tracer {
             Tracer::Beams => self.by_beams(&plate, watch),
             Tracer::Rays(first) => first.or_rays(self.tell, |used| self.by_rays(used, &plate, watch)),
@@ -155,7 +157,8 @@ impl<'a> Pictures<'a> {
         film: &Film,
         watch: Watch,
     ) -> Result<(), Failure> {
-        let path = self.outputs.path(&format!("{}{}", plate.name, reading.kind()), Format::Png);
+        let path =
+            self.outputs.path(&plate.suffix, &format!("{}{}", plate.name, reading.kind()), Format::Png);
         let palette = Palette::of(&plate.scope);
         let how = reading.how(layer.open);
         let caption = self.caption_pixels(plate, reading, &reading.in_percent(layer.open))?;
@@ -205,7 +208,7 @@ impl<'a> Pictures<'a> {
     }
 
     fn bare(&self, plate: &Plate, beams: &Beams, film: &Film, watch: Watch) -> Result<(), Failure> {
-        let path = self.outputs.path(plate.name, Format::Exr);
+        let path = self.outputs.path(&plate.suffix, plate.name, Format::Exr);
         let layer = Layer::full(beams, &plate.scope);
         let how = Reading::Energy.how(layer.open);
         write_exr(&path, &layer, film, &self.told(plate, "all light, by channels", &how), watch)?;
@@ -213,7 +216,7 @@ impl<'a> Pictures<'a> {
     }
 
     fn drawn(&self, plate: &Plate, beams: &Beams, watch: Watch) -> Result<(), Failure> {
-        let Plate { name, scope, viewing, view, .. } = plate;
+        let Plate { name, suffix, scope, viewing, view, .. } = plate;
         let stone = viewing.stone()?;
         let options = viewing.beams(UNRESOLVED);
         let title = format!("{}, {}", self.title(name), viewing.viewpoint.told());
@@ -226,16 +229,16 @@ impl<'a> Pictures<'a> {
         let strongest = vector::strongest(stone, mapped, scope, &format!("{title}, {STRONGEST}"));
         let undecided = mapped.undecided(&mapped.strongest_exits());
         let strongest = self.captioned(strongest, plate, Reading::Strongest, undecided);
-        let path = self.outputs.path(&format!("{name}-strongest"), Format::Svg);
+        let path = self.outputs.path(suffix, &format!("{name}-strongest"), Format::Svg);
         write_text(&path, &strongest, self.tell)?;
         let reading = Reading::Energy.told(plate.glare);
         let energy = vector::energy(stone, &coarse, (scope, plate.glare), &format!("{title}, {reading}"));
         let energy = self.captioned(energy, plate, Reading::Energy, coarse.unresolved());
-        write_text(&self.outputs.path(name, Format::Svg), &energy, self.tell)
+        write_text(&self.outputs.path(suffix, name, Format::Svg), &energy, self.tell)
     }
 
     fn by_rays(&self, sampler: Sampler, plate: &Plate, watch: Watch) -> Result<(), Failure> {
-        let Plate { name, scope, viewing, view, glare } = plate;
+        let Plate { name, suffix, scope, viewing, view, glare } = plate;
         let solid = viewing.specimen.solid();
         let options = viewing.rays(UNRESOLVED);
         let reach = Camera::new(view, solid).reach(solid).unwrap_or(1.0);
@@ -244,7 +247,7 @@ impl<'a> Pictures<'a> {
         let how = format!("{}, each followed to {:.2e}", sampler.told(), options.least_weight);
         let manner = Manner { options, per_side: RAYS_PER_SIDE, glare: *glare };
         let look = Subject { specimen: viewing.specimen, medium: viewing.medium, view, scope };
-        let path = |name: &str| self.outputs.path(name, Format::Png);
+        let path = |name: &str| self.outputs.path(suffix, name, Format::Png);
         let (energy, strongest) = (path(name), path(&format!("{name}-strongest")));
         let both = [Reading::Energy, Reading::Strongest];
         let [told, strongest_told] = both.map(|reading| self.told(plate, &reading.told(*glare), &how));

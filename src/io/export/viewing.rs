@@ -2,6 +2,7 @@
 
 use super::told::{Tell, Told};
 use crate::io::Failure;
+use crate::picture::Scoped;
 use crate::scene::{Glare, Medium, Side, Specimen, Stone, Viewpoint};
 use crate::trace::{CannotTrace, Tracer, beam, ray};
 
@@ -37,6 +38,11 @@ impl Viewing<'_> {
     /// The same of another side, where a picture is made for one.
     pub fn facing(self, side: Option<Side>) -> Self {
         Self { viewpoint: self.viewpoint.facing(side), ..self }
+    }
+
+    /// What the names of a picture's files say of the view: not its side, where the picture has one of its own.
+    pub(super) fn suffix(&self, scoped: &Scoped) -> String {
+        self.viewpoint.facing(scoped.side.map(|_| Side::Table)).suffix()
     }
 
     /// Whether the tracer can see the stone from there.

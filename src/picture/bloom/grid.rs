@@ -68,21 +68,27 @@ impl Grid {
     }
 
     fn add_doubled(&self, sum: &mut Self) {
+        sum.cells.par_chunks_mut(sum.width.max(1)).enumerate().for_each(|(y, row)| {
+            let doubled = self.doubled_row(y);
+            row.iter_mut().enumerate().for_each(|(x, cell)| *cell += doubled(x));
+        });
+    }
+
+    /// The cells of one row of the grid doubled, by column.
+    pub fn doubled_row(&self, y: usize) -> impl Fn(usize) -> Vec4 + '_ {
         let near = |fine: usize, count: usize| {
             let own = (fine / 2).min(count - 1);
             let other = if fine.is_multiple_of(2) { own.saturating_sub(1) } else { (own + 1).min(count - 1) };
             (own, other)
         };
-        sum.cells.par_chunks_mut(sum.width.max(1)).enumerate().for_each(|(y, row)| {
-            let (y, above) = near(y, self.height);
-            let own = &self.cells[y * self.width..(y + 1) * self.width];
-            let above = &self.cells[above * self.width..(above + 1) * self.width];
-            let line = |x: usize| own[x] * 0.75 + above[x] * 0.25;
-            for (x, cell) in row.iter_mut().enumerate() {
-                let (x, beside) = near(x, self.width);
-                *cell += line(x) * 0.75 + line(beside) * 0.25;
-            }
-        });
+        let (y, above) = near(y, self.height);
+        let own = &self.cells[y * self.width..(y + 1) * self.width];
+        let above = &self.cells[above * self.width..(above + 1) * self.width];
+        let line = |x: usize| own[x] * 0.75 + above[x] * 0.25;
+        move |x| {
+            let (x, beside) = near(x, self.width);
+            line(x) * 0.75 + line(beside) * 0.25
+        }
     }
 
     /// Rows as columns.

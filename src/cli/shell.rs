@@ -1,0 +1,55 @@
+//! `completions` and `man`: the program's options for shells and for readers of manuals.
+
+use super::{Arguments, Failure, print};
+use clap::{Args, CommandFactory};
+use clap_complete::{Shell, generate};
+use clap_mangen::Man;
+
+/// What the program is called in shells and manuals.
+const NAME: &str = "brillianteer";
+
+#[derive(Debug, Args)]
+pub struct Completions {
+    /// The shell
+    #[arg(value_enum)]
+    shell: Shell,
+}
+
+impl Completions {
+    pub fn run(&self) -> Result<(), Failure> {
+        let mut script = vec![];
+        generate(self.shell, &mut Arguments::command(), NAME, &mut script);
+        printed(&script)
+    }
+}
+
+#[derive(Debug, Args)]
+pub struct Manual {
+    /// A command, for its own page
+    command: Option<String>,
+}
+
+impl Manual {
+    pub fn run(&self) -> Result<(), Failure> {
+        let mut program = Arguments::command();
+        program.build();
+        let asked = match &self.command {
+            None => program,
+            Some(name) => match program.find_subcommand(name) {
+                Some(command) => command.clone(),
+                None => {
+                    let known: Vec<&str> = program.get_subcommands().map(clap::Command::get_name).collect();
+                    let message = format!("there is no command '{name}'; give one of {}", known.join(", "));
+                    return Err(Failure::Usage(message));
+                }
+            },
+        };
+        let mut page = vec![];
+        Man::new(asked).render(&mut page).map_err(|e| Failure::Output(format!("the page: {e}")))?;
+        printed(&page)
+    }
+}
+
+fn printed(text: &[u8]) -> Result<(), Failure> {
+    print(String::from_utf8_lossy(text).trim_end())
+}

@@ -1,0 +1,27 @@
+//! Standard input and output, which the path `-` stands for, as on most command lines.
+
+use super::mesh_file::MAX_BYTES;
+use std::io::{self, Read};
+use std::path::Path;
+use std::sync::OnceLock;
+
+/// The path that stands for standard input where a file is read and for standard output where one is written. A file of
+/// that name is `./-`.
+pub const STANDARD: &str = "-";
+
+/// Whether a path stands for standard input or output.
+pub fn is_standard(path: &Path) -> bool {
+    path == Path::new(STANDARD)
+}
+
+/// What comes by standard input, up to the size of the largest file that is read and a byte more. It is read once and kept,
+/// so that it can be asked for again.
+pub(super) fn input() -> io::Result<&'static [u8]> {
+    static KEPT: OnceLock<Vec<u8>> = OnceLock::new();
+    if let Some(kept) = KEPT.get() {
+        return Ok(kept);
+    }
+    let mut bytes = Vec::new();
+    io::stdin().lock().take(MAX_BYTES + 1).read_to_end(&mut bytes)?;
+    Ok(KEPT.get_or_init(|| bytes))
+}

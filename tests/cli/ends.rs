@@ -1,0 +1,181 @@
+//! How the program ends: by signals, without a screen, in little memory, and with nothing on standard error that is not its own.
+
+use super::desk::*;
+use std::io::{BufRead, BufReader};
+use std::path::Path;
+use std::process::{Child, Command, Stdio};
+
+/// Sends a signal to a program.
+#[cfg(unix)]
+fn signal(program: &Child, name: &str) {
+    let sent = Command::new("sh").args(["-c", &format!("kill -{name} {}", program.id())]).status().unwrap();
+    assert!(sent.success(), "kill -{name}");
+}
+
+/// Temporary files of the program in a folder.
+fn temporary(folder: &Path) -> usize {
+    let names = std::fs::read_dir(folder).into_iter().flatten().map(|e| e.unwrap().file_name());
+    names.filter(|name| name.to_string_lossy().starts_with(".brillianteer-")).count()
+}
+
+#[test]
+#[cfg(unix)]
+fn a_signal_ends_a_bench_at_once_with_its_own_exit_code() {
+    let desk = Desk::new();
+    for (name, code) in [("INT", 130), ("TERM", 143)] {
+        let mut bench = desk.command("bench").stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+        let mut printed = BufReader::new(bench.stdout.take().unwrap());
+        let mut line = String::new();
+        printed.read_line(&mut line).unwrap();
+        assert!(line.starts_with("modern ideal face up"), "{line}");
+        signal(&bench, name);
+        let rest: Vec<String> = printed.lines().map(Result::unwrap).collect();
+        assert!(
+            !rest.iter().any(|line| line.starts_with("diamond under")),
+            "it went on to its end: {rest:?}"
+        );
+        let (ended, _, said) = came_of("bench", &bench.wait_with_output().unwrap());
+        assert!(ended == code && said.ends_with("error: stopped\n"), "{name}: {ended}: {said}");
+    }
+}
+
+#[test]
+#[cfg(unix)]
+fn a_signal_leaves_whole_files_and_no_temporary_ones() {
+    let desk = Desk::new();
+    for (name, code) in [("INT", 130), ("TERM", 143)] {
+        let line = format!("export tolkowsky --views profile,aset --format png --size 16384 --out {name}");
+        let mut export = desk.command(&line).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+        let mut printed = BufReader::new(export.stdout.take().unwrap()).lines();
+        assert_eq!(printed.next().unwrap().unwrap(), format!("{name}/tolkowsky-profile.png"));
+        // The next picture is large enough to be caught half written.
+        while temporary(&desk.at(name)) == 0 {
+            assert!(export.try_wait().unwrap().is_none(), "it ended before it could be stopped");
+            std::thread::yield_now();
+        }
+        signal(&export, name);
+        let (ended, _, said) = came_of(&line, &export.wait_with_output().unwrap());
+        assert!(ended == code && said.ends_with("error: stopped\n"), "{name}: {ended}: {said}");
+        let left = std::fs::read_dir(desk.at(name)).unwrap().map(|e| e.unwrap().file_name());
+        assert_eq!(left.collect::<Vec<_>>(), ["tolkowsky-profile.png"]);
+    }
+}
+
+#[test]
+#[cfg(target_os = "linux")]
+fn without_a_screen_the_main_pictures_and_figures_are_written_unless_the_editor_is_asked_for_by_name() {
+    let desk = Desk::new();
+    let run = |line: &str| {
+        let mut command = desk.command(line);
+        command.env_remove("DISPLAY").env_remove("WAYLAND_DISPLAY").env_remove("WAYLAND_SOCKET");
+        came_of(line, &command.output().unwrap())
+    };
+    let views = ["aset", "aset-strongest", "ideal-scope", "ideal-scope-strongest"];
+    for (line, stem, scoped) in [("", "tolkowsky", 11), ("cube.toml", "cube", 11), ("trilogy", "trilogy", 0)]
+    {
+        let (code, printed, said) = run(line);
+        assert!(code == 0 && said.contains("written to the folder 'out' instead"), "{line}: {code}: {said}");
+        assert!(
+            said.contains(if cfg!(feature = "app") { "there is no display" } else { "built without" }),
+            "{said}"
+        );
+        assert!(said.contains(&format!("brillianteer render {stem}")), "{said}");
+        let folder = desk.at("out").canonicalize().unwrap();
+        assert!(said.trim_end().ends_with(&folder.display().to_string()), "{said}");
+        assert_eq!(printed.lines().count(), scoped + 1, "{line}: {printed}");
+        for name in printed.lines() {
+            assert!(desk.at(name).is_file(), "{name}");
+        }
+        let made = |name: &str| printed.contains(&format!("out/{stem}-{name}.png"));
+        assert!(made("render") && views.iter().all(|view| made(view) == (scoped > 0)), "{printed}");
+        assert_eq!(desk.at(format!("out/{stem}-figures.json")).is_file(), scoped > 0);
+        std::fs::remove_dir_all(folder).unwrap();
+    }
+    for line in ["edit", "edit cube.toml"] {
+        let (code, _, said) = run(line);
+        assert!(code == 3 && said.contains("`brillianteer export`"), "{line}: {code}: {said}");
+    }
+    let (code, _, said) = run("bad/nan.toml");
+    assert!(code == 1 && said.contains("error: bad/nan.toml:6: "), "{code}: {said}");
+    assert!(!desk.at("out").exists());
+}
+
+/// A driver that looks for a Wayland screen when it is loaded, as Mesa's layer for choosing a card does by libwayland, and
+/// says in the same words that it cannot.
+#[cfg(all(feature = "gpu", target_os = "linux"))]
+const DRIVER: &str = r#"
+#include <stdio.h>
+#include <stdlib.h>
+__attribute__((constructor)) static void look(void) {
+    const char *folder = getenv("XDG_RUNTIME_DIR");
+    if (!folder || folder[0] != '/')
+        fprintf(stderr, "error: XDG_RUNTIME_DIR is invalid or not set in the environment.\n");
+    FILE *loaded = fopen("loaded", "w");
+    if (loaded) fclose(loaded);
+}
+"#;
+
+#[test]
+#[cfg(all(feature = "gpu", target_os = "linux"))]
+fn a_driver_has_nothing_to_complain_of_where_the_session_names_no_folder_for_sockets() {
+    let desk = Desk::new();
+    desk.write("driver.c", DRIVER);
+    let built = Command::new("cc")
+        .args(["-shared", "-fPIC", "-o", "driver.so", "driver.c"])
+        .current_dir(desk.at(""))
+        .status();
+    assert!(
+        built.is_ok_and(|status| status.success()),
+        "a C compiler is needed, as for building the program"
+    );
+    let library = desk.at("driver.so").display().to_string();
+    let driver = format!(
+        r#"{{"file_format_version": "1.0.0", "ICD": {{"library_path": "{library}", "api_version": "1.1.0"}}}}"#
+    );
+    desk.write("driver.json", driver);
+    for (folder, home) in [(None, Some("/root")), (Some(""), None), (Some("not/absolute"), Some("home"))] {
+        let line = "render cube.toml --size 16 --samples 1 --wavelengths 1";
+        let mut command = desk.command(line);
+        command
+            .env("VK_DRIVER_FILES", desk.at("driver.json"))
+            .env("VK_ICD_FILENAMES", desk.at("driver.json"));
+        for (name, value) in [("XDG_RUNTIME_DIR", folder), ("HOME", home), ("XDG_CACHE_HOME", None)] {
+            match value {
+                Some(value) => command.env(name, value),
+                None => command.env_remove(name),
+            };
+        }
+        let (code, _, said) = came_of(line, &command.output().unwrap());
+        assert!(desk.at("loaded").exists(), "the driver was not asked");
+        assert!(code == 0 && said.is_empty(), "{folder:?}: {code}: {said}");
+        std::fs::remove_file(desk.at("loaded")).unwrap();
+    }
+}
+
+/// What the program holds in memory at most, MiB, as the system tells until it ends.
+#[cfg(target_os = "linux")]
+fn most_memory(program: &mut Child) -> f64 {
+    let mut most = 0.0_f64;
+    while program.try_wait().unwrap().is_none() {
+        let status = std::fs::read_to_string(format!("/proc/{}/status", program.id())).unwrap_or_default();
+        let peak = status.lines().find_map(|line| line.strip_prefix("VmHWM:"));
+        let kib =
+            peak.and_then(|text| text.trim().strip_suffix(" kB")).and_then(|text| text.trim().parse().ok());
+        most = most.max(kib.unwrap_or(0.0) / 1024.0);
+        std::thread::sleep(std::time::Duration::from_millis(5));
+    }
+    most
+}
+
+#[test]
+#[cfg(target_os = "linux")]
+fn a_large_render_is_not_held_in_memory_several_times() {
+    let desk = Desk::new();
+    // Its light takes 16 bytes a pixel, 256 MiB here. Beside it are exact sums of half the picture, then glare on a coarse grid;
+    // exact sums of all of it and a second copy of the light would come to 960 MiB.
+    let line = "render tolkowsky --size 8192x2048 --samples 1 --wavelengths 1 --tracer beam";
+    let mut render = desk.command(line).stdout(Stdio::null()).spawn().unwrap();
+    let most = most_memory(&mut render);
+    assert_eq!(render.wait().unwrap().code(), Some(0));
+    assert!((256.0..800.0).contains(&most), "{most} MiB");
+}

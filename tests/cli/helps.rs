@@ -1,0 +1,99 @@
+//! What the program says of itself: help, lists, tables, completions, manuals.
+
+use super::desk::*;
+use serde_json::Value;
+
+/// The long options that a command's help lists.
+fn options(desk: &Desk, command: &str) -> Vec<String> {
+    let help = desk.done(&format!("help {command}"));
+    let words = help.lines().filter_map(|line| {
+        line.trim_start().split("--").nth(1).filter(|_| line.trim_start().starts_with('-'))
+    });
+    words.map(|rest| rest.split([' ', ',', '.']).next().unwrap().to_owned()).collect()
+}
+
+#[test]
+fn the_help_of_a_command_lists_what_it_takes_and_nothing_else() {
+    let desk = Desk::new();
+    let [map, render, spin] = ["refraction-map", "render", "spin"].map(|command| options(&desk, command));
+    for option in ["tracer", "bloom", "overlay", "strength", "no-jitter"] {
+        let is_listed = |list: &[String]| list.iter().any(|listed| listed == option);
+        assert!(is_listed(&render) && is_listed(&spin) && !is_listed(&map), "{option}: {map:?}");
+        let said = desk.refused(&format!("refraction-map cube.toml --{option}"), 2);
+        assert!(said.contains("unexpected argument"), "{option}: {said}");
+    }
+    assert!(
+        ["light", "exposure", "both-sides"].iter().all(|option| map.iter().any(|listed| listed == option))
+    );
+}
+
+#[test]
+fn legends_are_notes_and_printed_are_names_of_files_alone() {
+    let desk = Desk::new();
+    let (code, printed, said) = desk
+        .run("render cube.toml --size 16 --samples 1 --wavelengths 1 --overlay bounces,total --out a.png");
+    assert_eq!((code, printed.as_str()), (0, "a.png\n"));
+    assert!(said.lines().all(|line| line.starts_with("note: ")) && said.contains("note: total: #"), "{said}");
+}
+
+#[test]
+fn info_lists_tiers_and_facets_only_where_they_are_asked_for() {
+    let desk = Desk::new();
+    let rows = |line: &str, name: &str| {
+        desk.done(line).lines().filter(|row| row.split_whitespace().next() == Some(name)).count()
+    };
+    let facets = |cut: &str, name: &str| {
+        rows(&format!("info {cut} --facets"), name) - rows(&format!("info {cut}"), name)
+    };
+    assert_eq!([facets("tolkowsky", "girdle"), facets("cube.toml", "side")], [96, 6]);
+    assert_eq!([rows("info tolkowsky", "upper_half"), rows("info tolkowsky", "main")], [1, 1]);
+    for line in ["info tolkowsky --facets", "info cube.toml --facets", "info modern-ideal --facets"] {
+        let table = desk.done(line);
+        assert!(!table.contains("360.0000") && !table.contains("-0.0000"), "{table}");
+    }
+    let info = desk.json("info --json tolkowsky");
+    assert!(list(&info["facets"]).iter().all(|f| (0.0..360.0 - 1e-9).contains(&at(f, "azimuth_deg"))));
+}
+
+#[test]
+fn every_list_comes_as_json_and_not_beside_a_name() {
+    let desk = Desk::new();
+    for (command, name, key, least) in [
+        ("materials", "diamond", "n_D", 20),
+        ("cuts", "tolkowsky", "title", 5),
+        ("scenes", "trilogy", "stones", 5),
+        ("scopes", "aset", "band", 7),
+        ("lights", "studio", "description", 5),
+    ] {
+        let entries = desk.json(&format!("{command} --json"));
+        let found = list(&entries).iter().find(|entry| entry["name"] == name);
+        assert!(
+            list(&entries).len() >= least && found.is_some_and(|entry| !entry[key].is_null()),
+            "{command}"
+        );
+        if command != "materials" {
+            assert!(desk.refused(&format!("{command} {name} --json"), 2).contains("cannot be used with"));
+        }
+    }
+    let bands = |entry: &Value| list(&entry["band"]).len();
+    assert_eq!(list(&desk.json("scopes --json")).iter().map(bands).min(), Some(3));
+}
+
+#[test]
+fn shells_complete_every_command_and_manuals_have_a_page_of_each() {
+    let desk = Desk::new();
+    let commands = ["export", "render", "refraction-map", "measure", "info", "convert", "completions", "man"];
+    for shell in ["bash", "zsh", "fish", "elvish", "powershell"] {
+        let script = desk.done(&format!("completions {shell}"));
+        assert!(
+            commands.iter().all(|command| script.contains(command)) && script.contains("brillianteer"),
+            "{shell}"
+        );
+    }
+    assert!(desk.refused("completions cmd", 2).contains("bash"));
+    let page = desk.done("man");
+    assert!(page.contains(".TH") && commands.iter().all(|c| page.contains(&c.replace('-', "\\-"))), "{page}");
+    let page = desk.done("man render");
+    assert!(page.contains(".TH brillianteer-render") && page.contains("\\-\\-overlay"), "{page:.400}");
+    assert!(desk.refused("man polish", 2).contains("give one of edit, export"));
+}
