@@ -67,7 +67,6 @@ fn facets_bent_over_the_wrong_diagonal_mean_the_hull_of_their_corners() {
     assert!(hull > 1.004 * volume, "the fixture is not bent: {}", hull / volume);
     let found = faceted(surface.clone());
     let change = found.change.unwrap();
-    println!("{} facets, deviation {:.1e}, {change:?}", found.faces.len(), found.deviation);
     assert!((found.polytope.volume() / hull - 1.0).abs() < 1e-3 && found.deviation < 3e-3 * surface.size());
     assert!((change.volume - (found.polytope.volume() / volume - 1.0)).abs() < 1e-12);
     assert!(change.bent >= 7 && change.sharpest > 0.02 && change.sharpest < 0.5);
@@ -185,11 +184,6 @@ fn a_scan_whose_noise_bends_it_everywhere_is_the_stone_that_was_scanned() {
         let seen = shaken(&whole, by, 7);
         let found = faceted(seen.mend().unwrap().surface);
         let off = found.polytope.volume() / solid.volume() - 1.0;
-        println!(
-            "{} triangles, noise {by:.1e}: {} facets, volume {off:.1e}",
-            whole.triangles.len(),
-            found.faces.len()
-        );
         assert!(off.abs() < 1e-3, "{off}");
         assert!(found.faces.len().abs_diff(solid.facets().len()) <= 1, "{} triangles", whole.triangles.len());
     }
