@@ -88,11 +88,14 @@ fn arrows(stone: &Stone, scope: &Scope) -> [Vec<(f64, bool)>; 2] {
     kinds.map(|kinds| {
         let is_it = |b: &Beam| {
             let met = beams.facets(b.id);
+            if met.len() != 4 || !met.iter().zip(kinds).all(|(&f, kind)| stone.name(f).starts_with(kind)) {
+                return false;
+            }
             let number = |k: usize| stone.name(met[k]).rsplit(' ').next().and_then(|n| n.parse::<i32>().ok());
-            // The two mains lie opposite each other.
-            met.len() == 4
-                && met.iter().zip(kinds).all(|(&f, kind)| stone.name(f).starts_with(kind))
-                && number(1).zip(number(2)).is_some_and(|(a, b)| (a - b).abs() == 4)
+            let bezel = if kinds[0] == "bezel" { [0, 1] } else { [3, 2] };
+            // The two mains lie opposite each other, and the bezel over one of them.
+            let are_opposite = number(1).zip(number(2)).is_some_and(|(a, b)| (a - b).abs() == 4);
+            are_opposite && number(bezel[0]) == number(bezel[1])
         };
         let strong = beams.iter().filter(|b| b.weight > 0.5 && b.area > 1e-4 && is_it(b));
         let told = |b: Beam| {
