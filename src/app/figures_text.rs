@@ -123,7 +123,9 @@ mod tests {
         let numbers: Vec<f64> = lines[1].split(',').map(|cell| cell.parse().unwrap()).collect();
         let red = scope.bands.iter().position(|band| band.name == "red").unwrap();
         assert!(lines.len() == 3 && numbers[0] == -30.0 && numbers.len() == 5);
-        assert!((numbers[1] - 100.0 * energy(&figures, red, Glare::Included)).abs() < 1e-4 && numbers[1] > 10.0);
+        assert!(
+            (numbers[1] - 100.0 * energy(&figures, red, Glare::Included)).abs() < 1e-4 && numbers[1] > 10.0
+        );
     }
 
     #[test]
