@@ -1,6 +1,5 @@
 //! Standard input and output, which the path `-` stands for, as on most command lines.
 
-use super::mesh_file::MAX_BYTES;
 use std::io::{self, Read};
 use std::path::Path;
 use std::sync::OnceLock;
@@ -8,6 +7,9 @@ use std::sync::OnceLock;
 /// The path that stands for standard input where a file is read and for standard output where one is written. A file of
 /// that name is `./-`.
 pub const STANDARD: &str = "-";
+
+/// The size of the largest file that is read, a mesh, in bytes.
+const LARGEST: u64 = 512 << 20;
 
 /// Whether a path stands for standard input or output.
 pub fn is_standard(path: &Path) -> bool {
@@ -22,6 +24,6 @@ pub(super) fn input() -> io::Result<&'static [u8]> {
         return Ok(kept);
     }
     let mut bytes = Vec::new();
-    io::stdin().lock().take(MAX_BYTES + 1).read_to_end(&mut bytes)?;
+    io::stdin().lock().take(LARGEST + 1).read_to_end(&mut bytes)?;
     Ok(KEPT.get_or_init(|| bytes))
 }
