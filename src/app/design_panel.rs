@@ -71,7 +71,7 @@ fn identity(editor: &mut Editor, ui: &mut Ui) {
     ui.horizontal(|ui| {
         let label = named(ui, "Name", "What the design is called, in its file and on its pictures.");
         let mut name = design.name.clone();
-        let field = TextEdit::singleline(&mut name).desired_width(field_width(ui) - 8.0);
+        let field = TextEdit::singleline(&mut name).desired_width(field_width(ui));
         if ui.add(field).labelled_by(label.id).changed() {
             design.rename(name);
         }
