@@ -4,7 +4,6 @@
 use super::desk::Layout;
 use crate::io::{WriteError, write};
 use serde::Serialize;
-use std::io::Write;
 use std::path::PathBuf;
 
 /// The environment variable that names the file; without it none is written.
