@@ -229,16 +229,19 @@ fn changed_outside(editor: &mut Editor, ui: &mut Ui) -> bool {
     }
 }
 
+/// Width of what a key does, or a term means, points.
+const MEANING: f32 = 450.0;
+
 fn keys(ui: &mut Ui) -> bool {
     ui.set_width(620.0);
     ui.heading("Keys and terms");
     let room = ui.ctx().content_rect().height() - AROUND_DIALOG - 90.0;
     ScrollArea::vertical().max_height(room.min(520.0)).show(ui, |ui| {
         let ctx = ui.ctx().clone();
-        Grid::new("keys").num_columns(2).striped(true).show(ui, |ui| {
+        Grid::new("keys").num_columns(2).striped(true).max_col_width(MEANING).show(ui, |ui| {
             let mut line = |key: String, what: &str| {
                 ui.label(RichText::new(key).monospace());
-                ui.label(what);
+                ui.add(egui::Label::new(what).wrap());
                 ui.end_row();
             };
             line("drag".into(), "Tilts the stone; with Shift or the right button turns it about its axis.");
@@ -254,7 +257,7 @@ fn keys(ui: &mut Ui) -> bool {
             }
         });
         ui.add_space(10.0);
-        Grid::new("terms").num_columns(2).striped(true).show(ui, |ui| {
+        Grid::new("terms").num_columns(2).striped(true).max_col_width(MEANING).show(ui, |ui| {
             let shows = Shows::ALL.into_iter().map(|s| (s.name(), s.meaning()));
             for (name, meaning) in shows.chain(PROPORTIONS.iter().map(|p| (p.name, p.meaning))) {
                 ui.label(RichText::new(name).strong());
