@@ -8,7 +8,7 @@ use super::impossible::{self, Said};
 use super::proportions::{EXCELLENT_DEPTH, PROPORTIONS, Proportion};
 use super::rows::{ANY, NUMBER, Number, Row, control_width, explain, field_width, named};
 use super::studio::BEHIND;
-use super::{company_rows, glass_rows, mesh_rows, side_panels, stone_rows, theme, tier_rows};
+use super::{company_rows, extent, glass_rows, mesh_rows, side_panels, stone_rows, theme, tier_rows};
 use crate::cut::{Cut, Design, DesignError, MaterialRef, RoundBrilliant, Unit};
 use crate::picture::Pattern;
 use crate::scene::{Company, LIGHTS, SpecimenError, light};
@@ -17,6 +17,7 @@ use egui::{
     StrokeKind, TextEdit, Ui, WidgetInfo, pos2, vec2,
 };
 use std::ops::RangeInclusive;
+use std::sync::Arc;
 
 /// Stops that light can be raised or lowered by.
 const STOPS: RangeInclusive<f64> = -4.0..=4.0;
@@ -97,12 +98,11 @@ fn proportions(editor: &mut Editor, ui: &mut Ui) {
     let said = impossible(editor);
     let mut edited = editor.edited;
     let is_graded = is_graded(&editor.document.work.design);
-    let unit_mm = editor.document.specimen().unit_mm();
     let Cut::RoundBrilliant(brilliant) = &mut editor.document.work.design.cut else {
         match &mut editor.document.work.design.cut {
             Cut::Glass(glass) => glass_rows::show(glass, ui),
             Cut::Mesh(_) => {}
-            cut => tier_rows::show(cut, unit_mm, ui),
+            _ => tiers(editor, ui),
         }
         warnings(editor, ui);
         if let Some(fault) = fault {
@@ -135,6 +135,21 @@ fn impossible(editor: &Editor) -> Option<Said> {
     let given = editor.document.work.design.cut.brilliant()?;
     let last = editor.document.specimen().design.cut.brilliant()?;
     Some(impossible::said(given, last, editor.edited, fault))
+}
+
+/// The tiers of a cut. Setting one leaves all others where they are, in mm: a stone that becomes wider has a greater
+/// diameter.
+fn tiers(editor: &mut Editor, ui: &mut Ui) {
+    let specimen = Arc::clone(editor.document.specimen());
+    let unit = editor.framing.extent(&specimen).unit;
+    let design = &mut editor.document.work.design;
+    let before = design.cut.clone();
+    tier_rows::show(&mut design.cut, specimen.unit_mm() * unit, ui);
+    if design.cut != before
+        && let Some(now) = extent::unit(design)
+    {
+        design.diameter_mm *= unit / now;
+    }
 }
 
 fn wrong(ui: &mut Ui, fault: &str) {

@@ -1,8 +1,8 @@
 //! How far a stone reaches from above: what its size is told by.
 
-use crate::cut::Outline;
+use crate::cut::{Cut, Design, Outline, Tiers};
 use crate::math::{Calipers, hull};
-use crate::scene::Specimen;
+use crate::scene::{Specimen, Stone};
 use glam::{DVec2, DVec3};
 
 /// Directions in which a stone's breadth is compared, over half a turn.
@@ -20,6 +20,20 @@ pub struct Extent {
     pub width: f64,
     /// Whether one number, a diameter, says as much as both.
     pub is_round: bool,
+    /// The unit of the design's own distances.
+    pub unit: f64,
+}
+
+/// The unit of a design's own distances, in that of its stone's frame: designs of tiers are scaled to their diameter, all
+/// others have the frame's own. `None` where the design makes no stone.
+pub fn unit(design: &Design) -> Option<f64> {
+    let Cut::Tiers(_) = design.cut else { return Some(1.0) };
+    let mut facets = design.facets().ok()?;
+    let stone = Stone::new(&facets).or_else(|_| {
+        facets.extend(Tiers::block());
+        Stone::new(&facets)
+    });
+    Some(2.0 / Outline::of(&stone.ok()?.polytope).diameter)
 }
 
 impl Extent {
@@ -36,7 +50,8 @@ impl Extent {
         let angles = (0..DIRECTIONS).map(|k| std::f64::consts::PI * f64::from(k) / f64::from(DIRECTIONS));
         let breadths = angles.map(|angle| breadth(points, DVec2::from_angle(angle)));
         let (least, most) = breadths.fold((f64::INFINITY, 0.0_f64), |(a, b), w| (a.min(w), b.max(w)));
-        Self { length, width, is_round: most <= (1.0 + ROUND) * least }
+        let unit = unit(&specimen.design).unwrap_or(1.0);
+        Self { length, width, is_round: most <= (1.0 + ROUND) * least, unit }
     }
 }
 
@@ -63,7 +78,7 @@ fn breadth(points: &[DVec3], toward: DVec2) -> f64 {
 mod tests {
     use super::*;
     use crate::app::document::Document;
-    use crate::cut::{Cut, RoundBrilliant};
+    use crate::cut::RoundBrilliant;
 
     fn extent(name: &str) -> Extent {
         Extent::of(Document::of_library(name).unwrap().specimen())

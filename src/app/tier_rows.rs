@@ -1,6 +1,6 @@
 //! The tiers of a cut that lists its facets: a row each, with angle and distance.
 //!
-//! Distances are shown in mm: those of the design are in units of half its diameter, which is what files say.
+//! Distances are shown in mm: those of a design are in a unit of its own.
 
 use super::rows::{ANY, NUMBER, Number, explain, named, skip_control};
 use crate::cut::Cut;
@@ -12,7 +12,7 @@ const MEANING: &str = "A tier: facets of one angle and one distance, as a faceti
 /// Draws the tiers of a cut whose unit of length is `unit_mm` mm, and takes what is set.
 pub fn show(cut: &mut Cut, unit_mm: f64, ui: &mut Ui) {
     let about = format!(
-        "From the origin to the facets, in mm at the stone's present size: 1 in a file is half the diameter, {unit_mm:.3} mm."
+        "From the origin to the facets, in mm at the stone's present size: 1 in its file is {unit_mm:.3} mm."
     );
     let heads = ui.horizontal(|ui| {
         named(ui, "Tier", MEANING);
