@@ -207,7 +207,10 @@ fn a_design_goes_through_every_format_and_keeps_its_facets() {
             near(at(a, "slope_deg/mean"), at(b, "slope_deg/mean"), 1e-4, &file);
         }
     }
-    assert!(desk.refused("convert tolkowsky t.doc", 2).contains(".toml, .asc, .gem, .gcs, .obj, .stl, .ply, .glb"));
+    assert!(
+        desk.refused("convert tolkowsky t.doc", 2)
+            .contains(".toml, .asc, .gem, .gcs, .obj, .stl, .ply, .glb")
+    );
 }
 
 #[test]

@@ -47,9 +47,13 @@ fn needed() -> BTreeSet<(String, String)> {
         known.insert((text(package, "name"), text(package, "version")), names);
     }
     let own = known.keys().find(|(name, _)| name == "brillianteer").unwrap().clone();
-    let direct = manifest["dependencies"].as_table().unwrap();
+    // Some crates are for one kind of system alone.
+    let systems = manifest.get("target").and_then(|t| t.as_table()).into_iter().flat_map(|t| t.values());
+    let tables: Vec<_> = systems.chain([&toml::Value::Table(manifest.clone())]).cloned().collect();
+    let is_direct =
+        |name: &str| tables.iter().any(|t| t.get("dependencies").is_some_and(|d| d.get(name).is_some()));
     let mut open: Vec<String> = known[&own].clone();
-    open.retain(|name| direct.contains_key(name.split(' ').next().unwrap()));
+    open.retain(|name| is_direct(name.split(' ').next().unwrap()));
     let mut found = BTreeSet::new();
     while let Some(entry) = open.pop() {
         // A version is given only where there are several.
