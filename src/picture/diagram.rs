@@ -21,7 +21,7 @@ const TICKS: f64 = 8.0;
 const TICKS_END: f64 = TICKS + 11.0;
 
 /// Names of tiers in the views, and their slopes.
-const NAME: Type = Type { size: 12.5, colour: Ink::Ink };
+const NAME: Type = Type { size: 12.5, colour: Ink::Main };
 const SLOPE: Type = Type { size: 12.5, colour: Ink::Accent };
 const INDEX: Type = Type { size: 11.0, colour: Ink::Quiet };
 /// From one line of the list to the next.
@@ -185,7 +185,7 @@ impl View {
             sheet.plain_text(INDEX, Align::Middle, at, &number);
         }
         let above = self.polar(self.style.name_above(), 90.0);
-        sheet.text(Type { size: 14.0, colour: Ink::Ink }, Align::Middle, above, self.name());
+        sheet.text(Type { size: 14.0, colour: Ink::Main }, Align::Middle, above, self.name());
     }
 
     /// The marks of the index round the stone.

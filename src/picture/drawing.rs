@@ -151,7 +151,7 @@ impl Sheet {
         for (lines, class, colour, width) in [
             (girdle, "girdle", Ink::Edge, 0.35),
             (edges, "edges", Ink::Edge, 0.9),
-            (outline, "outline", Ink::Ink, 1.8),
+            (outline, "outline", Ink::Main, 1.8),
         ] {
             let lines = segments(&lines).set("class", class).set("stroke", self.inks.of(colour));
             self.onto_stone(lines.set("stroke-width", width));

@@ -58,7 +58,7 @@ fn painted(theme: Theme, scale: f32) -> (RgbaImage, RgbaImage) {
     let twice =
         Twice { other: WgpuTestRenderer::new(), painter: Painter::default(), image: Arc::clone(&image) };
     let [_, aset, hearts, profile] = Desk::default().panes;
-    let mut diagram = aset.clone();
+    let mut diagram = aset;
     diagram.shows = Shows::Diagram;
     let setup = Setup {
         desk: Desk { panes: [aset, diagram, hearts, profile], ..Desk::default() },

@@ -118,8 +118,8 @@ impl Statement {
         let with_material = |decimals: usize| (decimals, true);
         let without = [(*DECIMALS.start(), false)];
         let forms = DECIMALS.rev().map(with_material).chain(without);
-        let texts = forms.map(|(decimals, material)| self.form(decimals, material));
-        texts.clone().find(|text| text.len() <= most).or_else(|| texts.last()).unwrap_or_default()
+        let mut texts = forms.map(|(decimals, material)| self.form(decimals, material));
+        texts.clone().find(|text| text.len() <= most).or_else(|| texts.next_back()).unwrap_or_default()
     }
 
     fn form(&self, decimals: usize, material: bool) -> String {

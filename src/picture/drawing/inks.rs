@@ -46,7 +46,7 @@ impl Inks {
     pub(in crate::picture) fn of(&self, ink: Ink) -> String {
         hex(match ink {
             Ink::Paper => self.paper,
-            Ink::Ink => self.ink,
+            Ink::Main => self.ink,
             Ink::Edge => self.edge,
             Ink::Quiet => self.quiet,
             Ink::Accent => self.accent,
@@ -74,7 +74,7 @@ pub(in crate::picture) fn hex([red, green, blue]: [u8; 3]) -> String {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(in crate::picture) enum Ink {
     Paper,
-    Ink,
+    Main,
     Edge,
     Quiet,
     Accent,

@@ -13,7 +13,7 @@ pub(in crate::picture) struct Type {
 }
 
 /// Of the drawing's title.
-pub(in crate::picture) const TITLE: Type = Type { size: 24.0, colour: Ink::Ink };
+pub(in crate::picture) const TITLE: Type = Type { size: 24.0, colour: Ink::Main };
 /// Of dimensions.
 pub(in crate::picture) const DIMENSION: Type = Type { size: 15.0, colour: Ink::Accent };
 /// Of remarks.
