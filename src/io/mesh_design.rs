@@ -240,11 +240,11 @@ mod tests {
         assert!(after > 1.05 * before, "{after} {before}");
         let golden = std::f64::consts::PI * (3.0 - 5.0_f64.sqrt());
         let at = |k: i32| {
-            let z = 1.0 - (2.0 * f64::from(k) + 1.0) / 1500.0;
+            let z = 1.0 - (2.0 * f64::from(k) + 1.0) / 4000.0;
             let (sin, cos) = (golden * f64::from(k)).sin_cos();
             DVec3::new((1.0 - z * z).sqrt() * cos, (1.0 - z * z).sqrt() * sin, z)
         };
-        let vertices: Vec<DVec3> = (0..1500).map(at).collect();
+        let vertices: Vec<DVec3> = (0..4000).map(at).collect();
         let triangles = crate::math::convex_hull(&vertices).unwrap();
         let ball = obj((vertices, triangles));
         assert!(matches!(open(ball.clone(), MeshForm::Found).unwrap().design.cut, Cut::Mesh(_)));

@@ -100,14 +100,19 @@ fn a_mesh_is_read_in_another_form_by_a_click_which_can_be_undone() {
     let is_mesh = |editor: &Editor| matches!(editor.document.work.design.cut, Cut::Mesh(_));
     bench.wait(is_mesh);
     bench.harness.run_steps(3);
-    let volume = bench.editor().document.specimen().solid().volume();
+    // In cubic mm: each form has a frame of its own.
+    let cubic_mm = |editor: &Editor| {
+        let specimen = editor.document.specimen();
+        specimen.solid().volume() * specimen.unit_mm().powi(3)
+    };
+    let volume = cubic_mm(bench.editor());
     bench.harness.get_by_label("Facets").click();
     bench.wait(|editor| !is_mesh(editor));
     bench.harness.run_steps(3);
     let editor = bench.editor();
     assert!(editor.document.specimen().stone().is_ok() && editor.document.is_changed());
     assert!(editor.document.odd().iter().any(|note| note.contains("bends inward")));
-    let scale = |editor: &Editor| editor.document.specimen().solid().volume() / volume;
+    let scale = |editor: &Editor| cubic_mm(editor) / volume;
     assert!(scale(editor) > 1.05, "{}", scale(editor));
     bench.harness.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::Z);
     bench.wait(is_mesh);

@@ -46,7 +46,7 @@ fn open_menu_of(bench: &mut Bench, name: &str) {
 
 #[test]
 fn a_right_click_opens_a_menu_of_the_view_and_a_right_drag_turns_the_stone() {
-    let mut bench = Bench::new();
+    let mut bench = Bench::sized(Setup::default(), egui::vec2(1000.0, 900.0));
     bench.harness.run_steps(3);
     open_menu_of(&mut bench, "ASET picture");
     assert_eq!(bench.editor().desk.eye.turn, 0.0);
