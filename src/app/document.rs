@@ -36,6 +36,8 @@ pub struct ReadMesh {
     pub options: MeshOptions,
     /// Whether its shape leaves a doubt which way its table faces.
     pub is_doubtful: bool,
+    /// The diameter that it was read with, mm.
+    pub diameter_mm: f64,
 }
 
 /// What a file was like when it was last read or written.
@@ -144,15 +146,19 @@ impl Document {
         let mut document =
             Self::new(design, Some(path.to_owned())).map_err(|e| format!("{}: {e}", path.display()))?;
         document.odd = warnings.into_iter().chain(notes).collect();
-        let read = |is_doubtful| ReadMesh { path: path.to_owned(), options: mesh, is_doubtful };
+        let diameter_mm = document.work.design.diameter_mm;
+        let read = |is_doubtful| ReadMesh { path: path.to_owned(), options: mesh, is_doubtful, diameter_mm };
         document.work.mesh = doubt.map(read);
         document.history = History::new(document.work.clone());
         Ok(document)
     }
 
-    /// Takes the shape of a mesh that was read once more, in another way; all else of the work stays. A step that can be
-    /// undone.
+    /// Takes the shape of a mesh that was read once more, in another way; all else of the work stays, so also how much larger
+    /// the stone was made than the file has it. A step that can be undone.
     pub fn take_shape(&mut self, other: Self) {
+        let enlarged =
+            self.work.mesh.as_ref().map_or(1.0, |mesh| self.work.design.diameter_mm / mesh.diameter_mm);
+        self.work.design.diameter_mm = enlarged * other.work.design.diameter_mm;
         self.work.design.cut = other.work.design.cut;
         self.work.mesh = other.work.mesh;
         self.odd = other.odd;

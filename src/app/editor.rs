@@ -480,7 +480,7 @@ impl Editor {
 
     /// Tells a test that waits whether the window is at rest.
     fn publish_state(&mut self, ctx: &Context) {
-        let is_quiet = self.is_idle() && !self.studio.sharpens() && !ctx.has_requested_repaint();
+        let is_quiet = self.is_idle() && !self.studio.sharpens();
         if self.state_file.as_mut().is_some_and(|file| file.note(is_quiet, self.desk.layout)) {
             ctx.request_repaint();
         }

@@ -9,9 +9,9 @@ use std::path::PathBuf;
 /// The environment variable that names the file; without it none is written.
 const VARIABLE: &str = "BRILLIANTEER_STATE_FILE";
 
-/// How many quiet frames in a row make a window that rests. A frame has still to be painted when it is noted, and a
-/// driver keeps up to three painted frames before it shows them.
-const QUIET_FRAMES: u32 = 4;
+/// How many quiet frames in a row make a window that rests. A frame has still to be painted when it is noted, a driver
+/// keeps up to three painted frames before it shows them, and drawings glide to their places meanwhile.
+const QUIET_FRAMES: u32 = 30;
 
 /// What the file holds, as JSON.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -37,7 +37,7 @@ impl StateFile {
         Some(Self { path: path.into(), written: None, quiet_frames: 0 })
     }
 
-    /// Takes note of a frame, at its end; `is_quiet` says that nothing is under way and no further frame was asked for.
+    /// Takes note of a frame, at its end; `is_quiet` says that nothing is under way.
     /// Answers whether one more frame is needed to find out whether the window rests.
     pub fn note(&mut self, is_quiet: bool, layout: Layout) -> bool {
         self.quiet_frames = if is_quiet { self.quiet_frames.saturating_add(1) } else { 0 };

@@ -1,7 +1,7 @@
 //! What lies behind the stones, as people ask for it: the light itself, a colour, a pattern of the program's, a photograph.
 
 use super::panorama::{self, Reading};
-use super::refraction_map::png;
+use super::png_bytes::png;
 use super::{DrawingError, rasterize};
 use crate::optics::linear_from_encoded;
 use crate::picture::pane::filling;

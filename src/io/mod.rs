@@ -34,6 +34,7 @@ pub mod mesh_options;
 pub mod panorama;
 mod picture_file;
 mod png;
+mod png_bytes;
 #[cfg(feature = "exr")]
 pub mod refraction_map;
 #[cfg(feature = "exr")]

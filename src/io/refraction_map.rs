@@ -12,10 +12,11 @@ pub use read::read;
 
 use super::atomic::{WriteError, write};
 use super::exr::write_channels;
+use super::png_bytes::png;
 use crate::optics::{SrgbEncoder, linear_from_encoded};
 use crate::picture::{Linear, MapBand, Place, RefractionMap};
 use ::exr::prelude::{AnyChannel, FlatSamples};
-use ::png::{BitDepth, ColorType, Compression, Encoder, EncodingError, SrgbRenderingIntent};
+use ::png::{BitDepth, ColorType, EncodingError};
 use glam::DMat3;
 use serde::{Deserialize, Serialize};
 use std::io;
@@ -161,30 +162,6 @@ pub(super) fn diffuse_png(diffuse: &Linear, description: &str) -> Result<Vec<u8>
     let data: Vec<u8> = diffuse.pixels.iter().flat_map(code).collect();
     let size = [diffuse.width, diffuse.height];
     png(size, (ColorType::Rgba, BitDepth::Eight), &data, &[("Description", description)])
-}
-
-pub(super) fn png(
-    [width, height]: [u32; 2],
-    (colour, depth): (ColorType, BitDepth),
-    data: &[u8],
-    texts: &[(&str, &str)],
-) -> Result<Vec<u8>, EncodingError> {
-    let mut bytes = Vec::new();
-    let mut encoder = Encoder::new(&mut bytes, width, height);
-    encoder.set_color(colour);
-    encoder.set_depth(depth);
-    encoder.set_compression(Compression::High);
-    if colour == ColorType::Rgba {
-        encoder.set_source_srgb(SrgbRenderingIntent::RelativeColorimetric);
-    }
-    encoder.add_text_chunk("Software".into(), "Brillianteer".into())?;
-    for (keyword, text) in texts {
-        encoder.add_itxt_chunk((*keyword).into(), (*text).into())?;
-    }
-    let mut writer = encoder.write_header()?;
-    writer.write_image_data(data)?;
-    writer.finish()?;
-    Ok(bytes)
 }
 
 fn write_float(path: &Path, map: &RefractionMap, description: &str) -> Result<(), WriteError> {

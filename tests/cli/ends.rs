@@ -71,8 +71,7 @@ fn without_a_screen_the_main_pictures_and_figures_are_written_unless_the_editor_
         came_of(line, &command.output().unwrap())
     };
     let views = ["aset", "aset-strongest", "ideal-scope", "ideal-scope-strongest"];
-    for (line, stem, scoped) in [("", "tolkowsky", 11), ("cube.toml", "cube", 11), ("trilogy", "trilogy", 0)]
-    {
+    for (line, stem, scoped) in [("", "tolkowsky", 11), ("cube.toml", "cube", 11)] {
         let (code, printed, said) = run(line);
         assert!(code == 0 && said.contains("written to the folder 'out' instead"), "{line}: {code}: {said}");
         assert!(

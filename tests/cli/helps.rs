@@ -76,7 +76,7 @@ fn every_list_comes_as_json_and_not_beside_a_name() {
         }
     }
     let bands = |entry: &Value| list(&entry["band"]).len();
-    assert_eq!(list(&desk.json("scopes --json")).iter().map(bands).min(), Some(3));
+    assert_eq!(list(&desk.json("scopes --json")).iter().map(bands).min(), Some(4));
 }
 
 #[test]
