@@ -51,7 +51,7 @@ fn a_gem_whose_colour_is_no_measurement_is_called_so_where_it_is_chosen() {
     bench.harness.run_steps(4);
     // Entries far down the list are scrolled out of sight; diamond is in sight in any case, being chosen.
     let mut measured =
-        optics::materials().into_iter().filter(|m| !m.colour_is_illustrative && m.name != "diamond");
+        optics::materials().iter().filter(|m| !m.colour_is_illustrative && m.name != "diamond");
     let is_in_sight = |name: &str| bench.harness.query_all_by_label(name).next().is_some();
     assert!(
         measured.any(|material| is_in_sight(&material.name)),
