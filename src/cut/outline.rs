@@ -50,8 +50,7 @@ pub struct Outline {
     pub table: [f64; 2],
     /// The greatest distance between two corners of the table, by which the trade gives a round brilliant's; 0 without one.
     pub table_corners: f64,
-    /// Where the middle of the stone lies, seen along the axis: the point about which its outline can be turned onto
-    /// itself, or else the middle of the rectangle of length and width.
+    /// Where the middle of the stone lies, seen along the axis: the centroid of its outline's area.
     pub middle: DVec2,
 }
 

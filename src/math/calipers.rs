@@ -2,17 +2,9 @@
 
 use super::polygon;
 use glam::DVec2;
-use std::f64::consts::TAU;
 
 /// Widths and lengths whose ratio is nearer to 1 than this are equal: a hundred roundings of f32.
 const EQUAL: f64 = 1e-5;
-
-/// A turn carries an outline onto itself where no corner comes to lie farther from it than this part of its width: noise
-/// of a scan does less, and no eye sees it.
-const SAME: f64 = 1e-3;
-
-/// Prime numbers of turns that are looked for. A figure of any other number of turns has one of these as well, up to 16.
-const TURNS: [u32; 6] = [2, 3, 5, 7, 11, 13];
 
 /// The convex hull of some points, counter-clockwise (Andrew's monotone chain).
 pub fn hull(mut points: Vec<DVec2>) -> Vec<DVec2> {
@@ -47,8 +39,9 @@ pub struct Calipers {
     /// The direction from one line of the width to the other, a unit vector with x > 0, or x = 0 and y = 1. Where several
     /// are as narrow and as long, it is the one nearest to +x.
     pub across: DVec2,
-    /// The point about which the outline can be turned onto itself, where there is one; else the middle of the rectangle
-    /// between the four lines.
+    /// The centroid of the outline's area. It moves no more than the corners do and turns with them, so that a stone finds
+    /// the same middle again after rounding; the middle of a rectangle around it would jump where two directions are
+    /// almost as narrow.
     pub middle: DVec2,
 }
 
@@ -70,14 +63,7 @@ impl Calipers {
         // The last of equals, by direction, so that the order of the corners decides nothing.
         let across =
             long.map(|(.., across)| *across).max_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)))?;
-        let middle = centre_of_turns(outline, SAME * width).unwrap_or_else(|| {
-            let middle = |along: DVec2| {
-                let (low, high) = extent(outline, along);
-                (low + high) / 2.0 * along
-            };
-            middle(across) + middle(across.perp())
-        });
-        Some(Self { width, length, across, middle })
+        Some(Self { width, length, across, middle: polygon::centroid(outline) })
     }
 }
 
@@ -97,26 +83,10 @@ fn length((low, high): (f64, f64)) -> f64 {
     high - low
 }
 
-/// The point about which some part of a whole turn carries the outline onto itself, but for `within`.
-fn centre_of_turns(outline: &[DVec2], within: f64) -> Option<DVec2> {
-    let centre = polygon::centroid(outline);
-    let carried = |turns: u32| {
-        let turn = DVec2::from_angle(TAU / f64::from(turns));
-        outline.iter().all(|p| is_on(outline, centre + turn.rotate(*p - centre), within))
-    };
-    TURNS.into_iter().any(carried).then_some(centre)
-}
-
-/// Whether a point lies as near as `within` to a convex outline's edge.
-fn is_on(outline: &[DVec2], point: DVec2, within: f64) -> bool {
-    let edges = outline.iter().zip(outline.iter().cycle().skip(1));
-    let inside = edges.filter_map(|(&a, &b)| Some((b - a).try_normalize()?.perp_dot(point - a)));
-    inside.fold(f64::INFINITY, f64::min).abs() <= within
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::f64::consts::TAU;
 
     fn turned(points: &[[f64; 2]], angle: f64) -> Vec<DVec2> {
         hull(
@@ -159,20 +129,23 @@ mod tests {
     }
 
     #[test]
-    fn the_middle_is_the_axis_of_what_can_be_turned_and_else_that_of_the_rectangle() {
-        let triangle: Vec<[f64; 2]> = [0.5, 120.5, 240.5]
-            .map(|degrees: f64| DVec2::from_angle(degrees.to_radians()).to_array())
-            .to_vec();
-        let middle = Calipers::of(&turned(&triangle, 0.0)).unwrap().middle;
-        assert!((middle - DVec2::new(3.0, -2.0)).length() < 1e-12, "{middle}");
-        // Half of a circle, whose flat side lies on the axis of what it was cut from.
-        let half: Vec<[f64; 2]> =
-            (0..=32).map(|k| DVec2::from_angle(TAU / 2.0 * f64::from(k) / 32.0).to_array()).collect();
-        let found = Calipers::of(&turned(&half, 0.0)).unwrap();
-        assert!((found.middle - DVec2::new(3.0, -1.5)).length() < 1e-12, "{found:?}");
-        assert!(
-            (found.width - 1.0).abs() < 1e-12 && (found.length - 2.0).abs() < 1e-12 && found.across.y > 0.999
-        );
+    fn the_middle_turns_with_the_outline_and_hardly_moves_when_its_corners_hardly_do() {
+        // An uneven outline, and one of three turns, whose middle is their axis.
+        let uneven = [[0.0, 0.0], [2.0, 0.1], [1.7, 1.4], [0.3, 1.1]];
+        let triangle = [0.0, 1.0, 2.0].map(|k| DVec2::from_angle(TAU * k / 3.0).to_array());
+        let middle = |points: &[[f64; 2]], angle| Calipers::of(&turned(points, angle)).unwrap().middle;
+        let shift = DVec2::new(3.0, -2.0);
+        assert!((middle(&triangle, 0.3) - shift).length() < 1e-12);
+        let plain = middle(&uneven, 0.0) - shift;
+        for step in 1..20 {
+            let angle = 0.37 * f64::from(step);
+            let expected = DVec2::from_angle(angle).rotate(plain);
+            assert!((middle(&uneven, angle) - shift - expected).length() < 1e-12, "{step}");
+        }
+        let mut moved = uneven;
+        moved[2][0] += 1e-6;
+        let by = (middle(&moved, 0.0) - shift - plain).length();
+        assert!(by > 1e-8 && by < 1e-6, "{by}");
     }
 
     #[test]
