@@ -132,6 +132,10 @@ impl Number<'_> {
         if is_as_shown(format!("{before:.decimals$}")) || is_as_shown(shown) {
             *value = before;
         }
+        if response.dragged() && *value != before {
+            // The field was drawn before it was dragged. A second pass shows its new number in this image, not the next.
+            ui.ctx().request_discard("a number is dragged");
+        }
         response
     }
 }

@@ -120,8 +120,8 @@ fn a_click_beside_the_stone_opens_no_light_path() {
     assert!(bench.editor().following.is_open);
 }
 
-/// The ASET that is exported by an editor as it is.
-fn exported_aset(bench: &mut Bench) -> Vec<u8> {
+/// The pictures of the ASET, by energy and by strongest exits, that are exported by an editor as it is.
+fn exported_aset(bench: &mut Bench) -> Vec<Vec<u8>> {
     let folder = tempfile::tempdir().unwrap();
     let mut plan = ExportDialog::new(bench.harness.state_mut()).plan;
     plan.folder = folder.path().to_owned();
@@ -135,10 +135,12 @@ fn exported_aset(bench: &mut Bench) -> Vec<u8> {
         std::thread::sleep(Duration::from_millis(5));
     }
     assert_eq!(job.end(), Some(Ok(())));
-    // A view that leans has a name of its own.
-    let files: Vec<_> = std::fs::read_dir(folder.path()).unwrap().map(|file| file.unwrap().path()).collect();
-    assert_eq!(files.len(), 1, "{files:?}");
-    std::fs::read(&files[0]).unwrap()
+    // The names tell the tilt, so that they differ where the view leans; their order does not.
+    let mut files: Vec<_> =
+        std::fs::read_dir(folder.path()).unwrap().map(|file| file.unwrap().path()).collect();
+    files.sort();
+    assert_eq!(files.len(), 2, "{files:?}");
+    files.iter().map(|file| std::fs::read(file).unwrap()).collect()
 }
 
 #[test]
