@@ -27,7 +27,10 @@ fn scopes_show_no_glare_until_it_is_asked_for_and_then_only_they_are_taken_anew(
     bench.settle();
     assert!(bench.harness.query_by_label("with glare ×").is_some());
     assert_ne!(bench.picture(0), bare);
-    assert!(share(&bench, "Green").unwrap() > green + 1.0, "the crown reflects what is low above the horizon");
+    assert!(
+        share(&bench, "Green").unwrap() > green + 1.0,
+        "the crown reflects what is low above the horizon"
+    );
     assert_eq!(share(&bench, "Light return"), Some(returned), "light return holds no glare");
     let with = share(&bench, "With glare").unwrap();
     assert!(with > returned + 10.0, "{returned} without, {with} with");

@@ -14,6 +14,11 @@ const NEAR_UP: f64 = 0.996_194_698;
 /// Directions that differ by less than this (length of the difference of unit vectors) are one.
 const ONE: f64 = 1e-3;
 
+/// A table whose normal is this near (length of the difference of unit vectors, 1.5 degrees) to an axis of the file was put
+/// along it, but not to the last digit, as scans are. The axis itself shows almost as much of a girdle as the table's
+/// normal does, and must not be taken instead.
+const PUT_ALONG: f64 = 0.026;
+
 /// How many of the largest facets may be the table.
 const MOST_TABLES: usize = 120;
 
@@ -172,7 +177,8 @@ fn shape(cues: &Cues) -> f64 {
 
 /// What the file's own axes say, where so large a part of the facets is even.
 fn own(cues: &Cues, even: f64, custom: DVec3) -> f64 {
-    let is = |axis: DVec3| (cues.up - axis).length() < ONE;
+    let near = if cues.table_area > 0.0 { PUT_ALONG } else { ONE };
+    let is = |axis: DVec3| (cues.up - axis).length() < near;
     let fits = cues.table_area > 0.0 || cues.culet_area > 0.0 || cues.girdle > FITS || even > FITS;
     let axes = [DVec3::X, DVec3::Y, DVec3::Z];
     let along = fits && axes.iter().any(|axis| is(*axis) || is(-*axis));

@@ -23,9 +23,10 @@ pub(super) const SAME: f64 = 3.0;
 /// How far a scan's corners may leave the solid, a part of the size: noise hides a culet that is less wide than that.
 const SAME_SCAN: f64 = 6e-3;
 
-/// Fewer facets are better where they fit within this many times the deviation of the first solid found, at one of the
-/// `FURTHER` next tolerances.
-const AS_GOOD: f64 = 2.0;
+/// Fewer facets, or as many that lie closer, are better where they fit within this many times the deviation of the first
+/// solid found, at one of the `FURTHER` next tolerances. Halves of a facet have few corners and fit them too well: those
+/// that are whole lie up to 3.3 times as far off. At 4 the small facets of a real princess (deepar-princess.obj) are lost.
+const AS_GOOD: f64 = 3.5;
 const FURTHER: usize = 2;
 
 /// Facets that lean apart by less than this many tolerances at the width of each may be one that noise has split.
@@ -87,8 +88,9 @@ pub fn facets(surface: Surface) -> Shape {
     moved.vertices.iter_mut().for_each(|v| *v -= centre);
     let (edges, size) = (Edges::of(&moved), moved.size());
     let hull = LazyHull::of(&moved);
-    let mut tried = NOISE.iter().map(|noise| solid(&moved, &edges, &hull, (noise * size, SAME)));
-    let Some(mut best) = tried.by_ref().flatten().next() else {
+    let mut tried = NOISE.iter().map(|noise| gathered(&moved, &edges, (noise * size, SAME)).ok());
+    let settled = || NOISE.iter().find_map(|noise| solid(&moved, &edges, &hull, (noise * size, SAME)));
+    let Some(mut best) = tried.by_ref().flatten().next().or_else(settled) else {
         let smooth = noise::smoothed(&moved);
         let of_scan = |noise: &f64| {
             let limits = (noise * size, SAME_SCAN / noise);
@@ -104,7 +106,9 @@ pub fn facets(surface: Surface) -> Shape {
     let limit = AS_GOOD * best.deviation;
     let further = if is_split(&best) { FURTHER } else { 0 };
     for next in tried.take(further).flatten() {
-        if next.deviation <= limit && next.polytope.facets().len() < best.polytope.facets().len() {
+        let (count, least) = (next.polytope.facets().len(), best.polytope.facets().len());
+        let is_closer = next.deviation < best.deviation;
+        if next.deviation <= limit && (count < least || (count == least && is_closer)) {
             best = next;
         }
     }
@@ -155,24 +159,34 @@ pub(super) struct Solid {
 }
 
 /// The solid between the planes of regions of one tolerance, if no corner of the surface leaves it by more than `same`
-/// tolerances.
+/// tolerances; the planes are put right by the hull where they need it.
 pub(super) fn solid(
     surface: &Surface,
     edges: &Edges,
     hull: &LazyHull<'_>,
     (tolerance, same): (f64, f64),
 ) -> Option<Solid> {
-    let found = regions(surface, edges, tolerance, MOST_FACETS)?;
-    if is_round(surface, edges, &found, tolerance) {
-        return None;
-    }
-    match reproduced(surface, found, (tolerance, same)) {
+    match gathered(surface, edges, (tolerance, same)) {
         Ok(solid) => Some(solid),
         Err(found) => {
-            let found = settle::settled(surface, edges, hull.get()?, found, tolerance)?;
+            let found = settle::settled(surface, edges, hull.get()?, found?, tolerance)?;
             reproduced(surface, found, (tolerance, same)).ok()
         }
     }
+}
+
+/// The same with the planes of regions as they were gathered; else those regions, where there are not too many and the
+/// surface is not round.
+fn gathered(
+    surface: &Surface,
+    edges: &Edges,
+    (tolerance, same): (f64, f64),
+) -> Result<Solid, Option<Regions>> {
+    let found = regions(surface, edges, tolerance, MOST_FACETS).ok_or(None)?;
+    if is_round(surface, edges, &found, tolerance) {
+        return Err(None);
+    }
+    reproduced(surface, found, (tolerance, same)).map_err(Some)
 }
 
 /// The same with regions that are found on a smoother copy of the surface: noise tilts triangles that are small beside it
