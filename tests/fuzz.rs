@@ -15,8 +15,8 @@ use glam::{DMat3, DVec3};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::time::{Duration, Instant};
 
-/// How long a reader may take for a file of a few kilobytes.
-const PATIENCE: Duration = Duration::from_secs(10);
+/// How long a reader may take for a file of a few kilobytes: each takes milliseconds, but other programs may hold the cores.
+const PATIENCE: Duration = Duration::from_secs(60);
 
 /// Bytes of spoilt files, at most.
 const LARGEST: usize = 16 << 10;

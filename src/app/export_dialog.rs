@@ -15,7 +15,7 @@ use egui::{
     StrokeKind, TextEdit, TextureHandle, Ui, WidgetInfo, pos2, vec2,
 };
 use std::collections::HashMap;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::mpsc::Receiver;
 
@@ -138,14 +138,8 @@ pub fn show(editor: &mut Editor, ui: &mut Ui, export: &mut ExportDialog) -> bool
         if export.plan.selection.scene && job.end() == Some(Ok(())) {
             editor.document.keep_copies();
         }
-        let stays = working(ui, job);
-        let is_done = job.end().is_some();
         let folder = std::path::absolute(&export.plan.folder).unwrap_or_else(|_| export.plan.folder.clone());
-        let about = "Shows the files that were written.";
-        if is_done && ui.button("Open folder").on_hover_text(about).clicked() {
-            editor.open_outside(&folder.display().to_string());
-        }
-        return stays;
+        return working(editor, ui, (job, &folder));
     }
     views(ui, export);
     if !export.plan.own.is_empty() {
@@ -329,7 +323,7 @@ fn listed(ui: &mut Ui, files: &Result<Vec<PathBuf>, String>) {
 const TOLD: f32 = 220.0;
 
 /// How far it has come, and what is written; whether the dialog stays open.
-fn working(ui: &mut Ui, job: &Job) -> bool {
+fn working(editor: &mut Editor, ui: &mut Ui, (job, folder): (&Job, &Path)) -> bool {
     let end = job.end();
     ui.add(ProgressBar::new(job.done()).show_percentage());
     ui.add(Label::new(job.standing()).truncate());
@@ -345,16 +339,24 @@ fn working(ui: &mut Ui, job: &Job) -> bool {
     });
     // A line that is always there keeps the button in its place.
     ui.label(RichText::new(if end == Some(Ok(())) { "All files are written." } else { "" }).strong());
-    if end.is_some() {
-        return !ui.button("Close").clicked();
+    if end.is_none() {
+        ui.ctx().request_repaint_after(std::time::Duration::from_millis(80));
+        let stop = ui.add_enabled(!job.is_stopped(), egui::Button::new("Stop"));
+        if stop
+            .on_hover_text("What is written stays; nothing is left half written. Escape does the same.")
+            .clicked()
+        {
+            job.stop();
+        }
+        return true;
     }
-    ui.ctx().request_repaint_after(std::time::Duration::from_millis(80));
-    let stop = ui.add_enabled(!job.is_stopped(), egui::Button::new("Stop"));
-    if stop
-        .on_hover_text("What is written stays; nothing is left half written. Escape does the same.")
-        .clicked()
-    {
-        job.stop();
-    }
-    true
+    // In one line, so that the dialog grows no higher and the button does not move under the pointer.
+    ui.horizontal(|ui| {
+        let stays = !ui.button("Close").clicked();
+        if ui.button("Open folder").on_hover_text("Shows the files that were written.").clicked() {
+            editor.open_outside(&folder.display().to_string());
+        }
+        stays
+    })
+    .inner
 }

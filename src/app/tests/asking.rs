@@ -69,7 +69,7 @@ fn a_stopped_export_says_how_far_it_came_and_its_button_stays_in_its_place() {
     let (done, written) = job(bench.editor()).map(|job| (job.done(), job.written())).unwrap();
     assert!(done < 0.95 && written < 10, "stopped at {done} with {written} files");
     assert!(bench.harness.query_by_label_contains(&format!("{written} of 10 files written")).is_some());
-    assert!(bench.harness.query_by_label("Close").is_some());
+    assert_eq!(bench.harness.get_by_label("Close").rect().min, first.min, "it takes the place of Stop");
     assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), written);
     bench.harness.key_press(Key::Escape);
     bench.harness.run_steps(2);
