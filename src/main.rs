@@ -20,6 +20,8 @@ fn editor() -> Option<brillianteer::cli::Editor> {
         brillianteer::app::run(file, mesh).map_err(|error| match &error {
             WindowError::NoSuchPainter(_) => Failure::Usage(error.to_string()),
             WindowError::NoDisplay(_) | WindowError::NoWindow(_) => Failure::NoWindow(error.to_string()),
+            // Files take the place of a window that never opened, and not of one in which someone has worked.
+            WindowError::Lost(_) => Failure::Output(error.to_string()),
         })
     });
     #[cfg(not(feature = "app"))]

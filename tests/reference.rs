@@ -240,6 +240,10 @@ fn what_cannot_be_measured_is_refused_by_name() {
             "unresolved is 0; give a part between 0 and 1",
         ),
         (
+            Options { bounds: Bounds { lattice: 0, ..Bounds::default() }, ..Options::default() },
+            "lattice is 0; give 1 to 16,384",
+        ),
+        (
             Options { viewpoint: Viewpoint { tilt_deg: 91.0, ..Viewpoint::default() }, ..Options::default() },
             "tilt_deg is 91",
         ),

@@ -3,7 +3,7 @@
 use super::dialogs::buttons;
 use super::editor::Editor;
 use super::icon::icon;
-use egui::{ColorImage, Grid, RichText, ScrollArea, TextEdit, TextureHandle, Ui, vec2};
+use egui::{ColorImage, Grid, Label, RichText, ScrollArea, TextEdit, TextureHandle, Ui, vec2};
 
 /// The program's own licences: what each is called, and its text.
 const LICENCES: [(&str, &str); 2] =
@@ -111,14 +111,15 @@ fn list(editor: &mut Editor, ui: &mut Ui, sought: &mut String, height: f32) {
         ui.label(RichText::new(format!("{} of {} crates", found.len(), crates().count())).weak());
     });
     ScrollArea::vertical().id_salt("crates").max_height(height).auto_shrink(false).show(ui, |ui| {
-        Grid::new("crates").num_columns(3).striped(true).show(ui, |ui| {
+        // A long licence is wrapped: a list wider than the window would widen it past the rule under its head.
+        Grid::new("crates").num_columns(2).striped(true).show(ui, |ui| {
             for Crate { name, version, licence, link: address } in found {
                 let text = format!("{name} {version}");
                 match address.is_empty() {
                     true => drop(ui.label(text)),
                     false => named_link(editor, ui, &text, address),
                 }
-                ui.label(licence);
+                ui.add(Label::new(licence).wrap());
                 ui.end_row();
             }
         });
@@ -139,6 +140,43 @@ fn named_link(editor: &mut Editor, ui: &mut Ui, text: &str, address: &str) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::app::editor::Setup;
+    use crate::app::tests::Bench;
+    use egui::{Rect, Shape};
+    use egui_kittest::kittest::Queryable;
+
+    /// The filled rectangles of a shape, and its horizontal lines.
+    fn gather(shape: &Shape, rectangles: &mut Vec<Rect>, rules: &mut Vec<Rect>) {
+        match shape {
+            Shape::Vec(shapes) => shapes.iter().for_each(|shape| gather(shape, rectangles, rules)),
+            Shape::Rect(rectangle) => rectangles.push(rectangle.rect),
+            Shape::LineSegment { points: [a, b], .. } if a.y == b.y => {
+                rules.push(Rect::from_two_pos(*a, *b));
+            }
+            _ => {}
+        }
+    }
+
+    #[test]
+    fn the_rule_under_the_head_is_as_wide_as_the_window() {
+        let mut bench = Bench::sized(Setup::default(), vec2(1000.0, 800.0));
+        bench.choose("Help", "About Brillianteer");
+        bench.harness.run_steps(3);
+        let (mut rectangles, mut rules) = (vec![], vec![]);
+        for clipped in &bench.harness.output().shapes {
+            gather(&clipped.shape, &mut rectangles, &mut rules);
+        }
+        let head = bench.harness.get_by_label_contains("Licensed under MIT").rect();
+        let is_below = |rule: &&Rect| (0.0..40.0).contains(&(rule.top() - head.bottom()));
+        let rule = rules.iter().filter(is_below).max_by(|a, b| a.width().total_cmp(&b.width())).unwrap();
+        // The window is the smallest rectangle that holds head, rule and button.
+        let button = bench.harness.get_by_label("Close").rect();
+        let whole = head.union(*rule).union(button);
+        let windows = rectangles.iter().filter(|r| r.contains_rect(whole));
+        let window = windows.min_by(|a, b| a.area().total_cmp(&b.area())).unwrap();
+        let gaps = [rule.left() - window.left(), window.right() - rule.right()];
+        assert!((gaps[0] - gaps[1]).abs() < 2.0, "{rule:?} in {window:?}");
+    }
 
     #[test]
     fn the_crates_of_the_list_are_read() {

@@ -10,7 +10,7 @@ use egui::{ColorImage, Context};
 use std::ops::ControlFlow;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::mpsc::{Receiver, channel};
+use std::sync::mpsc::{Receiver, TryRecvError, channel};
 
 /// Pixels of the longer side that are offered.
 pub const SIZES: [u32; 4] = [512, 1024, 2048, 4096];
@@ -69,8 +69,16 @@ impl Editor {
 
     /// Copies the picture under way, once it is done.
     pub(super) fn take_in_copy(&mut self, ctx: &Context) {
-        let Some(Ok(made)) = self.copying.as_ref().map(|copying| copying.answer.try_recv()) else { return };
         let Some(copying) = self.copying.take() else { return };
+        let made = match copying.answer.try_recv() {
+            Ok(made) => made,
+            Err(TryRecvError::Empty) => {
+                self.copying = Some(copying);
+                return;
+            }
+            // Its thread has ended without an answer.
+            Err(TryRecvError::Disconnected) => Err("making the picture failed; try another size".to_owned()),
+        };
         match made {
             Ok(image) => {
                 let [width, height] = image.size;
@@ -116,4 +124,23 @@ fn drawn(specimen: &Specimen, side: u32) -> Result<ColorImage, String> {
     let text = profile(stone, &specimen.design.name, specimen.design.cut.brilliant()).to_string();
     let (width, height, rgb) = rasterize(&text, side).map_err(|e| e.to_string())?;
     Ok(ColorImage::from_rgb([width as usize, height as usize], &rgb))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::app::tests::Bench;
+
+    #[test]
+    fn a_copy_whose_thread_has_ended_is_reported_and_given_up() {
+        let mut bench = Bench::new();
+        let (sender, answer) = channel();
+        bench.harness.state_mut().copying = Some(Copying { name: "ASET", answer, stop: Arc::default() });
+        bench.harness.run_steps(1);
+        assert!(bench.editor().copying.is_some() && bench.editor().notes.troubles().is_empty());
+        drop(sender);
+        bench.harness.run_steps(1);
+        assert!(bench.editor().copying.is_none());
+        assert!(bench.editor().notes.troubles()[0].text.starts_with("ASET was not copied: "));
+    }
 }

@@ -10,21 +10,29 @@ use super::files::{Around, Found};
 use super::opening::Wanted;
 use super::proportions::PROPORTIONS;
 use super::shows::Shows;
+use crate::io::mesh_options::MeshOptions;
 use egui::{Context, Grid, Id, Key, Modal, RichText, ScrollArea, Ui};
 use std::path::PathBuf;
 use std::time::Duration;
 
 /// What is to be done once a question is answered.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq)]
 pub enum Then {
-    /// Open this file.
-    Open(PathBuf),
+    /// Open this file, read with these options where it is a mesh.
+    Open(PathBuf, MeshOptions),
     /// Begin from a cut that comes with the program.
     Library(String),
     /// Begin a scene of glass that comes with the program.
     Preset(String),
     /// Close the window.
     Close,
+}
+
+impl Then {
+    /// Opening a file, of which a mesh is read as it is found.
+    pub fn open(path: PathBuf) -> Self {
+        Self::Open(path, MeshOptions::default())
+    }
 }
 
 /// A window that is open.
@@ -176,7 +184,7 @@ fn recover(editor: &mut Editor, ui: &mut Ui, found: &Found) -> bool {
     ));
     match buttons(ui, &["Go on", "Later", "Forget it"]) {
         Some(0) => {
-            match Document::recovered(found.design.clone(), found.path.clone()) {
+            match Document::recovered(found.design.clone(), found.path.clone(), found.mesh.clone()) {
                 // Beginning keeps it safe anew, before what the crash left is forgotten.
                 Ok(mut document) => {
                     let Around { company, behind, behind_mm, strength } = found.around.clone();
@@ -251,8 +259,9 @@ fn keys(ui: &mut Ui) -> bool {
             line("C held".into(), "Shows the design compared with.");
             line("Z held".into(), "Shows renders in three bands of wavelengths alone.");
             for command in MENUS.iter().flat_map(|m| m.groups.iter()).flat_map(|g| g.iter()) {
-                if let Some(shortcut) = command.shortcut() {
-                    line(ctx.format_shortcut(&shortcut), command.meaning());
+                let keys: Vec<String> = command.shortcuts().map(|keys| ctx.format_shortcut(&keys)).collect();
+                if !keys.is_empty() {
+                    line(keys.join(" or "), command.meaning());
                 }
             }
         });

@@ -164,12 +164,16 @@ impl Document {
         self.odd = other.odd;
     }
 
-    /// A design that was never saved, found after a crash: it counts as changed.
+    /// A design that was never saved, found after a crash, and the mesh that it was read from, if it was one: it counts as
+    /// changed.
     ///
     /// # Errors
     /// What keeps it from being a stone.
-    pub fn recovered(design: Design, path: Option<PathBuf>) -> Result<Self, String> {
+    pub fn recovered(design: Design, path: Option<PathBuf>, mesh: Option<ReadMesh>) -> Result<Self, String> {
         let mut document = Self::new(design, path).map_err(|e| e.to_string())?;
+        document.work.mesh = mesh;
+        document.history = History::new(document.work.clone());
+        // A mesh is read as it is found: a table direction that was chosen is a change, which the file does not hold.
         let on_disk = document.path.as_deref().and_then(|p| design_file::read(p).ok());
         document.saved = on_disk
             .map(|brought| brought.design)

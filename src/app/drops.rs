@@ -23,9 +23,11 @@ impl Editor {
     /// hang behind the stone.
     pub(super) fn dropped(&mut self, files: &[PathBuf]) {
         let name = |path: &Path| path.file_name().unwrap_or_default().to_string_lossy().into_owned();
-        let mut to_open = files.iter().filter(|path| purpose(path) == Purpose::Open);
-        if let Some(path) = to_open.next() {
-            self.ask_before(Then::Open(path.clone()));
+        // TOML is read to tell what it is for: once a file.
+        let files: Vec<(&PathBuf, Purpose)> = files.iter().map(|path| (path, purpose(path))).collect();
+        let mut to_open = files.iter().filter(|(_, purpose)| *purpose == Purpose::Open);
+        if let Some(&(path, _)) = to_open.next() {
+            self.ask_before(Then::open(path.clone()));
             let more = to_open.count();
             if more > 0 {
                 let files = if more == 1 { "file was" } else { "files were" };
@@ -35,9 +37,9 @@ impl Editor {
                 ));
             }
         }
-        for path in files {
+        for (path, purpose) in files {
             let own = self.begun;
-            match purpose(path) {
+            match purpose {
                 Purpose::Light => {
                     self.chosen(Purpose::Light, own, path.clone());
                     self.notes.say(&format!("{} lights the stone.", name(path)));

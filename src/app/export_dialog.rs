@@ -275,8 +275,13 @@ fn settings(editor: &mut Editor, ui: &mut Ui, export: &mut ExportDialog) {
     });
 }
 
-/// Height of the list of files, points: the same for any number, so that nothing moves under the pointer.
+/// Height of the list of files, points: the same for any number, so that nothing moves under the pointer; and the least,
+/// where the window has no room for all of the dialog.
 const LISTED: f32 = 96.0;
+const LEAST_LISTED: f32 = 32.0;
+
+/// Height of a window that has room for all of the dialog, points.
+const ROOMY: f32 = 700.0;
 
 /// What will be written, and what of it is there already.
 fn listed(ui: &mut Ui, files: &Result<Vec<PathBuf>, String>) {
@@ -298,9 +303,11 @@ fn listed(ui: &mut Ui, files: &Result<Vec<PathBuf>, String>) {
                 ))
                 .weak(),
             );
+            let missing = (ROOMY - ui.ctx().content_rect().height()).max(0.0);
+            let height = (LISTED - missing).max(LEAST_LISTED);
             ScrollArea::vertical()
-                .max_height(LISTED)
-                .min_scrolled_height(LISTED)
+                .max_height(height)
+                .min_scrolled_height(height)
                 .auto_shrink(false)
                 .id_salt("files")
                 .show(ui, |ui| {
@@ -325,7 +332,7 @@ const TOLD: f32 = 220.0;
 /// How far it has come, and what is written; whether the dialog stays open.
 fn working(editor: &mut Editor, ui: &mut Ui, (job, folder): (&Job, &Path)) -> bool {
     let end = job.end();
-    ui.add(ProgressBar::new(job.done()).show_percentage());
+    ui.add(ProgressBar::new(job.done()));
     ui.add(Label::new(job.standing()).truncate());
     let lines = ScrollArea::vertical().max_height(TOLD).min_scrolled_height(TOLD).auto_shrink(false);
     lines.stick_to_bottom(true).show(ui, |ui| {

@@ -128,17 +128,19 @@ impl Plan {
         };
         let seen = self.outputs(|s| !is_drawing(s) && !is_own(s), formats(false));
         let linked = Viewpoint::from(self.linked.view);
-        let mut parts = vec![(seen, self.viewing(&self.linked.turned, linked))];
+        let turned = |aspect: &Aspect| aspect.turn.to_degrees();
+        let mut parts = vec![(seen, self.viewing(&self.linked.turned, linked, turned(&self.linked)))];
         for (shows, aspect) in self.own.iter().filter(|(shows, _)| shows.is_seen()) {
             let alone = self.outputs(|s| s == shows, formats(false));
             if !alone.pictures.is_empty() {
-                parts.push((alone, self.viewing(&aspect.turned, Viewpoint::from(aspect.view))));
+                let viewpoint = Viewpoint::from(aspect.view);
+                parts.push((alone, self.viewing(&aspect.turned, viewpoint, turned(aspect))));
             }
         }
         let azimuth_deg = (linked.azimuth_deg - self.linked.turn.to_degrees()).rem_euclid(360.0);
         let azimuth_deg = if linked.tilt_deg == 0.0 { 0.0 } else { azimuth_deg };
         let upright = self.outputs(is_drawing, formats(json));
-        parts.push((upright, self.viewing(&self.upright, Viewpoint { azimuth_deg, ..linked })));
+        parts.push((upright, self.viewing(&self.upright, Viewpoint { azimuth_deg, ..linked }, 0.0)));
         parts
     }
 
@@ -155,11 +157,12 @@ impl Plan {
         }
     }
 
-    fn viewing<'a>(&'a self, specimen: &'a Specimen, viewpoint: Viewpoint) -> Viewing<'a> {
+    fn viewing<'a>(&'a self, specimen: &'a Specimen, viewpoint: Viewpoint, turned_deg: f64) -> Viewing<'a> {
         Viewing {
             specimen,
             file: &self.stem,
             viewpoint,
+            turned_deg,
             medium: specimen.medium(line::SODIUM_D),
             wavelength_nm: Some(line::SODIUM_D),
             head_deg: self.shot.head,

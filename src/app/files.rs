@@ -1,6 +1,7 @@
 //! Choosing files without keeping the window waiting, keeping work safe, and noticing what others change.
 
-use super::document::Stamp;
+use super::document::{ReadMesh, Stamp, Work};
+use crate::cut::from_mesh::Up;
 use crate::cut::{Cut, Design};
 use crate::io::design_file::{self, Format};
 use crate::io::mesh_options::{MeshForm, MeshOptions};
@@ -216,9 +217,63 @@ struct Kept {
     /// Whether its cut is the mesh in its file.
     #[serde(default)]
     mesh: bool,
+    /// The mesh that the stone was read from, if it was one; older files do not tell it.
+    #[serde(default)]
+    read: Option<KeptMesh>,
     design: String,
     #[serde(default)]
     around: Around,
+}
+
+/// A mesh file and how it was read, as it is kept.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+struct KeptMesh {
+    path: PathBuf,
+    /// The direction in which its table faces, if it was given.
+    up: Option<DVec3>,
+    form: KeptForm,
+    is_doubtful: bool,
+    diameter_mm: f64,
+}
+
+/// A [`MeshForm`], as it is kept.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+enum KeptForm {
+    Found,
+    Faceted,
+    Triangles,
+}
+
+impl KeptMesh {
+    fn of(mesh: &ReadMesh) -> Self {
+        Self {
+            path: mesh.path.clone(),
+            up: match mesh.options.up {
+                Up::Given(up) => Some(up),
+                // The editor opens meshes by no direction but a given one, or by the one that is found.
+                Up::Found | Up::FoundBy(_) | Up::Known(_) | Up::Posed(_) => None,
+            },
+            form: match mesh.options.form {
+                MeshForm::Found => KeptForm::Found,
+                MeshForm::Faceted => KeptForm::Faceted,
+                MeshForm::Triangles => KeptForm::Triangles,
+            },
+            is_doubtful: mesh.is_doubtful,
+            diameter_mm: mesh.diameter_mm,
+        }
+    }
+
+    fn read_mesh(self) -> ReadMesh {
+        let Self { path, up, form, is_doubtful, diameter_mm } = self;
+        let form = match form {
+            KeptForm::Found => MeshForm::Found,
+            KeptForm::Faceted => MeshForm::Faceted,
+            KeptForm::Triangles => MeshForm::Triangles,
+        };
+        let options = MeshOptions { up: up.map_or(Up::Found, Up::Given), form };
+        ReadMesh { path, options, is_doubtful, diameter_mm }
+    }
 }
 
 /// What else is kept of unsaved work: of its scene.
@@ -245,6 +300,8 @@ pub struct Found {
     pub around: Around,
     /// The file that it was opened from.
     pub path: Option<PathBuf>,
+    /// The mesh that the stone was read from, if it was one.
+    pub mesh: Option<ReadMesh>,
     /// When it was last kept.
     pub when: SystemTime,
     /// Where it was kept.
@@ -262,11 +319,12 @@ impl Safe {
         Self { folder, own, held: None }
     }
 
-    /// Keeps a design, with what is around it.
+    /// Keeps the design of some work and how its mesh was read, with what is around it.
     ///
     /// # Errors
     /// When the file system refuses.
-    pub fn keep(&mut self, design: &Design, around: &Around, path: Option<&Path>) -> Result<(), WriteError> {
+    pub fn keep(&mut self, work: &Work, around: &Around, path: Option<&Path>) -> Result<(), WriteError> {
+        let design = &work.design;
         // A mesh lies in its file already, and may be large: what was changed beside it is kept.
         let (mesh, design) = match (&design.cut, path) {
             (Cut::Mesh(_), Some(_)) => {
@@ -277,6 +335,7 @@ impl Safe {
         let kept = Kept {
             path: path.map(Path::to_owned),
             mesh,
+            read: work.mesh.as_ref().map(KeptMesh::of),
             design: cut_file::write(&design),
             around: around.clone(),
         };
@@ -330,17 +389,27 @@ fn orphan(path: PathBuf) -> Option<Found> {
         kept.around.company = Company::default();
     }
     let mut design = cut_file::parse(&kept.design, "unsaved work").ok()?;
+    let mesh = kept.read.map(KeptMesh::read_mesh);
     if kept.mesh {
-        let triangles = MeshOptions { form: MeshForm::Triangles, ..MeshOptions::default() };
-        design.cut = design_file::read_with(kept.path.as_deref()?, triangles).ok()?.design.cut;
+        design.cut = mesh_again(mesh.as_ref(), kept.path.as_deref())?;
     }
     let when = file.metadata().and_then(|m| m.modified()).ok()?;
-    Some(Found { design, around: kept.around, path: kept.path, when, file: path })
+    Some(Found { design, around: kept.around, path: kept.path, mesh, when, file: path })
+}
+
+/// The triangles that work had: read from its mesh file as they were then, or else from the file that it was saved in.
+fn mesh_again(mesh: Option<&ReadMesh>, path: Option<&Path>) -> Option<Cut> {
+    let triangles = MeshOptions { form: MeshForm::Triangles, ..MeshOptions::default() };
+    let sources = mesh.map(|mesh| (mesh.path.as_path(), mesh.options)).into_iter();
+    sources.chain(path.map(|path| (path, triangles))).find_map(|(path, options)| {
+        let cut = design_file::read_with(path, options).ok()?.design.cut;
+        matches!(cut, Cut::Mesh(_)).then_some(cut)
+    })
 }
 
 /// How files end that can be opened.
 fn endings() -> Vec<&'static str> {
-    Format::ALL.into_iter().map(Format::ending).chain(["ply", "gltf"]).collect()
+    Format::ALL.into_iter().map(Format::ending).chain(["gltf"]).collect()
 }
 
 #[cfg(test)]
@@ -351,21 +420,21 @@ mod tests {
     #[test]
     fn work_is_found_after_a_crash_and_only_then() {
         let folder = tempfile::tempdir().unwrap();
-        let design = Document::first().unwrap().work.design;
+        let work = Document::first().unwrap().work;
         let mut safe = Safe::new(folder.path().to_owned());
         let corners = [DVec3::ONE, -DVec3::ONE];
         let company = Company::scattered(3, &corners, 2);
         let around =
             Around { company, behind: Some("page".into()), behind_mm: Some(12.5), strength: Some(0.2) };
-        safe.keep(&design, &around, Some(Path::new("/x/mine.toml"))).unwrap();
-        safe.keep(&design, &around, Some(Path::new("/x/mine.toml"))).unwrap();
+        safe.keep(&work, &around, Some(Path::new("/x/mine.toml"))).unwrap();
+        safe.keep(&work, &around, Some(Path::new("/x/mine.toml"))).unwrap();
         let next = Safe::new(folder.path().to_owned());
         assert_eq!(next.found(), [], "the program still runs");
         drop(safe);
         let found = next.found();
         assert_eq!(
             (found.len(), &found[0].design, found[0].path.as_deref()),
-            (1, &design, Some(Path::new("/x/mine.toml")))
+            (1, &work.design, Some(Path::new("/x/mine.toml")))
         );
         assert_eq!(found[0].around, around);
         found.into_iter().for_each(Found::forget);
@@ -383,8 +452,9 @@ mod tests {
         std::fs::write(&path, cut_file::write(&Design { cut, ..first })).unwrap();
         let mesh = design_file::read(&path).unwrap().design;
         let changed = Design { name: "changed".to_owned(), diameter_mm: 9.0, ..mesh };
+        let work = Work { design: changed.clone(), ..Document::first().unwrap().work };
         let mut safe = Safe::new(folder.path().join("safe"));
-        safe.keep(&changed, &Around::default(), Some(&path)).unwrap();
+        safe.keep(&work, &Around::default(), Some(&path)).unwrap();
         drop(safe);
         let next = Safe::new(folder.path().join("safe"));
         assert!(next.found()[0].design == changed);
@@ -393,11 +463,54 @@ mod tests {
     }
 
     #[test]
+    fn how_a_mesh_was_read_is_kept_and_work_of_an_older_program_is_found_without_it() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("heart.glb");
+        let (vertices, triangles) = crate::math::fixture::heart();
+        let shell = crate::math::Shell::new(crate::math::Surface::new(vertices, triangles)).unwrap();
+        let first = Document::first().unwrap().work.design;
+        let heart = Design { cut: Cut::Mesh(crate::cut::MeshShape(Arc::new(shell))), ..first };
+        let specimen = crate::scene::Specimen::new(heart).unwrap();
+        design_file::write(&specimen, Format::Glb, &path).unwrap();
+        for form in [MeshForm::Triangles, MeshForm::Faceted] {
+            let options = MeshOptions { up: Up::Given(DVec3::new(0.0, 0.6, 0.8)), form };
+            let work = Document::open(&path, options).unwrap().work;
+            let mut safe = Safe::new(folder.path().join("safe"));
+            safe.keep(&work, &Around::default(), Some(&path)).unwrap();
+            drop(safe);
+            let found = Safe::new(folder.path().join("safe")).found().remove(0);
+            assert!(found.design == work.design, "{form:?}");
+            let recovered =
+                Document::recovered(found.design.clone(), found.path.clone(), found.mesh.clone()).unwrap();
+            assert_eq!(recovered.work.mesh, work.mesh);
+            assert_eq!(recovered.work.mesh.as_ref().map(|mesh| mesh.options), Some(options));
+            assert!(recovered.is_changed());
+            let mut older: serde_json::Value =
+                serde_json::from_slice(&std::fs::read(&found.file).unwrap()).unwrap();
+            older.as_object_mut().unwrap().remove("read").unwrap();
+            std::fs::write(&found.file, older.to_string()).unwrap();
+            let found = Safe::new(folder.path().join("safe")).found().remove(0);
+            assert!(found.mesh.is_none() && matches!(found.design.cut, Cut::Mesh(_) | Cut::Planes(_)));
+            found.forget();
+        }
+    }
+
+    #[test]
+    fn every_ending_is_offered_once() {
+        let mut endings = endings();
+        let count = endings.len();
+        endings.sort_unstable();
+        endings.dedup();
+        assert_eq!(endings.len(), count);
+        assert!(endings.contains(&"ply") && endings.contains(&"gltf"));
+    }
+
+    #[test]
     fn saved_work_is_not_offered_again_and_rubbish_is_passed_over() {
         let folder = tempfile::tempdir().unwrap();
         let mut safe = Safe::new(folder.path().join("new"));
         assert_eq!(safe.found(), []);
-        safe.keep(&Document::first().unwrap().work.design, &Around::default(), None).unwrap();
+        safe.keep(&Document::first().unwrap().work, &Around::default(), None).unwrap();
         safe.empty();
         drop(safe);
         let next = Safe::new(folder.path().join("new"));
@@ -417,6 +530,6 @@ mod tests {
         });
         watching.watch(Some(&path));
         std::fs::write(&path, "22").unwrap();
-        assert!(told.recv_timeout(Duration::from_secs(10)).is_ok());
+        assert!(told.recv_timeout(Duration::from_secs(600)).is_ok());
     }
 }

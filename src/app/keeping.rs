@@ -80,7 +80,7 @@ impl Editor {
     /// Does what was put off by a question.
     pub(super) fn then(&mut self, then: Then) {
         match then {
-            Then::Open(path) => self.open(&path, Wanted::Anew),
+            Then::Open(path, mesh) => self.open_with(&path, Wanted::Anew, mesh),
             Then::Library(name) => self.begin_from_library(&name),
             Then::Preset(name) => self.begin_preset(&name),
             Then::Close => self.may_close = true,
@@ -143,7 +143,7 @@ impl Editor {
             Purpose::SaveAs if document != self.begun => {
                 self.notes.trouble("Not saved: another design was opened meanwhile.".into());
             }
-            Purpose::Open => self.ask_before(Then::Open(path)),
+            Purpose::Open => self.ask_before(Then::open(path)),
             Purpose::SaveAs => {
                 let then = self.after_save.take();
                 if self.save_as(path)
@@ -244,7 +244,7 @@ impl Editor {
         if !self.document.is_changed() && !self.document.has_moved_copies() {
             safe.empty();
         } else if self.document.fault().is_none()
-            && let Err(why) = safe.keep(&self.kept.design, &around, self.document.path())
+            && let Err(why) = safe.keep(&self.kept, &around, self.document.path())
         {
             self.notes.trouble(format!("unsaved work is not kept safe: {why}"));
         }

@@ -116,7 +116,7 @@ fn opened_before(editor: &mut Editor, ui: &mut Ui) {
                     .file_name()
                     .map_or_else(|| path.display().to_string(), |n| n.to_string_lossy().into());
                 if ui.button(name).on_hover_text(path.display().to_string()).clicked() {
-                    editor.ask_before(Then::Open(path));
+                    editor.ask_before(Then::open(path));
                     ui.close();
                 }
             }

@@ -1,6 +1,5 @@
 //! How the mesh that is open is read: whether as flat facets, and which way its table faces.
 
-use super::document::ReadMesh;
 use super::editor::Editor;
 use super::opening::Wanted;
 use super::rows::{field_width, named};
@@ -9,6 +8,7 @@ use crate::cut::from_mesh::Up;
 use crate::io::mesh_options::{MeshForm, MeshOptions};
 use egui::{ComboBox, Ui};
 use glam::DVec3;
+use std::path::PathBuf;
 
 const MEANING: &str = "Which direction of the mesh's own frame the table faces. The mesh is read anew, and the views show at \
     once what comes of it.";
@@ -33,7 +33,7 @@ const FORMS: [(&str, MeshForm, &str); 2] = [
 /// Draws the rows, for a design that was read from a mesh, and reads the mesh anew where something else is chosen.
 pub fn show(editor: &mut Editor, ui: &mut Ui) {
     form(editor, ui);
-    let Some(ReadMesh { path, options, .. }) = editor.document.work.mesh.clone() else { return };
+    let Some((path, options)) = mesh(editor) else { return };
     let mut chosen = options.up;
     ui.horizontal(|ui| {
         let label = named(ui, "Table faces", MEANING);
@@ -50,14 +50,22 @@ pub fn show(editor: &mut Editor, ui: &mut Ui) {
     }
 }
 
-/// The row of forms; that which the design has is marked, whoever chose it.
+/// The mesh that the stone was read from, and how it was read, or is being read since the last choice: the next choice adds
+/// to that one.
+fn mesh(editor: &Editor) -> Option<(PathBuf, MeshOptions)> {
+    let path = editor.document.work.mesh.as_ref()?.path.clone();
+    Some((path, editor.mesh_options()?))
+}
+
+/// The row of forms; that which was chosen is marked, or that which the design has where nobody chose.
 fn form(editor: &mut Editor, ui: &mut Ui) {
-    let Some(ReadMesh { path, options, .. }) = editor.document.work.mesh.clone() else { return };
-    let present = match editor.document.work.design.cut {
+    let Some((path, options)) = mesh(editor) else { return };
+    let found = match editor.document.work.design.cut {
         Cut::Planes(_) => MeshForm::Faceted,
         Cut::Mesh(_) => MeshForm::Triangles,
         _ => return,
     };
+    let present = if options.form == MeshForm::Found { found } else { options.form };
     ui.horizontal(|ui| {
         named(ui, "Read as", "What the triangles of the file stand for. The mesh is read anew.");
         for (name, form, meaning) in FORMS {

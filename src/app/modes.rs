@@ -136,6 +136,12 @@ pub fn show(editor: &mut Editor, ui: &mut Ui, pane: usize, width: f32) {
     }
 }
 
+/// The room that modes of a view need at least, points: that of the menu which holds them, 0 where none is on.
+pub fn least_width(editor: &Editor, ui: &Ui, pane: usize) -> f32 {
+    let count = Mode::of(editor, pane).len();
+    if count == 0 { 0.0 } else { button_width(ui, &rest(count)) + ui.spacing().item_spacing.x }
+}
+
 /// What the menu of modes is called that have no room.
 fn rest(count: usize) -> String {
     format!("+{count}")

@@ -31,6 +31,8 @@ const DOUBTFUL: &str = "The shape of this mesh leaves a doubt which way its tabl
 pub struct Opening {
     wanted: Wanted,
     path: PathBuf,
+    /// How it is read where it is a mesh.
+    mesh: MeshOptions,
     /// The work as it was when the file was asked for.
     work: Work,
     answer: Receiver<Result<Came, String>>,
@@ -72,10 +74,17 @@ fn is_scene(path: &Path) -> bool {
 impl Editor {
     /// Opens a file; one that is still on its way for the same purpose is forgotten.
     pub(super) fn open(&mut self, path: &Path, wanted: Wanted) {
-        // A mesh that has changed is read as it was.
-        let again = self.document.work.mesh.as_ref().filter(|_| wanted == Wanted::Again);
-        let mesh = again.map_or(MeshOptions::default(), |mesh| mesh.options);
-        self.open_with(path, wanted, mesh);
+        // A mesh that has changed is read as it was; a design that was made of it and saved elsewhere is none.
+        let is_mesh = self.document.work.mesh.as_ref().is_some_and(|mesh| mesh.path == path);
+        let again = self.mesh_options().filter(|_| wanted == Wanted::Again && is_mesh);
+        self.open_with(path, wanted, again.unwrap_or_default());
+    }
+
+    /// How the mesh that is open was read, or how it is being read anew; `None` where the stone was read from no mesh.
+    pub(super) fn mesh_options(&self) -> Option<MeshOptions> {
+        let mesh = self.document.work.mesh.as_ref()?;
+        let is_pending = |o: &&Opening| o.wanted == Wanted::Otherwise && o.path == mesh.path;
+        Some(self.opening.iter().find(is_pending).map_or(mesh.options, |opening| opening.mesh))
     }
 
     /// Opens a file as [`open`](Self::open) does; the options are those of meshes.
@@ -87,7 +96,8 @@ impl Editor {
             let _ = sender.send(Came::of(&name, wanted, mesh));
             wake();
         });
-        let opening = Opening { wanted, path: path.to_owned(), work: self.document.work.clone(), answer };
+        let work = self.document.work.clone();
+        let opening = Opening { wanted, path: path.to_owned(), mesh, work, answer };
         self.opening.retain(|other| other.is_beside() != (wanted == Wanted::Beside));
         self.opening.push(opening);
     }
@@ -110,7 +120,9 @@ impl Editor {
         // What was changed while the file was on its way is nothing that anyone has given up.
         let is_later = self.document.work != opening.work;
         match (opening.wanted, came) {
-            (Wanted::Anew, _) if is_later => self.ask_before(Then::Open(opening.path.clone())),
+            (Wanted::Anew, _) if is_later => {
+                self.ask_before(Then::Open(opening.path.clone(), opening.mesh));
+            }
             (Wanted::Again, _) if is_later => self.dialog = Some(Dialog::ChangedOutside),
             (_, Came::Scene(preset)) => {
                 self.begin_scene(*preset);
@@ -140,5 +152,77 @@ impl Editor {
                 self.notes.say("The file was changed by another program and has been read again.");
             }
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::app::editor::Setup;
+    use crate::app::tests::Bench;
+    use crate::cut::from_mesh::Up;
+    use crate::io::design_file::{self, Format};
+    use crate::io::mesh_options::MeshForm;
+    use crate::scene::Specimen;
+    use egui_kittest::kittest::Queryable;
+    use glam::DVec3;
+
+    /// Writes the first cut as a mesh.
+    fn scan(folder: &Path) -> PathBuf {
+        let path = folder.join("scan.stl");
+        let specimen = Specimen::new(Document::first().unwrap().work.design).unwrap();
+        design_file::write(&specimen, Format::Stl, &path).unwrap();
+        path
+    }
+
+    const UP: MeshOptions = MeshOptions { up: Up::Given(DVec3::NEG_Y), form: MeshForm::Found };
+
+    #[test]
+    fn a_mesh_that_is_opened_after_a_question_is_read_as_it_was_asked_for() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = scan(folder.path());
+        let mut bench = Bench::with(Setup { file: Some(path), mesh: UP, ..Setup::default() });
+        // Something is changed before the file has come.
+        bench.harness.state_mut().document.work.design.name = "mine".to_owned();
+        bench.wait(|editor| editor.dialog.is_some());
+        assert!(matches!(&bench.editor().dialog, Some(Dialog::Unsaved(Then::Open(_, mesh))) if *mesh == UP));
+        bench.click("Don't save");
+        bench.wait(|editor| editor.document.work.mesh.is_some());
+        assert_eq!(bench.editor().mesh_options(), Some(UP));
+    }
+
+    #[test]
+    fn a_second_choice_keeps_the_first_that_has_not_come_yet() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = scan(folder.path());
+        let mut bench = Bench::with(Setup { file: Some(path.clone()), ..Setup::default() });
+        bench.wait(|editor| editor.document.work.mesh.is_some());
+        bench.harness.run_steps(3);
+        let (sender, answer) = channel();
+        let editor = bench.harness.state_mut();
+        let (work, mesh) = (editor.document.work.clone(), UP);
+        editor.opening.push(Opening { wanted: Wanted::Otherwise, path, mesh, work, answer });
+        bench.harness.run_steps(2);
+        bench.harness.get_by_label("Triangles").click();
+        bench.harness.run_steps(2);
+        let both = MeshOptions { form: MeshForm::Triangles, ..UP };
+        bench.wait(|editor| {
+            editor.document.work.mesh.as_ref().is_some_and(|mesh| mesh.options != MeshOptions::default())
+        });
+        assert_eq!(bench.editor().document.work.mesh.as_ref().map(|mesh| mesh.options), Some(both));
+        drop(sender);
+    }
+
+    #[test]
+    fn a_design_that_was_made_of_a_mesh_and_saved_is_read_again_without_the_meshs_options() {
+        let folder = tempfile::tempdir().unwrap();
+        let (path, toml) = (scan(folder.path()), folder.path().join("scan.toml"));
+        let mut bench = Bench::with(Setup { file: Some(path.clone()), mesh: UP, ..Setup::default() });
+        bench.wait(|editor| editor.document.work.mesh.is_some());
+        let editor = bench.harness.state_mut();
+        editor.open(&path, Wanted::Again);
+        assert_eq!(editor.opening[0].mesh, UP);
+        editor.open(&toml, Wanted::Again);
+        assert_eq!(editor.opening[0].mesh, MeshOptions::default());
     }
 }

@@ -58,7 +58,8 @@ pub fn show(editor: &mut Editor, ui: &mut Ui, pane: usize, rect: Rect) -> [u32; 
 fn header(editor: &mut Editor, ui: &mut Ui, pane: usize) {
     let shows = editor.desk.panes[pane].shows;
     let title = format!("View {}", pane + 1);
-    let width = (ui.available_width() - ENLARGE).clamp(LEAST_CHOICE, CHOICE);
+    let taken = ENLARGE + modes::least_width(editor, ui, pane);
+    let width = (ui.available_width() - taken).clamp(LEAST_CHOICE, CHOICE);
     let combo = ComboBox::from_id_salt(("shows", pane)).selected_text(shows.name()).width(width);
     let combo = combo.height(420.0).truncate();
     let mut chosen = shows;

@@ -5,6 +5,7 @@ use super::mesh_options::MeshArguments;
 use super::specimen::Specimen;
 use super::{Failure, each_file, json, print};
 use crate::cut::{AlongAxes, Cut, Report, Spread};
+use crate::io::STANDARD;
 use crate::math::{Facet, Polytope};
 use crate::scene::Body;
 use clap::Args;
@@ -78,7 +79,7 @@ fn scene_json(assembly: &Assembly) -> Value {
 }
 
 fn scene_table(assembly: &Assembly) -> String {
-    let mut text = format!("{}: {}\n", assembly.path, assembly.name);
+    let mut text = heading(&assembly.path, &assembly.name);
     if let Some(light) = &assembly.light {
         let _ = writeln!(text, "  {:<28}{}", "light", light.display());
     }
@@ -94,6 +95,16 @@ fn scene_table(assembly: &Assembly) -> String {
         let _ = write!(text, "{:>9.3}{:>9.3}{:>9.3}", at.x, at.y, at.z);
     }
     text
+}
+
+/// The first line: a file and the name of what is in it. Standard input is called so, also where a nameless mesh was called
+/// by its file's name.
+fn heading(path: &str, name: &str) -> String {
+    let called = |text| if text == STANDARD { "stdin" } else { text };
+    match (called(path), called(name)) {
+        (path, name) if path == name => format!("{path}\n"),
+        (path, name) => format!("{path}: {name}\n"),
+    }
 }
 
 /// A weight for people.
@@ -174,7 +185,7 @@ fn shown_azimuth(azimuth_deg: f64) -> String {
 }
 
 fn table(specimen: &Specimen, value: &Value, with_facets: bool) -> String {
-    let mut text = format!("{}: {}\n", specimen.path, specimen.design.name);
+    let mut text = heading(&specimen.path, &specimen.design.name);
     let mut line = |key: &str, what: String| {
         let _ = writeln!(text, "  {key:<28}{what}");
     };

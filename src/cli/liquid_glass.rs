@@ -1,5 +1,6 @@
 //! `liquid-glass`: a pane over a background as screens draw it, and beside it the same pane traced.
 
+use super::options::number;
 use super::picture_options::film_size;
 use super::picturing::within;
 use super::progress::Progress;
@@ -43,22 +44,22 @@ pub struct LiquidGlass {
     #[arg(long, value_name = "WxH+X+Y", value_parser = geometry)]
     pane: Option<Geometry>,
     /// Radius of the pane's corners in pixels [default: 0.3 of its shorter side]
-    #[arg(long, allow_negative_numbers = true, value_name = "PIXELS")]
+    #[arg(long, allow_negative_numbers = true, value_name = "PIXELS", value_parser = number)]
     radius: Option<f64>,
     /// Strength of the refraction, 0 to 100
-    #[arg(long, allow_negative_numbers = true, value_name = "STRENGTH", default_value_t = 100.0)]
+    #[arg(long, allow_negative_numbers = true, value_name = "STRENGTH", default_value_t = 100.0, value_parser = number)]
     refraction: f64,
     /// Strength of the depth, 0 to 100
-    #[arg(long, allow_negative_numbers = true, value_name = "STRENGTH", default_value_t = 100.0)]
+    #[arg(long, allow_negative_numbers = true, value_name = "STRENGTH", default_value_t = 100.0, value_parser = number)]
     depth: f64,
     /// Strength of the dispersion, 0 to 100
-    #[arg(long, allow_negative_numbers = true, value_name = "STRENGTH", default_value_t = 100.0)]
+    #[arg(long, allow_negative_numbers = true, value_name = "STRENGTH", default_value_t = 100.0, value_parser = number)]
     dispersion: f64,
     /// Strength of the frost, 0 to 100
-    #[arg(long, allow_negative_numbers = true, value_name = "STRENGTH", default_value_t = 0.0)]
+    #[arg(long, allow_negative_numbers = true, value_name = "STRENGTH", default_value_t = 0.0, value_parser = number)]
     frost: f64,
     /// Strength of the light, 0 to 100
-    #[arg(long, allow_negative_numbers = true, value_name = "STRENGTH", default_value_t = 30.0)]
+    #[arg(long, allow_negative_numbers = true, value_name = "STRENGTH", default_value_t = 30.0, value_parser = number)]
     light: f64,
     /// The base colour and how much of it covers what is behind
     #[arg(long, value_name = "#rrggbbaa", default_value = "#00000000", value_parser = tint)]

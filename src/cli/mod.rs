@@ -53,14 +53,19 @@ struct Arguments {
 }
 
 /// What opens the editor, on a file if one is given, read with these options where it is a mesh, and waits until it is closed;
-/// [`Failure::NoWindow`] where it cannot be opened.
+/// [`Failure::NoWindow`] where it cannot be opened, and [`Failure::Output`] where its window is lost later.
 pub type Editor = fn(Option<PathBuf>, MeshOptions) -> Result<(), Failure>;
 
 const USAGE: &str = "brillianteer [FILE]\n       brillianteer COMMAND";
 
 const EXIT_CODES: &str = "Exit codes: 0 done, 1 an input is at fault, 2 the command line is, 3 an output could not be \
-    written or no window opened, 130 stopped by Ctrl-C, 143 by SIGTERM. Without a command and without a screen, the main \
-    pictures and figures are written to the folder out. For FILE, - is standard input.";
+    written, no window opened or it was lost, 130 stopped by Ctrl-C, 143 by SIGTERM. Without a command and without a screen, the main \
+    pictures and figures are written to the folder out. Commands other than the editor take - as FILE for \
+    standard input.";
+
+/// What to do about options and files that the editor does not take.
+const EDITOR_TAKES: &str = "the editor takes one FILE and no options but --up and --as, which are for meshes; \
+    `brillianteer export`, `render`, `measure` and `info` take several files, and a material, a view and a light";
 
 #[derive(Debug, Subcommand)]
 enum Command {
@@ -119,18 +124,21 @@ pub fn main(editor: Option<Editor>) -> ExitCode {
             {
                 say(hint.trim_start_matches("; "));
             }
+            let is_edit = given.get(1).is_some_and(|command| command == "edit");
+            if is_edit && told.kind() == ErrorKind::UnknownArgument {
+                say(EDITOR_TAKES);
+            }
             return ExitCode::from(u8::try_from(told.exit_code()).unwrap_or(2));
         }
     };
-    // Who names the command wants the editor and nothing else.
-    let is_named = typed.len() == given.len() && given.len() > 1;
+    // Who names the command, or gives options of it, wants the editor and nothing else.
+    let is_named = (typed.len() == given.len() && given.len() > 1) || given.len() > 3;
     let command = arguments.command.unwrap_or(Command::Edit { file: None, mesh: MeshArguments::default() });
+    // The editor, too, may be writing an export. What it keeps of unsaved work stays for the next start.
+    progress::end_on_signals();
     let result = match command {
         Command::Edit { file, mesh } => edit(editor, file, mesh.options(), is_named),
-        command => {
-            progress::end_on_signals();
-            command.run()
-        }
+        command => command.run(),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,
@@ -150,18 +158,19 @@ fn edit(
     is_named: bool,
 ) -> Result<(), Failure> {
     if let Some(file) = file.as_ref().filter(|f| !f.is_file() && !is_known(f)) {
-        let message = format!("{}: there is no such file{}", file.display(), lists::hint(file));
-        return Err(Failure::Input(message));
+        let why = match () {
+            () if file.is_dir() => "this is a directory; a file is expected".to_owned(),
+            () if is_standard(file) => "the editor reads no standard input; give a file".to_owned(),
+            () => format!("there is no such file{}", lists::hint(file)),
+        };
+        return Err(Failure::Input(format!("{}: {why}", file.display())));
     }
     let opened = match editor {
         Some(open) => open(file.clone(), mesh),
         None => Err(Failure::NoWindow("this program was built without its window".into())),
     };
     match opened {
-        Err(Failure::NoWindow(why)) if !is_named => {
-            progress::end_on_signals();
-            without_window::write(file, &why)
-        }
+        Err(Failure::NoWindow(why)) if !is_named => without_window::write(file, &why),
         Err(Failure::NoWindow(why)) => Err(Failure::NoWindow(format!(
             "{why}; `brillianteer export` and `brillianteer render` write files without it"
         ))),
@@ -200,15 +209,16 @@ fn is_known(name: &Path) -> bool {
     library::cut(&name).is_some() || library::scene(&name).is_some()
 }
 
-/// A file alone, or a cut's name, is for the editor.
+/// A file or a cut's name in the place of a command is for the editor, with the options behind it.
 fn spelt_out(mut arguments: Vec<OsString>) -> Vec<OsString> {
-    if let [_, only] = arguments.as_slice()
-        && !Arguments::command().get_subcommands().any(|command| command.get_name() == only)
-        && only != "help"
-        && (Path::new(only).components().count() > 1
-            || Path::new(only).extension().is_some()
-            || is_known(Path::new(only)))
-        && !only.to_string_lossy().starts_with('-')
+    if let Some(first) = arguments.get(1)
+        && !Arguments::command().get_subcommands().any(|command| command.get_name() == first)
+        && first != "help"
+        && (Path::new(first).components().count() > 1
+            || Path::new(first).extension().is_some()
+            || Path::new(first).exists()
+            || is_known(Path::new(first)))
+        && !first.to_string_lossy().starts_with('-')
     {
         arguments.insert(1, "edit".into());
     }
@@ -289,6 +299,13 @@ mod tests {
     use super::*;
 
     #[test]
+    fn a_lost_window_is_reported_and_no_files_take_its_place() {
+        let lost: Editor = |_, _| Err(Failure::Output("the window was lost".to_owned()));
+        let failure = edit(Some(lost), None, MeshOptions::default(), false).unwrap_err();
+        assert_eq!((failure.to_string().as_str(), code(&failure)), ("the window was lost", 3));
+    }
+
+    #[test]
     fn a_file_alone_is_for_the_editor() {
         let words = |text: &str| text.split(' ').map(OsString::from).collect::<Vec<_>>();
         let file = env!("CARGO_MANIFEST_DIR").to_owned() + "/cuts/tolkowsky.toml";
@@ -297,6 +314,9 @@ mod tests {
             assert!(
                 matches!(arguments.command, Some(Command::Edit { file: Some(f), .. }) if f == Path::new(only))
             );
+        }
+        for behind in ["tolkowsky --material ruby", "a.stl --up y", "a.obj b.obj", "tests"] {
+            assert_eq!(spelt_out(words(&format!("b {behind}"))), words(&format!("b edit {behind}")));
         }
         for other in ["b", "b cuts", "b polish", "b help", "b info tolkowsky", "b --help"] {
             assert_eq!(spelt_out(words(other)), words(other));

@@ -14,6 +14,11 @@ use crate::trace::{Sampler, Tracer};
 use clap::{Args, ValueEnum};
 use std::path::Path;
 
+/// A number as a command line gives it.
+pub fn number(text: &str) -> Result<f64, String> {
+    text.trim().parse().map_err(|_| "a number is expected, such as 15 or 0.5".to_owned())
+}
+
 /// From where the stone is seen.
 #[derive(Debug, Clone, Args)]
 #[command(next_help_heading = "View")]
@@ -26,18 +31,18 @@ pub struct ViewOptions {
         long,
         value_name = "DEGREES",
         default_value_t = 0.0,
-        allow_negative_numbers = true,
+        allow_negative_numbers = true, value_parser = number,
         conflicts_with = "eye_tilt"
     )]
     pub tilt: f64,
     /// Move the eye by DEGREES toward --azimuth; the light stays with the stone
-    #[arg(long, value_name = "DEGREES", default_value_t = 0.0, allow_negative_numbers = true)]
+    #[arg(long, value_name = "DEGREES", default_value_t = 0.0, allow_negative_numbers = true, value_parser = number)]
     pub eye_tilt: f64,
     /// The azimuth of a tilt, in the stone's frame (0 is the middle of bezel 1)
-    #[arg(long, value_name = "DEGREES", default_value_t = 0.0, allow_negative_numbers = true)]
+    #[arg(long, value_name = "DEGREES", default_value_t = 0.0, allow_negative_numbers = true, value_parser = number)]
     pub azimuth: f64,
     /// See the stone in perspective from DISTANCE, in girdle radii (traced by rays: without a graphics card a large picture takes minutes)
-    #[arg(long, value_name = "DISTANCE", allow_negative_numbers = true)]
+    #[arg(long, value_name = "DISTANCE", allow_negative_numbers = true, value_parser = number)]
     pub perspective: Option<f64>,
 }
 
@@ -92,18 +97,18 @@ pub struct LightOptions {
     #[arg(long)]
     pub no_glare: bool,
     /// Use this refractive index instead of the material's
-    #[arg(long, value_name = "N", conflicts_with = "wavelength", allow_negative_numbers = true)]
+    #[arg(long, value_name = "N", conflicts_with = "wavelength", allow_negative_numbers = true, value_parser = number)]
     pub index: Option<f64>,
     /// Take the material's index and absorption at this wavelength in nm [default: 589.3, sodium's D line]
-    #[arg(long, value_name = "NM", allow_negative_numbers = true)]
+    #[arg(long, value_name = "NM", allow_negative_numbers = true, value_parser = number)]
     pub wavelength: Option<f64>,
     /// Shut out the light within DEGREES of the scope's axis, as the observer's head does (not in Ideal-Scope, hearts
     /// and arrows, which have their own hole for the eye)
-    #[arg(long, value_name = "DEGREES", default_value_t = 0.0, allow_negative_numbers = true)]
+    #[arg(long, value_name = "DEGREES", default_value_t = 0.0, allow_negative_numbers = true, value_parser = number)]
     pub head: f64,
     /// Follow the beams until no more than this part of the light is unresolved [default: 0.00015 for figures, 0.001 for
     /// pictures]
-    #[arg(long, value_name = "PART", allow_negative_numbers = true)]
+    #[arg(long, value_name = "PART", allow_negative_numbers = true, value_parser = number)]
     pub unresolved: Option<f64>,
     /// Let every surface see unpolarised light, to compare with programs that do
     #[arg(long)]
@@ -155,6 +160,7 @@ impl LightOptions {
             specimen,
             file: &specimen.path,
             viewpoint,
+            turned_deg: 0.0,
             medium: self.medium(specimen)?,
             wavelength_nm: self.index.is_none().then(|| self.wavelength()),
             head_deg: self.head()?,

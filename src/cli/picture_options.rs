@@ -1,7 +1,7 @@
 //! What pictures under light take: stones, light and picture for all of them, tracing and finish for `render` and `spin`.
 
 use super::mesh_options::MeshArguments;
-use super::options::TracerName;
+use super::options::{TracerName, number};
 use crate::picture::{Bloom, Overlay, Tone};
 use clap::Args;
 
@@ -15,10 +15,10 @@ pub struct PictureOptions {
     #[arg(long, value_name = "LIGHT")]
     pub light: Option<String>,
     /// Turn the light about its axis by DEGREES
-    #[arg(long, value_name = "DEGREES", default_value_t = 0.0, allow_negative_numbers = true)]
+    #[arg(long, value_name = "DEGREES", default_value_t = 0.0, allow_negative_numbers = true, value_parser = number)]
     pub turn: f64,
     /// Half angle of the observer's head, which keeps out light, in DEGREES [default: the light's]
-    #[arg(long, allow_negative_numbers = true, value_name = "DEGREES")]
+    #[arg(long, allow_negative_numbers = true, value_name = "DEGREES", value_parser = number)]
     pub head: Option<f64>,
     /// A material's name, or an index, instead of the file's
     #[arg(long, value_name = "MATERIAL")]
@@ -43,7 +43,7 @@ pub struct PictureOptions {
     #[arg(long)]
     pub unadapted: bool,
     /// Brighter by STOPS
-    #[arg(long, value_name = "STOPS", default_value_t = 0.0, allow_negative_numbers = true)]
+    #[arg(long, value_name = "STOPS", default_value_t = 0.0, allow_negative_numbers = true, value_parser = number)]
     pub exposure: f64,
     /// Tone curve: linear, neutral or filmic
     #[arg(long, value_name = "CURVE", default_value = "neutral")]
@@ -54,7 +54,7 @@ pub struct PictureOptions {
     #[arg(long, value_name = "WHAT")]
     pub background: Option<String>,
     /// How far behind the stones the pattern or photograph stands, in girdle radii [default: the scene's, or 3]
-    #[arg(long, allow_negative_numbers = true, value_name = "DISTANCE")]
+    #[arg(long, allow_negative_numbers = true, value_name = "DISTANCE", value_parser = number)]
     pub photo_distance: Option<f64>,
     #[command(flatten)]
     pub mesh: MeshArguments,
@@ -68,13 +68,13 @@ pub struct FinishOptions {
     pub no_jitter: bool,
     /// How much of the way that refraction turns light is followed, 0 to 1; less than 1 is a mixture for its looks, by rays
     /// [default: the scene's, or 1: physics]
-    #[arg(long, allow_negative_numbers = true, value_name = "PART")]
+    #[arg(long, allow_negative_numbers = true, value_name = "PART", value_parser = number)]
     pub strength: Option<f64>,
     /// What traces the light; beams are for one convex stone without a photograph behind
     #[arg(long, value_enum, default_value_t = TracerName::Auto)]
     pub tracer: TracerName,
     /// Part of the brightest light that is spread as glow and sparkle, 0 to 1
-    #[arg(long, allow_negative_numbers = true, value_name = "PART", default_value_t = Bloom::default().strength)]
+    #[arg(long, allow_negative_numbers = true, value_name = "PART", default_value_t = Bloom::default().strength, value_parser = number)]
     pub bloom: f64,
     /// What to draw over the stones, separated by commas: wireframe, facets, bounces, unresolved, total (how often light is
     /// totally reflected before some leaves)

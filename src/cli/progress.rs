@@ -10,19 +10,31 @@ use signal_hook::{
     iterator::Signals,
 };
 use std::ops::ControlFlow;
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Mutex, PoisonError, mpsc};
 use std::time::Duration;
 
 /// The bar that is shown, to be cleared when a signal ends the program.
 static SHOWN: Mutex<Option<ProgressBar>> = Mutex::new(None);
 
+/// How long the end waits for the bar to be cleared: whoever prints past the bar holds its lock, for as long as nobody reads.
+const CLEARING: Duration = Duration::from_millis(200);
+
 /// Ends the program at once when it is interrupted (Ctrl-C) or asked to terminate, whatever it is doing: temporary files are
-/// removed, finished files stay, and the exit code is 128 and the signal's number.
+/// removed, finished files stay, and the exit code is 128 and the signal's number. A second signal ends it as if nothing
+/// had been asked for, should the first be kept waiting.
 pub fn end_on_signals() {
     // Without this a signal still ends the program, only less tidily: no reason to fail.
     #[cfg(unix)]
     if let Ok(mut signals) = Signals::new([SIGINT, SIGTERM]) {
-        std::thread::spawn(move || signals.forever().next().map(|signal| end(signal)));
+        std::thread::spawn(move || {
+            let mut signals = signals.forever();
+            if let Some(first) = signals.next() {
+                std::thread::spawn(move || end(first));
+            }
+            for again in signals {
+                let _ = signal_hook::low_level::emulate_default_handler(again);
+            }
+        });
     }
     #[cfg(not(unix))]
     let _ = ctrlc::set_handler(|| end(SIGINT));
@@ -35,9 +47,14 @@ const SIGINT: i32 = 2;
 /// Ends the program as a signal asks to.
 fn end(signal: i32) -> ! {
     let _until_the_end = abandon_writes();
-    if let Some(bar) = SHOWN.lock().unwrap_or_else(PoisonError::into_inner).take() {
-        bar.finish_and_clear();
-    }
+    let (cleared, is_cleared) = mpsc::channel();
+    std::thread::spawn(move || {
+        if let Some(bar) = SHOWN.lock().unwrap_or_else(PoisonError::into_inner).take() {
+            bar.finish_and_clear();
+        }
+        let _ = cleared.send(());
+    });
+    let _ = is_cleared.recv_timeout(CLEARING);
     say("error: stopped");
     // Other threads are still at work: what they use must not be torn down under them.
     #[cfg(unix)]

@@ -1,6 +1,6 @@
 //! `refraction-map`: where the light behind each pixel comes from, for pages and programs that refract by looking it up.
 
-use super::options::ViewOptions;
+use super::options::{ViewOptions, number};
 use super::picture_options::{FinishOptions, PictureOptions};
 use super::picturing::{Studio, within};
 use super::progress::Progress;
@@ -41,7 +41,7 @@ pub struct RefractionMaps {
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=i64::from(MOST_PLACES)))]
     places: u32,
     /// How many times as wide as the picture the background is; light from beyond it is in the diffuse layer
-    #[arg(long, allow_negative_numbers = true, value_name = "TIMES", default_value_t = 2.0)]
+    #[arg(long, allow_negative_numbers = true, value_name = "TIMES", default_value_t = 2.0, value_parser = number)]
     span: f64,
     /// Hang the same background before the stones too, so that what they send back to the eye's side shows it
     #[arg(long)]

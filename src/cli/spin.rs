@@ -1,6 +1,6 @@
 //! `spin`: a stone that turns, rocks or wobbles, as numbered pictures and as one that moves.
 
-use super::options::ViewOptions;
+use super::options::{ViewOptions, number};
 use super::picture_options::{FinishOptions, PictureOptions};
 use super::picturing::Studio;
 use super::progress::Progress;
@@ -27,10 +27,10 @@ pub struct Spin {
     #[arg(long, value_name = "N", default_value_t = 48, value_parser = clap::value_parser!(u32).range(2..=3600))]
     frames: u32,
     /// Seconds of one round
-    #[arg(long, value_name = "SECONDS", default_value_t = 4.0)]
+    #[arg(long, value_name = "SECONDS", default_value_t = 4.0, value_parser = number)]
     seconds: f64,
     /// How far it rocks or wobbles
-    #[arg(long, value_name = "DEGREES", default_value_t = 15.0)]
+    #[arg(long, value_name = "DEGREES", default_value_t = 15.0, value_parser = number)]
     swing: f64,
     #[command(flatten)]
     view: ViewOptions,

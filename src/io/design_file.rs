@@ -2,13 +2,13 @@
 
 use super::cut_file::{self, CutFileError};
 use super::mesh_design;
-use super::mesh_export::FINENESS;
-use super::mesh_file::{self, MaterialHint};
+use super::mesh_export::{FINENESS, STL_HEADER};
+use super::mesh_file::{self, MaterialHint, Statement};
 use super::mesh_options::MeshOptions;
 use super::{Failure, asc, gcs, gem, write as write_whole};
 use super::{WriteError, text};
 use super::{write_glb, write_obj, write_ply, write_stl};
-use crate::cut::Design;
+use crate::cut::{Design, MaterialRef};
 use crate::scene::{Body, Specimen};
 use std::path::Path;
 
@@ -202,16 +202,31 @@ pub fn written(specimen: &Specimen, format: Format) -> Result<Written, Failure> 
 
 /// A mesh, and what meshes have no place for.
 fn as_mesh(specimen: &Specimen, format: Format, bytes: Vec<u8>) -> Written {
-    let kept = match (format, &specimen.body) {
-        (Format::Glb, Body::Mesh(_) | Body::Glass(_)) => {
-            "its triangles, its size and the material as three colours see it"
-        }
-        (_, Body::Mesh(_) | Body::Glass(_)) => "its triangles and its size",
-        (Format::Glb, _) => "facets, their names, its size and the material as three colours see it",
-        (Format::Obj, _) => "facets, their names and its size",
-        _ => "facets and its size",
+    let is_named = matches!(format, Format::Obj | Format::Glb);
+    let shape = match &specimen.body {
+        Body::Mesh(_) | Body::Glass(_) => "its triangles",
+        Body::Stone(_) if is_named => "its facets, their names",
+        Body::Stone(_) => "its facets",
     };
-    let mut lost = vec![format!("of the design only this is kept: {kept}")];
+    let material = match &specimen.design.material {
+        MaterialRef::Name(_) => Some("the name of its material"),
+        MaterialRef::Index(_) => Some("its refractive index"),
+        MaterialRef::Custom(_) => None,
+    };
+    let (has_statement, has_material) = match format {
+        Format::Stl => stated_in_header(&bytes),
+        _ => (true, true),
+    };
+    let seen = (format == Format::Glb).then_some("the material as three colours see it");
+    let size = has_statement.then_some("its size");
+    let kept: Vec<&str> =
+        [Some(shape), size, material.filter(|_| has_material), seen].into_iter().flatten().collect();
+    let mut lost = vec![format!("of the design only this is kept: {}", listed(&kept))];
+    if !has_statement {
+        lost.push("the file's header has no room for the stone's size and for the way it faces".to_owned());
+    } else if let Some(material) = material.filter(|_| !has_material) {
+        lost.push(format!("the file's header has no room for {material}"));
+    }
     let measured = "the proportions are not kept; whoever reads the mesh measures them anew";
     lost.extend(specimen.design.cut.brilliant().map(|_| measured.to_owned()));
     if let Body::Glass(smooth) = &specimen.body {
@@ -219,6 +234,21 @@ fn as_mesh(specimen: &Specimen, format: Format, bytes: Vec<u8>) -> Written {
         lost.push(format!("its smooth surface is written as triangles, {off:.1e} mm off it at most"));
     }
     Written { bytes, lost }
+}
+
+/// Whether the header of an STL says how large its stone is and which way it faces, and of what it is.
+fn stated_in_header(stl: &[u8]) -> (bool, bool) {
+    let header = String::from_utf8_lossy(&stl[..stl.len().min(STL_HEADER)]);
+    let is_stated = Statement::is_meant(&header);
+    (is_stated, is_stated && header.contains(" n="))
+}
+
+/// Words as a list of a sentence: `a, b and c`.
+fn listed(words: &[&str]) -> String {
+    match words {
+        [rest @ .., last] if !rest.is_empty() => format!("{} and {last}", rest.join(", ")),
+        _ => words.concat(),
+    }
 }
 
 /// Writes a stone's design, whole or not at all; what the format could not hold, in words.

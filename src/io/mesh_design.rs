@@ -86,11 +86,12 @@ impl File {
         let surface = found.surface.moved(found.centre);
         let up = self.place.up(&surface, || directions(&found.polytope), &mut told);
         let made = from_mesh(found, up).map_err(|e| e.to_string())?;
-        let FromMesh { mut facets, pose, deviation, .. } = made;
+        let FromMesh { mut facets, pose, .. } = made;
         // A size that is known counts, whatever the stone's width.
         let scale = self.place.scale.unwrap_or(pose.scale);
-        facets.iter_mut().for_each(|(_, plane)| plane.offset *= scale / pose.scale);
-        let count = facets.len();
+        let rescaled = scale / pose.scale;
+        facets.iter_mut().for_each(|(_, plane)| plane.offset *= rescaled);
+        let (count, deviation) = (facets.len(), made.deviation * rescaled);
         told.notes.push(format!(
             "{count} facets were found; no corner lies farther from them than {deviation:.1e} girdle radii"
         ));
@@ -198,6 +199,7 @@ mod tests {
         let found = open(MeshForm::Found);
         let told = found.notes.join("\n");
         assert!(found.warnings.is_empty() && told.contains("69 facets were found"), "{told}");
+        assert!(!told.contains("nearly as likely"), "{told}");
         assert!(told.contains("bends inward at 20 edges, by up to 24.7 degrees"), "{told}");
         assert!(told.contains("the volume changes by +1.375 %"), "{told}");
         let stone = Specimen::new(found.design.clone()).unwrap();
@@ -253,6 +255,28 @@ mod tests {
             told.contains("cannot be read as a faceted stone") && told.contains("--as triangles"),
             "{told}"
         );
+    }
+
+    #[test]
+    fn a_mesh_that_was_scaled_is_told_so_though_its_direction_is_given() {
+        let design = cut_file::parse(library::cut("tolkowsky").unwrap(), "t").unwrap();
+        let specimen = Specimen::new(design).unwrap();
+        let obj = write_obj(&specimen.body, "t", 3.25, Some(&specimen.design.material));
+        let scaled = |line: &str| match line.strip_prefix("v ") {
+            Some(numbers) => {
+                let numbers = numbers.split(' ').map(|n| 2.0 * n.parse::<f64>().unwrap());
+                format!("v{}\n", numbers.map(|n| format!(" {n}")).collect::<String>())
+            }
+            None => format!("{line}\n"),
+        };
+        let larger: String = obj.lines().map(scaled).collect();
+        let open = |text: &str| {
+            let options = MeshOptions { up: Up::Given(DVec3::Z), ..MeshOptions::default() };
+            read(text.as_bytes().to_vec(), Path::new("t.obj"), options).unwrap()
+        };
+        let told = open(&larger).warnings.join("; ");
+        assert!(told.contains("its corners have been scaled by 2.0000 since; 6.5 mm is kept"), "{told}");
+        assert_eq!(open(&obj).warnings, Vec::<String>::new());
     }
 
     /// Six digits of a cutter's file leave corners where facets nearly meet, and slivers of triangles beside them.

@@ -1,7 +1,8 @@
 //! Stones as meshes: OBJ and PLY with facets as polygons, STL and binary glTF with triangles.
 //!
 //! `scale` is in units of the file per girdle radius: the radius in mm for OBJ, PLY and STL as the trade has them, the radius
-//! in metres for glTF as its standard wants it. OBJ and PLY keep f64 to the last digit; the others are f32. Every file says
+//! in metres for glTF as its standard wants it. OBJ keeps 15 digits of the largest coordinate and PLY all of f64; the others
+//! are f32. Every file says
 //! how its stone lies, how large it is and of what, in a [`Statement`]. Read back, OBJ and glTF give the facets their names. A
 //! solid that is not convex is written by its triangles.
 
@@ -22,8 +23,14 @@ pub(super) const FACET: &str = "facet";
 /// The key of a glTF node's extras under which the statement is.
 pub(super) const STATEMENT: &str = "brillianteer";
 
+/// Digits of an OBJ's largest coordinate.
+const DIGITS: f64 = 15.0;
+
+/// The most decimals of an OBJ's coordinates, which the least f64 above 0 needs.
+const MOST_DECIMALS: f64 = 340.0;
+
 /// The header of a binary STL, bytes.
-const STL_HEADER: usize = 80;
+pub(super) const STL_HEADER: usize = 80;
 
 /// The most bytes of a statement where there is no other limit.
 const LONGEST: usize = 400;
@@ -108,11 +115,16 @@ pub fn write_obj(body: &Body, name: &str, scale: f64, material: Option<&Material
     let all = faces(body);
     let statement = all.statement(DVec3::Z, 1.0, scale, material).text(LONGEST);
     let Faces { faces, vertices } = all;
-    let mut text = format!("# {} faces, mm, z up\n# {statement}\no {name}\n", faces.len());
+    let mut text = format!("# {} faces, mm, z up\n", faces.len());
+    // Formatting into a String cannot fail.
+    if let Some(statement) = statement {
+        let _ = writeln!(text, "# {statement}");
+    }
+    let _ = writeln!(text, "o {name}");
+    let decimals = decimals(vertices.iter().map(|v| scale * v.abs().max_element()).fold(0.0, f64::max));
     for v in vertices.iter() {
-        let v = *v * scale;
-        // Formatting into a String cannot fail.
-        let _ = writeln!(text, "v {} {} {}", v.x, v.y, v.z);
+        let [x, y, z] = (*v * scale).to_array().map(|x| rounded(x, decimals));
+        let _ = writeln!(text, "v {x} {y} {z}");
     }
     for face in faces {
         if let Some(name) = face.name {
@@ -124,7 +136,20 @@ pub fn write_obj(body: &Body, name: &str, scale: f64, material: Option<&Material
     text
 }
 
-/// The solid as binary STL, z up.
+/// How many decimals a file's coordinates have whose largest is this: as many as make it [`DIGITS`] digits. Those beyond are
+/// the rounding of f64.
+fn decimals(largest: f64) -> usize {
+    (DIGITS - 1.0 - largest.log10().floor()).clamp(0.0, MOST_DECIMALS) as usize
+}
+
+/// A number to so many decimals, without noughts at its end and without the sign of what is rounded to 0.
+fn rounded(number: f64, decimals: usize) -> String {
+    let text = format!("{number:.decimals$}");
+    let text = if decimals > 0 { text.trim_end_matches('0').trim_end_matches('.') } else { &text };
+    if text == "-0" { "0".to_owned() } else { text.to_owned() }
+}
+
+/// The solid as binary STL, z up. A statement that its header has no room for is left out whole.
 ///
 /// # Errors
 /// None that memory does not make: what is written to a list of bytes is never refused.
@@ -141,9 +166,8 @@ pub fn write_stl(body: &Body, scale: f64, material: Option<&MaterialRef>) -> std
     let triangles: Vec<stl_io::Triangle> = each.collect();
     let mut bytes = vec![];
     stl_io::write_stl(&mut bytes, triangles.iter())?;
-    // One that found no room is left out whole.
-    if let Some(header) = bytes.get_mut(..statement.len()).filter(|header| header.len() <= STL_HEADER) {
-        header.copy_from_slice(statement.as_bytes());
+    if let Some(statement) = statement {
+        bytes[..statement.len()].copy_from_slice(statement.as_bytes());
     }
     Ok(bytes)
 }

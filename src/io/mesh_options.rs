@@ -23,14 +23,3 @@ pub enum MeshForm {
     /// The triangles themselves.
     Triangles,
 }
-
-impl MeshForm {
-    /// What it is called on command lines; `None` where it is to be found.
-    pub fn name(self) -> Option<&'static str> {
-        match self {
-            Self::Found => None,
-            Self::Faceted => Some("faceted"),
-            Self::Triangles => Some("triangles"),
-        }
-    }
-}

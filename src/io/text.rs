@@ -38,8 +38,11 @@ pub(super) fn read_bytes(path: &Path, limit: u64) -> Result<Vec<u8>, TextError> 
     within(bytes, limit)
 }
 
-/// Bytes that are no more than a limit.
+/// Bytes that are some, and no more than a limit.
 fn within(bytes: Vec<u8>, limit: u64) -> Result<Vec<u8>, TextError> {
+    if bytes.is_empty() {
+        return Err(TextError { line: None, message: "the file is empty".to_owned() });
+    }
     if bytes.len() as u64 > limit {
         return Err(TextError { line: None, message: too_large(limit) });
     }

@@ -149,13 +149,21 @@ pub fn measure(design: &Design, options: &Options) -> Result<Measured, MeasureEr
 /// Measures a stone that is built already; `watch` is told the part done and may stop the work.
 ///
 /// # Errors
-/// [`MeasureError::CannotTrace`], [`MeasureError::Stopped`], or a graphics card that fails.
+/// [`MeasureError::Option`] where the medium's index or a bound is out of its range, [`MeasureError::CannotTrace`],
+/// [`MeasureError::Stopped`], or a graphics card that fails.
 pub fn measure_subject(
     subject: Subject,
     tracer: Tracer,
     bounds: &Bounds,
     watch: Watch,
 ) -> Result<Measured, MeasureError> {
+    let Bounds { unresolved, lattice, .. } = *bounds;
+    let index = subject.medium.index;
+    first_wrong(&[
+        ("index", index, INDICES.contains(&index), "1 (air) to 5"),
+        ("unresolved", unresolved, unresolved > 0.0 && unresolved < 1.0, "a part between 0 and 1"),
+        ("lattice", f64::from(lattice), (1..=16_384).contains(&lattice), "1 to 16,384"),
+    ])?;
     tracer.check(subject.specimen, subject.view)?;
     let (split, below) = subject.scope.clone().with_horizon();
     let mut figures = traced(Subject { scope: &split, ..subject }, tracer, bounds, watch)?;
@@ -164,7 +172,7 @@ pub fn measure_subject(
     if let Some(below) = below {
         figures.join(below);
     }
-    let (scope, index) = (subject.scope.clone(), subject.medium.index);
+    let scope = subject.scope.clone();
     Ok(Measured { figures, scope, index, tracer: tracer.name(), light_return, glare_return })
 }
 
@@ -188,30 +196,29 @@ fn traced(subject: Subject, tracer: Tracer, bounds: &Bounds, watch: Watch) -> Re
     }
 }
 
+/// An option's name and value, whether that is in its range, and the range in words.
+type Check = (&'static str, f64, bool, &'static str);
+
+/// The first option that is out of its range, as an error.
+fn first_wrong(checks: &[Check]) -> Result<(), MeasureError> {
+    match checks.iter().find(|(.., is_right, _)| !is_right) {
+        Some(&(option, value, _, range)) => Err(MeasureError::Option { option, value, range }),
+        None => Ok(()),
+    }
+}
+
 impl Options<'_> {
     /// Whether every number is in its range.
     fn check(&self) -> Result<(), MeasureError> {
         self.scope.validate()?;
-        let Bounds { unresolved, lattice, .. } = self.bounds;
         let view = &self.viewpoint;
         let checks = [
             ("head_deg", self.head_deg, (0.0..90.0).contains(&self.head_deg), "0 to below 90 degrees"),
             ("wavelength_nm", self.wavelength_nm, self.wavelength_nm > 0.0, "a wavelength above 0 nm"),
-            (
-                "index",
-                self.index.unwrap_or(1.0),
-                INDICES.contains(&self.index.unwrap_or(1.0)),
-                "1 (air) to 5",
-            ),
-            ("unresolved", unresolved, unresolved > 0.0 && unresolved < 1.0, "a part between 0 and 1"),
-            ("lattice", f64::from(lattice), (1..=16_384).contains(&lattice), "1 to 16,384"),
             ("tilt_deg", view.tilt_deg, (-90.0..=90.0).contains(&view.tilt_deg), "-90 to 90 degrees"),
             ("azimuth_deg", view.azimuth_deg, view.azimuth_deg.is_finite(), "a finite angle"),
         ];
-        match checks.into_iter().find(|(.., is_right, _)| !is_right) {
-            Some((option, value, _, range)) => Err(MeasureError::Option { option, value, range }),
-            None => Ok(()),
-        }
+        first_wrong(&checks)
     }
 }
 

@@ -1,14 +1,14 @@
 //! A stone's profile: seen along the girdle plane, table up, with its dimensions written on it.
 //!
-//! Lengths are percent of the girdle diameter (of the width, for a stone given by its planes), angles degrees from
-//! the girdle plane, as laboratories print them.
+//! Lengths are percent of the diameter ([`Outline::diameter`]: that of the girdle, of a stone that is not round the width),
+//! angles degrees from the girdle plane, as laboratories print them.
 
 pub(crate) mod brilliant;
 
 pub(crate) use super::drawing::{degrees, percent};
 
 use super::drawing::{Align, Aspect, DIMENSION, Inks, ROOM_FOR_ARROWS, Sheet, text_width};
-use crate::cut::RoundBrilliant;
+use crate::cut::{Outline, RoundBrilliant};
 use crate::math::{Basis, Calipers, Facet, hull};
 use crate::scene::Stone;
 use glam::{DVec2, DVec3};
@@ -74,12 +74,13 @@ pub(crate) struct Dimensions {
 }
 
 impl Dimensions {
-    /// What can be measured on any stone, percent of its width.
+    /// What can be measured on any stone, percent of its diameter.
     pub fn measured(stone: &Stone, basis: &Basis) -> Self {
         let polytope = &stone.polytope;
         let (left, right) = extent(polytope.vertices().iter().copied(), basis.right);
         let (low, high) = extent(polytope.vertices().iter().copied(), DVec3::Z);
-        let span = |from: f64, to: f64| Span::new(from, to, 100.0 * (to - from).abs() / (right - left));
+        let diameter = Outline::of(polytope).diameter;
+        let span = |from: f64, to: f64| Span::new(from, to, 100.0 * (to - from).abs() / diameter);
         let something = |s: &Span| s.percent > 100.0 * NOTHING;
         let corners = |is: fn(&Facet) -> bool| {
             let found: Vec<_> = polytope.facets().iter().filter(|f| is(f)).collect();
@@ -344,6 +345,21 @@ mod tests {
                 assert!((span.length() * 100.0 / 1.4 - percent).abs() < 1e-9);
             }
         }
+    }
+
+    #[test]
+    fn a_round_stone_of_few_sides_is_measured_by_its_circle() {
+        // Its width is that of a regular polygon of sixteen sides: 1.9 % less than the circle through its corners.
+        let sides = (0..16).map(|k| {
+            let plane = Plane::from_slope(FRAC_PI_2, (f64::from(k) + 0.5) * FRAC_PI_4 / 2.0, 1.0);
+            (format!("girdle {k}"), plane)
+        });
+        let ends = [("table", DVec3::Z), ("culet", -DVec3::Z)];
+        let ends = ends.map(|(name, normal)| (name.to_owned(), Plane::new(normal, 0.5)));
+        let stone = Stone::new(&sides.chain(ends).collect::<Vec<_>>()).unwrap();
+        let circle = 2.0 / (std::f64::consts::PI / 16.0).cos();
+        let found = measured(&stone);
+        assert!((found.total.percent - 100.0 / circle).abs() < 1e-9, "{found:?}");
     }
 
     #[test]

@@ -14,7 +14,7 @@ fn a_file_at_fault_is_named_with_its_line_or_facet_and_nothing_is_written() {
     };
     let mut cases: Vec<(String, String)> = files(&desk.at("bad")).iter().map(named).collect();
     for (name, says, text) in [
-        ("empty", ":1: format", vec![]),
+        ("empty", ": the file is empty", vec![]),
         ("rubbish", ":1: this is not UTF-8", (0..4096_u32).map(|i| ((i * i * 7) >> 3) as u8 | 128).collect()),
         ("noughts", ":1: ", vec![0; 4096]),
         ("long-line", ":2: ", format!("format = 1\n{line}\n").into_bytes()),
@@ -129,11 +129,39 @@ fn a_reader_that_goes_away_is_no_reason_to_panic() {
 }
 
 #[test]
+fn the_editor_says_what_it_takes_where_it_is_given_more() {
+    let desk = Desk::new();
+    for line in
+        ["tolkowsky --material ruby", "cube.toml --foo", "cube.toml tolkowsky", "edit cube.toml --tilt 5"]
+    {
+        let said = desk.refused(line, 2);
+        assert!(!said.contains("subcommand"), "{line}: {said}");
+        assert!(
+            said.contains("the editor takes one FILE") && said.contains("`brillianteer export`"),
+            "{line}: {said}"
+        );
+    }
+    std::fs::create_dir(desk.at("folder")).unwrap();
+    for line in ["folder", "./folder", "edit folder"] {
+        assert!(
+            desk.refused(line, 1).ends_with("folder: this is a directory; a file is expected\n"),
+            "{line}"
+        );
+    }
+    desk.write("none.stl", "solid x\nendsolid x\n");
+    for line in ["info none.stl", "info --up y none.stl"] {
+        assert!(desk.refused(line, 1).contains("none.stl: this holds no triangles"), "{line}");
+    }
+}
+
+#[test]
 fn a_command_line_at_fault_ends_with_code_2() {
     let desk = Desk::new();
     let ill_formed = "polish, measure, measure cube.toml --colour, measure cube.toml --index two, export cube.toml --size 15, \
         measure cube.toml --tilt 1 --eye-tilt 1, measure cube.toml --index 2 --wavelength 500, measure cube.toml --side up, \
         export cube.toml --size 16385, export cube.toml --views asset, export cube.toml --format gif";
+    let said = desk.refused("measure cube.toml --tilt abc", 2);
+    assert!(said.contains("a number is expected"), "{said}");
     let out_of_range = "--index 0.9, --index nan, --wavelength 0, --tilt 91, --eye-tilt nan, --azimuth inf, --head 90, \
         --unresolved 0, --unresolved nan, --perspective 1, --perspective 5 --tracer beam";
     let impossible = "export cube.toml --format exr --size 9000, export cube.toml --views aset,aset, cuts none, scopes none, lights none";

@@ -54,3 +54,20 @@ fn a_mesh_is_read_as_facets_or_triangles_by_every_command() {
     assert!(at(&faceted, "volume") > 1.002 * at(&triangles, "volume") && triangles["triangles"] == 12);
     assert!(faceted["facets"].as_array().unwrap().len() >= 6 && faceted["triangles"].is_null());
 }
+
+#[test]
+fn what_is_kept_of_a_design_is_told_for_each_format_of_meshes() {
+    let desk = Desk::new();
+    for (line, kept) in [
+        ("tolkowsky a.obj", "its facets, their names, its size and the name of its material"),
+        ("tolkowsky a.stl", "its facets, its size and the name of its material"),
+        ("tolkowsky a.ply", "its facets, its size and the name of its material"),
+        (
+            "tolkowsky a.glb",
+            "its facets, their names, its size, the name of its material and the material as three colours see it",
+        ),
+    ] {
+        let (code, _, said) = desk.run(&format!("convert {line}"));
+        assert!(code == 0 && said.contains(&format!("only this is kept: {kept}\n")), "{line}: {said}");
+    }
+}

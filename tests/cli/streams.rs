@@ -4,6 +4,9 @@ use super::desk::*;
 use serde_json::Value;
 use std::process::Stdio;
 
+/// A mesh of four faces that has no name.
+const TETRAHEDRON: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n";
+
 /// Runs a command with this on standard input: the exit code, what is printed, as bytes, and what is said.
 fn fed(desk: &Desk, line: &str, input: &str) -> (i32, Vec<u8>, String) {
     let file = std::fs::File::open(desk.at(input)).unwrap();
@@ -28,9 +31,15 @@ fn a_dash_is_standard_input_for_every_format_and_command() {
     }
     desk.write("scene.toml", desk.done("scenes trilogy"));
     let (code, printed, said) = fed(&desk, "info -", "scene.toml");
-    assert!(code == 0 && String::from_utf8(printed).unwrap().starts_with("-: "), "{said}");
+    assert!(code == 0 && String::from_utf8(printed).unwrap().starts_with("stdin: "), "{said}");
     let (code, printed, said) = fed(&desk, "export - --views profile --format svg", "cube.toml");
     assert_eq!((code, printed.as_slice()), (0, b"out/stdin-profile.svg\n".as_slice()), "{said}");
+    desk.write("nameless.stl", TETRAHEDRON);
+    let (code, printed, said) = fed(&desk, "info -", "nameless.stl");
+    assert!(code == 0 && String::from_utf8(printed).unwrap().starts_with("stdin\n"), "{said}");
+    desk.write("empty", "");
+    let (code, _, said) = fed(&desk, "info -", "empty");
+    assert!(code == 1 && said == "error: -: the file is empty\n", "{code}: {said}");
     let (code, _, said) = fed(&desk, "measure -", "bad/nan.toml");
     assert!(code == 1 && said.starts_with("error: -:6: "), "{code}: {said}");
     assert!(!desk.at("-").exists());
@@ -46,6 +55,7 @@ fn a_dash_is_standard_output_where_one_file_is_written_and_refused_where_several
         ("liquid-glass --background dots --size 64 --out", "liquid-glass/liquid-glass.png"),
         ("export cube.toml --views profile --format svg --out", "svg/cube-profile.svg"),
         ("export cube.toml --format exr --views aset --size 32 --out", "exr/cube-aset.exr"),
+        ("export cube.toml --format png --views aset --size 32 --out", "png/cube-aset.png"),
     ] {
         let folder = file.split('/').next().unwrap();
         let written = desk.command(&format!("{line} {folder}")).output().unwrap();
@@ -60,8 +70,8 @@ fn a_dash_is_standard_output_where_one_file_is_written_and_refused_where_several
     for (line, why) in [
         ("export cube.toml --out -", "standard output takes one file"),
         (
-            "export cube.toml --views aset --format png --out -",
-            "2 would be written (cube-aset.png, cube-aset-strongest.png)",
+            "export cube.toml --views aset,hearts --format png --out -",
+            "4 would be written (cube-aset.png, cube-aset-strongest.png, cube-hearts.png and 1 more)",
         ),
         ("export cube.toml tolkowsky --format json --out -", "several stones need a folder"),
         ("render cube.toml tolkowsky --out -", "several stones need a folder"),

@@ -1,6 +1,7 @@
 //! Takes the pictures of docs/editor.md: `cargo test --lib guide -- --ignored`, and look at what it wrote.
 
 use super::*;
+use crate::app::dialogs::Dialog;
 use std::path::Path;
 
 /// The window of a first start, drawn in the dark, on a file that comes with the program.
@@ -16,6 +17,12 @@ fn window(cut: &str, desk: &Desk) -> Bench {
 fn take(bench: &mut Bench, name: &str) {
     bench.settle();
     bench.wait(|editor| !editor.studio.sharpens());
+    draw(bench, name);
+}
+
+/// The same before renders have become as fine as they get, which takes glass a quarter of an hour.
+fn draw(bench: &mut Bench, name: &str) {
+    bench.settle();
     bench.harness.remove_cursor();
     bench.harness.run_steps(30);
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/images/editor");
@@ -23,55 +30,77 @@ fn take(bench: &mut Bench, name: &str) {
 }
 
 #[test]
-#[ignore = "writes pictures into docs/images/editor, in some minutes"]
-fn pictures_of_the_editors_guide() {
-    let four = Desk::default();
-    let mut bench = window("tolkowsky.toml", &four);
+#[ignore = "writes pictures into docs/images/editor"]
+fn the_first_window_and_a_path() {
+    let mut bench = window("tolkowsky.toml", &Desk::default());
     take(&mut bench, "first");
     bench.click_at(bench.harness.get_by_label("ASET picture").rect().center() + egui::vec2(60.0, 24.0));
     (0..40).for_each(|_| bench.harness.step());
     take(&mut bench, "path");
+}
 
-    let mut bench = window("tolkowsky.toml", &four);
+#[test]
+#[ignore = "writes a picture into docs/images/editor"]
+fn a_lower_crown() {
+    let mut bench = window("tolkowsky.toml", &Desk::default());
     bench.type_number("Crown angle", "32.5");
     take(&mut bench, "crown");
+}
 
-    let mut bench = window("tolkowsky.toml", &four);
+#[test]
+#[ignore = "writes a picture into docs/images/editor"]
+fn a_tilt_with_wireframe() {
+    let mut bench = window("tolkowsky.toml", &Desk::default());
     bench.harness.key_press(egui::Key::F);
     bench.settle();
     bench.harness.key_press(egui::Key::W);
     take(&mut bench, "tilt");
+}
 
-    let mut bench = window("tolkowsky.toml", &four);
+#[test]
+#[ignore = "writes a picture into docs/images/editor"]
+fn a_deeper_pavilion() {
+    let mut bench = window("tolkowsky.toml", &Desk::default());
     bench.type_number("Pavilion angle", "43.9");
     take(&mut bench, "profile");
+}
 
+#[test]
+#[ignore = "writes a picture into docs/images/editor"]
+fn two_designs_side_by_side() {
     let mut bench = window("tolkowsky.toml", &Bench::small());
     bench.choose("Compare", "Compare with saved");
     bench.type_number("Pavilion angle", "42.2");
+    bench.harness.key_press(egui::Key::D);
     take(&mut bench, "compare");
+}
 
-    let mut bench = window("tolkowsky.toml", &four);
+#[test]
+#[ignore = "writes a picture into docs/images/editor"]
+fn what_to_export() {
+    let mut bench = window("tolkowsky.toml", &Desk::default());
     bench.choose("File", "Export…");
-    let Some(crate::app::dialogs::Dialog::Export(export)) = &mut bench.harness.state_mut().dialog else {
-        panic!("no dialog is open")
-    };
+    let Some(Dialog::Export(export)) = &mut bench.harness.state_mut().dialog else { panic!() };
     export.folder = "/home/me/stones/out".into();
-    let has_come = |editor: &Editor| match &editor.dialog {
-        Some(crate::app::dialogs::Dialog::Export(export)) => export.thumbnails_shown() == 9,
-        _ => false,
-    };
-    bench.wait(has_come);
+    bench.wait(|editor| matches!(&editor.dialog, Some(Dialog::Export(e)) if e.thumbnails_shown() == 9));
     take(&mut bench, "export");
+}
 
-    let mut bench = window("cube.toml", &four);
+#[test]
+#[ignore = "writes a picture into docs/images/editor"]
+fn four_cubes() {
+    let mut bench = window("cube.toml", &Bench::small());
     bench.click("Rotating cube");
     bench.harness.run_steps(30);
     bench.harness.key_press(egui::Key::M);
-    take(&mut bench, "glass");
+    draw(&mut bench, "glass");
+}
 
+#[test]
+#[ignore = "writes a picture into docs/images/editor"]
+fn what_lies_behind() {
     let shown = [Shows::Render, Shows::Refraction, Shows::LiquidGlass, Shows::TracedPane];
-    let mut desk = Desk { behind: Some("page".into()), ..four };
+    let mut desk = Desk { behind: Some("page".into()), ..Desk::default() };
     desk.panes.iter_mut().zip(shown).for_each(|(pane, shows)| pane.shows = shows);
-    take(&mut window("cube.toml", &desk), "backgrounds");
+    draw(&mut window("cube.toml", &desk), "backgrounds");
 }

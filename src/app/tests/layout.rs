@@ -55,6 +55,34 @@ fn colours_of_texts(bench: &Bench) -> Vec<(Color32, String)> {
 }
 
 #[test]
+fn buttons_of_the_export_are_in_sight_in_the_least_window() {
+    let mut bench = small(1.0);
+    bench.choose("File", "Export…");
+    bench.harness.run_steps(4);
+    for name in ["Write files", "Cancel"] {
+        let button = bench.harness.get_by_label(name).rect();
+        assert!(button.bottom() < SMALL.y - 8.0, "{name} ends at {}", button.bottom());
+    }
+}
+
+#[test]
+fn what_is_on_in_a_narrow_view_has_a_menu_that_can_be_read() {
+    let setup = Setup { desk: Desk::default(), ..Setup::default() };
+    let mut bench = Bench::sized(setup, SMALL);
+    bench.harness.state_mut().desk = Desk::default();
+    bench.harness.run_steps(3);
+    bench.harness.key_press(egui::Key::W);
+    bench.harness.run_steps(3);
+    let menus: Vec<Rect> = bench.harness.query_all_by_label("+1").map(|node| node.rect()).collect();
+    assert!(!menus.is_empty(), "no view is so narrow");
+    let enlarge: Vec<Rect> = bench.harness.query_all_by_label("Enlarge").map(|node| node.rect()).collect();
+    for menu in menus {
+        assert!(menu.width() > 16.0, "{menu:?}");
+        assert!(enlarge.iter().all(|button| !button.intersects(menu)), "{menu:?} {enlarge:?}");
+    }
+}
+
+#[test]
 fn a_small_window_folds_one_panel_and_a_click_opens_it_in_place_of_the_other() {
     for pixels_per_point in [1.0, 1.5] {
         let mut bench = small(pixels_per_point);

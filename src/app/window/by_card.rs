@@ -1,10 +1,11 @@
 //! Opens a window that a graphics card paints, by eframe and wgpu.
 
-use super::{ID, WindowError, viewport};
+use super::{ID, WindowError, viewport, without_place};
 use crate::app::editor::{Editor, Setup};
 use crate::trace::gpu::Gpu;
 use eframe::egui_wgpu::{WgpuConfiguration, WgpuSetup, WgpuSetupCreateNew};
 use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Whether there is a graphics card with a driver; drivers that compute on the processor do not count.
 pub fn is_there() -> bool {
@@ -32,11 +33,41 @@ pub fn run(setup: Setup) -> Result<(), WindowError> {
         wgpu_options: WgpuConfiguration { wgpu_setup: WgpuSetup::CreateNew(device), ..Default::default() },
         ..Default::default()
     };
+    let has_shown = Arc::new(AtomicBool::new(false));
+    let shown = Arc::clone(&has_shown);
     let create = move |context: &eframe::CreationContext<'_>| -> Result<Box<dyn eframe::App>, _> {
-        Ok(Box::new(Editor::new(context, setup)?))
+        Ok(Box::new(Watched { editor: Editor::new(context, setup)?, has_shown: shown }))
     };
-    eframe::run_native(ID, options, Box::new(create)).map_err(|error| match error {
-        eframe::Error::WinitEventLoop(why) => WindowError::NoDisplay(why.to_string()),
-        error => WindowError::NoWindow(error.to_string()),
+    let ended = eframe::run_native(ID, options, Box::new(create));
+    let has_shown = has_shown.load(Ordering::Relaxed);
+    ended.map_err(|error| match error {
+        eframe::Error::WinitEventLoop(why) if !has_shown => {
+            WindowError::NoDisplay(without_place(&why.to_string()))
+        }
+        error => WindowError::of_ended(&error.to_string(), has_shown),
     })
+}
+
+/// The editor, and whether its window has shown its first image.
+struct Watched {
+    editor: Editor,
+    has_shown: Arc<AtomicBool>,
+}
+
+impl eframe::App for Watched {
+    fn ui(&mut self, ui: &mut egui::Ui, frame: &mut eframe::Frame) {
+        // A later frame begins after the first was shown.
+        if ui.ctx().cumulative_frame_nr() > 0 {
+            self.has_shown.store(true, Ordering::Relaxed);
+        }
+        eframe::App::ui(&mut self.editor, ui, frame);
+    }
+
+    fn save(&mut self, storage: &mut dyn eframe::Storage) {
+        eframe::App::save(&mut self.editor, storage);
+    }
+
+    fn on_exit(&mut self) {
+        eframe::App::on_exit(&mut self.editor);
+    }
 }

@@ -4,7 +4,7 @@
 use super::pacer::FramePacer;
 use super::storage::FileStorage;
 use super::surface::WindowSurface;
-use super::{ID, WindowError, viewport};
+use super::{ID, WindowError, viewport, without_place};
 use crate::app::editor::{Editor, Setup};
 use crate::app::painter::Painter;
 use eframe::{App, Storage};
@@ -46,14 +46,14 @@ impl From<accesskit_winit::Event> for UserEvent {
 pub fn run(setup: Setup) -> Result<(), WindowError> {
     let events = EventLoop::<UserEvent>::with_user_event()
         .build()
-        .map_err(|why| WindowError::NoDisplay(why.to_string()))?;
-    let mut runner = Runner { proxy: events.create_proxy(), setup: Some(setup), open: None, failure: None };
+        .map_err(|why| WindowError::NoDisplay(without_place(&why.to_string())))?;
+    let proxy = events.create_proxy();
+    let mut runner = Runner { proxy, setup: Some(setup), open: None, has_shown: false, failure: None };
     let ended = events.run_app(&mut runner);
-    match (runner.failure, ended) {
-        (Some(why), _) => Err(WindowError::NoWindow(why)),
-        (None, Err(why)) => Err(WindowError::NoWindow(why.to_string())),
-        (None, Ok(())) => Ok(()),
-    }
+    // The window system may have ended the event loop while the window was open.
+    runner.close();
+    let why = runner.failure.or_else(|| ended.err().map(|why| why.to_string()));
+    why.map_or(Ok(()), |why| Err(WindowError::of_ended(&why, runner.has_shown)))
 }
 
 /// Runs the window: `setup` is there until it is open, `open` while it is.
@@ -61,6 +61,8 @@ struct Runner {
     proxy: EventLoopProxy<UserEvent>,
     setup: Option<Setup>,
     open: Option<OpenWindow>,
+    /// Whether the window has shown its first image.
+    has_shown: bool,
     failure: Option<String>,
 }
 
@@ -69,6 +71,7 @@ impl Runner {
     fn with(&mut self, events: &ActiveEventLoop, act: impl FnOnce(&mut OpenWindow) -> Result<(), String>) {
         let Some(open) = &mut self.open else { return };
         let acted = act(open);
+        self.has_shown = open.is_shown;
         let is_over = open.is_over || acted.is_err();
         self.failure = acted.err();
         if is_over {
@@ -287,8 +290,9 @@ impl OpenWindow {
         let size = self.window.inner_size();
         let size = [size.width as usize, size.height as usize];
         let areas = self.painter.paint(size, pixels_per_point, &primitives, &mut textures_delta);
-        self.window.pre_present_notify();
-        self.surface.show(self.painter.canvas(), areas).map_err(|e| e.to_string())?;
+        let window = &self.window;
+        let shown = self.surface.show(self.painter.canvas(), areas, || window.pre_present_notify());
+        shown.map_err(|e| e.to_string())?;
         self.appear();
         self.is_over = is_asked_to_close && !commands.contains(&ViewportCommand::CancelClose);
         self.run_commands(commands);

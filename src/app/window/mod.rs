@@ -30,20 +30,41 @@ const CHOICE: &str = "BRILLIANTEER_PAINTER";
 /// The libraries that a window needs, by the names of their packages in Debian.
 const PACKAGES: &str = "libx11-xcb1, libxcursor1, libxi6, libxkbcommon-x11-0";
 
-/// Why no window could be opened.
+/// Why no window could be opened, or why it closed by itself.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum WindowError {
     /// There is no screen to open it on.
     #[error("the window cannot be opened: there is no display ({0})")]
     NoDisplay(String),
-    /// There is a screen, but opening a window or painting in it failed.
+    /// There is a screen, but opening a window or painting its first image failed.
     #[error("the window cannot be opened: {0}; on Debian it needs {PACKAGES}")]
     NoWindow(String),
+    /// The window was open and has shown an image, and then painting or the window system failed.
+    #[error("the window was lost: {0}; start the program again: it offers the work that was not saved")]
+    Lost(String),
     /// The environment asks for a painter that does not exist.
     #[error(
         "{CHOICE}={0} is unknown; set it to `card` or `processor`, or leave it out and the program chooses"
     )]
     NoSuchPainter(String),
+}
+
+impl WindowError {
+    /// The error of a window that ended by a fault: it was lost if it had shown an image, else it was never opened.
+    fn of_ended(why: &str, has_shown: bool) -> Self {
+        let why = without_place(why);
+        if has_shown { Self::Lost(why) } else { Self::NoWindow(why) }
+    }
+}
+
+/// Leaves out of winit's text of an error the place in its source code, a path of the machine that built the program:
+/// `os error at FILE:LINE: TEXT` becomes `TEXT`.
+fn without_place(text: &str) -> String {
+    let told = text.split_once("os error at ").and_then(|(before, rest)| {
+        let (_, reason) = rest.split_once(": ")?;
+        Some(format!("{before}{reason}"))
+    });
+    told.unwrap_or_else(|| text.to_owned())
 }
 
 /// What paints the window.
@@ -80,7 +101,7 @@ impl PaintedBy {
 /// Opens the window, on a file if one is given, read with these options where it is a mesh, and waits until it is closed.
 ///
 /// # Errors
-/// Where there is no display, or no window can be opened on it; what to do stands in the text.
+/// Where there is no display, no window can be opened on it, or the window is lost; what to do stands in the text.
 pub fn run(file: Option<PathBuf>, mesh: MeshOptions) -> Result<(), WindowError> {
     check_display()?;
     let asked = std::env::var(CHOICE).ok();
@@ -121,6 +142,23 @@ fn viewport() -> ViewportBuilder {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_window_that_has_shown_an_image_is_lost_and_not_missing() {
+        let told = |has_shown| WindowError::of_ended("the server is gone", has_shown);
+        assert_eq!(told(false), WindowError::NoWindow("the server is gone".to_owned()));
+        assert_eq!(told(true), WindowError::Lost("the server is gone".to_owned()));
+    }
+
+    #[test]
+    fn no_path_of_the_building_machine_is_told() {
+        let place = "/root/.cargo/registry/src/index/winit-0.30.13/src/platform_impl/linux/mod.rs:788";
+        let reason = "Failed to open connection to X server";
+        assert_eq!(without_place(&format!("os error at {place}: {reason}")), reason);
+        let told = without_place(&format!("winit error: os error at {place}: {reason}: none"));
+        assert_eq!(told, format!("winit error: {reason}: none"));
+        assert_eq!(without_place("EventLoop can't be recreated"), "EventLoop can't be recreated");
+    }
 
     #[test]
     fn the_processor_paints_where_there_is_no_card_unless_a_painter_is_asked_for() {

@@ -26,8 +26,15 @@ impl WindowSurface {
         Ok(Self { surface, size: [0, 0], changes: VecDeque::new() })
     }
 
-    /// Shows an image, of which only `areas` have changed since the last one.
-    pub fn show(&mut self, canvas: &Canvas, areas: Vec<Area>) -> Result<(), SoftBufferError> {
+    /// Shows an image, of which only `areas` have changed since the last one. Without any area nothing is presented.
+    /// `before` is called just before the image is presented, and only then: winit's Wayland backend waits for the window
+    /// system's answer to a presented image once it is notified, and asks for no redraw until that answer comes.
+    pub fn show(
+        &mut self,
+        canvas: &Canvas,
+        areas: Vec<Area>,
+        before: impl FnOnce(),
+    ) -> Result<(), SoftBufferError> {
         let [Some(width), Some(height)] = canvas.size().map(|n| NonZeroU32::new(n as u32)) else {
             return Ok(());
         };
@@ -52,12 +59,13 @@ impl WindowSurface {
                 into.iter_mut().zip(row).for_each(|(into, &from)| *into = swapped(from));
             }
         }
+        before();
         buffer.present_with_damage(&shown)
     }
 
     /// Shows the whole image again, after the window system has lost a part of it.
     pub fn show_again(&mut self, canvas: &Canvas) -> Result<(), SoftBufferError> {
-        self.show(canvas, vec![Area::of(canvas.size())])
+        self.show(canvas, vec![Area::of(canvas.size())], || {})
     }
 }
 

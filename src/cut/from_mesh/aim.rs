@@ -63,7 +63,8 @@ const WHOLE: f64 = 0.97;
 /// A girdle of this part of the outline, or symmetry of this part of the facets, is one that an axis of the file fits.
 const FITS: f64 = 0.8;
 
-/// A direction whose shape speaks for it as much as that of the best does, but for this, is one that a person might take.
+/// A direction whose shape speaks for it as much as that of the best does, but for this, is one that a person might take,
+/// unless it lies within [`PUT_ALONG`] of the best.
 const DOUBTFUL: f64 = 0.15;
 
 /// The axis up, and which facet is the table.
@@ -93,7 +94,11 @@ pub(super) fn aim(solid: &Polytope, parts: &Parts, up: Up) -> Result<Aim, FromMe
     seen.iter_mut().for_each(|seen| seen.look_closely(parts));
     seen.sort_by(best_first);
     let Some(best) = seen.first() else { return Ok(Aim { axis: custom, table: None, doubt: None }) };
-    let might = |other: &&Seen| other.shape > best.shape - DOUBTFUL && !is_alike(&other.cues, &best.cues);
+    let might = |other: &&Seen| {
+        other.shape > best.shape - DOUBTFUL
+            && (other.cues.up - best.cues.up).length() >= PUT_ALONG
+            && !is_alike(&other.cues, &best.cues)
+    };
     let doubt = seen.iter().skip(1).find(might).map(|other| Doubt { other: other.cues.up });
     let table = best.cues.table;
     let axis = table.map_or(best.cues.up, |table| solid.facets()[table].plane.normal);

@@ -201,6 +201,21 @@ fn up_may_be_given_and_must_be_a_direction() {
     assert!(aslant.facets.iter().all(|(name, _)| name != "table"));
 }
 
+/// Noise leans the table away from the file's axis, and next to its normal is then another direction that fits as well.
+#[test]
+fn directions_next_to_the_best_are_no_doubt() {
+    for (noise, degrees, seed) in [1e-4, 1e-3]
+        .into_iter()
+        .flat_map(|n| [0.1, 0.5].into_iter().flat_map(move |d| (1..4).map(move |s| (n, d, s))))
+    {
+        let turn = DQuat::from_rotation_x(f64::to_radians(degrees));
+        let how = Spoilt { noise, turn, seed, ..PLAIN };
+        let FromMesh { up, doubt, .. } = again(&MODERN.facets().unwrap(), how, Up::Found);
+        assert!(up.distance(turn * DVec3::Z) < 0.026, "{how:?}: {up}");
+        assert!(doubt.is_none_or(|doubt| doubt.other.distance(up) > 0.026), "{how:?}: {up} {doubt:?}");
+    }
+}
+
 #[test]
 fn a_long_stone_lies_across_and_its_tiers_have_letters_and_numbers() {
     let mut planes = vec![("x".to_owned(), Plane::new(DVec3::Z, 0.3))];

@@ -176,17 +176,24 @@ impl<'a> Pictures<'a> {
             return None;
         }
         let Plate { scope, viewing, .. } = plate;
-        let Viewing { viewpoint, medium, polarised, wavelength_nm, specimen, .. } = viewing;
+        let Viewing { medium, polarised, wavelength_nm, specimen, .. } = viewing;
         let material = &specimen.material;
         let light = match wavelength_nm {
+            // One that is an index alone has no other name.
+            Some(nm) if material.name.starts_with("index ") => {
+                format!("index {:.4} at {nm} nm", medium.index)
+            }
             Some(nm) => format!("{}, index {:.4} at {nm} nm", material.name, medium.index),
             None => format!("index {}", medium.index),
         };
         let colour = if material.colour_is_illustrative { ", colour illustrative" } else { "" };
         let polarised = if *polarised { "polarised" } else { "unpolarised" };
-        let view = format!("{}: {}; {}", scope.name, reading.told(plate.glare), viewpoint.told());
+        let view = format!("{}: {}; {}", scope.name, reading.told(plate.glare), viewing.told().told());
         let program = concat!("Brillianteer ", env!("CARGO_PKG_VERSION"));
-        let remarks = vec![view, format!("{light}{colour}, {polarised}; {how}; {program}")];
+        let mut remarks = vec![view, format!("{light}{colour}, {polarised}; {how}; {program}")];
+        if matches!(reading, Reading::Energy) {
+            remarks.push("Mixed colours: light from several zones.".to_owned());
+        }
         Some(Caption::new(&specimen.design.name, remarks, scope))
     }
 
@@ -219,7 +226,7 @@ impl<'a> Pictures<'a> {
         let Plate { name, suffix, scope, viewing, view, .. } = plate;
         let stone = viewing.stone()?;
         let options = viewing.beams(UNRESOLVED);
-        let title = format!("{}, {}", self.title(name), viewing.viewpoint.told());
+        let title = format!("{}, {}", self.title(name), viewing.told().told());
         let copies = beams.symmetry.order() as usize;
         let unresolved = options.unresolved.max(DRAWN_UNRESOLVED);
         let coarse = beam::Options { unresolved, most_beams: DRAWN_POLYGONS / copies, ..options };
@@ -271,9 +278,9 @@ impl<'a> Pictures<'a> {
 
     /// What goes into a picture as text: what it shows, and how it was traced.
     fn told(&self, plate: &Plate, reading: &str, how: &str) -> String {
-        let Viewing { viewpoint, medium, polarised, .. } = &plate.viewing;
+        let Viewing { medium, polarised, .. } = &plate.viewing;
         let polarised = if *polarised { "polarised" } else { "unpolarised" };
-        let (title, view) = (self.title(plate.name), viewpoint.told());
+        let (title, view) = (self.title(plate.name), plate.viewing.told().told());
         format!("{title}; {view}; index {}, {polarised}; {reading}; {how}", medium.index)
     }
 }

@@ -16,6 +16,7 @@ fn viewing(specimen: &Specimen) -> Viewing<'_> {
         specimen,
         file: "mine.toml",
         viewpoint: Viewpoint::default(),
+        turned_deg: 0.0,
         medium: specimen.medium(589.3),
         wavelength_nm: Some(589.3),
         head_deg: 10.0,

@@ -18,6 +18,9 @@ pub struct Viewing<'a> {
     pub file: &'a str,
     /// From where; pictures that are made for one side have their own.
     pub viewpoint: Viewpoint,
+    /// By how much the stone is turned about its axis from how its cut has it, degrees: names and texts give azimuths in
+    /// the cut's own frame.
+    pub turned_deg: f64,
     /// What the stone is made of, at one wavelength.
     pub medium: Medium,
     /// That wavelength, nm; none where the index was given instead.
@@ -42,7 +45,17 @@ impl Viewing<'_> {
 
     /// What the names of a picture's files say of the view: not its side, where the picture has one of its own.
     pub(super) fn suffix(&self, scoped: &Scoped) -> String {
-        self.viewpoint.facing(scoped.side.map(|_| Side::Table)).suffix()
+        self.told().facing(scoped.side.map(|_| Side::Table)).suffix()
+    }
+
+    /// From where, with the azimuth in the frame of the cut.
+    pub(super) fn told(&self) -> Viewpoint {
+        if self.turned_deg == 0.0 {
+            return self.viewpoint;
+        }
+        let azimuth_deg = (self.viewpoint.azimuth_deg - self.turned_deg).rem_euclid(360.0);
+        let is_upright = self.viewpoint.tilt_deg == 0.0;
+        Viewpoint { azimuth_deg: if is_upright { 0.0 } else { azimuth_deg }, ..self.viewpoint }
     }
 
     /// Whether the tracer can see the stone from there.
@@ -125,6 +138,7 @@ mod tests {
             specimen: &specimen,
             file: "mine.toml",
             viewpoint: Viewpoint::default(),
+            turned_deg: 0.0,
             medium: Medium::clear(2.4),
             wavelength_nm: None,
             head_deg: 0.0,

@@ -149,10 +149,10 @@ fn what_the_format_cannot_hold_is_told() {
     cut.tiers.push(Tier { facets: vec![], ..cut.tiers[1].clone() });
     let expected = [
         "the design's notes have no place in the format",
-        "1 tiers have facets of other names, which are left out",
-        "1 tiers of girdle facets are cut at +90°, for which the format has -90°",
-        "1 tiers have no facets and will be read without a name",
-        "1 remarks have keys that XML cannot hold",
+        "1 tier has facets of other names, which are left out",
+        "1 tier of girdle facets is cut at +90°, for which the format has -90°",
+        "1 tier has no facets and will be read without a name",
+        "1 remark has a key that XML cannot hold",
         "2 characters that XML cannot hold are left out",
     ];
     let Written { bytes, lost } = write(&specimen(full));

@@ -86,21 +86,31 @@ pub fn write(specimen: &Specimen) -> Written {
 /// What the format has no place for.
 fn left_out(tiers: &Tiers, lost: &mut Vec<String>) {
     let named_apart = |tier: &&Tier| tier.facets.iter().any(|f| !f.name.is_empty() && f.name != tier.name());
-    let mut tell = |count: usize, what: &str| {
-        if count > 0 {
-            lost.push(format!("{count} {what}"));
-        }
+    let mut tell = |count: usize, one: &str, several: &str| match count {
+        0 => {}
+        1 => lost.push(format!("1 {one}")),
+        _ => lost.push(format!("{count} {several}")),
     };
     tell(
         tiers.tiers.iter().filter(named_apart).count(),
+        "tier has facets of other names, which are left out",
         "tiers have facets of other names, which are left out",
     );
     let above = tiers.tiers.iter().filter(|tier| tier.angle == 90.0);
-    tell(above.count(), "tiers of girdle facets are cut at +90°, for which the format has -90°");
+    tell(
+        above.count(),
+        "tier of girdle facets is cut at +90°, for which the format has -90°",
+        "tiers of girdle facets are cut at +90°, for which the format has -90°",
+    );
     let nameless = tiers.tiers.iter().filter(|tier| tier.facets.is_empty());
-    tell(nameless.count(), "tiers have no facets and will be read without a name");
+    tell(
+        nameless.count(),
+        "tier has no facets and will be read without a name",
+        "tiers have no facets and will be read without a name",
+    );
     tell(
         tiers.remarks.iter().filter(|(key, _)| !is_key(key)).count(),
+        "remark has a key that XML cannot hold",
         "remarks have keys that XML cannot hold",
     );
 }

@@ -74,6 +74,10 @@ impl Place {
                 told.warnings.extend(changes(&statement, up, scale));
                 Up::Known(up)
             }
+            (given, Stands::Moved { up, scale }) => {
+                told.warnings.extend(changes(&statement, up, scale));
+                given
+            }
             (given, _) => given,
         }
     }

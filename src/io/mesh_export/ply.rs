@@ -36,8 +36,8 @@ impl PropertyAccess for Row {
     }
 }
 
-/// The file of some faces, with a comment.
-pub(super) fn written(faces: &Faces<'_>, scale: f64, comment: String) -> std::io::Result<Vec<u8>> {
+/// The file of some faces, with a comment if there is one.
+pub(super) fn written(faces: &Faces<'_>, scale: f64, comment: Option<String>) -> std::io::Result<Vec<u8>> {
     let corner = |v: &DVec3| Row { at: *v * scale, corners: vec![] };
     let polygon = |corners: &[u32]| Row {
         at: DVec3::ZERO,
@@ -49,7 +49,8 @@ pub(super) fn written(faces: &Faces<'_>, scale: f64, comment: String) -> std::io
     });
     let mut ply = Ply::<Row>::new();
     ply.header.encoding = Encoding::BinaryLittleEndian;
-    ply.header.comments.extend(["mm, z up".to_owned(), comment]);
+    ply.header.comments.push("mm, z up".to_owned());
+    ply.header.comments.extend(comment);
     let number = |name: &str| PropertyDef::new(name.to_owned(), PropertyType::Scalar(ScalarType::Double));
     let list = PropertyType::List(ScalarType::UChar, ScalarType::Int);
     let list = PropertyDef::new("vertex_indices".to_owned(), list);

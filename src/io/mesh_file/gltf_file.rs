@@ -14,6 +14,9 @@ use std::path::Path;
 /// The header of a binary glTF file, bytes.
 const GLB_HEADER: usize = 12;
 
+/// What the message of a file that is no glTF begins with.
+const UNREADABLE: &str = "this is no glTF 2.0 that can be read: ";
+
 /// Extensions without which shapes cannot be read as they are meant, though a file can be read without any other.
 const NEEDED: [&str; 4] = [
     "KHR_draco_mesh_compression",
@@ -48,13 +51,10 @@ fn document(json: &[u8]) -> Result<(Document, Vec<String>), Fault> {
         let alone = shape_alone(json, keeps_materials);
         if let Some((document, mut warnings)) = alone.and_then(|json| parsed(&json).ok()) {
             let place = fault.place.as_ref().map(|place| format!("line {place}: ")).unwrap_or_default();
-            warnings.insert(
-                0,
-                format!(
-                    "{lost} beside the shape are left out, since the file is broken: {place}{}",
-                    fault.message
-                ),
-            );
+            let broken = fault.message.strip_prefix(UNREADABLE).unwrap_or(&fault.message);
+            let told =
+                format!("{lost} beside the shape are left out, since the file is broken: {place}{broken}");
+            warnings.insert(0, told);
             return Ok((document, warnings));
         }
     }
@@ -62,9 +62,8 @@ fn document(json: &[u8]) -> Result<(Document, Vec<String>), Fault> {
 }
 
 fn parsed(json: &[u8]) -> Result<(Document, Vec<String>), Fault> {
-    let mut root: Root = deserialize::from_slice(json).map_err(|error| {
-        Fault::line(error.line(), format!("this is no glTF 2.0 that can be read: {error}"))
-    })?;
+    let mut root: Root = deserialize::from_slice(json)
+        .map_err(|error| Fault::line(error.line(), format!("{UNREADABLE}{error}")))?;
     let mut warnings = extensions(&mut root)?;
     warnings.extend(positions(&mut root)?);
     let document = Document::from_json(root).map_err(|error| Fault::whole(told(error)))?;
@@ -92,9 +91,9 @@ fn told(error: gltf::Error) -> String {
     match error {
         gltf::Error::Validation(faults) => {
             let first = faults.first().map(|(path, error)| format!("{path}: {error}")).unwrap_or_default();
-            format!("this is no glTF 2.0 that can be read: {first}")
+            format!("{UNREADABLE}{first}")
         }
-        other => format!("this is no glTF 2.0 that can be read: {other}"),
+        other => format!("{UNREADABLE}{other}"),
     }
 }
 

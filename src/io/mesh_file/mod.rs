@@ -104,6 +104,9 @@ pub fn read(path: impl AsRef<Path>) -> Result<MeshFile, MeshFileError> {
 /// # Errors
 /// What keeps it from being a mesh file, with its place.
 pub fn parse(bytes: Vec<u8>, label: &str, folder: Option<&Path>) -> Result<MeshFile, MeshFileError> {
+    if bytes.is_empty() {
+        return Err(named(Fault::whole("the file is empty"), label));
+    }
     // One that was cut off, or whose count is wrong, has nothing but its name to be known by.
     let is_named = Path::new(label).extension().is_some_and(|e| e.eq_ignore_ascii_case("stl"));
     let binary =

@@ -45,8 +45,12 @@ pub fn looks_like(bytes: &[u8]) -> Option<MeshFormat> {
     if start.starts_with('{') {
         return text.contains("\"asset\"").then_some(MeshFormat::Gltf);
     }
-    if start.get(..5).is_some_and(|word| word.eq_ignore_ascii_case("solid")) && text.contains("facet") {
-        return Some(MeshFormat::StlText);
+    if start.get(..5).is_some_and(|word| word.eq_ignore_ascii_case("solid")) {
+        let lower = text.to_ascii_lowercase();
+        // One without facets ends at once; its reader says that there are none.
+        if lower.contains("facet") || lower.contains("endsolid") {
+            return Some(MeshFormat::StlText);
+        }
     }
     if is_obj(&text) {
         return Some(MeshFormat::Obj);

@@ -113,16 +113,29 @@ impl Statement {
         2.0 * self.mm_per_unit / self.diameter_mm
     }
 
-    /// As text of at most so many bytes: with fewer decimals, and without the material, where there is no more room.
-    pub fn text(&self, most: usize) -> String {
-        let with_material = |decimals: usize| (decimals, true);
-        let without = [(*DECIMALS.start(), false)];
-        let forms = DECIMALS.rev().map(with_material).chain(without);
-        let mut texts = forms.map(|(decimals, material)| self.form(decimals, material));
-        texts.clone().find(|text| text.len() <= most).or_else(|| texts.next_back()).unwrap_or_default()
+    /// As text of at most so many bytes: with fewer decimals, with those of the diameter cut as well, and without the
+    /// material, where there is no more room; `None` where even that is too long.
+    pub fn text(&self, most: usize) -> Option<String> {
+        let least = *DECIMALS.start();
+        let forms = DECIMALS.rev().map(|decimals| (decimals, self.diameter_mm, true));
+        let (mm, short_mm) = (self.diameter_mm, self.short_diameter_mm());
+        let shorter = [(least, short_mm, true), (least, mm, false), (least, short_mm, false)];
+        let mut texts =
+            forms.chain(shorter).map(|(decimals, mm, material)| self.form(decimals, mm, material));
+        texts.find(|text| text.len() <= most)
     }
 
-    fn form(&self, decimals: usize, material: bool) -> String {
+    /// The diameter to six decimals, or one below that to six digits.
+    fn short_diameter_mm(&self) -> f64 {
+        let short = (1e6 * self.diameter_mm).round() / 1e6;
+        if short > 0.0 {
+            short
+        } else {
+            format!("{:.5e}", self.diameter_mm).parse().unwrap_or(self.diameter_mm)
+        }
+    }
+
+    fn form(&self, decimals: usize, diameter_mm: f64, material: bool) -> String {
         let short = |x: f64| {
             let text = format!("{x:.decimals$}");
             let text = text.trim_end_matches('0').trim_end_matches('.');
@@ -131,7 +144,7 @@ impl Statement {
         let axis = if self.up == DVec3::Y { "y" } else { "z" };
         let Measures { volume, span: [low, high], middle } = self.measures;
         // Formatting into a String cannot fail.
-        let mut text = format!("{WORD} up={axis} d={}", self.diameter_mm);
+        let mut text = format!("{WORD} up={axis} d={diameter_mm}");
         if self.mm_per_unit != 1.0 {
             let _ = write!(text, " u={}", self.mm_per_unit);
         }

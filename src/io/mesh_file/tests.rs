@@ -5,9 +5,10 @@
 mod broken;
 mod real;
 
+use super::statement::Measures;
 use super::*;
 use crate::cut::from_mesh::{FromMesh, Up, from_mesh};
-use crate::cut::{Cut, Design};
+use crate::cut::{Cut, Design, MaterialRef};
 use crate::io::{cut_file, write_glb, write_obj, write_ply, write_stl};
 use crate::math::Plane;
 use crate::math::surface::{Faceted, Shape, facets};
@@ -123,6 +124,40 @@ fn the_material_of_a_glb_comes_back() {
     let ((a, one), (b, other)) = (back.attenuation.unwrap(), hint.attenuation.unwrap());
     assert!(one == other && a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-6));
     assert_eq!(back.name.as_deref(), Some("ruby"));
+}
+
+#[test]
+fn an_stl_keeps_size_and_material_however_many_digits_the_size_has() {
+    let ruby = MaterialRef::Name("ruby".to_owned());
+    for radius_mm in [3.25, 3.061_728_394_506, 3_061.728_394_506_17] {
+        let file = open(write_stl(&body(16), radius_mm, Some(&ruby)).unwrap());
+        let statement = file.statement.unwrap();
+        assert!((statement.diameter_mm - 2.0 * radius_mm).abs() < 1e-6, "{}", statement.diameter_mm);
+        assert_eq!(statement.material.as_ref(), Some(&ruby), "{radius_mm}");
+    }
+    let measures =
+        Measures { volume: 12.345_678, span: [-1.234_567, 1.345_678], middle: DVec3::splat(-0.123_456) };
+    let of =
+        |diameter_mm| Statement { up: DVec3::Z, mm_per_unit: 1.0, diameter_mm, material: None, measures };
+    let text = of(12_345.678_901_234_567).text(80).unwrap();
+    assert!(text.len() <= 80 && text.contains(" d=12345.678901 "), "{text}");
+    assert_eq!(Statement::parse(&text).unwrap().diameter_mm, 12_345.678_901);
+    assert_eq!(of(1.234_567_890_123e15).text(70), None);
+    assert!(of(1e-9 / 3.0).text(100).is_some_and(|text| Statement::parse(&text).unwrap().diameter_mm > 0.0));
+}
+
+#[test]
+fn coordinates_that_are_nothing_but_rounding_are_written_as_0() {
+    for scale in [3.25, 3.25e-9, 1e9] {
+        let text = write_obj(&body(96), "x", scale, None);
+        let numbers =
+            text.lines().filter_map(|line| line.strip_prefix("v ")).flat_map(|line| line.split(' '));
+        let numbers: Vec<&str> = numbers.collect();
+        assert!(numbers.contains(&"0") && !numbers.contains(&"-0"));
+        let least = numbers.iter().map(|n| n.parse::<f64>().unwrap().abs()).filter(|x| *x > 0.0);
+        let least = least.fold(f64::INFINITY, f64::min);
+        assert!(least > 1e-6 * scale, "{least}");
+    }
 }
 
 const TETRAHEDRON: &str = "0 0 0\n1 0 0\n0 1 0\n0 0 1\n";

@@ -88,9 +88,17 @@ pub fn facets(surface: Surface) -> Shape {
     moved.vertices.iter_mut().for_each(|v| *v -= centre);
     let (edges, size) = (Edges::of(&moved), moved.size());
     let hull = LazyHull::of(&moved);
-    let mut tried = NOISE.iter().map(|noise| gathered(&moved, &edges, (noise * size, SAME)).ok());
-    let settled = || NOISE.iter().find_map(|noise| solid(&moved, &edges, &hull, (noise * size, SAME)));
-    let Some(mut best) = tried.by_ref().flatten().next().or_else(settled) else {
+    let mut tolerances = NOISE.iter().map(|noise| noise * size);
+    let mut failed = vec![];
+    let first = tolerances.by_ref().find_map(|tolerance| {
+        gathered(&moved, &edges, (tolerance, SAME)).map_err(|found| failed.push((tolerance, found))).ok()
+    });
+    let settled = || {
+        failed
+            .into_iter()
+            .find_map(|(tolerance, found)| put_right(&moved, &edges, &hull, found?, (tolerance, SAME)))
+    };
+    let Some(mut best) = first.or_else(settled) else {
         let smooth = noise::smoothed(&moved);
         let of_scan = |noise: &f64| {
             let limits = (noise * size, SAME_SCAN / noise);
@@ -105,7 +113,7 @@ pub fn facets(surface: Surface) -> Shape {
     // Noise may have split facets that a larger tolerance keeps whole.
     let limit = AS_GOOD * best.deviation;
     let further = if is_split(&best) { FURTHER } else { 0 };
-    for next in tried.take(further).flatten() {
+    for next in tolerances.take(further).filter_map(|t| gathered(&moved, &edges, (t, SAME)).ok()) {
         let (count, least) = (next.polytope.facets().len(), best.polytope.facets().len());
         let is_closer = next.deviation < best.deviation;
         if next.deviation <= limit && (count < least || (count == least && is_closer)) {
@@ -168,11 +176,20 @@ pub(super) fn solid(
 ) -> Option<Solid> {
     match gathered(surface, edges, (tolerance, same)) {
         Ok(solid) => Some(solid),
-        Err(found) => {
-            let found = settle::settled(surface, edges, hull.get()?, found?, tolerance)?;
-            reproduced(surface, found, (tolerance, same)).ok()
-        }
+        Err(found) => put_right(surface, edges, hull, found?, (tolerance, same)),
     }
+}
+
+/// The solid between the planes of regions that are put right by the hull, if it is the surface.
+fn put_right(
+    surface: &Surface,
+    edges: &Edges,
+    hull: &LazyHull<'_>,
+    found: Regions,
+    (tolerance, same): (f64, f64),
+) -> Option<Solid> {
+    let found = settle::settled(surface, edges, hull.get()?, found, tolerance)?;
+    reproduced(surface, found, (tolerance, same)).ok()
 }
 
 /// The same with the planes of regions as they were gathered; else those regions, where there are not too many and the
@@ -200,8 +217,7 @@ fn of_smooth(
 ) -> Option<Solid> {
     let found = regions(smooth, edges, tolerance, MOST_FACETS)?;
     let found = (!is_round(smooth, edges, &found, tolerance)).then_some(found)?;
-    let found = settle::settled(surface, edges, hull.get()?, found, tolerance)?;
-    reproduced(surface, found, (tolerance, same)).ok()
+    put_right(surface, edges, hull, found, (tolerance, same))
 }
 
 /// The solid between the planes of regions, if it is the surface; else the regions.

@@ -24,7 +24,7 @@ pub(super) fn shape_alone(json: &[u8], keeps_materials: bool) -> Option<Vec<u8>>
     }
     let materials = list(root, "materials").iter_mut().map(|material| *material = of_light(material)).count();
     for node in list(root, "nodes").iter_mut().filter_map(Value::as_object_mut) {
-        keep(node, &["name", "children", "mesh", "matrix", "translation", "rotation", "scale"]);
+        keep(node, &["name", "children", "mesh", "matrix", "translation", "rotation", "scale", "extras"]);
     }
     let mut accessors = BTreeSet::new();
     for mesh in list(root, "meshes").iter_mut().filter_map(Value::as_object_mut) {
@@ -42,7 +42,8 @@ pub(super) fn shape_alone(json: &[u8], keeps_materials: bool) -> Option<Vec<u8>>
             }
         }
     }
-    let unused = json!({ "componentType": 5126, "count": 1, "type": "SCALAR" });
+    // One without a buffer view would be refused.
+    let unused = json!({ "bufferView": 0, "componentType": 5126, "count": 1, "type": "SCALAR" });
     let views = only(list(root, "accessors"), &accessors, &unused, &view_of_accessor);
     let unused = json!({ "buffer": 0, "byteLength": 1 });
     let buffers =

@@ -11,6 +11,12 @@ fn textured() -> serde_json::Value {
     root["materials"][0]["pbrMetallicRoughness"] = serde_json::json!({ "baseColorTexture": { "index": 0 } });
     root["materials"][0]["name"] = "glass".into();
     root["meshes"][0]["primitives"][0]["attributes"]["TEXCOORD_0"] = 0.into();
+    // Normals, which the shape is read without.
+    root["meshes"][0]["primitives"][0]["attributes"]["NORMAL"] = 3.into();
+    let normals = serde_json::json!({ "bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3" });
+    root["accessors"].as_array_mut().unwrap().push(normals);
+    let said = "brillianteer up=y d=6.5 u=1000 v=1 s=0,1 m=0,0,0 n=ruby";
+    root["nodes"][0]["extras"] = serde_json::json!({ "brillianteer": said });
     root
 }
 
@@ -67,7 +73,9 @@ fn broken_textures_and_materials_are_a_warning_and_the_shape_is_read() {
         let file = opened(&root).unwrap_or_else(|e| panic!("{what}: {e}"));
         assert_eq!(file.surface, whole.surface, "{what}");
         let told = file.warnings.join("; ");
-        assert!(told.contains("beside the shape") && told.contains("left out"), "{what}: {told}");
+        assert!(told.contains("beside the shape are left out, since the file is broken: "), "{what}: {told}");
+        assert!(!told.contains("no glTF") && file.warnings.len() == 1, "{what}: {told}");
+        assert!(whole.statement.is_some() && file.statement == whole.statement, "{what}");
         assert_eq!(file.hint.is_some(), keeps_light, "{what}: {:?}", file.hint);
         assert!(!keeps_light || file.hint == whole.hint, "{what}: {:?}", file.hint);
     }
