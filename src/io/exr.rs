@@ -41,7 +41,7 @@ pub fn write_exr(
     write_channels(path, size, list, (description, None), None)
 }
 
-/// Writes [`image`] of channels that are held one by one.
+/// Writes what [`image()`] writes, of channels that are held one by one.
 pub(super) fn write_channels(
     path: &Path,
     size: (usize, usize),

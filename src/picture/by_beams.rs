@@ -57,7 +57,7 @@ impl<'a> ByBeams<'a> {
     }
 
     /// How many rows of a picture so wide may be prepared at once, so that what is held of them takes no more than
-    /// [`MOST_BYTES`].
+    /// 256 MiB.
     pub fn most_rows(width: u32) -> u32 {
         let piece = PIECE as usize * (width as usize + 1) * size_of::<DVec4>();
         ((MOST_BYTES / piece).max(1) as u32).saturating_mul(PIECE)

@@ -2,7 +2,7 @@
 //!
 //! Only what differs from the last image is painted: [`damage`] finds the areas, by a hash of all pieces that are seen
 //! in each tile of the image. The picture is that of egui's painter for graphics cards but for roundings, of which
-//! [`tests`] says how large they are.
+//! the tests say how large they are.
 
 mod area;
 mod blend;
