@@ -51,6 +51,7 @@ mod profile_view;
 mod proportions;
 mod refraction_view;
 mod rows;
+mod safe;
 mod shows;
 mod side_panels;
 mod stage;

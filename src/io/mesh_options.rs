@@ -2,6 +2,7 @@
 //! triangles stand for flat facets.
 
 use crate::cut::from_mesh::Up;
+use serde::{Deserialize, Serialize};
 
 /// How a mesh is read as a stone. The default finds out both.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -13,7 +14,8 @@ pub struct MeshOptions {
 }
 
 /// What the triangles of a mesh stand for.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum MeshForm {
     /// To be found: facets where the mesh means a convex stone, else triangles.
     #[default]

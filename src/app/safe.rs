@@ -1,0 +1,303 @@
+//! Unsaved work, kept on disk while the program runs and found again after a crash.
+
+use super::document::{ReadMesh, Work};
+use crate::cut::from_mesh::Up;
+use crate::cut::{Cut, Design};
+use crate::io::mesh_options::{MeshForm, MeshOptions};
+use crate::io::{WriteError, cut_file, design_file, write};
+use crate::math::Plane;
+use crate::scene::{Company, MOST_COPIES};
+use glam::DVec3;
+use serde::{Deserialize, Serialize};
+use std::borrow::Cow;
+use std::fs::File;
+use std::path::{Path, PathBuf};
+use std::time::SystemTime;
+
+/// Unsaved work on disk, so that a crash loses none.
+///
+/// While the program runs it holds a lock on its file; one without a lock was left behind by a crash.
+pub struct Safe {
+    folder: PathBuf,
+    /// The file of this program, which no other, before or after, has used.
+    own: PathBuf,
+    held: Option<File>,
+}
+
+/// What lies in a safe.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+struct Kept {
+    path: Option<PathBuf>,
+    /// Whether its cut is the mesh in its file.
+    #[serde(default)]
+    mesh: bool,
+    /// The mesh that the stone was read from, if it was one; older files do not tell it.
+    #[serde(default)]
+    read: Option<KeptMesh>,
+    design: String,
+    #[serde(default)]
+    around: Around,
+}
+
+/// A mesh file and how it was read, as it is kept.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+struct KeptMesh {
+    path: PathBuf,
+    /// The direction in which its table faces, if it was given.
+    up: Option<DVec3>,
+    form: MeshForm,
+    is_doubtful: bool,
+    diameter_mm: f64,
+}
+
+impl KeptMesh {
+    fn of(mesh: &ReadMesh) -> Self {
+        Self {
+            path: mesh.path.clone(),
+            up: match mesh.options.up {
+                Up::Given(up) => Some(up),
+                // The editor opens meshes by no direction but a given one, or by the one that is found.
+                Up::Found | Up::FoundBy(_) | Up::Known(_) | Up::Posed(_) => None,
+            },
+            form: mesh.options.form,
+            is_doubtful: mesh.is_doubtful,
+            diameter_mm: mesh.diameter_mm,
+        }
+    }
+
+    fn read_mesh(self) -> ReadMesh {
+        let Self { path, up, form, is_doubtful, diameter_mm } = self;
+        let options = MeshOptions { up: up.map_or(Up::Found, Up::Given), form };
+        ReadMesh { path, options, is_doubtful, diameter_mm }
+    }
+}
+
+/// What else is kept of unsaved work: of its scene.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+pub struct Around {
+    /// Its copies.
+    pub company: Company,
+    /// What hangs behind it.
+    #[serde(default)]
+    pub behind: Option<String>,
+    /// How far behind it that hangs, mm, if that was set.
+    pub behind_mm: Option<f64>,
+    /// The strength of refraction, 0 to 1.
+    #[serde(default)]
+    pub strength: Option<f64>,
+}
+
+/// Work that a crash left behind.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Found {
+    /// The design.
+    pub design: Design,
+    /// What is around it.
+    pub around: Around,
+    /// The file that it was opened from.
+    pub path: Option<PathBuf>,
+    /// The mesh that the stone was read from, if it was one.
+    pub mesh: Option<ReadMesh>,
+    /// When it was last kept.
+    pub when: SystemTime,
+    /// Where it was kept.
+    file: PathBuf,
+}
+
+/// How kept files are called.
+const PREFIX: &str = "unsaved-";
+
+impl Safe {
+    /// A safe in a folder.
+    pub fn new(folder: PathBuf) -> Self {
+        let since = SystemTime::now().duration_since(SystemTime::UNIX_EPOCH).unwrap_or_default();
+        let own = folder.join(format!("{PREFIX}{}-{}.json", std::process::id(), since.as_nanos()));
+        Self { folder, own, held: None }
+    }
+
+    /// Keeps the design of some work and how its mesh was read, with what is around it.
+    ///
+    /// # Errors
+    /// When the file system refuses.
+    pub fn keep(&mut self, work: &Work, around: &Around, path: Option<&Path>) -> Result<(), WriteError> {
+        let design = &work.design;
+        // A mesh lies in its file already, and may be large: what was changed beside it is kept.
+        let (mesh, design) = match (&design.cut, path) {
+            (Cut::Mesh(_), Some(_)) => {
+                (true, Cow::Owned(Design { cut: Cut::Planes(vec![stand_in()]), ..design.clone() }))
+            }
+            _ => (false, Cow::Borrowed(design)),
+        };
+        let kept = Kept {
+            path: path.map(Path::to_owned),
+            mesh,
+            read: work.mesh.as_ref().map(KeptMesh::of),
+            design: cut_file::write(&design),
+            around: around.clone(),
+        };
+        let text = serde_json::to_string(&kept).map_err(|e| WriteError::io(&self.folder, e))?;
+        let name = &self.own;
+        write(name, |file| file.write_all(text.as_bytes()).map_err(|e| WriteError::io(name, e)))?;
+        // Writing has put another file in the place of the one that was locked.
+        let file = File::open(name).map_err(|e| WriteError::io(name, e))?;
+        file.try_lock().map_err(|e| WriteError::io(name, std::io::Error::from(e)))?;
+        self.held = Some(file);
+        Ok(())
+    }
+
+    /// Forgets what was kept: it is saved, or not wanted.
+    pub fn empty(&mut self) {
+        if self.held.take().is_some() {
+            // One that cannot be removed is offered again, which loses nothing.
+            let _ = std::fs::remove_file(&self.own);
+        }
+    }
+
+    /// What crashes left behind, the latest first.
+    pub fn found(&self) -> Vec<Found> {
+        let entries = std::fs::read_dir(&self.folder).into_iter().flatten().flatten();
+        let ours = |e: &std::fs::DirEntry| e.file_name().to_string_lossy().starts_with(PREFIX);
+        let mut found: Vec<Found> = entries.filter(ours).filter_map(|e| orphan(e.path())).collect();
+        found.sort_by_key(|found| std::cmp::Reverse(found.when));
+        found
+    }
+}
+
+impl Found {
+    /// Forgets it.
+    pub fn forget(self) {
+        // One that cannot be removed is offered again, which loses nothing.
+        let _ = std::fs::remove_file(self.file);
+    }
+}
+
+/// Stands for a mesh that is not kept.
+fn stand_in() -> (String, Plane) {
+    ("mesh".to_owned(), Plane::new(DVec3::Z, 1.0))
+}
+
+/// What lies in a file that no running program holds.
+fn orphan(path: PathBuf) -> Option<Found> {
+    let file = File::open(&path).ok()?;
+    file.try_lock().ok()?;
+    let mut kept: Kept = serde_json::from_reader(&file).ok()?;
+    if !(1..=MOST_COPIES).contains(&kept.around.company.poses.len()) {
+        kept.around.company = Company::default();
+    }
+    let mut design = cut_file::parse(&kept.design, "unsaved work").ok()?;
+    let mesh = kept.read.map(KeptMesh::read_mesh);
+    if kept.mesh {
+        design.cut = mesh_again(mesh.as_ref(), kept.path.as_deref())?;
+    }
+    let when = file.metadata().and_then(|m| m.modified()).ok()?;
+    Some(Found { design, around: kept.around, path: kept.path, mesh, when, file: path })
+}
+
+/// The triangles that work had: read from its mesh file as they were then, or else from the file that it was saved in.
+fn mesh_again(mesh: Option<&ReadMesh>, path: Option<&Path>) -> Option<Cut> {
+    let triangles = MeshOptions { form: MeshForm::Triangles, ..MeshOptions::default() };
+    let sources = mesh.map(|mesh| (mesh.path.as_path(), mesh.options)).into_iter();
+    sources.chain(path.map(|path| (path, triangles))).find_map(|(path, options)| {
+        let cut = design_file::read_with(path, options).ok()?.design.cut;
+        matches!(cut, Cut::Mesh(_)).then_some(cut)
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::app::document::Document;
+    use crate::io::design_file::Format;
+    use std::sync::Arc;
+
+    #[test]
+    fn work_is_found_after_a_crash_and_only_then() {
+        let folder = tempfile::tempdir().unwrap();
+        let work = Document::first().unwrap().work;
+        let mut safe = Safe::new(folder.path().to_owned());
+        let corners = [DVec3::ONE, -DVec3::ONE];
+        let company = Company::scattered(3, &corners, 2);
+        let around =
+            Around { company, behind: Some("page".into()), behind_mm: Some(12.5), strength: Some(0.2) };
+        safe.keep(&work, &around, Some(Path::new("/x/mine.toml"))).unwrap();
+        safe.keep(&work, &around, Some(Path::new("/x/mine.toml"))).unwrap();
+        let next = Safe::new(folder.path().to_owned());
+        assert_eq!(next.found(), [], "the program still runs");
+        drop(safe);
+        let found = next.found();
+        assert_eq!(
+            (found.len(), &found[0].design, found[0].path.as_deref()),
+            (1, &work.design, Some(Path::new("/x/mine.toml")))
+        );
+        assert_eq!(found[0].around, around);
+        found.into_iter().for_each(Found::forget);
+        assert_eq!(next.found(), []);
+    }
+
+    #[test]
+    fn of_a_mesh_what_was_changed_is_kept_and_the_mesh_is_taken_from_its_file() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("heart.toml");
+        let (vertices, triangles) = crate::math::fixture::heart();
+        let shell = crate::math::Shell::new(crate::math::Surface::new(vertices, triangles)).unwrap();
+        let first = Document::first().unwrap().work.design;
+        let cut = Cut::Mesh(crate::cut::MeshShape(Arc::new(shell)));
+        std::fs::write(&path, cut_file::write(&Design { cut, ..first })).unwrap();
+        let mesh = design_file::read(&path).unwrap().design;
+        let changed = Design { name: "changed".to_owned(), diameter_mm: 9.0, ..mesh };
+        let work = Work { design: changed.clone(), ..Document::first().unwrap().work };
+        let mut safe = Safe::new(folder.path().join("safe"));
+        safe.keep(&work, &Around::default(), Some(&path)).unwrap();
+        drop(safe);
+        let next = Safe::new(folder.path().join("safe"));
+        assert!(next.found()[0].design == changed);
+        let kept = std::fs::read_dir(folder.path().join("safe")).unwrap().next().unwrap().unwrap();
+        assert!(kept.metadata().unwrap().len() < 1000);
+    }
+
+    #[test]
+    fn how_a_mesh_was_read_is_kept_and_work_of_an_older_program_is_found_without_it() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("heart.glb");
+        let (vertices, triangles) = crate::math::fixture::heart();
+        let shell = crate::math::Shell::new(crate::math::Surface::new(vertices, triangles)).unwrap();
+        let first = Document::first().unwrap().work.design;
+        let heart = Design { cut: Cut::Mesh(crate::cut::MeshShape(Arc::new(shell))), ..first };
+        let specimen = crate::scene::Specimen::new(heart).unwrap();
+        design_file::write(&specimen, Format::Glb, &path).unwrap();
+        for form in [MeshForm::Triangles, MeshForm::Faceted] {
+            let options = MeshOptions { up: Up::Given(DVec3::new(0.0, 0.6, 0.8)), form };
+            let work = Document::open(&path, options).unwrap().work;
+            let mut safe = Safe::new(folder.path().join("safe"));
+            safe.keep(&work, &Around::default(), Some(&path)).unwrap();
+            drop(safe);
+            let found = Safe::new(folder.path().join("safe")).found().remove(0);
+            assert!(found.design == work.design, "{form:?}");
+            let recovered =
+                Document::recovered(found.design.clone(), found.path.clone(), found.mesh.clone()).unwrap();
+            assert_eq!(recovered.work.mesh, work.mesh);
+            assert_eq!(recovered.work.mesh.as_ref().map(|mesh| mesh.options), Some(options));
+            assert!(recovered.is_changed());
+            let mut older: serde_json::Value =
+                serde_json::from_slice(&std::fs::read(&found.file).unwrap()).unwrap();
+            older.as_object_mut().unwrap().remove("read").unwrap();
+            std::fs::write(&found.file, older.to_string()).unwrap();
+            let found = Safe::new(folder.path().join("safe")).found().remove(0);
+            assert!(found.mesh.is_none() && matches!(found.design.cut, Cut::Mesh(_) | Cut::Planes(_)));
+            found.forget();
+        }
+    }
+
+    #[test]
+    fn saved_work_is_not_offered_again_and_rubbish_is_passed_over() {
+        let folder = tempfile::tempdir().unwrap();
+        let mut safe = Safe::new(folder.path().join("new"));
+        assert_eq!(safe.found(), []);
+        safe.keep(&Document::first().unwrap().work, &Around::default(), None).unwrap();
+        safe.empty();
+        drop(safe);
+        let next = Safe::new(folder.path().join("new"));
+        std::fs::write(folder.path().join("new/unsaved-1.json"), "{").unwrap();
+        assert_eq!(next.found(), []);
+    }
+}
