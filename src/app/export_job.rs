@@ -153,6 +153,7 @@ impl Plan {
             size: self.selection.size,
             formats,
             caption: self.selection.caption,
+            strongest: true,
             timing: false,
         }
     }

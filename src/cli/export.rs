@@ -5,8 +5,8 @@ use super::options::{LightOptions, ViewOptions, scoped};
 use super::progress::Progress;
 use super::specimen::stem;
 use super::{Failure, each_file};
-use crate::io::export::{self, Format, Outputs, Told, first_twice};
-use crate::io::{MOST_PIXELS, WriteError, is_standard, write};
+use crate::io::export::{self, Format, Outputs, first_twice};
+use crate::io::{MOST_PIXELS, is_standard};
 use crate::picture::{Picture, named, names};
 use clap::builder::PossibleValue;
 use clap::{Args, ValueEnum};
@@ -77,33 +77,14 @@ impl Export {
             let outputs = self.outputs(file, &pictures);
             let progress = Progress::new(&specimen.design.name);
             let export = export::Export { viewing, outputs: &outputs };
-            if is_standard(&self.out) {
-                return self.print(export, &progress);
+            if let (true, Err(why)) = (export.files()?.is_empty(), specimen.stone()) {
+                return Err(Failure::Usage(format!(
+                    "{}: nothing of this can be drawn: {why}",
+                    specimen.path
+                )));
             }
-            files(&export)?;
             export.write(&progress.watch(), &|told| progress.tell(told))
         })
-    }
-
-    /// Writes the one file that standard output takes. Of the two that a picture in a scope makes in a format, the one of
-    /// energy is taken.
-    fn print(&self, export: export::Export<'_>, progress: &Progress) -> Result<(), Failure> {
-        let failed = |error| Failure::from(WriteError::io(&self.out, error));
-        let folder = tempfile::tempdir().map_err(failed)?;
-        let outputs = Outputs { folder: folder.path().to_owned(), ..export.outputs.clone() };
-        let apart = export::Export { outputs: &outputs, ..export };
-        let files = files(&apart)?;
-        let wanted: Vec<&PathBuf> = files.iter().filter(|file| !is_beside(file, &files)).collect();
-        let [wanted] = wanted.as_slice() else { return Err(Failure::Usage(several(&files))) };
-        if files.len() == 1 {
-            return export.write(&progress.watch(), &|told| progress.tell(told));
-        }
-        apart.write(&progress.watch(), &|told| match told {
-            Told::Written(_) => Ok(()),
-            told => progress.tell(told),
-        })?;
-        let bytes = std::fs::read(wanted).map_err(failed)?;
-        write(&self.out, |file| file.write_all(&bytes).map_err(|e| WriteError::io(&self.out, e).into()))
     }
 
     fn outputs(&self, file: &Path, pictures: &[(String, Picture)]) -> Outputs {
@@ -114,6 +95,8 @@ impl Export {
             size: self.size,
             formats: self.format.clone(),
             caption: self.caption,
+            // Standard output takes one file.
+            strongest: !is_standard(&self.out),
             timing: self.timing,
         }
     }
@@ -139,39 +122,4 @@ impl Export {
             self.files[stone].display()
         )))
     }
-}
-
-/// The files of an export, which are some.
-fn files(export: &export::Export<'_>) -> Result<Vec<PathBuf>, Failure> {
-    let files = export.files()?;
-    match (files.is_empty(), export.viewing.specimen.stone()) {
-        (true, Err(why)) => {
-            let file = export.viewing.file;
-            Err(Failure::Usage(format!("{file}: nothing of this can be drawn: {why}")))
-        }
-        _ => Ok(files),
-    }
-}
-
-/// Whether a file shows the strongest exits of a picture whose energy another of the files shows.
-fn is_beside(file: &Path, files: &[PathBuf]) -> bool {
-    let stem = file.file_stem().unwrap_or_default().to_string_lossy();
-    let ending = file.extension().unwrap_or_default().to_string_lossy();
-    let energy = stem.strip_suffix("-strongest").map(|stem| file.with_file_name(format!("{stem}.{ending}")));
-    energy.is_some_and(|energy| files.contains(&energy))
-}
-
-/// Why several files do not go to standard output.
-fn several(files: &[PathBuf]) -> String {
-    const NAMED: usize = 3;
-    let name = |file: &PathBuf| file.file_name().unwrap_or_default().to_string_lossy().into_owned();
-    let mut names = files.iter().take(NAMED).map(name).collect::<Vec<_>>().join(", ");
-    if files.len() > NAMED {
-        names += &format!(" and {} more", files.len() - NAMED);
-    }
-    format!(
-        "standard output takes one file, and {} would be written ({names}); choose one picture by --views and one kind by \
-         --format, or give a folder",
-        files.len()
-    )
 }

@@ -27,6 +27,9 @@ pub const MOST_EXR_PIXELS: u32 = 8192;
 /// The least side of a picture with a caption, in pixels.
 pub const LEAST_CAPTIONED: u32 = 192;
 
+/// How many of too many files a message names.
+const MOST_NAMED: usize = 3;
+
 /// How long a drawing takes, and the figures, where a picture in a scope takes 1: roughly, for progress.
 const DRAWING: f64 = 0.1;
 const FIGURES: f64 = 1.0;
@@ -73,6 +76,8 @@ pub struct Outputs {
     pub size: u32,
     /// Kinds of file.
     pub formats: Vec<Format>,
+    /// Whether pictures in scopes are written by strongest exits too, and not by energy alone.
+    pub strongest: bool,
     /// Whether a caption with the legend of the scope's zones is drawn under pictures in scopes, of PNG and SVG.
     pub caption: bool,
     /// Whether the figures hold the time that they took, which makes files differ from run to run.
@@ -108,7 +113,8 @@ impl Outputs {
     fn names(&self) -> impl Iterator<Item = String> + '_ {
         let stem = &self.stem;
         let pictured = self.pictures.iter().flat_map(move |(name, picture)| {
-            let strongest = matches!(picture, Picture::Scoped(_)).then(|| format!("{stem}-{name}-strongest"));
+            let is_twofold = self.strongest && matches!(picture, Picture::Scoped(_));
+            let strongest = is_twofold.then(|| format!("{stem}-{name}-strongest"));
             strongest.into_iter().chain([format!("{stem}-{name}")])
         });
         pictured.chain([format!("{stem}-figures.json")])
@@ -219,10 +225,15 @@ impl Export<'_> {
         if paths.len() == 1 {
             return Ok(());
         }
-        let names: Vec<String> = paths.iter().map(|path| path.display().to_string()).collect();
+        let count = paths.len();
+        let mut names: Vec<String> =
+            paths.iter().take(MOST_NAMED).map(|path| path.display().to_string()).collect();
+        if count > MOST_NAMED {
+            names.push(format!("and {} more", count - MOST_NAMED));
+        }
         Err(Failure::Usage(format!(
-            "standard output takes one file, and {} would be written ({}); choose one of them, or give a folder",
-            names.len(),
+            "standard output takes one file, and {count} would be written ({}); choose one picture and one format, or \
+             give a folder",
             names.join(", ")
         )))
     }
@@ -238,7 +249,10 @@ impl Export<'_> {
             }
             (Picture::Scoped(_), Tracer::Rays(_)) => &[("", Png), ("-strongest", Png)],
         };
-        let wanted = files.iter().filter(|(_, format)| self.outputs.wants(*format));
+        let outputs = self.outputs;
+        let wanted = files
+            .iter()
+            .filter(|(kind, format)| outputs.wants(*format) && (outputs.strongest || kind.is_empty()));
         let suffix = match picture {
             Picture::Scoped(scoped) => self.viewing.suffix(scoped),
             Picture::Profile | Picture::Diagram => String::new(),

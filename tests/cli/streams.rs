@@ -68,10 +68,13 @@ fn a_dash_is_standard_output_where_one_file_is_written_and_refused_where_several
     let (code, printed, _) = fed(&desk, "convert - - --format toml", "cube.toml");
     assert!(code == 0 && printed.starts_with(b"format = 1"));
     for (line, why) in [
-        ("export cube.toml --out -", "standard output takes one file"),
+        (
+            "export cube.toml --out -",
+            "19 would be written (cube-aset.png, cube-aset.svg, cube-aset-white.png, and 16 more)",
+        ),
         (
             "export cube.toml --views aset,hearts --format png --out -",
-            "4 would be written (cube-aset.png, cube-aset-strongest.png, cube-hearts.png and 1 more)",
+            "2 would be written (cube-aset.png, cube-hearts.png); choose one picture and one format",
         ),
         ("export cube.toml tolkowsky --format json --out -", "several stones need a folder"),
         ("render cube.toml tolkowsky --out -", "several stones need a folder"),

@@ -110,7 +110,8 @@ impl<'a> Pictures<'a> {
 
     fn by_beams(&mut self, plate: &Plate, watch: Watch) -> Result<(), Failure> {
         let wants = |format| f64::from(u8::from(self.outputs.wants(format)));
-        let parts = 1.0 + 2.0 * wants(Format::Png) + wants(Format::Exr) + wants(Format::Svg);
+        let strongest = f64::from(u8::from(self.outputs.strongest));
+        let parts = 1.0 + (1.0 + strongest) * wants(Format::Png) + wants(Format::Exr) + wants(Format::Svg);
         let mut pace = Pace::new(watch, parts);
         let beams = pace.step(1.0, |watch| self.traced(plate, watch))?;
         let film = Film::around(plate.viewing.specimen.solid(), &beams.view, self.outputs.size);
@@ -119,6 +120,8 @@ impl<'a> Pictures<'a> {
                 let layer = Layer::energy(&beams, &plate.scope, plate.glare);
                 self.paint(plate, (Reading::Energy, &layer), &film, watch)
             })?;
+        }
+        if self.outputs.wants(Format::Png) && self.outputs.strongest {
             pace.step(1.0, |watch| {
                 let layer = Layer::strongest(&beams, &plate.scope);
                 self.paint(plate, (Reading::Strongest, &layer), &film, watch)
@@ -231,13 +234,15 @@ impl<'a> Pictures<'a> {
         let unresolved = options.unresolved.max(DRAWN_UNRESOLVED);
         let coarse = beam::Options { unresolved, most_beams: DRAWN_POLYGONS / copies, ..options };
         let coarse = beam::trace(&stone.polytope, viewing.medium, view, &coarse, watch)?;
-        let is_small = beams.strongest_exits().len() * copies <= DRAWN_POLYGONS;
-        let mapped = if is_small { beams } else { &coarse };
-        let strongest = vector::strongest(stone, mapped, scope, &format!("{title}, {STRONGEST}"));
-        let undecided = mapped.undecided(&mapped.strongest_exits());
-        let strongest = self.captioned(strongest, plate, Reading::Strongest, undecided);
-        let path = self.outputs.path(suffix, &format!("{name}-strongest"), Format::Svg);
-        write_text(&path, &strongest, self.tell)?;
+        if self.outputs.strongest {
+            let is_small = beams.strongest_exits().len() * copies <= DRAWN_POLYGONS;
+            let mapped = if is_small { beams } else { &coarse };
+            let strongest = vector::strongest(stone, mapped, scope, &format!("{title}, {STRONGEST}"));
+            let undecided = mapped.undecided(&mapped.strongest_exits());
+            let strongest = self.captioned(strongest, plate, Reading::Strongest, undecided);
+            let path = self.outputs.path(suffix, &format!("{name}-strongest"), Format::Svg);
+            write_text(&path, &strongest, self.tell)?;
+        }
         let reading = Reading::Energy.told(plate.glare);
         let energy = vector::energy(stone, &coarse, (scope, plate.glare), &format!("{title}, {reading}"));
         let energy = self.captioned(energy, plate, Reading::Energy, coarse.unresolved());
@@ -261,6 +266,13 @@ impl<'a> Pictures<'a> {
         let caption = self.caption_pixels(plate, Reading::Energy, &how)?;
         let strongest_caption = self.caption_pixels(plate, Reading::Strongest, &how)?;
         let size = |caption: &(u32, Vec<u8>)| (film.size[0], film.size[1] + caption.0);
+        if !self.outputs.strongest {
+            write_png(&energy, size(&caption), &told, |energy| {
+                sampler.rows(look, &film, &manner, watch, |rows| encode(rows, (&palette, 0), energy))?;
+                energy.push(&caption.1).map_err(Failure::from)
+            })?;
+            return (self.tell)(Told::Written(&energy));
+        }
         // Both pictures come from the same rays.
         write_png(&energy, size(&caption), &told, |energy| {
             write_png(&strongest, size(&strongest_caption), &strongest_told, |strongest| {

@@ -36,6 +36,7 @@ fn outputs(folder: &Path, pictures: &[&str], formats: &[Format]) -> Outputs {
         size: 32,
         formats: formats.into(),
         caption: false,
+        strongest: true,
         timing: false,
     }
 }
