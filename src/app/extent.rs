@@ -1,15 +1,9 @@
 //! How far a stone reaches from above: what its size is told by.
 
-use crate::cut::{Cut, Design, Outline, Tiers};
+use crate::cut::{Cut, Design, Outline, Tiers, round_diameter};
 use crate::math::{Calipers, hull};
-use crate::scene::{Specimen, Stone};
-use glam::{DVec2, DVec3};
-
-/// Directions in which a stone's breadth is compared, over half a turn.
-const DIRECTIONS: u32 = 36;
-
-/// A stone is round if its breadths in all directions agree to this part: a girdle of 16 facets is, one of 8 is not.
-const ROUND: f64 = 0.03;
+use crate::scene::{Body, Specimen, Stone};
+use glam::DVec3;
 
 /// How far a stone reaches from above, in the unit of its frame (half the diameter).
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -18,7 +12,7 @@ pub struct Extent {
     pub length: f64,
     /// The smaller.
     pub width: f64,
-    /// Whether one number, a diameter, says as much as both.
+    /// Whether one number, a diameter, says as much as both: as [`Outline::diameter`] has it.
     pub is_round: bool,
     /// The unit of the design's own distances.
     pub unit: f64,
@@ -37,41 +31,25 @@ pub fn unit(design: &Design) -> Option<f64> {
 }
 
 impl Extent {
-    /// Measures a stone, with or without facets: length and width are those of [`Outline`].
+    /// Measures a stone, with or without facets: length and width are those of [`Outline`], and of glass the sides of its
+    /// box.
     pub fn of(specimen: &Specimen) -> Self {
-        let points = specimen.solid().vertices();
-        let (length, width) = match specimen.stone() {
-            Ok(stone) => {
-                let Outline { length, width, .. } = Outline::of(&stone.polytope);
-                (length, width)
-            }
-            Err(_) => across(points),
-        };
-        let angles = (0..DIRECTIONS).map(|k| std::f64::consts::PI * f64::from(k) / f64::from(DIRECTIONS));
-        let breadths = angles.map(|angle| breadth(points, DVec2::from_angle(angle)));
-        let (least, most) = breadths.fold((f64::INFINITY, 0.0_f64), |(a, b), w| (a.min(w), b.max(w)));
         let unit = unit(&specimen.design).unwrap_or(1.0);
-        Self { length, width, is_round: most <= (1.0 + ROUND) * least, unit }
-    }
-}
-
-/// Length and width of points, seen along the axis.
-fn across(points: &[DVec3]) -> (f64, f64) {
-    match Calipers::of(&hull(points.iter().map(|p| p.truncate()).collect())) {
-        Some(Calipers { length, width, .. }) => (length, width),
-        // A solid so thin that rounding leaves no outline is measured along its axes.
-        None => {
-            let across = DVec2::new(breadth(points, DVec2::X), breadth(points, DVec2::Y));
-            (across.max_element(), across.min_element())
+        let solid = specimen.solid();
+        let (low, high) = solid.bounds();
+        let sides = (high - low).truncate();
+        let by_sides =
+            Self { length: sides.max_element(), width: sides.min_element(), is_round: false, unit };
+        if matches!(specimen.body, Body::Glass(_)) {
+            return by_sides;
         }
+        let outline = hull(solid.vertices().iter().copied().map(DVec3::truncate).collect());
+        // A solid so thin that rounding leaves no outline is measured along its axes.
+        Calipers::of(&outline).map_or(by_sides, |Calipers { length, width, middle, .. }| {
+            let is_round = round_diameter(&outline, middle, width).is_some();
+            Self { length, width, is_round, unit }
+        })
     }
-}
-
-/// How far apart the outermost points lie in a direction of the girdle plane.
-fn breadth(points: &[DVec3], toward: DVec2) -> f64 {
-    let along = points.iter().map(|p| p.truncate().dot(toward));
-    let (least, most) = along.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), x| (a.min(x), b.max(x)));
-    most - least
 }
 
 #[cfg(test)]
@@ -79,6 +57,8 @@ mod tests {
     use super::*;
     use crate::app::document::Document;
     use crate::cut::RoundBrilliant;
+    use crate::math::Plane;
+    use std::f64::consts::FRAC_PI_2;
 
     fn extent(name: &str) -> Extent {
         Extent::of(Document::of_library(name).unwrap().specimen())
@@ -88,10 +68,23 @@ mod tests {
     fn a_brilliant_of_few_girdle_facets_is_round_and_a_cube_is_not() {
         let mut design = Document::first().unwrap().work.design;
         let Cut::RoundBrilliant(first) = design.cut else { panic!() };
-        design.cut = Cut::RoundBrilliant(RoundBrilliant { girdle_facets: 16, ..first });
-        assert!(Extent::of(&Specimen::new(design).unwrap()).is_round);
+        // Those of which one number is the diameter are scaled by it.
+        for (sides, is_round) in [(16, true), (96, true)] {
+            design.cut = Cut::RoundBrilliant(RoundBrilliant { girdle_facets: sides, ..first });
+            assert_eq!(Extent::of(&Specimen::new(design.clone()).unwrap()).is_round, is_round, "{sides}");
+        }
+        for (sides, is_round) in [(8_u32, false), (10, true)] {
+            let upright = (0..sides).map(|k| {
+                let azimuth = std::f64::consts::TAU * f64::from(k) / f64::from(sides);
+                (format!("girdle {k}"), Plane::from_slope(FRAC_PI_2, azimuth, 1.0))
+            });
+            let ends = [("table", DVec3::Z), ("culet", -DVec3::Z)];
+            let ends = ends.map(|(name, normal)| (name.to_owned(), Plane::new(normal, 0.5)));
+            design.cut = Cut::Planes(upright.chain(ends).collect());
+            assert_eq!(Extent::of(&Specimen::new(design.clone()).unwrap()).is_round, is_round, "{sides}");
+        }
         let cube = extent("cube");
-        assert!(!cube.is_round && (cube.length - cube.width).abs() < 0.1 * cube.width, "{cube:?}");
+        assert_eq!((cube.is_round, cube.length, cube.width), (false, 2.0, 2.0), "as `info` has it");
         let pill = extent("pill");
         assert!(!pill.is_round && pill.length > 1.2 * pill.width, "{pill:?}");
     }

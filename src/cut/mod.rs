@@ -29,7 +29,7 @@ pub use glass::{Dimension, Glass, GlassError, Plate, Sides};
 pub use limits::girdle_facets;
 pub use material::{MaterialError, MaterialRef};
 pub use mesh_shape::MeshShape;
-pub use outline::{AlongAxes, Outline, is_girdle, is_table};
+pub use outline::{AlongAxes, Outline, is_girdle, is_table, round_diameter};
 pub use proportion_error::{Limit, ProportionError, Unit};
 pub use proportions::Derived;
 pub use report::{Report, Spread, TierReport};

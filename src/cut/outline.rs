@@ -140,10 +140,16 @@ fn table(stone: &Polytope) -> Option<&Facet> {
 
 /// The diameter of an outline of this middle and width, as [`Outline::diameter`] has it.
 pub(super) fn diameter(outline: &[DVec2], middle: DVec2, width: f64) -> f64 {
+    round_diameter(outline, middle, width).unwrap_or(width)
+}
+
+/// The diameter of the circle that holds the corners of an outline of this middle and width, if the outline is round as
+/// [`Outline::diameter`] has it.
+pub fn round_diameter(outline: &[DVec2], middle: DVec2, width: f64) -> Option<f64> {
     let radii = || outline.iter().map(|corner| corner.distance(middle));
     let (least, most) = (radii().fold(f64::INFINITY, f64::min), radii().fold(0.0, f64::max));
     let is_round = least >= ON_CIRCLE * most && width >= ROUND * 2.0 * most;
-    if is_round { 2.0 * most } else { width }
+    is_round.then_some(2.0 * most)
 }
 
 /// The greatest distance between two corners of a facet.
