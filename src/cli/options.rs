@@ -31,7 +31,8 @@ pub struct ViewOptions {
         long,
         value_name = "DEGREES",
         default_value_t = 0.0,
-        allow_negative_numbers = true, value_parser = number,
+        allow_negative_numbers = true,
+        value_parser = number,
         conflicts_with = "eye_tilt"
     )]
     pub tilt: f64,

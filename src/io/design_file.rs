@@ -239,8 +239,8 @@ fn as_mesh(specimen: &Specimen, format: Format, bytes: Vec<u8>) -> Written {
 /// Whether the header of an STL says how large its stone is and which way it faces, and of what it is.
 fn stated_in_header(stl: &[u8]) -> (bool, bool) {
     let header = String::from_utf8_lossy(&stl[..stl.len().min(STL_HEADER)]);
-    let is_stated = Statement::is_meant(&header);
-    (is_stated, is_stated && header.contains(" n="))
+    let stated = Statement::parse(header.trim_end_matches('\0')).ok();
+    (stated.is_some(), stated.is_some_and(|stated| stated.material.is_some()))
 }
 
 /// Words as a list of a sentence: `a, b and c`.

@@ -2,9 +2,8 @@
 //!
 //! `scale` is in units of the file per girdle radius: the radius in mm for OBJ, PLY and STL as the trade has them, the radius
 //! in metres for glTF as its standard wants it. OBJ keeps 15 digits of the largest coordinate and PLY all of f64; the others
-//! are f32. Every file says
-//! how its stone lies, how large it is and of what, in a [`Statement`]. Read back, OBJ and glTF give the facets their names. A
-//! solid that is not convex is written by its triangles.
+//! are f32. Every file says how its stone lies, how large it is and of what, in a [`Statement`]. Read back, OBJ and glTF give
+//! the facets their names. A solid that is not convex is written by its triangles.
 
 mod ply;
 
@@ -142,7 +141,7 @@ fn decimals(largest: f64) -> usize {
     (DIGITS - 1.0 - largest.log10().floor()).clamp(0.0, MOST_DECIMALS) as usize
 }
 
-/// A number to so many decimals, without noughts at its end and without the sign of what is rounded to 0.
+/// A number to so many decimals, without zeros at its end and without the sign of what is rounded to 0.
 fn rounded(number: f64, decimals: usize) -> String {
     let text = format!("{number:.decimals$}");
     let text = if decimals > 0 { text.trim_end_matches('0').trim_end_matches('.') } else { &text };
