@@ -162,7 +162,7 @@ const MOST_WARNINGS: usize = 12;
 /// What is odd about the stone, and what was about its file.
 fn warnings(editor: &Editor, ui: &mut Ui) {
     let stones = editor.document.specimen().warnings.iter().filter(|_| editor.document.fault().is_none());
-    let all: Vec<&String> = stones.chain(editor.document.odd()).collect();
+    let all: Vec<&String> = stones.chain(editor.document.work.odd.iter()).collect();
     let small = |text: &str| egui::Label::new(RichText::new(text).weak().small()).wrap();
     for warning in all.iter().take(MOST_WARNINGS) {
         ui.add(small(warning));

@@ -25,6 +25,8 @@ pub struct Work {
     pub head: f64,
     /// The mesh that the stone was read from, if it was one.
     pub mesh: Option<ReadMesh>,
+    /// What was odd about its file, in words.
+    pub odd: Arc<[String]>,
 }
 
 /// A mesh file, and how it was read.
@@ -70,8 +72,6 @@ pub struct Document {
     fault: Option<SpecimenError>,
     /// The design that stone or fault belong to.
     built: Design,
-    /// What was odd about its file, in words.
-    odd: Vec<String>,
 }
 
 /// Whether two designs make the same stone, whatever they are called and whatever is said of them.
@@ -100,6 +100,7 @@ impl Document {
             exposure: 0.0,
             head: 0.0,
             mesh: None,
+            odd: Arc::default(),
         };
         let stamp = path.as_deref().map_or(Stamp(None), Stamp::of);
         let history = History::new(work.clone());
@@ -114,7 +115,6 @@ impl Document {
             specimen,
             fault: None,
             built: design,
-            odd: vec![],
         })
     }
 
@@ -145,7 +145,7 @@ impl Document {
             design_file::read_with(path, mesh).map_err(|e| e.to_string())?;
         let mut document =
             Self::new(design, Some(path.to_owned())).map_err(|e| format!("{}: {e}", path.display()))?;
-        document.odd = warnings.into_iter().chain(notes).collect();
+        document.work.odd = warnings.into_iter().chain(notes).collect();
         let diameter_mm = document.work.design.diameter_mm;
         let read = |is_doubtful| ReadMesh { path: path.to_owned(), options: mesh, is_doubtful, diameter_mm };
         document.work.mesh = doubt.map(read);
@@ -161,7 +161,7 @@ impl Document {
         self.work.design.diameter_mm = enlarged * other.work.design.diameter_mm;
         self.work.design.cut = other.work.design.cut;
         self.work.mesh = other.work.mesh;
-        self.odd = other.odd;
+        self.work.odd = other.work.odd;
     }
 
     /// A design that was never saved, found after a crash, and the mesh that it was read from, if it was one: it counts as
@@ -321,11 +321,6 @@ impl Document {
         {
             self.work = work;
         }
-    }
-
-    /// What was odd about its file, in words.
-    pub fn odd(&self) -> &[String] {
-        &self.odd
     }
 
     /// Saves the design where it lies, or elsewhere from now on, in the format that the file's name asks for; what that

@@ -111,12 +111,14 @@ fn a_mesh_is_read_in_another_form_by_a_click_which_can_be_undone() {
     bench.harness.run_steps(3);
     let editor = bench.editor();
     assert!(editor.document.specimen().stone().is_ok() && editor.document.is_changed());
-    assert!(editor.document.odd().iter().any(|note| note.contains("bends inward")));
+    let bends = |editor: &Editor| editor.document.work.odd.iter().any(|note| note.contains("bends inward"));
+    assert!(bends(editor));
     let scale = |editor: &Editor| cubic_mm(editor) / volume;
     assert!(scale(editor) > 1.05, "{}", scale(editor));
     bench.harness.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::Z);
     bench.wait(is_mesh);
     bench.harness.run_steps(3);
+    assert!(!bends(bench.editor()), "what was said of the facets goes with them");
     assert!((scale(bench.editor()) - 1.0).abs() < 1e-12 && !bench.editor().document.is_changed());
     bench.harness.key_press_modifiers(egui::Modifiers::COMMAND | egui::Modifiers::SHIFT, egui::Key::Z);
     bench.wait(|editor| !is_mesh(editor));

@@ -1,6 +1,7 @@
 //! glTF 2.0, by the gltf crate: all meshes of the scene where their nodes put them, and the material of most of it.
 
 mod buffers;
+mod images;
 mod scene;
 mod shape_only;
 
@@ -31,6 +32,7 @@ pub(super) fn read(bytes: &[u8], folder: Option<&Path>) -> Result<Read, Fault> {
     let data = buffers::load(&document, blob, folder)?;
     let mut read = scene::gather(&document, &data)?;
     warnings.append(&mut read.warnings);
+    warnings.extend(images::warning(&document, &data, folder));
     let name = document
         .default_scene()
         .or_else(|| document.scenes().next())

@@ -11,10 +11,10 @@ use gltf::{Accessor, Document, Semantic};
 use std::collections::BTreeSet;
 use std::path::Path;
 
-/// The bytes of each buffer; none of one that no shape needs.
+/// The bytes of each buffer; none of one that no shape needs and that is missing or broken.
 pub(super) type Data = Vec<Vec<u8>>;
 
-/// Reads the buffers that shapes need; those of textures may be missing.
+/// Reads all buffers; those that no shape needs may be missing.
 pub(super) fn load(
     document: &Document,
     mut blob: Option<Vec<u8>>,
@@ -24,21 +24,19 @@ pub(super) fn load(
     let mut whole = 0;
     let needed = needed(document);
     for buffer in document.buffers() {
-        if !needed.contains(&buffer.index()) {
-            data.push(vec![]);
-            continue;
-        }
         let place = format!("buffer {}", buffer.index());
-        let bytes = match buffer.source() {
-            Source::Bin => {
-                blob.take().ok_or_else(|| Fault::at(&*place, "a binary chunk is expected in the file"))?
-            }
-            Source::Uri(uri) => from_uri(uri, folder).map_err(|message| Fault::at(&*place, message))?,
+        let read = match buffer.source() {
+            Source::Bin => blob.take().ok_or_else(|| "a binary chunk is expected in the file".to_owned()),
+            Source::Uri(uri) => from_uri(uri, folder),
         };
-        if bytes.len() < buffer.length() {
-            let message = format!("{} bytes are announced, and {} are there", buffer.length(), bytes.len());
-            return Err(Fault::at(place, message));
-        }
+        let whole_one = read.and_then(|bytes| match bytes.len() < buffer.length() {
+            true => Err(format!("{} bytes are announced, and {} are there", buffer.length(), bytes.len())),
+            false => Ok(bytes),
+        });
+        let bytes = match whole_one {
+            Err(_) if !needed.contains(&buffer.index()) => vec![],
+            read => read.map_err(|message| Fault::at(&*place, message))?,
+        };
         whole += bytes.len() as u64;
         if whole > MAX_BYTES {
             let most = MAX_BYTES >> 20;
@@ -63,7 +61,7 @@ fn needed(document: &Document) -> BTreeSet<usize> {
     views.map(|view| view.buffer().index()).collect()
 }
 
-fn from_uri(uri: &str, folder: Option<&Path>) -> Result<Vec<u8>, String> {
+pub(super) fn from_uri(uri: &str, folder: Option<&Path>) -> Result<Vec<u8>, String> {
     if let Some(rest) = uri.strip_prefix("data:") {
         let (_, text) = rest.split_once(";base64,").ok_or("a `data:` of base64 is expected")?;
         return STANDARD.decode(text).map_err(|error| format!("this is no base64: {error}"));

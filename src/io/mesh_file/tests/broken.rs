@@ -2,10 +2,19 @@
 
 use super::*;
 
-/// The test file with a texture, an image in it and an animation: none of it wrong.
+/// An image of one pixel as a file has it in its text.
+fn pixel() -> String {
+    use base64::Engine as _;
+    let mut bytes = std::io::Cursor::new(vec![]);
+    image::RgbImage::new(1, 1).write_to(&mut bytes, image::ImageFormat::Png).unwrap();
+    let text = base64::engine::general_purpose::STANDARD.encode(bytes.into_inner());
+    format!("data:image/png;base64,{text}")
+}
+
+/// The test file with a texture and an image in it: none of it wrong.
 fn textured() -> serde_json::Value {
     let mut root: serde_json::Value = serde_json::from_str(&gltf()).unwrap();
-    root["images"] = serde_json::json!([{ "bufferView": 1, "mimeType": "image/png" }]);
+    root["images"] = serde_json::json!([{ "uri": pixel(), "mimeType": "image/png" }]);
     root["samplers"] = serde_json::json!([{ "wrapS": 10497 }]);
     root["textures"] = serde_json::json!([{ "source": 0, "sampler": 0 }]);
     root["materials"][0]["pbrMetallicRoughness"] = serde_json::json!({ "baseColorTexture": { "index": 0 } });
@@ -47,7 +56,7 @@ fn broken_textures_and_materials_are_a_warning_and_the_shape_is_read() {
         ),
         ("a sampler that is not there", "/textures/0/sampler", "9", true),
         ("a sampler of no kind", "/samplers/0/wrapS", "1", true),
-        ("an image in no buffer view", "/images/0/bufferView", "99", true),
+        ("an image in no buffer view", "/images/0", r#"{"bufferView":99,"mimeType":"image/png"}"#, true),
         ("a type that is a number", "/images/0/mimeType", "5", true),
         ("an image that is text", "/images/0", r#""cat.png""#, true),
         ("images that are no list", "/images", "{}", true),
@@ -79,6 +88,44 @@ fn broken_textures_and_materials_are_a_warning_and_the_shape_is_read() {
         assert_eq!(file.hint.is_some(), keeps_light, "{what}: {:?}", file.hint);
         assert!(!keeps_light || file.hint == whole.hint, "{what}: {:?}", file.hint);
     }
+}
+
+#[test]
+fn images_that_are_missing_or_no_pictures_are_a_warning() {
+    let cut_off = pixel()[..62].to_owned();
+    for (image, why) in [
+        (serde_json::json!({ "uri": pixel() }), None),
+        (serde_json::json!({ "uri": "missing.png" }), Some("`missing.png` is not a file beside this one")),
+        (serde_json::json!({ "uri": "data:image/png;base64,###" }), Some("this is no base64")),
+        (serde_json::json!({ "uri": cut_off }), Some("it is broken: ")),
+        (
+            serde_json::json!({ "bufferView": 1, "mimeType": "image/png" }),
+            Some("its bytes are no picture of a kind that glTF knows"),
+        ),
+        (serde_json::json!({}), Some("it has neither a file nor a buffer view")),
+    ] {
+        let mut root = textured();
+        root["images"] = serde_json::json!([image]);
+        let file = opened(&root).unwrap();
+        assert_eq!(file.surface, opened(&textured()).unwrap().surface, "{image}");
+        match (why, file.warnings.as_slice()) {
+            (None, []) => {}
+            (Some(why), [warning]) => {
+                assert!(
+                    warning.starts_with("image 0, of a texture, is left out: ") && warning.contains(why),
+                    "{warning}"
+                );
+            }
+            (_, warnings) => panic!("{image}: {warnings:?}"),
+        }
+    }
+    let mut root = textured();
+    root["images"] = serde_json::json!([{ "uri": pixel() }, {}, {}]);
+    let warnings = opened(&root).unwrap().warnings;
+    assert!(
+        warnings[0].starts_with("image 1") && warnings[0].ends_with("; one more image is broken"),
+        "{warnings:?}"
+    );
 }
 
 #[test]

@@ -1,0 +1,62 @@
+//! Whether the images of a glTF file's textures are there. Nothing of them is used, so that what is wrong with one is a
+//! warning.
+
+use super::buffers::{Data, from_uri};
+use gltf::Document;
+use gltf::json::Image;
+use image::{ImageFormat, ImageReader, guess_format};
+use std::borrow::Cow;
+use std::io::Cursor;
+use std::path::Path;
+
+/// How a KTX 2.0 file begins, which `image` does not know and glTF's KHR_texture_basisu has.
+const KTX2: &[u8] = b"\xABKTX 20\xBB\r\n\x1A\n";
+
+/// A warning that names the first image that is missing or is no picture, and says how many more there are. Only the headers
+/// of pictures are read.
+pub(super) fn warning(document: &Document, data: &Data, folder: Option<&Path>) -> Option<String> {
+    let images = document.as_json().images.iter().enumerate();
+    let mut faults = images.filter_map(|(number, image)| {
+        let found = bytes(image, document, data, folder).and_then(|bytes| check(&bytes));
+        found.err().map(|why| (number, why))
+    });
+    let (number, why) = faults.next()?;
+    let others = match faults.count() {
+        0 => String::new(),
+        1 => "; one more image is broken".to_owned(),
+        count => format!("; {count} more images are broken"),
+    };
+    Some(format!("image {number}, of a texture, is left out: {why}{others}"))
+}
+
+/// The bytes of an image, wherever they lie.
+fn bytes<'a>(
+    image: &Image,
+    document: &Document,
+    data: &'a Data,
+    folder: Option<&Path>,
+) -> Result<Cow<'a, [u8]>, String> {
+    if let Some(uri) = &image.uri {
+        return from_uri(uri, folder).map(Cow::Owned);
+    }
+    let view = image.buffer_view.and_then(|index| document.views().nth(index.value()));
+    let view = view.ok_or("it has neither a file nor a buffer view")?;
+    let end = view.offset().checked_add(view.length());
+    let buffer = &data[view.buffer().index()];
+    let found = end.and_then(|end| buffer.get(view.offset()..end));
+    found.map(Cow::Borrowed).ok_or_else(|| format!("buffer {} does not hold it", view.buffer().index()))
+}
+
+/// Checks that bytes are a picture of a kind that glTF and its extensions have, as far as their header tells.
+fn check(bytes: &[u8]) -> Result<(), String> {
+    match guess_format(bytes) {
+        Ok(format @ (ImageFormat::Png | ImageFormat::Jpeg)) => {
+            let size = ImageReader::with_format(Cursor::new(bytes), format).into_dimensions();
+            size.map(|_| ()).map_err(|error| format!("it is broken: {error}"))
+        }
+        // `image` is built here without the readers of these.
+        Ok(ImageFormat::WebP | ImageFormat::Avif | ImageFormat::Dds) => Ok(()),
+        _ if bytes.starts_with(KTX2) => Ok(()),
+        _ => Err("its bytes are no picture of a kind that glTF knows".to_owned()),
+    }
+}
