@@ -18,6 +18,8 @@ mod meshes;
 mod panes;
 #[path = "cli/pictures.rs"]
 mod pictures;
+#[path = "cli/recorder.rs"]
+mod recorder;
 #[path = "cli/renders.rs"]
 mod renders;
 #[path = "cli/streams.rs"]

@@ -12,6 +12,7 @@ mod guide;
 mod handed_out;
 mod layout;
 mod looks;
+mod recorder;
 mod views;
 
 use super::desk::{Desk, Layout};
