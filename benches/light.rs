@@ -30,7 +30,7 @@ fn modern_ideal(girdle_thickness: f64) -> Stone {
 
 fn beams(stone: &Stone, tilt_deg: f64, unresolved: f64) -> beam::Beams {
     let view = View { tilt: tilt_deg.to_radians(), azimuth: 0.2, ..View::default() };
-    let options = beam::Options { unresolved, ..beam::Options::default() };
+    let options = beam::BeamOptions { unresolved, ..beam::BeamOptions::default() };
     beam::trace(&stone.polytope, DIAMOND, &view, &options, &unwatched).expect("unwatched")
 }
 
@@ -77,8 +77,8 @@ fn rays(c: &mut Criterion) {
     assert_eq!(stone.polytope.facets().len(), 57);
     let camera = ray::Camera::new(&View::default(), &stone.polytope);
     let mut run = |name: &str, polarised: bool| {
-        let options = ray::Options { polarised, most_bounces: 12, least_weight: 0.0 };
-        let tracer = ray::Tracer::new(&stone.polytope, DIAMOND, options);
+        let options = ray::RayOptions { polarised, most_bounces: 12, least_weight: 0.0 };
+        let tracer = ray::StoneTracer::new(&stone.polytope, DIAMOND, options);
         c.bench_function(name, |b| {
             b.iter(|| {
                 let mut sum = 0.0;

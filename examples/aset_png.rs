@@ -15,7 +15,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
 
     let stone = Specimen::new(cut_file::read(&file)?)?;
     let (view, scope) = (View::default(), Scope::aset(ASET_CONE, Backing::Black));
-    let options = beam::Options { unresolved: 1e-3, ..beam::Options::default() };
+    let options = beam::BeamOptions { unresolved: 1e-3, ..beam::BeamOptions::default() };
     let beams =
         beam::trace(&stone.stone()?.polytope, stone.medium(line::SODIUM_D), &view, &options, &unwatched)?;
 

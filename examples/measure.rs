@@ -2,12 +2,12 @@
 #![allow(clippy::print_stdout, reason = "an example shows what it finds")]
 
 use brillianteer::io::cut_file;
-use brillianteer::measure::Options;
+use brillianteer::measure::MeasureOptions;
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let file = std::env::args().nth(1).unwrap_or_else(|| "cuts/tolkowsky.toml".into());
     let design = cut_file::read(&file)?;
-    let measured = brillianteer::measure(&design, &Options::default())?;
+    let measured = brillianteer::measure(&design, &MeasureOptions::default())?;
     println!("{}: light return {:.2} %", design.name, 100.0 * measured.light_return());
     for band in measured.scope.bands.iter().skip(1) {
         let zone = measured.zone(&band.name).ok_or("no such zone")?;

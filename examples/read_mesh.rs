@@ -2,9 +2,9 @@
 //! `cargo run --example read_mesh [FILE]`. Without a file it writes a mesh of its own and reads that.
 #![allow(clippy::print_stdout, reason = "an example shows what it finds")]
 
-use brillianteer::cut::Report;
+use brillianteer::cut::ProportionReport;
 use brillianteer::io::{cut_file, design_file};
-use brillianteer::measure::{Bounds, Options};
+use brillianteer::measure::{Bounds, MeasureOptions};
 use brillianteer::scene::Specimen;
 use std::path::PathBuf;
 
@@ -15,7 +15,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         None => {
             let stone = Specimen::new(cut_file::read("cuts/tolkowsky.toml")?)?;
             let file = folder.path().join("tolkowsky.obj");
-            design_file::write(&stone, design_file::Format::Obj, &file)?;
+            design_file::write(&stone, design_file::DesignFormat::Obj, &file)?;
             file
         }
     };
@@ -25,14 +25,15 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let carats = specimen.carats().map_or("of unknown weight".into(), |carats| format!("{carats:.3} ct"));
     println!("{}: {}, {carats}", read.design.name, specimen.material.name);
     if let Ok(stone) = specimen.stone() {
-        let report = Report::of(&stone.polytope, stone.names());
+        let report = ProportionReport::of(&stone.polytope, stone.names());
         println!("table {:.2} %, depth {:.2} %", report.table[0], report.total_depth);
         for tier in &report.tiers {
             println!("  {:<12}{:>4} facets of {:.3}°", tier.name, tier.facets, tier.slope_deg.mean);
         }
     }
     let bounds = Bounds { unresolved: 2e-3, ..Bounds::default() };
-    let measured = brillianteer::measure(&read.design, &Options { bounds, ..Options::default() })?;
+    let measured =
+        brillianteer::measure(&read.design, &MeasureOptions { bounds, ..MeasureOptions::default() })?;
     println!("light return {:.2} %, traced by {}", 100.0 * measured.light_return(), measured.tracer);
     Ok(())
 }

@@ -3,13 +3,13 @@
 
 use brillianteer::cut::{Cut, Pavilion};
 use brillianteer::io::{cut_file, library};
-use brillianteer::measure::{Bounds, Options};
+use brillianteer::measure::{Bounds, MeasureOptions};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let text = library::cut("modern-ideal").ok_or("no such cut")?;
     let mut design = cut_file::parse(text, "modern-ideal")?;
     let bounds = Bounds { unresolved: 2e-3, ..Bounds::default() };
-    let options = Options { bounds, ..Options::default() };
+    let options = MeasureOptions { bounds, ..MeasureOptions::default() };
     println!("pavilion   light return   leakage");
     for step in 0..=8 {
         let angle = 40.0 + 0.25 * f64::from(step);

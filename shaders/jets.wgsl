@@ -43,7 +43,7 @@ fn sign_of(x: f32) -> f32 {
     return select(-1.0, 1.0, x >= 0.0);
 }
 
-fn rectangle_jet(shape: Field, p: vec3f, by: vec3f, sharp: bool) -> Jet {
+fn rectangle_jet(shape: ImplicitSurface, p: vec3f, by: vec3f, sharp: bool) -> Jet {
     let x = plane_jet(abs(p.x) - shape.outline.x, vec3f(sign_of(p.x), 0.0, 0.0));
     let y = plane_jet(abs(p.y) - shape.outline.y, vec3f(0.0, sign_of(p.y), 0.0));
     var jet = shared_by(x, y, by, sharp && shape.outline.z == 0.0);
@@ -51,7 +51,7 @@ fn rectangle_jet(shape: Field, p: vec3f, by: vec3f, sharp: bool) -> Jet {
     return jet;
 }
 
-fn triangle_jet(shape: Field, p: vec3f, by: vec3f, sharp: bool) -> Jet {
+fn triangle_jet(shape: ImplicitSurface, p: vec3f, by: vec3f, sharp: bool) -> Jet {
     let side = sign_of(p.y);
     let folded = vec2f(abs(p.y), p.z);
     let from_corner = folded - shape.outline.xy;
@@ -71,7 +71,7 @@ fn triangle_jet(shape: Field, p: vec3f, by: vec3f, sharp: bool) -> Jet {
 }
 
 // `Body::jet` on the surface or a way to it.
-fn body_jet(shape: Field, p: vec3f, by: vec3f) -> Jet {
+fn body_jet(shape: ImplicitSurface, p: vec3f, by: vec3f) -> Jet {
     let sharp = shape.back.w == 0.0;
     var outline: Jet;
     var end: Jet;
@@ -88,12 +88,12 @@ fn body_jet(shape: Field, p: vec3f, by: vec3f) -> Jet {
 }
 
 // Value and slope of the body's function along a line.
-fn along(shape: Field, p: vec3f, direction: vec3f) -> vec2f {
+fn along(shape: ImplicitSurface, p: vec3f, direction: vec3f) -> vec2f {
     let jet = body_jet(shape, p, vec3f(0.0));
     return vec2f(jet.value, dot(jet.gradient, direction));
 }
 
-fn has_wave(shape: Field) -> bool {
+fn has_wave(shape: ImplicitSurface) -> bool {
     return shape.flank.w > 0.0;
 }
 
@@ -121,7 +121,7 @@ struct Wave {
     bend: vec2f,
 }
 
-fn wave_at(shape: Field, p: vec3f) -> Wave {
+fn wave_at(shape: ImplicitSurface, p: vec3f) -> Wave {
     let angles = sin_cos(vec2f(p.x - p.y, p.x + p.y) * shape.wave.y + vec2f(0.0, 2.0 * shape.wave.z));
     let sines = angles[0];
     let cosines = angles[1];
@@ -133,13 +133,13 @@ fn wave_at(shape: Field, p: vec3f) -> Wave {
 }
 
 // No less than how fast the wave's slope changes along a line.
-fn most_bend(shape: Field, direction: vec3f) -> f32 {
+fn most_bend(shape: ImplicitSurface, direction: vec3f) -> f32 {
     let number = TURN * shape.wave.y;
     return shape.wave.x * number * number * dot(direction.xy, direction.xy);
 }
 
 // The function on the surface. `Wave::shear` of the body's.
-fn jet_at(shape: Field, p: vec3f, by: vec3f) -> Jet {
+fn jet_at(shape: ImplicitSurface, p: vec3f, by: vec3f) -> Jet {
     if !has_wave(shape) {
         return body_jet(shape, p, by);
     }
@@ -156,8 +156,8 @@ fn normal_of(jet: Jet) -> vec3f {
     return jet.gradient / max(length(jet.gradient), LEAST_RADIUS);
 }
 
-// `Field::bend` times a displacement: how far the unit normal changes over its part along the surface.
-fn bend(shape: Field, p: vec3f, by: vec3f) -> vec3f {
+// `ImplicitSurface::bend` times a displacement: how far the unit normal changes over its part along the surface.
+fn bend(shape: ImplicitSurface, p: vec3f, by: vec3f) -> vec3f {
     let normal = normal_of(jet_at(shape, p, vec3f(0.0)));
     let jet = jet_at(shape, p, by - normal * dot(normal, by));
     return (jet.change - normal * dot(normal, jet.change)) / max(length(jet.gradient), LEAST_RADIUS);

@@ -1,6 +1,6 @@
 // What a camera sees of stones under light: colour, over a band of wavelengths after the other.
 
-@group(0) @binding(2) var<storage, read_write> lit: array<Lit>;
+@group(0) @binding(2) var<storage, read_write> lit: array<RadiancePixel>;
 @group(0) @binding(10) var<uniform> responses: array<Response, MOST_WAVELENGTHS>;
 
 // A ray on its way from one stone to the next.
@@ -11,7 +11,7 @@ struct Waiting {
     left: u32,
 }
 
-var<private> sum: Lit;
+var<private> sum: RadiancePixel;
 var<private> response: Response;
 var<private> present: u32;
 var<private> waiting: array<Waiting, MOST_WAITING>;
@@ -121,14 +121,14 @@ fn light(@builtin(global_invocation_id) id: vec3u) {
     if id.x >= frame.film.x || id.y >= frame.film.w {
         return;
     }
-    sum = Lit();
+    sum = RadiancePixel();
     let start = pixel_ray(pixel, frame.limits.zw);
     straight = Ray(start[0], start[1], vec3f(0.0));
     let eye = Waiting(straight, 1.0, NONE);
     // Where it meets the first stone is the same for all wavelengths.
     let met = nearest(eye.ray, NONE);
     let first = present;
-    if met.distance >= 0.0 || surround.backdrop.x > 0.0 {
+    if met.distance >= 0.0 || environment.backdrop.x > 0.0 {
         for (var w = frame.turn.z; w < frame.turn.w; w++) {
             response = responses[w];
             present = first;
@@ -142,7 +142,7 @@ fn light(@builtin(global_invocation_id) id: vec3u) {
         sum.colour.w = f32(frame.turn.w - frame.turn.z);
     }
     let at = row * frame.film.x + id.x;
-    var before = Lit();
+    var before = RadiancePixel();
     if frame.turn.x > 0u {
         before = lit[at];
     }

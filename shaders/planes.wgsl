@@ -1,4 +1,4 @@
-// What light meets: convex stones' planes, n·x <= w, found one after the other. `polytope.wgsl` is the same for many.
+// What light meets: convex stones' planes, n·x <= w, found one after the other. `clusters.wgsl` is the same for many.
 
 @group(0) @binding(1) var<uniform> planes: array<vec4f, MOST_PLANES>;
 

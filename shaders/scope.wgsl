@@ -1,9 +1,9 @@
 // What a camera in a scope records of each pixel, and the strongest exits: energy by band.
 
-@group(0) @binding(2) var<storage, read_write> seen: array<Seen>;
+@group(0) @binding(2) var<storage, read_write> seen: array<ScopePixel>;
 @group(0) @binding(6) var<uniform> bands: Bands;
 
-var<private> sum: Seen;
+var<private> sum: ScopePixel;
 var<private> strongest_weight: f32;
 var<private> strongest_band: u32;
 
@@ -45,7 +45,7 @@ fn scope(@builtin(global_invocation_id) id: vec3u) {
     if id.x >= frame.film.x || id.y >= frame.film.w {
         return;
     }
-    sum = Seen();
+    sum = ScopePixel();
     strongest_weight = 0.0;
     strongest_band = NONE;
     body = bodies[0];
@@ -69,7 +69,7 @@ fn scope(@builtin(global_invocation_id) id: vec3u) {
     let at = id.y * frame.film.x + id.x;
     var before = seen[at];
     if turn == 0u {
-        before = Seen();
+        before = ScopePixel();
     }
     for (var i = 0u; i < 2u; i++) {
         before.transmitted[i] += sum.transmitted[i] * share;

@@ -1,7 +1,7 @@
 // What light meets: triangles in boxes within boxes, the twin of src/math/bvh.rs and of src/trace/ray/facets.rs.
 
 @group(0) @binding(1) var<storage, read> triangles: array<Triangle>;
-@group(0) @binding(3) var<storage, read> nodes: array<Node>;
+@group(0) @binding(3) var<storage, read> nodes: array<BvhNode>;
 
 // A ray's start may lie so far beyond the triangle that it is about to meet, as a part of how far solids reach from the
 // origin: some ten roundings.
@@ -29,7 +29,7 @@ fn turned_axes(v: vec3f, longest: u32, is_down: bool) -> vec3f {
 }
 
 // The distance at which a ray is first within a box, negative where it is not before `far`.
-fn enters(node: Node, origin: vec3f, per: vec3f, slack: f32, far: f32) -> f32 {
+fn enters(node: BvhNode, origin: vec3f, per: vec3f, slack: f32, far: f32) -> f32 {
     let is_up = per >= vec3f(0.0);
     let near = (select(node.high.xyz + slack, node.low.xyz - slack, is_up) - origin) * per;
     let beyond = (select(node.low.xyz - slack, node.high.xyz + slack, is_up) - origin) * per;

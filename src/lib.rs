@@ -13,7 +13,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! [`measure::Options`] choose the view, the scope, the wavelength and the bound on what is unresolved. The folder
+//! [`measure::MeasureOptions`] choose the view, the scope, the wavelength and the bound on what is unresolved. The folder
 //! `examples/` measures a design, sweeps an angle, writes an ASET picture and reads a mesh.
 //!
 //! Frame: right-handed, +z out of the table, z = 0 at the crown-side girdle, girdle radius 1. Lengths in files are

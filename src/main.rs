@@ -12,7 +12,7 @@ fn main() -> ExitCode {
 }
 
 /// What opens the window, where this program has one.
-fn editor() -> Option<brillianteer::cli::Editor> {
+fn editor() -> Option<brillianteer::cli::EditorOpener> {
     #[cfg(feature = "app")]
     return Some(|file, mesh| {
         use brillianteer::app::WindowError;

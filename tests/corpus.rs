@@ -2,7 +2,7 @@
 #![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a test fails by it, and tells what it saw")]
 
 use brillianteer::cut::{AlongAxes, Cut, Outline, Tiers};
-use brillianteer::io::design_file::{self, Format, written};
+use brillianteer::io::design_file::{self, DesignFormat, written};
 use brillianteer::math::{Facet, Polytope};
 use brillianteer::scene::{Specimen, Stone};
 use glam::DVec3;
@@ -60,7 +60,7 @@ fn tiers(specimen: &Specimen) -> &Tiers {
 }
 
 /// A stone written in a format and read again, with what was said to be lost.
-fn again(specimen: &Specimen, format: Format) -> (Specimen, Vec<String>) {
+fn again(specimen: &Specimen, format: DesignFormat) -> (Specimen, Vec<String>) {
     let written = written(specimen, format).unwrap();
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join(format!("again.{}", format.ending()));
@@ -72,7 +72,7 @@ fn again(specimen: &Specimen, format: Format) -> (Specimen, Vec<String>) {
 fn what_is_written_reads_back_equal() {
     for file in files(&["asc"]) {
         let Ok(specimen) = open(&file) else { continue };
-        for format in [Format::Toml, Format::Asc] {
+        for format in [DesignFormat::Toml, DesignFormat::Asc] {
             let (back, lost) = again(&specimen, format);
             assert!(lost.iter().all(|what| what.starts_with("the name ")), "{}: {lost:?}", file.display());
             assert!(tiers(&back) == tiers(&specimen), "{} as {}", file.display(), format.ending());
@@ -88,7 +88,7 @@ fn a_stone_written_as_a_mesh_is_read_as_a_stone() {
     };
     for file in files(&["asc"]).iter().step_by(25) {
         let Ok(specimen) = open(file) else { continue };
-        for format in [Format::Obj, Format::Stl, Format::Glb] {
+        for format in [DesignFormat::Obj, DesignFormat::Stl, DesignFormat::Glb] {
             let (back, _) = again(&specimen, format);
             let (after, before) = (compact(&back), compact(&specimen));
             let (name, ending) = (file.display(), format.ending());
@@ -104,7 +104,7 @@ const SAME_PLANE: f64 = 1e-8;
 fn every_format_holds_every_stone() {
     for file in files(&["asc"]).iter().step_by(10) {
         let Ok(specimen) = open(file) else { continue };
-        for format in [Format::Gem, Format::Gcs] {
+        for format in [DesignFormat::Gem, DesignFormat::Gcs] {
             let (back, _) = again(&specimen, format);
             let (name, ending) = (file.display(), format.ending());
             assert_eq!(

@@ -3,7 +3,7 @@
 #![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a test fails by it, and says what it saw")]
 
 use brillianteer::cut::{Cut, Design, Tiers};
-use brillianteer::io::design_file::Brought;
+use brillianteer::io::design_file::ImportedDesign;
 use brillianteer::io::{gcs, gem};
 use brillianteer::math::Plane;
 use brillianteer::scene::Specimen;
@@ -95,7 +95,8 @@ fn every_real_gem_opens_and_reads_as_it_is_written() {
         let (bytes, label) = (std::fs::read(path).unwrap(), path.display().to_string());
         assert!(gem::looks_like(&bytes), "{label}");
         assert!(!gcs::looks_like(&bytes), "{label}");
-        let Brought { design, warnings, .. } = gem::read(&bytes, &label).unwrap_or_else(|e| panic!("{e}"));
+        let ImportedDesign { design, warnings, .. } =
+            gem::read(&bytes, &label).unwrap_or_else(|e| panic!("{e}"));
         told.extend(warnings.iter().map(|warning| format!("{}: {warning}", design.name)));
         worst = worst.max(apart(&stored(&bytes), &planes(&design)));
         let specimen = match Specimen::new(design.clone()) {
@@ -169,7 +170,7 @@ fn stones_have_the_corners_that_their_files_store() {
     let (mut blanks, mut offs): (usize, Vec<(f64, String)>) = (0, vec![]);
     for path in files {
         let bytes = std::fs::read(&path).unwrap();
-        let Brought { design, warnings, .. } = gem::read(&bytes, "x").unwrap();
+        let ImportedDesign { design, warnings, .. } = gem::read(&bytes, "x").unwrap();
         blanks += usize::from(warnings.iter().any(|warning| warning.contains("block")));
         if warnings.iter().any(|warning| warning.contains("block")) {
             continue;
@@ -218,7 +219,8 @@ fn every_real_gcs_opens_and_reads_as_it_is_written() {
     for path in files {
         let (bytes, label) = (std::fs::read(&path).unwrap(), path.display().to_string());
         assert!(gcs::looks_like(&bytes) && !gem::looks_like(&bytes));
-        let Brought { design, warnings, .. } = gcs::read(&bytes, &label).unwrap_or_else(|e| panic!("{e}"));
+        let ImportedDesign { design, warnings, .. } =
+            gcs::read(&bytes, &label).unwrap_or_else(|e| panic!("{e}"));
         assert_eq!(warnings, Vec::<String>::new());
         let cut = tiers(&design);
         println!("{label}: {} tiers, {} facets, remarks {:?}", cut.tiers.len(), cut.count(), cut.remarks);
@@ -245,7 +247,7 @@ fn real_designs_go_from_one_format_to_the_other_and_back() {
         let label = path.display().to_string();
         let design = gem::read(&std::fs::read(&path).unwrap(), &label).unwrap().design;
         let Ok(specimen) = Specimen::new(design) else { continue };
-        let Brought { design, warnings, .. } =
+        let ImportedDesign { design, warnings, .. } =
             gcs::read(&gcs::write(&specimen).bytes, &label).unwrap_or_else(|e| panic!("{e}"));
         if !warnings.is_empty() {
             println!("{label}: {warnings:?}");

@@ -8,12 +8,12 @@ mod pixels;
 #[path = "common/shoot.rs"]
 mod shoot;
 
-use brillianteer::math::{Field, Form, Smooth};
+use brillianteer::math::{ImplicitForm, ImplicitSurface, SmoothSolid};
 use brillianteer::optics::{Material, material};
 use brillianteer::picture::Linear;
-use brillianteer::scene::{Light, Medium, Placed, View, light};
-use brillianteer::trace::gpu::{Around, ByCard, GpuError};
-use brillianteer::trace::ray::Options;
+use brillianteer::scene::{Instance, Light, Medium, View, light};
+use brillianteer::trace::gpu::{ByCard, GpuEnvironment, GpuError};
+use brillianteer::trace::ray::RayOptions;
 use common::*;
 use glam::{DQuat, DVec3};
 use pixels::{ALLOWED, Case, views};
@@ -21,27 +21,27 @@ use shoot::{Shoot, apart, colour, differ};
 use std::io::Write;
 
 /// Turned a little: edges that lie along the rays of a view would be met or missed by rounding.
-fn smooth(form: Form) -> Smooth {
+fn smooth(form: ImplicitForm) -> SmoothSolid {
     let turn = DQuat::from_rotation_x(0.31) * DQuat::from_rotation_y(-0.27) * DQuat::from_rotation_z(0.19);
-    Smooth::new(Field::new(form).unwrap().moved(1.1, turn, DVec3::new(0.05, -0.1, 0.2)))
+    SmoothSolid::new(ImplicitSurface::new(form).unwrap().moved(1.1, turn, DVec3::new(0.05, -0.1, 0.2)))
 }
 
-fn plate(size: DVec3, edge: f64, (amplitude, wavelength): (f64, f64), phase: f64) -> Form {
-    Form::Plate { size, edge, amplitude, wavelength, phase }
+fn plate(size: DVec3, edge: f64, (amplitude, wavelength): (f64, f64), phase: f64) -> ImplicitForm {
+    ImplicitForm::Plate { size, edge, amplitude, wavelength, phase }
 }
 
 const CUBE: DVec3 = DVec3::splat(1.15);
 const TILE: DVec3 = DVec3::new(1.7, 1.7, 0.3);
 
-fn forms() -> [(&'static str, Form); 9] {
+fn forms() -> [(&'static str, ImplicitForm); 9] {
     [
-        ("ball", Form::Pill { size: DVec3::splat(1.5), edge: 0.75 }),
-        ("pill", Form::Pill { size: DVec3::new(2.0, 0.575, 0.31), edge: 0.155 }),
-        ("upright pill", Form::Pill { size: DVec3::new(0.6, 1.8, 0.8), edge: 0.1 }),
-        ("cube", Form::Block { size: CUBE, edge: 0.22 }),
-        ("sharp block", Form::Block { size: DVec3::new(0.5, 1.15, 1.65), edge: 0.0 }),
-        ("sharp prism", Form::Prism { size: DVec3::new(1.965, 0.745, 0.585), edge: 0.0 }),
-        ("prism", Form::Prism { size: DVec3::new(1.6, 0.9, 0.8), edge: 0.08 }),
+        ("ball", ImplicitForm::Pill { size: DVec3::splat(1.5), edge: 0.75 }),
+        ("pill", ImplicitForm::Pill { size: DVec3::new(2.0, 0.575, 0.31), edge: 0.155 }),
+        ("upright pill", ImplicitForm::Pill { size: DVec3::new(0.6, 1.8, 0.8), edge: 0.1 }),
+        ("cube", ImplicitForm::Block { size: CUBE, edge: 0.22 }),
+        ("sharp block", ImplicitForm::Block { size: DVec3::new(0.5, 1.15, 1.65), edge: 0.0 }),
+        ("sharp prism", ImplicitForm::Prism { size: DVec3::new(1.965, 0.745, 0.585), edge: 0.0 }),
+        ("prism", ImplicitForm::Prism { size: DVec3::new(1.6, 0.9, 0.8), edge: 0.08 }),
         ("rippled plate", plate(TILE, 0.0525, (0.02, 0.4), 0.7)),
         ("wavy plate", plate(TILE, 0.0525, (0.1, 1.5), 0.3)),
     ]
@@ -64,7 +64,7 @@ fn glass_looks_as_by_rays() {
         let smooth = smooth(form);
         for (i, (view, medium)) in views().iter().zip(media.iter().cycle().skip(k)).enumerate() {
             let case = Case::new(&smooth, *medium, view, (i + k) % 3 != 0);
-            let options = Options { most_bounces: BOUNCES, ..case.options };
+            let options = RayOptions { most_bounces: BOUNCES, ..case.options };
             let found = Case { options, twin_options: options, ..case }.compared(&gpu);
             assert!(found.largest <= ALLOWED, "{name}, {medium:?}, {view:?}: {:e}", found.largest);
             assert!(found.energy <= 1e-4, "{name}, {medium:?}, {view:?}: energy off by {:e}", found.energy);
@@ -80,8 +80,8 @@ fn the_comparison_of_glass_sees_every_small_change() {
     let Some(gpu) = card("the_comparison_of_glass_sees_every_small_change") else { return };
     let view = View { tilt: 0.5, azimuth: 1.4, ..View::default() };
     let glass = Medium::clear(1.54);
-    let cube = smooth(Form::Block { size: CUBE, edge: 0.22 });
-    let rounder = smooth(Form::Block { size: CUBE, edge: 0.2205 });
+    let cube = smooth(ImplicitForm::Block { size: CUBE, edge: 0.22 });
+    let rounder = smooth(ImplicitForm::Block { size: CUBE, edge: 0.2205 });
     let wavy = smooth(plate(TILE, 0.05, (0.1, 1.5), 0.3));
     let later = smooth(plate(TILE, 0.05, (0.1, 1.5), 0.302));
     let higher = smooth(plate(TILE, 0.05, (0.1005, 1.5), 0.3));
@@ -89,8 +89,8 @@ fn the_comparison_of_glass_sees_every_small_change() {
         [("cube", &cube, [&rounder, &rounder]), ("plate", &wavy, [&later, &higher])]
     {
         let case = || Case::new(smooth, glass, &view, true);
-        let plain = Options { polarised: false, ..case().options };
-        let shorter = Options { most_bounces: 3, ..case().options };
+        let plain = RayOptions { polarised: false, ..case().options };
+        let shorter = RayOptions { most_bounces: 3, ..case().options };
         for (change, mutant) in [
             ("index", Case { twin_medium: Medium::clear(1.541), ..case() }),
             ("shape", Case { twin: changed[0].into(), ..case() }),
@@ -98,7 +98,7 @@ fn the_comparison_of_glass_sees_every_small_change() {
             ("polarisation", Case { twin_options: plain, ..case() }),
             (
                 "bounces",
-                Case { options: Options { most_bounces: 4, ..shorter }, twin_options: shorter, ..case() },
+                Case { options: RayOptions { most_bounces: 4, ..shorter }, twin_options: shorter, ..case() },
             ),
             ("absorption", Case { twin_medium: Medium { absorption: [0.01; 2], ..glass }, ..case() }),
         ] {
@@ -113,19 +113,19 @@ fn the_comparison_of_glass_sees_every_small_change() {
     assert!(found.largest > 10.0 * ALLOWED, "light that enters again: only {:e}", found.largest);
 }
 
-fn pill(middle: DVec3) -> Field {
+fn pill(middle: DVec3) -> ImplicitSurface {
     let turn = DQuat::from_rotation_x(0.5) * DQuat::from_rotation_z(0.4);
-    let form = Form::Pill { size: DVec3::new(1.5, 0.7, 0.5), edge: 0.2 };
-    Field::new(form).unwrap().moved(1.0, turn, middle)
+    let form = ImplicitForm::Pill { size: DVec3::new(1.5, 0.7, 0.5), edge: 0.2 };
+    ImplicitSurface::new(form).unwrap().moved(1.0, turn, middle)
 }
 
-fn small_plate(middle: DVec3, phase: f64) -> Field {
+fn small_plate(middle: DVec3, phase: f64) -> ImplicitSurface {
     let (size, edge) = (DVec3::new(1.5, 1.5, 0.25), 0.05);
-    let form = Form::Plate { size, edge, amplitude: 0.06, wavelength: 1.1, phase };
-    Field::new(form).unwrap().moved(1.0, DQuat::from_rotation_y(0.2), middle)
+    let form = ImplicitForm::Plate { size, edge, amplitude: 0.06, wavelength: 1.1, phase };
+    ImplicitSurface::new(form).unwrap().moved(1.0, DQuat::from_rotation_y(0.2), middle)
 }
 
-fn lit(field: Field, material: &str, light_name: &str, most_bounces: u32) -> Shoot {
+fn lit(field: ImplicitSurface, material: &str, light_name: &str, most_bounces: u32) -> Shoot {
     let mut shoot = Shoot::of(field, material, light(light_name).unwrap());
     (shoot.samples, shoot.options.most_bounces, shoot.size) = (4, most_bounces, 40);
     shoot
@@ -135,7 +135,7 @@ fn lit(field: Field, material: &str, light_name: &str, most_bounces: u32) -> Sho
 fn pill_and_plate(phase: f64, most_bounces: u32) -> Shoot {
     let mut both = lit(pill(DVec3::new(0.1, 0.1, 0.6)), "quartz", "studio", most_bounces);
     let glass = Material::from_index("glass", 1.6).unwrap();
-    both.setting.stones.push(Placed::new(small_plate(DVec3::new(-0.1, -0.2, -0.3), phase), glass));
+    both.setting.instances.push(Instance::new(small_plate(DVec3::new(-0.1, -0.2, -0.3), phase), glass));
     both
 }
 
@@ -210,11 +210,12 @@ fn how_long_glass_takes() {
 #[test]
 fn glass_in_a_furnace_is_white_on_the_card() {
     let Some(gpu) = card("glass_in_a_furnace_is_white_on_the_card") else { return };
-    let block = Form::Block { size: DVec3::splat(0.9), edge: 0.1 };
-    let prism = Form::Prism { size: DVec3::new(1.2, 0.8, 0.8), edge: 0.06 };
-    let ball = Form::Pill { size: DVec3::splat(1.4), edge: 0.7 };
+    let block = ImplicitForm::Block { size: DVec3::splat(0.9), edge: 0.1 };
+    let prism = ImplicitForm::Prism { size: DVec3::new(1.2, 0.8, 0.8), edge: 0.06 };
+    let ball = ImplicitForm::Pill { size: DVec3::splat(1.4), edge: 0.7 };
     let turn = DQuat::from_rotation_x(0.5) * DQuat::from_rotation_y(0.4);
-    let convex = [block, prism, ball].map(|form| Field::new(form).unwrap().moved(1.0, turn, DVec3::ZERO));
+    let convex =
+        [block, prism, ball].map(|form| ImplicitSurface::new(form).unwrap().moved(1.0, turn, DVec3::ZERO));
     for field in convex.into_iter().chain([pill(DVec3::ZERO), small_plate(DVec3::ZERO, 0.4)]) {
         let mut shoot = Shoot::of(field, "quartz", Light::white());
         shoot.options.least_weight = 1e-5;
@@ -231,10 +232,10 @@ fn glass_beside_a_stone_is_not_for_the_card() {
     let Some(gpu) = card("glass_beside_a_stone_is_not_for_the_card") else { return };
     let stone = built(&brilliant((56.0, 34.5, 40.8), (50.0, 77.0), 16)).polytope;
     let mut shoot = Shoot::new(&stone, "diamond", light("dome").unwrap());
-    shoot.setting.stones.push(Placed::new(pill(DVec3::X * 3.0), material("quartz").unwrap().clone()));
-    shoot.with(|sitting| {
-        let around = Around::new(&gpu, &sitting.surround);
-        let refused = ByCard::new(&gpu, sitting, &around, 0..8, 3).err();
+    shoot.setting.instances.push(Instance::new(pill(DVec3::X * 3.0), material("quartz").unwrap().clone()));
+    shoot.with(|lit_scene| {
+        let around = GpuEnvironment::new(&gpu, &lit_scene.environment);
+        let refused = ByCard::new(&gpu, lit_scene, &around, 0..8, 3).err();
         assert_eq!(refused, Some(GpuError::MixedKinds));
     });
 }

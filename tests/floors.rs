@@ -1,6 +1,7 @@
 //! The structure: every floor of the house imports only from those below it.
 #![allow(clippy::unwrap_used, reason = "a test fails by it")]
 
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 const FLOORS: [(&str, u32); 10] = [
@@ -66,6 +67,38 @@ fn no_floor_imports_from_its_own_or_a_higher_one() {
         }
     }
     assert!(checked > 30, "only {checked} imports were seen: the check has lost its eyes");
+}
+
+/// The public types that a text declares, its test modules aside.
+fn public_types(text: &str) -> Vec<&str> {
+    let code = text.split("#[cfg(test)]\nmod ").next().unwrap_or("");
+    let public = code.lines().filter_map(|line| {
+        let line = line.trim_start().strip_prefix("pub")?;
+        let after = if line.starts_with('(') { line.split_once(')')?.1 } else { line };
+        let mut words = after.split_whitespace();
+        let kind = words.next()?;
+        ["struct", "enum", "trait", "type"].contains(&kind).then(|| words.next()).flatten()
+    });
+    public.map(|name| name.split(|c: char| !c.is_alphanumeric() && c != '_').next().unwrap_or("")).collect()
+}
+
+#[test]
+fn no_two_public_types_have_one_name() {
+    let src = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+    let mut places = BTreeMap::<String, Vec<PathBuf>>::new();
+    for path in sources(&src).into_iter().filter(|path| !path.iter().any(|part| part == "tests")) {
+        let text = std::fs::read_to_string(&path).unwrap();
+        for name in public_types(&text) {
+            places.entry(name.to_owned()).or_default().push(path.clone());
+        }
+    }
+    assert!(places.len() > 200, "only {} types were seen: the check has lost its eyes", places.len());
+    let shared: Vec<_> = places.iter().filter(|(_, paths)| paths.len() > 1).collect();
+    assert!(shared.is_empty(), "one name, several types: {shared:#?}");
+    let seen = public_types(
+        "pub(super) struct A<T>;\n  pub enum B {\nstruct C;\npub fn d() {}\n// pub type E = u8;",
+    );
+    assert_eq!(seen, ["A", "B"]);
 }
 
 #[test]

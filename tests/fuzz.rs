@@ -4,12 +4,12 @@
 #![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a test fails by it; what was run is told")]
 
 use brillianteer::cut::from_mesh::{Up, from_mesh};
-use brillianteer::io::design_file::{Format, written};
+use brillianteer::io::design_file::{DesignFormat, written};
 use brillianteer::io::refraction_map::{self, Coding};
 use brillianteer::io::{asc, cut_file, gcs, gem, library, light_file, mesh_file, scene_file, scope_file};
-use brillianteer::math::Shell;
-use brillianteer::math::surface::{Shape, facets};
-use brillianteer::picture::{Linear, MapBand, Place, RefractionMap};
+use brillianteer::math::TriangleMesh;
+use brillianteer::math::surface::{SurfaceKind, facets};
+use brillianteer::picture::{Linear, MapBand, RefractionMap, SourcePlace};
 use brillianteer::scene::{LIGHTS, Specimen, light};
 use glam::{DMat3, DVec3};
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -115,7 +115,7 @@ fn fuzz(target: &str, files: &[Vec<u8>], read: impl Fn(&[u8])) {
 }
 
 /// A brilliant of few facets in a format.
-fn brilliant(format: Format) -> Vec<u8> {
+fn brilliant(format: DesignFormat) -> Vec<u8> {
     let text = library::cut("tolkowsky").unwrap().replace("girdle_facets = 96", "girdle_facets = 16");
     let specimen = Specimen::new(cut_file::parse(&text, "t").unwrap()).unwrap();
     written(&specimen, format).unwrap().bytes
@@ -124,7 +124,7 @@ fn brilliant(format: Format) -> Vec<u8> {
 /// Reads a design, builds it, and writes it again.
 fn built(design: brillianteer::cut::Design) {
     if let Ok(specimen) = Specimen::new(design) {
-        for format in Format::ALL {
+        for format in DesignFormat::ALL {
             let _ = written(&specimen, format);
         }
     }
@@ -136,21 +136,21 @@ fn lossy(read: impl Fn(&str)) -> impl Fn(&[u8]) {
 
 #[test]
 fn cut_files() {
-    let as_tiers = asc::read(&brilliant(Format::Asc), "t").unwrap().design;
+    let as_tiers = asc::read(&brilliant(DesignFormat::Asc), "t").unwrap().design;
     let files = [cut_file::write(&as_tiers).into_bytes(), library::cut("tolkowsky").unwrap().into()];
     fuzz("toml", &files, lossy(|text| drop(cut_file::parse(text, "x").map(built))));
 }
 
 #[test]
 fn cutters_texts() {
-    fuzz("asc", &[brilliant(Format::Asc)], |bytes| {
+    fuzz("asc", &[brilliant(DesignFormat::Asc)], |bytes| {
         drop(asc::read(bytes, "x").map(|brought| built(brought.design)))
     });
 }
 
 #[test]
 fn cutters_bytes() {
-    fuzz("gem", &[brilliant(Format::Gem)], |bytes| {
+    fuzz("gem", &[brilliant(DesignFormat::Gem)], |bytes| {
         let _ = gem::looks_like(bytes);
         drop(gem::read(bytes, "x").map(|brought| built(brought.design)));
     });
@@ -158,7 +158,7 @@ fn cutters_bytes() {
 
 #[test]
 fn cutters_xml() {
-    fuzz("gcs", &[brilliant(Format::Gcs)], |bytes| {
+    fuzz("gcs", &[brilliant(DesignFormat::Gcs)], |bytes| {
         drop(gcs::read(bytes, "x").map(|brought| built(brought.design)))
     });
 }
@@ -168,21 +168,21 @@ fn mesh(bytes: &[u8]) {
     let Ok(file) = mesh_file::parse(bytes.to_vec(), "x", None) else { return };
     let Ok(mended) = file.surface.mend() else { return };
     match facets(mended.surface) {
-        Shape::Convex(found) => drop(from_mesh(&found, Up::Found)),
-        Shape::Concave(surface) => drop(Shell::new(surface)),
+        SurfaceKind::Convex(found) => drop(from_mesh(&found, Up::Found)),
+        SurfaceKind::Concave(surface) => drop(TriangleMesh::new(surface)),
     }
 }
 
 #[test]
 fn meshes_of_polygons() {
-    fuzz("obj", &[brilliant(Format::Obj)], mesh);
+    fuzz("obj", &[brilliant(DesignFormat::Obj)], mesh);
 }
 
 #[test]
 fn meshes_of_triangles() {
     let text = b"solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\n\
                  facet normal 0 0 -1\nouter loop\nvertex 0 0 0\nvertex 0 1 0\nvertex 0 0 1\nendloop\nendfacet\nendsolid a\n";
-    fuzz("stl", &[brilliant(Format::Stl), text.to_vec()], mesh);
+    fuzz("stl", &[brilliant(DesignFormat::Stl), text.to_vec()], mesh);
 }
 
 #[test]
@@ -203,7 +203,7 @@ fn meshes_of_properties() {
 
 #[test]
 fn meshes_of_gltf() {
-    let binary = brilliant(Format::Glb);
+    let binary = brilliant(DesignFormat::Glb);
     // The first chunk, as a file of text alone.
     let length = u32::from_le_bytes(binary[12..16].try_into().unwrap()) as usize;
     let text = binary[20..20 + length].to_vec();
@@ -229,9 +229,9 @@ fn map(bands: usize) -> RefractionMap {
     let [width, height] = [7_u16, 5];
     let place = |k: u16| {
         let part = |step: f32| (f32::from(k) * step).fract();
-        Place { u: part(0.31), v: part(0.17), weight: part(0.53) }
+        SourcePlace { u: part(0.31), v: part(0.17), weight: part(0.53) }
     };
-    let places: Vec<Place> = (0..width * height).map(place).collect();
+    let places: Vec<SourcePlace> = (0..width * height).map(place).collect();
     let band = |k: usize| {
         let response = DMat3::from_diagonal(DVec3::splat(1.0 / bands as f64));
         MapBand { nm: 450.0 + 50.0 * k as f64, response, places: places.clone() }

@@ -2,28 +2,28 @@
 #![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a test fails by it; what was found is told")]
 
 use brillianteer::cut::Glass;
-use brillianteer::math::{Field, Form, Plane, Polytope, Solid, SolidRef};
+use brillianteer::math::{ImplicitForm, ImplicitSurface, Plane, Polytope, Solid, SolidRef};
 use brillianteer::measure;
 use brillianteer::optics::Dispersion;
 use brillianteer::picture::by_rays;
-use brillianteer::picture::by_rays::Manner;
+use brillianteer::picture::by_rays::ScopeSampling;
 use brillianteer::scene::{ASET_CONE, Backing, Film, Glare, Medium, Projection, Scope, View};
-use brillianteer::trace::ray::{Camera, Exit, Options, Tracer};
+use brillianteer::trace::ray::{Camera, Exit, RayOptions, StoneTracer};
 use brillianteer::trace::unwatched;
 use glam::{DQuat, DVec2, DVec3};
 
-fn solid(form: Form) -> Solid {
-    Field::new(form).unwrap().into()
+fn solid(form: ImplicitForm) -> Solid {
+    ImplicitSurface::new(form).unwrap().into()
 }
 
-fn exits(tracer: &Tracer, origin: DVec3, direction: DVec3) -> Vec<Exit> {
+fn exits(tracer: &StoneTracer, origin: DVec3, direction: DVec3) -> Vec<Exit> {
     let mut exits = vec![];
     tracer.follow(origin, direction, |exit| exits.push(exit)).unwrap();
     exits
 }
 
 /// What goes straight through: the light that leaves at the first facet met inside.
-fn through(tracer: &Tracer, origin: DVec3, direction: DVec3) -> Option<Exit> {
+fn through(tracer: &StoneTracer, origin: DVec3, direction: DVec3) -> Option<Exit> {
     exits(tracer, origin, direction).into_iter().find(|exit| exit.bounce == 1)
 }
 
@@ -31,10 +31,10 @@ fn every_shape() -> Vec<(&'static str, Solid)> {
     let mut shapes: Vec<(&str, Solid)> =
         Glass::ALL.iter().map(|(key, _, glass)| (*key, glass.field().unwrap().into())).collect();
     let size = DVec3::new(1.6, 1.2, 1.0);
-    shapes.push(("rounded prism", solid(Form::Prism { size, edge: 0.12 })));
-    shapes.push(("sharp cube", solid(Form::Block { size, edge: 0.0 })));
-    shapes.push(("ball", solid(Form::Pill { size: DVec3::splat(2.0), edge: 1.0 })));
-    let waves = Form::Plate {
+    shapes.push(("rounded prism", solid(ImplicitForm::Prism { size, edge: 0.12 })));
+    shapes.push(("sharp cube", solid(ImplicitForm::Block { size, edge: 0.0 })));
+    shapes.push(("ball", solid(ImplicitForm::Pill { size: DVec3::splat(2.0), edge: 1.0 })));
+    let waves = ImplicitForm::Plate {
         size: DVec3::new(2.0, 1.6, 0.2),
         edge: 0.04,
         amplitude: 0.12,
@@ -60,14 +60,14 @@ fn rays(solid: &Solid, count: u32) -> Vec<(DVec3, DVec3)> {
 #[test]
 fn a_prism_bends_every_wavelength_by_the_least_deviation_of_the_textbook() {
     // Equilateral: 60 degrees at every edge.
-    let form = Form::Prism { size: DVec3::new(2.0, 1.0, 0.75_f64.sqrt()), edge: 0.0 };
+    let form = ImplicitForm::Prism { size: DVec3::new(2.0, 1.0, 0.75_f64.sqrt()), edge: 0.0 };
     let prism = solid(form);
     let mut worst = 0.0_f64;
     let mut deviations = vec![];
     for law in [Dispersion::Abbe { n_d: 1.728, v_d: 28.4 }, Dispersion::Abbe { n_d: 1.517, v_d: 64.2 }] {
         for nm in [404.7, 486.1, 546.1, 587.6, 656.3, 700.0] {
             let index = law.index(nm);
-            let tracer = Tracer::new(&prism, Medium::clear(index), Options::default());
+            let tracer = StoneTracer::new(&prism, Medium::clear(index), RayOptions::default());
             // A ray in the y-z plane toward the middle of the right flank, from every side.
             let deviation = |incidence: f64| {
                 let normal = DVec3::new(0.0, 0.75_f64.sqrt(), 0.5);
@@ -93,9 +93,9 @@ fn a_prism_bends_every_wavelength_by_the_least_deviation_of_the_textbook() {
 #[test]
 fn a_slab_shifts_light_and_does_not_bend_it() {
     for edge in [0.0, 0.05] {
-        let slab = solid(Form::Block { size: DVec3::new(3.0, 3.0, 0.4), edge });
+        let slab = solid(ImplicitForm::Block { size: DVec3::new(3.0, 3.0, 0.4), edge });
         for index in [1.333, 1.517, 2.418] {
-            let tracer = Tracer::new(&slab, Medium::clear(index), Options::default());
+            let tracer = StoneTracer::new(&slab, Medium::clear(index), RayOptions::default());
             for degrees in [0.0, 10.0, 40.0, 70.0_f64] {
                 let (sin, cos) = degrees.to_radians().sin_cos();
                 let direction = DVec3::new(sin, 0.0, -cos);
@@ -117,9 +117,9 @@ fn a_slab_shifts_light_and_does_not_bend_it() {
 fn a_pill_with_ends_of_balls_images_as_its_lens_formula_says() {
     for (length, radius) in [(2.0, 1.0), (3.0, 0.5), (4.0, 0.8)] {
         let size = DVec3::new(length, 2.0 * radius, 2.0 * radius);
-        let pill = solid(Form::Pill { size, edge: radius });
+        let pill = solid(ImplicitForm::Pill { size, edge: radius });
         for index in [1.333, 1.517, 1.728] {
-            let tracer = Tracer::new(&pill, Medium::clear(index), Options::default());
+            let tracer = StoneTracer::new(&pill, Medium::clear(index), RayOptions::default());
             let height = 1e-4 * radius;
             let origin = DVec3::new(-5.0, 0.6 * height, 0.8 * height);
             let exit = through(&tracer, origin, DVec3::X).unwrap();
@@ -142,8 +142,8 @@ fn all_light_is_accounted_for_in_every_shape() {
     for (name, solid) in every_shape() {
         for medium in [Medium::clear(1.517), Medium::grey(2.418, 0.3), Medium::clear(1.0)] {
             for polarised in [true, false] {
-                let options = Options { polarised, most_bounces: 64, least_weight: 1e-5 };
-                let tracer = Tracer::new(&solid, medium, options);
+                let options = RayOptions { polarised, most_bounces: 64, least_weight: 1e-5 };
+                let tracer = StoneTracer::new(&solid, medium, options);
                 let (mut met, mut lost) = (0, 0.0_f64);
                 for (origin, direction) in rays(&solid, 4000) {
                     let mut sum = 0.0;
@@ -177,7 +177,7 @@ fn a_prism_is_the_same_between_planes_and_as_a_distance() {
         let field: Solid = glass.field().unwrap().into();
         let scope = Scope::aset(ASET_CONE, Backing::Black);
         let medium = Medium::grey(1.6, 0.2);
-        let options = Options { most_bounces: 64, ..Options::default() };
+        let options = RayOptions { most_bounces: 64, ..RayOptions::default() };
         for projection in [Projection::Orthographic, Projection::Perspective { distance: 5.0 }] {
             let view = View { tilt: 0.5, azimuth: 0.3, projection, ..View::default() };
             let film = Film::square(48, 1.3);
@@ -189,7 +189,7 @@ fn a_prism_is_the_same_between_planes_and_as_a_distance() {
                     &view,
                     &scope,
                     &film,
-                    &Manner { options, per_side: 1, glare: Glare::Included },
+                    &ScopeSampling { options, per_side: 1, glare: Glare::Included },
                     &unwatched,
                     |rows| {
                         (rows.first..rows.first + rows.count).for_each(|y| {
@@ -221,9 +221,10 @@ fn a_prism_is_the_same_between_planes_and_as_a_distance() {
 fn a_sweep_over_wavelengths_is_what_two_of_them_differ_by() {
     let spread = 1e-6;
     for (name, solid) in every_shape() {
-        let options = Options { most_bounces: 5, least_weight: 1e-4, polarised: true };
-        let at =
-            |index: f64, spread: f64| Tracer::new(&solid, Medium { spread, ..Medium::clear(index) }, options);
+        let options = RayOptions { most_bounces: 5, least_weight: 1e-4, polarised: true };
+        let at = |index: f64, spread: f64| {
+            StoneTracer::new(&solid, Medium { spread, ..Medium::clear(index) }, options)
+        };
         let (middle, low, high) = (at(1.6, spread), at(1.6 - spread / 2.0, 0.0), at(1.6 + spread / 2.0, 0.0));
         let (mut all, mut off) = (0, 0);
         for (origin, direction) in rays(&solid, 600) {
@@ -251,7 +252,11 @@ fn turning_and_scaling_a_shape_changes_nothing() {
         let (scale, turn, shift) = (2.5, DQuat::from_rotation_x(0.7), DVec3::new(0.3, -4.0, 1.0));
         let moved = solid.moved(scale, turn, shift);
         let tracer = |solid: &Solid| {
-            Tracer::new(solid, Medium::clear(1.5), Options { most_bounces: 4, ..Options::default() })
+            StoneTracer::new(
+                solid,
+                Medium::clear(1.5),
+                RayOptions { most_bounces: 4, ..RayOptions::default() },
+            )
         };
         let (own, other) = (tracer(&solid), tracer(&moved));
         let (mut all, mut off) = (0, 0);

@@ -7,10 +7,10 @@ use brillianteer::math::{Plane, Polytope};
 use brillianteer::optics::{Dispersion, Illuminant, Material, strata};
 use brillianteer::picture::LUMINANCE;
 use brillianteer::picture::spectral::expose_in;
-use brillianteer::scene::{Film, Light, Panorama, Placed, Setting, View};
-use brillianteer::trace::ray::{ByRays, Options};
-use brillianteer::trace::sitting::{Looks, Sitting};
-use brillianteer::trace::surround::{Behind, Sky, Surround};
+use brillianteer::scene::{Film, Instance, Light, Panorama, Scene, View};
+use brillianteer::trace::environment::{Backplate, Environment, EnvironmentMap};
+use brillianteer::trace::ray::{ByRays, RayOptions};
+use brillianteer::trace::sampling::{LitScene, Sampling};
 use brillianteer::trace::{Stopped, unwatched};
 use glam::{DMat3, DVec2, DVec3};
 use std::path::Path;
@@ -30,35 +30,35 @@ const XYZ_FROM_SRGB: DMat3 =
 
 /// The prism, of rainbow soap, before a slit as `render prism --background slit` has it, in the dark; the cut runs across the
 /// upper rainbow.
-fn cut(wavelengths: u32, looks: Looks) -> Vec<DVec3> {
+fn cut(wavelengths: u32, looks: Sampling) -> Vec<DVec3> {
     let planes: Vec<Plane> = Glass::ALL[1].2.planes().unwrap().into_iter().map(|(_, plane)| plane).collect();
     let mut material = Material::from_index("rainbow soap", 1.272).unwrap();
     material.dispersion = Dispersion::Abbe { n_d: 1.272, v_d: 2.0 };
-    let stone = Placed::new(Polytope::from_planes(&planes).unwrap(), material);
-    let setting = Setting { stones: vec![stone], unit_mm: 20.0 };
+    let stone = Instance::new(Polytope::from_planes(&planes).unwrap(), material);
+    let setting = Scene { instances: vec![stone], unit_mm: 20.0 };
     let slit = BackgroundRef::read("slit", Path::new("")).unwrap().picture().unwrap().unwrap().panorama;
     shot(&setting, &slit, wavelengths, looks)
 }
 
-fn shot(setting: &Setting, slit: &Panorama, wavelengths: u32, looks: Looks) -> Vec<DVec3> {
+fn shot(setting: &Scene, slit: &Panorama, wavelengths: u32, looks: Sampling) -> Vec<DVec3> {
     let dark = Light { dome: vec![], ..Light::white() };
-    let (sky, view) = (Sky::new(&dark, None), View::default());
-    let behind = Behind { picture: slit, distance: 0.75, width: 4.24 };
-    let surround = Surround {
-        sky: &sky,
+    let (sky, view) = (EnvironmentMap::new(&dark, None), View::default());
+    let behind = Backplate { picture: slit, distance: 0.75, width: 4.24 };
+    let environment = Environment {
+        map: &sky,
         basis: view.light_basis(),
         eye: view.basis(),
         head: 0.0,
-        behind: Some(behind),
+        backplate: Some(behind),
         backdrop: true,
     };
     // A column from the slit up over the upper face.
     let film = Film { centre: DVec2::new(0.0, 0.17), ..Film::new([1, PIXELS], 0.40 / f64::from(PIXELS)) };
-    let options = Options { polarised: true, most_bounces: 16, least_weight: 1e-4 };
-    let sitting = Sitting { setting, surround, view: &view, film, options };
+    let options = RayOptions { polarised: true, most_bounces: 16, least_weight: 1e-4 };
+    let lit_scene = LitScene { scene: setting, environment, view: &view, film, options };
     let strata = strata(wavelengths, &Illuminant::D65, true);
-    let prepare = |rows| Ok::<_, Stopped>(ByRays::new(sitting, rows));
-    let (picture, _) = expose_in(&sitting, (&strata, looks), PIXELS, prepare, &unwatched).unwrap();
+    let prepare = |rows| Ok::<_, Stopped>(ByRays::new(lit_scene, rows));
+    let (picture, _) = expose_in(&lit_scene, (&strata, looks), PIXELS, prepare, &unwatched).unwrap();
     picture.pixels.iter().map(|p| DVec3::new(p[0].into(), p[1].into(), p[2].into())).collect()
 }
 
@@ -107,15 +107,15 @@ fn steps(hues: &[Option<f64>]) -> (f64, usize) {
 
 #[test]
 fn three_wavelengths_show_three_hues_and_sixteen_nearly_all() {
-    let still = |count| Looks { jitter: false, ..Looks::of(count) };
+    let still = |count| Sampling { jitter: false, ..Sampling::of(count) };
     let mut told = vec![];
     for (wavelengths, looks) in [
         (3, still(16)),
         (8, still(16)),
         (16, still(16)),
-        (3, Looks::of(64)),
-        (16, Looks::of(64)),
-        (64, Looks::of(64)),
+        (3, Sampling::of(64)),
+        (16, Sampling::of(64)),
+        (64, Sampling::of(64)),
     ] {
         let found = hues(&cut(wavelengths, looks));
         let (step, dark) = steps(&found);
@@ -135,14 +135,14 @@ fn three_wavelengths_show_three_hues_and_sixteen_nearly_all() {
 #[test]
 fn no_strength_at_all_leaves_the_slit_where_it_is_and_full_strength_is_physics() {
     let at = |strength| {
-        let cut = cut(8, Looks { strength, ..Looks::of(4) });
+        let cut = cut(8, Sampling { strength, ..Sampling::of(4) });
         let lit: Vec<usize> = (0..cut.len()).filter(|&k| cut[k].y > 0.2).collect();
         (lit.first().copied(), lit.len())
     };
     // The cut begins above the slit, whose image is moved up less and less.
     let moved = [1.0, 0.5, 0.2].map(at);
     assert!(moved[0].1 > 0 && moved[0].0 < moved[1].0 && moved[1].0 < moved[2].0, "{moved:?}");
-    let (straight, bare) = (cut(8, Looks { strength: 0.0, ..Looks::of(4) }), cut(8, Looks::of(4)));
+    let (straight, bare) = (cut(8, Sampling { strength: 0.0, ..Sampling::of(4) }), cut(8, Sampling::of(4)));
     // Straight on, each pixel sees what is behind it: of one colour, but for what the faces take.
     assert!(
         straight.iter().all(|c| (c.max_element() - c.min_element()).abs() < 0.05 * c.max_element() + 1e-6)

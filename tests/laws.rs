@@ -7,7 +7,7 @@ use brillianteer::math::{Plane, Polytope};
 use brillianteer::measure::{by_beams, by_rays};
 use brillianteer::picture::{Layer, Palette, paint};
 use brillianteer::scene::{Film, Glare, Lean, Medium, Projection, Scope, Side, View};
-use brillianteer::trace::ray::{Camera, Exit, Options, Tracer};
+use brillianteer::trace::ray::{Camera, Exit, RayOptions, StoneTracer};
 use brillianteer::trace::{Stopped, beam, unwatched};
 use common::*;
 use glam::{DMat3, DVec2, DVec3};
@@ -87,8 +87,8 @@ proptest! {
         let polytope = Polytope::from_planes(&planes).unwrap();
         let camera = Camera::new(&view, &polytope);
         let (origin, direction) = camera.ray(DVec2::new(x, y));
-        let options = Options { most_bounces: 12, least_weight: 0.0, polarised: true };
-        let tracer = Tracer::new(&polytope, medium, options);
+        let options = RayOptions { most_bounces: 12, least_weight: 0.0, polarised: true };
+        let tracer = StoneTracer::new(&polytope, medium, options);
         let mut exits: Vec<Exit> = vec![];
         tracer.follow(origin, direction, |exit| exits.push(exit));
         let entry = exits.first().map(|e| e.point);
@@ -111,7 +111,7 @@ proptest! {
         let stone = built(&cut);
         let view = View { tilt, azimuth: std::f64::consts::FRAC_PI_8, ..View::default() };
         let figures = |symmetry| {
-            let options = beam::Options { unresolved: 1e-3, symmetry, ..beam::Options::default() };
+            let options = beam::BeamOptions { unresolved: 1e-3, symmetry, ..beam::BeamOptions::default() };
             let beams = beam::trace(&stone.polytope, Medium::clear(2.4175), &view, &options, &unwatched).unwrap();
             (beams.symmetry.order(), by_beams(&beams, &aset()))
         };
@@ -197,7 +197,7 @@ fn a_white_world_looks_white_through_any_stone() {
 fn work_that_is_stopped_says_so() {
     let stone = built(&brilliant((56.0, 34.5, 40.8), (50.0, 77.0), 96));
     let stop = |_: f64| ControlFlow::Break(());
-    let options = beam::Options::default();
+    let options = beam::BeamOptions::default();
     let beams = beam::trace(&stone.polytope, Medium::clear(2.4), &View::default(), &options, &stop);
     assert!(matches!(beams, Err(Stopped)));
     let beams = traced(&stone, Medium::clear(2.4), &View::default(), 0.05, true);
@@ -210,7 +210,7 @@ fn work_that_is_stopped_says_so() {
 fn a_stone_that_catches_light_stops_at_the_most_beams_and_says_what_is_left() {
     let stone = built(&brilliant((56.0, 34.5, 40.8), (50.0, 77.0), 96));
     let view = View { tilt: 0.3, azimuth: 0.1, ..View::default() };
-    let options = beam::Options { unresolved: 1e-6, most_beams: 50_000, ..beam::Options::default() };
+    let options = beam::BeamOptions { unresolved: 1e-6, most_beams: 50_000, ..beam::BeamOptions::default() };
     let beams = beam::trace(&stone.polytope, Medium::clear(4.0), &view, &options, &unwatched).unwrap();
     assert!((50_000..250_000).contains(&beams.len()), "{} beams", beams.len());
     let figures = by_beams(&beams, &aset());
@@ -236,7 +236,7 @@ fn a_far_eye_sees_what_parallel_rays_do_and_a_near_one_does_not() {
     let stone = built(&brilliant((56.0, 34.5, 40.8), (50.0, 77.0), 96));
     let seen = |projection| {
         let view = View { tilt: 0.1, projection, ..View::default() };
-        let manner = (Options::default(), 64);
+        let manner = (RayOptions::default(), 64);
         by_rays(&stone.polytope, Medium::clear(2.4175), &view, &aset(), manner, &unwatched).unwrap()
     };
     let parallel = seen(Projection::Orthographic);

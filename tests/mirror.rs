@@ -8,9 +8,9 @@ mod pixels;
 #[path = "common/solids.rs"]
 mod solids;
 
-use brillianteer::math::{Plane, Shell, Surface};
+use brillianteer::math::{Plane, Surface, TriangleMesh};
 use brillianteer::scene::{Medium, Stone, View};
-use brillianteer::trace::ray::Options;
+use brillianteer::trace::ray::RayOptions;
 use common::*;
 use glam::{DQuat, DVec3};
 use pixels::*;
@@ -53,7 +53,7 @@ fn a_stone_of_many_planes_is_traced_by_bunches_as_well() {
         .collect();
     let ball = nameless(&planes);
     assert!(ball.polytope.facets().len() > 1990);
-    let (view, short) = (View::default(), |options| Options { most_bounces: 12, ..options });
+    let (view, short) = (View::default(), |options| RayOptions { most_bounces: 12, ..options });
     let case = Case::new(&ball.polytope, Medium::clear(1.54), &view, true);
     let case = Case { options: short(case.options), twin_options: short(case.options), ..case };
     let found = case.compared(&gpu);
@@ -73,14 +73,14 @@ fn the_comparison_sees_every_small_change() {
     let steeper = built(&brilliant((56.0, 34.5, 40.9), (50.0, 77.0), 96));
     let (diamond, view) = (Medium::clear(2.4175), View { tilt: 0.13, azimuth: 0.4, ..View::default() });
     let case = || Case::new(&stone.polytope, diamond, &view, true);
-    let shorter = Options { most_bounces: 5, ..case().options };
-    let plain = Options { polarised: false, ..case().options };
+    let shorter = RayOptions { most_bounces: 5, ..case().options };
+    let plain = RayOptions { polarised: false, ..case().options };
     for (change, mutant) in [
         ("index", Case { twin_medium: Medium::clear(2.43), ..case() }),
         ("a plane", Case { twin: (&steeper.polytope).into(), ..case() }),
         (
             "bounces",
-            Case { options: Options { most_bounces: 6, ..shorter }, twin_options: shorter, ..case() },
+            Case { options: RayOptions { most_bounces: 6, ..shorter }, twin_options: shorter, ..case() },
         ),
         ("polarisation", Case { twin_options: plain, ..case() }),
         ("absorption", Case { twin_medium: Medium { absorption: [0.01; 2], ..diamond }, ..case() }),
@@ -92,9 +92,9 @@ fn the_comparison_sees_every_small_change() {
     assert!(found.largest <= ALLOWED, "{:e}", found.largest);
 }
 
-fn shell((vertices, triangles): solids::Triangles) -> Arc<Shell> {
+fn shell((vertices, triangles): solids::Triangles) -> Arc<TriangleMesh> {
     // Turned a little: edges that lie along the rays of a view would be met or missed by rounding.
-    let shell = Shell::new(Surface::new(vertices, triangles)).unwrap();
+    let shell = TriangleMesh::new(Surface::new(vertices, triangles)).unwrap();
     Arc::new(shell.moved(1.0, DQuat::from_rotation_x(0.11) * DQuat::from_rotation_y(-0.07), DVec3::ZERO))
 }
 
@@ -126,9 +126,9 @@ fn solids_that_are_not_convex_look_as_by_rays() {
 fn a_brilliant_of_triangles_looks_as_that_of_planes_on_the_card_too() {
     let Some(gpu) = card("a_brilliant_of_triangles_looks_as_that_of_planes_on_the_card_too") else { return };
     let stone = built(&brilliant((56.0, 34.5, 40.8), (50.0, 77.0), 16));
-    let shell = Arc::new(Shell::of_polytope(&stone.polytope));
+    let shell = Arc::new(TriangleMesh::of_polytope(&stone.polytope));
     let view = View { tilt: 0.13, azimuth: 0.4, ..View::default() };
-    let short = Options { most_bounces: 24, polarised: true, least_weight: 1e-4 };
+    let short = RayOptions { most_bounces: 24, polarised: true, least_weight: 1e-4 };
     let case = Case::new(&stone.polytope, Medium::clear(2.4175), &view, true);
     let found = Case { twin: (&shell).into(), options: short, twin_options: short, ..case }.compared(&gpu);
     assert!(
@@ -145,11 +145,11 @@ fn the_comparison_of_triangles_sees_every_small_change() {
     let whole = shell(solids::star());
     let mut bent = whole.surface().clone();
     bent.vertices.iter_mut().for_each(|v| *v *= DVec3::new(1.0, 1.001, 1.0));
-    let bent = Arc::new(Shell::new(bent).unwrap());
+    let bent = Arc::new(TriangleMesh::new(bent).unwrap());
     let (diamond, view) = (Medium::clear(2.4175), View { tilt: 0.5, azimuth: 1.4, ..View::default() });
     let case = || Case::new(&whole, diamond, &view, true);
-    let plain = Options { polarised: false, ..case().options };
-    let shorter = Options { most_bounces: 5, ..case().options };
+    let plain = RayOptions { polarised: false, ..case().options };
+    let shorter = RayOptions { most_bounces: 5, ..case().options };
     for (change, mutant) in [
         ("index", Case { twin_medium: Medium::clear(2.43), ..case() }),
         ("a corner", Case { twin: (&bent).into(), ..case() }),

@@ -6,10 +6,10 @@ mod common;
 use brillianteer::math::{Plane, Polytope};
 use brillianteer::optics::{cos_transmitted, line, material, reflectance, refract};
 use brillianteer::picture::{Code, Overlay, lay};
-use brillianteer::scene::{Film, Placed, Projection, Setting, View};
-use brillianteer::trace::ray::{Options, Sight, facet_at};
-use brillianteer::trace::sitting::Sitting;
-use brillianteer::trace::surround::{Sky, Surround};
+use brillianteer::scene::{Film, Instance, Projection, Scene, View};
+use brillianteer::trace::environment::{Environment, EnvironmentMap};
+use brillianteer::trace::ray::{RayOptions, SceneProbe, facet_at};
+use brillianteer::trace::sampling::LitScene;
 use brillianteer::trace::{Stopped, unwatched};
 use common::*;
 use glam::{DVec2, DVec3};
@@ -20,30 +20,30 @@ const PIXEL: f64 = 2.4 / SIZE as f64;
 
 /// What overlays are drawn over.
 struct Shot {
-    setting: Setting,
+    setting: Scene,
     view: View,
-    options: Options,
+    options: RayOptions,
 }
 
 impl Shot {
     fn new(polytope: Polytope, material_name: &str, view: View) -> Self {
-        let stone = Placed::new(polytope, material(material_name).unwrap().clone());
-        let options = Options { polarised: false, most_bounces: 64, least_weight: 1e-4 };
-        Self { setting: Setting { stones: vec![stone], unit_mm: 3.25 }, view, options }
+        let stone = Instance::new(polytope, material(material_name).unwrap().clone());
+        let options = RayOptions { polarised: false, most_bounces: 64, least_weight: 1e-4 };
+        Self { setting: Scene { instances: vec![stone], unit_mm: 3.25 }, view, options }
     }
 
-    fn with<T>(&self, work: impl FnOnce(&Sitting) -> T) -> T {
-        let sky = Sky { levels: vec![vec![[0.0; 4]]], side: 1, lamps: vec![] };
+    fn with<T>(&self, work: impl FnOnce(&LitScene) -> T) -> T {
+        let sky = EnvironmentMap { levels: vec![vec![[0.0; 4]]], side: 1, lamps: vec![] };
         let (basis, eye) = (self.view.light_basis(), self.view.basis());
-        let surround = Surround { sky: &sky, basis, eye, head: 0.0, behind: None, backdrop: false };
+        let environment = Environment { map: &sky, basis, eye, head: 0.0, backplate: None, backdrop: false };
         let (setting, view, options) = (&self.setting, &self.view, self.options);
-        work(&Sitting { setting, surround, view, film: Film::new([SIZE; 2], PIXEL), options })
+        work(&LitScene { scene: setting, environment, view, film: Film::new([SIZE; 2], PIXEL), options })
     }
 
     /// An overlay over nothing: its colour and cover.
     fn laid(&self, overlay: Overlay) -> Vec<[u8; 4]> {
         let mut rgba = vec![0; (4 * SIZE * SIZE) as usize];
-        self.with(|sitting| lay(overlay, sitting, &mut rgba, &unwatched)).unwrap();
+        self.with(|lit_scene| lay(overlay, lit_scene, &mut rgba, &unwatched)).unwrap();
         rgba.as_chunks().0.to_vec()
     }
 
@@ -60,7 +60,7 @@ impl Shot {
 
     /// The outlines in the picture of a stone's facets that face the eye, turned to run counter-clockwise.
     fn outlines(&self, stone: usize) -> Vec<(u32, Vec<DVec2>)> {
-        let polytope = self.setting.stones[stone].solid.polytope().unwrap();
+        let polytope = self.setting.instances[stone].solid.polytope().unwrap();
         let outline = |k: usize| -> Vec<DVec2> {
             let corners = polytope.corners(&polytope.facets()[k]).map(|v| self.seen(v));
             corners.map(|p| DVec2::new(p.x, -p.y)).collect()
@@ -118,19 +118,19 @@ fn the_facet_at_a_point_is_the_one_whose_outline_lies_around_it() {
     for (name, file) in cut_files() {
         for perspective in [false, true] {
             let shot = Shot::new(stone(&file).polytope, "diamond", tilted(perspective));
-            shot.with(|sitting| {
-                let sight = Sight::new(sitting);
+            shot.with(|lit_scene| {
+                let sight = SceneProbe::new(lit_scene);
                 let told = |x, y| sight.through(x, y).map(|g| (g.stone, g.facet));
                 let (wrong, asked) = shot.wrong(told);
                 assert!(wrong == 0 && asked > 25_000, "{name}, {perspective}: {wrong} of {asked}");
                 // Asked for without keeping anything, and nowhere.
-                assert_eq!(facet_at(sitting, 70.3, 85.6), told(70.3, 85.6));
-                assert_eq!(facet_at(sitting, f64::NAN, 80.0), None);
+                assert_eq!(facet_at(lit_scene, 70.3, 85.6), told(70.3, 85.6));
+                assert_eq!(facet_at(lit_scene, f64::NAN, 80.0), None);
             });
             let mut other = Shot::new(stone(&file).polytope, "diamond", tilted(perspective));
             other.view.tilt += 0.02;
-            let (wrong, _) = shot.with(|sitting| {
-                let sight = Sight::new(sitting);
+            let (wrong, _) = shot.with(|lit_scene| {
+                let sight = SceneProbe::new(lit_scene);
                 other.wrong(|x, y| sight.through(x, y).map(|g| (g.stone, g.facet)))
             });
             assert!(wrong > 200, "{name}: a tilt of a degree more goes unseen: {wrong}");
@@ -141,7 +141,7 @@ fn the_facet_at_a_point_is_the_one_whose_outline_lies_around_it() {
 /// The faintest that any corner of a facet that faces the eye is drawn: the cover of its own pixel.
 fn faintest_corner(shot: &Shot, drawn: &Shot) -> u8 {
     let picture = drawn.laid(Overlay::Wireframe);
-    let polytope = shot.setting.stones[0].solid.polytope().unwrap();
+    let polytope = shot.setting.instances[0].solid.polytope().unwrap();
     let corners =
         shot.outlines(0).into_iter().flat_map(|(k, _)| polytope.corners(&polytope.facets()[k as usize]));
     let pixel = |p: DVec2| picture[(p.y as u32 * SIZE + p.x as u32) as usize];
@@ -173,9 +173,9 @@ fn edges_behind_are_fainter_whichever_stone_they_are_behind() {
     let alone = corner(&shot);
     let glass = material("quartz").unwrap().clone();
     for (z, hidden) in [(0.6, true), (-1.7, false)] {
-        let other = Placed::new(cube(DVec3::new(0.3, 0.0, z), 0.45), glass.clone());
-        shot.setting.stones.truncate(1);
-        shot.setting.stones.push(other);
+        let other = Instance::new(cube(DVec3::new(0.3, 0.0, z), 0.45), glass.clone());
+        shot.setting.instances.truncate(1);
+        shot.setting.instances.push(other);
         let beside = corner(&shot);
         assert_eq!(beside < alone / 2 + 20, hidden, "{z}: {beside}, alone {alone}");
     }
@@ -183,10 +183,10 @@ fn edges_behind_are_fainter_whichever_stone_they_are_behind() {
 
 /// What a ray meets first inside the stone: the share of light that went in, and the cosine there, found by trying every
 /// plane in turn; `None` beside the stone and where another plane is nearly as close.
-fn first_inside(shot: &Shot, sitting: &Sitting, index: f64, at: DVec2) -> Option<(f64, f64)> {
-    let planes: Vec<Plane> = shot.setting.stones[0].solid.polytope().unwrap().planes().collect();
+fn first_inside(shot: &Shot, lit_scene: &LitScene, index: f64, at: DVec2) -> Option<(f64, f64)> {
+    let planes: Vec<Plane> = shot.setting.instances[0].solid.polytope().unwrap().planes().collect();
     let eye = shot.view.basis();
-    let (d, from) = (-eye.toward, eye.lift(sitting.film.image_from_pixels(at)) + eye.toward * 10.0);
+    let (d, from) = (-eye.toward, eye.lift(lit_scene.film.image_from_pixels(at)) + eye.toward * 10.0);
     let way = |p: &Plane, from: DVec3, d: DVec3| -p.distance(from) / p.normal.dot(d);
     let facing = planes.iter().filter(|p| p.normal.dot(d) < 0.0);
     let (entry, into) = facing.map(|p| (p, way(p, from, d))).max_by(|a, b| a.1.total_cmp(&b.1))?;
@@ -214,10 +214,10 @@ fn differing(
 ) -> [usize; 3] {
     let picture = shot.laid(overlay);
     let mut found = [0; 3];
-    shot.with(|sitting| {
+    shot.with(|lit_scene| {
         for k in 0..SIZE * SIZE {
             let at = DVec2::new(f64::from(k % SIZE), f64::from(k / SIZE)) + 0.5;
-            let Some((entered, cos_i)) = first_inside(shot, sitting, index, at) else { continue };
+            let Some((entered, cos_i)) = first_inside(shot, lit_scene, index, at) else { continue };
             let [r, g, b, a] = picture[k as usize];
             assert_eq!(a, 255, "{at}");
             let shown = [r, g, b] == colour;
@@ -296,12 +296,15 @@ fn a_drawing_that_is_stopped_says_so_and_an_odd_picture_is_no_panic() {
     let shot = Shot::new(cube(DVec3::ZERO, 0.4), "diamond", tilted(true));
     let never = |_: f64| ControlFlow::Break(());
     for overlay in Overlay::names().map(|name| name.parse().unwrap()) {
-        shot.with(|sitting| {
-            assert_eq!(lay(overlay, sitting, &mut vec![0; (4 * SIZE * SIZE) as usize], &never), Err(Stopped));
+        shot.with(|lit_scene| {
+            assert_eq!(
+                lay(overlay, lit_scene, &mut vec![0; (4 * SIZE * SIZE) as usize], &never),
+                Err(Stopped)
+            );
             for length in [0, 3, 4 * SIZE as usize + 1] {
-                assert_eq!(lay(overlay, sitting, &mut vec![0; length], &unwatched), Ok(()));
+                assert_eq!(lay(overlay, lit_scene, &mut vec![0; length], &unwatched), Ok(()));
             }
-            let none = Sitting { film: Film::new([0; 2], PIXEL), ..*sitting };
+            let none = LitScene { film: Film::new([0; 2], PIXEL), ..*lit_scene };
             assert_eq!(lay(overlay, &none, &mut [0; 8], &unwatched), Ok(()));
         });
     }

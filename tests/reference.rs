@@ -5,13 +5,13 @@ mod common;
 
 use brillianteer::cut::{Cut, Design, MaterialRef};
 use brillianteer::io::{cut_file, library};
-use brillianteer::measure::{Bounds, Figures, MeasureError, Options, by_beams, by_rays};
+use brillianteer::measure::{Bounds, Figures, MeasureError, MeasureOptions, by_beams, by_rays};
 use brillianteer::picture::{Picture, named};
 use brillianteer::scene::{
     ASET_CONE, Backing, Band, Medium, Projection, Scope, Side, Stone, View, Viewpoint,
 };
 use brillianteer::trace::beam::Beam;
-use brillianteer::trace::{CannotTrace, Sampler, Tracer, ray, unwatched};
+use brillianteer::trace::{CannotTrace, RayTracer, Tracer, ray, unwatched};
 use common::*;
 
 const DIAMOND: Medium = Medium::clear(2.4175);
@@ -181,7 +181,7 @@ fn design(name: &str) -> Design {
 fn one_call_measures_a_design_as_the_tracers_do() {
     let tolkowsky = design("tolkowsky");
     let bounds = Bounds { unresolved: 2e-3, ..Bounds::default() };
-    let options = Options { bounds, ..Options::default() };
+    let options = MeasureOptions { bounds, ..MeasureOptions::default() };
     let measured = brillianteer::measure(&tolkowsky, &options).unwrap();
     let stone = Stone::new(&tolkowsky.facets().unwrap()).unwrap();
     let medium = Medium::clear(measured.index);
@@ -196,10 +196,11 @@ fn one_call_measures_a_design_as_the_tracers_do() {
     assert!((measured.glare_return() - glare).abs() < 1e-15 && measured.zone("purple").is_none());
     assert_eq!(measured.error(), measured.figures.unresolved);
     // An observer's head sends no light, and Ideal-Scope's returned light is its red.
-    let head = brillianteer::measure(&tolkowsky, &Options { head_deg: 10.0, ..options.clone() }).unwrap();
+    let head =
+        brillianteer::measure(&tolkowsky, &MeasureOptions { head_deg: 10.0, ..options.clone() }).unwrap();
     assert!(head.light_return() < lit - 0.01 && head.scope.bands.last().unwrap().name == "head");
-    let red =
-        brillianteer::measure(&tolkowsky, &Options { scope: ideal_scope(), ..options.clone() }).unwrap();
+    let red = brillianteer::measure(&tolkowsky, &MeasureOptions { scope: ideal_scope(), ..options.clone() })
+        .unwrap();
     assert_eq!(red.light_return(), red.zone("red").unwrap().transmitted);
 }
 
@@ -213,11 +214,12 @@ fn light_return_counts_from_the_horizon_whatever_the_borders_of_the_scope() {
         band("high", 50.0, [0, 0, 255]),
     ];
     let scope = Scope { name: "mine".into(), bands };
-    for tracer in [Tracer::Beams, Tracer::Rays(Sampler::Rays)] {
+    for tracer in [Tracer::Beams, Tracer::Rays(RayTracer::Rays)] {
         let bounds = Bounds { unresolved: 2e-3, lattice: 48, ..Bounds::default() };
-        let options = Options { bounds, tracer: Some(tracer), ..Options::default() };
+        let options = MeasureOptions { bounds, tracer: Some(tracer), ..MeasureOptions::default() };
         let usual = brillianteer::measure(&tolkowsky, &options).unwrap();
-        let mine = brillianteer::measure(&tolkowsky, &Options { scope: scope.clone(), ..options }).unwrap();
+        let mine =
+            brillianteer::measure(&tolkowsky, &MeasureOptions { scope: scope.clone(), ..options }).unwrap();
         assert!((mine.light_return() - usual.light_return()).abs() < 1e-12);
         assert!((mine.glare_return() - usual.glare_return()).abs() < 1e-12);
         assert_eq!((mine.scope.bands.len(), mine.figures.transmitted.len()), (3, 3));
@@ -230,21 +232,33 @@ fn light_return_counts_from_the_horizon_whatever_the_borders_of_the_scope() {
 #[test]
 fn what_cannot_be_measured_is_refused_by_name() {
     let tolkowsky = design("tolkowsky");
-    let refused = |options: Options| brillianteer::measure(&tolkowsky, &options).unwrap_err();
+    let refused = |options: MeasureOptions| brillianteer::measure(&tolkowsky, &options).unwrap_err();
     let cases = [
-        (Options { head_deg: 90.0, ..Options::default() }, "head_deg is 90; give 0 to below 90 degrees"),
-        (Options { index: Some(0.5), ..Options::default() }, "index is 0.5; give 1 (air) to 5"),
-        (Options { wavelength_nm: f64::NAN, ..Options::default() }, "wavelength_nm is NaN"),
         (
-            Options { bounds: Bounds { unresolved: 0.0, ..Bounds::default() }, ..Options::default() },
+            MeasureOptions { head_deg: 90.0, ..MeasureOptions::default() },
+            "head_deg is 90; give 0 to below 90 degrees",
+        ),
+        (MeasureOptions { index: Some(0.5), ..MeasureOptions::default() }, "index is 0.5; give 1 (air) to 5"),
+        (MeasureOptions { wavelength_nm: f64::NAN, ..MeasureOptions::default() }, "wavelength_nm is NaN"),
+        (
+            MeasureOptions {
+                bounds: Bounds { unresolved: 0.0, ..Bounds::default() },
+                ..MeasureOptions::default()
+            },
             "unresolved is 0; give a part between 0 and 1",
         ),
         (
-            Options { bounds: Bounds { lattice: 0, ..Bounds::default() }, ..Options::default() },
+            MeasureOptions {
+                bounds: Bounds { lattice: 0, ..Bounds::default() },
+                ..MeasureOptions::default()
+            },
             "lattice is 0; give 1 to 16,384",
         ),
         (
-            Options { viewpoint: Viewpoint { tilt_deg: 91.0, ..Viewpoint::default() }, ..Options::default() },
+            MeasureOptions {
+                viewpoint: Viewpoint { tilt_deg: 91.0, ..Viewpoint::default() },
+                ..MeasureOptions::default()
+            },
             "tilt_deg is 91",
         ),
     ];
@@ -253,18 +267,22 @@ fn what_cannot_be_measured_is_refused_by_name() {
         assert!(error.to_string().starts_with(says), "{error}");
     }
     let near = Viewpoint { projection: Projection::Perspective { distance: 8.0 }, ..Viewpoint::default() };
-    let by_beams = Options { viewpoint: near, tracer: Some(Tracer::Beams), ..Options::default() };
+    let by_beams =
+        MeasureOptions { viewpoint: near, tracer: Some(Tracer::Beams), ..MeasureOptions::default() };
     assert!(matches!(refused(by_beams), MeasureError::CannotTrace(CannotTrace::Perspective)));
     let inside = Viewpoint { projection: Projection::Perspective { distance: 0.2 }, ..near };
-    let inside = Options { viewpoint: inside, ..Options::default() };
+    let inside = MeasureOptions { viewpoint: inside, ..MeasureOptions::default() };
     assert!(matches!(refused(inside), MeasureError::CannotTrace(CannotTrace::Eye)));
     let broken = Design { material: MaterialRef::Index(9.0), ..tolkowsky.clone() };
-    let error = brillianteer::measure(&broken, &Options::default()).unwrap_err();
+    let error = brillianteer::measure(&broken, &MeasureOptions::default()).unwrap_err();
     assert!(matches!(error, MeasureError::Specimen(_)), "{error}");
     assert!(matches!(tolkowsky.cut, Cut::RoundBrilliant(_)) && near.side == Side::Table);
     let aset = Scope::aset(ASET_CONE, Backing::White);
     let twice = Scope { bands: [&aset.bands[..], &aset.bands[..]].concat(), ..aset };
-    assert!(matches!(refused(Options { scope: twice, ..Options::default() }), MeasureError::Scope(_)));
+    assert!(matches!(
+        refused(MeasureOptions { scope: twice, ..MeasureOptions::default() }),
+        MeasureError::Scope(_)
+    ));
 }
 
 #[test]
@@ -273,7 +291,7 @@ fn figures_by_rays_agree_with_beams_within_their_error() {
     let view = View { tilt: 0.2, azimuth: 0.4, ..View::default() };
     for medium in [DIAMOND, Medium::grey(1.77, 0.3)] {
         let exact = by_beams(&traced(&stone, medium, &view, 2e-3, true), &aset());
-        let options = ray::Options { least_weight: 1e-4, ..ray::Options::default() };
+        let options = ray::RayOptions { least_weight: 1e-4, ..ray::RayOptions::default() };
         let sampled = by_rays(&stone.polytope, medium, &view, &aset(), (options, 48), &unwatched).unwrap();
         assert!((sampled.sum() - 1.0).abs() < 1e-9);
         assert!(sampled.standard_error > 1e-5 && sampled.standard_error < 3e-3, "{}", sampled.standard_error);

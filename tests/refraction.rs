@@ -7,10 +7,10 @@ use brillianteer::io::{panorama, refraction_map as files};
 use brillianteer::math::{Plane, Polytope};
 use brillianteer::optics::{Illuminant, Material, encoded_from_linear, material, strata};
 use brillianteer::picture::{Backdrop, Carried, Linear, RefractionMap, Survey, refract, spectral};
-use brillianteer::scene::{Film, Lean, Light, Panorama, Placed, Projection, Setting, View};
+use brillianteer::scene::{Film, Instance, Lean, Light, Panorama, Projection, Scene, View};
+use brillianteer::trace::environment::{Backplate, Environment, EnvironmentMap};
 use brillianteer::trace::ray::{self, ByRays};
-use brillianteer::trace::sitting::Sitting;
-use brillianteer::trace::surround::{Behind, Sky, Surround};
+use brillianteer::trace::sampling::LitScene;
 use brillianteer::trace::{Stopped, unwatched};
 use files::Coding;
 use glam::{DVec2, DVec3};
@@ -23,7 +23,7 @@ const DISTANCE: f64 = 2.5;
 
 /// What is mapped.
 struct Shoot {
-    setting: Setting,
+    setting: Scene,
     view: View,
     size: [u32; 2],
     light: Light,
@@ -68,7 +68,7 @@ fn photo() -> Panorama {
 impl Shoot {
     fn of(solid: Polytope, material: Material) -> Self {
         Self {
-            setting: Setting { stones: vec![Placed::new(solid, material)], unit_mm: 3.0 },
+            setting: Scene { instances: vec![Instance::new(solid, material)], unit_mm: 3.0 },
             view: View::default(),
             size: [96, 72],
             light: dark(),
@@ -94,23 +94,23 @@ impl Shoot {
     }
 
     /// Does work with the sitting, a photograph behind it or none.
-    fn sit<T>(&self, photo: Option<&Panorama>, work: impl FnOnce(&Sitting) -> T) -> T {
-        let sky = Sky::new(&self.light, None);
+    fn sit<T>(&self, photo: Option<&Panorama>, work: impl FnOnce(&LitScene) -> T) -> T {
+        let sky = EnvironmentMap::new(&self.light, None);
         let Backdrop { distance, size, .. } = self.plane();
         let behind = photo.map(|picture| {
             let shape = f64::from(picture.width) / f64::from(picture.height);
-            Behind { picture, distance, width: size.x.max(size.y * shape) }
+            Backplate { picture, distance, width: size.x.max(size.y * shape) }
         });
-        let surround = Surround {
-            sky: &sky,
+        let environment = Environment {
+            map: &sky,
             basis: self.view.light_basis(),
             eye: self.view.basis(),
             head: 0.0,
-            behind,
+            backplate: behind,
             backdrop: photo.is_some(),
         };
-        let options = ray::Options { polarised: true, most_bounces: 1000, least_weight: 1e-6 };
-        work(&Sitting { setting: &self.setting, surround, view: &self.view, film: self.film(), options })
+        let options = ray::RayOptions { polarised: true, most_bounces: 1000, least_weight: 1e-6 };
+        work(&LitScene { scene: &self.setting, environment, view: &self.view, film: self.film(), options })
     }
 
     fn map(&self) -> (RefractionMap, Carried) {
@@ -122,9 +122,9 @@ impl Shoot {
     /// The program's own render with a photograph behind: one look, through the same points at the same wavelengths.
     fn traced(&self, photo: &Panorama) -> Linear {
         let bands = strata(self.bands, &Illuminant::D65, true);
-        let prepare = |sitting: &Sitting<'_>| {
-            let rows = |rows| Ok::<_, Stopped>(ByRays::new(*sitting, rows));
-            spectral::expose(sitting, (&bands, 1), self.size[1], rows, &unwatched).unwrap().0
+        let prepare = |lit_scene: &LitScene<'_>| {
+            let rows = |rows| Ok::<_, Stopped>(ByRays::new(*lit_scene, rows));
+            spectral::expose(lit_scene, (&bands, 1), self.size[1], rows, &unwatched).unwrap().0
         };
         self.sit(Some(photo), prepare)
     }

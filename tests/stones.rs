@@ -6,7 +6,7 @@ mod meshes;
 
 use brillianteer::cut::from_mesh::Up;
 use brillianteer::cut::{Cut, Design, Outline, is_table};
-use brillianteer::io::design_file::{self, Format, written};
+use brillianteer::io::design_file::{self, DesignFormat, written};
 use brillianteer::io::mesh_options::MeshOptions;
 use brillianteer::io::{asc, cut_file, library, mesh_design};
 use brillianteer::measure::by_beams;
@@ -17,7 +17,8 @@ use meshes::{moved, stripped, turned};
 use rayon::prelude::*;
 use std::path::{Path, PathBuf};
 
-const FORMATS: [Format; 4] = [Format::Obj, Format::Stl, Format::Ply, Format::Glb];
+const FORMATS: [DesignFormat; 4] =
+    [DesignFormat::Obj, DesignFormat::Stl, DesignFormat::Ply, DesignFormat::Glb];
 
 /// What happens to a file between being written and being read.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -113,7 +114,7 @@ impl Dice {
 }
 
 /// What became of a stone that went through a file: none where it came back, else why not.
-fn fate(specimen: &Specimen, format: Format, way: Way, turn: DQuat) -> Result<(), String> {
+fn fate(specimen: &Specimen, format: DesignFormat, way: Way, turn: DQuat) -> Result<(), String> {
     let bytes = written(specimen, format).map_err(|e| e.to_string())?.bytes;
     let bytes = match way {
         Way::Kept => bytes,
@@ -147,7 +148,7 @@ fn designs() -> Vec<PathBuf> {
 }
 
 /// The names of those that do not come back, each with the reason.
-fn lost(files: &[PathBuf], format: Format, way: Way) -> Vec<String> {
+fn lost(files: &[PathBuf], format: DesignFormat, way: Way) -> Vec<String> {
     let mut dice = Dice(0x9e37_79b9_7f4a_7c15);
     let turns: Vec<DQuat> = files.iter().map(|_| dice.turn()).collect();
     let fate = |(file, turn): (&PathBuf, &DQuat)| {
@@ -248,7 +249,7 @@ fn what_another_program_writes_is_found_by_its_shape() {
 }
 
 /// The stone that a mesh is read as, and all that is said of it.
-fn read(format: Format, bytes: Vec<u8>, up: Up) -> (Specimen, Vec<String>, Vec<String>) {
+fn read(format: DesignFormat, bytes: Vec<u8>, up: Up) -> (Specimen, Vec<String>, Vec<String>) {
     let path = PathBuf::from(format!("x.{}", format.ending()));
     let brought = mesh_design::read(bytes, &path, MeshOptions { up, ..MeshOptions::default() }).unwrap();
     (Specimen::new(brought.design).unwrap(), brought.notes, brought.warnings)
@@ -282,8 +283,8 @@ fn a_statement_that_no_longer_holds_is_told() {
         assert_eq!(told(&|v| v + DVec3::new(0.001, -0.002, 0.003)), "");
         // Pressed flat it is another stone, and what is said of it means nothing.
         let flat = moved(format, bytes(format), &|v| {
-            v * DVec3::new(1.0, 1.0, if format == Format::Glb { 1.0 } else { 0.8 })
-                * DVec3::new(1.0, if format == Format::Glb { 0.8 } else { 1.0 }, 1.0)
+            v * DVec3::new(1.0, 1.0, if format == DesignFormat::Glb { 1.0 } else { 0.8 })
+                * DVec3::new(1.0, if format == DesignFormat::Glb { 0.8 } else { 1.0 }, 1.0)
         });
         let (back, _, warnings) = read(format, flat, Up::Found);
         assert!(
@@ -292,8 +293,8 @@ fn a_statement_that_no_longer_holds_is_told() {
         );
         assert_eq!(back.design.diameter_mm, 6.5);
     }
-    let broken = String::from_utf8(bytes(Format::Obj)).unwrap().replace("up=z d=5.2", "up=w d=5.2");
-    let (back, _, warnings) = read(Format::Obj, broken.into_bytes(), Up::Found);
+    let broken = String::from_utf8(bytes(DesignFormat::Obj)).unwrap().replace("up=z d=5.2", "up=w d=5.2");
+    let (back, _, warnings) = read(DesignFormat::Obj, broken.into_bytes(), Up::Found);
     assert!(warnings.iter().any(|w| w.contains("up=w: y or z is expected")), "{warnings:?}");
     assert!(back.stone().is_ok());
 }
@@ -319,7 +320,7 @@ fn a_cube_stands_and_an_octahedron_stands_on_its_point() {
     // In mm, in m, and away from the origin: it is the same stone.
     for (scale, shift) in [(3.0, DVec3::ZERO), (0.003, DVec3::ZERO), (3.0, DVec3::new(100.0, -7.0, 20.0))] {
         let (stone, notes, warnings) =
-            read(Format::Obj, obj(&cube, &sides, |v| scale * v + shift), Up::Found);
+            read(DesignFormat::Obj, obj(&cube, &sides, |v| scale * v + shift), Up::Found);
         let figures = Figures::of(&stone);
         assert!(
             (figures.table[0] - 1.0).abs() < 1e-9 && (figures.length_to_width - 1.0).abs() < 1e-9,
@@ -346,7 +347,7 @@ fn a_cube_stands_and_an_octahedron_stands_on_its_point() {
         .collect();
     let faces: Vec<&[usize]> = faces.iter().map(Vec::as_slice).collect();
     for up in [Up::Found, Up::Given(DVec3::ONE), Up::Given(DVec3::NEG_X)] {
-        let (stone, _, warnings) = read(Format::Obj, obj(&points, &faces, |v| v), up);
+        let (stone, _, warnings) = read(DesignFormat::Obj, obj(&points, &faces, |v| v), up);
         assert!(
             warnings.is_empty() && stone.warnings.is_empty(),
             "{up:?}: {warnings:?} {:?}",
@@ -402,7 +403,7 @@ fn a_shape_that_leaves_a_doubt_says_how_to_set_it() {
     ];
     let faces: [&[usize]; 8] =
         [&[0, 1, 4], &[1, 2, 4], &[2, 3, 4], &[3, 0, 4], &[1, 0, 5], &[2, 1, 5], &[3, 2, 5], &[0, 3, 5]];
-    let (_, notes, _) = read(Format::Obj, obj(&corners, &faces, |v| v), Up::Found);
+    let (_, notes, _) = read(DesignFormat::Obj, obj(&corners, &faces, |v| v), Up::Found);
     let doubt = notes.iter().find(|note| note.contains("leaves a doubt")).expect("a doubt");
     assert!(doubt.contains("z was taken, and -z is nearly as likely; --up -z takes that"), "{doubt}");
 }
@@ -420,7 +421,7 @@ fn light_is_the_same_before_and_after() {
     let specimen = tolkowsky();
     let figures = |specimen: &Specimen| {
         let stone = specimen.stone().unwrap();
-        let options = beam::Options { unresolved: 1e-3, ..beam::Options::default() };
+        let options = beam::BeamOptions { unresolved: 1e-3, ..beam::BeamOptions::default() };
         let (medium, view) = (specimen.medium(589.3), View::default());
         let beams = beam::trace(&stone.polytope, medium, &view, &options, &unwatched).unwrap();
         by_beams(&beams, &Scope::aset(ASET_CONE, Backing::Black))

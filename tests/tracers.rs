@@ -6,7 +6,7 @@ mod common;
 use brillianteer::math::{Plane, contains};
 use brillianteer::scene::{Lean, Medium, Side, Stone, View};
 use brillianteer::trace::beam::{Beam, Beams};
-use brillianteer::trace::ray::{Camera, Exit, Options, Tracer};
+use brillianteer::trace::ray::{Camera, Exit, RayOptions, StoneTracer};
 use common::*;
 use glam::{DMat2, DVec2, DVec3};
 
@@ -32,8 +32,8 @@ impl Comparison {
 }
 
 fn compare(beams: &Beams, stone: &Stone, view: &View, medium: Medium) -> Comparison {
-    let options = Options { most_bounces: 200, least_weight: 0.0, polarised: beams.polarised };
-    let tracer = Tracer::new(&stone.polytope, medium, options);
+    let options = RayOptions { most_bounces: 200, least_weight: 0.0, polarised: beams.polarised };
+    let tracer = StoneTracer::new(&stone.polytope, medium, options);
     let camera = Camera::new(view, &stone.polytope);
     let mut children: Vec<Vec<u32>> = vec![vec![]; beams.len()];
     for beam in beams.iter() {

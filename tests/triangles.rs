@@ -5,16 +5,16 @@ mod common;
 #[path = "common/solids.rs"]
 mod solids;
 
-use brillianteer::math::{Shell, Solid, Surface};
+use brillianteer::math::{Solid, Surface, TriangleMesh};
 use brillianteer::measure;
 use brillianteer::optics::{Material, material, strata};
-use brillianteer::picture::by_rays::Manner;
+use brillianteer::picture::by_rays::ScopeSampling;
 use brillianteer::picture::spectral::{Remainder, expose};
 use brillianteer::picture::{ByBeams, Linear, Rows, by_rays};
-use brillianteer::scene::{Film, Glare, Light, Medium, Placed, Setting, View, light};
-use brillianteer::trace::ray::{ByRays, Camera, Options, facet_at};
-use brillianteer::trace::sitting::Sitting;
-use brillianteer::trace::surround::{Sky, Surround};
+use brillianteer::scene::{Film, Glare, Instance, Light, Medium, Scene, View, light};
+use brillianteer::trace::environment::{Environment, EnvironmentMap};
+use brillianteer::trace::ray::{ByRays, Camera, RayOptions, facet_at};
+use brillianteer::trace::sampling::LitScene;
 use brillianteer::trace::{Stopped, beam, unwatched};
 use common::*;
 use glam::{DQuat, DVec2, DVec3};
@@ -23,12 +23,12 @@ use std::sync::Arc;
 
 const SIZE: u32 = 48;
 
-fn shell((vertices, triangles): Triangles) -> Arc<Shell> {
-    Arc::new(Shell::new(Surface::new(vertices, triangles)).unwrap())
+fn shell((vertices, triangles): Triangles) -> Arc<TriangleMesh> {
+    Arc::new(TriangleMesh::new(Surface::new(vertices, triangles)).unwrap())
 }
 
-fn options() -> Options {
-    Options { polarised: true, most_bounces: 64, least_weight: 1e-4 }
+fn options() -> RayOptions {
+    RayOptions { polarised: true, most_bounces: 64, least_weight: 1e-4 }
 }
 
 fn view() -> View {
@@ -36,26 +36,26 @@ fn view() -> View {
 }
 
 /// A picture under light of stones in one world.
-fn taken<T>(stones: Vec<Placed>, light: &Light, work: impl FnOnce(&Sitting) -> T) -> T {
-    let setting = Setting { stones, unit_mm: 3.25 };
-    let (sky, view) = (Sky::new(light, None), view());
-    let surround = Surround {
-        sky: &sky,
+fn taken<T>(stones: Vec<Instance>, light: &Light, work: impl FnOnce(&LitScene) -> T) -> T {
+    let setting = Scene { instances: stones, unit_mm: 3.25 };
+    let (sky, view) = (EnvironmentMap::new(light, None), view());
+    let environment = Environment {
+        map: &sky,
         basis: view.light_basis(),
         eye: view.basis(),
         head: 0.0,
-        behind: None,
+        backplate: None,
         backdrop: false,
     };
     let film = Film::square(SIZE, 1.1);
-    work(&Sitting { setting: &setting, surround, view: &view, film, options: options() })
+    work(&LitScene { scene: &setting, environment, view: &view, film, options: options() })
 }
 
-fn by_rays_of(stones: Vec<Placed>, light: &Light) -> (Linear, Remainder) {
-    taken(stones, light, |sitting| {
+fn by_rays_of(stones: Vec<Instance>, light: &Light) -> (Linear, Remainder) {
+    taken(stones, light, |lit_scene| {
         let strata = strata(2, &light.spectrum, true);
-        let prepare = |rows| Ok::<_, Stopped>(ByRays::new(*sitting, rows));
-        expose(sitting, (&strata, 1), SIZE, prepare, &unwatched).unwrap()
+        let prepare = |rows| Ok::<_, Stopped>(ByRays::new(*lit_scene, rows));
+        expose(lit_scene, (&strata, 1), SIZE, prepare, &unwatched).unwrap()
     })
 }
 
@@ -71,7 +71,7 @@ fn apart(a: &Linear, b: &Linear) -> (usize, usize) {
 #[test]
 fn a_brilliant_of_triangles_has_the_figures_and_pictures_of_its_planes() {
     let stone = built(&brilliant((56.0, 34.5, 40.8), (50.0, 77.0), 16));
-    let shell = Arc::new(Shell::of_polytope(&stone.polytope));
+    let shell = Arc::new(TriangleMesh::of_polytope(&stone.polytope));
     let medium = Medium { absorption: [0.1, 0.2], ..Medium::clear(2.4175) };
     let (view, scope, manner) = (view(), aset(), (options(), 24));
     let planes = measure::by_rays(&stone.polytope, medium, &view, &scope, manner, &unwatched).unwrap();
@@ -81,7 +81,7 @@ fn a_brilliant_of_triangles_has_the_figures_and_pictures_of_its_planes() {
     assert!((triangles.sum() - 1.0).abs() < 1e-9);
     assert!((planes.silhouette_area / triangles.silhouette_area - 1.0).abs() < 0.02);
     let film = Film::reaching(Camera::new(&view, &shell).reach(&shell).unwrap(), SIZE);
-    let manner = Manner { options: options(), per_side: 1, glare: Glare::Included };
+    let manner = ScopeSampling { options: options(), per_side: 1, glare: Glare::Included };
     let rows = |solid: &Solid| {
         let mut all: Vec<Rows> = vec![];
         let each = |rows: &Rows| -> Result<(), Stopped> {
@@ -101,7 +101,7 @@ fn a_brilliant_of_triangles_has_the_figures_and_pictures_of_its_planes() {
     assert!(a.len() == b.len() && off * 1000 < a.len(), "{off} of {}", a.len());
     let diamond = material("diamond").unwrap();
     let light = light("studio").unwrap();
-    let of = |solid: Solid| by_rays_of(vec![Placed::new(solid, diamond.clone())], &light);
+    let of = |solid: Solid| by_rays_of(vec![Instance::new(solid, diamond.clone())], &light);
     let ((a, _), (b, _)) = (of(stone.polytope.clone().into()), of(Solid::Triangles(shell)));
     let (off, all) = apart(&a, &b);
     assert!(all > 500 && off * 200 < all, "{off} of {all}");
@@ -111,7 +111,7 @@ fn a_brilliant_of_triangles_has_the_figures_and_pictures_of_its_planes() {
 fn a_white_furnace_is_white_around_solids_that_are_not_convex() {
     for (name, solid) in [("heart", heart()), ("star", star()), ("clasp", clasp(0.4))] {
         for index in [1.0, 1.54, 2.4175] {
-            let stone = Placed::new(
+            let stone = Instance::new(
                 Solid::Triangles(shell(solid.clone())),
                 Material::from_index("glass", index).unwrap(),
             );
@@ -139,17 +139,17 @@ fn a_stone_in_the_gap_of_another_is_seen_there() {
     let mut dark = air.clone();
     dark.absorption = [(); 2].map(|()| brillianteer::optics::Absorption::new(vec![(550.0, 1e3)]).unwrap());
     let square = [(1.0, 1.0), (-1.0, 1.0), (-1.0, -1.0), (1.0, -1.0)].map(|p| DVec2::from(p) * 0.3);
-    let cube = Placed::new(Solid::Triangles(shell(solids::extruded(&square, 0.3))), dark).moved(
+    let cube = Instance::new(Solid::Triangles(shell(solids::extruded(&square, 0.3))), dark).moved(
         1.0,
         DQuat::from_rotation_x(0.2),
         DVec3::new(0.3, 0.02, 0.0),
     );
-    let clasp = Placed::new(Solid::Triangles(shell(clasp(0.4))), air).moved(
+    let clasp = Instance::new(Solid::Triangles(shell(clasp(0.4))), air).moved(
         1.0,
         DQuat::from_rotation_x(1.3),
         DVec3::ZERO,
     );
-    let cube = Placed { solid: cube.solid.moved(1.0, DQuat::from_rotation_x(1.3), DVec3::ZERO), ..cube };
+    let cube = Instance { solid: cube.solid.moved(1.0, DQuat::from_rotation_x(1.3), DVec3::ZERO), ..cube };
     let light = light("white").unwrap();
     let alone = by_rays_of(vec![cube.clone()], &light).0;
     let both = by_rays_of(vec![clasp, cube], &light).0;
@@ -168,11 +168,11 @@ fn exact_beams_say_that_they_do_not_apply_to_triangles() {
         told.contains("exact beams and drawings are for convex stones") && told.contains("use rays"),
         "{told}"
     );
-    let stone = Placed::new(solid, material("diamond").unwrap().clone());
-    let refused = taken(vec![stone], &light("studio").unwrap(), |sitting| {
-        let facet = facet_at(sitting, 0.5 * f64::from(SIZE), 0.5 * f64::from(SIZE));
+    let stone = Instance::new(solid, material("diamond").unwrap().clone());
+    let refused = taken(vec![stone], &light("studio").unwrap(), |lit_scene| {
+        let facet = facet_at(lit_scene, 0.5 * f64::from(SIZE), 0.5 * f64::from(SIZE));
         assert!(facet.is_some_and(|(stone, facet)| stone == 0 && facet < 100), "{facet:?}");
-        ByBeams::new(*sitting, beam::Options::default()).is_none()
+        ByBeams::new(*lit_scene, beam::BeamOptions::default()).is_none()
     });
     assert!(refused);
 }
@@ -180,7 +180,7 @@ fn exact_beams_say_that_they_do_not_apply_to_triangles() {
 #[cfg(feature = "gpu")]
 mod by_card {
     use super::*;
-    use brillianteer::trace::gpu::{Around, ByCard, Gpu, GpuError};
+    use brillianteer::trace::gpu::{ByCard, Gpu, GpuEnvironment, GpuError};
 
     #[derive(Debug)]
     #[expect(dead_code, reason = "what went wrong is printed by its Debug")]
@@ -198,12 +198,12 @@ mod by_card {
         }
     }
 
-    fn by_card_of(gpu: &Gpu, stones: Vec<Placed>, light: &Light) -> (Linear, Remainder) {
-        taken(stones, light, |sitting| {
+    fn by_card_of(gpu: &Gpu, stones: Vec<Instance>, light: &Light) -> (Linear, Remainder) {
+        taken(stones, light, |lit_scene| {
             let strata = strata(2, &light.spectrum, true);
-            let around = Around::new(gpu, &sitting.surround);
-            let prepare = |rows| Ok::<_, Failed>(ByCard::new(gpu, sitting, &around, rows, strata.len())?);
-            expose(sitting, (&strata, 1), SIZE, prepare, &unwatched).unwrap()
+            let around = GpuEnvironment::new(gpu, &lit_scene.environment);
+            let prepare = |rows| Ok::<_, Failed>(ByCard::new(gpu, lit_scene, &around, rows, strata.len())?);
+            expose(lit_scene, (&strata, 1), SIZE, prepare, &unwatched).unwrap()
         })
     }
 
@@ -211,11 +211,11 @@ mod by_card {
     fn stones_of_triangles_look_under_light_as_by_rays() {
         let Some(gpu) = card("stones_of_triangles_look_under_light_as_by_rays") else { return };
         let stone = |solid, name: &str| {
-            let placed = Placed::new(Solid::Triangles(shell(solid)), material(name).unwrap().clone());
+            let placed = Instance::new(Solid::Triangles(shell(solid)), material(name).unwrap().clone());
             placed.moved(1.0, DQuat::from_rotation_x(0.11) * DQuat::from_rotation_y(-0.07), DVec3::ZERO)
         };
         let brilliant = built(&brilliant((56.0, 34.5, 40.8), (50.0, 77.0), 16)).polytope;
-        let planes = Placed::new(brilliant, material("quartz").unwrap().clone()).moved(
+        let planes = Instance::new(brilliant, material("quartz").unwrap().clone()).moved(
             0.3,
             DQuat::from_rotation_x(1.1),
             DVec3::new(0.35, 0.03, 0.0),

@@ -7,7 +7,7 @@ use super::shows::Shows;
 use super::studio::Smoothing;
 use crate::cut::MaterialRef;
 use crate::optics::{Material, line};
-use crate::scene::{Company, MOST_COPIES, Pose};
+use crate::scene::{Copies, MOST_COPIES, Pose};
 use egui::{Button, ComboBox, Slider, Ui, vec2};
 use glam::DVec3;
 use std::ops::RangeInclusive;
@@ -179,7 +179,7 @@ impl Editor {
             .flat_map(|k| solid.vertices().iter().map(move |c| (k, *c)))
             .map(|(k, c)| turn(k) * c)
             .collect();
-        let mut laid = Company::scattered(count, &corners, self.layings);
+        let mut laid = Copies::scattered(count, &corners, self.layings);
         laid.poses.iter_mut().enumerate().for_each(|(k, pose)| pose.turn = turn(k));
         *company = laid;
     }

@@ -1,7 +1,7 @@
 //! The design that the present one is compared with.
 
 use super::document::Document;
-use super::posed::Posed;
+use super::pose_cache::PoseCache;
 use crate::scene::Specimen;
 use std::sync::Arc;
 
@@ -13,7 +13,7 @@ pub struct Compared {
     pub is_saved: bool,
     /// Its stone, as the design has it.
     pub specimen: Arc<Specimen>,
-    posed: Posed,
+    posed: PoseCache,
 }
 
 impl Compared {
@@ -32,7 +32,7 @@ impl Compared {
     }
 
     fn new(name: String, is_saved: bool, specimen: Arc<Specimen>) -> Self {
-        Self { name, is_saved, specimen, posed: Posed::default() }
+        Self { name, is_saved, specimen, posed: PoseCache::default() }
     }
 
     /// Its stone, turned as it is seen.

@@ -1,21 +1,21 @@
 //! Copies in a render: which one is under the pointer, and moving it by hand.
 
 use super::editor::Editor;
-use super::pane::{Sight, rim};
+use super::pane::{PaneView, rim};
 use super::shows::Shows;
 use super::studio::{Shot, Which};
-use crate::scene::Company;
+use crate::scene::Copies;
 use crate::trace::ray::Camera;
 use egui::{CursorIcon, PointerButton, Pos2, Response, Ui};
 use glam::{DQuat, DVec2};
 
 /// Whether renders show the body alone and at rest.
 pub fn are_none(editor: &Editor) -> bool {
-    editor.document.work.company == Company::default() && editor.moving.seconds == 0.0
+    editor.document.work.company == Copies::default() && editor.moving.seconds == 0.0
 }
 
 /// Moves the copy that a hand has taken hold of; whether it has.
-pub fn carried(editor: &mut Editor, ui: &Ui, pane: usize, response: &Response, sight: &Sight) -> bool {
+pub fn carried(editor: &mut Editor, ui: &Ui, pane: usize, response: &Response, sight: &PaneView) -> bool {
     let several = editor.document.work.company.poses.len() > 1;
     let is_render = editor.desk.panes[pane].shows == Shows::Render;
     let is_start = response.drag_started_by(PointerButton::Primary);
@@ -50,18 +50,19 @@ pub fn carried(editor: &mut Editor, ui: &Ui, pane: usize, response: &Response, s
 }
 
 /// Tells the copy and facet under the pointer, and outlines it.
-pub fn hover(editor: &mut Editor, ui: &Ui, pane: usize, response: &Response, sight: &Sight) {
+pub fn hover(editor: &mut Editor, ui: &Ui, pane: usize, response: &Response, sight: &PaneView) {
     let Some(at) = response.hover_pos().filter(|_| response.hovered() && !response.dragged()) else { return };
     if editor.moving.is_on {
         return;
     }
     let Some((shot, copy, facet)) = found(editor, pane, sight, at) else { return };
     rim(ui, (shot.specimen.solid(), facet), |corner| shot.company[copy].place(corner), sight);
-    editor.told = format!("copy {} of {}: {}", copy + 1, shot.company.len(), shot.specimen.body.name(facet));
+    editor.message =
+        format!("copy {} of {}: {}", copy + 1, shot.company.len(), shot.specimen.body.name(facet));
 }
 
 /// What a view was last asked to show, and which copy and facet of it lie at a point of the window.
-fn found(editor: &mut Editor, pane: usize, sight: &Sight, at: Pos2) -> Option<(Shot, usize, u32)> {
+fn found(editor: &mut Editor, pane: usize, sight: &PaneView, at: Pos2) -> Option<(Shot, usize, u32)> {
     let own = (pane, Which::Present);
     let shot = editor.asked.shots.iter().find(|(slot, _)| *slot == own)?.1.clone();
     let probe = editor.probe(&shot.specimen);

@@ -2,7 +2,7 @@
 
 use super::editor::Editor;
 use super::shows::Shows;
-use super::studio::{Camera, Effort, FINE_RENDER, Paper, Shot, Which};
+use super::studio::{Effort, FINE_RENDER, Paper, Shot, ShotTracer, Which};
 use crate::io::rasterize;
 use crate::picture::profile;
 use crate::scene::{Film, Specimen};
@@ -112,7 +112,7 @@ fn taken(original: &Original, side: u32, stop: &AtomicBool) -> Result<ColorImage
     let effort = Effort { unresolved: UNRESOLVED, coarser: 1.0, bands: FINE_RENDER.bands };
     let mut last = None;
     let slot = (0, Which::Present);
-    let made = Camera::default()
+    let made = ShotTracer::default()
         .take((slot, shot), &effort, Some(&FINE_RENDER), &watch, &mut |taken| last = Some(taken.image));
     made.map_err(|e| e.to_string())?;
     last.ok_or_else(|| "nothing was drawn".to_owned())

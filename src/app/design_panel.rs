@@ -1,17 +1,17 @@
 //! The panel of the design: proportions, material, size, light.
 
-use super::desk::Side;
-use super::desk::WAVELENGTHS;
 use super::editor::Editor;
 use super::files::Purpose;
-use super::impossible::{self, Said};
+use super::impossible::{self, RowMessage};
 use super::proportions::{EXCELLENT_DEPTH, PROPORTIONS, Proportion};
 use super::rows::{ANY, NUMBER, Number, Row, control_width, explain, field_width, named};
 use super::studio::BEHIND;
+use super::workspace::PanelSide;
+use super::workspace::WAVELENGTHS;
 use super::{company_rows, extent, glass_rows, mesh_rows, side_panels, stone_rows, theme, tier_rows};
 use crate::cut::{Cut, Design, DesignError, MaterialRef, RoundBrilliant, Unit};
 use crate::picture::Pattern;
-use crate::scene::{Company, LIGHTS, SpecimenError, light};
+use crate::scene::{Copies, LIGHTS, SpecimenError, light};
 use egui::{
     Color32, ComboBox, Panel, Rect, RichText, Role, ScrollArea, Sense, Slider, SliderClamping, Stroke,
     StrokeKind, TextEdit, Ui, WidgetInfo, pos2, vec2,
@@ -28,11 +28,11 @@ const HEADS: RangeInclusive<f64> = 0.0..=30.0;
 /// Draws the panel.
 pub fn show(editor: &mut Editor, ui: &mut Ui, widths: RangeInclusive<f32>) {
     Panel::left("design").resizable(true).default_size(360.0).size_range(widths).show(ui, |ui| {
-        side_panels::head(editor, ui, Side::Design);
+        side_panels::head(editor, ui, PanelSide::Design);
         ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
             identity(editor, ui);
             let work = &editor.document.work;
-            if matches!(work.design.cut, Cut::Glass(_)) || work.company != Company::default() {
+            if matches!(work.design.cut, Cut::Glass(_)) || work.company != Copies::default() {
                 company_rows::presets(editor, ui);
             }
             let meaning = match is_graded(&editor.document.work.design) {
@@ -128,13 +128,13 @@ fn proportions(editor: &mut Editor, ui: &mut Ui) {
 }
 
 /// What is wrong with the proportions of a round brilliant, and at which row that is said.
-fn impossible(editor: &Editor) -> Option<Said> {
+fn impossible(editor: &Editor) -> Option<RowMessage> {
     let Some(SpecimenError::Design(DesignError::Proportion(fault))) = editor.document.fault() else {
         return None;
     };
     let given = editor.document.work.design.cut.brilliant()?;
     let last = editor.document.specimen().design.cut.brilliant()?;
-    Some(impossible::said(given, last, editor.edited, fault))
+    Some(impossible::explain(given, last, editor.edited, fault))
 }
 
 /// The tiers of a cut. Setting one leaves all others where they are, in mm: a stone that becomes wider has a greater
@@ -162,7 +162,7 @@ const MOST_WARNINGS: usize = 12;
 /// What is odd about the stone, and what was about its file.
 fn warnings(editor: &Editor, ui: &mut Ui) {
     let stones = editor.document.specimen().warnings.iter().filter(|_| editor.document.fault().is_none());
-    let all: Vec<&String> = stones.chain(editor.document.work.odd.iter()).collect();
+    let all: Vec<&String> = stones.chain(editor.document.work.remarks.iter()).collect();
     let small = |text: &str| egui::Label::new(RichText::new(text).weak().small()).wrap();
     for warning in all.iter().take(MOST_WARNINGS) {
         ui.add(small(warning));

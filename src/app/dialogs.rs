@@ -2,13 +2,13 @@
 
 use super::about::{self, About};
 use super::asked_path::{self, AskedPath};
+use super::autosave::{KeptScene, RecoveredWork};
 use super::command::MENUS;
 use super::document::Document;
 use super::editor::Editor;
 use super::export_dialog::{self, ExportDialog};
 use super::opening::Wanted;
 use super::proportions::PROPORTIONS;
-use super::safe::{Around, Found};
 use super::shows::Shows;
 use crate::io::mesh_options::MeshOptions;
 use egui::{Context, Grid, Id, Key, Modal, RichText, ScrollArea, Ui};
@@ -40,7 +40,7 @@ pub enum Dialog {
     /// Work would be lost.
     Unsaved(Then),
     /// A crash has left work behind.
-    Recover(Box<Found>),
+    Recover(Box<RecoveredWork>),
     /// Both the file and the design have changed.
     ChangedOutside,
     /// What to export.
@@ -173,7 +173,7 @@ fn moved(editor: &mut Editor, ui: &mut Ui, then: &Then) -> bool {
     })
 }
 
-fn recover(editor: &mut Editor, ui: &mut Ui, found: &Found) -> bool {
+fn recover(editor: &mut Editor, ui: &mut Ui, found: &RecoveredWork) -> bool {
     ui.set_width(400.0);
     ui.heading("Go on with unsaved work?");
     let of = found.path.as_ref().map_or_else(|| "in no file yet".into(), |p| format!("from {}", p.display()));
@@ -187,21 +187,21 @@ fn recover(editor: &mut Editor, ui: &mut Ui, found: &Found) -> bool {
             match Document::recovered(found.design.clone(), found.path.clone(), found.mesh.clone()) {
                 // Beginning keeps it safe anew, before what the crash left is forgotten.
                 Ok(mut document) => {
-                    let Around { company, behind, behind_mm, strength } = found.around.clone();
+                    let KeptScene { company, behind, behind_mm, strength } = found.around.clone();
                     document.work.company = company;
                     editor.begin(document);
                     let desk = &mut editor.desk;
                     desk.behind = behind.or(desk.behind.take());
                     (desk.behind_mm, desk.strength) = (behind_mm, strength.unwrap_or(1.0));
                     editor.take_note();
-                    Found::clone(found).forget();
+                    RecoveredWork::clone(found).forget();
                 }
                 Err(why) => editor.notes.trouble(why),
             }
             false
         }
         Some(2) => {
-            Found::clone(found).forget();
+            RecoveredWork::clone(found).forget();
             false
         }
         Some(_) => false,

@@ -2,10 +2,10 @@
 
 use super::history::History;
 use crate::cut::{Cut, Design};
-use crate::io::design_file::{self, Brought, Format};
+use crate::io::design_file::{self, DesignFormat, ImportedDesign};
 use crate::io::mesh_options::MeshOptions;
 use crate::io::{cut_file, library};
-use crate::scene::{Company, Specimen, SpecimenError};
+use crate::scene::{Copies, Specimen, SpecimenError};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::SystemTime;
@@ -16,7 +16,7 @@ pub struct Work {
     /// The stone.
     pub design: Design,
     /// Its copies in renders.
-    pub company: Company,
+    pub company: Copies,
     /// The light's name, or its file.
     pub light: String,
     /// Stops.
@@ -26,7 +26,7 @@ pub struct Work {
     /// The mesh that the stone was read from, if it was one.
     pub mesh: Option<ReadMesh>,
     /// What was odd about its file, in words.
-    pub odd: Arc<[String]>,
+    pub remarks: Arc<[String]>,
 }
 
 /// A mesh file, and how it was read.
@@ -62,7 +62,7 @@ pub struct Document {
     history: History<Work>,
     saved: Design,
     /// Its copies as they began, or were last written as a scene.
-    laid: Company,
+    laid: Copies,
     path: Option<PathBuf>,
     stamp: Stamp,
     /// Whether the file has gone.
@@ -95,12 +95,12 @@ impl Document {
         let specimen = Arc::new(Specimen::new(design.clone())?);
         let work = Work {
             design: design.clone(),
-            company: Company::default(),
+            company: Copies::default(),
             light: FIRST_LIGHT.to_owned(),
             exposure: 0.0,
             head: 0.0,
             mesh: None,
-            odd: Arc::default(),
+            remarks: Arc::default(),
         };
         let stamp = path.as_deref().map_or(Stamp(None), Stamp::of);
         let history = History::new(work.clone());
@@ -108,7 +108,7 @@ impl Document {
             work,
             history,
             saved: design.clone(),
-            laid: Company::default(),
+            laid: Copies::default(),
             path,
             stamp,
             is_lost: false,
@@ -141,11 +141,11 @@ impl Document {
     /// # Errors
     /// Text that names file, line and key, and what to do.
     pub fn open(path: &Path, mesh: MeshOptions) -> Result<Self, String> {
-        let Brought { design, notes, warnings, doubt } =
+        let ImportedDesign { design, notes, warnings, doubt } =
             design_file::read_with(path, mesh).map_err(|e| e.to_string())?;
         let mut document =
             Self::new(design, Some(path.to_owned())).map_err(|e| format!("{}: {e}", path.display()))?;
-        document.work.odd = warnings.into_iter().chain(notes).collect();
+        document.work.remarks = warnings.into_iter().chain(notes).collect();
         let diameter_mm = document.work.design.diameter_mm;
         let read = |is_doubtful| ReadMesh { path: path.to_owned(), options: mesh, is_doubtful, diameter_mm };
         document.work.mesh = doubt.map(read);
@@ -161,7 +161,7 @@ impl Document {
         self.work.design.diameter_mm = enlarged * other.work.design.diameter_mm;
         self.work.design.cut = other.work.design.cut;
         self.work.mesh = other.work.mesh;
-        self.work.odd = other.work.odd;
+        self.work.remarks = other.work.remarks;
     }
 
     /// A design that was never saved, found after a crash, and the mesh that it was read from, if it was one: it counts as
@@ -333,7 +333,7 @@ impl Document {
             return Err(format!("this design cannot be read again: {fault}"));
         }
         let specimen = self.specimen.remade(self.work.design.clone()).map_err(|e| e.to_string())?;
-        let format = Format::of_name(&path).unwrap_or(Format::Toml);
+        let format = DesignFormat::of_name(&path).unwrap_or(DesignFormat::Toml);
         let lost = design_file::write(&specimen, format, &path).map_err(|e| e.to_string())?;
         (self.stamp, self.path, self.is_lost) = (Stamp::of(&path), Some(path), false);
         self.saved = self.work.design.clone();

@@ -1,9 +1,9 @@
 //! The editor: everything that the window shows and does.
 
+use super::autosave::Autosave;
 use super::command::Command;
 use super::compare::Compared;
 use super::copying::Copying;
-use super::desk::{Desk, Layout};
 use super::dialogs::{Dialog, Then};
 use super::document::{Document, FIRST_LIGHT, Work};
 use super::export_job::Selection;
@@ -11,21 +11,23 @@ use super::files::{Choice, Chooser, Choosing, Watching, by_dialog};
 use super::following::{self, Following};
 use super::framing::Framing;
 use super::hands::Hands;
-use super::look::Looks;
-use super::lookup::Looker;
+use super::lookup::LookupWorker;
 use super::moving::Moving;
 use super::notes::Notes;
 use super::opener::{Opener, by_system};
 use super::opening::{Opening, Wanted};
-use super::posed::Posed;
+use super::pose_cache::PoseCache;
 use super::probe::Probe;
 use super::profile_view::ProfileView;
 use super::refraction_view::Flowing;
-use super::safe::Safe;
 use super::shows::Shows;
 use super::state_file::StateFile;
-use super::studio::{Answer, Ask, Grade, Order, Paper, Shot, Slot, Studio, Taken, Tilts, Which};
+use super::studio::{
+    Answer, FiguresOrder, Grade, Order, Paper, Shot, Slot, Studio, TakenPicture, Tilts, Which,
+};
+use super::view_history::ViewHistory;
 use super::window::PaintedBy;
+use super::workspace::{PaneLayout, Workspace};
 use super::{dialogs, drops, menus, side_panels, stage, theme};
 use crate::io::library;
 use crate::io::lighting::{Lighting, LightingError};
@@ -51,7 +53,7 @@ pub struct Setup {
     /// Who is asked for files.
     pub chooser: Chooser,
     /// How the window is arranged where nothing was kept.
-    pub desk: Desk,
+    pub desk: Workspace,
     /// Where the window says whether it is at rest; none for no such file.
     pub state_file: Option<StateFile>,
     /// What opens folders and pages outside the program.
@@ -66,7 +68,7 @@ impl Default for Setup {
             file: None,
             mesh: MeshOptions::default(),
             safe: None,
-            desk: Desk::default(),
+            desk: Workspace::default(),
             chooser: Arc::new(by_dialog),
             opener: Arc::new(by_system),
             painted_by: PaintedBy::default(),
@@ -80,12 +82,12 @@ pub struct Shown {
     pub(super) texture: TextureHandle,
     pub(super) shot: Shot,
     pub(super) grade: Grade,
-    pub(super) taken: Taken,
+    pub(super) taken: TakenPicture,
 }
 
 /// Figures as they are shown.
-pub struct Measured {
-    pub(super) ask: Ask,
+pub struct ShownFigures {
+    pub(super) ask: FiguresOrder,
     pub(super) grade: Grade,
     pub(super) figures: Figures,
 }
@@ -95,19 +97,19 @@ pub struct Editor {
     pub(super) document: Document,
     /// The stone that views are fitted to.
     pub(super) framing: Framing,
-    pub(super) desk: Desk,
+    pub(super) desk: Workspace,
     /// What drawings are drawn on.
     pub(super) paper: Paper,
-    pub(super) looks: Looks,
+    pub(super) looks: ViewHistory,
     pub(super) studio: Studio,
     pub(super) pictures: HashMap<Slot, Shown>,
     /// What looks pictures up, and those that were.
-    pub(super) looker: Looker,
+    pub(super) looker: LookupWorker,
     pub(super) looked: HashMap<Slot, Shown>,
     /// How backgrounds stand in views of refraction maps.
     pub(super) flowing: [Flowing; 4],
-    pub(super) figures: HashMap<Which, Measured>,
-    pub(super) tilts: Option<(Ask, Tilts)>,
+    pub(super) figures: HashMap<Which, ShownFigures>,
+    pub(super) tilts: Option<(FiguresOrder, Tilts)>,
     pub(super) compared: Option<Compared>,
     pub(super) probe: Option<Probe>,
     pub(super) profiles: [ProfileView; 4],
@@ -123,7 +125,7 @@ pub struct Editor {
     /// How often copies were laid out.
     pub(super) layings: u64,
     /// What is said in the line at the bottom while the pointer is over a picture.
-    pub(super) told: String,
+    pub(super) message: String,
     pub(super) notes: Notes,
     pub(super) dialog: Option<Dialog>,
     /// What was exported last.
@@ -134,7 +136,7 @@ pub struct Editor {
     pub(super) asked: Order,
     pub(super) light: (String, Arc<Lighting>),
     pub(super) loading: Option<(String, Receiver<Result<Lighting, LightingError>>)>,
-    pub(super) posed: Posed,
+    pub(super) posed: PoseCache,
     pub(super) chooser: Chooser,
     pub(super) opener: Opener,
     /// A picture for the clipboard that is being made.
@@ -148,7 +150,7 @@ pub struct Editor {
     /// The work as it was last taken note of.
     pub(super) kept: Work,
     watching: Watching,
-    pub(super) safe: Option<Safe>,
+    pub(super) safe: Option<Autosave>,
     /// Whether the window may close without another question.
     pub(super) may_close: bool,
     /// Whether renders are seen in three bands of wavelengths for as long as a key is down.
@@ -185,7 +187,8 @@ impl Editor {
         context.add_plugin(Hands::default());
         let kept = storage.and_then(|s| s.get_string(DESK));
         // A desk of a later program that this one cannot read is left aside.
-        let mut desk: Desk = kept.and_then(|text| serde_json::from_str(&text).ok()).unwrap_or(setup.desk);
+        let mut desk: Workspace =
+            kept.and_then(|text| serde_json::from_str(&text).ok()).unwrap_or(setup.desk);
         let wake = waker(context);
         let mut document = Document::first()?;
         let first = Lighting::load(FIRST_LIGHT).map_err(|e| e.to_string())?;
@@ -196,13 +199,13 @@ impl Editor {
         let kept = document.work.clone();
         let watch = wake.clone();
         let mut editor = Self {
-            looker: Looker::open(wake.clone()),
+            looker: LookupWorker::open(wake.clone()),
             looked: HashMap::new(),
             flowing: Default::default(),
             studio: Studio::open(gpu, wake),
             framing: Framing::new(document.specimen()),
             document,
-            looks: Looks::new(&desk),
+            looks: ViewHistory::new(&desk),
             paper: Paper::default(),
             desk,
             pictures: HashMap::new(),
@@ -217,7 +220,7 @@ impl Editor {
             is_picture_focused: false,
             edited: None,
             layings: 0,
-            told: String::new(),
+            message: String::new(),
             notes: Notes::default(),
             dialog: None,
             selection: Selection::default(),
@@ -225,7 +228,7 @@ impl Editor {
             light,
             asked: Order::default(),
             loading: None,
-            posed: Posed::default(),
+            posed: PoseCache::default(),
             chooser: setup.chooser,
             opener: setup.opener,
             copying: None,
@@ -235,7 +238,7 @@ impl Editor {
             after_save: None,
             kept,
             watching: Watching::begin(move || watch()),
-            safe: setup.safe.map(Safe::new),
+            safe: setup.safe.map(Autosave::new),
             may_close: false,
             shows_three: false,
             title: String::new(),
@@ -256,7 +259,7 @@ impl Editor {
     }
 
     fn offer_recovery(&mut self) {
-        let found = self.safe.as_ref().map_or_else(Vec::new, Safe::found);
+        let found = self.safe.as_ref().map_or_else(Vec::new, Autosave::found);
         if let Some(first) = found.into_iter().next() {
             self.dialog = Some(Dialog::Recover(Box::new(first)));
         }
@@ -317,7 +320,7 @@ impl Editor {
                     hang(ctx, &mut self.pictures, slot, (*shot, grade, taken));
                 }
                 Answer::Figures(which, ask, grade, figures) => {
-                    self.figures.insert(which, Measured { ask, grade, figures: *figures });
+                    self.figures.insert(which, ShownFigures { ask, grade, figures: *figures });
                 }
                 Answer::Tilts(ask, tilts) => self.tilts = Some((ask, tilts)),
                 Answer::Trouble(why) => self.notes.trouble(why),
@@ -381,9 +384,9 @@ impl Editor {
         let overlay = |name| self.desk.overlay.as_deref() == Some(name);
         let eye = self.desk.eye(self.active());
         match command {
-            Command::One => self.desk.layout == Layout::One,
-            Command::Two => self.desk.layout == Layout::Two,
-            Command::Four => self.desk.layout == Layout::Four,
+            Command::One => self.desk.layout == PaneLayout::One,
+            Command::Two => self.desk.layout == PaneLayout::Two,
+            Command::Four => self.desk.layout == PaneLayout::Four,
             Command::Perspective => self.desk.panes[self.active()].is_near,
             Command::EyeLeans => eye.eye_leans,
             Command::Wireframe => overlay("wireframe"),
@@ -493,7 +496,7 @@ fn hang(
     ctx: &Context,
     pictures: &mut HashMap<Slot, Shown>,
     slot: Slot,
-    (shot, grade, taken): (Shot, Grade, Taken),
+    (shot, grade, taken): (Shot, Grade, TakenPicture),
 ) {
     let image = taken.image.clone();
     let options = egui::TextureOptions::LINEAR;

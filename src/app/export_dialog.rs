@@ -1,15 +1,15 @@
 //! The dialog that writes files.
 
 use super::editor::Editor;
-use super::export_job::{Aspect, Job, Plan, Selection, thumbnails};
+use super::export_job::{Job, PictureAspect, Plan, Selection, thumbnails};
 use super::files::Purpose;
-use super::posed::Posed;
+use super::pose_cache::PoseCache;
 use super::shows::Shows;
 use super::studio::Shot;
 use super::theme;
-use crate::io::export::Format;
+use crate::io::export::OutputFormat;
 use crate::io::refraction_map::{MOST_BANDS, MOST_PLACES};
-use crate::scene::{Company, Specimen, View};
+use crate::scene::{Copies, Specimen, View};
 use egui::{
     Color32, ColorImage, DragValue, Grid, Label, ProgressBar, Rect, RichText, ScrollArea, Sense, Stroke,
     StrokeKind, TextEdit, TextureHandle, Ui, WidgetInfo, pos2, vec2,
@@ -60,7 +60,7 @@ impl ExportDialog {
         };
         let selection = editor.selection.clone();
         // As large as in the view, and no copy left out.
-        let copies = Company::at(shot.company.clone(), shot.specimen.solid().vertices());
+        let copies = Copies::at(shot.company.clone(), shot.specimen.solid().vertices());
         let reach = editor.reach(Shows::Render).max(copies.reach(0.0));
         let mut plan =
             Plan { shot, upright, linked, own, reach, selection, light, folder: folder.clone(), stem };
@@ -103,15 +103,15 @@ impl ExportDialog {
 
 /// How the linked views see a stone, and each picture whose view looks on its own. Of several views that show the same it is
 /// the one that keys are for, or the first.
-fn aspects(editor: &Editor, upright: &Arc<Specimen>) -> (Aspect, Vec<(Shows, Aspect)>) {
+fn aspects(editor: &Editor, upright: &Arc<Specimen>) -> (PictureAspect, Vec<(Shows, PictureAspect)>) {
     let desk = &editor.desk;
     // What is posed for the views stays theirs.
-    let mut posed = Posed::default();
-    let mut aspect = |view: View, turn: f64| Aspect { view, turn, turned: posed.of(upright, turn) };
+    let mut posed = PoseCache::default();
+    let mut aspect = |view: View, turn: f64| PictureAspect { view, turn, turned: posed.of(upright, turn) };
     let linked = aspect(desk.eye.view(None), desk.eye.turn);
     let mut panes = desk.shown();
     panes.sort_by_key(|&pane| (pane != editor.active(), pane));
-    let mut own: Vec<(Shows, Aspect)> = vec![];
+    let mut own: Vec<(Shows, PictureAspect)> = vec![];
     for pane in panes {
         let shows = desk.panes[pane].shows;
         if shows.is_seen() && own.iter().all(|(other, _)| *other != shows) {
@@ -219,10 +219,10 @@ fn settings(editor: &mut Editor, ui: &mut Ui, export: &mut ExportDialog) {
         ui.label("Formats");
         ui.horizontal(|ui| {
             for (format, name, meaning) in [
-                (Format::Png, "PNG", "Pictures; of scopes both energy and strongest exits."),
-                (Format::Svg, "SVG", "Drawings, and every virtual facet of scopes as a polygon."),
-                (Format::Exr, "EXR", "The energy of every zone, linear, in 32 bits."),
-                (Format::Json, "JSON", "The figures of this view."),
+                (OutputFormat::Png, "PNG", "Pictures; of scopes both energy and strongest exits."),
+                (OutputFormat::Svg, "SVG", "Drawings, and every virtual facet of scopes as a polygon."),
+                (OutputFormat::Exr, "EXR", "The energy of every zone, linear, in 32 bits."),
+                (OutputFormat::Json, "JSON", "The figures of this view."),
             ] {
                 let mut wanted = export.plan.selection.formats.contains(&format);
                 if ui.checkbox(&mut wanted, name).on_hover_text(meaning).changed() {
@@ -336,7 +336,7 @@ fn working(editor: &mut Editor, ui: &mut Ui, (job, folder): (&Job, &Path)) -> bo
     ui.add(Label::new(job.standing()).truncate());
     let lines = ScrollArea::vertical().max_height(TOLD).min_scrolled_height(TOLD).auto_shrink(false);
     lines.stick_to_bottom(true).show(ui, |ui| {
-        job.told().iter().for_each(|line| drop(ui.label(RichText::new(line).small())));
+        job.messages().iter().for_each(|line| drop(ui.label(RichText::new(line).small())));
         match &end {
             Some(Err(why)) if !job.is_stopped() => {
                 ui.label(RichText::new(why).color(theme::bad(ui.visuals())));

@@ -1,11 +1,11 @@
 //! Exporting, on a thread of its own: thumbnails of what can be had, then the files.
 
 use super::export_scene::SceneOut;
-use super::framing::{Fit, Framing};
+use super::framing::{Framing, FramingFit};
 use super::shows::Shows;
-use super::studio::{Camera, Effort, FINE_RENDER, SPAN, Shot, Which, survey};
+use super::studio::{Effort, FINE_RENDER, SPAN, Shot, ShotTracer, Which, survey};
 use crate::io::background::BackgroundRef;
-use crate::io::export::{Export, Format, Outputs, Told, Viewing};
+use crate::io::export::{Event, Export, OutputFormat, Outputs, Viewing};
 use crate::io::refraction_map::{self, Coding, MOST_BANDS, MOST_PIXELS};
 use crate::io::refraction_page::{Page, takes, write_page};
 use crate::io::{Failure, rasterize, write_rgba_png};
@@ -33,7 +33,7 @@ pub struct Selection {
     /// What is shown of it.
     pub views: Vec<Shows>,
     /// Kinds of file.
-    pub formats: Vec<Format>,
+    pub formats: Vec<OutputFormat>,
     /// Whether a refraction map is written, with a page that shows it, and of how many bands of wavelengths.
     pub map: bool,
     pub bands: u32,
@@ -50,14 +50,14 @@ pub struct Selection {
 impl Default for Selection {
     fn default() -> Self {
         let views = vec![Shows::Render, Shows::Aset, Shows::Hearts, Shows::Arrows];
-        let formats = vec![Format::Png];
+        let formats = vec![OutputFormat::Png];
         Self { views, formats, map: false, bands: 1, places: 1, scene: false, size: 1024, caption: false }
     }
 }
 
 /// How some pictures see the stone.
 #[derive(Clone)]
-pub struct Aspect {
+pub struct PictureAspect {
     /// From where; pictures that are made for one side have their own.
     pub view: View,
     /// By how much the stone is turned about its axis, radians.
@@ -74,9 +74,9 @@ pub struct Plan {
     /// The stone as the cut has it.
     pub upright: Arc<Specimen>,
     /// How the linked views see the stone: so do pictures and figures that have no view of their own.
-    pub linked: Aspect,
+    pub linked: PictureAspect,
     /// How views that look on their own see it, by what they show.
-    pub own: Vec<(Shows, Aspect)>,
+    pub own: Vec<(Shows, PictureAspect)>,
     /// Half the side of what renders show.
     pub reach: f64,
     /// What of it is written.
@@ -91,12 +91,12 @@ pub struct Plan {
 
 /// How far it has come.
 #[derive(Default)]
-pub struct Progress {
+pub struct ExportProgress {
     /// Thousandths.
     done: AtomicU64,
     stop: AtomicBool,
     /// Files written, and what was said.
-    told: Mutex<Vec<String>>,
+    messages: Mutex<Vec<String>>,
     /// How many files are written.
     written: AtomicUsize,
     end: Mutex<Option<Result<(), String>>>,
@@ -104,7 +104,7 @@ pub struct Progress {
 
 /// Work that is going on.
 pub struct Job {
-    progress: Arc<Progress>,
+    progress: Arc<ExportProgress>,
     /// The files, in the order in which they are written.
     files: Vec<PathBuf>,
     begun: Instant,
@@ -112,7 +112,7 @@ pub struct Job {
 
 impl Plan {
     /// How a picture sees the stone.
-    pub fn aspect(&self, shows: Shows) -> &Aspect {
+    pub fn aspect(&self, shows: Shows) -> &PictureAspect {
         self.own.iter().find(|(own, _)| *own == shows).map_or(&self.linked, |(_, aspect)| aspect)
     }
 
@@ -121,14 +121,14 @@ impl Plan {
     fn parts(&self) -> Vec<(Outputs, Viewing<'_>)> {
         let is_drawing = |shows: &Shows| !shows.is_seen();
         let is_own = |shows: &Shows| self.own.iter().any(|(own, _)| own == shows);
-        let json = self.selection.formats.contains(&Format::Json);
+        let json = self.selection.formats.contains(&OutputFormat::Json);
         let formats = |json: bool| {
-            let pixels = self.selection.formats.iter().copied().filter(|f| *f != Format::Json);
-            pixels.chain(json.then_some(Format::Json)).collect()
+            let pixels = self.selection.formats.iter().copied().filter(|f| *f != OutputFormat::Json);
+            pixels.chain(json.then_some(OutputFormat::Json)).collect()
         };
         let seen = self.outputs(|s| !is_drawing(s) && !is_own(s), formats(false));
         let linked = Viewpoint::from(self.linked.view);
-        let turned = |aspect: &Aspect| aspect.turn.to_degrees();
+        let turned = |aspect: &PictureAspect| aspect.turn.to_degrees();
         let mut parts = vec![(seen, self.viewing(&self.linked.turned, linked, turned(&self.linked)))];
         for (shows, aspect) in self.own.iter().filter(|(shows, _)| shows.is_seen()) {
             let alone = self.outputs(|s| s == shows, formats(false));
@@ -144,7 +144,7 @@ impl Plan {
         parts
     }
 
-    fn outputs(&self, is_part: impl Fn(&Shows) -> bool, formats: Vec<Format>) -> Outputs {
+    fn outputs(&self, is_part: impl Fn(&Shows) -> bool, formats: Vec<OutputFormat>) -> Outputs {
         let picture = |shows: &Shows| Some((shows.key().to_owned(), named(shows.key())?));
         Outputs {
             folder: self.folder.clone(),
@@ -193,8 +193,8 @@ impl Plan {
     }
 
     fn render_path(&self) -> Option<PathBuf> {
-        let wanted =
-            self.selection.views.contains(&Shows::Render) && self.selection.formats.contains(&Format::Png);
+        let wanted = self.selection.views.contains(&Shows::Render)
+            && self.selection.formats.contains(&OutputFormat::Png);
         wanted.then(|| self.folder.join(format!("{}-render.png", self.stem)))
     }
 
@@ -234,7 +234,7 @@ impl Plan {
         let shot = Shot { shows, view, ..self.shot.clone() };
         let size = [size; 2];
         if shows.has_company() && self.shot.company.as_slice() != [Pose::STILL] {
-            let fit = Fit::reaching(self.reach);
+            let fit = FramingFit::reaching(self.reach);
             return Shot { film: fit.film(size), whole: fit.whole(size), ..shot };
         }
         let specimen = Arc::clone(if shows.is_seen() { &self.aspect(shows).turned } else { &self.upright });
@@ -244,10 +244,11 @@ impl Plan {
     }
 
     /// Writes all, one after the other.
-    fn write(&self, progress: &Progress) -> Result<(), Failure> {
+    fn write(&self, progress: &ExportProgress) -> Result<(), Failure> {
         let render = self.render_path();
         let parts = self.parts();
-        let effort = |o: &Outputs| (o.pictures.len() + usize::from(o.formats.contains(&Format::Json))) as f64;
+        let effort =
+            |o: &Outputs| (o.pictures.len() + usize::from(o.formats.contains(&OutputFormat::Json))) as f64;
         let more =
             [render.is_some(), self.selection.map].map(|is_wanted| if is_wanted { RENDER } else { 0.0 });
         let all = parts.iter().map(|(o, _)| effort(o)).sum::<f64>() + more[0] + more[1];
@@ -263,16 +264,16 @@ impl Plan {
         }
         if let Some(path) = render {
             self.render(&path, &|done| progress.at((begun + done * RENDER) / all))?;
-            progress.hear(&Told::Written(&path));
+            progress.hear(&Event::Written(&path));
             begun += RENDER;
         }
         if let Some((maps, others)) = self.map_paths() {
             self.write_map(&maps, &others, &|done| progress.at((begun + done * RENDER) / all))?;
-            maps.iter().chain(&others).for_each(|path| progress.hear(&Told::Written(path)));
+            maps.iter().chain(&others).for_each(|path| progress.hear(&Event::Written(path)));
         }
         if self.selection.scene {
             SceneOut::of(self).write()?;
-            SceneOut::paths(self).iter().for_each(|path| progress.hear(&Told::Written(path)));
+            SceneOut::paths(self).iter().for_each(|path| progress.hear(&Event::Written(path)));
         }
         Ok(())
     }
@@ -305,14 +306,14 @@ impl Plan {
         let background = behind.flatten().filter(|bytes| takes(bytes));
         let ground = self.shot.behind.as_ref().map_or_else(String::new, BackgroundRef::title);
         let background = background.as_deref().map(|bytes| (ground.as_str(), bytes));
-        Ok(write_page(page, &map, &Page { title, told: &told, span: SPAN, background })?)
+        Ok(write_page(page, &map, &Page { title, description: &told, span: SPAN, background })?)
     }
 
     fn render(&self, path: &Path, watch: crate::trace::Watch) -> Result<(), Failure> {
         let mut last = None;
         let effort = Effort { unresolved: FINE_RENDER.unresolved, coarser: 1.0, bands: FINE_RENDER.bands };
         let shot = self.shot(Shows::Render, self.selection.size);
-        Camera::default().take(
+        ShotTracer::default().take(
             ((0, Which::Present), &shot),
             &effort,
             Some(&FINE_RENDER),
@@ -333,29 +334,29 @@ impl Plan {
     }
 }
 
-impl Progress {
+impl ExportProgress {
     fn at(&self, done: f64) -> ControlFlow<()> {
         self.done.store((1000.0 * done) as u64, Ordering::Relaxed);
         if self.stop.load(Ordering::Relaxed) { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     }
 
-    fn hear(&self, told: &Told) {
+    fn hear(&self, told: &Event) {
         let text = match told {
-            Told::Begun(_) => return,
-            Told::Written(path) => {
+            Event::Begun(_) => return,
+            Event::Written(path) => {
                 self.written.fetch_add(1, Ordering::Relaxed);
                 format!("wrote {}", path.display())
             }
-            Told::Note(text) | Told::Warning(text) => (*text).to_owned(),
+            Event::Note(text) | Event::Warning(text) => (*text).to_owned(),
         };
-        self.told.lock().unwrap_or_else(PoisonError::into_inner).push(text);
+        self.messages.lock().unwrap_or_else(PoisonError::into_inner).push(text);
     }
 }
 
 impl Job {
     /// Begins; `wake` is called when it ends.
     pub fn begin(plan: Plan, wake: impl Fn() + Send + 'static) -> Self {
-        let progress = Arc::new(Progress::default());
+        let progress = Arc::new(ExportProgress::default());
         let seen = Arc::clone(&progress);
         // Where they cannot be known, writing tells why.
         let files = plan.files().unwrap_or_default();
@@ -413,8 +414,8 @@ impl Job {
     }
 
     /// What was said so far.
-    pub fn told(&self) -> Vec<String> {
-        self.progress.told.lock().unwrap_or_else(PoisonError::into_inner).clone()
+    pub fn messages(&self) -> Vec<String> {
+        self.progress.messages.lock().unwrap_or_else(PoisonError::into_inner).clone()
     }
 
     /// How it ended, once it has.
@@ -444,7 +445,7 @@ fn spoken(time: Duration) -> String {
 pub fn thumbnails(plan: Plan, wake: impl Fn() + Send + 'static) -> Receiver<(Shows, ColorImage)> {
     let (sender, pictures) = channel();
     std::thread::spawn(move || {
-        let mut camera = Camera::default();
+        let mut camera = ShotTracer::default();
         for shows in plan.can_be_shown() {
             if !send(&plan, shows, &mut camera, &sender) {
                 return;
@@ -464,7 +465,7 @@ fn side(plan: &Plan) -> Option<ColorImage> {
 }
 
 /// Whether anyone still wants it.
-fn send(plan: &Plan, shows: Shows, camera: &mut Camera, sender: &Sender<(Shows, ColorImage)>) -> bool {
+fn send(plan: &Plan, shows: Shows, camera: &mut ShotTracer, sender: &Sender<(Shows, ColorImage)>) -> bool {
     let effort = Effort { unresolved: 2e-2, coarser: 1.0, bands: 6 };
     let mut is_wanted = true;
     if shows == Shows::Profile {

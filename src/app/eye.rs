@@ -1,6 +1,6 @@
 //! From where all linked views look: a lean of the stone, a turn about its axis, a zoom.
 
-use super::framing::Fit;
+use super::framing::FramingFit;
 use crate::scene::{Film, Lean, Projection, Side, View};
 use glam::DVec2;
 use serde::{Deserialize, Serialize};
@@ -140,7 +140,7 @@ impl Eye {
     }
 
     /// The film of a pane of so many pixels, of what a view takes in where nothing is zoomed or moved aside.
-    pub fn film(&self, size: [u32; 2], fit: &Fit) -> Film {
+    pub fn film(&self, size: [u32; 2], fit: &FramingFit) -> Film {
         let fitting = fit.film(size);
         Film { pixel: fitting.pixel / self.zoom, centre: fitting.centre + self.centre, ..fitting }
     }
@@ -186,7 +186,7 @@ mod tests {
     fn zooming_keeps_the_point_under_the_hand() {
         let mut eye = Eye { centre: DVec2::new(0.1, 0.2), ..Eye::default() };
         let pixel = |eye: &Eye, at: DVec2| {
-            eye.film([100, 80], &Fit::reaching(1.0))
+            eye.film([100, 80], &FramingFit::reaching(1.0))
                 .pixels_from_image(glam::DMat2::IDENTITY)
                 .transform_point2(at)
         };

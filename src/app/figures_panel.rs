@@ -1,10 +1,10 @@
 //! The panel of figures: where the light comes from, by exact beams or by rays, and how that changes when the stone is tilted.
 
-use super::desk::Side;
-use super::editor::{Editor, Measured};
-use super::figures_text::{self, About};
+use super::editor::{Editor, ShownFigures};
+use super::figures_text::{self, FiguresSubject};
 use super::rows::explain;
 use super::studio::{Grade, Tilts, Which};
+use super::workspace::PanelSide;
 use super::{pane_rows, side_panels, theme};
 use crate::measure::Figures;
 use crate::scene::{ASET_CONE, Backing, Glare, Scope};
@@ -24,7 +24,7 @@ pub(super) const ZONES: [(&str, &str, &str); 5] = [
 /// Draws the panel.
 pub fn show(editor: &mut Editor, ui: &mut Ui, widths: RangeInclusive<f32>) {
     Panel::right("figures").resizable(true).default_size(280.0).size_range(widths).show(ui, |ui| {
-        side_panels::head(editor, ui, Side::Figures);
+        side_panels::head(editor, ui, PanelSide::Figures);
         ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
             pane_rows::show(editor, ui);
             ui.add_space(8.0);
@@ -56,19 +56,19 @@ fn figures(editor: &mut Editor, ui: &mut Ui) {
 }
 
 /// The figures of the design compared with.
-fn other(editor: &Editor) -> Option<&Measured> {
+fn other(editor: &Editor) -> Option<&ShownFigures> {
     editor.compared.as_ref().and_then(|_| editor.figures.get(&Which::Other))
 }
 
 /// How far figures have come, and their error where they are sampled.
-fn state(editor: &Editor, measured: &Measured) -> String {
+fn state(editor: &Editor, measured: &ShownFigures) -> String {
     let is_asked = editor.asked.figures.iter().any(|(_, ask)| *ask == measured.ask);
     let state = match is_asked && measured.grade == Grade::Fine {
         true if editor.document.shows_last_possible() => "those of the last possible stone",
         true => "final",
         false => "becoming finer…",
     };
-    let glare = editor.desk.glare().told();
+    let glare = editor.desk.glare().description();
     match measured.figures.standard_error {
         error if error > 0.0 => format!("{state}; by rays, standard error {:.2} %; {glare}", 100.0 * error),
         _ => format!("{state}; {glare}"),
@@ -127,7 +127,7 @@ fn as_text(editor: &Editor, as_table: bool) -> Option<String> {
     let by_area = editor.desk.by_area;
     let by = if by_area { "area of strongest exits" } else { "energy" };
     let (view, state) = (view(editor), format!("ASET, {by}; {}", state(editor, measured)));
-    let about = About {
+    let about = FiguresSubject {
         design: &editor.document.work.design.name,
         view: &view,
         state: &state,
@@ -167,7 +167,7 @@ fn view(editor: &Editor) -> String {
 
 /// One figure, as the panel shows it.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Line {
+pub(super) struct FigureLine {
     /// What it is called, and what it means.
     pub name: &'static str,
     pub meaning: &'static str,
@@ -182,7 +182,7 @@ pub(super) struct Line {
     pub is_strong: bool,
 }
 
-impl Line {
+impl FigureLine {
     /// By how much the present design has more than the one compared with; `None` while that may be no more than what both
     /// are still uncertain by.
     pub fn difference(&self) -> Option<f64> {
@@ -196,11 +196,12 @@ const SIGMAS: f64 = 4.0;
 
 /// How far apart two figures of the same stone may be, one or both of which are becoming finer: each may be too low by what is
 /// unresolved. Those that are final are compared as they are.
-fn error(present: &Measured, other: &Measured, by_area: bool) -> f64 {
+fn error(present: &ShownFigures, other: &ShownFigures, by_area: bool) -> f64 {
     if [present, other].iter().all(|measured| measured.grade == Grade::Fine) {
         return 0.0;
     }
-    let unresolved = |m: &Measured| Zones::of(&m.figures, m.ask.head, (by_area, Glare::Included)).unresolved;
+    let unresolved =
+        |m: &ShownFigures| PanelZones::of(&m.figures, m.ask.head, (by_area, Glare::Included)).unresolved;
     let sampled = SIGMAS * (present.figures.standard_error + other.figures.standard_error);
     unresolved(present).max(unresolved(other)) + sampled
 }
@@ -234,15 +235,15 @@ const WITH_GLARE: &str = "With glare";
 
 /// All figures in the order of the panel: those of zones first.
 pub(super) fn lines(
-    measured: &Measured,
-    other: Option<&Measured>,
+    measured: &ShownFigures,
+    other: Option<&ShownFigures>,
     (by_area, glare): (bool, Glare),
-) -> Vec<Line> {
+) -> Vec<FigureLine> {
     let error = other.map_or(0.0, |other| error(measured, other, by_area));
-    let zones = |m: &Measured| Zones::of(&m.figures, m.ask.head, (by_area, glare));
+    let zones = |m: &ShownFigures| PanelZones::of(&m.figures, m.ask.head, (by_area, glare));
     let (present, other) = (zones(measured), other.map(zones));
     let shown = ZONES.iter().filter(|(_, band, _)| *band != "head" || measured.ask.head > 0.0);
-    let of_zones = shown.map(|&(name, band, meaning)| Line {
+    let of_zones = shown.map(|&(name, band, meaning)| FigureLine {
         name,
         meaning,
         share: present.band(band),
@@ -251,7 +252,7 @@ pub(super) fn lines(
         band: Some(band),
         is_strong: false,
     });
-    let total = |&(name, meaning, of, is_strong): &(&'static str, &'static str, Pick, bool)| Line {
+    let total = |&(name, meaning, of, is_strong): &(&'static str, &'static str, Pick, bool)| FigureLine {
         name,
         meaning,
         share: of(&present),
@@ -271,7 +272,7 @@ pub(super) fn lines(
     }
 }
 
-fn table(ui: &mut Ui, lines: &[Line]) {
+fn table(ui: &mut Ui, lines: &[FigureLine]) {
     let zones = lines.iter().filter(|line| line.band.is_some()).count();
     for (k, line) in lines.iter().enumerate() {
         if k == zones {
@@ -282,10 +283,10 @@ fn table(ui: &mut Ui, lines: &[Line]) {
 }
 
 /// Takes a number from what the panel shows.
-type Pick = fn(&Zones) -> f64;
+type Pick = fn(&PanelZones) -> f64;
 
 /// What the panel shows, as shares of the outline.
-pub(super) struct Zones {
+pub(super) struct PanelZones {
     bands: Vec<(String, f64)>,
     glare: f64,
     absorbed: f64,
@@ -295,7 +296,7 @@ pub(super) struct Zones {
     lit_with_glare: f64,
 }
 
-impl Zones {
+impl PanelZones {
     fn of(figures: &Figures, head: f64, (by_area, glare): (bool, Glare)) -> Self {
         let scope = Scope::aset(ASET_CONE, Backing::Black).with_head(head);
         let share =
@@ -313,7 +314,7 @@ impl Zones {
     }
 }
 
-fn row(ui: &mut Ui, row: &Line) {
+fn row(ui: &mut Ui, row: &FigureLine) {
     let visuals = ui.visuals();
     let plain = if row.is_strong { visuals.text_color() } else { visuals.weak_text_color() };
     let colour: Color32 = row.band.map_or(plain, |band| theme::zone(band, visuals));
@@ -401,7 +402,7 @@ pub(super) fn energy(figures: &Figures, band: usize, glare: Glare) -> f64 {
 mod tests {
     use super::*;
     use crate::app::document::Document;
-    use crate::app::studio::Ask;
+    use crate::app::studio::FiguresOrder;
     use crate::measure::by_beams;
     use crate::optics::line;
     use crate::scene::View;
@@ -409,14 +410,14 @@ mod tests {
     use std::sync::Arc;
 
     /// The first stone's figures, with so much left unresolved.
-    fn measured(unresolved: f64, grade: Grade) -> Measured {
+    fn measured(unresolved: f64, grade: Grade) -> ShownFigures {
         let specimen = Arc::clone(Document::first().unwrap().specimen());
-        let options = beam::Options { unresolved, ..beam::Options::default() };
+        let options = beam::BeamOptions { unresolved, ..beam::BeamOptions::default() };
         let (medium, view) = (specimen.medium(line::SODIUM_D), View::default());
         let beams =
             beam::trace(&specimen.stone().unwrap().polytope, medium, &view, &options, &unwatched).unwrap();
         let figures = by_beams(&beams, &Scope::aset(ASET_CONE, Backing::Black));
-        Measured { ask: Ask { specimen, view, head: 0.0 }, grade, figures }
+        ShownFigures { ask: FiguresOrder { specimen, view, head: 0.0 }, grade, figures }
     }
 
     #[test]
@@ -427,7 +428,8 @@ mod tests {
             let rough = measured(unresolved, Grade::Rough);
             for by_area in [false, true] {
                 let error = error(&rough, &fine, by_area);
-                let [a, b] = [&rough, &fine].map(|m| Zones::of(&m.figures, 0.0, (by_area, Glare::Included)));
+                let [a, b] =
+                    [&rough, &fine].map(|m| PanelZones::of(&m.figures, 0.0, (by_area, Glare::Included)));
                 for (_, band, _) in ZONES {
                     let difference = (a.band(band) - b.band(band)).abs();
                     assert!(difference <= error, "{band} at {unresolved}: {difference} is above {error}");

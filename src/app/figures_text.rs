@@ -1,12 +1,12 @@
 //! Figures as text and as tables, for the clipboard.
 
-use super::figures_panel::{Line, ZONES, energy};
+use super::figures_panel::{FigureLine, ZONES, energy};
 use super::studio::Tilts;
 use crate::scene::{ASET_CONE, Backing, Glare, Scope};
 use std::fmt::Write as _;
 
 /// What figures are of, in words.
-pub struct About<'a> {
+pub struct FiguresSubject<'a> {
     /// The design's name.
     pub design: &'a str,
     /// From where it is seen.
@@ -18,8 +18,8 @@ pub struct About<'a> {
 }
 
 /// The figures that the panel shows, a line each under what they are of.
-pub fn text(about: &About, lines: &[Line]) -> String {
-    let About { design, view, state, other } = about;
+pub fn text(about: &FiguresSubject, lines: &[FigureLine]) -> String {
+    let FiguresSubject { design, view, state, other } = about;
     let mut text = format!("{design}: {view}; {state}\n");
     if let Some(other) = other {
         // Writing to a string cannot fail.
@@ -39,14 +39,14 @@ pub fn text(about: &About, lines: &[Line]) -> String {
 }
 
 /// The same as a table, of comma-separated values as RFC 4180 has them. What is not counted one way is empty there.
-pub fn csv(about: &About, energies: &[Line], areas: &[Line]) -> String {
+pub fn csv(about: &FiguresSubject, energies: &[FigureLine], areas: &[FigureLine]) -> String {
     let mut table = String::from("design,view,figure,energy_percent,area_percent");
     if about.other.is_some() {
         table.push_str(",compared_energy_percent,compared_area_percent");
     }
     table.push_str("\r\n");
     let only_areas = areas.iter().filter(|line| !energies.iter().any(|other| other.name == line.name));
-    for Line { name, .. } in energies.iter().chain(only_areas) {
+    for FigureLine { name, .. } in energies.iter().chain(only_areas) {
         let [energy, area] = [energies, areas].map(|lines| lines.iter().find(|line| line.name == *name));
         let percent =
             |share: Option<f64>| share.map_or_else(String::new, |share| format!("{:.4}", 100.0 * share));
@@ -92,13 +92,13 @@ mod tests {
     use crate::scene::View;
     use crate::trace::{beam, unwatched};
 
-    fn line(name: &'static str, share: f64, other: Option<f64>) -> Line {
-        Line { name, meaning: "", share, other, error: 0.0, band: None, is_strong: false }
+    fn line(name: &'static str, share: f64, other: Option<f64>) -> FigureLine {
+        FigureLine { name, meaning: "", share, other, error: 0.0, band: None, is_strong: false }
     }
 
     #[test]
     fn a_table_has_a_cell_for_every_way_of_counting() {
-        let about = About { design: "a, \"b\"", view: "face up", state: "final", other: None };
+        let about = FiguresSubject { design: "a, \"b\"", view: "face up", state: "final", other: None };
         let (energies, areas) =
             ([line("Red", 0.5, None), line("Glare", 0.01, None)], [line("Red", 0.25, None)]);
         let expected = "design,view,figure,energy_percent,area_percent\r\n\
@@ -112,7 +112,7 @@ mod tests {
         let document = crate::app::document::Document::first().unwrap();
         let specimen = document.specimen();
         let scope = Scope::aset(ASET_CONE, Backing::Black);
-        let options = beam::Options { unresolved: 0.05, ..beam::Options::default() };
+        let options = beam::BeamOptions { unresolved: 0.05, ..beam::BeamOptions::default() };
         let (view, medium) = (View::default(), specimen.medium(589.3));
         let stone = specimen.stone().unwrap();
         let beams = beam::trace(&stone.polytope, medium, &view, &options, &unwatched).unwrap();
@@ -130,7 +130,7 @@ mod tests {
 
     #[test]
     fn a_text_tells_the_difference_from_what_is_compared_with() {
-        let about = About { design: "a", view: "face up", state: "energy, final", other: Some("b") };
+        let about = FiguresSubject { design: "a", view: "face up", state: "energy, final", other: Some("b") };
         let told = text(&about, &[line("Red", 0.5, Some(0.375))]);
         assert_eq!(
             told,

@@ -1,7 +1,7 @@
 //! Choosing files without keeping the window waiting, and noticing what others change.
 
 use super::document::Stamp;
-use crate::io::design_file::Format;
+use crate::io::design_file::DesignFormat;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, channel};
@@ -192,7 +192,7 @@ impl Watched {
 
 /// How files end that can be opened.
 fn endings() -> Vec<&'static str> {
-    Format::ALL.into_iter().map(Format::ending).chain(["gltf"]).collect()
+    DesignFormat::ALL.into_iter().map(DesignFormat::ending).chain(["gltf"]).collect()
 }
 
 #[cfg(test)]

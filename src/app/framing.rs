@@ -30,7 +30,7 @@ const CENTRED: f64 = 1e-9;
 
 /// What a view without zoom takes in.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Fit {
+pub struct FramingFit {
     /// Half its extents across and up, girdle radii.
     pub half: DVec2,
     /// Its middle in the image plane, girdle radii from the origin.
@@ -39,7 +39,7 @@ pub struct Fit {
     aside: f64,
 }
 
-impl Fit {
+impl FramingFit {
     /// Takes in all that lies so near to the origin, across and up.
     pub fn reaching(reach: f64) -> Self {
         Self { half: DVec2::splat(reach), middle: DVec2::ZERO, aside: 0.0 }
@@ -121,8 +121,8 @@ impl Framing {
     }
 
     /// What a view takes in of the stone that views are fitted to, turned about its axis by `turn` radians.
-    pub fn fit(&self, turn: f64, view: &View) -> Fit {
-        Fit::of(&self.points, turn, view)
+    pub fn fit(&self, turn: f64, view: &View) -> FramingFit {
+        FramingFit::of(&self.points, turn, view)
     }
 
     /// How far a stone reaches from above; measured once.

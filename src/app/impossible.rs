@@ -7,7 +7,7 @@ use crate::cut::{Limit, ProportionError, RoundBrilliant, Unit};
 const HALVINGS: u32 = 80;
 
 /// What is wrong, in words, and the key of the row that it is said at.
-pub struct Said {
+pub struct RowMessage {
     /// The row.
     pub key: &'static str,
     /// The message.
@@ -16,21 +16,24 @@ pub struct Said {
 
 /// What is wrong with proportions that make no stone. `last` are those of the last stone, `edited` is the key of the row that
 /// was edited last.
-pub fn said(
+pub fn explain(
     given: &RoundBrilliant,
     last: &RoundBrilliant,
     edited: Option<&str>,
     fault: &ProportionError,
-) -> Said {
+) -> RowMessage {
     let heals = |p: &&Proportion| (p.get)(given) != (p.get)(last) && makes_stone(given, p, (p.get)(last));
     let row = |key: &str| PROPORTIONS.iter().find(|p| p.key == key);
     let at = edited.and_then(row).filter(heals).or_else(|| row(fault.key()).filter(heals));
     if let Some(proportion) = at.or_else(|| PROPORTIONS.iter().find(heals)) {
-        return Said { key: proportion.key, text: in_its_terms(given, last, proportion, fault) };
+        return RowMessage { key: proportion.key, text: in_its_terms(given, last, proportion, fault) };
     }
     // No row alone makes a stone of it.
     let at = edited.and_then(row).or_else(|| row(fault.key())).unwrap_or(&PROPORTIONS[0]);
-    Said { key: at.key, text: format!("{} More than one proportion is out of its limits.", told(fault)) }
+    RowMessage {
+        key: at.key,
+        text: format!("{} More than one proportion is out of its limits.", message(fault)),
+    }
 }
 
 /// Whether a stone has these proportions once one of them is set to a value.
@@ -56,7 +59,7 @@ fn in_its_terms(
         Some(Limit { key, limit, unit, reason, .. }) if *key == proportion.key => {
             format!("The limit is {}, {reason}.", number(*limit, *unit))
         }
-        _ => told(fault),
+        _ => message(fault),
     };
     format!(
         "{name}: {value} makes no stone. With the other proportions as they are, it can be at {side} {limit}. {reason}"
@@ -78,7 +81,7 @@ fn limit(given: &RoundBrilliant, proportion: &Proportion, (possible, value): (f6
 }
 
 /// A fault in the panel's words.
-fn told(fault: &ProportionError) -> String {
+fn message(fault: &ProportionError) -> String {
     let key = fault.key();
     let name = PROPORTIONS.iter().find(|p| p.key == key).map_or("Total depth", |p| p.name);
     match fault.limit() {
@@ -108,8 +111,8 @@ mod tests {
         given
     }
 
-    fn text(given: &RoundBrilliant, edited: &str) -> Said {
-        said(given, &TOLKOWSKY, Some(edited), &given.derived().unwrap_err())
+    fn text(given: &RoundBrilliant, edited: &str) -> RowMessage {
+        explain(given, &TOLKOWSKY, Some(edited), &given.derived().unwrap_err())
     }
 
     #[test]

@@ -1,21 +1,21 @@
 //! Opening, saving, and keeping work safe.
 
 use super::asked_path::AskedPath;
+use super::autosave::KeptScene;
 use super::compare::Compared;
-use super::desk::Desk;
 use super::dialogs::{Dialog, Then};
 use super::document::{Document, Work};
 use super::editor::{Editor, Shown};
 use super::files::{Choosing, Purpose, Question};
 use super::opening::Wanted;
-use super::safe::Around;
 use super::studio::Which;
-use crate::io::design_file::Format;
+use super::workspace::Workspace;
+use crate::io::design_file::DesignFormat;
 use std::path::{Path, PathBuf};
 
 /// Whether a design can be saved under this name.
 fn holds_designs(path: &Path) -> bool {
-    Format::of_name(path).is_some_and(Format::holds_designs)
+    DesignFormat::of_name(path).is_some_and(DesignFormat::holds_designs)
 }
 
 impl Editor {
@@ -238,9 +238,9 @@ impl Editor {
         self.kept = self.document.work.clone();
         let Work { light, exposure, head, .. } = &self.kept;
         (self.desk.light, self.desk.exposure, self.desk.head) = (light.clone(), *exposure, *head);
-        let Desk { behind, behind_mm, strength, .. } = &self.desk;
+        let Workspace { behind, behind_mm, strength, .. } = &self.desk;
         let (company, behind) = (self.kept.company.clone(), behind.clone());
-        let around = Around { company, behind, behind_mm: *behind_mm, strength: Some(*strength) };
+        let around = KeptScene { company, behind, behind_mm: *behind_mm, strength: Some(*strength) };
         let Some(safe) = &mut self.safe else { return };
         if !self.document.is_changed() && !self.document.has_moved_copies() {
             safe.empty();

@@ -1,13 +1,13 @@
 //! A pane of liquid glass in a view: over the background and moved by hand, drawn as screens draw it or traced.
 
 use super::editor::{Editor, Shown};
-use super::lookup::{Ask, backdrop};
+use super::lookup::{LookupRequest, backdrop};
 use super::pane::{enlarge, focus};
 use super::shows::Shows;
 use super::studio::{Grade, Which};
 use super::view_menu;
 use crate::optics::linear_from_encoded;
-use crate::picture::pane::{Pane, Quality};
+use crate::picture::pane::{GlassPane, Quality};
 use egui::{
     Color32, EventFilter, Key, Modifiers, PointerButton, Rect, Response, Role, Sense, StrokeKind, Ui,
     WidgetInfo, pos2,
@@ -69,14 +69,14 @@ impl Default for Liquid {
 
 impl Liquid {
     /// The pane in a picture of so many pixels: wholly within.
-    pub fn pane(&self, picture: [u32; 2]) -> Pane {
+    pub fn pane(&self, picture: [u32; 2]) -> GlassPane {
         let whole = DVec2::from(picture.map(f64::from));
         let size = (whole * self.size / 100.0).round().clamp(DVec2::splat(LEAST).min(whole), whole);
         let corner = (whole * self.at - size / 2.0).round().clamp(DVec2::ZERO, whole - size);
         let radius = size.min_element() * (self.corners / 100.0).clamp(0.0, 0.5);
         let [red, green, blue, alpha] = self.tint.map(|code| f64::from(code) / 255.0);
         let [red, green, blue] = [red, green, blue].map(linear_from_encoded);
-        Pane {
+        GlassPane {
             refraction: self.refraction,
             depth: self.depth,
             dispersion: self.dispersion,
@@ -84,7 +84,7 @@ impl Liquid {
             light: self.light,
             tint: DVec4::new(red, green, blue, alpha),
             quality: self.quality,
-            ..Pane::clear(corner, size, radius)
+            ..GlassPane::clear(corner, size, radius)
         }
     }
 
@@ -143,7 +143,7 @@ fn ask(editor: &mut Editor, pane: usize, size: [u32; 2]) {
     let light = editor.light();
     if let Some(shot) = editor.shot(pane, Which::Present, size, &light) {
         let behind = backdrop(shot.behind.as_ref());
-        let ask = Ask { shot, grade: Grade::Fine, map: None, behind };
+        let ask = LookupRequest { shot, grade: Grade::Fine, map: None, behind };
         editor.looker.ask((pane, Which::Present), ask);
     }
 }

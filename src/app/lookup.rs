@@ -1,7 +1,7 @@
 //! Pictures that need no tracing: backgrounds seen through a refraction map, and liquid glass as screens draw it. They are
 //! made on a thread of their own, of the last that was asked for, so that they follow the hand while the studio traces.
 
-use super::studio::{Grade, SPAN, Shot, Slot, Taken, Wake};
+use super::studio::{Grade, SPAN, Shot, Slot, TakenPicture, Wake};
 use crate::io::background::BackgroundRef;
 use crate::picture::pane::{filling, pane};
 use crate::picture::{Develop, Linear, Pattern, RefractionMap, Tone, develop, refract};
@@ -24,7 +24,7 @@ pub fn backdrop(asked: Option<&BackgroundRef>) -> BackgroundRef {
 
 /// What is asked for.
 #[derive(Debug, Clone)]
-pub struct Ask {
+pub struct LookupRequest {
     /// What the picture is of.
     pub shot: Shot,
     /// How good the map is.
@@ -36,7 +36,7 @@ pub struct Ask {
     pub behind: BackgroundRef,
 }
 
-impl PartialEq for Ask {
+impl PartialEq for LookupRequest {
     /// Whether both give the same picture.
     fn eq(&self, other: &Self) -> bool {
         let same = match (&self.map, &other.map) {
@@ -51,30 +51,30 @@ impl PartialEq for Ask {
 }
 
 /// A picture that was asked for; words where it could not be had.
-pub type Looked = (Slot, Box<Ask>, Result<Taken, String>);
+pub type Looked = (Slot, Box<LookupRequest>, Result<TakenPicture, String>);
 
 /// What both threads see.
 #[derive(Default)]
-struct Desk {
+struct Mailbox {
     /// What is asked for, one of each slot, the first first.
-    asked: Mutex<Vec<(Slot, Ask)>>,
-    told: Condvar,
+    asked: Mutex<Vec<(Slot, LookupRequest)>>,
+    changed: Condvar,
     busy: AtomicBool,
     quit: AtomicBool,
 }
 
 /// A thread that looks up.
-pub struct Looker {
-    desk: Arc<Desk>,
+pub struct LookupWorker {
+    desk: Arc<Mailbox>,
     answers: Receiver<Looked>,
-    last: Vec<(Slot, Ask)>,
+    last: Vec<(Slot, LookupRequest)>,
     thread: Option<JoinHandle<()>>,
 }
 
-impl Looker {
+impl LookupWorker {
     /// Opens it; `wake` is called whenever there is an answer.
     pub fn open(wake: Wake) -> Self {
-        let desk = Arc::new(Desk::default());
+        let desk = Arc::new(Mailbox::default());
         let (sender, answers) = channel();
         let worker = Worker { desk: Arc::clone(&desk), answers: sender, wake, behind: None, filled: None };
         let thread = std::thread::Builder::new().name("look-up".into()).spawn(|| worker.work()).ok();
@@ -82,7 +82,7 @@ impl Looker {
     }
 
     /// Asks for a picture; nothing happens if it was asked for already.
-    pub fn ask(&mut self, slot: Slot, ask: Ask) {
+    pub fn ask(&mut self, slot: Slot, ask: LookupRequest) {
         if self.last.iter().any(|(at, last)| *at == slot && *last == ask) {
             return;
         }
@@ -91,7 +91,7 @@ impl Looker {
         self.desk.busy.store(true, Ordering::SeqCst);
         put(&mut asked, slot, ask);
         drop(asked);
-        self.desk.told.notify_one();
+        self.desk.changed.notify_one();
     }
 
     /// What has been answered since.
@@ -105,13 +105,13 @@ impl Looker {
     }
 }
 
-impl Drop for Looker {
+impl Drop for LookupWorker {
     fn drop(&mut self) {
         {
             // Held, so that the worker is not between looking and waiting.
             let _asked = self.desk.asked.lock().unwrap_or_else(PoisonError::into_inner);
             self.desk.quit.store(true, Ordering::SeqCst);
-            self.desk.told.notify_one();
+            self.desk.changed.notify_one();
         }
         if let Some(thread) = self.thread.take() {
             // A worker that panicked has said so already.
@@ -121,7 +121,7 @@ impl Drop for Looker {
 }
 
 /// Puts what is asked for into the place of what was asked for before.
-fn put(asked: &mut Vec<(Slot, Ask)>, slot: Slot, ask: Ask) {
+fn put(asked: &mut Vec<(Slot, LookupRequest)>, slot: Slot, ask: LookupRequest) {
     match asked.iter_mut().find(|(at, _)| *at == slot) {
         Some((_, last)) => *last = ask,
         None => asked.push((slot, ask)),
@@ -129,7 +129,7 @@ fn put(asked: &mut Vec<(Slot, Ask)>, slot: Slot, ask: Ask) {
 }
 
 struct Worker {
-    desk: Arc<Desk>,
+    desk: Arc<Mailbox>,
     answers: Sender<Looked>,
     wake: Wake,
     /// The background that was read last.
@@ -159,7 +159,7 @@ impl Worker {
     }
 
     /// Waits for what is asked for; none when the window is closed.
-    fn next(&self) -> Option<(Slot, Ask)> {
+    fn next(&self) -> Option<(Slot, LookupRequest)> {
         let mut asked = self.desk.asked.lock().unwrap_or_else(PoisonError::into_inner);
         loop {
             if self.desk.quit.load(Ordering::SeqCst) {
@@ -168,11 +168,11 @@ impl Worker {
             if !asked.is_empty() {
                 return Some(asked.remove(0));
             }
-            asked = self.desk.told.wait(asked).unwrap_or_else(PoisonError::into_inner);
+            asked = self.desk.changed.wait(asked).unwrap_or_else(PoisonError::into_inner);
         }
     }
 
-    fn seen(&mut self, ask: &Ask) -> Result<Taken, String> {
+    fn seen(&mut self, ask: &LookupRequest) -> Result<TakenPicture, String> {
         let (picture, tracer) = match &ask.map {
             Some((map, moved)) => {
                 let behind = self.levels(&ask.behind)?.for_map(map.size);
@@ -184,7 +184,7 @@ impl Worker {
                 (pane(&glass, self.filled(&ask.behind, size)?, 1), "arithmetic")
             }
         };
-        Ok(Taken { image: as_screens(&picture), unresolved: None, tracer, map: None })
+        Ok(TakenPicture { image: as_screens(&picture), unresolved: None, tracer, map: None })
     }
 
     /// A background as it is, and halved again and again as far as was of use yet.

@@ -2,13 +2,13 @@
 
 use super::command::{Command, MENUS, Menu};
 use super::compare::Compared;
-use super::desk::Layout;
 use super::dialogs::{Dialog, Then};
 use super::editor::Editor;
 use super::files::Purpose;
 use super::opening::Opening;
 use super::preset::{Known, PRESETS};
 use super::studio::Which;
+use super::workspace::PaneLayout;
 use crate::io::{cut_file, library};
 use egui::{
     Align, Button, Context, Event, Key, Modifiers, Panel, PanelState, Popup, RichText, ThemePreference, Ui,
@@ -171,20 +171,20 @@ pub fn status(editor: &mut Editor, ui: &mut Ui) {
         ui.horizontal(|ui| {
             // What it says of itself comes first, so that a long line is shortened and does not push it out.
             ui.with_layout(egui::Layout::right_to_left(Align::Center), |ui| {
-                let opening = editor.opening.last().map(Opening::told);
+                let opening = editor.opening.last().map(Opening::message);
                 let tracing = match (editor.studio.is_idle(), editor.studio.sharpens()) {
                     (false, _) => "tracing…",
                     (true, true) => "sharpening…",
                     (true, false) => "done",
                 };
                 let state = opening.unwrap_or_else(|| tracing.to_owned());
-                ui.label(RichText::new(format!("{state} · {}", editor.studio.told())).weak().small())
+                ui.label(RichText::new(format!("{state} · {}", editor.studio.device_name())).weak().small())
                     .on_hover_text(format!(
                         "What computes the pictures: the processor, or a graphics card. The window is painted by the {}.",
                         editor.painted_by.name()
                     ));
                 let said = editor.notes.said().unwrap_or_default();
-                let told = if editor.told.is_empty() { said } else { &editor.told };
+                let told = if editor.message.is_empty() { said } else { &editor.message };
                 ui.with_layout(egui::Layout::left_to_right(Align::Center), |ui| {
                     ui.add(egui::Label::new(told).truncate());
                 });
@@ -263,9 +263,9 @@ pub fn does(editor: &mut Editor, command: Command, ctx: &Context) {
             let eye = eye(editor);
             eye.eye_leans = !eye.eye_leans;
         }
-        Command::One => (desk.layout, desk.large) = (Layout::One, None),
-        Command::Two => (desk.layout, desk.large) = (Layout::Two, None),
-        Command::Four => (desk.layout, desk.large) = (Layout::Four, None),
+        Command::One => (desk.layout, desk.large) = (PaneLayout::One, None),
+        Command::Two => (desk.layout, desk.large) = (PaneLayout::Two, None),
+        Command::Four => (desk.layout, desk.large) = (PaneLayout::Four, None),
         Command::Wireframe => desk.toggle_overlay("wireframe"),
         Command::Facets => desk.toggle_overlay("facets"),
         Command::Bounces => desk.toggle_overlay("bounces"),

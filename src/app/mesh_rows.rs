@@ -37,7 +37,9 @@ pub fn show(editor: &mut Editor, ui: &mut Ui) {
     let mut chosen = options.up;
     ui.horizontal(|ui| {
         let label = named(ui, "Table faces", MEANING);
-        let combo = ComboBox::from_id_salt("table faces").selected_text(told(chosen)).width(field_width(ui));
+        let combo = ComboBox::from_id_salt("table faces")
+            .selected_text(direction_name(chosen))
+            .width(field_width(ui));
         let combo = combo.show_ui(ui, |ui| {
             for (name, up) in DIRECTIONS {
                 ui.selectable_value(&mut chosen, up, name);
@@ -77,7 +79,7 @@ fn form(editor: &mut Editor, ui: &mut Ui) {
     });
 }
 
-fn told(up: Up) -> String {
+fn direction_name(up: Up) -> String {
     let name = DIRECTIONS.iter().find(|(_, direction)| *direction == up).map(|(name, _)| (*name).to_owned());
     name.unwrap_or_else(|| match up {
         Up::Given(DVec3 { x, y, z }) => format!("{x}, {y}, {z}"),

@@ -2,13 +2,13 @@
 
 mod about;
 mod asked_path;
+mod autosave;
 mod command;
 mod company_rows;
 mod compare;
 mod copies;
 mod copying;
 mod design_panel;
-mod desk;
 mod dialogs;
 mod document;
 mod drops;
@@ -31,7 +31,6 @@ mod impossible;
 mod keeping;
 mod light_path;
 mod liquid;
-mod look;
 mod lookup;
 mod menus;
 mod mesh_rows;
@@ -44,14 +43,13 @@ mod ordering;
 mod painter;
 mod pane;
 mod pane_rows;
-mod posed;
+mod pose_cache;
 mod preset;
 mod probe;
 mod profile_view;
 mod proportions;
 mod refraction_view;
 mod rows;
-mod safe;
 mod shows;
 mod side_panels;
 mod stage;
@@ -62,12 +60,14 @@ mod theme;
 mod tier_rows;
 mod trouble_bar;
 mod urgency;
+mod view_history;
 mod view_menu;
 mod window;
+mod workspace;
 
-pub use desk::Desk;
 pub use editor::{Editor, Setup};
 pub use window::{PaintedBy, WindowError, run};
+pub use workspace::Workspace;
 
 #[cfg(test)]
 mod tests;

@@ -107,7 +107,7 @@ pub fn show(editor: &mut Editor, ui: &mut Ui, pane: usize, width: f32) {
     let names: Vec<String> = modes.iter().map(|mode| format!("{} ×", mode.name())).collect();
     let gap = ui.spacing().item_spacing.x;
     let widths: Vec<f32> = names.iter().map(|name| button_width(ui, name) + gap).collect();
-    let more = button_width(ui, &rest(modes.len())) + gap;
+    let more = button_width(ui, &rest_label(modes.len())) + gap;
     let shown = match widths.iter().sum::<f32>() <= width {
         true => modes.len(),
         false => fitting(&widths, width - more),
@@ -119,7 +119,7 @@ pub fn show(editor: &mut Editor, ui: &mut Ui, pane: usize, width: f32) {
         }
     }
     if shown < modes.len() {
-        let menu = ui.menu_button(RichText::new(rest(modes.len() - shown)).small(), |ui| {
+        let menu = ui.menu_button(RichText::new(rest_label(modes.len() - shown)).small(), |ui| {
             for (mode, name) in modes.iter().zip(&names).skip(shown) {
                 if chip(ui, name, mode) {
                     ended = Some(mode);
@@ -139,11 +139,11 @@ pub fn show(editor: &mut Editor, ui: &mut Ui, pane: usize, width: f32) {
 /// The room that modes of a view need at least, points: that of the menu which holds them, 0 where none is on.
 pub fn least_width(editor: &Editor, ui: &Ui, pane: usize) -> f32 {
     let count = Mode::of(editor, pane).len();
-    if count == 0 { 0.0 } else { button_width(ui, &rest(count)) + ui.spacing().item_spacing.x }
+    if count == 0 { 0.0 } else { button_width(ui, &rest_label(count)) + ui.spacing().item_spacing.x }
 }
 
 /// What the menu of modes is called that have no room.
-fn rest(count: usize) -> String {
+fn rest_label(count: usize) -> String {
     format!("+{count}")
 }
 

@@ -1,7 +1,7 @@
 //! What moves in time: copies tumble, plates wave. Renders show it; figures and scopes are of the design at rest.
 
 use crate::cut::{Cut, Glass};
-use crate::scene::{Company, Pose, Specimen};
+use crate::scene::{Copies, Pose, Specimen};
 use egui::Context;
 use glam::DQuat;
 use std::sync::Arc;
@@ -65,7 +65,7 @@ impl Moving {
     pub fn now(
         &mut self,
         specimen: &Arc<Specimen>,
-        company: &Company,
+        company: &Copies,
         turn: f64,
     ) -> (Arc<Specimen>, Vec<Pose>) {
         let waves = waves(specimen);
@@ -113,7 +113,7 @@ mod tests {
         let mut moving = Moving::at(0.7);
         let of = |name| Arc::clone(Document::of_library(name).unwrap().specimen());
         let (plate, cube) = (of("plate"), of("cube"));
-        let company = Company::default();
+        let company = Copies::default();
         let (waved, poses) = moving.now(&plate, &company, 0.0);
         let Cut::Glass(Glass::Plate(now)) = waved.design.cut else { panic!() };
         assert!((now.phase - 1.4_f64.to_degrees()).abs() < 1e-9 && poses == [Pose::STILL]);

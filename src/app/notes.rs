@@ -2,7 +2,7 @@
 
 /// What is said, and how grave it is.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Trouble {
+pub struct Problem {
     /// In words that say what happened and what to do.
     pub text: String,
     /// Whether it is an error, by which something was not done.
@@ -13,7 +13,7 @@ pub struct Trouble {
 #[derive(Debug, Default)]
 pub struct Notes {
     said: Option<String>,
-    troubles: Vec<Trouble>,
+    troubles: Vec<Problem>,
     /// Whether all troubles are listed, and not the last alone.
     pub is_open: bool,
 }
@@ -40,7 +40,7 @@ impl Notes {
     fn add(&mut self, text: String, is_error: bool) {
         // What is said again is the last again.
         self.troubles.retain(|trouble| trouble.text != text);
-        self.troubles.push(Trouble { text, is_error });
+        self.troubles.push(Problem { text, is_error });
         if self.troubles.len() > MOST {
             self.troubles.remove(0);
         }
@@ -52,7 +52,7 @@ impl Notes {
     }
 
     /// What went wrong and what deserves attention, the oldest first.
-    pub fn troubles(&self) -> &[Trouble] {
+    pub fn troubles(&self) -> &[Problem] {
         &self.troubles
     }
 

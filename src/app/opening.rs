@@ -61,7 +61,7 @@ impl Opening {
     }
 
     /// What is under way, in words.
-    pub fn told(&self) -> String {
+    pub fn message(&self) -> String {
         format!("opening {}…", self.path.file_name().unwrap_or_default().to_string_lossy())
     }
 }
@@ -161,7 +161,7 @@ mod tests {
     use crate::app::editor::Setup;
     use crate::app::tests::Bench;
     use crate::cut::from_mesh::Up;
-    use crate::io::design_file::{self, Format};
+    use crate::io::design_file::{self, DesignFormat};
     use crate::io::mesh_options::MeshForm;
     use crate::scene::Specimen;
     use egui_kittest::kittest::Queryable;
@@ -171,7 +171,7 @@ mod tests {
     fn scan(folder: &Path) -> PathBuf {
         let path = folder.join("scan.stl");
         let specimen = Specimen::new(Document::first().unwrap().work.design).unwrap();
-        design_file::write(&specimen, Format::Stl, &path).unwrap();
+        design_file::write(&specimen, DesignFormat::Stl, &path).unwrap();
         path
     }
 

@@ -1,11 +1,11 @@
 //! What is asked of the studio: all that is in sight.
 
 use super::editor::Editor;
-use super::framing::Fit;
+use super::framing::FramingFit;
 use super::shows::Shows;
-use super::studio::{Ask, BEHIND, Order, Paper, Shot, Smoothing, Which};
+use super::studio::{BEHIND, FiguresOrder, Order, Paper, Shot, Smoothing, Which};
 use crate::io::lighting::Lighting;
-use crate::scene::{Company, Pose, Side, Specimen, View};
+use crate::scene::{Copies, Pose, Side, Specimen, View};
 use std::sync::Arc;
 
 impl Editor {
@@ -30,9 +30,9 @@ impl Editor {
             let eye = self.desk.eye;
             let view = eye.view(Some(Side::Table));
             if let Some(specimen) = self.specimen(which, eye.turn) {
-                let ask = Ask { specimen, view, head: self.document.work.head };
+                let ask = FiguresOrder { specimen, view, head: self.document.work.head };
                 if which == Which::Present {
-                    order.tilts = Some(Ask { view: View { tilt: 0.0, ..view }, ..ask.clone() });
+                    order.tilts = Some(FiguresOrder { view: View { tilt: 0.0, ..view }, ..ask.clone() });
                 }
                 order.figures.push((which, ask));
             }
@@ -107,7 +107,7 @@ impl Editor {
     /// What a render shows: the body, and where its copies are.
     fn company(&mut self, which: Which, turn: f64) -> Option<(Arc<Specimen>, Vec<Pose>)> {
         let company = &self.document.work.company;
-        if *company == Company::default() && self.moving.seconds == 0.0 {
+        if *company == Copies::default() && self.moving.seconds == 0.0 {
             return Some((self.specimen(which, turn)?, vec![Pose::STILL]));
         }
         let specimen = match which {
@@ -118,10 +118,10 @@ impl Editor {
     }
 
     /// What a view takes in, whose stone is turned about its axis: the stone that views are fitted to, or all copies.
-    pub(super) fn fit(&self, shows: Shows, (turn, view): (f64, &View)) -> Fit {
-        let is_alone = self.document.work.company == Company::default();
+    pub(super) fn fit(&self, shows: Shows, (turn, view): (f64, &View)) -> FramingFit {
+        let is_alone = self.document.work.company == Copies::default();
         match shows.has_company() && !(is_alone && self.moving.seconds == 0.0) {
-            true => Fit::reaching(self.reach(shows)),
+            true => FramingFit::reaching(self.reach(shows)),
             false => self.framing.fit(turn, view),
         }
     }

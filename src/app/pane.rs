@@ -3,7 +3,7 @@
 use super::copies;
 use super::editor::{Editor, Shown};
 use super::eye::Eye;
-use super::probe::Found;
+use super::probe::ProbeHit;
 use super::shows::Shows;
 use super::studio::{Grade, Shot, Which};
 use super::{liquid, menus, modes, refraction_view, theme, view_menu};
@@ -224,7 +224,7 @@ fn image(ui: &Ui, shown: &Shown, rect: Rect) {
 }
 
 /// What a pane looks at now.
-pub(super) struct Sight {
+pub(super) struct PaneView {
     pub view: View,
     pub film: Film,
     /// The middle of what the view is fitted to, girdle radii from the origin.
@@ -234,7 +234,7 @@ pub(super) struct Sight {
     scale: f32,
 }
 
-impl Sight {
+impl PaneView {
     /// The point of the film under a point of the window.
     pub fn pixel(&self, at: egui::Pos2) -> DVec2 {
         let at = (at - self.body.min) * self.scale;
@@ -263,7 +263,8 @@ fn scene(editor: &mut Editor, ui: &mut Ui, (pane, shows): (usize, Shows), body: 
     let view = editor.desk.view(pane);
     let scale = ui.pixels_per_point();
     let fit = editor.fit(shows, (eye.turn, &view));
-    let sight = Sight { view, film: eye.film(size, &fit), middle: fit.middle, side: view.side, body, scale };
+    let sight =
+        PaneView { view, film: eye.film(size, &fit), middle: fit.middle, side: view.side, body, scale };
     pictures(editor, ui, pane, &sight);
     let moves = shows == Shows::Refraction && refraction_view::is_held(ui);
     if shows == Shows::Refraction {
@@ -298,7 +299,7 @@ fn clicked(
     ui: &Ui,
     (pane, is_alone): (usize, bool),
     response: &Response,
-    sight: &Sight,
+    sight: &PaneView,
 ) {
     if response.double_clicked() {
         editor.following.unclick();
@@ -326,7 +327,7 @@ pub fn focus(ui: &Ui, response: &Response) -> Stroke {
 }
 
 /// Draws what there is: the present design, or the one that it is compared with, or both.
-fn pictures(editor: &Editor, ui: &mut Ui, pane: usize, sight: &Sight) {
+fn pictures(editor: &Editor, ui: &mut Ui, pane: usize, sight: &PaneView) {
     let body = sight.body;
     ui.painter().rect_filled(body, 4.0, ui.visuals().extreme_bg_color);
     let draw = |which, clip: Rect| {
@@ -383,7 +384,7 @@ fn split_marks(ui: &Ui, body: Rect, other: &str) {
 }
 
 /// Moves the eye as hand, wheel and keys say; but for a drag that moves what is behind.
-fn moved(eye: &mut Eye, ui: &Ui, response: &Response, (sight, is_held): (&Sight, bool)) {
+fn moved(eye: &mut Eye, ui: &Ui, response: &Response, (sight, is_held): (&PaneView, bool)) {
     let unit = sight.film.pixel * f64::from(sight.scale);
     let by = response.drag_delta();
     let by = DVec2::new(f64::from(by.x), -f64::from(by.y)) * unit;
@@ -433,7 +434,7 @@ pub fn zones(shows: Shows, head: f64) -> Scope {
 }
 
 /// Tells what is under the pointer, outlines its facet, and follows a ray where it is clicked.
-fn hover(editor: &mut Editor, ui: &Ui, (shows, turn): (Shows, f64), response: &Response, sight: &Sight) {
+fn hover(editor: &mut Editor, ui: &Ui, (shows, turn): (Shows, f64), response: &Response, sight: &PaneView) {
     if !response.hovered() || response.dragged() {
         return;
     }
@@ -445,18 +446,23 @@ fn hover(editor: &mut Editor, ui: &Ui, (shows, turn): (Shows, f64), response: &R
         // As the cut has it, not as it is turned here.
         *azimuth = (*azimuth - turn.to_degrees()).rem_euclid(360.0);
     }
-    editor.told = found.as_ref().map_or(String::new(), Found::told);
+    editor.message = found.as_ref().map_or(String::new(), ProbeHit::message);
     if let Some(found) = &found {
         outline(ui, &specimen, found.facet, sight);
     }
 }
 
-fn outline(ui: &Ui, specimen: &Specimen, facet: u32, sight: &Sight) {
+fn outline(ui: &Ui, specimen: &Specimen, facet: u32, sight: &PaneView) {
     rim(ui, (specimen.solid(), facet), |corner| corner, sight);
 }
 
 /// Outlines a facet of a body that lies elsewhere.
-pub(super) fn rim(ui: &Ui, (solid, facet): (SolidRef, u32), place: impl Fn(DVec3) -> DVec3, sight: &Sight) {
+pub(super) fn rim(
+    ui: &Ui,
+    (solid, facet): (SolidRef, u32),
+    place: impl Fn(DVec3) -> DVec3,
+    sight: &PaneView,
+) {
     let camera = Camera::reaching(&sight.view, 1.0);
     let map = sight.film.pixels_from_image(DMat2::IDENTITY);
     let painter = ui.painter().with_clip_rect(sight.body);

@@ -6,7 +6,7 @@ use crate::cut::Design;
 use crate::io::background::BackgroundRef;
 use crate::io::scene_file::{self, Entry, SceneFile};
 use crate::io::{cut_file, design_file, library};
-use crate::scene::{Company, MOST_COPIES, Pose, Specimen, middle};
+use crate::scene::{Copies, MOST_COPIES, Pose, Specimen, middle};
 use glam::{DQuat, DVec3};
 use std::path::Path;
 
@@ -36,7 +36,7 @@ pub struct Preset {
     /// The design, with its material and size.
     pub design: Design,
     /// Its copies.
-    pub company: Company,
+    pub company: Copies,
     /// In how many wavelengths it is seen, if that is known.
     wavelengths: Option<u32>,
     /// The rest.
@@ -84,7 +84,7 @@ impl Preset {
                 size.diameter_mm(volume, &specimen.material).map_err(|e| format!("{told}: size: {e}"))?;
         }
         let poses = poses(&scene, corners, 0.5 * design.diameter_mm);
-        Ok(Self { company: Company::at(poses, corners), design, scene, wavelengths: None })
+        Ok(Self { company: Copies::at(poses, corners), design, scene, wavelengths: None })
     }
 }
 

@@ -3,19 +3,19 @@
 use crate::cut::tier_stem;
 use crate::optics::line;
 use crate::scene::{Film, Pose, Scope, Specimen, View, elevation_deg};
-use crate::trace::ray::{Camera, Options, Path, Tracer};
+use crate::trace::ray::{Camera, Path, RayOptions, StoneTracer};
 use glam::{DVec2, DVec3};
 use std::sync::Arc;
 
 /// A stone that is asked about.
 pub struct Probe {
     specimen: Arc<Specimen>,
-    tracer: Tracer,
+    tracer: StoneTracer,
 }
 
 /// What was found.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Found {
+pub struct ProbeHit {
     /// The facet, by its place.
     pub facet: u32,
     /// Its name.
@@ -27,12 +27,12 @@ pub struct Found {
     /// Degrees, counter-clockwise from above; none for a level facet.
     pub azimuth: Option<f64>,
     /// The strongest light that is seen here.
-    pub light: Option<Light>,
+    pub light: Option<LightAtPoint>,
 }
 
 /// Light that is seen at a point.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Light {
+pub struct LightAtPoint {
     /// The scope's zone.
     pub zone: String,
     /// Elevation that it comes from, degrees above the scope's plane.
@@ -47,8 +47,8 @@ const LEVEL: f64 = 1e-9;
 impl Probe {
     /// Asks about a stone.
     pub fn new(specimen: Arc<Specimen>) -> Self {
-        let options = Options { most_bounces: 64, least_weight: 1e-3, polarised: true };
-        let tracer = Tracer::new(specimen.solid(), specimen.medium(line::SODIUM_D), options);
+        let options = RayOptions { most_bounces: 64, least_weight: 1e-3, polarised: true };
+        let tracer = StoneTracer::new(specimen.solid(), specimen.medium(line::SODIUM_D), options);
         Self { specimen, tracer }
     }
 
@@ -75,7 +75,7 @@ impl Probe {
     }
 
     /// What lies at a point of a film, in its pixels; none beside the stone.
-    pub fn at(&self, view: &View, film: &Film, at: DVec2, scope: &Scope) -> Option<Found> {
+    pub fn at(&self, view: &View, film: &Film, at: DVec2, scope: &Scope) -> Option<ProbeHit> {
         let (origin, direction) = self.ray(view, film.image_from_pixels(at));
         let (facet, distance) = self.tracer.meet(origin, direction)?;
         let mut strongest: Option<(f64, DVec3)> = None;
@@ -85,7 +85,7 @@ impl Probe {
             }
         });
         let zenith = view.zenith();
-        let light = strongest.filter(|(weight, _)| *weight > 0.0).map(|(share, toward)| Light {
+        let light = strongest.filter(|(weight, _)| *weight > 0.0).map(|(share, toward)| LightAtPoint {
             zone: scope.bands[scope.band(toward, zenith)].name.clone(),
             elevation: elevation_deg(toward, zenith),
             share,
@@ -106,7 +106,7 @@ impl Probe {
         first.map(|(copy, facet, _)| (copy, facet))
     }
 
-    fn found(&self, (facet, point): (u32, DVec3), light: Option<Light>) -> Found {
+    fn found(&self, (facet, point): (u32, DVec3), light: Option<LightAtPoint>) -> ProbeHit {
         let normal = self.specimen.solid().normal(facet, point);
         let (body, radial) = (&self.specimen.body, normal.truncate());
         let tier = body.stone().map_or((String::new(), 1), |stone| {
@@ -115,7 +115,7 @@ impl Probe {
             (stem.replace('_', " "), count)
         });
         let name = body.name(facet);
-        Found {
+        ProbeHit {
             facet,
             name,
             tier,
@@ -126,9 +126,9 @@ impl Probe {
     }
 }
 
-impl Found {
+impl ProbeHit {
     /// In one line.
-    pub fn told(&self) -> String {
+    pub fn message(&self) -> String {
         let azimuth = self.azimuth.map_or(String::new(), |a| format!(", azimuth {a:.1}°"));
         let (tier, count) = &self.tier;
         let tier = if *count > 1 { format!(" of {count} {tier} facets") } else { String::new() };
@@ -170,7 +170,7 @@ mod tests {
                 && bezel.azimuth.is_some_and(|a| (a + 0.1).rem_euclid(360.0) < 0.2)
         );
         let light = bezel.light.as_ref().unwrap();
-        assert!(light.share > 0.3 && bezel.told().contains("of 8 bezel facets"), "{}", bezel.told());
+        assert!(light.share > 0.3 && bezel.message().contains("of 8 bezel facets"), "{}", bezel.message());
         assert_eq!(at(1.05, 0.0), None);
     }
 

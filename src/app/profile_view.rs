@@ -22,13 +22,13 @@ use crate::cut::RoundBrilliant;
 use crate::scene::Stone;
 use egui::accesskit::Role;
 use egui::{CursorIcon, Key, PointerButton, Rect, RectAlign, Response, Sense, Tooltip, Ui, WidgetInfo};
-use frame::{Frame, Measured, Offered};
+use frame::{Frame, MeasuredProfile, Offered};
 use grab::Grab;
 use grips::Grip;
 use handle::Handle;
 use quantity::Quantity;
 use sheet::Label;
-use sight::Extent;
+use sight::ProfileBox;
 
 /// How many times shorter than other animations the time is in which most of a new fit is done.
 const QUICKER: f32 = 2.5;
@@ -37,7 +37,7 @@ const QUICKER: f32 = 2.5;
 #[derive(Debug, Default)]
 pub struct ProfileView {
     grab: Option<Grab>,
-    shown: Option<Extent>,
+    shown: Option<ProfileBox>,
 }
 
 impl ProfileView {
@@ -56,7 +56,7 @@ impl ProfileView {
         let id = ui.make_persistent_id("profile");
         let mut response = ui.interact(rect, id, Sense::hover());
         response.widget_info(|| WidgetInfo::labeled(Role::Image, ui.is_enabled(), "Profile of the stone"));
-        let measured = Measured::new(stone, proportions.as_deref());
+        let measured = MeasuredProfile::new(stone, proportions.as_deref());
         let extent = self.extent(ui, &measured);
         let frame = Frame::new(ui, id, rect, &measured, extent);
         let offered = frame.offer(ui);
@@ -66,7 +66,7 @@ impl ProfileView {
             return response;
         };
         let new = self.edited(ui, &frame, &offered, *given);
-        frame.tell(ui, &offered, &new);
+        frame.show_values(ui, &offered, &new);
         self.guide(ui, &measured, &offered, &labels);
         if new != *given {
             *given = new;
@@ -82,7 +82,7 @@ impl ProfileView {
     }
 
     /// The part of the profile to show: as it was while something is in hand, else on its way to what fits.
-    fn extent(&mut self, ui: &Ui, measured: &Measured<'_>) -> Extent {
+    fn extent(&mut self, ui: &Ui, measured: &MeasuredProfile<'_>) -> ProfileBox {
         let fitting = measured.extent();
         let shown = match (&self.grab, &measured.brilliant) {
             (Some(grab), Some((given, _))) => grab.shown(given),
@@ -154,7 +154,7 @@ impl ProfileView {
 
     /// The pointer's look, and a hint beside the handle that it is over. What the drawing shows of a handle in hand or of
     /// the keyboard is enough; where there is no room for it the hint does it.
-    fn guide(&self, ui: &Ui, measured: &Measured<'_>, offered: &[Offered], labels: &[Label]) {
+    fn guide(&self, ui: &Ui, measured: &MeasuredProfile<'_>, offered: &[Offered], labels: &[Label]) {
         let Some((given, derived)) = &measured.brilliant else { return };
         for o in offered {
             let held = self.grab.as_ref().filter(|_| o.response.dragged());

@@ -2,7 +2,7 @@
 //! it is looked up, as often as the background moves.
 
 use super::editor::Editor;
-use super::lookup::{Ask, backdrop};
+use super::lookup::{LookupRequest, backdrop};
 use super::moving::step;
 use super::pane::has_room;
 use super::studio::{SPAN, Which};
@@ -58,7 +58,7 @@ pub fn show(editor: &mut Editor, ui: &Ui, pane: usize, response: &Response) {
         let Some(shown) = editor.pictures.get(&(pane, which)) else { continue };
         if let Some(map) = &shown.taken.map {
             let (shot, grade, map) = (shown.shot.clone(), shown.grade, Some((map.clone(), moved)));
-            editor.looker.ask((pane, which), Ask { shot, grade, map, behind: behind.clone() });
+            editor.looker.ask((pane, which), LookupRequest { shot, grade, map, behind: behind.clone() });
         }
     }
 }

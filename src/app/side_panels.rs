@@ -2,8 +2,8 @@
 //!
 //! Each can be folded to a strip. A window with room for one alone opens one and folds the other.
 
-use super::desk::Side;
 use super::editor::Editor;
+use super::workspace::PanelSide;
 use super::{design_panel, figures_panel};
 use egui::{
     Align, Layout, Panel, Rect, Response, RichText, Sense, Stroke, StrokeKind, Ui, Vec2, WidgetInfo, pos2,
@@ -28,7 +28,7 @@ pub fn show(editor: &mut Editor, ui: &mut Ui) {
     let both = has_room_for_both(ui);
     let spare = ui.ctx().content_rect().width() - VIEWS;
     for (side, [least, most], other) in
-        [(Side::Design, DESIGN, FIGURES[0]), (Side::Figures, FIGURES, DESIGN[0])]
+        [(PanelSide::Design, DESIGN, FIGURES[0]), (PanelSide::Figures, FIGURES, DESIGN[0])]
     {
         if !editor.desk.panels.is_open(side, both) {
             strip(editor, ui, side);
@@ -37,8 +37,8 @@ pub fn show(editor: &mut Editor, ui: &mut Ui) {
         let other = if both { other } else { STRIP };
         let widths = least..=most.min(spare - other).max(least);
         match side {
-            Side::Design => design_panel::show(editor, ui, widths),
-            Side::Figures => figures_panel::show(editor, ui, widths),
+            PanelSide::Design => design_panel::show(editor, ui, widths),
+            PanelSide::Figures => figures_panel::show(editor, ui, widths),
         }
     }
 }
@@ -47,20 +47,20 @@ fn has_room_for_both(ui: &Ui) -> bool {
     ui.ctx().content_rect().width() >= DESIGN[0] + FIGURES[0] + VIEWS
 }
 
-fn name(side: Side) -> &'static str {
+fn name(side: PanelSide) -> &'static str {
     match side {
-        Side::Design => "Design",
-        Side::Figures => "Figures",
+        PanelSide::Design => "Design",
+        PanelSide::Figures => "Figures",
     }
 }
 
 /// The first line of an open panel: its name, and the button that folds it.
-pub fn head(editor: &mut Editor, ui: &mut Ui, side: Side) {
+pub fn head(editor: &mut Editor, ui: &mut Ui, side: PanelSide) {
     ui.add_space(4.0);
     ui.horizontal(|ui| {
         ui.label(RichText::new(format!("{} panel", name(side))).weak().small());
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-            let response = arrow(ui, side == Side::Design);
+            let response = arrow(ui, side == PanelSide::Design);
             let label = format!("Fold {}", name(side).to_lowercase());
             if named(response, &label, "Folds this panel to a strip; H hides both.").clicked() {
                 editor.desk.panels.set(side, has_room_for_both(ui), false);
@@ -70,16 +70,16 @@ pub fn head(editor: &mut Editor, ui: &mut Ui, side: Side) {
 }
 
 /// A folded panel; a click anywhere opens it.
-fn strip(editor: &mut Editor, ui: &mut Ui, side: Side) {
+fn strip(editor: &mut Editor, ui: &mut Ui, side: PanelSide) {
     let panel = match side {
-        Side::Design => Panel::left("design-strip"),
-        Side::Figures => Panel::right("figures-strip"),
+        PanelSide::Design => Panel::left("design-strip"),
+        PanelSide::Figures => Panel::right("figures-strip"),
     };
     panel.resizable(false).exact_size(STRIP).show(ui, |ui| {
         let both = has_room_for_both(ui);
         let whole = ui.interact(ui.max_rect(), ui.scope_id().with("strip"), Sense::click());
         let (rect, _) = ui.allocate_exact_size(Vec2::splat(BUTTON), Sense::hover());
-        chevron(ui, rect, side == Side::Figures, &whole);
+        chevron(ui, rect, side == PanelSide::Figures, &whole);
         upright(ui, rect, name(side));
         let label = format!("Open {}", name(side).to_lowercase());
         if named(whole, &label, &format!("Opens the panel of the {}.", name(side).to_lowercase())).clicked() {

@@ -1,7 +1,7 @@
 //! The views, side by side.
 
-use super::desk::Layout;
 use super::editor::Editor;
+use super::workspace::PaneLayout;
 use super::{pane, trouble_bar};
 use egui::{CentralPanel, Rect, Ui, UiBuilder, pos2};
 
@@ -12,12 +12,12 @@ const GAP: f32 = 6.0;
 pub fn show(editor: &mut Editor, ui: &mut Ui) -> Vec<(usize, [u32; 2])> {
     let mut seen = vec![];
     // Said again by the view under the pointer.
-    editor.told.clear();
+    editor.message.clear();
     let frame = egui::Frame::NONE.fill(ui.visuals().panel_fill);
     CentralPanel::no_frame().frame(frame).show(ui, |ui| {
         let whole = ui.max_rect().shrink(GAP);
         let shown = editor.desk.shown();
-        let layout = if shown.len() == 1 { Layout::One } else { editor.desk.layout };
+        let layout = if shown.len() == 1 { PaneLayout::One } else { editor.desk.layout };
         for (place, &pane) in shown.iter().enumerate() {
             let rect = part(whole, layout, place);
             let mut ui = ui.new_child(UiBuilder::new().max_rect(rect).id_salt(("pane", pane)));
@@ -29,13 +29,13 @@ pub fn show(editor: &mut Editor, ui: &mut Ui) -> Vec<(usize, [u32; 2])> {
     seen
 }
 
-fn part(whole: Rect, layout: Layout, place: usize) -> Rect {
+fn part(whole: Rect, layout: PaneLayout, place: usize) -> Rect {
     let (across, down) = match layout {
-        Layout::One => (1, 1),
+        PaneLayout::One => (1, 1),
         // Side by side where that is wider than high, which pictures of stones want least.
-        Layout::Two if whole.width() > whole.height() => (2, 1),
-        Layout::Two => (1, 2),
-        Layout::Four => (2, 2),
+        PaneLayout::Two if whole.width() > whole.height() => (2, 1),
+        PaneLayout::Two => (1, 2),
+        PaneLayout::Four => (2, 2),
     };
     let size = egui::vec2(
         (whole.width() - GAP * (across - 1) as f32) / across as f32,
@@ -53,7 +53,7 @@ mod tests {
     #[test]
     fn views_fill_the_stage_and_do_not_overlap() {
         let whole = Rect::from_min_size(pos2(10.0, 20.0), egui::vec2(900.0, 600.0));
-        for layout in [Layout::One, Layout::Two, Layout::Four] {
+        for layout in [PaneLayout::One, PaneLayout::Two, PaneLayout::Four] {
             let parts: Vec<Rect> = (0..layout.panes()).map(|k| part(whole, layout, k)).collect();
             assert_eq!(parts.iter().copied().reduce(Rect::union), Some(whole));
             for (k, a) in parts.iter().enumerate() {

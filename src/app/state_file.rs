@@ -1,7 +1,7 @@
 //! A small file that says whether the window is at rest, for tests that work the real program: they wait for what it
 //! says instead of for time to pass.
 
-use super::desk::Layout;
+use super::workspace::PaneLayout;
 use crate::io::{WriteError, write};
 use serde::Serialize;
 use std::path::PathBuf;
@@ -19,7 +19,7 @@ struct State {
     /// Whether every picture and figure is final, and the screen shows them.
     at_rest: bool,
     /// How the views are arranged.
-    layout: Layout,
+    layout: PaneLayout,
 }
 
 /// Writes the file whenever the state has changed.
@@ -39,7 +39,7 @@ impl StateFile {
 
     /// Takes note of a frame, at its end; `is_quiet` says that nothing is under way.
     /// Answers whether one more frame is needed to find out whether the window rests.
-    pub fn note(&mut self, is_quiet: bool, layout: Layout) -> bool {
+    pub fn note(&mut self, is_quiet: bool, layout: PaneLayout) -> bool {
         self.quiet_frames = if is_quiet { self.quiet_frames.saturating_add(1) } else { 0 };
         let at_rest = self.quiet_frames >= QUIET_FRAMES;
         let state = State { at_rest, layout };
@@ -66,7 +66,7 @@ mod tests {
         let path = folder.path().join("state.json");
         let mut file = StateFile { path: path.clone(), written: None, quiet_frames: 0 };
         let mut note = |is_quiet| {
-            let needs_another = file.note(is_quiet, Layout::Two);
+            let needs_another = file.note(is_quiet, PaneLayout::Two);
             let text = std::fs::read(&path).unwrap();
             let state: serde_json::Value = serde_json::from_slice(&text).unwrap();
             (needs_another, state["at_rest"].as_bool().unwrap())

@@ -1,7 +1,7 @@
 //! The bar that says what went wrong: one line over the lower edge of the views, which keep their size. It can be opened.
 
 use super::editor::Editor;
-use super::notes::Trouble;
+use super::notes::Problem;
 use super::theme;
 use egui::{
     Align, Align2, Area, Color32, Context, Frame, Id, Label, Layout, Order, Rect, RichText, ScrollArea, Ui,
@@ -29,7 +29,7 @@ pub fn show(editor: &mut Editor, ctx: &Context, stage: Rect) {
     });
 }
 
-fn coloured(ui: &Ui, trouble: &Trouble) -> RichText {
+fn coloured(ui: &Ui, trouble: &Problem) -> RichText {
     let colour: fn(&egui::Visuals) -> Color32 = if trouble.is_error { theme::bad } else { theme::caution };
     RichText::new(&trouble.text).color(colour(ui.visuals()))
 }

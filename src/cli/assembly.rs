@@ -1,14 +1,14 @@
 //! What is put under light: one stone, or the stones of a scene in their places.
 
 use super::Failure;
-use super::specimen::{Specimen, asked_material};
+use super::specimen::{LoadedSpecimen, asked_material};
 use crate::cut::{MaterialRef, Size};
 use crate::io::background::BackgroundRef;
 use crate::io::mesh_options::MeshOptions;
 use crate::io::scene_file::{self, Entry, SceneFile};
 use crate::io::{is_standard, library};
 use crate::optics::Material;
-use crate::scene::{Placed, Setting, overlapping};
+use crate::scene::{Instance, Scene, overlapping};
 use glam::{DQuat, DVec3};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -24,9 +24,9 @@ pub struct Assembly {
     /// The cut's name, or the scene's.
     pub name: String,
     /// The stones. A stone alone lies unmoved in its own frame.
-    pub setting: Setting,
+    pub setting: Scene,
     /// Where each is, in the order of the setting's.
-    pub places: Vec<Place>,
+    pub places: Vec<StonePlace>,
     /// The light that the scene asks for: the name of one that comes with the program, or a file.
     pub light: Option<PathBuf>,
     /// What the scene wants behind.
@@ -39,7 +39,7 @@ pub struct Assembly {
 
 /// A stone's size and place.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Place {
+pub struct StonePlace {
     /// Girdle diameter, mm.
     pub diameter_mm: f64,
     /// The middle of its girdle, mm.
@@ -49,13 +49,13 @@ pub struct Place {
 /// A stone of a scene before the world's unit is known.
 #[derive(Clone)]
 struct Member<'a> {
-    specimen: &'a Specimen,
+    specimen: &'a LoadedSpecimen,
     material: Material,
     diameter_mm: f64,
     turn: DQuat,
     at_mm: DVec3,
     /// What errors call it.
-    told: String,
+    description: String,
 }
 
 impl Assembly {
@@ -71,20 +71,24 @@ impl Assembly {
         let material = material.map(|text| asked_material(text).map(|(_, material)| material)).transpose()?;
         match scene(file)? {
             Some(scene) => Self::of_scene(file, scene, material.as_ref(), (size, mesh)),
-            None => Self::of_stone(Specimen::load(file, mesh)?, material, size),
+            None => Self::of_stone(LoadedSpecimen::load(file, mesh)?, material, size),
         }
     }
 
-    fn of_stone(specimen: Specimen, material: Option<Material>, size: Option<Size>) -> Result<Self, Failure> {
+    fn of_stone(
+        specimen: LoadedSpecimen,
+        material: Option<Material>,
+        size: Option<Size>,
+    ) -> Result<Self, Failure> {
         let material = material.unwrap_or_else(|| specimen.material.clone());
         let told = |message| Failure::Input(format!("{}: {message}", specimen.path));
         let diameter_mm = diameter_mm(&specimen, &material, size).map_err(told)?;
-        let stone = Placed::named(&specimen.body, material, &specimen.design.name);
+        let stone = Instance::named(&specimen.body, material, &specimen.design.name);
         Ok(Self {
             path: specimen.path,
             name: specimen.made.design.name,
-            setting: Setting { stones: vec![stone], unit_mm: 0.5 * diameter_mm },
-            places: vec![Place { diameter_mm, at_mm: DVec3::ZERO }],
+            setting: Scene { instances: vec![stone], unit_mm: 0.5 * diameter_mm },
+            places: vec![StonePlace { diameter_mm, at_mm: DVec3::ZERO }],
             light: None,
             background: None,
             background_distance_mm: None,
@@ -112,18 +116,19 @@ impl Assembly {
         let radii: Vec<f64> = members.iter().map(Member::radius_mm).collect();
         members.iter_mut().zip(scene.places_mm(&radii)).for_each(|(member, at)| member.at_mm = at);
         let setting = placed(&members);
-        if let Some((a, b)) = overlapping(&setting.stones) {
-            let (a, b) = (&members[a].told, &members[b].told);
+        if let Some((a, b)) = overlapping(&setting.instances) {
+            let (a, b) = (&members[a].description, &members[b].description);
             return Err(Failure::Input(format!("{path}: {a} and {b} overlap; move one of them away")));
         }
-        let places = members.iter().map(|m| Place { diameter_mm: m.diameter_mm, at_mm: m.at_mm }).collect();
+        let places =
+            members.iter().map(|m| StonePlace { diameter_mm: m.diameter_mm, at_mm: m.at_mm }).collect();
         let SceneFile { name, light, background, background_distance_mm, strength, .. } = scene;
         Ok(Self { path, name, setting, places, light, background, background_distance_mm, strength })
     }
 
     /// The weight of all stones in carats; `None` if one has no density.
     pub fn carats(&self) -> Option<f64> {
-        self.setting.stones.iter().map(|stone| stone.carats(self.setting.unit_mm)).sum()
+        self.setting.instances.iter().map(|stone| stone.carats(self.setting.unit_mm)).sum()
     }
 }
 
@@ -153,7 +158,7 @@ fn specimens(
     file: &Path,
     scene: &SceneFile,
     mesh: MeshOptions,
-) -> Result<BTreeMap<String, Specimen>, Failure> {
+) -> Result<BTreeMap<String, LoadedSpecimen>, Failure> {
     let mut specimens = BTreeMap::new();
     for (number, entry) in scene.stones.iter().enumerate() {
         if specimens.contains_key(&entry.cut) {
@@ -169,11 +174,11 @@ fn specimens(
 }
 
 /// A file beside the scene's, or else a cut that comes with the program.
-fn specimen(scene: &Path, cut: &str, mesh: MeshOptions) -> Result<Specimen, Failure> {
+fn specimen(scene: &Path, cut: &str, mesh: MeshOptions) -> Result<LoadedSpecimen, Failure> {
     let beside = scene.parent().unwrap_or(Path::new("")).join(cut);
     match library::cut(cut).filter(|_| !scene.is_file() || !beside.is_file()) {
-        Some(text) => Specimen::parse(cut, text),
-        None => Specimen::read(&beside, mesh),
+        Some(text) => LoadedSpecimen::parse(cut, text),
+        None => LoadedSpecimen::read(&beside, mesh),
     }
 }
 
@@ -181,13 +186,13 @@ fn at_entry(file: &Path, number: usize, entry: &Entry, message: &str) -> Failure
     Failure::Input(format!("{}:{}: stone {}: {message}", file.display(), entry.line, number + 1))
 }
 
-fn diameter_mm(specimen: &Specimen, material: &Material, size: Option<Size>) -> Result<f64, String> {
+fn diameter_mm(specimen: &LoadedSpecimen, material: &Material, size: Option<Size>) -> Result<f64, String> {
     let diameter = |size: Size| size.diameter_mm(specimen.solid().volume(), material);
     size.map_or(Ok(specimen.design.diameter_mm), diameter).map_err(|error| format!("size: {error}"))
 }
 
 fn member<'a>(
-    specimen: &'a Specimen,
+    specimen: &'a LoadedSpecimen,
     entry: &Entry,
     material: Option<&Material>,
     size: Option<Size>,
@@ -196,7 +201,14 @@ fn member<'a>(
     let own = || entry.material.as_ref().map_or(Ok(specimen.material.clone()), MaterialRef::material);
     let material = material.cloned().map_or_else(own, Ok).map_err(|error| error.to_string())?;
     let diameter_mm = diameter_mm(specimen, &material, size)?;
-    Ok(Member { specimen, material, diameter_mm, turn: DQuat::IDENTITY, at_mm: entry.at_mm, told })
+    Ok(Member {
+        specimen,
+        material,
+        diameter_mm,
+        turn: DQuat::IDENTITY,
+        at_mm: entry.at_mm,
+        description: told,
+    })
 }
 
 impl Member<'_> {
@@ -209,18 +221,18 @@ impl Member<'_> {
 }
 
 /// The stones in a world where the largest girdle has the radius 1.
-fn placed(members: &[Member]) -> Setting {
+fn placed(members: &[Member]) -> Scene {
     let unit_mm = 0.5 * members.iter().map(|m| m.diameter_mm).fold(0.0, f64::max);
     let place = |m: &Member| {
-        let stone = Placed::named(&m.specimen.body, m.material.clone(), &m.specimen.design.name);
+        let stone = Instance::named(&m.specimen.body, m.material.clone(), &m.specimen.design.name);
         stone.moved(0.5 * m.diameter_mm / unit_mm, m.turn, m.at_mm / unit_mm)
     };
-    let stones: Vec<Placed> = members.iter().map(place).collect();
+    let stones: Vec<Instance> = members.iter().map(place).collect();
     // Pictures are taken around the origin.
     let bounds = stones.iter().map(|s| s.solid.bounds());
     let (low, high) =
         bounds.fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(l, h), (a, b)| (l.min(a), h.max(b)));
     let shift =
         if members.len() > 1 || members[0].at_mm != DVec3::ZERO { -(low + high) / 2.0 } else { DVec3::ZERO };
-    Setting { stones: stones.into_iter().map(|s| s.moved(1.0, DQuat::IDENTITY, shift)).collect(), unit_mm }
+    Scene { instances: stones.into_iter().map(|s| s.moved(1.0, DQuat::IDENTITY, shift)).collect(), unit_mm }
 }

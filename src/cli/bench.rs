@@ -1,18 +1,18 @@
 //! `bench`: how long the tracers take for the same pictures, on this machine.
 
 use super::sampler::on_card;
-use super::specimen::Specimen;
+use super::specimen::LoadedSpecimen;
 use super::{Failure, json, print};
 use crate::io::mesh_options::MeshOptions;
 use crate::math::Polytope;
 use crate::optics::{line, strata};
-use crate::picture::by_rays::Manner;
+use crate::picture::by_rays::ScopeSampling;
 use crate::picture::{ByBeams, Layer, paint};
-use crate::scene::{ASET_CONE, Backing, Film, Glare, Light, Medium, Placed, Scope, Setting, View};
-use crate::trace::ray::{ByRays, Camera, Options, Tracer};
-use crate::trace::sitting::{Exposure, Look, Sitting};
-use crate::trace::surround::{Sky, Surround};
-use crate::trace::{Sampler, Subject, beam, unwatched};
+use crate::scene::{ASET_CONE, Backing, Film, Glare, Instance, Light, Medium, Scene, Scope, View};
+use crate::trace::environment::{Environment, EnvironmentMap};
+use crate::trace::ray::{ByRays, Camera, RayOptions, StoneTracer};
+use crate::trace::sampling::{LitScene, ProgressiveImage, SamplePass};
+use crate::trace::{RayTracer, Subject, beam, unwatched};
 use clap::Args;
 use glam::DVec2;
 use serde_json::{Value, json};
@@ -33,7 +33,7 @@ const SCOPES: [(u32, u32); 2] = [(512, 7), (1024, 32)];
 const LIT: ([u32; 2], u32, u32) = ([1024, 256], 32, 16);
 
 #[derive(Debug, Args)]
-pub struct Bench {
+pub struct BenchArguments {
     /// Print JSON
     #[arg(long)]
     json: bool,
@@ -54,9 +54,9 @@ struct Task {
     rows: Vec<Row>,
 }
 
-impl Bench {
+impl BenchArguments {
     pub fn run(&self) -> Result<(), Failure> {
-        let specimen = Specimen::load(Path::new("modern-ideal"), MeshOptions::default())?;
+        let specimen = LoadedSpecimen::load(Path::new("modern-ideal"), MeshOptions::default())?;
         let card = on_card();
         let threads = rayon::current_num_threads();
         if !self.json {
@@ -74,7 +74,7 @@ impl Bench {
         if !self.json {
             return Ok(());
         }
-        print(&json(&json!({ "threads": threads, "card": card.told(), "tasks": tasks })))
+        print(&json(&json!({ "threads": threads, "card": card.description(), "tasks": tasks })))
     }
 }
 
@@ -115,24 +115,24 @@ fn timed(mut work: impl FnMut() -> Result<(), Failure>) -> Result<f64, Failure> 
     Ok(times[TIMES / 2])
 }
 
-fn options(most_bounces: u32) -> Options {
-    Options { polarised: true, most_bounces, least_weight: 1e-4 }
+fn options(most_bounces: u32) -> RayOptions {
+    RayOptions { polarised: true, most_bounces, least_weight: 1e-4 }
 }
 
 /// ASET, by every tracer; beams paint it as well.
-fn in_scope(specimen: &Specimen, card: Sampler, size: u32, bounces: u32) -> Result<Task, Failure> {
+fn in_scope(specimen: &LoadedSpecimen, card: RayTracer, size: u32, bounces: u32) -> Result<Task, Failure> {
     let (view, scope) = (View::default(), Scope::aset(ASET_CONE, Backing::Black));
     let medium = Medium::clear(specimen.material.index(line::SODIUM_D));
     let look = Subject { specimen, medium, view: &view, scope: &scope };
     let polytope = polytope(specimen)?;
     let film = Film::around(polytope, &view.basis(), size);
-    let manner = Manner { options: options(bounces), per_side: 1, glare: Glare::Included };
+    let manner = ScopeSampling { options: options(bounces), per_side: 1, glare: Glare::Included };
     let mut rows = vec![];
     for sampler in samplers(card) {
         let picture = || sampler.rows(look, &film, &manner, &unwatched, |_| Ok(()));
-        rows.push(Row { tracer: sampler.name(), by: sampler.told(), milliseconds: timed(picture)? });
+        rows.push(Row { tracer: sampler.name(), by: sampler.description(), milliseconds: timed(picture)? });
     }
-    let options = beam::Options { unresolved: UNRESOLVED, ..beam::Options::default() };
+    let options = beam::BeamOptions { unresolved: UNRESOLVED, ..beam::BeamOptions::default() };
     let beams = || {
         let beams = beam::trace(polytope, medium, &view, &options, &unwatched)?;
         paint(&Layer::energy(&beams, &scope, Glare::Included), &film, &unwatched, |_| Ok::<_, Failure>(()))
@@ -144,45 +144,52 @@ fn in_scope(specimen: &Specimen, card: Sampler, size: u32, bounces: u32) -> Resu
     Ok(Task { what, plane_tests: plane_tests(polytope, &film, medium, bounces), rows })
 }
 
-fn polytope(specimen: &Specimen) -> Result<&Polytope, Failure> {
+fn polytope(specimen: &LoadedSpecimen) -> Result<&Polytope, Failure> {
     let told = |why| Failure::Usage(format!("{}: {why}", specimen.path));
     Ok(&specimen.stone().map_err(told)?.polytope)
 }
 
 /// Rays on the processor, and on the card where there is one.
-fn samplers(card: Sampler<'_>) -> Vec<Sampler<'_>> {
-    if card.name() == Sampler::Rays.name() { vec![card] } else { vec![Sampler::Rays, card] }
+fn samplers(card: RayTracer<'_>) -> Vec<RayTracer<'_>> {
+    if card.name() == RayTracer::Rays.name() { vec![card] } else { vec![RayTracer::Rays, card] }
 }
 
 /// Diamond under small lamps, one look of many wavelengths.
-fn under_light(specimen: &Specimen, card: Sampler) -> Result<Task, Failure> {
+fn under_light(specimen: &LoadedSpecimen, card: RayTracer) -> Result<Task, Failure> {
     let ([with_card, without], bounces, wavelengths) = LIT;
     let size = if card.is_quick() { with_card } else { without };
     let light = Light::lamps_on_dome();
-    let (sky, view) = (Sky::new(&light, None), View::default());
+    let (sky, view) = (EnvironmentMap::new(&light, None), View::default());
     let polytope = polytope(specimen)?;
-    let stone = Placed::named(&specimen.body, specimen.material.clone(), &specimen.design.name);
-    let setting = Setting { stones: vec![stone], unit_mm: specimen.design.diameter_mm / 2.0 };
+    let stone = Instance::named(&specimen.body, specimen.material.clone(), &specimen.design.name);
+    let setting = Scene { instances: vec![stone], unit_mm: specimen.design.diameter_mm / 2.0 };
     let film = Film::around(polytope, &view.basis(), size);
     let basis = view.light_basis();
-    let sitting = Sitting {
-        setting: &setting,
-        surround: Surround { sky: &sky, basis, eye: view.basis(), head: 0.0, behind: None, backdrop: false },
+    let lit_scene = LitScene {
+        scene: &setting,
+        environment: Environment {
+            map: &sky,
+            basis,
+            eye: view.basis(),
+            head: 0.0,
+            backplate: None,
+            backdrop: false,
+        },
         view: &view,
         film,
         options: options(bounces),
     };
     let strata = strata(wavelengths, &light.spectrum, true);
-    let look = Look::new(&setting, &strata, 0);
+    let look = SamplePass::new(&setting, &strata, 0);
     let mut rows = vec![];
     for sampler in samplers(card) {
-        let mut exposure = exposure(sampler, &sitting, strata.len())?;
-        let milliseconds = timed(|| exposure.look(&look, &unwatched))?;
-        rows.push(Row { tracer: sampler.name(), by: sampler.told(), milliseconds });
+        let mut exposure = exposure(sampler, &lit_scene, strata.len())?;
+        let milliseconds = timed(|| exposure.add_pass(&look, &unwatched))?;
+        rows.push(Row { tracer: sampler.name(), by: sampler.description(), milliseconds });
     }
-    let options = beam::Options { unresolved: UNRESOLVED, ..beam::Options::default() };
-    if let Some(mut exposure) = ByBeams::new(sitting, options) {
-        let milliseconds = timed(|| exposure.look(&look, &unwatched))?;
+    let options = beam::BeamOptions { unresolved: UNRESOLVED, ..beam::BeamOptions::default() };
+    if let Some(mut exposure) = ByBeams::new(lit_scene, options) {
+        let milliseconds = timed(|| exposure.add_pass(&look, &unwatched))?;
         rows.push(Row { tracer: "beam", by: format!("exact beams, unresolved {UNRESOLVED}"), milliseconds });
     }
     let tests: f64 = look.media[0].iter().map(|&medium| plane_tests(polytope, &film, medium, bounces)).sum();
@@ -194,19 +201,19 @@ fn under_light(specimen: &Specimen, card: Sampler) -> Result<Task, Failure> {
 }
 
 fn exposure<'a>(
-    sampler: Sampler<'a>,
-    sitting: &Sitting<'a>,
+    sampler: RayTracer<'a>,
+    lit_scene: &LitScene<'a>,
     #[cfg_attr(not(feature = "gpu"), expect(unused_variables, reason = "the card wants to know"))]
     bands: usize,
-) -> Result<Box<dyn Exposure<Failure> + 'a>, Failure> {
-    let rows = 0..sitting.film.size[1];
+) -> Result<Box<dyn ProgressiveImage<Failure> + 'a>, Failure> {
+    let rows = 0..lit_scene.film.size[1];
     match sampler {
-        Sampler::Rays => Ok(Box::new(ByRays::new(*sitting, rows))),
+        RayTracer::Rays => Ok(Box::new(ByRays::new(*lit_scene, rows))),
         #[cfg(feature = "gpu")]
-        Sampler::Card(gpu) => {
-            use crate::trace::gpu::{Around, ByCard};
-            let around = Around::new(gpu, &sitting.surround);
-            Ok(Box::new(ByCard::new(gpu, sitting, &around, rows, bands)?))
+        RayTracer::Card(gpu) => {
+            use crate::trace::gpu::{ByCard, GpuEnvironment};
+            let around = GpuEnvironment::new(gpu, &lit_scene.environment);
+            Ok(Box::new(ByCard::new(gpu, lit_scene, &around, rows, bands)?))
         }
     }
 }
@@ -215,7 +222,7 @@ fn exposure<'a>(
 fn plane_tests(polytope: &Polytope, film: &Film, medium: Medium, bounces: u32) -> f64 {
     const STEP: u32 = 8;
     let camera = Camera::new(&View::default(), polytope);
-    let tracer = Tracer::new(polytope, medium, options(bounces));
+    let tracer = StoneTracer::new(polytope, medium, options(bounces));
     let side = film.size[0] / STEP;
     let pixels = (0..side * side).map(|k| DVec2::new(f64::from(k % side), f64::from(k / side)) + 0.5);
     let searches: f64 = pixels

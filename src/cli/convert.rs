@@ -1,9 +1,9 @@
 //! `convert`: a stone's design in another format.
 
 use super::mesh_options::MeshArguments;
-use super::specimen::Specimen;
+use super::specimen::LoadedSpecimen;
 use super::{Failure, say};
-use crate::io::design_file::{self, Format};
+use crate::io::design_file::{self, DesignFormat};
 use clap::builder::PossibleValue;
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
@@ -17,12 +17,12 @@ pub struct Convert {
     output: PathBuf,
     /// The format to write, whatever the ending
     #[arg(long, value_enum)]
-    format: Option<Format>,
+    format: Option<DesignFormat>,
     #[command(flatten)]
     mesh: MeshArguments,
 }
 
-impl ValueEnum for Format {
+impl ValueEnum for DesignFormat {
     fn value_variants<'a>() -> &'a [Self] {
         &Self::ALL
     }
@@ -44,16 +44,16 @@ impl ValueEnum for Format {
 
 impl Convert {
     pub fn run(&self) -> Result<(), Failure> {
-        let format = self.format.or_else(|| Format::of_name(&self.output)).ok_or_else(|| {
+        let format = self.format.or_else(|| DesignFormat::of_name(&self.output)).ok_or_else(|| {
             let endings: Vec<String> =
-                Format::ALL.iter().map(|format| format!(".{}", format.ending())).collect();
+                DesignFormat::ALL.iter().map(|format| format!(".{}", format.ending())).collect();
             let output = self.output.display();
             Failure::Usage(format!(
                 "{output}: the ending names no format; give one of {}, or --format",
                 endings.join(", ")
             ))
         })?;
-        let specimen = Specimen::load(&self.input, self.mesh.options())?;
+        let specimen = LoadedSpecimen::load(&self.input, self.mesh.options())?;
         let lost = design_file::write(&specimen, format, &self.output)?;
         for what in lost {
             say(&format!("note: {}: {what}", self.output.display()));

@@ -2,10 +2,10 @@
 
 use super::mesh_options::MeshArguments;
 use super::options::{LightOptions, ViewOptions, scoped};
-use super::progress::Progress;
+use super::progress::WorkProgress;
 use super::specimen::stem;
 use super::{Failure, each_file};
-use crate::io::export::{self, Format, Outputs, first_twice};
+use crate::io::export::{self, OutputFormat, Outputs, first_twice};
 use crate::io::{MOST_PIXELS, is_standard};
 use crate::picture::{Picture, named, names};
 use clap::builder::PossibleValue;
@@ -13,7 +13,7 @@ use clap::{Args, ValueEnum};
 use std::path::{Path, PathBuf};
 
 #[derive(Debug, Args)]
-pub struct Export {
+pub struct ExportArguments {
     /// Designs or meshes, or names of cuts that come with the program
     #[arg(required = true)]
     files: Vec<PathBuf>,
@@ -27,8 +27,8 @@ pub struct Export {
     #[arg(long, default_value_t = 1024, value_parser = clap::value_parser!(u32).range(16..=i64::from(MOST_PIXELS)))]
     size: u32,
     /// Kinds of file to write, separated by commas
-    #[arg(long, value_enum, value_delimiter = ',', default_values_t = [Format::Png, Format::Svg, Format::Json])]
-    format: Vec<Format>,
+    #[arg(long, value_enum, value_delimiter = ',', default_values_t = [OutputFormat::Png, OutputFormat::Svg, OutputFormat::Json])]
+    format: Vec<OutputFormat>,
     /// Folder to write to; `-` is standard output, for one file, and of a picture in a scope for that of energy
     #[arg(long, default_value = "out")]
     out: PathBuf,
@@ -46,7 +46,7 @@ pub struct Export {
     mesh: MeshArguments,
 }
 
-impl ValueEnum for Format {
+impl ValueEnum for OutputFormat {
     fn value_variants<'a>() -> &'a [Self] {
         &Self::ALL
     }
@@ -62,7 +62,7 @@ impl ValueEnum for Format {
     }
 }
 
-impl Export {
+impl ExportArguments {
     pub fn run(&self) -> Result<(), Failure> {
         if is_standard(&self.out) && self.files.len() > 1 {
             return Err(Failure::Usage("--out -: several stones need a folder".into()));
@@ -75,7 +75,7 @@ impl Export {
             let specimen = self.light.specimen(file, self.mesh.options())?;
             let viewing = self.light.viewing(&specimen, &self.view)?;
             let outputs = self.outputs(file, &pictures);
-            let progress = Progress::new(&specimen.design.name);
+            let progress = WorkProgress::new(&specimen.design.name);
             let export = export::Export { viewing, outputs: &outputs };
             if let (true, Err(why)) = (export.files()?.is_empty(), specimen.stone()) {
                 return Err(Failure::Usage(format!(
@@ -83,7 +83,7 @@ impl Export {
                     specimen.path
                 )));
             }
-            export.write(&progress.watch(), &|told| progress.tell(told))
+            export.write(&progress.watch(), &|told| progress.report(told))
         })
     }
 

@@ -2,9 +2,9 @@
 
 use super::assembly::{self, Assembly};
 use super::mesh_options::MeshArguments;
-use super::specimen::Specimen;
+use super::specimen::LoadedSpecimen;
 use super::{Failure, each_file, json, print};
-use crate::cut::{AlongAxes, Cut, Report, Spread};
+use crate::cut::{AlongAxes, Cut, ProportionReport, Spread};
 use crate::io::STANDARD;
 use crate::math::{Facet, Polytope};
 use crate::scene::Body;
@@ -41,15 +41,15 @@ impl Info {
         each_file(&self.files, |file| {
             if assembly::is_scene(file) {
                 let assembly = Assembly::load(file, None, None, mesh)?;
-                return self.tell(&scene_json(&assembly), || scene_table(&assembly));
+                return self.print_as(&scene_json(&assembly), || scene_table(&assembly));
             }
-            let specimen = Specimen::load(file, mesh)?;
+            let specimen = LoadedSpecimen::load(file, mesh)?;
             let value = described(&specimen)?;
-            self.tell(&value, || table(&specimen, &value, self.facets))
+            self.print_as(&value, || table(&specimen, &value, self.facets))
         })
     }
 
-    fn tell(&self, value: &Value, table: impl FnOnce() -> String) -> Result<(), Failure> {
+    fn print_as(&self, value: &Value, table: impl FnOnce() -> String) -> Result<(), Failure> {
         match (self.json, self.files.len()) {
             (true, 1) => print(&json(value)),
             (true, _) => print(&value.to_string()),
@@ -59,7 +59,7 @@ impl Info {
 }
 
 fn scene_json(assembly: &Assembly) -> Value {
-    let stones = assembly.setting.stones.iter().zip(&assembly.places).map(|(stone, place)| {
+    let stones = assembly.setting.instances.iter().zip(&assembly.places).map(|(stone, place)| {
         json!({
             "cut": stone.label,
             "material": stone.material.name,
@@ -86,7 +86,7 @@ fn scene_table(assembly: &Assembly) -> String {
     let _ = writeln!(text, "  {:<28}{}", "weight", weight(assembly.carats()));
     let _ = write!(text, "\n  {:<20}{:<20}{:>8}{:>12}", "cut", "material", "mm", "weight");
     let _ = write!(text, "{:>9}{:>9}{:>9}", "x mm", "y mm", "z mm");
-    for (stone, place) in assembly.setting.stones.iter().zip(&assembly.places) {
+    for (stone, place) in assembly.setting.instances.iter().zip(&assembly.places) {
         let weight = weight(stone.carats(assembly.setting.unit_mm));
         let (cut, material, diameter) = (&stone.label, &stone.material.name, place.diameter_mm);
         let _ = write!(text, "\n  {cut:<20}{material:<20}{diameter:>8.3}{weight:>12}");
@@ -112,7 +112,7 @@ fn weight(carats: Option<f64>) -> String {
     carats.map_or("not known".into(), |carats| format!("{carats:.3} ct"))
 }
 
-fn described(specimen: &Specimen) -> Result<Value, Failure> {
+fn described(specimen: &LoadedSpecimen) -> Result<Value, Failure> {
     let mut value = json!({
         "file": specimen.path,
         "name": specimen.design.name,
@@ -136,7 +136,7 @@ fn described(specimen: &Specimen) -> Result<Value, Failure> {
     }
     let Ok(stone) = specimen.stone() else { return Ok(value) };
     let polytope = &stone.polytope;
-    value["measured"] = json!(Report::of(polytope, stone.names()));
+    value["measured"] = json!(ProportionReport::of(polytope, stone.names()));
     value["surface_area"] = json!(polytope.surface_area());
     value["silhouette_area"] = json!(polytope.silhouette_area(glam::DVec3::Z));
     value["edges"] = json!(polytope.edge_count());
@@ -184,7 +184,7 @@ fn shown_azimuth(azimuth_deg: f64) -> String {
     if text == "360.0000" { fixed(0.0, 4) } else { text }
 }
 
-fn table(specimen: &Specimen, value: &Value, with_facets: bool) -> String {
+fn table(specimen: &LoadedSpecimen, value: &Value, with_facets: bool) -> String {
     let mut text = heading(&specimen.path, &specimen.design.name);
     let mut line = |key: &str, what: String| {
         let _ = writeln!(text, "  {key:<28}{what}");
@@ -222,7 +222,7 @@ fn table(specimen: &Specimen, value: &Value, with_facets: bool) -> String {
         return text;
     };
     let polytope = &stone.polytope;
-    let report = Report::of(polytope, stone.names());
+    let report = ProportionReport::of(polytope, stone.names());
     if specimen.design.cut.brilliant().is_none() {
         proportions(&report, &mut line);
     }
@@ -250,7 +250,7 @@ fn table(specimen: &Specimen, value: &Value, with_facets: bool) -> String {
 }
 
 /// What was measured of a stone that has no proportions of its own.
-fn proportions(report: &Report, line: &mut impl FnMut(&str, String)) {
+fn proportions(report: &ProportionReport, line: &mut impl FnMut(&str, String)) {
     line("length to width", format!("{:.4}", report.length_to_width));
     let [width, length] = report.table;
     line(
@@ -267,7 +267,7 @@ fn proportions(report: &Report, line: &mut impl FnMut(&str, String)) {
     }
 }
 
-fn tiers(report: &Report, text: &mut String) {
+fn tiers(report: &ProportionReport, text: &mut String) {
     let _ =
         write!(text, "\n  {:<18}{:<10}{:>7}{:>24}{:>28}", "tier", "zone", "facets", "slope deg", "distance");
     for tier in &report.tiers {

@@ -3,16 +3,16 @@
 use super::options::number;
 use super::picture_options::film_size;
 use super::picturing::within;
-use super::progress::Progress;
+use super::progress::WorkProgress;
 use super::{Failure, print, say, written};
 use crate::io::background::BackgroundRef;
 use crate::io::{STANDARD, is_standard, write_rgba_png};
 use crate::optics::{Illuminant, linear_from_encoded, strata};
-use crate::picture::pane::{Around, Comparison, Cost, Pane, PaneError, Quality, Shifts};
+use crate::picture::pane::{Comparison, Cost, GlassPane, PaneError, PaneLighting, Quality, Shifts};
 use crate::picture::pane::{compare, pane, surroundings};
 use crate::picture::{Develop, Linear, Tone, develop};
 use crate::scene::Panorama;
-use crate::trace::surround::Sky;
+use crate::trace::environment::EnvironmentMap;
 use clap::Args;
 use glam::{DVec2, DVec4};
 use std::path::{Path, PathBuf};
@@ -132,20 +132,20 @@ impl LiquidGlass {
         }
         let (pane_asked, gap) = (self.asked()?, within("gap", self.gap, 1e-3, 100.0)?);
         let background = self.ground()?;
-        let told = self.told(&pane_asked);
+        let told = self.description(&pane_asked);
         self.write("liquid-glass", &pane(&pane_asked, &background, 1), &told)?;
         if !self.compare {
             return Ok(());
         }
         let light = surroundings(pane_asked.effective().light);
-        let around = Around {
-            sky: &Sky::new(&light, None),
+        let around = PaneLighting {
+            sky: &EnvironmentMap::new(&light, None),
             gap,
             strata: &strata(WAVELENGTHS, &Illuminant::D65, true),
             looks: self.samples,
         };
         let Comparison { traced, cost, .. } = {
-            let bar = Progress::new("liquid glass, traced");
+            let bar = WorkProgress::new("liquid glass, traced");
             compare(&pane_asked, &background, &around, &bar.watch()).map_err(failure)?
         };
         let told =
@@ -157,7 +157,7 @@ impl LiquidGlass {
     }
 
     /// The pane, checked.
-    fn asked(&self) -> Result<Pane, Failure> {
+    fn asked(&self) -> Result<GlassPane, Failure> {
         let whole = DVec2::from(self.size.map(f64::from));
         let usual = Geometry { size: (whole * EXTENT).round(), corner: None };
         let Geometry { size, corner } = self.pane.unwrap_or(usual);
@@ -172,7 +172,7 @@ impl LiquidGlass {
         }
         let most = size.min_element() / 2.0;
         let strength = |key, value| within(key, value, 0.0, 100.0);
-        Ok(Pane {
+        Ok(GlassPane {
             refraction: strength("refraction", self.refraction)?,
             depth: strength("depth", self.depth)?,
             dispersion: strength("dispersion", self.dispersion)?,
@@ -180,7 +180,7 @@ impl LiquidGlass {
             light: strength("light", self.light)?,
             tint: self.tint,
             quality: self.quality,
-            ..Pane::clear(
+            ..GlassPane::clear(
                 corner,
                 size,
                 within("radius", self.radius.unwrap_or(2.0 * ROUND * most), 0.0, most)?,
@@ -199,8 +199,9 @@ impl LiquidGlass {
         Ok(reading.panorama)
     }
 
-    fn told(&self, pane: &Pane) -> String {
-        let Pane { size, corner, radius, refraction, depth, dispersion, frost, light, .. } = pane.effective();
+    fn description(&self, pane: &GlassPane) -> String {
+        let GlassPane { size, corner, radius, refraction, depth, dispersion, frost, light, .. } =
+            pane.effective();
         let quality = format!("{:?}", self.quality).to_lowercase();
         let tint = pane.effective().tint.to_array().map(|part| format!("{part:.3}")).join(" ");
         format!(

@@ -2,9 +2,9 @@
 
 use super::mesh_options::MeshArguments;
 use super::options::{LightOptions, ViewOptions, scoped};
-use super::progress::Progress;
+use super::progress::WorkProgress;
 use super::{Failure, each_file, json, print};
-use crate::io::export::{Report, measure};
+use crate::io::export::{FigureReport, measure};
 use crate::picture::Scoped;
 use crate::scene::Glare;
 use crate::trace::Tracer;
@@ -41,8 +41,8 @@ impl Measure {
             let specimen = self.light.specimen(file, self.mesh.options())?;
             let viewing = self.light.viewing(&specimen, &self.view)?;
             let report = {
-                let progress = Progress::new(&format!("measuring {}", specimen.path));
-                measure(&viewing, &scoped, &progress.watch(), &|told| progress.tell(told))?
+                let progress = WorkProgress::new(&format!("measuring {}", specimen.path));
+                measure(&viewing, &scoped, &progress.watch(), &|told| progress.report(told))?
             };
             if self.json {
                 let value = report.json(self.timing);
@@ -54,8 +54,8 @@ impl Measure {
 }
 
 /// A table for people, in percent of the silhouette.
-fn table(report: &Report, timing: bool) -> String {
-    let Report { viewing, measured, .. } = report;
+fn table(report: &FigureReport, timing: bool) -> String {
+    let FigureReport { viewing, measured, .. } = report;
     let (f, scope) = (&measured.figures, &measured.scope);
     let has_glare = viewing.glare != Some(Glare::LeftOut);
     let mut text = format!(
@@ -64,7 +64,7 @@ fn table(report: &Report, timing: bool) -> String {
         viewing.specimen.design.name,
         viewing.specimen.material.name,
         viewing.medium.index,
-        viewing.viewpoint.told(),
+        viewing.viewpoint.description(),
         scope.name,
     );
     let mut line = |name: &str, [glare, rest @ ..]: [String; 3]| {
@@ -100,7 +100,7 @@ fn table(report: &Report, timing: bool) -> String {
         },
         if viewing.polarised { "polarised," } else { "unpolarised," },
         f.beams,
-        report.tracer.told(),
+        report.tracer.description(),
     );
     if timing {
         let _ = write!(text, " in {:.3} s", report.seconds);

@@ -22,7 +22,7 @@ mod spin;
 mod without_window;
 
 use crate::io::Failure;
-use crate::io::export::Told;
+use crate::io::export::Event;
 use crate::io::mesh_options::MeshOptions;
 use crate::io::{is_standard, library};
 use clap::error::ErrorKind;
@@ -54,7 +54,7 @@ struct Arguments {
 
 /// What opens the editor, on a file if one is given, read with these options where it is a mesh, and waits until it is closed;
 /// [`Failure::NoWindow`] where it cannot be opened, and [`Failure::Output`] where its window is lost later.
-pub type Editor = fn(Option<PathBuf>, MeshOptions) -> Result<(), Failure>;
+pub type EditorOpener = fn(Option<PathBuf>, MeshOptions) -> Result<(), Failure>;
 
 const USAGE: &str = "brillianteer [FILE]\n       brillianteer COMMAND";
 
@@ -77,7 +77,7 @@ enum Command {
         mesh: MeshArguments,
     },
     /// Draw a stone in every scope, with its profile, facet diagram and figures
-    Export(export::Export),
+    Export(export::ExportArguments),
     /// Show what stones look like under light: fire, colour, sparkle
     Render(render::Render),
     /// Show a stone turning, rocking or wobbling under light, as an animated PNG and its frames
@@ -93,7 +93,7 @@ enum Command {
     /// Write a stone's design in another format
     Convert(convert::Convert),
     /// Time the tracers on one and the same picture
-    Bench(bench::Bench),
+    Bench(bench::BenchArguments),
     /// List the materials known by name
     Materials(lists::List),
     /// List the cuts that come with the program, or print one as a cut file to start from
@@ -111,7 +111,7 @@ enum Command {
 }
 
 /// Runs the program with the process's arguments; `editor` opens its window.
-pub fn main(editor: Option<Editor>) -> ExitCode {
+pub fn main(editor: Option<EditorOpener>) -> ExitCode {
     let typed: Vec<OsString> = std::env::args_os().collect();
     let given = spelt_out(typed.clone());
     let arguments = match Arguments::try_parse_from(&given) {
@@ -152,7 +152,7 @@ pub fn main(editor: Option<Editor>) -> ExitCode {
 /// Opens the editor. Where that cannot be, the stone's pictures and figures are written to files, unless the command was
 /// named.
 fn edit(
-    editor: Option<Editor>,
+    editor: Option<EditorOpener>,
     file: Option<PathBuf>,
     mesh: MeshOptions,
     is_named: bool,
@@ -265,12 +265,12 @@ fn say(text: &str) {
 }
 
 /// Passes on what long work tells: files to standard output, the rest to the person.
-fn tell(told: Told) -> Result<(), Failure> {
+fn report(told: Event) -> Result<(), Failure> {
     match told {
-        Told::Begun(_) => {}
-        Told::Written(path) => return written(path),
-        Told::Note(text) => say(&format!("note: {text}")),
-        Told::Warning(text) => say(&format!("warning: {text}")),
+        Event::Begun(_) => {}
+        Event::Written(path) => return written(path),
+        Event::Note(text) => say(&format!("note: {text}")),
+        Event::Warning(text) => say(&format!("warning: {text}")),
     }
     Ok(())
 }
@@ -300,7 +300,7 @@ mod tests {
 
     #[test]
     fn a_lost_window_is_reported_and_no_files_take_its_place() {
-        let lost: Editor = |_, _| Err(Failure::Output("the window was lost".to_owned()));
+        let lost: EditorOpener = |_, _| Err(Failure::Output("the window was lost".to_owned()));
         let failure = edit(Some(lost), None, MeshOptions::default(), false).unwrap_err();
         assert_eq!((failure.to_string().as_str(), code(&failure)), ("the window was lost", 3));
     }

@@ -2,7 +2,7 @@
 
 use super::Failure;
 use super::sampler::{on_card, quickest};
-use super::specimen::{Specimen, note_colour};
+use super::specimen::{LoadedSpecimen, note_colour};
 use crate::cut::Size;
 use crate::io::export::Viewing;
 use crate::io::mesh_options::MeshOptions;
@@ -10,7 +10,7 @@ use crate::io::scope_file;
 use crate::optics::line;
 use crate::picture::{Picture, Scoped, named, names};
 use crate::scene::{Glare, Lean, Medium, Projection, Side, Viewpoint};
-use crate::trace::{Sampler, Tracer};
+use crate::trace::{RayTracer, Tracer};
 use clap::{Args, ValueEnum};
 use std::path::Path;
 
@@ -149,12 +149,16 @@ pub fn scoped(given: &Path) -> Result<Scoped, Failure> {
 
 impl LightOptions {
     /// Reads a stone, made of the material and as large as the options say.
-    pub fn specimen(&self, file: &Path, mesh: MeshOptions) -> Result<Specimen, Failure> {
-        Specimen::load(file, mesh)?.made_of(self.material.as_deref(), self.stone)
+    pub fn specimen(&self, file: &Path, mesh: MeshOptions) -> Result<LoadedSpecimen, Failure> {
+        LoadedSpecimen::load(file, mesh)?.made_of(self.material.as_deref(), self.stone)
     }
 
     /// How a specimen is looked at.
-    pub fn viewing<'a>(&self, specimen: &'a Specimen, view: &ViewOptions) -> Result<Viewing<'a>, Failure> {
+    pub fn viewing<'a>(
+        &self,
+        specimen: &'a LoadedSpecimen,
+        view: &ViewOptions,
+    ) -> Result<Viewing<'a>, Failure> {
         let viewpoint = view.viewpoint()?;
         note_colour(&specimen.material);
         Ok(Viewing {
@@ -176,7 +180,7 @@ impl LightOptions {
         })
     }
 
-    fn tracer(&self, viewpoint: &Viewpoint, specimen: &Specimen) -> Result<Tracer<'static>, Failure> {
+    fn tracer(&self, viewpoint: &Viewpoint, specimen: &LoadedSpecimen) -> Result<Tracer<'static>, Failure> {
         let flat = viewpoint.projection == Projection::Orthographic;
         let is_for_beams = flat && specimen.stone().is_ok();
         match self.tracer {
@@ -186,7 +190,7 @@ impl LightOptions {
             TracerName::Beam => Ok(Tracer::Beams),
             TracerName::Auto if is_for_beams => Ok(Tracer::Beams),
             TracerName::Auto => Ok(Tracer::Rays(quickest())),
-            TracerName::Ray => Ok(Tracer::Rays(Sampler::Rays)),
+            TracerName::Ray => Ok(Tracer::Rays(RayTracer::Rays)),
             TracerName::Gpu => Ok(Tracer::Rays(on_card())),
         }
     }
@@ -197,7 +201,7 @@ impl LightOptions {
     }
 
     /// The stone's medium at the wavelength chosen.
-    fn medium(&self, specimen: &Specimen) -> Result<Medium, Failure> {
+    fn medium(&self, specimen: &LoadedSpecimen) -> Result<Medium, Failure> {
         let wavelength = self.wavelength();
         if !(100.0..=100_000.0).contains(&wavelength) {
             return Err(Failure::Usage(format!(

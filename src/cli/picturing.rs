@@ -5,17 +5,17 @@ use super::options::TracerName;
 use super::picture_options::{FinishOptions, PictureOptions};
 use super::sampler::{on_card, quickest};
 use super::specimen::note_colour;
-use super::{Failure, tell};
+use super::{Failure, report};
 use crate::io::background::{BackgroundError, BackgroundRef};
 use crate::io::lighting::Lighting;
 use crate::optics::Illuminant;
 use crate::picture::{Bloom, Develop, Linear, Overlay, Tone, developed, lay};
-use crate::scene::{Film, Panorama, Projection, Setting, View};
-use crate::trace::Sampler;
+use crate::scene::{Film, Panorama, Projection, Scene, View};
+use crate::trace::RayTracer;
 use crate::trace::Watch;
+use crate::trace::environment::{Backplate, Environment};
 use crate::trace::ray::{self, Camera};
-use crate::trace::sitting::Sitting;
-use crate::trace::surround::{Behind, Surround};
+use crate::trace::sampling::LitScene;
 use glam::{DQuat, DVec2, DVec3};
 use std::cell::Cell;
 use std::path::Path;
@@ -37,11 +37,11 @@ const PHOTO_DISTANCE: f64 = 3.0;
 #[derive(Clone, Copy)]
 enum Tracer {
     Beams,
-    Rays(Sampler<'static>),
+    Rays(RayTracer<'static>),
 }
 
 /// Everything that a picture is taken of, loaded once.
-pub struct Studio<'a> {
+pub struct PictureSetup<'a> {
     options: &'a PictureOptions,
     finish: &'a FinishOptions,
     pub assembly: Assembly,
@@ -58,9 +58,9 @@ pub struct Studio<'a> {
 }
 
 /// A picture, and how it was made.
-pub struct Taken {
+pub struct RenderedPicture {
     pub picture: Linear,
-    pub told: String,
+    pub description: String,
 }
 
 /// A number that an option takes, if it is in its range.
@@ -80,7 +80,7 @@ impl From<BackgroundError> for Failure {
     }
 }
 
-impl<'a> Studio<'a> {
+impl<'a> PictureSetup<'a> {
     /// Loads stones, light and background, and chooses the tracer for a view.
     pub fn load(
         (options, finish): (&'a PictureOptions, &'a FinishOptions),
@@ -89,7 +89,7 @@ impl<'a> Studio<'a> {
     ) -> Result<Self, Failure> {
         let assembly =
             Assembly::load(file, options.material.as_deref(), options.stone, options.mesh.options())?;
-        assembly.setting.stones.iter().for_each(|stone| note_colour(&stone.material));
+        assembly.setting.instances.iter().for_each(|stone| note_colour(&stone.material));
         let own = assembly.light.as_ref().map(|light| light.display().to_string());
         let light = options.light.as_ref().or(own.as_ref());
         let mut lighting = Lighting::load(light.map_or("studio", String::as_str))?;
@@ -150,7 +150,7 @@ impl<'a> Studio<'a> {
 
     fn chosen(&self, view: &View) -> Result<Tracer, Failure> {
         let beams_apply = view.projection == Projection::Orthographic
-            && matches!(&*self.assembly.setting.stones, [only] if only.solid.polytope().is_ok())
+            && matches!(&*self.assembly.setting.instances, [only] if only.solid.polytope().is_ok())
             && self.photo.is_none()
             && self.strength >= 1.0;
         match self.finish.tracer {
@@ -163,18 +163,18 @@ impl<'a> Studio<'a> {
                     .into(),
             )),
             TracerName::Beam => Ok(Tracer::Beams),
-            TracerName::Ray => Ok(Tracer::Rays(Sampler::Rays)),
+            TracerName::Ray => Ok(Tracer::Rays(RayTracer::Rays)),
             TracerName::Gpu => Ok(Tracer::Rays(on_card())),
             TracerName::Auto => Ok(match quickest() {
-                Sampler::Rays if beams_apply => Tracer::Beams,
+                RayTracer::Rays if beams_apply => Tracer::Beams,
                 sampler => Tracer::Rays(sampler),
             }),
         }
     }
 
     /// The side of a pixel with which the stones fill the picture; an error where the eye is not in front of them.
-    pub fn pixel(&self, setting: &Setting, view: &View) -> Result<f64, Failure> {
-        let stones = &setting.stones;
+    pub fn pixel(&self, setting: &Scene, view: &View) -> Result<f64, Failure> {
+        let stones = &setting.instances;
         let reach = stones.iter().flat_map(|s| s.solid.vertices()).map(|v| v.length()).fold(0.0, f64::max);
         let camera = Camera::reaching(view, reach);
         let extent = stones.iter().try_fold(DVec2::ZERO, |all, s| Some(all.max(camera.extent(&s.solid)?)));
@@ -187,25 +187,25 @@ impl<'a> Studio<'a> {
     }
 
     /// The stones, turned about the axis by an angle in radians.
-    pub fn turned(&self, angle: f64) -> Setting {
+    pub fn turned(&self, angle: f64) -> Scene {
         let turn = DQuat::from_rotation_z(angle);
-        let stones = self.assembly.setting.stones.iter().cloned().map(|s| s.moved(1.0, turn, DVec3::ZERO));
-        Setting { stones: stones.collect(), ..self.assembly.setting }
+        let stones = self.assembly.setting.instances.iter().cloned().map(|s| s.moved(1.0, turn, DVec3::ZERO));
+        Scene { instances: stones.collect(), ..self.assembly.setting }
     }
 
     /// Takes a picture with pixels of this side.
     pub fn take(
         &self,
-        setting: &Setting,
+        setting: &Scene,
         (view, pixel): (&View, f64),
         watch: Watch,
-    ) -> Result<Taken, Failure> {
-        self.sit(setting, (view, pixel), |sitting| match self.tracer.get() {
-            Tracer::Beams => self.by_beams(sitting, watch),
-            Tracer::Rays(sampler) => sampler.or_rays(&tell, |used| {
+    ) -> Result<RenderedPicture, Failure> {
+        self.with_lit_scene(setting, (view, pixel), |lit_scene| match self.tracer.get() {
+            Tracer::Beams => self.by_beams(lit_scene, watch),
+            Tracer::Rays(sampler) => sampler.or_rays(&report, |used| {
                 // A card that has failed is not asked again.
                 self.tracer.set(Tracer::Rays(used));
-                self.by_rays(used, sitting, watch)
+                self.by_rays(used, lit_scene, watch)
             }),
         })
     }
@@ -213,14 +213,16 @@ impl<'a> Studio<'a> {
     /// A picture in eight bits, with the overlays asked for; its light is given away, for memory.
     pub fn developed(
         &self,
-        setting: &Setting,
+        setting: &Scene,
         (view, pixel): (&View, f64),
         picture: Linear,
         watch: Watch,
     ) -> Result<Vec<u8>, Failure> {
         let mut rgba = developed(picture, &self.develop);
         for &overlay in &self.finish.overlay {
-            self.sit(setting, (view, pixel), |sitting| lay(overlay, sitting, &mut rgba, watch))?;
+            self.with_lit_scene(setting, (view, pixel), |lit_scene| {
+                lay(overlay, lit_scene, &mut rgba, watch)
+            })?;
         }
         Ok(rgba)
     }
@@ -238,10 +240,10 @@ impl<'a> Studio<'a> {
     }
 
     /// What lights and traces the pictures, in words.
-    pub fn told(&self) -> String {
+    pub fn description(&self) -> String {
         let tracer = match self.tracer.get() {
             Tracer::Beams => "exact beams".into(),
-            Tracer::Rays(sampler) => sampler.told(),
+            Tracer::Rays(sampler) => sampler.description(),
         };
         format!("light {}; {tracer}{}", self.lighting.light.name, self.mixture())
     }
@@ -266,23 +268,24 @@ impl<'a> Studio<'a> {
     /// What lies at a point of the picture, in pixels, in words.
     pub fn probe(&self, view: &View, pixel: f64, at: DVec2) -> String {
         let setting = &self.assembly.setting;
-        let found = self.sit(setting, (view, pixel), |sitting| ray::facet_at(sitting, at.x, at.y));
+        let found =
+            self.with_lit_scene(setting, (view, pixel), |lit_scene| ray::facet_at(lit_scene, at.x, at.y));
         let Some((stone, facet)) = found else { return "nothing".into() };
-        let placed = &self.assembly.setting.stones[stone];
+        let placed = &self.assembly.setting.instances[stone];
         let name =
             placed.names.get(facet as usize).cloned().unwrap_or_else(|| format!("facet {}", facet + 1));
-        if self.assembly.setting.stones.len() == 1 {
+        if self.assembly.setting.instances.len() == 1 {
             return name;
         }
         format!("{name} of stone {}, {}, {}", stone + 1, placed.label, placed.material.name)
     }
 
     /// Does work with everything in its place.
-    pub fn sit<T>(
+    pub fn with_lit_scene<T>(
         &self,
-        setting: &Setting,
+        setting: &Scene,
         (view, pixel): (&View, f64),
-        work: impl FnOnce(&Sitting) -> T,
+        work: impl FnOnce(&LitScene) -> T,
     ) -> T {
         let turn = DQuat::from_rotation_z(self.options.turn.to_radians());
         let mut basis = view.light_basis();
@@ -290,21 +293,21 @@ impl<'a> Studio<'a> {
         let (right, up) = (turned(turn * DVec3::X), turned(turn * DVec3::Y));
         (basis.right, basis.up) = (right, up);
         let film = Film::new(self.options.size, pixel);
-        let hung = |picture| Behind::filling(picture, self.background.span(), self.distance, view, &film);
+        let hung = |picture| Backplate::filling(picture, self.background.span(), self.distance, view, &film);
         let behind = self.photo.as_ref().map(hung);
-        work(&Sitting {
-            setting,
-            surround: Surround {
-                sky: &self.lighting.sky,
+        work(&LitScene {
+            scene: setting,
+            environment: Environment {
+                map: &self.lighting.map,
                 basis,
                 eye: view.basis(),
                 head: self.lighting.light.head.to_radians(),
-                behind,
+                backplate: behind,
                 backdrop: self.background == BackgroundRef::Light || behind.is_some(),
             },
             view,
             film,
-            options: ray::Options {
+            options: ray::RayOptions {
                 polarised: !self.options.unpolarised,
                 most_bounces: MOST_BOUNCES,
                 least_weight: LEAST_WEIGHT,

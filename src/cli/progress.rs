@@ -1,8 +1,8 @@
 //! Progress bars on long work, and ending it by Ctrl-C or SIGTERM.
 
-use super::{Failure, say, tell};
+use super::{Failure, report, say};
 use crate::io::abandon_writes;
-use crate::io::export::Told;
+use crate::io::export::Event;
 use indicatif::{ProgressBar, ProgressStyle};
 #[cfg(unix)]
 use signal_hook::{
@@ -64,9 +64,9 @@ fn end(signal: i32) -> ! {
 }
 
 /// A bar for one piece of work; it shows itself after a moment, and only on a terminal.
-pub struct Progress(ProgressBar);
+pub struct WorkProgress(ProgressBar);
 
-impl Progress {
+impl WorkProgress {
     pub fn new(what: &str) -> Self {
         let bar = ProgressBar::new(1000).with_message(what.to_string());
         if let Ok(style) = ProgressStyle::with_template("{msg:40!} {bar:30} {percent:>3} % {eta:>4}") {
@@ -86,15 +86,15 @@ impl Progress {
     }
 
     /// Shows what is being made, and passes other things on past the bar.
-    pub fn tell(&self, told: Told) -> Result<(), Failure> {
-        if let Told::Begun(what) = told {
+    pub fn report(&self, told: Event) -> Result<(), Failure> {
+        if let Event::Begun(what) = told {
             self.0.set_message(what.to_string());
         }
-        self.0.suspend(|| tell(told))
+        self.0.suspend(|| report(told))
     }
 }
 
-impl Drop for Progress {
+impl Drop for WorkProgress {
     fn drop(&mut self) {
         *SHOWN.lock().unwrap_or_else(PoisonError::into_inner) = None;
         self.0.finish_and_clear();

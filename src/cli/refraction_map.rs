@@ -2,19 +2,19 @@
 
 use super::options::{ViewOptions, number};
 use super::picture_options::{FinishOptions, PictureOptions};
-use super::picturing::{Studio, within};
-use super::progress::Progress;
+use super::picturing::{PictureSetup, within};
+use super::progress::WorkProgress;
 use super::specimen::stem;
 use super::{Failure, distinct, each_file, say};
 use crate::io::background::BackgroundRef;
-use crate::io::export::Told;
+use crate::io::export::Event;
 use crate::io::refraction_map::{self as files, Coding, MOST_BANDS, MOST_PIXELS, MOST_PLACES};
 use crate::io::refraction_page::{MOST_MEGABYTES, Page, takes, write_page};
 use crate::io::{is_standard, write_rgba_png};
 use crate::optics::strata;
 use crate::picture::{Backdrop, Background, Carried, Develop, RefractionMap, Survey, Tone, develop, refract};
 use crate::scene::View;
-use crate::trace::Sampler;
+use crate::trace::RayTracer;
 use clap::{Args, ValueEnum};
 use glam::DVec2;
 use std::path::{Path, PathBuf};
@@ -91,7 +91,7 @@ impl RefractionMaps {
         let view = viewpoint.view();
         // By rays whatever there is: no card is looked for.
         let finish = FinishOptions::default();
-        let mut studio = Studio::load((&self.picture, &finish), file, &view)?;
+        let mut studio = PictureSetup::load((&self.picture, &finish), file, &view)?;
         if studio.photo.is_none() {
             if self.picture.background.is_some() {
                 return Err(Failure::Usage(
@@ -109,7 +109,7 @@ impl RefractionMaps {
             studio.strength = 1.0;
         }
         let kinds = self.kinds(studio.photo.is_some())?;
-        let bar = Progress::new(&studio.assembly.name);
+        let bar = WorkProgress::new(&studio.assembly.name);
         let (map, carried) = self.trace(&studio, &view, &bar)?;
         let map = map.developed(&studio.develop);
         let Carried { behind, single } = carried;
@@ -122,10 +122,10 @@ impl RefractionMaps {
             studio.distance,
             self.span,
             if self.both_sides { ", on both sides" } else { "" },
-            Sampler::Rays.told(),
+            RayTracer::Rays.description(),
             100.0 * behind,
             100.0 * single,
-            viewpoint.told()
+            viewpoint.description()
         );
         self.write(file, &studio, &map, (&kinds, &told, &viewpoint.suffix()), &bar)
     }
@@ -142,9 +142,9 @@ impl RefractionMaps {
 
     fn trace(
         &self,
-        studio: &Studio,
+        studio: &PictureSetup,
         view: &View,
-        bar: &Progress,
+        bar: &WorkProgress,
     ) -> Result<(RefractionMap, Carried), Failure> {
         let pixel = studio.pixel(&studio.assembly.setting, view)?;
         let distance = studio.distance;
@@ -162,7 +162,7 @@ impl RefractionMaps {
             looks: self.picture.samples.unwrap_or(LOOKS),
         };
         let setting = &studio.assembly.setting;
-        studio.sit(setting, (view, pixel), |sitting| {
+        studio.with_lit_scene(setting, (view, pixel), |sitting| {
             Ok(RefractionMap::trace(sitting, &plane, &survey, &bar.watch())?)
         })
     }
@@ -170,13 +170,13 @@ impl RefractionMaps {
     fn write(
         &self,
         file: &Path,
-        studio: &Studio,
+        studio: &PictureSetup,
         map: &RefractionMap,
         (kinds, told, suffix): (&[Kind], &str, &str),
-        bar: &Progress,
+        bar: &WorkProgress,
     ) -> Result<(), Failure> {
         let stem = format!("{}{suffix}", stem(file));
-        let written = |path: PathBuf| bar.tell(Told::Written(&path));
+        let written = |path: PathBuf| bar.report(Event::Written(&path));
         for (kind, coding) in
             [(Kind::Tiled, Coding::Tiles), (Kind::Png16, Coding::Sixteen), (Kind::Exr, Coding::Float)]
         {
@@ -197,7 +197,7 @@ impl RefractionMaps {
             let ground = studio.background.title();
             let title = studio.assembly.name.as_str();
             let background = background.as_deref().map(|bytes| (ground.as_str(), bytes));
-            write_page(&path, map, &Page { title, told, span: self.span, background })?;
+            write_page(&path, map, &Page { title, description: told, span: self.span, background })?;
             written(path)?;
         }
         if let (true, Some(photo)) = (kinds.contains(&Kind::Preview), &studio.photo) {
@@ -217,7 +217,7 @@ impl RefractionMaps {
     }
 
     /// The pattern's or photograph's file, where browsers can show it.
-    fn background(&self, studio: &Studio) -> Result<Option<Vec<u8>>, Failure> {
+    fn background(&self, studio: &PictureSetup) -> Result<Option<Vec<u8>>, Failure> {
         let Some(bytes) = studio.background.bytes().map_err(Failure::Input)? else { return Ok(None) };
         if takes(&bytes) {
             return Ok(Some(bytes));

@@ -2,8 +2,8 @@
 
 use super::options::ViewOptions;
 use super::picture_options::{FinishOptions, PictureOptions};
-use super::picturing::Studio;
-use super::progress::Progress;
+use super::picturing::PictureSetup;
+use super::progress::WorkProgress;
 use super::specimen::stem;
 use super::{Failure, distinct, each_file, print, say, written};
 use crate::io::{STANDARD, is_standard, write_linear_exr, write_rgba_png};
@@ -73,17 +73,18 @@ impl Render {
     fn render(&self, file: &Path) -> Result<(), Failure> {
         let viewpoint = self.view.viewpoint()?;
         let view = viewpoint.view();
-        let studio = Studio::load((&self.picture, &self.finish), file, &view)?.with_what_has_a_distance()?;
+        let studio =
+            PictureSetup::load((&self.picture, &self.finish), file, &view)?.with_what_has_a_distance()?;
         let setting = &studio.assembly.setting;
         let pixel = studio.pixel(setting, &view)?;
         if let Some(at) = self.probe {
             return print(&studio.probe(&view, pixel, at));
         }
         let taken = {
-            let progress = Progress::new(&studio.assembly.name);
+            let progress = WorkProgress::new(&studio.assembly.name);
             studio.take(setting, (&view, pixel), &progress.watch())?
         };
-        let told = format!("{}; {}", taken.told, viewpoint.told());
+        let told = format!("{}; {}", taken.description, viewpoint.description());
         let (path, _) = self.output(file, &viewpoint.suffix());
         if path.extension().is_some_and(|e| e.eq_ignore_ascii_case("exr")) {
             if let Some(without) = studio.undeveloped() {
@@ -92,7 +93,7 @@ impl Render {
             write_linear_exr(&path, &taken.picture, &told)?;
         } else {
             let size = (taken.picture.width, taken.picture.height);
-            let progress = Progress::new(&format!("{}: overlays", studio.assembly.name));
+            let progress = WorkProgress::new(&format!("{}: overlays", studio.assembly.name));
             let rgba = studio.developed(setting, (&view, pixel), taken.picture, &progress.watch())?;
             write_rgba_png(&path, &rgba, size, &told)?;
             studio.legend().iter().for_each(|line| say(&format!("note: {line}")));

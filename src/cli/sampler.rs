@@ -1,11 +1,11 @@
 //! What follows rays: a graphics card where that is asked for or quicker, else the processor.
 
 use super::say;
-use crate::trace::Sampler;
+use crate::trace::RayTracer;
 
 #[cfg(feature = "gpu")]
 mod card {
-    use super::{Sampler, say};
+    use super::{RayTracer, say};
     use crate::trace::gpu::{Gpu, GpuError};
     use std::sync::OnceLock;
 
@@ -16,35 +16,35 @@ mod card {
     }
 
     /// The card, or the processor and a word on why.
-    pub fn on_card() -> Sampler<'static> {
+    pub fn on_card() -> RayTracer<'static> {
         card().map_or_else(
             |error| {
                 say(&format!("note: {error}: tracing by rays on the processor"));
-                Sampler::Rays
+                RayTracer::Rays
             },
-            Sampler::Card,
+            RayTracer::Card,
         )
     }
 
     /// The card where there is a real one: in software it is slower than the processor's own way.
-    pub fn quickest() -> Sampler<'static> {
-        card().ok().filter(|gpu| !gpu.is_software()).map_or(Sampler::Rays, Sampler::Card)
+    pub fn quickest() -> RayTracer<'static> {
+        card().ok().filter(|gpu| !gpu.is_software()).map_or(RayTracer::Rays, RayTracer::Card)
     }
 }
 
 #[cfg(not(feature = "gpu"))]
 mod card {
-    use super::{Sampler, say};
+    use super::{RayTracer, say};
 
     /// The processor: this build knows no cards.
-    pub fn on_card() -> Sampler<'static> {
+    pub fn on_card() -> RayTracer<'static> {
         say("note: this program was built without its feature `gpu`: tracing by rays on the processor");
-        Sampler::Rays
+        RayTracer::Rays
     }
 
     /// The processor.
-    pub fn quickest() -> Sampler<'static> {
-        Sampler::Rays
+    pub fn quickest() -> RayTracer<'static> {
+        RayTracer::Rays
     }
 }
 

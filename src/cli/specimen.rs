@@ -3,7 +3,7 @@
 use super::{Failure, say};
 use crate::cut::{MaterialError, MaterialRef, Size};
 use crate::io::cut_file::{self, CutFileError};
-use crate::io::design_file::{self, Brought};
+use crate::io::design_file::{self, ImportedDesign};
 use crate::io::mesh_options::MeshOptions;
 use crate::io::{is_standard, library};
 use crate::optics::Material;
@@ -15,14 +15,14 @@ use std::sync::{Mutex, PoisonError};
 
 /// A stone, and the file that it was read from.
 #[derive(Debug)]
-pub struct Specimen {
+pub struct LoadedSpecimen {
     /// As given on the command line.
     pub path: String,
     /// The stone.
     pub made: scene::Specimen,
 }
 
-impl Deref for Specimen {
+impl Deref for LoadedSpecimen {
     type Target = scene::Specimen;
 
     fn deref(&self) -> &scene::Specimen {
@@ -30,7 +30,7 @@ impl Deref for Specimen {
     }
 }
 
-impl Specimen {
+impl LoadedSpecimen {
     /// Reads a design, or takes a cut that comes with the program by its name; builds the stone, and tells what is
     /// noteworthy and odd about it.
     pub fn load(file: &Path, mesh: MeshOptions) -> Result<Self, Failure> {
@@ -50,10 +50,13 @@ impl Specimen {
     /// Takes the text of a cut file, which errors call by this path.
     pub fn parse(path: &str, text: &str) -> Result<Self, Failure> {
         let design = cut_file::parse(text, path).map_err(|e| Failure::Input(e.to_string()))?;
-        Self::of(path.to_owned(), Brought::of(design))
+        Self::of(path.to_owned(), ImportedDesign::of(design))
     }
 
-    fn of(path: String, Brought { design, notes, warnings, .. }: Brought) -> Result<Self, Failure> {
+    fn of(
+        path: String,
+        ImportedDesign { design, notes, warnings, .. }: ImportedDesign,
+    ) -> Result<Self, Failure> {
         let told = |e| Failure::Input(format!("{path}: {e}"));
         let made = scene::Specimen::new(design).map_err(told)?;
         let specimen = Self { path, made };

@@ -2,13 +2,13 @@
 
 use super::options::{ViewOptions, number};
 use super::picture_options::{FinishOptions, PictureOptions};
-use super::picturing::Studio;
-use super::progress::Progress;
+use super::picturing::PictureSetup;
+use super::progress::WorkProgress;
 use super::specimen::stem;
 use super::{Failure, say, written};
 use crate::io::{Frames, is_standard, write_apng, write_rgba_png};
 use crate::picture::Background;
-use crate::scene::{Setting, View};
+use crate::scene::{Scene, View};
 use clap::{Args, ValueEnum};
 use std::f64::consts::TAU;
 use std::path::PathBuf;
@@ -62,9 +62,9 @@ impl Spin {
         let first = viewpoint.view();
         let delay_ms = self.delay_ms()?;
         self.check_swing()?;
-        let studio =
-            Studio::load((&self.picture, &self.finish), &self.file, &first)?.with_what_has_a_distance()?;
-        let frames: Vec<(Setting, View)> = (0..self.frames).map(|k| self.frame(&studio, &first, k)).collect();
+        let studio = PictureSetup::load((&self.picture, &self.finish), &self.file, &first)?
+            .with_what_has_a_distance()?;
+        let frames: Vec<(Scene, View)> = (0..self.frames).map(|k| self.frame(&studio, &first, k)).collect();
         // The stones keep their size: that at which they fit in every frame.
         let mut pixels = frames.iter().map(|(setting, view)| studio.pixel(setting, view));
         let pixel = pixels.try_fold(0.0_f64, |most, pixel| pixel.map(|p| most.max(p)))?;
@@ -78,8 +78,8 @@ impl Spin {
             delay_ms,
             transparent: studio.develop.background == Background::Transparent,
         };
-        let told = format!("{}, {} frames; {}", studio.assembly.name, self.frames, studio.told());
-        let bar = Progress::new(&format!("{}: spin", studio.assembly.name));
+        let told = format!("{}, {} frames; {}", studio.assembly.name, self.frames, studio.description());
+        let bar = WorkProgress::new(&format!("{}: spin", studio.assembly.name));
         let mut moves = false;
         write_apng(&path, animation, &told, |animation| -> Result<(), Failure> {
             let mut first: Option<Vec<u8>> = None;
@@ -88,7 +88,7 @@ impl Spin {
                 let taken = studio.take(setting, (view, pixel), &done)?;
                 let rgba = studio.developed(setting, (view, pixel), taken.picture, &done)?;
                 let still = folder.join(format!("{:04}.png", number + 1));
-                write_rgba_png(&still, &rgba, (width, height), &taken.told)?;
+                write_rgba_png(&still, &rgba, (width, height), &taken.description)?;
                 animation.push(&rgba)?;
                 let same = first.get_or_insert_with(|| rgba.clone()) == &rgba;
                 moves |= !same;
@@ -134,7 +134,7 @@ impl Spin {
     }
 
     /// The stones of a frame, and the view of them.
-    fn frame(&self, studio: &Studio, first: &View, number: u32) -> (Setting, View) {
+    fn frame(&self, studio: &PictureSetup, first: &View, number: u32) -> (Scene, View) {
         let part = TAU * f64::from(number) / f64::from(self.frames);
         let swing = self.swing.to_radians();
         match self.motion {

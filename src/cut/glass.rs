@@ -3,7 +3,7 @@
 //! Lengths are percent of the design's diameter, as with stones; z is toward the eye of the view face up. What is sharp all
 //! over is a solid between planes like any stone; anything rounded is a smooth one.
 
-use crate::math::{Field, FieldError, Form, Plane};
+use crate::math::{ImplicitForm, ImplicitSurface, ImplicitSurfaceError, Plane};
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
@@ -151,23 +151,23 @@ impl Glass {
     }
 
     /// The shape with `unit` for each percent.
-    fn form(&self, unit: f64) -> Form {
+    fn form(&self, unit: f64) -> ImplicitForm {
         let size = |length: f64, width: f64, depth: f64| DVec3::new(length, width, depth) * unit;
         let sides = |s: &Sides| (size(s.length, s.width, s.depth), s.edge * unit);
         match self {
             Self::Pill(s) => {
                 let (size, edge) = sides(s);
-                Form::Pill { size, edge }
+                ImplicitForm::Pill { size, edge }
             }
             Self::Cube(s) => {
                 let (size, edge) = sides(s);
-                Form::Block { size, edge }
+                ImplicitForm::Block { size, edge }
             }
             Self::Prism(s) => {
                 let (size, edge) = sides(s);
-                Form::Prism { size, edge }
+                ImplicitForm::Prism { size, edge }
             }
-            Self::Plate(p) => Form::Plate {
+            Self::Plate(p) => ImplicitForm::Plate {
                 size: size(p.length, p.width, p.depth),
                 edge: p.edge * unit,
                 amplitude: p.amplitude * unit,
@@ -181,9 +181,11 @@ impl Glass {
     ///
     /// # Errors
     /// The dimension at fault, in the unit in which it is written.
-    pub fn field(&self) -> Result<Field, GlassError> {
+    pub fn field(&self) -> Result<ImplicitSurface, GlassError> {
         // Checked in percent, so that what is told is what was written.
-        Field::new(self.form(1.0)).and_then(|_| Field::new(self.form(0.02))).map_err(told)
+        ImplicitSurface::new(self.form(1.0))
+            .and_then(|_| ImplicitSurface::new(self.form(0.02)))
+            .map_err(in_percent)
     }
 
     /// Its faces with their names, where all of it is flat and sharp.
@@ -206,17 +208,19 @@ impl Glass {
 }
 
 /// What is wrong, by the key at fault.
-fn told(error: FieldError) -> GlassError {
+fn in_percent(error: ImplicitSurfaceError) -> GlassError {
     let (key, message) = match error {
-        FieldError::Dimension { name, value } => {
+        ImplicitSurfaceError::Dimension { name, value } => {
             (key(name), format!("{value} % is no length; a number above 0 is expected"))
         }
-        FieldError::Number { name, value } => (key(name), format!("{value} must be a number from 0 up")),
-        FieldError::Edge { edge, most } => {
+        ImplicitSurfaceError::Number { name, value } => {
+            (key(name), format!("{value} must be a number from 0 up"))
+        }
+        ImplicitSurfaceError::Edge { edge, most } => {
             ("edge", format!("{edge} % is rounder than the shape has room for, {most:.4} %"))
         }
-        FieldError::Slope { .. } => ("amplitude", error.to_string()),
-        FieldError::Wavelength { wavelength, least } => (
+        ImplicitSurfaceError::Slope { .. } => ("amplitude", error.to_string()),
+        ImplicitSurfaceError::Wavelength { wavelength, least } => (
             "wavelength",
             format!("{wavelength} % is too short; for so large a plate it must be {least:.4} % or more"),
         ),

@@ -1,7 +1,7 @@
 //! The shape of a stone that no planes describe.
 
 use super::outline;
-use crate::math::{Calipers, Shell, hull};
+use crate::math::{Calipers, TriangleMesh, hull};
 use glam::{DQuat, DVec3};
 use std::ops::Deref;
 use std::sync::Arc;
@@ -12,12 +12,12 @@ const IN_FRAME: f64 = 1e-9;
 /// A closed surface of triangles in the stone's frame: z up, half its diameter 1 (see [`Outline`](super::Outline)), the
 /// middle of its outline on the axis, and the middle of its height at z = 0. Shared, as it may be large.
 #[derive(Debug, Clone)]
-pub struct MeshShape(pub Arc<Shell>);
+pub struct MeshShape(pub Arc<TriangleMesh>);
 
 impl MeshShape {
     /// A surface turned, and put into the stone's frame if it does not lie there already; with how much it was scaled by.
     /// `None` where it has no extent across.
-    pub fn framed(shell: &Shell, turn: DQuat) -> Option<(Self, f64)> {
+    pub fn framed(shell: &TriangleMesh, turn: DQuat) -> Option<(Self, f64)> {
         let corners: Vec<DVec3> = shell.vertices().iter().map(|&v| turn * v).collect();
         let around = hull(corners.iter().map(|v| v.truncate()).collect());
         let Calipers { width, middle, .. } = Calipers::of(&around)?;
@@ -44,9 +44,9 @@ impl PartialEq for MeshShape {
 }
 
 impl Deref for MeshShape {
-    type Target = Shell;
+    type Target = TriangleMesh;
 
-    fn deref(&self) -> &Shell {
+    fn deref(&self) -> &TriangleMesh {
         &self.0
     }
 }

@@ -32,11 +32,11 @@ pub use mesh_shape::MeshShape;
 pub use outline::{AlongAxes, Outline, is_girdle, is_table, round_diameter};
 pub use proportion_error::{Limit, ProportionError, Unit};
 pub use proportions::Derived;
-pub use report::{Report, Spread, TierReport};
+pub use report::{ProportionReport, Spread, TierReport};
 pub use round_brilliant::{Crown, LowerHalf, Pavilion, RoundBrilliant};
-pub use setting::Setting;
+pub use setting::MachineSetting;
 pub use size::{Size, SizeError};
-pub use tiers::{Indexed, Tier, TierFault, Tiers, Zone};
+pub use tiers::{Indexed, Tier, TierFault, TierZone, Tiers};
 pub use warning::Warning;
 
 pub(crate) use names::{is_printable, tier_stem};

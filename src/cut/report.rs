@@ -1,7 +1,7 @@
 //! What a stone's facets come to: its tiers with the spread of their slopes, as laboratories report scanned stones.
 
 use super::outline::{AlongAxes, Outline, is_girdle, is_table};
-use super::{Zone, tier_stem};
+use super::{TierZone, tier_stem};
 use crate::math::{Facet, Polytope};
 use serde::Serialize;
 
@@ -43,7 +43,7 @@ pub struct TierReport {
 
 /// A stone's proportions, measured on the solid: percent of its diameter (see [`Outline::diameter`]), and tiers.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Report {
+pub struct ProportionReport {
     /// Length by width.
     pub length_to_width: f64,
     /// Width and length of the table, however it lies.
@@ -64,7 +64,7 @@ pub struct Report {
     pub along_axes: AlongAxes,
 }
 
-impl Report {
+impl ProportionReport {
     /// Of a solid whose facets have these names, in order.
     pub fn of(stone: &Polytope, names: &[String]) -> Self {
         let outline = Outline::of(stone);
@@ -84,18 +84,18 @@ impl Report {
 }
 
 /// Where a facet lies.
-fn zone(facet: &Facet) -> Zone {
+fn zone(facet: &Facet) -> TierZone {
     match facet.plane.normal.z > 0.0 {
-        _ if is_girdle(facet) => Zone::Girdle,
-        true if is_table(facet) => Zone::Table,
-        true => Zone::Crown,
-        false if facet.plane.normal.truncate().length() < super::outline::LEVEL => Zone::Culet,
-        false => Zone::Pavilion,
+        _ if is_girdle(facet) => TierZone::Girdle,
+        true if is_table(facet) => TierZone::Table,
+        true => TierZone::Crown,
+        false if facet.plane.normal.truncate().length() < super::outline::LEVEL => TierZone::Culet,
+        false => TierZone::Pavilion,
     }
 }
 
 fn tiers(stone: &Polytope, names: &[String]) -> Vec<TierReport> {
-    let mut tiers: Vec<(&str, Zone, Vec<[f64; 2]>)> = vec![];
+    let mut tiers: Vec<(&str, TierZone, Vec<[f64; 2]>)> = vec![];
     for (facet, name) in stone.facets().iter().zip(names) {
         let (stem, zone) = (tier_stem(name), zone(facet));
         let slope = facet.plane.normal.truncate().length().atan2(facet.plane.normal.z.abs()).to_degrees();
@@ -106,7 +106,7 @@ fn tiers(stone: &Polytope, names: &[String]) -> Vec<TierReport> {
         // Of a plane through the origin 0, and never -0.
         tiers[place].2.push([slope, facet.plane.offset + 0.0]);
     }
-    let report = |(name, zone, facets): (&str, Zone, Vec<[f64; 2]>)| {
+    let report = |(name, zone, facets): (&str, TierZone, Vec<[f64; 2]>)| {
         let [slopes, distances] = [0, 1].map(|k| facets.iter().map(|facet| facet[k]).collect::<Vec<_>>());
         TierReport {
             name: name.to_owned(),
@@ -129,7 +129,7 @@ mod tests {
     fn a_brilliant_is_reported_by_its_tiers() {
         let facets = MODERN.facets().unwrap();
         let (names, planes): (Vec<String>, Vec<Plane>) = facets.into_iter().unzip();
-        let report = Report::of(&Polytope::from_planes(&planes).unwrap(), &names);
+        let report = ProportionReport::of(&Polytope::from_planes(&planes).unwrap(), &names);
         let told: Vec<_> = report.tiers.iter().map(|t| (t.name.as_str(), t.zone, t.facets)).collect();
         assert_eq!(
             told,
@@ -157,7 +157,7 @@ mod tests {
     fn a_facet_that_leans_widens_the_spread_of_its_tier_alone() {
         let (names, mut planes): (Vec<String>, Vec<Plane>) = MODERN.facets().unwrap().into_iter().unzip();
         planes[1] = Plane::from_slope(35f64.to_radians(), 0.0, planes[1].offset);
-        let report = Report::of(&Polytope::from_planes(&planes).unwrap(), &names);
+        let report = ProportionReport::of(&Polytope::from_planes(&planes).unwrap(), &names);
         let width = |k: usize| report.tiers[k].slope_deg.most - report.tiers[k].slope_deg.least;
         assert!((width(1) - 0.5).abs() < 1e-9 && width(2) < 1e-9);
         assert!((report.tiers[1].slope_deg.mean - (7.0 * 34.5 + 35.0) / 8.0).abs() < 1e-9);

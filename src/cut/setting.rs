@@ -1,11 +1,11 @@
 //! The tiers of any cut that lists its facets, each as one angle and one distance that can be set.
 
-use super::{Cut, Zone, tier_stem};
+use super::{Cut, TierZone, tier_stem};
 use crate::math::Plane;
 
 /// A tier as it is set on a faceting machine; of facets that differ, the mean.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Setting {
+pub struct MachineSetting {
     /// What its facets are called, without their numbers.
     pub name: String,
     /// How many there are.
@@ -18,12 +18,12 @@ pub struct Setting {
 
 impl Cut {
     /// Its tiers, in the order in which they are listed; none where proportions say what its facets are, or triangles.
-    pub fn settings(&self) -> Vec<Setting> {
+    pub fn settings(&self) -> Vec<MachineSetting> {
         match self {
             Self::RoundBrilliant(_) | Self::Mesh(_) | Self::Glass(_) => vec![],
             Self::Tiers(design) => {
                 let numbered = (1..).zip(&design.tiers).filter(|(_, tier)| tier.is_cut);
-                let setting = |(number, tier): (usize, &super::Tier)| Setting {
+                let setting = |(number, tier): (usize, &super::Tier)| MachineSetting {
                     name: tier.called(number),
                     facets: tier.facets.len(),
                     angle: tier.angle,
@@ -59,7 +59,7 @@ impl Cut {
 
 /// The planes that share a name but for its number and face the same way, by their places.
 fn groups(planes: &[(String, Plane)]) -> Vec<Vec<usize>> {
-    let mut groups: Vec<((&str, Zone), Vec<usize>)> = vec![];
+    let mut groups: Vec<((&str, TierZone), Vec<usize>)> = vec![];
     for (k, (name, plane)) in planes.iter().enumerate() {
         let key = (tier_stem(name), faces(plane));
         match groups.iter_mut().find(|(of, _)| *of == key) {
@@ -70,11 +70,11 @@ fn groups(planes: &[(String, Plane)]) -> Vec<Vec<usize>> {
     groups.into_iter().map(|(_, group)| group).collect()
 }
 
-fn faces(plane: &Plane) -> Zone {
+fn faces(plane: &Plane) -> TierZone {
     match plane.normal.z {
-        0.0 => Zone::Girdle,
-        z if z > 0.0 => Zone::Crown,
-        _ => Zone::Pavilion,
+        0.0 => TierZone::Girdle,
+        z if z > 0.0 => TierZone::Crown,
+        _ => TierZone::Pavilion,
     }
 }
 
@@ -84,14 +84,14 @@ fn slope(plane: &Plane) -> (f64, f64) {
     (slope, plane.offset / plane.normal.length())
 }
 
-fn mean(planes: &[(String, Plane)], group: &[usize]) -> Setting {
+fn mean(planes: &[(String, Plane)], group: &[usize]) -> MachineSetting {
     let count = group.len() as f64;
     let sum =
         group.iter().map(|&k| slope(&planes[k].1)).fold((0.0, 0.0), |sum, s| (sum.0 + s.0, sum.1 + s.1));
     let (name, first) = &planes[group[0]];
     let name = if group.len() > 1 { tier_stem(name) } else { name };
     let sign = if first.normal.z > 0.0 { 1.0 } else { -1.0 };
-    Setting {
+    MachineSetting {
         name: name.to_owned(),
         facets: group.len(),
         angle: sign * sum.0 / count,

@@ -97,7 +97,7 @@ impl TierFault {
 
 /// Where on a stone a tier lies.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Zone {
+pub enum TierZone {
     /// The flat on top.
     Table,
     /// Above the girdle.
@@ -110,7 +110,7 @@ pub enum Zone {
     Culet,
 }
 
-impl Zone {
+impl TierZone {
     /// As the trade calls it.
     pub fn name(self) -> &'static str {
         match self {
@@ -125,13 +125,13 @@ impl Zone {
 
 impl Tier {
     /// Where it lies.
-    pub fn zone(&self) -> Zone {
+    pub fn zone(&self) -> TierZone {
         match (self.angle, self.faces_down()) {
-            (0.0, true) => Zone::Culet,
-            (0.0, false) => Zone::Table,
-            (90.0 | -90.0, _) => Zone::Girdle,
-            (_, true) => Zone::Pavilion,
-            (_, false) => Zone::Crown,
+            (0.0, true) => TierZone::Culet,
+            (0.0, false) => TierZone::Table,
+            (90.0 | -90.0, _) => TierZone::Girdle,
+            (_, true) => TierZone::Pavilion,
+            (_, false) => TierZone::Crown,
         }
     }
 
@@ -145,7 +145,7 @@ impl Tier {
         let zone = self.zone();
         match self.name() {
             name if names::is_printable(name) => name.to_owned(),
-            _ if matches!(zone, Zone::Table | Zone::Culet) => zone.name().to_owned(),
+            _ if matches!(zone, TierZone::Table | TierZone::Culet) => zone.name().to_owned(),
             _ => format!("{}-{number}", zone.name()),
         }
     }
@@ -271,7 +271,7 @@ mod tests {
         let zones =
             [(0.0, 1.0), (0.0, -1.0), (-0.0, 1.0), (41.0, 1.0), (-41.0, 1.0), (90.0, 1.0), (-90.0, 1.0)]
                 .map(|(angle, distance)| tier(angle, distance, &[]).zone());
-        use Zone::*;
+        use TierZone::*;
         assert_eq!(zones, [Table, Culet, Culet, Crown, Pavilion, Girdle, Girdle]);
         let below = square(96, 0.0).plane(&tier(-40.0, 1.0, &[]), 0.0);
         assert!(

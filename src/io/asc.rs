@@ -4,8 +4,8 @@
 //! What is not understood is a warning, and the stone opens; what the file says (names, instructions, headers) is kept.
 
 use super::cut_file::CutFileError;
-use super::cutters::{self, Told};
-use super::design_file::{Brought, Written};
+use super::cutters::{self, WarningList};
+use super::design_file::{EncodedDesign, ImportedDesign};
 use crate::cut::{Indexed, MAX_PLANES, Tier, Tiers, is_printable};
 use crate::scene::Specimen;
 use encoding_rs::WINDOWS_1252;
@@ -42,7 +42,7 @@ pub fn looks_like(bytes: &[u8]) -> bool {
 ///
 /// # Errors
 /// Where there is no facet in it, or more than a stone may have, with the line.
-pub fn read(bytes: &[u8], label: &str) -> Result<Brought, CutFileError> {
+pub fn read(bytes: &[u8], label: &str) -> Result<ImportedDesign, CutFileError> {
     let fault = |line, message: String| CutFileError { path: label.to_owned(), line, message };
     if bytes.len() > MAX_BYTES {
         return Err(fault(None, super::text::too_large(MAX_BYTES as u64)));
@@ -96,13 +96,13 @@ struct Reader {
     /// A name that stands before its index.
     name: Option<String>,
     count: usize,
-    told: Told,
+    warnings: WarningList,
 }
 
 impl Reader {
     fn warn(&mut self, what: &str) {
         let number = self.number;
-        self.told.warn(|| format!("line {number}: {what}"));
+        self.warnings.warn(|| format!("line {number}: {what}"));
     }
 
     fn line(&mut self, line: &str) {
@@ -270,12 +270,12 @@ impl Reader {
         }
     }
 
-    fn brought(mut self, label: &str) -> Result<Brought, CutFileError> {
-        let mut missing = |what: bool, text: &str| what.then(|| self.told.warn(|| text.to_owned()));
+    fn brought(mut self, label: &str) -> Result<ImportedDesign, CutFileError> {
+        let mut missing = |what: bool, text: &str| what.then(|| self.warnings.warn(|| text.to_owned()));
         missing(self.gear.is_none(), "the file names no index gear; one of 96 teeth is taken");
         missing(self.ri.is_none(), "the file names no index of refraction; 1.54 is taken");
         let name = cutters::title(&self.headers, label);
-        let material = cutters::material(self.ri.unwrap_or(USUAL_INDEX), "", &mut self.told);
+        let material = cutters::material(self.ri.unwrap_or(USUAL_INDEX), "", &mut self.warnings);
         let tiers = Tiers {
             gear: self.gear.unwrap_or(96),
             offset: self.offset,
@@ -286,7 +286,7 @@ impl Reader {
             remarks: vec![],
             tiers: self.tiers,
         };
-        cutters::brought(name, material, tiers, self.told, label)
+        cutters::brought(name, material, tiers, self.warnings, label)
     }
 }
 
@@ -302,7 +302,7 @@ fn short(text: &str) -> String {
 }
 
 /// The file of a design.
-pub fn write(specimen: &Specimen) -> Written {
+pub fn write(specimen: &Specimen) -> EncodedDesign {
     let mut lost = vec![];
     let tiers = cutters::tiers_of(specimen, &mut lost).into_owned();
     let ri = cutters::refractive_index(specimen, &mut lost);
@@ -324,7 +324,7 @@ pub fn write(specimen: &Specimen) -> Written {
     }
     lost.extend(texts.lost());
     lost.extend(left_out(&tiers));
-    Written { bytes: encoded(out), lost }
+    EncodedDesign { bytes: encoded(out), lost }
 }
 
 /// What of a design's tiers has no place in the format.

@@ -1,6 +1,6 @@
 //! What lies behind the stones, as people ask for it: the light itself, a colour, a pattern of the program's, a photograph.
 
-use super::panorama::{self, Reading};
+use super::panorama::{self, LoadedPanorama};
 use super::png_bytes::png;
 use super::{DrawingError, rasterize};
 use crate::optics::linear_from_encoded;
@@ -97,12 +97,12 @@ impl BackgroundRef {
     ///
     /// # Errors
     /// What is wrong with a photograph's file, in words that name it.
-    pub fn picture(&self) -> Result<Option<Reading>, String> {
+    pub fn picture(&self) -> Result<Option<LoadedPanorama>, String> {
         match self {
             Self::Light | Self::Plain(_) => Ok(None),
             Self::Pattern(pattern) => {
                 let panorama = drawn(*pattern).map_err(|error| error.to_string())?;
-                Ok(Some(Reading { panorama, warnings: vec![] }))
+                Ok(Some(LoadedPanorama { panorama, warnings: vec![] }))
             }
             Self::Photo(path) => {
                 let mut reading = panorama::read_photo(path)?;
@@ -119,15 +119,17 @@ impl BackgroundRef {
     ///
     /// # Errors
     /// What is wrong with a photograph's file, in words that name it.
-    pub fn filling(&self, [width, height]: [u32; 2]) -> Result<Option<Reading>, String> {
+    pub fn filling(&self, [width, height]: [u32; 2]) -> Result<Option<LoadedPanorama>, String> {
         if let Self::Plain(colours) = self {
             let rows: Option<Vec<_>> = (0..height).map(|y| colours.row(y, height)).collect();
             let row = |colour| std::iter::repeat_n(colour, width as usize);
             let pixels = rows.map(|rows| rows.into_iter().flat_map(row).collect());
-            let plain = |pixels| Reading { panorama: Panorama { width, height, pixels }, warnings: vec![] };
+            let plain =
+                |pixels| LoadedPanorama { panorama: Panorama { width, height, pixels }, warnings: vec![] };
             return Ok(pixels.map(plain));
         }
-        let filled = |r: Reading| Reading { panorama: filling(&r.panorama, [width, height]), ..r };
+        let filled =
+            |r: LoadedPanorama| LoadedPanorama { panorama: filling(&r.panorama, [width, height]), ..r };
         Ok(self.picture()?.map(filled))
     }
 

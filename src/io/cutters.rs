@@ -5,7 +5,7 @@
 //! written gives the same ones.
 
 use super::cut_file::CutFileError;
-use super::design_file::Brought;
+use super::design_file::ImportedDesign;
 use crate::cut::{Cut, DEFAULT_DIAMETER_MM, Design, Indexed, MaterialRef, Tier, Tiers, is_printable};
 use glam::DVec3;
 use std::f64::consts::TAU;
@@ -42,7 +42,7 @@ const MOST_WARNINGS: usize = 100;
 
 /// How a facet is cut; units as in [`Tier`] and [`Indexed`].
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Setting {
+pub(super) struct FacetSetting {
     pub angle: f64,
     pub distance: f64,
     pub index: f64,
@@ -57,10 +57,10 @@ pub(super) struct Gear {
 
 /// A facet on its way into a tier.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Piece {
+pub(super) struct TierPiece {
     /// What its file calls its tier; facets of different ones are never gathered.
     pub tier: usize,
-    pub setting: Setting,
+    pub setting: FacetSetting,
     pub name: String,
     pub instructions: String,
     pub is_cut: bool,
@@ -68,12 +68,12 @@ pub(super) struct Piece {
 
 /// Warnings, up to a number that people read.
 #[derive(Debug, Default)]
-pub(super) struct Told {
+pub(super) struct WarningList {
     texts: Vec<String>,
     more: usize,
 }
 
-impl Told {
+impl WarningList {
     /// The text is made only if there is room for it.
     pub fn warn(&mut self, text: impl FnOnce() -> String) {
         if self.texts.len() < MOST_WARNINGS {
@@ -93,7 +93,7 @@ impl Told {
 
 impl Gear {
     /// The gear that a file gives, or the usual one and a warning.
-    pub fn given(teeth: i32, offset: f64, at: &str, told: &mut Told) -> Self {
+    pub fn given(teeth: i32, offset: f64, at: &str, told: &mut WarningList) -> Self {
         let given = Self { teeth, offset };
         match given.tiers().check() {
             Ok(()) => given,
@@ -119,7 +119,7 @@ impl Gear {
     }
 
     /// How the plane with this unit normal is cut. The sign of `normal.z`, even of zero, tells crown from pavilion.
-    pub fn setting(self, normal: DVec3, distance: f64) -> Setting {
+    pub fn setting(self, normal: DVec3, distance: f64) -> FacetSetting {
         let across = normal.x.hypot(normal.y);
         let slope = as_written(across.atan2(normal.z.abs()).to_degrees(), ANGLE_STEPS);
         let teeth = f64::from(self.teeth).abs();
@@ -128,7 +128,7 @@ impl Gear {
             0.0 => teeth,
             _ => self.index(normal.x.atan2(-normal.y)),
         };
-        Setting { angle: slope.copysign(normal.z), distance: fourteen_digits(distance), index }
+        FacetSetting { angle: slope.copysign(normal.z), distance: fourteen_digits(distance), index }
     }
 
     /// The index, above 0 and up to the number of teeth, at which a facet lies whose azimuth from -y is this, radians.
@@ -164,7 +164,7 @@ pub(super) fn off_the_origin(distance: f64, farthest: f64) -> f64 {
 }
 
 /// Facets as tiers: those in a row that are cut alike, and told apart by no instructions of their own.
-pub(super) fn gathered(pieces: impl IntoIterator<Item = Piece>) -> Vec<Tier> {
+pub(super) fn gathered(pieces: impl IntoIterator<Item = TierPiece>) -> Vec<Tier> {
     let mut tiers: Vec<Tier> = Vec::new();
     let mut last = None;
     for piece in pieces {
@@ -178,9 +178,9 @@ pub(super) fn gathered(pieces: impl IntoIterator<Item = Piece>) -> Vec<Tier> {
     tiers
 }
 
-impl Piece {
+impl TierPiece {
     fn belongs_to(&self, tier: &Tier) -> bool {
-        let Setting { angle, distance, .. } = self.setting;
+        let FacetSetting { angle, distance, .. } = self.setting;
         let said = [&self.instructions, &tier.instructions];
         (angle - tier.angle).abs() <= SAME_SETTING
             && angle.is_sign_negative() == tier.angle.is_sign_negative()
@@ -197,7 +197,7 @@ impl Piece {
     }
 
     fn alone(self) -> Tier {
-        let Setting { angle, distance, index } = self.setting;
+        let FacetSetting { angle, distance, index } = self.setting;
         let facets = vec![Indexed { index, name: self.name }];
         Tier { angle, distance, instructions: self.instructions, is_cut: self.is_cut, facets }
     }
@@ -223,7 +223,7 @@ pub(super) fn up_to_the_last(mut lines: Vec<String>) -> Vec<String> {
 }
 
 /// A file's symmetry, or 1 and a warning.
-pub(super) fn symmetry(given: i32, at: &str, told: &mut Told) -> u32 {
+pub(super) fn symmetry(given: i32, at: &str, told: &mut WarningList) -> u32 {
     match u32::try_from(given) {
         Ok(symmetry @ 1..) => symmetry,
         _ => {
@@ -234,7 +234,7 @@ pub(super) fn symmetry(given: i32, at: &str, told: &mut Told) -> u32 {
 }
 
 /// A file's refractive index as a material, or the usual one and a warning.
-pub(super) fn material(index: f64, at: &str, told: &mut Told) -> MaterialRef {
+pub(super) fn material(index: f64, at: &str, told: &mut WarningList) -> MaterialRef {
     let material = MaterialRef::Index(index);
     match material.check() {
         Ok(()) => material,
@@ -250,15 +250,15 @@ pub(super) fn brought(
     name: String,
     material: MaterialRef,
     tiers: Tiers,
-    told: Told,
+    warnings: WarningList,
     label: &str,
-) -> Result<Brought, CutFileError> {
+) -> Result<ImportedDesign, CutFileError> {
     let diameter_mm = DEFAULT_DIAMETER_MM;
     let cut = Cut::Tiers(tiers);
     let design = Design { name, source: None, notes: None, material, diameter_mm, cut };
     let refused = |message: String| CutFileError { path: label.to_owned(), line: None, message };
     design.check().map_err(|error| refused(error.to_string()))?;
-    Ok(Brought { warnings: told.texts(), ..Brought::of(design) })
+    Ok(ImportedDesign { warnings: warnings.texts(), ..ImportedDesign::of(design) })
 }
 
 #[cfg(test)]
@@ -276,7 +276,10 @@ mod tests {
                 let facets = vec![Indexed { index, name: String::new() }];
                 let tier = Tier { angle, distance: 0.7, instructions: String::new(), is_cut: true, facets };
                 let plane = gear.tiers().plane(&tier, index);
-                assert_eq!(gear.setting(plane.normal, plane.offset), Setting { angle, distance: 0.7, index });
+                assert_eq!(
+                    gear.setting(plane.normal, plane.offset),
+                    FacetSetting { angle, distance: 0.7, index }
+                );
             }
         }
     }
@@ -285,15 +288,15 @@ mod tests {
     fn a_flat_lies_at_the_last_tooth_and_its_sign_tells_which() {
         let gear = Gear { teeth: -96, offset: 48.0 };
         let table = gear.setting(DVec3::new(1e-16, -3e-15, 1.0), 0.4);
-        assert_eq!(table, Setting { angle: 0.0, distance: 0.4, index: 96.0 });
+        assert_eq!(table, FacetSetting { angle: 0.0, distance: 0.4, index: 96.0 });
         assert!(gear.setting(DVec3::NEG_Z, 0.4).angle.is_sign_negative());
     }
 
     #[test]
     fn facets_that_differ_are_tiers_of_their_own() {
-        let piece = |tier, angle, distance, instructions: &str| Piece {
+        let piece = |tier, angle, distance, instructions: &str| TierPiece {
             tier,
-            setting: Setting { angle, distance, index: 3.0 },
+            setting: FacetSetting { angle, distance, index: 3.0 },
             name: "A".to_owned(),
             instructions: instructions.to_owned(),
             is_cut: true,
@@ -322,7 +325,7 @@ mod tests {
 
     #[test]
     fn warnings_have_an_end() {
-        let mut told = Told::default();
+        let mut told = WarningList::default();
         (0..1000).for_each(|k| told.warn(|| format!("{k}")));
         let texts = told.texts();
         assert_eq!(texts.len(), MOST_WARNINGS + 1);

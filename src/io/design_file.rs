@@ -14,7 +14,7 @@ use std::path::Path;
 
 /// A format of designs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Format {
+pub enum DesignFormat {
     /// This program's own cut files, TOML.
     Toml,
     /// GemCad's text files.
@@ -35,7 +35,7 @@ pub enum Format {
 
 /// What a file has brought in.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Brought {
+pub struct ImportedDesign {
     /// The design that it tells of.
     pub design: Design,
     /// How the file was understood, in words, where it could be understood otherwise.
@@ -46,7 +46,7 @@ pub struct Brought {
     pub doubt: Option<bool>,
 }
 
-impl Brought {
+impl ImportedDesign {
     /// A design of which there is nothing to say.
     pub fn of(design: Design) -> Self {
         Self { design, notes: vec![], warnings: vec![], doubt: None }
@@ -55,14 +55,14 @@ impl Brought {
 
 /// A design as a file.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Written {
+pub struct EncodedDesign {
     /// The file.
     pub bytes: Vec<u8>,
     /// What its format cannot hold, in words.
     pub lost: Vec<String>,
 }
 
-impl Format {
+impl DesignFormat {
     /// All there are.
     pub const ALL: [Self; 8] =
         [Self::Toml, Self::Asc, Self::Gem, Self::Gcs, Self::Obj, Self::Stl, Self::Ply, Self::Glb];
@@ -116,7 +116,7 @@ impl Format {
 ///
 /// # Errors
 /// What keeps the file from being one, with its path, and line where there is one.
-pub fn read(path: &Path) -> Result<Brought, CutFileError> {
+pub fn read(path: &Path) -> Result<ImportedDesign, CutFileError> {
     read_with(path, MeshOptions::default())
 }
 
@@ -124,7 +124,7 @@ pub fn read(path: &Path) -> Result<Brought, CutFileError> {
 ///
 /// # Errors
 /// What keeps the file from being one, with its path, and line where there is one.
-pub fn read_with(path: &Path, mesh: MeshOptions) -> Result<Brought, CutFileError> {
+pub fn read_with(path: &Path, mesh: MeshOptions) -> Result<ImportedDesign, CutFileError> {
     let label = path.display().to_string();
     let fault = |error: text::TextError| CutFileError {
         path: label.clone(),
@@ -135,14 +135,16 @@ pub fn read_with(path: &Path, mesh: MeshOptions) -> Result<Brought, CutFileError
     if mesh_file::looks_like(&bytes).is_some() {
         return mesh_design::read(bytes, path, mesh);
     }
-    let mut brought = match Format::of(&bytes, path) {
-        Format::Asc => asc::read(&bytes, &label),
-        Format::Gem => gem::read(&bytes, &label),
-        Format::Gcs => gcs::read(&bytes, &label),
-        Format::Obj | Format::Stl | Format::Ply | Format::Glb => return mesh_design::read(bytes, path, mesh),
-        Format::Toml => {
+    let mut brought = match DesignFormat::of(&bytes, path) {
+        DesignFormat::Asc => asc::read(&bytes, &label),
+        DesignFormat::Gem => gem::read(&bytes, &label),
+        DesignFormat::Gcs => gcs::read(&bytes, &label),
+        DesignFormat::Obj | DesignFormat::Stl | DesignFormat::Ply | DesignFormat::Glb => {
+            return mesh_design::read(bytes, path, mesh);
+        }
+        DesignFormat::Toml => {
             let text = text::utf8(bytes).map_err(fault)?;
-            cut_file::parse(&text, &label).map(Brought::of)
+            cut_file::parse(&text, &label).map(ImportedDesign::of)
         }
     }?;
     if mesh != MeshOptions::default() {
@@ -155,42 +157,44 @@ pub fn read_with(path: &Path, mesh: MeshOptions) -> Result<Brought, CutFileError
 ///
 /// # Errors
 /// [`Failure::Output`] where the format has no place for a mesh, or for so large a one.
-pub fn written(specimen: &Specimen, format: Format) -> Result<Written, Failure> {
+pub fn written(specimen: &Specimen, format: DesignFormat) -> Result<EncodedDesign, Failure> {
     let (name, radius_mm) = (specimen.design.name.as_str(), specimen.unit_mm());
     let material = &specimen.design.material;
     let refused = |error: &dyn std::fmt::Display| Failure::Output(format!("{}: {error}", format.ending()));
-    if matches!(format, Format::Asc | Format::Gem | Format::Gcs) && specimen.stone().is_err() {
+    if matches!(format, DesignFormat::Asc | DesignFormat::Gem | DesignFormat::Gcs)
+        && specimen.stone().is_err()
+    {
         return Err(Failure::Input(format!(
             "{name}: .{} takes convex stones between planes, and this is none; write .toml, .obj, .stl, .ply or .glb",
             format.ending()
         )));
     }
     Ok(match format {
-        Format::Toml => {
+        DesignFormat::Toml => {
             let bytes = cut_file::write(&specimen.design).into_bytes();
             if bytes.len() as u64 > cut_file::MAX_MESH_BYTES {
                 return Err(refused(
                     &"this mesh is too large for a cut file; write it as .glb, .ply, .stl or .obj",
                 ));
             }
-            Written { bytes, lost: vec![] }
+            EncodedDesign { bytes, lost: vec![] }
         }
-        Format::Asc => asc::write(specimen),
-        Format::Gem => gem::write(specimen),
-        Format::Gcs => gcs::write(specimen),
-        Format::Obj => {
+        DesignFormat::Asc => asc::write(specimen),
+        DesignFormat::Gem => gem::write(specimen),
+        DesignFormat::Gcs => gcs::write(specimen),
+        DesignFormat::Obj => {
             let text = write_obj(&specimen.body, name, radius_mm, Some(material));
             as_mesh(specimen, format, text.into_bytes())
         }
-        Format::Stl => {
+        DesignFormat::Stl => {
             let bytes = write_stl(&specimen.body, radius_mm, Some(material)).map_err(|e| refused(&e))?;
             as_mesh(specimen, format, bytes)
         }
-        Format::Ply => {
+        DesignFormat::Ply => {
             let bytes = write_ply(&specimen.body, radius_mm, Some(material)).map_err(|e| refused(&e))?;
             as_mesh(specimen, format, bytes)
         }
-        Format::Glb => {
+        DesignFormat::Glb => {
             // The standard's unit is the metre.
             let (scale, hint) = (1e-3 * radius_mm, MaterialHint::of(&specimen.material, 1e3));
             let bytes =
@@ -201,8 +205,8 @@ pub fn written(specimen: &Specimen, format: Format) -> Result<Written, Failure> 
 }
 
 /// A mesh, and what meshes have no place for.
-fn as_mesh(specimen: &Specimen, format: Format, bytes: Vec<u8>) -> Written {
-    let is_named = matches!(format, Format::Obj | Format::Glb);
+fn as_mesh(specimen: &Specimen, format: DesignFormat, bytes: Vec<u8>) -> EncodedDesign {
+    let is_named = matches!(format, DesignFormat::Obj | DesignFormat::Glb);
     let shape = match &specimen.body {
         Body::Mesh(_) | Body::Glass(_) => "its triangles",
         Body::Stone(_) if is_named => "its facets, their names",
@@ -214,10 +218,10 @@ fn as_mesh(specimen: &Specimen, format: Format, bytes: Vec<u8>) -> Written {
         MaterialRef::Custom(_) => None,
     };
     let (has_statement, has_material) = match format {
-        Format::Stl => stated_in_header(&bytes),
+        DesignFormat::Stl => stated_in_header(&bytes),
         _ => (true, true),
     };
-    let seen = (format == Format::Glb).then_some("the material as three colours see it");
+    let seen = (format == DesignFormat::Glb).then_some("the material as three colours see it");
     let size = has_statement.then_some("its size");
     let kept: Vec<&str> =
         [Some(shape), size, material.filter(|_| has_material), seen].into_iter().flatten().collect();
@@ -233,7 +237,7 @@ fn as_mesh(specimen: &Specimen, format: Format, bytes: Vec<u8>) -> Written {
         let off = smooth.field().deviation(FINENESS) * specimen.unit_mm();
         lost.push(format!("its smooth surface is written as triangles, {off:.1e} mm off it at most"));
     }
-    Written { bytes, lost }
+    EncodedDesign { bytes, lost }
 }
 
 /// Whether the header of an STL says how large its stone is and which way it faces, and of what it is.
@@ -255,7 +259,7 @@ fn listed(words: &[&str]) -> String {
 ///
 /// # Errors
 /// Where the file system refuses.
-pub fn write(specimen: &Specimen, format: Format, path: &Path) -> Result<Vec<String>, Failure> {
+pub fn write(specimen: &Specimen, format: DesignFormat, path: &Path) -> Result<Vec<String>, Failure> {
     let written = written(specimen, format)?;
     write_whole(path, |file| file.write_all(&written.bytes).map_err(|e| WriteError::io(path, e)))?;
     Ok(written.lost)

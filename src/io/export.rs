@@ -1,25 +1,25 @@
 //! A stone as files: pictures, drawings and figures, one after the other.
 
+mod event;
 mod figures;
 mod pictures;
 mod sampler;
-mod told;
 mod viewing;
 
 #[cfg(test)]
 mod tests;
 
-pub use figures::{Report, measure};
-pub use told::{Tell, Told};
+pub use event::{Event, Reporter};
+pub use figures::{FigureReport, measure};
 pub use viewing::Viewing;
 
 use super::{Failure, WriteError, is_standard, write};
 use crate::picture::{Picture, Scoped};
 use crate::trace::{Tracer, Watch};
+use event::WorkShares;
 use pictures::Pictures;
 use std::collections::HashSet;
 use std::path::{Path, PathBuf};
-use told::Pace;
 
 /// The largest side of an EXR, in pixels: it is held in memory, a dozen channels deep.
 pub const MOST_EXR_PIXELS: u32 = 8192;
@@ -36,7 +36,7 @@ const FIGURES: f64 = 1.0;
 
 /// A kind of file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Format {
+pub enum OutputFormat {
     /// Pictures of energy and of strongest exits, and drawings; sRGB.
     Png,
     /// The virtual facets as polygons, and drawings.
@@ -47,7 +47,7 @@ pub enum Format {
     Json,
 }
 
-impl Format {
+impl OutputFormat {
     /// All there are.
     pub const ALL: [Self; 4] = [Self::Png, Self::Svg, Self::Exr, Self::Json];
 
@@ -75,7 +75,7 @@ pub struct Outputs {
     /// Pixels along each side, from 1 to [`MOST_PIXELS`](super::MOST_PIXELS); for EXR to [`MOST_EXR_PIXELS`].
     pub size: u32,
     /// Kinds of file.
-    pub formats: Vec<Format>,
+    pub formats: Vec<OutputFormat>,
     /// Whether pictures in scopes are written by strongest exits too, and not by energy alone.
     pub strongest: bool,
     /// Whether a caption with the legend of the scope's zones is drawn under pictures in scopes, of PNG and SVG.
@@ -90,7 +90,7 @@ impl Outputs {
     /// # Errors
     /// [`Failure::Usage`] where two would bear one name, or the size is too large.
     pub fn check(&self) -> Result<(), Failure> {
-        if self.wants(Format::Exr) && self.size > MOST_EXR_PIXELS {
+        if self.wants(OutputFormat::Exr) && self.size > MOST_EXR_PIXELS {
             let size = self.size;
             let message = format!("{size} pixels along each side: an EXR may have {MOST_EXR_PIXELS}");
             return Err(Failure::Usage(message));
@@ -121,20 +121,20 @@ impl Outputs {
     }
 
     /// The file of a name; `suffix` says from where the stone is seen.
-    fn path(&self, suffix: &str, name: &str, format: Format) -> PathBuf {
+    fn path(&self, suffix: &str, name: &str, format: OutputFormat) -> PathBuf {
         if is_standard(&self.folder) {
             return self.folder.clone();
         }
         self.folder.join(format!("{}{suffix}-{name}.{}", self.stem, format.ending()))
     }
 
-    fn wants(&self, format: Format) -> bool {
+    fn wants(&self, format: OutputFormat) -> bool {
         self.formats.contains(&format)
     }
 
     /// The pictures, if more than figures is wanted.
     fn drawn(&self) -> impl Iterator<Item = &(String, Picture)> {
-        let draws = self.formats.iter().any(|&f| f != Format::Json);
+        let draws = self.formats.iter().any(|&f| f != OutputFormat::Json);
         self.pictures.iter().filter(move |_| draws)
     }
 }
@@ -170,7 +170,7 @@ impl Export<'_> {
     fn paths(&self) -> Vec<PathBuf> {
         let outputs = self.outputs;
         let drawn = outputs.drawn().flat_map(|(name, picture)| self.files_of(name, picture));
-        let figures = outputs.wants(Format::Json).then(|| self.figures_path());
+        let figures = outputs.wants(OutputFormat::Json).then(|| self.figures_path());
         drawn.chain(figures).collect()
     }
 
@@ -179,21 +179,22 @@ impl Export<'_> {
     /// # Errors
     /// Those of [`files`](Self::files), before anything is written; [`Failure::Output`]; what `tell` answers; or
     /// [`Failure::Stopped`] when `watch` asks to stop. Files told as written stay.
-    pub fn write(&self, watch: Watch, tell: Tell) -> Result<(), Failure> {
+    pub fn write(&self, watch: Watch, tell: Reporter) -> Result<(), Failure> {
         self.check()?;
         let outputs = self.outputs;
         let is_scoped = |(_, picture): &(String, Picture)| matches!(picture, Picture::Scoped(_));
-        let wants_more = outputs.wants(Format::Exr) || outputs.wants(Format::Svg);
+        let wants_more = outputs.wants(OutputFormat::Exr) || outputs.wants(OutputFormat::Svg);
         if wants_more && matches!(self.viewing.tracer, Tracer::Rays(_)) && outputs.drawn().any(is_scoped) {
-            tell(Told::Note(&only_png("pictures in scopes")))?;
+            tell(Event::Note(&only_png("pictures in scopes")))?;
         }
         let mut pictures = Pictures::new(self, tell);
-        let measured = if outputs.wants(Format::Json) { FIGURES } else { 0.0 };
-        let mut pace = Pace::new(watch, outputs.drawn().map(|(_, p)| effort(p)).sum::<f64>() + measured);
+        let measured = if outputs.wants(OutputFormat::Json) { FIGURES } else { 0.0 };
+        let mut pace =
+            WorkShares::new(watch, outputs.drawn().map(|(_, p)| effort(p)).sum::<f64>() + measured);
         for (name, picture) in outputs.drawn() {
             pace.step(effort(picture), |watch| pictures.make(name, picture, watch))?;
         }
-        if outputs.wants(Format::Json) {
+        if outputs.wants(OutputFormat::Json) {
             pace.step(FIGURES, |watch| self.write_figures(watch, tell))?;
         }
         // Nothing is left to stop.
@@ -208,11 +209,11 @@ impl Export<'_> {
         for (name, picture) in outputs.drawn() {
             let Picture::Scoped(scoped) = picture else { continue };
             viewing.facing(scoped.side).check()?;
-            if matches!(viewing.tracer, Tracer::Rays(_)) && !outputs.wants(Format::Png) {
+            if matches!(viewing.tracer, Tracer::Rays(_)) && !outputs.wants(OutputFormat::Png) {
                 return Err(Failure::Usage(only_png(name)));
             }
         }
-        if outputs.wants(Format::Json) { viewing.check() } else { Ok(()) }
+        if outputs.wants(OutputFormat::Json) { viewing.check() } else { Ok(()) }
     }
 
     /// Refuses several files where standard output is to take them.
@@ -240,8 +241,8 @@ impl Export<'_> {
 
     /// The files of a picture, in the order in which they are finished.
     fn files_of(&self, name: &str, picture: &Picture) -> Vec<PathBuf> {
-        use Format::{Exr, Png, Svg};
-        let files: &[(&str, Format)] = match (picture, self.viewing.tracer) {
+        use OutputFormat::{Exr, Png, Svg};
+        let files: &[(&str, OutputFormat)] = match (picture, self.viewing.tracer) {
             (Picture::Profile | Picture::Diagram, _) if self.viewing.specimen.stone().is_err() => &[],
             (Picture::Profile | Picture::Diagram, _) => &[("", Svg), ("", Png)],
             (Picture::Scoped(_), Tracer::Beams) => {
@@ -261,11 +262,11 @@ impl Export<'_> {
     }
 
     fn figures_path(&self) -> PathBuf {
-        self.outputs.path(&self.viewing.viewpoint.suffix(), "figures", Format::Json)
+        self.outputs.path(&self.viewing.viewpoint.suffix(), "figures", OutputFormat::Json)
     }
 
-    fn write_figures(&self, watch: Watch, tell: Tell) -> Result<(), Failure> {
-        tell(Told::Begun(&format!("measuring {}", self.viewing.file)))?;
+    fn write_figures(&self, watch: Watch, tell: Reporter) -> Result<(), Failure> {
+        tell(Event::Begun(&format!("measuring {}", self.viewing.file)))?;
         let report = measure(&self.viewing, &Scoped::aset(), watch, tell)?;
         write_text(&self.figures_path(), &format!("{:#}\n", report.json(self.outputs.timing)), tell)
     }
@@ -281,7 +282,7 @@ fn only_png(name: &str) -> String {
     format!("{name}: rays make PNG pictures only; SVG and EXR need exact beams")
 }
 
-fn write_text(path: &Path, text: &str, tell: Tell) -> Result<(), Failure> {
+fn write_text(path: &Path, text: &str, tell: Reporter) -> Result<(), Failure> {
     write(path, |file| file.write_all(text.as_bytes()).map_err(|e| WriteError::io(path, e)))?;
-    tell(Told::Written(path))
+    tell(Event::Written(path))
 }

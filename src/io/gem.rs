@@ -4,11 +4,11 @@
 //! The planes are trusted; outlines are passed over in reading and made anew in writing.
 
 use super::cut_file::CutFileError;
-use super::cutters::{self, Gear, Piece, Told};
-use super::design_file::Brought;
+use super::cutters::{self, Gear, TierPiece, WarningList};
+use super::design_file::ImportedDesign;
 use crate::cut::{MAX_PLANES, Tiers};
 use crate::math::Plane;
-use cursor::{Cursor, Fault};
+use cursor::{Cursor, GemFault};
 use glam::DVec3;
 
 mod cursor;
@@ -55,12 +55,12 @@ struct Raw<'a> {
 ///
 /// # Errors
 /// What keeps it from being a design, with its offset.
-pub fn read(bytes: &[u8], label: &str) -> Result<Brought, CutFileError> {
+pub fn read(bytes: &[u8], label: &str) -> Result<ImportedDesign, CutFileError> {
     let refused = |message| CutFileError { path: label.to_owned(), line: None, message };
     if bytes.len() > MAX_BYTES {
         return Err(refused(super::text::too_large(MAX_BYTES as u64)));
     }
-    let mut told = Told::default();
+    let mut told = WarningList::default();
     let mut cursor = Cursor::new(bytes);
     let raw = raw_facets(&mut cursor).map_err(|fault| refused(fault.to_string()))?;
     let (mut tiers, index) = trailer(&mut cursor, &mut told).map_err(|fault| refused(fault.to_string()))?;
@@ -76,7 +76,7 @@ pub fn looks_like(bytes: &[u8]) -> bool {
 }
 
 /// Facets down to the mark at their end.
-fn raw_facets<'a>(cursor: &mut Cursor<'a>) -> Result<Vec<Raw<'a>>, Fault> {
+fn raw_facets<'a>(cursor: &mut Cursor<'a>) -> Result<Vec<Raw<'a>>, GemFault> {
     let mut facets = Vec::new();
     loop {
         let at = cursor.at();
@@ -86,15 +86,15 @@ fn raw_facets<'a>(cursor: &mut Cursor<'a>) -> Result<Vec<Raw<'a>>, Fault> {
         }
         if facets.len() == MAX_PLANES {
             let message = format!("there are more facets than {MAX_PLANES}, which are the most taken");
-            return Err(Fault { at, message });
+            return Err(GemFault { at, message });
         }
         facets.push(raw_facet(cursor, at, x)?);
     }
 }
 
-fn raw_facet<'a>(cursor: &mut Cursor<'a>, at: usize, x: f64) -> Result<Raw<'a>, Fault> {
+fn raw_facet<'a>(cursor: &mut Cursor<'a>, at: usize, x: f64) -> Result<Raw<'a>, GemFault> {
     let p = DVec3::new(x, cursor.f64("a facet")?, cursor.f64("a facet")?);
-    let plane = Plane::new(p, 1.0).normalized().ok_or_else(|| Fault {
+    let plane = Plane::new(p, 1.0).normalized().ok_or_else(|| GemFault {
         at,
         message: format!(
             "{p} is no facet's normal over its distance; three finite numbers that are not all 0 are expected, or \
@@ -108,7 +108,7 @@ fn raw_facet<'a>(cursor: &mut Cursor<'a>, at: usize, x: f64) -> Result<Raw<'a>, 
 }
 
 /// Passes over an outline, and tells whether it ends at the block that GemCad cuts from.
-fn outline(cursor: &mut Cursor<'_>) -> Result<bool, Fault> {
+fn outline(cursor: &mut Cursor<'_>) -> Result<bool, GemFault> {
     let mut on_blank = false;
     loop {
         let at = cursor.at();
@@ -124,14 +124,14 @@ fn outline(cursor: &mut Cursor<'_>) -> Result<bool, Fault> {
                     "{other} stands where 1 (a corner follows) or 0 (the facet ends) is expected; the file is spoilt \
                      or no .gem"
                 );
-                return Err(Fault { at, message });
+                return Err(GemFault { at, message });
             }
         }
     }
 }
 
 /// All but the facets, and the refractive index with its place.
-fn trailer(cursor: &mut Cursor<'_>, told: &mut Told) -> Result<(Tiers, (usize, f64)), Fault> {
+fn trailer(cursor: &mut Cursor<'_>, told: &mut WarningList) -> Result<(Tiers, (usize, f64)), GemFault> {
     const WHAT: &str = "the symmetry, gear and index that follow on the facets";
     let at = cursor.at();
     let (symmetry, mirror, teeth) = (cursor.i32(WHAT)?, cursor.i32(WHAT)?, cursor.i32(WHAT)?);
@@ -152,7 +152,7 @@ fn trailer(cursor: &mut Cursor<'_>, told: &mut Told) -> Result<(Tiers, (usize, f
 }
 
 /// The lines at the top and at the end; what is missing of them is told, since the stone is whole without.
-fn lines(cursor: &mut Cursor<'_>, told: &mut Told) -> [Vec<String>; 2] {
+fn lines(cursor: &mut Cursor<'_>, told: &mut WarningList) -> [Vec<String>; 2] {
     let mut all = Vec::new();
     for _ in 0..2 * LINES {
         match cursor.text("the headers and footers") {
@@ -168,7 +168,7 @@ fn lines(cursor: &mut Cursor<'_>, told: &mut Told) -> [Vec<String>; 2] {
 }
 
 /// What follows on the design.
-fn rest(cursor: &mut Cursor<'_>, told: &mut Told) {
+fn rest(cursor: &mut Cursor<'_>, told: &mut WarningList) {
     let (at, left) = (cursor::place(cursor.at()), cursor.left());
     if left == 0 {
         return;
@@ -180,7 +180,7 @@ fn rest(cursor: &mut Cursor<'_>, told: &mut Told) {
 }
 
 /// The facets by the gear of `tiers`.
-fn pieces(raw: &[Raw<'_>], tiers: &Tiers, told: &mut Told) -> Vec<Piece> {
+fn pieces(raw: &[Raw<'_>], tiers: &Tiers, told: &mut WarningList) -> Vec<TierPiece> {
     let gear = Gear { teeth: tiers.gear, offset: tiers.offset };
     let farthest = raw.iter().map(|facet| facet.plane.offset).fold(0.0, f64::max);
     let piece = |raw: &Raw<'_>| {
@@ -192,7 +192,7 @@ fn pieces(raw: &[Raw<'_>], tiers: &Tiers, told: &mut Told) -> Vec<Piece> {
             told.warn(|| format!("{at}facet '{name}' runs through the origin; its distance is taken as 0"));
         }
         let normal = raw.plane.normal * DVec3::new(1.0, -1.0, 1.0);
-        Piece {
+        TierPiece {
             tier: raw.tier as u32 as usize,
             setting: gear.setting(normal, distance),
             name: name.to_owned(),
@@ -201,11 +201,11 @@ fn pieces(raw: &[Raw<'_>], tiers: &Tiers, told: &mut Told) -> Vec<Piece> {
         }
     };
     let pieces = raw.iter().map(piece).collect();
-    tell_of_the_blank(raw, told);
+    warn_of_blank(raw, told);
     pieces
 }
 
-fn tell_of_the_blank(raw: &[Raw<'_>], told: &mut Told) {
+fn warn_of_blank(raw: &[Raw<'_>], told: &mut WarningList) {
     let on_blank = || raw.iter().filter(|facet| facet.on_blank);
     if let Some(first) = on_blank().next() {
         let (at, count) = (cursor::place(first.at), on_blank().count());

@@ -69,7 +69,7 @@ mod tests {
     use crate::scene::{LIGHTS, PanoramaRef};
     use proptest::prelude::*;
 
-    fn told(text: &str) -> String {
+    fn message(text: &str) -> String {
         let fault = light(text).unwrap_err();
         format!("{}: {}", fault.line(text).unwrap_or(0), fault.message)
     }
@@ -116,7 +116,7 @@ mod tests {
             (start.replace("\"x\"", "\" \""), "1: name: give 1 to 60 characters"),
         ];
         for (text, expected) in cases {
-            let told = told(&text);
+            let told = message(&text);
             assert!(told.starts_with(expected), "{told}\nfor\n{text}");
         }
     }
@@ -139,7 +139,7 @@ mod tests {
             (dome.replace("= 1", "= 1,5"), "3: radiance: column 13", "decimal point"),
         ];
         for (text, start, within) in cases {
-            let told = told(&text);
+            let told = message(&text);
             assert!(told.starts_with(start) && told.contains(within), "{told}\nfor\n{text}");
         }
     }

@@ -2,7 +2,7 @@
 
 use super::{light_file, panorama};
 use crate::scene::{LIGHTS, Light, light};
-use crate::trace::surround::Sky;
+use crate::trace::environment::EnvironmentMap;
 use std::path::{Path, PathBuf};
 
 /// A light, and what it looks like from inside.
@@ -11,7 +11,7 @@ pub struct Lighting {
     /// What was asked for.
     pub light: Light,
     /// Ready to be looked up, with its panorama.
-    pub sky: Sky,
+    pub map: EnvironmentMap,
     /// What is odd about its panorama, in words that name the file.
     pub warnings: Vec<String>,
 }
@@ -43,16 +43,16 @@ impl Lighting {
             None => (light_file::read(&file).map_err(LightingError::File)?, file.parent()),
         };
         let (sky, warnings) = sky(&light, folder)?;
-        Ok(Self { light, sky, warnings })
+        Ok(Self { light, map: sky, warnings })
     }
 }
 
 /// A light as it is looked up; its panorama's path begins at a folder.
-fn sky(light: &Light, folder: Option<&Path>) -> Result<(Sky, Vec<String>), LightingError> {
-    let Some(picture) = &light.panorama else { return Ok((Sky::new(light, None), vec![])) };
+fn sky(light: &Light, folder: Option<&Path>) -> Result<(EnvironmentMap, Vec<String>), LightingError> {
+    let Some(picture) = &light.panorama else { return Ok((EnvironmentMap::new(light, None), vec![])) };
     let path = folder.map_or_else(|| picture.file.clone(), |folder| folder.join(&picture.file));
     let reading = panorama::read(&path).map_err(LightingError::File)?;
-    Ok((Sky::new(light, Some(&reading.panorama)), reading.warnings))
+    Ok((EnvironmentMap::new(light, Some(&reading.panorama)), reading.warnings))
 }
 
 /// What to say of a name that no light has.
@@ -80,7 +80,10 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let at = |name: &str| folder.path().join(name);
         let ring = Lighting::load("Ring").unwrap();
-        assert_eq!((ring.light.name.as_str(), &ring.sky), ("ring", &Sky::new(&Light::ring(), None)));
+        assert_eq!(
+            (ring.light.name.as_str(), &ring.map),
+            ("ring", &EnvironmentMap::new(&Light::ring(), None))
+        );
         // All is white but for the lower half, which is black: what lies above shows that it was read.
         let half: Vec<u8> = (0..32_u8).flat_map(|k| [[255; 3], [0; 3]][usize::from(k / 16)]).collect();
         let rgba: Vec<u8> = half.chunks(3).flat_map(|c| [c[0], c[1], c[2], 255]).collect();
@@ -89,13 +92,13 @@ mod tests {
         let bare = Lighting::load(at("skies/half.png").to_str().unwrap()).unwrap();
         assert_eq!(bare.light.name, "half");
         std::fs::copy(at("skies/half.png"), at("skies/odd.toml")).unwrap();
-        assert_eq!(Lighting::load(at("skies/odd.toml").to_str().unwrap()).unwrap().sky, bare.sky);
+        assert_eq!(Lighting::load(at("skies/odd.toml").to_str().unwrap()).unwrap().map, bare.map);
         let named = "name = \"named\"\n[panorama]\nfile = \"half.png\"\n";
         std::fs::write(at("skies/named.light"), named).unwrap();
         let named = Lighting::load(at("skies/named.light").to_str().unwrap()).unwrap();
-        assert_eq!((named.light.name.as_str(), &named.sky), ("named", &bare.sky));
-        let brightest = |sky: &Sky| sky.levels[0].iter().map(|t| t[1]).fold(0.0, f32::max);
-        assert!((brightest(&bare.sky) - 1.0).abs() < 1e-6);
+        assert_eq!((named.light.name.as_str(), &named.map), ("named", &bare.map));
+        let brightest = |sky: &EnvironmentMap| sky.levels[0].iter().map(|t| t[1]).fold(0.0, f32::max);
+        assert!((brightest(&bare.map) - 1.0).abs() < 1e-6);
     }
 
     #[test]

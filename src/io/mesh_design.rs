@@ -3,15 +3,15 @@
 mod place;
 
 use super::cut_file::CutFileError;
-use super::design_file::Brought;
+use super::design_file::ImportedDesign;
 use super::mesh_file::{self, MaterialHint, MeshFile};
 use super::mesh_options::{MeshForm, MeshOptions};
 use crate::cut::from_mesh::{FromMesh, Up, directions, from_mesh};
 use crate::cut::{Cut, DEFAULT_DIAMETER_MM, Design, MaterialRef, MeshShape, is_printable};
-use crate::math::surface::{Change, Faceted, Mending, Shape, TooCurved, faceted_hull, facets};
-use crate::math::{Shell, Surface};
+use crate::math::surface::{Change, Faceted, Mending, SurfaceKind, TooCurved, faceted_hull, facets};
+use crate::math::{Surface, TriangleMesh};
 use glam::{DQuat, DVec3};
-use place::{Place, Told, axes, doubtful};
+use place::{MeshPlace, MeshRemarks, axes, doubtful};
 use std::path::Path;
 
 /// The material that is taken where a file says nothing of one.
@@ -21,7 +21,7 @@ const USUAL: &str = "diamond";
 ///
 /// # Errors
 /// What keeps it from being a stone, with path and place.
-pub fn read(bytes: Vec<u8>, path: &Path, options: MeshOptions) -> Result<Brought, CutFileError> {
+pub fn read(bytes: Vec<u8>, path: &Path, options: MeshOptions) -> Result<ImportedDesign, CutFileError> {
     let told = |e: mesh_file::MeshFileError| CutFileError {
         path: e.path,
         line: None,
@@ -33,15 +33,15 @@ pub fn read(bytes: Vec<u8>, path: &Path, options: MeshOptions) -> Result<Brought
     let fault = |message: String| CutFileError { path: label.clone(), line: None, message };
     let mended = surface.mend().map_err(|e| fault(e.to_string()))?;
     let name = Some(name).filter(|name| is_printable(name)).unwrap_or_else(|| "stone".to_owned());
-    let file = File { hint, name, place: Place::of(format, options.up, statement) };
+    let file = File { hint, name, place: MeshPlace::of(format, options.up, statement) };
     let mut brought = match options.form {
         MeshForm::Triangles => file.triangles(mended.surface, None),
         MeshForm::Faceted => {
             faceted_hull(mended.surface).map_err(impossible).and_then(|found| file.planes(&found))
         }
         MeshForm::Found => match facets(mended.surface) {
-            Shape::Convex(found) => file.planes(&found),
-            Shape::Concave(surface) => file.triangles(surface, Some(NOT_CONVEX)),
+            SurfaceKind::Convex(found) => file.planes(&found),
+            SurfaceKind::Concave(surface) => file.triangles(surface, Some(NOT_CONVEX)),
         },
     }
     .map_err(fault)?;
@@ -77,12 +77,12 @@ fn changed(change: &Change, tolerance: f64, scale: f64) -> String {
 struct File {
     hint: Option<MaterialHint>,
     name: String,
-    place: Place,
+    place: MeshPlace,
 }
 
 impl File {
-    fn planes(mut self, found: &Faceted) -> Result<Brought, String> {
-        let mut told = Told::default();
+    fn planes(mut self, found: &Faceted) -> Result<ImportedDesign, String> {
+        let mut told = MeshRemarks::default();
         let surface = found.surface.moved(found.centre);
         let up = self.place.up(&surface, || directions(&found.polytope), &mut told);
         let made = from_mesh(found, up).map_err(|e| e.to_string())?;
@@ -103,10 +103,10 @@ impl File {
         Ok(brought)
     }
 
-    fn triangles(mut self, surface: Surface, why: Option<&str>) -> Result<Brought, String> {
-        let mut told = Told::default();
+    fn triangles(mut self, surface: Surface, why: Option<&str>) -> Result<ImportedDesign, String> {
+        let mut told = MeshRemarks::default();
         let up = self.place.up(&surface, || axes().to_vec(), &mut told);
-        let shell = Shell::new(surface).map_err(|e| e.to_string())?;
+        let shell = TriangleMesh::new(surface).map_err(|e| e.to_string())?;
         let turn = match up {
             Up::Posed(pose) => pose.turn,
             Up::Given(up) | Up::Known(up) | Up::FoundBy(up) => {
@@ -127,8 +127,8 @@ impl File {
     }
 
     /// The design of a cut with `scale` girdle radii per unit of the file.
-    fn brought(self, cut: Cut, scale: f64, told: Told) -> Brought {
-        let Told { mut notes, mut warnings, is_doubtful } = told;
+    fn brought(self, cut: Cut, scale: f64, told: MeshRemarks) -> ImportedDesign {
+        let MeshRemarks { mut notes, mut warnings, is_doubtful } = told;
         let diameter_mm = self.place.diameter_mm.unwrap_or(DEFAULT_DIAMETER_MM);
         let (material, why) = self.material(0.5 * diameter_mm / scale);
         match why {
@@ -136,7 +136,7 @@ impl File {
             Err(warning) => warnings.push(warning),
         }
         let design = Design { name: self.name, source: None, notes: None, material, diameter_mm, cut };
-        Brought { notes, warnings, doubt: Some(is_doubtful), ..Brought::of(design) }
+        ImportedDesign { notes, warnings, doubt: Some(is_doubtful), ..ImportedDesign::of(design) }
     }
 
     /// The material that the file asks for, and a note where it asks for none or a warning where there is no such

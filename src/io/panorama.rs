@@ -28,7 +28,7 @@ const ENDINGS: [&str; 5] = ["exr", "hdr", "png", "jpg", "jpeg"];
 
 /// What was read.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Reading {
+pub struct LoadedPanorama {
     /// The light, finite and not below 0.
     pub panorama: Panorama,
     /// What was odd about the file, in words that name it.
@@ -54,7 +54,7 @@ pub fn is_picture(path: &Path) -> bool {
 ///
 /// # Errors
 /// Text that names the file, says what is wrong and what to do.
-pub fn read(path: &Path) -> Result<Reading, String> {
+pub fn read(path: &Path) -> Result<LoadedPanorama, String> {
     let mut reading = read_photo(path)?;
     let Panorama { width, height, .. } = reading.panorama;
     if !reading.panorama.is_whole_sphere() {
@@ -72,7 +72,7 @@ pub fn read(path: &Path) -> Result<Reading, String> {
 ///
 /// # Errors
 /// Text that names the file, says what is wrong and what to do.
-pub fn read_photo(path: &Path) -> Result<Reading, String> {
+pub fn read_photo(path: &Path) -> Result<LoadedPanorama, String> {
     let label = path.display();
     let (mut panorama, mut warnings) = raw(path).map_err(|e| format!("{label}: {e}"))?;
     let bad = mend(&mut panorama.pixels);
@@ -80,7 +80,7 @@ pub fn read_photo(path: &Path) -> Result<Reading, String> {
         warnings.push(format!("{bad} pixels held light below 0 or no number, which is taken as dark"));
     }
     let warnings = warnings.into_iter().map(|w| format!("{label}: {w}")).collect();
-    Ok(Reading { panorama, warnings })
+    Ok(LoadedPanorama { panorama, warnings })
 }
 
 fn raw(path: &Path) -> Result<Raw, String> {

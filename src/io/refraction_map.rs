@@ -14,7 +14,7 @@ use super::atomic::{WriteError, write};
 use super::exr::write_channels;
 use super::png_bytes::png;
 use crate::optics::{SrgbEncoder, linear_from_encoded};
-use crate::picture::{Linear, MapBand, Place, RefractionMap};
+use crate::picture::{Linear, MapBand, RefractionMap, SourcePlace};
 use ::exr::prelude::{AnyChannel, FlatSamples};
 use ::png::{BitDepth, ColorType, EncodingError};
 use glam::DMat3;
@@ -59,7 +59,7 @@ impl About {
         Self { nm: band.nm, response: band.response.to_cols_array_2d() }
     }
 
-    fn band(&self, places: Vec<Place>) -> MapBand {
+    fn band(&self, places: Vec<SourcePlace>) -> MapBand {
         MapBand { nm: self.nm, response: DMat3::from_cols_array_2d(&self.response), places }
     }
 }
@@ -170,7 +170,7 @@ fn write_float(path: &Path, map: &RefractionMap, description: &str) -> Result<()
     if size.0 * size.1 == 0 || map.bands.is_empty() || !map.bands.iter().all(is_whole) {
         return Err(WriteError::io(path, io::Error::other("the map lacks pixels")));
     }
-    type Part = (&'static str, fn(&Place) -> f32);
+    type Part = (&'static str, fn(&SourcePlace) -> f32);
     let parts: [Part; 3] = [("u", |p| p.u), ("v", |p| p.v), ("weight", |p| p.weight)];
     let channels = map.bands.iter().enumerate().flat_map(|(k, band)| {
         parts.map(|(name, part)| {

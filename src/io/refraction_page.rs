@@ -17,7 +17,7 @@ pub struct Page<'a> {
     /// The stone's name.
     pub title: &'a str,
     /// How the map was made, in words.
-    pub told: &'a str,
+    pub description: &'a str,
     /// How many times as wide as the map its background is, at least 1.
     pub span: f64,
     /// A picture to begin with, what it is called and the bytes of its PNG or JPEG; without one the page draws its own.
@@ -58,7 +58,8 @@ fn html(map: &RefractionMap, page: &Page) -> Result<String, png::EncodingError> 
     // In a script element nothing else can end it or begin another.
     let data = data.to_string().replace('<', "\\u003c");
     // The data last: no text of theirs is taken for a place of the template.
-    let html = TEMPLATE.replace("{{told}}", &escaped(page.told)).replace("{{title}}", &escaped(page.title));
+    let html =
+        TEMPLATE.replace("{{told}}", &escaped(page.description)).replace("{{title}}", &escaped(page.title));
     Ok(html.replace("{{data}}", &data))
 }
 
@@ -79,15 +80,16 @@ fn escaped(text: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::picture::{Linear, MapBand, Place};
+    use crate::picture::{Linear, MapBand, SourcePlace};
     use glam::DMat3;
 
     #[test]
     fn names_cannot_break_out_of_the_page_and_nothing_is_fetched() {
-        let band = MapBand { nm: 555.0, response: DMat3::IDENTITY, places: vec![Place::default(); 4] };
+        let band = MapBand { nm: 555.0, response: DMat3::IDENTITY, places: vec![SourcePlace::default(); 4] };
         let map = RefractionMap { size: [2, 2], bands: vec![band], diffuse: Linear::new(2, 2) };
         let title = "</script><script>alert(1)</script>{{data}}\"&";
-        let page = Page { title, told: title, span: 2.0, background: Some(("Photograph", b"\xff\xd8x")) };
+        let page =
+            Page { title, description: title, span: 2.0, background: Some(("Photograph", b"\xff\xd8x")) };
         let html = html(&map, &page).unwrap();
         assert!(!html.contains("alert(1)</script>") && !html.contains("{{"));
         assert_eq!(html.matches("<script").count(), 2);

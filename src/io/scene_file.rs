@@ -8,7 +8,7 @@ use super::fault::Fault;
 use super::text::{self, TextError};
 use crate::cut::{MaterialRef, Size};
 use crate::scene::{LIGHTS, Layout, light};
-use form::{Form, Surroundings};
+use form::{SceneForm, Surroundings};
 use glam::{DQuat, DVec3};
 use serde::Deserialize;
 use std::path::{Path, PathBuf};
@@ -156,7 +156,8 @@ pub fn parse(text: &str, label: &str, folder: Option<&Path>) -> Result<SceneFile
 /// A scene that [`parse`] refuses is written too, but not read back.
 pub fn write(scene: &SceneFile) -> String {
     // TOML lacks a form only for maps without text keys and integers beyond 64 bits, and here are neither.
-    toml::to_string(&written::Written::of(scene)).expect("a scene's form is text, numbers, lists and tables")
+    toml::to_string(&written::EncodedScene::of(scene))
+        .expect("a scene's form is text, numbers, lists and tables")
 }
 
 /// Whether a file is meant as a scene: it has a key that cut files lack. `false` for what cannot be read.
@@ -178,7 +179,7 @@ fn scene(text: &str, folder: Option<&Path>) -> Result<SceneFile, Fault> {
     }
     let table = DeTable::parse(text).map_err(|error| Fault::syntax(text, &error))?;
     check_format(table.get_ref())?;
-    let form = Form::deserialize(Deserializer::from(table)).map_err(Fault::form)?;
+    let form = SceneForm::deserialize(Deserializer::from(table)).map_err(Fault::form)?;
     let line = |number| Fault::at(format!("stone/{number}"), "").line(text).unwrap_or(1);
     let behind = |given: &str| behind(given, folder);
     form.scene(&Surroundings { light: &|given| found(given, folder), background: &behind, line: &line })

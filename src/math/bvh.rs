@@ -16,7 +16,7 @@ const BOX_SLACK: f64 = 16.0 * f64::EPSILON;
 
 /// A box around triangles. Nodes stand depth first: the first half of what is in a box follows it.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Node {
+pub struct BvhNode {
     /// Least coordinates.
     pub low: DVec3,
     /// Greatest coordinates.
@@ -31,7 +31,7 @@ pub struct Node {
 /// A hierarchy of boxes around triangles, and the triangles.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Bvh {
-    nodes: Vec<Node>,
+    nodes: Vec<BvhNode>,
     order: Vec<u32>,
     /// Corners of each triangle, in that order.
     corners: Vec<[DVec3; 3]>,
@@ -74,7 +74,7 @@ impl Bvh {
     }
 
     /// The boxes, the outermost first; none where there are no triangles.
-    pub fn nodes(&self) -> &[Node] {
+    pub fn nodes(&self) -> &[BvhNode] {
         &self.nodes
     }
 
@@ -133,7 +133,7 @@ impl Bvh {
     fn in_leaf(
         &self,
         ray: &Sheared,
-        node: &Node,
+        node: &BvhNode,
         after: f64,
         mut best: Option<(usize, f64)>,
         keep: &impl Fn(u32) -> bool,
@@ -162,7 +162,7 @@ fn nearer_first(a: (u32, Option<f64>), b: (u32, Option<f64>)) -> Option<(u32, Op
     }
 }
 
-fn depth(nodes: &[Node]) -> u32 {
+fn depth(nodes: &[BvhNode]) -> u32 {
     let mut levels = vec![1_u32; nodes.len()];
     for (k, node) in nodes.iter().enumerate().filter(|(_, n)| n.count == 0) {
         levels[k + 1] = levels[k] + 1;
@@ -173,7 +173,7 @@ fn depth(nodes: &[Node]) -> u32 {
 
 impl Sheared {
     /// `None` for a direction of no length; `root` is the box around all.
-    fn new(origin: DVec3, direction: DVec3, root: &Node) -> Option<Self> {
+    fn new(origin: DVec3, direction: DVec3, root: &BvhNode) -> Option<Self> {
         let size = direction.abs();
         let z = if size.z >= size.x && size.z >= size.y { 2 } else { usize::from(size.y >= size.x) };
         let (mut x, mut y) = ((z + 1) % 3, (z + 2) % 3);
@@ -218,7 +218,7 @@ impl Sheared {
     }
 
     /// The distance at which the ray is first within a box, if at all between these two.
-    fn enters(&self, node: &Node, after: f64, before: f64) -> Option<f64> {
+    fn enters(&self, node: &BvhNode, after: f64, before: f64) -> Option<f64> {
         let near = (DVec3::select(self.is_up, node.low, node.high) - self.before) * self.per_component;
         let far = (DVec3::select(self.is_up, node.high, node.low) - self.beyond) * self.per_component;
         // In a side that it runs along, 0 times infinity: f64's `min` and `max` pass over what is no number.

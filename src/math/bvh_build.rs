@@ -3,7 +3,7 @@
 //! Source: I. Wald, *On fast Construction of SAH-based Bounding Volume Hierarchies*, IEEE Symposium on Interactive Ray
 //! Tracing, 2007.
 
-use super::bvh::Node;
+use super::bvh::BvhNode;
 use glam::DVec3;
 use rayon::prelude::*;
 
@@ -28,7 +28,7 @@ struct Part {
 }
 
 /// Boxes, and the order in which they hold triangles.
-pub(super) fn build(vertices: &[DVec3], triangles: &[[u32; 3]]) -> (Vec<Node>, Vec<u32>) {
+pub(super) fn build(vertices: &[DVec3], triangles: &[[u32; 3]]) -> (Vec<BvhNode>, Vec<u32>) {
     let part = |(k, t): (usize, &[u32; 3])| {
         let [a, b, c] = t.map(|v| vertices[v as usize]);
         Part { low: a.min(b).min(c), high: a.max(b).max(c), triangle: k as u32 }
@@ -42,7 +42,7 @@ pub(super) fn build(vertices: &[DVec3], triangles: &[[u32; 3]]) -> (Vec<Node>, V
 }
 
 /// The boxes of some triangles, of which the first stands at `first` of all.
-fn halve(parts: &mut [Part], first: u32, level: u32) -> Vec<Node> {
+fn halve(parts: &mut [Part], first: u32, level: u32) -> Vec<BvhNode> {
     if parts.len() <= ALONE {
         let mut nodes = Vec::with_capacity(parts.len());
         halve_alone(parts, first, level, &mut nodes);
@@ -54,16 +54,16 @@ fn halve(parts: &mut [Part], first: u32, level: u32) -> Vec<Node> {
     let (left, right) =
         rayon::join(|| halve(a, first, level + 1), || halve(b, first + middle as u32, level + 1));
     let mut nodes = Vec::with_capacity(1 + left.len() + right.len());
-    nodes.push(Node { low, high, start: 1 + left.len() as u32, count: 0 });
+    nodes.push(BvhNode { low, high, start: 1 + left.len() as u32, count: 0 });
     nodes.extend(left);
     nodes.extend(right);
     nodes
 }
 
-fn halve_alone(parts: &mut [Part], first: u32, level: u32, nodes: &mut Vec<Node>) {
+fn halve_alone(parts: &mut [Part], first: u32, level: u32, nodes: &mut Vec<BvhNode>) {
     let (low, high) = bounds(parts);
     let here = nodes.len();
-    nodes.push(Node { low, high, start: first, count: parts.len() as u32 });
+    nodes.push(BvhNode { low, high, start: first, count: parts.len() as u32 });
     let middle = if parts.len() > FULL {
         parted(parts, level).unwrap_or(parts.len() / 2)
     } else if let Some(middle) = parted(parts, level).filter(|_| parts.len() > 1) {

@@ -31,7 +31,7 @@ const SCALES: RangeInclusive<f64> = 1e-60..=1e60;
 
 /// Why half-spaces enclose no solid. Numbers are indices into the planes given; in words they count from 1.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
-#[error("{}", self.told(|plane| format!("plane {}", plane + 1)))]
+#[error("{}", self.message(|plane| format!("plane {}", plane + 1)))]
 pub enum PolytopeError {
     /// Fewer than the four planes that a solid needs.
     TooFew {
@@ -72,7 +72,7 @@ pub enum PolytopeError {
 
 impl PolytopeError {
     /// The error in words, with the planes called by names.
-    pub fn told(&self, name: impl Fn(usize) -> String) -> String {
+    pub fn message(&self, name: impl Fn(usize) -> String) -> String {
         const MOST: usize = 8;
         let all = |planes: &[usize]| {
             let shown = planes.iter().take(MOST).map(|&p| name(p)).collect::<Vec<_>>().join(", ");

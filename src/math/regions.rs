@@ -1,6 +1,6 @@
 //! Which triangles of a surface lie in one plane beside one another: its facets.
 
-use super::{Plane, ShellError, Surface};
+use super::{Plane, Surface, TriangleMeshError};
 use glam::DVec3;
 use rayon::prelude::*;
 
@@ -19,7 +19,7 @@ const NONE: u32 = u32::MAX;
 ///
 /// # Errors
 /// Where the surface is open.
-pub(super) fn regions(surface: &Surface) -> Result<Vec<u32>, ShellError> {
+pub(super) fn regions(surface: &Surface) -> Result<Vec<u32>, TriangleMeshError> {
     let neighbours = neighbours(&surface.triangles)?;
     let twice_areas: Vec<DVec3> = surface.triangles.iter().map(|t| twice_area(surface, t)).collect();
     let size = surface.vertices.iter().map(|v| v.length()).fold(0.0, f64::max);
@@ -88,7 +88,7 @@ fn longest(surface: &Surface, triangle: u32) -> f64 {
 }
 
 /// The triangles beside each triangle. Every edge has as many on one side as on the other.
-pub(super) fn neighbours(triangles: &[[u32; 3]]) -> Result<Vec<[u32; 3]>, ShellError> {
+pub(super) fn neighbours(triangles: &[[u32; 3]]) -> Result<Vec<[u32; 3]>, TriangleMeshError> {
     // An edge, whether it is run along from its lower corner, its triangle and place there.
     let edges_of = |(k, t): (usize, &[u32; 3])| {
         let t = *t;
@@ -103,7 +103,7 @@ pub(super) fn neighbours(triangles: &[[u32; 3]]) -> Result<Vec<[u32; 3]>, ShellE
     for same in edges.chunk_by(|a, b| a.0 == b.0) {
         let up = same.partition_point(|e| !e.1);
         if 2 * up != same.len() {
-            return Err(ShellError::Open(same[0].0.0, same[0].0.1));
+            return Err(TriangleMeshError::Open(same[0].0.0, same[0].0.1));
         }
         for (a, b) in same[..up].iter().zip(&same[up..]) {
             neighbours[a.2 as usize][a.3] = b.2;

@@ -1,6 +1,6 @@
 //! A glass shape, ready to be traced and drawn: its function, and triangles for what needs corners and edges.
 
-use super::{Edge, Field, Surface};
+use super::{Edge, ImplicitSurface, Surface};
 use glam::{DQuat, DVec3};
 use std::sync::Arc;
 
@@ -9,15 +9,15 @@ const FINENESS: usize = 8;
 
 /// A solid with a smooth surface. Rays meet its function; its triangles only say how far it reaches and how it is drawn.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Smooth {
-    field: Field,
+pub struct SmoothSolid {
+    field: ImplicitSurface,
     surface: Arc<Surface>,
     corners: Vec<DVec3>,
 }
 
-impl Smooth {
+impl SmoothSolid {
     /// Cuts the surface into triangles.
-    pub fn new(field: Field) -> Self {
+    pub fn new(field: ImplicitSurface) -> Self {
         let surface = field.surface(FINENESS);
         let corners = around(&field, &surface);
         Self { field, surface: Arc::new(surface), corners }
@@ -38,7 +38,7 @@ impl Smooth {
     }
 
     /// Its function.
-    pub fn field(&self) -> &Field {
+    pub fn field(&self) -> &ImplicitSurface {
         &self.field
     }
 
@@ -73,7 +73,7 @@ impl Smooth {
 }
 
 /// The corners of the triangles, as far outside as their edges may run inside the surface.
-fn around(field: &Field, surface: &Surface) -> Vec<DVec3> {
+fn around(field: &ImplicitSurface, surface: &Surface) -> Vec<DVec3> {
     let off = field.deviation(FINENESS);
     surface.vertices.iter().map(|v| *v + field.normal(*v) * off).collect()
 }

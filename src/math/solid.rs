@@ -1,6 +1,6 @@
 //! A solid of any kind: between planes, within triangles, or within a smooth surface.
 
-use super::{Field, Polytope, Shell, Smooth, Surface};
+use super::{ImplicitSurface, Polytope, SmoothSolid, Surface, TriangleMesh};
 use glam::{DQuat, DVec3};
 use std::collections::BTreeSet;
 use std::sync::Arc;
@@ -11,9 +11,9 @@ pub enum Solid {
     /// Convex, between planes.
     Convex(Polytope),
     /// Within triangles; it need not be convex. Shared, as it may be large.
-    Triangles(Arc<Shell>),
+    Triangles(Arc<TriangleMesh>),
     /// Within a smooth surface.
-    Smooth(Smooth),
+    Smooth(SmoothSolid),
 }
 
 /// A solid that something else owns.
@@ -22,9 +22,9 @@ pub enum SolidRef<'a> {
     /// Convex, between planes.
     Convex(&'a Polytope),
     /// Within triangles.
-    Triangles(&'a Arc<Shell>),
+    Triangles(&'a Arc<TriangleMesh>),
     /// Within a smooth surface.
-    Smooth(&'a Smooth),
+    Smooth(&'a SmoothSolid),
 }
 
 /// What only a convex stone between planes has: facets to name and draw, and exact beams.
@@ -194,20 +194,20 @@ impl From<Polytope> for Solid {
     }
 }
 
-impl From<Shell> for Solid {
-    fn from(shell: Shell) -> Self {
+impl From<TriangleMesh> for Solid {
+    fn from(shell: TriangleMesh) -> Self {
         Self::Triangles(Arc::new(shell))
     }
 }
 
-impl From<Field> for Solid {
-    fn from(field: Field) -> Self {
-        Self::Smooth(Smooth::new(field))
+impl From<ImplicitSurface> for Solid {
+    fn from(field: ImplicitSurface) -> Self {
+        Self::Smooth(SmoothSolid::new(field))
     }
 }
 
-impl<'a> From<&'a Smooth> for SolidRef<'a> {
-    fn from(smooth: &'a Smooth) -> Self {
+impl<'a> From<&'a SmoothSolid> for SolidRef<'a> {
+    fn from(smooth: &'a SmoothSolid) -> Self {
         Self::Smooth(smooth)
     }
 }
@@ -218,8 +218,8 @@ impl<'a> From<&'a Polytope> for SolidRef<'a> {
     }
 }
 
-impl<'a> From<&'a Arc<Shell>> for SolidRef<'a> {
-    fn from(shell: &'a Arc<Shell>) -> Self {
+impl<'a> From<&'a Arc<TriangleMesh>> for SolidRef<'a> {
+    fn from(shell: &'a Arc<TriangleMesh>) -> Self {
         Self::Triangles(shell)
     }
 }

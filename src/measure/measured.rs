@@ -19,7 +19,7 @@ const INDICES: std::ops::RangeInclusive<f64> = 1.0..=5.0;
 
 /// How a design is measured.
 #[derive(Clone)]
-pub struct Options<'a> {
+pub struct MeasureOptions<'a> {
     /// From where the stone is seen; face up by default.
     pub viewpoint: Viewpoint,
     /// The structured light whose bands are the zones of the figures; the common ASET by default.
@@ -36,7 +36,7 @@ pub struct Options<'a> {
     pub tracer: Option<Tracer<'a>>,
 }
 
-impl Default for Options<'_> {
+impl Default for MeasureOptions<'_> {
     fn default() -> Self {
         Self {
             viewpoint: Viewpoint::default(),
@@ -109,7 +109,7 @@ pub enum MeasureError {
     /// An option is out of its range; the text names it, its value and its range.
     #[error("{option} is {value}; give {range}")]
     Option {
-        /// The option's name in [`Options`] or [`Bounds`].
+        /// The option's name in [`MeasureOptions`] or [`Bounds`].
         option: &'static str,
         /// What was given.
         value: f64,
@@ -132,7 +132,7 @@ pub enum MeasureError {
 ///
 /// # Errors
 /// What keeps the design from being a stone, or the stone from being traced as asked.
-pub fn measure(design: &Design, options: &Options) -> Result<Measured, MeasureError> {
+pub fn measure(design: &Design, options: &MeasureOptions) -> Result<Measured, MeasureError> {
     options.check()?;
     let specimen = Specimen::new(design.clone())?;
     let material = &specimen.material;
@@ -179,18 +179,18 @@ pub fn measure_subject(
 fn traced(subject: Subject, tracer: Tracer, bounds: &Bounds, watch: Watch) -> Result<Figures, MeasureError> {
     let Subject { specimen, medium, view, scope } = subject;
     let &Bounds { unresolved, polarised, lattice } = bounds;
-    let options = ray::Options { least_weight: unresolved, polarised, ..ray::Options::default() };
+    let options = ray::RayOptions { least_weight: unresolved, polarised, ..ray::RayOptions::default() };
     match tracer {
         Tracer::Beams => {
             let polytope = &specimen.stone().map_err(CannotTrace::from)?.polytope;
-            let options = beam::Options { unresolved, polarised, ..beam::Options::default() };
+            let options = beam::BeamOptions { unresolved, polarised, ..beam::BeamOptions::default() };
             Ok(by_beams(&beam::trace(polytope, medium, view, &options, watch)?, scope))
         }
-        Tracer::Rays(crate::trace::Sampler::Rays) => {
+        Tracer::Rays(crate::trace::RayTracer::Rays) => {
             Ok(by_rays(specimen.solid(), medium, view, scope, (options, lattice), watch)?)
         }
         #[cfg(feature = "gpu")]
-        Tracer::Rays(crate::trace::Sampler::Card(gpu)) => {
+        Tracer::Rays(crate::trace::RayTracer::Card(gpu)) => {
             super::by_gpu(gpu, specimen.solid(), medium, view, scope, (options, lattice), watch)
         }
     }
@@ -207,7 +207,7 @@ fn first_wrong(checks: &[Check]) -> Result<(), MeasureError> {
     }
 }
 
-impl Options<'_> {
+impl MeasureOptions<'_> {
     /// Whether every number is in its range.
     fn check(&self) -> Result<(), MeasureError> {
         self.scope.validate()?;

@@ -8,7 +8,7 @@ mod sampled;
 
 pub use figures::{Figures, Zones, by_beams};
 pub use measured::{
-    Bounds, LATTICE, MeasureError, Measured, Options, UNRESOLVED, Zone, measure, measure_subject,
+    Bounds, LATTICE, MeasureError, MeasureOptions, Measured, UNRESOLVED, Zone, measure, measure_subject,
 };
 #[cfg(feature = "gpu")]
 pub use sampled::by_gpu;

@@ -6,8 +6,8 @@ use crate::math::SolidRef;
 use crate::scene::Film;
 use crate::scene::{Medium, Scope, View};
 #[cfg(feature = "gpu")]
-use crate::trace::gpu::{Gpu, GpuError, Seen, Shot};
-use crate::trace::ray::{Camera, Exit, Options, Rest, Tracer};
+use crate::trace::gpu::{Gpu, GpuError, ScopePixel, ScopeShot};
+use crate::trace::ray::{Camera, Exit, Loss, RayOptions, StoneTracer};
 use crate::trace::{Stopped, Watch};
 use glam::DVec2;
 use rayon::prelude::*;
@@ -40,11 +40,11 @@ pub fn by_rays<'a>(
     medium: Medium,
     view: &View,
     scope: &Scope,
-    (options, side): (Options, u32),
+    (options, side): (RayOptions, u32),
     watch: Watch,
 ) -> Result<Figures, Stopped> {
     let solid = solid.into();
-    let tracer = Tracer::new(solid, medium, options);
+    let tracer = StoneTracer::new(solid, medium, options);
     let camera = Camera::new(view, solid);
     let zenith = view.zenith();
     over_lattices((solid, side), view, scope, watch, |half, shift, _| {
@@ -85,13 +85,13 @@ pub fn by_gpu<'a, E: From<Stopped> + From<GpuError>>(
     medium: Medium,
     view: &View,
     scope: &Scope,
-    (options, side): (Options, u32),
+    (options, side): (RayOptions, u32),
     watch: Watch,
 ) -> Result<Figures, E> {
     let solid = solid.into();
     over_lattices((solid, side), view, scope, watch, |half, shift, done| {
         let film = Film::square(side, half);
-        let shot = Shot { solid, medium, view, scope, film, per_side: 1, shift, options };
+        let shot = ScopeShot { solid, medium, view, scope, film, per_side: 1, shift, options };
         let mut tally = Tally::new(scope.bands.len());
         gpu.scope(&shot, &|_| watch(done), |_, pixels| -> Result<(), E> {
             pixels.iter().for_each(|seen| tally.take_in(seen));
@@ -154,7 +154,7 @@ impl Tally {
         zones[band] += exit.weight;
     }
 
-    fn close(&mut self, rest: Option<Rest>, (weight, strongest): (f64, Option<usize>)) {
+    fn close(&mut self, rest: Option<Loss>, (weight, strongest): (f64, Option<usize>)) {
         if let Some(rest) = rest {
             self.hits += 1;
             self.absorbed += rest.absorbed;
@@ -167,7 +167,7 @@ impl Tally {
     }
 
     #[cfg(feature = "gpu")]
-    fn take_in(&mut self, seen: &Seen) {
+    fn take_in(&mut self, seen: &ScopePixel) {
         let add = |to: &mut [f64], from: &[f32]| {
             to.iter_mut().zip(from).for_each(|(a, &b)| *a += f64::from(b));
         };

@@ -11,7 +11,7 @@ mod star;
 use super::Linear;
 use super::linear::luminance;
 use glam::Vec4;
-use grid::Grid;
+use grid::LightGrid;
 use rayon::prelude::*;
 
 /// How bright light is spread.
@@ -97,21 +97,21 @@ impl Bloom {
     }
 
     /// The light to be spread, on a grid halved as often as the finest detail of glare allows.
-    fn source(&self, picture: &Linear, taken: impl Fn(&[f32; 4]) -> Vec4 + Sync) -> (Grid, u32) {
+    fn source(&self, picture: &Linear, taken: impl Fn(&[f32; 4]) -> Vec4 + Sync) -> (LightGrid, u32) {
         let finest = STREAK_WIDTH * f64::from(picture.width);
         let halvings = (finest / COARSEST).log2().clamp(0.0, 16.0) as u32;
         let (width, height) = (picture.width as usize, picture.height as usize);
         let at = |x: usize, y: usize| picture.pixels.get(y * width + x).map_or(Vec4::ZERO, &taken);
         if halvings == 0 {
-            return (Grid::filled(width, height, at), 0);
+            return (LightGrid::filled(width, height, at), 0);
         }
-        let mut grid = Grid::halved_from(width, height, at);
+        let mut grid = LightGrid::halved_from(width, height, at);
         (1..halvings).for_each(|_| grid = grid.halved());
         (grid, halvings)
     }
 
     /// The light of a grid, spread; the picture is `width` cells wide.
-    fn spread(&self, source: &Grid, width: f64) -> Grid {
+    fn spread(&self, source: &LightGrid, width: f64) -> LightGrid {
         let streaks = self.streaks.min(Self::MOST_STREAKS);
         let radius = within(self.radius, 0.5) * width;
         let glow = GLOW.map(|(part, weight)| (radius * part, weight));

@@ -7,7 +7,7 @@ use crate::math::{Polytope, centroid};
 use crate::optics::{Material, Stratum};
 use crate::scene::Medium;
 use crate::trace::beam::{self, Beam, Beams};
-use crate::trace::sitting::{Exposure, Lit, Look, Sitting};
+use crate::trace::sampling::{LitScene, ProgressiveImage, RadiancePixel, SamplePass};
 use crate::trace::{Stopped, Watch};
 use glam::{DAffine2, DMat2, DVec2, DVec3, DVec4};
 use rayon::prelude::*;
@@ -28,9 +28,9 @@ const AT_ONCE: usize = 512;
 
 /// A picture of one stone, or some rows of it, by exact beams.
 pub struct ByBeams<'a> {
-    sitting: Sitting<'a>,
+    lit_scene: LitScene<'a>,
     stone: &'a Polytope,
-    options: beam::Options,
+    options: beam::BeamOptions,
     looks: u32,
     rows: Range<u32>,
     /// Colour and cover, as the changes that edges leave.
@@ -52,8 +52,8 @@ struct Patches {
 impl<'a> ByBeams<'a> {
     /// Prepares a whole picture; `None` where exact beams do not apply: for several stones or one of triangles, in
     /// perspective, with a photograph behind.
-    pub fn new(sitting: Sitting<'a>, options: beam::Options) -> Option<Self> {
-        Self::of_rows(sitting, options, 0..sitting.film.size[1])
+    pub fn new(lit_scene: LitScene<'a>, options: beam::BeamOptions) -> Option<Self> {
+        Self::of_rows(lit_scene, options, 0..lit_scene.film.size[1])
     }
 
     /// How many rows of a picture so wide may be prepared at once, so that what is held of them takes no more than
@@ -65,18 +65,20 @@ impl<'a> ByBeams<'a> {
 
     /// Prepares some rows of a picture, as [`new`](Self::new) does; each look traces the beams of all of it. Where rows begin
     /// at a multiple of [`most_rows`](Self::most_rows), they are those of the whole picture to the bit.
-    pub fn of_rows(sitting: Sitting<'a>, options: beam::Options, rows: Range<u32>) -> Option<Self> {
-        let [stone] = sitting.setting.stones.as_slice() else { return None };
-        let surround = &sitting.surround;
-        if sitting.view.projection != crate::scene::Projection::Orthographic || surround.behind.is_some() {
+    pub fn of_rows(lit_scene: LitScene<'a>, options: beam::BeamOptions, rows: Range<u32>) -> Option<Self> {
+        let [stone] = lit_scene.scene.instances.as_slice() else { return None };
+        let environment = &lit_scene.environment;
+        if lit_scene.view.projection != crate::scene::Projection::Orthographic
+            || environment.backplate.is_some()
+        {
             return None;
         }
-        let across = sitting.film.size[0];
+        let across = lit_scene.film.size[0];
         let piece = |first: u32| Rows::new(first, PIECE.min(rows.end - first), across, 1);
         let pieces = rows.clone().step_by(PIECE as usize).map(piece).collect();
         let stone = stone.solid.polytope().ok()?;
         Some(Self {
-            sitting,
+            lit_scene,
             stone,
             options,
             looks: 0,
@@ -95,12 +97,12 @@ impl<'a> ByBeams<'a> {
     /// [`Stopped`] when `watch` asks to stop.
     pub fn glance(&mut self, strata: &[Stratum], watch: Watch) -> Result<(), Stopped> {
         let (Some(first), Some(last)) = (strata.first(), strata.last()) else { return Ok(()) };
-        let material = &self.sitting.setting.stones[0].material;
-        let unit_mm = self.sitting.setting.unit_mm;
+        let material = &self.lit_scene.scene.instances[0].material;
+        let unit_mm = self.lit_scene.scene.unit_mm;
         let middle = strata[strata.len() / 2].at(0.5);
         let whole = Medium::of(material, (first.from_nm, middle, last.to_nm), unit_mm);
         let clear = Medium { absorption: [0.0; 2], ..whole };
-        let beams = beam::trace(self.stone, clear, self.sitting.view, &self.options, watch)?;
+        let beams = beam::trace(self.stone, clear, self.lit_scene.view, &self.options, watch)?;
         let bands: Vec<Band> =
             strata.iter().map(|s| Band::of(s, material, middle, whole.spread, unit_mm)).collect();
         self.see_beside(&beams, strata.iter().map(|s| &s.response));
@@ -123,16 +125,16 @@ impl<'a> ByBeams<'a> {
 
     /// Adds what parallel rays see beside the stone.
     fn see_beside<'r>(&mut self, beams: &Beams, responses: impl Iterator<Item = &'r [DVec3; 4]>) {
-        if self.sitting.surround.backdrop {
+        if self.lit_scene.environment.backdrop {
             let light =
-                self.sitting.surround.radiance(DVec3::ZERO, -beams.view.toward, DVec3::ZERO).to_array();
+                self.lit_scene.environment.radiance(DVec3::ZERO, -beams.view.toward, DVec3::ZERO).to_array();
             let seen = |r: &[DVec3; 4]| r.iter().zip(light).map(|(&c, l)| c * l).sum::<DVec3>();
             self.beside += responses.map(seen).sum::<DVec3>();
         }
     }
 
     /// The colours of one band's beams, in all copies.
-    fn patches(&self, beams: &Beams, look: &Look, band: usize) -> Vec<Patches> {
+    fn patches(&self, beams: &Beams, look: &SamplePass, band: usize) -> Vec<Patches> {
         let response = &look.responses[band];
         self.patches_of(beams, band == 0, |beam, sweep, copy| {
             let light = self.arriving(beams, beam, (look.middle(beam.exit, sweep), sweep), copy);
@@ -152,7 +154,7 @@ impl<'a> ByBeams<'a> {
             .symmetry
             .copies()
             .into_iter()
-            .map(|c| (c, self.sitting.film.pixels_from_image(c)))
+            .map(|c| (c, self.lit_scene.film.pixels_from_image(c)))
             .collect();
         let ids: Vec<u32> = (0..beams.len() as u32).collect();
         let some = |ids: &[u32]| {
@@ -176,7 +178,7 @@ impl<'a> ByBeams<'a> {
         let eye = &beams.view;
         let turned = |v: DVec3| eye.lift(copy * eye.project(v)) + eye.toward * eye.toward.dot(v);
         let weight = beam.weight / beam.transmittance;
-        self.sitting.surround.radiance(DVec3::ZERO, turned(exit), turned(sweep)) * weight
+        self.lit_scene.environment.radiance(DVec3::ZERO, turned(exit), turned(sweep)) * weight
     }
 
     fn paint(&mut self, found: &[Patches]) {
@@ -254,12 +256,12 @@ impl Patches {
     }
 }
 
-impl<E: From<Stopped>> Exposure<E> for ByBeams<'_> {
-    fn look(&mut self, look: &Look, watch: Watch) -> Result<(), E> {
+impl<E: From<Stopped>> ProgressiveImage<E> for ByBeams<'_> {
+    fn add_pass(&mut self, look: &SamplePass, watch: Watch) -> Result<(), E> {
         let bands = look.responses.len();
         for (band, &medium) in look.media[0].iter().enumerate() {
             let done = |part: f64| watch((band as f64 + part) / bands as f64);
-            let beams = beam::trace(self.stone, medium, self.sitting.view, &self.options, &done)?;
+            let beams = beam::trace(self.stone, medium, self.lit_scene.view, &self.options, &done)?;
             self.see_beside(&beams, std::iter::once(&look.responses[band]));
             let found = self.patches(&beams, look, band);
             self.paint(&found);
@@ -272,14 +274,14 @@ impl<E: From<Stopped>> Exposure<E> for ByBeams<'_> {
     }
 
     /// What is unresolved and absorbed is known of the whole picture alone: every covered pixel bears the mean.
-    fn lit(&self, each: &mut dyn FnMut(&Lit)) -> Result<(), E> {
+    fn each_pixel(&self, each: &mut dyn FnMut(&RadiancePixel)) -> Result<(), E> {
         let share = 1.0 / f64::from(self.looks.max(1));
         for piece in &self.pieces {
             let rows = piece.clone().summed();
             for v in (rows.first..rows.first + rows.count).flat_map(|y| rows.row(y, 0)) {
                 let cover = v.w * share;
-                let is_whole = self.sitting.surround.backdrop;
-                each(&Lit {
+                let is_whole = self.lit_scene.environment.backdrop;
+                each(&RadiancePixel {
                     colour: (v.truncate() + self.beside * (1.0 - cover)) * share,
                     cover: if is_whole { 1.0 } else { cover },
                     unresolved: self.unresolved * share * cover,

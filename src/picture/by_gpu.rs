@@ -1,10 +1,10 @@
 //! The pictures of [`by_rays`](super::by_rays), by a graphics card.
 
 use super::Rows;
-use super::by_rays::Manner;
+use super::by_rays::ScopeSampling;
 use crate::math::SolidRef;
 use crate::scene::{Film, Glare, Medium, Scope, View};
-use crate::trace::gpu::{Gpu, GpuError, Seen, Shot};
+use crate::trace::gpu::{Gpu, GpuError, ScopePixel, ScopeShot};
 use crate::trace::{Stopped, Watch};
 use glam::DVec2;
 
@@ -24,20 +24,20 @@ pub fn trace<'a, E: From<Stopped> + From<GpuError>>(
     view: &View,
     scope: &Scope,
     film: &Film,
-    manner: &Manner,
+    manner: &ScopeSampling,
     watch: Watch,
     mut each: impl FnMut(&Rows) -> Result<(), E>,
 ) -> Result<(), E> {
-    let Manner { options, per_side, glare } = *manner;
+    let ScopeSampling { options, per_side, glare } = *manner;
     let (film, shift, size) = (*film, DVec2::splat(0.5), film.size[0]);
-    let shot = Shot { solid: solid.into(), medium, view, scope, film, per_side, shift, options };
+    let shot = ScopeShot { solid: solid.into(), medium, view, scope, film, per_side, shift, options };
     let bands = scope.bands.len();
     let share = if glare == Glare::Included { 1.0 } else { 0.0 };
     gpu.scope(&shot, watch, |first, pixels| {
         let count = pixels.len() as u32 / size;
         let mut rows = Rows::new(first, count, size, 2 * bands + 1);
         for (y, line) in (first..).zip(pixels.chunks(size as usize)) {
-            let mut fill = |channel, value: &dyn Fn(&Seen) -> f32| {
+            let mut fill = |channel, value: &dyn Fn(&ScopePixel) -> f32| {
                 let to = rows.row_mut(y, channel).iter_mut();
                 to.zip(line).for_each(|(to, seen)| *to = f64::from(value(seen)));
             };
@@ -45,7 +45,7 @@ pub fn trace<'a, E: From<Stopped> + From<GpuError>>(
                 fill(band, &|seen| seen.transmitted[band] + share * seen.surface[band]);
                 fill(bands + band, &|seen| seen.strongest[band]);
             }
-            fill(2 * bands, &Seen::hit);
+            fill(2 * bands, &ScopePixel::hit);
         }
         each(&rows)
     })

@@ -3,16 +3,16 @@
 use super::Rows;
 use crate::math::SolidRef;
 use crate::scene::{Film, Glare, Medium, Scope, View};
-use crate::trace::ray::{Camera, Exit, Options, Tracer};
+use crate::trace::ray::{Camera, Exit, RayOptions, StoneTracer};
 use crate::trace::{Stopped, Watch};
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
 /// How a picture is traced.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Manner {
+pub struct ScopeSampling {
     /// How far each ray is followed.
-    pub options: Options,
+    pub options: RayOptions,
     /// Rays along each side of a pixel, at least 1.
     pub per_side: u32,
     /// Whether glare is part of the energy.
@@ -38,12 +38,12 @@ pub fn trace<'a, E: From<Stopped>>(
     view: &View,
     scope: &Scope,
     film: &Film,
-    manner: &Manner,
+    manner: &ScopeSampling,
     watch: Watch,
     mut each: impl FnMut(&Rows) -> Result<(), E>,
 ) -> Result<(), E> {
     let solid = solid.into();
-    let tracer = Tracer::new(solid, medium, manner.options);
+    let tracer = StoneTracer::new(solid, medium, manner.options);
     let camera = Camera::new(view, solid);
     let zenith = view.zenith();
     let channels = 2 * scope.bands.len() + 1;
@@ -80,7 +80,7 @@ pub fn trace<'a, E: From<Stopped>>(
 
 /// Adds what one ray sees to a pixel's channels.
 fn put_down(
-    tracer: &Tracer,
+    tracer: &StoneTracer,
     (origin, direction): (DVec3, DVec3),
     band: impl Fn(&Exit) -> usize,
     glare: Glare,

@@ -28,7 +28,7 @@ impl Caption {
     /// A caption with the zones of a scope as its legend; long remarks are broken into lines.
     pub fn new(title: &str, remarks: Vec<String>, scope: &Scope) -> Self {
         let zones = scope.bands.iter().enumerate().rev();
-        let zones = zones.map(|(k, band)| (told_of(scope, k), band.colour)).collect();
+        let zones = zones.map(|(k, band)| (band_text(scope, k), band.colour)).collect();
         Self { title: title.to_owned(), remarks, zones }
     }
 
@@ -83,7 +83,7 @@ impl Caption {
 }
 
 /// A band as the legend tells of it.
-fn told_of(scope: &Scope, band: usize) -> String {
+fn band_text(scope: &Scope, band: usize) -> String {
     let name = &scope.bands[band].name;
     match scope.elevations(band) {
         [-90.0, to] => format!(

@@ -9,7 +9,7 @@ mod style;
 
 pub use style::DiagramStyle;
 
-use super::drawing::{Align, Aspect, Ink, REMARK, Sheet, Type, degrees, shortened, text_width};
+use super::drawing::{Align, DrawnAspect, Ink, REMARK, Sheet, Type, degrees, shortened, text_width};
 use crate::cut::tier_stem;
 use crate::math::{Basis, Facet};
 use crate::scene::Stone;
@@ -129,7 +129,7 @@ fn tier_name<'a>(names: impl Iterator<Item = &'a str>) -> String {
 
 /// One of the two views: the crown from above on the left, the pavilion from below on the right.
 struct View {
-    aspect: Aspect,
+    aspect: DrawnAspect,
     style: DiagramStyle,
 }
 
@@ -140,7 +140,7 @@ impl View {
         let corners = stone.polytope.vertices().iter().map(|&v| basis.project(v).distance(centre));
         let scale = style.radius / corners.fold(0.0, f64::max);
         let place = style.place(basis == Basis::FACE_UP);
-        Self { aspect: Aspect { basis, centre, scale, place }, style: *style }
+        Self { aspect: DrawnAspect { basis, centre, scale, place }, style: *style }
     }
 
     fn name(&self) -> &'static str {
@@ -162,7 +162,7 @@ impl View {
     }
 
     fn shows_below(&self, facet: &Facet) -> bool {
-        Aspect { basis: Basis::FACE_DOWN, ..self.aspect }.shows(facet)
+        DrawnAspect { basis: Basis::FACE_DOWN, ..self.aspect }.shows(facet)
     }
 
     /// A point of the sheet, from the view's middle; the angle as on paper, counter-clockwise from the right.

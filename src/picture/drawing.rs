@@ -59,7 +59,7 @@ fn segments(lines: &[(DVec2, DVec2)]) -> Path {
 
 /// A parallel view of a stone, in units of a drawing.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Aspect {
+pub(super) struct DrawnAspect {
     /// The image plane.
     pub basis: Basis,
     /// The image coordinates that come to the sheet's origin, radii.
@@ -70,7 +70,7 @@ pub(super) struct Aspect {
     pub place: DVec2,
 }
 
-impl Aspect {
+impl DrawnAspect {
     /// A point of the stone on the sheet.
     pub fn at(&self, p: DVec3) -> DVec2 {
         self.on_sheet(self.basis.project(p))
@@ -126,7 +126,7 @@ impl Sheet {
     }
 
     /// Draws the facets that `drawn` admits, each as a polygon with its name, and every edge in sight once.
-    pub fn stone(&mut self, stone: &Stone, aspect: &Aspect, drawn: impl Fn(&Facet) -> bool) {
+    pub fn stone(&mut self, stone: &Stone, aspect: &DrawnAspect, drawn: impl Fn(&Facet) -> bool) {
         let facets = stone.polytope.facets();
         let mut faces = Group::new().set("class", "facets");
         let (mut outline, mut edges, mut girdle) = (vec![], vec![], vec![]);
@@ -159,7 +159,7 @@ impl Sheet {
     }
 
     /// A trace of shade on facets that turn away, so that the eye sees relief.
-    fn shade(&self, facet: &Facet, aspect: &Aspect) -> String {
+    fn shade(&self, facet: &Facet, aspect: &DrawnAspect) -> String {
         self.inks.face(facet.plane.normal.dot(aspect.basis.toward).clamp(0.0, 1.0))
     }
 
@@ -364,8 +364,8 @@ mod tests {
         Stone::new(&sides.iter().enumerate().map(plane).collect::<Vec<_>>()).unwrap()
     }
 
-    fn aspect(basis: Basis) -> Aspect {
-        Aspect { basis, centre: DVec2::ZERO, scale: 100.0, place: DVec2::new(10.0, 20.0) }
+    fn aspect(basis: Basis) -> DrawnAspect {
+        DrawnAspect { basis, centre: DVec2::ZERO, scale: 100.0, place: DVec2::new(10.0, 20.0) }
     }
 
     #[test]

@@ -1,6 +1,6 @@
 //! The program's own sign: a stone from above, each facet as bright as it is turned to a light.
 
-use super::drawing::{Aspect, hex};
+use super::drawing::{DrawnAspect, hex};
 use crate::math::{Basis, Facet};
 use crate::scene::Stone;
 use glam::{DVec2, DVec3};
@@ -28,7 +28,7 @@ const CONTRAST: f64 = 1.6;
 pub fn icon(stone: &Stone) -> Document {
     let reach = stone.polytope.vertices().iter().map(|v| v.truncate().length()).fold(0.0, f64::max);
     let place = DVec2::splat(SIDE / 2.0);
-    let aspect = Aspect { basis: Basis::FACE_UP, centre: DVec2::ZERO, scale: RADIUS / reach, place };
+    let aspect = DrawnAspect { basis: Basis::FACE_UP, centre: DVec2::ZERO, scale: RADIUS / reach, place };
     let seen = stone.polytope.facets().iter().filter(|facet| aspect.shows(facet));
     let line = hex(LINE);
     let group =
@@ -37,7 +37,7 @@ pub fn icon(stone: &Stone) -> Document {
     Document::new().set("viewBox", (0, 0, SIDE, SIDE)).set("width", SIDE).set("height", SIDE).add(group)
 }
 
-fn face(stone: &Stone, facet: &Facet, aspect: &Aspect) -> Polygon {
+fn face(stone: &Stone, facet: &Facet, aspect: &DrawnAspect) -> Polygon {
     let corners = aspect.outline(stone, facet);
     let points = corners.iter().map(|p| format!("{:.2},{:.2}", p.x, p.y)).collect::<Vec<_>>().join(" ");
     let lit = facet.plane.normal.dot(LIGHT) / LIGHT.length();

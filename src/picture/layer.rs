@@ -11,7 +11,7 @@ const UNEVEN: f64 = 1.0 / 256.0;
 
 /// One polygon of even light.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Patch {
+pub(super) struct LightPatch {
     pub corners: (u32, u32),
     pub channel: u16,
     pub weight: f64,
@@ -21,7 +21,7 @@ pub(super) struct Patch {
 #[derive(Debug, Clone)]
 pub struct Layer {
     pub(super) corners: Vec<DVec2>,
-    pub(super) patches: Vec<Patch>,
+    pub(super) patches: Vec<LightPatch>,
     pub(super) copies: Vec<DMat2>,
     /// What each channel holds.
     pub channels: Vec<String>,
@@ -110,7 +110,7 @@ impl Layer {
     fn add(&mut self, outline: &[DVec2], channel: usize, weight: f64) {
         let corners = (self.corners.len() as u32, outline.len() as u32);
         self.corners.extend(outline);
-        self.patches.push(Patch { corners, channel: channel as u16, weight });
+        self.patches.push(LightPatch { corners, channel: channel as u16, weight });
     }
 
     /// Light of this weight over a beam's outline, faded by absorption along `path`.

@@ -7,8 +7,8 @@ mod wireframe;
 
 use self::scale::viridis;
 use self::wireframe::Wires;
-use crate::trace::ray::{Glance, Sight};
-use crate::trace::sitting::Sitting;
+use crate::trace::ray::{ProbeRay, SceneProbe};
+use crate::trace::sampling::LitScene;
 use crate::trace::{Stopped, Watch};
 use rayon::prelude::*;
 use std::str::FromStr;
@@ -78,7 +78,7 @@ impl Overlay {
     }
 
     /// The colour over what a ray meets, and how much it hides of that.
-    fn colour(self, sight: &Sight, glance: &Glance) -> Option<(Code, f32)> {
+    fn colour(self, sight: &SceneProbe, glance: &ProbeRay) -> Option<(Code, f32)> {
         match self {
             Self::Wireframe => None,
             Self::Facets => Some((scale::distinct(glance.stone, glance.facet), TINT)),
@@ -129,8 +129,8 @@ struct Fate {
 
 impl Fate {
     /// `None` where the ray runs along the facet.
-    fn of(sight: &Sight, glance: &Glance) -> Option<Self> {
-        let &Glance { origin, direction, stone, facet, distance } = glance;
+    fn of(sight: &SceneProbe, glance: &ProbeRay) -> Option<Self> {
+        let &ProbeRay { origin, direction, stone, facet, distance } = glance;
         let mut first = None;
         let rest = sight.tracers[stone].follow_from(
             (facet as usize, distance),
@@ -154,13 +154,13 @@ impl Fate {
 ///
 /// # Errors
 /// [`Stopped`] when `watch` asks to stop; the picture is then drawn over in part.
-pub fn lay(overlay: Overlay, sitting: &Sitting, rgba: &mut [u8], watch: Watch) -> Result<(), Stopped> {
-    let sight = Sight::new(sitting);
+pub fn lay(overlay: Overlay, lit_scene: &LitScene, rgba: &mut [u8], watch: Watch) -> Result<(), Stopped> {
+    let sight = SceneProbe::new(lit_scene);
     if overlay == Overlay::Wireframe {
-        let wires = Wires::new(sitting, &sight);
-        return each_row(sitting.film.size, rgba, watch, |y, row| wires.draw(&sight, y, row));
+        let wires = Wires::new(lit_scene, &sight);
+        return each_row(lit_scene.film.size, rgba, watch, |y, row| wires.draw(&sight, y, row));
     }
-    each_row(sitting.film.size, rgba, watch, |y, row| {
+    each_row(lit_scene.film.size, rgba, watch, |y, row| {
         for (x, pixel) in row.as_chunks_mut().0.iter_mut().enumerate() {
             let glance = sight.through(x as f64 + 0.5, y as f64 + 0.5);
             if let Some((colour, share)) = glance.and_then(|g| overlay.colour(&sight, &g)) {

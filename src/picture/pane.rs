@@ -11,13 +11,13 @@ mod frost;
 mod outline;
 mod parts;
 
-pub use compare::{Around, Comparison, Cost, PaneError, Shifts, compare, surroundings, traced};
-pub use outline::{Dome, Outline};
+pub use compare::{Comparison, Cost, PaneError, PaneLighting, Shifts, compare, surroundings, traced};
+pub use outline::{DomePoint, PaneOutline};
 pub use parts::{depth, dispersion, falloff, light, refraction};
 
 use super::Linear;
-use crate::scene::{Panorama, Setting};
-use crate::trace::sitting::Look;
+use crate::scene::{Panorama, Scene};
+use crate::trace::sampling::SamplePass;
 use frost::taps;
 use glam::{DVec2, DVec3, DVec4};
 use rayon::prelude::*;
@@ -42,7 +42,7 @@ pub enum Quality {
 
 /// A pane over a picture.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Pane {
+pub struct GlassPane {
     /// Its upper left corner, in pixels from the picture's.
     pub corner: DVec2,
     /// Its width and height in pixels, above 0.
@@ -65,7 +65,7 @@ pub struct Pane {
     pub quality: Quality,
 }
 
-impl Pane {
+impl GlassPane {
     /// A clear pane of this place and size, refraction, depth and dispersion in full, with a light of 30 and no frost.
     pub fn clear(corner: DVec2, size: DVec2, radius: f64) -> Self {
         Self {
@@ -118,9 +118,9 @@ impl Pane {
     }
 
     /// Its outline in its own unit.
-    pub fn outline(&self) -> Outline {
+    pub fn outline(&self) -> PaneOutline {
         let unit = self.unit();
-        Outline { half: self.size / (2.0 * unit), radius: self.radius / unit }
+        PaneOutline { half: self.size / (2.0 * unit), radius: self.radius / unit }
     }
 
     /// A place of the picture, in pixels, in the pane's own frame and unit.
@@ -171,7 +171,7 @@ impl Pane {
 ///
 /// With one look a pixel is what its middle shows, as on screens; with more it is evened out over as many places. A pane
 /// without extent, or rounder than it is wide, is not there.
-pub fn pane(pane: &Pane, background: &Panorama, looks: u32) -> Linear {
+pub fn pane(pane: &GlassPane, background: &Panorama, looks: u32) -> Linear {
     let shifts: Vec<DVec2> = places(looks);
     let mut picture = plain(background);
     if !pane.is_somewhere() {
@@ -193,8 +193,8 @@ pub fn pane(pane: &Pane, background: &Panorama, looks: u32) -> Linear {
 
 /// Where in a pixel so many looks stand; the first in its middle.
 fn places(looks: u32) -> Vec<DVec2> {
-    let nothing = Setting { stones: Vec::new(), unit_mm: 1.0 };
-    (0..looks.max(1)).map(|number| Look::new(&nothing, &[], number).shift).collect()
+    let nothing = Scene { instances: Vec::new(), unit_mm: 1.0 };
+    (0..looks.max(1)).map(|number| SamplePass::new(&nothing, &[], number).shift).collect()
 }
 
 /// The background alone.

@@ -7,7 +7,7 @@ pub(crate) mod brilliant;
 
 pub(crate) use super::drawing::{degrees, percent};
 
-use super::drawing::{Align, Aspect, DIMENSION, Inks, ROOM_FOR_ARROWS, Sheet, text_width};
+use super::drawing::{Align, DIMENSION, DrawnAspect, Inks, ROOM_FOR_ARROWS, Sheet, text_width};
 use crate::cut::{Outline, RoundBrilliant};
 use crate::math::{Basis, Calipers, Facet, hull};
 use crate::scene::Stone;
@@ -101,11 +101,11 @@ impl Dimensions {
     }
 
     /// The view that fits the stone into the drawing, its girdle diameter centred.
-    fn aspect(&self, basis: Basis) -> Aspect {
+    fn aspect(&self, basis: Basis) -> DrawnAspect {
         let scale = (ROOM.x / self.width.length()).min(ROOM.y / self.total.length());
         let middle = |s: &Span| (s.from + s.to) / 2.0;
         let centre = DVec2::new(middle(&self.width), middle(&self.total));
-        Aspect { basis, centre, scale, place: DVec2::ZERO }
+        DrawnAspect { basis, centre, scale, place: DVec2::ZERO }
     }
 }
 
@@ -145,7 +145,7 @@ pub(crate) fn across_the_width(stone: &Stone) -> Basis {
 struct Drawing<'a> {
     sheet: Sheet,
     stone: &'a Stone,
-    aspect: Aspect,
+    aspect: DrawnAspect,
     dimensions: Dimensions,
 }
 

@@ -12,7 +12,7 @@ use super::{Develop, Linear};
 use crate::math::Basis;
 use crate::optics::Stratum;
 use crate::scene::Panorama;
-use crate::trace::surround::met_behind;
+use crate::trace::environment::backplate_point;
 use glam::{DMat3, DVec2, DVec3};
 use rayon::prelude::*;
 
@@ -30,7 +30,7 @@ pub struct Backdrop {
 
 /// Where light comes from: a place on the background, and how much of it.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Place {
+pub struct SourcePlace {
     /// Across the background, 0 at its left border, 1 at its right one.
     pub u: f32,
     /// Down the background, 0 at its upper border, 1 at its lower one.
@@ -49,7 +49,7 @@ pub struct MapBand {
     /// other, and all of them have the same response.
     pub response: DMat3,
     /// Row by row from the top.
-    pub places: Vec<Place>,
+    pub places: Vec<SourcePlace>,
 }
 
 /// A picture of where light comes from.
@@ -89,9 +89,9 @@ pub struct Carried {
 impl Backdrop {
     /// Where a ray meets the background; `None` where it passes it by.
     pub fn place(&self, eye: &Basis, from: DVec3, direction: DVec3) -> Option<DVec2> {
-        let met = met_behind(eye, self.distance, from, direction).or_else(|| {
+        let met = backplate_point(eye, self.distance, from, direction).or_else(|| {
             let opposite = Basis { toward: -eye.toward, ..*eye };
-            self.both_sides.then(|| met_behind(&opposite, self.distance, from, direction)).flatten()
+            self.both_sides.then(|| backplate_point(&opposite, self.distance, from, direction)).flatten()
         })?;
         let at = met * DVec2::new(1.0, -1.0) / self.size + 0.5;
         (at.cmpge(DVec2::ZERO).all() && at.cmple(DVec2::ONE).all()).then_some(at)
@@ -123,7 +123,7 @@ pub fn refract(map: &RefractionMap, background: &Panorama, offset: DVec2) -> Lin
         let [red, green, blue, _] = pixel.map(f64::from);
         let mut light = DVec3::new(red, green, blue);
         for band in &map.bands {
-            let Place { u, v, weight } = band.places.get(k).copied().unwrap_or_default();
+            let SourcePlace { u, v, weight } = band.places.get(k).copied().unwrap_or_default();
             if weight > 0.0 {
                 let at = (DVec2::new(f64::from(u), f64::from(v)) - 0.5) * scale + (0.5 + offset) * whole;
                 let folded = whole - (at.rem_euclid(2.0 * whole) - whole).abs();

@@ -2,7 +2,7 @@
 
 use super::Linear;
 use crate::optics::Stratum;
-use crate::trace::sitting::{Exposure, Lit, Looks, Sitting};
+use crate::trace::sampling::{LitScene, ProgressiveImage, RadiancePixel, Sampling};
 use crate::trace::{Stopped, Watch};
 use std::ops::Range;
 
@@ -20,28 +20,28 @@ pub struct Remainder {
 ///
 /// # Errors
 /// What `prepare` and its product answer; [`Stopped`] when `watch` asks to stop.
-pub fn expose<E: From<Stopped>, X: Exposure<E>>(
-    sitting: &Sitting,
+pub fn expose<E: From<Stopped>, X: ProgressiveImage<E>>(
+    lit_scene: &LitScene,
     (strata, samples): (&[Stratum], u32),
     most_rows: u32,
     prepare: impl Fn(Range<u32>) -> Result<X, E>,
     watch: Watch,
 ) -> Result<(Linear, Remainder), E> {
-    expose_in(sitting, (strata, Looks::of(samples)), most_rows, prepare, watch)
+    expose_in(lit_scene, (strata, Sampling::of(samples)), most_rows, prepare, watch)
 }
 
 /// Takes a picture as [`expose`] does, of looks in a manner of their own.
 ///
 /// # Errors
 /// As [`expose`].
-pub fn expose_in<E: From<Stopped>, X: Exposure<E>>(
-    sitting: &Sitting,
-    (strata, looks): (&[Stratum], Looks),
+pub fn expose_in<E: From<Stopped>, X: ProgressiveImage<E>>(
+    lit_scene: &LitScene,
+    (strata, looks): (&[Stratum], Sampling),
     most_rows: u32,
     prepare: impl Fn(Range<u32>) -> Result<X, E>,
     watch: Watch,
 ) -> Result<(Linear, Remainder), E> {
-    let [width, height] = sitting.film.size;
+    let [width, height] = lit_scene.film.size;
     let mut sum = Sum::of(width, height);
     for first in (0..height).step_by(most_rows as usize) {
         let rows = first..(first + most_rows).min(height);
@@ -52,9 +52,9 @@ pub fn expose_in<E: From<Stopped>, X: Exposure<E>>(
                     + rows.len() as f64 * (f64::from(number) + part) / f64::from(looks.count);
                 watch(rows_done / f64::from(height))
             };
-            exposure.look(&looks.look(sitting.setting, strata, number), &done)?;
+            exposure.add_pass(&looks.pass(lit_scene.scene, strata, number), &done)?;
         }
-        exposure.lit(&mut |lit| sum.add(lit))?;
+        exposure.each_pixel(&mut |lit| sum.add(lit))?;
     }
     Ok(sum.finish(width, height))
 }
@@ -63,13 +63,13 @@ pub fn expose_in<E: From<Stopped>, X: Exposure<E>>(
 ///
 /// # Errors
 /// What the exposure answers.
-pub fn seen<E: From<Stopped>, X: Exposure<E>>(
-    sitting: &Sitting,
+pub fn seen<E: From<Stopped>, X: ProgressiveImage<E>>(
+    lit_scene: &LitScene,
     exposure: &X,
 ) -> Result<(Linear, Remainder), E> {
-    let [width, height] = sitting.film.size;
+    let [width, height] = lit_scene.film.size;
     let mut sum = Sum::of(width, height);
-    exposure.lit(&mut |lit| sum.add(lit))?;
+    exposure.each_pixel(&mut |lit| sum.add(lit))?;
     Ok(sum.finish(width, height))
 }
 
@@ -86,7 +86,7 @@ impl Sum {
         Self { pixels, rest: Remainder::default(), cover: 0.0 }
     }
 
-    fn add(&mut self, lit: &Lit) {
+    fn add(&mut self, lit: &RadiancePixel) {
         self.rest.unresolved += lit.unresolved;
         self.rest.absorbed += lit.absorbed;
         self.cover += lit.cover;

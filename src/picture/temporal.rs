@@ -13,7 +13,7 @@ const BEYOND: f32 = 0.25;
 
 /// What is seen at a pixel's middle.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Moved {
+pub struct MotionVector {
     /// Which body, if any.
     pub body: Option<u32>,
     /// Where the same point of it was seen in the picture before, in pixels to the right of its left border and below its
@@ -23,7 +23,7 @@ pub struct Moved {
 
 /// Pictures laid over one another.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Trail {
+pub struct TemporalHistory {
     /// What has come of them, in linear light.
     pub picture: Linear,
     /// The body that each pixel shows, or at whose rim it is.
@@ -32,9 +32,9 @@ pub struct Trail {
     pub count: u32,
 }
 
-impl Trail {
+impl TemporalHistory {
     /// Begins with a first picture; `moved` belongs to its pixels.
-    pub fn begin(picture: Linear, moved: &[Moved]) -> Self {
+    pub fn begin(picture: Linear, moved: &[MotionVector]) -> Self {
         let picture = picture.whole();
         let film = Film { now: &picture, moved };
         let bodies = (0..picture.pixels.len()).map(|k| film.from(k).0).collect();
@@ -43,7 +43,7 @@ impl Trail {
 
     /// Lays the next picture over the ones before, of which it takes the share `newest`, 0 to 1; all of it where its pixels are
     /// others in number, or show what was not seen before.
-    pub fn lay(&mut self, picture: Linear, moved: &[Moved], newest: f64) {
+    pub fn lay(&mut self, picture: Linear, moved: &[MotionVector], newest: f64) {
         let next = Self::begin(picture, moved);
         let same = (next.picture.width, next.picture.height) == (self.picture.width, self.picture.height);
         if !same || moved.len() != next.bodies.len() {
@@ -94,7 +94,7 @@ impl Trail {
 /// The newest picture.
 struct Film<'a> {
     now: &'a Linear,
-    moved: &'a [Moved],
+    moved: &'a [MotionVector],
 }
 
 impl Film<'_> {
@@ -165,11 +165,11 @@ mod tests {
     }
 
     /// What has moved by so much since.
-    fn moved(middle: DVec2, by: DVec2) -> Vec<Moved> {
+    fn moved(middle: DVec2, by: DVec2) -> Vec<MotionVector> {
         let pixel = |k: u32| {
             let at = DVec2::new(f64::from(k % SIDE), f64::from(k / SIDE)) + 0.5;
             let is_body = (at - middle).length() < 7.0;
-            Moved { body: is_body.then_some(0), from: if is_body { at - by } else { at } }
+            MotionVector { body: is_body.then_some(0), from: if is_body { at - by } else { at } }
         };
         (0..SIDE * SIDE).map(pixel).collect()
     }
@@ -183,7 +183,7 @@ mod tests {
     fn run(speed: DVec2, told: DVec2, newest: f64) -> (f64, f64) {
         let place = |n: u32| DVec2::splat(9.0) + speed * f64::from(n);
         let shift = |n: u32| ((DVec2::new(0.755, 0.57) * f64::from(n)) + 0.5).fract();
-        let mut trail = Trail::begin(disc(place(0), shift(0)), &moved(place(0), told));
+        let mut trail = TemporalHistory::begin(disc(place(0), shift(0)), &moved(place(0), told));
         const LAST: u32 = 19;
         for n in 1..=LAST {
             trail.lay(disc(place(n), shift(n)), &moved(place(n), told), newest);
@@ -215,15 +215,15 @@ mod tests {
         let (here, there) = (DVec2::new(8.0, 8.0), DVec2::new(16.0, 16.0));
         let half = DVec2::splat(0.5);
         let (first, second) = (disc(here, half), disc(there, half));
-        let lost: Vec<Moved> =
-            moved(there, DVec2::ZERO).into_iter().map(|m| Moved { from: DVec2::NAN, ..m }).collect();
-        let mut trail = Trail::begin(first.clone(), &moved(here, DVec2::ZERO));
+        let lost: Vec<MotionVector> =
+            moved(there, DVec2::ZERO).into_iter().map(|m| MotionVector { from: DVec2::NAN, ..m }).collect();
+        let mut trail = TemporalHistory::begin(first.clone(), &moved(here, DVec2::ZERO));
         trail.lay(second.clone(), &lost, 0.1);
         assert!(trail.picture == second);
         let small = Linear::new(3, 3);
-        trail.lay(small.clone(), &[Moved { body: None, from: DVec2::ONE }; 9], 0.1);
+        trail.lay(small.clone(), &[MotionVector { body: None, from: DVec2::ONE }; 9], 0.1);
         assert!(trail.picture == small && trail.count == 1);
-        let mut trail = Trail::begin(first, &moved(here, DVec2::ZERO));
+        let mut trail = TemporalHistory::begin(first, &moved(here, DVec2::ZERO));
         trail.lay(second.clone(), &moved(there, DVec2::ZERO), 1.0);
         assert!(off(&trail.picture, &second) < 1e-6, "all of the newest");
     }

@@ -1,7 +1,7 @@
 //! What a design makes: a stone between planes, or a solid of another kind.
 
 use super::Stone;
-use crate::math::{NotConvex, Shell, Smooth, Solid, SolidRef};
+use crate::math::{NotConvex, SmoothSolid, Solid, SolidRef, TriangleMesh};
 use glam::{DQuat, DVec3};
 use std::sync::Arc;
 
@@ -11,9 +11,9 @@ pub enum Body {
     /// Convex, between planes that have names.
     Stone(Stone),
     /// Within triangles; not convex.
-    Mesh(Arc<Shell>),
+    Mesh(Arc<TriangleMesh>),
     /// Within a smooth surface.
-    Glass(Smooth),
+    Glass(SmoothSolid),
 }
 
 impl Body {

@@ -35,7 +35,7 @@ pub struct Light {
     pub lamp: Vec<Lamp>,
     /// Many lamps, evenly spread.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub field: Vec<Field>,
+    pub field: Vec<LampField>,
     /// A picture of the surroundings.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub panorama: Option<PanoramaRef>,
@@ -126,7 +126,7 @@ pub struct Lamp {
 /// Equal lamps, evenly spread between two elevations.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Field {
+pub struct LampField {
     /// How many.
     pub count: u32,
     /// Elevation where they begin.
@@ -198,7 +198,7 @@ pub fn toward(azimuth: f64, elevation: f64) -> DVec3 {
 impl Light {
     /// All single lamps, those of its fields included.
     pub fn lamps(&self) -> Vec<Lamp> {
-        self.lamp.iter().cloned().chain(self.field.iter().flat_map(Field::lamps)).collect()
+        self.lamp.iter().cloned().chain(self.field.iter().flat_map(LampField::lamps)).collect()
     }
 
     /// Checks every number.
@@ -261,7 +261,7 @@ impl Light {
     }
 }
 
-impl Field {
+impl LampField {
     /// Its lamps, on a spiral of equal areas by the golden angle.
     fn lamps(&self) -> impl Iterator<Item = Lamp> {
         let golden = 180.0 * (3.0 - 5.0_f64.sqrt());

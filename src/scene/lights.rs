@@ -1,6 +1,6 @@
 //! The lights that come with the program. What is published is said; the rest is chosen to show stones well.
 
-use super::light::{Dome, Field, Lamp, Light, PanoramaRef, SoftBox};
+use super::light::{Dome, Lamp, LampField, Light, PanoramaRef, SoftBox};
 use crate::optics::Illuminant;
 use std::path::Path;
 
@@ -125,7 +125,7 @@ impl Light {
         Self {
             head: 8.0,
             dome: vec![belt(-90.0, 90.0, 0.0, 0.025)],
-            field: vec![Field {
+            field: vec![LampField {
                 count: 90,
                 from: 15.0,
                 to: 84.0,
@@ -218,7 +218,7 @@ mod tests {
         assert!(told.starts_with("lamp 1: radius is 0; give 0.001 to 90"), "{told}");
         let dark = Light::named("dark", "");
         assert_eq!(dark.validate(), Err(super::super::light::LightError::Dark));
-        let crowd = Field { count: 4_000_000_000, ..Light::fire().field[0].clone() };
+        let crowd = LampField { count: 4_000_000_000, ..Light::fire().field[0].clone() };
         assert!(Light { field: vec![crowd; 2], ..dark }.validate().is_err());
     }
 }

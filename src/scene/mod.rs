@@ -1,8 +1,9 @@
 //! Floor 2: what is looked at, from where and under which light. Data only.
 
 mod body;
-mod company;
+mod copies;
 mod film;
+mod instance;
 mod layout;
 mod light;
 mod lights;
@@ -10,23 +11,22 @@ mod medium;
 mod overlap;
 mod panorama;
 mod scope;
-mod setting;
 mod specimen;
 mod stone;
 mod view;
 mod viewpoint;
 
 pub use body::Body;
-pub use company::{Company, MOST_COPIES, Pose, middle};
+pub use copies::{Copies, MOST_COPIES, Pose, middle};
 pub use film::Film;
+pub use instance::{Instance, Scene};
 pub use layout::Layout;
-pub use light::{Dome, Field, Lamp, Light, LightError, MOST_LAMPS, PanoramaRef, SoftBox, toward};
+pub use light::{Dome, Lamp, LampField, Light, LightError, MOST_LAMPS, PanoramaRef, SoftBox, toward};
 pub use lights::{LIGHTS, light};
 pub use medium::Medium;
 pub use overlap::overlapping;
 pub use panorama::Panorama;
 pub use scope::{ASET_CONE, Backing, Band, Glare, MOST_BANDS, Scope, ScopeError, elevation_deg};
-pub use setting::{Placed, Setting};
 pub use specimen::{Specimen, SpecimenError};
 pub use stone::Stone;
 pub use view::{Lean, Projection, Side, View};

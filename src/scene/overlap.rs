@@ -1,7 +1,7 @@
 //! Whether stones are in one another's way.
 
-use super::Placed;
-use crate::math::{Plane, Polytope, PolytopeError, Shell, Solid};
+use super::Instance;
+use crate::math::{Plane, Polytope, PolytopeError, Solid, TriangleMesh};
 use glam::DVec3;
 use std::sync::Arc;
 
@@ -9,7 +9,7 @@ use std::sync::Arc;
 const TOUCHING: f64 = 1e-8;
 
 /// The first two stones, by their places in the list, that share some space; to touch is not to overlap.
-pub fn overlapping(stones: &[Placed]) -> Option<(usize, usize)> {
+pub fn overlapping(stones: &[Instance]) -> Option<(usize, usize)> {
     let balls: Vec<_> = stones.iter().map(|s| ball(&s.solid)).collect();
     let are_near = |i: usize, j: usize| balls[i].0.distance(balls[j].0) < balls[i].1 + balls[j].1;
     let pairs = (0..stones.len()).flat_map(|i| (i + 1..stones.len()).map(move |j| (i, j)));
@@ -69,11 +69,11 @@ fn cross(a: &Solid, b: &Solid, middle: DVec3) -> bool {
 }
 
 /// The triangles of a solid; those of a smooth one are within it, by as much as they differ from it.
-fn shell(solid: &Solid) -> Option<Arc<Shell>> {
+fn shell(solid: &Solid) -> Option<Arc<TriangleMesh>> {
     match solid {
-        Solid::Convex(polytope) => Some(Arc::new(Shell::of_polytope(polytope))),
+        Solid::Convex(polytope) => Some(Arc::new(TriangleMesh::of_polytope(polytope))),
         Solid::Triangles(shell) => Some(Arc::clone(shell)),
-        Solid::Smooth(smooth) => Shell::new(smooth.surface().clone()).ok().map(Arc::new),
+        Solid::Smooth(smooth) => TriangleMesh::new(smooth.surface().clone()).ok().map(Arc::new),
     }
 }
 
@@ -84,12 +84,12 @@ mod tests {
     use glam::DQuat;
 
     /// A cube of side 2, turned and moved.
-    fn cube(turn: DQuat, shift: DVec3) -> Placed {
+    fn cube(turn: DQuat, shift: DVec3) -> Instance {
         let axes = [DVec3::X, DVec3::Y, DVec3::Z];
         let planes: Vec<_> =
             axes.into_iter().flat_map(|a| [Plane::new(a, 1.0), Plane::new(-a, 1.0)]).collect();
         let cube = Polytope::from_planes(&planes).unwrap();
-        Placed::new(cube.moved(1.0, turn, shift), Material::from_index("glass", 1.5).unwrap())
+        Instance::new(cube.moved(1.0, turn, shift), Material::from_index("glass", 1.5).unwrap())
     }
 
     fn of(places: &[(DQuat, DVec3)]) -> Option<(usize, usize)> {
@@ -109,8 +109,8 @@ mod tests {
 
     #[test]
     fn stones_of_triangles_are_told_apart_like_those_of_planes() {
-        let triangles = |stone: Placed| match &stone.solid {
-            Solid::Convex(polytope) => Placed::new(Shell::of_polytope(polytope), stone.material),
+        let triangles = |stone: Instance| match &stone.solid {
+            Solid::Convex(polytope) => Instance::new(TriangleMesh::of_polytope(polytope), stone.material),
             Solid::Triangles(_) | Solid::Smooth(_) => stone,
         };
         let turned = DQuat::from_rotation_z(std::f64::consts::FRAC_PI_4);
@@ -121,8 +121,8 @@ mod tests {
         };
         assert_eq!((pair(1.42), pair(1.41)), ((None, None), (Some((0, 1)), Some((0, 1)))));
         let (vertices, all) = crate::math::fixture::clasp(1.0);
-        let clasp = Shell::new(crate::math::Surface::new(vertices, all)).unwrap();
-        let clasp = Placed::new(clasp, Material::from_index("glass", 1.5).unwrap());
+        let clasp = TriangleMesh::new(crate::math::Surface::new(vertices, all)).unwrap();
+        let clasp = Instance::new(clasp, Material::from_index("glass", 1.5).unwrap());
         // Within the clasp's gap a cube is free; in its bar it is not, nor where it is wholly inside.
         let small = |x: f64, y: f64, scale: f64| {
             cube(DQuat::IDENTITY, DVec3::ZERO).moved(scale, DQuat::IDENTITY, DVec3::new(x, y, 0.0))

@@ -103,7 +103,7 @@ impl Glare {
     }
 
     /// In words.
-    pub fn told(self) -> &'static str {
+    pub fn description(self) -> &'static str {
         match self {
             Self::LeftOut => "glare left out",
             Self::Included => "glare included",

@@ -2,7 +2,7 @@
 
 use super::{Body, Medium, Stone};
 use crate::cut::{Cut, Design, DesignError, Tiers};
-use crate::math::{NotConvex, Plane, Polytope, PolytopeError, Smooth, SolidRef};
+use crate::math::{NotConvex, Plane, Polytope, PolytopeError, SmoothSolid, SolidRef};
 use crate::optics::Material;
 use glam::DVec3;
 use std::sync::Arc;
@@ -46,7 +46,7 @@ impl Specimen {
         let body = match &design.cut {
             Cut::Mesh(shape) => Some(Body::Mesh(Arc::clone(&shape.0))),
             Cut::Glass(glass) if glass.planes().is_none() => {
-                Some(Body::Glass(Smooth::new(glass.field().map_err(DesignError::from)?)))
+                Some(Body::Glass(SmoothSolid::new(glass.field().map_err(DesignError::from)?)))
             }
             _ => None,
         };
@@ -61,11 +61,11 @@ impl Specimen {
             (Ok(stone), _) => stone,
             (Err(PolytopeError::Unbounded { .. }), Cut::Tiers(_)) => {
                 facets.extend(Tiers::block());
-                let stone = Stone::new(&facets).map_err(|e| told(&e, &facets))?;
+                let stone = Stone::new(&facets).map_err(|e| with_names(&e, &facets))?;
                 warnings.push(closed_by_block(&stone));
                 stone.girdled()
             }
-            (Err(error), _) => return Err(told(&error, &facets)),
+            (Err(error), _) => return Err(with_names(&error, &facets)),
         };
         warnings.extend(odd(&stone, &facets, given));
         Ok(Self::made(design, Body::Stone(stone), material, warnings))
@@ -120,8 +120,8 @@ impl Specimen {
     }
 }
 
-fn told(error: &PolytopeError, facets: &[(String, Plane)]) -> SpecimenError {
-    SpecimenError::Solid(error.told(|i| format!("'{}'", facets[i].0)))
+fn with_names(error: &PolytopeError, facets: &[(String, Plane)]) -> SpecimenError {
+    SpecimenError::Solid(error.message(|i| format!("'{}'", facets[i].0)))
 }
 
 fn closed_by_block(stone: &Stone) -> String {

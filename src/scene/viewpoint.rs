@@ -54,7 +54,7 @@ impl Viewpoint {
     }
 
     /// In words, for what goes into pictures.
-    pub fn told(&self) -> String {
+    pub fn description(&self) -> String {
         let (side, tilt, azimuth) = (self.side.name(), self.tilt_deg, self.azimuth_deg);
         let tilt = match self.lean {
             _ if tilt == 0.0 => String::new(),
@@ -131,6 +131,6 @@ mod tests {
                 "culet side, eye moved 7.5 degrees toward -10, from 8 girdle radii",
             ),
         ];
-        words.iter().for_each(|(viewpoint, told)| assert_eq!(viewpoint.told(), *told));
+        words.iter().for_each(|(viewpoint, told)| assert_eq!(viewpoint.description(), *told));
     }
 }

@@ -1,14 +1,14 @@
 //! Floor 3: where light goes. Exact beams and point rays, which share nothing but Fresnel's equations.
 
 pub mod beam;
+pub mod environment;
 #[cfg(feature = "gpu")]
 pub mod gpu;
 pub mod ray;
 mod sampler;
-pub mod sitting;
-pub mod surround;
+pub mod sampling;
 
-pub use sampler::{CannotTrace, Sampler, Subject, Tracer};
+pub use sampler::{CannotTrace, RayTracer, Subject, Tracer};
 
 use std::ops::ControlFlow;
 

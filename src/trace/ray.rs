@@ -5,21 +5,21 @@
 //! space, so that where rays and beams agree it is not by a shared mistake.
 
 mod camera;
-mod company;
 mod facets;
 mod light;
 mod path;
+mod scene_tracer;
 mod search;
 mod sight;
 mod tree;
 
 pub use self::camera::Camera;
-pub use self::company::{ByRays, Company, First, Waiting};
-use self::facets::{Facets, Planes, Shape, Smooth, Triangles, Wavy};
-use self::light::Light;
-use self::path::{Exiting, Meeting};
+use self::facets::{FacetSearch, Planes, SmoothFacets, SolidFacets, TriangleFacets, Wavy};
+use self::light::PathLight;
+use self::path::{ExitLight, SurfaceEvent};
 pub use self::path::{Leaving, Path, Step};
-pub use self::sight::{Glance, Sight, facet_at};
+pub use self::scene_tracer::{ByRays, First, SceneTracer, WaitingRay};
+pub use self::sight::{ProbeRay, SceneProbe, facet_at};
 use self::tree::Inbound;
 use crate::math::SolidRef;
 use crate::optics::{cos_transmitted, reflect, reflected_change, refract, refracted_change};
@@ -29,7 +29,7 @@ use std::sync::Arc;
 
 /// How far to follow a ray.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Options {
+pub struct RayOptions {
     /// Follow polarisation; without, every surface sees unpolarised light.
     pub polarised: bool,
     /// Stop after this many bounces inside the stone.
@@ -38,7 +38,7 @@ pub struct Options {
     pub least_weight: f64,
 }
 
-impl Default for Options {
+impl Default for RayOptions {
     fn default() -> Self {
         Self { polarised: true, most_bounces: 1000, least_weight: 1e-6 }
     }
@@ -67,7 +67,7 @@ pub struct Exit {
 
 /// What of a ray did not leave the stone.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Rest {
+pub struct Loss {
     /// Share absorbed.
     pub absorbed: f64,
     /// Share not followed to its end.
@@ -78,10 +78,10 @@ pub struct Rest {
 
 /// Follows single rays through one stone.
 #[derive(Debug, Clone)]
-pub struct Tracer {
-    shape: Shape,
+pub struct StoneTracer {
+    shape: SolidFacets,
     medium: Medium,
-    options: Options,
+    options: RayOptions,
 }
 
 /// How far the point moves in which a ray meets a surface, when the ray there moves by this much.
@@ -90,14 +90,18 @@ fn along_surface(by: DVec3, direction: DVec3, normal: DVec3) -> DVec3 {
     by - direction * (normal.dot(by) / normal.dot(direction))
 }
 
-impl Tracer {
+impl StoneTracer {
     /// Prepares a stone.
-    pub fn new<'a>(solid: impl Into<SolidRef<'a>>, medium: Medium, options: Options) -> Self {
+    pub fn new<'a>(solid: impl Into<SolidRef<'a>>, medium: Medium, options: RayOptions) -> Self {
         let shape = match solid.into() {
-            SolidRef::Convex(polytope) => Shape::Planes(Arc::new(Planes::new(polytope.planes().collect()))),
-            SolidRef::Triangles(shell) => Shape::Triangles(Triangles::new(shell)),
-            SolidRef::Smooth(smooth) if smooth.field().is_convex() => Shape::Smooth(Smooth(*smooth.field())),
-            SolidRef::Smooth(smooth) => Shape::Wavy(Wavy(*smooth.field())),
+            SolidRef::Convex(polytope) => {
+                SolidFacets::Planes(Arc::new(Planes::new(polytope.planes().collect())))
+            }
+            SolidRef::Triangles(shell) => SolidFacets::Triangles(TriangleFacets::new(shell)),
+            SolidRef::Smooth(smooth) if smooth.field().is_convex() => {
+                SolidFacets::Smooth(SmoothFacets(*smooth.field()))
+            }
+            SolidRef::Smooth(smooth) => SolidFacets::Wavy(Wavy(*smooth.field())),
         };
         Self { shape, medium, options }
     }
@@ -109,21 +113,21 @@ impl Tracer {
 
     /// Whether light that has left never meets the stone again; not known of triangles.
     pub fn is_convex(&self) -> bool {
-        matches!(self.shape, Shape::Planes(_) | Shape::Smooth(_))
+        matches!(self.shape, SolidFacets::Planes(_) | SolidFacets::Smooth(_))
     }
 
     /// Whether the stone itself stands before a point of its surface on the way to the eye.
     pub fn hides_itself(&self, way: (DVec3, DVec3)) -> bool {
         match &self.shape {
-            Shape::Planes(_) | Shape::Smooth(_) => false,
-            Shape::Triangles(triangles) => triangles.hides(way),
-            Shape::Wavy(wavy) => wavy.hides(way),
+            SolidFacets::Planes(_) | SolidFacets::Smooth(_) => false,
+            SolidFacets::Triangles(triangles) => triangles.hides(way),
+            SolidFacets::Wavy(wavy) => wavy.hides(way),
         }
     }
 
     /// Follows the ray from a point outside, calling `leave` for the surface's glare and for each exit; `None`
     /// where it misses the stone.
-    pub fn follow(&self, origin: DVec3, direction: DVec3, leave: impl FnMut(Exit)) -> Option<Rest> {
+    pub fn follow(&self, origin: DVec3, direction: DVec3, leave: impl FnMut(Exit)) -> Option<Loss> {
         let met = self.meet(origin, direction)?;
         self.follow_from(met, origin, (direction, DVec3::ZERO), 1.0, |_, _| false, leave)
     }
@@ -141,18 +145,18 @@ impl Tracer {
         weight: f64,
         is_taken: impl Fn(&Exit, f64) -> bool,
         leave: impl FnMut(Exit),
-    ) -> Option<Rest> {
+    ) -> Option<Loss> {
         let start = self.start(met, origin, (direction, sweep), weight);
         match &self.shape {
-            Shape::Planes(planes) => self.chain(&**planes, start, leave),
-            Shape::Smooth(smooth) => self.chain(smooth, start, leave),
-            Shape::Triangles(triangles) => self.branch(triangles, start, is_taken, leave),
-            Shape::Wavy(wavy) => self.branch(wavy, start, is_taken, leave),
+            SolidFacets::Planes(planes) => self.chain(&**planes, start, leave),
+            SolidFacets::Smooth(smooth) => self.chain(smooth, start, leave),
+            SolidFacets::Triangles(triangles) => self.branch(triangles, start, is_taken, leave),
+            SolidFacets::Wavy(wavy) => self.branch(wavy, start, is_taken, leave),
         }
     }
 
     /// Through a solid that never takes back what has left it.
-    fn chain<F: Facets>(&self, facets: &F, start: Inbound, mut leave: impl FnMut(Exit)) -> Option<Rest> {
+    fn chain<F: FacetSearch>(&self, facets: &F, start: Inbound, mut leave: impl FnMut(Exit)) -> Option<Loss> {
         self.passage(facets, start, |meeting| {
             if let Some(exit) = meeting.exit() {
                 leave(exit);
@@ -167,18 +171,18 @@ impl Tracer {
         (direction, sweep): (DVec3, DVec3),
         weight: f64,
     ) -> Inbound {
-        let light = Light::of_eye(direction, weight, self.options.polarised);
+        let light = PathLight::of_eye(direction, weight, self.options.polarised);
         Inbound { met, origin, direction, sweep, shift: DVec3::ZERO, light, left: 1.0, path: 0.0, bounce: 0 }
     }
 
     /// The way of light through the stone, from the facet where it enters until too little is left: the one loop behind all
     /// that is told of rays.
-    fn passage<F: Facets>(
+    fn passage<F: FacetSearch>(
         &self,
         facets: &F,
         inbound: Inbound,
-        mut meets: impl FnMut(Meeting),
-    ) -> Option<Rest> {
+        mut meets: impl FnMut(SurfaceEvent),
+    ) -> Option<Loss> {
         let Inbound { met: (facet, distance), origin, direction, sweep, left, path, bounce, .. } = inbound;
         let point = origin + direction * distance;
         let normal = facets.normal(facet, point);
@@ -193,14 +197,14 @@ impl Tracer {
         let swept = refracted_change(direction, normal, eta, (cos_i, cos_t), (sweep, of_normal, of_eta));
         let back = reflect(direction, normal, cos_i);
         let outer = F::BRANCHES.then(|| inbound.light.outer((direction, back), normal, eta, true, glare));
-        meets(Meeting {
+        meets(SurfaceEvent {
             facet: facet as u32,
             point,
             path,
             left,
             bounce,
             arriving: direction,
-            leaving: Some(Exiting {
+            leaving: Some(ExitLight {
                 direction: back,
                 sweep: reflected_change(direction, normal, (sweep, of_normal)),
                 shift,
@@ -216,7 +220,12 @@ impl Tracer {
         ))
     }
 
-    fn bounce<F: Facets>(&self, facets: &F, inside: Inbound, mut meets: impl FnMut(Meeting)) -> Rest {
+    fn bounce<F: FacetSearch>(
+        &self,
+        facets: &F,
+        inside: Inbound,
+        mut meets: impl FnMut(SurfaceEvent),
+    ) -> Loss {
         let Inbound {
             origin: mut point,
             mut direction,
@@ -227,7 +236,7 @@ impl Tracer {
             mut path,
             ..
         } = inside;
-        let mut rest = Rest { bounces: inside.bounce, ..Rest::default() };
+        let mut rest = Loss { bounces: inside.bounce, ..Loss::default() };
         let mut remaining = light.weight() * left;
         while remaining > self.options.least_weight && rest.bounces < self.options.most_bounces {
             let Some((facet, distance)) = facets.next(point, direction) else { break };
@@ -246,7 +255,7 @@ impl Tracer {
             let Medium { index, spread, .. } = self.medium;
             let cos_t = cos_transmitted(cos_i, index);
             let (onward, weight) = match (cos_t, light) {
-                (None, Light::Unpolarised(_)) => (light, 0.0),
+                (None, PathLight::Unpolarised(_)) => (light, 0.0),
                 _ => light.split(direction, reflected, normal, index, false),
             };
             let leaving = cos_t.map(|cos_t| {
@@ -255,11 +264,11 @@ impl Tracer {
                 let sweep = refracted_change(direction, -normal, index, cosines, (sweep, -of_normal, spread));
                 let outer =
                     F::BRANCHES.then(|| light.outer((direction, outward), normal, index, false, weight));
-                Exiting { direction: outward, sweep, shift, weight: weight * left, light: outer }
+                ExitLight { direction: outward, sweep, shift, weight: weight * left, light: outer }
             });
             rest.bounces += 1;
             remaining = onward.weight() * left;
-            meets(Meeting {
+            meets(SurfaceEvent {
                 facet: facet as u32,
                 point,
                 path,

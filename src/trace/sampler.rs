@@ -6,7 +6,7 @@ use crate::scene::{Medium, Projection, Scope, Specimen, View};
 
 /// What follows point rays.
 #[derive(Clone, Copy)]
-pub enum Sampler<'a> {
+pub enum RayTracer<'a> {
     /// The processor, in f64.
     Rays,
     /// A graphics card, in f32.
@@ -23,7 +23,7 @@ pub enum Tracer<'a> {
     /// Exact beams, for parallel rays and convex stones.
     Beams,
     /// Point rays, for everything.
-    Rays(Sampler<'a>),
+    Rays(RayTracer<'a>),
 }
 
 /// What is looked at, and by which light.
@@ -53,7 +53,7 @@ pub enum CannotTrace {
     NotConvex(#[from] NotConvex),
 }
 
-impl Sampler<'_> {
+impl RayTracer<'_> {
     /// Its short name, as figures have it: `ray` or `gpu`.
     pub fn name(self) -> &'static str {
         match self {
@@ -73,7 +73,7 @@ impl Sampler<'_> {
     }
 
     /// In words.
-    pub fn told(self) -> String {
+    pub fn description(self) -> String {
         match self {
             Self::Rays => "point rays".into(),
             #[cfg(feature = "gpu")]
@@ -86,7 +86,7 @@ impl Tracer<'_> {
     /// Exact beams where they apply, and otherwise point rays on the processor.
     pub fn best(specimen: &Specimen, view: &View) -> Self {
         let is_for_beams = view.projection == Projection::Orthographic && specimen.stone().is_ok();
-        if is_for_beams { Self::Beams } else { Self::Rays(Sampler::Rays) }
+        if is_for_beams { Self::Beams } else { Self::Rays(RayTracer::Rays) }
     }
 
     /// Its short name, as figures have it: `beam`, `ray` or `gpu`.
@@ -98,10 +98,10 @@ impl Tracer<'_> {
     }
 
     /// In words.
-    pub fn told(self) -> String {
+    pub fn description(self) -> String {
         match self {
             Self::Beams => "exact beams".into(),
-            Self::Rays(sampler) => sampler.told(),
+            Self::Rays(sampler) => sampler.description(),
         }
     }
 

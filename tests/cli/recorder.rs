@@ -57,7 +57,9 @@ fn record(desk: &Desk, line: &str, record: &mut String) {
     );
     let mut found = BTreeMap::new();
     tree(&desk.at(folder), "", &mut found);
-    found.iter().for_each(|(name, hash)| drop(writeln!(record, "{line}: {name} {hash:016x}")));
+    found.iter().for_each(|(name, hash)| {
+        let _ = writeln!(record, "{line}: {name} {hash:016x}");
+    });
 }
 
 /// The commands whose answers are recorded.
@@ -158,7 +160,9 @@ fn heart() -> String {
         let (a, b) = (corners[k], corners[(k + 1) % 4]);
         for facet in [[a, b, top], [b, a, bottom]] {
             text += "facet normal 0 0 0\nouter loop\n";
-            facet.iter().for_each(|[x, y, z]| drop(writeln!(text, "vertex {x} {y} {z}")));
+            facet.iter().for_each(|[x, y, z]| {
+                let _ = writeln!(text, "vertex {x} {y} {z}");
+            });
             text += "endloop\nendfacet\n";
         }
     }

@@ -1,17 +1,17 @@
 //! Mesh files as other programs hand them on: turned, and without what this program says in them.
 
-use brillianteer::io::design_file::Format;
+use brillianteer::io::design_file::DesignFormat;
 use glam::{DQuat, DVec3};
 
 /// The file with every corner turned about the origin, and all else as it was.
-pub fn turned(format: Format, bytes: Vec<u8>, turn: DQuat) -> Vec<u8> {
+pub fn turned(format: DesignFormat, bytes: Vec<u8>, turn: DQuat) -> Vec<u8> {
     moved(format, bytes, &|v| turn * v)
 }
 
 /// The file with every corner moved, and all else as it was.
-pub fn moved(format: Format, mut bytes: Vec<u8>, to: &dyn Fn(DVec3) -> DVec3) -> Vec<u8> {
+pub fn moved(format: DesignFormat, mut bytes: Vec<u8>, to: &dyn Fn(DVec3) -> DVec3) -> Vec<u8> {
     match format {
-        Format::Obj => {
+        DesignFormat::Obj => {
             let text = String::from_utf8(bytes).unwrap();
             let line = |line: &str| match line.strip_prefix("v ") {
                 Some(rest) => {
@@ -23,13 +23,13 @@ pub fn moved(format: Format, mut bytes: Vec<u8>, to: &dyn Fn(DVec3) -> DVec3) ->
             };
             text.lines().map(line).collect::<String>().into_bytes()
         }
-        Format::Stl => {
+        DesignFormat::Stl => {
             for triangle in bytes[84..].chunks_exact_mut(50) {
                 triangle[12..48].chunks_exact_mut(12).for_each(|corner| move_f32(corner, to));
             }
             bytes
         }
-        Format::Ply => {
+        DesignFormat::Ply => {
             let start = header(&bytes);
             let text = String::from_utf8_lossy(&bytes[..start]);
             let count = text.lines().find_map(|l| l.strip_prefix("element vertex ")?.parse::<usize>().ok());
@@ -40,7 +40,7 @@ pub fn moved(format: Format, mut bytes: Vec<u8>, to: &dyn Fn(DVec3) -> DVec3) ->
             }
             bytes
         }
-        Format::Glb => {
+        DesignFormat::Glb => {
             let (json, start) = json(&bytes);
             // The node turns z up into y up: what is moved are places in the file's frame.
             let node = DQuat::from_rotation_x(-std::f64::consts::FRAC_PI_2);
@@ -61,22 +61,22 @@ pub fn moved(format: Format, mut bytes: Vec<u8>, to: &dyn Fn(DVec3) -> DVec3) ->
 }
 
 /// The file without what says how its stone lies.
-pub fn stripped(format: Format, mut bytes: Vec<u8>) -> Vec<u8> {
+pub fn stripped(format: DesignFormat, mut bytes: Vec<u8>) -> Vec<u8> {
     let without = |text: &str| -> String {
         text.lines().filter(|line| !line.contains("brillianteer ")).map(|line| format!("{line}\n")).collect()
     };
     match format {
-        Format::Obj => without(&String::from_utf8(bytes).unwrap()).into_bytes(),
-        Format::Stl => {
+        DesignFormat::Obj => without(&String::from_utf8(bytes).unwrap()).into_bytes(),
+        DesignFormat::Stl => {
             bytes[..80].fill(0);
             bytes
         }
-        Format::Ply => {
+        DesignFormat::Ply => {
             let start = header(&bytes);
             let text = without(std::str::from_utf8(&bytes[..start]).unwrap());
             [text.into_bytes(), bytes[start..].to_vec()].concat()
         }
-        Format::Glb => {
+        DesignFormat::Glb => {
             // As long as before: no offset changes.
             let text = b"\"extras\":{\"brillianteer\"";
             let at = bytes.windows(text.len()).position(|w| w == text).unwrap();

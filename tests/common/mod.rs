@@ -57,7 +57,7 @@ pub fn aset() -> Scope {
 
 /// Traced to a bound.
 pub fn traced(stone: &Stone, medium: Medium, view: &View, unresolved: f64, polarised: bool) -> beam::Beams {
-    let options = beam::Options { unresolved, polarised, ..beam::Options::default() };
+    let options = beam::BeamOptions { unresolved, polarised, ..beam::BeamOptions::default() };
     beam::trace(&stone.polytope, medium, view, &options, &unwatched).unwrap()
 }
 

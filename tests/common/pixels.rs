@@ -4,8 +4,8 @@
 use super::common::aset;
 use brillianteer::math::SolidRef;
 use brillianteer::scene::{Film, Medium, Projection, Scope, Side, View};
-use brillianteer::trace::gpu::{Gpu, GpuError, Seen, Shot};
-use brillianteer::trace::ray::{Camera, Exit, Options, Tracer};
+use brillianteer::trace::gpu::{Gpu, GpuError, ScopePixel, ScopeShot};
+use brillianteer::trace::ray::{Camera, Exit, RayOptions, StoneTracer};
 use brillianteer::trace::{Stopped, unwatched};
 use glam::{DVec2, DVec3};
 
@@ -32,7 +32,7 @@ impl From<Stopped> for Failed {
 
 /// What one ray sees, in the order of [`numbers`].
 fn by_ray(
-    tracer: &Tracer,
+    tracer: &StoneTracer,
     camera: &Camera,
     (scope, view): (&Scope, &View),
     at: DVec2,
@@ -56,7 +56,7 @@ fn by_ray(
     seen
 }
 
-fn numbers(seen: &Seen) -> [f64; 19] {
+fn numbers(seen: &ScopePixel) -> [f64; 19] {
     let all = seen.transmitted.iter().chain(&seen.surface).chain(&seen.rest[..3]);
     let mut numbers = [0.0; 19];
     numbers.iter_mut().zip(all).for_each(|(n, &v)| *n = f64::from(v));
@@ -87,8 +87,8 @@ pub struct Case<'a> {
     pub medium: Medium,
     pub twin_medium: Medium,
     pub view: &'a View,
-    pub options: Options,
-    pub twin_options: Options,
+    pub options: RayOptions,
+    pub twin_options: RayOptions,
     /// Whether rays that leave are followed when they meet the stone again.
     pub comes_back: bool,
 }
@@ -96,7 +96,7 @@ pub struct Case<'a> {
 impl<'a> Case<'a> {
     pub fn new(solid: impl Into<SolidRef<'a>>, medium: Medium, view: &'a View, polarised: bool) -> Self {
         let solid = solid.into();
-        let options = Options { polarised, most_bounces: 64, least_weight: 1e-4 };
+        let options = RayOptions { polarised, most_bounces: 64, least_weight: 1e-4 };
         Self {
             solid,
             twin: solid,
@@ -114,7 +114,7 @@ impl<'a> Case<'a> {
         let camera = Camera::new(view, solid);
         let film = Film::reaching(camera.reach(solid).unwrap(), SIZE);
         let film = Film { centre: DVec2::new(0.03, -0.02), ..film };
-        let shot = Shot {
+        let shot = ScopeShot {
             solid: self.twin,
             medium: self.twin_medium,
             view,
@@ -126,11 +126,11 @@ impl<'a> Case<'a> {
         };
         let tracer = |factor: f64| {
             let medium = Medium { index: self.medium.index * factor, ..self.medium };
-            Tracer::new(solid, medium, self.options)
+            StoneTracer::new(solid, medium, self.options)
         };
         let [exact, denser, rarer] = [1.0, 1.0 + OTHER_INDEX, 1.0 - OTHER_INDEX].map(tracer);
         let mut result = Comparison { counted: 0, left_out: 0, largest: 0.0, energy: 0.0 };
-        let each = |first: u32, seen: &[Seen]| -> Result<(), Failed> {
+        let each = |first: u32, seen: &[ScopePixel]| -> Result<(), Failed> {
             for (k, seen) in seen.iter().enumerate() {
                 let pixel = DVec2::new(f64::from(k as u32 % SIZE), f64::from(first + k as u32 / SIZE));
                 let at = film.image_from_pixels(pixel + 0.5);

@@ -5,13 +5,13 @@ use brillianteer::math::{Polytope, Solid};
 use brillianteer::optics::{material, strata};
 use brillianteer::picture::spectral::{Remainder, expose_in};
 use brillianteer::picture::{ByBeams, Linear};
-use brillianteer::scene::{Film, Light, Panorama, Placed, Setting, View};
+use brillianteer::scene::{Film, Instance, Light, Panorama, Scene, View};
 use brillianteer::trace::beam;
+use brillianteer::trace::environment::{Backplate, Environment, EnvironmentMap};
 #[cfg(feature = "gpu")]
-use brillianteer::trace::gpu::{Around, ByCard, Gpu, GpuError};
-use brillianteer::trace::ray::{ByRays, Options};
-use brillianteer::trace::sitting::{Looks, Sitting};
-use brillianteer::trace::surround::{Behind, Sky, Surround};
+use brillianteer::trace::gpu::{ByCard, Gpu, GpuEnvironment, GpuError};
+use brillianteer::trace::ray::{ByRays, RayOptions};
+use brillianteer::trace::sampling::{LitScene, Sampling};
 use brillianteer::trace::{Stopped, unwatched};
 use glam::{DVec2, DVec3};
 
@@ -19,7 +19,7 @@ pub const SIZE: u32 = 64;
 
 /// A picture to take.
 pub struct Shoot {
-    pub setting: Setting,
+    pub setting: Scene,
     pub light: Light,
     pub view: View,
     pub wavelengths: u32,
@@ -29,7 +29,7 @@ pub struct Shoot {
     pub backdrop: bool,
     /// A photograph behind, and how far.
     pub photo: Option<(Panorama, f64)>,
-    pub options: Options,
+    pub options: RayOptions,
     /// Pixels across and down.
     pub size: u32,
     /// The point in the picture's middle.
@@ -42,9 +42,9 @@ impl Shoot {
     }
 
     pub fn of(solid: impl Into<Solid>, material_name: &str, light: Light) -> Self {
-        let stone = Placed::new(solid, material(material_name).unwrap().clone());
+        let stone = Instance::new(solid, material(material_name).unwrap().clone());
         Self {
-            setting: Setting { stones: vec![stone], unit_mm: 3.25 },
+            setting: Scene { instances: vec![stone], unit_mm: 3.25 },
             light: Light { head: 0.0, ..light },
             view: View { tilt: 0.2, azimuth: 0.4, ..View::default() },
             wavelengths: 8,
@@ -52,45 +52,45 @@ impl Shoot {
             strength: 1.0,
             backdrop: true,
             photo: None,
-            options: Options { polarised: true, most_bounces: 64, least_weight: 1e-4 },
+            options: RayOptions { polarised: true, most_bounces: 64, least_weight: 1e-4 },
             centre: DVec2::ZERO,
             size: SIZE,
         }
     }
 
-    pub fn with<T>(&self, work: impl FnOnce(&Sitting) -> T) -> T {
-        let sky = Sky::new(&self.light, None);
+    pub fn with<T>(&self, work: impl FnOnce(&LitScene) -> T) -> T {
+        let sky = EnvironmentMap::new(&self.light, None);
         let eye = self.view.basis();
-        let surround = Surround {
-            sky: &sky,
+        let environment = Environment {
+            map: &sky,
             basis: self.view.light_basis(),
             eye,
             head: self.light.head.to_radians(),
-            behind: self.photo.as_ref().map(|(picture, distance)| Behind {
+            backplate: self.photo.as_ref().map(|(picture, distance)| Backplate {
                 picture,
                 distance: *distance,
                 width: 3.0,
             }),
             backdrop: self.backdrop,
         };
-        work(&Sitting {
-            setting: &self.setting,
-            surround,
+        work(&LitScene {
+            scene: &self.setting,
+            environment,
             view: &self.view,
             film: Film { centre: self.centre, ..Film::square(self.size, 1.1) },
             options: self.options,
         })
     }
 
-    fn looks(&self) -> Looks {
-        Looks { strength: self.strength, ..Looks::of(self.samples) }
+    fn looks(&self) -> Sampling {
+        Sampling { strength: self.strength, ..Sampling::of(self.samples) }
     }
 
     pub fn by_rays(&self) -> (Linear, Remainder) {
         let strata = strata(self.wavelengths, &self.light.spectrum, true);
-        self.with(|sitting| {
-            let prepare = |rows| Ok::<_, Stopped>(ByRays::new(*sitting, rows));
-            expose_in(sitting, (&strata, self.looks()), self.size, prepare, &unwatched).unwrap()
+        self.with(|lit_scene| {
+            let prepare = |rows| Ok::<_, Stopped>(ByRays::new(*lit_scene, rows));
+            expose_in(lit_scene, (&strata, self.looks()), self.size, prepare, &unwatched).unwrap()
         })
     }
 
@@ -101,21 +101,21 @@ impl Shoot {
     /// So many rows at a time.
     pub fn by_beams_in(&self, rows: u32) -> (Linear, Remainder) {
         let strata = strata(self.wavelengths, &self.light.spectrum, true);
-        let options = beam::Options { unresolved: 1e-3, ..beam::Options::default() };
-        self.with(|sitting| {
-            let prepare = |rows| Ok::<_, Stopped>(ByBeams::of_rows(*sitting, options, rows).unwrap());
-            expose_in(sitting, (&strata, self.looks()), rows, prepare, &unwatched).unwrap()
+        let options = beam::BeamOptions { unresolved: 1e-3, ..beam::BeamOptions::default() };
+        self.with(|lit_scene| {
+            let prepare = |rows| Ok::<_, Stopped>(ByBeams::of_rows(*lit_scene, options, rows).unwrap());
+            expose_in(lit_scene, (&strata, self.looks()), rows, prepare, &unwatched).unwrap()
         })
     }
 
     #[cfg(feature = "gpu")]
     pub fn by_card(&self, gpu: &Gpu) -> (Linear, Remainder) {
         let strata = strata(self.wavelengths, &self.light.spectrum, true);
-        self.with(|sitting| {
-            let around = Around::new(gpu, &sitting.surround);
-            let prepare = |rows| Ok::<_, Failed>(ByCard::new(gpu, sitting, &around, rows, strata.len())?);
+        self.with(|lit_scene| {
+            let around = GpuEnvironment::new(gpu, &lit_scene.environment);
+            let prepare = |rows| Ok::<_, Failed>(ByCard::new(gpu, lit_scene, &around, rows, strata.len())?);
             // A strip at a time, as large pictures are taken.
-            expose_in(sitting, (&strata, self.looks()), 40, prepare, &unwatched).unwrap()
+            expose_in(lit_scene, (&strata, self.looks()), 40, prepare, &unwatched).unwrap()
         })
     }
 }

@@ -1,7 +1,7 @@
 use super::*;
 use crate::io::cut_file;
 use crate::scene::{ASET_CONE, Backing, Medium, Specimen, View};
-use crate::trace::ray::{Camera, Options, Tracer};
+use crate::trace::ray::{Camera, RayOptions, StoneTracer};
 use egui::{Event, Key, PointerButton, Pos2, Rect, Shape, Theme, vec2};
 use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT, Queryable};
@@ -19,8 +19,8 @@ impl Shown {
     fn new(least_weight: f64) -> Self {
         let design = cut_file::read(concat!(env!("CARGO_MANIFEST_DIR"), "/cuts/modern-ideal.toml")).unwrap();
         let body = Specimen::new(design).unwrap().body;
-        let options = Options { least_weight, ..Options::default() };
-        let tracer = Tracer::new(body.solid(), Medium::clear(2.4173), options);
+        let options = RayOptions { least_weight, ..RayOptions::default() };
+        let tracer = StoneTracer::new(body.solid(), Medium::clear(2.4173), options);
         let (origin, direction) = Camera::new(&View::default(), body.solid()).ray(DVec2::new(0.33, 0.21));
         let path = tracer.path(origin, direction).unwrap();
         let scope = Scope::aset(ASET_CONE, Backing::Black);

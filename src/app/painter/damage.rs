@@ -1,8 +1,8 @@
 //! Finds what has to be painted anew: the image is divided into tiles, and each has a hash of all pieces that are seen in it.
 
 use super::area::Area;
-use super::pieces::{Piece, combined};
-use super::texture::{Patch, Texture, Textures};
+use super::pieces::{PaintPiece, combined};
+use super::texture::{Texture, TexturePatch, Textures};
 
 /// Pixels across and down of a tile: high enough for a line of letters.
 const TILE: [i32; 2] = [64, 32];
@@ -25,9 +25,9 @@ impl Tiles {
     pub fn changed(
         &mut self,
         size: [usize; 2],
-        pieces: &[Piece],
+        pieces: &[PaintPiece],
         textures: &Textures,
-        patches: &[Patch],
+        patches: &[TexturePatch],
     ) -> Vec<Area> {
         let [across, down] = [size[0].div_ceil(TILE[0] as usize), size[1].div_ceil(TILE[1] as usize)];
         if self.size != size {
@@ -92,7 +92,7 @@ impl Tiles {
 }
 
 /// Whether a piece shows a part of its texture that has been replaced since the last image.
-fn reads_one_of(piece: &Piece, texture: &Texture, patches: &[Patch]) -> bool {
+fn reads_one_of(piece: &PaintPiece, texture: &Texture, patches: &[TexturePatch]) -> bool {
     let mut patches = patches.iter().filter(|(id, ..)| *id == piece.texture).peekable();
     if patches.peek().is_none() {
         return false;

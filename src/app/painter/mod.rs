@@ -22,7 +22,7 @@ use blend::pixel;
 use damage::Tiles;
 use egui::epaint::ClippedPrimitive;
 use egui::{Color32, TexturesDelta};
-use pieces::{Piece, Shape, pieces};
+use pieces::{PaintPiece, PaintShape, pieces};
 use texture::Textures;
 
 /// What lies behind everything. The window's panels leave nothing of it to be seen.
@@ -63,7 +63,7 @@ pub struct Painter {
     canvas: Canvas,
     textures: Textures,
     tiles: Tiles,
-    pieces: Vec<Piece>,
+    pieces: Vec<PaintPiece>,
 }
 
 impl Painter {
@@ -102,8 +102,8 @@ impl Painter {
             }
             let Some(texture) = textures.get(piece.texture) else { continue };
             match &piece.shape {
-                Shape::Rectangle(corners) => rectangle::draw(canvas, corners, texture, seen),
-                Shape::Triangle(corners) => triangle::draw(canvas, corners, texture, seen),
+                PaintShape::Rectangle(corners) => rectangle::draw(canvas, corners, texture, seen),
+                PaintShape::Triangle(corners) => triangle::draw(canvas, corners, texture, seen),
             }
         }
     }

@@ -7,7 +7,7 @@ use egui::epaint::{ClippedPrimitive, Mesh, Primitive, Vertex};
 
 /// A corner of a triangle or rectangle.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Corner {
+pub struct PaintCorner {
     /// Where it lies, pixels from the top left.
     pub at: [f32; 2],
     /// Where it lies in the texture, 0 to 1 across and down.
@@ -18,18 +18,18 @@ pub struct Corner {
 
 /// What is drawn at once.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Shape {
+pub enum PaintShape {
     /// A rectangle of one colour along the axes, by its top left and bottom right corners.
-    Rectangle([Corner; 2]),
+    Rectangle([PaintCorner; 2]),
     /// A triangle, its corners in any order.
-    Triangle([Corner; 3]),
+    Triangle([PaintCorner; 3]),
 }
 
 /// A shape, and what it is filled with.
 #[derive(Debug, Clone, Copy)]
-pub struct Piece {
+pub struct PaintPiece {
     /// The shape.
-    pub shape: Shape,
+    pub shape: PaintShape,
     /// What fills it.
     pub texture: TextureId,
     /// Where it can be seen: the pixels around it that its clip lets through.
@@ -43,7 +43,7 @@ pub fn pieces(
     size: [usize; 2],
     pixels_per_point: f32,
     primitives: &[ClippedPrimitive],
-    into: &mut Vec<Piece>,
+    into: &mut Vec<PaintPiece>,
 ) {
     into.clear();
     for ClippedPrimitive { clip_rect, primitive } in primitives {
@@ -60,30 +60,30 @@ pub fn pieces(
     }
 }
 
-fn of_mesh(mesh: &Mesh, pixels_per_point: f32, clip: Area, into: &mut Vec<Piece>) {
+fn of_mesh(mesh: &Mesh, pixels_per_point: f32, clip: Area, into: &mut Vec<PaintPiece>) {
     let corner = |index: u32| {
         let Vertex { pos, uv, color } = *mesh.vertices.get(index as usize)?;
         let at = [pos.x * pixels_per_point, pos.y * pixels_per_point];
         let is_number = at.iter().chain(&[uv.x, uv.y]).all(|n| n.is_finite());
-        is_number.then_some(Corner { at, uv: [uv.x, uv.y], colour: pixel(color) })
+        is_number.then_some(PaintCorner { at, uv: [uv.x, uv.y], colour: pixel(color) })
     };
     let seed = start(clip, mesh.texture_id);
     let mut rest = mesh.indices.as_slice();
     while let [a, b, c, after @ ..] = rest {
         rest = after;
         let (Some(p), Some(q), Some(r)) = (corner(*a), corner(*b), corner(*c)) else { continue };
-        let mut shape = Shape::Triangle([p, q, r]);
+        let mut shape = PaintShape::Triangle([p, q, r]);
         if let [d, e, f, beyond @ ..] = after
             && let Some(around) = in_turn([*a, *b, *c], [*d, *e, *f])
             && let [Some(p), Some(q), Some(r), Some(s)] = around.map(corner)
             && let Some(corners) = rectangle([p, q, r, s])
         {
             rest = beyond;
-            shape = Shape::Rectangle(corners);
+            shape = PaintShape::Rectangle(corners);
         }
         let bounds = shape.bounds().cut(clip);
         if !bounds.is_empty() {
-            into.push(Piece { shape, texture: mesh.texture_id, bounds, hash: hashed(seed, &shape) });
+            into.push(PaintPiece { shape, texture: mesh.texture_id, bounds, hash: hashed(seed, &shape) });
         }
     }
 }
@@ -99,9 +99,10 @@ fn in_turn([a, b, c]: [u32; 3], [d, e, f]: [u32; 3]) -> Option<[u32; 4]> {
 
 /// The top left and bottom right corners of four in turn, where they make a rectangle of one colour along the axes with
 /// a picture along the axes.
-fn rectangle([a, b, c, d]: [Corner; 4]) -> Option<[Corner; 2]> {
+fn rectangle([a, b, c, d]: [PaintCorner; 4]) -> Option<[PaintCorner; 2]> {
     let is_plain = [b, c, d].iter().all(|other| other.colour == a.colour);
-    let is_upright = |p: Corner, q: Corner, axis: usize| p.at[axis] == q.at[axis] && p.uv[axis] == q.uv[axis];
+    let is_upright =
+        |p: PaintCorner, q: PaintCorner, axis: usize| p.at[axis] == q.at[axis] && p.uv[axis] == q.uv[axis];
     let lies = is_upright(a, b, 1) && is_upright(b, c, 0) && is_upright(c, d, 1) && is_upright(d, a, 0);
     let stands = is_upright(a, b, 0) && is_upright(b, c, 1) && is_upright(c, d, 0) && is_upright(d, a, 1);
     if !is_plain || !(lies || stands) {
@@ -117,9 +118,9 @@ fn rectangle([a, b, c, d]: [Corner; 4]) -> Option<[Corner; 2]> {
     Some([least, most])
 }
 
-impl Shape {
+impl PaintShape {
     /// Its corners, of a rectangle two.
-    fn corners(&self) -> &[Corner] {
+    fn corners(&self) -> &[PaintCorner] {
         match self {
             Self::Rectangle(corners) => corners,
             Self::Triangle(corners) => corners,
@@ -161,15 +162,15 @@ fn start(clip: Area, texture: TextureId) -> u64 {
     [two(clip.left, clip.top), two(clip.right, clip.bottom), name].into_iter().fold(kind, combined)
 }
 
-fn hashed(seed: u64, shape: &Shape) -> u64 {
+fn hashed(seed: u64, shape: &PaintShape) -> u64 {
     let two = |pair: [f32; 2]| (u64::from(pair[0].to_bits()) << 32) | u64::from(pair[1].to_bits());
-    let add = |hash: u64, c: &Corner| {
+    let add = |hash: u64, c: &PaintCorner| {
         let hash = combined(combined(hash, two(c.at)), two(c.uv));
         combined(hash, u64::from(c.colour))
     };
     match shape {
-        Shape::Rectangle(corners) => corners.iter().fold(combined(seed, 4), add),
-        Shape::Triangle(corners) => corners.iter().fold(combined(seed, 3), add),
+        PaintShape::Rectangle(corners) => corners.iter().fold(combined(seed, 4), add),
+        PaintShape::Triangle(corners) => corners.iter().fold(combined(seed, 3), add),
     }
 }
 
@@ -179,7 +180,7 @@ mod tests {
     use egui::epaint::WHITE_UV;
     use egui::{Color32, Rect, pos2};
 
-    fn all(mesh: &Mesh, pixels_per_point: f32) -> Vec<Piece> {
+    fn all(mesh: &Mesh, pixels_per_point: f32) -> Vec<PaintPiece> {
         let clip_rect = Rect::from_min_max(pos2(0.0, 0.0), pos2(50.0, 40.0));
         let primitive = ClippedPrimitive { clip_rect, primitive: Primitive::Mesh(mesh.clone()) };
         let mut found = vec![];
@@ -207,7 +208,7 @@ mod tests {
             assert_eq!(found.len(), 1);
             assert_eq!(found[0].bounds, Area { left: 20, top: 8, right: 60, bottom: 17 });
             assert!(
-                matches!(found[0].shape, Shape::Rectangle([a, b]) if a.at == [20.0, 8.0] && b.at == [60.0, 17.0])
+                matches!(found[0].shape, PaintShape::Rectangle([a, b]) if a.at == [20.0, 8.0] && b.at == [60.0, 17.0])
             );
         }
         assert_eq!(all(&square(true), 1.0).len(), 2);

@@ -3,14 +3,14 @@
 use super::Canvas;
 use super::area::Area;
 use super::blend::{Pixel, WHOLE, alpha, lay, mixed, over, pixel, product};
-use super::pieces::Corner;
+use super::pieces::PaintCorner;
 use super::texture::Texture;
 
 /// How far off the middle of a pixel a texture may be read as though it were there, in its pixels.
 const SLACK: f32 = 1.0 / 64.0;
 
 /// Draws the part of a rectangle that lies in an area.
-pub fn draw(canvas: &mut Canvas, [a, b]: &[Corner; 2], texture: &Texture, area: Area) {
+pub fn draw(canvas: &mut Canvas, [a, b]: &[PaintCorner; 2], texture: &Texture, area: Area) {
     let area = Area::between(a.at, b.at).cut(area);
     if area.is_empty() {
         return;
@@ -38,7 +38,13 @@ struct Line {
 }
 
 impl Line {
-    fn along(a: &Corner, b: &Corner, axis: usize, texture: &Texture, pixels: std::ops::Range<i32>) -> Self {
+    fn along(
+        a: &PaintCorner,
+        b: &PaintCorner,
+        axis: usize,
+        texture: &Texture,
+        pixels: std::ops::Range<i32>,
+    ) -> Self {
         let size = texture.size[axis];
         let step = (b.uv[axis] - a.uv[axis]) * size as f32 / (b.at[axis] - a.at[axis]);
         let start = a.uv[axis] * size as f32 + (pixels.start as f32 + 0.5 - a.at[axis]) * step;

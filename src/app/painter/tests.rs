@@ -2,9 +2,9 @@
 #![allow(clippy::print_stdout, reason = "what is measured is told")]
 
 use super::Painter;
-use crate::app::desk::Desk;
 use crate::app::editor::{Editor, Setup};
 use crate::app::shows::Shows;
+use crate::app::workspace::Workspace;
 use egui::{Context, FullOutput, TexturesDelta, Theme};
 use egui_kittest::wgpu::WgpuTestRenderer;
 use egui_kittest::{Harness, TestRenderer};
@@ -57,11 +57,11 @@ fn painted(theme: Theme, scale: f32) -> (RgbaImage, RgbaImage) {
     let image = Arc::new(Mutex::new(RgbaImage::new(1, 1)));
     let twice =
         Twice { other: WgpuTestRenderer::new(), painter: Painter::default(), image: Arc::clone(&image) };
-    let [_, aset, hearts, profile] = Desk::default().panes;
+    let [_, aset, hearts, profile] = Workspace::default().panes;
     let mut diagram = aset;
     diagram.shows = Shows::Diagram;
     let setup = Setup {
-        desk: Desk { panes: [aset, diagram, hearts, profile], ..Desk::default() },
+        desk: Workspace { panes: [aset, diagram, hearts, profile], ..Workspace::default() },
         ..Setup::default()
     };
     let mut harness = Harness::builder()

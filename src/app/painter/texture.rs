@@ -21,7 +21,7 @@ pub struct Texture {
 }
 
 /// A part of a texture that was replaced: its texture, its first column and row, and those after its last.
-pub type Patch = (TextureId, [f32; 2], [f32; 2]);
+pub type TexturePatch = (TextureId, [f32; 2], [f32; 2]);
 
 /// All textures that egui has made.
 #[derive(Default)]
@@ -37,7 +37,7 @@ impl Textures {
     }
 
     /// Takes over what has changed, and returns the parts of textures that were replaced.
-    pub fn set(&mut self, delta: &mut TexturesDelta) -> Vec<Patch> {
+    pub fn set(&mut self, delta: &mut TexturesDelta) -> Vec<TexturePatch> {
         let mut patches = vec![];
         for (id, deltas) in delta.set.drain() {
             for delta in deltas {
@@ -54,7 +54,7 @@ impl Textures {
         }
     }
 
-    fn change(&mut self, id: TextureId, delta: ImageDelta) -> Option<Patch> {
+    fn change(&mut self, id: TextureId, delta: ImageDelta) -> Option<TexturePatch> {
         let ImageData::Color(image) = &delta.image;
         let [across, down] = image.size;
         if image.pixels.len() != across * down || image.pixels.is_empty() {

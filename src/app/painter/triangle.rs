@@ -3,12 +3,12 @@
 use super::Canvas;
 use super::area::{Area, first};
 use super::blend::{Pixel, lay, over, product};
-use super::pieces::Corner;
+use super::pieces::PaintCorner;
 use super::texture::Texture;
 
 /// Draws the part of a triangle that lies in an area: all pixels whose middles lie in it. Of two triangles with a common
 /// edge each such pixel belongs to exactly one.
-pub fn draw(canvas: &mut Canvas, corners: &[Corner; 3], texture: &Texture, area: Area) {
+pub fn draw(canvas: &mut Canvas, corners: &[PaintCorner; 3], texture: &Texture, area: Area) {
     let mut sorted = *corners;
     sorted.sort_by(|a, b| a.at[1].total_cmp(&b.at[1]));
     let [a, b, c] = sorted;
@@ -51,7 +51,7 @@ struct Edge {
 }
 
 impl Edge {
-    fn new(from: &Corner, to: &Corner) -> Self {
+    fn new(from: &PaintCorner, to: &PaintCorner) -> Self {
         Self { from: from.at, slope: (to.at[0] - from.at[0]) / (to.at[1] - from.at[1]) }
     }
 
@@ -74,7 +74,7 @@ struct Plane {
 
 impl Plane {
     /// The plane through what three corners have.
-    fn new([a, b, c]: &[Corner; 3], of: impl Fn(&Corner) -> [f32; 4]) -> Self {
+    fn new([a, b, c]: &[PaintCorner; 3], of: impl Fn(&PaintCorner) -> [f32; 4]) -> Self {
         let (u, v) = (apart(a, b), apart(a, c));
         let doubled = u[0] * v[1] - u[1] * v[0];
         let [p, q, r] = [of(a), of(b), of(c)];
@@ -98,7 +98,7 @@ impl Plane {
     }
 }
 
-fn apart(a: &Corner, b: &Corner) -> [f32; 2] {
+fn apart(a: &PaintCorner, b: &PaintCorner) -> [f32; 2] {
     [b.at[0] - a.at[0], b.at[1] - a.at[1]]
 }
 

@@ -1,7 +1,7 @@
 //! The stone itself, from the side.
 
-use super::ink::Inks;
-use super::sight::Sight;
+use super::ink::ProfileInks;
+use super::sight::ProfileProjection;
 use crate::math::{Basis, Facet, hull};
 use crate::scene::Stone;
 use egui::{Color32, Mesh, Painter, Pos2, Shape, Stroke};
@@ -14,15 +14,15 @@ const EDGE: f32 = 0.9;
 const GIRDLE: f32 = 0.5;
 
 /// The stone as it is seen from one side.
-pub struct Body<'a> {
+pub struct ProfileBody<'a> {
     stone: &'a Stone,
     basis: Basis,
-    sight: &'a Sight,
+    sight: &'a ProfileProjection,
 }
 
-impl<'a> Body<'a> {
+impl<'a> ProfileBody<'a> {
     /// Of a stone that lies in the profile's plane as `basis` says.
-    pub fn new(stone: &'a Stone, basis: Basis, sight: &'a Sight) -> Self {
+    pub fn new(stone: &'a Stone, basis: Basis, sight: &'a ProfileProjection) -> Self {
         Self { stone, basis, sight }
     }
 
@@ -33,7 +33,7 @@ impl<'a> Body<'a> {
     }
 
     /// Paints facets, edges in sight and the outline.
-    pub fn paint(&self, painter: &Painter, inks: &Inks, outline: &[Pos2]) {
+    pub fn paint(&self, painter: &Painter, inks: &ProfileInks, outline: &[Pos2]) {
         let corners: Vec<Pos2> =
             self.stone.polytope.vertices().iter().map(|&v| self.sight.at(self.basis.project(v))).collect();
         painter.add(self.faces(&corners, inks));
@@ -42,7 +42,7 @@ impl<'a> Body<'a> {
     }
 
     /// Facets as bare triangles: softened borders of slivers would stick out as long spikes, and lines cover these.
-    fn faces(&self, corners: &[Pos2], inks: &Inks) -> Mesh {
+    fn faces(&self, corners: &[Pos2], inks: &ProfileInks) -> Mesh {
         let mut mesh = Mesh::default();
         for facet in self.stone.polytope.facets().iter().filter(|facet| self.shows(facet)) {
             let (first, shade) = (mesh.vertices.len() as u32, self.shade(facet, inks));
@@ -55,7 +55,7 @@ impl<'a> Body<'a> {
     }
 
     /// Each edge in sight once, but for those of the outline.
-    fn edges(&self, corners: &[Pos2], inks: &Inks) -> Vec<Shape> {
+    fn edges(&self, corners: &[Pos2], inks: &ProfileInks) -> Vec<Shape> {
         let facets = self.stone.polytope.facets();
         let mut edges = vec![];
         for (id, facet) in facets.iter().enumerate().filter(|(_, facet)| self.shows(facet)) {
@@ -75,7 +75,7 @@ impl<'a> Body<'a> {
         facet.plane.normal.dot(self.basis.toward) > EDGE_ON
     }
 
-    fn shade(&self, facet: &Facet, inks: &Inks) -> Color32 {
+    fn shade(&self, facet: &Facet, inks: &ProfileInks) -> Color32 {
         let facing = facet.plane.normal.dot(self.basis.toward).clamp(0.0, 1.0);
         inks.faces[1].lerp_to_gamma(inks.faces[0], facing as f32)
     }
@@ -89,7 +89,7 @@ fn rounded_line(corners: &[Pos2], stroke: Stroke) -> Vec<Shape> {
     lines.chain(corners).collect()
 }
 
-fn stroke(facet: &Facet, beyond: &Facet, inks: &Inks) -> Stroke {
+fn stroke(facet: &Facet, beyond: &Facet, inks: &ProfileInks) -> Stroke {
     let upright = |facet: &Facet| facet.plane.normal.z.abs() < EDGE_ON;
     if upright(facet) && upright(beyond) {
         Stroke::new(GIRDLE, inks.girdle)

@@ -1,13 +1,13 @@
 //! What one frame shows: the stone, its dimensions, its handles; laid out, then painted.
 
-use super::body::Body;
+use super::body::ProfileBody;
 use super::grips::{Grip, grips};
 use super::handle::Handle;
-use super::ink::Inks;
-use super::plan::{Detail, Planner, Subject};
+use super::ink::ProfileInks;
+use super::plan::{LabelDetail, Planner, ProfileSubject};
 use super::quantity::Quantity;
-use super::sheet::{Label, Line, Sheet, Weight};
-use super::sight::{Extent, Sight};
+use super::sheet::{Label, ProfileSheet, SheetLine, Weight};
+use super::sight::{ProfileBox, ProfileProjection};
 use crate::cut::{Derived, RoundBrilliant};
 use crate::math::Basis;
 use crate::picture::profile::brilliant::BRILLIANT_BASIS;
@@ -24,7 +24,7 @@ const EXTENSION: f32 = 0.7;
 const TYPE: f32 = 0.92;
 
 /// A stone as it is measured.
-pub struct Measured<'a> {
+pub struct MeasuredProfile<'a> {
     stone: &'a Stone,
     basis: Basis,
     dimensions: Dimensions,
@@ -32,7 +32,7 @@ pub struct Measured<'a> {
     pub brilliant: Option<(RoundBrilliant, Derived)>,
 }
 
-impl<'a> Measured<'a> {
+impl<'a> MeasuredProfile<'a> {
     /// By its proportions if it has some that can be, else on its planes.
     pub fn new(stone: &'a Stone, given: Option<&RoundBrilliant>) -> Self {
         let brilliant = given.and_then(|given| Some((*given, given.derived().ok()?)));
@@ -47,8 +47,8 @@ impl<'a> Measured<'a> {
     }
 
     /// The part of the profile that it fills.
-    pub fn extent(&self) -> Extent {
-        Extent::of(&self.dimensions)
+    pub fn extent(&self) -> ProfileBox {
+        ProfileBox::of(&self.dimensions)
     }
 }
 
@@ -72,23 +72,23 @@ pub struct Frame<'a> {
     /// The drawing's identity.
     pub id: Id,
     /// From the profile to the screen.
-    pub sight: Sight,
-    measured: &'a Measured<'a>,
+    pub sight: ProfileProjection,
+    measured: &'a MeasuredProfile<'a>,
     rect: Rect,
-    detail: Detail,
-    inks: Inks,
+    detail: LabelDetail,
+    inks: ProfileInks,
     font: FontId,
 }
 
 impl<'a> Frame<'a> {
     /// Shows part of a stone's profile within `rect`, with as much written on it as can be read there.
-    pub fn new(ui: &Ui, id: Id, rect: Rect, measured: &'a Measured<'a>, extent: Extent) -> Self {
+    pub fn new(ui: &Ui, id: Id, rect: Rect, measured: &'a MeasuredProfile<'a>, extent: ProfileBox) -> Self {
         let body = TextStyle::Body.resolve(ui.style());
         let font = FontId::new(TYPE * body.size, body.family);
-        let detail = Detail::of(rect.size());
+        let detail = LabelDetail::of(rect.size());
         let margins = detail.margins(&|text| size_of(ui.painter(), &font, text));
-        let sight = Sight::fitting(extent, margins.within(rect));
-        Self { id, sight, measured, rect, detail, inks: Inks::of(ui.visuals()), font }
+        let sight = ProfileProjection::fitting(extent, margins.within(rect));
+        Self { id, sight, measured, rect, detail, inks: ProfileInks::of(ui.visuals()), font }
     }
 
     /// Offers the handles, if there are any.
@@ -101,7 +101,7 @@ impl<'a> Frame<'a> {
     /// Paints everything, what belongs to the active handle in its colour; the numbers that there was room for.
     pub fn paint(&self, ui: &Ui, offered: &[Offered], active: Option<Handle>) -> Vec<Label> {
         let painter = ui.painter_at(self.rect);
-        let body = Body::new(self.measured.stone, self.measured.basis, &self.sight);
+        let body = ProfileBody::new(self.measured.stone, self.measured.basis, &self.sight);
         let outline = body.outline();
         let (lines, labels) = self.plan(&painter, &outline, offered);
         let active = active.map(Handle::quantity);
@@ -112,16 +112,16 @@ impl<'a> Frame<'a> {
         labels
     }
 
-    fn plan(&self, painter: &Painter, outline: &[Pos2], offered: &[Offered]) -> (Vec<Line>, Vec<Label>) {
+    fn plan(&self, painter: &Painter, outline: &[Pos2], offered: &[Offered]) -> (Vec<SheetLine>, Vec<Label>) {
         let measure = |text: &str| size_of(painter, &self.font, text);
-        let mut sheet = Sheet::new(self.rect.shrink(2.0), outline, &measure);
+        let mut sheet = ProfileSheet::new(self.rect.shrink(2.0), outline, &measure);
         offered.iter().filter(|o| o.grip.reach > 0.0).for_each(|o| sheet.keep_clear(o.grip.square()));
         let brilliant = self.measured.brilliant.as_ref().map(|(given, derived)| (given, derived));
-        let subject = Subject { dimensions: &self.measured.dimensions, brilliant };
+        let subject = ProfileSubject { dimensions: &self.measured.dimensions, brilliant };
         Planner::plan(subject, &self.sight, self.detail, sheet)
     }
 
-    fn draw(&self, painter: &Painter, line: Line, active: Option<Quantity>) {
+    fn draw(&self, painter: &Painter, line: SheetLine, active: Option<Quantity>) {
         let (colour, width) = match line.weight {
             Weight::Dimension => (self.inks.dimension, DIMENSION),
             Weight::Extension => (self.inks.extension, EXTENSION),
@@ -158,7 +158,7 @@ impl<'a> Frame<'a> {
         let near = ui.ctx().animate_bool_responsive(self.id.with("near"), near);
         let mut painter = painter.clone();
         // A drawing too small for numbers is a picture until the pointer comes.
-        painter.set_opacity(if self.detail == Detail::None { near } else { 1.0 });
+        painter.set_opacity(if self.detail == LabelDetail::None { near } else { 1.0 });
         for o in offered {
             let Offered { grip, response } = o;
             let pointed_at =
@@ -170,10 +170,10 @@ impl<'a> Frame<'a> {
     }
 
     /// Tells screen readers what the handles are worth now.
-    pub fn tell(&self, ui: &Ui, offered: &[Offered], now: &RoundBrilliant) {
+    pub fn show_values(&self, ui: &Ui, offered: &[Offered], now: &RoundBrilliant) {
         let Ok(derived) = now.derived() else { return };
         for Offered { grip, response } in offered.iter().filter(|o| !o.grip.mirrored) {
-            grip.tell(ui, response, grip.handle.quantity().of(now, &derived));
+            grip.show_value(ui, response, grip.handle.quantity().of(now, &derived));
         }
     }
 }

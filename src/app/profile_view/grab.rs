@@ -1,8 +1,8 @@
 //! A handle in hand: how far it has been pulled since it was taken, and what that makes of the stone.
 
 use super::handle::Handle;
-use super::quantity::Grid;
-use super::sight::{Extent, Sight};
+use super::quantity::ValueGrid;
+use super::sight::{ProfileBox, ProfileProjection};
 use crate::cut::RoundBrilliant;
 use egui::{Pos2, Vec2};
 use glam::DVec2;
@@ -21,18 +21,18 @@ pub struct Grab {
     /// The proportions when it was taken.
     pub start: RoundBrilliant,
     /// What was shown when it was taken: the drawing keeps its size while anything is in hand.
-    shown: Extent,
+    shown: ProfileBox,
     from: Pos2,
     last: Pos2,
     /// Points, finer ones counted as what they are worth.
     pull: DVec2,
-    grid: Grid,
+    grid: ValueGrid,
     undecided: bool,
 }
 
 impl Grab {
     /// Takes a handle at a point of the screen; `mirrored` where it is the one on the stone's other side.
-    pub fn new(handle: Handle, mirrored: bool, start: RoundBrilliant, shown: Extent, at: Pos2) -> Self {
+    pub fn new(handle: Handle, mirrored: bool, start: RoundBrilliant, shown: ProfileBox, at: Pos2) -> Self {
         Self {
             handle,
             mirrored,
@@ -41,7 +41,7 @@ impl Grab {
             from: at,
             last: at,
             pull: DVec2::ZERO,
-            grid: Grid::COARSE,
+            grid: ValueGrid::COARSE,
             undecided: handle == Handle::PavilionDepth,
         }
     }
@@ -62,7 +62,7 @@ impl Grab {
         self.pull += DVec2::new(f64::from(by.x), f64::from(by.y)) * if fine { FINE } else { 1.0 };
         self.last = to;
         if fine {
-            self.grid = Grid::FINE;
+            self.grid = ValueGrid::FINE;
         }
         let way = (to - self.from).abs();
         if self.undecided && way.max_elem() > DECIDED {
@@ -72,7 +72,7 @@ impl Grab {
     }
 
     /// What the stone becomes.
-    pub fn proportions(&self, sight: &Sight) -> RoundBrilliant {
+    pub fn proportions(&self, sight: &ProfileProjection) -> RoundBrilliant {
         if self.undecided {
             return self.start;
         }
@@ -85,7 +85,7 @@ impl Grab {
 
     /// What is shown of the profile while the stone has these proportions. The girdle's upper edge, from which heights
     /// are measured, rises with the hand that pulls it.
-    pub fn shown(&self, now: &RoundBrilliant) -> Extent {
+    pub fn shown(&self, now: &RoundBrilliant) -> ProfileBox {
         match self.handle {
             Handle::GirdleUpper => {
                 self.shown.raised((self.start.girdle_thickness - now.girdle_thickness) / 50.0)

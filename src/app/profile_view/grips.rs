@@ -1,9 +1,9 @@
 //! Handles on the screen: where they can be taken, by pointer and by keyboard, and how they look.
 
 use super::handle::Handle;
-use super::ink::Inks;
-use super::quantity::Grid;
-use super::sight::Sight;
+use super::ink::ProfileInks;
+use super::quantity::ValueGrid;
+use super::sight::ProfileProjection;
 use crate::cut::{Derived, RoundBrilliant};
 use egui::accesskit::{Action, ActionData};
 use egui::{
@@ -36,7 +36,7 @@ pub struct Grip {
 }
 
 /// A round brilliant's handles. The table has one at either end; tip and culet are one to the pointer.
-pub fn grips(given: &RoundBrilliant, derived: &Derived, sight: &Sight) -> Vec<Grip> {
+pub fn grips(given: &RoundBrilliant, derived: &Derived, sight: &ProfileProjection) -> Vec<Grip> {
     let mirror = DVec2::new(-1.0, 1.0);
     let place = |handle: Handle| handle.at(given, derived);
     let all = Handle::ALL.into_iter().map(|handle| (handle, false, place(handle)));
@@ -86,13 +86,13 @@ impl Grip {
     pub fn keyed(&self, ui: &Ui, response: &Response, given: &RoundBrilliant) -> RoundBrilliant {
         let quantity = self.handle.quantity();
         // Shift first: keys without a modifier are also found where there is one.
-        let steps = [(Grid::FINE, Modifiers::SHIFT), (Grid::COARSE, Modifiers::NONE)]
+        let steps = [(ValueGrid::FINE, Modifiers::SHIFT), (ValueGrid::COARSE, Modifiers::NONE)]
             .map(|(grid, modifiers)| (grid, self.key_steps(ui, response, modifiers)));
-        let asked = (Grid::COARSE, asked_steps(ui, response.id));
+        let asked = (ValueGrid::COARSE, asked_steps(ui, response.id));
         let stepped = steps.into_iter().chain([asked]).filter(|&(_, steps)| steps != 0);
         let stepped = stepped.fold(*given, |given, (grid, steps)| quantity.stepped(&given, steps, grid));
         match asked_for(ui, response.id) {
-            Some(value) => quantity.toward(&stepped, value, Grid::FINE),
+            Some(value) => quantity.toward(&stepped, value, ValueGrid::FINE),
             None => stepped,
         }
     }
@@ -113,11 +113,11 @@ impl Grip {
     }
 
     /// Tells screen readers its name and value.
-    pub fn tell(&self, ui: &Ui, response: &Response, value: f64) {
+    pub fn show_value(&self, ui: &Ui, response: &Response, value: f64) {
         let label = format!("{}, {}", self.handle.name(), self.handle.quantity().unit());
         response.widget_info(|| WidgetInfo::slider(ui.is_enabled(), value, &label));
         ui.ctx().accesskit_node_builder(response.id, |node| {
-            node.set_numeric_value_step(Grid::COARSE.step());
+            node.set_numeric_value_step(ValueGrid::COARSE.step());
             for action in [Action::Increment, Action::Decrement, Action::SetValue] {
                 node.add_action(action);
             }
@@ -126,7 +126,7 @@ impl Grip {
 
     /// Paints its disc: stronger the nearer the pointer is to the drawing, larger the more it is pointed at (both 0 to
     /// 1), with a ring where the keyboard is.
-    pub fn paint(&self, painter: &Painter, inks: &Inks, [near, pointed_at]: [f32; 2], focused: bool) {
+    pub fn paint(&self, painter: &Painter, inks: &ProfileInks, [near, pointed_at]: [f32; 2], focused: bool) {
         let rest = AT_REST.min(self.reach).max(LEAST_REACH + 1.0);
         let radius = rest + (GROWN - AT_REST) * pointed_at;
         let fill = inks.paper.lerp_to_gamma(inks.accent, pointed_at);

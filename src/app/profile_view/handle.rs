@@ -2,7 +2,7 @@
 //!
 //! Places are in radii in the profile's plane: x to the right of the axis, y up from the girdle's upper edge.
 
-use super::quantity::{Grid, Quantity};
+use super::quantity::{Quantity, ValueGrid};
 use crate::cut::{Derived, RoundBrilliant};
 use egui::CursorIcon;
 use glam::DVec2;
@@ -108,7 +108,7 @@ impl Handle {
 
     /// The proportions when it has been pulled by `travel` (radii) from where it lay on `start`. The held one of each
     /// pair stays held; what would cross a limit stays just inside it.
-    pub fn dragged(self, start: &RoundBrilliant, travel: DVec2, grid: Grid) -> RoundBrilliant {
+    pub fn dragged(self, start: &RoundBrilliant, travel: DVec2, grid: ValueGrid) -> RoundBrilliant {
         let Ok(derived) = start.derived() else { return *start };
         let (from, wanted) = (self.quantity().of(start, &derived), self.wanted(start, &derived, travel));
         // A value that lies between two steps is not lost by touching its handle.
@@ -136,7 +136,7 @@ impl Handle {
 
 #[cfg(test)]
 mod tests {
-    use super::super::sight::{Extent, Sight};
+    use super::super::sight::{ProfileBox, ProfileProjection};
     use super::*;
     use crate::cut::TOLKOWSKY;
     use crate::cut::{Crown, Pavilion, strategy};
@@ -144,9 +144,9 @@ mod tests {
     use proptest::prelude::*;
 
     /// 200 points to a radius.
-    fn sight() -> Sight {
-        let extent = Extent { low: DVec2::splat(-1.0), high: DVec2::splat(1.0) };
-        Sight::fitting(extent, Rect::from_min_size(Pos2::ZERO, Vec2::splat(400.0)))
+    fn sight() -> ProfileProjection {
+        let extent = ProfileBox { low: DVec2::splat(-1.0), high: DVec2::splat(1.0) };
+        ProfileProjection::fitting(extent, Rect::from_min_size(Pos2::ZERO, Vec2::splat(400.0)))
     }
 
     fn value(handle: Handle, given: &RoundBrilliant) -> f64 {
@@ -171,7 +171,7 @@ mod tests {
             (Handle::Culet, vec2(-10.0, 0.0), 5.0),
         ] {
             for given in [TOLKOWSKY, by_lengths] {
-                let new = handle.dragged(&given, sight().travel(pull), Grid::COARSE);
+                let new = handle.dragged(&given, sight().travel(pull), ValueGrid::COARSE);
                 assert!((value(handle, &new) - expected).abs() < 1e-9, "{handle:?}: {new:?}");
             }
         }
@@ -181,7 +181,7 @@ mod tests {
     fn a_culet_is_closed_by_pulling_it_to_the_axis_and_no_further() {
         let open = RoundBrilliant { culet: 4.0, ..TOLKOWSKY };
         for (pull, expected) in [(-3.0, 2.5), (-8.0, 0.0), (-50.0, 0.0)] {
-            let new = Handle::Culet.dragged(&open, sight().travel(vec2(pull, 0.0)), Grid::COARSE);
+            let new = Handle::Culet.dragged(&open, sight().travel(vec2(pull, 0.0)), ValueGrid::COARSE);
             assert_eq!(new.culet, expected);
         }
     }
@@ -191,7 +191,7 @@ mod tests {
         let odd = RoundBrilliant { table: 53.037, crown: Crown::Angle(34.512), ..TOLKOWSKY };
         for handle in Handle::ALL {
             let trembling = DVec2::new(2e-5, -2e-5);
-            assert_eq!(handle.dragged(&odd, trembling, Grid::COARSE), odd, "{handle:?}");
+            assert_eq!(handle.dragged(&odd, trembling, ValueGrid::COARSE), odd, "{handle:?}");
         }
     }
 
@@ -211,7 +211,7 @@ mod tests {
             given in strategy::proportions(), travel in pull(), k in 0..Handle::ALL.len(),
         ) {
             let handle = Handle::ALL[k];
-            let new = handle.dragged(&given, travel, Grid::COARSE);
+            let new = handle.dragged(&given, travel, ValueGrid::COARSE);
             prop_assert!(new.derived().is_ok());
             for other in Handle::ALL {
                 prop_assert_eq!(other.quantity().follows(&new), other.quantity().follows(&given));
@@ -225,13 +225,13 @@ mod tests {
             given in strategy::proportions(), travel in pull(), k in 0..Handle::ALL.len(),
         ) {
             let handle = Handle::ALL[k];
-            let new = handle.dragged(&given, travel, Grid::COARSE);
+            let new = handle.dragged(&given, travel, ValueGrid::COARSE);
             let further = |grid| {
                 let derived = given.derived().unwrap();
                 let way = (handle.wanted(&given, &derived, travel) - value(handle, &new)).signum();
                 handle.quantity().stepped(&new, way as i32, grid)
             };
-            prop_assert!(off(handle, &new, &given, travel) <= 0.05 + 1e-6 || further(Grid::COARSE) == new);
+            prop_assert!(off(handle, &new, &given, travel) <= 0.05 + 1e-6 || further(ValueGrid::COARSE) == new);
         }
 
         #[test]
@@ -239,8 +239,8 @@ mod tests {
             given in strategy::proportions(), travel in pull(), k in 0..Handle::ALL.len(),
         ) {
             let handle = Handle::ALL[k];
-            let there = handle.dragged(&given, travel, Grid::COARSE);
-            let back = handle.dragged(&given, travel - travel, Grid::COARSE);
+            let there = handle.dragged(&given, travel, ValueGrid::COARSE);
+            let back = handle.dragged(&given, travel - travel, ValueGrid::COARSE);
             prop_assert!(there.derived().is_ok());
             prop_assert_eq!(back, given);
         }

@@ -4,7 +4,7 @@ use egui::{Color32, Visuals};
 
 /// What is drawn in which colour.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Inks {
+pub struct ProfileInks {
     /// The stone's outline.
     pub outline: Color32,
     /// Edges between facets.
@@ -27,7 +27,7 @@ pub struct Inks {
     pub paper: Color32,
 }
 
-impl Inks {
+impl ProfileInks {
     /// For light or dark windows.
     pub fn of(visuals: &Visuals) -> Self {
         let text = visuals.text_color();

@@ -1,8 +1,8 @@
 //! Which dimensions a profile of a given size bears, and where.
 
 use super::quantity::Quantity;
-use super::sheet::{BESIDE, GAP, Label, Line, Sheet, Weight};
-use super::sight::{Margins, Sight};
+use super::sheet::{BESIDE, GAP, Label, ProfileSheet, SheetLine, Weight};
+use super::sight::{Margins, ProfileProjection};
 use crate::cut::{Derived, RoundBrilliant};
 use crate::picture::profile::brilliant::{lower_half_ends, star_ends};
 use crate::picture::profile::{Dimensions, Span, percent, spread};
@@ -23,7 +23,7 @@ const ARC_STEPS: u32 = 24;
 
 /// How much is written on the drawing.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Detail {
+pub enum LabelDetail {
     /// Nothing.
     None,
     /// Table, total depth and angles, without their names.
@@ -34,7 +34,7 @@ pub enum Detail {
     Whole,
 }
 
-impl Detail {
+impl LabelDetail {
     /// What can be read in a rectangle of this size.
     pub fn of(size: Vec2) -> Self {
         match size.x.min(1.25 * size.y) {
@@ -65,7 +65,7 @@ impl Detail {
 
 /// What is to be written of a stone.
 #[derive(Debug, Clone, Copy)]
-pub struct Subject<'a> {
+pub struct ProfileSubject<'a> {
     /// What every stone has.
     pub dimensions: &'a Dimensions,
     /// A round brilliant's proportions.
@@ -74,31 +74,31 @@ pub struct Subject<'a> {
 
 /// Lays out dimensions.
 pub struct Planner<'a, 'b> {
-    subject: Subject<'a>,
-    sight: &'a Sight,
-    detail: Detail,
-    sheet: Sheet<'b>,
+    subject: ProfileSubject<'a>,
+    sight: &'a ProfileProjection,
+    detail: LabelDetail,
+    sheet: ProfileSheet<'b>,
 }
 
 impl<'a, 'b> Planner<'a, 'b> {
     /// Lays out, the most important first, what there is room for.
     pub fn plan(
-        subject: Subject<'a>,
-        sight: &'a Sight,
-        detail: Detail,
-        sheet: Sheet<'b>,
-    ) -> (Vec<Line>, Vec<Label>) {
+        subject: ProfileSubject<'a>,
+        sight: &'a ProfileProjection,
+        detail: LabelDetail,
+        sheet: ProfileSheet<'b>,
+    ) -> (Vec<SheetLine>, Vec<Label>) {
         let mut planner = Self { subject, sight, detail, sheet };
-        if detail > Detail::None {
+        if detail > LabelDetail::None {
             planner.table();
             planner.total();
             planner.angles();
         }
-        if detail > Detail::Numbers {
+        if detail > LabelDetail::Numbers {
             planner.heights();
             planner.culet();
         }
-        if detail == Detail::Whole {
+        if detail == LabelDetail::Whole {
             planner.star_and_lower_half();
         }
         planner.sheet.finish()
@@ -110,7 +110,7 @@ impl<'a, 'b> Planner<'a, 'b> {
 
     fn named(&self, name: &str, value: f64) -> String {
         let value = percent(value);
-        if self.detail == Detail::Numbers { value } else { format!("{name} {value}") }
+        if self.detail == LabelDetail::Numbers { value } else { format!("{name} {value}") }
     }
 
     /// The screen height of a dimension line over or, negative, under the stone.
@@ -123,7 +123,8 @@ impl<'a, 'b> Planner<'a, 'b> {
         let Some(table) = self.subject.dimensions.table else { return };
         let ends = [table.from, table.to].map(|x| self.at(x, self.subject.dimensions.total.from));
         // The star's dimension is the lower one.
-        let level = if self.detail == Detail::Whole && self.subject.brilliant.is_some() { 2.0 } else { 1.0 };
+        let level =
+            if self.detail == LabelDetail::Whole && self.subject.brilliant.is_some() { 2.0 } else { 1.0 };
         let about = self.subject.brilliant.map(|_| Quantity::Table);
         self.sheet.across(self.level(level), ends, &self.named("table", table.percent), about);
     }
@@ -240,8 +241,8 @@ impl<'a, 'b> Planner<'a, 'b> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::body::Body;
-    use super::super::sight::Extent;
+    use super::super::body::ProfileBody;
+    use super::super::sight::ProfileBox;
     use super::*;
     use crate::cut::TOLKOWSKY;
     use crate::cut::{Crown, strategy};
@@ -257,12 +258,13 @@ mod tests {
     fn labels(given: &RoundBrilliant, size: Vec2) -> Vec<Label> {
         let derived = given.derived().unwrap();
         let dimensions = Dimensions::of_brilliant(given, &derived);
-        let (rect, detail) = (Rect::from_min_size(Pos2::ZERO, size), Detail::of(size));
-        let sight = Sight::fitting(Extent::of(&dimensions), detail.margins(&measure).within(rect));
+        let (rect, detail) = (Rect::from_min_size(Pos2::ZERO, size), LabelDetail::of(size));
+        let sight =
+            ProfileProjection::fitting(ProfileBox::of(&dimensions), detail.margins(&measure).within(rect));
         let stone = Stone::new(&given.facets().unwrap()).unwrap();
-        let outline = Body::new(&stone, BRILLIANT_BASIS, &sight).outline();
-        let subject = Subject { dimensions: &dimensions, brilliant: Some((given, &derived)) };
-        Planner::plan(subject, &sight, detail, Sheet::new(rect, &outline, &measure)).1
+        let outline = ProfileBody::new(&stone, BRILLIANT_BASIS, &sight).outline();
+        let subject = ProfileSubject { dimensions: &dimensions, brilliant: Some((given, &derived)) };
+        Planner::plan(subject, &sight, detail, ProfileSheet::new(rect, &outline, &measure)).1
     }
 
     fn texts(given: &RoundBrilliant, size: Vec2) -> Vec<String> {

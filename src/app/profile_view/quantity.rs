@@ -30,9 +30,9 @@ pub enum Quantity {
 
 /// How finely values are set: so many steps to a percent or degree.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Grid(f64);
+pub struct ValueGrid(f64);
 
-impl Grid {
+impl ValueGrid {
     /// Tenths.
     pub const COARSE: Self = Self(10.0);
     /// Hundredths.
@@ -118,7 +118,7 @@ impl Quantity {
     }
 
     /// Sets it to the step nearest to `wanted`, or as near to that as its limits allow.
-    pub fn toward(self, given: &RoundBrilliant, wanted: f64, grid: Grid) -> RoundBrilliant {
+    pub fn toward(self, given: &RoundBrilliant, wanted: f64, grid: ValueGrid) -> RoundBrilliant {
         let Ok(derived) = given.derived() else { return *given };
         let at = |step: f64| Some(self.with(given, step / grid.0)).filter(|new| new.derived().is_ok());
         let value = self.of(given, &derived);
@@ -131,7 +131,7 @@ impl Quantity {
     }
 
     /// Sets it so many steps higher or, negative, lower, on the grid, as far as its limits allow.
-    pub fn stepped(self, given: &RoundBrilliant, steps: i32, grid: Grid) -> RoundBrilliant {
+    pub fn stepped(self, given: &RoundBrilliant, steps: i32, grid: ValueGrid) -> RoundBrilliant {
         let Ok(derived) = given.derived() else { return *given };
         let passed = grid.passed(self.of(given, &derived), steps > 0);
         self.toward(given, (passed + f64::from(steps)) / grid.0, grid)
@@ -172,7 +172,7 @@ mod tests {
             [(CrownHeight, 17.3), (CrownAngle, 31.2), (PavilionDepth, 44.4), (PavilionAngle, 39.9)]
         {
             for given in [TOLKOWSKY, by_lengths()] {
-                let new = quantity.toward(&given, wanted, Grid::COARSE);
+                let new = quantity.toward(&given, wanted, ValueGrid::COARSE);
                 assert!((value(quantity, &new) - wanted).abs() < 1e-9);
                 for other in [CrownHeight, CrownAngle, PavilionDepth, PavilionAngle] {
                     assert_eq!(other.follows(&new), other.follows(&given), "{quantity:?} {other:?}");
@@ -183,19 +183,22 @@ mod tests {
 
     #[test]
     fn values_come_out_as_they_are_written() {
-        let new = Quantity::Table.toward(&TOLKOWSKY, 56.32, Grid::COARSE);
+        let new = Quantity::Table.toward(&TOLKOWSKY, 56.32, ValueGrid::COARSE);
         assert_eq!(new.table, 56.3);
-        assert_eq!(Quantity::Table.toward(&TOLKOWSKY, 56.327, Grid::FINE).table, 56.33);
-        assert_eq!(Quantity::CrownAngle.toward(&TOLKOWSKY, 35.04, Grid::COARSE).crown, Crown::Angle(35.0));
+        assert_eq!(Quantity::Table.toward(&TOLKOWSKY, 56.327, ValueGrid::FINE).table, 56.33);
         assert_eq!(
-            Quantity::CrownHeight.toward(&by_lengths(), 12.31, Grid::COARSE).crown,
+            Quantity::CrownAngle.toward(&TOLKOWSKY, 35.04, ValueGrid::COARSE).crown,
+            Crown::Angle(35.0)
+        );
+        assert_eq!(
+            Quantity::CrownHeight.toward(&by_lengths(), 12.31, ValueGrid::COARSE).crown,
             Crown::Height(12.3)
         );
     }
 
     #[test]
     fn what_would_cross_a_limit_stops_at_the_last_step_before_it() {
-        let far = Quantity::Table.toward(&TOLKOWSKY, 1000.0, Grid::COARSE).table;
+        let far = Quantity::Table.toward(&TOLKOWSKY, 1000.0, ValueGrid::COARSE).table;
         // The stars would lie flat with a larger one.
         let beyond = RoundBrilliant { table: far + 0.1, ..TOLKOWSKY };
         assert!(far > 75.0 && beyond.derived().is_err(), "{far}");
@@ -205,18 +208,18 @@ mod tests {
             (Quantity::Culet, 300.0, 99.9),
             (Quantity::PavilionAngle, 0.0, 2.0),
         ] {
-            let new = quantity.toward(&TOLKOWSKY, wanted, Grid::COARSE);
+            let new = quantity.toward(&TOLKOWSKY, wanted, ValueGrid::COARSE);
             assert!(
                 (value(quantity, &new) - expected).abs() < 1e-9,
                 "{quantity:?}: {}",
                 value(quantity, &new)
             );
         }
-        let flat = Quantity::PavilionAngle.toward(&by_lengths(), -107.0, Grid::COARSE);
+        let flat = Quantity::PavilionAngle.toward(&by_lengths(), -107.0, ValueGrid::COARSE);
         assert!(value(Quantity::PavilionAngle, &flat) < 2.2);
-        assert_eq!(Quantity::Table.toward(&TOLKOWSKY, f64::NAN, Grid::FINE), TOLKOWSKY);
+        assert_eq!(Quantity::Table.toward(&TOLKOWSKY, f64::NAN, ValueGrid::FINE), TOLKOWSKY);
         let impossible = RoundBrilliant { table: 99.0, ..TOLKOWSKY };
-        assert_eq!(Quantity::Table.toward(&impossible, 50.0, Grid::FINE), impossible);
+        assert_eq!(Quantity::Table.toward(&impossible, 50.0, ValueGrid::FINE), impossible);
     }
 
     #[test]
@@ -224,9 +227,9 @@ mod tests {
         let step = |table, steps, grid| {
             Quantity::Table.stepped(&RoundBrilliant { table, ..TOLKOWSKY }, steps, grid).table
         };
-        assert_eq!([step(53.0, 1, Grid::COARSE), step(53.0, -2, Grid::COARSE)], [53.1, 52.8]);
-        assert_eq!([step(53.07, 1, Grid::COARSE), step(53.07, -1, Grid::COARSE)], [53.1, 53.0]);
-        assert_eq!([step(53.07, 1, Grid::FINE), step(53.3, 1, Grid::COARSE)], [53.08, 53.4]);
-        assert_eq!(step(5.0, -1, Grid::COARSE), 5.0);
+        assert_eq!([step(53.0, 1, ValueGrid::COARSE), step(53.0, -2, ValueGrid::COARSE)], [53.1, 52.8]);
+        assert_eq!([step(53.07, 1, ValueGrid::COARSE), step(53.07, -1, ValueGrid::COARSE)], [53.1, 53.0]);
+        assert_eq!([step(53.07, 1, ValueGrid::FINE), step(53.3, 1, ValueGrid::COARSE)], [53.08, 53.4]);
+        assert_eq!(step(5.0, -1, ValueGrid::COARSE), 5.0);
     }
 }

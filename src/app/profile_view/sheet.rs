@@ -25,7 +25,7 @@ pub enum Weight {
 
 /// A line of the drawing.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Line {
+pub struct SheetLine {
     /// Its corners.
     pub points: Vec<Pos2>,
     /// What it is for.
@@ -48,8 +48,8 @@ pub struct Label {
 }
 
 /// Lines and numbers, and what is in their way.
-pub struct Sheet<'a> {
-    lines: Vec<Line>,
+pub struct ProfileSheet<'a> {
+    lines: Vec<SheetLine>,
     labels: Vec<Label>,
     room: Rect,
     outline: &'a [Pos2],
@@ -57,7 +57,7 @@ pub struct Sheet<'a> {
     measure: &'a dyn Fn(&str) -> Vec2,
 }
 
-impl<'a> Sheet<'a> {
+impl<'a> ProfileSheet<'a> {
     /// An empty sheet round a stone. `measure` tells how large a text is, points.
     pub fn new(room: Rect, outline: &'a [Pos2], measure: &'a dyn Fn(&str) -> Vec2) -> Self {
         Self { lines: vec![], labels: vec![], room, outline, taken: vec![], measure }
@@ -106,7 +106,7 @@ impl<'a> Sheet<'a> {
 
     /// A line.
     pub fn line(&mut self, points: Vec<Pos2>, weight: Weight, about: Option<Quantity>) {
-        self.lines.push(Line { points, weight, about });
+        self.lines.push(SheetLine { points, weight, about });
     }
 
     /// A dimension line with strokes at its ends.
@@ -139,17 +139,17 @@ impl<'a> Sheet<'a> {
     }
 
     /// All lines, broken where they would run through a number, and all numbers.
-    pub fn finish(self) -> (Vec<Line>, Vec<Label>) {
+    pub fn finish(self) -> (Vec<SheetLine>, Vec<Label>) {
         let mut lines = vec![];
         for line in self.lines {
-            let Line { points, weight, about } = line;
+            let SheetLine { points, weight, about } = line;
             match points[..] {
-                [a, b] => lines.extend(broken([a, b], &self.labels).into_iter().map(|ends| Line {
+                [a, b] => lines.extend(broken([a, b], &self.labels).into_iter().map(|ends| SheetLine {
                     points: ends.to_vec(),
                     weight,
                     about,
                 })),
-                _ => lines.push(Line { points, weight, about }),
+                _ => lines.push(SheetLine { points, weight, about }),
             }
         }
         (lines, self.labels)
@@ -218,7 +218,7 @@ mod tests {
     #[test]
     fn a_text_stands_only_where_nothing_else_is() {
         let outline = stone();
-        let mut sheet = Sheet::new(ROOM, &outline, &measure);
+        let mut sheet = ProfileSheet::new(ROOM, &outline, &measure);
         let mut at = |x: f32, y: f32| sheet.write("five5", Align2::CENTER_CENTER, pos2(x, y), None).is_some();
         assert!(!at(10.0, 50.0) && !at(200.0, 150.0) && !at(140.0, 110.0));
         assert!(at(120.0, 170.0) && !at(130.0, 175.0) && at(120.0, 183.0));
@@ -227,7 +227,7 @@ mod tests {
     #[test]
     fn a_dimension_without_room_for_its_number_is_left_out() {
         let outline = stone();
-        let mut sheet = Sheet::new(ROOM, &outline, &measure);
+        let mut sheet = ProfileSheet::new(ROOM, &outline, &measure);
         let ends = [pos2(100.0, 100.0), pos2(300.0, 100.0)];
         sheet.across(80.0, ends, "table 56 %", None);
         assert_eq!((sheet.labels.len(), sheet.labels[0].frame.center()), (1, pos2(200.0, 80.0)));
@@ -239,7 +239,7 @@ mod tests {
     #[test]
     fn lines_break_where_they_would_run_through_a_number() {
         let outline = stone();
-        let mut sheet = Sheet::new(ROOM, &outline, &measure);
+        let mut sheet = ProfileSheet::new(ROOM, &outline, &measure);
         sheet.across(80.0, [pos2(100.0, 100.0), pos2(300.0, 100.0)], "table 56 %", None);
         sheet.line(vec![pos2(200.0, 40.0), pos2(200.0, 95.0)], Weight::Extension, None);
         sheet.line(vec![pos2(50.0, 90.0), pos2(350.0, 92.0)], Weight::Extension, None);
@@ -259,7 +259,7 @@ mod tests {
     #[test]
     fn a_number_too_wide_for_its_line_stands_beside_it() {
         let outline = stone();
-        let mut sheet = Sheet::new(ROOM, &outline, &measure);
+        let mut sheet = ProfileSheet::new(ROOM, &outline, &measure);
         sheet.across(80.0, [pos2(190.0, 100.0), pos2(240.0, 100.0)], "culet 12.5 %", None);
         sheet.across(60.0, [pos2(50.0, 100.0), pos2(70.0, 100.0)], "culet 12.5 %", None);
         let found: Vec<_> = sheet.labels.iter().map(|l| (l.frame.min.x, l.frame.max.x)).collect();

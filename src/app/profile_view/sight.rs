@@ -9,14 +9,14 @@ const SETTLED: f64 = 1e-3;
 
 /// A box in the profile's plane, radii, y up.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Extent {
+pub struct ProfileBox {
     /// Left and lowest.
     pub low: DVec2,
     /// Right and highest.
     pub high: DVec2,
 }
 
-impl Extent {
+impl ProfileBox {
     /// That of the stone.
     pub fn of(dimensions: &Dimensions) -> Self {
         let Dimensions { width, total, .. } = dimensions;
@@ -40,15 +40,15 @@ impl Extent {
 
 /// A parallel view of the profile on the screen.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Sight {
+pub struct ProfileProjection {
     middle: DVec2,
     place: Pos2,
     scale: f64,
 }
 
-impl Sight {
+impl ProfileProjection {
     /// Shows a box as large as it fits into `room`, in its middle.
-    pub fn fitting(extent: Extent, room: Rect) -> Self {
+    pub fn fitting(extent: ProfileBox, room: Rect) -> Self {
         let size = (extent.high - extent.low).max(DVec2::splat(SETTLED));
         let scale = (f64::from(room.width()) / size.x).min(f64::from(room.height()) / size.y);
         Self { middle: (extent.low + extent.high) / 2.0, place: room.center(), scale: scale.max(SETTLED) }

@@ -11,14 +11,16 @@ mod take;
 mod undeveloped;
 mod worker;
 
-pub use order::{Answer, Ask, Grade, Order, Paper, Shot, Slot, Smoothing, Taken, Tilts, Which};
+pub use order::{
+    Answer, FiguresOrder, Grade, Order, Paper, Shot, Slot, Smoothing, TakenPicture, Tilts, Which,
+};
 
 pub use pace::Effort;
 pub use render::{BEHIND, hung};
 #[cfg(test)]
-pub use render::{setting, sitting};
+pub use render::{lit_scene, scene_of};
 pub use survey::{SPAN, survey};
-pub use take::Camera;
+pub use take::ShotTracer;
 pub use worker::FINE_RENDER;
 
 use crate::app::urgency;
@@ -32,10 +34,10 @@ use std::thread::JoinHandle;
 pub type Wake = Arc<dyn Fn() + Send + Sync>;
 
 /// What both threads see.
-struct Desk {
+struct Mailbox {
     /// The last order, and its number; none once it is taken.
     order: Mutex<Option<(u64, Order)>>,
-    told: Condvar,
+    changed: Condvar,
     /// The number of the last order: work for others is outdated.
     newest: AtomicU64,
     /// Whether work is going on.
@@ -49,21 +51,21 @@ struct Desk {
 
 /// A thread that takes pictures.
 pub struct Studio {
-    desk: Arc<Desk>,
+    desk: Arc<Mailbox>,
     answers: Receiver<Answer>,
     last: Order,
     wake: Wake,
     thread: Option<JoinHandle<()>>,
-    told: String,
+    device_name: String,
 }
 
 impl Studio {
     /// Opens a studio, which uses a card where there is one that is quicker than the processor; `wake` is called whenever
     /// there is an answer.
     pub fn open(gpu: Option<Arc<Gpu>>, wake: Wake) -> Self {
-        let desk = Arc::new(Desk {
+        let desk = Arc::new(Mailbox {
             order: Mutex::new(None),
-            told: Condvar::new(),
+            changed: Condvar::new(),
             newest: AtomicU64::new(0),
             busy: AtomicBool::new(false),
             sharpens: AtomicBool::new(false),
@@ -79,7 +81,7 @@ impl Studio {
             worker.work();
         };
         let thread = std::thread::Builder::new().name("studio".into()).spawn(work).ok();
-        Self { desk, answers, last: Order::default(), wake, thread, told }
+        Self { desk, answers, last: Order::default(), wake, thread, device_name: told }
     }
 
     /// What is called whenever there is an answer.
@@ -88,8 +90,8 @@ impl Studio {
     }
 
     /// What computes, in words.
-    pub fn told(&self) -> &str {
-        &self.told
+    pub fn device_name(&self) -> &str {
+        &self.device_name
     }
 
     /// Asks for pictures and figures; nothing happens if they were asked for already.
@@ -103,7 +105,7 @@ impl Studio {
         self.desk.busy.store(true, Ordering::SeqCst);
         *next = Some((number, order));
         drop(next);
-        self.desk.told.notify_one();
+        self.desk.changed.notify_one();
     }
 
     /// What has been answered since.
@@ -136,7 +138,7 @@ impl Drop for Studio {
             let _order = self.desk.order.lock().unwrap_or_else(PoisonError::into_inner);
             self.desk.quit.store(true, Ordering::SeqCst);
             self.desk.newest.fetch_add(1, Ordering::SeqCst);
-            self.desk.told.notify_one();
+            self.desk.changed.notify_one();
         }
         if let Some(thread) = self.thread.take() {
             // A worker that panicked has said so already.

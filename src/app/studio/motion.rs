@@ -3,10 +3,10 @@
 use super::order::{Shot, Slot};
 use crate::cut::{Cut, Glass};
 use crate::io::background::BackgroundRef;
-use crate::picture::{Linear, Moved, Trail};
+use crate::picture::{Linear, MotionVector, TemporalHistory};
 use crate::scene::{Body, Film, Pose, Specimen, View};
 use crate::trace::ray;
-use crate::trace::sitting::Sitting;
+use crate::trace::sampling::LitScene;
 use glam::{DMat2, DVec2, DVec3};
 use rayon::prelude::*;
 use std::collections::HashMap;
@@ -26,7 +26,7 @@ pub struct Moment {
 }
 
 /// The pictures laid over one another in each place, and when the last of them was taken.
-pub type Trails = HashMap<Slot, (Trail, Moment)>;
+pub type Trails = HashMap<Slot, (TemporalHistory, Moment)>;
 
 impl Moment {
     /// That of a shot, taken on a film.
@@ -40,17 +40,17 @@ impl Moment {
         self,
         trails: &'a mut Trails,
         (slot, picture): (Slot, &Linear),
-        sitting: &Sitting,
+        lit_scene: &LitScene,
         newest: f64,
     ) -> &'a Linear {
         let before = trails.remove(&slot).filter(|(_, moment)| moment.goes_on_in(&self));
-        let moved = self.moved(before.as_ref().map_or(&self, |(_, moment)| moment), sitting);
+        let moved = self.moved(before.as_ref().map_or(&self, |(_, moment)| moment), lit_scene);
         let trail = match before {
             Some((mut trail, _)) => {
                 trail.lay(picture.clone(), &moved, newest);
                 trail
             }
-            None => Trail::begin(picture.clone(), &moved),
+            None => TemporalHistory::begin(picture.clone(), &moved),
         };
         &trails.entry(slot).insert_entry((trail, self)).into_mut().0.picture
     }
@@ -62,8 +62,8 @@ impl Moment {
     }
 
     /// What each pixel shows, and where that was at another moment.
-    fn moved(&self, before: &Self, sitting: &Sitting) -> Vec<Moved> {
-        let sight = ray::Sight::new(sitting);
+    fn moved(&self, before: &Self, lit_scene: &LitScene) -> Vec<MotionVector> {
+        let sight = ray::SceneProbe::new(lit_scene);
         let eye = ray::Camera::reaching(&before.view, 1.0);
         let pixels = before.film.pixels_from_image(DMat2::IDENTITY);
         let [width, height] = self.film.size.map(|n| n as usize);
@@ -88,7 +88,7 @@ impl Moment {
         let pixel = |k: usize| {
             let (x, y) = (k % width, k / width);
             let (body, by) = points[y / step][x / step];
-            Moved { body, from: DVec2::new(x as f64, y as f64) + 0.5 + by }
+            MotionVector { body, from: DVec2::new(x as f64, y as f64) + 0.5 + by }
         };
         (0..width * height).map(pixel).collect()
     }
@@ -120,22 +120,22 @@ mod tests {
     use super::*;
     use crate::app::document::Document;
     use crate::app::eye::Eye;
-    use crate::app::framing::Fit;
+    use crate::app::framing::FramingFit;
     use crate::app::liquid::Liquid;
     use crate::app::moving::Moving;
     use crate::app::shows::Shows;
     use crate::app::studio::order::{Paper, Smoothing, Which};
-    use crate::app::studio::render::{setting, sitting};
+    use crate::app::studio::render::{lit_scene, scene_of};
     use crate::io::lighting::Lighting;
-    use crate::scene::{Company, Glare, Projection};
-    use crate::trace::surround::met_behind;
+    use crate::scene::{Copies, Glare, Projection};
+    use crate::trace::environment::backplate_point;
 
     const SLOT: Slot = (0, Which::Present);
 
     /// Copies of a cut at a time, seen by an eye.
     fn shot(cut: &str, seconds: f64, (eye, projection): &(Eye, Projection)) -> Shot {
         let design = Arc::clone(Document::of_library(cut).unwrap().specimen());
-        let company = Company::scattered(3, design.solid().vertices(), 4);
+        let company = Copies::scattered(3, design.solid().vertices(), 4);
         let mut moving = Moving::at(seconds);
         let (specimen, company) = moving.now(&design, &company, eye.turn);
         Shot {
@@ -145,8 +145,8 @@ mod tests {
             strongest: false,
             glare: Glare::LeftOut,
             view: View { projection: *projection, ..eye.view(None) },
-            film: eye.film([48, 40], &Fit::reaching(3.0)),
-            whole: Fit::reaching(3.0).film([48, 40]),
+            film: eye.film([48, 40], &FramingFit::reaching(3.0)),
+            whole: FramingFit::reaching(3.0).film([48, 40]),
             light: Arc::new(Lighting::load("dome").unwrap()),
             bands: 3,
             jitter: true,
@@ -173,11 +173,11 @@ mod tests {
     fn the_same_point_of_a_body_was_seen_where_its_motion_says() {
         for (cut, distance) in [("cube", None), ("cube", Some(12.0)), ("plate", None), ("plate", Some(9.0))] {
             let [before, now] = [(1.0, 1.0), (1.06, 1.1)].map(|(t, zoom)| shot(cut, t, &eye(distance, zoom)));
-            let settings = [setting(&before), setting(&now)];
-            let [was, is] = [(&before, 0), (&now, 1)].map(|(s, k)| sitting(s, &settings[k], s.film, None));
+            let settings = [scene_of(&before), scene_of(&now)];
+            let [was, is] = [(&before, 0), (&now, 1)].map(|(s, k)| lit_scene(s, &settings[k], s.film, None));
             let moments = [Moment::of(&before, before.film), Moment::of(&now, now.film)];
             let moved = moments[1].moved(&moments[0], &is);
-            let (eyes, [width, _]) = ([ray::Sight::new(&was), ray::Sight::new(&is)], now.film.size);
+            let (eyes, [width, _]) = ([ray::SceneProbe::new(&was), ray::SceneProbe::new(&is)], now.film.size);
             let (mut same, mut hidden, mut beside, mut farthest) = (0, 0, 0, 0.0_f64);
             for (k, moved) in moved.iter().enumerate() {
                 let at = DVec2::new((k as u32 % width).into(), (k as u32 / width).into()) + 0.5;
@@ -186,7 +186,8 @@ mod tests {
                     let hangs = |shot: &Shot, at: DVec2| {
                         let (from, way) =
                             ray::Camera::reaching(&shot.view, 3.0).ray(shot.film.image_from_pixels(at));
-                        met_behind(&shot.view.basis(), shot.distance, from, way).unwrap() / shot.whole.pixel
+                        backplate_point(&shot.view.basis(), shot.distance, from, way).unwrap()
+                            / shot.whole.pixel
                     };
                     assert!(hangs(&now, at).distance(hangs(&before, moved.from)) < 1e-9);
                     beside += 1;
@@ -194,7 +195,7 @@ mod tests {
                 };
                 assert_eq!(moved.body, Some(seen.stone as u32));
                 farthest = farthest.max(moved.from.distance(at));
-                let place = |g: &ray::Glance| g.origin + g.direction * g.distance;
+                let place = |g: &ray::ProbeRay| g.origin + g.direction * g.distance;
                 let expected = moments[1].was(&moments[0], seen.stone, place(&seen)).unwrap();
                 match eyes[0].through(moved.from.x, moved.from.y) {
                     Some(g) if g.stone == seen.stone && place(&g).distance(expected) < 1e-6 => same += 1,
@@ -230,10 +231,10 @@ mod tests {
         let mut counts = vec![];
         for k in 0..4 {
             let shot = shot("cube", 1.0 + 0.01 * f64::from(k), &eye);
-            let (setting, film) = (setting(&shot), shot.film);
+            let (scene, film) = (scene_of(&shot), shot.film);
             let picture = Linear::new(film.size[0], film.size[1]);
-            let sitting = sitting(&shot, &setting, film, None);
-            Moment::of(&shot, film).lay(&mut trails, (SLOT, &picture), &sitting, 0.5);
+            let lit_scene = lit_scene(&shot, &scene, film, None);
+            Moment::of(&shot, film).lay(&mut trails, (SLOT, &picture), &lit_scene, 0.5);
             counts.push(trails[&SLOT].0.count);
         }
         assert_eq!(counts, [1, 2, 3, 4]);

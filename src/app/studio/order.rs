@@ -138,7 +138,7 @@ impl Shot {
 
 /// Figures of a view, in the common ASET.
 #[derive(Debug, Clone)]
-pub struct Ask {
+pub struct FiguresOrder {
     /// The stone.
     pub specimen: Arc<Specimen>,
     /// From where.
@@ -147,7 +147,7 @@ pub struct Ask {
     pub head: f64,
 }
 
-impl PartialEq for Ask {
+impl PartialEq for FiguresOrder {
     fn eq(&self, other: &Self) -> bool {
         Arc::ptr_eq(&self.specimen, &other.specimen) && (self.view, self.head) == (other.view, other.head)
     }
@@ -159,9 +159,9 @@ pub struct Order {
     /// The pictures.
     pub shots: Vec<(Slot, Shot)>,
     /// The figures.
-    pub figures: Vec<(Which, Ask)>,
+    pub figures: Vec<(Which, FiguresOrder)>,
     /// Figures against tilt, for a view whose own tilt does not matter.
-    pub tilts: Option<Ask>,
+    pub tilts: Option<FiguresOrder>,
 }
 
 /// How far a picture has come.
@@ -177,7 +177,7 @@ pub enum Grade {
 
 /// A picture that was taken.
 #[derive(Debug, Clone)]
-pub struct Taken {
+pub struct TakenPicture {
     /// The pixels, which a film of fewer may have been used for.
     pub image: ColorImage,
     /// Share of the light not followed to its end; none where that is not known.
@@ -195,11 +195,11 @@ pub type Tilts = Vec<(f64, Figures)>;
 #[derive(Debug)]
 pub enum Answer {
     /// A picture.
-    Picture(Slot, Box<Shot>, Grade, Taken),
+    Picture(Slot, Box<Shot>, Grade, TakenPicture),
     /// Figures.
-    Figures(Which, Ask, Grade, Box<Figures>),
+    Figures(Which, FiguresOrder, Grade, Box<Figures>),
     /// Figures against tilt.
-    Tilts(Ask, Tilts),
+    Tilts(FiguresOrder, Tilts),
     /// What went wrong, in words.
     Trouble(String),
 }

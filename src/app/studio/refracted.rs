@@ -1,31 +1,31 @@
 //! Pictures of backgrounds behind glass: refraction maps, which are looked up elsewhere, and liquid glass traced.
 
-use super::order::{Shot, Slot, Taken};
+use super::order::{Shot, Slot, TakenPicture};
 use super::pace::Effort;
 use super::render::Growing;
-use super::survey::{Detail, traced};
-use super::take::{Camera, RAYS_COARSER, Trouble, coarser};
-use super::undeveloped::{Light, map_taken};
+use super::survey::{MapDetail, traced};
+use super::take::{RAYS_COARSER, ShotTracer, TakeError, coarser};
+use super::undeveloped::{TracedLight, map_taken};
 use super::worker::FINE_RENDER;
 use crate::app::lookup::{as_screens, backdrop};
 use crate::io::refraction_map::tiles::code_of;
 use crate::optics::{Illuminant, strata};
 use crate::picture::RefractionMap;
-use crate::picture::pane::{self, Around, PaneError, filling, surroundings};
+use crate::picture::pane::{self, PaneError, PaneLighting, filling, surroundings};
 use crate::trace::Watch;
-use crate::trace::surround::Sky;
+use crate::trace::environment::EnvironmentMap;
 use egui::ColorImage;
 
 /// What maps take that are looked up at once: one of several bands takes as many times as long to look up.
-const ROUGH: Detail = Detail { bands: 1, places: 1, shades: 3, looks: 1 };
-const FAIR: Detail = Detail { bands: 1, places: 1, shades: 4, looks: 1 };
-const FINE: Detail = Detail { bands: 3, places: 1, shades: 6, looks: 4 };
+const ROUGH: MapDetail = MapDetail { bands: 1, places: 1, shades: 3, looks: 1 };
+const FAIR: MapDetail = MapDetail { bands: 1, places: 1, shades: 4, looks: 1 };
+const FINE: MapDetail = MapDetail { bands: 3, places: 1, shades: 6, looks: 4 };
 
 /// Bands of wavelengths of a traced pane: while the hand moves, and at its finest.
 const FEW: u32 = 3;
 const MANY: u32 = 12;
 
-impl From<PaneError> for Trouble {
+impl From<PaneError> for TakeError {
     fn from(error: PaneError) -> Self {
         match error {
             PaneError::Stopped(stopped) => stopped.into(),
@@ -34,7 +34,7 @@ impl From<PaneError> for Trouble {
     }
 }
 
-impl Camera {
+impl ShotTracer {
     /// The map of a shot, and as its picture the codes of its places.
     pub(super) fn mapped(
         &mut self,
@@ -42,7 +42,7 @@ impl Camera {
         effort: &Effort,
         growing: Option<&Growing>,
         watch: Watch,
-    ) -> Result<Taken, Trouble> {
+    ) -> Result<TakenPicture, TakeError> {
         let (detail, factor) = match growing {
             None => (ROUGH, effort.coarser * RAYS_COARSER),
             Some(growing) if growing.looks == 1 => (FAIR, 1.0),
@@ -50,7 +50,7 @@ impl Camera {
         };
         let (map, _) = traced(shot, coarser(&shot.film, factor), &detail, watch)?;
         if growing.is_some() {
-            self.kept.insert(slot, (shot.clone(), Light::Map(map.clone())));
+            self.kept.insert(slot, (shot.clone(), TracedLight::Map(map.clone())));
         }
         Ok(map_taken(shot, map))
     }
@@ -65,26 +65,26 @@ pub(super) fn codes(map: &RefractionMap) -> ColorImage {
 
 /// The pane of a shot, traced.
 pub(super) fn glass(
-    camera: &mut Camera,
+    camera: &mut ShotTracer,
     shot: &Shot,
     effort: &Effort,
     growing: Option<&Growing>,
     watch: Watch,
-) -> Result<Taken, Trouble> {
+) -> Result<TakenPicture, TakeError> {
     let factor = if growing.is_none() { effort.coarser * RAYS_COARSER } else { 1.0 };
     let size = coarser(&shot.film, factor).size;
     let Some(behind) = camera.picture_behind(Some(&backdrop(shot.behind.as_ref())))? else {
-        return Err(Trouble::Other("nothing hangs behind the pane".into()));
+        return Err(TakeError::Other("nothing hangs behind the pane".into()));
     };
     let pane = shot.liquid.pane(size);
     let bands = if growing.is_none_or(|g| g.looks == 1) { FEW } else { MANY };
-    let around = Around {
-        sky: &Sky::new(&surroundings(pane.effective().light), None),
+    let around = PaneLighting {
+        sky: &EnvironmentMap::new(&surroundings(pane.effective().light), None),
         gap: shot.liquid.gap,
         strata: &strata(bands, &Illuminant::D65, true),
         // Always by the processor, which takes no more than that.
         looks: growing.map_or(1, |g| g.looks.min(FINE_RENDER.looks)),
     };
     let picture = pane::traced(&pane, &filling(&behind, size), &around, watch)?;
-    Ok(Taken { image: as_screens(&picture), unresolved: None, tracer: "point rays", map: None })
+    Ok(TakenPicture { image: as_screens(&picture), unresolved: None, tracer: "point rays", map: None })
 }

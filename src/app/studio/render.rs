@@ -1,19 +1,19 @@
 //! Takes renders: what is seen under a light, of one body or of its company, before what hangs behind them.
 
 use super::motion::Moment;
-use super::order::{Shot, Slot, Smoothing, Taken};
+use super::order::{Shot, Slot, Smoothing, TakenPicture};
 use super::pace::Effort;
-use super::take::{Camera, LEAST_WEIGHT, MOST_BOUNCES, RAYS_COARSER, Trouble, coarser, overlaid};
-use super::undeveloped::Light;
+use super::take::{LEAST_WEIGHT, MOST_BOUNCES, RAYS_COARSER, ShotTracer, TakeError, coarser, overlaid};
+use super::undeveloped::TracedLight;
 use crate::app::shows::Shows;
 use crate::io::background::BackgroundRef;
 use crate::optics::{Stratum, strata};
 use crate::picture::{Background, Bloom, ByBeams, Develop, Linear, develop, fxaa, spectral};
-use crate::scene::{Film, Panorama, Placed, Pose, Projection, Setting};
-use crate::trace::gpu::{Around, ByCard};
+use crate::scene::{Film, Instance, Panorama, Pose, Projection, Scene};
+use crate::trace::environment::{Backplate, Environment};
+use crate::trace::gpu::{ByCard, GpuEnvironment};
 use crate::trace::ray::{self, ByRays};
-use crate::trace::sitting::{Exposure, Looks, Sitting};
-use crate::trace::surround::{Behind, Surround};
+use crate::trace::sampling::{LitScene, ProgressiveImage, Sampling};
 use crate::trace::{Watch, beam};
 use egui::ColorImage;
 use std::sync::Arc;
@@ -33,16 +33,16 @@ pub struct Growing {
     pub unresolved: f64,
 }
 
-impl Camera {
+impl ShotTracer {
     pub(super) fn render(
         &mut self,
         (slot, shot): (Slot, &Shot),
         effort: &Effort,
         growing: Option<&Growing>,
         watch: Watch,
-        each: &mut dyn FnMut(Taken),
-    ) -> Result<(), Trouble> {
-        let setting = setting(shot);
+        each: &mut dyn FnMut(TakenPicture),
+    ) -> Result<(), TakeError> {
+        let scene = scene_of(shot);
         let flat = is_for_beams(shot);
         let behind = self.picture_behind(shot.behind.as_ref())?;
         let by_card = self.gpu.clone().filter(|_| growing.is_some() || !flat);
@@ -51,7 +51,7 @@ impl Camera {
         if by_card.is_some() && film.size[1] > ByCard::most_rows(film.size[0]) {
             film = coarser(&film, 2.0);
         }
-        let sitting = sitting(shot, &setting, film, behind.as_deref());
+        let lit_scene = lit_scene(shot, &scene, film, behind.as_deref());
         let bands = growing.map_or(effort.bands, |g| g.bands).min(shot.bands);
         let strata = strata(bands, &shot.light.light.spectrum, true);
         let moving = match shot.smoothing {
@@ -61,40 +61,40 @@ impl Camera {
         let first = moving.and_then(|_| self.trails.get(&slot)).map_or(0, |(trail, _)| trail.count);
         let mut develop = |picture: &Linear, unresolved, tracer| {
             let laid = moving.map(|newest| {
-                Moment::of(shot, film).lay(&mut self.trails, (slot, picture), &sitting, newest).clone()
+                Moment::of(shot, film).lay(&mut self.trails, (slot, picture), &lit_scene, newest).clone()
             });
             let picture = laid.as_ref().unwrap_or(picture);
             if growing.is_some() {
-                let light = Light::Render { picture: picture.clone(), unresolved, tracer };
+                let light = TracedLight::Render { picture: picture.clone(), unresolved, tracer };
                 self.kept.insert(slot, (shot.clone(), light));
             }
             developed(shot, (picture, growing.is_some()), (unresolved, tracer), watch)
         };
-        let manner = Looks { count: 1, jitter: shot.jitter, strength: shot.strength };
-        let work = Work { sitting: &sitting, strata: &strata, manner, growing, first, watch };
+        let manner = Sampling { count: 1, jitter: shot.jitter, strength: shot.strength };
+        let work = Work { lit_scene: &lit_scene, strata: &strata, manner, growing, first, watch };
         match by_card {
             Some(gpu) => {
-                let around = Around::new(&gpu, &sitting.surround);
+                let around = GpuEnvironment::new(&gpu, &lit_scene.environment);
                 let rows = 0..film.size[1];
-                let exposure = ByCard::new(&gpu, &sitting, &around, rows, strata.len())?;
+                let exposure = ByCard::new(&gpu, &lit_scene, &around, rows, strata.len())?;
                 work.grow(exposure, |p, u| develop(p, u, "rays on the graphics card").map(&mut *each))
             }
             None if flat => {
                 let unresolved = growing.map_or(effort.unresolved, |g| g.unresolved);
                 let options =
-                    beam::Options { unresolved, most_beams: MOST_BEAMS, ..beam::Options::default() };
-                let Some(mut exposure) = ByBeams::new(sitting, options) else {
-                    return Err(Trouble::Other("exact beams do not apply here".into()));
+                    beam::BeamOptions { unresolved, most_beams: MOST_BEAMS, ..beam::BeamOptions::default() };
+                let Some(mut exposure) = ByBeams::new(lit_scene, options) else {
+                    return Err(TakeError::Other("exact beams do not apply here".into()));
                 };
                 if growing.is_some() {
                     return work.grow(exposure, |p, u| develop(p, u, "exact beams").map(&mut *each));
                 }
                 exposure.glance(&strata, watch)?;
-                let (picture, rest) = spectral::seen::<Trouble, _>(&sitting, &exposure)?;
+                let (picture, rest) = spectral::seen::<TakeError, _>(&lit_scene, &exposure)?;
                 develop(&picture, rest.unresolved, "exact beams").map(each)
             }
             None => {
-                let exposure = ByRays::new(sitting, 0..film.size[1]);
+                let exposure = ByRays::new(lit_scene, 0..film.size[1]);
                 work.grow(exposure, |p, u| develop(p, u, "point rays").map(&mut *each))
             }
         }
@@ -104,12 +104,12 @@ impl Camera {
     pub(super) fn picture_behind(
         &mut self,
         asked: Option<&BackgroundRef>,
-    ) -> Result<Option<Arc<Panorama>>, Trouble> {
+    ) -> Result<Option<Arc<Panorama>>, TakeError> {
         let Some(asked) = asked else { return Ok(None) };
         if let Some((_, picture)) = self.behind.as_ref().filter(|(last, _)| last == asked) {
             return Ok(Some(Arc::clone(picture)));
         }
-        let read = asked.picture().map_err(Trouble::Other)?;
+        let read = asked.picture().map_err(TakeError::Other)?;
         let picture = read.map(|reading| Arc::new(reading.panorama));
         self.behind = picture.clone().map(|picture| (asked.clone(), picture));
         Ok(picture)
@@ -125,9 +125,9 @@ pub fn is_for_beams(shot: &Shot) -> bool {
 
 /// Looks to be added up.
 struct Work<'a> {
-    sitting: &'a Sitting<'a>,
+    lit_scene: &'a LitScene<'a>,
     strata: &'a [Stratum],
-    manner: Looks,
+    manner: Sampling,
     growing: Option<&'a Growing>,
     /// The number of the first look.
     first: u32,
@@ -136,19 +136,19 @@ struct Work<'a> {
 
 impl Work<'_> {
     /// Adds look to look, and hands on what there is after the first, the second, the fourth and so on.
-    fn grow<X: Exposure<Trouble>>(
+    fn grow<X: ProgressiveImage<TakeError>>(
         &self,
         mut exposure: X,
-        mut each: impl FnMut(&Linear, f64) -> Result<(), Trouble>,
-    ) -> Result<(), Trouble> {
+        mut each: impl FnMut(&Linear, f64) -> Result<(), TakeError>,
+    ) -> Result<(), TakeError> {
         let looks = self.growing.map_or(1, |g| g.looks);
         for number in 0..looks {
             let done = |part: f64| (self.watch)((f64::from(number) + part) / f64::from(looks));
-            let look = self.manner.look(self.sitting.setting, self.strata, self.first.wrapping_add(number));
-            exposure.look(&look, &done)?;
+            let look = self.manner.pass(self.lit_scene.scene, self.strata, self.first.wrapping_add(number));
+            exposure.add_pass(&look, &done)?;
             let is_shown = number + 1 > self.growing.map_or(0, |g| g.after);
             if is_shown && ((number + 1).is_power_of_two() || number + 1 == looks) {
-                let (picture, rest) = spectral::seen(self.sitting, &exposure)?;
+                let (picture, rest) = spectral::seen(self.lit_scene, &exposure)?;
                 each(&picture, rest.unresolved)?;
             }
         }
@@ -166,36 +166,37 @@ pub fn hung(shot: &Shot) -> f64 {
 }
 
 /// What a shot is taken of.
-pub fn setting(shot: &Shot) -> Setting {
+pub fn scene_of(shot: &Shot) -> Scene {
     let placed = |pose: &Pose| {
-        let body = Placed::named(&shot.specimen.body, shot.specimen.material.clone(), "");
+        let body = Instance::named(&shot.specimen.body, shot.specimen.material.clone(), "");
         if *pose == Pose::STILL { body } else { body.moved(1.0, pose.turn, pose.at) }
     };
-    Setting { stones: shot.company.iter().map(placed).collect(), unit_mm: shot.specimen.unit_mm() }
+    Scene { instances: shot.company.iter().map(placed).collect(), unit_mm: shot.specimen.unit_mm() }
 }
 
 /// Bodies under their light, and the camera.
-pub fn sitting<'a>(
+pub fn lit_scene<'a>(
     shot: &'a Shot,
-    setting: &'a Setting,
+    scene: &'a Scene,
     film: Film,
     picture: Option<&'a Panorama>,
-) -> Sitting<'a> {
+) -> LitScene<'a> {
     let span = shot.behind.as_ref().map_or(1.0, BackgroundRef::span);
-    let behind = picture.map(|picture| Behind::filling(picture, span, hung(shot), &shot.view, &shot.whole));
-    Sitting {
-        setting,
-        surround: Surround {
-            sky: &shot.light.sky,
+    let behind =
+        picture.map(|picture| Backplate::filling(picture, span, hung(shot), &shot.view, &shot.whole));
+    LitScene {
+        scene,
+        environment: Environment {
+            map: &shot.light.map,
             basis: shot.view.light_basis(),
             eye: shot.view.basis(),
             head: shot.light.light.head.to_radians(),
-            behind,
+            backplate: behind,
             backdrop: behind.is_some() || shot.behind == Some(BackgroundRef::Light),
         },
         view: &shot.view,
         film,
-        options: ray::Options { polarised: true, most_bounces: MOST_BOUNCES, least_weight: LEAST_WEIGHT },
+        options: ray::RayOptions { polarised: true, most_bounces: MOST_BOUNCES, least_weight: LEAST_WEIGHT },
     }
 }
 
@@ -206,7 +207,7 @@ pub(super) fn developed(
     (picture, fine): (&Linear, bool),
     (unresolved, tracer): (f64, &'static str),
     watch: Watch,
-) -> Result<Taken, Trouble> {
+) -> Result<TakenPicture, TakeError> {
     // Glow would stand out around what is drawn over the stone, and it takes longer than the rest of a rough picture.
     let bloom = (fine && shot.overlay.is_none()).then(Bloom::default);
     let background = match &shot.behind {
@@ -223,5 +224,5 @@ pub(super) fn developed(
     if let Some(overlay) = shot.overlay {
         overlaid(shot, overlay, &mut image, watch)?;
     }
-    Ok(Taken { image, unresolved: Some(unresolved), tracer, map: None })
+    Ok(TakenPicture { image, unresolved: Some(unresolved), tracer, map: None })
 }

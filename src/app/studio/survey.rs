@@ -1,8 +1,8 @@
 //! Refraction maps of what a view shows.
 
 use super::order::Shot;
-use super::render::{hung, setting, sitting};
-use super::take::Trouble;
+use super::render::{hung, lit_scene, scene_of};
+use super::take::TakeError;
 use crate::optics::strata;
 use crate::picture::{Backdrop, Carried, Develop, RefractionMap, Survey};
 use crate::scene::Film;
@@ -13,7 +13,7 @@ use glam::DVec2;
 pub const SPAN: f64 = 2.0;
 
 /// How finely a map is traced.
-pub struct Detail {
+pub struct MapDetail {
     /// Bands of wavelengths of its places.
     pub bands: u32,
     /// Places of a pixel in each.
@@ -29,8 +29,8 @@ pub fn survey(
     shot: &Shot,
     [bands, places]: [u32; 2],
     watch: Watch,
-) -> Result<(RefractionMap, Carried), Trouble> {
-    let detail = Detail { bands, places, shades: 16, looks: 4 };
+) -> Result<(RefractionMap, Carried), TakeError> {
+    let detail = MapDetail { bands, places, shades: 16, looks: 4 };
     let (map, carried) = traced(shot, shot.film, &detail, watch)?;
     Ok((map.developed(&Develop { exposure: shot.exposure, bloom: None, ..Develop::default() }), carried))
 }
@@ -39,10 +39,10 @@ pub fn survey(
 pub fn traced(
     shot: &Shot,
     film: Film,
-    detail: &Detail,
+    detail: &MapDetail,
     watch: Watch,
-) -> Result<(RefractionMap, Carried), Trouble> {
-    let setting = setting(shot);
+) -> Result<(RefractionMap, Carried), TakeError> {
+    let scene = scene_of(shot);
     let distance = hung(shot);
     let whole = DVec2::from(shot.whole.size.map(f64::from)) * shot.whole.pixel;
     let size = whole * SPAN * shot.view.widening(distance);
@@ -54,5 +54,5 @@ pub fn traced(
         shades: &bands(detail.shades),
         looks: detail.looks,
     };
-    Ok(RefractionMap::trace(&sitting(shot, &setting, film, None), &plane, &survey, watch)?)
+    Ok(RefractionMap::trace(&lit_scene(shot, &scene, film, None), &plane, &survey, watch)?)
 }

@@ -1,17 +1,17 @@
 //! Takes one picture.
 
 use super::motion::Trails;
-use super::order::{Shot, Slot, Taken};
+use super::order::{Shot, Slot, TakenPicture};
 use super::pace::Effort;
 use super::refracted::glass;
-use super::render::{Growing, is_for_beams, setting, sitting};
+use super::render::{Growing, is_for_beams, lit_scene, scene_of};
 use super::undeveloped::Kept;
 use crate::app::shows::Shows;
 use crate::io::background::BackgroundRef;
 use crate::io::{Failure, rasterize_within};
 use crate::math::NotConvex;
 use crate::optics::line;
-use crate::picture::by_rays::{self, Manner};
+use crate::picture::by_rays::{self, ScopeSampling};
 use crate::picture::{DiagramStyle, Layer, Overlay, Palette, Rows, by_gpu, diagram, lay, paint};
 use crate::scene::{Film, Panorama, Scope, Specimen, View};
 use crate::trace::beam::{self, Beams};
@@ -32,7 +32,7 @@ pub(super) const RAYS_COARSER: f64 = 3.0;
 
 /// Why there is no picture.
 #[derive(Debug, thiserror::Error)]
-pub enum Trouble {
+pub enum TakeError {
     /// It was asked for no longer.
     #[error(transparent)]
     Stopped(#[from] Stopped),
@@ -47,25 +47,25 @@ pub enum Trouble {
     Other(String),
 }
 
-impl From<Trouble> for Failure {
-    fn from(trouble: Trouble) -> Self {
+impl From<TakeError> for Failure {
+    fn from(trouble: TakeError) -> Self {
         match trouble {
-            Trouble::Stopped(stopped) => stopped.into(),
-            Trouble::Card(error) => error.into(),
-            Trouble::NotConvex(why) => Self::Usage(why.to_string()),
-            Trouble::Other(why) => Self::Input(why),
+            TakeError::Stopped(stopped) => stopped.into(),
+            TakeError::Card(error) => error.into(),
+            TakeError::NotConvex(why) => Self::Usage(why.to_string()),
+            TakeError::Other(why) => Self::Input(why),
         }
     }
 }
 
 /// Beams that several pictures share.
 #[derive(Default)]
-pub struct Shelf(Vec<(Arc<Specimen>, View, f64, Arc<Beams>)>);
+pub struct BeamCache(Vec<(Arc<Specimen>, View, f64, Arc<Beams>)>);
 
 /// Sets of beams kept.
 const MOST_KEPT: usize = 6;
 
-impl Shelf {
+impl BeamCache {
     /// The beams of a stone in sodium's light, to a bound.
     pub fn beams(
         &mut self,
@@ -73,7 +73,7 @@ impl Shelf {
         view: &View,
         effort: &Effort,
         watch: Watch,
-    ) -> Result<Arc<Beams>, Trouble> {
+    ) -> Result<Arc<Beams>, TakeError> {
         let unresolved = effort.unresolved;
         let same = |(s, v, u, _): &&(Arc<Specimen>, View, f64, Arc<Beams>)| {
             Arc::ptr_eq(s, specimen) && v == view && *u == unresolved
@@ -82,7 +82,7 @@ impl Shelf {
             return Ok(Arc::clone(beams));
         }
         let most_beams = effort.most_beams();
-        let options = beam::Options { unresolved, most_beams, ..beam::Options::default() };
+        let options = beam::BeamOptions { unresolved, most_beams, ..beam::BeamOptions::default() };
         let medium = specimen.medium(line::SODIUM_D);
         let beams = Arc::new(beam::trace(&specimen.stone()?.polytope, medium, view, &options, watch)?);
         if self.0.len() == MOST_KEPT {
@@ -100,11 +100,11 @@ impl Shelf {
 
 /// What takes pictures.
 #[derive(Default)]
-pub struct Camera {
+pub struct ShotTracer {
     /// The card that the window is drawn by, if it computes quicker than the processor.
     pub gpu: Option<Arc<Gpu>>,
     /// Beams taken.
-    pub shelf: Shelf,
+    pub shelf: BeamCache,
     /// The picture that hung behind last.
     pub(super) behind: Option<(BackgroundRef, Arc<Panorama>)>,
     /// Rough renders of what moves, laid over one another.
@@ -113,7 +113,7 @@ pub struct Camera {
     pub(super) kept: Kept,
 }
 
-impl Camera {
+impl ShotTracer {
     /// One that has a card, or none.
     pub fn by(gpu: Option<Arc<Gpu>>) -> Self {
         Self { gpu, ..Self::default() }
@@ -127,8 +127,8 @@ impl Camera {
         effort: &Effort,
         growing: Option<&Growing>,
         watch: Watch,
-        each: &mut dyn FnMut(Taken),
-    ) -> Result<(), Trouble> {
+        each: &mut dyn FnMut(TakenPicture),
+    ) -> Result<(), TakeError> {
         match shot.shows {
             Shows::Profile | Shows::LiquidGlass => Ok(()),
             Shows::Diagram => drawing(shot).map(each),
@@ -146,8 +146,14 @@ impl Camera {
         }
     }
 
-    fn scoped(&mut self, shot: &Shot, effort: &Effort, fine: bool, watch: Watch) -> Result<Taken, Trouble> {
-        let Some(scoped) = shot.shows.scoped() else { return Err(Trouble::Other("no scope".into())) };
+    fn scoped(
+        &mut self,
+        shot: &Shot,
+        effort: &Effort,
+        fine: bool,
+        watch: Watch,
+    ) -> Result<TakenPicture, TakeError> {
+        let Some(scoped) = shot.shows.scoped() else { return Err(TakeError::Other("no scope".into())) };
         let head = if scoped.takes_head { shot.head } else { 0.0 };
         let scope = scoped.scope.with_head(head);
         if is_for_beams(shot) {
@@ -162,7 +168,7 @@ impl Camera {
         effort: &Effort,
         scope: &Scope,
         watch: Watch,
-    ) -> Result<Taken, Trouble> {
+    ) -> Result<TakenPicture, TakeError> {
         let film = coarser(&shot.film, effort.coarser);
         let beams = self.shelf.beams(&shot.specimen, &shot.view, effort, watch)?;
         let layer = if shot.strongest {
@@ -171,7 +177,7 @@ impl Camera {
             Layer::energy(&beams, scope, shot.glare)
         };
         let mut canvas = Canvas::new(&film, scope, 0);
-        paint(&layer, &film, watch, |rows| -> Result<(), Trouble> { canvas.take(rows) })?;
+        paint(&layer, &film, watch, |rows| -> Result<(), TakeError> { canvas.take(rows) })?;
         Ok(canvas.finish(Some(beams.unresolved()), "exact beams"))
     }
 
@@ -181,12 +187,12 @@ impl Camera {
         effort: &Effort,
         (scope, per_side): (&Scope, u32),
         watch: Watch,
-    ) -> Result<Taken, Trouble> {
+    ) -> Result<TakenPicture, TakeError> {
         let slower = if self.gpu.is_none() && per_side == 1 { RAYS_COARSER } else { 1.0 };
         let film = coarser(&shot.film, effort.coarser * slower);
         let options =
-            ray::Options { most_bounces: MOST_BOUNCES, least_weight: LEAST_WEIGHT, polarised: true };
-        let manner = Manner { options, per_side, glare: shot.glare };
+            ray::RayOptions { most_bounces: MOST_BOUNCES, least_weight: LEAST_WEIGHT, polarised: true };
+        let manner = ScopeSampling { options, per_side, glare: shot.glare };
         let (solid, medium) = (shot.specimen.solid(), shot.specimen.medium(line::SODIUM_D));
         let first = if shot.strongest { scope.bands.len() } else { 0 };
         let mut canvas = Canvas::new(&film, scope, first);
@@ -219,17 +225,17 @@ pub(super) fn overlaid(
     image: &mut ColorImage,
     watch: Watch,
 ) -> Result<(), Stopped> {
-    let setting = setting(shot);
+    let scene = scene_of(shot);
     let [across, down] = image.size.map(|n| n as u32);
     let pixel = shot.film.pixel * f64::from(shot.film.size[0]) / f64::from(across);
     let film = Film { size: [across, down], pixel, ..shot.film };
     let mut rgba: Vec<u8> = image.pixels.iter().flat_map(|p| p.to_srgba_unmultiplied()).collect();
-    lay(overlay, &sitting(shot, &setting, film, None), &mut rgba, watch)?;
+    lay(overlay, &lit_scene(shot, &scene, film, None), &mut rgba, watch)?;
     *image = ColorImage::from_rgba_unmultiplied(image.size, &rgba);
     Ok(())
 }
 
-fn drawing(shot: &Shot) -> Result<Taken, Trouble> {
+fn drawing(shot: &Shot) -> Result<TakenPicture, TakeError> {
     let stone = shot.specimen.stone()?;
     let style = match shot.paper.pixels_per_point.map(f64::from) {
         Some(scale) => {
@@ -240,9 +246,9 @@ fn drawing(shot: &Shot) -> Result<Taken, Trouble> {
     };
     let text = diagram(stone, &shot.title, &style).to_string();
     let (width, height, rgba) =
-        rasterize_within(&text, shot.film.size).map_err(|e| Trouble::Other(e.to_string()))?;
+        rasterize_within(&text, shot.film.size).map_err(|e| TakeError::Other(e.to_string()))?;
     let image = ColorImage::from_rgba_unmultiplied([width as usize, height as usize], &rgba);
-    Ok(Taken { image, unresolved: None, tracer: "drawn", map: None })
+    Ok(TakenPicture { image, unresolved: None, tracer: "drawn", map: None })
 }
 
 /// Rows of a scope, as they come in.
@@ -259,14 +265,14 @@ impl Canvas {
         Self { palette: Palette::of(scope), first, size, pixels: Vec::with_capacity(3 * size[0] * size[1]) }
     }
 
-    fn take(&mut self, rows: &Rows) -> Result<(), Trouble> {
+    fn take(&mut self, rows: &Rows) -> Result<(), TakeError> {
         let Self { palette, first, pixels, .. } = self;
         (rows.first..rows.first + rows.count).for_each(|y| palette.encode(rows, *first, y, pixels));
         Ok(())
     }
 
-    fn finish(self, unresolved: Option<f64>, tracer: &'static str) -> Taken {
-        Taken { image: ColorImage::from_rgb(self.size, &self.pixels), unresolved, tracer, map: None }
+    fn finish(self, unresolved: Option<f64>, tracer: &'static str) -> TakenPicture {
+        TakenPicture { image: ColorImage::from_rgb(self.size, &self.pixels), unresolved, tracer, map: None }
     }
 }
 
@@ -275,7 +281,7 @@ mod tests {
     use super::*;
     use crate::app::document::Document;
     use crate::app::eye::Eye;
-    use crate::app::framing::Fit;
+    use crate::app::framing::FramingFit;
     use crate::app::liquid::Liquid;
     use crate::app::studio::order::{Paper, Smoothing, Which};
     use crate::app::studio::render::BEHIND;
@@ -296,8 +302,8 @@ mod tests {
             strongest: false,
             glare: Glare::Included,
             view: View { projection, ..eye.view(None) },
-            film: eye.film([56, 40], &Fit::reaching(1.0)),
-            whole: Fit::reaching(1.0).film([56, 40]),
+            film: eye.film([56, 40], &FramingFit::reaching(1.0)),
+            whole: FramingFit::reaching(1.0).film([56, 40]),
             light: Arc::new(Lighting::load("dome").unwrap()),
             bands: 16,
             jitter: true,
@@ -314,7 +320,7 @@ mod tests {
         }
     }
 
-    fn taken(camera: &mut Camera, shot: &Shot, growing: Option<&Growing>) -> Taken {
+    fn taken(camera: &mut ShotTracer, shot: &Shot, growing: Option<&Growing>) -> TakenPicture {
         let mut last = None;
         let effort = Effort { unresolved: 5e-3, coarser: 1.0, bands: 4 };
         camera
@@ -324,9 +330,9 @@ mod tests {
     }
 
     /// The mean difference of two pictures' channels, in parts of full scale.
-    fn apart(a: &Taken, b: &Taken) -> f64 {
+    fn apart(a: &TakenPicture, b: &TakenPicture) -> f64 {
         assert_eq!(a.image.size, b.image.size);
-        let codes = |t: &Taken| t.image.pixels.iter().flat_map(|p| p.to_array()).collect::<Vec<u8>>();
+        let codes = |t: &TakenPicture| t.image.pixels.iter().flat_map(|p| p.to_array()).collect::<Vec<u8>>();
         let (a, b) = (codes(a), codes(b));
         let sum: f64 = a.iter().zip(&b).map(|(a, b)| f64::from(a.abs_diff(*b))).sum();
         sum / (255.0 * a.len() as f64)
@@ -343,7 +349,7 @@ mod tests {
                 return;
             }
         };
-        let mut card = Camera::by(Some(gpu));
+        let mut card = ShotTracer::by(Some(gpu));
         let growing = Growing { bands: 4, looks: 16, after: 0, unresolved: 5e-3 };
         let checks = BackgroundRef::read("checks", Path::new("")).unwrap();
         let mixed = Shot { behind: Some(checks), strength: 0.2, ..shot(Shows::Render, None) };
@@ -354,7 +360,7 @@ mod tests {
             (mixed, 4e-3),
         ] {
             let (shows, projection) = (shot.shows, shot.view.projection);
-            let [a, b] = [&mut card, &mut Camera::default()].map(|c| taken(c, &shot, Some(&growing)));
+            let [a, b] = [&mut card, &mut ShotTracer::default()].map(|c| taken(c, &shot, Some(&growing)));
             assert_ne!(a.tracer, b.tracer);
             let other = Shot { view: Eye::default().view(None), ..shot.clone() };
             let (off, wrong) = (apart(&a, &b), apart(&taken(&mut card, &other, Some(&growing)), &b));
@@ -378,7 +384,7 @@ mod tests {
     fn a_rough_render_looks_like_the_fine_one() {
         let shot = shot(Shows::Render, None);
         let growing = Growing { bands: 16, looks: 4, after: 0, unresolved: 2e-3 };
-        let mut camera = Camera::default();
+        let mut camera = ShotTracer::default();
         let (rough, fine) = (taken(&mut camera, &shot, None), taken(&mut camera, &shot, Some(&growing)));
         let off = apart(&rough, &fine);
         assert!(off < 0.03, "{off}");

@@ -1,9 +1,9 @@
 //! The light of renders and maps as it was traced, kept so that another exposure or overlay needs no new tracing.
 
-use super::order::{Shot, Slot, Taken};
+use super::order::{Shot, Slot, TakenPicture};
 use super::refracted::codes;
 use super::render::developed;
-use super::take::{Camera, Trouble};
+use super::take::{ShotTracer, TakeError};
 use crate::app::shows::Shows;
 use crate::picture::{Develop, Linear, RefractionMap};
 use crate::trace::Watch;
@@ -11,10 +11,10 @@ use std::collections::HashMap;
 use std::sync::Arc;
 
 /// What each view showed last, before it was developed.
-pub type Kept = HashMap<Slot, (Shot, Light)>;
+pub type Kept = HashMap<Slot, (Shot, TracedLight)>;
 
 /// Light that was traced for a view.
-pub enum Light {
+pub enum TracedLight {
     /// That of a render.
     Render {
         /// The light of each pixel.
@@ -36,24 +36,29 @@ impl Shot {
     }
 }
 
-impl Camera {
+impl ShotTracer {
     /// Makes the picture of a shot out of light that was traced for another; `None` where no such light is kept.
     ///
     /// # Errors
-    /// [`Trouble::Stopped`] when `watch` asks to stop, which only overlays do.
-    pub fn develop_again(&self, slot: Slot, shot: &Shot, watch: Watch) -> Option<Result<Taken, Trouble>> {
+    /// [`TakeError::Stopped`] when `watch` asks to stop, which only overlays do.
+    pub fn develop_again(
+        &self,
+        slot: Slot,
+        shot: &Shot,
+        watch: Watch,
+    ) -> Option<Result<TakenPicture, TakeError>> {
         let (_, light) = self.kept.get(&slot).filter(|(kept, _)| kept.has_light_of(shot))?;
         Some(match light {
-            Light::Render { picture, unresolved, tracer } => {
+            TracedLight::Render { picture, unresolved, tracer } => {
                 developed(shot, (picture, true), (*unresolved, tracer), watch)
             }
-            Light::Map(map) => Ok(map_taken(shot, map.clone())),
+            TracedLight::Map(map) => Ok(map_taken(shot, map.clone())),
         })
     }
 }
 
 /// A map as a view takes it in: developed, and as its picture the codes of its places.
-pub fn map_taken(shot: &Shot, map: RefractionMap) -> Taken {
+pub fn map_taken(shot: &Shot, map: RefractionMap) -> TakenPicture {
     let map = map.developed(&Develop { exposure: shot.exposure, bloom: None, ..Develop::default() });
-    Taken { image: codes(&map), unresolved: None, tracer: "point rays", map: Some(Arc::new(map)) }
+    TakenPicture { image: codes(&map), unresolved: None, tracer: "point rays", map: Some(Arc::new(map)) }
 }

@@ -1,10 +1,10 @@
 //! The studio's thread.
 
-use super::order::{Answer, Ask, Grade, Order, Shot, Slot, Smoothing, Taken, Which};
+use super::order::{Answer, FiguresOrder, Grade, Order, Shot, Slot, Smoothing, TakenPicture, Which};
 use super::pace::{Effort, Pace};
 use super::render::{Growing, is_for_beams};
-use super::take::{Camera, RAYS_COARSER, Trouble};
-use super::{Desk, Wake};
+use super::take::{RAYS_COARSER, ShotTracer, TakeError};
+use super::{Mailbox, Wake};
 use crate::app::shows::Shows;
 use crate::measure::{Bounds, Figures, LATTICE, MeasureError, UNRESOLVED, by_beams, measure_subject};
 use crate::scene::{ASET_CONE, Backing, Scope, View};
@@ -39,15 +39,15 @@ const SHARP: Growing = Growing { looks: 64, after: FINE_RENDER.looks, ..FINE_REN
 
 /// Takes orders, one after the other.
 pub(super) struct Worker {
-    desk: Arc<Desk>,
+    desk: Arc<Mailbox>,
     answers: Sender<Answer>,
     wake: Wake,
-    camera: Camera,
+    camera: ShotTracer,
     pace: Pace,
     /// What has been answered, and how well.
     pictures: HashMap<Slot, (Shot, Grade)>,
-    figures: HashMap<Which, (Ask, Grade)>,
-    tilts: Option<Ask>,
+    figures: HashMap<Which, (FiguresOrder, Grade)>,
+    tilts: Option<FiguresOrder>,
     /// Renders that are as sharp as they get.
     sharp: HashMap<Slot, Shot>,
 }
@@ -59,12 +59,12 @@ struct Turn {
 }
 
 impl Worker {
-    pub fn new(desk: Arc<Desk>, answers: Sender<Answer>, gpu: Option<Arc<Gpu>>, wake: Wake) -> Self {
+    pub fn new(desk: Arc<Mailbox>, answers: Sender<Answer>, gpu: Option<Arc<Gpu>>, wake: Wake) -> Self {
         Self {
             desk,
             answers,
             wake,
-            camera: Camera::by(gpu),
+            camera: ShotTracer::by(gpu),
             pace: Pace::default(),
             pictures: HashMap::new(),
             figures: HashMap::new(),
@@ -102,7 +102,7 @@ impl Worker {
             if let Some((number, order)) = order.take() {
                 return Some(Turn { number, order });
             }
-            order = self.desk.told.wait(order).unwrap_or_else(PoisonError::into_inner);
+            order = self.desk.changed.wait(order).unwrap_or_else(PoisonError::into_inner);
         }
     }
 
@@ -155,7 +155,7 @@ impl Worker {
             if self.figures.get(which).is_none_or(|(done, _)| done != ask) {
                 self.count();
                 let figures = self.glanced(ask, &effort, &watch)?;
-                self.told(*which, ask, Grade::Rough, figures);
+                self.send_figures(*which, ask, Grade::Rough, figures);
             }
         }
         if any {
@@ -171,7 +171,7 @@ impl Worker {
         let Some((done, grade)) = before.cloned() else { return Ok(false) };
         match self.camera.develop_again(slot, shot, watch) {
             Some(Ok(taken)) => self.answer(Answer::Picture(slot, Box::new(shot.clone()), grade, taken)),
-            Some(Err(Trouble::Stopped(stopped))) => return Err(stopped),
+            Some(Err(TakeError::Stopped(stopped))) => return Err(stopped),
             Some(Err(_)) | None => return Ok(false),
         }
         if self.sharp.get(&slot) == Some(&done) {
@@ -250,21 +250,21 @@ impl Worker {
         self.sharp.remove(&slot);
         self.count();
         let (answers, wake) = (self.answers.clone(), Arc::clone(&self.wake));
-        let mut each = |taken: Taken| {
+        let mut each = |taken: TakenPicture| {
             let _ = answers.send(Answer::Picture(slot, Box::new(shot.clone()), grade, taken));
             wake();
         };
         match self.camera.take((slot, shot), effort, growing, watch, &mut each) {
             Ok(()) => {}
-            Err(Trouble::Stopped(stopped)) => return Err(stopped),
-            Err(Trouble::Card(error)) => {
+            Err(TakeError::Stopped(stopped)) => return Err(stopped),
+            Err(TakeError::Card(error)) => {
                 // The processor does its work from now on.
                 self.camera.gpu = None;
                 self.answer(Answer::Trouble(format!("{error}: tracing on the processor")));
                 return self.picture((slot, shot), grade, (effort, growing), watch);
             }
-            Err(Trouble::NotConvex(why)) => self.answer(Answer::Trouble(why.to_string())),
-            Err(Trouble::Other(why)) => self.answer(Answer::Trouble(why)),
+            Err(TakeError::NotConvex(why)) => self.answer(Answer::Trouble(why.to_string())),
+            Err(TakeError::Other(why)) => self.answer(Answer::Trouble(why)),
         }
         self.pictures.insert(slot, (shot.clone(), grade));
         Ok(())
@@ -281,22 +281,22 @@ impl Worker {
             if self.figures.get(which).is_none_or(|(done, g)| done != ask || *g < grade) {
                 self.count();
                 let figures = measured(ask, &ask.view, bound, watch)?;
-                self.told(*which, ask, grade, figures);
+                self.send_figures(*which, ask, grade, figures);
             }
         }
         Ok(())
     }
 
     /// Figures at the first glance, of beams that the pictures share.
-    fn glanced(&mut self, ask: &Ask, effort: &Effort, watch: Watch) -> Result<Figures, Stopped> {
+    fn glanced(&mut self, ask: &FiguresOrder, effort: &Effort, watch: Watch) -> Result<Figures, Stopped> {
         match self.camera.shelf.beams(&ask.specimen, &ask.view, effort, watch) {
             Ok(beams) => Ok(by_beams(&beams, &scope(ask))),
-            Err(Trouble::Stopped(stopped)) => Err(stopped),
+            Err(TakeError::Stopped(stopped)) => Err(stopped),
             Err(_) => measured(ask, &ask.view, (effort.unresolved, LATTICE / 16), watch),
         }
     }
 
-    fn told(&mut self, which: Which, ask: &Ask, grade: Grade, figures: Figures) {
+    fn send_figures(&mut self, which: Which, ask: &FiguresOrder, grade: Grade, figures: Figures) {
         self.figures.insert(which, (ask.clone(), grade));
         self.answer(Answer::Figures(which, ask.clone(), grade, Box::new(figures)));
     }
@@ -321,7 +321,7 @@ fn stop_if(outdated: bool) -> ControlFlow<()> {
     if outdated { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
 }
 
-fn scope(ask: &Ask) -> Scope {
+fn scope(ask: &FiguresOrder) -> Scope {
     Scope::aset(ASET_CONE, Backing::Black).with_head(ask.head)
 }
 
@@ -329,7 +329,12 @@ fn scope(ask: &Ask) -> Scope {
 type Bound = (f64, u32);
 
 /// Figures to a bound, as `measure` gives them.
-fn measured(ask: &Ask, view: &View, (unresolved, lattice): Bound, watch: Watch) -> Result<Figures, Stopped> {
+fn measured(
+    ask: &FiguresOrder,
+    view: &View,
+    (unresolved, lattice): Bound,
+    watch: Watch,
+) -> Result<Figures, Stopped> {
     let (specimen, scope) = (&*ask.specimen, scope(ask));
     let medium = specimen.medium(crate::optics::line::SODIUM_D);
     let subject = Subject { specimen, medium, view, scope: &scope };

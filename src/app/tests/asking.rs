@@ -5,7 +5,7 @@ use crate::app::dialogs::Dialog;
 use crate::app::export_dialog::ExportDialog;
 use crate::app::export_job::Job;
 use crate::io::cut_file;
-use crate::io::export::Format;
+use crate::io::export::OutputFormat;
 use egui::{Key, Role};
 use std::path::Path;
 
@@ -39,7 +39,7 @@ fn export(bench: &mut Bench, folder: &Path, size: u32) {
     export.folder = folder.to_owned();
     let selection = &mut export.plan.selection;
     selection.views = vec![Shows::Aset, Shows::AsetWhite, Shows::IdealScope, Shows::Hearts, Shows::Arrows];
-    (selection.size, selection.formats) = (size, vec![Format::Png]);
+    (selection.size, selection.formats) = (size, vec![OutputFormat::Png]);
     bench.harness.run_steps(2);
 }
 

@@ -136,7 +136,7 @@ fn liquid_glass_is_drawn_and_traced_as_strong_as_it_is_set() {
 #[ignore = "takes time to take time"]
 fn looking_up_keeps_up_with_the_window() {
     let mut desk = Bench::small();
-    desk.layout = Layout::One;
+    desk.layout = PaneLayout::One;
     desk.panes[0].shows = Shows::Refraction;
     let setup = Setup { desk, file: Some("plate".into()), ..Setup::default() };
     let mut bench = Bench::sized(setup, egui::vec2(1144.0, 600.0));

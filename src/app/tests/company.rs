@@ -1,7 +1,6 @@
 //! Copies of a glass shape, as a person moves them.
 
 use super::Bench;
-use crate::app::desk::{Desk, Layout, Pane};
 use crate::app::dialogs::Dialog;
 use crate::app::editor::{Editor, Setup};
 use crate::app::export_dialog::ExportDialog;
@@ -9,8 +8,9 @@ use crate::app::export_scene::SceneOut;
 use crate::app::moving::Moving;
 use crate::app::preset::Preset;
 use crate::app::shows::Shows;
-use crate::app::studio::{Smoothing, Which, hung, setting, sitting};
-use crate::scene::{Company, Panorama, Pose};
+use crate::app::studio::{Smoothing, Which, hung, lit_scene, scene_of};
+use crate::app::workspace::{Pane, PaneLayout, Workspace};
+use crate::scene::{Copies, Panorama, Pose};
 use egui::{Key, Pos2};
 use egui_kittest::kittest::Queryable;
 use std::path::PathBuf;
@@ -18,7 +18,8 @@ use std::path::PathBuf;
 /// One render of a scene that comes with the program.
 fn bench(scene: &str) -> Bench {
     let pane = Pane { shows: Shows::Render, own: None, is_near: false };
-    let desk = Desk { layout: Layout::One, panes: [pane; 4], wavelengths: 3, ..Desk::default() };
+    let desk =
+        Workspace { layout: PaneLayout::One, panes: [pane; 4], wavelengths: 3, ..Workspace::default() };
     let setup = Setup { file: Some(PathBuf::from(scene)), desk, ..Setup::default() };
     let mut bench = Bench::sized(setup, egui::vec2(860.0, 1040.0));
     bench.harness.run_steps(3);
@@ -132,7 +133,7 @@ fn scene_files_open_and_those_of_several_designs_are_refused_in_words() {
 }
 
 /// Where copies are beside the first, and how they are turned.
-fn arrangement(company: &Company, unit_mm: f64) -> Vec<(glam::DVec3, glam::DQuat)> {
+fn arrangement(company: &Copies, unit_mm: f64) -> Vec<(glam::DVec3, glam::DQuat)> {
     let first = company.poses[0].at;
     company.poses.iter().map(|pose| ((pose.at - first) * unit_mm, pose.turn)).collect()
 }
@@ -172,7 +173,7 @@ fn copies_are_saved_as_a_scene_that_is_opened_again_as_it_was() {
         assert!((farther + deeper).abs() < 1e-9, "{scene}: {farther} {deeper}");
         let turned = Pose { turn: glam::DQuat::from_rotation_z(turn), ..Pose::STILL };
         let poses = if is_alone { vec![turned] } else { shot.company.clone() };
-        let shown = arrangement(&Company { poses, room: None }, unit_mm);
+        let shown = arrangement(&Copies { poses, room: None }, unit_mm);
         for ((at, turn), (there, turned)) in arrangement(&again.company, unit_mm).into_iter().zip(shown) {
             assert!(at.distance(there) < 1e-9 && turn.dot(turned).abs() > 1.0 - 1e-12, "{at} {there}");
         }
@@ -196,11 +197,11 @@ fn whoever_holds_a_copy_that_goes_lets_go_of_it() {
         bench.harness.step();
     }
     assert_eq!(bench.editor().held, Some((0, 3)));
-    bench.harness.state_mut().document.work.company = Company::default();
+    bench.harness.state_mut().document.work.company = Copies::default();
     bench.harness.hover_at(pos + egui::vec2(40.0, 0.0));
     bench.harness.step();
     assert_eq!(bench.editor().held, None);
-    assert_eq!(bench.editor().document.work.company, Company::default());
+    assert_eq!(bench.editor().document.work.company, Copies::default());
 }
 
 #[test]
@@ -229,8 +230,8 @@ fn zooming_shows_the_same_light_nearer_and_another_design_is_seen_as_physics() {
     let mut bench = bench("subtle-pill");
     let seen = |bench: &Bench| {
         let shot = bench.editor().asked.shots[0].1.clone();
-        let (setting, page) = (setting(&shot), Panorama { width: 2, height: 2, pixels: vec![[1.0; 3]; 4] });
-        let width = sitting(&shot, &setting, shot.film, Some(&page)).surround.behind.unwrap().width;
+        let (scene, page) = (scene_of(&shot), Panorama { width: 2, height: 2, pixels: vec![[1.0; 3]; 4] });
+        let width = lit_scene(&shot, &scene, shot.film, Some(&page)).environment.backplate.unwrap().width;
         (width, shot.film.pixel, shot.strength)
     };
     let before = seen(&bench);

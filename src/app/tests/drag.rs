@@ -13,7 +13,7 @@ const FRAME: Duration = Duration::from_micros(16_667);
 /// A hand that moves something at 60 Hz: how many pictures a second each pane shows, how old they are when they come, and
 /// how long a frame of the window takes, milliseconds.
 fn drag(name: &str, mut change: impl FnMut(&mut Editor, u32)) {
-    let setup = Setup { desk: Desk { head: 1e-9, ..Desk::default() }, ..Setup::default() };
+    let setup = Setup { desk: Workspace { head: 1e-9, ..Workspace::default() }, ..Setup::default() };
     let mut bench = Bench::sized(setup, egui::vec2(1440.0, 900.0));
     bench.settle();
     let begun = Instant::now();

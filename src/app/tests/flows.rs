@@ -80,7 +80,7 @@ fn what_is_edited_and_saved_opens_again_equal_and_its_figures_are_those_of_the_f
     assert_eq!(cut_file::read(&path).unwrap(), design);
     let shown = &bench.editor().figures[&Which::Present];
     let specimen = Specimen::new(cut_file::read(&path).unwrap()).unwrap();
-    let options = beam::Options { unresolved: 1.5e-4, ..beam::Options::default() };
+    let options = beam::BeamOptions { unresolved: 1.5e-4, ..beam::BeamOptions::default() };
     let medium = specimen.medium(line::SODIUM_D);
     let beams =
         beam::trace(&specimen.stone().unwrap().polytope, medium, &View::default(), &options, &unwatched)

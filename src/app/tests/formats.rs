@@ -4,8 +4,8 @@ use super::*;
 use crate::app::document::Document;
 use crate::cut::from_mesh::Up;
 use crate::cut::{Design, Glass, MeshShape};
-use crate::io::design_file::{self, Format};
-use crate::math::{Shell, Surface, fixture};
+use crate::io::design_file::{self, DesignFormat};
+use crate::math::{Surface, TriangleMesh, fixture};
 use crate::scene::Specimen;
 use std::sync::Arc;
 
@@ -39,7 +39,7 @@ fn a_mesh_opens_as_its_facets_and_is_not_written_over() {
     let folder = tempfile::tempdir().unwrap();
     let (path, toml) = (folder.path().join("scan.stl"), folder.path().join("scan.toml"));
     let specimen = Specimen::new(Document::first().unwrap().work.design).unwrap();
-    design_file::write(&specimen, Format::Stl, &path).unwrap();
+    design_file::write(&specimen, DesignFormat::Stl, &path).unwrap();
     let scan = std::fs::read(&path).unwrap();
     let mut bench = Bench::with(Setup { file: Some(path.clone()), ..Setup::default() });
     bench.settle();
@@ -62,7 +62,7 @@ fn the_direction_of_a_meshs_table_is_chosen_and_seen_at_once() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("stone.obj");
     let specimen = Specimen::new(Document::first().unwrap().work.design).unwrap();
-    design_file::write(&specimen, Format::Obj, &path).unwrap();
+    design_file::write(&specimen, DesignFormat::Obj, &path).unwrap();
     let mut bench = Bench::with(Setup { file: Some(path), ..Setup::default() });
     bench.settle();
     let (picture, cut) = (bench.picture(0), bench.editor().document.work.design.cut.clone());
@@ -92,10 +92,10 @@ fn a_mesh_is_read_in_another_form_by_a_click_which_can_be_undone() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("heart.glb");
     let (vertices, triangles) = fixture::heart();
-    let shape = MeshShape(Arc::new(Shell::new(Surface::new(vertices, triangles)).unwrap()));
+    let shape = MeshShape(Arc::new(TriangleMesh::new(Surface::new(vertices, triangles)).unwrap()));
     let first = Document::first().unwrap().work.design;
     let design = Design { name: "heart".into(), cut: Cut::Mesh(shape), ..first };
-    design_file::write(&Specimen::new(design).unwrap(), Format::Glb, &path).unwrap();
+    design_file::write(&Specimen::new(design).unwrap(), DesignFormat::Glb, &path).unwrap();
     let mut bench = Bench::with(Setup { file: Some(path), ..Setup::default() });
     let is_mesh = |editor: &Editor| matches!(editor.document.work.design.cut, Cut::Mesh(_));
     bench.wait(is_mesh);
@@ -111,7 +111,8 @@ fn a_mesh_is_read_in_another_form_by_a_click_which_can_be_undone() {
     bench.harness.run_steps(3);
     let editor = bench.editor();
     assert!(editor.document.specimen().stone().is_ok() && editor.document.is_changed());
-    let bends = |editor: &Editor| editor.document.work.odd.iter().any(|note| note.contains("bends inward"));
+    let bends =
+        |editor: &Editor| editor.document.work.remarks.iter().any(|note| note.contains("bends inward"));
     assert!(bends(editor));
     let scale = |editor: &Editor| cubic_mm(editor) / volume;
     assert!(scale(editor) > 1.05, "{}", scale(editor));
@@ -129,10 +130,10 @@ fn a_solid_that_is_not_convex_is_shown_by_rays_and_measured() {
     let folder = tempfile::tempdir().unwrap();
     let (path, toml) = (folder.path().join("heart.glb"), folder.path().join("heart.toml"));
     let (vertices, triangles) = fixture::heart();
-    let shape = MeshShape(Arc::new(Shell::new(Surface::new(vertices, triangles)).unwrap()));
+    let shape = MeshShape(Arc::new(TriangleMesh::new(Surface::new(vertices, triangles)).unwrap()));
     let first = Document::first().unwrap().work.design;
     let design = Design { name: "heart".into(), cut: Cut::Mesh(shape), ..first };
-    design_file::write(&Specimen::new(design).unwrap(), Format::Glb, &path).unwrap();
+    design_file::write(&Specimen::new(design).unwrap(), DesignFormat::Glb, &path).unwrap();
     let mut desk = Bench::small();
     desk.panes[1].shows = Shows::Diagram;
     let mut bench = Bench::with(Setup { file: Some(path), desk, ..Setup::default() });
@@ -179,8 +180,8 @@ fn a_glass_shape_is_taken_from_the_library_and_its_dimensions_are_set() {
 
 #[test]
 fn renders_show_three_bands_of_wavelengths_while_a_key_is_down() {
-    let [render, ..] = Desk::default().panes;
-    let desk = Desk { layout: Layout::One, panes: [render; 4], ..Desk::default() };
+    let [render, ..] = Workspace::default().panes;
+    let desk = Workspace { layout: PaneLayout::One, panes: [render; 4], ..Workspace::default() };
     let mut bench = Bench::with(Setup { file: Some("prism".into()), desk, ..Setup::default() });
     bench.settle();
     let many = bench.picture(0);
@@ -195,8 +196,8 @@ fn renders_show_three_bands_of_wavelengths_while_a_key_is_down() {
 
 #[test]
 fn a_pattern_hangs_behind_glass_and_is_refracted_as_strongly_as_asked() {
-    let [render, ..] = Desk::default().panes;
-    let desk = Desk { layout: Layout::One, panes: [render; 4], ..Desk::default() };
+    let [render, ..] = Workspace::default().panes;
+    let desk = Workspace { layout: PaneLayout::One, panes: [render; 4], ..Workspace::default() };
     let setup = Setup { file: Some("cube".into()), desk, ..Setup::default() };
     let mut bench = Bench::sized(setup, egui::vec2(900.0, 300.0));
     bench.look();

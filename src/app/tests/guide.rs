@@ -5,7 +5,7 @@ use crate::app::dialogs::Dialog;
 use std::path::Path;
 
 /// The window of a first start, drawn in the dark, on a file that comes with the program.
-fn window(cut: &str, desk: &Desk) -> Bench {
+fn window(cut: &str, desk: &Workspace) -> Bench {
     let file = Some(Path::new(env!("CARGO_MANIFEST_DIR")).join("cuts").join(cut));
     let mut bench = Bench::drawn(Setup { file, ..Setup::default() }, egui::Theme::Dark);
     bench.harness.state_mut().desk = desk.clone();
@@ -32,7 +32,7 @@ fn draw(bench: &mut Bench, name: &str) {
 #[test]
 #[ignore = "writes pictures into docs/images/editor"]
 fn the_first_window_and_a_path() {
-    let mut bench = window("tolkowsky.toml", &Desk::default());
+    let mut bench = window("tolkowsky.toml", &Workspace::default());
     take(&mut bench, "first");
     bench.click_at(bench.harness.get_by_label("ASET picture").rect().center() + egui::vec2(60.0, 24.0));
     (0..40).for_each(|_| bench.harness.step());
@@ -42,7 +42,7 @@ fn the_first_window_and_a_path() {
 #[test]
 #[ignore = "writes a picture into docs/images/editor"]
 fn a_lower_crown() {
-    let mut bench = window("tolkowsky.toml", &Desk::default());
+    let mut bench = window("tolkowsky.toml", &Workspace::default());
     bench.type_number("Crown angle", "32.5");
     take(&mut bench, "crown");
 }
@@ -50,7 +50,7 @@ fn a_lower_crown() {
 #[test]
 #[ignore = "writes a picture into docs/images/editor"]
 fn a_tilt_with_wireframe() {
-    let mut bench = window("tolkowsky.toml", &Desk::default());
+    let mut bench = window("tolkowsky.toml", &Workspace::default());
     bench.harness.key_press(egui::Key::F);
     bench.settle();
     bench.harness.key_press(egui::Key::W);
@@ -60,7 +60,7 @@ fn a_tilt_with_wireframe() {
 #[test]
 #[ignore = "writes a picture into docs/images/editor"]
 fn a_deeper_pavilion() {
-    let mut bench = window("tolkowsky.toml", &Desk::default());
+    let mut bench = window("tolkowsky.toml", &Workspace::default());
     bench.type_number("Pavilion angle", "43.9");
     take(&mut bench, "profile");
 }
@@ -78,7 +78,7 @@ fn two_designs_side_by_side() {
 #[test]
 #[ignore = "writes a picture into docs/images/editor"]
 fn what_to_export() {
-    let mut bench = window("tolkowsky.toml", &Desk::default());
+    let mut bench = window("tolkowsky.toml", &Workspace::default());
     bench.choose("File", "Export…");
     let Some(Dialog::Export(export)) = &mut bench.harness.state_mut().dialog else { panic!() };
     export.folder = "/home/me/stones/out".into();
@@ -100,7 +100,7 @@ fn four_cubes() {
 #[ignore = "writes a picture into docs/images/editor"]
 fn what_lies_behind() {
     let shown = [Shows::Render, Shows::Refraction, Shows::LiquidGlass, Shows::TracedPane];
-    let mut desk = Desk { behind: Some("page".into()), ..Desk::default() };
+    let mut desk = Workspace { behind: Some("page".into()), ..Workspace::default() };
     desk.panes.iter_mut().zip(shown).for_each(|(pane, shows)| pane.shows = shows);
     draw(&mut window("cube.toml", &desk), "backgrounds");
 }

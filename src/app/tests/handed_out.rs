@@ -4,7 +4,7 @@ use super::*;
 use crate::app::dialogs::Dialog;
 use crate::app::document::Document;
 use crate::cut::Design;
-use crate::io::design_file::{self, Format};
+use crate::io::design_file::{self, DesignFormat};
 use crate::io::{cut_file, write_rgba_png};
 use crate::scene::Specimen;
 use egui::OutputCommand;
@@ -193,8 +193,12 @@ fn files_of_every_kind_are_dropped_on_the_window() {
     let first = Document::first().unwrap();
     let design = Design { name: "dropped".into(), ..first.work.design.clone() };
     std::fs::write(at("design.toml"), cut_file::write(&design)).unwrap();
-    design_file::write(&Specimen::new(first.work.design.clone()).unwrap(), Format::Stl, &at("mesh.stl"))
-        .unwrap();
+    design_file::write(
+        &Specimen::new(first.work.design.clone()).unwrap(),
+        DesignFormat::Stl,
+        &at("mesh.stl"),
+    )
+    .unwrap();
     let scene = crate::io::library::scene("subtle-pill").unwrap();
     std::fs::write(at("scene.toml"), scene).unwrap();
     let grey: Vec<u8> = [128, 128, 128, 255].repeat(8 * 4);

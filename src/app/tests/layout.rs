@@ -67,9 +67,9 @@ fn buttons_of_the_export_are_in_sight_in_the_least_window() {
 
 #[test]
 fn what_is_on_in_a_narrow_view_has_a_menu_that_can_be_read() {
-    let setup = Setup { desk: Desk::default(), ..Setup::default() };
+    let setup = Setup { desk: Workspace::default(), ..Setup::default() };
     let mut bench = Bench::sized(setup, SMALL);
-    bench.harness.state_mut().desk = Desk::default();
+    bench.harness.state_mut().desk = Workspace::default();
     bench.harness.run_steps(3);
     bench.harness.key_press(egui::Key::W);
     bench.harness.run_steps(3);
@@ -205,7 +205,7 @@ fn the_fields_of_a_panel_stand_in_one_column() {
 fn nothing_is_red_while_nothing_is_wrong() {
     let folder = tempfile::tempdir().unwrap();
     let mut desk = Bench::small();
-    desk.layout = Layout::One;
+    desk.layout = PaneLayout::One;
     desk.panes[0].shows = Shows::Render;
     let setup = Setup { file: Some("cube".into()), desk, ..Setup::default() };
     // Small, for renders take long.

@@ -18,8 +18,8 @@ fn can_draw(test: &str) -> bool {
 }
 
 /// Four views that are quickly taken.
-fn desk() -> Desk {
-    let mut desk = Desk::default();
+fn desk() -> Workspace {
+    let mut desk = Workspace::default();
     desk.panes[0].shows = Shows::Arrows;
     desk
 }

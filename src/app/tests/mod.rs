@@ -15,11 +15,11 @@ mod looks;
 mod recorder;
 mod views;
 
-use super::desk::{Desk, Layout};
 use super::editor::{Editor, Setup, Shown};
 use super::files::{Choice, Chooser, Question};
 use super::shows::Shows;
 use super::studio::{Grade, Shot, Slot, Which};
+use super::workspace::{PaneLayout, Workspace};
 use crate::cut::{Cut, RoundBrilliant};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
@@ -64,9 +64,9 @@ impl Bench {
     }
 
     /// Renders take long: they are looked at by themselves.
-    fn small() -> Desk {
-        let [_, aset, hearts, profile] = Desk::default().panes;
-        Desk { layout: Layout::Two, panes: [aset, hearts, aset, profile], ..Desk::default() }
+    fn small() -> Workspace {
+        let [_, aset, hearts, profile] = Workspace::default().panes;
+        Workspace { layout: PaneLayout::Two, panes: [aset, hearts, aset, profile], ..Workspace::default() }
     }
 
     fn built(setup: Setup, builder: egui_kittest::HarnessBuilder<Editor>) -> Self {
@@ -74,7 +74,7 @@ impl Bench {
         let chosen = Arc::clone(&choices);
         let chooser: Chooser =
             Arc::new(move |_: &Question| chosen.lock().unwrap().pop().map_or(Choice::NoDialog, Choice::File));
-        let desk = if setup.desk == Desk::default() { Self::small() } else { setup.desk.clone() };
+        let desk = if setup.desk == Workspace::default() { Self::small() } else { setup.desk.clone() };
         let opened: Arc<Mutex<Vec<String>>> = Arc::default();
         let outside = Arc::clone(&opened);
         let opener: crate::app::opener::Opener = Arc::new(move |what: &str| {

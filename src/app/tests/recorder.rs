@@ -26,7 +26,7 @@ fn numbers(figures: &Figures) -> u64 {
 /// What one view of a design, leaning a little, shows at its finest, and the figures beside it.
 fn record(cut: &str, shows: Shows, record: &mut String) {
     let file = Some(Path::new(env!("CARGO_MANIFEST_DIR")).join("cuts").join(cut));
-    let mut desk = Desk { layout: Layout::One, ..Desk::default() };
+    let mut desk = Workspace { layout: PaneLayout::One, ..Workspace::default() };
     desk.panes[0].shows = shows;
     desk.eye.lean = glam::DVec2::new(0.05, -0.12);
     // A window so small that glass, which is traced by rays, becomes fine within seconds.

@@ -1,15 +1,15 @@
 //! What views say of themselves, how they are looked at, and that nothing is traced that has not changed.
 
 use super::*;
-use crate::app::desk::Pane;
 use crate::app::modes::Mode;
+use crate::app::workspace::Pane;
 use crate::scene::{LIGHTS, Projection};
 use egui::{Key, Modifiers, PointerButton, Role};
 
 /// One view, alone in a wide window.
 fn alone(shows: Shows) -> Bench {
     let pane = Pane { shows, own: None, is_near: false };
-    let desk = Desk { layout: Layout::One, panes: [pane; 4], ..Desk::default() };
+    let desk = Workspace { layout: PaneLayout::One, panes: [pane; 4], ..Workspace::default() };
     Bench::sized(Setup { desk, ..Setup::default() }, egui::vec2(1500.0, 420.0))
 }
 
@@ -99,17 +99,17 @@ fn views_and_layout_go_back_to_what_they_were_at_first() {
     }
     bench.harness.run_steps(3);
     bench.choose("View", "Reset view");
-    let first = Desk::default();
+    let first = Workspace::default();
     let desk = &bench.editor().desk;
     assert_eq!((desk.eye, desk.overlay.clone(), desk.panes[0].own), (first.eye, None, None));
-    assert_eq!((desk.layout, desk.panes[0].shows), (Layout::Two, Shows::Aset), "the layout stays");
+    assert_eq!((desk.layout, desk.panes[0].shows), (PaneLayout::Two, Shows::Aset), "the layout stays");
     bench.choose("View", "Reset layout");
     let desk = &bench.editor().desk;
     assert_eq!((desk.layout, desk.panes), (first.layout, first.panes));
     assert!(!desk.hides_panels && (width(&bench) - before).abs() < 1.0);
     bench.harness.key_press(Key::Backspace);
     bench.harness.run_steps(2);
-    assert_eq!(bench.editor().desk.layout, Layout::Two, "one step back undoes it");
+    assert_eq!(bench.editor().desk.layout, PaneLayout::Two, "one step back undoes it");
 }
 
 #[test]
@@ -168,7 +168,8 @@ fn a_name_an_error_and_where_panels_end_trace_nothing_anew() {
 #[test]
 fn exposure_and_overlays_of_a_render_are_made_of_the_light_that_was_traced() {
     let pane = Pane { shows: Shows::Render, own: None, is_near: false };
-    let desk = Desk { layout: Layout::One, panes: [pane; 4], wavelengths: 3, ..Desk::default() };
+    let desk =
+        Workspace { layout: PaneLayout::One, panes: [pane; 4], wavelengths: 3, ..Workspace::default() };
     let mut bench = Bench::sized(Setup { desk, ..Setup::default() }, egui::vec2(900.0, 300.0));
     bench.settle();
     let (traced, dark) = (bench.editor().studio.traced(), bench.picture(0));

@@ -21,16 +21,16 @@ fn refused(stones: &str) -> String {
 #[test]
 fn a_stone_alone_lies_as_its_file_has_it_and_takes_another_material_and_size() {
     let stone = load("modern-ideal");
-    let specimen = Specimen::load(Path::new("modern-ideal"), MeshOptions::default()).unwrap();
-    assert_eq!(*stone.setting.stones[0].solid.polytope().unwrap(), specimen.stone().unwrap().polytope);
+    let specimen = LoadedSpecimen::load(Path::new("modern-ideal"), MeshOptions::default()).unwrap();
+    assert_eq!(*stone.setting.instances[0].solid.polytope().unwrap(), specimen.stone().unwrap().polytope);
     assert_eq!((stone.setting.unit_mm, stone.name.as_str()), (3.25, "Modern ideal"));
-    assert_eq!(stone.setting.stones[0].names, specimen.stone().unwrap().names());
+    assert_eq!(stone.setting.instances[0].names, specimen.stone().unwrap().names());
     // A brilliant of 6.5 mm is the trade's carat, to the proportions.
     assert!(stone.carats().is_some_and(|carats| (0.97..1.03).contains(&carats)), "{:?}", stone.carats());
     let ruby =
         Assembly::load(Path::new("modern-ideal"), Some("Ruby"), "2ct".parse().ok(), MeshOptions::default())
             .unwrap();
-    assert_eq!(&ruby.setting.stones[0].material, material("ruby").unwrap());
+    assert_eq!(&ruby.setting.instances[0].material, material("ruby").unwrap());
     assert!((ruby.carats().unwrap() - 2.0).abs() < 1e-9);
     let index =
         Assembly::load(Path::new("modern-ideal"), Some("2.42"), "8mm".parse().ok(), MeshOptions::default())
@@ -49,14 +49,18 @@ fn a_stone_alone_lies_as_its_file_has_it_and_takes_another_material_and_size() {
 fn every_scene_that_comes_with_the_program_is_apart_and_weighs_what_it_asks_for() {
     let trilogy = load("trilogy");
     let weights: Vec<f64> =
-        trilogy.setting.stones.iter().map(|s| s.carats(trilogy.setting.unit_mm).unwrap()).collect();
+        trilogy.setting.instances.iter().map(|s| s.carats(trilogy.setting.unit_mm).unwrap()).collect();
     assert!(weights.iter().zip([0.5, 1.0, 0.5]).all(|(a, b)| (a - b).abs() < 1e-9), "{weights:?}");
     assert_eq!(trilogy.light, Some("studio".into()));
     for (name, count) in [("trilogy", 3), ("Ring", 8), ("parcel", 12)] {
         let scene = load(name);
-        assert_eq!((scene.setting.stones.len(), scene.places.len()), (count, count));
+        assert_eq!((scene.setting.instances.len(), scene.places.len()), (count, count));
         assert!(
-            scene.setting.stones.iter().all(|s| s.names.len() == s.solid.polytope().unwrap().facets().len())
+            scene
+                .setting
+                .instances
+                .iter()
+                .all(|s| s.names.len() == s.solid.polytope().unwrap().facets().len())
         );
         let largest = scene.places.iter().map(|p| p.diameter_mm).fold(0.0, f64::max);
         assert_eq!(scene.setting.unit_mm, 0.5 * largest);
@@ -70,10 +74,10 @@ fn every_scene_that_comes_with_the_program_is_apart_and_weighs_what_it_asks_for(
         ("free-diamond", 1),
     ] {
         let scene = load(name);
-        assert_eq!(scene.setting.stones.len(), count, "{name}");
+        assert_eq!(scene.setting.instances.len(), count, "{name}");
         assert!(scene.strength < 1.0 && scene.background.is_some(), "{name}");
         // As wide as in the demonstration, but for what leans.
-        let (low, high) = scene.setting.stones[0].solid.bounds();
+        let (low, high) = scene.setting.instances[0].solid.bounds();
         let wide = (high - low).x * scene.setting.unit_mm;
         let expected = [("subtle-pill", 40.0), ("prism-rainbow", 39.3)];
         if let Some((_, mm)) = expected.iter().find(|(n, _)| *n == name) {
@@ -84,7 +88,7 @@ fn every_scene_that_comes_with_the_program_is_apart_and_weighs_what_it_asks_for(
         Assembly::load(Path::new("ring"), Some("diamond"), "3mm".parse().ok(), MeshOptions::default())
             .unwrap();
     assert!(small.places.iter().all(|p| p.diameter_mm == 3.0));
-    assert!(small.setting.stones.iter().all(|s| s.material.name == "diamond"));
+    assert!(small.setting.instances.iter().all(|s| s.material.name == "diamond"));
 }
 
 #[test]
@@ -94,7 +98,7 @@ fn a_stone_leans_its_table_toward_the_azimuth_and_lies_where_it_is_put() {
     let stone = "cut = \"tolkowsky\"\nturn = 30\ntilt = 20\nazimuth = 90\nsize = \"4mm\"\nat = [1, 2, 3]";
     std::fs::write(&path, format!("format = 1\nname = \"x\"\n[[stone]]\n{stone}")).unwrap();
     let scene = load(&path);
-    let placed = &scene.setting.stones[0];
+    let placed = &scene.setting.instances[0];
     let table = placed.names.iter().position(|name| name == "table").unwrap();
     let (sin, cos) = 20_f64.to_radians().sin_cos();
     let plane = placed.solid.polytope().unwrap().facets()[table].plane;

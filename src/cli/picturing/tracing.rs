@@ -1,12 +1,12 @@
 //! A picture by each tracer, and what it says of how it was made.
 
-use super::{Failure, Studio, Taken};
+use super::{Failure, PictureSetup, RenderedPicture};
 use crate::optics::{Stratum, strata};
 use crate::picture::spectral::{Remainder, expose_in};
 use crate::picture::{ByBeams, Linear};
-use crate::trace::Sampler;
+use crate::trace::RayTracer;
 use crate::trace::ray::ByRays;
-use crate::trace::sitting::{Looks, Sitting};
+use crate::trace::sampling::{LitScene, Sampling};
 use crate::trace::{Watch, beam};
 
 /// What exact beams leave unresolved.
@@ -25,57 +25,57 @@ const MUCH_UNRESOLVED: f64 = 0.02;
 const LOOKS_OF_BEAMS: u32 = 4;
 const LOOKS_OF_RAYS: u32 = 64;
 
-impl Studio<'_> {
-    pub(super) fn by_beams(&self, sitting: &Sitting, watch: Watch) -> Result<Taken, Failure> {
+impl PictureSetup<'_> {
+    pub(super) fn by_beams(&self, lit_scene: &LitScene, watch: Watch) -> Result<RenderedPicture, Failure> {
         let looks = self.looks(LOOKS_OF_BEAMS);
-        let options = beam::Options {
+        let options = beam::BeamOptions {
             unresolved: UNRESOLVED,
             polarised: !self.options.unpolarised,
             most_beams: MOST_BEAMS,
-            ..beam::Options::default()
+            ..beam::BeamOptions::default()
         };
         let unfit = || Failure::Usage("exact beams do not apply here: use --tracer ray".into());
-        let prepare = |rows| ByBeams::of_rows(*sitting, options, rows).ok_or_else(unfit);
-        let most_rows = ByBeams::most_rows(sitting.film.size[0]);
-        let taken = expose_in(sitting, (&self.strata(), looks), most_rows, prepare, watch)?;
+        let prepare = |rows| ByBeams::of_rows(*lit_scene, options, rows).ok_or_else(unfit);
+        let most_rows = ByBeams::most_rows(lit_scene.film.size[0]);
+        let taken = expose_in(lit_scene, (&self.strata(), looks), most_rows, prepare, watch)?;
         Ok(self.taken(taken, looks, "exact beams"))
     }
 
     pub(super) fn by_rays(
         &self,
-        sampler: Sampler,
-        sitting: &Sitting,
+        sampler: RayTracer,
+        lit_scene: &LitScene,
         watch: Watch,
-    ) -> Result<Taken, Failure> {
+    ) -> Result<RenderedPicture, Failure> {
         let (strata, looks) = (self.strata(), self.looks(LOOKS_OF_RAYS));
         let seen = (strata.as_slice(), looks);
         let taken = match sampler {
-            Sampler::Rays => {
-                let prepare = |rows| Ok::<_, Failure>(ByRays::new(*sitting, rows));
-                expose_in(sitting, seen, ROWS_OF_RAYS, prepare, watch)?
+            RayTracer::Rays => {
+                let prepare = |rows| Ok::<_, Failure>(ByRays::new(*lit_scene, rows));
+                expose_in(lit_scene, seen, ROWS_OF_RAYS, prepare, watch)?
             }
             #[cfg(feature = "gpu")]
-            Sampler::Card(gpu) => {
-                use crate::trace::gpu::{Around, ByCard};
-                let around = Around::new(gpu, &sitting.surround);
+            RayTracer::Card(gpu) => {
+                use crate::trace::gpu::{ByCard, GpuEnvironment};
+                let around = GpuEnvironment::new(gpu, &lit_scene.environment);
                 let prepare =
-                    |rows| Ok::<_, Failure>(ByCard::new(gpu, sitting, &around, rows, strata.len())?);
-                expose_in(sitting, seen, ByCard::most_rows(sitting.film.size[0]), prepare, watch)?
+                    |rows| Ok::<_, Failure>(ByCard::new(gpu, lit_scene, &around, rows, strata.len())?);
+                expose_in(lit_scene, seen, ByCard::most_rows(lit_scene.film.size[0]), prepare, watch)?
             }
         };
-        Ok(self.taken(taken, looks, &sampler.told()))
+        Ok(self.taken(taken, looks, &sampler.description()))
     }
 
     fn strata(&self) -> Vec<Stratum> {
         strata(self.options.wavelengths, &self.lighting.light.spectrum, !self.options.unadapted)
     }
 
-    fn looks(&self, usual: u32) -> Looks {
+    fn looks(&self, usual: u32) -> Sampling {
         let count = self.options.samples.unwrap_or(usual);
-        Looks { count, jitter: !self.finish.no_jitter, strength: self.strength }
+        Sampling { count, jitter: !self.finish.no_jitter, strength: self.strength }
     }
 
-    fn taken(&self, (picture, rest): (Linear, Remainder), taken: Looks, tracer: &str) -> Taken {
+    fn taken(&self, (picture, rest): (Linear, Remainder), taken: Sampling, tracer: &str) -> RenderedPicture {
         if rest.unresolved > MUCH_UNRESOLVED {
             let percent = 100.0 * rest.unresolved;
             crate::cli::say(&format!(
@@ -97,7 +97,7 @@ impl Studio<'_> {
             rest.absorbed,
             self.mixture()
         );
-        Taken { picture, told }
+        RenderedPicture { picture, description: told }
     }
 
     /// What pictures say that are no physics; nothing of others.

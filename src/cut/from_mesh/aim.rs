@@ -2,7 +2,7 @@
 //! symmetry about the axis, by a crown that is flatter than the pavilion, and by the size of the table.
 
 use super::cues::Cues;
-use super::even::{self, Match, Parts};
+use super::even::{self, FacetParts, Match};
 use super::{Doubt, FromMeshError, Up};
 use crate::math::{Plane, Polytope};
 use glam::{DMat3, DQuat, DVec3};
@@ -78,7 +78,7 @@ pub(super) struct Aim {
 }
 
 /// Finds the axis, unless it is given. Parts are about the middle of the solid, whose facets they are in order.
-pub(super) fn aim(solid: &Polytope, parts: &Parts, up: Up) -> Result<Aim, FromMeshError> {
+pub(super) fn aim(solid: &Polytope, parts: &FacetParts, up: Up) -> Result<Aim, FromMeshError> {
     let custom = match up {
         Up::Found => DVec3::Z,
         Up::FoundBy(custom) => custom,
@@ -127,7 +127,7 @@ impl Seen {
     }
 
     /// Adds what takes longer to see.
-    fn look_closely(&mut self, parts: &Parts) {
+    fn look_closely(&mut self, parts: &FacetParts) {
         let even = evenness(parts, self.cues.up);
         self.shape += weight::EVEN * even.powi(3);
         self.own = own(&self.cues, even, self.custom);
@@ -248,8 +248,8 @@ fn principal(solid: &Polytope) -> Vec<DVec3> {
 }
 
 /// The largest part of the area that some turn about an axis carries onto other facets.
-fn evenness(parts: &Parts, axis: DVec3) -> f64 {
-    let Parts { planes, areas, .. } = parts;
+fn evenness(parts: &FacetParts, axis: DVec3) -> f64 {
+    let FacetParts { planes, areas, .. } = parts;
     if planes.len() > MOST_COMPARED {
         return 0.0;
     }

@@ -112,7 +112,7 @@ fn mirrored(plane: &Plane, azimuth: f64) -> Plane {
 }
 
 /// The facets that were found, about a middle.
-pub(super) struct Parts {
+pub(super) struct FacetParts {
     pub planes: Vec<Plane>,
     pub areas: Vec<f64>,
     /// A point in the middle of each facet.
@@ -123,7 +123,7 @@ pub(super) struct Parts {
     limit: f64,
 }
 
-impl Parts {
+impl FacetParts {
     /// The facets about a point.
     pub fn about(found: &Faceted, middle: DVec3) -> Self {
         let about = |plane: &Plane| Plane::new(plane.normal, -plane.distance(middle));
@@ -142,8 +142,8 @@ impl Parts {
 
 /// The planes with their axis upright, and evened where the corners allow. The axis may follow the symmetry, unless it is
 /// fixed.
-pub(super) fn evened(parts: &Parts, axis: DVec3, is_fixed: bool) -> Even {
-    let Parts { planes, areas, .. } = parts;
+pub(super) fn evened(parts: &FacetParts, axis: DVec3, is_fixed: bool) -> Even {
+    let FacetParts { planes, areas, .. } = parts;
     let plain = upright(planes, axis);
     if planes.len() > MOST_FACETS {
         return plain;

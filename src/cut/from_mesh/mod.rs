@@ -34,7 +34,7 @@ pub enum Up {
     /// Known to the last digit, in the surface's frame, of length 1. Only a facet square to it is the table.
     Known(DVec3),
     /// Known with all else of where the stone lies: the surface is moved so and not otherwise.
-    Posed(Pose),
+    Posed(Alignment),
 }
 
 /// Another direction that a person might have taken for up.
@@ -46,7 +46,7 @@ pub struct Doubt {
 
 /// How a surface was moved: `stone = scale · (turn · surface) + shift`.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Pose {
+pub struct Alignment {
     /// Girdle radii per unit of the surface.
     pub scale: f64,
     /// From the surface's frame into the stone's.
@@ -55,7 +55,7 @@ pub struct Pose {
     pub shift: DVec3,
 }
 
-impl Pose {
+impl Alignment {
     /// Where a point of the surface lies in the stone's frame.
     pub fn of(&self, point: DVec3) -> DVec3 {
         self.scale * (self.turn * point) + self.shift
@@ -78,7 +78,7 @@ pub struct FromMesh {
     /// Names, no two alike, and planes in the stone's frame: table, crown, girdle, pavilion, culet.
     pub facets: Vec<(String, Plane)>,
     /// How the surface was moved.
-    pub pose: Pose,
+    pub pose: Alignment,
     /// How far the corner of the surface that is farthest off lies from the stone, girdle radii.
     pub deviation: f64,
     /// The symmetry that the planes were given where they had it but for noise; [`Symmetry::NONE`] where they were
@@ -110,7 +110,7 @@ pub fn from_mesh(found: &Faceted, up: Up) -> Result<FromMesh, FromMeshError> {
         Up::Posed(pose) => pose.origin() - found.centre,
         _ => even::centroid(&found.polytope),
     };
-    let parts = even::Parts::about(found, middle);
+    let parts = even::FacetParts::about(found, middle);
     let Aim { axis, table, doubt } = aim(&found.polytope, &parts, up)?;
     let (even, upright) = match up {
         Up::Posed(pose) => {
@@ -126,7 +126,7 @@ pub fn from_mesh(found: &Faceted, up: Up) -> Result<FromMesh, FromMeshError> {
     let polytope = Polytope::from_planes(&posed)?;
     let turn = upright.turn * even.turn;
     let shift = upright.shift - upright.scale * (turn * (found.centre + middle));
-    let pose = Pose { turn, shift, ..upright };
+    let pose = Alignment { turn, shift, ..upright };
     let points: Vec<DVec3> = found.surface.vertices.iter().map(|&v| pose.of(v + found.centre)).collect();
     let given = found.faces.iter().map(|f| f.name.clone()).collect::<Option<Vec<_>>>();
     let facets = name::named(&posed, table, given, upright.scale * found.tolerance);

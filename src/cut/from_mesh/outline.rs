@@ -1,7 +1,7 @@
 //! The girdle: which facets it has, how wide it is, and which way the stone is turned about its axis.
 
 use super::even::Even;
-use super::{FromMeshError, Pose};
+use super::{Alignment, FromMeshError};
 use crate::cut::Outline;
 use crate::math::{Calipers, Plane, Polytope, hull};
 use glam::{DQuat, DVec2, DVec3};
@@ -29,7 +29,7 @@ const SAME_WIDTH: f64 = 0.005;
 
 /// The pose of an even stone whose axis is up already: width along x, its middle on the axis, girdle at z = 0, and half its
 /// diameter 1.
-pub(super) fn placed(even: &Even, areas: &[f64]) -> Result<Pose, FromMeshError> {
+pub(super) fn placed(even: &Even, areas: &[f64]) -> Result<Alignment, FromMeshError> {
     let solid = Polytope::from_planes(&even.planes)?;
     let around = hull(solid.vertices().iter().map(|v| v.truncate()).collect());
     let turn = DQuat::from_rotation_z(-azimuth(even, areas, &around));
@@ -38,7 +38,7 @@ pub(super) fn placed(even: &Even, areas: &[f64]) -> Result<Pose, FromMeshError> 
     // About an axis the middle is known to the last digit.
     let middle = if even.turns > 1 { DVec2::ZERO } else { middle };
     let scale = 2.0 / diameter;
-    Ok(Pose { scale, turn, shift: -scale * middle.extend(top) })
+    Ok(Alignment { scale, turn, shift: -scale * middle.extend(top) })
 }
 
 /// z of the highest corner in which the girdle's facets meet the crown's, or, without such facets, the pavilion's meet the
@@ -59,9 +59,9 @@ fn girdle_edge(solid: &Polytope) -> Option<f64> {
 }
 
 /// What is left of a pose that is known, once the axis is up and the origin where it belongs.
-pub(super) fn as_posed(even: &Even, pose: &Pose) -> Pose {
+pub(super) fn as_posed(even: &Even, pose: &Alignment) -> Alignment {
     let right = pose.turn * (even.turn.inverse() * DVec3::X);
-    Pose { scale: pose.scale, turn: DQuat::from_rotation_z(right.y.atan2(right.x)), shift: DVec3::ZERO }
+    Alignment { scale: pose.scale, turn: DQuat::from_rotation_z(right.y.atan2(right.x)), shift: DVec3::ZERO }
 }
 
 /// The azimuth that becomes +x.

@@ -2,7 +2,7 @@
 
 use super::super::round_brilliant::{MODERN, RoundBrilliant};
 use super::*;
-use crate::math::surface::{Shape, Surface, facets};
+use crate::math::surface::{Surface, SurfaceKind, facets};
 use crate::math::triangulate;
 use proptest::prelude::*;
 
@@ -61,8 +61,8 @@ fn spoil(facets: &[(String, Plane)], how: Spoilt) -> Surface {
 
 fn found(surface: &Surface) -> Faceted {
     match facets(surface.mend().unwrap().surface) {
-        Shape::Convex(found) => *found,
-        Shape::Concave(_) => panic!("taken for concave"),
+        SurfaceKind::Convex(found) => *found,
+        SurfaceKind::Concave(_) => panic!("taken for concave"),
     }
 }
 

@@ -20,7 +20,7 @@ fn tiers(text: &str) -> (Tiers, Vec<String>) {
 }
 
 fn again(specimen: &Specimen) -> (Specimen, Vec<String>) {
-    let Written { bytes, lost } = write(specimen);
+    let EncodedDesign { bytes, lost } = write(specimen);
     (Specimen::new(read(&bytes, "x.asc").unwrap().design).unwrap(), lost)
 }
 
@@ -166,7 +166,7 @@ proptest! {
         let mut torn = STONE.as_bytes()[cut..].to_vec();
         torn.splice(at.min(torn.len())..at.min(torn.len()), bytes);
         if let Ok(brought) = read(&torn, "x") && let Ok(specimen) = Specimen::new(brought.design) {
-            let Written { bytes, lost } = write(&specimen);
+            let EncodedDesign { bytes, lost } = write(&specimen);
             let design = read(&bytes, "x").unwrap().design;
             if lost.is_empty() {
                 prop_assert_eq!(design.cut, specimen.design.cut);

@@ -10,7 +10,7 @@ use crate::cut::{
     Crown, Cut, DEFAULT_DIAMETER_MM, Design, DesignError, Glass, LowerHalf, MAX_PLANES, MaterialRef,
     MeshShape, Pavilion, Plate, RoundBrilliant, Sides, girdle_facets,
 };
-use crate::math::{Plane, Shell, Surface};
+use crate::math::{Plane, Surface, TriangleMesh};
 use glam::{DQuat, DVec3};
 use std::collections::HashSet;
 
@@ -321,8 +321,8 @@ impl MeshForm {
                 "vertices: no triangle has the corner at place {corner}; leave it out"
             )));
         }
-        let shell =
-            Shell::new(Surface::new(vertices, self.triangles)).map_err(|error| fault(error.to_string()))?;
+        let shell = TriangleMesh::new(Surface::new(vertices, self.triangles))
+            .map_err(|error| fault(error.to_string()))?;
         let framed = MeshShape::framed(&shell, DQuat::IDENTITY);
         framed.map(|(shape, _)| shape).ok_or_else(|| fault("it has no extent across z".to_owned()))
     }

@@ -7,7 +7,7 @@ use glam::{DQuat, DVec3};
 
 use super::*;
 use crate::cut::{Cut, DEFAULT_DIAMETER_MM, MAX_PLANES, MaterialRef, MeshShape};
-use crate::math::{Plane, Shell, Surface};
+use crate::math::{Plane, Surface, TriangleMesh};
 use crate::optics::{self, Absorption, Dispersion, Material};
 
 mod random;
@@ -36,7 +36,7 @@ fn material(text: &str) -> Result<MaterialRef, CutFileError> {
 }
 
 #[track_caller]
-fn assert_told(text: &str, expected: &str) {
+fn assert_message(text: &str, expected: &str) {
     assert_eq!(parse(text, "x.toml").unwrap_err().to_string(), expected);
 }
 
@@ -139,7 +139,7 @@ fn a_material_that_light_cannot_know_is_told_with_its_line() {
         let table = format!(
             "format = 1\nname = \"x\"\n[material]\n{keys}\n[[plane]]\nnormal = [0, 0, 1]\noffset = 1"
         );
-        assert_told(&table, expected);
+        assert_message(&table, expected);
     };
     told(
         "index = 2\nabsorption = [\n[400, 0.1],\n[500, -0.1]]",
@@ -184,77 +184,77 @@ fn a_material_that_light_cannot_know_is_told_with_its_line() {
 
 #[test]
 fn a_key_that_is_unknown_or_missing_is_told_with_those_that_are_known() {
-    assert_told(
+    assert_message(
         &with("table = 53.0", "tabel = 53.0"),
         "x.toml:6: round_brilliant: unknown key `tabel`, known here are `table`, `crown_angle`, `crown_height`, \
          `pavilion_angle`, `pavilion_depth`, `star_length`, `lower_half_length`, `lower_half_length_vertical`, \
          `girdle_thickness`, `girdle_facets`, `culet`; did you mean `table`?",
     );
-    assert_told(
+    assert_message(
         &with("[round_brilliant]", ""),
         "x.toml:7: unknown key `crown_angle`, known here are `format`, `name`, `source`, `notes`, `diameter_mm`, \
          `material`, `round_brilliant`, `index`, `tier`, `plane`, `mesh`, `pill`, `cube`, `prism`, `plate`; it belongs below a line [round_brilliant]",
     );
-    assert_told(
+    assert_message(
         &with("[round_brilliant]", "[round_brillant]"),
         "x.toml:5: unknown key `round_brillant`, known here are `format`, `name`, `source`, `notes`, `diameter_mm`, \
          `material`, `round_brilliant`, `index`, `tier`, `plane`, `mesh`, `pill`, `cube`, `prism`, `plate`; did you mean `round_brilliant`?",
     );
-    assert_told(
+    assert_message(
         &with("\"diamond\"", "{ refraction = 2 }"),
         "x.toml:4: material: unknown key `refraction`, known here are `name`, `description`, `source`, `index`, \
          `sellmeier`, `cauchy`, `abbe`, `absorption`, `absorption_e`, `valid_nm`, `density`, `illustrative`, `dispersion`",
     );
-    assert_told(
+    assert_message(
         &planes_with("offset = 1", "distance = 1"),
         "x.toml:10: plane: unknown key `distance`, known here are `name`, `normal`, `offset`",
     );
-    assert_told(
+    assert_message(
         &with("culet = 0.0", ""),
         "x.toml:5: round_brilliant: the key `culet` is missing (percent of the girdle diameter, 0 for a point)",
     );
-    assert_told(
+    assert_message(
         &planes_with("normal = [0, 0, 1]", ""),
         "x.toml:4: plane: the key `normal` is missing (outward, [x, y, z])",
     );
-    assert_told(&with("name", "source = \"\" #"), "x.toml:3: source: column 1: duplicate key");
-    assert_told("format = 1\nmaterial = 2", "x.toml:1: the key `name` is missing (what it is called)");
+    assert_message(&with("name", "source = \"\" #"), "x.toml:3: source: column 1: duplicate key");
+    assert_message("format = 1\nmaterial = 2", "x.toml:1: the key `name` is missing (what it is called)");
 }
 
 #[test]
 fn a_wrong_type_is_told_with_what_was_expected() {
-    assert_told(
+    assert_message(
         &with("table = 53.0", "table = \"53\""),
         "x.toml:6: round_brilliant.table: invalid type: string \"53\", expected a number \
          (percent of the girdle diameter)",
     );
-    assert_told(
+    assert_message(
         &with("girdle_facets = 96", "girdle_facets = 96.5"),
         "x.toml:12: round_brilliant.girdle_facets: invalid type: number `96.5`, expected a whole number (16 to 128)",
     );
-    assert_told(
+    assert_message(
         &with("\"Tolkowsky 1919\"", "1919"),
         "x.toml:2: name: invalid type: integer `1919`, expected text (what it is called)",
     );
-    assert_told(
+    assert_message(
         &with("\"diamond\"", "true"),
         "x.toml:4: material: invalid type: boolean `true`, expected another form \
          (a material's name, an index, or a table of its own)",
     );
-    assert_told(
+    assert_message(
         &with("\"diamond\"", "{ index = 2, absorption = \"dark\" }"),
         "x.toml:4: material.absorption: a number per mm or a list of [nm, per mm] is expected, not text",
     );
-    assert_told(
+    assert_message(
         &with("\"diamond\"", "{ index = 2, absorption_e = \"dark\" }"),
         "x.toml:4: material.absorption_e: a number per mm or a list of [nm, per mm] is expected, not text",
     );
-    assert_told(
+    assert_message(
         &with("\"diamond\"", "{ sellmeier = [[1]] }"),
         "x.toml:4: material.sellmeier: invalid length 1, expected a list of 2 numbers ([[B, C], ...], C in µm)",
     );
     for wrong in ["[0, 1]", "[0, 0, 0, 1]"] {
-        assert_told(
+        assert_message(
             &planes_with("[0.0, 3e0, 4]", wrong),
             &format!(
                 "x.toml:9: plane.normal: invalid length {}, expected a list of 3 numbers (outward, [x, y, z])",
@@ -266,11 +266,11 @@ fn a_wrong_type_is_told_with_what_was_expected() {
 
 #[test]
 fn lists_of_values_do_not_pass_for_tables() {
-    assert_told(
+    assert_message(
         "format = 1\nname = \"x\"\nmaterial = 2\nround_brilliant = [53.0]",
         "x.toml:4: round_brilliant: invalid type: list, expected a table of keys",
     );
-    assert_told(
+    assert_message(
         "format = 1\nname = \"x\"\nmaterial = 2\nplane = [[\"x\", [0, 0, 1], 1]]",
         "x.toml:4: plane: invalid type: list, expected a table of keys",
     );
@@ -284,24 +284,27 @@ fn of_each_pair_one_is_given() {
         ("lower_half_length", "lower_half_length_vertical"),
     ] {
         let both = TOLKOWSKY.to_owned() + &format!("{other} = 16");
-        assert_told(&both, &format!("x.toml:14: {other}: give {given} or {other}, not both"));
+        assert_message(&both, &format!("x.toml:14: {other}: give {given} or {other}, not both"));
         let neither = with(given, "#");
-        assert_told(&neither, &format!("x.toml:5: round_brilliant: {given} or {other} is missing; give one"));
+        assert_message(
+            &neither,
+            &format!("x.toml:5: round_brilliant: {given} or {other} is missing; give one"),
+        );
     }
-    assert_told(
+    assert_message(
         &with("\"diamond\"", "{ abbe = [2, 50], index = 2 }"),
         "x.toml:4: material.abbe: give index or abbe, not both",
     );
-    assert_told(
+    assert_message(
         &with("\"diamond\"", "{ name = \"x\" }"),
         "x.toml:4: material: one of index, sellmeier, cauchy, abbe or dispersion is missing",
     );
     let plane = "[[plane]]\nnormal = [0, 0, 1]\noffset = 1";
-    assert_told(
+    assert_message(
         &format!("{TOLKOWSKY}{plane}"),
         "x.toml:14: plane: give [round_brilliant] or [[plane]], not both",
     );
-    assert_told(
+    assert_message(
         "format = 1\nname = \"x\"\nmaterial = 2",
         "x.toml: the cut is missing; give [round_brilliant], [[tier]], [[plane]], [mesh] or a glass shape such as [pill]",
     );
@@ -310,7 +313,7 @@ fn of_each_pair_one_is_given() {
 #[test]
 fn a_mesh_is_written_and_read_to_the_last_bit_and_what_encloses_nothing_is_told() {
     let (vertices, triangles) = crate::math::fixture::heart();
-    let shell = Shell::new(Surface::new(vertices, triangles)).unwrap();
+    let shell = TriangleMesh::new(Surface::new(vertices, triangles)).unwrap();
     let turned = shell.moved(1.0, DQuat::from_rotation_x(0.3), DVec3::ZERO);
     let cut = Cut::Mesh(MeshShape::framed(&turned, DQuat::IDENTITY).unwrap().0);
     let design = Design { cut, ..parse(TOLKOWSKY, "x").unwrap() };
@@ -346,12 +349,12 @@ fn a_mesh_is_written_and_read_to_the_last_bit_and_what_encloses_nothing_is_told(
 
 #[test]
 fn what_is_out_of_range_is_told_with_its_line() {
-    assert_told(
+    assert_message(
         &with("table = 53.0", "table = 0.53"),
         "x.toml:6: table: 0.53 % must be at least 5 %, the smallest table taken; raise it by at least 4.47 \
          (the unit is percent, so 53.0 if a fraction was meant)",
     );
-    assert_told(
+    assert_message(
         &with("pavilion_angle = 40.75", "pavilion_angle = 0.7112"),
         "x.toml:8: pavilion_angle: 0.7112° must be at least 2°, the flattest facet taken; raise it by at least 1.29 \
          (the unit is degrees, so 40.7488 if radians were meant)",
@@ -360,33 +363,33 @@ fn what_is_out_of_range_is_told_with_its_line() {
         (-5, "must be at least 16, one for each half facet; raise it by at least 21"),
         (129, "must be at most 128, finer than which no girdle is faceted; lower it by at least 1"),
     ] {
-        assert_told(
+        assert_message(
             &with("girdle_facets = 96", &format!("girdle_facets = {value}")),
             &format!("x.toml:12: girdle_facets: {value} {limit}"),
         );
     }
-    assert_told(
+    assert_message(
         &with("crown_angle = 34.5", "crown_angle = 89.9"),
         "x.toml:5: total_depth: 13510.5773 % must be at most 300 %, beyond which it is a needle, not a brilliant; \
          lower it by at least 13210.58",
     );
-    assert_told(
+    assert_message(
         &with("star_length = 50.0", "star_length = nan"),
         "x.toml:9: star_length: NaN is not a finite number; write what was measured",
     );
-    assert_told(
+    assert_message(
         &with("\"diamond\"", "inf"),
         "x.toml:4: material: the index inf must be from 1 (vacuum) to 5",
     );
-    assert_told(
+    assert_message(
         &with("\"diamond\"", "{ index = 0.5 }"),
         "x.toml:4: index: the index 0.5 must be from 1 (vacuum) to 5",
     );
-    assert_told(
+    assert_message(
         &with("name", "diameter_mm = 0\nname"),
         "x.toml:2: diameter_mm: 0 must be from 0.1 to 1000 mm",
     );
-    assert_told(
+    assert_message(
         &with("Tolkowsky 1919", ""),
         "x.toml:2: name: a name of 1 to 200 printable characters is expected",
     );
@@ -394,50 +397,53 @@ fn what_is_out_of_range_is_told_with_its_line() {
 
 #[test]
 fn planes_that_bound_nothing_are_told_with_their_line() {
-    assert_told(
+    assert_message(
         &planes_with("[0.0, 3e0, 4]", "[0, 0, 0]"),
         "x.toml:9: plane 2: normal: [0, 0, 0] points nowhere; three finite numbers that are not all 0 are expected",
     );
-    assert_told(
+    assert_message(
         &planes_with("offset = 1", "offset = inf"),
         "x.toml:10: plane 2: offset: inf is no finite distance; it is measured in lengths of the normal",
     );
-    assert_told(
+    assert_message(
         &planes_with("\"star\"", "\" \""),
         "x.toml:8: plane 2: name: a name of 1 to 200 printable characters is expected",
     );
-    assert_told(
+    assert_message(
         "format = 1\nname = \"x\"\nmaterial = 2\nplane = []",
         "x.toml:4: plane: 0 planes are given; from 1 to 10000 are expected",
     );
     let plane = "[[plane]]\nnormal = [0, 0, 1]\noffset = 1\n";
     let many = "format = 1\nname = \"x\"\nmaterial = 2\n".to_owned() + &plane.repeat(MAX_PLANES + 1);
-    assert_told(&many, "x.toml:30004: plane: 10001 planes are given; from 1 to 10000 are expected");
+    assert_message(&many, "x.toml:30004: plane: 10001 planes are given; from 1 to 10000 are expected");
 }
 
 #[test]
 fn only_format_one_is_read_whatever_else_the_file_says() {
-    assert_told(
+    assert_message(
         "format = 2\nfacets = 3",
         "x.toml:1: format: 2 is not known here, only 1; update the program",
     );
-    assert_told("format = 1.0", "x.toml:1: format: a whole number is expected, `format = 1`");
-    assert_told("", "x.toml:1: format: the key is missing; begin the file with `format = 1`");
+    assert_message("format = 1.0", "x.toml:1: format: a whole number is expected, `format = 1`");
+    assert_message("", "x.toml:1: format: the key is missing; begin the file with `format = 1`");
 }
 
 #[test]
 fn what_is_not_toml_is_told_with_line_and_column() {
-    assert_told(&with("53.0", "53.0.1"), "x.toml:6: table: column 13: invalid float, expected nothing");
+    assert_message(&with("53.0", "53.0.1"), "x.toml:6: table: column 13: invalid float, expected nothing");
     let comma = "x.toml:6: table: column 11: unexpected key or value, expected newline, `#`; numbers have a decimal point, as in 34.5";
-    assert_told(&with("53.0", "53,0"), comma);
+    assert_message(&with("53.0", "53,0"), comma);
     let percent = "x.toml:6: table: column 9: string values must be quoted, expected literal string; leave the unit out: percent and degrees are understood";
-    assert_told(&with("53.0", "53%"), percent);
-    assert_told("format = 1\nname = \"x", "x.toml:2: name: column 10: invalid basic string, expected `\"`");
+    assert_message(&with("53.0", "53%"), percent);
+    assert_message(
+        "format = 1\nname = \"x",
+        "x.toml:2: name: column 10: invalid basic string, expected `\"`",
+    );
     let deep = format!("format = 1\nname = {}", "[".repeat(100_000));
-    assert_told(&deep, "x.toml:2: name: column 88: cannot recurse further; max recursion depth met");
+    assert_message(&deep, "x.toml:2: name: column 88: cannot recurse further; max recursion depth met");
     let dotted = format!("format = 1\na{} = 1", ".a".repeat(100_000));
-    assert_told(&dotted, "x.toml: this is no TOML that can be read: recursion limit");
-    assert_told(
+    assert_message(&dotted, "x.toml: this is no TOML that can be read: recursion limit");
+    assert_message(
         &" ".repeat(MAX_BYTES as usize + 1),
         "x.toml: this is larger than 4 MiB, so hardly such a file",
     );

@@ -1,6 +1,6 @@
 //! Designs on their way into a cutters' file: as tiers, with their outlines, and what such files cannot hold.
 
-use super::{Gear, Piece, fourteen_digits, gathered, named_once};
+use super::{Gear, TierPiece, fourteen_digits, gathered, named_once};
 use crate::cut::{Cut, DEFAULT_DIAMETER_MM, Design, MaterialRef, Tiers, tier_stem};
 use crate::math::{Plane, Polytope};
 use crate::optics::line;
@@ -66,7 +66,7 @@ fn indexed(facets: &[(String, Plane)], gear: Gear) -> Tiers {
         runs += usize::from(stem != last);
         last = stem;
         let setting = gear.setting(plane.normal, plane.offset.max(0.0));
-        Piece { tier: runs, setting, name: stem.to_owned(), instructions: String::new(), is_cut: true }
+        TierPiece { tier: runs, setting, name: stem.to_owned(), instructions: String::new(), is_cut: true }
     });
     let mut tiers = Tiers { tiers: gathered(pieces), ..gear.tiers() };
     named_once(&mut tiers.tiers);

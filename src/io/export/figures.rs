@@ -1,6 +1,6 @@
 //! The figures of a view, and how they are written down.
 
-use super::told::Tell;
+use super::event::Reporter;
 use super::viewing::Viewing;
 use crate::io::Failure;
 use crate::measure::{Bounds, LATTICE, MeasureError, Measured, UNRESOLVED, measure_subject};
@@ -11,7 +11,7 @@ use serde_json::{Map, Value, json};
 use std::time::Instant;
 
 /// Figures with what says how they came about.
-pub struct Report<'a> {
+pub struct FigureReport<'a> {
     /// How the stone was looked at.
     pub viewing: Viewing<'a>,
     /// The zones, as they are before an observer's head hides some.
@@ -32,8 +32,8 @@ pub fn measure<'a>(
     viewing: &Viewing<'a>,
     scoped: &Scoped,
     watch: Watch,
-    tell: Tell,
-) -> Result<Report<'a>, Failure> {
+    tell: Reporter,
+) -> Result<FigureReport<'a>, Failure> {
     let viewing = viewing.facing(scoped.side);
     viewing.check()?;
     let scope = scoped.with_head(viewing.head_deg);
@@ -58,7 +58,7 @@ pub fn measure<'a>(
             tell,
         )?;
     }
-    Ok(Report { viewing, scoped: scoped.clone(), measured, tracer, seconds })
+    Ok(FigureReport { viewing, scoped: scoped.clone(), measured, tracer, seconds })
 }
 
 fn failure(viewing: &Viewing, error: MeasureError) -> Failure {
@@ -71,7 +71,7 @@ fn failure(viewing: &Viewing, error: MeasureError) -> Failure {
     }
 }
 
-impl Report<'_> {
+impl FigureReport<'_> {
     /// The figures and how they came about, as docs/formats.md has them; numbers are fractions of the silhouette. The time
     /// that it took is among them only if `timing`, so that equal input gives equal files.
     pub fn json(&self, timing: bool) -> Value {

@@ -1,17 +1,17 @@
 //! The pictures and drawings of a stone, written one after the other.
 
-use super::told::{Pace, Tell, Told};
+use super::event::{Event, Reporter, WorkShares};
 use super::viewing::Viewing;
-use super::{Export, Format, Outputs, write_text};
+use super::{Export, OutputFormat, Outputs, write_text};
 use crate::io::{Failure, PngRows, WriteError, rasterize, write_exr, write_png};
-use crate::picture::by_rays::Manner;
+use crate::picture::by_rays::ScopeSampling;
 use crate::picture::{
     Caption, DiagramStyle, Layer, Palette, Picture, Rows, Scoped, diagram, paint, profile, vector,
 };
 use crate::scene::{Film, Glare, Scope, View};
 use crate::trace::beam::{self, Beams};
 use crate::trace::ray::Camera;
-use crate::trace::{Sampler, Subject, Tracer, Watch};
+use crate::trace::{RayTracer, Subject, Tracer, Watch};
 
 /// Where pictures stop following beams when not told: below what eight bits can show.
 const UNRESOLVED: f64 = 1e-3;
@@ -29,7 +29,7 @@ const RAYS_PER_SIDE: u32 = 4;
 pub(super) struct Pictures<'a> {
     viewing: Viewing<'a>,
     outputs: &'a Outputs,
-    tell: Tell<'a>,
+    tell: Reporter<'a>,
     /// The view that was traced last: scopes share it.
     last: Option<(View, Beams)>,
 }
@@ -52,14 +52,14 @@ const STRONGEST: &str = "strongest exits";
 const CAPTION_WIDTH: u32 = 1000;
 
 impl<'a> Pictures<'a> {
-    pub fn new(export: &Export<'a>, tell: Tell<'a>) -> Self {
+    pub fn new(export: &Export<'a>, tell: Reporter<'a>) -> Self {
         Self { viewing: export.viewing, outputs: export.outputs, tell, last: None }
     }
 
     /// Writes the files of one.
     pub fn make(&mut self, name: &str, picture: &Picture, watch: Watch) -> Result<(), Failure> {
         let design = &self.viewing.specimen.design;
-        (self.tell)(Told::Begun(&self.title(name)))?;
+        (self.tell)(Event::Begun(&self.title(name)))?;
         match (picture, self.viewing.specimen.stone()) {
             (Picture::Profile, Ok(stone)) => {
                 self.drawing(name, &profile(stone, &design.name, design.cut.brilliant()))
@@ -68,7 +68,7 @@ impl<'a> Pictures<'a> {
                 self.drawing(name, &diagram(stone, &design.name, &DiagramStyle::SHEET))
             }
             (Picture::Profile | Picture::Diagram, Err(why)) => {
-                (self.tell)(Told::Note(&format!("{name}: left out: {why}")))
+                (self.tell)(Event::Note(&format!("{name}: left out: {why}")))
             }
             (Picture::Scoped(scoped), _) => self.scoped(name, scoped, watch),
         }
@@ -80,19 +80,19 @@ impl<'a> Pictures<'a> {
 
     fn drawing(&self, name: &str, document: &svg::Document) -> Result<(), Failure> {
         let outputs = self.outputs;
-        if !outputs.wants(Format::Svg) && !outputs.wants(Format::Png) {
-            return (self.tell)(Told::Note(&format!("{name}: a drawing comes as PNG and SVG only")));
+        if !outputs.wants(OutputFormat::Svg) && !outputs.wants(OutputFormat::Png) {
+            return (self.tell)(Event::Note(&format!("{name}: a drawing comes as PNG and SVG only")));
         }
         let text = document.to_string();
-        if outputs.wants(Format::Svg) {
-            write_text(&outputs.path("", name, Format::Svg), &text, self.tell)?;
+        if outputs.wants(OutputFormat::Svg) {
+            write_text(&outputs.path("", name, OutputFormat::Svg), &text, self.tell)?;
         }
-        if outputs.wants(Format::Png) {
-            let path = outputs.path("", name, Format::Png);
+        if outputs.wants(OutputFormat::Png) {
+            let path = outputs.path("", name, OutputFormat::Png);
             let (width, height, pixels) =
                 rasterize(&text, outputs.size).map_err(|e| Failure::Output(e.to_string()))?;
             write_png(&path, (width, height), &self.title(name), |rows| rows.push(&pixels))?;
-            (self.tell)(Told::Written(&path))?;
+            (self.tell)(Event::Written(&path))?;
         }
         Ok(())
     }
@@ -111,26 +111,29 @@ impl<'a> Pictures<'a> {
     fn by_beams(&mut self, plate: &Plate, watch: Watch) -> Result<(), Failure> {
         let wants = |format| f64::from(u8::from(self.outputs.wants(format)));
         let strongest = f64::from(u8::from(self.outputs.strongest));
-        let parts = 1.0 + (1.0 + strongest) * wants(Format::Png) + wants(Format::Exr) + wants(Format::Svg);
-        let mut pace = Pace::new(watch, parts);
+        let parts = 1.0
+            + (1.0 + strongest) * wants(OutputFormat::Png)
+            + wants(OutputFormat::Exr)
+            + wants(OutputFormat::Svg);
+        let mut pace = WorkShares::new(watch, parts);
         let beams = pace.step(1.0, |watch| self.traced(plate, watch))?;
         let film = Film::around(plate.viewing.specimen.solid(), &beams.view, self.outputs.size);
-        if self.outputs.wants(Format::Png) {
+        if self.outputs.wants(OutputFormat::Png) {
             pace.step(1.0, |watch| {
                 let layer = Layer::energy(&beams, &plate.scope, plate.glare);
                 self.paint(plate, (Reading::Energy, &layer), &film, watch)
             })?;
         }
-        if self.outputs.wants(Format::Png) && self.outputs.strongest {
+        if self.outputs.wants(OutputFormat::Png) && self.outputs.strongest {
             pace.step(1.0, |watch| {
                 let layer = Layer::strongest(&beams, &plate.scope);
                 self.paint(plate, (Reading::Strongest, &layer), &film, watch)
             })?;
         }
-        if self.outputs.wants(Format::Exr) {
+        if self.outputs.wants(OutputFormat::Exr) {
             pace.step(1.0, |watch| self.bare(plate, &beams, &film, watch))?;
         }
-        if self.outputs.wants(Format::Svg) {
+        if self.outputs.wants(OutputFormat::Svg) {
             pace.step(1.0, |watch| self.drawn(plate, &beams, watch))?;
         }
         self.last = Some((plate.view, beams));
@@ -161,16 +164,16 @@ impl<'a> Pictures<'a> {
         watch: Watch,
     ) -> Result<(), Failure> {
         let path =
-            self.outputs.path(&plate.suffix, &format!("{}{}", plate.name, reading.kind()), Format::Png);
+            self.outputs.path(&plate.suffix, &format!("{}{}", plate.name, reading.kind()), OutputFormat::Png);
         let palette = Palette::of(&plate.scope);
         let how = reading.how(layer.open);
         let caption = self.caption_pixels(plate, reading, &reading.in_percent(layer.open))?;
         let size = (film.size[0], film.size[1] + caption.0);
-        write_png(&path, size, &self.told(plate, &reading.told(plate.glare), &how), |png| {
+        write_png(&path, size, &self.description(plate, &reading.remark(plate.glare), &how), |png| {
             paint(layer, film, watch, |rows| encode(rows, (&palette, 0), png))?;
             png.push(&caption.1).map_err(Failure::from)
         })?;
-        (self.tell)(Told::Written(&path))
+        (self.tell)(Event::Written(&path))
     }
 
     /// The caption of a picture, if one is wanted: `how` says what traced the picture.
@@ -191,7 +194,8 @@ impl<'a> Pictures<'a> {
         };
         let colour = if material.colour_is_illustrative { ", colour illustrative" } else { "" };
         let polarised = if *polarised { "polarised" } else { "unpolarised" };
-        let view = format!("{}: {}; {}", scope.name, reading.told(plate.glare), viewing.told().told());
+        let view =
+            format!("{}: {}; {}", scope.name, reading.remark(plate.glare), viewing.described().description());
         let program = concat!("Brillianteer ", env!("CARGO_PKG_VERSION"));
         let mut remarks = vec![view, format!("{light}{colour}, {polarised}; {how}; {program}")];
         if matches!(reading, Reading::Energy) {
@@ -218,21 +222,21 @@ impl<'a> Pictures<'a> {
     }
 
     fn bare(&self, plate: &Plate, beams: &Beams, film: &Film, watch: Watch) -> Result<(), Failure> {
-        let path = self.outputs.path(&plate.suffix, plate.name, Format::Exr);
+        let path = self.outputs.path(&plate.suffix, plate.name, OutputFormat::Exr);
         let layer = Layer::full(beams, &plate.scope);
         let how = Reading::Energy.how(layer.open);
-        write_exr(&path, &layer, film, &self.told(plate, "all light, by channels", &how), watch)?;
-        (self.tell)(Told::Written(&path))
+        write_exr(&path, &layer, film, &self.description(plate, "all light, by channels", &how), watch)?;
+        (self.tell)(Event::Written(&path))
     }
 
     fn drawn(&self, plate: &Plate, beams: &Beams, watch: Watch) -> Result<(), Failure> {
         let Plate { name, suffix, scope, viewing, view, .. } = plate;
         let stone = viewing.stone()?;
         let options = viewing.beams(UNRESOLVED);
-        let title = format!("{}, {}", self.title(name), viewing.told().told());
+        let title = format!("{}, {}", self.title(name), viewing.described().description());
         let copies = beams.symmetry.order() as usize;
         let unresolved = options.unresolved.max(DRAWN_UNRESOLVED);
-        let coarse = beam::Options { unresolved, most_beams: DRAWN_POLYGONS / copies, ..options };
+        let coarse = beam::BeamOptions { unresolved, most_beams: DRAWN_POLYGONS / copies, ..options };
         let coarse = beam::trace(&stone.polytope, viewing.medium, view, &coarse, watch)?;
         if self.outputs.strongest {
             let is_small = beams.strongest_exits().len() * copies <= DRAWN_POLYGONS;
@@ -240,29 +244,30 @@ impl<'a> Pictures<'a> {
             let strongest = vector::strongest(stone, mapped, scope, &format!("{title}, {STRONGEST}"));
             let undecided = mapped.undecided(&mapped.strongest_exits());
             let strongest = self.captioned(strongest, plate, Reading::Strongest, undecided);
-            let path = self.outputs.path(suffix, &format!("{name}-strongest"), Format::Svg);
+            let path = self.outputs.path(suffix, &format!("{name}-strongest"), OutputFormat::Svg);
             write_text(&path, &strongest, self.tell)?;
         }
-        let reading = Reading::Energy.told(plate.glare);
+        let reading = Reading::Energy.remark(plate.glare);
         let energy = vector::energy(stone, &coarse, (scope, plate.glare), &format!("{title}, {reading}"));
         let energy = self.captioned(energy, plate, Reading::Energy, coarse.unresolved());
-        write_text(&self.outputs.path(suffix, name, Format::Svg), &energy, self.tell)
+        write_text(&self.outputs.path(suffix, name, OutputFormat::Svg), &energy, self.tell)
     }
 
-    fn by_rays(&self, sampler: Sampler, plate: &Plate, watch: Watch) -> Result<(), Failure> {
+    fn by_rays(&self, sampler: RayTracer, plate: &Plate, watch: Watch) -> Result<(), Failure> {
         let Plate { name, suffix, scope, viewing, view, glare } = plate;
         let solid = viewing.specimen.solid();
         let options = viewing.rays(UNRESOLVED);
         let reach = Camera::new(view, solid).reach(solid).unwrap_or(1.0);
         let film = Film::reaching(reach, self.outputs.size);
         let palette = Palette::of(scope);
-        let how = format!("{}, each followed to {:.2e}", sampler.told(), options.least_weight);
-        let manner = Manner { options, per_side: RAYS_PER_SIDE, glare: *glare };
+        let how = format!("{}, each followed to {:.2e}", sampler.description(), options.least_weight);
+        let manner = ScopeSampling { options, per_side: RAYS_PER_SIDE, glare: *glare };
         let look = Subject { specimen: viewing.specimen, medium: viewing.medium, view, scope };
-        let path = |name: &str| self.outputs.path(suffix, name, Format::Png);
+        let path = |name: &str| self.outputs.path(suffix, name, OutputFormat::Png);
         let (energy, strongest) = (path(name), path(&format!("{name}-strongest")));
         let both = [Reading::Energy, Reading::Strongest];
-        let [told, strongest_told] = both.map(|reading| self.told(plate, &reading.told(*glare), &how));
+        let [told, strongest_told] =
+            both.map(|reading| self.description(plate, &reading.remark(*glare), &how));
         let caption = self.caption_pixels(plate, Reading::Energy, &how)?;
         let strongest_caption = self.caption_pixels(plate, Reading::Strongest, &how)?;
         let size = |caption: &(u32, Vec<u8>)| (film.size[0], film.size[1] + caption.0);
@@ -271,7 +276,7 @@ impl<'a> Pictures<'a> {
                 sampler.rows(look, &film, &manner, watch, |rows| encode(rows, (&palette, 0), energy))?;
                 energy.push(&caption.1).map_err(Failure::from)
             })?;
-            return (self.tell)(Told::Written(&energy));
+            return (self.tell)(Event::Written(&energy));
         }
         // Both pictures come from the same rays.
         write_png(&energy, size(&caption), &told, |energy| {
@@ -284,15 +289,15 @@ impl<'a> Pictures<'a> {
             })?;
             energy.push(&caption.1).map_err(Failure::from)
         })?;
-        (self.tell)(Told::Written(&energy))?;
-        (self.tell)(Told::Written(&strongest))
+        (self.tell)(Event::Written(&energy))?;
+        (self.tell)(Event::Written(&strongest))
     }
 
     /// What goes into a picture as text: what it shows, and how it was traced.
-    fn told(&self, plate: &Plate, reading: &str, how: &str) -> String {
+    fn description(&self, plate: &Plate, reading: &str, how: &str) -> String {
         let Viewing { medium, polarised, .. } = &plate.viewing;
         let polarised = if *polarised { "polarised" } else { "unpolarised" };
-        let (title, view) = (self.title(plate.name), plate.viewing.told().told());
+        let (title, view) = (self.title(plate.name), plate.viewing.described().description());
         format!("{title}; {view}; index {}, {polarised}; {reading}; {how}", medium.index)
     }
 }
@@ -314,9 +319,9 @@ impl Reading {
     }
 
     /// In words.
-    fn told(self, glare: Glare) -> String {
+    fn remark(self, glare: Glare) -> String {
         match self {
-            Self::Energy => format!("energy, {}", glare.told()),
+            Self::Energy => format!("energy, {}", glare.description()),
             Self::Strongest => STRONGEST.to_owned(),
         }
     }

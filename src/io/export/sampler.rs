@@ -1,13 +1,13 @@
 //! Pictures by point rays: on a graphics card or, and where the card fails, on the processor.
 
-use super::told::Tell;
+use super::event::Reporter;
 use crate::io::{Failure, WriteError};
 use crate::picture::Rows;
-use crate::picture::by_rays::{self, Manner};
+use crate::picture::by_rays::{self, ScopeSampling};
 use crate::scene::Film;
-use crate::trace::{Sampler, Subject, Watch};
+use crate::trace::{RayTracer, Subject, Watch};
 
-impl Sampler<'_> {
+impl RayTracer<'_> {
     /// Does work, and again on the processor where the card fails, with a note of why.
     ///
     /// # Errors
@@ -15,13 +15,13 @@ impl Sampler<'_> {
     pub fn or_rays<T>(
         self,
         #[cfg_attr(not(feature = "gpu"), expect(unused_variables, reason = "only a card can fail"))]
-        tell: Tell,
+        tell: Reporter,
         mut work: impl FnMut(Self) -> Result<T, Failure>,
     ) -> Result<T, Failure> {
         match work(self) {
             #[cfg(feature = "gpu")]
             Err(Failure::Card(error)) => {
-                tell(super::Told::Note(&format!("{error}: tracing by rays on the processor")))?;
+                tell(super::Event::Note(&format!("{error}: tracing by rays on the processor")))?;
                 work(Self::Rays)
             }
             done => done,
@@ -36,7 +36,7 @@ impl Sampler<'_> {
         self,
         look: Subject,
         film: &Film,
-        manner: &Manner,
+        manner: &ScopeSampling,
         watch: Watch,
         mut each: impl FnMut(&Rows) -> Result<(), WriteError>,
     ) -> Result<(), Failure> {

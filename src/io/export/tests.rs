@@ -2,7 +2,7 @@ use super::*;
 use crate::io::{cut_file, library};
 use crate::picture::named;
 use crate::scene::{Lean, Medium, Projection, Side, Specimen, Viewpoint};
-use crate::trace::{Sampler, unwatched};
+use crate::trace::{RayTracer, unwatched};
 use std::collections::BTreeMap;
 use std::ops::ControlFlow;
 use std::sync::Mutex;
@@ -27,7 +27,7 @@ fn viewing(specimen: &Specimen) -> Viewing<'_> {
     }
 }
 
-fn outputs(folder: &Path, pictures: &[&str], formats: &[Format]) -> Outputs {
+fn outputs(folder: &Path, pictures: &[&str], formats: &[OutputFormat]) -> Outputs {
     let pictures = pictures.iter().map(|&name| (name.to_owned(), named(name).unwrap())).collect();
     Outputs {
         folder: folder.into(),
@@ -44,7 +44,7 @@ fn outputs(folder: &Path, pictures: &[&str], formats: &[Format]) -> Outputs {
 fn in_perspective(viewing: Viewing<'_>, distance: f64) -> Viewing<'_> {
     let projection = Projection::Perspective { distance };
     let viewpoint = Viewpoint { projection, ..viewing.viewpoint };
-    Viewing { viewpoint, tracer: Tracer::Rays(Sampler::Rays), ..viewing }
+    Viewing { viewpoint, tracer: Tracer::Rays(RayTracer::Rays), ..viewing }
 }
 
 fn found(folder: &Path) -> BTreeMap<PathBuf, Vec<u8>> {
@@ -59,10 +59,10 @@ fn written(export: &Export) -> (Vec<PathBuf>, Vec<String>, Vec<f64>) {
         parts.lock().unwrap().push(part);
         ControlFlow::Continue(())
     };
-    let tell = |told: Told| {
+    let tell = |told: Event| {
         match told {
-            Told::Written(path) => files.lock().unwrap().push(path.to_owned()),
-            Told::Begun(text) | Told::Note(text) | Told::Warning(text) => {
+            Event::Written(path) => files.lock().unwrap().push(path.to_owned()),
+            Event::Begun(text) | Event::Note(text) | Event::Warning(text) => {
                 texts.lock().unwrap().push(text.to_owned());
             }
         }
@@ -76,16 +76,16 @@ fn written(export: &Export) -> (Vec<PathBuf>, Vec<String>, Vec<f64>) {
 fn the_files_are_those_that_are_written_and_told_in_their_order() {
     let specimen = specimen();
     let beams = viewing(&specimen);
-    let rays = Viewing { tracer: Tracer::Rays(Sampler::Rays), ..beams };
+    let rays = Viewing { tracer: Tracer::Rays(RayTracer::Rays), ..beams };
     let all = ["profile", "aset", "hearts", "diagram"];
     let cases = [
-        (beams, &all[..], &Format::ALL[..], 2 + 5 + 5 + 2 + 1),
-        (beams, &all, &[Format::Svg], 1 + 2 + 2 + 1),
-        (beams, &all, &[Format::Exr], 2),
-        (beams, &all, &[Format::Json], 1),
-        (beams, &[], &Format::ALL, 1),
-        (rays, &all, &Format::ALL, 2 + 2 + 2 + 2 + 1),
-        (in_perspective(beams, 9.0), &all[1..2], &[Format::Png], 2),
+        (beams, &all[..], &OutputFormat::ALL[..], 2 + 5 + 5 + 2 + 1),
+        (beams, &all, &[OutputFormat::Svg], 1 + 2 + 2 + 1),
+        (beams, &all, &[OutputFormat::Exr], 2),
+        (beams, &all, &[OutputFormat::Json], 1),
+        (beams, &[], &OutputFormat::ALL, 1),
+        (rays, &all, &OutputFormat::ALL, 2 + 2 + 2 + 2 + 1),
+        (in_perspective(beams, 9.0), &all[1..2], &[OutputFormat::Png], 2),
     ];
     for (viewing, pictures, formats, count) in cases {
         let folder = tempfile::tempdir().unwrap();
@@ -106,7 +106,7 @@ fn the_files_are_those_that_are_written_and_told_in_their_order() {
 fn work_that_is_stopped_leaves_whole_files_only() {
     let specimen = specimen();
     let folder = tempfile::tempdir().unwrap();
-    let formats = [Format::Png, Format::Exr, Format::Svg];
+    let formats = [OutputFormat::Png, OutputFormat::Exr, OutputFormat::Svg];
     let whole = outputs(&folder.path().join("whole"), &["aset", "profile", "arrows"], &formats);
     let export = Export { viewing: viewing(&specimen), outputs: &whole };
     written(&export);
@@ -131,9 +131,9 @@ fn work_that_is_stopped_leaves_whole_files_only() {
 fn who_is_told_may_end_the_work() {
     let specimen = specimen();
     let folder = tempfile::tempdir().unwrap();
-    let outputs = outputs(folder.path(), &["profile", "diagram"], &[Format::Svg]);
-    let tell = |told: Told| match told {
-        Told::Written(path) => Err(Failure::Output(path.display().to_string())),
+    let outputs = outputs(folder.path(), &["profile", "diagram"], &[OutputFormat::Svg]);
+    let tell = |told: Event| match told {
+        Event::Written(path) => Err(Failure::Output(path.display().to_string())),
         _ => Ok(()),
     };
     let ended = Export { viewing: viewing(&specimen), outputs: &outputs }.write(&unwatched, &tell);
@@ -147,15 +147,15 @@ fn what_cannot_be_written_is_refused_before_anything_is() {
     let folder = tempfile::tempdir().unwrap();
     let beams = viewing(&specimen);
     let rays = in_perspective(beams, 9.0);
-    let plain = outputs(folder.path(), &["profile", "aset"], &Format::ALL);
-    let twice = outputs(folder.path(), &["profile", "aset", "aset"], &[Format::Svg]);
+    let plain = outputs(folder.path(), &["profile", "aset"], &OutputFormat::ALL);
+    let twice = outputs(folder.path(), &["profile", "aset", "aset"], &[OutputFormat::Svg]);
     let cases = [
         (beams, twice, true, "'mine-aset-strongest'"),
         (beams, Outputs { size: 9000, ..plain.clone() }, true, "8192"),
         (Viewing { tracer: Tracer::Beams, ..rays }, plain.clone(), true, "parallel"),
         (
             rays,
-            Outputs { formats: vec![Format::Svg], ..plain.clone() },
+            Outputs { formats: vec![OutputFormat::Svg], ..plain.clone() },
             true,
             "aset: rays make PNG pictures only",
         ),
@@ -178,7 +178,7 @@ fn what_cannot_be_written_is_refused_before_anything_is() {
 
 #[test]
 fn names_that_come_twice_among_stones_are_found() {
-    let aset = outputs(Path::new("out"), &["aset"], &[Format::Json]);
+    let aset = outputs(Path::new("out"), &["aset"], &[OutputFormat::Json]);
     let other = Outputs { stem: "other".into(), ..aset.clone() };
     assert_eq!(first_twice(&[aset.clone(), other.clone()]), None);
     let twice = first_twice(&[aset.clone(), other, aset]);
@@ -189,19 +189,19 @@ fn names_that_come_twice_among_stones_are_found() {
 fn notes_and_warnings_say_what_is_not_as_asked() {
     let specimen = specimen();
     let folder = tempfile::tempdir().unwrap();
-    let drawn = outputs(folder.path(), &["profile"], &[Format::Exr]);
+    let drawn = outputs(folder.path(), &["profile"], &[OutputFormat::Exr]);
     let export = Export { viewing: viewing(&specimen), outputs: &drawn };
     assert!(export.files().unwrap().is_empty());
     let (_, texts, _) = written(&export);
     assert_eq!(texts[1], "profile: a drawing comes as PNG and SVG only");
-    let many = outputs(folder.path(), &["aset"], &Format::ALL[..3]);
+    let many = outputs(folder.path(), &["aset"], &OutputFormat::ALL[..3]);
     let (_, texts, _) = written(&Export { viewing: in_perspective(viewing(&specimen), 9.0), outputs: &many });
     assert_eq!(texts[0], "pictures in scopes: rays make PNG pictures only; SVG and EXR need exact beams");
     // Of light that is reflected a thousand times, some is left.
     let cube = cut_file::parse(include_str!("../../../tests/fixtures/cube.toml"), "cube").unwrap();
     let cube = Specimen::new(cube).unwrap();
     let caught = Viewing { medium: Medium::clear(1e3), unresolved: Some(1e-9), ..viewing(&cube) };
-    let pictures = outputs(folder.path(), &["aset"], &[Format::Png]);
+    let pictures = outputs(folder.path(), &["aset"], &[OutputFormat::Png]);
     let (_, texts, _) = written(&Export { viewing: caught, outputs: &pictures });
     assert!(
         texts[1].starts_with("mine.toml: ") && texts[1].contains("% of the light is unresolved"),

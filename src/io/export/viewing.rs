@@ -1,6 +1,6 @@
 //! A stone, from where it is seen, and how its light is traced.
 
-use super::told::{Tell, Told};
+use super::event::{Event, Reporter};
 use crate::io::Failure;
 use crate::picture::Scoped;
 use crate::scene::{Glare, Medium, Side, Specimen, Stone, Viewpoint};
@@ -45,11 +45,11 @@ impl Viewing<'_> {
 
     /// What the names of a picture's files say of the view: not its side, where the picture has one of its own.
     pub(super) fn suffix(&self, scoped: &Scoped) -> String {
-        self.told().facing(scoped.side.map(|_| Side::Table)).suffix()
+        self.described().facing(scoped.side.map(|_| Side::Table)).suffix()
     }
 
     /// From where, with the azimuth in the frame of the cut.
-    pub(super) fn told(&self) -> Viewpoint {
+    pub(super) fn described(&self) -> Viewpoint {
         if self.turned_deg == 0.0 {
             return self.viewpoint;
         }
@@ -86,15 +86,15 @@ impl Viewing<'_> {
     }
 
     /// For beams, with the bound that is usual.
-    pub(super) fn beams(&self, usual: f64) -> beam::Options {
+    pub(super) fn beams(&self, usual: f64) -> beam::BeamOptions {
         let unresolved = self.unresolved.unwrap_or(usual);
-        beam::Options { unresolved, polarised: self.polarised, ..beam::Options::default() }
+        beam::BeamOptions { unresolved, polarised: self.polarised, ..beam::BeamOptions::default() }
     }
 
     /// For rays: a ray is given up when no more than the bound is left of it.
-    pub(super) fn rays(&self, usual: f64) -> ray::Options {
+    pub(super) fn rays(&self, usual: f64) -> ray::RayOptions {
         let least_weight = self.unresolved.unwrap_or(usual);
-        ray::Options { least_weight, polarised: self.polarised, ..ray::Options::default() }
+        ray::RayOptions { least_weight, polarised: self.polarised, ..ray::RayOptions::default() }
     }
 
     /// Warns where beams left more of the light unresolved than they were to: than was asked for or, where nothing was,
@@ -103,23 +103,23 @@ impl Viewing<'_> {
         &self,
         (open, count): (f64, usize),
         aim: f64,
-        tell: Tell,
+        tell: Reporter,
     ) -> Result<(), Failure> {
         if open <= self.unresolved.unwrap_or(aim.max(UNASKED)) {
             return Ok(());
         }
         let (file, whose) = (self.file, if self.unresolved.is_some() { "asked for" } else { "aimed at" });
-        tell(Told::Warning(&format!(
+        tell(Event::Warning(&format!(
             "{file}: {} % of the light is unresolved, more than the {} % {whose}: after {count} beams it is still \
              reflected to and fro inside, and every figure may be too low by that much",
-            told_percent(open),
-            told_percent(aim)
+            percent_text(open),
+            percent_text(aim)
         )))
     }
 }
 
 /// A part in percent, to four digits.
-fn told_percent(part: f64) -> String {
+fn percent_text(part: f64) -> String {
     let percent = 100.0 * part;
     let digits = 3 - percent.abs().max(1e-12).log10().floor() as i32;
     let scale = 10_f64.powi(digits);
@@ -149,8 +149,8 @@ mod tests {
         };
         let said = |unresolved, open, aim| {
             let said = std::cell::RefCell::new(String::new());
-            let tell = |told: Told| {
-                if let Told::Warning(text) = told {
+            let tell = |told: Event| {
+                if let Event::Warning(text) = told {
                     *said.borrow_mut() = text.to_owned();
                 }
                 Ok(())
@@ -175,6 +175,6 @@ mod tests {
     #[test]
     fn percents_are_told_to_four_digits_however_small() {
         let parts = [0.016_679_87, 1.5e-4, 1e-9, 0.5, 0.001];
-        assert_eq!(parts.map(told_percent), ["1.668", "0.015", "0.0000001", "50", "0.1"]);
+        assert_eq!(parts.map(percent_text), ["1.668", "0.015", "0.0000001", "50", "0.1"]);
     }
 }

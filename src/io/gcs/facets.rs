@@ -2,7 +2,7 @@
 
 use super::read::Reader;
 use crate::cut::{MAX_PLANES, Tier, is_printable};
-use crate::io::cutters::{self, Gear, Piece};
+use crate::io::cutters::{self, Gear, TierPiece};
 use crate::io::text::TextError;
 use crate::math::Plane;
 use glam::DVec3;
@@ -53,7 +53,7 @@ impl<'d> Reader<'d> {
         let middle = self.middle(&raw)?;
         let mut tiers = Vec::new();
         for (facets, empty) in raw {
-            let pieces: Vec<Piece> =
+            let pieces: Vec<TierPiece> =
                 facets.into_iter().map(|facet| self.piece(facet, middle, gear)).collect();
             let mut gathered = cutters::gathered(pieces);
             cutters::named_once(&mut gathered);
@@ -87,7 +87,7 @@ impl<'d> Reader<'d> {
         Ok(middle)
     }
 
-    fn piece(&mut self, raw: Raw<'d>, middle: f64, gear: Gear) -> Piece {
+    fn piece(&mut self, raw: Raw<'d>, middle: f64, gear: Gear) -> TierPiece {
         let Raw { at, plane, name, instructions, is_cut } = raw;
         let distance = plane.offset - plane.normal.z * middle;
         // Of what is cut, rounding alone is left below 0.
@@ -96,7 +96,7 @@ impl<'d> Reader<'d> {
         }
         let mut setting = gear.setting(plane.normal, distance.max(0.0));
         setting.angle = girdle_below(setting.angle);
-        Piece { tier: 0, setting, name, instructions, is_cut }
+        TierPiece { tier: 0, setting, name, instructions, is_cut }
     }
 
     /// A tier without facets, which is kept for what it says.
@@ -131,7 +131,7 @@ impl<'d> Reader<'d> {
             let name = if facets.is_empty() || is_printable(&name) { name.clone() } else { String::new() };
             facets.push(Raw { at, plane, name, instructions: std::mem::take(&mut instructions), is_cut });
         }
-        if let Some(text) = apart.told(&name) {
+        if let Some(text) = apart.attribute(&name) {
             self.warn(node, || text);
         }
         Ok(facets)
@@ -163,7 +163,7 @@ impl<'d> Reader<'d> {
         let own = own.iter().copied().collect::<Option<Vec<f64>>>().map(|n| DVec3::from_slice(&n));
         let normal = match own.filter(|n| (n.length() - 1.0).abs() < UNIT_LENGTH) {
             Some(normal) => normal,
-            None => self.told_normal(facet, polar)?,
+            None => self.stated_normal(facet, polar)?,
         };
         let depth = match depth.or_else(|| Some(normal.dot(corners(facet).next()?))) {
             Some(depth) => depth,
@@ -173,7 +173,7 @@ impl<'d> Reader<'d> {
         Plane::new(normal, depth).normalized().ok_or_else(|| self.fault(facet, "depth: it is no length"))
     }
 
-    fn told_normal(&mut self, facet: Node<'_, '_>, polar: Option<f64>) -> Result<DVec3, TextError> {
+    fn stated_normal(&mut self, facet: Node<'_, '_>, polar: Option<f64>) -> Result<DVec3, TextError> {
         let Some((polar, index)) = polar.zip(self.number(facet, "index_angle")) else {
             let message =
                 "nx, ny, nz: a normal of length 1 is expected, or the tier's angle and an index_angle";
@@ -221,7 +221,7 @@ impl Apart {
         self.angle = polar.map_or(self.angle, |polar| self.angle.max((polar - slope).abs()));
     }
 
-    fn told(&self, name: &str) -> Option<String> {
+    fn attribute(&self, name: &str) -> Option<String> {
         let mut told = Vec::new();
         if self.corners > TOLD_APART {
             told.push(format!("corners lie up to {:.1e} off its depth, which is taken", self.corners));

@@ -3,8 +3,8 @@
 use super::{COLOUR, ROOT, VERSION, guard};
 use crate::cut::{MaterialRef, Tiers};
 use crate::io::cut_file::CutFileError;
-use crate::io::cutters::{self, Gear, Told};
-use crate::io::design_file::Brought;
+use crate::io::cutters::{self, Gear, WarningList};
+use crate::io::design_file::ImportedDesign;
 use crate::io::text::TextError;
 use roxmltree::{Document, Node, ParsingOptions};
 
@@ -22,7 +22,7 @@ const FOOTERS: [&str; 2] = ["footer1", "footer2"];
 ///
 /// # Errors
 /// What keeps it from being a design, with its line.
-pub fn read(bytes: &[u8], label: &str) -> Result<Brought, CutFileError> {
+pub fn read(bytes: &[u8], label: &str) -> Result<ImportedDesign, CutFileError> {
     let refused =
         |TextError { line, message }: TextError| CutFileError { path: label.to_owned(), line, message };
     let (text, spoilt) = guard::text(bytes).map_err(refused)?;
@@ -30,18 +30,18 @@ pub fn read(bytes: &[u8], label: &str) -> Result<Brought, CutFileError> {
     let document = Document::parse_with_options(&text, options).map_err(|error| {
         refused(TextError { line: Some(error.pos().row as usize), message: error.to_string() })
     })?;
-    let mut reader = Reader { document: &document, told: Told::default() };
+    let mut reader = Reader { document: &document, warnings: WarningList::default() };
     if spoilt {
-        reader.told.warn(|| "characters that are no UTF-8 are read as '\u{fffd}'".to_owned());
+        reader.warnings.warn(|| "characters that are no UTF-8 are read as '\u{fffd}'".to_owned());
     }
     let (tiers, material) = reader.design().map_err(refused)?;
     let name = cutters::title(tiers.headers.first(), label);
-    cutters::brought(name, material, tiers, reader.told, label)
+    cutters::brought(name, material, tiers, reader.warnings, label)
 }
 
 pub(super) struct Reader<'d> {
     document: &'d Document<'d>,
-    pub told: Told,
+    pub warnings: WarningList,
 }
 
 impl<'d> Reader<'d> {
@@ -55,7 +55,7 @@ impl<'d> Reader<'d> {
 
     pub fn warn(&mut self, node: Node<'_, '_>, text: impl FnOnce() -> String) {
         let document = self.document;
-        self.told.warn(|| format!("line {}: {}", document.text_pos_at(node.range().start).row, text()));
+        self.warnings.warn(|| format!("line {}: {}", document.text_pos_at(node.range().start).row, text()));
     }
 
     /// An attribute as text, with the line breaks that it has in the file; none where it is empty or missing.
@@ -104,21 +104,21 @@ impl<'d> Reader<'d> {
     fn gear(&mut self, root: Node<'d, 'd>) -> Gear {
         let Some(node) = child(root, "index") else {
             self.warn(root, || "<index> is missing".to_owned());
-            return Gear::given(96, 0.0, "", &mut self.told);
+            return Gear::given(96, 0.0, "", &mut self.warnings);
         };
         let teeth = self.number(node, "gear").unwrap_or_default();
         let offset = self.number(node, "base").unwrap_or_default();
         // What is not whole becomes 0, which no gear has.
         let teeth = if teeth.fract() == 0.0 { teeth as i32 } else { 0 };
         let place = format!("line {}: ", self.line(node));
-        Gear::given(teeth, offset, &place, &mut self.told)
+        Gear::given(teeth, offset, &place, &mut self.warnings)
     }
 
     fn index(&mut self, root: Node<'d, 'd>, tiers: &mut Tiers) {
         let Some(node) = child(root, "index") else { return };
         let symmetry = self.number(node, "symmetry").unwrap_or(1.0) as i32;
         let place = format!("line {}: ", self.line(node));
-        tiers.symmetry = cutters::symmetry(symmetry, &place, &mut self.told);
+        tiers.symmetry = cutters::symmetry(symmetry, &place, &mut self.warnings);
         tiers.mirror = self.is(node, "mirror", false);
         self.remark(node, &INDEX, tiers);
     }
@@ -140,7 +140,7 @@ impl<'d> Reader<'d> {
 
     fn render(&mut self, root: Node<'d, 'd>, tiers: &mut Tiers) -> MaterialRef {
         let Some(node) = child(root, "render") else {
-            return cutters::material(f64::NAN, "", &mut self.told);
+            return cutters::material(f64::NAN, "", &mut self.warnings);
         };
         self.remark(node, &["refractive_index"], tiers);
         if let Some(colour) = child(node, "color") {
@@ -149,7 +149,7 @@ impl<'d> Reader<'d> {
         }
         let index = self.number(node, "refractive_index").unwrap_or(f64::NAN);
         let place = format!("line {}: ", self.line(node));
-        cutters::material(index, &place, &mut self.told)
+        cutters::material(index, &place, &mut self.warnings)
     }
 
     /// Keeps the attributes that are not in `known` as remarks.

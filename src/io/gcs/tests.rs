@@ -1,7 +1,7 @@
 use super::*;
-use crate::cut::{Design, MaterialRef, Tier, Zone};
+use crate::cut::{Design, MaterialRef, Tier, TierZone};
 use crate::io::cutters::sample::{design, others, specimen, tiers};
-use crate::io::design_file::{Brought, Written};
+use crate::io::design_file::{EncodedDesign, ImportedDesign};
 use crate::math::{Plane, Polytope};
 use proptest::prelude::*;
 
@@ -23,7 +23,7 @@ and more" footer1="" footer2="end" shape="Square"/>
 </GemCutStudio>
 "#;
 
-fn back(text: &[u8]) -> Brought {
+fn back(text: &[u8]) -> ImportedDesign {
     read(text, "box.gcs").unwrap()
 }
 
@@ -38,15 +38,15 @@ fn a_design_reads_as_it_is_written() {
         .map(|(a, b)| (a.into(), b.into()))
         .to_vec();
     tiers(&mut design).tiers[3].is_cut = false;
-    let Written { bytes, lost } = write(&specimen(design.clone()));
+    let EncodedDesign { bytes, lost } = write(&specimen(design.clone()));
     assert_eq!(lost, Vec::<String>::new());
     assert!(looks_like(&bytes));
-    assert_eq!(back(&bytes), Brought::of(design));
+    assert_eq!(back(&bytes), ImportedDesign::of(design));
 }
 
 #[test]
 fn all_that_a_file_says_is_kept() {
-    let Brought { mut design, warnings, .. } = back(PYRAMIDS.as_bytes());
+    let ImportedDesign { mut design, warnings, .. } = back(PYRAMIDS.as_bytes());
     assert!(warnings.iter().all(|warning| warning.contains("that of angle and index_angle is taken")));
     assert_eq!(warnings.len(), 6);
     assert!(warnings[0].starts_with("line 7: "), "{}", warnings[0]);
@@ -67,7 +67,7 @@ fn all_that_a_file_says_is_kept() {
     let indices = |tier: &Tier| tier.facets.iter().map(|facet| facet.index).collect::<Vec<_>>();
     assert_eq!(indices(&tiers.tiers[0]), [48.0, 96.0, 72.0, 24.0]);
     assert_eq!(indices(&tiers.tiers[1]), [24.0, 96.0, 72.0, 48.0]);
-    assert_eq!((tiers.tiers[2].zone(), tiers.tiers[2].is_cut), (Zone::Culet, false));
+    assert_eq!((tiers.tiers[2].zone(), tiers.tiers[2].is_cut), (TierZone::Culet, false));
     // The file is not scaled as the format wants; once it is, it reads as written.
     let scaled = back(&write(&specimen(design.clone())).bytes);
     assert_eq!(scaled.warnings, Vec::<String>::new());
@@ -77,8 +77,8 @@ fn all_that_a_file_says_is_kept() {
 #[test]
 fn stones_are_scaled_and_centred() {
     for stone in others() {
-        let Written { bytes, .. } = write(&stone);
-        let Brought { design, warnings, .. } = back(&bytes);
+        let EncodedDesign { bytes, .. } = write(&stone);
+        let ImportedDesign { design, warnings, .. } = back(&bytes);
         assert_eq!(warnings, Vec::<String>::new());
         let scaled = specimen(design);
         let planes: Vec<_> = scaled.design.facets().unwrap().into_iter().map(|(_, plane)| plane).collect();
@@ -116,7 +116,7 @@ fn a_stone_whose_middle_lies_outside_stays_where_it_is() {
     cut.tiers[3].distance = 0.0;
     cut.tiers[3].facets.truncate(1);
     cut.tiers[4].distance = 0.1;
-    let Written { bytes, lost } = write(&specimen(leaning));
+    let EncodedDesign { bytes, lost } = write(&specimen(leaning));
     assert!(lost.iter().any(|text| text.contains("not centred in height")), "{lost:?}");
     let scaled = back(&bytes);
     assert_eq!(scaled.warnings, Vec::<String>::new());
@@ -155,7 +155,7 @@ fn what_the_format_cannot_hold_is_told() {
         "1 remark has a key that XML cannot hold",
         "2 characters that XML cannot hold are left out",
     ];
-    let Written { bytes, lost } = write(&specimen(full));
+    let EncodedDesign { bytes, lost } = write(&specimen(full));
     assert_eq!(lost, expected);
     assert!(back(&bytes).warnings[0].ends_with("this tier has no facets"));
 }
@@ -259,7 +259,7 @@ proptest! {
             bytes[(at * length) as usize] = byte;
         }
         for bytes in [&bytes[..], &bytes[..(cut * length) as usize]] {
-            if let Ok(Brought { design, .. }) = read(bytes, "x") && let Ok(specimen) = crate::scene::Specimen::new(design) {
+            if let Ok(ImportedDesign { design, .. }) = read(bytes, "x") && let Ok(specimen) = crate::scene::Specimen::new(design) {
                 let _ = write(&specimen);
             }
         }

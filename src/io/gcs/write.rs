@@ -3,7 +3,7 @@
 use super::{COLOUR, RENDER, ROOT, VERSION};
 use crate::cut::{Indexed, Tier, Tiers};
 use crate::io::cutters::{self, Outline};
-use crate::io::design_file::Written;
+use crate::io::design_file::EncodedDesign;
 use crate::math::Plane;
 use crate::scene::Specimen;
 use glam::DVec3;
@@ -59,7 +59,7 @@ impl Page {
 }
 
 /// The design of a specimen as `.gcs`, and what the format cannot hold of it.
-pub fn write(specimen: &Specimen) -> Written {
+pub fn write(specimen: &Specimen) -> EncodedDesign {
     let mut lost = Vec::new();
     let tiers = cutters::tiers_of(specimen, &mut lost);
     cutters::untold(&specimen.design, tiers.headers.first(), &mut lost);
@@ -80,7 +80,7 @@ pub fn write(specimen: &Specimen) -> Written {
     if page.dropped > 0 {
         lost.push(format!("{} characters that XML cannot hold are left out", page.dropped));
     }
-    Written { bytes: page.text.into_bytes(), lost }
+    EncodedDesign { bytes: page.text.into_bytes(), lost }
 }
 
 /// What the format has no place for.

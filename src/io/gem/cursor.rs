@@ -4,12 +4,12 @@ use std::fmt;
 
 /// What is wrong, and where.
 #[derive(Debug, PartialEq)]
-pub(super) struct Fault {
+pub(super) struct GemFault {
     pub at: usize,
     pub message: String,
 }
 
-impl fmt::Display for Fault {
+impl fmt::Display for GemFault {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}{}", place(self.at), self.message)
     }
@@ -43,31 +43,31 @@ impl<'a> Cursor<'a> {
         self.bytes.len() - self.at
     }
 
-    fn take(&mut self, count: usize, what: &str) -> Result<&'a [u8], Fault> {
+    fn take(&mut self, count: usize, what: &str) -> Result<&'a [u8], GemFault> {
         let taken = self.bytes.get(self.at..self.at + count).ok_or_else(|| {
             let message = format!("the file ends in the middle of {what}; it is cut off or no .gem");
-            Fault { at: self.bytes.len(), message }
+            GemFault { at: self.bytes.len(), message }
         })?;
         self.at += count;
         Ok(taken)
     }
 
-    fn array<const N: usize>(&mut self, what: &str) -> Result<[u8; N], Fault> {
+    fn array<const N: usize>(&mut self, what: &str) -> Result<[u8; N], GemFault> {
         let mut array = [0; N];
         array.copy_from_slice(self.take(N, what)?);
         Ok(array)
     }
 
-    pub fn f64(&mut self, what: &str) -> Result<f64, Fault> {
+    pub fn f64(&mut self, what: &str) -> Result<f64, GemFault> {
         self.array(what).map(f64::from_le_bytes)
     }
 
-    pub fn i32(&mut self, what: &str) -> Result<i32, Fault> {
+    pub fn i32(&mut self, what: &str) -> Result<i32, GemFault> {
         self.array(what).map(i32::from_le_bytes)
     }
 
     /// A text behind its length.
-    pub fn text(&mut self, what: &str) -> Result<&'a [u8], Fault> {
+    pub fn text(&mut self, what: &str) -> Result<&'a [u8], GemFault> {
         let [length] = self.array(what)?;
         self.take(usize::from(length), what)
     }

@@ -1,10 +1,10 @@
 use super::*;
 use crate::cut::{Design, MaterialRef};
 use crate::io::cutters::sample::{design, others, specimen, tiers};
-use crate::io::design_file::Written;
+use crate::io::design_file::EncodedDesign;
 use proptest::prelude::*;
 
-fn back(bytes: &[u8]) -> Brought {
+fn back(bytes: &[u8]) -> ImportedDesign {
     read(bytes, "box.gem").unwrap()
 }
 
@@ -15,10 +15,10 @@ fn refused(bytes: &[u8]) -> String {
 #[test]
 fn a_design_reads_as_it_is_written() {
     let design = design();
-    let Written { bytes, lost } = write(&specimen(design.clone()));
+    let EncodedDesign { bytes, lost } = write(&specimen(design.clone()));
     assert_eq!(lost, Vec::<String>::new());
     assert!(looks_like(&bytes));
-    assert_eq!(back(&bytes), Brought::of(design));
+    assert_eq!(back(&bytes), ImportedDesign::of(design));
 }
 
 #[test]
@@ -63,7 +63,7 @@ fn what_the_format_cannot_hold_is_told() {
     cut.footers = vec!["x".repeat(300), "Ω\t".to_owned(), String::new(), String::new(), "fifth".to_owned()];
     cut.remarks = vec![("date".to_owned(), "today".to_owned())];
     cut.tiers[3].is_cut = false;
-    let Written { bytes, lost } = write(&specimen(full.clone()));
+    let EncodedDesign { bytes, lost } = write(&specimen(full.clone()));
     let expected = [
         "the name 'other' is not among the lines at the top",
         "where the design is published has no place in the format",
@@ -86,8 +86,8 @@ fn what_the_format_cannot_hold_is_told() {
 #[test]
 fn stones_that_are_not_cut_by_tiers_are_written_by_a_gear_that_fits() {
     for stone in others() {
-        let Written { bytes, lost } = write(&stone);
-        let Brought { mut design, warnings, .. } = back(&bytes);
+        let EncodedDesign { bytes, lost } = write(&stone);
+        let ImportedDesign { mut design, warnings, .. } = back(&bytes);
         assert_eq!(warnings, Vec::<String>::new());
         let volumes = [&stone, &specimen(design.clone())].map(|s| s.stone().unwrap().polytope.volume());
         assert!((volumes[0] - volumes[1]).abs() < 1e-10, "{volumes:?}");
@@ -106,7 +106,7 @@ fn stones_that_are_not_cut_by_tiers_are_written_by_a_gear_that_fits() {
 fn a_facet_through_the_origin_stays_there() {
     let mut through = design();
     tiers(&mut through).tiers[4].distance = 0.0;
-    let Brought { design, warnings, .. } = back(&write(&specimen(through.clone())).bytes);
+    let ImportedDesign { design, warnings, .. } = back(&write(&specimen(through.clone())).bytes);
     assert_eq!(design, through);
     assert_eq!(warnings.len(), 1);
     assert!(
@@ -162,7 +162,7 @@ fn odd_numbers_behind_the_facets_are_told_and_the_stone_is_read() {
     bytes[end + 12..end + 20].copy_from_slice(&9f64.to_le_bytes());
     bytes[end + 20] = 1;
     bytes.extend(b"\x07preform and more");
-    let Brought { mut design, warnings, .. } = back(&bytes);
+    let ImportedDesign { mut design, warnings, .. } = back(&bytes);
     let told = warnings.join("\n");
     for part in
         ["0x7f01 stands where", "gear: 0 must be", "symmetry: 0 must be", "index 9 must be", "the preform"]
@@ -196,7 +196,7 @@ proptest! {
         }
         let _ = looks_like(&bytes);
         for bytes in [&bytes[..], &bytes[..(cut * length) as usize]] {
-            if let Ok(Brought { design, .. }) = read(bytes, "x") && let Ok(specimen) = crate::scene::Specimen::new(design) {
+            if let Ok(ImportedDesign { design, .. }) = read(bytes, "x") && let Ok(specimen) = crate::scene::Specimen::new(design) {
                 prop_assert!(read(&write(&specimen).bytes, "x").is_ok());
             }
         }

@@ -3,7 +3,7 @@
 use super::{END, LINES, UNKNOWN};
 use crate::cut::{Tier, Tiers};
 use crate::io::cutters::{self, Outline};
-use crate::io::design_file::Written;
+use crate::io::design_file::EncodedDesign;
 use crate::scene::Specimen;
 use glam::DVec3;
 use std::f64::consts::FRAC_PI_2;
@@ -40,7 +40,7 @@ impl Texts {
         }
     }
 
-    fn tell(&self, lost: &mut Vec<String>) {
+    fn add_losses(&self, lost: &mut Vec<String>) {
         if self.cut_off > 0 {
             lost.push(format!("{} texts are cut off at {LONGEST} characters", self.cut_off));
         }
@@ -51,7 +51,7 @@ impl Texts {
 }
 
 /// The design of a specimen as `.gem`, and what the format cannot hold of it.
-pub fn write(specimen: &Specimen) -> Written {
+pub fn write(specimen: &Specimen) -> EncodedDesign {
     let mut lost = Vec::new();
     let tiers = cutters::tiers_of(specimen, &mut lost);
     let first = tiers.headers.iter().take(LINES).find(|line| crate::cut::is_printable(line.trim()));
@@ -61,8 +61,8 @@ pub fn write(specimen: &Specimen) -> Written {
     let (mut bytes, mut texts) = (Vec::new(), Texts::default());
     put_facets(&tiers, &mut texts, &mut bytes);
     put_trailer(&tiers, index, &mut texts, &mut bytes);
-    texts.tell(&mut lost);
-    Written { bytes, lost }
+    texts.add_losses(&mut lost);
+    EncodedDesign { bytes, lost }
 }
 
 /// What the format has no place for.

@@ -1,7 +1,7 @@
 //! How the stone of a mesh lies in its file: as a person says, as the file itself says, or as is to be found.
 
 use crate::cut::MaterialRef;
-use crate::cut::from_mesh::{Pose, Up};
+use crate::cut::from_mesh::{Alignment, Up};
 use crate::io::mesh_file::{MeshFormat, Stands, Statement};
 use crate::math::Surface;
 use glam::DVec3;
@@ -14,7 +14,7 @@ const SAME_SIZE: f64 = 2e-3;
 
 /// What is told of how a mesh was understood.
 #[derive(Debug, Default)]
-pub(super) struct Told {
+pub(super) struct MeshRemarks {
     pub notes: Vec<String>,
     pub warnings: Vec<String>,
     /// Whether the table may face another way.
@@ -23,7 +23,7 @@ pub(super) struct Told {
 
 /// What is known of how a stone lies, before its shape is looked at.
 #[derive(Debug)]
-pub(super) struct Place {
+pub(super) struct MeshPlace {
     given: Up,
     statement: Option<Statement>,
     /// Girdle radii per unit of the file, where it is known.
@@ -34,7 +34,7 @@ pub(super) struct Place {
     pub material: Option<MaterialRef>,
 }
 
-impl Place {
+impl MeshPlace {
     /// For a file of a format; a direction up that a person gives stands above all else.
     pub fn of(format: MeshFormat, given: Up, statement: Option<Statement>) -> Self {
         let given = match given {
@@ -48,7 +48,12 @@ impl Place {
 
     /// Which way is up in the file's surface, by what the file says where that fits its shape. `directions` are those in
     /// which the table may face.
-    pub fn up(&mut self, surface: &Surface, directions: impl Fn() -> Vec<DVec3>, told: &mut Told) -> Up {
+    pub fn up(
+        &mut self,
+        surface: &Surface,
+        directions: impl Fn() -> Vec<DVec3>,
+        told: &mut MeshRemarks,
+    ) -> Up {
         let Some(statement) = self.statement.take() else { return self.given };
         let stands = statement.of_solid(surface, std::iter::once_with(directions).flatten());
         if stands == Stands::Otherwise {
@@ -68,7 +73,7 @@ impl Place {
         self.material.clone_from(&statement.material);
         match (self.given, stands) {
             (Up::FoundBy(_), Stands::AsStated) => {
-                Up::Posed(Pose { scale: statement.scale(), turn: statement.turn(), shift: DVec3::ZERO })
+                Up::Posed(Alignment { scale: statement.scale(), turn: statement.turn(), shift: DVec3::ZERO })
             }
             (Up::FoundBy(_), Stands::Moved { up, scale }) => {
                 told.warnings.extend(changes(&statement, up, scale));

@@ -68,7 +68,7 @@ fn parsed(json: &[u8]) -> Result<(Document, Vec<String>), Fault> {
         .map_err(|error| Fault::line(error.line(), format!("{UNREADABLE}{error}")))?;
     let mut warnings = extensions(&mut root)?;
     warnings.extend(positions(&mut root)?);
-    let document = Document::from_json(root).map_err(|error| Fault::whole(told(error)))?;
+    let document = Document::from_json(root).map_err(|error| Fault::whole(message(error)))?;
     Ok((document, warnings))
 }
 
@@ -85,11 +85,11 @@ fn split(bytes: &[u8]) -> Result<(Vec<u8>, Option<Vec<u8>>), Fault> {
             format!("the header says {length} bytes, and the file has {}; it has been cut off", bytes.len());
         return Err(Fault::at("offset 8", message));
     }
-    let glb = gltf::Glb::from_slice(bytes).map_err(|error| Fault::whole(told(error)))?;
+    let glb = gltf::Glb::from_slice(bytes).map_err(|error| Fault::whole(message(error)))?;
     Ok((glb.json.into_owned(), glb.bin.map(std::borrow::Cow::into_owned)))
 }
 
-fn told(error: gltf::Error) -> String {
+fn message(error: gltf::Error) -> String {
     match error {
         gltf::Error::Validation(faults) => {
             let first = faults.first().map(|(path, error)| format!("{path}: {error}")).unwrap_or_default();

@@ -11,7 +11,7 @@ use crate::cut::from_mesh::{FromMesh, Up, from_mesh};
 use crate::cut::{Cut, Design, MaterialRef};
 use crate::io::{cut_file, write_glb, write_obj, write_ply, write_stl};
 use crate::math::Plane;
-use crate::math::surface::{Faceted, Shape, facets};
+use crate::math::surface::{Faceted, SurfaceKind, facets};
 use crate::optics;
 use crate::scene::{Body, Stone};
 use glam::{DQuat, DVec3};
@@ -34,8 +34,8 @@ fn open(bytes: Vec<u8>) -> MeshFile {
 
 fn faceted(file: &MeshFile) -> Faceted {
     match facets(file.surface.mend().unwrap().surface) {
-        Shape::Convex(found) => *found,
-        Shape::Concave(_) => panic!("taken for concave"),
+        SurfaceKind::Convex(found) => *found,
+        SurfaceKind::Concave(_) => panic!("taken for concave"),
     }
 }
 
@@ -338,7 +338,7 @@ fn buffers_are_read_beside_the_file_and_nowhere_else() {
     assert!(read(&inner).unwrap_err().to_string().ends_with("this is a directory; a file is expected"));
 }
 
-fn told(bytes: impl Into<Vec<u8>>) -> String {
+fn message(bytes: impl Into<Vec<u8>>) -> String {
     parse(bytes.into(), "f", None).unwrap_err().to_string()
 }
 
@@ -390,7 +390,7 @@ fn faults_are_told_with_their_place_and_what_was_expected() {
         ),
     ];
     for (text, expected) in cases {
-        let error = told(text);
+        let error = message(text);
         assert!(error.starts_with(expected), "{error}\nexpected {expected}");
     }
     let ascii = String::from_utf8(ply("ascii")).unwrap();
@@ -407,20 +407,22 @@ fn faults_are_told_with_their_place_and_what_was_expected() {
         (ascii.replace("3 0 3 2\n", ""), "f:"),
     ];
     for (text, expected) in cases {
-        let error = told(text);
+        let error = message(text);
         assert!(error.starts_with(expected), "{error}\nexpected {expected}");
     }
     let glb = write_glb(&body(16), "x", 1.0, (&MaterialHint::default(), None)).unwrap();
-    assert!(told(&glb[..2000]).starts_with("f:offset 8: the header says "));
+    assert!(message(&glb[..2000]).starts_with("f:offset 8: the header says "));
     let mut short = glb.clone();
     short[8..12].copy_from_slice(&3_u32.to_le_bytes());
-    assert!(told(short).starts_with("f:offset 8: the header says 3 bytes"));
+    assert!(message(short).starts_with("f:offset 8: the header says 3 bytes"));
     let stl = write_stl(&body(16), 1.0, None).unwrap();
     let mut many = b"solid".to_vec();
     many.extend(&stl[5..80]);
     many.extend(u32::MAX.to_le_bytes());
     many.extend(&stl[84..]);
-    assert!(told(many).starts_with("f:offset 80: 4294967295 triangles are announced, and the file holds "));
+    assert!(
+        message(many).starts_with("f:offset 80: 4294967295 triangles are announced, and the file holds ")
+    );
 }
 
 proptest! {
@@ -451,7 +453,7 @@ proptest! {
             bytes.truncate(cut.index(bytes.len() + 1));
         }
         let mended = parse(bytes, "f", None).ok().and_then(|file| file.surface.mend().ok());
-        if let Some(Shape::Convex(found)) = mended.map(|mended| facets(mended.surface)) {
+        if let Some(SurfaceKind::Convex(found)) = mended.map(|mended| facets(mended.surface)) {
             let _ = from_mesh(&found, Up::Found);
         }
     }

@@ -2,7 +2,7 @@
 
 use super::{ABOUT, About, Coding, MOST_BANDS, MOST_PIXELS, channel, diffuse_of, tiles};
 use crate::io::text::read_bytes;
-use crate::picture::{Linear, MapBand, Place, RefractionMap};
+use crate::picture::{Linear, MapBand, RefractionMap, SourcePlace};
 use exr::meta::MetaData;
 use exr::meta::attribute::AttributeValue;
 use exr::prelude::{ReadChannels, ReadLayers, read as reader};
@@ -134,13 +134,13 @@ fn png_band(bytes: &[u8], diffuse: &Layer, must_tell: bool) -> Result<Found, Str
             let left = diffuse.pixels.iter().filter(|_| !has_weights).map(|light| 1.0 - light[3]);
             let tiled = |(code, weight): (&[u8], f32)| {
                 let at = tiles::place([code[0], code[1], code[2]]);
-                Place { u: at.x as f32, v: at.y as f32, weight }
+                SourcePlace { u: at.x as f32, v: at.y as f32, weight }
             };
             codes.chunks_exact(3).zip(own.chain(left)).map(tiled).collect()
         }
         _ => {
             let part = |c: &[u8], k: usize| f32::from(u16::from_be_bytes([c[k], c[k + 1]])) / 65_535.0;
-            let place = |c: &[u8]| Place { u: part(c, 0), v: part(c, 2), weight: part(c, 4) };
+            let place = |c: &[u8]| SourcePlace { u: part(c, 0), v: part(c, 2), weight: part(c, 4) };
             data.chunks_exact(6).map(place).collect()
         }
     };
@@ -197,8 +197,8 @@ fn float(bytes: &[u8]) -> Result<Found, String> {
         let [u, v, weight] = [values(k, "u")?, values(k, "v")?, values(k, "weight")?];
         // What is no number comes from nowhere.
         let place = |((u, v), weight): ((f32, f32), f32)| match u.is_finite() && v.is_finite() {
-            true => Place { u, v, weight: weight.clamp(0.0, 1.0).max(0.0) },
-            false => Place::default(),
+            true => SourcePlace { u, v, weight: weight.clamp(0.0, 1.0).max(0.0) },
+            false => SourcePlace::default(),
         };
         Ok(checked(about)?.band(u.into_iter().zip(v).zip(weight).map(place).collect()))
     };

@@ -10,7 +10,7 @@ fn map(bands: usize) -> RefractionMap {
         // Borders, and pixels that nothing behind is seen through.
         let edge = [0.0, 1.0, part(0.618_034), part(0.754_877)];
         let weight = if k as u32 % 7 == 3 { 0.0 } else { part(0.569_840) };
-        Place { u: edge[k as usize % 4], v: edge[(k as usize / 4) % 4], weight }
+        SourcePlace { u: edge[k as usize % 4], v: edge[(k as usize / 4) % 4], weight }
     };
     let band = |band: usize| MapBand {
         nm: 400.0 + 60.0 * band as f64,

@@ -12,7 +12,7 @@
 //! 16)) / 255, which has two traps: b = 1 gives a seventeenth column (`B >> 4` is 15), and where 255 b comes out as
 //! 31.999998, `mod` is 16 too large. Round to bytes first.
 
-use crate::picture::Place;
+use crate::picture::SourcePlace;
 use glam::DVec2;
 
 /// Tiles each way.
@@ -35,7 +35,7 @@ pub fn place([red, green, blue]: [u8; 3]) -> DVec2 {
 }
 
 /// The code of a map's pixel: black where nothing comes from behind, which its weight tells.
-pub fn code_of(place: &Place) -> [u8; 3] {
+pub fn code_of(place: &SourcePlace) -> [u8; 3] {
     if place.weight > 0.0 { code(DVec2::new(f64::from(place.u), f64::from(place.v))) } else { [0; 3] }
 }
 

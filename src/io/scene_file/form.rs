@@ -16,7 +16,7 @@ use std::path::PathBuf;
 /// The whole file.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(super) struct Form {
+pub(super) struct SceneForm {
     #[serde(rename = "format")]
     _format: IgnoredAny,
     name: String,
@@ -88,7 +88,7 @@ const GAPS_MM: RangeInclusive<f64> = 0.0..=1000.0;
 const DISTANCES_MM: RangeInclusive<f64> = 0.0..=10_000.0;
 const PLACES_MM: RangeInclusive<f64> = -10_000.0..=10_000.0;
 
-impl Form {
+impl SceneForm {
     /// The scene that the form describes, checked.
     pub fn scene(self, around: &Surroundings) -> Result<SceneFile, Fault> {
         if !is_printable(&self.name) {

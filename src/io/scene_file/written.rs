@@ -9,7 +9,7 @@ use std::borrow::Cow;
 
 /// The whole file.
 #[derive(Serialize)]
-pub(super) struct Written<'a> {
+pub(super) struct EncodedScene<'a> {
     format: i64,
     name: &'a str,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -43,7 +43,7 @@ struct WrittenStone<'a> {
     at: Option<[f64; 3]>,
 }
 
-impl<'a> Written<'a> {
+impl<'a> EncodedScene<'a> {
     pub fn of(scene: &'a SceneFile) -> Self {
         let is = |layout: &Layout| Layout::NAMES.into_iter().find(|(_, other)| other == layout);
         Self {

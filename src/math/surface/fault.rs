@@ -35,7 +35,7 @@ pub enum SurfaceError {
         distance: f64,
     },
     /// Edges that lack a triangle on one side, by gaps too wide for cracks.
-    #[error("{}", told_open(*.count, .edges, *.crack))]
+    #[error("{}", open_edges_text(*.count, .edges, *.crack))]
     Open {
         /// How many such edges there are.
         count: usize,
@@ -45,7 +45,7 @@ pub enum SurfaceError {
         crack: f64,
     },
     /// A surface with one side only, as a Möbius strip has.
-    #[error("the surface has no outside: its sides meet at the edge from {} to {}", told(.edge[0]), told(.edge[1]))]
+    #[error("the surface has no outside: its sides meet at the edge from {} to {}", point_text(.edge[0]), point_text(.edge[1]))]
     OneSided {
         /// The ends of an edge where the two sides meet.
         edge: [DVec3; 2],
@@ -58,14 +58,14 @@ pub enum SurfaceError {
 /// The most edges that an error names.
 pub(super) const MOST_EDGES: usize = 4;
 
-fn told(point: DVec3) -> String {
+fn point_text(point: DVec3) -> String {
     // Seven digits are what f32, and so most files, hold.
     let digits = |x: f64| format!("{}", format!("{x:.6e}").parse::<f64>().unwrap_or(x));
     format!("({}, {}, {})", digits(point.x), digits(point.y), digits(point.z))
 }
 
-fn told_open(count: usize, edges: &[[DVec3; 2]], crack: f64) -> String {
-    let shown = edges.iter().map(|[a, b]| format!("{} to {}", told(*a), told(*b)));
+fn open_edges_text(count: usize, edges: &[[DVec3; 2]], crack: f64) -> String {
+    let shown = edges.iter().map(|[a, b]| format!("{} to {}", point_text(*a), point_text(*b)));
     let shown = shown.collect::<Vec<_>>().join("; ");
     let more = count.saturating_sub(edges.len());
     let more = if more > 0 { format!("; and {more} more") } else { String::new() };

@@ -9,7 +9,7 @@ const SWEEPS: usize = 12;
 
 /// A plane and how it fits.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Fit {
+pub(super) struct PlaneFit {
     /// With its unit normal on the side that the triangles face.
     pub plane: Plane,
     /// Area of the triangles.
@@ -20,7 +20,7 @@ pub(super) struct Fit {
 
 /// The plane through the middle of the triangles that leaves the least square distance from it, each point of their
 /// area counting the same. `None` where they have no area.
-pub(super) fn fit(surface: &Surface, triangles: &[u32]) -> Option<Fit> {
+pub(super) fn fit(surface: &Surface, triangles: &[u32]) -> Option<PlaneFit> {
     let corners = || triangles.iter().map(|&t| surface.corners(t as usize));
     // A corner of its own as the origin keeps the digits of a small region far from the middle.
     let origin = surface.corners(*triangles.first()? as usize)[0];
@@ -45,7 +45,7 @@ pub(super) fn fit(surface: &Surface, triangles: &[u32]) -> Option<Fit> {
     let normal = vectors[0] * if vectors[0].dot(facing) < 0.0 { -1.0 } else { 1.0 };
     let width = (12.0 * values[1].max(0.0)).sqrt();
     let plane = Plane::new(normal, normal.dot(middle)).normalized()?;
-    (area > 0.0 && area.is_finite()).then_some(Fit { plane, area, width })
+    (area > 0.0 && area.is_finite()).then_some(PlaneFit { plane, area, width })
 }
 
 fn outer(v: DVec3) -> DMat3 {

@@ -4,7 +4,7 @@
 use super::Surface;
 use super::change::Change;
 use super::edges::Edges;
-use super::shape::{NOISE, SAME, Solid, deviation, solid};
+use super::shape::{MatchingSolid, NOISE, SAME, deviation, solid};
 use crate::math::{Plane, convex_hull};
 use std::cell::OnceCell;
 
@@ -61,14 +61,14 @@ impl Hull {
     }
 
     /// The hull as a solid between the fewest planes that fit; `None` where it is curved or has too many.
-    pub fn solid(&self) -> Option<Solid> {
+    pub fn solid(&self) -> Option<MatchingSolid> {
         let (edges, size) = (Edges::of(&self.0), self.0.size());
         let own = LazyHull::of(&self.0);
         NOISE.iter().rev().find_map(|noise| solid(&self.0, &edges, &own, (noise * size, SAME)))
     }
 
     /// The hull as a solid, if the surface means it.
-    pub fn meant(&self, surface: &Surface) -> Option<Solid> {
+    pub fn meant(&self, surface: &Surface) -> Option<MatchingSolid> {
         if self.0.volume() > (1.0 + SWOLLEN) * surface.volume() {
             return None;
         }

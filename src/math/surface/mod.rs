@@ -27,7 +27,7 @@ pub use change::Change;
 pub use fault::SurfaceError;
 pub(crate) use fit::eigen;
 pub use mend::{Mended, Mending};
-pub use shape::{Face, Faceted, Shape, TooCurved, deviation, faceted_hull, facets};
+pub use shape::{Face, Faceted, SurfaceKind, TooCurved, deviation, faceted_hull, facets};
 
 /// Triangles over shared corners; each is part of a group, which may have a name.
 ///

@@ -2,7 +2,7 @@
 
 use super::Surface;
 use super::edges::{Edges, NONE};
-use super::fit::{Fit, fit};
+use super::fit::{PlaneFit, fit};
 use crate::math::Plane;
 use glam::DVec3;
 
@@ -36,7 +36,7 @@ pub(super) struct Regions {
     /// The region of each triangle, or [`NOWHERE`].
     pub of: Vec<u32>,
     /// The plane of each region, that of the largest first.
-    pub fits: Vec<Fit>,
+    pub fits: Vec<PlaneFit>,
 }
 
 /// Gathers regions whose corners lie within `tolerance` of their planes. `None` where there are more than `most`.
@@ -105,7 +105,7 @@ impl Grower<'_> {
     fn grow(&mut self, seed: u32) -> Vec<u32> {
         let mut best = vec![seed];
         for round in 0..ROUNDS {
-            let Some(Fit { plane, .. }) = fit(self.surface, &best) else { break };
+            let Some(PlaneFit { plane, .. }) = fit(self.surface, &best) else { break };
             let found = self.flood(seed, plane, round == 0);
             let settled = found.len() == best.len();
             best = found;
@@ -156,7 +156,7 @@ struct Joiner<'a> {
     of: Vec<u32>,
     members: Vec<Vec<u32>>,
     /// `None` for a region that has been joined to another.
-    fits: Vec<Option<Fit>>,
+    fits: Vec<Option<PlaneFit>>,
 }
 
 impl Joiner<'_> {
@@ -220,8 +220,8 @@ impl Joiner<'_> {
     /// Leaves out what is too narrow to have a plane, and numbers the rest by area.
     fn finish(self) -> Regions {
         let Self { mut of, fits, .. } = self;
-        let kept = |f: &Fit| f.width > NARROW * self.tolerance;
-        let mut left: Vec<(usize, Fit)> =
+        let kept = |f: &PlaneFit| f.width > NARROW * self.tolerance;
+        let mut left: Vec<(usize, PlaneFit)> =
             fits.into_iter().enumerate().filter_map(|(old, fit)| Some((old, fit.filter(kept)?))).collect();
         left.sort_by(|(i, a), (j, b)| b.area.total_cmp(&a.area).then(i.cmp(j)));
         let mut number = vec![NOWHERE; self.members.len()];

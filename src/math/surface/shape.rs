@@ -73,7 +73,7 @@ pub struct Faceted {
 
 /// What a closed surface is.
 #[derive(Debug, Clone, PartialEq)]
-pub enum Shape {
+pub enum SurfaceKind {
     /// A convex solid between planes.
     Convex(Box<Faceted>),
     /// Anything else: to be traced as triangles, as it was given.
@@ -81,7 +81,7 @@ pub enum Shape {
 }
 
 /// Finds the facets of a closed surface, as [`Surface::mend`] answers it.
-pub fn facets(surface: Surface) -> Shape {
+pub fn facets(surface: Surface) -> SurfaceKind {
     let (low, high) = surface.bounds();
     let centre = (low + high) / 2.0;
     let mut moved = surface.clone();
@@ -102,13 +102,15 @@ pub fn facets(surface: Surface) -> Shape {
         let smooth = noise::smoothed(&moved);
         let of_scan = |noise: &f64| {
             let limits = (noise * size, SAME_SCAN / noise);
-            let is_noise = |solid: &Solid| noise::is_noise(&moved, &solid.polytope);
+            let is_noise = |solid: &MatchingSolid| noise::is_noise(&moved, &solid.polytope);
             let rough = solid(&moved, &edges, &hull, limits).filter(is_noise);
             rough.or_else(|| of_smooth(&moved, &smooth, &edges, &hull, limits).filter(is_noise))
         };
         let scan = SCANS.iter().find_map(of_scan);
-        let Some(solid) = scan.or_else(|| hull.get()?.meant(&moved)) else { return Shape::Concave(surface) };
-        return Shape::Convex(Box::new(changed(moved, centre, solid)));
+        let Some(solid) = scan.or_else(|| hull.get()?.meant(&moved)) else {
+            return SurfaceKind::Concave(surface);
+        };
+        return SurfaceKind::Convex(Box::new(changed(moved, centre, solid)));
     };
     // Noise may have split facets that a larger tolerance keeps whole.
     let limit = AS_GOOD * best.deviation;
@@ -120,7 +122,7 @@ pub fn facets(surface: Surface) -> Shape {
             best = next;
         }
     }
-    Shape::Convex(Box::new(faceted(moved, centre, best)))
+    SurfaceKind::Convex(Box::new(faceted(moved, centre, best)))
 }
 
 /// The convex solid of a closed surface's corners, whatever lies between them: its own facets where it is convex, else
@@ -130,8 +132,8 @@ pub fn facets(surface: Surface) -> Shape {
 /// Where the hull is curved: it would take too many facets.
 pub fn faceted_hull(surface: Surface) -> Result<Box<Faceted>, TooCurved> {
     let surface = match facets(surface) {
-        Shape::Convex(found) => return Ok(found),
-        Shape::Concave(surface) => surface,
+        SurfaceKind::Convex(found) => return Ok(found),
+        SurfaceKind::Concave(surface) => surface,
     };
     let (low, high) = surface.bounds();
     let centre = (low + high) / 2.0;
@@ -147,7 +149,7 @@ pub fn faceted_hull(surface: Surface) -> Result<Box<Faceted>, TooCurved> {
 pub struct TooCurved;
 
 /// Whether facets that are neighbours lean apart by no more than noise could make halves of one lean.
-fn is_split(solid: &Solid) -> bool {
+fn is_split(solid: &MatchingSolid) -> bool {
     let facets = solid.polytope.facets();
     let fit = |f: &Facet| solid.found.fits[f.source];
     let near = |f: &Facet, g: &Facet| {
@@ -159,7 +161,7 @@ fn is_split(solid: &Solid) -> bool {
 }
 
 /// A solid that reproduces a surface.
-pub(super) struct Solid {
+pub(super) struct MatchingSolid {
     pub found: Regions,
     pub polytope: Polytope,
     pub deviation: f64,
@@ -173,7 +175,7 @@ pub(super) fn solid(
     edges: &Edges,
     hull: &LazyHull<'_>,
     (tolerance, same): (f64, f64),
-) -> Option<Solid> {
+) -> Option<MatchingSolid> {
     match gathered(surface, edges, (tolerance, same)) {
         Ok(solid) => Some(solid),
         Err(found) => put_right(surface, edges, hull, found?, (tolerance, same)),
@@ -187,7 +189,7 @@ fn put_right(
     hull: &LazyHull<'_>,
     found: Regions,
     (tolerance, same): (f64, f64),
-) -> Option<Solid> {
+) -> Option<MatchingSolid> {
     let found = settle::settled(surface, edges, hull.get()?, found, tolerance)?;
     reproduced(surface, found, (tolerance, same)).ok()
 }
@@ -198,7 +200,7 @@ fn gathered(
     surface: &Surface,
     edges: &Edges,
     (tolerance, same): (f64, f64),
-) -> Result<Solid, Option<Regions>> {
+) -> Result<MatchingSolid, Option<Regions>> {
     let found = regions(surface, edges, tolerance, MOST_FACETS).ok_or(None)?;
     if is_round(surface, edges, &found, tolerance) {
         return Err(None);
@@ -214,20 +216,24 @@ fn of_smooth(
     edges: &Edges,
     hull: &LazyHull<'_>,
     (tolerance, same): (f64, f64),
-) -> Option<Solid> {
+) -> Option<MatchingSolid> {
     let found = regions(smooth, edges, tolerance, MOST_FACETS)?;
     let found = (!is_round(smooth, edges, &found, tolerance)).then_some(found)?;
     put_right(surface, edges, hull, found, (tolerance, same))
 }
 
 /// The solid between the planes of regions, if it is the surface; else the regions.
-fn reproduced(surface: &Surface, found: Regions, (tolerance, same): (f64, f64)) -> Result<Solid, Regions> {
+fn reproduced(
+    surface: &Surface,
+    found: Regions,
+    (tolerance, same): (f64, f64),
+) -> Result<MatchingSolid, Regions> {
     let planes: Vec<Plane> = found.fits.iter().map(|f| f.plane).collect();
     let Ok(polytope) = Polytope::from_planes(&planes) else { return Err(found) };
     let deviation = deviation(&polytope, &surface.vertices);
     let swelling = (polytope.volume() - surface.volume()).abs();
     let is_same = deviation <= same * tolerance && swelling <= SAME * tolerance * polytope.surface_area();
-    if is_same { Ok(Solid { found, polytope, deviation, tolerance }) } else { Err(found) }
+    if is_same { Ok(MatchingSolid { found, polytope, deviation, tolerance }) } else { Err(found) }
 }
 
 /// How far the point that is farthest off lies from a solid's surface; of a point outside, how far it lies outside
@@ -264,13 +270,13 @@ fn is_round(surface: &Surface, edges: &Edges, found: &Regions, tolerance: f64) -
 }
 
 /// What is found where a surface that is not convex is read as a convex solid.
-fn changed(surface: Surface, centre: DVec3, solid: Solid) -> Faceted {
+fn changed(surface: Surface, centre: DVec3, solid: MatchingSolid) -> Faceted {
     let change = Change::of(&surface, &solid.polytope);
     Faceted { change: Some(change), ..faceted(surface, centre, solid) }
 }
 
-fn faceted(surface: Surface, centre: DVec3, solid: Solid) -> Faceted {
-    let Solid { found, polytope, deviation, tolerance } = solid;
+fn faceted(surface: Surface, centre: DVec3, solid: MatchingSolid) -> Faceted {
+    let MatchingSolid { found, polytope, deviation, tolerance } = solid;
     let names = names(&surface, &found);
     let face =
         |r: usize| Face { plane: found.fits[r].plane, area: found.fits[r].area, name: names[r].clone() };

@@ -58,8 +58,8 @@ fn shaken(surface: &Surface, by: f64, seed: u64) -> Surface {
 
 fn faceted(surface: Surface) -> Faceted {
     match facets(surface) {
-        Shape::Convex(found) => *found,
-        Shape::Concave(_) => panic!("taken for concave"),
+        SurfaceKind::Convex(found) => *found,
+        SurfaceKind::Concave(_) => panic!("taken for concave"),
     }
 }
 
@@ -179,7 +179,7 @@ fn a_cavity_faces_its_inside_and_two_stones_face_outward() {
     let mended = nested.mend().unwrap();
     assert_eq!(mended.mending.shells, 2);
     assert!((mended.surface.volume() - 7.0).abs() < 1e-12);
-    assert!(matches!(facets(mended.surface), Shape::Concave(_)));
+    assert!(matches!(facets(mended.surface), SurfaceKind::Concave(_)));
     inner.vertices.iter_mut().for_each(|v| *v += 3.0 * DVec3::X);
     inner.triangles.iter_mut().for_each(|t| t.swap(0, 1));
     let mut beside = outer;
@@ -201,8 +201,8 @@ fn a_dent_is_concave_and_a_dent_within_the_noise_is_not() {
         dented.groups.extend([dented.groups[0]; 2]);
         facets(dented.mend().unwrap().surface)
     };
-    assert!(matches!(dented(0.02), Shape::Concave(_)));
-    let Shape::Convex(found) = dented(5e-4) else { panic!("noise was taken for a dent") };
+    assert!(matches!(dented(0.02), SurfaceKind::Concave(_)));
+    let SurfaceKind::Convex(found) = dented(5e-4) else { panic!("noise was taken for a dent") };
     assert!(found.faces.len() == 6 && found.deviation > 1e-4 && found.deviation < 6e-4);
 }
 
@@ -222,7 +222,7 @@ fn a_ball_is_round_and_not_cut_into_facets() {
     let triangles = (0..rings).flat_map(|i| (0..sides).flat_map(move |k| cell(i, k))).collect();
     let ball = Surface::new(vertices, triangles).mend().unwrap().surface;
     assert!((ball.volume() / (4.0 / 3.0 * std::f64::consts::PI) - 1.0).abs() < 0.01);
-    assert!(matches!(facets(ball), Shape::Concave(_)));
+    assert!(matches!(facets(ball), SurfaceKind::Concave(_)));
 }
 
 #[test]

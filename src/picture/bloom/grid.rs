@@ -7,7 +7,7 @@ use rayon::prelude::*;
 
 /// The mean light of each cell; the fourth number is idle.
 #[derive(Debug, Clone)]
-pub(super) struct Grid {
+pub(super) struct LightGrid {
     pub width: usize,
     pub height: usize,
     pub cells: Vec<Vec4>,
@@ -25,7 +25,7 @@ const SOFTENED: f64 = 1.5;
 /// What a cell gets of the four across it when a grid is halved: the converse of straight lines between cells.
 const SHARED: [f32; 4] = [0.125, 0.375, 0.375, 0.125];
 
-impl Grid {
+impl LightGrid {
     /// A grid by a function of column and row.
     pub fn filled(width: usize, height: usize, at: impl Fn(usize, usize) -> Vec4 + Sync) -> Self {
         let mut cells = vec![Vec4::ZERO; width * height];

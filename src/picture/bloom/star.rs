@@ -5,7 +5,7 @@
 //! it is and the picture is read, and written, beside it (W. J. Paeth's shear, "A Fast Algorithm for General
 //! Raster Rotation", Graphics Interface 1986), which softens a ray once instead of at every step.
 
-use super::grid::Grid;
+use super::grid::LightGrid;
 use glam::Vec4;
 use std::f64::consts::TAU;
 
@@ -29,7 +29,7 @@ struct Ray {
 }
 
 /// The light of a grid in `rays` rays of this length in cells, the first of them upright.
-pub(super) fn star(source: &Grid, rays: u32, length: f64) -> Grid {
+pub(super) fn star(source: &LightGrid, rays: u32, length: f64) -> LightGrid {
     let angles = (0..rays).map(|k| TAU * f64::from(k) / f64::from(rays));
     let (steep, flat): (Vec<_>, Vec<_>) =
         angles.map(|a| (a.sin(), -a.cos())).partition(|(x, y)| y.abs() >= x.abs());
@@ -47,8 +47,8 @@ pub(super) fn star(source: &Grid, rays: u32, length: f64) -> Grid {
 }
 
 /// The rays of these directions, each with its share of the light.
-fn rows_of(source: &Grid, directions: &[(f64, f64)], length: f64, share: f32) -> Grid {
-    let mut sum = Grid::dark(source.width, source.height);
+fn rows_of(source: &LightGrid, directions: &[(f64, f64)], length: f64, share: f32) -> LightGrid {
+    let mut sum = LightGrid::dark(source.width, source.height);
     for &(x, y) in directions {
         let ray = Ray { down: y > 0.0, slope: x / y.abs(), step: 1.0 / y.abs() };
         ray.add(source, length, share, &mut sum);
@@ -57,7 +57,7 @@ fn rows_of(source: &Grid, directions: &[(f64, f64)], length: f64, share: f32) ->
 }
 
 impl Ray {
-    fn add(&self, source: &Grid, length: f64, share: f32, sum: &mut Grid) {
+    fn add(&self, source: &LightGrid, length: f64, share: f32, sum: &mut LightGrid) {
         let width = source.width;
         let kept = TINT.map(|tint| (-self.step / (length * tint).max(SHORTEST)).exp() as f32);
         let kept = Vec4::new(kept[0], kept[1], kept[2], 0.0);

@@ -2,8 +2,8 @@
 
 use super::{Code, lay_over};
 use crate::math::{Edge, Plane, Solid};
-use crate::trace::ray::Sight;
-use crate::trace::sitting::Sitting;
+use crate::trace::ray::SceneProbe;
+use crate::trace::sampling::LitScene;
 use glam::{DMat2, DVec2, DVec3};
 
 /// Width of a line, pixels.
@@ -38,13 +38,13 @@ struct Wire {
 pub(super) struct Wires(Vec<Wire>);
 
 impl Wires {
-    pub fn new(sitting: &Sitting, sight: &Sight) -> Self {
-        let of_stone = |(stone, solid)| wires(sitting, sight, stone, solid);
-        Self(sitting.stones().enumerate().flat_map(of_stone).collect())
+    pub fn new(lit_scene: &LitScene, sight: &SceneProbe) -> Self {
+        let of_stone = |(stone, solid)| wires(lit_scene, sight, stone, solid);
+        Self(lit_scene.solids().enumerate().flat_map(of_stone).collect())
     }
 
     /// Draws all that is near a row's middle over it.
-    pub fn draw(&self, sight: &Sight, y: usize, row: &mut [u8]) {
+    pub fn draw(&self, sight: &SceneProbe, y: usize, row: &mut [u8]) {
         let (pixels, _) = row.as_chunks_mut();
         // The distance of each pixel from the nearest line: of those that the eye sees, of those behind.
         let mut nearest = vec![[f64::INFINITY; 2]; pixels.len()];
@@ -58,8 +58,8 @@ impl Wires {
     }
 }
 
-fn wires(sitting: &Sitting, sight: &Sight, stone: usize, solid: &Solid) -> Vec<Wire> {
-    let pixels = sitting.film.pixels_from_image(DMat2::IDENTITY);
+fn wires(lit_scene: &LitScene, sight: &SceneProbe, stone: usize, solid: &Solid) -> Vec<Wire> {
+    let pixels = lit_scene.film.pixels_from_image(DMat2::IDENTITY);
     let wire = |edge: Edge| {
         let [a, b] = edge.ends.map(|p| sight.camera.project(p));
         let (a, b) = (a?, b?);
@@ -73,7 +73,7 @@ fn wires(sitting: &Sitting, sight: &Sight, stone: usize, solid: &Solid) -> Vec<W
 
 impl Wire {
     /// Notes how near it comes to the pixels of a row.
-    fn mark(&self, sight: &Sight, y: f64, nearest: &mut [[f64; 2]]) {
+    fn mark(&self, sight: &SceneProbe, y: f64, nearest: &mut [[f64; 2]]) {
         let [a, b] = self.ends;
         let Some((from, to)) = columns(self.ends, y, nearest.len()) else { return };
         let along = b - a;
@@ -91,7 +91,7 @@ impl Wire {
     }
 
     /// Whether a stone stands before the point of it at this part of its way through the picture.
-    fn is_hidden(&self, sight: &Sight, part: f64) -> bool {
+    fn is_hidden(&self, sight: &SceneProbe, part: f64) -> bool {
         if sight.tracers.len() < 2 && sight.tracers[0].is_convex() {
             return false;
         }

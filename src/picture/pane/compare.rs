@@ -10,14 +10,14 @@ mod cost;
 pub use cost::{Cost, Shifts};
 
 use super::parts::{TOWARD_LIGHT, thickness};
-use super::{Pane, laid, pane as approximated, plain};
-use crate::math::{Field, FieldError, Form};
+use super::{GlassPane, laid, pane as approximated, plain};
+use crate::math::{ImplicitForm, ImplicitSurface, ImplicitSurfaceError};
 use crate::optics::{Dispersion, DispersionError, Illuminant, Material, Stratum, strata};
 use crate::picture::{Backdrop, Linear, RefractionMap, Survey, spectral};
-use crate::scene::{Dome, Film, Lamp, Light, Panorama, Placed, Setting, View};
-use crate::trace::ray::{ByRays, Options};
-use crate::trace::sitting::Sitting;
-use crate::trace::surround::{Behind, Sky, Surround};
+use crate::scene::{Dome, Film, Instance, Lamp, Light, Panorama, Scene, View};
+use crate::trace::environment::{Backplate, Environment, EnvironmentMap};
+use crate::trace::ray::{ByRays, RayOptions};
+use crate::trace::sampling::LitScene;
 use crate::trace::{Stopped, Watch};
 use cost::Sums;
 use glam::{DQuat, DVec2, DVec3};
@@ -34,9 +34,9 @@ const SQUARE_ON: f64 = 0.04;
 
 /// What a pane is traced in.
 #[derive(Debug, Clone, Copy)]
-pub struct Around<'a> {
+pub struct PaneLighting<'a> {
     /// The light around.
-    pub sky: &'a Sky,
+    pub sky: &'a EnvironmentMap,
     /// Between pane and background, in the pane's shorter side, above 0.
     pub gap: f64,
     /// Wavelengths side by side.
@@ -67,7 +67,7 @@ pub enum PaneError {
     Nowhere,
     /// There is no such body.
     #[error(transparent)]
-    Body(#[from] FieldError),
+    Body(#[from] ImplicitSurfaceError),
     /// There is no such glass.
     #[error(transparent)]
     Glass(#[from] DispersionError),
@@ -98,12 +98,12 @@ pub fn surroundings(strength: f64) -> Light {
 /// # Errors
 /// What is wrong with the pane, or [`Stopped`] when `watch` asks to stop.
 pub fn compare(
-    pane: &Pane,
+    pane: &GlassPane,
     background: &Panorama,
-    around: &Around,
+    around: &PaneLighting,
     watch: Watch,
 ) -> Result<Comparison, PaneError> {
-    let scene = Scene::new(pane, background)?;
+    let scene = PaneScene::new(pane, background)?;
     let plane = Backdrop { distance: scene.distance(around.gap), size: scene.size, both_sides: false };
     let bands = strata(3, &Illuminant::D65, true);
     let survey = Survey { bands: &bands, places: 1, shades: &[], looks: 1 };
@@ -120,18 +120,18 @@ pub fn compare(
 /// # Errors
 /// What is wrong with the pane, or [`Stopped`] when `watch` asks to stop.
 pub fn traced(
-    pane: &Pane,
+    pane: &GlassPane,
     background: &Panorama,
-    around: &Around,
+    around: &PaneLighting,
     watch: Watch,
 ) -> Result<Linear, PaneError> {
-    Ok(Scene::new(pane, background)?.traced(background, around, watch)?)
+    Ok(PaneScene::new(pane, background)?.traced(background, around, watch)?)
 }
 
 /// The pane as a body, in a world whose unit is the pane's shorter side and whose origin is the picture's middle.
-struct Scene<'a> {
-    pane: &'a Pane,
-    setting: Setting,
+struct PaneScene<'a> {
+    pane: &'a GlassPane,
+    setting: Scene,
     /// Of the whole picture.
     size: DVec2,
     thickness: f64,
@@ -141,8 +141,8 @@ struct Scene<'a> {
     film: Film,
 }
 
-impl<'a> Scene<'a> {
-    fn new(pane: &'a Pane, background: &Panorama) -> Result<Self, PaneError> {
+impl<'a> PaneScene<'a> {
+    fn new(pane: &'a GlassPane, background: &Panorama) -> Result<Self, PaneError> {
         if !pane.is_somewhere() {
             return Err(PaneError::Nowhere);
         }
@@ -161,14 +161,15 @@ impl<'a> Scene<'a> {
         if thickness > 0.0 {
             let corner = pane.radius / unit;
             let size = (pane.size / unit).extend(thickness);
-            let body = Field::new(Form::Pane { size, corner, edge: corner.min(thickness / 2.0) })?;
+            let body =
+                ImplicitSurface::new(ImplicitForm::Pane { size, corner, edge: corner.min(thickness / 2.0) })?;
             let glass = glass(strengths.refraction, strengths.dispersion)?;
-            stones.push(Placed::new(body, glass).moved(1.0, DQuat::IDENTITY, middle.extend(0.0)));
+            stones.push(Instance::new(body, glass).moved(1.0, DQuat::IDENTITY, middle.extend(0.0)));
         }
         let centre = (0.5 * (low + high) - whole / 2.0) * up;
         Ok(Self {
             pane,
-            setting: Setting { stones, unit_mm: 1.0 },
+            setting: Scene { instances: stones, unit_mm: 1.0 },
             size: whole / unit,
             thickness,
             first,
@@ -181,22 +182,22 @@ impl<'a> Scene<'a> {
         self.thickness / 2.0 + gap
     }
 
-    fn sit<T>(&self, background: &Panorama, around: &Around, work: impl FnOnce(&Sitting) -> T) -> T {
+    fn sit<T>(&self, background: &Panorama, around: &PaneLighting, work: impl FnOnce(&LitScene) -> T) -> T {
         let view = View::default();
         let distance = self.distance(around.gap);
-        work(&Sitting {
-            setting: &self.setting,
-            surround: Surround {
-                sky: around.sky,
+        work(&LitScene {
+            scene: &self.setting,
+            environment: Environment {
+                map: around.sky,
                 basis: view.light_basis(),
                 eye: view.basis(),
                 head: 0.0,
-                behind: Some(Behind { picture: background, distance, width: self.size.x }),
+                backplate: Some(Backplate { picture: background, distance, width: self.size.x }),
                 backdrop: true,
             },
             view: &view,
             film: self.film,
-            options: Options { polarised: true, most_bounces: 64, least_weight: 1e-4 },
+            options: RayOptions { polarised: true, most_bounces: 64, least_weight: 1e-4 },
         })
     }
 
@@ -211,7 +212,7 @@ impl<'a> Scene<'a> {
         (0..across * down).map(place)
     }
 
-    fn traced(&self, background: &Panorama, around: &Around, watch: Watch) -> Result<Linear, Stopped> {
+    fn traced(&self, background: &Panorama, around: &PaneLighting, watch: Watch) -> Result<Linear, Stopped> {
         let looks = (around.strata, around.looks.max(1));
         let (piece, _) = self.sit(background, around, |sitting| {
             let prepare = |rows| Ok::<_, Stopped>(ByRays::new(*sitting, rows));

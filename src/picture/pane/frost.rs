@@ -1,6 +1,6 @@
 //! Frost: places around a place, moved by noise.
 
-use super::Dome;
+use super::DomePoint;
 use glam::{DVec2, IVec2};
 
 /// How far samples stray at most, in the pane's shorter side.
@@ -19,7 +19,7 @@ const CROSS: [DVec2; 5] = [
 ];
 
 /// Where the samples stand around a place of the pane, all of the same weight; without frost one, there.
-pub(super) fn taps(at: DVec2, dome: &Dome, strength: f64, count: usize) -> Vec<DVec2> {
+pub(super) fn taps(at: DVec2, dome: &DomePoint, strength: f64, count: usize) -> Vec<DVec2> {
     let reach = BLUR * (dome.normal.x.abs() + dome.normal.y.abs()) * strength / 100.0;
     if reach == 0.0 {
         return vec![DVec2::ZERO];

@@ -4,7 +4,7 @@ use glam::{DVec2, DVec3};
 
 /// A rectangle with rounded corners around the origin.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Outline {
+pub struct PaneOutline {
     /// Half its width and height, above 0.
     pub half: DVec2,
     /// Radius of its corners, 0 to the lesser half.
@@ -13,7 +13,7 @@ pub struct Outline {
 
 /// A place on the dome over an outline.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Dome {
+pub struct DomePoint {
     /// How far it is from the middle: 0 there, 1 on the outline and beyond, even along every line from the middle.
     pub distance: f64,
     /// Unit direction from the middle; 0 in the middle.
@@ -22,7 +22,7 @@ pub struct Dome {
     pub normal: DVec3,
 }
 
-impl Outline {
+impl PaneOutline {
     /// Signed distance of a place from the outline, negative inside.
     pub fn distance(&self, at: DVec2) -> f64 {
         let beyond = at.abs() - (self.half - self.radius);
@@ -30,11 +30,11 @@ impl Outline {
     }
 
     /// The dome at a place; beyond the outline as on it.
-    pub fn dome(&self, at: DVec2) -> Dome {
+    pub fn dome(&self, at: DVec2) -> DomePoint {
         let (distance, outward) = self.gauge(at.abs());
         let distance = distance.min(1.0);
         let level = outward * at.signum() * distance;
-        Dome {
+        DomePoint {
             distance,
             radial: at.try_normalize().unwrap_or(DVec2::ZERO),
             normal: level.extend((1.0 - distance * distance).max(0.0).sqrt()),

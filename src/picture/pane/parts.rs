@@ -1,6 +1,6 @@
 //! The specification's formulas, one function each; lengths in the pane's shorter side, strengths 0 to 100.
 
-use super::Dome;
+use super::DomePoint;
 use glam::{DVec2, DVec3};
 
 /// Toward the light: from above, at 53 degrees of elevation. y is down.
@@ -21,7 +21,7 @@ pub fn falloff(distance: f64) -> f64 {
 }
 
 /// Refraction: how far toward the middle what is seen lies.
-pub fn refraction(dome: &Dome, strength: f64) -> DVec2 {
+pub fn refraction(dome: &DomePoint, strength: f64) -> DVec2 {
     let by_normal = dome.normal.truncate() * 0.015;
     let by_radius = dome.radial * dome.distance * 0.008;
     (by_normal + by_radius) * falloff(dome.distance) * strength / 100.0
@@ -33,14 +33,14 @@ pub fn thickness(strength: f64) -> f64 {
 }
 
 /// Depth: how far toward the middle and, by half as much at most, up what is seen lies, for the body under the surface.
-pub fn depth(dome: &Dome, strength: f64) -> DVec2 {
+pub fn depth(dome: &DomePoint, strength: f64) -> DVec2 {
     let thickness = thickness(strength);
     let along = dome.normal.truncate() * thickness * 0.1 + DVec2::new(0.0, thickness * 0.05);
     along * (1.0 - 0.3 * dome.distance)
 }
 
 /// Dispersion: how far outward red, green and blue are looked up.
-pub fn dispersion(dome: &Dome, strength: f64) -> [DVec2; 3] {
+pub fn dispersion(dome: &DomePoint, strength: f64) -> [DVec2; 3] {
     let amount = dome.distance * 0.003 * strength / 100.0;
     APART.map(|part| dome.radial * (amount * part))
 }

@@ -22,13 +22,13 @@ pub fn even(colour: [f32; 3]) -> Panorama {
 }
 
 /// All strengths in full, in the picture's middle.
-pub fn full() -> Pane {
+pub fn full() -> GlassPane {
     let place = (DVec2::new(10.0, 9.0), DVec2::new(52.0, 38.0));
-    Pane { frost: 100.0, light: 100.0, ..Pane::clear(place.0, place.1, 12.0) }
+    GlassPane { frost: 100.0, light: 100.0, ..GlassPane::clear(place.0, place.1, 12.0) }
 }
 
-pub fn none() -> Pane {
-    Pane { refraction: 0.0, depth: 0.0, dispersion: 0.0, frost: 0.0, light: 0.0, ..full() }
+pub fn none() -> GlassPane {
+    GlassPane { refraction: 0.0, depth: 0.0, dispersion: 0.0, frost: 0.0, light: 0.0, ..full() }
 }
 
 /// The greatest difference between two pictures.
@@ -46,9 +46,9 @@ fn near(found: f64, expected: f64) {
 fn a_pane_without_strength_leaves_the_background_to_the_bit() {
     let background = pattern(false);
     for quality in [Quality::High, Quality::Medium, Quality::Low] {
-        assert!(pane(&Pane { quality, ..none() }, &background, 1) == plain(&background));
+        assert!(pane(&GlassPane { quality, ..none() }, &background, 1) == plain(&background));
     }
-    let faint = Pane { light: 1.0, ..none() };
+    let faint = GlassPane { light: 1.0, ..none() };
     assert!(
         pane(&faint, &background, 1) != plain(&background),
         "the comparison sees one percent of the light"
@@ -83,7 +83,7 @@ fn the_formulas_are_those_of_the_specification() {
     }
     near(smoothstep(0.0, 0.8, 0.2), 0.15625);
     // Halfway to the right border of a pane 2 by 1: N = (0.5, 0, √0.75).
-    let outline = Outline { half: DVec2::new(1.0, 0.5), radius: 0.25 };
+    let outline = PaneOutline { half: DVec2::new(1.0, 0.5), radius: 0.25 };
     let dome = outline.dome(DVec2::new(0.5, 0.0));
     let expected = (0.5, DVec2::X, DVec3::new(0.5, 0.0, 0.75_f64.sqrt()));
     assert_eq!((dome.distance, dome.radial, dome.normal), expected);
@@ -100,11 +100,11 @@ fn the_formulas_are_those_of_the_specification() {
     // Level, away from the light: the rim alone.
     near(light(DVec3::Y, 50.0), 0.15);
     // All together at a place: a pane of 100 by 50 pixels.
-    let pane = Pane {
+    let pane = GlassPane {
         refraction: 40.0,
         depth: 50.0,
         dispersion: 80.0,
-        ..Pane::clear(DVec2::ZERO, DVec2::new(100.0, 50.0), 12.5)
+        ..GlassPane::clear(DVec2::ZERO, DVec2::new(100.0, 50.0), 12.5)
     };
     let [red, green, _] = pane.shifts(DVec2::new(75.0, 25.0));
     near(green.x, -50.0 * (0.4 * 0.0115 * 0.683_593_75 + 0.002_55));
@@ -115,8 +115,11 @@ fn the_formulas_are_those_of_the_specification() {
 #[test]
 fn the_dome_is_upright_in_the_middle_level_on_the_outline_and_without_a_jump() {
     for (half, radius) in [((1.7, 0.5), 0.2), ((0.5, 0.9), 0.5), ((0.5, 0.5), 0.5), ((0.8, 0.5), 0.01)] {
-        let outline = Outline { half: DVec2::from(half), radius };
-        assert_eq!(outline.dome(DVec2::ZERO), Dome { distance: 0.0, radial: DVec2::ZERO, normal: DVec3::Z });
+        let outline = PaneOutline { half: DVec2::from(half), radius };
+        assert_eq!(
+            outline.dome(DVec2::ZERO),
+            DomePoint { distance: 0.0, radial: DVec2::ZERO, normal: DVec3::Z }
+        );
         for k in 0..720 {
             let way = DVec2::from_angle(f64::from(k).to_radians() / 2.0);
             let border = way / outline.dome(way * 0.01).distance * 0.01;
@@ -141,7 +144,7 @@ fn without_dispersion_grey_stays_grey_and_with_it_it_does_not() {
     let mut grey = pattern(false);
     grey.pixels.iter_mut().for_each(|p| *p = [p[0]; 3]);
     let colour = |dispersion| {
-        let picture = pane(&Pane { dispersion, ..full() }, &grey, 1);
+        let picture = pane(&GlassPane { dispersion, ..full() }, &grey, 1);
         let spread = |p: &[f32; 4]| (p[0] - p[1]).abs().max((p[2] - p[1]).abs());
         picture.pixels.iter().map(spread).fold(0.0, f32::max)
     };
@@ -151,28 +154,29 @@ fn without_dispersion_grey_stays_grey_and_with_it_it_does_not() {
 #[test]
 fn each_quality_does_what_it_says() {
     let background = pattern(false);
-    let of = |quality, other: Pane| pane(&Pane { quality, ..other }, &background, 1);
-    let plain_refraction = Pane { refraction: 70.0, ..none() };
+    let of = |quality, other: GlassPane| pane(&GlassPane { quality, ..other }, &background, 1);
+    let plain_refraction = GlassPane { refraction: 70.0, ..none() };
     for quality in [Quality::High, Quality::Medium] {
         assert!(of(quality, plain_refraction) == of(Quality::Low, plain_refraction));
     }
-    let tinted = Pane { tint: DVec4::new(0.2, 0.4, 0.9, 0.5), ..full() };
-    assert!(of(Quality::Low, Pane { refraction: 70.0, ..tinted }) == of(Quality::Low, plain_refraction));
+    let tinted = GlassPane { tint: DVec4::new(0.2, 0.4, 0.9, 0.5), ..full() };
+    assert!(of(Quality::Low, GlassPane { refraction: 70.0, ..tinted }) == of(Quality::Low, plain_refraction));
     // Without frost the middle one is the full one of a dispersion of 30 at most.
-    let clear = Pane { frost: 0.0, ..tinted };
-    assert!(of(Quality::Medium, clear) == of(Quality::High, Pane { dispersion: 30.0, ..clear }));
+    let clear = GlassPane { frost: 0.0, ..tinted };
+    assert!(of(Quality::Medium, clear) == of(Quality::High, GlassPane { dispersion: 30.0, ..clear }));
     assert!(of(Quality::Medium, clear) != of(Quality::High, clear));
-    let few = Pane { dispersion: 20.0, ..clear };
+    let few = GlassPane { dispersion: 20.0, ..clear };
     assert!(of(Quality::Medium, few) == of(Quality::High, few));
     assert!(
-        of(Quality::Medium, Pane { frost: 100.0, ..few }) != of(Quality::High, Pane { frost: 100.0, ..few })
+        of(Quality::Medium, GlassPane { frost: 100.0, ..few })
+            != of(Quality::High, GlassPane { frost: 100.0, ..few })
     );
     assert!("best".parse::<Quality>().is_err() && "Low".parse() == Ok(Quality::Low));
 }
 
 #[test]
 fn frost_is_the_same_every_time_and_keeps_an_even_background() {
-    let frost = Pane { frost: 100.0, ..none() };
+    let frost = GlassPane { frost: 100.0, ..none() };
     let background = pattern(false);
     let seen = pane(&frost, &background, 1);
     assert!(seen == pane(&frost, &background, 1) && apart(&seen, &plain(&background)) > 0.01);
@@ -200,7 +204,7 @@ fn frost_is_the_same_every_time_and_keeps_an_even_background() {
 #[test]
 fn a_tint_covers_by_its_alpha() {
     let background = even([0.8, 0.4, 0.2]);
-    let tinted = |tint| pane(&Pane { tint, ..none() }, &background, 1);
+    let tinted = |tint| pane(&GlassPane { tint, ..none() }, &background, 1);
     assert!(tinted(DVec4::new(0.1, 0.9, 0.5, 0.0)) == plain(&background));
     let middle = |picture: Linear| picture.pixels[28 * 72 + 36];
     let half = middle(tinted(DVec4::new(0.2, 0.6, 1.0, 0.5)));
@@ -214,7 +218,7 @@ fn a_tint_covers_by_its_alpha() {
 fn what_is_symmetric_stays_so() {
     let background = pattern(true);
     // Frost alone is not: its noise is as it falls.
-    let seen = pane(&Pane { frost: 0.0, ..full() }, &background, 1);
+    let seen = pane(&GlassPane { frost: 0.0, ..full() }, &background, 1);
     let mirrored = Linear {
         pixels: seen.pixels.chunks(72).flat_map(|row| row.iter().rev().copied()).collect(),
         ..seen.clone()
@@ -229,16 +233,19 @@ fn no_pane_makes_it_panic() {
     let bad = [f64::NAN, f64::INFINITY, -1e300, 1e300, 0.0, -1.0, 1e-300];
     for v in bad {
         for w in bad {
-            let place = Pane::clear(DVec2::new(v, 3.0), DVec2::new(20.0, w), w);
-            let strengths = Pane { refraction: v, depth: w, dispersion: v, frost: w, light: v, ..full() };
-            for one in [place, strengths, Pane { corner: DVec2::splat(w), size: DVec2::splat(v), ..full() }] {
+            let place = GlassPane::clear(DVec2::new(v, 3.0), DVec2::new(20.0, w), w);
+            let strengths =
+                GlassPane { refraction: v, depth: w, dispersion: v, frost: w, light: v, ..full() };
+            for one in
+                [place, strengths, GlassPane { corner: DVec2::splat(w), size: DVec2::splat(v), ..full() }]
+            {
                 assert_eq!(pane(&one, &background, 1).pixels.len(), background.pixels.len());
             }
         }
     }
-    let over_the_border = Pane { corner: DVec2::new(-20.0, 40.0), ..full() };
+    let over_the_border = GlassPane { corner: DVec2::new(-20.0, 40.0), ..full() };
     assert!(pane(&over_the_border, &background, 1) != plain(&background));
-    assert!(pane(&Pane { radius: 20.0, ..full() }, &background, 1) == plain(&background));
+    assert!(pane(&GlassPane { radius: 20.0, ..full() }, &background, 1) == plain(&background));
 }
 
 #[test]

@@ -1,11 +1,11 @@
 //! Tracing a refraction map.
 
-use super::{Backdrop, Carried, MapBand, Place, RefractionMap, Survey};
+use super::{Backdrop, Carried, MapBand, RefractionMap, SourcePlace, Survey};
 use crate::optics::Stratum;
 use crate::picture::{LUMINANCE, Linear};
-use crate::trace::ray::{Camera, Company, First, Waiting};
-use crate::trace::sitting::{Look, Sitting};
-use crate::trace::surround::Surround;
+use crate::trace::environment::Environment;
+use crate::trace::ray::{Camera, First, SceneTracer, WaitingRay};
+use crate::trace::sampling::{LitScene, SamplePass};
 use crate::trace::{Stopped, Watch};
 use glam::{DMat3, DVec2, DVec3};
 use rayon::prelude::*;
@@ -18,7 +18,7 @@ const PIECE: u32 = 8;
 
 /// What is found of one row: its places band by band, its diffuse layer, and sums of what is carried with their number.
 struct Row {
-    places: Vec<Vec<Place>>,
+    places: Vec<Vec<SourcePlace>>,
     diffuse: Vec<[f32; 4]>,
     behind: f64,
     single: f64,
@@ -27,13 +27,13 @@ struct Row {
 
 /// What is surveyed.
 struct Scene<'a> {
-    sitting: &'a Sitting<'a>,
-    surround: Surround<'a>,
+    lit_scene: &'a LitScene<'a>,
+    environment: Environment<'a>,
     plane: &'a Backdrop,
     /// Pixels of the picture that the plane is wide and high, seen straight on.
     pixels: DVec2,
     camera: Camera,
-    company: Company,
+    company: SceneTracer,
 }
 
 impl RefractionMap {
@@ -42,25 +42,25 @@ impl RefractionMap {
     /// # Errors
     /// [`Stopped`] when `watch` asks to stop.
     pub fn trace(
-        sitting: &Sitting,
+        lit_scene: &LitScene,
         plane: &Backdrop,
         survey: &Survey,
         watch: Watch,
     ) -> Result<(Self, Carried), Stopped> {
         let scene = Scene {
-            sitting,
-            surround: Surround { behind: None, ..sitting.surround },
+            lit_scene,
+            environment: Environment { backplate: None, ..lit_scene.environment },
             plane,
-            pixels: plane.size / sitting.film.pixel,
-            camera: Camera::reaching(sitting.view, sitting.reach()),
-            company: Company::new(sitting),
+            pixels: plane.size / lit_scene.film.pixel,
+            camera: Camera::reaching(lit_scene.view, lit_scene.reach()),
+            company: SceneTracer::new(lit_scene),
         };
-        let looks = |strata, count: u32| -> Vec<(Look, Vec<Company>)> {
-            let look = |number| Look::new(sitting.setting, strata, number);
+        let looks = |strata, count: u32| -> Vec<(SamplePass, Vec<SceneTracer>)> {
+            let look = |number| SamplePass::new(lit_scene.scene, strata, number);
             (0..count).map(look).map(|look| (look.clone(), scene.company.made_of(&look))).collect()
         };
         let (middle, shades) = (looks(survey.bands, 1), looks(survey.shades, survey.looks.max(1)));
-        let [width, height] = sitting.film.size;
+        let [width, height] = lit_scene.film.size;
         let band = |s: &Stratum| {
             let [_, red, green, blue] = s.response;
             MapBand { nm: s.at(0.5), response: DMat3::from_cols(red, green, blue), places: Vec::new() }
@@ -97,8 +97,13 @@ impl RefractionMap {
 }
 
 impl Scene<'_> {
-    fn row(&self, y: u32, (bands, places): (&[Company], usize), shades: &[(Look, Vec<Company>)]) -> Row {
-        let width = self.sitting.film.size[0];
+    fn row(
+        &self,
+        y: u32,
+        (bands, places): (&[SceneTracer], usize),
+        shades: &[(SamplePass, Vec<SceneTracer>)],
+    ) -> Row {
+        let width = self.lit_scene.film.size[0];
         let mut row = Row {
             places: vec![Vec::with_capacity(width as usize); bands.len() * places],
             diffuse: Vec::with_capacity(width as usize),
@@ -113,7 +118,7 @@ impl Scene<'_> {
             for (company, columns) in bands.iter().zip(row.places.chunks_mut(places)) {
                 let (found, own) = self.strongest(company, &start, first, places);
                 let all: f64 = found.iter().map(|place| f64::from(place.weight)).sum();
-                let padded = found.into_iter().chain(std::iter::repeat(Place::default()));
+                let padded = found.into_iter().chain(std::iter::repeat(SourcePlace::default()));
                 columns.iter_mut().zip(padded).for_each(|(column, place)| column.push(place));
                 if first.is_some() {
                     row.behind += all;
@@ -127,8 +132,8 @@ impl Scene<'_> {
     }
 
     /// The ray through a point of the picture, in pixels, and the stone that it meets first.
-    fn start(&self, at: DVec2) -> (Waiting, Option<First>) {
-        let start = Waiting::from_eye(self.camera.ray(self.sitting.film.image_from_pixels(at)));
+    fn start(&self, at: DVec2) -> (WaitingRay, Option<First>) {
+        let start = WaitingRay::from_eye(self.camera.ray(self.lit_scene.film.image_from_pixels(at)));
         (start, self.company.first(&start))
     }
 
@@ -136,14 +141,14 @@ impl Scene<'_> {
     /// and the weight that is their own.
     fn strongest(
         &self,
-        company: &Company,
-        start: &Waiting,
+        company: &SceneTracer,
+        start: &WaitingRay,
         first: Option<First>,
         most: usize,
-    ) -> (Vec<Place>, f64) {
+    ) -> (Vec<SourcePlace>, f64) {
         let mut paths: Vec<(DVec2, f64)> = vec![];
-        let mut leave = |ray: &Waiting| {
-            let met = self.plane.place(&self.surround.eye, ray.origin, ray.direction);
+        let mut leave = |ray: &WaitingRay| {
+            let met = self.plane.place(&self.environment.eye, ray.origin, ray.direction);
             paths.extend(met.filter(|_| ray.weight > 0.0).map(|place| (place, ray.weight)));
         };
         match &first {
@@ -168,7 +173,7 @@ impl Scene<'_> {
         }
         // What rounding has made too much.
         let scale = 1.0 / kept.iter().map(|(_, weight)| weight).sum::<f64>().max(1.0);
-        let place = |(at, weight): (DVec2, f64)| Place {
+        let place = |(at, weight): (DVec2, f64)| SourcePlace {
             u: at.x as f32,
             v: at.y as f32,
             weight: (weight * scale) as f32,
@@ -177,7 +182,7 @@ impl Scene<'_> {
     }
 
     /// What one look sees at a pixel.
-    fn shade(&self, look: &Look, bands: &[Company], corner: DVec2) -> Shade {
+    fn shade(&self, look: &SamplePass, bands: &[SceneTracer], corner: DVec2) -> Shade {
         let (start, first) = self.start(corner + look.shift);
         let mut light = Shade::default();
         let Some(first) = first else {
@@ -187,10 +192,10 @@ impl Scene<'_> {
         for (company, response) in bands.iter().zip(&look.responses) {
             company.follow(&start, &first, |ray| {
                 let way = look.middle(ray.direction, ray.sweep);
-                if self.plane.place(&self.surround.eye, ray.origin, way).is_some() {
+                if self.plane.place(&self.environment.eye, ray.origin, way).is_some() {
                     light.behind += response[1..].iter().sum::<DVec3>() * ray.weight;
                 } else {
-                    let arriving = self.surround.radiance(ray.origin, way, ray.sweep) * ray.weight;
+                    let arriving = self.environment.radiance(ray.origin, way, ray.sweep) * ray.weight;
                     let seen = response.iter().zip(arriving.to_array()).map(|(&c, l)| c * l);
                     light.elsewhere += seen.sum::<DVec3>();
                 }

@@ -2,7 +2,7 @@
 
 use super::coherency::Coherency;
 use super::split::{Landing, Ray, Splitter, twice_area};
-use super::tree::{Beams, Node};
+use super::tree::{BeamNode, Beams};
 use crate::math::{Affine, Polytope, integral_of_decay};
 use crate::optics::{fresnel, reflect, refract};
 use crate::scene::Medium;
@@ -31,7 +31,7 @@ pub(super) struct Front {
 /// The beams that one piece of work found. Its nodes are numbered on from those that were there before.
 #[derive(Default)]
 pub(super) struct Growth {
-    pub nodes: Vec<Node>,
+    pub nodes: Vec<BeamNode>,
     pub corners: Vec<DVec2>,
     /// Beams too weak to be followed.
     pub left: Vec<Front>,
@@ -113,7 +113,7 @@ fn land(
     beams: &Beams,
     (id, start): (u32, u32),
     corners: &[DVec2],
-) -> (Node, Front) {
+) -> (BeamNode, Front) {
     let (direction, normal) = (front.ray.direction, landing.normal);
     let index = beams.medium.index;
     let cos_i = direction.dot(normal);
@@ -127,7 +127,7 @@ fn land(
     let path = path_before + landing.distance;
     let own = &corners[start as usize..];
     let (before, after) = attenuated(own, path_before, path, &beams.medium, area);
-    let node = Node {
+    let node = BeamNode {
         parent: front.node,
         facet: landing.facet,
         corners: (start, own.len() as u32),

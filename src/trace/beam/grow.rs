@@ -7,7 +7,7 @@
 use super::coherency::Coherency;
 use super::follow::{Follower, Front, Growth, SLIVER, s_axis};
 use super::split::{Ray, opposites};
-use super::tree::{Beams, Node, ROOT};
+use super::tree::{BeamNode, Beams, ROOT};
 use crate::math::{Affine, Basis, Plane, Polytope, Symmetry, area, clip};
 use crate::optics::{fresnel, reflect, refract};
 use crate::scene::{Medium, View};
@@ -18,7 +18,7 @@ use std::ops::ControlFlow;
 
 /// What to trace, and how far.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Options {
+pub struct BeamOptions {
     /// Go on until no more than this part of the light is unresolved, 0 to 1.
     pub unresolved: f64,
     /// Follow polarisation; without, every surface sees unpolarised light.
@@ -29,7 +29,7 @@ pub struct Options {
     pub symmetry: bool,
 }
 
-impl Default for Options {
+impl Default for BeamOptions {
     fn default() -> Self {
         Self { unresolved: 1e-3, polarised: true, most_beams: 6_000_000, symmetry: true }
     }
@@ -58,7 +58,7 @@ pub fn trace(
     polytope: &Polytope,
     medium: Medium,
     view: &View,
-    options: &Options,
+    options: &BeamOptions,
     watch: Watch,
 ) -> Result<Beams, Stopped> {
     let mut tracer = Tracer::new(polytope, medium, view, options);
@@ -75,7 +75,7 @@ struct Tracer<'a> {
 }
 
 impl<'a> Tracer<'a> {
-    fn new(polytope: &'a Polytope, medium: Medium, view: &View, options: &Options) -> Self {
+    fn new(polytope: &'a Polytope, medium: Medium, view: &View, options: &BeamOptions) -> Self {
         let (basis, zenith) = (view.basis(), view.zenith());
         let symmetry =
             if options.symmetry { Symmetry::of(polytope.planes(), &basis, zenith) } else { Symmetry::NONE };
@@ -127,7 +127,7 @@ impl<'a> Tracer<'a> {
         let node = self.beams.nodes.len() as u32;
         let start = self.beams.corners.len() as u32;
         self.beams.corners.extend(outline);
-        self.beams.nodes.push(Node {
+        self.beams.nodes.push(BeamNode {
             parent: ROOT,
             facet,
             corners: (start, outline.len() as u32),
@@ -146,7 +146,7 @@ impl<'a> Tracer<'a> {
         self.fronts.push(Front { node, bounces: 0, ray, light, s, energy });
     }
 
-    fn run(&mut self, options: &Options, watch: Watch) -> Result<(), Stopped> {
+    fn run(&mut self, options: &BeamOptions, watch: Watch) -> Result<(), Stopped> {
         let whole = self.beams.silhouette_area / f64::from(self.beams.symmetry.order());
         let goal = options.unresolved.max(0.0) * whole;
         let mut level = whole / 64.0;

@@ -15,5 +15,5 @@ mod sweep;
 mod tree;
 
 pub use cells::Cell;
-pub use grow::{Options, trace};
+pub use grow::{BeamOptions, trace};
 pub use tree::{Beam, Beams};

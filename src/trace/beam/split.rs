@@ -35,7 +35,7 @@ impl Ray {
 
 /// A corner of an outline and the facet beyond the edge that begins there.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Corner {
+pub(super) struct OutlineCorner {
     pub at: DVec2,
     beyond: u32,
 }
@@ -47,7 +47,7 @@ pub(super) struct Landing<'a> {
     pub normal: DVec3,
     /// Distance gone, over the image.
     pub distance: Affine,
-    pub outline: &'a [Corner],
+    pub outline: &'a [OutlineCorner],
 }
 
 /// Splits beams among the facets of one polytope; holds the work space that this needs.
@@ -63,8 +63,8 @@ pub(super) struct Splitter<'a> {
     visited: Vec<u32>,
     beam: u32,
     queue: Vec<u32>,
-    outline: Vec<Corner>,
-    spare: Vec<Corner>,
+    outline: Vec<OutlineCorner>,
+    spare: Vec<OutlineCorner>,
     values: Vec<f64>,
 }
 
@@ -143,7 +143,7 @@ impl<'a> Splitter<'a> {
     /// where there is none.
     fn cell(&mut self, ray: &Ray, outline: &[DVec2], facet: u32) -> bool {
         self.outline.clear();
-        self.outline.extend(outline.iter().map(|&at| Corner { at, beyond: NONE }));
+        self.outline.extend(outline.iter().map(|&at| OutlineCorner { at, beyond: NONE }));
         let polytope = self.polytope;
         let here = self.distance[facet as usize];
         for &neighbour in &polytope.facets()[facet as usize].neighbours {
@@ -218,12 +218,12 @@ impl<'a> Splitter<'a> {
             if at_a > tolerance {
                 self.spare.push(a);
                 if leaves {
-                    self.spare.push(Corner { at: crossing(), beyond });
+                    self.spare.push(OutlineCorner { at: crossing(), beyond });
                 }
             } else if at_a >= -tolerance {
-                self.spare.push(if leaves { Corner { at: a.at, beyond } } else { a });
+                self.spare.push(if leaves { OutlineCorner { at: a.at, beyond } } else { a });
             } else if at_b > tolerance {
-                self.spare.push(Corner { at: crossing(), beyond: a.beyond });
+                self.spare.push(OutlineCorner { at: crossing(), beyond: a.beyond });
             }
         }
         std::mem::swap(&mut self.outline, &mut self.spare);

@@ -9,7 +9,7 @@ pub(super) const ROOT: u32 = u32::MAX;
 
 /// One beam at the facet that ends it.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Node {
+pub(super) struct BeamNode {
     pub parent: u32,
     pub facet: u32,
     /// First corner in [`Beams::corners`], and how many.
@@ -51,7 +51,7 @@ pub struct Beams {
     pub silhouette_area: f64,
     /// Energy of one domain lost in slivers too small to follow, part of what is unresolved.
     pub(super) dropped: f64,
-    pub(super) nodes: Vec<Node>,
+    pub(super) nodes: Vec<BeamNode>,
     pub(super) corners: Vec<DVec2>,
 }
 
@@ -139,7 +139,7 @@ impl Beams {
 
     /// The part of the silhouette's light that was not followed to its end: it bounds the error of every figure.
     pub fn unresolved(&self) -> f64 {
-        let open = |n: &Node| n.onward * n.transmittance * n.area;
+        let open = |n: &BeamNode| n.onward * n.transmittance * n.area;
         let left: f64 = self.nodes.iter().filter(|n| n.open).map(open).sum();
         (left + self.dropped) * f64::from(self.symmetry.order()) / self.silhouette_area
     }

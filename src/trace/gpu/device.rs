@@ -1,6 +1,6 @@
 //! Opening a graphics card, and what can go wrong with one.
 
-use super::shaders::{Pipelines, Reading};
+use super::shaders::{Pipelines, ShaderTask};
 use std::sync::{Arc, Mutex, PoisonError};
 use wgpu::util::DeviceExt;
 
@@ -131,7 +131,7 @@ impl Gpu {
         device.on_uncaptured_error(Arc::new(move |error: wgpu::Error| note(&other, error.to_string())));
         let name = format!("{} ({})", info.name, info.backend);
         let is_software = info.device_type == wgpu::DeviceType::Cpu;
-        let [scopes, lights] = [Reading::Scope, Reading::Light].map(Pipelines::new);
+        let [scopes, lights] = [ShaderTask::Scope, ShaderTask::Light].map(Pipelines::new);
         let gpu = Self { device, queue, scopes, lights, name, is_software, fault };
         gpu.check().map(|()| gpu)
     }

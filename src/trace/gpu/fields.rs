@@ -1,18 +1,19 @@
 //! Glass shapes, as a card takes them.
 
-use super::door::{self, with};
-use crate::math::{Field, Parts};
+use super::gpu_types::{self, with};
+use crate::math::{ImplicitSurface, SurfaceParts};
 
 /// A shape's function and where it stands: all of it can change from one picture to the next.
-pub(super) fn field(field: &Field) -> door::Field {
-    let Parts { corner, round, flank, half, edge, body_reach, wave, axes, shift, unit } = field.parts();
+pub(super) fn field(field: &ImplicitSurface) -> gpu_types::ImplicitSurface {
+    let SurfaceParts { corner, round, flank, half, edge, body_reach, wave, axes, shift, unit } =
+        field.parts();
     let is = |something: bool| f32::from(u8::from(something));
     let narrow = |v: [f64; 3]| v.map(|x| x as f32);
     let [a, b, c] = narrow([corner.x, corner.y, round]);
     let (normal, length) = flank.unwrap_or_default();
     let [x, y, length] = narrow([normal.x, normal.y, length]);
     let [amplitude, waves, phase] = narrow(wave.unwrap_or_default());
-    door::Field {
+    gpu_types::ImplicitSurface {
         right: with(axes.x_axis, half),
         back: with(axes.y_axis, edge),
         up: with(axes.z_axis, body_reach),

@@ -1,13 +1,13 @@
 //! Pictures under light, by a card.
 
 use super::device::{Gpu, GpuError};
-use super::door::{self, Lamp, Response, with};
+use super::gpu_types::{self, Lamp, Response, with};
 use super::solids::Solids;
-use super::stage::{Eye, Stage};
+use super::stage::{GpuCamera, Stage};
 use crate::math::{Solid, SolidRef};
 use crate::scene;
-use crate::trace::sitting::{Exposure, Lit, Look, Sitting};
-use crate::trace::surround::{HEAD_EDGE, Surround};
+use crate::trace::environment::{Environment, HEAD_EDGE};
+use crate::trace::sampling::{LitScene, ProgressiveImage, RadiancePixel, SamplePass};
 use crate::trace::{Stopped, Watch};
 use glam::{DVec2, DVec3};
 use std::ops::Range;
@@ -44,37 +44,41 @@ impl<'a> ByCard<'a> {
     }
 
     /// Prepares some rows of a picture, at most [`most_rows`](Self::most_rows), to be looked at in so many bands of
-    /// wavelengths, at most [`MOST_WAVELENGTHS`]; `around` is the sitting's surround.
+    /// wavelengths, at most [`MOST_WAVELENGTHS`]; `around` is the sitting's environment.
     ///
     /// # Errors
     /// What is wrong with the card, or beyond it.
     pub fn new(
         gpu: &'a Gpu,
-        sitting: &Sitting,
-        around: &Around,
+        lit_scene: &LitScene,
+        around: &GpuEnvironment,
         rows: Range<u32>,
         wavelengths: usize,
     ) -> Result<Self, GpuError> {
-        let stones: Vec<SolidRef> = sitting.stones().map(Solid::by_ref).collect();
-        let solids = Solids::new(gpu, &stones, &sitting.balls())?;
+        let stones: Vec<SolidRef> = lit_scene.solids().map(Solid::by_ref).collect();
+        let solids = Solids::new(gpu, &stones, &lit_scene.balls())?;
         let copied = |label, bytes: usize, usage| {
             let usage = usage | wgpu::BufferUsages::COPY_DST;
             gpu.buffer(label, &vec![0; bytes], usage)
         };
-        let bytes = size_of::<door::Medium>() * wavelengths * stones.len();
+        let bytes = size_of::<gpu_types::Medium>() * wavelengths * stones.len();
         let media = copied("media", bytes, wgpu::BufferUsages::STORAGE);
         let bytes = size_of::<Response>() * MOST_WAVELENGTHS;
         let responses = copied("responses", bytes, wgpu::BufferUsages::UNIFORM);
         let mut entries = solids.entries(&media);
         entries.extend(around.entries());
         entries.push(wgpu::BindGroupEntry { binding: 10, resource: responses.as_entire_binding() });
-        let eye =
-            Eye { view: sitting.view, film: sitting.film, reach: sitting.reach(), options: sitting.options };
-        let told = eye.frame(gpu, &solids, wavelengths);
-        solids.enough(gpu, told.counts[2], sitting.options.most_bounces)?;
+        let eye = GpuCamera {
+            view: lit_scene.view,
+            film: lit_scene.film,
+            reach: lit_scene.reach(),
+            options: lit_scene.options,
+        };
+        let frame = eye.frame(gpu, &solids, wavelengths);
+        solids.enough(gpu, frame.counts[2], lit_scene.options.most_bounces)?;
         let pipeline = gpu.lights.pipeline(&gpu.device, solids.facets);
-        let stage = Stage::new::<door::Lit>(gpu, pipeline, told, rows.len() as u32, entries)?;
-        let at_once = Stage::rows(gpu, sitting.film.size);
+        let stage = Stage::new::<gpu_types::RadiancePixel>(gpu, pipeline, frame, rows.len() as u32, entries)?;
+        let at_once = Stage::rows(gpu, lit_scene.film.size);
         Ok(Self {
             rows,
             at_once,
@@ -84,13 +88,14 @@ impl<'a> ByCard<'a> {
             wavelengths,
             dispatches: 0,
             looks: 0,
-            shift: sitting.film.shift(),
+            shift: lit_scene.film.shift(),
         })
     }
 
     /// Tells the card what the stones are made of and how their light is coloured.
-    fn tell(&self, look: &Look) {
-        let media: Vec<door::Medium> = look.media.iter().flatten().map(door::Medium::from).collect();
+    fn write_frame(&self, look: &SamplePass) {
+        let media: Vec<gpu_types::Medium> =
+            look.media.iter().flatten().map(gpu_types::Medium::from).collect();
         let wide = |c: DVec3| with(c, 0.0);
         let response = |r: &[DVec3; 4]| {
             let [key, red, green, blue] = r.map(wide);
@@ -102,10 +107,10 @@ impl<'a> ByCard<'a> {
     }
 }
 
-impl<E: From<Stopped> + From<GpuError>> Exposure<E> for ByCard<'_> {
-    fn look(&mut self, look: &Look, watch: Watch) -> Result<(), E> {
-        self.tell(look);
-        self.stage.told.strength[0] = look.strength as f32;
+impl<E: From<Stopped> + From<GpuError>> ProgressiveImage<E> for ByCard<'_> {
+    fn add_pass(&mut self, look: &SamplePass, watch: Watch) -> Result<(), E> {
+        self.write_frame(look);
+        self.stage.frame.strength[0] = look.strength as f32;
         let step = if self.stage.gpu.is_software() { 1 } else { AT_ONCE };
         let bands: Vec<usize> = (0..self.wavelengths).step_by(step).collect();
         for (done, &band) in bands.iter().enumerate() {
@@ -125,32 +130,32 @@ impl<E: From<Stopped> + From<GpuError>> Exposure<E> for ByCard<'_> {
         Ok(())
     }
 
-    fn lit(&self, each: &mut dyn FnMut(&Lit)) -> Result<(), E> {
+    fn each_pixel(&self, each: &mut dyn FnMut(&RadiancePixel)) -> Result<(), E> {
         let looks = 1.0 / f64::from(self.looks.max(1));
         let share = looks / self.wavelengths as f64;
-        for sum in self.stage.read::<door::Lit>(self.rows.len() as u32)? {
+        for sum in self.stage.read::<gpu_types::RadiancePixel>(self.rows.len() as u32)? {
             let [red, green, blue, cover] = sum.colour.map(f64::from);
             let [unresolved, absorbed, ..] = sum.rest.map(|x| f64::from(x) * share);
             let colour = DVec3::new(red, green, blue) * looks;
-            each(&Lit { colour, cover: cover * share, unresolved, absorbed });
+            each(&RadiancePixel { colour, cover: cover * share, unresolved, absorbed });
         }
         Ok(())
     }
 }
 
 /// What stands around, in a card's memory: the same for all rows of a picture.
-pub struct Around {
-    surround: wgpu::Buffer,
+pub struct GpuEnvironment {
+    environment: wgpu::Buffer,
     lamps: wgpu::Buffer,
     map: wgpu::TextureView,
     photo: wgpu::TextureView,
 }
 
-impl Around {
+impl GpuEnvironment {
     /// Takes it there.
-    pub fn new(gpu: &Gpu, surround: &Surround) -> Self {
-        let mut lamps: Vec<Lamp> = surround
-            .sky
+    pub fn new(gpu: &Gpu, environment: &Environment) -> Self {
+        let mut lamps: Vec<Lamp> = environment
+            .map
             .lamps
             .iter()
             .map(|l| Lamp {
@@ -158,16 +163,16 @@ impl Around {
                 radiance: l.radiance.as_vec4().to_array(),
             })
             .collect();
-        let told = told(surround, lamps.len());
+        let uniform = environment_uniform(environment, lamps.len());
         lamps.resize(MOST_LAMPS, Lamp { toward: [0.0; 4], radiance: [0.0; 4] });
-        let side = surround.sky.side as u32;
-        let levels: Vec<&[[f32; 4]]> = surround.sky.levels.iter().map(Vec::as_slice).collect();
-        let photo = surround.behind.map_or((1, 1, vec![[0.0; 4]]), |b| {
+        let side = environment.map.side as u32;
+        let levels: Vec<&[[f32; 4]]> = environment.map.levels.iter().map(Vec::as_slice).collect();
+        let photo = environment.backplate.map_or((1, 1, vec![[0.0; 4]]), |b| {
             let texel = |&[r, g, b]: &[f32; 3]| [r, g, b, 0.0];
             (b.picture.width, b.picture.height, b.picture.pixels.iter().map(texel).collect())
         });
         Self {
-            surround: gpu.buffer("surround", bytemuck::bytes_of(&told), wgpu::BufferUsages::UNIFORM),
+            environment: gpu.buffer("environment", bytemuck::bytes_of(&uniform), wgpu::BufferUsages::UNIFORM),
             lamps: gpu.buffer("lamps", bytemuck::cast_slice(&lamps), wgpu::BufferUsages::UNIFORM),
             map: texture(gpu, (side, side), &levels),
             photo: texture(gpu, (photo.0, photo.1), &[&photo.2]),
@@ -177,7 +182,7 @@ impl Around {
     fn entries(&self) -> [wgpu::BindGroupEntry<'_>; 4] {
         let entry = |binding, resource| wgpu::BindGroupEntry { binding, resource };
         [
-            entry(6, self.surround.as_entire_binding()),
+            entry(6, self.environment.as_entire_binding()),
             entry(7, self.lamps.as_entire_binding()),
             entry(8, wgpu::BindingResource::TextureView(&self.map)),
             entry(9, wgpu::BindingResource::TextureView(&self.photo)),
@@ -185,12 +190,12 @@ impl Around {
     }
 }
 
-fn told(surround: &Surround, lamps: usize) -> door::Surround {
-    let Surround { sky, basis, head, behind, backdrop, .. } = surround;
+fn environment_uniform(environment: &Environment, lamps: usize) -> gpu_types::Environment {
+    let Environment { map: sky, basis, head, backplate: behind, backdrop, .. } = environment;
     // Without a head nothing is ever so near to the axis.
     let cos_head = if *head > 0.0 { head.cos() } else { 3.0 };
     let (distance, width) = behind.map_or((0.0, 0.0), |b| (b.distance, b.width));
-    door::Surround {
+    gpu_types::Environment {
         right: with(basis.right, sky.side as f64),
         up: with(basis.up, lamps as f64),
         zenith: with(basis.toward, (sky.levels.len() - 1) as f64),

@@ -3,10 +3,10 @@
 //! Everything that can be edited (facets, medium, view, scope) is data in a buffer: shaders are compiled once, when
 //! the card is opened.
 
-mod bunches;
+mod clusters;
 mod device;
-mod door;
 mod fields;
+mod gpu_types;
 mod light;
 mod scope;
 mod shaders;
@@ -15,11 +15,11 @@ mod stage;
 mod triangles;
 
 pub use device::{Gpu, GpuError};
-pub use door::Seen;
-pub use light::{Around, ByCard, MOST_WAVELENGTHS};
-pub use scope::{MOST_BANDS, MOST_BOUNCES, Shot};
+pub use gpu_types::ScopePixel;
+pub use light::{ByCard, GpuEnvironment, MOST_WAVELENGTHS};
+pub use scope::{MOST_BANDS, MOST_BOUNCES, ScopeShot};
 pub use solids::MOST_BODIES;
 pub use triangles::MOST_TRIANGLES;
 
 #[cfg(test)]
-mod twins;
+mod parity;

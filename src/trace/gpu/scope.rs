@@ -1,12 +1,12 @@
 //! What cameras see in scopes, by a card.
 
 use super::device::{Gpu, GpuError};
-use super::door::{Bands, Medium as MediumAtDoor, Seen, with};
+use super::gpu_types::{Bands, Medium as MediumAtDoor, ScopePixel, with};
 use super::solids::Solids;
-use super::stage::{Eye, Stage};
+use super::stage::{GpuCamera, Stage};
 use crate::math::SolidRef;
 use crate::scene::{Film, Medium, Scope, View};
-use crate::trace::ray::Options;
+use crate::trace::ray::RayOptions;
 use crate::trace::{Stopped, Watch};
 use glam::{DVec2, DVec3};
 
@@ -17,7 +17,7 @@ pub const MOST_BANDS: usize = 8;
 pub const MOST_BOUNCES: u32 = 64;
 
 /// One picture to take: its rays on a regular grid in each pixel.
-pub struct Shot<'a> {
+pub struct ScopeShot<'a> {
     /// The stone.
     pub solid: SolidRef<'a>,
     /// What it is made of.
@@ -33,7 +33,7 @@ pub struct Shot<'a> {
     /// Where in its cell of that grid each ray stands, 0 to 1; (0.5, 0.5) is the middle.
     pub shift: DVec2,
     /// How far rays are followed, at most [`MOST_BOUNCES`] bounces.
-    pub options: Options,
+    pub options: RayOptions,
 }
 
 impl Gpu {
@@ -44,9 +44,9 @@ impl Gpu {
     /// What `each` answers, [`Stopped`], or what is wrong with the card, both turned into its kind of error.
     pub fn scope<E: From<Stopped> + From<GpuError>>(
         &self,
-        shot: &Shot,
+        shot: &ScopeShot,
         watch: Watch,
-        mut each: impl FnMut(u32, &[Seen]) -> Result<(), E>,
+        mut each: impl FnMut(u32, &[ScopePixel]) -> Result<(), E>,
     ) -> Result<(), E> {
         let rows = Stage::rows(self, shot.film.size);
         let stage = stage(self, shot, rows)?;
@@ -62,13 +62,13 @@ impl Gpu {
                 }
                 stage.look((first, count), (shift, 0.0), [turn, shot.per_side, 0, 1])?;
             }
-            each(first, &stage.read::<Seen>(count)?)?;
+            each(first, &stage.read::<ScopePixel>(count)?)?;
         }
         Ok(())
     }
 }
 
-fn stage<'a>(gpu: &'a Gpu, shot: &Shot, rows: u32) -> Result<Stage<'a>, GpuError> {
+fn stage<'a>(gpu: &'a Gpu, shot: &ScopeShot, rows: u32) -> Result<Stage<'a>, GpuError> {
     let count = shot.scope.bands.len();
     if count > MOST_BANDS {
         return Err(GpuError::TooManyBands { count, most: MOST_BANDS });
@@ -80,12 +80,12 @@ fn stage<'a>(gpu: &'a Gpu, shot: &Shot, rows: u32) -> Result<Stage<'a>, GpuError
     let media = gpu.buffer("media", bytemuck::bytes_of(&medium), wgpu::BufferUsages::STORAGE);
     let mut entries = solids.entries(&media);
     entries.push(wgpu::BindGroupEntry { binding: 6, resource: bands.as_entire_binding() });
-    let eye = Eye { view: shot.view, film: shot.film, reach, options: shot.options };
-    let told = eye.frame(gpu, &solids, 1);
-    Stage::new::<Seen>(gpu, gpu.scopes.pipeline(&gpu.device, solids.facets), told, rows, entries)
+    let eye = GpuCamera { view: shot.view, film: shot.film, reach, options: shot.options };
+    let frame = eye.frame(gpu, &solids, 1);
+    Stage::new::<ScopePixel>(gpu, gpu.scopes.pipeline(&gpu.device, solids.facets), frame, rows, entries)
 }
 
-fn bands(shot: &Shot) -> Bands {
+fn bands(shot: &ScopeShot) -> Bands {
     let mut borders = [2.0_f32; MOST_BANDS];
     for (border, band) in borders.iter_mut().zip(&shot.scope.bands[1..]) {
         *border = band.from.to_radians().sin() as f32;

@@ -1,18 +1,18 @@
 //! The shaders: put together as text, compiled once.
 
-use super::door;
+use super::gpu_types;
 use super::light::{MOST_LAMPS, MOST_WAVELENGTHS};
 use super::solids::{MOST_BODIES, MOST_INBOUND, MOST_LEVELS, MOST_UNIFORM};
-use crate::trace::sitting::MOST_WAITING;
-use crate::trace::surround::TEXEL_ANGLE;
+use crate::trace::environment::TEXEL_ANGLE;
+use crate::trace::sampling::MOST_WAITING;
 use std::sync::OnceLock;
 
 /// What stones are made of.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Facets {
+pub(super) enum ShaderSurface {
     /// At most 1024 planes in all, at most 192 in a stone.
     Few,
-    /// More, in bunches.
+    /// More, in clusters.
     Many,
     /// Triangles, not all of them of a convex stone.
     Triangles,
@@ -22,7 +22,7 @@ pub(super) enum Facets {
     Wavy,
 }
 
-impl Facets {
+impl ShaderSurface {
     /// All kinds.
     pub const ALL: [Self; 5] = [Self::Few, Self::Many, Self::Triangles, Self::Smooth, Self::Wavy];
 
@@ -34,7 +34,7 @@ impl Facets {
 
 /// What is looked for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Reading {
+pub(super) enum ShaderTask {
     /// Energy by the bands of a scope.
     Scope,
     /// Colour under light.
@@ -43,12 +43,12 @@ pub(super) enum Reading {
 
 /// One reading's pipelines, each compiled when first used.
 pub(super) struct Pipelines {
-    reading: Reading,
-    by_facets: [OnceLock<wgpu::ComputePipeline>; Facets::ALL.len()],
+    reading: ShaderTask,
+    by_facets: [OnceLock<wgpu::ComputePipeline>; ShaderSurface::ALL.len()],
 }
 
 /// A shader's text, its structs and constants in front.
-pub(super) fn source(facets: Facets, reading: Reading) -> String {
+pub(super) fn source(facets: ShaderSurface, reading: ShaderTask) -> String {
     let constants = format!(
         "const MOST_PLANES: u32 = {MOST_UNIFORM}u;\nconst MOST_BODIES: u32 = {MOST_BODIES}u;\n\
          const MOST_WAITING: u32 = {MOST_WAITING}u;\nconst MOST_LAMPS: u32 = {MOST_LAMPS}u;\n\
@@ -60,38 +60,42 @@ pub(super) fn source(facets: Facets, reading: Reading) -> String {
         @group(0) @binding(4) var<uniform> bodies: array<Body, MOST_BODIES>;\n\
         @group(0) @binding(5) var<storage, read> media: array<Medium>;\n";
     let flat = include_str!("../../../shaders/flat.wgsl");
-    let fields = include_str!("../../../shaders/fields.wgsl");
+    let fields = include_str!("../../../shaders/implicit.wgsl");
     let jets = include_str!("../../../shaders/jets.wgsl");
     let convex = include_str!("../../../shaders/convex.wgsl");
     let branching = include_str!("../../../shaders/branching.wgsl");
     let facets: &[&str] = match facets {
-        Facets::Few => &[include_str!("../../../shaders/planes.wgsl"), flat, convex],
-        Facets::Many => &[door::BUNCH_WGSL, include_str!("../../../shaders/polytope.wgsl"), flat, convex],
-        Facets::Triangles => &[
-            door::TRIANGLE_WGSL,
-            door::NODE_WGSL,
+        ShaderSurface::Few => &[include_str!("../../../shaders/planes.wgsl"), flat, convex],
+        ShaderSurface::Many => {
+            &[gpu_types::CLUSTER_WGSL, include_str!("../../../shaders/clusters.wgsl"), flat, convex]
+        }
+        ShaderSurface::Triangles => &[
+            gpu_types::TRIANGLE_WGSL,
+            gpu_types::BVH_NODE_WGSL,
             include_str!("../../../shaders/triangles.wgsl"),
             flat,
             branching,
         ],
-        Facets::Smooth => &[door::FIELD_WGSL, jets, fields, convex],
-        Facets::Wavy => &[door::FIELD_WGSL, jets, fields, branching],
+        ShaderSurface::Smooth => &[gpu_types::IMPLICIT_SURFACE_WGSL, jets, fields, convex],
+        ShaderSurface::Wavy => &[gpu_types::IMPLICIT_SURFACE_WGSL, jets, fields, branching],
     };
     let reading: &[&str] = match reading {
-        Reading::Scope => &[door::BANDS_WGSL, door::SEEN_WGSL, include_str!("../../../shaders/scope.wgsl")],
-        Reading::Light => &[
-            door::SURROUND_WGSL,
-            door::LAMP_WGSL,
-            door::RESPONSE_WGSL,
-            door::LIT_WGSL,
-            include_str!("../../../shaders/surround.wgsl"),
+        ShaderTask::Scope => {
+            &[gpu_types::BANDS_WGSL, gpu_types::SCOPE_PIXEL_WGSL, include_str!("../../../shaders/scope.wgsl")]
+        }
+        ShaderTask::Light => &[
+            gpu_types::ENVIRONMENT_WGSL,
+            gpu_types::LAMP_WGSL,
+            gpu_types::RESPONSE_WGSL,
+            gpu_types::RADIANCE_PIXEL_WGSL,
+            include_str!("../../../shaders/environment.wgsl"),
             include_str!("../../../shaders/light.wgsl"),
         ],
     };
     let common = [
-        door::FRAME_WGSL,
-        door::BODY_WGSL,
-        door::MEDIUM_WGSL,
+        gpu_types::FRAME_WGSL,
+        gpu_types::BODY_WGSL,
+        gpu_types::MEDIUM_WGSL,
         &constants,
         stones,
         include_str!("../../../shaders/optics.wgsl"),
@@ -102,11 +106,11 @@ pub(super) fn source(facets: Facets, reading: Reading) -> String {
 }
 
 impl Pipelines {
-    pub fn new(reading: Reading) -> Self {
+    pub fn new(reading: ShaderTask) -> Self {
         Self { reading, by_facets: Default::default() }
     }
 
-    pub fn pipeline(&self, device: &wgpu::Device, facets: Facets) -> &wgpu::ComputePipeline {
+    pub fn pipeline(&self, device: &wgpu::Device, facets: ShaderSurface) -> &wgpu::ComputePipeline {
         self.by_facets[facets as usize].get_or_init(|| compiled(device, source(facets, self.reading)))
     }
 }

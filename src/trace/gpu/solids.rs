@@ -1,19 +1,19 @@
 //! Stones in a card's memory.
 
-use super::bunches::bunches;
+use super::clusters::clusters;
 use super::device::Gpu;
-use super::door::{Body, Bunch, with};
 use super::fields::field;
-use super::shaders::Facets;
-use super::triangles::Triangles;
-use crate::math::{Field, Plane, SolidRef};
+use super::gpu_types::{Body, Cluster, with};
+use super::shaders::ShaderSurface;
+use super::triangles::GpuTriangles;
+use crate::math::{ImplicitSurface, Plane, SolidRef};
 use crate::trace::gpu::GpuError;
-use crate::trace::sitting::MOST_WAITING;
+use crate::trace::sampling::MOST_WAITING;
 
 /// Planes that fit into the uniform array, 16 KiB.
 pub(super) const MOST_UNIFORM: usize = 1024;
 
-/// With more planes than this in a stone, bunches are quicker than all planes one after the other.
+/// With more planes than this in a stone, clusters are quicker than all planes one after the other.
 const FEW: usize = 192;
 
 /// Stones that one picture may hold.
@@ -46,12 +46,12 @@ const LEAST_BOUNCES: u32 = 12;
 
 /// The planes of all stones, and which are whose.
 pub(super) struct Solids {
-    pub facets: Facets,
+    pub facets: ShaderSurface,
     pub bodies: wgpu::Buffer,
     pub planes: wgpu::Buffer,
-    pub bunches: wgpu::Buffer,
+    pub clusters: wgpu::Buffer,
     pub count: usize,
-    /// Planes and bunches of the largest.
+    /// Planes and clusters of the largest.
     largest: usize,
 }
 
@@ -68,7 +68,7 @@ impl Solids {
             SolidRef::Smooth(smooth) => Some(*smooth.field()),
             SolidRef::Convex(_) | SolidRef::Triangles(_) => None,
         });
-        if let Some(fields) = smooth.collect::<Option<Vec<Field>>>().filter(|f| !f.is_empty()) {
+        if let Some(fields) = smooth.collect::<Option<Vec<ImplicitSurface>>>().filter(|f| !f.is_empty()) {
             return Ok(Self::of_fields(gpu, &fields, balls));
         }
         match stones.iter().map(planes).collect::<Option<Vec<Vec<Plane>>>>() {
@@ -79,34 +79,34 @@ impl Solids {
 
     /// Once one stone is of triangles all are.
     fn of_triangles(gpu: &Gpu, stones: &[SolidRef], balls: &[(glam::DVec3, f64)]) -> Result<Self, GpuError> {
-        let Triangles { triangles, nodes, mut bodies } = Triangles::new(stones, balls)?;
+        let GpuTriangles { triangles, nodes, mut bodies } = GpuTriangles::new(stones, balls)?;
         bodies.resize(MOST_BODIES, Body { middle: [0.0; 4], range: [0; 4] });
         let storage = wgpu::BufferUsages::STORAGE;
         Ok(Self {
-            facets: Facets::Triangles,
+            facets: ShaderSurface::Triangles,
             bodies: gpu.buffer("stones", bytemuck::cast_slice(&bodies), wgpu::BufferUsages::UNIFORM),
             planes: gpu.buffer("triangles", bytemuck::cast_slice(&triangles), storage),
-            bunches: gpu.buffer("boxes", bytemuck::cast_slice(&nodes), storage),
+            clusters: gpu.buffer("boxes", bytemuck::cast_slice(&nodes), storage),
             count: stones.len(),
             largest: 0,
         })
     }
 
-    fn of_fields(gpu: &Gpu, fields: &[Field], balls: &[(glam::DVec3, f64)]) -> Self {
+    fn of_fields(gpu: &Gpu, fields: &[ImplicitSurface], balls: &[(glam::DVec3, f64)]) -> Self {
         let body = |(k, &(middle, radius)): (usize, &(glam::DVec3, f64))| Body {
             middle: with(middle, radius),
             range: [k as u32, 0, 0, 0],
         };
         let mut bodies: Vec<Body> = balls.iter().enumerate().map(body).collect();
         bodies.resize(MOST_BODIES, Body { middle: [0.0; 4], range: [0; 4] });
-        let is_convex = fields.iter().all(Field::is_convex);
+        let is_convex = fields.iter().all(ImplicitSurface::is_convex);
         let shapes: Vec<_> = fields.iter().map(field).collect();
         let storage = wgpu::BufferUsages::STORAGE;
         Self {
-            facets: if is_convex { Facets::Smooth } else { Facets::Wavy },
+            facets: if is_convex { ShaderSurface::Smooth } else { ShaderSurface::Wavy },
             bodies: gpu.buffer("stones", bytemuck::cast_slice(&bodies), wgpu::BufferUsages::UNIFORM),
             planes: gpu.buffer("shapes", bytemuck::cast_slice(&shapes), storage),
-            bunches: gpu.buffer("none", &[0; 16], storage),
+            clusters: gpu.buffer("none", &[0; 16], storage),
             count: fields.len(),
             largest: 0,
         }
@@ -117,12 +117,12 @@ impl Solids {
         let is_few = all <= MOST_UNIFORM && stones.iter().all(|s| s.len() <= FEW);
         let (mut planes, mut bunched, mut bodies, mut largest) = (vec![], vec![], vec![], 0);
         for (stone, &(middle, radius)) in stones.iter().zip(balls) {
-            let (order, own) = bunches(stone);
+            let (order, own) = clusters(stone);
             let (first, first_bunch) = (planes.len(), bunched.len());
             planes.extend(order.iter().map(|&k| with(stone[k as usize].normal, stone[k as usize].offset)));
-            let moved = |b: &Bunch| {
+            let moved = |b: &Cluster| {
                 let [spread, depth, start, count] = b.spread;
-                Bunch { spread: [spread, depth, start + first as f32, count], ..*b }
+                Cluster { spread: [spread, depth, start + first as f32, count], ..*b }
             };
             bunched.extend(own.iter().map(moved));
             let range = [first, planes.len(), first_bunch, bunched.len()].map(|k| k as u32);
@@ -135,10 +135,10 @@ impl Solids {
         bodies.resize(MOST_BODIES, Body { middle: [0.0; 4], range: [0; 4] });
         let kind = if is_few { wgpu::BufferUsages::UNIFORM } else { wgpu::BufferUsages::STORAGE };
         Self {
-            facets: if is_few { Facets::Few } else { Facets::Many },
+            facets: if is_few { ShaderSurface::Few } else { ShaderSurface::Many },
             bodies: gpu.buffer("stones", bytemuck::cast_slice(&bodies), wgpu::BufferUsages::UNIFORM),
             planes: gpu.buffer("planes", bytemuck::cast_slice(&planes), kind),
-            bunches: gpu.buffer("bunches", bytemuck::cast_slice(&bunched), wgpu::BufferUsages::STORAGE),
+            clusters: gpu.buffer("clusters", bytemuck::cast_slice(&bunched), wgpu::BufferUsages::STORAGE),
             count: stones.len(),
             largest,
         }
@@ -172,8 +172,8 @@ impl Solids {
             resource: buffer.as_entire_binding(),
         };
         let mut entries = vec![entry(1, &self.planes), entry(4, &self.bodies), entry(5, media)];
-        if matches!(self.facets, Facets::Many | Facets::Triangles) {
-            entries.push(entry(3, &self.bunches));
+        if matches!(self.facets, ShaderSurface::Many | ShaderSurface::Triangles) {
+            entries.push(entry(3, &self.clusters));
         }
         entries
     }

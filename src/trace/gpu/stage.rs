@@ -1,11 +1,11 @@
 //! One picture on a card: its pixels, and the dispatches that add to them.
 
 use super::device::{Gpu, GpuError};
-use super::door::{Frame, with};
+use super::gpu_types::{Frame, with};
 use super::scope::MOST_BOUNCES;
 use super::solids::{Solids, most_turns};
 use crate::scene::{Film, Projection, View};
-use crate::trace::ray::Options;
+use crate::trace::ray::RayOptions;
 use bytemuck::Pod;
 use glam::DVec2;
 
@@ -20,16 +20,16 @@ const PIXELS_AT_ONCE_IN_SOFTWARE: u32 = 1 << 17;
 const WORKGROUP: u32 = 8;
 
 /// From where a picture is taken, and how far its rays are followed.
-pub(super) struct Eye<'a> {
+pub(super) struct GpuCamera<'a> {
     pub view: &'a View,
     pub film: Film,
     /// How far the stones reach from the origin.
     pub reach: f64,
-    pub options: Options,
+    pub options: RayOptions,
 }
 
-impl Eye<'_> {
-    /// What every dispatch is told of it.
+impl GpuCamera<'_> {
+    /// The uniform that every dispatch of it reads.
     pub fn frame(&self, gpu: &Gpu, solids: &Solids, wavelengths: usize) -> Frame {
         let basis = self.view.basis();
         let distance = match self.view.projection {
@@ -56,8 +56,8 @@ impl Eye<'_> {
 pub(super) struct Stage<'a> {
     pub gpu: &'a Gpu,
     pipeline: &'a wgpu::ComputePipeline,
-    pub told: Frame,
-    frame: wgpu::Buffer,
+    pub frame: Frame,
+    frame_buffer: wgpu::Buffer,
     seen: wgpu::Buffer,
     back: wgpu::Buffer,
     bound: wgpu::BindGroup,
@@ -70,15 +70,15 @@ impl<'a> Stage<'a> {
     pub fn new<T: Pod>(
         gpu: &'a Gpu,
         pipeline: &'a wgpu::ComputePipeline,
-        told: Frame,
+        frame: Frame,
         rows: u32,
         entries: Vec<wgpu::BindGroupEntry>,
     ) -> Result<Self, GpuError> {
         let usage = wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST;
-        let frame = gpu.buffer("frame", bytemuck::bytes_of(&told), usage);
+        let frame_buffer = gpu.buffer("frame", bytemuck::bytes_of(&frame), usage);
         let width = size_of::<T>() as u64;
         let empty = |label, usage| {
-            let size = u64::from(rows) * u64::from(told.film[0]) * width;
+            let size = u64::from(rows) * u64::from(frame.film[0]) * width;
             gpu.device.create_buffer(&wgpu::BufferDescriptor {
                 label: Some(label),
                 size,
@@ -89,7 +89,7 @@ impl<'a> Stage<'a> {
         let seen = empty("seen", wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_SRC);
         let back = empty("back", wgpu::BufferUsages::MAP_READ | wgpu::BufferUsages::COPY_DST);
         let mut all = vec![
-            wgpu::BindGroupEntry { binding: 0, resource: frame.as_entire_binding() },
+            wgpu::BindGroupEntry { binding: 0, resource: frame_buffer.as_entire_binding() },
             wgpu::BindGroupEntry { binding: 2, resource: seen.as_entire_binding() },
         ];
         all.extend(entries);
@@ -99,7 +99,7 @@ impl<'a> Stage<'a> {
             entries: &all,
         });
         gpu.check()?;
-        Ok(Self { gpu, pipeline, told, frame, seen, back, bound, width })
+        Ok(Self { gpu, pipeline, frame, frame_buffer, seen, back, bound, width })
     }
 
     /// Rows that one dispatch takes of a film so many pixels across.
@@ -116,16 +116,16 @@ impl<'a> Stage<'a> {
         (shift, to_middle): (DVec2, f64),
         turn: [u32; 4],
     ) -> Result<(), GpuError> {
-        let mut told = self.told;
-        (told.film[2], told.film[3], told.turn) = (first, count, turn);
-        told.limits[1..].copy_from_slice(&[to_middle as f32, shift.x as f32, shift.y as f32]);
-        self.gpu.queue.write_buffer(&self.frame, 0, bytemuck::bytes_of(&told));
+        let mut frame = self.frame;
+        (frame.film[2], frame.film[3], frame.turn) = (first, count, turn);
+        frame.limits[1..].copy_from_slice(&[to_middle as f32, shift.x as f32, shift.y as f32]);
+        self.gpu.queue.write_buffer(&self.frame_buffer, 0, bytemuck::bytes_of(&frame));
         let mut encoder = self.gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
         {
             let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
             pass.set_pipeline(self.pipeline);
             pass.set_bind_group(0, &self.bound, &[]);
-            pass.dispatch_workgroups(told.film[0].div_ceil(WORKGROUP), count.div_ceil(WORKGROUP), 1);
+            pass.dispatch_workgroups(frame.film[0].div_ceil(WORKGROUP), count.div_ceil(WORKGROUP), 1);
         }
         self.gpu.queue.submit([encoder.finish()]);
         // One after the other: queued up, they would outlive the wish to stop.
@@ -134,7 +134,7 @@ impl<'a> Stage<'a> {
 
     /// What has been seen through the first rows.
     pub fn read<T: Pod>(&self, count: u32) -> Result<Vec<T>, GpuError> {
-        let bytes = u64::from(count) * u64::from(self.told.film[0]) * self.width;
+        let bytes = u64::from(count) * u64::from(self.frame.film[0]) * self.width;
         let mut encoder = self.gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
         encoder.copy_buffer_to_buffer(&self.seen, 0, &self.back, 0, bytes);
         self.gpu.queue.submit([encoder.finish()]);

@@ -1,8 +1,8 @@
 //! Triangles and the boxes around them, as a card takes them.
 
-use super::door::{Body, Node, Triangle, with};
+use super::gpu_types::{Body, BvhNode, Triangle, with};
 use super::solids::MOST_LEVELS;
-use crate::math::{self, Shell, SolidRef};
+use crate::math::{self, SolidRef, TriangleMesh};
 use crate::trace::gpu::GpuError;
 use glam::DVec3;
 use std::sync::Arc;
@@ -12,16 +12,16 @@ use std::sync::Arc;
 pub const MOST_TRIANGLES: usize = 2_500_000;
 
 /// The triangles of all stones, their boxes, and which are whose.
-pub(super) struct Triangles {
+pub(super) struct GpuTriangles {
     pub triangles: Vec<Triangle>,
-    pub nodes: Vec<Node>,
+    pub nodes: Vec<BvhNode>,
     pub bodies: Vec<Body>,
 }
 
-impl Triangles {
+impl GpuTriangles {
     pub fn new(stones: &[SolidRef], balls: &[(DVec3, f64)]) -> Result<Self, GpuError> {
         let mut all = Self { triangles: vec![], nodes: vec![], bodies: vec![] };
-        let shells = stones.iter().map(shell).collect::<Result<Vec<Arc<Shell>>, GpuError>>()?;
+        let shells = stones.iter().map(shell).collect::<Result<Vec<Arc<TriangleMesh>>, GpuError>>()?;
         let count = shells.iter().map(|s| s.facets().len()).sum();
         if count > MOST_TRIANGLES || shells.iter().any(|s| s.bvh().depth() as usize > MOST_LEVELS) {
             return Err(GpuError::TooManyTriangles { count, most: MOST_TRIANGLES });
@@ -37,24 +37,24 @@ impl Triangles {
     }
 }
 
-fn shell(solid: &SolidRef) -> Result<Arc<Shell>, GpuError> {
+fn shell(solid: &SolidRef) -> Result<Arc<TriangleMesh>, GpuError> {
     match solid {
-        SolidRef::Convex(polytope) => Ok(Arc::new(Shell::of_polytope(polytope))),
+        SolidRef::Convex(polytope) => Ok(Arc::new(TriangleMesh::of_polytope(polytope))),
         SolidRef::Triangles(shell) => Ok(Arc::clone(shell)),
         SolidRef::Smooth(_) => Err(GpuError::MixedKinds),
     }
 }
 
-fn triangle(shell: &Shell, k: usize) -> Triangle {
+fn triangle(shell: &TriangleMesh, k: usize) -> Triangle {
     let [a, b, c] = shell.surface().triangles[k].map(|v| shell.vertices()[v as usize]);
     let normal = shell.planes()[shell.facets()[k] as usize].normal;
     Triangle { a: with(a, normal.x), b: with(b, normal.y), c: with(c, normal.z) }
 }
 
-fn node(node: &math::Node, first_triangle: usize) -> Node {
+fn node(node: &math::BvhNode, first_triangle: usize) -> BvhNode {
     let start = node.start as usize + if node.count > 0 { first_triangle } else { 0 };
     // Corners are rounded like the triangles' own, so that none lies outside.
-    Node { low: with(node.low, start as f64), high: with(node.high, f64::from(node.count)) }
+    BvhNode { low: with(node.low, start as f64), high: with(node.high, f64::from(node.count)) }
 }
 
 #[cfg(test)]
@@ -66,11 +66,11 @@ mod tests {
     #[test]
     fn every_triangle_is_within_its_boxes_and_each_stone_has_its_own() {
         let shells = [heart(), star()].map(|(vertices, triangles)| {
-            let shell = Shell::new(Surface::new(vertices, triangles)).unwrap();
+            let shell = TriangleMesh::new(Surface::new(vertices, triangles)).unwrap();
             Arc::new(shell.moved(1.0, glam::DQuat::from_rotation_x(0.7), DVec3::new(0.3, 1.1, -0.2)))
         });
         let solids = shells.each_ref().map(SolidRef::from);
-        let all = Triangles::new(&solids, &[(DVec3::ZERO, 1.0); 2]).unwrap();
+        let all = GpuTriangles::new(&solids, &[(DVec3::ZERO, 1.0); 2]).unwrap();
         assert_eq!(all.bodies[0].range[1], all.bodies[1].range[0]);
         assert_eq!(all.bodies[1].range[3] as usize, all.nodes.len());
         let mut next = 0;

@@ -4,12 +4,12 @@
 //! runs into, inside only what it runs out of; so it cannot meet the facet again that it starts from.
 
 use super::search::Search;
-use crate::math::{Field, Plane, Shell};
+use crate::math::{ImplicitSurface, Plane, TriangleMesh};
 use glam::DVec3;
 use std::sync::Arc;
 
 /// A solid's facets.
-pub(super) trait Facets {
+pub(super) trait FacetSearch {
     /// Whether light that has left may meet the solid again.
     const BRANCHES: bool;
 
@@ -33,20 +33,20 @@ pub(super) trait Facets {
 
 /// The facets of either kind of solid.
 #[derive(Debug, Clone)]
-pub(super) enum Shape {
+pub(super) enum SolidFacets {
     Planes(Arc<Planes>),
-    Triangles(Triangles),
-    Smooth(Smooth),
+    Triangles(TriangleFacets),
+    Smooth(SmoothFacets),
     Wavy(Wavy),
 }
 
 /// A smooth convex surface.
 #[derive(Debug, Clone)]
-pub(super) struct Smooth(pub Field);
+pub(super) struct SmoothFacets(pub ImplicitSurface);
 
 /// A smooth surface that need not be convex.
 #[derive(Debug, Clone)]
-pub(super) struct Wavy(pub Field);
+pub(super) struct Wavy(pub ImplicitSurface);
 
 /// The planes of a convex solid.
 #[derive(Debug)]
@@ -57,8 +57,8 @@ pub(super) struct Planes {
 
 /// The triangles of a solid that need not be convex.
 #[derive(Debug, Clone)]
-pub(super) struct Triangles {
-    shell: Arc<Shell>,
+pub(super) struct TriangleFacets {
+    shell: Arc<TriangleMesh>,
     /// How far behind its start a ray may still meet a triangle.
     behind: f64,
 }
@@ -71,12 +71,12 @@ const BEHIND: f64 = 1e-12;
 /// reaches: less than a pixel of any picture.
 const CLOSE: f64 = 1e-6;
 
-impl Shape {
+impl SolidFacets {
     pub fn normal(&self, facet: usize, point: DVec3) -> DVec3 {
         match self {
             Self::Planes(planes) => planes.normal(facet, point),
             Self::Triangles(triangles) => triangles.normal(facet, point),
-            Self::Smooth(Smooth(field)) | Self::Wavy(Wavy(field)) => field.normal(point),
+            Self::Smooth(SmoothFacets(field)) | Self::Wavy(Wavy(field)) => field.normal(point),
         }
     }
 
@@ -105,7 +105,7 @@ impl Planes {
     }
 }
 
-impl Facets for Planes {
+impl FacetSearch for Planes {
     const BRANCHES: bool = false;
 
     #[inline]
@@ -128,8 +128,8 @@ impl Facets for Planes {
     }
 }
 
-impl Triangles {
-    pub fn new(shell: &Arc<Shell>) -> Self {
+impl TriangleFacets {
+    pub fn new(shell: &Arc<TriangleMesh>) -> Self {
         let reach = shell.vertices().iter().map(|v| v.length()).fold(0.0, f64::max);
         Self { shell: Arc::clone(shell), behind: -BEHIND * reach }
     }
@@ -143,7 +143,7 @@ impl Triangles {
     }
 }
 
-impl Triangles {
+impl TriangleFacets {
     /// Whether the solid stands before a point of its surface.
     pub fn hides(&self, (origin, direction): (DVec3, DVec3)) -> bool {
         // Away from the facets that meet in the point.
@@ -163,7 +163,7 @@ impl Wavy {
     }
 }
 
-impl Facets for Triangles {
+impl FacetSearch for TriangleFacets {
     const BRANCHES: bool = true;
 
     fn normal(&self, facet: usize, _: DVec3) -> DVec3 {
@@ -182,7 +182,7 @@ impl Facets for Triangles {
 /// A smooth surface's facets: whether it `branches` is known when it is made.
 macro_rules! smooth {
     ($kind:ident, $branches:literal) => {
-        impl Facets for $kind {
+        impl FacetSearch for $kind {
             const BRANCHES: bool = $branches;
 
             #[inline]
@@ -207,5 +207,5 @@ macro_rules! smooth {
     };
 }
 
-smooth!(Smooth, false);
+smooth!(SmoothFacets, false);
 smooth!(Wavy, true);

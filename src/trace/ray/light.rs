@@ -6,19 +6,19 @@ use num_complex::Complex64;
 
 /// The light on a stretch between two facets, as what the eye's two polarisations have become.
 #[derive(Clone, Copy)]
-pub(super) enum Light {
+pub(super) enum PathLight {
     Unpolarised(f64),
-    Fields([Field; 2]),
+    Fields([ElectricField; 2]),
 }
 
 /// A complex field in space, square to its ray.
 #[derive(Clone, Copy)]
-pub(super) struct Field {
+pub(super) struct ElectricField {
     re: DVec3,
     im: DVec3,
 }
 
-impl Field {
+impl ElectricField {
     fn along(&self, axis: DVec3) -> Complex64 {
         Complex64::new(self.re.dot(axis), self.im.dot(axis))
     }
@@ -46,14 +46,14 @@ fn passing(surface: &Fresnel) -> Amplitudes {
     (surface.transmission_s().into(), surface.transmission_p().into())
 }
 
-impl Light {
+impl PathLight {
     /// What the eye would see along a ray: all polarisations alike.
     pub fn of_eye(direction: DVec3, weight: f64, is_polarised: bool) -> Self {
         if !is_polarised {
             return Self::Unpolarised(weight);
         }
         let (a, b) = direction.any_orthonormal_pair();
-        Self::Fields([a, b].map(|axis| Field { re: axis * weight.sqrt(), im: DVec3::ZERO }))
+        Self::Fields([a, b].map(|axis| ElectricField { re: axis * weight.sqrt(), im: DVec3::ZERO }))
     }
 
     #[inline]
@@ -81,7 +81,7 @@ impl Light {
         let s = across(ray, normal);
         let p = s.cross(ray);
         let inside = fields.map(|f| f.onward(to, s, (ray, onward)));
-        let lost = |f: &Field| {
+        let lost = |f: &ElectricField| {
             let part = |r: Complex64, e: Complex64| {
                 if surface.is_total() { 0.0 } else { (1.0 - r.norm_sqr()) * e.norm_sqr() }
             };

@@ -1,8 +1,8 @@
 //! One ray's way through a stone, facet by facet.
 
-use super::facets::Shape;
-use super::light::Light;
-use super::{Exit, Rest, Tracer};
+use super::facets::SolidFacets;
+use super::light::PathLight;
+use super::{Exit, Loss, StoneTracer};
 use crate::optics::critical_angle;
 use glam::DVec3;
 
@@ -48,11 +48,11 @@ pub struct Path {
     /// The facets in the order in which they are met, the first where the ray enters.
     pub steps: Vec<Step>,
     /// What was absorbed, and what was not followed any farther.
-    pub rest: Rest,
+    pub rest: Loss,
 }
 
 /// A facet that the loop of the tracer comes to, and what becomes of the light there.
-pub(super) struct Meeting {
+pub(super) struct SurfaceEvent {
     pub facet: u32,
     pub point: DVec3,
     pub path: f64,
@@ -62,25 +62,25 @@ pub(super) struct Meeting {
     /// The unit direction in which it comes.
     pub arriving: DVec3,
     /// `None` where reflection is total.
-    pub leaving: Option<Exiting>,
+    pub leaving: Option<ExitLight>,
     /// The weight that goes on inside.
     pub onward: f64,
 }
 
 /// What leaves at a meeting, as in [`Exit`].
-pub(super) struct Exiting {
+pub(super) struct ExitLight {
     pub direction: DVec3,
     pub sweep: DVec3,
     /// How far the point moves over the spread of wavelengths.
     pub shift: DVec3,
     pub weight: f64,
     /// Without what has been absorbed; told of solids that it may enter again.
-    pub light: Option<Light>,
+    pub light: Option<PathLight>,
 }
 
-impl Meeting {
+impl SurfaceEvent {
     /// The light that leaves, without what has been absorbed, and how far it is shifted.
-    pub fn onward_outside(&self) -> Option<(Light, DVec3)> {
+    pub fn onward_outside(&self) -> Option<(PathLight, DVec3)> {
         let leaving = self.leaving.as_ref()?;
         Some((leaving.light?, leaving.shift))
     }
@@ -88,30 +88,30 @@ impl Meeting {
     #[inline]
     pub fn exit(&self) -> Option<Exit> {
         let &Self { facet, point, path, bounce, .. } = self;
-        let &Exiting { direction, sweep, weight, .. } = self.leaving.as_ref()?;
+        let &ExitLight { direction, sweep, weight, .. } = self.leaving.as_ref()?;
         Some(Exit { facet, point, path, direction, sweep, weight, bounce, surface: bounce == 0 })
     }
 }
 
-impl Tracer {
+impl StoneTracer {
     /// The way of a ray from a point outside, as far as [`follow`](Self::follow) takes it; `None` where it misses the
     /// stone. Of a solid that is not convex it is the first passage: what leaves and enters again is told and not followed.
     pub fn path(&self, origin: DVec3, direction: DVec3) -> Option<Path> {
         let met = self.meet(origin, direction)?;
         let mut steps = vec![];
         let start = self.start(met, origin, (direction, DVec3::ZERO), 1.0);
-        let tell = |meeting: Meeting| steps.push(self.step(&meeting));
+        let tell = |meeting: SurfaceEvent| steps.push(self.step(&meeting));
         let rest = match &self.shape {
-            Shape::Planes(planes) => self.passage(&**planes, start, tell)?,
-            Shape::Triangles(triangles) => self.passage(triangles, start, tell)?,
-            Shape::Smooth(smooth) => self.passage(smooth, start, tell)?,
-            Shape::Wavy(wavy) => self.passage(wavy, start, tell)?,
+            SolidFacets::Planes(planes) => self.passage(&**planes, start, tell)?,
+            SolidFacets::Triangles(triangles) => self.passage(triangles, start, tell)?,
+            SolidFacets::Smooth(smooth) => self.passage(smooth, start, tell)?,
+            SolidFacets::Wavy(wavy) => self.passage(wavy, start, tell)?,
         };
         Some(Path { origin, direction, steps, rest })
     }
 
-    fn step(&self, meeting: &Meeting) -> Step {
-        let &Meeting { facet, point, path, bounce, arriving, ref leaving, onward, .. } = meeting;
+    fn step(&self, meeting: &SurfaceEvent) -> Step {
+        let &SurfaceEvent { facet, point, path, bounce, arriving, ref leaving, onward, .. } = meeting;
         let normal = self.shape.normal(facet as usize, point);
         let critical = if bounce > 0 { critical_angle(self.medium.index) } else { None };
         Step {
@@ -138,7 +138,7 @@ mod tests {
     use crate::cut::strategy::proportions;
     use crate::math::{Plane, Polytope};
     use crate::scene::{Medium, View};
-    use crate::trace::ray::{Camera, Options};
+    use crate::trace::ray::{Camera, RayOptions};
     use glam::DVec2;
     use proptest::prelude::*;
 
@@ -190,8 +190,8 @@ mod tests {
         checks.into_iter().filter(|(_, wrong)| *wrong).map(|(name, _)| name)
     }
 
-    fn tracer(polytope: &Polytope, medium: Medium, polarised: bool) -> Tracer {
-        Tracer::new(polytope, medium, Options { polarised, ..Options::default() })
+    fn tracer(polytope: &Polytope, medium: Medium, polarised: bool) -> StoneTracer {
+        StoneTracer::new(polytope, medium, RayOptions { polarised, ..RayOptions::default() })
     }
 
     /// The ray through a point of a view's image.

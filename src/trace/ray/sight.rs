@@ -1,27 +1,27 @@
 //! What is met first through a point of a picture.
 
-use super::{Camera, Tracer};
+use super::{Camera, StoneTracer};
 use crate::optics::line;
 use crate::scene::Medium;
-use crate::trace::sitting::Sitting;
+use crate::trace::sampling::LitScene;
 use glam::{DVec2, DVec3};
 
 /// A stone, and the facet and distance at which a ray meets it.
 pub(super) type Met = (usize, (usize, f64));
 
 /// The stones of a sitting at sodium's D line, 589.3 nm, and the camera.
-pub struct Sight<'a> {
-    sitting: Sitting<'a>,
+pub struct SceneProbe<'a> {
+    lit_scene: LitScene<'a>,
     /// The image.
     pub camera: Camera,
     /// The stones.
-    pub tracers: Vec<Tracer>,
+    pub tracers: Vec<StoneTracer>,
     balls: Vec<(DVec3, f64)>,
 }
 
 /// A ray that meets a stone.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Glance {
+pub struct ProbeRay {
     /// Where it begins.
     pub origin: DVec3,
     /// Its unit direction.
@@ -34,29 +34,29 @@ pub struct Glance {
     pub distance: f64,
 }
 
-impl<'a> Sight<'a> {
+impl<'a> SceneProbe<'a> {
     /// Prepares the stones.
-    pub fn new(sitting: &Sitting<'a>) -> Self {
+    pub fn new(lit_scene: &LitScene<'a>) -> Self {
         let at = |nm| (nm, nm, nm);
-        let tracer = |stone: &crate::scene::Placed| {
-            let medium = Medium::of(&stone.material, at(line::SODIUM_D), sitting.setting.unit_mm);
-            Tracer::new(&stone.solid, medium, sitting.options)
+        let tracer = |stone: &crate::scene::Instance| {
+            let medium = Medium::of(&stone.material, at(line::SODIUM_D), lit_scene.scene.unit_mm);
+            StoneTracer::new(&stone.solid, medium, lit_scene.options)
         };
         Self {
-            sitting: *sitting,
-            camera: Camera::reaching(sitting.view, sitting.reach()),
-            tracers: sitting.setting.stones.iter().map(tracer).collect(),
-            balls: sitting.balls(),
+            lit_scene: *lit_scene,
+            camera: Camera::reaching(lit_scene.view, lit_scene.reach()),
+            tracers: lit_scene.scene.instances.iter().map(tracer).collect(),
+            balls: lit_scene.balls(),
         }
     }
 
     /// The ray through a point of the picture, in pixels to the right of its left border and below its upper one;
     /// `None` where it meets no stone.
-    pub fn through(&self, x: f64, y: f64) -> Option<Glance> {
-        let at = self.sitting.film.image_from_pixels(DVec2::new(x, y));
+    pub fn through(&self, x: f64, y: f64) -> Option<ProbeRay> {
+        let at = self.lit_scene.film.image_from_pixels(DVec2::new(x, y));
         let (origin, direction) = self.camera.ray(at);
         let (stone, (facet, distance)) = nearest(&self.tracers, &self.balls, (origin, direction), None)?;
-        Some(Glance { origin, direction, stone, facet: facet as u32, distance })
+        Some(ProbeRay { origin, direction, stone, facet: facet as u32, distance })
     }
 
     /// Whether another stone, or one that is not convex itself, stands between a point of its surface and the eye.
@@ -68,14 +68,14 @@ impl<'a> Sight<'a> {
 }
 
 /// The facet seen at a point of the picture, in pixels to the right of its left border and below its upper one: which
-/// stone, and which of its facets, by their places. `None` beside the stones. For many points keep a [`Sight`].
-pub fn facet_at(sitting: &Sitting, x: f64, y: f64) -> Option<(usize, u32)> {
-    Sight::new(sitting).through(x, y).map(|glance| (glance.stone, glance.facet))
+/// stone, and which of its facets, by their places. `None` beside the stones. For many points keep a [`SceneProbe`].
+pub fn facet_at(lit_scene: &LitScene, x: f64, y: f64) -> Option<(usize, u32)> {
+    SceneProbe::new(lit_scene).through(x, y).map(|glance| (glance.stone, glance.facet))
 }
 
 /// The stone that a ray meets first, but for the one that it has just left, and where.
 pub(super) fn nearest(
-    tracers: &[Tracer],
+    tracers: &[StoneTracer],
     balls: &[(DVec3, f64)],
     (origin, direction): (DVec3, DVec3),
     left: Option<usize>,

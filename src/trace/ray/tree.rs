@@ -4,9 +4,9 @@
 //! it and meets the solid again waits to be followed like the first, the strongest first, its polarisation kept. What is not
 //! followed is unresolved, so that all shares still add up to 1.
 
-use super::facets::Facets;
-use super::light::Light;
-use super::{Exit, Rest, Tracer};
+use super::facets::FacetSearch;
+use super::light::PathLight;
+use super::{Exit, Loss, StoneTracer};
 use glam::DVec3;
 
 /// Passages of one ray that are followed; light that waits after so many is unresolved.
@@ -22,7 +22,7 @@ pub(super) struct Inbound {
     /// How far its origin moves over the spread of wavelengths.
     pub shift: DVec3,
     /// Without what has been absorbed.
-    pub light: Light,
+    pub light: PathLight,
     /// The part that has not been absorbed.
     pub left: f64,
     /// Length of its way inside so far.
@@ -37,17 +37,17 @@ impl Inbound {
     }
 }
 
-impl Tracer {
+impl StoneTracer {
     /// Follows light into a solid and whatever leaves it to enter again, but for what `is_taken` says is met by something
     /// else before that distance. `None` where it runs along the first facet.
-    pub(super) fn branch<F: Facets>(
+    pub(super) fn branch<F: FacetSearch>(
         &self,
         facets: &F,
         start: Inbound,
         is_taken: impl Fn(&Exit, f64) -> bool,
         mut leave: impl FnMut(Exit),
-    ) -> Option<Rest> {
-        let mut rest = Rest::default();
+    ) -> Option<Loss> {
+        let mut rest = Loss::default();
         let mut waiting: Vec<Inbound> = vec![];
         let mut next = start;
         for number in 0..MOST_PASSAGES {
@@ -97,7 +97,7 @@ fn strongest(waiting: &[Inbound]) -> Option<usize> {
     weights.max_by(|a, b| a.1.total_cmp(&b.1)).map(|(k, _)| k)
 }
 
-impl Rest {
+impl Loss {
     /// What did not leave on either way; the longer one's bounces.
     fn and(&self, other: &Self) -> Self {
         Self {

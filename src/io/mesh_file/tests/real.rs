@@ -40,8 +40,8 @@ fn real_meshes_open_as_what_they_are() {
         let Some(file) = real(name) else { return };
         let mended = file.surface.mend().unwrap();
         let found = match facets(mended.surface) {
-            Shape::Convex(found) => Some(found),
-            Shape::Concave(_) => None,
+            SurfaceKind::Convex(found) => Some(found),
+            SurfaceKind::Concave(_) => None,
         };
         println!("{name}: {:?}", mended.mending);
         assert_eq!(found.is_some(), expected.is_some(), "{name}");
@@ -77,7 +77,7 @@ fn a_million_triangles_load_in_seconds() {
     let read = start.elapsed().as_secs_f64();
     let mended = file.surface.mend().unwrap();
     let welded = start.elapsed().as_secs_f64();
-    let Shape::Convex(found) = facets(mended.surface) else { panic!("taken for concave") };
+    let SurfaceKind::Convex(found) = facets(mended.surface) else { panic!("taken for concave") };
     let faceted = start.elapsed().as_secs_f64();
     let stone_back = from_mesh(&found, Up::Found).unwrap();
     let all = start.elapsed().as_secs_f64();

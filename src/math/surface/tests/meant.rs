@@ -97,7 +97,7 @@ fn facets_bent_over_the_wrong_diagonal_mean_the_hull_of_their_corners() {
 fn what_is_bent_too_far_stays_as_it_is_unless_it_is_asked_for() {
     let surface = bent(0.4);
     assert!(hull_volume(&surface) > 1.03 * surface.volume());
-    assert!(matches!(facets(surface.clone()), Shape::Concave(_)));
+    assert!(matches!(facets(surface.clone()), SurfaceKind::Concave(_)));
     let forced = faceted_hull(surface.clone()).unwrap();
     assert!((forced.polytope.volume() / hull_volume(&surface) - 1.0).abs() < 2e-3);
     assert!(forced.change.unwrap().volume > 0.03);
@@ -109,7 +109,7 @@ fn solids_that_are_meant_to_be_concave_stay_so_and_can_be_read_as_their_hulls() 
         [("heart", fixture::heart()), ("star", fixture::star()), ("clasp", fixture::clasp(0.5))]
     {
         let surface = mended(solid);
-        assert!(matches!(facets(surface.clone()), Shape::Concave(_)), "{name}");
+        assert!(matches!(facets(surface.clone()), SurfaceKind::Concave(_)), "{name}");
         let hull = faceted_hull(surface.clone()).unwrap();
         let expected = hull_volume(&surface);
         assert!((hull.polytope.volume() / expected - 1.0).abs() < 5e-3, "{name}");
@@ -169,7 +169,7 @@ fn a_groove_deeper_than_modelling_errs_is_no_noise() {
     for depth in [0.005, 0.007, 0.02, 0.1] {
         for strips in [6, 16] {
             let surface = grooved(strips, depth);
-            assert!(matches!(facets(surface), Shape::Concave(_)), "{depth} in {strips} strips");
+            assert!(matches!(facets(surface), SurfaceKind::Concave(_)), "{depth} in {strips} strips");
         }
     }
 }
@@ -217,7 +217,7 @@ fn shells_that_touch_or_overlap_all_face_outward() {
             }
             both.append(other);
             let found = both.mend().map(|mended| mended.surface);
-            let shell = crate::math::Shell::new(found.unwrap_or_else(|e| panic!("{place}: {e}")));
+            let shell = crate::math::TriangleMesh::new(found.unwrap_or_else(|e| panic!("{place}: {e}")));
             let found = shell.unwrap_or_else(|e| panic!("{place}: {e}")).volume();
             assert!((found - volume).abs() < 1e-9, "{place}: {found}, not {volume}");
         }

@@ -6,9 +6,9 @@ use crate::picture::pane::tests::{apart, even, full, none, pattern};
 use crate::trace::unwatched;
 
 /// The traced pane in a light.
-fn traced(pane: &Pane, background: &Panorama, light: &Light, looks: u32) -> Comparison {
+fn traced(pane: &GlassPane, background: &Panorama, light: &Light, looks: u32) -> Comparison {
     let bands = strata(4, &Illuminant::D65, true);
-    let around = Around { sky: &Sky::new(light, None), gap: 0.02, strata: &bands, looks };
+    let around = PaneLighting { sky: &EnvironmentMap::new(light, None), gap: 0.02, strata: &bands, looks };
     compare(pane, background, &around, &unwatched).unwrap()
 }
 
@@ -19,7 +19,7 @@ fn the_traced_pane_over_white_in_white_is_white_and_symmetric_over_what_is() {
     assert!(apart(&seen.traced, &plain(&white)) < 2e-3);
     let background = pattern(true);
     let Comparison { traced, cost, .. } =
-        traced(&Pane { light: 0.0, ..full() }, &background, &surroundings(0.0), 1);
+        traced(&GlassPane { light: 0.0, ..full() }, &background, &surroundings(0.0), 1);
     let off = traced.pixels.chunks(72).flat_map(|row| row.iter().zip(row.iter().rev()));
     let off = off.map(|(a, b)| (a[1] - b[1]).abs()).fold(0.0, f32::max);
     assert!(off < 1e-3, "{off}");
@@ -30,7 +30,7 @@ fn the_traced_pane_over_white_in_white_is_white_and_symmetric_over_what_is() {
 fn without_refraction_the_traced_pane_is_the_pane() {
     let background = pattern(false);
     for depth in [0.0, 100.0] {
-        let bare = Pane { depth, ..none() };
+        let bare = GlassPane { depth, ..none() };
         let seen = traced(&bare, &background, &surroundings(0.0), 2);
         // Depth is no refraction here, but air: what the specification moves by it, air does not.
         assert!(seen.cost.traced.greatest < 1e-4 && seen.cost.blind == 0.0, "{:?}", seen.cost);
@@ -43,7 +43,7 @@ fn without_refraction_the_traced_pane_is_the_pane() {
 #[test]
 fn the_traced_pane_stands_where_the_drawn_one_does() {
     let costs = [DVec2::ZERO, DVec2::new(-4.0, 5.0)].map(|by| {
-        let pane = Pane { corner: full().corner + by, ..full() };
+        let pane = GlassPane { corner: full().corner + by, ..full() };
         traced(&pane, &pattern(false), &surroundings(0.0), 1).cost
     });
     let [a, b] = costs.map(|cost| cost.traced);
@@ -65,13 +65,18 @@ fn strengths_stand_for_the_glass_that_is_told() {
 #[test]
 fn the_cost_tells_glass_from_its_approximation() {
     let Cost { mean_difference, psnr_db, traced: by_glass, apart, fringe, .. } =
-        traced(&Pane { frost: 0.0, ..full() }, &pattern(false), &surroundings(100.0), 2).cost;
+        traced(&GlassPane { frost: 0.0, ..full() }, &pattern(false), &surroundings(100.0), 2).cost;
     assert!(mean_difference > 0.01 && (5.0..30.0).contains(&psnr_db), "{mean_difference} {psnr_db}");
     assert!(apart.greatest >= apart.mean && apart.greatest <= by_glass.greatest + 38.0 * 0.04);
     // Two thirds of 0.003 ⋅ 2.0 of 38 pixels, over the pane.
     assert!((0.1..0.2).contains(&fringe[0]), "{fringe:?}");
-    let nowhere = Pane { corner: DVec2::splat(500.0), ..full() };
+    let nowhere = GlassPane { corner: DVec2::splat(500.0), ..full() };
     let bands = strata(2, &Illuminant::D65, true);
-    let around = Around { sky: &Sky::new(&Light::white(), None), gap: 0.02, strata: &bands, looks: 1 };
+    let around = PaneLighting {
+        sky: &EnvironmentMap::new(&Light::white(), None),
+        gap: 0.02,
+        strata: &bands,
+        looks: 1,
+    };
     assert_eq!(compare(&nowhere, &pattern(false), &around, &unwatched), Err(PaneError::Nowhere));
 }

@@ -1,22 +1,22 @@
 use crate::cut::strategy::proportions;
 use crate::math::fixture::{Triangles, clasp, heart, star};
-use crate::math::{Plane, Polytope, Shell, Surface};
+use crate::math::{Plane, Polytope, Surface, TriangleMesh};
 use crate::optics::fresnel;
 use crate::scene::{Medium, Projection, View};
-use crate::trace::ray::{Camera, Exit, Options, Rest, Tracer};
+use crate::trace::ray::{Camera, Exit, Loss, RayOptions, StoneTracer};
 use glam::{DQuat, DVec2, DVec3};
 use proptest::prelude::*;
 use std::sync::Arc;
 
-fn shell((vertices, triangles): Triangles) -> Arc<Shell> {
-    Arc::new(Shell::new(Surface::new(vertices, triangles)).unwrap())
+fn shell((vertices, triangles): Triangles) -> Arc<TriangleMesh> {
+    Arc::new(TriangleMesh::new(Surface::new(vertices, triangles)).unwrap())
 }
 
-fn options(polarised: bool, least_weight: f64) -> Options {
-    Options { polarised, least_weight, ..Options::default() }
+fn options(polarised: bool, least_weight: f64) -> RayOptions {
+    RayOptions { polarised, least_weight, ..RayOptions::default() }
 }
 
-fn followed(tracer: &Tracer, (origin, direction): (DVec3, DVec3)) -> Option<(Vec<Exit>, Rest)> {
+fn followed(tracer: &StoneTracer, (origin, direction): (DVec3, DVec3)) -> Option<(Vec<Exit>, Loss)> {
     let mut exits = vec![];
     let rest = tracer.follow(origin, direction, |exit| exits.push(exit))?;
     Some((exits, rest))
@@ -38,7 +38,7 @@ proptest! {
         tilt in -3.0..3.0_f64, azimuth in 0.0..6.0_f64, x in -0.9..0.9_f64, y in -0.9..0.9_f64,
     ) {
         let shell = shell([heart(), star(), clasp(0.5)][which as usize].clone());
-        let tracer = Tracer::new(&shell, medium, options(polarised, 1e-6));
+        let tracer = StoneTracer::new(&shell, medium, options(polarised, 1e-6));
         let projection = distance.map_or(Projection::Orthographic, |distance| Projection::Perspective { distance });
         let view = View { tilt, azimuth, projection, ..View::default() };
         let Some((exits, rest)) = followed(&tracer, Camera::new(&view, &shell).ray(DVec2::new(x, y))) else { return Ok(()) };
@@ -69,12 +69,12 @@ proptest! {
     ) {
         let planes: Vec<Plane> = cut.facets().unwrap().into_iter().map(|(_, plane)| plane).collect();
         let polytope = Polytope::from_planes(&planes).unwrap();
-        let shell = Arc::new(Shell::of_polytope(&polytope));
+        let shell = Arc::new(TriangleMesh::of_polytope(&polytope));
         let ray = Camera::new(&View { tilt, ..View::default() }, &polytope).ray(DVec2::new(x, y));
         // Few bounces: on each, rounding grows.
-        let options = Options { polarised, most_bounces: 12, ..Options::default() };
-        let by_planes = followed(&Tracer::new(&polytope, medium, options), ray);
-        let by_triangles = followed(&Tracer::new(&shell, medium, options), ray);
+        let options = RayOptions { polarised, most_bounces: 12, ..RayOptions::default() };
+        let by_planes = followed(&StoneTracer::new(&polytope, medium, options), ray);
+        let by_triangles = followed(&StoneTracer::new(&shell, medium, options), ray);
         prop_assert_eq!(by_planes.is_some(), by_triangles.is_some());
         let (Some((a, p)), Some((b, t))) = (by_planes, by_triangles) else { return Ok(()) };
         prop_assert_eq!(a.len(), b.len());
@@ -97,11 +97,11 @@ fn through_two_plates(r: f64, a: f64) -> (f64, f64) {
 }
 
 /// What of a ray along -y, leant toward z, goes on below two plates, above them, and nowhere.
-fn shares(medium: Medium, lean: f64, polarised: bool) -> (f64, f64, Rest) {
+fn shares(medium: Medium, lean: f64, polarised: bool) -> (f64, f64, Loss) {
     // Turned, so that no axis is special.
     let turn = DQuat::from_rotation_x(0.3) * DQuat::from_rotation_z(0.8);
     let shell = Arc::new(shell(clasp(60.0)).moved(1.0, turn, DVec3::new(0.3, -0.2, 0.1)));
-    let tracer = Tracer::new(&shell, medium, options(polarised, 1e-12));
+    let tracer = StoneTracer::new(&shell, medium, options(polarised, 1e-12));
     let direction = DVec3::new(0.0, -lean.cos(), lean.sin());
     let origin = DVec3::new(0.3, 0.0, 0.0) - direction * 9.0;
     let ray = (turn * origin + DVec3::new(0.3, -0.2, 0.1), turn * direction);
@@ -157,7 +157,7 @@ fn through_corners_edges_and_along_facets_no_light_is_lost() {
         DVec3::new(slant.y, slant.z, slant.x) / slant.length(),
     ];
     for (shell, medium) in shapes.iter().flat_map(|s| [1.0, 1.54, 2.4175].map(|n| (s, Medium::clear(n)))) {
-        let tracer = Tracer::new(shell, medium, options(true, 1e-6));
+        let tracer = StoneTracer::new(shell, medium, options(true, 1e-6));
         let edges = shell.surface().triangles.iter().flat_map(|t| {
             let [a, b, c] = t.map(|v| shell.vertices()[v as usize]);
             [a, 0.5 * (a + b), 0.5 * (b + c), 0.25 * a + 0.75 * c]

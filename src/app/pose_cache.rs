@@ -5,12 +5,12 @@ use std::sync::Arc;
 
 /// A stone in the few turns that its views show it in: the same turn of the same stone is one and the same.
 #[derive(Default)]
-pub struct Posed(Vec<(Arc<Specimen>, f64, Arc<Specimen>)>);
+pub struct PoseCache(Vec<(Arc<Specimen>, f64, Arc<Specimen>)>);
 
 /// Turns kept: that of the linked views and of each view that looks on its own.
 const TURNS: usize = 5;
 
-impl Posed {
+impl PoseCache {
     /// The stone at a turn.
     pub fn of(&mut self, specimen: &Arc<Specimen>, turn: f64) -> Arc<Specimen> {
         self.0.retain(|(of, ..)| Arc::ptr_eq(of, specimen));

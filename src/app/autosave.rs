@@ -6,7 +6,7 @@ use crate::cut::{Cut, Design};
 use crate::io::mesh_options::{MeshForm, MeshOptions};
 use crate::io::{WriteError, cut_file, design_file, write};
 use crate::math::Plane;
-use crate::scene::{Company, MOST_COPIES};
+use crate::scene::{Copies, MOST_COPIES};
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
@@ -17,7 +17,7 @@ use std::time::SystemTime;
 /// Unsaved work on disk, so that a crash loses none.
 ///
 /// While the program runs it holds a lock on its file; one without a lock was left behind by a crash.
-pub struct Safe {
+pub struct Autosave {
     folder: PathBuf,
     /// The file of this program, which no other, before or after, has used.
     own: PathBuf,
@@ -36,7 +36,7 @@ struct Kept {
     read: Option<KeptMesh>,
     design: String,
     #[serde(default)]
-    around: Around,
+    around: KeptScene,
 }
 
 /// A mesh file and how it was read, as it is kept.
@@ -74,9 +74,9 @@ impl KeptMesh {
 
 /// What else is kept of unsaved work: of its scene.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
-pub struct Around {
+pub struct KeptScene {
     /// Its copies.
-    pub company: Company,
+    pub company: Copies,
     /// What hangs behind it.
     #[serde(default)]
     pub behind: Option<String>,
@@ -89,11 +89,11 @@ pub struct Around {
 
 /// Work that a crash left behind.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Found {
+pub struct RecoveredWork {
     /// The design.
     pub design: Design,
     /// What is around it.
-    pub around: Around,
+    pub around: KeptScene,
     /// The file that it was opened from.
     pub path: Option<PathBuf>,
     /// The mesh that the stone was read from, if it was one.
@@ -107,7 +107,7 @@ pub struct Found {
 /// How kept files are called.
 const PREFIX: &str = "unsaved-";
 
-impl Safe {
+impl Autosave {
     /// A safe in a folder.
     pub fn new(folder: PathBuf) -> Self {
         let since = SystemTime::now().duration_since(SystemTime::UNIX_EPOCH).unwrap_or_default();
@@ -119,7 +119,7 @@ impl Safe {
     ///
     /// # Errors
     /// When the file system refuses.
-    pub fn keep(&mut self, work: &Work, around: &Around, path: Option<&Path>) -> Result<(), WriteError> {
+    pub fn keep(&mut self, work: &Work, around: &KeptScene, path: Option<&Path>) -> Result<(), WriteError> {
         let design = &work.design;
         // A mesh lies in its file already, and may be large: what was changed beside it is kept.
         let (mesh, design) = match (&design.cut, path) {
@@ -154,16 +154,16 @@ impl Safe {
     }
 
     /// What crashes left behind, the latest first.
-    pub fn found(&self) -> Vec<Found> {
+    pub fn found(&self) -> Vec<RecoveredWork> {
         let entries = std::fs::read_dir(&self.folder).into_iter().flatten().flatten();
         let ours = |e: &std::fs::DirEntry| e.file_name().to_string_lossy().starts_with(PREFIX);
-        let mut found: Vec<Found> = entries.filter(ours).filter_map(|e| orphan(e.path())).collect();
+        let mut found: Vec<RecoveredWork> = entries.filter(ours).filter_map(|e| orphan(e.path())).collect();
         found.sort_by_key(|found| std::cmp::Reverse(found.when));
         found
     }
 }
 
-impl Found {
+impl RecoveredWork {
     /// Forgets it.
     pub fn forget(self) {
         // One that cannot be removed is offered again, which loses nothing.
@@ -177,12 +177,12 @@ fn stand_in() -> (String, Plane) {
 }
 
 /// What lies in a file that no running program holds.
-fn orphan(path: PathBuf) -> Option<Found> {
+fn orphan(path: PathBuf) -> Option<RecoveredWork> {
     let file = File::open(&path).ok()?;
     file.try_lock().ok()?;
     let mut kept: Kept = serde_json::from_reader(&file).ok()?;
     if !(1..=MOST_COPIES).contains(&kept.around.company.poses.len()) {
-        kept.around.company = Company::default();
+        kept.around.company = Copies::default();
     }
     let mut design = cut_file::parse(&kept.design, "unsaved work").ok()?;
     let mesh = kept.read.map(KeptMesh::read_mesh);
@@ -190,7 +190,7 @@ fn orphan(path: PathBuf) -> Option<Found> {
         design.cut = mesh_again(mesh.as_ref(), kept.path.as_deref())?;
     }
     let when = file.metadata().and_then(|m| m.modified()).ok()?;
-    Some(Found { design, around: kept.around, path: kept.path, mesh, when, file: path })
+    Some(RecoveredWork { design, around: kept.around, path: kept.path, mesh, when, file: path })
 }
 
 /// The triangles that work had: read from its mesh file as they were then, or else from the file that it was saved in.
@@ -207,21 +207,21 @@ fn mesh_again(mesh: Option<&ReadMesh>, path: Option<&Path>) -> Option<Cut> {
 mod tests {
     use super::*;
     use crate::app::document::Document;
-    use crate::io::design_file::Format;
+    use crate::io::design_file::DesignFormat;
     use std::sync::Arc;
 
     #[test]
     fn work_is_found_after_a_crash_and_only_then() {
         let folder = tempfile::tempdir().unwrap();
         let work = Document::first().unwrap().work;
-        let mut safe = Safe::new(folder.path().to_owned());
+        let mut safe = Autosave::new(folder.path().to_owned());
         let corners = [DVec3::ONE, -DVec3::ONE];
-        let company = Company::scattered(3, &corners, 2);
+        let company = Copies::scattered(3, &corners, 2);
         let around =
-            Around { company, behind: Some("page".into()), behind_mm: Some(12.5), strength: Some(0.2) };
+            KeptScene { company, behind: Some("page".into()), behind_mm: Some(12.5), strength: Some(0.2) };
         safe.keep(&work, &around, Some(Path::new("/x/mine.toml"))).unwrap();
         safe.keep(&work, &around, Some(Path::new("/x/mine.toml"))).unwrap();
-        let next = Safe::new(folder.path().to_owned());
+        let next = Autosave::new(folder.path().to_owned());
         assert_eq!(next.found(), [], "the program still runs");
         drop(safe);
         let found = next.found();
@@ -230,7 +230,7 @@ mod tests {
             (1, &work.design, Some(Path::new("/x/mine.toml")))
         );
         assert_eq!(found[0].around, around);
-        found.into_iter().for_each(Found::forget);
+        found.into_iter().for_each(RecoveredWork::forget);
         assert_eq!(next.found(), []);
     }
 
@@ -239,17 +239,17 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("heart.toml");
         let (vertices, triangles) = crate::math::fixture::heart();
-        let shell = crate::math::Shell::new(crate::math::Surface::new(vertices, triangles)).unwrap();
+        let shell = crate::math::TriangleMesh::new(crate::math::Surface::new(vertices, triangles)).unwrap();
         let first = Document::first().unwrap().work.design;
         let cut = Cut::Mesh(crate::cut::MeshShape(Arc::new(shell)));
         std::fs::write(&path, cut_file::write(&Design { cut, ..first })).unwrap();
         let mesh = design_file::read(&path).unwrap().design;
         let changed = Design { name: "changed".to_owned(), diameter_mm: 9.0, ..mesh };
         let work = Work { design: changed.clone(), ..Document::first().unwrap().work };
-        let mut safe = Safe::new(folder.path().join("safe"));
-        safe.keep(&work, &Around::default(), Some(&path)).unwrap();
+        let mut safe = Autosave::new(folder.path().join("safe"));
+        safe.keep(&work, &KeptScene::default(), Some(&path)).unwrap();
         drop(safe);
-        let next = Safe::new(folder.path().join("safe"));
+        let next = Autosave::new(folder.path().join("safe"));
         assert!(next.found()[0].design == changed);
         let kept = std::fs::read_dir(folder.path().join("safe")).unwrap().next().unwrap().unwrap();
         assert!(kept.metadata().unwrap().len() < 1000);
@@ -260,18 +260,18 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("heart.glb");
         let (vertices, triangles) = crate::math::fixture::heart();
-        let shell = crate::math::Shell::new(crate::math::Surface::new(vertices, triangles)).unwrap();
+        let shell = crate::math::TriangleMesh::new(crate::math::Surface::new(vertices, triangles)).unwrap();
         let first = Document::first().unwrap().work.design;
         let heart = Design { cut: Cut::Mesh(crate::cut::MeshShape(Arc::new(shell))), ..first };
         let specimen = crate::scene::Specimen::new(heart).unwrap();
-        design_file::write(&specimen, Format::Glb, &path).unwrap();
+        design_file::write(&specimen, DesignFormat::Glb, &path).unwrap();
         for form in [MeshForm::Triangles, MeshForm::Faceted] {
             let options = MeshOptions { up: Up::Given(DVec3::new(0.0, 0.6, 0.8)), form };
             let work = Document::open(&path, options).unwrap().work;
-            let mut safe = Safe::new(folder.path().join("safe"));
-            safe.keep(&work, &Around::default(), Some(&path)).unwrap();
+            let mut safe = Autosave::new(folder.path().join("safe"));
+            safe.keep(&work, &KeptScene::default(), Some(&path)).unwrap();
             drop(safe);
-            let found = Safe::new(folder.path().join("safe")).found().remove(0);
+            let found = Autosave::new(folder.path().join("safe")).found().remove(0);
             assert!(found.design == work.design, "{form:?}");
             let recovered =
                 Document::recovered(found.design.clone(), found.path.clone(), found.mesh.clone()).unwrap();
@@ -282,7 +282,7 @@ mod tests {
                 serde_json::from_slice(&std::fs::read(&found.file).unwrap()).unwrap();
             older.as_object_mut().unwrap().remove("read").unwrap();
             std::fs::write(&found.file, older.to_string()).unwrap();
-            let found = Safe::new(folder.path().join("safe")).found().remove(0);
+            let found = Autosave::new(folder.path().join("safe")).found().remove(0);
             assert!(found.mesh.is_none() && matches!(found.design.cut, Cut::Mesh(_) | Cut::Planes(_)));
             found.forget();
         }
@@ -291,12 +291,12 @@ mod tests {
     #[test]
     fn saved_work_is_not_offered_again_and_rubbish_is_passed_over() {
         let folder = tempfile::tempdir().unwrap();
-        let mut safe = Safe::new(folder.path().join("new"));
+        let mut safe = Autosave::new(folder.path().join("new"));
         assert_eq!(safe.found(), []);
-        safe.keep(&Document::first().unwrap().work, &Around::default(), None).unwrap();
+        safe.keep(&Document::first().unwrap().work, &KeptScene::default(), None).unwrap();
         safe.empty();
         drop(safe);
-        let next = Safe::new(folder.path().join("new"));
+        let next = Autosave::new(folder.path().join("new"));
         std::fs::write(folder.path().join("new/unsaved-1.json"), "{").unwrap();
         assert_eq!(next.found(), []);
     }

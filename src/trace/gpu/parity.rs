@@ -4,8 +4,8 @@ mod glass;
 mod lamps;
 
 use super::Gpu;
-use super::door;
-use super::shaders::{Facets, Reading, compiled, source};
+use super::gpu_types;
+use super::shaders::{ShaderSurface, ShaderTask, compiled, source};
 use crate::optics::{Fresnel, fresnel, reflect, reflected_change, refract, refracted_change};
 use glam::DVec3;
 use std::io::Write;
@@ -13,7 +13,8 @@ use wgpu::naga::{front, valid};
 
 #[test]
 fn every_shader_is_valid_and_its_structs_are_laid_out_as_in_rust() {
-    for (facets, reading) in Facets::ALL.into_iter().flat_map(|f| [(f, Reading::Scope), (f, Reading::Light)])
+    for (facets, reading) in
+        ShaderSurface::ALL.into_iter().flat_map(|f| [(f, ShaderTask::Scope), (f, ShaderTask::Light)])
     {
         let text = source(facets, reading);
         let module = front::wgsl::parse_str(&text).unwrap_or_else(|e| panic!("{}", e.emit_to_string(&text)));
@@ -27,27 +28,27 @@ fn every_shader_is_valid_and_its_structs_are_laid_out_as_in_rust() {
                 _ => None,
             })
         };
-        assert_eq!(size("Frame"), Some(size_of::<door::Frame>()));
-        if facets == Facets::Many {
-            assert_eq!(size("Bunch"), Some(size_of::<door::Bunch>()));
+        assert_eq!(size("Frame"), Some(size_of::<gpu_types::Frame>()));
+        if facets == ShaderSurface::Many {
+            assert_eq!(size("Cluster"), Some(size_of::<gpu_types::Cluster>()));
         }
-        if facets == Facets::Triangles {
-            assert_eq!(size("Triangle"), Some(size_of::<door::Triangle>()));
-            assert_eq!(size("Node"), Some(size_of::<door::Node>()));
+        if facets == ShaderSurface::Triangles {
+            assert_eq!(size("Triangle"), Some(size_of::<gpu_types::Triangle>()));
+            assert_eq!(size("BvhNode"), Some(size_of::<gpu_types::BvhNode>()));
         }
-        if matches!(facets, Facets::Smooth | Facets::Wavy) {
-            assert_eq!(size("Field"), Some(size_of::<door::Field>()));
+        if matches!(facets, ShaderSurface::Smooth | ShaderSurface::Wavy) {
+            assert_eq!(size("ImplicitSurface"), Some(size_of::<gpu_types::ImplicitSurface>()));
         }
-        assert_eq!(size("Body"), Some(size_of::<door::Body>()));
-        assert_eq!(size("Medium"), Some(size_of::<door::Medium>()));
-        if reading == Reading::Scope {
-            assert_eq!(size("Bands"), Some(size_of::<door::Bands>()));
-            assert_eq!(size("Seen"), Some(size_of::<door::Seen>()));
+        assert_eq!(size("Body"), Some(size_of::<gpu_types::Body>()));
+        assert_eq!(size("Medium"), Some(size_of::<gpu_types::Medium>()));
+        if reading == ShaderTask::Scope {
+            assert_eq!(size("Bands"), Some(size_of::<gpu_types::Bands>()));
+            assert_eq!(size("ScopePixel"), Some(size_of::<gpu_types::ScopePixel>()));
         } else {
-            assert_eq!(size("Surround"), Some(size_of::<door::Surround>()));
-            assert_eq!(size("Lamp"), Some(size_of::<door::Lamp>()));
-            assert_eq!(size("Response"), Some(size_of::<door::Response>()));
-            assert_eq!(size("Lit"), Some(size_of::<door::Lit>()));
+            assert_eq!(size("Environment"), Some(size_of::<gpu_types::Environment>()));
+            assert_eq!(size("Lamp"), Some(size_of::<gpu_types::Lamp>()));
+            assert_eq!(size("Response"), Some(size_of::<gpu_types::Response>()));
+            assert_eq!(size("RadiancePixel"), Some(size_of::<gpu_types::RadiancePixel>()));
         }
     }
 }

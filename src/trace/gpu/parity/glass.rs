@@ -1,16 +1,16 @@
 //! The functions of glass shapes: value, gradient and bend, on the card and in the library.
 
-use super::super::door;
 use super::super::fields::field;
+use super::super::gpu_types;
 use super::{card, run};
-use crate::math::{Field, Form, Jet};
+use crate::math::{ImplicitForm, ImplicitSurface, Jet};
 use glam::{DMat3, DQuat, DVec3};
 
 /// A point and the number of its shape to the function's gradient and value there, and what bends for each axis.
 const JETS_WGSL: &str = "
 @group(0) @binding(0) var<storage, read> given: array<vec4f>;
 @group(0) @binding(1) var<storage, read_write> found: array<array<vec4f, 4>>;
-@group(0) @binding(2) var<storage, read> fields: array<Field>;
+@group(0) @binding(2) var<storage, read> fields: array<ImplicitSurface>;
 
 @compute @workgroup_size(64)
 fn jets(@builtin(global_invocation_id) id: vec3u) {
@@ -30,8 +30,8 @@ fn jets(@builtin(global_invocation_id) id: vec3u) {
 ";
 
 /// Every form, sharp and round, reaching 1.
-fn shapes() -> Vec<Field> {
-    let plate = |edge, amplitude, wavelength| Form::Plate {
+fn shapes() -> Vec<ImplicitSurface> {
+    let plate = |edge, amplitude, wavelength| ImplicitForm::Plate {
         size: DVec3::new(1.7, 1.6, 0.3),
         edge,
         amplitude,
@@ -39,25 +39,25 @@ fn shapes() -> Vec<Field> {
         phase: 0.7,
     };
     let forms = [
-        Form::Pill { size: DVec3::splat(1.5), edge: 0.75 },
-        Form::Pill { size: DVec3::new(2.0, 0.575, 0.8), edge: 0.155 },
-        Form::Pill { size: DVec3::new(0.6, 1.8, 0.8), edge: 0.0 },
-        Form::Block { size: DVec3::splat(1.15), edge: 0.22 },
-        Form::Block { size: DVec3::new(0.5, 1.15, 1.65), edge: 0.0 },
-        Form::Prism { size: DVec3::new(1.965, 0.745, 0.585), edge: 0.0 },
-        Form::Prism { size: DVec3::new(1.6, 0.9, 0.8), edge: 0.15 },
+        ImplicitForm::Pill { size: DVec3::splat(1.5), edge: 0.75 },
+        ImplicitForm::Pill { size: DVec3::new(2.0, 0.575, 0.8), edge: 0.155 },
+        ImplicitForm::Pill { size: DVec3::new(0.6, 1.8, 0.8), edge: 0.0 },
+        ImplicitForm::Block { size: DVec3::splat(1.15), edge: 0.22 },
+        ImplicitForm::Block { size: DVec3::new(0.5, 1.15, 1.65), edge: 0.0 },
+        ImplicitForm::Prism { size: DVec3::new(1.965, 0.745, 0.585), edge: 0.0 },
+        ImplicitForm::Prism { size: DVec3::new(1.6, 0.9, 0.8), edge: 0.15 },
         plate(0.0, 0.1, 1.5),
         plate(0.1, 0.02, 0.4),
     ];
     let unit = |form| {
-        let field = Field::new(form).unwrap();
+        let field = ImplicitSurface::new(form).unwrap();
         field.moved(1.0 / field.parts().unit, DQuat::IDENTITY, DVec3::ZERO)
     };
     forms.into_iter().map(unit).collect()
 }
 
 /// Gradient, value, and how far the unit normal changes for each axis.
-fn jet(shape: &Field, p: DVec3) -> ([f64; 4], DMat3) {
+fn jet(shape: &ImplicitSurface, p: DVec3) -> ([f64; 4], DMat3) {
     let Jet { value, gradient, hessian } = shape.jet(p);
     let n = gradient.normalize_or_zero();
     let within = DMat3::IDENTITY - DMat3::from_cols(n * n.x, n * n.y, n * n.z);
@@ -66,7 +66,7 @@ fn jet(shape: &Field, p: DVec3) -> ([f64; 4], DMat3) {
 
 /// Points a little inside or outside the surface all around; inside alone where it is sharp, where the library has the
 /// distance from an edge and the card that from its faces.
-fn points(shape: &Field) -> impl Iterator<Item = DVec3> + '_ {
+fn points(shape: &ImplicitSurface) -> impl Iterator<Item = DVec3> + '_ {
     let is_sharp = shape.parts().edge == 0.0;
     (0..2000).filter_map(move |k| {
         let z: f64 = 1.0 - 2.0 * (f64::from(k) + 0.5) / 2000.0;
@@ -84,9 +84,11 @@ fn glass_has_the_same_value_gradient_and_bend_on_the_card() {
     let shapes = shapes();
     let given: Vec<(usize, DVec3)> =
         shapes.iter().enumerate().flat_map(|(k, shape)| points(shape).map(move |p| (k, p))).collect();
-    let narrow: Vec<[f32; 4]> = given.iter().map(|&(k, p)| door::with(p, k as f64)).collect();
-    let told: Vec<door::Field> = shapes.iter().map(field).collect();
-    let text = door::FIELD_WGSL.to_owned() + include_str!("../../../../shaders/jets.wgsl") + JETS_WGSL;
+    let narrow: Vec<[f32; 4]> = given.iter().map(|&(k, p)| gpu_types::with(p, k as f64)).collect();
+    let told: Vec<gpu_types::ImplicitSurface> = shapes.iter().map(field).collect();
+    let text = gpu_types::IMPLICIT_SURFACE_WGSL.to_owned()
+        + include_str!("../../../../shaders/jets.wgsl")
+        + JETS_WGSL;
     let found: Vec<[[f32; 4]; 4]> = run(&gpu, text, &narrow, Some(bytemuck::cast_slice(&told)));
     let (mut value, mut gradient, mut bend, mut compared) = (0.0_f64, 0.0_f64, 0.0_f64, 0);
     for ((&(k, _), narrow), found) in given.iter().zip(&narrow).zip(&found) {

@@ -67,7 +67,7 @@ both_sides! {
     Body, BODY_WGSL {
         /// Middle and radius of a ball around it.
         middle: vec4f,
-        /// Its first plane, the one after its last, and the same of its bunches; or of its triangles and boxes; or its place
+        /// Its first plane, the one after its last, and the same of its clusters; or of its triangles and boxes; or its place
         /// among the shapes.
         range: vec4u,
     }
@@ -89,7 +89,7 @@ both_sides! {
 
 both_sides! {
     /// What stands around the stones.
-    Surround, SURROUND_WGSL {
+    Environment, ENVIRONMENT_WGSL {
         /// Its x axis; side of its map.
         right: vec4f,
         /// Its y axis; number of lamps.
@@ -130,7 +130,7 @@ both_sides! {
 
 both_sides! {
     /// What light shows of one pixel: sums over rays and wavelengths.
-    Lit, LIT_WGSL {
+    RadiancePixel, RADIANCE_PIXEL_WGSL {
         /// Red, green, blue, cover.
         colour: vec4f,
         /// Unresolved; absorbed; nothing in the others.
@@ -140,7 +140,7 @@ both_sides! {
 
 both_sides! {
     /// What is seen through one pixel: means over its rays. Zones are by band, in the scope's order.
-    Seen, SEEN_WGSL {
+    ScopePixel, SCOPE_PIXEL_WGSL {
         /// Light from inside the stone.
         transmitted: two_vec4f,
         /// Glare of the outer surface.
@@ -154,7 +154,7 @@ both_sides! {
 
 both_sides! {
     /// Planes that look much the same way.
-    Bunch, BUNCH_WGSL {
+    Cluster, CLUSTER_WGSL {
         /// Mean normal and offset.
         middle: vec4f,
         /// How far its normals and its offsets lie from these; first plane; number of planes.
@@ -175,8 +175,8 @@ both_sides! {
 }
 
 both_sides! {
-    /// A glass shape: [`crate::math::Field`] in its own frame, in which it reaches 1 from the origin.
-    Field, FIELD_WGSL {
+    /// A glass shape: [`crate::math::ImplicitSurface`] in its own frame, in which it reaches 1 from the origin.
+    ImplicitSurface, IMPLICIT_SURFACE_WGSL {
         /// The frame's x axis in the world; half the length of the core.
         right: vec4f,
         /// Its y axis; radius of the ball that is rolled around the core.
@@ -195,8 +195,8 @@ both_sides! {
 }
 
 both_sides! {
-    /// A box around triangles, as [`crate::math::Node`].
-    Node, NODE_WGSL {
+    /// A box around triangles, as [`crate::math::BvhNode`].
+    BvhNode, BVH_NODE_WGSL {
         /// Least coordinates; how many nodes after it the second half stands, or its first triangle.
         low: vec4f,
         /// Greatest coordinates; how many triangles stand right in it.
@@ -204,7 +204,7 @@ both_sides! {
     }
 }
 
-impl Seen {
+impl ScopePixel {
     /// Share absorbed.
     pub fn absorbed(&self) -> f32 {
         self.rest[0]

@@ -6,7 +6,7 @@ use std::path::Path;
 
 /// Something to pass on to a person.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Told<'a> {
+pub enum Event<'a> {
     /// What is being made from now on.
     Begun(&'a str),
     /// A file that is finished.
@@ -18,16 +18,16 @@ pub enum Told<'a> {
 }
 
 /// Takes what is told; an error ends the work.
-pub type Tell<'a> = &'a dyn Fn(Told) -> Result<(), Failure>;
+pub type Reporter<'a> = &'a dyn Fn(Event) -> Result<(), Failure>;
 
 /// Parts of one work, each of which has a watch of its own.
-pub(super) struct Pace<'a> {
+pub(super) struct WorkShares<'a> {
     watch: Watch<'a>,
     parts: f64,
     done: f64,
 }
 
-impl<'a> Pace<'a> {
+impl<'a> WorkShares<'a> {
     /// Work of so many parts.
     pub fn new(watch: Watch<'a>, parts: f64) -> Self {
         Self { watch, parts, done: 0.0 }
@@ -62,9 +62,9 @@ mod tests {
             told.lock().unwrap().push(done);
             if done > 0.9 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
         };
-        let mut pace = Pace::new(&watch, 4.0);
+        let mut pace = WorkShares::new(&watch, 4.0);
         let half = |watch: Watch| Ok(watch(0.5).is_continue());
-        assert!(pace.step(2.0, |watch| Pace::new(watch, 2.0).step(1.0, half)).unwrap());
+        assert!(pace.step(2.0, |watch| WorkShares::new(watch, 2.0).step(1.0, half)).unwrap());
         pace.step(1.0, |_| Ok(())).unwrap();
         assert!(pace.step(1.0, half).unwrap());
         let stopped = pace.step(1.0, |_| -> Result<(), Failure> { unreachable!() });

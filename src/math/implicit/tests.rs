@@ -35,48 +35,48 @@ fn chance(seed: u64) -> Chance {
     Chance(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1)
 }
 
-fn plate(size: DVec3, edge: f64, amplitude: f64, wavelength: f64) -> Form {
-    Form::Plate { size, edge, amplitude, wavelength, phase: 0.7 }
+fn plate(size: DVec3, edge: f64, amplitude: f64, wavelength: f64) -> ImplicitForm {
+    ImplicitForm::Plate { size, edge, amplitude, wavelength, phase: 0.7 }
 }
 
 /// Every form, sharp and round, as round as can be, and in the demo's own measures.
-fn forms() -> Vec<Field> {
+fn forms() -> Vec<ImplicitSurface> {
     let pixels = |x, y, z| DVec3::new(x, y, z) / 200.0;
     let all = [
-        Form::Pill { size: pixels(400.0, 115.0, 62.0), edge: 0.155 },
-        Form::Pill { size: pixels(115.0, 400.0, 162.0), edge: 0.1 },
-        Form::Pill { size: pixels(300.0, 300.0, 300.0), edge: 0.75 },
-        Form::Pill { size: pixels(400.0, 100.0, 200.0), edge: 0.25 },
-        Form::Pill { size: pixels(400.0, 100.0, 200.0), edge: 0.0 },
-        Form::Block { size: pixels(230.0, 230.0, 230.0), edge: 0.22 },
-        Form::Block { size: pixels(100.0, 230.0, 330.0), edge: 0.0 },
-        Form::Block { size: pixels(100.0, 230.0, 330.0), edge: 0.25 },
-        Form::Pane { size: pixels(400.0, 250.0, 48.0), corner: 0.4, edge: 0.12 },
-        Form::Pane { size: pixels(250.0, 400.0, 60.0), corner: 0.1, edge: 0.1 },
-        Form::Pane { size: pixels(300.0, 300.0, 60.0), corner: 0.3, edge: 0.0 },
-        Form::Prism { size: pixels(393.0, 149.0, 117.0), edge: 0.0 },
-        Form::Prism { size: pixels(400.0, 80.0, 80.0), edge: 0.05 },
-        Form::Prism { size: pixels(100.0, 300.0, 80.0), edge: 0.1 },
-        Form::Prism { size: pixels(400.0, 80.0, 240.0), edge: super::profile::inradius(0.4, 1.2) },
+        ImplicitForm::Pill { size: pixels(400.0, 115.0, 62.0), edge: 0.155 },
+        ImplicitForm::Pill { size: pixels(115.0, 400.0, 162.0), edge: 0.1 },
+        ImplicitForm::Pill { size: pixels(300.0, 300.0, 300.0), edge: 0.75 },
+        ImplicitForm::Pill { size: pixels(400.0, 100.0, 200.0), edge: 0.25 },
+        ImplicitForm::Pill { size: pixels(400.0, 100.0, 200.0), edge: 0.0 },
+        ImplicitForm::Block { size: pixels(230.0, 230.0, 230.0), edge: 0.22 },
+        ImplicitForm::Block { size: pixels(100.0, 230.0, 330.0), edge: 0.0 },
+        ImplicitForm::Block { size: pixels(100.0, 230.0, 330.0), edge: 0.25 },
+        ImplicitForm::Pane { size: pixels(400.0, 250.0, 48.0), corner: 0.4, edge: 0.12 },
+        ImplicitForm::Pane { size: pixels(250.0, 400.0, 60.0), corner: 0.1, edge: 0.1 },
+        ImplicitForm::Pane { size: pixels(300.0, 300.0, 60.0), corner: 0.3, edge: 0.0 },
+        ImplicitForm::Prism { size: pixels(393.0, 149.0, 117.0), edge: 0.0 },
+        ImplicitForm::Prism { size: pixels(400.0, 80.0, 80.0), edge: 0.05 },
+        ImplicitForm::Prism { size: pixels(100.0, 300.0, 80.0), edge: 0.1 },
+        ImplicitForm::Prism { size: pixels(400.0, 80.0, 240.0), edge: super::profile::inradius(0.4, 1.2) },
         plate(pixels(346.0, 346.0, 60.0), 0.0525, 0.085, 2.675),
         plate(pixels(400.0, 400.0, 100.0), 0.05, 0.1, 1.5),
         plate(pixels(400.0, 300.0, 100.0), 0.0, 0.3, 0.8),
         plate(pixels(400.0, 400.0, 60.0), 0.0525, 0.3, 0.3),
     ];
-    all.into_iter().map(|form| Field::new(form).unwrap()).collect()
+    all.into_iter().map(|form| ImplicitSurface::new(form).unwrap()).collect()
 }
 
 fn turn() -> DQuat {
     DQuat::from_euler(glam::EulerRot::XYZ, 0.4, -1.1, 2.3)
 }
 
-fn moved(field: &Field) -> Field {
+fn moved(field: &ImplicitSurface) -> ImplicitSurface {
     field.moved(1.7, turn(), DVec3::new(0.3, -2.0, 1.1))
 }
 
 /// Rays from around a form, toward it and past it; every other one grazes it: it is square to the normal of the surface
 /// point where a first ray hits, but for a little.
-fn rays(field: &Field, count: usize, seed: u64) -> Vec<(DVec3, DVec3)> {
+fn rays(field: &ImplicitSurface, count: usize, seed: u64) -> Vec<(DVec3, DVec3)> {
     let mut chance = chance(seed);
     let (middle, reach) = (field.shift, field.own_reach() * field.scale);
     let mut rays: Vec<(DVec3, DVec3)> = vec![];
@@ -125,7 +125,7 @@ fn derivatives_are_those_of_the_function() {
 #[test]
 fn the_function_of_a_convex_form_is_the_distance_from_its_surface() {
     let mut chance = chance(2);
-    for field in forms().iter().flat_map(|field| [*field, moved(field)]).filter(Field::is_convex) {
+    for field in forms().iter().flat_map(|field| [*field, moved(field)]).filter(ImplicitSurface::is_convex) {
         let scale = field.scale;
         for _ in 0..2000 {
             let p = field.shift + chance.point() * field.own_reach() * scale * 1.3;
@@ -141,7 +141,13 @@ fn the_function_of_a_convex_form_is_the_distance_from_its_surface() {
 }
 
 /// Where a ray's function changes its sign, by looking at every step, and the value farthest from 0 within each stretch.
-fn changes(field: &Field, origin: DVec3, direction: DVec3, far: f64, steps: usize) -> Vec<(f64, f64)> {
+fn changes(
+    field: &ImplicitSurface,
+    origin: DVec3,
+    direction: DVec3,
+    far: f64,
+    steps: usize,
+) -> Vec<(f64, f64)> {
     let at = |i: usize| field.value(origin + direction * (far * i as f64 / steps as f64));
     let mut found = vec![(0.0, 0.0_f64)];
     let mut last = at(0);
@@ -159,7 +165,7 @@ fn changes(field: &Field, origin: DVec3, direction: DVec3, far: f64, steps: usiz
 }
 
 /// What a ray finds, one after the other, until it leaves, and whether it was given up.
-fn walk(field: &Field, origin: DVec3, direction: DVec3) -> (Vec<f64>, bool) {
+fn walk(field: &ImplicitSurface, origin: DVec3, direction: DVec3) -> (Vec<f64>, bool) {
     let mut found = vec![];
     let mut t = 0.0;
     loop {
@@ -259,7 +265,7 @@ fn light_reflected_inside_stays_on_the_surface_and_few_ways_are_lost() {
 
 #[test]
 fn a_pill_as_round_as_can_be_is_a_sphere() {
-    let sphere = Field::new(Form::Pill { size: DVec3::splat(2.0), edge: 1.0 }).unwrap();
+    let sphere = ImplicitSurface::new(ImplicitForm::Pill { size: DVec3::splat(2.0), edge: 1.0 }).unwrap();
     for (o, d) in rays(&sphere, 20_000, 50) {
         let (middle, off) = (-o.dot(d), (o - d * o.dot(d)).length_squared());
         if (1.0 - off).abs() < 1e-4 {
@@ -302,13 +308,14 @@ fn sharp_forms_are_the_solids_between_their_planes_and_hardly_rounded_ones_nearl
     let prism = [ends.to_vec(), sides.to_vec(), vec![Plane::new(-DVec3::Z, size.z / 2.0)]].concat();
     let faces = |axis: usize| [1.0, -1.0].map(|s| Plane::new(DVec3::AXES[axis] * s, size[axis] / 2.0));
     let block: Vec<Plane> = (0..3).flat_map(faces).collect();
-    let form =
-        |is_prism, edge| if is_prism { Form::Prism { size, edge } } else { Form::Block { size, edge } };
+    let form = |is_prism, edge| {
+        if is_prism { ImplicitForm::Prism { size, edge } } else { ImplicitForm::Block { size, edge } }
+    };
     for (is_prism, planes) in [(true, prism), (false, block)] {
         let polytope = Polytope::from_planes(&planes).unwrap();
         let planes: Vec<Plane> = polytope.planes().collect();
-        let sharp = Field::new(form(is_prism, 0.0)).unwrap();
-        let round = Field::new(form(is_prism, 1e-6)).unwrap();
+        let sharp = ImplicitSurface::new(form(is_prism, 0.0)).unwrap();
+        let round = ImplicitSurface::new(form(is_prism, 1e-6)).unwrap();
         assert!((sharp.volume() - polytope.volume()).abs() < 1e-14 && sharp.reach() < 2.0);
         let mut both = 0;
         for (o, d) in rays(&sharp, 20_000, 60) {
@@ -396,7 +403,7 @@ fn facets_are_told_by_their_faces() {
             assert!(!flat || field.bend(p) == DMat3::ZERO, "{field:?} {p} {facet}");
         }
         // What is round about a pane's outline counts as its edge.
-        let sharp = field.body.edge == 0.0 && !matches!(field.form, Form::Pane { .. });
+        let sharp = field.body.edge == 0.0 && !matches!(field.form, ImplicitForm::Pane { .. });
         let (edge, faces) = seen.split_last().unwrap();
         assert!(
             (*edge > 0) != sharp && faces.iter().all(|n| *n > 0) | (field.body.half == 0.0 || !sharp),
@@ -408,35 +415,44 @@ fn facets_are_told_by_their_faces() {
 #[test]
 fn what_is_no_shape_is_refused_with_what_is_at_fault() {
     let size = DVec3::new(2.0, 1.0, 0.5);
-    let told = |form| Field::new(form).unwrap_err();
+    let told = |form| ImplicitSurface::new(form).unwrap_err();
     for bad in [f64::NAN, f64::INFINITY, 0.0, -1.0, 1e300] {
-        let error = told(Form::Block { size: DVec3::new(1.0, bad, 1.0), edge: 0.1 });
-        assert!(matches!(error, FieldError::Dimension { name: "the size along y", .. }), "{error}");
+        let error = told(ImplicitForm::Block { size: DVec3::new(1.0, bad, 1.0), edge: 0.1 });
+        assert!(matches!(error, ImplicitSurfaceError::Dimension { name: "the size along y", .. }), "{error}");
         let error = told(plate(size, 0.1, 0.1, bad));
-        let wave = matches!(error, FieldError::Dimension { name: "the wavelength", .. });
+        let wave = matches!(error, ImplicitSurfaceError::Dimension { name: "the wavelength", .. });
         assert!(wave, "{error}");
         if bad != 0.0 {
-            let edge = told(Form::Pill { size, edge: bad });
-            assert!(matches!(edge, FieldError::Number { name: "the edge's radius", .. }), "{edge}");
+            let edge = told(ImplicitForm::Pill { size, edge: bad });
+            assert!(matches!(edge, ImplicitSurfaceError::Number { name: "the edge's radius", .. }), "{edge}");
             let amplitude = told(plate(size, 0.1, bad, 1.0));
-            assert!(matches!(amplitude, FieldError::Number { name: "the amplitude", .. }), "{amplitude}");
+            assert!(
+                matches!(amplitude, ImplicitSurfaceError::Number { name: "the amplitude", .. }),
+                "{amplitude}"
+            );
         }
     }
-    assert_eq!(told(Form::Pill { size, edge: 0.3 }), FieldError::Edge { edge: 0.3, most: 0.25 });
-    let pane = |corner, edge| told(Form::Pane { size, corner, edge });
-    assert_eq!(pane(0.6, 0.1), FieldError::Edge { edge: 0.6, most: 0.5 });
-    assert_eq!(pane(0.1, 0.2), FieldError::Edge { edge: 0.2, most: 0.1 });
-    assert_eq!(pane(0.4, 0.3), FieldError::Edge { edge: 0.3, most: 0.25 });
-    assert!(matches!(pane(f64::NAN, 0.0), FieldError::Number { name: "the corners' radius", .. }));
+    assert_eq!(
+        told(ImplicitForm::Pill { size, edge: 0.3 }),
+        ImplicitSurfaceError::Edge { edge: 0.3, most: 0.25 }
+    );
+    let pane = |corner, edge| told(ImplicitForm::Pane { size, corner, edge });
+    assert_eq!(pane(0.6, 0.1), ImplicitSurfaceError::Edge { edge: 0.6, most: 0.5 });
+    assert_eq!(pane(0.1, 0.2), ImplicitSurfaceError::Edge { edge: 0.2, most: 0.1 });
+    assert_eq!(pane(0.4, 0.3), ImplicitSurfaceError::Edge { edge: 0.3, most: 0.25 });
+    assert!(matches!(pane(f64::NAN, 0.0), ImplicitSurfaceError::Number { name: "the corners' radius", .. }));
     let most = 1.0 * 0.5 / (1.0 + 2.0_f64.sqrt());
     assert!(
-        matches!(told(Form::Prism { size, edge: 0.25 }), FieldError::Edge { most: m, .. } if (m - most).abs() < 1e-15)
+        matches!(told(ImplicitForm::Prism { size, edge: 0.25 }), ImplicitSurfaceError::Edge { most: m, .. } if (m - most).abs() < 1e-15)
     );
     assert!(
-        matches!(told(plate(size, 0.1, 1.5, 1.0)), FieldError::Slope { slope } if (slope - 1.5 * TAU).abs() < 1e-12)
+        matches!(told(plate(size, 0.1, 1.5, 1.0)), ImplicitSurfaceError::Slope { slope } if (slope - 1.5 * TAU).abs() < 1e-12)
     );
-    assert_eq!(told(plate(size, 0.1, 0.0, 0.001)), FieldError::Wavelength { wavelength: 0.001, least: 0.01 });
-    assert!(Field::new(plate(size, 0.1, 0.0, 1.0)).unwrap().is_convex());
+    assert_eq!(
+        told(plate(size, 0.1, 0.0, 0.001)),
+        ImplicitSurfaceError::Wavelength { wavelength: 0.001, least: 0.01 }
+    );
+    assert!(ImplicitSurface::new(plate(size, 0.1, 0.0, 1.0)).unwrap().is_convex());
     // No ray and no point makes it panic or run on.
     for field in forms() {
         for bad in [DVec3::ZERO, DVec3::NAN, DVec3::INFINITY, DVec3::splat(1e300), DVec3::X * 1e-300] {

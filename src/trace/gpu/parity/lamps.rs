@@ -1,8 +1,8 @@
 //! Lamps: the part of a sweep that runs through one, on the card and in the library.
 
-use super::super::door;
+use super::super::gpu_types;
 use super::{card, run};
-use crate::trace::surround::share_inside;
+use crate::trace::environment::share_inside;
 use glam::DVec3;
 
 /// From a lamp's middle and along the sweep, x and y of both; z is half of x.
@@ -50,9 +50,9 @@ fn lamps_are_as_bright_on_the_card_however_far_a_sweep_reaches() {
         })
         .collect();
     let chord = format!("const CHORD_SQUARED: f32 = {};\n", CHORD * CHORD);
-    let surround = include_str!("../../../../shaders/surround.wgsl");
-    let structs = [door::FRAME_WGSL, door::SURROUND_WGSL, door::LAMP_WGSL].concat();
-    let found: Vec<f32> = run(&gpu, structs + &chord + surround + SHARE_WGSL, &given, None);
+    let environment = include_str!("../../../../shaders/environment.wgsl");
+    let structs = [gpu_types::FRAME_WGSL, gpu_types::ENVIRONMENT_WGSL, gpu_types::LAMP_WGSL].concat();
+    let found: Vec<f32> = run(&gpu, structs + &chord + environment + SHARE_WGSL, &given, None);
     // The largest difference of short sweeps, and the light of all by length.
     let (mut largest, mut light) = (0.0_f64, [[0.0; 2]; 9]);
     for (given, found) in given.iter().zip(found) {

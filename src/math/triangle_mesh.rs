@@ -6,7 +6,7 @@ use glam::{DQuat, DVec3};
 
 /// A closed solid of triangles, which need not be convex. Neighbouring triangles in one plane are one facet.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Shell {
+pub struct TriangleMesh {
     surface: Surface,
     facets: Vec<u32>,
     planes: Vec<Plane>,
@@ -15,7 +15,7 @@ pub struct Shell {
 
 /// Why triangles enclose no solid.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
-pub enum ShellError {
+pub enum TriangleMeshError {
     /// A solid has at least four.
     #[error("{0} triangles enclose nothing; at least four are needed")]
     TooFew(usize),
@@ -47,19 +47,19 @@ pub enum ShellError {
 /// The largest coordinate: volumes do not overflow.
 const LARGEST: f64 = 1e60;
 
-impl Shell {
+impl TriangleMesh {
     /// Finds the facets of a surface and puts boxes around its triangles; a million take a few seconds.
     ///
     /// # Errors
     /// Where the triangles enclose nothing; triangles and corners are told by their places in the lists given.
-    pub fn new(surface: Surface) -> Result<Self, ShellError> {
+    pub fn new(surface: Surface) -> Result<Self, TriangleMeshError> {
         checked(&surface)?;
         let facets = regions(&surface)?;
         let planes = planes_of(&surface, &facets);
         let bvh = Bvh::new(&surface.vertices, &surface.triangles);
         let shell = Self { surface, facets, planes, bvh };
         let volume = shell.volume();
-        if volume > 0.0 { Ok(shell) } else { Err(ShellError::InsideOut(volume)) }
+        if volume > 0.0 { Ok(shell) } else { Err(TriangleMeshError::InsideOut(volume)) }
     }
 
     /// The triangles of a convex solid, its facets in their order.
@@ -137,18 +137,18 @@ impl Shell {
     }
 }
 
-fn checked(surface: &Surface) -> Result<(), ShellError> {
+fn checked(surface: &Surface) -> Result<(), TriangleMeshError> {
     let Surface { vertices, triangles, .. } = surface;
     if triangles.len() < 4 {
-        return Err(ShellError::TooFew(triangles.len()));
+        return Err(TriangleMeshError::TooFew(triangles.len()));
     }
     let is_far = |v: &DVec3| v.is_nan() || v.abs().max_element() > LARGEST;
     if let Some(corner) = vertices.iter().position(is_far) {
-        return Err(ShellError::NotFinite(corner));
+        return Err(TriangleMeshError::NotFinite(corner));
     }
     let beyond = |(triangle, t): (usize, &[u32; 3])| {
         let corner = t.iter().copied().find(|&v| v as usize >= vertices.len())?;
-        Some(ShellError::NoCorner { triangle, corner, count: vertices.len() })
+        Some(TriangleMeshError::NoCorner { triangle, corner, count: vertices.len() })
     };
     triangles.iter().enumerate().find_map(beyond).map_or(Ok(()), Err)
 }
@@ -167,9 +167,9 @@ mod tests {
         surface(fixture::heart())
     }
 
-    fn cube() -> Shell {
+    fn cube() -> TriangleMesh {
         let square = [(1.0, 1.0), (-1.0, 1.0), (-1.0, -1.0), (1.0, -1.0)].map(glam::DVec2::from);
-        Shell::new(surface(extruded(&square, 1.0))).unwrap()
+        TriangleMesh::new(surface(extruded(&square, 1.0))).unwrap()
     }
 
     #[test]
@@ -182,8 +182,8 @@ mod tests {
             assert!(t.iter().all(|&v| plane.distance(cube.vertices()[v as usize]).abs() < 1e-12));
         }
         // A pyramid on each side of a star of five points: twice ten facets, of a triangle each.
-        assert_eq!(Shell::new(surface(fixture::star())).unwrap().planes().len(), 20);
-        let heart = Shell::new(heart()).unwrap();
+        assert_eq!(TriangleMesh::new(surface(fixture::star())).unwrap().planes().len(), 20);
+        let heart = TriangleMesh::new(heart()).unwrap();
         assert!(heart.planes().len() > 20 && heart.planes().len() <= heart.facets().len());
     }
 
@@ -217,19 +217,19 @@ mod tests {
         let Surface { vertices, triangles, .. } = cube().surface().clone();
         let turned = |v: &DVec3| DQuat::from_rotation_x(0.3) * DQuat::from_rotation_y(0.7) * *v;
         let rounded = vertices.iter().map(turned).map(|v| rough(&v)).collect();
-        assert_eq!(Shell::new(Surface::new(rounded, triangles.clone())).unwrap().planes().len(), 6);
+        assert_eq!(TriangleMesh::new(Surface::new(rounded, triangles.clone())).unwrap().planes().len(), 6);
         // One corner of the cube, where three facets meet, moved a little.
         let mut bent = vertices;
         bent[0] += DVec3::splat(1e-4);
-        assert!(Shell::new(Surface::new(bent, triangles)).unwrap().planes().len() > 6);
+        assert!(TriangleMesh::new(Surface::new(bent, triangles)).unwrap().planes().len() > 6);
     }
 
     #[test]
     fn a_moved_shell_is_the_shell_of_what_was_moved() {
         let (shell, turn, shift) =
-            (Shell::new(heart()).unwrap(), DQuat::from_rotation_y(0.4), DVec3::new(3.0, -1.0, 0.5));
+            (TriangleMesh::new(heart()).unwrap(), DQuat::from_rotation_y(0.4), DVec3::new(3.0, -1.0, 0.5));
         let moved = shell.moved(2.0, turn, shift);
-        let anew = Shell::new(moved.surface().clone()).unwrap();
+        let anew = TriangleMesh::new(moved.surface().clone()).unwrap();
         assert_eq!(moved.facets(), anew.facets());
         for (a, b) in moved.planes().iter().zip(anew.planes()) {
             assert!(a.normal.distance(b.normal) < 1e-12 && (a.offset - b.offset).abs() < 1e-12);
@@ -243,17 +243,20 @@ mod tests {
         let told = |change: &dyn Fn(&mut Surface)| {
             let mut surface = good.clone();
             change(&mut surface);
-            Shell::new(surface).unwrap_err()
+            TriangleMesh::new(surface).unwrap_err()
         };
-        assert_eq!(told(&|s| s.triangles.truncate(3)), ShellError::TooFew(3));
-        let missing = ShellError::NoCorner { triangle: 2, corner: 99, count: good.vertices.len() };
+        assert_eq!(told(&|s| s.triangles.truncate(3)), TriangleMeshError::TooFew(3));
+        let missing = TriangleMeshError::NoCorner { triangle: 2, corner: 99, count: good.vertices.len() };
         assert_eq!(told(&|s| s.triangles[2][1] = 99), missing);
-        assert_eq!(told(&|s| s.vertices[3].y = f64::NAN), ShellError::NotFinite(3));
-        assert_eq!(told(&|s| s.vertices[1].x = 1e200), ShellError::NotFinite(1));
-        assert!(matches!(told(&|s| s.triangles.truncate(s.triangles.len() - 1)), ShellError::Open(..)));
-        assert!(matches!(told(&|s| s.triangles[0].swap(0, 1)), ShellError::Open(..)));
+        assert_eq!(told(&|s| s.vertices[3].y = f64::NAN), TriangleMeshError::NotFinite(3));
+        assert_eq!(told(&|s| s.vertices[1].x = 1e200), TriangleMeshError::NotFinite(1));
+        assert!(matches!(
+            told(&|s| s.triangles.truncate(s.triangles.len() - 1)),
+            TriangleMeshError::Open(..)
+        ));
+        assert!(matches!(told(&|s| s.triangles[0].swap(0, 1)), TriangleMeshError::Open(..)));
         let reversed = told(&|s| s.triangles.iter_mut().for_each(|t| t.swap(0, 1)));
-        assert!(matches!(reversed, ShellError::InsideOut(v) if (v + 8.0).abs() < 1e-12), "{reversed}");
+        assert!(matches!(reversed, TriangleMeshError::InsideOut(v) if (v + 8.0).abs() < 1e-12), "{reversed}");
     }
 
     #[test]
@@ -263,9 +266,9 @@ mod tests {
             .flat_map(|a| [Plane::new(a, 1.0), Plane::new(-a, 1.0)])
             .chain([Plane::new(DVec3::ONE, 2.2)]);
         let polytope = Polytope::from_planes(&planes.collect::<Vec<_>>()).unwrap();
-        let shell = Shell::of_polytope(&polytope);
+        let shell = TriangleMesh::of_polytope(&polytope);
         assert!(shell.planes().iter().copied().eq(polytope.planes()));
-        let anew = Shell::new(shell.surface().clone()).unwrap();
+        let anew = TriangleMesh::new(shell.surface().clone()).unwrap();
         assert_eq!(anew.facets(), shell.facets());
     }
 }

@@ -1,7 +1,7 @@
 //! A form's surface as triangles.
 
 use super::profile::Profile;
-use super::{Field, Surface};
+use super::{ImplicitSurface, Surface};
 use glam::{DVec2, DVec3};
 use std::collections::HashMap;
 use std::f64::consts::FRAC_PI_2;
@@ -9,7 +9,7 @@ use std::f64::consts::FRAC_PI_2;
 /// A point of the core's outline and the outline's normal there.
 type Rim = (DVec2, DVec2);
 
-impl Field {
+impl ImplicitSurface {
     /// Closed triangles with corners on the surface, counter-clockwise seen from outside, grouped by facet: the mesh differs
     /// from the surface by no more than [`deviation`](Self::deviation). A quarter of a turn is made of `fineness` steps (of
     /// 0: one), a plate's wave of four times as many.
@@ -147,7 +147,7 @@ impl Field {
 
 /// Collects triangles; corners at the same place are one.
 struct Weld<'a> {
-    field: &'a Field,
+    field: &'a ImplicitSurface,
     places: HashMap<[u64; 3], u32>,
     surface: Surface,
 }

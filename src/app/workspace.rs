@@ -12,7 +12,7 @@ use std::path::{Path, PathBuf};
 
 /// How many views there are.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
-pub enum Layout {
+pub enum PaneLayout {
     /// One.
     One,
     /// Two side by side.
@@ -22,7 +22,7 @@ pub enum Layout {
     Four,
 }
 
-impl Layout {
+impl PaneLayout {
     /// How many panes it has.
     pub fn panes(self) -> usize {
         match self {
@@ -35,7 +35,7 @@ impl Layout {
 
 /// A panel beside the views.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-pub enum Side {
+pub enum PanelSide {
     /// The design, on the left.
     Design,
     /// The figures, on the right.
@@ -51,31 +51,31 @@ pub struct Panels {
     /// Whether the figures are, in a window that has room for both.
     pub figures: bool,
     /// The one that is in a window that has room for one.
-    pub narrow: Option<Side>,
+    pub narrow: Option<PanelSide>,
 }
 
 impl Default for Panels {
     fn default() -> Self {
-        Self { design: true, figures: true, narrow: Some(Side::Design) }
+        Self { design: true, figures: true, narrow: Some(PanelSide::Design) }
     }
 }
 
 impl Panels {
     /// Whether a panel is open.
-    pub fn is_open(&self, side: Side, has_room_for_both: bool) -> bool {
+    pub fn is_open(&self, side: PanelSide, has_room_for_both: bool) -> bool {
         match (has_room_for_both, side) {
             (false, _) => self.narrow == Some(side),
-            (true, Side::Design) => self.design,
-            (true, Side::Figures) => self.figures,
+            (true, PanelSide::Design) => self.design,
+            (true, PanelSide::Figures) => self.figures,
         }
     }
 
     /// Opens a panel, or folds it.
-    pub fn set(&mut self, side: Side, has_room_for_both: bool, is_open: bool) {
+    pub fn set(&mut self, side: PanelSide, has_room_for_both: bool, is_open: bool) {
         match (has_room_for_both, side) {
             (false, _) => self.narrow = is_open.then_some(side),
-            (true, Side::Design) => self.design = is_open,
-            (true, Side::Figures) => self.figures = is_open,
+            (true, PanelSide::Design) => self.design = is_open,
+            (true, PanelSide::Figures) => self.figures = is_open,
         }
     }
 }
@@ -101,9 +101,9 @@ const MOST_RECENT: usize = 10;
 /// All of it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
-pub struct Desk {
+pub struct Workspace {
     /// How many views.
-    pub layout: Layout,
+    pub layout: PaneLayout,
     /// The views; a layout of fewer shows the first of them.
     pub panes: [Pane; 4],
     /// One of them, shown alone for a while.
@@ -162,11 +162,11 @@ pub struct OfScene {
 /// Bands of wavelengths that are offered; of three each shows.
 pub const WAVELENGTHS: [u32; 5] = [3, 8, 16, 32, 64];
 
-impl Default for Desk {
+impl Default for Workspace {
     fn default() -> Self {
         let pane = |shows| Pane { shows, own: None, is_near: false };
         Self {
-            layout: Layout::Four,
+            layout: PaneLayout::Four,
             panes: [Shows::Render, Shows::Aset, Shows::Hearts, Shows::Profile].map(pane),
             large: None,
             eye: Eye::default(),
@@ -194,7 +194,7 @@ impl Default for Desk {
     }
 }
 
-impl Desk {
+impl Workspace {
     /// Whether scopes hold glare.
     pub fn glare(&self) -> Glare {
         if self.glare { Glare::Included } else { Glare::LeftOut }
@@ -337,36 +337,36 @@ mod tests {
 
     #[test]
     fn a_desk_is_kept_as_text_and_an_old_one_is_completed() {
-        let mut desk = Desk { layout: Layout::Two, ..Desk::default() };
+        let mut desk = Workspace { layout: PaneLayout::Two, ..Workspace::default() };
         desk.eye.spin(crate::scene::Side::Table, 0.5);
         desk.remember(Path::new("/a/b.toml"));
         let text = serde_json::to_string(&desk).unwrap();
-        assert_eq!(serde_json::from_str::<Desk>(&text).unwrap(), desk);
-        assert_eq!(serde_json::from_str::<Desk>("{}").unwrap(), Desk::default());
+        assert_eq!(serde_json::from_str::<Workspace>(&text).unwrap(), desk);
+        assert_eq!(serde_json::from_str::<Workspace>("{}").unwrap(), Workspace::default());
     }
 
     #[test]
     fn what_a_scene_hangs_and_sets_goes_with_it_but_not_what_was_chosen_since() {
-        let own = Desk { behind: Some("grid".to_owned()), wavelengths: 64, ..Desk::default() };
+        let own = Workspace { behind: Some("grid".to_owned()), wavelengths: 64, ..Workspace::default() };
         let mut desk = own.clone();
         desk.enter_scene(Some("page".to_owned()), Some(8));
         (desk.strength, desk.behind_mm) = (0.1, Some(3.0));
         assert_eq!((desk.behind.as_deref(), desk.wavelengths), (Some("page"), 8));
-        let mut chosen = Desk { behind: Some("dots".to_owned()), ..desk.clone() };
+        let mut chosen = Workspace { behind: Some("dots".to_owned()), ..desk.clone() };
         desk.rest();
         assert_eq!(desk, own);
         chosen.rest();
-        assert_eq!(chosen, Desk { behind: Some("dots".to_owned()), ..own });
+        assert_eq!(chosen, Workspace { behind: Some("dots".to_owned()), ..own });
     }
 
     #[test]
     fn a_render_is_shown_alone_wherever_it_is_and_where_there_is_none() {
-        let mut desk = Desk { layout: Layout::Two, ..Desk::default() };
+        let mut desk = Workspace { layout: PaneLayout::Two, ..Workspace::default() };
         desk.panes[..2].iter_mut().for_each(|pane| pane.shows = Shows::Aset);
         desk.panes[3].shows = Shows::Render;
         desk.enlarge_render();
         assert_eq!((desk.shown(), desk.panes[0].shows), (vec![0], Shows::Render));
-        desk.layout = Layout::Four;
+        desk.layout = PaneLayout::Four;
         desk.panes[0].shows = Shows::Aset;
         desk.enlarge_render();
         assert_eq!((desk.shown(), desk.panes[0].shows), (vec![3], Shows::Aset));
@@ -374,7 +374,7 @@ mod tests {
 
     #[test]
     fn recent_files_are_few_and_each_stands_once() {
-        let mut desk = Desk::default();
+        let mut desk = Workspace::default();
         (0..30).for_each(|k| desk.remember(Path::new(&format!("/{}.toml", k % 20))));
         assert_eq!(desk.recent.len(), MOST_RECENT);
         assert_eq!(desk.recent[0], Path::new("/9.toml"));
@@ -382,7 +382,7 @@ mod tests {
 
     #[test]
     fn backgrounds_come_one_after_the_other_and_around() {
-        let mut desk = Desk { behind: Some("/a/photo.png".to_owned()), ..Desk::default() };
+        let mut desk = Workspace { behind: Some("/a/photo.png".to_owned()), ..Workspace::default() };
         let mut seen = vec![];
         for _ in 0..Pattern::NAMES.len() + 1 {
             desk.next_behind();
@@ -394,7 +394,7 @@ mod tests {
 
     #[test]
     fn every_overlay_is_toggled() {
-        let mut desk = Desk::default();
+        let mut desk = Workspace::default();
         for name in Overlay::names() {
             desk.toggle_overlay(name);
             assert!(desk.overlay().is_some(), "{name}");

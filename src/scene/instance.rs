@@ -7,7 +7,7 @@ use glam::{DQuat, DVec3};
 
 /// A stone in its place.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Placed {
+pub struct Instance {
     /// Its shape, in the world's frame and unit.
     pub solid: Solid,
     /// What it is made of.
@@ -20,14 +20,14 @@ pub struct Placed {
 
 /// Stones in one world; no two overlap.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Setting {
+pub struct Scene {
     /// The stones.
-    pub stones: Vec<Placed>,
+    pub instances: Vec<Instance>,
     /// The world's unit in mm: half the girdle diameter of the largest stone.
     pub unit_mm: f64,
 }
 
-impl Placed {
+impl Instance {
     /// A stone without names.
     pub fn new(solid: impl Into<Solid>, material: Material) -> Self {
         Self { solid: solid.into(), material, names: Vec::new(), label: String::new() }

@@ -1,27 +1,27 @@
-//! Planes in bunches, so that a shader need not try all of a large stone's.
+//! Planes in clusters, so that a shader need not try all of a large stone's.
 
-use super::door::Bunch;
+use super::gpu_types::Cluster;
 use crate::math::Plane;
 
-/// Planes in a bunch at most.
+/// Planes in a cluster at most.
 const FULL: usize = 16;
 
-/// The planes' order, bunch by bunch, and the bunches.
-pub(super) fn bunches(planes: &[Plane]) -> (Vec<u32>, Vec<Bunch>) {
+/// The planes' order, cluster by cluster, and the clusters.
+pub(super) fn clusters(planes: &[Plane]) -> (Vec<u32>, Vec<Cluster>) {
     let mut order: Vec<u32> = (0..planes.len() as u32).collect();
-    let mut bunches = vec![];
-    gather(planes, &mut order, 0, &mut bunches);
-    (order, bunches)
+    let mut clusters = vec![];
+    gather(planes, &mut order, 0, &mut clusters);
+    (order, clusters)
 }
 
-/// Halves planes at the median of the coordinate of normal and offset that spreads most, until a bunch is small.
-fn gather(planes: &[Plane], order: &mut [u32], first: usize, bunches: &mut Vec<Bunch>) {
+/// Halves planes at the median of the coordinate of normal and offset that spreads most, until a cluster is small.
+fn gather(planes: &[Plane], order: &mut [u32], first: usize, clusters: &mut Vec<Cluster>) {
     let place = |k: u32| {
         let Plane { normal, offset } = planes[k as usize];
         [normal.x, normal.y, normal.z, offset]
     };
     if order.len() <= FULL {
-        bunches.push(bunch(planes, order, first));
+        clusters.push(cluster(planes, order, first));
         return;
     }
     let extent = |axis: usize| {
@@ -32,11 +32,11 @@ fn gather(planes: &[Plane], order: &mut [u32], first: usize, bunches: &mut Vec<B
     let middle = order.len() / 2;
     order.select_nth_unstable_by(middle, |&a, &b| place(a)[axis].total_cmp(&place(b)[axis]).then(a.cmp(&b)));
     let (low, high) = order.split_at_mut(middle);
-    gather(planes, low, first, bunches);
-    gather(planes, high, first + middle, bunches);
+    gather(planes, low, first, clusters);
+    gather(planes, high, first + middle, clusters);
 }
 
-fn bunch(planes: &[Plane], order: &[u32], first: usize) -> Bunch {
+fn cluster(planes: &[Plane], order: &[u32], first: usize) -> Cluster {
     let own = || order.iter().map(|&k| planes[k as usize]);
     let count = order.len() as f64;
     let normal = own().map(|p| p.normal).sum::<glam::DVec3>() / count;
@@ -45,7 +45,7 @@ fn bunch(planes: &[Plane], order: &[u32], first: usize) -> Bunch {
     let depth = own().map(|p| (p.offset - offset).abs()).fold(0.0, f64::max);
     // Bounds must hold in f32 too: a little more than what they are.
     let wide = |x: f64| (x * (1.0 + 1e-6) + 1e-6) as f32;
-    Bunch {
+    Cluster {
         middle: [normal.x as f32, normal.y as f32, normal.z as f32, offset as f32],
         spread: [wide(spread), wide(depth), first as f32, order.len() as f32],
     }
@@ -64,12 +64,12 @@ mod tests {
                 Plane::from_slope(z.acos(), turn, 1.0 + 0.1 * turn.sin())
             })
             .collect();
-        let (order, bunches) = bunches(&planes);
+        let (order, clusters) = clusters(&planes);
         let mut sorted = order.clone();
         sorted.sort_unstable();
         assert!(sorted.into_iter().eq(0..777));
         let mut next = 0;
-        for Bunch { middle: [x, y, z, offset], spread: [spread, depth, first, count] } in &bunches {
+        for Cluster { middle: [x, y, z, offset], spread: [spread, depth, first, count] } in &clusters {
             assert_eq!(*first as usize, next);
             next += *count as usize;
             for &k in &order[*first as usize..next] {
@@ -79,6 +79,6 @@ mod tests {
                 assert!((plane.offset - f64::from(*offset)).abs() <= f64::from(*depth));
             }
         }
-        assert!(next == 777 && bunches.len() < 120, "{} bunches", bunches.len());
+        assert!(next == 777 && clusters.len() < 120, "{} clusters", clusters.len());
     }
 }

@@ -1,17 +1,17 @@
 //! How the views have been looked at, to go back over: apart from the design's own steps, which nobody wants to search
 //! among a hundred tilts.
 
-use super::desk::{Desk, Layout, Pane};
 use super::eye::Eye;
 use super::history::History;
+use super::workspace::{Pane, PaneLayout, Workspace};
 
 /// Changes nearer to each other than this, seconds, are one step: turns of the wheel, keys held down.
 const PAUSE: f64 = 0.5;
 
 /// All that a look is.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Look {
-    layout: Layout,
+pub struct ViewState {
+    layout: PaneLayout,
     panes: [Pane; 4],
     large: Option<usize>,
     eye: Eye,
@@ -22,14 +22,14 @@ pub struct Look {
     is_split: bool,
 }
 
-impl Look {
-    fn of(desk: &Desk) -> Self {
-        let Desk { layout, panes, large, eye, distance, strongest, glare, is_split, .. } = *desk;
+impl ViewState {
+    fn of(desk: &Workspace) -> Self {
+        let Workspace { layout, panes, large, eye, distance, strongest, glare, is_split, .. } = *desk;
         let overlay = desk.overlay.clone();
         Self { layout, panes, large, eye, distance, strongest, glare, overlay, is_split }
     }
 
-    fn lay(self, desk: &mut Desk) {
+    fn lay(self, desk: &mut Workspace) {
         let Self { layout, panes, large, eye, distance, strongest, glare, overlay, is_split } = self;
         (desk.layout, desk.panes, desk.large, desk.eye) = (layout, panes, large, eye);
         (desk.distance, desk.strongest, desk.glare) = (distance, strongest, glare);
@@ -39,22 +39,22 @@ impl Look {
 
 /// The looks that there were.
 #[derive(Debug)]
-pub struct Looks {
-    history: History<Look>,
+pub struct ViewHistory {
+    history: History<ViewState>,
     /// The last look, which may still be on its way, and when it came, seconds.
-    last: (Look, f64),
+    last: (ViewState, f64),
 }
 
-impl Looks {
+impl ViewHistory {
     /// Begins with the desk as it is.
-    pub fn new(desk: &Desk) -> Self {
-        let look = Look::of(desk);
+    pub fn new(desk: &Workspace) -> Self {
+        let look = ViewState::of(desk);
         Self { history: History::new(look.clone()), last: (look, 0.0) }
     }
 
     /// Takes note of the desk between two gestures.
-    pub fn note(&mut self, desk: &Desk, now: f64) {
-        let look = Look::of(desk);
+    pub fn note(&mut self, desk: &Workspace, now: f64) {
+        let look = ViewState::of(desk);
         if look != self.last.0 {
             if now - self.last.1 > PAUSE {
                 self.settle();
@@ -74,20 +74,20 @@ impl Looks {
     }
 
     /// Looks as before.
-    pub fn back(&mut self, desk: &mut Desk) {
+    pub fn back(&mut self, desk: &mut Workspace) {
         self.settle();
         let look = self.history.undo();
         self.go(look, desk);
     }
 
     /// Looks as before the last going back.
-    pub fn on(&mut self, desk: &mut Desk) {
+    pub fn on(&mut self, desk: &mut Workspace) {
         self.settle();
         let look = self.history.redo();
         self.go(look, desk);
     }
 
-    fn go(&mut self, look: Option<Look>, desk: &mut Desk) {
+    fn go(&mut self, look: Option<ViewState>, desk: &mut Workspace) {
         if let Some(look) = look {
             self.last.0 = look.clone();
             look.lay(desk);
@@ -101,8 +101,8 @@ mod tests {
 
     #[test]
     fn what_follows_at_once_is_one_step_and_what_follows_later_another() {
-        let mut desk = Desk::default();
-        let mut looks = Looks::new(&desk);
+        let mut desk = Workspace::default();
+        let mut looks = ViewHistory::new(&desk);
         let zooms = [(2.0, 10.0), (3.0, 10.1), (4.0, 10.2), (5.0, 11.0), (6.0, 11.1)];
         for (zoom, now) in zooms {
             desk.eye.zoom = zoom;

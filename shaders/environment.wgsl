@@ -1,7 +1,7 @@
-// What stands around the stones: the twin of src/trace/surround.rs. Light is radiance in four channels: of the key
+// What stands around the stones: the twin of src/trace/environment.rs. Light is radiance in four channels: of the key
 // illuminant's spectrum, and of red, green and blue.
 
-@group(0) @binding(6) var<uniform> surround: Surround;
+@group(0) @binding(6) var<uniform> environment: Environment;
 @group(0) @binding(7) var<uniform> lamps: array<Lamp, MOST_LAMPS>;
 @group(0) @binding(8) var sky: texture_2d<f32>;
 @group(0) @binding(9) var photo: texture_2d<f32>;
@@ -29,7 +29,7 @@ fn sky_texel(at: vec2i, level: i32, size: i32) -> vec4f {
 }
 
 fn sky_level(at: vec2f, level: i32) -> vec4f {
-    let size = i32(surround.right.w) >> u32(level);
+    let size = i32(environment.right.w) >> u32(level);
     let p = at * f32(size) - 0.5;
     let base = vec2i(floor(p));
     let part = p - floor(p);
@@ -40,8 +40,8 @@ fn sky_level(at: vec2f, level: i32) -> vec4f {
 
 // The map at a direction, evened out over an angle.
 fn sky_at(direction: vec3f, angle: f32) -> vec4f {
-    let texels = angle * surround.right.w / TEXEL_ANGLE;
-    let level = clamp(log2(max(texels, 1.0)), 0.0, surround.zenith.w);
+    let texels = angle * environment.right.w / TEXEL_ANGLE;
+    let level = clamp(log2(max(texels, 1.0)), 0.0, environment.zenith.w);
     let at = octahedral(direction);
     let fine = i32(floor(level));
     let whole = sky_level(at, fine);
@@ -71,13 +71,13 @@ fn share_inside(from_middle: vec3f, sweep: vec3f, chord_squared: f32) -> f32 {
 // The photograph on the plane behind the stones, where a ray meets it; a is 0 where it does not.
 fn photo_at(ray: Ray) -> vec4f {
     let speed = -dot(ray.direction, frame.toward.xyz);
-    let height = dot(ray.origin, frame.toward.xyz) + surround.photo.x;
-    if speed <= ALONG || height <= 0.0 || surround.photo.y <= 0.0 {
+    let height = dot(ray.origin, frame.toward.xyz) + environment.photo.x;
+    if speed <= ALONG || height <= 0.0 || environment.photo.y <= 0.0 {
         return vec4f(0.0);
     }
     let p = ray.origin + ray.direction * (height / speed);
     let size = vec2f(textureDimensions(photo));
-    let on = vec2f(dot(p, frame.right.xyz), -dot(p, frame.up.xyz)) / surround.photo.y + 0.5;
+    let on = vec2f(dot(p, frame.right.xyz), -dot(p, frame.up.xyz)) / environment.photo.y + 0.5;
     // The photograph's width is 1, whatever its height.
     let at = vec2f(on.x, (on.y - 0.5) * size.x / size.y + 0.5) * size - 0.5;
     if any(at < vec2f(-0.5)) || any(at > size - 0.5) {
@@ -101,25 +101,25 @@ fn radiance(ray: Ray) -> vec4f {
     }
     let swept = length(ray.sweep);
     let d = vec3f(
-        dot(surround.right.xyz, ray.direction),
-        dot(surround.up.xyz, ray.direction),
-        dot(surround.zenith.xyz, ray.direction),
+        dot(environment.right.xyz, ray.direction),
+        dot(environment.up.xyz, ray.direction),
+        dot(environment.zenith.xyz, ray.direction),
     );
     let sweep = vec3f(
-        dot(surround.right.xyz, ray.sweep),
-        dot(surround.up.xyz, ray.sweep),
-        dot(surround.zenith.xyz, ray.sweep),
+        dot(environment.right.xyz, ray.sweep),
+        dot(environment.up.xyz, ray.sweep),
+        dot(environment.zenith.xyz, ray.sweep),
     );
     var sum = sky_at(d, swept);
-    for (var k = 0u; k < u32(surround.up.w); k++) {
+    for (var k = 0u; k < u32(environment.up.w); k++) {
         let lamp = lamps[k];
         sum += lamp.radiance * share_inside(d - lamp.toward.xyz, sweep, lamp.toward.w);
     }
     // The observer's head, where there is one, stands before the light, with an edge as wide as the sweep.
-    if surround.photo.z > 1.0 {
+    if environment.photo.z > 1.0 {
         return sum;
     }
-    let width = max(swept, surround.photo.w);
-    let clear = (surround.photo.z - dot(ray.direction, frame.toward.xyz)) / width + 0.5;
+    let width = max(swept, environment.photo.w);
+    let clear = (environment.photo.z - dot(ray.direction, frame.toward.xyz)) / width + 0.5;
     return sum * clamp(clear, 0.0, 1.0);
 }

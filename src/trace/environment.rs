@@ -4,7 +4,7 @@
 //! A ray stands for a band of wavelengths, over which its direction sweeps. Look-ups are evened out over that sweep, so that
 //! a small lamp shows as the piece of rainbow that it is and not as a chance hit: exactly for lamps, by the map's levels
 //! (L. Williams, *Pyramidal parametrics*, 1983) for the rest. The map: Z. H. Cigolle et al., *A Survey of Efficient
-//! Representations for Independent Unit Vectors*, JCGT 3(2), 2014. The twin is shaders/surround.wgsl.
+//! Representations for Independent Unit Vectors*, JCGT 3(2), 2014. The twin is shaders/environment.wgsl.
 
 mod drawing;
 
@@ -45,7 +45,7 @@ pub struct Disc {
 
 /// A light in its own frame, z along its axis.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Sky {
+pub struct EnvironmentMap {
     /// Square maps, each half the side of the one before, row by row.
     pub levels: Vec<Vec<Radiance>>,
     /// Side of the first.
@@ -56,7 +56,7 @@ pub struct Sky {
 
 /// A photograph on a plane behind the stones, square to the axis to the eye.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Behind<'a> {
+pub struct Backplate<'a> {
     /// The picture, in linear light.
     pub picture: &'a Panorama,
     /// Distance of the plane behind the origin, in world units.
@@ -67,9 +67,9 @@ pub struct Behind<'a> {
 
 /// A sky around stones, and the eye.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Surround<'a> {
+pub struct Environment<'a> {
     /// The light.
-    pub sky: &'a Sky,
+    pub map: &'a EnvironmentMap,
     /// Its frame in the world.
     pub basis: Basis,
     /// The image's frame.
@@ -77,7 +77,7 @@ pub struct Surround<'a> {
     /// Half angle of the head around the axis to the eye, radians; 0 for none.
     pub head: f64,
     /// A photograph.
-    pub behind: Option<Behind<'a>>,
+    pub backplate: Option<Backplate<'a>>,
     /// Whether rays beside the stones see all this; else they see nothing.
     pub backdrop: bool,
 }
@@ -91,7 +91,7 @@ const ALONG: f64 = 1e-6;
 /// Least width of the edge of the head's shadow, in cosine.
 pub(crate) const HEAD_EDGE: f64 = 0.004;
 
-impl Sky {
+impl EnvironmentMap {
     /// Draws a light, with the picture that its panorama names.
     pub fn new(light: &Light, panorama: Option<&Panorama>) -> Self {
         let side = if panorama.is_some() { SIDE_OF_PANORAMA } else { SIDE };
@@ -147,19 +147,19 @@ impl Sky {
     }
 }
 
-impl Surround<'_> {
+impl Environment<'_> {
     /// The light that comes down a ray from outside, by channel: where it starts, where it goes, and how far that direction
     /// sweeps over the wavelengths that it stands for.
     pub fn radiance(&self, from: DVec3, direction: DVec3, sweep: DVec3) -> DVec4 {
-        if let Some(seen) = self.behind.and_then(|behind| behind.at(&self.eye, from, direction)) {
+        if let Some(seen) = self.backplate.and_then(|behind| behind.at(&self.eye, from, direction)) {
             return seen.extend(0.0).wxyz();
         }
         let own =
             |v: DVec3| DVec3::new(self.basis.right.dot(v), self.basis.up.dot(v), self.basis.toward.dot(v));
         let (d, s, swept) = (own(direction), own(sweep), sweep.length());
-        let lamps = self.sky.lamps.iter();
+        let lamps = self.map.lamps.iter();
         let lit = lamps.map(|l| l.radiance * share_inside(d - l.toward, s, l.chord_squared)).sum::<DVec4>();
-        let sum = self.sky.at(d, swept) + lit;
+        let sum = self.map.at(d, swept) + lit;
         if self.head <= 0.0 {
             return sum;
         }
@@ -170,13 +170,13 @@ impl Surround<'_> {
 
 /// Where in the eye's image a ray meets the plane at a distance behind the origin, square to the axis to the eye; `None`
 /// where it does not.
-pub fn met_behind(eye: &Basis, distance: f64, from: DVec3, direction: DVec3) -> Option<DVec2> {
+pub fn backplate_point(eye: &Basis, distance: f64, from: DVec3, direction: DVec3) -> Option<DVec2> {
     let (speed, height) = (-direction.dot(eye.toward), from.dot(eye.toward) + distance);
     let meets = speed > ALONG && height > 0.0;
     meets.then(|| eye.project(from + direction * (height / speed)))
 }
 
-impl<'a> Behind<'a> {
+impl<'a> Backplate<'a> {
     /// A picture that hangs so far behind the origin, wide enough to fill a view's film `span` times over, whatever its shape.
     pub fn filling(picture: &'a Panorama, span: f64, distance: f64, view: &View, film: &Film) -> Self {
         let [across, down] = film.size.map(f64::from);
@@ -186,7 +186,8 @@ impl<'a> Behind<'a> {
     }
 
     fn at(&self, eye: &Basis, from: DVec3, direction: DVec3) -> Option<DVec3> {
-        let p = met_behind(eye, self.distance, from, direction)? * DVec2::new(1.0, -1.0) / self.width + 0.5;
+        let p =
+            backplate_point(eye, self.distance, from, direction)? * DVec2::new(1.0, -1.0) / self.width + 0.5;
         let size = DVec2::new(f64::from(self.picture.width), f64::from(self.picture.height));
         let at = DVec2::new(p.x, (p.y - 0.5) * size.x / size.y + 0.5) * size - 0.5;
         let inside = at.cmpge(DVec2::splat(-0.5)).all() && at.cmple(size - 0.5).all();
@@ -295,7 +296,7 @@ mod tests {
         let dome =
             |from, to| crate::scene::Dome { from, to, soft: 5.0, radiance: 1.0, end: None, colour: None };
         let light = Light { dome: vec![dome(20.0, 90.0)], ..crate::scene::Light::white() };
-        let sky = Sky::new(&light, None);
+        let sky = EnvironmentMap::new(&light, None);
         // The share of the sphere above 20 degrees, weighted as the map weighs it: alike at all levels.
         let mean =
             |level: &Vec<Radiance>| level.iter().map(|t| f64::from(t[0])).sum::<f64>() / level.len() as f64;

@@ -1,7 +1,7 @@
 // What light meets: glass shapes, each followed in its own frame, in which it reaches 1 from the origin. The twin of
 // src/math/field/roots.rs and of src/trace/ray/facets.rs.
 
-@group(0) @binding(1) var<storage, read> fields: array<Field>;
+@group(0) @binding(1) var<storage, read> fields: array<ImplicitSurface>;
 
 const IS_CURVED: bool = true;
 // A point this near is on the surface: some roundings.
@@ -16,7 +16,7 @@ const FINE: f32 = 1e-3;
 const LEAST_STEP: f32 = 1e-7;
 
 // The present body's function.
-fn present_field() -> Field {
+fn present_field() -> ImplicitSurface {
     return fields[body.range.x];
 }
 
@@ -25,15 +25,15 @@ fn unit() -> f32 {
     return fields[body.range.x].shift.w;
 }
 
-fn own_vector(shape: Field, v: vec3f) -> vec3f {
+fn own_vector(shape: ImplicitSurface, v: vec3f) -> vec3f {
     return vec3f(dot(shape.right.xyz, v), dot(shape.back.xyz, v), dot(shape.up.xyz, v));
 }
 
-fn world_vector(shape: Field, v: vec3f) -> vec3f {
+fn world_vector(shape: ImplicitSurface, v: vec3f) -> vec3f {
     return shape.right.xyz * v.x + shape.back.xyz * v.y + shape.up.xyz * v.z;
 }
 
-fn own(shape: Field, point: vec3f) -> vec3f {
+fn own(shape: ImplicitSurface, point: vec3f) -> vec3f {
     return own_vector(shape, point - shape.shift.xyz) / shape.shift.w;
 }
 
@@ -85,7 +85,7 @@ fn next_facet(point: vec3f, direction: vec3f) -> Meeting {
 }
 
 // A point and a direction with the shear taken back: of the line, its curve's tangent.
-fn tangent(shape: Field, p: vec3f, v: vec3f) -> array<vec3f, 2> {
+fn tangent(shape: ImplicitSurface, p: vec3f, v: vec3f) -> array<vec3f, 2> {
     if !has_wave(shape) {
         return array<vec3f, 2>(p, v);
     }
@@ -97,7 +97,7 @@ fn tangent(shape: Field, p: vec3f, v: vec3f) -> array<vec3f, 2> {
 }
 
 // The distance at which a ray goes in; negative where it does not.
-fn way_in(shape: Field, o: vec3f, v: vec3f) -> f32 {
+fn way_in(shape: ImplicitSurface, o: vec3f, v: vec3f) -> f32 {
     let nearest = -dot(o, v);
     let closest = o + v * nearest;
     if dot(closest, closest) > 1.0 || nearest < -1.0 {
@@ -134,7 +134,7 @@ fn way_in(shape: Field, o: vec3f, v: vec3f) -> f32 {
 }
 
 // The distance at which a ray from inside goes out; negative where rounding has let it slip out.
-fn way_out(shape: Field, p: vec3f, v: vec3f) -> f32 {
+fn way_out(shape: ImplicitSurface, p: vec3f, v: vec3f) -> f32 {
     let bend_at_most = most_bend(shape, v);
     var t = 0.0;
     for (var k = 0u; k < MOST_STEPS && !is_spent(); k++) {
@@ -158,7 +158,7 @@ fn way_out(shape: Field, p: vec3f, v: vec3f) -> f32 {
 // A distance along a line from `p`, where the body's function has the value `at.x` and the slope `at.y`, no greater than the
 // greatest at which it has its value on the surface where the point is off the line by `bend_at_most` s²/2 up or down, whichever
 // is farther from the middle; with a negative number where there is none. Straight lines are followed to the end.
-fn far_step(shape: Field, p: vec3f, on: vec3f, at: vec2f, bend_at_most: f32) -> vec2f {
+fn far_step(shape: ImplicitSurface, p: vec3f, on: vec3f, at: vec2f, bend_at_most: f32) -> vec2f {
     // What rounding has put outside is on the surface: a ray that enters at a glance would miss from there.
     let level = max(at.x, 0.0);
     let depth = max(-at.x, 0.0);

@@ -1,11 +1,11 @@
 //! The numbers that a shape's function is made of, for tracers that compute it elsewhere.
 
-use super::Field;
+use super::ImplicitSurface;
 use super::profile::Profile;
 use glam::{DMat3, DVec2, DVec3};
 
 /// In the shape's own frame, in units of its `reach`: lengths there are 1 at most.
-pub(crate) struct Parts {
+pub(crate) struct SurfaceParts {
     /// The outline: a rectangle's half sides, 0 for a triangle; or a triangle's corner.
     pub corner: DVec2,
     /// Radius of the disc rolled around a rectangle; z of a triangle's apex.
@@ -28,15 +28,15 @@ pub(crate) struct Parts {
     pub unit: f64,
 }
 
-impl Field {
-    /// See [`Parts`].
-    pub(crate) fn parts(&self) -> Parts {
+impl ImplicitSurface {
+    /// See [`SurfaceParts`].
+    pub(crate) fn parts(&self) -> SurfaceParts {
         let reach = self.own_reach();
         let (corner, round, flank) = match self.body.profile {
             Profile::Rectangle { half, round } => (half, round, None),
             Profile::Triangle(t) => (t.corner, t.apex, Some((t.normal, t.flank / reach))),
         };
-        Parts {
+        SurfaceParts {
             corner: corner / reach,
             round: round / reach,
             flank,

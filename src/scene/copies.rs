@@ -46,7 +46,7 @@ impl Pose {
 
 /// Copies at rest.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Company {
+pub struct Copies {
     /// Where each is; at least one.
     pub poses: Vec<Pose>,
     /// Half the side of the square in which they were laid out: to this views are fitted, so that nothing shrinks while a copy
@@ -54,13 +54,13 @@ pub struct Company {
     pub room: Option<f64>,
 }
 
-impl Default for Company {
+impl Default for Copies {
     fn default() -> Self {
         Self { poses: vec![Pose::STILL], room: None }
     }
 }
 
-impl Company {
+impl Copies {
     /// So many copies, 1 to [`MOST_COPIES`], each as the body is, of these corners, scattered without touching in the plane
     /// across the axis; another `number` scatters them otherwise. One copy stays in the middle.
     pub fn scattered(count: usize, corners: &[DVec3], number: u64) -> Self {
@@ -186,7 +186,7 @@ mod tests {
     fn any_number_is_scattered_within_the_room_and_nothing_touches() {
         for count in 1..=MOST_COPIES {
             for number in 0..40 {
-                let company = Company::scattered(count, &brick(), number);
+                let company = Copies::scattered(count, &brick(), number);
                 assert_eq!(company.poses.len(), count);
                 let boxes: Vec<_> =
                     company.poses.iter().map(|p| bounds(p.turn, &brick()).map(|c| c + p.at)).collect();
@@ -195,17 +195,17 @@ mod tests {
                     assert!(reach <= company.reach(1.0), "{count} {number}: {reach}");
                     assert!(boxes[..k].iter().all(|other| are_apart(*b, *other)));
                 }
-                assert_eq!(company, Company::scattered(count, &brick(), number));
+                assert_eq!(company, Copies::scattered(count, &brick(), number));
                 assert_eq!(company.poses(&brick(), None), company.poses, "none is put behind another");
             }
         }
-        assert_ne!(Company::scattered(4, &brick(), 1), Company::scattered(4, &brick(), 2));
+        assert_ne!(Copies::scattered(4, &brick(), 1), Copies::scattered(4, &brick(), 2));
     }
 
     #[test]
     fn copies_that_would_meet_lie_behind_one_another_at_every_time() {
         let near = |x: f64| Pose { at: DVec3::new(x, 0.0, 0.0), ..Pose::STILL };
-        let company = Company::at((0..8).map(|k| near(0.1 * f64::from(k))).collect(), &brick());
+        let company = Copies::at((0..8).map(|k| near(0.1 * f64::from(k))).collect(), &brick());
         for tumbling in [None, Some(0.0), Some(1.3), Some(77.0)] {
             let poses = company.poses(&brick(), tumbling);
             let reach = brick()[0].length();
@@ -214,14 +214,14 @@ mod tests {
                 assert_eq!(pose.at.truncate(), company.poses[k].at.truncate());
             }
         }
-        let apart = Company::at(vec![near(0.0), near(2.01)], &brick());
+        let apart = Copies::at(vec![near(0.0), near(2.01)], &brick());
         assert_eq!(apart.poses(&brick(), None), apart.poses);
         assert_ne!(apart.poses(&brick(), Some(0.0)), apart.poses, "they would meet as they tumble");
     }
 
     #[test]
     fn tumbling_begins_at_rest_and_goes_on_evenly() {
-        let company = Company::scattered(3, &brick(), 5);
+        let company = Copies::scattered(3, &brick(), 5);
         let turns =
             |seconds| company.poses(&brick(), Some(seconds)).into_iter().map(|p| p.turn).collect::<Vec<_>>();
         for (now, rest) in turns(0.0).iter().zip(&company.poses) {

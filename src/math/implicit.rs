@@ -18,11 +18,11 @@ mod wave;
 #[cfg(test)]
 mod tests;
 
-use self::body::Body;
-pub use self::error::FieldError;
+use self::body::RoundedBody;
+pub use self::error::ImplicitSurfaceError;
 pub use self::jet::Jet;
 #[cfg(feature = "gpu")]
-pub(crate) use self::parts::Parts;
+pub(crate) use self::parts::SurfaceParts;
 use self::profile::{Profile, Triangle};
 use self::wave::Wave;
 use super::Surface;
@@ -30,7 +30,7 @@ use glam::{DMat3, DQuat, DVec3};
 
 /// What a shape is, in girdle radii; its middle is the origin of its own frame. An `edge` of 0 is sharp.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Form {
+pub enum ImplicitForm {
     /// A stadium in x and y, long along the greater of the two, drawn out along z.
     Pill {
         /// Its outer dimensions.
@@ -82,30 +82,31 @@ pub enum Form {
 /// Points, distances and derivatives are the world's. A point *on the surface* is one to which an entry or an exit led, up to
 /// rounding.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Field {
-    form: Form,
-    body: Body,
+pub struct ImplicitSurface {
+    form: ImplicitForm,
+    body: RoundedBody,
     wave: Option<Wave>,
     scale: f64,
     turn: DQuat,
     shift: DVec3,
 }
 
-impl Field {
+impl ImplicitSurface {
     /// A shape in its own frame.
     ///
     /// # Errors
     /// Names the dimension that is no number or out of its range.
-    pub fn new(form: Form) -> Result<Self, FieldError> {
+    pub fn new(form: ImplicitForm) -> Result<Self, ImplicitSurfaceError> {
         error::check(&form)?;
         let (body, wave) = match form {
-            Form::Pill { size, edge } => (Body::pill(size, edge), None),
-            Form::Block { size, edge } => (Body::block(size, edge), None),
-            Form::Pane { size, corner, edge } => (Body::pane(size, corner, edge), None),
-            Form::Prism { size, edge } => (Body::prism(size, edge), None),
-            Form::Plate { size, edge, amplitude, wavelength, phase } => {
-                (Body::block(size, edge), (amplitude > 0.0).then(|| Wave::new(amplitude, wavelength, phase)))
-            }
+            ImplicitForm::Pill { size, edge } => (RoundedBody::pill(size, edge), None),
+            ImplicitForm::Block { size, edge } => (RoundedBody::block(size, edge), None),
+            ImplicitForm::Pane { size, corner, edge } => (RoundedBody::pane(size, corner, edge), None),
+            ImplicitForm::Prism { size, edge } => (RoundedBody::prism(size, edge), None),
+            ImplicitForm::Plate { size, edge, amplitude, wavelength, phase } => (
+                RoundedBody::block(size, edge),
+                (amplitude > 0.0).then(|| Wave::new(amplitude, wavelength, phase)),
+            ),
         };
         Ok(Self { form, body, wave, scale: 1.0, turn: DQuat::IDENTITY, shift: DVec3::ZERO })
     }
@@ -121,7 +122,7 @@ impl Field {
     }
 
     /// What the shape is in its own frame.
-    pub fn form(&self) -> Form {
+    pub fn form(&self) -> ImplicitForm {
         self.form
     }
 
@@ -207,11 +208,13 @@ impl Field {
     /// Names of its facets: faces that are flat or, of a pill, the side, and last what is rounded.
     pub fn facets(&self) -> &'static [&'static str] {
         match self.form {
-            Form::Pill { .. } => &["side", "top", "bottom", "edge"],
-            Form::Block { .. } | Form::Pane { .. } | Form::Plate { .. } => {
+            ImplicitForm::Pill { .. } => &["side", "top", "bottom", "edge"],
+            ImplicitForm::Block { .. } | ImplicitForm::Pane { .. } | ImplicitForm::Plate { .. } => {
                 &["right", "left", "back", "front", "top", "bottom", "edge"]
             }
-            Form::Prism { .. } => &["base", "back flank", "front flank", "right end", "left end", "edge"],
+            ImplicitForm::Prism { .. } => {
+                &["base", "back flank", "front flank", "right end", "left end", "edge"]
+            }
         }
     }
 
@@ -228,8 +231,8 @@ impl Field {
             |normals: &[DVec3]| normals.iter().position(|n| *n == normal).unwrap_or(normals.len()) as u32;
         let [right, back, top] = DVec3::AXES;
         match (self.form, self.body.profile) {
-            (Form::Pill { .. }, _) if normal.z == 0.0 => 0,
-            (Form::Pill { .. }, _) => 1 + among(&[top, -top]),
+            (ImplicitForm::Pill { .. }, _) if normal.z == 0.0 => 0,
+            (ImplicitForm::Pill { .. }, _) => 1 + among(&[top, -top]),
             (_, Profile::Rectangle { .. }) => among(&[right, -right, back, -back, top, -top]),
             (_, Profile::Triangle(Triangle { normal: n, .. })) => {
                 let flank = |side: f64| DVec3::new(0.0, side * n.x, n.y);

@@ -1,6 +1,6 @@
 //! What dimensions a shape may have.
 
-use super::Form;
+use super::ImplicitForm;
 use super::profile::inradius;
 
 /// Dimensions, in girdle radii: squares of their quotients keep their digits.
@@ -14,7 +14,7 @@ const MOST_WAVES: f64 = 200.0;
 
 /// Why there is no such shape.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
-pub enum FieldError {
+pub enum ImplicitSurfaceError {
     /// A dimension is no number, 0, negative, or out of what is computed with.
     #[error("{name} is {value}; it must be a number from 1e-6 to 1e6 girdle radii")]
     Dimension {
@@ -58,55 +58,55 @@ pub enum FieldError {
 }
 
 /// Refuses what is no shape.
-pub fn check(form: &Form) -> Result<(), FieldError> {
-    let (Form::Pill { size, edge }
-    | Form::Block { size, edge }
-    | Form::Pane { size, edge, .. }
-    | Form::Prism { size, edge }
-    | Form::Plate { size, edge, .. }) = *form;
+pub fn check(form: &ImplicitForm) -> Result<(), ImplicitSurfaceError> {
+    let (ImplicitForm::Pill { size, edge }
+    | ImplicitForm::Block { size, edge }
+    | ImplicitForm::Pane { size, edge, .. }
+    | ImplicitForm::Prism { size, edge }
+    | ImplicitForm::Plate { size, edge, .. }) = *form;
     for (name, value) in
         [("the size along x", size.x), ("the size along y", size.y), ("the size along z", size.z)]
     {
         dimension(name, value)?;
     }
     number("the edge's radius", edge)?;
-    if let Form::Pane { corner, .. } = *form {
+    if let ImplicitForm::Pane { corner, .. } = *form {
         number("the corners' radius", corner)?;
         let most = size.x.min(size.y) / 2.0;
         if corner > most {
-            return Err(FieldError::Edge { edge: corner, most });
+            return Err(ImplicitSurfaceError::Edge { edge: corner, most });
         }
     }
     let most = match *form {
-        Form::Pane { corner, .. } => corner.min(size.z / 2.0),
-        Form::Prism { .. } => (size.x / 2.0).min(inradius(size.y, size.z)),
+        ImplicitForm::Pane { corner, .. } => corner.min(size.z / 2.0),
+        ImplicitForm::Prism { .. } => (size.x / 2.0).min(inradius(size.y, size.z)),
         _ => size.min_element() / 2.0,
     };
     if edge > most {
-        return Err(FieldError::Edge { edge, most });
+        return Err(ImplicitSurfaceError::Edge { edge, most });
     }
-    if let Form::Plate { amplitude, wavelength, phase, .. } = *form {
+    if let ImplicitForm::Plate { amplitude, wavelength, phase, .. } = *form {
         number("the amplitude", amplitude)?;
         dimension("the wavelength", wavelength)?;
         number("the phase, its sign aside,", phase.abs())?;
         let slope = std::f64::consts::TAU * amplitude / wavelength;
         if slope > STEEPEST {
-            return Err(FieldError::Slope { slope });
+            return Err(ImplicitSurfaceError::Slope { slope });
         }
         let least = size.x.max(size.y) / MOST_WAVES;
         if wavelength < least {
-            return Err(FieldError::Wavelength { wavelength, least });
+            return Err(ImplicitSurfaceError::Wavelength { wavelength, least });
         }
     }
     Ok(())
 }
 
-fn dimension(name: &'static str, value: f64) -> Result<(), FieldError> {
+fn dimension(name: &'static str, value: f64) -> Result<(), ImplicitSurfaceError> {
     let is_one = (SIZES[0]..=SIZES[1]).contains(&value);
-    if is_one { Ok(()) } else { Err(FieldError::Dimension { name, value }) }
+    if is_one { Ok(()) } else { Err(ImplicitSurfaceError::Dimension { name, value }) }
 }
 
-fn number(name: &'static str, value: f64) -> Result<(), FieldError> {
+fn number(name: &'static str, value: f64) -> Result<(), ImplicitSurfaceError> {
     let is_one = (0.0..=SIZES[1]).contains(&value);
-    if is_one { Ok(()) } else { Err(FieldError::Number { name, value }) }
+    if is_one { Ok(()) } else { Err(ImplicitSurfaceError::Number { name, value }) }
 }

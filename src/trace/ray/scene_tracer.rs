@@ -1,10 +1,10 @@
 //! Pictures under light by point rays: stones beside one another, light going from one to the next.
 
 use super::sight::{Met, is_near, nearest};
-use super::{Camera, Exit, Rest, Tracer};
+use super::{Camera, Exit, Loss, StoneTracer};
 use crate::math::Solid;
 use crate::scene::Medium;
-use crate::trace::sitting::{Exposure, Lit, Look, MOST_WAITING, Sitting};
+use crate::trace::sampling::{LitScene, MOST_WAITING, ProgressiveImage, RadiancePixel, SamplePass};
 use crate::trace::{Stopped, Watch};
 use glam::{DVec2, DVec3, DVec4};
 use rayon::prelude::*;
@@ -16,15 +16,15 @@ const PIECE: usize = 8;
 
 /// Stones beside one another, each of one medium, and the light that goes from one to the next.
 #[derive(Clone)]
-pub struct Company {
-    tracers: Vec<Tracer>,
+pub struct SceneTracer {
+    tracers: Vec<StoneTracer>,
     balls: Arc<[(DVec3, f64)]>,
     least_weight: f64,
 }
 
 /// A ray on its way, and the stone that it left.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Waiting {
+pub struct WaitingRay {
     /// Where it begins.
     pub origin: DVec3,
     /// Its unit direction.
@@ -36,41 +36,41 @@ pub struct Waiting {
     left: Option<usize>,
 }
 
-impl Waiting {
+impl WaitingRay {
     /// A ray from the eye.
     pub fn from_eye((origin, direction): (DVec3, DVec3)) -> Self {
         Self { origin, direction, sweep: DVec3::ZERO, weight: 1.0, left: None }
     }
 }
 
-impl Company {
+impl SceneTracer {
     /// The stones of a sitting, of no medium yet.
-    pub fn new(sitting: &Sitting) -> Self {
-        let tracer = |stone: &Solid| Tracer::new(stone, Medium::clear(1.0), sitting.options);
+    pub fn new(lit_scene: &LitScene) -> Self {
+        let tracer = |stone: &Solid| StoneTracer::new(stone, Medium::clear(1.0), lit_scene.options);
         Self {
-            tracers: sitting.stones().map(tracer).collect(),
-            balls: sitting.balls().into(),
-            least_weight: sitting.options.least_weight,
+            tracers: lit_scene.solids().map(tracer).collect(),
+            balls: lit_scene.balls().into(),
+            least_weight: lit_scene.options.least_weight,
         }
     }
 
     /// The stones at each band of a look.
-    pub fn made_of(&self, look: &Look) -> Vec<Self> {
+    pub fn made_of(&self, look: &SamplePass) -> Vec<Self> {
         let of_band = |band: usize| {
-            let made = |(tracer, media): (&Tracer, &Vec<Medium>)| tracer.made_of(media[band]);
+            let made = |(tracer, media): (&StoneTracer, &Vec<Medium>)| tracer.made_of(media[band]);
             Self { tracers: self.tracers.iter().zip(&look.media).map(made).collect(), ..self.clone() }
         };
         (0..look.responses.len()).map(of_band).collect()
     }
 
     /// The stone that a ray meets first, and where.
-    pub fn first(&self, ray: &Waiting) -> Option<First> {
+    pub fn first(&self, ray: &WaitingRay) -> Option<First> {
         nearest(&self.tracers, &self.balls, (ray.origin, ray.direction), ray.left).map(First)
     }
 
     /// Follows a ray through all stones, from the one that it is known to meet, calling `leave` with what goes to none any
     /// more.
-    pub fn follow(&self, start: &Waiting, first: &First, mut leave: impl FnMut(&Waiting)) -> Rest {
+    pub fn follow(&self, start: &WaitingRay, first: &First, mut leave: impl FnMut(&WaitingRay)) -> Loss {
         let mut waiting = Vec::new();
         let mut rest = self.through(start, first.0, &mut waiting, &mut leave);
         while let Some(ray) = waiting.pop() {
@@ -89,15 +89,15 @@ impl Company {
     /// Follows a ray through one stone; what goes on to others is put with those that wait.
     fn through(
         &self,
-        ray: &Waiting,
+        ray: &WaitingRay,
         (stone, met): Met,
-        waiting: &mut Vec<Waiting>,
-        mut leave: impl FnMut(&Waiting),
-    ) -> Rest {
+        waiting: &mut Vec<WaitingRay>,
+        mut leave: impl FnMut(&WaitingRay),
+    ) -> Loss {
         let mut unseen = 0.0;
         let exits = |exit: Exit| {
             let Exit { point: origin, direction, sweep, weight, .. } = exit;
-            let ray = Waiting { origin, direction, sweep, weight, left: Some(stone) };
+            let ray = WaitingRay { origin, direction, sweep, weight, left: Some(stone) };
             if !self.meets_any(&ray) {
                 leave(&ray);
             } else if waiting.len() < MOST_WAITING && weight > self.least_weight {
@@ -109,11 +109,11 @@ impl Company {
         let (tracer, way) = (&self.tracers[stone], (ray.direction, ray.sweep));
         let is_taken = |exit: &Exit, distance: f64| self.meets_before(exit, stone, distance);
         let rest = tracer.follow_from(met, ray.origin, way, ray.weight, is_taken, exits).unwrap_or_default();
-        Rest { unresolved: rest.unresolved + unseen, ..rest }
+        Loss { unresolved: rest.unresolved + unseen, ..rest }
     }
 
     /// Whether a ray meets a stone other than the one that it left.
-    fn meets_any(&self, ray: &Waiting) -> bool {
+    fn meets_any(&self, ray: &WaitingRay) -> bool {
         self.others(ray.left, (ray.origin, ray.direction)).next().is_some()
     }
 
@@ -136,35 +136,35 @@ pub struct First(Met);
 
 /// Rows of a picture, traced by the processor in f64.
 pub struct ByRays<'a> {
-    sitting: Sitting<'a>,
+    lit_scene: LitScene<'a>,
     camera: Camera,
-    company: Company,
+    company: SceneTracer,
     rows: Range<u32>,
     looks: u32,
-    sums: Vec<Lit>,
+    sums: Vec<RadiancePixel>,
 }
 
 impl<'a> ByRays<'a> {
     /// Prepares some rows of a picture.
-    pub fn new(sitting: Sitting<'a>, rows: Range<u32>) -> Self {
+    pub fn new(lit_scene: LitScene<'a>, rows: Range<u32>) -> Self {
         Self {
-            sitting,
-            camera: Camera::reaching(sitting.view, sitting.reach()),
-            company: Company::new(&sitting),
-            sums: vec![Lit::default(); rows.len() * sitting.film.size[0] as usize],
+            lit_scene,
+            camera: Camera::reaching(lit_scene.view, lit_scene.reach()),
+            company: SceneTracer::new(&lit_scene),
+            sums: vec![RadiancePixel::default(); rows.len() * lit_scene.film.size[0] as usize],
             rows,
             looks: 0,
         }
     }
 
     /// What one ray of a pixel sees, over all wavelengths.
-    fn see(&self, bands: &[Company], look: &Look, at: DVec2) -> Lit {
+    fn see(&self, bands: &[SceneTracer], look: &SamplePass, at: DVec2) -> RadiancePixel {
         let straight = self.camera.ray(at);
-        let start = Waiting::from_eye(straight);
+        let start = WaitingRay::from_eye(straight);
         // Where it meets the first stone is the same for all wavelengths.
         let first = self.company.first(&start);
-        let is_seen = first.is_some() || self.sitting.surround.backdrop;
-        let mut lit = Lit { cover: f64::from(u8::from(is_seen)), ..Lit::default() };
+        let is_seen = first.is_some() || self.lit_scene.environment.backdrop;
+        let mut lit = RadiancePixel { cover: f64::from(u8::from(is_seen)), ..RadiancePixel::default() };
         for (company, response) in bands.iter().zip(&look.responses) {
             let mut light = DVec4::ZERO;
             match &first {
@@ -180,22 +180,22 @@ impl<'a> ByRays<'a> {
             lit.colour += response.iter().zip(light.to_array()).map(|(&c, l)| c * l).sum::<DVec3>();
         }
         let share = 1.0 / look.responses.len() as f64;
-        let Lit { unresolved, absorbed, .. } = lit;
-        Lit { unresolved: unresolved * share, absorbed: absorbed * share, ..lit }
+        let RadiancePixel { unresolved, absorbed, .. } = lit;
+        RadiancePixel { unresolved: unresolved * share, absorbed: absorbed * share, ..lit }
     }
 
     /// The light that comes down a ray from what stands around; `straight` is the one from the eye that it goes back to.
-    fn arriving(&self, ray: &Waiting, straight: (DVec3, DVec3), look: &Look) -> DVec4 {
+    fn arriving(&self, ray: &WaitingRay, straight: (DVec3, DVec3), look: &SamplePass) -> DVec4 {
         let own = (ray.origin, ray.direction, ray.sweep);
         let (from, direction, sweep) = look.mixed(straight, own);
-        self.sitting.surround.radiance(from, look.middle(direction, sweep), sweep) * ray.weight
+        self.lit_scene.environment.radiance(from, look.middle(direction, sweep), sweep) * ray.weight
     }
 }
 
-impl<E: From<Stopped>> Exposure<E> for ByRays<'_> {
-    fn look(&mut self, look: &Look, watch: Watch) -> Result<(), E> {
+impl<E: From<Stopped>> ProgressiveImage<E> for ByRays<'_> {
+    fn add_pass(&mut self, look: &SamplePass, watch: Watch) -> Result<(), E> {
         let bands = self.company.made_of(look);
-        let across = self.sitting.film.size[0] as usize;
+        let across = self.lit_scene.film.size[0] as usize;
         let mut sums = std::mem::take(&mut self.sums);
         let pieces = sums.chunks_mut(across * PIECE).enumerate();
         let count = pieces.len();
@@ -210,7 +210,9 @@ impl<E: From<Stopped>> Exposure<E> for ByRays<'_> {
                 let lit = self.see(
                     &bands,
                     look,
-                    self.sitting.film.image_from_pixels(DVec2::new(f64::from(x), f64::from(y)) + look.shift),
+                    self.lit_scene
+                        .film
+                        .image_from_pixels(DVec2::new(f64::from(x), f64::from(y)) + look.shift),
                 );
                 sum.colour += lit.colour;
                 sum.cover += lit.cover;
@@ -226,9 +228,9 @@ impl<E: From<Stopped>> Exposure<E> for ByRays<'_> {
         Ok(())
     }
 
-    fn lit(&self, each: &mut dyn FnMut(&Lit)) -> Result<(), E> {
+    fn each_pixel(&self, each: &mut dyn FnMut(&RadiancePixel)) -> Result<(), E> {
         let share = 1.0 / f64::from(self.looks.max(1));
-        let mean = |sum: &Lit| Lit {
+        let mean = |sum: &RadiancePixel| RadiancePixel {
             colour: sum.colour * share,
             cover: sum.cover * share,
             unresolved: sum.unresolved * share,

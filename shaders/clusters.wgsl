@@ -1,30 +1,30 @@
-// What light meets: convex stones of many planes. Planes that look much the same way stand in bunches, and a bunch is
+// What light meets: convex stones of many planes. Planes that look much the same way stand in clusters, and a cluster is
 // opened only where its bound says that it may hold the facet sought.
 
 @group(0) @binding(1) var<storage, read> planes: array<vec4f>;
-@group(0) @binding(3) var<storage, read> bunches: array<Bunch>;
+@group(0) @binding(3) var<storage, read> clusters: array<Cluster>;
 
 fn plane_of(facet: u32) -> vec4f {
     return planes[facet];
 }
 
-// At most how far the plane of a bunch that is farthest below a point is below it.
-fn height_at_most(bunch: Bunch, point: vec3f) -> f32 {
-    return dot(bunch.middle.xyz, point) - bunch.middle.w + bunch.spread.y + bunch.spread.x * length(point);
+// At most how far the plane of a cluster that is farthest below a point is below it.
+fn height_at_most(cluster: Cluster, point: vec3f) -> f32 {
+    return dot(cluster.middle.xyz, point) - cluster.middle.w + cluster.spread.y + cluster.spread.x * length(point);
 }
 
-// As in planes.wgsl. A bunch that the point reached so far is certainly inside of can neither move the entry on nor show
+// As in planes.wgsl. A cluster that the point reached so far is certainly inside of can neither move the entry on nor show
 // that the ray misses.
 fn entry(origin: vec3f, direction: vec3f) -> Meeting {
     var into = 0.0;
     var facet = body.range.x;
     for (var b = body.range.z; b < body.range.w; b++) {
-        let bunch = bunches[b];
-        if height_at_most(bunch, origin + direction * into) <= 0.0 {
+        let cluster = clusters[b];
+        if height_at_most(cluster, origin + direction * into) <= 0.0 {
             continue;
         }
-        let first = u32(bunch.spread.z);
-        for (var k = first; k < first + u32(bunch.spread.w); k++) {
+        let first = u32(cluster.spread.z);
+        for (var k = first; k < first + u32(cluster.spread.w); k++) {
             let plane = planes[k];
             let speed = dot(plane.xyz, direction);
             let gap = plane.w - dot(plane.xyz, origin);
@@ -36,12 +36,12 @@ fn entry(origin: vec3f, direction: vec3f) -> Meeting {
     }
     let point = origin + direction * into;
     for (var b = body.range.z; b < body.range.w; b++) {
-        let bunch = bunches[b];
-        if height_at_most(bunch, point) <= 0.0 {
+        let cluster = clusters[b];
+        if height_at_most(cluster, point) <= 0.0 {
             continue;
         }
-        let first = u32(bunch.spread.z);
-        for (var k = first; k < first + u32(bunch.spread.w); k++) {
+        let first = u32(cluster.spread.z);
+        for (var k = first; k < first + u32(cluster.spread.w); k++) {
             let plane = planes[k];
             if dot(plane.xyz, direction) >= 0.0 && dot(plane.xyz, point) > plane.w {
                 return Meeting(facet, -1.0);
@@ -56,15 +56,15 @@ fn next_facet(point: vec3f, direction: vec3f) -> Meeting {
     var facet = body.range.x;
     let reach = length(point);
     for (var b = body.range.z; b < body.range.w; b++) {
-        let bunch = bunches[b];
-        let speed_at_most = dot(bunch.middle.xyz, direction) + bunch.spread.x;
+        let cluster = clusters[b];
+        let speed_at_most = dot(cluster.middle.xyz, direction) + cluster.spread.x;
         let gap_at_least =
-            max(bunch.middle.w - dot(bunch.middle.xyz, point) - bunch.spread.y - bunch.spread.x * reach, LEAST_GAP);
+            max(cluster.middle.w - dot(cluster.middle.xyz, point) - cluster.spread.y - cluster.spread.x * reach, LEAST_GAP);
         if speed_at_most * best.y <= best.x * gap_at_least {
             continue;
         }
-        let first = u32(bunch.spread.z);
-        for (var k = first; k < first + u32(bunch.spread.w); k++) {
+        let first = u32(cluster.spread.z);
+        for (var k = first; k < first + u32(cluster.spread.w); k++) {
             let plane = planes[k];
             let speed = dot(plane.xyz, direction);
             let gap = max(plane.w - dot(plane.xyz, point), LEAST_GAP);

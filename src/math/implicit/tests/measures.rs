@@ -1,7 +1,7 @@
 //! Volumes, meshes and shadows agree.
 
 use super::{chance, forms, moved};
-use crate::math::Shell;
+use crate::math::TriangleMesh;
 use glam::DVec3;
 use std::f64::consts::PI;
 
@@ -35,7 +35,7 @@ fn meshes_are_closed_and_as_near_as_they_say() {
             assert!((low - least).max_element() < 1e-12 && (most - high).max_element() < 1e-12);
             let middle = field.shift;
             assert!(surface.vertices.iter().all(|v| v.length() < field.reach() + 1e-12), "{middle}");
-            Shell::new(surface).unwrap_or_else(|e| panic!("{field:?} {fineness}: {e}"));
+            TriangleMesh::new(surface).unwrap_or_else(|e| panic!("{field:?} {fineness}: {e}"));
         }
         let fine = field.surface(if field.is_convex() { 60 } else { 6 });
         assert!((fine.volume() / field.volume() - 1.0).abs() < 3e-3, "{field:?}");

@@ -9,7 +9,7 @@
 //! where it is near, so much depth as the start has left, a chord leads to a point before it. Either step is Newton's near the
 //! root. Nothing else is needed of a start on the surface: the root it is on is never the far one.
 
-use super::Field;
+use super::ImplicitSurface;
 use glam::DVec3;
 
 /// Steps to a root: two to nine on the mean for convex forms, 27 at most, and some twenty-five out of a plate. A ray that touches
@@ -22,7 +22,7 @@ const ROUNDING: f64 = 4.0 * f64::EPSILON;
 /// A bound's root is near where the bound is no more than this part of the start's depth.
 const NEAR: f64 = 0.5;
 
-impl Field {
+impl ImplicitSurface {
     /// As [`entry`](Self::entry), with the steps taken.
     pub(super) fn entry_counted(&self, origin: DVec3, direction: DVec3) -> (Option<f64>, u32) {
         let (o, v) = (self.own(origin), self.turn.inverse() * direction);

@@ -7,7 +7,7 @@ use std::f64::consts::PI;
 
 /// A convex body around the origin.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Body {
+pub(super) struct RoundedBody {
     pub profile: Profile,
     /// Along which the outline is drawn out.
     pub axis: DVec3,
@@ -17,7 +17,7 @@ pub(super) struct Body {
     pub edge: f64,
 }
 
-impl Body {
+impl RoundedBody {
     pub fn pill(size: DVec3, edge: f64) -> Self {
         Self::pane(size, size.x.min(size.y) / 2.0, edge)
     }
