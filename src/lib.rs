@@ -1,7 +1,7 @@
-//! Exact light in gemstone cuts: proportions or planes in, ASET, Ideal-Scope, hearts and arrows out.
+//! Exact light in gemstone cuts: takes proportions or planes, and gives ASET, Ideal-Scope, hearts and arrows.
 //!
-//! Floors, each importing only from those before it: `math`, `optics`; `cut`; `scene`; `trace`; `picture`,
-//! `measure`; `io`; `cli`, `app`. See docs/architecture.md.
+//! The modules form floors, each of which imports only from those before it: `math`, `optics`; `cut`; `scene`; `trace`;
+//! `picture`, `measure`; `render`; `io`; `cli`, `app`. See docs/architecture.md.
 //!
 //! From a cut file to figures:
 //!
@@ -13,11 +13,11 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! [`measure::MeasureOptions`] choose the view, the scope, the wavelength and the bound on what is unresolved. The folder
-//! `examples/` measures a design, sweeps an angle, writes an ASET picture and reads a mesh.
+//! [`measure::MeasureOptions`] choose the view, the scope, the wavelength and the bound on unresolved light. Programs in the
+//! folder `examples/` measure a design, sweep an angle, write an ASET picture and read a mesh.
 //!
-//! Frame: right-handed, +z out of the table, z = 0 at the crown-side girdle, girdle radius 1. Lengths in files are
-//! percent of the girdle diameter, angles degrees; inside, girdle radii and radians.
+//! The frame is right-handed: +z out of the table, z = 0 at the crown-side girdle, girdle radius 1. In files, lengths are
+//! percent of the girdle diameter and angles are degrees; inside the program, girdle radii and radians.
 
 #[cfg(feature = "app")]
 pub mod app;
@@ -29,6 +29,7 @@ pub mod math;
 pub mod measure;
 pub mod optics;
 pub mod picture;
+pub mod render;
 pub mod scene;
 pub mod trace;
 

@@ -4,7 +4,7 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-const FLOORS: [(&str, u32); 10] = [
+const FLOORS: [(&str, u32); 11] = [
     ("math", 0),
     ("optics", 0),
     ("cut", 1),
@@ -12,9 +12,10 @@ const FLOORS: [(&str, u32); 10] = [
     ("trace", 3),
     ("picture", 4),
     ("measure", 4),
-    ("io", 5),
-    ("cli", 6),
-    ("app", 6),
+    ("render", 5),
+    ("io", 6),
+    ("cli", 7),
+    ("app", 7),
 ];
 
 fn sources(folder: &Path) -> Vec<PathBuf> {

@@ -1,9 +1,9 @@
-//! Exporting, on a thread of its own: thumbnails of what can be had, then the files.
+//! Exports, on a thread of their own: thumbnails of what can be exported, then the files.
 
 use super::export_scene::SceneOut;
 use super::framing::{Framing, FramingFit};
 use super::shows::Shows;
-use super::studio::{Effort, FINE_RENDER, SPAN, Shot, ShotTracer, Which, survey};
+use super::studio::{Effort, FINE_RENDER, SPAN, Shot, ShotTracer, Which, exported, survey};
 use crate::io::background::BackgroundRef;
 use crate::io::export::{Event, Export, OutputFormat, Outputs, Viewing};
 use crate::io::refraction_map::{self, Coding, MOST_BANDS, MOST_PIXELS};
@@ -11,8 +11,9 @@ use crate::io::refraction_page::{Page, takes, write_page};
 use crate::io::{Failure, rasterize, write_rgba_png};
 use crate::optics::line;
 use crate::picture::{named, profile};
+use crate::render::Demands;
 use crate::scene::{Glare, Pose, Specimen, View, Viewpoint};
-use crate::trace::{Tracer, unwatched};
+use crate::trace::unwatched;
 use egui::ColorImage;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
@@ -21,27 +22,28 @@ use std::sync::mpsc::{Receiver, Sender, channel};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
-/// Side of a thumbnail, pixels.
+/// The side of a thumbnail, pixels.
 const THUMBNAIL: u32 = 176;
 
-/// What a render takes where a picture in a scope takes 1, roughly.
+/// The effort of a render, where a picture in a scope takes 1, roughly.
 const RENDER: f64 = 4.0;
 
-/// What of a stone is to be written.
+/// What of a stone is selected for export.
 #[derive(Clone)]
 pub struct Selection {
-    /// What is shown of it.
+    /// The views that are exported.
     pub views: Vec<Shows>,
-    /// Kinds of file.
+    /// The formats of the files.
     pub formats: Vec<OutputFormat>,
-    /// Whether a refraction map is written, with a page that shows it, and of how many bands of wavelengths.
+    /// Whether a refraction map is written, with a page that shows it.
     pub map: bool,
+    /// The number of bands of wavelengths of the refraction map.
     pub bands: u32,
-    /// Places of a pixel in each of its bands.
+    /// The number of places in each pixel of the refraction map, for each band.
     pub places: u32,
-    /// Whether what renders show is written as a scene, with its cut.
+    /// Whether what renders show is written as a scene file, with its cut.
     pub scene: bool,
-    /// Pixels along each side.
+    /// The number of pixels along each side.
     pub size: u32,
     /// Whether pictures in scopes have a caption with a legend under them.
     pub caption: bool,
@@ -55,54 +57,54 @@ impl Default for Selection {
     }
 }
 
-/// How some pictures see the stone.
+/// How a picture sees the stone.
 #[derive(Clone)]
 pub struct PictureAspect {
-    /// From where; pictures that are made for one side have their own.
+    /// The view; pictures that are made for one side take that side instead.
     pub view: View,
-    /// By how much the stone is turned about its axis, radians.
+    /// How far the stone is turned about its axis, radians.
     pub turn: f64,
-    /// The stone at rest, turned so.
+    /// The stone at rest, turned by `turn`.
     pub turned: Arc<Specimen>,
 }
 
-/// What is to be written.
+/// All that an export needs to know.
 #[derive(Clone)]
 pub struct Plan {
-    /// What renders show, its light and the view; its film does not count.
+    /// What renders show, with light and view; the film is not used.
     pub shot: Shot,
-    /// The stone as the cut has it.
+    /// The stone as the cut has it, not turned.
     pub upright: Arc<Specimen>,
-    /// How the linked views see the stone: so do pictures and figures that have no view of their own.
+    /// How the linked views see the stone; pictures and figures without a view of their own see it the same.
     pub linked: PictureAspect,
-    /// How views that look on their own see it, by what they show.
+    /// How the views that look on their own see the stone, by what they show.
     pub own: Vec<(Shows, PictureAspect)>,
-    /// Half the side of what renders show.
+    /// Half the side of the square that renders show.
     pub reach: f64,
-    /// What of it is written.
+    /// What is selected for export.
     pub selection: Selection,
-    /// The light, as scenes name it.
+    /// The light, as scene files name it.
     pub light: PathBuf,
-    /// Where to.
+    /// The folder of the files.
     pub folder: PathBuf,
-    /// What files' names begin with.
+    /// The beginning of the files' names.
     pub stem: String,
 }
 
-/// How far it has come.
+/// How far an export has come.
 #[derive(Default)]
 pub struct ExportProgress {
-    /// Thousandths.
+    /// The part done, in thousandths.
     done: AtomicU64,
     stop: AtomicBool,
-    /// Files written, and what was said.
+    /// The files written, the notes and the warnings, in words.
     messages: Mutex<Vec<String>>,
-    /// How many files are written.
+    /// The number of files written.
     written: AtomicUsize,
     end: Mutex<Option<Result<(), String>>>,
 }
 
-/// Work that is going on.
+/// An export that is under way or has ended.
 pub struct Job {
     progress: Arc<ExportProgress>,
     /// The files, in the order in which they are written.
@@ -111,13 +113,13 @@ pub struct Job {
 }
 
 impl Plan {
-    /// How a picture sees the stone.
+    /// Returns how a picture sees the stone.
     pub fn aspect(&self, shows: Shows) -> &PictureAspect {
         self.own.iter().find(|(own, _)| *own == shows).map_or(&self.linked, |(_, aspect)| aspect)
     }
 
-    /// What is written of the stone as it is turned in the linked views, as it is turned in each view of its own, and as the
-    /// cut has it: drawings and figures know of no turn.
+    /// Returns what is written of the stone as it is turned in the linked views, as it is turned in each view of its own,
+    /// and as the cut has it: drawings and figures know of no turn.
     fn parts(&self) -> Vec<(Outputs, Viewing<'_>)> {
         let is_drawing = |shows: &Shows| !shows.is_seen();
         let is_own = |shows: &Shows| self.own.iter().any(|(own, _)| own == shows);
@@ -169,13 +171,13 @@ impl Plan {
             head_deg: self.shot.head,
             unresolved: None,
             polarised: true,
-            // Without glare pictures leave it out; figures list it in any case.
+            // `None` leaves glare out of pictures; figures list it in any case.
             glare: Some(self.shot.glare).filter(|glare| *glare == Glare::Included),
-            tracer: Tracer::best(specimen, &viewpoint.view()),
+            tracer: Demands::of_scope(specimen, &viewpoint.view()).by_processor(),
         }
     }
 
-    /// The maps, the diffuse layer, the page.
+    /// Returns the paths of the maps, then those of the diffuse layer and the page; `None` where no map is selected.
     fn map_paths(&self) -> Option<(Vec<PathBuf>, [PathBuf; 2])> {
         let count = (self.selection.bands * self.selection.places) as usize;
         let maps = refraction_map::paths(&self.folder, &self.stem, count, Coding::Tiles);
@@ -184,7 +186,7 @@ impl Plan {
         self.selection.map.then_some((maps, others))
     }
 
-    /// Says that a render is no physics, where it is none.
+    /// Returns a note that a render is not physics; it is empty where the render is.
     fn mixture(&self) -> String {
         match self.shot.strength {
             s if s < 1.0 => format!("strength {s}: a mixture for its looks, not physics; "),
@@ -198,16 +200,16 @@ impl Plan {
         wanted.then(|| self.folder.join(format!("{}-render.png", self.stem)))
     }
 
-    /// What can be shown of it: drawings need facets.
+    /// Returns the views that can be exported: drawings need facets.
     pub fn can_be_shown(&self) -> impl Iterator<Item = Shows> {
         let has_facets = self.upright.stone().is_ok();
         Shows::EXPORTED.iter().copied().filter(move |shows| has_facets || shows.is_seen())
     }
 
-    /// The files that will be written.
+    /// Returns the files that will be written, in that order.
     ///
     /// # Errors
-    /// What keeps them from being written.
+    /// The text says what keeps them from being written.
     pub fn files(&self) -> Result<Vec<PathBuf>, String> {
         if self.selection.map && self.selection.size > MOST_PIXELS {
             return Err(format!(
@@ -227,7 +229,7 @@ impl Plan {
         Ok(files)
     }
 
-    /// The picture of a view at a size, as large in it as it is fitted to the window's views.
+    /// Returns the shot of a view at a size, framed as in the views of the window.
     fn shot(&self, shows: Shows, size: u32) -> Shot {
         let seen = self.aspect(shows).view;
         let view = View { side: shows.side().unwrap_or(seen.side), ..seen };
@@ -243,7 +245,7 @@ impl Plan {
         Shot { film, whole, specimen, company: vec![Pose::STILL], ..shot }
     }
 
-    /// Writes all, one after the other.
+    /// Writes all files, one after the other.
     fn write(&self, progress: &ExportProgress) -> Result<(), Failure> {
         let render = self.render_path();
         let parts = self.parts();
@@ -316,7 +318,7 @@ impl Plan {
         ShotTracer::default().take(
             ((0, Which::Present), &shot),
             &effort,
-            Some(&FINE_RENDER),
+            Some(&exported(&shot)),
             watch,
             &mut |taken| last = Some(taken),
         )?;
@@ -354,11 +356,11 @@ impl ExportProgress {
 }
 
 impl Job {
-    /// Begins; `wake` is called when it ends.
+    /// Begins an export on a thread of its own; `wake` is called when it ends.
     pub fn begin(plan: Plan, wake: impl Fn() + Send + 'static) -> Self {
         let progress = Arc::new(ExportProgress::default());
         let seen = Arc::clone(&progress);
-        // Where they cannot be known, writing tells why.
+        // Where the files cannot be known, writing says why.
         let files = plan.files().unwrap_or_default();
         std::thread::spawn(move || {
             let write = || plan.write(&seen).map_err(|e| e.to_string());
@@ -370,7 +372,7 @@ impl Job {
         Self { progress, files, begun: Instant::now() }
     }
 
-    /// The part done, 0 to 1. Of work that was stopped it is as far as that came.
+    /// Returns the part done, 0 to 1; for stopped work, the part that it reached.
     pub fn done(&self) -> f32 {
         if self.end() == Some(Ok(())) {
             return 1.0;
@@ -378,7 +380,7 @@ impl Job {
         self.progress.done.load(Ordering::Relaxed) as f32 / 1000.0
     }
 
-    /// Which file is being written, and about how long all takes from now on; how far it came, once it has ended.
+    /// Says which file is being written and about how long the rest takes; once the export has ended, how far it came.
     pub fn standing(&self) -> String {
         let (written, all) = (self.written(), self.files.len());
         match (self.end(), self.files.get(written)) {
@@ -398,42 +400,44 @@ impl Job {
         }
     }
 
-    /// How many files are written.
+    /// Returns the number of files written.
     pub fn written(&self) -> usize {
         self.progress.written.load(Ordering::Relaxed)
     }
 
-    /// Asks it to stop: the file that is being written is left out.
+    /// Asks the export to stop: the file that is being written is left out.
     pub fn stop(&self) {
         self.progress.stop.store(true, Ordering::Relaxed);
     }
 
-    /// Whether it was asked to stop.
+    /// Whether the export was asked to stop.
     pub fn is_stopped(&self) -> bool {
         self.progress.stop.load(Ordering::Relaxed)
     }
 
-    /// What was said so far.
+    /// Returns the messages so far.
     pub fn messages(&self) -> Vec<String> {
         self.progress.messages.lock().unwrap_or_else(PoisonError::into_inner).clone()
     }
 
-    /// How it ended, once it has.
+    /// Returns how the export ended, once it has.
     pub fn end(&self) -> Option<Result<(), String>> {
         self.progress.end.lock().unwrap_or_else(PoisonError::into_inner).clone()
     }
 }
 
-/// What must have passed, and the part that must be done, before anything is said of the time left.
+/// The time that must have passed before the time left is shown.
 const FIRST_SECOND: Duration = Duration::from_secs(1);
+/// The part that must be done before the time left is shown.
 const FIRST_PART: f64 = 0.02;
 
-/// How long work takes from now on, if it goes on as it did until its part `done`, 0 to 1.
+/// Returns how long the rest takes if work goes on as it did until its part `done`, 0 to 1; `None` where it is too early to
+/// say.
 fn left(passed: Duration, done: f64) -> Option<Duration> {
     (passed >= FIRST_SECOND && done >= FIRST_PART).then(|| passed.mul_f64((1.0 - done).max(0.0) / done))
 }
 
-/// A time in words: minutes from two on.
+/// Returns a time in words: in minutes from two minutes on.
 fn spoken(time: Duration) -> String {
     match time.as_secs() {
         seconds @ 0..120 => format!("{} s", seconds + 1),
@@ -441,7 +445,7 @@ fn spoken(time: Duration) -> String {
     }
 }
 
-/// Small pictures of all views, one after the other.
+/// Takes thumbnails of all views, one after the other, on a thread of its own; `wake` is called after each.
 pub fn thumbnails(plan: Plan, wake: impl Fn() + Send + 'static) -> Receiver<(Shows, ColorImage)> {
     let (sender, pictures) = channel();
     std::thread::spawn(move || {
@@ -456,7 +460,7 @@ pub fn thumbnails(plan: Plan, wake: impl Fn() + Send + 'static) -> Receiver<(Sho
     pictures
 }
 
-/// The drawing from the side, small.
+/// Returns the drawing from the side, small.
 fn side(plan: &Plan) -> Option<ColorImage> {
     let Specimen { design, .. } = &*plan.upright;
     let text = profile(plan.upright.stone().ok()?, &design.name, design.cut.brilliant()).to_string();
@@ -464,14 +468,14 @@ fn side(plan: &Plan) -> Option<ColorImage> {
     Some(ColorImage::from_rgb([width as usize, height as usize], &rgb))
 }
 
-/// Whether anyone still wants it.
+/// Takes the thumbnail of a view and sends it; returns whether anyone still wants thumbnails.
 fn send(plan: &Plan, shows: Shows, camera: &mut ShotTracer, sender: &Sender<(Shows, ColorImage)>) -> bool {
     let effort = Effort { unresolved: 2e-2, coarser: 1.0, bands: 6 };
     let mut is_wanted = true;
     if shows == Shows::Profile {
         return side(plan).is_none_or(|image| sender.send((shows, image)).is_ok());
     }
-    // A thumbnail that cannot be had stays empty; exporting tells why.
+    // A thumbnail that cannot be taken stays empty; exporting says why.
     let _ = camera.take(
         ((0, Which::Present), &plan.shot(shows, THUMBNAIL)),
         &effort,

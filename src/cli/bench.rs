@@ -1,6 +1,6 @@
 //! `bench`: how long the tracers take for the same pictures, on this machine.
 
-use super::sampler::on_card;
+use super::plan::on_card;
 use super::specimen::LoadedSpecimen;
 use super::{Failure, json, print};
 use crate::io::mesh_options::MeshOptions;

@@ -1,4 +1,4 @@
-//! Floor 6: the command line. One file a command; `options` holds what several take, `specimen` what they work on.
+//! Floor 7: the command line. One file a command; `options` holds what several take, `specimen` what they work on.
 
 mod assembly;
 mod bench;
@@ -12,10 +12,10 @@ mod mesh_options;
 mod options;
 mod picture_options;
 mod picturing;
+mod plan;
 mod progress;
 mod refraction_map;
 mod render;
-mod sampler;
 mod shell;
 mod specimen;
 mod spin;

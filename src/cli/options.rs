@@ -1,7 +1,7 @@
 //! What several commands take: how to look at a stone, and how to trace it.
 
 use super::Failure;
-use super::sampler::{on_card, quickest};
+use super::plan::planned;
 use super::specimen::{LoadedSpecimen, note_colour};
 use crate::cut::Size;
 use crate::io::export::Viewing;
@@ -9,8 +9,9 @@ use crate::io::mesh_options::MeshOptions;
 use crate::io::scope_file;
 use crate::optics::line;
 use crate::picture::{Picture, Scoped, named, names};
+use crate::render::{Demands, Unfit};
 use crate::scene::{Glare, Lean, Medium, Projection, Side, Viewpoint};
-use crate::trace::{RayTracer, Tracer};
+use crate::trace::Tracer;
 use clap::{Args, ValueEnum};
 use std::path::Path;
 
@@ -181,18 +182,13 @@ impl LightOptions {
     }
 
     fn tracer(&self, viewpoint: &Viewpoint, specimen: &LoadedSpecimen) -> Result<Tracer<'static>, Failure> {
-        let flat = viewpoint.projection == Projection::Orthographic;
-        let is_for_beams = flat && specimen.stone().is_ok();
-        match self.tracer {
-            TracerName::Beam if !flat => Err(Failure::Usage(
+        let demands = Demands::of_scope(specimen, &viewpoint.view());
+        planned(&demands, self.tracer).map_err(|unfit| match unfit {
+            Unfit::NotConvex(why) => Failure::Usage(format!("{}: {why}", specimen.path)),
+            _ => Failure::Usage(
                 "exact beams are for parallel rays: leave out --perspective, or use --tracer ray".into(),
-            )),
-            TracerName::Beam => Ok(Tracer::Beams),
-            TracerName::Auto if is_for_beams => Ok(Tracer::Beams),
-            TracerName::Auto => Ok(Tracer::Rays(quickest())),
-            TracerName::Ray => Ok(Tracer::Rays(RayTracer::Rays)),
-            TracerName::Gpu => Ok(Tracer::Rays(on_card())),
-        }
+            ),
+        })
     }
 
     /// The wavelength chosen, nm.

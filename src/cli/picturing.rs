@@ -1,17 +1,17 @@
 //! Stones, light and camera put together, and taking a picture of them.
 
 use super::assembly::Assembly;
-use super::options::TracerName;
 use super::picture_options::{FinishOptions, PictureOptions};
-use super::sampler::{on_card, quickest};
+use super::plan::planned;
 use super::specimen::note_colour;
 use super::{Failure, report};
 use crate::io::background::{BackgroundError, BackgroundRef};
 use crate::io::lighting::Lighting;
 use crate::optics::Illuminant;
 use crate::picture::{Bloom, Develop, Linear, Overlay, Tone, developed, lay};
-use crate::scene::{Film, Panorama, Projection, Scene, View};
-use crate::trace::RayTracer;
+use crate::render::{Demands, Unfit};
+use crate::scene::{Film, Panorama, Scene, View};
+use crate::trace::Tracer;
 use crate::trace::Watch;
 use crate::trace::environment::{Backplate, Environment};
 use crate::trace::ray::{self, Camera};
@@ -33,13 +33,6 @@ const LEAST_WEIGHT: f64 = 5e-4;
 const BACKGROUND: &str = "#33373d-#0e0f11";
 const PHOTO_DISTANCE: f64 = 3.0;
 
-/// What traces a picture.
-#[derive(Clone, Copy)]
-enum Tracer {
-    Beams,
-    Rays(RayTracer<'static>),
-}
-
 /// Everything that a picture is taken of, loaded once.
 pub struct PictureSetup<'a> {
     options: &'a PictureOptions,
@@ -54,7 +47,7 @@ pub struct PictureSetup<'a> {
     /// The strength of refraction, 0 to 1.
     pub strength: f64,
     pub develop: Develop,
-    tracer: Cell<Tracer>,
+    tracer: Cell<Tracer<'static>>,
 }
 
 /// A picture, and how it was made.
@@ -148,28 +141,18 @@ impl<'a> PictureSetup<'a> {
         ))
     }
 
-    fn chosen(&self, view: &View) -> Result<Tracer, Failure> {
-        let beams_apply = view.projection == Projection::Orthographic
-            && matches!(&*self.assembly.setting.instances, [only] if only.solid.polytope().is_ok())
-            && self.photo.is_none()
-            && self.strength >= 1.0;
-        match self.finish.tracer {
-            TracerName::Beam if self.strength < 1.0 => Err(Failure::Usage(format!(
+    fn chosen(&self, view: &View) -> Result<Tracer<'static>, Failure> {
+        let demands = Demands::of_light(&self.assembly.setting, view, self.photo.is_some(), self.strength);
+        planned(&demands, self.finish.tracer).map_err(|unfit| match unfit {
+            Unfit::Mixture => Failure::Usage(format!(
                 "--strength {}: exact beams know no mixture: use --tracer ray, or --strength 1",
                 self.strength
-            ))),
-            TracerName::Beam if !beams_apply => Err(Failure::Usage(
+            )),
+            _ => Failure::Usage(
                 "exact beams are for one convex stone, parallel rays and no pattern or photograph behind: use --tracer ray"
                     .into(),
-            )),
-            TracerName::Beam => Ok(Tracer::Beams),
-            TracerName::Ray => Ok(Tracer::Rays(RayTracer::Rays)),
-            TracerName::Gpu => Ok(Tracer::Rays(on_card())),
-            TracerName::Auto => Ok(match quickest() {
-                RayTracer::Rays if beams_apply => Tracer::Beams,
-                sampler => Tracer::Rays(sampler),
-            }),
-        }
+            ),
+        })
     }
 
     /// The side of a pixel with which the stones fill the picture; an error where the eye is not in front of them.
@@ -201,11 +184,11 @@ impl<'a> PictureSetup<'a> {
         watch: Watch,
     ) -> Result<RenderedPicture, Failure> {
         self.with_lit_scene(setting, (view, pixel), |lit_scene| match self.tracer.get() {
-            Tracer::Beams => self.by_beams(lit_scene, watch),
-            Tracer::Rays(sampler) => sampler.or_rays(&report, |used| {
+            Tracer::Beams => self.traced(Tracer::Beams, lit_scene, watch),
+            Tracer::Rays(first) => first.or_rays(&report, |used| {
                 // A card that has failed is not asked again.
                 self.tracer.set(Tracer::Rays(used));
-                self.by_rays(used, lit_scene, watch)
+                self.traced(Tracer::Rays(used), lit_scene, watch)
             }),
         })
     }
@@ -241,10 +224,7 @@ impl<'a> PictureSetup<'a> {
 
     /// What lights and traces the pictures, in words.
     pub fn description(&self) -> String {
-        let tracer = match self.tracer.get() {
-            Tracer::Beams => "exact beams".into(),
-            Tracer::Rays(sampler) => sampler.description(),
-        };
+        let tracer = self.tracer.get().description();
         format!("light {}; {tracer}{}", self.lighting.light.name, self.mixture())
     }
 

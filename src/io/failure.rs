@@ -1,29 +1,30 @@
-//! Why work that ends in files was not done.
+//! Why work that produces files was not done.
 
 use super::atomic::WriteError;
 use super::lighting::LightingError;
+use crate::render::RenderError;
 use crate::trace::Stopped;
 
-/// Why not all that was asked for was done. Files that were finished before stay.
+/// Why a request was not carried out in full. Files that were finished before stay.
 #[derive(Debug, thiserror::Error)]
 pub enum Failure {
-    /// The input is at fault; in words that name it.
+    /// The input is at fault; the message names it.
     #[error("{0}")]
     Input(String),
-    /// What is asked for cannot be, whatever the input.
+    /// The request cannot be carried out, whatever the input.
     #[error("{0}")]
     Usage(String),
     /// The output could not be written.
     #[error("{0}")]
     Output(String),
-    /// No window could be opened: there is no screen, or nothing that draws on it; in words that say which.
+    /// No window could be opened: there is no screen, or nothing that draws on it; the message says which.
     #[error("{0}")]
     NoWindow(String),
     /// The graphics card failed; the processor can do the same work.
     #[cfg(feature = "gpu")]
     #[error(transparent)]
     Card(#[from] crate::trace::gpu::GpuError),
-    /// Stopped by who watches the work.
+    /// Whoever watches the work has stopped it.
     #[error("stopped")]
     Stopped,
 }
@@ -49,5 +50,16 @@ impl From<LightingError> for Failure {
 impl From<Stopped> for Failure {
     fn from(_: Stopped) -> Self {
         Self::Stopped
+    }
+}
+
+impl From<RenderError> for Failure {
+    fn from(error: RenderError) -> Self {
+        match error {
+            RenderError::Stopped(stopped) => stopped.into(),
+            #[cfg(feature = "gpu")]
+            RenderError::Card(error) => Self::Card(error),
+            RenderError::NotForBeams => Self::Usage(error.to_string()),
+        }
     }
 }

@@ -21,7 +21,7 @@ pub use render::{BEHIND, hung};
 pub use render::{lit_scene, scene_of};
 pub use survey::{SPAN, survey};
 pub use take::ShotTracer;
-pub use worker::FINE_RENDER;
+pub use worker::{FINE_RENDER, exported};
 
 use crate::app::urgency;
 use crate::trace::gpu::Gpu;

@@ -7,14 +7,16 @@ use super::take::{LEAST_WEIGHT, MOST_BOUNCES, RAYS_COARSER, ShotTracer, TakeErro
 use super::undeveloped::TracedLight;
 use crate::app::shows::Shows;
 use crate::io::background::BackgroundRef;
-use crate::optics::{Stratum, strata};
+use crate::optics::strata;
 use crate::picture::{Background, Bloom, ByBeams, Develop, Linear, develop, fxaa, spectral};
-use crate::scene::{Film, Instance, Panorama, Pose, Projection, Scene};
+use crate::render::{CardUse, Demands, LightQuality, RenderError, Unfit, Wanted, grow, plan};
+use crate::scene::{Film, Instance, Panorama, Pose, Scene};
+use crate::trace::beam::BeamOptions;
 use crate::trace::environment::{Backplate, Environment};
-use crate::trace::gpu::{ByCard, GpuEnvironment};
-use crate::trace::ray::{self, ByRays};
-use crate::trace::sampling::{LitScene, ProgressiveImage, Sampling};
-use crate::trace::{Watch, beam};
+use crate::trace::gpu::{ByCard, Gpu};
+use crate::trace::ray;
+use crate::trace::sampling::{LitScene, Sampling};
+use crate::trace::{RayTracer, Tracer, Watch};
 use egui::ColorImage;
 use std::sync::Arc;
 
@@ -43,12 +45,17 @@ impl ShotTracer {
         each: &mut dyn FnMut(TakenPicture),
     ) -> Result<(), TakeError> {
         let scene = scene_of(shot);
-        let flat = is_for_beams(shot);
         let behind = self.picture_behind(shot.behind.as_ref())?;
-        let by_card = self.gpu.clone().filter(|_| growing.is_some() || !flat);
-        let slower = if by_card.is_none() && !flat && growing.is_none() { RAYS_COARSER } else { 1.0 };
+        let card = self.gpu.clone();
+        // A card sets out anew for each picture, which takes longer than a rough one by beams.
+        let demands = Demands { favours_card: growing.is_some(), ..demands(shot) };
+        let tracer = planned(&demands, card.as_deref())?;
+        let is_slow = matches!(tracer, Tracer::Rays(RayTracer::Rays)) && growing.is_none();
+        let slower = if is_slow { RAYS_COARSER } else { 1.0 };
         let mut film = coarser(&shot.film, effort.coarser * slower);
-        if by_card.is_some() && film.size[1] > ByCard::most_rows(film.size[0]) {
+        if matches!(tracer, Tracer::Rays(RayTracer::Card(_)))
+            && film.size[1] > ByCard::most_rows(film.size[0])
+        {
             film = coarser(&film, 2.0);
         }
         let lit_scene = lit_scene(shot, &scene, film, behind.as_deref());
@@ -70,34 +77,26 @@ impl ShotTracer {
             }
             developed(shot, (picture, growing.is_some()), (unresolved, tracer), watch)
         };
-        let manner = Sampling { count: 1, jitter: shot.jitter, strength: shot.strength };
-        let work = Work { lit_scene: &lit_scene, strata: &strata, manner, growing, first, watch };
-        match by_card {
-            Some(gpu) => {
-                let around = GpuEnvironment::new(&gpu, &lit_scene.environment);
-                let rows = 0..film.size[1];
-                let exposure = ByCard::new(&gpu, &lit_scene, &around, rows, strata.len())?;
-                work.grow(exposure, |p, u| develop(p, u, "rays on the graphics card").map(&mut *each))
-            }
-            None if flat => {
-                let unresolved = growing.map_or(effort.unresolved, |g| g.unresolved);
-                let options =
-                    beam::BeamOptions { unresolved, most_beams: MOST_BEAMS, ..beam::BeamOptions::default() };
-                let Some(mut exposure) = ByBeams::new(lit_scene, options) else {
-                    return Err(TakeError::Other("exact beams do not apply here".into()));
-                };
-                if growing.is_some() {
-                    return work.grow(exposure, |p, u| develop(p, u, "exact beams").map(&mut *each));
-                }
-                exposure.glance(&strata, watch)?;
-                let (picture, rest) = spectral::seen::<TakeError, _>(&lit_scene, &exposure)?;
-                develop(&picture, rest.unresolved, "exact beams").map(each)
-            }
-            None => {
-                let exposure = ByRays::new(lit_scene, 0..film.size[1]);
-                work.grow(exposure, |p, u| develop(p, u, "point rays").map(&mut *each))
-            }
+        let beams = BeamOptions {
+            unresolved: growing.map_or(effort.unresolved, |g| g.unresolved),
+            most_beams: MOST_BEAMS,
+            ..BeamOptions::default()
+        };
+        if let (Tracer::Beams, None) = (tracer, growing) {
+            let mut image = ByBeams::new(lit_scene, beams).ok_or(RenderError::NotForBeams)?;
+            image.glance(&strata, watch)?;
+            let (picture, rest) = spectral::seen::<RenderError, _>(&lit_scene, &image)?;
+            each(develop(&picture, rest.unresolved, name(tracer))?);
+            return Ok(());
         }
+        let sampling =
+            Sampling { count: growing.map_or(1, |g| g.looks), jitter: shot.jitter, strength: shot.strength };
+        let quality = LightQuality { strata: &strata, sampling, beams };
+        let passes = (first, growing.map_or(0, |g| g.after));
+        grow(&lit_scene, tracer, quality, passes, watch, &mut |picture, rest| {
+            each(develop(picture, rest.unresolved, name(tracer))?);
+            Ok(())
+        })
     }
 
     /// The picture behind a render, read or drawn once.
@@ -116,43 +115,33 @@ impl ShotTracer {
     }
 }
 
-/// Whether exact beams show it: one convex stone by parallel rays, and no picture behind it.
+/// Whether exact beams trace a shot: of one convex stone by parallel rays, and a render with no picture behind it.
 pub fn is_for_beams(shot: &Shot) -> bool {
-    let is_render = shot.shows == Shows::Render;
-    let is_more = is_render && (shot.behind.is_some() || shot.company.len() > 1);
-    !is_more && shot.view.projection == Projection::Orthographic && shot.specimen.stone().is_ok()
+    demands(shot).fit_beams()
 }
 
-/// Looks to be added up.
-struct Work<'a> {
-    lit_scene: &'a LitScene<'a>,
-    strata: &'a [Stratum],
-    manner: Sampling,
-    growing: Option<&'a Growing>,
-    /// The number of the first look.
-    first: u32,
-    watch: Watch<'a>,
+/// What decides who traces a shot.
+pub fn demands(shot: &Shot) -> Demands {
+    let alone = Demands::of_scope(&shot.specimen, &shot.view);
+    let is_more = shot.shows == Shows::Render
+        && (shot.behind.as_ref().is_some_and(BackgroundRef::is_picture) || shot.company.len() > 1);
+    let more = is_more.then_some(Unfit::NotAlone);
+    Demands { against_beams: alone.against_beams.or(more), favours_card: false }
 }
 
-impl Work<'_> {
-    /// Adds look to look, and hands on what there is after the first, the second, the fourth and so on.
-    fn grow<X: ProgressiveImage<TakeError>>(
-        &self,
-        mut exposure: X,
-        mut each: impl FnMut(&Linear, f64) -> Result<(), TakeError>,
-    ) -> Result<(), TakeError> {
-        let looks = self.growing.map_or(1, |g| g.looks);
-        for number in 0..looks {
-            let done = |part: f64| (self.watch)((f64::from(number) + part) / f64::from(looks));
-            let look = self.manner.pass(self.lit_scene.scene, self.strata, self.first.wrapping_add(number));
-            exposure.add_pass(&look, &done)?;
-            let is_shown = number + 1 > self.growing.map_or(0, |g| g.after);
-            if is_shown && ((number + 1).is_power_of_two() || number + 1 == looks) {
-                let (picture, rest) = spectral::seen(self.lit_scene, &exposure)?;
-                each(&picture, rest.unresolved)?;
-            }
-        }
-        Ok(())
+/// Plans who traces, on the window's card where there is one.
+pub fn planned<'a>(demands: &Demands, card: Option<&'a Gpu>) -> Result<Tracer<'a>, TakeError> {
+    let card = CardUse::Open(card.map_or(RayTracer::Rays, RayTracer::Card));
+    let plan = plan(demands, Wanted::Quickest, card).map_err(|unfit| TakeError::Other(unfit.to_string()))?;
+    Ok(plan.tracer)
+}
+
+/// What the editor calls a tracer.
+pub fn name(tracer: Tracer) -> &'static str {
+    match tracer {
+        Tracer::Beams => "exact beams",
+        Tracer::Rays(RayTracer::Rays) => "point rays",
+        Tracer::Rays(RayTracer::Card(_)) => "rays on the graphics card",
     }
 }
 

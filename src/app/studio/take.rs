@@ -4,7 +4,7 @@ use super::motion::Trails;
 use super::order::{Shot, Slot, TakenPicture};
 use super::pace::Effort;
 use super::refracted::glass;
-use super::render::{Growing, is_for_beams, lit_scene, scene_of};
+use super::render::{Growing, demands, lit_scene, name, planned, scene_of};
 use super::undeveloped::Kept;
 use crate::app::shows::Shows;
 use crate::io::background::BackgroundRef;
@@ -13,11 +13,12 @@ use crate::math::NotConvex;
 use crate::optics::line;
 use crate::picture::by_rays::{self, ScopeSampling};
 use crate::picture::{DiagramStyle, Layer, Overlay, Palette, Rows, by_gpu, diagram, lay, paint};
+use crate::render::RenderError;
 use crate::scene::{Film, Panorama, Scope, Specimen, View};
 use crate::trace::beam::{self, Beams};
 use crate::trace::gpu::{Gpu, GpuError};
 use crate::trace::ray;
-use crate::trace::{Stopped, Watch};
+use crate::trace::{RayTracer, Stopped, Tracer, Watch};
 use egui::ColorImage;
 use std::sync::Arc;
 
@@ -54,6 +55,16 @@ impl From<TakeError> for Failure {
             TakeError::Card(error) => error.into(),
             TakeError::NotConvex(why) => Self::Usage(why.to_string()),
             TakeError::Other(why) => Self::Input(why),
+        }
+    }
+}
+
+impl From<RenderError> for TakeError {
+    fn from(error: RenderError) -> Self {
+        match error {
+            RenderError::Stopped(stopped) => stopped.into(),
+            RenderError::Card(error) => error.into(),
+            RenderError::NotForBeams => Self::Other(error.to_string()),
         }
     }
 }
@@ -156,10 +167,13 @@ impl ShotTracer {
         let Some(scoped) = shot.shows.scoped() else { return Err(TakeError::Other("no scope".into())) };
         let head = if scoped.takes_head { shot.head } else { 0.0 };
         let scope = scoped.scope.with_head(head);
-        if is_for_beams(shot) {
-            return self.by_beams(shot, effort, &scope, watch);
+        let card = self.gpu.clone();
+        match planned(&demands(shot), card.as_deref())? {
+            Tracer::Beams => self.by_beams(shot, effort, &scope, watch),
+            Tracer::Rays(rays) => {
+                Self::by_rays(rays, shot, effort, (&scope, if fine { 3 } else { 1 }), watch)
+            }
         }
-        self.by_rays(shot, effort, (&scope, if fine { 3 } else { 1 }), watch)
     }
 
     fn by_beams(
@@ -182,13 +196,13 @@ impl ShotTracer {
     }
 
     fn by_rays(
-        &mut self,
+        rays: RayTracer,
         shot: &Shot,
         effort: &Effort,
         (scope, per_side): (&Scope, u32),
         watch: Watch,
     ) -> Result<TakenPicture, TakeError> {
-        let slower = if self.gpu.is_none() && per_side == 1 { RAYS_COARSER } else { 1.0 };
+        let slower = if matches!(rays, RayTracer::Rays) && per_side == 1 { RAYS_COARSER } else { 1.0 };
         let film = coarser(&shot.film, effort.coarser * slower);
         let options =
             ray::RayOptions { most_bounces: MOST_BOUNCES, least_weight: LEAST_WEIGHT, polarised: true };
@@ -198,17 +212,15 @@ impl ShotTracer {
         let mut canvas = Canvas::new(&film, scope, first);
         let each = |rows: &Rows| canvas.take(rows);
         let view = &shot.view;
-        let tracer = match &self.gpu {
-            Some(gpu) => {
+        match rays {
+            RayTracer::Card(gpu) => {
                 by_gpu::trace(gpu, solid, medium, view, scope, &film, &manner, watch, each)?;
-                "rays on the graphics card"
             }
-            None => {
+            RayTracer::Rays => {
                 by_rays::trace(solid, medium, view, scope, &film, &manner, watch, each)?;
-                "point rays"
             }
-        };
-        Ok(canvas.finish(None, tracer))
+        }
+        Ok(canvas.finish(None, name(Tracer::Rays(rays))))
     }
 }
 
@@ -318,6 +330,19 @@ mod tests {
             liquid: Liquid::default(),
             paper: Paper::default(),
         }
+    }
+
+    #[test]
+    fn exports_take_as_many_passes_as_the_command_line() {
+        let passes = |shot: &Shot| crate::app::studio::exported(shot).looks;
+        assert_eq!(passes(&shot(Shows::Render, None)), 4, "exact beams");
+        assert_eq!(passes(&shot(Shows::Render, Some(8.0))), 64, "rays, for a perspective");
+        let before = |name: &str| {
+            let behind = BackgroundRef::read(name, Path::new("")).unwrap();
+            passes(&Shot { behind: Some(behind), ..shot(Shows::Render, None) })
+        };
+        assert_eq!(before("page"), 64, "rays, for what hangs behind");
+        assert_eq!(["light", "white"].map(before), [4, 4], "exact beams, as nothing hangs behind");
     }
 
     fn taken(camera: &mut ShotTracer, shot: &Shot, growing: Option<&Growing>) -> TakenPicture {

@@ -2,14 +2,15 @@
 
 use super::order::{Answer, FiguresOrder, Grade, Order, Shot, Slot, Smoothing, TakenPicture, Which};
 use super::pace::{Effort, Pace};
-use super::render::{Growing, is_for_beams};
+use super::render::{Growing, demands, is_for_beams};
 use super::take::{RAYS_COARSER, ShotTracer, TakeError};
 use super::{Mailbox, Wake};
 use crate::app::shows::Shows;
 use crate::measure::{Bounds, Figures, LATTICE, MeasureError, UNRESOLVED, by_beams, measure_subject};
+use crate::render::{Demands, usual_passes};
 use crate::scene::{ASET_CONE, Backing, Scope, View};
 use crate::trace::gpu::Gpu;
-use crate::trace::{Stopped, Subject, Tracer, Watch};
+use crate::trace::{Stopped, Subject, Watch};
 use std::collections::HashMap;
 use std::ops::ControlFlow;
 use std::sync::atomic::Ordering;
@@ -36,6 +37,11 @@ const FINE_BY_CARD: Growing = Growing { looks: 64, ..FINE_RENDER };
 
 /// What a render by rays becomes when all else is done, for as long as it stands.
 const SHARP: Growing = Growing { looks: 64, after: FINE_RENDER.looks, ..FINE_RENDER };
+
+/// How the render of a shot is exported: with as many passes as the command line takes, on the processor.
+pub fn exported(shot: &Shot) -> Growing {
+    Growing { looks: usual_passes(demands(shot).by_processor()), ..FINE_RENDER }
+}
 
 /// Takes orders, one after the other.
 pub(super) struct Worker {
@@ -339,7 +345,8 @@ fn measured(
     let medium = specimen.medium(crate::optics::line::SODIUM_D);
     let subject = Subject { specimen, medium, view, scope: &scope };
     let bounds = Bounds { unresolved, lattice, ..Bounds::default() };
-    match measure_subject(subject, Tracer::best(specimen, view), &bounds, watch) {
+    let tracer = Demands::of_scope(specimen, view).by_processor();
+    match measure_subject(subject, tracer, &bounds, watch) {
         Ok(measured) => Ok(measured.figures),
         Err(MeasureError::Stopped(stopped)) => Err(stopped),
         // Figures are asked for along parallel rays alone, by the tracer that is best for them.
