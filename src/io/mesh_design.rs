@@ -1,4 +1,4 @@
-//! Stones from meshes: the planes of one that is convex, the triangles of any other.
+//! Makes stones from meshes: of a convex stone the planes, of any other its triangles.
 
 mod place;
 
@@ -14,13 +14,13 @@ use glam::{DQuat, DVec3};
 use place::{MeshPlace, MeshRemarks, axes, doubtful};
 use std::path::Path;
 
-/// The material that is taken where a file says nothing of one.
+/// The material of a mesh whose file gives none.
 const USUAL: &str = "diamond";
 
-/// Reads a mesh of any format, which lies in a file of this path.
+/// Reads a mesh of any format; `bytes` are the content of the file at `path`.
 ///
 /// # Errors
-/// What keeps it from being a stone, with path and place.
+/// When the mesh makes no stone; the error has the path and the place.
 pub fn read(bytes: Vec<u8>, path: &Path, options: MeshOptions) -> Result<ImportedDesign, CutFileError> {
     let told = |e: mesh_file::MeshFileError| CutFileError {
         path: e.path,
@@ -50,17 +50,18 @@ pub fn read(bytes: Vec<u8>, path: &Path, options: MeshOptions) -> Result<Importe
     Ok(brought)
 }
 
-/// What is told of a mesh that is traced as triangles though nobody asked for them.
+/// The note on a mesh that is traced as triangles though nobody asked for that.
 const NOT_CONVEX: &str = "it is not convex; --as faceted reads the convex stone around it";
 
-/// Why a mesh cannot be read as a faceted stone, and what to do.
+/// Returns the message on why a mesh cannot be read as a faceted stone, and what to do.
 fn impossible(error: TooCurved) -> String {
     format!(
         "it cannot be read as a faceted stone: {error}; save a coarser mesh, or read it with --as triangles"
     )
 }
 
-/// What taking a convex stone for a mesh has changed; lengths of the file times `scale` are girdle radii.
+/// Returns the note on what has changed where a mesh is taken for a convex stone. Lengths of the file times `scale` are
+/// girdle radii.
 fn changed(change: &Change, tolerance: f64, scale: f64) -> String {
     let (sharpest, volume) = (change.sharpest.to_degrees(), 100.0 * change.volume);
     let [deepest, tolerance] = [change.deepest, tolerance].map(|length| scale * length);
@@ -73,7 +74,7 @@ fn changed(change: &Change, tolerance: f64, scale: f64) -> String {
     )
 }
 
-/// What a file says beside its shape, and how its stone lies.
+/// What a file says besides its shape, and how its stone lies.
 struct File {
     hint: Option<MaterialHint>,
     name: String,
@@ -87,7 +88,7 @@ impl File {
         let up = self.place.up(&surface, || directions(&found.polytope), &mut told);
         let made = from_mesh(found, up).map_err(|e| e.to_string())?;
         let FromMesh { mut facets, pose, .. } = made;
-        // A size that is known counts, whatever the stone's width.
+        // A known size counts, whatever width was found.
         let scale = self.place.scale.unwrap_or(pose.scale);
         let rescaled = scale / pose.scale;
         facets.iter_mut().for_each(|(_, plane)| plane.offset *= rescaled);
@@ -117,7 +118,7 @@ impl File {
         };
         let (shape, scale) =
             MeshShape::framed(&shell, turn).ok_or("it has no extent across the direction up")?;
-        // A size that is known is one of mm, whatever the frame of the stone that was written.
+        // A known size stays in mm, though this frame may have another scale than that of the stone that was written.
         if let (Some(known), Some(diameter_mm)) = (self.place.scale, &mut self.place.diameter_mm) {
             *diameter_mm *= known / scale;
         }
@@ -126,11 +127,11 @@ impl File {
         Ok(self.brought(Cut::Mesh(shape), scale, told))
     }
 
-    /// The design of a cut with `scale` girdle radii per unit of the file.
+    /// Makes the design of a cut, with `scale` girdle radii per unit of the file.
     fn brought(self, cut: Cut, scale: f64, told: MeshRemarks) -> ImportedDesign {
         let MeshRemarks { mut notes, mut warnings, is_doubtful } = told;
         let diameter_mm = self.place.diameter_mm.unwrap_or(DEFAULT_DIAMETER_MM);
-        let (material, why) = self.material(0.5 * diameter_mm / scale);
+        let (material, why) = self.material(0.5 * diameter_mm * scale);
         match why {
             Ok(note) => notes.extend(note),
             Err(warning) => warnings.push(warning),
@@ -139,7 +140,7 @@ impl File {
         ImportedDesign { notes, warnings, doubt: Some(is_doubtful), ..ImportedDesign::of(design) }
     }
 
-    /// The material that the file asks for, and a note where it asks for none or a warning where there is no such
+    /// Returns the material that the file asks for, with a note where it asks for none or a warning where there is no such
     /// material.
     fn material(&self, mm_per_unit: f64) -> (MaterialRef, Result<Option<String>, String>) {
         let usual = MaterialRef::Name(USUAL.to_owned());
@@ -161,7 +162,7 @@ fn unsaid() -> String {
     format!("the file says of no material that it refracts; {USUAL} is taken")
 }
 
-/// What was mended of a mesh, where that is more than any file of triangles needs.
+/// Returns notes on what was mended of a mesh, where that is more than any file of triangles needs.
 fn told_of(mending: &Mending) -> Vec<String> {
     let count = |count: usize, what: &str| (count > 0).then(|| format!("{count} {what}"));
     let crack = (mending.crack > 0.0)

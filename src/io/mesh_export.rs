@@ -1,9 +1,9 @@
-//! Stones as meshes: OBJ and PLY with facets as polygons, STL and binary glTF with triangles.
+//! Writes stones as meshes: OBJ and PLY with facets as polygons, STL and binary glTF with triangles.
 //!
-//! `scale` is in units of the file per girdle radius: the radius in mm for OBJ, PLY and STL as the trade has them, the radius
-//! in metres for glTF as its standard wants it. OBJ keeps 15 digits of the largest coordinate and PLY all of f64; the others
-//! are f32. Every file says how its stone lies, how large it is and of what, in a [`Statement`]. Read back, OBJ and glTF give
-//! the facets their names. A solid that is not convex is written by its triangles.
+//! `scale` is in units of the file per girdle radius: for OBJ, PLY and STL the radius in mm, as the trade has it; for glTF
+//! the radius in metres, as its standard wants it. OBJ keeps 15 digits of the largest coordinate and PLY all of f64; the
+//! others are f32. Every file states how its stone lies, how large it is and of what material, in a [`Statement`]. OBJ and
+//! glTF give the facets their names back when read. A solid that is not convex is written by its triangles.
 
 mod ply;
 
@@ -16,53 +16,53 @@ use serde_json::{Value, json};
 use std::borrow::Cow;
 use std::fmt::Write as _;
 
-/// The key of a glTF primitive's extras under which its facet's name is.
+/// The key of a facet's name among the extras of its glTF primitive.
 pub(super) const FACET: &str = "facet";
 
-/// The key of a glTF node's extras under which the statement is.
+/// The key of the statement among the extras of a glTF node.
 pub(super) const STATEMENT: &str = "brillianteer";
 
-/// Digits of an OBJ's largest coordinate.
+/// The number of digits of an OBJ's largest coordinate.
 const DIGITS: f64 = 15.0;
 
 /// The most decimals of an OBJ's coordinates, which the least f64 above 0 needs.
 const MOST_DECIMALS: f64 = 340.0;
 
-/// The header of a binary STL, bytes.
+/// The size of a binary STL's header, in bytes.
 pub(super) const STL_HEADER: usize = 80;
 
-/// The most bytes of a statement where there is no other limit.
+/// The most bytes of a statement in formats that set no other limit.
 const LONGEST: usize = 400;
 
-/// Millimetres in glTF's unit, the metre.
+/// The number of millimetres in glTF's unit, the metre.
 const METRE: f64 = 1000.0;
 
-/// glTF's codes: numbers of f32, of u32, and what a buffer view is for.
+/// glTF's codes for numbers of f32 and of u32, and for the two purposes of buffer views.
 const F32: u32 = 5126;
 const U32: u32 = 5125;
 const VERTICES: u32 = 34962;
 const INDICES: u32 = 34963;
 
-/// Steps that a quarter of a turn of a smooth surface is cut into.
+/// The number of steps into which a quarter of a turn of a smooth surface is cut.
 pub const FINENESS: usize = 24;
 
-/// A facet, or of a mesh a triangle: its name, its corners, counter-clockwise seen from outside, and the normals there.
+/// A facet, or a triangle of a mesh: its name, its corners, counter-clockwise seen from outside, and the normals there.
 struct Face<'a> {
     name: Option<&'a str>,
     corners: Vec<u32>,
     normals: Vec<DVec3>,
-    /// Its triangles, by corners of the solid.
+    /// The triangles of the facet, by corners of the solid.
     triangles: Vec<[u32; 3]>,
 }
 
-/// Corners of a solid, and what lies between them.
+/// The corners of a solid, and the faces between them.
 struct Faces<'a> {
     vertices: Cow<'a, [DVec3]>,
     faces: Vec<Face<'a>>,
 }
 
 impl Faces<'_> {
-    /// The statement of a file in which +z or, as in glTF, +y is up, with so many mm per unit.
+    /// Returns the statement of a file with `mm_per_unit` mm per unit, in which `up` is up: +z, or +y as in glTF.
     fn statement(
         &self,
         up: DVec3,
@@ -109,7 +109,7 @@ fn nameless<'a>(triangle: [u32; 3], normals: [DVec3; 3]) -> Face<'a> {
     Face { name: None, corners: triangle.to_vec(), normals: normals.to_vec(), triangles: vec![triangle] }
 }
 
-/// The solid as OBJ, z up: each facet a polygon in a group of its name.
+/// Encodes a solid as OBJ, z up: each facet is a polygon in a group of its name.
 pub fn write_obj(body: &Body, name: &str, scale: f64, material: Option<&MaterialRef>) -> String {
     let all = faces(body);
     let statement = all.statement(DVec3::Z, 1.0, scale, material).text(LONGEST);
@@ -135,23 +135,23 @@ pub fn write_obj(body: &Body, name: &str, scale: f64, material: Option<&Material
     text
 }
 
-/// How many decimals a file's coordinates have whose largest is this: as many as make it [`DIGITS`] digits. Those beyond are
-/// the rounding of f64.
+/// Returns the number of decimals of a file's coordinates, given the largest of them: enough for [`DIGITS`] digits. Digits
+/// beyond are the rounding of f64.
 fn decimals(largest: f64) -> usize {
     (DIGITS - 1.0 - largest.log10().floor()).clamp(0.0, MOST_DECIMALS) as usize
 }
 
-/// A number to so many decimals, without zeros at its end and without the sign of what is rounded to 0.
+/// Formats a number with so many decimals, without zeros at its end and without the sign of a number that is rounded to 0.
 fn rounded(number: f64, decimals: usize) -> String {
     let text = format!("{number:.decimals$}");
     let text = if decimals > 0 { text.trim_end_matches('0').trim_end_matches('.') } else { &text };
     if text == "-0" { "0".to_owned() } else { text.to_owned() }
 }
 
-/// The solid as binary STL, z up. A statement that its header has no room for is left out whole.
+/// Encodes a solid as binary STL, z up. A statement that does not fit into its header is left out whole.
 ///
 /// # Errors
-/// None that memory does not make: what is written to a list of bytes is never refused.
+/// None but for lack of memory: a list of bytes refuses nothing that is written to it.
 pub fn write_stl(body: &Body, scale: f64, material: Option<&MaterialRef>) -> std::io::Result<Vec<u8>> {
     let all = faces(body);
     let statement = all.statement(DVec3::Z, 1.0, scale, material).text(STL_HEADER);
@@ -171,21 +171,23 @@ pub fn write_stl(body: &Body, scale: f64, material: Option<&MaterialRef>) -> std
     Ok(bytes)
 }
 
-/// The solid as binary PLY, z up: each facet a polygon.
+/// Encodes a solid as binary PLY, z up: each facet is a polygon.
 ///
 /// # Errors
-/// None that memory does not make.
+/// None but for lack of memory.
 pub fn write_ply(body: &Body, scale: f64, material: Option<&MaterialRef>) -> std::io::Result<Vec<u8>> {
     let all = faces(body);
     let statement = all.statement(DVec3::Z, 1.0, scale, material).text(LONGEST);
     ply::written(&all, scale, statement)
 }
 
-/// The solid as binary glTF, y up: a primitive with flat normals for each named facet, its name among its extras, one for
-/// all triangles of a mesh, and the material by its extensions.
+/// Encodes a solid as binary glTF, y up.
+///
+/// Each named facet is a primitive with flat normals and its name among its extras; all triangles of a mesh are one
+/// primitive. The material is written by its extensions.
 ///
 /// # Errors
-/// None that memory does not make.
+/// None but for lack of memory.
 pub fn write_glb(
     body: &Body,
     name: &str,
@@ -209,7 +211,7 @@ pub fn write_glb(
         parts.primitive(None, &nameless);
     }
     let Parts { bin, views, accessors, primitives } = parts;
-    // z up becomes y up by a quarter turn about x.
+    // A quarter turn about x makes y up out of z up.
     let half = std::f64::consts::FRAC_1_SQRT_2;
     let root = json!({
         "asset": { "version": "2.0", "generator": "Brillianteer" },
@@ -218,7 +220,7 @@ pub fn write_glb(
         "nodes": [{ "name": name, "mesh": 0, "rotation": [-half, 0.0, 0.0, half],
             "extras": { STATEMENT: statement } }],
         "meshes": [{ "name": name, "primitives": primitives }],
-        "materials": [material_json(hint)],
+        "materials": [material_json(hint, scale)],
         "extensionsUsed": used(hint),
         "buffers": [{ "byteLength": bin.len() }],
         "bufferViews": views,
@@ -237,7 +239,7 @@ struct Parts {
     primitives: Vec<Value>,
 }
 
-/// Corners, each with the normal of its facet, and triangles by their places.
+/// Corners, each with its normal, and triangles by the indices of their corners.
 #[derive(Default)]
 struct Primitive {
     corners: Vec<DVec3>,
@@ -283,7 +285,7 @@ impl Parts {
         self.primitives.push(primitive);
     }
 
-    /// A buffer view of its own, whose accessor bears the same number.
+    /// Adds a buffer view, and returns its number, which its accessor has as well.
     fn view(&mut self, bytes: &[u8], target: u32) -> usize {
         self.views.push(json!({ "buffer": 0, "byteOffset": self.bin.len(), "byteLength": bytes.len(),
             "target": target }));
@@ -292,7 +294,8 @@ impl Parts {
     }
 }
 
-fn material_json(hint: &MaterialHint) -> Value {
+/// Returns a material as glTF has it. Renderers that trace no rays take `thickness`, in units of the file, for the way through.
+fn material_json(hint: &MaterialHint, thickness: f64) -> Value {
     let mut extensions = serde_json::Map::new();
     let mut extend = |name: &str, value: Value| extensions.insert(format!("KHR_materials_{name}"), value);
     if hint.transmits {
@@ -300,9 +303,9 @@ fn material_json(hint: &MaterialHint) -> Value {
         // A thickness above 0 says that the surface bounds a volume.
         let volume = match hint.attenuation {
             Some((colour, distance)) => {
-                json!({ "thicknessFactor": 1.0, "attenuationColor": colour, "attenuationDistance": distance })
+                json!({ "thicknessFactor": thickness, "attenuationColor": colour, "attenuationDistance": distance })
             }
-            None => json!({ "thicknessFactor": 1.0 }),
+            None => json!({ "thicknessFactor": thickness }),
         };
         extend("volume", volume);
     }
@@ -320,7 +323,7 @@ fn material_json(hint: &MaterialHint) -> Value {
 }
 
 fn used(hint: &MaterialHint) -> Vec<String> {
-    let value = material_json(hint);
+    let value = material_json(hint, 1.0);
     let names = value["extensions"].as_object().map(|map| map.keys().cloned().collect());
     names.unwrap_or_default()
 }

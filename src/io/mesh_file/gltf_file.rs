@@ -1,4 +1,5 @@
-//! glTF 2.0, by the gltf crate: all meshes of the scene where their nodes put them, and the material of most of it.
+//! Reads glTF 2.0, by the gltf crate: all meshes of the scene where their nodes put them, and the material of most
+//! triangles.
 
 mod buffers;
 mod images;
@@ -12,13 +13,13 @@ use gltf::{Document, Semantic};
 use shape_only::shape_alone;
 use std::path::Path;
 
-/// The header of a binary glTF file, bytes.
+/// The size of a binary glTF file's header, in bytes.
 const GLB_HEADER: usize = 12;
 
-/// What the message of a file that is no glTF begins with.
+/// The beginning of the message about a file that is no glTF.
 const UNREADABLE: &str = "this is no glTF 2.0 that can be read: ";
 
-/// Extensions without which shapes cannot be read as they are meant, though a file can be read without any other.
+/// Extensions without which shapes cannot be read as they are meant. A file can be read without any other.
 const NEEDED: [&str; 4] = [
     "KHR_draco_mesh_compression",
     "EXT_meshopt_compression",
@@ -40,7 +41,7 @@ pub(super) fn read(bytes: &[u8], folder: Option<&Path>) -> Result<Read, Fault> {
     Ok(Read { warnings, name: name.filter(|name| !name.starts_with("Scene")), ..read })
 }
 
-/// What the JSON describes, and what is odd about it. Where something beside the shape is broken, such as a texture, the
+/// Parses the JSON; returns its document and warnings. Where something besides the shape is broken, such as a texture, the
 /// shape is read without it.
 fn document(json: &[u8]) -> Result<(Document, Vec<String>), Fault> {
     let fault = match parsed(json) {
@@ -72,13 +73,13 @@ fn parsed(json: &[u8]) -> Result<(Document, Vec<String>), Fault> {
     Ok((document, warnings))
 }
 
-/// The JSON, and the bytes that come with it in a binary file.
+/// Splits a file into its JSON and, of a binary file, the bytes that come with it.
 fn split(bytes: &[u8]) -> Result<(Vec<u8>, Option<Vec<u8>>), Fault> {
     if !bytes.starts_with(b"glTF") {
         let text = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
         return Ok((text.to_vec(), None));
     }
-    // The crate subtracts the header's length from this one without looking.
+    // The crate subtracts the header's length from this length without checking it.
     let length = bytes.get(8..GLB_HEADER).and_then(|b| b.try_into().ok()).map_or(0, u32::from_le_bytes);
     if (length as usize) < GLB_HEADER + 8 || length as usize > bytes.len() {
         let message =
@@ -99,8 +100,8 @@ fn message(error: gltf::Error) -> String {
     }
 }
 
-/// Makes what the crate takes for granted so: that places are in a list that is there, whose bounds are given. The
-/// bounds are not used, so one without any is read all the same.
+/// Ensures what the gltf crate takes for granted: that POSITION refers to an accessor that exists, and that its bounds are
+/// given. The bounds are not used, so missing ones are filled in, with a warning.
 fn positions(root: &mut Root) -> Result<Option<String>, Fault> {
     let mut unbounded = 0;
     let primitives =
@@ -120,8 +121,8 @@ fn positions(root: &mut Root) -> Result<Option<String>, Fault> {
     Ok((unbounded > 0).then(|| format!("the bounds of places are missing {unbounded} times")))
 }
 
-/// What extensions mean for reading: those that change shapes are faults where the file needs them and warnings where
-/// it does not. The crate would refuse others too, such as materials'.
+/// Checks the extensions of a file. Those that change shapes are faults where the file needs them and warnings where it does
+/// not. The list of needed extensions is emptied, since the crate would refuse others too, such as those of materials.
 fn extensions(root: &mut Root) -> Result<Vec<String>, Fault> {
     if let Some(name) = root.extensions_required.iter().find(|name| NEEDED.contains(&name.as_str())) {
         let message = format!("the shape is written with {name}, which is not read; export it without");

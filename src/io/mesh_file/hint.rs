@@ -1,44 +1,45 @@
 //! What a glTF file says of its material, and what that means for a stone.
 //!
 //! KHR_materials_ior gives the index, KHR_materials_dispersion 20 over the Abbe number, KHR_materials_volume the
-//! colour that white light has after a distance. Three colours are not a spectrum: they are taken as what is seen at
-//! one wavelength each, straight lines between.
+//! colour that white light has after a distance. Three colours are not a spectrum: each is taken as what is seen at one
+//! wavelength, with straight lines between them.
 
 use crate::cut::{MaterialError, MaterialRef};
 use crate::optics::{Absorption, Dispersion, MOST_PER_MM, Material, line};
 
-/// Where red, green and blue are taken to be, nm: about the middle of what each primary of sRGB excites.
+/// The wavelengths in nm that red, green and blue are taken to have: about the middle of what each primary of sRGB excites.
 const CHANNEL_NM: [f64; 3] = [610.0, 550.0, 465.0];
 
-/// The index where a file has a volume but no index: KHR_materials_ior's own default.
+/// The index of a file that has a volume but no index: KHR_materials_ior's own default.
 const DEFAULT_IOR: f64 = 1.5;
 
-/// KHR_materials_dispersion is this over the Abbe number.
+/// The number that KHR_materials_dispersion divides by the Abbe number.
 const DISPERSION: f64 = 20.0;
 
-/// Numbers that differ by less are the same: a hundred roundings of f32.
+/// Numbers that differ by no more than this count as the same: a hundred roundings of f32.
 const SAME: f64 = 1e-5;
 
-/// The least share of light that a colour is taken to let through: black has no finite absorption.
+/// The least share of light that a colour lets through: black has no finite absorption.
 const BLACK: f64 = 1e-6;
 
-/// A material in the words of glTF.
+/// A material as glTF describes it.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct MaterialHint {
-    /// What it is called.
+    /// The material's name.
     pub name: Option<String>,
-    /// Its refractive index at the helium d line.
+    /// The refractive index at the helium d line.
     pub ior: Option<f64>,
-    /// 20 over its Abbe number; 0 is none.
+    /// 20 over the Abbe number; 0 for no dispersion.
     pub dispersion: Option<f64>,
-    /// The share of red, green and blue, linear, left after a distance in the file's unit (metres by its standard).
+    /// The share of red, green and blue, linear, that is left after a distance in the file's unit (metres by its standard).
     pub attenuation: Option<([f64; 3], f64)>,
-    /// Whether light is said to pass through it.
+    /// Whether the file says that light passes through the material.
     pub transmits: bool,
 }
 
 impl MaterialHint {
-    /// A material as glTF would have it, in a file of so many mm per unit, its colour after one unit.
+    /// Describes a material as glTF does, in a file of so many mm per unit. Its colour is that of light after the distance at
+    /// which the most absorbed channel has fallen to 1/e, so that eight bits and other programs show it.
     pub fn of(material: &Material, mm_per_unit: f64) -> Self {
         let [n_c, n_d, n_f] =
             [line::HYDROGEN_C, line::HELIUM_D, line::HYDROGEN_F].map(|nm| material.index(nm));
@@ -46,22 +47,24 @@ impl MaterialHint {
             Dispersion::Abbe { n_d, v_d } => (n_d, DISPERSION / v_d),
             _ => (n_d, DISPERSION * (n_f - n_c) / (n_d - 1.0)),
         };
+        let mean = |nm: f64| material.absorption.iter().map(|a| a.coefficient(nm)).sum::<f64>() / 2.0;
+        let most = CHANNEL_NM.map(mean).into_iter().fold(0.0, f64::max);
         let left = |nm: f64| {
             // Unpolarised light keeps the mean of the two transmittances.
-            let part = |a: &Absorption| (-a.coefficient(nm) * mm_per_unit).exp();
+            let part = |a: &Absorption| (-a.coefficient(nm) / most).exp();
             material.absorption.iter().map(part).sum::<f64>() / 2.0
         };
-        let clear = material.absorption.iter().all(Absorption::is_clear);
+        let distance = 1.0 / (most * mm_per_unit);
         Self {
             name: Some(material.name.clone()),
             ior: Some(n_d),
             dispersion: Some(dispersion).filter(|value| value.is_finite() && *value > 0.0),
-            attenuation: (!clear).then(|| (CHANNEL_NM.map(left), 1.0)),
+            attenuation: distance.is_finite().then(|| (CHANNEL_NM.map(left), distance)),
             transmits: true,
         }
     }
 
-    /// Whether this is what is written of a material, in a file of so many mm per unit.
+    /// Returns whether this is the description that is written of a material, in a file of so many mm per unit.
     pub fn is_of(&self, material: &MaterialRef, mm_per_unit: f64) -> bool {
         let Ok(material) = material.material() else { return false };
         let written = Self::of(&material, mm_per_unit);
@@ -72,19 +75,21 @@ impl MaterialHint {
         let distances = (self.attenuation, written.attenuation);
         let attenuated = match distances {
             (Some((a, one)), Some((b, other))) => {
-                // What is left after one unit, whatever the distance that it is told for.
-                let left = |share: f64, distance: f64| share.max(BLACK).powf(1.0 / distance);
-                (0..3).all(|k| (left(a[k], one) - left(b[k], other)).abs() <= SAME)
+                // The absorption per unit, whatever the distance that the colour is given for.
+                let per_unit = |share: f64, distance: f64| -share.clamp(BLACK, 1.0).ln() / distance;
+                let [a, b] = [a.map(|share| per_unit(share, one)), b.map(|share| per_unit(share, other))];
+                let most = b.into_iter().fold(0.0, f64::max);
+                (0..3).all(|k| (a[k] - b[k]).abs() <= SAME * most)
             }
             (a, b) => a.is_none() && b.is_none(),
         };
         near(self.ior, written.ior) && near(self.dispersion, written.dispersion) && attenuated
     }
 
-    /// The material that is meant, in a stone of so many mm per unit of the file; `None` where nothing is said.
+    /// Returns the material that is meant, in a stone of so many mm per unit of the file; `None` where nothing is said.
     ///
     /// # Errors
-    /// Numbers that no material has.
+    /// When the numbers are such as no material has.
     pub fn material(&self, mm_per_unit: f64) -> Result<Option<MaterialRef>, MaterialError> {
         let volume = self.transmits || self.attenuation.is_some() || self.dispersion.is_some();
         let Some(ior) = self.ior.or(volume.then_some(DEFAULT_IOR)) else { return Ok(None) };
@@ -134,13 +139,16 @@ mod tests {
     fn a_material_comes_back_from_its_hint() {
         for name in ["diamond", "ruby", "sapphire"] {
             let material = optics::material(name).unwrap();
-            let back = MaterialHint::of(material, 0.5).material(0.5).unwrap().unwrap().material().unwrap();
+            let hint = MaterialHint::of(material, 0.5);
+            let back = hint.material(0.5).unwrap().unwrap().material().unwrap();
+            // The distance that the colour is given for, mm.
+            let mm = hint.attenuation.map_or(1.0, |(_, distance)| 0.5 * distance);
             assert!((back.index(line::HELIUM_D) - material.index(line::HELIUM_D)).abs() < 1e-5, "{name}");
             let spread = |m: &Material| m.index(line::HYDROGEN_F) - m.index(line::HYDROGEN_C);
             assert!((spread(&back) / spread(material) - 1.0).abs() < 1e-3, "{name}");
             for nm in CHANNEL_NM {
                 let mean = |m: &Material| {
-                    -(m.absorption.iter().map(|a| (-a.coefficient(nm) * 0.5).exp()).sum::<f64>() / 2.0).ln()
+                    -(m.absorption.iter().map(|a| (-a.coefficient(nm) * mm).exp()).sum::<f64>() / 2.0).ln()
                 };
                 assert!((mean(&back) - mean(material)).abs() < 1e-9, "{name} {nm}");
             }

@@ -1,20 +1,20 @@
-//! How much of a mesh is taken: enough for any scan of a stone, too little to fill the memory.
+//! Limits of the meshes that are read: enough for any scan of a stone, too little to fill the memory.
 
 use super::{Fault, Read};
 use std::fs::File;
 use std::io::{ErrorKind, Read as _};
 use std::path::Path;
 
-/// The largest file taken, bytes; a buffer beside it may be as large again, and all of them together.
+/// The size of the largest file that is read, in bytes; a buffer beside it may be as large again, and all buffers together.
 pub const MAX_BYTES: u64 = 512 << 20;
 
-/// The most corners taken.
+/// The most corners that are read.
 pub const MAX_VERTICES: usize = 12_000_000;
 
-/// The most triangles taken.
+/// The most triangles that are read.
 pub const MAX_TRIANGLES: usize = 4_000_000;
 
-/// What a file holds, if it is no larger than is taken.
+/// Reads a file, if it is no larger than [`MAX_BYTES`].
 pub(super) fn bytes(path: &Path) -> Result<Vec<u8>, Fault> {
     let unreadable = |error: std::io::Error| match error.kind() {
         ErrorKind::NotFound => Fault::whole("there is no such file"),
@@ -34,7 +34,7 @@ pub(super) fn bytes(path: &Path) -> Result<Vec<u8>, Fault> {
     Ok(bytes)
 }
 
-/// A fault where there are more triangles or corners than are taken.
+/// Refuses more triangles or corners than are read.
 pub(super) fn count(vertices: usize, triangles: usize) -> Result<(), Fault> {
     let told = |what: &str, most: usize| {
         Err(Fault::whole(format!(
@@ -49,7 +49,7 @@ pub(super) fn count(vertices: usize, triangles: usize) -> Result<(), Fault> {
     }
 }
 
-/// What a reader has read, if it is numbers and triangles.
+/// Checks that a reader's corners are finite and its triangles exist and refer to them.
 pub(super) fn checked(read: Read) -> Result<Read, Fault> {
     let surface = &read.surface;
     count(surface.vertices.len(), surface.triangles.len())?;

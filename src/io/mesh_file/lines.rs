@@ -1,13 +1,13 @@
-//! Text handed to a crate's parser line by line, so that its errors can be told with the line they arose in.
+//! Hands text to a crate's parser line by line, so that errors can name the line in which they arose.
 
 use std::cell::Cell;
 use std::io::{BufRead, Read, Seek, SeekFrom};
 use std::rc::Rc;
 
-/// The longest line handed on, bytes: a face of tens of thousands of corners.
+/// The longest line that is handed on, in bytes: a face of tens of thousands of corners.
 const LONGEST: usize = 1 << 20;
 
-/// A reader of lines, each as `change` makes it.
+/// A reader of lines, each of which `change` may change or drop.
 pub(super) struct Lines<'a, F> {
     rest: &'a [u8],
     current: Vec<u8>,
@@ -17,7 +17,7 @@ pub(super) struct Lines<'a, F> {
 }
 
 impl<'a, F: FnMut(&[u8], &mut Vec<u8>)> Lines<'a, F> {
-    /// The reader, and where it tells which line, from 1, was handed on last.
+    /// Makes the reader, and a cell with the number, from 1, of the line that was handed on last.
     pub fn new(text: &'a [u8], change: F) -> (Self, Rc<Cell<usize>>) {
         let line = Rc::new(Cell::new(0));
         (Self { rest: text, current: vec![], used: 0, line: line.clone(), change }, line)
@@ -55,7 +55,7 @@ impl<F: FnMut(&[u8], &mut Vec<u8>)> BufRead for Lines<'_, F> {
     }
 }
 
-/// A reader that begins with a line of its own, for a parser that looks at the first one twice.
+/// A reader that begins with a line of its own and can return to it, for a parser that looks at the first line twice.
 pub(super) struct Rewound<R> {
     first: &'static [u8],
     used: usize,
@@ -63,7 +63,7 @@ pub(super) struct Rewound<R> {
 }
 
 impl<R> Rewound<R> {
-    /// `first`, then what `rest` has.
+    /// Makes a reader of `first` and then of `rest`.
     pub fn new(first: &'static [u8], rest: R) -> Self {
         Self { first, used: 0, rest }
     }

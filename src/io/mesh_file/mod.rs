@@ -1,8 +1,8 @@
-//! Mesh files: glTF, OBJ, STL and PLY, each read by its crate into one [`Surface`] of triangles.
+//! Reads mesh files: glTF, OBJ, STL and PLY, each by its crate into one [`Surface`] of triangles.
 //!
-//! The format is told by content, not by the file's ending. What is merely odd is a warning; what cannot be read is an
-//! error that names the file, the place and what was expected. Nothing is read but the file itself and buffers that
-//! lie beside it.
+//! The content of a file decides its format, not the ending of its name. What is merely unusual is a warning; what cannot be
+//! read is an error that names the file, the place and what was expected. Nothing is read but the file itself and buffers
+//! that lie beside it.
 
 mod gltf_file;
 mod hint;
@@ -26,20 +26,20 @@ use sniff::STL_HEADER;
 pub use sniff::{MeshFormat, looks_like};
 pub use statement::{Stands, Statement};
 
-/// What a mesh file holds, as it is written: not yet welded, in the file's unit and frame.
+/// The content of a mesh file as it is written: not yet welded, in the file's unit and frame.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MeshFile {
-    /// How it is written.
+    /// The format of the file.
     pub format: MeshFormat,
-    /// All its triangles; its groups are the file's meshes, objects or groups, with their names.
+    /// All triangles; the surface's groups are the file's meshes, objects or groups, with their names.
     pub surface: Surface,
-    /// What it says of its material.
+    /// What the file says of its material.
     pub hint: Option<MaterialHint>,
-    /// What it says of its stone, where this program wrote it.
+    /// What the file states of its stone, where this program wrote it.
     pub statement: Option<Statement>,
-    /// What is odd about it.
+    /// What is unusual about the file, in words.
     pub warnings: Vec<String>,
-    /// What it is called: by itself, else by its file's name.
+    /// The name that the file gives itself, or else the file's own name without its ending.
     pub name: String,
 }
 
@@ -47,15 +47,15 @@ pub struct MeshFile {
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("{path}{}: {message}", .place.as_ref().map(|place| format!(":{place}")).unwrap_or_default())]
 pub struct MeshFileError {
-    /// The file, as it was named.
+    /// The path of the file, as the caller gave it.
     pub path: String,
-    /// The line, from 1, or what part of the file; `None` where it is the file as a whole.
+    /// The line, from 1, or the part of the file at fault; `None` where that is the file as a whole.
     pub place: Option<String>,
     /// What is wrong, and what was expected.
     pub message: String,
 }
 
-/// A fault, before its file's name is put to it.
+/// A fault in a mesh, which does not yet have its file's name.
 #[derive(Debug)]
 struct Fault {
     place: Option<String>,
@@ -76,7 +76,7 @@ impl Fault {
     }
 }
 
-/// What a reader answers, before the file's name is put to it.
+/// What the reader of a format returns, which does not yet have its file's name.
 #[derive(Default)]
 struct Read {
     surface: Surface,
@@ -90,7 +90,7 @@ struct Read {
 /// Reads a mesh file.
 ///
 /// # Errors
-/// What keeps it from being one, with its place.
+/// When the file is no mesh that can be read; the error has the place.
 pub fn read(path: impl AsRef<Path>) -> Result<MeshFile, MeshFileError> {
     let path = path.as_ref();
     let folder = path.parent().unwrap_or(Path::new(""));
@@ -98,16 +98,16 @@ pub fn read(path: impl AsRef<Path>) -> Result<MeshFile, MeshFileError> {
     parse(bytes, &path.display().to_string(), Some(folder))
 }
 
-/// Reads what a mesh file holds; `label` stands for its path in errors, and `folder` is where its buffers lie, if it
-/// may have any.
+/// Reads the content of a mesh file; `label` stands for its path in errors, and `folder` is where its buffers lie, if it may
+/// have any.
 ///
 /// # Errors
-/// What keeps it from being a mesh file, with its place.
+/// When the content is no mesh that can be read; the error has the place.
 pub fn parse(bytes: Vec<u8>, label: &str, folder: Option<&Path>) -> Result<MeshFile, MeshFileError> {
     if bytes.is_empty() {
         return Err(named(Fault::whole("the file is empty"), label));
     }
-    // One that was cut off, or whose count is wrong, has nothing but its name to be known by.
+    // A binary STL that was cut off, or whose count is wrong, can be recognised by its name alone.
     let is_named = Path::new(label).extension().is_some_and(|e| e.eq_ignore_ascii_case("stl"));
     let binary =
         (is_named && bytes.len() >= STL_HEADER && bytes.contains(&0)).then_some(MeshFormat::StlBinary);
@@ -141,7 +141,7 @@ fn named(fault: Fault, label: &str) -> MeshFileError {
     MeshFileError { path: label.to_owned(), place: fault.place, message: shortened(fault.message) }
 }
 
-/// A message that quotes something endless, or of several lines, as what a person reads.
+/// Puts a message on one line, and cuts it to what a person reads where it quotes something very long.
 fn shortened(message: String) -> String {
     const LONGEST: usize = 400;
     let line = message.split_whitespace().collect::<Vec<_>>().join(" ");

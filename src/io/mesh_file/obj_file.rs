@@ -1,5 +1,5 @@
-//! Wavefront OBJ, by tobj in f64. Corners, faces, objects and groups are handed to it; lines, normals and materials
-//! are not, since nothing of them is used and faults in them are no reason to refuse a stone.
+//! Reads Wavefront OBJ, by tobj in f64. tobj gets corners, faces, objects and groups, but no lines, normals and materials:
+//! nothing of those is used, and faults in them are no reason to refuse a stone.
 
 use super::lines::Lines;
 use super::{Fault, Read, Statement, limits};
@@ -7,7 +7,7 @@ use crate::math::surface::Surface;
 use glam::DVec3;
 use tobj::{LoadError, LoadOptions, Model};
 
-/// What tobj calls what has no name.
+/// The names that tobj gives to what has none.
 const NAMELESS: [&str; 2] = ["unnamed_object", "default"];
 
 pub(super) fn read(bytes: &[u8]) -> Result<Read, Fault> {
@@ -36,7 +36,7 @@ fn part(model: Model) -> Surface {
     Surface { names: vec![name], ..Surface::new(vertices, triangles) }
 }
 
-/// What is handed on, and what is odd about the rest.
+/// A filter of lines for tobj, and what is unusual about those that it keeps back.
 #[derive(Default)]
 struct Odd {
     continues: bool,
@@ -60,7 +60,7 @@ impl Odd {
         match key {
             _ if continued => out.extend(corners(text).as_bytes()),
             "v" => {
-                // Three numbers: a weight would be 1, and a colour is not used.
+                // Only three numbers: a weight would be 1, and a colour is not used.
                 out.extend(b"v ");
                 out.extend(rest.split_whitespace().take(3).collect::<Vec<_>>().join(" ").as_bytes());
             }
@@ -91,7 +91,7 @@ impl Odd {
     }
 }
 
-/// The corners of a face without their normals and texture coordinates.
+/// Returns the corners of a face without their normals and texture coordinates.
 fn corners(text: &str) -> String {
     text.split_whitespace().flat_map(|c| [c.split('/').next().unwrap_or_default(), " "]).collect()
 }
@@ -112,8 +112,8 @@ fn fault(error: &LoadError, line: usize, bytes: &[u8]) -> Fault {
     }
 }
 
-/// The line of the first face that refers to a corner that is not there, that corner and how many there are: tobj
-/// finds out only when an object ends.
+/// Returns the line of the first face that refers to a corner that is not there, that corner, and how many corners there
+/// are. tobj finds such a face only when an object ends.
 fn first_out_of_bounds(bytes: &[u8]) -> Option<(usize, i64, i64)> {
     let text = String::from_utf8_lossy(bytes);
     let total = text.lines().filter(|line| line.trim_start().starts_with("v ")).count() as i64;

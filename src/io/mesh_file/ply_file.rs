@@ -1,4 +1,4 @@
-//! PLY, text and binary, by ply-rs-bw.
+//! Reads PLY, text and binary, by ply-rs-bw.
 
 use super::limits::{self, MAX_VERTICES};
 use super::{Fault, Read, Statement};
@@ -8,10 +8,10 @@ use ply_rs_bw::parser::{ParseError, Parser, Reader};
 use ply_rs_bw::ply::{Header, Property, PropertyAccess, PropertyAccessResult};
 use std::io::Read as _;
 
-/// The longest header taken, bytes: hundreds of comments.
+/// The size of the longest header that is read, in bytes: hundreds of comments.
 const MAX_HEADER: usize = 1 << 20;
 
-/// What a row of a file says that is used: a corner's place, or a face's corners.
+/// What is used of a row of a file: the position of a corner, or the corners of a face.
 #[derive(Default)]
 struct Row {
     at: DVec3,
@@ -95,7 +95,8 @@ pub(super) fn read(bytes: &[u8]) -> Result<Read, Fault> {
     Ok(Read { surface, warnings, said, ..Read::default() })
 }
 
-/// Counts of a sane size, before anything is read by them.
+/// Checks that the counts in a header are of a sane size, before anything is read by them, and that it has corners and
+/// faces.
 fn check(header: &Header) -> Result<(), Fault> {
     for (name, element) in &header.elements {
         if element.count > MAX_VERTICES || element.properties.is_empty() && element.count > 0 {

@@ -1,4 +1,4 @@
-//! Which mesh format a file is in, told by how it begins.
+//! Recognises the mesh format of a file by how it begins.
 
 /// The mesh formats that are read.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -17,16 +17,17 @@ pub enum MeshFormat {
     Ply,
 }
 
-/// Header and count of a binary STL, bytes.
+/// The size of a binary STL's header and count, in bytes.
 pub(super) const STL_HEADER: usize = 84;
 
-/// A triangle of a binary STL, bytes.
+/// The size of a triangle in a binary STL, in bytes.
 pub(super) const STL_TRIANGLE: u64 = 50;
 
-/// How much of a text is looked at, bytes: OBJ files may begin with long comments.
+/// How much of a text is looked at, in bytes: OBJ files may begin with long comments.
 const LOOKED_AT: usize = 64 << 10;
 
-/// The format that bytes look like, if it is one of those that are read. The more of the file they are, the surer.
+/// Returns the format that bytes look like, if it is one of those that are read. The more of the file they hold, the surer
+/// the answer.
 pub fn looks_like(bytes: &[u8]) -> Option<MeshFormat> {
     if bytes.starts_with(b"glTF") {
         return Some(MeshFormat::Glb);
@@ -34,7 +35,7 @@ pub fn looks_like(bytes: &[u8]) -> Option<MeshFormat> {
     if bytes.starts_with(b"ply\n") || bytes.starts_with(b"ply\r") {
         return Some(MeshFormat::Ply);
     }
-    // Before text: many binary STL files begin with the word by which text ones are told.
+    // Checked before text: many binary STL files begin with the word `solid` by which text ones are recognised.
     if stl_triangles(bytes)
         .is_some_and(|count| bytes.len() as u64 == STL_HEADER as u64 + STL_TRIANGLE * count)
     {
@@ -47,7 +48,7 @@ pub fn looks_like(bytes: &[u8]) -> Option<MeshFormat> {
     }
     if start.get(..5).is_some_and(|word| word.eq_ignore_ascii_case("solid")) {
         let lower = text.to_ascii_lowercase();
-        // One without facets ends at once; its reader says that there are none.
+        // A solid without facets ends at once; the reader reports that it has none.
         if lower.contains("facet") || lower.contains("endsolid") {
             return Some(MeshFormat::StlText);
         }
@@ -55,18 +56,18 @@ pub fn looks_like(bytes: &[u8]) -> Option<MeshFormat> {
     if is_obj(&text) {
         return Some(MeshFormat::Obj);
     }
-    // One whose length does not agree is told so by its reader, if it is binary at all.
+    // If it is binary at all, this is an STL whose length does not agree with its count, which its reader reports.
     let is_binary = bytes.len() > STL_HEADER && bytes[..bytes.len().min(LOOKED_AT)].contains(&0);
     (is_binary && bytes.starts_with(b"solid")).then_some(MeshFormat::StlBinary)
 }
 
-/// How many triangles a binary STL says it has.
+/// Returns how many triangles a binary STL says it has.
 pub(super) fn stl_triangles(bytes: &[u8]) -> Option<u64> {
     let count = bytes.get(STL_HEADER - 4..STL_HEADER)?;
     Some(u64::from(u32::from_le_bytes(count.try_into().ok()?)))
 }
 
-/// Whether the first line that is no comment is one of OBJ's, and one of a corner or a face is there.
+/// Returns whether the first line that is no comment is one of OBJ's, and there is a line of a corner.
 fn is_obj(text: &str) -> bool {
     const FIRST: [&str; 12] = ["v", "vn", "vt", "vp", "f", "o", "g", "s", "mtllib", "usemtl", "l", "p"];
     let word = |line: &'_ str| line.split_whitespace().next().unwrap_or_default().to_owned();

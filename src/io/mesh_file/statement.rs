@@ -1,56 +1,57 @@
-//! What a mesh that this program writes says of the stone in it: which way is up, how large it is, of what, and some
+//! What a mesh that this program writes states of its stone: which way is up, how large it is, of what material, and some
 //! measures by which a reader sees whether that still holds.
 //!
-//! A line of the word `brillianteer` and pairs of a key and its value: `up`, an axis of the file; `d`, the diameter in mm (2
-//! in the stone's frame); `u`, mm per unit of the file, 1 if left out; `v`, the volume; `s`, the lowest and the highest
-//! point; `m`, the middle of its content; and `n`, the material's name or index, which ends the line. Volume, points and
-//! middle are in the stone's frame, whose +x is that of the file and whose origin is the file's.
+//! A statement is a line of the word `brillianteer` and pairs of a key and its value: `up`, an axis of the file; `d`, the
+//! diameter in mm (2 in the stone's frame); `u`, mm per unit of the file, 1 if left out; `v`, the volume; `s`, the lowest
+//! and the highest point; `m`, the middle of the volume; and `n`, the material's name or index, which ends the line. Volume,
+//! points and middle are in the stone's frame, whose +x is that of the file and whose origin is the file's.
 
 use crate::cut::MaterialRef;
 use crate::math::Surface;
 use glam::{DQuat, DVec3};
 use std::fmt::Write as _;
 
-/// The word with which a statement begins.
+/// The word that begins a statement.
 const WORD: &str = "brillianteer";
 
-/// Decimals that measures are written with, where there is room, and the fewest.
+/// The number of decimals of measures: the most where there is room, and the fewest.
 const DECIMALS: std::ops::RangeInclusive<usize> = 3..=6;
 
-/// The most bytes of a statement that is read.
+/// The most characters of a statement that are read.
 const LONGEST: usize = 1_000;
 
-/// How far measures may be off, girdle radii: more than the fewest decimals leave.
+/// How far measures may be off, in girdle radii: more than the fewest decimals leave.
 const NEAR: f64 = 1.5e-3;
 
-/// What a mesh file says of its stone.
+/// What a mesh file states of its stone.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Statement {
     /// The axis of the file, y or z, that the table faces.
     pub up: DVec3,
     /// Millimetres in one unit of the file.
     pub mm_per_unit: f64,
-    /// Girdle diameter, mm: 2 in the stone's frame.
+    /// The girdle diameter in mm: 2 in the stone's frame.
     pub diameter_mm: f64,
-    /// What it is made of: a name of the library or an index; none where it is neither.
+    /// The stone's material: a name of the library or an index; `None` where it is neither.
     pub material: Option<MaterialRef>,
-    /// What it measures, in the stone's frame.
+    /// The measures of the stone, in its own frame.
     pub measures: Measures,
 }
 
-/// What a solid of triangles measures.
+/// The measures of a solid of triangles.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Measures {
-    /// Its content.
+    /// The volume.
     pub volume: f64,
-    /// Its lowest and highest point along an axis.
+    /// The lowest and the highest point along an axis.
     pub span: [f64; 2],
-    /// The middle of its content.
+    /// The middle of the volume.
     pub middle: DVec3,
 }
 
 impl Measures {
-    /// Of a closed surface; heights are along the unit vector `up`. No number where it encloses nothing.
+    /// Measures a closed surface, with heights along the unit vector `up`. The middle is NaN where the surface encloses
+    /// nothing.
     pub fn of(surface: &Surface, up: DVec3) -> Self {
         let (low, high) = surface.bounds();
         let apex = (low + high) / 2.0;
@@ -65,30 +66,30 @@ impl Measures {
     }
 }
 
-/// The lowest and highest point of a surface along a unit vector.
+/// Returns the lowest and the highest point of a surface along a unit vector.
 pub fn span(surface: &Surface, up: DVec3) -> [f64; 2] {
     let heights = surface.triangles.iter().flatten().map(|&v| surface.vertices[v as usize].dot(up));
     heights.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], z| [low.min(z), high.max(z)])
 }
 
-/// How a solid lies in its file, as a statement has it or nearly so.
+/// How a solid lies in its file, compared with what the file states.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Stands {
-    /// Just as it says.
+    /// The solid lies just as stated.
     AsStated,
-    /// Turned, moved or scaled since.
+    /// The solid has been turned, moved or scaled since.
     Moved {
         /// The direction that was up, in the file's frame.
         up: DVec3,
         /// Girdle radii per unit of the file.
         scale: f64,
     },
-    /// As no solid that it speaks of: it has been given another shape.
+    /// The solid has another shape than the one that is stated.
     Otherwise,
 }
 
 impl Statement {
-    /// Of a solid in its own frame (`stone`), in a file whose `up` axis is up and whose unit is so many mm.
+    /// States a solid in its own frame (`stone`), for a file whose `up` axis is up and whose unit is so many mm.
     pub fn of(
         stone: &Surface,
         up: DVec3,
@@ -98,23 +99,25 @@ impl Statement {
     ) -> Self {
         let material = material.filter(|material| !matches!(material, MaterialRef::Custom(_))).cloned();
         let measures = Measures::of(stone, DVec3::Z);
-        // Rounding of the unit must not be read as a size.
+        // Rounded, so that the rounding of the unit does not become digits of the size.
         let diameter_mm = (2e12 * radius_mm).round() / 1e12;
         Self { up, mm_per_unit, diameter_mm, material, measures }
     }
 
-    /// From the file's frame into the stone's.
+    /// Returns the rotation from the file's frame to the stone's.
     pub fn turn(&self) -> DQuat {
         DQuat::from_rotation_arc(self.up, DVec3::Z)
     }
 
-    /// Girdle radii per unit of the file.
+    /// Returns the girdle radii per unit of the file.
     pub fn scale(&self) -> f64 {
         2.0 * self.mm_per_unit / self.diameter_mm
     }
 
-    /// As text of at most so many bytes: with fewer decimals, with those of the diameter cut as well, and without the
-    /// material, where there is no more room; `None` where even that is too long.
+    /// Returns the statement as text of at most so many bytes; `None` where even the shortest form is too long.
+    ///
+    /// Where there is no more room, the measures get fewer decimals, then the diameter does, and at last the material is
+    /// left out.
     pub fn text(&self, most: usize) -> Option<String> {
         let least = *DECIMALS.start();
         let forms = DECIMALS.rev().map(|decimals| (decimals, self.diameter_mm, true));
@@ -125,7 +128,7 @@ impl Statement {
         texts.find(|text| text.len() <= most)
     }
 
-    /// The diameter to six decimals, or one below that to six digits.
+    /// Returns the diameter to six decimals, or to six digits where that would be 0.
     fn short_diameter_mm(&self) -> f64 {
         let short = (1e6 * self.diameter_mm).round() / 1e6;
         if short > 0.0 {
@@ -158,7 +161,7 @@ impl Statement {
         text
     }
 
-    /// Whether a text is meant as a statement.
+    /// Returns whether a text is meant as a statement.
     pub fn is_meant(text: &str) -> bool {
         text.trim_start().strip_prefix(WORD).is_some_and(|rest| rest.starts_with(" up="))
     }
@@ -166,7 +169,7 @@ impl Statement {
     /// Reads a statement.
     ///
     /// # Errors
-    /// What is wrong with it, in words.
+    /// What is wrong with the text, in words.
     pub fn parse(text: &str) -> Result<Self, String> {
         let end = text.char_indices().nth(LONGEST).map_or(text.len(), |(end, _)| end);
         let text = text[..end].trim();
@@ -180,8 +183,8 @@ impl Statement {
         found.whole()
     }
 
-    /// How a solid of a file stands to what is said of it. The directions in which its table may face, in the file's
-    /// frame, are needed where it has been turned.
+    /// Compares a solid of a file with the statement. The directions in which its table may face, in the file's frame, are
+    /// needed where it has been turned.
     pub fn of_solid(&self, surface: &Surface, directions: impl IntoIterator<Item = DVec3>) -> Stands {
         let Measures { volume, span: [low, high], middle } = self.measures;
         let stated = self.scale();
@@ -195,7 +198,7 @@ impl Statement {
         if is_as_stated {
             return Stands::AsStated;
         }
-        // What is said of the size has more digits than the volume.
+        // The stated size has more digits than the volume.
         let scale =
             Some((volume / there.volume).cbrt()).filter(|scale| !near(scale / stated, 1.0)).unwrap_or(stated);
         let off = |up: DVec3| {
@@ -216,7 +219,7 @@ impl Statement {
     }
 }
 
-/// What has been read of a statement.
+/// The parts of a statement that have been read.
 #[derive(Default)]
 struct Found {
     up: Option<DVec3>,
@@ -224,7 +227,7 @@ struct Found {
     material: Option<MaterialRef>,
 }
 
-/// The keys of numbers, and how many each has.
+/// The keys that have numbers, and how many each has.
 const NUMBERS: [(&str, usize); 5] = [("d", 1), ("u", 1), ("v", 1), ("s", 2), ("m", 3)];
 
 impl Found {
@@ -238,7 +241,7 @@ impl Found {
             });
             return Ok(());
         }
-        // What a later version may add changes nothing of what is known.
+        // A key that a later version may add changes nothing of what is known.
         let Some(place) = NUMBERS.iter().position(|(known, _)| *known == key) else { return Ok(()) };
         let numbers: Vec<f64> = value.split(',').filter_map(|number| number.parse().ok()).collect();
         if numbers.len() != NUMBERS[place].1 || !numbers.iter().all(|x| x.is_finite()) {

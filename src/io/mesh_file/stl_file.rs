@@ -1,4 +1,4 @@
-//! STL, by stl_io.
+//! Reads STL, binary and text, by stl_io.
 
 use super::lines::{Lines, Rewound};
 use super::sniff::{STL_HEADER, STL_TRIANGLE, stl_triangles};
@@ -20,7 +20,7 @@ pub(super) fn read_binary(mut bytes: Vec<u8>) -> Result<Read, Fault> {
     }
     limits::count(0, usize::try_from(count).unwrap_or(usize::MAX))?;
     let name = String::from_utf8_lossy(&bytes[..80]).trim_matches(['\0', ' ']).to_owned();
-    // Nothing in the header counts, and the word `solid` there would be taken for a text.
+    // The header is of no more use, and with the word `solid` in it the file would be taken for text.
     bytes[..80].fill(0);
     let surface = triangles(&mut Cursor::new(bytes))
         .map_err(|(number, message)| Fault::at(format!("triangle {number}"), message))?;
@@ -49,7 +49,7 @@ pub(super) fn read_text(bytes: &[u8]) -> Result<Read, Fault> {
             out.push(b'\n');
         }
     };
-    // What was left out is put around the whole: the first line by `Rewound`, the last here.
+    // The lines `solid` and `endsolid` are left out above, and put around the whole: the first by `Rewound`, the last here.
     let (lines, line) = Lines::new(bytes, change);
     let closed = std::io::Read::chain(lines, &b"endsolid stone\n"[..]);
     let surface = triangles(&mut Rewound::new(FIRST, closed))
@@ -59,7 +59,8 @@ pub(super) fn read_text(bytes: &[u8]) -> Result<Read, Fault> {
     Ok(Read { surface, warnings, name, ..Read::default() })
 }
 
-/// All triangles, each with corners of its own; else the number, from 1, of the one that cannot be read, and why.
+/// Reads all triangles, each with corners of its own; else returns the number, from 1, of the triangle that cannot be read,
+/// and why.
 fn triangles<R: std::io::Read + std::io::Seek>(reader: &mut R) -> Result<Surface, (usize, String)> {
     let told = |number: usize, error: std::io::Error| (number, format!("this cannot be read: {error}"));
     let list = stl_io::create_stl_reader(reader).map_err(|error| told(1, error))?;

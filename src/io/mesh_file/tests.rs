@@ -1,4 +1,4 @@
-//! Mesh files: what is written comes back, what is broken is told, and real ones open.
+//! Mesh files: what is written reads back, faults are reported, and real files open.
 
 #![allow(clippy::print_stdout, reason = "what was measured is told")]
 
@@ -9,11 +9,12 @@ use super::statement::Measures;
 use super::*;
 use crate::cut::from_mesh::{FromMesh, Up, from_mesh};
 use crate::cut::{Cut, Design, MaterialRef};
+use crate::io::design_file::{self, DesignFormat};
 use crate::io::{cut_file, write_glb, write_obj, write_ply, write_stl};
 use crate::math::Plane;
 use crate::math::surface::{Faceted, SurfaceKind, facets};
 use crate::optics;
-use crate::scene::{Body, Stone};
+use crate::scene::{Body, Specimen, Stone};
 use glam::{DQuat, DVec3};
 use proptest::prelude::*;
 
@@ -39,7 +40,8 @@ fn faceted(file: &MeshFile) -> Faceted {
     }
 }
 
-/// The largest difference of normals and of offsets (girdle radii), facets being matched by name, or by place.
+/// Returns the largest differences of normals and of offsets (girdle radii). Facets are matched by name, or by the nearest
+/// normal.
 fn difference(stone: &Stone, found: &Faceted, scale: f64, named: bool) -> (f64, f64) {
     assert_eq!(stone.names().len(), found.faces.len());
     let mut worst = (0.0_f64, 0.0_f64);
@@ -57,7 +59,7 @@ fn difference(stone: &Stone, found: &Faceted, scale: f64, named: bool) -> (f64, 
 }
 
 fn upright(mut file: MeshFile) -> MeshFile {
-    // Files of glTF are y up.
+    // Files of glTF have y up.
     let turn = DQuat::from_rotation_x(std::f64::consts::FRAC_PI_2);
     file.surface.vertices.iter_mut().for_each(|v| *v = turn * *v);
     file
@@ -203,7 +205,8 @@ fn obj_text() -> String {
     format!("# é\no my stone\n{corners}vt 0 0\nf 1/1 3/1 2/1\nf 1//9 2//9 4\nf -3 -2 -1\nf 1 4 \\\n 3\n")
 }
 
-/// A tetrahedron in two meshes: three faces under turned and scaled nodes, one in a buffer of its own.
+/// Returns a tetrahedron in two meshes under scaled and moved nodes: three of its faces in one, the fourth as a strip in the
+/// other.
 fn gltf_json(uri: &str) -> String {
     format!(
         r#"{{"asset":{{"version":"2.0"}},"scene":0,"scenes":[{{"nodes":[0]}}],
@@ -237,6 +240,37 @@ fn gltf() -> String {
 
 fn volume(file: &MeshFile) -> f64 {
     file.surface.mend().unwrap().surface.volume()
+}
+
+#[test]
+fn a_gem_keeps_its_material_through_glb_at_any_size() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("gem.glb");
+    let first = cut_file::read(concat!(env!("CARGO_MANIFEST_DIR"), "/cuts/tolkowsky.toml")).unwrap();
+    for name in ["diamond", "ruby", "sapphire", "emerald", "tourmaline"] {
+        let Ok(known) = MaterialRef::Name(name.to_owned()).material() else { continue };
+        for diameter_mm in [0.9, 2.0, 6.5, 30.0] {
+            let material = MaterialRef::Name(name.to_owned());
+            let design = Design { material, diameter_mm, ..first.clone() };
+            design_file::write(&Specimen::new(design.clone()).unwrap(), DesignFormat::Glb, &path).unwrap();
+            let back = design_file::read(&path).unwrap().design;
+            assert_eq!(back.material, design.material, "{name} of {diameter_mm} mm");
+            // Without the statement of the name the colour is that of the material all the same, per mm of the stone.
+            let text = String::from_utf8_lossy(&std::fs::read(&path).unwrap()).into_owned();
+            let has_colour = text.contains("attenuationColor");
+            assert_eq!(has_colour, !known.absorption.iter().all(|a| a.is_clear()), "{name}");
+        }
+    }
+    // Absorption that a file gives per metre is that of the stone, whatever its size.
+    let ruby = optics::material("ruby").unwrap();
+    let mean = |m: &optics::Material| m.absorption.iter().map(|a| a.coefficient(550.0)).sum::<f64>() / 2.0;
+    for radius_mm in [0.5, 3.25, 20.0] {
+        let hint = MaterialHint::of(ruby, 1000.0);
+        let bytes = write_glb(&body(16), "ruby", 1e-3 * radius_mm, (&hint, None)).unwrap();
+        std::fs::write(&path, bytes).unwrap();
+        let back = design_file::read(&path).unwrap().design.material.material().unwrap();
+        assert!((mean(&back) / mean(ruby) - 1.0).abs() < 0.05, "{} for {}", mean(&back), mean(ruby));
+    }
 }
 
 #[test]

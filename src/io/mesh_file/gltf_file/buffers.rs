@@ -1,5 +1,5 @@
-//! The bytes behind a glTF file: within it, written as text in it, or in files beside it; and whether what points into
-//! them stays within.
+//! Loads the buffers of a glTF file, which lie within it, as text in it, or in files beside it, and checks that accessors
+//! stay within them.
 
 use super::super::limits::{self, MAX_BYTES};
 use super::Fault;
@@ -11,10 +11,10 @@ use gltf::{Accessor, Document, Semantic};
 use std::collections::BTreeSet;
 use std::path::Path;
 
-/// The bytes of each buffer; none of one that no shape needs and that is missing or broken.
+/// The bytes of each buffer; a buffer that no shape needs is empty where it is missing or broken.
 pub(super) type Data = Vec<Vec<u8>>;
 
-/// Reads all buffers; those that no shape needs may be missing.
+/// Loads all buffers; those that no shape needs may be missing.
 pub(super) fn load(
     document: &Document,
     mut blob: Option<Vec<u8>>,
@@ -50,7 +50,7 @@ pub(super) fn load(
     Ok(data)
 }
 
-/// The buffers that hold places of corners, or which of them make triangles.
+/// Returns the buffers that hold the positions of corners, or the indices of triangles.
 fn needed(document: &Document) -> BTreeSet<usize> {
     let primitives = document.meshes().flat_map(|mesh| mesh.primitives().collect::<Vec<_>>());
     let accessors = primitives.flat_map(|p| [p.get(&Semantic::Positions), p.indices()]).flatten();
@@ -75,7 +75,7 @@ pub(super) fn from_uri(uri: &str, folder: Option<&Path>) -> Result<Vec<u8>, Stri
     limits::bytes(&folder.join(&*name)).map_err(|fault| format!("{name}: {}", fault.message))
 }
 
-/// Checks that an accessor has one of the types expected and lies within its buffers: the crate looks at neither.
+/// Checks that an accessor has one of the expected types and lies within its buffers; the crate checks neither.
 pub(super) fn check(
     accessor: &Accessor<'_>,
     types: &[DataType],

@@ -1,5 +1,4 @@
-//! Whether the images of a glTF file's textures are there. Nothing of them is used, so that what is wrong with one is a
-//! warning.
+//! Checks that the images of a glTF file's textures are there. No image is used, so that a fault in one is only a warning.
 
 use super::buffers::{Data, from_uri};
 use gltf::Document;
@@ -9,11 +8,11 @@ use std::borrow::Cow;
 use std::io::Cursor;
 use std::path::Path;
 
-/// How a KTX 2.0 file begins, which `image` does not know and glTF's KHR_texture_basisu has.
+/// The first bytes of a KTX 2.0 file, which `image` does not know and glTF's KHR_texture_basisu uses.
 const KTX2: &[u8] = b"\xABKTX 20\xBB\r\n\x1A\n";
 
-/// A warning that names the first image that is missing or is no picture, and says how many more there are. Only the headers
-/// of pictures are read.
+/// Returns a warning that names the first image that is missing or is no picture, and says how many more there are. Only the
+/// headers of images are read.
 pub(super) fn warning(document: &Document, data: &Data, folder: Option<&Path>) -> Option<String> {
     let images = document.as_json().images.iter().enumerate();
     let mut faults = images.filter_map(|(number, image)| {
@@ -29,7 +28,7 @@ pub(super) fn warning(document: &Document, data: &Data, folder: Option<&Path>) -
     Some(format!("image {number}, of a texture, is left out: {why}{others}"))
 }
 
-/// The bytes of an image, wherever they lie.
+/// Returns the bytes of an image, wherever they lie.
 fn bytes<'a>(
     image: &Image,
     document: &Document,
@@ -47,14 +46,14 @@ fn bytes<'a>(
     found.map(Cow::Borrowed).ok_or_else(|| format!("buffer {} does not hold it", view.buffer().index()))
 }
 
-/// Checks that bytes are a picture of a kind that glTF and its extensions have, as far as their header tells.
+/// Checks that bytes are a picture of a kind that glTF and its extensions have, as far as its header shows.
 fn check(bytes: &[u8]) -> Result<(), String> {
     match guess_format(bytes) {
         Ok(format @ (ImageFormat::Png | ImageFormat::Jpeg)) => {
             let size = ImageReader::with_format(Cursor::new(bytes), format).into_dimensions();
             size.map(|_| ()).map_err(|error| format!("it is broken: {error}"))
         }
-        // `image` is built here without the readers of these.
+        // `image` is built here without the readers of these formats.
         Ok(ImageFormat::WebP | ImageFormat::Avif | ImageFormat::Dds) => Ok(()),
         _ if bytes.starts_with(KTX2) => Ok(()),
         _ => Err("its bytes are no picture of a kind that glTF knows".to_owned()),

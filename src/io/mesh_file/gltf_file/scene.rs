@@ -1,4 +1,4 @@
-//! The scene of a glTF file: its nodes with their transforms, and the triangles of their meshes.
+//! Reads the scene of a glTF file: its nodes with their transforms, and the triangles of their meshes.
 
 use super::super::{MaterialHint, limits};
 use super::buffers::{self, Data};
@@ -12,13 +12,13 @@ use gltf::scene::Transform;
 use gltf::{Document, Material, Node, Primitive, Semantic};
 use std::collections::BTreeMap;
 
-/// How deep nodes may lie within one another: more is a circle.
+/// How deep nodes may lie within one another; nodes that lie deeper are taken to contain themselves.
 const MOST_NESTED: usize = 100;
 
-/// The most nodes visited; one that is used twice counts twice.
+/// The most nodes that are visited; a node that is used twice counts twice.
 const MOST_NODES: usize = 100_000;
 
-/// All triangles of the scene.
+/// Gathers all triangles of the scene.
 pub(super) fn gather(document: &Document, data: &Data) -> Result<Read, Fault> {
     let scene = document.default_scene().or_else(|| document.scenes().next());
     let roots: Vec<Node<'_>> = match scene {
@@ -33,7 +33,7 @@ pub(super) fn gather(document: &Document, data: &Data) -> Result<Read, Fault> {
     gatherer.finish(document)
 }
 
-/// Nodes that are no node's children, for a file without scenes.
+/// Returns the nodes that are no node's children, for a file without scenes.
 fn rootless(document: &Document) -> Vec<Node<'_>> {
     let mut child = vec![false; document.nodes().len()];
     document.nodes().flat_map(|n| n.children().collect::<Vec<_>>()).for_each(|c| child[c.index()] = true);
@@ -44,7 +44,7 @@ struct Gatherer<'a> {
     data: &'a Data,
     read: Read,
     visited: usize,
-    /// Triangles of each material that is described.
+    /// The number of triangles of each material that is described, by the material's number.
     materials: BTreeMap<usize, usize>,
     skipped: usize,
 }
@@ -141,7 +141,7 @@ fn transform(given: &Transform) -> DAffine3 {
         Transform::Decomposed { translation, rotation, scale } => {
             let [t, s] = [translation, scale].map(|v| DVec3::from_array(v.map(f64::from)));
             let turn = DQuat::from_array(rotation.map(f64::from));
-            // One that has no length turns nothing.
+            // A rotation that has no length turns nothing.
             let turn = if turn.length() > 0.0 { turn * (1.0 / turn.length()) } else { DQuat::IDENTITY };
             DAffine3::from_scale_rotation_translation(s, turn, t)
         }
@@ -162,23 +162,23 @@ fn triangles(order: &[u32], mode: Mode) -> Vec<[u32; 3]> {
     }
 }
 
-/// The name of the facet that a primitive is, where this program wrote it.
+/// Returns the name of the facet that a primitive stands for, where this program wrote it.
 fn facet(primitive: &Primitive<'_>) -> Option<String> {
     text_of(primitive.extras(), FACET)
 }
 
-/// The text under a key of something's extras.
+/// Returns the text under a key of extras.
 fn text_of(extras: &gltf::json::Extras, key: &str) -> Option<String> {
     let extras: serde_json::Value = serde_json::from_str(extras.as_ref()?.get()).ok()?;
     Some(extras.get(key)?.as_str()?.to_owned())
 }
 
-/// The number that someone wrote: the shortest one that f32 rounds to this, and not all the digits that f32 adds.
+/// Returns the number that someone wrote: the shortest one that f32 rounds to this, without the digits that f32 adds.
 fn as_written(number: f32) -> f64 {
     number.to_string().parse().unwrap_or_else(|_| number.into())
 }
 
-/// What a material says of how light passes through it, if it says anything.
+/// Returns what a material says of how light passes through it, if it says anything.
 fn hint(material: &Material<'_>) -> Option<MaterialHint> {
     let dispersion = material.extension_value("KHR_materials_dispersion");
     let dispersion = dispersion.and_then(|value| value.get("dispersion")?.as_f64());

@@ -1,9 +1,9 @@
-//! A glTF file's shape without what else is in it, for files in which something else is broken.
+//! Reduces a glTF file to its shape, for files in which something else is broken.
 
 use serde_json::{Map, Value, json};
 use std::collections::BTreeSet;
 
-/// What extensions of materials say of how light passes through them, as far as it is read.
+/// The extensions of materials that say how light passes through them, with the keys of each that are read.
 const OF_MATERIALS: [(&str, &[&str]); 4] = [
     ("KHR_materials_ior", &["ior"]),
     ("KHR_materials_dispersion", &["dispersion"]),
@@ -11,8 +11,8 @@ const OF_MATERIALS: [(&str, &[&str]); 4] = [
     ("KHR_materials_volume", &["thicknessFactor", "attenuationDistance", "attenuationColor"]),
 ];
 
-/// The JSON of a glTF file with nothing but its scenes, the places of corners and the triangles, and what materials say of
-/// light where that is wanted. `None` where it is no JSON object.
+/// Returns the JSON of a glTF file with nothing but its scenes, the positions of corners and the triangles, and what
+/// materials say of light if `keeps_materials` is set. `None` where the file is no JSON object.
 pub(super) fn shape_alone(json: &[u8], keeps_materials: bool) -> Option<Vec<u8>> {
     let mut root: Value = serde_json::from_slice(json).ok()?;
     let root = root.as_object_mut()?;
@@ -42,7 +42,7 @@ pub(super) fn shape_alone(json: &[u8], keeps_materials: bool) -> Option<Vec<u8>>
             }
         }
     }
-    // One without a buffer view would be refused.
+    // An accessor without a buffer view would be refused.
     let unused = json!({ "bufferView": 0, "componentType": 5126, "count": 1, "type": "SCALAR" });
     let views = only(list(root, "accessors"), &accessors, &unused, &view_of_accessor);
     let unused = json!({ "buffer": 0, "byteLength": 1 });
@@ -52,7 +52,7 @@ pub(super) fn shape_alone(json: &[u8], keeps_materials: bool) -> Option<Vec<u8>>
     serde_json::to_vec(root).ok()
 }
 
-/// A list of an object; an empty one where it has none.
+/// Returns a list of an object; an empty list where the object has none.
 fn list<'a>(object: &'a mut Map<String, Value>, key: &str) -> &'a mut [Value] {
     object.get_mut(key).and_then(Value::as_array_mut).map_or(&mut [], Vec::as_mut_slice)
 }
@@ -61,7 +61,7 @@ fn keep(object: &mut Map<String, Value>, keys: &[&str]) {
     object.retain(|key, _| keys.contains(&key.as_str()));
 }
 
-/// A material of which only the name is left and what is said of light.
+/// Returns a material with only its name and what it says of light.
 fn of_light(material: &Value) -> Value {
     let mut extensions = Map::new();
     for (name, keys) in OF_MATERIALS {
@@ -81,14 +81,14 @@ fn index(object: &Value, key: &str) -> Option<u64> {
     object.get(key)?.as_u64()
 }
 
-/// The buffer views of an accessor.
+/// Returns the buffer views of an accessor.
 fn view_of_accessor(accessor: &Value) -> Vec<u64> {
     let sparse = ["/sparse/indices/bufferView", "/sparse/values/bufferView"];
     let sparse = sparse.iter().filter_map(|at| accessor.pointer(at)?.as_u64());
     index(accessor, "bufferView").into_iter().chain(sparse).collect()
 }
 
-/// Puts `unused` in the place of all but the entries that are needed, and answers what those need in turn.
+/// Replaces all entries but the needed ones by `unused`, and returns what the needed ones need in turn.
 fn only(
     entries: &mut [Value],
     needed: &BTreeSet<u64>,

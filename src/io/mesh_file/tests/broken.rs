@@ -1,8 +1,8 @@
-//! glTF files in which something beside the shape is broken: the shape is read, and a warning says so.
+//! glTF files in which something besides the shape is broken: the shape is read, and a warning says so.
 
 use super::*;
 
-/// An image of one pixel as a file has it in its text.
+/// Returns an image of one pixel as text within a file.
 fn pixel() -> String {
     use base64::Engine as _;
     let mut bytes = std::io::Cursor::new(vec![]);
@@ -11,7 +11,7 @@ fn pixel() -> String {
     format!("data:image/png;base64,{text}")
 }
 
-/// The test file with a texture and an image in it: none of it wrong.
+/// Returns the test file with a texture and an image in it, none of it wrong.
 fn textured() -> serde_json::Value {
     let mut root: serde_json::Value = serde_json::from_str(&gltf()).unwrap();
     root["images"] = serde_json::json!([{ "uri": pixel(), "mimeType": "image/png" }]);
@@ -20,7 +20,7 @@ fn textured() -> serde_json::Value {
     root["materials"][0]["pbrMetallicRoughness"] = serde_json::json!({ "baseColorTexture": { "index": 0 } });
     root["materials"][0]["name"] = "glass".into();
     root["meshes"][0]["primitives"][0]["attributes"]["TEXCOORD_0"] = 0.into();
-    // Normals, which the shape is read without.
+    // Normals, without which the shape is read.
     root["meshes"][0]["primitives"][0]["attributes"]["NORMAL"] = 3.into();
     let normals = serde_json::json!({ "bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3" });
     root["accessors"].as_array_mut().unwrap().push(normals);
@@ -39,7 +39,7 @@ fn broken_textures_and_materials_are_a_warning_and_the_shape_is_read() {
     assert_eq!((whole.warnings.as_slice(), whole.surface.triangles.len()), ([].as_slice(), 4));
     let json = |text: &str| serde_json::from_str::<serde_json::Value>(text).unwrap();
     let faults = [
-        // What is broken, the place, what stands there instead, and whether what is said of light survives.
+        // Of each case: what is broken, its place, what stands there instead, and whether what is said of light survives.
         (
             "a texture that is not there",
             "/materials/0/pbrMetallicRoughness/baseColorTexture/index",

@@ -1,9 +1,9 @@
-//! Real meshes, where they are there, and large ones.
+//! Real meshes, where they are there, and large ones that the tests make.
 
 use super::*;
 use crate::math::surface::Surface;
 
-/// A mesh among the real ones; `None`, loudly, where they are not there.
+/// Reads one of the real meshes; prints a line and returns `None` where their folder is not there.
 fn real(name: &str) -> Option<MeshFile> {
     let folder = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../shared/data/mesh"));
     if !folder.is_dir() {
@@ -13,7 +13,7 @@ fn real(name: &str) -> Option<MeshFile> {
     Some(read(folder.join(name)).unwrap())
 }
 
-/// A stone's tiers: name, number of facets, degrees from the girdle plane.
+/// Returns a stone's tiers: name, number of facets, degrees from the girdle plane.
 fn tiers(stone: &FromMesh) -> Vec<(String, usize, f64)> {
     let mut tiers: Vec<(String, usize, f64)> = vec![];
     for (name, plane) in &stone.facets {
@@ -29,7 +29,8 @@ fn tiers(stone: &FromMesh) -> Vec<(String, usize, f64)> {
 
 #[test]
 fn real_meshes_open_as_what_they_are() {
-    // Facets, the folds they were found to have, and how near they must lie, girdle radii; none for one that is dented.
+    // The number of facets, the order of symmetry that is found, and how near corners must lie to facets, in girdle radii;
+    // `None` for a mesh that is dented.
     let expected = [
         ("deepar-princess.obj", Some((69, 4, 5e-4))),
         ("diamond-webgl-brilliant_cut.obj", Some((89, 8, 1e-5))),
@@ -91,7 +92,7 @@ fn a_million_triangles_load_in_seconds() {
     assert!(all < 300.0, "{all} s");
 }
 
-/// Every triangle cut into four.
+/// Cuts every triangle into four.
 fn divided(surface: &Surface) -> Surface {
     let mut middle = std::collections::HashMap::new();
     let mut vertices = surface.vertices.clone();
