@@ -1,12 +1,13 @@
-// Where light goes from solids that need not be convex, which it leaves and enters again: the twin of src/trace/ray/tree.rs.
+// Exits from solids that need not be convex: light that leaves may enter again. The twin of src/trace/ray/tree.rs.
 
-// Light that leaves and enters again.
+// Light that has left the body and meets it again, waiting to be followed.
 var<private> inbound: array<Inbound, MOST_INBOUND>;
 var<private> inbound_count: u32;
-// Weight that has been given up.
+// The weight of the light that is not followed any farther: it counts as unresolved.
 var<private> given_up: f32;
 
-// Light that leaves for good, or waits to enter again.
+// Decides what becomes of light that leaves the body. It leaves for good by `leave`, or waits to enter the body again; light
+// that is too weak to wait, or finds no room, is given up.
 fn depart(departing: Inbound) {
     let weight = (departing.light.x + departing.light.y) * departing.left;
     let met = again(departing.ray.origin, departing.ray.direction);
@@ -24,7 +25,8 @@ fn depart(departing: Inbound) {
     }
 }
 
-// Follows a ray that enters the body at a facet, of light of this weight, and all of it that enters again.
+// Follows a ray of this weight into the body at the facet `entered`, and then all its light that enters the body again, the
+// strongest first.
 fn follow(ray: Ray, entered: Meeting, weight: f32) -> Rest {
     inbound_count = 0u;
     given_up = 0.0;

@@ -1,5 +1,5 @@
-// What light meets: convex stones of many planes. Planes that look much the same way stand in clusters, and a cluster is
-// opened only where its bound says that it may hold the facet sought.
+// Intersection of rays with convex stones of many planes. Planes of similar normals and offsets form a cluster, and a
+// cluster is searched only where its bound says that it may hold the facet sought.
 
 @group(0) @binding(1) var<storage, read> planes: array<vec4f>;
 @group(0) @binding(3) var<storage, read> clusters: array<Cluster>;
@@ -8,13 +8,14 @@ fn plane_of(facet: u32) -> vec4f {
     return planes[facet];
 }
 
-// At most how far the plane of a cluster that is farthest below a point is below it.
+// Returns an upper bound of n·point - w over the planes of a cluster: where it is 0 or less, the point is inside all of
+// them.
 fn height_at_most(cluster: Cluster, point: vec3f) -> f32 {
     return dot(cluster.middle.xyz, point) - cluster.middle.w + cluster.spread.y + cluster.spread.x * length(point);
 }
 
-// As in planes.wgsl. A cluster that the point reached so far is certainly inside of can neither move the entry on nor show
-// that the ray misses.
+// Returns where a ray enters the body, as `entry` in planes.wgsl does. A cluster is skipped where the point reached so far
+// is certainly inside all its planes: it can neither move the entry on nor show that the ray misses.
 fn entry(origin: vec3f, direction: vec3f) -> Meeting {
     var into = 0.0;
     var facet = body.range.x;
@@ -51,6 +52,8 @@ fn entry(origin: vec3f, direction: vec3f) -> Meeting {
     return Meeting(facet, select(-1.0, into, into > 0.0));
 }
 
+// Returns where a ray leaves the body, as `next_facet` in planes.wgsl does. A cluster is skipped where none of its planes
+// can be nearer than the best so far.
 fn next_facet(point: vec3f, direction: vec3f) -> Meeting {
     var best = vec2f(0.0, 1.0);
     var facet = body.range.x;

@@ -1,11 +1,11 @@
-// Where light goes from convex stones.
+// Exits from convex stones.
 
-// What has left a convex stone never meets it again.
+// Passes light that leaves the body on to `leave`: it never meets a convex stone again.
 fn depart(departing: Inbound) {
     leave(outward(departing.ray), (departing.light.x + departing.light.y) * departing.left, departing.bounce == 0u);
 }
 
-// Follows a ray that enters the body at a facet, of light of this weight.
+// Follows a ray of this weight into the body at the facet `entered`.
 fn follow(ray: Ray, entered: Meeting, weight: f32) -> Rest {
     return passage(arriving(ray, entered, weight));
 }

@@ -1,4 +1,4 @@
-// What stands around the stones: the twin of src/trace/environment.rs. Light is radiance in four channels: of the key
+// The environment around the stones: the twin of src/trace/environment.rs. Light is radiance in four channels: of the key
 // illuminant's spectrum, and of red, green and blue.
 
 @group(0) @binding(6) var<uniform> environment: Environment;
@@ -9,14 +9,14 @@
 const STILL: f32 = 1e-14;
 const ALONG: f32 = 1e-6;
 
-// Where in the octahedral map a direction stands, 0 to 1.
+// Returns the place of a direction in the octahedral map, 0 to 1.
 fn octahedral(d: vec3f) -> vec2f {
     let flat = d.xy / (abs(d.x) + abs(d.y) + abs(d.z));
     let folded = (1.0 - abs(flat.yx)) * select(vec2f(-1.0), vec2f(1.0), flat >= vec2f(0.0));
     return 0.5 + 0.5 * select(folded, flat, d.z >= 0.0);
 }
 
-// A texel of the map, or beyond its edge the one that continues it.
+// Returns a texel of the map; beyond the map's edge, the one that lies next to that edge on the sphere.
 fn sky_texel(at: vec2i, level: i32, size: i32) -> vec4f {
     var p = at;
     if p.x < 0 || p.x >= size {
@@ -28,6 +28,7 @@ fn sky_texel(at: vec2i, level: i32, size: i32) -> vec4f {
     return textureLoad(sky, p, level);
 }
 
+// Interpolates one level of the map.
 fn sky_level(at: vec2f, level: i32) -> vec4f {
     let size = i32(environment.right.w) >> u32(level);
     let p = at * f32(size) - 0.5;
@@ -38,7 +39,7 @@ fn sky_level(at: vec2f, level: i32) -> vec4f {
     return mix(low, high, part.y);
 }
 
-// The map at a direction, evened out over an angle.
+// Returns the map's light from a direction, averaged over an angle in radians.
 fn sky_at(direction: vec3f, angle: f32) -> vec4f {
     let texels = angle * environment.right.w / TEXEL_ANGLE;
     let level = clamp(log2(max(texels, 1.0)), 0.0, environment.zenith.w);
@@ -51,13 +52,14 @@ fn sky_at(direction: vec3f, angle: f32) -> vec4f {
     return mix(whole, sky_level(at, fine + 1), level - f32(fine));
 }
 
-// The part of a lamp's disc that a sweep of directions, from half before to half after the ray's, runs through.
+// Returns the share of a sweep of directions, from half of it before the ray's direction to half after it, that lies inside
+// a lamp's disc.
 fn share_inside(from_middle: vec3f, sweep: vec3f, chord_squared: f32) -> f32 {
     let a = dot(sweep, sweep);
     if a < STILL {
         return select(0.0, 1.0, dot(from_middle, from_middle) < chord_squared);
     }
-    // By way of the nearest point: b² - ac has no digits in f32 where curved surfaces make sweeps of many radians.
+    // Computed from the nearest point: b² - ac has no digits in f32 where curved surfaces make sweeps of many radians.
     let nearest = -dot(from_middle, sweep) / a;
     let apart = from_middle + sweep * nearest;
     let inside = chord_squared - dot(apart, apart);
@@ -68,7 +70,7 @@ fn share_inside(from_middle: vec3f, sweep: vec3f, chord_squared: f32) -> f32 {
     return max(min(nearest + half, 0.5) - max(nearest - half, -0.5), 0.0);
 }
 
-// The photograph on the plane behind the stones, where a ray meets it; a is 0 where it does not.
+// Returns the colour of the backplate behind the stones where a ray meets it; a is 0 where the ray does not.
 fn photo_at(ray: Ray) -> vec4f {
     let speed = -dot(ray.direction, frame.toward.xyz);
     let height = dot(ray.origin, frame.toward.xyz) + environment.photo.x;
@@ -78,7 +80,7 @@ fn photo_at(ray: Ray) -> vec4f {
     let p = ray.origin + ray.direction * (height / speed);
     let size = vec2f(textureDimensions(photo));
     let on = vec2f(dot(p, frame.right.xyz), -dot(p, frame.up.xyz)) / environment.photo.y + 0.5;
-    // The photograph's width is 1, whatever its height.
+    // `on` is measured in the picture's width along both axes.
     let at = vec2f(on.x, (on.y - 0.5) * size.x / size.y + 0.5) * size - 0.5;
     if any(at < vec2f(-0.5)) || any(at > size - 0.5) {
         return vec4f(0.0);
@@ -93,7 +95,7 @@ fn photo_at(ray: Ray) -> vec4f {
     return vec4f(mix(above, below, part.y).xyz, 1.0);
 }
 
-// The light that comes down a ray from outside.
+// Returns the light that arrives along a ray from outside the stones.
 fn radiance(ray: Ray) -> vec4f {
     let seen = photo_at(ray);
     if seen.w > 0.0 {
@@ -115,7 +117,7 @@ fn radiance(ray: Ray) -> vec4f {
         let lamp = lamps[k];
         sum += lamp.radiance * share_inside(d - lamp.toward.xyz, sweep, lamp.toward.w);
     }
-    // The observer's head, where there is one, stands before the light, with an edge as wide as the sweep.
+    // The observer's head, where there is one, hides the light behind it, with an edge as wide as the sweep.
     if environment.photo.z > 1.0 {
         return sum;
     }

@@ -1,4 +1,4 @@
-// Facets that are flat, in the world's frame.
+// Flat facets: what trace.wgsl needs to trace them, in the world's frame.
 
 const IS_CURVED: bool = false;
 
@@ -18,7 +18,7 @@ fn outward(ray: Ray) -> Ray {
     return ray;
 }
 
-// Light of this weight, of all polarisations alike, that meets the body.
+// Returns unpolarised light of this weight that meets the body at `met`.
 fn arriving(ray: Ray, met: Meeting, weight: f32) -> Inbound {
     return inbound_of(ray, vec3f(0.0), met, weight);
 }

@@ -1,51 +1,54 @@
-// What light meets: glass shapes, each followed in its own frame, in which it reaches 1 from the origin. The twin of
-// src/math/field/roots.rs and of src/trace/ray/facets.rs.
+// Intersection of rays with glass shapes (implicit surfaces). Each is traced in its own frame, in which it reaches 1 from
+// the origin. The twin of src/math/implicit/roots.rs and of src/trace/ray/facets.rs.
 
 @group(0) @binding(1) var<storage, read> fields: array<ImplicitSurface>;
 
 const IS_CURVED: bool = true;
-// A point this near is on the surface: some roundings.
+// A point this near to the surface is on it: some roundings.
 const ROUNDING: f32 = 5e-7;
-// Steps to a root; with more the ray only touches the shape.
+// The most steps to a root; where more are needed the ray only touches the shape.
 const MOST_STEPS: u32 = 200u;
-// A bound's root is near where the bound is no more than this part of the start's depth.
+// A bound's root counts as near where the bound is no more than this share of the start's depth.
 const NEAR: f32 = 0.5;
-// The last steps, from less deep, are worth all their digits.
+// From a start less deep than this the steps go on to the full number of digits.
 const FINE: f32 = 1e-3;
-// Less is no step.
+// The least step of a ray outside; a smaller one would be lost to rounding.
 const LEAST_STEP: f32 = 1e-7;
 
-// The present body's function.
+// Returns the present body's implicit surface.
 fn present_field() -> ImplicitSurface {
     return fields[body.range.x];
 }
 
-// The length of the frame's unit in the world.
+// Returns the length in the world of one unit of the present body's frame.
 fn unit() -> f32 {
     return fields[body.range.x].shift.w;
 }
 
+// Turns a vector of the world into the shape's frame.
 fn own_vector(shape: ImplicitSurface, v: vec3f) -> vec3f {
     return vec3f(dot(shape.right.xyz, v), dot(shape.back.xyz, v), dot(shape.up.xyz, v));
 }
 
+// Turns a vector of the shape's frame into the world.
 fn world_vector(shape: ImplicitSurface, v: vec3f) -> vec3f {
     return shape.right.xyz * v.x + shape.back.xyz * v.y + shape.up.xyz * v.z;
 }
 
+// Transforms a point of the world into the shape's frame.
 fn own(shape: ImplicitSurface, point: vec3f) -> vec3f {
     return own_vector(shape, point - shape.shift.xyz) / shape.shift.w;
 }
 
-// A ray of the frame in the world.
+// Transforms a ray of the present body's frame into the world.
 fn outward(ray: Ray) -> Ray {
     let shape = present_field();
     let origin = world_vector(shape, ray.origin) * shape.shift.w + shape.shift.xyz;
     return Ray(origin, world_vector(shape, ray.direction), world_vector(shape, ray.sweep));
 }
 
-// Light of this weight, of all polarisations alike, that meets the body: in its frame, and on its surface, so that a way from
-// afar costs no digits.
+// Returns unpolarised light of this weight that meets the body at `met`, in the body's frame. Its ray starts on the surface,
+// so that a long way to the body costs no digits.
 fn arriving(ray: Ray, met: Meeting, weight: f32) -> Inbound {
     let shape = present_field();
     let direction = own_vector(shape, ray.direction);
@@ -71,7 +74,7 @@ fn entry(origin: vec3f, direction: vec3f) -> Meeting {
     return Meeting(0u, distance * shape.shift.w);
 }
 
-// Where light that leaves enters again.
+// Returns where light that leaves the body enters it again, in the body's frame; only a shape with a wave is not convex.
 fn again(origin: vec3f, direction: vec3f) -> Meeting {
     let shape = present_field();
     if !has_wave(shape) {
@@ -84,7 +87,8 @@ fn next_facet(point: vec3f, direction: vec3f) -> Meeting {
     return Meeting(0u, way_out(present_field(), point, direction));
 }
 
-// A point and a direction with the shear taken back: of the line, its curve's tangent.
+// Takes the wave's shear out of a point and a direction. The line through them becomes a curve around the unsheared body;
+// the result is the curve's point and its tangent there.
 fn tangent(shape: ImplicitSurface, p: vec3f, v: vec3f) -> array<vec3f, 2> {
     if !has_wave(shape) {
         return array<vec3f, 2>(p, v);
@@ -96,14 +100,14 @@ fn tangent(shape: ImplicitSurface, p: vec3f, v: vec3f) -> array<vec3f, 2> {
     );
 }
 
-// The distance at which a ray goes in; negative where it does not.
+// Returns the distance at which a ray enters the shape; negative where it misses.
 fn way_in(shape: ImplicitSurface, o: vec3f, v: vec3f) -> f32 {
     let nearest = -dot(o, v);
     let closest = o + v * nearest;
     if dot(closest, closest) > 1.0 || nearest < -1.0 {
         return -1.0;
     }
-    // From where it is near, so that a way from afar costs no digits.
+    // The steps start near the shape, so that a long way to it costs no digits.
     let start = max(nearest - 1.0, 0.0);
     let from_start = o + v * start;
     let beyond = nearest + 1.0 - start;
@@ -115,7 +119,7 @@ fn way_in(shape: ImplicitSurface, o: vec3f, v: vec3f) -> f32 {
         let at = along(shape, on[0], on[1]);
         let value = max(at.x, 0.0);
         let slope = at.y;
-        // The root of value + slope s - bend s²/2.
+        // The step is the root of the bound, value + slope s - bend s²/2.
         let root = sqrt(slope * slope + 2.0 * bend_at_most * value);
         if slope < 0.0 {
             let step = 2.0 * value / max(root - slope, LEAST_GAP);
@@ -133,7 +137,8 @@ fn way_in(shape: ImplicitSurface, o: vec3f, v: vec3f) -> f32 {
     return -1.0;
 }
 
-// The distance at which a ray from inside goes out; negative where rounding has let it slip out.
+// Returns the distance at which a ray from inside leaves the shape; negative where rounding has let the ray slip out or the
+// steps are used up.
 fn way_out(shape: ImplicitSurface, p: vec3f, v: vec3f) -> f32 {
     let bend_at_most = most_bend(shape, v);
     var t = 0.0;
@@ -155,16 +160,19 @@ fn way_out(shape: ImplicitSurface, p: vec3f, v: vec3f) -> f32 {
     return -1.0;
 }
 
-// A distance along a line from `p`, where the body's function has the value `at.x` and the slope `at.y`, no greater than the
-// greatest at which it has its value on the surface where the point is off the line by `bend_at_most` s²/2 up or down, whichever
-// is farther from the middle; with a negative number where there is none. Straight lines are followed to the end.
+// Returns a step along the line from `p` in direction `on` that does not pass the far surface; at `p` the body's function
+// has the value `at.x` and the slope `at.y`. The ray's curve lies off the line by at most `bend_at_most` s²/2 up or down;
+// the step is no greater than the far root of the function with the point moved by this away from the middle. A straight
+// line is followed to the surface itself. The second number is negative where there is no root.
 fn far_step(shape: ImplicitSurface, p: vec3f, on: vec3f, at: vec2f, bend_at_most: f32) -> vec2f {
-    // What rounding has put outside is on the surface: a ray that enters at a glance would miss from there.
+    // A start that rounding has put outside counts as on the surface: otherwise a ray that enters at grazing incidence would
+    // miss.
     let level = max(at.x, 0.0);
     let depth = max(-at.x, 0.0);
     let squared = dot(on, on);
     let beyond = shape.up.w / sqrt(squared) - dot(p, on) / squared;
-    // Farther off, any point is above the body; and so it is above the tangent's.
+    // Farther on, the displacement alone puts every point outside the body. The function is convex: its root is no farther
+    // than the tangent's.
     var s = min(beyond, sqrt(2.0 * (shape.right.w + shape.back.w) / max(bend_at_most, LEAST_GAP)));
     if at.y > 0.0 {
         s = min(s, depth / at.y);
@@ -181,7 +189,7 @@ fn far_step(shape: ImplicitSurface, p: vec3f, on: vec3f, at: vec2f, bend_at_most
         if bend_at_most > 0.0 && depth > FINE && value < NEAR * depth {
             return vec2f(s * depth / (depth + value), 1.0);
         }
-        // The last step is worth its digits where the root is the surface itself.
+        // Along a straight line the root is the surface itself, and one more step adds digits.
         let is_there = value <= ROUNDING;
         if !is_there || bend_at_most == 0.0 {
             s -= max(value, 0.0) / there.y;

@@ -1,11 +1,12 @@
-// Glass shapes as functions of space: the twin of src/math/field/jet.rs, profile.rs, body.rs and wave.rs, in the shape's own
-// frame and in units of its reach. Of second derivatives only what they make of one displacement is computed.
+// The functions of glass shapes (implicit surfaces) and their derivatives: the twin of src/math/implicit/jet.rs, profile.rs,
+// body.rs and wave.rs, in the shape's own frame and in units of its reach. Of the second derivatives only the product with
+// one displacement is computed.
 
-// What is divided by is not less; no radius is meant to be so small.
+// The least divisor; no radius is meant to be so small.
 const LEAST_RADIUS: f32 = 1e-6;
 const TURN: f32 = 6.2831853;
 
-// A function near a point: its value, its gradient, and how that changes where the point moves by some displacement.
+// A function near a point: its value, its gradient, and the gradient's change where the point moves by a given displacement.
 struct Jet {
     value: f32,
     gradient: vec3f,
@@ -16,15 +17,16 @@ fn plane_jet(value: f32, normal: vec3f) -> Jet {
     return Jet(value, normal, vec3f(0.0));
 }
 
-// Distance from an axis or a point, `away` from it; `by` is the displacement's part square to the axis.
+// Returns the distance from an axis or a point. `away` leads from it to the present point; `by` is the displacement's part
+// perpendicular to the axis.
 fn radial(away: vec3f, by: vec3f) -> Jet {
     let value = max(length(away), LEAST_RADIUS);
     let gradient = away / value;
     return Jet(value, gradient, (by - gradient * dot(gradient, by)) / value);
 }
 
-// `Jet::and`: the signed distance from what two solids share, of their signed distances along directions that are square to
-// each other.
+// The twin of `Jet::and`: returns the signed distance from the part that two solids share, from their signed distances along
+// perpendicular directions. Where the edge between them is `sharp`, only faces count.
 fn shared_by(a: Jet, b: Jet, by: vec3f, sharp: bool) -> Jet {
     if sharp || min(a.value, b.value) <= 0.0 {
         if a.value > b.value {
@@ -70,7 +72,7 @@ fn triangle_jet(shape: ImplicitSurface, p: vec3f, by: vec3f, sharp: bool) -> Jet
     return flank;
 }
 
-// `Body::jet` on the surface or a way to it.
+// The twin of `RoundedBody::jet` for a point on the surface or on the way to it.
 fn body_jet(shape: ImplicitSurface, p: vec3f, by: vec3f) -> Jet {
     let sharp = shape.back.w == 0.0;
     var outline: Jet;
@@ -87,7 +89,7 @@ fn body_jet(shape: ImplicitSurface, p: vec3f, by: vec3f) -> Jet {
     return jet;
 }
 
-// Value and slope of the body's function along a line.
+// Returns value and slope of the body's function along a line.
 fn along(shape: ImplicitSurface, p: vec3f, direction: vec3f) -> vec2f {
     let jet = body_jet(shape, p, vec3f(0.0));
     return vec2f(jet.value, dot(jet.gradient, direction));
@@ -97,8 +99,8 @@ fn has_wave(shape: ImplicitSurface) -> bool {
     return shape.flank.w > 0.0;
 }
 
-// Sines and cosines of turns, to some roundings: cards' own are only said to be good to 2^-11, and the wave's slope must be
-// that of its height. Polynomials: S. L. Moshier, Cephes, sinf.c.
+// Returns sines and cosines of angles given in turns, exact to some roundings. GPUs promise their own functions only to
+// 2^-11, and the wave's slope must be that of its height. Polynomials: S. L. Moshier, Cephes, sinf.c.
 fn sin_cos(turns_given: vec2f) -> array<vec2f, 2> {
     let part = turns_given - round(turns_given);
     let quarter = round(part * 4.0);
@@ -114,7 +116,8 @@ fn sin_cos(turns_given: vec2f) -> array<vec2f, 2> {
     return array<vec2f, 2>(select(sines, -sine, is_half), select(cosines, -cosine, is_half));
 }
 
-// The wave at a point: how its height changes with x and y, its height; and the second changes of x with x, and of x with y.
+// The wave at a point: the slopes of its height along x and y, its height, and its second derivatives, the one along x alone
+// (that along y is equal) and the mixed one.
 struct Wave {
     rise: vec2f,
     height: f32,
@@ -132,13 +135,13 @@ fn wave_at(shape: ImplicitSurface, p: vec3f) -> Wave {
     return Wave(rise, half * (cosines.x - cosines.y), bend);
 }
 
-// No less than how fast the wave's slope changes along a line.
+// Returns an upper bound of how fast the wave's slope changes along a line of this direction.
 fn most_bend(shape: ImplicitSurface, direction: vec3f) -> f32 {
     let number = TURN * shape.wave.y;
     return shape.wave.x * number * number * dot(direction.xy, direction.xy);
 }
 
-// The function on the surface. `Wave::shear` of the body's.
+// Returns the jet of the shape's function for a point on the surface: the body's, sheared by the wave as in `Wave::shear`.
 fn jet_at(shape: ImplicitSurface, p: vec3f, by: vec3f) -> Jet {
     if !has_wave(shape) {
         return body_jet(shape, p, by);
@@ -151,12 +154,13 @@ fn jet_at(shape: ImplicitSurface, p: vec3f, by: vec3f) -> Jet {
     return Jet(jet.value, jet.gradient - rise * falling, jet.change - rise * jet.change.z - bent * falling);
 }
 
-// `Jet::normal`
+// The twin of `Jet::normal`.
 fn normal_of(jet: Jet) -> vec3f {
     return jet.gradient / max(length(jet.gradient), LEAST_RADIUS);
 }
 
-// `ImplicitSurface::bend` times a displacement: how far the unit normal changes over its part along the surface.
+// The twin of `ImplicitSurface::bend`, times a displacement: returns the change of the unit normal over the displacement's
+// part along the surface.
 fn bend(shape: ImplicitSurface, p: vec3f, by: vec3f) -> vec3f {
     let normal = normal_of(jet_at(shape, p, vec3f(0.0)));
     let jet = jet_at(shape, p, by - normal * dot(normal, by));

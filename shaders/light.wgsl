@@ -1,13 +1,13 @@
-// What a camera sees of stones under light: colour, over a band of wavelengths after the other.
+// The colour that a camera sees of stones under light, one band of wavelengths after the other.
 
 @group(0) @binding(2) var<storage, read_write> lit: array<RadiancePixel>;
 @group(0) @binding(10) var<uniform> responses: array<Response, MOST_WAVELENGTHS>;
 
-// A ray on its way from one stone to the next.
+// A ray on its way from one stone to another.
 struct Waiting {
     ray: Ray,
     weight: f32,
-    // The stone it left.
+    // The index of the stone that it left.
     left: u32,
 }
 
@@ -16,10 +16,10 @@ var<private> response: Response;
 var<private> present: u32;
 var<private> waiting: array<Waiting, MOST_WAITING>;
 var<private> count: u32;
-// The ray from the eye.
+// The ray from the eye, which the light would follow without any stone.
 var<private> straight: Ray;
 
-// The ray on which light is looked up: the twin of `mixed` in src/trace/sitting.rs.
+// Returns the ray on which light is looked up: the twin of `SamplePass::mixed` in src/trace/sampling.rs.
 fn mixed(ray: Ray) -> Ray {
     let strength = frame.strength.x;
     if strength >= 1.0 || dot(ray.direction, straight.direction) <= 0.0 {
@@ -31,9 +31,10 @@ fn mixed(ray: Ray) -> Ray {
     return Ray(mix(beside, ray.origin, strength), between / length, ray.sweep * (strength / length));
 }
 
+// Adds the light of the environment that arrives along a ray.
 fn see(leaving: Ray, weight: f32) {
     let ray = mixed(leaving);
-    // It stands for its band's middle.
+    // The ray stands for its band: the look-up is in the direction of the band's middle.
     let middle = Ray(ray.origin, ray.direction + ray.sweep * frame.limits.y, ray.sweep);
     let light = radiance(middle) * weight;
     sum.colour += response.key * light.x + response.red * light.y + response.green * light.z + response.blue * light.w;
@@ -47,7 +48,7 @@ fn is_near(stone: u32, ray: Ray) -> bool {
     return along > -radius && dot(away, away) - along * along < radius * radius;
 }
 
-// Whether a ray meets a stone other than the one that it left before this distance.
+// Whether a ray meets a stone other than `left`, from which it comes, before this distance.
 fn meets_any(ray: Ray, left: u32, before: f32) -> bool {
     let own = body;
     var found = false;
@@ -62,6 +63,7 @@ fn meets_any(ray: Ray, left: u32, before: f32) -> bool {
     return found;
 }
 
+// Handles light that leaves the present stone: toward another stone it waits to be followed, else it is looked up.
 fn leave(ray: Ray, weight: f32, is_surface: bool) {
     if frame.counts.x > 1u && (meets_any(ray, present, FAR) || is_spent()) {
         if count < MOST_WAITING && weight > frame.limits.x {
@@ -75,12 +77,13 @@ fn leave(ray: Ray, weight: f32, is_surface: bool) {
     see(ray, weight);
 }
 
-// Whether light that has left the present stone meets another before that distance.
+// Whether light that has left the present stone meets another before this distance.
 fn is_taken(ray: Ray, distance: f32) -> bool {
     return frame.counts.x > 1u && meets_any(ray, present, distance);
 }
 
-// The stone that a ray meets first; it becomes the present one. A negative distance where there is none.
+// Returns where a ray meets the first stone, other than `left`, and makes that stone the present one. The distance is
+// negative where it meets none.
 fn nearest(ray: Ray, left: u32) -> Meeting {
     var first = Meeting(0u, -1.0);
     for (var k = 0u; k < frame.counts.x; k++) {
@@ -97,7 +100,7 @@ fn nearest(ray: Ray, left: u32) -> Meeting {
     return first;
 }
 
-// Follows a ray through the stone that it meets, or to the light.
+// Follows a ray through the present stone, which it meets at `met`, or looks up the environment where it meets none.
 fn go(next: Waiting, met: Meeting, wavelength: u32) {
     if is_spent() {
         sum.rest.x += next.weight;
@@ -115,7 +118,7 @@ fn go(next: Waiting, met: Meeting, wavelength: u32) {
 
 @compute @workgroup_size(8, 8)
 fn light(@builtin(global_invocation_id) id: vec3u) {
-    // The stage holds some rows of the film, and this dispatch sees some of those.
+    // The buffer holds some rows of the film, and this dispatch traces some of those.
     let row = frame.film.z + id.y;
     let pixel = vec2u(id.x, frame.turn.y + row);
     if id.x >= frame.film.x || id.y >= frame.film.w {
@@ -125,7 +128,7 @@ fn light(@builtin(global_invocation_id) id: vec3u) {
     let start = pixel_ray(pixel, frame.limits.zw);
     straight = Ray(start[0], start[1], vec3f(0.0));
     let eye = Waiting(straight, 1.0, NONE);
-    // Where it meets the first stone is the same for all wavelengths.
+    // The ray meets the first stone at the same point in all wavelengths.
     let met = nearest(eye.ray, NONE);
     let first = present;
     if met.distance >= 0.0 || environment.backdrop.x > 0.0 {

@@ -1,5 +1,5 @@
 // Snell, Fresnel and polarisation. Each function bears the name of its twin in src/optics and src/trace/beam/coherency.rs,
-// where the sources are; tests/mirror.rs runs both on the same numbers.
+// where the sources are; src/trace/gpu/parity.rs runs both on the same numbers.
 
 const SQUARE_ON: f32 = 1e-4;
 const LEAST_COS_T: f32 = 1e-4;
@@ -9,7 +9,7 @@ fn cos_t_squared(cos_i: f32, eta: f32) -> f32 {
     return (1.0 - eta) * (1.0 + eta) + normal_part * normal_part;
 }
 
-// 0 where reflection is total.
+// Returns the cosine of the angle of refraction; 0 where reflection is total.
 fn cos_transmitted(cos_i: f32, eta: f32) -> f32 {
     return sqrt(max(cos_t_squared(cos_i, eta), 0.0));
 }
@@ -24,12 +24,13 @@ fn refract_ray(d: vec3f, n: vec3f, eta: f32, cos_i: f32, cos_t: f32) -> vec3f {
     return d * eta + n * (eta * cos_i - cos_t);
 }
 
-// How the reflected direction changes when the ray's does by `of_d` and the normal by `of_n`.
+// Returns the change of the reflected direction where the ray's direction changes by `of_d` and the normal by `of_n`.
 fn reflected_change(d: vec3f, n: vec3f, of_d: vec3f, of_n: vec3f) -> vec3f {
     return of_d - n * (2.0 * (dot(of_d, n) + dot(d, of_n))) - of_n * (2.0 * dot(d, n));
 }
 
-// How the refracted direction changes when the ray's does by `of_d`, the normal by `of_n` and eta by `of_eta`; cos_t above 0.
+// Returns the change of the refracted direction where the ray's direction changes by `of_d`, the normal by `of_n` and eta by
+// `of_eta`; cos_t must be above 0.
 fn refracted_change(
     d: vec3f,
     n: vec3f,
@@ -45,13 +46,14 @@ fn refracted_change(
     return d * of_eta + of_d * eta + n * (of_eta * cos_i + eta * of_cos_i - of_cos_t) + of_n * (eta * cos_i - cos_t);
 }
 
-// Complex amplitudes; cos_t is 0 where reflection is total.
+// The complex amplitudes of reflection for s and p, and the cosine of the angle of refraction, 0 where reflection is total.
 struct Fresnel {
     r_s: vec2f,
     r_p: vec2f,
     cos_t: f32,
 }
 
+// Returns the amplitude of total reflection, (a - bi) / (a + bi).
 fn total(a: f32, b: f32) -> vec2f {
     let square = a * a + b * b;
     if square == 0.0 {
@@ -73,12 +75,13 @@ fn fresnel(cos_i_given: f32, eta: f32) -> Fresnel {
     return Fresnel(total(eta * cos_i, decay), total(cos_i, eta * decay), 0.0);
 }
 
-// Reflected shares of s and p power.
+// Returns the reflected shares of s and p power.
 fn reflectances(f: Fresnel) -> vec2f {
     return select(vec2f(1.0), vec2f(dot(f.r_s, f.r_s), dot(f.r_p, f.r_p)), f.cos_t > 0.0);
 }
 
-// The coherency matrix of light, as (ss, pp, re, im) along the axes s and direction × s. Its weight is ss + pp.
+// Returns light in axes turned from s toward p by the angle whose cosine is c and whose sine is s. Light is its coherency
+// matrix as (ss, pp, re, im) along the axes s and direction × s; its weight is ss + pp.
 fn turned(light: vec4f, c: f32, s: f32) -> vec4f {
     let cc = c * c;
     let ss = s * s;
@@ -91,7 +94,7 @@ fn turned(light: vec4f, c: f32, s: f32) -> vec4f {
     );
 }
 
-// What is reflected of light at a surface.
+// Returns the light that a surface reflects.
 fn reflected(light: vec4f, f: Fresnel) -> vec4f {
     let cross = vec2f(dot(f.r_s, f.r_p), f.r_s.y * f.r_p.x - f.r_s.x * f.r_p.y);
     return vec4f(
@@ -101,12 +104,12 @@ fn reflected(light: vec4f, f: Fresnel) -> vec4f {
     );
 }
 
-// The weight of what passes a surface.
+// Returns the weight of the light that passes a surface.
 fn passed(light: vec4f, f: Fresnel) -> f32 {
     return dot(light.xy, 1.0 - reflectances(f));
 }
 
-// What passes a surface of light; refraction shifts no phase.
+// Returns the light that passes a surface; refraction shifts no phase.
 fn transmitted(light: vec4f, f: Fresnel) -> vec4f {
     let t = max(1.0 - reflectances(f), vec2f(0.0));
     return vec4f(light.xy * t, light.zw * sqrt(t.x * t.y));
@@ -116,14 +119,15 @@ fn unpolarised(light: vec4f) -> vec4f {
     return vec4f(vec2f(0.5 * (light.x + light.y)), 0.0, 0.0);
 }
 
-// The unit axis square to a ray and a facet's normal, or `otherwise` where the ray is square to the facet.
+// Returns the unit axis perpendicular to a ray and a facet's normal. Where the ray is square to the facet it is `otherwise`,
+// made perpendicular to the ray.
 fn s_axis(direction: vec3f, normal: vec3f, otherwise: vec3f) -> vec3f {
     let s = cross(direction, normal);
     let length_squared = dot(s, s);
     if length_squared > SQUARE_ON * SQUARE_ON {
         return s * inverseSqrt(length_squared);
     }
-    // Square to this ray, lest the axes drift.
+    // Made perpendicular to this ray, so that the axes do not drift.
     let kept = otherwise - direction * dot(direction, otherwise);
     return kept * inverseSqrt(max(dot(kept, kept), 1e-12));
 }

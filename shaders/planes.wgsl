@@ -1,4 +1,5 @@
-// What light meets: convex stones' planes, n·x <= w, found one after the other. `clusters.wgsl` is the same for many.
+// Intersection of rays with convex stones: their planes, n·x <= w, are tried one after the other. `clusters.wgsl` does the
+// same for stones of many planes.
 
 @group(0) @binding(1) var<uniform> planes: array<vec4f, MOST_PLANES>;
 
@@ -6,8 +7,8 @@ fn plane_of(facet: u32) -> vec4f {
     return planes[facet];
 }
 
-// The facet by which a ray from a point outside enters the present body, and the distance to it; a negative distance
-// where it misses.
+// Returns the facet by which a ray from a point outside enters the present body, and the distance to it; the distance is
+// negative where the ray misses.
 fn entry(origin: vec3f, direction: vec3f) -> Meeting {
     var into = 0.0;
     var out = FAR;
@@ -31,8 +32,8 @@ fn entry(origin: vec3f, direction: vec3f) -> Meeting {
     return Meeting(facet, select(-1.0, into, into > 0.0 && into < out));
 }
 
-// The facet by which a ray leaves from a point inside, and the distance to it: that of the greatest ratio of speed toward a plane to the gap
-// before it, compared without dividing.
+// Returns the facet by which a ray leaves from a point inside, and the distance to it. It is the facet with the greatest
+// ratio of the speed toward its plane to the gap before it; ratios are compared without dividing.
 fn next_facet(point: vec3f, direction: vec3f) -> Meeting {
     var best = vec2f(0.0, 1.0);
     var facet = body.range.x;

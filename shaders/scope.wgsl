@@ -1,4 +1,4 @@
-// What a camera in a scope records of each pixel, and the strongest exits: energy by band.
+// What a camera in a scope records of each pixel: energy by band, and the bands of the strongest exits.
 
 @group(0) @binding(2) var<storage, read_write> seen: array<ScopePixel>;
 @group(0) @binding(6) var<uniform> bands: Bands;
@@ -7,7 +7,8 @@ var<private> sum: ScopePixel;
 var<private> strongest_weight: f32;
 var<private> strongest_band: u32;
 
-// How many of the borders lie below the direction: the sines of the bands' elevations, rising.
+// Returns the band of a direction: the number of borders at or below it. Borders are the sines of the bands' elevations,
+// rising.
 fn band_of(direction: vec3f) -> u32 {
     let up = dot(direction, bands.zenith.xyz);
     let above = vec4u(select(vec4f(0.0), vec4f(1.0), vec4f(up) >= bands.borders_low))
@@ -15,10 +16,12 @@ fn band_of(direction: vec3f) -> u32 {
     return above.x + above.y + above.z + above.w;
 }
 
+// Returns 1 in a band's place among the four from `first`, 0 elsewhere.
 fn marked(band: u32, first: u32) -> vec4f {
     return select(vec4f(0.0), vec4f(1.0), vec4u(band) == vec4u(0u, 1u, 2u, 3u) + first);
 }
 
+// Adds light that leaves the stone to its band.
 fn leave(ray: Ray, weight: f32, is_surface: bool) {
     let band = band_of(ray.direction);
     if is_surface {
@@ -34,7 +37,7 @@ fn leave(ray: Ray, weight: f32, is_surface: bool) {
     }
 }
 
-// There is one stone alone.
+// Whether light that has left the stone meets another: never, as a scope holds one stone alone.
 fn is_taken(ray: Ray, distance: f32) -> bool {
     return false;
 }
@@ -50,7 +53,7 @@ fn scope(@builtin(global_invocation_id) id: vec3u) {
     strongest_band = NONE;
     body = bodies[0];
     medium = media[0];
-    // The ray stands in one cell of the pixel's grid.
+    // Each dispatch traces the ray in one cell of the pixel's grid.
     let grid = frame.turn.y;
     let turn = frame.turn.x;
     let cell = vec2f(f32(turn % grid), f32(turn / grid));

@@ -1,47 +1,53 @@
-// One chain of bounces: the twin of src/trace/ray.rs. What leaves the stone goes to `depart` and from there to `leave`, which
-// the reading defines; what the stone is made of comes from `entry`, `next_facet` and `facet_normal`. A curved one is followed
-// in its own frame, of which `arriving`, `outward` and `unit` know.
+// One chain of bounces: the twin of src/trace/ray.rs. Light that leaves the stone goes to `depart` and from there to
+// `leave`, which scope.wgsl or light.wgsl defines. The surface is known through `entry`, `next_facet` and `facet_normal`. A
+// curved body is traced in its own frame: `arriving` transforms into it, `outward` out of it, and `unit` is its unit of
+// length.
 
 const LEAST_GAP: f32 = 1e-30;
 const FAR: f32 = 1e30;
-// A sweep beyond the whole sphere, or a shift beyond the solid, grows no further than this: each bounce may multiply it.
+// The greatest component of a sweep or a shift. Larger ones mean a sweep beyond the whole sphere or a shift beyond the
+// solid, and each bounce may multiply them.
 const MOST_SWEPT: f32 = 1e4;
 
-// The stone that is traced, and what it is made of.
+// The stone that is being traced, and its medium at the present wavelength.
 var<private> body: Body;
 var<private> medium: Medium;
-// Turns of loops that the ray has taken, where they are counted; with too many its light is unresolved.
+// The loop turns that the ray has taken, where they are counted; with too many its light is unresolved.
 var<private> turns: u32;
 
+// The facet that a ray meets, and the distance to it; a negative distance means none.
 struct Meeting {
     facet: u32,
     distance: f32,
 }
 
-// A ray, and how far its direction moves over the wavelengths that it stands for.
+// A ray; `sweep` is the change of its direction over the wavelengths that it stands for.
 struct Ray {
     origin: vec3f,
     direction: vec3f,
     sweep: vec3f,
 }
 
-// What of a ray did not leave the stone.
+// The part of a ray's light that did not leave the stone, and the number of its bounces.
 struct Rest {
     absorbed: f32,
     unresolved: f32,
     bounces: u32,
 }
 
+// Returns the share of light that is left after a path through the medium.
 fn transmittance(path: f32) -> f32 {
     return 0.5 * (exp(-medium.absorption_o * path) + exp(-medium.absorption_e * path));
 }
 
+// Whether the ray has taken too many loop turns.
 fn is_spent() -> bool {
     return turns > frame.most.x;
 }
 
-// Light outside on its way into the body, or away from it, and how far the ray's origin moves as its direction sweeps: along `s` and direction × s, without what has been absorbed, and the part that has
-// not been; length of its way and bounces inside so far.
+// Light outside the body, on its way into it or away from it. `shift` is the displacement of the ray's origin as its
+// direction sweeps; `light` is the light without absorption, along `s` and direction × s, and `left` the share that
+// absorption has left; `path` and `bounce` are the length of its way and the number of bounces inside so far.
 struct Inbound {
     met: Meeting,
     ray: Ray,
@@ -53,14 +59,14 @@ struct Inbound {
     bounce: u32,
 }
 
-// Light of this weight, of all polarisations alike, that meets the body.
+// Returns unpolarised light of this weight that meets the body at `met`.
 fn inbound_of(ray: Ray, shift: vec3f, met: Meeting, weight: f32) -> Inbound {
     let normal = facet_normal(met.facet, ray.origin + ray.direction * met.distance);
     let s = s_axis(ray.direction, normal, frame.right.xyz);
     return Inbound(met, ray, shift, vec4f(vec2f(0.5 * weight), 0.0, 0.0), s, 1.0, 0.0, 0u);
 }
 
-// Not longer than it may get.
+// Returns a vector, on curved bodies scaled down until no component exceeds MOST_SWEPT.
 fn tamed(v: vec3f) -> vec3f {
     if !IS_CURVED {
         return v;
@@ -69,19 +75,19 @@ fn tamed(v: vec3f) -> vec3f {
     return v * min(MOST_SWEPT / max(max(size.x, size.y), max(size.z, LEAST_GAP)), 1.0);
 }
 
-// How far the point moves in which a ray meets a surface, when the ray there moves by this much.
+// Returns the displacement along the surface of the point where a ray meets it, when the ray there moves by `by`.
 fn along_surface(by: vec3f, direction: vec3f, normal: vec3f) -> vec3f {
     let speed = dot(normal, direction);
     let divisor = select(min(speed, -LEAST_COS_T), max(speed, LEAST_COS_T), speed > 0.0);
     return tamed(by - direction * (dot(normal, by) / divisor));
 }
 
-// How far it is to a plane that a ray inside runs toward.
+// Returns the distance to a plane that a ray inside runs toward.
 fn distance_to(plane: vec4f, point: vec3f, direction: vec3f) -> f32 {
     return max(plane.w - dot(plane.xyz, point), 0.0) / max(dot(plane.xyz, direction), LEAST_GAP);
 }
 
-// The way of light through the body, from the facet where it enters until too little is left.
+// Follows light through the body, from the facet where it enters until too little is left or the bounces are used up.
 fn passage(inbound: Inbound) -> Rest {
     let ray = inbound.ray;
     let is_polarised = frame.counts.w == 1u;
@@ -119,7 +125,7 @@ fn passage(inbound: Inbound) -> Rest {
         tamed(refracted_change(ray.direction, normal, eta, outside, surface.cos_t, ray.sweep, of_normal, of_eta));
     while (light.x + light.y) * left > frame.limits.x && rest.bounces < frame.counts.z {
         let next = next_facet(point, direction);
-        // Rounding has let it slip out.
+        // Rounding has let the ray slip out.
         if next.distance < 0.0 {
             break;
         }

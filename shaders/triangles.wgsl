@@ -1,14 +1,15 @@
-// What light meets: triangles in boxes within boxes, the twin of src/math/bvh.rs and of src/trace/ray/facets.rs.
+// Intersection of rays with triangles in boxes within boxes: the twin of src/math/bvh.rs and of src/trace/ray/facets.rs.
 
 @group(0) @binding(1) var<storage, read> triangles: array<Triangle>;
 @group(0) @binding(3) var<storage, read> nodes: array<BvhNode>;
 
-// A ray's start may lie so far beyond the triangle that it is about to meet, as a part of how far solids reach from the
+// A ray's start may lie this far beyond the triangle that it is about to meet, as a share of how far solids reach from the
 // origin: some ten roundings.
 const BEHIND: f32 = 1e-6;
-// Boxes are taken for so much larger, as a part of that and of how far the ray's start is: some thirty roundings.
+// Boxes are enlarged by this share of how far solids reach plus how far the ray's start is from the origin: some thirty
+// roundings.
 const BOX_SLACK: f32 = 4e-6;
-// Components of a direction are divided by as if no smaller.
+// The least component of a direction that is divided by; smaller ones are replaced by it.
 const STILLEST: f32 = 1e-20;
 
 fn plane_of(facet: u32) -> vec4f {
@@ -17,7 +18,8 @@ fn plane_of(facet: u32) -> vec4f {
     return vec4f(normal, dot(normal, t.a.xyz));
 }
 
-// Axes turned so that the longest component of a direction is z, and not mirrored where that is below 0.
+// Permutes a vector's axes so that the longest component of a direction becomes z. Where that component is negative x and y
+// are swapped too, so that nothing is mirrored.
 fn turned_axes(v: vec3f, longest: u32, is_down: bool) -> vec3f {
     var p = v;
     if longest == 0u {
@@ -28,7 +30,8 @@ fn turned_axes(v: vec3f, longest: u32, is_down: bool) -> vec3f {
     return select(p, p.yxz, is_down);
 }
 
-// The distance at which a ray is first within a box, negative where it is not before `far`.
+// Returns the distance at which a ray is first within a box; negative where that is not before `far`. `per` is the
+// reciprocal of the direction.
 fn enters(node: BvhNode, origin: vec3f, per: vec3f, slack: f32, far: f32) -> f32 {
     let is_up = per >= vec3f(0.0);
     let near = (select(node.high.xyz + slack, node.low.xyz - slack, is_up) - origin) * per;
@@ -38,8 +41,8 @@ fn enters(node: BvhNode, origin: vec3f, per: vec3f, slack: f32, far: f32) -> f32
     return select(-1.0, into, into <= out);
 }
 
-// The first triangle that a ray runs into (side -1) or out of (side 1); a negative distance where there is none. The test of
-// Woop, Benthin and Wald, as in `Sheared::meets`.
+// Returns the first triangle that a ray runs into (side -1) or out of (side 1); the distance is negative where there is
+// none. The test is that of Woop, Benthin and Wald, as in `Sheared::meets`.
 fn nearest_triangle(origin: vec3f, direction: vec3f, side: f32) -> Meeting {
     let size = abs(direction);
     var longest = select(0u, 1u, size.y >= size.x);

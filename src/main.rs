@@ -1,8 +1,9 @@
-//! The program: parse, call, print, exit code.
+//! The program: parses the arguments, calls the library, prints, and sets the exit code.
 
 use std::process::ExitCode;
 
-/// Tracing beams fills much memory in small steps, which the system's allocator does a third slower.
+/// The program's allocator. Tracing beams fills much memory in small steps, for which the system's allocator takes a third
+/// longer.
 #[global_allocator]
 static ALLOCATOR: mimalloc::MiMalloc = mimalloc::MiMalloc;
 
@@ -11,7 +12,8 @@ fn main() -> ExitCode {
     brillianteer::cli::main(editor())
 }
 
-/// What opens the window, where this program has one.
+/// Returns the function that opens the editor's window; `None` where the program is built without the editor (feature
+/// `app`).
 fn editor() -> Option<brillianteer::cli::EditorOpener> {
     #[cfg(feature = "app")]
     return Some(|file, mesh| {
@@ -20,7 +22,8 @@ fn editor() -> Option<brillianteer::cli::EditorOpener> {
         brillianteer::app::run(file, mesh).map_err(|error| match &error {
             WindowError::NoSuchPainter(_) => Failure::Usage(error.to_string()),
             WindowError::NoDisplay(_) | WindowError::NoWindow(_) => Failure::NoWindow(error.to_string()),
-            // Files take the place of a window that never opened, and not of one in which someone has worked.
+            // Without a window the program writes files instead, but not after a window was lost in which someone has
+            // worked.
             WindowError::Lost(_) => Failure::Output(error.to_string()),
         })
     });
@@ -28,9 +31,11 @@ fn editor() -> Option<brillianteer::cli::EditorOpener> {
     None
 }
 
-/// Names a folder for sockets where the session names none, as under cron, in containers and after `su`. Drivers look there
-/// for a Wayland screen, whether one is wanted or not, and complain on standard error where the variable lacks. The one that
-/// is taken then is GLib's: the user's folder for caches.
+/// Sets `XDG_RUNTIME_DIR`, the folder for sockets, where the session does not set it, as under cron, in containers and after
+/// `su`.
+///
+/// Drivers look there for a Wayland screen, wanted or not, and complain on standard error where the variable is missing. As
+/// GLib does then, this takes the user's folder for caches.
 fn have_runtime_folder() {
     const NAME: &str = "XDG_RUNTIME_DIR";
     let is_folder = |path: &std::ffi::OsString| std::path::Path::new(path).is_absolute();

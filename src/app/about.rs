@@ -1,21 +1,21 @@
-//! What the program is: its version, its licences, and what it is built of.
+//! The About dialog: the program's version, its licences, and the crates it is built of.
 
 use super::dialogs::buttons;
 use super::editor::Editor;
 use super::icon::icon;
 use egui::{ColorImage, Grid, Label, RichText, ScrollArea, TextEdit, TextureHandle, Ui, vec2};
 
-/// The program's own licences: what each is called, and its text.
+/// The program's own licences: the name and the text of each.
 const LICENCES: [(&str, &str); 2] =
     [("MIT", include_str!("../../LICENSE-MIT")), ("Apache-2.0", include_str!("../../LICENSE-APACHE"))];
 
-/// The crates that it is built of, as tests keep them current.
+/// The table of the crates that the program is built of, in Markdown; a test keeps it current.
 const CRATES: &str = include_str!("../../docs/licences.md");
 
-/// Height of lists and texts, points, where the window is high enough.
+/// The greatest height of lists and texts, points; a low window gives them less.
 const LIST: f32 = 300.0;
 
-/// What the lower part of the window shows.
+/// What the lower part of the dialog shows.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 enum Page {
     #[default]
@@ -23,11 +23,11 @@ enum Page {
     Licence(usize),
 }
 
-/// The window that says what the program is.
+/// The state of the About dialog.
 #[derive(Default)]
 pub struct About {
     page: Page,
-    /// What the names of crates shown have in common.
+    /// The search text: the list shows the crates whose name or licence contains it.
     sought: String,
     icon: Option<TextureHandle>,
 }
@@ -35,16 +35,17 @@ pub struct About {
 /// A crate that the program is built of.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Crate<'a> {
-    /// Its name and version.
+    /// The name of the crate.
     pub name: &'a str,
+    /// The version of the crate.
     pub version: &'a str,
-    /// Its licence, as it states it.
+    /// The licence of the crate, as the crate states it.
     pub licence: &'a str,
-    /// Where it is found; empty where it does not say.
+    /// The address where the crate is found; empty where the crate states none.
     pub link: &'a str,
 }
 
-/// All crates, from rows of a table.
+/// Returns all crates, read from the rows of the table.
 pub fn crates() -> impl Iterator<Item = Crate<'static>> {
     CRATES.lines().filter(|line| line.starts_with("| ") && !line.starts_with("| crate |")).filter_map(
         |line| {
@@ -55,7 +56,7 @@ pub fn crates() -> impl Iterator<Item = Crate<'static>> {
     )
 }
 
-/// Draws it; whether it stays open.
+/// Draws the dialog; returns whether it stays open.
 pub fn show(editor: &mut Editor, ui: &mut Ui, about: &mut About) -> bool {
     ui.set_width(560.0_f32.min(ui.ctx().content_rect().width() - 60.0));
     ui.horizontal(|ui| {
@@ -111,7 +112,7 @@ fn list(editor: &mut Editor, ui: &mut Ui, sought: &mut String, height: f32) {
         ui.label(RichText::new(format!("{} of {} crates", found.len(), crates().count())).weak());
     });
     ScrollArea::vertical().id_salt("crates").max_height(height).auto_shrink(false).show(ui, |ui| {
-        // A long licence is wrapped: a list wider than the window would widen it past the rule under its head.
+        // Long licences are wrapped: a list wider than the window would widen it past the rule under its head.
         Grid::new("crates").num_columns(2).striped(true).show(ui, |ui| {
             for Crate { name, version, licence, link: address } in found {
                 let text = format!("{name} {version}");
@@ -130,7 +131,7 @@ fn link(editor: &mut Editor, ui: &mut Ui, address: &str) {
     named_link(editor, ui, address, address);
 }
 
-/// A link that is opened by the system.
+/// Draws a link that the system opens.
 fn named_link(editor: &mut Editor, ui: &mut Ui, text: &str, address: &str) {
     if ui.link(text).on_hover_text(address).clicked() {
         editor.open_outside(address);
@@ -145,7 +146,7 @@ mod tests {
     use egui::{Rect, Shape};
     use egui_kittest::kittest::Queryable;
 
-    /// The filled rectangles of a shape, and its horizontal lines.
+    /// Collects the filled rectangles of a shape, and its horizontal lines.
     fn gather(shape: &Shape, rectangles: &mut Vec<Rect>, rules: &mut Vec<Rect>) {
         match shape {
             Shape::Vec(shapes) => shapes.iter().for_each(|shape| gather(shape, rectangles, rules)),

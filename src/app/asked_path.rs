@@ -1,4 +1,4 @@
-//! Asks for a file by its path, where the system has no dialog for that.
+//! The dialog that asks for a file by its path, where the system has no file dialog.
 
 use super::dialogs::buttons_alone;
 use super::editor::Editor;
@@ -7,26 +7,26 @@ use super::theme;
 use egui::{Key, RichText, TextEdit, Ui};
 use std::path::{Path, PathBuf};
 
-/// A path that is being typed.
+/// A path that the user types.
 pub struct AskedPath {
     purpose: Purpose,
-    /// The number of the document that it is for.
+    /// The number of the document that the path is for.
     document: u64,
     text: String,
-    /// Whether the field was given the focus.
+    /// Whether the field has been given the focus.
     has_begun: bool,
-    /// Whether anyone has typed: Return takes nothing that was only suggested.
+    /// Whether anyone has typed: Return does not accept a path that was only suggested.
     is_typed: bool,
 }
 
 impl AskedPath {
-    /// Asks for a path, beginning with a folder or a file.
+    /// Asks for a path; the field first holds `begin`, a folder or a file.
     pub fn new(purpose: Purpose, document: u64, begin: &Path) -> Self {
         Self { purpose, document, text: begin.display().to_string(), has_begun: false, is_typed: false }
     }
 }
 
-/// What is asked, and the button that takes the answer.
+/// Returns the heading of the dialog, and the name of the button that accepts the path.
 fn words(purpose: Purpose) -> (&'static str, &'static str) {
     match purpose {
         Purpose::Open => ("Open a cut", "Open"),
@@ -38,7 +38,7 @@ fn words(purpose: Purpose) -> (&'static str, &'static str) {
     }
 }
 
-/// Draws it; whether it stays open.
+/// Draws the dialog; returns whether it stays open.
 pub fn show(editor: &mut Editor, ui: &mut Ui, asked: &mut AskedPath) -> bool {
     ui.set_width(460.0);
     let (heading, verb) = words(asked.purpose);

@@ -1,4 +1,4 @@
-//! Unsaved work, kept on disk while the program runs and found again after a crash.
+//! Autosave: keeps unsaved work on disk while the program runs, and finds it again after a crash.
 
 use super::document::{ReadMesh, Work};
 use crate::cut::from_mesh::Up;
@@ -14,24 +14,24 @@ use std::fs::File;
 use std::path::{Path, PathBuf};
 use std::time::SystemTime;
 
-/// Unsaved work on disk, so that a crash loses none.
+/// The autosave of one run of the program, so that a crash loses no unsaved work.
 ///
-/// While the program runs it holds a lock on its file; one without a lock was left behind by a crash.
+/// While the program runs it holds a lock on its file; a file without a lock was left behind by a crash.
 pub struct Autosave {
     folder: PathBuf,
-    /// The file of this program, which no other, before or after, has used.
+    /// The file of this run of the program; no run before or after uses the same name.
     own: PathBuf,
     held: Option<File>,
 }
 
-/// What lies in a safe.
+/// The content of an autosave file.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 struct Kept {
     path: Option<PathBuf>,
-    /// Whether its cut is the mesh in its file.
+    /// Whether the cut is a mesh, which lies in its own file and is not kept here.
     #[serde(default)]
     mesh: bool,
-    /// The mesh that the stone was read from, if it was one; older files do not tell it.
+    /// The mesh file that the stone was read from, if it was one; autosave files of older programs lack this.
     #[serde(default)]
     read: Option<KeptMesh>,
     design: String,
@@ -39,11 +39,11 @@ struct Kept {
     around: KeptScene,
 }
 
-/// A mesh file and how it was read, as it is kept.
+/// A mesh file and how it was read, as the autosave file holds them.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 struct KeptMesh {
     path: PathBuf,
-    /// The direction in which its table faces, if it was given.
+    /// The direction in which the table faces, if one was given.
     up: Option<DVec3>,
     form: MeshForm,
     is_doubtful: bool,
@@ -56,7 +56,7 @@ impl KeptMesh {
             path: mesh.path.clone(),
             up: match mesh.options.up {
                 Up::Given(up) => Some(up),
-                // The editor opens meshes by no direction but a given one, or by the one that is found.
+                // The editor opens meshes only by a given direction, or by the one that is found.
                 Up::Found | Up::FoundBy(_) | Up::Known(_) | Up::Posed(_) => None,
             },
             form: mesh.options.form,
@@ -72,15 +72,15 @@ impl KeptMesh {
     }
 }
 
-/// What else is kept of unsaved work: of its scene.
+/// What is kept of the scene around the stone.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct KeptScene {
-    /// Its copies.
+    /// The copies of the stone.
     pub company: Copies,
-    /// What hangs behind it.
+    /// The backplate: `light`, the name of a pattern, or the file of a picture.
     #[serde(default)]
     pub behind: Option<String>,
-    /// How far behind it that hangs, mm, if that was set.
+    /// How far behind the middle the backplate hangs, mm, if that was set.
     pub behind_mm: Option<f64>,
     /// The strength of refraction, 0 to 1.
     #[serde(default)]
@@ -92,36 +92,36 @@ pub struct KeptScene {
 pub struct RecoveredWork {
     /// The design.
     pub design: Design,
-    /// What is around it.
+    /// What was kept of the scene around the stone.
     pub around: KeptScene,
-    /// The file that it was opened from.
+    /// The file that the design was opened from.
     pub path: Option<PathBuf>,
-    /// The mesh that the stone was read from, if it was one.
+    /// The mesh file that the stone was read from, if it was one.
     pub mesh: Option<ReadMesh>,
-    /// When it was last kept.
+    /// When the work was last kept.
     pub when: SystemTime,
-    /// Where it was kept.
+    /// The autosave file.
     file: PathBuf,
 }
 
-/// How kept files are called.
+/// The beginning of the names of autosave files.
 const PREFIX: &str = "unsaved-";
 
 impl Autosave {
-    /// A safe in a folder.
+    /// Creates an autosave in a folder; nothing is written yet.
     pub fn new(folder: PathBuf) -> Self {
         let since = SystemTime::now().duration_since(SystemTime::UNIX_EPOCH).unwrap_or_default();
         let own = folder.join(format!("{PREFIX}{}-{}.json", std::process::id(), since.as_nanos()));
         Self { folder, own, held: None }
     }
 
-    /// Keeps the design of some work and how its mesh was read, with what is around it.
+    /// Writes the design, how its mesh was read, and the scene around it to the autosave file.
     ///
     /// # Errors
-    /// When the file system refuses.
+    /// Fails when the file system refuses.
     pub fn keep(&mut self, work: &Work, around: &KeptScene, path: Option<&Path>) -> Result<(), WriteError> {
         let design = &work.design;
-        // A mesh lies in its file already, and may be large: what was changed beside it is kept.
+        // A mesh already lies in a file, and may be large: only the rest of the design is kept.
         let (mesh, design) = match (&design.cut, path) {
             (Cut::Mesh(_), Some(_)) => {
                 (true, Cow::Owned(Design { cut: Cut::Planes(vec![stand_in()]), ..design.clone() }))
@@ -138,22 +138,22 @@ impl Autosave {
         let text = serde_json::to_string(&kept).map_err(|e| WriteError::io(&self.folder, e))?;
         let name = &self.own;
         write(name, |file| file.write_all(text.as_bytes()).map_err(|e| WriteError::io(name, e)))?;
-        // Writing has put another file in the place of the one that was locked.
+        // Writing has replaced the file that was locked.
         let file = File::open(name).map_err(|e| WriteError::io(name, e))?;
         file.try_lock().map_err(|e| WriteError::io(name, std::io::Error::from(e)))?;
         self.held = Some(file);
         Ok(())
     }
 
-    /// Forgets what was kept: it is saved, or not wanted.
+    /// Removes the autosave file: the work is saved, or not wanted.
     pub fn empty(&mut self) {
         if self.held.take().is_some() {
-            // One that cannot be removed is offered again, which loses nothing.
+            // A file that cannot be removed is offered again, which loses nothing.
             let _ = std::fs::remove_file(&self.own);
         }
     }
 
-    /// What crashes left behind, the latest first.
+    /// Returns the work that crashes left behind, the latest first.
     pub fn found(&self) -> Vec<RecoveredWork> {
         let entries = std::fs::read_dir(&self.folder).into_iter().flatten().flatten();
         let ours = |e: &std::fs::DirEntry| e.file_name().to_string_lossy().starts_with(PREFIX);
@@ -164,19 +164,19 @@ impl Autosave {
 }
 
 impl RecoveredWork {
-    /// Forgets it.
+    /// Removes the autosave file of this work.
     pub fn forget(self) {
-        // One that cannot be removed is offered again, which loses nothing.
+        // A file that cannot be removed is offered again, which loses nothing.
         let _ = std::fs::remove_file(self.file);
     }
 }
 
-/// Stands for a mesh that is not kept.
+/// Returns the plane that stands in the file for a mesh that is not kept.
 fn stand_in() -> (String, Plane) {
     ("mesh".to_owned(), Plane::new(DVec3::Z, 1.0))
 }
 
-/// What lies in a file that no running program holds.
+/// Reads an autosave file; `None` where a running program holds it, or where it cannot be read.
 fn orphan(path: PathBuf) -> Option<RecoveredWork> {
     let file = File::open(&path).ok()?;
     file.try_lock().ok()?;
@@ -193,7 +193,8 @@ fn orphan(path: PathBuf) -> Option<RecoveredWork> {
     Some(RecoveredWork { design, around: kept.around, path: kept.path, mesh, when, file: path })
 }
 
-/// The triangles that work had: read from its mesh file as they were then, or else from the file that it was saved in.
+/// Reads the triangles of kept work again: from its mesh file with the same options as before, or else from the file that
+/// the work was saved in.
 fn mesh_again(mesh: Option<&ReadMesh>, path: Option<&Path>) -> Option<Cut> {
     let triangles = MeshOptions { form: MeshForm::Triangles, ..MeshOptions::default() };
     let sources = mesh.map(|mesh| (mesh.path.as_path(), mesh.options)).into_iter();

@@ -1,8 +1,8 @@
-//! Everything that can be done by a key or a menu.
+//! Commands: everything that can be done by a key or a menu.
 
 use egui::{Key, KeyboardShortcut, Modifiers};
 
-/// One of them.
+/// A command of the editor.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Command {
     Open,
@@ -48,16 +48,16 @@ pub enum Command {
     About,
 }
 
-/// What a menu holds.
+/// A menu of the menu bar.
 pub struct Menu {
-    /// Its title.
+    /// The title of the menu.
     pub title: &'static str,
-    /// Its entries, in groups.
+    /// The commands in the menu, in groups.
     pub groups: &'static [&'static [Command]],
 }
 
 impl Menu {
-    /// The letter that opens it together with Alt: the first of its title.
+    /// Returns the letter that opens the menu together with Alt: the first of its title.
     pub fn key(&self) -> Option<Key> {
         Key::from_name(self.title.get(..1)?)
     }
@@ -65,7 +65,7 @@ impl Menu {
 
 use Command::*;
 
-/// All menus; what the program opens besides files stands in the first as well.
+/// All menus. The File menu also lists recent files, and the cuts and scenes that come with the program.
 pub const MENUS: [Menu; 5] = [
     Menu { title: "File", groups: &[&[Open], &[Save, SaveAs], &[Export, CopyPicture], &[Quit]] },
     Menu { title: "Edit", groups: &[&[Undo, Redo], &[ViewBack, ViewOn]] },
@@ -87,12 +87,12 @@ pub const MENUS: [Menu; 5] = [
 ];
 
 impl Command {
-    /// All of them.
+    /// All commands, in menu order.
     pub fn all() -> impl Iterator<Item = Self> {
         MENUS.iter().flat_map(|m| m.groups.iter()).flat_map(|g| g.iter()).copied()
     }
 
-    /// As menus call it; three dots where a question follows.
+    /// Returns the name of the command in menus; three dots follow where the command asks for more.
     pub fn name(self) -> &'static str {
         match self {
             Open => "Open…",
@@ -139,7 +139,7 @@ impl Command {
         }
     }
 
-    /// What it does, in a sentence.
+    /// Describes in a sentence what the command does.
     pub fn meaning(self) -> &'static str {
         match self {
             Open => "Opens a cut file; dropping one on the window does the same.",
@@ -197,7 +197,7 @@ impl Command {
         }
     }
 
-    /// Its key, with those held down.
+    /// Returns the key of the command, with the modifiers that are held down, if it has one.
     pub fn shortcut(self) -> Option<KeyboardShortcut> {
         let bare = |key| Some(KeyboardShortcut::new(Modifiers::NONE, key));
         let command = |key| Some(KeyboardShortcut::new(Modifiers::COMMAND, key));
@@ -243,7 +243,7 @@ impl Command {
         }
     }
 
-    /// All keys that do it: that of menus, and one that other programs use.
+    /// Returns all keys of the command: the one that menus show, and one that other programs use.
     pub fn shortcuts(self) -> impl Iterator<Item = KeyboardShortcut> {
         let other = (self == Redo).then(|| KeyboardShortcut::new(Modifiers::COMMAND, Key::Y));
         self.shortcut().into_iter().chain(other)

@@ -1,4 +1,5 @@
-//! Presets, copies, their motion, and how moving edges are smoothed: what glass shapes are shown with, and gems may be.
+//! Rows for presets, copies, their motion, and the smoothing of moving edges: glass shapes are shown with these, and gems
+//! may be.
 
 use super::editor::Editor;
 use super::preset::{Known, PRESETS};
@@ -12,20 +13,21 @@ use egui::{Button, ComboBox, Slider, Ui, vec2};
 use glam::DVec3;
 use std::ops::RangeInclusive;
 
-/// Shares of the newest picture in temporal antialiasing.
+/// The range of the newest picture's share in temporal antialiasing.
 const NEWEST: RangeInclusive<f64> = 0.05..=1.0;
 
-/// The share that it begins with.
+/// The share of the newest picture at first.
 const FIRST_NEWEST: f64 = 0.5;
 
-/// Angles of view, degrees; from nearer the eye may be in the glass.
+/// The range of the angle of view, degrees; an eye still nearer may be inside the glass.
 const ANGLES: RangeInclusive<f64> = 1.0..=75.0;
 
-/// Indices and Abbe numbers of glasses, known and invented.
+/// The range of refractive indices of glasses, known and invented.
 const INDICES: RangeInclusive<f64> = 1.0..=3.5;
+/// The range of Abbe numbers of glasses, known and invented.
 const ABBE_NUMBERS: RangeInclusive<f64> = 1.0..=90.0;
 
-/// The scenes of glass that come with the program; one that is clicked is begun.
+/// Draws a button for each scene of glass that comes with the program; a click begins that scene.
 pub fn presets(editor: &mut Editor, ui: &mut Ui) {
     let mut chosen = None;
     ui.horizontal_wrapped(|ui| {
@@ -41,7 +43,7 @@ pub fn presets(editor: &mut Editor, ui: &mut Ui) {
     }
 }
 
-/// Rows for copies, motion and smoothing.
+/// Draws the rows for copies, motion, smoothing and the angle of view.
 pub fn show(editor: &mut Editor, ui: &mut Ui) {
     copies(editor, ui);
     ui.horizontal(|ui| {
@@ -78,7 +80,9 @@ pub fn show(editor: &mut Editor, ui: &mut Ui) {
     view_angle(editor, ui);
 }
 
-/// From how near views in perspective look, as the angle that fits into them.
+/// Draws the row for the angle of view, which says how near the eye of views in perspective is.
+///
+/// Draws nothing where no view in sight is in perspective.
 fn view_angle(editor: &mut Editor, ui: &mut Ui) {
     let reach = editor.reach(Shows::Render);
     let desk = &mut editor.desk;
@@ -146,7 +150,7 @@ fn smoothing(editor: &mut Editor, ui: &mut Ui) {
     }
 }
 
-/// The two numbers of a glass, its index and its Abbe number; changing one makes it a glass of its own.
+/// Draws rows for the index and the Abbe number of a glass; changing one makes it a custom glass.
 pub fn two_numbers(material: &mut MaterialRef, known: &Material, ui: &mut Ui) {
     let law = &known.dispersion;
     let (index, abbe) = (known.index(line::HELIUM_D), law.abbe_number().unwrap_or(f64::INFINITY));
@@ -157,7 +161,7 @@ pub fn two_numbers(material: &mut MaterialRef, known: &Material, ui: &mut Ui) {
     let limits = *ABBE_NUMBERS.start()..=f64::INFINITY;
     let row = Row::new("Abbe number", meaning, ABBE_NUMBERS);
     Row { limits, decimals: 1, speed: 0.1, ..row }.show(ui, &mut v);
-    // A density that was set by hand is kept: it is not a known glass that loses its own.
+    // A custom glass keeps its density, which was set by hand; a known glass loses its own.
     let own = matches!(material, MaterialRef::Custom(_)).then_some(known.density).flatten();
     let custom = match v.is_finite() {
         true => Material::from_abbe(&format!("index {n:.3}, Abbe number {v:.1}"), n, v),
@@ -169,7 +173,7 @@ pub fn two_numbers(material: &mut MaterialRef, known: &Material, ui: &mut Ui) {
 }
 
 impl Editor {
-    /// Lays so many copies out anew, each turned as it was.
+    /// Lays `count` copies out anew, each turned as it was.
     pub(super) fn lay_out(&mut self, count: usize) {
         self.layings += 1;
         let specimen = std::sync::Arc::clone(self.document.specimen());

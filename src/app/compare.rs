@@ -1,32 +1,32 @@
-//! The design that the present one is compared with.
+//! The design that the present design is compared with.
 
 use super::document::Document;
 use super::pose_cache::PoseCache;
 use crate::scene::Specimen;
 use std::sync::Arc;
 
-/// Another design.
+/// A design to compare with.
 pub struct Compared {
-    /// What it is called.
+    /// The name under which the design is shown.
     pub name: String,
-    /// Whether it is the present one as it was saved.
+    /// Whether it is the present design as it was last saved.
     pub is_saved: bool,
-    /// Its stone, as the design has it.
+    /// The stone of the design, not turned.
     pub specimen: Arc<Specimen>,
     posed: PoseCache,
 }
 
 impl Compared {
-    /// The design as it was saved.
+    /// Returns the document's design as it was last saved.
     ///
     /// # Errors
-    /// Where that made no stone.
+    /// Fails where that design makes no stone; the text says why.
     pub fn of_saved(document: &Document) -> Result<Self, String> {
         let specimen = Specimen::new(document.saved().clone()).map_err(|e| e.to_string())?;
         Ok(Self::new("as saved".to_owned(), true, Arc::new(specimen)))
     }
 
-    /// Another file's design.
+    /// Returns the design of another document.
     pub fn of(document: &Document) -> Self {
         Self::new(document.title(), false, Arc::clone(document.specimen()))
     }
@@ -35,7 +35,7 @@ impl Compared {
         Self { name, is_saved, specimen, posed: PoseCache::default() }
     }
 
-    /// Its stone, turned as it is seen.
+    /// Returns the stone turned about its axis by `turn`, radians.
     pub fn posed(&mut self, turn: f64) -> Arc<Specimen> {
         self.posed.of(&self.specimen, turn)
     }

@@ -1,4 +1,4 @@
-//! Pictures for the clipboard at a size that is chosen: made anew on a thread of their own.
+//! Pictures for the clipboard at a chosen size, made on a thread of their own.
 
 use super::editor::Editor;
 use super::shows::Shows;
@@ -12,13 +12,13 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, TryRecvError, channel};
 
-/// Pixels of the longer side that are offered.
+/// The sizes that are offered: pixels along the longer side.
 pub const SIZES: [u32; 4] = [512, 1024, 2048, 4096];
 
-/// Share of the light that may stay unresolved in a scope, as in exported pictures.
+/// The share of the light that may stay unresolved in a scope, as in exported pictures.
 const UNRESOLVED: f64 = 1e-3;
 
-/// A picture under way.
+/// A picture for the clipboard that is being made.
 pub struct Copying {
     name: &'static str,
     answer: Receiver<Result<ColorImage, String>>,
@@ -37,7 +37,7 @@ enum Original {
     Profile(Arc<Specimen>),
 }
 
-/// Whether a view can be copied at a size of its own: what is looked up is as large as its view.
+/// Whether a view can be copied at a chosen size; a picture that is looked up is only as large as its view.
 pub fn can_copy(editor: &Editor, pane: usize) -> bool {
     let shows = editor.desk.panes[pane].shows;
     let needs_facets = matches!(shows, Shows::Profile | Shows::Diagram);
@@ -45,7 +45,7 @@ pub fn can_copy(editor: &Editor, pane: usize) -> bool {
 }
 
 impl Editor {
-    /// Copies the picture of a view to the clipboard, once it is made with so many pixels along its longer side.
+    /// Makes the picture of a view with `side` pixels along its longer side; it goes to the clipboard once it is made.
     pub(super) fn copy_at(&mut self, pane: usize, side: u32) {
         let shows = self.desk.panes[pane].shows;
         let own = (pane, Which::Present);
@@ -59,7 +59,7 @@ impl Editor {
         let stop = Arc::new(AtomicBool::new(false));
         let (stopped, wake) = (Arc::clone(&stop), self.studio.wake());
         std::thread::spawn(move || {
-            // Nobody waits for it any more where another was asked for.
+            // Nobody waits for the answer any more where another picture was requested.
             let _ = sender.send(taken(&original, side, &stopped));
             wake();
         });
@@ -67,7 +67,7 @@ impl Editor {
         self.notes.say(&format!("Making a picture of {side} pixels…"));
     }
 
-    /// Copies the picture under way, once it is done.
+    /// Copies the picture that is being made to the clipboard, once it is done.
     pub(super) fn take_in_copy(&mut self, ctx: &Context) {
         let Some(copying) = self.copying.take() else { return };
         let made = match copying.answer.try_recv() {
@@ -76,7 +76,7 @@ impl Editor {
                 self.copying = Some(copying);
                 return;
             }
-            // Its thread has ended without an answer.
+            // The thread has ended without an answer.
             Err(TryRecvError::Disconnected) => Err("making the picture failed; try another size".to_owned()),
         };
         match made {
@@ -90,7 +90,7 @@ impl Editor {
     }
 }
 
-/// The same picture with so many pixels along its longer side.
+/// Returns the same shot with `side` pixels along its longer side.
 fn scaled(shot: Shot, side: u32) -> Shot {
     let factor = f64::from(side) / f64::from(shot.film.size[0].max(shot.film.size[1]).max(1));
     let film = |film: Film| {
@@ -118,7 +118,7 @@ fn taken(original: &Original, side: u32, stop: &AtomicBool) -> Result<ColorImage
     last.ok_or_else(|| "nothing was drawn".to_owned())
 }
 
-/// The drawing from the side, as it is exported.
+/// Returns the drawing from the side, as it is exported.
 fn drawn(specimen: &Specimen, side: u32) -> Result<ColorImage, String> {
     let stone = specimen.stone().map_err(|e| e.to_string())?;
     let text = profile(stone, &specimen.design.name, specimen.design.cut.brilliant()).to_string();

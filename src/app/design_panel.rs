@@ -1,4 +1,4 @@
-//! The panel of the design: proportions, material, size, light.
+//! The design panel: proportions, stone, light and copies.
 
 use super::editor::Editor;
 use super::files::Purpose;
@@ -19,13 +19,13 @@ use egui::{
 use std::ops::RangeInclusive;
 use std::sync::Arc;
 
-/// Stops that light can be raised or lowered by.
+/// The range of the exposure, in stops.
 const STOPS: RangeInclusive<f64> = -4.0..=4.0;
 
-/// Half angles of the observer's head, degrees.
+/// The range of the half angle of the observer's head, degrees.
 const HEADS: RangeInclusive<f64> = 0.0..=30.0;
 
-/// Draws the panel.
+/// Draws the design panel.
 pub fn show(editor: &mut Editor, ui: &mut Ui, widths: RangeInclusive<f32>) {
     Panel::left("design").resizable(true).default_size(360.0).size_range(widths).show(ui, |ui| {
         side_panels::head(editor, ui, PanelSide::Design);
@@ -52,7 +52,7 @@ pub fn show(editor: &mut Editor, ui: &mut Ui, widths: RangeInclusive<f32>) {
     });
 }
 
-/// Whether GIA's ranges of the grade Excellent apply: they are those of round brilliants of diamond.
+/// Whether GIA's ranges for the grade Excellent apply: they are for round brilliants of diamond.
 fn is_graded(design: &Design) -> bool {
     let is_diamond =
         matches!(&design.material, MaterialRef::Name(name) if name.eq_ignore_ascii_case("diamond"));
@@ -66,7 +66,7 @@ fn heading(ui: &mut Ui, text: &str, meaning: &str) {
     ui.add_space(2.0);
 }
 
-/// What it is called, and what it is cut as.
+/// Draws the rows for the name of the design and the family of its cut.
 fn identity(editor: &mut Editor, ui: &mut Ui) {
     let design = &mut editor.document.work.design;
     ui.horizontal(|ui| {
@@ -127,7 +127,7 @@ fn proportions(editor: &mut Editor, ui: &mut Ui) {
     }
 }
 
-/// What is wrong with the proportions of a round brilliant, and at which row that is said.
+/// Explains what is wrong with the proportions of a round brilliant, and at which row to say so.
 fn impossible(editor: &Editor) -> Option<RowMessage> {
     let Some(SpecimenError::Design(DesignError::Proportion(fault))) = editor.document.fault() else {
         return None;
@@ -137,8 +137,9 @@ fn impossible(editor: &Editor) -> Option<RowMessage> {
     Some(impossible::explain(given, last, editor.edited, fault))
 }
 
-/// The tiers of a cut. Setting one leaves all others where they are, in mm: a stone that becomes wider has a greater
-/// diameter.
+/// Draws the rows for the tiers of a cut.
+///
+/// Setting one tier leaves all others where they are, in mm: a stone that becomes wider gets a greater diameter.
 fn tiers(editor: &mut Editor, ui: &mut Ui) {
     let specimen = Arc::clone(editor.document.specimen());
     let unit = editor.framing.extent(&specimen).unit;
@@ -156,10 +157,10 @@ fn wrong(ui: &mut Ui, fault: &str) {
     ui.label(RichText::new(fault).color(theme::bad(ui.visuals())));
 }
 
-/// Lines of what is odd that a panel has room for.
+/// The greatest number of warnings that the panel shows.
 const MOST_WARNINGS: usize = 12;
 
-/// What is odd about the stone, and what was about its file.
+/// Draws the warnings about the stone and its file.
 fn warnings(editor: &Editor, ui: &mut Ui) {
     let stones = editor.document.specimen().warnings.iter().filter(|_| editor.document.fault().is_none());
     let all: Vec<&String> = stones.chain(editor.document.work.remarks.iter()).collect();
@@ -172,8 +173,8 @@ fn warnings(editor: &Editor, ui: &mut Ui) {
     }
 }
 
-/// One proportion: name, slider, number, and of a pair whether it is held; where GIA grades it, the range of the grade
-/// Excellent. Whether it was changed.
+/// Draws one proportion: name, slider, number, and for one of a pair whether it is held; where GIA grades it, also the
+/// range of the grade Excellent. Returns whether it was changed.
 fn row(ui: &mut Ui, proportion: &Proportion, brilliant: &mut RoundBrilliant, is_graded: bool) -> bool {
     ui.horizontal(|ui| {
         let label = named(ui, proportion.name, proportion.meaning);
@@ -207,7 +208,7 @@ fn row(ui: &mut Ui, proportion: &Proportion, brilliant: &mut RoundBrilliant, is_
     .inner
 }
 
-/// Where on a slider a range lies: a band under its rail.
+/// Returns where a range lies on a slider: a band under its rail.
 fn band(slider: Rect, range: &RangeInclusive<f64>, whole: &RangeInclusive<f64>) -> Rect {
     let handle = slider.height() / 2.5;
     let (left, right) = (slider.left() + handle, slider.right() - handle);
@@ -268,7 +269,7 @@ fn lock(ui: &Ui, rect: Rect, shut: bool, response: &egui::Response) {
     }
 }
 
-/// What follows from the proportions.
+/// Draws the quantities that follow from the proportions.
 fn derived(ui: &mut Ui, brilliant: &RoundBrilliant, is_graded: bool) {
     let Ok(derived) = brilliant.derived() else { return };
     let depth = derived.total_depth;
@@ -364,7 +365,7 @@ fn lighting(editor: &mut Editor, ui: &mut Ui) {
     }
 }
 
-/// What hangs behind the stone in renders; whether a file is asked for.
+/// Draws the rows for the backplate behind the stone in renders; returns whether the user wants to choose a file.
 fn behind(editor: &mut Editor, ui: &mut Ui) -> bool {
     let mut asks = false;
     let desk = &mut editor.desk;
@@ -406,5 +407,5 @@ fn behind(editor: &mut Editor, ui: &mut Ui) -> bool {
     asks
 }
 
-/// From the straight ray to physics.
+/// The range of the strength of refraction: 0 is the straight ray, 1 is physics.
 const STRENGTHS: RangeInclusive<f64> = 0.0..=1.0;

@@ -1,4 +1,4 @@
-//! Windows that ask or tell something.
+//! Dialogs, which ask or say something.
 
 use super::about::{self, About};
 use super::asked_path::{self, AskedPath};
@@ -15,10 +15,10 @@ use egui::{Context, Grid, Id, Key, Modal, RichText, ScrollArea, Ui};
 use std::path::PathBuf;
 use std::time::Duration;
 
-/// What is to be done once a question is answered.
+/// An action that waits for the answer to a question.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Then {
-    /// Open this file, read with these options where it is a mesh.
+    /// Open this file; the options count where it is a mesh.
     Open(PathBuf, MeshOptions),
     /// Begin from a cut that comes with the program.
     Library(String),
@@ -29,46 +29,48 @@ pub enum Then {
 }
 
 impl Then {
-    /// Opening a file, of which a mesh is read as it is found.
+    /// Opens a file; a mesh is read with the default options.
     pub fn open(path: PathBuf) -> Self {
         Self::Open(path, MeshOptions::default())
     }
 }
 
-/// A window that is open.
+/// A dialog that is open.
 pub enum Dialog {
-    /// Work would be lost.
+    /// Asks whether to save work that would be lost; holds the action that waits for the answer.
     Unsaved(Then),
-    /// A crash has left work behind.
+    /// Offers work that a crash left behind.
     Recover(Box<RecoveredWork>),
-    /// Both the file and the design have changed.
+    /// Says that both the file and the design have changed.
     ChangedOutside,
-    /// What to export.
+    /// Asks what to export.
     Export(Box<ExportDialog>),
-    /// Copies were moved, which no cut's file holds; what waits for the answer.
+    /// Asks before copies are lost that were moved and that no cut file holds; holds the action that waits for the answer.
     Moved(Then),
-    /// A path, where the system does not ask for it.
+    /// Asks for a path, where the system does not.
     Path(AskedPath),
-    /// Keys and terms.
+    /// Lists keys and terms.
     Keys,
-    /// What the program is.
+    /// Shows what the program is.
     About(Box<About>),
 }
 
 impl Dialog {
-    /// The export dialog for what is open.
+    /// Returns the export dialog for the open document.
     pub fn export(editor: &mut Editor) -> Self {
         Self::Export(Box::new(ExportDialog::new(editor)))
     }
 
-    /// The same, with one view chosen alone.
+    /// Returns the export dialog with one view alone selected.
     pub fn export_of(editor: &mut Editor, shows: Shows) -> Self {
         let mut export = ExportDialog::new(editor);
         export.plan.selection.views = vec![shows];
         Self::Export(Box::new(export))
     }
 
-    /// Whether it stays until it is answered, whatever is clicked beside it. Escape is an answer: the one that changes nothing.
+    /// Whether the dialog stays until it is answered, whatever is clicked beside it.
+    ///
+    /// Escape is an answer: the one that changes nothing.
     pub fn insists(&self) -> bool {
         match self {
             Self::Recover(_) | Self::ChangedOutside => true,
@@ -78,15 +80,15 @@ impl Dialog {
     }
 }
 
-/// Space that dialogs leave free above and below, margins of their own included, points.
+/// The space that dialogs leave free above and below, their own margins included, points.
 const AROUND_DIALOG: f32 = 48.0;
 
-/// Draws the window that is open, if any.
+/// Draws the open dialog, if any.
 pub fn show(editor: &mut Editor, ctx: &Context) {
     let Some(mut dialog) = editor.dialog.take() else { return };
     let mut is_open = true;
     let modal = Modal::new(Id::unique("dialog")).show(ctx, |ui| {
-        // A window lower than the dialog scrolls it.
+        // In a window lower than the dialog, the dialog scrolls.
         let room = ctx.content_rect().height() - AROUND_DIALOG;
         ui.set_max_height(room);
         ScrollArea::vertical().id_salt("dialog").max_height(room).show(ui, |ui| match &mut dialog {
@@ -106,23 +108,25 @@ pub fn show(editor: &mut Editor, ctx: &Context) {
         && is_escaped
         && export.stop()
     {
-        // It stays, to say how far it came.
+        // The dialog stays, to say how far the export came.
         editor.dialog = Some(dialog);
     } else if is_open && !is_escaped && !is_left {
-        // What was asked for meanwhile waits until this one is answered.
+        // No other dialog takes its place until this one is answered.
         editor.dialog = Some(dialog);
     } else if is_open && matches!(dialog, Dialog::Path(_)) {
         editor.after_save = None;
     }
 }
 
-/// Buttons in a row, the first the one that is meant most often, which Return presses as well; which was chosen.
+/// Draws buttons in a row; returns the one that was chosen.
+///
+/// The first is the one that is meant most often; Return presses it as well.
 pub(super) fn buttons(ui: &mut Ui, names: &[&str]) -> Option<usize> {
     let is_answered = ui.memory(|m| m.focused().is_none()) && ui.input(|i| i.key_pressed(Key::Enter));
     buttons_alone(ui, names).or(is_answered.then_some(0))
 }
 
-/// Buttons in a row; which was chosen.
+/// Draws buttons in a row; returns the one that was chosen.
 pub(super) fn buttons_alone(ui: &mut Ui, names: &[&str]) -> Option<usize> {
     ui.add_space(10.0);
     ui.horizontal(|ui| {
@@ -137,7 +141,9 @@ pub(super) fn buttons_alone(ui: &mut Ui, names: &[&str]) -> Option<usize> {
     .inner
 }
 
-/// Asks before something is left behind: it can be kept, as `keep` does, left, or nothing done at all. Whether it stays open.
+/// Asks before something is left behind: the user can keep it, which calls `keep`, leave it, or cancel.
+///
+/// Returns whether the dialog stays open.
 fn parting(
     editor: &mut Editor,
     ui: &mut Ui,
@@ -185,7 +191,7 @@ fn recover(editor: &mut Editor, ui: &mut Ui, found: &RecoveredWork) -> bool {
     match buttons(ui, &["Go on", "Later", "Forget it"]) {
         Some(0) => {
             match Document::recovered(found.design.clone(), found.path.clone(), found.mesh.clone()) {
-                // Beginning keeps it safe anew, before what the crash left is forgotten.
+                // The work is autosaved anew before the file that the crash left is removed.
                 Ok(mut document) => {
                     let KeptScene { company, behind, behind_mm, strength } = found.around.clone();
                     document.work.company = company;
@@ -209,7 +215,7 @@ fn recover(editor: &mut Editor, ui: &mut Ui, found: &RecoveredWork) -> bool {
     }
 }
 
-/// How long ago something was, in words.
+/// Says in words how long ago something was.
 fn ago(since: Duration) -> String {
     let counted = |count: u64, unit: &str| format!("{count} {unit}{} ago", if count == 1 { "" } else { "s" });
     match since.as_secs() {
@@ -237,7 +243,7 @@ fn changed_outside(editor: &mut Editor, ui: &mut Ui) -> bool {
     }
 }
 
-/// Width of what a key does, or a term means, points.
+/// The width of the column that says what a key does or a term means, points.
 const MEANING: f32 = 450.0;
 
 fn keys(ui: &mut Ui) -> bool {

@@ -1,4 +1,4 @@
-//! What is being worked on: a design and its light, with the steps that led there and the file it came from.
+//! The open document: a design and its light, with the steps of undo and the file it came from.
 
 use super::history::History;
 use crate::cut::{Cut, Design};
@@ -10,44 +10,44 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::SystemTime;
 
-/// All that undo goes back over.
+/// Everything that undo restores.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Work {
-    /// The stone.
+    /// The design of the stone.
     pub design: Design,
-    /// Its copies in renders.
+    /// The copies of the stone in renders.
     pub company: Copies,
-    /// The light's name, or its file.
+    /// The name of the light, or its file.
     pub light: String,
-    /// Stops.
+    /// The exposure of renders, in stops.
     pub exposure: f64,
-    /// Half angle of the observer's head in ASET and figures, degrees; 0 for none.
+    /// The half angle of the observer's head in ASET and figures, degrees; 0 for none.
     pub head: f64,
-    /// The mesh that the stone was read from, if it was one.
+    /// The mesh file that the stone was read from, if it was one.
     pub mesh: Option<ReadMesh>,
-    /// What was odd about its file, in words.
+    /// The warnings and notes about the file, in words.
     pub remarks: Arc<[String]>,
 }
 
 /// A mesh file, and how it was read.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ReadMesh {
-    /// The file.
+    /// The mesh file.
     pub path: PathBuf,
-    /// How it was read.
+    /// How the file was read.
     pub options: MeshOptions,
-    /// Whether its shape leaves a doubt which way its table faces.
+    /// Whether the shape leaves a doubt which way the table faces.
     pub is_doubtful: bool,
-    /// The diameter that it was read with, mm.
+    /// The diameter of the stone when it was read, mm.
     pub diameter_mm: f64,
 }
 
-/// What a file was like when it was last read or written.
+/// The time of change and the length of a file when it was last read or written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Stamp(Option<(SystemTime, u64)>);
 
 impl Stamp {
-    /// Of the file as it is now; of one that is not there, none.
+    /// Returns the stamp of the file as it is now; it is empty where there is no such file.
     pub fn of(path: &Path) -> Self {
         let read = std::fs::metadata(path).and_then(|m| Ok((m.modified()?, m.len())));
         Self(read.ok())
@@ -57,24 +57,25 @@ impl Stamp {
 /// A design that is open.
 #[derive(Debug)]
 pub struct Document {
-    /// As it is now; changed in place, and taken note of by [`update`](Self::update).
+    /// The work as it is now. It is changed in place; [`update`](Self::update) then takes note of the change.
     pub work: Work,
     history: History<Work>,
     saved: Design,
-    /// Its copies as they began, or were last written as a scene.
+    /// The copies as they were at first, or as they were last written as a scene.
     laid: Copies,
     path: Option<PathBuf>,
     stamp: Stamp,
-    /// Whether the file has gone.
+    /// Whether the file no longer exists.
     is_lost: bool,
-    /// The stone of the last design that makes one. What changes no light, as the name, may be older in it than in `built`.
+    /// The stone of the last design that makes one. Its own design may be older than `built` in what changes no light, such
+    /// as the name.
     specimen: Arc<Specimen>,
     fault: Option<SpecimenError>,
-    /// The design that stone or fault belong to.
+    /// The design that `specimen` or `fault` belongs to.
     built: Design,
 }
 
-/// Whether two designs make the same stone, whatever they are called and whatever is said of them.
+/// Whether two designs make the same stone, whatever their names and notes.
 fn is_same_stone(a: &Design, b: &Design) -> bool {
     let is_same_cut = match (&a.cut, &b.cut) {
         (Cut::Tiers(a), Cut::Tiers(b)) => (a.gear, a.offset, &a.tiers) == (b.gear, b.offset, &b.tiers),
@@ -83,14 +84,14 @@ fn is_same_stone(a: &Design, b: &Design) -> bool {
     is_same_cut && a.diameter_mm == b.diameter_mm && a.material == b.material
 }
 
-/// The light that a program starts with.
+/// The light that the program starts with.
 pub const FIRST_LIGHT: &str = "studio";
 
 impl Document {
-    /// A design that lies in a file, or in none yet.
+    /// Opens a design that lies in a file, or in none yet.
     ///
     /// # Errors
-    /// What keeps it from being a stone.
+    /// Fails where the design makes no stone; the error says why.
     pub fn new(design: Design, path: Option<PathBuf>) -> Result<Self, SpecimenError> {
         let specimen = Arc::new(Specimen::new(design.clone())?);
         let work = Work {
@@ -118,28 +119,28 @@ impl Document {
         })
     }
 
-    /// A cut that comes with the program, as a design without a file.
+    /// Opens a cut that comes with the program, as a design without a file.
     ///
     /// # Errors
-    /// Where there is none of that name.
+    /// Fails where no cut of that name comes with the program.
     pub fn of_library(name: &str) -> Result<Self, String> {
         let text = library::cut(name).ok_or_else(|| format!("no cut '{name}' comes with the program"))?;
         let design = cut_file::parse(text, name).map_err(|e| e.to_string())?;
         Self::new(design, None).map_err(|e| format!("{name}: {e}"))
     }
 
-    /// The first design that anyone sees.
+    /// Opens the first design that a user sees.
     ///
     /// # Errors
-    /// None, unless the program itself is broken.
+    /// Fails only where the program itself is broken.
     pub fn first() -> Result<Self, String> {
         Self::of_library(library::FIRST_CUT)
     }
 
-    /// Opens a design; the options are those of meshes.
+    /// Opens a design file; the options count where it is a mesh.
     ///
     /// # Errors
-    /// Text that names file, line and key, and what to do.
+    /// The text names file, line and key, and says what to do.
     pub fn open(path: &Path, mesh: MeshOptions) -> Result<Self, String> {
         let ImportedDesign { design, notes, warnings, doubt } =
             design_file::read_with(path, mesh).map_err(|e| e.to_string())?;
@@ -153,8 +154,9 @@ impl Document {
         Ok(document)
     }
 
-    /// Takes the shape of a mesh that was read once more, in another way; all else of the work stays, so also how much larger
-    /// the stone was made than the file has it. A step that can be undone.
+    /// Takes the shape of the same mesh, read in another way, as a step that can be undone.
+    ///
+    /// All else of the work stays, and so does the factor by which the stone was made larger than in its file.
     pub fn take_shape(&mut self, other: Self) {
         let enlarged =
             self.work.mesh.as_ref().map_or(1.0, |mesh| self.work.design.diameter_mm / mesh.diameter_mm);
@@ -164,16 +166,18 @@ impl Document {
         self.work.remarks = other.work.remarks;
     }
 
-    /// A design that was never saved, found after a crash, and the mesh that it was read from, if it was one: it counts as
-    /// changed.
+    /// Opens unsaved work that was found after a crash; it counts as changed.
+    ///
+    /// `mesh` is the mesh file that the stone was read from, if it was one.
     ///
     /// # Errors
-    /// What keeps it from being a stone.
+    /// Fails where the design makes no stone; the text says why.
     pub fn recovered(design: Design, path: Option<PathBuf>, mesh: Option<ReadMesh>) -> Result<Self, String> {
         let mut document = Self::new(design, path).map_err(|e| e.to_string())?;
         document.work.mesh = mesh;
         document.history = History::new(document.work.clone());
-        // A mesh is read as it is found: a table direction that was chosen is a change, which the file does not hold.
+        // `read` takes a mesh in the direction that it finds: a table direction that the user chose is a change that the
+        // file lacks.
         let on_disk = document.path.as_deref().and_then(|p| design_file::read(p).ok());
         document.saved = on_disk
             .map(|brought| brought.design)
@@ -181,30 +185,31 @@ impl Document {
         Ok(document)
     }
 
-    /// Begins under a light, which is no step of its own.
+    /// Begins under a light; this is not a step of undo.
     pub fn begin(&mut self, light: &str, exposure: f64, head: f64) {
         (self.work.light, self.work.exposure, self.work.head) = (light.to_owned(), exposure, head);
         self.history = History::new(self.work.clone());
     }
 
-    /// Takes over the copies of another, and whether they are safe.
+    /// Takes over the copies of another document, and whether they count as kept.
     pub fn take_copies(&mut self, other: &Self) {
         self.work.company.clone_from(&other.work.company);
         self.laid.clone_from(&other.laid);
     }
 
-    /// The copies are safe as they lie.
+    /// Counts the copies as kept where they lie now.
     pub fn keep_copies(&mut self) {
         self.laid.clone_from(&self.work.company);
     }
 
-    /// Whether copies lie otherwise than they began, or were last written.
+    /// Whether the copies lie otherwise than at first, or than when they were last written.
     pub fn has_moved_copies(&self) -> bool {
         self.laid != self.work.company
     }
 
-    /// Takes note of changes: builds the stone, or notes why there is none. Whether there is another stone than before, which
-    /// has to be traced: a new name makes none.
+    /// Builds the stone after a change, or notes why there is none.
+    ///
+    /// Returns whether the stone is another than before and has to be traced: a new name makes no other stone.
     pub fn update(&mut self) -> bool {
         if self.work.design == self.built {
             return false;
@@ -217,7 +222,7 @@ impl Document {
         match self.specimen.remade(self.built.clone()) {
             Ok(specimen) => {
                 self.specimen = Arc::new(specimen);
-                // A stone may have a name that no file can hold.
+                // A stone can be built whose name no file can hold.
                 self.fault = self.built.check().err().map(SpecimenError::from);
                 true
             }
@@ -228,17 +233,18 @@ impl Document {
         }
     }
 
-    /// Ends a gesture: what it changed is one step; whether it changed anything.
+    /// Ends a gesture: all that it changed becomes one step of undo. Returns whether it changed anything.
     pub fn settle(&mut self) -> bool {
         self.history.settle(&self.work)
     }
 
-    /// The last stone that could be built.
+    /// Returns the last stone that could be built.
     pub fn specimen(&self) -> &Arc<Specimen> {
         &self.specimen
     }
 
-    /// A stone of this document, as [`specimen`](Self::specimen) or turned, under the name that its design has now.
+    /// Returns a stone of this document, [`specimen`](Self::specimen) or a turned one, under the name that the design has
+    /// now.
     pub fn named(&self, specimen: &Arc<Specimen>) -> Arc<Specimen> {
         let now = &self.specimen.design;
         if *now == self.built || !is_same_stone(now, &self.built) {
@@ -252,48 +258,48 @@ impl Document {
         Arc::new(Specimen { design, ..(**specimen).clone() })
     }
 
-    /// Whether the design makes no stone, and [`specimen`](Self::specimen) is the last one that it made.
+    /// Whether the design makes no stone, so that [`specimen`](Self::specimen) is the last one that it made.
     pub fn shows_last_possible(&self) -> bool {
         self.fault.is_some() && !is_same_stone(&self.specimen.design, &self.built)
     }
 
-    /// What keeps the design as it is now from being a stone.
+    /// Returns what keeps the present design from being a stone.
     pub fn fault(&self) -> Option<&SpecimenError> {
         self.fault.as_ref()
     }
 
-    /// Where it is saved.
+    /// Returns the file that the document is saved in, if any.
     pub fn path(&self) -> Option<&Path> {
         self.path.as_deref()
     }
 
-    /// What it is called: its file's name, or its own.
+    /// Returns the title of the document: the name of its file, or that of the design.
     pub fn title(&self) -> String {
         let file = self.path.as_deref().and_then(Path::file_name).map(|n| n.to_string_lossy().into_owned());
         file.unwrap_or_else(|| self.work.design.name.clone())
     }
 
-    /// The design as it was last saved.
+    /// Returns the design as it was last saved.
     pub fn saved(&self) -> &Design {
         &self.saved
     }
 
-    /// Whether closing it would lose work.
+    /// Whether closing the document would lose work.
     pub fn is_changed(&self) -> bool {
         self.work.design != self.saved || self.is_lost
     }
 
-    /// Whether its file is another than it was read from or written to.
+    /// Whether the file has changed since the document was last read from it or written to it.
     pub fn is_changed_outside(&self) -> bool {
         self.path.as_deref().is_some_and(|path| Stamp::of(path) != self.stamp)
     }
 
-    /// Whether its file has gone, as far as is known.
+    /// Whether the file no longer existed when it was last checked.
     pub fn is_lost(&self) -> bool {
         self.is_lost
     }
 
-    /// Takes the file on disk for what was meant to be there: it is not told of again.
+    /// Accepts the file on disk as it is, so that its change is not reported again.
     pub fn accept_outside(&mut self) {
         if let Some(path) = &self.path {
             self.stamp = Stamp::of(path);
@@ -301,12 +307,12 @@ impl Document {
         }
     }
 
-    /// Whether there is anything to undo, and to do again.
+    /// Whether there is anything to undo, and anything to redo.
     pub fn steps(&self) -> (bool, bool) {
         (self.history.can_undo() || self.work != *self.history.present(), self.history.can_redo())
     }
 
-    /// Goes one step back.
+    /// Undoes one step.
     pub fn undo(&mut self) {
         self.settle();
         if let Some(work) = self.history.undo() {
@@ -314,7 +320,7 @@ impl Document {
         }
     }
 
-    /// Does again what was undone.
+    /// Redoes one step that was undone.
     pub fn redo(&mut self) {
         if !self.settle()
             && let Some(work) = self.history.redo()
@@ -323,11 +329,12 @@ impl Document {
         }
     }
 
-    /// Saves the design where it lies, or elsewhere from now on, in the format that the file's name asks for; what that
-    /// could not hold, in words.
+    /// Saves the design to `path`, which is its file from now on, in the format of the file's name.
+    ///
+    /// Returns what that format could not hold, in words.
     ///
     /// # Errors
-    /// When the design makes no stone, or the file system refuses; the old file stays as it is.
+    /// Fails when the design makes no stone, or the file system refuses; the old file stays as it is.
     pub fn save(&mut self, path: PathBuf) -> Result<Vec<String>, String> {
         if let Some(fault) = &self.fault {
             return Err(format!("this design cannot be read again: {fault}"));

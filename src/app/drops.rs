@@ -1,4 +1,4 @@
-//! Files dropped on the window: each goes where one of its kind is chosen for.
+//! Files dropped on the window, and what each kind of file is used for.
 
 use super::dialogs::Then;
 use super::editor::Editor;
@@ -7,7 +7,7 @@ use crate::io::light_file;
 use egui::{Align2, Color32, Context, FontId, Id, LayerId, Order};
 use std::path::{Path, PathBuf};
 
-/// What a file is dropped for, by its name and, of TOML, by what is in it.
+/// Returns what a dropped file is for, by its name and, for TOML, by its content.
 fn purpose(path: &Path) -> Purpose {
     let ending = path.extension().map(|e| e.to_string_lossy().to_ascii_lowercase()).unwrap_or_default();
     match ending.as_str() {
@@ -19,11 +19,11 @@ fn purpose(path: &Path) -> Purpose {
 }
 
 impl Editor {
-    /// Takes what was dropped: designs, meshes and scenes are opened, panoramas and light files become the light, pictures
-    /// hang behind the stone.
+    /// Takes dropped files: designs, meshes and scenes are opened, panoramas and light files become the light, pictures
+    /// become the backplate.
     pub(super) fn dropped(&mut self, files: &[PathBuf]) {
         let name = |path: &Path| path.file_name().unwrap_or_default().to_string_lossy().into_owned();
-        // TOML is read to tell what it is for: once a file.
+        // TOML is read to find what it is for: once for each file.
         let files: Vec<(&PathBuf, Purpose)> = files.iter().map(|path| (path, purpose(path))).collect();
         let mut to_open = files.iter().filter(|(_, purpose)| *purpose == Purpose::Open);
         if let Some(&(path, _)) = to_open.next() {

@@ -46,15 +46,15 @@ use std::sync::mpsc::{Receiver, channel};
 pub struct Setup {
     /// A file to open.
     pub file: Option<PathBuf>,
-    /// How it is read where it is a mesh.
+    /// How the file is read where it is a mesh.
     pub mesh: MeshOptions,
-    /// Where unsaved work is kept; none to keep none.
+    /// The folder of the autosave; `None` for no autosave.
     pub safe: Option<PathBuf>,
-    /// Who is asked for files.
+    /// What asks the user for files.
     pub chooser: Chooser,
-    /// How the window is arranged where nothing was kept.
+    /// The workspace to begin with where none was kept.
     pub desk: Workspace,
-    /// Where the window says whether it is at rest; none for no such file.
+    /// The file that says whether the window is at rest; `None` for no such file.
     pub state_file: Option<StateFile>,
     /// What opens folders and pages outside the program.
     pub opener: Opener,
@@ -77,7 +77,7 @@ impl Default for Setup {
     }
 }
 
-/// A picture as it is shown.
+/// A picture as it is shown, with the shot and the grade that it answers.
 pub struct Shown {
     pub(super) texture: TextureHandle,
     pub(super) shot: Shot,
@@ -85,28 +85,29 @@ pub struct Shown {
     pub(super) taken: TakenPicture,
 }
 
-/// Figures as they are shown.
+/// Figures as they are shown, with the order and the grade that they answer.
 pub struct ShownFigures {
     pub(super) ask: FiguresOrder,
     pub(super) grade: Grade,
     pub(super) figures: Figures,
 }
 
-/// The window.
+/// The state of the editor's window.
 pub struct Editor {
     pub(super) document: Document,
     /// The stone that views are fitted to.
     pub(super) framing: Framing,
     pub(super) desk: Workspace,
-    /// What drawings are drawn on.
+    /// What drawings are drawn on: their colours, light or dark as the window is.
     pub(super) paper: Paper,
     pub(super) looks: ViewHistory,
     pub(super) studio: Studio,
     pub(super) pictures: HashMap<Slot, Shown>,
-    /// What looks pictures up, and those that were.
+    /// The worker that looks pictures up.
     pub(super) looker: LookupWorker,
+    /// The pictures that were looked up.
     pub(super) looked: HashMap<Slot, Shown>,
-    /// How backgrounds stand in views of refraction maps.
+    /// How the background moves in each view of a refraction map.
     pub(super) flowing: [Flowing; 4],
     pub(super) figures: HashMap<Which, ShownFigures>,
     pub(super) tilts: Option<(FiguresOrder, Tilts)>,
@@ -114,25 +115,25 @@ pub struct Editor {
     pub(super) probe: Option<Probe>,
     pub(super) profiles: [ProfileView; 4],
     pub(super) following: Following,
-    /// What moves in time.
+    /// The motion of copies and plates in time.
     pub(super) moving: Moving,
-    /// The copy that a hand holds, and the view that it does so in.
+    /// The view in which a copy is dragged, and the number of that copy.
     pub(super) held: Option<(usize, usize)>,
-    /// Whether a picture has the focus: Space is for its copies then.
+    /// Whether a picture has the focus, so that Space lays out the copies in it.
     pub(super) is_picture_focused: bool,
-    /// The key of the proportion that was edited last in the panel.
+    /// The key of the proportion that was last edited in the panel.
     pub(super) edited: Option<&'static str>,
-    /// How often copies were laid out.
+    /// How often copies were laid out; this seeds the next layout.
     pub(super) layings: u64,
-    /// What is said in the line at the bottom while the pointer is over a picture.
+    /// The text of the status line while the pointer is over a picture.
     pub(super) message: String,
     pub(super) notes: Notes,
     pub(super) dialog: Option<Dialog>,
-    /// What was exported last.
+    /// What was last selected for export.
     pub(super) selection: Selection,
-    /// The pane under the pointer, or the last that was.
+    /// The view under the pointer, or the last one that was.
     pub(super) hovered: usize,
-    /// The last order's, for knowing whether what is shown is what was asked for.
+    /// The last order, to know whether what is shown is what was ordered.
     pub(super) asked: Order,
     pub(super) light: (String, Arc<Lighting>),
     pub(super) loading: Option<(String, Receiver<Result<Lighting, LightingError>>)>,
@@ -143,17 +144,17 @@ pub struct Editor {
     pub(super) copying: Option<Copying>,
     pub(super) choosing: Option<Choosing>,
     pub(super) opening: Vec<Opening>,
-    /// How many documents were begun: an answer for one must not be taken for another.
+    /// How many documents were begun. It numbers the present one, so that no answer for another is taken for it.
     pub(super) begun: u64,
-    /// What is put off until the design is saved.
+    /// The action that waits until the design is saved.
     pub(super) after_save: Option<Then>,
-    /// The work as it was last taken note of.
+    /// The work as it was when [`take_note`](Self::take_note) was last called.
     pub(super) kept: Work,
     watching: Watching,
     pub(super) safe: Option<Autosave>,
     /// Whether the window may close without another question.
     pub(super) may_close: bool,
-    /// Whether renders are seen in three bands of wavelengths for as long as a key is down.
+    /// Whether renders show three bands of wavelengths alone, as long as a key is down.
     pub(super) shows_three: bool,
     title: String,
     state_file: Option<StateFile>,
@@ -161,22 +162,22 @@ pub struct Editor {
     pub(super) painted_by: PaintedBy,
 }
 
-/// Where a desk is kept between starts.
+/// The key under which the workspace is kept between starts.
 const DESK: &str = "desk";
 
 impl Editor {
-    /// Opens the content of a window of eframe's; see [`within`](Self::within).
+    /// Opens the editor in a window of eframe's; see [`within`](Self::within).
     ///
     /// # Errors
-    /// As there.
+    /// As for [`within`](Self::within).
     pub fn new(context: &CreationContext<'_>, setup: Setup) -> Result<Self, String> {
         Self::within(&context.egui_ctx, context.storage, shared(context), setup)
     }
 
-    /// Opens the window's content, as it was left, which `storage` knows; `gpu` is a card that pictures may be computed on.
+    /// Opens the editor as it was left, by what `storage` holds; `gpu` is a card that pictures may be computed on.
     ///
     /// # Errors
-    /// Only where the program itself is broken: it comes with the cut and the light that it starts with.
+    /// Fails only where the program itself is broken: it comes with the cut and the light that it starts with.
     pub fn within(
         context: &Context,
         storage: Option<&dyn Storage>,
@@ -186,7 +187,7 @@ impl Editor {
         theme::apply(context);
         context.add_plugin(Hands::default());
         let kept = storage.and_then(|s| s.get_string(DESK));
-        // A desk of a later program that this one cannot read is left aside.
+        // A workspace of a later program that this one cannot read is ignored.
         let mut desk: Workspace =
             kept.and_then(|text| serde_json::from_str(&text).ok()).unwrap_or(setup.desk);
         let wake = waker(context);
@@ -265,18 +266,18 @@ impl Editor {
         }
     }
 
-    /// The stone that is worked on, turned as it is seen.
+    /// Returns the present stone, turned about its axis by `turn`, radians.
     pub(super) fn posed(&mut self, turn: f64) -> Arc<Specimen> {
         self.posed.of(self.document.specimen(), turn)
     }
 
-    /// What answers questions about a stone.
+    /// Returns the probe that answers questions about a stone.
     pub(super) fn probe(&mut self, specimen: &Arc<Specimen>) -> &Probe {
         let known = self.probe.take().filter(|p| p.is_about(specimen));
         self.probe.insert(known.unwrap_or_else(|| Probe::new(Arc::clone(specimen))))
     }
 
-    /// The light that is chosen; the last one until that is loaded, and where it cannot be had.
+    /// Returns the chosen light; the last one until that is loaded, and where it cannot be loaded.
     pub(super) fn light(&mut self) -> Arc<Lighting> {
         let wanted = &self.document.work.light;
         let is_loading = self.loading.as_ref().is_some_and(|(name, _)| name == wanted);
@@ -284,7 +285,7 @@ impl Editor {
             let (sender, answer) = channel();
             let (name, wake) = (wanted.clone(), self.studio.wake());
             std::thread::spawn(move || {
-                // Nobody waits for it any more where another was chosen.
+                // Nobody waits for the answer any more where another light was chosen.
                 let _ = sender.send(Lighting::load(&name));
                 wake();
             });
@@ -311,7 +312,7 @@ impl Editor {
         self.light = (name, lighting);
     }
 
-    /// What takes note of what has come in from elsewhere.
+    /// Takes in what has arrived from other threads and from outside: pictures, figures, lights, files, changes on disk.
     fn take_in(&mut self, ctx: &Context) {
         let answers: Vec<Answer> = self.studio.answers().collect();
         for answer in answers {
@@ -335,7 +336,7 @@ impl Editor {
             self.choosing = None;
             match answer {
                 Choice::File(path) => self.chosen(purpose, document, path),
-                // The export dialog has a field of its own.
+                // The export dialog has its own field for the folder.
                 Choice::NoDialog if self.dialog.is_none() => self.ask_path(purpose),
                 Choice::NoDialog | Choice::GivenUp => self.after_save = None,
             }
@@ -362,7 +363,7 @@ impl Editor {
         }
     }
 
-    /// The picture of a view: looked up, where that is what it shows, or as it was taken.
+    /// Returns the picture of a view: looked up where the view shows such a picture, else traced.
     pub(super) fn shown(&self, slot: Slot) -> Option<&Shown> {
         let shows = self.desk.panes[slot.0].shows;
         let is_looked_up =
@@ -373,13 +374,13 @@ impl Editor {
         self.pictures.get(&slot)
     }
 
-    /// The view that keys are for: the one under the pointer or with the focus, or the first.
+    /// Returns the view that keys act on: the one under the pointer or with the focus, or else the first.
     pub(super) fn active(&self) -> usize {
         let shown = self.desk.shown();
         if shown.contains(&self.hovered) { self.hovered } else { shown[0] }
     }
 
-    /// Whether something is chosen already, as menus show it.
+    /// Whether a command is switched on, as menus show it.
     pub(super) fn is_chosen(&self, command: Command) -> bool {
         let overlay = |name| self.desk.overlay.as_deref() == Some(name);
         let eye = self.desk.eye(self.active());
@@ -446,7 +447,7 @@ impl Editor {
             && self.opening.is_empty()
     }
 
-    /// Draws the window, and does what is asked for.
+    /// Draws the window, and carries out what the user does in it.
     pub(super) fn show(&mut self, ui: &mut Ui) {
         let ctx = ui.ctx().clone();
         self.take_in(&ctx);
@@ -470,7 +471,7 @@ impl Editor {
         let pulled = self.profiles.iter().any(ProfileView::is_dragging);
         let gesture = pulled || ctx.egui_is_using_pointer() || ctx.text_edit_focused();
         if !gesture && self.framing.settle(self.document.specimen()) {
-            // The views were laid out for the stone as it was fitted before.
+            // The views of this frame were laid out for the stone as it was fitted before.
             ctx.request_repaint();
         }
         self.order(&seen);
@@ -482,7 +483,7 @@ impl Editor {
         self.publish_state(&ctx);
     }
 
-    /// Tells a test that waits whether the window is at rest.
+    /// Writes to the state file whether the window is at rest, for a test that waits for that.
     fn publish_state(&mut self, ctx: &Context) {
         let is_quiet = self.is_idle() && !self.studio.sharpens();
         if self.state_file.as_mut().is_some_and(|file| file.note(is_quiet, self.desk.layout)) {
@@ -491,7 +492,7 @@ impl Editor {
     }
 }
 
-/// Puts a picture where the last one was.
+/// Replaces the picture in a slot.
 fn hang(
     ctx: &Context,
     pictures: &mut HashMap<Slot, Shown>,
@@ -515,7 +516,7 @@ fn waker(ctx: &Context) -> super::studio::Wake {
     Arc::new(move || ctx.request_repaint())
 }
 
-/// The card that draws the window, if it computes.
+/// Returns the card that draws the window, if it computes.
 fn shared(context: &CreationContext<'_>) -> Option<Arc<Gpu>> {
     let state = context.wgpu_render_state.as_ref()?;
     Gpu::of(state.device.clone(), state.queue.clone(), &state.adapter.get_info()).ok().map(Arc::new)
@@ -533,7 +534,7 @@ impl eframe::App for Editor {
     }
 
     fn on_exit(&mut self) {
-        // Where the window was taken away, and not closed by someone who was asked, work is kept for the next start.
+        // Where the system took the window away without asking the user, the work is kept for the next start.
         let is_safe = !self.document.is_changed() && !self.document.has_moved_copies();
         if self.may_close || is_safe {
             self.forget_unsaved();

@@ -1,4 +1,4 @@
-//! The dialog that writes files.
+//! The export dialog, which writes files.
 
 use super::editor::Editor;
 use super::export_job::{Job, PictureAspect, Plan, Selection, thumbnails};
@@ -19,13 +19,13 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::mpsc::Receiver;
 
-/// Side of a thumbnail, points.
+/// The side of a thumbnail, points.
 const THUMBNAIL: f32 = 88.0;
 
-/// The sizes that are offered, least and most: renders and EXRs are held in memory.
+/// The range of sizes that are offered, pixels: renders and EXRs are held in memory.
 const SIZES: std::ops::RangeInclusive<u32> = 16..=8192;
 
-/// What is chosen so far.
+/// The state of the export dialog.
 pub struct ExportDialog {
     pub(super) folder: PathBuf,
     pub(super) plan: Plan,
@@ -35,7 +35,7 @@ pub struct ExportDialog {
 }
 
 impl ExportDialog {
-    /// A dialog for what is open, seen as the linked views see it.
+    /// Creates the dialog for the open document, seen as the linked views see it.
     pub fn new(editor: &mut Editor) -> Self {
         let here = || std::env::current_dir().unwrap_or_default();
         let folder = editor.document.path().and_then(|p| p.parent()).map_or_else(here, ToOwned::to_owned);
@@ -49,7 +49,7 @@ impl ExportDialog {
             own.iter().find(|(shows, _)| *shows == Shows::Render).map_or(&linked, |(_, aspect)| aspect);
         let shot = editor.render_shot(render.view, render.turn);
         let specimen = match Arc::ptr_eq(&shot.specimen, &editor.posed(render.turn)) {
-            // One alone and at rest is the one that scopes show.
+            // A stone alone and at rest is the one that scopes show.
             true => Arc::clone(&render.turned),
             false => editor.document.named(&shot.specimen),
         };
@@ -59,7 +59,7 @@ impl ExportDialog {
             name => name,
         };
         let selection = editor.selection.clone();
-        // As large as in the view, and no copy left out.
+        // Renders are as large as in their view, or smaller, so that no copy is left out.
         let copies = Copies::at(shot.company.clone(), shot.specimen.solid().vertices());
         let reach = editor.reach(Shows::Render).max(copies.reach(0.0));
         let mut plan =
@@ -71,25 +71,25 @@ impl ExportDialog {
         Self { folder: folder.join("out"), plan, thumbnails, pictures: HashMap::new(), job: None }
     }
 
-    /// Asks files that are being written to stop; whether there are any.
+    /// Asks the export to stop; returns whether files are being written.
     pub fn stop(&self) -> bool {
         let job = self.job.as_ref().filter(|job| job.end().is_none());
         job.map(Job::stop).is_some()
     }
 
-    /// How many small pictures have come.
+    /// Returns the number of thumbnails that have arrived.
     #[cfg(test)]
     pub fn thumbnails_shown(&self) -> usize {
         self.pictures.len()
     }
 
-    /// The files that are being written, or were.
+    /// Returns the export that is under way or has ended.
     #[cfg(test)]
     pub fn job(&self) -> Option<&Job> {
         self.job.as_ref()
     }
 
-    /// How writing ended, once it has.
+    /// Returns how the export ended, once it has.
     #[cfg(test)]
     pub fn end(&self) -> Option<Result<(), String>> {
         self.job.as_ref()?.end()
@@ -101,11 +101,12 @@ impl ExportDialog {
     }
 }
 
-/// How the linked views see a stone, and each picture whose view looks on its own. Of several views that show the same it is
-/// the one that keys are for, or the first.
+/// Returns how the linked views see a stone, and how each view that looks on its own sees it.
+///
+/// Of several views that show the same, the one that keys act on counts, or else the first.
 fn aspects(editor: &Editor, upright: &Arc<Specimen>) -> (PictureAspect, Vec<(Shows, PictureAspect)>) {
     let desk = &editor.desk;
-    // What is posed for the views stays theirs.
+    // A cache apart from that of the views, so that theirs keeps its poses.
     let mut posed = PoseCache::default();
     let mut aspect = |view: View, turn: f64| PictureAspect { view, turn, turned: posed.of(upright, turn) };
     let linked = aspect(desk.eye.view(None), desk.eye.turn);
@@ -125,7 +126,7 @@ fn aspects(editor: &Editor, upright: &Arc<Specimen>) -> (PictureAspect, Vec<(Sho
     (linked, own)
 }
 
-/// Draws it; whether it stays open.
+/// Draws the dialog; returns whether it stays open.
 pub fn show(editor: &mut Editor, ui: &mut Ui, export: &mut ExportDialog) -> bool {
     ui.set_width(560.0);
     ui.heading("Export");
@@ -181,7 +182,7 @@ fn views(ui: &mut Ui, export: &mut ExportDialog) {
     });
 }
 
-/// A small picture that can be chosen; whether it was clicked.
+/// Draws a thumbnail that can be selected; returns whether it was clicked.
 fn thumbnail(ui: &mut Ui, shows: Shows, wanted: bool, picture: Option<&TextureHandle>) -> bool {
     let (rect, response) = ui.allocate_exact_size(vec2(THUMBNAIL + 12.0, THUMBNAIL + 30.0), Sense::click());
     response.widget_info(|| WidgetInfo::selected(egui::Role::CheckBox, true, wanted, shows.name()));
@@ -195,7 +196,7 @@ fn thumbnail(ui: &mut Ui, shows: Shows, wanted: bool, picture: Option<&TextureHa
     if let Some(texture) = picture {
         let [w, h] = texture.size().map(|n| n as f32);
         if w != h {
-            // Drawings are on paper.
+            // Drawings are on white paper.
             ui.painter().rect_filled(square, 3.0, Color32::WHITE);
         }
         let size = vec2(w, h) * (THUMBNAIL / w.max(h));
@@ -275,15 +276,15 @@ fn settings(editor: &mut Editor, ui: &mut Ui, export: &mut ExportDialog) {
     });
 }
 
-/// Height of the list of files, points: the same for any number, so that nothing moves under the pointer; and the least,
-/// where the window has no room for all of the dialog.
+/// The height of the list of files, points: the same for any number of files, so that nothing moves under the pointer.
 const LISTED: f32 = 96.0;
+/// The least height of the list of files, points, where the window has no room for the whole dialog.
 const LEAST_LISTED: f32 = 32.0;
 
-/// Height of a window that has room for all of the dialog, points.
+/// The height of a window that has room for the whole dialog, points.
 const ROOMY: f32 = 700.0;
 
-/// What will be written, and what of it is there already.
+/// Draws the list of the files that will be written, and marks those that exist already.
 fn listed(ui: &mut Ui, files: &Result<Vec<PathBuf>, String>) {
     match files {
         Err(why) => drop(ui.label(RichText::new(why).color(theme::bad(ui.visuals())))),
@@ -326,10 +327,10 @@ fn listed(ui: &mut Ui, files: &Result<Vec<PathBuf>, String>) {
     }
 }
 
-/// Height of what is told of the work, points: the same however much that is, so that the button below stays in its place.
+/// The height of the messages, points: the same for any number of them, so that the button below stays in its place.
 const TOLD: f32 = 220.0;
 
-/// How far it has come, and what is written; whether the dialog stays open.
+/// Draws the progress of the export and its messages; returns whether the dialog stays open.
 fn working(editor: &mut Editor, ui: &mut Ui, (job, folder): (&Job, &Path)) -> bool {
     let end = job.end();
     ui.add(ProgressBar::new(job.done()));

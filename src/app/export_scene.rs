@@ -1,4 +1,4 @@
-//! What renders show, as a scene file.
+//! Writes what renders show as a scene file with its cut.
 
 use super::export_job::Plan;
 use super::shows::Shows;
@@ -11,7 +11,7 @@ use glam::DQuat;
 use std::path::PathBuf;
 use std::sync::Arc;
 
-/// A scene and the cut that it is of.
+/// The text of a scene file and of the cut file of its stones.
 pub struct SceneOut {
     paths: [PathBuf; 2],
     scene: String,
@@ -19,19 +19,19 @@ pub struct SceneOut {
 }
 
 impl SceneOut {
-    /// Where both go.
+    /// Returns the paths of the scene file and of the cut file.
     pub fn paths(plan: &Plan) -> [PathBuf; 2] {
         ["scene", "cut"].map(|part| plan.folder.join(format!("{}-{part}.toml", plan.stem)))
     }
 
-    /// The scene of what a plan's renders show.
+    /// Makes the scene of what a plan's renders show.
     pub fn of(plan: &Plan) -> Self {
         let shot = &plan.shot;
         let paths = Self::paths(plan);
         let cut = format!("{}-cut.toml", plan.stem);
         let render = plan.aspect(Shows::Render);
         let is_turned = shot.company == [Pose::STILL] && Arc::ptr_eq(&shot.specimen, &render.turned);
-        // A stone alone has been turned itself.
+        // The specimen of a stone alone is itself turned: the scene gets the upright design in a turned pose.
         let turned = [Pose { turn: DQuat::from_rotation_z(render.turn), ..Pose::STILL }];
         let (design, poses) = match is_turned {
             true => (&plan.upright.design, &turned[..]),
@@ -57,11 +57,11 @@ impl SceneOut {
         Self { paths, scene: scene_file::write(&scene), cut: cut_file::write(design) }
     }
 
-    /// Writes both, each whole or not at all.
+    /// Writes both files, each whole or not at all.
     pub fn write(&self) -> Result<(), Failure> {
         let [scene, cut] = &self.paths;
         let folder = scene.parent();
-        // A scene farther apart than scenes may be is told before anything is written.
+        // A scene that reaches farther than scenes may is refused before anything is written.
         scene_file::parse(&self.scene, &scene.display().to_string(), folder).map_err(Failure::Input)?;
         for (path, text) in [(cut, &self.cut), (scene, &self.scene)] {
             write(path, |file| file.write_all(text.as_bytes()).map_err(|e| WriteError::io(path, e)))?;

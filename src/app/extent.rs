@@ -1,4 +1,4 @@
-//! How far a stone reaches from above: what its size is told by.
+//! How far a stone reaches from above, by which its size is stated.
 
 use crate::cut::{Cut, Design, Outline, Tiers, round_diameter};
 use crate::math::{Calipers, hull};
@@ -8,18 +8,19 @@ use glam::DVec3;
 /// How far a stone reaches from above, in the unit of its frame (half the diameter).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Extent {
-    /// The greater of its two sides.
+    /// The greater of the two sides.
     pub length: f64,
-    /// The smaller.
+    /// The smaller of the two sides.
     pub width: f64,
-    /// Whether one number, a diameter, says as much as both: as [`Outline::diameter`] has it.
+    /// Whether one number, a diameter, says as much as both sides: see [`Outline::diameter`].
     pub is_round: bool,
-    /// The unit of the design's own distances.
+    /// The unit of the design's own distances, in the unit of the frame.
     pub unit: f64,
 }
 
-/// The unit of a design's own distances, in that of its stone's frame: designs of tiers are scaled to their diameter, all
-/// others have the frame's own. `None` where the design makes no stone.
+/// Returns the unit of a design's own distances, in the unit of its stone's frame; `None` where the design makes no stone.
+///
+/// Designs of tiers are scaled to their diameter; all others use the unit of the frame.
 pub fn unit(design: &Design) -> Option<f64> {
     let Cut::Tiers(_) = design.cut else { return Some(1.0) };
     let mut facets = design.facets().ok()?;
@@ -31,8 +32,9 @@ pub fn unit(design: &Design) -> Option<f64> {
 }
 
 impl Extent {
-    /// Measures a stone, with or without facets: length and width are those of [`Outline`], and of glass the sides of its
-    /// box.
+    /// Measures a stone, with or without facets.
+    ///
+    /// Length and width are those of [`Outline`]; of glass, they are the sides of its box.
     pub fn of(specimen: &Specimen) -> Self {
         let unit = unit(&specimen.design).unwrap_or(1.0);
         let solid = specimen.solid();
@@ -68,7 +70,7 @@ mod tests {
     fn a_brilliant_of_few_girdle_facets_is_round_and_a_cube_is_not() {
         let mut design = Document::first().unwrap().work.design;
         let Cut::RoundBrilliant(first) = design.cut else { panic!() };
-        // Those of which one number is the diameter are scaled by it.
+        // A round brilliant is scaled by its diameter, however few its girdle facets.
         for (sides, is_round) in [(16, true), (96, true)] {
             design.cut = Cut::RoundBrilliant(RoundBrilliant { girdle_facets: sides, ..first });
             assert_eq!(Extent::of(&Specimen::new(design.clone()).unwrap()).is_round, is_round, "{sides}");

@@ -1,4 +1,4 @@
-//! From where all linked views look: a lean of the stone, a turn about its axis, a zoom.
+//! From where the linked views look: a lean, a turn of the stone about its axis, and a zoom.
 
 use super::framing::FramingFit;
 use crate::scene::{Film, Lean, Projection, Side, View};
@@ -6,32 +6,32 @@ use glam::DVec2;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::{FRAC_PI_2, TAU};
 
-/// How far zooming goes, in and out.
+/// The range of the zoom.
 const ZOOMS: std::ops::RangeInclusive<f64> = 0.2..=200.0;
 
-/// The lean of [`Eye::free`] where there was none before, radians.
+/// The lean that [`Eye::free`] goes to where there was none before, radians.
 const THREE_QUARTER: DVec2 = DVec2::new(-0.25, -0.55);
 
-/// Leans nearer to none than this, radians, snap to it: face up is where figures are compared.
+/// A lean smaller than this, radians, snaps to none: face up is where figures are compared.
 const SNAP: f64 = 0.012;
 
 /// From where a stone is seen.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Eye {
-    /// Whether the culet faces the eye while nothing leans.
+    /// Whether the culet faces the eye when nothing leans.
     pub from_below: bool,
-    /// Lean toward the image's right and up at rest, radians; its length is the tilt, at most π/2.
+    /// The lean toward the image's right and up at rest, radians; its length is the tilt, at most π/2.
     pub lean: DVec2,
-    /// Whether the eye leans, light and stone staying; else the stone leans under eye and light.
+    /// Whether the eye leans while light and stone stay; else the stone leans under eye and light.
     pub eye_leans: bool,
-    /// Turn of the stone about its axis, counter-clockwise from above, radians.
+    /// The turn of the stone about its axis, counter-clockwise from above, radians.
     pub turn: f64,
-    /// How much larger than fitting its pane the stone is shown.
+    /// How many times larger the stone is shown than where it fits its pane.
     pub zoom: f64,
-    /// How far the point in the pane's middle lies from the middle of what the view is fitted to, girdle radii.
+    /// The offset of the point in the pane's middle from the middle of what the view is fitted to, girdle radii.
     pub centre: DVec2,
-    /// The lean to which [`free`](Self::free) goes back.
+    /// The lean that [`free`](Self::free) goes back to.
     pub before: DVec2,
 }
 
@@ -50,7 +50,7 @@ impl Default for Eye {
 }
 
 impl Eye {
-    /// The view of the stone along parallel rays; `side` is one that the picture is made for.
+    /// Returns the view of the stone along parallel rays; `side` is given for a picture that is made for one side.
     pub fn view(&self, side: Option<Side>) -> View {
         let own = if self.from_below { Side::Culet } else { Side::Table };
         View {
@@ -62,12 +62,12 @@ impl Eye {
         }
     }
 
-    /// The tilt, radians.
+    /// Returns the tilt, radians.
     pub fn tilt(&self) -> f64 {
         self.lean.length().min(FRAC_PI_2)
     }
 
-    /// Leans by a drag over the picture, to the right and up, radians: what faces the eye follows the hand.
+    /// Leans by a drag over the picture, to the right and up, radians, so that what faces the eye follows the hand.
     pub fn drag(&mut self, side: Side, by: DVec2) {
         let toward = match (side, self.eye_leans) {
             (Side::Table, false) => by,
@@ -77,7 +77,7 @@ impl Eye {
         self.lean = (self.lean + toward).clamp_length_max(FRAC_PI_2);
     }
 
-    /// Ends a drag: what is all but upright becomes so.
+    /// Ends a drag: a stone that is all but upright becomes upright.
     pub fn settle(&mut self) {
         if self.lean.length() < SNAP {
             self.lean = DVec2::ZERO;
@@ -90,7 +90,8 @@ impl Eye {
         self.turn = (self.turn + sense * by).rem_euclid(TAU);
     }
 
-    /// Zooms by a factor around a point of the image, girdle radii from the middle of what the view is fitted to.
+    /// Zooms by a factor around a point of the image, which is in girdle radii from the middle of what the view is fitted
+    /// to.
     pub fn zoom_at(&mut self, factor: f64, at: DVec2) {
         let zoom = (self.zoom * factor).clamp(*ZOOMS.start(), *ZOOMS.end());
         self.centre = at + (self.centre - at) * (self.zoom / zoom);
@@ -121,7 +122,7 @@ impl Eye {
     /// Looks along the girdle plane, table up.
     pub fn side(&mut self) {
         self.keep();
-        // Whatever leans, the table ends at the top.
+        // Whether the eye or the stone leans, the table ends at the top.
         let up = if self.eye_leans { -FRAC_PI_2 } else { FRAC_PI_2 };
         (self.lean, self.from_below) = (DVec2::new(0.0, up), false);
         self.fit();
@@ -139,7 +140,7 @@ impl Eye {
         }
     }
 
-    /// The film of a pane of so many pixels, of what a view takes in where nothing is zoomed or moved aside.
+    /// Returns the film for a pane of `size` pixels; `fit` is what the view takes in where it is neither zoomed nor moved.
     pub fn film(&self, size: [u32; 2], fit: &FramingFit) -> Film {
         let fitting = fit.film(size);
         Film { pixel: fitting.pixel / self.zoom, centre: fitting.centre + self.centre, ..fitting }
@@ -151,7 +152,7 @@ mod tests {
     use super::*;
     use glam::DVec3;
 
-    /// Where the point nearest to the eye is seen, once dragged by a little.
+    /// Returns where the point nearest to the eye is seen after a small drag.
     fn followed(eye: Eye, side: Side, by: DVec2) -> DVec2 {
         let near = eye.view(Some(side)).basis().toward;
         let mut dragged = eye;

@@ -1,4 +1,4 @@
-//! The panel of figures: where the light comes from, by exact beams or by rays, and how that changes when the stone is tilted.
+//! The figures panel: where the light comes from, by exact beams or by rays, and how that changes when the stone is tilted.
 
 use super::editor::{Editor, ShownFigures};
 use super::figures_text::{self, FiguresSubject};
@@ -12,7 +12,7 @@ use egui::{Align, Button, Color32, Layout, Panel, Rect, RichText, ScrollArea, Se
 use egui_plot::{GridInput, GridMark, HoverPosition, Plot, PlotPoint, PlotPoints};
 use std::ops::RangeInclusive;
 
-/// A zone as a row shows it: what it is called here, its band in the scope, and what it means.
+/// The zones that rows show: the name in the panel, the band in the scope, and the meaning of each.
 pub(super) const ZONES: [(&str, &str, &str); 5] = [
     ("Red", "red", "Light from 45° to 75° above the horizon: the brightest that rooms have."),
     ("Green", "green", "Light from the horizon to 45°: walls and windows."),
@@ -21,7 +21,7 @@ pub(super) const ZONES: [(&str, &str, &str); 5] = [
     ("Leakage", "below", "Light from behind the stone: what the pavilion lets out. A dark spot or a window."),
 ];
 
-/// Draws the panel.
+/// Draws the figures panel.
 pub fn show(editor: &mut Editor, ui: &mut Ui, widths: RangeInclusive<f32>) {
     Panel::right("figures").resizable(true).default_size(280.0).size_range(widths).show(ui, |ui| {
         side_panels::head(editor, ui, PanelSide::Figures);
@@ -55,12 +55,12 @@ fn figures(editor: &mut Editor, ui: &mut Ui) {
     }
 }
 
-/// The figures of the design compared with.
+/// Returns the figures of the design compared with.
 fn other(editor: &Editor) -> Option<&ShownFigures> {
     editor.compared.as_ref().and_then(|_| editor.figures.get(&Which::Other))
 }
 
-/// How far figures have come, and their error where they are sampled.
+/// Says whether the figures are final, and their error where they are sampled.
 fn state(editor: &Editor, measured: &ShownFigures) -> String {
     let is_asked = editor.asked.figures.iter().any(|(_, ask)| *ask == measured.ask);
     let state = match is_asked && measured.grade == Grade::Fine {
@@ -89,7 +89,7 @@ fn against_tilt(editor: &mut Editor, ui: &mut Ui) {
     }
 }
 
-/// What can be copied of the figures, as entries of a menu.
+/// Draws the menu entries that copy the figures.
 fn copies(editor: &mut Editor, ui: &mut Ui) {
     let copied = |editor: &mut Editor, ui: &mut Ui, text: String| {
         ui.ctx().copy_text(text);
@@ -120,7 +120,7 @@ fn copies(editor: &mut Editor, ui: &mut Ui) {
     }
 }
 
-/// The figures as text, or as a table.
+/// Returns the figures as text, or as a table.
 fn as_text(editor: &Editor, as_table: bool) -> Option<String> {
     let measured = editor.figures.get(&Which::Present)?;
     let other = other(editor);
@@ -152,7 +152,7 @@ fn how(editor: &mut Editor, ui: &mut Ui) {
     ui.label(RichText::new(view(editor)).weak());
 }
 
-/// From where the figures are seen.
+/// Says from where the stone is seen for the figures.
 fn view(editor: &Editor) -> String {
     let tilt = editor.desk.eye.tilt().to_degrees();
     let azimuth = (editor.desk.eye.view(None).azimuth - editor.desk.eye.turn).to_degrees().rem_euclid(360.0);
@@ -168,34 +168,38 @@ fn view(editor: &Editor) -> String {
 /// One figure, as the panel shows it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct FigureLine {
-    /// What it is called, and what it means.
+    /// The name of the figure.
     pub name: &'static str,
+    /// What the figure means.
     pub meaning: &'static str,
-    /// Its part of the stone's outline, and that of the design compared with.
+    /// The figure, as a part of the stone's outline.
     pub share: f64,
+    /// The same figure of the design compared with, if any.
     pub other: Option<f64>,
-    /// How far apart both may be in one and the same stone; 0 once both are final.
+    /// How far apart `share` and `other` may be in one and the same stone; 0 once both are final.
     pub error: f64,
-    /// The zone whose colour it has, if any.
+    /// The zone whose colour the figure has, if any.
     pub band: Option<&'static str>,
-    /// Whether it stands out among the others.
+    /// Whether the figure stands out among the others.
     pub is_strong: bool,
 }
 
 impl FigureLine {
-    /// By how much the present design has more than the one compared with; `None` while that may be no more than what both
-    /// are still uncertain by.
+    /// Returns how much more the present design has than the one compared with.
+    ///
+    /// `None` while the difference may be no more than what both are still uncertain by.
     pub fn difference(&self) -> Option<f64> {
         let difference = self.share - self.other?;
         (self.error == 0.0 || difference.abs() > self.error).then_some(difference)
     }
 }
 
-/// Standard errors within which figures by rays all but always are.
+/// The number of standard errors within which figures by rays almost always lie.
 const SIGMAS: f64 = 4.0;
 
-/// How far apart two figures of the same stone may be, one or both of which are becoming finer: each may be too low by what is
-/// unresolved. Those that are final are compared as they are.
+/// Returns how far apart two figures of the same stone may be while one or both are becoming finer.
+///
+/// Each may be too low by what is unresolved. Figures that are final are compared as they are: their error is 0.
 fn error(present: &ShownFigures, other: &ShownFigures, by_area: bool) -> f64 {
     if [present, other].iter().all(|measured| measured.grade == Grade::Fine) {
         return 0.0;
@@ -206,7 +210,7 @@ fn error(present: &ShownFigures, other: &ShownFigures, by_area: bool) -> f64 {
     unresolved(present).max(unresolved(other)) + sampled
 }
 
-/// Figures of what is no zone: what each is called and means, and whether it stands out.
+/// The figures that are no zones: name, meaning, source, and whether the figure stands out.
 const TOTALS: [(&str, &str, Pick, bool); 5] = [
     (
         "Light return",
@@ -230,10 +234,10 @@ const TOTALS: [(&str, &str, Pick, bool); 5] = [
     ),
 ];
 
-/// A row that is there where glare is asked for.
+/// The name of the row that is shown where glare is included.
 const WITH_GLARE: &str = "With glare";
 
-/// All figures in the order of the panel: those of zones first.
+/// Returns all figures in the order of the panel: those of zones first.
 pub(super) fn lines(
     measured: &ShownFigures,
     other: Option<&ShownFigures>,
@@ -282,7 +286,7 @@ fn table(ui: &mut Ui, lines: &[FigureLine]) {
     }
 }
 
-/// Takes a number from what the panel shows.
+/// Reads a number from what the panel shows.
 type Pick = fn(&PanelZones) -> f64;
 
 /// What the panel shows, as shares of the outline.
@@ -291,8 +295,9 @@ pub(super) struct PanelZones {
     glare: f64,
     absorbed: f64,
     unresolved: f64,
-    /// From above the horizon, but for what the head shuts out; of light from inside, and of all.
+    /// Light from above the horizon that has been inside the stone, but for what the head shuts out.
     lit: f64,
+    /// The same, with glare.
     lit_with_glare: f64,
 }
 
@@ -349,12 +354,12 @@ fn row(ui: &mut Ui, row: &FigureLine) {
         (Some(_), None) => format!("{percent:.1} (…)"),
     };
     text(&mut right, number);
-    // Over all of the row, the words too.
+    // The explanation covers the whole row, the words too.
     let over = ui.interact(rect, response.id.with("row"), Sense::hover());
     explain(ui, over, row.meaning);
 }
 
-/// Marks at the multiples of ten in sight.
+/// Returns marks at the multiples of ten in sight.
 fn tens(input: GridInput) -> Vec<GridMark> {
     let (first, last) = (input.bounds.0 / 10.0, input.bounds.1 / 10.0);
     let tens = (first.ceil() as i32)..=(last.floor() as i32);
@@ -363,7 +368,7 @@ fn tens(input: GridInput) -> Vec<GridMark> {
     tens.map(|k| GridMark { value: 10.0 * f64::from(k), step_size: far(k) }).collect()
 }
 
-/// The zones' light against tilt, in the colours of the bars above.
+/// Plots the light of the zones against tilt, in the colours of the bars above.
 fn plot(ui: &mut Ui, (head, glare): (f64, Glare), tilts: &Tilts) {
     let scope = Scope::aset(ASET_CONE, Backing::Black).with_head(head);
     let plot = Plot::new("tilts")
@@ -392,7 +397,7 @@ fn plot(ui: &mut Ui, (head, glare): (f64, Glare), tilts: &Tilts) {
     });
 }
 
-/// The light of a band, with or without glare, whether or not the head is among the scope's bands.
+/// Returns the light of a band, with or without glare; 0 where the figures lack the band, as they may lack the head.
 pub(super) fn energy(figures: &Figures, band: usize, glare: Glare) -> f64 {
     let of = |zones: &[f64]| zones.get(band).copied().unwrap_or(0.0);
     of(&figures.transmitted) + if glare == Glare::Included { of(&figures.surface) } else { 0.0 }
@@ -409,7 +414,7 @@ mod tests {
     use crate::trace::{beam, unwatched};
     use std::sync::Arc;
 
-    /// The first stone's figures, with so much left unresolved.
+    /// Returns the figures of the first stone, with a share of the light left unresolved.
     fn measured(unresolved: f64, grade: Grade) -> ShownFigures {
         let specimen = Arc::clone(Document::first().unwrap().specimen());
         let options = beam::BeamOptions { unresolved, ..beam::BeamOptions::default() };

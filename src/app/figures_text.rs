@@ -5,19 +5,19 @@ use super::studio::Tilts;
 use crate::scene::{ASET_CONE, Backing, Glare, Scope};
 use std::fmt::Write as _;
 
-/// What figures are of, in words.
+/// What the figures describe, in words.
 pub struct FiguresSubject<'a> {
-    /// The design's name.
+    /// The name of the design.
     pub design: &'a str,
-    /// From where it is seen.
+    /// From where the design is seen.
     pub view: &'a str,
-    /// How they are counted, and whether they are final.
+    /// How the figures are counted, and whether they are final.
     pub state: &'a str,
-    /// The design that it is compared with, if any.
+    /// The name of the design compared with, if any.
     pub other: Option<&'a str>,
 }
 
-/// The figures that the panel shows, a line each under what they are of.
+/// Returns the figures that the panel shows as text: a line that says what they describe, then a line for each.
 pub fn text(about: &FiguresSubject, lines: &[FigureLine]) -> String {
     let FiguresSubject { design, view, state, other } = about;
     let mut text = format!("{design}: {view}; {state}\n");
@@ -38,7 +38,7 @@ pub fn text(about: &FiguresSubject, lines: &[FigureLine]) -> String {
     text
 }
 
-/// The same as a table, of comma-separated values as RFC 4180 has them. What is not counted one way is empty there.
+/// Returns the figures as comma-separated values (RFC 4180). A figure that is not counted one way has an empty cell there.
 pub fn csv(about: &FiguresSubject, energies: &[FigureLine], areas: &[FigureLine]) -> String {
     let mut table = String::from("design,view,figure,energy_percent,area_percent");
     if about.other.is_some() {
@@ -61,7 +61,7 @@ pub fn csv(about: &FiguresSubject, energies: &[FigureLine], areas: &[FigureLine]
     table
 }
 
-/// The figures against tilt as a table: degrees, then percent of each zone.
+/// Returns the figures against tilt as comma-separated values: degrees, then percent of each zone.
 pub fn tilts((head, glare): (f64, Glare), tilts: &Tilts) -> String {
     let scope = Scope::aset(ASET_CONE, Backing::Black).with_head(head);
     let zones = ZONES
@@ -77,7 +77,7 @@ pub fn tilts((head, glare): (f64, Glare), tilts: &Tilts) -> String {
     table
 }
 
-/// A cell, in quotes where it must be.
+/// Returns a cell of the table, in quotes where it needs them.
 fn quoted(cell: &str) -> String {
     match cell.contains([',', '"', '\n', '\r']) {
         true => format!("\"{}\"", cell.replace('"', "\"\"")),

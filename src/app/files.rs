@@ -1,4 +1,4 @@
-//! Choosing files without keeping the window waiting, and noticing what others change.
+//! Asks for files without keeping the window waiting, and notices files that others change.
 
 use super::document::Stamp;
 use crate::io::design_file::DesignFormat;
@@ -13,56 +13,56 @@ use std::time::{Duration, Instant};
 pub enum Purpose {
     /// A design to open.
     Open,
-    /// Where to save.
+    /// A file to save to.
     SaveAs,
     /// A design to compare with.
     Compare,
     /// A light or a panorama.
     Light,
-    /// A picture to hang behind the stone.
+    /// A picture for the backplate.
     Behind,
     /// A folder to export to.
     Folder,
 }
 
-/// What is asked of whoever chooses: a purpose, and a name to begin with.
+/// A question for a file.
 #[derive(Debug, Clone)]
 pub struct Question {
-    /// What for.
+    /// What the file is for.
     pub purpose: Purpose,
-    /// The name that a new file may have.
+    /// The name that is proposed for a new file.
     pub name: String,
 }
 
-/// What came of a question.
+/// The answer to a question.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Choice {
-    /// A file.
+    /// The file that was chosen.
     File(PathBuf),
-    /// Whoever was asked wants none.
+    /// The user chose no file.
     GivenUp,
-    /// Nobody was asked: the system has no dialog.
+    /// The user was not asked: the system has no dialog.
     NoDialog,
 }
 
-/// Asks a person for a file, and waits for the answer.
+/// A function that asks the user for a file and waits for the answer.
 pub type Chooser = Arc<dyn Fn(&Question) -> Choice + Send + Sync>;
 
-/// No person answers within this.
+/// A dialog that ends sooner than this has failed: no person answers so quickly.
 const AT_ONCE: Duration = Duration::from_millis(350);
 
-/// Asks by the system's own dialogs.
+/// Asks by the system's own file dialogs.
 pub fn by_dialog(question: &Question) -> Choice {
     let since = Instant::now();
     match dialog(question) {
         Some(path) => Choice::File(path),
-        // What has failed is not told apart from what was given up.
+        // The dialogs report a failure and a cancelled choice alike.
         None if since.elapsed() < AT_ONCE || !may_have_dialogs() => Choice::NoDialog,
         None => Choice::GivenUp,
     }
 }
 
-/// Whether the system may have dialogs: free desktops have them by a bus or by a program.
+/// Whether the system may have dialogs: other desktops than those of Windows and macOS have them by a bus or by a program.
 fn may_have_dialogs() -> bool {
     let folders = std::env::var_os("PATH").unwrap_or_default();
     let bus = std::env::var_os("XDG_RUNTIME_DIR").map(|folder| Path::new(&folder).join("bus"));
@@ -93,11 +93,11 @@ fn dialog(question: &Question) -> Option<PathBuf> {
     }
 }
 
-/// A question that is open.
+/// A question that waits for its answer.
 pub struct Choosing {
-    /// What for.
+    /// What the file is for.
     pub purpose: Purpose,
-    /// The number of the document that it is for.
+    /// The number of the document that the file is for.
     pub document: u64,
     answer: Receiver<Choice>,
 }
@@ -113,14 +113,14 @@ impl Choosing {
         let (sender, answer) = channel();
         let (chooser, purpose) = (Arc::clone(chooser), question.purpose);
         std::thread::spawn(move || {
-            // Nobody waits for it any more where the window is closed.
+            // Nobody waits for the answer any more where the window is closed.
             let _ = sender.send(chooser(&question));
             wake();
         });
         Self { purpose, document, answer }
     }
 
-    /// The answer, once there is one.
+    /// Returns the answer, once there is one.
     pub fn answer(&self) -> Option<Choice> {
         match self.answer.try_recv() {
             Ok(answer) => Some(answer),
@@ -139,11 +139,11 @@ struct Watched {
     has_changed: AtomicBool,
 }
 
-/// From one look at the file to the next.
+/// The time from one look at the file to the next.
 const PAUSE: Duration = Duration::from_millis(500);
 
 impl Watching {
-    /// Begins; `wake` is called when the file is another than it was.
+    /// Begins to watch; `wake` is called when the file has changed.
     pub fn begin(wake: impl Fn() + Send + 'static) -> Self {
         let watched: Arc<Watched> = Arc::default();
         let weak = Arc::downgrade(&watched);
@@ -159,7 +159,7 @@ impl Watching {
         Self(watched)
     }
 
-    /// Watches this file from now on.
+    /// Watches this file from now on; `None` watches no file.
     pub fn watch(&self, path: Option<&Path>) {
         let mut file = self.0.file.lock().unwrap_or_else(PoisonError::into_inner);
         if file.as_ref().map(|(p, _)| p.as_path()) != path {
@@ -167,14 +167,16 @@ impl Watching {
         }
     }
 
-    /// Whether the file has become another since this was last asked.
+    /// Whether the file has changed since this was last asked.
     pub fn has_changed(&self) -> bool {
         self.0.has_changed.swap(false, Ordering::Relaxed)
     }
 }
 
 impl Watched {
-    /// Whether the file is another than at the last look. The file system may take its time, in which nobody waits.
+    /// Looks at the file; returns whether it has changed since the last look.
+    ///
+    /// The lock is free meanwhile, since the file system may take its time.
     fn look(&self) -> bool {
         let lock = || self.file.lock().unwrap_or_else(PoisonError::into_inner);
         let Some((path, stamp)) = lock().clone() else { return false };
@@ -190,7 +192,7 @@ impl Watched {
     }
 }
 
-/// How files end that can be opened.
+/// Returns the endings of the files that can be opened.
 fn endings() -> Vec<&'static str> {
     DesignFormat::ALL.into_iter().map(DesignFormat::ending).chain(["gltf"]).collect()
 }

@@ -1,4 +1,4 @@
-//! The ray that is followed through the stone: which one, and the window in which it is shown.
+//! The ray that is followed through the stone, and the window that shows its path.
 
 use super::copies;
 use super::editor::Editor;
@@ -11,42 +11,42 @@ use glam::DVec2;
 /// How long a click waits to become a double click, seconds.
 const PATIENCE: f64 = 0.32;
 
-/// How large the window is first.
+/// The size of the window at first, points.
 const SIZE: Vec2 = vec2(560.0, 620.0);
 
-/// Where it is first seen, unless a view there is clicked: over the views, beside the design.
+/// Where the window opens at first, unless a view there is clicked: over the views, beside the design panel.
 const PLACE: Pos2 = pos2(372.0, 220.0);
 
 /// Which ray is followed.
 #[derive(Debug, Default)]
 pub struct Following {
-    /// Whether its window is open.
+    /// Whether the window of the light path is open.
     pub is_open: bool,
     /// The view that was clicked, and the point of its image, girdle radii.
     pub at: Option<(usize, DVec2)>,
-    /// A click that may become a double click, and when it was.
+    /// A click that may become a double click: the view, the point of its image, and the time in seconds.
     waiting: Option<(usize, DVec2, f64)>,
-    /// Whether Escape was for something else in the last frame.
+    /// Whether Escape was meant for something else in the last frame.
     waits: bool,
-    /// The view that was clicked, on the screen.
+    /// The rectangle on the screen of the view that was clicked.
     clicked: Option<Rect>,
     view: LightPath,
 }
 
 impl Following {
-    /// A point of a view was clicked.
+    /// Takes a click on a point of a view; the ray there is followed unless the click becomes a double click.
     pub fn click(&mut self, pane: usize, at: DVec2, body: Rect, ctx: &Context) {
         self.clicked = Some(body);
         self.waiting = Some((pane, at, ctx.input(|i| i.time)));
         ctx.request_repaint_after_secs(PATIENCE as f32 + 0.02);
     }
 
-    /// The click was half of a double click.
+    /// Forgets the click that waits: it was half of a double click.
     pub fn unclick(&mut self) {
         self.waiting = None;
     }
 
-    /// Where its window comes up: not over the view that was clicked.
+    /// Returns where the window opens: not over the view that was clicked.
     fn place(&self) -> Pos2 {
         let covered = self.clicked.filter(|body| body.left() <= PLACE.x);
         covered.map_or(PLACE, |body| pos2(body.right(), PLACE.y))
@@ -62,16 +62,16 @@ impl Following {
     }
 }
 
-/// Whether Escape ends something else before it closes the window: what is asked, in hand, typed or open before it.
+/// Whether Escape ends something else before it closes the window: a dialog, a drag, typing, or an open menu.
 fn comes_first(editor: &Editor, ctx: &Context) -> bool {
     let is_held = editor.profiles.iter().any(ProfileView::is_dragging);
     editor.dialog.is_some() || is_held || ctx.text_edit_focused() || Popup::is_any_open(ctx)
 }
 
-/// Draws the window, if it is open.
+/// Draws the window of the light path, if it is open.
 pub fn show(editor: &mut Editor, ctx: &Context) {
     editor.following.ripen(ctx);
-    // By now the key has ended what comes first: it counts what there was in the frame before.
+    // In this frame Escape has already ended what comes first, so the state of the frame before counts.
     let waits = comes_first(editor, ctx);
     let is_free = !std::mem::replace(&mut editor.following.waits, waits);
     if !editor.following.is_open {

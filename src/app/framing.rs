@@ -1,7 +1,7 @@
 //! How large stones are shown, and where in their panes.
 //!
 //! Views are fitted to one stone, which stays the same while a number is changed: what is edited then changes on the
-//! screen, and not the scale. Another stone is fitted when a file is opened, when someone asks for it, or when the stone
+//! screen, and not the scale. Another stone is fitted when a file is opened, when the user asks for it, or when the stone
 //! has outgrown its views.
 
 use super::extent::Extent;
@@ -10,53 +10,57 @@ use crate::trace::ray::Camera;
 use glam::{DQuat, DVec2, DVec3};
 use std::sync::Arc;
 
-/// Corners of more are not all looked at for a fit: those that lie outermost in so many directions say enough.
+/// The greatest number of corners that are all used for a fit; of more, those that lie outermost in some directions are
+/// enough.
 const MOST_POINTS: usize = 2000;
+/// The number of directions in which outermost corners are sought.
 const DIRECTIONS: u32 = 200;
 
 /// Stones whose extents agree to this part keep their scale when they are turned about their axis.
 const ROUND: f64 = 0.03;
 
-/// A stone that reaches further than this beyond what its view is fitted to at rest is shown smaller: it would reach out
-/// of the air that is left around it.
+/// A stone that reaches beyond its extents at rest by more than this part is shown smaller: it would reach out of the free
+/// space around it.
 const SLACK: f64 = 0.02;
 
-/// A stone is fitted anew once it reaches this much further than the one that views are fitted to, or only so far.
+/// A stone is fitted anew once it reaches more than this many times as far as the one that views are fitted to.
 const OUTGROWN: f64 = 1.04;
+/// A stone is fitted anew once it reaches less than this part of the one that views are fitted to.
 const SHRUNK: f64 = 0.6;
 
-/// Middles nearer to the origin than this part of the extent are at the origin but for rounding.
+/// A middle nearer to the origin than this part of the extent counts as at the origin: the rest is rounding.
 const CENTRED: f64 = 1e-9;
 
 /// What a view without zoom takes in.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FramingFit {
-    /// Half its extents across and up, girdle radii.
+    /// Half the extents across and up, girdle radii.
     pub half: DVec2,
-    /// Its middle in the image plane, girdle radii from the origin.
+    /// The middle in the image plane, girdle radii from the origin.
     pub middle: DVec2,
-    /// How far the middle of the stone lies from the origin in whatever view, girdle radii.
+    /// The distance of the stone's middle from the origin in space, which no view changes, girdle radii.
     aside: f64,
 }
 
 impl FramingFit {
-    /// Takes in all that lies so near to the origin, across and up.
+    /// Takes in everything within `reach` of the origin across and up, girdle radii.
     pub fn reaching(reach: f64) -> Self {
         Self { half: DVec2::splat(reach), middle: DVec2::ZERO, aside: 0.0 }
     }
 
-    /// The film of so many pixels that it fills.
+    /// Returns the film of `size` pixels that takes in this fit.
     pub fn film(&self, size: [u32; 2]) -> Film {
         Film { centre: self.middle, ..Film::holding(self.half, size) }
     }
 
-    /// The film that what hangs behind fills: it is the same in all views of a stone, and takes in every one of them.
+    /// Returns the film that the backplate fills: the same in all views of a stone, and large enough to take in each of
+    /// them.
     pub fn whole(&self, size: [u32; 2]) -> Film {
         let film = Film::holding(self.half, size);
         Film { pixel: film.pixel * (1.0 + self.aside / self.half.max_element()), ..film }
     }
 
-    /// How points are seen that are turned about the axis by `turn` radians.
+    /// Fits a view to points that are turned about the axis by `turn` radians.
     fn of(points: &[DVec3], turn: f64, view: &View) -> Self {
         let radius = points.iter().map(|p| p.truncate().length()).fold(0.0, f64::max);
         let turn = DQuat::from_rotation_z(turn);
@@ -80,7 +84,7 @@ impl FramingFit {
     }
 }
 
-/// The least and the greatest coordinates of points; of none, the origin.
+/// Returns the least and the greatest coordinates of points; of no points, the origin.
 fn bounds(points: impl Iterator<Item = DVec3>) -> (DVec3, DVec3) {
     points.map(|p| (p, p)).reduce(|(a, b), (p, q)| (a.min(p), b.max(q))).unwrap_or_default()
 }
@@ -90,7 +94,7 @@ fn bounds(points: impl Iterator<Item = DVec3>) -> (DVec3, DVec3) {
 pub struct Framing {
     fitted: Arc<Specimen>,
     points: Vec<DVec3>,
-    /// What was measured last, and of which stone.
+    /// The stone that was measured last, and its extent.
     measured: (Arc<Specimen>, Extent),
 }
 
@@ -108,7 +112,7 @@ impl Framing {
         }
     }
 
-    /// Fits views to a stone if it no longer fits into them, or is small in them; whether it did.
+    /// Fits views to a stone if it reaches out of them or is small in them; returns whether it did.
     pub fn settle(&mut self, specimen: &Arc<Specimen>) -> bool {
         let is_same = Arc::ptr_eq(&self.fitted, specimen);
         let reach = |specimen: &Specimen| specimen.reach;
@@ -120,12 +124,12 @@ impl Framing {
         !fits
     }
 
-    /// What a view takes in of the stone that views are fitted to, turned about its axis by `turn` radians.
+    /// Returns what a view takes in of the stone that views are fitted to, turned about its axis by `turn` radians.
     pub fn fit(&self, turn: f64, view: &View) -> FramingFit {
         FramingFit::of(&self.points, turn, view)
     }
 
-    /// How far a stone reaches from above; measured once.
+    /// Returns how far a stone reaches from above; the last measurement is kept.
     pub fn extent(&mut self, specimen: &Arc<Specimen>) -> Extent {
         if !Arc::ptr_eq(&self.measured.0, specimen) {
             self.measured = (Arc::clone(specimen), Extent::of(specimen));
@@ -134,7 +138,7 @@ impl Framing {
     }
 }
 
-/// Corners of a solid: all, or of very many those that lie outermost.
+/// Returns the corners of a solid: all, or of very many those that lie outermost.
 fn outermost(points: &[DVec3]) -> Vec<DVec3> {
     if points.len() <= MOST_POINTS {
         return points.to_vec();
@@ -144,7 +148,7 @@ fn outermost(points: &[DVec3]) -> Vec<DVec3> {
     (0..DIRECTIONS).map(direction).filter_map(farthest).collect()
 }
 
-/// One of [`DIRECTIONS`] that are spread evenly, on a spiral that turns by the golden angle.
+/// Returns one of [`DIRECTIONS`] directions that are spread evenly, on a spiral that turns by the golden angle.
 fn direction(k: u32) -> DVec3 {
     let z = 1.0 - (2.0 * f64::from(k) + 1.0) / f64::from(DIRECTIONS);
     let turn = std::f64::consts::PI * (3.0 - 5.0_f64.sqrt()) * f64::from(k);
@@ -160,7 +164,7 @@ mod tests {
     use crate::math::Plane;
     use crate::scene::Projection;
 
-    /// A stone of planes: half a prism, which lies beside the origin.
+    /// Returns a stone of planes: half a prism, which lies beside the origin.
     fn half_round(reach: f64) -> Arc<Specimen> {
         let side = |k: u32| Plane::from_slope(std::f64::consts::FRAC_PI_2, f64::from(k) * 0.3, reach);
         let mut planes: Vec<Plane> = (0..=10).map(side).collect();
@@ -171,7 +175,7 @@ mod tests {
         Arc::new(Specimen::new(Design { cut: Cut::Planes(named), ..design }).unwrap())
     }
 
-    /// The parts of a pane that a stone leaves free to the left, the right, above and below.
+    /// Returns the parts of a pane that a stone leaves free to the left, the right, above and below.
     fn air(specimen: &Specimen, film: &Film, view: &View) -> [f64; 4] {
         let camera = Camera::reaching(view, 1.0);
         let map = film.pixels_from_image(glam::DMat2::IDENTITY);

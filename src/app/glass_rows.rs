@@ -1,10 +1,10 @@
-//! The dimensions of a glass shape: a slider and a number each.
+//! Rows for the dimensions of a glass shape: a slider and a number each.
 
 use super::rows::{ANY, Row};
 use crate::cut::Glass;
 use egui::Ui;
 
-/// Draws them, and takes what is set.
+/// Draws the rows, and sets the dimensions that the user changes.
 pub fn show(glass: &mut Glass, ui: &mut Ui) {
     for (dimension, value) in glass.dimensions() {
         let mut name = dimension.key.to_owned();

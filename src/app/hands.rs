@@ -1,9 +1,9 @@
-//! What hands do, sorted before the window takes it in: a quick drag is not lost where frames are slow, and letters pressed
-//! together with Alt are not typed.
+//! Sorts the input of hands before the window handles it: a quick drag is not lost where frames are slow, and letters
+//! pressed together with Alt are not typed.
 
 use egui::{Context, Event, Modifiers, Plugin, RawInput};
 
-/// Holds back events for the frames to come.
+/// Holds events back for the frames to come.
 #[derive(Default)]
 pub struct Hands {
     later: Vec<Event>,
@@ -29,7 +29,7 @@ impl Plugin for Hands {
 }
 
 impl Hands {
-    /// Whether an event is to be taken in: the text of a letter is not while Alt is down.
+    /// Whether the window is to handle an event: it does not handle the text of a letter while Alt is down.
     fn is_meant(&mut self, event: &Event) -> bool {
         match event {
             Event::Key { modifiers, .. } | Event::ModifiersChanged(modifiers) => {
@@ -46,15 +46,17 @@ impl Hands {
     }
 }
 
-/// Whether a letter pressed with these opens a menu. On a Mac it types another letter, as it does by AltGr, which some systems
-/// tell as Ctrl and Alt.
+/// Whether a letter pressed with these modifiers opens a menu.
+///
+/// On a Mac such a letter types another one, as it does with AltGr, which some systems report as Ctrl and Alt.
 fn opens_menus(modifiers: &Modifiers) -> bool {
     modifiers.alt && !modifiers.ctrl && !cfg!(target_os = "macos")
 }
 
-/// How many events are taken in with one frame. What is under a press is looked for where the pointer is at the end of the
-/// frame, and a drag is over with its release: so a frame ends with a press that the pointer moves on from, and before a
-/// release that it has moved to.
+/// Returns how many of the events one frame handles.
+///
+/// egui looks for what is under a press where the pointer is at the end of the frame, and a drag is over with its release.
+/// So a frame ends with a press that the pointer moves on from, and before a release that the pointer has moved to.
 fn first_part(events: &[Event]) -> usize {
     let is_moved = |event: &Event| matches!(event, Event::PointerMoved(_));
     let mut has_moved = false;
@@ -93,7 +95,7 @@ mod tests {
         Event::PointerButton { pos: pos2(x, 0.0), button, pressed, modifiers }
     }
 
-    /// The events of each frame, all of which came at once.
+    /// Returns the events of each frame, where all events arrive at once.
     fn frames(events: Vec<Event>) -> Vec<Vec<Event>> {
         let (ctx, mut hands) = (Context::default(), Hands::default());
         let mut input = RawInput { events, ..RawInput::default() };

@@ -1,6 +1,6 @@
-//! What undo goes back over.
+//! The steps of undo.
 
-/// The most steps kept.
+/// The greatest number of steps that are kept.
 const MOST: usize = 500;
 
 /// The states that something has been in, and those that were undone.
@@ -12,12 +12,12 @@ pub struct History<T> {
 }
 
 impl<T: Clone + PartialEq> History<T> {
-    /// A history that begins here.
+    /// Begins a history with this state.
     pub fn new(present: T) -> Self {
         Self { past: vec![], present, future: vec![] }
     }
 
-    /// Takes a state as a step of its own if it is another than the last; whether it is.
+    /// Takes a state as a new step if it differs from the last one; returns whether it does.
     pub fn settle(&mut self, now: &T) -> bool {
         if *now == self.present {
             return false;
@@ -30,7 +30,7 @@ impl<T: Clone + PartialEq> History<T> {
         true
     }
 
-    /// The last state that was settled.
+    /// Returns the last state that was settled.
     pub fn present(&self) -> &T {
         &self.present
     }
@@ -40,19 +40,19 @@ impl<T: Clone + PartialEq> History<T> {
         !self.past.is_empty()
     }
 
-    /// Whether there is anything to do again.
+    /// Whether there is anything to redo.
     pub fn can_redo(&self) -> bool {
         !self.future.is_empty()
     }
 
-    /// Goes one step back; the state there.
+    /// Goes one step back and returns the state there; `None` where there is no such step.
     pub fn undo(&mut self) -> Option<T> {
         let before = self.past.pop()?;
         self.future.push(std::mem::replace(&mut self.present, before));
         Some(self.present.clone())
     }
 
-    /// Does a step again that was undone; the state there.
+    /// Redoes a step that was undone and returns the state there; `None` where there is no such step.
     pub fn redo(&mut self) -> Option<T> {
         let after = self.future.pop()?;
         self.past.push(std::mem::replace(&mut self.present, after));

@@ -5,16 +5,16 @@ use crate::io::rasterize_clear;
 use crate::picture;
 use egui::IconData;
 
-/// Pixels of the icon along each side: systems make smaller ones of it.
+/// The pixels of the icon along each side; systems make smaller icons of it.
 const SIDE: u32 = 256;
 
-/// The icon as a drawing in SVG.
+/// Returns the icon as a drawing in SVG.
 fn drawing() -> Option<String> {
     let first = Document::first().ok()?;
     Some(picture::icon(first.specimen().stone().ok()?).to_string())
 }
 
-/// The icon as pixels; none only where the program itself is broken.
+/// Returns the icon as pixels; `None` only where the program itself is broken.
 pub fn icon() -> Option<IconData> {
     let (width, height, rgba) = rasterize_clear(&drawing()?, SIDE).ok()?;
     Some(IconData { rgba, width, height })

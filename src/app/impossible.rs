@@ -1,21 +1,22 @@
-//! What the panel says of proportions that no stone can have: at the row that was edited, and in that row's terms.
+//! Explains proportions that no stone can have: at the row that was edited, and in that row's terms.
 
 use super::proportions::{PROPORTIONS, Proportion};
 use crate::cut::{Limit, ProportionError, RoundBrilliant, Unit};
 
-/// Halvings that find a limit: more than a number has digits.
+/// The number of halvings that find a limit: more than a number has digits.
 const HALVINGS: u32 = 80;
 
-/// What is wrong, in words, and the key of the row that it is said at.
+/// A message about a fault, and the row that shows it.
 pub struct RowMessage {
-    /// The row.
+    /// The key of the row.
     pub key: &'static str,
     /// The message.
     pub text: String,
 }
 
-/// What is wrong with proportions that make no stone. `last` are those of the last stone, `edited` is the key of the row that
-/// was edited last.
+/// Explains what is wrong with proportions that make no stone.
+///
+/// `last` are the proportions of the last stone, `edited` is the key of the row that was edited last.
 pub fn explain(
     given: &RoundBrilliant,
     last: &RoundBrilliant,
@@ -28,7 +29,7 @@ pub fn explain(
     if let Some(proportion) = at.or_else(|| PROPORTIONS.iter().find(heals)) {
         return RowMessage { key: proportion.key, text: in_its_terms(given, last, proportion, fault) };
     }
-    // No row alone makes a stone of it.
+    // No row alone, when set back, makes a stone.
     let at = edited.and_then(row).or_else(|| row(fault.key())).unwrap_or(&PROPORTIONS[0]);
     RowMessage {
         key: at.key,
@@ -36,7 +37,7 @@ pub fn explain(
     }
 }
 
-/// Whether a stone has these proportions once one of them is set to a value.
+/// Whether the proportions make a stone once one of them is set to `value`.
 fn makes_stone(given: &RoundBrilliant, proportion: &Proportion, value: f64) -> bool {
     let mut changed = *given;
     (proportion.set)(&mut changed, value);
@@ -66,7 +67,7 @@ fn in_its_terms(
     )
 }
 
-/// The value nearest to an impossible one that makes a stone, to two decimals; whole for counts.
+/// Returns the value nearest to an impossible one that makes a stone, to two decimals; a whole number for counts.
 fn limit(given: &RoundBrilliant, proportion: &Proportion, (possible, value): (f64, f64)) -> f64 {
     let far = if value.is_finite() { value } else { 1e9_f64.copysign(value - possible) };
     let (mut inside, mut outside) = (possible, far);
@@ -76,11 +77,11 @@ fn limit(given: &RoundBrilliant, proportion: &Proportion, (possible, value): (f6
     }
     let parts = if proportion.unit == Unit::Count { 1.0 } else { 100.0 };
     let rounded = if far > possible { (inside * parts).floor() } else { (inside * parts).ceil() } / parts;
-    // Between two steps there is none that makes a stone.
+    // Where the rounded value makes no stone, the exact limit is returned.
     if makes_stone(given, proportion, rounded) { rounded } else { inside }
 }
 
-/// A fault in the panel's words.
+/// Describes a fault in the panel's words.
 fn message(fault: &ProportionError) -> String {
     let key = fault.key();
     let name = PROPORTIONS.iter().find(|p| p.key == key).map_or("Total depth", |p| p.name);
@@ -93,7 +94,7 @@ fn message(fault: &ProportionError) -> String {
     }
 }
 
-/// A number with its unit, to two decimals; short, however large it is.
+/// Writes a number with its unit, to two decimals; the text is short, however large the number is.
 fn number(value: f64, unit: Unit) -> String {
     let rounded = (value * 100.0).round() / 100.0;
     if value.abs() < 1e6 { format!("{rounded}{unit}") } else { format!("{value:.1e}{unit}") }
@@ -104,7 +105,7 @@ mod tests {
     use super::*;
     use crate::cut::TOLKOWSKY;
 
-    /// A brilliant with one proportion set to a value.
+    /// Returns a brilliant with one proportion set to a value.
     fn with(key: &str, value: f64) -> RoundBrilliant {
         let mut given = TOLKOWSKY;
         (PROPORTIONS.iter().find(|p| p.key == key).unwrap().set)(&mut given, value);
@@ -123,7 +124,7 @@ mod tests {
         assert!(
             said.text.contains("it can be at most 84.") && said.text.contains("Total depth would be 1392.4")
         );
-        // The same stone, had its height been edited.
+        // The same stone, but with the height as the row that was edited.
         let said = text(&with("crown_angle", 89.0), "crown_height");
         assert!(said.key == "crown_height" && said.text.contains("Crown height: 1346.31 %"), "{}", said.text);
     }

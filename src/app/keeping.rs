@@ -1,4 +1,4 @@
-//! Opening, saving, and keeping work safe.
+//! Opens and saves designs, and keeps unsaved work safe.
 
 use super::asked_path::AskedPath;
 use super::autosave::KeptScene;
@@ -26,12 +26,12 @@ impl Editor {
         } else if self.document.is_changed() {
             self.dialog = Some(Dialog::ChangedOutside);
         } else if let Some(path) = self.document.path().map(Path::to_owned) {
-            // Nothing of one's own is lost: the new file is what is wanted.
+            // No change of the user's is lost, so the new file is read without a question.
             self.open(&path, Wanted::Again);
         }
     }
 
-    /// Forgets the design that was compared with, and what was seen of it.
+    /// Ends the comparison: forgets the design compared with, and its pictures and figures.
     pub(super) fn compare_no_more(&mut self) {
         self.compared = None;
         self.pictures.retain(|(_, which), _| *which == Which::Present);
@@ -39,7 +39,7 @@ impl Editor {
         self.figures.retain(|which, _| *which == Which::Present);
     }
 
-    /// Works on another document, under the light that was chosen.
+    /// Begins to work on another document, under the present light.
     pub(super) fn begin(&mut self, mut document: Document) {
         let work = &self.document.work;
         document.begin(&work.light, work.exposure, work.head);
@@ -48,7 +48,7 @@ impl Editor {
         self.moving.rest();
         self.desk.rest();
         self.held = None;
-        // What was seen and measured of another stone is nothing of this one's.
+        // Pictures and figures of the stone before do not belong to this one.
         let stays = |which: Which, shown: &Shown| which != Which::Present || shown.shot.shows.is_pane();
         self.pictures.retain(|(_, which), shown| stays(*which, shown));
         self.looked.retain(|(_, which), shown| stays(*which, shown));
@@ -65,7 +65,7 @@ impl Editor {
         self.take_note();
     }
 
-    /// Does something that would lose unsaved work, after a question where there is any.
+    /// Does something that would lose unsaved work, after a question where there is such work.
     pub(super) fn ask_before(&mut self, then: Then) {
         if self.dialog.as_ref().is_some_and(Dialog::insists) {
             self.notes.say("Answer what is asked first.");
@@ -78,7 +78,7 @@ impl Editor {
         }
     }
 
-    /// Does what was put off by a question.
+    /// Carries out the action that waited for the answer to a question.
     pub(super) fn then(&mut self, then: Then) {
         match then {
             Then::Open(path, mesh) => self.open_with(&path, Wanted::Anew, mesh),
@@ -88,7 +88,7 @@ impl Editor {
         }
     }
 
-    /// Begins a design from one that comes with the program.
+    /// Begins a design from a cut that comes with the program.
     pub(super) fn begin_from_library(&mut self, name: &str) {
         match Document::of_library(name) {
             Ok(document) => {
@@ -99,7 +99,7 @@ impl Editor {
         }
     }
 
-    /// Saves, and does what was put off once that is done.
+    /// Saves the design, and carries out the waiting action once that is done.
     pub(super) fn save_then(&mut self, then: Then) {
         if self.save() {
             self.ask_before(then);
@@ -108,7 +108,7 @@ impl Editor {
         }
     }
 
-    /// Asks for a file.
+    /// Asks the user for a file.
     pub(super) fn choose(&mut self, purpose: Purpose) {
         if self.choosing.is_some() {
             return self.notes.say("Answer the file dialog that is open first.");
@@ -119,7 +119,7 @@ impl Editor {
         self.choosing = Some(Choosing::ask(question, self.begun, &self.chooser, move || wake()));
     }
 
-    /// The name that a new file may have.
+    /// Returns the name that is proposed for a new file.
     fn suggested(&self) -> String {
         let own = self
             .document
@@ -131,7 +131,7 @@ impl Editor {
         )
     }
 
-    /// Asks for a path in the window.
+    /// Asks for a path in a dialog of the window's own.
     pub(super) fn ask_path(&mut self, purpose: Purpose) {
         let here = || std::env::current_dir().unwrap_or_default();
         let folder = self.document.path().and_then(Path::parent).map_or_else(here, Path::to_owned);
@@ -164,11 +164,11 @@ impl Editor {
         }
     }
 
-    /// Saves; asks where if that is not known yet. Whether it is saved.
+    /// Saves the document; asks for a file where it has none that holds designs. Returns whether it is saved.
     pub(super) fn save(&mut self) -> bool {
         match self.document.path().map(Path::to_owned) {
             Some(path) if holds_designs(&path) => self.save_as(path),
-            // A scan stays as it was: what was made of it is another file.
+            // A scan stays as it was: the design that was made of it is saved as another file.
             _ => {
                 self.choose(Purpose::SaveAs);
                 false
@@ -221,7 +221,7 @@ impl Editor {
         }
     }
 
-    /// Ends a gesture, at so many seconds: what it changed is one step.
+    /// Ends a gesture at the time `now`, seconds: what it changed becomes one step of undo.
     pub(super) fn settle(&mut self, now: f64) {
         self.desk.eye.settle();
         self.desk.panes.iter_mut().filter_map(|p| p.own.as_mut()).for_each(super::eye::Eye::settle);
@@ -232,8 +232,9 @@ impl Editor {
         }
     }
 
-    /// Keeps the work safe as it is now, and remembers what goes with the window. A design that makes no stone is not
-    /// kept in place of the last that does.
+    /// Autosaves the work as it is now, and stores its light, exposure and head in the workspace.
+    ///
+    /// A design that makes no stone does not replace the last one that does.
     pub(super) fn take_note(&mut self) {
         self.kept = self.document.work.clone();
         let Work { light, exposure, head, .. } = &self.kept;

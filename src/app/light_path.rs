@@ -1,4 +1,4 @@
-//! The way of one ray through a stone: drawn in space, told step by step.
+//! The path of one ray through a stone: drawn in space, and described step by step.
 
 mod drawing;
 mod orbit;
@@ -14,26 +14,26 @@ use crate::trace::ray::Path;
 use egui::{Align, Color32, CursorIcon, Layout, Sense, Ui, Vec2, WidgetInfo, accesskit::Role, vec2};
 use glam::DVec3;
 
-/// Least width at which the table stands beside the drawing, as a multiple of the table's own.
+/// The least width at which the table stands beside the drawing, as a multiple of the table's own width.
 const ROOM_FOR_BOTH: f32 = 1.8;
 
-/// Part of the height that the drawing takes above the table.
+/// The part of the height that the drawing takes where it is above the table.
 const UPPER_PART: f32 = 0.55;
 
-/// How the drawing is turned, for those who do not see it.
+/// How to turn the drawing, in words for those who do not see it.
 const HELP: &str = "Drag or press arrow keys to turn it, double-click or press Home to turn it back";
 
-/// Sine of the angle to the scope's axis below which light has no azimuth.
+/// The sine of the angle to the scope's axis below which light has no azimuth.
 const OVERHEAD: f64 = 1e-6;
 
-/// Shows the path of a ray; keeps from where the stone is looked at, and the step that was picked.
+/// The view of a ray's path; it keeps from where the stone is looked at, and the step that was picked.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct LightPath {
     orbit: Orbit,
     kept: Option<usize>,
 }
 
-/// A path and all that is needed to tell where its light goes.
+/// A path, and all that is needed to say where its light goes.
 struct Reading<'a> {
     body: &'a Body,
     path: &'a Path,
@@ -42,14 +42,15 @@ struct Reading<'a> {
 }
 
 impl LightPath {
-    /// Draws the path through its stone, and beside or below it a table of its steps, over all the room there is. `light`
-    /// is the frame of the scope, [`View::light_basis`](crate::scene::View::light_basis): elevations are counted from
-    /// the plane square to its axis, azimuths counter-clockwise from its `right`.
+    /// Draws the path through its stone, and beside or below it a table of its steps, over all the room there is.
+    ///
+    /// `light` is the frame of the scope, [`View::light_basis`](crate::scene::View::light_basis): elevations are counted
+    /// from the plane square to its axis, azimuths counter-clockwise from its `right`.
     pub fn show(&mut self, ui: &mut Ui, body: &Body, path: &Path, scope: &Scope, light: &Basis) {
         let reading = Reading { body, path, scope, light };
         let table = Table::new(&reading);
         let (room, width) = (ui.available_size(), table.width(ui));
-        // In a place that scrolls there may be no end of room.
+        // In a place that scrolls, the height may have no limit.
         let height = room.y.min(2.0 * room.x);
         let beside = room.x > ROOM_FOR_BOTH * width;
         let size = if beside {
@@ -85,18 +86,19 @@ impl Reading<'_> {
         &self.scope.bands[self.scope.band(direction, self.light.toward)]
     }
 
-    /// The colour of the scope where a direction points.
+    /// Returns the colour of the scope where a direction points.
     fn colour(&self, direction: DVec3) -> Color32 {
         let [r, g, b] = self.band(direction).colour;
         Color32::from_rgb(r, g, b)
     }
 
-    /// Height above the scope's plane, degrees.
+    /// Returns the height of a direction above the scope's plane, degrees.
     fn elevation(&self, direction: DVec3) -> f64 {
         elevation_deg(direction, self.light.toward)
     }
 
-    /// Counter-clockwise from the frame's right, 0 to 360 degrees; `None` along the scope's axis.
+    /// Returns the azimuth of a direction, counter-clockwise from the frame's right, 0 to 360 degrees; `None` along the
+    /// scope's axis.
     fn azimuth(&self, direction: DVec3) -> Option<f64> {
         let across = self.light.project(direction);
         let turn = across.y.atan2(across.x).to_degrees().rem_euclid(360.0);

@@ -1,4 +1,4 @@
-//! A pane of liquid glass in a view: over the background and moved by hand, drawn as screens draw it or traced.
+//! A pane of liquid glass over the background of a view: it is moved by hand, and drawn as screens draw it or traced.
 
 use super::editor::{Editor, Shown};
 use super::lookup::{LookupRequest, backdrop};
@@ -15,37 +15,37 @@ use egui::{
 use glam::{DVec2, DVec4};
 use serde::{Deserialize, Serialize};
 
-/// The least side of a pane in a view, pixels.
+/// The least side of the pane, pixels.
 const LEAST: f64 = 8.0;
 
-/// What arrow keys move a pane by, parts of the view.
+/// How far an arrow key moves the pane, in parts of the view.
 const STEP: f64 = 0.01;
 
-/// The pane, as it is kept.
+/// The settings of the pane of liquid glass, as they are kept.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Liquid {
-    /// Its middle, in parts of the view from the upper left corner.
+    /// The middle of the pane, in parts of the view from the upper left corner.
     pub at: DVec2,
-    /// Its width and height, percent of the view's.
+    /// The width and height of the pane, percent of the view's.
     pub size: DVec2,
-    /// Radius of its corners, percent of its shorter side.
+    /// The radius of the corners, percent of the pane's shorter side.
     pub corners: f64,
-    /// Strengths, 0 to 100: of the refraction,
+    /// The strength of the refraction, 0 to 100.
     pub refraction: f64,
-    /// of the depth,
+    /// The strength of the depth, 0 to 100.
     pub depth: f64,
-    /// of the dispersion,
+    /// The strength of the dispersion, 0 to 100.
     pub dispersion: f64,
-    /// of the frost,
+    /// The strength of the frost, 0 to 100.
     pub frost: f64,
-    /// of the light.
+    /// The strength of the light, 0 to 100.
     pub light: f64,
-    /// Its base colour in sRGB, and how much of that covers what is behind.
+    /// The base colour of the pane in sRGB, and how much of it covers what is behind.
     pub tint: [u8; 4],
     /// How much of the effect is drawn.
     pub quality: Quality,
-    /// How far above the background the traced pane lies, in parts of its shorter side.
+    /// How far above the background the traced pane lies, in parts of the pane's shorter side.
     pub gap: f64,
 }
 
@@ -68,7 +68,7 @@ impl Default for Liquid {
 }
 
 impl Liquid {
-    /// The pane in a picture of so many pixels: wholly within.
+    /// Returns the pane in a picture of a size in pixels; the pane lies wholly within the picture.
     pub fn pane(&self, picture: [u32; 2]) -> GlassPane {
         let whole = DVec2::from(picture.map(f64::from));
         let size = (whole * self.size / 100.0).round().clamp(DVec2::splat(LEAST).min(whole), whole);
@@ -88,14 +88,14 @@ impl Liquid {
         }
     }
 
-    /// Moves it by parts of the view, but not out of it.
+    /// Moves the pane by parts of the view, but not out of it.
     fn drag(&mut self, by: DVec2) {
         let half = (self.size / 200.0).clamp(DVec2::ZERO, DVec2::splat(0.5));
         self.at = (self.at + by).clamp(half, 1.0 - half);
     }
 }
 
-/// Draws the view, and moves the pane.
+/// Draws the view, and moves the pane by drags and arrow keys.
 pub fn show(editor: &mut Editor, ui: &mut Ui, (pane, shows): (usize, Shows), body: Rect, size: [u32; 2]) {
     let response = ui.interact(body, ui.scope_id().with("picture"), Sense::click_and_drag());
     let name = format!("{} picture", shows.name());
@@ -138,7 +138,7 @@ fn by_keys(liquid: &mut Liquid, ui: &Ui, response: &Response) {
     }
 }
 
-/// Asks for the pane as it is drawn.
+/// Requests the pane as screens draw it.
 fn ask(editor: &mut Editor, pane: usize, size: [u32; 2]) {
     let light = editor.light();
     if let Some(shot) = editor.shot(pane, Which::Present, size, &light) {

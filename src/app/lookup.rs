@@ -1,5 +1,7 @@
-//! Pictures that need no tracing: backgrounds seen through a refraction map, and liquid glass as screens draw it. They are
-//! made on a thread of their own, of the last that was asked for, so that they follow the hand while the studio traces.
+//! Makes pictures that need no tracing: backgrounds seen through a refraction map, and liquid glass as screens draw it.
+//!
+//! A thread of its own makes the last picture that was requested of each view, so that pictures follow the hand while the
+//! studio traces.
 
 use super::studio::{Grade, SPAN, Shot, Slot, TakenPicture, Wake};
 use crate::io::background::BackgroundRef;
@@ -13,31 +15,31 @@ use std::sync::mpsc::{Receiver, Sender, channel};
 use std::sync::{Arc, Condvar, Mutex, PoisonError};
 use std::thread::JoinHandle;
 
-/// What hangs behind where a picture must hang and none is chosen.
+/// The backplate where a picture needs one and none is chosen.
 const FIRST: Pattern = Pattern::Page;
 
-/// What hangs behind where a picture must hang: a pattern if nothing else was asked for.
+/// Returns the backplate of a picture that needs one: the chosen one where it is a picture, else a pattern.
 pub fn backdrop(asked: Option<&BackgroundRef>) -> BackgroundRef {
     let is_picture = |a: &&BackgroundRef| matches!(a, BackgroundRef::Pattern(_) | BackgroundRef::Photo(_));
     asked.filter(is_picture).cloned().unwrap_or(BackgroundRef::Pattern(FIRST))
 }
 
-/// What is asked for.
+/// A request for a picture.
 #[derive(Debug, Clone)]
 pub struct LookupRequest {
-    /// What the picture is of.
+    /// What the picture shows.
     pub shot: Shot,
-    /// How good the map is.
+    /// The grade of the map.
     pub grade: Grade,
-    /// The map, and how far the background has been moved to the right and down, in parts of the map's plane; none for
+    /// The map, and how far the background has been moved to the right and down, in parts of the map's plane; `None` for
     /// liquid glass.
     pub map: Option<(Arc<RefractionMap>, DVec2)>,
-    /// What hangs behind.
+    /// The backplate.
     pub behind: BackgroundRef,
 }
 
 impl PartialEq for LookupRequest {
-    /// Whether both give the same picture.
+    /// Whether both requests give the same picture.
     fn eq(&self, other: &Self) -> bool {
         let same = match (&self.map, &other.map) {
             (Some((a, by)), Some((b, other))) => Arc::ptr_eq(a, b) && by == other,
@@ -50,20 +52,20 @@ impl PartialEq for LookupRequest {
     }
 }
 
-/// A picture that was asked for; words where it could not be had.
+/// An answer: the slot, the request, and the picture or the text that says why there is none.
 pub type Looked = (Slot, Box<LookupRequest>, Result<TakenPicture, String>);
 
-/// What both threads see.
+/// What the window's thread and the worker's thread share.
 #[derive(Default)]
 struct Mailbox {
-    /// What is asked for, one of each slot, the first first.
+    /// The pending requests, one for each slot; the first is served first.
     asked: Mutex<Vec<(Slot, LookupRequest)>>,
     changed: Condvar,
     busy: AtomicBool,
     quit: AtomicBool,
 }
 
-/// A thread that looks up.
+/// The window's side of the thread that looks pictures up.
 pub struct LookupWorker {
     desk: Arc<Mailbox>,
     answers: Receiver<Looked>,
@@ -72,7 +74,7 @@ pub struct LookupWorker {
 }
 
 impl LookupWorker {
-    /// Opens it; `wake` is called whenever there is an answer.
+    /// Starts the thread; `wake` is called whenever there is an answer.
     pub fn open(wake: Wake) -> Self {
         let desk = Arc::new(Mailbox::default());
         let (sender, answers) = channel();
@@ -81,7 +83,7 @@ impl LookupWorker {
         Self { desk, answers, last: vec![], thread }
     }
 
-    /// Asks for a picture; nothing happens if it was asked for already.
+    /// Requests a picture; nothing happens where the same picture was requested last.
     pub fn ask(&mut self, slot: Slot, ask: LookupRequest) {
         if self.last.iter().any(|(at, last)| *at == slot && *last == ask) {
             return;
@@ -94,12 +96,12 @@ impl LookupWorker {
         self.desk.changed.notify_one();
     }
 
-    /// What has been answered since.
+    /// Returns the answers that have arrived since the last call.
     pub fn answers(&self) -> impl Iterator<Item = Looked> + '_ {
         self.answers.try_iter()
     }
 
-    /// Whether everything asked for has been answered.
+    /// Whether all requests have been answered.
     pub fn is_idle(&self) -> bool {
         !self.desk.busy.load(Ordering::SeqCst)
     }
@@ -108,19 +110,19 @@ impl LookupWorker {
 impl Drop for LookupWorker {
     fn drop(&mut self) {
         {
-            // Held, so that the worker is not between looking and waiting.
+            // The lock is held, so that the worker is not between looking for a request and waiting for one.
             let _asked = self.desk.asked.lock().unwrap_or_else(PoisonError::into_inner);
             self.desk.quit.store(true, Ordering::SeqCst);
             self.desk.changed.notify_one();
         }
         if let Some(thread) = self.thread.take() {
-            // A worker that panicked has said so already.
+            // A worker that panicked has reported that already.
             let _ = thread.join();
         }
     }
 }
 
-/// Puts what is asked for into the place of what was asked for before.
+/// Replaces the pending request of a slot; an older one is dropped unread.
 fn put(asked: &mut Vec<(Slot, LookupRequest)>, slot: Slot, ask: LookupRequest) {
     match asked.iter_mut().find(|(at, _)| *at == slot) {
         Some((_, last)) => *last = ask,
@@ -132,15 +134,15 @@ struct Worker {
     desk: Arc<Mailbox>,
     answers: Sender<Looked>,
     wake: Wake,
-    /// The background that was read last.
+    /// The background that was read last, in several sizes.
     behind: Option<(BackgroundRef, Levels)>,
-    /// The one that filled a picture last.
+    /// The background that filled a picture last, in the size of that picture.
     filled: Option<(BackgroundRef, Panorama)>,
 }
 
 impl Worker {
     fn work(mut self) {
-        // Threads of its own: those that the studio keeps busy would come to it last.
+        // The worker has threads of its own: those that the studio keeps busy would come to it last.
         let pool = rayon::ThreadPoolBuilder::new().thread_name(|k| format!("look-up {k}")).build().ok();
         while let Some((slot, ask)) = self.next() {
             let seen = std::panic::AssertUnwindSafe(|| match &pool {
@@ -158,7 +160,7 @@ impl Worker {
         }
     }
 
-    /// Waits for what is asked for; none when the window is closed.
+    /// Waits for a request; `None` when the window is closed.
     fn next(&self) -> Option<(Slot, LookupRequest)> {
         let mut asked = self.desk.asked.lock().unwrap_or_else(PoisonError::into_inner);
         loop {
@@ -187,7 +189,7 @@ impl Worker {
         Ok(TakenPicture { image: as_screens(&picture), unresolved: None, tracer, map: None })
     }
 
-    /// A background as it is, and halved again and again as far as was of use yet.
+    /// Returns a background in its own size, with the halved sizes that have been of use so far.
     fn levels(&mut self, asked: &BackgroundRef) -> Result<&mut Levels, String> {
         let levels = match self.behind.take().filter(|(last, _)| last == asked) {
             Some((_, levels)) => levels,
@@ -199,7 +201,7 @@ impl Worker {
         Ok(&mut self.behind.insert((asked.clone(), levels)).1)
     }
 
-    /// A background as large as a picture.
+    /// Returns a background that is as large as a picture of `size` pixels.
     fn filled(&mut self, asked: &BackgroundRef, size: [u32; 2]) -> Result<&Panorama, String> {
         let is = |(last, p): &(BackgroundRef, Panorama)| last == asked && [p.width, p.height] == size;
         let picture = match self.filled.take().filter(is) {
@@ -213,12 +215,12 @@ impl Worker {
 /// A background in several sizes.
 struct Levels {
     whole: Arc<Panorama>,
-    /// Each half as large as the one before.
+    /// The smaller sizes, each half as large as the one before.
     halved: Vec<Arc<Panorama>>,
 }
 
 impl Levels {
-    /// The one that is less than twice as fine as the plane of a map of so many pixels.
+    /// Returns the background in the size that is less than twice as fine as the plane of a map of `size` pixels.
     fn for_map(&mut self, size: [u32; 2]) -> Arc<Panorama> {
         let plane = size.map(|side| SPAN * f64::from(side));
         let finer = |p: &Panorama| (f64::from(p.width) / plane[0]).min(f64::from(p.height) / plane[1]);
@@ -234,17 +236,17 @@ impl Levels {
     }
 }
 
-/// A background through a map, moved by parts of the map's plane.
+/// Returns a background seen through a map, moved by parts of the map's plane.
 fn refracted(map: &RefractionMap, behind: &Panorama, moved: DVec2) -> Linear {
     let [width, height] = map.size.map(f64::from);
     let shape = width / height;
     let whole = DVec2::new(f64::from(behind.width), f64::from(behind.height));
-    // What of the background the plane holds: it fills the plane and is cut where it is longer.
+    // The part of the background that the plane holds: the background fills the plane and is cut where it is longer.
     let held = whole.y.min(whole.x / shape) * DVec2::new(shape, 1.0);
     refract(map, behind, -moved * held / whole)
 }
 
-/// A picture whose light is shown as it is, without exposure or tone.
+/// Returns a picture for the screen whose light is shown as it is, without exposure or tone.
 pub fn as_screens(picture: &Linear) -> ColorImage {
     let manner = Develop { bloom: None, tone: Tone::Linear, ..Develop::default() };
     let size = [picture.width as usize, picture.height as usize];

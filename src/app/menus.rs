@@ -1,4 +1,4 @@
-//! The menu bar, the line at the bottom, and the keys.
+//! The menu bar, the status line at the bottom, and the keys.
 
 use super::command::{Command, MENUS, Menu};
 use super::compare::Compared;
@@ -16,7 +16,7 @@ use egui::{
 };
 use std::path::PathBuf;
 
-/// The bar on top.
+/// Draws the menu bar.
 pub fn bar(editor: &mut Editor, ui: &mut Ui) {
     Panel::top("menus").show(ui, |ui| {
         egui::MenuBar::new().ui(ui, |ui| {
@@ -25,7 +25,7 @@ pub fn bar(editor: &mut Editor, ui: &mut Ui) {
                     ui.menu_button(menu.title, |ui| within_window(ui, |ui| entries(editor, ui, menu)));
                 let is_asked = |key| ui.input_mut(|i| i.consume_key(Modifiers::ALT, key));
                 if editor.dialog.is_none() && menu.key().is_some_and(is_asked) {
-                    // The arrow keys go on from there.
+                    // The focus lets the arrow keys go on from the opened menu.
                     shown.response.request_focus();
                     Popup::toggle_id(ui.ctx(), Popup::default_response_id(&shown.response));
                 }
@@ -39,7 +39,7 @@ pub fn bar(editor: &mut Editor, ui: &mut Ui) {
     });
 }
 
-/// What is open; shortened where the window is narrow.
+/// Draws the title of the document, shortened where the window is narrow.
 fn title(editor: &Editor, ui: &mut Ui) {
     let mark = "not saved";
     let room = if editor.document.is_changed() { 80.0 } else { 0.0 };
@@ -52,13 +52,13 @@ fn title(editor: &Editor, ui: &mut Ui) {
     }
 }
 
-/// Space that menus leave free below the bar and above the lower edge of the window, points.
+/// The space that menus leave free below the bar and above the lower edge of the window, points.
 const AROUND_MENU: f32 = 56.0;
 
-/// The contents of a menu, which scroll where the window is lower than they are.
+/// Draws the contents of a menu, which scroll where the window is lower than they are.
 fn within_window(ui: &mut Ui, contents: impl FnOnce(&mut Ui)) {
     let height = ui.ctx().content_rect().height() - AROUND_MENU;
-    // A menu of its own accord would be no higher than areas are by default.
+    // Without this, a menu would be no higher than egui's areas are by default.
     ui.set_max_height(height);
     egui::ScrollArea::vertical().max_height(height).show(ui, contents);
 }
@@ -76,7 +76,7 @@ fn entries(editor: &mut Editor, ui: &mut Ui, menu: &Menu) {
     }
 }
 
-/// Light, dark, or as the system has it.
+/// Draws the choice of the theme: light, dark, or that of the system.
 fn themes(ui: &mut Ui) {
     let ctx = ui.ctx().clone();
     let now = ctx.options(|o| o.theme_preference);
@@ -96,7 +96,7 @@ fn themes(ui: &mut Ui) {
     });
 }
 
-/// An entry of a menu that does a command.
+/// Draws a menu entry that carries out a command.
 pub fn entry(editor: &mut Editor, ui: &mut Ui, command: Command) {
     let keys = command.shortcut().map_or(String::new(), |s| ui.ctx().format_shortcut(&s));
     let button = Button::new(command.name()).shortcut_text(keys).selected(editor.is_chosen(command));
@@ -165,11 +165,11 @@ fn is_possible(editor: &Editor, command: Command) -> bool {
     }
 }
 
-/// The line at the bottom.
+/// Draws the status line at the bottom of the window.
 pub fn status(editor: &mut Editor, ui: &mut Ui) {
     Panel::bottom("status").show(ui, |ui| {
         ui.horizontal(|ui| {
-            // What it says of itself comes first, so that a long line is shortened and does not push it out.
+            // The state is laid out first, so that a long message is shortened and does not push it out.
             ui.with_layout(egui::Layout::right_to_left(Align::Center), |ui| {
                 let opening = editor.opening.last().map(Opening::message);
                 let tracing = match (editor.studio.is_idle(), editor.studio.sharpens()) {
@@ -193,7 +193,7 @@ pub fn status(editor: &mut Editor, ui: &mut Ui) {
     });
 }
 
-/// Does what keys ask for.
+/// Carries out the commands whose keys were pressed.
 pub fn keys(editor: &mut Editor, ctx: &Context) {
     if editor.dialog.is_some() {
         return;
@@ -202,7 +202,7 @@ pub fn keys(editor: &mut Editor, ctx: &Context) {
         Event::Key { key, pressed: true, modifiers, .. } => Some((*key, *modifiers)),
         _ => None,
     };
-    // One by one, in the order in which they came: several may come within one frame.
+    // Keys count one by one, in the order in which they arrived: several may arrive within one frame.
     for (key, modifiers) in ctx.input(|i| i.events.iter().filter_map(pressed).collect::<Vec<_>>()) {
         let is_meant =
             |c: &Command| c.shortcuts().any(|s| s.logical_key == key && modifiers.matches_exact(s.modifiers));
@@ -222,12 +222,12 @@ pub fn keys(editor: &mut Editor, ctx: &Context) {
     }
 }
 
-/// Whether the design compared with is to be seen in place of the present one.
+/// Whether the key is held that shows the design compared with in place of the present one.
 pub fn is_other_shown(ctx: &Context) -> bool {
     is_down(ctx, Key::C)
 }
 
-/// Whether renders are to be seen in three bands of wavelengths alone.
+/// Whether the key is held that shows renders in three bands of wavelengths alone.
 pub fn are_three_shown(ctx: &Context) -> bool {
     is_down(ctx, Key::Z)
 }
@@ -236,7 +236,7 @@ fn is_down(ctx: &Context, key: Key) -> bool {
     !ctx.text_edit_focused() && ctx.input(|i| i.key_down(key) && i.modifiers.is_none())
 }
 
-/// Does a command.
+/// Carries out a command.
 pub fn does(editor: &mut Editor, command: Command, ctx: &Context) {
     editor.looks.settle();
     let desk = &mut editor.desk;
@@ -293,7 +293,7 @@ pub fn does(editor: &mut Editor, command: Command, ctx: &Context) {
         }
         Command::ResetLayout => {
             desk.reset_layout();
-            // Panels are as wide as a hand has made them until that is forgotten.
+            // Panels keep the widths that the user gave them until egui forgets these.
             ctx.data_mut(|data| data.remove_by_type::<PanelState>());
         }
         Command::LayOut => editor.lay_out(editor.document.work.company.poses.len()),
@@ -303,7 +303,7 @@ pub fn does(editor: &mut Editor, command: Command, ctx: &Context) {
     }
 }
 
-/// Looks from another side at the stone as it is now, of which all is shown.
+/// Looks at the present stone from another side, and shows the whole stone.
 fn look(editor: &mut Editor, command: Command) {
     editor.framing.renew(editor.document.specimen());
     let eye = eye(editor);
@@ -316,7 +316,7 @@ fn look(editor: &mut Editor, command: Command) {
     }
 }
 
-/// The eye of the view that keys are for.
+/// Returns the eye of the view that keys act on.
 fn eye(editor: &mut Editor) -> &mut super::eye::Eye {
     let pane = editor.active();
     editor.desk.eye_mut(pane)

@@ -1,4 +1,4 @@
-//! How the mesh that is open is read: whether as flat facets, and which way its table faces.
+//! Rows that set how the open mesh is read: whether as flat facets, and which way its table faces.
 
 use super::editor::Editor;
 use super::opening::Wanted;
@@ -13,7 +13,7 @@ use std::path::PathBuf;
 const MEANING: &str = "Which direction of the mesh's own frame the table faces. The mesh is read anew, and the views show at \
     once what comes of it.";
 
-/// What can be chosen.
+/// The directions that can be chosen.
 const DIRECTIONS: [(&str, Up); 7] = [
     ("As found", Up::Found),
     ("+x", Up::Given(DVec3::X)),
@@ -24,13 +24,13 @@ const DIRECTIONS: [(&str, Up); 7] = [
     ("−z", Up::Given(DVec3::NEG_Z)),
 ];
 
-/// What the triangles of a mesh can be read as.
+/// The forms that the triangles of a mesh can be read as: name, form and meaning.
 const FORMS: [(&str, MeshForm, &str); 2] = [
     ("Facets", MeshForm::Faceted, "The convex stone between flat facets, as a cutter makes it."),
     ("Triangles", MeshForm::Triangles, "The mesh as it is, traced by rays."),
 ];
 
-/// Draws the rows, for a design that was read from a mesh, and reads the mesh anew where something else is chosen.
+/// Draws the rows for a design that was read from a mesh; another choice reads the mesh anew.
 pub fn show(editor: &mut Editor, ui: &mut Ui) {
     form(editor, ui);
     let Some((path, options)) = mesh(editor) else { return };
@@ -52,14 +52,15 @@ pub fn show(editor: &mut Editor, ui: &mut Ui) {
     }
 }
 
-/// The mesh that the stone was read from, and how it was read, or is being read since the last choice: the next choice adds
-/// to that one.
+/// Returns the mesh that the stone was read from, and how it was read.
+///
+/// While the mesh is being read anew, these are the options of the last choice, so that the next choice adds to it.
 fn mesh(editor: &Editor) -> Option<(PathBuf, MeshOptions)> {
     let path = editor.document.work.mesh.as_ref()?.path.clone();
     Some((path, editor.mesh_options()?))
 }
 
-/// The row of forms; that which was chosen is marked, or that which the design has where nobody chose.
+/// Draws the row of forms; the chosen form is marked, or the form of the design where none was chosen.
 fn form(editor: &mut Editor, ui: &mut Ui) {
     let Some((path, options)) = mesh(editor) else { return };
     let found = match editor.document.work.design.cut {

@@ -1,4 +1,4 @@
-//! Floor 6: the editor, a window in which a stone is cut and its light is watched.
+//! Floor 7: the editor, a window in which a stone is cut and its light is watched.
 
 mod about;
 mod asked_path;

@@ -1,33 +1,33 @@
-//! Modes of a view: what makes its picture another than the plain one. Each is named in the view's head, with a click that
+//! Modes of a view: what makes its picture differ from the plain one. The head of the view names each mode; a click there
 //! ends it.
 
 use super::editor::Editor;
 use super::shows::Shows;
 use egui::{Button, RichText, TextStyle, Ui};
 
-/// Something that is switched on in a view.
+/// A mode that is on in a view.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Mode {
-    /// It has an eye of its own.
+    /// The view has an eye of its own.
     Unlinked,
-    /// It is seen from nearby.
+    /// The stone is seen from nearby.
     Perspective,
     /// The eye tilts over a still stone.
     EyeTilts,
-    /// Something is drawn over the picture; its name.
+    /// Something is drawn over the picture; holds the name of the overlay.
     Overlay(String),
     /// A scope shows the strongest exit of each point alone.
     Strongest,
-    /// The observer's head shuts out light; its half angle, degrees.
+    /// The observer's head shuts out light; holds its half angle, degrees.
     Head(f64),
     /// Scopes hold the light that the outer surface reflects.
     Glare,
-    /// Refraction is followed part of the way, 0 to 1: no physics.
+    /// Refraction is followed part of the way, 0 to 1, which is not physics.
     Strength(f64),
 }
 
 impl Mode {
-    /// Those that are on in a view.
+    /// Returns the modes that are on in a view.
     pub fn of(editor: &Editor, pane: usize) -> Vec<Self> {
         let desk = &editor.desk;
         let shows = desk.panes[pane].shows;
@@ -55,7 +55,7 @@ impl Mode {
         .collect()
     }
 
-    /// What it is called, in a word or two.
+    /// Returns the name of the mode, in a word or two.
     pub fn name(&self) -> String {
         match self {
             Self::Unlinked => "unlinked".to_owned(),
@@ -69,7 +69,7 @@ impl Mode {
         }
     }
 
-    /// What it does to the picture, in a sentence.
+    /// Describes in a sentence what the mode does to the picture.
     fn meaning(&self) -> &'static str {
         match self {
             Self::Unlinked => "This view has a tilt and a zoom of its own.",
@@ -85,7 +85,7 @@ impl Mode {
         }
     }
 
-    /// Switches it off.
+    /// Switches the mode off.
     pub fn end(&self, editor: &mut Editor, pane: usize) {
         let desk = &mut editor.desk;
         match self {
@@ -101,7 +101,7 @@ impl Mode {
     }
 }
 
-/// Names the modes of a view, in a row; those that `width` points have no room for are in a menu at its end.
+/// Draws the names of a view's modes in a row; a menu at its end holds those that `width` points have no room for.
 pub fn show(editor: &mut Editor, ui: &mut Ui, pane: usize, width: f32) {
     let modes = Mode::of(editor, pane);
     let names: Vec<String> = modes.iter().map(|mode| format!("{} ×", mode.name())).collect();
@@ -136,13 +136,13 @@ pub fn show(editor: &mut Editor, ui: &mut Ui, pane: usize, width: f32) {
     }
 }
 
-/// The room that modes of a view need at least, points: that of the menu which holds them, 0 where none is on.
+/// Returns the least width that the modes of a view need, points: that of the menu that holds them, or 0 where none is on.
 pub fn least_width(editor: &Editor, ui: &Ui, pane: usize) -> f32 {
     let count = Mode::of(editor, pane).len();
     if count == 0 { 0.0 } else { button_width(ui, &rest_label(count)) + ui.spacing().item_spacing.x }
 }
 
-/// What the menu of modes is called that have no room.
+/// Returns the name of the menu that holds the modes without room.
 fn rest_label(count: usize) -> String {
     format!("+{count}")
 }
@@ -158,7 +158,7 @@ fn button_width(ui: &Ui, text: &str) -> f32 {
     text + 2.0 * ui.spacing().button_padding.x
 }
 
-/// How many of these widths fit into another, from the first on.
+/// Returns how many of these widths, from the first on, fit into `width`.
 fn fitting(widths: &[f32], width: f32) -> usize {
     let ends = widths.iter().scan(0.0, |end, width| {
         *end += width;

@@ -6,27 +6,28 @@ use egui::Context;
 use glam::DQuat;
 use std::sync::Arc;
 
-/// The longest step that time takes from one frame to the next, seconds: after a pause it goes on where it was.
+/// The longest step of time from one frame to the next, seconds: after a pause, motion goes on where it was.
 const LONGEST: f32 = 0.1;
 
 /// How fast a wave runs, radians a second.
 const WAVING: f64 = 2.0;
 
-/// Time as renders have it.
+/// The time that renders show.
 #[derive(Default)]
 pub struct Moving {
-    /// Whether it goes on.
+    /// Whether time goes on.
     pub is_on: bool,
-    /// Since rest.
+    /// The time since rest, seconds.
     pub seconds: f64,
-    /// Plates as they are now: what they are at rest, when, and what they have become.
+    /// Plates that wave: each plate at rest, the time in seconds, and the plate as it is at that time.
     waved: Vec<(Arc<Specimen>, f64, Arc<Specimen>)>,
 }
 
-/// Plates kept: the present one and that it is compared with.
+/// The number of plates that are kept: the present one, and the one that it is compared with.
 const PLATES: usize = 2;
 
-/// By how much time goes on with a frame of the window, which another frame follows, seconds; none while the window is hidden.
+/// Returns by how much time goes on with a frame of the window, seconds, and requests another frame; 0 while the window is
+/// hidden.
 pub fn step(ctx: &Context) -> f64 {
     let is_hidden =
         ctx.input(|i| i.viewport().minimized == Some(true) || i.viewport().occluded == Some(true));
@@ -38,30 +39,31 @@ pub fn step(ctx: &Context) -> f64 {
 }
 
 impl Moving {
-    /// Time that stands so long after rest.
+    /// Returns a time that stands `seconds` after rest.
     #[cfg(test)]
     pub fn at(seconds: f64) -> Self {
         Self { seconds, ..Self::default() }
     }
 
-    /// Lets time go on with the window's frames.
+    /// Advances time by one frame of the window, if time goes on.
     pub fn advance(&mut self, ctx: &Context) {
         if self.is_on {
             self.seconds += step(ctx);
         }
     }
 
-    /// Goes back to rest.
+    /// Stops time and goes back to rest.
     pub fn rest(&mut self) {
         (self.is_on, self.seconds) = (false, 0.0);
     }
 
-    /// Whether a body tumbles now.
+    /// Whether the stone tumbles now.
     pub fn tumbles(&self, specimen: &Specimen) -> bool {
         self.seconds > 0.0 && !waves(specimen)
     }
 
-    /// The body now, and where its copies are, all of them turned about the middle's axis, radians.
+    /// Returns the stone as it is now, and the poses of its copies, all of them turned about the axis through the middle by
+    /// `turn`, radians.
     pub fn now(
         &mut self,
         specimen: &Arc<Specimen>,
@@ -77,7 +79,7 @@ impl Moving {
         (specimen, poses)
     }
 
-    /// The plate as its wave is now.
+    /// Returns the plate with its wave as it is now.
     fn waved(&mut self, specimen: &Arc<Specimen>) -> Arc<Specimen> {
         if let Some((.., now)) =
             self.waved.iter().find(|(of, at, _)| Arc::ptr_eq(of, specimen) && *at == self.seconds)
@@ -88,7 +90,7 @@ impl Moving {
         if let Cut::Glass(Glass::Plate(plate)) = &mut design.cut {
             plate.phase = (plate.phase + (WAVING * self.seconds).to_degrees()).rem_euclid(360.0);
         }
-        // What makes a plate at rest makes one in any phase.
+        // A plate that can be made at rest can be made in any phase.
         let now = specimen.remade(design).map_or_else(|_| Arc::clone(specimen), Arc::new);
         if self.waved.len() == PLATES {
             self.waved.remove(0);
@@ -98,7 +100,7 @@ impl Moving {
     }
 }
 
-/// Whether it waves in time, and so does not tumble.
+/// Whether the stone waves in time, and so does not tumble.
 fn waves(specimen: &Specimen) -> bool {
     matches!(specimen.design.cut, Cut::Glass(Glass::Plate(plate)) if plate.amplitude > 0.0)
 }

@@ -1,44 +1,44 @@
-//! What the window has to say: what went wrong, what deserves attention, and what is done.
+//! The messages of the window: errors, warnings, and notes on what is done.
 
-/// What is said, and how grave it is.
+/// An error or a warning.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Problem {
-    /// In words that say what happened and what to do.
+    /// The text, which says what happened and what to do.
     pub text: String,
-    /// Whether it is an error, by which something was not done.
+    /// Whether this is an error: something was not done.
     pub is_error: bool,
 }
 
-/// The last things said.
+/// The last messages.
 #[derive(Debug, Default)]
 pub struct Notes {
     said: Option<String>,
     troubles: Vec<Problem>,
-    /// Whether all troubles are listed, and not the last alone.
+    /// Whether all errors and warnings are listed, and not the last alone.
     pub is_open: bool,
 }
 
-/// The most troubles kept.
+/// The greatest number of errors and warnings that are kept.
 const MOST: usize = 50;
 
 impl Notes {
-    /// Says something that asks for nothing.
+    /// Shows a note that needs no answer.
     pub fn say(&mut self, what: &str) {
         self.said = Some(what.to_owned());
     }
 
-    /// Says what went wrong; it stays until it is dismissed.
+    /// Reports an error; it stays until it is dismissed.
     pub fn trouble(&mut self, what: String) {
         self.add(what, true);
     }
 
-    /// Says what is done, though not as may have been meant; it stays until it is dismissed.
+    /// Warns that something is done, but perhaps not as it was meant; the warning stays until it is dismissed.
     pub fn warn(&mut self, what: String) {
         self.add(what, false);
     }
 
     fn add(&mut self, text: String, is_error: bool) {
-        // What is said again is the last again.
+        // A message that is repeated becomes the last one.
         self.troubles.retain(|trouble| trouble.text != text);
         self.troubles.push(Problem { text, is_error });
         if self.troubles.len() > MOST {
@@ -46,17 +46,17 @@ impl Notes {
         }
     }
 
-    /// The last thing said.
+    /// Returns the last note.
     pub fn said(&self) -> Option<&str> {
         self.said.as_deref()
     }
 
-    /// What went wrong and what deserves attention, the oldest first.
+    /// Returns the errors and warnings, the oldest first.
     pub fn troubles(&self) -> &[Problem] {
         &self.troubles
     }
 
-    /// Forgets one of the troubles.
+    /// Removes one of the errors and warnings.
     pub fn dismiss(&mut self, which: usize) {
         if which < self.troubles.len() {
             self.troubles.remove(which);
@@ -64,7 +64,7 @@ impl Notes {
         self.is_open &= !self.troubles.is_empty();
     }
 
-    /// Forgets all.
+    /// Removes all messages.
     pub fn clear(&mut self) {
         *self = Self::default();
     }

@@ -1,4 +1,5 @@
-//! Files on their way in: read and built aside, so that the window stays quick whatever their size.
+//! Files that are being opened: each is read and built on a thread of its own, so that the window stays quick whatever
+//! their size.
 
 use super::compare::Compared;
 use super::dialogs::{Dialog, Then};
@@ -13,39 +14,39 @@ use std::sync::mpsc::{Receiver, channel};
 /// What a file is opened for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Wanted {
-    /// To be worked on.
+    /// To work on the file.
     Anew,
-    /// The file that is open already, without moving any view.
+    /// To read the open file again, without moving any view.
     Again,
-    /// To be compared with.
+    /// To compare with the file.
     Beside,
-    /// The mesh that is open already, read in another way.
+    /// To read the open mesh in another way.
     Otherwise,
 }
 
-/// What is said of a mesh whose table may face another way.
+/// The note about a mesh whose table may face another way.
 const DOUBTFUL: &str = "The shape of this mesh leaves a doubt which way its table faces: choose it in the panel Design, by \
     Table faces.";
 
-/// A file on its way in.
+/// A file that is being opened.
 pub struct Opening {
     wanted: Wanted,
     path: PathBuf,
-    /// How it is read where it is a mesh.
+    /// How the file is read where it is a mesh.
     mesh: MeshOptions,
-    /// The work as it was when the file was asked for.
+    /// The work as it was when the file was requested.
     work: Work,
     answer: Receiver<Result<Came, String>>,
 }
 
-/// What was in a file.
+/// The content of a file.
 enum Came {
     Design(Box<Document>),
     Scene(Box<Preset>),
 }
 
 impl Came {
-    /// Reads a file; scenes are taken only to be worked on.
+    /// Reads a file; a scene is only read as one to be worked on.
     fn of(path: &Path, wanted: Wanted, mesh: MeshOptions) -> Result<Self, String> {
         match wanted == Wanted::Anew && is_scene(path) {
             true => Preset::read(path).map(Box::new).map(Self::Scene),
@@ -55,44 +56,44 @@ impl Came {
 }
 
 impl Opening {
-    /// Whether what is worked on stays.
+    /// Whether the file is opened beside the present document, which stays.
     pub fn is_beside(&self) -> bool {
         self.wanted == Wanted::Beside
     }
 
-    /// What is under way, in words.
+    /// Says which file is being opened.
     pub fn message(&self) -> String {
         format!("opening {}…", self.path.file_name().unwrap_or_default().to_string_lossy())
     }
 }
 
-/// Whether a file is a scene; what has another ending is not looked into.
+/// Whether a file is a scene; only a file that ends in .toml is looked into.
 fn is_scene(path: &Path) -> bool {
     path.extension().is_some_and(|e| e.eq_ignore_ascii_case("toml")) && scene_file::is_scene(path)
 }
 
 impl Editor {
-    /// Opens a file; one that is still on its way for the same purpose is forgotten.
+    /// Opens a file; another that is still being read for the same purpose is dropped.
     pub(super) fn open(&mut self, path: &Path, wanted: Wanted) {
-        // A mesh that has changed is read as it was; a design that was made of it and saved elsewhere is none.
+        // A mesh that has changed is read as before; a design that was made of it and saved elsewhere is not a mesh.
         let is_mesh = self.document.work.mesh.as_ref().is_some_and(|mesh| mesh.path == path);
         let again = self.mesh_options().filter(|_| wanted == Wanted::Again && is_mesh);
         self.open_with(path, wanted, again.unwrap_or_default());
     }
 
-    /// How the mesh that is open was read, or how it is being read anew; `None` where the stone was read from no mesh.
+    /// Returns how the open mesh was read, or how it is being read anew; `None` where the stone was read from no mesh.
     pub(super) fn mesh_options(&self) -> Option<MeshOptions> {
         let mesh = self.document.work.mesh.as_ref()?;
         let is_pending = |o: &&Opening| o.wanted == Wanted::Otherwise && o.path == mesh.path;
         Some(self.opening.iter().find(is_pending).map_or(mesh.options, |opening| opening.mesh))
     }
 
-    /// Opens a file as [`open`](Self::open) does; the options are those of meshes.
+    /// Opens a file as [`open`](Self::open) does; the options count where it is a mesh.
     pub(super) fn open_with(&mut self, path: &Path, wanted: Wanted, mesh: MeshOptions) {
         let (sender, answer) = channel();
         let (name, wake) = (path.to_owned(), self.studio.wake());
         std::thread::spawn(move || {
-            // Nobody waits for it any more where another was chosen.
+            // Nobody waits for the answer any more where another file was chosen.
             let _ = sender.send(Came::of(&name, wanted, mesh));
             wake();
         });
@@ -102,7 +103,7 @@ impl Editor {
         self.opening.push(opening);
     }
 
-    /// Takes in the files that have come.
+    /// Takes in the files that have been read.
     pub(super) fn take_in_files(&mut self) {
         for opening in std::mem::take(&mut self.opening) {
             match opening.answer.try_recv() {
@@ -117,7 +118,7 @@ impl Editor {
     }
 
     fn opened(&mut self, opening: &Opening, came: Came) {
-        // What was changed while the file was on its way is nothing that anyone has given up.
+        // The user has not given up what was changed while the file was being read.
         let is_later = self.document.work != opening.work;
         match (opening.wanted, came) {
             (Wanted::Anew, _) if is_later => {
@@ -182,7 +183,7 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let path = scan(folder.path());
         let mut bench = Bench::with(Setup { file: Some(path), mesh: UP, ..Setup::default() });
-        // Something is changed before the file has come.
+        // The design is changed before the file has been read.
         bench.harness.state_mut().document.work.design.name = "mine".to_owned();
         bench.wait(|editor| editor.dialog.is_some());
         assert!(matches!(&bench.editor().dialog, Some(Dialog::Unsaved(Then::Open(_, mesh))) if *mesh == UP));

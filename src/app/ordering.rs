@@ -1,4 +1,4 @@
-//! What is asked of the studio: all that is in sight.
+//! Orders pictures and figures of all that is in sight from the studio.
 
 use super::editor::Editor;
 use super::framing::FramingFit;
@@ -9,9 +9,9 @@ use crate::scene::{Copies, Pose, Side, Specimen, View};
 use std::sync::Arc;
 
 impl Editor {
-    /// Asks the studio for all that is in sight.
+    /// Orders from the studio all that is in sight.
     pub(super) fn order(&mut self, seen: &[(usize, [u32; 2])]) {
-        // What is about to go is not worth the work, which the file on its way needs.
+        // What is in sight is about to go: the file that is being opened needs the processor more.
         if self.opening.iter().any(|opening| !opening.is_beside()) {
             return self.studio.order(Order::default());
         }
@@ -21,7 +21,7 @@ impl Editor {
         let sides = if compared { vec![Which::Present, Which::Other] } else { vec![Which::Present] };
         for which in sides {
             for &(pane, size) in seen {
-                // Looked up, and not traced.
+                // Liquid glass is looked up, and not traced.
                 let is_drawn = self.desk.panes[pane].shows == Shows::LiquidGlass;
                 if let Some(shot) = self.shot(pane, which, size, &light).filter(|_| !is_drawn) {
                     order.shots.push(((pane, which), shot));
@@ -41,7 +41,7 @@ impl Editor {
         self.studio.order(order);
     }
 
-    /// Bands of wavelengths of renders; three while they are compared with what three show.
+    /// Returns the number of bands of wavelengths of renders: three while they are compared with what three bands show.
     fn bands(&self) -> u32 {
         if self.shows_three { 3 } else { self.desk.wavelengths }
     }
@@ -68,7 +68,7 @@ impl Editor {
         let eye = *self.desk.eye(pane);
         let view = self.desk.view(pane);
         let fit = self.fit(shows, (eye.turn, &view));
-        // A diagram has its own index, from which the stone's turn would only take away.
+        // A diagram has an index of its own, so it does not follow the stone's turn.
         let turn = if shows == Shows::Diagram { 0.0 } else { eye.turn };
         let specimen = self.specimen(which, turn)?;
         if shows == Shows::Diagram && specimen.stone().is_err() {
@@ -104,7 +104,7 @@ impl Editor {
         })
     }
 
-    /// What a render shows: the body, and where its copies are.
+    /// Returns what a render shows: the stone, and the poses of its copies.
     fn company(&mut self, which: Which, turn: f64) -> Option<(Arc<Specimen>, Vec<Pose>)> {
         let company = &self.document.work.company;
         if *company == Copies::default() && self.moving.seconds == 0.0 {
@@ -117,7 +117,8 @@ impl Editor {
         Some(self.moving.now(specimen, company, turn))
     }
 
-    /// What a view takes in, whose stone is turned about its axis: the stone that views are fitted to, or all copies.
+    /// Returns what a view takes in whose stone is turned by `turn`, radians: the stone that views are fitted to, or all
+    /// copies.
     pub(super) fn fit(&self, shows: Shows, (turn, view): (f64, &View)) -> FramingFit {
         let is_alone = self.document.work.company == Copies::default();
         match shows.has_company() && !(is_alone && self.moving.seconds == 0.0) {
@@ -126,7 +127,9 @@ impl Editor {
         }
     }
 
-    /// How far a view's picture reaches from its middle. Both designs are shown on one scale, that of the present one.
+    /// Returns how far a view's picture reaches from its middle, girdle radii.
+    ///
+    /// Both designs are shown on one scale, that of the present design.
     pub(super) fn reach(&self, shows: Shows) -> f64 {
         let Specimen { reach, radius, .. } = **self.document.specimen();
         if !shows.has_company() {
@@ -134,7 +137,7 @@ impl Editor {
         }
         let company = &self.document.work.company;
         match self.moving.tumbles(self.document.specimen()) {
-            // What tumbles shows all its sides.
+            // A stone that tumbles shows all its sides.
             true => company
                 .poses
                 .iter()
@@ -144,12 +147,12 @@ impl Editor {
         }
     }
 
-    /// How far behind the middle pictures hang, girdle radii.
+    /// Returns how far behind the middle the backplate hangs, girdle radii.
     fn distance(&self) -> f64 {
         self.desk.behind_mm.map_or(BEHIND, |mm| mm / self.document.specimen().unit_mm())
     }
 
-    /// What a render shows that is seen so, at a turn.
+    /// Returns what a render shows in a view, with the stone turned by `turn`, radians.
     pub(super) fn render_shot(&mut self, view: View, turn: f64) -> Shot {
         let light = self.light();
         let (specimen, company) =

@@ -1,4 +1,4 @@
-//! One view: what it shows, and what a hand does to it.
+//! One view: what it shows, and what pointer and keys do to it.
 
 use super::copies;
 use super::editor::{Editor, Shown};
@@ -18,26 +18,27 @@ use egui::{
 use glam::{DMat2, DVec2, DVec3};
 use std::sync::Arc;
 
-/// Height of the row over a picture, points.
+/// The height of the row over a picture, points.
 const HEAD: f32 = 28.0;
 
-/// Widths of the choice of what a view shows, where the view is narrow and where it is not, points.
+/// The width of the choice of what a view shows, where the view is narrow, points.
 const LEAST_CHOICE: f32 = 64.0;
+/// The width of that choice where the view is not narrow, points.
 const CHOICE: f32 = 120.0;
 
-/// Room for the button at the end of that row, points.
+/// The room for the button at the end of the row over a picture, points.
 const ENLARGE: f32 = 76.0;
 
-/// A step of the arrow keys, radians, and with Shift.
+/// How far an arrow key tilts the stone, alone and with Shift, radians.
 const STEP: (f64, f64) = (0.017_453_292_519_943_295, 0.087_266_462_599_716_48);
 
-/// How far Alt and an arrow move the picture, girdle radii of a stone that fits its view.
+/// How far Alt and an arrow key move the picture, girdle radii of a stone that fits its view.
 const ASIDE: f64 = 0.1;
 
-/// Zoom for a point of the wheel.
+/// The logarithm of the zoom for each point that the wheel scrolls by.
 const WHEEL: f64 = 0.004;
 
-/// Draws a view; the size of its picture in pixels.
+/// Draws a view; returns the size of its picture in pixels.
 pub fn show(editor: &mut Editor, ui: &mut Ui, pane: usize, rect: Rect) -> [u32; 2] {
     let (head, body) = rect.split_top_bottom_at_y(rect.top() + HEAD);
     let mut top =
@@ -114,12 +115,12 @@ fn header(editor: &mut Editor, ui: &mut Ui, pane: usize) {
     });
 }
 
-/// Whether so many points are left in a row.
+/// Whether a row has more than so many points left.
 pub fn has_room(ui: &Ui, points: f32) -> bool {
     ui.available_width() > points
 }
 
-/// How good the picture is, in a word or two.
+/// Draws how good the picture is, in a word or two.
 fn state(editor: &Editor, ui: &mut Ui, pane: usize) {
     let Some(shown) = editor.shown((pane, Which::Present)) else { return };
     let Shown { grade, taken, shot, .. } = shown;
@@ -139,7 +140,7 @@ fn state(editor: &Editor, ui: &mut Ui, pane: usize) {
     ui.label(RichText::new(text).weak().small()).on_hover_text(format!("By {}. {meaning}", taken.tracer));
 }
 
-/// What a picture in a scope shows of the light where no mode says so, in two words and in a sentence.
+/// Returns what a picture in a scope shows of the light where no mode says so, in two words and in a sentence.
 fn reading(shot: &Shot) -> Option<(&'static str, &'static str)> {
     shot.shows.scoped()?;
     (!shot.strongest && shot.glare == Glare::LeftOut).then_some((
@@ -148,7 +149,7 @@ fn reading(shot: &Shot) -> Option<(&'static str, &'static str)> {
     ))
 }
 
-/// Says that the design makes no stone, and that the view shows the last one that did.
+/// Draws a note that the design makes no stone, and that the view shows the last one that it made.
 fn last_possible(editor: &Editor, ui: &mut Ui) {
     let why = editor.document.fault().map(ToString::to_string).unwrap_or_default();
     let text = RichText::new("last possible stone").color(theme::bad(ui.visuals())).small();
@@ -204,7 +205,7 @@ fn drawing(editor: &mut Editor, ui: &mut Ui, pane: usize, body: Rect) {
     }
 }
 
-/// What stands in the place of a drawing that only convex stones have.
+/// Draws a text in the place of a drawing that only convex stones have.
 fn absent(ui: &Ui, body: Rect, what: &str) {
     ui.painter().rect_filled(body, 4.0, ui.visuals().extreme_bg_color);
     let text = format!("{what} is drawn of convex stones between planes only.");
@@ -223,7 +224,7 @@ fn image(ui: &Ui, shown: &Shown, rect: Rect) {
     ui.painter().image(shown.texture.id(), rect, uv, Color32::WHITE);
 }
 
-/// What a pane looks at now.
+/// How a pane looks at the stone now, and where its picture lies in the window.
 pub(super) struct PaneView {
     pub view: View,
     pub film: Film,
@@ -235,18 +236,18 @@ pub(super) struct PaneView {
 }
 
 impl PaneView {
-    /// The point of the film under a point of the window.
+    /// Returns the point of the film, in its pixels, under a point of the window.
     pub fn pixel(&self, at: egui::Pos2) -> DVec2 {
         let at = (at - self.body.min) * self.scale;
         DVec2::new(f64::from(at.x), f64::from(at.y))
     }
 
-    /// The point of the window over one of the film.
+    /// Returns the point of the window over a point of the film.
     pub fn point(&self, pixel: DVec2) -> egui::Pos2 {
         self.body.min + vec2(pixel.x as f32, pixel.y as f32) / self.scale
     }
 
-    /// Where a picture that was taken on another film lies.
+    /// Returns where a picture that was taken on another film lies in the window.
     fn place(&self, other: &Film) -> Rect {
         let map = self.film.pixels_from_image(DMat2::IDENTITY);
         let corner = |x, y| self.point(map.transform_point2(other.image_from_pixels(DVec2::new(x, y))));
@@ -293,7 +294,7 @@ fn scene(editor: &mut Editor, ui: &mut Ui, (pane, shows): (usize, Shows), body: 
     }
 }
 
-/// Follows the ray that is clicked; a double click shows the view alone. Marks the ray that is followed.
+/// Follows the ray that is clicked, shows the view alone after a double click, and marks the ray that is followed.
 fn clicked(
     editor: &mut Editor,
     ui: &Ui,
@@ -305,7 +306,7 @@ fn clicked(
         editor.following.unclick();
         enlarge(editor, pane);
     } else if response.clicked() && is_alone {
-        // By a key it is the middle that is meant.
+        // A click by a key means the middle of the view.
         let at = response.interact_pointer_pos().unwrap_or(sight.body.center());
         let at = sight.film.image_from_pixels(sight.pixel(at));
         let specimen = editor.posed(editor.desk.eye(pane).turn);
@@ -326,7 +327,7 @@ pub fn focus(ui: &Ui, response: &Response) -> Stroke {
     if response.has_focus() { ui.visuals().selection.stroke } else { Stroke::NONE }
 }
 
-/// Draws what there is: the present design, or the one that it is compared with, or both.
+/// Draws the picture of the present design, that of the design compared with, or both.
 fn pictures(editor: &Editor, ui: &mut Ui, pane: usize, sight: &PaneView) {
     let body = sight.body;
     ui.painter().rect_filled(body, 4.0, ui.visuals().extreme_bg_color);
@@ -349,7 +350,7 @@ fn pictures(editor: &Editor, ui: &mut Ui, pane: usize, sight: &PaneView) {
     }
 }
 
-/// What the colours of an overlay mean, along the lower edge, as many as there is room for.
+/// Draws what the colours of an overlay mean along the lower edge, as many entries as there is room for.
 fn legend(ui: &Ui, body: Rect, entries: &[(String, [u8; 3])]) {
     let painter = ui.painter().with_clip_rect(body);
     let font = egui::TextStyle::Small.resolve(ui.style());
@@ -383,7 +384,7 @@ fn split_marks(ui: &Ui, body: Rect, other: &str) {
     }
 }
 
-/// Moves the eye as hand, wheel and keys say; but for a drag that moves what is behind.
+/// Moves the eye by pointer, wheel and keys; `is_held` says that a drag moves the background instead.
 fn moved(eye: &mut Eye, ui: &Ui, response: &Response, (sight, is_held): (&PaneView, bool)) {
     let unit = sight.film.pixel * f64::from(sight.scale);
     let by = response.drag_delta();
@@ -427,13 +428,13 @@ fn by_keys(eye: &mut Eye, ui: &Ui, side: Side, id: egui::Id) {
     eye.zoom_at(1.2_f64.powf(zoom), eye.centre);
 }
 
-/// The scope whose zones are named in a view.
+/// Returns the scope whose zones are named in a view.
 pub fn zones(shows: Shows, head: f64) -> Scope {
     let aset = || Scope::aset(ASET_CONE, Backing::Black).with_head(head);
     shows.scoped().map_or_else(aset, |s| if s.takes_head { s.scope.with_head(head) } else { s.scope })
 }
 
-/// Tells what is under the pointer, outlines its facet, and follows a ray where it is clicked.
+/// Names what is under the pointer in the status line, and outlines its facet.
 fn hover(editor: &mut Editor, ui: &Ui, (shows, turn): (Shows, f64), response: &Response, sight: &PaneView) {
     if !response.hovered() || response.dragged() {
         return;
@@ -443,7 +444,7 @@ fn hover(editor: &mut Editor, ui: &Ui, (shows, turn): (Shows, f64), response: &R
     let scope = zones(shows, editor.document.work.head);
     let mut found = editor.probe(&specimen).at(&sight.view, &sight.film, sight.pixel(at), &scope);
     if let Some(azimuth) = found.as_mut().and_then(|f| f.azimuth.as_mut()) {
-        // As the cut has it, not as it is turned here.
+        // The azimuth is that of the cut, whatever the stone's turn in this view.
         *azimuth = (*azimuth - turn.to_degrees()).rem_euclid(360.0);
     }
     editor.message = found.as_ref().map_or(String::new(), ProbeHit::message);
@@ -456,7 +457,7 @@ fn outline(ui: &Ui, specimen: &Specimen, facet: u32, sight: &PaneView) {
     rim(ui, (specimen.solid(), facet), |corner| corner, sight);
 }
 
-/// Outlines a facet of a body that lies elsewhere.
+/// Outlines a facet of a solid that lies where `place` puts its points.
 pub(super) fn rim(
     ui: &Ui,
     (solid, facet): (SolidRef, u32),

@@ -1,4 +1,4 @@
-//! What liquid glass is made of: rows that are there while a view shows it.
+//! Rows for the pane of liquid glass, which are there while a view shows it.
 
 use super::editor::Editor;
 use super::liquid::Liquid;
@@ -8,22 +8,24 @@ use crate::picture::pane::Quality;
 use egui::{Button, ComboBox, RichText, Ui, vec2};
 use std::ops::RangeInclusive;
 
-/// Percent of the view, of the shorter side, and strengths.
+/// The range of the pane's width and height, percent of the view.
 const EXTENTS: RangeInclusive<f64> = 10.0..=100.0;
+/// The range of the corners' radius, percent of the pane's shorter side.
 const CORNERS: RangeInclusive<f64> = 0.0..=50.0;
+/// The range of the strengths.
 const STRENGTHS: RangeInclusive<f64> = 0.0..=100.0;
 
-/// Between pane and background, in the pane's shorter side.
+/// The range of the gap between pane and background, in parts of the pane's shorter side.
 const GAPS: RangeInclusive<f64> = 0.001..=1.0;
 
-/// Qualities, what they are called and what they leave.
+/// The qualities: the name of each, and what of the effect it draws.
 const QUALITIES: [(Quality, &str, &str); 3] = [
     (Quality::High, "high", "All, frost by five samples."),
     (Quality::Medium, "medium", "Frost by three samples, dispersion of 30 at most."),
     (Quality::Low, "low", "Refraction alone: no depth, dispersion, frost, light or tint."),
 ];
 
-/// Draws them, where liquid glass is in sight.
+/// Draws the rows, where liquid glass is in sight.
 pub fn show(editor: &mut Editor, ui: &mut Ui) {
     let is_seen = |shows| editor.desk.shown().iter().any(|&pane| editor.desk.panes[pane].shows == shows);
     let [drawn, traced] = [Shows::LiquidGlass, Shows::TracedPane].map(is_seen);
@@ -75,7 +77,7 @@ pub fn show(editor: &mut Editor, ui: &mut Ui) {
     last(liquid, ui);
 }
 
-/// Tint and quality.
+/// Draws the rows for tint and quality.
 fn last(liquid: &mut Liquid, ui: &mut Ui) {
     ui.horizontal(|ui| {
         let meaning = "A colour laid over the pane, and by its alpha how much of what is behind it covers.";

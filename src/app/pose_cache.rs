@@ -1,17 +1,17 @@
-//! Stones as they are turned for their views.
+//! Keeps stones as they are turned for their views.
 
 use crate::scene::Specimen;
 use std::sync::Arc;
 
-/// A stone in the few turns that its views show it in: the same turn of the same stone is one and the same.
+/// A stone in the few turns that its views show it in: the same turn of the same stone gives the same [`Arc`].
 #[derive(Default)]
 pub struct PoseCache(Vec<(Arc<Specimen>, f64, Arc<Specimen>)>);
 
-/// Turns kept: that of the linked views and of each view that looks on its own.
+/// The number of turns that are kept: that of the linked views, and those of the four views that may look on their own.
 const TURNS: usize = 5;
 
 impl PoseCache {
-    /// The stone at a turn.
+    /// Returns the stone turned about its axis by `turn`, radians.
     pub fn of(&mut self, specimen: &Arc<Specimen>, turn: f64) -> Arc<Specimen> {
         self.0.retain(|(of, ..)| Arc::ptr_eq(of, specimen));
         if let Some((.., posed)) = self.0.iter().find(|(_, at, _)| *at == turn) {
@@ -26,7 +26,7 @@ impl PoseCache {
     }
 }
 
-/// A stone turned about its axis.
+/// Makes a stone that is turned about its axis by `turn`, radians.
 fn turned(specimen: &Arc<Specimen>, turn: f64) -> Arc<Specimen> {
     if turn == 0.0 {
         return Arc::clone(specimen);

@@ -1,4 +1,4 @@
-//! Scenes that the editor takes in: copies of one design, their light, and what lies behind them.
+//! Scenes that the editor can work on: copies of one design, their light, and what lies behind them.
 
 use super::document::Document;
 use super::editor::Editor;
@@ -12,17 +12,17 @@ use std::path::Path;
 
 /// A scene of glass that comes with the program.
 pub struct Known {
-    /// By which [`Preset::of_library`] has it.
+    /// The name by which [`Preset::of_library`] finds the scene.
     pub name: &'static str,
-    /// What it is called.
+    /// The title in menus.
     pub title: &'static str,
-    /// Whether it begins to move at once.
+    /// Whether the scene begins to move at once.
     moves: bool,
-    /// In how many wavelengths it is seen.
+    /// The number of bands of wavelengths that the scene is seen in.
     wavelengths: u32,
 }
 
-/// All of them.
+/// All scenes of glass that come with the program, in menu order.
 pub const PRESETS: [Known; 5] = [
     Known { name: "subtle-pill", title: "Subtle pill", moves: false, wavelengths: 8 },
     Known { name: "prism-rainbow", title: "Prism rainbow", moves: false, wavelengths: 16 },
@@ -31,33 +31,33 @@ pub const PRESETS: [Known; 5] = [
     Known { name: "free-diamond", title: "Free diamond", moves: true, wavelengths: 16 },
 ];
 
-/// A scene as the editor has it.
+/// A scene that the editor can work on.
 pub struct Preset {
     /// The design, with its material and size.
     pub design: Design,
-    /// Its copies.
+    /// The copies of the design.
     pub company: Copies,
-    /// In how many wavelengths it is seen, if that is known.
+    /// The number of bands of wavelengths that the scene is seen in, if it is known.
     wavelengths: Option<u32>,
-    /// The rest.
+    /// The scene file, which holds the rest.
     pub scene: SceneFile,
 }
 
 impl Preset {
-    /// A scene that comes with the program.
+    /// Returns a scene that comes with the program.
     ///
     /// # Errors
-    /// Where there is none of that name, or it is of several designs.
+    /// Fails where no scene of that name comes with the program, or where it is of several designs.
     pub fn of_library(name: &str) -> Result<Self, String> {
         let text = library::scene(name).ok_or_else(|| format!("no scene '{name}' comes with the program"))?;
         let wavelengths = PRESETS.iter().find(|known| known.name == name).map(|known| known.wavelengths);
         Ok(Self { wavelengths, ..Self::new(scene_file::parse(text, name, None)?, name, None)? })
     }
 
-    /// A scene's file.
+    /// Reads a scene file.
     ///
     /// # Errors
-    /// Text that names file, line and key, or why the editor cannot show the scene.
+    /// The text names file, line and key, or says why the editor cannot show the scene.
     pub fn read(path: &Path) -> Result<Self, String> {
         Self::new(scene_file::read(path)?, &path.display().to_string(), path.parent())
     }
@@ -88,7 +88,7 @@ impl Preset {
     }
 }
 
-/// A cut beside the scene, or one that comes with the program.
+/// Reads a cut that lies beside the scene, or else one that comes with the program.
 fn design(cut: &str, folder: Option<&Path>) -> Result<Design, String> {
     let beside = folder.map(|folder| folder.join(cut)).filter(|path| path.is_file());
     match (beside, library::cut(cut)) {
@@ -100,7 +100,7 @@ fn design(cut: &str, folder: Option<&Path>) -> Result<Design, String> {
     }
 }
 
-/// Where the stones are, in girdle radii around the middle of all.
+/// Returns the poses of the stones, in girdle radii around the middle of all.
 fn poses(scene: &SceneFile, corners: &[DVec3], unit_mm: f64) -> Vec<Pose> {
     let turns: Vec<_> = scene.turns().into_iter().map(|(_, turn)| turn).collect();
     let across = |turn: &DQuat| corners.iter().map(|c| (*turn * *c).truncate().length()).fold(0.0, f64::max);
@@ -118,7 +118,7 @@ impl Editor {
         match Preset::of_library(name) {
             Ok(preset) => {
                 self.begin_scene(preset);
-                // What it is about is its render.
+                // The scene is meant to be seen as a render.
                 self.desk.enlarge_render();
                 self.moving.is_on = PRESETS.iter().any(|known| known.name == name && known.moves);
             }
@@ -126,7 +126,7 @@ impl Editor {
         }
     }
 
-    /// Works on a scene: its design, which is not saved anywhere yet, its copies, its light and what lies behind.
+    /// Begins to work on a scene: its design, which is not saved anywhere yet, its copies, its light and its backplate.
     pub(super) fn begin_scene(&mut self, preset: Preset) {
         let Preset { design, company, scene, wavelengths } = preset;
         let mut document = match Document::new(design, None) {
@@ -144,7 +144,7 @@ impl Editor {
             self.document.work.light = light.to_string_lossy().into_owned();
         }
         self.begin(document);
-        // Of colours the desk knows none.
+        // The workspace cannot hold plain colours.
         let behind = scene.background.as_ref().filter(|behind| !matches!(behind, BackgroundRef::Plain(_)));
         self.desk.enter_scene(behind.map(ToString::to_string), wavelengths);
         (self.desk.behind_mm, self.desk.strength) = (scene.background_distance_mm, scene.strength);

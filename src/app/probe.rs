@@ -1,4 +1,4 @@
-//! What lies under the pointer: the facet, and where its light comes from.
+//! Finds what lies under the pointer: the facet, and where its light comes from.
 
 use crate::cut::tier_stem;
 use crate::optics::line;
@@ -7,62 +7,62 @@ use crate::trace::ray::{Camera, Path, RayOptions, StoneTracer};
 use glam::{DVec2, DVec3};
 use std::sync::Arc;
 
-/// A stone that is asked about.
+/// A stone, and the tracer that answers questions about it.
 pub struct Probe {
     specimen: Arc<Specimen>,
     tracer: StoneTracer,
 }
 
-/// What was found.
+/// What lies at a point of a picture.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ProbeHit {
-    /// The facet, by its place.
+    /// The number of the facet.
     pub facet: u32,
-    /// Its name.
+    /// The name of the facet.
     pub name: String,
-    /// What the names of its tier share, and how many facets there are.
+    /// The part of their names that the facets of the tier share, and how many facets there are.
     pub tier: (String, usize),
-    /// From the girdle plane, degrees: 0 level, 90 upright.
+    /// The slope of the facet from the girdle plane, degrees: 0 is level, 90 upright.
     pub slope: f64,
-    /// Degrees, counter-clockwise from above; none for a level facet.
+    /// The azimuth of the facet, degrees, counter-clockwise from above; `None` for a level facet.
     pub azimuth: Option<f64>,
-    /// The strongest light that is seen here.
+    /// The strongest light that is seen at the point.
     pub light: Option<LightAtPoint>,
 }
 
 /// Light that is seen at a point.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LightAtPoint {
-    /// The scope's zone.
+    /// The name of the scope's zone that the light comes from.
     pub zone: String,
-    /// Elevation that it comes from, degrees above the scope's plane.
+    /// The elevation that the light comes from, degrees above the scope's plane.
     pub elevation: f64,
-    /// Its share of what is seen there.
+    /// The light's share of what is seen at the point.
     pub share: f64,
 }
 
-/// Upright or level, as a sine.
+/// A facet is level where the sine of its slope is no more than this.
 const LEVEL: f64 = 1e-9;
 
 impl Probe {
-    /// Asks about a stone.
+    /// Makes a probe of a stone.
     pub fn new(specimen: Arc<Specimen>) -> Self {
         let options = RayOptions { most_bounces: 64, least_weight: 1e-3, polarised: true };
         let tracer = StoneTracer::new(specimen.solid(), specimen.medium(line::SODIUM_D), options);
         Self { specimen, tracer }
     }
 
-    /// Whether it is about this stone.
+    /// Whether the probe is of this stone.
     pub fn is_about(&self, specimen: &Arc<Specimen>) -> bool {
         Arc::ptr_eq(&self.specimen, specimen)
     }
 
-    /// The ray through a point of the image.
+    /// Returns the origin and the direction of the ray through a point of the image.
     fn ray(&self, view: &View, at: DVec2) -> (DVec3, DVec3) {
         Camera::new(view, self.specimen.solid()).ray(at)
     }
 
-    /// The way of the ray through a point of the image; none beside the stone.
+    /// Returns the path of the ray through a point of the image; `None` beside the stone.
     pub fn path(&self, view: &View, at: DVec2) -> Option<Path> {
         let (origin, direction) = self.ray(view, at);
         self.tracer.path(origin, direction)
@@ -74,7 +74,7 @@ impl Probe {
         self.tracer.meet(origin, direction).is_some()
     }
 
-    /// What lies at a point of a film, in its pixels; none beside the stone.
+    /// Returns what lies at a point of a film, in its pixels; `None` beside the stone.
     pub fn at(&self, view: &View, film: &Film, at: DVec2, scope: &Scope) -> Option<ProbeHit> {
         let (origin, direction) = self.ray(view, film.image_from_pixels(at));
         let (facet, distance) = self.tracer.meet(origin, direction)?;
@@ -93,7 +93,8 @@ impl Probe {
         Some(self.found((facet as u32, origin + direction * distance), light))
     }
 
-    /// Which of its copies lies first at a point of a film, in its pixels, and which of its facets; none beside all.
+    /// Returns which copy lies first at a point of a film, in its pixels, and which of its facets; `None` beside all
+    /// copies.
     pub fn among(&self, copies: &[Pose], view: &View, film: &Film, at: DVec2) -> Option<(usize, u32)> {
         let farthest = copies.iter().map(|pose| pose.at.length()).fold(0.0, f64::max);
         let eye = Camera::reaching(view, farthest + self.specimen.radius);
@@ -127,7 +128,7 @@ impl Probe {
 }
 
 impl ProbeHit {
-    /// In one line.
+    /// Describes the hit in one line.
     pub fn message(&self) -> String {
         let azimuth = self.azimuth.map_or(String::new(), |a| format!(", azimuth {a:.1}°"));
         let (tier, count) = &self.tier;
@@ -190,12 +191,12 @@ mod tests {
                 let (copy, facet) = probe.among(&copies, &view, &film, pixels)?;
                 Some((copy, probe.specimen.body.name(facet)))
             };
-            // Face down its culet is nearest to the eye, and beside that a pavilion main.
+            // Of the copy that lies face down the culet is nearest to the eye, and beside the culet a pavilion main.
             let main = found(turned.place(DVec3::new(0.1, 0.01, -0.8))).unwrap();
             assert!(main.0 == 0 && main.1.starts_with("main "), "{main:?}");
             assert_eq!(found(DVec3::new(-1.9, 0.0, 0.3)), Some((1, "table".to_owned())));
             assert_eq!(found(DVec3::new(0.1, 0.0, 0.3)), Some((2, "table".to_owned())));
-            // Where two overlap in sight the nearer one is found.
+            // Where two copies overlap in sight, the nearer one is found.
             assert_eq!(found(DVec3::new(-0.7, 0.0, 0.0)).map(|f| f.0), Some(2));
             assert_eq!(found(DVec3::new(0.0, 2.5, 0.0)), None);
         }

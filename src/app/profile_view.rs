@@ -1,9 +1,9 @@
-//! The stone from the side, with its dimensions on it: a drawing that can be pulled into shape.
+//! The stone from the side, with its dimensions on it: a drawing whose handles shape the stone.
 //!
-//! A round brilliant has handles. Each changes one proportion, by pointer or arrow keys, in steps of a tenth (with
-//! Shift a hundredth) of a percent or degree; of a pair, as crown angle and height, the one that the proportions hold
-//! is still the one held. While a handle is in hand the drawing keeps its size, so that the handle stays under the
-//! pointer; when it is let go the drawing is fitted anew.
+//! A round brilliant has handles. Each changes one proportion, by pointer or arrow keys, in steps of a tenth (with Shift a
+//! hundredth) of a percent or degree. Of a pair, such as crown angle and height, the one that was held stays held. While a
+//! handle is dragged the drawing keeps its size, so that the handle stays under the pointer; when the handle is released,
+//! the drawing is fitted anew.
 
 mod body;
 mod frame;
@@ -30,7 +30,7 @@ use quantity::Quantity;
 use sheet::Label;
 use sight::ProfileBox;
 
-/// How many times shorter than other animations the time is in which most of a new fit is done.
+/// The drawing moves to a new fit this many times faster than other animations run.
 const QUICKER: f32 = 2.5;
 
 /// The drawing's state from one frame to the next.
@@ -41,11 +41,11 @@ pub struct ProfileView {
 }
 
 impl ProfileView {
-    /// Draws `stone` within `rect` and lets its proportions, where it is a round brilliant, be pulled.
+    /// Draws `stone` within `rect`; where it is a round brilliant, its proportions can be changed by handles.
     ///
-    /// Whoever calls builds the stone anew when the response says that it [`changed`](Response::changed). One drawing
-    /// to a [`Ui`]: its state goes by that one's identity. Without `proportions`, or with such as cannot be, what can
-    /// be measured is written and nothing can be pulled.
+    /// The caller must build the stone anew when the response says that it [`changed`](Response::changed). A [`Ui`] can
+    /// hold one such drawing, whose state goes by the identity of that `Ui`. Without `proportions`, or with impossible
+    /// ones, the drawing shows what can be measured and has no handles.
     pub fn show(
         &mut self,
         ui: &mut Ui,
@@ -76,12 +76,12 @@ impl ProfileView {
         response
     }
 
-    /// Whether a handle is in hand: what changes until it is let go is one gesture.
+    /// Whether a handle is dragged: all changes until it is released are one gesture.
     pub fn is_dragging(&self) -> bool {
         self.grab.is_some()
     }
 
-    /// The part of the profile to show: as it was while something is in hand, else on its way to what fits.
+    /// Returns the part of the profile to show: the same part while a handle is dragged, else one on its way to what fits.
     fn extent(&mut self, ui: &Ui, measured: &MeasuredProfile<'_>) -> ProfileBox {
         let fitting = measured.extent();
         let shown = match (&self.grab, &measured.brilliant) {
@@ -98,14 +98,14 @@ impl ProfileView {
         *self.shown.insert(shown)
     }
 
-    /// The handle in hand, else pointed at, else of the keyboard.
+    /// Returns the handle that is dragged, else the one under the pointer, else the one with the keyboard focus.
     fn active(&self, offered: &[Offered]) -> Option<Handle> {
         let find = |is: fn(&Offered) -> bool| offered.iter().find(|o| is(o)).map(|o| o.grip.handle);
         let held = self.grab.as_ref().map(Grab::handle);
         held.or_else(|| find(Offered::is_pointed_at)).or_else(|| find(|o| o.response.has_focus()))
     }
 
-    /// What pointer and keys make of the proportions.
+    /// Returns the proportions after what pointer and keys have changed.
     fn edited(
         &mut self,
         ui: &Ui,
@@ -127,19 +127,19 @@ impl ProfileView {
         self.grab = self
             .shown
             .map(|shown| Grab::new(grip.handle, grip.mirrored, given, shown, pressed.unwrap_or(grip.at)));
-        // So that arrow keys can finish what the hand began.
+        // The focus lets arrow keys finish what the pointer began.
         let first = Grip { mirrored: false, ..*grip };
         ui.memory_mut(|m| m.request_focus(first.id(frame.id)));
     }
 
-    /// What the handle in hand makes of the proportions; Escape puts it back.
+    /// Returns the proportions that the dragged handle makes; Escape gives those before the drag.
     fn pulled(&mut self, ui: &Ui, frame: &Frame<'_>, offered: &[Offered]) -> Option<RoundBrilliant> {
         let mut grab = self.grab.take()?;
         if ui.input(|i| i.key_pressed(Key::Escape)) {
             return Some(grab.start);
         }
         let held = offered.iter().any(|o| o.response.dragged());
-        // What was let go while the drawing was not shown has no say any more.
+        // A handle that was released while the drawing was not shown changes nothing any more.
         if !held && !offered.iter().any(|o| o.response.drag_stopped()) {
             return None;
         }
@@ -152,8 +152,10 @@ impl ProfileView {
         Some(new)
     }
 
-    /// The pointer's look, and a hint beside the handle that it is over. What the drawing shows of a handle in hand or of
-    /// the keyboard is enough; where there is no room for it the hint does it.
+    /// Sets the look of the pointer, and shows a hint beside the handle under it.
+    ///
+    /// For a handle that is dragged or has the keyboard focus the drawing itself shows enough; a hint appears only where
+    /// the drawing has no room.
     fn guide(&self, ui: &Ui, measured: &MeasuredProfile<'_>, offered: &[Offered], labels: &[Label]) {
         let Some((given, derived)) = &measured.brilliant else { return };
         for o in offered {
@@ -185,7 +187,7 @@ fn cursor(handle: Handle, held: Option<&Grab>) -> CursorIcon {
 }
 
 fn hint(mut tooltip: Tooltip<'_>, handle: Handle, value: &str, how: Option<&str>) {
-    // Over the stone, where no numbers are.
+    // The hint lies over the stone, where no numbers are.
     let below = matches!(handle.quantity(), Quantity::Table | Quantity::CrownHeight | Quantity::CrownAngle);
     tooltip.popup = tooltip.popup.align(if below { RectAlign::BOTTOM } else { RectAlign::TOP });
     tooltip.gap(8.0).show(|ui| {

@@ -1,44 +1,44 @@
-//! The proportions of a round brilliant as people set them: what each is called, its range, what laboratories call
+//! The proportions of a round brilliant as the panel shows them: the name and the range of each, and what laboratories call
 //! excellent.
 
 use crate::cut::{Crown, LowerHalf, Pavilion, RoundBrilliant, Unit};
 use std::f64::consts::FRAC_PI_8;
 use std::ops::RangeInclusive;
 
-/// One number that is shown with a slider.
+/// A proportion that is shown with a slider.
 pub struct Proportion {
-    /// What it is called.
+    /// The name in the panel.
     pub name: &'static str,
-    /// Its key in cut files.
+    /// The key in cut files.
     pub key: &'static str,
-    /// What it means, in a sentence.
+    /// The meaning, in a sentence.
     pub meaning: &'static str,
-    /// Percent or degrees, or a count.
+    /// The unit: percent, degrees, or a count.
     pub unit: Unit,
-    /// What its slider spans; more may be typed.
+    /// The range of the slider; other numbers may be typed.
     pub slider: RangeInclusive<f64>,
     /// GIA's range for the grade Excellent (GIA, 2006), where there is one.
     pub excellent: Option<RangeInclusive<f64>>,
-    /// The number as it is, given or derived; not finite where it cannot be.
+    /// Returns the number, given or derived; it is not finite where the proportions allow none.
     pub get: fn(&RoundBrilliant) -> f64,
-    /// Sets it; of a pair, the one that is held stays the one that is given.
+    /// Sets the number; of a pair, the one that is held stays the one that is given.
     pub set: fn(&mut RoundBrilliant, f64),
-    /// Of a pair: whether it is the one held while others change, and how to hold it.
+    /// Of a pair: whether this proportion is held while others change, and how to hold it.
     pub hold: Option<Hold>,
 }
 
-/// How one of a pair is held.
+/// How one proportion of a pair is held.
 pub struct Hold {
-    /// Whether it is held.
+    /// Whether the proportion is held.
     pub is: fn(&RoundBrilliant) -> bool,
-    /// Holds it at its present value.
+    /// Holds the proportion at its present value.
     pub set: fn(&mut RoundBrilliant),
 }
 
 /// GIA's range for the total depth of the grade Excellent, percent (GIA, 2006).
 pub const EXCELLENT_DEPTH: RangeInclusive<f64> = 58.1..=63.6;
 
-/// All of them, in the order of the panel.
+/// All proportions, in the order of the panel.
 pub static PROPORTIONS: [Proportion; 11] = [
     Proportion {
         name: "Table",
@@ -184,19 +184,19 @@ pub static PROPORTIONS: [Proportion; 11] = [
     },
 ];
 
-// Both of a pair follow from each other alone, whatever is wrong with the rest of the proportions.
+// Each of a pair follows from the other alone, whatever is wrong with the rest of the proportions.
 
-/// Degrees of a slope that rises so far, in the same unit, over a run.
+/// Returns the slope, degrees, that rises by `rise` over `run`, both in the same unit.
 fn slope(rise: f64, run: f64) -> f64 {
     (rise / run).atan().to_degrees()
 }
 
-/// Infinite where it is no slope: tangents come round again.
+/// Returns the rise of a slope over `run`; infinite from 90 degrees on, where the tangent comes round again.
 fn rise(degrees: f64, run: f64) -> f64 {
     if degrees.abs() < 90.0 { degrees.to_radians().tan() * run } else { f64::INFINITY }
 }
 
-/// Angle, degrees, and height, percent, of a crown.
+/// Returns the angle, degrees, and the height, percent, of a crown.
 fn crown(brilliant: &RoundBrilliant) -> (f64, f64) {
     let run = 50.0 - 0.5 * brilliant.table;
     match brilliant.crown {
@@ -205,7 +205,7 @@ fn crown(brilliant: &RoundBrilliant) -> (f64, f64) {
     }
 }
 
-/// Angle, degrees, and depth, percent, of a pavilion.
+/// Returns the angle, degrees, and the depth, percent, of a pavilion.
 fn pavilion(brilliant: &RoundBrilliant) -> (f64, f64) {
     let run = 50.0 - 0.5 * brilliant.culet;
     match brilliant.pavilion {
@@ -214,9 +214,9 @@ fn pavilion(brilliant: &RoundBrilliant) -> (f64, f64) {
     }
 }
 
-/// Radial and vertical length of the lower halves, percent.
+/// Returns the radial and the vertical length of the lower halves, percent.
 fn lower_half(brilliant: &RoundBrilliant) -> (f64, f64) {
-    // Seen from the side the girdle's radius is foreshortened where the halves end, between two mains.
+    // Seen from the side, the girdle's radius is foreshortened where the halves end, between two mains.
     let cos = FRAC_PI_8.cos();
     match brilliant.lower_half {
         LowerHalf::Radial(radial) => (radial, 100.0 - (100.0 - radial) * cos),

@@ -1,5 +1,5 @@
-//! The view of a refraction map: a background that moves behind the stone. The studio traces the map; what is seen through
-//! it is looked up, as often as the background moves.
+//! The view of a refraction map: a background that moves behind the stone. The studio traces the map; the picture through
+//! it is looked up as often as the background moves.
 
 use super::editor::Editor;
 use super::lookup::{LookupRequest, backdrop};
@@ -12,18 +12,18 @@ use glam::DVec2;
 /// How far the background flows in a second, in parts of the map's plane.
 const FLOW: DVec2 = DVec2::new(0.06, 0.02);
 
-/// How the background of a view stands.
+/// The state of the background in a view of a refraction map.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Flowing {
-    /// How far it has been moved to the right and down, in parts of the map's plane.
+    /// How far the background has been moved to the right and down, in parts of the map's plane.
     pub moved: DVec2,
-    /// Whether it moves by itself.
+    /// Whether the background moves by itself.
     pub flows: bool,
     /// Whether the map itself is shown.
     pub is_map: bool,
 }
 
-/// What is chosen over the picture, from the right.
+/// Draws the choices over the picture, from the right.
 pub fn choices(flowing: &mut Flowing, ui: &mut Ui) {
     if has_room(ui, 64.0) {
         ui.checkbox(&mut flowing.flows, "Flow")
@@ -37,12 +37,12 @@ pub fn choices(flowing: &mut Flowing, ui: &mut Ui) {
     }
 }
 
-/// Whether the hand moves the background, and not the stone.
+/// Whether a drag moves the background, and not the stone.
 pub fn is_held(ui: &Ui) -> bool {
     ui.input(|i| !i.modifiers.shift && !i.modifiers.command)
 }
 
-/// Moves the background of a view by hand or by itself, and asks for what is then seen.
+/// Moves the background of a view by a drag or by itself, and requests the picture of it.
 pub fn show(editor: &mut Editor, ui: &Ui, pane: usize, response: &Response) {
     let zoom = editor.desk.eye(pane).zoom;
     let flowing = &mut editor.flowing[pane];

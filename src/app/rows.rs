@@ -1,6 +1,6 @@
 //! Rows of panels: a name, a control and a number, in columns that all rows of a panel share.
 //!
-//! From left to right: the name, [`NAME`] wide; the control, a slider for one, as wide as the panel leaves it
+//! From left to right: the name, [`NAME`] wide; the control, such as a slider, as wide as the panel leaves it
 //! ([`control_width`]); the number, [`NUMBER`] wide; and room for a small button such as a padlock, which rows without one
 //! leave empty. Fields without a slider fill the columns of control and number ([`field_width`]).
 
@@ -11,25 +11,26 @@ use egui::{
 };
 use std::ops::RangeInclusive;
 
-/// Widths of the columns of names and numbers, points.
+/// The width of the column of names, points.
 const NAME: f32 = 104.0;
+/// The width of the column of numbers, points.
 pub const NUMBER: f32 = 92.0;
 
 /// The least width of a control, points: the panel scrolls sideways rather than let a slider vanish.
 const LEAST_CONTROL: f32 = 40.0;
 
-/// Width of the last column of a row, with the gap before it, points: that of a padlock.
+/// Returns the width of the last column of a row, that of a padlock, with the gap before it, points.
 fn end_width(ui: &Ui) -> f32 {
     ui.spacing().interact_size.y + ui.spacing().item_spacing.x
 }
 
-/// Width of the control in a row whose name has been drawn and whose number has not, points.
+/// Returns the width of the control in a row whose name has been drawn and whose number has not, points.
 pub fn control_width(ui: &Ui) -> f32 {
     let gap = ui.spacing().item_spacing.x;
     (ui.available_width() - NUMBER - gap - end_width(ui)).max(LEAST_CONTROL)
 }
 
-/// Width of a field that fills the columns of control and number, in a row whose name has been drawn, points.
+/// Returns the width of a field that fills the columns of control and number, in a row whose name has been drawn, points.
 pub fn field_width(ui: &Ui) -> f32 {
     control_width(ui) + ui.spacing().item_spacing.x + NUMBER
 }
@@ -39,7 +40,7 @@ pub fn skip_name(ui: &mut Ui) {
     ui.add_space(NAME + ui.spacing().item_spacing.x);
 }
 
-/// Leaves the column of the control empty, but for so much room of its right end as further fields need, points.
+/// Leaves the column of the control empty, but for `needed` points at its right end that further fields take.
 pub fn skip_control(ui: &mut Ui, needed: f32) {
     ui.add_space((control_width(ui) + ui.spacing().item_spacing.x - needed).max(0.0));
 }
@@ -48,14 +49,14 @@ pub fn skip_control(ui: &mut Ui, needed: f32) {
 pub struct Row<'a> {
     pub name: &'a str,
     pub meaning: &'a str,
-    /// What the slider runs over.
+    /// The range of the slider.
     pub range: RangeInclusive<f64>,
-    /// What can be typed.
+    /// The range of what can be typed.
     pub limits: RangeInclusive<f64>,
-    /// The slider's steps; 0 for none.
+    /// The step of the slider; 0 for none.
     pub step: f64,
     pub decimals: usize,
-    /// Change for a point that the number is dragged by.
+    /// The change for each point that the number is dragged by.
     pub speed: f64,
     pub unit: &'a str,
     /// Whether the slider runs evenly over the number's logarithm.
@@ -63,7 +64,7 @@ pub struct Row<'a> {
 }
 
 impl<'a> Row<'a> {
-    /// A row whose slider runs over all that can be typed, without a unit.
+    /// Makes a row without a unit, whose slider runs over all that can be typed.
     pub fn new(name: &'a str, meaning: &'a str, range: RangeInclusive<f64>) -> Self {
         let limits = range.clone();
         Self {
@@ -79,7 +80,7 @@ impl<'a> Row<'a> {
         }
     }
 
-    /// Draws it. What is not touched stays as it is, with all its decimals.
+    /// Draws the row. A number that is not touched keeps all its decimals.
     pub fn show(self, ui: &mut Ui, value: &mut f64) {
         let Self { name, meaning, range, limits, step, decimals, speed, unit, logarithmic } = self;
         ui.horizontal(|ui| {
@@ -97,18 +98,20 @@ impl<'a> Row<'a> {
 /// A field for a number.
 pub struct Number<'a> {
     pub decimals: usize,
-    /// Change for a point that it is dragged by.
+    /// The change for each point that the field is dragged by.
     pub speed: f64,
     pub range: RangeInclusive<f64>,
     pub unit: &'a str,
 }
 
-/// Numbers that have limits of their own, which are told.
+/// The range of a number whose own limits are checked and explained elsewhere.
 pub const ANY: RangeInclusive<f64> = f64::NEG_INFINITY..=f64::INFINITY;
 
 impl Number<'_> {
-    /// Draws it. What is out of its range stays until it is set; leaving it untouched leaves
-    /// the number as it is, though more decimals belong to it than are shown.
+    /// Draws the field.
+    ///
+    /// A number outside the range stays until it is set. A field that is not touched leaves the number as it is, though it
+    /// may have more decimals than are shown.
     pub fn show(self, ui: &mut Ui, (width, label): (f32, egui::Id), value: &mut f64) -> egui::Response {
         let before = *value;
         let Self { decimals, speed, range, unit } = self;
@@ -123,7 +126,7 @@ impl Number<'_> {
         };
         let field = field.custom_formatter(|number, places| written(number, places, &fits));
         let shown = written(before, decimals.min(1)..=decimals, &fits);
-        // Half the world writes a comma.
+        // Half the world writes a decimal comma.
         let field = field.custom_parser(|text| {
             text.trim().trim_end_matches(unit.trim()).trim().replace(',', ".").parse().ok()
         });
@@ -140,12 +143,14 @@ impl Number<'_> {
     }
 }
 
-/// A number that is not known, and what a field shows in its place. It equals itself, as NaN does not: a field that is
-/// edited compares it with itself.
+/// A number that is not known.
+///
+/// It equals itself, as NaN does not: a field that is edited compares it with itself.
 pub const NOT_KNOWN: f64 = f64::NEG_INFINITY;
+/// What a field shows in the place of a number that is not known.
 pub const UNKNOWN: &str = "–";
 
-/// A number without a slider: its name, nothing, and the field in the column of numbers.
+/// Draws a number without a slider: its name, an empty column, and the field in the column of numbers.
 pub fn number_row(ui: &mut Ui, (name, meaning): (&str, &str), number: Number, value: &mut f64) {
     ui.horizontal(|ui| {
         let label = named(ui, name, meaning);
@@ -154,7 +159,9 @@ pub fn number_row(ui: &mut Ui, (name, meaning): (&str, &str), number: Number, va
     });
 }
 
-/// A number as its field shows it, with fewer decimals where they do not fit: no number, however large, makes its row wider.
+/// Returns a number as its field shows it.
+///
+/// It has fewer decimals where they do not fit: no number, however large, makes its row wider.
 fn written(number: f64, places: RangeInclusive<usize>, fits: &dyn Fn(&str) -> bool) -> String {
     if !number.is_finite() {
         return UNKNOWN.to_owned();
@@ -165,8 +172,9 @@ fn written(number: f64, places: RangeInclusive<usize>, fits: &dyn Fn(&str) -> bo
     std::iter::once(usual).chain(shorter).find(|text| fits(text)).unwrap_or_else(|| format!("{number:.0e}"))
 }
 
-/// Explains a part of a row while the pointer rests on it: beside its panel, so that no row is covered, and not while
-/// something is typed.
+/// Explains a part of a row while the pointer rests on it.
+///
+/// The explanation stands beside the panel, so that no row is covered; there is none while something is typed.
 pub fn explain(ui: &Ui, response: Response, meaning: &str) -> Response {
     if ui.ctx().text_edit_focused() {
         return response;
@@ -182,7 +190,7 @@ pub fn explain(ui: &Ui, response: Response, meaning: &str) -> Response {
     response
 }
 
-/// What a row is called, with its meaning; as wide in all rows, and shortened where it is wider.
+/// Draws the name of a row, with its meaning; it is as wide in all rows, and shortened where it is wider.
 pub fn named(ui: &mut Ui, name: &str, meaning: &str) -> egui::Response {
     let height = ui.spacing().interact_size.y;
     ui.allocate_ui_with_layout(vec2(NAME, height), egui::Layout::left_to_right(egui::Align::Center), |ui| {

@@ -1,40 +1,40 @@
-//! What a pane can show.
+//! What a view can show.
 
 use crate::picture::{Picture, Scoped, named};
 use crate::scene::Side;
 use serde::{Deserialize, Serialize};
 
-/// The picture in a pane.
+/// The picture in a view.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub enum Shows {
     /// The stone under a light.
     Render,
     /// ASET of a 30 degree cone, leakage dark.
     Aset,
-    /// The same, lit from behind.
+    /// ASET of a 30 degree cone, lit from behind.
     AsetWhite,
     /// ASET of a 40 degree cone.
     Aset40,
-    /// Red reflector, white from behind.
+    /// The Ideal-Scope: a red reflector, white from behind.
     IdealScope,
     /// The hearts, through the pavilion.
     Hearts,
     /// The arrows, through the table.
     Arrows,
-    /// The side view, editable.
+    /// The stone from the side, with handles that change it.
     Profile,
-    /// Facets and tiers.
+    /// The diagram of facets and tiers.
     Diagram,
     /// A background that moves, refracted by a map of the stone.
     Refraction,
-    /// A pane of liquid glass, drawn.
+    /// A pane of liquid glass, as screens draw it.
     LiquidGlass,
-    /// The same pane, traced.
+    /// The same pane of liquid glass, traced.
     TracedPane,
 }
 
 impl Shows {
-    /// All of them, in the order of menus.
+    /// All variants, in menu order.
     pub const ALL: [Self; 12] = [
         Self::Render,
         Self::Aset,
@@ -50,10 +50,12 @@ impl Shows {
         Self::TracedPane,
     ];
 
-    /// Those that are exported as pictures of the stone. Maps are exported as maps; panes are no pictures of it.
+    /// The variants that are exported as pictures of the stone.
+    ///
+    /// Refraction maps are exported as maps; panes of liquid glass are no pictures of the stone.
     pub const EXPORTED: &'static [Self] = Self::ALL.split_at(9).0;
 
-    /// What it is called.
+    /// Returns the name in menus.
     pub fn name(self) -> &'static str {
         match self {
             Self::Render => "Render",
@@ -71,7 +73,7 @@ impl Shows {
         }
     }
 
-    /// What it is, in a sentence.
+    /// Describes the picture in a sentence.
     pub fn meaning(self) -> &'static str {
         match self {
             Self::Render => "The stone as it looks under the chosen light, with its dispersion.",
@@ -103,7 +105,7 @@ impl Shows {
         }
     }
 
-    /// What files and the command line call it.
+    /// Returns the name in files and on the command line.
     pub fn key(self) -> &'static str {
         match self {
             Self::Render => "render",
@@ -121,7 +123,7 @@ impl Shows {
         }
     }
 
-    /// The scope that it is seen in, if any.
+    /// Returns the scope that the stone is seen in, if any.
     pub fn scoped(self) -> Option<Scoped> {
         match named(self.key()) {
             Some(Picture::Scoped(scoped)) => Some(scoped),
@@ -129,27 +131,27 @@ impl Shows {
         }
     }
 
-    /// The side that it is made for; `None` for either.
+    /// Returns the side that the picture is made for; `None` for either side.
     pub fn side(self) -> Option<Side> {
         self.scoped().and_then(|s| s.side)
     }
 
-    /// Whether it shows all copies, as they move; else the design alone, at rest.
+    /// Whether the picture shows all copies, as they move; else it shows the design alone, at rest.
     pub fn has_company(self) -> bool {
         matches!(self, Self::Render | Self::Refraction)
     }
 
-    /// Whether it is looked at from a side that can be chosen, by light.
+    /// Whether the picture shows the stone by light, from a side that can be chosen.
     pub fn is_seen(self) -> bool {
         !matches!(self, Self::Profile | Self::Diagram) && !self.is_pane()
     }
 
-    /// Whether it is a pane of liquid glass, and nothing of the stone.
+    /// Whether the picture is a pane of liquid glass, and shows nothing of the stone.
     pub fn is_pane(self) -> bool {
         matches!(self, Self::LiquidGlass | Self::TracedPane)
     }
 
-    /// Whether something can be drawn over it.
+    /// Whether an overlay can be drawn over the picture.
     pub fn takes_overlay(self) -> bool {
         self.is_seen() && self != Self::Refraction
     }

@@ -1,6 +1,6 @@
 //! The panels beside the views: the design on the left, the figures on the right.
 //!
-//! Each can be folded to a strip. A window with room for one alone opens one and folds the other.
+//! Each panel can be folded to a strip. A window with room for one panel alone opens one and folds the other.
 
 use super::editor::Editor;
 use super::workspace::PanelSide;
@@ -10,17 +10,18 @@ use egui::{
     vec2,
 };
 
-/// Least and most widths of the panels, points.
+/// The least and the greatest width of the design panel, points.
 const DESIGN: [f32; 2] = [320.0, 460.0];
+/// The least and the greatest width of the figures panel, points.
 const FIGURES: [f32; 2] = [250.0, 420.0];
 
-/// What views keep in any window that has both panels open, points.
+/// The width that views keep in any window that has both panels open, points.
 const VIEWS: f32 = 320.0;
 
-/// Width of a folded panel, points.
+/// The width of a folded panel, points.
 const STRIP: f32 = 30.0;
 
-/// Side of the button that folds a panel, points.
+/// The side of the button that folds a panel, points.
 const BUTTON: f32 = 20.0;
 
 /// Draws both panels, each open or folded.
@@ -54,7 +55,7 @@ fn name(side: PanelSide) -> &'static str {
     }
 }
 
-/// The first line of an open panel: its name, and the button that folds it.
+/// Draws the first line of an open panel: its name, and the button that folds it.
 pub fn head(editor: &mut Editor, ui: &mut Ui, side: PanelSide) {
     ui.add_space(4.0);
     ui.horizontal(|ui| {
@@ -69,7 +70,7 @@ pub fn head(editor: &mut Editor, ui: &mut Ui, side: PanelSide) {
     });
 }
 
-/// A folded panel; a click anywhere opens it.
+/// Draws a folded panel; a click anywhere on it opens it.
 fn strip(editor: &mut Editor, ui: &mut Ui, side: PanelSide) {
     let panel = match side {
         PanelSide::Design => Panel::left("design-strip"),
@@ -93,7 +94,7 @@ fn named(response: Response, label: &str, meaning: &str) -> Response {
     response.on_hover_text(meaning)
 }
 
-/// A name that is read from the right, below a button.
+/// Draws a name that is read from the right, below a button.
 fn upright(ui: &Ui, button: Rect, name: &str) {
     let font = egui::TextStyle::Body.resolve(ui.style());
     let galley = ui.painter().layout_no_wrap(name.to_owned(), font, ui.visuals().weak_text_color());
@@ -102,7 +103,7 @@ fn upright(ui: &Ui, button: Rect, name: &str) {
     ui.painter().add(text.with_angle(-std::f32::consts::FRAC_PI_2));
 }
 
-/// A button that is an arrow.
+/// Draws a button with an arrow.
 fn arrow(ui: &mut Ui, points_left: bool) -> Response {
     let (rect, response) = ui.allocate_exact_size(Vec2::splat(BUTTON), Sense::click());
     chevron(ui, rect, points_left, &response);

@@ -1,17 +1,17 @@
-//! The views, side by side.
+//! The stage: the views, side by side.
 
 use super::editor::Editor;
 use super::workspace::PaneLayout;
 use super::{pane, trouble_bar};
 use egui::{CentralPanel, Rect, Ui, UiBuilder, pos2};
 
-/// Between views, points.
+/// The gap between views, points.
 const GAP: f32 = 6.0;
 
-/// Draws the views; each in sight with the size of its picture in pixels.
+/// Draws the views; returns each view in sight with the size of its picture in pixels.
 pub fn show(editor: &mut Editor, ui: &mut Ui) -> Vec<(usize, [u32; 2])> {
     let mut seen = vec![];
-    // Said again by the view under the pointer.
+    // The view under the pointer writes its message anew.
     editor.message.clear();
     let frame = egui::Frame::NONE.fill(ui.visuals().panel_fill);
     CentralPanel::no_frame().frame(frame).show(ui, |ui| {
@@ -32,7 +32,7 @@ pub fn show(editor: &mut Editor, ui: &mut Ui) -> Vec<(usize, [u32; 2])> {
 fn part(whole: Rect, layout: PaneLayout, place: usize) -> Rect {
     let (across, down) = match layout {
         PaneLayout::One => (1, 1),
-        // Side by side where that is wider than high, which pictures of stones want least.
+        // Two views stand side by side where the stage is wider than high: stones suit long and narrow views least.
         PaneLayout::Two if whole.width() > whole.height() => (2, 1),
         PaneLayout::Two => (1, 2),
         PaneLayout::Four => (2, 2),

@@ -1,19 +1,21 @@
-//! A small file that says whether the window is at rest, for tests that work the real program: they wait for what it
-//! says instead of for time to pass.
+//! A small file that says whether the window is at rest. Tests that work the real program wait for what it says, instead of
+//! for time to pass.
 
 use super::workspace::PaneLayout;
 use crate::io::{WriteError, write};
 use serde::Serialize;
 use std::path::PathBuf;
 
-/// The environment variable that names the file; without it none is written.
+/// The environment variable that names the file; without it, no file is written.
 const VARIABLE: &str = "BRILLIANTEER_STATE_FILE";
 
-/// How many quiet frames in a row make a window that rests. A frame has still to be painted when it is noted, a driver
-/// keeps up to three painted frames before it shows them, and drawings glide to their places meanwhile.
+/// The number of quiet frames in a row after which a window is at rest.
+///
+/// A frame has still to be painted when it is noted, a driver keeps up to three painted frames before it shows them, and
+/// drawings glide to their places meanwhile.
 const QUIET_FRAMES: u32 = 30;
 
-/// What the file holds, as JSON.
+/// The content of the file, as JSON.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 struct State {
     /// Whether every picture and figure is final, and the screen shows them.
@@ -31,19 +33,20 @@ pub struct StateFile {
 }
 
 impl StateFile {
-    /// The file that the environment names, if it names one.
+    /// Returns the file that the environment names, if it names one.
     pub fn from_environment() -> Option<Self> {
         let path = std::env::var_os(VARIABLE).filter(|path| !path.is_empty())?;
         Some(Self { path: path.into(), written: None, quiet_frames: 0 })
     }
 
     /// Takes note of a frame, at its end; `is_quiet` says that nothing is under way.
-    /// Answers whether one more frame is needed to find out whether the window rests.
+    ///
+    /// Returns whether one more frame is needed to find out whether the window is at rest.
     pub fn note(&mut self, is_quiet: bool, layout: PaneLayout) -> bool {
         self.quiet_frames = if is_quiet { self.quiet_frames.saturating_add(1) } else { 0 };
         let at_rest = self.quiet_frames >= QUIET_FRAMES;
         let state = State { at_rest, layout };
-        // A file that cannot be written makes the test fail that waits for it, and nobody else needs to know.
+        // If the file cannot be written, the test that waits for it fails; nobody else needs to know.
         if self.written != Some(state) && self.put(&state).is_ok() {
             self.written = Some(state);
         }

@@ -1,4 +1,4 @@
-//! Rows of what the stone is made of, how large it is and what it weighs.
+//! Rows for what the stone is made of, how large it is and what it weighs.
 
 use super::company_rows;
 use super::editor::Editor;
@@ -10,16 +10,16 @@ use egui::{ComboBox, RichText, Ui};
 use std::ops::RangeInclusive;
 use std::sync::Arc;
 
-/// Lengths that a stone may have, mm.
+/// The range of lengths that a stone may have, mm.
 const LENGTHS_MM: RangeInclusive<f64> = 0.1..=1000.0;
 
-/// Weights that can be typed, carats; the diameter that follows has limits of its own.
+/// The range of weights that can be typed, carats; the diameter that follows has limits of its own.
 const CARATS: RangeInclusive<f64> = 1e-6..=1e9;
 
-/// Densities that can be typed, g/cm³: those that cut files take.
+/// The range of densities that can be typed, g/cm³: the same that cut files take.
 const DENSITIES: RangeInclusive<f64> = 0.1..=30.0;
 
-/// Draws the rows, and takes what is set.
+/// Draws the rows, and sets what the user changes.
 pub fn show(editor: &mut Editor, ui: &mut Ui) {
     let specimen = Arc::clone(editor.document.specimen());
     let extent = editor.framing.extent(&specimen);
@@ -32,12 +32,12 @@ pub fn show(editor: &mut Editor, ui: &mut Ui) {
     weight(design, specimen.solid().volume(), &specimen.material, ui);
 }
 
-/// Whether the material is none of the library's.
+/// Whether the material is not one of the library's.
 fn is_own(material: &MaterialRef) -> bool {
     !matches!(material, MaterialRef::Name(_))
 }
 
-/// What is said of a material whose colour is no measurement.
+/// The note about a material whose colour is not measured.
 const ILLUSTRATIVE: &str = "\nIts colour is illustrative: chosen to look like the gem's, and not measured. What the stone \
     absorbs follows from it.";
 
@@ -80,7 +80,7 @@ fn material(design: &mut Design, known: &Material, ui: &mut Ui) {
     }
 }
 
-/// The density, which a material of the library has of its own; setting one makes it a material of the design's own.
+/// Draws the row for the density: a material of the library has its own, and setting another makes it a custom material.
 fn density(design: &mut Design, known: &Material, ui: &mut Ui) {
     let mut density = known.density.unwrap_or(NOT_KNOWN);
     let meaning =
@@ -93,14 +93,14 @@ fn density(design: &mut Design, known: &Material, ui: &mut Ui) {
     }
 }
 
-/// The diameter of a round stone; length and width of any other. Setting one scales the whole stone.
+/// Draws the diameter of a round stone, or length and width of any other; setting one scales the whole stone.
 fn size(design: &mut Design, extent: Extent, ui: &mut Ui) {
     let number = || Number { decimals: 3, speed: 0.01, range: LENGTHS_MM, unit: " mm" };
     if extent.is_round {
         let meaning = "Of the girdle. A larger stone of colour is darker.";
         return number_row(ui, ("Diameter", meaning), number(), &mut design.diameter_mm);
     }
-    // The dimensions of glass shapes, in percent, have the bare names.
+    // The bare names belong to the dimensions of glass shapes, which are in percent.
     let names = match design.cut {
         Cut::Glass(_) => ["Length in mm", "Width in mm"],
         _ => ["Length", "Width"],

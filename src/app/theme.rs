@@ -1,30 +1,30 @@
-//! Colours and spacing, light and dark.
+//! Colours and spacing of the window, light and dark.
 
 use super::studio::Paper;
 use crate::picture::Inks;
 use egui::{Color32, Context, CornerRadius, FontId, Stroke, Style, TextStyle, Theme, Visuals, vec2};
 
-/// What marks what is chosen, and the range that laboratories call excellent.
+/// Returns the colour that marks what is chosen.
 pub fn accent(visuals: &Visuals) -> Color32 {
     if visuals.dark_mode { Color32::from_rgb(96, 165, 230) } else { Color32::from_rgb(26, 102, 184) }
 }
 
-/// A range that is good.
+/// Returns the colour of a range that is good.
 pub fn good(visuals: &Visuals) -> Color32 {
     if visuals.dark_mode { Color32::from_rgb(92, 176, 116) } else { Color32::from_rgb(38, 132, 66) }
 }
 
-/// What deserves attention and is no error.
+/// Returns the colour of what deserves attention and is no error.
 pub fn caution(visuals: &Visuals) -> Color32 {
     if visuals.dark_mode { Color32::from_rgb(226, 178, 84) } else { Color32::from_rgb(140, 92, 0) }
 }
 
-/// Errors, and nothing else.
+/// Returns the colour of errors, and of nothing else.
 pub fn bad(visuals: &Visuals) -> Color32 {
     if visuals.dark_mode { Color32::from_rgb(240, 128, 112) } else { Color32::from_rgb(176, 42, 30) }
 }
 
-/// The zones of the ASET, as bars show them.
+/// Returns the colour of a zone of the ASET, as bars show it.
 pub fn zone(name: &str, visuals: &Visuals) -> Color32 {
     match name {
         "red" => Color32::from_rgb(214, 62, 52),
@@ -34,7 +34,7 @@ pub fn zone(name: &str, visuals: &Visuals) -> Color32 {
     }
 }
 
-/// What drawings are drawn on: light or dark as the window is.
+/// Returns what drawings are drawn on: light or dark, as the window is.
 pub fn paper(ctx: &Context) -> Paper {
     let is_dark = ctx.global_style().visuals.dark_mode;
     let inks = if is_dark { Inks::DARK } else { Inks::PAPER };
@@ -46,7 +46,7 @@ pub fn apply(ctx: &Context) {
     for theme in [Theme::Dark, Theme::Light] {
         ctx.style_mut_of(theme, |style| styled(style, theme));
     }
-    // What is typed ends where something else is taken in hand, by a drag as by a click.
+    // Typing in a field ends with a press elsewhere, be it a drag or a click.
     ctx.options_mut(|o| o.input_options.surrender_focus_on = egui::SurrenderFocusOn::Presses);
 }
 

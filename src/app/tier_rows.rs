@@ -1,6 +1,6 @@
-//! The tiers of a cut that lists its facets: a row each, with angle and distance.
+//! Rows for the tiers of a cut that lists its facets: one row for each tier, with angle and distance.
 //!
-//! Distances are shown in mm: those of a design are in a unit of its own.
+//! Distances are shown in mm; the design has them in a unit of its own.
 
 use super::rows::{ANY, NUMBER, Number, explain, named, skip_control};
 use crate::cut::Cut;
@@ -9,7 +9,7 @@ use egui::{Align, Layout, RichText, Ui, vec2};
 const MEANING: &str = "A tier: facets of one angle and one distance, as a faceting machine is set for them. Each tier \
     is set by itself; where facets meet follows.";
 
-/// Draws the tiers of a cut whose unit of length is `unit_mm` mm, and takes what is set.
+/// Draws the tiers of a cut whose unit of length is `unit_mm` mm, and sets what the user changes.
 pub fn show(cut: &mut Cut, unit_mm: f64, ui: &mut Ui) {
     let about = format!(
         "From the origin to the facets, in mm at the stone's present size: 1 in its file is {unit_mm:.3} mm."
@@ -34,18 +34,18 @@ pub fn show(cut: &mut Cut, unit_mm: f64, ui: &mut Ui) {
                 let number = Number { decimals, speed, range: ANY, unit };
                 number.show(ui, (NUMBER, label.id), value).labelled_by(head);
             }
-            // What is not touched keeps all its digits.
+            // A distance that is not touched keeps all its digits.
             let distance = if distance_mm == before_mm { setting.distance } else { distance_mm / unit_mm };
             let is_changed = (angle, distance) != (setting.angle, setting.distance);
             if is_changed && angle.is_finite() && distance.is_finite() {
-                // Whoever leaves out the sign means the same side: a tier never changes over to the other.
+                // A user who leaves out the sign means the same side: a tier never changes from crown to pavilion or back.
                 cut.set(place, angle.abs().copysign(setting.angle), distance);
             }
         });
     }
 }
 
-/// Leaves room so that the angle stands left of the column of numbers, in which the distance stands.
+/// Leaves room so that the angle stands left of the column of numbers, which holds the distance.
 fn skip_angle(ui: &mut Ui) {
     skip_control(ui, NUMBER + ui.spacing().item_spacing.x);
 }

@@ -1,4 +1,4 @@
-//! The bar that says what went wrong: one line over the lower edge of the views, which keep their size. It can be opened.
+//! The bar of errors and warnings: one line over the lower edge of the views, which keep their size. It opens to a list.
 
 use super::editor::Editor;
 use super::notes::Problem;
@@ -7,10 +7,10 @@ use egui::{
     Align, Align2, Area, Color32, Context, Frame, Id, Label, Layout, Order, Rect, RichText, ScrollArea, Ui,
 };
 
-/// The part of the views' height that the list of all troubles takes at most.
+/// The greatest part of the views' height that the list of all messages takes.
 const MOST_OF_HEIGHT: f32 = 0.6;
 
-/// Draws the bar over the views, if there is anything to say.
+/// Draws the bar over the views, if there are errors or warnings.
 pub fn show(editor: &mut Editor, ctx: &Context, stage: Rect) {
     if editor.notes.troubles().is_empty() {
         return;
@@ -34,7 +34,7 @@ fn coloured(ui: &Ui, trouble: &Problem) -> RichText {
     RichText::new(&trouble.text).color(colour(ui.visuals()))
 }
 
-/// The last trouble alone, on one line; a click on it lists all, each as long as it is.
+/// Draws the last message alone, on one line; a button lists all messages, each in full.
 fn last(editor: &mut Editor, ui: &mut Ui) {
     let troubles = editor.notes.troubles();
     let (count, Some(trouble)) = (troubles.len(), troubles.last().cloned()) else { return };

@@ -2,8 +2,10 @@
 
 use thread_priority::{ThreadPriority, ThreadPriorityValue, set_current_thread_priority};
 
-/// The priority of work that nobody's hand waits for, 0 to 99; on Linux this becomes niceness 2. A window that is painted
-/// sleeps in between and so comes first anyway; much less would let other busy programs stop the tracing.
+/// The priority of work that nobody's hand waits for, 0 to 99; on Linux this becomes niceness 2.
+///
+/// The thread that paints the window sleeps in between and so comes first anyway; a much lower priority would let other
+/// busy programs stop the tracing.
 const BEHIND: u8 = 42;
 
 /// Lowers the priority of this thread. If the system refuses, the window follows the hand less quickly; nothing else
@@ -14,7 +16,7 @@ pub fn lower() {
     }
 }
 
-/// Lowers the priority of rayon's threads. To be called before the first of them has work.
+/// Lowers the priority of rayon's threads; this must be called before the first of them has work.
 pub fn lower_the_pool() {
     let pool =
         rayon::ThreadPoolBuilder::new().thread_name(|k| format!("tracing {k}")).start_handler(|_| lower());

@@ -1,14 +1,14 @@
-//! How the views have been looked at, to go back over: apart from the design's own steps, which nobody wants to search
-//! among a hundred tilts.
+//! The steps of how the views look at the stone. They are kept apart from the design's own steps, which nobody wants to
+//! search among a hundred tilts.
 
 use super::eye::Eye;
 use super::history::History;
 use super::workspace::{Pane, PaneLayout, Workspace};
 
-/// Changes nearer to each other than this, seconds, are one step: turns of the wheel, keys held down.
+/// Changes closer together than this, seconds, are one step: turns of the wheel, keys held down.
 const PAUSE: f64 = 0.5;
 
-/// All that a look is.
+/// Everything that one step of the views restores.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ViewState {
     layout: PaneLayout,
@@ -37,22 +37,22 @@ impl ViewState {
     }
 }
 
-/// The looks that there were.
+/// The states that the views have been in.
 #[derive(Debug)]
 pub struct ViewHistory {
     history: History<ViewState>,
-    /// The last look, which may still be on its way, and when it came, seconds.
+    /// The last state, which may still be changing, and the time when it was noted, seconds.
     last: (ViewState, f64),
 }
 
 impl ViewHistory {
-    /// Begins with the desk as it is.
+    /// Begins with the workspace as it is.
     pub fn new(desk: &Workspace) -> Self {
         let look = ViewState::of(desk);
         Self { history: History::new(look.clone()), last: (look, 0.0) }
     }
 
-    /// Takes note of the desk between two gestures.
+    /// Takes note of the workspace between two gestures, at the time `now`, seconds.
     pub fn note(&mut self, desk: &Workspace, now: f64) {
         let look = ViewState::of(desk);
         if look != self.last.0 {
@@ -63,24 +63,24 @@ impl ViewHistory {
         }
     }
 
-    /// Ends a step: what comes is another.
+    /// Ends a step: the next change begins another.
     pub fn settle(&mut self) {
         self.history.settle(&self.last.0);
     }
 
-    /// Whether there is a look to go back to, and one to come back from.
+    /// Whether there is a state to go back to, and one to go forward to.
     pub fn steps(&self) -> (bool, bool) {
         (self.history.can_undo() || self.last.0 != *self.history.present(), self.history.can_redo())
     }
 
-    /// Looks as before.
+    /// Goes back to the state before.
     pub fn back(&mut self, desk: &mut Workspace) {
         self.settle();
         let look = self.history.undo();
         self.go(look, desk);
     }
 
-    /// Looks as before the last going back.
+    /// Goes forward to the state that was last gone back from.
     pub fn on(&mut self, desk: &mut Workspace) {
         self.settle();
         let look = self.history.redo();

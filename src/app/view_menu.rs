@@ -1,4 +1,4 @@
-//! The menu of a view, at the right mouse button.
+//! The menu of a view, which the right mouse button opens.
 
 use super::command::Command;
 use super::copying;
@@ -9,7 +9,7 @@ use super::pane::enlarge;
 use super::shows::Shows;
 use egui::{Response, Ui};
 
-/// What can be drawn over a picture.
+/// The commands that draw something over a picture.
 const OVERLAYS: [Command; 6] = [
     Command::Wireframe,
     Command::Facets,
@@ -19,10 +19,10 @@ const OVERLAYS: [Command; 6] = [
     Command::Strongest,
 ];
 
-/// Opens the menu of a view where it is clicked with the right button; a drag with it turns the stone.
+/// Opens the menu of a view at a click with the right button; a drag with that button turns the stone.
 pub fn attach(editor: &mut Editor, response: &Response, pane: usize) {
     response.context_menu(|ui| {
-        // Commands are for the view whose menu this is.
+        // The commands act on the view whose menu this is.
         editor.hovered = pane;
         contents(editor, ui, pane);
     });

@@ -1,4 +1,4 @@
-//! How a person has arranged the window: kept from one start to the next.
+//! How the user has arranged the window: kept from one start to the next.
 
 use super::eye::Eye;
 use super::liquid::Liquid;
@@ -10,20 +10,20 @@ use crate::scene::{Glare, Projection, View};
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 
-/// How many views there are.
+/// The number of views in the window.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub enum PaneLayout {
-    /// One.
+    /// One view.
     One,
-    /// Two side by side.
+    /// Two views, side by side or one above the other.
     Two,
-    /// Four.
+    /// Four views.
     #[default]
     Four,
 }
 
 impl PaneLayout {
-    /// How many panes it has.
+    /// Returns the number of panes in the layout.
     pub fn panes(self) -> usize {
         match self {
             Self::One => 1,
@@ -42,15 +42,15 @@ pub enum PanelSide {
     Figures,
 }
 
-/// Which panels are open. The others are folded to strips, which open them again.
+/// Which panels are open; the others are folded to strips, which open them again.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Panels {
-    /// Whether the design is, in a window that has room for both.
+    /// Whether the design panel is open in a window that has room for both.
     pub design: bool,
-    /// Whether the figures are, in a window that has room for both.
+    /// Whether the figures panel is open in a window that has room for both.
     pub figures: bool,
-    /// The one that is in a window that has room for one.
+    /// The panel that is open in a window that has room for one.
     pub narrow: Option<PanelSide>,
 }
 
@@ -70,7 +70,7 @@ impl Panels {
         }
     }
 
-    /// Opens a panel, or folds it.
+    /// Opens or folds a panel.
     pub fn set(&mut self, side: PanelSide, has_room_for_both: bool, is_open: bool) {
         match (has_room_for_both, side) {
             (false, _) => self.narrow = is_open.then_some(side),
@@ -80,86 +80,87 @@ impl Panels {
     }
 }
 
-/// One view.
+/// The settings of one view.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Pane {
-    /// What it shows.
+    /// What the view shows.
     pub shows: Shows,
-    /// Its own eye; none where it looks as the others do.
+    /// The view's own eye; `None` where it looks as the linked views do.
     pub own: Option<Eye>,
-    /// Whether it shows the stone in perspective, from nearby; else along parallel rays.
+    /// Whether the view shows the stone in perspective, from nearby; else along parallel rays.
     #[serde(default)]
     pub is_near: bool,
 }
 
-/// Distance of the eye that perspective begins with, girdle radii: a stone of 6.5 mm at 10 cm.
+/// The distance of the eye that perspective begins with, girdle radii: a stone of 6.5 mm at 10 cm.
 const DISTANCE: f64 = 30.0;
 
-/// The most files remembered.
+/// The greatest number of recent files.
 const MOST_RECENT: usize = 10;
 
-/// All of it.
+/// The arrangement of the window, with all settings that are kept.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Workspace {
-    /// How many views.
+    /// The number of views in the window.
     pub layout: PaneLayout,
-    /// The views; a layout of fewer shows the first of them.
+    /// The views; a layout with fewer shows the first of them.
     pub panes: [Pane; 4],
-    /// One of them, shown alone for a while.
+    /// The view that is shown alone for a while, if any.
     pub large: Option<usize>,
     /// The eye of all linked views.
     pub eye: Eye,
-    /// How far from the stone's origin the eye is in views in perspective, girdle radii.
+    /// The distance of the eye from the stone's origin in perspective views, girdle radii.
     pub distance: f64,
-    /// Half angle of the observer's head in ASET and figures, degrees.
+    /// The half angle of the observer's head in ASET and figures, degrees.
     pub head: f64,
-    /// Whether scopes show strongest exits alone.
+    /// Whether scopes show the strongest exits alone.
     pub strongest: bool,
-    /// Whether scopes and the zones of figures hold the glare of the stone's outer surface.
+    /// Whether scopes and the zones of figures include the glare of the stone's outer surface.
     pub glare: bool,
-    /// What is drawn over pictures, by its name.
+    /// The name of the overlay on pictures, if any.
     pub overlay: Option<String>,
-    /// Whether figures are those of strongest exits' areas, not of energy.
+    /// Whether figures count the areas of the strongest exits, not energy.
     pub by_area: bool,
     /// Whether both designs are seen side by side.
     pub is_split: bool,
-    /// Files, the last one first.
+    /// The recent files, the last one first.
     pub recent: Vec<PathBuf>,
-    /// The file that was open.
+    /// The file that was open last.
     pub last: Option<PathBuf>,
-    /// The light that was chosen.
+    /// The chosen light: its name, or its file.
     pub light: String,
-    /// Stops.
+    /// The exposure of renders, in stops.
     pub exposure: f64,
-    /// Bands of wavelengths of renders.
+    /// The number of bands of wavelengths of renders.
     pub wavelengths: u32,
-    /// What hangs behind stones in renders: the name of a pattern, or a photograph's file.
+    /// The backplate behind stones in renders: `light`, the name of a pattern, or a photograph's file.
     pub behind: Option<String>,
-    /// What a scene has hung there and set; with another stone it is again as it was.
+    /// What a scene has set, and what was set before; the latter comes back with another stone.
     pub of_scene: Option<OfScene>,
-    /// How far behind the middle that hangs, mm; none for a distance that goes with the stone.
+    /// How far behind the middle the backplate hangs, mm; `None` for a distance that goes with the stone.
     pub behind_mm: Option<f64>,
-    /// How much of the way that refraction turns light is followed before it: 1 is physics.
+    /// The strength of refraction: how much of the way that refraction turns light is followed before the backplate; 1 is
+    /// physics.
     pub strength: f64,
-    /// How edges of renders are evened out.
+    /// How the edges of renders are smoothed.
     pub smoothing: Smoothing,
-    /// Whether views have the window to themselves.
+    /// Whether the panels are hidden, so that views have the window to themselves.
     pub hides_panels: bool,
-    /// Which panels are open else.
+    /// Which panels are open where they are not hidden.
     pub panels: Panels,
     /// The pane of liquid glass.
     pub liquid: Liquid,
 }
 
-/// What hangs behind and how many wavelengths there are: as a scene has set it, and before that.
+/// The backplate and the number of bands of wavelengths: as a scene has set them, and as they were before.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct OfScene {
     set: (Option<String>, u32),
     before: (Option<String>, u32),
 }
 
-/// Bands of wavelengths that are offered; of three each shows.
+/// The numbers of bands of wavelengths that are offered; of only three bands, each shows in the picture.
 pub const WAVELENGTHS: [u32; 5] = [3, 8, 16, 32, 64];
 
 impl Default for Workspace {
@@ -195,17 +196,17 @@ impl Default for Workspace {
 }
 
 impl Workspace {
-    /// Whether scopes hold glare.
+    /// Returns whether scopes include glare.
     pub fn glare(&self) -> Glare {
         if self.glare { Glare::Included } else { Glare::LeftOut }
     }
 
-    /// What hangs behind stones in renders; a file that has gone is none.
+    /// Returns the backplate behind stones in renders; `None` too where its file no longer exists.
     pub fn background(&self) -> Option<BackgroundRef> {
         BackgroundRef::read(self.behind.as_deref()?, Path::new("")).ok()
     }
 
-    /// Hangs the pattern behind that comes next in their order, after the last of them nothing.
+    /// Hangs the next pattern behind renders, in the order of patterns; after the last one, nothing.
     pub fn next_behind(&mut self) {
         let next = match self
             .behind
@@ -218,7 +219,7 @@ impl Workspace {
         self.behind = Pattern::NAMES.get(next).map(|(name, _)| (*name).to_owned());
     }
 
-    /// Hangs what a scene wants behind it, seen in so many wavelengths.
+    /// Hangs the backplate of a scene behind it, and sees the scene in its number of bands of wavelengths, if it has one.
     pub fn enter_scene(&mut self, behind: Option<String>, wavelengths: Option<u32>) {
         let before = (self.behind.take(), self.wavelengths);
         (self.behind, self.wavelengths) = (behind, wavelengths.unwrap_or(self.wavelengths));
@@ -235,7 +236,7 @@ impl Workspace {
         self.large = (panes.len() > 1).then_some(found.unwrap_or(0));
     }
 
-    /// Forgets what goes with one stone: distances with its size, what its scene hung behind it, mixtures.
+    /// Forgets what goes with one stone: the distance in mm, what its scene has set, and a strength below 1.
     pub fn rest(&mut self) {
         if let Some(OfScene { set, before }) = self.of_scene.take() {
             if self.behind == set.0 {
@@ -248,12 +249,12 @@ impl Workspace {
         (self.behind_mm, self.strength) = (None, 1.0);
     }
 
-    /// How much of the way that refraction turns light is followed; without a picture behind all of it.
+    /// Returns how much of the way that refraction turns light is followed; without a backplate, all of it.
     pub fn strength(&self) -> f64 {
         if self.background().is_some() { self.strength.clamp(0.0, 1.0) } else { 1.0 }
     }
 
-    /// The panes in sight, by their places.
+    /// Returns the panes in sight, by their numbers.
     pub fn shown(&self) -> Vec<usize> {
         match self.large.filter(|&k| k < self.layout.panes()) {
             Some(large) => vec![large],
@@ -261,12 +262,12 @@ impl Workspace {
         }
     }
 
-    /// The eye of a pane.
+    /// Returns the eye of a pane.
     pub fn eye(&self, pane: usize) -> &Eye {
         self.panes[pane].own.as_ref().unwrap_or(&self.eye)
     }
 
-    /// How a pane looks at the stone: from the side that its picture is made for.
+    /// Returns how a pane looks at the stone: from the side that its picture is made for, if any.
     pub fn view(&self, pane: usize) -> View {
         let Pane { shows, is_near, .. } = self.panes[pane];
         let view = self.eye(pane).view(shows.side());
@@ -276,7 +277,9 @@ impl Workspace {
         }
     }
 
-    /// Shows something else in a pane. A scope is seen along parallel rays until perspective is asked for.
+    /// Shows something else in a pane.
+    ///
+    /// A scope is seen along parallel rays until the user asks for perspective.
     pub fn show(&mut self, pane: usize, shows: Shows) {
         let now = &mut self.panes[pane];
         now.is_near &= now.shows == shows || shows.scoped().is_none();
@@ -291,7 +294,7 @@ impl Workspace {
         (self.strongest, self.glare) = (strongest, glare);
     }
 
-    /// Shows the views that there were at the very first, and the panels; every view looks from where it did.
+    /// Shows the views and panels of the first start; every view keeps the eye that it had.
     pub fn reset_layout(&mut self) {
         let Self { layout, panes, large, is_split, hides_panels, panels, .. } = Self::default();
         (0..panes.len()).for_each(|pane| self.show(pane, panes[pane].shows));
@@ -299,7 +302,7 @@ impl Workspace {
         (self.is_split, self.hides_panels, self.panels) = (is_split, hides_panels, panels);
     }
 
-    /// The same, to be moved.
+    /// Returns the eye of a pane, to be moved.
     pub fn eye_mut(&mut self, pane: usize) -> &mut Eye {
         self.panes[pane].own.as_mut().unwrap_or(&mut self.eye)
     }
@@ -310,18 +313,18 @@ impl Workspace {
         self.panes.iter_mut().filter_map(|p| p.own.as_mut()).for_each(Eye::top);
     }
 
-    /// What is drawn over pictures.
+    /// Returns the overlay on pictures.
     pub fn overlay(&self) -> Option<Overlay> {
         self.overlay.as_deref().and_then(|name| name.parse().ok())
     }
 
-    /// Draws something over pictures, or no longer.
+    /// Draws an overlay on pictures, or no longer draws it where it is the present one.
     pub fn toggle_overlay(&mut self, name: &str) {
         let same = self.overlay.as_deref() == Some(name);
         self.overlay = (!same).then(|| name.to_owned());
     }
 
-    /// Remembers a file.
+    /// Remembers a file as the last one that was open.
     pub fn remember(&mut self, path: &Path) {
         let path = std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
         self.recent.retain(|p| *p != path);

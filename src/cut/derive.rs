@@ -1,4 +1,5 @@
-//! What follows from the proportions of a round brilliant, once they are found to be within their limits.
+//! What follows from the proportions of a round brilliant: derived lengths and angles, facets and warnings. Each is computed
+//! only after the proportions have passed their limits.
 
 use super::proportions::Derived;
 use super::round_brilliant::RoundBrilliant;
@@ -6,7 +7,7 @@ use super::{ProportionError, Warning, facets, limits};
 use crate::math::Plane;
 
 impl RoundBrilliant {
-    /// The other member of each pair, the angles of star and halves, the depths; or the first limit crossed.
+    /// Returns both members of each pair (angle and height, say), the angles of the stars and halves, and the depths.
     ///
     /// # Errors
     /// The first limit crossed, and by how much.
@@ -14,10 +15,11 @@ impl RoundBrilliant {
         limits::check(self).map(|proportions| proportions.derived())
     }
 
-    /// Every facet's name and plane, unit normals, girdle radius 1: table, bezels, stars, upper halves, girdle, lower
-    /// halves, mains, each tier numbered from 1 counterclockwise seen from the table, and the culet if there is one.
+    /// Returns every facet's name and plane, with unit normals and girdle radius 1.
     ///
-    /// Where the girdle closes in its valleys some girdle planes no longer touch the stone, which a polytope tells.
+    /// The order is table, bezels, stars, upper halves, girdle, lower halves, mains, and the culet if there is one. Each
+    /// tier is numbered from 1, counter-clockwise seen from the table. Where the girdle closes in its valleys, some girdle
+    /// planes no longer touch the stone; a [`Polytope`](crate::math::Polytope) made of the planes lists them as redundant.
     ///
     /// # Errors
     /// The first limit crossed, and by how much.
@@ -25,7 +27,7 @@ impl RoundBrilliant {
         limits::check(self).map(|proportions| facets::round_brilliant(&proportions))
     }
 
-    /// What is possible but unusual about these proportions.
+    /// Returns a warning for everything that is possible but unusual about these proportions.
     ///
     /// # Errors
     /// The first limit crossed, and by how much.
@@ -36,7 +38,7 @@ impl RoundBrilliant {
 
 #[cfg(test)]
 pub(crate) mod strategy {
-    //! Valid proportions at random, wide of what is ever cut.
+    //! Random valid proportions, over wider ranges than are ever cut.
 
     use super::*;
     use crate::cut::{Crown, LowerHalf, Pavilion};
@@ -54,7 +56,7 @@ pub(crate) mod strategy {
         prop_oneof![(3.0..99.0).prop_map(LowerHalf::Radial), (10.5..99.0).prop_map(LowerHalf::Vertical)]
     }
 
-    /// Table up to 85 %, above which stars need more than 90 % of the way to the girdle.
+    /// Proportions with a table of up to 85 %. Larger tables need stars that reach more than 90 % of the way to the girdle.
     pub fn proportions() -> impl Strategy<Value = RoundBrilliant> {
         let shape = (5.0..85.0, crown(), pavilion(), 0.01..0.99, lower_half());
         (shape, 0.0..8.0, 16_u32..=128, prop_oneof![Just(0.0), 0.1..90.0]).prop_map(

@@ -1,4 +1,4 @@
-//! A design: all that a cut file says of a stone.
+//! A design: everything that a cut file says about a stone.
 
 use super::material::{MaterialError, MaterialRef};
 use super::{
@@ -6,42 +6,42 @@ use super::{
 };
 use crate::math::{NotConvex, Plane};
 
-/// Girdle diameter of a design that gives none, mm: that of a brilliant of about one carat.
+/// The girdle diameter of a design whose file gives none, mm: that of a brilliant of about one carat.
 pub const DEFAULT_DIAMETER_MM: f64 = 6.5;
 
 /// The most planes a design may list.
 pub const MAX_PLANES: usize = 10_000;
 
-/// Girdle diameters taken, mm.
+/// The girdle diameters that a design may have, mm.
 pub(super) const DIAMETERS_MM: std::ops::RangeInclusive<f64> = 0.1..=1000.0;
 
-/// A stone as it is written down: its cut, its material and its size.
+/// A stone as a file describes it: its cut, its material and its size.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Design {
-    /// What the cut is called, printable.
+    /// The cut's name: printable, not blank, and at most 200 bytes long.
     pub name: String,
-    /// Where it is published.
+    /// Where the cut is published.
     pub source: Option<String>,
-    /// What else is to be said of it.
+    /// Anything else that the file says about the cut.
     pub notes: Option<String>,
-    /// What it is made of.
+    /// The material of the stone.
     pub material: MaterialRef,
-    /// Girdle diameter (2 in the stone's frame), mm; absorption depends on it. 0.1 to 1000.
+    /// The girdle diameter, mm, 0.1 to 1000. It is 2 in the stone's frame; absorption depends on it.
     pub diameter_mm: f64,
-    /// Its shape.
+    /// The shape of the stone.
     pub cut: Cut,
 }
 
-/// The shape of a stone: a family with its proportions, the planes themselves, a mesh, or a glass shape.
+/// The shape of a stone: a family with its proportions, tiers, planes, a mesh, or a glass shape.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Cut {
-    /// The round brilliant.
+    /// A round brilliant, by its proportions.
     RoundBrilliant(RoundBrilliant),
-    /// Facets by angle, distance and index, as cutters have them.
+    /// Facets by angle, distance and index, as cutters write them.
     Tiers(Tiers),
-    /// Names, which may repeat, and planes as written: 1 to [`MAX_PLANES`], normals of any length but zero.
+    /// Planes with their names, as written: 1 to [`MAX_PLANES`] planes, normals of any length but zero. Names may repeat.
     Planes(Vec<(String, Plane)>),
-    /// Triangles around a solid that is not convex.
+    /// Triangles that enclose a solid that is not convex.
     Mesh(MeshShape),
     /// A glass shape.
     Glass(Glass),
@@ -50,73 +50,73 @@ pub enum Cut {
 /// What is wrong with a design.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum DesignError {
-    /// A name that is blank or has control characters.
+    /// A name that is blank, too long or has control characters.
     #[error("name: a name of 1 to 200 printable characters is expected")]
     Name,
-    /// A girdle diameter out of range.
+    /// A girdle diameter outside 0.1 to 1000 mm.
     #[error("diameter_mm: {value} must be from {} to {} mm", DIAMETERS_MM.start(), DIAMETERS_MM.end())]
     Diameter {
-        /// What was given, mm.
+        /// The diameter in the file, mm.
         value: f64,
     },
-    /// A material whose numbers make no sense.
+    /// A material that is unknown, or whose numbers make no sense.
     #[error(transparent)]
     Material(#[from] MaterialError),
-    /// Proportions that cannot be.
+    /// Proportions that no round brilliant can have.
     #[error(transparent)]
     Proportion(#[from] ProportionError),
-    /// Dimensions of a glass shape that cannot be.
+    /// Dimensions that no glass shape can have.
     #[error(transparent)]
     Glass(#[from] GlassError),
-    /// It has no planes.
+    /// Facets were requested of a design without planes: a mesh, or a smooth glass shape.
     #[error(transparent)]
     NotConvex(#[from] NotConvex),
-    /// No plane, or more than [`MAX_PLANES`].
+    /// A list without planes, or with more than [`MAX_PLANES`].
     #[error("plane: {count} planes are given; from 1 to {MAX_PLANES} are expected")]
     PlaneCount {
-        /// How many were given.
+        /// The number of planes in the list.
         count: usize,
     },
-    /// A cutter's design without facets, or of more than [`MAX_PLANES`].
+    /// A cutter's design that cuts no facets, or more than [`MAX_PLANES`].
     #[error("tier: {count} facets are cut; from 1 to {MAX_PLANES} are expected")]
     FacetCount {
-        /// How many are cut.
+        /// The number of facets that are cut.
         count: usize,
     },
-    /// A cutter's design of numbers that make no sense.
+    /// A cutter's design with a number that makes no sense.
     #[error("{}{fault}", .tier.map(|tier| format!("tier {tier}: ")).unwrap_or_default())]
     Tiers {
-        /// Which tier, from 1; none where it is the gear.
+        /// The number of the tier, from 1; `None` where the gear or its offset is at fault.
         tier: Option<usize>,
-        /// What is wrong with it.
+        /// What is wrong with the tier, the gear or its offset.
         fault: TierFault,
     },
-    /// A plane that bounds nothing.
+    /// A plane of the list that bounds nothing or has no valid name.
     #[error("plane {number}: {fault}")]
     Plane {
-        /// Which, from 1, in the order given.
+        /// The number of the plane, from 1, in the order of the list.
         number: usize,
-        /// What is wrong with it.
+        /// What is wrong with the plane.
         fault: PlaneFault,
     },
 }
 
-/// What is wrong with a plane.
+/// What is wrong with a plane of a list.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub enum PlaneFault {
-    /// A name that is blank or has control characters.
+    /// A name that is blank, too long or has control characters.
     #[error("name: a name of 1 to 200 printable characters is expected")]
     Name,
     /// A normal that is zero or not finite.
     #[error("normal: {0} points nowhere; three finite numbers that are not all 0 are expected")]
     Normal(glam::DVec3),
-    /// An offset that is not finite, or becomes so for a unit normal.
+    /// An offset that is not finite, or overflows when the normal is scaled to length 1.
     #[error("offset: {0} is no finite distance; it is measured in lengths of the normal")]
     Offset(f64),
 }
 
 impl PlaneFault {
-    /// The key at fault.
+    /// Returns the key of the cut file that is at fault.
     pub fn key(&self) -> &'static str {
         match self {
             Self::Name => "name",
@@ -127,7 +127,7 @@ impl PlaneFault {
 }
 
 impl Cut {
-    /// The proportions, if it is a round brilliant.
+    /// Returns the proportions if the cut is a round brilliant.
     pub fn brilliant(&self) -> Option<&RoundBrilliant> {
         match self {
             Self::RoundBrilliant(brilliant) => Some(brilliant),
@@ -137,7 +137,10 @@ impl Cut {
 }
 
 impl Design {
-    /// Calls the design something else: where its own file has its name among its headers, there as well.
+    /// Gives the design another name.
+    ///
+    /// Where the design comes from a cutter's file, the header that held the old name is changed too; if there is none, the
+    /// new name becomes the first header.
     pub fn rename(&mut self, name: String) {
         if let Cut::Tiers(tiers) = &mut self.cut {
             let is_name = |header: &&mut String| header.trim() == self.name;
@@ -149,7 +152,7 @@ impl Design {
         self.name = name;
     }
 
-    /// Checks everything that can be known without building the stone.
+    /// Checks everything that can be checked without building the stone.
     ///
     /// # Errors
     /// The first thing at fault: name, size, material, proportions or plane.
@@ -168,11 +171,12 @@ impl Design {
         }
     }
 
-    /// Every facet's name, no two alike, and its plane with a unit normal: in girdle radii, but for a cutter's design
-    /// in that one's own unit.
+    /// Returns every facet's name, no two alike, and its plane with a unit normal.
+    ///
+    /// Lengths are in girdle radii, but for a cutter's design in that design's own unit.
     ///
     /// # Errors
-    /// The first proportion or plane at fault; [`DesignError::NotConvex`] where it has no planes.
+    /// The first proportion or plane at fault; [`DesignError::NotConvex`] for a design without planes.
     pub fn facets(&self) -> Result<Vec<(String, Plane)>, DesignError> {
         match &self.cut {
             Cut::RoundBrilliant(proportions) => Ok(proportions.facets()?),
@@ -186,7 +190,7 @@ impl Design {
         }
     }
 
-    /// What is possible but unusual about this design.
+    /// Returns a warning for everything that is possible but unusual about this design. Only round brilliants have warnings.
     ///
     /// # Errors
     /// The first proportion at fault.
@@ -220,7 +224,7 @@ fn named_planes(planes: &[(String, Plane)]) -> Result<Vec<(String, Plane)>, Desi
         .collect()
 }
 
-/// The plane with a unit normal, if its name and numbers allow.
+/// Returns the plane with a unit normal, or what is wrong with its name or numbers.
 fn unit(name: &str, plane: &Plane) -> Result<Plane, PlaneFault> {
     if !names::is_printable(name) {
         return Err(PlaneFault::Name);

@@ -1,7 +1,7 @@
 //! The planes of the round brilliant, tier by tier, from its closed form.
 //!
-//! Every tier is a slope, an azimuth of its first facet and an offset, as in the facet table of docs/optics.md; a
-//! pavilion facet of angle b has the slope π - b.
+//! A tier is given by a slope, the azimuth of its first facet and an offset, as in the facet table of docs/optics.md. A
+//! pavilion facet at the angle b from the girdle plane has the slope π - b.
 
 use std::f64::consts::{PI, TAU};
 
@@ -10,7 +10,7 @@ use glam::DVec3;
 use super::proportions::{HALF_AZIMUTH, Proportions, STAR_AZIMUTH};
 use crate::math::Plane;
 
-/// Every facet's name and plane.
+/// Returns every facet's name and plane, in the order of the tiers.
 pub(super) fn round_brilliant(p: &Proportions) -> Vec<(String, Plane)> {
     let mut facets = vec![("table".to_owned(), Plane::new(DVec3::Z, p.crown_height()))];
     facets.extend(crown(p));
@@ -32,7 +32,7 @@ fn crown(p: &Proportions) -> impl Iterator<Item = (String, Plane)> {
         .chain(tier("upper_half", 16, HALF_AZIMUTH, upper, HALF_AZIMUTH.cos() * upper.sin()))
 }
 
-/// Their normals are written without a slope, so that z is exactly 0.
+/// The normals are written without a slope, so that their z is exactly 0.
 fn girdle(count: u32) -> impl Iterator<Item = (String, Plane)> {
     let offset = (PI / f64::from(count)).cos();
     (0..count).map(move |k| {
@@ -54,7 +54,8 @@ fn pavilion(p: &Proportions) -> impl Iterator<Item = (String, Plane)> {
     ))
 }
 
-/// `count` facets of one slope and offset, evenly round the axis from the azimuth `first`, radians.
+/// Returns `count` facets of one slope and offset, spaced evenly around the axis from the azimuth `first`. Angles are in
+/// radians.
 fn tier(
     name: &str,
     count: u32,
@@ -75,14 +76,15 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    /// Rounding in a few sines and divisions, for stones up to a few radii deep.
+    /// Tolerance for the rounding of a few sines and divisions, in stones up to a few radii deep.
     const EXACT: f64 = 1e-12;
 
     fn at(azimuth: f64, radius: f64, z: f64) -> DVec3 {
         DVec3::new(radius * azimuth.cos(), radius * azimuth.sin(), z)
     }
 
-    /// Names of the planes through a point, their numbers taken off; every plane must leave the point inside.
+    /// Returns the names of the planes through a point, without their numbers. The point must lie inside all planes but the
+    /// girdle's.
     fn meeting(facets: &[(String, Plane)], point: DVec3) -> Vec<String> {
         let tolerance = EXACT * point.length().max(1.0);
         for (name, plane) in facets.iter().filter(|(name, _)| !name.starts_with("girdle")) {
@@ -180,7 +182,7 @@ mod tests {
         fn the_pavilion_meets_point_to_point(given in strategy::proportions(), k in 0_u32..8) {
             let facets = RoundBrilliant { culet: 0.0, ..given }.facets().unwrap();
             let p = Proportions::unchecked(&RoundBrilliant { culet: 0.0, ..given });
-            // The written depth is to the culet, so without one another pavilion answers to it.
+            // The given depth reaches to the culet, so the same depth without a culet makes another pavilion.
             let apex = meeting(&facets, at(0.0, 0.0, -p.girdle - p.tan_pavilion));
             prop_assert_eq!(apex, ["main"; 8]);
             let tip = at(

@@ -1,7 +1,7 @@
-//! Glass shapes: what spectral refraction is shown on, beside gems.
+//! Glass shapes, on which spectral refraction is shown beside gems.
 //!
-//! Lengths are percent of the design's diameter, as with stones; z is toward the eye of the view face up. What is sharp all
-//! over is a solid between planes like any stone; anything rounded is a smooth one.
+//! Lengths are percent of the design's diameter, as with stones; +z points to the eye of the view face up. A cube or prism
+//! with sharp edges is a solid between planes like any stone; every other shape is a smooth solid.
 
 use crate::math::{ImplicitForm, ImplicitSurface, ImplicitSurfaceError, Plane};
 use glam::DVec3;
@@ -13,9 +13,9 @@ use serde::{Deserialize, Serialize};
 pub enum Glass {
     /// A stadium with rounded edges.
     Pill(Sides),
-    /// A box, as a cube has it with three equal sides.
+    /// A box; with three equal sides a cube.
     Cube(Sides),
-    /// An isosceles triangle across, its apex toward the eye, drawn out along x.
+    /// A prism along x, whose cross-section is an isosceles triangle with its apex toward the eye.
     Prism(Sides),
     /// A plate whose middle waves.
     Plate(Plate),
@@ -25,57 +25,57 @@ pub enum Glass {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Sides {
-    /// Along x.
+    /// The length along x.
     pub length: f64,
-    /// Along y; of a prism its base.
+    /// The width along y; of a prism its base.
     pub width: f64,
-    /// Along z; of a prism its height.
+    /// The depth along z; of a prism its height.
     pub depth: f64,
-    /// Radius of the edges.
+    /// The radius of the edges; 0 is sharp.
     pub edge: f64,
 }
 
-/// A plate, as thick as it is deep wherever it is measured along z.
+/// A plate whose middle waves. Lengths are percent of the diameter. Measured along z it has the same thickness everywhere.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Plate {
-    /// Along x, percent of the diameter.
+    /// The length along x.
     pub length: f64,
-    /// Along y.
+    /// The width along y.
     pub width: f64,
-    /// Thickness, along z.
+    /// The thickness along z.
     pub depth: f64,
-    /// Radius of the edges.
+    /// The radius of the edges; 0 is sharp.
     pub edge: f64,
-    /// How far the middle rises and falls.
+    /// The height of the wave's crests, and the depth of its troughs.
     pub amplitude: f64,
-    /// From crest to crest, along x and along y.
+    /// The distance from crest to crest, along x and along y.
     pub wavelength: f64,
-    /// Where the wave begins, degrees.
+    /// The phase at which the wave begins, degrees.
     #[serde(default)]
     pub phase: f64,
 }
 
-/// One number of a shape.
+/// The description of one number of a shape.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Dimension {
-    /// Its key in a cut file.
+    /// The number's key in a cut file.
     pub key: &'static str,
-    /// What it means.
+    /// The meaning of the number, in words.
     pub meaning: &'static str,
-    /// What it is measured in.
+    /// The unit of the number, as written after it.
     pub unit: &'static str,
-    /// From where to where a slider takes it.
+    /// The least and greatest value that a slider gives it.
     pub range: [f64; 2],
 }
 
-/// Why there is no such shape.
+/// The reason why a shape cannot be made.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[error("{key}: {message}")]
 pub struct GlassError {
     /// The dimension at fault.
     pub key: &'static str,
-    /// What is wrong with it.
+    /// What is wrong with that dimension, and what is expected.
     pub message: String,
 }
 
@@ -99,7 +99,7 @@ const WAVELENGTH: Dimension =
 const PHASE: Dimension = dimension("phase", "°", [-360.0, 360.0], "Where the wave begins.");
 
 impl Glass {
-    /// The shapes in the dimensions that they are first shown in: their key, what they are called, themselves.
+    /// All shapes with their default dimensions: the key in a cut file, the name that people read, and the shape.
     pub const ALL: [(&str, &str, Self); 4] = [
         ("pill", "Pill", Self::Pill(Sides { length: 100.0, width: 28.75, depth: 15.5, edge: 7.75 })),
         ("prism", "Prism", Self::Prism(Sides { length: 100.0, width: 37.9, depth: 29.8, edge: 0.0 })),
@@ -119,7 +119,7 @@ impl Glass {
         ),
     ];
 
-    /// Its key in a cut file, and what it is called.
+    /// Returns the shape's key in a cut file, and the name that people read.
     pub fn called(&self) -> (&'static str, &'static str) {
         let same = |other: &Self| std::mem::discriminant(self) == std::mem::discriminant(other);
         Self::ALL
@@ -128,7 +128,7 @@ impl Glass {
             .map_or(("glass", "Glass"), |(key, name, _)| (key, name))
     }
 
-    /// Its numbers, to be read and set.
+    /// Returns the shape's numbers with their descriptions, to be read and set.
     pub fn dimensions(&mut self) -> Vec<(Dimension, &mut f64)> {
         match self {
             Self::Pill(sides) | Self::Cube(sides) | Self::Prism(sides) => {
@@ -150,7 +150,7 @@ impl Glass {
         }
     }
 
-    /// The shape with `unit` for each percent.
+    /// Returns the shape as an implicit form, `unit` long for each percent.
     fn form(&self, unit: f64) -> ImplicitForm {
         let size = |length: f64, width: f64, depth: f64| DVec3::new(length, width, depth) * unit;
         let sides = |s: &Sides| (size(s.length, s.width, s.depth), s.edge * unit);
@@ -177,18 +177,18 @@ impl Glass {
         }
     }
 
-    /// The shape's function, in girdle radii.
+    /// Returns the shape's implicit surface, in girdle radii.
     ///
     /// # Errors
     /// The dimension at fault, in the unit in which it is written.
     pub fn field(&self) -> Result<ImplicitSurface, GlassError> {
-        // Checked in percent, so that what is told is what was written.
+        // First checked in percent, so that messages hold the numbers that were written.
         ImplicitSurface::new(self.form(1.0))
             .and_then(|_| ImplicitSurface::new(self.form(0.02)))
             .map_err(in_percent)
     }
 
-    /// Its faces with their names, where all of it is flat and sharp.
+    /// Returns the faces with their names and planes; `None` unless all faces are flat and all edges sharp.
     pub fn planes(&self) -> Option<Vec<(String, Plane)>> {
         let (Self::Cube(sides) | Self::Prism(sides)) = self else { return None };
         if sides.edge != 0.0 {
@@ -202,12 +202,12 @@ impl Glass {
             let normal = field.normal((a + b + c) / 3.0);
             Some(((*name).to_owned(), Plane::new(normal, normal.dot(a))))
         };
-        // The last of its facets are the edges, which have no extent.
+        // The field's facets past the flat faces are its edges, which have no extent here.
         Some((0..).zip(field.facets()).filter_map(plane).collect())
     }
 }
 
-/// What is wrong, by the key at fault.
+/// Converts an error of the implicit surface into one that names the key of the cut file.
 fn in_percent(error: ImplicitSurfaceError) -> GlassError {
     let (key, message) = match error {
         ImplicitSurfaceError::Dimension { name, value } => {

@@ -1,4 +1,4 @@
-//! The limits a round brilliant must keep.
+//! The limits that a round brilliant must keep.
 //!
 //! Upper limits are geometry: beyond them a facet has nowhere to lie. Lower limits keep every facet well clear of its
 //! neighbours, and catch fractions written for percent and radians written for degrees.
@@ -13,16 +13,20 @@ const LEAST_TABLE: f64 = 5.0;
 const LEAST_ANGLE: f64 = 2.0;
 /// The shortest lower half, radial percent. Above 1, so that a fraction is noticed.
 const LEAST_LOWER_HALF: f64 = 2.0;
-/// The deepest stone, percent of its diameter; rounding stays below every tolerance up to there.
+/// The deepest stone, percent of its diameter. Up to there rounding stays below every tolerance.
 const MOST_DEPTH: f64 = 300.0;
 
-/// The star length, percent, at which the stars lie flat with the table: their tips on the table's level of a bezel.
+/// Returns the star length, percent, at which the stars lie flat with the table, because their tips lie on the bezels at the
+/// table's level.
 pub(super) fn least_star_length(table: f64) -> f64 {
     let (t, cos, sin) = (table / 100.0, STAR_AZIMUTH.cos(), STAR_AZIMUTH.sin());
     100.0 * t * sin * sin / (cos * (1.0 - t * cos))
 }
 
-/// The number of girdle facets, if it is one from 16 to 128.
+/// Returns the number of girdle facets if it lies from 16 to 128.
+///
+/// # Errors
+/// The limit crossed, and by how much.
 pub fn girdle_facets(count: i64) -> Result<u32, ProportionError> {
     let whole = |limit, reason| Limit {
         key: "girdle_facets",
@@ -39,7 +43,7 @@ pub fn girdle_facets(count: i64) -> Result<u32, ProportionError> {
     }
 }
 
-/// The proportions in the program's own terms, or the first limit crossed.
+/// Returns the proportions in the units of the closed form, or the first limit crossed.
 pub(super) fn check(given: &RoundBrilliant) -> Result<Proportions, ProportionError> {
     finite(given)?;
     table(given.table)?;
@@ -141,7 +145,7 @@ fn lower_half(length: LowerHalf) -> Result<(), ProportionError> {
     range.below(100.0, "where the lower halves would meet in the centre and leave no mains")
 }
 
-/// A value on its way through its limits.
+/// A value that is to be checked against its limits.
 #[derive(Clone, Copy)]
 struct Range {
     key: &'static str,

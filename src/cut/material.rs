@@ -1,22 +1,22 @@
-//! What a cut file says of its material, which [`optics`] describes.
+//! The material of a stone as a cut file gives it. [`optics`] describes the materials themselves.
 
 use crate::optics::{self, Dispersion, DispersionError, Material, UnknownMaterial, VISIBLE_NM};
 
-/// Densities taken, g/cm³: from aerogel to beyond osmium.
+/// The densities that a material may have, g/cm³: from aerogel to beyond osmium.
 const DENSITIES: std::ops::RangeInclusive<f64> = 0.1..=30.0;
 
-/// The material of a stone, as written.
+/// The material of a stone, as written in a file.
 #[derive(Debug, Clone, PartialEq)]
 pub enum MaterialRef {
-    /// A material of the library, by name.
+    /// A material of the library, by its name.
     Name(String),
-    /// A refractive index for every wavelength, 1 to 5, without absorption.
+    /// The same refractive index for every wavelength, 1 to 5, without absorption.
     Index(f64),
-    /// A material of the file's own; its index is from 1 to 5 throughout visible light.
+    /// A material that the file itself defines. Its index is from 1 to 5 throughout visible light.
     Custom(Box<Material>),
 }
 
-/// What is wrong with a material; each names its key.
+/// What is wrong with a material. Each variant names its key.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum MaterialError {
     /// A blank name, or one with control characters.
@@ -25,25 +25,25 @@ pub enum MaterialError {
         /// The key at fault.
         key: &'static str,
     },
-    /// A name that the library lacks.
+    /// A name that is not in the library.
     #[error("material: {0}")]
     Unknown(#[from] UnknownMaterial),
-    /// An index that no material has.
+    /// An index outside 1 to 5.
     #[error("{key}: the index {value} must be from 1 (vacuum) to 5")]
     Index {
         /// The key at fault.
         key: &'static str,
-        /// What was given.
+        /// The index as given.
         value: f64,
     },
-    /// An index that no material has, at one wavelength.
+    /// A law that gives an index above 5 at some wavelength.
     #[error("{key}: the index {value} at {nm} nm must be at most 5; check the coefficients")]
     IndexAt {
         /// The key at fault.
         key: &'static str,
-        /// What the law gives.
+        /// The index that the law gives.
         value: f64,
-        /// Where, in nm.
+        /// The wavelength, nm.
         nm: f64,
     },
     /// A law that gives no index somewhere in visible light.
@@ -51,27 +51,27 @@ pub enum MaterialError {
     Dispersion {
         /// The key at fault.
         key: &'static str,
-        /// What is wrong with it.
+        /// What is wrong with the law.
         fault: DispersionError,
     },
-    /// A range of wavelengths that does not rise.
+    /// A range of wavelengths whose first lies above its last, or where one of them is NaN.
     #[error("valid_nm: [{first}, {last}] is no range; give the first wavelength in nm, then the last")]
     Valid {
-        /// Where it begins.
+        /// The first wavelength, nm.
         first: f64,
-        /// Where it ends.
+        /// The last wavelength, nm.
         last: f64,
     },
-    /// A density that no stone has.
+    /// A density outside 0.1 to 30 g/cm³.
     #[error("density: {value} must be from {} to {} g/cm³", DENSITIES.start(), DENSITIES.end())]
     Density {
-        /// What was given, g/cm³.
+        /// The density as given, g/cm³.
         value: f64,
     },
 }
 
 impl MaterialError {
-    /// The key at fault: `material`, or one of the material's own table.
+    /// Returns the key at fault: `material`, or one of the material's own table.
     pub fn key(&self) -> &'static str {
         match self {
             Self::Name { key }
@@ -86,7 +86,7 @@ impl MaterialError {
 }
 
 impl MaterialRef {
-    /// Checks that there is such a material.
+    /// Checks that the material exists and that its numbers make sense.
     ///
     /// # Errors
     /// The key at fault, and why.
@@ -94,7 +94,7 @@ impl MaterialRef {
         self.material().map(drop)
     }
 
-    /// The material meant: the library's, a clear one named after its index as in "index 2.42", or the file's own.
+    /// Returns the material: the library's, a clear one named after its index as in "index 2.42", or the file's own.
     ///
     /// # Errors
     /// The key at fault, and why.
@@ -152,7 +152,7 @@ fn check_law(law: &Dispersion) -> Result<(), MaterialError> {
         Dispersion::Abbe { .. } => "abbe",
         Dispersion::Sellmeier { .. } | Dispersion::Rational { .. } => "dispersion",
     };
-    // The law of Abbe would raise an index below 1 to 1 without a word.
+    // Checked here, as Abbe's law would silently raise an index below 1 to 1.
     if let Dispersion::Constant(index) | Dispersion::Abbe { n_d: index, .. } = law {
         check_index(key, *index)?;
     }

@@ -1,4 +1,4 @@
-//! The shape of a stone that no planes describe.
+//! The shape of a stone that is given by triangles.
 
 use super::outline;
 use crate::math::{Calipers, TriangleMesh, hull};
@@ -6,17 +6,19 @@ use glam::{DQuat, DVec3};
 use std::ops::Deref;
 use std::sync::Arc;
 
-/// A surface this near to the stone's frame lies in it: rounding.
+/// A surface that differs from the stone's frame by less than this, girdle radii, counts as lying in it: rounding.
 const IN_FRAME: f64 = 1e-9;
 
-/// A closed surface of triangles in the stone's frame: z up, half its diameter 1 (see [`Outline`](super::Outline)), the
-/// middle of its outline on the axis, and the middle of its height at z = 0. Shared, as it may be large.
+/// A closed surface of triangles in the stone's frame, shared because it may be large.
+///
+/// z is up and half the diameter is 1 (see [`Outline`](super::Outline)). The middle of the outline lies on the axis, and the
+/// middle of the height at z = 0.
 #[derive(Debug, Clone)]
 pub struct MeshShape(pub Arc<TriangleMesh>);
 
 impl MeshShape {
-    /// A surface turned, and put into the stone's frame if it does not lie there already; with how much it was scaled by.
-    /// `None` where it has no extent across.
+    /// Turns a surface and moves it into the stone's frame, unless it lies there already. Returns the shape and the factor
+    /// by which it was scaled; `None` where the surface has no extent across.
     pub fn framed(shell: &TriangleMesh, turn: DQuat) -> Option<(Self, f64)> {
         let corners: Vec<DVec3> = shell.vertices().iter().map(|&v| turn * v).collect();
         let around = hull(corners.iter().map(|v| v.truncate()).collect());
@@ -36,7 +38,8 @@ impl MeshShape {
 }
 
 impl PartialEq for MeshShape {
-    /// By corners and triangles: what else a shell has follows from them, but for the rounding of the way it was made.
+    /// Compares corners and triangles alone. Everything else in a mesh follows from them, but for rounding that depends on
+    /// how it was made.
     fn eq(&self, other: &Self) -> bool {
         let (a, b) = (self.surface(), other.surface());
         Arc::ptr_eq(&self.0, &other.0) || (&a.vertices, &a.triangles) == (&b.vertices, &b.triangles)

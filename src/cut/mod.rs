@@ -1,8 +1,8 @@
-//! Floor 1: what a cut is, as numbers: the round brilliant in closed form, cutters' tiers, plane lists, material
-//! and size.
+//! Floor 1: what a cut is, as numbers: the round brilliant in closed form, cutters' tiers, plane lists, meshes, glass
+//! shapes, material and size.
 //!
-//! Written numbers are percent of the girdle diameter and degrees; planes come out in the stone's frame: +z out of
-//! the table, z = 0 at the crown-side girdle, girdle radius 1. Bad numbers are errors that name their limit, odd ones
+//! Numbers in files are percent of the girdle diameter and degrees. Planes come out in the stone's frame: +z out of the
+//! table, z = 0 at the crown-side girdle, girdle radius 1. Impossible numbers are errors that name their limit; unusual ones
 //! are warnings.
 
 mod derive;

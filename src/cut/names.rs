@@ -1,9 +1,11 @@
-//! Names for facets: each its own, whatever a file repeats.
+//! Names of facets: no two alike, even where a file repeats names.
 
 use std::collections::HashMap;
 
-/// One name per facet, all different: a name that occurs once stays, one that repeats is numbered from 1 in order
-/// ("star 1", "star 2"), passing over a number that another facet's own name has taken.
+/// Returns one name per facet, all different.
+///
+/// A name that occurs once stays. One that repeats is numbered from 1 in order ("star 1", "star 2"); numbers are passed over
+/// where another facet has that very name.
 pub(super) fn unique<'a>(names: impl Iterator<Item = &'a str> + Clone) -> Vec<String> {
     let mut occurrences: HashMap<&str, usize> = HashMap::new();
     for name in names.clone() {
@@ -25,7 +27,7 @@ pub(super) fn unique<'a>(names: impl Iterator<Item = &'a str> + Clone) -> Vec<St
     names.map(name_one).collect()
 }
 
-/// What a tier's facets are called, given one of their names: the name without its number.
+/// Returns the name of a tier, given the name of one of its facets: the name without its number.
 pub(crate) fn tier_stem(name: &str) -> &str {
     match name.rsplit_once(' ') {
         Some((stem, number)) if number.chars().all(|c| c.is_ascii_digit()) => stem,
@@ -33,11 +35,11 @@ pub(crate) fn tier_stem(name: &str) -> &str {
     }
 }
 
-/// The longest name, in bytes: one that fits on a line.
+/// The longest name, in bytes, so that it fits on a line.
 const LONGEST: usize = 200;
 
-/// Whether a name can be shown anywhere: not blank nor endless, and without control characters, which XML cannot
-/// hold.
+/// Returns whether a name can be shown anywhere: it is not blank, not too long, and without control characters, which XML
+/// cannot hold.
 pub(crate) fn is_printable(name: &str) -> bool {
     !name.trim().is_empty()
         && name.len() <= LONGEST

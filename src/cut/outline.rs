@@ -1,56 +1,61 @@
-//! What a stone measures, whatever its cut: length, width, where its girdle lies, its depths and its table.
+//! The measures of a stone of any cut: length, width, the girdle's edges, depths and table.
 
 use crate::math::{Calipers, Facet, Polytope, hull};
 use glam::{DVec2, DVec3};
 use serde::Serialize;
 
-/// A facet whose normal leans less than this from the girdle plane (sine) is part of the girdle: what a cutter's file of
-/// six digits leaves of upright.
+/// A facet whose normal leans less than this from the girdle plane (sine) is part of the girdle. Upright facets of a
+/// cutter's file of six digits lean by no more.
 const UPRIGHT: f64 = 1e-5;
 
 /// A facet whose normal leans less than this from the axis (sine) is a table or a culet.
 pub(super) const LEVEL: f64 = 1e-5;
 
-/// Corners of a round outline lie no nearer to its middle than this part of the farthest.
+/// A round outline's corners lie at least this part of the largest radius from its middle.
 const ON_CIRCLE: f64 = 0.99;
 
 /// The width of a round outline is at least this part of its diameter.
 const ROUND: f64 = 0.95;
 
-/// Where among the corners of the girdle's facets, from below and from above, its edges are taken to lie: a few corners
-/// reach far in a wavy girdle and say little of it. Depths published for GemCad's designs are taken at a tenth too, yet
-/// of the corners of triangles into which facets fall by chance; so one design in a hundred, whose tenth corner lies where
-/// its girdle steps, comes out otherwise.
+/// The part of the corners of the girdle's facets that lie beyond each of its edges.
+///
+/// A few corners reach far in a wavy girdle and say little about it. Depths published for GemCad's designs leave out a tenth
+/// too, but of the corners of triangles into which facets fall by chance. So one design in a hundred, whose tenth corner
+/// lies where its girdle steps, measures differently.
 const EDGE: f64 = 0.1;
 
-/// Corners of a facet nearer to one another than this, widths of the stone, are one: where more than three facets meet,
+/// Corners of a facet nearer to one another than this, in widths of the stone, are one. Where more than three facets meet,
 /// the last digit of a cutter's file splits their corner.
 const SAME_CORNER: f64 = 1e-7;
 
-/// What a stone measures, however it is turned about its axis. Lengths in the unit of the stone.
+/// The measures of a stone. They do not depend on how the stone is turned about its axis. Lengths are in the unit of the
+/// stone.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Outline {
     /// The extent square to the width, seen along the axis.
     pub length: f64,
-    /// The least distance between two lines, seen along the axis, that are parallel and hold the stone.
+    /// The least distance between two parallel lines that hold the stone, seen along the axis.
     pub width: f64,
-    /// What sizes and percentages are measured by. Of a round stone it is the diameter of the circle that holds the corners
-    /// of its outline; of any other it is the width. A stone is round whose corners all lie on that circle, but for 1 % of
-    /// its radius, and whose width is at least 95 % of its diameter: one of ten sides is, one of eight is not.
+    /// The length by which sizes and percentages are measured.
+    ///
+    /// For a round stone it is the diameter of the circle that holds the corners of its outline; for any other it is the
+    /// width. A stone is round if all corners of its outline lie on that circle to within 1 % of its radius, and its width
+    /// is at least 95 % of its diameter: one of ten sides is, one of eight is not.
     pub diameter: f64,
-    /// z of the girdle's lower edge.
+    /// The height z of the girdle's lower edge.
     pub girdle_bottom: f64,
-    /// z of its upper edge.
+    /// The height z of the girdle's upper edge.
     pub girdle_top: f64,
-    /// z of the lowest point.
+    /// The height z of the lowest point.
     pub bottom: f64,
-    /// z of the highest point.
+    /// The height z of the highest point.
     pub top: f64,
-    /// Width and length of the table, measured as those of the stone are; 0 without one.
+    /// Width and length of the table, measured in the same way as those of the stone; 0 without a table.
     pub table: [f64; 2],
-    /// The greatest distance between two corners of the table, by which the trade gives a round brilliant's; 0 without one.
+    /// The greatest distance between two corners of the table, by which the trade gives the table of a round brilliant; 0
+    /// without a table.
     pub table_corners: f64,
-    /// Where the middle of the stone lies, seen along the axis: the centroid of its outline's area.
+    /// The middle of the stone seen along the axis: the centroid of its outline's area.
     pub middle: DVec2,
 }
 
@@ -85,28 +90,28 @@ impl Outline {
         }
     }
 
-    /// Depth from the girdle to the lowest point.
+    /// Returns the depth from the girdle's lower edge to the lowest point.
     pub fn pavilion_depth(&self) -> f64 {
         self.girdle_bottom - self.bottom
     }
 
-    /// Height from the girdle to the highest point.
+    /// Returns the height from the girdle's upper edge to the highest point.
     pub fn crown_height(&self) -> f64 {
         self.top - self.girdle_top
     }
 }
 
-/// What GemCad prints of a stone, whose sides it takes along the axes of the design, whichever way the stone lies.
+/// The ratios that GemCad prints of a stone. GemCad measures along the axes of the design, whichever way the stone lies.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct AlongAxes {
-    /// L/W: the larger of the stone's extents along x and y by the smaller.
+    /// L/W: the larger of the stone's extents along x and y, divided by the smaller.
     pub length_to_width: f64,
-    /// T/W and U/W: the table's extents along x and y by the smaller of the stone's, in percent; 0 without a table.
+    /// T/W and U/W: the table's extents along x and y, in percent of the smaller extent of the stone; 0 without a table.
     pub table: [f64; 2],
 }
 
 impl AlongAxes {
-    /// Measures a stone that lies as its design has it.
+    /// Measures a stone that lies as in its design.
     pub fn of(stone: &Polytope) -> Self {
         let (low, high) = stone.bounds();
         let across = (high - low).truncate();
@@ -124,12 +129,12 @@ impl AlongAxes {
     }
 }
 
-/// Whether a facet stands upright: part of the girdle.
+/// Returns whether a facet stands upright and so is part of the girdle.
 pub fn is_girdle(facet: &Facet) -> bool {
     facet.plane.normal.z.abs() < UPRIGHT
 }
 
-/// Whether a facet lies flat on top: the table.
+/// Returns whether a facet lies flat on top and so is the table.
 pub fn is_table(facet: &Facet) -> bool {
     facet.plane.normal.z > 0.0 && facet.plane.normal.truncate().length() < LEVEL
 }
@@ -138,13 +143,13 @@ fn table(stone: &Polytope) -> Option<&Facet> {
     stone.facets().iter().find(|facet| is_table(facet))
 }
 
-/// The diameter of an outline of this middle and width, as [`Outline::diameter`] has it.
+/// Returns the diameter of an outline of this middle and width, as defined at [`Outline::diameter`].
 pub(super) fn diameter(outline: &[DVec2], middle: DVec2, width: f64) -> f64 {
     round_diameter(outline, middle, width).unwrap_or(width)
 }
 
-/// The diameter of the circle that holds the corners of an outline of this middle and width, if the outline is round as
-/// [`Outline::diameter`] has it.
+/// Returns the diameter of the circle that holds the corners of an outline of this middle and width; `None` unless the
+/// outline is round as defined at [`Outline::diameter`].
 pub fn round_diameter(outline: &[DVec2], middle: DVec2, width: f64) -> Option<f64> {
     let radii = || outline.iter().map(|corner| corner.distance(middle));
     let (least, most) = (radii().fold(f64::INFINITY, f64::min), radii().fold(0.0, f64::max));
@@ -152,14 +157,14 @@ pub fn round_diameter(outline: &[DVec2], middle: DVec2, width: f64) -> Option<f6
     is_round.then_some(2.0 * most)
 }
 
-/// The greatest distance between two corners of a facet.
+/// Returns the greatest distance between two corners of a facet.
 fn farthest_apart(stone: &Polytope, facet: &Facet) -> f64 {
     let corners: Vec<DVec3> = stone.corners(facet).collect();
     let apart = corners.iter().flat_map(|a| corners.iter().map(|b| a.distance_squared(*b)));
     apart.fold(0.0, f64::max).sqrt()
 }
 
-/// z of the girdle's edges, the lower first. Corners nearer than this are one.
+/// Returns the heights z of the girdle's edges, the lower first. Corners nearer to one another than `nearest` count once.
 fn girdle(stone: &Polytope, nearest: f64) -> (f64, f64) {
     let upright = stone.facets().iter().filter(|facet| is_girdle(facet));
     let mut levels: Vec<f64> = upright.flat_map(|facet| corner_levels(stone, facet, nearest)).collect();
@@ -170,12 +175,12 @@ fn girdle(stone: &Polytope, nearest: f64) -> (f64, f64) {
     let aside = (EDGE * levels.len() as f64).ceil() as usize;
     match levels.len().checked_sub(aside + 1) {
         Some(last) => (levels[aside.min(last)], levels[last.max(aside)]),
-        // Nothing faces both up and down in a solid without an edge between them, which no closed solid is.
+        // Only a solid without an edge between facets that face up and down comes here, and no closed solid is one.
         None => (0.0, 0.0),
     }
 }
 
-/// z of a facet's corners; corners nearer than this are one.
+/// Returns the heights z of a facet's corners. Corners nearer to one another than `nearest` count once.
 fn corner_levels(stone: &Polytope, facet: &Facet, nearest: f64) -> Vec<f64> {
     let corners: Vec<DVec3> = stone.corners(facet).collect();
     let next = corners.iter().cycle().skip(1);
@@ -183,7 +188,7 @@ fn corner_levels(stone: &Polytope, facet: &Facet, nearest: f64) -> Vec<f64> {
     apart.map(|(corner, _)| corner.z).collect()
 }
 
-/// z of the corners where crown and pavilion meet.
+/// Returns the heights z of the corners where crown and pavilion meet.
 fn knife_edge(stone: &Polytope) -> Vec<f64> {
     let faces_up = |facet: &Facet| facet.plane.normal.z > 0.0;
     let mut levels = vec![];
@@ -258,7 +263,7 @@ mod tests {
             ];
             assert!(pairs.iter().all(|(a, b)| (a - b).abs() < 1e-12), "{step}: {again:?} {plain:?}");
         }
-        // What GemCad prints does depend on the turn, or this test would see nothing.
+        // GemCad's figures do depend on the turn; if they did not, this test would show nothing.
         let turned = AlongAxes::of(&stone.moved(1.0, glam::DQuat::from_rotation_z(0.5), DVec3::ZERO));
         assert!((turned.length_to_width - AlongAxes::of(&stone).length_to_width).abs() > 0.1);
     }

@@ -1,29 +1,29 @@
-//! How a crossed limit is told: which one, by how much, and what to change.
+//! The error for a crossed limit: which proportion crosses it, by how much, and what to change.
 
 use std::f64::consts::FRAC_PI_2;
 use std::fmt;
 
-/// Proportions no round brilliant can have.
+/// The reason why no round brilliant can have the given proportions.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub enum ProportionError {
-    /// A nan or an infinity.
+    /// A number that is NaN or infinite.
     #[error("{key}: {value} is not a finite number; write what was measured")]
     NotFinite {
-        /// The proportion at fault.
+        /// The proportion at fault, by its key in a cut file.
         key: &'static str,
-        /// What was given.
+        /// The value as given.
         value: f64,
     },
-    /// A value under its lower limit.
+    /// A value below its lower limit.
     #[error("{}", .0.text("above", "at least", "raise"))]
     TooSmall(Limit),
-    /// A value over its upper limit.
+    /// A value above its upper limit.
     #[error("{}", .0.text("below", "at most", "lower"))]
     TooLarge(Limit),
 }
 
 impl ProportionError {
-    /// The proportion at fault, by its key in a cut file, or `total_depth`.
+    /// Returns the proportion at fault, by its key in a cut file, or `total_depth`.
     pub fn key(&self) -> &'static str {
         match self {
             Self::NotFinite { key, .. } => key,
@@ -31,7 +31,7 @@ impl ProportionError {
         }
     }
 
-    /// The limit that is crossed; `None` for a number that is not finite.
+    /// Returns the limit that is crossed; `None` for a number that is not finite.
     pub fn limit(&self) -> Option<&Limit> {
         match self {
             Self::NotFinite { .. } => None,
@@ -45,22 +45,22 @@ impl ProportionError {
 pub struct Limit {
     /// The proportion at fault, by its key in a cut file, or `total_depth`.
     pub key: &'static str,
-    /// What was given.
+    /// The value as given.
     pub value: f64,
-    /// What it must keep to, in the same unit.
+    /// The limit, in the same unit as the value.
     pub limit: f64,
-    /// The unit of both.
+    /// The unit of the value and the limit.
     pub unit: Unit,
     /// Whether the limit itself is allowed.
     pub inclusive: bool,
-    /// What happens there, as a clause.
+    /// What happens at the limit, as a clause for the message.
     pub reason: &'static str,
 }
 
-/// What a proportion is measured in.
+/// The unit of a proportion.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Unit {
-    /// Percent, of the girdle diameter unless the key says of what.
+    /// Percent of the girdle diameter, or of what the key says.
     Percent,
     /// Degrees from the girdle plane.
     Degrees,
@@ -93,7 +93,7 @@ impl Limit {
         )
     }
 
-    /// What the value would be, had it been meant as a fraction or in radians.
+    /// Returns a hint with the value in the proper unit, where the given one looks like a fraction or radians.
     fn unit_hint(&self) -> String {
         let Self { value, limit, unit, .. } = *self;
         let too_small = value > 0.0 && value < limit;
@@ -115,18 +115,18 @@ impl Limit {
     }
 }
 
-/// A number as it was written, short of hundreds of digits.
+/// Formats a number as it was written, with an exponent instead of hundreds of digits.
 pub(super) fn given(value: f64) -> String {
     let size = value.abs();
     if value == 0.0 || (1e-4..1e7).contains(&size) { format!("{value}") } else { format!("{value:e}") }
 }
 
-/// A number to two decimals, without trailing zeros.
+/// Formats a number to two decimals, without trailing zeros.
 pub(super) fn rounded(value: f64) -> String {
     given((value * 100.0).round() / 100.0)
 }
 
-/// Beyond 1e12 there are none to round off.
+/// Rounds a number to four decimals. Numbers beyond 1e12 have none to round off.
 fn four_decimals(value: f64) -> f64 {
     if value.abs() < 1e12 { (value * 1e4).round() / 1e4 } else { value }
 }

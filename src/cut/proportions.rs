@@ -1,7 +1,7 @@
-//! The closed form of the round brilliant: lengths in units of the girdle radius, slopes as tangents.
+//! The closed form of the round brilliant. Lengths are in girdle radii, slopes are tangents.
 //!
 //! Symbols and formulas are those of docs/optics.md: t table, s star, l lower half (radial), g girdle, q culet, c crown
-//! and p pavilion angle; every length ratio is one of radii, so t = table / 100 while g = 2 girdle_thickness / 100.
+//! angle and p pavilion angle. Every length is a ratio of radii, so t = table / 100 while g = 2 girdle_thickness / 100.
 
 use std::f64::consts::{FRAC_PI_8, PI, TAU};
 
@@ -9,42 +9,44 @@ use serde::Serialize;
 
 use super::round_brilliant::{Crown, LowerHalf, Pavilion, RoundBrilliant};
 
-/// th, from a bezel to its star: a sixteenth of the circle, radians.
+/// th, the azimuth from a bezel to its star, radians: a sixteenth of the circle.
 pub(super) const STAR_AZIMUTH: f64 = FRAC_PI_8;
-/// h, from a bezel to its half facet, radians.
+/// h, the azimuth from a bezel to its half facet, radians.
 pub(super) const HALF_AZIMUTH: f64 = FRAC_PI_8 / 2.0;
 
-/// What follows from the proportions given. Lengths in percent of the girdle diameter, angles in degrees from the
-/// girdle plane.
+/// What follows from the given proportions. Lengths are in percent of the girdle diameter, angles in degrees from the girdle
+/// plane.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Derived {
-    /// Angle of the bezels, degrees.
+    /// The angle of the bezels, degrees.
     pub crown_angle: f64,
-    /// From the girdle's upper edge to the table, percent.
+    /// The height from the girdle's upper edge to the table, percent.
     pub crown_height: f64,
-    /// Angle of the mains, degrees.
+    /// The angle of the mains, degrees.
     pub pavilion_angle: f64,
-    /// From the girdle's lower edge to the culet, percent.
+    /// The depth from the girdle's lower edge to the culet, percent.
     pub pavilion_depth: f64,
-    /// Angle of the star facets, degrees.
+    /// The angle of the stars, degrees.
     pub star_angle: f64,
-    /// Angle of the upper halves, degrees.
+    /// The angle of the upper halves, degrees.
     pub upper_half_angle: f64,
-    /// Angle of the lower halves, degrees.
+    /// The angle of the lower halves, degrees.
     pub lower_half_angle: f64,
-    /// Lower-half length seen along the axis, percent of the way from girdle to centre.
+    /// The length of the lower halves seen along the axis, percent of the way from girdle to centre.
     pub lower_half_length: f64,
-    /// Lower-half length seen from the side, percent of the depth from the girdle to where the mains meet.
+    /// The length of the lower halves seen from the side, percent of the depth from the girdle to where the mains meet.
     pub lower_half_length_vertical: f64,
-    /// Girdle thickness in its valleys, at the girdle corner nearest to the middle of a half facet, percent; zero or
-    /// less where upper and lower halves meet in a knife edge. It is that of a round girdle when the number of girdle
-    /// facets is a multiple of 32.
+    /// The girdle's thickness in its valleys, percent: at the girdle corner nearest to the middle of a half facet.
+    ///
+    /// It is zero or less where upper and lower halves meet in a knife edge. It equals that of a round girdle when the
+    /// number of girdle facets is a multiple of 32.
     pub girdle_thickness_valley: f64,
-    /// From table to culet, percent.
+    /// The depth from table to culet, percent.
     pub total_depth: f64,
 }
 
-/// The round brilliant's own variables; made by [`limits::check`](super::limits::check) alone, so they are valid.
+/// The variables of the closed form. Outside tests only [`limits::check`](super::limits::check) makes them, so they are
+/// valid.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Proportions {
     pub table: f64,
@@ -58,7 +60,7 @@ pub(super) struct Proportions {
 }
 
 impl Proportions {
-    /// Turns percent and degrees into radii and tangents; checks nothing.
+    /// Converts percent and degrees to radii and tangents, without any check.
     pub fn unchecked(given: &RoundBrilliant) -> Self {
         let (table, culet) = (given.table / 100.0, given.culet / 100.0);
         let tan_crown = match given.crown {
@@ -85,53 +87,56 @@ impl Proportions {
         }
     }
 
-    /// hc, the table's height.
+    /// Returns hc, the height of the table above the girdle.
     pub fn crown_height(&self) -> f64 {
         (1.0 - self.table) * self.tan_crown
     }
 
-    /// From the girdle's lower edge to the culet.
+    /// Returns the depth from the girdle's lower edge to the culet.
     pub fn pavilion_depth(&self) -> f64 {
         (1.0 - self.culet) * self.tan_pavilion
     }
 
-    /// From table to culet.
+    /// Returns the depth from table to culet.
     pub fn total_depth(&self) -> f64 {
         self.crown_height() + self.girdle + self.pavilion_depth()
     }
 
-    /// r_s and z_s: the radius and height of the star's lower tip.
+    /// Returns r_s and z_s, the radius and height of the stars' lower tips.
     pub fn star_tip(&self) -> (f64, f64) {
         let edge = self.table * STAR_AZIMUTH.cos();
         let radius = edge + self.star * (1.0 - edge);
         (radius, self.tan_crown * (1.0 - radius * STAR_AZIMUTH.cos()))
     }
 
-    /// Slope of the stars, through the table's edge and the star tip.
+    /// Returns the slope of the stars, which pass through the table's edge and the star tip.
     pub fn tan_star(&self) -> f64 {
         let (radius, _) = self.star_tip();
         self.tan_crown * (radius * STAR_AZIMUTH.cos() - self.table)
             / (radius - self.table * STAR_AZIMUTH.cos())
     }
 
-    /// Slope of the upper halves, through the star tip and the girdle's chord over 22.5 degrees.
+    /// Returns the slope of the upper halves, which pass through the star tip and the girdle's chord over 22.5 degrees.
     pub fn tan_upper(&self) -> f64 {
         let (radius, height) = self.star_tip();
         height / (HALF_AZIMUTH.cos() * (1.0 - radius))
     }
 
-    /// Slope of the lower halves, through their tip on the mains and the same chord.
+    /// Returns the slope of the lower halves, which pass through their tip on the mains and the girdle's chord over 22.5
+    /// degrees.
     pub fn tan_lower(&self) -> f64 {
         self.tan_pavilion * self.lower_vertical() / (self.lower * HALF_AZIMUTH.cos())
     }
 
-    /// The lower halves' reach seen from the side, of the depth where the mains meet.
+    /// Returns how far the lower halves reach seen from the side, as a fraction of the depth at which the mains meet.
     pub fn lower_vertical(&self) -> f64 {
         1.0 - (1.0 - self.lower) * STAR_AZIMUTH.cos()
     }
 
-    /// How much of the girdle's thickness its valleys take. The halves pass through the chord, and stand clear of it
-    /// most at the girdle corner nearest to their own azimuth.
+    /// Returns by how much the girdle is thinner in its valleys than at the bezels.
+    ///
+    /// The halves pass through the girdle's chord. They stand clear of it most at the girdle corner nearest to their own
+    /// azimuth.
     pub fn valley_depth(&self) -> f64 {
         let corners = HALF_AZIMUTH / TAU * f64::from(self.girdle_facets);
         let nearest =
@@ -140,14 +145,14 @@ impl Proportions {
         (off.cos() - HALF_AZIMUTH.cos()) * (self.tan_upper() + self.tan_lower())
     }
 
-    /// Radius of the girdle's outline at an azimuth in radians; 1 at its corners.
+    /// Returns the radius of the girdle's outline at an azimuth in radians; 1 at the outline's corners.
     pub fn girdle_radius(&self, azimuth: f64) -> f64 {
         let half_facet = PI / f64::from(self.girdle_facets);
         let off_middle = azimuth.rem_euclid(2.0 * half_facet) - half_facet;
         half_facet.cos() / off_middle.cos()
     }
 
-    /// The same as people write it.
+    /// Returns the proportions in percent and degrees, as people write them.
     pub fn derived(&self) -> Derived {
         let degrees = |tangent: f64| tangent.atan().to_degrees();
         let percent = |radii: f64| 50.0 * radii;
@@ -174,7 +179,8 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    /// Table, crown, pavilion, lower half; then what follows, from docs/optics.md.
+    /// Table, crown, pavilion and lower half; then the crown height, the pavilion depth, the angles of star, upper and lower
+    /// half, and the radius and height of the star tip, from docs/optics.md.
     const WORKED: [([f64; 4], [f64; 7]); 2] = [
         (
             [53.0, 34.5, 40.75, 75.0],

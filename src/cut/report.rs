@@ -1,18 +1,18 @@
-//! What a stone's facets come to: its tiers with the spread of their slopes, as laboratories report scanned stones.
+//! A report of a stone's facets: its tiers with the spread of their slopes, as laboratories report scanned stones.
 
 use super::outline::{AlongAxes, Outline, is_girdle, is_table};
 use super::{TierZone, tier_stem};
 use crate::math::{Facet, Polytope};
 use serde::Serialize;
 
-/// Least, mean and most of the facets of a tier.
+/// The least, mean and greatest value among the facets of a tier.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Spread {
-    /// The least.
+    /// The least value.
     pub least: f64,
-    /// The mean, each facet counting alike.
+    /// The mean; every facet counts alike.
     pub mean: f64,
-    /// The most.
+    /// The greatest value.
     pub most: f64,
 }
 
@@ -26,46 +26,46 @@ impl Spread {
     }
 }
 
-/// The facets that share a name but for its number.
+/// The facets of one zone that share a name but for its number.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct TierReport {
-    /// Their name.
+    /// The name they share.
     pub name: String,
-    /// Where they lie: `table`, `crown`, `girdle`, `pavilion` or `culet`.
+    /// The zone where they lie: `table`, `crown`, `girdle`, `pavilion` or `culet`.
     pub zone: &'static str,
-    /// How many there are.
+    /// The number of facets.
     pub facets: usize,
-    /// From the girdle plane, degrees.
+    /// The slopes of the facets from the girdle plane, degrees.
     pub slope_deg: Spread,
-    /// From the stone's axis at the height of z = 0 to their planes along their normals, girdle radii.
+    /// The distances from the origin to the facets' planes along their normals, girdle radii.
     pub distance: Spread,
 }
 
 /// A stone's proportions, measured on the solid: percent of its diameter (see [`Outline::diameter`]), and tiers.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct ProportionReport {
-    /// Length by width.
+    /// The length divided by the width.
     pub length_to_width: f64,
-    /// Width and length of the table, however it lies.
+    /// Width and length of the table, whichever way it lies.
     pub table: [f64; 2],
     /// The greatest distance between two corners of the table.
     pub table_corners: f64,
-    /// From the girdle's upper edge to the highest point.
+    /// The height from the girdle's upper edge to the highest point.
     pub crown_height: f64,
-    /// Between the girdle's edges.
+    /// The distance between the girdle's edges.
     pub girdle_thickness: f64,
-    /// From the girdle's lower edge to the lowest point.
+    /// The depth from the girdle's lower edge to the lowest point.
     pub pavilion_depth: f64,
-    /// From the lowest point to the highest.
+    /// The height from the lowest point to the highest.
     pub total_depth: f64,
-    /// Tiers, in the order of their first facets.
+    /// The tiers, in the order of their first facets.
     pub tiers: Vec<TierReport>,
-    /// What GemCad prints of it.
+    /// The ratios that GemCad prints of the stone.
     pub along_axes: AlongAxes,
 }
 
 impl ProportionReport {
-    /// Of a solid whose facets have these names, in order.
+    /// Measures a solid whose facets have these names, in the same order.
     pub fn of(stone: &Polytope, names: &[String]) -> Self {
         let outline = Outline::of(stone);
         let percent = |length: f64| 100.0 * length / outline.diameter;
@@ -83,7 +83,7 @@ impl ProportionReport {
     }
 }
 
-/// Where a facet lies.
+/// Returns the zone of the stone where a facet lies.
 fn zone(facet: &Facet) -> TierZone {
     match facet.plane.normal.z > 0.0 {
         _ if is_girdle(facet) => TierZone::Girdle,
@@ -103,7 +103,7 @@ fn tiers(stone: &Polytope, names: &[String]) -> Vec<TierReport> {
             tiers.push((stem, zone, vec![]));
             tiers.len() - 1
         });
-        // Of a plane through the origin 0, and never -0.
+        // Adding 0 turns the -0 of a plane through the origin into 0.
         tiers[place].2.push([slope, facet.plane.offset + 0.0]);
     }
     let report = |(name, zone, facets): (&str, TierZone, Vec<[f64; 2]>)| {

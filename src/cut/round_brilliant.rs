@@ -1,16 +1,16 @@
-//! The round brilliant as people write it: percent of the girdle diameter, degrees from the girdle plane.
+//! The round brilliant as people write it: in percent of the girdle diameter and degrees from the girdle plane.
 //!
-//! Eight bezels, eight stars, sixteen upper and lower halves, eight mains, after GIA's way of measuring: table and
-//! star length are radial, the lower-half length radial too unless the vertical one is asked for.
+//! It has eight bezels, eight stars, sixteen upper and sixteen lower halves, and eight mains. Measures follow GIA: table and
+//! star length are radial, and the lower-half length is radial too unless the vertical one is given.
 
 use serde::Serialize;
 
-/// The proportions of a round brilliant as given; everything else follows from them.
+/// The proportions of a round brilliant as given. All facets follow from them.
 ///
 /// Serialises under the keys of a cut file's `[round_brilliant]`.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct RoundBrilliant {
-    /// Table, corner to opposite corner. Percent of the girdle diameter, 5 to 92.39.
+    /// The table's size from corner to opposite corner, percent of the girdle diameter, 5 to 92.39.
     pub table: f64,
     /// The crown, by the angle of its bezels or by its height.
     #[serde(flatten)]
@@ -18,59 +18,59 @@ pub struct RoundBrilliant {
     /// The pavilion, by the angle of its mains or by its depth.
     #[serde(flatten)]
     pub pavilion: Pavilion,
-    /// How far the stars reach from the table's edge to the girdle, seen from above. Percent of that way, below 100;
-    /// its lower limit depends on the table.
+    /// The distance that the stars reach from the table's edge to the girdle, seen from above. Percent of that way, below
+    /// 100; the lower limit depends on the table.
     pub star_length: f64,
     /// How far the lower halves reach from the girdle to the centre.
     #[serde(flatten)]
     pub lower_half: LowerHalf,
-    /// Girdle thickness at the bezels, where it is greatest. Percent of the girdle diameter; 0 is a knife edge all
+    /// The girdle's thickness at the bezels, where it is greatest, percent of the girdle diameter. 0 is a knife edge all
     /// round, without girdle facets.
     pub girdle_thickness: f64,
-    /// Number of girdle facets, any whole number from 16 to 128.
+    /// The number of girdle facets, any whole number from 16 to 128.
     ///
-    /// Multiples of 8 keep the eightfold mirror symmetry whole, so tracers have a sixteenth of the work; multiples of
-    /// 16 also put a girdle corner under each star tip; multiples of 32 one at each valley, and 16 itself gives a
-    /// straight girdle edge.
+    /// Multiples of 8 keep the eightfold mirror symmetry whole, so tracers have a sixteenth of the work. Multiples of 16
+    /// also put a girdle corner under each star tip. Multiples of 32 put one at each valley, and 16 itself gives a straight
+    /// girdle edge.
     pub girdle_facets: u32,
-    /// Culet, flat to opposite flat. Percent of the girdle diameter, 0 (a point) to below 100.
+    /// The culet's size from flat to opposite flat, percent of the girdle diameter, from 0 (a point) to below 100.
     pub culet: f64,
 }
 
-/// What a crown is given by.
+/// The measure that gives a crown.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub enum Crown {
-    /// Angle of the bezels from the girdle plane, degrees.
+    /// The angle of the bezels from the girdle plane, degrees.
     #[serde(rename = "crown_angle")]
     Angle(f64),
-    /// From the girdle's upper edge to the table, percent of the girdle diameter.
+    /// The height from the girdle's upper edge to the table, percent of the girdle diameter.
     #[serde(rename = "crown_height")]
     Height(f64),
 }
 
-/// What a pavilion is given by.
+/// The measure that gives a pavilion.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub enum Pavilion {
-    /// Angle of the mains from the girdle plane, degrees.
+    /// The angle of the mains from the girdle plane, degrees.
     #[serde(rename = "pavilion_angle")]
     Angle(f64),
-    /// From the girdle's lower edge to the culet (so less with a larger culet), percent of the girdle diameter.
+    /// The depth from the girdle's lower edge to the culet, percent of the girdle diameter. A larger culet makes it less.
     #[serde(rename = "pavilion_depth")]
     Depth(f64),
 }
 
-/// What the length of the lower halves is given by.
+/// The measure that gives the length of the lower halves.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub enum LowerHalf {
-    /// Seen along the axis: percent of the way from the girdle to the centre (GIA).
+    /// The length seen along the axis: percent of the way from the girdle to the centre (GIA).
     #[serde(rename = "lower_half_length")]
     Radial(f64),
-    /// Seen from the side: percent of the depth from the girdle to where the mains meet (some laboratories).
+    /// The length seen from the side: percent of the depth from the girdle to where the mains meet (some laboratories).
     #[serde(rename = "lower_half_length_vertical")]
     Vertical(f64),
 }
 
-/// Tolkowsky's of 1919 as `cuts/tolkowsky.toml` has it, which the tests bend.
+/// Tolkowsky's cut of 1919 as in `cuts/tolkowsky.toml`, which tests vary.
 #[cfg(test)]
 pub(crate) const TOLKOWSKY: RoundBrilliant = RoundBrilliant {
     table: 53.0,
@@ -83,7 +83,7 @@ pub(crate) const TOLKOWSKY: RoundBrilliant = RoundBrilliant {
     culet: 0.0,
 };
 
-/// A modern ideal cut, which the tests bend.
+/// A modern ideal cut, which tests vary.
 #[cfg(test)]
 pub(crate) const MODERN: RoundBrilliant = RoundBrilliant {
     table: 56.0,

@@ -1,23 +1,23 @@
-//! The tiers of any cut that lists its facets, each as one angle and one distance that can be set.
+//! The tiers of any cut that lists its facets. Each tier has one angle and one distance, which can be set.
 
 use super::{Cut, TierZone, tier_stem};
 use crate::math::Plane;
 
-/// A tier as it is set on a faceting machine; of facets that differ, the mean.
+/// A tier as it is set on a faceting machine. Where its facets differ, the numbers are their means.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MachineSetting {
-    /// What its facets are called, without their numbers.
+    /// The name of its facets, without their numbers.
     pub name: String,
-    /// How many there are.
+    /// The number of facets.
     pub facets: usize,
-    /// From the girdle plane, degrees; below 0 for facets that face down.
+    /// The angle from the girdle plane, degrees; below 0 for facets that face down.
     pub angle: f64,
-    /// From the origin, in the design's own unit.
+    /// The distance from the origin, in the design's own unit.
     pub distance: f64,
 }
 
 impl Cut {
-    /// Its tiers, in the order in which they are listed; none where proportions say what its facets are, or triangles.
+    /// Returns the tiers in the order in which they are listed; none for a round brilliant, a mesh or a glass shape.
     pub fn settings(&self) -> Vec<MachineSetting> {
         match self {
             Self::RoundBrilliant(_) | Self::Mesh(_) | Self::Glass(_) => vec![],
@@ -35,8 +35,10 @@ impl Cut {
         }
     }
 
-    /// Sets the tier at a place of [`settings`](Self::settings): facets that differ are all turned by the same angle and
-    /// moved by the same distance. What is no place changes nothing.
+    /// Sets angle and distance of the tier at a place of [`settings`](Self::settings).
+    ///
+    /// Facets that differ are all turned by the same angle and moved by the same distance. A place past the last tier
+    /// changes nothing.
     pub fn set(&mut self, place: usize, angle: f64, distance: f64) {
         match self {
             Self::RoundBrilliant(_) | Self::Mesh(_) | Self::Glass(_) => {}
@@ -57,7 +59,7 @@ impl Cut {
     }
 }
 
-/// The planes that share a name but for its number and face the same way, by their places.
+/// Groups the planes that share a name but for its number and that face the same way. Each group lists their places.
 fn groups(planes: &[(String, Plane)]) -> Vec<Vec<usize>> {
     let mut groups: Vec<((&str, TierZone), Vec<usize>)> = vec![];
     for (k, (name, plane)) in planes.iter().enumerate() {
@@ -78,7 +80,7 @@ fn faces(plane: &Plane) -> TierZone {
     }
 }
 
-/// Slope from the girdle plane in degrees, and distance, of a plane whose normal may have any length.
+/// Returns the slope from the girdle plane in degrees, and the distance, of a plane whose normal may have any length.
 fn slope(plane: &Plane) -> (f64, f64) {
     let slope = plane.normal.truncate().length().atan2(plane.normal.z.abs()).to_degrees();
     (slope, plane.offset / plane.normal.length())
@@ -99,7 +101,7 @@ fn mean(planes: &[(String, Plane)], group: &[usize]) -> MachineSetting {
     }
 }
 
-/// A plane of another slope, by so many degrees, and another distance, facing where it did.
+/// Returns a plane that is steeper by some degrees and further from the origin, with the same azimuth.
 fn turned(plane: &Plane, degrees: f64, further: f64) -> Plane {
     let (slope, distance) = slope(plane);
     let across = plane.normal.truncate();
@@ -107,7 +109,7 @@ fn turned(plane: &Plane, degrees: f64, further: f64) -> Plane {
     let slope = (slope + degrees).to_radians();
     let slope = if plane.normal.z > 0.0 { slope } else { std::f64::consts::PI - slope };
     match degrees == 0.0 {
-        // Not turned, not a digit of the normal changes.
+        // Where the plane is not turned, no digit of its normal changes.
         true => Plane::new(plane.normal, plane.offset + further * plane.normal.length()),
         false => Plane::from_slope(slope, azimuth, distance + further),
     }
@@ -160,7 +162,7 @@ mod tests {
         assert_eq!(cut.settings(), after);
     }
 
-    /// Pavilion angle of the modern brilliant, degrees.
+    /// The pavilion angle of the modern brilliant, degrees.
     const MODERN_MAIN: f64 = 40.8;
 
     #[test]

@@ -1,4 +1,4 @@
-//! How large a stone is to be: by its girdle or by its weight.
+//! The size of a stone, given by its girdle or by its weight.
 
 use super::design::DIAMETERS_MM;
 use crate::optics::Material;
@@ -8,42 +8,42 @@ use std::str::FromStr;
 /// The size of a stone, as people give it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Size {
-    /// Girdle diameter, mm; 0.1 to 1000.
+    /// The girdle diameter, mm; 0.1 to 1000.
     Millimetres(f64),
-    /// Weight, carats of 0.2 g; above 0.
+    /// The weight, in carats of 0.2 g; above 0.
     Carats(f64),
 }
 
 /// What is wrong with a size.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum SizeError {
-    /// A number alone.
+    /// A number without a unit.
     #[error(
         "'{number}' has no unit; write {number}mm for the girdle's diameter or {number}ct for the weight"
     )]
     NoUnit {
-        /// What was given.
+        /// The number as given.
         number: String,
     },
-    /// What is no number and unit.
+    /// A text that is not a number with a unit.
     #[error("'{text}' is no size; write a number and mm or ct, as in 6.5mm or 1.25ct")]
     NoSize {
-        /// What was given.
+        /// The text as given, at most 80 characters of it.
         text: String,
     },
-    /// A weight that no stone has.
+    /// A weight that is not above 0, or not finite.
     #[error("{carats} ct is no weight; give more than 0")]
     Weight {
-        /// What was given, carats.
+        /// The weight as given, carats.
         carats: f64,
     },
-    /// A diameter out of range.
+    /// A girdle diameter outside 0.1 to 1000 mm.
     #[error("{size} must be from {} to {} mm across", DIAMETERS_MM.start(), DIAMETERS_MM.end())]
     Diameter {
-        /// What was given, with the diameter that it comes to if that was a weight.
+        /// The size as given, and, if it is a weight, the diameter that follows from it.
         size: String,
     },
-    /// A weight of a material whose density is not known.
+    /// A weight, but of a material whose density is not known.
     #[error(
         "a weight in ct needs a density, which {material} lacks; give the size in mm, or a material with one"
     )]
@@ -54,10 +54,11 @@ pub enum SizeError {
 }
 
 impl Size {
-    /// The girdle's diameter in mm for a stone of this volume, where its girdle radius is 1, and material.
+    /// Returns the girdle diameter in mm of a stone of this size and material. `unit` is the stone's volume where its girdle
+    /// radius is 1.
     ///
     /// # Errors
-    /// A diameter out of range, and a weight where the material has no density.
+    /// A diameter out of range, or a weight where the material has no density.
     pub fn diameter_mm(self, unit: f64, material: &Material) -> Result<f64, SizeError> {
         let Self::Carats(carats) = self else { return self.checked().map(|_| self.number()) };
         let no_density = || SizeError::NoDensity { material: material.name.clone() };

@@ -1,5 +1,7 @@
-//! Designs as cutters write them down: tiers of facets that share an angle and a distance, each facet at an index of
-//! the faceting machine's gear. Source: the conventions of GemCad (R. Strickland), as docs/formats.md tells them.
+//! Designs as cutters write them: tiers of facets that share an angle and a distance, each facet at an index of the faceting
+//! machine's gear.
+//!
+//! Source: the conventions of GemCad (R. Strickland), as described in docs/formats.md.
 
 use super::design::MAX_PLANES;
 use super::names;
@@ -7,58 +9,59 @@ use crate::math::Plane;
 use glam::DVec3;
 use std::f64::consts::TAU;
 
-/// Teeth taken, either way round.
+/// The most teeth of a gear, counted either way round.
 const MOST_TEETH: i32 = 100_000;
 
-/// How far the block reaches along each axis.
+/// The distance that the block reaches along each axis, in the design's unit.
 const BLOCK: f64 = 17.0 / 15.0;
 
-/// Indices and distances taken; beyond, planes lose their digits.
+/// The largest index and distance. Beyond it planes lose their digits.
 const LARGEST: f64 = 1e9;
 
-/// A cutter's design. Lengths are in its own unit; a stone made of it is scaled to its girdle.
+/// A cutter's design. Lengths are in the design's own unit; a stone made of it is scaled to its girdle.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Tiers {
-    /// Teeth of the index gear; below 0 where they are counted the other way round. Not 0.
+    /// The teeth of the index gear; below 0 where they are counted the other way round. Not 0.
     pub gear: i32,
-    /// The tooth at which the azimuth of index 0 would lie, in teeth.
+    /// The gear's offset, in teeth: the index that lies at -y.
     pub offset: f64,
-    /// How many times the design repeats around its axis, as its file says; indices are listed whole all the same.
+    /// The number of times that the design repeats around its axis, according to its file. All indices are listed all the
+    /// same.
     pub symmetry: u32,
-    /// Whether its file says that each repeat is its own mirror image.
+    /// Whether, according to the file, each repeat is its own mirror image.
     pub mirror: bool,
-    /// What is said at the top, line by line.
+    /// The text at the top of the file, line by line.
     pub headers: Vec<String>,
-    /// What is said at the end.
+    /// The text at the end of the file, line by line.
     pub footers: Vec<String>,
-    /// What else its file says, by key, as the date; no key twice.
+    /// Everything else that the file says, such as the date, by key. No key occurs twice.
     pub remarks: Vec<(String, String)>,
-    /// In the order in which they are cut.
+    /// The tiers, in the order in which they are cut.
     pub tiers: Vec<Tier>,
 }
 
 /// Facets cut at one setting of the machine.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Tier {
-    /// From the girdle plane, degrees: above 0 crown, below 0 pavilion, ±90 girdle. At 0 the table, or, with a negative
-    /// sign or distance, the culet.
+    /// The angle from the girdle plane, degrees: above 0 crown, below 0 pavilion, ±90 girdle. 0 is the table, or, with a
+    /// negative sign or distance, the culet.
     pub angle: f64,
-    /// From the origin along the normal, in the design's unit; its sign matters only at angle 0.
+    /// The distance from the origin along the normal, in the design's unit. Its sign matters only at angle 0.
     pub distance: f64,
-    /// How to cut it; empty for nothing said.
+    /// The cutter's instructions; empty where there are none.
     pub instructions: String,
-    /// Whether it is cut; a tier that is not is kept and does nothing.
+    /// Whether the tier is cut. A tier that is not cut is kept in the design but makes no facets.
     pub is_cut: bool,
-    /// Its facets, in the order in which they are listed.
+    /// The facets, in the order in which they are listed.
     pub facets: Vec<Indexed>,
 }
 
 /// A facet of a tier.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Indexed {
-    /// Tooth of the gear, from the gear's offset; may lie between two teeth.
+    /// The index on the gear, in teeth; may lie between two teeth.
     pub index: f64,
-    /// Its name; empty for none. Cutters name the first of a tier, which names them all.
+    /// The facet's name; empty where it has none. Cutters name the first facet of a tier, and that names them all.
     pub name: String,
 }
 
@@ -68,7 +71,7 @@ pub enum TierFault {
     /// A gear without teeth, or with too many.
     #[error("gear: {0} must be from 1 to {MOST_TEETH} teeth, or below 0 where they are counted clockwise")]
     Gear(i32),
-    /// An offset that is no number, or endless.
+    /// An offset that is not a number, or too large.
     #[error("offset: {0} must be a number of teeth")]
     Offset(f64),
     /// An angle out of range.
@@ -83,7 +86,7 @@ pub enum TierFault {
 }
 
 impl TierFault {
-    /// The key at fault.
+    /// Returns the key of the cut file that is at fault.
     pub fn key(&self) -> &'static str {
         match self {
             Self::Gear(_) => "gear",
@@ -95,23 +98,23 @@ impl TierFault {
     }
 }
 
-/// Where on a stone a tier lies.
+/// The part of a stone where a tier lies.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum TierZone {
-    /// The flat on top.
+    /// The flat facet on top.
     Table,
-    /// Above the girdle.
+    /// The leaning facets that face up, above the girdle.
     Crown,
-    /// Upright.
+    /// The upright facets.
     Girdle,
-    /// Below the girdle.
+    /// The leaning facets that face down, below the girdle.
     Pavilion,
-    /// The flat at the bottom.
+    /// The flat facet at the bottom.
     Culet,
 }
 
 impl TierZone {
-    /// As the trade calls it.
+    /// Returns the trade's name of the zone.
     pub fn name(self) -> &'static str {
         match self {
             Self::Table => "table",
@@ -124,7 +127,7 @@ impl TierZone {
 }
 
 impl Tier {
-    /// Where it lies.
+    /// Returns the zone where the tier lies.
     pub fn zone(&self) -> TierZone {
         match (self.angle, self.faces_down()) {
             (0.0, true) => TierZone::Culet,
@@ -135,12 +138,13 @@ impl Tier {
         }
     }
 
-    /// What its facets are called: by the first name that one of them has; empty for none.
+    /// Returns the name of the tier: the first name that one of its facets has; empty where none has one.
     pub fn name(&self) -> &str {
         self.facets.iter().map(|facet| facet.name.as_str()).find(|name| !name.is_empty()).unwrap_or_default()
     }
 
-    /// What the facets of this tier, the one of this number, are called before they are told apart.
+    /// Returns the name that all facets of this tier have before they are numbered: the tier's own name, or else the zone's
+    /// with the number of the tier (table and culet without it).
     pub(super) fn called(&self, number: usize) -> String {
         let zone = self.zone();
         match self.name() {
@@ -167,10 +171,11 @@ impl Tier {
 }
 
 impl Tiers {
-    /// Checks gear, offset, and every tier; with the number of the tier at fault, from 1, if it is one.
+    /// Checks the gear, the offset and every tier.
     ///
     /// # Errors
-    /// The first number that makes no sense.
+    /// The first number that makes no sense, with the number of its tier, from 1; `None` where the gear or the offset is at
+    /// fault.
     pub fn check(&self) -> Result<(), (Option<usize>, TierFault)> {
         if self.gear == 0 || !(-MOST_TEETH..=MOST_TEETH).contains(&self.gear) {
             return Err((None, TierFault::Gear(self.gear)));
@@ -182,8 +187,9 @@ impl Tiers {
         numbered.try_for_each(|(number, tier)| tier.check().map_err(|fault| (Some(number), fault)))
     }
 
-    /// The plane of a facet of a tier, in the design's unit, with a unit normal: index 0 lies at -y, and indices count
-    /// counter-clockwise seen from above for a gear above 0.
+    /// Returns the plane of a facet of a tier, in the design's unit, with a unit normal.
+    ///
+    /// Without an offset, index 0 lies at -y. Indices count counter-clockwise seen from above for a gear above 0.
     pub fn plane(&self, tier: &Tier, index: f64) -> Plane {
         let down = if tier.faces_down() { -1.0 } else { 1.0 };
         let (slope_sin, slope_cos) = match tier.angle.abs() {
@@ -196,7 +202,7 @@ impl Tiers {
         Plane::new(DVec3::new(across[0], across[1], down * slope_cos), tier.distance.abs())
     }
 
-    /// The facets that are cut, each with a name of its own and its plane in the design's unit.
+    /// Returns the facets that are cut, each with a name of its own and its plane in the design's unit.
     pub(super) fn facets(&self) -> Vec<(String, Plane)> {
         let cut = (1..).zip(&self.tiers).filter(|(_, tier)| tier.is_cut);
         let bases: Vec<(String, Plane)> = cut
@@ -209,14 +215,15 @@ impl Tiers {
         names.into_iter().zip(bases.iter().map(|(_, plane)| *plane)).collect()
     }
 
-    /// The faces of the block that GemCad cuts from, which close a stone whose facets leave it open: it reaches 17/15 of
-    /// the unit along each axis, as the outlines stored in its files show.
+    /// Returns the faces of the block that GemCad cuts from, which close a stone whose facets leave it open.
+    ///
+    /// The block reaches 17/15 of the unit along each axis, as the outlines stored in GemCad's files show.
     pub fn block() -> impl Iterator<Item = (String, Plane)> {
         let axes = [DVec3::X, DVec3::Y, DVec3::Z].into_iter().flat_map(|axis| [axis, -axis]);
         (1..).zip(axes).map(|(number, normal)| (format!("block {number}"), Plane::new(normal, BLOCK)))
     }
 
-    /// How many facets are cut; at most [`MAX_PLANES`] make a stone.
+    /// Returns the number of facets that are cut; at most [`MAX_PLANES`] make a stone.
     pub fn count(&self) -> usize {
         self.tiers.iter().filter(|tier| tier.is_cut).map(|tier| tier.facets.len()).sum()
     }

@@ -1,11 +1,12 @@
-//! What is possible but unusual about a round brilliant, with the numbers that make it so.
+//! Warnings about round brilliants that are possible but unusual, with the numbers that make them so.
 
 use std::f64::consts::TAU;
 
 use super::proportion_error::{given, rounded};
 use super::proportions::{Proportions, STAR_AZIMUTH};
 
-/// Something about a stone that its owner may not have meant. Lengths are percent.
+/// Something about a stone that its owner may not have meant. Lengths are percent of the girdle diameter unless said
+/// otherwise.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub enum Warning {
     /// The girdle has no thickness at all.
@@ -18,9 +19,9 @@ pub enum Warning {
         given(*.thickness), rounded(*.needed)
     )]
     GirdleClosesInValleys {
-        /// Thickness at the bezels.
+        /// The girdle's thickness at the bezels.
         thickness: f64,
-        /// What the valleys take of it.
+        /// The thickness that the valleys take away.
         needed: f64,
     },
     /// The culet cuts off the tips of the lower halves, so that mains no longer touch one another.
@@ -29,9 +30,9 @@ pub enum Warning {
         given(*.culet), rounded(*.reach)
     )]
     CuletReachesLowerHalves {
-        /// The culet.
+        /// The culet's size.
         culet: f64,
-        /// The culet at which it would just touch the tips.
+        /// The culet's size at which it would just touch the tips.
         reach: f64,
     },
     /// A star tip or a lower-half tip lies outside one of the girdle's flats.
@@ -40,11 +41,11 @@ pub enum Warning {
         rounded(*.tip), rounded(*.girdle)
     )]
     TipsOutsideGirdle {
-        /// `star_length` or `lower_half_length`.
+        /// The proportion that puts the tips there: `star_length` or `lower_half_length`.
         key: &'static str,
-        /// How far out the tips lie, percent of the girdle radius.
+        /// The distance of the tips from the axis, percent of the girdle radius.
         tip: f64,
-        /// How far out the girdle lies in the same direction, percent of the girdle radius.
+        /// The girdle's distance from the axis in the same direction, percent of the girdle radius.
         girdle: f64,
     },
     /// The girdle's facets do not share the stone's symmetry.
@@ -54,13 +55,13 @@ pub enum Warning {
         .count.div_ceil(8) * 8
     )]
     SymmetryBroken {
-        /// Number of girdle facets.
+        /// The number of girdle facets.
         count: u32,
     },
 }
 
 impl Warning {
-    /// Everything unusual about valid proportions, in the order of the keys of a cut file.
+    /// Returns a warning for everything unusual about valid proportions, in the order of the keys of a cut file.
     pub(super) fn of(p: &Proportions) -> Vec<Self> {
         let (radius, _) = p.star_tip();
         let checks = [
@@ -83,7 +84,7 @@ fn girdle(p: &Proportions) -> Option<Warning> {
     }
 }
 
-/// The mains' octagon has a corner over each lower-half tip, further out than its flats.
+/// The octagon in which the culet cuts the mains has a corner over each lower-half tip, further out than its flats.
 fn culet(p: &Proportions) -> Option<Warning> {
     let reach = (1.0 - p.lower) * STAR_AZIMUTH.cos();
     let crossed = p.culet >= reach;

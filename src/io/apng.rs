@@ -1,4 +1,4 @@
-//! Animated PNG (third edition of the PNG specification, W3C 2025), which browsers play as they show PNG.
+//! Writes animated PNG (third edition of the PNG specification, W3C 2025), which browsers play as they show PNG.
 
 use super::atomic::{WriteError, write};
 use super::picture_file::{unfit, without_cover};
@@ -6,20 +6,20 @@ use super::png::encoder;
 use std::io::Write;
 use std::path::Path;
 
-/// What an animation is made of; it runs for ever.
+/// The number, size and timing of an animation's frames. The animation repeats for ever.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Frames {
-    /// Their number, at least 1.
+    /// The number of frames, at least 1.
     pub count: u32,
-    /// Pixels across and down.
+    /// The width and height of each frame, in pixels.
     pub size: (u32, u32),
-    /// How long each is shown, ms; browsers take less than 10 for 100.
+    /// How long each frame is shown, in ms; browsers replace less than 10 by 100.
     pub delay_ms: u16,
-    /// Whether they keep their cover; without it the file is a quarter smaller.
+    /// Whether the frames keep their cover (alpha channel); without it the file is a quarter smaller.
     pub transparent: bool,
 }
 
-/// Takes the frames of an animation.
+/// Writes the frames of an animation one after the other; see [`write_apng`].
 pub struct Animation<'a> {
     path: &'a Path,
     frames: Frames,
@@ -28,11 +28,11 @@ pub struct Animation<'a> {
 }
 
 impl Animation<'_> {
-    /// Adds a frame: red, green, blue and cover of each pixel, not premultiplied, as
+    /// Adds a frame: red, green, blue and cover (alpha) of each pixel, not premultiplied, as
     /// [`develop`](crate::picture::develop()) gives them.
     ///
     /// # Errors
-    /// When the file system refuses, the frame is of another size, or it is one too many.
+    /// When the file system refuses, the frame has another size, or there is one frame too many.
     pub fn push(&mut self, rgba: &[u8]) -> Result<(), WriteError> {
         let (width, height) = self.frames.size;
         if rgba.len() as u64 != 4 * u64::from(width) * u64::from(height) {
@@ -66,7 +66,8 @@ impl Animation<'_> {
 /// Writes an animation; `fill` pushes its frames. `description` goes into the file as text.
 ///
 /// # Errors
-/// When the file system refuses, frames lack or do not fit, or with what `fill` answers; nothing is left behind then.
+/// When the file system refuses, a frame is missing or does not fit, or `fill` returns an error. No file is left behind
+/// then.
 pub fn write_apng<E: From<WriteError>>(
     path: &Path,
     frames: Frames,

@@ -1,7 +1,8 @@
-//! GemCad's text files, .asc: records of one line, which begin with a letter; facets may go on on lines that begin with a
-//! blank. Facts are in docs/formats.md.
+//! Reads and writes GemCad's text files, `.asc`. Each record is a line that begins with a letter; a list of facets may
+//! continue on lines that begin with a blank. The format is described in docs/formats.md.
 //!
-//! What is not understood is a warning, and the stone opens; what the file says (names, instructions, headers) is kept.
+//! A line that is not understood gives a warning, and the stone opens all the same. What the file says besides the stone
+//! (names, instructions, headers) is kept.
 
 use super::cut_file::CutFileError;
 use super::cutters::{self, WarningList};
@@ -15,16 +16,16 @@ use std::fmt::Write;
 #[cfg(test)]
 mod tests;
 
-/// The largest file taken, bytes.
+/// The size of the largest file that is read, in bytes.
 pub const MAX_BYTES: usize = 16 << 20;
 
-/// Facets a line, of those that are written: GemCad's own lines end near there.
+/// The number of facets on a line that is written: GemCad's own lines end near there.
 const PER_LINE: usize = 20;
 
-/// The index of refraction that is taken where a file names none: that of quartz, which most designs are for.
+/// The index of refraction of a file that gives none: that of quartz, which most designs are for.
 const USUAL_INDEX: f64 = 1.54;
 
-/// Whether a file's first bytes look like one.
+/// Returns whether a file's first bytes look like a GemCad text file.
 pub fn looks_like(bytes: &[u8]) -> bool {
     let text = decoded(&bytes[..bytes.len().min(4096)]);
     let mut lines = text.lines().map(str::trim_start).filter(|line| !line.is_empty());
@@ -38,10 +39,11 @@ pub fn looks_like(bytes: &[u8]) -> bool {
         || lines.any(is_facet)
 }
 
-/// Reads a file; `label` stands for its path.
+/// Reads a GemCad text file; `label` stands for its path in errors, and names a design without a title.
 ///
 /// # Errors
-/// Where there is no facet in it, or more than a stone may have, with the line.
+/// When the file is too large, lists no facet or more than a stone may have, or makes no valid design; with the line where
+/// there is one.
 pub fn read(bytes: &[u8], label: &str) -> Result<ImportedDesign, CutFileError> {
     let fault = |line, message: String| CutFileError { path: label.to_owned(), line, message };
     if bytes.len() > MAX_BYTES {
@@ -67,7 +69,7 @@ pub fn read(bytes: &[u8], label: &str) -> Result<ImportedDesign, CutFileError> {
     reader.brought(label)
 }
 
-/// Text as it is meant: UTF-8, or else Windows-1252; without the padding that some programs leave.
+/// Decodes UTF-8, or else Windows-1252, and drops the padding that some programs leave.
 fn decoded(bytes: &[u8]) -> Cow<'_, str> {
     let text = std::str::from_utf8(bytes)
         .map_or_else(|_| WINDOWS_1252.decode_without_bom_handling(bytes).0, Cow::Borrowed);
@@ -75,7 +77,7 @@ fn decoded(bytes: &[u8]) -> Cow<'_, str> {
     if text.contains(is_padding) { Cow::Owned(text.replace(is_padding, "")) } else { text }
 }
 
-/// Lines that end in LF, CRLF or, as on old Macs, CR.
+/// Splits text into lines that end in LF, CRLF or, as on old Macs, CR.
 fn lines(text: &str) -> impl Iterator<Item = &str> {
     text.split('\n').flat_map(|line| line.strip_suffix('\r').unwrap_or(line).split('\r'))
 }
@@ -91,9 +93,9 @@ struct Reader {
     headers: Vec<String>,
     footers: Vec<String>,
     tiers: Vec<Tier>,
-    /// Whether the line before was part of a tier, so that this one may go on with it.
+    /// Whether the line before was part of a tier, so that this line may continue it.
     in_tier: bool,
-    /// A name that stands before its index.
+    /// A name that was read before the index that it belongs to.
     name: Option<String>,
     count: usize,
     warnings: WarningList,
@@ -127,7 +129,7 @@ impl Reader {
         }
     }
 
-    /// A line that begins with a number: more of a tier, or a gear whose letter was left out.
+    /// Reads a line without a record's letter: the continuation of a tier, or a gear whose letter was left out.
     fn go_on(&mut self, line: &str) {
         if self.in_tier {
             self.facets(line);
@@ -138,7 +140,7 @@ impl Reader {
         }
     }
 
-    /// A letter without a blank behind it.
+    /// Reads a record whose letter has no blank behind it.
     fn glued(&mut self, line: &str) {
         let rest = line.get(1..).unwrap_or_default();
         let is_number =
@@ -202,7 +204,7 @@ impl Reader {
         self.facets(after);
     }
 
-    /// Indices, names and instructions.
+    /// Reads indices, names and instructions of the open tier.
     fn facets(&mut self, line: &str) {
         let mut rest = line.trim_ascii_start();
         while !rest.is_empty() {
@@ -257,7 +259,8 @@ impl Reader {
         }
     }
 
-    /// A tier without indices cuts nothing, but for a table, whose index means nothing.
+    /// Ends the open tier. A tier without indices cuts nothing and is dropped, except for a table, whose index means
+    /// nothing.
     fn end_tier(&mut self) {
         self.in_tier = false;
         let Some(tier) = self.tiers.last_mut().filter(|tier| tier.facets.is_empty()) else { return };
@@ -290,18 +293,18 @@ impl Reader {
     }
 }
 
-/// What stands behind a record's letter and one blank.
+/// Returns the text behind a record's letter and one blank.
 fn text_after(line: &str) -> String {
     let rest = &line.trim_ascii_start()[1..];
     rest.strip_prefix([' ', '\t']).unwrap_or(rest).to_owned()
 }
 
-/// As much of a text as fits into a message.
+/// Returns as much of a text as fits into a message.
 fn short(text: &str) -> String {
     text.chars().take(40).collect()
 }
 
-/// The file of a design.
+/// Encodes the design of a specimen as a GemCad text file.
 pub fn write(specimen: &Specimen) -> EncodedDesign {
     let mut lost = vec![];
     let tiers = cutters::tiers_of(specimen, &mut lost).into_owned();
@@ -327,7 +330,7 @@ pub fn write(specimen: &Specimen) -> EncodedDesign {
     EncodedDesign { bytes: encoded(out), lost }
 }
 
-/// What of a design's tiers has no place in the format.
+/// Returns messages about what of a design's tiers has no place in the format.
 fn left_out(tiers: &Tiers) -> Vec<String> {
     let uncut = tiers.tiers.iter().filter(|tier| !tier.is_cut || tier.facets.is_empty()).count();
     let keys: Vec<&str> = tiers.remarks.iter().map(|(key, _)| key.as_str()).collect();
@@ -341,7 +344,7 @@ fn left_out(tiers: &Tiers) -> Vec<String> {
     lost
 }
 
-/// Texts on their way into lines and words.
+/// Fits texts into lines and words, and remembers what that changed.
 #[derive(Default)]
 struct Texts {
     are_joined: bool,
@@ -349,14 +352,14 @@ struct Texts {
 }
 
 impl Texts {
-    /// Text on one line.
+    /// Returns the text on one line, with a blank in place of each line break.
     fn line(&mut self, text: &str) -> String {
         let breaks = |c: char| matches!(c, '\n' | '\r' | '\0' | '\u{1a}' | '\u{feff}');
         self.are_joined |= text.contains(breaks);
         text.replace(breaks, " ")
     }
 
-    /// Text as one word.
+    /// Returns the text as one word, with `_` in place of each blank.
     fn word(&mut self, text: &str) -> String {
         let blank = |c: char| c.is_whitespace() || c.is_control();
         self.are_filled |= text.contains(blank);
@@ -370,7 +373,8 @@ impl Texts {
     }
 }
 
-/// Windows-1252, which GemCad expects, unless that cannot hold the text or would be read as another.
+/// Encodes text in Windows-1252, which GemCad expects, or in UTF-8 where Windows-1252 cannot hold the text or its bytes
+/// would be read as UTF-8.
 fn encoded(text: String) -> Vec<u8> {
     let (bytes, _, is_lossy) = WINDOWS_1252.encode(&text);
     let is_read_as_utf8 = !text.is_ascii() && std::str::from_utf8(&bytes).is_ok();

@@ -1,4 +1,4 @@
-//! Files that are either written whole or not at all.
+//! Writes files either whole or not at all.
 
 use super::standard::is_standard;
 use crate::trace::Stopped;
@@ -15,9 +15,9 @@ pub enum WriteError {
     /// The file system refused.
     #[error("{path}: cannot write: {source}")]
     Io {
-        /// The file.
+        /// The path of the file.
         path: PathBuf,
-        /// What the system said.
+        /// The system's error.
         source: io::Error,
     },
     /// The work was stopped.
@@ -26,21 +26,21 @@ pub enum WriteError {
 }
 
 impl WriteError {
-    /// The file system's refusal to write `path`.
+    /// Makes the error of a file system that refuses to write `path`.
     pub fn io(path: &Path, source: impl Into<io::Error>) -> Self {
         Self::Io { path: path.into(), source: source.into() }
     }
 }
 
-/// What a file's content is written to.
+/// A seekable writer that takes a file's content.
 pub trait Sink: Write + Seek {}
 
 impl<T: Write + Seek> Sink for T {}
 
-/// Symbolic links that are followed one after the other; Linux gives up at as many.
+/// The most symbolic links that are followed one after the other; Linux gives up at as many.
 const MOST_LINKS: usize = 40;
 
-/// Content for a pipe or a device is kept in memory up to this many bytes, and beyond in a file without a name.
+/// Content for a pipe or a device is kept in memory up to this many bytes, and beyond that in a file without a name.
 const KEPT: usize = 16 << 20;
 
 /// The temporary files of all writes that are under way.
@@ -50,14 +50,15 @@ fn under_way() -> MutexGuard<'static, BTreeSet<PathBuf>> {
     UNDER_WAY.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// Keeps all writes from beginning or ending while it lives; see [`abandon_writes`].
+/// A guard that keeps all writes from beginning or ending while it lives; see [`abandon_writes`].
 #[derive(Debug)]
 pub struct Abandoned(
     #[expect(dead_code, reason = "the lock is held by it")] MutexGuard<'static, BTreeSet<PathBuf>>,
 );
 
-/// Removes the temporary files of all writes that are under way, in every thread, for a program that is about to end. No
-/// file is begun or finished until the answer is dropped.
+/// Removes the temporary files of all writes that are under way, in every thread, for a program that is about to end.
+///
+/// No file is begun or finished until the returned guard is dropped.
 pub fn abandon_writes() -> Abandoned {
     let mut files = under_way();
     while let Some(file) = files.pop_first() {
@@ -66,19 +67,21 @@ pub fn abandon_writes() -> Abandoned {
     Abandoned(files)
 }
 
-/// Writes a file under a temporary name beside it, and renames it when `fill` has filled it without error. Missing folders
-/// are made. A symbolic link stays, and the file that it leads to is written. The path `-` is standard output; that, pipes
-/// and devices are written to when `fill` has ended without error.
+/// Writes a file whole or not at all.
+///
+/// `fill` writes to a temporary file beside `path`, which is renamed once `fill` has returned without error. Missing folders
+/// are made. A symbolic link stays, and the file that it leads to is written. The path `-` is standard output; standard
+/// output, pipes and devices are written to once `fill` has returned without error.
 ///
 /// # Errors
-/// When the file system refuses, or with what `fill` answers.
+/// When the file system refuses, or `fill` returns an error.
 pub fn write<E: From<WriteError>>(
     path: &Path,
     fill: impl FnOnce(&mut dyn Sink) -> Result<(), E>,
 ) -> Result<(), E> {
     if is_standard(path) {
         return match through(path, fill, || Ok(io::stdout().lock())) {
-            // A reader that has gone away wants no more.
+            // The reader of the pipe has gone away and wants no more.
             Err(Through::Write(e)) if e.kind() == io::ErrorKind::BrokenPipe => Ok(()),
             done => done.map_err(|e| e.at(path)),
         };
@@ -95,18 +98,18 @@ pub fn write<E: From<WriteError>>(
     Ok(temporary.persist(&target).map_err(|e| WriteError::io(path, e))?)
 }
 
-/// The place to which a path leads by symbolic links, whether something is there or not.
+/// Follows symbolic links to the path where they end, whether a file exists there or not.
 fn destination(path: &Path) -> io::Result<PathBuf> {
     let mut target = path.to_path_buf();
     for _ in 0..MOST_LINKS {
-        // What is no link, or not there, cannot be read as one.
+        // What is no link, or does not exist, cannot be read as a link.
         let Ok(next) = std::fs::read_link(&target) else { return Ok(target) };
         target = target.parent().unwrap_or(Path::new("")).join(next);
     }
     Err(io::Error::other("too many symbolic links lead from one to another"))
 }
 
-/// Why nothing was written to what is no file.
+/// Why nothing was written to standard output, a pipe or a device.
 enum Through<E> {
     Fill(E),
     Write(io::Error),
@@ -121,7 +124,7 @@ impl<E: From<WriteError>> Through<E> {
     }
 }
 
-/// Fills a store and empties it into what `open` opens.
+/// Lets `fill` write to a store, and copies the store to what `open` opens.
 fn through<E: From<WriteError>, W: Write>(
     path: &Path,
     fill: impl FnOnce(&mut dyn Sink) -> Result<(), E>,
@@ -141,13 +144,13 @@ fn through<E: From<WriteError>, W: Write>(
     copy().map_err(Through::Write)
 }
 
-/// A temporary file, which goes with its owner unless it is renamed.
+/// A temporary file, which is removed with its owner unless it is renamed.
 struct Temporary {
     file: NamedTempFile,
     entry: Entry,
 }
 
-/// A temporary file's place among those that are under way.
+/// A temporary file's entry in `UNDER_WAY`, which is removed when this is dropped.
 struct Entry(PathBuf);
 
 impl Drop for Entry {
@@ -157,7 +160,7 @@ impl Drop for Entry {
 }
 
 impl Temporary {
-    /// A new one in the folder of `target`; errors name `path`, or the folder.
+    /// Makes a temporary file in the folder of `target`; errors name `path`, or the folder.
     fn beside(path: &Path, target: &Path) -> Result<Self, WriteError> {
         let folder = target.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
         std::fs::create_dir_all(folder).map_err(|e| match e.kind() {
@@ -173,7 +176,7 @@ impl Temporary {
         Ok(Self { file, entry })
     }
 
-    /// Renames it to `target`.
+    /// Renames the temporary file to `target`.
     fn persist(self, target: &Path) -> io::Result<()> {
         let Self { file, entry } = self;
         let files = under_way();
@@ -187,7 +190,7 @@ impl Temporary {
 fn new_file(folder: &Path) -> io::Result<NamedTempFile> {
     let mut builder = tempfile::Builder::new();
     builder.prefix(".brillianteer-");
-    // Temporary files are private by default; these are to become ordinary ones.
+    // Temporary files are private by default; these become ordinary files.
     #[cfg(unix)]
     builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
     builder.tempfile_in(folder)

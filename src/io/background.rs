@@ -1,4 +1,5 @@
-//! What lies behind the stones, as people ask for it: the light itself, a colour, a pattern of the program's, a photograph.
+//! What lies behind the stones, as people name it: the light itself, a colour, a pattern that the program draws, a
+//! photograph.
 
 use super::panorama::{self, LoadedPanorama};
 use super::png_bytes::png;
@@ -14,21 +15,21 @@ use std::path::{Path, PathBuf};
 /// The widest photograph that is kept as it is; wider ones are halved.
 const WIDEST: u32 = 4096;
 
-/// What was asked for.
+/// A background as a person names it.
 #[derive(Debug, Clone, PartialEq)]
 pub enum BackgroundRef {
-    /// `light`: what shines.
+    /// `light`: the light itself.
     Light,
-    /// Colours, or nothing.
+    /// Colours, or a transparent background.
     Plain(Background),
     /// A drawing that comes with the program.
     Pattern(Pattern),
-    /// A picture's file, which was there.
+    /// The path of a photograph's file, which existed when the name was read.
     Photo(PathBuf),
 }
 
 impl fmt::Display for BackgroundRef {
-    /// What reads back as the same from any folder.
+    /// Writes a text that [`Self::read`] reads as the same background from any folder.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Light => f.write_str("light"),
@@ -39,24 +40,29 @@ impl fmt::Display for BackgroundRef {
     }
 }
 
-/// Why there is no such background.
+/// Why a background's name could not be read.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum BackgroundError {
-    /// What is neither a name, nor a colour, nor a file.
+    /// The text is neither a name, nor a colour, nor a file; the message says what is known.
     #[error("{0}")]
     Unknown(String),
-    /// A file that is not there.
+    /// The text is the path of a file that does not exist.
     #[error("{0}: there is no such file")]
     NoFile(String),
 }
 
 impl BackgroundRef {
-    /// How many times as wide as what it fills it hangs: patterns go on beside the picture.
+    /// Whether this is a picture that hangs at a distance behind the stones: a pattern or a photograph.
+    pub fn is_picture(&self) -> bool {
+        matches!(self, Self::Pattern(_) | Self::Photo(_))
+    }
+
+    /// Returns how many times as wide as the picture the background hangs behind it: patterns go on beside the picture.
     pub fn span(&self) -> f64 {
         if matches!(self, Self::Pattern(_)) { PATTERN_SPAN } else { 1.0 }
     }
 
-    /// What people are told that hangs behind.
+    /// Returns a word that tells people what hangs behind, such as `Photograph`.
     pub fn title(&self) -> String {
         let mut title = match self {
             Self::Light => "light",
@@ -69,10 +75,10 @@ impl BackgroundRef {
         title
     }
 
-    /// Reads what was asked for; names stand before files, which are looked for from `folder`.
+    /// Reads the name of a background. Names come before files, which are looked for from `folder`.
     ///
     /// # Errors
-    /// For what is none of all, or a file that is not there.
+    /// When the text is no name, no colour and no file, or names a file that does not exist.
     pub fn read(text: &str, folder: &Path) -> Result<Self, BackgroundError> {
         if text.eq_ignore_ascii_case("light") {
             return Ok(Self::Light);
@@ -93,10 +99,11 @@ impl BackgroundRef {
         }
     }
 
-    /// The picture that hangs behind, of no more pixels than are of use; `None` where there is none.
+    /// Returns the picture that hangs behind; a photograph is halved until no side is longer than 4096 pixels. `None` for
+    /// the light and for colours.
     ///
     /// # Errors
-    /// What is wrong with a photograph's file, in words that name it.
+    /// What is wrong with a photograph's file, in words that name the file.
     pub fn picture(&self) -> Result<Option<LoadedPanorama>, String> {
         match self {
             Self::Light | Self::Plain(_) => Ok(None),
@@ -114,11 +121,11 @@ impl BackgroundRef {
         }
     }
 
-    /// What a picture of a size shows where nothing stands before it: a pattern or photograph that fills it, or colours;
-    /// `None` where there is neither.
+    /// Returns a picture of a size in pixels as it is where nothing stands before the background: a pattern or photograph
+    /// that fills it, or colours; `None` for the light and for a transparent background.
     ///
     /// # Errors
-    /// What is wrong with a photograph's file, in words that name it.
+    /// What is wrong with a photograph's file, in words that name the file.
     pub fn filling(&self, [width, height]: [u32; 2]) -> Result<Option<LoadedPanorama>, String> {
         if let Self::Plain(colours) = self {
             let rows: Option<Vec<_>> = (0..height).map(|y| colours.row(y, height)).collect();
@@ -133,10 +140,11 @@ impl BackgroundRef {
         Ok(self.picture()?.map(filled))
     }
 
-    /// The same picture as a file's bytes, a photograph's as they are; `None` where there is none.
+    /// Returns the picture that hangs behind as the bytes of a file, a photograph's file unchanged; `None` for the light and
+    /// for colours.
     ///
     /// # Errors
-    /// What is wrong with a photograph's file, in words that name it.
+    /// What is wrong with a photograph's file, in words that name the file.
     pub fn bytes(&self) -> Result<Option<Vec<u8>>, String> {
         match self {
             Self::Light | Self::Plain(_) => Ok(None),
@@ -157,7 +165,7 @@ fn rastered(pattern: Pattern) -> Result<(u32, u32, Vec<u8>), DrawingError> {
     rasterize(&pattern.drawing().to_string(), PATTERN_SIDE)
 }
 
-/// A pattern in linear light.
+/// Draws a pattern in linear light.
 fn drawn(pattern: Pattern) -> Result<Panorama, DrawingError> {
     let (width, height, rgb) = rastered(pattern)?;
     let linear: Vec<f32> = (0..=255_u8).map(|c| linear_from_encoded(f64::from(c) / 255.0) as f32).collect();
@@ -169,7 +177,7 @@ fn drawn(pattern: Pattern) -> Result<Panorama, DrawingError> {
 mod tests {
     use super::*;
 
-    /// The mean of a pattern, and the share of pixels that are neither black nor white nor of a colour that it is drawn in.
+    /// Returns the mean of a picture's green light.
     fn mean(picture: &Panorama) -> f64 {
         let sum: f64 = picture.pixels.iter().map(|p| f64::from(p[1])).sum();
         sum / picture.pixels.len() as f64
@@ -177,14 +185,14 @@ mod tests {
 
     #[test]
     fn patterns_are_crisp_and_hold_as_much_ink_as_they_are_drawn_with() {
-        // Green light of each: the share of paper. A dot of a quarter of the step covers pi / 16 of its square.
+        // The mean of each: the share of paper. A dot whose radius is a quarter of the step covers pi / 16 of its square.
         let lines = 1.0 - (1.0 - 6.0 / 64.0_f64).powi(2);
         for (name, least, most) in [
             ("page", 0.7, 0.95),
             ("grid", 1.0 - lines, 1.0 - lines * 0.95),
             ("checks", 0.4999, 0.5001),
             ("stripes", 0.4999, 0.5001),
-            // Their rims are evened out in sRGB, which is darker in light.
+            // The dots' rims are evened out in sRGB, which is darker in linear light.
             ("dots", 1.0 - 0.1964 - 0.004, 1.0 - 0.1964),
             ("slit", 0.004_88, 0.004_89),
         ] {

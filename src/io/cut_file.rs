@@ -1,7 +1,7 @@
 //! Cut files: a design as TOML, format 1, read and written through one declaration of its keys (`form`).
 //!
-//! Written numbers are percent of the girdle diameter and degrees; [`Design`] keeps them as written, so that
-//! reading what was written gives the same design to the last bit. Every error names file, line and key, and says
+//! Numbers in a file are percent of the girdle diameter and degrees; [`Design`] keeps them as they stand, so that
+//! reading back what was written gives the same design to the last bit. Every error names file, line and key, and says
 //! what was expected.
 
 use std::path::Path;
@@ -22,22 +22,22 @@ pub(super) mod values;
 #[cfg(test)]
 mod tests;
 
-/// The format that this program reads and writes.
+/// The number of the format that this program reads and writes.
 pub const FORMAT: i64 = 1;
 
-/// The largest file taken, bytes.
+/// The size of the largest file without a mesh that is read, in bytes.
 pub const MAX_BYTES: u64 = 4 << 20;
 
-/// The largest one that holds a mesh: some millions of triangles.
+/// The size of the largest file with a mesh that is read, in bytes: some millions of triangles.
 pub const MAX_MESH_BYTES: u64 = 256 << 20;
 
 /// Why a cut file could not be read.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("{path}{}: {message}", .line.map(|line| format!(":{line}")).unwrap_or_default())]
 pub struct CutFileError {
-    /// The file, as it was named.
+    /// The path of the file, as the caller gave it.
     pub path: String,
-    /// The line at fault, from 1; `None` where it is the file as a whole.
+    /// The line at fault, from 1; `None` where the file as a whole is at fault.
     pub line: Option<usize>,
     /// The key at fault and what was expected of it.
     pub message: String,
@@ -46,7 +46,7 @@ pub struct CutFileError {
 /// Reads a cut file.
 ///
 /// # Errors
-/// What keeps it from being a cut file, with path, line and key.
+/// When the file cannot be read or is no cut file; the error names path, line and key.
 pub fn read(path: impl AsRef<Path>) -> Result<Design, CutFileError> {
     let path = path.as_ref();
     let label = path.display().to_string();
@@ -59,7 +59,7 @@ pub fn read(path: impl AsRef<Path>) -> Result<Design, CutFileError> {
 /// Reads a design from the text of a cut file; `label` stands for its path in errors.
 ///
 /// # Errors
-/// What keeps it from being a cut file, with label, line and key.
+/// When the text is no cut file; the error names label, line and key.
 pub fn parse(text: &str, label: &str) -> Result<Design, CutFileError> {
     design(text).map_err(|fault| CutFileError {
         path: label.to_owned(),
@@ -68,11 +68,11 @@ pub fn parse(text: &str, label: &str) -> Result<Design, CutFileError> {
     })
 }
 
-/// The text of a cut file that reads back as the same design.
+/// Returns the text of a cut file that reads back as the same design.
 ///
-/// A design that [`Design::check`] refuses is written too, but not read back.
+/// A design that [`Design::check`] refuses is written too, but does not read back.
 pub fn write(design: &Design) -> String {
-    // TOML lacks a form only for maps without text keys and integers beyond 64 bits, and here are neither.
+    // TOML has no form for maps without text keys and for integers beyond 64 bits; a cut file has neither.
     toml::to_string(&DesignForm::of(design)).expect("a cut file's form is text, numbers, lists and tables")
 }
 
@@ -86,13 +86,13 @@ fn design(text: &str) -> Result<Design, Fault> {
     DesignForm::deserialize(Deserializer::from(table)).map_err(Fault::form)?.design()
 }
 
-/// Whether a mesh stands in it, as far as its beginning tells.
+/// Returns whether the text has a table `[mesh]`, as far as its beginning shows.
 fn holds_mesh(text: &str) -> bool {
     const BEGINNING: usize = 64 << 10;
     text.lines().take_while(|line| line.len() < BEGINNING).take(1000).any(|line| line.trim() == "[mesh]")
 }
 
-/// Read before all else, since another format may have other keys.
+/// Checks the key `format`. It is read before all else, since another format may have other keys.
 pub(super) fn check_format(table: &DeTable<'_>) -> Result<(), Fault> {
     let Some(value) = table.get("format") else {
         return Err(Fault::top(format!(

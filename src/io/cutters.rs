@@ -1,8 +1,8 @@
 //! What the files of gem cutters have in common: planes as settings of a faceting machine, facets gathered into
-//! tiers, and what is told of designs that say too much or too little.
+//! tiers, and warnings about designs that say too much or too little.
 //!
-//! Numbers that come out of planes are rounded, so that they stand as the cutter wrote them and reading what was
-//! written gives the same ones.
+//! Numbers that are computed from planes are rounded to what the cutter wrote, so that reading what was written gives the
+//! same numbers.
 
 use super::cut_file::CutFileError;
 use super::design_file::ImportedDesign;
@@ -17,30 +17,32 @@ pub(super) mod sample;
 
 pub(super) use outward::{Outline, outlines, refractive_index, tiers_of, untold};
 
-/// Two facets of one tier are cut at one setting if their angles, degrees, and distances, of themselves, differ by no
-/// more; a number this near to one that a cutter would write is that one. Above the noise of stored planes (1e-13),
-/// far below what a machine can set (1e-3).
+/// Two facets of one tier are cut at one setting if their angles (degrees) and their distances (relative) differ by no more
+/// than this. A number this near to one that a cutter would write is taken for that one. The value is above the noise of
+/// stored planes (1e-13) and far below what a machine can set (1e-3).
 const SAME_SETTING: f64 = 1e-9;
 
-/// Angles are written in steps of a millionth of a degree: what cutters' programs print.
+/// Angles are rounded to this many steps per degree: millionths, which cutters' programs print.
 const ANGLE_STEPS: f64 = 1e6;
 
-/// Other angles and indices keep eleven decimals: more than a stored plane's noise leaves, less than 1e-12 in radians.
+/// Other angles and indices are rounded to this many steps per unit: eleven decimals, more than a stored plane's noise
+/// leaves, less than 1e-12 in radians.
 const KEPT: f64 = 1e11;
 
-/// Planes nearer to the origin than this, of the farthest, run through it: far below what 8 decimals can mean.
+/// A plane runs through the origin if its distance is below this part of the farthest plane's: far below what 8 decimals can
+/// mean.
 const THROUGH_ORIGIN: f64 = 1e-15;
 
-/// The index taken where a file's makes no sense: gem cutters take it where nothing is said.
+/// The index of refraction in place of one that makes no sense: gem cutters take it where nothing is said.
 const USUAL_INDEX: f64 = 1.54;
 
-/// The gear taken where a file's makes no sense: the commonest.
+/// The gear in place of one that makes no sense: the commonest.
 const USUAL_GEAR: i32 = 96;
 
-/// The most warnings told of one file.
+/// The most warnings that are reported about one file.
 const MOST_WARNINGS: usize = 100;
 
-/// How a facet is cut; units as in [`Tier`] and [`Indexed`].
+/// The setting of the faceting machine at which a facet is cut; units as in [`Tier`] and [`Indexed`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct FacetSetting {
     pub angle: f64,
@@ -48,17 +50,17 @@ pub(super) struct FacetSetting {
     pub index: f64,
 }
 
-/// The gear by which settings are told.
+/// The index gear to which the indices of settings refer; units as in [`Tiers`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Gear {
     pub teeth: i32,
     pub offset: f64,
 }
 
-/// A facet on its way into a tier.
+/// A facet that is to be gathered into a tier.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct TierPiece {
-    /// What its file calls its tier; facets of different ones are never gathered.
+    /// A number for the facet's tier in its file; facets of different tiers are never gathered.
     pub tier: usize,
     pub setting: FacetSetting,
     pub name: String,
@@ -66,7 +68,7 @@ pub(super) struct TierPiece {
     pub is_cut: bool,
 }
 
-/// Warnings, up to a number that people read.
+/// Warnings about one file; those beyond a number that people read are only counted.
 #[derive(Debug, Default)]
 pub(super) struct WarningList {
     texts: Vec<String>,
@@ -74,7 +76,7 @@ pub(super) struct WarningList {
 }
 
 impl WarningList {
-    /// The text is made only if there is room for it.
+    /// Adds a warning, whose text is made only if there is room for it.
     pub fn warn(&mut self, text: impl FnOnce() -> String) {
         if self.texts.len() < MOST_WARNINGS {
             self.texts.push(text());
@@ -92,7 +94,7 @@ impl WarningList {
 }
 
 impl Gear {
-    /// The gear that a file gives, or the usual one and a warning.
+    /// Returns the gear that a file gives, or the usual gear and a warning, which `at` begins.
     pub fn given(teeth: i32, offset: f64, at: &str, told: &mut WarningList) -> Self {
         let given = Self { teeth, offset };
         match given.tiers().check() {
@@ -104,7 +106,7 @@ impl Gear {
         }
     }
 
-    /// A design of this gear in which nothing is cut yet.
+    /// Returns a design of this gear without tiers.
     pub fn tiers(self) -> Tiers {
         Tiers {
             gear: self.teeth,
@@ -118,20 +120,21 @@ impl Gear {
         }
     }
 
-    /// How the plane with this unit normal is cut. The sign of `normal.z`, even of zero, tells crown from pavilion.
+    /// Returns the setting at which the plane with this unit normal is cut. The sign of `normal.z`, even of zero, separates
+    /// crown from pavilion.
     pub fn setting(self, normal: DVec3, distance: f64) -> FacetSetting {
         let across = normal.x.hypot(normal.y);
         let slope = as_written(across.atan2(normal.z.abs()).to_degrees(), ANGLE_STEPS);
         let teeth = f64::from(self.teeth).abs();
         let index = match slope {
-            // A flat has no azimuth; cutters set the machine to its last tooth.
+            // A flat facet has no azimuth; cutters set the machine to its last tooth.
             0.0 => teeth,
             _ => self.index(normal.x.atan2(-normal.y)),
         };
         FacetSetting { angle: slope.copysign(normal.z), distance: fourteen_digits(distance), index }
     }
 
-    /// The index, above 0 and up to the number of teeth, at which a facet lies whose azimuth from -y is this, radians.
+    /// Returns the index, above 0 and up to the number of teeth, of a facet whose azimuth is given in radians from -y.
     fn index(self, azimuth: f64) -> f64 {
         let teeth = f64::from(self.teeth);
         let index = (self.offset + teeth * azimuth / TAU).rem_euclid(teeth.abs());
@@ -142,7 +145,8 @@ impl Gear {
     }
 }
 
-/// A number as it was probably written, in `steps` to the unit, or without its noise.
+/// Returns a number as it was probably written: rounded to `steps` per unit where that is very near, else rounded without
+/// its noise.
 fn as_written(value: f64, steps: f64) -> f64 {
     let on_step = (value * steps).round() / steps;
     if (on_step - value).abs() < SAME_SETTING { on_step } else { (value * KEPT).round() / KEPT }
@@ -152,18 +156,18 @@ fn fourteen_digits(length: f64) -> f64 {
     format!("{length:.13e}").parse().unwrap_or(length)
 }
 
-/// Distances at which planes run through the origin become 0.
+/// Returns a distance, or 0 where the plane runs through the origin.
 pub(super) fn rid_of_noise(distance: f64, farthest: f64) -> f64 {
     if distance <= farthest * THROUGH_ORIGIN { 0.0 } else { distance }
 }
 
-/// The opposite: a distance that its inverse can be written of.
+/// Returns a distance above 0 whose inverse can be written; the opposite of [`rid_of_noise`].
 pub(super) fn off_the_origin(distance: f64, farthest: f64) -> f64 {
     let farthest = if farthest > 0.0 { farthest } else { 1.0 };
     distance.max(farthest * THROUGH_ORIGIN / 100.0)
 }
 
-/// Facets as tiers: those in a row that are cut alike, and told apart by no instructions of their own.
+/// Gathers facets into tiers: facets in a row that are cut alike, and are not kept apart by instructions of their own.
 pub(super) fn gathered(pieces: impl IntoIterator<Item = TierPiece>) -> Vec<Tier> {
     let mut tiers: Vec<Tier> = Vec::new();
     let mut last = None;
@@ -203,12 +207,12 @@ impl TierPiece {
     }
 }
 
-/// Leaves a tier's name with its first facet alone, where cutters put it.
+/// Removes the names of all facets but the first of each tier, where cutters put the tier's name.
 pub(super) fn named_once(tiers: &mut [Tier]) {
     tiers.iter_mut().flat_map(|tier| tier.facets.iter_mut().skip(1)).for_each(|facet| facet.name.clear());
 }
 
-/// What a design is called: by the first of these lines that can be shown, else by its file.
+/// Returns the name of a design: the first of these lines that can be shown, else the name of its file without the ending.
 pub(super) fn title<'a>(lines: impl IntoIterator<Item = &'a String>, label: &str) -> String {
     let stem = Path::new(label).file_stem().map(|stem| stem.to_string_lossy().into_owned());
     let lines = lines.into_iter().map(|line| line.trim());
@@ -216,13 +220,13 @@ pub(super) fn title<'a>(lines: impl IntoIterator<Item = &'a String>, label: &str
     names.next().unwrap_or("design").to_owned()
 }
 
-/// Lines without the empty ones at their end.
+/// Returns lines without the empty ones at their end.
 pub(super) fn up_to_the_last(mut lines: Vec<String>) -> Vec<String> {
     lines.truncate(lines.iter().rposition(|line| !line.is_empty()).map_or(0, |last| last + 1));
     lines
 }
 
-/// A file's symmetry, or 1 and a warning.
+/// Returns a file's symmetry, or 1 and a warning.
 pub(super) fn symmetry(given: i32, at: &str, told: &mut WarningList) -> u32 {
     match u32::try_from(given) {
         Ok(symmetry @ 1..) => symmetry,
@@ -233,7 +237,7 @@ pub(super) fn symmetry(given: i32, at: &str, told: &mut WarningList) -> u32 {
     }
 }
 
-/// A file's refractive index as a material, or the usual one and a warning.
+/// Returns a file's refractive index as a material, or the usual index and a warning.
 pub(super) fn material(index: f64, at: &str, told: &mut WarningList) -> MaterialRef {
     let material = MaterialRef::Index(index);
     match material.check() {
@@ -245,7 +249,7 @@ pub(super) fn material(index: f64, at: &str, told: &mut WarningList) -> Material
     }
 }
 
-/// The design that a file has brought, if it is one.
+/// Returns the design that was read from a file, or an error if the design's check refuses it.
 pub(super) fn brought(
     name: String,
     material: MaterialRef,

@@ -1,4 +1,5 @@
-//! Files of designs, whatever their format: told by what is in them, and only where that says nothing by how they end.
+//! Reads and writes designs in all formats. What is in a file decides its format, and only where that says nothing, the
+//! ending of its name.
 
 use super::cut_file::{self, CutFileError};
 use super::mesh_design;
@@ -12,7 +13,7 @@ use crate::cut::{Design, MaterialRef};
 use crate::scene::{Body, Specimen};
 use std::path::Path;
 
-/// A format of designs.
+/// A format of design files.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum DesignFormat {
     /// This program's own cut files, TOML.
@@ -33,41 +34,41 @@ pub enum DesignFormat {
     Glb,
 }
 
-/// What a file has brought in.
+/// A design that was read from a file, with notes and warnings.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ImportedDesign {
-    /// The design that it tells of.
+    /// The design.
     pub design: Design,
     /// How the file was understood, in words, where it could be understood otherwise.
     pub notes: Vec<String>,
-    /// What is odd about the file, in words, each with its line or offset where it has one.
+    /// What is unusual about the file, in words, each with its line or offset where it has one.
     pub warnings: Vec<String>,
-    /// Of a mesh, whether its shape leaves a doubt which way its table faces; none of other designs.
+    /// For a mesh, whether its shape leaves a doubt which way its table faces; `None` for other designs.
     pub doubt: Option<bool>,
 }
 
 impl ImportedDesign {
-    /// A design of which there is nothing to say.
+    /// Wraps a design without notes and warnings.
     pub fn of(design: Design) -> Self {
         Self { design, notes: vec![], warnings: vec![], doubt: None }
     }
 }
 
-/// A design as a file.
+/// A design encoded as a file.
 #[derive(Debug, Clone, PartialEq)]
 pub struct EncodedDesign {
-    /// The file.
+    /// The content of the file.
     pub bytes: Vec<u8>,
-    /// What its format cannot hold, in words.
+    /// What the format cannot hold of the design, in words.
     pub lost: Vec<String>,
 }
 
 impl DesignFormat {
-    /// All there are.
+    /// All formats.
     pub const ALL: [Self; 8] =
         [Self::Toml, Self::Asc, Self::Gem, Self::Gcs, Self::Obj, Self::Stl, Self::Ply, Self::Glb];
 
-    /// How its files end, without the dot.
+    /// Returns the ending of the format's files, without the dot.
     pub fn ending(self) -> &'static str {
         match self {
             Self::Toml => "toml",
@@ -81,7 +82,7 @@ impl DesignFormat {
         }
     }
 
-    /// Whether it holds a design whole enough to go on with, and not the shape alone.
+    /// Returns whether the format holds a design whole enough to go on with, and not the shape alone.
     pub fn holds_designs(self) -> bool {
         match self {
             Self::Toml | Self::Asc | Self::Gem | Self::Gcs => true,
@@ -89,13 +90,13 @@ impl DesignFormat {
         }
     }
 
-    /// The format that a file's name asks for.
+    /// Returns the format that the ending of a file's name stands for.
     pub fn of_name(path: &Path) -> Option<Self> {
         let ending = path.extension()?.to_string_lossy().to_lowercase();
         Self::ALL.into_iter().find(|format| format.ending() == ending)
     }
 
-    /// The format of a file of these bytes and this name.
+    /// Returns the format of a file with these bytes and this name.
     fn of(bytes: &[u8], path: &Path) -> Self {
         let known = [
             (Self::Gcs, gcs::looks_like as fn(&[u8]) -> bool),
@@ -104,7 +105,7 @@ impl DesignFormat {
         ];
         let is_mesh = |ending: &str| path.extension().is_some_and(|e| e.eq_ignore_ascii_case(ending));
         if is_mesh("gltf") {
-            // Its reader says what is wrong with it.
+            // The reader of glTF says what is wrong with the file.
             return Self::Glb;
         }
         let told = known.into_iter().find(|(_, looks_like)| looks_like(bytes)).map(|(format, _)| format);
@@ -112,18 +113,18 @@ impl DesignFormat {
     }
 }
 
-/// Reads a design.
+/// Reads a design, a mesh with the default options.
 ///
 /// # Errors
-/// What keeps the file from being one, with its path, and line where there is one.
+/// When the file is no design; the error has its path, and a line where there is one.
 pub fn read(path: &Path) -> Result<ImportedDesign, CutFileError> {
     read_with(path, MeshOptions::default())
 }
 
-/// Reads a design; the options are those of meshes, which other designs need not.
+/// Reads a design; the options apply to meshes alone.
 ///
 /// # Errors
-/// What keeps the file from being one, with its path, and line where there is one.
+/// When the file is no design; the error has its path, and a line where there is one.
 pub fn read_with(path: &Path, mesh: MeshOptions) -> Result<ImportedDesign, CutFileError> {
     let label = path.display().to_string();
     let fault = |error: text::TextError| CutFileError {
@@ -153,10 +154,11 @@ pub fn read_with(path: &Path, mesh: MeshOptions) -> Result<ImportedDesign, CutFi
     Ok(brought)
 }
 
-/// The file of a stone's design.
+/// Encodes a stone's design as a file.
 ///
 /// # Errors
-/// [`Failure::Output`] where the format has no place for a mesh, or for so large a one.
+/// [`Failure::Input`] where the format takes convex stones alone and this is none, [`Failure::Output`] where a mesh is too
+/// large for the format.
 pub fn written(specimen: &Specimen, format: DesignFormat) -> Result<EncodedDesign, Failure> {
     let (name, radius_mm) = (specimen.design.name.as_str(), specimen.unit_mm());
     let material = &specimen.design.material;
@@ -204,7 +206,7 @@ pub fn written(specimen: &Specimen, format: DesignFormat) -> Result<EncodedDesig
     })
 }
 
-/// A mesh, and what meshes have no place for.
+/// Wraps the bytes of a mesh, with messages about what meshes have no place for.
 fn as_mesh(specimen: &Specimen, format: DesignFormat, bytes: Vec<u8>) -> EncodedDesign {
     let is_named = matches!(format, DesignFormat::Obj | DesignFormat::Glb);
     let shape = match &specimen.body {
@@ -240,14 +242,15 @@ fn as_mesh(specimen: &Specimen, format: DesignFormat, bytes: Vec<u8>) -> Encoded
     EncodedDesign { bytes, lost }
 }
 
-/// Whether the header of an STL says how large its stone is and which way it faces, and of what it is.
+/// Returns whether the header of an STL states how large its stone is and which way it faces, and whether it states the
+/// material.
 fn stated_in_header(stl: &[u8]) -> (bool, bool) {
     let header = String::from_utf8_lossy(&stl[..stl.len().min(STL_HEADER)]);
     let stated = Statement::parse(header.trim_end_matches('\0')).ok();
     (stated.is_some(), stated.is_some_and(|stated| stated.material.is_some()))
 }
 
-/// Words as a list of a sentence: `a, b and c`.
+/// Joins words as in a sentence: `a, b and c`.
 fn listed(words: &[&str]) -> String {
     match words {
         [rest @ .., last] if !rest.is_empty() => format!("{} and {last}", rest.join(", ")),
@@ -255,10 +258,10 @@ fn listed(words: &[&str]) -> String {
     }
 }
 
-/// Writes a stone's design, whole or not at all; what the format could not hold, in words.
+/// Writes a stone's design, whole or not at all, and returns what the format cannot hold, in words.
 ///
 /// # Errors
-/// Where the file system refuses.
+/// When the design cannot be encoded, as for [`written`], or the file system refuses.
 pub fn write(specimen: &Specimen, format: DesignFormat, path: &Path) -> Result<Vec<String>, Failure> {
     let written = written(specimen, format)?;
     write_whole(path, |file| file.write_all(&written.bytes).map_err(|e| WriteError::io(path, e)))?;

@@ -1,4 +1,4 @@
-//! Drawings as pixels: SVG text rasterised with fonts the program carries, so that it looks the same everywhere.
+//! Rasterises drawings: SVG text to pixels, with fonts that the program carries, so that it looks the same everywhere.
 
 use resvg::tiny_skia::{Color, Pixmap, Transform};
 use resvg::usvg::{self, ImageHrefResolver, Options, Tree, fontdb};
@@ -23,17 +23,18 @@ pub enum DrawingError {
     Size {
         /// Pixels from left to right.
         width: u32,
-        /// Pixels from top to bottom, which follow from the width.
+        /// Pixels from top to bottom; the height follows from the width.
         height: u32,
     },
 }
 
-/// Rasterises an SVG at a width in pixels, on white: (width, height, RGB with a byte each, rows from the top).
+/// Rasterises an SVG at a width in pixels, on white. Returns the width, the height, and RGB with a byte each, rows from the
+/// top.
 ///
 /// Only the program's own fonts are used, and nothing outside the text is read.
 ///
 /// # Errors
-/// Where the text is no SVG, or the picture would have a side of no pixels or more than 16,384.
+/// When the text is no SVG, or the picture would have a side of no pixels or more than 16,384.
 pub fn rasterize(svg: &str, width: u32) -> Result<(u32, u32, Vec<u8>), DrawingError> {
     let tree = parse(svg)?;
     let pixmap = drawn(&tree, width, Color::WHITE)?;
@@ -42,20 +43,21 @@ pub fn rasterize(svg: &str, width: u32) -> Result<(u32, u32, Vec<u8>), DrawingEr
     Ok((pixmap.width(), pixmap.height(), rgb))
 }
 
-/// Rasterises an SVG as large as it fits into so many pixels across and down, otherwise as [`rasterize_clear`].
+/// Rasterises an SVG as large as fits into a number of pixels across and down, otherwise like [`rasterize_clear`].
 ///
 /// # Errors
-/// As of [`rasterize`].
+/// As for [`rasterize`].
 pub fn rasterize_within(svg: &str, [across, down]: [u32; 2]) -> Result<(u32, u32, Vec<u8>), DrawingError> {
     let size = parse(svg)?.size();
     let width = f64::from(down) * f64::from(size.width()) / f64::from(size.height());
     rasterize_clear(svg, across.min(width.floor() as u32).max(1))
 }
 
-/// Rasterises an SVG at a width in pixels on nothing: (width, height, straight RGBA with a byte each, rows from the top).
+/// Rasterises an SVG at a width in pixels, on a transparent ground. Returns the width, the height, and straight RGBA with a
+/// byte each, rows from the top.
 ///
 /// # Errors
-/// As of [`rasterize`].
+/// As for [`rasterize`].
 pub fn rasterize_clear(svg: &str, width: u32) -> Result<(u32, u32, Vec<u8>), DrawingError> {
     let pixmap = drawn(&parse(svg)?, width, Color::TRANSPARENT)?;
     let straight = |pixel: &resvg::tiny_skia::PremultipliedColorU8| {
@@ -95,7 +97,7 @@ fn parse(svg: &str) -> Result<Tree, DrawingError> {
     usvg::Tree::from_str(svg, &options).map_err(|e| DrawingError::NotSvg { reason: e.to_string() })
 }
 
-/// Ubuntu Light; the second font stands in for letters it lacks.
+/// The family of Ubuntu Light; the second font stands in for letters it lacks.
 const FAMILY: &str = "Ubuntu";
 
 #[cfg(test)]
@@ -108,7 +110,7 @@ mod tests {
     use glam::DVec3;
     use usvg::{Node, Rect};
 
-    /// Brilliants far beyond what is cut: every combination that can be of small, usual and large proportions.
+    /// Returns brilliants far beyond what is cut: every possible combination of small, usual and large proportions.
     fn brilliants() -> Vec<RoundBrilliant> {
         let mut all = vec![];
         for (table, star_length) in [(6.0, 30.0), (53.0, 50.0), (53.0, 98.0), (80.0, 90.0)] {
@@ -138,7 +140,7 @@ mod tests {
         Stone::new(&given.facets().unwrap()).unwrap()
     }
 
-    /// A stone of planes at distance 1 from the origin, named as given.
+    /// Builds a stone from planes n·x = 1, named as given.
     fn planes(normals: &[(&str, [f64; 3])]) -> Stone {
         let plane = |&(name, n): &(&str, [f64; 3])| {
             let plane = Plane::new(DVec3::from_array(n), 1.0).normalized().unwrap();
@@ -177,7 +179,7 @@ mod tests {
         }
     }
 
-    /// Parses a drawing and checks that its text can be read.
+    /// Parses a drawing and checks that its texts lie within it and do not overlap.
     fn assert_legible(svg: &str) {
         let tree = parse(svg).unwrap();
         let mut boxes = vec![];

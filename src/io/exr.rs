@@ -1,4 +1,4 @@
-//! OpenEXR: what every pixel holds, in floating point, a channel for each part of the light.
+//! Writes OpenEXR: what every pixel holds, in floating point, with a channel for each part of the light.
 
 use super::atomic::{WriteError, write};
 use crate::picture::{Layer, paint};
@@ -41,7 +41,7 @@ pub fn write_exr(
     write_channels(path, size, list, (description, None), None)
 }
 
-/// Writes what [`image()`] writes, of channels that are held one by one.
+/// Writes an image as of [`image()`] from channels that are held one by one.
 pub(super) fn write_channels(
     path: &Path,
     size: (usize, usize),
@@ -52,7 +52,7 @@ pub(super) fn write_channels(
     write_image(path, &image(size, AnyChannels::sort(channels), texts, chromaticities))
 }
 
-/// One layer, `light`, of these channels, with a description and another text under a name of its own.
+/// Makes an image of one layer, `light`, with these channels, a description, and another text under a name of its own.
 pub(super) fn image<C>(
     size: (usize, usize),
     channels: C,
@@ -66,7 +66,7 @@ pub(super) fn image<C>(
         Some((Text::new_or_none(name)?, AttributeValue::Text(Text::new_or_none(text)?)))
     });
     attributes.other.extend(more);
-    // In any other order the threads' race would decide where in the file a tile comes to lie.
+    // In any other order the threads' race would decide where in the file a tile lies.
     let encoding = Encoding { line_order: LineOrder::Increasing, ..Encoding::FAST_LOSSLESS };
     let layer_data = ExrLayer { channel_data: channels, attributes, size: size.into(), encoding };
     let mut attributes = ImageAttributes::with_size(size);

@@ -1,11 +1,11 @@
-//! What is wrong with a text, and where: by its key's path, or by the span that the TOML parser gives.
+//! Faults of a TOML text: what is wrong, and where, by its key's path or by the span that the TOML parser gives.
 
 use super::text::line_after;
 use std::ops::Range;
 
 use toml::de::{DeTable, DeValue, Error};
 
-/// What the keys mean, for whoever left one out or wrote something else.
+/// The meanings of keys, for someone who left a key out or wrote something else.
 const MEANINGS: [(&str, &str); 59] = [
     ("name", "what it is called"),
     ("material", "a material's name, an index, or a table of its own"),
@@ -85,7 +85,7 @@ const PROPORTIONS: [&str; 11] = [
 const PERCENT: &str = "percent of the girdle diameter";
 const DEGREES: &str = "degrees from the girdle plane";
 
-/// How serde words what was expected, and what a person would say.
+/// How serde words what was expected, and the words of a person for it.
 const WORDS: [(&str, &str); 12] = [
     ("expected f64", "expected a number"),
     ("expected u32", "expected a whole number, 0 or more"),
@@ -101,7 +101,7 @@ const WORDS: [(&str, &str); 12] = [
     ("floating point", "number"),
 ];
 
-/// What is wrong, and where.
+/// What is wrong in a text, and where.
 #[derive(Debug)]
 pub(super) struct Fault {
     place: Place,
@@ -113,27 +113,28 @@ enum Place {
     Whole,
     /// A byte offset in the text.
     Offset(usize),
-    /// A key's path, as `plane/17/normal`.
+    /// The path of a key, such as `plane/17/normal`.
     Path(String),
 }
 
 impl Fault {
-    /// A fault of the file as a whole.
+    /// Makes a fault of the file as a whole.
     pub(super) fn whole(message: impl Into<String>) -> Self {
         Self { place: Place::Whole, message: message.into() }
     }
 
-    /// Something missing at the top of the file.
+    /// Makes a fault of something that is missing at the top of the file.
     pub(super) fn top(message: impl Into<String>) -> Self {
         Self { place: Place::Offset(0), message: message.into() }
     }
 
-    /// A fault of the value at a path such as `plane/17/normal`, or of what encloses it where the value is missing.
+    /// Makes a fault of the value at a path such as `plane/17/normal`, or of what encloses it where the value is missing.
     pub(super) fn at(path: impl Into<String>, message: impl Into<String>) -> Self {
         Self { place: Place::Path(path.into()), message: message.into() }
     }
 
-    /// The same fault of something that is part of another: its path and its words go behind that one's.
+    /// Returns the same fault for something that is part of another: `path` comes before its path, and `told` before its
+    /// message.
     pub(super) fn within(self, path: &str, told: &str) -> Self {
         let place = match self.place {
             Place::Path(inner) => Place::Path(path.to_owned() + &inner),
@@ -142,7 +143,7 @@ impl Fault {
         Self { place, message: told.to_owned() + &self.message }
     }
 
-    /// What the parser says of a text that is not TOML.
+    /// Makes a fault of what the parser says of a text that is not TOML.
     pub(super) fn syntax(text: &str, error: &Error) -> Self {
         let Some(span) = error.span() else {
             return Self::whole(format!("this is no TOML that can be read: {}", error.message()));
@@ -156,9 +157,9 @@ impl Fault {
         Self { place: Place::Offset(start), message }
     }
 
-    /// What serde says of a text that is not a cut file, in the words of this program.
+    /// Makes a fault of what serde says of a text that has not the form of its file, in the words of this program.
     pub(super) fn form(mut error: Error) -> Self {
-        // Without its text the error shows the path of its key, on a line of its own: in `plane.normal`.
+        // Without its text the error shows the path of its key on a line of its own: in `plane.normal`.
         error.set_input(None);
         let shown = error.to_string();
         let path = shown.trim_end().rsplit_once("\nin `").and_then(|(_, path)| path.strip_suffix('`'));
@@ -170,7 +171,7 @@ impl Fault {
         Self { place, message: shortened(message) }
     }
 
-    /// The line at fault, from 1.
+    /// Returns the line at fault, from 1; `None` where that is not known or the file as a whole is at fault.
     pub(super) fn line(&self, text: &str) -> Option<usize> {
         let offset = match &self.place {
             Place::Whole => None,
@@ -181,7 +182,8 @@ impl Fault {
     }
 }
 
-/// Where the value at a path begins, or the nearest that encloses it; `None` if that is the whole text.
+/// Returns the byte offset of the value at a path, or of the nearest value that encloses it; `None` if that is the whole
+/// text.
 fn span(table: &DeTable<'_>, path: &str) -> Option<usize> {
     let mut steps = path.split('/');
     let mut value = table.get(steps.next()?)?;
@@ -200,7 +202,7 @@ fn span(table: &DeTable<'_>, path: &str) -> Option<usize> {
     Some(start)
 }
 
-/// A message that quotes something endless, cut to what a person reads.
+/// Cuts a message that quotes something very long to what a person reads.
 fn shortened(message: String) -> String {
     const LONGEST: usize = 600;
     match message.char_indices().nth(LONGEST) {
@@ -209,7 +211,7 @@ fn shortened(message: String) -> String {
     }
 }
 
-/// What someone may have meant by a line that is no TOML.
+/// Returns a hint at what someone may have meant by a line that is no TOML.
 fn hint(line: &str) -> &'static str {
     let value = line.split_once('=').map_or(line, |(_, value)| value).trim_start();
     let number: String = value.chars().take_while(|c| c.is_ascii_digit() || "+-.,".contains(*c)).collect();
@@ -223,7 +225,8 @@ fn hint(line: &str) -> &'static str {
     }
 }
 
-/// A key's name as serde quotes it, and the known one that is most like it, or the table that it belongs to.
+/// Returns a hint at an unknown key, which is the first that serde quotes: the known key that is most like it, or the table
+/// that it belongs to.
 fn meant(message: &str) -> String {
     let mut quoted = message.split('`').skip(1).step_by(2);
     let Some(asked) = quoted.next() else { return String::new() };
@@ -236,7 +239,7 @@ fn meant(message: &str) -> String {
     near.map_or(String::new(), |key| format!("; did you mean `{key}`?"))
 }
 
-/// serde's message with keys for fields, numbers for f64, and what the key means.
+/// Returns serde's message with keys for fields, numbers for f64, and the meaning of the key.
 fn reworded(message: &str, path: &str) -> String {
     if let Some(rest) = message.strip_prefix("unknown field ") {
         return format!(

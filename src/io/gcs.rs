@@ -1,7 +1,7 @@
 //! Designs of Gem Cut Studio, `.gcs`: XML, read by `read`, written by `write`. The format is published nowhere; what is
-//! known of it is told in docs/formats.md.
+//! known of it stands in docs/formats.md.
 //!
-//! Angles there are polar: 0 the table, 90 the girdle, 180 the culet. A stone reaches 1 across and is centred in z.
+//! Angles in a file are polar: 0 the table, 90 the girdle, 180 the culet. A stone reaches 1 across and is centred in z.
 //! What a file says besides the stone is kept as remarks under the names of its attributes.
 
 mod facets;
@@ -15,16 +15,17 @@ mod tests;
 pub use read::read;
 pub use write::write;
 
-/// The largest file taken, bytes: ten thousand facets take half of it.
+/// The size of the largest file that is read, in bytes: ten thousand facets take half of it.
 pub const MAX_BYTES: usize = 16 << 20;
 
-/// The element around all.
+/// The name of the root element.
 const ROOT: &str = "GemCutStudio";
 
-/// The version that is known.
+/// The version of the format that is known.
 const VERSION: &str = "1000";
 
-/// What `<render>` says besides the index, and what the program says there if nobody has chosen. That is no remark.
+/// The attributes of `<render>` besides the index, and what Gem Cut Studio writes there if nobody has chosen. Such a value
+/// is not kept as a remark.
 const RENDER: [(&str, Option<&str>); 5] = [
     ("material", None),
     ("dispersion", Some("0")),
@@ -33,13 +34,13 @@ const RENDER: [(&str, Option<&str>); 5] = [
     ("lighting_model", Some("Random")),
 ];
 
-/// The key of `<color>`, as "r g b", and white.
+/// The key of the remark about `<color>`, as "r g b", and the value for white.
 const COLOUR: (&str, &str) = ("color", "1 1 1");
 
-/// How far into a file its root is looked for, bytes.
+/// How far into a file its root element is looked for, in bytes.
 const ROOT_WITHIN: usize = 4096;
 
-/// Whether this is a design: by the element around all.
+/// Returns whether a file is a design of Gem Cut Studio, by its root element.
 pub fn looks_like(bytes: &[u8]) -> bool {
     let start = encoding_rs::UTF_8.decode(&bytes[..bytes.len().min(ROOT_WITHIN)]).0;
     start.contains("<GemCutStudio")

@@ -1,7 +1,7 @@
 //! Designs of GemCad in its binary form, `.gem`: planes and outlines, little-endian, in a frame whose y is the negative
-//! of ours. The format is published nowhere; what is known of it is told in docs/formats.md.
+//! of ours. The format is published nowhere; what is known of it stands in docs/formats.md.
 //!
-//! The planes are trusted; outlines are passed over in reading and made anew in writing.
+//! Reading trusts the planes and skips the outlines; writing makes the outlines anew.
 
 use super::cut_file::CutFileError;
 use super::cutters::{self, Gear, TierPiece, WarningList};
@@ -19,42 +19,42 @@ mod tests;
 
 pub use write::write;
 
-/// The largest file taken, bytes.
+/// The size of the largest file that is read, in bytes.
 pub const MAX_BYTES: usize = 64 << 20;
 
-/// What follows on the last facet, in place of a coordinate.
+/// The number that follows the last facet, in place of a coordinate.
 const END: f64 = -99999.0;
 
-/// Stands behind the index; nobody knows what for.
+/// The number that follows the index of refraction; its meaning is unknown.
 const UNKNOWN: u32 = 0x7fff;
 
-/// GemCad cuts from a block that reaches this far along each axis. Where the facets do not reach the axis within it, its
-/// faces bound the stone that a file stores.
+/// How far the block from which GemCad cuts reaches along each axis. Where the facets do not reach the axis within the
+/// block, its faces bound the stone that a file stores.
 const BLANK: f64 = 17.0 / 15.0;
 
 /// Coordinates this near to the block's faces lie on them: stored corners are off by less.
 const ON_BLANK: f64 = 1e-9;
 
-/// Lines at the top of a design, and as many at its end.
+/// The number of lines at the top of a design, and of lines at its end.
 const LINES: usize = 4;
 
-/// A facet as the file has it.
+/// A facet as it stands in the file.
 struct Raw<'a> {
-    /// Where it begins.
+    /// The byte offset at which the facet begins.
     at: usize,
-    /// In the file's frame, with a unit normal.
+    /// The facet's plane in the file's frame, with a unit normal.
     plane: Plane,
     tier: i32,
-    /// Name, tab, instructions.
+    /// The facet's name, a tab, and its instructions.
     label: &'a [u8],
-    /// Whether its outline ends at the block that GemCad cuts from.
+    /// Whether the facet's outline ends at the block from which GemCad cuts.
     on_blank: bool,
 }
 
-/// Reads a design; `label` is the file's path for errors, and names a design that does not name itself.
+/// Reads a design of GemCad; `label` is the file's path for errors, and names a design that does not name itself.
 ///
 /// # Errors
-/// What keeps it from being a design, with its offset.
+/// When the file is no such design; the error has the offset at fault where there is one.
 pub fn read(bytes: &[u8], label: &str) -> Result<ImportedDesign, CutFileError> {
     let refused = |message| CutFileError { path: label.to_owned(), line: None, message };
     if bytes.len() > MAX_BYTES {
@@ -70,12 +70,12 @@ pub fn read(bytes: &[u8], label: &str) -> Result<ImportedDesign, CutFileError> {
     cutters::brought(name, material, tiers, told, label)
 }
 
-/// Whether this is a design: facets down to the mark at their end.
+/// Returns whether a file is such a design: facets down to the mark at their end.
 pub fn looks_like(bytes: &[u8]) -> bool {
     bytes.len() <= MAX_BYTES && raw_facets(&mut Cursor::new(bytes)).is_ok_and(|facets| !facets.is_empty())
 }
 
-/// Facets down to the mark at their end.
+/// Reads facets down to the mark at their end.
 fn raw_facets<'a>(cursor: &mut Cursor<'a>) -> Result<Vec<Raw<'a>>, GemFault> {
     let mut facets = Vec::new();
     loop {
@@ -107,7 +107,7 @@ fn raw_facet<'a>(cursor: &mut Cursor<'a>, at: usize, x: f64) -> Result<Raw<'a>, 
     Ok(Raw { at, plane, tier, label, on_blank })
 }
 
-/// Passes over an outline, and tells whether it ends at the block that GemCad cuts from.
+/// Skips an outline, and returns whether it ends at the block from which GemCad cuts.
 fn outline(cursor: &mut Cursor<'_>) -> Result<bool, GemFault> {
     let mut on_blank = false;
     loop {
@@ -130,7 +130,7 @@ fn outline(cursor: &mut Cursor<'_>) -> Result<bool, GemFault> {
     }
 }
 
-/// All but the facets, and the refractive index with its place.
+/// Reads all that follows the facets; returns a design without tiers, and the refractive index with its offset.
 fn trailer(cursor: &mut Cursor<'_>, told: &mut WarningList) -> Result<(Tiers, (usize, f64)), GemFault> {
     const WHAT: &str = "the symmetry, gear and index that follow on the facets";
     let at = cursor.at();
@@ -151,7 +151,7 @@ fn trailer(cursor: &mut Cursor<'_>, told: &mut WarningList) -> Result<(Tiers, (u
     Ok((tiers, index))
 }
 
-/// The lines at the top and at the end; what is missing of them is told, since the stone is whole without.
+/// Reads the lines at the top and at the end. Missing lines give a warning, since the stone is whole without them.
 fn lines(cursor: &mut Cursor<'_>, told: &mut WarningList) -> [Vec<String>; 2] {
     let mut all = Vec::new();
     for _ in 0..2 * LINES {
@@ -167,7 +167,7 @@ fn lines(cursor: &mut Cursor<'_>, told: &mut WarningList) -> [Vec<String>; 2] {
     [all, footers].map(cutters::up_to_the_last)
 }
 
-/// What follows on the design.
+/// Warns of bytes that follow the design.
 fn rest(cursor: &mut Cursor<'_>, told: &mut WarningList) {
     let (at, left) = (cursor::place(cursor.at()), cursor.left());
     if left == 0 {
@@ -179,7 +179,7 @@ fn rest(cursor: &mut Cursor<'_>, told: &mut WarningList) {
     }
 }
 
-/// The facets by the gear of `tiers`.
+/// Converts facets to settings of the gear of `tiers`.
 fn pieces(raw: &[Raw<'_>], tiers: &Tiers, told: &mut WarningList) -> Vec<TierPiece> {
     let gear = Gear { teeth: tiers.gear, offset: tiers.offset };
     let farthest = raw.iter().map(|facet| facet.plane.offset).fold(0.0, f64::max);

@@ -1,6 +1,6 @@
 //! The cuts and scenes that come with the program, as the texts of their files.
 
-/// The cuts that come with the program, as their files in `cuts/`.
+/// The cuts that come with the program: the name of each, and the text of its file in `cuts/`.
 pub const CUTS: [(&str, &str); 10] = [
     ("tolkowsky", include_str!("../../cuts/tolkowsky.toml")),
     ("modern-ideal", include_str!("../../cuts/modern-ideal.toml")),
@@ -14,15 +14,15 @@ pub const CUTS: [(&str, &str); 10] = [
     ("plate", include_str!("../../cuts/plate.toml")),
 ];
 
-/// The cut that the program begins with.
+/// The name of the cut with which the program begins.
 pub const FIRST_CUT: &str = "tolkowsky";
 
-/// The file of a cut that comes with the program; capitals do not matter.
+/// Returns the text of a cut file that comes with the program, by its name; capitals do not matter.
 pub fn cut(name: &str) -> Option<&'static str> {
     CUTS.iter().find(|(n, _)| n.eq_ignore_ascii_case(name)).map(|(_, text)| *text)
 }
 
-/// The scenes that come with the program, as their files in `scenes/`.
+/// The scenes that come with the program: the name of each, and the text of its file in `scenes/`.
 pub const SCENES: [(&str, &str); 8] = [
     ("trilogy", include_str!("../../scenes/trilogy.toml")),
     ("ring", include_str!("../../scenes/ring.toml")),
@@ -34,7 +34,7 @@ pub const SCENES: [(&str, &str); 8] = [
     ("free-diamond", include_str!("../../scenes/free-diamond.toml")),
 ];
 
-/// The file of a scene that comes with the program; capitals do not matter.
+/// Returns the text of a scene file that comes with the program, by its name; capitals do not matter.
 pub fn scene(name: &str) -> Option<&'static str> {
     SCENES.iter().find(|(n, _)| n.eq_ignore_ascii_case(name)).map(|(_, text)| *text)
 }

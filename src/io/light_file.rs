@@ -1,4 +1,4 @@
-//! Lights as TOML: a name, and what shines.
+//! Reads and writes light files: TOML with a name, and what shines.
 
 use super::fault::Fault;
 use super::text::{self, TextError};
@@ -7,16 +7,17 @@ use serde::Deserialize;
 use std::path::Path;
 use toml::de::{DeTable, Deserializer};
 
-/// The largest file taken, bytes.
+/// The size of the largest file that is read, in bytes.
 const MAX_BYTES: u64 = 1 << 20;
 
 /// The longest name of a light, in characters.
 const LONGEST_NAME: usize = 60;
 
-/// Reads a light. Where it names a panorama, that file is not looked for; its path begins at the light's own folder.
+/// Reads a light file. If the light names a panorama, that file is not looked for; its path begins at the light's own
+/// folder.
 ///
 /// # Errors
-/// Text that names the file and, where it is known, the line, and says what was expected.
+/// A message that names the file and, where it is known, the line, and says what was expected.
 pub fn read(path: &Path) -> Result<Light, String> {
     let label = path.display();
     let at = |line: Option<usize>| line.map_or(String::new(), |line| format!(":{line}"));
@@ -33,15 +34,15 @@ fn light(text: &str) -> Result<Light, Fault> {
     Ok(light)
 }
 
-/// Writes a light in the form that [`read`] takes.
+/// Returns the text of a light file that [`read`] reads as the same light.
 ///
 /// # Errors
-/// Where its panorama's path is not Unicode.
+/// When the path of its panorama is not Unicode.
 pub fn text(light: &Light) -> Result<String, toml::ser::Error> {
     toml::to_string(light)
 }
 
-/// Names are told beside pictures, on one line.
+/// Checks that a name fits beside a picture, on one line.
 fn check_name(name: &str) -> Result<(), Fault> {
     let is_plain = !name.trim().is_empty() && !name.chars().any(char::is_control);
     if is_plain && name.chars().count() <= LONGEST_NAME {
@@ -51,7 +52,7 @@ fn check_name(name: &str) -> Result<(), Fault> {
     Err(Fault::at("name", wanted))
 }
 
-/// Where in the file the numbers at fault stand.
+/// Returns the path of the key at fault in the file.
 fn path_of(error: &LightError, light: &Light) -> String {
     match *error {
         LightError::Value { part: "light", key, .. } => key.to_owned(),

@@ -1,37 +1,37 @@
-//! The light that stones are seen in: one that comes with the program, a light file, or a panorama.
+//! Loads the light that stones are seen in: one that comes with the program, a light file, or a panorama.
 
 use super::{light_file, panorama};
 use crate::scene::{LIGHTS, Light, light};
 use crate::trace::environment::EnvironmentMap;
 use std::path::{Path, PathBuf};
 
-/// A light, and what it looks like from inside.
+/// A light, and the environment that it makes around the stones.
 #[derive(Debug)]
 pub struct Lighting {
-    /// What was asked for.
+    /// The light as it is described.
     pub light: Light,
-    /// Ready to be looked up, with its panorama.
+    /// The light as a map by direction, with its panorama.
     pub map: EnvironmentMap,
-    /// What is odd about its panorama, in words that name the file.
+    /// What is unusual about the panorama, in words that name the file.
     pub warnings: Vec<String>,
 }
 
-/// Why there is no such light.
+/// Why a light could not be loaded.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum LightingError {
-    /// A name that no light has; with what may have been meant.
+    /// No light has this name; the message says what may have been meant.
     #[error("{0}")]
     Unknown(String),
-    /// What is wrong with a file, in words that name it.
+    /// A file is at fault; the message names it.
     #[error("{0}")]
     File(String),
 }
 
 impl Lighting {
-    /// Takes a light by its name, from a light file, or a panorama alone.
+    /// Loads a light by its name, from a light file, or from a panorama alone.
     ///
     /// # Errors
-    /// What is wrong with the name or the file.
+    /// When no light has the name, or the file is at fault.
     pub fn load(name_or_file: &str) -> Result<Self, LightingError> {
         let file = PathBuf::from(name_or_file);
         let (light, folder) = match light(&name_or_file.to_ascii_lowercase()) {
@@ -47,7 +47,7 @@ impl Lighting {
     }
 }
 
-/// A light as it is looked up; its panorama's path begins at a folder.
+/// Makes the map of a light, with warnings; the path of its panorama begins at a folder.
 fn sky(light: &Light, folder: Option<&Path>) -> Result<(EnvironmentMap, Vec<String>), LightingError> {
     let Some(picture) = &light.panorama else { return Ok((EnvironmentMap::new(light, None), vec![])) };
     let path = folder.map_or_else(|| picture.file.clone(), |folder| folder.join(&picture.file));
@@ -55,7 +55,7 @@ fn sky(light: &Light, folder: Option<&Path>) -> Result<(EnvironmentMap, Vec<Stri
     Ok((EnvironmentMap::new(light, Some(&reading.panorama)), reading.warnings))
 }
 
-/// What to say of a name that no light has.
+/// Returns the message about a name that no light has.
 pub fn unknown(name: &str) -> String {
     const SLIPS: usize = 3;
     let near = LIGHTS.iter().map(|n| (strsim::damerau_levenshtein(&name.to_lowercase(), n), n)).min();
@@ -84,7 +84,7 @@ mod tests {
             (ring.light.name.as_str(), &ring.map),
             ("ring", &EnvironmentMap::new(&Light::ring(), None))
         );
-        // All is white but for the lower half, which is black: what lies above shows that it was read.
+        // The upper half is white and the lower half black: what lies above shows that the picture was read.
         let half: Vec<u8> = (0..32_u8).flat_map(|k| [[255; 3], [0; 3]][usize::from(k / 16)]).collect();
         let rgba: Vec<u8> = half.chunks(3).flat_map(|c| [c[0], c[1], c[2], 255]).collect();
         std::fs::create_dir(at("skies")).unwrap();

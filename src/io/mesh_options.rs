@@ -1,10 +1,10 @@
-//! What a reader of meshes is asked for, since a mesh file says neither which way its table faces nor whether its
-//! triangles stand for flat facets.
+//! How to read a mesh, since its file says neither which way its table faces nor whether its triangles stand for flat
+//! facets.
 
 use crate::cut::from_mesh::Up;
 use serde::{Deserialize, Serialize};
 
-/// How a mesh is read as a stone. The default finds out both.
+/// How a mesh is read as a stone. By default both are found from its shape.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct MeshOptions {
     /// The direction in which the table faces, in the mesh's own frame.
@@ -17,7 +17,7 @@ pub struct MeshOptions {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum MeshForm {
-    /// To be found: facets where the mesh means a convex stone, else triangles.
+    /// The shape decides: facets where the mesh means a convex stone, else triangles.
     #[default]
     Found,
     /// A convex stone between the planes of its facets.

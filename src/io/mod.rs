@@ -1,4 +1,4 @@
-//! Floor 5: files, in and out. The path `-` is standard input and output everywhere.
+//! Floor 6: files, in and out. The path `-` is standard input and output everywhere.
 
 mod apng;
 #[cfg(feature = "interchange")]

@@ -1,6 +1,6 @@
-//! Panoramas and photographs as linear light: OpenEXR, Radiance HDR, PNG, JPEG, told apart by what they hold.
+//! Reads panoramas and photographs as linear light: OpenEXR, Radiance HDR, PNG, JPEG, recognised by what they hold.
 //!
-//! Headers may lie: sides are bound, and a file must be large enough to hold what its header promises.
+//! Headers may lie: sides are limited, and a file must be large enough to hold what its header promises.
 
 #[cfg(feature = "exr")]
 mod exr;
@@ -11,38 +11,39 @@ use std::fs::File;
 use std::io::{BufReader, Read, Seek};
 use std::path::Path;
 
-/// The widest and the highest picture taken, pixels.
+/// The width and the height of the largest picture that is read, in pixels.
 pub const LARGEST: (u32, u32) = (16_384, 8192);
 
-/// The most pixels that a byte can stand for: deflate packs 1032 bytes into one, run lengths and JPEG fewer.
+/// The most pixels that a byte of a file can stand for: deflate packs 1032 bytes into one, run lengths and JPEG fewer.
 const PIXELS_A_BYTE: u64 = 1100;
 
-/// Pixels, 48 MiB of light, that any file may promise.
+/// The number of pixels, 48 MiB of light, that any header may promise.
 const FREE_PIXELS: u64 = 1 << 22;
 
-/// What an OpenEXR file begins with.
+/// The first bytes of an OpenEXR file.
 const EXR: [u8; 4] = [0x76, 0x2f, 0x31, 0x01];
 
-/// What the names of pictures end with.
+/// The endings of pictures' names.
 const ENDINGS: [&str; 5] = ["exr", "hdr", "png", "jpg", "jpeg"];
 
-/// What was read.
+/// A picture that was read from a file, with warnings.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LoadedPanorama {
     /// The light, finite and not below 0.
     pub panorama: Panorama,
-    /// What was odd about the file, in words that name it.
+    /// What is unusual about the file, in words that name it.
     pub warnings: Vec<String>,
 }
 
-/// Light as a file holds it, and what is odd about it.
+/// The light of a file, and what is unusual about the file.
 type Raw = (Panorama, Vec<String>);
 
-/// Whether a path holds a picture by its first bytes or, if it holds none that are known, is called like one.
+/// Returns whether a path holds a picture, by its first bytes or else by the ending of its name.
 pub fn is_picture(path: &Path) -> bool {
     let mut start = Vec::new();
     let read = |file: File| file.take(4).read_to_end(&mut start);
-    // A path that cannot be read is told of by whoever reads it next. One may be a pipe, which would be kept waiting.
+    // Whoever reads the path next reports that it cannot be read. A pipe is not opened, since that would keep its writer
+    // waiting.
     let _ = path.is_file().then(|| File::open(path).and_then(read));
     let starts: [&[u8]; 4] = [&EXR, b"#?R", b"\x89PNG", b"\xff\xd8\xff"];
     let is_called_so =
@@ -50,10 +51,10 @@ pub fn is_picture(path: &Path) -> bool {
     starts.iter().any(|known| start.starts_with(known)) || path.extension().is_some_and(is_called_so)
 }
 
-/// Reads a panorama of all directions; one that is not twice as wide as high is taken with a warning.
+/// Reads a panorama of all directions. One that is not twice as wide as high gives a warning.
 ///
 /// # Errors
-/// Text that names the file, says what is wrong and what to do.
+/// A message that names the file, says what is wrong and what to do.
 pub fn read(path: &Path) -> Result<LoadedPanorama, String> {
     let mut reading = read_photo(path)?;
     let Panorama { width, height, .. } = reading.panorama;
@@ -67,11 +68,11 @@ pub fn read(path: &Path) -> Result<LoadedPanorama, String> {
     Ok(reading)
 }
 
-/// Reads a picture of any shape. Eight- and sixteen-bit files are taken as sRGB and decoded to linear light, with
-/// white at 1; what is transparent is dark.
+/// Reads a picture of any shape as linear light. Files of eight and sixteen bits are taken as sRGB, with white at 1; what is
+/// transparent is dark.
 ///
 /// # Errors
-/// Text that names the file, says what is wrong and what to do.
+/// A message that names the file, says what is wrong and what to do.
 pub fn read_photo(path: &Path) -> Result<LoadedPanorama, String> {
     let label = path.display();
     let (mut panorama, mut warnings) = raw(path).map_err(|e| format!("{label}: {e}"))?;
@@ -107,7 +108,7 @@ fn raw(path: &Path) -> Result<Raw, String> {
     }
 }
 
-/// Refuses sides out of bounds, and more pixels than so many bytes can hold.
+/// Refuses sides out of bounds, and more pixels than `bytes` bytes can hold.
 fn check_size(width: u64, height: u64, bytes: u64) -> Result<(), String> {
     if width == 0 || height == 0 {
         return Err(format!("{width} by {height} pixels: there is no picture in it"));
@@ -126,14 +127,14 @@ fn check_size(width: u64, height: u64, bytes: u64) -> Result<(), String> {
     Ok(())
 }
 
-/// What to say of a file that a decoder gave up on.
+/// Returns the message about a file that a decoder gave up on.
 fn damaged(error: impl std::fmt::Display) -> String {
     format!(
         "cannot be decoded ({error}); get the file anew, or save it again as OpenEXR, Radiance HDR, PNG or JPEG"
     )
 }
 
-/// Turns what is not finite or below 0 into darkness; the number of pixels that held such.
+/// Turns values that are not finite or are below 0 to darkness; returns the number of pixels that held such values.
 fn mend(pixels: &mut [[f32; 3]]) -> usize {
     let mut count = 0;
     for pixel in pixels {

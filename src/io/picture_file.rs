@@ -1,4 +1,4 @@
-//! Finished pictures: developed as PNG, in linear light as OpenEXR.
+//! Writes finished pictures: developed as PNG, in linear light as OpenEXR.
 
 use super::atomic::{WriteError, write};
 #[cfg(feature = "exr")]
@@ -19,11 +19,11 @@ pub(super) const SRGB: Chromaticities = Chromaticities {
     white: Vec2(0.3127, 0.3290),
 };
 
-/// Writes a developed picture: red, green, blue and cover of each pixel, not premultiplied. Where cover is 255
-/// everywhere, the file holds none. `description` goes into the file as text.
+/// Writes a developed picture as PNG: red, green, blue and cover (alpha) of each pixel, not premultiplied. Where cover is
+/// 255 everywhere, the file holds none. `description` goes into the file as text.
 ///
 /// # Errors
-/// When the file system refuses, or the pixels are not as many as the size says.
+/// When the file system refuses, or the number of pixels does not fit the size.
 pub fn write_rgba_png(
     path: &Path,
     rgba: &[u8],
@@ -45,28 +45,28 @@ pub fn write_rgba_png(
     })
 }
 
-/// The colours alone.
+/// Returns the colours of pixels without their cover.
 pub(super) fn without_cover(rgba: &[u8]) -> Vec<u8> {
     rgba.chunks_exact(4).flat_map(|pixel| [pixel[0], pixel[1], pixel[2]]).collect()
 }
 
-/// Writes a picture as it is, premultiplied linear sRGB, in the channels R, G, B and A of 32 bits.
+/// Writes a picture as OpenEXR, as it is: premultiplied linear sRGB, in the channels R, G, B and A of 32 bits.
 ///
 /// # Errors
-/// When the file system refuses, or the pixels are not as many as the size says.
+/// When the file system refuses, or the number of pixels does not fit the size.
 #[cfg(feature = "exr")]
 pub fn write_linear_exr(path: &Path, picture: &Linear, description: &str) -> Result<(), WriteError> {
     let size = (picture.width as usize, picture.height as usize);
     if size.0 * size.1 != picture.pixels.len() || picture.pixels.is_empty() {
         return Err(WriteError::io(path, unfit(picture.pixels.len(), (picture.width, picture.height))));
     }
-    // Pixels are handed on from where they are: channels of their own would take as much memory again.
+    // The writer asks for pixels one by one: a list for each channel would take as much memory again.
     let pixel = |at: Vec2<usize>| -> (f32, f32, f32, f32) { picture.pixels[at.y() * size.0 + at.x()].into() };
     let channels = SpecificChannels::rgba(pixel);
     exr::write_image(path, &exr::image(size, channels, (description, None), Some(SRGB)))
 }
 
-/// What is wrong with so many pixels.
+/// Makes the error of a number of pixels that does not fit the size.
 pub(super) fn unfit(pixels: usize, (width, height): (u32, u32)) -> std::io::Error {
     std::io::Error::other(format!("{pixels} pixels are no picture of {width} by {height}"))
 }

@@ -1,4 +1,4 @@
-//! PNG pictures, row by row, so that they may be larger than memory.
+//! Writes PNG pictures row by row, so that they may be larger than memory.
 
 use super::atomic::{WriteError, write};
 use std::io::Write;
@@ -7,7 +7,7 @@ use std::path::Path;
 /// The largest side of a picture, in pixels.
 pub const MOST_PIXELS: u32 = 16_384;
 
-/// Takes the rows of a picture: eight-bit red, green, blue.
+/// Writes the rows of a picture, in eight-bit red, green and blue; see [`write_png`].
 pub struct PngRows<'a> {
     path: &'a Path,
     stream: &'a mut dyn Write,
@@ -23,11 +23,11 @@ impl PngRows<'_> {
     }
 }
 
-/// Writes an sRGB picture; `fill` pushes its rows. `description` goes into the file as text: which tracer made it,
-/// and what it left unresolved.
+/// Writes an sRGB picture as PNG; `fill` pushes its rows. `description` goes into the file as text: which tracer made
+/// the picture, and what it left unresolved.
 ///
 /// # Errors
-/// When the file system refuses, or with what `fill` answers.
+/// When the file system refuses, or `fill` returns an error.
 pub fn write_png<E: From<WriteError>>(
     path: &Path,
     size: (u32, u32),
@@ -45,7 +45,7 @@ pub fn write_png<E: From<WriteError>>(
     })
 }
 
-/// An encoder of eight-bit sRGB with the texts that every picture bears.
+/// Makes an encoder of eight-bit sRGB with the texts that every picture carries.
 pub(super) fn encoder<W: Write>(
     file: W,
     (width, height): (u32, u32),

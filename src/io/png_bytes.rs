@@ -1,8 +1,8 @@
-//! Pixels as a PNG file in memory, as small as the format makes them.
+//! Encodes pixels as a PNG file in memory, as small as the format makes them.
 
 use png::{BitDepth, ColorType, Compression, Encoder, EncodingError, SrgbRenderingIntent};
 
-/// A PNG of rows of `data` with these texts, each a keyword and what it says; RGBA is marked as sRGB.
+/// Encodes rows of `data` as PNG with these texts, each a keyword and what it says; RGBA is marked as sRGB.
 pub(super) fn png(
     [width, height]: [u32; 2],
     (colour, depth): (ColorType, BitDepth),

@@ -1,7 +1,7 @@
-//! Refraction maps as files: tiled 8-bit PNG, 16-bit PNG, OpenEXR, and the diffuse layer beside them.
+//! Reads and writes refraction maps: tiled 8-bit PNG, 16-bit PNG, OpenEXR, and the diffuse layer beside them.
 //!
-//! No map is antialiased, filtered or coded as colour: a look-up takes the nearest pixel, and no program may change its
-//! numbers as if they were light. The diffuse layer is colour: sRGB, not premultiplied, laid over in linear light.
+//! No map is antialiased, filtered or coded as colour: a look-up takes the nearest pixel, and no program may change the
+//! numbers of a map as if they were light. The diffuse layer is colour: sRGB, not premultiplied, laid over in linear light.
 
 mod read;
 #[cfg(test)]
@@ -28,25 +28,26 @@ pub const MOST_PIXELS: u32 = 4096;
 /// The most bands of one map, each counted as often as pixels have places.
 pub const MOST_BANDS: u32 = 16;
 
-/// The most places of a pixel in one band.
+/// The most places that a pixel has in one band.
 pub const MOST_PLACES: u32 = 8;
 
-/// The text, or attribute, in which a map tells what its bands are.
+/// The keyword of the text, or attribute, in which a map describes its bands.
 const ABOUT: &str = "Refraction";
 
-/// How places are written.
+/// The coding of places in files.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Coding {
-    /// A PNG a band: 8 bits, 16 by 16 [`tiles`]. That of all light has no weights: they are what the diffuse layer's alpha
-    /// leaves. Of several bands each has its weights, in grey, below its places: the picture is twice as high.
+    /// One PNG for each band: 8 bits, 16 by 16 [`tiles`]. The single band of a map for all light has no weights: they are
+    /// what the alpha of the diffuse layer leaves. Of several bands, each has its weights, in grey, below its places, so
+    /// that the picture is twice as high.
     Tiles,
-    /// A PNG a band: red, green and blue of 16 bits are u, v and weight.
+    /// One PNG for each band: red, green and blue of 16 bits are u, v and weight.
     Sixteen,
-    /// An OpenEXR for all bands: u, v and weight of each in 32 bits.
+    /// One OpenEXR for all bands: u, v and weight of each in 32 bits.
     Float,
 }
 
-/// What a file says of a band.
+/// What a file says of a band: its wavelength in nm, and the columns of its response.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct About {
@@ -64,7 +65,7 @@ impl About {
     }
 }
 
-/// The files of a map in a coding, in the order of its bands.
+/// Returns the paths of a map's files in a coding, in the order of its bands.
 pub fn paths(folder: &Path, stem: &str, bands: usize, coding: Coding) -> Vec<PathBuf> {
     let kind = match coding {
         Coding::Tiles => "",
@@ -78,7 +79,7 @@ pub fn paths(folder: &Path, stem: &str, bands: usize, coding: Coding) -> Vec<Pat
     (1..=bands).map(|band| folder.join(name(band))).collect()
 }
 
-/// The file of a map's diffuse layer.
+/// Returns the path of a map's diffuse layer.
 pub fn diffuse_path(folder: &Path, stem: &str) -> PathBuf {
     folder.join(format!("{stem}-refraction-diffuse.png"))
 }
@@ -111,12 +112,12 @@ pub fn write_diffuse(path: &Path, map: &RefractionMap, description: &str) -> Res
     write_bytes(path, &diffuse_png(&map.diffuse, description).map_err(|e| WriteError::io(path, e))?)
 }
 
-/// Writes what is ready, whole or not at all.
+/// Writes bytes to a file, whole or not at all.
 pub(super) fn write_bytes(path: &Path, bytes: &[u8]) -> Result<(), WriteError> {
     write(path, |file| io::Write::write_all(file, bytes).map_err(|e| WriteError::io(path, e)))
 }
 
-/// The PNG of one of a map's bands.
+/// Encodes the places of one band of a map as PNG.
 pub(super) fn places_png(
     map: &RefractionMap,
     band: usize,
@@ -147,13 +148,13 @@ pub(super) fn places_png(
     png([width, height], (ColorType::Rgb, depth), &data, &texts)
 }
 
-/// The diffuse layer's PNG: light that is brighter than its cover allows is given more of it, and hides more.
+/// Encodes the diffuse layer as PNG. Light that is brighter than its cover allows gets more cover, and hides more.
 pub(super) fn diffuse_png(diffuse: &Linear, description: &str) -> Result<Vec<u8>, EncodingError> {
     let encoder = SrgbEncoder::new();
     let code = |&[r, g, b, cover]: &[f32; 4]| {
         let light = [r, g, b].map(|c| if c.is_finite() { c.clamp(0.0, 1.0) } else { 0.0 });
         let most = light.into_iter().fold(cover.clamp(0.0, 1.0), f32::max);
-        // Rounded up where light would not fit.
+        // Rounded up where the light would not fit otherwise.
         let alpha = if most > cover { (most * 255.0).ceil() } else { (most * 255.0).round() };
         let straight = |c: f32| encoder.encode(f64::from(c * 255.0 / alpha.max(1.0)).min(1.0));
         let [r, g, b] = light.map(straight);
@@ -183,12 +184,12 @@ fn write_float(path: &Path, map: &RefractionMap, description: &str) -> Result<()
     write_channels(path, size, channels.collect(), (description, Some((ABOUT, &about))), None)
 }
 
-/// What a channel of a band is called in OpenEXR.
+/// Returns the name of a band's channel in OpenEXR.
 fn channel(bands: usize, band: usize, part: &str) -> String {
     if bands == 1 { part.to_owned() } else { format!("{:02}.{part}", band + 1) }
 }
 
-/// The light of a pixel of the diffuse layer's PNG.
+/// Returns the premultiplied linear light of a pixel of the diffuse layer's PNG.
 fn diffuse_of(code: &[u8]) -> [f32; 4] {
     let part = |k: usize| f64::from(code.get(k).copied().unwrap_or(0)) / 255.0;
     let alpha = part(3);

@@ -1,4 +1,4 @@
-//! A web page that refracts a moving background by a map: one file, without network or library.
+//! Writes a web page that refracts a moving background by a map: one file, without network or library.
 
 use super::atomic::WriteError;
 use super::refraction_map::{Coding, diffuse_png, places_png, write_bytes};
@@ -11,29 +11,29 @@ use std::path::Path;
 /// The page without its maps.
 const TEMPLATE: &str = include_str!("refraction_page.html");
 
-/// What a page says and shows beside its map.
+/// What a page says and shows besides its map.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Page<'a> {
     /// The stone's name.
     pub title: &'a str,
     /// How the map was made, in words.
     pub description: &'a str,
-    /// How many times as wide as the map its background is, at least 1.
+    /// How many times as wide as the map the background is, at least 1.
     pub span: f64,
-    /// A picture to begin with, what it is called and the bytes of its PNG or JPEG; without one the page draws its own.
+    /// A picture to begin with: its name, and the bytes of its PNG or JPEG. Without one the page draws its own.
     pub background: Option<(&'a str, &'a [u8])>,
 }
 
 /// The largest picture that is put into a page, in MiB.
 pub const MOST_MEGABYTES: usize = 32;
 
-/// Whether a picture's bytes are put into a page: a PNG or JPEG, which browsers show, and not too large.
+/// Returns whether a picture can be put into a page: it is a PNG or JPEG, which browsers show, and not too large.
 pub fn takes(picture: &[u8]) -> bool {
     let shows = picture.starts_with(b"\x89PNG") || picture.starts_with(b"\xff\xd8");
     shows && picture.len() <= MOST_MEGABYTES << 20
 }
 
-/// Writes the page of a map.
+/// Writes the web page of a map.
 ///
 /// # Errors
 /// When the file system refuses, or the map is empty or lacks pixels.
@@ -55,9 +55,9 @@ fn html(map: &RefractionMap, page: &Page) -> Result<String, png::EncodingError> 
         "diffuse": png(diffuse_png(&map.diffuse, page.title)?),
         "background": page.background.map(|(name, bytes)| json!({ "name": name, "picture": uri(mime(bytes), bytes) })),
     });
-    // In a script element nothing else can end it or begin another.
+    // Without a `<`, nothing in the data can end the script element or begin another.
     let data = data.to_string().replace('<', "\\u003c");
-    // The data last: no text of theirs is taken for a place of the template.
+    // The data come last, so that no text of theirs is taken for a placeholder of the template.
     let html =
         TEMPLATE.replace("{{told}}", &escaped(page.description)).replace("{{title}}", &escaped(page.title));
     Ok(html.replace("{{data}}", &data))
@@ -71,7 +71,7 @@ fn mime(bytes: &[u8]) -> &'static str {
     if bytes.starts_with(b"\xff\xd8") { "image/jpeg" } else { "image/png" }
 }
 
-/// Text for HTML; braces as well, so that none of it is a place of the template.
+/// Escapes text for HTML, and braces as well, so that none of it is a placeholder of the template.
 fn escaped(text: &str) -> String {
     let pairs = [("&", "&amp;"), ("<", "&lt;"), (">", "&gt;"), ("\"", "&quot;"), ("{", "&#123;")];
     pairs.iter().fold(text.to_owned(), |text, (character, entity)| text.replace(character, entity))

@@ -1,4 +1,4 @@
-//! Scenes as TOML, format 1: stones of several cuts, materials and sizes, and how they lie.
+//! Reads and writes scene files: TOML, format 1, with stones of several cuts, materials and sizes, and how they lie.
 //!
 //! Lengths are in mm, angles in degrees. Every error names file, line and key, and says what was expected.
 
@@ -20,61 +20,61 @@ mod written;
 #[cfg(test)]
 mod tests;
 
-/// The largest file taken, bytes.
+/// The size of the largest file that is read, in bytes.
 const MAX_BYTES: u64 = 4 << 20;
 
 /// The most stones that a scene may have.
 pub const MOST_STONES: usize = 256;
 
-/// The gap between girdles where a scene gives none, mm.
+/// The gap between girdles where a scene gives none, in mm.
 pub const DEFAULT_GAP_MM: f64 = 0.5;
 
-/// What a scene file says.
+/// The content of a scene file.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SceneFile {
-    /// What it is called, printable.
+    /// The scene's name, printable.
     pub name: String,
     /// The name of a light that comes with the program, or the path of a light file, the scene's folder included.
     pub light: Option<PathBuf>,
-    /// How its stones are laid out; `None` where each says where it is.
+    /// How the stones are laid out; `None` where each says where it is.
     pub layout: Option<Layout>,
-    /// Least distance between two stones of a layout, seen from the table, mm.
+    /// The least distance between two stones of a layout, seen from the table, in mm.
     pub gap_mm: f64,
-    /// What lies behind them.
+    /// What lies behind the stones.
     pub background: Option<BackgroundRef>,
-    /// How far behind the middle of all stones a pattern or photograph lies, mm, from 0.
+    /// How far behind the middle of all stones a pattern or photograph lies, in mm, from 0.
     pub background_distance_mm: Option<f64>,
-    /// How much of the way that refraction turns light is followed, 0 to 1; 1 is physics.
+    /// How much of its turn light takes where it is refracted, 0 (straight on) to 1 (physics).
     pub strength: f64,
-    /// At least one; with their counts at most [`MOST_STONES`].
+    /// The kinds of stones, at least one; with their counts they are at most [`MOST_STONES`] stones.
     pub stones: Vec<Entry>,
 }
 
-/// Stones of one kind.
+/// A kind of stone in a scene, and how often it stands there.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Entry {
     /// A cut that comes with the program, or the path of a cut file from the scene's folder.
     pub cut: String,
-    /// Its material, checked; `None` for the cut file's.
+    /// The material, checked; `None` for the cut file's.
     pub material: Option<MaterialRef>,
-    /// Its size; `None` for the cut file's.
+    /// The size; `None` for the cut file's.
     pub size: Option<Size>,
-    /// How many, at least 1.
+    /// The number of stones of this kind, at least 1.
     pub count: usize,
-    /// By how much it is turned about its own axis, degrees.
+    /// The turn about the stone's own axis, in degrees.
     pub turn: f64,
-    /// By how much its table leans toward `azimuth`, degrees.
+    /// The angle by which the stone's table leans toward `azimuth`, in degrees.
     pub tilt: f64,
-    /// Degrees from +x toward +y.
+    /// The direction in which the table leans, in degrees from +x toward +y.
     pub azimuth: f64,
-    /// Where the middle of its girdle is, mm; of no effect in a layout.
+    /// The middle of the stone's girdle, in mm; of no effect in a layout.
     pub at_mm: DVec3,
-    /// The line of the file where it begins, from 1.
+    /// The line of the file where the entry begins, from 1.
     pub line: usize,
 }
 
 impl SceneFile {
-    /// Its stones one by one: each by the place of its entry, and how it is turned.
+    /// Returns the stones one by one: the place of each one's entry in `stones`, and how it is turned.
     pub fn turns(&self) -> Vec<(usize, DQuat)> {
         let counted = self
             .stones
@@ -85,7 +85,7 @@ impl SceneFile {
         counted.enumerate().map(|(number, (k, entry))| (k, entry.turned(more(number)))).collect()
     }
 
-    /// Where its stones are, mm, each of which a circle of such a radius around its axis holds, seen from above.
+    /// Returns where the stones are, in mm. Seen from above, a circle of a radius around its axis holds each of them.
     pub fn places_mm(&self, radii_mm: &[f64]) -> Vec<DVec3> {
         match self.layout {
             Some(layout) => {
@@ -97,7 +97,7 @@ impl SceneFile {
 }
 
 impl Entry {
-    /// A cut as its file says, turned so and put there, mm.
+    /// Makes an entry of one stone: a cut as its file says, with this rotation, in this place, in mm.
     pub fn placed(cut: &str, turned: DQuat, at_mm: DVec3) -> Self {
         let axis = turned * DVec3::Z;
         let leaning = Self {
@@ -111,13 +111,13 @@ impl Entry {
             at_mm,
             line: 0,
         };
-        // What is left is about its axis.
+        // The rest of the rotation is about the stone's axis.
         let about = leaning.turned(0.0).inverse() * turned;
         Self { turn: 2.0 * about.z.atan2(about.w).to_degrees(), ..leaning }
     }
 
-    /// The world's frame from the cut's: turned about its axis, by some degrees more than it says, then leaning toward its
-    /// azimuth.
+    /// Returns the rotation from the cut's frame to the world's: first about the stone's axis, by `more` degrees beyond its
+    /// own turn, then leaning toward its azimuth.
     pub fn turned(&self, more: f64) -> DQuat {
         let azimuth = self.azimuth.to_radians();
         let axis = DVec3::new(-azimuth.sin(), azimuth.cos(), 0.0);
@@ -126,10 +126,10 @@ impl Entry {
     }
 }
 
-/// Reads a scene.
+/// Reads a scene file.
 ///
 /// # Errors
-/// Text that names the file and, where it is known, the line and key, and says what was expected.
+/// A message that names the file and, where they are known, the line and key, and says what was expected.
 pub fn read(path: &Path) -> Result<SceneFile, String> {
     let label = path.display().to_string();
     let folder = path.parent().unwrap_or(Path::new(""));
@@ -140,10 +140,11 @@ pub fn read(path: &Path) -> Result<SceneFile, String> {
     }
 }
 
-/// Reads a scene from its text; `label` stands for its path in errors, `folder` is where its files are.
+/// Reads a scene from the text of its file; `label` stands for its path in errors, `folder` is where files that it names
+/// are.
 ///
 /// # Errors
-/// As [`read`].
+/// As for [`read`].
 pub fn parse(text: &str, label: &str, folder: Option<&Path>) -> Result<SceneFile, String> {
     scene(text, folder).map_err(|fault| {
         let line = fault.line(text).map_or(String::new(), |line| format!(":{line}"));
@@ -151,16 +152,16 @@ pub fn parse(text: &str, label: &str, folder: Option<&Path>) -> Result<SceneFile
     })
 }
 
-/// The text of a scene file that reads back as the same scene, from the same folder; colours behind it to 8 bits.
+/// Returns the text of a scene file that reads back as the same scene, from the same folder; colours behind it to 8 bits.
 ///
-/// A scene that [`parse`] refuses is written too, but not read back.
+/// A scene that [`parse`] refuses is written too, but does not read back.
 pub fn write(scene: &SceneFile) -> String {
-    // TOML lacks a form only for maps without text keys and integers beyond 64 bits, and here are neither.
+    // TOML has no form for maps without text keys and for integers beyond 64 bits; a scene has neither.
     toml::to_string(&written::EncodedScene::of(scene))
         .expect("a scene's form is text, numbers, lists and tables")
 }
 
-/// Whether a file is meant as a scene: it has a key that cut files lack. `false` for what cannot be read.
+/// Returns whether a file is meant as a scene: it has a key that cut files lack. A file that cannot be read is none.
 pub fn is_scene(path: &Path) -> bool {
     text::read(path, MAX_BYTES).is_ok_and(|text| is_meant_as_scene(&text))
 }
@@ -185,13 +186,13 @@ fn scene(text: &str, folder: Option<&Path>) -> Result<SceneFile, Fault> {
     form.scene(&Surroundings { light: &|given| found(given, folder), background: &behind, line: &line })
 }
 
-/// What lies behind, a file from the scene's folder.
+/// Reads the name of a background; a file is looked for from the scene's folder.
 fn behind(given: &str, folder: Option<&Path>) -> Result<BackgroundRef, Fault> {
     BackgroundRef::read(given, folder.unwrap_or(Path::new("")))
         .map_err(|error| Fault::at("background", format!("background: {error}")))
 }
 
-/// A light by its name, or its file.
+/// Returns a light's name as it is, or else the path of its file beside the scene.
 fn found(given: &str, folder: Option<&Path>) -> Result<PathBuf, Fault> {
     if light(given).is_some() {
         return Ok(given.into());
@@ -203,7 +204,7 @@ fn found(given: &str, folder: Option<&Path>) -> Result<PathBuf, Fault> {
     Err(Fault::at("light", format!("light: '{}' {what}{}", shown(given), likely(given, &LIGHTS))))
 }
 
-/// A name among some that is most like one asked for, and all of them.
+/// Returns the hint at the known name that is most like an unknown one, and the list of all known names.
 fn likely(asked: &str, known: &[&str]) -> String {
     let slips = |name: &&&str| strsim::damerau_levenshtein(asked, name);
     let near = known.iter().min_by_key(slips).filter(|name| slips(name) <= 2);
@@ -211,7 +212,7 @@ fn likely(asked: &str, known: &[&str]) -> String {
     format!("{meant}; known: {}", known.join(", "))
 }
 
-/// As much of a text as a person reads.
+/// Returns as much of a text as a person reads.
 fn shown(text: &str) -> String {
     text.chars().take(80).collect()
 }

@@ -1,4 +1,4 @@
-//! Scopes as TOML: a name, and bands of colour with the elevation at which each begins.
+//! Reads and writes scope files: TOML with a name, and bands of colour with the elevation at which each begins.
 
 use super::fault::Fault;
 use super::text::{self, TextError};
@@ -7,19 +7,19 @@ use serde::Deserialize;
 use std::path::Path;
 use toml::de::{DeTable, Deserializer};
 
-/// The largest file taken, bytes.
+/// The size of the largest file that is read, in bytes.
 const MAX_BYTES: u64 = 1 << 20;
 
-/// The longest name of a scope or band, in bytes: part of a file's name.
+/// The longest name of a scope or band, in bytes: names are parts of files' names.
 const LONGEST_NAME: usize = 60;
 
-/// What pictures and figures hold beside the bands.
+/// The names of what pictures and figures hold besides the bands, which no band may have.
 const RESERVED: [&str; 5] = ["absorbed", "cover", "head", "undecided", "unresolved"];
 
-/// Reads a scope.
+/// Reads a scope file.
 ///
 /// # Errors
-/// Text that names the file and, where it is known, the line, and says what was expected.
+/// A message that names the file and, where it is known, the line, and says what was expected.
 pub fn read(path: &Path) -> Result<Scope, String> {
     let label = path.display();
     let at = |line: Option<usize>| line.map_or(String::new(), |line| format!(":{line}"));
@@ -36,7 +36,7 @@ fn scope(text: &str) -> Result<Scope, Fault> {
     Ok(scope)
 }
 
-/// Writes a scope in the form that [`read`] takes.
+/// Returns the text of a scope file that [`read`] reads as the same scope.
 ///
 /// # Errors
 /// Never for a scope that is valid.
@@ -44,7 +44,7 @@ pub fn text(scope: &Scope) -> Result<String, toml::ser::Error> {
     toml::to_string(scope)
 }
 
-/// Names become parts of file names, keys of JSON and channels of EXR.
+/// Checks names, which become parts of file names, keys of JSON and channels of EXR.
 fn check_names(scope: &Scope) -> Result<(), String> {
     let plain = |c: char| c.is_ascii_alphanumeric() || c == '-' || c == '_';
     for name in scope.bands.iter().map(|b| &b.name).chain([&scope.name]) {

@@ -11,13 +11,13 @@ pub const STANDARD: &str = "-";
 /// The size of the largest file that is read, a mesh, in bytes.
 const LARGEST: u64 = 512 << 20;
 
-/// Whether a path stands for standard input or output.
+/// Returns whether a path stands for standard input or output.
 pub fn is_standard(path: &Path) -> bool {
     path == Path::new(STANDARD)
 }
 
-/// What comes by standard input, up to the size of the largest file that is read and a byte more. It is read once and kept,
-/// so that it can be asked for again.
+/// Returns what comes by standard input, up to the size of the largest file that is read and a byte more. Standard input is
+/// read once and kept, so that callers can ask for it again.
 pub(super) fn input() -> io::Result<&'static [u8]> {
     static KEPT: OnceLock<Vec<u8>> = OnceLock::new();
     if let Some(kept) = KEPT.get() {

@@ -1,4 +1,4 @@
-//! Reading text that people wrote: of a sane size, in UTF-8, or an error that says what is wrong.
+//! Reads text that people wrote: of a sane size, in UTF-8, or an error that says what is wrong.
 
 use super::standard::{self, is_standard};
 use std::fs::File;
@@ -14,13 +14,13 @@ pub(super) struct TextError {
     pub message: String,
 }
 
-/// The text that a path holds, up to a limit in bytes.
+/// Reads the text of a file of up to `limit` bytes.
 pub(super) fn read(path: &Path, limit: u64) -> Result<String, TextError> {
     utf8(read_bytes(path, limit)?)
 }
 
-/// What a path holds, up to a limit in bytes, which also binds what grows or has no size of its own. The path `-` is standard
-/// input.
+/// Reads a file of up to `limit` bytes. The limit also binds files that grow or have no size of their own. The path `-` is
+/// standard input.
 pub(super) fn read_bytes(path: &Path, limit: u64) -> Result<Vec<u8>, TextError> {
     let whole = |message| TextError { line: None, message };
     let unreadable = |error: std::io::Error| match error.kind() {
@@ -38,7 +38,7 @@ pub(super) fn read_bytes(path: &Path, limit: u64) -> Result<Vec<u8>, TextError> 
     within(bytes, limit)
 }
 
-/// Bytes that are some, and no more than a limit.
+/// Returns bytes if there are some, and no more than a limit.
 fn within(bytes: Vec<u8>, limit: u64) -> Result<Vec<u8>, TextError> {
     if bytes.is_empty() {
         return Err(TextError { line: None, message: "the file is empty".to_owned() });
@@ -49,7 +49,7 @@ fn within(bytes: Vec<u8>, limit: u64) -> Result<Vec<u8>, TextError> {
     Ok(bytes)
 }
 
-/// Bytes as text.
+/// Converts bytes to text; the error names a picture's format or the line that is no UTF-8.
 pub(super) fn utf8(bytes: Vec<u8>) -> Result<String, TextError> {
     String::from_utf8(bytes).map_err(|error| {
         let kinds: [(&[u8], &str); 4] =
@@ -67,7 +67,7 @@ pub(super) fn too_large(limit: u64) -> String {
     format!("this is larger than {} MiB, so hardly such a file", limit >> 20)
 }
 
-/// The number, from 1, of the line that follows on this text.
+/// Returns the number, from 1, of the line that follows this text.
 pub(super) fn line_after(text: &[u8]) -> usize {
     1 + text.iter().filter(|byte| **byte == b'\n').count()
 }

@@ -1,33 +1,33 @@
-//! A function that is linear in the image's coordinates, up to a constant.
+//! An affine function over the image plane: a constant plus a linear part.
 
 use glam::DVec2;
 use std::ops::{Add, Mul, Sub};
 
-/// `constant + gradient · p` over the image plane.
+/// The affine function `constant + gradient · p` of a point `p` of the image plane.
 ///
-/// Inside a beam everything about a ray but its direction is of this form: where it stands on a facet, how far
-/// it has to go to the next one, how far it has come.
+/// Within a beam every quantity but the direction has this form: the point on a facet, the distance to the next facet, the
+/// path length so far.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Affine {
-    /// Value at the image's origin.
+    /// The value at the image's origin.
     pub constant: f64,
-    /// Change per unit of image length.
+    /// The change per unit of image length.
     pub gradient: DVec2,
 }
 
 impl Affine {
-    /// The function with this value at the origin and this slope.
+    /// Makes the function with this value at the origin and this gradient.
     pub const fn new(constant: f64, gradient: DVec2) -> Self {
         Self { constant, gradient }
     }
 
-    /// Value at `p`.
+    /// Returns the value at `p`.
     #[inline]
     pub fn at(&self, p: DVec2) -> f64 {
         self.constant + self.gradient.dot(p)
     }
 
-    /// An upper bound of the magnitude of its terms over an image of this half extent: the scale of rounding errors.
+    /// Returns an upper bound on the size of the terms over an image of half extent `extent`: rounding errors scale with it.
     #[inline]
     pub fn magnitude(&self, extent: f64) -> f64 {
         self.constant.abs() + extent * (self.gradient.x.abs() + self.gradient.y.abs())

@@ -1,70 +1,74 @@
-//! Boxes within boxes around triangles: which of them a ray meets first, without trying all.
+//! A bounding volume hierarchy: nested boxes around triangles, by which the first triangle that a ray meets is found without
+//! trying all.
 //!
-//! Two triangles never let a ray through along the edge that they share, however it is rounded. Sources: S. Woop,
-//! C. Benthin and I. Wald, *Watertight Ray/Triangle Intersection*, JCGT 2 (1), 2013, for triangles; T. Ize, *Robust BVH
-//! Ray Traversal*, JCGT 2 (2), 2013, for boxes. It is built in `bvh_build`.
+//! Two triangles never let a ray through along the edge that they share, however the numbers are rounded. `bvh_build` builds
+//! the hierarchy. Sources: S. Woop, C. Benthin and I. Wald, *Watertight Ray/Triangle Intersection*, JCGT 2 (1), 2013, for
+//! triangles; T. Ize, *Robust BVH Ray Traversal*, JCGT 2 (2), 2013, for boxes.
 
 use super::bvh_build;
 use glam::{BVec3, DVec3};
 
-/// Boxes that a ray may still have before it: one for each level at most, see `bvh_build`.
+/// The most boxes that wait while a ray is followed: one for each level at most, and `bvh_build` bounds the levels.
 const MOST_PENDING: usize = 64;
 
-/// Boxes are taken for so much larger on all sides, as a part of how far any triangle is from the ray's origin: what
-/// rounding does to triangles that are not seen edge on, twice over.
+/// How much larger boxes are taken to be on all sides, as a part of the greatest distance of any triangle from the ray's
+/// origin: twice what rounding does to triangles that are not seen edge on.
 const BOX_SLACK: f64 = 16.0 * f64::EPSILON;
 
-/// A box around triangles. Nodes stand depth first: the first half of what is in a box follows it.
+/// A box around triangles.
+///
+/// The nodes of a hierarchy stand depth first: the first half of a box follows the box itself.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BvhNode {
-    /// Least coordinates.
+    /// The least coordinates.
     pub low: DVec3,
-    /// Greatest coordinates.
+    /// The greatest coordinates.
     pub high: DVec3,
-    /// Of a box of boxes, how many nodes after it the second half stands; of a box of triangles its first, by its place in
-    /// [`Bvh::order`].
+    /// In a box of boxes, how many nodes after it the second half stands; in a box of triangles, the place of its first
+    /// triangle in [`Bvh::order`].
     pub start: u32,
-    /// How many triangles stand right in it; 0 for a box of boxes.
+    /// How many triangles the box itself holds; 0 for a box of boxes.
     pub count: u32,
 }
 
-/// A hierarchy of boxes around triangles, and the triangles.
+/// A hierarchy of boxes around triangles, together with the triangles.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Bvh {
     nodes: Vec<BvhNode>,
     order: Vec<u32>,
-    /// Corners of each triangle, in that order.
+    /// The corners of each triangle, in the same order as `order`.
     corners: Vec<[DVec3; 3]>,
     depth: u32,
 }
 
-/// A triangle that a ray meets.
+/// A triangle that a ray meets, and the distance at which it does.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Hit {
-    /// Which, by its place in the list given.
+    /// The triangle, by its place in the list that [`Bvh::new`] was given.
     pub triangle: u32,
-    /// How far from the ray's origin, in lengths of its direction.
+    /// The distance from the ray's origin, in lengths of the ray's direction.
     pub distance: f64,
 }
 
-/// A ray turned so that it runs along z: what its triangles are compared with.
+/// A ray, with what turns triangles so that the ray runs along z.
 struct Sheared {
     origin: DVec3,
     axes: [usize; 3],
     shear: DVec3,
     per_component: DVec3,
-    /// Along which axes it runs upward.
+    /// Along which axes the ray runs upward.
     is_up: BVec3,
-    /// The origin, moved toward boxes and away from them by what they are taken for larger.
+    /// The origin moved so that boxes count as larger by [`BOX_SLACK`]: `before` for entering a box, `beyond` for leaving
+    /// it.
     before: DVec3,
     beyond: DVec3,
 }
 
 impl Bvh {
-    /// Puts boxes around triangles; a million take about a second. The same triangles give the same boxes.
+    /// Builds the boxes around triangles; a million take about a second. The same triangles give the same boxes.
     ///
     /// # Panics
-    /// Where a triangle names a corner that is not there, or there are more than 2³² - 1 triangles.
+    /// Panics where a triangle names a corner that does not exist, or there are more than 2³² - 1 triangles.
     pub fn new(vertices: &[DVec3], triangles: &[[u32; 3]]) -> Self {
         let (nodes, order) = bvh_build::build(vertices, triangles);
         let corners_of = |&k: &u32| triangles[k as usize].map(|v| vertices[v as usize]);
@@ -73,23 +77,26 @@ impl Bvh {
         Self { nodes, order, corners, depth }
     }
 
-    /// The boxes, the outermost first; none where there are no triangles.
+    /// Returns the boxes, the outermost first; none where there are no triangles.
     pub fn nodes(&self) -> &[BvhNode] {
         &self.nodes
     }
 
-    /// The triangles in the order in which boxes hold them, by their places in the list given.
+    /// Returns the triangles in the order in which the boxes hold them, by their places in the list given to
+    /// [`new`](Self::new).
     pub fn order(&self) -> &[u32] {
         &self.order
     }
 
-    /// How many boxes lie within one another where most do.
+    /// Returns the number of levels of boxes.
     pub fn depth(&self) -> u32 {
         self.depth
     }
 
-    /// The first of the triangles that `keep` does not refuse which a ray meets at a distance above `after`, in lengths of
-    /// `direction`; of some at one distance the one that stands first in [`order`](Self::order). `after` may be negative.
+    /// Finds the first triangle that a ray meets at a distance above `after`, among those for which `keep` is true.
+    ///
+    /// Distances are in lengths of `direction`; `after` may be negative. Of several triangles at one distance, the one that
+    /// stands first in [`order`](Self::order) is returned.
     pub fn nearest(
         &self,
         origin: DVec3,
@@ -121,7 +128,7 @@ impl Bvh {
                     continue;
                 }
             }
-            // Boxes that have meanwhile fallen behind the best are not opened.
+            // A box that lies behind the best triangle found meanwhile need not be opened.
             let far = best.map_or(f64::INFINITY, |(_, d)| d);
             let next = pending[..waiting].iter().rposition(|&(_, distance)| distance <= far);
             let Some(next) = next else { break };
@@ -152,7 +159,7 @@ impl Bvh {
 
 type Ahead = (u32, f64);
 
-/// Of two boxes the nearer that is met at all, and the other if it is met as well, with its distance.
+/// Returns the nearer of two boxes that the ray meets; then the other with its distance, if the ray meets it as well.
 fn nearer_first(a: (u32, Option<f64>), b: (u32, Option<f64>)) -> Option<(u32, Option<Ahead>)> {
     match (a, b) {
         ((_, None), (_, None)) => None,
@@ -172,7 +179,7 @@ fn depth(nodes: &[BvhNode]) -> u32 {
 }
 
 impl Sheared {
-    /// `None` for a direction of no length; `root` is the box around all.
+    /// Returns `None` for a direction of no length. `root` is the box around all triangles.
     fn new(origin: DVec3, direction: DVec3, root: &BvhNode) -> Option<Self> {
         let size = direction.abs();
         let z = if size.z >= size.x && size.z >= size.y { 2 } else { usize::from(size.y >= size.x) };
@@ -198,7 +205,7 @@ impl Sheared {
         })
     }
 
-    /// Woop, Benthin and Wald, appendix A: the distance at which the ray meets a triangle, from whichever side.
+    /// Returns the distance at which the ray meets a triangle, from either side (Woop, Benthin and Wald, appendix A).
     fn meets(&self, corners: &[DVec3; 3]) -> Option<f64> {
         let [x, y, z] = self.axes;
         let turned = corners.map(|c| {
@@ -206,7 +213,8 @@ impl Sheared {
             DVec3::new(c[x] - self.shear.x * c[z], c[y] - self.shear.y * c[z], self.shear.z * c[z])
         });
         let [a, b, c] = turned;
-        // Twice the areas between the ray and each edge: of opposite signs, to the last bit, in the edge's other triangle.
+        // Twice the areas between the ray and each edge. In the other triangle of an edge the area has the opposite sign, to
+        // the last bit.
         let (u, v, w) = (c.x * b.y - c.y * b.x, a.x * c.y - a.y * c.x, b.x * a.y - b.y * a.x);
         if (u < 0.0 || v < 0.0 || w < 0.0) && (u > 0.0 || v > 0.0 || w > 0.0) {
             return None;
@@ -217,11 +225,11 @@ impl Sheared {
         (sum != 0.0 && distance.is_finite()).then_some(distance)
     }
 
-    /// The distance at which the ray is first within a box, if at all between these two.
+    /// Returns the distance at which the ray is first within a box, if that lies between `after` and `before`.
     fn enters(&self, node: &BvhNode, after: f64, before: f64) -> Option<f64> {
         let near = (DVec3::select(self.is_up, node.low, node.high) - self.before) * self.per_component;
         let far = (DVec3::select(self.is_up, node.high, node.low) - self.beyond) * self.per_component;
-        // In a side that it runs along, 0 times infinity: f64's `min` and `max` pass over what is no number.
+        // Where the ray runs along a side of the box, 0 times infinity is NaN, which `min` and `max` of f64 pass over.
         let into = after.max(near.x).max(near.y).max(near.z);
         let out = far.x.min(far.y).min(far.z);
         (into <= out.min(before)).then_some(into)

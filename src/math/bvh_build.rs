@@ -1,4 +1,4 @@
-//! How boxes are put around triangles: halved where rays have the least to try.
+//! Builds the hierarchy of boxes around triangles; each box is halved where rays then have the least to try.
 //!
 //! Source: I. Wald, *On fast Construction of SAH-based Bounding Volume Hierarchies*, IEEE Symposium on Interactive Ray
 //! Tracing, 2007.
@@ -7,19 +7,20 @@ use super::bvh::BvhNode;
 use glam::DVec3;
 use rayon::prelude::*;
 
-/// Slices of a box, in which its triangles are counted along each axis.
+/// The number of slices of a box along each axis, in which its triangles are counted.
 const BINS: usize = 16;
 
-/// Triangles that may stand in one box.
+/// The most triangles that one box holds itself.
 const FULL: usize = 4;
 
-/// From this level down boxes are halved by number alone, so that there are no more than this and log2 of their number.
+/// From this level down, boxes are halved by the number of triangles alone. So there are no more levels than this plus log2
+/// of that number.
 const LEVELS_BY_AREA: u32 = 30;
 
-/// Boxes of more triangles than this are halved by cores side by side.
+/// Boxes of more triangles than this are halved on several cores at once.
 const ALONE: usize = 1 << 13;
 
-/// A triangle while boxes are built.
+/// A triangle and its box, as they are sorted while the hierarchy is built.
 #[derive(Clone, Copy)]
 struct Part {
     low: DVec3,
@@ -27,7 +28,7 @@ struct Part {
     triangle: u32,
 }
 
-/// Boxes, and the order in which they hold triangles.
+/// Returns the boxes, and the triangles in the order in which the boxes hold them.
 pub(super) fn build(vertices: &[DVec3], triangles: &[[u32; 3]]) -> (Vec<BvhNode>, Vec<u32>) {
     let part = |(k, t): (usize, &[u32; 3])| {
         let [a, b, c] = t.map(|v| vertices[v as usize]);
@@ -41,7 +42,7 @@ pub(super) fn build(vertices: &[DVec3], triangles: &[[u32; 3]]) -> (Vec<BvhNode>
     (nodes, parts.iter().map(|p| p.triangle).collect())
 }
 
-/// The boxes of some triangles, of which the first stands at `first` of all.
+/// Returns the boxes of some triangles, the first of which stands at `first` among all triangles.
 fn halve(parts: &mut [Part], first: u32, level: u32) -> Vec<BvhNode> {
     if parts.len() <= ALONE {
         let mut nodes = Vec::with_capacity(parts.len());
@@ -82,7 +83,7 @@ fn bounds(parts: &[Part]) -> (DVec3, DVec3) {
     parts.iter().fold(start, |(low, high), p| (low.min(p.low), high.max(p.high)))
 }
 
-/// Half the surface of a box; 0 of none.
+/// Returns half the surface area of a box; 0 for an empty box.
 fn area(low: DVec3, high: DVec3) -> f64 {
     let d = (high - low).max(DVec3::ZERO);
     d.x * d.y + d.y * d.z + d.z * d.x
@@ -107,13 +108,16 @@ impl Bin {
         }
     }
 
-    /// What trying its triangles costs a ray that meets the box around, but for a factor.
+    /// Returns what it costs a ray that meets the surrounding box to try the triangles in here, up to a constant factor.
     fn cost(&self) -> f64 {
         if self.count == 0 { 0.0 } else { area(self.low, self.high) * self.count as f64 }
     }
 }
 
-/// Sorts triangles into two halves; the place of the second, or `None` where one box for all is no worse.
+/// Sorts triangles into two halves and returns the place where the second half begins.
+///
+/// `None` where area decides nothing: from [`LEVELS_BY_AREA`] down, where no axis has a border with a finite cost, and where
+/// one box for all triangles costs no more.
 fn parted(parts: &mut [Part], level: u32) -> Option<usize> {
     if level >= LEVELS_BY_AREA {
         return None;
@@ -139,11 +143,11 @@ fn parted(parts: &mut [Part], level: u32) -> Option<usize> {
         .min_by(|a, b| a.2.total_cmp(&b.2))?;
     let whole = bounds(parts);
     let whole = area(whole.0, whole.1);
-    // To open a box costs about as much as to try a triangle.
+    // Opening a box costs about as much as trying a triangle.
     if parts.len() <= FULL && whole * (parts.len() as f64 - 1.0) <= cost {
         return None;
     }
-    // Stable, lest the order depend on how it was sorted.
+    // The order within each half is kept, so that the same triangles always come out in the same order.
     let (mut before, after): (Vec<Part>, Vec<Part>) = parts.iter().partition(|p| bin(p, axis) < border);
     let middle = before.len();
     before.extend(after);
@@ -151,7 +155,7 @@ fn parted(parts: &mut [Part], level: u32) -> Option<usize> {
     Some(middle)
 }
 
-/// The border between slices that costs least, neither half being empty, and its cost.
+/// Returns the border between slices that costs least, and its cost. Neither half is empty.
 fn cheapest(bins: &[Bin; BINS]) -> Option<(usize, f64)> {
     let mut after = [Bin::EMPTY; BINS + 1];
     for k in (0..BINS).rev() {

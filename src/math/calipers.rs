@@ -1,12 +1,12 @@
-//! The convex outline of points in the plane, and how wide and long it is between pairs of parallel lines.
+//! The convex outline of points in the plane, and its width and length between pairs of parallel lines.
 
 use super::polygon;
 use glam::DVec2;
 
-/// Widths and lengths whose ratio is nearer to 1 than this are equal: a hundred roundings of f32.
+/// Widths, or lengths, whose ratio is nearer to 1 than this count as equal: a hundred roundings of f32.
 const EQUAL: f64 = 1e-5;
 
-/// The convex hull of some points, counter-clockwise (Andrew's monotone chain).
+/// Returns the convex hull of points, counter-clockwise (Andrew's monotone chain).
 pub fn hull(mut points: Vec<DVec2>) -> Vec<DVec2> {
     points.sort_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
     let half = |points: &mut dyn Iterator<Item = DVec2>| {
@@ -28,25 +28,27 @@ pub fn hull(mut points: Vec<DVec2>) -> Vec<DVec2> {
     lower
 }
 
-/// How wide and long a convex outline is. It is the same however the outline is turned.
+/// The width and length of a convex outline, which are the same however the outline is turned.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Calipers {
     /// The least distance between two parallel lines that hold the outline.
     pub width: f64,
-    /// The distance between the two lines square to those that hold it. Where several directions are as narrow, it is
-    /// the greatest.
+    /// The distance between the two lines that hold the outline at right angles to those of the width. Where several
+    /// directions are equally narrow, it is the greatest of their lengths.
     pub length: f64,
-    /// The direction from one line of the width to the other, a unit vector with x > 0, or x = 0 and y = 1. Where several
-    /// are as narrow and as long, it is the one nearest to +x.
+    /// The unit vector from one line of the width to the other, with x > 0, or x = 0 and y = 1.
+    ///
+    /// Where several directions are equally narrow and equally long, it is the one nearest to +x.
     pub across: DVec2,
-    /// The centroid of the outline's area. It moves no more than the corners do and turns with them, so that a stone finds
-    /// the same middle again after rounding; the middle of a rectangle around it would jump where two directions are
-    /// almost as narrow.
+    /// The centroid of the outline's area.
+    ///
+    /// It moves no more than the corners do and turns with them, so that a stone finds the same middle again after rounding.
+    /// The middle of a rectangle around the outline would jump where two directions are almost equally narrow.
     pub middle: DVec2,
 }
 
 impl Calipers {
-    /// Measures a convex outline, counter-clockwise, as [`hull`] answers it; `None` where it has no area.
+    /// Measures a convex outline with counter-clockwise corners, as [`hull`] returns it; `None` where it has no area.
     pub fn of(outline: &[DVec2]) -> Option<Self> {
         let edges = outline.iter().zip(outline.iter().cycle().skip(1));
         let across = edges.filter_map(|(&a, &b)| Some(rightward((b - a).perp().try_normalize()?)));
@@ -60,16 +62,16 @@ impl Calipers {
         let narrow = || all.iter().filter(|(w, ..)| *w <= width * (1.0 + EQUAL));
         let length = narrow().map(|(_, length, _)| *length).fold(0.0, f64::max);
         let long = narrow().filter(|(_, l, _)| *l >= length * (1.0 - EQUAL));
-        // The last of equals, by direction, so that the order of the corners decides nothing.
+        // Equal directions are sorted by their coordinates, so that the order of the corners decides nothing.
         let across =
             long.map(|(.., across)| *across).max_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)))?;
         Some(Self { width, length, across, middle: polygon::centroid(outline) })
     }
 }
 
-/// Of a direction and its opposite, the one with x > 0, or x = 0 and y > 0.
+/// Returns whichever of a direction and its opposite has x > 0, or x = 0 and y > 0.
 fn rightward(direction: DVec2) -> DVec2 {
-    // Rounding must not send an upright direction either way.
+    // Rounding must not decide which way an upright direction points.
     let x = if direction.x.abs() < f64::EPSILON { 0.0 } else { direction.x };
     if x < 0.0 || (x == 0.0 && direction.y < 0.0) { -direction } else { DVec2::new(x, direction.y) }
 }

@@ -1,4 +1,4 @@
-//! The mean of exp(-f) over a convex polygon, f affine: how much light is left in a beam that is absorbed.
+//! The integral of exp(-f) over a convex polygon, f affine: how much light is left in a beam that is absorbed.
 
 use super::Affine;
 use glam::DVec2;
@@ -6,13 +6,14 @@ use glam::DVec2;
 /// Triangles over which f varies by more than this are split, so that the series below converges quickly.
 const WIDEST: f64 = 1.0;
 
-/// Where f is above its least by this, exp(-f) is below the rounding of the whole.
+/// Where f exceeds its least value by this, exp(-f) is below the rounding of the whole integral and is left out.
 const NOTHING: f64 = 45.0;
 
-/// How often a triangle is halved at most: beyond this f varies by more than corners in f64 can tell apart.
+/// How often a triangle is halved at most. If f still varies too much after that, it varies by more than corners in f64 can
+/// tell apart.
 const MOST_HALVINGS: u32 = 100;
 
-/// The integral of exp(-f) over a convex polygon with counter-clockwise corners, to about 1e-15 of the whole.
+/// Returns the integral of exp(-f) over a convex polygon with counter-clockwise corners, to about 1e-15 of the whole.
 pub fn integral_of_decay(corners: &[DVec2], f: Affine) -> f64 {
     let Some((&a, rest)) = corners.split_first() else { return 0.0 };
     let least = corners.iter().map(|&c| f.at(c)).fold(f64::INFINITY, f64::min);
@@ -38,12 +39,14 @@ fn triangle([a, b, c]: [DVec2; 3], f: Affine, nothing: f64, halvings: u32) -> f6
     [[p, middle, r], [middle, q, r]].into_iter().map(|half| triangle(half, f, nothing, halvings - 1)).sum()
 }
 
-/// The second divided difference of exp at -x: by the Hermite-Genocchi formula half the mean over the triangle.
-/// As a series in the complete homogeneous symmetric polynomials h_k, Σ h_k / (k + 2)!.
+/// Returns the second divided difference of exp at the negatives of three values.
+///
+/// By the Hermite-Genocchi formula it is half the mean of exp(-f) over a triangle with those values of f at its corners. It
+/// is computed as a series in the complete homogeneous symmetric polynomials h_k, Σ h_k / (k + 2)!.
 fn divided_difference(values: [f64; 3]) -> f64 {
     let mean = values.iter().sum::<f64>() / 3.0;
     let [x, y, z] = values.map(|v| mean - v);
-    // h_k(x), h_k(x, y), h_k(x, y, z), each from the one before.
+    // h_k(x), h_k(x, y) and h_k(x, y, z), each computed from the one before.
     let (mut one, mut two, mut three) = (1.0, 1.0, 1.0);
     let (mut sum, mut factorial) = (0.5, 2.0);
     for k in 1..18 {

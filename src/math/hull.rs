@@ -8,10 +8,10 @@ use glam::DVec3;
 use robust::{Coord3D, orient3d};
 use std::collections::HashMap;
 
-/// The triangles of the convex hull, as indices into the points, counter-clockwise seen from outside.
+/// Returns the triangles of the convex hull, as indices into the points, counter-clockwise seen from outside.
 ///
-/// Points that lie on the hull without being needed as a corner of it are left out; of several that coincide one is
-/// taken. `None` where all points lie in one plane, or where one is not finite.
+/// Points on the hull that are not needed as its corners are left out, and of several points in one place only one is used.
+/// `None` where all points lie in one plane, or where a coordinate is not finite.
 pub fn convex_hull(points: &[DVec3]) -> Option<Vec<[u32; 3]>> {
     if points.iter().any(|p| !p.is_finite()) {
         return None;
@@ -25,8 +25,9 @@ pub fn convex_hull(points: &[DVec3]) -> Option<Vec<[u32; 3]>> {
     Some(hull.faces.into_iter().filter(|face| face.is_left).map(|face| face.corners).collect())
 }
 
-/// How far a point lies outside the plane through three others that run counter-clockwise seen from outside: above 0
-/// outside, 0 in the plane; the sign is exact.
+/// Returns how far a point lies outside the plane through three others, which run counter-clockwise seen from outside.
+///
+/// The result is above 0 outside and 0 in the plane; its sign is exact.
 fn outside(points: &[DVec3], [a, b, c]: [u32; 3], point: u32) -> f64 {
     let at = |i: u32| {
         let DVec3 { x, y, z } = points[i as usize];
@@ -37,11 +38,11 @@ fn outside(points: &[DVec3], [a, b, c]: [u32; 3], point: u32) -> f64 {
 
 struct Face {
     corners: [u32; 3],
-    /// The face across each edge, which are numbered by the corner that they begin at.
+    /// The face across each edge; edge k runs from corner k to the next.
     across: [u32; 3],
-    /// Points outside this face; each point that is not yet known to lie within is in one such list.
+    /// Points outside this face. Each point that is not yet known to lie within is in one such list.
     above: Vec<u32>,
-    /// Whether it is still a face of the hull.
+    /// Whether this is still a face of the hull.
     is_left: bool,
 }
 
@@ -62,7 +63,7 @@ struct Rim {
 }
 
 impl<'a> Hull<'a> {
-    /// A tetrahedron among the points.
+    /// Makes a tetrahedron of four of the points; `None` where all lie in one plane.
     fn simplex(points: &'a [DVec3]) -> Option<Self> {
         let at = |i: u32| points[i as usize];
         let most = |size: &dyn Fn(u32) -> f64| {
@@ -78,7 +79,7 @@ impl<'a> Hull<'a> {
             _ => [a, b, c, d],
         };
         let [a, b, c, d] = corners;
-        // Face 0 has its back to the last corner, the others share it.
+        // Face 0 lies opposite the last corner, which the other three share.
         let faces =
             [([a, b, c], [1, 2, 3]), ([b, a, d], [0, 3, 2]), ([c, b, d], [0, 1, 3]), ([a, c, d], [0, 2, 1])];
         let face = |(corners, across)| Face { corners, across, above: vec![], is_left: true };
@@ -87,7 +88,8 @@ impl<'a> Hull<'a> {
         Some(hull)
     }
 
-    /// Puts each point that lies outside a face from `first` on into the list of one of them; the others lie within.
+    /// Puts each point that lies outside a face, from face `first` on, into the list of one such face; the other points lie
+    /// within.
     fn share(&mut self, points: Vec<u32>, first: usize) {
         for point in points {
             let all = self.points;
@@ -101,7 +103,7 @@ impl<'a> Hull<'a> {
         );
     }
 
-    /// Of the points outside a face, the farthest.
+    /// Returns the farthest of the points outside a face; `None` where there is none or the face has been removed.
     fn farthest(&self, face: u32) -> Option<u32> {
         let Face { corners, above, is_left, .. } = &self.faces[face as usize];
         let [a, b, c] = corners.map(|v| self.points[v as usize]);
@@ -121,7 +123,7 @@ impl<'a> Hull<'a> {
             above.append(&mut face.above);
         }
         let first = self.faces.len();
-        // The rim is one closed line, so each corner of it is the beginning of one of its edges.
+        // The rim is one closed line, so one of its edges begins at each of its corners, and one ends there.
         let beginning: HashMap<u32, u32> =
             (first as u32..).zip(&rim).map(|(new, rim)| (rim.ends[0], new)).collect();
         let end: HashMap<u32, u32> =
@@ -136,7 +138,7 @@ impl<'a> Hull<'a> {
         self.share(above, first);
     }
 
-    /// The faces that a point sees, of which one is known, and the edges around them.
+    /// Returns the faces that a point sees, starting from one of them, and the edges around those faces.
     fn seen(&mut self, face: u32, point: u32) -> (Vec<u32>, Vec<Rim>) {
         let mut seen = vec![face];
         let mut rim = vec![];
@@ -225,7 +227,7 @@ mod tests {
     proptest! {
         #[test]
         fn the_hull_of_any_points_is_closed_and_holds_all(
-            // Few steps leave many points in one plane, in one line, or on one another.
+            // Few steps put many points into one plane, into one line, or onto one another.
             steps in prop::collection::vec(prop::array::uniform3(-2_i32..3), 0..40),
             nudge in prop::collection::vec(prop::array::uniform3(-1.0_f64..1.0), 40),
             noise in prop::sample::select(vec![0.0, 1e-16, 1e-12, 1e-3]),

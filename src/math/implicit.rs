@@ -1,9 +1,9 @@
-//! Glass shapes as functions of space: below 0 inside, 0 on the surface, above 0 outside, with exact derivatives.
+//! Glass shapes as functions of space, with exact derivatives: below 0 inside, 0 on the surface, above 0 outside.
 //!
-//! The convex forms are a core (an outline drawn out along an axis) and a ball rolled around it, as Minkowski adds sets: the
-//! function is the distance from the core less the ball's radius, and convex. The idea of such functions is Inigo Quilez's
-//! (articles on 2D and 3D distance functions). The plate is a box sheared along z; its function is the box's, of the point
-//! with the shear taken back.
+//! A convex form is the Minkowski sum of a core (an outline drawn out along an axis) and a ball. Its function is the
+//! distance from the core less the ball's radius, which is convex. The idea of such functions is Inigo Quilez's (articles on
+//! 2D and 3D distance functions). The plate is a box sheared along z. Its function is that of the box, taken at the point
+//! with the shear undone.
 
 mod body;
 mod error;
@@ -28,59 +28,64 @@ use self::wave::Wave;
 use super::Surface;
 use glam::{DMat3, DQuat, DVec3};
 
-/// What a shape is, in girdle radii; its middle is the origin of its own frame. An `edge` of 0 is sharp.
+/// The form of a glass shape and its dimensions, in girdle radii.
+///
+/// The middle of the shape is the origin of its own frame. An `edge` of 0 is sharp.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum ImplicitForm {
-    /// A stadium in x and y, long along the greater of the two, drawn out along z.
+    /// A stadium in x and y, long along the greater of the two and drawn out along z.
     Pill {
-        /// Its outer dimensions.
+        /// The outer dimensions.
         size: DVec3,
-        /// Radius of all its edges; at most half of its least dimension.
+        /// The radius of all edges; at most half of the least dimension.
         edge: f64,
     },
     /// A box.
     Block {
-        /// Its outer dimensions.
+        /// The outer dimensions.
         size: DVec3,
-        /// Radius of its edges and corners; at most half of its least dimension.
+        /// The radius of the edges and corners; at most half of the least dimension.
         edge: f64,
     },
     /// A rounded rectangle in x and y, drawn out along z.
     Pane {
-        /// Its outer dimensions.
+        /// The outer dimensions.
         size: DVec3,
-        /// Radius of the outline's corners; at most half of the lesser of x and y.
+        /// The radius of the outline's corners; at most half of the lesser of x and y.
         corner: f64,
-        /// Radius of the edges around both faces; at most half of z, and `corner`.
+        /// The radius of the edges around both faces; at most half of z, and at most `corner`.
         edge: f64,
     },
-    /// An isosceles triangle in y and z, its base down and its apex up, drawn out along x.
+    /// An isosceles triangle in y and z, with its base below and its apex above, drawn out along x.
     Prism {
-        /// Length x, base y and height z between its flat faces' planes; rounding takes the edges away, not the faces.
+        /// The length x, base y and height z between the planes of the flat faces. Rounding takes the edges away, not the
+        /// faces.
         size: DVec3,
-        /// Radius of its edges and corners; at most half its length and the radius of the circle in the triangle.
+        /// The radius of the edges and corners; at most half of the length, and at most the radius of the triangle's
+        /// inscribed circle.
         edge: f64,
     },
-    /// A box sheared along z by a sin(k x + phase) sin(k y + phase), k = 2π / wavelength: as thick as the box measured along
-    /// z. Not convex, unless the amplitude is 0.
+    /// A box sheared along z by the wave a sin(k x + phase) sin(k y + phase), k = 2π / wavelength.
+    ///
+    /// Measured along z it is as thick as the box. It is not convex, unless the amplitude is 0.
     Plate {
-        /// Outer dimensions of the box.
+        /// The outer dimensions of the box.
         size: DVec3,
-        /// Radius of the box's edges and corners; at most half of its least dimension.
+        /// The radius of the box's edges and corners; at most half of its least dimension.
         edge: f64,
-        /// The wave's a, 0 or more.
+        /// The amplitude a of the wave, 0 or more.
         amplitude: f64,
-        /// Length of a wave along x and along y.
+        /// The length of the wave along x and along y.
         wavelength: f64,
-        /// Where the wave begins, in radians.
+        /// The phase of the wave, in radians.
         phase: f64,
     },
 }
 
-/// A shape somewhere in the world.
+/// A glass shape at its place in the world.
 ///
-/// Points, distances and derivatives are the world's. A point *on the surface* is one to which an entry or an exit led, up to
-/// rounding.
+/// Points, distances and derivatives are in world coordinates. A point *on the surface* is one that an entry or an exit has
+/// led to, up to rounding.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ImplicitSurface {
     form: ImplicitForm,
@@ -92,10 +97,10 @@ pub struct ImplicitSurface {
 }
 
 impl ImplicitSurface {
-    /// A shape in its own frame.
+    /// Makes a shape in its own frame.
     ///
     /// # Errors
-    /// Names the dimension that is no number or out of its range.
+    /// Names the dimension that is not a number or is out of its range.
     pub fn new(form: ImplicitForm) -> Result<Self, ImplicitSurfaceError> {
         error::check(&form)?;
         let (body, wave) = match form {
@@ -111,7 +116,7 @@ impl ImplicitSurface {
         Ok(Self { form, body, wave, scale: 1.0, turn: DQuat::IDENTITY, shift: DVec3::ZERO })
     }
 
-    /// The same shape elsewhere: scaled by a factor above 0, turned, then shifted.
+    /// Returns the same shape scaled by a factor above 0, turned, then shifted.
     pub fn moved(&self, scale: f64, turn: DQuat, shift: DVec3) -> Self {
         Self {
             scale: self.scale * scale,
@@ -121,91 +126,98 @@ impl ImplicitSurface {
         }
     }
 
-    /// What the shape is in its own frame.
+    /// Returns the form of the shape in its own frame.
     pub fn form(&self) -> ImplicitForm {
         self.form
     }
 
-    /// Whether light that has left never meets it again.
+    /// Whether the shape is convex, so that light that has left it never meets it again.
     pub fn is_convex(&self) -> bool {
         self.wave.is_none()
     }
 
-    /// The function and its derivatives at a point.
+    /// Returns the function and its derivatives at a point.
     ///
-    /// Of a convex form the value is the distance from the surface, negative inside. Of a plate it is 0 on the surface and has
-    /// the right sign elsewhere. Inside, where faces are equally near, derivatives are those of one of them.
+    /// For a convex form the value is the distance from the surface, negative inside. For a plate it is 0 on the surface and
+    /// has the right sign elsewhere. Inside, where several faces are equally near, the derivatives are those of one of them.
     pub fn jet(&self, point: DVec3) -> Jet {
         self.jet_as(point, false)
     }
 
-    /// The function alone; see [`jet`](Self::jet).
+    /// Returns the value of the function alone; see [`jet`](Self::jet).
     pub fn value(&self, point: DVec3) -> f64 {
         self.jet(point).value
     }
 
-    /// Its gradient: of length 1 for convex forms.
+    /// Returns the gradient of the function, which has length 1 for convex forms.
     pub fn gradient(&self, point: DVec3) -> DVec3 {
         self.jet(point).gradient
     }
 
-    /// Unit outward normal at a point of the surface; on a sharp edge that of one of its faces.
+    /// Returns the unit outward normal at a point of the surface; on a sharp edge that of one of its faces.
     pub fn normal(&self, point: DVec3) -> DVec3 {
         self.jet_as(point, true).normal()
     }
 
-    /// How far the unit normal at a point of the surface changes over a displacement along the surface (the shape operator):
-    /// symmetric, in 1 / girdle radii. The part of a displacement that is off the surface does not count.
+    /// Returns how the unit normal at a point of the surface changes with a displacement along the surface (the shape
+    /// operator).
+    ///
+    /// The matrix is symmetric, in 1 / girdle radii. The part of a displacement that leads off the surface does not count.
     pub fn bend(&self, point: DVec3) -> DMat3 {
         self.jet_as(point, true).bend()
     }
 
-    /// The distance, 0 or more, at which a ray from outside or from the surface first goes in; `None` where it does not. From a
-    /// start inside it is 0 where the way leads deeper.
+    /// Returns the distance, 0 or more, at which a ray from outside or from the surface first enters.
     ///
-    /// The direction is a unit vector. `None` as well where a thousand steps do not lead there.
+    /// The direction is a unit vector. From a start inside, the distance is 0 if the ray leads deeper. `None` if the ray
+    /// does not enter, or if a thousand steps do not lead to the place.
     pub fn entry(&self, origin: DVec3, direction: DVec3) -> Option<f64> {
         self.entry_counted(origin, direction).0
     }
 
-    /// The distance, 0 or more, at which a ray from inside or from the surface next goes out.
+    /// Returns the distance, 0 or more, at which a ray from inside or from the surface next leaves.
     ///
-    /// The direction is a unit vector. `None` where rounding has let the ray slip out, which takes one that runs along the
-    /// surface, and where a thousand steps do not lead there.
+    /// The direction is a unit vector. `None` if rounding has let the ray slip out, which happens only to rays that run
+    /// along the surface, or if a thousand steps do not lead to the place.
     pub fn exit(&self, point: DVec3, direction: DVec3) -> Option<f64> {
         self.exit_counted(point, direction).0
     }
 
-    /// The smallest box along the axes that holds it, (least, greatest); around a plate one that is large enough.
+    /// Returns the smallest box along the axes that holds the shape, (least, greatest); for a plate a box that is large
+    /// enough.
     pub fn bounds(&self) -> (DVec3, DVec3) {
         let high = DVec3::from(DVec3::AXES.map(|axis| self.support(axis)));
         let low = DVec3::from(DVec3::AXES.map(|axis| -self.support(-axis)));
         (low, high)
     }
 
-    /// A distance from the origin that no point of it exceeds; a convex form's farthest point's, where it was not shifted.
+    /// Returns a distance from the origin that no point of the shape exceeds.
+    ///
+    /// For a convex form that was not shifted it is the distance of the farthest point.
     pub fn reach(&self) -> f64 {
         self.shift.length() + self.scale * self.own_reach()
     }
 
-    /// Enclosed volume, by Steiner's formula; a shear keeps it.
+    /// Returns the enclosed volume, by Steiner's formula; a shear does not change it.
     pub fn volume(&self) -> f64 {
         self.body.volume() * self.scale.powi(3)
     }
 
-    /// Area of the shadow that a convex form casts along a unit direction; `None` for a plate with waves.
+    /// Returns the area of the shadow that a convex form casts along a unit direction; `None` for a plate with waves.
     pub fn silhouette_area(&self, direction: DVec3) -> Option<f64> {
         let own = self.turn.inverse() * direction;
         self.is_convex().then(|| self.body.silhouette_area(own) * self.scale * self.scale)
     }
 
-    /// Where a point of this shape's matter is in `to`, the same shape at another place or time: a wave carries it up and down.
+    /// Returns where a point of this shape's matter lies in `to`, the same shape at another place or time.
+    ///
+    /// A wave carries the matter up and down.
     pub fn carried(&self, point: DVec3, to: &Self) -> DVec3 {
         let body = self.unsheared(self.own(point));
         to.world(body + DVec3::Z * to.wave.map_or(0.0, |wave| wave.height(body)))
     }
 
-    /// Names of its facets: faces that are flat or, of a pill, the side, and last what is rounded.
+    /// Returns the names of the facets: the flat faces (and the side of a pill), then the rounded part.
     pub fn facets(&self) -> &'static [&'static str] {
         match self.form {
             ImplicitForm::Pill { .. } => &["side", "top", "bottom", "edge"],
@@ -218,14 +230,14 @@ impl ImplicitSurface {
         }
     }
 
-    /// The facet that a point of the surface is part of, by its place in [`facets`](Self::facets).
+    /// Returns the facet that a point of the surface belongs to, by its place in [`facets`](Self::facets).
     pub fn facet(&self, point: DVec3) -> u32 {
         self.own_facet(self.unsheared(self.own(point)))
     }
 
-    /// Of a point of the body.
+    /// Returns the facet that a point of the body's surface belongs to.
     fn own_facet(&self, point: DVec3) -> u32 {
-        // A flat face's normal is the same number all over.
+        // A flat face has exactly the same normal everywhere.
         let normal = self.body.jet(point, true).gradient;
         let among =
             |normals: &[DVec3]| normals.iter().position(|n| *n == normal).unwrap_or(normals.len()) as u32;
@@ -247,7 +259,7 @@ impl ImplicitSurface {
         self.wave.map_or(jet, |wave| wave.shear(jet, own)).moved(self.scale, DMat3::from_quat(self.turn))
     }
 
-    /// Greatest coordinate along a unit direction of the world.
+    /// Returns the greatest coordinate along a unit direction of the world, or with waves a bound of it.
     fn support(&self, direction: DVec3) -> f64 {
         let own = self.turn.inverse() * direction;
         let lift = self.wave.map_or(0.0, |wave| wave.amplitude * own.z.abs());
@@ -266,7 +278,7 @@ impl ImplicitSurface {
         self.turn * own * self.scale + self.shift
     }
 
-    /// A point of the own frame with the shear taken back.
+    /// Returns a point of the shape's own frame with the shear undone.
     fn unsheared(&self, own: DVec3) -> DVec3 {
         self.wave.map_or(own, |wave| own - DVec3::Z * wave.height(own))
     }

@@ -4,22 +4,23 @@ use super::{Basis, Facet, Polytope, polygon};
 use glam::{DVec2, DVec3};
 use spade::{ConstrainedDelaunayTriangulation, Point2, Triangulation};
 
-/// Triangles whose areas differ from the outline's by less than this part cover it; the rest is rounding.
+/// Triangles cover an outline if their areas add up to its area within this part; the rest is rounding.
 const CLOSED: f64 = 1e-9;
 
-/// Triangles over shared corners.
+/// A mesh of triangles that share corners.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Mesh {
-    /// Corners, those of the polytope in its order.
+    /// The corners of the polytope, in its order.
     pub vertices: Vec<DVec3>,
-    /// Corners of each triangle, counter-clockwise seen from outside.
+    /// The corners of each triangle, as indices into `vertices`, counter-clockwise seen from outside.
     pub triangles: Vec<[u32; 3]>,
-    /// The facet that each triangle is part of.
+    /// The facet that each triangle belongs to.
     pub facets: Vec<u32>,
 }
 
-/// Cuts every facet into triangles between its own corners, by Delaunay's rule: of all such cuts the one whose
-/// smallest angle is largest, so that there are no slivers but those that the outline itself forces.
+/// Cuts every facet into triangles between its own corners, by Delaunay's rule.
+///
+/// Of all such cuts this one has the largest smallest angle, so that there are no slivers but those that the outline forces.
 pub fn triangulate(polytope: &Polytope) -> Mesh {
     let mut mesh = Mesh { vertices: polytope.vertices().to_vec(), triangles: vec![], facets: vec![] };
     for (i, facet) in polytope.facets().iter().enumerate() {
@@ -40,28 +41,29 @@ fn facet_triangles(polytope: &Polytope, facet: &Facet) -> Vec<[u32; 3]> {
         .collect()
 }
 
-/// `None` where rounding keeps the triangles from covering the outline, as corners in one line can do.
+/// Returns the Delaunay triangles of an outline; `None` where rounding keeps them from covering it, as corners in one line
+/// can.
 fn delaunay(flat: &[DVec2]) -> Option<Vec<[usize; 3]>> {
     let points = flat.iter().map(|p| Point2::new(p.x, p.y)).collect();
     let edges = (0..flat.len()).map(|i| [i, (i + 1) % flat.len()]).collect();
-    // Corners that fall together leave edges that begin where they end.
+    // Corners that coincide leave edges that begin where they end.
     let mut is_sound = true;
     let unfit = |_| is_sound = false;
     let cdt =
         ConstrainedDelaunayTriangulation::<Point2<f64>>::try_bulk_load_cdt(points, edges, unfit).ok()?;
     is_sound.then_some(())?;
-    // Loading merges equal points and so may renumber: then the outline is degenerate.
+    // Loading merges equal points and so may renumber the rest: the outline is then degenerate.
     (cdt.num_vertices() == flat.len()).then_some(())?;
     let triangles: Vec<[usize; 3]> = cdt
         .inner_faces()
         .map(|f| f.vertices().map(|v| v.index()))
-        // Outside a chain of corners nearly in line, spade's hull adds slivers: they run round the wrong way.
+        // Along a chain of corners nearly in line, spade's hull adds slivers outside, which run the other way round.
         .filter(runs_upward)
         .collect();
     (triangles.len() == flat.len() - 2 && same_area(flat, &triangles)).then_some(triangles)
 }
 
-/// Whether three places on an outline follow one another in its sense, from whichever one starts.
+/// Whether three places follow one another in the direction of the outline, starting from any of them.
 fn runs_upward([a, b, c]: &[usize; 3]) -> bool {
     [a < b, b < c, c < a].iter().filter(|&&up| up).count() == 2
 }

@@ -1,4 +1,4 @@
-//! Floor 0: planes, convex solids, convex polygons and triangles in f64.
+//! Floor 0: planes, convex solids, convex polygons, triangles and implicit surfaces, in f64.
 
 mod affine;
 

@@ -2,25 +2,25 @@
 
 use glam::DVec3;
 
-/// The half-space `normal · x <= offset`; its boundary is the facet's plane.
+/// The half-space `normal · x <= offset`, whose boundary is the plane of a facet.
 ///
-/// Lengths are in units of the girdle radius. Where a plane has been validated (inside a
-/// [`Polytope`](super::Polytope)) the normal is a unit vector that points out of the stone.
+/// Lengths are in girdle radii. In a validated plane (inside a [`Polytope`](super::Polytope)) the normal is a unit vector
+/// that points out of the stone.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Plane {
-    /// Outward normal.
+    /// The outward normal.
     pub normal: DVec3,
-    /// Distance of the plane from the origin along the normal.
+    /// The distance of the plane from the origin along the normal.
     pub offset: f64,
 }
 
 impl Plane {
-    /// A plane from its outward normal, of any length but zero, and offset in the units of that length.
+    /// Makes a plane from its outward normal, of any length but zero, and its offset in units of that length.
     pub const fn new(normal: DVec3, offset: f64) -> Self {
         Self { normal, offset }
     }
 
-    /// The plane whose unit normal leans `slope` away from the +z axis toward `azimuth`, both in radians.
+    /// Makes the plane whose unit normal leans `slope` away from the +z axis toward `azimuth`, both in radians.
     ///
     /// A slope of 0 is a table, π/2 a girdle facet, π a culet. Facet tables write a pavilion facet by its
     /// angle b from the girdle plane, which is the slope π - b.
@@ -29,10 +29,9 @@ impl Plane {
         Self::new(DVec3::new(sin * azimuth.cos(), sin * azimuth.sin(), cos), offset)
     }
 
-    /// The same half-space with a unit normal, or `None` where the normal has no direction or a number is not
-    /// finite.
+    /// Returns the same half-space with a unit normal; `None` where the normal has no direction or a number is not finite.
     pub fn normalized(&self) -> Option<Self> {
-        // Scaled first, so that the square of a tiny or huge component neither vanishes nor overflows.
+        // Scaling first keeps the square of a tiny or huge component from vanishing or overflowing.
         let largest = self.normal.abs().max_element();
         let scaled = self.normal / largest;
         let length = scaled.length();
@@ -40,7 +39,7 @@ impl Plane {
         (unit.normal.is_finite() && unit.offset.is_finite()).then_some(unit)
     }
 
-    /// How far `point` lies outside the half-space (negative inside), in the units of the normal's length.
+    /// Returns how far `point` lies outside the half-space (negative inside), in units of the normal's length.
     pub fn distance(&self, point: DVec3) -> f64 {
         self.normal.dot(point) - self.offset
     }

@@ -1,16 +1,16 @@
-//! Convex polygons in the plane, as slices of corners, counter-clockwise where not said otherwise.
+//! Convex polygons in the plane, as slices of corners, counter-clockwise unless said otherwise.
 
 use super::Affine;
 use glam::DVec2;
 
-/// Signed area: positive for counter-clockwise corners.
+/// Returns the signed area, positive for counter-clockwise corners.
 pub fn area(corners: &[DVec2]) -> f64 {
     let Some((&first, rest)) = corners.split_first() else { return 0.0 };
     // Relative to one corner, so that a small polygon far from the origin keeps its digits.
     rest.windows(2).map(|w| (w[0] - first).perp_dot(w[1] - first)).sum::<f64>() / 2.0
 }
 
-/// Centre of area; the mean of the corners where the area vanishes, the origin where there is none.
+/// Returns the centre of area. Where the area vanishes, it is the mean of the corners; without corners, the origin.
 pub fn centroid(corners: &[DVec2]) -> DVec2 {
     let Some((&first, rest)) = corners.split_first() else { return DVec2::ZERO };
     let (mut moment, mut twice) = (DVec2::ZERO, 0.0);
@@ -31,7 +31,7 @@ pub fn contains(corners: &[DVec2], p: DVec2, margin: f64) -> bool {
         && edges.into_iter().all(|(&a, &b)| (b - a).perp_dot(p - a) >= margin * (b - a).length())
 }
 
-/// The part of a convex polygon where `keep` is not negative, written to `out` (emptied first).
+/// Writes the part of a convex polygon where `keep` is not negative to `out`, which is emptied first.
 pub fn clip(corners: &[DVec2], keep: Affine, out: &mut Vec<DVec2>) {
     out.clear();
     let Some(&last) = corners.last() else { return };

@@ -1,41 +1,42 @@
 //! Builds a [`Polytope`] by cutting a box with one half-space after the other.
 //!
-//! Every corner is judged above, on or below the cutting plane once, and every facet follows that one judgement,
-//! so that the outlines stay closed whatever the rounding (the reason why brilliants, whose corners gather up to
-//! sixteen planes, come out with one corner there and not a cluster).
+//! Every corner is judged once to be above, on or below the cutting plane, and every facet follows that one judgement. So
+//! the outlines stay closed however the numbers are rounded. Where up to sixteen planes of a brilliant meet, the result is
+//! therefore one corner and not a cluster.
 
 use super::{Facet, Plane, Polytope};
 use glam::DVec3;
 use std::collections::HashMap;
 use std::ops::RangeInclusive;
 
-/// Two planes are one when their unit normals and offsets differ by less than this, offsets relative to the
-/// largest: a hundredth of the last digit that cutters' files carry.
+/// Two planes count as one when their unit normals and offsets differ by less than this, offsets relative to the largest: a
+/// hundredth of the last digit that cutters' files carry.
 const COINCIDENT: f64 = 1e-7;
 
 /// A corner this near to a plane, relative to the box, lies on it: far above rounding (1e-15), far below any edge
 /// that a file with nine digits can mean.
 const ON_PLANE: f64 = 1e-10;
 
-/// The first box is this many times the largest offset, and it grows eightfold while the solid touches it.
+/// The first box is this many times the largest offset; it grows eightfold while the solid touches it.
 const FIRST_BOX: f64 = 4.0;
 
 /// A solid that still touches a box this many times the largest offset is called unbounded.
 const LAST_BOX: f64 = 1e6;
 
-/// Facets below this part of the surface are rounding: some thousand roundings squared, and far below any facet meant.
+/// Facets whose area is below this part of the surface are rounding: some thousand roundings squared, and far below any
+/// facet meant.
 const SLIVER: f64 = 1e-13;
 
 /// The largest offset must lie in this range, so that volumes neither overflow nor vanish.
 const SCALES: RangeInclusive<f64> = 1e-60..=1e60;
 
-/// Why half-spaces enclose no solid. Numbers are indices into the planes given; in words they count from 1.
+/// Why half-spaces enclose no solid. Planes are numbered as given, from 0; messages count from 1.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[error("{}", self.message(|plane| format!("plane {}", plane + 1)))]
 pub enum PolytopeError {
-    /// Fewer than the four planes that a solid needs.
+    /// There are fewer than the four planes that a solid needs.
     TooFew {
-        /// How many there were.
+        /// The number of planes given.
         given: usize,
     },
     /// A number of the plane is NaN or infinite.
@@ -43,27 +44,27 @@ pub enum PolytopeError {
         /// The plane.
         plane: usize,
     },
-    /// The plane is so far off, or all are so near, that areas and volumes cannot be computed.
+    /// The plane is so far off, or all planes are so near, that areas and volumes cannot be computed.
     OutOfScale {
         /// The plane that is farthest off.
         plane: usize,
     },
-    /// The normal has no direction.
+    /// The normal is the zero vector and has no direction.
     ZeroNormal {
         /// The plane.
         plane: usize,
     },
-    /// The solid goes on for ever.
+    /// The solid is infinite.
     Unbounded {
-        /// The planes whose facets have no end.
+        /// The planes whose facets are infinite.
         planes: Vec<usize>,
     },
     /// No point, or no volume, lies inside all half-spaces.
     Empty {
-        /// Planes that already contradict one another.
+        /// Some planes that already contradict one another.
         planes: Vec<usize>,
     },
-    /// Planes that run so nearly through one point or line that no closed outline could be made.
+    /// Planes run so nearly through one point or line that no closed outline could be made.
     Degenerate {
         /// The plane at which the outline did not close.
         plane: usize,
@@ -71,7 +72,7 @@ pub enum PolytopeError {
 }
 
 impl PolytopeError {
-    /// The error in words, with the planes called by names.
+    /// Returns the error in words, with planes called by the names that `name` gives.
     pub fn message(&self, name: impl Fn(usize) -> String) -> String {
         const MOST: usize = 8;
         let all = |planes: &[usize]| {
@@ -128,7 +129,7 @@ struct Face {
     outline: Vec<u32>,
 }
 
-/// A solid in the making. Sources from `given` upward are the six sides of the box.
+/// A solid in the making. Faces whose source is the number of planes given, or more, are the six sides of the box.
 struct Draft {
     vertices: Vec<DVec3>,
     faces: Vec<Face>,
@@ -157,7 +158,7 @@ pub(super) fn build(planes: &[Plane]) -> Result<Polytope, PolytopeError> {
                 }
                 Some(open) => PolytopeError::Unbounded { planes: open },
             },
-            // The box itself may be what left nothing: a larger one tells.
+            // The box itself may be what left nothing: a larger one shows whether it was.
             Err(PolytopeError::Empty { planes: blamed }) => {
                 if blamed.iter().all(|&p| p < planes.len()) {
                     return Err(PolytopeError::Empty { planes: blamed });
@@ -167,7 +168,7 @@ pub(super) fn build(planes: &[Plane]) -> Result<Polytope, PolytopeError> {
             Err(other) => return whole.ok_or(other),
         };
         if let Some(solid) = whole {
-            // Without its slivers it does not close: then they are some of it.
+            // The solid does not close without its slivers, so they are part of it.
             return Ok(solid);
         }
         half *= 8.0;
@@ -177,7 +178,8 @@ pub(super) fn build(planes: &[Plane]) -> Result<Polytope, PolytopeError> {
     }
 }
 
-/// The planes of facets that are nothing but rounding: those that run through an edge or a corner of what the others enclose.
+/// Returns the planes of facets that are nothing but rounding: these planes run through an edge or a corner of what the
+/// others enclose.
 fn slivers(solid: &Polytope) -> Vec<usize> {
     let least = SLIVER * solid.surface_area();
     let is_sliver = |facet: &&Facet| solid.facet_area(facet) < least;
@@ -203,8 +205,9 @@ fn validate(planes: &[Plane]) -> Result<Vec<Plane>, PolytopeError> {
     }
 }
 
-/// Splits the planes into those to cut with and (dropped, kept) pairs that coincide. Sorted along one axis, so
-/// that only planes near one another are compared.
+/// Splits the planes into those to cut with and (dropped, kept) pairs that coincide.
+///
+/// The planes are sorted along one axis, so that only planes near one another are compared.
 fn merge(planes: &[Plane]) -> (Vec<usize>, Vec<(usize, usize)>) {
     let scale = planes.iter().map(|p| p.offset.abs()).fold(0.0, f64::max);
     let near = |a: &Plane, b: &Plane| {
@@ -223,7 +226,7 @@ fn merge(planes: &[Plane]) -> (Vec<usize>, Vec<(usize, usize)>) {
             }
         }
     }
-    // A chain of near planes ends at its first member.
+    // A chain of near planes is merged into its first member.
     let root = |mut i: usize| {
         while let Some(first) = twin[i] {
             i = first;
@@ -320,8 +323,8 @@ impl Draft {
         }
     }
 
-    /// Planes that leave nothing: the new one, and those that meet at the corner least far above it, which by
-    /// linear programming's duality already prove it.
+    /// Returns planes that together leave nothing: the new one, and those that meet at the corner least far above it. By the
+    /// duality of linear programming these already prove it.
     fn certificate(&self, source: usize, height: &[f64]) -> Vec<usize> {
         let live = self.faces.iter().flat_map(|f| f.outline.iter().copied());
         let lowest = live.min_by(|&a, &b| height[a as usize].total_cmp(&height[b as usize]));
@@ -332,7 +335,7 @@ impl Draft {
         planes
     }
 
-    /// The given planes whose facets touch the box, where any does.
+    /// Returns the given planes whose facets touch the box; `None` where no part of the box is left.
     fn unbounded(&self, given: usize) -> Option<Vec<usize>> {
         let boxed = self.faces.iter().filter(|f| f.source >= given);
         let far: Vec<u32> = boxed.flat_map(|f| f.outline.iter().copied()).collect();
@@ -387,7 +390,7 @@ fn directed_edges(outline: &[u32]) -> impl Iterator<Item = (u32, u32)> {
     outline.iter().copied().zip(outline.iter().copied().cycle().skip(1))
 }
 
-/// The part of an outline that is not above the plane, with a corner wherever an edge crosses it.
+/// Returns the part of an outline that is not above the plane, with a new corner wherever an edge crosses the plane.
 fn trim(
     outline: &[u32],
     height: &[f64],
@@ -403,7 +406,7 @@ fn trim(
         }
         let crosses = (at_a > tolerance && at_b < -tolerance) || (at_a < -tolerance && at_b > tolerance);
         if crosses {
-            // The same edge is met from its other facet, in the other sense: one corner serves both.
+            // The edge's other facet meets it in the other direction: one corner serves both.
             let (low, high) = (a.min(b), a.max(b));
             let corner = *split.entry((low, high)).or_insert_with(|| {
                 let (p, q) = (vertices[low as usize], vertices[high as usize]);
@@ -417,7 +420,8 @@ fn trim(
     kept
 }
 
-/// The outline of the new facet: the edges in the plane that belong to one facet only, walked the other way.
+/// Returns the outline of the new facet: the edges in the plane that belong to one facet only, in the opposite direction.
+///
 /// `None` where they do not make one closed ring of three or more.
 fn close(edges: &[(u32, u32)]) -> Option<Vec<u32>> {
     let present: std::collections::HashSet<(u32, u32)> = edges.iter().copied().collect();

@@ -1,29 +1,31 @@
-//! Which triangles of a surface lie in one plane beside one another: its facets.
+//! Finds the facets of a surface: groups of neighbouring triangles in one plane.
 
 use super::{Plane, Surface, TriangleMeshError};
 use glam::DVec3;
 use rayon::prelude::*;
 
-/// A triangle whose corners lie no farther from a plane, as a part of the solid's size, lies in it: some ten roundings of
-/// the f32 in which files hold corners.
+/// A triangle lies in a plane if none of its corners is farther from it than this part of the solid's size: some ten
+/// roundings of the f32 in which files hold corners.
 const FLAT: f64 = 1e-6;
 
-/// Cosine of the most by which triangles of one facet are turned against one another: far more than rounding turns any but
-/// slivers, which lie in the plane whichever way they seem to face, and less than a fold.
+/// The cosine of the greatest angle between a triangle of a facet and the facet's plane.
+///
+/// The angle is far more than rounding turns any triangle but a sliver, and less than a fold. A sliver belongs to the plane
+/// in which it lies, whichever way it seems to face.
 const NOT_FOLDED: f64 = 0.9;
 
-/// No facet as yet.
+/// The mark of a triangle that has no facet yet.
 const NONE: u32 = u32::MAX;
 
-/// The facet of each triangle. Facets are numbered in the order of their first triangles.
+/// Returns the facet of each triangle. Facets are numbered in the order of their first triangles.
 ///
 /// # Errors
-/// Where the surface is open.
+/// Returns [`TriangleMeshError::Open`] where the surface is open.
 pub(super) fn regions(surface: &Surface) -> Result<Vec<u32>, TriangleMeshError> {
     let neighbours = neighbours(&surface.triangles)?;
     let twice_areas: Vec<DVec3> = surface.triangles.iter().map(|t| twice_area(surface, t)).collect();
     let size = surface.vertices.iter().map(|v| v.length()).fold(0.0, f64::max);
-    // From the largest triangles outward: their planes are known best.
+    // Facets grow from the largest triangles outward, as the planes of these are known best.
     let mut seeds: Vec<u32> = (0..surface.triangles.len() as u32).collect();
     let area = |k: u32| twice_areas[k as usize].length_squared();
     seeds.par_sort_by(|&a, &b| area(b).total_cmp(&area(a)));
@@ -53,7 +55,7 @@ pub(super) fn regions(surface: &Surface) -> Result<Vec<u32>, TriangleMeshError> 
     Ok(renumbered(facets))
 }
 
-/// The plane of each facet: the mean of its triangles', by area.
+/// Returns the plane of each facet: the mean of its triangles' planes, weighted by area.
 pub(super) fn planes_of(surface: &Surface, facets: &[u32]) -> Vec<Plane> {
     let count = facets.iter().max().map_or(0, |&last| last as usize + 1);
     let mut sums = vec![(DVec3::ZERO, DVec3::ZERO, 0.0); count];
@@ -66,7 +68,7 @@ pub(super) fn planes_of(surface: &Surface, facets: &[u32]) -> Vec<Plane> {
     }
     let plane = |(area, middle, weight): (DVec3, DVec3, f64)| {
         let normal = area.normalize_or(DVec3::Z);
-        // A facet without area is never met.
+        // A facet without area is never met, so any plane will do.
         let middle = if weight > 0.0 { middle / weight } else { DVec3::ZERO };
         Plane { normal, offset: normal.dot(middle) }
     };
@@ -87,9 +89,11 @@ fn longest(surface: &Surface, triangle: u32) -> f64 {
     a.distance(b).max(b.distance(c)).max(c.distance(a))
 }
 
-/// The triangles beside each triangle. Every edge has as many on one side as on the other.
+/// Returns the triangle across each edge of each triangle. Every edge must have as many triangles on one side as on the
+/// other.
 pub(super) fn neighbours(triangles: &[[u32; 3]]) -> Result<Vec<[u32; 3]>, TriangleMeshError> {
-    // An edge, whether it is run along from its lower corner, its triangle and place there.
+    // Each entry holds an edge, whether its triangle runs along it from the higher corner, the triangle, and the edge's
+    // place there.
     let edges_of = |(k, t): (usize, &[u32; 3])| {
         let t = *t;
         [0, 1, 2].map(|i| {

@@ -5,18 +5,18 @@ use glam::{DQuat, DVec3};
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
-/// What a stone's shape can be.
+/// The shape of a stone.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Solid {
     /// Convex, between planes.
     Convex(Polytope),
-    /// Within triangles; it need not be convex. Shared, as it may be large.
+    /// Within triangles, which need not form a convex solid. Shared, because it may be large.
     Triangles(Arc<TriangleMesh>),
     /// Within a smooth surface.
     Smooth(SmoothSolid),
 }
 
-/// A solid that something else owns.
+/// A solid that is borrowed from its owner.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum SolidRef<'a> {
     /// Convex, between planes.
@@ -27,7 +27,7 @@ pub enum SolidRef<'a> {
     Smooth(&'a SmoothSolid),
 }
 
-/// What only a convex stone between planes has: facets to name and draw, and exact beams.
+/// The error where a convex stone between planes is needed: only that has facets to name and draw, and exact beams.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 #[error("exact beams and drawings are for convex stones between planes, and this is none: use rays")]
 pub struct NotConvex;
@@ -35,14 +35,14 @@ pub struct NotConvex;
 /// An edge between two facets, or a line on a smooth surface.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Edge {
-    /// Its ends.
+    /// The two ends.
     pub ends: [DVec3; 2],
-    /// Outward normals of the facets on both sides; of a smooth surface those at both ends.
+    /// The outward normals of the facets on both sides; on a smooth surface, the normals at both ends.
     pub normals: [DVec3; 2],
 }
 
 impl Solid {
-    /// The same, to be lent.
+    /// Borrows the solid.
     pub fn by_ref(&self) -> SolidRef<'_> {
         match self {
             Self::Convex(polytope) => SolidRef::Convex(polytope),
@@ -51,10 +51,10 @@ impl Solid {
         }
     }
 
-    /// The polytope of a convex solid, for what needs one.
+    /// Returns the polytope of a convex solid.
     ///
     /// # Errors
-    /// Of any other kind, even where it is convex.
+    /// Returns [`NotConvex`] for a solid of any other kind, even where it is convex.
     pub fn polytope(&self) -> Result<&Polytope, NotConvex> {
         match self {
             Self::Convex(polytope) => Ok(polytope),
@@ -62,22 +62,22 @@ impl Solid {
         }
     }
 
-    /// Its corners; points that a smooth one lies between.
+    /// Returns the corners; for a smooth solid, points that it lies between.
     pub fn vertices(&self) -> &[DVec3] {
         self.by_ref().vertices()
     }
 
-    /// The smallest box with sides along the axes that holds it: (least, greatest) coordinates.
+    /// Returns the smallest box with sides along the axes that holds the solid, as (least, greatest) coordinates.
     pub fn bounds(&self) -> (DVec3, DVec3) {
         self.by_ref().bounds()
     }
 
-    /// Enclosed volume.
+    /// Returns the enclosed volume.
     pub fn volume(&self) -> f64 {
         self.by_ref().volume()
     }
 
-    /// The same solid elsewhere: scaled by a factor above 0, turned, then shifted.
+    /// Returns the same solid scaled by a factor above 0, turned, then shifted.
     pub fn moved(&self, scale: f64, turn: DQuat, shift: DVec3) -> Self {
         match self {
             Self::Convex(polytope) => Self::Convex(polytope.moved(scale, turn, shift)),
@@ -88,7 +88,7 @@ impl Solid {
 }
 
 impl<'a> SolidRef<'a> {
-    /// Its corners; points that a smooth one lies between.
+    /// Returns the corners; for a smooth solid, points that it lies between.
     pub fn vertices(self) -> &'a [DVec3] {
         match self {
             Self::Convex(polytope) => polytope.vertices(),
@@ -97,7 +97,7 @@ impl<'a> SolidRef<'a> {
         }
     }
 
-    /// The smallest box with sides along the axes that holds it: (least, greatest) coordinates.
+    /// Returns the smallest box with sides along the axes that holds the solid, as (least, greatest) coordinates.
     pub fn bounds(self) -> (DVec3, DVec3) {
         if let Self::Smooth(smooth) = self {
             return smooth.field().bounds();
@@ -106,7 +106,7 @@ impl<'a> SolidRef<'a> {
         self.vertices().iter().fold(start, |(low, high), &v| (low.min(v), high.max(v)))
     }
 
-    /// Enclosed volume.
+    /// Returns the enclosed volume.
     pub fn volume(self) -> f64 {
         match self {
             Self::Convex(polytope) => polytope.volume(),
@@ -115,7 +115,7 @@ impl<'a> SolidRef<'a> {
         }
     }
 
-    /// A solid of one's own.
+    /// Returns a solid that owns its data.
     pub fn owned(self) -> Solid {
         match self {
             Self::Convex(polytope) => Solid::Convex(polytope.clone()),
@@ -124,7 +124,7 @@ impl<'a> SolidRef<'a> {
         }
     }
 
-    /// The unit outward normal at a point of a facet.
+    /// Returns the unit outward normal at a point of a facet.
     pub fn normal(self, facet: u32, point: DVec3) -> DVec3 {
         match self {
             Self::Convex(polytope) => polytope.facets()[facet as usize].plane.normal,
@@ -133,7 +133,7 @@ impl<'a> SolidRef<'a> {
         }
     }
 
-    /// Triangles that cover a facet.
+    /// Returns triangles that cover a facet.
     pub fn triangles_of(self, facet: u32) -> Vec<[DVec3; 3]> {
         match self {
             Self::Convex(polytope) => {
@@ -145,17 +145,17 @@ impl<'a> SolidRef<'a> {
         }
     }
 
-    /// The edges around a facet.
+    /// Returns the edges around a facet.
     pub fn rim(self, facet: u32) -> Vec<[DVec3; 2]> {
         let sides: Vec<[DVec3; 2]> =
             self.triangles_of(facet).into_iter().flat_map(|[a, b, c]| [[a, b], [b, c], [c, a]]).collect();
-        // Within the facet every side has another triangle on it, which runs the other way.
+        // A side within the facet belongs to another of its triangles as well, which runs along it in the other direction.
         let key = |ends: [DVec3; 2]| ends.map(|v| v.to_array().map(f64::to_bits));
         let all: BTreeSet<_> = sides.iter().map(|ends| key(*ends)).collect();
         sides.into_iter().filter(|[a, b]| !all.contains(&key([*b, *a]))).collect()
     }
 
-    /// Its edges, each once; of a smooth solid the lines between its triangles.
+    /// Returns the edges, each once; for a smooth solid, the lines between its triangles.
     pub fn edges(self) -> Vec<Edge> {
         match self {
             Self::Convex(polytope) => edges_of_polytope(polytope),
@@ -165,7 +165,7 @@ impl<'a> SolidRef<'a> {
     }
 }
 
-/// The triangles of one facet, given the facet of each.
+/// Returns the triangles of one facet, where `facets` holds the facet of each triangle.
 fn picked(surface: &Surface, facets: &[u32], facet: u32) -> Vec<[DVec3; 3]> {
     let all = surface.triangles.iter().zip(facets).filter(|(_, own)| **own == facet);
     all.map(|(t, _)| t.map(|v| surface.vertices[v as usize])).collect()
@@ -176,7 +176,7 @@ fn edges_of_polytope(polytope: &Polytope) -> Vec<Edge> {
     for (k, facet) in (0..).zip(polytope.facets()) {
         let corners: Vec<DVec3> = polytope.corners(facet).collect();
         for (i, &other) in facet.neighbours.iter().enumerate() {
-            // Each edge once: its other facet has it too.
+            // The other facet has the edge too, so only the first of the two adds it.
             if other >= k {
                 edges.push(Edge {
                     ends: [corners[i], corners[(i + 1) % corners.len()]],

@@ -1,26 +1,27 @@
-//! The turns and mirrors that leave a stone, seen along one axis, as it is.
+//! The rotations and mirrors that leave a stone, seen along one axis, as it is.
 
 use super::{Affine, Basis, Plane};
 use glam::{DMat2, DVec2, DVec3};
 use std::f64::consts::{PI, TAU};
 
-/// Images of a plane's normal and offset closer than this are one: a copy of a beam is then off by no more.
+/// Two planes count as one if their normals and offsets differ by less than this: the copy of a beam is then off by no more.
 const SAME: f64 = 1e-9;
 
-/// The symmetry of a picture: `turns` rotations about its origin, and perhaps mirrors.
+/// The symmetry of a picture: `turns` rotations about its origin and, with a mirror line, as many reflections.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Symmetry {
-    /// How many rotations by 2π/turns, at least 1.
+    /// The number of rotations, by multiples of 2π/turns; at least 1.
     pub turns: u32,
-    /// The direction, radians from the image's x axis, of one mirror line.
+    /// The direction of one mirror line, in radians from the image's x axis; `None` without mirrors.
     pub mirror: Option<f64>,
 }
 
 impl Symmetry {
-    /// No symmetry but the whole turn.
+    /// The symmetry of a picture that only a full turn leaves as it is.
     pub const NONE: Self = Self { turns: 1, mirror: None };
 
-    /// What `planes` share, seen along `view.toward`, while the direction `fixed` stays where it is as well.
+    /// Returns the symmetry that all `planes` share, seen along `view.toward`, and that leaves the direction `fixed` as it
+    /// is too.
     pub fn of(planes: impl Iterator<Item = Plane>, view: &Basis, fixed: DVec3) -> Self {
         let rings = rings(planes, view);
         let lean = view.project(fixed);
@@ -30,7 +31,7 @@ impl Symmetry {
             return Self { turns: 1, mirror: holds.then_some(mirror) };
         }
         let Some(smallest) = rings.iter().min_by_key(|r| r.azimuths.len()) else { return Self::NONE };
-        // A rotation permutes every ring, so that its order divides the number of facets in each.
+        // A rotation permutes every ring, so its order divides the number of facets in each.
         let common = rings.iter().fold(0, |g, r| gcd(g, r.azimuths.len()));
         let turned = |n: usize| rings.iter().all(|r| r.is_same(|a| a + TAU / n as f64));
         let turns = (1..=common).rev().find(|&n| common.is_multiple_of(n) && turned(n)).unwrap_or(1);
@@ -40,12 +41,12 @@ impl Symmetry {
         Self { turns: turns as u32, mirror }
     }
 
-    /// How many copies of the domain make up the picture.
+    /// Returns the number of copies of the domain that make up the picture.
     pub fn order(&self) -> u32 {
         if self.mirror.is_some() { 2 * self.turns } else { self.turns }
     }
 
-    /// The maps that carry the domain to each of its copies, the identity first.
+    /// Returns the maps that carry the domain to each of its copies, the identity first.
     pub fn copies(&self) -> Vec<DMat2> {
         let turn = |k: u32| DMat2::from_angle(TAU * f64::from(k) / f64::from(self.turns));
         let mut copies: Vec<DMat2> = (0..self.turns).map(turn).collect();
@@ -57,7 +58,8 @@ impl Symmetry {
         copies
     }
 
-    /// Half-planes (kept where not negative) whose common part is one domain: a wedge at the origin.
+    /// Returns half-planes whose common part is one domain, a wedge at the origin. Each keeps the points where its function
+    /// is not negative.
     pub fn domain(&self) -> Vec<Affine> {
         let order = self.order();
         if order == 1 {
@@ -67,22 +69,22 @@ impl Symmetry {
         let side = |angle: f64| Affine::new(0.0, DVec2::from_angle(angle).perp());
         let start = side(first);
         let end = side(first + TAU / f64::from(order)) * -1.0;
-        // Two copies split the plane in two: one line does it.
+        // Two copies split the plane in two: one line is enough.
         if order == 2 { vec![start] } else { vec![start, end] }
     }
 }
 
-/// Facets that differ by their azimuth alone.
+/// Facets that differ in azimuth alone.
 struct Ring {
-    /// Along the axis, away from it, offset.
+    /// The normal's component along the axis, its component away from the axis, and the plane's offset.
     key: [f64; 3],
-    /// Sorted, in [0, 2π).
+    /// The azimuths in radians, sorted, in [0, 2π).
     azimuths: Vec<f64>,
 }
 
 impl Ring {
     fn is_same(&self, map: impl Fn(f64) -> f64) -> bool {
-        // The nearer to the axis a normal stands, the less its azimuth matters.
+        // The nearer a normal lies to the axis, the less its azimuth matters.
         let tolerance = SAME / self.key[1].max(SAME);
         self.azimuths.iter().all(|&a| {
             let image = map(a).rem_euclid(TAU);
@@ -95,7 +97,7 @@ impl Ring {
     }
 }
 
-/// The rings of facets around the view axis; facets square to it have no azimuth and are left out.
+/// Returns the rings of facets around the view axis. Facets square to the axis have no azimuth and are left out.
 fn rings(planes: impl Iterator<Item = Plane>, view: &Basis) -> Vec<Ring> {
     let mut rings: Vec<Ring> = Vec::new();
     for plane in planes {

@@ -1,10 +1,10 @@
-//! A closed surface of triangles, ready to be traced: its facets, their planes, and boxes around its triangles.
+//! A closed mesh of triangles, ready to be traced: its facets, their planes, and boxes around its triangles.
 
 use super::regions::{neighbours, planes_of, regions};
 use super::{Bvh, Edge, Plane, Polytope, Surface, triangulate};
 use glam::{DQuat, DVec3};
 
-/// A closed solid of triangles, which need not be convex. Neighbouring triangles in one plane are one facet.
+/// A closed solid of triangles, which need not be convex. Neighbouring triangles in one plane form one facet.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TriangleMesh {
     surface: Surface,
@@ -16,20 +16,20 @@ pub struct TriangleMesh {
 /// Why triangles enclose no solid.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum TriangleMeshError {
-    /// A solid has at least four.
+    /// There are fewer than the four triangles that a solid needs.
     #[error("{0} triangles enclose nothing; at least four are needed")]
     TooFew(usize),
-    /// A triangle names a corner that is not there.
+    /// A triangle names a corner that does not exist.
     #[error("triangle {triangle} names corner {corner}, which is not among the {count} given")]
     NoCorner {
-        /// The triangle, from 0.
+        /// The triangle, counted from 0.
         triangle: usize,
         /// The corner that it names.
         corner: u32,
-        /// How many there are.
+        /// The number of corners.
         count: usize,
     },
-    /// A corner's coordinates are no numbers, or too large for their squares.
+    /// A coordinate of a corner is NaN, or too large for volumes to be computed.
     #[error("corner {0} is too far away to be a number")]
     NotFinite(usize),
     /// An edge has triangles on one side only.
@@ -37,21 +37,22 @@ pub enum TriangleMeshError {
         "the surface is open at the edge between corners {0} and {1}; close the hole or weld its corners"
     )]
     Open(u32, u32),
-    /// It encloses nothing, or its triangles face inward.
+    /// The surface encloses nothing, or its triangles face inward.
     #[error(
         "the surface encloses a volume of {0}; its triangles must run counter-clockwise seen from outside"
     )]
     InsideOut(f64),
 }
 
-/// The largest coordinate: volumes do not overflow.
+/// The largest coordinate that is accepted, so that volumes do not overflow.
 const LARGEST: f64 = 1e60;
 
 impl TriangleMesh {
     /// Finds the facets of a surface and puts boxes around its triangles; a million take a few seconds.
     ///
     /// # Errors
-    /// Where the triangles enclose nothing; triangles and corners are told by their places in the lists given.
+    /// Returns an error where the triangles enclose nothing. It names triangles and corners by their places in the lists
+    /// given.
     pub fn new(surface: Surface) -> Result<Self, TriangleMeshError> {
         checked(&surface)?;
         let facets = regions(&surface)?;
@@ -62,7 +63,7 @@ impl TriangleMesh {
         if volume > 0.0 { Ok(shell) } else { Err(TriangleMeshError::InsideOut(volume)) }
     }
 
-    /// The triangles of a convex solid, its facets in their order.
+    /// Makes the mesh of a convex solid; the facets keep their order.
     pub fn of_polytope(polytope: &Polytope) -> Self {
         let mesh = triangulate(polytope);
         let bvh = Bvh::new(&mesh.vertices, &mesh.triangles);
@@ -70,7 +71,7 @@ impl TriangleMesh {
         Self { surface, facets: mesh.facets, planes: polytope.planes().collect(), bvh }
     }
 
-    /// The same solid elsewhere: scaled by a factor above 0, turned, then shifted. Facets and triangles keep their order.
+    /// Returns the same solid scaled by a factor above 0, turned, then shifted. Facets and triangles keep their order.
     pub fn moved(&self, scale: f64, turn: DQuat, shift: DVec3) -> Self {
         let vertices: Vec<DVec3> = self.surface.vertices.iter().map(|&v| turn * v * scale + shift).collect();
         let plane = |p: &Plane| {
@@ -86,35 +87,35 @@ impl TriangleMesh {
         }
     }
 
-    /// Its triangles.
+    /// Returns the triangles.
     pub fn surface(&self) -> &Surface {
         &self.surface
     }
 
-    /// Its corners.
+    /// Returns the corners.
     pub fn vertices(&self) -> &[DVec3] {
         &self.surface.vertices
     }
 
-    /// The facet that each triangle is part of.
+    /// Returns the facet that each triangle belongs to.
     pub fn facets(&self) -> &[u32] {
         &self.facets
     }
 
-    /// The plane of each facet; its normal points outward.
+    /// Returns the plane of each facet; its normal points outward.
     pub fn planes(&self) -> &[Plane] {
         &self.planes
     }
 
-    /// The boxes around its triangles.
+    /// Returns the boxes around the triangles.
     pub fn bvh(&self) -> &Bvh {
         &self.bvh
     }
 
-    /// The edges between facets, each once, in pieces between triangles.
+    /// Returns the edges between facets, each once, in pieces that are sides of triangles.
     pub fn edges(&self) -> Vec<Edge> {
         let Surface { vertices, triangles, .. } = &self.surface;
-        // Closed since it was made.
+        // The surface has been closed since the mesh was made.
         let beside = neighbours(triangles).unwrap_or_default();
         let facet = |k: u32| self.facets[k as usize];
         let edge = |k: u32, i: usize| {
@@ -126,7 +127,7 @@ impl TriangleMesh {
         (0..beside.len() as u32).flat_map(|k| (0..3).filter_map(move |i| edge(k, i))).collect()
     }
 
-    /// Enclosed volume.
+    /// Returns the enclosed volume.
     pub fn volume(&self) -> f64 {
         let apex = self.surface.vertices[0];
         let six_fold = |t: &[u32; 3]| {
@@ -181,7 +182,7 @@ mod tests {
             let plane = cube.planes()[facet as usize];
             assert!(t.iter().all(|&v| plane.distance(cube.vertices()[v as usize]).abs() < 1e-12));
         }
-        // A pyramid on each side of a star of five points: twice ten facets, of a triangle each.
+        // The star of five points has a pyramid on each side: two times ten facets of one triangle each.
         assert_eq!(TriangleMesh::new(surface(fixture::star())).unwrap().planes().len(), 20);
         let heart = TriangleMesh::new(heart()).unwrap();
         assert!(heart.planes().len() > 20 && heart.planes().len() <= heart.facets().len());
@@ -218,7 +219,7 @@ mod tests {
         let turned = |v: &DVec3| DQuat::from_rotation_x(0.3) * DQuat::from_rotation_y(0.7) * *v;
         let rounded = vertices.iter().map(turned).map(|v| rough(&v)).collect();
         assert_eq!(TriangleMesh::new(Surface::new(rounded, triangles.clone())).unwrap().planes().len(), 6);
-        // One corner of the cube, where three facets meet, moved a little.
+        // One corner of the cube, where three facets meet, is moved a little.
         let mut bent = vertices;
         bent[0] += DVec3::splat(1e-4);
         assert!(TriangleMesh::new(Surface::new(bent, triangles)).unwrap().planes().len() > 6);

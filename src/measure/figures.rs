@@ -1,4 +1,4 @@
-//! The figures of one view, from exact beams.
+//! The figures of one view, and how they are summed up from exact beams.
 
 use crate::scene::Scope;
 use crate::trace::beam::Beams;
@@ -6,49 +6,51 @@ use crate::trace::beam::Beams;
 /// A number for each band of a scope, in the scope's order.
 pub type Zones = Vec<f64>;
 
-/// What becomes of the light of one view, as fractions of the silhouette.
+/// The shares that the light of one view takes, as fractions of the silhouette.
 ///
-/// The sums of `surface` and `transmitted`, `absorbed` and `unresolved` add up to 1; those of `strongest_exit_area`
-/// and `strongest_exit_undecided` likewise. By beams, glare is exact, transmitted and absorbed light may each be too
-/// low by up to `unresolved`, and areas of strongest exits by up to what is undecided; by rays, `standard_error` is
-/// that of sampling.
+/// `surface`, `transmitted`, `absorbed` and `unresolved` add up to 1, and so do `strongest_exit_area` and
+/// `strongest_exit_undecided`.
+///
+/// From beams, glare is exact. Transmitted and absorbed light may each be too low by up to `unresolved`, and the areas
+/// of strongest exits by up to `strongest_exit_undecided`. From rays, `standard_error` is the error of sampling.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Figures {
     /// Area of the silhouette, in squared girdle radii.
     pub silhouette_area: f64,
-    /// Glare of the outer surface, by the band that it reflects.
+    /// Glare of the outer surface, by the band whose light it reflects.
     pub surface: Zones,
-    /// Light from inside the stone, by the band that it comes from.
+    /// Light that has been inside the stone, by the band that it comes from.
     pub transmitted: Zones,
     /// The part of the silhouette whose strongest exit lies in each band.
     pub strongest_exit_area: Zones,
-    /// The part of the silhouette in which a stronger exit may be hidden in what is unresolved, or through which
-    /// nothing leaves the stone at all.
+    /// The part of the silhouette where the strongest exit is not known: unresolved light may hide a stronger one, or no
+    /// light leaves the stone at all.
     pub strongest_exit_undecided: f64,
-    /// Absorbed inside the stone.
+    /// The part of the light that is absorbed inside the stone.
     pub absorbed: f64,
-    /// Not followed to its end: bounds the error of each zone's light.
+    /// The part of the light that was not followed to its end. It bounds the error of each zone's light.
     pub unresolved: f64,
-    /// Beams followed, or rays, in one domain of the symmetry.
+    /// The number of beams in one domain of the view's symmetry, or of rays that hit the stone.
     pub beams: usize,
     /// The largest standard error of any zone; 0 for beams, which sample nothing.
     pub standard_error: f64,
 }
 
 impl Figures {
-    /// All the light that is accounted for; 1 but for rounding.
+    /// Returns all light that is accounted for: 1 up to rounding.
     pub fn sum(&self) -> f64 {
         self.surface.iter().chain(&self.transmitted).sum::<f64>() + self.absorbed + self.unresolved
     }
 
-    /// The light return under the scope that these figures are of: light that has been inside the stone and comes from
-    /// bands above the horizon that shine. For a scope with a border at the horizon; of a band on both sides of it,
-    /// nothing is counted.
+    /// Returns the light return under the scope that these figures were measured with: light that has been inside the
+    /// stone and comes from shining bands above the horizon.
+    ///
+    /// The scope needs a border at the horizon: a band that lies on both sides of it is not counted.
     pub fn light_return(&self, scope: &Scope) -> f64 {
         scope.shining().map(|k| self.transmitted[k]).sum()
     }
 
-    /// The glare out of the same bands.
+    /// Returns the glare that comes from the same bands as [`light_return`](Self::light_return).
     pub fn glare_return(&self, scope: &Scope) -> f64 {
         scope.shining().map(|k| self.surface[k]).sum()
     }
@@ -62,7 +64,7 @@ impl Figures {
     }
 }
 
-/// The figures of exact beams under a scope.
+/// Sums up exact beams to the figures under a scope.
 pub fn by_beams(beams: &Beams, scope: &Scope) -> Figures {
     let share = f64::from(beams.symmetry.order()) / beams.silhouette_area;
     let bands = scope.bands.len();

@@ -1,4 +1,4 @@
-//! From a design to its figures in one call.
+//! Measures a design: from the design to its figures in one call.
 
 use super::figures::{Figures, by_beams};
 use super::sampled::by_rays;
@@ -7,32 +7,33 @@ use crate::optics::{DispersionError, line};
 use crate::scene::{ASET_CONE, Backing, Medium, Scope, ScopeError, Specimen, SpecimenError, Viewpoint};
 use crate::trace::{CannotTrace, Stopped, Subject, Tracer, Watch, beam, ray, unwatched};
 
-/// The part of the light that may stay unresolved where nothing else is asked for. Face up this takes a few hundredths of
-/// a second, tilted some seconds.
+/// The default for the part of the light that may stay unresolved. Face up it takes a few hundredths of a second, tilted
+/// some seconds.
 pub const UNRESOLVED: f64 = 1.5e-4;
 
-/// Rays along each side of each of the lattices that figures by rays are sampled on, where nothing else is asked for.
+/// The default number of rays along each side of one lattice, for figures by rays.
 pub const LATTICE: u32 = 256;
 
-/// The least and the greatest index that is traced.
+/// The range of refractive indices that can be traced.
 const INDICES: std::ops::RangeInclusive<f64> = 1.0..=5.0;
 
-/// How a design is measured.
+/// The options by which a design is measured.
 #[derive(Clone)]
 pub struct MeasureOptions<'a> {
-    /// From where the stone is seen; face up by default.
+    /// The direction from which the stone is seen; face up by default.
     pub viewpoint: Viewpoint,
-    /// The structured light whose bands are the zones of the figures; the common ASET by default.
+    /// The scope: the structured light whose bands are the zones of the figures. The common ASET by default.
     pub scope: Scope,
-    /// Half angle in degrees of an observer's head before the scope, which sends no light; 0, the default, for none.
+    /// Half angle of an observer's head in front of the scope, in degrees. The head sends no light; 0, the default,
+    /// means no head.
     pub head_deg: f64,
-    /// Wavelength in nm, at which the material's index and absorption are taken; 589.3 by default.
+    /// Wavelength in nm at which the material's index and absorption are taken; 589.3 by default.
     pub wavelength_nm: f64,
-    /// An index to use instead of the material's.
+    /// A refractive index to use instead of the material's.
     pub index: Option<f64>,
-    /// How far light is followed, and on how many rays.
+    /// How far light is followed, and with how many rays.
     pub bounds: Bounds,
-    /// What traces the light. `None`, the default, takes exact beams where they apply and else rays on the processor.
+    /// The tracer. `None`, the default, takes exact beams where they apply and otherwise rays on the processor.
     pub tracer: Option<Tracer<'a>>,
 }
 
@@ -50,15 +51,15 @@ impl Default for MeasureOptions<'_> {
     }
 }
 
-/// How far light is followed, and on how many rays.
+/// How far light is followed, and with how many rays.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Bounds {
-    /// Beams are followed until no more than this part of all light is unresolved; a ray until no more than this part of its
-    /// own light is left. Above 0, below 1.
+    /// The part of the light that may stay unresolved, above 0 and below 1. Beams are followed until no more than this
+    /// part of all light is unresolved, a ray until no more than this part of its own light is left.
     pub unresolved: f64,
-    /// Whether surfaces see how light is polarised.
+    /// Whether polarisation is followed; without it, every surface sees unpolarised light.
     pub polarised: bool,
-    /// Rays along each side of a lattice, 1 to 16,384; beams need none.
+    /// Rays along each side of a lattice, 1 to 16,384. Beams do not use it.
     pub lattice: u32,
 }
 
@@ -68,12 +69,12 @@ impl Default for Bounds {
     }
 }
 
-/// The figures of a stone in a scope, with what they mean.
+/// The figures of a stone under a scope, with the scope, index and tracer that they belong to.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Measured {
-    /// Where all light goes, by the bands of `scope`.
+    /// The shares of the light, by the bands of `scope`.
     pub figures: Figures,
-    /// The scope, with the observer's head if there was one.
+    /// The scope, with the observer's head if there is one.
     pub scope: Scope,
     /// The refractive index that was traced.
     pub index: f64,
@@ -94,36 +95,36 @@ pub struct Zone {
     pub strongest_exit_area: f64,
 }
 
-/// Why a design was not measured.
+/// The reasons why a design cannot be measured.
 #[derive(Debug, thiserror::Error)]
 pub enum MeasureError {
-    /// The design makes no stone.
+    /// The design does not make a stone.
     #[error(transparent)]
     Specimen(#[from] SpecimenError),
-    /// The scope makes no sense.
+    /// The scope is not valid.
     #[error(transparent)]
     Scope(#[from] ScopeError),
     /// The material has no index at this wavelength.
     #[error(transparent)]
     Dispersion(#[from] DispersionError),
-    /// An option is out of its range; the text names it, its value and its range.
+    /// An option is out of its range. The message gives its name, its value and its range.
     #[error("{option} is {value}; give {range}")]
     Option {
         /// The option's name in [`MeasureOptions`] or [`Bounds`].
         option: &'static str,
-        /// What was given.
+        /// The value that was given.
         value: f64,
-        /// What it may be.
+        /// The range that is allowed, in words.
         range: &'static str,
     },
-    /// The tracer cannot show this stone from there.
+    /// The tracer does not apply to this stone or view.
     #[error(transparent)]
     CannotTrace(#[from] CannotTrace),
     /// The graphics card failed; the processor can do the same work.
     #[cfg(feature = "gpu")]
     #[error(transparent)]
     Card(#[from] crate::trace::gpu::GpuError),
-    /// The work was stopped by its watch.
+    /// The watch stopped the work.
     #[error(transparent)]
     Stopped(#[from] Stopped),
 }
@@ -131,7 +132,8 @@ pub enum MeasureError {
 /// Measures a design: builds its stone, traces its light and sums it up by the zones of a scope.
 ///
 /// # Errors
-/// What keeps the design from being a stone, or the stone from being traced as asked.
+/// Any [`MeasureError`]: the design makes no stone, an option is out of its range, or the tracer does not apply or
+/// fails.
 pub fn measure(design: &Design, options: &MeasureOptions) -> Result<Measured, MeasureError> {
     options.check()?;
     let specimen = Specimen::new(design.clone())?;
@@ -146,11 +148,11 @@ pub fn measure(design: &Design, options: &MeasureOptions) -> Result<Measured, Me
     measure_subject(subject, tracer, &options.bounds, &unwatched)
 }
 
-/// Measures a stone that is built already; `watch` is told the part done and may stop the work.
+/// Measures a stone that is built already. `watch` receives the part that is done and may stop the work.
 ///
 /// # Errors
-/// [`MeasureError::Option`] where the medium's index or a bound is out of its range, [`MeasureError::CannotTrace`],
-/// [`MeasureError::Stopped`], or a graphics card that fails.
+/// [`MeasureError::Option`] where the medium's index or a bound is out of its range, [`MeasureError::CannotTrace`] where
+/// the tracer does not apply, [`MeasureError::Stopped`], and an error of the graphics card where that fails.
 pub fn measure_subject(
     subject: Subject,
     tracer: Tracer,
@@ -196,10 +198,10 @@ fn traced(subject: Subject, tracer: Tracer, bounds: &Bounds, watch: Watch) -> Re
     }
 }
 
-/// An option's name and value, whether that is in its range, and the range in words.
+/// An option's name and value, whether the value is in its range, and the range in words.
 type Check = (&'static str, f64, bool, &'static str);
 
-/// The first option that is out of its range, as an error.
+/// Returns an error for the first option that is out of its range.
 fn first_wrong(checks: &[Check]) -> Result<(), MeasureError> {
     match checks.iter().find(|(.., is_right, _)| !is_right) {
         Some(&(option, value, _, range)) => Err(MeasureError::Option { option, value, range }),
@@ -208,7 +210,7 @@ fn first_wrong(checks: &[Check]) -> Result<(), MeasureError> {
 }
 
 impl MeasureOptions<'_> {
-    /// Whether every number is in its range.
+    /// Checks that the scope is valid and every number in its range.
     fn check(&self) -> Result<(), MeasureError> {
         self.scope.validate()?;
         let view = &self.viewpoint;
@@ -223,30 +225,32 @@ impl MeasureOptions<'_> {
 }
 
 impl Measured {
-    /// The light return, as a part of the silhouette: light that has been inside the stone and comes from bands above the
-    /// horizon that shine. Glare is not in it, and a black band, such as an observer's head, sends no light.
+    /// Returns the light return, as a part of the silhouette: light that has been inside the stone and comes from
+    /// shining bands above the horizon.
+    ///
+    /// Glare is not part of it. A black band, such as an observer's head, sends no light.
     pub fn light_return(&self) -> f64 {
         self.light_return
     }
 
-    /// Glare out of bands above the horizon that shine: with [`light_return`](Self::light_return) all the light from
-    /// above that reaches the eye.
+    /// Returns the glare from shining bands above the horizon. Together with [`light_return`](Self::light_return) it is
+    /// all the light from above that reaches the eye.
     pub fn glare_return(&self) -> f64 {
         self.glare_return
     }
 
-    /// All the light that the outer surface reflects, whatever its zone.
+    /// Returns all the light that the outer surface reflects, whatever its zone.
     pub fn glare(&self) -> f64 {
         self.figures.surface.iter().sum()
     }
 
-    /// The light that has been inside the stone and comes from the scope's lowest band: in all scopes that come with the
-    /// program, the light that leaks in from behind.
+    /// Returns the light that has been inside the stone and comes from the scope's lowest band. In all scopes that come
+    /// with the program that is the light that leaks in from behind.
     pub fn leakage(&self) -> f64 {
         self.figures.transmitted.first().copied().unwrap_or(0.0)
     }
 
-    /// The zone of this name; `None` where the scope has no such band.
+    /// Returns the zone of this name; `None` where the scope has no such band.
     pub fn zone(&self, name: &str) -> Option<Zone> {
         let k = self.scope.bands.iter().position(|band| band.name == name)?;
         let Figures { surface, transmitted, strongest_exit_area, .. } = &self.figures;
@@ -257,8 +261,10 @@ impl Measured {
         })
     }
 
-    /// How far off a figure of light may be: with beams, each may be too low by up to this and none is too high; with
-    /// rays, twice the standard error of sampling is added, which may be in both directions.
+    /// Returns how far off a share of light may be.
+    ///
+    /// With beams, a share may be too low by this much and is never too high. With rays, twice the standard error of
+    /// sampling is included, which acts in both directions.
     pub fn error(&self) -> f64 {
         self.figures.unresolved + 2.0 * self.figures.standard_error
     }

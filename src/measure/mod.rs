@@ -1,6 +1,6 @@
-//! Floor 4: figures. How much light comes from where, each with its error.
+//! Floor 4: figures. They say how much light comes from where, each with its error.
 //!
-//! [`measure`](measure()) does all of it in one call.
+//! [`measure()`] takes a design to its figures in one call.
 
 mod figures;
 mod measured;

@@ -1,4 +1,5 @@
-//! The figures of one view, from point rays: slower and with a sampling error, but by another way.
+//! The figures of one view, sampled with point rays on the processor or a graphics card. They are slower than exact
+//! beams and have a sampling error, but they check the beams independently.
 
 use super::figures::Figures;
 use crate::math::SolidRef;
@@ -12,11 +13,11 @@ use crate::trace::{Stopped, Watch};
 use glam::DVec2;
 use rayon::prelude::*;
 
-/// Lattices with shifts of their own: their scatter gives the standard error (somewhat too large, since the shifts
-/// are spread evenly).
+/// The number of lattices, each with its own shift. The scatter of their results gives the standard error, which comes
+/// out somewhat too large because the shifts are spread evenly.
 const LATTICES: u32 = 8;
 
-/// What one lattice, or one row of it, has seen: sums over its points.
+/// Sums over the points of one lattice, or of one row of it.
 #[derive(Clone)]
 struct Tally {
     hits: u32,
@@ -28,13 +29,13 @@ struct Tally {
     unresolved: f64,
 }
 
-/// The figures of point rays under a scope, over `LATTICES` shifted lattices of `side` squared points.
+/// Samples the figures under a scope with point rays, on `LATTICES` shifted lattices of `side` × `side` points.
 ///
-/// In a perspective they are fractions of what the eye sees, and an eye that is not in front of the whole stone sees
-/// nothing: all its figures are 0. The same input gives the same figures. `side` is from 1 to 16,384.
+/// In a perspective view, the figures are fractions of what the eye sees. An eye that is not in front of the whole stone
+/// sees nothing, and all its figures are 0. The same input gives the same figures. `side` is from 1 to 16,384.
 ///
 /// # Errors
-/// [`Stopped`] when `watch` asks to stop.
+/// [`Stopped`] when `watch` stops the work.
 pub fn by_rays<'a>(
     solid: impl Into<SolidRef<'a>>,
     medium: Medium,
@@ -48,7 +49,7 @@ pub fn by_rays<'a>(
     let camera = Camera::new(view, solid);
     let zenith = view.zenith();
     over_lattices((solid, side), view, scope, watch, |half, shift, _| {
-        // Rows run downward, as a picture's do.
+        // Rows run downward, as in a picture.
         let point = |i: u32, j: u32| {
             let across = (DVec2::new(f64::from(i), f64::from(j)) + shift) / f64::from(side) * 2.0 - 1.0;
             DVec2::new(across.x, -across.y)
@@ -74,10 +75,10 @@ pub fn by_rays<'a>(
     })
 }
 
-/// The same by a graphics card.
+/// Samples the same figures as [`by_rays`] on a graphics card.
 ///
 /// # Errors
-/// [`Stopped`] when `watch` asks to stop, or what is wrong with the card, turned into one kind of error.
+/// [`Stopped`] when `watch` stops the work, or a [`GpuError`], each turned into `E`.
 #[cfg(feature = "gpu")]
 pub fn by_gpu<'a, E: From<Stopped> + From<GpuError>>(
     gpu: &Gpu,
@@ -101,8 +102,8 @@ pub fn by_gpu<'a, E: From<Stopped> + From<GpuError>>(
     })
 }
 
-/// Sums up what lattices see, given half the side of the film, the shift of each in its cells, 0 to 1, and the part of
-/// the work that is done.
+/// Runs `see` for each lattice and sums up the tallies. `see` receives half the side of the film, the shift of the
+/// lattice within its cells (0 to 1), and the part of the work that is done.
 fn over_lattices<E: From<Stopped>>(
     (solid, side): (SolidRef, u32),
     view: &View,
@@ -129,7 +130,7 @@ fn over_lattices<E: From<Stopped>>(
         let shift = DVec2::new(0.754_877_666_246_693, 0.569_840_290_998_053) * f64::from(k + 1);
         lattices.push(see(half, shift - shift.floor(), done)?);
     }
-    // The outline of triangles is not known but by the rays that meet them.
+    // The outline of triangles is known only from the rays that meet them.
     let hits: u32 = lattices.iter().map(|t| t.hits).sum();
     let each = (2.0 * half / f64::from(side)).powi(2) / f64::from(LATTICES);
     Ok(summary(&lattices, known.unwrap_or(f64::from(hits) * each)))
@@ -217,7 +218,7 @@ fn summary(lattices: &[Tally], silhouette_area: f64) -> Figures {
     }
 }
 
-/// Of the mean of independent values.
+/// Returns the standard error of the mean of independent values.
 fn standard_error(values: impl Iterator<Item = f64> + Clone) -> f64 {
     let n = values.clone().count() as f64;
     let mean = values.clone().sum::<f64>() / n;

@@ -1,47 +1,47 @@
 //! How light fades on its way through a coloured stone: the law of Beer and Lambert, per wavelength.
 //!
-//! Coefficients are Napierian (base e) and per millimetre of stone: T = exp(-a l) (J. H. Lambert 1760, A.
-//! Beer 1852). A source that prints decadic absorbance divides by 0.4343 first.
+//! Coefficients are Napierian (base e) and per millimetre of stone: T = exp(-a l) (J. H. Lambert 1760, A. Beer 1852).
+//! Decadic absorbance, as some sources print it, must be divided by 0.4343 first.
 
-/// The largest coefficient taken, per mm: metals reach 1e5.
+/// The largest coefficient that is accepted, per mm: metals reach 1e5.
 pub const MOST_PER_MM: f64 = 1e6;
 
-/// An absorption spectrum: straight lines between samples, level outside them. No sample is a clear stone,
-/// one is a grey.
+/// An absorption spectrum: straight lines between samples, level outside them. Without samples the stone is clear, with one
+/// it is grey.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Absorption {
     /// (nm, per mm); wavelengths strictly increasing, all finite and > 0; coefficients 0 to [`MOST_PER_MM`].
     samples: Vec<(f64, f64)>,
 }
 
-/// Why an absorption spectrum is refused; samples are counted from 1.
+/// Why an absorption spectrum is refused. Samples are counted from 1.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum AbsorptionError {
     /// The wavelength is not a positive number.
     #[error("absorption sample {sample} has a wavelength of {nm} nm: give a positive number")]
     Wavelength {
-        /// Which sample.
+        /// The number of the sample.
         sample: usize,
-        /// What was given.
+        /// The wavelength given, in nm.
         nm: f64,
     },
     /// The coefficient is not a number from 0 to [`MOST_PER_MM`].
     #[error("absorption sample {sample} ({nm} nm) has a coefficient of {per_mm} per mm: give 0 to 1e6")]
     Coefficient {
-        /// Which sample.
+        /// The number of the sample.
         sample: usize,
         /// Its wavelength in nm.
         nm: f64,
-        /// What was given.
+        /// The coefficient given, per mm.
         per_mm: f64,
     },
-    /// The wavelength does not exceed the one before.
+    /// The wavelength does not exceed that of the sample before.
     #[error(
         "absorption sample {sample} ({nm} nm) follows one at {previous} nm: list wavelengths in increasing \
          order, each once"
     )]
     Order {
-        /// Which sample.
+        /// The number of the sample.
         sample: usize,
         /// Its wavelength in nm.
         nm: f64,
@@ -51,11 +51,11 @@ pub enum AbsorptionError {
 }
 
 impl Absorption {
-    /// A spectrum through (nm, coefficient per mm) samples.
+    /// Makes a spectrum through (nm, coefficient per mm) samples.
     ///
     /// # Errors
-    /// Names the first sample whose wavelength is not positive, whose coefficient is not from 0 to [`MOST_PER_MM`], or
-    /// that does not come after the one before.
+    /// Names the first sample whose wavelength is not positive, whose coefficient is not from 0 to [`MOST_PER_MM`], or whose
+    /// wavelength does not exceed that of the sample before.
     pub fn new(samples: Vec<(f64, f64)>) -> Result<Self, AbsorptionError> {
         let mut previous = 0.0;
         for (&(nm, per_mm), sample) in samples.iter().zip(1..) {
@@ -73,22 +73,22 @@ impl Absorption {
         Ok(Self { samples })
     }
 
-    /// A stone that takes nothing.
+    /// Makes the spectrum of a stone that absorbs nothing.
     pub const fn clear() -> Self {
         Self { samples: Vec::new() }
     }
 
-    /// Whether nothing is absorbed at any wavelength, so that a tracer may skip the matter.
+    /// Whether nothing is absorbed at any wavelength, so that a tracer may leave absorption out.
     pub fn is_clear(&self) -> bool {
         self.samples.iter().all(|&(_, per_mm)| per_mm == 0.0)
     }
 
-    /// The (nm, coefficient per mm) samples.
+    /// Returns the (nm, coefficient per mm) samples.
     pub fn samples(&self) -> &[(f64, f64)] {
         &self.samples
     }
 
-    /// The coefficient at a wavelength, per mm, >= 0.
+    /// Returns the coefficient at a wavelength, per mm, >= 0.
     pub fn coefficient(&self, wavelength_nm: f64) -> f64 {
         let above = self.samples.partition_point(|&(nm, _)| nm <= wavelength_nm);
         let (before, after) = self.samples.split_at(above);

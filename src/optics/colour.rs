@@ -1,4 +1,4 @@
-//! The sRGB encoding, applied once, at the end: linear light to what a file or a screen holds, and back.
+//! The sRGB encoding: converts linear light to what a file or a screen holds, once at the end, and back.
 //!
 //! Source: IEC 61966-2-1:1999, §5.2 (its two-piece curve, with its printed constants).
 
@@ -7,32 +7,36 @@ use glam::DVec3;
 /// Linear light in the sRGB primaries, white at (1, 1, 1); may exceed 1 until it is encoded.
 pub type LinearRgb = DVec3;
 
-/// One encoded component from one linear component; 0..=1 maps on 0..=1, and nothing is clamped.
+/// Encodes one linear component; 0..=1 maps to 0..=1, and nothing is clamped.
 pub fn encoded_from_linear(linear: f64) -> f64 {
     if linear <= 0.0031308 { 12.92 * linear } else { 1.055 * linear.powf(1.0 / 2.4) - 0.055 }
 }
 
-/// One linear component from one encoded component; the inverse of [`encoded_from_linear`].
+/// Decodes one component to linear light; the inverse of [`encoded_from_linear`].
 pub fn linear_from_encoded(encoded: f64) -> f64 {
     if encoded <= 0.04045 { encoded / 12.92 } else { ((encoded + 0.055) / 1.055).powf(2.4) }
 }
 
-/// Steps of [`SrgbEncoder`]'s table. The narrowest code is 1 / (12.92 · 255) = 1 / 3294.6 of linear light
-/// wide, so that in no step the code changes twice; a power of two, so that finding the step rounds nothing.
+/// The number of steps of [`SrgbEncoder`]'s table.
+///
+/// The narrowest code is 1 / (12.92 · 255) = 1 / 3294.6 of linear light wide, so the code changes at most once within a
+/// step. A power of two makes finding the step free of rounding.
 const STEPS: usize = 4096;
 
-/// Linear light to 8 bits without a power: a look-up, one comparison, and the result of the formula, rounded,
-/// to the last input. Make one and keep it; it is 6 kB and stays in the nearest cache.
+/// Encodes linear light in 8 bits without computing a power.
+///
+/// A component takes a look-up and a comparison; the result is that of the formula, rounded, for every input. Make one
+/// encoder and keep it: it is 6 kB and stays in the nearest cache.
 #[derive(Debug, Clone)]
 pub struct SrgbEncoder {
     /// The code at the lower end of each step.
     code: [u8; STEPS],
-    /// The least linear value of each code, and beyond 255 a NaN, which no value reaches.
+    /// The least linear value of each code; beyond 255 a NaN, which no value reaches.
     least: [f64; 257],
 }
 
 impl SrgbEncoder {
-    /// Fills the tables.
+    /// Makes an encoder and fills its tables.
     pub fn new() -> Self {
         let mut least = [f64::NAN; 257];
         (0..=255_u8).for_each(|code| least[usize::from(code)] = least_linear(code));
@@ -40,18 +44,17 @@ impl SrgbEncoder {
         Self { code, least }
     }
 
-    /// The 8-bit code of a linear component: [`encoded_from_linear`] clamped to 0..=1, times 255, rounded.
-    /// NaN gives 0.
+    /// Returns the 8-bit code of a linear component: [`encoded_from_linear`] clamped to 0..=1, times 255, rounded. NaN gives
+    /// 0.
     #[inline]
     pub fn encode(&self, linear: f64) -> u8 {
-        // The cast saturates: what is negative or NaN lands in the first step, what is too bright in the
-        // last.
+        // The cast saturates: a negative value or NaN lands in the first step, too bright a value in the last.
         let step = ((linear * STEPS as f64) as usize).min(STEPS - 1);
         let code = self.code[step];
         code + u8::from(linear >= self.least[usize::from(code) + 1])
     }
 
-    /// The three codes of a colour.
+    /// Returns the three codes of a colour.
     #[inline]
     pub fn encode_rgb(&self, colour: LinearRgb) -> [u8; 3] {
         colour.to_array().map(|linear| self.encode(linear))
@@ -64,12 +67,13 @@ impl Default for SrgbEncoder {
     }
 }
 
-/// The formula, rounded: the reference that the tables are made from.
+/// Computes the code by the rounded formula, from which the tables are made.
 fn rounded(linear: f64) -> u8 {
     (encoded_from_linear(linear).clamp(0.0, 1.0) * 255.0).round() as u8
 }
 
-/// The least linear value >= 0 that rounds to `code`: the inverse formula, then the last bits by trial.
+/// Returns the least linear value >= 0 that rounds to `code`: the inverse formula gives it but for the last bits, which are
+/// found by trial.
 fn least_linear(code: u8) -> f64 {
     let mut linear = linear_from_encoded((f64::from(code) - 0.5).max(0.0) / 255.0);
     while linear > 0.0 && rounded(linear) >= code {

@@ -1,17 +1,16 @@
 //! How a refractive index depends on wavelength, in the forms in which such laws are published.
 //!
-//! Every law is written with the wavelength L in micrometres, as its source prints it; every function takes
-//! nanometres.
+//! Every law is written with the wavelength L in micrometres, as its source prints it. Every function takes nanometres.
 
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use std::ops::RangeInclusive;
 
-/// The wavelengths in nm for which a law must give an index: where the CIE observer sees anything.
+/// The wavelengths in nm at which a law must give an index: those at which the CIE observer sees anything.
 pub const VISIBLE_NM: RangeInclusive<f64> = 360.0..=830.0;
 
-/// Spectral lines that gemmology and optics name, in nm (in air).
+/// The spectral lines that gemmology and optics name, in nm (in air).
 pub mod line {
-    /// Sodium D, the mean of the doublet: where a gem's index is quoted.
+    /// Sodium D, the mean of the doublet, at which a gem's index is quoted.
     pub const SODIUM_D: f64 = 589.3;
     /// Fraunhofer B, the red end of a gem's dispersion.
     pub const FRAUNHOFER_B: f64 = 686.7;
@@ -21,18 +20,19 @@ pub mod line {
     pub const HYDROGEN_C: f64 = 656.3;
     /// Hydrogen F, the blue end of an Abbe number.
     pub const HYDROGEN_F: f64 = 486.1;
-    /// Helium d: where an Abbe number's index is quoted.
+    /// Helium d, at which the index that goes with an Abbe number is quoted.
     pub const HELIUM_D: f64 = 587.6;
 }
 
-/// A law of dispersion. Build one by hand from a trusted source, or let [`Dispersion::checked`] (which
-/// deserialising runs) vouch for it.
+/// A law of dispersion: the index by wavelength.
+///
+/// A law made by hand should come from a trusted source. [`Dispersion::checked`] tests any law, and deserialising calls it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case", deny_unknown_fields, remote = "Self")]
 pub enum Dispersion {
     /// The same index at every wavelength.
     Constant(f64),
-    /// n² = A + Σ B L² / (L² - C²), the (B, C) as printed with C *unsquared*, in um (W. Sellmeier, 1871).
+    /// Sellmeier's law, n² = A + Σ B L² / (L² - C²), with C *unsquared* as printed, in um (W. Sellmeier, 1871).
     Sellmeier {
         /// A, 1 where the source prints none.
         #[serde(default = "one")]
@@ -41,7 +41,7 @@ pub enum Dispersion {
         #[serde(deserialize_with = "pairs")]
         terms: Vec<(f64, f64)>,
     },
-    /// n² = A + Σ B L² / (L² - C) + Σ P / (L² - Q) + D L², for sources that print C already squared, in um².
+    /// A rational law, n² = A + Σ B L² / (L² - C) + Σ P / (L² - Q) + D L², for sources that print C already squared, in um².
     Rational {
         /// A, 1 where the source prints none.
         #[serde(default = "one")]
@@ -56,19 +56,19 @@ pub enum Dispersion {
         #[serde(default)]
         slope: f64,
     },
-    /// n = A + B / L² (A.-L. Cauchy, 1836).
+    /// Cauchy's law, n = A + B / L² (A.-L. Cauchy, 1836).
     Cauchy {
         /// A, the index at long wavelengths.
         a: f64,
         /// B, in um².
         b: f64,
     },
-    /// n = max(n_d + (n_d - 1) / V_d · (0.523655 / L² - 1.5168), 1), as glTF's KHR_materials_dispersion
-    /// (Khronos 2024).
+    /// The law of glTF's KHR_materials_dispersion (Khronos 2024), n = max(n_d + (n_d - 1) / V_d · (0.523655 / L² - 1.5168),
+    /// 1).
     Abbe {
-        /// Index at the helium d line.
+        /// The index at the helium d line.
         n_d: f64,
-        /// Abbe number, > 0; the extension stores 20 / V_d.
+        /// The Abbe number, > 0; the extension stores 20 / V_d.
         v_d: f64,
     },
 }
@@ -84,53 +84,54 @@ pub enum DispersionError {
     NoIndex {
         /// The wavelength in nm.
         nm: f64,
-        /// What the formula gave for the square of the index.
+        /// The square of the index that the formula gives.
         n_squared: f64,
     },
-    /// The wavelength is no wavelength.
+    /// The wavelength is not a positive number.
     #[error("a wavelength of {nm} nm: give a positive number")]
     Wavelength {
-        /// What was given.
+        /// The wavelength given, in nm.
         nm: f64,
     },
-    /// A term is infinite within visible light.
+    /// A term is infinite at a wavelength of visible light.
     #[error(
         "the dispersion has a resonance at {nm:.1} nm, in visible light (360 to 830 nm): check whether its \
          source prints C squared (use `rational`) or not (use `sellmeier`)"
     )]
     Resonance {
-        /// Where, in nm.
+        /// The wavelength of the resonance in nm.
         nm: f64,
     },
-    /// An Abbe number that is not above 0.
+    /// The Abbe number is not above 0.
     #[error("an Abbe number of {v_d}: give a number above 0")]
     AbbeNumber {
-        /// What was given.
+        /// The number given.
         v_d: f64,
     },
 }
 
 impl Dispersion {
-    /// Cauchy's law from the two numbers that gem tables print: the index at the sodium D line and the
-    /// dispersion n(G) - n(B). B = (B-G) / 3.2676 and A = n_D - 2.8796 B.
+    /// Makes Cauchy's law from the two numbers that gem tables print: the index at the sodium D line and the dispersion.
+    ///
+    /// The dispersion is B-G = n(G) - n(B). Then B = (B-G) / 3.2676 and A = n_D - 2.8796 B.
     pub fn cauchy_from(n_d: f64, b_minus_g: f64) -> Self {
         let b = b_minus_g / (per_um2(line::FRAUNHOFER_G) - per_um2(line::FRAUNHOFER_B));
         Self::Cauchy { a: n_d - b * per_um2(line::SODIUM_D), b }
     }
 
-    /// The index at a wavelength.
+    /// Returns the index at a wavelength in nm.
     ///
     /// # Panics
-    /// Where [`Dispersion::try_index`] is an error. For a [`Dispersion::checked`] law that is never so in
+    /// Panics where [`Dispersion::try_index`] returns an error. For a [`Dispersion::checked`] law it never does so in
     /// visible light.
     pub fn index(&self, wavelength_nm: f64) -> f64 {
         self.try_index(wavelength_nm).unwrap_or_else(|error| panic!("{error}"))
     }
 
-    /// The index at a wavelength in nm, at least 1.
+    /// Returns the index at a wavelength in nm, at least 1.
     ///
     /// # Errors
-    /// Where the law gives no index that is real, finite and at least 1.
+    /// Returns an error where the law gives no index that is real, finite and at least 1.
     pub fn try_index(&self, wavelength_nm: f64) -> Result<f64, DispersionError> {
         if !(wavelength_nm > 0.0 && wavelength_nm.is_finite()) {
             return Err(DispersionError::Wavelength { nm: wavelength_nm });
@@ -142,17 +143,17 @@ impl Dispersion {
         Err(DispersionError::NoIndex { nm: wavelength_nm, n_squared })
     }
 
-    /// Passes on a law that gives an index throughout visible light.
+    /// Returns the law if it gives an index throughout visible light.
     ///
     /// # Errors
-    /// A resonance in visible light, a wavelength there without an index, or an Abbe number not above 0.
+    /// Names a resonance in visible light, a wavelength there without an index, or an Abbe number that is not above 0.
     pub fn checked(self) -> Result<Self, DispersionError> {
         if let Self::Abbe { v_d, .. } = self
             && !(v_d > 0.0 && v_d.is_finite())
         {
             return Err(DispersionError::AbbeNumber { v_d });
         }
-        // The scan below could step over a narrow resonance, so these are found exactly.
+        // The scan below could step over a narrow resonance, so resonances are computed exactly.
         if let Some(nm) = self.resonances_nm().into_iter().find(|nm| VISIBLE_NM.contains(nm)) {
             return Err(DispersionError::Resonance { nm });
         }
@@ -161,19 +162,19 @@ impl Dispersion {
         Ok(self)
     }
 
-    /// A gem table's dispersion, n(430.8 nm) - n(686.7 nm). Panics as [`Dispersion::index`] does.
+    /// Returns the dispersion as gem tables print it, n(430.8 nm) - n(686.7 nm). Panics as [`Dispersion::index`] does.
     pub fn dispersion_b_g(&self) -> f64 {
         self.index(line::FRAUNHOFER_G) - self.index(line::FRAUNHOFER_B)
     }
 
-    /// Abbe number V_d = (n_d - 1) / (n_F - n_C); `None` without dispersion. Panics as [`Dispersion::index`]
+    /// Returns the Abbe number V_d = (n_d - 1) / (n_F - n_C); `None` without dispersion. Panics as [`Dispersion::index`]
     /// does.
     pub fn abbe_number(&self) -> Option<f64> {
         let spread = self.index(line::HYDROGEN_F) - self.index(line::HYDROGEN_C);
         (spread != 0.0).then(|| (self.index(line::HELIUM_D) - 1.0) / spread)
     }
 
-    /// The square of the index; a negative index counts as a negative square, so that it is refused.
+    /// Returns the square of the index. A negative index gives a negative square, so that it is refused.
     fn n_squared(&self, nm: f64) -> f64 {
         let l2 = 1.0 / per_um2(nm);
         let signed_square = |n: f64| n * n.abs();
@@ -190,13 +191,13 @@ impl Dispersion {
             Self::Cauchy { a, b } => signed_square(a + b / l2),
             Self::Abbe { n_d, v_d } => {
                 let n = n_d + (n_d - 1.0) / v_d * (0.523655 / l2 - 1.5168);
-                // Not f64::max, which would turn a NaN into 1.
+                // `f64::max` would turn a NaN into 1.
                 if n < 1.0 { 1.0 } else { signed_square(n) }
             }
         }
     }
 
-    /// Where a term is infinite, in nm.
+    /// Returns the wavelengths in nm at which a term is infinite.
     fn resonances_nm(&self) -> Vec<f64> {
         let squares: Vec<f64> = match self {
             Self::Sellmeier { terms, .. } => terms.iter().map(|(_, c)| c * c).collect(),
@@ -207,7 +208,7 @@ impl Dispersion {
     }
 }
 
-// `remote = "Self"` makes the derived code inherent functions; these two put the check in its way.
+// `remote = "Self"` makes the derived functions inherent ones, so that the two traits below can add the check.
 impl Serialize for Dispersion {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         Self::serialize(self, serializer)
@@ -220,7 +221,7 @@ impl<'de> Deserialize<'de> for Dispersion {
     }
 }
 
-/// Lists of exactly two numbers; serde's own tuples let more pass.
+/// Deserialises lists of exactly two numbers; serde's own tuples accept more.
 fn pairs<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<(f64, f64)>, D::Error> {
     let pair = |list: Vec<f64>| match list[..] {
         [first, second] => Ok((first, second)),
@@ -236,7 +237,7 @@ fn one() -> f64 {
     1.0
 }
 
-/// 1 / L² with L in um.
+/// Returns 1 / L² with L in um.
 fn per_um2(nm: f64) -> f64 {
     1e6 / (nm * nm)
 }
@@ -260,7 +261,7 @@ mod tests {
         <Dispersion as Deserialize>::deserialize(MapAccessDeserializer::new(map))
     }
 
-    // The ordinary rays are in the table of materials and are tested there.
+    // The laws of ordinary rays are in the table of materials and are tested there.
     #[test]
     fn extraordinary_rays_have_the_indices_their_authors_print() {
         let sapphire = Dispersion::Sellmeier {
@@ -323,7 +324,7 @@ mod tests {
 
     #[test]
     fn abbe_number_and_index_of_the_gltf_law_are_those_given() {
-        // The extension rounds its constants, hence a last digit or two.
+        // The extension rounds its constants, so the last digit or two may differ.
         let law = Dispersion::Abbe { n_d: 2.418, v_d: 55.0 };
         assert!((law.index(line::HELIUM_D) - 2.418).abs() < 1e-5);
         assert!((law.abbe_number().expect("it disperses") - 55.0).abs() < 0.03);

@@ -1,49 +1,51 @@
-//! How much light a surface reflects, and with what phase: Fresnel's formulae.
+//! Fresnel's formulae: how much light a surface reflects, and with what phase.
 //!
 //! Source: M. Born and E. Wolf, *Principles of Optics*, 7th ed. (1999): §1.5.2, eq. 21 for the amplitudes,
 //! §1.5.4, eq. 60 for the phases of total reflection. Their convention is kept:
 //! - time runs as exp(-i omega t), so an evanescent wave has cos_t = +i sqrt(eta² sin² - 1);
-//! - s is along e_s, across the plane of incidence, the same for all three beams; p of *each* beam is along
-//!   e_s × (its own direction of travel). Hence r_p = -r_s at normal incidence, where the two p axes point
-//!   opposite ways.
+//! - s is along e_s, across the plane of incidence, the same for the incident, the reflected and the transmitted wave; p of
+//!   *each* wave is along e_s × (its own direction of travel). Hence r_p = -r_s at normal incidence, where the two p axes
+//!   point opposite ways.
 
 use super::snell::{cos_t_squared, cos_transmitted};
 use num_complex::Complex64;
 
-/// The amplitude reflection coefficients of one meeting of a ray and a surface.
+/// The amplitude reflection coefficients of light that meets a surface.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Fresnel {
-    /// Reflected over incident amplitude, electric field across the plane of incidence.
+    /// The reflected over the incident amplitude, with the electric field across the plane of incidence.
     pub r_s: Complex64,
-    /// The same, electric field in the plane of incidence.
+    /// The reflected over the incident amplitude, with the electric field in the plane of incidence.
     pub r_p: Complex64,
-    /// Cosine of the angle of refraction; `None` where reflection is total.
+    /// The cosine of the angle of refraction; `None` where reflection is total.
     pub cos_t: Option<f64>,
 }
 
 impl Fresnel {
-    /// Share of s-polarised power that is reflected, 0..=1; 1 - this is transmitted.
+    /// Returns the share of s-polarised power that is reflected, 0..=1; the rest is transmitted.
     pub fn reflectance_s(&self) -> f64 {
         self.power(self.r_s)
     }
 
-    /// Share of p-polarised power that is reflected, 0..=1; 1 - this is transmitted.
+    /// Returns the share of p-polarised power that is reflected, 0..=1; the rest is transmitted.
     pub fn reflectance_p(&self) -> f64 {
         self.power(self.r_p)
     }
 
-    /// Share of unpolarised power that is reflected, 0..=1; 1 - this is transmitted.
+    /// Returns the share of unpolarised power that is reflected, 0..=1; the rest is transmitted.
     pub fn reflectance(&self) -> f64 {
         0.5 * (self.reflectance_s() + self.reflectance_p())
     }
 
-    /// Transmitted amplitude of s, normalised to flux: its square is exactly what [`Self::reflectance_s`]
-    /// leaves. Real and not negative, as Born & Wolf's eq. 20 is; refraction shifts no phase.
+    /// Returns the transmitted amplitude of s, normalised to flux: its square is exactly what [`Self::reflectance_s`]
+    /// leaves.
+    ///
+    /// It is real and not negative, as in Born & Wolf's eq. 20: refraction shifts no phase.
     pub fn transmission_s(&self) -> f64 {
         (1.0 - self.reflectance_s()).sqrt()
     }
 
-    /// Transmitted amplitude of p, normalised to flux as [`Self::transmission_s`] is.
+    /// Returns the transmitted amplitude of p, normalised to flux as [`Self::transmission_s`] is.
     pub fn transmission_p(&self) -> f64 {
         (1.0 - self.reflectance_p()).sqrt()
     }
@@ -53,15 +55,16 @@ impl Fresnel {
         self.cos_t.is_none()
     }
 
-    /// |r|², but 1 to the last digit in total reflection.
+    /// Returns |r|², but exactly 1 in total reflection.
     fn power(&self, r: Complex64) -> f64 {
         if self.is_total() { 1.0 } else { r.norm_sqr() }
     }
 }
 
-/// Fresnel's coefficients for light that meets a surface at `cos_i` (0..=1, rounding forgiven), `eta` =
-/// incident index / transmitted index > 0. Exactly at the critical angle, and at grazing incidence, all light
-/// is reflected.
+/// Returns Fresnel's coefficients for light that meets a surface at an angle of cosine `cos_i`.
+///
+/// `cos_i` is in 0..=1; rounding beyond is clamped. `eta` is the incident index / the transmitted index, > 0. Exactly at the
+/// critical angle, and at grazing incidence, all light is reflected.
 pub fn fresnel(cos_i: f64, eta: f64) -> Fresnel {
     let cos_i = cos_i.clamp(0.0, 1.0);
     let cos_t = cos_transmitted(cos_i, eta);
@@ -75,8 +78,9 @@ pub fn fresnel(cos_i: f64, eta: f64) -> Fresnel {
     Fresnel { r_s, r_p, cos_t }
 }
 
-/// Reflected share of unpolarised power, `None` where reflection is total: [`Fresnel::reflectance`] without
-/// complex numbers, one root and one division, for the tracers' inner loops.
+/// Returns the reflected share of unpolarised power; `None` where reflection is total.
+///
+/// This is [`Fresnel::reflectance`] without complex numbers, with one root and one division, for the tracers' inner loops.
 #[inline]
 pub fn reflectance(cos_i: f64, eta: f64) -> Option<f64> {
     let cos_i = cos_i.clamp(0.0, 1.0);
@@ -88,16 +92,16 @@ pub fn reflectance(cos_i: f64, eta: f64) -> Option<f64> {
     Some(0.5 * (r_s * r_s + r_p * r_p))
 }
 
-/// (a - b) / (a + b), Born & Wolf eq. 21 divided by the transmitted index.
+/// Returns (a - b) / (a + b): Born & Wolf eq. 21 divided by the transmitted index.
 fn partial(a: f64, b: f64) -> Complex64 {
     Complex64::from((a - b) / (a + b))
 }
 
-/// (a - ib) / (a + ib): modulus 1 and phase -2 atan(b / a), which is Born & Wolf eq. 60.
+/// Returns (a - ib) / (a + ib), of modulus 1 and phase -2 atan(b / a), which is Born & Wolf eq. 60.
 fn total(a: f64, b: f64) -> Complex64 {
     let square = a * a + b * b;
     if square == 0.0 {
-        // Equal indices at grazing incidence: the limit from a denser and from a rarer side alike.
+        // Equal indices at grazing incidence: the limit is the same from a denser and from a rarer side.
         return Complex64::from(-1.0);
     }
     Complex64::new((a * a - b * b) / square, -2.0 * a * b / square)
@@ -120,7 +124,7 @@ mod tests {
         }
     }
 
-    /// T from Born & Wolf eq. 20 and the flux ratio of §1.5.3: computed without r.
+    /// Returns the transmitted flux T by Born & Wolf eq. 20 and the flux ratio of §1.5.3, computed without r.
     fn transmitted_flux(cos_i: f64, cos_t: f64, eta: f64) -> (f64, f64) {
         let t_s = 2.0 * eta * cos_i / (eta * cos_i + cos_t);
         let t_p = 2.0 * eta * cos_i / (cos_i + eta * cos_t);
@@ -143,7 +147,8 @@ mod tests {
 
     #[test]
     fn tangential_fields_are_continuous_across_the_surface() {
-        // Both fields of both polarisations, from the vectors that the module names: this pins the signs.
+        // Both fields of both polarisations are made from the vectors that the module names, so that the test fixes the
+        // signs.
         let n = DVec3::Z;
         for_each_case(|cos_i, eta| {
             let f = fresnel(cos_i, eta);
@@ -228,8 +233,7 @@ mod tests {
 
     #[test]
     fn a_fresnel_rhomb_retards_by_an_eighth_of_a_wave_a_bounce() {
-        // Born & Wolf §1.5.4: crown glass of 1.51 at 54 deg 37 min or 48 deg 37 min, two bounces make a
-        // quarter wave.
+        // Born & Wolf §1.5.4: in crown glass of 1.51, at 54 deg 37 min or 48 deg 37 min, two bounces make a quarter wave.
         for angle in [54.0 + 37.0 / 60.0, 48.0 + 37.0 / 60.0] {
             let f = fresnel(f64::to_radians(angle).cos(), 1.51);
             let delta = (f.r_s * f.r_p.conj()).arg();
@@ -244,7 +248,7 @@ mod tests {
             let r = (eta - 1.0) / (eta + 1.0);
             assert!((f.r_s.re - r).abs() < 1e-15 && (f.r_p.re + r).abs() < 1e-15);
         }
-        // 17.2 % of the light that meets a diamond's table head on.
+        // A diamond's table reflects 17.2 % of the light that meets it head on.
         assert!((fresnel(1.0, 1.0 / 2.4175).reflectance() - 0.172).abs() < 5e-4);
     }
 
@@ -267,7 +271,7 @@ mod tests {
 
     #[test]
     fn the_critical_angle_itself_reflects_everything_in_phase() {
-        // eta = 1.25 and cos_i = 0.6 are a critical angle without rounding but for the last bit of each.
+        // eta = 1.25 and cos_i = 0.6 are at the critical angle exactly, but for the last bit of each.
         for cos_i in [0.6_f64.next_down(), 0.6, 0.6_f64.next_up()] {
             let f = fresnel(cos_i, 1.25);
             assert!(f.reflectance() > 1.0 - 1e-6 && f.reflectance() <= 1.0);

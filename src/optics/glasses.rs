@@ -1,15 +1,15 @@
-//! Glasses, plastics and water by index and Abbe number, and a few that do not exist.
+//! Glasses, plastics and water, given by index and Abbe number, and a few glasses that do not exist.
 
 use super::{Dispersion, Material};
 
-/// Where the numbers come from: those at the d line that trade and makers quote (for BK7, SF10 and SF11 the sheets of
-/// SCHOTT).
+/// The source of the real ones: numbers at the d line as the trade and makers quote them (for BK7, SF10 and SF11 the sheets
+/// of SCHOTT).
 const QUOTED: &str = "index and Abbe number as quoted at the d line";
 
-/// Why some are stranger than any glass.
+/// The source of those that are stranger than any real glass.
 const INVENTED: &str = "invented, for its looks";
 
-/// Name, n_d, V_d, density in g/cm³ where it is known.
+/// The name, n_d, V_d and, where it is known, the density in g/cm³ of each real material.
 const REAL: [(&str, f64, f64, Option<f64>); 8] = [
     ("water", 1.333, 55.7, Some(0.998)),
     ("fused silica", 1.458, 67.7, Some(2.20)),
@@ -21,7 +21,7 @@ const REAL: [(&str, f64, f64, Option<f64>); 8] = [
     ("SF11", 1.785, 25.4, Some(4.74)),
 ];
 
-/// Of the same kind, with more dispersion than there is.
+/// The name, n_d and V_d of each invented glass, with more dispersion than any real one.
 const STRANGE: [(&str, f64, f64); 4] = [
     ("rainbow glass", 1.55, 8.0),
     ("fire crystal", 2.2, 12.0),
@@ -29,7 +29,7 @@ const STRANGE: [(&str, f64, f64); 4] = [
     ("rainbow soap", 1.272, 2.0),
 ];
 
-/// All of them.
+/// Returns all materials of both tables, the real ones first.
 pub(super) fn glasses() -> Vec<Material> {
     let law = |n_d, v_d| Dispersion::Abbe { n_d, v_d };
     let real = REAL.iter().map(|&(name, n_d, v_d, density)| {
@@ -52,7 +52,7 @@ mod tests {
         let all = REAL.iter().map(|&(name, n_d, v_d, _)| (name, n_d, v_d)).chain(STRANGE);
         for (name, n_d, v_d) in all {
             let law = &material(name).unwrap().dispersion;
-            // The law passes through n_d at 587.56 nm, and has the Abbe number to what its constants were rounded to.
+            // The law passes through n_d at 587.56 nm. It has the Abbe number as exactly as its rounded constants allow.
             assert!((law.index(line::HELIUM_D) - n_d).abs() < 2e-4 * (n_d - 1.0) * 64.0 / v_d, "{name}");
             let abbe = law.abbe_number().unwrap();
             assert!((abbe / v_d - 1.0).abs() < 2e-2 || v_d < 10.0, "{name}: {abbe}");

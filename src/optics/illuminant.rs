@@ -1,4 +1,4 @@
-//! The lights that things are looked at in: spectra of the CIE's illuminants, and their whites.
+//! The lights under which things are seen: spectra of the CIE's illuminants, and their whites.
 //!
 //! Source: CIE 15:2004, §3 and tables T.1, T.2. The components of daylight are D. B. Judd, D. L. MacAdam and
 //! G. Wyszecki's (J. Opt. Soc. Am. 54, 1031, 1964).
@@ -11,50 +11,51 @@ use std::{fmt, ops::RangeInclusive, str::FromStr};
 /// The correlated colour temperatures of daylight for which the CIE gives a spectrum, in kelvin.
 pub const DAYLIGHT_KELVIN: RangeInclusive<f64> = 4000.0..=25000.0;
 
-/// D65's temperature in kelvin: 6500 K from when c2 was taken as 0.014380 m K (CIE 15:2004, note 5).
+/// The temperature of D65 in kelvin: 6500 K when c2 was taken as 0.014380 m K (CIE 15:2004, note 5).
 const D65_KELVIN: f64 = 6500.0 * 1.4388 / 1.4380;
 
-/// A light, by its relative spectrum. Written `D65`, `A`, `E` or `5000 K`, in files as in text.
+/// A light, given by its relative spectrum. It is written `D65`, `A`, `E` or `5000 K`, in files as in text.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(try_from = "String", into = "String")]
 pub enum Illuminant {
-    /// Noon daylight, sRGB's white.
+    /// Noon daylight, whose white is sRGB's.
     D65,
-    /// A tungsten lamp, 2856 K.
+    /// A tungsten lamp of 2856 K.
     A,
     /// The same power at every wavelength.
     E,
-    /// Daylight of a correlated colour temperature in kelvin, within [`DAYLIGHT_KELVIN`], which parsing and
-    /// deserialising see to. D50 is 5002.78 K.
+    /// Daylight of a correlated colour temperature in kelvin; D50 is 5002.78 K.
+    ///
+    /// The temperature is within [`DAYLIGHT_KELVIN`], which parsing and deserialising check.
     Daylight(f64),
 }
 
-/// Why a text is no illuminant.
+/// Why a text does not name an illuminant.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum IlluminantError {
-    /// Not a name, nor a temperature.
+    /// The text is neither a name nor a temperature.
     #[error(
         "no illuminant is called '{text}': give D65, A, E, or daylight of 4000 to 25000 kelvin as 5000 K"
     )]
     Unknown {
-        /// What was given.
+        /// The text given.
         text: String,
     },
-    /// Daylight without a spectrum.
+    /// Daylight of this temperature has no spectrum.
     #[error("daylight of {kelvin} K has no spectrum: give 4000 to 25000 K, or D65, A or E")]
     Temperature {
-        /// What was given.
+        /// The temperature given, in kelvin.
         kelvin: f64,
     },
 }
 
-/// Where the components of daylight begin, in nm; they end at 830.
+/// The wavelength in nm at which the components of daylight begin; they end at 830 nm.
 const DAYLIGHT_FROM_NM: f64 = 300.0;
 
-/// Between two samples of the components, in nm.
+/// The step between two samples of the components, in nm.
 const DAYLIGHT_STEP_NM: f64 = 10.0;
 
-/// The mean daylight.
+/// S0, the mean daylight.
 const S0: [f64; 54] = [
     0.04, 6.0, 29.6, 55.3, 57.3, 61.8, 61.5, 68.8, 63.4, 65.8, 94.8, 104.8, 105.9, 96.8, 113.9, 125.6, 125.5,
     121.3, 121.3, 113.5, 113.1, 110.8, 106.5, 108.8, 105.3, 104.4, 100.0, 96.0, 95.1, 89.1, 90.5, 90.3, 88.4,
@@ -62,7 +63,7 @@ const S0: [f64; 54] = [
     61.0, 53.3, 58.9, 61.9,
 ];
 
-/// What changes from blue to yellow.
+/// S1, the variation from blue to yellow.
 const S1: [f64; 54] = [
     0.02, 4.5, 22.4, 42.0, 40.6, 41.6, 38.0, 42.4, 38.5, 35.0, 43.4, 46.3, 43.9, 37.1, 36.7, 35.9, 32.6,
     27.9, 24.3, 20.1, 16.2, 13.2, 8.6, 6.1, 4.2, 1.9, 0.0, -1.6, -3.5, -3.5, -5.8, -7.2, -8.6, -9.5, -10.9,
@@ -70,7 +71,7 @@ const S1: [f64; 54] = [
     -9.7, -8.3, -9.3, -9.8,
 ];
 
-/// What changes from pink to green.
+/// S2, the variation from pink to green.
 const S2: [f64; 54] = [
     0.0, 2.0, 4.0, 8.5, 7.8, 6.7, 5.3, 6.1, 3.0, 1.2, -1.1, -0.5, -0.7, -1.2, -2.6, -2.9, -2.8, -2.6, -2.6,
     -1.8, -1.5, -1.3, -1.2, -1.0, -0.5, -0.3, 0.0, 0.2, 0.5, 2.1, 3.2, 4.1, 4.7, 5.1, 6.7, 7.3, 8.6, 9.8,
@@ -78,7 +79,7 @@ const S2: [f64; 54] = [
 ];
 
 impl Illuminant {
-    /// Relative spectral power, 100 at 560 nm, for a wavelength > 0. Daylight has none outside 300 to 830 nm.
+    /// Returns the relative spectral power at a wavelength > 0, 100 at 560 nm. Daylight has none outside 300 to 830 nm.
     pub fn power(&self, nm: f64) -> f64 {
         match *self {
             Self::D65 => daylight(D65_KELVIN, nm),
@@ -88,34 +89,34 @@ impl Illuminant {
         }
     }
 
-    /// XYZ of a white surface in this light, Y = 1.
+    /// Returns XYZ of a white surface in this light, with Y = 1.
     pub fn white(&self) -> DVec3 {
         let xyz = seen(*OBSERVER_NM.start(), *OBSERVER_NM.end(), |nm| self.power(nm));
         xyz / xyz.y
     }
 }
 
-/// Illuminant A: Planck's law at 2848 K with c2 = 1.435e7 nm K, as first defined; 2856 K by today's c2.
+/// Returns the power of illuminant A: Planck's law at 2848 K with c2 = 1.435e7 nm K, as first defined; 2856 K by today's c2.
 fn tungsten(nm: f64) -> f64 {
     let planck = |nm: f64| nm.powi(-5) / (1.435e7 / (2848.0 * nm)).exp_m1();
     100.0 * planck(nm) / planck(560.0)
 }
 
-/// S0 + M1 S1 + M2 S2.
+/// Returns the power of daylight, S0 + M1 S1 + M2 S2.
 fn daylight(kelvin: f64, nm: f64) -> f64 {
     let (m1, m2) = shares(daylight_xy(kelvin));
     let [s0, s1, s2] = [&S0, &S1, &S2].map(|table| sampled(table, DAYLIGHT_FROM_NM, DAYLIGHT_STEP_NM, nm));
     s0 + m1 * s1 + m2 * s2
 }
 
-/// M1 and M2 of a chromaticity, to 3 decimals as CIE 15:2004, note 5, prescribes.
+/// Returns M1 and M2 of a chromaticity, to 3 decimals as CIE 15:2004, note 5, prescribes.
 fn shares((x, y): (f64, f64)) -> (f64, f64) {
     let divisor = 0.0241 + 0.2562 * x - 0.7341 * y;
     let rounded = |share: f64| (1e3 * share / divisor).round() / 1e3;
     (rounded(-1.3515 - 1.7703 * x + 5.9114 * y), rounded(0.0300 - 31.4424 * x + 30.0717 * y))
 }
 
-/// The chromaticity of daylight.
+/// Returns the chromaticity (x, y) of daylight.
 fn daylight_xy(kelvin: f64) -> (f64, f64) {
     let [c3, c2, c1, c0] = if kelvin <= 7000.0 {
         [-4.6070e9, 2.9678e6, 0.09911e3, 0.244063]
@@ -175,7 +176,7 @@ impl From<Illuminant> for String {
 mod tests {
     use super::*;
 
-    /// D50, its 5000 K taken over as D65's 6500 K.
+    /// D50, whose 5000 K is converted to today's c2 as the 6500 K of D65 is.
     const D50: Illuminant = Illuminant::Daylight(5000.0 * 1.4388 / 1.4380);
 
     fn assert_prints(light: Illuminant, rows: &[(f64, f64)], within: f64) {
@@ -228,7 +229,7 @@ mod tests {
     fn the_two_pieces_of_daylight_meet() {
         let (below, above) = (daylight_xy(7000.0), daylight_xy(7000.1));
         assert!((below.0 - above.0).abs() < 5e-6 && (below.1 - above.1).abs() < 5e-6);
-        // D75, .29902 and .31485 where its white is printed.
+        // The white of D75 is printed as .29902 and .31485.
         let (x, y) = daylight_xy(7500.0 * 1.4388 / 1.4380);
         assert!((x - 0.29902).abs() < 5e-5 && (y - 0.31485).abs() < 2e-4, "{x} {y}");
     }

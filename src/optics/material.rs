@@ -1,4 +1,4 @@
-//! The stones we know by name: how each bends and absorbs light, and who measured it.
+//! The materials that have a name: how each bends and absorbs light, and who measured it.
 
 use super::absorption::Absorption;
 use super::dispersion::{Dispersion, DispersionError};
@@ -6,52 +6,53 @@ use super::{gems, glasses};
 use std::fmt;
 use std::sync::LazyLock;
 
-/// What a stone is made of, as light sees it.
+/// The material of a stone, as far as light and weight are concerned.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Material {
-    /// What the trade calls it; unique among [`materials`].
+    /// The name that the trade gives it; unique among [`materials`].
     pub name: String,
-    /// One line on what it is, and on what is left out.
+    /// One line that says what it is, and what is left out.
     pub description: String,
-    /// Its index by wavelength.
+    /// The index by wavelength.
     pub dispersion: Dispersion,
-    /// What it takes from light on the way: of the ordinary and of the extraordinary polarisation in a uniaxial
-    /// stone, twice the same in others. Unpolarised light keeps the mean of the two transmittances over a path, not
-    /// that of the mean coefficient.
+    /// The absorption of the ordinary and of the extraordinary polarisation in a uniaxial stone; in others, the same twice.
+    ///
+    /// Over a path, unpolarised light keeps the mean of the two transmittances, not the transmittance of the mean
+    /// coefficient.
     pub absorption: [Absorption; 2],
-    /// Who measured it, and where it is printed.
+    /// The author of the measurement, and where it is printed.
     pub source: String,
-    /// The wavelengths in nm, first and last, that the source vouches for; beyond them the formula is
-    /// extrapolated. `None` where the source states none.
+    /// The first and the last wavelength in nm for which the source vouches; beyond them the formula is extrapolated. `None`
+    /// where the source states no range.
     pub valid_nm: Option<(f64, f64)>,
-    /// What it weighs, g/cm³; `None` where that is not known.
+    /// The density in g/cm³; `None` where it is not known.
     pub density: Option<f64>,
-    /// Whether its colour is chosen to look like the gem's, and not measured.
+    /// Whether the colour is chosen to look like the gem's, and not measured.
     pub colour_is_illustrative: bool,
 }
 
 impl Material {
-    /// A clear stone of one index for all wavelengths.
+    /// Makes a clear stone with one index for all wavelengths.
     ///
     /// # Errors
-    /// An index that is not a finite number of at least 1.
+    /// Returns an error for an index that is not a finite number of at least 1.
     pub fn from_index(name: &str, index: f64) -> Result<Self, DispersionError> {
         let dispersion = Dispersion::Constant(index).checked()?;
         let source = "a single index, given by the user";
         Ok(Self::clear(name, "One index for all wavelengths.", dispersion, source, None))
     }
 
-    /// A clear glass of an index n_d and an Abbe number V_d.
+    /// Makes a clear glass with an index n_d and an Abbe number V_d.
     ///
     /// # Errors
-    /// Numbers that no index can be had from throughout visible light.
+    /// Returns an error for numbers that give no index somewhere in visible light.
     pub fn from_abbe(name: &str, n_d: f64, v_d: f64) -> Result<Self, DispersionError> {
         let dispersion = Dispersion::Abbe { n_d, v_d }.checked()?;
         let source = "an index and an Abbe number, given by the user";
         Ok(Self::clear(name, "A glass of two numbers.", dispersion, source, None))
     }
 
-    /// The index at a wavelength; panics as [`Dispersion::index`] does.
+    /// Returns the index at a wavelength in nm; panics as [`Dispersion::index`] does.
     pub fn index(&self, wavelength_nm: f64) -> f64 {
         self.dispersion.index(wavelength_nm)
     }
@@ -61,7 +62,7 @@ impl Material {
         self.valid_nm.is_some_and(|(first, last)| (first..=last).contains(&wavelength_nm))
     }
 
-    /// A stone that takes nothing.
+    /// Makes a material that absorbs nothing.
     pub(super) fn clear(
         name: &str,
         text: &str,
@@ -82,16 +83,16 @@ impl Material {
         }
     }
 
-    /// The same, of this density in g/cm³.
+    /// Returns the same material with this density in g/cm³.
     pub(super) fn weighing(self, density: f64) -> Self {
         Self { density: Some(density), ..self }
     }
 }
 
-/// No material bears the name asked for.
+/// The error where no material has the name looked up.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub struct UnknownMaterial {
-    /// What was asked for.
+    /// The name looked up.
     pub name: String,
     /// Names spelt much like it, the nearest first.
     pub near: Vec<&'static str>,
@@ -108,17 +109,17 @@ impl fmt::Display for UnknownMaterial {
     }
 }
 
-/// The material of a name; case, spaces, hyphens and underscores do not matter.
+/// Finds the material of a name; case, spaces, hyphens and underscores do not matter.
 ///
 /// # Errors
-/// [`UnknownMaterial`], with the names that come near.
+/// Returns [`UnknownMaterial`], which holds the names that come near.
 pub fn material(name: &str) -> Result<&'static Material, UnknownMaterial> {
     let key = key(name);
     materials().iter().find(|m| self::key(&m.name) == key).ok_or_else(|| unknown(name))
 }
 
-/// All materials that we know by name: diamond first, then the other published laws, all colourless; then those from
-/// trade tables and the coloured gems; then glasses.
+/// Returns all materials that have a name: diamond first, then the others with a published law, all colourless; then those
+/// from trade tables and the coloured gems; then glasses.
 pub fn materials() -> &'static [Material] {
     static MATERIALS: LazyLock<Vec<Material>> = LazyLock::new(|| {
         let colourless = [published(), ordinary_rays()].concat();
@@ -128,7 +129,7 @@ pub fn materials() -> &'static [Material] {
     &MATERIALS
 }
 
-/// Isotropic stones whose dispersion is published; densities are those of trade tables.
+/// Returns the isotropic stones whose dispersion is published; their densities are those of trade tables.
 fn published() -> Vec<Material> {
     vec![
         Material::clear(
@@ -176,8 +177,8 @@ fn published() -> Vec<Material> {
     ]
 }
 
-/// Uniaxial stones, weighed likewise, by the ray that obeys Snell's law; the other one, and with it doubling, is not traced
-/// yet.
+/// Returns the uniaxial stones by their ordinary ray, which obeys Snell's law; their densities are those of trade tables.
+/// The extraordinary ray, and with it doubling, is not traced yet.
 fn ordinary_rays() -> Vec<Material> {
     vec![
         Material::clear(
@@ -224,7 +225,7 @@ fn rational(constant: f64, terms: &[(f64, f64)], poles: &[(f64, f64)], slope: f6
     Dispersion::Rational { constant, terms: terms.to_vec(), poles: poles.to_vec(), slope }
 }
 
-/// A name without what does not matter in it.
+/// Returns a name in lower case, without spaces, hyphens and underscores.
 fn key(name: &str) -> String {
     name.chars().filter(|c| !matches!(c, ' ' | '-' | '_')).flat_map(char::to_lowercase).collect()
 }
@@ -233,7 +234,7 @@ fn unknown(name: &str) -> UnknownMaterial {
     let asked = key(name);
     let mut near: Vec<(usize, &str)> =
         materials().iter().map(|m| (strsim::levenshtein(&asked, &key(&m.name)), m.name.as_str())).collect();
-    // A slip in every third letter is still a slip; more is another word.
+    // A slip in every third letter is still a slip; with more, it is another word.
     near.retain(|&(slips, _)| slips <= asked.chars().count().div_ceil(3));
     near.sort_by_key(|&(slips, _)| slips);
     UnknownMaterial { name: name.to_owned(), near: near.into_iter().map(|(_, name)| name).collect() }

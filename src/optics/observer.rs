@@ -1,8 +1,7 @@
 //! The eye of colorimetry: the CIE 1931 2 degree observer, sRGB's primaries, and adaptation to a white.
 //!
-//! Sources: CIE 15:2004, table T.4 (5 nm); IEC 61966-2-1:1999 for primaries and white; K. M. Lam, *Metamerism
-//! and Colour Constancy* (1985) for the matrix of Bradford. XYZ and linear sRGB are in that order in a
-//! vector.
+//! Sources: CIE 15:2004, table T.4 (5 nm); IEC 61966-2-1:1999 for primaries and white; K. M. Lam, *Metamerism and Colour
+//! Constancy* (1985) for the matrix of Bradford. A vector holds X, Y, Z or linear red, green, blue, in that order.
 
 use glam::{DMat3, DVec3};
 use std::ops::RangeInclusive;
@@ -10,10 +9,10 @@ use std::ops::RangeInclusive;
 /// The wavelengths in nm at which the observer's table sees anything.
 pub const OBSERVER_NM: RangeInclusive<f64> = 380.0..=780.0;
 
-/// Between two rows of the observer's table, in nm.
+/// The step between two rows of the observer's table, in nm.
 const STEP_NM: f64 = 5.0;
 
-/// x̄.
+/// The colour-matching function x̄.
 const X: [f64; 81] = [
     0.001368, 0.002236, 0.004243, 0.00765, 0.01431, 0.02319, 0.04351, 0.07763, 0.13438, 0.21477, 0.2839,
     0.3285, 0.34828, 0.34806, 0.3362, 0.3187, 0.2908, 0.2511, 0.19536, 0.1421, 0.09564, 0.05795, 0.03201,
@@ -24,7 +23,7 @@ const X: [f64; 81] = [
     0.00069, 0.000476, 0.000332, 0.000235, 0.000166, 0.000117, 0.000083, 0.000059, 0.000042,
 ];
 
-/// ȳ.
+/// The colour-matching function ȳ.
 const Y: [f64; 81] = [
     0.000039, 0.000064, 0.00012, 0.000217, 0.000396, 0.00064, 0.00121, 0.00218, 0.004, 0.0073, 0.0116,
     0.01684, 0.023, 0.0298, 0.038, 0.048, 0.06, 0.0739, 0.09098, 0.1126, 0.13902, 0.1693, 0.20802, 0.2586,
@@ -35,7 +34,7 @@ const Y: [f64; 81] = [
     0.000085, 0.00006, 0.000042, 0.00003, 0.000021, 0.000015,
 ];
 
-/// z̄.
+/// The colour-matching function z̄.
 const Z: [f64; 81] = [
     0.00645, 0.01055, 0.02005, 0.03621, 0.06785, 0.1102, 0.2074, 0.3713, 0.6456, 1.03905, 1.3856, 1.62296,
     1.74706, 1.7826, 1.77211, 1.7441, 1.6692, 1.5281, 1.28764, 1.0419, 0.81295, 0.6162, 0.46518, 0.3533,
@@ -45,11 +44,12 @@ const Z: [f64; 81] = [
     0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0,
 ];
 
-/// XYZ of sRGB's white, Y = 1: the chromaticity (.3127, .3290) of IEC 61966-2-1.
+/// The XYZ of sRGB's white, with Y = 1: the chromaticity (.3127, .3290) of IEC 61966-2-1.
 pub const D65_WHITE: DVec3 = DVec3::new(0.3127 / 0.3290, 1.0, 0.3583 / 0.3290);
 
-/// Linear sRGB from XYZ, [`D65_WHITE`] to (1, 1, 1): from the primaries (.64, .33), (.30, .60), (.15, .06).
-/// IEC 61966-2-1 prints it rounded to 4 decimals.
+/// The matrix from XYZ to linear sRGB, which takes [`D65_WHITE`] to (1, 1, 1).
+///
+/// It follows from the primaries (.64, .33), (.30, .60), (.15, .06). IEC 61966-2-1 prints it rounded to 4 decimals.
 pub const SRGB_FROM_XYZ: DMat3 = DMat3::from_cols_array(&[
     3.2409699419045226,
     -0.9692436362808796,
@@ -62,20 +62,21 @@ pub const SRGB_FROM_XYZ: DMat3 = DMat3::from_cols_array(&[
     1.0569715142428784,
 ]);
 
-/// Bradford's sharpened cone responses from XYZ.
+/// The matrix from XYZ to Bradford's sharpened cone responses.
 const BRADFORD: DMat3 =
     DMat3::from_cols_array(&[0.8951, -0.7502, 0.0389, 0.2664, 1.7135, -0.0685, -0.1614, 0.0367, 1.0296]);
 
-/// The colour-matching functions x̄, ȳ, z̄ at a wavelength, >= 0, ȳ at most 1: straight lines between the
-/// table's rows, nothing beyond [`OBSERVER_NM`].
+/// Returns the colour-matching functions x̄, ȳ, z̄ at a wavelength in nm, >= 0, with ȳ at most 1.
+///
+/// They are straight lines between the table's rows, and 0 beyond [`OBSERVER_NM`].
 pub fn matching(nm: f64) -> DVec3 {
     DVec3::from_array([&X[..], &Y, &Z].map(|table| sampled(table, *OBSERVER_NM.start(), STEP_NM, nm)))
 }
 
-/// XYZ of a spectrum between two wavelengths: the integral of `spectrum(nm)` times [`matching`] over nm.
+/// Returns XYZ of a spectrum between two wavelengths: the integral of `spectrum(nm)` times [`matching`] over nm.
 ///
-/// Gauss's rule of three points from one whole nm to the next and to the borders: exact for a spectrum of
-/// straight lines with corners at whole nm, and additive, so that parts of a range add up to the range.
+/// It is computed by Gauss's rule of three points from one whole nm to the next and to the borders. This is exact for a
+/// spectrum of straight lines with corners at whole nm. It is additive as well: the parts of a range add up to the range.
 pub fn seen(from_nm: f64, to_nm: f64, spectrum: impl Fn(f64) -> f64) -> DVec3 {
     let (mut low, end) = (from_nm.max(*OBSERVER_NM.start()), to_nm.min(*OBSERVER_NM.end()));
     let at = |nm: f64| spectrum(nm) * matching(nm);
@@ -90,14 +91,16 @@ pub fn seen(from_nm: f64, to_nm: f64, spectrum: impl Fn(f64) -> f64) -> DVec3 {
     sum
 }
 
-/// What an eye makes of XYZ when its white changes: the matrix that carries `from_white` to `to_white` (XYZ
-/// of both, all components > 0, Y = 1) and scales Bradford's cone responses in between (J. von Kries, 1902).
+/// Returns the matrix that adapts XYZ when the eye's white changes from `from_white` to `to_white`.
+///
+/// It carries the one white to the other, and scales Bradford's cone responses in between (J. von Kries, 1902). The whites
+/// are in XYZ, with all components > 0 and Y = 1.
 pub fn adaptation(from_white: DVec3, to_white: DVec3) -> DMat3 {
     let gains = (BRADFORD * to_white) / (BRADFORD * from_white);
     BRADFORD.inverse() * DMat3::from_diagonal(gains) * BRADFORD
 }
 
-/// A table of even steps read at a wavelength: straight lines between samples, nothing beyond them.
+/// Reads a table of even steps at a wavelength: straight lines between samples, 0 beyond them.
 pub(super) fn sampled(table: &[f64], start_nm: f64, step_nm: f64, nm: f64) -> f64 {
     let place = (nm - start_nm) / step_nm;
     let last = table.len() - 1;
@@ -113,7 +116,7 @@ pub(super) fn sampled(table: &[f64], start_nm: f64, step_nm: f64, nm: f64) -> f6
 mod tests {
     use super::*;
 
-    /// C. Wyman, P.-P. Sloan and P. Shirley, JCGT 2(2), 1 (2013): their fit of several lobes.
+    /// Returns the fit by several lobes of C. Wyman, P.-P. Sloan and P. Shirley, JCGT 2(2), 1 (2013).
     fn fitted(nm: f64) -> DVec3 {
         let lobe = |mean: f64, below: f64, above: f64| {
             let sigma = if nm < mean { below } else { above };
@@ -176,7 +179,7 @@ mod tests {
         let cut = seen(380.0, 512.34, spectrum) + seen(512.34, 780.0, spectrum);
         assert!((cut - seen(380.0, 780.0, spectrum)).length() < 1e-9);
         assert_eq!(seen(600.0, 500.0, spectrum), DVec3::ZERO);
-        // Trapezoids over the straight lines: 5 nm times the sums, less half of either end.
+        // Trapezoids are exact over straight lines: 5 nm times the sums, less half of either end.
         assert!((seen(380.0, 780.0, |_| 1.0).y - 5.0 * (21.371327 - 0.000027)).abs() < 1e-9);
     }
 
@@ -187,7 +190,7 @@ mod tests {
         let from_rgb = primaries * DMat3::from_diagonal(primaries.inverse() * D65_WHITE);
         assert!(SRGB_FROM_XYZ.abs_diff_eq(from_rgb.inverse(), 1e-12));
         assert!((SRGB_FROM_XYZ * D65_WHITE).abs_diff_eq(DVec3::ONE, 1e-12));
-        // As IEC 61966-2-1 prints it, to 4 decimals.
+        // IEC 61966-2-1 prints the matrix to 4 decimals.
         let printed = [3.2406, -0.9689, 0.0557, -1.5372, 1.8758, -0.2040, -0.4986, 0.0415, 1.0570];
         assert!(SRGB_FROM_XYZ.abs_diff_eq(DMat3::from_cols_array(&printed), 5e-4));
     }
@@ -199,7 +202,7 @@ mod tests {
         assert!((there * a).abs_diff_eq(D65_WHITE, 1e-12));
         assert!((adaptation(D65_WHITE, a) * there).abs_diff_eq(DMat3::IDENTITY, 1e-12));
         assert!(adaptation(a, a).abs_diff_eq(DMat3::IDENTITY, 1e-12));
-        // As B. Lindbloom prints it, D65 to D50.
+        // B. Lindbloom prints the matrix from D65 to D50.
         let d50 = DVec3::new(0.96422, 1.0, 0.82521);
         let printed = [
             1.0478112, 0.0295424, -0.0092345, 0.0228866, 0.9904844, 0.0150436, -0.0501270, -0.0170491,

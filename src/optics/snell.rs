@@ -1,44 +1,50 @@
-//! The directions of the reflected and the refracted ray, and the two angles that the trade quotes.
+//! The directions of reflected and refracted rays, and the two angles that the trade quotes.
 //!
-//! `d` is the unit direction of travel, `n` the unit normal on the side the light comes from (n·d < 0),
-//! `cos_i` = -n·d, and `eta` = incident index / transmitted index. Source: M. Born and E. Wolf, *Principles
-//! of Optics*, 7th ed. (1999), §1.5.1, law of refraction eq. 8; as vectors in M. Pharr, W. Jakob and
-//! G. Humphreys, *Physically Based Rendering*, 4th ed. (2023), §9.3.
+//! `d` is the unit direction of travel, `n` the unit normal on the side that the light comes from (n·d < 0), `cos_i` = -n·d,
+//! and `eta` = incident index / transmitted index. Source: M. Born and E. Wolf, *Principles of Optics*, 7th ed. (1999),
+//! §1.5.1, law of refraction eq. 8; as vectors in M. Pharr, W. Jakob and G. Humphreys, *Physically Based Rendering*, 4th ed.
+//! (2023), §9.3.
 
 use glam::DVec3;
 
-/// How far rounding may take a unit length from 1, or a grazing n·d past 0, before a caller's mistake is
-/// suspected.
+/// How far rounding may take a unit length from 1, or a grazing n·d past 0. Anything farther is taken for a caller's
+/// mistake.
 const ROUNDING: f64 = 1e-9;
 
-/// cos² of the refraction angle at or below which reflection counts as total. It is below every cos² that two
-/// different indices can give (their rounding is 1e-16), and far enough from 0 to divide by.
+/// Reflection counts as total where cos² of the refraction angle is at or below this.
+///
+/// The value is below every cos² that two different indices can give (their rounding is 1e-16), and far enough from 0 to
+/// divide by.
 const LEAST_COS_T_SQUARED: f64 = 1e-300;
 
-/// Direction of the mirror-reflected ray, d + 2 cos_i n.
+/// Returns the direction of the mirror-reflected ray, d + 2 cos_i n.
 #[inline]
 pub fn reflect(d: DVec3, n: DVec3, cos_i: f64) -> DVec3 {
     check(d, n, cos_i);
     d + n * (2.0 * cos_i)
 }
 
-/// Direction of the refracted ray, eta d + (eta cos_i - cos_t) n, with `cos_t` of [`cos_transmitted`]: the tangential
-/// part is scaled by eta (Snell), the normal part makes it a unit vector.
+/// Returns the direction of the refracted ray, eta d + (eta cos_i - cos_t) n, with `cos_t` from [`cos_transmitted`].
+///
+/// The tangential part is scaled by eta (Snell), and the normal part makes it a unit vector.
 #[inline]
 pub fn refract(d: DVec3, n: DVec3, eta: f64, (cos_i, cos_t): (f64, f64)) -> DVec3 {
     check(d, n, cos_i);
     d * eta + n * (eta * cos_i - cos_t)
 }
 
-/// How the reflected direction changes when the ray's does by `of_d` and the normal by `of_n`: the differential of
-/// [`reflect`], whose normal's sense does not matter.
+/// Returns how the reflected direction changes when the ray's direction changes by `of_d` and the normal by `of_n`.
+///
+/// This is the differential of [`reflect`]; it is the same for either sense of the normal.
 #[inline]
 pub fn reflected_change(d: DVec3, n: DVec3, (of_d, of_n): (DVec3, DVec3)) -> DVec3 {
     of_d - n * (2.0 * (of_d.dot(n) + d.dot(of_n))) - of_n * (2.0 * d.dot(n))
 }
 
-/// How the refracted direction changes when the ray's does by `of_d`, the normal by `of_n` and eta by `of_eta`: the
-/// differential of [`refract`], with `cos_t` above 0.
+/// Returns how the refracted direction changes when the ray's direction changes by `of_d`, the normal by `of_n` and eta by
+/// `of_eta`.
+///
+/// This is the differential of [`refract`]; `cos_t` must be above 0.
 #[inline]
 pub fn refracted_change(
     d: DVec3,
@@ -52,39 +58,40 @@ pub fn refracted_change(
     d * of_eta + of_d * eta + n * (of_eta * cos_i + eta * of_cos_i - of_cos_t) + of_n * (eta * cos_i - cos_t)
 }
 
-/// A caller's mistake, seen in debug builds alone.
+/// Panics on a caller's mistake, in debug builds alone.
 #[inline]
 fn check(d: DVec3, n: DVec3, cos_i: f64) {
     debug_assert!(is_unit(d) && is_unit(n), "unit vectors are wanted, got d = {d}, n = {n}");
     debug_assert!((cos_i + n.dot(d)).abs() < ROUNDING, "cos_i is -n.d = {}, got {cos_i}", -n.dot(d));
 }
 
-/// Cosine of the angle of refraction, or `None` where reflection is total: beyond the critical angle and
-/// exactly at it, where the refracted ray would run along the surface and carry nothing through.
+/// Returns the cosine of the angle of refraction; `None` where reflection is total.
 ///
-/// The one place that decides, so that the tracers, [`fresnel`](super::fresnel()) and
-/// [`reflectance`](super::reflectance) agree. `cos_i` slightly outside 0..=1 is taken as rounding.
+/// Reflection is total beyond the critical angle and exactly at it, where the refracted ray would run along the surface and
+/// carry nothing through. This function alone decides, so that the tracers, [`fresnel`](super::fresnel()) and
+/// [`reflectance`](super::reflectance) agree. A `cos_i` slightly outside 0..=1 is taken as rounding.
 #[inline]
 pub fn cos_transmitted(cos_i: f64, eta: f64) -> Option<f64> {
     let squared = cos_t_squared(cos_i, eta);
     (squared > LEAST_COS_T_SQUARED).then(|| squared.sqrt())
 }
 
-/// 1 - eta² sin²(i); negative beyond the critical angle. Written so that equal indices give cos²(i) exactly.
+/// Returns 1 - eta² sin²(i), negative beyond the critical angle. The form of the sum makes equal indices give exactly
+/// cos²(i).
 #[inline]
 pub(super) fn cos_t_squared(cos_i: f64, eta: f64) -> f64 {
     let normal_part = eta * cos_i.clamp(0.0, 1.0);
     (1.0 - eta) * (1.0 + eta) + normal_part * normal_part
 }
 
-/// Angle of incidence in radians beyond which reflection is total, asin(1 / eta) (Born & Wolf §1.5.4); for a
-/// stone in air `eta` is its index. `None` where it never is (`eta` <= 1).
+/// Returns the angle of incidence in radians beyond which reflection is total, asin(1 / eta) (Born & Wolf §1.5.4).
+///
+/// For a stone in air `eta` is its index. `None` where reflection is never total (`eta` <= 1).
 pub fn critical_angle(eta: f64) -> Option<f64> {
     (eta > 1.0).then(|| (1.0 / eta).asin())
 }
 
-/// Angle of incidence in radians at which no p-polarised light is reflected, atan(1 / eta) (Born & Wolf
-/// §1.5.3).
+/// Returns the angle of incidence in radians at which no p-polarised light is reflected, atan(1 / eta) (Born & Wolf §1.5.3).
 pub fn brewster_angle(eta: f64) -> f64 {
     (1.0 / eta).atan()
 }
@@ -98,7 +105,7 @@ fn is_unit(v: DVec3) -> bool {
 mod tests {
     use super::*;
 
-    /// The whole way through a surface, as the tracers go it.
+    /// Refracts a ray, or finds that reflection is total, as the tracers do.
     fn refract(d: DVec3, n: DVec3, eta: f64) -> Option<DVec3> {
         let cos_i = -n.dot(d);
         Some(super::refract(d, n, eta, (cos_i, cos_transmitted(cos_i, eta)?)))
@@ -110,13 +117,13 @@ mod tests {
 
     const ETAS: [f64; 7] = [0.3, 1.0 / 2.4175, 0.75, 1.0, 1.33, 2.4175, 2.9];
 
-    /// A direction that meets `n` at `angle`, turned about `n` by `turn`.
+    /// Returns a direction that meets `n` at `angle`, turned about `n` by `turn`.
     fn incident(n: DVec3, angle: f64, turn: f64) -> DVec3 {
         let (u, v) = n.any_orthonormal_pair();
         (u * turn.cos() + v * turn.sin()) * angle.sin() - n * angle.cos()
     }
 
-    /// Every eta with many angles, turns and normals.
+    /// Calls `check` for every eta with many angles, turns and normals.
     fn for_each_case(mut check: impl FnMut(DVec3, DVec3, f64)) {
         for k in 0..12 {
             let n = DVec3::from_array([1.3 - 0.2 * f64::from(k), 0.7, f64::from(k % 5) - 1.9]);
@@ -234,7 +241,7 @@ mod tests {
     #[test]
     fn diamond_has_the_angles_the_books_print() {
         let degrees = |radians: f64| (radians.to_degrees() * 100.0).round() / 100.0;
-        // At its sodium D index; the rounder 2.4175 belongs to helium d and gives 24.43.
+        // The first is its index at sodium D; the rounder 2.4175 belongs to helium d and gives 24.43.
         assert_eq!(critical_angle(2.41726).map(degrees), Some(24.44));
         assert_eq!(critical_angle(2.4175).map(degrees), Some(24.43));
         assert_eq!([2.41726, 2.4175].map(|n| degrees(brewster_angle(n))), [22.47, 22.47]);

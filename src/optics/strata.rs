@@ -1,25 +1,27 @@
-//! How a render samples the spectrum: strata of wavelength, and the colour that light in each of them has.
+//! How a render samples the spectrum: strata of wavelength, and the colour of the light in each of them.
 //!
-//! Colours are linear sRGB. A stratum's colour may be negative in parts, being more saturated than any
-//! screen; only the sum over the strata is for looking at.
+//! Colours are linear sRGB. Components of a stratum's colour may be negative, because it is more saturated than any screen;
+//! only the sum over all strata is meant to be seen.
 
 use super::illuminant::Illuminant;
 use super::observer::{D65_WHITE, OBSERVER_NM, SRGB_FROM_XYZ, adaptation, matching, seen};
 use glam::{DMat3, DVec3};
 use std::{ops::RangeInclusive, sync::LazyLock};
 
-/// The wavelengths in nm that strata are taken from. Of what the observer sees of an even spectrum (x̄ + ȳ +
-/// z̄) 0.08 % lies outside; its light is counted to the first and the last stratum.
+/// The wavelengths in nm from which strata are taken.
+///
+/// Of what the observer sees of an even spectrum (x̄ + ȳ + z̄), 0.08 % lies outside; this light counts toward the first and
+/// the last stratum.
 pub const SAMPLED_NM: RangeInclusive<f64> = 390.0..=720.0;
 
-/// The part of a stratum's share that is width alone: it keeps the outermost of many strata from growing
-/// long.
+/// The part of a stratum's share that depends on its width alone: it keeps the outermost of many strata from growing wide.
 const EVEN: f64 = 0.1;
 
-/// Where red ends and how softly, in nm: with [`BLUE_STEP`] chosen so that [`basis`] is positive throughout.
+/// The wavelength at which red ends and the width of that step, in nm. With [`BLUE_STEP`] it is chosen so that [`basis`] is
+/// positive everywhere.
 const RED_STEP: (f64, f64) = (591.0, 6.0);
 
-/// Where blue ends and how softly, in nm.
+/// The wavelength at which blue ends and the width of that step, in nm.
 const BLUE_STEP: (f64, f64) = (489.0, 7.0);
 
 /// One range of wavelengths, sampled at one wavelength at a time.
@@ -29,24 +31,27 @@ pub struct Stratum {
     pub from_nm: f64,
     /// The longest wavelength in nm.
     pub to_nm: f64,
-    /// Linear sRGB, negative in parts, of light in this range alone: of the key light, then of D65 times the
-    /// red, the green and the blue [`basis`]. Over all strata the key light is Y = 1, and so are the three
-    /// others together; a render multiplies them by the radiance it finds at [`Stratum::at`].
+    /// The linear sRGB, negative in parts, of light in this range alone: of the key light, then of D65 times the red, the
+    /// green and the blue [`basis`].
+    ///
+    /// Summed over all strata, the key light has Y = 1, and so have the three others together. A render multiplies the
+    /// responses by the radiance that it finds at [`Stratum::at`].
     pub response: [DVec3; 4],
 }
 
 impl Stratum {
-    /// The wavelength in nm at a part of the stratum, 0..=1: `from_nm` to `to_nm`.
+    /// Returns the wavelength in nm at a part of the stratum, where 0 is `from_nm` and 1 is `to_nm`.
     pub fn at(&self, part: f64) -> f64 {
         self.from_nm + (self.to_nm - self.from_nm) * part
     }
 }
 
-/// The spectra of linear sRGB's red, green and blue at a wavelength: all within 0..=1 (the least is 0.0026,
-/// the greatest 0.989), their sum 1. Light of the spectrum D65 times `colour.dot(basis(nm))` looks like
-/// `colour`.
+/// Returns the spectra of linear sRGB's red, green and blue at a wavelength in nm.
+///
+/// All lie within 0..=1 (the least is 0.0026, the greatest 0.989), and their sum is 1. Light with the spectrum D65 times
+/// `colour.dot(basis(nm))` looks like `colour`.
 pub fn basis(nm: f64) -> DVec3 {
-    /// Mixes the shapes so that their colours come out as red, green and blue.
+    /// The matrix that mixes the shapes so that their colours are red, green and blue.
     static MIX: LazyLock<DMat3> = LazyLock::new(|| {
         let sight = Sight::new(&Illuminant::D65, false);
         let colours = [0, 1, 2].map(|k| {
@@ -57,29 +62,29 @@ pub fn basis(nm: f64) -> DVec3 {
     *MIX * shapes(nm)
 }
 
-/// The visible range in `count` strata (none for 0; 1 to 64 make sense), from short wavelengths to long.
+/// Divides the visible range into `count` strata (none for 0; 1 to 64 make sense), from short wavelengths to long.
 ///
-/// Each has the same share: nine tenths of it x̄ + ȳ + z̄ within [`SAMPLED_NM`], one tenth width. `adapted`
-/// makes the key's white (1, 1, 1), by [`adaptation`]; otherwise D65's white is.
+/// All strata have the same share, of which nine tenths are x̄ + ȳ + z̄ within [`SAMPLED_NM`] and one tenth is width.
+/// `adapted` makes the white of `key` (1, 1, 1), by [`adaptation`]; otherwise the white of D65 is.
 pub fn strata(count: u32, key: &Illuminant, adapted: bool) -> Vec<Stratum> {
     let sight = Sight::new(key, adapted);
     let borders: Vec<f64> = (0..=count).map(|i| border(f64::from(i) / f64::from(count))).collect();
     borders.windows(2).map(|ends| sight.stratum(ends[0], ends[1])).collect()
 }
 
-/// What turns power into colour.
+/// The numbers that turn spectral power into colour.
 struct Sight<'a> {
     key: &'a Illuminant,
-    /// Gives the key light Y = 1.
+    /// The factor that gives the key light Y = 1.
     key_gain: f64,
-    /// Gives D65 Y = 1.
+    /// The factor that gives D65 Y = 1.
     d65_gain: f64,
     rgb_from_xyz: DMat3,
 }
 
 impl<'a> Sight<'a> {
     fn new(key: &'a Illuminant, adapted: bool) -> Self {
-        // D65 too is adapted: its spectrum's white and the one that sRGB prints differ in the fifth decimal.
+        // D65 is adapted too: the white of its spectrum and the white that sRGB prints differ in the fifth decimal.
         let white = if adapted { key.white() } else { Illuminant::D65.white() };
         let gain = |light: &Illuminant| seen_all(|nm| light.power(nm)).y.recip();
         let rgb_from_xyz = SRGB_FROM_XYZ * adaptation(white, D65_WHITE);
@@ -87,7 +92,7 @@ impl<'a> Sight<'a> {
     }
 
     fn stratum(&self, from_nm: f64, to_nm: f64) -> Stratum {
-        // The ends take in what lies beyond them.
+        // The first and the last stratum take in the light beyond their ends.
         let from = if from_nm > *SAMPLED_NM.start() { from_nm } else { *OBSERVER_NM.start() };
         let to = if to_nm < *SAMPLED_NM.end() { to_nm } else { *OBSERVER_NM.end() };
         let key = self.key_gain * seen(from, to, |nm| self.key.power(nm));
@@ -97,19 +102,19 @@ impl<'a> Sight<'a> {
     }
 }
 
-/// XYZ of a whole spectrum.
+/// Returns XYZ of a whole spectrum.
 fn seen_all(spectrum: impl Fn(f64) -> f64) -> DVec3 {
     seen(*OBSERVER_NM.start(), *OBSERVER_NM.end(), spectrum)
 }
 
-/// Three overlapping parts of 1, long, middle and short wavelengths, from two logistic steps.
+/// Divides 1 into three overlapping parts, of long, middle and short wavelengths, by two logistic steps.
 fn shapes(nm: f64) -> DVec3 {
     let rise = |(at, width): (f64, f64)| 1.0 / (1.0 + ((at - nm) / width).exp());
     let (not_blue, red) = (rise(BLUE_STEP), rise(RED_STEP));
     DVec3::new(not_blue * red, not_blue * (1.0 - red), 1.0 - not_blue)
 }
 
-/// The wavelength in nm below which a part of all shares lies, 0..=1.
+/// Returns the wavelength in nm below which a part, 0..=1, of all shares lies.
 fn border(part: f64) -> f64 {
     /// The share below every whole nm from the start of [`SAMPLED_NM`], 0 to 1.
     static BELOW: LazyLock<Vec<f64>> = LazyLock::new(shares_below);
@@ -118,7 +123,7 @@ fn border(part: f64) -> f64 {
     SAMPLED_NM.start() + (upper - 1) as f64 + (part - low) / (high - low)
 }
 
-/// Trapezoids of 1 nm, exact where the observer is straight lines.
+/// Returns the share below every whole nm, by trapezoids of 1 nm, which are exact where the observer is straight lines.
 fn shares_below() -> Vec<f64> {
     let (start, width) = (*SAMPLED_NM.start(), SAMPLED_NM.end() - SAMPLED_NM.start());
     let sum = |nm: f64| matching(nm).element_sum();

@@ -1,17 +1,17 @@
-//! What stones weigh: carats of 0.2 g, which is 200 times a mm³ at 1 g/cm³.
+//! The weight of stones in carats. A carat is 0.2 g, the weight of 200 mm³ at 1 g/cm³.
 
 use super::Material;
 
-/// Milligrams in a carat; 1 g/cm³ is 1 mg/mm³.
+/// The milligrams in a carat; 1 g/cm³ is 1 mg/mm³.
 pub const MG_PER_CARAT: f64 = 200.0;
 
 impl Material {
-    /// The weight of so many mm³, in carats; `None` where the density is not known.
+    /// Returns the weight of this volume in carats; `None` where the density is not known.
     pub fn carats(&self, volume_mm3: f64) -> Option<f64> {
         self.density.map(|density| density * volume_mm3 / MG_PER_CARAT)
     }
 
-    /// The volume of so many carats, in mm³; `None` where the density is not known.
+    /// Returns the volume of this weight in mm³; `None` where the density is not known.
     pub fn volume_mm3(&self, carats: f64) -> Option<f64> {
         self.density.map(|density| carats * MG_PER_CARAT / density)
     }
@@ -24,7 +24,7 @@ mod tests {
     #[test]
     fn every_gem_has_a_density_and_a_colour_changes_nothing_about_it() {
         for m in materials() {
-            // Glasses are lighter, or of none that is known.
+            // Glasses are lighter than gems, or their density is not known.
             let is_glass = matches!(m.dispersion, Dispersion::Abbe { .. });
             assert!(m.density.map_or(is_glass, |d| is_glass || (2.6..=6.0).contains(&d)), "{}", m.name);
         }

@@ -1,28 +1,28 @@
-//! What is seen where no stone covers the picture.
+//! The background: what a picture shows where no stone covers it.
 
 use crate::optics::{encoded_from_linear, linear_from_encoded};
 use std::fmt;
 use std::str::FromStr;
 
-/// What lies behind the stones; colours are linear sRGB.
+/// The background behind the stones; colours are linear sRGB.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub enum Background {
-    /// Nothing: the picture keeps its cover.
+    /// Nothing: the picture keeps its cover as transparency.
     #[default]
     Transparent,
     /// One colour.
     Plain([f32; 3]),
-    /// From one colour to another, evenly in linear light.
+    /// A gradient from one colour to another, even in linear light.
     Gradient {
-        /// At the upper border.
+        /// The colour at the upper border.
         top: [f32; 3],
-        /// At the lower border.
+        /// The colour at the lower border.
         bottom: [f32; 3],
     },
 }
 
 impl Background {
-    /// The colour in the middle of a row, if there is one.
+    /// Returns the colour at the middle of row `y` out of `height`; `None` where the background is transparent.
     pub fn row(&self, y: u32, height: u32) -> Option<[f32; 3]> {
         match *self {
             Self::Transparent => None,
@@ -35,7 +35,7 @@ impl Background {
     }
 }
 
-/// A premultiplied pixel over a colour.
+/// Lays a premultiplied pixel over an opaque colour.
 pub(super) fn laid_over([r, g, b, cover]: [f32; 4], colour: [f32; 3]) -> [f32; 4] {
     let bare = 1.0 - cover;
     [r + bare * colour[0], g + bare * colour[1], b + bare * colour[2], 1.0]
@@ -57,7 +57,7 @@ impl FromStr for Background {
 }
 
 impl fmt::Display for Background {
-    /// What reads back as the same, each colour to 8 bits.
+    /// Writes text that parses back to the same background, each colour rounded to 8 bits.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let code = |colour: &[f32; 3]| {
             let code = |c: &f32| (encoded_from_linear(f64::from(*c)).clamp(0.0, 1.0) * 255.0).round() as u8;
@@ -71,10 +71,10 @@ impl fmt::Display for Background {
     }
 }
 
-/// Middle grey as painters and screens have it: half of the code.
+/// Middle grey: half of the sRGB code range.
 const GREY: &str = "#808080";
 
-/// One colour by its name or its code.
+/// Reads one colour from its name or its `#rrggbb` code.
 fn colour(text: &str) -> Result<[f32; 3], String> {
     let code = match text {
         "black" => "#000000",

@@ -1,9 +1,11 @@
-//! Glare: what an eye or a lens spreads of the brightest light, as a glow and as a star's rays.
+//! Glare: light that an eye or a lens spreads from the brightest points, as a glow and as the streaks of a star.
 //!
 //! The glow is a sum of Gaussians, in the manner of G. Spencer, P. Shirley, K. Zimmerman and D. P. Greenberg,
-//! "Physically-Based Glare Effects for Digital Images", SIGGRAPH 1995; the rays are exponentials along a direction,
+//! "Physically-Based Glare Effects for Digital Images", SIGGRAPH 1995. The streaks are exponentials along a direction,
 //! after the light streaks of M. Kawase, "Frame Buffer Postprocessing Effects in DOUBLE-S.T.E.A.L.", GDC 2003.
-//! What is spread is taken from where it was, so that the picture's light stays what it was but for what leaves it.
+//!
+//! Light that is spread is taken away from its own pixel, so that the picture's total light stays the same except for
+//! what spreads beyond the border.
 
 mod grid;
 mod star;
@@ -14,51 +16,52 @@ use glam::Vec4;
 use grid::LightGrid;
 use rayon::prelude::*;
 
-/// How bright light is spread.
+/// The settings by which bright light is spread.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Bloom {
     /// The part of the light above the threshold that is spread, 0 to 1.
     pub strength: f64,
     /// The standard deviation of the widest glow, as a part of the picture's width, 0 to 0.5.
     pub radius: f64,
-    /// The star's rays, 0 (none) to [`MOST_STREAKS`](Self::MOST_STREAKS).
+    /// The number of streaks of a star, 0 (none) to [`MOST_STREAKS`](Self::MOST_STREAKS).
     pub streaks: u32,
-    /// The length in which a ray falls to 1/e, as a part of the picture's width, 0 to 1.
+    /// The length in which a streak fades to 1/e, as a part of the picture's width, 0 to 1.
     pub streak_length: f64,
-    /// The luminance above which light is spread; from half of it on, a little is.
+    /// The luminance above which light is spread. A soft knee spreads a little from half of it on.
     pub threshold: f64,
 }
 
 impl Default for Bloom {
-    /// Tuned by eye on stones whose sparkles are 2 to 50 times as bright as white.
+    /// Returns settings tuned by eye on stones whose sparkles are 2 to 50 times as bright as white.
     fn default() -> Self {
         Self { strength: 0.16, radius: 0.03, streaks: 6, streak_length: 0.018, threshold: 1.0 }
     }
 }
 
-/// The Gaussians of the glow: standard deviation as a part of the widest, and share.
+/// The Gaussians of the glow: the standard deviation as a part of the widest one's, and the share of the light.
 const GLOW: [(f64, f32); 4] = [(1.0 / 27.0, 0.4), (1.0 / 9.0, 0.3), (1.0 / 3.0, 0.2), (1.0, 0.1)];
 
-/// The part of a sparkle that goes into the rays.
+/// The part of a sparkle's light that goes into the streaks; where the surroundings are bright, less does.
 const IN_STREAKS: f32 = 0.4;
 
-/// The standard deviation of a ray's width, as a part of the picture's width.
+/// The standard deviation of a streak's width, as a part of the picture's width.
 const STREAK_WIDTH: f64 = 0.0007;
 
-/// The standard deviation of what counts as a sparkle's surroundings, as a part of the picture's width.
+/// The standard deviation over which a sparkle's surroundings are averaged, as a part of the picture's width.
 const SPARKLE: f64 = 0.008;
 
-/// The part of the threshold below it at which spreading begins.
+/// How far below the threshold spreading begins, as a part of the threshold.
 const KNEE: f32 = 0.5;
 
-/// A standard deviation in cells that a coarser grid still shows well.
+/// The least standard deviation, in cells, that the finest detail may have on a halved grid to be shown well.
 const COARSEST: f64 = 1.3;
 
 impl Bloom {
-    /// The most rays of a star.
+    /// The most streaks that a star may have.
     pub const MOST_STREAKS: u32 = 32;
 
-    /// Spreads a picture's brightest light. Cover stays as it is. Numbers out of their range count as its end.
+    /// Spreads the brightest light of a picture, in place. Cover stays as it is. A setting out of its range counts as
+    /// the nearer end of the range, NaN as 0.
     pub fn apply(&self, picture: &mut Linear) {
         let strength = within(self.strength, 1.0) as f32;
         let threshold = within(self.threshold, f64::from(f32::MAX)) as f32;
@@ -89,14 +92,15 @@ impl Bloom {
             let (width, height) = (halved(picture.width, level), halved(picture.height, level));
             glare = glare.doubled(width as usize, height as usize);
         }
-        // The last doubling would be as large as the picture: each row is made when it is added.
+        // The last doubling would be as large as the picture, so each of its rows is made only when it is added.
         picture.pixels.par_chunks_mut(picture.width as usize).enumerate().for_each(|(y, row)| {
             let light = glare.doubled_row(y);
             row.iter_mut().enumerate().for_each(|(x, pixel)| spread(pixel, taken(pixel), light(x)));
         });
     }
 
-    /// The light to be spread, on a grid halved as often as the finest detail of glare allows.
+    /// Returns the light to be spread, on a grid halved as often as the finest detail of glare allows, and the number of
+    /// halvings.
     fn source(&self, picture: &Linear, taken: impl Fn(&[f32; 4]) -> Vec4 + Sync) -> (LightGrid, u32) {
         let finest = STREAK_WIDTH * f64::from(picture.width);
         let halvings = (finest / COARSEST).log2().clamp(0.0, 16.0) as u32;
@@ -110,7 +114,7 @@ impl Bloom {
         (grid, halvings)
     }
 
-    /// The light of a grid, spread; the picture is `width` cells wide.
+    /// Returns the glow and the streaks of a grid's light, where the whole picture is `width` cells wide.
     fn spread(&self, source: &LightGrid, width: f64) -> LightGrid {
         let streaks = self.streaks.min(Self::MOST_STREAKS);
         let radius = within(self.radius, 0.5) * width;
@@ -118,7 +122,8 @@ impl Bloom {
         if streaks == 0 {
             return source.glow(&glow);
         }
-        // What is as bright as its surroundings is no sparkle: rays of a wide patch would be curtains with hard edges.
+        // Light as bright as its surroundings is not a sparkle: streaks from a wide patch would be curtains with hard
+        // edges.
         let around = source.glow(&[(SPARKLE * width, 1.0)]);
         let mut sparkle = source.clone();
         sparkle.cells.par_iter_mut().zip(&around.cells).for_each(|(cell, around)| {
@@ -134,7 +139,7 @@ impl Bloom {
     }
 }
 
-/// The part of a pixel's light above the threshold, with a soft knee (a parabola that meets both lines).
+/// Returns the part of a pixel's light above the threshold, with a soft knee: a parabola that joins both straight lines.
 fn bright(&[r, g, b, _]: &[f32; 4], threshold: f32) -> Vec4 {
     let y = luminance([r, g, b]);
     let knee = threshold * KNEE;
@@ -145,17 +150,17 @@ fn bright(&[r, g, b, _]: &[f32; 4], threshold: f32) -> Vec4 {
     } else {
         return Vec4::ZERO;
     };
-    // Also catches a luminance of nothing, infinity or NaN.
+    // The comparison also rejects the NaN that a luminance of zero, infinity or NaN gives.
     let part = excess / y;
     if part > 0.0 { Vec4::new(r, g, b, 0.0) * part } else { Vec4::ZERO }
 }
 
-/// A setting between 0 and its greatest value; NaN is 0.
+/// Returns a setting clamped to 0 to `most`; NaN becomes 0.
 fn within(value: f64, most: f64) -> f64 {
     value.max(0.0).min(most)
 }
 
-/// A side after so many halvings.
+/// Returns the length of a side after `times` halvings, each rounded up.
 fn halved(side: u32, times: u32) -> u32 {
     (0..times).fold(side, |side, _| side.div_ceil(2))
 }

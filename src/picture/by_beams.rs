@@ -1,5 +1,5 @@
-//! Pictures under light by exact beams: every virtual facet is painted in the colour of the light that comes through it, so
-//! that edges are as smooth as a pixel's area and nothing is left to chance but the wavelengths.
+//! Pictures under light by exact beams. Every virtual facet is painted in the colour of the light that comes through it,
+//! so that edges are as smooth as a pixel's area and only the choice of wavelengths is sampled.
 
 use super::raster::Rows;
 use super::strips::strips;
@@ -13,17 +13,17 @@ use glam::{DAffine2, DMat2, DVec2, DVec3, DVec4};
 use rayon::prelude::*;
 use std::ops::Range;
 
-/// Where absorption changes a beam's light by more than this part across its outline, it is painted in strips. A beam is a
-/// part of a part of what a pixel shows, and the strip's mean is exact.
+/// Where absorption changes a beam's light by more than this part across its outline, the beam is painted in strips.
+/// This may be coarse: one beam is a part of a part of what a pixel shows, and a strip's mean is exact.
 const UNEVEN: f64 = 1.0 / 16.0;
 
-/// Rows painted as one piece of work.
+/// The number of rows painted as one piece of work.
 const PIECE: u32 = 16;
 
-/// Bytes of colour and cover that are held at once where a picture is taken some rows after the others.
+/// The most bytes of colour and cover that are held at once; larger pictures are taken in several ranges of rows.
 const MOST_BYTES: usize = 256 << 20;
 
-/// Beams whose colours are found as one piece of work.
+/// The number of beams whose colours are found as one piece of work.
 const AT_ONCE: usize = 512;
 
 /// A picture of one stone, or some rows of it, by exact beams.
@@ -33,38 +33,41 @@ pub struct ByBeams<'a> {
     options: beam::BeamOptions,
     looks: u32,
     rows: Range<u32>,
-    /// Colour and cover, as the changes that edges leave.
+    /// Colour and cover, piece by piece, not yet summed along the rows (see [`Rows::summed`]).
     pieces: Vec<Rows<DVec4>>,
     unresolved: f64,
     absorbed: f64,
-    /// What parallel rays see beside the stone where the surround is the backdrop: one direction's light.
+    /// The light that parallel rays see beside the stone where the environment is the backdrop, summed over passes. All
+    /// rays have one direction, so it is one colour.
     beside: DVec3,
 }
 
-/// Polygons in pixels, each of one colour.
+/// Polygons in pixel coordinates, each of one colour.
 #[derive(Default)]
 struct Patches {
     corners: Vec<DVec2>,
-    /// First corner and the one after the last, and the colour.
+    /// For each polygon its first corner, the one after its last, and its colour and cover.
     patches: Vec<(u32, u32, DVec4)>,
 }
 
 impl<'a> ByBeams<'a> {
-    /// Prepares a whole picture; `None` where exact beams do not apply: for several stones or one of triangles, in
-    /// perspective, with a photograph behind.
+    /// Prepares a whole picture. Returns `None` where exact beams do not apply: for several stones, a stone of
+    /// triangles, a perspective view, or a photograph as backplate.
     pub fn new(lit_scene: LitScene<'a>, options: beam::BeamOptions) -> Option<Self> {
         Self::of_rows(lit_scene, options, 0..lit_scene.film.size[1])
     }
 
-    /// How many rows of a picture so wide may be prepared at once, so that what is held of them takes no more than
-    /// 256 MiB.
+    /// Returns how many rows of a picture of this width may be prepared at once, so that they take no more than 256 MiB.
     pub fn most_rows(width: u32) -> u32 {
         let piece = PIECE as usize * (width as usize + 1) * size_of::<DVec4>();
         ((MOST_BYTES / piece).max(1) as u32).saturating_mul(PIECE)
     }
 
-    /// Prepares some rows of a picture, as [`new`](Self::new) does; each look traces the beams of all of it. Where rows begin
-    /// at a multiple of [`most_rows`](Self::most_rows), they are those of the whole picture to the bit.
+    /// Prepares some rows of a picture, as [`new`](Self::new) does for all. Each sample pass still traces the beams of
+    /// the whole picture.
+    ///
+    /// Where the ranges begin at multiples of [`most_rows`](Self::most_rows), the rows equal those of the whole picture
+    /// to the bit.
     pub fn of_rows(lit_scene: LitScene<'a>, options: beam::BeamOptions, rows: Range<u32>) -> Option<Self> {
         let [stone] = lit_scene.scene.instances.as_slice() else { return None };
         let environment = &lit_scene.environment;
@@ -90,11 +93,14 @@ impl<'a> ByBeams<'a> {
         })
     }
 
-    /// Adds a look at all wavelengths by the beams of one in their middle, whose directions are spread to first order and
-    /// whose light is absorbed as on the way through the middle of each: quick, for a picture that is about to change.
+    /// Adds a sample pass over all wavelengths from the beams of the middle one alone. It is quick, for a picture that
+    /// is about to change.
+    ///
+    /// Directions at the other wavelengths are spread to first order, and light is absorbed as along the path through
+    /// the middle of each beam.
     ///
     /// # Errors
-    /// [`Stopped`] when `watch` asks to stop.
+    /// [`Stopped`] when `watch` stops the work.
     pub fn glance(&mut self, strata: &[Stratum], watch: Watch) -> Result<(), Stopped> {
         let (Some(first), Some(last)) = (strata.first(), strata.last()) else { return Ok(()) };
         let material = &self.lit_scene.scene.instances[0].material;
@@ -123,7 +129,7 @@ impl<'a> ByBeams<'a> {
         Ok(())
     }
 
-    /// Adds what parallel rays see beside the stone.
+    /// Adds the light that parallel rays see beside the stone, where the environment is the backdrop.
     fn see_beside<'r>(&mut self, beams: &Beams, responses: impl Iterator<Item = &'r [DVec3; 4]>) {
         if self.lit_scene.environment.backdrop {
             let light =
@@ -133,7 +139,7 @@ impl<'a> ByBeams<'a> {
         }
     }
 
-    /// The colours of one band's beams, in all copies.
+    /// Returns the polygons of one band's beams in their colours, in all copies of the symmetry.
     fn patches(&self, beams: &Beams, look: &SamplePass, band: usize) -> Vec<Patches> {
         let response = &look.responses[band];
         self.patches_of(beams, band == 0, |beam, sweep, copy| {
@@ -142,7 +148,8 @@ impl<'a> ByBeams<'a> {
         })
     }
 
-    /// All beams, in all copies, in the colour that each has; the silhouette's cover where it is asked for.
+    /// Returns the polygons of all beams, in all copies of the symmetry, in the colour that `colour` gives each. With
+    /// `is_first` they also carry the silhouette's cover.
     fn patches_of(
         &self,
         beams: &Beams,
@@ -173,7 +180,7 @@ impl<'a> ByBeams<'a> {
         ids.par_chunks(AT_ONCE).map(some).collect()
     }
 
-    /// The light that comes through a copy of a beam, by channel, as if nothing were absorbed.
+    /// Returns the light that comes through a copy of a beam, by channel, as if nothing were absorbed.
     fn arriving(&self, beams: &Beams, beam: &Beam, (exit, sweep): (DVec3, DVec3), copy: DMat2) -> DVec4 {
         let eye = &beams.view;
         let turned = |v: DVec3| eye.lift(copy * eye.project(v)) + eye.toward * eye.toward.dot(v);
@@ -184,7 +191,7 @@ impl<'a> ByBeams<'a> {
     fn paint(&mut self, found: &[Patches]) {
         let count = self.pieces.len();
         let (top, bottom) = (f64::from(self.rows.start), f64::from(self.rows.end));
-        // The patches that touch each piece, by (list, place).
+        // For each piece of rows, the patches that touch it, by (list, place).
         let mut touching: Vec<Vec<(u32, u32)>> = vec![vec![]; count];
         for (list, patches) in found.iter().enumerate() {
             for (place, &(start, end, _)) in patches.patches.iter().enumerate() {
@@ -210,9 +217,9 @@ impl<'a> ByBeams<'a> {
     }
 }
 
-/// One band of wavelengths seen by the beams of another.
+/// A band of wavelengths, seen by the beams of another wavelength.
 struct Band {
-    /// Its middle's place, and its width, in the spread of all bands.
+    /// The offset of the band's middle, and the band's width, as parts of the spread of all bands.
     off: f64,
     part: f64,
     response: [DVec3; 4],
@@ -232,7 +239,7 @@ impl Band {
         }
     }
 
-    /// The share of its light that absorption leaves of a path.
+    /// Returns the share of the band's light that absorption leaves after a path of this length.
     fn left(&self, path: f64) -> f64 {
         if self.medium.is_clear() { 1.0 } else { self.medium.transmittance(path.max(0.0)) }
     }
@@ -273,7 +280,7 @@ impl<E: From<Stopped>> ProgressiveImage<E> for ByBeams<'_> {
         Ok(())
     }
 
-    /// What is unresolved and absorbed is known of the whole picture alone: every covered pixel bears the mean.
+    /// Unresolved and absorbed light is known only for the picture as a whole, so every covered pixel gets the mean.
     fn each_pixel(&self, each: &mut dyn FnMut(&RadiancePixel)) -> Result<(), E> {
         let share = 1.0 / f64::from(self.looks.max(1));
         for piece in &self.pieces {

@@ -1,4 +1,4 @@
-//! The pictures of [`by_rays`](super::by_rays), by a graphics card.
+//! The pictures of [`by_rays`](super::by_rays), traced on a graphics card.
 
 use super::Rows;
 use super::by_rays::ScopeSampling;
@@ -8,11 +8,11 @@ use crate::trace::gpu::{Gpu, GpuError, ScopePixel, ScopeShot};
 use crate::trace::{Stopped, Watch};
 use glam::DVec2;
 
-/// Traces a picture on a card, each pixel by a regular grid of rays, and calls `each` as
+/// Traces a picture on a graphics card, each pixel by a regular grid of rays. It calls `each` as
 /// [`by_rays::trace`](super::by_rays::trace()) does, with the same channels.
 ///
 /// # Errors
-/// What `each` answers, or [`Stopped`], or what is wrong with the card, turned into its kind of error.
+/// The errors of `each`, [`Stopped`] when `watch` stops the work, and [`GpuError`], the last two converted into `E`.
 #[expect(
     clippy::too_many_arguments,
     reason = "a card, a stone, a view, a light, a film and a manner: none derives from another"

@@ -1,4 +1,4 @@
-//! The same pictures by point rays: for perspective, where beams do not apply, and as a check on them.
+//! Pictures in a scope by point rays: for perspective views, where beams do not apply, and as a check on beams.
 
 use super::Rows;
 use crate::math::SolidRef;
@@ -8,26 +8,28 @@ use crate::trace::{Stopped, Watch};
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
-/// How a picture is traced.
+/// The settings by which a picture is traced.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ScopeSampling {
     /// How far each ray is followed.
     pub options: RayOptions,
     /// Rays along each side of a pixel, at least 1.
     pub per_side: u32,
-    /// Whether glare is part of the energy.
+    /// Whether glare is part of the energy that is shown.
     pub glare: Glare,
 }
 
-/// Rows handed on at once.
+/// The number of rows handed on at once.
 const PIECE: u32 = 16;
 
-/// Traces a picture row by row, each pixel by a regular grid of rays, and calls `each` as
-/// [`paint()`](super::paint()) does: a channel for the energy of each band of the scope, one for the share of its
-/// strongest exits, the stone's cover last.
+/// Traces a picture row by row, each pixel by a regular grid of rays, and calls `each` as [`paint()`](super::paint())
+/// does.
+///
+/// The channels are the energy of each band of the scope, then the share of each band in the strongest exits, and last
+/// the stone's cover.
 ///
 /// # Errors
-/// What `each` answers, or [`Stopped`], turned into its kind of error, when `watch` asks to stop.
+/// The errors of `each`, and [`Stopped`], converted into `E`, when `watch` stops the work.
 #[expect(
     clippy::too_many_arguments,
     reason = "a stone, a view, a light, a film and a manner: none derives from another"
@@ -78,7 +80,7 @@ pub fn trace<'a, E: From<Stopped>>(
     Ok(())
 }
 
-/// Adds what one ray sees to a pixel's channels.
+/// Adds what one ray sees to the channels of a pixel.
 fn put_down(
     tracer: &StoneTracer,
     (origin, direction): (DVec3, DVec3),

@@ -1,4 +1,4 @@
-//! Captions of pictures in scopes: what is seen, how it was traced, and what each colour means.
+//! Captions of pictures in scopes: what the picture shows, how it was traced, and what each colour means.
 
 use super::drawing::{Ink, Inks, REMARK, TITLE, Type, degrees, hex, printable, shortened, text_width};
 use crate::scene::Scope;
@@ -7,16 +7,16 @@ use svg::node::element::{Group, Rectangle, Text};
 
 /// White space to the left and right, and above and below, in units of the drawing.
 const MARGIN: (f64, f64) = (24.0, 18.0);
-/// From one line of remarks, or row of the legend, to the next.
+/// Distance from one line of remarks, or row of the legend, to the next.
 const LINE: f64 = 21.0;
-/// Height that the title takes.
+/// Height of the title's line.
 const TITLE_LINE: f64 = 32.0;
-/// Side of a zone's field of colour.
+/// Side of the square that shows a zone's colour.
 const FIELD: f64 = 14.0;
-/// Between a field and its words, and between the words and the next field.
+/// Gap between a colour's square and its words, and between the words and the next square.
 const GAPS: (f64, f64) = (7.0, 20.0);
 
-/// What stands under a picture.
+/// The caption under a picture: a title, remarks, and a legend of the scope's zones.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Caption {
     title: String,
@@ -25,14 +25,14 @@ pub struct Caption {
 }
 
 impl Caption {
-    /// A caption with the zones of a scope as its legend; long remarks are broken into lines.
+    /// Builds a caption with the zones of a scope as its legend. Long remarks are broken into lines.
     pub fn new(title: &str, remarks: Vec<String>, scope: &Scope) -> Self {
         let zones = scope.bands.iter().enumerate().rev();
         let zones = zones.map(|(k, band)| (band_text(scope, k), band.colour)).collect();
         Self { title: title.to_owned(), remarks, zones }
     }
 
-    /// The caption alone as a drawing of this width, in units of which its small type is 13 high.
+    /// Returns the caption alone, as a drawing of this width; its small type is 13 units high.
     pub fn document(&self, width: f64) -> Document {
         let (group, height) = self.drawn(width);
         Document::new()
@@ -42,7 +42,7 @@ impl Caption {
             .add(group)
     }
 
-    /// A square drawing of this side with the caption under it.
+    /// Returns a square drawing of this side with the caption under it.
     pub fn under(&self, square: Document, side: f64) -> Document {
         let (group, height) = self.drawn(side);
         square
@@ -51,7 +51,7 @@ impl Caption {
             .add(group.set("transform", format!("translate(0 {side})")))
     }
 
-    /// Its elements from the origin on, and the height that they take.
+    /// Returns the caption's elements, drawn from the origin on, and the height that they take.
     fn drawn(&self, width: f64) -> (Group, f64) {
         let room = width - 2.0 * MARGIN.0;
         let mut texts =
@@ -82,7 +82,7 @@ impl Caption {
     }
 }
 
-/// A band as the legend tells of it.
+/// Returns the legend's text for a band.
 fn band_text(scope: &Scope, band: usize) -> String {
     let name = &scope.bands[band].name;
     match scope.elevations(band) {
@@ -94,7 +94,7 @@ fn band_text(scope: &Scope, band: usize) -> String {
     }
 }
 
-/// A line whose middle height is at a point.
+/// Returns a line of text whose middle height is at a point.
 fn line(kind: Type, [x, y]: [f64; 2], content: &str) -> Text {
     Text::new(printable(content))
         .set("x", x)
@@ -103,7 +103,7 @@ fn line(kind: Type, [x, y]: [f64; 2], content: &str) -> Text {
         .set("fill", Inks::PAPER.of(kind.colour))
 }
 
-/// A text in lines that fit the room, broken between words.
+/// Breaks a text between words into lines that fit the room.
 fn broken(text: &str, room: f64) -> Vec<String> {
     let mut lines: Vec<String> = vec![];
     for word in text.split_whitespace() {

@@ -1,22 +1,22 @@
-//! From a picture in linear light to one that screens show.
+//! Develops a picture in linear light into one that screens can show.
 
 use super::tone::reachable;
 use super::{Background, Bloom, Linear, Tone, background};
 use crate::optics::SrgbEncoder;
 use rayon::prelude::*;
 
-/// How a picture is developed, in this order.
+/// The settings by which a picture is developed, in the order of the steps.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Develop {
-    /// Stops: light is taken 2 to this power times, −40 to 40.
+    /// Exposure in stops, −40 to 40: light is multiplied by 2 to this power.
     pub exposure: f64,
-    /// What spreads the brightest light, after exposure.
+    /// The glare that spreads the brightest light, after exposure.
     pub bloom: Option<Bloom>,
-    /// What brings light below 1.
+    /// The curve that brings light below 1.
     pub tone: Tone,
     /// The exposed light that [`Tone::Filmic`] shows as white, 0.1 to 1000.
     pub white: f64,
-    /// What is laid behind the stones, as it is: neither exposure nor tone changes it.
+    /// The background behind the stones. It keeps its colour: neither exposure nor tone changes it.
     pub background: Background,
 }
 
@@ -32,22 +32,22 @@ impl Default for Develop {
     }
 }
 
-/// The brightest light that is told from brighter: sums of it are finite.
+/// The limit to which light is clamped, so that sums of it stay finite.
 const BRIGHTEST: f32 = 1e12;
 
-/// Stops beyond which there is nothing but black or white.
+/// The most stops of exposure either way; beyond them there is nothing but black or white.
 const MOST_STOPS: f64 = 40.0;
 
-/// A picture in eight-bit sRGB: red, green, blue and cover, not premultiplied, row by row. Numbers out of their range
-/// count as its end, light that is no number as dark.
+/// Develops a picture to eight-bit sRGB: red, green, blue and cover, not premultiplied, row by row. Numbers out of their
+/// range count as the nearer end of it, and light that is NaN as dark.
 ///
-/// Without a background, glare beside the stones has light but no cover, which eight-bit pictures cannot hold; there,
-/// cover is raised to the brightest encoded channel, so that over black the picture looks as it would have.
+/// Without a background, glare beside the stones has light but no cover, which eight-bit pictures cannot hold. There,
+/// the cover is raised to the brightest encoded channel, so that over black the picture looks as it would have.
 pub fn develop(picture: &Linear, manner: &Develop) -> Vec<u8> {
     developed(picture.clone(), manner)
 }
 
-/// The same of a picture that is not needed any more, in half the memory.
+/// Develops a picture as [`develop`] does, but consumes it and so needs half the memory.
 pub fn developed(picture: Linear, manner: &Develop) -> Vec<u8> {
     let exposed = exposed(picture, manner);
     let encoder = SrgbEncoder::new();
@@ -63,7 +63,7 @@ pub fn developed(picture: Linear, manner: &Develop) -> Vec<u8> {
     out
 }
 
-/// The light as exposed and spread.
+/// Returns the picture with exposure and glare applied.
 pub(super) fn exposed(picture: Linear, manner: &Develop) -> Linear {
     let gain = manner.exposure.clamp(-MOST_STOPS, MOST_STOPS).exp2() as f32;
     let sane = |v: f32, least: f32, most: f32| if v.is_nan() { 0.0 } else { v.clamp(least, most) };
@@ -79,14 +79,14 @@ pub(super) fn exposed(picture: Linear, manner: &Develop) -> Linear {
     out
 }
 
-/// What a screen can show of a pixel.
+/// Returns a pixel as a screen can show it, by the tone curve.
 pub(super) fn shown([r, g, b, cover]: [f32; 4], manner: &Develop) -> [f32; 4] {
     let white = 1000_f64.min(manner.white).max(0.1) as f32;
     let [r, g, b] = manner.tone.shown(reachable([r, g, b]), white);
     [r, g, b, cover]
 }
 
-/// The codes of a pixel over what is behind it, if anything is.
+/// Encodes a pixel over the colour behind it, if there is one.
 fn encoded(pixel: [f32; 4], behind: Option<[f32; 3]>, encoder: &SrgbEncoder) -> [u8; 4] {
     let opaque = |[r, g, b, _]: [f32; 4]| [r, g, b].map(|c| encoder.encode(f64::from(c)));
     if let Some(colour) = behind {

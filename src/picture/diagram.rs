@@ -1,8 +1,8 @@
-//! A stone's facet diagram, as cutters print it: crown from above and pavilion from below, a label for each tier, an
-//! index of azimuths round either view, and the tiers listed underneath.
+//! A stone's facet diagram, as cutters print it: the crown from above and the pavilion from below, a label for each
+//! tier, an index of azimuths around each view, and a list of the tiers underneath.
 //!
-//! A tier is all facets of one slope and one distance from the stone's origin. Seen from below the stone is turned
-//! over about its y axis, so azimuths there run clockwise from the left.
+//! A tier is all facets of one slope and one distance from the stone's origin. Seen from below, the stone is turned over
+//! about its y axis, so azimuths run clockwise from the left there.
 
 mod labels;
 mod style;
@@ -16,23 +16,28 @@ use crate::scene::Stone;
 use glam::DVec2;
 use svg::Document;
 
-/// How far from the circle that holds the stone the ticks of the index begin, and where the longest end.
+/// Distance from the circle that holds the stone to where the ticks of the index begin.
 const TICKS: f64 = 8.0;
+/// Distance from that circle to where the longest ticks end.
 const TICKS_END: f64 = TICKS + 11.0;
 
-/// Names of tiers in the views, and their slopes.
+/// Type of the tiers' names.
 const NAME: Type = Type { size: 12.5, colour: Ink::Main };
+/// Type of the tiers' slopes.
 const SLOPE: Type = Type { size: 12.5, colour: Ink::Accent };
+/// Type of the index's numbers.
 const INDEX: Type = Type { size: 11.0, colour: Ink::Quiet };
-/// From one line of the list to the next.
+/// Distance from one line of the list to the next.
 const LIST_LINE: f64 = 20.0;
 
-/// Facets are of one tier if slope (its cosine) and distance, in radii, agree to this: a hundred times finer than
-/// machines cut, far above rounding.
+/// Two facets belong to one tier if their slopes (as cosines) and their distances (in radii) agree to this. It is a
+/// hundred times finer than machines cut and far above rounding.
 const SAME_TIER: f64 = 1e-6;
 
-/// Draws the facet diagram in a style, which decides on colours and on how much of it there is. Every facet is a polygon with its name in `data-name` and as its title; upright ones, seen
-/// edge on, are among those of the crown.
+/// Draws the facet diagram in a style, which decides on its colours and on how much it shows.
+///
+/// Every facet is a polygon with its name in `data-name` and as its title. Upright facets, which are seen edge on, are
+/// drawn with the crown.
 pub fn diagram(stone: &Stone, title: &str, style: &DiagramStyle) -> Document {
     let tiers = tiers(stone);
     let mut sheet = Sheet::new(style.inks);
@@ -61,15 +66,15 @@ fn counted(count: usize, noun: &str) -> String {
     format!("{count} {noun}{}", if count == 1 { "" } else { "s" })
 }
 
-/// Facets of one slope and distance.
+/// All facets of one slope and one distance from the origin.
 #[derive(Debug, Clone, PartialEq)]
 struct Tier {
-    /// From 1, in the order in which tiers first occur.
+    /// The tier's number, from 1, in the order in which tiers first occur.
     number: usize,
     name: String,
-    /// From the girdle plane: 0 level, 90 upright.
+    /// Slope from the girdle plane, in degrees: 0 is level, 90 upright.
     slope_degrees: f64,
-    /// Of the first facet, 0 to 360; none for level facets.
+    /// Azimuth of the first facet, from 0 to below 360 degrees; `None` for level facets.
     azimuth_degrees: Option<f64>,
     facets: Vec<u32>,
 }
@@ -80,7 +85,7 @@ impl Tier {
     }
 }
 
-/// All tiers, in the order of their first facets.
+/// Returns all tiers of a stone, in the order of their first facets.
 fn tiers(stone: &Stone) -> Vec<Tier> {
     let facets = stone.polytope.facets();
     let mut groups: Vec<Vec<u32>> = vec![];
@@ -109,13 +114,15 @@ fn tiers(stone: &Stone) -> Vec<Tier> {
     groups.into_iter().enumerate().map(tier).collect()
 }
 
-/// 0 to 360 degrees; what rounds to 360 is 0, and rounding errors are taken off before two decimals are.
+/// Returns the azimuth of a direction, from 0 to below 360 degrees. An angle that two decimals would show as 360 is 0.
+/// Others are rounded to 1e-9 degrees, so that rounding errors do not reach the second decimal.
 fn azimuth(radial: DVec2) -> f64 {
     let degrees = radial.to_angle().to_degrees().rem_euclid(360.0);
     if degrees > 359.995 { 0.0 } else { (degrees * 1e9).round() / 1e9 }
 }
 
-/// What the names of a tier's facets share once their numbers are taken off, or all of them.
+/// Returns the name that a tier's facets share once their numbers are removed, or all different names where they share
+/// none.
 fn tier_name<'a>(names: impl Iterator<Item = &'a str>) -> String {
     let mut different: Vec<String> = vec![];
     for name in names {
@@ -165,13 +172,14 @@ impl View {
         DrawnAspect { basis: Basis::FACE_DOWN, ..self.aspect }.shows(facet)
     }
 
-    /// A point of the sheet, from the view's middle; the angle as on paper, counter-clockwise from the right.
+    /// Returns a point of the sheet at this distance and angle from the view's middle. The angle is as on paper, in
+    /// degrees counter-clockwise from the right.
     fn polar(&self, radius: f64, angle_degrees: f64) -> DVec2 {
         let (sin, cos) = angle_degrees.to_radians().sin_cos();
         self.aspect.place + DVec2::new(radius * cos, -radius * sin)
     }
 
-    /// Where an azimuth lies on paper.
+    /// Returns the angle on paper, in degrees, at which an azimuth lies.
     fn on_paper(&self, azimuth_degrees: f64) -> f64 {
         if self.is_crown() { azimuth_degrees } else { 180.0 - azimuth_degrees }
     }
@@ -188,7 +196,7 @@ impl View {
         sheet.text(Type { size: 14.0, colour: Ink::Main }, Align::Middle, above, self.name());
     }
 
-    /// The marks of the index round the stone.
+    /// Draws the marks of the index around the stone.
     fn ticks(&self, sheet: &mut Sheet) {
         let begin = self.style.radius + TICKS;
         let (mut fine, mut coarse) = (vec![], vec![]);
@@ -206,11 +214,11 @@ impl View {
         sheet.quiet_lines(&coarse, "index", 1.3);
     }
 
-    /// The index's numbers and where they stand; a small diagram has none.
+    /// Returns the index's numbers and where they stand; a small diagram has none.
     fn index(&self) -> Vec<(DVec2, String)> {
         let number = |k: i32| {
             let (text, angle) = (degrees(45.0 * f64::from(k)), self.on_paper(45.0 * f64::from(k)));
-            // As far out as the box of the text needs in this direction.
+            // The box of the text decides how far out it must stand in this direction.
             let half = DVec2::new(text_width(&text, INDEX.size), INDEX.size) / 2.0;
             let toward = DVec2::from_angle(angle.to_radians()).abs();
             (self.polar(self.style.radius + TICKS_END + 5.0 + half.dot(toward), angle), text)
@@ -218,7 +226,7 @@ impl View {
         (0..if self.style.is_sheet { 8 } else { 0 }).map(number).collect()
     }
 
-    /// The tiers seen in this view, line by line.
+    /// Writes the list of the tiers seen in this view, line by line.
     fn list(&self, sheet: &mut Sheet, tiers: &[&Tier]) {
         let (top, half_room) = (self.style.list_below(), self.style.half_room());
         let x = self.aspect.place.x;
@@ -244,13 +252,13 @@ impl View {
         }
     }
 
-    /// Width of a tier's name in the list.
+    /// Returns the width that a tier's name may take in the list.
     fn room_for_names(&self) -> f64 {
         if self.style.is_sheet { 210.0 } else { 2.0 * self.style.half_room() - 26.0 - 90.0 }
     }
 
-    /// One line of the list: number and name from the left, the rest against the right. A small diagram leaves out the
-    /// last column.
+    /// Writes one line of the list: number and name aligned at the left, the rest at the right. A small diagram leaves
+    /// out the last column.
     fn line(&self, sheet: &mut Sheet, y: f64, kinds: [Type; 5], cells: &[String]) {
         let half_room = self.style.half_room();
         let columns = match self.style.is_sheet {
@@ -403,7 +411,8 @@ mod tests {
         assert_eq!(drawn(), drawn());
     }
 
-    /// The least height of a text in points, and the colour of the paper, where a diagram is shown so large.
+    /// Returns the least height of type in points, the colour of the paper and the SVG, for a diagram shown at this size
+    /// in points.
     fn shown(stone: &Stone, points: [f64; 2]) -> (f64, String, String) {
         let style = DiagramStyle::fitting(stone, super::super::Inks::DARK, points);
         let svg = diagram(stone, "Test", &style).to_string();

@@ -1,8 +1,8 @@
 //! Technical drawings: a sheet with a stone, dimension lines, arrows and text on it.
 //!
-//! Coordinates are those of the drawing, y down, a unit a pixel where the drawing is shown 1000 wide. A sheet knows
-//! how far what is drawn on it reaches, so nothing is clipped. Text is set in Ubuntu Light, which `io` rasterises
-//! with; other viewers fall back on their own sans-serif of about the same widths.
+//! Coordinates are those of the drawing, y down; a unit is a pixel where the drawing is shown 1000 wide. A sheet keeps
+//! track of how far its contents reach, so that nothing is clipped. Text is set in Ubuntu Light, with which `io`
+//! rasterises; other viewers fall back on their own sans-serif, of about the same widths.
 
 mod inks;
 mod lettering;
@@ -22,32 +22,33 @@ use std::fmt::{Display, Write};
 use svg::Document;
 use svg::node::element::{Circle, Group, Path, Polygon, Rectangle, Text, Title};
 
-/// Width that a drawing has unless it needs more.
+/// Width of a drawing, unless it needs more.
 const LEAST_WIDTH: f64 = 1000.0;
-/// White space all round.
+/// Width of the white space on all sides.
 const MARGIN: f64 = 36.0;
-/// Heights of the heading and of a line under the drawing.
+/// Height of the heading.
 const HEADING: f64 = 70.0;
+/// Height of a line under the drawing.
 const FOOT_LINE: f64 = 19.0;
-/// Length and half width of an arrow head.
+/// Length and half width of an arrow head, as x and y.
 const ARROW: DVec2 = DVec2::new(9.0, 2.6);
-/// A dimension shorter than this has its arrows outside.
+/// Length below which a dimension has its arrows outside.
 pub(super) const ROOM_FOR_ARROWS: f64 = 26.0;
 
-/// A facet whose normal leans less than this toward the eye is seen edge on: rounding of a unit normal.
+/// Cosine below which a facet counts as seen edge on: the rounding of a unit normal.
 const EDGE_ON: f64 = 1e-9;
 
-/// A coordinate: three digits behind the point, no negative zero.
+/// Rounds a coordinate to three decimals, without negative zero.
 fn coordinate(value: f64) -> f64 {
     (value * 1000.0).round() / 1000.0 + 0.0
 }
 
-/// A point as paths and polygons write it.
+/// Returns a point as paths and polygons write it.
 fn point(p: DVec2) -> impl Display {
     format!("{},{}", coordinate(p.x), coordinate(p.y))
 }
 
-/// Straight lines as a path.
+/// Returns straight lines as one path.
 fn segments(lines: &[(DVec2, DVec2)]) -> Path {
     let mut data = String::new();
     for &(a, b) in lines {
@@ -62,37 +63,37 @@ fn segments(lines: &[(DVec2, DVec2)]) -> Path {
 pub(super) struct DrawnAspect {
     /// The image plane.
     pub basis: Basis,
-    /// The image coordinates that come to the sheet's origin, radii.
+    /// The image coordinates that lie at `place`, in radii.
     pub centre: DVec2,
-    /// Units of the drawing to a girdle radius.
+    /// Units of the drawing per girdle radius.
     pub scale: f64,
-    /// Where the centre comes to lie on the sheet.
+    /// The point of the sheet where `centre` lies.
     pub place: DVec2,
 }
 
 impl DrawnAspect {
-    /// A point of the stone on the sheet.
+    /// Returns where a point of the stone lies on the sheet.
     pub fn at(&self, p: DVec3) -> DVec2 {
         self.on_sheet(self.basis.project(p))
     }
 
-    /// Image coordinates, in radii, on the sheet.
+    /// Returns where image coordinates, in radii, lie on the sheet.
     pub fn on_sheet(&self, image: DVec2) -> DVec2 {
         self.place + (image - self.centre) * DVec2::new(self.scale, -self.scale)
     }
 
-    /// Whether a facet turns its face to the eye.
+    /// Whether a facet faces the eye.
     pub fn shows(&self, facet: &Facet) -> bool {
         facet.plane.normal.dot(self.basis.toward) > EDGE_ON
     }
 
-    /// The corners of a facet on the sheet.
+    /// Returns the corners of a facet on the sheet.
     pub fn outline(&self, stone: &Stone, facet: &Facet) -> Vec<DVec2> {
         stone.polytope.corners(facet).map(|p| self.at(p)).collect()
     }
 }
 
-/// A drawing that grows.
+/// A drawing to which elements are added; it keeps the box that they fill.
 #[derive(Debug, Clone)]
 pub(super) struct Sheet {
     stone: Group,
@@ -104,7 +105,7 @@ pub(super) struct Sheet {
 }
 
 impl Sheet {
-    /// An empty sheet, to be drawn on in these colours.
+    /// Builds an empty sheet for drawing in these colours.
     pub fn new(inks: Inks) -> Self {
         let lines = |class: &str, colour: Ink, width: f64| {
             Group::new().set("class", class).set("stroke", inks.of(colour)).set("stroke-width", width)
@@ -158,12 +159,13 @@ impl Sheet {
         }
     }
 
-    /// A trace of shade on facets that turn away, so that the eye sees relief.
+    /// Returns the fill of a facet: slightly shaded where the facet turns away from the eye, so that the drawing shows
+    /// relief.
     fn shade(&self, facet: &Facet, aspect: &DrawnAspect) -> String {
         self.inks.face(facet.plane.normal.dot(aspect.basis.toward).clamp(0.0, 1.0))
     }
 
-    /// Quiet lines beside the stone, as those of a scale.
+    /// Draws unobtrusive lines beside the stone, such as those of a scale.
     pub fn quiet_lines(&mut self, lines: &[(DVec2, DVec2)], class: &str, width: f64) {
         lines.iter().for_each(|&(a, b)| [a, b].into_iter().for_each(|p| self.frame.include(p)));
         let lines = segments(lines).set("class", class).set("stroke", self.inks.of(Ink::Edge));
@@ -174,13 +176,13 @@ impl Sheet {
         self.stone = std::mem::take(&mut self.stone).add(element);
     }
 
-    /// A line that leads from a dimension to what it measures.
+    /// Draws an extension line, which leads from a dimension to what it measures.
     pub fn extension(&mut self, a: DVec2, b: DVec2) {
         [a, b].into_iter().for_each(|p| self.frame.include(p));
         self.extensions = std::mem::take(&mut self.extensions).add(segments(&[(a, b)]));
     }
 
-    /// A line of the weight of dimensions.
+    /// Draws a line of the same weight as dimension lines.
     pub fn stroke(&mut self, a: DVec2, b: DVec2) {
         [a, b].into_iter().for_each(|p| self.frame.include(p));
         self.onto_dimensions(segments(&[(a, b)]));
@@ -190,7 +192,7 @@ impl Sheet {
         self.dimensions = std::mem::take(&mut self.dimensions).add(element);
     }
 
-    /// An arrow head whose tip lies at `tip`, pointing along the unit vector `toward`.
+    /// Draws an arrow head whose tip lies at `tip`, pointing along the unit vector `toward`.
     pub fn arrow_head(&mut self, tip: DVec2, toward: DVec2) {
         let (back, side) = (tip - toward * ARROW.x, toward.perp() * ARROW.y);
         let data = format!("M{}L{}L{}Z", point(tip), point(back + side), point(back - side));
@@ -199,18 +201,18 @@ impl Sheet {
         );
     }
 
-    /// A small disc, where a leader ends on a facet or two short dimensions meet.
+    /// Draws a small disc, for where a leader ends on a facet or two short dimensions meet.
     pub fn dot(&mut self, at: DVec2) {
         let disc = Circle::new().set("cx", coordinate(at.x)).set("cy", coordinate(at.y)).set("r", 2);
         self.onto_dimensions(disc.set("fill", self.inks.of(Ink::Accent)).set("stroke", "none"));
     }
 
-    /// A dimension line between two points, with its arrows outside where there is no room between; whether there
-    /// was.
+    /// Draws a dimension line between two points. Returns whether there is room for its arrows between them; without it
+    /// they stand outside.
     pub fn arrows(&mut self, a: DVec2, b: DVec2) -> bool {
         let Some(along) = (b - a).try_normalize() else { return false };
         let inside = (b - a).length() >= ROOM_FOR_ARROWS;
-        // Whatever the line crosses is broken there, so that it reads as lying on top.
+        // A halo breaks the lines underneath, so that this line reads as lying on top.
         let halo = segments(&[(a + along * 3.0, b - along * 3.0)]).set("stroke", self.inks.of(Ink::Paper));
         self.onto_dimensions(halo.set("stroke-width", 5));
         let outward = if inside { 1.0 } else { -1.0 };
@@ -224,7 +226,7 @@ impl Sheet {
         inside
     }
 
-    /// Breaks dimension lines where a text is to stand.
+    /// Clears a box for a text by breaking the dimension lines behind it.
     pub fn clear(&mut self, frame: Frame) {
         let (low, size) = (frame.low - DVec2::X * 5.0, frame.high - frame.low + DVec2::X * 10.0);
         let blank = Rectangle::new()
@@ -235,8 +237,8 @@ impl Sheet {
         self.onto_dimensions(blank.set("fill", self.inks.of(Ink::Paper)).set("stroke", "none"));
     }
 
-    /// An arc of dimension weight about `centre`, from `from` to `to`, both at its radius, the short way round; arrow
-    /// heads where it is long enough.
+    /// Draws an arc of dimension weight about `centre`, the short way from `from` to `to`, both at its radius. The arc
+    /// has arrow heads where it is long enough.
     pub fn arc(&mut self, centre: DVec2, from: DVec2, to: DVec2) {
         let radius = (from - centre).length();
         let turn = (from - centre).perp_dot(to - centre).signum();
@@ -244,7 +246,7 @@ impl Sheet {
         let data = format!("M{0}A{1},{1} 0 0 {2} {3}", point(from), coordinate(radius), sweep, point(to));
         self.onto_dimensions(Path::new().set("d", data));
         if (to - from).length() >= ROOM_FOR_ARROWS {
-            // An arrow head is a chord of the arc: half the angle that it spans off the tangent.
+            // An arrow head is a chord of the arc, so it is turned off the tangent by half the angle that it spans.
             for (end, sense) in [(from, -turn), (to, turn)] {
                 let tangent = (end - centre).perp() * (sense / radius);
                 let off = DVec2::from_angle(-sense * ARROW.x / radius / 2.0);
@@ -253,19 +255,21 @@ impl Sheet {
         }
     }
 
-    /// One line of text, its middle height at `at`, lifted off the lines under it by white round its letters.
+    /// Writes one line of text, its middle height at `at`, with a halo of paper round its letters that lifts it off
+    /// lines underneath. Returns the box that it fills.
     pub fn text(&mut self, kind: Type, align: Align, at: DVec2, content: &str) -> Frame {
         let frame = text_frame(kind.size, align, at, content);
         self.put(kind, align, at, content, frame, |text| text.set("stroke-width", 5))
     }
 
-    /// The same, without the white.
+    /// Writes one line of text as [`text`](Self::text) does, without the halo.
     pub fn plain_text(&mut self, kind: Type, align: Align, at: DVec2, content: &str) {
         let frame = text_frame(kind.size, align, at, content);
         self.put(kind, align, at, content, frame, |text| text.set("stroke", "none"));
     }
 
-    /// The same, read from the right; aligned along its upward line, the middle of whose height is at `at`.
+    /// Writes one line of text turned by a right angle, to be read from the right, without a halo. It is aligned along
+    /// its upward line, and the middle of its height is at `at`.
     pub fn upright_text(&mut self, kind: Type, align: Align, at: DVec2, content: &str) {
         let level = text_frame(kind.size, align, DVec2::ZERO, content);
         let turned = [level.low, level.high].map(|p| at - p.perp());
@@ -299,7 +303,7 @@ impl Sheet {
         frame
     }
 
-    /// The finished drawing: a heading over what was drawn, remarks under it, white space all round.
+    /// Returns the finished drawing: a heading over what was drawn, remarks under it, white space on all sides.
     pub fn document(mut self, title: &str, subtitle: &str, remarks: &[String]) -> Document {
         let drawn = self.frame;
         let remark_width = remarks.iter().map(|r| text_width(r, REMARK.size)).fold(0.0, f64::max);
@@ -317,7 +321,7 @@ impl Sheet {
         self.finish(title, frame, MARGIN)
     }
 
-    /// The drawing without a heading, as wide as what was drawn, with so much paper all round.
+    /// Returns the drawing without a heading, as wide as what was drawn, with a margin of paper on all sides.
     pub fn bare(self, title: &str, margin: f64) -> Document {
         let frame = self.frame;
         self.finish(title, frame, margin)

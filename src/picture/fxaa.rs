@@ -1,22 +1,23 @@
-//! Fast approximate antialiasing: a finished picture's jagged edges are found by their contrast, followed to both ends, and
-//! evened out as far as a straight edge there would cover each pixel (the method of T. Lottes, FXAA, NVIDIA white paper,
-//! 2009).
+//! Fast approximate antialiasing. It finds a finished picture's jagged edges by their contrast, follows each to both
+//! ends, and smooths it as far as a straight edge there would cover each pixel (the method of T. Lottes, FXAA, NVIDIA
+//! white paper, 2009).
 
 use crate::picture::LUMINANCE;
 use rayon::prelude::*;
 
-/// Contrast below which nothing is done: in codes of full scale 1, and as a part of the brightest pixel around.
+/// Contrast below which a pixel is left alone, in codes of full scale 1.
 const LEAST_CONTRAST: f32 = 1.0 / 32.0;
+/// Contrast below which a pixel is left alone, as a part of the brightest pixel around.
 const LEAST_PART: f32 = 1.0 / 8.0;
 
-/// Pixels that an edge is followed to either side.
+/// How many pixels an edge is followed to either side.
 const FARTHEST: i32 = 12;
 
-/// The most that a pixel that stands out alone is evened out.
+/// The greatest part of its neighbour that is mixed into a pixel that stands out alone.
 const MOST_ALONE: f32 = 0.75;
 
-/// Evens out the edges of a picture of `width` pixels a row, of encoded red, green, blue and cover, not premultiplied.
-/// Nothing is done where there are no whole rows.
+/// Smooths the edges of a picture of `width` pixels a row, with encoded red, green, blue and cover, not premultiplied. A
+/// picture that does not consist of whole rows is left as it is.
 pub fn fxaa(rgba: &mut [u8], width: u32) {
     let width = width as usize;
     let (pixels, rest) = rgba.as_chunks::<4>();
@@ -31,7 +32,7 @@ pub fn fxaa(rgba: &mut [u8], width: u32) {
     rgba.copy_from_slice(&smooth);
 }
 
-/// How bright a pixel looks over black, 0 to 1.
+/// Returns how bright a pixel looks over black, 0 to 1.
 fn luma([r, g, b, cover]: &[u8; 4]) -> f32 {
     let parts = [r, g, b].into_iter().zip(LUMINANCE);
     parts.map(|(code, share)| f32::from(*code) * share).sum::<f32>() * f32::from(*cover) / (255.0 * 255.0)
@@ -44,7 +45,7 @@ struct Picture<'a> {
 }
 
 impl Picture<'_> {
-    /// The pixel's place in its row and rows; beyond the border the border itself.
+    /// Returns the place of the pixel at column `x` and row `y`; beyond the border, that of the nearest pixel on it.
     fn place(&self, x: i32, y: i32) -> usize {
         let height = self.pixels.len() as i32 / self.width;
         (y.clamp(0, height - 1) * self.width + x.clamp(0, self.width - 1)) as usize
@@ -61,7 +62,8 @@ impl Picture<'_> {
         mixed(own, other, part)
     }
 
-    /// How much of which neighbour belongs into a pixel.
+    /// Returns how much of which neighbour is to be mixed into a pixel: the part, and the step to the neighbour. Returns
+    /// `None` where there is too little contrast.
     fn shift(&self, x: i32, y: i32) -> Option<(f32, [i32; 2])> {
         let at = |dx: i32, dy: i32| self.luma(x + dx, y + dy);
         let middle = at(0, 0);
@@ -73,7 +75,7 @@ impl Picture<'_> {
             return None;
         }
         let corners = [at(-1, -1), at(1, -1), at(-1, 1), at(1, 1)];
-        // How much brightness bends across an edge along x, and along y.
+        // The second difference of brightness, summed for an edge along x and for one along y.
         let bend = |a: f32, b: f32, c: f32| (a + c - 2.0 * b).abs();
         let [up, down, left, right] = sides;
         let [up_left, up_right, down_left, down_right] = corners;
@@ -100,18 +102,20 @@ impl Picture<'_> {
         Some((self.cover(&edge, middle).max(alone), across))
     }
 
-    /// The part of a pixel that lies beyond a straight edge between the two ends of the one it is at.
+    /// Returns the part of a pixel that lies beyond a straight edge, drawn between the two ends of the edge that the
+    /// pixel is at.
     fn cover(&self, edge: &Edge, luma: f32) -> f32 {
         let [(to_one, one), (to_other, other)] = [-1, 1].map(|way| self.end(edge, way));
         let (near, end) = if to_one < to_other { (to_one, one) } else { (to_other, other) };
-        // Only where the edge turns away from the pixel's own side.
+        // Only where brightness at the nearer end changes toward the other side's does the straight edge cut the pixel.
         if (end < 0.0) == (luma < edge.middle) {
             return 0.0;
         }
         0.5 - near / (to_one + to_other)
     }
 
-    /// How far an edge goes on one way, in pixels, and how brightness there differs from its middle.
+    /// Follows an edge one way. Returns how far it goes, in pixels, and how the brightness at its end differs from its
+    /// middle.
     fn end(&self, edge: &Edge, way: i32) -> (f32, f32) {
         let mut off = 0.0;
         for k in 1..=FARTHEST {
@@ -131,13 +135,13 @@ struct Edge {
     from: [i32; 2],
     along: [i32; 2],
     across: [i32; 2],
-    /// Brightness on it.
+    /// Mean brightness of the two pixels at the edge.
     middle: f32,
-    /// How much else brightness is where it ends.
+    /// The change of brightness at which the edge ends.
     step: f32,
 }
 
-/// A part of one pixel in another, 0 to 1: colours count as they cover.
+/// Mixes a part of another pixel, 0 to 1, into a pixel. Colours are weighted by their cover.
 fn mixed(own: [u8; 4], other: [u8; 4], part: f32) -> [u8; 4] {
     let covers = [own[3], other[3]].map(f32::from);
     let shares = [covers[0] * (1.0 - part), covers[1] * part];
@@ -156,7 +160,7 @@ mod tests {
 
     const SIDE: i32 = 48;
 
-    /// White where a point lies above a line through the middle, each pixel by as many points a side.
+    /// Draws a half plane, white above a line through the middle, each pixel sampled at `points` × `points` points.
     fn half_plane(slope: f64, points: u32) -> Vec<u8> {
         let pixel = |k: i32| {
             let (x, y) = (f64::from(k % SIDE), f64::from(k / SIDE));
@@ -191,7 +195,7 @@ mod tests {
         let row = |y: usize| if y < 3 { [255; 4] } else { [0, 0, 0, 255] }.repeat(6);
         let straight: Vec<u8> = (0..6).flat_map(row).collect();
         let dim: Vec<u8> = (0..30).flat_map(|k| [100 + k % 3, 100, 100, 255]).collect();
-        // A straight edge counts as standing out a little.
+        // A straight edge counts a little as a pixel that stands out.
         for (picture, most) in [(even, 0), (straight, 13), (dim, 0)] {
             let mut smooth = picture.clone();
             fxaa(&mut smooth, 6);

@@ -1,4 +1,4 @@
-//! The program's own sign: a stone from above, each facet as bright as it is turned to a light.
+//! The program's icon: a stone from above, each facet as bright as it is turned to a light.
 
 use super::drawing::{DrawnAspect, hex};
 use crate::math::{Basis, Facet};
@@ -7,24 +7,26 @@ use glam::{DVec2, DVec3};
 use svg::Document;
 use svg::node::element::{Group, Polygon};
 
-/// Side of the drawing, and the radius of the stone in it.
+/// Side of the drawing.
 const SIDE: f64 = 256.0;
+/// Radius of the stone in the drawing.
 const RADIUS: f64 = 122.0;
 
-/// Darkest and brightest facets, and the lines between facets, in sRGB.
+/// Darkest and brightest shade of facets, in sRGB codes.
 const SHADES: [[u8; 3]; 2] = [[14, 44, 92], [206, 232, 255]];
+/// Colour of the lines between facets, in sRGB codes.
 const LINE: [u8; 3] = [240, 248, 255];
 
 /// Width of the lines.
 const LINE_WIDTH: f64 = 3.0;
 
-/// From where the light comes; of no unit length.
+/// Direction toward the light; not a unit vector.
 const LIGHT: DVec3 = DVec3::new(-0.8, 1.0, 0.9);
 
-/// How much brighter a facet becomes from one that turns away from the light to one that faces it.
+/// How much a facet's shade changes, as a part of the range of shades, for a change of 1 in the cosine toward the light.
 const CONTRAST: f64 = 1.6;
 
-/// Draws the facets of a stone that are seen from above, on nothing.
+/// Draws the facets of a stone that are seen from above, without a background.
 pub fn icon(stone: &Stone) -> Document {
     let reach = stone.polytope.vertices().iter().map(|v| v.truncate().length()).fold(0.0, f64::max);
     let place = DVec2::splat(SIDE / 2.0);
@@ -41,7 +43,7 @@ fn face(stone: &Stone, facet: &Facet, aspect: &DrawnAspect) -> Polygon {
     let corners = aspect.outline(stone, facet);
     let points = corners.iter().map(|p| format!("{:.2},{:.2}", p.x, p.y)).collect::<Vec<_>>().join(" ");
     let lit = facet.plane.normal.dot(LIGHT) / LIGHT.length();
-    // A table, square to the eye, is neither among the brightest nor among the darkest.
+    // The table, square to the eye, gets the middle shade.
     let part = (0.5 + CONTRAST * (lit - LIGHT.z / LIGHT.length())).clamp(0.0, 1.0);
     let mixed = |k: usize| {
         let [dark, bright] = SHADES.map(|shade| f64::from(shade[k]));

@@ -1,4 +1,4 @@
-//! What is to be painted: polygons of light, each in one channel.
+//! Layers to be painted: polygons of light, each in one channel.
 
 use super::strips::strips;
 use crate::math::Affine;
@@ -6,10 +6,10 @@ use crate::scene::{Glare, Scope};
 use crate::trace::beam::{Beam, Beams};
 use glam::{DMat2, DVec2};
 
-/// Where absorption changes a beam's light by more than this part across its outline, it is painted in strips.
+/// Where absorption changes a beam's light by more than this part across its outline, the beam is painted in strips.
 const UNEVEN: f64 = 1.0 / 256.0;
 
-/// One polygon of even light.
+/// A polygon of even light.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct LightPatch {
     pub corners: (u32, u32),
@@ -17,16 +17,16 @@ pub(super) struct LightPatch {
     pub weight: f64,
 }
 
-/// Polygons of one domain of a picture's symmetry, with the maps that make the whole of it.
+/// The polygons of one domain of a picture's symmetry, with the maps that copy them to the whole picture.
 #[derive(Debug, Clone)]
 pub struct Layer {
     pub(super) corners: Vec<DVec2>,
     pub(super) patches: Vec<LightPatch>,
     pub(super) copies: Vec<DMat2>,
-    /// What each channel holds.
+    /// The name of each channel.
     pub channels: Vec<String>,
-    /// What is not certain about it: the part of the light that was left unresolved, or in the map of strongest exits
-    /// the part of the area that is undecided.
+    /// How much is not certain: the part of the light that is unresolved, or in the map of strongest exits the part of
+    /// the area that is undecided.
     pub open: f64,
 }
 
@@ -34,8 +34,8 @@ pub struct Layer {
 const COVER: &str = "cover";
 
 impl Layer {
-    /// What a camera in the scope records: a channel for each band, with the energy that comes from it through
-    /// each pixel, with or without glare; and the stone's cover.
+    /// Builds the picture that a camera in the scope records: for each band a channel with the energy that comes from it
+    /// through each pixel, with or without glare, and the stone's cover.
     pub fn energy(beams: &Beams, scope: &Scope, glare: Glare) -> Self {
         let mut layer = Self::new(beams, scope.bands.iter().map(|b| b.name.clone()).collect());
         for beam in beams.iter().filter(|b| b.weight > 0.0 && glare.shows(b.is_surface())) {
@@ -50,8 +50,8 @@ impl Layer {
         layer
     }
 
-    /// The strongest exit of each point: a channel for each band, covered or not; and the stone's cover. What
-    /// nothing has left yet stays uncovered.
+    /// Builds the map of strongest exits: for each band a channel that is 1 where the strongest exit lies in it, and the
+    /// stone's cover. Where no light has left the stone yet, no band is marked.
     pub fn strongest(beams: &Beams, scope: &Scope) -> Self {
         let mut layer = Self::new(beams, scope.bands.iter().map(|b| b.name.clone()).collect());
         let cells = beams.strongest_exits();
@@ -65,8 +65,8 @@ impl Layer {
         layer
     }
 
-    /// Everything that is known of each pixel: glare and transmitted light of each band apart, what is absorbed
-    /// and what is unresolved; and the stone's cover, of which the others are the parts.
+    /// Builds all channels that are known: transmitted light and glare of each band, absorbed and unresolved light, and
+    /// the stone's cover, of which the others are the parts.
     pub fn full(beams: &Beams, scope: &Scope) -> Self {
         let named = |group: &'static str| scope.bands.iter().map(move |b| format!("{group}.{}", b.name));
         let mut channels: Vec<String> = named("transmitted").chain(named("surface")).collect();
@@ -113,7 +113,7 @@ impl Layer {
         self.patches.push(LightPatch { corners, channel: channel as u16, weight });
     }
 
-    /// Light of this weight over a beam's outline, faded by absorption along `path`.
+    /// Adds light of this weight over a beam's outline, faded by absorption along `path`.
     fn add_faded(&mut self, beams: &Beams, beam: &Beam, path: Affine, weight: f64, channel: usize) {
         strips(beam.outline, path, &beams.medium, UNEVEN, |part, left| {
             self.add(part, channel, weight * left)

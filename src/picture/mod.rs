@@ -1,4 +1,5 @@
-//! Floor 4: pictures. A picture is a view, a scope and a reading of the light; nothing here traces.
+//! Floor 4: pictures. A picture combines a view, a scope and a reading of the light; the tracing itself is done in
+//! `trace`.
 
 mod background;
 mod bloom;

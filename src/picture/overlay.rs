@@ -1,6 +1,7 @@
-//! What is drawn over a developed picture: edges, facets, and how the rays through the pixels' middles fared.
+//! Overlays on a developed picture: edges, facets, and what becomes of the rays through the pixels' middles.
 //!
-//! Rays are those of sodium's D line in the stone that they meet first; light that goes on into another is not followed.
+//! Rays are those of sodium's D line, in the stone that they meet first. Light that goes on into another stone is not
+//! followed.
 
 mod scale;
 mod wireframe;
@@ -13,22 +14,22 @@ use crate::trace::{Stopped, Watch};
 use rayon::prelude::*;
 use std::str::FromStr;
 
-/// Something to draw over a picture of stones.
+/// An overlay to draw over a picture of stones.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Overlay {
-    /// The edges: bright where the eye sees them, fainter behind.
+    /// The stones' edges: bright where the eye sees them, fainter behind.
     Wireframe,
     /// A colour for each facet.
     Facets,
-    /// How often a ray is reflected inside until no more than the least weight is left of it.
+    /// The number of reflections inside, until no more than the least weight is left of a ray.
     Bounces,
     /// The share of a ray that is not followed to its end.
     Unresolved,
-    /// How often a ray is reflected totally before the first facet that lets light out.
+    /// The number of total reflections before the first facet that lets light out.
     Total,
 }
 
-/// All of them, by name.
+/// All overlays with their names.
 const NAMES: [(&str, Overlay); 5] = [
     ("wireframe", Overlay::Wireframe),
     ("facets", Overlay::Facets),
@@ -37,31 +38,32 @@ const NAMES: [(&str, Overlay); 5] = [
     ("total", Overlay::Total),
 ];
 
-/// Rows drawn between two calls of the watch.
+/// The number of rows drawn between two calls of the watch.
 const PIECE: usize = 16;
 
-/// How much of a facet's colour is laid over it.
+/// How much of the picture a facet's colour hides.
 const TINT: f32 = 0.5;
 
-/// Bounces at the end of the scale.
+/// The number of bounces at the upper end of the scale.
 const MOST_BOUNCES: u32 = 48;
 
-/// Shares unresolved, as powers of ten, at both ends of the scale.
+/// The unresolved shares at both ends of the scale, as powers of ten.
 const UNRESOLVED: (f64, f64) = (-6.0, -1.0);
 
-/// Total reflections at the end of the scale.
+/// The number of total reflections at the upper end of the scale.
 const MOST_TOTAL: u32 = 8;
 
-/// A colour of eight-bit sRGB.
+/// An eight-bit sRGB colour.
 pub type Code = [u8; 3];
 
 impl Overlay {
-    /// The names that [`from_str`](FromStr) takes.
+    /// Returns the names that [`from_str`](FromStr) takes.
     pub fn names() -> [&'static str; 5] {
         NAMES.map(|(name, _)| name)
     }
 
-    /// What the colours of its scale mean, from the lowest; empty for wireframe and facets, which have none.
+    /// Returns what the colours of the scale mean, from the lowest. It is empty for wireframe and facets, which have no
+    /// scale.
     pub fn legend(self) -> Vec<(String, Code)> {
         match self {
             Self::Wireframe | Self::Facets => vec![],
@@ -77,7 +79,7 @@ impl Overlay {
         }
     }
 
-    /// The colour over what a ray meets, and how much it hides of that.
+    /// Returns the colour over the place that a ray meets, and how much of that place it hides.
     fn colour(self, sight: &SceneProbe, glance: &ProbeRay) -> Option<(Code, f32)> {
         match self {
             Self::Wireframe => None,
@@ -110,7 +112,7 @@ fn bounces_colour(bounces: u32) -> Code {
     viridis((f64::from(bounces) - 1.0) / f64::from(MOST_BOUNCES - 1))
 }
 
-/// On a scale of logarithms.
+/// Returns the colour of an unresolved share, on a logarithmic scale.
 fn unresolved_colour(share: f64) -> Code {
     let (low, high) = UNRESOLVED;
     viridis((share.max(f64::MIN_POSITIVE).log10() - low) / (high - low))
@@ -120,7 +122,7 @@ fn total_colour(count: u32) -> Code {
     viridis(f64::from(count) / f64::from(MOST_TOTAL))
 }
 
-/// What became of a ray.
+/// What becomes of a ray inside the stone that it meets first.
 struct Fate {
     bounces: u32,
     unresolved: f64,
@@ -128,7 +130,7 @@ struct Fate {
 }
 
 impl Fate {
-    /// `None` where the ray runs along the facet.
+    /// Follows a ray from the facet that it meets; `None` where the ray runs along the facet.
     fn of(sight: &SceneProbe, glance: &ProbeRay) -> Option<Self> {
         let &ProbeRay { origin, direction, stone, facet, distance } = glance;
         let mut first = None;
@@ -149,11 +151,11 @@ impl Fate {
     }
 }
 
-/// Draws over a picture of a sitting: eight-bit sRGB and cover, not premultiplied, row by row from the top, as
-/// [`develop`](super::develop()) makes it. Rows beyond those of the sitting's size stay as they are.
+/// Draws an overlay over a picture of a lit scene: eight-bit sRGB and cover, not premultiplied, row by row from the top,
+/// as [`develop`](super::develop()) makes it. Rows beyond the height of the scene's film stay as they are.
 ///
 /// # Errors
-/// [`Stopped`] when `watch` asks to stop; the picture is then drawn over in part.
+/// [`Stopped`] when `watch` stops the work; the picture is then drawn over in part.
 pub fn lay(overlay: Overlay, lit_scene: &LitScene, rgba: &mut [u8], watch: Watch) -> Result<(), Stopped> {
     let sight = SceneProbe::new(lit_scene);
     if overlay == Overlay::Wireframe {
@@ -170,7 +172,7 @@ pub fn lay(overlay: Overlay, lit_scene: &LitScene, rgba: &mut [u8], watch: Watch
     })
 }
 
-/// Hands on every row of a picture, some at a time.
+/// Calls `work` with every row of a picture, some rows at a time, so that `watch` can stop it.
 fn each_row(
     [width, height]: [u32; 2],
     rgba: &mut [u8],

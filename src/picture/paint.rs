@@ -1,4 +1,4 @@
-//! Paints a layer, some rows at a time, so that a picture may be larger than memory.
+//! Paints a layer some rows at a time, so that a picture may be larger than memory.
 
 use super::Rows;
 use super::layer::Layer;
@@ -7,10 +7,10 @@ use crate::trace::{Stopped, Watch};
 use glam::{DAffine2, DVec2};
 use rayon::prelude::*;
 
-/// Bytes of one piece of rows: enough to be worth a task, few enough to stay in a core's cache.
+/// Size of one piece of rows in bytes: enough to be worth a task, few enough to stay in a core's cache.
 const PIECE: usize = 1 << 21;
 
-/// Pieces painted side by side before they are handed on.
+/// The number of pieces painted in parallel before they are handed on.
 const AT_ONCE: usize = 8;
 
 /// A layer laid out on a film, ready to be painted.
@@ -19,15 +19,16 @@ struct Laid<'a> {
     film: Film,
     rows: u32,
     maps: Vec<DAffine2>,
-    /// For each piece, the patches (copy, patch) that touch it.
+    /// For each piece, the patches that touch it, as (copy, patch).
     pieces: Vec<Vec<(u16, u32)>>,
 }
 
-/// Paints a layer from top to bottom and calls `each` with every piece of rows, in order. A pixel's values are
-/// means over its area; the last channel, the stone's cover, is 0 outside and 1 inside.
+/// Paints a layer from top to bottom and calls `each` with every piece of rows, in order.
+///
+/// A pixel's values are means over its area. The last channel is the stone's cover, 0 outside and 1 inside.
 ///
 /// # Errors
-/// What `each` answers, or [`Stopped`], turned into its kind of error, when `watch` asks to stop.
+/// The errors of `each`, and [`Stopped`], converted into `E`, when `watch` stops the work.
 pub fn paint<E: From<Stopped>>(
     layer: &Layer,
     film: &Film,

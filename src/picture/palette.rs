@@ -1,24 +1,25 @@
-//! From light in a scope's bands to the colour of a pixel.
+//! Palettes turn the light in a scope's bands into the colours of pixels.
 
 use super::Rows;
 use crate::optics::{LinearRgb, SrgbEncoder};
 use crate::scene::Scope;
 
-/// Mixes bands in linear light and encodes the sum as sRGB, once.
+/// The colours of a scope's bands. Bands are mixed in linear light, and only the sum is encoded as sRGB.
 pub struct Palette {
     colours: Vec<LinearRgb>,
     encoder: SrgbEncoder,
 }
 
 impl Palette {
-    /// The scope's own colours.
+    /// Builds the palette of the scope's own colours.
     pub fn of(scope: &Scope) -> Self {
         Self { colours: scope.colours(), encoder: SrgbEncoder::new() }
     }
 
-    /// The encoded pixels of row `y`, appended to `out` as red, green, blue. The bands are the rows' channels from
-    /// `first` on and the stone's cover the last; where it does not cover a pixel, the backing is seen: the colour
-    /// of the band below.
+    /// Appends the encoded pixels of row `y` to `out`, as red, green and blue.
+    ///
+    /// The bands are the rows' channels from `first` on, and the stone's cover is the last channel. Where the stone does
+    /// not cover a pixel, the backing shows, in the colour of the lowest band.
     pub fn encode(&self, rows: &Rows, first: usize, y: u32, out: &mut Vec<u8>) {
         let bands: Vec<&[f64]> = (0..self.colours.len()).map(|c| rows.row(y, first + c)).collect();
         let cover = rows.row(y, rows.channels - 1);

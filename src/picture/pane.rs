@@ -1,10 +1,11 @@
-//! Liquid glass: a pane that only looks as if it refracted, by five parts of arithmetic in each pixel and no ray.
+//! Liquid glass: a pane that only looks as if it refracted. Each pixel takes five parts of arithmetic, and no ray is
+//! traced.
 //!
-//! The effect is that of screens: flat, cheap, approximate by design. What its specification says, and what it leaves open
-//! and was chosen here, is in docs/optics.md, "Liquid glass". `compare` traces the same pane rightly.
+//! The effect is that of screens: flat, cheap, approximate by design. docs/optics.md, "Liquid glass", says what its
+//! specification gives, and what it leaves open and was chosen here. [`compare()`] traces the same pane rightly.
 //!
-//! Lengths are parts of the pane's shorter side, x to the right and y down, from the pane's middle; places are looked up
-//! there, so that a shift toward the middle makes what is behind look larger.
+//! Lengths are parts of the pane's shorter side, measured from the pane's middle, x to the right and y down. A pixel
+//! shows the background at a shifted place, so a shift toward the middle makes the background look larger.
 
 mod compare;
 mod frost;
@@ -24,32 +25,32 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use std::str::FromStr;
 
-/// Pixels beyond which no pane lies or reaches: sums of them stay whole numbers.
+/// The greatest coordinate and size of a pane, in pixels; sums of such numbers stay exact whole numbers.
 const FARTHEST: f64 = 1e6;
 
 /// How much of the effect is computed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Quality {
-    /// All, frost by five samples.
+    /// The whole effect, with five samples of frost.
     #[default]
     High,
-    /// Frost by three samples, and dispersion of strength 30 at most.
+    /// The whole effect, with three samples of frost, and dispersion of strength 30 at most.
     Medium,
     /// Refraction alone: no depth, dispersion, frost, light or tint.
     Low,
 }
 
-/// A pane over a picture.
+/// A pane of liquid glass over a picture.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct GlassPane {
-    /// Its upper left corner, in pixels from the picture's.
+    /// The pane's upper left corner, in pixels from the picture's.
     pub corner: DVec2,
-    /// Its width and height in pixels, above 0.
+    /// The pane's width and height in pixels, above 0.
     pub size: DVec2,
-    /// Radius of its outline's corners in pixels, 0 to half of its shorter side.
+    /// Radius of the outline's corners in pixels, from 0 to half of the shorter side.
     pub radius: f64,
-    /// Strength of the refraction, 0 to 100, as all strengths.
+    /// Strength of the refraction; like all strengths it is from 0 to 100.
     pub refraction: f64,
     /// Strength of the depth.
     pub depth: f64,
@@ -59,14 +60,14 @@ pub struct GlassPane {
     pub frost: f64,
     /// Strength of the light.
     pub light: f64,
-    /// Linear sRGB of its base colour, and how much of that covers what is behind, 0 to 1.
+    /// The base colour in linear sRGB, and how much it covers the background, 0 to 1.
     pub tint: DVec4,
     /// How much of the effect is computed.
     pub quality: Quality,
 }
 
 impl GlassPane {
-    /// A clear pane of this place and size, refraction, depth and dispersion in full, with a light of 30 and no frost.
+    /// Returns a clear pane of this place and size: refraction, depth and dispersion in full, a light of 30, no frost.
     pub fn clear(corner: DVec2, size: DVec2, radius: f64) -> Self {
         Self {
             corner,
@@ -82,7 +83,8 @@ impl GlassPane {
         }
     }
 
-    /// The strengths that its quality leaves; numbers out of their range count as its end, no numbers as 0.
+    /// Returns the pane with the strengths that its quality leaves. A strength out of its range counts as the nearer
+    /// end, NaN as 0.
     pub fn effective(&self) -> Self {
         let strength = |v: f64| if v > 0.0 { v.min(100.0) } else { 0.0 };
         let high = Self {
@@ -102,7 +104,7 @@ impl GlassPane {
         }
     }
 
-    /// Whether it has a place and an extent.
+    /// Whether the pane's place, size and corner radius are valid.
     fn is_somewhere(&self) -> bool {
         let range = -FARTHEST..=FARTHEST;
         let within = |v: DVec2| range.contains(&v.x) && range.contains(&v.y);
@@ -112,28 +114,30 @@ impl GlassPane {
             && (0.0..=self.unit() / 2.0).contains(&self.radius)
     }
 
-    /// Its shorter side in pixels: the unit of all that is computed.
+    /// Returns the shorter side in pixels, the unit of all lengths of the effect.
     pub fn unit(&self) -> f64 {
         self.size.min_element()
     }
 
-    /// Its outline in its own unit.
+    /// Returns the pane's outline in the pane's own unit.
     pub fn outline(&self) -> PaneOutline {
         let unit = self.unit();
         PaneOutline { half: self.size / (2.0 * unit), radius: self.radius / unit }
     }
 
-    /// A place of the picture, in pixels, in the pane's own frame and unit.
+    /// Converts a place of the picture, in pixels, to the pane's own frame and unit.
     pub fn own(&self, at: DVec2) -> DVec2 {
         (at - self.corner - self.size / 2.0) / self.unit()
     }
 
-    /// How much of a pixel whose middle is given in pixels the pane covers: from nothing to all over a pixel's width.
+    /// Returns how much of a pixel the pane covers, 0 to 1; `at` is the pixel's middle in pixels. At the outline it
+    /// changes over the width of one pixel.
     pub fn cover(&self, at: DVec2) -> f64 {
         (0.5 - self.outline().distance(self.own(at)) * self.unit()).clamp(0.0, 1.0)
     }
 
-    /// How far from a place of the pane, in pixels, red, green and blue are looked up, in pixels; frost aside.
+    /// Returns how far from a place of the pane red, green and blue are looked up. Place and shifts are in pixels; frost
+    /// is not included.
     pub fn shifts(&self, at: DVec2) -> [DVec2; 3] {
         let pane = self.effective();
         let dome = pane.outline().dome(pane.own(at));
@@ -141,7 +145,7 @@ impl GlassPane {
         dispersion(&dome, pane.dispersion).map(|apart| (apart - all) * pane.unit())
     }
 
-    /// The colour of a place of the pane, in pixels.
+    /// Returns the colour that the pane shows at a place of the picture, in pixels.
     fn colour(&self, background: &Panorama, at: DVec2) -> DVec3 {
         let pane = self.effective();
         let own = pane.own(at);
@@ -160,17 +164,17 @@ impl GlassPane {
         pane.tinted(sum / taps.len() as f64) + light(dome.normal, pane.light)
     }
 
-    /// A colour with the base colour laid over.
+    /// Lays the base colour over a colour.
     fn tinted(&self, colour: DVec3) -> DVec3 {
-        // A sum, for which no tint leaves the colour to the bit.
+        // Written as a sum, so that without a tint the colour stays the same to the bit.
         colour + (self.tint.truncate() - colour) * self.tint.w
     }
 }
 
-/// A picture of the background, which is as large as the picture, with the pane over it; all covered.
+/// Draws the pane over a background, which is as large as the picture; all pixels are covered.
 ///
-/// With one look a pixel is what its middle shows, as on screens; with more it is evened out over as many places. A pane
-/// without extent, or rounder than it is wide, is not there.
+/// With `looks` of 1, a pixel shows what is seen at its middle, as on screens; with more, the mean over as many places
+/// in it. A pane without extent, or with corners rounder than half of its shorter side, is not drawn.
 pub fn pane(pane: &GlassPane, background: &Panorama, looks: u32) -> Linear {
     let shifts: Vec<DVec2> = places(looks);
     let mut picture = plain(background);
@@ -191,31 +195,31 @@ pub fn pane(pane: &GlassPane, background: &Panorama, looks: u32) -> Linear {
     picture
 }
 
-/// Where in a pixel so many looks stand; the first in its middle.
+/// Returns where in a pixel the samples of this many passes stand, 0 to 1; the first stands in the middle.
 fn places(looks: u32) -> Vec<DVec2> {
     let nothing = Scene { instances: Vec::new(), unit_mm: 1.0 };
     (0..looks.max(1)).map(|number| SamplePass::new(&nothing, &[], number).shift).collect()
 }
 
-/// The background alone.
+/// Returns the background alone.
 fn plain(background: &Panorama) -> Linear {
     let pixels = background.pixels.iter().map(|&[r, g, b]| [r, g, b, 1.0]).collect();
     Linear { width: background.width, height: background.height, pixels }.whole()
 }
 
-/// Lays a colour over a pixel.
+/// Lays a colour over a pixel with this cover.
 fn laid(pixel: &mut [f32; 4], colour: DVec3, cover: f64) {
     for (own, new) in pixel.iter_mut().zip(colour.to_array()) {
         *own = (f64::from(*own) + (new - f64::from(*own)) * cover) as f32;
     }
 }
 
-/// A picture that fills a size: as large as may be around its middle, cut where it is longer.
+/// Scales a picture to fill a size: it is shown as large as possible around its middle and cut where it is longer.
 pub fn filling(picture: &Panorama, size: [u32; 2]) -> Panorama {
     let [width, height] = size.map(|side| f64::from(side.max(1)));
     let scale = |p: &Panorama| (f64::from(p.width) / width).min(f64::from(p.height) / height);
     let mut picture = std::borrow::Cow::Borrowed(picture);
-    // Each pixel then stands for fewer than two of the picture's each way, and none is passed over.
+    // After this, each pixel stands for fewer than two of the picture's each way, so that the look-up skips none.
     while scale(&picture) >= 2.0 {
         picture = std::borrow::Cow::Owned(picture.halved());
     }

@@ -1,43 +1,43 @@
-//! Backgrounds that the program draws itself: square drawings of 2048 units, black or in colours on white, their edges on
-//! whole units, so that as many pixels show them crisp.
+//! Backgrounds that the program draws itself: square drawings of 2048 units, black or coloured on white. Their edges lie
+//! on whole units, so that 2048 pixels show them crisp.
 
 use std::fmt::Write as _;
 use svg::Document;
 use svg::node::element::{Path, Rectangle, Text};
 
-/// Side of a pattern, units of its drawing.
+/// Side of a pattern, in units of its drawing.
 pub const PATTERN_SIDE: u32 = 2048;
 
-/// How many times as wide as the picture patterns hang behind it: light is bent in from beside.
+/// The width of a pattern behind a picture, in widths of the picture: the stones also bend light in from beside it.
 pub const PATTERN_SPAN: f64 = 2.0;
 
-/// A background by its name.
+/// A background that the program draws.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Pattern {
     /// A page of text.
     Page,
     /// Fine lines, of one colour across and of another down.
     Grid,
-    /// Black and white squares.
+    /// Fine lines, of one colour across and of another down.
     Checks,
-    /// Black and white stripes across.
+    /// Black and white stripes that run across.
     Stripes,
-    /// Black discs, row beside row.
+    /// Black discs in rows.
     Dots,
-    /// One white line across the dark, as a spectroscope has it.
+    /// One white line across a dark field, as in a spectroscope.
     Slit,
 }
 
 const INK: &str = "#000000";
 const PAPER: &str = "#ffffff";
 
-/// Side of a square and width of a stripe; from line to line and from disc to disc.
+/// Side of a square, width of a stripe, and distance from line to line and from disc to disc.
 const STEP: u32 = 64;
 
 /// Half the height of the slit: so narrow that a prism near it keeps three images of it apart.
 const HALF_SLIT: u32 = 5;
 
-/// What is written on the page: about what is seen there.
+/// The text of the page, which is about what is seen there.
 const WORDS: &str = "Light that enters glass is bent toward the normal, blue more than red, and bent back where it leaves. \
     Between parallel faces both cancel and the page only shifts; at a rounded rim they do not, and letters are drawn out, \
     turned over and given coloured edges. How far they move depends on how far behind the glass the page lies: laid against \
@@ -45,7 +45,7 @@ const WORDS: &str = "Light that enters glass is bent toward the normal, blue mor
     you, sent back by the paper. ";
 
 impl Pattern {
-    /// The patterns by name.
+    /// All patterns with their names.
     pub const NAMES: [(&str, Self); 6] = [
         ("page", Self::Page),
         ("grid", Self::Grid),
@@ -55,17 +55,17 @@ impl Pattern {
         ("slit", Self::Slit),
     ];
 
-    /// The pattern of a name; capitals do not matter.
+    /// Returns the pattern of this name; upper and lower case are the same.
     pub fn named(name: &str) -> Option<Self> {
         Self::NAMES.iter().find(|(known, _)| known.eq_ignore_ascii_case(name)).map(|(_, pattern)| *pattern)
     }
 
-    /// What it is called.
+    /// Returns the pattern's name.
     pub fn name(self) -> &'static str {
         Self::NAMES.iter().find(|(_, pattern)| *pattern == self).map_or("", |(name, _)| name)
     }
 
-    /// Draws it.
+    /// Draws the pattern.
     pub fn drawing(self) -> Document {
         let sheet = Document::new().set("viewBox", (0, 0, PATTERN_SIDE, PATTERN_SIDE));
         let all = || 0..PATTERN_SIDE / STEP;
@@ -116,7 +116,7 @@ fn rectangle((x, y, width, height): Corner) -> Rectangle {
     Rectangle::new().set("x", x).set("y", y).set("width", width).set("height", height)
 }
 
-/// Many of one colour, as one path.
+/// Returns many rectangles of one colour as one path.
 fn rectangles(all: impl Iterator<Item = Corner>) -> Path {
     let mut data = String::new();
     for (x, y, width, height) in all {
@@ -125,7 +125,7 @@ fn rectangles(all: impl Iterator<Item = Corner>) -> Path {
     Path::new().set("d", data)
 }
 
-/// Lines of even length, broken between words, down to the foot of the page.
+/// Writes lines of even length, broken between words, down to the foot of the page.
 fn page(sheet: Document) -> Document {
     const SIZE: u32 = 40;
     const LEADING: u32 = 60;

@@ -1,7 +1,7 @@
-//! A stone's profile: seen along the girdle plane, table up, with its dimensions written on it.
+//! A stone's profile: the stone seen along the girdle plane, table up, with its dimensions written on it.
 //!
-//! Lengths are percent of the diameter ([`Outline::diameter`]: that of the girdle, of a stone that is not round the width),
-//! angles degrees from the girdle plane, as laboratories print them.
+//! Lengths are percent of the diameter ([`Outline::diameter`]: that of the girdle, or for a stone that is not round, its
+//! width). Angles are degrees from the girdle plane, as laboratories print them.
 
 pub(crate) mod brilliant;
 
@@ -14,29 +14,31 @@ use crate::scene::Stone;
 use glam::{DVec2, DVec3};
 use svg::Document;
 
-/// The box that the stone is fitted into, units of the drawing.
+/// The box that the stone is fitted into, in units of the drawing.
 const ROOM: DVec2 = DVec2::new(540.0, 640.0);
-/// From the stone to the first dimension line, and from one to the next.
+/// Distance from the stone to the first dimension line, and from one dimension line to the next.
 const LEVEL: f64 = 30.0;
-/// Between the stone and an extension line, and from a dimension line to the end of its extension lines.
+/// Gap between the stone and an extension line, and how far extension lines run on beyond a dimension line.
 const GAP: f64 = 4.0;
-/// Between dimension lines and text beside them.
+/// Gap between a dimension line and the text beside it.
 const BESIDE: f64 = 10.0;
-/// Least distance between the middles of two lines of text.
+/// The least distance between the middles of two lines of text.
 const LINE: f64 = 20.0;
 
-/// Facets this close to upright (sine of the angle) make up the girdle, and to level the table.
+/// Facets this close to upright make up the girdle, and facets this close to level the table. It is the sine of the
+/// angle.
 const UPRIGHT: f64 = 1e-6;
-/// Lengths shorter than this part of the width are none at all.
+/// Lengths shorter than this part of the width count as zero.
 const NOTHING: f64 = 1e-6;
-/// An axis is taken for the direction of the width if the stone is that little wider along it than at its narrowest.
+/// The x or y axis is taken as the direction of the width if the stone along it is wider than at its narrowest by no
+/// more than this factor.
 const NEARLY_NARROWEST: f64 = 1.01;
 
 /// Draws a stone from the side and writes its proportions on it.
 ///
-/// With `proportions` the drawing is that of a round brilliant, which they must describe; the numbers written are
-/// those given and derived. Without, what can be measured on the stone is written: its table, depth and width, and
-/// crown, girdle and pavilion if it has upright facets. So it is too if the proportions are impossible.
+/// With `proportions`, the drawing is that of a round brilliant, which they must describe, and the numbers are those
+/// given and derived. Without, or if they are impossible, the numbers are measured on the stone: its table, depth and
+/// width, and its crown, girdle and pavilion if it has upright facets.
 pub fn profile(stone: &Stone, title: &str, proportions: Option<&RoundBrilliant>) -> Document {
     match proportions.and_then(|given| Some((given, given.derived().ok()?))) {
         Some((given, derived)) => brilliant::draw(stone, title, given, &derived),
@@ -44,7 +46,7 @@ pub fn profile(stone: &Stone, title: &str, proportions: Option<&RoundBrilliant>)
     }
 }
 
-/// A length along one of the drawing's axes, in radii, and what is written of it.
+/// A length along one of the drawing's axes, in radii, and the percentage that is written for it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Span {
     pub from: f64,
@@ -62,7 +64,7 @@ impl Span {
     }
 }
 
-/// What every stone has; heights go from their upper to their lower end.
+/// The dimensions of any stone. Heights run from their upper to their lower end.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Dimensions {
     pub width: Span,
@@ -74,7 +76,7 @@ pub(crate) struct Dimensions {
 }
 
 impl Dimensions {
-    /// What can be measured on any stone, percent of its diameter.
+    /// Measures the dimensions of any stone, in percent of its diameter.
     pub fn measured(stone: &Stone, basis: &Basis) -> Self {
         let polytope = &stone.polytope;
         let (left, right) = extent(polytope.vertices().iter().copied(), basis.right);
@@ -100,7 +102,7 @@ impl Dimensions {
         }
     }
 
-    /// The view that fits the stone into the drawing, its girdle diameter centred.
+    /// Returns the view that fits the stone into the drawing, with the middle of its width and height centred.
     fn aspect(&self, basis: Basis) -> DrawnAspect {
         let scale = (ROOM.x / self.width.length()).min(ROOM.y / self.total.length());
         let middle = |s: &Span| (s.from + s.to) / 2.0;
@@ -109,7 +111,7 @@ impl Dimensions {
     }
 }
 
-/// Least and greatest coordinate along a direction.
+/// Returns the least and the greatest coordinate along a direction.
 fn extent(points: impl Iterator<Item = DVec3>, along: DVec3) -> (f64, f64) {
     points.map(|p| p.dot(along)).fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), x| (a.min(x), b.max(x)))
 }
@@ -126,8 +128,8 @@ fn measured_profile(stone: &Stone, title: &str) -> Document {
     drawing.sheet.document(title, "profile · percent of the width, measured on the planes", &remarks)
 }
 
-/// The side view that shows the stone's width: along x or y where it is next to narrowest that way, else wherever it
-/// is narrowest seen from above.
+/// Returns the side view that shows the stone's width: along x or y if the stone is nearly narrowest that way, otherwise
+/// along the direction in which it is narrowest as seen from above.
 pub(crate) fn across_the_width(stone: &Stone) -> Basis {
     let vertices = stone.polytope.vertices();
     let width = |direction: DVec3| {
@@ -141,7 +143,7 @@ pub(crate) fn across_the_width(stone: &Stone) -> Basis {
     Basis { right, up: DVec3::Z, toward: right.cross(DVec3::Z) }
 }
 
-/// A sheet with the stone on it, and what its dimensions are measured between.
+/// A sheet with the stone on it, and the dimensions to draw.
 struct Drawing<'a> {
     sheet: Sheet,
     stone: &'a Stone,
@@ -149,7 +151,7 @@ struct Drawing<'a> {
     dimensions: Dimensions,
 }
 
-/// Where the text of a dimension goes that has no room between its ends.
+/// The side on which the text of a dimension stands if it has no room between the ends.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Overflow {
     Left,
@@ -164,12 +166,12 @@ impl<'a> Drawing<'a> {
         Self { sheet, stone, aspect, dimensions }
     }
 
-    /// A point of the profile, in radii, on the sheet.
+    /// Returns where a point of the profile, in radii, lies on the sheet.
     fn at(&self, x: f64, z: f64) -> DVec2 {
         self.aspect.on_sheet(DVec2::new(x, z))
     }
 
-    /// How far the stone reaches to the right at a height where it has corners.
+    /// Returns how far the stone reaches to the right at a height where it has corners.
     fn reach(&self, z: f64) -> f64 {
         let near = |v: &&DVec3| (v.z - z).abs() <= NOTHING * self.dimensions.width.length();
         let corners = self.stone.polytope.vertices().iter().filter(near);
@@ -177,7 +179,8 @@ impl<'a> Drawing<'a> {
         if right.is_finite() { right } else { self.dimensions.width.to }
     }
 
-    /// A dimension from left to right at sheet height `y`, leading to a point of the stone at either end.
+    /// Draws a dimension from left to right at sheet height `y`, with an extension line to a point of the stone at
+    /// either end.
     fn across(&mut self, y: f64, ends: [DVec2; 2], overflow: Overflow, text: &str) {
         for end in ends {
             let side = (y - end.y).signum();
@@ -199,7 +202,7 @@ impl<'a> Drawing<'a> {
         }
     }
 
-    /// The sheet height of a dimension line over or, negative, under the stone.
+    /// Returns the sheet height of a dimension line; positive levels lie above the stone, negative ones below.
     fn level(&self, level: f64) -> f64 {
         let edge = if level > 0.0 { self.dimensions.total.from } else { self.dimensions.total.to };
         self.at(0.0, edge).y - level * LEVEL
@@ -217,7 +220,7 @@ impl<'a> Drawing<'a> {
         self.across(self.level(-level), ends, Overflow::Left, &format!("{name} {}", percent(width.percent)));
     }
 
-    /// The height of the stone's lowest corner at one of its sides.
+    /// Returns the height of the stone's lowest corner at the coordinate of one of its sides.
     fn lowest_at(&self, x: f64) -> f64 {
         let (right, near) = (self.aspect.basis.right, NOTHING * self.dimensions.width.length());
         let corners = self.stone.polytope.vertices().iter().filter(|v| (v.dot(right) - x).abs() <= near);
@@ -225,7 +228,7 @@ impl<'a> Drawing<'a> {
         if low.is_finite() { low } else { self.dimensions.girdle.map_or(0.0, |g| g.to) }
     }
 
-    /// Crown, girdle and pavilion in one line on the right, the total depth in another.
+    /// Draws the heights: crown, girdle and pavilion in one line on the right, and the total depth in another.
     fn heights(&mut self) {
         let Dimensions { total, crown, girdle, pavilion, .. } = self.dimensions;
         let parts = [("crown", crown), ("girdle", girdle), ("pavilion", pavilion)];
@@ -251,8 +254,8 @@ impl<'a> Drawing<'a> {
         }
     }
 
-    /// Heights one under the other, and where their text ends. Where one is too short for arrows those of its
-    /// neighbours stand for its own; a dot marks an end that has none.
+    /// Draws heights one below the other and returns where their text ends on the right. Where a height is too short for
+    /// arrows, the arrows of its neighbours mark its ends; an end without one gets a dot.
     fn chain(&mut self, x: f64, parts: &[(&str, Span)]) -> f64 {
         let y = |z: f64| self.at(0.0, z).y;
         let lines: Vec<(f64, f64)> = parts.iter().map(|(_, span)| (y(span.from), y(span.to))).collect();
@@ -286,7 +289,7 @@ impl<'a> Drawing<'a> {
 
 /// Moves heights, given from the highest down, so that any two are at least `line` apart and none is above `highest`.
 pub(crate) fn spread(mut heights: Vec<f64>, highest: f64, line: f64) -> Vec<f64> {
-    // The girdle's is held where it is, as it is the shortest; its neighbours give way.
+    // The girdle in the middle stays in place, as it is the shortest; its neighbours give way.
     let middle = heights.len() / 2;
     for k in (0..middle).rev() {
         heights[k] = heights[k].min(heights[k + 1] - line);
@@ -305,7 +308,7 @@ mod tests {
     use crate::math::Plane;
     use std::f64::consts::{FRAC_1_SQRT_2, FRAC_PI_2, FRAC_PI_4};
 
-    /// A rectangular stone of slopes of 45 degrees, of these half widths, its x axis turned by `turn` radians.
+    /// Returns a rectangular stone with slopes of 45 degrees and these half widths, its x axis turned by `turn` radians.
     fn gem(turn: f64, half: DVec2) -> Stone {
         let mut facets = vec![("table".to_owned(), Plane::new(DVec3::Z, 0.2))];
         for (k, reach) in [half.x, half.y, half.x, half.y].into_iter().enumerate() {
@@ -349,7 +352,7 @@ mod tests {
 
     #[test]
     fn a_round_stone_of_few_sides_is_measured_by_its_circle() {
-        // Its width is that of a regular polygon of sixteen sides: 1.9 % less than the circle through its corners.
+        // The width is that of a regular polygon of sixteen sides, 1.9 % less than the circle through its corners.
         let sides = (0..16).map(|k| {
             let plane = Plane::from_slope(FRAC_PI_2, (f64::from(k) + 0.5) * FRAC_PI_4 / 2.0, 1.0);
             (format!("girdle {k}"), plane)

@@ -1,13 +1,13 @@
-//! Paints polygons with exact area coverage: what a pixel shows is the mean over its square, with no sampling.
+//! Paints polygons with exact area coverage: a pixel's value is the mean over its square, without sampling.
 //!
-//! Every edge leaves, in the pixels that it crosses, the change of coverage that it makes along the row; one sum
-//! along the row then gives the coverage (the signed-area accumulation of FreeType and font-rs). Its cost goes
-//! with a polygon's outline, not with its area.
+//! Every edge adds, to the pixels that it crosses, the change of coverage that it makes along the row. A running sum
+//! along the row then gives the coverage (the signed-area accumulation of FreeType and font-rs). The cost is
+//! proportional to the length of a polygon's outline, not to its area.
 
 use glam::DVec2;
 use std::ops::{Add, AddAssign, Mul, Sub};
 
-/// What a pixel can hold: a number, or several.
+/// The value of a pixel: a number, or several numbers.
 pub trait Value:
     Copy + Default + AddAssign + Add<Output = Self> + Sub<Output = Self> + Mul<f64, Output = Self>
 {
@@ -15,40 +15,41 @@ pub trait Value:
 
 impl<V: Copy + Default + AddAssign + Add<Output = V> + Sub<Output = V> + Mul<f64, Output = V>> Value for V {}
 
-/// Some rows of a picture, several channels deep.
+/// Some rows of a picture, with several channels.
 #[derive(Debug, Clone)]
 pub struct Rows<V = f64> {
-    /// The first row.
+    /// The first row's number in the picture.
     pub first: u32,
-    /// Number of rows.
+    /// The number of rows.
     pub count: u32,
-    /// Pixels in a row.
+    /// The number of pixels in a row.
     pub width: u32,
-    /// Channels of a pixel.
+    /// The number of channels of a pixel.
     pub channels: usize,
-    /// Row by row, in each channel by channel.
+    /// Values row by row, within a row channel by channel.
     values: Vec<V>,
 }
 
 impl<V: Value> Rows<V> {
-    /// Empty rows.
+    /// Builds empty rows.
     pub fn new(first: u32, count: u32, width: u32, channels: usize) -> Self {
         let values = vec![V::default(); (count as usize) * channels * Self::stride_of(width)];
         Self { first, count, width, channels, values }
     }
 
-    /// One place more than pixels: an edge on the last pixel's right side ends there.
+    /// Returns the number of values in a row: one more than pixels, as an edge on the last pixel's right side ends
+    /// there.
     fn stride_of(width: u32) -> usize {
         width as usize + 1
     }
 
-    /// The values of one channel along one row, counted from the picture's top.
+    /// Returns the values of one channel along row `y`, counted from the picture's top.
     pub fn row(&self, y: u32, channel: usize) -> &[V] {
         let start = self.start(y, channel);
         &self.values[start..start + self.width as usize]
     }
 
-    /// The same, to write to.
+    /// Returns the values of one channel along row `y` for writing.
     pub fn row_mut(&mut self, y: u32, channel: usize) -> &mut [V] {
         let start = self.start(y, channel);
         &mut self.values[start..start + self.width as usize]
@@ -58,8 +59,8 @@ impl<V: Value> Rows<V> {
         ((y - self.first) as usize * self.channels + channel) * Self::stride_of(self.width)
     }
 
-    /// Adds the edges of a polygon, in pixels, of this weight. Either sense of rotation will do. Not to be read
-    /// before [`summed`](Self::summed).
+    /// Adds the edges of a polygon, whose corners are in pixels, with this weight. Its corners may run either way round.
+    /// The values mean nothing before [`summed`](Self::summed) has been called.
     pub fn add(&mut self, polygon: &[DVec2], channel: usize, weight: V) {
         let Some(&last) = polygon.last() else { return };
         let weight = if crate::math::area(polygon) < 0.0 { weight * -1.0 } else { weight };
@@ -74,7 +75,7 @@ impl<V: Value> Rows<V> {
         }
     }
 
-    /// One edge, downward from `top`.
+    /// Adds one edge, which runs downward from `top` to `bottom`.
     fn edge(&mut self, top: DVec2, bottom: DVec2, channel: usize, weight: V) {
         let (first, end) = (f64::from(self.first), f64::from(self.first + self.count));
         let from = top.y.max(first);
@@ -96,7 +97,7 @@ impl<V: Value> Rows<V> {
             let (start, end) = (left.clamp(0.0, width), right.clamp(0.0, width));
             let change = weight * (next - y);
             let per_pixel = if right > left { change * (1.0 / (right - left)) } else { V::default() };
-            // What runs beside the picture counts on its left border; on its right there is nothing to change.
+            // Any part of the edge left of the picture acts on its left border; a part right of it changes nothing.
             if left < 0.0 {
                 let beside = if right > 0.0 { per_pixel * -left } else { change };
                 deposit(line, 0.0, 0.0, beside);
@@ -110,7 +111,7 @@ impl<V: Value> Rows<V> {
         }
     }
 
-    /// Turns the changes that edges left into coverage.
+    /// Turns the changes that edges have added into coverage.
     pub fn summed(mut self) -> Self {
         for line in self.values.chunks_exact_mut(Self::stride_of(self.width)) {
             let mut sum = V::default();
@@ -129,7 +130,7 @@ fn deposit<V: Value>(line: &mut [V], left: f64, right: f64, change: V) {
     let first = left as usize;
     let last = right as usize;
     if first == last {
-        // Within one pixel: the part to the right of the edge's middle is covered there, all of it beyond.
+        // The edge stays within one pixel. Of that pixel, the part right of the edge's middle is covered; of the next, all.
         let middle = (left + right) / 2.0 - first as f64;
         line[first] += change * (1.0 - middle);
         if let Some(next) = line.get_mut(first + 1) {
@@ -137,14 +138,14 @@ fn deposit<V: Value>(line: &mut [V], left: f64, right: f64, change: V) {
         }
         return;
     }
-    // Across pixels: coverage to the right of the edge, summed up to each pixel's end, is a quadratic there.
+    // The edge crosses pixels. The coverage right of it, summed up to each pixel's end, is a quadratic.
     let per = change * (0.5 / (right - left));
     let covered = |end: f64| per * ((end - left) * (end - left));
     let mut done = V::default();
     let mut reached = V::default();
     for (pixel, value) in line.iter_mut().enumerate().take(last + 1).skip(first) {
         let end = (pixel + 1) as f64;
-        // The integral of the coverage up to `end`: past the edge's right end it grows evenly.
+        // The integral of the coverage up to `end`; past the edge's right end it grows linearly.
         let integral = if end < right { covered(end) } else { covered(right) + change * (end - right) };
         let mean = integral - reached;
         *value += mean - done;
@@ -166,7 +167,7 @@ mod tests {
         rows.summed()
     }
 
-    /// The polygon's part in a pixel, by clipping.
+    /// Returns the part of a pixel that the polygon covers, by clipping.
     fn covered(polygon: &[DVec2], x: u32, y: u32) -> f64 {
         let (x, y) = (f64::from(x), f64::from(y));
         let sides = [(x, DVec2::X), (-x - 1.0, DVec2::NEG_X), (y, DVec2::Y), (-y - 1.0, DVec2::NEG_Y)];

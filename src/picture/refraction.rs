@@ -1,9 +1,9 @@
-//! Refraction maps: for each pixel the place on a background where the light behind it comes from. Traced once, looked up
-//! ever after: a background that moves is refracted without tracing.
+//! Refraction maps: for each pixel, the place on a background where the light behind it comes from. A map is traced once
+//! and then looked up, so that a background that moves is refracted without tracing.
 //!
-//! A pixel has one place, that of the strongest path which reaches the background through it, or several. The paths beside
-//! them, inner reflections that come out elsewhere, are counted to the weight of the nearest: what is white behind stays
-//! white. All light from elsewhere is in the diffuse layer, as it is under the light given.
+//! A pixel has one place, that of the strongest path that reaches the background through it, or several. Other paths,
+//! such as inner reflections that come out elsewhere, add their weight to the nearest place, so that a white background
+//! stays white. All light from elsewhere is in the diffuse layer, as it appears under the given light.
 
 mod trace;
 
@@ -16,78 +16,84 @@ use crate::trace::environment::backplate_point;
 use glam::{DMat3, DVec2, DVec3};
 use rayon::prelude::*;
 
-/// The plane that a background hangs on behind the stones, square to the axis to the eye.
+/// The plane behind the stones on which a background hangs, perpendicular to the axis to the eye.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Backdrop {
-    /// Its distance behind the origin, in world units.
+    /// Distance of the plane behind the origin, in world units.
     pub distance: f64,
-    /// Its width and height, in world units; its middle lies on the axis.
+    /// Width and height of the plane, in world units; its middle lies on the axis.
     pub size: DVec2,
-    /// Whether the same picture, as in a mirror, hangs as far before the stones too, where only they see it. Light that
-    /// a stone sends back toward the eye's side, most of that of a brilliant, then comes from it.
+    /// Whether the same picture, mirrored, also hangs at the same distance in front of the stones, where only they see
+    /// it. Light that a stone sends back toward the eye's side then comes from it; in a brilliant that is most of the
+    /// light.
     pub both_sides: bool,
 }
 
-/// Where light comes from: a place on the background, and how much of it.
+/// A place on the background from which light comes, and how much of it.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct SourcePlace {
-    /// Across the background, 0 at its left border, 1 at its right one.
+    /// Position across the background, 0 at its left border, 1 at its right one.
     pub u: f32,
-    /// Down the background, 0 at its upper border, 1 at its lower one.
+    /// Position down the background, 0 at its upper border, 1 at its lower one.
     pub v: f32,
-    /// The share of light from behind that reaches the eye, 0 to 1. Where it is 0 the place means nothing.
+    /// The share of light from the background that reaches the eye, 0 to 1. Where it is 0, the place has no meaning.
     pub weight: f32,
 }
 
-/// One place of each pixel at one wavelength.
+/// One place for each pixel, at one wavelength.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MapBand {
     /// The wavelength in nm.
     pub nm: f64,
-    /// The linear colour in which red, green and blue light of the background is seen that comes in this band alone: its
-    /// columns. Over all bands the sum is 1; where pixels have several places, each is of a band of its own, one after the
-    /// other, and all of them have the same response.
+    /// The linear colours, as columns, in which red, green and blue light of the background is seen through this band
+    /// alone.
+    ///
+    /// Over all bands the sum is 1. Where pixels have several places, each place is in a band of its own, one after the
+    /// other, and all of these have the same response.
     pub response: DMat3,
-    /// Row by row from the top.
+    /// The places, row by row from the top.
     pub places: Vec<SourcePlace>,
 }
 
-/// A picture of where light comes from.
+/// A picture that says where its light comes from.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RefractionMap {
-    /// Pixels across and down.
+    /// The number of pixels across and down.
     pub size: [u32; 2],
-    /// One band for all light, or several, so that the look-up keeps its rainbow; each as often as pixels have places.
+    /// The bands: one for all light, or several, so that the look-up keeps the rainbow. Each is there as often as pixels
+    /// have places.
     pub bands: Vec<MapBand>,
-    /// The diffuse layer: light that does not come from the background, premultiplied, and as cover what it hides of the
-    /// background: 1 less the weight, as seen in white light and evened out over the pixel.
+    /// The diffuse layer: light that does not come from the background, premultiplied. Its cover is how much it hides of
+    /// the background: 1 less the weight, as seen in white light and averaged over the pixel.
     pub diffuse: Linear,
 }
 
-/// How a map is traced.
+/// The settings by which a map is traced.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Survey<'a> {
     /// The map's bands.
     pub bands: &'a [Stratum],
-    /// Places of a pixel in each band, at least 1: of more, what is seen twice through a pixel is looked up twice.
+    /// The number of places of a pixel in each band, at least 1. With more, what is seen twice through a pixel is looked
+    /// up twice.
     pub places: u32,
-    /// The wavelengths of the diffuse layer.
+    /// The wavelengths at which the diffuse layer is traced.
     pub shades: &'a [Stratum],
-    /// Looks that the diffuse layer is made of, at least 1; the first is through the pixels' middles.
+    /// The number of sample passes of the diffuse layer, at least 1; the first goes through the pixels' middles.
     pub looks: u32,
 }
 
-/// How much of the light a map can show: means over what the stones cover.
+/// How much of the light a map can show, as means over the pixels that the stones cover.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Carried {
     /// The share of light that comes from the background.
     pub behind: f64,
-    /// The part of it that comes from the places in the map themselves; the rest comes from others nearby or far.
+    /// The part of that light that comes from the map's places themselves; the rest comes from other places, near or
+    /// far.
     pub single: f64,
 }
 
 impl Backdrop {
-    /// Where a ray meets the background; `None` where it passes it by.
+    /// Returns the place where a ray meets the background, 0 to 1 across and down; `None` where it passes by.
     pub fn place(&self, eye: &Basis, from: DVec3, direction: DVec3) -> Option<DVec2> {
         let met = backplate_point(eye, self.distance, from, direction).or_else(|| {
             let opposite = Basis { toward: -eye.toward, ..*eye };
@@ -99,8 +105,8 @@ impl Backdrop {
 }
 
 impl RefractionMap {
-    /// The same map with its diffuse layer developed as a render is, by exposure and tone, but without glow. The background
-    /// shows as it is.
+    /// Returns the same map with its diffuse layer developed like a render, by exposure and tone but without glare. The
+    /// background is not developed.
     pub fn developed(mut self, manner: &Develop) -> Self {
         self.diffuse = exposed(self.diffuse, &Develop { bloom: None, ..*manner });
         self.diffuse.pixels.iter_mut().for_each(|pixel| *pixel = shown(*pixel, manner));
@@ -108,11 +114,11 @@ impl RefractionMap {
     }
 }
 
-/// Refracts a background by a map: linear light, all covered.
+/// Refracts a background by a map. The result is linear light, and all pixels are covered.
 ///
-/// The background fills the map's plane and is cut where it is longer; it is moved to the left and up by `offset`, in parts
-/// of itself, and goes on beyond its borders as in a mirror. It is looked up between its four nearest pixels; one much finer
-/// than the map is best halved before.
+/// The background fills the map's plane and is cut where it is longer. It is shifted to the left and up by `offset`, in
+/// parts of itself, and continues beyond its borders as in a mirror. The look-up interpolates between the four nearest
+/// pixels, so a background much finer than the map is best halved before.
 pub fn refract(map: &RefractionMap, background: &Panorama, offset: DVec2) -> Linear {
     let [width, height] = map.size;
     let shape = f64::from(width) / f64::from(height.max(1));

@@ -1,4 +1,4 @@
-//! What stones look like under light: the looks that a picture is made from, added up.
+//! Pictures of stones under light: adds up the sample passes that a picture is made from.
 
 use super::Linear;
 use crate::optics::Stratum;
@@ -6,20 +6,20 @@ use crate::trace::sampling::{LitScene, ProgressiveImage, RadiancePixel, Sampling
 use crate::trace::{Stopped, Watch};
 use std::ops::Range;
 
-/// What a picture does not show: means over what it covers.
+/// The light that a picture does not show, as means over what it covers.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Remainder {
-    /// Share of the light not followed to its end.
+    /// The share of the light that was not followed to its end.
     pub unresolved: f64,
-    /// Share absorbed.
+    /// The share of the light that is absorbed.
     pub absorbed: f64,
 }
 
-/// Takes a picture of `samples` looks in these strata of wavelength. `prepare` makes what sees some rows; no more than
-/// `most_rows` are asked for at once.
+/// Takes a picture with `samples` sample passes in these strata of wavelength. `prepare` builds the tracer for a range
+/// of rows, which never has more than `most_rows`.
 ///
 /// # Errors
-/// What `prepare` and its product answer; [`Stopped`] when `watch` asks to stop.
+/// The errors of `prepare` and of the tracer that it builds, and [`Stopped`] when `watch` stops the work.
 pub fn expose<E: From<Stopped>, X: ProgressiveImage<E>>(
     lit_scene: &LitScene,
     (strata, samples): (&[Stratum], u32),
@@ -30,10 +30,10 @@ pub fn expose<E: From<Stopped>, X: ProgressiveImage<E>>(
     expose_in(lit_scene, (strata, Sampling::of(samples)), most_rows, prepare, watch)
 }
 
-/// Takes a picture as [`expose`] does, of looks in a manner of their own.
+/// Takes a picture as [`expose`] does, with sample passes as `looks` describes them.
 ///
 /// # Errors
-/// As [`expose`].
+/// The errors of [`expose`].
 pub fn expose_in<E: From<Stopped>, X: ProgressiveImage<E>>(
     lit_scene: &LitScene,
     (strata, looks): (&[Stratum], Sampling),
@@ -59,10 +59,10 @@ pub fn expose_in<E: From<Stopped>, X: ProgressiveImage<E>>(
     Ok(sum.finish(width, height))
 }
 
-/// What an exposure of a whole picture has seen so far.
+/// Returns what an exposure of a whole picture has seen so far.
 ///
 /// # Errors
-/// What the exposure answers.
+/// The errors of the exposure.
 pub fn seen<E: From<Stopped>, X: ProgressiveImage<E>>(
     lit_scene: &LitScene,
     exposure: &X,
@@ -73,7 +73,7 @@ pub fn seen<E: From<Stopped>, X: ProgressiveImage<E>>(
     Ok(sum.finish(width, height))
 }
 
-/// Pixels as they come in.
+/// The pixels added so far, with sums over them.
 struct Sum {
     pixels: Vec<[f32; 4]>,
     rest: Remainder,

@@ -1,15 +1,16 @@
-//! Light that absorption makes uneven over a beam, as strips of even light.
+//! Divides a beam's outline, over which absorption makes light uneven, into strips of even light.
 
 use crate::math::{Affine, area, clip, integral_of_decay};
 use crate::scene::Medium;
 use glam::DVec2;
 
-/// Where a beam is deeper than this beyond its brightest, it is as good as black, and one strip does.
+/// Depth beyond the brightest point at which a beam is as good as black, so that one strip is enough there.
 const DARK: f64 = 12.0;
 
-/// Calls `even` with the parts of an outline, each with the mean of what absorption leaves there after a path; across no
-/// part of them does that change by more than `uneven` of itself. The two polarisations of a medium that absorbs them
-/// unlike come one after the other, half the light each.
+/// Calls `even` with the parts of an outline, each with the mean of the light that absorption leaves there after a path.
+///
+/// Within a part the light changes by no more than the part `uneven` of itself. If a medium absorbs the two
+/// polarisations differently, the parts of one come after those of the other, each with half the light.
 pub(super) fn strips(
     outline: &[DVec2],
     path: Affine,
@@ -26,7 +27,7 @@ pub(super) fn strips(
     }
 }
 
-/// The same for light that falls as exp(-depth).
+/// Calls `even` as [`strips`] does, for light that falls as exp(-depth).
 fn faded(outline: &[DVec2], depth: Affine, uneven: f64, mut even: impl FnMut(&[DVec2], f64)) {
     let depths = || outline.iter().map(|&p| depth.at(p));
     let (low, high) = (depths().fold(f64::INFINITY, f64::min), depths().fold(0.0, f64::max));

@@ -1,39 +1,40 @@
-//! Temporal antialiasing: each picture of something that moves is laid over the ones before, which are first brought to where
-//! what they show is now.
+//! Temporal antialiasing: each picture of something that moves is blended with the ones before, which are first shifted
+//! to where the things that they show are now.
 //!
-//! What was seen elsewhere in another light, such as a background through moving glass, is held within what the newest picture
-//! shows around, so that nothing trails (B. Karis, High-quality temporal supersampling, SIGGRAPH 2014 courses).
+//! Light that has changed since, such as a background seen through moving glass, is clamped to the range that the newest
+//! picture shows around the pixel, so that nothing leaves a trail (B. Karis, High-quality temporal supersampling,
+//! SIGGRAPH 2014 courses).
 
 use super::Linear;
 use glam::DVec2;
 use rayon::prelude::*;
 
-/// How far beyond what the newest picture shows around a pixel older light may be, in parts of its range there.
+/// How far older light may lie outside the range that the newest picture shows around a pixel, as a part of that range.
 const BEYOND: f32 = 0.25;
 
-/// What is seen at a pixel's middle.
+/// The body seen at a pixel's middle, and its motion since the picture before.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MotionVector {
-    /// Which body, if any.
+    /// The body that is seen, if any.
     pub body: Option<u32>,
-    /// Where the same point of it was seen in the picture before, in pixels to the right of its left border and below its
-    /// upper one; no finite number where it was not.
+    /// Where the same point of the body was seen in the picture before, in pixels from that picture's upper left, to the
+    /// right and down. It is not finite where the point was not seen.
     pub from: DVec2,
 }
 
-/// Pictures laid over one another.
+/// A sequence of pictures, blended into one.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TemporalHistory {
-    /// What has come of them, in linear light.
+    /// The blended picture, in linear light.
     pub picture: Linear,
-    /// The body that each pixel shows, or at whose rim it is.
+    /// The body that each pixel shows, or at whose rim the pixel is.
     bodies: Vec<Option<u32>>,
-    /// How many pictures there were.
+    /// The number of pictures that were blended.
     pub count: u32,
 }
 
 impl TemporalHistory {
-    /// Begins with a first picture; `moved` belongs to its pixels.
+    /// Begins with a first picture; `moved` has an entry for each of its pixels.
     pub fn begin(picture: Linear, moved: &[MotionVector]) -> Self {
         let picture = picture.whole();
         let film = Film { now: &picture, moved };
@@ -41,8 +42,9 @@ impl TemporalHistory {
         Self { picture, bodies, count: 1 }
     }
 
-    /// Lays the next picture over the ones before, of which it takes the share `newest`, 0 to 1; all of it where its pixels are
-    /// others in number, or show what was not seen before.
+    /// Blends the next picture with the ones before; `newest` is its share, 0 to 1. The next picture replaces the ones
+    /// before where it shows something that was not seen before, and altogether if its size differs or `moved` does not
+    /// have one entry per pixel.
     pub fn lay(&mut self, picture: Linear, moved: &[MotionVector], newest: f64) {
         let next = Self::begin(picture, moved);
         let same = (next.picture.width, next.picture.height) == (self.picture.width, self.picture.height);
@@ -63,7 +65,7 @@ impl TemporalHistory {
         (self.bodies, self.count) = (next.bodies, self.count + 1);
     }
 
-    /// What was seen of a body around a point, of which it must have been in sight there.
+    /// Returns the light that was seen around a point of the picture; `None` where the body was not in sight there.
     fn before(&self, (body, from): (Option<u32>, DVec2)) -> Option<[f32; 4]> {
         let (width, height) = (self.picture.width as usize, self.picture.height as usize);
         let at = from - 0.5;
@@ -98,7 +100,7 @@ struct Film<'a> {
 }
 
 impl Film<'_> {
-    /// The pixels around one, itself among them.
+    /// Returns the pixels around one, including itself, with the steps to them.
     fn near(&self, k: usize) -> impl Iterator<Item = (usize, DVec2)> + '_ {
         let (width, height) = (self.now.width as i64, self.now.height as i64);
         let (x, y) = (k as i64 % width, k as i64 / width);
@@ -108,7 +110,8 @@ impl Film<'_> {
             .map(move |(x, y, by)| ((y * width + x) as usize, by))
     }
 
-    /// The body that a pixel shows, and where that was. Beside a body its rim counts, which covers a part of the pixel.
+    /// Returns the body that a pixel shows, and where it was seen before. A pixel beside a body counts as the body's
+    /// rim, which covers a part of the pixel.
     fn from(&self, k: usize) -> (Option<u32>, DVec2) {
         let Some(own) = self.moved.get(k) else { return (None, DVec2::NAN) };
         if own.body.is_some() {
@@ -118,8 +121,8 @@ impl Film<'_> {
         rim.map_or((None, own.from), |(other, by)| (self.moved[other].body, self.moved[other].from - by))
     }
 
-    /// The least and the most of each channel in the pixels around one, and somewhat beyond, for what none of them happened to
-    /// show.
+    /// Returns the least and the greatest value of each channel in the pixels around one, widened a little for light
+    /// that none of them happens to show.
     fn around(&self, k: usize) -> [[f32; 4]; 2] {
         let mut ends = [[f32::INFINITY; 4], [f32::NEG_INFINITY; 4]];
         for (other, _) in self.near(k) {
@@ -138,7 +141,8 @@ mod tests {
 
     const SIDE: u32 = 24;
 
-    /// A disc with stripes, whose middle is at (x, y), each pixel by one point that stands so far in it.
+    /// Returns a picture of a striped disc; each pixel is sampled at one point, which lies at `shift` from its upper
+    /// left.
     fn disc(middle: DVec2, shift: DVec2) -> Linear {
         let mut picture = Linear::new(SIDE, SIDE);
         for (k, pixel) in picture.pixels.iter_mut().enumerate() {
@@ -151,7 +155,7 @@ mod tests {
         picture
     }
 
-    /// The same by many points a pixel.
+    /// Returns the picture of the same disc, sampled at many points per pixel.
     fn exact(middle: DVec2) -> Linear {
         let mut sum = Linear::new(SIDE, SIDE);
         let points = (0..64).map(|n| DVec2::new(f64::from(n % 8) + 0.5, f64::from(n / 8) + 0.5) / 8.0);
@@ -164,7 +168,7 @@ mod tests {
         sum
     }
 
-    /// What has moved by so much since.
+    /// Returns the motion of a disc that has moved by this much.
     fn moved(middle: DVec2, by: DVec2) -> Vec<MotionVector> {
         let pixel = |k: u32| {
             let at = DVec2::new(f64::from(k % SIDE), f64::from(k / SIDE)) + 0.5;
@@ -179,7 +183,8 @@ mod tests {
         (pairs.map(|(a, b)| f64::from(a - b).powi(2)).sum::<f64>() / a.pixels.len() as f64).sqrt()
     }
 
-    /// A disc that moves for some time, seen by one point a pixel: laid over one another, and the last picture alone.
+    /// Follows a disc that moves for some time, seen at one point per pixel. Returns the errors of the blended pictures
+    /// and of the last picture alone.
     fn run(speed: DVec2, told: DVec2, newest: f64) -> (f64, f64) {
         let place = |n: u32| DVec2::splat(9.0) + speed * f64::from(n);
         let shift = |n: u32| ((DVec2::new(0.755, 0.57) * f64::from(n)) + 0.5).fract();

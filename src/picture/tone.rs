@@ -1,33 +1,34 @@
-//! From light without bounds to what a screen can show.
+//! Tone curves: they bring light without bounds to what a screen can show.
 
 use super::linear::luminance;
 use std::str::FromStr;
 
-/// How bright light is brought below 1. Every curve begins at 0 and rises.
+/// The curve that brings bright light below 1. Every curve begins at 0 and rises.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Tone {
-    /// What a screen can show stays as it is, what is brighter is cut at 1: for tests and comparisons.
+    /// Light that a screen can show stays as it is, and brighter light is cut at 1: for tests and comparisons.
     Linear,
-    /// Light up to 0.8 stays as it is; what is brighter keeps its hue and turns white as it nears 1.
+    /// Light up to 0.8 stays as it is. Brighter light keeps its hue and turns white as it nears 1.
     #[default]
     Neutral,
-    /// The curve of film: deep shadows, soft highlights, a little more contrast between.
+    /// The curve of film: deep shadows, soft highlights, and a little more contrast between them.
     Filmic,
 }
 
-/// Where compression begins, and how fast bright colours lose theirs (Khronos PBR Neutral, below).
+/// The light at which compression begins (Khronos PBR Neutral).
 const COMPRESSED_FROM: f32 = 0.8;
+/// How fast bright colours lose their saturation (Khronos PBR Neutral).
 const DESATURATION: f32 = 0.15;
 
-/// Narkowicz's fit: (a x² + b x) / (c x² + d x + e).
+/// Coefficients a to e of Narkowicz's fit: (a x² + b x) / (c x² + d x + e).
 const FILM: [f32; 5] = [2.51, 0.03, 2.43, 0.59, 0.14];
 
 /// Where the fit reaches 1: the greater root of (a − c) x² + (b − d) x − e.
 const FILM_IS_WHITE: f32 = 7.241_62;
 
 impl Tone {
-    /// What a screen shows of linear light that is not below 0: each channel from 0 to 1. `white` is the light that
-    /// film shows as white; the other curves do not ask.
+    /// Returns what a screen shows of linear light that is not below 0: each channel from 0 to 1. `white` is the light
+    /// that [`Filmic`](Self::Filmic) shows as white; the other curves do not use it.
     pub fn shown(self, light: [f32; 3], white: f32) -> [f32; 3] {
         match self {
             Self::Linear => light.map(|c| c.min(1.0)),
@@ -37,8 +38,9 @@ impl Tone {
     }
 }
 
-/// The Khronos PBR Neutral tone mapper (Khronos Group, 3D Commerce, 2024) without its toe, which takes the 4 % off that
-/// common surfaces reflect: a diamond reflects 17 %, and dark light is what the contrast of a gem consists of.
+/// Applies the Khronos PBR Neutral tone mapper (Khronos Group, 3D Commerce, 2024) without its toe. The toe takes off the
+/// 4 % that common surfaces reflect, but a diamond reflects 17 %, and dark light is what the contrast of a gem consists
+/// of.
 fn neutral(light: [f32; 3]) -> [f32; 3] {
     let peak = light[0].max(light[1]).max(light[2]);
     if peak < COMPRESSED_FROM {
@@ -53,15 +55,17 @@ fn neutral(light: [f32; 3]) -> [f32; 3] {
     })
 }
 
-/// K. Narkowicz, "ACES Filmic Tone Mapping Curve" (2016).
+/// Applies the curve of K. Narkowicz, "ACES Filmic Tone Mapping Curve" (2016).
 fn film(x: f32) -> f32 {
     let x = x.min(FILM_IS_WHITE);
     let [a, b, c, d, e] = FILM;
     (x * (a * x + b) / (x * (c * x + d) + e)).min(1.0)
 }
 
-/// The nearest colour, of the same luminance and hue, that sRGB's primaries can mix: grey is added just until no
-/// channel is below 0. Spectral light lies outside their triangle until it has been summed, so ask for the sum.
+/// Returns the nearest colour of the same luminance and hue that sRGB's primaries can mix: grey is added just until no
+/// channel is below 0.
+///
+/// Spectral light lies outside the primaries' triangle until it has been summed, so pass the sum.
 pub fn reachable(light: [f32; 3]) -> [f32; 3] {
     let least = light[0].min(light[1]).min(light[2]);
     if least >= 0.0 {
@@ -106,7 +110,7 @@ mod tests {
                 let light = 1e-4 * (f32::from(k as u16) * 0.005).exp();
                 let [r, g, b] = tone.shown([light; 3], 12.0);
                 assert!(r == g && g == b, "{tone:?} colours grey {light}");
-                // Two roundings: the curves nearly touch 1 for long.
+                // The tolerance is two roundings, as the curves nearly touch 1 for a long stretch.
                 assert!(r >= before - 2.5e-7 && r <= 1.0, "{tone:?} falls at {light}: {before} to {r}");
                 before = r;
             }
@@ -118,7 +122,7 @@ mod tests {
     fn neutral_leaves_what_a_screen_can_show_and_the_hue() {
         assert_eq!(Tone::Neutral.shown([0.79, 0.3, 0.0], 1.0), [0.79, 0.3, 0.0]);
         let [r, g, b] = Tone::Neutral.shown([4.0, 2.0, 1.0], 1.0);
-        // The middle channel stays as far between the two others as it was.
+        // The middle channel keeps its relative place between the two others.
         assert!(r < 1.0 && ((g - b) / (r - b) - 1.0 / 3.0).abs() < 1e-5);
         let just = Tone::Neutral.shown([COMPRESSED_FROM; 3], 1.0)[0];
         assert!((just - COMPRESSED_FROM).abs() < 1e-6, "a step at {just}");

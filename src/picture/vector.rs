@@ -8,14 +8,14 @@ use glam::{DMat2, DVec2, DVec3};
 use svg::Document;
 use svg::node::element::{Description, Group, Polygon, Rectangle, Title};
 
-/// Side of the drawing, in its own units; coordinates carry four digits behind the point.
+/// Side of the drawing, in its own units; coordinates have four decimals.
 pub const SIDE: u32 = 1000;
 
-/// Polygons that cover less than this, in square units of the drawing, would be lost in the rounding.
+/// Area, in square units of the drawing, below which polygons are left out, as rounding would lose them.
 const SPECK: f64 = 1e-5;
 
-/// Draws the map of strongest exits: polygons that do not overlap, each with its path (`data-path`), and the
-/// elevation and weight of its exit.
+/// Draws the map of strongest exits as polygons that do not overlap. Each has the path of its light (`data-path`), and
+/// the elevation and weight of its exit.
 pub fn strongest(stone: &Stone, beams: &Beams, scope: &Scope, title: &str) -> Document {
     let page = Page::new(stone, beams);
     let mut groups: Vec<Group> = scope.bands.iter().map(|b| band_group(&b.name, &hex(b.colour))).collect();
@@ -43,8 +43,8 @@ pub fn strongest(stone: &Stone, beams: &Beams, scope: &Scope, title: &str) -> Do
     page.document(title, &open, beams, (&hex(scope.bands[0].colour), groups))
 }
 
-/// Draws the energy picture: the finest subdivision of the image that was traced, each polygon in the colour of
-/// all the light seen through it, with or without glare, and with the facets that light has met (`data-path`).
+/// Draws the energy picture: the finest subdivision of the image that was traced. Each polygon has the colour of all the
+/// light seen through it, with or without glare, and the facets that this light has met (`data-path`).
 pub fn energy(stone: &Stone, beams: &Beams, (scope, glare): (&Scope, Glare), title: &str) -> Document {
     let page = Page::new(stone, beams);
     let colours = scope.colours();
@@ -72,7 +72,7 @@ pub fn energy(stone: &Stone, beams: &Beams, (scope, glare): (&Scope, Glare), tit
     page.document(title, &open, beams, (&hex(scope.bands[0].colour), groups))
 }
 
-/// Viewers leave hairlines between polygons that touch; a thin line of their own colour closes them.
+/// Width of a line in each polygon's own colour. It closes the hairlines that viewers leave between polygons that touch.
 const SEAM: f64 = 0.8;
 
 fn band_group(name: &str, colour: &str) -> Group {
@@ -83,12 +83,12 @@ fn hex([r, g, b]: [u8; 3]) -> String {
     format!("#{r:02x}{g:02x}{b:02x}")
 }
 
-/// A drawing's frame, and the copies that make up the whole of it.
+/// A drawing's frame, and the copies of the symmetry that make up the whole drawing.
 struct Page<'a> {
     stone: &'a Stone,
     film: Film,
     copies: Vec<DMat2>,
-    /// For each copy the facet that each facet is carried to.
+    /// For each copy, the facet that each facet is mapped to.
     carried: Vec<Vec<u32>>,
 }
 
@@ -100,7 +100,7 @@ impl<'a> Page<'a> {
         Self { stone, film: Film::around(&stone.polytope, &beams.view, SIDE), copies, carried }
     }
 
-    /// An outline in every copy, in the drawing's units.
+    /// Returns an outline in every copy, in the drawing's units.
     fn polygons(&self, outline: &[DVec2]) -> Vec<(usize, Polygon)> {
         let map = |copy| self.film.pixels_from_image(copy);
         let points = |copy| outline.iter().map(|&p| map(copy).transform_point2(p)).collect::<Vec<_>>();
@@ -139,7 +139,7 @@ fn listed(points: &[DVec2]) -> String {
     points.iter().map(|p| format!("{:.4},{:.4}", p.x, p.y)).collect::<Vec<_>>().join(" ")
 }
 
-/// Where a symmetry of the picture carries each facet.
+/// Returns the facet to which a symmetry of the picture maps each facet.
 fn carried(planes: &[Plane], view: &Basis, copy: DMat2) -> Vec<u32> {
     let image = |n: DVec3| view.lift(copy * view.project(n)) + view.toward * view.toward.dot(n);
     let nearest = |plane: &Plane| {

@@ -2,49 +2,49 @@
 
 use crate::scene::{ASET_CONE, Backing, Scope, Side};
 
-/// A picture by name.
+/// A picture that has a name.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Picture {
     /// The stone's light in a scope.
     Scoped(Scoped),
-    /// The side view with its dimensions.
+    /// The profile: the side view with its dimensions.
     Profile,
-    /// Crown and pavilion with their tiers.
+    /// The facet diagram: crown and pavilion with their tiers.
     Diagram,
 }
 
 /// A scope, and the side of the stone that it looks at.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Scoped {
-    /// The structured light.
+    /// The scope's structured light.
     pub scope: Scope,
-    /// The side it is made for; `None` for either.
+    /// The side that the scope is made for; `None` for either.
     pub side: Option<Side>,
-    /// Whether an observer's head belongs into it as an option; scopes with a hole for the eye have theirs.
+    /// Whether an observer's head may be added. Scopes with a hole for the eye have their own.
     pub takes_head: bool,
 }
 
-/// Half angle of Ideal-Scope's hole, degrees: the widest of the 10 to 15 that are described, and the narrowest at which
-/// ideal cuts have the whole dark arrows of graders' pictures (docs/optics.md, "Ideal-Scope's hole").
+/// Half angle of the Ideal-Scope's hole, in degrees. It is the widest of the 10 to 15 that are described, and the
+/// narrowest at which ideal cuts have the whole dark arrows of graders' pictures (docs/optics.md, "Ideal-Scope's hole").
 const IDEAL_SCOPE_HOLE: f64 = 15.0;
 
 impl Scoped {
-    /// The common ASET, whose zones are those of figures where no other scope is asked for.
+    /// Returns the common ASET; unless another scope is chosen, figures use its zones.
     pub fn aset() -> Self {
         Self { scope: Scope::aset(ASET_CONE, Backing::Black), side: None, takes_head: true }
     }
 
-    /// The scope with an observer's head of this half angle, degrees, if it takes one.
+    /// Returns the scope with an observer's head of this half angle, in degrees, if it takes one.
     pub fn with_head(&self, half_angle: f64) -> Scope {
         self.scope.clone().with_head(if self.takes_head { half_angle } else { 0.0 })
     }
 }
 
-/// Half angles of the camera's and the ring's cones in a hearts and arrows viewer, degrees. No standard fixes
-/// them; these are taken from one implementation, and show the patterns well.
+/// Half angles of the camera's and the ring's cones in a hearts and arrows viewer, in degrees. No standard fixes them;
+/// these are taken from one implementation and show the patterns well.
 const VIEWER_CONES: (f64, f64) = (5.3, 16.3);
 
-/// All names, in the order in which they are drawn.
+/// Returns all names, in the order in which the pictures are drawn.
 pub fn names() -> [&'static str; 9] {
     [
         "aset",
@@ -59,7 +59,7 @@ pub fn names() -> [&'static str; 9] {
     ]
 }
 
-/// The picture of this name.
+/// Returns the picture of this name; `None` if no picture has it.
 pub fn named(name: &str) -> Option<Picture> {
     let scoped = |scope, side, takes_head| Some(Picture::Scoped(Scoped { scope, side, takes_head }));
     let (camera, ring) = VIEWER_CONES;

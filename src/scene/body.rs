@@ -1,4 +1,4 @@
-//! What a design makes: a stone between planes, or a solid of another kind.
+//! The solid that a design describes: a stone between planes, or a solid of another kind.
 
 use super::Stone;
 use crate::math::{NotConvex, SmoothSolid, Solid, SolidRef, TriangleMesh};
@@ -8,16 +8,16 @@ use std::sync::Arc;
 /// A solid in the stone's frame: lengths in girdle radii, +z out of the table.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Body {
-    /// Convex, between planes that have names.
+    /// A convex solid between planes that have names.
     Stone(Stone),
-    /// Within triangles; not convex.
+    /// A solid within triangles that is not convex.
     Mesh(Arc<TriangleMesh>),
-    /// Within a smooth surface.
+    /// A solid within a smooth surface.
     Glass(SmoothSolid),
 }
 
 impl Body {
-    /// Its shape, to be traced.
+    /// Returns the shape, as tracers take it.
     pub fn solid(&self) -> SolidRef<'_> {
         match self {
             Self::Stone(stone) => SolidRef::Convex(&stone.polytope),
@@ -26,10 +26,10 @@ impl Body {
         }
     }
 
-    /// The stone, for what needs facets.
+    /// Returns the stone, where facets are needed.
     ///
     /// # Errors
-    /// Where it is none.
+    /// The solid is not a stone between planes.
     pub fn stone(&self) -> Result<&Stone, NotConvex> {
         match self {
             Self::Stone(stone) => Ok(stone),
@@ -37,7 +37,7 @@ impl Body {
         }
     }
 
-    /// The names of its facets, in their order; empty where they have none.
+    /// Returns the names of the facets, in their order; empty where they have none.
     pub fn names(&self) -> Vec<String> {
         match self {
             Self::Stone(stone) => stone.names().to_vec(),
@@ -46,7 +46,8 @@ impl Body {
         }
     }
 
-    /// The name of a facet, by its place.
+    /// Returns the name of a facet, by its place, as people read it: with spaces for underscores, or numbered from 1 where
+    /// facets have no names.
     pub fn name(&self, facet: u32) -> String {
         match self {
             Self::Stone(stone) => stone.name(facet).replace('_', " "),
@@ -55,7 +56,7 @@ impl Body {
         }
     }
 
-    /// The same turned about its axis, counter-clockwise from above, radians.
+    /// Returns the same solid turned about its axis by an angle in radians, counter-clockwise from above.
     pub fn turned(&self, angle: f64) -> Self {
         match self {
             Self::Stone(stone) => Self::Stone(stone.turned(angle)),

@@ -1,6 +1,6 @@
-//! Copies of one body beside one another: where each lies, how they are laid out anew, how they tumble in time.
+//! Copies of one body beside one another: where each lies, how they are laid out, and how they tumble in time.
 //!
-//! Lengths are in the body's own unit, girdle radii; times in seconds. The same numbers give the same places.
+//! Lengths are in the body's own unit, girdle radii; times are in seconds. The same numbers always give the same places.
 
 use super::layout::scattered;
 use glam::{DQuat, DVec2, DVec3};
@@ -9,48 +9,50 @@ use serde::{Deserialize, Serialize};
 /// The most copies that there may be.
 pub const MOST_COPIES: usize = 8;
 
-/// How fast a copy turns about its own axis of tumbling, and how fast that axis itself turns about z, radians a second.
+/// The speed at which a copy turns about its own axis of tumbling, radians a second.
 const TUMBLING: f64 = 0.7;
+/// The speed at which the axis of tumbling itself turns about z, radians a second.
 const SWINGING: f64 = 0.31;
 
-/// Clear space between two copies, as a part of what they measure.
+/// The clear space between two copies, as a part of their extent.
 const CLEAR: f64 = 0.02;
 
-/// Places that are tried for a copy before its room is made larger, and how much larger.
+/// The number of places that are tried for each copy before the room is made larger.
 const TRIES: u64 = 256;
+/// The factor by which the room is made larger when no place was found.
 const LARGER: f64 = 1.04;
 
-/// Where a copy is: turned about the body's origin, then moved.
+/// The pose of a copy: turned about the body's origin, then moved.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Pose {
-    /// Where the body's origin is.
+    /// The place of the body's origin.
     pub at: DVec3,
-    /// How it is turned.
+    /// The rotation of the body.
     pub turn: DQuat,
 }
 
 impl Pose {
-    /// A body that stays as it is.
+    /// The pose of a body that stays as it is.
     pub const STILL: Self = Self { at: DVec3::ZERO, turn: DQuat::IDENTITY };
 
-    /// Where a point of the body is.
+    /// Returns the place of a point of the body.
     pub fn place(&self, point: DVec3) -> DVec3 {
         self.turn * point + self.at
     }
 
-    /// The point of the body that is there.
+    /// Returns the point of the body that lies at a place.
     pub fn point(&self, place: DVec3) -> DVec3 {
         self.turn.inverse() * (place - self.at)
     }
 }
 
-/// Copies at rest.
+/// Copies of a body, at rest.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Copies {
-    /// Where each is; at least one.
+    /// The pose of each copy; at least one.
     pub poses: Vec<Pose>,
-    /// Half the side of the square in which they were laid out: to this views are fitted, so that nothing shrinks while a copy
-    /// is moved. `None` for a body alone, whose own reach counts.
+    /// Half the side of the square in which the copies were laid out. Views are fitted to it, so that nothing shrinks while
+    /// a copy is moved. `None` for a body alone, whose own reach counts.
     pub room: Option<f64>,
 }
 
@@ -61,8 +63,10 @@ impl Default for Copies {
 }
 
 impl Copies {
-    /// So many copies, 1 to [`MOST_COPIES`], each as the body is, of these corners, scattered without touching in the plane
-    /// across the axis; another `number` scatters them otherwise. One copy stays in the middle.
+    /// Scatters `count` copies, 1 to [`MOST_COPIES`], in the plane across the axis, without any two touching.
+    ///
+    /// `corners` are those of the body, and each copy is turned as the body is. Another `number` scatters the copies
+    /// otherwise. A single copy stays in the middle.
     pub fn scattered(count: usize, corners: &[DVec3], number: u64) -> Self {
         let count = count.clamp(1, MOST_COPIES);
         if count == 1 {
@@ -79,7 +83,7 @@ impl Copies {
         }
     }
 
-    /// Copies at given places, in a room that holds bodies of these corners there.
+    /// Returns copies at given places, in a room that holds bodies of these corners there.
     pub fn at(poses: Vec<Pose>, corners: &[DVec3]) -> Self {
         if poses.len() == 1 && poses[0].at == DVec3::ZERO {
             return Self { poses, room: None };
@@ -89,13 +93,14 @@ impl Copies {
         Self { poses, room: Some(room) }
     }
 
-    /// Half the side of the square that a view is fitted to, of a body that alone reaches so far.
+    /// Returns half the side of the square that a view is fitted to; `alone` is the reach of the body alone.
     pub fn reach(&self, alone: f64) -> f64 {
         self.room.unwrap_or(alone)
     }
 
-    /// Where the copies are at a time, as bodies of these corners that tumble, or do not. Copies that would meet lie in layers
-    /// behind one another, the later ones farther from the eye of the view face up.
+    /// Returns the poses of the copies of a body with these corners, at a time in seconds where they tumble, or at rest.
+    ///
+    /// Copies that would meet lie in layers behind one another, the later ones farther from the eye of the view face up.
     pub fn poses(&self, corners: &[DVec3], tumbling: Option<f64>) -> Vec<Pose> {
         let turned = |(number, pose): (usize, &Pose)| {
             tumbling.map_or(pose.turn, |seconds| tumbled(number, seconds) * pose.turn)
@@ -108,7 +113,7 @@ impl Copies {
         for (number, pose) in self.poses.iter().enumerate() {
             let turn = turned((number, pose));
             let around = match tumbling {
-                // Whatever way it turns.
+                // Holds the body in every orientation.
                 Some(_) => [DVec3::splat(-reach), DVec3::splat(reach)],
                 None => bounds(turn, corners),
             };
@@ -129,7 +134,8 @@ impl Copies {
     }
 }
 
-/// The middle of the box that holds bodies of these corners; the origin for one that lies there.
+/// Returns the middle of the box that holds bodies of these corners in these poses; the origin for a single one that lies
+/// there.
 pub fn middle(poses: &[Pose], corners: &[DVec3]) -> DVec3 {
     if matches!(poses, [alone] if alone.at == DVec3::ZERO) {
         return DVec3::ZERO;
@@ -138,7 +144,7 @@ pub fn middle(poses: &[Pose], corners: &[DVec3]) -> DVec3 {
     0.5 * (all().reduce(DVec3::min).unwrap_or_default() + all().reduce(DVec3::max).unwrap_or_default())
 }
 
-/// How a copy of a number has turned after so many seconds: not at all at first, and no two alike.
+/// Returns how far the copy of a number has turned after some seconds: not at all at first, and no two copies alike.
 fn tumbled(number: usize, seconds: f64) -> DQuat {
     let way = scattered(number as u64) * std::f64::consts::TAU;
     let axis = DVec3::new(way.cos(), way.sin(), 0.0);
@@ -146,7 +152,7 @@ fn tumbled(number: usize, seconds: f64) -> DQuat {
     DQuat::from_rotation_z(SWINGING * seconds) * DQuat::from_axis_angle(axis, speed * seconds)
 }
 
-/// Places for rectangles of half these sides within a square; `None` where they are not soon found.
+/// Returns places for rectangles of half these sides within a square; `None` where they are not soon found.
 fn places(count: usize, half: DVec2, room: f64, number: u64) -> Option<Vec<DVec2>> {
     let free = DVec2::splat(room) - half;
     let mut places: Vec<DVec2> = Vec::with_capacity(count);
@@ -162,7 +168,7 @@ fn places(count: usize, half: DVec2, room: f64, number: u64) -> Option<Vec<DVec2
     Some(places)
 }
 
-/// The box around a body of these corners, turned.
+/// Returns the box around a body of these corners after a turn.
 fn bounds(turn: DQuat, corners: &[DVec3]) -> [DVec3; 2] {
     let turned = corners.iter().map(|c| turn * *c);
     turned.fold([DVec3::INFINITY, DVec3::NEG_INFINITY], |[low, high], c| [low.min(c), high.max(c)])
@@ -176,7 +182,7 @@ fn are_apart(a: [DVec3; 2], b: [DVec3; 2]) -> bool {
 mod tests {
     use super::*;
 
-    /// The corners of a brick.
+    /// Returns the corners of a brick.
     fn brick() -> Vec<DVec3> {
         let sign = |bit: usize| if bit == 0 { -1.0 } else { 1.0 };
         (0..8).map(|k| DVec3::new(sign(k & 1), 0.3 * sign(k & 2), 0.2 * sign(k & 4))).collect()

@@ -1,69 +1,70 @@
-//! The rectangle on which a picture is taken.
+//! The film: the rectangle on which a picture is taken.
 
 use crate::math::{Basis, SolidRef};
 use glam::{DAffine2, DMat2, DVec2};
 
-/// Air around the silhouette, as a part of its half width.
+/// The air around the silhouette, as a part of its half width.
 const MARGIN: f64 = 0.04;
 
-/// A picture's pixels in the image plane through the world's origin, x to the right and y up; rows are counted downward.
+/// A picture's pixels in the image plane through the world's origin, x to the right and y up. Rows are counted downward.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Film {
-    /// Pixels across and down.
+    /// The numbers of pixels across and down.
     pub size: [u32; 2],
-    /// Side of a pixel in world units (for a stone alone, girdle radii), above 0.
+    /// The side of a pixel in world units (for a stone alone, girdle radii), above 0.
     pub pixel: f64,
-    /// The point of the image plane in the picture's middle.
+    /// The point of the image plane that lies in the picture's middle.
     pub centre: DVec2,
 }
 
 impl Film {
-    /// A film of these pixels around the origin.
+    /// Returns a film of `size` pixels around the origin.
     pub fn new(size: [u32; 2], pixel: f64) -> Self {
         Self { size, pixel, centre: DVec2::ZERO }
     }
 
-    /// A square of `size` pixels along each side whose half side is `half`, around the origin.
+    /// Returns a square film around the origin with `size` pixels along each side. `half` is half its side in world units.
     pub fn square(size: u32, half: f64) -> Self {
         Self::new([size; 2], 2.0 * half / f64::from(size))
     }
 
-    /// A square that takes in the whole stone, seen along parallel rays, with some air around it.
+    /// Returns a square film that holds the whole stone, seen along parallel rays, with some air around it.
     pub fn around<'a>(solid: impl Into<SolidRef<'a>>, view: &Basis, size: u32) -> Self {
         let reach = |v| view.project(v).abs().max_element();
         Self::reaching(solid.into().vertices().iter().map(|&v| reach(v)).fold(0.0, f64::max), size)
     }
 
-    /// A square on which something that reaches so far from the origin has some air around it.
+    /// Returns a square film that holds everything up to `reach` from the origin to each side, with some air around it.
     pub fn reaching(reach: f64, size: u32) -> Self {
         Self::holding(DVec2::splat(reach), [size; 2])
     }
 
-    /// A film of these pixels on which something that reaches so far from the origin to either side, and up and down, has
-    /// some air around it.
+    /// Returns a film of `size` pixels that holds everything up to `half` from the origin, to either side and up and down,
+    /// with some air around it.
     pub fn holding(half: DVec2, size: [u32; 2]) -> Self {
         let pixels = DVec2::new(f64::from(size[0].max(1)), f64::from(size[1].max(1)));
         Self::new(size, (2.0 * half * (1.0 + MARGIN) / pixels).max_element())
     }
 
-    /// Pixels per world unit.
+    /// Returns the number of pixels per world unit.
     pub fn scale(&self) -> f64 {
         1.0 / self.pixel
     }
 
-    /// From image coordinates, first mapped by `copy`, to pixels: (0, 0) is the upper left corner.
+    /// Returns the map from image coordinates, first transformed by `copy`, to pixels. Pixel (0, 0) is the upper left
+    /// corner.
     pub fn pixels_from_image(&self, copy: DMat2) -> DAffine2 {
         let flip = DMat2::from_diagonal(DVec2::new(1.0, -1.0) / self.pixel);
         DAffine2::from_mat2_translation(flip * copy, self.middle() - flip * self.centre)
     }
 
-    /// The image coordinates of a point given in pixels.
+    /// Returns the image coordinates of a point given in pixels.
     pub fn image_from_pixels(&self, p: DVec2) -> DVec2 {
         let centred = p - self.middle();
         DVec2::new(centred.x, -centred.y) * self.pixel + self.centre
     }
 
-    /// How far a film around the origin is shifted, in pixels, to become this one.
+    /// Returns the shift, in pixels, that makes this film of one around the origin.
     pub fn shift(&self) -> DVec2 {
         DVec2::new(self.centre.x, -self.centre.y) / self.pixel
     }

@@ -1,35 +1,36 @@
-//! Stones laid beside one another, each as the circle that holds it seen from its table: in a row, a ring, a parcel.
+//! Layouts of stones beside one another: in a row, a ring or a parcel. Each stone counts as the circle that holds it seen
+//! from its table.
 //!
-//! Lengths in any one unit; the middle of all is the origin. The same radii give the same places.
+//! All lengths are in one unit, any; the origin is in the middle of all stones. The same radii always give the same places.
 
 use glam::DVec2;
 use std::f64::consts::{PI, TAU};
 
-/// How stones are laid out.
+/// The way in which stones are laid out.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Layout {
-    /// Along x, in their order.
+    /// Along x, in the order of the stones.
     Row,
-    /// Around a circle, counter-clockwise from +x, with equal angles between them.
+    /// Around a circle, counter-clockwise from +x, with equal angles left free between neighbours.
     Ring,
-    /// As dense as goes, the largest in the middle.
+    /// As densely as possible, one stone after another, with the largest in the middle.
     Parcel,
 }
 
-/// Halvings in the search for the ring's radius: to a rounding.
+/// The number of halvings in the search for the ring's radius: until rounding.
 const HALVINGS: u32 = 60;
 
-/// Circles may come nearer than asked by this part of their distance: rounding.
+/// Circles may come nearer than requested by this part of their distance: rounding.
 const ROUNDING: f64 = 1e-9;
 
-/// How far a stone of a parcel is turned about its axis, degrees to either side.
+/// The greatest angle by which a stone of a parcel is turned about its axis, degrees to either side.
 const MOST_TURNED: f64 = 22.5;
 
 impl Layout {
     /// The layouts by name.
     pub const NAMES: [(&str, Self); 3] = [("row", Self::Row), ("ring", Self::Ring), ("parcel", Self::Parcel)];
 
-    /// The middles of circles of these radii, at least `gap` between any two.
+    /// Returns the middles of circles of these radii, with at least `gap` between any two.
     pub fn places(self, radii: &[f64], gap: f64) -> Vec<DVec2> {
         match self {
             _ if radii.len() < 2 => vec![DVec2::ZERO; radii.len()],
@@ -39,7 +40,8 @@ impl Layout {
         }
     }
 
-    /// By how many degrees the stone of a number is turned about its axis: in a parcel some way, never the same.
+    /// Returns the angle in degrees by which the stone of a number is turned about its axis: in a parcel an angle of its
+    /// own, else 0.
     pub fn turn(self, number: usize) -> f64 {
         match self {
             Self::Row | Self::Ring => 0.0,
@@ -48,7 +50,7 @@ impl Layout {
     }
 }
 
-/// A number from 0 to below 1 that looks like chance (Steele et al., SplitMix64, OOPSLA 2014).
+/// Returns a number from 0 to below 1 that looks random (Steele et al., SplitMix64, OOPSLA 2014).
 pub(super) fn scattered(number: u64) -> f64 {
     let z = (number + 1).wrapping_mul(0x9e37_79b9_7f4a_7c15);
     let z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
@@ -67,7 +69,7 @@ fn row(radii: &[f64], gap: f64) -> Vec<DVec2> {
     radii.iter().map(place).collect()
 }
 
-/// On the smallest circle, to rounding, on which no two come too near.
+/// Lays circles on the smallest circle, to rounding, on which no two come too near.
 fn ring(radii: &[f64], gap: f64) -> Vec<DVec2> {
     let fits = |radius| around(radii, gap, radius).filter(|places| are_apart(radii, gap, places));
     let mut low = 0.0;
@@ -87,7 +89,8 @@ fn ring(radii: &[f64], gap: f64) -> Vec<DVec2> {
     found.unwrap_or_default()
 }
 
-/// Neighbours one angle more than touching apart, all the same one; `None` where the circle is too small for all.
+/// Lays circles on a circle of this radius, with the same spare angle between all neighbours; `None` where it is too small
+/// for all.
 fn around(radii: &[f64], gap: f64, radius: f64) -> Option<Vec<DVec2>> {
     let count = radii.len();
     let chord = |k: usize| radii[k] + radii[(k + 1) % count] + gap;
@@ -99,7 +102,7 @@ fn around(radii: &[f64], gap: f64, radius: f64) -> Option<Vec<DVec2>> {
         angle += touching(k) + spare;
         at
     };
-    // Two stones opposite one another have nothing to spare but rounding.
+    // Two stones opposite one another have no spare angle but rounding.
     (spare > -ROUNDING * PI).then(|| (0..count).map(place).collect())
 }
 
@@ -109,7 +112,7 @@ fn are_apart(radii: &[f64], gap: f64, places: &[DVec2]) -> bool {
     (0..radii.len()).all(|i| (0..i).all(|j| pair(i, j)))
 }
 
-/// The largest first, each where it is nearest to the first while touching two that lie there.
+/// Lays the largest circle first, then each where it is nearest to the first while it touches two others.
 fn parcel(radii: &[f64], gap: f64) -> Vec<DVec2> {
     let mut order: Vec<usize> = (0..radii.len()).collect();
     order.sort_by(|&a, &b| radii[b].total_cmp(&radii[a]));
@@ -124,7 +127,7 @@ fn parcel(radii: &[f64], gap: f64) -> Vec<DVec2> {
     places
 }
 
-/// Where the next circle of a parcel goes.
+/// Returns where the next circle of a parcel goes.
 fn next(laid: &[(DVec2, f64)], radius: f64, gap: f64) -> DVec2 {
     let [(first, _), ..] = laid else { return DVec2::ZERO };
     let mut best = *first + DVec2::X * (laid[0].1 + radius + gap);
@@ -142,7 +145,7 @@ fn next(laid: &[(DVec2, f64)], radius: f64, gap: f64) -> DVec2 {
     best
 }
 
-/// The two middles of a circle that touches two others; `reach` is its radius and the gap.
+/// Returns the two middles of a circle that touches two others; `reach` is its radius plus the gap.
 fn touching(a: (DVec2, f64), b: (DVec2, f64), reach: f64) -> [Option<DVec2>; 2] {
     let (from_a, from_b) = (a.1 + reach, b.1 + reach);
     let (apart, distance) = (b.0 - a.0, b.0.distance(a.0));

@@ -1,27 +1,28 @@
 //! Light from all around, as data: domes, soft boxes, lamps, a panorama.
 //!
-//! Directions are by azimuth and elevation in degrees, elevations counted from the plane square to the light's axis, 90
-//! along it. Radiance 1 is that of a white sheet in full light. A part with a colour of its own sheds it in the smooth
-//! spectra of red, green and blue; one without sheds the light's spectrum.
+//! Directions are given by azimuth and elevation. All angles are degrees. Elevations are counted from the plane square to
+//! the light's axis; 90 lies along the axis. Radiance 1 is that of a white sheet in full light. A part with a colour of its
+//! own sheds light in the smooth spectra of red, green and blue; one without sheds the light's spectrum.
 
 use crate::optics::Illuminant;
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 
-/// Light from all around.
+/// Light from all around, as the sum of its parts.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Light {
-    /// What it is called.
+    /// The light's name.
     pub name: String,
-    /// One line on what it is good for.
+    /// One line on what the light is good for.
     #[serde(default)]
     pub description: String,
     /// The spectrum of parts without a colour.
     #[serde(default = "daylight")]
     pub spectrum: Illuminant,
-    /// Half angle, degrees, of the observer's head around the axis to the eye, which keeps light out; 0 for none.
+    /// The half angle of the observer's head around the axis to the eye, degrees. No light comes from within it; 0 for no
+    /// head.
     #[serde(default)]
     pub head: f64,
     /// Belts of the sky.
@@ -45,26 +46,26 @@ fn daylight() -> Illuminant {
     Illuminant::D65
 }
 
-/// A belt of the sky between two elevations; where `end` is given, radiance goes over from `radiance` to it in the sine
-/// of the elevation.
+/// A belt of the sky between two elevations. Where `end` is given, the radiance changes from `radiance` to `end` in
+/// proportion to the sine of the elevation.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Dome {
-    /// Elevation where it begins.
+    /// The elevation where the belt begins, degrees.
     #[serde(default = "nadir")]
     pub from: f64,
-    /// Elevation where it ends.
+    /// The elevation where the belt ends, degrees.
     #[serde(default = "zenith")]
     pub to: f64,
-    /// Width of its edges.
+    /// The width of its soft edges, degrees.
     #[serde(default)]
     pub soft: f64,
-    /// Radiance, at `from` if there is an `end`.
+    /// The radiance; where there is an `end`, that at `from`.
     pub radiance: f64,
-    /// Radiance at `to`.
+    /// The radiance at `to`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub end: Option<f64>,
-    /// Its own colour, sRGB.
+    /// The colour of the part's light, sRGB; `None` for the light's spectrum.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub colour: Option<[u8; 3]>,
 }
@@ -81,23 +82,23 @@ fn zenith() -> f64 {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SoftBox {
-    /// Azimuth of its middle.
+    /// The azimuth of its middle, degrees.
     pub azimuth: f64,
-    /// Elevation of its middle.
+    /// The elevation of its middle, degrees.
     pub elevation: f64,
-    /// Along the horizon.
+    /// The width along the horizon, degrees.
     pub width: f64,
-    /// Upward.
+    /// The height upward, degrees.
     pub height: f64,
-    /// By how much it is turned about its middle.
+    /// The angle by which it is turned about its middle, degrees.
     #[serde(default)]
     pub turn: f64,
-    /// Width of its edges.
+    /// The width of its soft edges, degrees.
     #[serde(default = "soft_edge")]
     pub soft: f64,
-    /// Radiance.
+    /// The radiance.
     pub radiance: f64,
-    /// Its own colour, sRGB.
+    /// The colour of the part's light, sRGB; `None` for the light's spectrum.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub colour: Option<[u8; 3]>,
 }
@@ -110,15 +111,15 @@ fn soft_edge() -> f64 {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Lamp {
-    /// Azimuth of its middle.
+    /// The azimuth of its middle, degrees.
     pub azimuth: f64,
-    /// Elevation of its middle.
+    /// The elevation of its middle, degrees.
     pub elevation: f64,
-    /// Angle from its middle to its edge.
+    /// The angle from its middle to its edge, degrees.
     pub radius: f64,
-    /// Radiance.
+    /// The radiance.
     pub radiance: f64,
-    /// Its own colour, sRGB.
+    /// The colour of the part's light, sRGB; `None` for the light's spectrum.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub colour: Option<[u8; 3]>,
 }
@@ -127,17 +128,17 @@ pub struct Lamp {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct LampField {
-    /// How many.
+    /// The number of lamps.
     pub count: u32,
-    /// Elevation where they begin.
+    /// The elevation where the lamps begin, degrees.
     pub from: f64,
-    /// Elevation where they end.
+    /// The elevation where the lamps end, degrees.
     pub to: f64,
-    /// Angle from the middle of each to its edge.
+    /// The angle from the middle of each lamp to its edge, degrees.
     pub radius: f64,
-    /// Radiance.
+    /// The radiance.
     pub radiance: f64,
-    /// Their own colour, sRGB.
+    /// The colour of the lamps, sRGB; `None` for the light's spectrum.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub colour: Option<[u8; 3]>,
 }
@@ -146,12 +147,12 @@ pub struct LampField {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct PanoramaRef {
-    /// The file, .hdr or .exr.
+    /// The picture's file, .hdr or .exr.
     pub file: PathBuf,
-    /// Brighter by so many stops.
+    /// The exposure in stops: the picture is made brighter by 2 to this power.
     #[serde(default)]
     pub exposure: f64,
-    /// Turned about the axis by so many degrees.
+    /// The angle by which the picture is turned about the axis, counter-clockwise, degrees.
     #[serde(default)]
     pub turn: f64,
 }
@@ -159,44 +160,44 @@ pub struct PanoramaRef {
 /// What is wrong with a light.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum LightError {
-    /// A number that makes no sense where it stands.
+    /// A number that makes no sense for its key.
     #[error("{part} {number}: {key} is {value}; {wanted}")]
     Value {
-        /// Which kind of part.
+        /// The kind of the part.
         part: &'static str,
-        /// Which of them, from 1.
+        /// The number of the part among those of its kind, from 1.
         number: usize,
-        /// The key.
+        /// The key at fault.
         key: &'static str,
-        /// What was given.
+        /// The value as given.
         value: f64,
-        /// What is wanted.
+        /// What is expected instead.
         wanted: &'static str,
     },
-    /// More lamps than there is room for.
+    /// More lamps than [`MOST_LAMPS`].
     #[error("{count} lamps in all; {most} at most are taken")]
     TooManyLamps {
-        /// How many.
+        /// The number of lamps in all.
         count: u64,
-        /// How many there is room for.
+        /// The most lamps that there is room for.
         most: usize,
     },
-    /// Nothing shines.
+    /// A light without any part that shines.
     #[error("nothing shines: give a dome, a box, a lamp, a field of lamps or a panorama")]
     Dark,
 }
 
-/// Lamps that a light may have.
+/// The most lamps that a light may have, those of its fields included.
 pub const MOST_LAMPS: usize = 256;
 
-/// The unit vector to an azimuth and elevation, degrees.
+/// Returns the unit vector to an azimuth and elevation, degrees.
 pub fn toward(azimuth: f64, elevation: f64) -> DVec3 {
     let ((sin_a, cos_a), (sin_e, cos_e)) = (azimuth.to_radians().sin_cos(), elevation.to_radians().sin_cos());
     DVec3::new(cos_e * cos_a, cos_e * sin_a, sin_e)
 }
 
 impl Light {
-    /// All single lamps, those of its fields included.
+    /// Returns all lamps, those of the fields included.
     pub fn lamps(&self) -> Vec<Lamp> {
         self.lamp.iter().cloned().chain(self.field.iter().flat_map(LampField::lamps)).collect()
     }
@@ -204,7 +205,7 @@ impl Light {
     /// Checks every number.
     ///
     /// # Errors
-    /// The first at fault.
+    /// The first number at fault, too many lamps, or a light in which nothing shines.
     pub fn validate(&self) -> Result<(), LightError> {
         const ANGLE: &str = "give 0.5 to 180 degrees";
         const WIDTH: &str = "give 0 to 180 degrees";
@@ -262,7 +263,7 @@ impl Light {
 }
 
 impl LampField {
-    /// Its lamps, on a spiral of equal areas by the golden angle.
+    /// Returns the field's lamps, on a spiral of equal areas by the golden angle.
     fn lamps(&self) -> impl Iterator<Item = Lamp> {
         let golden = 180.0 * (3.0 - 5.0_f64.sqrt());
         let (low, high) = (self.from.to_radians().sin(), self.to.to_radians().sin());

@@ -1,14 +1,14 @@
-//! The lights that come with the program. What is published is said; the rest is chosen to show stones well.
+//! The lights that come with the program. A light from a publication says so; the others are chosen to show stones well.
 
 use super::light::{Dome, Lamp, LampField, Light, PanoramaRef, SoftBox};
 use crate::optics::Illuminant;
 use std::path::Path;
 
-/// The names of the lights that come with the program; the first is used unless asked otherwise.
+/// The names of the lights that come with the program. The first is the default.
 pub const LIGHTS: [&str; 9] =
     ["studio", "dome", "cosine", "ring", "lamps", "fire", "office", "daylight", "white"];
 
-/// The light of a name among [`LIGHTS`].
+/// Returns the light of a name among [`LIGHTS`].
 pub fn light(name: &str) -> Option<Light> {
     match name {
         "studio" => Some(Light::studio()),
@@ -55,7 +55,7 @@ impl Light {
         }
     }
 
-    /// Soft boxes around a dim room, dark between: what a jewellery photographer sets up.
+    /// Soft boxes around a dim room, dark between them, as a jewellery photographer sets them up.
     pub fn studio() -> Self {
         Self {
             head: 9.0,
@@ -78,7 +78,7 @@ impl Light {
         }
     }
 
-    /// The same from every direction above the horizon.
+    /// The same radiance from every direction above the horizon.
     pub fn dome() -> Self {
         Self {
             head: 10.0,
@@ -87,7 +87,7 @@ impl Light {
         }
     }
 
-    /// Above the horizon, as the sine of the elevation.
+    /// Radiance in proportion to the sine of the elevation, above the horizon.
     pub fn cosine() -> Self {
         Self {
             head: 10.0,
@@ -99,7 +99,7 @@ impl Light {
         }
     }
 
-    /// A ring around the lens.
+    /// A ring light around the lens.
     pub fn ring() -> Self {
         Self {
             head: 12.0,
@@ -137,7 +137,7 @@ impl Light {
         }
     }
 
-    /// Panels in a ceiling, a window, pale walls.
+    /// An office: panels in a ceiling, a window, pale walls.
     pub fn office() -> Self {
         let mut boxes = vec![];
         for (row, elevation) in [78.0, 58.0, 42.0].into_iter().enumerate() {
@@ -166,8 +166,8 @@ impl Light {
         let sky = Dome { colour: Some([206, 221, 255]), ..rising(0.0, 90.0, 0.8, 0.22) };
         let ground = Dome { colour: Some([150, 146, 118]), ..belt(-90.0, 0.0, 3.0, 0.35) };
         Self {
-            // A low part of the sun's true radiance, over a disc wider than its quarter of a degree: the same power on
-            // the stone as a hazy sun.
+            // The sun has a small part of its true radiance, over a disc wider than its true quarter of a degree: the same
+            // power on the stone as a hazy sun.
             lamp: vec![Lamp { colour: Some([255, 244, 226]), ..lamp((60.0, 52.0), 1.0, 500.0) }],
             head: 11.0,
             dome: vec![sky, ground],
@@ -180,14 +180,14 @@ impl Light {
         }
     }
 
-    /// Nothing but a panorama, called after its file.
+    /// A light that is a panorama alone, named after its file.
     pub fn of_panorama(file: &Path) -> Self {
         let stem = file.file_stem().map_or_else(|| "panorama".into(), |stem| stem.to_string_lossy());
         let panorama = PanoramaRef { file: file.to_owned(), exposure: 0.0, turn: 0.0 };
         Self { panorama: Some(panorama), ..Self::named(&stem, "") }
     }
 
-    /// The same from everywhere: a stone that takes no light vanishes in it.
+    /// The same radiance from everywhere: a stone that absorbs no light vanishes in it.
     pub fn white() -> Self {
         Self {
             dome: vec![belt(-90.0, 90.0, 0.0, 1.0)],

@@ -1,14 +1,14 @@
-//! Whether stones are in one another's way.
+//! Finds stones that overlap.
 
 use super::Instance;
 use crate::math::{Plane, Polytope, PolytopeError, Solid, TriangleMesh};
 use glam::DVec3;
 use std::sync::Arc;
 
-/// Stones that share no more than this part of their size only touch: far above what rounding does to a layout.
+/// Stones that share no more than this part of their size only touch. It is far above what rounding does to a layout.
 const TOUCHING: f64 = 1e-8;
 
-/// The first two stones, by their places in the list, that share some space; to touch is not to overlap.
+/// Returns the first two stones, by their places in the list, that share some space. Stones that only touch do not overlap.
 pub fn overlapping(stones: &[Instance]) -> Option<(usize, usize)> {
     let balls: Vec<_> = stones.iter().map(|s| ball(&s.solid)).collect();
     let are_near = |i: usize, j: usize| balls[i].0.distance(balls[j].0) < balls[i].1 + balls[j].1;
@@ -25,14 +25,14 @@ pub fn overlapping(stones: &[Instance]) -> Option<(usize, usize)> {
     pairs.filter(|&(i, j)| are_near(i, j)).find(meet)
 }
 
-/// A ball that holds the stone.
+/// Returns the middle and radius of a ball that holds the stone.
 fn ball(solid: &Solid) -> (DVec3, f64) {
     let (low, high) = solid.bounds();
     let middle = 0.5 * (low + high);
     (middle, solid.vertices().iter().map(|v| v.distance(middle)).fold(0.0, f64::max))
 }
 
-/// Whether a plane square to this line has `a` behind it and `b` before it: so it is with most.
+/// Returns whether a plane square to `line` has `a` behind it and `b` before it. For most pairs of stones this is so.
 fn is_between(a: &Solid, b: &Solid, line: DVec3) -> bool {
     let along = |p: &Solid| p.vertices().iter().map(|v| v.dot(line)).collect::<Vec<_>>();
     let is_line = line != DVec3::ZERO;
@@ -41,8 +41,10 @@ fn is_between(a: &Solid, b: &Solid, line: DVec3) -> bool {
             <= along(b).into_iter().fold(f64::INFINITY, f64::min)
 }
 
-/// Whether anything lies so deep inside all planes of both. They are taken from within one stone, where the polytope's
-/// tolerances are fine; what is too thin to be built is none.
+/// Returns whether some point lies at least `depth` inside all planes of both stones.
+///
+/// The planes are taken about `middle`, a point within one stone, where the polytope's tolerances are fine. A common part
+/// that is too thin to be built counts as none.
 fn share(a: &Polytope, b: &Polytope, middle: DVec3, depth: f64) -> bool {
     let moved = |p: Plane| Plane::new(p.normal, p.offset - p.normal.dot(middle) - depth);
     let planes: Vec<Plane> = a.planes().chain(b.planes()).map(moved).collect();
@@ -52,7 +54,7 @@ fn share(a: &Polytope, b: &Polytope, middle: DVec3, depth: f64) -> bool {
     )
 }
 
-/// Whether an edge of `a`, shrunk a little toward its middle, runs into `b` or begins inside it.
+/// Returns whether an edge of `a`, shrunk a little toward its middle, runs into `b` or begins inside `b`.
 fn cross(a: &Solid, b: &Solid, middle: DVec3) -> bool {
     let (Some(a), Some(b)) = (shell(a), shell(b)) else { return false };
     let shrunk = |v: u32| middle + (a.vertices()[v as usize] - middle) * (1.0 - TOUCHING);
@@ -61,14 +63,14 @@ fn cross(a: &Solid, b: &Solid, middle: DVec3) -> bool {
     a.surface().triangles.iter().any(|t| {
         (0..3).any(|i| {
             let (from, to) = (shrunk(t[i]), shrunk(t[(i + 1) % 3]));
-            // The first surface on its way is reached within the edge, or from inside.
+            // The first surface on the edge's way is met before the edge ends, or it is met from inside.
             let hit = b.bvh().nearest(from, to - from, 0.0, |_| true);
             hit.is_some_and(|hit| hit.distance < 1.0 || speed(hit.triangle, to - from) > 0.0)
         })
     })
 }
 
-/// The triangles of a solid; those of a smooth one are within it, by as much as they differ from it.
+/// Returns the triangles of a solid. Those of a smooth solid approximate its surface from within.
 fn shell(solid: &Solid) -> Option<Arc<TriangleMesh>> {
     match solid {
         Solid::Convex(polytope) => Some(Arc::new(TriangleMesh::of_polytope(polytope))),
@@ -83,7 +85,7 @@ mod tests {
     use crate::optics::Material;
     use glam::DQuat;
 
-    /// A cube of side 2, turned and moved.
+    /// Returns a cube of side 2, turned and moved.
     fn cube(turn: DQuat, shift: DVec3) -> Instance {
         let axes = [DVec3::X, DVec3::Y, DVec3::Z];
         let planes: Vec<_> =
@@ -123,7 +125,7 @@ mod tests {
         let (vertices, all) = crate::math::fixture::clasp(1.0);
         let clasp = TriangleMesh::new(crate::math::Surface::new(vertices, all)).unwrap();
         let clasp = Instance::new(clasp, Material::from_index("glass", 1.5).unwrap());
-        // Within the clasp's gap a cube is free; in its bar it is not, nor where it is wholly inside.
+        // A cube is free in the clasp's gap. In its bar it is not, not even wholly inside it.
         let small = |x: f64, y: f64, scale: f64| {
             cube(DQuat::IDENTITY, DVec3::ZERO).moved(scale, DQuat::IDENTITY, DVec3::new(x, y, 0.0))
         };

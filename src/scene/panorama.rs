@@ -1,26 +1,29 @@
-//! A photograph in linear light: of all the surroundings, or of what lies behind.
+//! A photograph in linear light: of all the surroundings, or of a backplate.
 
 use glam::{DVec2, DVec3};
 
-/// A picture in linear light of sRGB's primaries, row by row from the top. As a panorama it is equirectangular: its first
-/// row is the zenith, its last the nadir, and azimuth runs to the left, as it does for someone who looks up and turns.
+/// A picture in linear light of sRGB's primaries, row by row from the top.
+///
+/// As a panorama it is equirectangular: its first row is the zenith, its last the nadir. Azimuth runs to the left, as it
+/// does for someone who looks up and turns.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Panorama {
-    /// Pixels across, at least 1.
+    /// The number of pixels across, at least 1.
     pub width: u32,
-    /// Pixels down, at least 1.
+    /// The number of pixels down, at least 1.
     pub height: u32,
     /// Red, green and blue, finite and at least 0; `width` times `height` of them.
     pub pixels: Vec<[f32; 3]>,
 }
 
 impl Panorama {
-    /// Whether it is twice as wide as high, to one pixel, as a whole sphere is.
+    /// Returns whether the picture is twice as wide as high, to one pixel, as a whole sphere is.
     pub fn is_whole_sphere(&self) -> bool {
         self.width.abs_diff(2 * self.height) <= 1
     }
 
-    /// The same picture of half as many pixels each way, each the mean of those that it stands for.
+    /// Returns the same picture with half as many pixels each way. Each is the mean of the four that it replaces; where
+    /// there are fewer at the border, the border's own count twice.
     pub fn halved(&self) -> Self {
         let (width, height) = (self.width.div_ceil(2), self.height.div_ceil(2));
         let mean = |x: u32, y: u32| {
@@ -33,13 +36,13 @@ impl Panorama {
         Self { width, height, pixels }
     }
 
-    /// The light between the middles of the four pixels around a place, in pixels from the middle of the first; beyond
-    /// the edge that of the edge.
+    /// Returns the light at a place, in pixels from the middle of the first pixel, interpolated between the middles of the
+    /// four pixels around it. Beyond the edge it is the edge's.
     pub fn between(&self, at: DVec2) -> DVec3 {
         self.mixed(at, |x| x.clamp(0, i64::from(self.width) - 1))
     }
 
-    /// The light from a unit direction, z up.
+    /// Returns the light from a unit direction, z up, interpolated between pixels.
     pub fn toward(&self, d: DVec3) -> DVec3 {
         let size = DVec2::new(f64::from(self.width), f64::from(self.height));
         let (azimuth, polar) = (d.y.atan2(d.x), d.z.clamp(-1.0, 1.0).acos());
@@ -77,7 +80,8 @@ mod tests {
             assert!((picture.toward(d) - DVec3::new(f64::from(k), 1.0, 0.5)).length() < 1e-9, "{k}");
         }
         assert_eq!(picture.between(DVec2::new(-5.0, 99.0)).x, 112.0);
-        // Halved, each pixel is the mean of four; what lacks beyond an odd border is that of the border.
+        // Each pixel of the halved picture is the mean of four. Pixels that are missing beyond an odd border equal those of
+        // the border.
         let half = picture.halved();
         assert_eq!((half.width, half.height, half.pixels[9]), (8, 4, [42.5, 1.0, 0.5]));
         let odd = Panorama { width: 1, height: 3, pixels: vec![[1.0; 3], [3.0; 3], [5.0; 3]] }.halved();

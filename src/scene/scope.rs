@@ -1,31 +1,31 @@
-//! Structured light: which colour shines on the stone from which elevation.
+//! Structured light: the colours that shine on the stone from each elevation.
 //!
-//! ASET, Ideal-Scope and the hearts and arrows viewers are all this: rings of colour around an axis, a backing
-//! behind the stone. Borders from `docs/optics.md`; every one of them, and every colour, is a parameter.
+//! ASET, Ideal-Scope and the hearts and arrows viewers are all of this kind: rings of colour around an axis, and a backing
+//! behind the stone. Borders are from `docs/optics.md`; every border and every colour is a parameter.
 
 use crate::optics::{LinearRgb, linear_from_encoded};
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
-/// A ring of light between one elevation and the next band's.
+/// A ring of light from one elevation up to that of the next band.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Band {
-    /// What reports call it: green, red, blue, head.
+    /// The band's name in reports: green, red, blue, head.
     pub name: String,
-    /// The elevation at which it begins, degrees above the plane square to the scope's axis, -90 to 90.
+    /// The elevation where the band begins, degrees above the plane square to the scope's axis, -90 to 90.
     pub from: f64,
-    /// Encoded sRGB, 0 to 255.
+    /// The band's colour, encoded sRGB, 0 to 255.
     pub colour: [u8; 3],
 }
 
-/// A scope: bands from the nadir up to the zenith.
+/// A scope: bands of colour from the nadir up to the zenith.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Scope {
-    /// Short name, as `--views` takes it and as files are called.
+    /// A short name, which `--views` takes and which files bear.
     pub name: String,
-    /// Bands in rising order, the first from -90: light that leaks out below meets that one.
+    /// The bands in rising order. The first begins at -90: light that leaks out below meets it.
     #[serde(rename = "band")]
     pub bands: Vec<Band>,
 }
@@ -33,50 +33,50 @@ pub struct Scope {
 /// The most bands that a scope may have.
 pub const MOST_BANDS: usize = 64;
 
-/// Why a scope makes no sense.
+/// The reason why a scope makes no sense.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum ScopeError {
-    /// The first band must take all the light from below.
+    /// The first band does not begin at -90 degrees, so that no band takes the light from below.
     #[error(
         "scope '{scope}': the first band must begin at -90, where leaked light goes; it begins at {from}"
     )]
     NotFromNadir {
-        /// The scope.
+        /// The scope's name.
         scope: String,
-        /// Where its first band begins.
+        /// The elevation where the first band begins, degrees.
         from: f64,
     },
-    /// Two bands bear one name.
+    /// Two bands have the same name.
     #[error("scope '{scope}': two bands are called '{band}'; figures could not tell them apart")]
     Twice {
-        /// The scope.
+        /// The scope's name.
         scope: String,
-        /// The name.
+        /// The name of both bands.
         band: String,
     },
-    /// More bands than an eye can tell apart.
+    /// More bands than [`MOST_BANDS`].
     #[error("scope '{scope}': {count} bands are more than the {MOST_BANDS} that are taken; join some")]
     TooMany {
-        /// The scope.
+        /// The scope's name.
         scope: String,
-        /// How many there are.
+        /// The number of bands.
         count: usize,
     },
-    /// Bands must rise.
+    /// A band does not begin above the one before it, or not below 90 degrees.
     #[error("scope '{scope}': band '{band}' begins at {from}, not between {after} and 90; list bands upward")]
     OutOfOrder {
-        /// The scope.
+        /// The scope's name.
         scope: String,
-        /// The band at fault.
+        /// The name of the band at fault.
         band: String,
-        /// Where it begins, degrees.
+        /// The elevation where it begins, degrees.
         from: f64,
-        /// Where the band before it begins, degrees.
+        /// The elevation where the band before it begins, degrees.
         after: f64,
     },
 }
 
-/// What leaked light and the surroundings of the stone show.
+/// The light behind the stone, which colours leaked light and the surroundings of the stone.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum Backing {
     /// No light from behind: leakage looks dark.
@@ -86,23 +86,23 @@ pub enum Backing {
     White,
 }
 
-/// Whether what a scope shows holds glare, the light that the stone's outer surface reflects.
+/// Whether a scope's picture holds glare, the light that the stone's outer surface reflects.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum Glare {
-    /// Light that has been inside the stone alone: the zones have the colours that graders are taught.
+    /// Only light that has been inside the stone is shown: the zones have the colours that graders are taught.
     #[default]
     LeftOut,
-    /// All light, as a camera in the scope records it: the crown's glare tints what is behind it.
+    /// All light is shown, as a camera in the scope records it: the crown's glare tints the colours behind it.
     Included,
 }
 
 impl Glare {
-    /// Whether light is shown that has been at the outer surface alone (`is_glare`), or inside.
+    /// Returns whether light is shown; `is_glare` says that it was reflected by the outer surface and has not been inside.
     pub fn shows(self, is_glare: bool) -> bool {
         !is_glare || self == Self::Included
     }
 
-    /// In words.
+    /// Returns a description in words.
     pub fn description(self) -> &'static str {
         match self {
             Self::LeftOut => "glare left out",
@@ -118,20 +118,21 @@ const RED: [u8; 3] = [255, 0, 0];
 const BLUE: [u8; 3] = [0, 0, 255];
 
 impl Scope {
-    /// A scope from (name, lowest elevation in degrees, colour), the band below the horizon first.
+    /// Makes a scope from a colour below the horizon, and the bands above it as (name, lowest elevation in degrees, colour).
     fn new(name: &str, below: [u8; 3], bands: &[(&str, f64, [u8; 3])]) -> Self {
         let all = [("below", -90.0, below)].into_iter().chain(bands.iter().copied());
         let band = |(name, from, colour): (&str, f64, [u8; 3])| Band { name: name.into(), from, colour };
         Self { name: name.into(), bands: all.map(band).collect() }
     }
 
-    /// Angular spectrum evaluation: green to 45 degrees, red to 75, blue above (30 degree cone); or with the
-    /// blue border at 90 less half of `cone` degrees, the full angle: 40 for ASET 40.
+    /// ASET, the angular spectrum evaluation tool: green up to 45 degrees, red up to 75, blue above (a cone of 30 degrees).
+    ///
+    /// `cone` is the full angle of the blue cone in degrees, whose border lies at 90 less half of it: 40 for ASET 40.
     pub fn aset(cone: f64, backing: Backing) -> Self {
         let suffix = if backing == Backing::White { "-white" } else { "" };
         let size = if cone == ASET_CONE { String::new() } else { format!("-{cone}") };
         let below = if backing == Backing::White { WHITE } else { BLACK };
-        // The cone is named by its full angle.
+        // `cone` is a full angle.
         let blue = 90.0 - cone / 2.0;
         Self::new(
             &format!("aset{size}{suffix}"),
@@ -140,22 +141,24 @@ impl Scope {
         )
     }
 
-    /// Ideal-Scope: a red reflector with a black hole of this half angle (degrees) for the eye, and a white light behind the
-    /// stone, which ends some way below the horizon: between it and the reflector nothing shines.
+    /// Ideal-Scope: a red reflector with a black hole for the eye, and a white light behind the stone.
+    ///
+    /// `hole` is the half angle of the hole in degrees. The white light ends some way below the horizon; between it and the
+    /// reflector nothing shines.
     pub fn ideal_scope(hole: f64) -> Self {
         let bands =
             [("side", BACKLIGHT_END, BLACK), ("red", 0.0, [228, 0, 43]), ("black", 90.0 - hole, BLACK)];
         Self::new("ideal-scope", WHITE, &bands)
     }
 
-    /// The viewer for arrows (face up) and hearts (face down): the camera's dark cone, a coloured ring around it,
-    /// white beyond. Half angles from the axis in degrees.
+    /// The viewer for arrows (face up) and hearts (face down): the camera's dark cone, a coloured ring around it, and white
+    /// beyond. `camera` and `ring` are half angles from the axis in degrees.
     pub fn hearts_and_arrows(name: &str, camera: f64, ring: f64, colour: [u8; 3]) -> Self {
         let bands = [("white", 0.0, WHITE), ("ring", 90.0 - ring, colour), ("camera", 90.0 - camera, BLACK)];
         Self::new(name, WHITE, &bands)
     }
 
-    /// This scope with a head of this half angle (degrees) in front of its middle, from which no light comes.
+    /// Returns this scope with a head of this half angle (degrees) in its middle, from which no light comes.
     pub fn with_head(mut self, half_angle: f64) -> Self {
         if half_angle > 0.0 {
             let from = 90.0 - half_angle;
@@ -165,8 +168,9 @@ impl Scope {
         self
     }
 
-    /// This scope with a border at the horizon, for figures of the light from above. Where that splits a band in two, the
-    /// place of the lower part is told; the upper one comes after it.
+    /// Returns this scope with a border at the horizon, for figures of the light from above.
+    ///
+    /// Where the border splits a band in two, the place of the lower part is returned too; the upper part comes after it.
     pub fn with_horizon(mut self) -> (Self, Option<usize>) {
         let Some(k) = self.bands.iter().rposition(|b| b.from <= 0.0).filter(|&k| self.bands[k].from < 0.0)
         else {
@@ -177,24 +181,25 @@ impl Scope {
         (self, Some(k))
     }
 
-    /// The places of the bands from the horizon up that send light: black ones send none.
+    /// Returns the places of the bands from the horizon up that send light; black ones send none.
     pub fn shining(&self) -> impl Iterator<Item = usize> + '_ {
         let bands = self.bands.iter().enumerate();
         bands.filter(|(_, b)| b.from >= 0.0 && b.colour != BLACK).map(|(k, _)| k)
     }
 
-    /// A band's elevations, the lowest and the highest, degrees.
+    /// Returns a band's lowest and highest elevation, degrees.
     ///
     /// # Panics
-    /// Where there is no such band.
+    /// Panics where there is no such band.
     pub fn elevations(&self, band: usize) -> [f64; 2] {
         [self.bands[band].from, self.bands.get(band + 1).map_or(90.0, |next| next.from)]
     }
 
-    /// Whether its bands begin at the nadir and rise.
+    /// Checks that the bands begin at the nadir and rise, that their names differ, and that there are at most
+    /// [`MOST_BANDS`].
     ///
     /// # Errors
-    /// Names the band that does not.
+    /// The first of these that does not hold, with the name of the band at fault.
     pub fn validate(&self) -> Result<(), ScopeError> {
         let scope = || self.name.clone();
         let from = self.bands.first().map_or(f64::NAN, |b| b.from);
@@ -219,33 +224,35 @@ impl Scope {
         }
     }
 
-    /// The band that the unit vector `direction` points at, for a scope around the unit vector `zenith`.
+    /// Returns the place of the band that the unit vector `direction` points at, for a scope around the unit vector
+    /// `zenith`.
     #[inline]
     pub fn band(&self, direction: DVec3, zenith: DVec3) -> usize {
         let elevation = elevation_deg(direction, zenith);
         self.bands.iter().rposition(|b| elevation >= b.from).unwrap_or(0)
     }
 
-    /// The colours of its bands, linear.
+    /// Returns the colours of the bands, in linear light.
     pub fn colours(&self) -> Vec<LinearRgb> {
         let linear = |c: u8| linear_from_encoded(f64::from(c) / 255.0);
         self.bands.iter().map(|b| LinearRgb::from_array(b.colour.map(linear))).collect()
     }
 }
 
-/// How high the unit vector `direction` stands, for the unit vector `zenith`: -90 to 90 degrees.
+/// Returns the elevation of the unit vector `direction` for the unit vector `zenith`, -90 to 90 degrees.
 #[inline]
 pub fn elevation_deg(direction: DVec3, zenith: DVec3) -> f64 {
     // atan2 keeps its digits near the zenith, where asin would lose half of them.
     direction.dot(zenith).atan2(direction.cross(zenith).length()).to_degrees()
 }
 
-/// The elevation up to which Ideal-Scope's light behind the stone reaches, degrees: above what ideal cuts leak (40 degrees
-/// below the horizon and lower), below the 21 degrees from which an eighth of the light of their arrows' shafts comes, which
-/// graders see dark (docs/optics.md, "Ideal-Scope's hole").
+/// The elevation, degrees, up to which Ideal-Scope's light behind the stone reaches.
+///
+/// It lies above what ideal cuts leak (40 degrees below the horizon and lower), and below the 21 degrees from which an
+/// eighth of the light of their arrows' shafts comes, which graders see dark (docs/optics.md, "Ideal-Scope's hole").
 const BACKLIGHT_END: f64 = -30.0;
 
-/// Full angle in degrees of the observer's cone, blue, of the common ASET.
+/// The full angle, degrees, of the observer's blue cone in the common ASET.
 pub const ASET_CONE: f64 = 30.0;
 
 #[cfg(test)]

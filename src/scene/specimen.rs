@@ -1,4 +1,4 @@
-//! A stone made from a design: its solid, its material, and what is odd about it.
+//! A specimen: a stone made from a design, with its solid, its material, and warnings about anything unusual.
 
 use super::{Body, Medium, Stone};
 use crate::cut::{Cut, Design, DesignError, Tiers};
@@ -10,28 +10,28 @@ use std::sync::Arc;
 /// A design and the stone that it describes.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Specimen {
-    /// What its file says.
+    /// The design, as its file describes it.
     pub design: Design,
-    /// Its solid.
+    /// The solid of the stone.
     pub body: Body,
-    /// What it is made of.
+    /// The stone's material.
     pub material: Material,
-    /// What its owner may not have meant, in words.
+    /// Warnings about what the owner may not have meant, in words.
     pub warnings: Vec<String>,
-    /// How far it reaches across or along its axis, girdle radii: to this views are fitted, so that the girdle keeps its
-    /// size while the depth changes.
+    /// The greatest distance that the stone reaches from its axis, or along the axis from the origin, girdle radii. Views
+    /// are fitted to it, so that the girdle keeps its size while the depth changes.
     pub reach: f64,
-    /// How far it reaches from the origin in any direction, girdle radii.
+    /// The greatest distance that the stone reaches from the origin in any direction, girdle radii.
     pub radius: f64,
 }
 
-/// Why a design makes no stone.
+/// The reason why a design makes no stone.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum SpecimenError {
-    /// Its numbers cannot be.
+    /// The design has numbers that no stone can have.
     #[error(transparent)]
     Design(#[from] DesignError),
-    /// Its planes enclose nothing; with their names.
+    /// The planes enclose nothing; the message names them.
     #[error("{0}")]
     Solid(String),
 }
@@ -79,20 +79,20 @@ impl Specimen {
         Self { design, body, material, warnings, reach, radius }
     }
 
-    /// Its shape, to be traced.
+    /// Returns the shape, as tracers take it.
     pub fn solid(&self) -> SolidRef<'_> {
         self.body.solid()
     }
 
-    /// Its facets with their names.
+    /// Returns the stone with its facets and their names.
     ///
     /// # Errors
-    /// Where it has none.
+    /// The solid is not a stone between planes.
     pub fn stone(&self) -> Result<&Stone, NotConvex> {
         self.body.stone()
     }
 
-    /// The stone of another design; not built anew where the cut is the same.
+    /// Makes the specimen of another design. The solid is not built anew where the cut is the same.
     ///
     /// # Errors
     /// The first thing at fault with the design.
@@ -104,17 +104,17 @@ impl Specimen {
         Ok(Self { design, material, ..self.clone() })
     }
 
-    /// Girdle radius in mm.
+    /// Returns the girdle radius in mm.
     pub fn unit_mm(&self) -> f64 {
         0.5 * self.design.diameter_mm
     }
 
-    /// Its weight in carats; `None` where its material's density is not known.
+    /// Returns the weight in carats; `None` where the material's density is not known.
     pub fn carats(&self) -> Option<f64> {
         self.material.carats(self.solid().volume() * self.unit_mm().powi(3))
     }
 
-    /// Its medium at one wavelength, nm.
+    /// Returns the medium at one wavelength, nm.
     pub fn medium(&self, nm: f64) -> Medium {
         Medium::of(&self.material, (nm, nm, nm), self.unit_mm())
     }
@@ -133,7 +133,7 @@ fn closed_by_block(stone: &Stone) -> String {
     )
 }
 
-/// What is odd about a solid, the first `given` of whose facets are the design's.
+/// Returns warnings about a solid, the first `given` of whose planes are the design's.
 fn odd(stone: &Stone, facets: &[(String, Plane)], given: usize) -> Vec<String> {
     let polytope = &stone.polytope;
     let name = |&i: &usize| facets[i].0.as_str();
@@ -147,7 +147,7 @@ fn odd(stone: &Stone, facets: &[(String, Plane)], given: usize) -> Vec<String> {
             "the stone lies beside its axis, x = y = 0, around which pictures are centred; move it there";
         told.push(what.to_owned());
     }
-    // The block that closes a stone is none of its facets.
+    // Planes of the block that closes a stone are none of its facets.
     let redundant = polytope.redundant().iter().filter(|&&i| i < given);
     let names: Vec<&str> = redundant.map(name).collect();
     if !names.is_empty() {
@@ -156,7 +156,7 @@ fn odd(stone: &Stone, facets: &[(String, Plane)], given: usize) -> Vec<String> {
     told
 }
 
-/// Whether the axis, on which pictures are centred, runs through the stone.
+/// Returns whether the axis, around which pictures are centred, runs through the stone.
 fn meets_axis(stone: &Polytope) -> bool {
     let (mut low, mut high) = (f64::NEG_INFINITY, f64::INFINITY);
     for plane in stone.planes() {
@@ -170,7 +170,7 @@ fn meets_axis(stone: &Polytope) -> bool {
     low < high
 }
 
-/// Names in a row, no more than a line of them.
+/// Lists names in one line, and says how many more there are.
 fn listed(names: &[&str]) -> String {
     const MOST: usize = 8;
     let shown = names.iter().take(MOST).map(|n| format!("'{n}'")).collect::<Vec<_>>().join(", ");

@@ -1,26 +1,26 @@
-//! A polytope whose facets have names.
+//! A stone: a polytope whose facets have names.
 
 use crate::cut::Outline;
 use crate::math::{Plane, Polytope, PolytopeError};
 use glam::{DQuat, DVec2, DVec3};
 
-/// A stone whose middle lies nearer to the axis than this part of its width is centred: more than the six digits of
-/// cutters' files leave, less than is seen.
+/// A stone whose middle lies nearer to the axis than this part of its width is centred. This is more than the rounding to
+/// six digits in cutters' files, and less than can be seen.
 const CENTRED: f64 = 1e-4;
 
-/// A convex stone. Lengths in girdle radii, +z out of the table.
+/// A convex stone. Lengths are in girdle radii; +z points out of the table.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Stone {
-    /// Its shape.
+    /// The stone's shape.
     pub polytope: Polytope,
     names: Vec<String>,
 }
 
 impl Stone {
-    /// The solid between named planes.
+    /// Makes the solid between named planes.
     ///
     /// # Errors
-    /// Where they enclose none; [`PolytopeError`] refers to the planes by their place in the list.
+    /// The planes enclose no solid; [`PolytopeError`] refers to the planes by their place in the list.
     pub fn new(facets: &[(String, Plane)]) -> Result<Self, PolytopeError> {
         let planes: Vec<Plane> = facets.iter().map(|(_, plane)| *plane).collect();
         let polytope = Polytope::from_planes(&planes)?;
@@ -28,30 +28,32 @@ impl Stone {
         Ok(Self { polytope, names })
     }
 
-    /// The name of a facet of the polytope, by its place in [`Polytope::facets`].
+    /// Returns the name of a facet of the polytope, by its place in [`Polytope::facets`].
     pub fn name(&self, facet: u32) -> &str {
         &self.names[facet as usize]
     }
 
-    /// The same stone turned about its axis, counter-clockwise from above, radians.
+    /// Returns the same stone turned about its axis by an angle in radians, counter-clockwise from above.
     pub fn turned(&self, angle: f64) -> Self {
         let polytope = self.polytope.moved(1.0, DQuat::from_rotation_z(angle), DVec3::ZERO);
         Self { polytope, names: self.names.clone() }
     }
 
-    /// The same stone scaled so that half its diameter is 1, and moved so that its middle lies on the axis and the girdle's
-    /// upper edge at z = 0: the frame of all stones, for one in a unit of its own.
+    /// Returns the same stone in the frame of all stones, where it had a unit of its own.
+    ///
+    /// It is scaled so that half its diameter is 1, and moved so that its middle lies on the axis and the girdle's upper
+    /// edge at z = 0.
     pub fn girdled(&self) -> Self {
         let outline = Outline::of(&self.polytope);
         let scale = 2.0 / outline.diameter;
-        // What lies on the axis but for the last digits stays there to all digits.
+        // A stone that lies on the axis but for the last digits is not shifted, so that no digit changes.
         let off =
             if outline.middle.length() > CENTRED * outline.width { outline.middle } else { DVec2::ZERO };
         let shift = -scale * off.extend(outline.girdle_top);
         Self { polytope: self.polytope.moved(scale, DQuat::IDENTITY, shift), names: self.names.clone() }
     }
 
-    /// All names, in the order of the facets.
+    /// Returns all names, in the order of the facets.
     pub fn names(&self) -> &[String] {
         &self.names
     }

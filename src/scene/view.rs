@@ -1,4 +1,4 @@
-//! From where a stone is looked at, and how scope, stone and eye lean against one another.
+//! A view: the direction from which a stone is seen, and how scope, stone and eye lean against one another.
 
 use crate::math::Basis;
 use glam::DVec3;
@@ -14,7 +14,7 @@ pub enum Side {
 }
 
 impl Side {
-    /// What figures and pictures call it.
+    /// Returns the side's name in figures and pictures.
     pub fn name(self) -> &'static str {
         match self {
             Self::Table => "table",
@@ -23,7 +23,7 @@ impl Side {
     }
 }
 
-/// What moves when a view is tilted.
+/// The thing that moves when a view is tilted.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum Lean {
     /// The stone leans, its table toward the azimuth; eye and scope stay.
@@ -33,27 +33,27 @@ pub enum Lean {
     Eye,
 }
 
-/// How rays reach the eye.
+/// The projection: how rays reach the eye.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub enum Projection {
-    /// Parallel rays, an eye far away.
+    /// Parallel rays, as to an eye far away.
     #[default]
     Orthographic,
     /// An eye at this distance from the origin, in girdle radii; it must be outside the stone.
     Perspective {
-        /// Distance, in girdle radii.
+        /// The distance, in girdle radii.
         distance: f64,
     },
 }
 
-/// A way to look at a stone.
+/// A view of a stone.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct View {
-    /// Which side is up.
+    /// The side that faces the eye while nothing is tilted.
     pub side: Side,
-    /// What the tilt moves.
+    /// The thing that the tilt moves.
     pub lean: Lean,
-    /// Tilt, radians, -π/2 to π/2.
+    /// The tilt, radians, -π/2 to π/2.
     pub tilt: f64,
     /// The azimuth, radians in the stone's frame, toward which the tilt leans.
     pub azimuth: f64,
@@ -62,12 +62,12 @@ pub struct View {
 }
 
 impl View {
-    /// The image plane in the stone's frame: its axis points to the eye.
+    /// Returns the image plane in the stone's frame. Its axis points to the eye.
     pub fn basis(&self) -> Basis {
         let rest = self.rest();
         let side = DVec3::new(self.azimuth.cos(), self.azimuth.sin(), 0.0);
-        // A stone that leans toward an azimuth shows the eye its other side. Seen through the pavilion the eye is
-        // at the opposite end of the same line, which turns both cases round.
+        // A stone that leans toward an azimuth shows the eye its other side. Through the pavilion the eye is at the opposite
+        // end of the same line, which reverses both cases.
         let toward_azimuth = match (self.lean, self.side) {
             (Lean::Stone, Side::Table) => -1.0,
             (Lean::Stone, Side::Culet) | (Lean::Eye, _) => 1.0,
@@ -76,12 +76,12 @@ impl View {
         rest.aimed(rest.toward * cos + side * (toward_azimuth * sin))
     }
 
-    /// The scope's axis in the stone's frame: elevations of light are counted from the plane square to it.
+    /// Returns the scope's axis in the stone's frame. Elevations of light are counted from the plane square to it.
     pub fn zenith(&self) -> DVec3 {
         self.light_basis().toward
     }
 
-    /// The frame that light is given in: its axis, and the image's other two while nothing is tilted.
+    /// Returns the frame in which light is given: its axis, and the other two axes of the image while nothing is tilted.
     pub fn light_basis(&self) -> Basis {
         match self.lean {
             Lean::Stone => self.basis(),
@@ -89,7 +89,8 @@ impl View {
         }
     }
 
-    /// How much larger than in the image's plane a picture must be to fill it from so far behind the origin, girdle radii.
+    /// Returns how many times larger a picture that hangs `behind` girdle radii behind the origin must be than one in the
+    /// image plane, to fill the view.
     pub fn widening(&self, behind: f64) -> f64 {
         match self.projection {
             Projection::Orthographic => 1.0,

@@ -1,15 +1,15 @@
-//! From where a stone is seen, as people give it and read it: in degrees, as given.
+//! A viewpoint: the direction from which a stone is seen, in degrees, as people write and read it.
 
 use super::{Lean, Projection, Side, View};
 
-/// A [`View`] in degrees.
+/// A [`View`] with its angles in degrees, as given.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Viewpoint {
-    /// The side that faces the eye.
+    /// The side that faces the eye while nothing is tilted.
     pub side: Side,
-    /// What the tilt moves.
+    /// The thing that the tilt moves.
     pub lean: Lean,
-    /// Tilt, degrees, -90 to 90.
+    /// The tilt, degrees, -90 to 90.
     pub tilt_deg: f64,
     /// The azimuth, degrees in the stone's frame, toward which the tilt leans.
     pub azimuth_deg: f64,
@@ -18,12 +18,12 @@ pub struct Viewpoint {
 }
 
 impl Viewpoint {
-    /// The same of another side, where a picture is made for one.
+    /// Returns the same viewpoint from another side, where a picture needs one.
     pub fn facing(self, side: Option<Side>) -> Self {
         Self { side: side.unwrap_or(self.side), ..self }
     }
 
-    /// The view that is traced.
+    /// Returns the view, with angles in radians, as tracers take it.
     pub fn view(&self) -> View {
         View {
             side: self.side,
@@ -34,11 +34,11 @@ impl Viewpoint {
         }
     }
 
-    /// What tells the files of this view from those of the plain one, face up by parallel rays, of which it is empty: such as
-    /// `-tilt-15-azimuth-22.5`.
+    /// Returns the suffix, such as `-tilt-15-azimuth-22.5`, that distinguishes the files of this view from those of the
+    /// plain one. It is empty for the plain view, face up by parallel rays.
     pub fn suffix(&self) -> String {
         let mut suffix = String::new();
-        // What comes from radians has more digits than it means.
+        // Rounded, as numbers that come from radians have more digits than they mean.
         let mut add =
             |what: &str, number: f64| suffix += &format!("-{what}-{}", (number * 1e6).round() / 1e6);
         if self.tilt_deg != 0.0 {
@@ -53,7 +53,7 @@ impl Viewpoint {
         if self.side == Side::Culet { format!("-culet{suffix}") } else { suffix }
     }
 
-    /// In words, for what goes into pictures.
+    /// Returns a description in words, which goes into pictures.
     pub fn description(&self) -> String {
         let (side, tilt, azimuth) = (self.side.name(), self.tilt_deg, self.azimuth_deg);
         let tilt = match self.lean {

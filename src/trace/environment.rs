@@ -1,9 +1,9 @@
-//! What stands around the stones, ready to be looked up: broad light as an octahedral map with coarser levels, lamps as
-//! discs, the observer's head, a photograph behind.
+//! The environment of a picture, ready to be looked up: broad light as an octahedral map with coarser levels, lamps as
+//! discs, the observer's head, and a backplate.
 //!
-//! A ray stands for a band of wavelengths, over which its direction sweeps. Look-ups are evened out over that sweep, so that
-//! a small lamp shows as the piece of rainbow that it is and not as a chance hit: exactly for lamps, by the map's levels
-//! (L. Williams, *Pyramidal parametrics*, 1983) for the rest. The map: Z. H. Cigolle et al., *A Survey of Efficient
+//! A ray stands for a band of wavelengths, over which its direction sweeps. Look-ups are averaged over that sweep, so that a
+//! small lamp shows as the piece of rainbow that it is and not as a chance hit: exactly for lamps, by the map's levels (L.
+//! Williams, *Pyramidal parametrics*, 1983) for the rest. The map's projection: Z. H. Cigolle et al., *A Survey of Efficient
 //! Representations for Independent Unit Vectors*, JCGT 3(2), 2014. The twin is shaders/environment.wgsl.
 
 mod drawing;
@@ -14,28 +14,29 @@ use drawing::{channels, shine};
 use glam::{DVec2, DVec3, DVec4, IVec2, Vec2Swizzles as _, Vec4Swizzles as _};
 use rayon::prelude::*;
 
-/// The side of a square that covers as much of the sphere as a texel does of a map of side 1.
+/// The side in radians, √(4π), of the one texel of a map of side 1, taken for a square: it covers the whole sphere.
 pub const TEXEL_ANGLE: f64 = 3.544_907_701_811_032;
 
-/// Side of the map for light that is drawn.
+/// Side of the map, in texels, for light without a panorama.
 const SIDE: usize = 512;
 
-/// Side for a panorama.
+/// Side of the map, in texels, for light with a panorama.
 const SIDE_OF_PANORAMA: usize = 1024;
 
-/// Samples along each side of a texel, at least and at most: as many as there are pixels of a panorama.
+/// The least and the greatest number of samples along each side of a texel; between these, as many as the panorama has
+/// pixels.
 const PER_SIDE: (usize, usize) = (2, 8);
 
-/// The brightest light that is told from brighter: sums of it are finite in f32.
+/// The greatest radiance that the map holds: sums of it are finite in f32.
 const BRIGHTEST: f64 = 1e12;
 
 /// Radiance by channel: of the key illuminant's spectrum, of red, of green, of blue.
 pub type Radiance = [f32; 4];
 
-/// A small disc of even light.
+/// A lamp: a small disc of even light.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Disc {
-    /// To its middle.
+    /// Unit direction to its middle.
     pub toward: DVec3,
     /// Square of the chord from its middle to its edge.
     pub chord_squared: f64,
@@ -43,56 +44,56 @@ pub struct Disc {
     pub radiance: DVec4,
 }
 
-/// A light in its own frame, z along its axis.
+/// A light, ready to be looked up in its own frame, whose z lies along its axis.
 #[derive(Debug, Clone, PartialEq)]
 pub struct EnvironmentMap {
-    /// Square maps, each half the side of the one before, row by row.
+    /// Square maps of the broad light, row by row, the finest first; each has half the side of the one before.
     pub levels: Vec<Vec<Radiance>>,
-    /// Side of the first.
+    /// Side of the first map, in texels.
     pub side: usize,
-    /// Lamps.
+    /// The lamps; the maps do not contain them.
     pub lamps: Vec<Disc>,
 }
 
-/// A photograph on a plane behind the stones, square to the axis to the eye.
+/// A photograph on a plane behind the stones, perpendicular to the axis to the eye.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Backplate<'a> {
     /// The picture, in linear light.
     pub picture: &'a Panorama,
     /// Distance of the plane behind the origin, in world units.
     pub distance: f64,
-    /// Its width there.
+    /// The picture's width on that plane, in world units.
     pub width: f64,
 }
 
-/// A sky around stones, and the eye.
+/// The environment of a picture: the light around the stones, the observer's head, and the backplate.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Environment<'a> {
-    /// The light.
+    /// The light, in its own frame.
     pub map: &'a EnvironmentMap,
-    /// Its frame in the world.
+    /// The light's frame in the world.
     pub basis: Basis,
-    /// The image's frame.
+    /// The image's frame in the world.
     pub eye: Basis,
-    /// Half angle of the head around the axis to the eye, radians; 0 for none.
+    /// The half angle of the observer's head around the axis to the eye, in radians; 0 for no head.
     pub head: f64,
-    /// A photograph.
+    /// The photograph behind the stones, where there is one.
     pub backplate: Option<Backplate<'a>>,
-    /// Whether rays beside the stones see all this; else they see nothing.
+    /// Whether rays that miss the stones see the environment; else they see nothing.
     pub backdrop: bool,
 }
 
-/// The square of a sweep below which a ray is one direction.
+/// The square of a sweep below which a ray counts as one direction.
 const STILL: f64 = 1e-14;
 
-/// The cosine below which a ray runs along a photograph.
+/// The cosine between a ray and the axis to the eye below which the ray counts as running along the backplate.
 const ALONG: f64 = 1e-6;
 
 /// Least width of the edge of the head's shadow, in cosine.
 pub(crate) const HEAD_EDGE: f64 = 0.004;
 
 impl EnvironmentMap {
-    /// Draws a light, with the picture that its panorama names.
+    /// Draws a light into maps; `panorama` is the picture that the light names.
     pub fn new(light: &Light, panorama: Option<&Panorama>) -> Self {
         let side = if panorama.is_some() { SIDE_OF_PANORAMA } else { SIDE };
         let pixels = panorama.map_or(0, |p| p.width as usize / (2 * side));
@@ -122,7 +123,7 @@ impl EnvironmentMap {
         Self { levels, side, lamps: light.lamps().into_iter().map(disc).collect() }
     }
 
-    /// The map at a direction, evened out over an angle.
+    /// Returns the map's light from a direction, averaged over an angle in radians.
     fn at(&self, direction: DVec3, angle: f64) -> DVec4 {
         let texels = angle * self.side as f64 / TEXEL_ANGLE;
         let level = texels.max(1.0).log2().min((self.levels.len() - 1) as f64);
@@ -134,6 +135,7 @@ impl EnvironmentMap {
         whole.lerp(self.level(at, fine + 1), level - fine as f64)
     }
 
+    /// Interpolates one level of the map.
     fn level(&self, at: DVec2, level: usize) -> DVec4 {
         let size = (self.side >> level) as i32;
         let p = at * f64::from(size) - 0.5;
@@ -148,8 +150,8 @@ impl EnvironmentMap {
 }
 
 impl Environment<'_> {
-    /// The light that comes down a ray from outside, by channel: where it starts, where it goes, and how far that direction
-    /// sweeps over the wavelengths that it stands for.
+    /// Returns the radiance, by channel, that arrives along a ray from outside the stones. The ray begins at `from`; `sweep`
+    /// is the change of its direction over the wavelengths that it stands for.
     pub fn radiance(&self, from: DVec3, direction: DVec3, sweep: DVec3) -> DVec4 {
         if let Some(seen) = self.backplate.and_then(|behind| behind.at(&self.eye, from, direction)) {
             return seen.extend(0.0).wxyz();
@@ -168,8 +170,8 @@ impl Environment<'_> {
     }
 }
 
-/// Where in the eye's image a ray meets the plane at a distance behind the origin, square to the axis to the eye; `None`
-/// where it does not.
+/// Returns the image coordinates of the point where a ray meets the plane at a distance behind the origin, perpendicular to
+/// the axis to the eye; `None` where it does not meet the plane.
 pub fn backplate_point(eye: &Basis, distance: f64, from: DVec3, direction: DVec3) -> Option<DVec2> {
     let (speed, height) = (-direction.dot(eye.toward), from.dot(eye.toward) + distance);
     let meets = speed > ALONG && height > 0.0;
@@ -177,7 +179,8 @@ pub fn backplate_point(eye: &Basis, distance: f64, from: DVec3, direction: DVec3
 }
 
 impl<'a> Backplate<'a> {
-    /// A picture that hangs so far behind the origin, wide enough to fill a view's film `span` times over, whatever its shape.
+    /// Places a picture at this distance behind the origin, wide enough to fill a view's film `span` times over, whatever
+    /// its shape.
     pub fn filling(picture: &'a Panorama, span: f64, distance: f64, view: &View, film: &Film) -> Self {
         let [across, down] = film.size.map(f64::from);
         let shape = f64::from(picture.width) / f64::from(picture.height);
@@ -185,6 +188,7 @@ impl<'a> Backplate<'a> {
         Self { picture, distance, width }
     }
 
+    /// Returns the picture's colour where a ray meets it; `None` where it does not.
     fn at(&self, eye: &Basis, from: DVec3, direction: DVec3) -> Option<DVec3> {
         let p =
             backplate_point(eye, self.distance, from, direction)? * DVec2::new(1.0, -1.0) / self.width + 0.5;
@@ -195,7 +199,8 @@ impl<'a> Backplate<'a> {
     }
 }
 
-/// The part of a disc that a sweep of directions, from half before to half after the ray's, runs through.
+/// Returns the share of a sweep of directions, from half of it before the ray's direction to half after it, that lies inside
+/// a disc.
 pub(super) fn share_inside(from_middle: DVec3, sweep: DVec3, chord_squared: f64) -> f64 {
     let (a, b) = (sweep.length_squared(), from_middle.dot(sweep));
     let c = from_middle.length_squared() - chord_squared;
@@ -210,7 +215,7 @@ pub(super) fn share_inside(from_middle: DVec3, sweep: DVec3, chord_squared: f64)
     (((root - b) / a).min(0.5) - ((-root - b) / a).max(-0.5)).max(0.0)
 }
 
-/// Where in the map a direction stands, 0 to 1.
+/// Returns the place of a direction in the map, 0 to 1.
 fn octahedral(d: DVec3) -> DVec2 {
     let flat = d.truncate() / (d.x.abs() + d.y.abs() + d.z.abs());
     let sign = |x: f64| if x >= 0.0 { 1.0 } else { -1.0 };
@@ -218,7 +223,7 @@ fn octahedral(d: DVec3) -> DVec2 {
     0.5 + 0.5 * if d.z >= 0.0 { flat } else { folded }
 }
 
-/// The direction of a place in the map.
+/// Returns the direction of a place in the map: the inverse of [`octahedral`].
 fn direction(at: DVec2) -> DVec3 {
     let p = at * 2.0 - 1.0;
     let z = 1.0 - p.x.abs() - p.y.abs();
@@ -228,7 +233,7 @@ fn direction(at: DVec2) -> DVec3 {
     d / d.length()
 }
 
-/// A texel, or beyond the map's edge the one that continues it.
+/// Returns the coordinates of a texel; beyond the map's edge, of the one that lies next to that edge on the sphere.
 fn wrapped(mut p: IVec2, size: i32) -> IVec2 {
     if p.x < 0 || p.x >= size {
         p = IVec2::new(if p.x < 0 { -1 - p.x } else { 2 * size - 1 - p.x }, size - 1 - p.y);
@@ -239,7 +244,7 @@ fn wrapped(mut p: IVec2, size: i32) -> IVec2 {
     p
 }
 
-/// Means of two by two texels.
+/// Returns the next coarser level: each texel is the mean of two by two.
 fn halved(fine: &[Radiance]) -> Vec<Radiance> {
     let size = fine.len().isqrt();
     let at = |x: usize, y: usize| DVec4::from_array(fine[y * size + x].map(f64::from));

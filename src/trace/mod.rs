@@ -1,4 +1,5 @@
-//! Floor 3: where light goes. Exact beams and point rays, which share nothing but Fresnel's equations.
+//! Floor 3: the tracers, which follow light through stones. Exact beams and point rays share nothing but Fresnel's
+//! equations.
 
 pub mod beam;
 pub mod environment;
@@ -12,15 +13,15 @@ pub use sampler::{CannotTrace, RayTracer, Subject, Tracer};
 
 use std::ops::ControlFlow;
 
-/// Called now and then during long work with the part done, 0 to 1; answering `Break` stops the work.
+/// A callback of long work: it is called now and then with the part done, 0 to 1, and stops the work by answering `Break`.
 pub type Watch<'a> = &'a (dyn Fn(f64) -> ControlFlow<()> + Sync);
 
-/// The [`Watch`] that lets everything run.
+/// The [`Watch`] that never stops the work.
 pub fn unwatched(_done: f64) -> ControlFlow<()> {
     ControlFlow::Continue(())
 }
 
-/// The work was stopped by its [`Watch`].
+/// The error of work that its [`Watch`] has stopped.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 #[error("stopped before it was done")]
 pub struct Stopped;

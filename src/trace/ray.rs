@@ -1,8 +1,8 @@
-//! Point rays: the same light as one chain of bounces, in f64.
+//! Point rays: the same light as the beams', followed as one chain of bounces for each ray, in f64.
 //!
-//! A convex stone never takes back a ray that has left it, so a ray needs no branching: at every facet a part
-//! leaves and the rest goes on. Of other solids, given as triangles, see `tree`. Rays know nothing of outlines or symmetry and follow polarisation as fields in
-//! space, so that where rays and beams agree it is not by a shared mistake.
+//! A convex stone never takes back a ray that has left it, so a ray needs no branching: at every facet a part leaves and the
+//! rest goes on. Rays through solids that are not convex are in `tree`. Rays know nothing of outlines or symmetry and follow
+//! polarisation as fields in space, so that where rays and beams agree it is not by a shared mistake.
 
 mod camera;
 mod facets;
@@ -27,14 +27,14 @@ use crate::scene::Medium;
 use glam::DVec3;
 use std::sync::Arc;
 
-/// How far to follow a ray.
+/// How far a ray is followed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RayOptions {
-    /// Follow polarisation; without, every surface sees unpolarised light.
+    /// Whether polarisation is followed; without it, every surface meets unpolarised light.
     pub polarised: bool,
-    /// Stop after this many bounces inside the stone.
+    /// The most bounces inside the stone.
     pub most_bounces: u32,
-    /// Stop when no more than this weight is left.
+    /// The weight at which a ray is given up: it ends when no more than this is left.
     pub least_weight: f64,
 }
 
@@ -44,35 +44,35 @@ impl Default for RayOptions {
     }
 }
 
-/// Light that leaves the stone.
+/// Light that leaves the stone at a facet.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Exit {
-    /// The facet, by its place in the solid.
+    /// The facet, by its index in the solid.
     pub facet: u32,
-    /// Where it leaves.
+    /// The point at which it leaves.
     pub point: DVec3,
     /// Length of its path inside the stone, in girdle radii.
     pub path: f64,
     /// Unit direction in which it leaves.
     pub direction: DVec3,
-    /// How far that direction moves over the medium's spread of indices.
+    /// The change of that direction over the medium's spread of indices.
     pub sweep: DVec3,
-    /// The share of light from that direction which reaches the eye.
+    /// The share of the light from that direction that reaches the eye.
     pub weight: f64,
-    /// The bounce inside at which it leaves, from 1; 0 for the glare of the outer surface.
+    /// The number of the bounce inside at which it leaves, from 1; 0 for the glare of the outer surface.
     pub bounce: u32,
     /// Whether this is the glare of the outer surface: light that was never inside.
     pub surface: bool,
 }
 
-/// What of a ray did not leave the stone.
+/// The part of a ray's light that did not leave the stone.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Loss {
-    /// Share absorbed.
+    /// Share of the light that was absorbed.
     pub absorbed: f64,
-    /// Share not followed to its end.
+    /// Share of the light that was not followed to its end.
     pub unresolved: f64,
-    /// Bounces inside the stone, on the longest way where there are several.
+    /// Number of bounces inside the stone, on the longest way where there are several.
     pub bounces: u32,
 }
 
@@ -84,14 +84,14 @@ pub struct StoneTracer {
     options: RayOptions,
 }
 
-/// How far the point moves in which a ray meets a surface, when the ray there moves by this much.
+/// Returns the displacement along the surface of the point where a ray meets it, when the ray there moves by `by`.
 #[inline]
 fn along_surface(by: DVec3, direction: DVec3, normal: DVec3) -> DVec3 {
     by - direction * (normal.dot(by) / normal.dot(direction))
 }
 
 impl StoneTracer {
-    /// Prepares a stone.
+    /// Prepares a stone for tracing.
     pub fn new<'a>(solid: impl Into<SolidRef<'a>>, medium: Medium, options: RayOptions) -> Self {
         let shape = match solid.into() {
             SolidRef::Convex(polytope) => {
@@ -106,17 +106,18 @@ impl StoneTracer {
         Self { shape, medium, options }
     }
 
-    /// The same stone of another medium.
+    /// Returns a tracer of the same stone in another medium.
     pub fn made_of(&self, medium: Medium) -> Self {
         Self { medium, ..self.clone() }
     }
 
-    /// Whether light that has left never meets the stone again; not known of triangles.
+    /// Whether light that has left never meets the stone again; false for triangles, of which this is not known.
     pub fn is_convex(&self) -> bool {
         matches!(self.shape, SolidFacets::Planes(_) | SolidFacets::Smooth(_))
     }
 
-    /// Whether the stone itself stands before a point of its surface on the way to the eye.
+    /// Whether a part of the stone hides a point of its surface from the eye; `way` is that point and the unit direction to
+    /// the eye.
     pub fn hides_itself(&self, way: (DVec3, DVec3)) -> bool {
         match &self.shape {
             SolidFacets::Planes(_) | SolidFacets::Smooth(_) => false,
@@ -125,18 +126,18 @@ impl StoneTracer {
         }
     }
 
-    /// Follows the ray from a point outside, calling `leave` for the surface's glare and for each exit; `None`
-    /// where it misses the stone.
+    /// Follows a ray from a point outside; calls `leave` for the surface's glare and for each exit. `None` where the ray
+    /// misses the stone.
     pub fn follow(&self, origin: DVec3, direction: DVec3, leave: impl FnMut(Exit)) -> Option<Loss> {
         let met = self.meet(origin, direction)?;
         self.follow_from(met, origin, (direction, DVec3::ZERO), 1.0, |_, _| false, leave)
     }
 
-    /// Follows a ray that is known to [`meet`](Self::meet) the stone, of another weight than 1, whose direction moves over
-    /// the spread of wavelengths: one that may have left another stone. `None` where it runs along the facet.
+    /// Follows a ray of any weight that is known to [`meet`](Self::meet) the stone and may have left another one; `sweep` is
+    /// the change of its direction over the spread of wavelengths. `None` where it runs along the facet.
     ///
-    /// Light that would enter this stone again after some distance leaves it all the same where `is_taken` says that
-    /// something else is met before.
+    /// Light that would enter this stone again after some distance leaves it for good where `is_taken` says that it meets
+    /// something else before.
     pub fn follow_from(
         &self,
         met: (usize, f64),
@@ -155,7 +156,7 @@ impl StoneTracer {
         }
     }
 
-    /// Through a solid that never takes back what has left it.
+    /// Follows light through a solid that never takes back what has left it.
     fn chain<F: FacetSearch>(&self, facets: &F, start: Inbound, mut leave: impl FnMut(Exit)) -> Option<Loss> {
         self.passage(facets, start, |meeting| {
             if let Some(exit) = meeting.exit() {
@@ -164,6 +165,7 @@ impl StoneTracer {
         })
     }
 
+    /// Returns the light of a ray from the eye that is about to enter.
     fn start(
         &self,
         met: (usize, f64),
@@ -175,8 +177,8 @@ impl StoneTracer {
         Inbound { met, origin, direction, sweep, shift: DVec3::ZERO, light, left: 1.0, path: 0.0, bounce: 0 }
     }
 
-    /// The way of light through the stone, from the facet where it enters until too little is left: the one loop behind all
-    /// that is told of rays.
+    /// Follows light through the stone, from the facet where it enters until too little is left, and calls `meets` for each
+    /// facet: the one loop behind everything that is reported of rays.
     fn passage<F: FacetSearch>(
         &self,
         facets: &F,
@@ -220,6 +222,7 @@ impl StoneTracer {
         ))
     }
 
+    /// Follows light inside the stone; its `origin` is the point where it has entered.
     fn bounce<F: FacetSearch>(
         &self,
         facets: &F,
@@ -285,7 +288,7 @@ impl StoneTracer {
         rest
     }
 
-    /// Facet and distance at which a ray enters from outside; `None` where it misses.
+    /// Returns the facet and the distance at which a ray from outside enters; `None` where it misses.
     pub fn meet(&self, origin: DVec3, direction: DVec3) -> Option<(usize, f64)> {
         self.shape.entry(origin, direction)
     }

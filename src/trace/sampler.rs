@@ -1,10 +1,10 @@
-//! Who traces a stone: exact beams, or point rays on the processor or on a graphics card.
+//! The choice of a tracer: exact beams, or point rays on the processor or on a graphics card.
 
 use super::ray::Camera;
 use crate::math::NotConvex;
 use crate::scene::{Medium, Projection, Scope, Specimen, View};
 
-/// What follows point rays.
+/// What traces point rays: the processor or a graphics card.
 #[derive(Clone, Copy)]
 pub enum RayTracer<'a> {
     /// The processor, in f64.
@@ -12,12 +12,12 @@ pub enum RayTracer<'a> {
     /// A graphics card, in f32.
     #[cfg(feature = "gpu")]
     Card(&'a super::gpu::Gpu),
-    /// Never: this build knows no cards.
+    /// A graphics card; this variant cannot be built, as this build knows no cards.
     #[cfg(not(feature = "gpu"))]
     Card(std::convert::Infallible, std::marker::PhantomData<&'a ()>),
 }
 
-/// What traces the light.
+/// The ways to trace light through a stone.
 #[derive(Clone, Copy)]
 pub enum Tracer<'a> {
     /// Exact beams, for parallel rays and convex stones.
@@ -26,20 +26,20 @@ pub enum Tracer<'a> {
     Rays(RayTracer<'a>),
 }
 
-/// What is looked at, and by which light.
+/// What a tracer looks at: a stone, the view, and the light.
 #[derive(Clone, Copy)]
 pub struct Subject<'a> {
     /// The stone.
     pub specimen: &'a Specimen,
-    /// What the stone is made of, at one wavelength.
+    /// The stone's medium, at one wavelength.
     pub medium: Medium,
-    /// From where; the eye is in front of the whole stone.
+    /// The view; its eye is in front of the whole stone.
     pub view: &'a View,
     /// The structured light.
     pub scope: &'a Scope,
 }
 
-/// Why a tracer cannot show a stone from somewhere.
+/// Why a tracer cannot show a stone from a view.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum CannotTrace {
     /// The eye of a perspective is beside or inside the stone.
@@ -54,7 +54,7 @@ pub enum CannotTrace {
 }
 
 impl RayTracer<'_> {
-    /// Its short name, as figures have it: `ray` or `gpu`.
+    /// Returns the short name that figures use: `ray` or `gpu`.
     pub fn name(self) -> &'static str {
         match self {
             Self::Rays => "ray",
@@ -63,7 +63,7 @@ impl RayTracer<'_> {
         }
     }
 
-    /// Whether it is a real graphics card, and not one in software.
+    /// Whether this is a real graphics card, and not one in software.
     pub fn is_quick(self) -> bool {
         match self {
             Self::Rays => false,
@@ -72,7 +72,7 @@ impl RayTracer<'_> {
         }
     }
 
-    /// In words.
+    /// Returns a description in words.
     pub fn description(self) -> String {
         match self {
             Self::Rays => "point rays".into(),
@@ -83,13 +83,13 @@ impl RayTracer<'_> {
 }
 
 impl Tracer<'_> {
-    /// Exact beams where they apply, and otherwise point rays on the processor.
+    /// Returns exact beams where they apply, and otherwise point rays on the processor.
     pub fn best(specimen: &Specimen, view: &View) -> Self {
         let is_for_beams = view.projection == Projection::Orthographic && specimen.stone().is_ok();
         if is_for_beams { Self::Beams } else { Self::Rays(RayTracer::Rays) }
     }
 
-    /// Its short name, as figures have it: `beam`, `ray` or `gpu`.
+    /// Returns the short name that figures use: `beam`, `ray` or `gpu`.
     pub fn name(self) -> &'static str {
         match self {
             Self::Beams => "beam",
@@ -97,7 +97,7 @@ impl Tracer<'_> {
         }
     }
 
-    /// In words.
+    /// Returns a description in words.
     pub fn description(self) -> String {
         match self {
             Self::Beams => "exact beams".into(),
@@ -105,7 +105,7 @@ impl Tracer<'_> {
         }
     }
 
-    /// Whether it can trace this stone from there.
+    /// Checks that it can trace this stone from this view.
     ///
     /// # Errors
     /// [`CannotTrace`], whose text says what to do instead.

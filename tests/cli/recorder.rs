@@ -97,7 +97,7 @@ fn lines() -> Vec<String> {
             format!("info {scene} --json"),
             format!("render {scene} --size 48 --samples 1 --out {{}}/a.png"),
             format!("render {scene} --size 48 --samples 1 --perspective 8 --probe 20,20"),
-            format!("spin {scene} --size 32 --samples 1 --frames 3 --out {{}}/a.png"),
+            format!("spin {scene} --size 32 --samples 1 --frames 3 --out {{}}"),
         ]);
     }
     for glass in GLASS {
@@ -110,7 +110,7 @@ fn lines() -> Vec<String> {
     }
     lines.extend(
         [
-            "spin tolkowsky --size 32 --samples 1 --frames 3 --tilt 10 --out {}/a.png",
+            "spin tolkowsky --size 32 --samples 1 --frames 3 --tilt 10 --out {}",
             "refraction-map tolkowsky --size 24 --bands 3 --places 2 --format png16,exr,page --out {}",
             "liquid-glass --background dots --size 64 --out {}",
             "liquid-glass --background page --size 48 --compare --out {}",

@@ -1,4 +1,4 @@
-//! The stone as a wireframe, and the light's way through it.
+//! Draws the stone as a wireframe, and the path of one ray through it.
 
 use super::Reading;
 use crate::math::{Basis, Edge};
@@ -6,40 +6,42 @@ use crate::trace::ray::{Leaving, Path, Step};
 use egui::{Align2, Color32, FontId, Mesh, Painter, Pos2, Rect, Shape, Stroke, StrokeKind, Vec2, Visuals};
 use glam::{DVec2, DVec3};
 
-/// Edges that are all drawn; of solids of more, those that make its outline.
+/// The largest number of edges that are all drawn. Of a solid with more, only sharp edges and those of the silhouette are
+/// drawn.
 const MOST_EDGES: usize = 3000;
 
-/// Facets whose normals' cosine is below this meet in an edge that is seen.
+/// Two facets meet in a sharp edge where the cosine between their normals is below this.
 const TRUE_EDGE: f64 = 0.8;
 
-/// Length of the light outside the stone, as parts of the stone's reach: of what enters and of what leaves.
+/// Lengths of the lines outside the stone, in parts of the stone's reach: of the light that enters, and of light that
+/// leaves.
 const OUTSIDE: [f64; 2] = [0.5, 0.36];
 
-/// Air around the drawing, pixels: for heads of arrows and numbers.
+/// Free space around the drawing for arrowheads and numbers, in points.
 const MARGIN: f32 = 14.0;
 
-/// How much of their colour edges have where the eye sees them, and behind.
+/// Opacity of the edges: of those that the eye sees, and of those on the far side.
 const EDGES: [f32; 2] = [0.6, 0.2];
 
-/// How much of its colour the tint of a facet has: of one that is met, and of the one that is lit.
+/// Opacity of a facet's tint: of a facet that the light meets, and of the facet of the highlighted step.
 const TINTS: [f32; 2] = [0.10, 0.4];
 
-/// Half the angle of an arrow's head, radians.
+/// Half the opening angle of an arrowhead, in radians.
 const HEAD_ANGLE: f32 = 0.42;
 
-/// Type size of the numbers, points.
+/// Type size of the steps' numbers, in points.
 const NUMBER: f32 = 11.0;
 
-/// How far from its facet a number stands, pixels: the first that is free is taken.
+/// Distances from a point at which its number may stand, in points, in the order in which they are tried.
 const ASIDE: [f32; 3] = [12.0, 20.0, 30.0];
 
-/// Places around a point at which a number may stand.
+/// Number of directions from a point in which its number may stand.
 const PLACES: u8 = 8;
 
-/// Share of light below which a step's facet has no tint and no number, nor does its line keep other numbers away.
+/// The share of the ray's light below which a step gets no tint and no number, and its line keeps no other numbers away.
 pub(super) const FAINT: f64 = 0.05;
 
-/// A parallel projection onto a painter.
+/// A parallel projection of the stone onto a painter.
 struct Canvas<'a> {
     painter: &'a Painter,
     visuals: &'a Visuals,
@@ -49,13 +51,13 @@ struct Canvas<'a> {
     scale: f64,
 }
 
-/// Light between two places, and the share that it is of the whole.
+/// A straight stretch of the path, and the share of the ray's light that travels along it.
 struct Stretch {
     ends: [DVec3; 2],
     share: f64,
 }
 
-/// Draws the path, seen from `eye`; the step `lit` stands out.
+/// Draws the path as seen from `eye`, with the step `lit` highlighted and a frame where the drawing has the keyboard focus.
 pub(super) fn paint(
     painter: &Painter,
     visuals: &Visuals,
@@ -67,7 +69,7 @@ pub(super) fn paint(
     let inside = stretches(reading.path, canvas.reach);
     canvas.facets(reading, &inside, lit);
     canvas.edges(reading);
-    // What is strong lies above what is weak, and what is lit above all.
+    // Strong light is drawn over weak light, and the highlighted step over everything.
     let weak_first = || (0..inside.len()).rev().filter(|k| Some(*k) != lit).chain(lit);
     weak_first().for_each(|k| canvas.stretch(&inside[k], Some(k) == lit));
     weak_first().for_each(|k| canvas.leaving(reading, k, lit));
@@ -78,7 +80,7 @@ pub(super) fn paint(
     }
 }
 
-/// The light on its way to each step.
+/// Returns the stretch of light that leads to each step.
 fn stretches(path: &Path, reach: f64) -> Vec<Stretch> {
     let mut from =
         path.steps.first().map_or(path.origin, |first| first.point - path.direction * (reach * OUTSIDE[0]));
@@ -91,13 +93,14 @@ fn stretches(path: &Path, reach: f64) -> Vec<Stretch> {
     path.steps.iter().map(to_step).collect()
 }
 
-/// Where the drawing of what leaves at a step ends.
+/// Returns where the line for the light that leaves at a step ends; `None` where nothing leaves.
 fn end_of(step: &Step, reach: f64) -> Option<DVec3> {
     step.leaving.map(|leaving| step.point + leaving.direction * leaving.again.unwrap_or(reach * OUTSIDE[1]))
 }
 
 impl<'a> Canvas<'a> {
-    /// A canvas on which the stone and all its light have room, seen from this height from whatever side.
+    /// Makes a canvas with room for the stone and all its light, from whatever azimuth the eye sees them at its present
+    /// elevation.
     fn new(painter: &'a Painter, visuals: &'a Visuals, eye: Basis, reading: &Reading) -> Self {
         let corners = reading.body.solid().vertices();
         let low = corners.iter().copied().fold(DVec3::INFINITY, DVec3::min);
@@ -107,7 +110,7 @@ impl<'a> Canvas<'a> {
         let entering = stretches(reading.path, reach).into_iter().take(1).map(|stretch| stretch.ends[0]);
         let leaving = reading.path.steps.iter().filter_map(|step| end_of(step, reach));
         let shown = corners.iter().copied().chain(entering).chain(leaving);
-        // How far things come to the side and up when they are turned around the stone's axis.
+        // How far anything reaches sideways and upward on the screen while it turns around the stone's axis.
         let extent = shown.fold(DVec2::splat(f64::MIN_POSITIVE), |extent, v| {
             let (out, height) = ((v - centre).truncate().length(), (v - centre).z);
             extent.max(DVec2::new(out, out * eye.toward.z.abs() + (height * eye.up.z).abs()))
@@ -122,7 +125,7 @@ impl<'a> Canvas<'a> {
         self.painter.clip_rect().center() + Vec2::new(p.x as f32, -p.y as f32)
     }
 
-    /// Tints the facets that are met.
+    /// Tints the facets that the light meets.
     fn facets(&self, reading: &Reading, inside: &[Stretch], lit: Option<usize>) {
         let steps = &reading.path.steps;
         let lit = lit.map(|k| steps[k].facet);
@@ -137,7 +140,7 @@ impl<'a> Canvas<'a> {
         met.dedup();
         for facet in met {
             let tint = self.visuals.hyperlink_color.gamma_multiply(TINTS[usize::from(lit == Some(facet))]);
-            // In one mesh, as triangles one by one would show their seams.
+            // One mesh for each facet: separate triangles would show seams.
             let mut cover = Mesh::default();
             for corner in reading.body.solid().triangles_of(facet).into_iter().flatten() {
                 cover.indices.push(cover.vertices.len() as u32);
@@ -147,13 +150,13 @@ impl<'a> Canvas<'a> {
         }
     }
 
-    /// All edges, those behind first.
+    /// Draws the edges, those on the far side first.
     fn edges(&self, reading: &Reading) {
         let solid = reading.body.solid();
         let faces = |normal: &DVec3| normal.dot(self.eye.toward) > 0.0;
         let mut edges = solid.edges();
         if edges.len() > MOST_EDGES {
-            // Only where the surface turns away, or has a true edge: all others would hide the path.
+            // Only sharp edges and those of the silhouette: all others would hide the path.
             let is_drawn = |e: &Edge| {
                 let [a, b] = e.normals;
                 a.dot(b) < TRUE_EDGE || faces(&a) != faces(&b)
@@ -185,7 +188,7 @@ impl<'a> Canvas<'a> {
         }
     }
 
-    /// What leaves at a step, in the colour of where it goes.
+    /// Draws the light that leaves at a step, in the colour of the zone that it goes to.
     fn leaving(&self, reading: &Reading, k: usize, lit: Option<usize>) {
         let step = &reading.path.steps[k];
         let (Some(leaving), Some(end)) = (step.leaving, end_of(step, self.reach)) else { return };
@@ -194,7 +197,7 @@ impl<'a> Canvas<'a> {
         let width = 1.2 + 1.6 * strength;
         let opacity = 0.15 + 0.85 * strength;
         let rim = self.visuals.text_color().gamma_multiply(0.6 * opacity);
-        // A rim, as the scope's colour may be that of the background.
+        // The rim keeps the line visible where the scope's colour is that of the background.
         for stroke in [
             Stroke::new(width + 1.6, rim),
             Stroke::new(width, self.colour(reading, &leaving).gamma_multiply(opacity)),
@@ -204,7 +207,8 @@ impl<'a> Canvas<'a> {
         }
     }
 
-    /// Of where light goes; light that enters again goes to no zone yet.
+    /// Returns the colour of the zone that the light goes to. Light that enters the stone again goes to no zone yet and gets
+    /// the colour of the path.
     fn colour(&self, reading: &Reading, leaving: &Leaving) -> Color32 {
         match leaving.again {
             None => reading.colour(leaving.direction),
@@ -212,7 +216,7 @@ impl<'a> Canvas<'a> {
         }
     }
 
-    /// The head of an arrow, its tip at a point.
+    /// Draws an arrowhead whose point is at `tip`.
     fn head(&self, tip: Pos2, way: Vec2, stroke: Stroke) {
         let length = way.length();
         if length < 1.0 {
@@ -226,7 +230,8 @@ impl<'a> Canvas<'a> {
         }
     }
 
-    /// The steps' numbers beside their facets, the first ones first: those that find no room are left out.
+    /// Writes the numbers of the steps beside their facets, that of the highlighted step first. A number that finds no room
+    /// is left out.
     fn numbers(&self, inside: &[Stretch], lit: Option<usize>) {
         let within = self.painter.clip_rect();
         let is_seen = |k: &usize| inside[*k].share >= FAINT;
@@ -253,21 +258,23 @@ impl<'a> Canvas<'a> {
     }
 }
 
-/// How strongly a share of light is drawn, 0 to 1: a tenth must be seen beside the whole, and a hundredth beside it.
+/// Returns how strongly a share of light is drawn, 0 to 1. Weak light is raised, so that a tenth can be seen beside the
+/// whole, and so can a hundredth.
 fn strength(share: f64) -> f32 {
     share.clamp(0.0, 1.0).powf(0.4) as f32
 }
 
-/// Length of the head of an arrow whose line is so wide, pixels.
+/// Returns the length of an arrowhead on a line of this width, in points.
 fn head(width: f32) -> f32 {
     4.0 + 1.5 * width
 }
 
-/// Places of a size beside a point, those away from the drawing's middle and those near first.
+/// Returns the rectangles in which a number of this size may stand: near ones first and, at each distance, those away from
+/// the drawing's middle first.
 fn places(at: Pos2, away: Vec2, size: Vec2) -> impl Iterator<Item = Rect> {
     let outward = if away.length() > 1.0 { away.angle() } else { 0.0 };
     let turns = (0..PLACES).map(move |k| {
-        // To both sides by turns.
+        // Alternately to one side and to the other.
         let step = f32::from(k.div_ceil(2)) * std::f32::consts::TAU / f32::from(PLACES);
         outward + if k % 2 == 0 { step } else { -step }
     });
@@ -275,14 +282,14 @@ fn places(at: Pos2, away: Vec2, size: Vec2) -> impl Iterator<Item = Rect> {
     ASIDE.into_iter().flat_map(around).map(move |middle| Rect::from_center_size(middle, size))
 }
 
-/// The first place that overlaps none of those taken and hides as few lines as can be.
+/// Returns the place that hides the fewest lines among those that overlap nothing in `taken`; the first of several.
 fn free(places: impl Iterator<Item = Rect>, taken: &[Rect], lines: &[[Pos2; 2]]) -> Option<Rect> {
     let is_free = |rect: &Rect| taken.iter().all(|other| !other.intersects(*rect));
     let hidden = |rect: &Rect| lines.iter().filter(|line| crosses(*rect, **line)).count();
     places.filter(is_free).min_by_key(hidden)
 }
 
-/// Whether a line from end to end goes through a rectangle, or nearly.
+/// Whether a line segment passes through a rectangle or close by it.
 fn crosses(rect: Rect, [from, to]: [Pos2; 2]) -> bool {
     let (way, middle) = (to - from, rect.center());
     let part = ((middle - from).dot(way) / way.length_sq().max(f32::MIN_POSITIVE)).clamp(0.0, 1.0);
@@ -298,7 +305,7 @@ mod tests {
     fn a_number_stands_beside_its_point_and_apart_from_the_others() {
         let size = vec2(12.0, 10.0);
         let mut taken: Vec<Rect> = vec![];
-        // More than have room: every one that is placed stands alone.
+        // More numbers than there is room for: those that are placed do not overlap.
         for _ in 0..100 {
             taken.extend(free(places(pos2(5.0, 5.0), vec2(1.0, 0.0), size), &taken, &[]));
         }

@@ -1,21 +1,21 @@
-//! From where the stone is looked at.
+//! The direction from which the drawing shows the stone.
 
 use crate::math::Basis;
 use egui::{EventFilter, Key, Response, Ui, Vec2, vec2};
 use glam::DVec3;
 use std::f64::consts::FRAC_PI_2;
 
-/// Turn for a pixel of dragging, radians.
+/// Rotation for one point of dragging, in radians.
 const PER_PIXEL: f64 = 0.01;
 
-/// Pixels that a press of an arrow key stands for.
+/// Length of the drag that one press of an arrow key stands for, in points.
 const KEY: f32 = 10.0;
 
-/// The eye's place on a sphere around the stone, radians.
+/// The place of the eye on a sphere around the stone, as two angles in radians.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Orbit {
     azimuth: f64,
-    /// Above the girdle plane, -π/2 to π/2.
+    /// The angle above the girdle plane, -π/2 to π/2.
     elevation: f64,
 }
 
@@ -27,7 +27,7 @@ impl Default for Orbit {
 }
 
 impl Orbit {
-    /// The image plane, its axis toward the eye.
+    /// Returns the axes of the image plane; `toward` points to the eye.
     pub fn eye(&self) -> Basis {
         let (sin, cos) = self.azimuth.sin_cos();
         let (up, out) = self.elevation.sin_cos();
@@ -36,7 +36,7 @@ impl Orbit {
         Basis { right, up: toward.cross(right), toward }
     }
 
-    /// Turned by what was done to the drawing: dragged, by arrow keys, or put back.
+    /// Turns the view by the user's drag and arrow keys on the drawing; a double click or Home restores the first view.
     pub fn turned_by(&mut self, ui: &Ui, response: &Response) {
         self.turn(response.drag_delta());
         if response.double_clicked() {
@@ -56,7 +56,7 @@ impl Orbit {
         }
     }
 
-    /// Turned so that what is near the eye follows a pointer moved by so many pixels.
+    /// Turns the view so that whatever is near the eye follows a pointer that moves by `by` points.
     fn turn(&mut self, by: Vec2) {
         self.azimuth -= f64::from(by.x) * PER_PIXEL;
         self.elevation = (self.elevation + f64::from(by.y) * PER_PIXEL).clamp(-FRAC_PI_2, FRAC_PI_2);

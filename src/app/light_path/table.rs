@@ -10,7 +10,7 @@ use egui::{
 /// Number of columns.
 const COLUMNS: usize = 9;
 
-/// A column: its heading, what it means, and to which side it is flush.
+/// A column: its heading, an explanation, and the side to which its cells are aligned.
 struct Column {
     heading: &'static str,
     meaning: &'static str,
@@ -37,22 +37,22 @@ const HEADINGS: [Column; COLUMNS] = [
     column("goes on", "Share of the light that goes on inside the stone", Align::Max),
 ];
 
-/// The column that has a swatch of the zone's colour before its text.
+/// The index of the column that has a swatch of the zone's colour before its text.
 const ZONE: usize = 7;
 
-/// Space between columns, points: least and most.
+/// Least and largest space between columns, in points.
 const GAPS: (f32, f32) = (7.0, 18.0);
 
-/// Least size of type, points: where the columns do not fit in that, they scroll.
+/// Smallest type size, in points. Where the columns do not fit at this size, they scroll.
 const LEAST_TYPE: f32 = 10.0;
 
-/// Room for the scroll bar, points.
+/// Room for the scroll bar, in points.
 const BAR: f32 = 8.0;
 
-/// Length above which a facet's name is cut short, characters.
+/// Number of characters above which a facet's name is cut short.
 const LONGEST_NAME: usize = 20;
 
-/// The table's texts.
+/// The texts of the table.
 pub(super) struct Table {
     rows: Vec<Row>,
     summary: String,
@@ -60,13 +60,13 @@ pub(super) struct Table {
 
 struct Row {
     cells: [String; COLUMNS],
-    /// The colour of the zone, where any light leaves.
+    /// The colour of the zone that the light goes to; `None` where no light leaves for good.
     zone: Option<Color32>,
-    /// The row in words.
+    /// The row in words, for screen readers.
     spoken: String,
 }
 
-/// Where the columns are, in type of a size.
+/// The type of the table, and the widths of its columns in that type.
 struct Columns {
     font: FontId,
     widths: [f32; COLUMNS],
@@ -88,12 +88,13 @@ impl Table {
         Self { rows, summary }
     }
 
-    /// Its width in type of the usual size, points.
+    /// Returns the width of the table at the usual type size, in points.
     pub fn width(&self, ui: &Ui) -> f32 {
         Columns::new(ui, self, TextStyle::Body.resolve(ui.style())).width() + BAR
     }
 
-    /// Shows it over all the room there is; the step under the pointer. A click keeps a step lit, or lets it go.
+    /// Shows the table over all the available room and returns the step under the pointer. A click on a step puts it into
+    /// `kept`, a second click takes it out.
     pub fn show(&self, ui: &mut Ui, kept: &mut Option<usize>) -> Option<usize> {
         ui.label(&self.summary);
         let columns = Columns::fitting(ui, self, ui.available_width() - BAR);
@@ -134,12 +135,12 @@ impl Columns {
         Self { font, widths, gap: GAPS.0 }
     }
 
-    /// Columns that fill a width, in type as large as fits but no larger than usual.
+    /// Returns columns that fill a width, in type as large as fits but no larger than usual.
     fn fitting(ui: &Ui, table: &Table, width: f32) -> Self {
         let usual = TextStyle::Body.resolve(ui.style());
         let columns = Self::new(ui, table, usual.clone());
         let part = (width / columns.width()).min(1.0);
-        // In half points, downward.
+        // Rounded down to half a point.
         let size = ((usual.size * part * 2.0).floor() / 2.0).max(LEAST_TYPE.min(usual.size));
         let mut columns = if part < 1.0 { Self::new(ui, table, FontId { size, ..usual }) } else { columns };
         let spare = (width - columns.width()) / (COLUMNS - 1) as f32;
@@ -155,7 +156,7 @@ impl Columns {
         (self.font.size * 1.5).ceil()
     }
 
-    /// The columns' places in a row.
+    /// Returns the rectangles of the columns in a row.
     fn places(&self, row: Rect) -> [Rect; COLUMNS] {
         let mut left = row.left();
         self.widths.map(|width| {
@@ -222,7 +223,7 @@ impl Columns {
     }
 }
 
-/// Width of a swatch and the space after it, in type of a size.
+/// Returns the width of a swatch and the space after it at a type size, in points.
 fn swatch(size: f32) -> f32 {
     1.0 * size
 }
@@ -249,13 +250,13 @@ fn row(reading: &Reading, number: usize, step: &Step) -> Row {
     Row { cells, zone: outside.map(|leaving| reading.colour(leaving.direction)), spoken }
 }
 
-/// Stands for a number that there is not.
+/// The text in place of a number that does not exist.
 const NONE: &str = "–";
 
-/// Stands for the zone of light that goes to none yet.
+/// The text in place of a zone for light that enters the stone again.
 const AGAIN: &str = "in again";
 
-/// Share, elevation, azimuth, zone.
+/// Returns the share, elevation, azimuth and zone of light that leaves, as texts.
 fn where_to(reading: &Reading, Leaving { share, direction, again }: Leaving) -> [String; 4] {
     let azimuth = reading.azimuth(direction).map(|a| format!("{}°", a.round() % 360.0));
     [
@@ -266,9 +267,9 @@ fn where_to(reading: &Reading, Leaving { share, direction, again }: Leaving) -> 
     ]
 }
 
-/// A tenth of a degree is what cutters' gauges tell.
+/// Writes an angle to a tenth of a degree, as cutters' gauges show it.
 fn degrees(angle: f64) -> String {
-    // Plus zero, lest there be a negative one.
+    // Adding zero turns a negative zero into a positive one.
     let rounded = (angle * 10.0).round() / 10.0 + 0.0;
     format!("{rounded:.1}°").replace('-', "−")
 }
@@ -280,7 +281,7 @@ fn percent(share: f64) -> String {
     }
 }
 
-/// A name that is not too wide for its column.
+/// Returns a name, cut short where it is too long for its column.
 fn shortened(name: &str) -> String {
     if name.chars().count() <= LONGEST_NAME {
         return name.to_owned();

@@ -7,7 +7,7 @@ use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT, Queryable};
 use glam::DVec2;
 
-/// What the tests look at: a path through a brilliant, seen face up.
+/// The widget under test and its input: a path through a brilliant that is seen face up.
 struct Shown {
     widget: LightPath,
     body: Body,
@@ -32,9 +32,9 @@ impl Shown {
         widget.show(ui, body, path, scope, &View::default().light_basis());
     }
 
-    /// In a window of a size.
+    /// Opens the widget in a window of this size and theme.
     fn harness(self, size: Vec2, theme: Theme) -> Harness<'static, Self> {
-        // Steps so short that two clicks can be a double one.
+        // Time steps so short that two clicks can count as a double click.
         let builder =
             Harness::builder().with_step_dt(0.05).with_max_steps(64).with_size(size).with_theme(theme);
         let mut harness = builder.build_ui_state(|ui, shown: &mut Self| shown.show(ui), self);
@@ -43,10 +43,10 @@ impl Shown {
     }
 }
 
-/// The smallest window in which all must have room.
+/// The size of the smallest window in which everything must have room.
 const SMALL: Vec2 = vec2(420.0, 600.0);
 
-/// Each text that was painted: its place, and the rectangle outside which it would be cut off.
+/// Returns each painted text with its rectangle and its clip rectangle, outside which it is cut off.
 fn texts(harness: &Harness<Shown>) -> Vec<(String, Rect, Rect)> {
     let text = |shape: &Shape| match shape {
         Shape::Text(text) => Some((text.galley.text().to_owned(), text.visual_bounding_rect())),
@@ -56,14 +56,14 @@ fn texts(harness: &Harness<Shown>) -> Vec<(String, Rect, Rect)> {
     all.filter_map(|s| text(&s.shape).map(|(text, rect)| (text, rect, s.clip_rect))).collect()
 }
 
-/// How many lines of the path are drawn as lit.
+/// Returns how many lines are drawn in the colour of the highlighted step.
 fn lit(harness: &Harness<Shown>) -> usize {
     let colour = harness.ctx.global_style().visuals.strong_text_color();
     let shapes = harness.output().shapes.iter();
     shapes.filter(|s| matches!(&s.shape, Shape::LineSegment { stroke, .. } if stroke.color == colour)).count()
 }
 
-/// The row of a step, in words.
+/// Returns the row of a step as screen readers speak it.
 fn spoken(harness: &Harness<Shown>, number: usize) -> String {
     let start = format!("Step {number}:");
     let row = harness.get_by_label_contains(&start);
@@ -133,7 +133,7 @@ fn the_steps_that_carry_light_are_numbered_in_the_drawing() {
     let mut numbers: Vec<u32> = numbers.map(|(text, _, _)| text.parse().unwrap()).collect();
     numbers.sort_unstable();
     let steps = &Shown::new(1e-3).path.steps;
-    // The first is met by all light, each other one by what the one before sends on.
+    // All light meets the first facet; each later one meets what the step before sends on.
     let strong = 1 + steps.iter().take_while(|step| step.onward >= drawing::FAINT).count() as u32;
     assert!((5..steps.len() as u32).contains(&strong));
     assert_eq!(numbers, (1..=strong).collect::<Vec<_>>());

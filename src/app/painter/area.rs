@@ -1,7 +1,7 @@
 //! Rectangles of whole pixels.
 
-/// A rectangle of pixels, from the first column and row to the ones that are no longer part of it. It holds none where the
-/// last is not beyond the first.
+/// A rectangle of pixels. It includes the column `left` and the row `top`, but not the column `right` and the row `bottom`.
+/// It is empty where `right` is not beyond `left`, or `bottom` not beyond `top`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Area {
     /// The first column.
@@ -15,17 +15,17 @@ pub struct Area {
 }
 
 impl Area {
-    /// The whole of an image.
+    /// Returns the area of a whole image, given its columns and rows.
     pub fn of(size: [usize; 2]) -> Self {
         Self { left: 0, top: 0, right: size[0] as i32, bottom: size[1] as i32 }
     }
 
-    /// The pixels whose middles lie between two corners.
+    /// Returns the area of the pixels whose centres lie between two corners.
     pub fn between(least: [f32; 2], most: [f32; 2]) -> Self {
         Self { left: first(least[0]), top: first(least[1]), right: first(most[0]), bottom: first(most[1]) }
     }
 
-    /// What both have in common.
+    /// Returns the intersection of two areas.
     pub fn cut(self, other: Self) -> Self {
         Self {
             left: self.left.max(other.left),
@@ -35,22 +35,22 @@ impl Area {
         }
     }
 
-    /// Whether it holds no pixel.
+    /// Whether the area holds no pixel.
     pub fn is_empty(self) -> bool {
         self.left >= self.right || self.top >= self.bottom
     }
 
-    /// Pixels across and down.
+    /// Returns the numbers of columns and rows, at least 0.
     pub fn size(self) -> [u32; 2] {
         [(self.right - self.left).max(0) as u32, (self.bottom - self.top).max(0) as u32]
     }
 }
 
-/// The first pixel whose middle is not before `edge`.
+/// Returns the first pixel whose centre is not before `edge`.
 #[inline(always)]
 pub fn first(edge: f32) -> i32 {
-    // Without a function of the system's, which rounding is where the processor may be an old one. Casts saturate: what is
-    // far out stays far out.
+    // `ceil` would call a library function where the processor may be an old one. Casts saturate, so that far coordinates
+    // stay far outside.
     let edge = edge - 0.5;
     let whole = edge as i32;
     whole.saturating_add(i32::from(edge > whole as f32))

@@ -1,32 +1,32 @@
 //! Arithmetic on pixels: four bytes each, red lowest, then green, blue and alpha; colours are multiplied by their alpha.
 //!
-//! Colours are mixed as they are stored, by sRGB's bytes, as egui's other painters do. Two channels are computed at a
-//! time, each in the low half of 16 bits.
+//! Colours are mixed as their stored sRGB bytes, as egui's other painters do. Two channels are computed at a time, each in
+//! the low half of 16 bits.
 
 /// A pixel: red in the lowest byte, then green, blue, alpha.
 pub type Pixel = u32;
 
-/// Two channels of a pixel, the others' bytes left out.
+/// The mask for two channels of a pixel, which clears the other two.
 const HALF: u32 = 0x00ff_00ff;
 
-/// A half of the last digit of two channels, for rounding.
+/// Half of the last digit of two channels, added for rounding.
 const ROUND: u32 = 0x0080_0080;
 
-/// The largest weight of [`mixed`].
+/// The largest weight that [`mixed`] takes.
 pub const WHOLE: u32 = 256;
 
-/// A colour as a pixel.
+/// Returns a colour as a pixel.
 pub fn pixel(colour: egui::Color32) -> Pixel {
     u32::from_le_bytes(colour.to_array())
 }
 
-/// How opaque a pixel is, 0 to 255.
+/// Returns the alpha of a pixel, 0 to 255.
 #[inline(always)]
 pub fn alpha(of: Pixel) -> u32 {
     of >> 24
 }
 
-/// A pixel times `part` / 255, rounded to the nearest; `part` is 255 at most.
+/// Returns a pixel times `part` / 255, rounded to the nearest; `part` is 255 at most.
 #[inline(always)]
 pub fn scaled(of: Pixel, part: u32) -> Pixel {
     let times = |half: u32| {
@@ -37,13 +37,13 @@ pub fn scaled(of: Pixel, part: u32) -> Pixel {
     times(of & HALF) | (times((of >> 8) & HALF) << 8)
 }
 
-/// The product of two pixels, channel by channel.
+/// Returns the product of two pixels, channel by channel.
 #[inline(always)]
 pub fn product(a: Pixel, b: Pixel) -> Pixel {
     if a == u32::MAX {
         return b;
     }
-    // White of some coverage is what letters are made of.
+    // Letters are made of white with some coverage.
     let coverage = alpha(b);
     if b == coverage * 0x0101_0101 {
         return scaled(a, coverage);
@@ -56,7 +56,7 @@ pub fn product(a: Pixel, b: Pixel) -> Pixel {
     u32::from_le_bytes([one(0), one(1), one(2), one(3)])
 }
 
-/// What is seen where one pixel lies over another; light that is added beyond white is cut off.
+/// Returns the colour of one pixel laid over another. A sum beyond white is cut off.
 #[inline(always)]
 pub fn over(front: Pixel, back: Pixel) -> Pixel {
     let rest = scaled(back, 255 - alpha(front));
@@ -68,7 +68,7 @@ pub fn over(front: Pixel, back: Pixel) -> Pixel {
     low | (high << 8)
 }
 
-/// A mixture of two pixels; `weight` of 0 to [`WHOLE`] is the second one's.
+/// Returns a mixture of two pixels. `weight`, 0 to [`WHOLE`], is that of `b`.
 #[inline(always)]
 pub fn mixed(a: Pixel, b: Pixel, weight: u32) -> Pixel {
     let mix = |a: u32, b: u32| ((a * (WHOLE - weight) + b * weight + ROUND) >> 8) & HALF;
@@ -88,13 +88,13 @@ pub fn lay(colour: Pixel, row: &mut [Pixel]) {
 mod tests {
     use super::*;
 
-    /// Channels of the pixel, as real numbers.
+    /// Returns the channels of a pixel as real numbers.
     fn real(of: Pixel) -> [f64; 4] {
         of.to_le_bytes().map(f64::from)
     }
 
     fn some_pixels() -> impl Iterator<Item = Pixel> {
-        // A multiplicative walk through all bytes.
+        // A linear congruential sequence, which varies all bytes.
         std::iter::successors(Some(0x9e37_79b9_u32), |n| {
             Some(n.wrapping_mul(0x85eb_ca6b).wrapping_add(0x1234_5671))
         })

@@ -1,10 +1,11 @@
-//! Finds what has to be painted anew: the image is divided into tiles, and each has a hash of all pieces that are seen in it.
+//! Finds what has to be painted again: the image is divided into tiles, and each tile has a hash of all pieces that are seen
+//! in it.
 
 use super::area::Area;
 use super::pieces::{PaintPiece, combined};
 use super::texture::{Texture, TexturePatch, Textures};
 
-/// Pixels across and down of a tile: high enough for a line of letters.
+/// Width and height of a tile, in pixels: high enough for a line of letters.
 const TILE: [i32; 2] = [64, 32];
 
 /// The tiles of an image, and the hash of each for this image and for the last one.
@@ -16,12 +17,12 @@ pub struct Tiles {
     last: Vec<u64>,
 }
 
-/// A hash that no tile ever has; it says that the content of a tile is not known.
+/// A hash that no tile ever has. It marks a tile whose content is not known.
 const UNKNOWN: u64 = 0;
 
 impl Tiles {
-    /// The areas where these pieces show something else than those of the last call, which do not overlap; all where the
-    /// image has another size than then.
+    /// Returns the areas where these pieces show something else than those of the last call. The areas do not overlap. Where
+    /// the image has changed its size, they cover all of it.
     pub fn changed(
         &mut self,
         size: [usize; 2],
@@ -60,7 +61,8 @@ impl Tiles {
         }
     }
 
-    /// The tiles whose hash differs from the last one, joined to areas: first along rows, then downwards where they are equally wide.
+    /// Returns the tiles whose hash differs from the last one, joined into areas: first along rows, then downward where
+    /// areas are equally wide.
     fn differing(&self) -> Vec<Area> {
         let whole = Area::of(self.size);
         let mut areas: Vec<Area> = vec![];
@@ -98,7 +100,7 @@ fn reads_one_of(piece: &PaintPiece, texture: &Texture, patches: &[TexturePatch])
         return false;
     }
     let (least, most) = piece.shape.read();
-    // Between pixels the next ones are read as well.
+    // Reading between pixels includes the neighbouring ones.
     let scale = |uv: f32, axis: usize, by: f32| uv * texture.size[axis] as f32 + by;
     patches.any(|(_, first, end)| {
         (0..2).all(|k| scale(least[k], k, -1.0) < end[k] && scale(most[k], k, 1.0) > first[k])

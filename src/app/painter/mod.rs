@@ -1,8 +1,8 @@
-//! Paints the window on the processor, where there is no graphics card: egui's triangles into an image in memory.
+//! Paints the window on the processor, where there is no graphics card: turns egui's triangles into an image in memory.
 //!
-//! Only what differs from the last image is painted: [`damage`] finds the areas, by a hash of all pieces that are seen
-//! in each tile of the image. The picture is that of egui's painter for graphics cards but for roundings, of which
-//! the tests say how large they are.
+//! Only what differs from the last image is painted: [`damage`] finds the areas, by a hash of all pieces that are seen in
+//! each tile of the image. The image is that of egui's painter for graphics cards, except for rounding; the tests say how
+//! much rounding may change.
 
 mod area;
 mod blend;
@@ -25,7 +25,7 @@ use egui::{Color32, TexturesDelta};
 use pieces::{PaintPiece, PaintShape, pieces};
 use texture::Textures;
 
-/// What lies behind everything. The window's panels leave nothing of it to be seen.
+/// The colour behind everything. The window's panels cover it completely.
 const BEHIND: Color32 = Color32::BLACK;
 
 /// An image in memory.
@@ -36,19 +36,19 @@ pub struct Canvas {
 }
 
 impl Canvas {
-    /// Columns and rows.
+    /// The number of columns and rows.
     pub fn size(&self) -> [usize; 2] {
         self.size
     }
 
-    /// The part of a row that lies in an area, which must lie in the image.
+    /// Returns the part of row `y` that lies in an area. The area must lie in the image.
     #[inline(always)]
     fn row(&mut self, y: i32, area: Area) -> &mut [Pixel] {
         let start = y as usize * self.size[0];
         &mut self.pixels[start + area.left as usize..start + area.right as usize]
     }
 
-    /// The rows of an area, which must lie in the image.
+    /// Returns the rows of an area. The area must lie in the image.
     pub fn rows(&self, area: Area) -> impl Iterator<Item = &[Pixel]> {
         (area.top..area.bottom).map(move |y| {
             let start = y as usize * self.size[0];
@@ -57,7 +57,7 @@ impl Canvas {
     }
 }
 
-/// Paints one image after the other.
+/// Paints one image after the other, and keeps the last one, so that only changes are painted.
 #[derive(Default)]
 pub struct Painter {
     canvas: Canvas,
@@ -67,8 +67,8 @@ pub struct Painter {
 }
 
 impl Painter {
-    /// Paints what egui wants to be seen, in an image of `size` pixels, and returns the areas that have changed since the
-    /// last one; they do not overlap. Takes over and empties the changes of textures.
+    /// Paints egui's primitives into an image of `size` pixels and returns the areas that have changed since the last image.
+    /// The areas do not overlap. The changes of textures are moved out of `delta`, which is empty afterwards.
     pub fn paint(
         &mut self,
         size: [usize; 2],
@@ -87,7 +87,7 @@ impl Painter {
         areas
     }
 
-    /// The last image.
+    /// Returns the last image.
     pub fn canvas(&self) -> &Canvas {
         &self.canvas
     }

@@ -8,37 +8,37 @@ use egui::epaint::{ClippedPrimitive, Mesh, Primitive, Vertex};
 /// A corner of a triangle or rectangle.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PaintCorner {
-    /// Where it lies, pixels from the top left.
+    /// The place of the corner in the image, in pixels from the top left.
     pub at: [f32; 2],
-    /// Where it lies in the texture, 0 to 1 across and down.
+    /// The place of the corner in the texture, 0 to 1 across and down.
     pub uv: [f32; 2],
-    /// What the texture is multiplied by.
+    /// The colour by which the texture is multiplied.
     pub colour: Pixel,
 }
 
-/// What is drawn at once.
+/// A shape that is drawn as a whole.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum PaintShape {
-    /// A rectangle of one colour along the axes, by its top left and bottom right corners.
+    /// A rectangle of one colour with its sides along the axes, by its top left and bottom right corners.
     Rectangle([PaintCorner; 2]),
     /// A triangle, its corners in any order.
     Triangle([PaintCorner; 3]),
 }
 
-/// A shape, and what it is filled with.
+/// A shape with its texture and the area in which it is seen.
 #[derive(Debug, Clone, Copy)]
 pub struct PaintPiece {
     /// The shape.
     pub shape: PaintShape,
-    /// What fills it.
+    /// The texture that fills the shape.
     pub texture: TextureId,
-    /// Where it can be seen: the pixels around it that its clip lets through.
+    /// The area in which the shape can be seen: its bounding box within its clip rectangle.
     pub bounds: Area,
     /// A hash of the shape, its clip and the texture's name, but not of the texture's content.
     pub hash: u64,
 }
 
-/// The pieces that can be seen in an image of this size, from the back to the front.
+/// Fills `into` with the pieces that can be seen in an image of this size, from back to front.
 pub fn pieces(
     size: [usize; 2],
     pixels_per_point: f32,
@@ -47,7 +47,7 @@ pub fn pieces(
 ) {
     into.clear();
     for ClippedPrimitive { clip_rect, primitive } in primitives {
-        // A callback is for a graphics card; this program has none.
+        // A callback draws on a graphics card; this program uses none.
         let Primitive::Mesh(mesh) = primitive else { continue };
         let edge = |points: f32| (points * pixels_per_point).round() as i32;
         let (least, most) = (clip_rect.min, clip_rect.max);
@@ -88,17 +88,17 @@ fn of_mesh(mesh: &Mesh, pixels_per_point: f32, clip: Area, into: &mut Vec<PaintP
     }
 }
 
-/// The corners of two triangles that share an edge, in turn around what they make up together.
+/// Returns the corners of two triangles that share an edge, in order around the quadrilateral that they form.
 fn in_turn([a, b, c]: [u32; 3], [d, e, f]: [u32; 3]) -> Option<[u32; 4]> {
-    // As egui writes rectangles, and as it fills outlines: as fans.
+    // Egui writes rectangles in the first order and fills outlines in the second, as fans.
     if (d, e) == (c, b) {
         return Some([a, b, f, c]);
     }
     ((d, e) == (a, c)).then_some([a, b, c, f])
 }
 
-/// The top left and bottom right corners of four in turn, where they make a rectangle of one colour along the axes with
-/// a picture along the axes.
+/// Returns the top left and bottom right corners of a quadrilateral, if it is a rectangle of one colour whose sides and
+/// whose texture lie along the axes.
 fn rectangle([a, b, c, d]: [PaintCorner; 4]) -> Option<[PaintCorner; 2]> {
     let is_plain = [b, c, d].iter().all(|other| other.colour == a.colour);
     let is_upright =
@@ -119,7 +119,7 @@ fn rectangle([a, b, c, d]: [PaintCorner; 4]) -> Option<[PaintCorner; 2]> {
 }
 
 impl PaintShape {
-    /// Its corners, of a rectangle two.
+    /// Returns the corners; of a rectangle, the two that are stored.
     fn corners(&self) -> &[PaintCorner] {
         match self {
             Self::Rectangle(corners) => corners,
@@ -127,13 +127,13 @@ impl PaintShape {
         }
     }
 
-    /// The pixels around it.
+    /// Returns the bounding box, in pixels.
     fn bounds(&self) -> Area {
         let (least, most) = around(self.corners().iter().map(|c| c.at));
         Area::between(least, most)
     }
 
-    /// The part of the texture that it shows, by its least and its greatest corner.
+    /// Returns the part of the texture that the shape shows, by its least and its greatest corner.
     pub fn read(&self) -> ([f32; 2], [f32; 2]) {
         around(self.corners().iter().map(|c| c.uv))
     }
@@ -148,7 +148,7 @@ fn around(points: impl Iterator<Item = [f32; 2]>) -> ([f32; 2], [f32; 2]) {
 /// Combines a hash with a number; the order in which numbers are added matters.
 #[inline(always)]
 pub fn combined(hash: u64, number: u64) -> u64 {
-    // The multiplier is 2^64 over the golden ratio, odd.
+    // The multiplier is 2^64 divided by the golden ratio; it is odd.
     let product = (hash ^ number).wrapping_mul(0x9e37_79b9_7f4a_7c15);
     product ^ (product >> 29)
 }

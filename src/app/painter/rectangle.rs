@@ -1,4 +1,4 @@
-//! Draws rectangles along the axes: of one colour, letters pixel by pixel, pictures that are stretched.
+//! Draws rectangles with sides along the axes: plain ones, letters copied pixel by pixel, and stretched pictures.
 
 use super::Canvas;
 use super::area::Area;
@@ -6,7 +6,7 @@ use super::blend::{Pixel, WHOLE, alpha, lay, mixed, over, pixel, product};
 use super::pieces::PaintCorner;
 use super::texture::Texture;
 
-/// How far off the middle of a pixel a texture may be read as though it were there, in its pixels.
+/// Distance from a pixel's centre within which a texture may be read as though at the centre, in pixels of the texture.
 const SLACK: f32 = 1.0 / 64.0;
 
 /// Draws the part of a rectangle that lies in an area.
@@ -28,11 +28,11 @@ pub fn draw(canvas: &mut Canvas, [a, b]: &[PaintCorner; 2], texture: &Texture, a
     }
 }
 
-/// Where along one axis a texture is read, for each pixel of the image.
+/// The places along one axis at which a texture is read, one for each pixel of the image.
 struct Line {
-    /// For each pixel: the texture's pixel before it, that after it, and the weight of the latter.
+    /// For each pixel: the texture's pixel before its place, the one after it, and the weight of the latter, 0 to [`WHOLE`].
     places: Vec<[u32; 3]>,
-    /// The place of the first, in the texture's pixels, and the step from one to the next.
+    /// The first place, and the step from one place to the next, in pixels of the texture.
     start: f32,
     step: f32,
 }
@@ -63,7 +63,7 @@ impl Line {
         Self { places: pixels.clone().map(place).collect(), start, step }
     }
 
-    /// The first of the texture's pixels, where each of the image is one of them.
+    /// Returns the texture's first pixel, if each pixel of the image falls on one of the texture's.
     fn whole(&self, size: usize) -> Option<usize> {
         let count = self.places.len();
         let off =
@@ -74,7 +74,7 @@ impl Line {
     }
 }
 
-/// What a rectangle is filled with.
+/// What fills a rectangle: a texture, and the colour by which it is multiplied.
 struct Fill<'a> {
     texture: &'a Texture,
     tint: Pixel,
@@ -82,7 +82,7 @@ struct Fill<'a> {
 }
 
 impl Fill<'_> {
-    /// Lays one of the texture's pixels over each pixel, from column `x` and row `y` of the texture on.
+    /// Lays the texture over an area pixel by pixel, from column `x` and row `y` of the texture on.
     fn copy(&self, canvas: &mut Canvas, area: Area, x: usize, y: usize) {
         let count = area.size()[0] as usize;
         for (k, row) in (area.top..area.bottom).enumerate() {
@@ -91,7 +91,7 @@ impl Fill<'_> {
         }
     }
 
-    /// Lays a row of the texture's pixels over one of the image's.
+    /// Lays a row of the texture's pixels over a row of the image.
     #[inline(always)]
     fn lay(&self, front: impl Iterator<Item = Pixel>, back: &mut [Pixel]) {
         if self.is_opaque && self.tint == Pixel::MAX {
@@ -105,7 +105,7 @@ impl Fill<'_> {
         }
     }
 
-    /// Reads the texture between its pixels: first between the two rows beside each row, then between two columns.
+    /// Lays the texture over an area, interpolated: first between the two rows beside each row, then between two columns.
     fn stretch(&self, canvas: &mut Canvas, area: Area, across: &Line, down: &Line) {
         let columns = across.places.iter().flat_map(|&[a, b, _]| [a as usize, b as usize]);
         let (Some(least), Some(most)) = (columns.clone().min(), columns.max()) else { return };

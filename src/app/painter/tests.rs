@@ -43,7 +43,8 @@ impl TestRenderer for Twice {
     }
 }
 
-/// The mean difference of two images' red, green and blue, and the part of them that differ by more than 4 of 255.
+/// Returns the mean difference between the red, green and blue of two images, 0 to 255, and the share of these values that
+/// differ by more than 4.
 fn apart(a: &RgbaImage, b: &RgbaImage) -> (f64, f64) {
     assert_eq!(a.dimensions(), b.dimensions());
     let colours = |image: &RgbaImage| image.pixels().flat_map(|p| [p[0], p[1], p[2]]).collect::<Vec<u8>>();
@@ -52,7 +53,7 @@ fn apart(a: &RgbaImage, b: &RgbaImage) -> (f64, f64) {
     (part(each.iter().copied().map(f64::from).sum()), part(each.iter().filter(|d| **d > 4).count() as f64))
 }
 
-/// The window in a theme and at a scale, by both painters.
+/// Paints the window in a theme and at a scale, and returns the image of this painter and that of egui's.
 fn painted(theme: Theme, scale: f32) -> (RgbaImage, RgbaImage) {
     let image = Arc::new(Mutex::new(RgbaImage::new(1, 1)));
     let twice =
@@ -106,7 +107,7 @@ fn the_window_looks_as_a_card_paints_it() {
     }
 }
 
-/// A frame of egui at 400 × 300 points, painted.
+/// Runs and paints a frame of egui at 400 × 300 points, and returns the areas that have changed.
 fn paint(painter: &mut Painter, context: &Context, draw: impl FnMut(&mut egui::Ui)) -> Vec<super::Area> {
     let screen = egui::Rect::from_min_size(egui::Pos2::ZERO, egui::vec2(400.0, 300.0));
     let input = egui::RawInput { screen_rect: Some(screen), ..Default::default() };
@@ -141,7 +142,7 @@ fn only_what_changes_is_painted_and_the_image_is_the_same_as_painted_at_once() {
     texture.set(egui::ColorImage::filled([40, 30], egui::Color32::BLUE), egui::TextureOptions::LINEAR);
     let picture = show(&mut painter, &texture, 14);
     assert!(!picture.is_empty() && picture.iter().all(|a| a.top >= 192 && a.left >= 256), "{picture:?}");
-    // Letters that were not seen before change the texture of letters, of which only they are read.
+    // New letters change the texture of letters, but only the pieces that show them read the changed part.
     let letters = show(&mut painter, &texture, 56);
     assert!(letters.iter().all(|a| a.bottom <= 96), "{letters:?}");
     let kept = painter.canvas.pixels.clone();

@@ -1,4 +1,4 @@
-//! The pictures that triangles are filled with.
+//! The textures: pictures that fill rectangles and triangles.
 
 use super::blend::{Pixel, WHOLE, mixed, pixel};
 use egui::epaint::{ImageData, ImageDelta};
@@ -6,21 +6,21 @@ use egui::{Color32, ColorImage, TextureFilter, TextureId, TextureOptions, Textur
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-/// A picture on the processor.
+/// A picture in the memory of the processor.
 pub struct Texture {
-    /// Columns and rows.
+    /// The number of columns and rows.
     pub size: [usize; 2],
-    /// The pixels, row by row; shared with whoever made the picture, so that nothing is copied.
+    /// The pixels, row by row. They are shared with the code that made the picture, so that nothing is copied.
     image: Arc<ColorImage>,
-    /// How it is read between pixels and beyond its edge.
+    /// How the picture is read between pixels and beyond its edge.
     pub options: TextureOptions,
-    /// Whether nothing can be seen through it.
+    /// Whether all pixels are known to be opaque.
     pub is_opaque: bool,
-    /// A number that no other picture has, nor this one before it was last replaced.
+    /// A number that no other picture has. It changes when the whole picture is replaced.
     pub version: u64,
 }
 
-/// A part of a texture that was replaced: its texture, its first column and row, and those after its last.
+/// A part of a texture that was replaced: the texture, the part's first column and row, and those after its last.
 pub type TexturePatch = (TextureId, [f32; 2], [f32; 2]);
 
 /// All textures that egui has made.
@@ -31,12 +31,12 @@ pub struct Textures {
 }
 
 impl Textures {
-    /// The texture of this name.
+    /// Returns the texture of this name.
     pub fn get(&self, id: TextureId) -> Option<&Texture> {
         self.all.get(&id)
     }
 
-    /// Takes over what has changed, and returns the parts of textures that were replaced.
+    /// Applies egui's changes to the textures, and returns the parts of textures that were replaced.
     pub fn set(&mut self, delta: &mut TexturesDelta) -> Vec<TexturePatch> {
         let mut patches = vec![];
         for (id, deltas) in delta.set.drain() {
@@ -47,7 +47,7 @@ impl Textures {
         patches
     }
 
-    /// Lets go of the textures that are no longer used; after painting, which may use them a last time.
+    /// Drops the textures that are no longer used. Call this after painting, which may use them a last time.
     pub fn free(&mut self, delta: &mut TexturesDelta) {
         for id in delta.free.drain() {
             self.all.remove(&id);
@@ -70,7 +70,7 @@ impl Textures {
         };
         let texture = self.all.get_mut(&id)?;
         texture.options = delta.options;
-        // A part that does not fit is no part of it; egui sends none.
+        // A part that does not fit is ignored; egui sends none.
         if x + across > texture.size[0] || y + down > texture.size[1] {
             return None;
         }
@@ -85,20 +85,20 @@ impl Textures {
 }
 
 impl Texture {
-    /// The pixels of a row from one column on, as many as asked for, which must be there.
+    /// Returns `count` pixels of row `y` from column `x` on. They must lie in the picture.
     pub fn row(&self, y: usize, x: usize, count: usize) -> &[Color32] {
         let start = y * self.size[0] + x;
         &self.image.pixels[start..start + count]
     }
 
-    /// Whether it is read by the nearest pixel and not between them.
+    /// Whether the picture is read at its nearest pixel, without interpolation.
     pub fn is_nearest(&self) -> bool {
         self.options.magnification == TextureFilter::Nearest
     }
 
-    /// The colour at a place, 0 to 1 across and down.
+    /// Returns the colour at a place, 0 to 1 across and down.
     pub fn at(&self, u: f32, v: f32) -> Pixel {
-        // Where egui has white, which most of what it draws is filled with.
+        // Egui keeps a white pixel at this place, which fills most of what it draws.
         if (u, v) == (0.0, 0.0) && self.options.wrap_mode == TextureWrapMode::ClampToEdge {
             return self.image.pixels.first().map_or(0, |&colour| pixel(colour));
         }
@@ -116,13 +116,13 @@ impl Texture {
         mixed(line(row), line(row.saturating_add(1)), down)
     }
 
-    /// The pixel of a column and a row, which may lie beyond the edge.
+    /// Returns the pixel of a column and a row, which may lie beyond the edge.
     fn texel(&self, column: i32, row: i32) -> Pixel {
         let (x, y) = (self.wrapped(column, self.size[0]), self.wrapped(row, self.size[1]));
         self.image.pixels.get(y * self.size[0] + x).map_or(0, |&colour| pixel(colour))
     }
 
-    /// The column or row that stands for one that may lie beyond the edge.
+    /// Returns the column or row inside the picture that stands for `place`, which may lie beyond the edge.
     pub fn wrapped(&self, place: i32, size: usize) -> usize {
         let size = size.max(1) as i32;
         let inside = match self.options.wrap_mode {

@@ -1,4 +1,4 @@
-//! Draws triangles, whose colours and places in a texture run evenly from corner to corner.
+//! Draws triangles. Their colours and places in a texture change evenly from corner to corner.
 
 use super::Canvas;
 use super::area::{Area, first};
@@ -6,8 +6,8 @@ use super::blend::{Pixel, lay, over, product};
 use super::pieces::PaintCorner;
 use super::texture::Texture;
 
-/// Draws the part of a triangle that lies in an area: all pixels whose middles lie in it. Of two triangles with a common
-/// edge each such pixel belongs to exactly one.
+/// Draws the part of a triangle that lies in an area: all pixels whose centres lie inside. Each such pixel along an edge
+/// that two triangles share belongs to exactly one of them.
 pub fn draw(canvas: &mut Canvas, corners: &[PaintCorner; 3], texture: &Texture, area: Area) {
     let mut sorted = *corners;
     sorted.sort_by(|a, b| a.at[1].total_cmp(&b.at[1]));
@@ -46,7 +46,7 @@ pub fn draw(canvas: &mut Canvas, corners: &[PaintCorner; 3], texture: &Texture, 
 /// An edge, from its upper end to its lower one.
 struct Edge {
     from: [f32; 2],
-    /// Columns for each row.
+    /// Columns per row.
     slope: f32,
 }
 
@@ -55,14 +55,14 @@ impl Edge {
         Self { from: from.at, slope: (to.at[0] - from.at[0]) / (to.at[1] - from.at[1]) }
     }
 
-    /// Its column at a height.
+    /// Returns the edge's column at the height `y`.
     #[inline(always)]
     fn at(&self, y: f32) -> f32 {
         self.from[0] + (y - self.from[1]) * self.slope
     }
 }
 
-/// Four numbers that run evenly over the image.
+/// Four numbers that change evenly over the image.
 struct Plane {
     at: [f32; 2],
     value: [f32; 4],
@@ -73,7 +73,7 @@ struct Plane {
 }
 
 impl Plane {
-    /// The plane through what three corners have.
+    /// Returns the plane through the numbers that `of` gives for three corners.
     fn new([a, b, c]: &[PaintCorner; 3], of: impl Fn(&PaintCorner) -> [f32; 4]) -> Self {
         let (u, v) = (apart(a, b), apart(a, c));
         let doubled = u[0] * v[1] - u[1] * v[0];
@@ -89,7 +89,7 @@ impl Plane {
         }
     }
 
-    /// Along a row, from the middle of a column on.
+    /// Starts a walk along a row, at the centre of a column.
     #[inline(always)]
     fn walk(&self, column: i32, y: f32) -> Walk<'_> {
         let (x, y) = (column as f32 + 0.5 - self.at[0], y - self.at[1]);
@@ -102,14 +102,15 @@ fn apart(a: &PaintCorner, b: &PaintCorner) -> [f32; 2] {
     [b.at[0] - a.at[0], b.at[1] - a.at[1]]
 }
 
-/// The numbers of a plane along a row.
+/// The numbers of a plane, pixel by pixel along a row.
 struct Walk<'a> {
     plane: &'a Plane,
     next: [f32; 4],
 }
 
 impl Walk<'_> {
-    /// The numbers of the next pixel. They stay between those of the corners: a sliver is too thin for its plane to be known.
+    /// Returns the numbers of the next pixel. They are kept between those of the corners, because a sliver is too thin to
+    /// determine its plane.
     #[inline(always)]
     fn next(&mut self) -> [f32; 4] {
         let Plane { least, most, across, .. } = self.plane;
@@ -119,7 +120,7 @@ impl Walk<'_> {
     }
 }
 
-/// The nearest colour in bytes.
+/// Returns the nearest colour in bytes.
 #[inline(always)]
 fn bytes(of: [f32; 4]) -> Pixel {
     u32::from_le_bytes(of.map(|c| (c + 0.5) as u8))

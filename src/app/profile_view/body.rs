@@ -1,4 +1,4 @@
-//! The stone itself, from the side.
+//! Draws the stone itself, seen from the side.
 
 use super::ink::ProfileInks;
 use super::sight::ProfileProjection;
@@ -6,9 +6,10 @@ use crate::math::{Basis, Facet, hull};
 use crate::scene::Stone;
 use egui::{Color32, Mesh, Painter, Pos2, Shape, Stroke};
 
-/// A facet whose normal leans less than this toward the eye is seen edge on: rounding of a unit normal.
+/// A facet counts as seen edge on where the cosine between its normal and the direction to the eye is at most this, which is
+/// the rounding of a unit normal.
 const EDGE_ON: f64 = 1e-9;
-/// Widths of lines, points.
+/// Widths of lines, in points.
 const OUTLINE: f32 = 1.8;
 const EDGE: f32 = 0.9;
 const GIRDLE: f32 = 0.5;
@@ -21,18 +22,18 @@ pub struct ProfileBody<'a> {
 }
 
 impl<'a> ProfileBody<'a> {
-    /// Of a stone that lies in the profile's plane as `basis` says.
+    /// Makes the view of a stone; `basis` says how the stone lies in the profile's plane.
     pub fn new(stone: &'a Stone, basis: Basis, sight: &'a ProfileProjection) -> Self {
         Self { stone, basis, sight }
     }
 
-    /// The corners of the stone's outline, on the screen, in order.
+    /// Returns the corners of the stone's outline on the screen, in order.
     pub fn outline(&self) -> Vec<Pos2> {
         let corners = self.stone.polytope.vertices().iter().map(|&v| self.basis.project(v));
         hull(corners.collect()).into_iter().map(|p| self.sight.at(p)).collect()
     }
 
-    /// Paints facets, edges in sight and the outline.
+    /// Paints the facets, the visible edges and the outline.
     pub fn paint(&self, painter: &Painter, inks: &ProfileInks, outline: &[Pos2]) {
         let corners: Vec<Pos2> =
             self.stone.polytope.vertices().iter().map(|&v| self.sight.at(self.basis.project(v))).collect();
@@ -41,7 +42,8 @@ impl<'a> ProfileBody<'a> {
         painter.extend(rounded_line(outline, Stroke::new(OUTLINE, inks.outline)));
     }
 
-    /// Facets as bare triangles: softened borders of slivers would stick out as long spikes, and lines cover these.
+    /// Returns the facets as triangles without softened borders: those of slivers would stick out as long spikes. Lines
+    /// cover the bare borders.
     fn faces(&self, corners: &[Pos2], inks: &ProfileInks) -> Mesh {
         let mut mesh = Mesh::default();
         for facet in self.stone.polytope.facets().iter().filter(|facet| self.shows(facet)) {
@@ -54,7 +56,7 @@ impl<'a> ProfileBody<'a> {
         mesh
     }
 
-    /// Each edge in sight once, but for those of the outline.
+    /// Returns each visible edge once, without those of the outline.
     fn edges(&self, corners: &[Pos2], inks: &ProfileInks) -> Vec<Shape> {
         let facets = self.stone.polytope.facets();
         let mut edges = vec![];
@@ -81,7 +83,7 @@ impl<'a> ProfileBody<'a> {
     }
 }
 
-/// A closed line with round corners: joined ones would stick out at a knife edge.
+/// Returns a closed line with round corners: joined lines would stick out at the corner of a knife edge.
 fn rounded_line(corners: &[Pos2], stroke: Stroke) -> Vec<Shape> {
     let ends = corners.iter().zip(corners.iter().cycle().skip(1));
     let lines = ends.map(|(&a, &b)| Shape::line_segment([a, b], stroke));

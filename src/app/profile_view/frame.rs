@@ -1,4 +1,4 @@
-//! What one frame shows: the stone, its dimensions, its handles; laid out, then painted.
+//! Lays out and then paints what one frame shows: the stone, its dimensions and its handles.
 
 use super::body::ProfileBody;
 use super::grips::{Grip, grips};
@@ -17,23 +17,23 @@ use egui::epaint::TextShape;
 use egui::{Color32, FontId, Id, Painter, Pos2, Rect, Response, Shape, Stroke, TextStyle, Ui, Vec2};
 use std::f32::consts::FRAC_PI_2;
 
-/// Widths of dimension lines and of those that lead to them, points.
+/// Widths of dimension lines and of the extension lines that lead to them, in points.
 const DIMENSION: f32 = 1.0;
 const EXTENSION: f32 = 0.7;
-/// Size of the numbers, of that of the window's text.
+/// Type size of the numbers, as a part of that of the window's text.
 const TYPE: f32 = 0.92;
 
-/// A stone as it is measured.
+/// A stone with the dimensions of its profile.
 pub struct MeasuredProfile<'a> {
     stone: &'a Stone,
     basis: Basis,
     dimensions: Dimensions,
-    /// A round brilliant, as given and derived.
+    /// The given and the derived proportions of a round brilliant; `None` for other stones and impossible proportions.
     pub brilliant: Option<(RoundBrilliant, Derived)>,
 }
 
 impl<'a> MeasuredProfile<'a> {
-    /// By its proportions if it has some that can be, else on its planes.
+    /// Measures a stone by its proportions if `given` holds some that are possible, else by its planes.
     pub fn new(stone: &'a Stone, given: Option<&RoundBrilliant>) -> Self {
         let brilliant = given.and_then(|given| Some((*given, given.derived().ok()?)));
         let (basis, dimensions) = match &brilliant {
@@ -46,32 +46,32 @@ impl<'a> MeasuredProfile<'a> {
         Self { stone, basis, dimensions, brilliant }
     }
 
-    /// The part of the profile that it fills.
+    /// Returns the box that the stone fills in the profile's plane.
     pub fn extent(&self) -> ProfileBox {
         ProfileBox::of(&self.dimensions)
     }
 }
 
-/// A handle on the screen, and what is done with it.
+/// A handle on the screen, and the response of egui to it.
 pub struct Offered {
     /// The handle.
     pub grip: Grip,
-    /// What pointer and keyboard do with it.
+    /// What pointer and keyboard do with the handle.
     pub response: Response,
 }
 
 impl Offered {
-    /// Whether the pointer is over it or has it in hand.
+    /// Whether the pointer is over the handle or drags it.
     pub fn is_pointed_at(&self) -> bool {
         self.grip.reach > 0.0 && (self.response.hovered() || self.response.dragged())
     }
 }
 
-/// What this frame shows, and where.
+/// The content and the layout of one frame.
 pub struct Frame<'a> {
-    /// The drawing's identity.
+    /// The identity of the drawing.
     pub id: Id,
-    /// From the profile to the screen.
+    /// The projection from the profile to the screen.
     pub sight: ProfileProjection,
     measured: &'a MeasuredProfile<'a>,
     rect: Rect,
@@ -81,7 +81,8 @@ pub struct Frame<'a> {
 }
 
 impl<'a> Frame<'a> {
-    /// Shows part of a stone's profile within `rect`, with as much written on it as can be read there.
+    /// Makes a frame that shows the part `extent` of a stone's profile within `rect`, with as many labels as can be read
+    /// there.
     pub fn new(ui: &Ui, id: Id, rect: Rect, measured: &'a MeasuredProfile<'a>, extent: ProfileBox) -> Self {
         let body = TextStyle::Body.resolve(ui.style());
         let font = FontId::new(TYPE * body.size, body.family);
@@ -91,14 +92,15 @@ impl<'a> Frame<'a> {
         Self { id, sight, measured, rect, detail, inks: ProfileInks::of(ui.visuals()), font }
     }
 
-    /// Offers the handles, if there are any.
+    /// Offers the handles to pointer and keyboard. Only a round brilliant has any.
     pub fn offer(&self, ui: &Ui) -> Vec<Offered> {
         let all =
             self.measured.brilliant.iter().flat_map(|(given, derived)| grips(given, derived, &self.sight));
         all.map(|grip| Offered { response: grip.offer(ui, self.id), grip }).collect()
     }
 
-    /// Paints everything, what belongs to the active handle in its colour; the numbers that there was room for.
+    /// Paints everything, with the lines and numbers of the active handle in the accent colour. Returns the numbers for
+    /// which there was room.
     pub fn paint(&self, ui: &Ui, offered: &[Offered], active: Option<Handle>) -> Vec<Label> {
         let painter = ui.painter_at(self.rect);
         let body = ProfileBody::new(self.measured.stone, self.measured.basis, &self.sight);
@@ -142,7 +144,8 @@ impl<'a> Frame<'a> {
         }
     }
 
-    /// Of a number; those that follow from others are quiet, that of the active handle is not.
+    /// Returns the colour of a number: the accent colour for that of the active handle, a quiet one where it follows from
+    /// another.
     fn colour(&self, about: Option<Quantity>, active: Option<Quantity>) -> Color32 {
         let follows =
             self.measured.brilliant.as_ref().zip(about).is_some_and(|((given, _), q)| q.follows(given));
@@ -157,7 +160,7 @@ impl<'a> Frame<'a> {
         let near = ui.rect_contains_pointer(self.rect) || offered.iter().any(|o| o.response.has_focus());
         let near = ui.ctx().animate_bool_responsive(self.id.with("near"), near);
         let mut painter = painter.clone();
-        // A drawing too small for numbers is a picture until the pointer comes.
+        // A drawing too small for numbers shows no handles until the pointer or the keyboard focus comes.
         painter.set_opacity(if self.detail == LabelDetail::None { near } else { 1.0 });
         for o in offered {
             let Offered { grip, response } = o;
@@ -169,7 +172,7 @@ impl<'a> Frame<'a> {
         }
     }
 
-    /// Tells screen readers what the handles are worth now.
+    /// Reports the present values of the handles to screen readers.
     pub fn show_values(&self, ui: &Ui, offered: &[Offered], now: &RoundBrilliant) {
         let Ok(derived) = now.derived() else { return };
         for Offered { grip, response } in offered.iter().filter(|o| !o.grip.mirrored) {

@@ -1,4 +1,4 @@
-//! A handle in hand: how far it has been pulled since it was taken, and what that makes of the stone.
+//! A handle in the user's hand: how far it has been pulled since it was taken, and the proportions that result.
 
 use super::handle::Handle;
 use super::quantity::ValueGrid;
@@ -7,31 +7,33 @@ use crate::cut::RoundBrilliant;
 use egui::{Pos2, Vec2};
 use glam::DVec2;
 
-/// How much slower the handle follows while Shift is down.
+/// The part of the pointer's movement that the handle follows while Shift is down.
 const FINE: f64 = 0.1;
-/// The pull, points, after which it is clear whether the tip is meant to go up and down or sideways.
+/// The length of a pull, in points, after which it is clear whether the tip is to move up and down or sideways.
 const DECIDED: f32 = 4.0;
 
-/// From press to release. What the stone becomes depends on where it began and on the whole of the pull alone, so that
-/// nothing drifts, and what was lost at a limit comes back with the hand.
+/// The drag of a handle, from press to release.
+///
+/// The resulting proportions depend only on those at the start and on the whole pull. So nothing drifts, and what was lost
+/// at a limit comes back when the hand does.
 #[derive(Debug, Clone)]
 pub struct Grab {
     handle: Handle,
     mirrored: bool,
-    /// The proportions when it was taken.
+    /// The proportions when the handle was taken.
     pub start: RoundBrilliant,
-    /// What was shown when it was taken: the drawing keeps its size while anything is in hand.
+    /// The part of the profile that was shown when the handle was taken: the drawing keeps its size during a drag.
     shown: ProfileBox,
     from: Pos2,
     last: Pos2,
-    /// Points, finer ones counted as what they are worth.
+    /// The pull in points; movement with Shift down counts by [`FINE`].
     pull: DVec2,
     grid: ValueGrid,
     undecided: bool,
 }
 
 impl Grab {
-    /// Takes a handle at a point of the screen; `mirrored` where it is the one on the stone's other side.
+    /// Takes a handle at a point of the screen. `mirrored` says that it is the copy on the stone's other side.
     pub fn new(handle: Handle, mirrored: bool, start: RoundBrilliant, shown: ProfileBox, at: Pos2) -> Self {
         Self {
             handle,
@@ -46,17 +48,18 @@ impl Grab {
         }
     }
 
-    /// What is in hand.
+    /// Returns the handle that is being dragged.
     pub fn handle(&self) -> Handle {
         self.handle
     }
 
-    /// Whether it is not clear yet which way it is meant to go.
+    /// Whether it is not clear yet in which direction the handle is to move.
     pub fn is_undecided(&self) -> bool {
         self.undecided
     }
 
-    /// Follows the pointer. A pull that was once fine keeps its fine steps, or letting go of Shift would throw them away.
+    /// Follows the pointer. A pull that was once fine keeps its fine steps, because releasing Shift would lose them
+    /// otherwise.
     pub fn follow(&mut self, to: Pos2, fine: bool) {
         let by = to - self.last;
         self.pull += DVec2::new(f64::from(by.x), f64::from(by.y)) * if fine { FINE } else { 1.0 };
@@ -71,7 +74,7 @@ impl Grab {
         }
     }
 
-    /// What the stone becomes.
+    /// Returns the proportions that result from the pull.
     pub fn proportions(&self, sight: &ProfileProjection) -> RoundBrilliant {
         if self.undecided {
             return self.start;
@@ -83,8 +86,10 @@ impl Grab {
         self.handle.dragged(&self.start, travel, self.grid)
     }
 
-    /// What is shown of the profile while the stone has these proportions. The girdle's upper edge, from which heights
-    /// are measured, rises with the hand that pulls it.
+    /// Returns the part of the profile to show while the stone has these proportions.
+    ///
+    /// Heights are measured from the girdle's upper edge. Where that edge itself is pulled, the part shown is shifted so
+    /// that the edge moves with the hand.
     pub fn shown(&self, now: &RoundBrilliant) -> ProfileBox {
         match self.handle {
             Handle::GirdleUpper => {

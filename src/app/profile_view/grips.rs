@@ -1,4 +1,4 @@
-//! Handles on the screen: where they can be taken, by pointer and by keyboard, and how they look.
+//! Handles on the screen: where pointer and keyboard can take them, and how they look.
 
 use super::handle::Handle;
 use super::ink::ProfileInks;
@@ -11,31 +11,32 @@ use egui::{
 };
 use glam::DVec2;
 
-/// Half the width of the square that takes the pointer, where there is room, points; the window's own tolerance comes
-/// on top.
+/// Half the width of the square in which a handle takes the pointer, where there is room, in points. The window's own
+/// tolerance comes on top.
 const REACH: f32 = 6.0;
-/// The same where handles lie close together.
+/// The least half width of that square where handles lie close together, in points.
 const LEAST_REACH: f32 = 1.5;
-/// Radii of a disc at rest, and of one that the pointer is over, points.
+/// Radii of a disc at rest, and of one that the pointer is over, in points.
 const AT_REST: f32 = 3.5;
 const GROWN: f32 = 6.0;
-/// How strong its rim is while the pointer is elsewhere.
+/// Strength of a disc's rim while the pointer is elsewhere, 0 to 1.
 const RESTING: f32 = 0.65;
 
 /// A handle on the screen.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Grip {
-    /// What it is a handle of.
+    /// The part of the profile that the handle pulls.
     pub handle: Handle,
-    /// Whether it is a second one, on the stone's other side.
+    /// Whether this is a second copy, on the stone's other side.
     pub mirrored: bool,
-    /// Its middle.
+    /// The centre of the handle.
     pub at: Pos2,
-    /// Half the width of the square that takes the pointer, points; 0 where only the keyboard reaches it.
+    /// Half the width of the square in which the handle takes the pointer, in points; 0 where only the keyboard reaches it.
     pub reach: f32,
 }
 
-/// A round brilliant's handles. The table has one at either end; tip and culet are one to the pointer.
+/// Returns the handles of a round brilliant. The table has one at either end. Pavilion depth and culet lie in the same
+/// place, and the pointer takes them as one handle.
 pub fn grips(given: &RoundBrilliant, derived: &Derived, sight: &ProfileProjection) -> Vec<Grip> {
     let mirror = DVec2::new(-1.0, 1.0);
     let place = |handle: Handle| handle.at(given, derived);
@@ -50,7 +51,7 @@ pub fn grips(given: &RoundBrilliant, derived: &Derived, sight: &ProfileProjectio
     grips
 }
 
-/// Squares do not overlap, so that the nearest one takes the pointer.
+/// Returns half the width of a handle's square. Squares do not overlap, so that the nearest one takes the pointer.
 fn reach(grips: &[Grip], k: usize) -> f32 {
     let for_keys = |grip: &Grip| grip.handle == Handle::Culet;
     if for_keys(&grips[k]) {
@@ -62,17 +63,17 @@ fn reach(grips: &[Grip], k: usize) -> f32 {
 }
 
 impl Grip {
-    /// The square that takes the pointer.
+    /// Returns the square in which the handle takes the pointer.
     pub fn square(&self) -> Rect {
         Rect::from_center_size(self.at, Vec2::splat(2.0 * self.reach.max(LEAST_REACH)))
     }
 
-    /// Its identity within the drawing's.
+    /// Returns the identity of the handle within that of the drawing.
     pub fn id(&self, drawing: Id) -> Id {
         drawing.with((self.handle.name(), self.mirrored))
     }
 
-    /// Offers it to the pointer and, but for a second one, to the keyboard.
+    /// Offers the handle to the pointer and, unless it is a mirrored copy, to the keyboard.
     pub fn offer(&self, ui: &Ui, drawing: Id) -> Response {
         let sense = match (self.mirrored, self.reach > 0.0) {
             (true, _) => Sense::DRAG,
@@ -82,10 +83,10 @@ impl Grip {
         ui.interact(self.square(), self.id(drawing), sense)
     }
 
-    /// What keys and screen readers make of the stone.
+    /// Returns the proportions after this frame's key presses and requests of screen readers.
     pub fn keyed(&self, ui: &Ui, response: &Response, given: &RoundBrilliant) -> RoundBrilliant {
         let quantity = self.handle.quantity();
-        // Shift first: keys without a modifier are also found where there is one.
+        // Shift first: a search for a key without modifiers also finds it pressed with one.
         let steps = [(ValueGrid::FINE, Modifiers::SHIFT), (ValueGrid::COARSE, Modifiers::NONE)]
             .map(|(grid, modifiers)| (grid, self.key_steps(ui, response, modifiers)));
         let asked = (ValueGrid::COARSE, asked_steps(ui, response.id));
@@ -97,7 +98,8 @@ impl Grip {
         }
     }
 
-    /// Arrows move the handle the way they point; left and right lower and raise its value.
+    /// Returns the steps by which arrow keys change the value. Up and down move the handle the way they point; left and
+    /// right lower and raise its value.
     fn key_steps(&self, ui: &Ui, response: &Response, modifiers: Modifiers) -> i32 {
         if !response.has_focus() {
             return 0;
@@ -112,7 +114,7 @@ impl Grip {
         across + if self.handle.grows_downward() { -up } else { up }
     }
 
-    /// Tells screen readers its name and value.
+    /// Reports the handle's name and value to screen readers.
     pub fn show_value(&self, ui: &Ui, response: &Response, value: f64) {
         let label = format!("{}, {}", self.handle.name(), self.handle.quantity().unit());
         response.widget_info(|| WidgetInfo::slider(ui.is_enabled(), value, &label));
@@ -124,8 +126,8 @@ impl Grip {
         });
     }
 
-    /// Paints its disc: stronger the nearer the pointer is to the drawing, larger the more it is pointed at (both 0 to
-    /// 1), with a ring where the keyboard is.
+    /// Paints the handle's disc. Its rim is stronger the more the pointer is `near` the drawing, and it is larger the more
+    /// the handle is `pointed_at` (both 0 to 1). A ring marks the keyboard focus.
     pub fn paint(&self, painter: &Painter, inks: &ProfileInks, [near, pointed_at]: [f32; 2], focused: bool) {
         let rest = AT_REST.min(self.reach).max(LEAST_REACH + 1.0);
         let radius = rest + (GROWN - AT_REST) * pointed_at;
@@ -138,7 +140,7 @@ impl Grip {
     }
 }
 
-/// The steps that a screen reader asks for.
+/// Returns the steps that a screen reader requests; negative ones lower the value.
 fn asked_steps(ui: &Ui, id: Id) -> i32 {
     ui.input(|i| {
         let count = |action| i.num_accesskit_action_requests(id, action) as i32;
@@ -146,7 +148,7 @@ fn asked_steps(ui: &Ui, id: Id) -> i32 {
     })
 }
 
-/// The value that a screen reader asks for.
+/// Returns the value that a screen reader requests, if any.
 fn asked_for(ui: &Ui, id: Id) -> Option<f64> {
     ui.input(|i| {
         let values = i.accesskit_action_requests(id, Action::SetValue).filter_map(|r| match r.data {

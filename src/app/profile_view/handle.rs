@@ -1,18 +1,19 @@
-//! What of a round brilliant's profile can be taken hold of, where it lies, and what pulling it asks for.
+//! The handles of a round brilliant's profile: which proportion each changes, where it lies, and which value a pull
+//! requests.
 //!
-//! Places are in radii in the profile's plane: x to the right of the axis, y up from the girdle's upper edge.
+//! Places are in girdle radii in the profile's plane: x to the right of the axis, y up from the girdle's upper edge.
 
 use super::quantity::{Quantity, ValueGrid};
 use crate::cut::{Derived, RoundBrilliant};
 use egui::CursorIcon;
 use glam::DVec2;
 
-/// A part of the profile that changes one proportion.
+/// A part of the profile that is pulled to change one proportion.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Handle {
     /// The table's corner, on the right.
     TableEdge,
-    /// The table's line, in its middle.
+    /// The middle of the table's line.
     CrownHeight,
     /// The middle of the right bezel.
     CrownAngle,
@@ -22,14 +23,14 @@ pub enum Handle {
     GirdleLower,
     /// The middle of the right main.
     PavilionAngle,
-    /// The culet's right corner, or the tip: up and down.
+    /// The culet's right corner, or the tip, pulled up and down.
     PavilionDepth,
-    /// The same, left and right.
+    /// The culet's right corner, or the tip, pulled left and right.
     Culet,
 }
 
 impl Handle {
-    /// From table to culet.
+    /// All handles, from table to culet.
     pub const ALL: [Self; 8] = [
         Self::TableEdge,
         Self::CrownHeight,
@@ -41,7 +42,7 @@ impl Handle {
         Self::Culet,
     ];
 
-    /// What it changes.
+    /// Returns the proportion that the handle changes.
     pub fn quantity(self) -> Quantity {
         match self {
             Self::TableEdge => Quantity::Table,
@@ -54,7 +55,7 @@ impl Handle {
         }
     }
 
-    /// What it is called.
+    /// Returns the name of the handle.
     pub fn name(self) -> &'static str {
         match self {
             Self::TableEdge => "Table edge",
@@ -64,7 +65,7 @@ impl Handle {
         }
     }
 
-    /// How it is pulled.
+    /// Returns a hint on how to pull the handle.
     pub fn hint(self) -> &'static str {
         match self {
             Self::TableEdge | Self::Culet => "drag left or right",
@@ -75,7 +76,7 @@ impl Handle {
         }
     }
 
-    /// What the pointer looks like over it.
+    /// Returns the shape of the pointer over the handle.
     pub fn cursor(self) -> CursorIcon {
         match self {
             Self::TableEdge | Self::Culet => CursorIcon::ResizeHorizontal,
@@ -85,12 +86,12 @@ impl Handle {
         }
     }
 
-    /// Whether its value grows when it is moved down.
+    /// Whether the handle's value grows when the handle is moved down.
     pub fn grows_downward(self) -> bool {
         matches!(self, Self::GirdleLower | Self::PavilionAngle | Self::PavilionDepth)
     }
 
-    /// Where it lies, radii.
+    /// Returns the place of the handle, in girdle radii.
     pub fn at(self, given: &RoundBrilliant, derived: &Derived) -> DVec2 {
         let (table, culet) = (given.table / 100.0, given.culet / 100.0);
         let (crown, girdle) = (derived.crown_height / 50.0, given.girdle_thickness / 50.0);
@@ -106,17 +107,17 @@ impl Handle {
         }
     }
 
-    /// The proportions when it has been pulled by `travel` (radii) from where it lay on `start`. The held one of each
-    /// pair stays held; what would cross a limit stays just inside it.
+    /// Returns the proportions after the handle has been pulled by `travel` (girdle radii) from its place on `start`. The
+    /// held one of each pair stays held; a value that would cross a limit stays just inside it.
     pub fn dragged(self, start: &RoundBrilliant, travel: DVec2, grid: ValueGrid) -> RoundBrilliant {
         let Ok(derived) = start.derived() else { return *start };
         let (from, wanted) = (self.quantity().of(start, &derived), self.wanted(start, &derived, travel));
-        // A value that lies between two steps is not lost by touching its handle.
+        // Merely touching a handle does not move a value that lies between two steps.
         let moved = (wanted - from).abs() >= 0.5 * grid.step();
         if moved { self.quantity().toward(start, wanted, grid) } else { *start }
     }
 
-    /// The value with which it lies where it has been pulled to, unbounded.
+    /// Returns the value that puts the handle where it has been pulled to, without regard to limits.
     fn wanted(self, start: &RoundBrilliant, derived: &Derived, travel: DVec2) -> f64 {
         let from = self.quantity().of(start, derived);
         let at = self.at(start, derived) + travel;
@@ -127,7 +128,7 @@ impl Handle {
             Self::GirdleLower | Self::PavilionDepth => from - 50.0 * travel.y,
             Self::CrownAngle => at.y.atan2(1.0 - at.x).to_degrees(),
             Self::PavilionAngle => (-at.y - start.girdle_thickness / 50.0).atan2(1.0 - at.x).to_degrees(),
-            // A point can be pulled open either way.
+            // A pointed culet can be pulled open to either side.
             Self::Culet if start.culet == 0.0 => 100.0 * travel.x.abs(),
             Self::Culet => 100.0 * at.x,
         }
@@ -143,7 +144,7 @@ mod tests {
     use egui::{Pos2, Rect, Vec2, vec2};
     use proptest::prelude::*;
 
-    /// 200 points to a radius.
+    /// Returns a projection of 200 points to a girdle radius.
     fn sight() -> ProfileProjection {
         let extent = ProfileBox { low: DVec2::splat(-1.0), high: DVec2::splat(1.0) };
         ProfileProjection::fitting(extent, Rect::from_min_size(Pos2::ZERO, Vec2::splat(400.0)))
@@ -195,7 +196,7 @@ mod tests {
         }
     }
 
-    /// How far a stone's handle is from where it has been pulled to, percent or degrees in the way that it goes.
+    /// Returns how far a stone's value is from the one that a pull requests, in percent or degrees.
     fn off(handle: Handle, new: &RoundBrilliant, start: &RoundBrilliant, travel: DVec2) -> f64 {
         let wanted = handle.wanted(start, &start.derived().unwrap(), travel);
         (value(handle, new) - wanted).abs()

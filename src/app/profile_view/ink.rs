@@ -1,8 +1,8 @@
-//! The drawing's colours, from those of the window.
+//! The colours of the drawing, made from those of the window.
 
 use egui::{Color32, Visuals};
 
-/// What is drawn in which colour.
+/// The colours of the parts of the drawing.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ProfileInks {
     /// The stone's outline.
@@ -15,20 +15,20 @@ pub struct ProfileInks {
     pub faces: [Color32; 2],
     /// Dimension lines.
     pub dimension: Color32,
-    /// Lines that lead to them.
+    /// Extension lines, which lead to dimension lines.
     pub extension: Color32,
     /// Numbers.
     pub number: Color32,
     /// Numbers that follow from others.
     pub quiet: Color32,
-    /// Handles, and what the one in hand changes.
+    /// Handles, and the lines and numbers of the active one.
     pub accent: Color32,
-    /// Behind the drawing.
+    /// The background of the drawing.
     pub paper: Color32,
 }
 
 impl ProfileInks {
-    /// For light or dark windows.
+    /// Returns the colours for a light or dark window.
     pub fn of(visuals: &Visuals) -> Self {
         let text = visuals.text_color();
         let paper = visuals.panel_fill;

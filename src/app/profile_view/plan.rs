@@ -1,4 +1,4 @@
-//! Which dimensions a profile of a given size bears, and where.
+//! Decides which dimensions a profile of a given size shows, and where.
 
 use super::quantity::Quantity;
 use super::sheet::{BESIDE, GAP, Label, ProfileSheet, SheetLine, Weight};
@@ -9,16 +9,16 @@ use crate::picture::profile::{Dimensions, Span, percent, spread};
 use egui::{Align2, Pos2, Rect, Vec2, pos2, vec2};
 use glam::DVec2;
 
-/// From the stone to the first dimension line, and from one to the next, points.
+/// Distance from the stone to the first dimension line, and from one to the next, in points.
 const LEVEL: f32 = 22.0;
-/// Between the drawing and the edge of its rectangle, points.
+/// Space between the drawing and the edge of its rectangle, in points.
 const EDGE: f32 = 6.0;
-/// The longest text of a height, for which room is kept so that nothing moves when digits come and go.
+/// The longest text of a height. Room is kept for it, so that nothing moves when digits come and go.
 const LONGEST: &str = "pavilion 88.88 %";
-/// Largest radius of an angle's arc, points, and the part of the facet's line that it may take.
+/// Largest radius of an angle's arc, in points, and as a part of the facet's line.
 const ARC: f32 = 52.0;
 const ARC_PART: f32 = 0.5;
-/// Steps that an arc is drawn in.
+/// Number of straight pieces in which an arc is drawn.
 const ARC_STEPS: u32 = 24;
 
 /// How much is written on the drawing.
@@ -28,14 +28,14 @@ pub enum LabelDetail {
     None,
     /// Table, total depth and angles, without their names.
     Numbers,
-    /// All heights too, named.
+    /// All heights and the culet as well, with their names.
     Named,
-    /// Star and lower half too.
+    /// Star and lower half as well.
     Whole,
 }
 
 impl LabelDetail {
-    /// What can be read in a rectangle of this size.
+    /// Returns the detail that can be read in a rectangle of this size, in points.
     pub fn of(size: Vec2) -> Self {
         match size.x.min(1.25 * size.y) {
             ..160.0 => Self::None,
@@ -45,7 +45,7 @@ impl LabelDetail {
         }
     }
 
-    /// The white space that its dimensions need.
+    /// Returns the white space that dimensions of this detail need. `measure` returns the size of a text, in points.
     pub fn margins(self, measure: &dyn Fn(&str) -> Vec2) -> Margins {
         let text = measure(LONGEST);
         let across = |levels: f32| EDGE + levels * LEVEL + text.y / 2.0;
@@ -63,16 +63,16 @@ impl LabelDetail {
     }
 }
 
-/// What is to be written of a stone.
+/// The values of a stone that are written on the drawing.
 #[derive(Debug, Clone, Copy)]
 pub struct ProfileSubject<'a> {
-    /// What every stone has.
+    /// The dimensions that every stone has.
     pub dimensions: &'a Dimensions,
-    /// A round brilliant's proportions.
+    /// The given and the derived proportions of a round brilliant.
     pub brilliant: Option<(&'a RoundBrilliant, &'a Derived)>,
 }
 
-/// Lays out dimensions.
+/// Lays out the dimensions of a drawing on a sheet.
 pub struct Planner<'a, 'b> {
     subject: ProfileSubject<'a>,
     sight: &'a ProfileProjection,
@@ -81,7 +81,7 @@ pub struct Planner<'a, 'b> {
 }
 
 impl<'a, 'b> Planner<'a, 'b> {
-    /// Lays out, the most important first, what there is room for.
+    /// Lays out the dimensions for which there is room, the most important first, and returns their lines and numbers.
     pub fn plan(
         subject: ProfileSubject<'a>,
         sight: &'a ProfileProjection,
@@ -113,7 +113,7 @@ impl<'a, 'b> Planner<'a, 'b> {
         if self.detail == LabelDetail::Numbers { value } else { format!("{name} {value}") }
     }
 
-    /// The screen height of a dimension line over or, negative, under the stone.
+    /// Returns the screen height of a dimension line: `level` counts lines above the stone or, negative, below it.
     fn level(&self, level: f32) -> f32 {
         let Span { from, to, .. } = self.subject.dimensions.total;
         self.at(0.0, if level > 0.0 { from } else { to }).y - level * LEVEL
@@ -122,14 +122,14 @@ impl<'a, 'b> Planner<'a, 'b> {
     fn table(&mut self) {
         let Some(table) = self.subject.dimensions.table else { return };
         let ends = [table.from, table.to].map(|x| self.at(x, self.subject.dimensions.total.from));
-        // The star's dimension is the lower one.
+        // The dimension of the star stands below that of the table.
         let level =
             if self.detail == LabelDetail::Whole && self.subject.brilliant.is_some() { 2.0 } else { 1.0 };
         let about = self.subject.brilliant.map(|_| Quantity::Table);
         self.sheet.across(self.level(level), ends, &self.named("table", table.percent), about);
     }
 
-    /// The total depth on the left, its number in the line, read from the right.
+    /// Adds the total depth on the left. Its number stands in the line and is read from the right.
     fn total(&mut self) {
         let Dimensions { total, width, .. } = *self.subject.dimensions;
         let x = self.at(width.from, 0.0).x - LEVEL;
@@ -147,7 +147,8 @@ impl<'a, 'b> Planner<'a, 'b> {
         self.sheet.keep_clear(Rect::from_two_pos(a, b).expand(2.0));
     }
 
-    /// Lines from the stone at some heights to a dimension at `x`, left (-1) or right (1) of it.
+    /// Adds lines from the stone at these heights to a dimension at `x`, which is left (`side` -1) or right (1) of the
+    /// stone.
     fn lead(&mut self, heights: &[f64], x: f32, side: f32) {
         for (k, &z) in heights.iter().enumerate() {
             if !heights[..k].contains(&z) {
@@ -158,7 +159,7 @@ impl<'a, 'b> Planner<'a, 'b> {
         }
     }
 
-    /// Crown, girdle and pavilion in one line on the right.
+    /// Adds crown, girdle and pavilion in one line on the right.
     fn heights(&mut self) {
         let Dimensions { total, crown, girdle, pavilion, width, .. } = *self.subject.dimensions;
         let parts = [
@@ -185,7 +186,7 @@ impl<'a, 'b> Planner<'a, 'b> {
         }
     }
 
-    /// Crown angle at the table's corner, pavilion angle at the culet's, on the left.
+    /// Adds the crown angle at the table's corner and the pavilion angle at the culet's, on the left.
     fn angles(&mut self) {
         let Some((given, derived)) = self.subject.brilliant else { return };
         let total = self.subject.dimensions.total;
@@ -195,7 +196,7 @@ impl<'a, 'b> Planner<'a, 'b> {
         self.angle(culet, self.at(-1.0, girdle), Quantity::PavilionAngle, derived.pavilion_angle);
     }
 
-    /// The angle at `vertex` between the level line to the left and the line to `end`.
+    /// Adds the angle at `vertex` between the level line to the left and the line to `end`.
     fn angle(&mut self, vertex: Pos2, end: Pos2, quantity: Quantity, degrees: f64) {
         let turn = degrees.to_radians() as f32 * (end.y - vertex.y).signum();
         let arm = |part: f32| vec2(-(part * turn).cos(), (part * turn).sin());
@@ -203,7 +204,7 @@ impl<'a, 'b> Planner<'a, 'b> {
         let about = Some(quantity);
         let largest = ARC.min(ARC_PART * (end - vertex).length());
         let within = [1.0, 0.7, 0.45].map(|part| (part * largest, arm(0.5) * (part * largest + BESIDE)));
-        // Where the wedge is too narrow: on the other side of the level line.
+        // Where the wedge is too narrow, the number goes to the other side of the level line.
         let over = |off: f32, gap: f32| {
             (largest, -vec2(off, turn.signum() * (self.sheet.size(&text).y / 2.0 + gap)))
         };
@@ -227,7 +228,7 @@ impl<'a, 'b> Planner<'a, 'b> {
         self.sheet.across(self.level(-1.0), ends, &text, Some(Quantity::Culet));
     }
 
-    /// Lengths in plan, on the right of crown and pavilion.
+    /// Adds the lengths of star and lower half in plan, on the right of crown and pavilion.
     fn star_and_lower_half(&mut self) {
         let Some((given, derived)) = self.subject.brilliant else { return };
         let star = star_ends(given, derived).map(|end| self.at(end.x, end.y));
@@ -254,7 +255,7 @@ mod tests {
         vec2(6.2 * text.chars().count() as f32, 14.0)
     }
 
-    /// The labels of a brilliant in a rectangle of this size.
+    /// Returns the labels of a brilliant in a rectangle of this size.
     fn labels(given: &RoundBrilliant, size: Vec2) -> Vec<Label> {
         let derived = given.derived().unwrap();
         let dimensions = Dimensions::of_brilliant(given, &derived);

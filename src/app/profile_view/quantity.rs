@@ -1,49 +1,49 @@
-//! The proportions that the profile can be dragged by: read, written, and kept within their limits.
+//! The proportions that can be changed by dragging the profile: how they are read, set and kept within their limits.
 
 use crate::app::proportions::{set_crown, set_pavilion};
 use crate::cut::{Crown, Derived, Pavilion, RoundBrilliant};
 use crate::picture::profile::{degrees, percent};
 
-/// Beyond any proportion; keeps what a hand asks for finite.
+/// A bound beyond any proportion, which keeps requested values finite.
 const FARTHEST: f64 = 1e4;
-/// A value this near to a step (in steps) stands on it.
+/// A value this near to a step, in steps, counts as standing on it.
 const ON_STEP: f64 = 1e-6;
 
 /// A proportion of a round brilliant, in percent of the girdle diameter or degrees.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Quantity {
-    /// Percent.
+    /// The size of the table, in percent.
     Table,
-    /// Percent.
+    /// The crown height, in percent.
     CrownHeight,
-    /// Degrees.
+    /// The crown angle, in degrees.
     CrownAngle,
-    /// Percent, at the bezels.
+    /// The girdle thickness at the bezels, in percent.
     Girdle,
-    /// Degrees.
+    /// The pavilion angle, in degrees.
     PavilionAngle,
-    /// Percent.
+    /// The pavilion depth, in percent.
     PavilionDepth,
-    /// Percent.
+    /// The size of the culet, in percent.
     Culet,
 }
 
-/// How finely values are set: so many steps to a percent or degree.
+/// The grid on which values are set: so many steps to a percent or degree.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ValueGrid(f64);
 
 impl ValueGrid {
-    /// Tenths.
+    /// Steps of a tenth.
     pub const COARSE: Self = Self(10.0);
-    /// Hundredths.
+    /// Steps of a hundredth.
     pub const FINE: Self = Self(100.0);
 
-    /// One step, percent or degrees.
+    /// Returns the size of one step, in percent or degrees.
     pub fn step(self) -> f64 {
         1.0 / self.0
     }
 
-    /// The last step that a value on its way up or down has come to.
+    /// Returns the last step that a value has reached on its way up or down, in steps.
     fn passed(self, value: f64, up: bool) -> f64 {
         let steps = value * self.0;
         if up { (steps + ON_STEP).floor() } else { (steps - ON_STEP).ceil() }
@@ -51,7 +51,7 @@ impl ValueGrid {
 }
 
 impl Quantity {
-    /// Its name.
+    /// Returns the name of the proportion.
     pub fn name(self) -> &'static str {
         match self {
             Self::Table => "Table",
@@ -64,12 +64,12 @@ impl Quantity {
         }
     }
 
-    /// Its unit's name.
+    /// Returns the name of the unit.
     pub fn unit(self) -> &'static str {
         if self.is_angle() { "degrees" } else { "percent" }
     }
 
-    /// A value as it is written, with its unit.
+    /// Writes a value with its unit.
     pub fn written(self, value: f64) -> String {
         if self.is_angle() { degrees(value) } else { percent(value) }
     }
@@ -78,7 +78,7 @@ impl Quantity {
         matches!(self, Self::CrownAngle | Self::PavilionAngle)
     }
 
-    /// Whether it follows from the other of its pair, which is the one that is held.
+    /// Whether this proportion follows from the other one of its pair, which is held.
     pub fn follows(self, given: &RoundBrilliant) -> bool {
         match self {
             Self::CrownHeight => matches!(given.crown, Crown::Angle(_)),
@@ -89,7 +89,7 @@ impl Quantity {
         }
     }
 
-    /// Its value.
+    /// Returns the value of this proportion.
     pub fn of(self, given: &RoundBrilliant, derived: &Derived) -> f64 {
         match self {
             Self::Table => given.table,
@@ -102,7 +102,8 @@ impl Quantity {
         }
     }
 
-    /// The proportions with another value of it, whether they can be or not. Of a pair the same one stays held.
+    /// Returns the proportions with another value of this one, whether they are possible or not. Of a pair, the same one
+    /// stays held.
     fn with(self, given: &RoundBrilliant, value: f64) -> RoundBrilliant {
         let mut new = *given;
         match self {
@@ -117,7 +118,7 @@ impl Quantity {
         new
     }
 
-    /// Sets it to the step nearest to `wanted`, or as near to that as its limits allow.
+    /// Returns the proportions with this one at the step nearest to `wanted`, or as near to that as its limits allow.
     pub fn toward(self, given: &RoundBrilliant, wanted: f64, grid: ValueGrid) -> RoundBrilliant {
         let Ok(derived) = given.derived() else { return *given };
         let at = |step: f64| Some(self.with(given, step / grid.0)).filter(|new| new.derived().is_ok());
@@ -130,7 +131,8 @@ impl Quantity {
         at(target).or_else(|| last_possible(passed, target, at)).unwrap_or(*given)
     }
 
-    /// Sets it so many steps higher or, negative, lower, on the grid, as far as its limits allow.
+    /// Returns the proportions with this one so many steps of the grid higher or, negative, lower, as far as its limits
+    /// allow.
     pub fn stepped(self, given: &RoundBrilliant, steps: i32, grid: ValueGrid) -> RoundBrilliant {
         let Ok(derived) = given.derived() else { return *given };
         let passed = grid.passed(self.of(given, &derived), steps > 0);
@@ -138,8 +140,8 @@ impl Quantity {
     }
 }
 
-/// What is had at the last whole number on the way from `good` to `bad` where there is something, by halving; none if
-/// there is nothing beyond `good`.
+/// Searches by halving for the last whole number on the way from `good` to `bad` at which `at` returns something, and
+/// returns that; `None` if there is nothing beyond `good`.
 fn last_possible<T>(mut good: f64, mut bad: f64, at: impl Fn(f64) -> Option<T>) -> Option<T> {
     let mut last = None;
     while (bad - good).abs() > 1.0 {
@@ -199,7 +201,7 @@ mod tests {
     #[test]
     fn what_would_cross_a_limit_stops_at_the_last_step_before_it() {
         let far = Quantity::Table.toward(&TOLKOWSKY, 1000.0, ValueGrid::COARSE).table;
-        // The stars would lie flat with a larger one.
+        // The stars would lie flat with a larger table.
         let beyond = RoundBrilliant { table: far + 0.1, ..TOLKOWSKY };
         assert!(far > 75.0 && beyond.derived().is_err(), "{far}");
         for (quantity, wanted, expected) in [

@@ -1,53 +1,54 @@
-//! A sheet on which dimensions are laid out: a number goes where it fits and nothing else is, or is left out together
-//! with its lines.
+//! A sheet on which dimensions are laid out. A number stands where it fits and nothing else is. Where there is no such place
+//! it is left out, together with its lines.
 
 use super::quantity::Quantity;
 use egui::{Align2, Pos2, Rect, Vec2, pos2, vec2};
 
-/// Between the stone and a line that leads to a dimension, and beyond the dimension to that line's end, points.
+/// Space between the stone and a line that leads to a dimension, and length by which that line goes beyond the dimension, in
+/// points.
 pub const GAP: f32 = 4.0;
-/// Between a dimension line and text beside it, and between the text in a line and the line's ends, points.
+/// Space between a dimension line and text beside it, and between text in a line and the line's ends, in points.
 pub const BESIDE: f32 = 6.0;
-/// Half the length of the strokes that end a dimension line.
+/// Half the length of the strokes that end a dimension line, in points.
 const TICK: f32 = 3.5;
-/// How far lines keep off a number before or behind it, and above or below it, points.
+/// Space between lines and a number: before and behind it, and above and below it, in points.
 const BEFORE: f32 = 4.0;
 const ABOVE: f32 = 1.0;
 
-/// What a line is for.
+/// The purpose of a line.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Weight {
-    /// A dimension.
+    /// A dimension line.
     Dimension,
-    /// Leads from the stone to a dimension.
+    /// A line that leads from the stone to a dimension.
     Extension,
 }
 
 /// A line of the drawing.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SheetLine {
-    /// Its corners.
+    /// The corners of the line.
     pub points: Vec<Pos2>,
-    /// What it is for.
+    /// The purpose of the line.
     pub weight: Weight,
-    /// What it measures.
+    /// The proportion that the line belongs to, if it belongs to one.
     pub about: Option<Quantity>,
 }
 
 /// A number on the drawing.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Label {
-    /// What is written.
+    /// The text.
     pub text: String,
-    /// The box that it fills.
+    /// The box that the text fills.
     pub frame: Rect,
-    /// Whether it is read from the right.
+    /// Whether the text runs upward, to be read from the right.
     pub upright: bool,
-    /// What it measures.
+    /// The proportion that the number gives, if it gives one.
     pub about: Option<Quantity>,
 }
 
-/// Lines and numbers, and what is in their way.
+/// Lines and numbers, and the places that must stay clear of numbers.
 pub struct ProfileSheet<'a> {
     lines: Vec<SheetLine>,
     labels: Vec<Label>,
@@ -58,7 +59,7 @@ pub struct ProfileSheet<'a> {
 }
 
 impl<'a> ProfileSheet<'a> {
-    /// An empty sheet round a stone. `measure` tells how large a text is, points.
+    /// Makes an empty sheet around a stone's outline. `measure` returns the size of a text, in points.
     pub fn new(room: Rect, outline: &'a [Pos2], measure: &'a dyn Fn(&str) -> Vec2) -> Self {
         Self { lines: vec![], labels: vec![], room, outline, taken: vec![], measure }
     }
@@ -68,12 +69,13 @@ impl<'a> ProfileSheet<'a> {
         self.taken.push(place);
     }
 
-    /// The size of a text, points.
+    /// Returns the size of a text, in points.
     pub fn size(&self, text: &str) -> Vec2 {
         (self.measure)(text)
     }
 
-    /// How far the stone reaches to the left (side -1) or right (1) at a screen height where it has corners.
+    /// Returns how far the stone reaches on the screen to the left (`side` -1) or right (1) at a height at which its outline
+    /// has corners; elsewhere, how far the whole outline reaches.
     pub fn reach(&self, y: f32, side: f32) -> f32 {
         let near = |p: &&Pos2| (p.y - y).abs() < 0.5;
         let farther = |a: &f32, b: &f32| (a * side).total_cmp(&(b * side));
@@ -81,13 +83,13 @@ impl<'a> ProfileSheet<'a> {
         level.or_else(|| self.outline.iter().map(|p| p.x).max_by(farther)).unwrap_or(self.room.center().x)
     }
 
-    /// Writes a text if there is room for it.
+    /// Writes a text if there is room for it, and returns its box.
     pub fn write(&mut self, text: &str, anchor: Align2, at: Pos2, about: Option<Quantity>) -> Option<Rect> {
         let frame = anchor.anchor_size(at, self.size(text));
         self.put(text, frame, false, about)
     }
 
-    /// Writes a text read from the right, about a point, if there is room for it.
+    /// Writes a text that is read from the right, centred at a point, if there is room for it, and returns its box.
     pub fn write_upright(&mut self, text: &str, at: Pos2, about: Option<Quantity>) -> Option<Rect> {
         let size = self.size(text);
         self.put(text, Rect::from_center_size(at, vec2(size.y, size.x)), true, about)
@@ -104,12 +106,12 @@ impl<'a> ProfileSheet<'a> {
         })
     }
 
-    /// A line.
+    /// Adds a line.
     pub fn line(&mut self, points: Vec<Pos2>, weight: Weight, about: Option<Quantity>) {
         self.lines.push(SheetLine { points, weight, about });
     }
 
-    /// A dimension line with strokes at its ends.
+    /// Adds a dimension line with strokes at its ends.
     pub fn dimension(&mut self, [a, b]: [Pos2; 2], about: Option<Quantity>) {
         let across = (b - a).normalized().rot90() * TICK;
         for end in [a, b] {
@@ -118,8 +120,8 @@ impl<'a> ProfileSheet<'a> {
         self.line(vec![a, b], Weight::Dimension, about);
     }
 
-    /// A dimension from left to right at height `y`, leading to a point of the stone at either end. Its text stands in
-    /// the line, or beside it where that is too short; where it fits nowhere there is no dimension.
+    /// Adds a dimension from left to right at height `y`, which leads to a point of the stone at either end. Its text stands
+    /// in the line, or beside it where the line is too short. Where the text fits nowhere, the dimension is left out.
     pub fn across(&mut self, y: f32, ends: [Pos2; 2], text: &str, about: Option<Quantity>) {
         let [a, b] = ends.map(|end| pos2(end.x, y));
         let fits = self.size(text).x + 2.0 * (GAP + BESIDE) < b.x - a.x;
@@ -138,7 +140,7 @@ impl<'a> ProfileSheet<'a> {
         self.dimension([a, b], about);
     }
 
-    /// All lines, broken where they would run through a number, and all numbers.
+    /// Returns all lines, broken where they would run through a number, and all numbers.
     pub fn finish(self) -> (Vec<SheetLine>, Vec<Label>) {
         let mut lines = vec![];
         for line in self.lines {
@@ -156,7 +158,7 @@ impl<'a> ProfileSheet<'a> {
     }
 }
 
-/// The parts of a line that keep clear of all numbers.
+/// Returns the parts of a line that keep clear of all numbers.
 fn broken(line: [Pos2; 2], labels: &[Label]) -> Vec<[Pos2; 2]> {
     labels.iter().fold(vec![line], |parts, label| {
         let room = if label.upright { vec2(ABOVE, BEFORE) } else { vec2(BEFORE, ABOVE) };
@@ -164,7 +166,7 @@ fn broken(line: [Pos2; 2], labels: &[Label]) -> Vec<[Pos2; 2]> {
     })
 }
 
-/// The parts of a line before and behind a box.
+/// Returns the parts of a line before and behind a box.
 fn beside([a, b]: [Pos2; 2], frame: Rect) -> Vec<[Pos2; 2]> {
     let (mut enter, mut leave) = (0.0_f32, 1.0_f32);
     for axis in 0..2 {
@@ -186,11 +188,11 @@ fn beside([a, b]: [Pos2; 2], frame: Rect) -> Vec<[Pos2; 2]> {
     parts.map(|(from, to)| [a.lerp(b, from), a.lerp(b, to)]).collect()
 }
 
-/// Whether a convex outline and a box have anything in common.
+/// Whether a convex outline and a box overlap.
 fn overlap(outline: &[Pos2], frame: Rect) -> bool {
     let corners = [frame.left_top(), frame.right_top(), frame.left_bottom(), frame.right_bottom()];
     let edges = outline.iter().zip(outline.iter().cycle().skip(1));
-    // The sign of an edge's turn to the outline's own middle tells which side of it is outside.
+    // The sign of `side` at the outline's own middle tells which side of an edge is inside.
     let middle = outline.iter().fold(Vec2::ZERO, |sum, p| sum + p.to_vec2()) / outline.len().max(1) as f32;
     let parts = |(&a, &b): (&Pos2, &Pos2)| {
         let side = |p: Pos2| (b - a).rot90().dot(p - a);

@@ -1,34 +1,34 @@
-//! From the profile to the screen: which part of the plane is shown, and where.
+//! The projection from the profile to the screen: which part of the plane is shown, and where.
 
 use crate::picture::profile::Dimensions;
 use egui::{Pos2, Rect, Vec2, pos2, vec2};
 use glam::DVec2;
 
-/// Moves of the shown part smaller than this end, radii.
+/// The shown part stops moving where less than this is left, in girdle radii.
 const SETTLED: f64 = 1e-3;
 
-/// A box in the profile's plane, radii, y up.
+/// A box in the profile's plane, in girdle radii, y up.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ProfileBox {
-    /// Left and lowest.
+    /// The left and lowest corner.
     pub low: DVec2,
-    /// Right and highest.
+    /// The right and highest corner.
     pub high: DVec2,
 }
 
 impl ProfileBox {
-    /// That of the stone.
+    /// Returns the box around a stone of these dimensions.
     pub fn of(dimensions: &Dimensions) -> Self {
         let Dimensions { width, total, .. } = dimensions;
         Self { low: DVec2::new(width.from, total.to), high: DVec2::new(width.to, total.from) }
     }
 
-    /// The same box higher or lower.
+    /// Returns the box moved up by `by`, or down where that is negative.
     pub fn raised(self, by: f64) -> Self {
         Self { low: self.low + DVec2::Y * by, high: self.high + DVec2::Y * by }
     }
 
-    /// This box carried part of the way to another; wholly where little is left.
+    /// Returns this box moved by `part` of the way to another, or the other box itself where little of the way is left.
     pub fn toward(self, other: Self, part: f64) -> Self {
         let left = (other.low - self.low).abs().max((other.high - self.high).abs()).max_element();
         if left * (1.0 - part) < SETTLED {
@@ -47,26 +47,26 @@ pub struct ProfileProjection {
 }
 
 impl ProfileProjection {
-    /// Shows a box as large as it fits into `room`, in its middle.
+    /// Makes the projection that shows a box as large as fits into `room`, in the middle.
     pub fn fitting(extent: ProfileBox, room: Rect) -> Self {
         let size = (extent.high - extent.low).max(DVec2::splat(SETTLED));
         let scale = (f64::from(room.width()) / size.x).min(f64::from(room.height()) / size.y);
         Self { middle: (extent.low + extent.high) / 2.0, place: room.center(), scale: scale.max(SETTLED) }
     }
 
-    /// Where a point of the profile comes to lie.
+    /// Returns the place of a profile point on the screen.
     pub fn at(&self, p: DVec2) -> Pos2 {
         let off = (p - self.middle) * self.scale;
         self.place + vec2(off.x as f32, -off.y as f32)
     }
 
-    /// A move on the screen as one in the profile.
+    /// Converts a move on the screen, in points, into one in the profile, in girdle radii.
     pub fn travel(&self, by: Vec2) -> DVec2 {
         DVec2::new(f64::from(by.x), -f64::from(by.y)) / self.scale
     }
 }
 
-/// White space round the stone, points.
+/// White space around the stone, in points.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Margins {
     /// Left.
@@ -80,13 +80,13 @@ pub struct Margins {
 }
 
 impl Margins {
-    /// What they leave of a rectangle.
+    /// Returns the part of a rectangle that the margins leave.
     pub fn within(&self, rect: Rect) -> Rect {
         let room = Rect::from_min_max(
             rect.min + vec2(self.left, self.top),
             rect.max - vec2(self.right, self.bottom),
         );
-        // A rectangle too small for its margins keeps its middle.
+        // A rectangle too small for its margins leaves an empty one.
         let least = pos2(room.max.x.max(room.min.x), room.max.y.max(room.min.y));
         Rect::from_min_max(room.min, least)
     }

@@ -1,4 +1,4 @@
-//! The drawing in a window: by pointer, by keyboard, by name.
+//! Tests the drawing in a window, by pointer, by keyboard and by accessible names.
 
 use super::ProfileView;
 use crate::cut::{Pavilion, RoundBrilliant, TOLKOWSKY};
@@ -66,7 +66,7 @@ fn drop(harness: &mut Harness<'_, Bench>, at: Pos2) {
     harness.run();
 }
 
-/// Takes a handle, pulls it and lets go; points to a radius.
+/// Takes a handle, pulls it and lets go. Returns the scale of the drawing, in points to a girdle radius.
 fn drag(harness: &mut Harness<'_, Bench>, label: &str, by: Vec2) -> f64 {
     let [edge, line] = ["Table edge, percent", "Crown height, percent"].map(|l| place(harness, l));
     let scale = f64::from(edge.x - line.x) * 100.0 / harness.state().given.table;
@@ -108,7 +108,7 @@ fn a_handle_stays_under_the_pointer_and_comes_back_with_it() {
     ] {
         let mut harness = Bench::new(TOLKOWSKY).open();
         let from = place(&harness, label);
-        // Not quite by its middle.
+        // The hand takes the handle slightly beside its centre.
         let hand = from + vec2(2.0, -1.0);
         take(&mut harness, hand);
         pull(&mut harness, hand + by);

@@ -1,4 +1,4 @@
-//! Small windows: what they ask, what Return and Escape answer, and what an export says of itself.
+//! Tests of dialogs: what they ask, what Return and Escape do in them, and what an export reports of itself.
 
 use super::*;
 use crate::app::dialogs::Dialog;
@@ -31,7 +31,7 @@ fn the_field_for_a_path_has_the_focus_and_return_takes_only_what_was_typed() {
     assert_eq!(cut_file::read(&path).unwrap(), bench.editor().document.work.design);
 }
 
-/// Opens the export dialog, for files of all scopes of a size in a folder.
+/// Opens the export dialog and asks for PNG files of all scopes, `size` pixels wide, in a folder.
 fn export(bench: &mut Bench, folder: &Path, size: u32) {
     bench.harness.run_steps(2);
     bench.choose("File", "Export…");
@@ -53,7 +53,7 @@ fn job(editor: &Editor) -> Option<&Job> {
 #[test]
 fn a_stopped_export_says_how_far_it_came_and_its_button_stays_in_its_place() {
     let folder = tempfile::tempdir().unwrap();
-    // High enough for all of the dialog.
+    // High enough to show the whole dialog.
     let mut bench = Bench::sized(Setup::default(), egui::vec2(1000.0, 900.0));
     export(&mut bench, folder.path(), 1500);
     bench.click("Write files");
@@ -120,7 +120,8 @@ fn a_click_beside_the_stone_opens_no_light_path() {
     assert!(bench.editor().following.is_open);
 }
 
-/// The pictures of the ASET, by energy and by strongest exits, that are exported by an editor as it is.
+/// Exports the ASET from an editor in its present state, and returns the files of its two pictures: by energy and by
+/// strongest exits.
 fn exported_aset(bench: &mut Bench) -> Vec<Vec<u8>> {
     let folder = tempfile::tempdir().unwrap();
     let mut plan = ExportDialog::new(bench.harness.state_mut()).plan;
@@ -135,7 +136,7 @@ fn exported_aset(bench: &mut Bench) -> Vec<Vec<u8>> {
         std::thread::sleep(Duration::from_millis(5));
     }
     assert_eq!(job.end(), Some(Ok(())));
-    // The names tell the tilt, so that they differ where the view leans; their order does not.
+    // The names contain the tilt, so that they differ where the view leans; their order does not.
     let mut files: Vec<_> =
         std::fs::read_dir(folder.path()).unwrap().map(|file| file.unwrap().path()).collect();
     files.sort();
@@ -169,7 +170,7 @@ fn what_was_recovered_says_when_it_was_changed_and_not_when_the_program_ended() 
     bench.type_number("Table", "59.5");
     bench.harness.run_steps(3);
     drop(bench);
-    // It was last changed some time before the program ended.
+    // As if the work was last changed some time before the program ended.
     let changed = std::time::SystemTime::now() - Duration::from_secs(125);
     for file in std::fs::read_dir(folder.path()).unwrap() {
         std::fs::File::options()

@@ -1,10 +1,10 @@
-//! Views of a background behind glass: refraction maps, and liquid glass.
+//! Tests of the views that show a background behind glass: refraction maps, and liquid glass.
 
 use super::*;
 use crate::picture::RefractionMap;
 
 impl Bench {
-    /// Chooses what a view shows, by its name.
+    /// Chooses what a view shows from its menu, by name.
     fn show(&mut self, view: usize, shows: Shows) {
         let before = self.editor().desk.panes[view].shows;
         self.click(&format!("View {}: {}", view + 1, before.name()));
@@ -14,12 +14,12 @@ impl Bench {
         assert_eq!(self.editor().desk.panes[view].shows, shows);
     }
 
-    /// The map that a view looks up in.
+    /// Returns the refraction map by which a view shows its background.
     fn map(&self, view: usize) -> Arc<RefractionMap> {
         self.editor().pictures[&(view, Which::Present)].taken.map.clone().unwrap()
     }
 
-    /// Drags in a picture, to the right and up.
+    /// Drags in a picture, to the right and upward.
     fn drag(&mut self, picture: &str) {
         let at = self.harness.get_by_label(picture).rect().center();
         self.harness.hover_at(at);
@@ -34,7 +34,7 @@ impl Bench {
         self.harness.run_steps(3);
     }
 
-    /// Waits until a view looks up in another map.
+    /// Waits until the first view uses another map than `last`.
     fn wait_for_map(&mut self, last: &Arc<RefractionMap>) {
         self.wait(|editor| {
             let map = editor.pictures.get(&(0, Which::Present)).and_then(|shown| shown.taken.map.as_ref());
@@ -43,7 +43,7 @@ impl Bench {
     }
 }
 
-/// Whether a picture is not of one colour.
+/// Whether a picture has more than one colour.
 fn is_drawn(picture: &[egui::Color32]) -> bool {
     picture.iter().any(|p| *p != picture[0])
 }
@@ -59,7 +59,7 @@ fn a_background_is_dragged_through_a_map_that_is_not_traced_again() {
     let moved = bench.picture(0);
     assert!(moved != first, "the background has moved");
     assert!(Arc::ptr_eq(&bench.map(0), &map) && bench.editor().desk.eye.tilt() == 0.0);
-    // Another picture behind the same map.
+    // Another background behind the same map.
     bench.harness.state_mut().desk.behind = Some("stripes".to_owned());
     bench.settle();
     let other = bench.picture(0);
@@ -124,13 +124,13 @@ fn liquid_glass_is_drawn_and_traced_as_strong_as_it_is_set() {
     bench.click("Reset");
     bench.look();
     assert!(both(&bench) == first);
-    // What belongs to the stone has no part in it.
+    // The proportions of the stone do not affect liquid glass.
     bench.type_number("Crown angle", "33");
     bench.look();
     assert!(both(&bench) == first);
 }
 
-/// How long a look-up takes. Not run with the others: it takes time to take time.
+/// Measures how long a look-up takes. This is ignored by default, because measuring takes time:
 /// `cargo test --lib backgrounds -- --ignored --nocapture`
 #[test]
 #[ignore = "takes time to take time"]

@@ -1,4 +1,4 @@
-//! Copies of a glass shape, as a person moves them.
+//! Tests of copies of a glass shape, moved as a person moves them.
 
 use super::Bench;
 use crate::app::dialogs::Dialog;
@@ -15,7 +15,7 @@ use egui::{Key, Pos2};
 use egui_kittest::kittest::Queryable;
 use std::path::PathBuf;
 
-/// One render of a scene that comes with the program.
+/// Opens a scene, of the program's own or from a file, in a single render view.
 fn bench(scene: &str) -> Bench {
     let pane = Pane { shows: Shows::Render, own: None, is_near: false };
     let desk =
@@ -30,7 +30,7 @@ fn poses(editor: &Editor) -> Vec<crate::scene::Pose> {
     editor.document.work.company.poses.clone()
 }
 
-/// Where a point of the film lies in the window.
+/// Returns the place in the window of a point of the film.
 fn at(bench: &Bench, x: f64, y: f64) -> Pos2 {
     let body = bench.harness.get_by_label("Render picture").rect();
     let film = bench.editor().asked.shots[0].1.film;
@@ -71,7 +71,7 @@ fn a_preset_is_one_click_and_its_copies_are_dragged_scattered_and_counted() {
     bench.harness.key_press_modifiers(egui::Modifiers::COMMAND, Key::Z);
     bench.harness.run_steps(3);
     assert_eq!(poses(bench.editor()), before, "a drag is one step");
-    // Beside all of them it is the view that is dragged.
+    // A drag beside all copies turns the view.
     let beside = at(&bench, 0.0, 1.65);
     drag(&mut bench, beside, egui::vec2(30.0, 0.0));
     assert!(poses(bench.editor()) == before && bench.editor().desk.eye.lean != lean);
@@ -132,7 +132,7 @@ fn scene_files_open_and_those_of_several_designs_are_refused_in_words() {
     assert_eq!(poses(bench.editor()).len(), 3);
 }
 
-/// Where copies are beside the first, and how they are turned.
+/// Returns the place of each copy relative to the first, in mm, and its rotation.
 fn arrangement(company: &Copies, unit_mm: f64) -> Vec<(glam::DVec3, glam::DQuat)> {
     let first = company.poses[0].at;
     company.poses.iter().map(|pose| ((pose.at - first) * unit_mm, pose.turn)).collect()
@@ -152,7 +152,7 @@ fn copies_are_saved_as_a_scene_that_is_opened_again_as_it_was() {
         bench.harness.state_mut().moving = Moving::at(seconds);
         bench.harness.state_mut().desk.eye.turn = turn;
         bench.harness.state_mut().desk.behind.get_or_insert("page".to_owned());
-        // A layer behind the others, so that the middle of all is not that of the first.
+        // One copy lies behind the others, so that the centre of all copies is not that of the first.
         if let [.., last] = &mut bench.harness.state_mut().document.work.company.poses[1..] {
             last.at.z -= 3.0;
         }
@@ -167,7 +167,7 @@ fn copies_are_saved_as_a_scene_that_is_opened_again_as_it_was() {
         assert_eq!((&again.scene.background, again.scene.strength), (&shot.behind, shot.strength));
         assert!(again.design == if is_alone { &plan.upright } else { &shot.specimen }.design);
         let unit_mm = shot.specimen.unit_mm();
-        // What hangs behind is as far from each stone.
+        // The background is as far from each stone as before.
         let farther = again.scene.background_distance_mm.unwrap() / unit_mm - hung(shot);
         let deeper = again.company.poses[0].at.z - shot.company[0].at.z;
         assert!((farther + deeper).abs() < 1e-9, "{scene}: {farther} {deeper}");

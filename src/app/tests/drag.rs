@@ -1,4 +1,4 @@
-//! How quickly the views follow the hand. Not run with the others: it takes time to take time.
+//! Measures how quickly the views follow the hand. This is ignored by default, because measuring takes time:
 //! `cargo test --lib drag -- --ignored --nocapture`
 
 use super::*;
@@ -6,12 +6,12 @@ use crate::cut::Crown;
 use crate::scene::Side;
 use glam::DVec2;
 
-/// Changes made, one a frame of a screen of 60 Hz.
+/// Number of changes, one for each frame of a screen of 60 Hz.
 const CHANGES: u32 = 120;
 const FRAME: Duration = Duration::from_micros(16_667);
 
-/// A hand that moves something at 60 Hz: how many pictures a second each pane shows, how old they are when they come, and
-/// how long a frame of the window takes, milliseconds.
+/// Makes changes at 60 Hz, as a hand does, and prints how many pictures a second each pane shows and how long a frame of the
+/// window takes, in milliseconds.
 fn drag(name: &str, mut change: impl FnMut(&mut Editor, u32)) {
     let setup = Setup { desk: Workspace { head: 1e-9, ..Workspace::default() }, ..Setup::default() };
     let mut bench = Bench::sized(setup, egui::vec2(1440.0, 900.0));
@@ -50,7 +50,7 @@ fn the_views_follow_the_hand() {
             brilliant.crown = Crown::Angle(33.0 + 0.02 * f64::from(k));
         }
     });
-    // From a lean on: near none it would snap to that.
+    // This starts with a leaning stone: near no lean the view would snap to none.
     drag("tilt", |editor, k| {
         if k == 0 {
             editor.desk.eye.free();

@@ -1,4 +1,4 @@
-//! What people do, from the first click to the last.
+//! Tests of whole tasks, from the user's first click to the last.
 
 use super::*;
 use crate::app::dialogs::Dialog;
@@ -117,7 +117,7 @@ fn a_crash_loses_nothing() {
     bench.type_number("Table", "59.5");
     bench.harness.run_steps(3);
     let design = bench.editor().document.work.design.clone();
-    // As if it had been killed: nothing is told that it ends.
+    // As if the program had been killed: the editor gets no notice of the end.
     drop(bench);
     let mut next = Bench::with(Setup { safe: safe.clone(), ..Setup::default() });
     next.harness.run_steps(3);
@@ -160,7 +160,7 @@ fn a_number_out_of_its_limits_is_told_where_it_stands_and_the_last_stone_stays()
 #[test]
 fn every_view_shows_a_picture() {
     for (k, shows) in Shows::ALL.into_iter().enumerate() {
-        // Small, for maps and renders take long.
+        // A small window, because maps and renders take long.
         let mut bench = Bench::sized(Setup::default(), egui::vec2(900.0, 300.0));
         bench.harness.state_mut().desk.panes[0].shows = shows;
         bench.look();
@@ -187,7 +187,7 @@ fn keys_tilt_and_bring_back() {
     bench.harness.key_press(egui::Key::Num1);
     bench.settle();
     assert_eq!(bench.editor().desk.shown(), [0]);
-    // Four looks, each gone back over by itself; the design has no part in it.
+    // Four changes of the view, each undone by itself. The design stays as it is.
     let tilts = |bench: &mut Bench, modifiers| {
         bench.harness.key_press_modifiers(modifiers, egui::Key::Backspace);
         bench.harness.run_steps(2);
@@ -286,7 +286,7 @@ fn a_click_follows_a_ray_and_a_double_click_enlarges() {
     assert!(bench.editor().following.is_open);
     assert!(bench.harness.query_by_label_contains("Light path through the stone").is_some());
     bench.harness.key_press(egui::Key::L);
-    // It fades away.
+    // The light path fades away.
     bench.harness.run_steps(30);
     assert!(!bench.editor().following.is_open);
     bench.click_at(at);
@@ -421,7 +421,7 @@ fn what_is_put_off_until_work_is_saved_is_done_once_it_is() {
     bench.harness.get_by_label("Modern ideal").click();
     bench.harness.run_steps(4);
     bench.choices.lock().unwrap().push(path.clone());
-    // One is in the menu that still fades.
+    // The first "Save" is in the menu, which is still fading away.
     bench.harness.get_all_by_label("Save").last().unwrap().click();
     bench.wait(|editor| editor.document.work.design.name == "Modern ideal");
     assert!(path.exists());
@@ -483,7 +483,7 @@ fn where_the_system_opens_no_dialog_the_path_is_typed() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("typed.toml");
     let mut bench = Bench::new();
-    // Nobody answers, and at once.
+    // The chooser reports at once that the system has no dialog.
     bench.choose("File", "Save as…");
     bench.wait(|editor| matches!(editor.dialog, Some(Dialog::Path(_))));
     bench.harness.get_by_role_and_label(egui::Role::TextInput, "Path").focus();

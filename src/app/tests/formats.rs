@@ -1,4 +1,4 @@
-//! Files of other formats: opened, changed, saved.
+//! Tests of files in other formats: opened, changed and saved.
 
 use super::*;
 use crate::app::document::Document;
@@ -100,7 +100,7 @@ fn a_mesh_is_read_in_another_form_by_a_click_which_can_be_undone() {
     let is_mesh = |editor: &Editor| matches!(editor.document.work.design.cut, Cut::Mesh(_));
     bench.wait(is_mesh);
     bench.harness.run_steps(3);
-    // In cubic mm: each form has a frame of its own.
+    // In cubic mm, because each form has a frame of its own.
     let cubic_mm = |editor: &Editor| {
         let specimen = editor.document.specimen();
         specimen.solid().volume() * specimen.unit_mm().powi(3)
@@ -137,7 +137,7 @@ fn a_solid_that_is_not_convex_is_shown_by_rays_and_measured() {
     let mut desk = Bench::small();
     desk.panes[1].shows = Shows::Diagram;
     let mut bench = Bench::with(Setup { file: Some(path), desk, ..Setup::default() });
-    // A diagram there is none, and figures are waited for no longer than until there are some.
+    // A mesh has no diagram to wait for, and the first figures are enough.
     bench.wait(|editor| {
         let shown = editor.pictures.get(&(0, Which::Present));
         shown.is_some_and(|shown| shown.grade == Grade::Fine) && editor.figures.contains_key(&Which::Present)

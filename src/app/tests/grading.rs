@@ -1,4 +1,5 @@
-//! What a grader looks for: scopes without glare unless it is asked for, captions, colours that are called illustrative.
+//! Tests of what a grader looks for: scopes without glare unless it is switched on, captions, and colours that are marked as
+//! illustrative.
 
 use super::*;
 use crate::app::dialogs::Dialog;
@@ -6,7 +7,7 @@ use crate::optics;
 use crate::scene::Glare;
 use egui_kittest::kittest::NodeT;
 
-/// The share that a row of the figures shows, in percent.
+/// Returns the share that a row of the figures shows, in percent.
 fn share(bench: &Bench, name: &str) -> Option<f64> {
     let rows = bench.harness.query_all_by_label_contains(name);
     let told = rows.filter_map(|node| node.accesskit_node().value());
@@ -37,7 +38,7 @@ fn scopes_show_no_glare_until_it_is_asked_for_and_then_only_they_are_taken_anew(
     bench.harness.key_press(egui::Key::V);
     bench.settle();
     assert_eq!(bench.picture(0), bare);
-    // Strongest exits have no glare in any case, and are not taken twice.
+    // A view of strongest exits never has glare, so that it is not traced again when glare is switched on.
     let strongest = |glare| {
         let shot = bench.editor().shown((0, Which::Present)).unwrap().shot.clone();
         Shot { strongest: true, glare, ..shot }
@@ -52,7 +53,7 @@ fn a_gem_whose_colour_is_no_measurement_is_called_so_where_it_is_chosen() {
     assert!(bench.harness.query_by_label("illustrative colour").is_none());
     bench.harness.get_by_role_and_label(egui::Role::ComboBox, "Material").click();
     bench.harness.run_steps(4);
-    // Entries far down the list are scrolled out of sight; diamond is in sight in any case, being chosen.
+    // Entries far down the list are scrolled out of sight. Diamond is always in sight, because it is chosen.
     let mut measured =
         optics::materials().iter().filter(|m| !m.colour_is_illustrative && m.name != "diamond");
     let is_in_sight = |name: &str| bench.harness.query_all_by_label(name).next().is_some();

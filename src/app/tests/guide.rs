@@ -1,10 +1,10 @@
-//! Takes the pictures of docs/editor.md: `cargo test --lib guide -- --ignored`, and look at what it wrote.
+//! Takes the pictures of docs/editor.md. Run `cargo test --lib guide -- --ignored`, and look at the pictures.
 
 use super::*;
 use crate::app::dialogs::Dialog;
 use std::path::Path;
 
-/// The window of a first start, drawn in the dark, on a file that comes with the program.
+/// Opens the window as at a first start, in the dark theme, with a file that comes with the program.
 fn window(cut: &str, desk: &Workspace) -> Bench {
     let file = Some(Path::new(env!("CARGO_MANIFEST_DIR")).join("cuts").join(cut));
     let mut bench = Bench::drawn(Setup { file, ..Setup::default() }, egui::Theme::Dark);
@@ -13,14 +13,14 @@ fn window(cut: &str, desk: &Workspace) -> Bench {
     bench
 }
 
-/// Writes the window as it is once nothing changes any more.
+/// Writes a picture of the window once nothing changes any more.
 fn take(bench: &mut Bench, name: &str) {
     bench.settle();
     bench.wait(|editor| !editor.studio.sharpens());
     draw(bench, name);
 }
 
-/// The same before renders have become as fine as they get, which takes glass a quarter of an hour.
+/// Writes a picture of the window before renders are as fine as they get, which takes a quarter of an hour for glass.
 fn draw(bench: &mut Bench, name: &str) {
     bench.settle();
     bench.harness.remove_cursor();

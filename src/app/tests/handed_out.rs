@@ -1,4 +1,5 @@
-//! What the window hands to others: by the clipboard, by files, by what is opened outside; and what is dropped on it.
+//! Tests of what the window gives to other programs (through the clipboard, in files, by opening folders and pages), and of
+//! what is dropped on it.
 
 use super::*;
 use crate::app::dialogs::Dialog;
@@ -11,7 +12,7 @@ use egui::OutputCommand;
 use egui_kittest::kittest::NodeT;
 use std::path::Path;
 
-/// What was copied by the last frames: a text, or the size of a picture.
+/// Runs some frames and returns what they copy: the texts, and the sizes of pictures.
 fn copied(bench: &mut Bench, steps: usize) -> (Vec<String>, Vec<[usize; 2]>) {
     let (mut texts, mut pictures) = (vec![], vec![]);
     for _ in 0..steps {
@@ -114,7 +115,7 @@ fn figures_are_copied_as_text_and_as_a_table() {
             labels.filter_map(|node| node.accesskit_node().value()).find(|text| text.ends_with('%')).unwrap();
         shown.trim_start_matches("Light return").trim_end_matches('%').trim().parse::<f64>().unwrap()
     };
-    // They may become finer meanwhile.
+    // The figures may become finer meanwhile.
     let before = shown(&bench);
     let text = copy(&mut bench, "Copy as text");
     let percents = [before, shown(&bench)];
@@ -124,7 +125,7 @@ fn figures_are_copied_as_text_and_as_a_table() {
     assert!(text.starts_with("Tolkowsky 1919: Table side, face up; ASET, energy; "), "{text}");
     let table = copy(&mut bench, "Copy as CSV");
     let rows: Vec<Vec<&str>> = table.lines().map(|line| line.split(',').collect()).collect();
-    // The view has a comma, and so stands in quotes.
+    // The name of the view contains a comma, and so stands in quotes.
     assert!(rows.len() == 10 && rows[1..].iter().all(|row| row.len() == 6), "{table}");
     let heading = bench.harness.get_by_label("Against tilt").rect().center();
     open_menu(&mut bench, heading);

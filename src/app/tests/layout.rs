@@ -1,4 +1,4 @@
-//! How the window is laid out: on small screens, beside errors, for stones of any outline.
+//! Tests of the window's layout: on small screens, beside errors, for stones of any outline.
 
 use super::*;
 use crate::app::dialogs::Dialog;
@@ -9,13 +9,13 @@ use crate::io::{cut_file, design_file};
 use egui::{Color32, Rect, Role, vec2};
 use egui_kittest::kittest::NodeT;
 
-/// The least size of the window, points.
+/// The least size of the window, in points.
 const SMALL: egui::Vec2 = vec2(800.0, 600.0);
 
-/// Right of the panel of the design, points.
+/// The right edge of the design panel, in points.
 const PANEL: f32 = 362.0;
 
-/// A window of two scopes.
+/// Opens a window of the least size with two scopes.
 fn small(pixels_per_point: f32) -> Bench {
     let setup = Setup { desk: Bench::small(), ..Setup::default() };
     let mut bench =
@@ -28,14 +28,14 @@ fn window(bench: &Bench) -> Rect {
     bench.harness.ctx.content_rect()
 }
 
-/// The places of all fields of a role on the left of the views.
+/// Returns the names and places of all fields of a role to the left of the views.
 fn fields(bench: &Bench, role: Role) -> Vec<(String, Rect)> {
     let nodes = bench.harness.query_all_by_role(role);
     let named = nodes.map(|node| (node.accesskit_node().label().unwrap_or_default(), node.rect()));
     named.filter(|(_, rect)| rect.right() < PANEL).collect()
 }
 
-/// Colours that texts in sight have.
+/// Returns the colours and the words of all visible texts.
 fn colours_of_texts(bench: &Bench) -> Vec<(Color32, String)> {
     fn add(shape: &egui::Shape, found: &mut Vec<(Color32, String)>) {
         match shape {
@@ -208,7 +208,7 @@ fn nothing_is_red_while_nothing_is_wrong() {
     desk.layout = PaneLayout::One;
     desk.panes[0].shows = Shows::Render;
     let setup = Setup { file: Some("cube".into()), desk, ..Setup::default() };
-    // Small, for renders take long.
+    // A small window, because renders take long.
     let mut bench = Bench::sized(setup, vec2(900.0, 300.0));
     bench.wait(|editor| editor.opening.is_empty());
     let desk = &mut bench.harness.state_mut().desk;
@@ -314,13 +314,13 @@ fn a_stone_of_a_bare_index_has_a_weight_once_its_density_is_set() {
     bench.harness.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::S);
     bench.wait(|editor| !editor.document.is_changed());
     assert_eq!(design_file::read(&path).unwrap().design, bench.editor().document.work.design);
-    // A material of the library weighs what it weighs.
+    // A material of the library has a density of its own.
     bench.harness.state_mut().document.work.design.material = MaterialRef::Name("diamond".into());
     bench.harness.run_steps(3);
     assert!(bench.harness.query_by_role_and_label(Role::SpinButton, "Density").is_none());
 }
 
-/// How many pixels one girdle radius has in the first view, and where the origin is.
+/// Returns the side of a pixel in the first view, in girdle radii, and the point of the image plane at the view's centre.
 fn film(bench: &Bench) -> (f64, glam::DVec2) {
     let shot = &bench.editor().asked.shots[0].1;
     (shot.film.pixel, shot.film.centre)

@@ -1,11 +1,11 @@
-//! What the window looks like, beside pictures that were looked at. After a change meant to be seen:
-//! `UPDATE_SNAPSHOTS=1 cargo test --lib looks`, and look at what it wrote.
+//! Compares the window with pictures that a person has looked at. After a change of its looks that was intended, run
+//! `UPDATE_SNAPSHOTS=1 cargo test --lib looks`, and look at the new pictures.
 
 use super::*;
 use crate::trace::gpu::Gpu;
 use egui_kittest::SnapshotOptions;
 
-/// Whether a window can be drawn here; told where not, and a failure where it must.
+/// Whether a window can be drawn here. Where it cannot, this prints why, or fails if `BRILLIANTEER_REQUIRE_GPU` is set.
 fn can_draw(test: &str) -> bool {
     match Gpu::open() {
         Ok(_) => true,
@@ -17,7 +17,7 @@ fn can_draw(test: &str) -> bool {
     }
 }
 
-/// Four views that are quickly taken.
+/// Returns a workspace of four views that are made quickly.
 fn desk() -> Workspace {
     let mut desk = Workspace::default();
     desk.panes[0].shows = Shows::Arrows;

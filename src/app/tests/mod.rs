@@ -1,4 +1,4 @@
-//! The editor as a person works it: by the names of what is on the screen.
+//! Tests of the editor as a person uses it: by the names of what is on the screen.
 #![allow(clippy::print_stdout, reason = "what is skipped or measured is told")]
 
 mod asking;
@@ -27,7 +27,7 @@ use std::path::PathBuf;
 use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
 
-/// An editor under test, and the files that whoever is asked will choose, one after the other.
+/// An editor under test. Its file dialogs answer with `choices`, the last one first.
 pub struct Bench {
     pub harness: Harness<'static, Editor>,
     pub choices: Arc<Mutex<Vec<PathBuf>>>,
@@ -35,35 +35,35 @@ pub struct Bench {
     pub opened: Arc<Mutex<Vec<String>>>,
 }
 
-/// How long anything may take on a machine that is busy with other things.
+/// The longest time that anything may take, on a machine that is busy with other things.
 const PATIENCE: Duration = Duration::from_secs(600);
 
-/// Steps that scrolling takes.
+/// Number of frames that scrolling takes.
 const SCROLLED: usize = 24;
 
 impl Bench {
-    /// An editor without files, card or a safe.
+    /// Opens an editor without a file, a graphics card or an autosave.
     pub fn new() -> Self {
         Self::with(Setup::default())
     }
 
-    /// The same, with a setup of its own.
+    /// Opens an editor with this setup.
     pub fn with(setup: Setup) -> Self {
         Self::sized(setup, egui::vec2(1000.0, 520.0))
     }
 
-    /// The same, of another size.
+    /// Opens an editor with this setup in a window of this size, in points.
     pub fn sized(setup: Setup, size: egui::Vec2) -> Self {
         Self::built(setup, Harness::builder().with_size(size))
     }
 
-    /// The same, whose window is drawn.
+    /// Opens an editor whose window is drawn, so that there are pictures of it.
     pub fn drawn(setup: Setup, theme: egui::Theme) -> Self {
         let builder = Harness::builder().with_size(egui::vec2(1440.0, 900.0)).with_theme(theme);
         Self::built(setup, builder.wgpu())
     }
 
-    /// Renders take long: they are looked at by themselves.
+    /// Returns a workspace of two scopes, without a render, which takes long.
     fn small() -> Workspace {
         let [_, aset, hearts, profile] = Workspace::default().panes;
         Workspace { layout: PaneLayout::Two, panes: [aset, hearts, aset, profile], ..Workspace::default() }
@@ -93,11 +93,11 @@ impl Bench {
         self.harness.state()
     }
 
-    /// Lets everything asked for come to its end.
+    /// Runs frames until everything that was requested is done.
     pub fn settle(&mut self) {
         let begun = Instant::now();
         self.harness.run_steps(3);
-        // Twice where a map has come that is to be looked up.
+        // A map that comes in causes a look-up, so that the editor may be busy again.
         loop {
             while !self.editor().is_idle() {
                 assert!(begun.elapsed() < PATIENCE, "the studio does not come to rest");
@@ -111,7 +111,7 @@ impl Bench {
         }
     }
 
-    /// Lets pictures come to their end; figures may be on their way, which by rays take longer.
+    /// Runs frames until all pictures are fine. Figures may not be ready, because they take longer by rays.
     pub fn look(&mut self) {
         self.harness.run_steps(3);
         self.wait(|editor| {
@@ -129,7 +129,7 @@ impl Bench {
         });
     }
 
-    /// Waits for something.
+    /// Runs frames until `come` returns true.
     pub fn wait(&mut self, come: impl Fn(&Editor) -> bool) {
         let begun = Instant::now();
         while !come(self.editor()) {
@@ -140,7 +140,7 @@ impl Bench {
         self.harness.run_steps(2);
     }
 
-    /// Presses and lets go at a point.
+    /// Moves the pointer to a point and clicks.
     pub fn click_at(&mut self, at: egui::Pos2) {
         self.harness.hover_at(at);
         for pressed in [true, false] {
@@ -151,7 +151,7 @@ impl Bench {
         self.harness.run_steps(2);
     }
 
-    /// Clicks what has this label; in a dialog that is higher than the window it is scrolled to first.
+    /// Clicks the widget with this label. In a dialog, which may be higher than the window, it is scrolled into sight first.
     pub fn click(&mut self, label: &str) {
         if self.editor().dialog.is_some() {
             self.harness.get_by_label(label).scroll_to_me();
@@ -183,12 +183,12 @@ impl Bench {
         self.harness.run_steps(3);
     }
 
-    /// A field of this name.
+    /// Returns the field of this role and name.
     pub fn field<'a>(&'a self, role: egui::Role, name: &'a str) -> egui_kittest::Node<'a> {
         self.harness.get_by_role_and_label(role, name)
     }
 
-    /// Lets events come all at once, as they do where a frame takes long.
+    /// Sends events all in one frame, as they come where a frame takes long.
     pub fn at_once(&mut self, events: Vec<egui::Event>) {
         self.harness.input_mut().events.extend(events);
         self.harness.run_steps(4);
@@ -203,7 +203,7 @@ impl Bench {
         }
     }
 
-    /// The pixels of a view, as fine as they get.
+    /// Returns the pixels of a view, whose picture must be fine.
     pub fn picture(&self, pane: usize) -> Vec<egui::Color32> {
         let shown = self.editor().shown((pane, Which::Present)).unwrap();
         assert_eq!(shown.grade, Grade::Fine);

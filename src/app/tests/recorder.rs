@@ -1,7 +1,7 @@
-//! The recorder: a hash of every view at rest, for changes that are to change nothing.
+//! The recorder: a hash of every view at rest, for changes that must leave all results as they are.
 //!
-//! `BRILLIANTEER_RECORD=before.txt cargo test --lib recorder -- --ignored` writes the file where there is none, and
-//! otherwise fails with the lines that differ. Hashes are of this machine: other processors round sines otherwise.
+//! `BRILLIANTEER_RECORD=before.txt cargo test --lib recorder -- --ignored` writes the file where there is none, and else
+//! fails with the lines that differ. Hashes hold for one machine: other processors round sines differently.
 
 use super::*;
 use crate::measure::Figures;
@@ -16,14 +16,14 @@ fn hash(value: impl Hash) -> u64 {
     hasher.finish()
 }
 
-/// A hash of the numbers of figures.
+/// Returns a hash of the numbers of figures.
 fn numbers(figures: &Figures) -> u64 {
     let zones = [&figures.surface, &figures.transmitted, &figures.strongest_exit_area];
     let others = [figures.silhouette_area, figures.absorbed, figures.unresolved, figures.standard_error];
     hash(zones.into_iter().flatten().chain(&others).map(|number| number.to_bits()).collect::<Vec<_>>())
 }
 
-/// What one view of a design, leaning a little, shows at its finest, and the figures beside it.
+/// Adds a line to `record`: what one view of a design, leaning a little, shows at its finest, and the figures beside it.
 fn record(cut: &str, shows: Shows, record: &mut String) {
     let file = Some(Path::new(env!("CARGO_MANIFEST_DIR")).join("cuts").join(cut));
     let mut desk = Workspace { layout: PaneLayout::One, ..Workspace::default() };

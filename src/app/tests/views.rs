@@ -1,4 +1,4 @@
-//! What views say of themselves, how they are looked at, and that nothing is traced that has not changed.
+//! Tests of what views say about themselves, how they are looked at, and that nothing unchanged is traced again.
 
 use super::*;
 use crate::app::modes::Mode;
@@ -6,7 +6,7 @@ use crate::app::workspace::Pane;
 use crate::scene::{LIGHTS, Projection};
 use egui::{Key, Modifiers, PointerButton, Role};
 
-/// One view, alone in a wide window.
+/// Opens a wide window with one view.
 fn alone(shows: Shows) -> Bench {
     let pane = Pane { shows, own: None, is_near: false };
     let desk = Workspace { layout: PaneLayout::One, panes: [pane; 4], ..Workspace::default() };
@@ -87,7 +87,7 @@ fn perspective_is_of_one_view_and_what_becomes_a_scope_is_seen_along_parallel_ra
 
 #[test]
 fn views_and_layout_go_back_to_what_they_were_at_first() {
-    // High enough for all of the menu.
+    // High enough to show the whole menu.
     let setup = Setup { desk: Bench::small(), ..Setup::default() };
     let mut bench = Bench::sized(setup, egui::vec2(1000.0, 900.0));
     let width = |bench: &Bench| bench.field(Role::Slider, "Table").rect().right();

@@ -25,7 +25,7 @@ pub fn is_there() -> bool {
 /// Opens the window and waits until it is closed.
 pub fn run(setup: Setup) -> Result<(), WindowError> {
     let mut device = WgpuSetupCreateNew::without_display_handle();
-    // The tracer shares the device: what it needs is asked for.
+    // The tracer shares the device, which therefore needs the tracer's features and limits.
     device.device_descriptor = Arc::new(Gpu::wanted);
     let options = eframe::NativeOptions {
         viewport: viewport(),

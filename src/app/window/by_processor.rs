@@ -24,15 +24,15 @@ use std::time::{Duration, Instant};
 const WINDOW: &str = "window";
 const MEMORY: &str = "egui";
 
-/// The largest side of a texture, pixels. The processor sets no limit; egui wants one for its fonts.
+/// The largest side of a texture, in pixels. The processor sets no limit; egui wants one for its fonts.
 const LARGEST: usize = 1 << 14;
 
 /// What other threads send to the window's thread.
 #[derive(Debug)]
 enum UserEvent {
-    /// egui asks for an image at a time; `pass` is the number of egui's passes when it asked.
+    /// egui requests an image at the time `when`; `pass` is the number of its passes at the time of the request.
     Repaint { when: Instant, pass: u64 },
-    /// A screen reader asks for something.
+    /// A screen reader requests something.
     Access(accesskit_winit::Event),
 }
 
@@ -56,7 +56,7 @@ pub fn run(setup: Setup) -> Result<(), WindowError> {
     why.map_or(Ok(()), |why| Err(WindowError::of_ended(&why, runner.has_shown)))
 }
 
-/// Runs the window: `setup` is there until it is open, `open` while it is.
+/// Runs the window. `setup` is present until the window is open, and `open` while it is.
 struct Runner {
     proxy: EventLoopProxy<UserEvent>,
     setup: Option<Setup>,
@@ -132,8 +132,8 @@ struct OpenWindow {
     window: Arc<Window>,
     input: State,
     info: ViewportInfo,
-    /// Whether the window's size, place or state may have changed since `info` was filled in, which takes several round trips
-    /// to the window system.
+    /// Whether the window's size, place or state may have changed since `info` was filled in. Filling it in takes several
+    /// round trips to the window system.
     is_info_stale: bool,
     actions: Vec<ActionRequested>,
     painter: Painter,
@@ -141,7 +141,7 @@ struct OpenWindow {
     kept: Option<FileStorage>,
     settings: Option<WindowSettings>,
     pacer: FramePacer,
-    /// Whether the window system tells when to paint, as Wayland does, and whether it has been asked to.
+    /// Whether the window system says when to paint, as Wayland does, and whether it has been asked to say so.
     is_paced_by_system: bool,
     is_promised: bool,
     is_shown: bool,
@@ -317,7 +317,7 @@ impl OpenWindow {
         }
     }
 
-    /// Carries out the editor's commands to its window.
+    /// Carries out the editor's commands for its window.
     fn run_commands(&mut self, commands: Vec<ViewportCommand>) {
         self.is_info_stale |= !commands.is_empty();
         let Self { context, info, window, actions, .. } = self;
@@ -384,7 +384,7 @@ fn placed(settings: Option<WindowSettings>, context: &Context, events: &ActiveEv
             first.with_inner_size(size)
         }
     };
-    // It becomes visible with its first image.
+    // The window becomes visible with its first image.
     builder.with_visible(false)
 }
 
@@ -401,7 +401,7 @@ fn connect_repaint(context: &Context, proxy: &EventLoopProxy<UserEvent>) {
     });
 }
 
-/// The clipboard's text or picture.
+/// Returns the clipboard's text or picture as an event.
 fn pasted(input: &mut State) -> Option<Event> {
     if let Some(text) = input.clipboard_text() {
         let text = text.replace("\r\n", "\n");

@@ -20,7 +20,7 @@ use std::path::PathBuf;
 /// The program's name for the window system, and that of its folder of settings.
 const ID: &str = "brillianteer";
 
-/// The window's first size, and its least, points.
+/// The window's first size and its least size, in points.
 const SIZE: [f32; 2] = [1440.0, 900.0];
 const LEAST: [f32; 2] = [800.0, 600.0];
 
@@ -42,7 +42,7 @@ pub enum WindowError {
     /// The window was open and has shown an image, and then painting or the window system failed.
     #[error("the window was lost: {0}; start the program again: it offers the work that was not saved")]
     Lost(String),
-    /// The environment asks for a painter that does not exist.
+    /// The environment names a painter that does not exist.
     #[error(
         "{CHOICE}={0} is unknown; set it to `card` or `processor`, or leave it out and the program chooses"
     )]
@@ -57,8 +57,8 @@ impl WindowError {
     }
 }
 
-/// Leaves out of winit's text of an error the place in its source code, a path of the machine that built the program:
-/// `os error at FILE:LINE: TEXT` becomes `TEXT`.
+/// Removes the place in winit's source code from an error's text, because it is a path of the machine that built the
+/// program: `os error at FILE:LINE: TEXT` becomes `TEXT`.
 fn without_place(text: &str) -> String {
     let told = text.split_once("os error at ").and_then(|(before, rest)| {
         let (_, reason) = rest.split_once(": ")?;
@@ -78,7 +78,7 @@ pub enum PaintedBy {
 }
 
 impl PaintedBy {
-    /// Its name in the status line and in the environment variable.
+    /// Returns the painter's name in the status line and in the environment variable.
     pub fn name(self) -> &'static str {
         match self {
             Self::Card => "card",
@@ -86,7 +86,7 @@ impl PaintedBy {
         }
     }
 
-    /// The painter that is asked for by name; without a name the card where there is one.
+    /// Returns the painter of this name. Without a name, it is the card where there is one, else the processor.
     fn chosen(asked: Option<&str>, has_card: impl FnOnce() -> bool) -> Result<Self, WindowError> {
         match asked {
             None | Some("") => Ok(if has_card() { Self::Card } else { Self::Processor }),
@@ -98,10 +98,12 @@ impl PaintedBy {
     }
 }
 
-/// Opens the window, on a file if one is given, read with these options where it is a mesh, and waits until it is closed.
+/// Opens the window and waits until it is closed. If `file` is given, the window opens it; a mesh is read with the options
+/// `mesh`.
 ///
 /// # Errors
-/// Where there is no display, no window can be opened on it, or the window is lost; what to do stands in the text.
+/// Where the environment names an unknown painter, there is no display, no window can be opened on it, or the window is
+/// lost. Except for a missing display, the text of the error says what to do.
 pub fn run(file: Option<PathBuf>, mesh: MeshOptions) -> Result<(), WindowError> {
     check_display()?;
     let asked = std::env::var(CHOICE).ok();

@@ -2,10 +2,10 @@
 
 use std::time::{Duration, Instant};
 
-/// The shortest time from the begin of one image to that of the next; screens show 60 a second.
+/// The shortest time from the start of one image to that of the next; screens show 60 a second.
 const SHORTEST: Duration = Duration::from_micros(16_600);
 
-/// The same while the window is minimised.
+/// The shortest time between images while the window is minimised.
 const HIDDEN: Duration = Duration::from_millis(100);
 
 /// When the next image is due, and how long the last one took.
@@ -19,13 +19,13 @@ pub struct FramePacer {
 }
 
 impl FramePacer {
-    /// Requests an image at a time; an earlier request stays in force.
+    /// Requests an image at the time `when`; an earlier request stays in force.
     pub fn ask(&mut self, when: Instant) {
         self.due = Some(self.due.map_or(when, |due| due.min(when)));
     }
 
-    /// When the next image is to be painted, or `None` if none was requested. At least half of the time is left to other
-    /// work, because few cores have to trace light as well.
+    /// Returns when the next image is to be painted, or `None` if none was requested. At least half of the time is left to
+    /// other work, because few cores have to trace light as well.
     pub fn next(&self) -> Option<Instant> {
         let shortest = if self.is_hidden { HIDDEN } else { SHORTEST.max(2 * self.took) };
         self.due.map(|due| self.begun.map_or(due, |begun| due.max(begun + shortest)))

@@ -69,8 +69,8 @@ impl WindowSurface {
     }
 }
 
-/// The areas in which a buffer differs from the newest image, if it holds the one of `age` images ago; with an age of 0 its
-/// content is unknown.
+/// Returns the areas in which a buffer differs from the newest image, if it holds the one of `age` images ago; with an age
+/// of 0 its content is unknown.
 fn outdated(changes: &VecDeque<Vec<Area>>, age: usize, size: [usize; 2]) -> Vec<Area> {
     if age == 0 || age > changes.len() {
         return vec![Area::of(size)];

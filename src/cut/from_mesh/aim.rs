@@ -1,5 +1,5 @@
-//! Which way is up, found as a person would: by the file's own axes where a facet is square to them, by a girdle, by
-//! symmetry about the axis, by a crown that is flatter than the pavilion, and by the size of the table.
+//! Finds which way is up as a person would: by the file's own axes where a facet is square to them, by a girdle, by symmetry
+//! about the axis, by a crown that is flatter than the pavilion, and by the size of the table.
 
 use super::cues::Cues;
 use super::even::{self, FacetParts, Match};
@@ -8,76 +8,79 @@ use crate::math::{Plane, Polytope};
 use glam::{DMat3, DQuat, DVec3};
 use std::cmp::Ordering;
 
-/// A facet whose normal is this near (cosine, 5 degrees) to a direction given as up is the table.
+/// The table is a facet whose normal is at least this near to a direction given as up (cosine, 5 degrees).
 const NEAR_UP: f64 = 0.996_194_698;
 
-/// Directions that differ by less than this (length of the difference of unit vectors) are one.
+/// Directions that differ by less than this (length of the difference of unit vectors) are the same.
 const ONE: f64 = 1e-3;
 
-/// A table whose normal is this near (length of the difference of unit vectors, 1.5 degrees) to an axis of the file was put
-/// along it, but not to the last digit, as scans are. The axis itself shows almost as much of a girdle as the table's
-/// normal does, and must not be taken instead.
+/// A table whose normal is at least this near to an axis of the file (length of the difference of unit vectors, 1.5 degrees)
+/// was laid along that axis, but not to the last digit, as in scans. The axis itself shows almost as much of a girdle as the
+/// table's normal does, and must not be taken instead.
 const PUT_ALONG: f64 = 0.026;
 
-/// How many of the largest facets may be the table.
+/// The number of largest facets that are tried as the table.
 const MOST_TABLES: usize = 120;
 
-/// So many parallel edges, at least, make a direction that is tried: those between the facets of a girdle.
+/// The least number of parallel edges that make a direction worth trying, such as the edges between the facets of a girdle.
 const LEAST_PARALLEL: usize = 4;
 
-/// The most directions of edges that are compared.
+/// The number of facets whose edges are searched for parallels.
 const MOST_EDGES: usize = 1_500;
 
-/// How many directions are looked at closely: symmetry takes long to see.
+/// The number of directions that are looked at closely. It is limited because symmetry takes long to find.
 const MOST_CLOSE: usize = 24;
 
-/// The most facets of which all are compared with all, for each direction that is looked at closely.
+/// The most facets of a solid whose symmetry is tested. The test compares all facets with all, for each direction that is
+/// looked at closely.
 const MOST_COMPARED: usize = 400;
 
-/// What each cue counts for. Chosen on real cutters' designs, in their own frames and turned.
+/// The weight of each cue, chosen on real cutters' designs, in their own frames and turned.
 mod weight {
-    /// A girdle all around.
+    /// A girdle all around the outline.
     pub const GIRDLE: f64 = 2.0;
-    /// Symmetry of all facets; what only some of them have counts less by its cube.
+    /// Symmetry of all facets. Where only a part of their area is symmetric, the weight is multiplied by the cube of that
+    /// part.
     pub const EVEN: f64 = 0.8;
-    /// A table, unless it is next to nothing.
+    /// A table; one smaller than `MEANT` counts less.
     pub const TABLE: f64 = 0.3;
-    /// A table as large as the outline, beyond what any table counts for.
+    /// A table as large as the outline, in addition to what any table counts for.
     pub const TABLE_AREA: f64 = 0.4;
-    /// A base: a facet as large as the outline, below.
+    /// A base: a facet at the bottom as large as the outline.
     pub const BASE: f64 = 0.15;
-    /// A stone that is all pavilion and no crown.
+    /// A stone that is all pavilion, without a crown.
     pub const FLAT: f64 = 0.5;
-    /// An axis of the file that fits the shape.
+    /// The direction is an axis of the file and fits the shape.
     pub const OWN_AXIS: f64 = 0.4;
-    /// The axis that is up by the custom of the file's format; half of it for the other axis that is often up.
+    /// The direction is the axis that is up by the custom of the file's format. The other axis that is often up counts half.
     pub const CUSTOM: f64 = 0.5;
 }
 
-/// A table of this part of the outline's area, or a larger one, is surely meant.
+/// A table of this part of the outline's area, or a larger one, is surely meant as a table.
 const MEANT: f64 = 0.01;
 
 /// A facet of this part of the outline's area is a base.
 const WHOLE: f64 = 0.97;
 
-/// A girdle of this part of the outline, or symmetry of this part of the facets, is one that an axis of the file fits.
+/// An axis of the file without a facet square to it fits the shape if the girdle takes more than this part of the outline,
+/// or symmetry more than this part of the facets' area.
 const FITS: f64 = 0.8;
 
-/// A direction whose shape speaks for it as much as that of the best does, but for this, is one that a person might take,
-/// unless it lies within [`PUT_ALONG`] of the best.
+/// A person might also take a direction whose shape scores lower than the best direction's by less than this, unless it lies
+/// within [`PUT_ALONG`] of the best.
 const DOUBTFUL: f64 = 0.15;
 
-/// The axis up, and which facet is the table.
+/// The axis that is up, and the facet that is the table.
 pub(super) struct Aim {
-    /// A unit vector.
+    /// The axis, a unit vector.
     pub axis: DVec3,
-    /// Its place among the facets, where there is one.
+    /// The table's place among the facets, if there is a table.
     pub table: Option<usize>,
-    /// What else may be up.
+    /// Another direction that may be up.
     pub doubt: Option<Doubt>,
 }
 
-/// Finds the axis, unless it is given. Parts are about the middle of the solid, whose facets they are in order.
+/// Finds the axis, unless it is given. `parts` are the facets of the solid, in the same order, about its middle.
 pub(super) fn aim(solid: &Polytope, parts: &FacetParts, up: Up) -> Result<Aim, FromMeshError> {
     let custom = match up {
         Up::Found => DVec3::Z,
@@ -105,12 +108,12 @@ pub(super) fn aim(solid: &Polytope, parts: &FacetParts, up: Up) -> Result<Aim, F
     Ok(Aim { axis, table, doubt })
 }
 
-/// A direction, and what speaks for it.
+/// A direction, and the scores that speak for it.
 struct Seen {
     cues: Cues,
-    /// What the shape says.
+    /// The score of the shape.
     shape: f64,
-    /// What the file's axes say.
+    /// The score of the file's axes.
     own: f64,
     custom: DVec3,
 }
@@ -126,7 +129,7 @@ impl Seen {
         self.shape + self.own
     }
 
-    /// Adds what takes longer to see.
+    /// Adds the score of symmetry, which takes longer to compute.
     fn look_closely(&mut self, parts: &FacetParts) {
         let even = evenness(parts, self.cues.up);
         self.shape += weight::EVEN * even.powi(3);
@@ -134,8 +137,8 @@ impl Seen {
     }
 }
 
-/// The axis where up is given: the normal of the largest facet near to it, or else what was given. `None` where that
-/// points nowhere.
+/// Returns the axis where up is given: the normal of the largest facet near to it, or else the given direction. `None` where
+/// the given direction is zero or not finite.
 fn toward(solid: &Polytope, given: DVec3) -> Option<Aim> {
     let unit = Plane::new(given, 0.0).normalized()?.normal;
     let facets = solid.facets().iter().enumerate();
@@ -145,18 +148,18 @@ fn toward(solid: &Polytope, given: DVec3) -> Option<Aim> {
     Some(Aim { axis: table.map_or(unit, |t| solid.facets()[t].plane.normal), table, doubt: None })
 }
 
-/// The axis where up is known: what is square to it is the table.
+/// Returns the axis where up is known. A facet square to the axis is the table.
 fn known(solid: &Polytope, axis: DVec3) -> Aim {
     Aim { axis, table: Cues::of(solid, axis).and_then(|cues| cues.table), doubt: None }
 }
 
-/// Facets by area; of equals the earlier is the larger.
+/// Compares facets by area; of equals the earlier counts as the larger.
 fn compare(solid: &Polytope, a: usize, b: usize) -> Ordering {
     let size = |f: usize| solid.facet_area(&solid.facets()[f]);
     size(a).total_cmp(&size(b)).then(b.cmp(&a))
 }
 
-/// Whether two directions show the same stone: those of a cube do.
+/// Returns whether two directions show the same stone, as those of a cube do.
 fn is_alike(a: &Cues, b: &Cues) -> bool {
     let near = |x: f64, y: f64| (x - y).abs() < 1e-3;
     near(a.girdle, b.girdle)
@@ -167,7 +170,7 @@ fn is_alike(a: &Cues, b: &Cues) -> bool {
         && near(a.length, b.length)
 }
 
-/// What the shape says of a direction at a glance.
+/// Returns the score of the shape for a direction, without symmetry.
 fn shape(cues: &Cues) -> f64 {
     let worth = |area: f64| weight::TABLE * (area / MEANT).min(1.0) + weight::TABLE_AREA * area.min(1.0);
     let (table, flat) = match (cues.table_area > WHOLE, cues.culet_area > WHOLE) {
@@ -180,7 +183,7 @@ fn shape(cues: &Cues) -> f64 {
     weight::GIRDLE * cues.girdle.min(1.0) + table + weight::FLAT * flat
 }
 
-/// What the file's own axes say, where so large a part of the facets is even.
+/// Returns the score of the file's own axes; `even` is the part of the facets' area that is symmetric.
 fn own(cues: &Cues, even: f64, custom: DVec3) -> f64 {
     let near = if cues.table_area > 0.0 { PUT_ALONG } else { ONE };
     let is = |axis: DVec3| (cues.up - axis).length() < near;
@@ -196,8 +199,8 @@ fn own(cues: &Cues, even: f64, custom: DVec3) -> f64 {
     weight::CUSTOM * usual + if along { weight::OWN_AXIS } else { 0.0 }
 }
 
-/// All directions that may be up, each once: normals of facets, axes of the file, principal axes, and what many edges
-/// are parallel to; and their opposites.
+/// Returns all directions that may be up, each once: normals of facets, directions that many edges are parallel to,
+/// principal axes and axes of the file, and the opposites of all of these.
 pub fn directions(solid: &Polytope) -> Vec<DVec3> {
     let mut places: Vec<usize> = (0..solid.facets().len()).collect();
     places.sort_by(|&a, &b| compare(solid, b, a));
@@ -214,7 +217,7 @@ pub fn directions(solid: &Polytope) -> Vec<DVec3> {
     found
 }
 
-/// Directions that many edges have.
+/// Returns directions that many edges are parallel to.
 fn parallels(solid: &Polytope) -> Vec<DVec3> {
     let vertices = solid.vertices();
     let size = vertices.iter().map(|v| v.length()).fold(0.0, f64::max);
@@ -222,7 +225,8 @@ fn parallels(solid: &Polytope) -> Vec<DVec3> {
     for (place, facet) in solid.facets().iter().enumerate().take(MOST_EDGES) {
         for (k, &other) in facet.neighbours.iter().enumerate().filter(|(_, other)| **other as usize > place) {
             let [a, b] = [k, (k + 1) % facet.outline.len()].map(|at| vertices[facet.outline[at] as usize]);
-            // The line in which two planes meet, which is surer than its ends where these are near.
+            // The line in which two planes meet gives the direction more exactly than the edge's two ends, where these are
+            // near to one another.
             let line = facet.plane.normal.cross(solid.facets()[other as usize].plane.normal);
             let Some(line) = line.try_normalize().filter(|_| a.distance(b) > 1e-4 * size) else { continue };
             match groups.iter_mut().find(|(of, _)| of.cross(line).length() < ONE) {
@@ -235,7 +239,7 @@ fn parallels(solid: &Polytope) -> Vec<DVec3> {
     groups.into_iter().filter(|(_, count)| *count >= LEAST_PARALLEL).take(12).map(|(line, _)| line).collect()
 }
 
-/// The principal axes of the surface.
+/// Returns the principal axes of the surface.
 fn principal(solid: &Polytope) -> Vec<DVec3> {
     let middle = even::centroid(solid);
     let mut spread = DMat3::ZERO;
@@ -247,7 +251,7 @@ fn principal(solid: &Polytope) -> Vec<DVec3> {
     crate::math::surface::eigen(spread).1.to_vec()
 }
 
-/// The largest part of the area that some turn about an axis carries onto other facets.
+/// Returns the largest part of the area that some turn about an axis carries onto other facets.
 fn evenness(parts: &FacetParts, axis: DVec3) -> f64 {
     let FacetParts { planes, areas, .. } = parts;
     if planes.len() > MOST_COMPARED {

@@ -1,40 +1,40 @@
-//! What a person looks for in a solid to tell which way its table faces.
+//! The cues that a person looks for in a solid to tell which way its table faces.
 
 use crate::math::{Calipers, Polytope, area, hull};
 use glam::{DVec2, DVec3};
 
-/// A facet whose normal leans less than this from square to the axis (sine) stands upright: a sixth of a degree, more
-/// than files' digits leave and less than any facet of a pavilion leans.
+/// A facet whose normal leans less than this from square to the axis (sine) stands upright: a sixth of a degree. Files'
+/// digits leave less, and every facet of a pavilion leans more.
 const UPRIGHT: f64 = 3e-3;
 
-/// A facet whose normal is this near (cosine, a sixth of a degree) to a direction is square to it.
+/// A facet whose normal is this near to a direction (cosine, a sixth of a degree) is square to the direction.
 const SQUARE: f64 = 1.0 - UPRIGHT * UPRIGHT / 2.0;
 
-/// Corners of a knife edge whose heights differ by less than this part of the width are level.
+/// Corners of a knife edge whose heights differ by less than this, in widths of the solid, are level.
 const LEVEL: f64 = 2e-3;
 
-/// What a solid shows to one who takes a direction for up.
+/// The cues that a solid shows if a direction is taken as up.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Cues {
     /// The direction, a unit vector.
     pub up: DVec3,
-    /// The share of its outline, seen along the direction, that facets parallel to the direction make, or a level edge.
+    /// The share of the solid's outline, seen along the direction, that is made by upright facets or by a level edge.
     pub girdle: f64,
-    /// The facet that is square to the direction on top, if there is one.
+    /// The place of the facet that is square to the direction on top, if there is one.
     pub table: Option<usize>,
-    /// The area of the table by that of the outline; 0 without one.
+    /// The area of the table divided by that of the outline; 0 without a table.
     pub table_area: f64,
-    /// The area of the facet that is square to it below by that of the outline; 0 without one.
+    /// The area of the facet that is square to the direction at the bottom, divided by that of the outline; 0 without one.
     pub culet_area: f64,
-    /// From the outline to the highest point, by the whole height.
+    /// The height from the outline to the highest point, divided by the whole height.
     pub crown: f64,
-    /// The whole height by the width.
+    /// The whole height divided by the width.
     pub height: f64,
-    /// Length by width.
+    /// The length divided by the width.
     pub length: f64,
 }
 
-/// A part of the outline: whether it is an upright facet or an edge, its length, and between which heights it lies.
+/// A part of the outline: an upright facet or an edge, with its length and the heights between which it lies.
 struct Piece {
     is_upright: bool,
     length: f64,
@@ -43,7 +43,7 @@ struct Piece {
 }
 
 impl Cues {
-    /// What is seen of a solid by one who takes a unit vector for up; `None` where it has no outline.
+    /// Returns the cues of a solid if a unit vector is taken as up; `None` where it has no outline.
     pub fn of(solid: &Polytope, up: DVec3) -> Option<Self> {
         let (right, back) = up.any_orthonormal_pair();
         let flat = |v: DVec3| DVec2::new(v.dot(right), v.dot(back));
@@ -79,7 +79,7 @@ impl Cues {
     }
 }
 
-/// The outline's parts: upright facets, and edges between what faces up and down.
+/// Returns the parts of the outline: upright facets, and edges between facets that face up and facets that face down.
 fn pieces(solid: &Polytope, up: DVec3) -> Vec<Piece> {
     let lean = |facet: usize| solid.facets()[facet].plane.normal.dot(up);
     let mut pieces = vec![];
@@ -103,13 +103,15 @@ fn pieces(solid: &Polytope, up: DVec3) -> Vec<Piece> {
     pieces
 }
 
-/// The least and the greatest of some numbers.
+/// Returns the least and the greatest of some numbers.
 fn span(numbers: impl Iterator<Item = f64>) -> [f64; 2] {
     numbers.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], x| [low.min(x), high.max(x)])
 }
 
-/// The greatest length of pieces that lie in one plane square to the axis, where crown and pavilion meet in an edge. Pieces
-/// that are higher than `within`, as most upright facets are, are none of it.
+/// Returns the greatest total length of pieces that lie in one plane square to the axis, where crown and pavilion meet in an
+/// edge.
+///
+/// Pieces that are higher than `within`, as most upright facets are, do not count.
 fn level_edge(pieces: &[Piece], within: f64) -> f64 {
     let flat = pieces.iter().filter(|p| p.high - p.low <= within && p.length > 0.0);
     let mut flat: Vec<(f64, f64)> = flat.map(|p| (p.low, p.length)).collect();
@@ -140,7 +142,7 @@ mod tests {
         let mut pieces =
             vec![edge(0.5, 1.0), edge(0.0, 2.0), edge(0.05, 3.0), edge(0.12, 4.0), edge(-0.2, 5.0)];
         pieces.push(Piece { high: 9.0, ..edge(0.0, 100.0) });
-        // From 0 to 0.12 is too far, but both are near to 0.05.
+        // 0 and 0.12 are too far apart, but both are near to 0.05.
         assert!((level_edge(&pieces, 0.1) - 9.0).abs() < 1e-12);
         assert!((level_edge(&pieces, 0.06) - 5.0).abs() < 1e-12);
         assert_eq!(level_edge(&[], 0.1), 0.0);
@@ -151,7 +153,7 @@ mod tests {
         let pieces: Vec<Piece> = (0..300_000).map(|k| edge(f64::from(k % 1000), 1.0)).collect();
         let began = std::time::Instant::now();
         assert!((level_edge(&pieces, 0.1) - 300.0).abs() < 1e-6);
-        // All against all would be minutes.
+        // Comparing all with all would take minutes.
         assert!(began.elapsed().as_secs() < 300);
     }
 }

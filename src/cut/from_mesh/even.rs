@@ -1,7 +1,7 @@
-//! The symmetry that a stone has but for noise, given to its planes: each becomes the mean of all its images.
+//! Gives the planes of a stone the symmetry that it has but for noise: each plane becomes the mean of all its images.
 //!
-//! A stone that is uneven by more than its noise keeps its planes: whether that is so is judged by its corners, which
-//! must lie as near to the evened stone as they lay to the one that was found.
+//! A stone that is uneven by more than its noise keeps its planes. This is judged by the corners of the surface, which must
+//! not lie much farther from the evened stone than from the one that was found.
 
 use super::LEAST_UPRIGHT;
 use crate::math::surface::{Faceted, deviation};
@@ -9,24 +9,24 @@ use crate::math::{Facet, Plane, Polytope, Symmetry};
 use glam::{DQuat, DVec3};
 use std::f64::consts::{PI, TAU};
 
-/// The most turns that are looked for: no gem has more of anything but girdle facets.
+/// The most turns that are tried: no gem has more of anything but girdle facets.
 const MOST_TURNS: u32 = 24;
 
-/// Planes may be one another's images where their normals differ by this much (2.9 degrees), and their offsets by
-/// this part of the largest: far more than noise does, far less than facets differ.
+/// Two planes may be images of each other where their normals differ by less than this (2.9 degrees), and their offsets by
+/// less than this part of the largest. Noise causes far less, and facets differ by far more.
 const LOOSE: f64 = 0.05;
 
-/// An even stone may lie this many times as far from the corners as the one that was found, or as its tolerance: each
-/// facet of that one could follow the noise of its own corners.
+/// The corners may lie this many times as far from the evened stone as from the one that was found, or this many tolerances
+/// if that is more. Each facet of the stone that was found could follow the noise of its own corners.
 const EVEN: f64 = 5.0;
 
-/// Slopes of girdle facets, which are thin and whose slope is mostly noise, count this part of others'.
+/// The weight of differences in slope between girdle facets, which are thin, so that their slope is mostly noise.
 const THIN: f64 = 0.25;
 
-/// The most facets of which all are compared with all.
+/// The most facets of a stone that is evened, since all of them are compared with all.
 const MOST_FACETS: usize = 1_000;
 
-/// Planes among which images are looked for.
+/// The planes among which images are looked for.
 pub(super) struct Match<'a> {
     planes: &'a [Plane],
     size: f64,
@@ -37,7 +37,7 @@ impl<'a> Match<'a> {
         Self { planes, size: planes.iter().map(|p| p.offset.abs()).fold(f64::MIN_POSITIVE, f64::max) }
     }
 
-    /// The plane that is nearest to a given one, if it may be the same.
+    /// Returns the place of the plane that is nearest to a given one, if it is near enough to be the same.
     pub fn find(&self, image: &Plane) -> Option<usize> {
         let upright = |p: &Plane| p.normal.z.abs() < LEAST_UPRIGHT;
         let off = |p: &Plane| {
@@ -51,7 +51,7 @@ impl<'a> Match<'a> {
         near.min_by(|a, b| a.1.total_cmp(&b.1)).map(|(i, _)| i)
     }
 
-    /// The plane that each is carried to, where that is a permutation.
+    /// Returns, for each plane, the place of the plane that the map carries it to; `None` unless that is a permutation.
     fn permutation(&self, map: impl Fn(&Plane) -> Plane) -> Option<Vec<usize>> {
         let mut taken = vec![false; self.planes.len()];
         let image = |p| self.find(&map(p)).filter(|&i| !std::mem::replace(&mut taken[i], true));
@@ -59,12 +59,12 @@ impl<'a> Match<'a> {
     }
 }
 
-/// The plane turned about the origin.
+/// Returns the plane turned about the origin.
 pub(super) fn turned(plane: &Plane, turn: DQuat) -> Plane {
     Plane::new(turn * plane.normal, plane.offset)
 }
 
-/// The middle of a solid's content.
+/// Returns the centroid of a solid's volume.
 pub(super) fn centroid(polytope: &Polytope) -> DVec3 {
     let apex = polytope.vertices()[0];
     let (mut content, mut moment) = (0.0, DVec3::ZERO);
@@ -79,19 +79,19 @@ pub(super) fn centroid(polytope: &Polytope) -> DVec3 {
     apex + moment / content
 }
 
-/// Planes about a middle with +z along the axis, and the symmetry that they were given.
+/// Planes about a middle, with +z along the axis, and the symmetry that they were given.
 #[derive(Clone)]
 pub(super) struct Even {
     pub planes: Vec<Plane>,
-    /// From the frame of the planes that were found.
+    /// The rotation from the frame of the planes that were found.
     pub turn: DQuat,
     pub turns: u32,
-    /// The azimuth of a mirror.
+    /// The azimuth of a mirror plane, radians; `None` without one.
     pub mirror: Option<f64>,
 }
 
 impl Even {
-    /// The symmetry after a turn about the axis.
+    /// Returns the symmetry as it is after a further turn about the axis.
     pub fn symmetry(&self, turn: DQuat) -> Symmetry {
         let across = |azimuth: f64| turn * DVec3::new(azimuth.cos(), azimuth.sin(), 0.0);
         let azimuth = |v: DVec3| v.y.atan2(v.x).rem_euclid(PI);
@@ -104,34 +104,34 @@ impl Even {
     }
 }
 
-/// The plane mirrored in the upright plane of an azimuth.
+/// Returns the plane mirrored in the upright plane of an azimuth.
 fn mirrored(plane: &Plane, azimuth: f64) -> Plane {
     let (sin, cos) = (2.0 * azimuth).sin_cos();
     let n = plane.normal;
     Plane::new(DVec3::new(cos * n.x + sin * n.y, sin * n.x - cos * n.y, n.z), plane.offset)
 }
 
-/// The facets that were found, about a middle.
+/// The facets that were found, moved so that a chosen middle is the origin.
 pub(super) struct FacetParts {
     pub planes: Vec<Plane>,
     pub areas: Vec<f64>,
-    /// A point in the middle of each facet.
+    /// The mean of each facet's corners, about the middle.
     middles: Vec<DVec3>,
     /// The corners of the surface.
     corners: Vec<DVec3>,
-    /// How far they may lie from an even stone.
+    /// The greatest distance that the corners may have from an evened stone.
     limit: f64,
 }
 
 impl FacetParts {
-    /// The facets about a point.
+    /// Returns the facets about a point.
     pub fn about(found: &Faceted, middle: DVec3) -> Self {
         let about = |plane: &Plane| Plane::new(plane.normal, -plane.distance(middle));
         let solid = &found.polytope;
         let centre = |f: &Facet| solid.corners(f).sum::<DVec3>() / f.outline.len() as f64 - middle;
         Self {
             planes: found.faces.iter().map(|f| about(&f.plane)).collect(),
-            // Of the solid, not of triangles, some of which noise has put to a neighbour.
+            // The areas of the solid's facets, not of the triangles, as noise puts some triangles to a neighbouring facet.
             areas: solid.facets().iter().map(|f| solid.facet_area(f)).collect(),
             middles: solid.facets().iter().map(centre).collect(),
             corners: found.surface.vertices.iter().map(|&v| v - middle).collect(),
@@ -140,8 +140,8 @@ impl FacetParts {
     }
 }
 
-/// The planes with their axis upright, and evened where the corners allow. The axis may follow the symmetry, unless it is
-/// fixed.
+/// Returns the planes with their axis upright, evened where the corners allow it. The axis may follow the symmetry, unless
+/// it is fixed.
 pub(super) fn evened(parts: &FacetParts, axis: DVec3, is_fixed: bool) -> Even {
     let FacetParts { planes, areas, .. } = parts;
     let plain = upright(planes, axis);
@@ -161,7 +161,8 @@ pub(super) fn evened(parts: &FacetParts, axis: DVec3, is_fixed: bool) -> Even {
     let wanted = tried.filter(|(turns, _, mirror)| *turns > 1 || mirror.is_some());
     let mean =
         wanted.filter_map(|(turns, axis, mirror)| averaged(&Even { turns, mirror, ..upright(planes, axis) }));
-    // Girdle facets at unlike heights are shifted unlike as they are put upright, so they are averaged anew.
+    // Where girdle facets lie at different heights, putting them upright shifts them by different amounts, so they are
+    // averaged anew.
     let both = mean.flat_map(|even| [averaged(&squared(&even, &parts.middles)), Some(even)]);
     let mut fitting = both.flatten().filter(fits);
     fitting.next().unwrap_or(plain)
@@ -172,8 +173,9 @@ fn upright(planes: &[Plane], axis: DVec3) -> Even {
     Even { planes: planes.iter().map(|p| turned(p, turn)).collect(), turn, turns: 1, mirror: None }
 }
 
-/// The axis as the whole crown and pavilion have it, not the table alone: the normal of the girdle's plane. It is
-/// that of a stone with turns only.
+/// Returns the axis as the whole crown and pavilion have it, not the table alone: the normal of the girdle's plane.
+///
+/// Only a stone with rotational symmetry has such an axis; where `turns` is 1 the given axis is returned.
 fn refined(planes: &[Plane], areas: &[f64], axis: DVec3, turns: u32) -> DVec3 {
     if turns == 1 {
         return axis;
@@ -188,8 +190,8 @@ fn refined(planes: &[Plane], areas: &[f64], axis: DVec3, turns: u32) -> DVec3 {
     sum.try_normalize().filter(|found| found.dot(axis) > 1.0 - LOOSE * LOOSE).unwrap_or(axis)
 }
 
-/// The mirror that carries the planes onto one another with the least misfit, its azimuth the mean of what each pair
-/// of them says.
+/// Returns the azimuth of the mirror that carries the planes onto one another with the least misfit. It is the mean of the
+/// azimuths that the pairs of planes give.
 fn best_mirror(plain: &Even, areas: &[f64]) -> Option<f64> {
     let azimuth = |p: &Plane| p.normal.y.atan2(p.normal.x);
     let level = |i: &usize| plain.planes[*i].normal.truncate().length() > LOOSE;
@@ -217,7 +219,7 @@ fn best_mirror(plain: &Even, areas: &[f64]) -> Option<f64> {
     tried.min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, mirror)| mirror)
 }
 
-/// Each plane as the mean of its images, carried back; `None` where the symmetry does not carry planes onto planes.
+/// Returns each plane as the mean of its images, carried back; `None` where the symmetry does not carry planes onto planes.
 fn averaged(even: &Even) -> Option<Even> {
     let list = Match::loose(&even.planes);
     let mut sums = vec![(DVec3::ZERO, 0.0); even.planes.len()];
@@ -230,7 +232,7 @@ fn averaged(even: &Even) -> Option<Even> {
             count += 1.0;
             for (sum, &image) in sums.iter_mut().zip(&images) {
                 let back = match mirror {
-                    // A mirror and a turn after it make a mirror, which is its own inverse.
+                    // A mirror followed by a turn is again a mirror, which is its own inverse.
                     Some(_) => map(&even.planes[image]),
                     None => even.mapped(None, even.turns - turn)(&even.planes[image]),
                 };
@@ -246,7 +248,7 @@ fn averaged(even: &Even) -> Option<Even> {
     Some(Even { planes, ..*even })
 }
 
-/// The same with its girdle facets upright, and what is level level.
+/// Returns the same planes with nearly upright facets exactly upright, and nearly level ones exactly level.
 fn squared(even: &Even, middles: &[DVec3]) -> Even {
     let square = |(p, middle): (&Plane, &DVec3)| {
         let n = p.normal;
@@ -255,7 +257,7 @@ fn squared(even: &Even, middles: &[DVec3]) -> Even {
             (_, true) => DVec3::Z * n.z.signum(),
             _ => n,
         };
-        // Turned about the middle of the facet, which stays where it is.
+        // Each facet is turned about its middle, which stays where it is.
         let middle = even.turn * *middle;
         let foot = middle - p.distance(middle) * n;
         Plane::new(snapped, snapped.dot(foot)).normalized().unwrap_or(*p)

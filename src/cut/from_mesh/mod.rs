@@ -1,8 +1,8 @@
-//! A stone out of the facets that were found on a surface: put upright, evened where noise alone kept it from being
-//! even, scaled by its girdle, and its facets named.
+//! Makes a stone of the facets that were found on a surface: puts it upright, evens it where noise alone kept it from being
+//! even, scales it by its girdle, and names its facets.
 //!
-//! The stone's frame is that of docs/architecture.md: +z out of the table, z = 0 at the crown's side of the girdle,
-//! +x through a bezel or another facet of the crown that mirrors into itself. A long stone's width lies along x.
+//! The stone's frame is that of docs/architecture.md: +z out of the table, z = 0 at the crown's side of the girdle, +x
+//! through a bezel or another facet of the crown that is its own mirror image. A long stone's width lies along x.
 
 mod aim;
 mod cues;
@@ -21,47 +21,47 @@ pub use aim::directions;
 use aim::{Aim, aim};
 use outline::LEAST_UPRIGHT;
 
-/// Which way a surface's table faces.
+/// The direction that a surface's table faces, and how it is known.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub enum Up {
-    /// To be found from the shape, where z is up by custom.
+    /// Found from the shape; z is up by custom.
     #[default]
     Found,
-    /// To be found from the shape, where this axis of the surface's frame is up by custom: y in glTF.
+    /// Found from the shape; this axis of the surface's frame is up by custom, as y is in glTF.
     FoundBy(DVec3),
-    /// Given in the surface's frame, any length but zero. The largest facet within 5 degrees is the table.
+    /// Given in the surface's frame, with any length but zero. The largest facet within 5 degrees is the table.
     Given(DVec3),
-    /// Known to the last digit, in the surface's frame, of length 1. Only a facet square to it is the table.
+    /// Known exactly, in the surface's frame, of length 1. Only a facet square to it is the table.
     Known(DVec3),
-    /// Known with all else of where the stone lies: the surface is moved so and not otherwise.
+    /// Known together with the whole pose of the stone. The surface is moved exactly so.
     Posed(Alignment),
 }
 
 /// Another direction that a person might have taken for up.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Doubt {
-    /// In the surface's frame, a unit vector.
+    /// The direction in the surface's frame, a unit vector.
     pub other: DVec3,
 }
 
-/// How a surface was moved: `stone = scale · (turn · surface) + shift`.
+/// How a surface was moved into the stone's frame: `stone = scale · (turn · surface) + shift`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Alignment {
-    /// Girdle radii per unit of the surface.
+    /// The scale, in girdle radii per unit of the surface.
     pub scale: f64,
-    /// From the surface's frame into the stone's.
+    /// The rotation from the surface's frame into the stone's.
     pub turn: DQuat,
-    /// After both, girdle radii.
+    /// The shift after scale and turn, girdle radii.
     pub shift: DVec3,
 }
 
 impl Alignment {
-    /// Where a point of the surface lies in the stone's frame.
+    /// Returns where a point of the surface lies in the stone's frame.
     pub fn of(&self, point: DVec3) -> DVec3 {
         self.scale * (self.turn * point) + self.shift
     }
 
-    /// The point of the surface that becomes the origin.
+    /// Returns the point of the surface that becomes the origin of the stone's frame.
     pub fn origin(&self) -> DVec3 {
         self.turn.inverse() * (-self.shift / self.scale)
     }
@@ -75,28 +75,28 @@ impl Alignment {
 /// A stone that was found in a surface.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FromMesh {
-    /// Names, no two alike, and planes in the stone's frame: table, crown, girdle, pavilion, culet.
+    /// Names, no two alike, and planes in the stone's frame, in the order table, crown, girdle, pavilion, culet.
     pub facets: Vec<(String, Plane)>,
-    /// How the surface was moved.
+    /// How the surface was moved into the stone's frame.
     pub pose: Alignment,
-    /// How far the corner of the surface that is farthest off lies from the stone, girdle radii.
+    /// The distance from the stone of the surface's corner that is farthest off, girdle radii.
     pub deviation: f64,
-    /// The symmetry that the planes were given where they had it but for noise; [`Symmetry::NONE`] where they were
-    /// left as they are.
+    /// The symmetry that the planes were given because they had it but for noise; [`Symmetry::NONE`] where they were left as
+    /// found.
     pub evened: Symmetry,
-    /// The direction that was taken for up, in the surface's frame, a unit vector.
+    /// The direction that was taken as up, in the surface's frame, a unit vector.
     pub up: DVec3,
-    /// What else may be up, where the shape leaves a doubt.
+    /// Another direction that may be up, where the shape leaves a doubt.
     pub doubt: Option<Doubt>,
 }
 
-/// Why facets make no stone.
+/// The reason why facets make no stone.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum FromMeshError {
-    /// A direction that is none.
+    /// A direction up that is zero or not finite.
     #[error("the direction up, {0}, points nowhere; three finite numbers that are not all 0 are expected")]
     Up(DVec3),
-    /// The planes as posed enclose nothing.
+    /// The planes enclose nothing.
     #[error("the facets that were found make no stone: {0}")]
     Polytope(#[from] PolytopeError),
 }
@@ -104,7 +104,7 @@ pub enum FromMeshError {
 /// Poses, evens and names the facets of a surface.
 ///
 /// # Errors
-/// A direction up that is none, or facets that enclose nothing once they are evened.
+/// A direction up that is zero or not finite, or facets that enclose nothing once they are evened.
 pub fn from_mesh(found: &Faceted, up: Up) -> Result<FromMesh, FromMeshError> {
     let middle = match up {
         Up::Posed(pose) => pose.origin() - found.centre,

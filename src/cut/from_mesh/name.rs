@@ -1,30 +1,31 @@
-//! Facets in the order of the trade, tier by tier, with the names that can be told from their places.
+//! Puts facets into the order of the trade, tier by tier, and gives them the names that follow from their places.
 
 use super::super::names;
 use super::LEAST_UPRIGHT;
 use crate::math::Plane;
 use std::f64::consts::TAU;
 
-/// Slopes of one tier differ by less than this, radians, or by what noise makes of them.
+/// The slopes of one tier's facets differ by less than this, radians, or by what noise adds.
 const SAME_SLOPE: f64 = 2e-3;
 
-/// Offsets of one tier differ by less than this, girdle radii, or by what noise makes of them.
+/// The offsets of one tier's facets differ by less than this, girdle radii, or by what noise adds.
 const SAME_OFFSET: f64 = 2e-3;
 
-/// How many tolerances noise turns and shifts facets of one tier apart: those of a tenth of a radius by ten.
+/// The number of tolerances by which noise turns (radians) and shifts (girdle radii) the facets of one tier apart. Noise of
+/// one tolerance turns a facet that is a tenth of a radius wide by ten tolerances.
 const NOISE: f64 = 10.0;
 
-/// A facet leaning less than this (sine) is level: the table or the culet.
+/// A facet that leans less than this (sine) is level: the table or the culet.
 const LEVEL: f64 = 0.02;
 
-/// Azimuths this little below 0 count as 0, radians.
+/// Azimuths that lie less than this below 0 count as 0, radians.
 const BEFORE_ZERO: f64 = 0.01;
 
-/// Facets of one slope and offset, by their places in the list of planes, in the order of their azimuths.
+/// The facets of one slope and offset, given by their places in the list of planes, in the order of their azimuths.
 type Tier = Vec<usize>;
 
-/// Every facet with a name of its own: those given, where there are, else what the trade calls it. `noise` is in
-/// girdle radii.
+/// Returns every facet with a name of its own: the given names where there are any, else the trade's. `noise` is in girdle
+/// radii.
 pub(super) fn named(
     planes: &[Plane],
     table: Option<usize>,
@@ -42,7 +43,7 @@ pub(super) fn named(
     for (title, tier) in below {
         tell(title, tier);
     }
-    // One name for many facets is an object's, not theirs.
+    // A name that repeats is that of an object in the file, not of a facet.
     let different =
         |names: &Vec<String>| names.iter().collect::<std::collections::BTreeSet<_>>().len() == names.len();
     let own = given.filter(|names| different(names) && names.iter().all(|name| names::is_printable(name)));
@@ -53,7 +54,7 @@ pub(super) fn named(
     unique.into_iter().zip(&found).map(|(name, (_, place))| (name, planes[*place])).collect()
 }
 
-/// Tiers of the crown from the girdle up, the girdle, and tiers of the pavilion from the girdle down.
+/// Returns the tiers of the crown from the girdle up, the girdle, and the tiers of the pavilion from the girdle down.
 fn parts(planes: &[Plane], table: Option<usize>, noise: f64) -> (Vec<Tier>, Tier, Vec<Tier>) {
     let rest = |test: &dyn Fn(f64) -> bool| -> Vec<usize> {
         (0..planes.len()).filter(|&i| Some(i) != table && test(planes[i].normal.z)).collect()
@@ -65,7 +66,7 @@ fn parts(planes: &[Plane], table: Option<usize>, noise: f64) -> (Vec<Tier>, Tier
     (crown, girdle, pavilion)
 }
 
-/// Tiers of like slope and offset, the steepest first.
+/// Groups facets into tiers of similar slope and offset, the steepest first.
 fn tiers(planes: &[Plane], mut places: Vec<usize>, noise: f64) -> Vec<Tier> {
     let level = |i: usize| planes[i].normal.z.abs().min(1.0).acos();
     let offset = |i: usize| planes[i].offset;
@@ -98,7 +99,7 @@ fn by_azimuth(planes: &[Plane], places: &mut [usize]) {
 
 type Titled<'a> = Vec<(String, &'a Tier)>;
 
-/// What the tiers are called, in the order in which they are listed.
+/// Returns the names of the tiers above and below the girdle, in the order in which they are listed.
 fn titles<'a>(planes: &[Plane], crown: &'a [Tier], pavilion: &'a [Tier]) -> (Titled<'a>, Titled<'a>) {
     let (culets, below): (Vec<&Tier>, Vec<&Tier>) = pavilion
         .iter()
@@ -119,7 +120,7 @@ fn titles<'a>(planes: &[Plane], crown: &'a [Tier], pavilion: &'a [Tier]) -> (Tit
     (crown.iter().enumerate().map(|(i, tier)| (format!("crown {}", letters(i)), tier)).collect(), titled)
 }
 
-/// A, B, ... Z, AA, AB, ...
+/// Returns the letters of a number: A, B, ... Z, AA, AB, ...
 fn letters(number: usize) -> String {
     let last = char::from(b'A' + (number % 26) as u8);
     if number < 26 { last.to_string() } else { format!("{}{last}", letters(number / 26 - 1)) }
@@ -127,7 +128,10 @@ fn letters(number: usize) -> String {
 
 type Named<'a, const N: usize> = [(&'static str, &'a Tier); N];
 
-/// The tiers of a round brilliant: 16, 8 and 8 facets above, 16 and 8 below, stars between bezels and mains below them.
+/// Returns the tiers of a round brilliant; `None` where the stone is none.
+///
+/// A round brilliant has tiers of 16, 8 and 8 facets above the girdle and of 16 and 8 below it, with the stars between the
+/// bezels and the mains below the bezels.
 fn brilliant<'a>(
     planes: &[Plane],
     crown: &'a [Tier],

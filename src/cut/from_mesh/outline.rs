@@ -1,4 +1,4 @@
-//! The girdle: which facets it has, how wide it is, and which way the stone is turned about its axis.
+//! Measures the girdle: which facets it has, how wide it is, and which way the stone is turned about its axis.
 
 use super::even::Even;
 use super::{Alignment, FromMeshError};
@@ -7,42 +7,42 @@ use crate::math::{Calipers, Plane, Polytope, hull};
 use glam::{DQuat, DVec2, DVec3};
 use std::f64::consts::{FRAC_PI_2, PI};
 
-/// Facets whose normals rise or fall by less than this (sine, 6 degrees) are the girdle's: steep steps of a pavilion
+/// Facets whose normals rise or fall by less than this (sine, 6 degrees) belong to the girdle. Steep steps of a pavilion
 /// lean more.
 pub(super) const LEAST_UPRIGHT: f64 = 0.104_528_463;
 
-/// An outline whose least width along the directions that may be +x is at least this part of the greatest is round: a
-/// decagon is.
+/// An outline is round if its least width, along the directions that may become +x, is at least this part of the greatest. A
+/// decagon is round.
 const ROUND: f64 = 0.95;
 
-/// Azimuths nearer than this are one, radians; noise of a thousandth turns facets by less.
+/// Azimuths that differ by less than this are the same, radians. Noise of a thousandth turns facets by less.
 const SAME_AZIMUTH: f64 = 0.02;
 
-/// Areas whose ratio is less are equal.
+/// Areas are equal if their ratio is below this.
 const SAME_AREA: f64 = 1.01;
 
-/// An outline longer than its width by more than this part of it has a width that a person sees.
+/// An outline that is longer than wide by more than this part of its width has a width that a person sees.
 const LONG: f64 = 0.01;
 
-/// Widths whose ratio is nearer to 1 than this are equal.
+/// Widths are equal if their ratio differs from 1 by less than this.
 const SAME_WIDTH: f64 = 0.005;
 
-/// The pose of an even stone whose axis is up already: width along x, its middle on the axis, girdle at z = 0, and half its
-/// diameter 1.
+/// Returns the pose of a stone whose axis is up already: its width along x, its middle on the axis, its girdle at z = 0, and
+/// half its diameter 1.
 pub(super) fn placed(even: &Even, areas: &[f64]) -> Result<Alignment, FromMeshError> {
     let solid = Polytope::from_planes(&even.planes)?;
     let around = hull(solid.vertices().iter().map(|v| v.truncate()).collect());
     let turn = DQuat::from_rotation_z(-azimuth(even, areas, &around));
     let Outline { diameter, girdle_top, middle, .. } = Outline::of(&solid.moved(1.0, turn, DVec3::ZERO));
     let top = girdle_edge(&solid).unwrap_or(girdle_top);
-    // About an axis the middle is known to the last digit.
+    // The middle of a stone with rotational symmetry lies exactly on the axis.
     let middle = if even.turns > 1 { DVec2::ZERO } else { middle };
     let scale = 2.0 / diameter;
     Ok(Alignment { scale, turn, shift: -scale * middle.extend(top) })
 }
 
-/// z of the highest corner in which the girdle's facets meet the crown's, or, without such facets, the pavilion's meet the
-/// crown's; `None` where neither do.
+/// Returns z of the highest corner in which facets of the girdle meet facets of the crown, or, without a girdle, facets of
+/// the pavilion meet facets of the crown; `None` where there is no such corner.
 fn girdle_edge(solid: &Polytope) -> Option<f64> {
     let facing = |test: &dyn Fn(f64) -> bool| {
         let mut on = vec![false; solid.vertices().len()];
@@ -58,16 +58,17 @@ fn girdle_edge(solid: &Polytope) -> Option<f64> {
     highest(&|v| up[v] && upright[v]).or_else(|| highest(&|v| up[v] && down[v]))
 }
 
-/// What is left of a pose that is known, once the axis is up and the origin where it belongs.
+/// Returns what remains of a known pose once the axis is up and the origin in its place.
 pub(super) fn as_posed(even: &Even, pose: &Alignment) -> Alignment {
     let right = pose.turn * (even.turn.inverse() * DVec3::X);
     Alignment { scale: pose.scale, turn: DQuat::from_rotation_z(right.y.atan2(right.x)), shift: DVec3::ZERO }
 }
 
-/// The azimuth that becomes +x.
+/// Returns the azimuth that becomes +x.
 fn azimuth(even: &Even, areas: &[f64], rim: &[DVec2]) -> f64 {
     let mut candidates = candidates(even, rim);
-    // Of equals, the nearest to the surface's own x axis is taken: what lies right is left as it is.
+    // Of equal directions, the one nearest to the surface's own x axis is taken, so that a surface that lies right is not
+    // turned.
     let own = even.turn * DVec3::X;
     let apart = |azimuth: f64| -own.dot(DVec3::new(azimuth.cos(), azimuth.sin(), 0.0));
     candidates.sort_by(|&a, &b| apart(a).total_cmp(&apart(b)));
@@ -78,7 +79,7 @@ fn azimuth(even: &Even, areas: &[f64], rim: &[DVec2]) -> f64 {
     };
     let least = candidates.iter().map(|&c| width(c)).fold(f64::INFINITY, f64::min);
     let widest = candidates.iter().map(|&c| width(c)).fold(0.0, f64::max);
-    // A round stone is as wide everywhere, but for its corners; a square one is narrowest from side to side.
+    // A round stone is equally wide in all directions, but for its corners; a square one is narrowest from side to side.
     let limit = if least >= ROUND * widest { f64::INFINITY } else { least * (1.0 + SAME_WIDTH) };
     let narrow = candidates.into_iter().filter(|&c| width(c) <= limit);
     let facing = |azimuth: f64| crown_facing(even, areas, azimuth);
@@ -87,7 +88,7 @@ fn azimuth(even: &Even, areas: &[f64], rim: &[DVec2]) -> f64 {
     narrow.fold((f64::NEG_INFINITY, 0.0), better).1
 }
 
-/// Directions of mirrors, else of facets, else of the outline.
+/// Returns the azimuths that may become +x: those of mirrors, else of facets, else of the outline.
 fn candidates(even: &Even, rim: &[DVec2]) -> Vec<f64> {
     match (even.mirror, even.turns) {
         (Some(mirror), 1 | 2) => (0..4).map(|k| mirror + f64::from(k) * FRAC_PI_2).collect(),
@@ -103,7 +104,7 @@ fn crown_azimuths(even: &Even) -> Vec<f64> {
     even.planes.iter().filter(|p| is_crown(p)).map(|p| p.normal.y.atan2(p.normal.x)).collect()
 }
 
-/// The direction in which an outline is narrowest; `None` where it is as wide as long.
+/// Returns the direction in which an outline is narrowest; `None` where it is as wide as long.
 fn narrow_axis(rim: &[DVec2]) -> Option<f64> {
     let found = Calipers::of(rim).filter(|found| found.length > (1.0 + LONG) * found.width)?;
     Some(found.across.to_angle())
@@ -113,7 +114,7 @@ fn is_crown(plane: &Plane) -> bool {
     plane.normal.z >= LEAST_UPRIGHT && plane.normal.truncate().length() > SAME_AZIMUTH
 }
 
-/// The area of the largest facet of the crown that faces an azimuth.
+/// Returns the area of the largest facet of the crown that faces an azimuth.
 fn crown_facing(even: &Even, areas: &[f64], azimuth: f64) -> f64 {
     let toward = DVec3::new(azimuth.cos(), azimuth.sin(), 0.0);
     let crown = even.planes.iter().zip(areas).filter(|(p, _)| is_crown(p));

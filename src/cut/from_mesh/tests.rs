@@ -1,4 +1,4 @@
-//! Stones made into triangles, spoilt, and found again.
+//! Tests that turn stones into triangles, spoil these, and find the stones again.
 
 use super::super::round_brilliant::{MODERN, RoundBrilliant};
 use super::*;
@@ -6,21 +6,22 @@ use crate::math::surface::{Surface, SurfaceKind, facets};
 use crate::math::triangulate;
 use proptest::prelude::*;
 
-/// Degrees within which a facet's plane must come back.
+/// The plane of a facet that is found again may be off by this much, degrees.
 const DEGREES: f64 = 0.05;
 
-/// The same of a girdle's facets, which are so narrow that noise tilts them more: now and then one by 0.06.
+/// The plane of a girdle's facet may be off by this much, degrees. Girdle facets are so narrow that noise tilts them more:
+/// now and then one by 0.06.
 const GIRDLE_DEGREES: f64 = 0.08;
 
-/// Part of the girdle radius within which a facet's distance must come back.
+/// The distance of a facet that is found again may be off by this much, girdle radii.
 const PART: f64 = 1e-3;
 
 /// How a stone is spoilt.
 #[derive(Debug, Clone, Copy)]
 struct Spoilt {
-    /// Of each coordinate, girdle radii, at most.
+    /// The most noise that is added to each coordinate, girdle radii.
     noise: f64,
-    /// Whether each triangle's corners get noise of their own.
+    /// Whether each triangle's corners have noise of their own.
     apart: bool,
     turn: DQuat,
     scale: f64,
@@ -42,7 +43,7 @@ fn solid(facets: &[(String, Plane)]) -> Polytope {
     Polytope::from_planes(&facets.iter().map(|(_, plane)| *plane).collect::<Vec<_>>()).unwrap()
 }
 
-/// The triangles of a stone, every one with its own corners, in any order and from any corner on.
+/// Returns the triangles of a stone in random order. Each has its own corners and begins at any of them.
 fn spoil(facets: &[(String, Plane)], how: Spoilt) -> Surface {
     let mesh = triangulate(&solid(facets));
     let mut next = random(how.seed);
@@ -70,7 +71,7 @@ fn again(facets: &[(String, Plane)], how: Spoilt, up: Up) -> FromMesh {
     from_mesh(&found(&spoil(facets, how)), up).unwrap()
 }
 
-/// The largest angle between planes of one name, degrees, and the largest difference of their offsets.
+/// Returns the largest angle between planes of the same name, degrees, and the largest difference of their offsets.
 fn worst(facets: &[(String, Plane)], back: &[(String, Plane)]) -> (f64, f64) {
     let names = |list: &[(String, Plane)]| list.iter().map(|(name, _)| name.clone()).collect::<Vec<_>>();
     assert!(names(facets) == names(back), "{:?}", names(back));
@@ -192,7 +193,7 @@ fn up_may_be_given_and_must_be_a_direction() {
     let seen = found(&spoil(&facets, PLAIN));
     let down = from_mesh(&seen, Up::Given(DVec3::new(0.0, 0.01, -3.0))).unwrap();
     let table = down.facets.iter().find(|(name, _)| name == "table").unwrap();
-    // Seen from below the culet is the table, and the table the culet.
+    // Seen from below, the culet is the table, and the table the culet.
     assert!(table.1.offset > 0.7 && down.facets.iter().any(|(name, _)| name == "culet"));
     for bad in [DVec3::ZERO, DVec3::NAN] {
         assert!(matches!(from_mesh(&seen, Up::Given(bad)), Err(FromMeshError::Up(_))));
@@ -201,7 +202,7 @@ fn up_may_be_given_and_must_be_a_direction() {
     assert!(aslant.facets.iter().all(|(name, _)| name != "table"));
 }
 
-/// Noise leans the table away from the file's axis, and next to its normal is then another direction that fits as well.
+/// Noise leans the table away from the file's axis. Then another direction, next to the table's normal, fits as well.
 #[test]
 fn directions_next_to_the_best_are_no_doubt() {
     for (noise, degrees, seed) in [1e-4, 1e-3]

@@ -3,7 +3,7 @@ use crate::cut::{Cut, MaterialRef};
 use crate::io::cut_file;
 use proptest::prelude::*;
 
-/// What the format has: a gear, an outline, names before and after, a wrapped line, instructions, a culet.
+/// A file with all that the format has: a gear, an outline, names before and after, a wrapped line, instructions, a culet.
 const STONE: &str = "GemCad 5.0\r\ng 96 0.0\r\ny 4 y\r\nI 1.76\r\nH A square\r\nH\r\nH  by nobody \r\n\
     a -90.000000 1.00000000 96 n G1 24 48 72 G set the size\r\n\
     a -45.0 0.9 96 24\r\n 48 72 n P1\r\n G to a point\r\n\
@@ -79,7 +79,7 @@ fn what_is_written_reads_back_the_same_but_for_the_layout() {
     let specimen = Specimen::new(read(STONE.as_bytes(), "x.asc").unwrap().design).unwrap();
     let (back, lost) = again(&specimen);
     assert_eq!((back.design, lost), (specimen.design.clone(), vec![]));
-    // Through this program's own format as well.
+    // The design survives this program's own format as well.
     let toml = cut_file::write(&specimen.design);
     assert_eq!(cut_file::parse(&toml, "x.toml").unwrap(), specimen.design);
 }
@@ -97,7 +97,7 @@ fn a_brilliant_goes_out_with_its_facets_and_says_what_stays_behind() {
     let Cut::Tiers(tiers) = &back.design.cut else { panic!() };
     assert_eq!((tiers.symmetry, tiers.mirror, tiers.tiers.len()), (8, true, 7));
     assert_eq!(back.stone().unwrap().names(), specimen.stone().unwrap().names());
-    // The stone's width is that between corners of the girdle, the design's that of a circle around them.
+    // A stone read from tiers is scaled by the width between the girdle's corners, a brilliant by a circle around them.
     let scale = specimen.stone().unwrap().polytope.volume() / back.stone().unwrap().polytope.volume();
     assert!((1.0 - scale).abs() < 2e-3, "{scale}");
 }

@@ -1,4 +1,4 @@
-//! The keys of a cut file, in the order they are written.
+//! The keys of a cut file, in the order in which they are written.
 
 use serde::{Deserialize, Serialize};
 
@@ -14,8 +14,8 @@ use crate::math::{Plane, Surface, TriangleMesh};
 use glam::{DQuat, DVec3};
 use std::collections::HashSet;
 
-/// The whole file, `B` being its round brilliant as read or as written. Values come before tables, as TOML wants them
-/// written.
+/// A whole cut file. `B` is its round brilliant, which has another form when read than when written. Values come before
+/// tables, since TOML must be written so.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct DesignForm<B = Table<RoundBrilliantForm>> {
@@ -52,7 +52,7 @@ fn default_diameter() -> f64 {
     DEFAULT_DIAMETER_MM
 }
 
-/// `[round_brilliant]` as it is read, with both keys of each pair; [`RoundBrilliant`] itself is written.
+/// The table `[round_brilliant]` as it is read, with both keys of each pair; [`RoundBrilliant`] itself is written.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct RoundBrilliantForm {
@@ -69,7 +69,7 @@ pub(super) struct RoundBrilliantForm {
     culet: f64,
 }
 
-/// `[[plane]]`
+/// A table `[[plane]]`.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct PlaneForm {
@@ -79,7 +79,7 @@ struct PlaneForm {
     offset: f64,
 }
 
-/// `[mesh]`
+/// The table `[mesh]`.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct MeshForm {
@@ -92,7 +92,7 @@ fn nameless() -> String {
 }
 
 impl DesignForm<RoundBrilliant> {
-    /// The form that a design is written in.
+    /// Returns the form in which a design is written.
     pub fn of(design: &Design) -> Self {
         let form = Self {
             format: FORMAT,
@@ -131,7 +131,7 @@ impl DesignForm<RoundBrilliant> {
 }
 
 impl DesignForm {
-    /// The design that the form describes, checked.
+    /// Returns the design that the form describes, checked.
     pub fn design(self) -> Result<Design, Fault> {
         let Self { round_brilliant, index, tier, plane, mesh, pill, cube, prism, plate, .. } = self;
         let glass = [
@@ -161,18 +161,18 @@ impl DesignForm {
     }
 }
 
-/// All the ways in which a file may give a cut.
+/// The tables by which a file may give its cut.
 struct Cuts {
     round_brilliant: Option<Table<RoundBrilliantForm>>,
     index: Option<Table<IndexForm>>,
     tier: Option<Vec<Table<TierForm>>>,
     plane: Option<Vec<Table<PlaneForm>>>,
     mesh: Option<Table<MeshForm>>,
-    /// With its key.
+    /// A glass shape and the key of its table.
     glass: Option<(&'static str, Glass)>,
 }
 
-/// The one cut that a file gives.
+/// Returns the one cut that a file gives.
 fn cut(form: Cuts) -> Result<Cut, Fault> {
     let Cuts { round_brilliant, index, tier, plane, mesh, glass } = form;
     let glass_key = glass.map_or("glass", |(key, _)| key);
@@ -211,7 +211,7 @@ fn cut(form: Cuts) -> Result<Cut, Fault> {
     }
 }
 
-/// Where a file says what the design's check refuses.
+/// Returns the path of the key whose value the design's check refuses.
 fn path(error: &DesignError, design: &Design) -> String {
     match error {
         DesignError::Name => "name".to_owned(),
@@ -259,7 +259,8 @@ impl RoundBrilliantForm {
     }
 }
 
-/// One of a pair of keys, each with what it makes of its number; both or neither is a fault.
+/// Returns the value of a pair of keys, of which a file gives one. Each key comes with the function that takes its number;
+/// both or neither is a fault.
 fn either<T>(
     (first, a, of_first): (&str, Option<f64>, fn(f64) -> T),
     (second, b, of_second): (&str, Option<f64>, fn(f64) -> T),
@@ -295,7 +296,7 @@ impl MeshForm {
         Self { vertices, triangles: triangles.clone() }
     }
 
-    /// The shape, in the stone's frame if it was written in another.
+    /// Returns the shape, moved into the stone's frame if it was written in another.
     fn shape(self) -> Result<MeshShape, Fault> {
         let fault = |message: String| Fault::at("mesh", format!("mesh: {message}"));
         let vertices: Vec<DVec3> = self.vertices.iter().map(|v| v.0.into()).collect();

@@ -1,4 +1,4 @@
-//! `material`: a name, an index, or a table of the file's own.
+//! The key `material`: a name, an index, or a table of the file's own.
 
 use serde::{Deserialize, Serialize};
 
@@ -7,13 +7,13 @@ use super::values::{Numbers, OneOf, Pairs, Table};
 use crate::cut::MaterialRef;
 use crate::optics::{Absorption, AbsorptionError, Dispersion, Material};
 
-/// Where the one sample of an absorption that is the same at every wavelength is put, in nm.
+/// The wavelength, in nm, of the one sample of an absorption that is the same at every wavelength.
 const GREY_NM: f64 = 550.0;
 
-/// `material = "diamond"`, `material = 2.42` or `[material]`.
+/// The value of `material`: `material = "diamond"`, `material = 2.42` or `[material]`.
 pub(in crate::io) type MaterialForm = OneOf<Table<TableForm>>;
 
-/// `[material]`
+/// The table `[material]`.
 #[derive(Serialize, Deserialize, Default)]
 #[serde(deny_unknown_fields)]
 pub(in crate::io) struct TableForm {
@@ -33,7 +33,7 @@ pub(in crate::io) struct TableForm {
     abbe: Option<Numbers<2>>,
     #[serde(skip_serializing_if = "Option::is_none")]
     absorption: Option<OneOf<Pairs>>,
-    /// Of the extraordinary polarisation, where it differs.
+    /// The absorption of the extraordinary polarisation, where it differs.
     #[serde(skip_serializing_if = "Option::is_none")]
     absorption_e: Option<OneOf<Pairs>>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -43,7 +43,7 @@ pub(in crate::io) struct TableForm {
     /// Whether the colour is chosen for its looks, and not measured.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     illustrative: bool,
-    /// A law that has no key of its own, as [`Dispersion`] spells it.
+    /// A law that has no key of its own, in the form of [`Dispersion`].
     #[serde(skip_serializing_if = "Option::is_none")]
     dispersion: Option<Dispersion>,
 }
@@ -53,7 +53,7 @@ fn nameless() -> String {
 }
 
 impl MaterialForm {
-    /// The form that a material is written in.
+    /// Returns the form in which a material is written.
     pub fn of(material: &MaterialRef) -> Self {
         match material {
             MaterialRef::Name(name) => Self::Text(name.clone()),
@@ -62,7 +62,7 @@ impl MaterialForm {
         }
     }
 
-    /// The material that the form describes, yet to be checked.
+    /// Returns the material that the form describes, not yet checked.
     pub fn material(self) -> Result<MaterialRef, Fault> {
         match self {
             Self::Text(name) => Ok(MaterialRef::Name(name)),
@@ -130,7 +130,7 @@ impl TableForm {
     }
 }
 
-/// A clear stone is the number 0, which a list cannot say.
+/// Returns the form in which an absorption is written. A clear stone is the number 0, since a list cannot be empty.
 fn absorption_form(absorption: &Absorption) -> OneOf<Pairs> {
     match absorption.samples() {
         [] => OneOf::Number(0.0),

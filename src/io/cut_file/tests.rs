@@ -1,4 +1,4 @@
-//! What a cut file may say, what it may not and how that is told, and that reading undoes writing.
+//! What a cut file may and may not say, which messages its faults give, and that reading undoes writing.
 
 use std::fs;
 use std::sync::Arc;
@@ -19,13 +19,13 @@ const PLANES: &str = "format = 1\nname = \"wedge\"\nmaterial = 1.5\n\
                       [[plane]]\nnormal = [0, 0, 1]\noffset = 0.3\n\
                       [[plane]]\nname = \"star\"\nnormal = [0.0, 3e0, 4]\noffset = 1\n";
 
-/// Tolkowsky's file with one part exchanged.
+/// Returns Tolkowsky's file with one part replaced.
 fn with(part: &str, other: &str) -> String {
     assert!(TOLKOWSKY.contains(part), "the file has no {part}");
     TOLKOWSKY.replacen(part, other, 1)
 }
 
-/// The file of planes with one part exchanged.
+/// Returns the file of planes with one part replaced.
 fn planes_with(part: &str, other: &str) -> String {
     assert!(PLANES.contains(part), "the file has no {part}");
     PLANES.replace(part, other)
@@ -63,7 +63,7 @@ fn planes_read_as_written_with_whole_numbers_for_numbers() {
     assert_eq!(design.material, MaterialRef::Index(1.5));
 }
 
-/// An unnamed material of a file's own.
+/// Returns an unnamed material of a file's own.
 fn custom(dispersion: Dispersion) -> Material {
     Material {
         name: "custom".to_owned(),
@@ -333,7 +333,7 @@ fn a_mesh_is_written_and_read_to_the_last_bit_and_what_encloses_nothing_is_told(
     let first = &triangles[triangles.find("[[").unwrap() + 1..=triangles.find(']').unwrap()];
     let twice = text.replacen("triangles = [", &format!("triangles = [{first}, "), 1);
     assert!(parse(&twice, "x").unwrap_err().message.contains("is listed twice"), "{twice}");
-    // One written in another frame is moved into the stone's.
+    // A mesh that is written in another frame is moved into the stone's.
     let Cut::Mesh(shape) = &design.cut else { panic!() };
     let aside = Design {
         cut: Cut::Mesh(MeshShape(Arc::new(shape.moved(7.0, DQuat::IDENTITY, DVec3::new(3.0, 0.0, -1.0))))),
@@ -467,7 +467,7 @@ fn a_file_that_cannot_be_read_is_told_as_such() {
     assert!(told("wrong.toml/x").starts_with("/wrong.toml/x: cannot be read: "));
 }
 
-/// The files of the folder cuts/.
+/// Reads the files of the folder cuts/.
 fn shipped() -> Vec<Design> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("cuts");
     let files = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());

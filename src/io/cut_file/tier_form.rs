@@ -1,4 +1,4 @@
-//! The keys of a cutter's design: `[index]` and its `[[tier]]`.
+//! The keys of a cutter's design: the table `[index]` and the tables `[[tier]]`.
 
 use super::Fault;
 use super::values::Table;
@@ -6,7 +6,7 @@ use crate::cut::{Indexed, Tier, Tiers};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
-/// `[index]`
+/// The table `[index]`.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct IndexForm {
@@ -25,7 +25,7 @@ pub(super) struct IndexForm {
     remarks: BTreeMap<String, String>,
 }
 
-/// `[[tier]]`
+/// A table `[[tier]]`.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct TierForm {
@@ -61,7 +61,7 @@ impl IndexForm {
         }
     }
 
-    /// The design of this gear and these tiers.
+    /// Returns the design of this gear with these tiers.
     pub fn tiers(self, tiers: Vec<Table<TierForm>>) -> Result<Tiers, Fault> {
         let numbered = tiers.into_iter().enumerate();
         let tiers = numbered.map(|(k, Table(form))| form.tier(k)).collect::<Result<_, _>>()?;

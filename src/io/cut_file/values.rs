@@ -1,4 +1,4 @@
-//! The kinds of value that a cut file has and serde does not read strictly enough.
+//! The kinds of value in a cut file that serde does not read strictly enough.
 
 use std::fmt;
 use std::marker::PhantomData;
@@ -7,7 +7,7 @@ use serde::de::value::{MapAccessDeserializer, SeqAccessDeserializer};
 use serde::de::{MapAccess, SeqAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize};
 
-/// What only a table with its keys can give; serde's own structs take a list of values as well.
+/// A value that only a table of keys can give; serde's own structs accept a list of values as well.
 #[derive(Serialize)]
 #[serde(transparent)]
 pub(in crate::io) struct Table<T>(pub T);
@@ -30,8 +30,9 @@ impl<'de, T: Deserialize<'de>> Deserialize<'de> for Table<T> {
     }
 }
 
-/// Text, a number, or the list or table that `T` takes. Read by hand, for an error that says what was expected and
-/// where, which serde's untagged enums cannot.
+/// Text, a number, or the list or table that `T` takes.
+///
+/// It is deserialised by hand, for an error that says what was expected and where, which serde's untagged enums cannot.
 #[derive(Serialize)]
 #[serde(untagged)]
 pub(in crate::io) enum OneOf<T> {
@@ -74,7 +75,7 @@ impl<'de, T: Deserialize<'de>> Deserialize<'de> for OneOf<T> {
     }
 }
 
-/// A list of exactly so many numbers; serde's own arrays let more pass.
+/// A list of exactly `N` numbers; serde's own arrays accept more.
 #[derive(Clone, Copy, Serialize, Deserialize)]
 #[serde(try_from = "Vec<f64>", into = "Vec<f64>")]
 pub(in crate::io) struct Numbers<const N: usize>(pub [f64; N]);

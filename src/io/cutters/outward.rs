@@ -1,4 +1,4 @@
-//! Designs on their way into a cutters' file: as tiers, with their outlines, and what such files cannot hold.
+//! Prepares designs for cutters' files: as tiers, with their outlines, and with messages about what such files cannot hold.
 
 use super::{Gear, TierPiece, fourteen_digits, gathered, named_once};
 use crate::cut::{Cut, DEFAULT_DIAMETER_MM, Design, MaterialRef, Tiers, tier_stem};
@@ -8,13 +8,14 @@ use crate::scene::Specimen;
 use glam::DVec3;
 use std::borrow::Cow;
 
-/// Gears by which a design without one is told, the commonest first.
+/// The gears that are tried for a design without one, the commonest first.
 const GEARS: [i32; 9] = [96, 80, 72, 64, 120, 84, 88, 77, 100];
 
-/// The plane of a facet and its corners, counter-clockwise seen from outside; none where it does not reach the stone.
+/// The plane of a facet and its corners, counter-clockwise seen from outside; no corners where it does not reach the stone.
 pub(in super::super) type Outline = (Plane, Vec<DVec3>);
 
-/// The design as tiers; one that is not cut by tiers is told by the first gear on which its facets lie.
+/// Returns a design as tiers. A design that is not cut by tiers gets the first gear on whose teeth its facets lie, else the
+/// commonest.
 pub(in super::super) fn tiers_of<'a>(specimen: &'a Specimen, lost: &mut Vec<String>) -> Cow<'a, Tiers> {
     let design = &specimen.design;
     let brilliant = match &design.cut {
@@ -36,9 +37,9 @@ pub(in super::super) fn tiers_of<'a>(specimen: &'a Specimen, lost: &mut Vec<Stri
     Cow::Owned(tiers)
 }
 
-/// The facets of a design, moved where the origin lies outside, since tiers have no place for that.
+/// Returns the facets of a design, moved where the origin lies outside the stone, since tiers have no place for that.
 fn around_the_origin(specimen: &Specimen, lost: &mut Vec<String>) -> Vec<(String, Plane)> {
-    // A specimen's design has been checked.
+    // The design of a specimen has been checked, so it has facets.
     let mut facets = specimen.design.facets().unwrap_or_default();
     if facets.iter().any(|(_, plane)| plane.offset < 0.0) {
         let corners = facets_solid(&facets);
@@ -57,7 +58,7 @@ fn facets_solid(facets: &[(String, Plane)]) -> Vec<DVec3> {
     Polytope::from_planes(&planes).map(|solid| solid.vertices().to_vec()).unwrap_or_default()
 }
 
-/// Named planes as tiers: each named once, by its first facet.
+/// Converts named planes to tiers, each of which has its name at its first facet alone.
 fn indexed(facets: &[(String, Plane)], gear: Gear) -> Tiers {
     let mut runs = 0;
     let mut last = "";
@@ -73,7 +74,7 @@ fn indexed(facets: &[(String, Plane)], gear: Gear) -> Tiers {
     tiers
 }
 
-/// The facets that are cut, in their order, in the design's unit.
+/// Returns the outlines of the facets that are cut, in their order, in the design's unit.
 pub(in super::super) fn outlines(tiers: &Tiers) -> Vec<Outline> {
     let cut = tiers.tiers.iter().filter(|tier| tier.is_cut);
     let planes: Vec<Plane> =
@@ -87,7 +88,7 @@ pub(in super::super) fn outlines(tiers: &Tiers) -> Vec<Outline> {
     outlines
 }
 
-/// The one index that stands for the material: that of sodium light.
+/// Returns the one index that stands for the material: that of sodium light.
 pub(in super::super) fn refractive_index(specimen: &Specimen, lost: &mut Vec<String>) -> f64 {
     if let MaterialRef::Index(index) = specimen.design.material {
         return index;
@@ -98,7 +99,8 @@ pub(in super::super) fn refractive_index(specimen: &Specimen, lost: &mut Vec<Str
     index
 }
 
-/// What no cutters' file says of a design; `name` is what its reader will call it, if that comes from its lines.
+/// Adds messages about what no cutters' file says of a design. `name` is the name that a reader of the file will give the
+/// design, if it comes from the file's lines.
 pub(in super::super) fn untold(design: &Design, name: Option<&String>, lost: &mut Vec<String>) {
     if name.is_none_or(|name| name.trim() != design.name) {
         lost.push(format!("the name '{}' is not among the lines at the top", design.name));

@@ -1,4 +1,4 @@
-//! A design with all that both formats can hold, for their tests.
+//! A design with all that both `.gem` and `.gcs` can hold, for their tests.
 
 use crate::cut::{Cut, DEFAULT_DIAMETER_MM, Design, Indexed, MaterialRef, Tier, Tiers};
 use crate::scene::Specimen;
@@ -10,7 +10,7 @@ fn tier(angle: f64, distance: f64, indices: &[f64], name: &str, instructions: &s
     Tier { angle, distance, instructions: instructions.to_owned(), is_cut: true, facets }
 }
 
-/// A box with bevels, some between two teeth; it reaches 1 and is as deep as high.
+/// Returns a box with bevels, some at indices between two teeth. It reaches 1 across, and as far below z = 0 as above.
 pub(in super::super) fn design() -> Design {
     let around = [24.0, 48.0, 72.0, 96.0];
     let tiers = Tiers {
@@ -40,18 +40,18 @@ pub(in super::super) fn design() -> Design {
     }
 }
 
-/// A stone of it.
+/// Builds the specimen of a design.
 pub(in super::super) fn specimen(design: Design) -> Specimen {
     Specimen::new(design).unwrap()
 }
 
-/// Its tiers, to be altered.
+/// Returns the tiers of a design, for a test to alter.
 pub(in super::super) fn tiers(design: &mut Design) -> &mut Tiers {
     let Cut::Tiers(tiers) = &mut design.cut else { panic!("it is cut by tiers") };
     tiers
 }
 
-/// Stones that are not cut by tiers: a brilliant, and planes that do not lie around the origin.
+/// Returns stones that are not cut by tiers: a brilliant, and planes that do not lie around the origin.
 pub(in super::super) fn others() -> [Specimen; 2] {
     let brilliant = Design { cut: Cut::RoundBrilliant(crate::cut::TOLKOWSKY), ..design() };
     let solid = specimen(brilliant.clone()).stone().unwrap().polytope.moved(

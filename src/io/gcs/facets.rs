@@ -1,4 +1,4 @@
-//! Reading the tiers of a `.gcs` and their facets.
+//! Reads the tiers of a `.gcs` file and their facets.
 
 use super::read::Reader;
 use crate::cut::{MAX_PLANES, Tier, is_printable};
@@ -8,30 +8,31 @@ use crate::math::Plane;
 use glam::DVec3;
 use roxmltree::Node;
 
-/// How far a tier's depth and angle may differ from its corners and normals, in the stone's unit and in degrees.
+/// The most that a tier's depth and angle may differ from its corners and normals without a warning, in the stone's unit and
+/// in degrees.
 const TOLD_APART: f64 = 1e-6;
 
-/// A normal of another length is badly written.
+/// A normal whose length differs from 1 by this much or more is badly written.
 const UNIT_LENGTH: f64 = 1e-6;
 
-/// A facet that faces the axis by less (cosine) does not cross it.
+/// A facet that faces along the axis by less than this (cosine) does not cross it.
 const ALONG_THE_AXIS: f64 = 1e-9;
 
-/// A facet as the file has it.
+/// A facet as it stands in the file.
 struct Raw<'d> {
     at: Node<'d, 'd>,
-    /// Its distance may be below 0.
+    /// The facet's plane; its distance may be below 0.
     plane: Plane,
     name: String,
     instructions: String,
     is_cut: bool,
 }
 
-/// The facets of one tier, or what it says without any.
+/// The facets of one tier, or, where it has none, a tier of what it says.
 type RawTier<'d> = (Vec<Raw<'d>>, Option<Tier>);
 
 impl<'d> Reader<'d> {
-    /// All tiers, told by this gear.
+    /// Reads all tiers, with indices of this gear.
     pub fn tiers(&mut self, root: Node<'d, 'd>, gear: Gear) -> Result<Vec<Tier>, TextError> {
         let facets = root.descendants().filter(|node| node.has_tag_name("facet")).count();
         if facets > MAX_PLANES {
@@ -62,7 +63,7 @@ impl<'d> Reader<'d> {
         Ok(tiers)
     }
 
-    /// The height at which the origin belongs: 0, but where it lies outside the stone half way through it.
+    /// Returns the height at which the origin belongs: 0, or half way through the stone where 0 lies outside it.
     fn middle(&mut self, raw: &[RawTier<'d>]) -> Result<f64, TextError> {
         let cut = || raw.iter().flat_map(|(facets, _)| facets).filter(|facet| facet.is_cut);
         let Some(outer) = cut().find(|facet| facet.plane.offset < 0.0) else { return Ok(0.0) };
@@ -90,7 +91,7 @@ impl<'d> Reader<'d> {
     fn piece(&mut self, raw: Raw<'d>, middle: f64, gear: Gear) -> TierPiece {
         let Raw { at, plane, name, instructions, is_cut } = raw;
         let distance = plane.offset - plane.normal.z * middle;
-        // Of what is cut, rounding alone is left below 0.
+        // The distance of a facet that is cut can be below 0 by rounding alone.
         if distance < 0.0 && !is_cut {
             self.warn(at, || format!("depth: {distance} of a facet that is not cut is taken as 0"));
         }
@@ -99,7 +100,7 @@ impl<'d> Reader<'d> {
         TierPiece { tier: 0, setting, name, instructions, is_cut }
     }
 
-    /// A tier without facets, which is kept for what it says.
+    /// Reads a tier without facets, which is kept for what it says.
     fn empty_tier(&mut self, node: Node<'_, '_>) -> Option<Tier> {
         let (polar, depth) = (self.number(node, "angle")?, self.number(node, "depth")?);
         let setting = Gear { teeth: 96, offset: 0.0 }.setting(slope_normal(polar, 0.0), depth.max(0.0));
@@ -115,7 +116,8 @@ impl<'d> Reader<'d> {
         })
     }
 
-    /// The facets of a tier; the first has its instructions, and each its name, for whichever begins one of its own.
+    /// Reads the facets of a tier. The first carries the tier's instructions, and each the tier's name, since any of them
+    /// may begin a tier of its own.
     fn tier(&mut self, node: Node<'d, 'd>) -> Result<Vec<Raw<'d>>, TextError> {
         let (polar, depth) = (self.number(node, "angle"), self.number(node, "depth"));
         let name = self.text(node, "name").unwrap_or_default();
@@ -127,7 +129,7 @@ impl<'d> Reader<'d> {
         for at in node.children().filter(|child| child.has_tag_name("facet")) {
             let plane = self.plane(at, polar, depth)?;
             apart.look(at, polar, &plane);
-            // An endless name is not multiplied.
+            // A name without end is not copied to every facet.
             let name = if facets.is_empty() || is_printable(&name) { name.clone() } else { String::new() };
             facets.push(Raw { at, plane, name, instructions: std::mem::take(&mut instructions), is_cut });
         }
@@ -137,7 +139,7 @@ impl<'d> Reader<'d> {
         Ok(facets)
     }
 
-    /// What a tier says that a design has no place for.
+    /// Warns of what a tier says that a design has no place for.
     fn ornaments(&mut self, node: Node<'_, '_>) {
         if self.is(node, "guide", false) {
             self.warn(node, || "guide: that the tier is a guide is not kept".to_owned());
@@ -152,7 +154,8 @@ impl<'d> Reader<'d> {
         }
     }
 
-    /// The plane of a facet: its own normal, else that of angle and index; its tier's depth, else that of its corners.
+    /// Returns the plane of a facet: with its own normal, else that of angle and index; at its tier's depth, else that of
+    /// its corners.
     fn plane(
         &mut self,
         facet: Node<'_, '_>,
@@ -169,7 +172,7 @@ impl<'d> Reader<'d> {
             Some(depth) => depth,
             None => return Err(self.fault(facet, "depth: the tier has none and the facet has no corners")),
         };
-        // The normal is one.
+        // The normal has length 1, so only the depth can be at fault.
         Plane::new(normal, depth).normalized().ok_or_else(|| self.fault(facet, "depth: it is no length"))
     }
 
@@ -191,12 +194,12 @@ fn slope_normal(polar: f64, azimuth: f64) -> DVec3 {
     Plane::from_slope(polar.to_radians(), azimuth.to_radians(), 1.0).normal
 }
 
-/// The format counts girdle facets as the pavilion's.
+/// Returns an angle, but -90 for 90, since the format counts girdle facets as the pavilion's.
 fn girdle_below(angle: f64) -> f64 {
     if angle == 90.0 { -90.0 } else { angle }
 }
 
-/// The corners of a facet that are numbers.
+/// Returns the corners of a facet whose coordinates are finite numbers.
 fn corners<'a>(facet: Node<'a, 'a>) -> impl Iterator<Item = DVec3> + use<'a> {
     let vertices = facet.children().filter(|child| child.has_tag_name("vertex"));
     vertices.filter_map(|vertex| {
@@ -206,7 +209,7 @@ fn corners<'a>(facet: Node<'a, 'a>) -> impl Iterator<Item = DVec3> + use<'a> {
     })
 }
 
-/// How far a tier's numbers differ from those of its facets.
+/// The largest differences between a tier's numbers and those of its facets.
 #[derive(Default)]
 struct Apart {
     corners: f64,

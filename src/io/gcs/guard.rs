@@ -1,16 +1,17 @@
-//! What is refused before XML is parsed, since its parser would take it and not come to an end, and texts as they stand.
+//! Refuses XML that its parser would accept and not finish, before it is parsed, and restores texts as they stand in a file.
 
 use super::MAX_BYTES;
 use crate::io::text::{TextError, line_after, too_large};
 use std::borrow::Cow;
 
-/// Attributes of one element; their parser compares each with each.
+/// The most attributes of one element; the XML parser compares each with each.
 const MOST_ATTRIBUTES: usize = 256;
 
-/// Declarations of namespaces; their parser copies them down the tree.
+/// The most declarations of namespaces; the XML parser copies them down the tree.
 const MOST_NAMESPACES: usize = 16;
 
-/// The text of a file of a sane size and build: UTF-8, or UTF-16 behind its mark.
+/// Returns the text of a file of a sane size and build, UTF-8 or UTF-16 behind its mark, and whether characters of it are
+/// spoilt.
 pub(super) fn text(bytes: &[u8]) -> Result<(Cow<'_, str>, bool), TextError> {
     let whole = |message| TextError { line: None, message };
     if bytes.len() > MAX_BYTES {
@@ -20,7 +21,7 @@ pub(super) fn text(bytes: &[u8]) -> Result<(Cow<'_, str>, bool), TextError> {
     if text.matches("xmlns").count() > MOST_NAMESPACES {
         return Err(whole(format!("xmlns: more than {MOST_NAMESPACES} namespaces are declared")));
     }
-    // Values cannot hold a '<', so that no element is longer than from one to the next.
+    // Values cannot hold a '<', so that no element is longer than from one '<' to the next.
     let mut begin = 0;
     for piece in text.split_inclusive('<') {
         if values(piece) > MOST_ATTRIBUTES {
@@ -38,14 +39,14 @@ fn values(element: &str) -> usize {
     behind.filter(|text| text.trim_start().starts_with(['"', '\''])).count()
 }
 
-/// A value with its line breaks and tabs, for which XML has blanks; `raw` is the value as the file has it.
+/// Returns a value with its line breaks and tabs, for which XML has blanks; `raw` is the value as it stands in the file.
 pub(super) fn unfolded(raw: &str, value: &str) -> String {
     if !raw.contains(['\n', '\r', '\t']) {
         return value.to_owned();
     }
     let raw = raw.replace("\r\n", "\n");
     let mut raw = raw.chars();
-    // Character by character the same, but that an entity stands for one.
+    // Both texts are the same character by character, except that an entity stands for one character.
     let unfold = |character| match raw.next() {
         Some('&') => {
             raw.by_ref().find(|c| *c == ';');

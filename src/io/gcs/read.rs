@@ -1,4 +1,4 @@
-//! Reading `.gcs`.
+//! Reads `.gcs` files.
 
 use super::{COLOUR, ROOT, VERSION, guard};
 use crate::cut::{MaterialRef, Tiers};
@@ -8,20 +8,20 @@ use crate::io::design_file::ImportedDesign;
 use crate::io::text::TextError;
 use roxmltree::{Document, Node, ParsingOptions};
 
-/// Elements and the blanks between them: ten thousand facets of fifty corners each.
+/// The most elements and blanks between them: ten thousand facets of fifty corners each.
 const MOST_NODES: u32 = 1_000_000;
 
-/// What is read of `<index>`.
+/// The attributes of `<index>` that are read; others become remarks.
 const INDEX: [&str; 4] = ["gear", "base", "symmetry", "mirror"];
 
-/// Lines at the top and at the end, by the attributes of `<info>`; the last of each takes what follows, line by line.
+/// The attributes of `<info>` with the lines at the top and, below, at the end. The last of each holds all further lines.
 const HEADERS: [&str; 3] = ["title", "author", "header2"];
 const FOOTERS: [&str; 2] = ["footer1", "footer2"];
 
-/// Reads a design; `label` is the file's path for errors, and names a design without a title.
+/// Reads a design of Gem Cut Studio; `label` is the file's path for errors, and names a design without a title.
 ///
 /// # Errors
-/// What keeps it from being a design, with its line.
+/// When the file is no such design; the error has a line where there is one.
 pub fn read(bytes: &[u8], label: &str) -> Result<ImportedDesign, CutFileError> {
     let refused =
         |TextError { line, message }: TextError| CutFileError { path: label.to_owned(), line, message };
@@ -58,14 +58,14 @@ impl<'d> Reader<'d> {
         self.warnings.warn(|| format!("line {}: {}", document.text_pos_at(node.range().start).row, text()));
     }
 
-    /// An attribute as text, with the line breaks that it has in the file; none where it is empty or missing.
+    /// Returns an attribute as text, with the line breaks that it has in the file; `None` where it is empty or missing.
     pub fn text(&self, node: Node<'_, '_>, key: &str) -> Option<String> {
         let attribute = node.attribute_node(key).filter(|attribute| !attribute.value().is_empty())?;
         let raw = &self.document.input_text()[attribute.range_value()];
         Some(guard::unfolded(raw, attribute.value()))
     }
 
-    /// An attribute as a finite number; none, and a warning, where it is anything else.
+    /// Returns an attribute as a finite number; `None` where it is missing, and with a warning where it is anything else.
     pub fn number(&mut self, node: Node<'_, '_>, key: &str) -> Option<f64> {
         let text = node.attribute(key)?;
         let number = text.trim().parse().ok().filter(|number: &f64| number.is_finite());
@@ -95,7 +95,7 @@ impl<'d> Reader<'d> {
         self.index(root, &mut tiers);
         self.info(root, &mut tiers);
         let material = self.render(root, &mut tiers);
-        // So that the same remarks stand in the same order, whatever they went through.
+        // Sorted, so that the same remarks stand in the same order, whatever formats they went through.
         tiers.remarks.sort();
         tiers.tiers = self.tiers(root, Gear { teeth: tiers.gear, offset: tiers.offset })?;
         Ok((tiers, material))
@@ -108,7 +108,7 @@ impl<'d> Reader<'d> {
         };
         let teeth = self.number(node, "gear").unwrap_or_default();
         let offset = self.number(node, "base").unwrap_or_default();
-        // What is not whole becomes 0, which no gear has.
+        // A number that is not whole becomes 0, which no gear has.
         let teeth = if teeth.fract() == 0.0 { teeth as i32 } else { 0 };
         let place = format!("line {}: ", self.line(node));
         Gear::given(teeth, offset, &place, &mut self.warnings)
@@ -173,7 +173,7 @@ impl<'d> Reader<'d> {
     }
 }
 
-/// A child by its name.
+/// Returns a child element by its name.
 fn child<'d>(node: Node<'d, 'd>, name: &str) -> Option<Node<'d, 'd>> {
     node.children().find(|child| child.has_tag_name(name))
 }

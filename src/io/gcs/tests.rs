@@ -5,7 +5,7 @@ use crate::io::design_file::{EncodedDesign, ImportedDesign};
 use crate::math::{Plane, Polytope};
 use proptest::prelude::*;
 
-/// Two pyramids on one base, a quarter told by normals, the rest by angle and index.
+/// Two pyramids on one base, a quarter of their facets given by normals, the rest by angle and index.
 const PYRAMIDS: &str = r#"<GemCutStudio version="1000">
 <index gear="96" base="24" symmetry="4" mirror="1" phase="2"/>
 <tier angle="45" depth="0.7" name="C" instructions="Two
@@ -51,7 +51,7 @@ fn all_that_a_file_says_is_kept() {
     assert_eq!(warnings.len(), 6);
     assert!(warnings[0].starts_with("line 7: "), "{}", warnings[0]);
     assert_eq!((design.name.as_str(), &design.material), ("Pyramids", &MaterialRef::Index(1.5)));
-    // In the file's own unit; a stone is scaled to its girdle.
+    // Planes are in the file's own unit; a stone of them is scaled to its girdle.
     let planes: Vec<Plane> = design.facets().unwrap().into_iter().map(|(_, plane)| plane).collect();
     let solid = Polytope::from_planes(&planes).unwrap();
     assert!((solid.volume() - 8.0 / 3.0 * 0.98f64.powf(1.5)).abs() < 1e-9);
@@ -68,7 +68,7 @@ fn all_that_a_file_says_is_kept() {
     assert_eq!(indices(&tiers.tiers[0]), [48.0, 96.0, 72.0, 24.0]);
     assert_eq!(indices(&tiers.tiers[1]), [24.0, 96.0, 72.0, 48.0]);
     assert_eq!((tiers.tiers[2].zone(), tiers.tiers[2].is_cut), (TierZone::Culet, false));
-    // The file is not scaled as the format wants; once it is, it reads as written.
+    // The file is not scaled as the format wants; once it is, it reads back as written.
     let scaled = back(&write(&specimen(design.clone())).bytes);
     assert_eq!(scaled.warnings, Vec::<String>::new());
     assert_eq!(back(&write(&specimen(scaled.design.clone())).bytes).design, scaled.design);

@@ -1,4 +1,4 @@
-//! Writing a design as `.gcs`.
+//! Writes a design as `.gcs`.
 
 use super::{COLOUR, RENDER, ROOT, VERSION};
 use crate::cut::{Indexed, Tier, Tiers};
@@ -8,20 +8,20 @@ use crate::math::Plane;
 use crate::scene::Specimen;
 use glam::DVec3;
 
-/// A stone whose reach and height are so near to what the format wants is left as it is, so that it keeps its digits.
+/// A stone whose reach and height are this near to what the format wants is left as it is, so that it keeps its digits.
 const IN_FORM: f64 = 1e-9;
 
-/// Coordinates of a stone that reaches 1 are rounding, and written as 0, if they are no larger.
+/// Coordinates of a stone that reaches 1 are rounding, and are written as 0, if they are no larger than this.
 const ROUNDING: f64 = 1e-15;
 
-/// How the stone is placed for the format.
+/// How a stone is scaled and moved for the format.
 struct Form {
     scale: f64,
-    /// What lies at z = 0 in the file, in the design's unit.
+    /// The height that lies at z = 0 in the file, in the design's unit.
     middle: f64,
 }
 
-/// XML on its way, and what befell its texts.
+/// XML that is being written, and how many characters its texts have lost.
 #[derive(Default)]
 struct Page {
     text: String,
@@ -35,7 +35,7 @@ impl Page {
         self.text.push('\n');
     }
 
-    /// An attribute with a blank before it.
+    /// Returns an attribute with a blank before it.
     fn attribute(&mut self, key: &str, value: &str) -> String {
         format!(" {key}=\"{}\"", self.escaped(value))
     }
@@ -49,7 +49,7 @@ impl Page {
                 '>' => escaped.push_str("&gt;"),
                 '"' => escaped.push_str("&quot;"),
                 '\t' | '\n' | '\r' => escaped.push_str(&format!("&#{};", u32::from(character))),
-                // These XML cannot hold in any form.
+                // XML cannot hold these in any form.
                 '\0'..' ' | '\u{fffe}' | '\u{ffff}' => self.dropped += 1,
                 _ => escaped.push(character),
             }
@@ -58,7 +58,7 @@ impl Page {
     }
 }
 
-/// The design of a specimen as `.gcs`, and what the format cannot hold of it.
+/// Encodes the design of a specimen as `.gcs`, with messages about what the format cannot hold of it.
 pub fn write(specimen: &Specimen) -> EncodedDesign {
     let mut lost = Vec::new();
     let tiers = cutters::tiers_of(specimen, &mut lost);
@@ -83,7 +83,7 @@ pub fn write(specimen: &Specimen) -> EncodedDesign {
     EncodedDesign { bytes: page.text.into_bytes(), lost }
 }
 
-/// What the format has no place for.
+/// Adds messages about what the format has no place for.
 fn left_out(tiers: &Tiers, lost: &mut Vec<String>) {
     let named_apart = |tier: &&Tier| tier.facets.iter().any(|f| !f.name.is_empty() && f.name != tier.name());
     let mut tell = |count: usize, one: &str, several: &str| match count {
@@ -124,7 +124,7 @@ fn is_key(key: &str) -> bool {
 }
 
 impl Form {
-    /// How this stone must be placed to reach 1 across and to lie as deep as high.
+    /// Returns how a stone must be placed to reach 1 across, and as far below z = 0 as above.
     fn of(outlines: &[Outline]) -> Self {
         let corners = || outlines.iter().flat_map(|(_, corners)| corners);
         let reach = corners().map(|corner| corner.truncate().abs().max_element()).fold(0.0, f64::max);
@@ -150,7 +150,7 @@ fn put_tiers(tiers: &Tiers, page: &mut Page, lost: &mut Vec<String>) {
     let mut form = Form::of(&outlines);
     let all = tiers.tiers.iter().map(|tier| (tier, tier.facets.first().map_or(0.0, |facet| facet.index)));
     if all.into_iter().any(|(tier, index)| form.depth(&tiers.plane(tier, index)) < 0.0) {
-        // Around the origin no distance is below 0.
+        // Around the origin, where the stone lay before, no distance is below 0.
         form.middle = 0.0;
         lost.push(
             "the stone is not centred in height, as the format wants it: a facet would pass the origin"
@@ -241,7 +241,7 @@ fn put_info(tiers: &Tiers, page: &mut Page) {
         ("footer1", line(&tiers.footers, 0)),
         ("footer2", rest(&tiers.footers, 1)),
     ];
-    // The first three stand there even if empty, as the program has them.
+    // The first three stand there even if they are empty, as Gem Cut Studio writes them.
     let kept = said.iter().enumerate().filter(|(place, (_, text))| *place < 3 || !text.is_empty());
     let mut info: String = kept.map(|(_, (key, text))| page.attribute(key, text)).collect();
     let render = |key: &str| key == COLOUR.0 || RENDER.iter().any(|(known, _)| *known == key);

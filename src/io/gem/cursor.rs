@@ -1,8 +1,8 @@
-//! Numbers and texts out of bytes, one after the other.
+//! Reads numbers and texts from bytes, one after the other.
 
 use std::fmt;
 
-/// What is wrong, and where.
+/// What is wrong in a file, and at which byte offset.
 #[derive(Debug, PartialEq)]
 pub(super) struct GemFault {
     pub at: usize,
@@ -15,12 +15,12 @@ impl fmt::Display for GemFault {
     }
 }
 
-/// How a message about this offset begins.
+/// Returns the beginning of a message about this offset.
 pub(super) fn place(at: usize) -> String {
     format!("offset {at:#x}: ")
 }
 
-/// Windows-1252, in which every byte is a character.
+/// Decodes Windows-1252, in which every byte is a character.
 pub(super) fn decoded(bytes: &[u8]) -> String {
     encoding_rs::WINDOWS_1252.decode_without_bom_handling(bytes).0.into_owned()
 }
@@ -66,7 +66,7 @@ impl<'a> Cursor<'a> {
         self.array(what).map(i32::from_le_bytes)
     }
 
-    /// A text behind its length.
+    /// Reads a text that follows its length, a byte.
     pub fn text(&mut self, what: &str) -> Result<&'a [u8], GemFault> {
         let [length] = self.array(what)?;
         self.take(usize::from(length), what)

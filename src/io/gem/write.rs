@@ -1,4 +1,4 @@
-//! Writing a design as `.gem`.
+//! Writes a design as `.gem`.
 
 use super::{END, LINES, UNKNOWN};
 use crate::cut::{Tier, Tiers};
@@ -8,10 +8,10 @@ use crate::scene::Specimen;
 use glam::DVec3;
 use std::f64::consts::FRAC_PI_2;
 
-/// The longest text that its length has room for, bytes.
+/// The longest text for whose length there is room, in bytes.
 const LONGEST: usize = 255;
 
-/// Texts on their way into bytes, and what befell them.
+/// Encodes texts, and counts what they lost.
 #[derive(Default)]
 struct Texts {
     cut_off: usize,
@@ -19,7 +19,7 @@ struct Texts {
 }
 
 impl Texts {
-    /// A text behind its length, in Windows-1252.
+    /// Adds a text behind its length, in Windows-1252.
     fn put(&mut self, text: &str, bytes: &mut Vec<u8>) {
         let mut encoded: Vec<u8> = text.chars().map(|c| self.encoded(c)).collect();
         self.cut_off += usize::from(encoded.len() > LONGEST);
@@ -50,7 +50,7 @@ impl Texts {
     }
 }
 
-/// The design of a specimen as `.gem`, and what the format cannot hold of it.
+/// Encodes the design of a specimen as `.gem`, with messages about what the format cannot hold of it.
 pub fn write(specimen: &Specimen) -> EncodedDesign {
     let mut lost = Vec::new();
     let tiers = cutters::tiers_of(specimen, &mut lost);
@@ -65,7 +65,7 @@ pub fn write(specimen: &Specimen) -> EncodedDesign {
     EncodedDesign { bytes, lost }
 }
 
-/// What the format has no place for.
+/// Adds messages about what the format has no place for.
 fn left_out(tiers: &Tiers, lost: &mut Vec<String>) {
     let mut tell = |count: usize, what: &str| {
         if count > 0 {
@@ -99,17 +99,17 @@ fn put_facets(tiers: &Tiers, texts: &mut Texts, bytes: &mut Vec<u8>) {
     bytes.extend(END.to_le_bytes());
 }
 
-/// The normal over the distance, in the file's frame.
+/// Returns the normal divided by the distance, in the file's frame.
 fn inverse(tier: &Tier, (plane, _): &Outline, farthest: f64) -> DVec3 {
     let DVec3 { x, y, mut z } = plane.normal;
     if z == 0.0 {
-        // GemCad tells the two girdles apart by the rounding of a right angle's cosine.
+        // GemCad separates girdle facets of crown and pavilion by the rounding of a right angle's cosine.
         z = FRAC_PI_2.cos().copysign(tier.angle);
     }
     DVec3::new(x, -y, z) / cutters::off_the_origin(plane.offset, farthest)
 }
 
-/// Corners the other way round, as the frame is.
+/// Adds an outline. Its corners run the other way round, since the file's frame is mirrored.
 fn put_outline(corners: &[DVec3], bytes: &mut Vec<u8>) {
     for corner in corners.iter().rev() {
         bytes.extend(1i32.to_le_bytes());

@@ -1,4 +1,4 @@
-//! How the stone of a mesh lies in its file: as a person says, as the file itself says, or as is to be found.
+//! Decides how the stone of a mesh lies in its file: as a person says, as the file itself says, or as its shape shows.
 
 use crate::cut::MaterialRef;
 use crate::cut::from_mesh::{Alignment, Up};
@@ -6,36 +6,36 @@ use crate::io::mesh_file::{MeshFormat, Stands, Statement};
 use crate::math::Surface;
 use glam::DVec3;
 
-/// A direction that is this near to an axis (length of the difference) is told by the axis's name.
+/// A direction this near to an axis (length of the difference) goes by the axis's name.
 const ON_AXIS: f64 = 1e-4;
 
-/// Sizes that differ by less than this part are one.
+/// Sizes that differ by less than this part count as the same.
 const SAME_SIZE: f64 = 2e-3;
 
-/// What is told of how a mesh was understood.
+/// Notes and warnings on how a mesh was understood.
 #[derive(Debug, Default)]
 pub(super) struct MeshRemarks {
     pub notes: Vec<String>,
     pub warnings: Vec<String>,
-    /// Whether the table may face another way.
+    /// Whether the table may face another way than was taken.
     pub is_doubtful: bool,
 }
 
-/// What is known of how a stone lies, before its shape is looked at.
+/// What is known of how a stone lies before anyone looks at its shape.
 #[derive(Debug)]
 pub(super) struct MeshPlace {
     given: Up,
     statement: Option<Statement>,
-    /// Girdle radii per unit of the file, where it is known.
+    /// Girdle radii per unit of the file, where that is known.
     pub scale: Option<f64>,
-    /// Girdle diameter, mm, where it is known.
+    /// The girdle diameter in mm, where it is known.
     pub diameter_mm: Option<f64>,
-    /// What the stone is made of, where the file says so by name.
+    /// The stone's material, where the file names it.
     pub material: Option<MaterialRef>,
 }
 
 impl MeshPlace {
-    /// For a file of a format; a direction up that a person gives stands above all else.
+    /// Starts from a file's format. A direction up that a person gives counts above all else.
     pub fn of(format: MeshFormat, given: Up, statement: Option<Statement>) -> Self {
         let given = match given {
             // The standard of glTF has y up; the others say nothing, and stones are drawn with z up.
@@ -46,8 +46,8 @@ impl MeshPlace {
         Self { given, statement, scale: None, diameter_mm: None, material: None }
     }
 
-    /// Which way is up in the file's surface, by what the file says where that fits its shape. `directions` are those in
-    /// which the table may face.
+    /// Returns which way is up in the file's surface, by what the file states where that fits its shape. `directions` are
+    /// those in which the table may face.
     pub fn up(
         &mut self,
         surface: &Surface,
@@ -88,7 +88,7 @@ impl MeshPlace {
     }
 }
 
-/// What was done to a stone since its file was written, where that is more than a shift.
+/// Describes what was done to a stone since its file was written, where that is more than a shift.
 fn changes(statement: &Statement, up: DVec3, scale: f64) -> Option<String> {
     let turned = (up - statement.up).length() > ON_AXIS;
     let factor = statement.scale() / scale;
@@ -108,7 +108,7 @@ fn changes(statement: &Statement, up: DVec3, scale: f64) -> Option<String> {
     }
 }
 
-/// A note on a direction that was found, where another is nearly as likely.
+/// Returns the note on a direction that was found, where another is nearly as likely.
 pub(super) fn doubtful(up: DVec3, other: DVec3) -> String {
     let option = axis(other);
     format!(
@@ -118,7 +118,7 @@ pub(super) fn doubtful(up: DVec3, other: DVec3) -> String {
     )
 }
 
-/// A direction as `--up` takes it.
+/// Returns a direction in the form that `--up` takes.
 fn axis(direction: DVec3) -> String {
     let named = [("x", DVec3::X), ("y", DVec3::Y), ("z", DVec3::Z)];
     let is = |(name, axis): &(&str, DVec3)| match () {
@@ -127,13 +127,13 @@ fn axis(direction: DVec3) -> String {
         () => None,
     };
     named.iter().find_map(is).unwrap_or_else(|| {
-        // Rounded first, so that a rounding below 0 is no -0.
+        // Rounded first, so that a tiny negative number does not become -0.
         let [x, y, z] = direction.to_array().map(|x| (x * 1e4).round() / 1e4 + 0.0);
         format!("{x},{y},{z}")
     })
 }
 
-/// The axes of a file, either way.
+/// Returns the axes of a file, each in both directions.
 pub(super) fn axes() -> [DVec3; 6] {
     [DVec3::Z, DVec3::Y, DVec3::X, DVec3::NEG_Z, DVec3::NEG_Y, DVec3::NEG_X]
 }

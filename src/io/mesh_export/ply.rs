@@ -1,4 +1,4 @@
-//! PLY, by ply-rs-bw: binary, little-endian, corners in f64.
+//! Writes PLY, by ply-rs-bw: binary, little-endian, corners in f64.
 
 use super::Faces;
 use glam::DVec3;
@@ -7,10 +7,11 @@ use ply_rs_bw::ply::{
 };
 use ply_rs_bw::writer::Writer;
 
-/// The most corners of a polygon: their number is a byte, as most readers expect. Larger ones are written as triangles.
+/// The most corners of a polygon: their number is a byte, as most readers expect. Polygons with more are written as
+/// triangles.
 const MOST_CORNERS: usize = 255;
 
-/// A row of the file: a corner's place, or a polygon's corners.
+/// A row of the file: the position of a corner, or the corners of a polygon.
 #[derive(Debug, Default)]
 struct Row {
     at: DVec3,
@@ -36,7 +37,7 @@ impl PropertyAccess for Row {
     }
 }
 
-/// The file of some faces, with a comment if there is one.
+/// Encodes faces as PLY, with a comment if there is one.
 pub(super) fn written(faces: &Faces<'_>, scale: f64, comment: Option<String>) -> std::io::Result<Vec<u8>> {
     let corner = |v: &DVec3| Row { at: *v * scale, corners: vec![] };
     let polygon = |corners: &[u32]| Row {

@@ -1,4 +1,4 @@
-//! OpenEXR: the first layer with channels R, G and B, of any type; cover and all else are left out.
+//! Reads OpenEXR: the first layer with channels R, G and B, of any type; cover and all else are left out.
 
 use super::{Raw, check_size, damaged};
 use crate::io::picture_file::SRGB;
@@ -9,13 +9,13 @@ use exr::prelude::{ReadChannels, ReadLayers, Vec2, read as reader};
 use std::fs::File;
 use std::io::{BufReader, Seek};
 
-/// Coordinates of primaries that differ by less are those of sRGB.
+/// Primaries whose coordinates differ from those of sRGB by less than this are taken as the same.
 const SAME: f32 = 0.002;
 
 pub(super) fn read(mut file: BufReader<File>, bytes: u64) -> Result<Raw, String> {
     let meta = MetaData::read_from_buffered(&mut file, false).map_err(damaged)?;
     file.rewind().map_err(damaged)?;
-    // The decoder makes room for a layer only, but reads its tables for all of them.
+    // The decoder makes room for one layer only, but reads the tables of all.
     for header in &meta.headers {
         check_size(header.layer_size.width() as u64, header.layer_size.height() as u64, bytes)?;
     }

@@ -1,4 +1,4 @@
-//! Radiance HDR, PNG and JPEG.
+//! Reads Radiance HDR, PNG and JPEG.
 
 use super::{LARGEST, Raw, check_size, damaged};
 use crate::optics::linear_from_encoded;
@@ -8,10 +8,10 @@ use image::{DynamicImage, ImageDecoder, ImageReader, Limits};
 use std::fs::File;
 use std::io::BufReader;
 
-/// Bytes that a decoder may ask for: the largest picture in its widest form, and as much again to work with.
+/// The most bytes that a decoder may ask for: the largest picture in its widest form, and as much again to work with.
 const MOST_BYTES: u64 = 32 * (LARGEST.0 as u64) * (LARGEST.1 as u64);
 
-/// `start` is the file's first bytes.
+/// Reads a picture from a file of so many bytes; `start` holds the first of them.
 pub(super) fn read(file: BufReader<File>, bytes: u64, start: &[u8]) -> Result<Raw, String> {
     if start.starts_with(b"#?") {
         // Programs write `#?RADIANCE` or `#?RGBE`; their pixels are the same.
@@ -35,7 +35,7 @@ fn decoded(mut decoder: impl ImageDecoder, bytes: u64) -> Result<Raw, String> {
     let (width, height) = decoder.dimensions();
     check_size(u64::from(width), u64::from(height), bytes)?;
     decoder.set_limits(limits()).map_err(damaged)?;
-    // Of photographs: which side the camera's top was.
+    // Photographs say which of their sides was the camera's top.
     let orientation = decoder.orientation().map_err(damaged)?;
     let mut image = DynamicImage::from_decoder(decoder).map_err(damaged)?;
     image.apply_orientation(orientation);
@@ -43,7 +43,7 @@ fn decoded(mut decoder: impl ImageDecoder, bytes: u64) -> Result<Raw, String> {
     Ok((Panorama { width, height, pixels: linear(image) }, vec![]))
 }
 
-/// The picture's light; floating point is linear already.
+/// Returns the picture's light; floating point is linear already.
 fn linear(image: DynamicImage) -> Vec<[f32; 3]> {
     let decode = |code: f32| linear_from_encoded(f64::from(code)) as f32;
     match image {

@@ -1,4 +1,4 @@
-//! Files that are well, and files that are not: none may panic or ask for much memory.
+//! Intact and damaged files: none may make the reader panic or ask for much memory.
 
 use super::*;
 use crate::io::{write_linear_exr, write_rgba_png};
@@ -32,7 +32,7 @@ fn png_file(folder: &TempDir, width: u32, height: u32) -> Vec<u8> {
     std::fs::read(path).unwrap()
 }
 
-/// Radiance, not packed.
+/// Returns a Radiance file that is not packed.
 fn hdr_file(signature: &str, width: u32, height: u32) -> Vec<u8> {
     let mut file = format!("{signature}\nFORMAT=32-bit_rle_rgbe\n\n-Y {height} +X {width}\n").into_bytes();
     (0..width * height).for_each(|k| file.extend([200, 100 + (k % 100) as u8, 50, 130]));

@@ -1,4 +1,4 @@
-//! Reading maps back.
+//! Reads refraction maps.
 
 use super::{ABOUT, About, Coding, MOST_BANDS, MOST_PIXELS, channel, diffuse_of, tiles};
 use crate::io::text::read_bytes;
@@ -10,21 +10,23 @@ use png::{BitDepth, ColorType, Decoder, Limits, Transformations};
 use std::io::Cursor;
 use std::path::{Path, PathBuf};
 
-/// Bytes that a file may have: more than any map of a page or a film needs.
+/// The size of the largest file that is read, in bytes: more than any map of a page or a film needs.
 const MOST_BYTES: u64 = 1 << 30;
 
-/// Pixels that any file may promise; of more, a byte must not stand for more than deflate can make of one.
+/// The number of pixels that any file may promise. Beyond, a byte must not stand for more pixels than deflate can make of
+/// it.
 const FREE_PIXELS: u64 = 1 << 20;
 const PIXELS_A_BYTE: u64 = 1100;
 
-/// A band of a map that says nothing of itself: all light, at the middle of what is seen.
+/// The description of a band in a map that has none: all light, at the middle of what is seen.
 const ALL_LIGHT: About = About { nm: 555.0, response: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]] };
 
-/// Reads a map: its places from a PNG a band, all in one coding, or from an OpenEXR; and the diffuse layer. A single PNG that
-/// says nothing of its band, from another program, is taken for all light.
+/// Reads a map: its places, from one PNG for each band, all in one coding, or from an OpenEXR; and its diffuse layer.
+///
+/// A single PNG from another program, which does not describe its band, is taken for all light.
 ///
 /// # Errors
-/// Text that names the file, says what is wrong and what to do.
+/// A message that names the file, says what is wrong and what to do.
 pub fn read(places: &[PathBuf], diffuse: &Path) -> Result<RefractionMap, String> {
     let told = |path: &Path, message: String| format!("{}: {message}", path.display());
     let layer = read_diffuse(diffuse).map_err(|message| told(diffuse, message))?;
@@ -63,7 +65,7 @@ type Found = ([u32; 2], Vec<MapBand>);
 /// Refuses sides out of bounds, and more pixels than so many bytes can hold.
 fn check([width, height]: [u64; 2], bytes: usize) -> Result<[u32; 2], String> {
     let most = u64::from(MOST_PIXELS);
-    // Twice as high with weights below.
+    // With weights below its places, a map is twice as high.
     if width == 0 || height == 0 || width > most || height > 2 * most {
         return Err(format!("{width} by {height} pixels; a map has 1 to {MOST_PIXELS} each way"));
     }
@@ -77,7 +79,7 @@ fn damaged(error: impl std::fmt::Display) -> String {
     format!("cannot be decoded ({error}); get the file anew")
 }
 
-/// The pixels of a PNG, as they are, and what it tells of its band.
+/// The pixels of a PNG as they stand in the file, and the description of its band.
 struct Pixels {
     size: [u32; 2],
     kind: (ColorType, BitDepth),
@@ -95,7 +97,7 @@ fn pixels(bytes: &[u8]) -> Result<Pixels, String> {
     let length = reader.output_buffer_size().ok_or("too many pixels")?;
     let mut data = vec![0; length];
     reader.next_frame(&mut data).map_err(damaged)?;
-    // Texts may stand behind the pixels.
+    // Texts may follow the pixels.
     reader.finish().map_err(damaged)?;
     let info = reader.info();
     let text = info.utf8_text.iter().find(|text| text.keyword == ABOUT);
@@ -126,7 +128,7 @@ fn png_band(bytes: &[u8], diffuse: &Layer, must_tell: bool) -> Result<Found, Str
     };
     let places = match coding {
         Coding::Tiles => {
-            // Of several bands each brings its weights, below its places.
+            // Of several bands, each brings its weights, below its places.
             let has_weights = size[1] == 2 * diffuse.height;
             size[1] /= 1 + u32::from(has_weights);
             let (codes, weights) = data.split_at(3 * size[0] as usize * size[1] as usize);
@@ -195,7 +197,7 @@ fn float(bytes: &[u8]) -> Result<Found, String> {
     };
     let band = |(k, about): (usize, About)| {
         let [u, v, weight] = [values(k, "u")?, values(k, "v")?, values(k, "weight")?];
-        // What is no number comes from nowhere.
+        // A place that is no number has no weight: nothing comes from behind.
         let place = |((u, v), weight): ((f32, f32), f32)| match u.is_finite() && v.is_finite() {
             true => SourcePlace { u, v, weight: weight.clamp(0.0, 1.0).max(0.0) },
             false => SourcePlace::default(),

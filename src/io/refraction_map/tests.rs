@@ -1,13 +1,13 @@
 use super::*;
 use glam::DVec2;
 
-/// A map of all sorts of places, 61 by 37 pixels.
+/// Makes a map of all sorts of places, 61 by 37 pixels.
 fn map(bands: usize) -> RefractionMap {
     let [width, height] = [61_u32, 37];
     let place = |k: u32, band: usize| {
         let k = f64::from(k) + 0.37 * band as f64;
         let part = |step: f64| (k * step).fract() as f32;
-        // Borders, and pixels that nothing behind is seen through.
+        // Borders, and pixels through which nothing behind is seen.
         let edge = [0.0, 1.0, part(0.618_034), part(0.754_877)];
         let weight = if k as u32 % 7 == 3 { 0.0 } else { part(0.569_840) };
         SourcePlace { u: edge[k as usize % 4], v: edge[(k as usize / 4) % 4], weight }
@@ -29,7 +29,7 @@ fn map(bands: usize) -> RefractionMap {
     }
 }
 
-/// The same map, written and read.
+/// Writes a map, and reads it back.
 fn again(map: &RefractionMap, coding: Coding) -> RefractionMap {
     let folder = tempfile::tempdir().unwrap();
     let paths = paths(folder.path(), "a", map.bands.len(), coding);
@@ -39,7 +39,7 @@ fn again(map: &RefractionMap, coding: Coding) -> RefractionMap {
     read(&paths, &diffuse).unwrap()
 }
 
-/// How far places, and weights, of two maps lie apart where something comes from behind.
+/// Returns the largest differences of places, and of weights, between two maps where something comes from behind.
 fn apart(a: &RefractionMap, b: &RefractionMap) -> (f64, f64) {
     let both = a.bands.iter().zip(&b.bands).flat_map(|(a, b)| a.places.iter().zip(&b.places));
     both.filter(|(a, _)| a.weight > 0.0).fold((0.0, 0.0), |(place, weight), (a, b)| {
@@ -54,7 +54,7 @@ fn every_code_of_the_tiles_is_a_place_and_the_nearest_one_to_itself() {
         for fine in 0..=255 {
             let code = [fine, 255 - fine, blue];
             let at = tiles::place(code);
-            // What is printed of it: in numbers of 0 to 1, but for blue of 1, which is beyond its last column.
+            // The formula as it is printed, in numbers of 0 to 1, but with blue of 1 kept in the last column.
             let [r, g, b] = code.map(|byte| f64::from(byte) / 255.0);
             let column = (16.0 * b).floor().min(15.0);
             let printed =
@@ -114,7 +114,7 @@ fn the_diffuse_layer_keeps_its_light_and_what_it_hides() {
             // A code of sRGB is 0.9 % of the light at the brightest.
             assert!((a[c] - b[c]).abs() < 0.006, "{k}: {} is not {}", b[c], a[c]);
         }
-        // Without weights of their own, tiles take what the layer leaves.
+        // Tiles without weights of their own take what the layer leaves.
         assert_eq!(found.bands[0].places[k].weight, 1.0 - b[3]);
     }
 }
@@ -145,7 +145,7 @@ fn what_is_no_map_is_told_by_its_name_and_never_panics() {
     std::fs::write(at("bare.png"), &bare).unwrap();
     assert_eq!(read(&[at("bare.png")], &diffuse).unwrap().bands[0].response, DMat3::IDENTITY);
     assert!(refused(&[at("bare.png"), at("bare.png")], &diffuse).contains("wavelength"));
-    // Cut, spoilt and lying files: whatever comes of them, it comes soon.
+    // Files that are cut off, spoilt or lying: whatever comes of them, it comes soon.
     for name in ["a-refraction.png", "a-refraction-16bit.png", "a-refraction.exr", "a-refraction-diffuse.png"]
     {
         let bytes = std::fs::read(at(name)).unwrap();

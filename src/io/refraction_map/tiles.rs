@@ -1,4 +1,4 @@
-//! Places in eight bits: blue chooses one of 16 by 16 tiles, red and green run through it.
+//! Codes places in eight bits: blue chooses one of 16 by 16 tiles, red and green run through it.
 //!
 //! With bytes R, G, B of 0 to 255,
 //!
@@ -15,33 +15,33 @@
 use crate::picture::SourcePlace;
 use glam::DVec2;
 
-/// Tiles each way.
+/// The number of tiles each way.
 const TILES: f64 = 16.0;
 
 /// The largest byte.
 const BYTE: f64 = 255.0;
 
-/// The code of a place; one beyond the borders is moved to them.
+/// Returns the code of a place; a place beyond the borders is moved to them.
 pub fn code(at: DVec2) -> [u8; 3] {
     let (column, red) = split(at.x);
     let (row, green) = split(at.y);
     [red, green, column << 4 | row]
 }
 
-/// The place of a code.
+/// Returns the place of a code.
 pub fn place([red, green, blue]: [u8; 3]) -> DVec2 {
     let part = |fine: u8, tile: u8| (TILES * f64::from(fine) / BYTE + TILES * f64::from(tile)) / BYTE;
     DVec2::new(part(red, blue >> 4), part(green, blue & 15))
 }
 
-/// The code of a map's pixel: black where nothing comes from behind, which its weight tells.
+/// Returns the code of a map's pixel: black where nothing comes from behind, which the weight shows.
 pub fn code_of(place: &SourcePlace) -> [u8; 3] {
     if place.weight > 0.0 { code(DVec2::new(f64::from(place.u), f64::from(place.v))) } else { [0; 3] }
 }
 
-/// Tile and fine part of one coordinate.
+/// Splits one coordinate into its tile and the fine part.
 fn split(at: f64) -> (u8, u8) {
-    // What is no number counts as 0.
+    // NaN counts as 0.
     let tiles = if at > 0.0 { at.min(1.0) * BYTE / TILES } else { 0.0 };
     let tile = tiles.floor().min(TILES - 1.0);
     (tile as u8, ((tiles - tile) * BYTE).round() as u8)

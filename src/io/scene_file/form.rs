@@ -13,7 +13,7 @@ use serde::de::IgnoredAny;
 use std::ops::RangeInclusive;
 use std::path::PathBuf;
 
-/// The whole file.
+/// A whole scene file.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct SceneForm {
@@ -29,7 +29,7 @@ pub(super) struct SceneForm {
     stone: Vec<Table<StoneForm>>,
 }
 
-/// `[[stone]]`
+/// A table `[[stone]]`.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct StoneForm {
@@ -51,7 +51,7 @@ fn one() -> i64 {
     1
 }
 
-/// A size with its unit.
+/// A size, written as text with its unit.
 #[derive(Deserialize)]
 #[serde(try_from = "OneOf<Pairs>")]
 struct SizeForm(Size);
@@ -62,7 +62,7 @@ impl TryFrom<OneOf<Pairs>> for SizeForm {
     fn try_from(form: OneOf<Pairs>) -> Result<Self, String> {
         let text = match form {
             OneOf::Text(text) => text,
-            // Without its unit, which the size itself refuses.
+            // The number goes on without a unit, which the size's own parser refuses.
             OneOf::Number(number) => number.to_string(),
             OneOf::Rest(_) => {
                 return Err("a list is no size; write a number and mm or ct in quotes".to_owned());
@@ -72,13 +72,13 @@ impl TryFrom<OneOf<Pairs>> for SizeForm {
     }
 }
 
-/// What a form is read with.
+/// What reading a form asks for outside of it.
 pub(super) struct Surroundings<'a> {
-    /// What a light's name or file comes to.
+    /// Returns the light of a name or file.
     pub light: &'a dyn Fn(&str) -> Result<PathBuf, Fault>,
-    /// What a background's name or file comes to.
+    /// Returns the background of a name or file.
     pub background: &'a dyn Fn(&str) -> Result<BackgroundRef, Fault>,
-    /// The line where the stones of an index begin.
+    /// Returns the line where the `[[stone]]` of an index begins.
     pub line: &'a dyn Fn(usize) -> usize,
 }
 
@@ -89,7 +89,7 @@ const DISTANCES_MM: RangeInclusive<f64> = 0.0..=10_000.0;
 const PLACES_MM: RangeInclusive<f64> = -10_000.0..=10_000.0;
 
 impl SceneForm {
-    /// The scene that the form describes, checked.
+    /// Returns the scene that the form describes, checked.
     pub fn scene(self, around: &Surroundings) -> Result<SceneFile, Fault> {
         if !is_printable(&self.name) {
             return Err(Fault::at("name", "name: a name of 1 to 200 printable characters is expected"));
@@ -162,7 +162,7 @@ fn within(path: &str, key: &str, value: f64, range: RangeInclusive<f64>, unit: &
 }
 
 impl StoneForm {
-    /// A place is given where there is no layout, and only there.
+    /// Checks that a place is given where there is no layout, and only there; a stone alone needs none.
     fn check_place(&self, layout: Option<Layout>, alone: bool) -> Result<(), Fault> {
         match (layout, self.at) {
             (Some(_), Some(_)) => {

@@ -1,4 +1,4 @@
-//! What a scene file may say, what it may not and how that is told.
+//! What a scene file may and may not say, and which messages its faults give.
 
 use super::*;
 use crate::io::library;

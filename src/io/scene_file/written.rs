@@ -1,4 +1,4 @@
-//! Scene files as they are written.
+//! The keys of a scene file as they are written.
 
 use super::super::cut_file::FORMAT;
 use super::super::cut_file::material_form::MaterialForm;
@@ -7,7 +7,7 @@ use crate::scene::Layout;
 use serde::Serialize;
 use std::borrow::Cow;
 
-/// The whole file.
+/// A whole scene file.
 #[derive(Serialize)]
 pub(super) struct EncodedScene<'a> {
     format: i64,
@@ -26,7 +26,7 @@ pub(super) struct EncodedScene<'a> {
     stone: Vec<WrittenStone<'a>>,
 }
 
-/// `[[stone]]`
+/// A table `[[stone]]`.
 #[derive(Serialize)]
 struct WrittenStone<'a> {
     cut: &'a str,

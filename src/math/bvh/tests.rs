@@ -1,7 +1,7 @@
 use super::*;
 use proptest::prelude::*;
 
-/// The first triangle met, all tried.
+/// Returns the distance of the first triangle that a ray meets, by trying all.
 fn by_force(
     vertices: &[DVec3],
     triangles: &[[u32; 3]],
@@ -37,7 +37,7 @@ fn check(bvh: &Bvh, count: usize) {
     }
 }
 
-/// Points on a grid, so that corners and edges are met and triangles overlap or have no area; or anywhere.
+/// Generates points anywhere, or on a grid, where rays meet corners and edges, and triangles overlap or have no area.
 fn points() -> impl Strategy<Value = Vec<DVec3>> {
     let anywhere = prop::array::uniform3(-1.0..1.0_f64).prop_map(DVec3::from);
     let grid = prop::array::uniform3(-3..=3_i32).prop_map(|p| DVec3::from(p.map(f64::from)));
@@ -64,11 +64,11 @@ proptest! {
         (vertices, triangles) in scene(), (origin, direction) in ray(), after in -1.0..1.0_f64, odd in any::<bool>(),
         exponent in prop_oneof![Just(0), Just(-60), Just(60)],
     ) {
-        // Large and small alike.
+        // The law holds at every scale.
         let scale = 10_f64.powi(exponent);
         let vertices: Vec<DVec3> = vertices.iter().map(|&v| v * scale).collect();
         let origin = origin * scale;
-        // Where a triangle seen edge on is met, if at all, is rounding.
+        // Rounding alone decides whether and where a ray meets a triangle seen edge on, so those are left out.
         let is_edge_on = |k: u32| {
             let [a, b, c] = triangles[k as usize].map(|v| vertices[v as usize] / scale);
             let normal = (b - a).cross(c - a);
@@ -84,13 +84,13 @@ proptest! {
     }
 }
 
-/// A bumpy ball of so many rows and twice as many columns of squares, halved; closed, with poles.
+/// Makes a closed bumpy ball with poles, of `rows` rows and twice as many columns of squares, each halved into triangles.
 fn ball(rows: u32) -> (Vec<DVec3>, Vec<[u32; 3]>) {
     let columns = 2 * rows;
     let at = |row: u32, column: u32| {
         let (polar, turn) = (f64::from(row) / f64::from(rows), f64::from(column) / f64::from(columns));
         let (polar, turn) = (polar * std::f64::consts::PI, turn * std::f64::consts::TAU);
-        // At the poles exactly none, or there would be a hole.
+        // Exactly 0 at the poles, or the surface would have a hole there.
         let across = if row.is_multiple_of(rows) { 0.0 } else { polar.sin() };
         let radius = 1.0 + 0.1 * (5.0 * turn).sin() * across * (4.0 * polar).cos();
         DVec3::new(across * turn.cos(), across * turn.sin(), polar.cos()) * radius
@@ -129,7 +129,7 @@ fn triangles_all_in_one_place_are_still_told_apart_by_boxes_of_few() {
     assert!(bvh.nodes().iter().all(|n| n.count <= 4) && bvh.depth() < 64, "{} levels", bvh.depth());
     let hit = bvh.nearest(DVec3::new(0.2, 0.2, 1.0), DVec3::NEG_Z, 0.0, |_| true).unwrap();
     assert_eq!((hit.distance, hit.triangle), (1.0, bvh.order()[0]));
-    // Each twice as far from the others as the one before: what halving by area makes deepest.
+    // Each triangle is twice as far from the first as the one before: halving by area gives such triangles the most levels.
     let vertices: Vec<DVec3> = (0..900)
         .flat_map(|k| [DVec3::ZERO, DVec3::X, DVec3::Y].map(|v| v + 2_f64.powi(k) * DVec3::Z))
         .collect();

@@ -1,4 +1,4 @@
-//! The body of a form in its own frame, any shear aside: an outline drawn out along an axis, and a ball rolled around that.
+//! The body of a form in its own frame, before any shear: an outline drawn out along an axis, with a ball rolled around it.
 
 use super::jet::Jet;
 use super::profile::{Profile, Triangle};
@@ -9,11 +9,11 @@ use std::f64::consts::PI;
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct RoundedBody {
     pub profile: Profile,
-    /// Along which the outline is drawn out.
+    /// The axis along which the outline is drawn out.
     pub axis: DVec3,
-    /// Half the length of the core.
+    /// Half the length of the core along the axis.
     pub half: f64,
-    /// Radius of the ball.
+    /// The radius of the ball.
     pub edge: f64,
 }
 
@@ -39,8 +39,10 @@ impl RoundedBody {
         Self { profile, axis: DVec3::X, half: size.x / 2.0 - edge, edge }
     }
 
-    /// Signed distance. For a point `on_surface`, or a way to it, a sharp edge has the normal of a face: rounding would give
-    /// it any between.
+    /// Returns the signed distance from the body, with its derivatives.
+    ///
+    /// With `on_surface`, for a point on the surface or on the way to it, a sharp edge has the normal of one of its faces.
+    /// Rounding would give it any normal between them.
     #[inline]
     pub fn jet(&self, p: DVec3, on_surface: bool) -> Jet {
         let sharp = on_surface && self.edge == 0.0;
@@ -49,24 +51,26 @@ impl RoundedBody {
         self.profile.jet(p, sharp).and(end, sharp).less(self.edge)
     }
 
-    /// Value and slope along a line.
+    /// Returns the value at a point and its slope along a direction.
     #[inline]
     pub fn along(&self, p: DVec3, direction: DVec3) -> (f64, f64) {
         let jet = self.jet(p, true);
         (jet.value, jet.gradient.dot(direction))
     }
 
-    /// Greatest coordinate along a unit direction.
+    /// Returns the greatest coordinate along a unit direction.
     pub fn support(&self, direction: DVec3) -> f64 {
         self.profile.support(direction) + direction.dot(self.axis).abs() * self.half + self.edge
     }
 
-    /// Distance of its farthest point from the origin.
+    /// Returns the distance of the farthest point from the origin.
     pub fn reach(&self) -> f64 {
         self.profile.reach().hypot(self.half) + self.edge
     }
 
-    /// Steiner's formula, V + S r + M r² + 4π/3 r³; a cylinder's M, its mean curvature, is π (length + circumference / 2).
+    /// Returns the volume, by Steiner's formula V + S r + M r² + 4π/3 r³.
+    ///
+    /// The integral mean curvature M of a cylinder is π (length + circumference / 2).
     pub fn volume(&self) -> f64 {
         let (area, length, r) = (self.profile.area(), 2.0 * self.half, self.edge);
         let around = self.profile.circumference(DVec3::ZERO, 1.0);
@@ -74,12 +78,12 @@ impl RoundedBody {
         area * length + r * (surface + r * (PI * (length + around / 2.0) + 4.0 * PI / 3.0 * r))
     }
 
-    /// Area of its shadow along a unit direction: Steiner's formula in the plane, A + L r + π r².
+    /// Returns the area of the body's shadow along a unit direction, by Steiner's formula in the plane, A + L r + π r².
     pub fn silhouette_area(&self, direction: DVec3) -> f64 {
         let cos = direction.dot(self.axis);
         let sideways = direction - self.axis * cos;
         let sin = sideways.length();
-        // The core's shadow is its outline's, drawn out along the axis's.
+        // The core's shadow is the shadow of its outline, drawn out along the shadow of its axis.
         let drawn = 2.0 * self.half * sin;
         let across = self.axis.cross(sideways).try_normalize().unwrap_or(DVec3::ZERO);
         let width = self.profile.support(across) + self.profile.support(-across);

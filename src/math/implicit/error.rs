@@ -1,42 +1,42 @@
-//! What dimensions a shape may have.
+//! The checks of a shape's dimensions, and the errors that they return.
 
 use super::ImplicitForm;
 use super::profile::inradius;
 
-/// Dimensions, in girdle radii: squares of their quotients keep their digits.
+/// The least and the greatest dimension, in girdle radii: squares of their quotients keep their digits.
 const SIZES: [f64; 2] = [1e-6, 1e6];
 
-/// Slope of a plate's wave at its steepest. There a plate is an eighth as thick as along z.
+/// The greatest slope of a plate's wave. Where the slope is so steep, the plate is an eighth as thick as along z.
 const STEEPEST: f64 = 8.0;
 
-/// Waves that the greater of a plate's sides holds at most.
+/// The most waves along the longer side of a plate.
 const MOST_WAVES: f64 = 200.0;
 
-/// Why there is no such shape.
+/// Why a shape cannot be made.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub enum ImplicitSurfaceError {
-    /// A dimension is no number, 0, negative, or out of what is computed with.
+    /// A dimension is NaN, 0, negative, or out of the range that can be computed with.
     #[error("{name} is {value}; it must be a number from 1e-6 to 1e6 girdle radii")]
     Dimension {
-        /// Which.
+        /// The name of the dimension.
         name: &'static str,
-        /// What was given.
+        /// The value given.
         value: f64,
     },
-    /// A number that may be 0 is none, or negative or too large.
+    /// A number that may be 0 is NaN, negative or too large.
     #[error("{name} is {value}; it must be a number from 0 to 1e6")]
     Number {
-        /// Which.
+        /// The name of the number.
         name: &'static str,
-        /// What was given.
+        /// The value given.
         value: f64,
     },
-    /// An edge, of a pane also an outline's corner, is rounder than the shape is wide.
+    /// The radius of an edge, or of the corners of a pane's outline, exceeds the room that the shape has for it.
     #[error("the edge's radius is {edge}; in this shape there is room for {most}")]
     Edge {
-        /// What was given.
+        /// The radius given.
         edge: f64,
-        /// The largest.
+        /// The largest radius that this shape allows.
         most: f64,
     },
     /// The wave is too steep.
@@ -44,20 +44,20 @@ pub enum ImplicitSurfaceError {
         "the wave is as steep as {slope:.2}; at most 8: make its amplitude smaller or the wavelength longer"
     )]
     Slope {
-        /// Its greatest slope, 2π amplitude / wavelength.
+        /// The greatest slope of the wave, 2π amplitude / wavelength.
         slope: f64,
     },
     /// The wave is too short.
     #[error("the wavelength is {wavelength}; for a plate so large it must be {least} or more")]
     Wavelength {
-        /// What was given.
+        /// The wavelength given.
         wavelength: f64,
-        /// The shortest.
+        /// The shortest wavelength that this plate allows.
         least: f64,
     },
 }
 
-/// Refuses what is no shape.
+/// Returns an error for dimensions that no shape can have.
 pub fn check(form: &ImplicitForm) -> Result<(), ImplicitSurfaceError> {
     let (ImplicitForm::Pill { size, edge }
     | ImplicitForm::Block { size, edge }

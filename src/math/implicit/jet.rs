@@ -1,26 +1,28 @@
-//! A function's value and derivatives at a point, and how those of two functions make those of a third.
+//! Jets: a function's value and derivatives at a point, and how two jets combine into a third.
 
 use glam::{DMat3, DVec3};
 
 /// A function of space near a point, to the second order.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Jet {
-    /// Its value, in girdle radii.
+    /// The value, in girdle radii.
     pub value: f64,
-    /// Its gradient.
+    /// The gradient.
     pub gradient: DVec3,
-    /// The gradient's change per displacement: symmetric, in 1 / girdle radii.
+    /// The change of the gradient with displacement: symmetric, in 1 / girdle radii.
     pub hessian: DMat3,
 }
 
 impl Jet {
-    /// How far a point lies beyond a plane with a unit normal.
+    /// Makes the jet of the distance `value` of a point beyond a plane with this unit normal.
     #[inline]
     pub(super) fn plane(value: f64, normal: DVec3) -> Self {
         Self { value, gradient: normal, hessian: DMat3::ZERO }
     }
 
-    /// Distance from an axis or a point, `away` from it: both parts square to what `across` projects on.
+    /// Makes the jet of the distance from an axis or a point, for a point displaced from it by `away`.
+    ///
+    /// `across` projects onto the directions in which this distance changes; `away` lies within them.
     #[inline]
     pub(super) fn radial(away: DVec3, across: DMat3) -> Self {
         let value = away.length();
@@ -28,15 +30,17 @@ impl Jet {
         Self { value, gradient, hessian: (across - outer(gradient, gradient)) * value.recip() }
     }
 
-    /// The function less a number.
+    /// Subtracts a number from the function.
     #[inline]
     pub(super) fn less(self, by: f64) -> Self {
         Self { value: self.value - by, ..self }
     }
 
-    /// The signed distance from what two solids share, of their signed distances along directions that are square to each
-    /// other. Where the edge between them is `sharp`, only faces count: the same surface, with the normal of a face at
-    /// every point of it.
+    /// Combines the signed distances from two solids into the signed distance from their intersection; their gradients must
+    /// be at right angles to each other.
+    ///
+    /// Where the edge between the solids is `sharp`, only faces count: the surface is the same, and each of its points has
+    /// the normal of a face.
     #[inline]
     pub(super) fn and(self, other: Self, sharp: bool) -> Self {
         let (a, b) = (self, other);
@@ -45,7 +49,7 @@ impl Jet {
         }
         let value = (a.value * a.value + b.value * b.value).sqrt();
         let gradient = (a.gradient * a.value + b.gradient * b.value) / value;
-        // d² = a² + b², differentiated twice.
+        // The derivatives follow from d² = a² + b², differentiated twice.
         let sum = outer(a.gradient, a.gradient)
             + outer(b.gradient, b.gradient)
             + (a.hessian * a.value + b.hessian * b.value)
@@ -53,7 +57,7 @@ impl Jet {
         Self { value, gradient, hessian: sum * value.recip() }
     }
 
-    /// The function of the same thing scaled and turned.
+    /// Returns the jet of the same shape scaled and turned.
     pub(super) fn moved(self, scale: f64, turn: DMat3) -> Self {
         Self {
             value: self.value * scale,
@@ -62,12 +66,12 @@ impl Jet {
         }
     }
 
-    /// The gradient's direction.
+    /// Returns the direction of the gradient.
     pub(super) fn normal(&self) -> DVec3 {
         self.gradient / self.gradient.length()
     }
 
-    /// Change of that direction per displacement within the level surface.
+    /// Returns the change of the normal with displacement within the level surface.
     pub(super) fn bend(&self) -> DMat3 {
         let normal = self.normal();
         let within = DMat3::IDENTITY - outer(normal, normal);
@@ -75,7 +79,7 @@ impl Jet {
     }
 }
 
-/// a bᵀ
+/// Returns the outer product a bᵀ.
 #[inline]
 pub(super) fn outer(a: DVec3, b: DVec3) -> DMat3 {
     DMat3::from_cols(a * b.x, a * b.y, a * b.z)

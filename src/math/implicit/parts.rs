@@ -1,35 +1,35 @@
-//! The numbers that a shape's function is made of, for tracers that compute it elsewhere.
+//! The numbers that define a shape's function, for tracers that compute it elsewhere.
 
 use super::ImplicitSurface;
 use super::profile::Profile;
 use glam::{DMat3, DVec2, DVec3};
 
-/// In the shape's own frame, in units of its `reach`: lengths there are 1 at most.
+/// The numbers of a shape in its own frame, in units of its `reach`, so that no length exceeds 1.
 pub(crate) struct SurfaceParts {
-    /// The outline: a rectangle's half sides, 0 for a triangle; or a triangle's corner.
+    /// The half sides of a rectangular outline without its disc; of a triangular one, the corner at +y.
     pub corner: DVec2,
-    /// Radius of the disc rolled around a rectangle; z of a triangle's apex.
+    /// The radius of the disc rolled around a rectangle; of a triangle, the z of the apex.
     pub round: f64,
-    /// Of a triangle, the outward unit normal of the flank at +y, and that flank's length.
+    /// Of a triangle, the outward unit normal of the flank at +y and the length of that flank; `None` for a rectangle.
     pub flank: Option<(DVec2, f64)>,
     /// Half the length of the core.
     pub half: f64,
-    /// Radius of the ball.
+    /// The radius of the ball.
     pub edge: f64,
-    /// Distance of the body's farthest point from the origin.
+    /// The distance of the body's farthest point from the origin.
     pub body_reach: f64,
-    /// Amplitude of the wave, its waves per unit, and its phase in turns.
+    /// The amplitude of the wave, its waves per unit, and its phase in turns.
     pub wave: Option<[f64; 3]>,
-    /// The frame's axes in the world.
+    /// The axes of the frame, in the world.
     pub axes: DMat3,
-    /// Its origin there.
+    /// The origin of the frame, in the world.
     pub shift: DVec3,
-    /// The length of its unit there.
+    /// The length of the frame's unit, in the world.
     pub unit: f64,
 }
 
 impl ImplicitSurface {
-    /// See [`SurfaceParts`].
+    /// Returns the numbers of this shape.
     pub(crate) fn parts(&self) -> SurfaceParts {
         let reach = self.own_reach();
         let (corner, round, flank) = match self.body.profile {

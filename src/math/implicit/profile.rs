@@ -1,4 +1,4 @@
-//! The outline that a core is drawn out from.
+//! The outlines from which cores are drawn out.
 
 use super::jet::Jet;
 use glam::{DMat3, DVec2, DVec3};
@@ -7,32 +7,34 @@ use std::f64::consts::{PI, TAU};
 /// A convex outline.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Profile {
-    /// In x and y, corners at ±`half`, a disc of radius `round` rolled around: a stadium, where one half is 0.
+    /// A rectangle in x and y with its corners at ±`half`, and a disc of radius `round` rolled around it. It is a stadium
+    /// where one half is 0.
     Rectangle { half: DVec2, round: f64 },
-    /// In y and z, symmetric.
+    /// A triangle in y and z, symmetric in y.
     Triangle(Triangle),
 }
 
-/// Isosceles, the base down.
+/// An isosceles triangle with its base below.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Triangle {
-    /// The base's end at +y.
+    /// The end of the base at +y.
     pub corner: DVec2,
-    /// z of the apex.
+    /// The z of the apex.
     pub apex: f64,
-    /// Outward unit normal of the flank at +y.
+    /// The outward unit normal of the flank at +y.
     pub normal: DVec2,
-    /// Length of a flank.
+    /// The length of a flank.
     pub flank: f64,
 }
 
-/// Radius of the circle in an isosceles triangle: area over half the circumference.
+/// Returns the radius of the circle inscribed in an isosceles triangle: the area over half the circumference.
 pub(super) fn inradius(base: f64, height: f64) -> f64 {
     base * height / (base + base.hypot(2.0 * height))
 }
 
 impl Triangle {
-    /// With the origin halfway up, its sides moved in by `edge`: the same triangle shrunk toward the middle of its circle.
+    /// Makes a triangle with the origin halfway up, then moves its sides inward by `edge`: it shrinks toward the centre of
+    /// its inscribed circle.
     pub fn new(base: f64, height: f64, edge: f64) -> Self {
         let flank = (base / 2.0).hypot(height);
         let shrunk = 1.0 - edge / inradius(base, height);
@@ -71,7 +73,7 @@ impl Triangle {
 }
 
 impl Profile {
-    /// Signed distance from the outline; `sharp` as in [`Jet::and`].
+    /// Returns the signed distance from the outline; `sharp` as in [`Jet::and`].
     #[inline]
     pub fn jet(&self, p: DVec3, sharp: bool) -> Jet {
         match *self {
@@ -84,7 +86,7 @@ impl Profile {
         }
     }
 
-    /// The outline's greatest coordinate along a direction.
+    /// Returns the outline's greatest coordinate along a direction.
     pub fn support(&self, direction: DVec3) -> f64 {
         match *self {
             Self::Rectangle { half, round } => {
@@ -97,7 +99,7 @@ impl Profile {
         }
     }
 
-    /// Distance of its farthest point from the origin.
+    /// Returns the distance of the farthest point from the origin.
     pub fn reach(&self) -> f64 {
         match *self {
             Self::Rectangle { half, round } => half.length() + round,
@@ -105,7 +107,7 @@ impl Profile {
         }
     }
 
-    /// Area within.
+    /// Returns the area within the outline.
     pub fn area(&self) -> f64 {
         match *self {
             Self::Rectangle { half, round } => {
@@ -115,8 +117,10 @@ impl Profile {
         }
     }
 
-    /// Circumference of what is seen of it along a direction, whose part within the outline's plane is given with the share
-    /// that lengths along that part keep. What Minkowski adds, adds its circumferences.
+    /// Returns the circumference of the outline as seen along a direction.
+    ///
+    /// `along` is the part of that direction within the outline's plane; `kept` is the factor by which lengths along this
+    /// part appear shortened. The circumference of a Minkowski sum is the sum of the circumferences.
     pub fn circumference(&self, along: DVec3, kept: f64) -> f64 {
         let unit = along.try_normalize().unwrap_or(DVec3::ZERO);
         let seen = |edge: DVec3| (edge - unit * (edge.dot(unit) * (1.0 - kept))).length();
@@ -132,10 +136,11 @@ impl Profile {
     }
 }
 
-/// Circumference of the ellipse with half axes 1 and b <= 1, by the arithmetic-geometric mean (Abramowitz and Stegun 17.6).
+/// Returns the circumference of the ellipse with half axes 1 and b <= 1, by the arithmetic-geometric mean (Abramowitz and
+/// Stegun 17.6).
 fn ellipse(b: f64) -> f64 {
     let (mut a, mut g, mut sum, mut weight) = (1.0, b.max(f64::MIN_POSITIVE), 1.0 - 0.5 * (1.0 - b * b), 0.5);
-    // Digits double each time, once the two are near: an ellipse as flat as 1e-300 takes a dozen.
+    // Once the two means are near, each step doubles the digits: an ellipse as flat as 1e-300 takes a dozen steps.
     for _ in 0..16 {
         let c: f64 = (a - g) / 2.0;
         (a, g) = ((a + g) / 2.0, (a * g).sqrt());

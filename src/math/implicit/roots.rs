@@ -1,29 +1,40 @@
-//! Where rays go in and out: Newton's method on bounds that are convex, so that it comes to the root from one side and passes
-//! none.
+//! Where rays enter and leave a shape, found by Newton's method on bounds of its function, so that it approaches a root from
+//! one side and passes none.
 //!
-//! Along a ray a convex form's function is convex. A plate's is the body's, convex and never steeper than 1, of a point that
-//! moves on a curve whose second derivative is no more than m. So after a step s it differs by no more than m s²/2 from its
-//! value on the curve's tangent: less this, and with a tangent to the body's function, it is bounded from below, for a step
-//! that stays outside. A curve that is bent along z alone is no farther from the middle than its tangent and m s²/2 more: of
-//! that the function is convex, and a step up to its far root stays inside: Newton's method comes to this root from beyond, and
-//! where it is near, so much depth as the start has left, a chord leads to a point before it. Either step is Newton's near the
-//! root. Nothing else is needed of a start on the surface: the root it is on is never the far one.
+//! Along a ray the function of a convex form is convex. The function of a plate is the body's function, which is convex and
+//! never steeper than 1, at the point with the shear undone. This point moves along a curve whose second derivative is no
+//! more than m.
+//!
+//! On the way in: after a step s the curve is no more than m s²/2 from its tangent, so the function differs by no more than
+//! this from its value on the tangent. The tangent to the body's function less m s²/2 is therefore a lower bound, and a step
+//! to its root stays outside.
+//!
+//! On the way out: the curve bends along z alone, so it is no farther from the middle than its tangent and m s²/2 more. The
+//! function at this farther point is convex in s and an upper bound, so a step up to its far root stays inside. Newton's
+//! method approaches this root from beyond. Once the bound has come down to a part of the depth of the start, a chord leads
+//! to a point before the root.
+//!
+//! Near the root either step is Newton's. A start on the surface needs no other care: the root that it is on is never the
+//! far one.
 
 use super::ImplicitSurface;
 use glam::DVec3;
 
-/// Steps to a root: two to nine on the mean for convex forms, 27 at most, and some twenty-five out of a plate. A ray that touches
-/// a wave from inside to the last digit may need more, as there the bound is far from the function: it is given up.
+/// The most steps to a root; a ray that needs more is given up.
+///
+/// Convex forms take two to nine steps on average and 27 at most; the way out of a plate takes some twenty-five. A ray that
+/// touches a wave from inside to the last digit may need more, because the bound is far from the function there.
 pub(super) const MOST_STEPS: u32 = 1000;
 
-/// A point this near is on the surface, as a part of how far coordinates and distances go: some roundings.
+/// A point counts as on the surface where the function is no more than this part of how far coordinates and distances go:
+/// some roundings.
 const ROUNDING: f64 = 4.0 * f64::EPSILON;
 
-/// A bound's root is near where the bound is no more than this part of the start's depth.
+/// The search is near the root of a bound where the bound's value is no more than this part of the start's depth.
 const NEAR: f64 = 0.5;
 
 impl ImplicitSurface {
-    /// As [`entry`](Self::entry), with the steps taken.
+    /// Does the work of [`entry`](Self::entry), and returns the number of steps as well.
     pub(super) fn entry_counted(&self, origin: DVec3, direction: DVec3) -> (Option<f64>, u32) {
         let (o, v) = (self.own(origin), self.turn.inverse() * direction);
         let mut steps = 0;
@@ -31,7 +42,7 @@ impl ImplicitSurface {
         (way.map(|t| t * self.scale), steps)
     }
 
-    /// As [`exit`](Self::exit), with the steps taken.
+    /// Does the work of [`exit`](Self::exit), and returns the number of steps as well.
     pub(super) fn exit_counted(&self, point: DVec3, direction: DVec3) -> (Option<f64>, u32) {
         let (o, v) = (self.own(point), self.turn.inverse() * direction);
         let mut steps = 0;
@@ -39,8 +50,10 @@ impl ImplicitSurface {
         (way.map(|t| t * self.scale), steps)
     }
 
-    /// Where a line comes nearest to the origin, as a distance on it, and how far beyond this the shape is at most; `None`
-    /// where the line misses a ball around it, or is none.
+    /// Returns the distance along a line of its point nearest to the origin, and how far from there the shape can reach at
+    /// most.
+    ///
+    /// `None` where the line misses the ball around the shape, or has no direction.
     fn span(&self, o: DVec3, v: DVec3) -> Option<(f64, f64)> {
         let squared = v.length_squared();
         let nearest = -o.dot(v) / squared;
@@ -60,12 +73,11 @@ impl ImplicitSurface {
             if value <= ROUNDING * half.max(t) && slope < 0.0 {
                 return Some(t);
             }
-            // The root of value + slope s - bend s²/2; endless or no number where a convex form is left behind.
+            // The root of value + slope s - bend s²/2; infinite or NaN where a convex form lies behind.
             let value = value.max(0.0);
             let root = (slope * slope + 2.0 * bend * value).sqrt();
             let step = if slope < 0.0 { 2.0 * value / (root - slope) } else { (slope + root) / bend };
             let next = t + step;
-            // Also where it is no number.
             if next.is_nan() || next > nearest + half {
                 return None;
             }
@@ -92,9 +104,11 @@ impl ImplicitSurface {
         None
     }
 
-    /// A distance along a line from `p`, where the body's function has this value and slope, no greater than the greatest at
-    /// which it has its value on the surface where the point is off the line by `bend` s²/2 up or down, whichever is farther
-    /// from the middle; `None` where there is none. Straight lines are followed to the end.
+    /// Returns a step along a line from `p` that does not pass the far root of the upper bound; `None` where there is no
+    /// such root.
+    ///
+    /// At `p` the body's function has this value and slope. The bound is the function's value at the point that is off the
+    /// line by `bend` s²/2 along z, away from the middle. Without bend, the step leads to the root itself.
     fn far_step(
         &self,
         (p, along): (DVec3, DVec3),
@@ -102,11 +116,13 @@ impl ImplicitSurface {
         bend: f64,
         steps: &mut u32,
     ) -> Option<f64> {
-        // What rounding has put outside is on the surface: a ray that enters at a glance would miss from there.
+        // A start that rounding has put outside counts as on the surface: a ray that enters at a grazing angle would miss
+        // from there.
         let (level, depth) = (value.max(0.0), -value.min(0.0));
         let squared = along.length_squared();
         let beyond = self.body.reach() / squared.sqrt() - p.dot(along) / squared;
-        // Farther off, any point is above the body; and so it is above the tangent's.
+        // The bound is above 0 beyond each of three places: where the line leaves the ball around the body, where the offset
+        // along z alone leads out of the body, and where the tangent at the start reaches 0.
         let mut s = beyond.min((2.0 * (self.body.half + self.body.edge) / bend).sqrt());
         if slope > 0.0 {
             s = s.min(depth / slope);
@@ -123,7 +139,6 @@ impl ImplicitSurface {
             if bend > 0.0 && value < NEAR * depth {
                 return Some(s * depth / (depth + value));
             }
-            // Also where it is no number.
             if slope.is_nan() || slope <= 0.0 {
                 return None;
             }
@@ -132,7 +147,7 @@ impl ImplicitSurface {
         None
     }
 
-    /// A point and a direction with the shear taken back: of the line, its curve's tangent.
+    /// Returns a point and a direction of the line with the shear undone: a point of the curve and the tangent there.
     #[inline]
     fn tangent(&self, p: DVec3, v: DVec3) -> (DVec3, DVec3) {
         let Some(wave) = &self.wave else { return (p, v) };

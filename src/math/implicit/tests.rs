@@ -1,4 +1,4 @@
-//! Laws of the function and of rays; `measures` has those of volumes, meshes and shadows.
+//! Laws of the function and of rays; those of volumes, meshes and shadows are in `measures`.
 
 mod measures;
 
@@ -6,7 +6,7 @@ use super::*;
 use crate::math::{Plane, Polytope};
 use std::f64::consts::{PI, TAU};
 
-/// Numbers from -1 to 1 that look like chance (Marsaglia, Xorshift RNGs, 2003).
+/// Pseudorandom numbers from -1 to 1 (Marsaglia, Xorshift RNGs, 2003).
 struct Chance(u64);
 
 impl Chance {
@@ -39,7 +39,7 @@ fn plate(size: DVec3, edge: f64, amplitude: f64, wavelength: f64) -> ImplicitFor
     ImplicitForm::Plate { size, edge, amplitude, wavelength, phase: 0.7 }
 }
 
-/// Every form, sharp and round, as round as can be, and in the demo's own measures.
+/// Returns every form: sharp, round, as round as possible, and with the demo's own dimensions.
 fn forms() -> Vec<ImplicitSurface> {
     let pixels = |x, y, z| DVec3::new(x, y, z) / 200.0;
     let all = [
@@ -74,8 +74,9 @@ fn moved(field: &ImplicitSurface) -> ImplicitSurface {
     field.moved(1.7, turn(), DVec3::new(0.3, -2.0, 1.1))
 }
 
-/// Rays from around a form, toward it and past it; every other one grazes it: it is square to the normal of the surface
-/// point where a first ray hits, but for a little.
+/// Returns rays from around a form, toward it and past it.
+///
+/// After each ray that hits follows one that grazes: it is almost square to the normal at the place of the hit.
 fn rays(field: &ImplicitSurface, count: usize, seed: u64) -> Vec<(DVec3, DVec3)> {
     let mut chance = chance(seed);
     let (middle, reach) = (field.shift, field.own_reach() * field.scale);
@@ -100,7 +101,7 @@ fn rays(field: &ImplicitSurface, count: usize, seed: u64) -> Vec<(DVec3, DVec3)>
 fn derivatives_are_those_of_the_function() {
     let mut chance = chance(1);
     let (mut tried, mut apart) = (0, 0);
-    // Fourth order: what it leaves out and rounding are both below 1e-10.
+    // The differences are of fourth order: the terms that they leave out and rounding are both below 1e-10.
     let h = 1e-4;
     for field in forms().into_iter().flat_map(|field| [field, moved(&field)]) {
         for _ in 0..3000 {
@@ -118,7 +119,7 @@ fn derivatives_are_those_of_the_function() {
             }
         }
     }
-    // All but where a crease or the seam of two pieces lies between.
+    // The two agree except where a crease or the seam of two pieces lies between the points.
     assert!(tried > 250_000 && f64::from(apart) < 0.01 * f64::from(tried), "{apart} of {tried}");
 }
 
@@ -131,7 +132,7 @@ fn the_function_of_a_convex_form_is_the_distance_from_its_surface() {
             let p = field.shift + chance.point() * field.own_reach() * scale * 1.3;
             let jet = field.jet(p);
             assert!((jet.gradient.length() - 1.0).abs() < 1e-12, "{field:?} {p} {jet:?}");
-            // The nearest point of the surface lies down the gradient, and is no nearer than the value says.
+            // The nearest point of the surface lies down the gradient, and no point is nearer than the value says.
             let foot = p - jet.gradient * jet.value;
             assert!(field.value(foot).abs() < 1e-12 * scale, "{field:?} {p}");
             let off = chance.direction();
@@ -140,7 +141,8 @@ fn the_function_of_a_convex_form_is_the_distance_from_its_surface() {
     }
 }
 
-/// Where a ray's function changes its sign, by looking at every step, and the value farthest from 0 within each stretch.
+/// Returns where the function changes its sign along a ray, found in even steps, and the value farthest from 0 in the
+/// stretch after each.
 fn changes(
     field: &ImplicitSurface,
     origin: DVec3,
@@ -164,7 +166,7 @@ fn changes(
     found
 }
 
-/// What a ray finds, one after the other, until it leaves, and whether it was given up.
+/// Returns the distances at which a ray enters and leaves in turn, and whether it was given up.
 fn walk(field: &ImplicitSurface, origin: DVec3, direction: DVec3) -> (Vec<f64>, bool) {
     let mut found = vec![];
     let mut t = 0.0;
@@ -177,7 +179,7 @@ fn walk(field: &ImplicitSurface, origin: DVec3, direction: DVec3) -> (Vec<f64>, 
         let stays = t + step <= t && found.len() > 2;
         t += step;
         found.push(t);
-        // A ray that only touches, to the last digit.
+        // The ray only touches the surface, to the last digit.
         if stays {
             return (found, true);
         }
@@ -204,7 +206,7 @@ fn rays_go_in_and_out_where_looking_everywhere_says() {
                 );
             }
             crossings += found.len();
-            // Inside between an entry and its exit, outside elsewhere.
+            // The ray is inside between an entry and its exit, and outside elsewhere.
             for (k, pair) in found.windows(2).enumerate() {
                 for part in [0.01, 0.3, 0.5, 0.9] {
                     let value = field.value(origin + direction * (pair[0] + (pair[1] - pair[0]) * part));
@@ -218,7 +220,7 @@ fn rays_go_in_and_out_where_looking_everywhere_says() {
             looked += 1;
             let (far, steps) = (6.0 * field.own_reach(), 3000);
             let seen = changes(&field, origin, direction, far, steps);
-            // Every stretch that a look sees well is found; what is found is there, as was seen above.
+            // Every stretch that even steps show clearly is found. The converse is checked above.
             for stretch in seen.windows(2).filter(|s| s[0].1.abs() > 1e-12 && s[1].1.abs() > 1e-12) {
                 let t = stretch[1].0;
                 let near = found.iter().any(|f| (f - t).abs() < 2.0 * far / steps as f64);
@@ -227,7 +229,7 @@ fn rays_go_in_and_out_where_looking_everywhere_says() {
         }
     }
     assert!(crossings > 1_000_000 && looked > 40_000, "{crossings} {looked}");
-    // Every other ray was made to touch, and a wave may be touched to the last digit from inside.
+    // Every other ray is made to graze, and a ray may touch a wave from inside to the last digit.
     assert!(lost < 300, "{lost}");
 }
 
@@ -238,7 +240,7 @@ fn light_reflected_inside_stays_on_the_surface_and_few_ways_are_lost() {
         for (origin, mut direction) in rays(&field, 2_000, seed) {
             let Some(t) = field.entry(origin, direction) else { continue };
             let mut p = origin + direction * t;
-            // As refracted there, at an index of 2.
+            // The direction is as refracted there, at an index of 2.
             let normal = field.normal(p);
             direction = (direction * 0.5 - normal * 0.5).try_normalize().unwrap();
             for _ in 0..30 {
@@ -289,7 +291,7 @@ fn a_pill_as_round_as_can_be_is_a_sphere() {
     assert!((sphere.silhouette_area(DVec3::new(0.6, 0.0, 0.8)).unwrap() - PI).abs() < 1e-14);
 }
 
-/// Where a ray enters and leaves the solid between planes.
+/// Returns where a ray enters and leaves the solid between planes.
 fn between(planes: &[Plane], o: DVec3, d: DVec3) -> Option<(f64, f64)> {
     let (mut near, mut far) = (f64::NEG_INFINITY, f64::INFINITY);
     for plane in planes {
@@ -402,7 +404,7 @@ fn facets_are_told_by_their_faces() {
                 field.is_convex() && field.facets()[facet] != "edge" && field.facets()[facet] != "side";
             assert!(!flat || field.bend(p) == DMat3::ZERO, "{field:?} {p} {facet}");
         }
-        // What is round about a pane's outline counts as its edge.
+        // The rounded part of a pane's outline counts as its edge.
         let sharp = field.body.edge == 0.0 && !matches!(field.form, ImplicitForm::Pane { .. });
         let (edge, faces) = seen.split_last().unwrap();
         assert!(
@@ -453,7 +455,7 @@ fn what_is_no_shape_is_refused_with_what_is_at_fault() {
         ImplicitSurfaceError::Wavelength { wavelength: 0.001, least: 0.01 }
     );
     assert!(ImplicitSurface::new(plate(size, 0.1, 0.0, 1.0)).unwrap().is_convex());
-    // No ray and no point makes it panic or run on.
+    // No ray and no point causes a panic or an endless loop.
     for field in forms() {
         for bad in [DVec3::ZERO, DVec3::NAN, DVec3::INFINITY, DVec3::splat(1e300), DVec3::X * 1e-300] {
             let _ =

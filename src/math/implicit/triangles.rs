@@ -1,4 +1,4 @@
-//! A form's surface as triangles.
+//! Cuts a form's surface into triangles.
 
 use super::profile::Profile;
 use super::{ImplicitSurface, Surface};
@@ -10,9 +10,10 @@ use std::f64::consts::FRAC_PI_2;
 type Rim = (DVec2, DVec2);
 
 impl ImplicitSurface {
-    /// Closed triangles with corners on the surface, counter-clockwise seen from outside, grouped by facet: the mesh differs
-    /// from the surface by no more than [`deviation`](Self::deviation). A quarter of a turn is made of `fineness` steps (of
-    /// 0: one), a plate's wave of four times as many.
+    /// Returns closed triangles with corners on the surface, counter-clockwise seen from outside and grouped by facet.
+    ///
+    /// The mesh differs from the surface by no more than [`deviation`](Self::deviation). A quarter turn is cut into
+    /// `fineness` steps (0 counts as 1), a plate's wave into four times as many.
     pub fn surface(&self, fineness: usize) -> Surface {
         let fineness = fineness.max(1);
         let cells = self.cells(fineness);
@@ -35,7 +36,7 @@ impl ImplicitSurface {
         weld.surface
     }
 
-    /// How far triangles of [`surface`](Self::surface) are from the form at most; a plate's along z.
+    /// Returns how far the triangles of [`surface`](Self::surface) are from the form at most; for a plate, along z.
     pub fn deviation(&self, fineness: usize) -> f64 {
         let fineness = fineness.max(1);
         let edge = self.body.edge;
@@ -43,14 +44,15 @@ impl ImplicitSurface {
             Profile::Rectangle { round, .. } => round,
             Profile::Triangle(_) => 0.0,
         };
-        // Chords of circles, in two directions.
+        // Chords cut off arcs in two directions: around the outline and over the edge.
         let step = FRAC_PI_2 / fineness as f64;
         let sagitta = (round + 2.0 * edge) * (1.0 - (step / 2.0).cos());
         let waves = self.wave.map_or(0.0, |wave| {
             let (cells, size) =
                 (self.cells(fineness), self.body.support(DVec3::X).max(self.body.support(DVec3::Y)));
             let cell = DVec2::splat(2.0 * size) / DVec2::new(cells[0] as f64, cells[1] as f64);
-            // A chord of a curve bends away by m s²/8; and what lies inside the edge's circle is lifted less steeply.
+            // A curve departs from its chord by m s²/8. A chord lies inside the edge's circle by the sagitta, where the
+            // wave's height differs by up to the slope times the sagitta.
             let across = cell.max(DVec2::splat(edge * step));
             let slope = wave.amplitude * wave.number;
             slope * wave.number * across.length_squared() / 8.0 + slope * sagitta
@@ -58,7 +60,7 @@ impl ImplicitSurface {
         (sagitta + waves) * self.scale
     }
 
-    /// Parts that the sides along x and y are made of.
+    /// Returns the number of parts that the sides along x and y are cut into.
     fn cells(&self, fineness: usize) -> [usize; 2] {
         let (Some(wave), Profile::Rectangle { half, .. }) = (&self.wave, self.body.profile) else {
             return [1, 1];
@@ -67,7 +69,8 @@ impl ImplicitSurface {
         [parts(half.x) as usize, parts(half.y) as usize]
     }
 
-    /// The outline of the core, counter-clockwise seen from the end of the axis, with every normal at its corners.
+    /// Returns the core's outline, counter-clockwise seen from the end of the axis; corners are repeated with each of their
+    /// normals.
     fn rim(&self, fineness: usize, cells: [usize; 2]) -> Vec<Rim> {
         let mut rim = vec![];
         match self.body.profile {
@@ -112,7 +115,7 @@ impl ImplicitSurface {
         rim
     }
 
-    /// Rings of points from the lower to the upper face, the first and the last around those faces.
+    /// Returns rings of points from the lower to the upper face; the first and the last ring run around these faces.
     fn rings(&self, rim: &[Rim], fineness: usize) -> Vec<Vec<DVec3>> {
         let latitudes = (0..=fineness).map(|i| quarter_turn(i, fineness));
         let below = latitudes.clone().rev().map(|l| (l.x, -self.body.half - self.body.edge * l.y));
@@ -131,7 +134,7 @@ impl ImplicitSurface {
         }
     }
 
-    /// The flat face within a ring, in pieces of four corners, of which some may be one.
+    /// Returns the flat face within a ring, in pieces of four corners, two of which may coincide.
     fn cap(&self, ring: &[DVec3], cells: [usize; 2]) -> Vec<[DVec3; 4]> {
         match self.body.profile {
             Profile::Rectangle { half, round: 0.0 } => {
@@ -145,7 +148,7 @@ impl ImplicitSurface {
     }
 }
 
-/// Collects triangles; corners at the same place are one.
+/// Collects triangles, and makes one corner of those at the same place.
 struct Weld<'a> {
     field: &'a ImplicitSurface,
     places: HashMap<[u64; 3], u32>,
@@ -153,7 +156,7 @@ struct Weld<'a> {
 }
 
 impl Weld<'_> {
-    /// Adds triangles between corners on the body; what has shrunk to a line is left out.
+    /// Adds triangles between corners on the body; a triangle that has shrunk to a line is left out.
     fn quad(&mut self, [a, b, c, d]: [DVec3; 4]) {
         for corners in [[a, b, c], [a, c, d]] {
             let [i, j, k] = corners.map(|p| self.corner(p));
@@ -167,7 +170,7 @@ impl Weld<'_> {
 
     fn corner(&mut self, p: DVec3) -> u32 {
         let Self { field, places, surface } = self;
-        // + 0 makes -0 and 0 one place.
+        // Adding 0 turns -0 into 0, so that both are one place.
         *places.entry((p + 0.0).to_array().map(f64::to_bits)).or_insert_with(|| {
             let lift = field.wave.map_or(0.0, |wave| wave.height(p));
             surface.vertices.push(field.world(p + DVec3::Z * lift));
@@ -176,12 +179,12 @@ impl Weld<'_> {
     }
 }
 
-/// Place `i` of `count` from -half to half.
+/// Returns the coordinate at place `i` of `count` on the way from -half to half.
 fn part(i: usize, count: usize, half: f64) -> f64 {
     if 2 * i == count { 0.0 } else { half * (2.0 * i as f64 / count as f64 - 1.0) }
 }
 
-/// Cosine and sine of a part of a quarter turn; exact at its ends.
+/// Returns the cosine and sine of `i` of `count` parts of a quarter turn, exact at its ends.
 fn quarter_turn(i: usize, count: usize) -> DVec2 {
     if i == count { DVec2::Y } else { DVec2::from_angle(FRAC_PI_2 * i as f64 / count as f64) }
 }

@@ -1,4 +1,4 @@
-//! What is changed of a surface by taking a convex solid for it.
+//! What changes when a convex solid takes the place of a surface.
 
 use super::Surface;
 use super::edges::{Edges, NONE};
@@ -6,27 +6,27 @@ use crate::math::{Plane, Polytope};
 use glam::DVec3;
 use rayon::prelude::*;
 
-/// Edges that bend inward by less are flat, radians: 0.06 degrees.
+/// Edges that bend inward by less than this are flat, in radians: 0.06 degrees.
 const BENT: f64 = 1e-3;
 
-/// Steps in which the deepest point of a triangle is sought; each leaves 0.62 of the range, so these leave a millionth.
+/// The steps in which the deepest point of a triangle is sought. Each leaves 0.62 of the range, so all leave a millionth.
 const STEPS: usize = 30;
 
-/// How a convex solid differs from the surface that it was taken from. Lengths are in the surface's unit.
+/// The differences between a convex solid and the surface that it was made from. Lengths are in the surface's unit.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Change {
-    /// How much more volume the solid has, as a part of the surface's.
+    /// How much more volume the solid has, as a part of the surface's volume.
     pub volume: f64,
     /// How far below the solid's surface the deepest point of the surface lies.
     pub deepest: f64,
-    /// Edges of the surface that bend inward.
+    /// The number of the surface's edges that bend inward.
     pub bent: usize,
-    /// The angle by which the normals at the sharpest of these lean apart, radians.
+    /// The greatest angle between the normals beside one of these edges, in radians.
     pub sharpest: f64,
 }
 
 impl Change {
-    /// Compares a closed surface with a solid that holds it, but for noise.
+    /// Compares a closed surface with a solid that holds it, apart from noise.
     pub fn of(surface: &Surface, solid: &Polytope) -> Self {
         let angles = bends(surface);
         Self {
@@ -38,7 +38,7 @@ impl Change {
     }
 }
 
-/// The angles of the edges that bend inward, radians.
+/// Returns the angles of the edges that bend inward, in radians.
 fn bends(surface: &Surface) -> Vec<f64> {
     let normal = |t: usize| surface.area_vector(t).normalize_or_zero();
     let mut angles = vec![];
@@ -56,10 +56,11 @@ fn bends(surface: &Surface) -> Vec<f64> {
     angles
 }
 
-/// The greatest depth of a surface below that of a convex solid.
+/// Returns the greatest depth of a surface below the surface of a convex solid.
 ///
-/// The depth of a point is its least distance from a plane, which is a concave function of place; so within a triangle it
-/// has one greatest value, and no more than at a corner's nearest plane seen from the other two.
+/// The depth of a point is its least distance from a plane, which is a concave function of the place. So it has one greatest
+/// value within a triangle. An upper bound of this value is the greatest depth of the three corners below the plane that is
+/// nearest to one of them.
 fn deepest(surface: &Surface, solid: &Polytope) -> f64 {
     let planes: Vec<Plane> = solid.planes().collect();
     let nearest = |point: DVec3| {
@@ -88,7 +89,7 @@ fn deepest(surface: &Surface, solid: &Polytope) -> f64 {
     most
 }
 
-/// The greatest value of a concave function on 0 to 1, by the golden section.
+/// Returns the greatest value of a concave function on 0 to 1, found by golden section.
 fn greatest(of: impl Fn(f64) -> f64) -> f64 {
     let part = (5.0_f64.sqrt() - 1.0) / 2.0;
     let (mut low, mut high) = (0.0, 1.0);

@@ -1,16 +1,16 @@
-//! Which triangles meet at which edges.
+//! The edges of a surface and the triangles that meet there.
 
 use super::Surface;
 use rayon::slice::ParallelSliceMut;
 
-/// No triangle across an edge, or more than one.
+/// The mark of an edge that has no triangle across it, or more than one.
 pub(super) const NONE: u32 = u32::MAX;
 
-/// The edges of a surface; those of a triangle are numbered by the corner that they begin at.
+/// The edges of a surface; edge k of a triangle begins at its corner k.
 pub(super) struct Edges {
     /// The triangle across each edge of each triangle, or [`NONE`].
     pub neighbours: Vec<[u32; 3]>,
-    /// Edges of an odd number of triangles, lower corner first, in order.
+    /// The edges with an odd number of triangles, sorted, lower corner first.
     pub open: Vec<[u32; 2]>,
 }
 
@@ -35,7 +35,7 @@ impl Edges {
     }
 }
 
-/// The ends of edge `k` of a triangle, the lower first.
+/// Returns the ends of edge `k` of a triangle, the lower first.
 pub(super) fn ends(corners: &[u32; 3], k: usize) -> [u32; 2] {
     let (a, b) = (corners[k], corners[(k + 1) % 3]);
     [a.min(b), a.max(b)]

@@ -1,56 +1,57 @@
-//! Why triangles bound no solid.
+//! The reasons why triangles bound no solid.
 
 use glam::DVec3;
 
-/// Why a surface could not be mended. Triangles and corners are counted from 0; in words, from 1.
+/// Why a surface could not be mended. Fields count triangles and corners from 0; messages count from 1.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum SurfaceError {
-    /// No triangle, or none that has an area.
+    /// There is no triangle, or none that has an area.
     #[error("there is no triangle with an area; a closed surface of triangles is expected")]
     Empty,
-    /// A triangle refers to a corner that is not there.
+    /// A triangle refers to a corner that does not exist.
     #[error("triangle {} refers to corner {}, and there are {vertices}", .triangle + 1, .vertex + 1)]
     Index {
         /// The triangle.
         triangle: usize,
-        /// What it refers to.
+        /// The corner that it refers to.
         vertex: u32,
-        /// How many there are.
+        /// The number of corners.
         vertices: usize,
     },
-    /// A coordinate that is NaN or infinite.
+    /// A coordinate is NaN or infinite.
     #[error("corner {} is at {at}; finite coordinates are expected", .vertex + 1)]
     NotFinite {
         /// The corner.
         vertex: usize,
-        /// Where it is said to be.
+        /// The coordinates given for it.
         at: DVec3,
     },
-    /// So small or large that areas and volumes cannot be computed, or lost beside its distance from the origin.
+    /// The surface is so small or large that areas and volumes cannot be computed, or so far from the origin that its digits
+    /// are lost.
     #[error("the surface is {size:e} across and {distance:e} from the origin; move it there, or rescale it")]
     OutOfScale {
-        /// Half the diagonal of its box.
+        /// Half the diagonal of the surface's box.
         size: f64,
-        /// How far the middle of its box is from the origin.
+        /// The distance of the middle of the box from the origin.
         distance: f64,
     },
-    /// Edges that lack a triangle on one side, by gaps too wide for cracks.
+    /// Edges lack a triangle on one side, and the gaps are too wide for cracks.
     #[error("{}", open_edges_text(*.count, .edges, *.crack))]
     Open {
-        /// How many such edges there are.
+        /// The number of such edges.
         count: usize,
-        /// The ends of the longest of them.
+        /// The ends of the longest of these edges.
         edges: Vec<[DVec3; 2]>,
         /// The widest gap that would have been closed.
         crack: f64,
     },
-    /// A surface with one side only, as a Möbius strip has.
+    /// The surface has one side only, like a Möbius strip.
     #[error("the surface has no outside: its sides meet at the edge from {} to {}", point_text(.edge[0]), point_text(.edge[1]))]
     OneSided {
         /// The ends of an edge where the two sides meet.
         edge: [DVec3; 2],
     },
-    /// A surface without content: all its triangles are in one plane, or it is folded onto itself.
+    /// The surface encloses no volume: all its triangles are in one plane, or it is folded onto itself.
     #[error("the surface encloses nothing; a solid is expected")]
     Flat,
 }

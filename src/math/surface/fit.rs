@@ -1,28 +1,29 @@
-//! The plane nearest to triangles: least squares over their area.
+//! Fits a plane to triangles by least squares over their area.
 
 use super::Surface;
 use crate::math::Plane;
 use glam::{DMat3, DVec3};
 
-/// Sweeps of Jacobi's rotations: each squares what is left off the diagonal, so five reach rounding.
+/// The number of sweeps of Jacobi's rotations. Each sweep squares what is left off the diagonal, so five reach rounding.
 const SWEEPS: usize = 12;
 
-/// A plane and how it fits.
+/// A plane fitted to triangles, with the area and width of these.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct PlaneFit {
-    /// With its unit normal on the side that the triangles face.
+    /// The plane; its unit normal is on the side that the triangles face.
     pub plane: Plane,
-    /// Area of the triangles.
+    /// The area of the triangles.
     pub area: f64,
-    /// How wide they are across, in the plane, where they are narrowest: that of a rectangle of the same spread.
+    /// The width of the triangles in the plane, where they are narrowest: that of a rectangle with the same spread.
     pub width: f64,
 }
 
-/// The plane through the middle of the triangles that leaves the least square distance from it, each point of their
-/// area counting the same. `None` where they have no area.
+/// Returns the plane with the least square distance from the triangles, in which each point of their area counts the same.
+///
+/// The plane runs through the centroid. `None` where the triangles have no area.
 pub(super) fn fit(surface: &Surface, triangles: &[u32]) -> Option<PlaneFit> {
     let corners = || triangles.iter().map(|&t| surface.corners(t as usize));
-    // A corner of its own as the origin keeps the digits of a small region far from the middle.
+    // Measuring from one of the corners keeps the digits of a small region far from the middle.
     let origin = surface.corners(*triangles.first()? as usize)[0];
     let (mut area, mut first, mut facing) = (0.0, DVec3::ZERO, DVec3::ZERO);
     for [a, b, c] in corners() {
@@ -52,7 +53,7 @@ fn outer(v: DVec3) -> DMat3 {
     DMat3::from_cols(v * v.x, v * v.y, v * v.z)
 }
 
-/// Eigenvalues, rising, and eigenvectors of a symmetric matrix (C. G. J. Jacobi 1846).
+/// Returns the eigenvalues of a symmetric matrix in rising order, and its eigenvectors (C. G. J. Jacobi 1846).
 pub fn eigen(mut m: DMat3) -> ([f64; 3], [DVec3; 3]) {
     let mut turned = DMat3::IDENTITY;
     for _ in 0..SWEEPS {

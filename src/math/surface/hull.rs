@@ -1,5 +1,7 @@
-//! The convex hull of a surface's corners, and whether the surface means it: as where facets of four corners were cut
-//! into triangles along the wrong diagonal, which bends them inward.
+//! The convex hull of a surface's corners, and whether a surface is meant to be that hull.
+//!
+//! A surface is meant to be its hull where, for example, facets of four corners were cut into triangles along the wrong
+//! diagonal, which bends them inward.
 
 use super::Surface;
 use super::change::Change;
@@ -8,39 +10,40 @@ use super::shape::{MatchingSolid, NOISE, SAME, deviation, solid};
 use crate::math::{Plane, convex_hull};
 use std::cell::OnceCell;
 
-/// Corners of a surface that means its hull lie within this part of its size of it: what careless modelling leaves.
+/// If a surface is meant to be its hull, its corners lie within this part of its size from the hull: as near as careless
+/// modelling leaves them.
 const NEAR: f64 = 1e-3;
 
-/// The hull of such a surface has at most this part more volume. The bent kites of a stone that most demos load leave
-/// 1.4 %.
+/// If a surface is meant to be its hull, the hull has at most this part more volume. The bent kites of a stone that most
+/// demos load leave 1.4 %.
 const SWOLLEN: f64 = 0.03;
 
-/// No point of such a surface lies deeper below the hull than this part of its size.
+/// If a surface is meant to be its hull, none of its points lies deeper below the hull than this part of its size.
 const DEEPEST: f64 = 0.03;
 
-/// The convex hull of a surface's corners, made when it is first asked for: most surfaces do without.
+/// The convex hull of a surface's corners, computed at first use: most surfaces do without.
 pub(super) struct LazyHull<'a> {
     surface: &'a Surface,
     made: OnceCell<Option<Hull>>,
 }
 
 impl<'a> LazyHull<'a> {
-    /// The hull of a surface's corners.
+    /// Prepares the hull of a surface's corners without computing it.
     pub fn of(surface: &'a Surface) -> Self {
         Self { surface, made: OnceCell::new() }
     }
 
-    /// The hull; `None` where the corners lie in one plane.
+    /// Returns the hull; `None` where the corners lie in one plane.
     pub fn get(&self) -> Option<&Hull> {
         self.made.get_or_init(|| Hull::of(self.surface)).as_ref()
     }
 }
 
-/// A convex hull: a surface whose corners are all corners of the hull.
+/// A convex hull, as a surface with no other corners than those of the hull.
 pub(super) struct Hull(Surface);
 
 impl Hull {
-    /// The hull of a surface's corners; `None` where they lie in one plane.
+    /// Computes the hull of a surface's corners; `None` where they lie in one plane.
     fn of(surface: &Surface) -> Option<Self> {
         let mut triangles = convex_hull(&surface.vertices)?;
         let mut place = vec![None; surface.vertices.len()];
@@ -55,26 +58,26 @@ impl Hull {
         Some(Self(Surface::new(corners, triangles)))
     }
 
-    /// How far the hull reaches beyond a plane; below 0 where it does not reach it.
+    /// Returns how far the hull reaches beyond a plane; below 0 where it stays behind the plane.
     pub fn outside(&self, plane: &Plane) -> f64 {
         self.0.vertices.iter().map(|corner| plane.distance(*corner)).fold(f64::NEG_INFINITY, f64::max)
     }
 
-    /// The hull as a solid between the fewest planes that fit; `None` where it is curved or has too many.
+    /// Returns the hull as a solid between the fewest planes that fit; `None` where it is curved or has too many facets.
     pub fn solid(&self) -> Option<MatchingSolid> {
         let (edges, size) = (Edges::of(&self.0), self.0.size());
         let own = LazyHull::of(&self.0);
         NOISE.iter().rev().find_map(|noise| solid(&self.0, &edges, &own, (noise * size, SAME)))
     }
 
-    /// The hull as a solid, if the surface means it.
+    /// Returns the hull as a solid, if the surface is meant to be its hull.
     pub fn meant(&self, surface: &Surface) -> Option<MatchingSolid> {
         if self.0.volume() > (1.0 + SWOLLEN) * surface.volume() {
             return None;
         }
         let size = surface.size();
         let mut solid = self.solid()?;
-        // How far the solid leaves the hull's own corners is no fault of those that lie below it.
+        // The solid may leave the hull's own corners, and corners below the hull are not to blame for that distance.
         let limit = NEAR * size + solid.deviation;
         solid.deviation = deviation(&solid.polytope, &surface.vertices);
         let is_near = solid.deviation <= limit;

@@ -1,57 +1,61 @@
-//! From triangles as a file has them to a closed surface that is turned outward.
+//! Makes a closed surface, turned outward, of triangles as a file has them.
 
 use super::edges::Edges;
 use super::fault::MOST_EDGES;
 use super::{Surface, SurfaceError, orient, seams, weld};
 use glam::DVec3;
 
-/// Gaps that are closed one after the other until nothing is open, parts of the size: from the rounding of f32 to
-/// a fifth of a percent, beyond which a gap is a hole.
+/// The gaps that are closed, tried in turn until nothing is open, as parts of the size. They go from the rounding of f32 to
+/// a fifth of a percent; a wider gap is a hole.
 const CRACKS: [f64; 9] = [1e-7, 1e-6, 1e-5, 5e-5, 1e-4, 2e-4, 4e-4, 1e-3, 2e-3];
 
-/// Sizes taken, so that areas and volumes neither overflow nor vanish.
+/// The sizes that are accepted, so that areas and volumes neither overflow nor vanish.
 const SIZES: std::ops::RangeInclusive<f64> = 1e-60..=1e60;
 
 /// A surface farther from the origin than this many times its size has lost its digits, even in f64.
 const FARTHEST: f64 = 1e9;
 
-/// Content below this part of the area times the size is none.
+/// A surface whose volume is below this part of its area times its size encloses nothing.
 const FLAT: f64 = 1e-9;
 
-/// A surface that is closed and turned outward, and what was done to it.
+/// A closed surface that is turned outward, and what was done to make it so.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Mended {
-    /// Welded, without copies; every edge has an even number of triangles.
+    /// The surface. Its corners are welded, it has no copies of triangles, and each of its edges has an even number of
+    /// triangles.
     pub surface: Surface,
     /// What had to be mended.
     pub mending: Mending,
 }
 
-/// What had to be mended of a surface.
+/// What had to be mended in a surface.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Mending {
-    /// Corners that were one with another, or of no triangle.
+    /// The number of corners left out because they coincided with another or belonged to no triangle.
     pub welded: usize,
-    /// Triangles without three corners of their own, left out.
+    /// The number of triangles left out because they lacked three distinct corners.
     pub degenerate: usize,
-    /// Copies of other triangles, left out.
+    /// The number of triangles left out because they were copies of others.
     pub copies: usize,
     /// The widest gap that was closed, in the surface's unit; 0 where there was none.
     pub crack: f64,
-    /// Pieces that triangles were split into, at corners that lay on their edges.
+    /// The number of triangles added by splitting others at corners that lay on their edges.
     pub seams: usize,
-    /// Triangles that ran clockwise.
+    /// The number of triangles that ran clockwise and were turned.
     pub turned: usize,
-    /// Connected parts.
+    /// The number of connected parts.
     pub shells: usize,
 }
 
 impl Surface {
-    /// The same surface closed: corners welded, triangles without area and copies of others left out, cracks of up to
-    /// 0.2 % of the size closed, all triangles turned outward.
+    /// Returns the same surface closed, with all triangles turned outward.
+    ///
+    /// Corners are welded, triangles without area and copies of others are left out, and cracks of up to 0.2 % of the size
+    /// are closed.
     ///
     /// # Errors
-    /// What cannot be mended: numbers that are none, holes (with the ends of their edges), one side only.
+    /// Names what cannot be mended: coordinates that are not finite, corners that do not exist, sizes out of scale, holes
+    /// (with the ends of their edges), a surface with one side only, or one that encloses nothing.
     pub fn mend(&self) -> Result<Mended, SurfaceError> {
         self.check()?;
         let size = self.size();
@@ -69,7 +73,7 @@ impl Surface {
         Ok(Mended { surface, mending })
     }
 
-    /// What makes every other step safe: numbers, numbering and scale.
+    /// Checks what every further step relies on: the coordinates, the numbering and the scale.
     fn check(&self) -> Result<(), SurfaceError> {
         let vertices = self.vertices.len();
         for (triangle, &vertex) in
@@ -93,7 +97,7 @@ impl Surface {
     }
 }
 
-/// Closes ever wider gaps until no edge is open.
+/// Closes wider and wider gaps until no edge is open.
 fn close(exact: &Surface, size: f64, mending: &mut Mending) -> Result<(Surface, Edges), SurfaceError> {
     let mut first_open = None;
     for crack in std::iter::once(0.0).chain(CRACKS.map(|part| part * size)) {

@@ -1,8 +1,8 @@
-//! Surfaces of triangles as files have them: mended into closed ones, and their facets found.
+//! Surfaces of triangles as files have them: how they are mended into closed ones, and how their facets are found.
 //!
-//! [`Surface::mend`] welds, closes cracks and turns every triangle outward; [`facets`] finds the planes of what is
-//! mended, and whether it is the convex solid between them. Lengths are in the file's own unit; tolerances are parts
-//! of [`Surface::size`].
+//! [`Surface::mend`] welds, closes cracks and turns every triangle outward. [`facets`] finds the planes of the mended
+//! surface, and whether it is the convex solid between them. Lengths are in the file's own unit; tolerances are parts of
+//! [`Surface::size`].
 
 mod change;
 mod edges;
@@ -29,49 +29,49 @@ pub(crate) use fit::eigen;
 pub use mend::{Mended, Mending};
 pub use shape::{Face, Faceted, SurfaceKind, TooCurved, deviation, faceted_hull, facets};
 
-/// Triangles over shared corners; each is part of a group, which may have a name.
+/// Triangles over shared corners. Each triangle belongs to a group, which may have a name.
 ///
-/// What a file holds need not be closed, nor be free of gaps, copies or turned triangles; what [`Surface::mend`]
-/// answers is.
+/// A surface from a file may be open and have gaps, copies or turned triangles. A surface that [`Surface::mend`] returns has
+/// none of these.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Surface {
-    /// Corners.
+    /// The corners.
     pub vertices: Vec<DVec3>,
-    /// Corners of each triangle, counter-clockwise seen from outside.
+    /// The corners of each triangle, counter-clockwise seen from outside.
     pub triangles: Vec<[u32; 3]>,
     /// The group of each triangle, by its place in `names`.
     pub groups: Vec<u32>,
-    /// What the groups are called; a name may be empty.
+    /// The names of the groups; a name may be empty.
     pub names: Vec<String>,
 }
 
 impl Surface {
-    /// Triangles of one nameless group.
+    /// Makes a surface of triangles that form one group without a name.
     pub fn new(vertices: Vec<DVec3>, triangles: Vec<[u32; 3]>) -> Self {
         let groups = vec![0; triangles.len()];
         Self { vertices, triangles, groups, names: vec![String::new()] }
     }
 
-    /// The corners of a triangle.
+    /// Returns the corners of a triangle.
     pub fn corners(&self, triangle: usize) -> [DVec3; 3] {
         self.triangles[triangle].map(|v| self.vertices[v as usize])
     }
 
-    /// The outward normal of a triangle times its area.
+    /// Returns the outward normal of a triangle times its area.
     pub fn area_vector(&self, triangle: usize) -> DVec3 {
         let [a, b, c] = self.corners(triangle);
         (b - a).cross(c - a) / 2.0
     }
 
-    /// Area of all triangles.
+    /// Returns the area of all triangles.
     pub fn area(&self) -> f64 {
         (0..self.triangles.len()).map(|t| self.area_vector(t).length()).sum()
     }
 
-    /// Enclosed volume; it means something for a closed surface alone, and is negative where that is inside out.
+    /// Returns the enclosed volume, which has a meaning for a closed surface alone; it is negative where that is inside out.
     pub fn volume(&self) -> f64 {
         let (low, high) = self.bounds();
-        // Measured from its middle, so that a surface far from the origin keeps its digits.
+        // Measuring from the middle keeps the digits of a surface far from the origin.
         self.volume_of(0..self.triangles.len(), (low + high) / 2.0)
     }
 
@@ -83,24 +83,24 @@ impl Surface {
         triangles.map(cone).sum()
     }
 
-    /// The smallest box with sides along the axes that holds the corners of all triangles: (least, greatest).
+    /// Returns the smallest box with sides along the axes that holds the corners of all triangles, as (least, greatest).
     pub fn bounds(&self) -> (DVec3, DVec3) {
         let used = self.triangles.iter().flatten().map(|&v| self.vertices[v as usize]);
         used.fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), v| (low.min(v), high.max(v)))
     }
 
-    /// Half the diagonal of its bounding box: what tolerances are parts of.
+    /// Returns half the diagonal of the bounding box; tolerances are parts of this size.
     pub fn size(&self) -> f64 {
         let (low, high) = self.bounds();
         (high - low).length() / 2.0
     }
 
-    /// The same surface elsewhere.
+    /// Returns the same surface moved by `shift`.
     pub fn moved(&self, shift: DVec3) -> Self {
         Self { vertices: self.vertices.iter().map(|&v| v + shift).collect(), ..self.clone() }
     }
 
-    /// Adds another surface, its groups after those that are here.
+    /// Adds another surface; its groups follow those of this one.
     pub fn append(&mut self, other: Self) {
         let (vertices, names) = (self.vertices.len() as u32, self.names.len() as u32);
         self.vertices.extend(other.vertices);

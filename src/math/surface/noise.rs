@@ -1,20 +1,23 @@
-//! Noise of scans: a surface with less of it, and whether corners leave the facets of a solid at random, as noise makes
-//! them, or together, as those of a curved facet do.
+//! The noise of scans: how it is smoothed, and how it is distinguished from curved facets.
+//!
+//! Noise moves the corners off the facets of a solid at random; a curved facet moves them together.
 
 use super::Surface;
 use crate::math::{Plane, Polytope};
 use glam::DVec3;
 use rayon::prelude::*;
 
-/// Neighbouring corners on a facet that is curved leave its plane by nearly the same distance, and their correlation is
-/// near 1: of a groove in six strips it is 0.6. Of noise it is 0, and less where planes are fitted to few corners.
+/// The greatest correlation between the distances of neighbouring corners from their plane that counts as noise.
+///
+/// On a curved facet neighbouring corners leave the plane by nearly the same distance, and the correlation is near 1; for a
+/// groove in six strips it is 0.6. For noise it is 0, or less where planes are fitted to few corners.
 const MOST_CORRELATED: f64 = 0.4;
 
-/// How often each corner is moved to the middle of itself and its neighbours: six leave a fifth of the noise, and round
+/// How often each corner is moved to the mean of itself and its neighbours. Six times leave a fifth of the noise, and round
 /// edges by no more than the triangles beside them.
 const SMOOTHINGS: usize = 6;
 
-/// The surface with its corners between their neighbours.
+/// Returns the surface with its corners moved between their neighbours.
 pub(super) fn smoothed(surface: &Surface) -> Surface {
     let mut smooth = surface.clone();
     for _ in 0..SMOOTHINGS {
@@ -22,7 +25,7 @@ pub(super) fn smoothed(surface: &Surface) -> Surface {
         for corners in &smooth.triangles {
             for k in 0..3 {
                 let sum = &mut sums[corners[k] as usize];
-                // Every edge has two triangles, and so counts once in all.
+                // Every edge has two triangles, each of which adds half of the neighbour.
                 let beside =
                     [corners[(k + 1) % 3], corners[(k + 2) % 3]].map(|v| smooth.vertices[v as usize]);
                 *sum = (sum.0 + (beside[0] + beside[1]) / 2.0, sum.1 + 1.0);
@@ -33,15 +36,15 @@ pub(super) fn smoothed(surface: &Surface) -> Surface {
     smooth
 }
 
-/// Half the corners of a scan lie farther off their planes than this part of the size; those of a model do not, though a few
-/// may where something was cut out of it.
+/// In a scan, half of the corners lie farther off their planes than this part of the size. In a model they do not, though a
+/// few may where something was cut out of it.
 const LEAST: f64 = 3e-5;
 
-/// A corner that is farther off than this many medians counts as if it were there.
+/// The distance of a corner counts as no more than this many medians.
 const FAR: f64 = 4.0;
 
-/// Whether corners leave the facets of a solid by noise: most of them do, and those that are joined by an edge and lie on
-/// one facet do so independently of one another.
+/// Whether noise moves corners off the facets of a solid: most corners lie off, and those that share an edge and a facet do
+/// so independently of one another.
 pub(super) fn is_noise(surface: &Surface, polytope: &Polytope) -> bool {
     let planes: Vec<Plane> = polytope.planes().collect();
     let on = |corner: &DVec3| {

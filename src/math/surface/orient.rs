@@ -1,4 +1,4 @@
-//! Triangles turned so that all of them run counter-clockwise seen from outside.
+//! Turns triangles so that all of them run counter-clockwise seen from outside.
 
 use super::edges::{Edges, NONE};
 use super::{Surface, SurfaceError};
@@ -6,16 +6,18 @@ use glam::DVec3;
 use std::collections::VecDeque;
 use std::f64::consts::PI;
 
-/// Points of a shell that are asked whether another holds them.
+/// The most points of a shell that are tested for lying within another shell.
 const SAMPLES: usize = 24;
 
-/// How often a shell winds around a point of its wall, with room for walls that are bent there.
+/// The least mean winding number of a shell around points within it. It is a half around a point on a flat wall; the rest is
+/// room for walls that are bent there.
 const ON_WALL: f64 = 0.6;
 
-/// The most shells that are looked at for lying within one another: a stone's inclusions, not a heap of stones.
+/// The most shells that are tested for lying within one another: enough for a stone's inclusions, not for a heap of stones.
 const MOST_NESTED: usize = 64;
 
-/// Turns triangles where their neighbours, or the outside, ask for it; answers how many, and the number of shells.
+/// Turns triangles that disagree with their neighbours or with the outside. Returns the number of triangles turned and the
+/// number of shells.
 pub(super) fn outward(surface: &mut Surface, edges: &Edges) -> Result<(usize, usize), SurfaceError> {
     let before = surface.triangles.clone();
     let shells = align(surface, edges)?;
@@ -31,7 +33,7 @@ pub(super) fn outward(surface: &mut Surface, edges: &Edges) -> Result<(usize, us
     Ok((turned, shells.len()))
 }
 
-/// Makes neighbours run the same way round; answers the triangles of each connected shell.
+/// Makes neighbours run the same way round. Returns the triangles of each connected shell.
 fn align(surface: &mut Surface, edges: &Edges) -> Result<Vec<Vec<u32>>, SurfaceError> {
     let mut seen = vec![false; surface.triangles.len()];
     let mut shells = vec![];
@@ -73,13 +75,13 @@ fn flood(
     Ok(shell)
 }
 
-/// The edge that two triangles run along the same way, as neighbours that agree never do.
+/// Returns an edge that two triangles run along in the same direction; neighbours that agree have none.
 fn shared_same_way(one: &[u32; 3], other: &[u32; 3]) -> Option<[u32; 2]> {
     let run = |t: &[u32; 3]| [[t[0], t[1]], [t[1], t[2]], [t[2], t[0]]];
     run(one).into_iter().find(|edge| run(other).contains(edge))
 }
 
-/// Whether a shell lies within an odd number of the others: its outside is then the inside of the stone.
+/// Whether a shell lies within an odd number of the others, so that its outside is the inside of the stone.
 fn is_cavity(surface: &Surface, shells: &[Vec<u32>], shell: &[u32]) -> bool {
     if shells.len() == 1 || shells.len() > MOST_NESTED {
         return false;
@@ -95,16 +97,17 @@ fn is_cavity(surface: &Surface, shells: &[Vec<u32>], shell: &[u32]) -> bool {
     shells.iter().filter(holds).count() % 2 == 1
 }
 
-/// The smallest box with sides along the axes that holds a shell: (least, greatest).
+/// Returns the smallest box with sides along the axes that holds a shell, as (least, greatest).
 fn bounds(surface: &Surface, shell: &[u32]) -> (DVec3, DVec3) {
     let corners = shell.iter().flat_map(|&t| surface.corners(t as usize));
     corners.fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), v| (low.min(v), high.max(v)))
 }
 
-/// Whether points of one shell say that it lies within another, whose wall it may touch.
+/// Whether points of one shell show that it lies within another, whose wall it may touch.
 ///
-/// A closed shell winds once around a point within, half around one on its wall, and not around one outside, whichever
-/// way its triangles run. Shells that touch from outside, or overlap, have points around which the other does not wind.
+/// A closed shell winds once around a point within, half around a point on its wall, and not around a point outside,
+/// whichever way its triangles run. A shell that touches another from outside, or overlaps it, has points around which the
+/// other does not wind.
 fn is_within(surface: &Surface, shell: &[u32], points: &[DVec3]) -> bool {
     let winds = |point: &DVec3| {
         let angle = |&t: &u32| solid_angle(surface.corners(t as usize).map(|v| v - *point));
@@ -115,8 +118,8 @@ fn is_within(surface: &Surface, shell: &[u32], points: &[DVec3]) -> bool {
     winds.iter().all(|winds| *winds > ON_WALL / 2.0) && mean > ON_WALL
 }
 
-/// The solid angle that a triangle takes up seen from the origin, below 0 seen from behind (A. van Oosterom and
-/// J. Strackee, The Solid Angle of a Plane Triangle, IEEE Trans. Biomed. Eng. 30, 1983).
+/// Returns the solid angle of a triangle seen from the origin, below 0 seen from behind (A. van Oosterom and J. Strackee,
+/// The Solid Angle of a Plane Triangle, IEEE Trans. Biomed. Eng. 30, 1983).
 fn solid_angle([a, b, c]: [DVec3; 3]) -> f64 {
     let [x, y, z] = [a.length(), b.length(), c.length()];
     let below = x * y * z + a.dot(b) * z + b.dot(c) * x + c.dot(a) * y;

@@ -1,4 +1,4 @@
-//! Triangles that share a plane, gathered from the largest outward.
+//! Gathers triangles that share a plane into regions, starting from the largest triangles.
 
 use super::Surface;
 use super::edges::{Edges, NONE};
@@ -6,29 +6,30 @@ use super::fit::{PlaneFit, fit};
 use crate::math::Plane;
 use glam::DVec3;
 
-/// How often a region is gathered anew from its better plane.
+/// How often, at most, a region is gathered again from its improved plane.
 const ROUNDS: usize = 6;
 
-/// The plane is found anew when a region has grown by this factor.
+/// The plane is fitted again when a region has grown by this factor.
 const GROWN: f64 = 1.5;
 
-/// Regions become one where the smaller lies within this many tolerances of the larger's plane: that plane may be
-/// one tolerance off, and corners another.
+/// A smaller region is joined to a larger one where it lies within this many tolerances of the larger one's plane: that
+/// plane may be one tolerance off, and corners another.
 const MERGED: f64 = 3.0;
 
-/// Or where both lie within this many of the one plane of both, and their planes are turned apart by no more than
-/// `TURNED` tolerances at the width of each would turn them: the halves of a square whose corners are each one
-/// tolerance off are four of them apart.
+/// Two regions are also joined where both lie within this many tolerances of the plane fitted to both, and their planes are
+/// turned apart by no more than [`TURNED`] allows. Two halves of a square whose corners are each one tolerance off are up to
+/// four tolerances apart.
 const JOINT: f64 = 1.2;
+/// Planes may be turned apart as far as this many tolerances would turn them at the width of each region.
 const TURNED: f64 = 3.0;
 
-/// A triangle less high than this many tolerances has a normal of noise.
+/// The normal of a triangle whose height is below this many tolerances is mere noise.
 const SLIVER: f64 = 4.0;
 
-/// A region narrower than this many tolerances has a plane of noise.
+/// The plane of a region narrower than this many tolerances is mere noise.
 const NARROW: f64 = 6.0;
 
-/// The region of triangles that have none.
+/// The mark of a triangle that belongs to no region.
 pub(super) const NOWHERE: u32 = u32::MAX;
 
 /// A surface cut into regions.
@@ -39,7 +40,7 @@ pub(super) struct Regions {
     pub fits: Vec<PlaneFit>,
 }
 
-/// Gathers regions whose corners lie within `tolerance` of their planes. `None` where there are more than `most`.
+/// Gathers regions whose corners lie within `tolerance` of their planes; `None` where there are more than `most`.
 pub(super) fn regions(surface: &Surface, edges: &Edges, tolerance: f64, most: usize) -> Option<Regions> {
     let areas: Vec<DVec3> = (0..surface.triangles.len()).map(|t| surface.area_vector(t)).collect();
     let mut order: Vec<u32> = (0..areas.len() as u32).collect();
@@ -65,7 +66,7 @@ pub(super) fn regions(surface: &Surface, edges: &Edges, tolerance: f64, most: us
     (joined.fits.len() <= most).then_some(joined)
 }
 
-/// Regions whose triangles are given, those joined that are of one plane.
+/// Makes regions of the given triangles, and joins those that share a plane.
 pub(super) fn joined(
     surface: &Surface,
     edges: &Edges,
@@ -90,7 +91,7 @@ struct Grower<'a> {
     round: u32,
 }
 
-/// Whether a triangle is so low that its normal is noise.
+/// Whether a triangle is so low that its normal is mere noise.
 pub(super) fn is_sliver(surface: &Surface, triangle: usize, tolerance: f64) -> bool {
     let [a, b, c] = surface.corners(triangle);
     let longest = (b - a).length().max((c - b).length()).max((a - c).length());
@@ -116,7 +117,8 @@ impl Grower<'_> {
         best
     }
 
-    /// Connected triangles within the tolerance of a plane, which follows what is found where it may.
+    /// Returns connected triangles within the tolerance of a plane. If `follows` is true, the plane is fitted again as
+    /// triangles are found.
     fn flood(&mut self, seed: u32, mut plane: Plane, follows: bool) -> Vec<u32> {
         self.round += 1;
         self.seen[seed as usize] = self.round;
@@ -148,7 +150,7 @@ impl Grower<'_> {
     }
 }
 
-/// Regions that are joined, small ones first, to larger neighbours in whose plane they lie.
+/// Joins regions, small ones first, to larger neighbours in whose plane they lie.
 struct Joiner<'a> {
     surface: &'a Surface,
     edges: &'a Edges,
@@ -182,7 +184,7 @@ impl Joiner<'_> {
         self.fits[region as usize].map_or(0.0, |f| f.area)
     }
 
-    /// Neighbours that are no smaller.
+    /// Returns the neighbouring regions that are no smaller.
     fn beside(&self, region: u32) -> Vec<u32> {
         let across = self.members[region as usize].iter().flat_map(|&t| self.edges.neighbours[t as usize]);
         let regions = across.filter(|&n| n != NONE).map(|n| self.of[n as usize]);
@@ -193,7 +195,8 @@ impl Joiner<'_> {
         beside
     }
 
-    /// How far from one plane both lie at most; `None` where they are not of one plane.
+    /// Returns how far from a common plane the corners of two regions lie at most; `None` where the two do not share a
+    /// plane.
     fn misfit(&self, small: u32, large: u32) -> Option<f64> {
         let (mine, other) = (&self.members[small as usize], &self.members[large as usize]);
         let (own, fits) = (self.fits[small as usize], self.fits[large as usize]?);
@@ -206,7 +209,7 @@ impl Joiner<'_> {
         if facing && reached <= MERGED * self.tolerance {
             return Some(reached);
         }
-        // Planes that noise alone could have turned apart are judged by the one plane of both.
+        // Noise alone may have turned the planes apart, so the plane fitted to both regions decides.
         let own = own?;
         let apart = (own.plane.normal - fits.plane.normal).length();
         if apart > TURNED * self.tolerance * (1.0 / own.width + 1.0 / fits.width) {
@@ -217,7 +220,7 @@ impl Joiner<'_> {
         (joint <= JOINT * self.tolerance).then_some(joint)
     }
 
-    /// Leaves out what is too narrow to have a plane, and numbers the rest by area.
+    /// Leaves out regions that are too narrow to have a plane, and numbers the rest by area.
     fn finish(self) -> Regions {
         let Self { mut of, fits, .. } = self;
         let kept = |f: &PlaneFit| f.width > NARROW * self.tolerance;

@@ -1,18 +1,18 @@
-//! Seams where one side has corners that the other lacks: triangles are split at them.
+//! Splits triangles along seams where one side has corners that the other side lacks.
 
 use super::Surface;
 use super::edges::{Edges, ends};
 use std::collections::HashMap;
 
-/// The most open edges for which seams are looked for: the search compares each with the corners that it could
-/// pass, and what has more is no crack but rubble.
+/// The most open edges among which seams are looked for. The search compares each edge with the corners that could lie on
+/// it, and a surface with more open edges is not cracked but rubble.
 const MOST_OPEN: usize = 5_000;
 
-/// A triangle is split at each of its edges once; rubble could ask for more without end.
+/// How deep the pieces of a triangle are split again. Each of its edges is split once; rubble could go on without end.
 const MOST_ROUNDS: u32 = 3;
 
-/// Splits triangles with open edges at the corners of other open edges that lie on them within `gap`; answers how
-/// many corners were put in.
+/// Splits triangles with open edges at the corners of other open edges that lie on them within `gap`. Returns how many
+/// corners were put in.
 pub(super) fn split(surface: &mut Surface, gap: f64) -> usize {
     let open = Edges::of(surface).open;
     if open.len() > MOST_OPEN {
@@ -27,7 +27,7 @@ pub(super) fn split(surface: &mut Surface, gap: f64) -> usize {
         .filter(|(_, list)| !list.is_empty())
         .collect();
     let before = surface.triangles.len();
-    // What is split is taken out and put back in pieces, each of which may have another edge to split.
+    // A triangle is replaced by its pieces, each of which may have another edge to split.
     for t in 0..before {
         split_one(surface, t, &between, MOST_ROUNDS);
     }
@@ -38,7 +38,7 @@ fn x(surface: &Surface, vertex: u32) -> f64 {
     surface.vertices[vertex as usize].x
 }
 
-/// The corners that lie on an edge, from its lower to its higher end.
+/// Returns the corners that lie on an edge, in order from its lower to its higher end.
 fn passed(surface: &Surface, [a, b]: [u32; 2], loose: &[u32], gap: f64) -> Vec<u32> {
     let (from, to) = (surface.vertices[a as usize], surface.vertices[b as usize]);
     let along = to - from;

@@ -1,7 +1,7 @@
-//! Planes of regions that noise has spoilt, put right by what a convex solid must be.
+//! Corrects the planes of regions that noise has spoilt, by what must be true of a convex solid.
 //!
-//! A region of a few triangles that noise has tilted has a plane that cuts the solid. No facet of a convex solid does, so
-//! such planes are left out, and each triangle is given to the facet that it lies on.
+//! Where noise has tilted a region of a few triangles, its plane cuts the solid. No facet of a convex solid does, so such
+//! planes are left out, and each triangle is assigned to the facet that it lies on.
 
 use super::Surface;
 use super::edges::Edges;
@@ -11,13 +11,14 @@ use super::shape::SAME;
 use glam::DVec3;
 use rayon::prelude::*;
 
-/// How often triangles are shared out anew. Planes that noise has tilted settle in three or four rounds.
+/// How often, at most, triangles are assigned anew. Planes that noise has tilted settle in three or four rounds.
 const ROUNDS: usize = 6;
 
-/// The most distances of triangles from planes that are looked at in a round: above it, what is read is no cut stone.
+/// The most distances of triangles from planes that are computed in a round. A surface that needs more is no cut stone.
 const MOST_DISTANCES: usize = 200_000_000;
 
-/// The regions with each triangle in that of the facet it lies on; `None` where too few planes are left.
+/// Returns the regions with each triangle assigned to the facet that it lies on. `None` where too few planes are left, or
+/// too many distances would have to be computed.
 pub(super) fn settled(
     surface: &Surface,
     edges: &Edges,

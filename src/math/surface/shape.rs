@@ -1,4 +1,4 @@
-//! What solid a closed surface is: the convex one between its facets' planes, or another.
+//! Finds the solid that a closed surface stands for: the convex one between the planes of its facets, or another.
 
 use super::change::Change;
 use super::edges::{Edges, NONE};
@@ -9,78 +9,83 @@ use crate::math::{Facet, Plane, Polytope};
 use glam::DVec3;
 use rayon::prelude::*;
 
-/// Tolerances tried one after the other, parts of the size: from the rounding of f32 to a thousandth, the noise that
+/// The tolerances tried one after the other, as parts of the size: from the rounding of f32 to a thousandth, the noise that
 /// careless modelling leaves.
 pub(super) const NOISE: [f64; 7] = [1e-6, 1e-5, 4e-5, 1e-4, 2e-4, 4e-4, 1e-3];
 
-/// Tolerances for scans, which are taken only where noise is what moves corners off their planes.
+/// The tolerances for scans, which count only where noise is what moves corners off their planes.
 const SCANS: [f64; 5] = [4e-4, 1e-3, 1.5e-3, 2e-3, 4e-3];
 
-/// A solid whose surface no corner leaves by more than this many tolerances is the surface: a corner may be one off
-/// its own plane and, where regions were joined, three.
+/// A solid reproduces a surface if no corner lies farther from the solid's surface than this many tolerances: a corner may
+/// be one tolerance off its own plane and, where regions were joined, three.
 pub(super) const SAME: f64 = 3.0;
 
-/// How far a scan's corners may leave the solid, a part of the size: noise hides a culet that is less wide than that.
+/// How far a scan's corners may lie from the solid, as a part of the size: noise hides a culet that is narrower than that.
 const SAME_SCAN: f64 = 6e-3;
 
-/// Fewer facets, or as many that lie closer, are better where they fit within this many times the deviation of the first
-/// solid found, at one of the `FURTHER` next tolerances. Halves of a facet have few corners and fit them too well: those
-/// that are whole lie up to 3.3 times as far off. At 4 the small facets of a real princess (deepar-princess.obj) are lost.
+/// A solid at a larger tolerance is better if it has fewer facets, or as many that lie closer, and its deviation is within
+/// this many times that of the first solid found.
+///
+/// Halves of a facet have few corners and fit them too well: whole facets lie up to 3.3 times as far off. At 4 the small
+/// facets of a real princess (deepar-princess.obj) are lost.
 const AS_GOOD: f64 = 3.5;
+/// How many of the next larger tolerances are tried for a better solid.
 const FURTHER: usize = 2;
 
-/// Facets that lean apart by less than this many tolerances at the width of each may be one that noise has split.
+/// Neighbouring facets may be one facet that noise has split if their angle is less than this many tolerances make at the
+/// width of each.
 const NEARLY_ONE: f64 = 10.0;
 
-/// The most facets of which a solid is made: beyond it is a surface that is curved, and cutting it takes too long.
+/// The most facets of a solid. A surface with more is curved, and cutting it takes too long.
 const MOST_FACETS: usize = 2_500;
 
-/// A surface that does this part of its turning within regions and not between them is round.
+/// A surface is round if more than this part of its turning lies within regions and not between them.
 const ROUND: f64 = 0.1;
 
-/// A region and a group of the file are one where they share this part of the area of each.
+/// A region and a group of the file are the same if they share this part of the area of each.
 const ONE: f64 = 0.99;
 
 /// A facet that was found.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Face {
-    /// Its plane, about [`Faceted::centre`].
+    /// The plane, with [`Faceted::centre`] as its origin.
     pub plane: Plane,
-    /// Area of its triangles.
+    /// The area of its triangles.
     pub area: f64,
-    /// What the file calls it, where one of its groups is just this facet.
+    /// The name that the file gives the facet, where one of the file's groups is exactly this facet.
     pub name: Option<String>,
 }
 
-/// A surface that is a convex solid between planes. Lengths in the surface's unit.
+/// A surface that is a convex solid between planes. Lengths are in the surface's unit.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Faceted {
     /// The surface, with its `centre` moved to the origin.
     pub surface: Surface,
     /// Where the origin of the planes lies in the surface's own frame.
     pub centre: DVec3,
-    /// Its facets, the largest first, in the order of those of `polytope`.
+    /// The facets, the largest first, in the order of the facets of `polytope`.
     pub faces: Vec<Face>,
-    /// The solid between them, about the centre.
+    /// The solid between the planes, with the centre as its origin.
     pub polytope: Polytope,
-    /// How far the corner that is farthest off lies from the solid's surface.
+    /// The greatest distance of a corner from the solid's surface.
     pub deviation: f64,
-    /// Within how much of their planes the corners of facets were found.
+    /// The tolerance at which facets were found: their corners lie within it of their planes.
     pub tolerance: f64,
-    /// What the solid changes of a surface that is not convex itself; `None` of one that is but for a thousandth.
+    /// The differences between the solid and a surface that is not convex itself; `None` for a surface that is convex up to
+    /// a thousandth.
     pub change: Option<Change>,
 }
 
-/// What a closed surface is.
+/// The kind of solid that a closed surface stands for.
 #[derive(Debug, Clone, PartialEq)]
 pub enum SurfaceKind {
     /// A convex solid between planes.
     Convex(Box<Faceted>),
-    /// Anything else: to be traced as triangles, as it was given.
+    /// Anything else, to be traced as triangles, just as it was given.
     Concave(Surface),
 }
 
-/// Finds the facets of a closed surface, as [`Surface::mend`] answers it.
+/// Finds the facets of a closed surface, as [`Surface::mend`] returns it.
 pub fn facets(surface: Surface) -> SurfaceKind {
     let (low, high) = surface.bounds();
     let centre = (low + high) / 2.0;
@@ -125,11 +130,12 @@ pub fn facets(surface: Surface) -> SurfaceKind {
     SurfaceKind::Convex(Box::new(faceted(moved, centre, best)))
 }
 
-/// The convex solid of a closed surface's corners, whatever lies between them: its own facets where it is convex, else
-/// those of its hull.
+/// Returns the convex solid around a closed surface's corners, whatever lies between them.
+///
+/// Its facets are the surface's own where that is convex, and otherwise those of its hull.
 ///
 /// # Errors
-/// Where the hull is curved: it would take too many facets.
+/// Returns [`TooCurved`] where the hull is curved: it would take too many facets.
 pub fn faceted_hull(surface: Surface) -> Result<Box<Faceted>, TooCurved> {
     let surface = match facets(surface) {
         SurfaceKind::Convex(found) => return Ok(found),
@@ -143,12 +149,12 @@ pub fn faceted_hull(surface: Surface) -> Result<Box<Faceted>, TooCurved> {
     Ok(Box::new(changed(moved, centre, solid)))
 }
 
-/// The hull of a surface's corners is curved, or has too many facets.
+/// The error where the hull of a surface's corners is curved, or has too many facets.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 #[error("its convex hull is curved, or has more than {MOST_FACETS} facets")]
 pub struct TooCurved;
 
-/// Whether facets that are neighbours lean apart by no more than noise could make halves of one lean.
+/// Whether some neighbouring facets lean apart by no more than noise could make the halves of one facet lean.
 fn is_split(solid: &MatchingSolid) -> bool {
     let facets = solid.polytope.facets();
     let fit = |f: &Facet| solid.found.fits[f.source];
@@ -168,8 +174,8 @@ pub(super) struct MatchingSolid {
     pub tolerance: f64,
 }
 
-/// The solid between the planes of regions of one tolerance, if no corner of the surface leaves it by more than `same`
-/// tolerances; the planes are put right by the hull where they need it.
+/// Returns the solid between the planes of regions of one tolerance, if no corner of the surface lies farther off than
+/// `same` tolerances. Where needed, the planes are corrected by the hull.
 pub(super) fn solid(
     surface: &Surface,
     edges: &Edges,
@@ -182,7 +188,7 @@ pub(super) fn solid(
     }
 }
 
-/// The solid between the planes of regions that are put right by the hull, if it is the surface.
+/// Returns the solid between the planes of regions after the hull has corrected them, if it reproduces the surface.
 fn put_right(
     surface: &Surface,
     edges: &Edges,
@@ -194,8 +200,9 @@ fn put_right(
     reproduced(surface, found, (tolerance, same)).ok()
 }
 
-/// The same with the planes of regions as they were gathered; else those regions, where there are not too many and the
-/// surface is not round.
+/// Returns the solid between the planes of regions as they were gathered, if it reproduces the surface.
+///
+/// Otherwise returns those regions, unless there are too many or the surface is round.
 fn gathered(
     surface: &Surface,
     edges: &Edges,
@@ -208,8 +215,9 @@ fn gathered(
     reproduced(surface, found, (tolerance, same)).map_err(Some)
 }
 
-/// The same with regions that are found on a smoother copy of the surface: noise tilts triangles that are small beside it
-/// so much that no region would grow from them.
+/// Returns the solid between the planes of regions that are found on a smoother copy of the surface.
+///
+/// Noise tilts triangles that are small beside it so much that no region would grow from them on the surface itself.
 fn of_smooth(
     surface: &Surface,
     smooth: &Surface,
@@ -222,7 +230,7 @@ fn of_smooth(
     put_right(surface, edges, hull, found, (tolerance, same))
 }
 
-/// The solid between the planes of regions, if it is the surface; else the regions.
+/// Returns the solid between the planes of regions, if it reproduces the surface; otherwise returns the regions.
 fn reproduced(
     surface: &Surface,
     found: Regions,
@@ -236,17 +244,18 @@ fn reproduced(
     if is_same { Ok(MatchingSolid { found, polytope, deviation, tolerance }) } else { Err(found) }
 }
 
-/// How far the point that is farthest off lies from a solid's surface; of a point outside, how far it lies outside
-/// the plane that it is farthest outside of.
+/// Returns the greatest distance of points from a solid's surface.
+///
+/// For a point outside, it is the distance from the plane that the point is farthest outside of.
 pub fn deviation(polytope: &Polytope, points: &[DVec3]) -> f64 {
     let planes: Vec<Plane> = polytope.planes().collect();
     let depth = |p: &DVec3| planes.iter().map(|plane| plane.distance(*p)).fold(f64::NEG_INFINITY, f64::max);
     points.par_iter().map(|p| depth(p).abs()).reduce(|| 0.0, f64::max)
 }
 
-/// Whether the surface turns outward within regions, not at their edges alone. Noise turns it as much inward.
+/// Whether the surface turns outward within regions and not only at their edges. Noise turns it inward as much as outward.
 fn is_round(surface: &Surface, edges: &Edges, found: &Regions, tolerance: f64) -> bool {
-    // A sliver's own normal is noise: it faces as its region does.
+    // A sliver's own normal is noise, so the normal of its region is used.
     let unit = |t: usize| match found.of[t] {
         region if region != NOWHERE && is_sliver(surface, t, tolerance) => {
             found.fits[region as usize].plane.normal
@@ -269,7 +278,7 @@ fn is_round(surface: &Surface, edges: &Edges, found: &Regions, tolerance: f64) -
     within > ROUND * whole
 }
 
-/// What is found where a surface that is not convex is read as a convex solid.
+/// Returns the facets of a surface that is not convex but is read as a convex solid.
 fn changed(surface: Surface, centre: DVec3, solid: MatchingSolid) -> Faceted {
     let change = Change::of(&surface, &solid.polytope);
     Faceted { change: Some(change), ..faceted(surface, centre, solid) }
@@ -284,7 +293,7 @@ fn faceted(surface: Surface, centre: DVec3, solid: MatchingSolid) -> Faceted {
     Faceted { surface, centre, faces, polytope, deviation, tolerance, change: None }
 }
 
-/// The name of each region that is just one group of the file.
+/// Returns the name of each region that is exactly one group of the file.
 fn names(surface: &Surface, found: &Regions) -> Vec<Option<String>> {
     let mut shared = std::collections::BTreeMap::<(u32, u32), f64>::new();
     let mut groups = vec![0.0; surface.names.len()];

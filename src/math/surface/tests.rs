@@ -1,4 +1,4 @@
-//! Surfaces that are known, spoilt in every way that files are.
+//! Known surfaces, spoilt in every way that files are.
 
 mod meant;
 
@@ -13,7 +13,7 @@ fn cube() -> Polytope {
     Polytope::from_planes(&planes).unwrap()
 }
 
-/// A solid of `sides` around, two tiers above and one below: fifteen or more facets of any slope.
+/// Makes a stone with a table, two tiers above and one below, of `sides` facets each: sixteen or more facets of any slope.
 fn stone(sides: u32) -> Polytope {
     let turn = |k: u32, half: f64| (f64::from(k) + half) * std::f64::consts::TAU / f64::from(sides);
     let mut planes = vec![Plane::new(DVec3::Z, 0.3)];
@@ -31,14 +31,14 @@ fn surface(polytope: &Polytope) -> Surface {
     Surface { vertices: mesh.vertices, triangles: mesh.triangles, groups: mesh.facets, names }
 }
 
-/// Every triangle with corners of its own.
+/// Gives every triangle corners of its own.
 fn split(surface: &Surface) -> Surface {
     let vertices = (0..surface.triangles.len()).flat_map(|t| surface.corners(t)).collect();
     let triangles = (0..surface.triangles.len() as u32).map(|t| [3 * t, 3 * t + 1, 3 * t + 2]).collect();
     Surface { vertices, triangles, ..surface.clone() }
 }
 
-/// Numbers from -1 to 1 that look random and are the same every time.
+/// Makes a function that returns numbers from -1 to 1 that look random and are the same every time.
 fn noise(seed: u64) -> impl FnMut() -> f64 {
     let mut state = seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1;
     move || {
@@ -117,7 +117,7 @@ fn the_two_sides_of_something_flat_are_left_out() {
     let before = flap.clone();
     let [a, b, c] = flap.triangles[0];
     let other = (0..8).find(|v| ![a, b, c].contains(v)).unwrap();
-    // What a facet leaves whose sides fall together.
+    // Such triangles are left by a facet whose sides coincide.
     for triangle in [[a, b, other], [a, other, b]] {
         flap.triangles.push(triangle);
         flap.groups.push(0);

@@ -1,4 +1,4 @@
-//! Corners that are one, whatever the file says, made one.
+//! Welds corners: makes one corner of several that a file lists separately.
 
 use super::Surface;
 use super::edges::{Edges, ends};
@@ -6,9 +6,9 @@ use glam::{DVec3, I64Vec3};
 use rayon::slice::ParallelSliceMut;
 use std::collections::HashMap;
 
-/// Makes corners at the very same place one, and leaves out those of no triangle.
+/// Makes one corner of those at exactly the same place, and leaves out corners of no triangle.
 pub(super) fn exactly(surface: &Surface) -> Surface {
-    // Adding 0 makes one zero of the two that compare equal.
+    // Adding 0 turns -0 into 0, which compares equal to it.
     let bits = |v: DVec3| (v + DVec3::ZERO).to_array().map(f64::to_bits);
     let mut number: HashMap<[u64; 3], u32> = HashMap::with_capacity(surface.vertices.len());
     let mut known = vec![u32::MAX; surface.vertices.len()];
@@ -27,7 +27,7 @@ pub(super) fn exactly(surface: &Surface) -> Surface {
     Surface { vertices, triangles, groups: surface.groups.clone(), names: surface.names.clone() }
 }
 
-/// Makes corners of open edges one that lie within `gap` of one another: they go to the middle of all that meet.
+/// Makes one corner of corners of open edges that lie within `gap` of one another, in the middle of all that meet.
 pub(super) fn along_gaps(surface: &mut Surface, gap: f64) {
     let mut loose: Vec<u32> = Edges::of(surface).open.into_iter().flatten().collect();
     loose.sort_unstable();
@@ -44,7 +44,8 @@ pub(super) fn along_gaps(surface: &mut Surface, gap: f64) {
     surface.triangles.iter_mut().flatten().for_each(|v| *v = target[*v as usize]);
 }
 
-/// Points gathered around the first of each cluster. Firsts are more than the gap apart, so a cell holds few.
+/// Points gathered into clusters around the first point of each. These first points are more than the gap apart, so a cell
+/// holds few.
 struct Clusters {
     gap: f64,
     cells: HashMap<I64Vec3, Vec<usize>>,
@@ -76,9 +77,11 @@ impl Clusters {
     }
 }
 
-/// Leaves out triangles of fewer than three corners, and copies of a triangle, whichever way they run; answers how
-/// many of each. Of copies one is kept, unless it would hang on the surface by edges of an odd number of triangles: the
-/// two sides of something flat enclose nothing.
+/// Leaves out triangles of fewer than three corners, and copies of a triangle, whichever way they run. Returns how many of
+/// each.
+///
+/// One of several copies is kept, unless it would hang on the surface by edges of an odd number of triangles: the two sides
+/// of something flat enclose nothing.
 pub(super) fn tidy(surface: &mut Surface) -> (usize, usize) {
     let (mut degenerate, mut copies) = (0, 0);
     let key = |(t, corners): (u32, &[u32; 3])| {
@@ -104,7 +107,8 @@ pub(super) fn tidy(surface: &mut Surface) -> (usize, usize) {
     (degenerate, copies + flat_left(surface, &copied))
 }
 
-/// Leaves out those of the triangles with these corners, sorted both ways, all of whose edges are open; answers how many.
+/// Leaves out the triangles with these corners all of whose edges are open, and returns how many. `copied` is sorted, and so
+/// are the corners in it.
 fn flat_left(surface: &mut Surface, copied: &[[u32; 3]]) -> usize {
     if copied.is_empty() {
         return 0;
@@ -121,7 +125,7 @@ fn flat_left(surface: &mut Surface, copied: &[[u32; 3]]) -> usize {
     keep.iter().filter(|keep| !**keep).count()
 }
 
-/// Leaves out the triangles that are not to be kept.
+/// Leaves out the triangles for which `keep` is false.
 fn retain(surface: &mut Surface, keep: &[bool]) {
     let mut keeps = keep.iter();
     surface.triangles.retain(|_| keeps.next() == Some(&true));

@@ -1,7 +1,7 @@
-//! Stones from trade tables and coloured gems: an index, and an absorption of bands and an edge.
+//! Stones from trade tables and coloured gems: each has an index, and an absorption made of bands and an edge.
 //!
-//! Where bands lie is known of each gem; how strong they are differs from stone to stone, and is chosen so that a
-//! stone of 6.5 mm, in which light goes about 14 mm, has the colour that the gem is loved for.
+//! It is known where the bands of each gem lie. Their strengths differ from stone to stone, and are chosen so that a stone
+//! of 6.5 mm, in which light travels about 14 mm, has the colour that the gem is loved for.
 
 mod table;
 #[cfg(test)]
@@ -11,7 +11,7 @@ use super::absorption::Absorption;
 use super::dispersion::{Dispersion, VISIBLE_NM};
 use super::material::Material;
 
-/// Steps between the samples of a spectrum, in nm: about half the width of the narrowest band.
+/// The step between the samples of a spectrum, in nm: about half the width of the narrowest band.
 const STEP_NM: usize = 5;
 /// 4 ln 2: exp(-4 ln 2 x²) is a half where x, in full widths, is a half.
 const PER_WIDTH_SQUARED: f64 = 4.0 * std::f64::consts::LN_2;
@@ -19,32 +19,34 @@ const TRADE: &str = "trade tables, from memory, not yet checked";
 const COLOUR: &str = "illustrative: band positions from the literature, from memory, not yet checked; strengths chosen \
                       for a stone of 6.5 mm";
 
-/// A gem and its colour.
+/// A gem: its host and what colours it.
 struct Gem {
     name: &'static str,
-    /// What it looks like, and what colours it.
+    /// The look of the gem and the cause of its colour, in words.
     text: &'static str,
     host: Host,
     edge: Edge,
     bands: &'static [Band],
 }
 
-/// What the colour is in, which gives the index.
+/// The material that holds the colour; it gives the index.
 enum Host {
-    /// A colourless material known by this name, and of this kind.
+    /// The colourless material of this name, described as this kind.
     Known(&'static str, &'static str),
-    /// A mineral of this kind, by the least and the greatest of its index, its B-G dispersion and its density.
+    /// A mineral of this kind, by the least and the greatest of its index, its B-G dispersion and its density in g/cm³.
     Trade(&'static str, f64, f64, f64, f64),
 }
 
-/// Absorption that grows toward the ultraviolet by a factor of e every so many nm; at 400 nm so much per mm for the
-/// ordinary and the extraordinary polarisation. A plain stand-in for charge transfer's wide bands.
+/// An absorption edge: absorption grows toward the ultraviolet by a factor of e every `fold_nm`.
+///
+/// At 400 nm it is `at_400` per mm, for the ordinary and the extraordinary polarisation. The edge is a plain stand-in for
+/// the wide bands of charge transfer.
 struct Edge {
     at_400: [f64; 2],
     fold_nm: f64,
 }
 
-/// An absorption band, Gaussian over wavenumbers: its centre in nm, its full width at half maximum in 1/cm, its height
+/// An absorption band, Gaussian over wavenumbers: its centre in nm, its full width at half maximum in 1/cm, and its height
 /// per mm for the ordinary and the extraordinary polarisation.
 struct Band {
     nm: f64,
@@ -52,7 +54,7 @@ struct Band {
     height: [f64; 2],
 }
 
-/// All stones of the table; those of a known host take its index from among `colourless`.
+/// Returns all stones of the table. A stone with a known host takes the index of that host from `colourless`.
 pub(super) fn gems(colourless: &[Material]) -> Vec<Material> {
     table::GEMS.iter().map(|gem| gem.material(colourless)).collect()
 }
@@ -82,7 +84,7 @@ impl Gem {
         })
     }
 
-    /// The coefficient at a wavelength, for the ordinary polarisation (0) or the extraordinary one (1).
+    /// Returns the coefficient at a wavelength, for the ordinary polarisation (0) or the extraordinary one (1).
     fn per_mm(&self, nm: f64, axis: usize) -> f64 {
         let edge = self.edge.at_400[axis] * ((400.0 - nm) / self.edge.fold_nm).exp();
         edge + self.bands.iter().map(|band| band.per_mm(nm, axis)).sum::<f64>()
@@ -90,7 +92,7 @@ impl Gem {
 }
 
 impl Host {
-    /// The clear material, whose description lacks its end.
+    /// Returns the clear material; its description still lacks the words on the gem.
     fn material(&self, colourless: &[Material]) -> Material {
         match *self {
             Self::Known(name, kind) => {
@@ -114,7 +116,7 @@ impl Band {
     }
 }
 
-/// To four digits, which is far more than is known, so that a spectrum written out can be read.
+/// Rounds to four decimals, far more than is known, so that a spectrum written to a file is easy to read.
 fn rounded(per_mm: f64) -> f64 {
     (1e4 * per_mm).round() / 1e4
 }

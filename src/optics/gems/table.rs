@@ -1,4 +1,5 @@
-//! The gems, their hosts and bands. All of it is from memory; what is chosen and what is known, the parent says.
+//! The table of gems with their hosts and bands. All of it is from memory; the parent module says what is known and what is
+//! chosen.
 
 use super::{Band, Edge, Gem, Host};
 
@@ -218,17 +219,17 @@ pub(super) const GEMS: [Gem; 20] = [
     },
 ];
 
-/// The same for both polarisations.
+/// Makes an edge that is the same for both polarisations.
 const fn edge(at_400: f64, fold_nm: f64) -> Edge {
     Edge { at_400: [at_400; 2], fold_nm }
 }
 
-/// The same for both polarisations.
+/// Makes a band that is the same for both polarisations.
 const fn band(nm: f64, width: f64, height: f64) -> Band {
     split(nm, width, [height; 2])
 }
 
-/// Of another height for each polarisation.
+/// Makes a band with a height for each polarisation.
 const fn split(nm: f64, width: f64, height: [f64; 2]) -> Band {
     Band { nm, width, height }
 }

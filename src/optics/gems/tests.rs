@@ -1,17 +1,19 @@
-//! The colour of each gem, as the CIE's observer sees it against a black body's white.
+//! Tests of the colour of each gem, as the CIE's observer sees it with a black body's light as white.
 
 use super::super::colour::encoded_from_linear;
 use super::super::line;
 use super::super::material::{Material, material, materials};
 use super::*;
 
-/// The middle of the way that light goes in a stone of 6.5 mm.
+/// About how far light travels in a stone of 6.5 mm, in mm.
 const PATH_MM: f64 = 14.0;
-/// D65's white, and the kelvins of the black body that stands in for it.
+/// The XYZ of D65's white.
 const WHITE: [f64; 3] = [0.95047, 1.0, 1.08883];
+/// The temperature in kelvin of the black body that stands in for D65.
 const KELVINS: f64 = 6504.0;
 
-/// The 1931 observer by C. Wyman, P.-P. Sloan and P. Shirley, JCGT 2(2) (2013).
+/// Returns the colour-matching functions of the 1931 observer, fitted by C. Wyman, P.-P. Sloan and P. Shirley, JCGT 2(2)
+/// (2013).
 fn observer(nm: f64) -> [f64; 3] {
     let lobe = |middle: f64, below: f64, above: f64| {
         let x = (nm - middle) / if nm < middle { below } else { above };
@@ -29,7 +31,7 @@ fn black_body(nm: f64) -> f64 {
     nm.powi(-5) / (HC_OVER_K_NM / (nm * KELVINS)).exp_m1()
 }
 
-/// X, Y and Z of light that has passed, as parts of those of light that has not.
+/// Returns X, Y and Z of transmitted light, each as a part of its value before.
 fn parts(transmittance: impl Fn(f64) -> f64) -> [f64; 3] {
     let wavelengths = (360..=830).step_by(5).map(f64::from);
     let (mut light, mut white) = ([0.0; 3], [0.0; 3]);
@@ -42,7 +44,7 @@ fn parts(transmittance: impl Fn(f64) -> f64) -> [f64; 3] {
     std::array::from_fn(|axis| light[axis] / white[axis])
 }
 
-/// Hue in degrees of sRGB, saturation and luminance of white light after so many mm.
+/// Returns the hue in degrees and the saturation in sRGB, and the luminance, of white light after a path of `mm`.
 fn colour(gem: &Material, mm: f64) -> (f64, f64, f64) {
     let passed = |nm: f64, axis: usize| (-gem.absorption[axis].coefficient(nm) * mm).exp();
     let parts = parts(|nm| 0.5 * (passed(nm, 0) + passed(nm, 1)));
@@ -64,13 +66,13 @@ fn colour(gem: &Material, mm: f64) -> (f64, f64, f64) {
     ((60.0 * sextants).rem_euclid(360.0), span / most, y)
 }
 
-/// From one hue to another, the short way round, in degrees.
+/// Returns the angle between two hues, the short way round, in degrees.
 fn between(a: f64, b: f64) -> f64 {
     ((b - a + 180.0).rem_euclid(360.0) - 180.0).abs()
 }
 
-/// Every coloured gem: the middle of its hues and how far they go to either side, the least saturation, the least and
-/// the greatest luminance at 14 mm.
+/// The expected colour of every coloured gem after 14 mm: the middle of its hues and how far they may go to either side, in
+/// degrees; the least saturation; the least and the greatest luminance.
 const SEEN: [(&str, f64, f64, f64, f64, f64); 19] = [
     ("pyrope", 357.0, 12.0, 0.6, 0.015, 0.09),
     ("almandine", 346.0, 12.0, 0.5, 0.03, 0.15),

@@ -1,11 +1,13 @@
-//! Light on a grid of cells, and its Gaussians: narrow ones by their taps, wide ones on halved grids (P. J. Burt,
-//! "Fast Filter Transforms for Image Processing", CGIP 16, 1981). All weights are positive, so that no sum cancels
-//! however bright a point is, and they add up to 1. Beyond the border it is dark.
+//! Light on a grid of cells, and its blurring by Gaussians: narrow ones are summed up tap by tap, wide ones on halved
+//! grids (P. J. Burt, "Fast Filter Transforms for Image Processing", CGIP 16, 1981).
+//!
+//! All weights are positive, so that no sum cancels however bright a point is, and they add up to 1. There is no light
+//! beyond the border.
 
 use glam::Vec4;
 use rayon::prelude::*;
 
-/// The mean light of each cell; the fourth number is idle.
+/// A grid with the mean light of each cell; the fourth component is unused.
 #[derive(Debug, Clone)]
 pub(super) struct LightGrid {
     pub width: usize,
@@ -13,20 +15,21 @@ pub(super) struct LightGrid {
     pub cells: Vec<Vec4>,
 }
 
-/// The widest standard deviation in cells that is summed up tap by tap.
+/// The greatest standard deviation, in cells, that is summed up tap by tap.
 const WIDEST: f64 = 3.0;
 
-/// Standard deviations that taps reach: what lies beyond is 1e-6 of the whole.
+/// The reach of the taps, in standard deviations: what lies beyond is 1e-6 of the whole.
 const REACH: f64 = 5.0;
 
-/// What halving and doubling a grid add to a variance, in square cells: 3/4 each.
+/// The variance that halving and then doubling a grid adds, in square cells: 3/4 each.
 const SOFTENED: f64 = 1.5;
 
-/// What a cell gets of the four across it when a grid is halved: the converse of straight lines between cells.
+/// The shares that a cell of the halved grid takes of the four nearest cells along an axis: the transpose of linear
+/// interpolation, scaled to a sum of 1.
 const SHARED: [f32; 4] = [0.125, 0.375, 0.375, 0.125];
 
 impl LightGrid {
-    /// A grid by a function of column and row.
+    /// Builds a grid from a function of column and row.
     pub fn filled(width: usize, height: usize, at: impl Fn(usize, usize) -> Vec4 + Sync) -> Self {
         let mut cells = vec![Vec4::ZERO; width * height];
         let rows = cells.par_chunks_mut(width.max(1)).enumerate();
@@ -34,12 +37,13 @@ impl LightGrid {
         Self { width, height, cells }
     }
 
-    /// A grid without light.
+    /// Builds a grid without light.
     pub fn dark(width: usize, height: usize) -> Self {
         Self { width, height, cells: vec![Vec4::ZERO; width * height] }
     }
 
-    /// Half a grid of this size, each cell's light shared out between the two nearest, so that its middle stays.
+    /// Builds a grid of half the given size, where `at` gives the light of the finer one. Each fine cell's light is
+    /// shared between the two nearest coarse cells of each axis, so that its centre of mass stays in place.
     pub fn halved_from(width: usize, height: usize, at: impl Fn(usize, usize) -> Vec4 + Sync) -> Self {
         let part = |x, y| if x < width && y < height { at(x, y) } else { Vec4::ZERO };
         let four = |cell: usize, count: usize| {
@@ -55,12 +59,12 @@ impl LightGrid {
         })
     }
 
-    /// The grid with cells twice as wide.
+    /// Returns the grid with cells twice as wide.
     pub fn halved(&self) -> Self {
         Self::halved_from(self.width, self.height, |x, y| self.cells[y * self.width + x])
     }
 
-    /// The grid with cells half as wide, by straight lines between their middles.
+    /// Returns the grid with cells half as wide, interpolated linearly between the cells' middles.
     pub fn doubled(&self, width: usize, height: usize) -> Self {
         let mut out = Self::dark(width, height);
         self.add_doubled(&mut out);
@@ -74,7 +78,7 @@ impl LightGrid {
         });
     }
 
-    /// The cells of one row of the grid doubled, by column.
+    /// Returns the cells of row `y` of the doubled grid, as a function of the column.
     pub fn doubled_row(&self, y: usize) -> impl Fn(usize) -> Vec4 + '_ {
         let near = |fine: usize, count: usize| {
             let own = (fine / 2).min(count - 1);
@@ -91,22 +95,22 @@ impl LightGrid {
         }
     }
 
-    /// Rows as columns.
+    /// Returns the grid with rows and columns exchanged.
     pub fn transposed(&self) -> Self {
         Self::filled(self.height, self.width, |x, y| self.cells[x * self.width + y])
     }
 
-    /// Whether there is no light at all.
+    /// Returns whether the grid holds no light at all.
     pub fn is_dark(&self) -> bool {
         self.cells.par_iter().all(|&cell| cell == Vec4::ZERO)
     }
 
-    /// Adds a share of another grid of the same size.
+    /// Adds `share` times another grid of the same size.
     pub fn add(&mut self, other: &Self, share: f32) {
         self.cells.par_iter_mut().zip(&other.cells).for_each(|(cell, &light)| *cell += light * share);
     }
 
-    /// The sum of Gaussians of these standard deviations, in cells, and shares.
+    /// Returns the weighted sum of Gaussian blurs, given as pairs of standard deviation in cells and share.
     pub fn glow(&self, scales: &[(f64, f32)]) -> Self {
         let mut sum = Self::dark(self.width, self.height);
         let speck = self.width.max(self.height) <= 2;
@@ -122,7 +126,7 @@ impl LightGrid {
         sum
     }
 
-    /// One Gaussian, by its taps: across, then down.
+    /// Returns the grid blurred by one Gaussian tap by tap, first across, then down.
     pub fn gaussian(&self, sigma: f64) -> Self {
         let mut sum = Self::dark(self.width, self.height);
         self.add_gaussian(sigma, 1.0, &mut sum);
@@ -167,7 +171,7 @@ impl LightGrid {
     }
 }
 
-/// The weights of a Gaussian at whole cells, an odd number of them, which add up to 1.
+/// Returns the weights of a Gaussian at whole cells: an odd number of them, which add up to 1.
 fn taps(sigma: f64) -> Vec<f32> {
     let reach = (REACH * sigma).ceil() as i32;
     let weight = |k: i32| (-0.5 * (f64::from(k) / sigma.max(0.05)).powi(2)).exp();

@@ -1,41 +1,45 @@
-//! A star's rays: from every cell light runs out along straight lines and fades exponentially.
+//! The streaks of a star: from every cell, light runs out along straight lines and fades exponentially.
 //!
-//! Along one ray each row is the row before it, faded, and its own light: one multiplication a cell however long
-//! the ray is. A slanting ray moves on by parts of a cell; so that it stays sharp, the running row is kept where
-//! it is and the picture is read, and written, beside it (W. J. Paeth's shear, "A Fast Algorithm for General
-//! Raster Rotation", Graphics Interface 1986), which softens a ray once instead of at every step.
+//! Along one streak, the light of each row is that of the row before, faded, plus the row's own light. That takes one
+//! multiplication per cell, however long the streak is.
+//!
+//! A slanting streak moves sideways by parts of a cell per row. To keep it sharp, the running row stays in place, and
+//! the picture is read and written with an offset (W. J. Paeth's shear, "A Fast Algorithm for General Raster Rotation",
+//! Graphics Interface 1986). This softens a streak once instead of at every step.
 
 use super::grid::LightGrid;
 use glam::Vec4;
 use std::f64::consts::TAU;
 
-/// How long a ray is in red, green and blue: diffraction goes with the wavelength, here 610, 550 and 465 nm.
+/// The relative length of a streak in red, green and blue: diffraction is proportional to the wavelength, here 610, 550
+/// and 465 nm.
 const TINT: [f64; 3] = [1.11, 1.0, 0.845];
 
-/// The least fading length, in cells.
+/// The least length, in cells, in which a streak fades to 1/e.
 const SHORTEST: f64 = 1e-3;
 
-/// Light far below this is rounded away, lest it fade into numbers so small that processors are slow at them.
+/// Light far below this value is rounded away, so that it does not fade into subnormal numbers, which processors handle
+/// slowly.
 const FADED: Vec4 = Vec4::splat(1e-18);
 
-/// One ray, in a grid whose rows it crosses.
+/// One streak, in a grid whose rows it crosses.
 struct Ray {
-    /// Whether it runs toward the last row.
+    /// Whether the streak runs toward the last row.
     down: bool,
-    /// Cells to the right for each row.
+    /// Cells that the streak moves to the right for each row.
     slope: f64,
-    /// Cells of its own length for each row.
+    /// Length of the streak, in cells, for each row.
     step: f64,
 }
 
-/// The light of a grid in `rays` rays of this length in cells, the first of them upright.
+/// Returns the light of a grid spread into `rays` streaks of this length in cells; the first points upward.
 pub(super) fn star(source: &LightGrid, rays: u32, length: f64) -> LightGrid {
     let angles = (0..rays).map(|k| TAU * f64::from(k) / f64::from(rays));
     let (steep, flat): (Vec<_>, Vec<_>) =
         angles.map(|a| (a.sin(), -a.cos())).partition(|(x, y)| y.abs() >= x.abs());
     let flat: Vec<_> = flat.into_iter().map(|(x, y)| (y, x)).collect();
     let share = 1.0 / rays as f32;
-    // Two lists in a fixed order each: the same bytes on any number of threads.
+    // Each list is summed in a fixed order: the bytes are the same on any number of threads.
     let (mut upright, lying) = rayon::join(
         || rows_of(source, &steep, length, share),
         || (!flat.is_empty()).then(|| rows_of(&source.transposed(), &flat, length, share).transposed()),
@@ -46,7 +50,7 @@ pub(super) fn star(source: &LightGrid, rays: u32, length: f64) -> LightGrid {
     upright
 }
 
-/// The rays of these directions, each with its share of the light.
+/// Returns the streaks along these directions, each with `share` of the light.
 fn rows_of(source: &LightGrid, directions: &[(f64, f64)], length: f64, share: f32) -> LightGrid {
     let mut sum = LightGrid::dark(source.width, source.height);
     for &(x, y) in directions {
@@ -70,7 +74,7 @@ impl Ray {
             padded[1..=width].copy_from_slice(&source.cells[y * width..(y + 1) * width]);
             let moved = self.slope * step as f64;
             let part = (moved - moved.floor()) as f32;
-            // The running cell that lies by `part` to the left of the row's column -1.
+            // The running cell that lies `part` of a cell to the left of the row's column -1.
             let first = (reach as f64 - moved.floor()) as usize - 1;
             let window = &mut running[first..=first + width];
             for (cell, pair) in window.iter_mut().zip(padded.windows(2)) {

@@ -1,4 +1,4 @@
-//! The laws of glare: light is neither made nor lost, nothing turns negative, and size does not matter.
+//! Tests of glare: light is neither made nor lost, nothing turns negative, and the picture's size does not matter.
 
 use super::*;
 
@@ -65,7 +65,7 @@ fn the_glow_is_round() {
     for (x, y) in [(15, 20), (9, 12), (30, 40), (21, 28)] {
         let across = ((x * x + y * y) as f64).sqrt() as i32;
         let (slanting, straight) = (at(x, y), at(across, 0));
-        // A diamond or a square would be off by more than its half out here.
+        // A diamond or a square would be off by more than half at this distance.
         assert!(
             (slanting / straight - 1.0).abs() < 0.12,
             "{across} cells out: {slanting} against {straight}"

@@ -1,4 +1,5 @@
-//! Labels for the tiers of a view: inside a facet where there is room, else outside with a leader.
+//! Places the labels of a view's tiers: inside a facet where there is room, otherwise outside, with a leader (a line) to
+//! a facet.
 
 use super::super::drawing::{Align, Frame, Sheet, Type, degrees, text_frame, text_width};
 use super::{INDEX, NAME, SLOPE, Tier, View};
@@ -6,30 +7,36 @@ use crate::math::{Affine, area, centroid, clip};
 use crate::scene::Stone;
 use glam::DVec2;
 
-/// Places that are better by less than this are mirror images but for rounding: the first of them stays.
+/// Places whose merits differ by less than this count as equally good, as mirror images do up to rounding; the first one
+/// stays.
 const EVEN: f64 = 1e-6;
 
-/// Angles at which leaders end, degrees from the x axis in each quarter of a view.
+/// Angles at which leaders end, in degrees from the x axis in each quarter of a view.
 const SLOTS: [f64; 3] = [74.0, 56.0, 40.0];
-/// Leaders as long as one from the middle, and a little more, are read with ease while they are few, else only shorter ones.
+/// While no more tiers than this are left, leaders may be long: a few long ones are still easy to read.
 const FEW: usize = 6;
+/// How much longer than one from the view's middle a leader may be while there are few, in units of the drawing.
 const MORE_OF_FEW: f64 = 4.0;
+/// The greatest length of a leader where there are many, in units of the drawing.
 const LONGEST_OF_MANY: f64 = 120.0;
-/// With more tiers than this left, the few leaders that there is room for would say little of the stone.
+/// The most tiers left for which leaders are drawn. With more, the few leaders that find room would say little about the
+/// stone.
 const MOST_LED: usize = 200;
-/// What a leader costs, in its length, that passes a corner of the stone or runs along its outline.
+/// Cost of a leader for each corner of the stone that it passes closely, in units of its length.
 const PAST_CORNER: f64 = 30.0;
+/// Cost of a leader that runs along the stone's outline instead of outward, in units of its length.
 const TANGENT: f64 = 60.0;
-/// Between a leader's end and its label.
+/// Gap between a leader's end and its label.
 const BESIDE: f64 = 5.0;
 
-/// From one line of a label to the next, and the height of its figures.
+/// Distance from one line of a label to the next.
 const LINE: f64 = 15.0;
+/// Height of a label's figures.
 const FIGURES: f64 = 11.0;
-/// White kept between a label and the edges of its facet.
+/// Space kept clear between a label and the edges of its facet.
 const CLEARANCE: f64 = 2.5;
 
-/// A text of a label, from the label's middle.
+/// A text of a label; its offset is from the label's middle.
 struct Piece {
     kind: Type,
     align: Align,
@@ -41,12 +48,12 @@ struct Piece {
 struct Label {
     pieces: Vec<Piece>,
     size: DVec2,
-    /// Whether it is read from the right.
+    /// Whether the label is turned by a right angle, to be read from the right.
     upright: bool,
 }
 
 impl Label {
-    /// Name over slope, which both end, start or stand at the label's place.
+    /// Returns a label with the name above the slope, both aligned the same way at the label's place.
     fn stacked(tier: &Tier, align: Align) -> Self {
         let rows = [(NAME, tier.name.clone(), -LINE / 2.0), (SLOPE, degrees(tier.slope_degrees), LINE / 2.0)];
         let width = rows.iter().map(|(kind, text, _)| text_width(text, kind.size)).fold(0.0, f64::max);
@@ -55,7 +62,7 @@ impl Label {
         Self { pieces: rows.map(piece).into(), size, upright: false }
     }
 
-    /// Name and slope in one line, from left to right or upwards.
+    /// Returns a label with name and slope in one line, from left to right or upward.
     fn in_line(tier: &Tier, upright: bool) -> Self {
         let (name, slope) = (format!("{} ", tier.name), degrees(tier.slope_degrees));
         let width = text_width(&name, NAME.size) + text_width(&slope, SLOPE.size);
@@ -74,7 +81,7 @@ impl Label {
         Self { pieces: vec![Piece { kind, align: Align::Middle, offset: DVec2::ZERO, text }], size, upright }
     }
 
-    /// The box it fills at a place inside a facet.
+    /// Returns the box that the label fills around this middle.
     fn frame(&self, middle: DVec2) -> Frame {
         Frame { low: middle - self.size / 2.0, high: middle + self.size / 2.0 }
     }
@@ -90,20 +97,21 @@ impl Label {
     }
 }
 
-/// Where labels may still go in a view.
+/// The places in a view where labels may still go.
 pub(super) struct Labels<'a> {
     view: &'a View,
     stone: &'a Stone,
-    /// Ends of leaders not yet taken.
+    /// Ends of leaders that are not yet taken.
     slots: Vec<DVec2>,
-    /// What leaders must not cross: the index's numbers, labels, other leaders.
+    /// Boxes that leaders must not cross: the index's numbers and the labels.
     taken: Vec<Frame>,
+    /// Leaders drawn so far, which others must not cross.
     leaders: Vec<(DVec2, DVec2)>,
-    /// The stone's corners in sight, which leaders had better not touch.
+    /// The stone's corners in sight, which leaders avoid.
     corners: Vec<DVec2>,
 }
 
-/// A line from a facet to a place for its label, and how little it is liked.
+/// A line from a facet to a place for its label, with its cost: the lower, the better.
 #[derive(Clone, Copy)]
 struct Leader {
     cost: f64,
@@ -123,8 +131,9 @@ impl<'a> Labels<'a> {
         Self { view, stone, slots, taken, leaders: vec![], corners }
     }
 
-    /// Labels every tier inside a facet that is large enough; else outside, with a leader that crosses nothing; else
-    /// inside with less: its name, or its number in the list. Slivers are in the list alone.
+    /// Labels every tier. The label goes inside a facet that is large enough; otherwise outside, with a leader that
+    /// crosses nothing; otherwise inside in a shorter form, the name or the number in the list. Slivers appear in the
+    /// list alone.
     pub fn write(mut self, sheet: &mut Sheet, tiers: &[&Tier]) {
         let mut rest: Vec<&Tier> = tiers.to_vec();
         rest.retain(|tier| {
@@ -135,7 +144,7 @@ impl<'a> Labels<'a> {
             ];
             !labels.iter().any(|label| self.inside(sheet, tier, label))
         });
-        // The shortest leader first, whosever it is.
+        // The leader of least cost comes first, whichever tier it belongs to.
         let longest =
             if rest.len() <= FEW { self.view.style.leaders() + MORE_OF_FEW } else { LONGEST_OF_MANY };
         while rest.len() <= MOST_LED
@@ -155,7 +164,7 @@ impl<'a> Labels<'a> {
         tier.facets.iter().map(|&id| self.view.aspect.outline(self.stone, &facets[id as usize]))
     }
 
-    /// Writes a label into the tier's facet with most room for it, if there is any.
+    /// Writes a label into the tier's facet that has the most room for it. Returns whether one has room.
     fn inside(&mut self, sheet: &mut Sheet, tier: &Tier, label: &Label) -> bool {
         let rooms = self.outlines(tier).filter_map(|corners| room_for(&corners, label.size));
         let Some((_, middle)) = rooms.reduce(|a, b| if b.0 > a.0 * (1.0 + EVEN) { b } else { a }) else {
@@ -166,7 +175,7 @@ impl<'a> Labels<'a> {
         true
     }
 
-    /// The leader most liked, and which of the tiers it belongs to.
+    /// Returns the leader of least cost, and the place of its tier in `tiers`.
     fn best_leader(&self, tiers: &[&Tier], longest: f64) -> Option<(Leader, usize)> {
         let mut best: Option<(Leader, usize)> = None;
         for (k, tier) in tiers.iter().enumerate() {
@@ -186,8 +195,8 @@ impl<'a> Labels<'a> {
         best
     }
 
-    /// A leader's length, and more for what it touches; none where it crosses something or has no room for its label of
-    /// this size.
+    /// Returns the cost of a leader: its length, and more for corners that it passes and for not running outward.
+    /// Returns `None` where the leader crosses something or its label, of this size, has no room.
     fn cost(&self, from: DVec2, to: DVec2, size: DVec2) -> Option<f64> {
         if size.x > self.view.style.half_room() - (to.x - self.view.aspect.place.x).abs() - BESIDE {
             return None;
@@ -203,12 +212,12 @@ impl<'a> Labels<'a> {
         (!crossed).then_some(length + PAST_CORNER * corners + TANGENT * across)
     }
 
-    /// The side of the view, -1 or 1, on which a place lies.
+    /// Returns the side of the view on which a place lies: -1 for left, 1 for right.
     fn side(&self, to: DVec2) -> f64 {
         (to.x - self.view.aspect.place.x).signum()
     }
 
-    /// The box of a label at the end of a leader.
+    /// Returns the box of a label of this size at the end of a leader.
     fn frame_beside(&self, to: DVec2, size: DVec2) -> Frame {
         let middle = to + DVec2::X * self.side(to) * (BESIDE + size.x / 2.0);
         Frame { low: middle - size / 2.0, high: middle + size / 2.0 }
@@ -226,8 +235,10 @@ impl<'a> Labels<'a> {
     }
 }
 
-/// The middles at which a box of this size lies inside a convex polygon: the area they fill, and the middle of that.
-/// Corners run clockwise on the sheet, whose y points down.
+/// Finds the places where the middle of a box of this size may stand so that the box lies inside a convex polygon.
+/// Returns their area and centroid, or `None` if there are none.
+///
+/// Corners run clockwise on the sheet, whose y axis points down.
 fn room_for(corners: &[DVec2], size: DVec2) -> Option<(f64, DVec2)> {
     let mut room: Vec<DVec2> = corners.to_vec();
     let mut kept = vec![];
@@ -266,7 +277,7 @@ fn overlap(a: &Frame, b: &Frame) -> bool {
 mod tests {
     use super::*;
 
-    /// Clockwise, as y points down.
+    /// A square whose corners run clockwise on the sheet, as y points down.
     const SQUARE: [DVec2; 4] =
         [DVec2::new(0.0, 0.0), DVec2::new(0.0, 100.0), DVec2::new(100.0, 100.0), DVec2::new(100.0, 0.0)];
 

@@ -1,26 +1,26 @@
-//! Colours of drawings: what is drawn in which, on paper and on a dark screen.
+//! The colours of drawings, on paper and on a dark screen.
 
-/// Colours of a drawing, in sRGB codes of red, green and blue.
+/// The colours of a drawing, as sRGB codes of red, green and blue.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Inks {
-    /// Behind everything.
+    /// The paper behind everything.
     pub paper: [u8; 3],
     /// Outlines and names.
     pub ink: [u8; 3],
     /// Edges between facets.
     pub edge: [u8; 3],
-    /// Remarks, and what is there only to be read against.
+    /// Remarks, and lines that only serve for reading, such as those of a scale.
     pub quiet: [u8; 3],
     /// Dimensions and slopes.
     pub accent: [u8; 3],
-    /// Lines that lead from a dimension to what it measures.
+    /// Extension lines, which lead from a dimension to what it measures.
     pub extension: [u8; 3],
-    /// Facets seen edge on, and facets that face the eye; those in between are mixtures.
+    /// Facets seen edge on, and facets that face the eye; the others are mixtures of the two.
     pub faces: [[u8; 3]; 2],
 }
 
 impl Inks {
-    /// Dark on white, as exported drawings are.
+    /// Dark on white, for exported drawings.
     pub const PAPER: Self = Self {
         paper: [255; 3],
         ink: [0x2a, 0x2e, 0x34],
@@ -42,7 +42,7 @@ impl Inks {
         faces: [[0x22, 0x24, 0x28], [0x33, 0x36, 0x3c]],
     };
 
-    /// One of the colours, as SVG writes it.
+    /// Returns one of the colours, as SVG writes it.
     pub(in crate::picture) fn of(&self, ink: Ink) -> String {
         hex(match ink {
             Ink::Paper => self.paper,
@@ -54,7 +54,8 @@ impl Inks {
         })
     }
 
-    /// The fill of a facet, by the cosine of the angle at which it turns away from the eye.
+    /// Returns the fill of a facet, where `facing` is the cosine of the angle between its normal and the direction to
+    /// the eye, 0 to 1.
     pub(super) fn face(&self, facing: f64) -> String {
         let [edge_on, square] = self.faces;
         let mixed = |k: usize| {
@@ -65,12 +66,12 @@ impl Inks {
     }
 }
 
-/// A colour in SVG.
+/// Returns a colour as SVG writes it.
 pub(in crate::picture) fn hex([red, green, blue]: [u8; 3]) -> String {
     format!("#{red:02x}{green:02x}{blue:02x}")
 }
 
-/// One of the colours.
+/// The name of one of the colours of [`Inks`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(in crate::picture) enum Ink {
     Paper,

@@ -1,4 +1,4 @@
-//! Lettering of drawings: type, how wide text is, and how numbers are written.
+//! The lettering of drawings: type, the width of text, and the notation of numbers.
 
 use super::inks::Ink;
 use glam::DVec2;
@@ -8,18 +8,18 @@ use glam::DVec2;
 pub(in crate::picture) struct Type {
     /// Height of the type, in units of the drawing.
     pub size: f64,
-    /// Its colour.
+    /// Colour of the type.
     pub colour: Ink,
 }
 
-/// Of the drawing's title.
+/// Type of the drawing's title.
 pub(in crate::picture) const TITLE: Type = Type { size: 24.0, colour: Ink::Main };
-/// Of dimensions.
+/// Type of dimensions.
 pub(in crate::picture) const DIMENSION: Type = Type { size: 15.0, colour: Ink::Accent };
-/// Of remarks.
+/// Type of remarks.
 pub(in crate::picture) const REMARK: Type = Type { size: 13.0, colour: Ink::Quiet };
 
-/// Which part of a text stands at the point given.
+/// The part of a text that stands at the given point.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(in crate::picture) enum Align {
     Start,
@@ -37,16 +37,17 @@ pub(in crate::picture) struct Frame {
 impl Frame {
     pub const EMPTY: Self = Self { low: DVec2::INFINITY, high: DVec2::NEG_INFINITY };
 
-    /// Grows it as far as a point.
+    /// Grows the box so that it includes a point.
     pub fn include(&mut self, p: DVec2) {
         (self.low, self.high) = (self.low.min(p), self.high.max(p));
     }
 }
 
-/// From a text's base line to the middle of its figures, in type sizes.
+/// Distance from a text's base line to the middle of its figures, in type sizes.
 pub(super) const MIDDLE_OF_FIGURES: f64 = 0.35;
 
-/// Width of a line of text, from the font's own advances; what is not ASCII counts as wide as it may be.
+/// Returns the width of a line of text, from the font's own advances. Characters beyond ASCII count as wide as they may
+/// be, except a few that are known.
 pub(in crate::picture) fn text_width(text: &str, size: f64) -> f64 {
     /// Advances of U+0020 to U+007E in Ubuntu Light, thousandths of the type size.
     const ADVANCES: [u16; 95] = [
@@ -66,7 +67,7 @@ pub(in crate::picture) fn text_width(text: &str, size: f64) -> f64 {
     text.chars().map(|c| f64::from(advance(c))).sum::<f64>() * size / 1000.0
 }
 
-/// The text, with its end left out where it is wider than `room`.
+/// Returns the text, with its end replaced by an ellipsis where it is wider than `room`.
 pub(in crate::picture) fn shortened(text: &str, size: f64, room: f64) -> String {
     let mut kept = text.to_owned();
     let mut shown = kept.clone();
@@ -77,29 +78,29 @@ pub(in crate::picture) fn shortened(text: &str, size: f64, room: f64) -> String 
     shown
 }
 
-/// A number to two decimals, without trailing zeros.
+/// Writes a number to two decimals, without trailing zeros.
 pub(in crate::picture) fn rounded(value: f64) -> String {
     format!("{}", (value * 100.0).round() / 100.0 + 0.0)
 }
 
-/// Percent as they are written.
+/// Writes a percentage, such as "53 %".
 pub(crate) fn percent(value: f64) -> String {
     format!("{} %", rounded(value))
 }
 
-/// Degrees as they are written.
+/// Writes an angle in degrees, such as "34.5°".
 pub(crate) fn degrees(value: f64) -> String {
     format!("{}°", rounded(value))
 }
 
-/// What XML cannot hold is shown by the sign for it.
+/// Replaces characters that XML cannot hold by the replacement character.
 pub(in crate::picture) fn printable(text: &str) -> String {
     let replaced =
         |c: char| if c.is_control() || matches!(c, '\u{fffe}' | '\u{ffff}') { '\u{fffd}' } else { c };
     text.chars().map(replaced).collect()
 }
 
-/// The box that a line of text fills.
+/// Returns the box that a line of text fills.
 pub(in crate::picture) fn text_frame(size: f64, align: Align, at: DVec2, content: &str) -> Frame {
     let width = text_width(content, size);
     let left = match align {
@@ -116,7 +117,7 @@ mod tests {
     use super::*;
     use resvg::usvg::{Node, Options, Tree, fontdb};
 
-    /// The width that the font itself gives a text at a size of 100.
+    /// Returns the width that the font itself gives a text at a size of 100.
     fn set_width(text: &str) -> f64 {
         let mut fonts = fontdb::Database::new();
         fonts.load_font_data(epaint_default_fonts::UBUNTU_LIGHT.to_vec());

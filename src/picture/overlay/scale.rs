@@ -1,19 +1,20 @@
-//! Colours that stand for numbers.
+//! Scales of colours that stand for numbers.
 
 use super::Code;
 use std::f64::consts::TAU;
 
-/// Ten colours of viridis at equal distances: S. van der Walt and N. Smith, 2015, of matplotlib, in the public domain (CC0).
-/// Equal steps along it look equally large, also in grey and to those who see no red or green.
+/// Ten colours of viridis at equal distances: S. van der Walt and N. Smith, 2015, of matplotlib, in the public domain
+/// (CC0). Equal steps along it look equally large, also in grey and to people who do not see red or green.
 const VIRIDIS: [u32; 10] = [
     0x44_01_54, 0x48_28_78, 0x3e_49_89, 0x31_68_8e, 0x26_82_8e, 0x1f_9e_89, 0x35_b7_79, 0x6d_cd_59,
     0xb4_de_2c, 0xfd_e7_25,
 ];
 
-/// The part of a turn after which hues are farthest from all before: the golden section.
+/// The part of a turn by which each hue differs from the one before: the golden section keeps it farthest from all hues
+/// before.
 const GOLDEN: f64 = 0.618_033_988_749_894_9;
 
-/// Viridis from 0 to 1, straight between its colours; beyond, its ends.
+/// Returns the colour of viridis for 0 to 1, interpolated linearly between its colours; beyond, those of its ends.
 pub(super) fn viridis(part: f64) -> Code {
     let at = part.clamp(0.0, 1.0) * (VIRIDIS.len() - 1) as f64;
     let below = (at as usize).min(VIRIDIS.len() - 2);
@@ -23,7 +24,8 @@ pub(super) fn viridis(part: f64) -> Code {
     [1, 2, 3].map(|c| between(c).round() as u8)
 }
 
-/// A colour for a facet: of a hue far from those of facets with near numbers, mild, neither dark nor bright.
+/// Returns a colour for a facet: its hue is far from those of facets with near numbers, and it is mild, neither dark nor
+/// bright.
 pub(super) fn distinct(stone: usize, facet: u32) -> Code {
     let hue = TAU * (f64::from(facet) * GOLDEN + stone as f64 * GOLDEN / 7.0).fract();
     let channel = |shift: f64| 140.0 + 100.0 * (hue - shift * TAU / 3.0).cos();

@@ -1,4 +1,4 @@
-//! The edges of stones, as thin even lines.
+//! The wireframe: edges of stones, drawn as thin even lines.
 
 use super::{Code, lay_over};
 use crate::math::{Edge, Plane, Solid};
@@ -6,31 +6,31 @@ use crate::trace::ray::SceneProbe;
 use crate::trace::sampling::LitScene;
 use glam::{DMat2, DVec2, DVec3};
 
-/// Width of a line, pixels.
+/// Width of a line, in pixels.
 const WIDTH: f64 = 1.2;
 
-/// Width of the shade around it, pixels: it keeps the line apart from what is as bright.
+/// Width of the shade around a line, in pixels. The shade sets the line apart from a background that is as bright.
 const SHADE_WIDTH: f64 = 3.0;
 
-/// How far from a line something is drawn, pixels: half the width, and half a pixel for the soft edge.
+/// Distance from a line within which pixels change, in pixels: half the width, and half a pixel for the soft edge.
 const REACH: f64 = SHADE_WIDTH / 2.0 + 0.5;
 
-/// Of lines and their shade: a blue that light in stones seldom has, with white for where it has.
+/// Colours of a line and of its shade: a blue that light in stones seldom has, and white for places where it has.
 const COLOURS: [Code; 2] = [[0, 96, 255], [255, 255, 255]];
 
-/// How much lines and their shade hide where the eye sees the edge, and behind.
+/// How much a line and its shade hide, for edges that the eye sees and for edges behind.
 const SHARES: [[f32; 2]; 2] = [[1.0, 0.5], [0.45, 0.2]];
 
-/// An edge of a stone.
+/// An edge of a stone in the picture.
 struct Wire {
-    /// Its ends in pixels from the upper left.
+    /// The edge's ends, in pixels from the upper left.
     ends: [DVec2; 2],
-    /// How much larger than in the image plane through the origin it looks at its ends.
+    /// How much larger things look at the edge's ends than in the image plane through the origin.
     sizes: [f64; 2],
-    /// Its ends in the world.
+    /// The edge's ends in the world.
     points: [DVec3; 2],
     stone: usize,
-    /// Whether one of its facets faces the eye.
+    /// Whether a facet at the edge faces the eye.
     is_front: bool,
 }
 
@@ -43,10 +43,10 @@ impl Wires {
         Self(lit_scene.solids().enumerate().flat_map(of_stone).collect())
     }
 
-    /// Draws all that is near a row's middle over it.
+    /// Draws all lines near the middle of row `y` over that row.
     pub fn draw(&self, sight: &SceneProbe, y: usize, row: &mut [u8]) {
         let (pixels, _) = row.as_chunks_mut();
-        // The distance of each pixel from the nearest line: of those that the eye sees, of those behind.
+        // For each pixel, the distance from the nearest line that the eye sees, and from the nearest line behind.
         let mut nearest = vec![[f64::INFINITY; 2]; pixels.len()];
         for wire in &self.0 {
             wire.mark(sight, y as f64 + 0.5, &mut nearest);
@@ -72,7 +72,7 @@ fn wires(lit_scene: &LitScene, sight: &SceneProbe, stone: usize, solid: &Solid) 
 }
 
 impl Wire {
-    /// Notes how near it comes to the pixels of a row.
+    /// Notes how near the line comes to the pixels of the row whose middle is at height `y`.
     fn mark(&self, sight: &SceneProbe, y: f64, nearest: &mut [[f64; 2]]) {
         let [a, b] = self.ends;
         let Some((from, to)) = columns(self.ends, y, nearest.len()) else { return };
@@ -90,7 +90,7 @@ impl Wire {
         }
     }
 
-    /// Whether a stone stands before the point of it at this part of its way through the picture.
+    /// Whether a stone hides the point at this part of the edge's way through the picture.
     fn is_hidden(&self, sight: &SceneProbe, part: f64) -> bool {
         if sight.tracers.len() < 2 && sight.tracers[0].is_convex() {
             return false;
@@ -98,14 +98,15 @@ impl Wire {
         sight.is_hidden(self.stone, self.point(part))
     }
 
-    /// The point of it at this part of its way through the picture, of which the nearer half takes up more.
+    /// Returns the point in the world at this part of the edge's way through the picture. In perspective, the nearer
+    /// half of an edge takes up more of that way.
     fn point(&self, part: f64) -> DVec3 {
         let [a, b] = self.sizes;
         self.points[0].lerp(self.points[1], part * b / ((1.0 - part) * a + part * b))
     }
 }
 
-/// The columns of a row that a line from end to end comes near; `None` if it comes near none.
+/// Returns the range of columns in which a row is near a line between two ends; `None` if there are none.
 fn columns([a, b]: [DVec2; 2], y: f64, width: usize) -> Option<(usize, usize)> {
     let (top, bottom) = if a.y < b.y { (a, b) } else { (b, a) };
     if top.y > y + REACH || bottom.y < y - REACH {
@@ -120,7 +121,7 @@ fn columns([a, b]: [DVec2; 2], y: f64, width: usize) -> Option<(usize, usize)> {
     Some((inside(from.floor()), inside(to.ceil())))
 }
 
-/// Lays a line and its shade over a pixel so far from its middle.
+/// Lays a line and its shade over a pixel whose middle is this far from the line's.
 fn lay_line(pixel: &mut [u8; 4], distance: f64, shares: [f32; 2]) {
     let cover = |width: f64| (width / 2.0 + 0.5 - distance).clamp(0.0, 1.0) as f32;
     for (k, width) in [(1, SHADE_WIDTH), (0, WIDTH)] {

@@ -1,9 +1,9 @@
-//! The same pane traced rightly, and what the approximation costs.
+//! Traces the pane as a real body of glass, and measures how far the approximation is from it.
 //!
-//! The body is a slab of glass of the pane's outline, with both edges rolled around, lying a little above the background and
-//! seen along parallel rays. Strengths are taken as: depth the thickness, as the specification has it; refraction the index,
-//! 1 at 0 and 1.5 at 100; dispersion the Abbe number, 55 at 100. Frost is left out, for rough surfaces are not traced. The
-//! tint is laid over as it is over the pane.
+//! The body is a slab of glass with the pane's outline and both edges rolled around. It lies a little above the
+//! background and is seen along parallel rays. The strengths mean: depth is the thickness, as in the specification;
+//! refraction is the index, 1 at 0 and 1.5 at 100; dispersion is the Abbe number, 55 at 100. Frost is left out, since
+//! rough surfaces are not traced. The tint is laid over the traced pane as over the drawn one.
 
 mod cost;
 
@@ -22,41 +22,42 @@ use crate::trace::{Stopped, Watch};
 use cost::Sums;
 use glam::{DQuat, DVec2, DVec3};
 
-/// What the index is above 1 at strength 100, and the Abbe number there.
+/// How much the index is above 1 at strength 100.
 const INDEX: f64 = 0.5;
+/// The Abbe number at strength 100.
 const ABBE: f64 = 55.0;
 
-/// Rows that rays are traced for at once: what they have seen so far is held.
+/// The most rows that rays are traced for at once: memory holds what they have seen so far.
 const ROWS: u32 = 256;
 
-/// Share of light that glass of index 1.5 reflects square on.
+/// Share of light that glass of index 1.5 reflects at normal incidence.
 const SQUARE_ON: f64 = 0.04;
 
-/// What a pane is traced in.
+/// The conditions under which a pane is traced.
 #[derive(Debug, Clone, Copy)]
 pub struct PaneLighting<'a> {
-    /// The light around.
+    /// The environment around the pane.
     pub sky: &'a EnvironmentMap,
-    /// Between pane and background, in the pane's shorter side, above 0.
+    /// Distance between pane and background, as a part of the pane's shorter side, above 0.
     pub gap: f64,
-    /// Wavelengths side by side.
+    /// The bands of wavelengths that are traced.
     pub strata: &'a [Stratum],
-    /// Looks that both pictures are made of, at least 1.
+    /// The number of sample passes of both pictures, at least 1.
     pub looks: u32,
 }
 
-/// A pane and what it stands for.
+/// A drawn pane, the same pane traced, and how they differ.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Comparison {
-    /// The pane, of as many looks as the traced one.
+    /// The drawn pane, of as many sample passes as the traced one.
     pub pane: Linear,
     /// The traced pane.
     pub traced: Linear,
-    /// What the difference is.
+    /// The difference between the two.
     pub cost: Cost,
 }
 
-/// Why a pane cannot be compared.
+/// The reasons why a pane cannot be compared.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum PaneError {
     /// The pane covers no pixel of the picture.
@@ -65,21 +66,24 @@ pub enum PaneError {
         rounder than half of its shorter side"
     )]
     Nowhere,
-    /// There is no such body.
+    /// The pane's size and depth make no valid body.
     #[error(transparent)]
     Body(#[from] ImplicitSurfaceError),
-    /// There is no such glass.
+    /// The strengths of refraction and dispersion make no valid glass.
     #[error(transparent)]
     Glass(#[from] DispersionError),
-    /// The work was stopped.
+    /// The watch stopped the work.
     #[error(transparent)]
     Stopped(#[from] Stopped),
 }
 
-/// The light that a pane's strength of light stands for: a lamp that glass shows as bright as the specification's shine and
-/// about as large, and an even sky that shows at the rim as bright as its rim. Glass has nothing of its Lambert.
+/// Returns the light that a pane's strength of light stands for.
+///
+/// It consists of a lamp, which glass shows about as bright and as large as the specification's shine, and an even sky,
+/// which shows at the rim as bright as the specification's rim. Glass has no counterpart of the specification's Lambert
+/// term.
 pub fn surroundings(strength: f64) -> Light {
-    // What is no number is none.
+    // NaN counts as 0.
     let part = if strength > 0.0 { strength.min(100.0) / 100.0 } else { 0.0 };
     let sky = Dome { from: -90.0, to: 90.0, soft: 0.0, radiance: 0.3 * part, end: None, colour: None };
     let lamp = Lamp {
@@ -93,10 +97,10 @@ pub fn surroundings(strength: f64) -> Light {
     Light { name: "pane".into(), dome: vec![sky], lamp: vec![lamp], ..Light::white() }
 }
 
-/// Traces the pane before the background, which is as large as the picture, and compares.
+/// Draws and traces the pane before the background, which is as large as the picture, and compares the two.
 ///
 /// # Errors
-/// What is wrong with the pane, or [`Stopped`] when `watch` asks to stop.
+/// A [`PaneError`] that names the fault of the pane, or [`PaneError::Stopped`] when `watch` stops the work.
 pub fn compare(
     pane: &GlassPane,
     background: &Panorama,
@@ -115,10 +119,10 @@ pub fn compare(
     Ok(Comparison { pane, traced, cost })
 }
 
-/// Traces the pane before the background, and compares nothing.
+/// Traces the pane before the background, without a comparison.
 ///
 /// # Errors
-/// What is wrong with the pane, or [`Stopped`] when `watch` asks to stop.
+/// A [`PaneError`] that names the fault of the pane, or [`PaneError::Stopped`] when `watch` stops the work.
 pub fn traced(
     pane: &GlassPane,
     background: &Panorama,
@@ -132,11 +136,12 @@ pub fn traced(
 struct PaneScene<'a> {
     pane: &'a GlassPane,
     setting: Scene,
-    /// Of the whole picture.
+    /// Width and height of the whole picture.
     size: DVec2,
     thickness: f64,
-    /// What of the picture is traced: the first pixel, and how many.
+    /// The first pixel of the picture that is traced, across and down.
     first: [u32; 2],
+    /// The number of pixels that are traced, across and down.
     count: [u32; 2],
     film: Film,
 }
@@ -201,7 +206,7 @@ impl<'a> PaneScene<'a> {
         })
     }
 
-    /// The pixels traced, by their place in what is traced and in the picture, with their middles.
+    /// Returns the traced pixels: the place of each in the traced part and in the picture, and its middle in pixels.
     fn pixels(&self, width: u32) -> impl Iterator<Item = (usize, usize, DVec2)> {
         let ([across, down], [left, top]) = (self.count, self.first);
         let place = move |k: u32| {
@@ -233,7 +238,7 @@ impl<'a> PaneScene<'a> {
         let mut sums = Sums::default();
         let whole = self.size * self.pane.unit();
         for (k, at, middle) in self.pixels(pane.width) {
-            // Half of the pixel and more.
+            // Only pixels whose middle the pane covers count.
             if self.pane.cover(middle) <= 0.5 {
                 continue;
             }
@@ -263,7 +268,7 @@ impl<'a> PaneScene<'a> {
     }
 }
 
-/// The glass that strengths of refraction and dispersion stand for.
+/// Returns the glass that strengths of refraction and dispersion stand for.
 fn glass(refraction: f64, dispersion: f64) -> Result<Material, DispersionError> {
     let n_d = 1.0 + INDEX * refraction / 100.0;
     let glass = Material::from_index("glass", n_d)?;

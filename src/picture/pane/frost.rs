@@ -1,15 +1,16 @@
-//! Frost: places around a place, moved by noise.
+//! Frost: samples around a place, moved by noise.
 
 use super::DomePoint;
 use glam::{DVec2, IVec2};
 
-/// How far samples stray at most, in the pane's shorter side.
+/// The unit of the samples' offsets at full intensity, as a part of the pane's shorter side.
 const BLUR: f64 = 0.003;
 
-/// Waves of the noise in the pane's shorter side, and their weights.
+/// The octaves of the noise: waves per shorter side of the pane, and weights.
 const OCTAVES: [(f64, f64); 3] = [(40.0, 0.5), (80.0, 0.3), (160.0, 0.2)];
 
-/// Where samples stand before noise moves them: in the middle and on a cross, so that the first three lie even.
+/// Offsets of the samples before noise moves them: the middle and a diagonal cross, in an order in which the first three
+/// lie evenly.
 const CROSS: [DVec2; 5] = [
     DVec2::ZERO,
     DVec2::splat(std::f64::consts::FRAC_1_SQRT_2),
@@ -18,7 +19,8 @@ const CROSS: [DVec2; 5] = [
     DVec2::new(-std::f64::consts::FRAC_1_SQRT_2, std::f64::consts::FRAC_1_SQRT_2),
 ];
 
-/// Where the samples stand around a place of the pane, all of the same weight; without frost one, there.
+/// Returns the offsets of the samples around a place of the pane, all of the same weight. Without frost it is a single
+/// offset of zero.
 pub(super) fn taps(at: DVec2, dome: &DomePoint, strength: f64, count: usize) -> Vec<DVec2> {
     let reach = BLUR * (dome.normal.x.abs() + dome.normal.y.abs()) * strength / 100.0;
     if reach == 0.0 {
@@ -28,7 +30,7 @@ pub(super) fn taps(at: DVec2, dome: &DomePoint, strength: f64, count: usize) -> 
     CROSS.iter().take(count).map(|&place| (place + stray) * reach).collect()
 }
 
-/// Value noise, -1 to 1, the same for the same place and seed.
+/// Returns value noise, -1 to 1; the same place and seed give the same number.
 pub(super) fn noise(at: DVec2, seed: u32) -> f64 {
     OCTAVES.into_iter().zip(0..).map(|((waves, weight), k)| weight * octave(at * waves, 3 * seed + k)).sum()
 }
@@ -41,7 +43,8 @@ fn octave(at: DVec2, seed: u32) -> f64 {
     row(0) + (row(1) - row(0)) * even.y
 }
 
-/// A number of a lattice point: the hash pcg of M. Jarzynski and M. Olano, *Hash functions for GPU rendering*, JCGT 9(3), 2020.
+/// Returns the number of a lattice point, -1 to 1, by the hash pcg of M. Jarzynski and M. Olano, *Hash functions for GPU
+/// rendering*, JCGT 9(3), 2020.
 fn value(at: IVec2, seed: u32) -> f64 {
     let pcg = |v: u32| {
         let state = v.wrapping_mul(747_796_405).wrapping_add(2_891_336_453);

@@ -1,35 +1,37 @@
-//! The pane's outline, and the dome that stands over it.
+//! The pane's outline, and the dome over it.
 
 use glam::{DVec2, DVec3};
 
 /// A rectangle with rounded corners around the origin.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PaneOutline {
-    /// Half its width and height, above 0.
+    /// Half the width and height, above 0.
     pub half: DVec2,
-    /// Radius of its corners, 0 to the lesser half.
+    /// Radius of the corners, from 0 to the lesser half.
     pub radius: f64,
 }
 
-/// A place on the dome over an outline.
+/// A point of the dome over an outline.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct DomePoint {
-    /// How far it is from the middle: 0 there, 1 on the outline and beyond, even along every line from the middle.
+    /// Relative distance from the middle: 0 there, 1 on the outline and beyond, growing evenly along every line from the
+    /// middle.
     pub distance: f64,
-    /// Unit direction from the middle; 0 in the middle.
+    /// Unit direction from the middle; zero in the middle itself.
     pub radial: DVec2,
-    /// Unit normal, z toward the eye: upright in the middle, level on the outline. Over a circle the dome is half a ball.
+    /// Unit normal, z toward the eye: upright in the middle, level on the outline. Over a circle the dome is half a
+    /// ball.
     pub normal: DVec3,
 }
 
 impl PaneOutline {
-    /// Signed distance of a place from the outline, negative inside.
+    /// Returns the signed distance of a place from the outline, negative inside.
     pub fn distance(&self, at: DVec2) -> f64 {
         let beyond = at.abs() - (self.half - self.radius);
         beyond.max(DVec2::ZERO).length() + beyond.max_element().min(0.0) - self.radius
     }
 
-    /// The dome at a place; beyond the outline as on it.
+    /// Returns the dome's point at a place; beyond the outline it is as on the outline.
     pub fn dome(&self, at: DVec2) -> DomePoint {
         let (distance, outward) = self.gauge(at.abs());
         let distance = distance.min(1.0);
@@ -41,8 +43,8 @@ impl PaneOutline {
         }
     }
 
-    /// By how much the outline must be scaled to run through a place of the first quarter (H. Minkowski's functional), and
-    /// its unit normal there.
+    /// Returns the factor by which the outline must be scaled to run through a place of the first quarter (H.
+    /// Minkowski's functional), and the outline's unit normal there.
     fn gauge(&self, at: DVec2) -> (f64, DVec2) {
         let inner = (self.half - self.radius).max(DVec2::ZERO);
         if at.y * self.half.x <= inner.y * at.x {
@@ -51,7 +53,8 @@ impl PaneOutline {
         if at.x * self.half.y <= inner.x * at.y {
             return (at.y / self.half.y, DVec2::Y);
         }
-        // The line from the middle meets the corner's circle: |k at - inner| = radius, the farther of the two.
+        // The line from the middle meets the corner's circle where |k at - inner| = radius; the greater k is the farther
+        // point.
         let (a, b) = (at.length_squared(), at.dot(inner));
         let k = (b + (b * b - a * (inner.length_squared() - self.radius * self.radius)).max(0.0).sqrt()) / a;
         (k.recip(), (at * k - inner).try_normalize().unwrap_or(DVec2::ZERO))

@@ -1,51 +1,54 @@
-//! The specification's formulas, one function each; lengths in the pane's shorter side, strengths 0 to 100.
+//! The formulas of the specification, one function each. Lengths are parts of the pane's shorter side, strengths 0 to
+//! 100.
 
 use super::DomePoint;
 use glam::{DVec2, DVec3};
 
-/// Toward the light: from above, at 53 degrees of elevation. y is down.
+/// Direction toward the light: from above, at 53 degrees of elevation. y points down.
 pub(super) const TOWARD_LIGHT: DVec3 = DVec3::new(0.0, -0.6, 0.8);
 
-/// How much dispersion moves red, green and blue, in parts of its amount.
+/// How far dispersion moves red, green and blue, as parts of its amount.
 const APART: [f64; 3] = [1.1, 0.0, -0.9];
 
-/// Hermite's step from 0 at `from` to 1 at `to`, as WGSL has it.
+/// Hermite's smooth step from 0 at `from` to 1 at `to`, as in WGSL.
 pub(super) fn smoothstep(from: f64, to: f64, x: f64) -> f64 {
     let t = ((x - from) / (to - from)).clamp(0.0, 1.0);
     t * t * (3.0 - 2.0 * t)
 }
 
-/// Where refraction acts: 0 in the middle and on the outline, 1 between 0.8 and 0.95 of the way.
+/// Returns how strongly refraction acts: 0 in the middle and on the outline, 1 between 0.8 and 0.95 of the way.
 pub fn falloff(distance: f64) -> f64 {
     smoothstep(0.0, 0.8, distance) * (1.0 - smoothstep(0.95, 1.0, distance))
 }
 
-/// Refraction: how far toward the middle what is seen lies.
+/// Returns the shift of refraction: how far nearer to the middle the place is that a pixel shows.
 pub fn refraction(dome: &DomePoint, strength: f64) -> DVec2 {
     let by_normal = dome.normal.truncate() * 0.015;
     let by_radius = dome.radial * dome.distance * 0.008;
     (by_normal + by_radius) * falloff(dome.distance) * strength / 100.0
 }
 
-/// The thickness that a strength of depth stands for.
+/// Returns the thickness that a strength of depth stands for.
 pub fn thickness(strength: f64) -> f64 {
     0.12 * strength / 100.0
 }
 
-/// Depth: how far toward the middle and, by half as much at most, up what is seen lies, for the body under the surface.
+/// Returns the shift of depth, for the body under the surface: how far nearer to the middle, and by up to half as much
+/// higher, the place is that a pixel shows.
 pub fn depth(dome: &DomePoint, strength: f64) -> DVec2 {
     let thickness = thickness(strength);
     let along = dome.normal.truncate() * thickness * 0.1 + DVec2::new(0.0, thickness * 0.05);
     along * (1.0 - 0.3 * dome.distance)
 }
 
-/// Dispersion: how far outward red, green and blue are looked up.
+/// Returns the shifts of dispersion: how far outward red, green and blue are looked up.
 pub fn dispersion(dome: &DomePoint, strength: f64) -> [DVec2; 3] {
     let amount = dome.distance * 0.003 * strength / 100.0;
     APART.map(|part| dome.radial * (amount * part))
 }
 
-/// Light: white that the surface adds, after J. H. Lambert and J. F. Blinn (1977), with a rim for Fresnel's.
+/// Returns the white light that the surface adds, after J. H. Lambert and J. F. Blinn (1977), with a rim in place of
+/// Fresnel's reflection.
 pub fn light(normal: DVec3, strength: f64) -> f64 {
     let half = TOWARD_LIGHT + DVec3::Z;
     let half = half / half.length();

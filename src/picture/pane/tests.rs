@@ -1,11 +1,11 @@
-//! Laws of the pane.
+//! Tests of the pane.
 
 use super::parts::smoothstep;
 use super::*;
 
 const SIZE: [u32; 2] = [72, 56];
 
-/// A pattern with edges and colours in both directions; symmetric left and right, if asked for.
+/// Returns a pattern with edges and colours in both directions; with `symmetric`, left and right are mirror images.
 pub fn pattern(symmetric: bool) -> Panorama {
     let [width, height] = SIZE;
     let light = |k: u32| {
@@ -21,7 +21,7 @@ pub fn even(colour: [f32; 3]) -> Panorama {
     Panorama { width: SIZE[0], height: SIZE[1], pixels: vec![colour; (SIZE[0] * SIZE[1]) as usize] }
 }
 
-/// All strengths in full, in the picture's middle.
+/// Returns a pane in the picture's middle with all strengths in full.
 pub fn full() -> GlassPane {
     let place = (DVec2::new(10.0, 9.0), DVec2::new(52.0, 38.0));
     GlassPane { frost: 100.0, light: 100.0, ..GlassPane::clear(place.0, place.1, 12.0) }
@@ -31,7 +31,7 @@ pub fn none() -> GlassPane {
     GlassPane { refraction: 0.0, depth: 0.0, dispersion: 0.0, frost: 0.0, light: 0.0, ..full() }
 }
 
-/// The greatest difference between two pictures.
+/// Returns the greatest difference between two pictures.
 pub fn apart(a: &Linear, b: &Linear) -> f32 {
     assert_eq!((a.width, a.height, a.pixels.len()), (b.width, b.height, b.pixels.len()));
     let pairs = a.pixels.iter().flatten().zip(b.pixels.iter().flatten());
@@ -63,7 +63,7 @@ fn outside_of_the_outline_nothing_changes() {
     let (mut outside, mut changed) = (0, 0);
     for (k, (a, b)) in seen.pixels.iter().zip(&bare.pixels).enumerate() {
         let middle = DVec2::new((k % 72) as f64, (k / 72) as f64) + 0.5;
-        // Half a pixel beside it is the last that it touches.
+        // The pane's soft border ends half a pixel outside the outline.
         if outline.distance(full().own(middle)) * full().unit() >= 0.5 {
             outside += 1;
             assert!(a == b, "pixel {k}");
@@ -71,7 +71,7 @@ fn outside_of_the_outline_nothing_changes() {
             changed += u32::from(a != b);
         }
     }
-    // 52 by 38 less four corners of (4 - π) 12² / 4 each.
+    // The pane covers 52 by 38 pixels less four corners of (4 - π) 12² / 4 each.
     assert!(outside > 1900 && changed > 1600, "{outside} {changed}");
 }
 
@@ -87,7 +87,7 @@ fn the_formulas_are_those_of_the_specification() {
     let dome = outline.dome(DVec2::new(0.5, 0.0));
     let expected = (0.5, DVec2::X, DVec3::new(0.5, 0.0, 0.75_f64.sqrt()));
     assert_eq!((dome.distance, dome.radial, dome.normal), expected);
-    // smoothstep(0, .8, .5) = 0.625² (3 - 1.25) = 0.68359375; 0.5 of .015 and of .008.
+    // smoothstep(0, 0.8, 0.5) = 0.625² (3 - 1.25) = 0.68359375; the shift is 0.5 of 0.015 and of 0.008.
     near(refraction(&dome, 100.0).x, 0.0115 * 0.683_593_75);
     near(refraction(&dome, 40.0).x, 0.4 * 0.0115 * 0.683_593_75);
     // Thickness 0.06: (0.5 0.06 0.1, 0.06 0.05) (1 - 0.15).
@@ -95,11 +95,11 @@ fn the_formulas_are_those_of_the_specification() {
     let [red, green, blue] = dispersion(&dome, 80.0);
     assert!(red.abs_diff_eq(DVec2::X * 0.0012 * 1.1, 1e-15) && green == DVec2::ZERO);
     assert!(blue.abs_diff_eq(DVec2::NEG_X * 0.0012 * 0.9, 1e-15));
-    // Flat, toward the eye: N·L = 0.8; H = (0, -.6, 1.8)/√3.6, N·H = √0.9, its 32nd power 0.9¹⁶; no rim.
+    // Flat, toward the eye: N·L = 0.8; H = (0, -0.6, 1.8)/√3.6, N·H = √0.9, its 32nd power is 0.9¹⁶; no rim.
     near(light(DVec3::Z, 100.0), 0.24 + 0.5 * 0.9_f64.powi(16));
-    // Level, away from the light: the rim alone.
+    // Level, away from the light: only the rim is left.
     near(light(DVec3::Y, 50.0), 0.15);
-    // All together at a place: a pane of 100 by 50 pixels.
+    // All parts together at one place, for a pane of 100 by 50 pixels.
     let pane = GlassPane {
         refraction: 40.0,
         depth: 50.0,
@@ -128,7 +128,7 @@ fn the_dome_is_upright_in_the_middle_level_on_the_outline_and_without_a_jump() {
                 let dome = outline.dome(border * part);
                 near(dome.distance, part);
                 near(dome.normal.length(), 1.0);
-                // Square to the outline there.
+                // The normal is square to the outline there.
                 let outside = outline.distance(border + dome.normal.truncate() / part * 1e-3);
                 assert!((outside - 1e-3).abs() < 1e-9, "{k}: {outside}");
                 let beside = outline.dome(border.rotate(DVec2::from_angle(1e-6)) * part);
@@ -161,7 +161,7 @@ fn each_quality_does_what_it_says() {
     }
     let tinted = GlassPane { tint: DVec4::new(0.2, 0.4, 0.9, 0.5), ..full() };
     assert!(of(Quality::Low, GlassPane { refraction: 70.0, ..tinted }) == of(Quality::Low, plain_refraction));
-    // Without frost the middle one is the full one of a dispersion of 30 at most.
+    // Without frost, medium quality equals high quality with a dispersion of 30 at most.
     let clear = GlassPane { frost: 0.0, ..tinted };
     assert!(of(Quality::Medium, clear) == of(Quality::High, GlassPane { dispersion: 30.0, ..clear }));
     assert!(of(Quality::Medium, clear) != of(Quality::High, clear));
@@ -182,7 +182,7 @@ fn frost_is_the_same_every_time_and_keeps_an_even_background() {
     assert!(seen == pane(&frost, &background, 1) && apart(&seen, &plain(&background)) > 0.01);
     let even = even([0.3, 0.5, 0.7]);
     assert!(apart(&pane(&frost, &even, 1), &plain(&even)) < 1e-7);
-    // The noise is spread around 0 within its bounds, without a jump.
+    // The noise is spread around 0 within its bounds, without jumps.
     let places = (0..4000).map(|k| DVec2::new(0.754_877_666_2, 0.569_840_291) * f64::from(k));
     let values: Vec<f64> = places.clone().map(|at| frost::noise(at.fract(), 0)).collect();
     assert!(values.iter().all(|v| v.abs() <= 1.0));
@@ -217,7 +217,7 @@ fn a_tint_covers_by_its_alpha() {
 #[test]
 fn what_is_symmetric_stays_so() {
     let background = pattern(true);
-    // Frost alone is not: its noise is as it falls.
+    // Frost is left out: its noise is not symmetric.
     let seen = pane(&GlassPane { frost: 0.0, ..full() }, &background, 1);
     let mirrored = Linear {
         pixels: seen.pixels.chunks(72).flat_map(|row| row.iter().rev().copied()).collect(),
@@ -255,7 +255,7 @@ fn a_background_fills_the_picture() {
         Panorama { width, height, pixels }
     };
     assert!(filling(&pattern(false), SIZE) == pattern(false));
-    // Cut to its middle half, then halved: pixels stand for four.
+    // The picture is cut to its middle half, then halved: each pixel stands for four.
     let seen = filling(&ramp(80, 20), [20, 10]);
     assert_eq!((seen.width, seen.height), (20, 10));
     assert!((0..20).all(|x| (seen.pixels[x][0] - (20.0 + 2.0 * x as f32 + 1.0)).abs() < 1e-4));

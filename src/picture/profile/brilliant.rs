@@ -1,7 +1,7 @@
-//! The profile of a round brilliant: its angles, its culet, and how far stars and lower halves reach.
+//! The profile of a round brilliant: its angles, its culet, and the lengths of stars and lower halves.
 //!
-//! Star and lower half are measured in plan, at 22.5 degrees from the drawing's plane, where the projection shortens
-//! the part and the whole alike.
+//! Star and lower half are measured in plan. They lie 22.5 degrees from the drawing's plane, where the projection
+//! shortens the part and the whole alike.
 
 use super::super::drawing::{Align, DIMENSION};
 use super::{BESIDE, Dimensions, Drawing, GAP, LINE, Overflow, Span, degrees, percent};
@@ -12,14 +12,17 @@ use glam::{DVec2, DVec3};
 use std::f64::consts::FRAC_PI_8;
 use svg::Document;
 
-/// Radius of an angle's arc, and of that of a narrow one, units of the drawing.
+/// Radius of an angle's arc, in units of the drawing.
 const ARC: f64 = 64.0;
+/// Radius of a narrow angle's arc, in units of the drawing.
 const NARROW_ARC: f64 = 110.0;
-/// Below this an angle is narrow; below the next it has no room for its number. Degrees.
+/// Angle below which an angle counts as narrow, in degrees.
 const NARROW: f64 = 20.0;
+/// Angle below which there is no room for the number inside the angle, in degrees.
 const TOO_NARROW: f64 = 11.0;
 
-/// The bezels at azimuth 0 and 180 degrees edge on, so that crown and pavilion angle are seen in their true size.
+/// The view in which the bezels at azimuth 0 and 180 degrees are edge on, so that crown and pavilion angle have their
+/// true size.
 pub(crate) const BRILLIANT_BASIS: Basis = Basis { right: DVec3::X, up: DVec3::Z, toward: DVec3::NEG_Y };
 
 /// Draws the profile of a round brilliant.
@@ -49,7 +52,7 @@ pub(super) fn draw(stone: &Stone, title: &str, given: &RoundBrilliant, derived: 
     drawing.sheet.document(title, subtitle, &remarks)
 }
 
-/// Where a star begins at the table and ends, on the right of the profile, radii.
+/// Returns where a star begins at the table and where it ends, on the right of the profile, in radii.
 pub(crate) fn star_ends(given: &RoundBrilliant, derived: &Derived) -> [DVec2; 2] {
     let cos = FRAC_PI_8.cos();
     let edge = given.table / 100.0 * cos;
@@ -58,7 +61,8 @@ pub(crate) fn star_ends(given: &RoundBrilliant, derived: &Derived) -> [DVec2; 2]
     [DVec2::new(edge * cos, derived.crown_height / 50.0), DVec2::new(tip * cos, tip_height)]
 }
 
-/// Where a lower half ends, or a culet cuts it off, and begins at the girdle, on the right of the profile, radii.
+/// Returns where a lower half ends, or is cut off by a culet, and where it begins at the girdle, on the right of the
+/// profile, in radii.
 pub(crate) fn lower_half_ends(given: &RoundBrilliant, derived: &Derived) -> [DVec2; 2] {
     let cos = FRAC_PI_8.cos();
     let tip = (1.0 - derived.lower_half_length / 100.0) * cos;
@@ -69,7 +73,7 @@ pub(crate) fn lower_half_ends(given: &RoundBrilliant, derived: &Derived) -> [DVe
 }
 
 impl Dimensions {
-    /// A round brilliant's, as given and derived, percent of the girdle diameter.
+    /// Returns the dimensions of a round brilliant as given and derived, in percent of the girdle diameter.
     pub(crate) fn of_brilliant(given: &RoundBrilliant, derived: &Derived) -> Self {
         let (crown, girdle) = (derived.crown_height / 50.0, given.girdle_thickness / 50.0);
         let culet = crown - derived.total_depth / 50.0;
@@ -85,16 +89,16 @@ impl Dimensions {
     }
 }
 
-/// What only a round brilliant has.
+/// The dimensions that only a round brilliant has.
 impl Drawing<'_> {
-    /// The star's length in plan, over the right half of the crown.
+    /// Draws the star's length in plan, above the right half of the crown.
     fn star(&mut self, given: &RoundBrilliant, derived: &Derived) {
         let ends = star_ends(given, derived).map(|end| self.at(end.x, end.y));
         let text = format!("star {}", percent(given.star_length));
         self.across(self.level(1.0), ends, Overflow::Right, &text);
     }
 
-    /// The lower half's length in plan, under the right half of the pavilion.
+    /// Draws the lower half's length in plan, below the right half of the pavilion.
     fn lower_half(&mut self, given: &RoundBrilliant, derived: &Derived) {
         let ends = lower_half_ends(given, derived).map(|end| self.at(end.x, end.y));
         let text = format!("lower half {}", percent(derived.lower_half_length));
@@ -119,7 +123,8 @@ impl Drawing<'_> {
         self.sheet.text(DIMENSION, Align::End, knee - DVec2::X * GAP, &text);
     }
 
-    /// Crown angle at the table's corner, pavilion angle at the culet, both outside the stone on the left.
+    /// Draws the crown angle at the table's corner and the pavilion angle at the culet, both outside the stone on the
+    /// left.
     fn angles(&mut self, given: &RoundBrilliant, derived: &Derived) {
         let girdle = -given.girdle_thickness / 50.0;
         let table = self.at(-given.table / 100.0, self.dimensions.total.from);
@@ -128,7 +133,7 @@ impl Drawing<'_> {
         self.angle(culet, self.at(-1.0, girdle), derived.pavilion_angle);
     }
 
-    /// The angle at `vertex` between the level line to the left and the line to `end`.
+    /// Draws the angle at `vertex`, in degrees, between the level line to the left and the line to `end`.
     fn angle(&mut self, vertex: DVec2, end: DVec2, angle: f64) {
         let radius = if angle < NARROW { NARROW_ARC } else { ARC };
         let down = (end.y - vertex.y).signum();
@@ -140,7 +145,7 @@ impl Drawing<'_> {
         self.sheet.arc(vertex, vertex - DVec2::X * radius, vertex + arm * radius);
         let half = (angle / 2.0).to_radians();
         let text_at = if angle < TOO_NARROW {
-            // Too narrow for text between the lines.
+            // The angle is too narrow for text between its lines.
             vertex + DVec2::new(-radius - 2.0 * GAP, -down * LINE / 2.0)
         } else {
             vertex + DVec2::new(-half.cos(), down * half.sin()) * (radius + BESIDE)
@@ -160,7 +165,7 @@ mod tests {
         profile(&stone, "Test", Some(given)).to_string()
     }
 
-    /// The numbers written between `before` and `after`.
+    /// Returns the numbers written between `before` and `after`.
     fn written(svg: &str, before: &str, after: &str) -> Vec<f64> {
         let lines = svg.lines().filter_map(|line| line.strip_prefix(before)?.strip_suffix(after));
         lines.filter_map(|number| number.parse().ok()).collect()

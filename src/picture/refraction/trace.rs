@@ -1,4 +1,4 @@
-//! Tracing a refraction map.
+//! Traces refraction maps.
 
 use super::{Backdrop, Carried, MapBand, RefractionMap, SourcePlace, Survey};
 use crate::optics::Stratum;
@@ -10,13 +10,14 @@ use crate::trace::{Stopped, Watch};
 use glam::{DMat3, DVec2, DVec3};
 use rayon::prelude::*;
 
-/// Places that are nearer than this, pixels of the picture, are one.
+/// Places nearer to one another than this, in pixels of the picture, count as one.
 const SAME: f64 = 0.25;
 
-/// Rows traced between two calls of the watch.
+/// The number of rows traced between two calls of the watch.
 const PIECE: u32 = 8;
 
-/// What is found of one row: its places band by band, its diffuse layer, and sums of what is carried with their number.
+/// One row of a map: its places band by band, its diffuse layer, and the sums for [`Carried`] with the number of pixels
+/// in them.
 struct Row {
     places: Vec<Vec<SourcePlace>>,
     diffuse: Vec<[f32; 4]>,
@@ -25,22 +26,22 @@ struct Row {
     hits: u32,
 }
 
-/// What is surveyed.
+/// The scene and the plane that a map is traced of.
 struct Scene<'a> {
     lit_scene: &'a LitScene<'a>,
     environment: Environment<'a>,
     plane: &'a Backdrop,
-    /// Pixels of the picture that the plane is wide and high, seen straight on.
+    /// Width and height of the plane in pixels of the picture, seen straight on.
     pixels: DVec2,
     camera: Camera,
     company: SceneTracer,
 }
 
 impl RefractionMap {
-    /// Traces a map of what a sitting shows; a photograph behind it is left out.
+    /// Traces a map of a lit scene; a photograph behind the scene is left out.
     ///
     /// # Errors
-    /// [`Stopped`] when `watch` asks to stop.
+    /// [`Stopped`] when `watch` stops the work.
     pub fn trace(
         lit_scene: &LitScene,
         plane: &Backdrop,
@@ -131,14 +132,14 @@ impl Scene<'_> {
         row
     }
 
-    /// The ray through a point of the picture, in pixels, and the stone that it meets first.
+    /// Returns the ray through a point of the picture, in pixels, and the stone that it meets first.
     fn start(&self, at: DVec2) -> (WaitingRay, Option<First>) {
         let start = WaitingRay::from_eye(self.camera.ray(self.lit_scene.film.image_from_pixels(at)));
         (start, self.company.first(&start))
     }
 
-    /// The places of the strongest paths to the background, so many at most, which have the weight of all paths between them;
-    /// and the weight that is their own.
+    /// Returns the places of the strongest paths to the background, `most` at most, and the weight of these paths alone.
+    /// The places together have the weight of all paths.
     fn strongest(
         &self,
         company: &SceneTracer,
@@ -155,7 +156,7 @@ impl Scene<'_> {
             Some(first) => drop(company.follow(start, first, leave)),
             None => leave(start),
         }
-        // Of paths as strong as one another the first stays the first.
+        // The sort is stable: among equally strong paths the first stays first.
         paths.sort_by(|a, b| b.1.total_cmp(&a.1));
         let (mut kept, mut own): (Vec<(DVec2, f64)>, f64) = (Vec::with_capacity(most), 0.0);
         for (at, weight) in paths {
@@ -171,7 +172,7 @@ impl Scene<'_> {
                 }
             }
         }
-        // What rounding has made too much.
+        // Rounding may make the sum greater than 1.
         let scale = 1.0 / kept.iter().map(|(_, weight)| weight).sum::<f64>().max(1.0);
         let place = |(at, weight): (DVec2, f64)| SourcePlace {
             u: at.x as f32,
@@ -181,7 +182,7 @@ impl Scene<'_> {
         (kept.into_iter().map(place).collect(), own)
     }
 
-    /// What one look sees at a pixel.
+    /// Returns what one sample pass sees at a pixel.
     fn shade(&self, look: &SamplePass, bands: &[SceneTracer], corner: DVec2) -> Shade {
         let (start, first) = self.start(corner + look.shift);
         let mut light = Shade::default();
@@ -205,7 +206,7 @@ impl Scene<'_> {
     }
 }
 
-/// Linear light of a pixel: from a white background, and from elsewhere.
+/// Linear light of a pixel: that of a white background, and that from elsewhere.
 #[derive(Clone, Copy, Default)]
 struct Shade {
     behind: DVec3,
@@ -222,7 +223,7 @@ impl std::iter::Sum for Shade {
 }
 
 impl Shade {
-    /// The diffuse layer's pixel, of the sum of so many looks.
+    /// Returns the diffuse layer's pixel, given the number of sample passes in this sum.
     fn pixel(&self, looks: usize) -> [f32; 4] {
         let share = 1.0 / looks as f64;
         let [red, green, blue] = (self.elsewhere * share).as_vec3().to_array();

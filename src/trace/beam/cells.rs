@@ -5,19 +5,20 @@ use super::tree::{Beams, ROOT};
 /// One cell of the map of strongest exits: the whole outline of one beam.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Cell {
-    /// The beam whose outline it is.
+    /// The id of the beam whose outline the cell has.
     pub outline: u32,
-    /// The beam whose exit is the strongest of all exits seen through the cell, the surface's glare left aside;
-    /// the first of equals. `None` where nothing has left the stone yet.
+    /// The id of the beam with the strongest of all exits seen through the cell, the surface's glare left aside; the first
+    /// of equals. `None` where no light has left the stone yet.
     pub strongest: Option<u32>,
-    /// Whether a stronger exit may lie in what was left unresolved.
+    /// Whether a stronger exit may lie in the light that was left unresolved.
     pub undecided: bool,
 }
 
 impl Beams {
-    /// The map of strongest exits of one domain: at each point, which exit direction lights it most.
+    /// Returns the map of strongest exits of one domain of the symmetry: at each point, the exit direction that lights it
+    /// most.
     ///
-    /// A cell is whole as soon as nothing that is still inside can outshine the best exit so far. In a stone that
+    /// A cell is complete as soon as no light that is still inside can outshine the best exit so far. In a stone that
     /// absorbs, weights are means over outlines, so that the map is exact only as far as absorption is even in each.
     pub fn strongest_exits(&self) -> Vec<Cell> {
         let n = self.nodes.len();
@@ -49,7 +50,7 @@ impl Beams {
             .collect()
     }
 
-    /// The part of the silhouette in cells whose strongest exit is not certain, or that have none.
+    /// Returns the share of the silhouette's area in cells whose strongest exit is not certain, or that have none.
     pub fn undecided(&self, cells: &[Cell]) -> f64 {
         let open = cells.iter().filter(|c| c.undecided || c.strongest.is_none());
         // Not `sum`, which makes -0 of nothing.
@@ -57,8 +58,8 @@ impl Beams {
         area * f64::from(self.symmetry.order()) / self.silhouette_area
     }
 
-    /// The beams that were not split further, in one domain: the finest subdivision of the image. Every point's
-    /// light is that of such a beam and of those it came from.
+    /// Returns the ids of the beams that were not split further, in one domain: the finest subdivision of the image. The
+    /// light of a point is that of such a beam and of all beams that this one came from.
     pub fn leaves(&self) -> impl Iterator<Item = u32> {
         let mut parted = vec![false; self.nodes.len()];
         for parent in self.nodes.iter().map(|n| n.parent).filter(|&p| p != ROOT) {

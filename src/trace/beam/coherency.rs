@@ -2,10 +2,10 @@
 
 use crate::optics::Fresnel;
 
-/// The coherency matrix J J† / 2 of a beam with Jones matrix J (Born & Wolf, Principles of Optics, 7th ed., §10.9),
-/// along s (square to the plane of incidence) and p = direction × s. Its trace is the beam's weight.
+/// The coherency matrix J J† / 2 of a beam with Jones matrix J (Born & Wolf, Principles of Optics, 7th ed., §10.9), along s
+/// (perpendicular to the plane of incidence) and p = direction × s. Its trace is the beam's weight.
 ///
-/// For light that starts unpolarised it says all that J does, in four numbers.
+/// For light that begins unpolarised these four numbers say all that J does.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Coherency {
     ss: f64,
@@ -16,25 +16,25 @@ pub(super) struct Coherency {
 }
 
 impl Coherency {
-    /// Unpolarised light of weight 1 that has entered through a surface: the other part, the surface's glare,
-    /// comes second.
+    /// Returns unpolarised light of weight 1 after it has entered through a surface, and the weight that the surface
+    /// reflects (its glare).
     pub fn entered(fresnel: &Fresnel) -> (Self, f64) {
         let (s, p) = (fresnel.reflectance_s(), fresnel.reflectance_p());
         (Self { ss: (1.0 - s) / 2.0, pp: (1.0 - p) / 2.0, re: 0.0, im: 0.0 }, (s + p) / 2.0)
     }
 
-    /// The beam's weight.
+    /// Returns the beam's weight.
     pub fn weight(&self) -> f64 {
         self.ss + self.pp
     }
 
-    /// The same light with its polarisation forgotten.
+    /// Returns light of the same weight without polarisation.
     pub fn unpolarised(&self) -> Self {
         let half = self.weight() / 2.0;
         Self { ss: half, pp: half, re: 0.0, im: 0.0 }
     }
 
-    /// Seen in axes turned by the angle whose cosine and sine are given, from s toward p.
+    /// Returns the light in axes turned from s toward p by the angle whose cosine and sine are given.
     pub fn turned(&self, cos: f64, sin: f64) -> Self {
         let (cc, ss, cs) = (cos * cos, sin * sin, cos * sin);
         Self {
@@ -45,7 +45,7 @@ impl Coherency {
         }
     }
 
-    /// Splits at a surface: what is reflected, and the weight of what passes.
+    /// Splits the light at a surface: returns the reflected light and the weight of the light that passes.
     pub fn split(&self, fresnel: &Fresnel) -> (Self, f64) {
         let (s, p) = (fresnel.reflectance_s(), fresnel.reflectance_p());
         let cross = fresnel.r_s * fresnel.r_p.conj();

@@ -8,27 +8,27 @@ use crate::optics::{fresnel, reflect, refract};
 use crate::scene::Medium;
 use glam::{DVec2, DVec3};
 
-/// Outlines with less than this part of the silhouette's area are slivers of rounding, and dropped.
+/// Outlines with less than this share of the silhouette's area come from rounding and are dropped.
 pub(super) const SLIVER: f64 = 1e-15;
 
-/// A beam this near to square to a facet (sine of the angle) has no plane of incidence, nor needs one.
+/// The sine of the angle between a beam and a facet's normal below which there is no plane of incidence, and none is needed.
 const SQUARE_ON: f64 = 1e-9;
 
-/// A beam whose way on is still to be followed.
+/// A beam that is still to be followed from its last facet on.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Front {
     pub node: u32,
     pub bounces: u32,
     pub ray: Ray,
-    /// Weight and polarisation, but for absorption.
+    /// Weight and polarisation, without absorption.
     pub light: Coherency,
-    /// Axis of `light`: a unit vector square to the ray.
+    /// The axis s of `light`: a unit vector perpendicular to the ray.
     pub s: DVec3,
-    /// Weight times area times what absorption has left.
+    /// Weight times area times the share that absorption has left.
     pub energy: f64,
 }
 
-/// The beams that one piece of work found. Its nodes are numbered on from those that were there before.
+/// The beams that one piece of work has found. Its nodes are numbered on from the end of the existing tree.
 #[derive(Default)]
 pub(super) struct Growth {
     pub nodes: Vec<BeamNode>,
@@ -39,13 +39,14 @@ pub(super) struct Growth {
     pub dropped: f64,
 }
 
-/// The unit axis square to a ray and a facet's normal, or `otherwise` where the ray is square to the facet.
+/// Returns the unit axis perpendicular to a ray and a facet's normal, or `otherwise` where the ray is square to the facet.
 pub(super) fn s_axis(direction: DVec3, normal: DVec3, otherwise: DVec3) -> DVec3 {
     let s = direction.cross(normal);
     let length = s.length();
     if length > SQUARE_ON { s / length } else { otherwise }
 }
 
+/// Follows beams as one piece of work.
 pub(super) struct Follower<'a> {
     splitter: Splitter<'a>,
     before: &'a Beams,
@@ -60,7 +61,7 @@ impl<'a> Follower<'a> {
         Self { splitter, before, growth: Growth::default(), outline: vec![] }
     }
 
-    /// Follows the fronts given and every beam that they split into while it is `strong`.
+    /// Follows these fronts, and every beam that they split into while `strong` accepts it.
     pub fn follow(mut self, fronts: &[Front], strong: impl Fn(&Front) -> bool) -> Growth {
         let mut stack: Vec<Front> = fronts.iter().rev().copied().collect();
         while let Some(front) = stack.pop() {
@@ -69,7 +70,7 @@ impl<'a> Follower<'a> {
         self.growth
     }
 
-    /// Takes one beam to the facets that it lands on.
+    /// Splits one beam among the facets that it lands on.
     fn step(&mut self, front: &Front, strong: &impl Fn(&Front) -> bool, stack: &mut Vec<Front>) {
         let Self { splitter, before, growth, outline } = self;
         outline.clear();
@@ -103,7 +104,8 @@ impl<'a> Follower<'a> {
     }
 }
 
-/// Splits a beam at the facet it has landed on: what leaves, and what goes on.
+/// Splits a beam's light at the facet on which it has landed: returns the node, with the light that leaves, and the front
+/// that goes on.
 #[inline]
 fn land(
     front: &Front,
@@ -147,7 +149,7 @@ fn land(
     (node, onward)
 }
 
-/// Integrals over the outline of what absorption leaves after each of two paths; the area where nothing absorbs.
+/// Integrates the transmittance over the outline, after each of two paths; both are the area where nothing absorbs.
 fn attenuated(outline: &[DVec2], before: Affine, after: Affine, medium: &Medium, area: f64) -> (f64, f64) {
     if medium.is_clear() {
         return (area, area);

@@ -16,16 +16,16 @@ use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 use std::ops::ControlFlow;
 
-/// What to trace, and how far.
+/// How far beams are followed, and what is taken into account.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BeamOptions {
-    /// Go on until no more than this part of the light is unresolved, 0 to 1.
+    /// The share of the light, 0 to 1, that may stay unresolved: tracing goes on until no more is.
     pub unresolved: f64,
-    /// Follow polarisation; without, every surface sees unpolarised light.
+    /// Whether polarisation is followed; without it, every surface meets unpolarised light.
     pub polarised: bool,
-    /// Stop soon after there are more beams than this: the answer then has more unresolved than was asked for.
+    /// The number of beams soon after which tracing stops; more light is then unresolved than was requested.
     pub most_beams: usize,
-    /// Use the symmetry that stone, view and light share.
+    /// Whether only one domain of the symmetry that stone, view and light share is traced.
     pub symmetry: bool,
 }
 
@@ -35,22 +35,23 @@ impl Default for BeamOptions {
     }
 }
 
-/// A beam that is reflected more often is given up: light can be caught for ever by total reflection.
+/// The most reflections of a beam: after these it is given up, as total reflection can catch light for ever.
 const MOST_BOUNCES: u32 = 1000;
 
-/// Beams followed as one piece of work. Not the number of cores: the result must not depend on it.
+/// Beams followed as one piece of work. It does not depend on the number of cores, as the result must not.
 const PIECE: usize = 128;
 
-/// Pieces after which `watch` and the number of beams are looked at again.
+/// Pieces between two checks of `watch` and of the number of beams.
 const AT_ONCE: usize = 64;
 
-/// The level falls by no more than this at a step, lest the last step overshoot, and by no less.
+/// The least and the greatest factor by which the level of energy falls at a step: with a smaller one the last step might
+/// overshoot.
 const STEPS: std::ops::RangeInclusive<f64> = 0.25..=0.8;
 
-/// Follows light from the eye into a stone until at most `options.unresolved` of it is left, or there are too many
-/// beams, or what is left is caught for ever: then [`Beams::unresolved`] says how much.
+/// Follows light from the eye into a stone until at most `options.unresolved` of it is left.
 ///
-/// Beams are of parallel rays: a perspective is traced as if its eye were far away.
+/// Tracing ends earlier where there are too many beams, or where all that is left is caught for ever; [`Beams::unresolved`]
+/// says how much is left. Beams are of parallel rays: a perspective is traced as if its eye were far away.
 ///
 /// # Errors
 /// [`Stopped`] when `watch` asks to stop.
@@ -93,7 +94,7 @@ impl<'a> Tracer<'a> {
         Self { polytope, opposite: opposites(polytope), beams, fronts: vec![] }
     }
 
-    /// Starts a beam on every facet that the eye sees.
+    /// Starts a beam on every facet that the eye sees in one domain of the symmetry.
     fn enter(&mut self) {
         let domain = self.beams.symmetry.domain();
         let mut spare = vec![];
@@ -153,7 +154,7 @@ impl<'a> Tracer<'a> {
         let mut before = (level, whole);
         loop {
             let left = self.fronts.iter().map(|f| f.energy).sum::<f64>() + self.beams.dropped;
-            // Beams shrink about as a power of the level: the logarithm runs evenly.
+            // The light left falls about as a power of the level, so that its logarithm falls evenly.
             let done = ((left / whole).ln() / options.unresolved.max(1e-12).ln()).clamp(0.0, 1.0);
             if watch(done).is_break() {
                 return Err(Stopped);
@@ -171,7 +172,7 @@ impl<'a> Tracer<'a> {
         Ok(())
     }
 
-    /// Follows every beam with at least this energy, and what comes of it, as far as there is room.
+    /// Follows every beam with at least this energy, and all that it splits into, until there are too many beams.
     fn follow_above(
         &mut self,
         level: f64,
@@ -202,7 +203,8 @@ impl<'a> Tracer<'a> {
         Ok(())
     }
 
-    /// Adds what a piece of work found. It numbered its nodes on from `base`; others have done so before it.
+    /// Adds the beams that a piece of work has found to the tree. Its nodes are numbered on from `base`; they are moved
+    /// behind those of the pieces added before it.
     fn take_in(&mut self, mut growth: Growth, base: u32) {
         let beams = &mut self.beams;
         let shift = beams.nodes.len() as u32 - base;
@@ -220,8 +222,8 @@ impl<'a> Tracer<'a> {
     }
 }
 
-/// The energy level to follow next. What is left falls about as a power of the level; the power is taken from the
-/// last step, and the level aimed a little below the goal.
+/// Returns the next level of energy to follow. The light left falls about as a power of the level; the power is taken from
+/// the last step, and the level is aimed a little below the goal.
 fn next_level(level: f64, left: f64, before: &mut (f64, f64), goal: f64) -> f64 {
     let (old_level, old_left) = std::mem::replace(before, (level, left));
     let power = ((old_left / left).ln() / (old_level / level).ln()).clamp(0.3, 2.0);
@@ -229,7 +231,8 @@ fn next_level(level: f64, left: f64, before: &mut (f64, f64), goal: f64) -> f64 
     level * (0.98 * goal / left).powf(1.0 / power).clamp(*STEPS.start(), *STEPS.end())
 }
 
-/// The point of a plane behind each image point, as origin and change along the image's axes.
+/// Returns the point of a plane behind each image point, as the point behind the image's origin and its changes along the
+/// image's axes.
 fn entry_points(view: &Basis, plane: &Plane) -> [DVec3; 3] {
     let per = view.toward / plane.normal.dot(view.toward);
     let behind = |axis: DVec3| axis - per * plane.normal.dot(axis);

@@ -1,31 +1,31 @@
-//! Which facets a beam lands on next, and with which part of its outline.
+//! Finds the facets that a beam lands on next, and the part of its outline that lands on each.
 
 use crate::math::{Affine, Polytope, centroid};
 use glam::{DVec2, DVec3};
 
-/// A facet whose normal is this near to square to the beam cannot be landed on: the beam runs along it.
+/// The cosine between a beam and a facet's normal up to which the beam cannot land on the facet: it runs along it.
 const GRAZING: f64 = 1e-12;
 
-/// Distances equal to this part of their terms are equal: some hundred roundings.
+/// Distances that differ by less than this share of their terms count as equal: some hundred roundings.
 const SAME: f64 = 2e-14;
 
-/// A part of a beam's outline above this that has landed nowhere is looked for on all facets: slivers are less.
+/// The share of a beam's outline that may land nowhere: slivers are less. Where more is missing, all facets are tried.
 const MISSED: f64 = 1e-10;
 
-/// No facet.
+/// The number that stands for no facet.
 const NONE: u32 = u32::MAX;
 
-/// A beam on its way from a facet: where the ray of each image point starts, and the one direction of all.
+/// A beam on its way from a facet: where the ray of each image point starts, and the one direction of all its rays.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Ray {
-    /// Start of the ray at the image's origin, and its change along the image's axes.
+    /// The start of the ray at the image's origin, and its changes along the image's axes.
     pub origin: [DVec3; 3],
     /// Unit direction.
     pub direction: DVec3,
 }
 
 impl Ray {
-    /// Where the rays meet the plane at the given distances.
+    /// Returns the points that the rays reach after these distances, in the form of `origin`.
     pub fn advanced(&self, distance: Affine) -> [DVec3; 3] {
         let [o, u, v] = self.origin;
         let d = self.direction;
@@ -33,34 +33,37 @@ impl Ray {
     }
 }
 
-/// A corner of an outline and the facet beyond the edge that begins there.
+/// A corner of an outline, and the facet beyond the edge that begins there.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct OutlineCorner {
     pub at: DVec2,
     beyond: u32,
 }
 
-/// What one beam leaves on one facet.
+/// The part of one beam that lands on one facet.
 pub(super) struct Landing<'a> {
     pub facet: u32,
     /// Outward unit normal.
     pub normal: DVec3,
-    /// Distance gone, over the image.
+    /// Distance from the beam's start, over the image.
     pub distance: Affine,
     pub outline: &'a [OutlineCorner],
 }
 
-/// Splits beams among the facets of one polytope; holds the work space that this needs.
+/// Splits beams among the facets of one polytope, and holds the work space that this needs.
 pub(super) struct Splitter<'a> {
     polytope: &'a Polytope,
-    /// For each facet the one that faces it most squarely: where the search for a first landing starts.
+    /// For each facet, the facet that faces it most squarely: the search for a first landing starts there.
     opposite: &'a [u32],
+    /// For each facet, the distance to its plane, over the image.
     distance: Vec<Affine>,
-    /// The beam for which `distance` was last worked out, and that which last came by.
-    /// Half the extent of any image of the stone.
+    /// Half the extent of the largest image of the stone.
     extent: f64,
+    /// For each facet, the number of the beam for which `distance` was last worked out.
     known: Vec<u32>,
+    /// For each facet, the number of the beam for which it was last put into the queue.
     visited: Vec<u32>,
+    /// The number of the present beam.
     beam: u32,
     queue: Vec<u32>,
     outline: Vec<OutlineCorner>,
@@ -68,7 +71,7 @@ pub(super) struct Splitter<'a> {
     values: Vec<f64>,
 }
 
-/// [`Splitter::opposite`] for all facets.
+/// Returns [`Splitter::opposite`] for all facets.
 pub(super) fn opposites(polytope: &Polytope) -> Vec<u32> {
     let normals: Vec<DVec3> = polytope.planes().map(|p| p.normal).collect();
     let faces = |n: &DVec3| {
@@ -97,10 +100,10 @@ impl<'a> Splitter<'a> {
         }
     }
 
-    /// Calls `land` for each facet that the beam with this outline, coming from facet `from`, falls on.
+    /// Calls `land` for each facet that the beam with this outline, coming from facet `from`, lands on.
     ///
-    /// The landings make up the outline but for slivers, whose area is returned. They are found by going from
-    /// neighbour to neighbour; should that have missed any, all facets are tried.
+    /// The landings make up the outline but for slivers, whose area is returned. They are found by going from neighbour to
+    /// neighbour; should that have missed any, all facets are tried.
     pub fn split(&mut self, ray: &Ray, outline: &[DVec2], from: u32, mut land: impl FnMut(Landing)) -> f64 {
         self.beam += 1;
         let whole = twice_area(outline.iter().copied());
@@ -118,6 +121,7 @@ impl<'a> Splitter<'a> {
         (whole - covered).max(0.0) / 2.0
     }
 
+    /// Lands on the facets in the queue and on their neighbours; returns twice the area that has landed.
     fn flood(&mut self, ray: &Ray, outline: &[DVec2], land: &mut impl FnMut(Landing)) -> f64 {
         let mut covered = 0.0;
         while let Some(facet) = self.queue.pop() {
@@ -139,8 +143,8 @@ impl<'a> Splitter<'a> {
         covered
     }
 
-    /// Leaves in `self.outline` the part of the outline from which `facet` is met before its neighbours; false
-    /// where there is none.
+    /// Leaves in `self.outline` the part of the outline from which `facet` is met before its neighbours; returns false where
+    /// there is none.
     fn cell(&mut self, ray: &Ray, outline: &[DVec2], facet: u32) -> bool {
         self.outline.clear();
         self.outline.extend(outline.iter().map(|&at| OutlineCorner { at, beyond: NONE }));
@@ -159,7 +163,7 @@ impl<'a> Splitter<'a> {
         true
     }
 
-    /// Works out the distance to a facet's plane, once for each beam; false where it lies behind.
+    /// Works out the distance to a facet's plane, once for each beam; returns false where the beam does not run toward it.
     fn is_ahead(&mut self, ray: &Ray, facet: u32) -> bool {
         let k = facet as usize;
         if self.known[k] != self.beam {
@@ -173,7 +177,7 @@ impl<'a> Splitter<'a> {
         self.distance[k].constant.is_finite()
     }
 
-    /// The facet that the ray of image point `p` meets, found by walking to ever nearer neighbours.
+    /// Returns the facet that the ray of image point `p` meets, found by walking to ever nearer neighbours.
     fn first(&mut self, ray: &Ray, p: DVec2, from: u32) -> Option<u32> {
         let mut at = self.opposite[from as usize];
         if !self.is_ahead(ray, at) {
@@ -196,8 +200,8 @@ impl<'a> Splitter<'a> {
         }
     }
 
-    /// Keeps the part of `self.outline` where `keep` is positive; false where none is. Corners within the
-    /// tolerance of the line count as on it, so that both sides of a cut agree.
+    /// Keeps the part of `self.outline` where `keep` is positive; returns false where it is positive nowhere. Corners within
+    /// the tolerance of the line count as on it, so that both sides of a cut agree.
     fn cut(&mut self, keep: Affine, tolerance: f64, beyond: u32) -> bool {
         self.values.clear();
         self.values.extend(self.outline.iter().map(|c| keep.at(c.at)));
@@ -231,7 +235,7 @@ impl<'a> Splitter<'a> {
     }
 }
 
-/// Twice the area of a counter-clockwise outline.
+/// Returns twice the area of a counter-clockwise outline.
 pub(super) fn twice_area(mut corners: impl Iterator<Item = DVec2>) -> f64 {
     let (Some(first), Some(second)) = (corners.next(), corners.next()) else { return 0.0 };
     let mut last = second - first;

@@ -1,4 +1,4 @@
-//! How the directions of beams move with the wavelength.
+//! The change of beams' exit directions with the wavelength.
 
 use super::tree::Beams;
 use crate::math::Polytope;
@@ -6,12 +6,12 @@ use crate::optics::{cos_transmitted, reflect, refract, refracted_change};
 use glam::DVec3;
 
 impl Beams {
-    /// For each beam, how far the direction of what leaves it moves over the medium's spread of indices: 0 for the glare of
-    /// the surface, and where reflection is total. `polytope` is the one that was traced.
+    /// Returns, for each beam, the change of its exit direction over the medium's spread of indices. It is 0 for the
+    /// surface's glare, and where reflection is total. `polytope` must be the one that was traced.
     pub fn sweeps(&self, polytope: &Polytope) -> Vec<DVec3> {
         let (index, spread) = (self.medium.index, self.medium.spread);
         let mut sweeps = vec![DVec3::ZERO; self.len()];
-        // Direction and change of what goes on from each beam.
+        // For each beam, the direction of the light that goes on inside, and its change.
         let mut onward: Vec<(DVec3, DVec3)> = Vec::with_capacity(self.len());
         for beam in self.iter() {
             let normal = polytope.facets()[beam.facet as usize].plane.normal;

@@ -1,17 +1,17 @@
-//! What each part of a light sheds in a direction of the light's own frame.
+//! The radiance of a light's parts by direction, in the light's own frame.
 
 use crate::optics::linear_from_encoded;
 use crate::scene::{Dome, Light, Panorama, SoftBox, toward};
 use glam::{DVec3, DVec4, Vec4Swizzles as _};
 
-/// A radiance of 1 by channel.
+/// Returns a radiance of 1 by channel: of the key illuminant, or of a colour in encoded sRGB.
 pub(super) fn channels(colour: Option<[u8; 3]>) -> DVec4 {
     colour.map_or(DVec4::X, |rgb| {
         DVec3::from_array(rgb.map(|c| linear_from_encoded(f64::from(c) / 255.0))).extend(0.0).wxyz()
     })
 }
 
-/// The broad light from a direction of the light's own frame.
+/// Returns the radiance of the broad light, which is all but the lamps, from a direction of the light's own frame.
 pub(super) fn shine(light: &Light, panorama: Option<&Panorama>, d: DVec3) -> DVec4 {
     let domes = light.dome.iter().map(|dome| channels(dome.colour) * belt(dome, d));
     let boxes = light.boxes.iter().map(|b| channels(b.colour) * b.radiance * box_cover(b, d));
@@ -22,7 +22,7 @@ pub(super) fn shine(light: &Light, panorama: Option<&Panorama>, d: DVec3) -> DVe
     domes.chain(boxes).chain(picture).sum()
 }
 
-/// A step from 0 to 1 as `x` rises through 0, smooth over a width.
+/// Rises smoothly from 0 to 1 as `x` rises through 0, over this width.
 fn step(x: f64, width: f64) -> f64 {
     if width <= 0.0 {
         return if x >= 0.0 { 1.0 } else { 0.0 };
@@ -31,6 +31,7 @@ fn step(x: f64, width: f64) -> f64 {
     t * t * (3.0 - 2.0 * t)
 }
 
+/// Returns the radiance of a dome from a direction.
 fn belt(dome: &Dome, d: DVec3) -> f64 {
     let elevation = d.z.clamp(-1.0, 1.0).asin().to_degrees();
     // A belt that reaches a pole has no edge there.
@@ -42,6 +43,7 @@ fn belt(dome: &Dome, d: DVec3) -> f64 {
     (dome.radiance + (end - dome.radiance) * part) * above * below
 }
 
+/// Returns how far a soft box covers a direction: 1 inside, 0 outside, between these along its soft edge.
 fn box_cover(b: &SoftBox, d: DVec3) -> f64 {
     let middle = toward(b.azimuth, b.elevation);
     let (sin, cos) = b.azimuth.to_radians().sin_cos();

@@ -1,12 +1,12 @@
-//! Planes in clusters, so that a shader need not try all of a large stone's.
+//! Groups planes into clusters, so that a shader need not try all planes of a large stone.
 
 use super::gpu_types::Cluster;
 use crate::math::Plane;
 
-/// Planes in a cluster at most.
+/// The most planes in a cluster.
 const FULL: usize = 16;
 
-/// The planes' order, cluster by cluster, and the clusters.
+/// Returns the order of the planes, cluster by cluster, and the clusters.
 pub(super) fn clusters(planes: &[Plane]) -> (Vec<u32>, Vec<Cluster>) {
     let mut order: Vec<u32> = (0..planes.len() as u32).collect();
     let mut clusters = vec![];
@@ -14,7 +14,8 @@ pub(super) fn clusters(planes: &[Plane]) -> (Vec<u32>, Vec<Cluster>) {
     (order, clusters)
 }
 
-/// Halves planes at the median of the coordinate of normal and offset that spreads most, until a cluster is small.
+/// Halves planes at the median of a coordinate, until a cluster is small. The coordinate, of normal and offset, is the one
+/// that spreads most.
 fn gather(planes: &[Plane], order: &mut [u32], first: usize, clusters: &mut Vec<Cluster>) {
     let place = |k: u32| {
         let Plane { normal, offset } = planes[k as usize];
@@ -43,7 +44,7 @@ fn cluster(planes: &[Plane], order: &[u32], first: usize) -> Cluster {
     let offset = own().map(|p| p.offset).sum::<f64>() / count;
     let spread = own().map(|p| p.normal.distance(normal)).fold(0.0, f64::max);
     let depth = own().map(|p| (p.offset - offset).abs()).fold(0.0, f64::max);
-    // Bounds must hold in f32 too: a little more than what they are.
+    // Widened a little, as bounds must hold in f32 too.
     let wide = |x: f64| (x * (1.0 + 1e-6) + 1e-6) as f32;
     Cluster {
         middle: [normal.x as f32, normal.y as f32, normal.z as f32, offset as f32],

@@ -1,74 +1,75 @@
-//! Opening a graphics card, and what can go wrong with one.
+//! Opens a graphics card, and says what can go wrong with one.
 
 use super::shaders::{Pipelines, ShaderTask};
 use std::sync::{Arc, Mutex, PoisonError};
 use wgpu::util::DeviceExt;
 
-/// Why the work cannot be done by the graphics card; point rays can do it instead.
+/// Why the graphics card cannot do the work; point rays on the processor can do it instead.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum GpuError {
-    /// No card, or no driver that can compute.
+    /// There is no card, or no driver that can compute.
     #[error("no graphics card that can compute was found ({0}); install its Vulkan driver, or trace by rays")]
     NoAdapter(String),
-    /// The driver refuses a device with the least that is needed.
+    /// The driver refuses a device with the least limits that are needed.
     #[error("{name} is too old or its driver too limited ({why}); trace by rays")]
     TooLimited {
-        /// The card.
+        /// The card's name.
         name: String,
-        /// What the driver says.
+        /// The driver's message.
         why: String,
     },
-    /// It stopped in the middle: memory that ran out, a driver that was reset.
+    /// The card failed during the work: its memory ran out, or its driver was reset.
     #[error("{name} failed: {why}")]
     Failed {
-        /// The card.
+        /// The card's name.
         name: String,
-        /// What the driver says.
+        /// The driver's message.
         why: String,
     },
     /// There are more stones than the card has room for.
     #[error("{count} stones are traced by rays; the graphics card takes {most}")]
     TooManyStones {
-        /// How many there are.
+        /// The number of stones.
         count: usize,
-        /// How many there is room for.
+        /// The most stones that the card takes.
         most: usize,
     },
     /// There are more triangles than the card has room for.
     #[error("{count} triangles are traced by rays; the graphics card takes {most}")]
     TooManyTriangles {
-        /// How many there are.
+        /// The number of triangles.
         count: usize,
-        /// How many there is room for.
+        /// The most triangles that the card takes.
         most: usize,
     },
-    /// There are smooth solids and others beside one another.
+    /// Smooth solids stand beside others in one picture.
     #[error("glass beside stones is traced by rays; the graphics card takes one kind at a time")]
     MixedKinds,
-    /// A driver in software would follow too few bounces.
+    /// A software driver would follow too few bounces.
     #[error("{name} follows only {bounces} bounces among {stones} stones")]
     TooFewBounces {
-        /// The card.
+        /// The card's name.
         name: String,
-        /// How many.
+        /// The number of bounces that it would follow.
         bounces: u32,
-        /// How many stones there are.
+        /// The number of stones.
         stones: usize,
     },
     /// The scope has more bands than a pixel has room for.
     #[error("a scope of {count} bands is traced by rays; the graphics card takes {most}")]
     TooManyBands {
-        /// How many it has.
+        /// The number of the scope's bands.
         count: usize,
-        /// How many there is room for.
+        /// The most bands that a pixel holds.
         most: usize,
     },
 }
 
-/// OpenGL draws windows where there is nothing better; its compute shaders are not relied on.
+/// The interface that is not used: OpenGL draws windows where there is nothing better, but its compute shaders are not
+/// relied on.
 const UNTRUSTED: wgpu::Backends = wgpu::Backends::GL;
 
-/// An open graphics card with its compiled shaders.
+/// An open graphics card and its shaders, each compiled when first used.
 pub struct Gpu {
     pub(super) device: wgpu::Device,
     pub(super) queue: wgpu::Queue,
@@ -80,8 +81,7 @@ pub struct Gpu {
 }
 
 impl Gpu {
-    /// Opens the strongest card there is, or a driver that computes in software where there is none, and compiles
-    /// the shaders.
+    /// Opens the strongest card, or a driver that computes in software where there is no card.
     ///
     /// # Errors
     /// Where there is neither, or it is too limited.
@@ -106,20 +106,20 @@ impl Gpu {
         Self::of(device, queue, &info)
     }
 
-    /// What a device must be asked for on this adapter to be of use.
+    /// Returns the description with which to request a device on this adapter, so that it is of use here.
     pub fn wanted(adapter: &wgpu::Adapter) -> wgpu::DeviceDescriptor<'static> {
         wgpu::DeviceDescriptor {
             label: Some("brillianteer"),
-            // Photographs may be as large as the card takes them.
+            // Backplates may be as large as the card allows.
             required_limits: wgpu::Limits::downlevel_defaults().using_resolution(adapter.limits()),
             ..Default::default()
         }
     }
 
-    /// Shares a device that is open already, one that was asked for as [`wanted`](Self::wanted).
+    /// Shares a device that is open already and was requested as [`wanted`](Self::wanted) says.
     ///
     /// # Errors
-    /// Where the interface that it is driven by does not compute, or something has gone wrong with it.
+    /// Where the interface that drives the device does not compute, or something has gone wrong with the device.
     pub fn of(device: wgpu::Device, queue: wgpu::Queue, info: &wgpu::AdapterInfo) -> Result<Self, GpuError> {
         if UNTRUSTED.contains(wgpu::Backends::from(info.backend)) {
             let why = format!("{} does not compute", info.backend);
@@ -136,17 +136,17 @@ impl Gpu {
         gpu.check().map(|()| gpu)
     }
 
-    /// The card's name and the interface that it is driven by.
+    /// Returns the card's name and the interface that drives it.
     pub fn name(&self) -> &str {
         &self.name
     }
 
-    /// Whether it is no card but a driver that computes on the processor, which point rays do quicker.
+    /// Whether this is a driver that computes on the processor and not a card; point rays in f64 are quicker than that.
     pub fn is_software(&self) -> bool {
         self.is_software
     }
 
-    /// A buffer with this in it.
+    /// Creates a buffer with these contents.
     pub(super) fn buffer(&self, label: &str, contents: &[u8], usage: wgpu::BufferUsages) -> wgpu::Buffer {
         self.device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
             label: Some(label),
@@ -155,13 +155,13 @@ impl Gpu {
         })
     }
 
-    /// Waits until all work is done.
+    /// Waits until all submitted work is done.
     pub(super) fn wait(&self) -> Result<(), GpuError> {
         self.device.poll(wgpu::PollType::wait_indefinitely()).map_err(|e| self.failed(e.to_string()))?;
         self.check()
     }
 
-    /// Whether anything has gone wrong so far.
+    /// Returns an error where something has gone wrong with the card so far.
     pub(super) fn check(&self) -> Result<(), GpuError> {
         let fault = self.fault.lock().unwrap_or_else(PoisonError::into_inner);
         fault.as_ref().map_or(Ok(()), |why| Err(self.failed(why.clone())))
@@ -172,7 +172,7 @@ impl Gpu {
     }
 }
 
-/// Keeps the first fault: those that follow are its consequences.
+/// Keeps the first fault: later ones are its consequences.
 fn note(fault: &Mutex<Option<String>>, why: String) {
     let why = why.split_whitespace().collect::<Vec<_>>().join(" ");
     fault.lock().unwrap_or_else(PoisonError::into_inner).get_or_insert(why);

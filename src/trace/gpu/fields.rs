@@ -1,9 +1,9 @@
-//! Glass shapes, as a card takes them.
+//! Packs glass shapes (implicit surfaces) for the graphics card.
 
 use super::gpu_types::{self, with};
 use crate::math::{ImplicitSurface, SurfaceParts};
 
-/// A shape's function and where it stands: all of it can change from one picture to the next.
+/// Packs a shape's function and its place in the world: all of it can change from one picture to the next.
 pub(super) fn field(field: &ImplicitSurface) -> gpu_types::ImplicitSurface {
     let SurfaceParts { corner, round, flank, half, edge, body_reach, wave, axes, shift, unit } =
         field.parts();

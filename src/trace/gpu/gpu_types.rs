@@ -1,9 +1,9 @@
-//! What crosses the door between program and shader, declared once for both.
+//! The structs that the program and its shaders share, each declared once for both.
 
 use bytemuck::{Pod, Zeroable};
 
-/// Declares a struct whose fields are all one number or all four wide, so that Rust and WGSL lay it out alike, and its WGSL
-/// text.
+/// Declares a struct, and the text that declares it in WGSL. Its fields are all one number wide or all four numbers wide, so
+/// that Rust and WGSL lay it out alike.
 macro_rules! both_sides {
     ($(#[$meta:meta])* $name:ident, $wgsl:ident { $($(#[$doc:meta])* $field:ident: $kind:ident,)* }) => {
         $(#[$meta])*
@@ -11,7 +11,7 @@ macro_rules! both_sides {
         #[repr(C)]
         pub struct $name { $($(#[$doc])* pub $field: both_sides!(@ $kind),)* }
 
-        /// The same in WGSL.
+        /// The declaration of the struct in WGSL.
         pub(super) const $wgsl: &str =
             concat!("struct ", stringify!($name), " {", $(stringify!($field), ": ", both_sides!(# $kind), ",",)* "}\n");
     };
@@ -26,80 +26,81 @@ macro_rules! both_sides {
 }
 
 both_sides! {
-    /// All that a dispatch is told, whatever it looks for.
+    /// The parameters of a dispatch, for scopes and for light.
     Frame, FRAME_WGSL {
-        /// The image's x axis; how far the stones reach from the origin.
+        /// xyz: the image's x axis; w: how far the stones reach from the origin.
         right: vec4f,
-        /// The image's y axis; the side of a pixel.
+        /// xyz: the image's y axis; w: the side of a pixel.
         up: vec4f,
-        /// The axis to the eye; its distance, 0 for parallel rays.
+        /// xyz: the axis to the eye; w: the eye's distance, 0 for parallel rays.
         toward: vec4f,
-        /// Least weight; how far, in parts of the band, from the wavelength taken to its middle; where in its pixel, or its cell of the pixel's grid, a ray stands, x and y.
+        /// x: the least weight that is followed; y: how far it is from the traced wavelength to its band's middle, as a part
+        /// of the band; zw: where the ray stands in its pixel, or in its cell of the pixel's grid.
         limits: vec4f,
-        /// Stones; wavelengths; most bounces; 1 for polarised.
+        /// x: number of stones; y: number of wavelengths; z: most bounces; w: 1 for polarised light.
         counts: vec4u,
-        /// Pixels across; pixels down; first row and number of rows of this dispatch.
+        /// x: pixels across; y: pixels down; z: first row of this dispatch; w: number of its rows.
         film: vec4u,
-        /// How many dispatches the pixels have seen; in scopes the rays along each side of a pixel, under light the first
-        /// row that the stage holds; first wavelength and the one after the last.
+        /// x: how many dispatches the pixels have had before; y: in scopes the rays along each side of a pixel, under light
+        /// the first row that the buffer holds; z: first wavelength; w: the one after the last.
         turn: vec4u,
-        /// Turns of loops that a ray may take where it counts them; nothing in the others.
+        /// x: loop turns that a ray may take where it counts them; the others are unused.
         most: vec4u,
-        /// How much of the way that refraction turns light is followed, 1 for physics; nothing in the others.
+        /// x: the share of refraction's turning of light that is followed, 1 for physics; the others are unused.
         strength: vec4f,
     }
 }
 
 both_sides! {
-    /// A scope.
+    /// The bands of a scope.
     Bands, BANDS_WGSL {
-        /// Its axis.
+        /// xyz: the scope's axis.
         zenith: vec4f,
-        /// Sines of the elevations at which the bands after the first begin; 2 where there is none.
+        /// Sines of the elevations at which the four bands after the first begin; 2 where there is none.
         borders_low: vec4f,
-        /// The next four.
+        /// The same of the next four.
         borders_high: vec4f,
     }
 }
 
 both_sides! {
-    /// One stone.
+    /// One stone: the ball around it, and where its surface is kept.
     Body, BODY_WGSL {
-        /// Middle and radius of a ball around it.
+        /// xyz: middle of a ball around the stone; w: its radius.
         middle: vec4f,
-        /// Its first plane, the one after its last, and the same of its clusters; or of its triangles and boxes; or its place
-        /// among the shapes.
+        /// Of planes: the first, the one after the last, the first cluster, the one after the last. Of triangles: the same
+        /// of triangles and boxes. Of a glass shape: x is its index among the shapes.
         range: vec4u,
     }
 }
 
 both_sides! {
-    /// What a stone is made of at one wavelength, as in [`crate::scene::Medium`].
+    /// The medium of a stone at one wavelength, as [`crate::scene::Medium`].
     Medium, MEDIUM_WGSL {
         /// Refractive index.
         index: f32,
-        /// Its change over the wavelengths that are taken for one.
+        /// Change of the index over the wavelengths that are taken for one.
         spread: f32,
-        /// Absorption of the ordinary polarisation.
+        /// Absorption coefficient of the ordinary polarisation.
         absorption_o: f32,
-        /// Of the extraordinary.
+        /// Absorption coefficient of the extraordinary polarisation.
         absorption_e: f32,
     }
 }
 
 both_sides! {
-    /// What stands around the stones.
+    /// The environment around the stones.
     Environment, ENVIRONMENT_WGSL {
-        /// Its x axis; side of its map.
+        /// xyz: the light's x axis; w: side of its map, in texels.
         right: vec4f,
-        /// Its y axis; number of lamps.
+        /// xyz: the light's y axis; w: number of lamps.
         up: vec4f,
-        /// Its axis; number of the map's last level.
+        /// xyz: the light's axis; w: number of the map's last level.
         zenith: vec4f,
-        /// The photograph's distance behind the origin and its width, 0 for none; cosine of the head's half angle, and
-        /// least width of its shadow's edge.
+        /// x: the backplate's distance behind the origin; y: its width, 0 for none; z: cosine of the half angle of the
+        /// observer's head, above 1 for none; w: least width of the edge of its shadow.
         photo: vec4f,
-        /// 1 where rays beside the stones see what stands around.
+        /// x: 1 where rays that miss the stones see the environment.
         backdrop: vec4f,
     }
 }
@@ -107,7 +108,7 @@ both_sides! {
 both_sides! {
     /// A small disc of even light.
     Lamp, LAMP_WGSL {
-        /// Direction to its middle; square of the chord from there to its edge.
+        /// xyz: unit direction to its middle; w: square of the chord from there to its edge.
         toward: vec4f,
         /// Radiance by channel.
         radiance: vec4f,
@@ -115,31 +116,31 @@ both_sides! {
 }
 
 both_sides! {
-    /// The colour of each channel's light in a band of wavelengths.
+    /// The colour of each channel's light in one band of wavelengths.
     Response, RESPONSE_WGSL {
-        /// Of the key illuminant.
+        /// xyz: linear sRGB of the key illuminant's light.
         key: vec4f,
-        /// Of red.
+        /// xyz: linear sRGB of red light.
         red: vec4f,
-        /// Of green.
+        /// xyz: linear sRGB of green light.
         green: vec4f,
-        /// Of blue.
+        /// xyz: linear sRGB of blue light.
         blue: vec4f,
     }
 }
 
 both_sides! {
-    /// What light shows of one pixel: sums over rays and wavelengths.
+    /// The light of one pixel: sums over rays and wavelengths.
     RadiancePixel, RADIANCE_PIXEL_WGSL {
-        /// Red, green, blue, cover.
+        /// xyz: red, green, blue; w: cover.
         colour: vec4f,
-        /// Unresolved; absorbed; nothing in the others.
+        /// x: unresolved; y: absorbed; the others are unused.
         rest: vec4f,
     }
 }
 
 both_sides! {
-    /// What is seen through one pixel: means over its rays. Zones are by band, in the scope's order.
+    /// What a scope records of one pixel: means over its rays. Arrays are by band, in the scope's order.
     ScopePixel, SCOPE_PIXEL_WGSL {
         /// Light from inside the stone.
         transmitted: two_vec4f,
@@ -147,29 +148,29 @@ both_sides! {
         surface: two_vec4f,
         /// Share of rays whose strongest exit lies in the band.
         strongest: two_vec4f,
-        /// Absorbed; unresolved; share of rays that hit; share of rays with no certain strongest exit.
+        /// x: absorbed; y: unresolved; z: share of rays that hit; w: share of rays with no certain strongest exit.
         rest: vec4f,
     }
 }
 
 both_sides! {
-    /// Planes that look much the same way.
+    /// A cluster: planes of similar normals and offsets.
     Cluster, CLUSTER_WGSL {
-        /// Mean normal and offset.
+        /// xyz: mean normal; w: mean offset.
         middle: vec4f,
-        /// How far its normals and its offsets lie from these; first plane; number of planes.
+        /// x, y: how far its normals and its offsets lie from these at most; z: first plane; w: number of planes.
         spread: vec4f,
     }
 }
 
 both_sides! {
-    /// A triangle, and the normal of its facet in the corners' fourth places.
+    /// A triangle; the fourth numbers of its corners are the normal of its facet.
     Triangle, TRIANGLE_WGSL {
-        /// One corner; the normal's x.
+        /// xyz: first corner; w: the normal's x.
         a: vec4f,
-        /// The next; y.
+        /// xyz: second corner; w: the normal's y.
         b: vec4f,
-        /// The last; z.
+        /// xyz: third corner; w: the normal's z.
         c: vec4f,
     }
 }
@@ -177,19 +178,20 @@ both_sides! {
 both_sides! {
     /// A glass shape: [`crate::math::ImplicitSurface`] in its own frame, in which it reaches 1 from the origin.
     ImplicitSurface, IMPLICIT_SURFACE_WGSL {
-        /// The frame's x axis in the world; half the length of the core.
+        /// xyz: the frame's x axis in the world; w: half the length of the core.
         right: vec4f,
-        /// Its y axis; radius of the ball that is rolled around the core.
+        /// xyz: the frame's y axis in the world; w: radius of the ball that is rolled around the core.
         back: vec4f,
-        /// Its z axis; how far the body without its wave reaches.
+        /// xyz: the frame's z axis in the world; w: how far the body without its wave reaches.
         up: vec4f,
-        /// Its origin; the length of its unit in the world.
+        /// xyz: the frame's origin in the world; w: the length of its unit there.
         shift: vec4f,
-        /// Half sides of the outline, radius of the disc around it, 0; or a triangle's corner at +y, its apex, 1.
+        /// A rectangle's half sides, the radius of the disc rolled around it, and 0; or a triangle's corner at +y, z of its
+        /// apex, and 1.
         outline: vec4f,
-        /// Normal and length of a triangle's flank at +y; 1 where there is a wave.
+        /// xy: outward unit normal of a triangle's flank at +y; z: the flank's length; w: 1 where there is a wave.
         flank: vec4f,
-        /// The wave's amplitude; its waves per unit; its phase in turns; nothing.
+        /// x: the wave's amplitude; y: its waves per unit of length; z: its phase in turns; w is unused.
         wave: vec4f,
     }
 }
@@ -197,36 +199,37 @@ both_sides! {
 both_sides! {
     /// A box around triangles, as [`crate::math::BvhNode`].
     BvhNode, BVH_NODE_WGSL {
-        /// Least coordinates; how many nodes after it the second half stands, or its first triangle.
+        /// xyz: least coordinates; w: of a box of boxes, how many nodes after it its second half stands; of a box of
+        /// triangles, its first triangle.
         low: vec4f,
-        /// Greatest coordinates; how many triangles stand right in it.
+        /// xyz: greatest coordinates; w: how many triangles stand directly in it, 0 for a box of boxes.
         high: vec4f,
     }
 }
 
 impl ScopePixel {
-    /// Share absorbed.
+    /// Returns the share of the light that was absorbed.
     pub fn absorbed(&self) -> f32 {
         self.rest[0]
     }
 
-    /// Share not followed to its end.
+    /// Returns the share of the light that was not followed to its end.
     pub fn unresolved(&self) -> f32 {
         self.rest[1]
     }
 
-    /// Share of the pixel's rays that hit the stone.
+    /// Returns the share of the pixel's rays that hit the stone.
     pub fn hit(&self) -> f32 {
         self.rest[2]
     }
 
-    /// Share of its rays whose strongest exit is not certain.
+    /// Returns the share of the pixel's rays whose strongest exit is not certain.
     pub fn undecided(&self) -> f32 {
         self.rest[3]
     }
 }
 
-/// A vector and a fourth number, narrowed.
+/// Packs a vector and a fourth number as f32.
 pub(super) fn with(v: glam::DVec3, w: f64) -> [f32; 4] {
     [v.x as f32, v.y as f32, v.z as f32, w as f32]
 }

@@ -1,4 +1,4 @@
-//! Pictures under light, by a card.
+//! Traces pictures under light on a graphics card.
 
 use super::device::{Gpu, GpuError};
 use super::gpu_types::{self, Lamp, Response, with};
@@ -13,16 +13,16 @@ use glam::{DVec2, DVec3};
 use std::ops::Range;
 use wgpu::util::DeviceExt;
 
-/// Wavelengths that one look may have.
+/// The most wavelengths that one sample pass may have.
 pub const MOST_WAVELENGTHS: usize = 64;
 
-/// Lamps that a sky may have.
+/// The most lamps that an environment may have.
 pub(super) const MOST_LAMPS: usize = scene::MOST_LAMPS;
 
-/// Wavelengths of one dispatch.
+/// The most wavelengths of one dispatch.
 const AT_ONCE: usize = 16;
 
-/// Rows of a picture, traced by a card.
+/// Rows of a picture under light, traced by a graphics card.
 pub struct ByCard<'a> {
     rows: Range<u32>,
     at_once: u32,
@@ -32,22 +32,22 @@ pub struct ByCard<'a> {
     wavelengths: usize,
     dispatches: u32,
     looks: u32,
-    /// From a film around the origin to the sitting's, pixels.
+    /// How far a film around the origin is shifted to become the picture's, in pixels.
     shift: DVec2,
 }
 
 impl<'a> ByCard<'a> {
-    /// The most rows that may be prepared at once of a film so many pixels across.
+    /// Returns the most rows that may be prepared at once of a film this many pixels across.
     pub fn most_rows(across: u32) -> u32 {
-        // A buffer of 64 MiB.
+        // They fill a buffer of 64 MiB.
         ((1 << 21) / across).max(1)
     }
 
-    /// Prepares some rows of a picture, at most [`most_rows`](Self::most_rows), to be looked at in so many bands of
-    /// wavelengths, at most [`MOST_WAVELENGTHS`]; `around` is the sitting's environment.
+    /// Prepares some rows of a picture, at most [`most_rows`](Self::most_rows), for sample passes of `wavelengths` bands, at
+    /// most [`MOST_WAVELENGTHS`]; `around` is the environment of `lit_scene`.
     ///
     /// # Errors
-    /// What is wrong with the card, or beyond it.
+    /// [`GpuError`], where the card has failed or the scene is beyond it.
     pub fn new(
         gpu: &'a Gpu,
         lit_scene: &LitScene,
@@ -92,7 +92,7 @@ impl<'a> ByCard<'a> {
         })
     }
 
-    /// Tells the card what the stones are made of and how their light is coloured.
+    /// Writes the media of the stones and the colours of the bands to the card's memory.
     fn write_frame(&self, look: &SamplePass) {
         let media: Vec<gpu_types::Medium> =
             look.media.iter().flatten().map(gpu_types::Medium::from).collect();
@@ -143,7 +143,7 @@ impl<E: From<Stopped> + From<GpuError>> ProgressiveImage<E> for ByCard<'_> {
     }
 }
 
-/// What stands around, in a card's memory: the same for all rows of a picture.
+/// The environment of a picture in a card's memory: the same for all of its rows.
 pub struct GpuEnvironment {
     environment: wgpu::Buffer,
     lamps: wgpu::Buffer,
@@ -152,7 +152,7 @@ pub struct GpuEnvironment {
 }
 
 impl GpuEnvironment {
-    /// Takes it there.
+    /// Copies an environment to the card's memory.
     pub fn new(gpu: &Gpu, environment: &Environment) -> Self {
         let mut lamps: Vec<Lamp> = environment
             .map
@@ -192,7 +192,7 @@ impl GpuEnvironment {
 
 fn environment_uniform(environment: &Environment, lamps: usize) -> gpu_types::Environment {
     let Environment { map: sky, basis, head, backplate: behind, backdrop, .. } = environment;
-    // Without a head nothing is ever so near to the axis.
+    // Without a head: no direction has so large a cosine.
     let cos_head = if *head > 0.0 { head.cos() } else { 3.0 };
     let (distance, width) = behind.map_or((0.0, 0.0), |b| (b.distance, b.width));
     gpu_types::Environment {
@@ -204,7 +204,7 @@ fn environment_uniform(environment: &Environment, lamps: usize) -> gpu_types::En
     }
 }
 
-/// A picture of four numbers a pixel, with its coarser levels.
+/// Creates a texture of four numbers a pixel, with its coarser levels.
 fn texture(gpu: &Gpu, (width, height): (u32, u32), levels: &[&[[f32; 4]]]) -> wgpu::TextureView {
     let texture = gpu.device.create_texture_with_data(
         &gpu.queue,

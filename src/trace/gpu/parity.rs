@@ -1,4 +1,5 @@
-//! The shaders beside their twins: valid without a card, and with one the same numbers from both.
+//! Tests of the shaders against their twins in Rust: without a card, that they are valid; with one, that both give the same
+//! numbers.
 
 mod glass;
 mod lamps;
@@ -53,7 +54,8 @@ fn every_shader_is_valid_and_its_structs_are_laid_out_as_in_rust() {
     }
 }
 
-/// One meeting of a ray and a surface on the card: (cos_i, eta, a turn, unused) to what the shader makes of it.
+/// A shader that takes rays which meet a surface, as (cos_i, eta, turn of the axes, unused), and returns all that the optics
+/// make of each.
 const MEETING_WGSL: &str = "
 @group(0) @binding(0) var<storage, read> given: array<vec4f>;
 @group(0) @binding(1) var<storage, read_write> found: array<array<vec4f, 7>>;
@@ -85,7 +87,7 @@ fn meeting(@builtin(global_invocation_id) id: vec3u) {
 }
 ";
 
-/// The same in f64; the coherency matrix as J J† of fields, written out anew.
+/// Computes the same in f64, with the coherency matrix as J J† of fields, written out anew.
 fn meeting(cos_i: f64, eta: f64, turn: f64) -> [[f64; 4]; 7] {
     let f = fresnel(cos_i, eta);
     let (d, n) = (DVec3::new((1.0 - cos_i * cos_i).max(0.0).sqrt(), 0.0, -cos_i), DVec3::Z);
@@ -124,27 +126,28 @@ fn the_shaders_optics_are_those_of_the_library() {
         (0..6000).map(|k| [(k / 6) as f32 / 999.0, etas[k % 6], 0.001 * k as f32, 0.0]).collect();
     let text = include_str!("../../../shaders/optics.wgsl").to_owned() + MEETING_WGSL;
     let found = run(&gpu, text, &given, None);
-    // Allowed is what the root of 1e-3 loses in f32.
+    // The tolerance is what the root of 1e-3 loses in f32.
     let (count, largest) = compared(&given, &found, 1.0);
     assert!(count > 5900 && largest < 5e-5, "{count} compared, off by {largest:e}");
     let mutant = compared(&given, &found, 1.001).1;
     assert!(mutant > 1e-3, "another index makes only {mutant:e}");
 }
 
-/// How many meetings were compared with those at `factor` times the index, and the largest difference.
+/// Compares the card's results with the exact ones at `factor` times the index: returns how many were compared, and the
+/// largest difference.
 fn compared(given: &[[f32; 4]], found: &[[[f32; 4]; 7]], factor: f64) -> (u32, f64) {
     let (mut compared, mut largest) = (0, 0.0_f64);
     for (given, found) in given.iter().zip(found) {
         let [cos_i, eta, turn, _] = given.map(f64::from);
         let eta = eta * factor;
         let squared = (1.0 - eta * eta) + (eta * cos_i).powi(2);
-        // The root of what is almost nothing has few digits in f32.
+        // The root of a number near 0 has few digits in f32.
         if squared.abs() < 1e-3 {
             continue;
         }
         let exact = meeting(cos_i, eta, turn);
         let both = found.iter().flatten().zip(exact.iter().flatten()).enumerate();
-        // Where reflection is total no ray is refracted, and what stands there means nothing.
+        // Where reflection is total no ray is refracted, and the numbers in its place mean nothing.
         let meant = both.filter(|(k, _)| squared > 0.0 || !((8..11).contains(k) || (20..23).contains(k)));
         largest = meant.map(|(_, (a, b))| (f64::from(*a) - b).abs()).fold(largest, f64::max);
         compared += 1;
@@ -152,7 +155,7 @@ fn compared(given: &[[f32; 4]], found: &[[[f32; 4]; 7]], factor: f64) -> (u32, f
     (compared, largest)
 }
 
-/// The card, where there is one; loudly none where there is not, and an error where one is required.
+/// Opens the card. Where there is none it reports that the test is skipped, or panics where a card is required.
 fn card(test: &str) -> Option<Gpu> {
     match Gpu::open() {
         Ok(gpu) => Some(gpu),
@@ -164,7 +167,7 @@ fn card(test: &str) -> Option<Gpu> {
     }
 }
 
-/// What a shader of one entry makes of every four numbers, with other data where it needs some.
+/// Runs a shader of one entry point on each four numbers, with other data where it needs some, and returns its results.
 fn run<T: bytemuck::Pod>(gpu: &Gpu, text: String, given: &[[f32; 4]], other: Option<&[u8]>) -> Vec<T> {
     let device = &gpu.device;
     let pipeline = compiled(device, text);

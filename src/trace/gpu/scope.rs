@@ -1,4 +1,4 @@
-//! What cameras see in scopes, by a card.
+//! Traces pictures in scopes on a graphics card.
 
 use super::device::{Gpu, GpuError};
 use super::gpu_types::{Bands, Medium as MediumAtDoor, ScopePixel, with};
@@ -10,38 +10,38 @@ use crate::trace::ray::RayOptions;
 use crate::trace::{Stopped, Watch};
 use glam::{DVec2, DVec3};
 
-/// The most bands that a scope may have here.
+/// The most bands of a scope that a graphics card traces.
 pub const MOST_BANDS: usize = 8;
 
-/// Rays are followed no further: chains of very different lengths side by side would leave most of a card idle.
+/// The most bounces of a ray on a graphics card: chains of very different lengths side by side would leave most of it idle.
 pub const MOST_BOUNCES: u32 = 64;
 
-/// One picture to take: its rays on a regular grid in each pixel.
+/// One picture in a scope; its rays stand on a regular grid in each pixel.
 pub struct ScopeShot<'a> {
     /// The stone.
     pub solid: SolidRef<'a>,
-    /// What it is made of.
+    /// The stone's medium.
     pub medium: Medium,
-    /// From where it is seen.
+    /// The view from which the stone is seen.
     pub view: &'a View,
-    /// Under which light, of at most [`MOST_BANDS`] bands.
+    /// The scope, of at most [`MOST_BANDS`] bands.
     pub scope: &'a Scope,
     /// The picture's pixels.
     pub film: Film,
     /// Rays along each side of a pixel, at least 1.
     pub per_side: u32,
-    /// Where in its cell of that grid each ray stands, 0 to 1; (0.5, 0.5) is the middle.
+    /// The place of each ray in its cell of that grid, 0 to 1; (0.5, 0.5) is the middle.
     pub shift: DVec2,
     /// How far rays are followed, at most [`MOST_BOUNCES`] bounces.
     pub options: RayOptions,
 }
 
 impl Gpu {
-    /// Takes a picture, some rows at a time, from the top: calls `each` with the first row's number and the pixels
-    /// of whole rows.
+    /// Takes a picture, some rows at a time, from the top: calls `each` with the first row's number and the pixels of whole
+    /// rows.
     ///
     /// # Errors
-    /// What `each` answers, [`Stopped`], or what is wrong with the card, both turned into its kind of error.
+    /// The error of `each`; [`Stopped`] or a [`GpuError`], turned into the same kind of error.
     pub fn scope<E: From<Stopped> + From<GpuError>>(
         &self,
         shot: &ScopeShot,

@@ -1,4 +1,4 @@
-//! The shaders: put together as text, compiled once.
+//! The shaders: put together as text, and each compiled when first used.
 
 use super::gpu_types;
 use super::light::{MOST_LAMPS, MOST_WAVELENGTHS};
@@ -7,14 +7,14 @@ use crate::trace::environment::TEXEL_ANGLE;
 use crate::trace::sampling::MOST_WAITING;
 use std::sync::OnceLock;
 
-/// What stones are made of.
+/// The kinds of surface that shaders trace.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum ShaderSurface {
-    /// At most 1024 planes in all, at most 192 in a stone.
+    /// Convex stones of at most 192 planes each and 1024 in all.
     Few,
-    /// More, in clusters.
+    /// Convex stones of more planes, in clusters.
     Many,
-    /// Triangles, not all of them of a convex stone.
+    /// Triangles of stones that are not all convex.
     Triangles,
     /// Glass shapes that are convex.
     Smooth,
@@ -23,16 +23,16 @@ pub(super) enum ShaderSurface {
 }
 
 impl ShaderSurface {
-    /// All kinds.
+    /// All variants.
     pub const ALL: [Self; 5] = [Self::Few, Self::Many, Self::Triangles, Self::Smooth, Self::Wavy];
 
-    /// Whether rays count the turns of their loops.
+    /// Whether rays count the turns of their loops, so that a limit ends them.
     pub fn count_turns(self) -> bool {
         matches!(self, Self::Triangles | Self::Smooth | Self::Wavy)
     }
 }
 
-/// What is looked for.
+/// What a shader records of each pixel.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum ShaderTask {
     /// Energy by the bands of a scope.
@@ -41,13 +41,13 @@ pub(super) enum ShaderTask {
     Light,
 }
 
-/// One reading's pipelines, each compiled when first used.
+/// The pipelines of one task, one for each kind of surface, each compiled when first used.
 pub(super) struct Pipelines {
     reading: ShaderTask,
     by_facets: [OnceLock<wgpu::ComputePipeline>; ShaderSurface::ALL.len()],
 }
 
-/// A shader's text, its structs and constants in front.
+/// Returns a shader's text, with its structs and constants in front.
 pub(super) fn source(facets: ShaderSurface, reading: ShaderTask) -> String {
     let constants = format!(
         "const MOST_PLANES: u32 = {MOST_UNIFORM}u;\nconst MOST_BODIES: u32 = {MOST_BODIES}u;\n\
@@ -115,7 +115,7 @@ impl Pipelines {
     }
 }
 
-/// The pipeline of a text's one entry.
+/// Compiles a shader's text, which has one entry point, into a pipeline.
 pub(super) fn compiled(device: &wgpu::Device, text: String) -> wgpu::ComputePipeline {
     let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
         label: None,

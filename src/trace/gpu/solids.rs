@@ -1,4 +1,4 @@
-//! Stones in a card's memory.
+//! Packs the stones of a picture into a card's memory.
 
 use super::clusters::clusters;
 use super::device::Gpu;
@@ -10,48 +10,51 @@ use crate::math::{ImplicitSurface, Plane, SolidRef};
 use crate::trace::gpu::GpuError;
 use crate::trace::sampling::MOST_WAITING;
 
-/// Planes that fit into the uniform array, 16 KiB.
+/// The most planes that fit into the uniform array, 16 KiB.
 pub(super) const MOST_UNIFORM: usize = 1024;
 
-/// With more planes than this in a stone, clusters are quicker than all planes one after the other.
+/// The number of planes in a stone above which clusters are quicker than trying all planes one after the other.
 const FEW: usize = 192;
 
-/// Stones that one picture may hold.
+/// The most stones that one picture may hold.
 pub const MOST_BODIES: usize = 256;
 
-/// Software drivers end a shader's loops, whatever they have done by then, after 65,535 turns: what one ray tries stays
-/// below this.
+/// Loop turns that one ray's search stays below on a software driver: such drivers end a shader's loops after 65,535 turns,
+/// whatever they have done by then.
 const MOST_TURNS_IN_SOFTWARE: usize = 60_000;
 
-/// Turns after which the light of a ray that counts them is unresolved, on a card: lest a driver think that it hung.
+/// Loop turns after which, on a card, the light of a ray that counts them is unresolved, so that no driver thinks that it
+/// hangs.
 const MOST_TURNS: u32 = 1 << 20;
 
-/// The same in software: what is not counted stays below the rest.
+/// The same on a software driver; turns that are not counted fit into the rest.
 const MOST_COUNTED_IN_SOFTWARE: u32 = 48_000;
 
-/// Light of one ray that may wait to enter a stone that is not convex again; the weakest of what rays in hearts and stars leave
-/// waiting at once is some ten.
+/// The most exits of one ray that may wait to enter a stone that is not convex again; rays in hearts and stars leave some
+/// ten waiting at once.
 pub(super) const MOST_INBOUND: usize = 16;
 
-/// Boxes that may lie within one another.
+/// The most boxes that may lie within one another.
 pub(super) const MOST_LEVELS: usize = 56;
 
-/// Turns of loops that one ray may take where it counts them.
+/// Returns the loop turns that one ray may take where it counts them.
 pub(super) fn most_turns(gpu: &Gpu) -> u32 {
     if gpu.is_software() { MOST_COUNTED_IN_SOFTWARE } else { MOST_TURNS }
 }
 
-/// With fewer bounces, pictures of stones would be dark.
+/// The least number of bounces: with fewer, pictures of stones would be dark.
 const LEAST_BOUNCES: u32 = 12;
 
-/// The planes of all stones, and which are whose.
+/// The surfaces of all stones of a picture in a card's memory, and which stone each part belongs to.
 pub(super) struct Solids {
     pub facets: ShaderSurface,
     pub bodies: wgpu::Buffer,
+    /// Planes, or triangles, or glass shapes.
     pub planes: wgpu::Buffer,
+    /// Clusters of planes, or boxes of triangles.
     pub clusters: wgpu::Buffer,
     pub count: usize,
-    /// Planes and clusters of the largest.
+    /// The number of planes and clusters of the largest stone.
     largest: usize,
 }
 
@@ -77,7 +80,7 @@ impl Solids {
         }
     }
 
-    /// Once one stone is of triangles all are.
+    /// Packs all stones as triangles, convex ones as well.
     fn of_triangles(gpu: &Gpu, stones: &[SolidRef], balls: &[(glam::DVec3, f64)]) -> Result<Self, GpuError> {
         let GpuTriangles { triangles, nodes, mut bodies } = GpuTriangles::new(stones, balls)?;
         bodies.resize(MOST_BODIES, Body { middle: [0.0; 4], range: [0; 4] });
@@ -144,7 +147,7 @@ impl Solids {
         }
     }
 
-    /// How many bounces the card can follow of those wanted.
+    /// Returns how many of the wanted bounces the card can follow.
     pub fn bounces(&self, gpu: &Gpu, wanted: u32) -> u32 {
         if !gpu.is_software() || self.facets.count_turns() {
             return wanted;
@@ -152,12 +155,12 @@ impl Solids {
         if self.count == 1 {
             return wanted.min((MOST_TURNS_IN_SOFTWARE / self.largest) as u32);
         }
-        // Every ray that waits is followed like the first, and what leaves is looked for in all stones.
+        // Every ray that waits is followed like the first, and each exit is looked for in all stones.
         let turns = MOST_TURNS_IN_SOFTWARE / (1 + MOST_WAITING);
         wanted.min((turns / (self.largest * (1 + self.count))) as u32)
     }
 
-    /// Whether so many bounces are enough for a picture of as many as wanted.
+    /// Checks that so many bounces are enough for a picture that wants `wanted` of them.
     pub fn enough(&self, gpu: &Gpu, bounces: u32, wanted: u32) -> Result<(), GpuError> {
         if bounces >= LEAST_BOUNCES.min(wanted) || !gpu.is_software() {
             return Ok(());
@@ -165,7 +168,7 @@ impl Solids {
         Err(GpuError::TooFewBounces { name: gpu.name().to_owned(), bounces, stones: self.count })
     }
 
-    /// What the shaders know of stones: the group's entries.
+    /// Returns the bind group entries of the stones.
     pub fn entries<'a>(&'a self, media: &'a wgpu::Buffer) -> Vec<wgpu::BindGroupEntry<'a>> {
         let entry = |binding, buffer: &'a wgpu::Buffer| wgpu::BindGroupEntry {
             binding,

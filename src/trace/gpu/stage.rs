@@ -1,4 +1,4 @@
-//! One picture on a card: its pixels, and the dispatches that add to them.
+//! The pixels of a picture in a card's memory, and the dispatches that add to them.
 
 use super::device::{Gpu, GpuError};
 use super::gpu_types::{Frame, with};
@@ -9,17 +9,17 @@ use crate::trace::ray::RayOptions;
 use bytemuck::Pod;
 use glam::DVec2;
 
-/// Pixels of one dispatch, a ray each: far less than a second's work, lest a driver think the card hung, and a buffer
-/// of less than 128 MiB, which all cards take.
+/// Pixels of one dispatch, one ray each: far less than a second's work, so that no driver thinks the card hangs, and a
+/// buffer of less than 128 MiB, which all cards take.
 const PIXELS_AT_ONCE: u32 = 1 << 20;
 
-/// The same where the processor does it.
+/// The same on a software driver.
 const PIXELS_AT_ONCE_IN_SOFTWARE: u32 = 1 << 17;
 
 /// Side of a workgroup, pixels.
 const WORKGROUP: u32 = 8;
 
-/// From where a picture is taken, and how far its rays are followed.
+/// The view and the film of a picture, and how far its rays are followed.
 pub(super) struct GpuCamera<'a> {
     pub view: &'a View,
     pub film: Film,
@@ -29,7 +29,7 @@ pub(super) struct GpuCamera<'a> {
 }
 
 impl GpuCamera<'_> {
-    /// The uniform that every dispatch of it reads.
+    /// Returns the uniform that every dispatch of the picture reads.
     pub fn frame(&self, gpu: &Gpu, solids: &Solids, wavelengths: usize) -> Frame {
         let basis = self.view.basis();
         let distance = match self.view.projection {
@@ -52,7 +52,7 @@ impl GpuCamera<'_> {
     }
 }
 
-/// Pixels of some rows, and what adds to them.
+/// The pixels of some rows in a card's memory, and the pipeline that adds to them.
 pub(super) struct Stage<'a> {
     pub gpu: &'a Gpu,
     pipeline: &'a wgpu::ComputePipeline,
@@ -61,12 +61,12 @@ pub(super) struct Stage<'a> {
     seen: wgpu::Buffer,
     back: wgpu::Buffer,
     bound: wgpu::BindGroup,
-    /// Bytes of a pixel.
+    /// Bytes per pixel.
     width: u64,
 }
 
 impl<'a> Stage<'a> {
-    /// A stage for `rows` of the frame's film, with what its shader needs beside frame and pixels.
+    /// Creates a stage for `rows` rows of the frame's film; `entries` are what its shader needs besides frame and pixels.
     pub fn new<T: Pod>(
         gpu: &'a Gpu,
         pipeline: &'a wgpu::ComputePipeline,
@@ -102,14 +102,16 @@ impl<'a> Stage<'a> {
         Ok(Self { gpu, pipeline, frame, frame_buffer, seen, back, bound, width })
     }
 
-    /// Rows that one dispatch takes of a film so many pixels across.
+    /// Returns the rows that one dispatch takes of a film of this size.
     pub fn rows(gpu: &Gpu, [across, down]: [u32; 2]) -> u32 {
         let pixels = if gpu.is_software() { PIXELS_AT_ONCE_IN_SOFTWARE } else { PIXELS_AT_ONCE };
         (pixels / across).clamp(1, down)
     }
 
-    /// Adds one ray of each pixel of some rows to what is seen through it: where in its pixel, or the grid's cell, it
-    /// stands, how far in its band it is from the middle one's wavelength, and the frame's `turn`.
+    /// Traces one ray of each pixel in `count` rows from `first` and adds it to the pixels.
+    ///
+    /// `shift` is the ray's place in its pixel, or in its cell of the pixel's grid; `to_middle` is the distance from its
+    /// wavelength to its band's middle, as a part of the band; `turn` becomes the field of that name in [`Frame`].
     pub fn look(
         &self,
         (first, count): (u32, u32),
@@ -128,11 +130,11 @@ impl<'a> Stage<'a> {
             pass.dispatch_workgroups(frame.film[0].div_ceil(WORKGROUP), count.div_ceil(WORKGROUP), 1);
         }
         self.gpu.queue.submit([encoder.finish()]);
-        // One after the other: queued up, they would outlive the wish to stop.
+        // Dispatches run one after the other: queued up, they would go on after the watch has asked to stop.
         self.gpu.wait()
     }
 
-    /// What has been seen through the first rows.
+    /// Reads the pixels of the first `count` rows back.
     pub fn read<T: Pod>(&self, count: u32) -> Result<Vec<T>, GpuError> {
         let bytes = u64::from(count) * u64::from(self.frame.film[0]) * self.width;
         let mut encoder = self.gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());

@@ -1,4 +1,4 @@
-//! Triangles and the boxes around them, as a card takes them.
+//! Packs triangles and the boxes around them for the graphics card.
 
 use super::gpu_types::{Body, BvhNode, Triangle, with};
 use super::solids::MOST_LEVELS;
@@ -7,11 +7,11 @@ use crate::trace::gpu::GpuError;
 use glam::DVec3;
 use std::sync::Arc;
 
-/// Triangles that one picture may hold: 48 bytes each, in a buffer of less than the 128 MiB that all cards take. Their places
-/// are numbers that f32 holds.
+/// The most triangles that one picture may hold: 48 bytes each, in a buffer of less than the 128 MiB that all cards take.
+/// Their indices are exact in f32.
 pub const MOST_TRIANGLES: usize = 2_500_000;
 
-/// The triangles of all stones, their boxes, and which are whose.
+/// The triangles of all stones, the boxes around them, and which stone they belong to.
 pub(super) struct GpuTriangles {
     pub triangles: Vec<Triangle>,
     pub nodes: Vec<BvhNode>,
@@ -37,6 +37,7 @@ impl GpuTriangles {
     }
 }
 
+/// Returns a solid as triangles; a convex stone's facets are triangulated.
 fn shell(solid: &SolidRef) -> Result<Arc<TriangleMesh>, GpuError> {
     match solid {
         SolidRef::Convex(polytope) => Ok(Arc::new(TriangleMesh::of_polytope(polytope))),
@@ -53,7 +54,7 @@ fn triangle(shell: &TriangleMesh, k: usize) -> Triangle {
 
 fn node(node: &math::BvhNode, first_triangle: usize) -> BvhNode {
     let start = node.start as usize + if node.count > 0 { first_triangle } else { 0 };
-    // Corners are rounded like the triangles' own, so that none lies outside.
+    // A box's corners are rounded like the triangles' own, so that no triangle lies outside.
     BvhNode { low: with(node.low, start as f64), high: with(node.high, f64::from(node.count)) }
 }
 

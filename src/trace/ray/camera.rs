@@ -1,26 +1,26 @@
-//! The image of a view.
+//! The camera of point rays.
 
 use crate::math::{Basis, Plane, SolidRef};
 use crate::scene::{Projection, View};
 use glam::{DVec2, DVec3};
 
-/// The image of a view: where the ray of each point begins, and which way it goes.
+/// The camera of a view: says for each image point where its ray begins and in which direction it goes.
 #[derive(Debug, Clone, Copy)]
 pub struct Camera {
     basis: Basis,
-    /// Distance of the eye; infinite for parallel rays.
+    /// Distance of the eye from the origin; infinite for parallel rays.
     distance: f64,
     /// How far the stone reaches from the origin.
     reach: f64,
 }
 
 impl Camera {
-    /// The camera of a view of this stone.
+    /// Creates the camera of a view of this stone.
     pub fn new<'a>(view: &View, solid: impl Into<SolidRef<'a>>) -> Self {
         Self::reaching(view, solid.into().vertices().iter().map(|v| v.length()).fold(0.0, f64::max))
     }
 
-    /// The camera of a view of whatever reaches so far from the origin.
+    /// Creates the camera of a view of anything that reaches this far from the origin.
     pub fn reaching(view: &View, reach: f64) -> Self {
         let distance = match view.projection {
             Projection::Orthographic => f64::INFINITY,
@@ -29,14 +29,14 @@ impl Camera {
         Self { basis: view.basis(), distance, reach }
     }
 
-    /// Half the side of the smallest square around the image's origin that holds the whole stone; `None` where the
+    /// Returns half the side of the smallest square around the image's origin that holds the whole stone; `None` where the
     /// eye is not in front of all of it.
     pub fn reach<'a>(&self, solid: impl Into<SolidRef<'a>>) -> Option<f64> {
         self.extent(solid).map(DVec2::max_element)
     }
 
-    /// Half the width and the height of the smallest rectangle around the image's origin that holds the whole stone;
-    /// `None` where the eye is not in front of all of it.
+    /// Returns half the width and half the height of the smallest rectangle around the image's origin that holds the whole
+    /// stone; `None` where the eye is not in front of all of it.
     pub fn extent<'a>(&self, solid: impl Into<SolidRef<'a>>) -> Option<DVec2> {
         solid.into().vertices().iter().try_fold(DVec2::ZERO, |extent, &v| {
             let nearness = 1.0 - self.basis.toward.dot(v) / self.distance;
@@ -44,7 +44,7 @@ impl Camera {
         })
     }
 
-    /// A point outside the stone on the ray through a point of the image plane, and the ray's unit direction.
+    /// Returns a point outside the stone on the ray through a point of the image plane, and the ray's unit direction.
     pub fn ray(&self, p: DVec2) -> (DVec3, DVec3) {
         let (at, toward) = (self.basis.lift(p), self.basis.toward);
         let (direction, from_eye) = if self.distance.is_infinite() {
@@ -53,18 +53,19 @@ impl Camera {
             let ray = at - toward * self.distance;
             (ray / ray.length(), ray.length())
         };
-        // From a far eye the way to the stone would cost the digits that tell where the stone is met.
+        // The ray begins near the stone: a long way from a far eye would cost the digits of the point where it meets the
+        // stone.
         (at - direction * from_eye.min(2.0 * self.reach + at.length()), direction)
     }
 
-    /// Where in the image plane a point is seen, and how much larger than there things look at it, which is 1 for
-    /// parallel rays; `None` where the point is not in front of the eye.
+    /// Returns where in the image plane a point is seen, and how much larger things at the point look than things in the
+    /// image plane, which is 1 for parallel rays. `None` where the point is not in front of the eye.
     pub fn project(&self, v: DVec3) -> Option<(DVec2, f64)> {
         let nearness = 1.0 - self.basis.toward.dot(v) / self.distance;
         (nearness > 0.0).then(|| (self.basis.project(v) / nearness, 1.0 / nearness))
     }
 
-    /// The unit direction from a point to the eye.
+    /// Returns the unit direction from a point to the eye.
     pub fn toward_eye(&self, v: DVec3) -> DVec3 {
         if self.distance.is_infinite() {
             return self.basis.toward;
@@ -76,7 +77,7 @@ impl Camera {
     /// Whether the eye is on a plane's outer side.
     pub fn sees(&self, plane: &Plane) -> bool {
         let speed = plane.normal.dot(self.basis.toward);
-        // Divided by the distance, which may be infinite.
+        // Both sides are divided by the distance, which may be infinite.
         speed > plane.offset / self.distance
     }
 }

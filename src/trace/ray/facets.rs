@@ -1,37 +1,37 @@
-//! What a ray meets: a convex stone's planes, the triangles of any solid, or a smooth surface.
+//! The surfaces that rays meet: a convex stone's planes, the triangles of any solid, or a smooth surface.
 //!
-//! Whether a ray is inside or outside is known from how it came, never asked of the solid. Outside it meets only what it
-//! runs into, inside only what it runs out of; so it cannot meet the facet again that it starts from.
+//! Whether a ray is inside or outside is known from its way so far, never asked of the solid. Outside it meets only what it
+//! runs into, inside only what it runs out of; so it cannot meet the facet again from which it starts.
 
 use super::search::Search;
 use crate::math::{ImplicitSurface, Plane, TriangleMesh};
 use glam::DVec3;
 use std::sync::Arc;
 
-/// A solid's facets.
+/// A solid's facets, as the tracer searches them.
 pub(super) trait FacetSearch {
     /// Whether light that has left may meet the solid again.
     const BRANCHES: bool;
 
-    /// The unit outward normal at a point of a facet.
+    /// Returns the unit outward normal at a point of a facet.
     fn normal(&self, facet: usize, point: DVec3) -> DVec3;
 
-    /// How that normal changes where the point moves along the surface.
+    /// Returns the change of that normal where the point moves along the surface.
     #[inline]
     fn turned(&self, _point: DVec3, _by: DVec3) -> DVec3 {
         DVec3::ZERO
     }
 
-    /// Facet and distance, not below 0, at which a ray from a point outside or on the surface enters; `None` where it
-    /// misses.
+    /// Returns the facet and the distance, not below 0, at which a ray from a point outside or on the surface enters; `None`
+    /// where it misses.
     fn entry(&self, origin: DVec3, direction: DVec3) -> Option<(usize, f64)>;
 
-    /// Facet and distance at which a ray from a point inside or on the surface leaves; `None` where rounding has let it slip
-    /// out.
+    /// Returns the facet and the distance at which a ray from a point inside or on the surface leaves; `None` where rounding
+    /// has let the ray slip out.
     fn next(&self, point: DVec3, direction: DVec3) -> Option<(usize, f64)>;
 }
 
-/// The facets of either kind of solid.
+/// The facets of any kind of solid.
 #[derive(Debug, Clone)]
 pub(super) enum SolidFacets {
     Planes(Arc<Planes>),
@@ -59,16 +59,16 @@ pub(super) struct Planes {
 #[derive(Debug, Clone)]
 pub(super) struct TriangleFacets {
     shell: Arc<TriangleMesh>,
-    /// How far behind its start a ray may still meet a triangle.
+    /// The distance beyond which a ray may meet a triangle: negative, so that it may lie a little behind the ray's start.
     behind: f64,
 }
 
-/// Rounding may put the start of a ray so far beyond the triangle that it is about to meet, as a part of how far the solid
+/// How far rounding may put the start of a ray beyond the triangle that it is about to meet, as a share of how far the solid
 /// reaches from the origin: some thousand roundings, and far below any edge meant.
 const BEHIND: f64 = 1e-12;
 
-/// What stands no farther before a point of the surface is taken for the facets there, as a part of how far the solid
-/// reaches: less than a pixel of any picture.
+/// The distance before a point of the surface within which everything counts as the facets at that point, as a share of how
+/// far the solid reaches: less than a pixel of any picture.
 const CLOSE: f64 = 1e-6;
 
 impl SolidFacets {
@@ -89,7 +89,7 @@ impl SolidFacets {
         }
     }
 
-    /// After which distance light that leaves enters again.
+    /// Returns the distance after which light that leaves enters again.
     pub fn again(&self, (origin, direction): (DVec3, DVec3)) -> Option<f64> {
         match self {
             Self::Planes(_) | Self::Smooth(_) => None,
@@ -134,7 +134,7 @@ impl TriangleFacets {
         Self { shell: Arc::clone(shell), behind: -BEHIND * reach }
     }
 
-    /// Facet and distance of the first triangle whose normal's part along the ray `keep` takes.
+    /// Returns the facet and the distance of the first triangle for which `keep` accepts the normal's part along the ray.
     fn first(&self, origin: DVec3, direction: DVec3, keep: impl Fn(f64) -> bool) -> Option<(usize, f64)> {
         let facet = |triangle: u32| self.shell.facets()[triangle as usize] as usize;
         let is_kept = |triangle| keep(self.shell.planes()[facet(triangle)].normal.dot(direction));
@@ -144,20 +144,20 @@ impl TriangleFacets {
 }
 
 impl TriangleFacets {
-    /// Whether the solid stands before a point of its surface.
+    /// Whether the solid hides a point of its surface from an eye in this direction.
     pub fn hides(&self, (origin, direction): (DVec3, DVec3)) -> bool {
-        // Away from the facets that meet in the point.
+        // The ray starts away from the facets that meet in the point.
         let away = -self.behind / BEHIND * CLOSE;
         self.entry(origin + direction * away, direction).is_some()
     }
 }
 
 impl Wavy {
-    /// Whether the solid stands before a point of its surface, or of one of the lines drawn on it.
+    /// Whether the solid hides a point of its surface, or of one of the lines drawn on it, from an eye in this direction.
     pub fn hides(&self, (origin, direction): (DVec3, DVec3)) -> bool {
         let jet = self.0.jet(origin);
         let steep = jet.gradient.length();
-        // From the surface above the point, and a little more.
+        // The ray starts from the surface above the point, and a little farther out.
         let lift = ((-jet.value).max(0.0) / steep + CLOSE * self.0.reach()) / steep;
         self.0.entry(origin + jet.gradient * lift, direction).is_some()
     }
@@ -179,7 +179,7 @@ impl FacetSearch for TriangleFacets {
     }
 }
 
-/// A smooth surface's facets: whether it `branches` is known when it is made.
+/// Implements `FacetSearch` for a smooth surface; whether it `branches` is known when it is made.
 macro_rules! smooth {
     ($kind:ident, $branches:literal) => {
         impl FacetSearch for $kind {

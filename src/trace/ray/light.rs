@@ -1,17 +1,17 @@
-//! The light of a ray, and what a surface makes of it.
+//! The light of a ray, and how a surface splits it.
 
 use crate::optics::{Fresnel, fresnel, reflectance};
 use glam::DVec3;
 use num_complex::Complex64;
 
-/// The light on a stretch between two facets, as what the eye's two polarisations have become.
+/// The light of a ray between two facets: a weight, or the fields that the eye's two polarisations have become.
 #[derive(Clone, Copy)]
 pub(super) enum PathLight {
     Unpolarised(f64),
     Fields([ElectricField; 2]),
 }
 
-/// A complex field in space, square to its ray.
+/// A complex electric field in space, perpendicular to its ray.
 #[derive(Clone, Copy)]
 pub(super) struct ElectricField {
     re: DVec3,
@@ -32,22 +32,23 @@ impl ElectricField {
         self.re.length_squared() + self.im.length_squared()
     }
 
-    /// What goes on along `onward` at a surface of these amplitudes.
+    /// Returns the field that goes on along `onward` from a surface of these amplitudes.
     fn onward(&self, (to_s, to_p): Amplitudes, s: DVec3, (ray, onward): (DVec3, DVec3)) -> Self {
         let (p, p_onward) = (s.cross(ray), s.cross(onward));
         Self::of([(to_s * self.along(s), s), (to_p * self.along(p), p_onward)])
     }
 }
 
+/// The complex amplitudes of s and p.
 type Amplitudes = (Complex64, Complex64);
 
-/// Amplitudes of what passes a surface.
+/// Returns the amplitudes of light that passes a surface.
 fn passing(surface: &Fresnel) -> Amplitudes {
     (surface.transmission_s().into(), surface.transmission_p().into())
 }
 
 impl PathLight {
-    /// What the eye would see along a ray: all polarisations alike.
+    /// Returns the light of a ray from the eye: all polarisations alike.
     pub fn of_eye(direction: DVec3, weight: f64, is_polarised: bool) -> Self {
         if !is_polarised {
             return Self::Unpolarised(weight);
@@ -64,8 +65,8 @@ impl PathLight {
         }
     }
 
-    /// Splits at a surface: what goes on inside along `onward`, and the weight that is left on the outer side.
-    /// Light that enters goes on through the surface; light inside is reflected.
+    /// Splits light at a surface: returns the light that goes on inside along `onward`, and the weight that is left on the
+    /// outer side. Light that enters goes on through the surface; light inside is reflected.
     pub fn split(&self, ray: DVec3, onward: DVec3, normal: DVec3, eta: f64, enters: bool) -> (Self, f64) {
         let cos_i = ray.dot(normal).abs();
         let fields = match self {
@@ -90,7 +91,7 @@ impl PathLight {
         (Self::Fields(inside), (lost(&fields[0]) + lost(&fields[1])) / 2.0)
     }
 
-    /// What is left on the outer side by [`split`](Self::split), of this weight, as light that goes along `outward`.
+    /// Returns the light that [`split`](Self::split) leaves on the outer side, of this weight, going along `outward`.
     pub fn outer(
         &self,
         (ray, outward): (DVec3, DVec3),
@@ -107,10 +108,11 @@ impl PathLight {
     }
 }
 
-/// Sine of the angle below which a ray counts as square to a facet: the cross product there is mostly rounding.
+/// The sine of the angle between a ray and a facet's normal below which the ray counts as square to the facet: the cross
+/// product there is mostly rounding.
 const SQUARE_ON: f64 = 1e-9;
 
-/// A unit vector square to the ray and to the normal: to the ray alone where the two are one line.
+/// Returns a unit vector perpendicular to the ray and to the normal; to the ray alone where the two are one line.
 fn across(ray: DVec3, normal: DVec3) -> DVec3 {
     let s = ray.cross(normal);
     let length = s.length();

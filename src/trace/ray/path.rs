@@ -9,19 +9,21 @@ use glam::DVec3;
 /// A facet that a ray meets on its way.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Step {
-    /// The facet, by its place in the solid.
+    /// The facet, by its index in the solid.
     pub facet: u32,
-    /// Where.
+    /// The point where the ray meets it.
     pub point: DVec3,
-    /// Which bounce inside this is, from 1; 0 where the ray enters.
+    /// The number of this bounce inside, from 1; 0 where the ray enters.
     pub bounce: u32,
     /// Length of the way inside the stone up to here, in girdle radii.
     pub path: f64,
-    /// The angle between the ray and the facet's normal, 0 to 90 degrees: in the air where it enters, inside after.
+    /// The angle between the ray and the facet's normal, 0 to 90 degrees: in the air where the ray enters, inside the stone
+    /// after that.
     pub incidence: f64,
-    /// The angle beyond which reflection is total, degrees; `None` where it never is, as for light that enters.
+    /// The angle of incidence beyond which reflection is total, in degrees; `None` where it never is, as for light that
+    /// enters.
     pub critical: Option<f64>,
-    /// What leaves: the glare where the ray enters, refracted light after. `None` where reflection is total.
+    /// The light that leaves: the glare where the ray enters, refracted light after that. `None` where reflection is total.
     pub leaving: Option<Leaving>,
     /// The share of the ray's light that goes on inside.
     pub onward: f64,
@@ -34,11 +36,11 @@ pub struct Leaving {
     pub share: f64,
     /// Its unit direction.
     pub direction: DVec3,
-    /// After which distance it enters the solid again, where it does: a path ends there, the light does not.
+    /// The distance after which it enters the solid again, where it does: the path ends there, the light does not.
     pub again: Option<f64>,
 }
 
-/// A ray's way through a stone. All that leaves on it, and the rest, add up to 1.
+/// A ray's way through a stone. The shares of all light that leaves on it and of its `rest` add up to 1.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Path {
     /// A point of the ray before it meets the stone.
@@ -47,39 +49,39 @@ pub struct Path {
     pub direction: DVec3,
     /// The facets in the order in which they are met, the first where the ray enters.
     pub steps: Vec<Step>,
-    /// What was absorbed, and what was not followed any farther.
+    /// The light that was absorbed, or not followed any farther.
     pub rest: Loss,
 }
 
-/// A facet that the loop of the tracer comes to, and what becomes of the light there.
+/// A facet that the tracer's loop comes to, and what becomes of the light there.
 pub(super) struct SurfaceEvent {
     pub facet: u32,
     pub point: DVec3,
     pub path: f64,
-    /// The part that has not been absorbed.
+    /// The share that has not been absorbed.
     pub left: f64,
     pub bounce: u32,
-    /// The unit direction in which it comes.
+    /// The unit direction in which the light arrives.
     pub arriving: DVec3,
-    /// `None` where reflection is total.
+    /// The light that leaves; `None` where reflection is total.
     pub leaving: Option<ExitLight>,
     /// The weight that goes on inside.
     pub onward: f64,
 }
 
-/// What leaves at a meeting, as in [`Exit`].
+/// The light that leaves at a surface event, as in [`Exit`].
 pub(super) struct ExitLight {
     pub direction: DVec3,
     pub sweep: DVec3,
-    /// How far the point moves over the spread of wavelengths.
+    /// The displacement of the point over the spread of wavelengths.
     pub shift: DVec3,
     pub weight: f64,
-    /// Without what has been absorbed; told of solids that it may enter again.
+    /// The light without absorption; given for solids that it may enter again.
     pub light: Option<PathLight>,
 }
 
 impl SurfaceEvent {
-    /// The light that leaves, without what has been absorbed, and how far it is shifted.
+    /// Returns the light that leaves, without absorption, and its displacement over the spread of wavelengths.
     pub fn onward_outside(&self) -> Option<(PathLight, DVec3)> {
         let leaving = self.leaving.as_ref()?;
         Some((leaving.light?, leaving.shift))
@@ -94,8 +96,9 @@ impl SurfaceEvent {
 }
 
 impl StoneTracer {
-    /// The way of a ray from a point outside, as far as [`follow`](Self::follow) takes it; `None` where it misses the
-    /// stone. Of a solid that is not convex it is the first passage: what leaves and enters again is told and not followed.
+    /// Returns the way of a ray from a point outside, as far as [`follow`](Self::follow) follows it; `None` where it misses
+    /// the stone. Of a solid that is not convex it is the first passage: light that leaves and enters again is reported, not
+    /// followed.
     pub fn path(&self, origin: DVec3, direction: DVec3) -> Option<Path> {
         let met = self.meet(origin, direction)?;
         let mut steps = vec![];
@@ -119,7 +122,7 @@ impl StoneTracer {
             point,
             bounce,
             path,
-            // Of sine and cosine, as an arc cosine alone has few digits near the normal.
+            // From sine and cosine: an arc cosine alone has few digits near the normal.
             incidence: arriving.cross(normal).length().atan2(arriving.dot(normal).abs()).to_degrees(),
             critical: critical.map(f64::to_degrees),
             leaving: leaving.as_ref().map(|l| Leaving {
@@ -144,7 +147,7 @@ mod tests {
 
     const CLEAR: Medium = Medium::clear(2.4175);
 
-    /// What is wrong with a path through a solid, each fault by its name.
+    /// Returns what is wrong with a path through a solid, each fault by its name.
     fn faults(path: &Path, planes: &[Plane], index: f64) -> Vec<&'static str> {
         let all = path.steps.iter().map(|step| step.leaving.map_or(0.0, |l| l.share)).sum::<f64>();
         let off_balance = (all + path.rest.absorbed + path.rest.unresolved - 1.0).abs() > 1e-9;
@@ -194,7 +197,7 @@ mod tests {
         StoneTracer::new(polytope, medium, RayOptions { polarised, ..RayOptions::default() })
     }
 
-    /// The ray through a point of a view's image.
+    /// Returns the ray through a point of a view's image.
     fn ray(polytope: &Polytope, tilt: f64, (x, y): (f64, f64)) -> (DVec3, DVec3) {
         Camera::new(&View { tilt, ..View::default() }, polytope).ray(DVec2::new(x, y))
     }
@@ -205,7 +208,7 @@ mod tests {
             .prop_map(|(index, absorption)| Medium { absorption, ..Medium::clear(index) })
     }
 
-    /// A cube whose corners are cut, and a path in it that meets facets with and without total reflection.
+    /// Returns a cube whose corners are cut off, and a path in it that meets facets with and without total reflection.
     fn in_a_cube() -> (Vec<Plane>, Path) {
         let axes = [DVec3::X, DVec3::Y, DVec3::Z]
             .into_iter()

@@ -1,4 +1,4 @@
-//! Pictures under light by point rays: stones beside one another, light going from one to the next.
+//! Traces pictures under light by point rays: several stones, and light that goes from one to the next.
 
 use super::sight::{Met, is_near, nearest};
 use super::{Camera, Exit, Loss, StoneTracer};
@@ -14,7 +14,7 @@ use std::sync::Arc;
 /// Rows traced between two calls of the watch.
 const PIECE: usize = 8;
 
-/// Stones beside one another, each of one medium, and the light that goes from one to the next.
+/// A tracer of several stones, each of one medium, and of the light that goes from one to the next.
 #[derive(Clone)]
 pub struct SceneTracer {
     tracers: Vec<StoneTracer>,
@@ -25,26 +25,26 @@ pub struct SceneTracer {
 /// A ray on its way, and the stone that it left.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct WaitingRay {
-    /// Where it begins.
+    /// The point where it begins.
     pub origin: DVec3,
     /// Its unit direction.
     pub direction: DVec3,
-    /// How far that direction moves over the medium's spread of indices.
+    /// The change of that direction over the medium's spread of indices.
     pub sweep: DVec3,
-    /// The share of light from that direction which reaches the eye.
+    /// The share of the light from that direction that reaches the eye.
     pub weight: f64,
     left: Option<usize>,
 }
 
 impl WaitingRay {
-    /// A ray from the eye.
+    /// Returns a ray from the eye.
     pub fn from_eye((origin, direction): (DVec3, DVec3)) -> Self {
         Self { origin, direction, sweep: DVec3::ZERO, weight: 1.0, left: None }
     }
 }
 
 impl SceneTracer {
-    /// The stones of a sitting, of no medium yet.
+    /// Prepares the stones of a scene; [`made_of`](Self::made_of) gives them their media.
     pub fn new(lit_scene: &LitScene) -> Self {
         let tracer = |stone: &Solid| StoneTracer::new(stone, Medium::clear(1.0), lit_scene.options);
         Self {
@@ -54,7 +54,7 @@ impl SceneTracer {
         }
     }
 
-    /// The stones at each band of a look.
+    /// Returns the stones with their media in each band of a sample pass.
     pub fn made_of(&self, look: &SamplePass) -> Vec<Self> {
         let of_band = |band: usize| {
             let made = |(tracer, media): (&StoneTracer, &Vec<Medium>)| tracer.made_of(media[band]);
@@ -63,13 +63,13 @@ impl SceneTracer {
         (0..look.responses.len()).map(of_band).collect()
     }
 
-    /// The stone that a ray meets first, and where.
+    /// Returns the stone that a ray meets first, and where; `None` where it meets none.
     pub fn first(&self, ray: &WaitingRay) -> Option<First> {
         nearest(&self.tracers, &self.balls, (ray.origin, ray.direction), ray.left).map(First)
     }
 
-    /// Follows a ray through all stones, from the one that it is known to meet, calling `leave` with what goes to none any
-    /// more.
+    /// Follows a ray through all stones, from the one that it is known to meet; calls `leave` for each ray that meets no
+    /// stone any more.
     pub fn follow(&self, start: &WaitingRay, first: &First, mut leave: impl FnMut(&WaitingRay)) -> Loss {
         let mut waiting = Vec::new();
         let mut rest = self.through(start, first.0, &mut waiting, &mut leave);
@@ -86,7 +86,7 @@ impl SceneTracer {
         rest
     }
 
-    /// Follows a ray through one stone; what goes on to others is put with those that wait.
+    /// Follows a ray through one stone; exits that meet other stones are put into `waiting`.
     fn through(
         &self,
         ray: &WaitingRay,
@@ -122,7 +122,7 @@ impl SceneTracer {
         self.others(Some(left), (exit.point, exit.direction)).any(|other| other < distance)
     }
 
-    /// The distances at which a ray meets stones other than the one that it left.
+    /// Returns the distances at which a ray meets stones other than the one that it left.
     fn others(&self, left: Option<usize>, way: (DVec3, DVec3)) -> impl Iterator<Item = f64> {
         let near = move |&(k, &ball): &(usize, &(DVec3, f64))| Some(k) != left && is_near(ball, way);
         let met = move |(k, _): (usize, _)| self.tracers[k].meet(way.0, way.1).map(|(_, distance)| distance);
@@ -130,11 +130,11 @@ impl SceneTracer {
     }
 }
 
-/// The stone that a ray meets first.
+/// The stone that a ray meets first, and where.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct First(Met);
 
-/// Rows of a picture, traced by the processor in f64.
+/// Rows of a picture under light, traced by the processor in f64.
 pub struct ByRays<'a> {
     lit_scene: LitScene<'a>,
     camera: Camera,
@@ -157,11 +157,11 @@ impl<'a> ByRays<'a> {
         }
     }
 
-    /// What one ray of a pixel sees, over all wavelengths.
+    /// Returns what one ray of a pixel sees, over all wavelengths.
     fn see(&self, bands: &[SceneTracer], look: &SamplePass, at: DVec2) -> RadiancePixel {
         let straight = self.camera.ray(at);
         let start = WaitingRay::from_eye(straight);
-        // Where it meets the first stone is the same for all wavelengths.
+        // The ray meets the first stone at the same point in all wavelengths.
         let first = self.company.first(&start);
         let is_seen = first.is_some() || self.lit_scene.environment.backdrop;
         let mut lit = RadiancePixel { cover: f64::from(u8::from(is_seen)), ..RadiancePixel::default() };
@@ -184,7 +184,8 @@ impl<'a> ByRays<'a> {
         RadiancePixel { unresolved: unresolved * share, absorbed: absorbed * share, ..lit }
     }
 
-    /// The light that comes down a ray from what stands around; `straight` is the one from the eye that it goes back to.
+    /// Returns the environment's light along a ray that has left all stones; `straight` is the ray from the eye that it goes
+    /// back to.
     fn arriving(&self, ray: &WaitingRay, straight: (DVec3, DVec3), look: &SamplePass) -> DVec4 {
         let own = (ray.origin, ray.direction, ray.sweep);
         let (from, direction, sweep) = look.mixed(straight, own);

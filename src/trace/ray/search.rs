@@ -1,7 +1,7 @@
-//! Which plane a ray meets: all of them tried, as many side by side as the processor takes.
+//! Finds the plane that a ray meets: all are tried, as many side by side as the processor takes.
 //!
-//! The processor is asked when the program runs, so that one build is quick on all. Sums are not fused, lest the
-//! answer depend on the processor.
+//! What the processor can do is found out when the program runs, so that one build is quick on all. Sums are not fused, so
+//! that the answer does not depend on the processor.
 
 use crate::math::Plane;
 use glam::DVec3;
@@ -10,10 +10,11 @@ use pulp::{Arch, Simd, WithSimd};
 /// The most planes that any processor tries at once.
 const WIDEST: usize = 8;
 
-/// Gaps count as no smaller: where rounding has put a point a hair outside a plane, that plane is met at once.
+/// The least gap between a point and a plane; smaller ones count as this. So where rounding has put a point a hair outside a
+/// plane, that plane is met at once.
 const LEAST_GAP: f64 = 1e-290;
 
-/// Planes, coordinate by coordinate, filled up to whole rows with the zero normal, which no ray runs toward.
+/// Planes, coordinate by coordinate, filled up to whole rows with the zero normal, toward which no ray runs.
 #[derive(Debug, Clone)]
 pub(super) struct Search {
     normal: [Vec<f64>; 3],
@@ -43,14 +44,14 @@ impl Search {
         }
     }
 
-    /// The facet by which a ray leaves from a point inside: that of the greatest ratio of speed toward a plane to the gap
-    /// before it. Planes behind have negative ratios and never win.
+    /// Returns the facet by which a ray leaves from a point inside: that of the greatest ratio of the speed toward a plane
+    /// to the gap before it. Planes behind have negative ratios and never win.
     #[inline]
     pub fn next(&self, point: DVec3, direction: DVec3) -> usize {
         self.plane(self.arch.dispatch(Next { search: self, point, direction }))
     }
 
-    /// The facet by which a ray from a point outside enters; `None` where it misses.
+    /// Returns the facet by which a ray from a point outside enters; `None` where it misses.
     pub fn entry(&self, origin: DVec3, direction: DVec3) -> Option<usize> {
         self.arch.dispatch(Entry { search: self, origin, direction }).map(|ratio| self.plane(ratio))
     }
@@ -59,7 +60,7 @@ impl Search {
         (tagged.to_bits() & self.tag_bits) as usize
     }
 
-    /// The coordinates and tags of all planes, row by row.
+    /// Returns the coordinates and tags of all planes, row by row.
     #[inline(always)]
     fn rows<S: Simd>(&self) -> impl Iterator<Item = [S::f64s; 5]> {
         let [x, y, z] = self.normal.each_ref().map(|c| S::as_simd_f64s(c).0);
@@ -134,7 +135,7 @@ impl WithSimd for Entry<'_> {
             let (before, behind) = (simd.less_than_f64s(speed, zero), simd.greater_than_f64s(speed, zero));
             into = simd.max_f64s(simd.select_f64s(before, tagged, zero), into);
             out = simd.min_f64s(simd.select_f64s(behind, distance, never), out);
-            // Beside a plane for ever: outside of it, the ray never enters.
+            // A ray that runs along a plane on its outer side never enters.
             let beside = simd.and_m64s(simd.equal_f64s(speed, zero), simd.less_than_f64s(gap, zero));
             out = simd.select_f64s(beside, zero, out);
         }

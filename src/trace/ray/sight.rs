@@ -1,4 +1,4 @@
-//! What is met first through a point of a picture.
+//! Finds what is seen first at a point of a picture.
 
 use super::{Camera, StoneTracer};
 use crate::optics::line;
@@ -6,36 +6,36 @@ use crate::scene::Medium;
 use crate::trace::sampling::LitScene;
 use glam::{DVec2, DVec3};
 
-/// A stone, and the facet and distance at which a ray meets it.
+/// The index of a stone, and the facet and the distance at which a ray meets it.
 pub(super) type Met = (usize, (usize, f64));
 
-/// The stones of a sitting at sodium's D line, 589.3 nm, and the camera.
+/// The stones of a scene at sodium's D line, 589.3 nm, and the camera, to ask what is seen at points of the picture.
 pub struct SceneProbe<'a> {
     lit_scene: LitScene<'a>,
-    /// The image.
+    /// The picture's camera.
     pub camera: Camera,
-    /// The stones.
+    /// The stones, in the scene's order.
     pub tracers: Vec<StoneTracer>,
     balls: Vec<(DVec3, f64)>,
 }
 
-/// A ray that meets a stone.
+/// A ray from the eye that meets a stone.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ProbeRay {
-    /// Where it begins.
+    /// The point where it begins.
     pub origin: DVec3,
     /// Its unit direction.
     pub direction: DVec3,
-    /// Which of the stones it meets first.
+    /// The index of the stone that it meets first.
     pub stone: usize,
-    /// At which facet, by its place in the solid.
+    /// The facet that it meets there, by its index in the solid.
     pub facet: u32,
-    /// How far from its beginning, in world units.
+    /// Distance from its beginning to that facet, in world units.
     pub distance: f64,
 }
 
 impl<'a> SceneProbe<'a> {
-    /// Prepares the stones.
+    /// Prepares the stones of a scene.
     pub fn new(lit_scene: &LitScene<'a>) -> Self {
         let at = |nm| (nm, nm, nm);
         let tracer = |stone: &crate::scene::Instance| {
@@ -50,7 +50,7 @@ impl<'a> SceneProbe<'a> {
         }
     }
 
-    /// The ray through a point of the picture, in pixels to the right of its left border and below its upper one;
+    /// Returns the ray through a point of the picture, in pixels to the right of its left border and below its upper one;
     /// `None` where it meets no stone.
     pub fn through(&self, x: f64, y: f64) -> Option<ProbeRay> {
         let at = self.lit_scene.film.image_from_pixels(DVec2::new(x, y));
@@ -59,7 +59,8 @@ impl<'a> SceneProbe<'a> {
         Some(ProbeRay { origin, direction, stone, facet: facet as u32, distance })
     }
 
-    /// Whether another stone, or one that is not convex itself, stands between a point of its surface and the eye.
+    /// Whether a point of a stone's surface is hidden from the eye, by another stone or, where it is not convex, by the
+    /// stone itself.
     pub fn is_hidden(&self, stone: usize, point: DVec3) -> bool {
         let way = (point, self.camera.toward_eye(point));
         nearest(&self.tracers, &self.balls, way, Some(stone)).is_some()
@@ -67,13 +68,13 @@ impl<'a> SceneProbe<'a> {
     }
 }
 
-/// The facet seen at a point of the picture, in pixels to the right of its left border and below its upper one: which
-/// stone, and which of its facets, by their places. `None` beside the stones. For many points keep a [`SceneProbe`].
+/// Returns the facet seen at a point of the picture, in pixels to the right of its left border and below its upper one: the
+/// index of the stone, and that of the facet in it. `None` beside the stones. For many points keep a [`SceneProbe`].
 pub fn facet_at(lit_scene: &LitScene, x: f64, y: f64) -> Option<(usize, u32)> {
     SceneProbe::new(lit_scene).through(x, y).map(|glance| (glance.stone, glance.facet))
 }
 
-/// The stone that a ray meets first, but for the one that it has just left, and where.
+/// Returns the stone that a ray meets first, but for the one that it has just left, and where.
 pub(super) fn nearest(
     tracers: &[StoneTracer],
     balls: &[(DVec3, f64)],

@@ -9,7 +9,7 @@ use super::light::PathLight;
 use super::{Exit, Loss, StoneTracer};
 use glam::DVec3;
 
-/// Passages of one ray that are followed; light that waits after so many is unresolved.
+/// The most passages of one ray that are followed; light that waits after so many is unresolved.
 const MOST_PASSAGES: usize = 1000;
 
 /// Light outside on its way into the solid.
@@ -19,11 +19,11 @@ pub(super) struct Inbound {
     pub origin: DVec3,
     pub direction: DVec3,
     pub sweep: DVec3,
-    /// How far its origin moves over the spread of wavelengths.
+    /// The displacement of its origin over the spread of wavelengths.
     pub shift: DVec3,
-    /// Without what has been absorbed.
+    /// The light without absorption.
     pub light: PathLight,
-    /// The part that has not been absorbed.
+    /// The share that has not been absorbed.
     pub left: f64,
     /// Length of its way inside so far.
     pub path: f64,
@@ -38,8 +38,8 @@ impl Inbound {
 }
 
 impl StoneTracer {
-    /// Follows light into a solid and whatever leaves it to enter again, but for what `is_taken` says is met by something
-    /// else before that distance. `None` where it runs along the first facet.
+    /// Follows light into a solid, and all that leaves it and enters again, except where `is_taken` says that it meets
+    /// something else before that distance. `None` where it runs along the first facet.
     pub(super) fn branch<F: FacetSearch>(
         &self,
         facets: &F,
@@ -98,7 +98,7 @@ fn strongest(waiting: &[Inbound]) -> Option<usize> {
 }
 
 impl Loss {
-    /// What did not leave on either way; the longer one's bounces.
+    /// Adds up the losses of two passages; `bounces` is the greater of the two.
     fn and(&self, other: &Self) -> Self {
         Self {
             absorbed: self.absorbed + other.absorbed,

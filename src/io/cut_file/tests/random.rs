@@ -1,4 +1,4 @@
-//! Any design comes back as it was written; no text and no damage makes reading panic.
+//! Any design reads back as it was written; no text and no damage makes reading panic.
 
 use super::super::{parse, write};
 use super::custom;
@@ -12,12 +12,12 @@ fn names() -> impl Strategy<Value = String> {
     prop_oneof!["[a-z]{1,8}( [1-9])?", "\\PC*[^\\s\\pC]\\PC*"]
 }
 
-/// Numbers of any size whose squares and quotients are still numbers.
+/// Numbers of any size whose squares and quotients are still finite.
 fn numbers() -> impl Strategy<Value = f64> {
     (-1.0..1.0, -60..60).prop_map(|(number, exponent): (f64, i32)| number * 10_f64.powi(exponent))
 }
 
-/// Laws that give an index throughout visible light: resonances in the ultraviolet and the infrared.
+/// Laws of dispersion that give an index throughout visible light: their resonances lie in the ultraviolet and the infrared.
 fn dispersions() -> impl Strategy<Value = Dispersion> {
     let index = || 1.0..=4.0;
     let terms = || prop::collection::vec((0.1..3.0, prop_oneof![0.0..0.25, 2.0..100.0]), 0..4);

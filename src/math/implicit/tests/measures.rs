@@ -1,4 +1,4 @@
-//! Volumes, meshes and shadows agree.
+//! Tests that volumes, meshes and shadows agree.
 
 use super::{chance, forms, moved};
 use crate::math::TriangleMesh;
@@ -70,7 +70,7 @@ fn the_mean_shadow_is_a_quarter_of_the_surface_and_each_is_that_of_the_mesh() {
             let area = field.silhouette_area(d).unwrap();
             assert!((seen / area - 1.0).abs() < 1e-3, "{field:?} {d} {seen} {area}");
         }
-        // Evenly around the sphere (Fibonacci's lattice).
+        // The directions are spread evenly over the sphere (Fibonacci's lattice).
         let count = 4000;
         let golden = PI * (5.0_f64.sqrt() - 1.0);
         let direction = |i: i32| {

@@ -1,4 +1,4 @@
-//! Surfaces that are not convex though they mean a convex solid, and those that mean what they are.
+//! Surfaces that are not convex but stand for a convex solid, and surfaces that are meant as they are.
 
 use super::*;
 use crate::math::convex_hull;
@@ -9,8 +9,8 @@ fn mended((vertices, triangles): Triangles) -> Surface {
     Surface::new(vertices, triangles).mend().unwrap().surface
 }
 
-/// A stone whose corners below the table are moved by up to `by`, so that no facet of four corners is flat; each is cut
-/// into triangles along the diagonal that bends it inward.
+/// Makes a stone whose corners below the table are moved by up to `by`, so that no facet of four corners is flat. Each facet
+/// is cut into triangles along the diagonal that bends it inward.
 fn bent(by: f64) -> Surface {
     let turn = |k: u32| f64::from(k) * std::f64::consts::TAU / 7.0;
     let tier =
@@ -42,7 +42,7 @@ fn hull_volume(surface: &Surface) -> f64 {
     Surface::new(surface.vertices.clone(), convex_hull(&surface.vertices).unwrap()).volume()
 }
 
-/// Every triangle cut into four.
+/// Cuts every triangle into four.
 fn divided(surface: &Surface) -> Surface {
     let mut middles = HashMap::new();
     let mut vertices = surface.vertices.clone();
@@ -72,7 +72,7 @@ fn facets_bent_over_the_wrong_diagonal_mean_the_hull_of_their_corners() {
     assert!(change.bent >= 7 && change.sharpest > 0.02 && change.sharpest < 0.5);
     // The table of seven corners stays one facet.
     assert!(found.faces.iter().any(|face| face.plane.normal.z > 1.0 - 1e-9));
-    // The deepest point is that of samples along the edges that bend inward, or deeper by what those miss.
+    // The deepest point is as deep as samples all over the triangles, or deeper by what those miss.
     let planes: Vec<Plane> = found.polytope.planes().collect();
     let depth =
         |p: DVec3| planes.iter().map(|plane| -plane.distance(p - found.centre)).fold(f64::INFINITY, f64::min);
@@ -131,7 +131,7 @@ fn what_is_round_cannot_be_read_as_facets() {
     assert!(told.contains("more than 2500 facets"), "{told}");
 }
 
-/// A box whose upper side is a groove along y, in strips, of this depth.
+/// Makes a box whose upper side is a groove along y, of so many strips and this depth.
 fn grooved(strips: u32, depth: f64) -> Surface {
     let rows = 12;
     let at = |i: u32, j: u32| {
@@ -165,7 +165,7 @@ fn grooved(strips: u32, depth: f64) -> Surface {
 
 #[test]
 fn a_groove_deeper_than_modelling_errs_is_no_noise() {
-    // Half the diagonal is 1.5, so these are a third of a percent of it to seven percent.
+    // Half the diagonal is 1.5, so these depths are a third of a percent to seven percent of it.
     for depth in [0.005, 0.007, 0.02, 0.1] {
         for strips in [6, 16] {
             let surface = grooved(strips, depth);

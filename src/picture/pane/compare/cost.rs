@@ -1,29 +1,30 @@
-//! What a pane that only looks like glass costs.
+//! The cost of a pane that only looks like glass: figures of how it differs from the traced one.
 
-/// Lengths over the pane, in pixels.
+/// Statistics of lengths over the pane, in pixels.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Shifts {
-    /// Their mean.
+    /// The mean length.
     pub mean: f64,
-    /// The greatest.
+    /// The greatest length.
     pub greatest: f64,
 }
 
-/// What the approximation costs: over pixels whose middle the pane covers.
+/// The cost of the approximation, over the pixels whose middle the pane covers.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Cost {
-    /// Mean difference of the two pictures in linear light, over red, green and blue, of what a screen shows: 0 to 1.
+    /// Mean difference of the two pictures, 0 to 1: in linear light as far as a screen shows it, over red, green and
+    /// blue.
     pub mean_difference: f64,
-    /// Peak signal to noise of the same, dB; infinite where they are equal.
+    /// Peak signal-to-noise ratio of that difference, in dB; infinite where the pictures are equal.
     pub psnr_db: f64,
-    /// How far the pane moves what is seen; green light.
+    /// How far the drawn pane moves what is seen, in green light.
     pub pane: Shifts,
-    /// How far the traced pane does.
+    /// How far the traced pane moves what is seen.
     pub traced: Shifts,
-    /// How far apart the two places are that they show: the approximation's error.
+    /// Distance between the two places that the drawn and the traced pane show: the approximation's error.
     pub apart: Shifts,
-    /// How far apart red and blue are in the pane and, between the middles of the visible range's outer thirds, in the
-    /// traced one: means.
+    /// Mean distance between red and blue, in the drawn pane and in the traced one. The traced one is measured between
+    /// the middles of the outer thirds of the visible range.
     pub fringe: [f64; 2],
     /// The share of the traced pane's light that comes from the background.
     pub behind: f64,
@@ -31,7 +32,7 @@ pub struct Cost {
     pub blind: f64,
 }
 
-/// What is added up over the pane.
+/// Sums over the pixels of the pane.
 #[derive(Default)]
 pub(super) struct Sums {
     pub pixels: f64,
@@ -44,7 +45,7 @@ pub(super) struct Sums {
     pub fringe: [Lengths; 2],
 }
 
-/// Lengths added up.
+/// The sum, number and greatest of some lengths.
 #[derive(Default)]
 pub(super) struct Lengths {
     sum: f64,

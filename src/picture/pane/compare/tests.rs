@@ -1,11 +1,11 @@
-//! Laws of the traced pane, and of what tells it from the drawn one.
+//! Tests of the traced pane, and of how it differs from the drawn one.
 
 use super::*;
 use crate::optics::line;
 use crate::picture::pane::tests::{apart, even, full, none, pattern};
 use crate::trace::unwatched;
 
-/// The traced pane in a light.
+/// Compares a pane with the traced one in this light.
 fn traced(pane: &GlassPane, background: &Panorama, light: &Light, looks: u32) -> Comparison {
     let bands = strata(4, &Illuminant::D65, true);
     let around = PaneLighting { sky: &EnvironmentMap::new(light, None), gap: 0.02, strata: &bands, looks };
@@ -32,7 +32,8 @@ fn without_refraction_the_traced_pane_is_the_pane() {
     for depth in [0.0, 100.0] {
         let bare = GlassPane { depth, ..none() };
         let seen = traced(&bare, &background, &surroundings(0.0), 2);
-        // Depth is no refraction here, but air: what the specification moves by it, air does not.
+        // Depth alone makes the traced body a slab of air: air does not move what is seen, though the specification
+        // does.
         assert!(seen.cost.traced.greatest < 1e-4 && seen.cost.blind == 0.0, "{:?}", seen.cost);
         let unmoved = approximated(&none(), &background, 2);
         assert!(apart(&seen.traced, &unmoved) < 1e-4);
@@ -68,7 +69,7 @@ fn the_cost_tells_glass_from_its_approximation() {
         traced(&GlassPane { frost: 0.0, ..full() }, &pattern(false), &surroundings(100.0), 2).cost;
     assert!(mean_difference > 0.01 && (5.0..30.0).contains(&psnr_db), "{mean_difference} {psnr_db}");
     assert!(apart.greatest >= apart.mean && apart.greatest <= by_glass.greatest + 38.0 * 0.04);
-    // Two thirds of 0.003 ⋅ 2.0 of 38 pixels, over the pane.
+    // Dispersion is 0.003 times 2.0 of 38 pixels, times two thirds for the mean over the pane.
     assert!((0.1..0.2).contains(&fringe[0]), "{fringe:?}");
     let nowhere = GlassPane { corner: DVec2::splat(500.0), ..full() };
     let bands = strata(2, &Illuminant::D65, true);

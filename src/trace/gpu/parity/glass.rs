@@ -1,4 +1,4 @@
-//! The functions of glass shapes: value, gradient and bend, on the card and in the library.
+//! Parity of glass shapes: value, gradient and bend of their functions, on the card and in the library.
 
 use super::super::fields::field;
 use super::super::gpu_types;
@@ -6,7 +6,8 @@ use super::{card, run};
 use crate::math::{ImplicitForm, ImplicitSurface, Jet};
 use glam::{DMat3, DQuat, DVec3};
 
-/// A point and the number of its shape to the function's gradient and value there, and what bends for each axis.
+/// A shader that takes points, each with the number of its shape, and returns the function's gradient and value there and
+/// its bend along each axis.
 const JETS_WGSL: &str = "
 @group(0) @binding(0) var<storage, read> given: array<vec4f>;
 @group(0) @binding(1) var<storage, read_write> found: array<array<vec4f, 4>>;
@@ -29,7 +30,7 @@ fn jets(@builtin(global_invocation_id) id: vec3u) {
 }
 ";
 
-/// Every form, sharp and round, reaching 1.
+/// Returns every form, sharp and round, scaled to reach 1.
 fn shapes() -> Vec<ImplicitSurface> {
     let plate = |edge, amplitude, wavelength| ImplicitForm::Plate {
         size: DVec3::new(1.7, 1.6, 0.3),
@@ -56,7 +57,7 @@ fn shapes() -> Vec<ImplicitSurface> {
     forms.into_iter().map(unit).collect()
 }
 
-/// Gradient, value, and how far the unit normal changes for each axis.
+/// Returns the function's gradient and value, and the change of the unit normal along each axis.
 fn jet(shape: &ImplicitSurface, p: DVec3) -> ([f64; 4], DMat3) {
     let Jet { value, gradient, hessian } = shape.jet(p);
     let n = gradient.normalize_or_zero();
@@ -64,8 +65,8 @@ fn jet(shape: &ImplicitSurface, p: DVec3) -> ([f64; 4], DMat3) {
     (gradient.extend(value).to_array(), within * hessian * within * gradient.length().recip())
 }
 
-/// Points a little inside or outside the surface all around; inside alone where it is sharp, where the library has the
-/// distance from an edge and the card that from its faces.
+/// Returns points a little inside or outside the surface all around. Of a sharp shape they are all inside: outside, the
+/// library has the distance from an edge and the card that from its faces.
 fn points(shape: &ImplicitSurface) -> impl Iterator<Item = DVec3> + '_ {
     let is_sharp = shape.parts().edge == 0.0;
     (0..2000).filter_map(move |k| {
@@ -95,7 +96,7 @@ fn glass_has_the_same_value_gradient_and_bend_on_the_card() {
         let p = DVec3::new(narrow[0].into(), narrow[1].into(), narrow[2].into());
         let (own, bent) = jet(&shapes[k], p);
         let apart = |a: DMat3, b: DMat3| (0..3).map(|i| a.col(i).distance(b.col(i))).fold(0.0, f64::max);
-        // Where two pieces of a surface meet, rounding decides which it is.
+        // Where two pieces of a surface meet, rounding decides which of them is taken.
         let beside = DVec3::AXES.into_iter().flat_map(|a| [a, -a]).map(|a| jet(&shapes[k], p + a * 1e-6));
         let size = 1.0 + apart(bent, DMat3::ZERO);
         if beside.into_iter().any(|(_, b)| apart(b, bent) > 0.01 * size) {

@@ -1,11 +1,12 @@
-//! Lamps: the part of a sweep that runs through one, on the card and in the library.
+//! Parity of lamps: the share of a sweep that lies inside one, on the card and in the library.
 
 use super::super::gpu_types;
 use super::{card, run};
 use crate::trace::environment::share_inside;
 use glam::DVec3;
 
-/// From a lamp's middle and along the sweep, x and y of both; z is half of x.
+/// A shader that takes x and y of the vector from a lamp's middle and of the sweep, and returns the share; z of both is half
+/// of x.
 const SHARE_WGSL: &str = "
 struct Ray {
     origin: vec3f,
@@ -30,13 +31,13 @@ fn shares(@builtin(global_invocation_id) id: vec3u) {
 }
 ";
 
-/// A lamp of 1.1 degrees' radius.
+/// The chord from a lamp's middle to its edge: a radius of 1.1 degrees.
 const CHORD: f64 = 0.02;
 
 #[test]
 fn lamps_are_as_bright_on_the_card_however_far_a_sweep_reaches() {
     let Some(gpu) = card("lamps_are_as_bright_on_the_card_however_far_a_sweep_reaches") else { return };
-    // Sweeps of 1e-5 to 1e4 radians that pass a lamp's middle this near, somewhere on their way.
+    // Sweeps of 1e-5 to 1e4 radians that pass a lamp's middle at up to 1.2 chords, somewhere on their way.
     let given: Vec<[f32; 4]> = (0..20_000)
         .map(|k| {
             let part = |step: f64| (f64::from(k) * step).fract();
@@ -53,13 +54,13 @@ fn lamps_are_as_bright_on_the_card_however_far_a_sweep_reaches() {
     let environment = include_str!("../../../../shaders/environment.wgsl");
     let structs = [gpu_types::FRAME_WGSL, gpu_types::ENVIRONMENT_WGSL, gpu_types::LAMP_WGSL].concat();
     let found: Vec<f32> = run(&gpu, structs + &chord + environment + SHARE_WGSL, &given, None);
-    // The largest difference of short sweeps, and the light of all by length.
+    // The largest difference of short sweeps, and the light of all sweeps by their length.
     let (mut largest, mut light) = (0.0_f64, [[0.0; 2]; 9]);
     for (given, found) in given.iter().zip(found) {
         let [x, y, u, v] = given.map(f64::from);
         let (from, sweep) = (DVec3::new(x, y, 0.5 * x), DVec3::new(u, v, 0.5 * u));
         let (exact, found) = (share_inside(from, sweep, CHORD * CHORD), f64::from(found));
-        // As parts of what a sweep through the middle sees.
+        // Differences are parts of what a sweep through the middle sees.
         let most = (2.0 * CHORD / sweep.length()).min(1.0);
         if sweep.length() < 1.0 {
             largest = largest.max((found - exact).abs() / most);
@@ -67,7 +68,7 @@ fn lamps_are_as_bright_on_the_card_however_far_a_sweep_reaches() {
         let [all, of_card] = &mut light[(sweep.length().log10() + 5.0).clamp(0.0, 8.0) as usize];
         (*all, *of_card) = (*all + exact / most, *of_card + found / most);
     }
-    // A root of what is almost nothing, where a sweep touches the lamp, has half its digits.
+    // Where a sweep touches the lamp, the root of a number near 0 has half its digits.
     assert!(largest < 0.01, "off by {largest:e}");
     for [all, of_card] in light {
         assert!(all > 500.0 && (of_card / all - 1.0).abs() < 0.02, "{of_card} for {all}: {light:?}");

@@ -43,9 +43,10 @@ proptest! {
         let view = View { tilt, azimuth, projection, ..View::default() };
         let Some((exits, rest)) = followed(&tracer, Camera::new(&view, &shell).ray(DVec2::new(x, y))) else { return Ok(()) };
         prop_assert!((sum(&exits) + rest.absorbed + rest.unresolved - 1.0).abs() < 1e-9);
-        // What total reflection keeps inside for ever is rare.
+        // Light that total reflection keeps inside for ever is rare.
         prop_assert!(rest.unresolved < 0.05 || medium.absorption == [0.0; 2], "{rest:?}");
-        // A path tells what leaves for good, as it is followed, from what enters again.
+        // Where a path has light leave for good, the followed ray has an exit of the same share; where it enters again,
+        // none.
         let (origin, direction) = Camera::new(&view, &shell).ray(DVec2::new(x, y));
         for step in tracer.path(origin, direction).unwrap().steps {
             let Some(leaving) = step.leaving else { continue };
@@ -56,7 +57,7 @@ proptest! {
         for exit in exits {
             let plane = shell.planes()[exit.facet as usize];
             prop_assert!(plane.distance(exit.point).abs() < 1e-9 && (exit.direction.length() - 1.0).abs() < 1e-9);
-            // What has left for good meets the solid no more.
+            // Light that has left for good does not meet the solid again.
             prop_assert!(plane.normal.dot(exit.direction) >= 0.0);
             prop_assert!(shell.bvh().nearest(exit.point, exit.direction, 1e-9, |_| true).is_none());
         }
@@ -71,7 +72,7 @@ proptest! {
         let polytope = Polytope::from_planes(&planes).unwrap();
         let shell = Arc::new(TriangleMesh::of_polytope(&polytope));
         let ray = Camera::new(&View { tilt, ..View::default() }, &polytope).ray(DVec2::new(x, y));
-        // Few bounces: on each, rounding grows.
+        // Few bounces, as rounding grows on each.
         let options = RayOptions { polarised, most_bounces: 12, ..RayOptions::default() };
         let by_planes = followed(&StoneTracer::new(&polytope, medium, options), ray);
         let by_triangles = followed(&StoneTracer::new(&shell, medium, options), ray);
@@ -87,8 +88,8 @@ proptest! {
     }
 }
 
-/// What passes two plates of which each surface reflects the share `r` and a way through leaves the share `a`: incoherent
-/// multiple reflections in each, summed, then between the two.
+/// Returns what passes two plates and what they send back. Each surface reflects the share `r`, and a way through leaves the
+/// share `a`: incoherent multiple reflections in each plate, summed, then between the two.
 fn through_two_plates(r: f64, a: f64) -> (f64, f64) {
     let once = (1.0 - r) * (1.0 - r) * a / (1.0 - r * r * a * a);
     let back = r + r * a * once;
@@ -96,9 +97,9 @@ fn through_two_plates(r: f64, a: f64) -> (f64, f64) {
     (through, back + once * once * back / (1.0 - back * back))
 }
 
-/// What of a ray along -y, leant toward z, goes on below two plates, above them, and nowhere.
+/// Returns the shares of a ray along -y, leant toward z, that go on below two plates and above them, and its loss.
 fn shares(medium: Medium, lean: f64, polarised: bool) -> (f64, f64, Loss) {
-    // Turned, so that no axis is special.
+    // The plates are turned, so that no axis is special.
     let turn = DQuat::from_rotation_x(0.3) * DQuat::from_rotation_z(0.8);
     let shell = Arc::new(shell(clasp(60.0)).moved(1.0, turn, DVec3::new(0.3, -0.2, 0.1)));
     let tracer = StoneTracer::new(&shell, medium, options(polarised, 1e-12));
@@ -131,7 +132,7 @@ fn two_plates_of_one_solid_pass_what_the_formula_says() {
 
 #[test]
 fn light_that_enters_again_keeps_its_polarisation() {
-    // At a slant two plates pass p better than s, and what is through the first is mostly p.
+    // At a slant two plates pass p better than s, and the light behind the first is mostly p.
     let (index, lean) = (1.5, 0.9_f64);
     let surface = fresnel(lean.cos(), 1.0 / index);
     let [s, p] = [surface.reflectance_s(), surface.reflectance_p()].map(|r| through_two_plates(r, 1.0));
@@ -166,8 +167,8 @@ fn through_corners_edges_and_along_facets_no_light_is_lost() {
         for (aim, way) in edges.flat_map(|aim| ways.map(|way| (aim, way))) {
             let Some((exits, rest)) = followed(&tracer, (aim - 8.0 * way, way)) else { continue };
             assert!((sum(&exits) + rest.absorbed + rest.unresolved - 1.0).abs() < 1e-9);
-            // A ray that to the last digit only touches the solid, at an outline or along a facet, may slip out, which is
-            // told; a hair beside it none does.
+            // A ray that to the last digit only touches the solid, at an outline or along a facet, may slip out: its light
+            // is then reported as unresolved. A hair beside it no ray does.
             let hair = 1e-10 * DVec3::new(0.3, -0.7, 0.4);
             beside.extend(followed(&tracer, (aim - 8.0 * way + hair, way)).map(|(_, rest)| rest.unresolved));
         }
