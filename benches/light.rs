@@ -1,4 +1,5 @@
-//! What docs/performance.md reports: `cargo bench`. All on one core, so that figures of different machines compare.
+//! The benchmarks that docs/performance.md reports: `cargo bench`. They run on one core, so that figures of different
+//! machines can be compared.
 
 use brillianteer::cut::{Crown, LowerHalf, Pavilion, RoundBrilliant};
 use brillianteer::io::{WriteError, write_png};
@@ -103,7 +104,7 @@ fn geometry(c: &mut Criterion) {
 }
 
 fn on_one_core() -> Criterion {
-    // Fails only where a pool was made before, and then that one is used.
+    // This fails only where a pool exists already, and then that pool is used.
     let _ = rayon::ThreadPoolBuilder::new().num_threads(1).build_global();
     Criterion::default().sample_size(20)
 }

@@ -38,14 +38,14 @@ use std::io::Write;
 const ZONES: [&str; 4] = ["green", "red", "blue", "below"];
 const PARTS: [&str; 3] = ["surface", "transmitted", "strongest_exit_area"];
 
-/// Share of unpolarised light that a surface of this index reflects at this cosine of the angle of incidence.
+/// Returns the share of unpolarised light that a surface of this index reflects at this cosine of the angle of incidence.
 fn reflected(index: f64, cos_i: f64) -> f64 {
     let cos_t = (1.0 - (1.0 - cos_i * cos_i) / index.powi(2)).sqrt();
     let share = |a: f64, b: f64| ((a - b) / (a + b)).powi(2);
     (share(cos_i, index * cos_t) + share(index * cos_i, cos_t)) / 2.0
 }
 
-/// Measures, and checks what all figures have in common.
+/// Runs `measure` and checks what all figures have in common.
 fn measured(desk: &Desk, options: &str) -> Value {
     let figures = desk.json(&format!("measure --json {options}"));
     let keys = |v: &Value| v.as_object().unwrap().keys().map(String::as_str).collect::<Vec<_>>().join(" ");
@@ -94,7 +94,7 @@ fn the_light_of_a_cube_is_that_of_closed_forms_under_every_option() {
         assert_eq!(figures["tracer"], if options.contains("ray") { "ray" } else { "beam" });
         assert_eq!(figures["polarised"], !options.contains("unpolarised"));
     }
-    // A stone that leans takes its glare past the scope by twice the tilt, an eye that moves only once.
+    // The tilt of a stone turns its glare by twice the tilt, the tilt of the eye only once.
     let (sin, cos) = 10_f64.to_radians().sin_cos();
     for (lean, azimuth, above) in [("tilt", 180, "red"), ("eye_tilt", 0, "blue"), ("eye_tilt", 45, "blue")] {
         let option = lean.replace('_', "-");
@@ -108,7 +108,7 @@ fn the_light_of_a_cube_is_that_of_closed_forms_under_every_option() {
         (view[lean], view["azimuth"]) = (json!(10.0), json!(f64::from(azimuth)));
         assert_eq!(figures["view"], view);
     }
-    // The table leans toward the azimuth, so that the eye sees what is on the other side.
+    // The table leans toward the azimuth, so that the eye sees the flank on the other side.
     let (sin, cos) = 30_f64.to_radians().sin_cos();
     for (view, width) in [("--eye-tilt 30", 2.5 * cos + 2.0 * sin), ("--tilt 30", 1.5 * cos + 2.0 * sin)] {
         for same in [view.to_string(), view.replace("30", "-30 --azimuth 180")] {
@@ -218,7 +218,7 @@ fn a_design_goes_through_every_format_and_keeps_its_facets() {
 #[test]
 fn a_solid_that_is_not_convex_is_shown_measured_and_converted_by_its_triangles() {
     let desk = Desk::new();
-    // A prism over an L, of volume 3 and two wide.
+    // A prism over an L: its volume is 3 and its width 2.
     let outline = [(0, 0), (2, 0), (2, 1), (1, 1), (1, 2), (0, 2)];
     let mut text = String::new();
     for z in 0..2 {
@@ -278,7 +278,7 @@ fn what_the_program_knows_by_name_it_lists_and_takes_back_from_a_file() {
         let figures: Value = serde_json::from_str(&printed).unwrap();
         let index = at(&figures, "index");
         assert!(code == 0 && listed("materials", name) && index == at(material, "n_D"), "{name}: {index}");
-        // A colour that is no measurement is called illustrative wherever it is chosen.
+        // A colour that was not measured is called illustrative wherever it is chosen.
         let is_illustrative = material["colour_is_illustrative"] == true;
         assert_eq!(
             is_illustrative,
@@ -312,7 +312,7 @@ fn what_the_program_knows_by_name_it_lists_and_takes_back_from_a_file() {
         desk.done(&format!("{export} known/{name} --views {name}"));
         desk.done(&format!("{export} read/{name} --scope scope.toml --side {side}"));
         let [known, read] = ["known", "read"].map(|at| files(&desk.at(at).join(name)));
-        // The side that was asked for is in the names of files.
+        // The requested side is in the names of files.
         let plain = |(file, bytes): (String, Vec<u8>)| (file.replace("-culet", ""), bytes);
         let read = read.into_iter().map(plain).collect();
         assert!(listed("scopes", name) && known == read && known.len() == 4, "{name}");
@@ -383,7 +383,7 @@ fn a_card_measures_and_draws_as_rays_do_and_is_named() {
     assert_eq!((code, &by_card["tracer"]), (0, &json!("gpu")));
     near(energy(&by_card), 1.0, 1e-4, "energy by the card");
     let by_rays = desk.json(&format!("{line} ray"));
-    // A card's chains of bounces are shorter: what they leave open is said.
+    // A card's chains of bounces are shorter; the share that they leave open is in the figures.
     let allowed = 2e-4 + at(&by_card, "unresolved");
     assert!(allowed < 3e-3, "{by_card}");
     for part in PARTS {
@@ -399,7 +399,7 @@ fn a_card_measures_and_draws_as_rays_do_and_is_named() {
     assert!(lit[0].2.contains("point rays in f32 on ") && lit[1].2.contains("point rays,"));
     let off = lit[0].1.iter().zip(&lit[1].1).filter(|(a, b)| (*a - *b).abs().max_element() > 0.02).count();
     assert!(off * 100 <= lit[0].1.len(), "{off} pixels of renders differ");
-    // Tilted, lest rays of a symmetric picture meet edges exactly; of an index that keeps no light for long.
+    // The tilt keeps rays of a symmetric picture from meeting edges exactly; the low index keeps no light inside for long.
     let view = "--tilt 7 --azimuth 20 --index 1.5 --views aset --size 48 --format png";
     let export = format!("export tolkowsky {view} --tracer");
     for tracer in ["gpu", "ray"] {
@@ -437,7 +437,7 @@ fn a_stone_weighs_its_density_times_its_volume_and_a_scene_is_told_stone_by_ston
     assert_eq!(keys(&told["stones"][0]), "cut material diameter_mm carats at_mm");
     assert!(told["carats"].is_null() && told["light"].is_null() && told["unit_mm"] == 2.0);
     near(at(&told, "stones/0/carats"), 3.52 * 64.0 / 200.0, 1e-12, "a cube of 4 mm");
-    // Corners to corners: the cubes' circles have radii of 2 √2 and √2 mm.
+    // The circles around the cubes, through their corners, have radii of 2 √2 and √2 mm.
     let apart = point(&told["stones"][1]["at_mm"]) - point(&told["stones"][0]["at_mm"]);
     assert!((apart - DVec3::X * (3.0 * 2_f64.sqrt() + 1.0)).length() < 1e-9, "{apart}");
     assert!(desk.done("info scene.toml").contains("index 2.42"));

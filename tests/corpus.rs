@@ -1,4 +1,4 @@
-//! Real files of real cutters, where they are at hand: beside the checkout, in `../shared/data`.
+//! Reads real files of real cutters where there are any: in `../shared/data`, beside the checkout.
 #![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a test fails by it, and tells what it saw")]
 
 use brillianteer::cut::{AlongAxes, Cut, Outline, Tiers};
@@ -13,7 +13,7 @@ use std::path::{Path, PathBuf};
 
 const CORPUS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../shared/data/asc");
 
-/// The files of these endings, in order; none, loudly, where there is no corpus.
+/// Returns the files with these extensions, in order; where there is no corpus, none, with a message.
 fn files(endings: &[&str]) -> Vec<PathBuf> {
     if !Path::new(CORPUS).is_dir() {
         println!("SKIPPED: {CORPUS} is not there, so no real file is read");
@@ -35,7 +35,7 @@ fn open(file: &Path) -> Result<Specimen, String> {
     Specimen::new(brought.design).map_err(|e| e.to_string())
 }
 
-/// Files that make no stone, with the reason, as found by looking into each.
+/// Files that make no stone, each with the reason that a look into the file showed.
 const NO_STONE: [(&str, &str); 1] = [("gemcadviewer-sample-01.asc", "no facet is listed")];
 
 #[test]
@@ -59,7 +59,7 @@ fn tiers(specimen: &Specimen) -> &Tiers {
     tiers
 }
 
-/// A stone written in a format and read again, with what was said to be lost.
+/// Writes a stone in a format and reads it again; returns it with the messages about what is lost.
 fn again(specimen: &Specimen, format: DesignFormat) -> (Specimen, Vec<String>) {
     let written = written(specimen, format).unwrap();
     let folder = tempfile::tempdir().unwrap();
@@ -82,7 +82,7 @@ fn what_is_written_reads_back_equal() {
 
 #[test]
 fn a_stone_written_as_a_mesh_is_read_as_a_stone() {
-    // The same however it is turned and scaled.
+    // The ratio is the same however the stone is turned and scaled.
     let compact = |s: &Specimen| {
         s.stone().unwrap().polytope.volume() / s.stone().unwrap().polytope.surface_area().powf(1.5)
     };
@@ -97,7 +97,7 @@ fn a_stone_written_as_a_mesh_is_read_as_a_stone() {
     }
 }
 
-/// A plane that goes through other formats is off by no more, girdle radii: the last digit of tiers told by angles.
+/// The largest error of a plane that goes through other formats, in girdle radii: the last digit of tiers given by angles.
 const SAME_PLANE: f64 = 1e-8;
 
 #[test]
@@ -141,7 +141,7 @@ fn twins_of_text_and_bytes_agree() {
     }
 }
 
-/// How often figures agree with those that the library gives, and the share that must.
+/// Counts how often a figure agrees with the library's, and holds the share that must agree.
 struct Tally {
     what: &'static str,
     least: f64,
@@ -168,14 +168,14 @@ fn what_is_measured_is_what_the_library_says() {
     let tally = |(what, least)| Tally { what, least, agree: 0, differ: vec![] };
     let keys = [("lw", 0.99), ("pw", 0.99), ("cw", 0.99), ("tw", 0.99), ("uw", 0.99), ("facetCount", 0.99)];
     let mut tallies = keys.map(tally);
-    // The solid itself, whatever is thought of girdles.
+    // By the library's own rule for girdles only the solids are compared.
     let mut by_their_rule = [("pw", 0.995), ("cw", 0.995)].map(tally);
     for file in files(&["asc"]) {
         let name = file.file_name().unwrap().to_string_lossy().into_owned();
         let (Some(entry), Ok(specimen)) = (told.get(name.as_str()), open(&file)) else { continue };
         let stone = specimen.stone().unwrap();
         let theirs = |tally: &Tally| entry[tally.what].as_f64().unwrap();
-        // Where it sees no girdle it gives half of the stone's depth for each, which measures nothing.
+        // Where the library finds no girdle it gives half of the stone's depth for each, which measures nothing.
         let sees_girdle = entry["girdleCount"] != 0;
         for (tally, ours) in tallies.iter_mut().zip(measured(stone)) {
             if sees_girdle || !["pw", "cw"].contains(&tally.what) {
@@ -204,7 +204,7 @@ fn what_is_measured_is_what_the_library_says() {
 
 fn measured(stone: &Stone) -> [f64; 6] {
     let (names, stone) = (stone.names(), &stone.polytope);
-    // The library counts facets in one plane one by one, and none of the block's.
+    // The library counts each of several facets in one plane, and none of the block's.
     let facets = names.iter().filter(|name| !name.starts_with("block")).count() + stone.merged().len();
     let (outline, AlongAxes { length_to_width, table }) = (Outline::of(stone), AlongAxes::of(stone));
     let width = width_along_axes(stone);
@@ -214,15 +214,16 @@ fn measured(stone: &Stone) -> [f64; 6] {
     [length_to_width, pavilion, crown, x, y, facets as f64]
 }
 
-/// The width by which the library gives its figures: the smaller of the extents along x and y.
+/// Returns the width that the library relates its figures to: the smaller of the extents along x and y.
 fn width_along_axes(stone: &Polytope) -> f64 {
     let (low, high) = stone.bounds();
     (high - low).truncate().min_element()
 }
 
-/// Depths of pavilion and crown by width, as the library takes them. Each upright facet falls into a fan of triangles;
-/// of the corners of all triangles, from below, those a tenth and nine tenths of the way tell where the girdle's edges
-/// lie.
+/// Returns the depths of pavilion and crown, relative to the width, by the library's rule.
+///
+/// The rule divides each upright facet into a fan of triangles and sorts the corners of all triangles from below. The
+/// corners a tenth and nine tenths of the way up the list give the girdle's edges.
 fn depths_by_their_rule(stone: &Polytope) -> [f64; 2] {
     let (Outline { bottom, top, .. }, width) = (Outline::of(stone), width_along_axes(stone));
     let upright = stone.facets().iter().filter(|facet| facet.plane.normal.z.abs() < 1f64.to_radians().sin());
@@ -233,12 +234,12 @@ fn depths_by_their_rule(stone: &Polytope) -> [f64; 2] {
     [at(1) - bottom, top - at(9)].map(|depth| depth / width)
 }
 
-/// z of the corners of the triangles of an upright facet: the more triangles meet in a corner, the more often its own.
+/// Returns z of the corners of the triangles of an upright facet: once for each triangle that meets in a corner.
 fn levels_of_fan(stone: &Polytope, facet: &Facet) -> Vec<f64> {
     let corners: Vec<DVec3> = stone.corners(facet).collect();
     let mean = corners.iter().sum::<DVec3>() / corners.len() as f64;
-    // It starts at the corner that comes first, counter-clockwise from outside, after the right of the facet's middle or
-    // after its left, depending on the side of the stone.
+    // The fan starts at the first corner, counter-clockwise from outside, after the right of the facet's middle or after
+    // its left, depending on the side of the stone.
     let DVec3 { x, y, .. } = facet.plane.normal;
     let from_right = if x.abs() > 0.9 { x < 0.0 } else { y > 0.0 };
     let right = DVec3::Z.cross(facet.plane.normal);

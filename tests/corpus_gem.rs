@@ -1,5 +1,5 @@
-//! Real designs of gem cutters, `.gem` and `.gcs`: each opens, and reads as it is written. They are not part of the
-//! project; where they are missing the tests say so and pass.
+//! Reads real designs of gem cutters, `.gem` and `.gcs`: each opens, and is the same after it is written and read again. The
+//! designs are not part of the project; where they are missing the tests print a message and pass.
 #![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a test fails by it, and says what it saw")]
 
 use brillianteer::cut::{Cut, Design, Tiers};
@@ -9,13 +9,13 @@ use brillianteer::math::Plane;
 use brillianteer::scene::Specimen;
 use std::path::{Path, PathBuf};
 
-/// Planes that are written and read again differ by no more, of their size.
+/// The largest difference, relative to their size, of planes that are written and read again.
 const SAME: f64 = 1e-12;
 
-/// Planes that are told in degrees and teeth differ by no more from what the file has.
+/// The largest difference of planes that are given in degrees and teeth from those in the file.
 const AS_STORED: f64 = 1e-10;
 
-/// Real files of one kind, sorted; none where there are no real files at all.
+/// Returns the real files with an extension, sorted; `None` where there are no real files at all.
 fn corpus(extension: &str) -> Option<Vec<PathBuf>> {
     let folder = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../shared/data"));
     if !folder.is_dir() {
@@ -43,7 +43,7 @@ fn planes(design: &Design) -> Vec<Plane> {
     design.facets().unwrap().into_iter().map(|(_, plane)| plane).collect()
 }
 
-/// How far the farther of two lists of planes lie apart, of their size.
+/// Returns the largest difference between the planes of two lists, relative to their size.
 fn apart(one: &[Plane], other: &[Plane]) -> f64 {
     assert_eq!(one.len(), other.len());
     let pair = |(a, b): (&Plane, &Plane)| {
@@ -56,7 +56,7 @@ fn apart(one: &[Plane], other: &[Plane]) -> f64 {
     sized.map(pair).fold(0.0, f64::max)
 }
 
-/// The planes as the file stores them, by a reader of the test's own: three numbers, y against ours.
+/// Reads the planes that a file stores, by a reader of the test's own: three numbers each, with y in the opposite direction.
 fn stored(bytes: &[u8]) -> Vec<Plane> {
     let f64_at = |at: usize| f64::from_le_bytes(bytes[at..at + 8].try_into().unwrap());
     let (mut at, mut planes) = (0, Vec::new());
@@ -72,7 +72,7 @@ fn stored(bytes: &[u8]) -> Vec<Plane> {
     planes
 }
 
-/// The corners as the file stores them.
+/// Reads the corners that a file stores.
 fn corners(bytes: &[u8]) -> Vec<glam::DVec3> {
     let f64_at = |at: usize| f64::from_le_bytes(bytes[at..at + 8].try_into().unwrap());
     let (mut at, mut corners) = (0, Vec::new());
@@ -125,7 +125,7 @@ fn every_real_gem_opens_and_reads_as_it_is_written() {
     assert!(solids * 100 >= files.len() * 95, "{solids} of {}", files.len());
 }
 
-/// What the library that the designs are from says of each, by its own reader.
+/// Compares with the figures that the designs' library has found of each by its own reader.
 #[test]
 fn a_second_opinion_agrees_on_gear_index_lines_and_facets() {
     let Some(files) = corpus("gem") else { return };
@@ -138,7 +138,7 @@ fn a_second_opinion_agrees_on_gear_index_lines_and_facets() {
         let file = path.file_name().unwrap().to_string_lossy();
         let Some(entry) = entries.iter().find(|entry| entry["name"] == *file) else { continue };
         let design = gem::read(&std::fs::read(path).unwrap(), &file).unwrap().design;
-        // That reader leaves out facets that have no end.
+        // The library's reader leaves out unbounded facets.
         let specimen = Specimen::new(design.clone()).unwrap();
         if specimen.stone().unwrap().names().iter().any(|name| name.starts_with("block")) {
             continue;
@@ -146,7 +146,7 @@ fn a_second_opinion_agrees_on_gear_index_lines_and_facets() {
         compared += 1;
         let cut = tiers(&design);
         let index = design.material.material().unwrap().index(589.3);
-        // It trims its lines.
+        // The library's reader trims its lines.
         let words = |text: &str| text.split_whitespace().map(str::to_owned).collect::<Vec<_>>();
         let same = [
             f64::from(cut.gear.abs()) == entry["gear"].as_f64().unwrap(),
@@ -163,7 +163,7 @@ fn a_second_opinion_agrees_on_gear_index_lines_and_facets() {
     assert!(compared > 0 && unlike.is_empty());
 }
 
-/// The corners that files store are not read; they lie where planes meet all the same.
+/// The program does not read the corners that files store, but the planes must meet in them.
 #[test]
 fn stones_have_the_corners_that_their_files_store() {
     let Some(files) = corpus("gem") else { return };
@@ -205,7 +205,7 @@ fn stones_have_the_volumes_that_are_known() {
     }
 }
 
-/// The values of an attribute all through a text.
+/// Returns the values of an attribute throughout a text.
 fn numbers(xml: &str, key: &str) -> Vec<f64> {
     xml.split(&format!("{key}=\""))
         .skip(1)

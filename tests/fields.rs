@@ -1,4 +1,4 @@
-//! Glass shapes on the graphics card against point rays in f64: the same ways in and out, pixel by pixel.
+//! Compares glass shapes on the graphics card with point rays in f64: the same paths in and out, pixel by pixel.
 #![cfg(feature = "gpu")]
 #![allow(clippy::unwrap_used, reason = "a test fails by it")]
 
@@ -20,7 +20,7 @@ use pixels::{ALLOWED, Case, views};
 use shoot::{Shoot, apart, colour, differ};
 use std::io::Write;
 
-/// Turned a little: edges that lie along the rays of a view would be met or missed by rounding.
+/// Builds a shape that is turned a little: rounding would decide whether a ray meets an edge that lies along the view.
 fn smooth(form: ImplicitForm) -> SmoothSolid {
     let turn = DQuat::from_rotation_x(0.31) * DQuat::from_rotation_y(-0.27) * DQuat::from_rotation_z(0.19);
     SmoothSolid::new(ImplicitSurface::new(form).unwrap().moved(1.1, turn, DVec3::new(0.05, -0.1, 0.2)))
@@ -47,8 +47,9 @@ fn forms() -> [(&'static str, ImplicitForm); 9] {
     ]
 }
 
-/// A curved surface spreads neighbouring rays two- to tenfold at a bounce, and what rounding does to them with it: after so
-/// many, f32 has no digits left for single pixels in some. Whole ways are compared under light, in blocks of pixels.
+/// The most bounces in comparisons of single pixels. A curved surface spreads neighbouring rays two- to tenfold at a bounce,
+/// and their rounding errors with them: after more bounces f32 has no digits left in some pixels. Whole paths are compared
+/// under light, in blocks of pixels.
 const BOUNCES: u32 = 6;
 
 #[test]
@@ -131,7 +132,7 @@ fn lit(field: ImplicitSurface, material: &str, light_name: &str, most_bounces: u
     shoot
 }
 
-/// A pill before a plate whose wave begins there.
+/// A pill in front of a plate whose wave begins at the pill.
 fn pill_and_plate(phase: f64, most_bounces: u32) -> Shoot {
     let mut both = lit(pill(DVec3::new(0.1, 0.1, 0.6)), "quartz", "studio", most_bounces);
     let glass = Material::from_index("glass", 1.6).unwrap();
@@ -143,8 +144,8 @@ fn pill_and_plate(phase: f64, most_bounces: u32) -> Shoot {
 fn the_card_shows_glass_as_rays_do() {
     let Some(gpu) = card("the_card_shows_glass_as_rays_do") else { return };
     let off = |shoot: Shoot| differ(&shoot, &shoot, &gpu);
-    // After more than three bounces in a wave rounding decides which pixel a lamp's glint is in, and one glint is a tenth of its
-    // block's light: there a plate stands under broad light.
+    // After more than three bounces in a wave, rounding decides which pixel shows a lamp's glint, and one glint is a tenth
+    // of the light of its block. So a plate with more bounces is under broad light.
     for (material, name) in [("quartz", "lamps"), ("diamond", "studio")] {
         let found = off(lit(pill(DVec3::ZERO), material, name, BOUNCES));
         assert!(found < 0.005, "a pill of {material}: {found}");
@@ -176,7 +177,7 @@ fn whole_ways_through_glass_bring_as_much_light_on_the_card() {
     }
 }
 
-/// One look at each shape, by the number of wavelengths: the table in docs/performance.md.
+/// Times one pass of each shape, by the number of wavelengths, for the table in docs/performance.md.
 #[test]
 #[ignore = "tells times"]
 fn how_long_glass_takes() {

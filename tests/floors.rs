@@ -1,4 +1,4 @@
-//! The structure: every floor of the house imports only from those below it.
+//! Checks the structure of the source: a room imports only from floors below its own.
 #![allow(clippy::unwrap_used, reason = "a test fails by it")]
 
 use std::collections::BTreeMap;
@@ -26,14 +26,14 @@ fn sources(folder: &Path) -> Vec<PathBuf> {
         .collect()
 }
 
-/// Rooms that a text imports from, by `crate::room`, its comments aside.
+/// Returns the rooms that a text imports from by `crate::room`, outside its comments.
 fn imports(text: &str) -> Vec<&str> {
     let code = text.lines().map(|line| line.split("//").next().unwrap_or(""));
     let after = code.flat_map(|line| line.split("crate::").skip(1));
     after.map(|t| t.split(|c: char| !c.is_alphanumeric() && c != '_').next().unwrap_or("")).collect()
 }
 
-/// Whether a text `steps` modules deep in its room leaves it by `super`.
+/// Whether a text that lies `steps` modules deep in its room leaves the room by `super`.
 fn climbs_out(text: &str, steps: usize) -> bool {
     // Inside a file's `mod tests` one more step is needed to leave the room.
     let code = text.split("#[cfg(test)]").next().unwrap_or("");
@@ -70,7 +70,7 @@ fn no_floor_imports_from_its_own_or_a_higher_one() {
     assert!(checked > 30, "only {checked} imports were seen: the check has lost its eyes");
 }
 
-/// The public types that a text declares, its test modules aside.
+/// Returns the public types that a text declares outside its test modules.
 fn public_types(text: &str) -> Vec<&str> {
     let code = text.split("#[cfg(test)]\nmod ").next().unwrap_or("");
     let public = code.lines().filter_map(|line| {

@@ -1,6 +1,6 @@
-//! Every reader, on spoilt files: whatever the bytes, it answers, soon and without panic. Each target runs for
-//! `BRILLIANTEER_FUZZ_SECONDS` (1 if not set), from a seed of `BRILLIANTEER_FUZZ_SEED` (0), and keeps in the system's folder for temporary
-//! files what it fails on.
+//! Runs every reader on damaged files: whatever the bytes, it returns soon and does not panic. Each target runs for
+//! `BRILLIANTEER_FUZZ_SECONDS` (1 if not set), from the seed `BRILLIANTEER_FUZZ_SEED` (0 if not set), and keeps the bytes
+//! that it fails on in the system's folder for temporary files.
 #![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a test fails by it; what was run is told")]
 
 use brillianteer::cut::from_mesh::{Up, from_mesh};
@@ -15,13 +15,13 @@ use glam::{DMat3, DVec3};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::time::{Duration, Instant};
 
-/// How long a reader may take for a file of a few kilobytes: each takes milliseconds, but other programs may hold the cores.
+/// How long a reader may take for a file of a few kilobytes. It takes milliseconds, but other programs may occupy the cores.
 const PATIENCE: Duration = Duration::from_secs(60);
 
-/// Bytes of spoilt files, at most.
+/// The largest size of a damaged file, in bytes.
 const LARGEST: usize = 16 << 10;
 
-/// Numbers that make trouble, as texts and as bytes.
+/// Numbers that readers often fail on, as texts and as bytes.
 const TEXTS: [&str; 16] = [
     "NaN",
     "inf",
@@ -41,7 +41,7 @@ const TEXTS: [&str; 16] = [
     "]]>",
 ];
 
-/// SplitMix64: Steele, Lea and Flood, Fast splittable pseudorandom number generators (2014).
+/// The random number generator SplitMix64: Steele, Lea and Flood, Fast splittable pseudorandom number generators (2014).
 struct Dice(u64);
 
 impl Dice {
@@ -56,7 +56,7 @@ impl Dice {
         (self.roll() % count.max(1) as u64) as usize
     }
 
-    /// One thing spoilt: bits, numbers, a piece cut out, doubled or taken from elsewhere.
+    /// Damages one place of a file: bits, a number, or a piece that is cut out, doubled or taken from elsewhere.
     fn spoil(&mut self, bytes: &mut Vec<u8>, other: &[u8]) {
         let at = self.below(bytes.len());
         let end = (at + 1 + self.below(24)).min(bytes.len());
@@ -90,7 +90,7 @@ fn number(name: &str, otherwise: u64) -> u64 {
     std::env::var(name).ok().and_then(|text| text.parse().ok()).unwrap_or(otherwise)
 }
 
-/// Spoils files and has them read until the time is up.
+/// Damages files and runs a reader on them until the time is up.
 fn fuzz(target: &str, files: &[Vec<u8>], read: impl Fn(&[u8])) {
     let time = Duration::from_secs(number("BRILLIANTEER_FUZZ_SECONDS", 1));
     let mut dice = Dice(number("BRILLIANTEER_FUZZ_SEED", 0));
@@ -114,14 +114,14 @@ fn fuzz(target: &str, files: &[Vec<u8>], read: impl Fn(&[u8])) {
     assert!(count > 0);
 }
 
-/// A brilliant of few facets in a format.
+/// Returns a brilliant of few facets as a file of a format.
 fn brilliant(format: DesignFormat) -> Vec<u8> {
     let text = library::cut("tolkowsky").unwrap().replace("girdle_facets = 96", "girdle_facets = 16");
     let specimen = Specimen::new(cut_file::parse(&text, "t").unwrap()).unwrap();
     written(&specimen, format).unwrap().bytes
 }
 
-/// Reads a design, builds it, and writes it again.
+/// Builds a design and writes it in every format.
 fn built(design: brillianteer::cut::Design) {
     if let Ok(specimen) = Specimen::new(design) {
         for format in DesignFormat::ALL {
@@ -163,7 +163,7 @@ fn cutters_xml() {
     });
 }
 
-/// Reads a mesh, mends it and finds what it is.
+/// Reads a mesh, mends it and finds its facets.
 fn mesh(bytes: &[u8]) {
     let Ok(file) = mesh_file::parse(bytes.to_vec(), "x", None) else { return };
     let Ok(mended) = file.surface.mend() else { return };
@@ -204,7 +204,7 @@ fn meshes_of_properties() {
 #[test]
 fn meshes_of_gltf() {
     let binary = brilliant(DesignFormat::Glb);
-    // The first chunk, as a file of text alone.
+    // The first chunk serves as a text glTF as well.
     let length = u32::from_le_bytes(binary[12..16].try_into().unwrap()) as usize;
     let text = binary[20..20 + length].to_vec();
     fuzz("gltf", &[binary, text], mesh);
@@ -224,7 +224,7 @@ fn scopes_lights_and_scenes() {
     });
 }
 
-/// A map of few pixels.
+/// Returns a refraction map of few pixels.
 fn map(bands: usize) -> RefractionMap {
     let [width, height] = [7_u16, 5];
     let place = |k: u16| {
@@ -242,7 +242,7 @@ fn map(bands: usize) -> RefractionMap {
     RefractionMap { size: [width, height], bands: (0..bands).map(band).collect(), diffuse }
 }
 
-/// The same PNG with the sums of its chunks put right, without which no reader looks further.
+/// Returns the same PNG with the checksums of its chunks corrected, because readers stop at a wrong one.
 fn summed(bytes: &[u8]) -> Vec<u8> {
     let mut out = bytes.to_vec();
     let mut at = 8;

@@ -1,4 +1,4 @@
-//! Glass shapes refract as textbooks say.
+//! Checks that glass shapes refract as textbooks say.
 #![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a test fails by it; what was found is told")]
 
 use brillianteer::cut::Glass;
@@ -22,7 +22,7 @@ fn exits(tracer: &StoneTracer, origin: DVec3, direction: DVec3) -> Vec<Exit> {
     exits
 }
 
-/// What goes straight through: the light that leaves at the first facet met inside.
+/// Returns the light that goes straight through: it leaves at the first facet that it meets inside.
 fn through(tracer: &StoneTracer, origin: DVec3, direction: DVec3) -> Option<Exit> {
     exits(tracer, origin, direction).into_iter().find(|exit| exit.bounce == 1)
 }
@@ -45,7 +45,7 @@ fn every_shape() -> Vec<(&'static str, Solid)> {
     shapes
 }
 
-/// Points and directions of rays from all sides toward a solid.
+/// Returns the origins and directions of rays from all sides toward a solid.
 fn rays(solid: &Solid, count: u32) -> Vec<(DVec3, DVec3)> {
     let (low, high) = solid.bounds();
     let view = |k: u32| View { tilt: f64::from(k) * 0.37, azimuth: f64::from(k) * 1.1, ..View::default() };
@@ -59,7 +59,7 @@ fn rays(solid: &Solid, count: u32) -> Vec<(DVec3, DVec3)> {
 
 #[test]
 fn a_prism_bends_every_wavelength_by_the_least_deviation_of_the_textbook() {
-    // Equilateral: 60 degrees at every edge.
+    // The prism is equilateral, with 60 degrees at every edge.
     let form = ImplicitForm::Prism { size: DVec3::new(2.0, 1.0, 0.75_f64.sqrt()), edge: 0.0 };
     let prism = solid(form);
     let mut worst = 0.0_f64;
@@ -204,7 +204,7 @@ fn a_prism_is_the_same_between_planes_and_as_a_distance() {
             let (a, b) = (rows(SolidRef::from(&polytope)), rows(field.by_ref()));
             let off = a.iter().zip(&b).filter(|(a, b)| (*a - *b).abs() > 1e-9).count();
             let lit = a.iter().filter(|v| **v > 0.01).count();
-            // A ray through an edge may be on either side of it.
+            // Rounding decides on which side of an edge a ray through it passes.
             assert!(lit > 500 && off * 500 < lit, "{key}: {off} of {lit}");
         }
         let figures = [SolidRef::from(&polytope), field.by_ref()].map(|solid| {
@@ -241,7 +241,7 @@ fn a_sweep_over_wavelengths_is_what_two_of_them_differ_by() {
                 off += u32::from(error > 1e-3 * expected.length().max(1.0));
             }
         }
-        // Where a path goes by an edge its ends differ more.
+        // Where a path passes close to an edge, its ends differ more.
         assert!(all > 300 && off * 50 < all, "{name}: {off} of {all}");
     }
 }

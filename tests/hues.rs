@@ -1,4 +1,4 @@
-//! Three wavelengths show three bands, sixteen do not: the hues along a cut through a rainbow.
+//! Compares the hues along a cut through a rainbow: three wavelengths show three bands, sixteen do not.
 #![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a test fails by it; what was found is told")]
 
 use brillianteer::cut::Glass;
@@ -15,21 +15,21 @@ use brillianteer::trace::{Stopped, unwatched};
 use glam::{DMat3, DVec2, DVec3};
 use std::path::Path;
 
-/// Pixels of the cut.
+/// The number of pixels of the cut.
 const PIXELS: u32 = 1024;
 
-/// Hues closer than this are one, degrees of CIELAB.
+/// The least difference of two distinct hues, in degrees of CIELAB.
 const GAP: f64 = 12.0;
 
-/// Pixels dimmer than this part of the brightest have no hue that anyone sees.
+/// The brightness below which nobody sees a pixel's hue, as a fraction of the brightest pixel.
 const DIM: f64 = 0.02;
 
-/// XYZ from linear sRGB (IEC 61966-2-1).
+/// The matrix from linear sRGB to XYZ (IEC 61966-2-1).
 const XYZ_FROM_SRGB: DMat3 =
     DMat3::from_cols_array(&[0.4124, 0.2126, 0.0193, 0.3576, 0.7152, 0.1192, 0.1805, 0.0722, 0.9505]);
 
-/// The prism, of rainbow soap, before a slit as `render prism --background slit` has it, in the dark; the cut runs across the
-/// upper rainbow.
+/// Traces the cut: a prism of rainbow soap in the dark, in front of the slit of `render prism --background slit`. The cut
+/// runs across the upper rainbow.
 fn cut(wavelengths: u32, looks: Sampling) -> Vec<DVec3> {
     let planes: Vec<Plane> = Glass::ALL[1].2.planes().unwrap().into_iter().map(|(_, plane)| plane).collect();
     let mut material = Material::from_index("rainbow soap", 1.272).unwrap();
@@ -52,7 +52,7 @@ fn shot(setting: &Scene, slit: &Panorama, wavelengths: u32, looks: Sampling) -> 
         backplate: Some(behind),
         backdrop: true,
     };
-    // A column from the slit up over the upper face.
+    // The film is a column from the slit up over the upper face.
     let film = Film { centre: DVec2::new(0.0, 0.17), ..Film::new([1, PIXELS], 0.40 / f64::from(PIXELS)) };
     let options = RayOptions { polarised: true, most_bounces: 16, least_weight: 1e-4 };
     let lit_scene = LitScene { scene: setting, environment, view: &view, film, options };
@@ -62,7 +62,8 @@ fn shot(setting: &Scene, slit: &Panorama, wavelengths: u32, looks: Sampling) -> 
     picture.pixels.iter().map(|p| DVec3::new(p[0].into(), p[1].into(), p[2].into())).collect()
 }
 
-/// Hue in CIELAB, degrees; negative light is not cut off, so that what no screen shows keeps its hue too.
+/// Returns the hue in CIELAB, in degrees. Negative light is not cut off, so that colours outside every screen's range keep
+/// their hue.
 fn hue(colour: DVec3, white: f64) -> f64 {
     let xyz = XYZ_FROM_SRGB * colour / (XYZ_FROM_SRGB * DVec3::splat(white));
     let f = |t: f64| if t > 0.008_856 { t.cbrt() } else { 7.787 * t + 16.0 / 116.0 };
@@ -70,7 +71,7 @@ fn hue(colour: DVec3, white: f64) -> f64 {
     (200.0 * (y - z)).atan2(500.0 * (x - y)).to_degrees().rem_euclid(360.0)
 }
 
-/// The hues along a cut, in its order, `None` where it is dark.
+/// Returns the hues along a cut, in order; `None` where it is dark.
 fn hues(cut: &[DVec3]) -> Vec<Option<f64>> {
     let brightness = |c: &DVec3| c.dot(DVec3::from_array(LUMINANCE.map(f64::from)));
     let most = cut.iter().map(brightness).fold(0.0, f64::max);
@@ -78,13 +79,13 @@ fn hues(cut: &[DVec3]) -> Vec<Option<f64>> {
     cut.iter().map(|c| (brightness(c) > DIM * most).then(|| hue(*c, most))).collect()
 }
 
-/// The angle between two hues.
+/// Returns the angle between two hues, in degrees.
 fn apart(a: f64, b: f64) -> f64 {
     let difference = (a - b).abs();
     difference.min(360.0 - difference)
 }
 
-/// The most hues, taken one after the other, of which no two are nearer than the gap.
+/// Counts distinct hues: takes one after the other, and leaves out those nearer than the gap to one that was taken.
 fn distinct(hues: &[Option<f64>]) -> usize {
     let mut found: Vec<f64> = vec![];
     for &hue in hues.iter().flatten() {
@@ -95,7 +96,7 @@ fn distinct(hues: &[Option<f64>]) -> usize {
     found.len()
 }
 
-/// The widest step from one lit pixel to the next, and how often the dark lies between.
+/// Returns the widest step of hue from one lit pixel to the next, and the number of dark gaps between lit pixels.
 fn steps(hues: &[Option<f64>]) -> (f64, usize) {
     let pairs = || hues.windows(2);
     let step = pairs().filter_map(|w| Some(apart(w[0]?, w[1]?))).fold(0.0, f64::max);
@@ -143,7 +144,7 @@ fn no_strength_at_all_leaves_the_slit_where_it_is_and_full_strength_is_physics()
     let moved = [1.0, 0.5, 0.2].map(at);
     assert!(moved[0].1 > 0 && moved[0].0 < moved[1].0 && moved[1].0 < moved[2].0, "{moved:?}");
     let (straight, bare) = (cut(8, Sampling { strength: 0.0, ..Sampling::of(4) }), cut(8, Sampling::of(4)));
-    // Straight on, each pixel sees what is behind it: of one colour, but for what the faces take.
+    // Without refraction each pixel shows the slit behind it, in one colour except for what the faces reflect.
     assert!(
         straight.iter().all(|c| (c.max_element() - c.min_element()).abs() < 0.05 * c.max_element() + 1e-6)
     );

@@ -1,4 +1,4 @@
-//! What holds for every stone: energy, symmetry, reversal, a white world.
+//! Checks laws that hold for every stone: energy, symmetry, reversal, a white world.
 #![allow(clippy::unwrap_used, reason = "a test fails by it")]
 
 mod common;
@@ -14,7 +14,7 @@ use glam::{DMat3, DVec2, DVec3};
 use proptest::prelude::*;
 use std::ops::ControlFlow;
 
-/// Random views: any side, tilt and kind of tilt.
+/// Generates random views: any side, tilt and kind of tilt.
 fn views() -> impl Strategy<Value = View> {
     (any::<bool>(), any::<bool>(), 0.0..1.2_f64, 0.0..6.3_f64).prop_map(|(culet, eye, tilt, azimuth)| View {
         side: if culet { Side::Culet } else { Side::Table },
@@ -30,7 +30,7 @@ fn media() -> impl Strategy<Value = Medium> {
         .prop_map(|(index, absorption)| Medium { absorption, ..Medium::clear(index) })
 }
 
-/// Random round brilliants, some with few girdle facets.
+/// Generates random round brilliants, some with few girdle facets.
 fn brilliants() -> impl Strategy<Value = brillianteer::cut::RoundBrilliant> {
     let angles = (50.0..66.0_f64, 28.0..40.0_f64, 38.0..44.0_f64);
     (angles, (42.0..60.0_f64, 65.0..88.0_f64), prop_oneof![Just(16_u32), Just(64), Just(96), 17..40_u32])
@@ -56,7 +56,7 @@ proptest! {
         let beams = traced(&built(&cut), medium, &view, 0.02, true);
         let figures = by_beams(&beams, &aset());
         prop_assert!((figures.sum() - 1.0).abs() < 1e-9, "{}", figures.sum());
-        // Only light that total reflection keeps may stay open beyond the bound.
+        // Only light that total reflection keeps inside may stay open beyond the bound.
         let caught = || beams.iter().filter(|b| b.open).all(|b| beams.facets(b.id).len() > 1000);
         prop_assert!(figures.unresolved <= 0.02 || caught(), "{}", figures.unresolved);
     }
@@ -75,7 +75,7 @@ proptest! {
         prop_assert!((b.polytope.volume() / (a.polytope.volume() * scale.powi(3)) - 1.0).abs() < 1e-9);
         let (a, b) = (face_up(&a, Medium::clear(2.4175), 0.01), face_up(&b, Medium::clear(2.4175), 0.01));
         prop_assert!((b.silhouette_area / (a.silhouette_area * scale * scale) - 1.0).abs() < 1e-9);
-        // A beam just at the level may be followed here and not there; only its energy can differ.
+        // A beam at the bound may be followed in one trace and not in the other; only its energy can differ.
         let allowed = 1e-9 + (a.unresolved - b.unresolved).abs();
         prop_assert!(largest_difference(&row(&a), &row(&b)) < allowed);
     }
@@ -155,7 +155,7 @@ fn every_pixel_of_a_picture_accounts_for_all_its_light() {
         .unwrap();
         let expected = beams.silhouette_area * film.scale().powi(2);
         assert!((covered / expected - 1.0).abs() < 1e-9, "covered {covered} pixels of {expected}");
-        // Absorption is painted in strips of even light, whose borders differ from one part of it to the next.
+        // Absorption is painted in strips of even light, whose borders differ between the parts of the sum.
         let allowed = if medium.is_clear() { 1e-9 } else { 1e-2 };
         assert!(worst < allowed, "{medium:?}: a pixel's light adds up to 1 but for {worst:e}");
     }

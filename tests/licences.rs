@@ -1,6 +1,6 @@
-//! docs/licences.md lists every crate that the program is built of, with a licence that lets it be built of it.
+//! Checks that docs/licences.md lists every crate that the program is built from, each with an accepted licence.
 //!
-//! `UPDATE_LICENCES=1 cargo test --test licences` writes the list anew; it asks cargo, which may ask the network.
+//! `UPDATE_LICENCES=1 cargo test --test licences` writes the list anew. It runs cargo, which may use the network.
 #![allow(clippy::unwrap_used, reason = "a test fails by it")]
 
 use std::collections::{BTreeMap, BTreeSet};
@@ -9,7 +9,7 @@ use std::path::Path;
 
 const LIST: &str = "docs/licences.md";
 
-/// Licences that ask for no more than to be named.
+/// The accepted licences, which demand no more than to be named.
 const ACCEPTED: [&str; 16] = [
     "0BSD",
     "Apache-2.0",
@@ -33,8 +33,8 @@ fn read(path: &str) -> String {
     std::fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join(path)).unwrap()
 }
 
-/// Names and versions of all crates that the program needs, whatever the platform and the features: what Cargo.lock
-/// reaches from the dependencies of Cargo.toml, those of tests left out.
+/// Returns the names and versions of all crates that the program needs, whatever the platform and the features: those that
+/// Cargo.lock reaches from the dependencies of Cargo.toml, without those of tests.
 fn needed() -> BTreeSet<(String, String)> {
     let lock: toml::Table = read("Cargo.lock").parse().unwrap();
     let manifest: toml::Table = read("Cargo.toml").parse().unwrap();
@@ -48,7 +48,7 @@ fn needed() -> BTreeSet<(String, String)> {
         known.insert((text(package, "name"), text(package, "version")), names);
     }
     let own = known.keys().find(|(name, _)| name == "brillianteer").unwrap().clone();
-    // Some crates are for one kind of system alone.
+    // Some dependencies are for one kind of system only.
     let systems = manifest.get("target").and_then(|t| t.as_table()).into_iter().flat_map(|t| t.values());
     let tables: Vec<_> = systems.chain([&toml::Value::Table(manifest.clone())]).cloned().collect();
     let is_direct =
@@ -57,7 +57,7 @@ fn needed() -> BTreeSet<(String, String)> {
     open.retain(|name| is_direct(name.split(' ').next().unwrap()));
     let mut found = BTreeSet::new();
     while let Some(entry) = open.pop() {
-        // A version is given only where there are several.
+        // An entry has a version only where the crate occurs in several.
         let (name, version) = entry.split_once(' ').map_or((entry.as_str(), None), |(n, v)| (n, Some(v)));
         let crates = known.keys().filter(|(n, v)| n == name && version.is_none_or(|wanted| wanted == v));
         for key in crates.cloned().collect::<Vec<_>>() {
@@ -69,7 +69,7 @@ fn needed() -> BTreeSet<(String, String)> {
     found
 }
 
-/// Rows of the list: name, version, licence, link.
+/// Returns the rows of the list: name, version, licence, link.
 fn listed() -> Vec<[String; 4]> {
     let text = read(LIST);
     let rows = text.lines().filter(|line| line.starts_with("| ") && !line.starts_with("| crate |"));
@@ -77,7 +77,7 @@ fn listed() -> Vec<[String; 4]> {
     cells.map(|row| row.collect::<Vec<_>>().try_into().unwrap()).collect()
 }
 
-/// Writes the list by what cargo says of each crate.
+/// Writes the list from cargo's metadata of each crate.
 fn write(needed: &BTreeSet<(String, String)>) {
     let cargo = std::env::var_os("CARGO").unwrap();
     let answer = std::process::Command::new(cargo)
@@ -110,12 +110,12 @@ fn write(needed: &BTreeSet<(String, String)>) {
     std::fs::write(Path::new(env!("CARGO_MANIFEST_DIR")).join(LIST), list).unwrap();
 }
 
-/// A licence in the form of SPDX: older crates write a slash for a choice.
+/// Returns a licence in the form of SPDX: older crates write a slash for a choice.
 fn plain(licence: &str) -> String {
     licence.replace('/', " OR ").split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
-/// Whether a licence, or one of those that may be chosen, is accepted. Brackets are only ever around choices.
+/// Whether a licence, or one of the licences of a choice, is accepted. Brackets stand only around choices.
 fn is_accepted(expression: &str) -> bool {
     let parts = split(expression, " AND ");
     if parts.len() > 1 {
@@ -131,7 +131,7 @@ fn is_accepted(expression: &str) -> bool {
     }
 }
 
-/// Parts of an expression between words that stand in no brackets.
+/// Splits an expression at a word, except inside brackets.
 fn split<'a>(expression: &'a str, word: &str) -> Vec<&'a str> {
     let (mut parts, mut begin, mut depth) = (vec![], 0, 0);
     for (at, c) in expression.char_indices() {

@@ -1,4 +1,4 @@
-//! Pictures under light: laws that hold for any stone, and the graphics card against rays in f64.
+//! Checks pictures under light: laws that hold for any stone, and the graphics card compared with rays in f64.
 #![allow(clippy::unwrap_used, reason = "a test fails by it")]
 
 mod common;
@@ -14,7 +14,7 @@ use common::*;
 use glam::{DVec2, DVec3};
 use shoot::*;
 
-/// A modern ideal cut, with a coarse girdle that is quickly traced.
+/// A modern ideal cut, with a coarse girdle that is quick to trace.
 fn modern() -> Polytope {
     built(&brilliant((56.0, 34.5, 40.8), (50.0, 77.0), 16)).polytope
 }
@@ -30,7 +30,7 @@ fn a_white_furnace_is_white_in_every_clear_material() {
             let unresolved = remainder.unresolved + 1e-9;
             assert!(unresolved < 2e-3, "{}: {unresolved} unresolved", m.name);
             let mean = picture.pixels.iter().map(colour).sum::<DVec3>() / picture.pixels.len() as f64;
-            // What is missing is what is unresolved, though no two wavelengths miss the same.
+            // Only unresolved light is missing; its share differs between wavelengths.
             assert!((mean - 1.0).abs().max_element() < 3.0 * unresolved + 1e-6, "{}: {mean}", m.name);
         }
     }
@@ -40,7 +40,7 @@ fn a_white_furnace_is_white_in_every_clear_material() {
 fn a_furnace_loses_just_what_a_stone_of_colour_absorbs() {
     for m in materials().iter().filter(|m| m.absorption.iter().any(|a| !a.is_clear())) {
         let mut shoot = Shoot::new(&modern(), &m.name, Light { spectrum: Illuminant::E, ..Light::white() });
-        // One band, in which light is white.
+        // In one single band light is white.
         (shoot.backdrop, shoot.samples, shoot.wavelengths) = (false, 2, 1);
         let (picture, remainder) = shoot.by_rays();
         let cover: f64 = picture.pixels.iter().map(|p| f64::from(p[3])).sum();
@@ -127,7 +127,7 @@ fn a_stone_behind_another_is_seen_through_it_and_hidden_beside_it() {
     let alone = shoot.by_rays().0;
     shoot.setting.instances = vec![placed(cube(DVec3::new(0.1, 0.0, 0.6), 0.5), glass(1.0)), behind()];
     let through = shoot.by_rays().0;
-    // The faintest light is not followed into another stone; an edge is met a rounding earlier or later.
+    // The faintest light is not followed into another stone, and rounding moves an edge by a little.
     let differ =
         alone.pixels.iter().zip(&through.pixels).filter(|(a, b)| (colour(a) - colour(b)).length() > 1e-4);
     assert!(differ.count() <= 4);
@@ -142,12 +142,12 @@ fn a_stone_behind_another_is_seen_through_it_and_hidden_beside_it() {
 
 #[test]
 fn exact_beams_show_what_rays_show() {
-    // Rays meet small lamps by chance, in a pixel of few of them; beams do not.
+    // In a pixel of few rays it is chance whether one meets a small lamp; beams have no such chance.
     for (material, name, tilt, chance) in
         [("diamond", "lamps", 0.0, 0.02), ("ruby", "dome", 0.2, 0.002), ("quartz", "ring", 0.1, 0.002)]
     {
         let mut shoot = Shoot::new(&modern(), material, Light { head: 10.0, ..light(name).unwrap() });
-        // Under the ring the surround is seen beside the stone as well.
+        // Under the ring the environment is seen beside the stone as well.
         (shoot.backdrop, shoot.view.tilt) = (name == "ring", tilt);
         (shoot.wavelengths, shoot.samples, shoot.light.head) = (4, 32, 10.0);
         let (rays, rest) = shoot.by_rays();
@@ -184,7 +184,7 @@ fn a_film_that_is_shifted_sees_the_same_elsewhere() {
             colour(&after.pixels[place(x, y)]).distance(colour(&before.pixels[place(x + across, y - up)]))
         };
         let (count, apart) = pixels.fold((0, 0), |(n, k), at| (n + 1, k + u32::from(off(at) > 1e-3)));
-        // Rays that run along an edge go either way by rounding.
+        // Rounding decides which way rays go that run along an edge.
         assert!(apart * 500 < count, "{apart} of {count}");
         assert_ne!(before.pixels, after.pixels);
     }
@@ -192,8 +192,8 @@ fn a_film_that_is_shifted_sees_the_same_elsewhere() {
 
 #[test]
 fn more_looks_bring_no_light_of_other_wavelengths() {
-    // Small lamps, whose every piece of rainbow is one band's: few bands and many looks lie about as far from many bands
-    // as few bands and one look do, and not half as far again, as with light of neighbouring bands.
+    // Under small lamps each piece of a rainbow belongs to one band. Few bands and many passes then differ from many bands
+    // about as much as few bands and one pass do, and not half as much again, as with light of neighbouring bands.
     let mut shoot = Shoot::new(&modern(), "diamond", light("fire").unwrap());
     (shoot.backdrop, shoot.view.tilt) = (false, 0.0);
     let picture = |wavelengths, samples, shoot: &mut Shoot| {
@@ -206,7 +206,7 @@ fn more_looks_bring_no_light_of_other_wavelengths() {
     assert!(often < 1.1 * once, "{often} after four looks, {once} after one");
 }
 
-/// Stripes of colour, 40 by 20 pixels.
+/// A picture of coloured stripes, 40 by 20 pixels.
 fn stripes() -> Panorama {
     let pixel = |k: u32| [f32::from(u8::from(k % 40 < 20)), (k % 7) as f32 / 7.0, (k / 40) as f32 / 20.0];
     Panorama { width: 40, height: 20, pixels: (0..800).map(pixel).collect() }
@@ -214,8 +214,8 @@ fn stripes() -> Panorama {
 
 #[test]
 fn a_photograph_behind_is_seen_beside_the_stone_and_through_a_slab_as_it_lies() {
-    // A slab, square to the eye, shifts nothing: the photograph is where it would be without it, less what the surfaces
-    // reflect of it; a reflection shows the light in front, here none.
+    // A slab that is square to the eye shifts nothing: the photograph is where it would be without the slab, less the
+    // light that the surfaces reflect. A reflection shows the light in front, and here there is none.
     let planes = [DVec3::Z, -DVec3::Z].map(|n| brillianteer::math::Plane::new(n, 0.2));
     let sides = [DVec3::X, -DVec3::X, DVec3::Y, -DVec3::Y].map(|n| brillianteer::math::Plane::new(n, 0.6));
     let slab = Polytope::from_planes(&[&planes[..], &sides[..]].concat()).unwrap();

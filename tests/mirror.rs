@@ -1,4 +1,4 @@
-//! The graphics card against point rays in f64: the same chain of bounces, pixel by pixel.
+//! Compares the graphics card with point rays in f64: the same chain of bounces, pixel by pixel.
 #![cfg(feature = "gpu")]
 #![allow(clippy::unwrap_used, reason = "a test fails by it")]
 
@@ -57,7 +57,7 @@ fn a_stone_of_many_planes_is_traced_by_bunches_as_well() {
     let case = Case::new(&ball.polytope, Medium::clear(1.54), &view, true);
     let case = Case { options: short(case.options), twin_options: short(case.options), ..case };
     let found = case.compared(&gpu);
-    // Facets are small, so that more pixels than in a gem lie near an edge of one of the bounces.
+    // The facets are small, so that more pixels than in a gem lie near an edge at one of the bounces.
     assert!(
         found.largest <= ALLOWED && found.left_out < 50,
         "{:e}, {} left out",
@@ -93,7 +93,7 @@ fn the_comparison_sees_every_small_change() {
 }
 
 fn shell((vertices, triangles): solids::Triangles) -> Arc<TriangleMesh> {
-    // Turned a little: edges that lie along the rays of a view would be met or missed by rounding.
+    // The turn keeps edges away from the view's direction, where rounding would decide whether rays meet them.
     let shell = TriangleMesh::new(Surface::new(vertices, triangles)).unwrap();
     Arc::new(shell.moved(1.0, DQuat::from_rotation_x(0.11) * DQuat::from_rotation_y(-0.07), DVec3::ZERO))
 }

@@ -1,4 +1,4 @@
-//! Overlays: each against a plain computation of its own.
+//! Compares each overlay with a plain computation of its own.
 #![allow(clippy::unwrap_used, reason = "a test fails by it")]
 
 mod common;
@@ -18,7 +18,7 @@ use std::ops::ControlFlow;
 const SIZE: u32 = 160;
 const PIXEL: f64 = 2.4 / SIZE as f64;
 
-/// What overlays are drawn over.
+/// The scene and the view that overlays are drawn for.
 struct Shot {
     setting: Scene,
     view: View,
@@ -40,14 +40,15 @@ impl Shot {
         work(&LitScene { scene: setting, environment, view, film: Film::new([SIZE; 2], PIXEL), options })
     }
 
-    /// An overlay over nothing: its colour and cover.
+    /// Draws an overlay over an empty picture, and returns the colour and cover of each pixel.
     fn laid(&self, overlay: Overlay) -> Vec<[u8; 4]> {
         let mut rgba = vec![0; (4 * SIZE * SIZE) as usize];
         self.with(|lit_scene| lay(overlay, lit_scene, &mut rgba, &unwatched)).unwrap();
         rgba.as_chunks().0.to_vec()
     }
 
-    /// Where a point of the world is seen, pixels from the upper left: worked out apart from the camera.
+    /// Returns where a point of the world is seen, in pixels from the upper left, by a computation without the program's
+    /// camera.
     fn seen(&self, v: DVec3) -> DVec2 {
         let eye = self.view.basis();
         let nearness = match self.view.projection {
@@ -58,7 +59,7 @@ impl Shot {
         p + f64::from(SIZE) / 2.0
     }
 
-    /// The outlines in the picture of a stone's facets that face the eye, turned to run counter-clockwise.
+    /// Returns the outlines, in the picture, of a stone's facets that face the eye, in counter-clockwise order.
     fn outlines(&self, stone: usize) -> Vec<(u32, Vec<DVec2>)> {
         let polytope = self.setting.instances[stone].solid.polytope().unwrap();
         let outline = |k: usize| -> Vec<DVec2> {
@@ -70,8 +71,8 @@ impl Shot {
         all.filter(|(_, outline)| area(outline) > 1e-9).collect()
     }
 
-    /// Pixels at whose middle, farther from all edges than a rounding, another facet is told than the one whose outline
-    /// lies around it; and how many were asked.
+    /// Counts the pixels for which `told` gives a facet other than the one whose outline surrounds the pixel's middle, and
+    /// the pixels that were compared. Middles within rounding of an edge are left out.
     fn wrong(&self, told: impl Fn(f64, f64) -> Option<(usize, u32)>) -> (usize, usize) {
         let outlines = self.outlines(0);
         let (mut wrong, mut asked) = (0, 0);
@@ -90,7 +91,7 @@ impl Shot {
     }
 }
 
-/// Twice the area on the left of the way from `a` to `b` to `p`.
+/// Returns twice the signed area of the triangle `a`, `b`, `p`: positive where `p` is left of the line from `a` to `b`.
 fn left(a: DVec2, b: DVec2, p: DVec2) -> f64 {
     (b - a).perp_dot(p - a)
 }
@@ -123,7 +124,7 @@ fn the_facet_at_a_point_is_the_one_whose_outline_lies_around_it() {
                 let told = |x, y| sight.through(x, y).map(|g| (g.stone, g.facet));
                 let (wrong, asked) = shot.wrong(told);
                 assert!(wrong == 0 && asked > 25_000, "{name}, {perspective}: {wrong} of {asked}");
-                // Asked for without keeping anything, and nowhere.
+                // `facet_at`, which keeps nothing, agrees; at NaN there is no facet.
                 assert_eq!(facet_at(lit_scene, 70.3, 85.6), told(70.3, 85.6));
                 assert_eq!(facet_at(lit_scene, f64::NAN, 80.0), None);
             });
@@ -138,7 +139,7 @@ fn the_facet_at_a_point_is_the_one_whose_outline_lies_around_it() {
     }
 }
 
-/// The faintest that any corner of a facet that faces the eye is drawn: the cover of its own pixel.
+/// Returns the least cover of a pixel in which a corner of a facet that faces the eye lies.
 fn faintest_corner(shot: &Shot, drawn: &Shot) -> u8 {
     let picture = drawn.laid(Overlay::Wireframe);
     let polytope = shot.setting.instances[0].solid.polytope().unwrap();
@@ -156,7 +157,8 @@ fn the_wireframe_touches_every_corner_that_is_seen() {
             let mut other = Shot::new(stone(&file).polytope, "diamond", tilted(perspective));
             other.view.azimuth += 0.2;
             let [own, others] = [&shot, &other].map(|drawn| faintest_corner(&shot, drawn));
-            // A corner may lie in the corner of its pixel, 0.7 from the middle, where a line is drawn to 0.4.
+            // A facet's corner may lie in a corner of its pixel, 0.7 from the middle, where a line is drawn with a cover
+            // of 0.4.
             assert!(own > 90 && others < 60, "{name}, {perspective}: {own}, {others}");
         }
     }
@@ -181,8 +183,8 @@ fn edges_behind_are_fainter_whichever_stone_they_are_behind() {
     }
 }
 
-/// What a ray meets first inside the stone: the share of light that went in, and the cosine there, found by trying every
-/// plane in turn; `None` beside the stone and where another plane is nearly as close.
+/// Finds the first plane that a ray meets inside the stone by trying every plane: returns the share of light that went in
+/// and the cosine at that plane; `None` beside the stone and where another plane is nearly as close.
 fn first_inside(shot: &Shot, lit_scene: &LitScene, index: f64, at: DVec2) -> Option<(f64, f64)> {
     let planes: Vec<Plane> = shot.setting.instances[0].solid.polytope().unwrap().planes().collect();
     let eye = shot.view.basis();
@@ -203,8 +205,8 @@ fn first_inside(shot: &Shot, lit_scene: &LitScene, index: f64, at: DVec2) -> Opt
     is_clear.then(|| (1.0 - reflectance(cos_i, 1.0 / index).unwrap(), ways[0].1.normal.dot(inward)))
 }
 
-/// Pixels where an overlay shows a colour and the plain computation says no, or the other way round; and how many are of
-/// the colour and how many are not.
+/// Counts the pixels where an overlay and the plain computation disagree about a colour, the pixels that have the colour,
+/// and those that do not.
 fn differing(
     shot: &Shot,
     overlay: Overlay,
@@ -286,7 +288,7 @@ fn beside_the_stones_nothing_is_laid_and_facets_are_tinted_one_by_one() {
     let mut colours: Vec<_> = picture.into_iter().collect();
     colours.sort_unstable();
     colours.dedup();
-    // Nothing, and three sides of the cube that face the eye.
+    // The colours are those of no facet and of the three sides of the cube that face the eye.
     assert_eq!((colours.len(), colours[0]), (4, [0; 4]), "{colours:?}");
     assert!(colours[1..].iter().all(|c| c[3] == 128));
 }

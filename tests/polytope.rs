@@ -1,4 +1,4 @@
-//! Solids from half-spaces: what is closed, what is not, and who is to blame.
+//! Builds solids from half-spaces: which are closed, which are not, and which planes are at fault.
 
 #![allow(clippy::unwrap_used, reason = "a test fails by it")]
 
@@ -17,7 +17,7 @@ fn cube() -> Vec<Plane> {
         .collect()
 }
 
-/// Points spread evenly over the sphere (Fibonacci's lattice).
+/// Returns points that are spread evenly over the sphere (Fibonacci's lattice).
 fn sphere(n: u32) -> impl Iterator<Item = DVec3> {
     (0..n).map(move |i| {
         let z = 1.0 - (2.0 * f64::from(i) + 1.0) / f64::from(n);
@@ -75,7 +75,7 @@ fn half_spaces_that_enclose_nothing_name_the_planes_at_fault() {
 
     let mut empty = cube();
     empty.push(Plane::new(DVec3::X, -1.5));
-    // x <= -1.5 contradicts -x <= 1: whatever else is named, these two must be.
+    // x <= -1.5 contradicts -x <= 1: the error must name these two planes, whatever others it names.
     let PolytopeError::Empty { planes } = fails(&empty) else { panic!("not empty") };
     assert!(planes.contains(&1) && planes.contains(&6), "{planes:?}");
     let witness: Vec<Plane> = planes.iter().map(|&i| empty[i]).chain(cube()).collect();
@@ -98,7 +98,7 @@ fn planes_that_nearly_coincide_become_one_and_idle_ones_are_reported() {
     let mut planes = cube();
     planes.push(Plane::new(DVec3::new(1.0, 1e-9, 0.0), 1.0 + 1e-10));
     planes.push(Plane::new(DVec3::ONE, 10.0));
-    // Touches the cube along an edge: bounds no area.
+    // The plane touches the cube along an edge and bounds no area.
     planes.push(Plane::new(DVec3::new(1.0, 1.0, 0.0), 2.0));
     let polytope = Polytope::from_planes(&planes).unwrap();
     assert_eq!(polytope.merged(), [(6, 0)]);
@@ -118,7 +118,7 @@ fn two_thousand_planes_make_a_ball_in_no_more_than_seconds() {
     assert_eq!(polytope.facets().len(), 2000);
     let ball = 4.0 / 3.0 * std::f64::consts::PI;
     assert!(polytope.volume() > ball && polytope.volume() < 1.002 * ball, "{}", polytope.volume());
-    // It takes a few hundredths of a second, and more where other programs hold the cores.
+    // The work takes a few hundredths of a second, and longer where other programs occupy the cores.
     assert!(seconds < 60.0, "{seconds} s");
 }
 
@@ -198,7 +198,7 @@ proptest! {
             let size = (b - a).cross(c - a).dot(normal) / 2.0;
             prop_assert!(size > -1e-15, "a triangle shows its back");
             sums[facet as usize] += size;
-            // Delaunay: no other corner of the facet inside the circle through these three.
+            // Delaunay: no other corner of the facet lies inside the circle through these three.
             let others = polytope.facets()[facet as usize].outline.iter().filter(|v| !triangle.contains(v));
             for &other in others {
                 prop_assert!(!strictly_in_circle([a, b, c, corner(other)], normal));
@@ -210,7 +210,7 @@ proptest! {
     }
 }
 
-/// Convex hull, counter-clockwise (Andrew's monotone chain, 1979).
+/// Returns the convex hull, counter-clockwise (Andrew's monotone chain, 1979).
 fn hull(mut points: Vec<DVec2>) -> Vec<DVec2> {
     points.sort_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
     let half = |points: &mut dyn Iterator<Item = DVec2>| {
@@ -268,7 +268,7 @@ fn a_facet_that_is_nothing_but_rounding_is_none() {
     planes.push(corner(1e-8));
     let cube = Polytope::from_planes(&planes).unwrap();
     assert_eq!((cube.facets().len(), cube.vertices().len(), cube.redundant()), (6, 8, [6].as_slice()));
-    // One that a machine could cut stays.
+    // A facet that is large enough for a machine to cut stays.
     planes[6] = corner(1e-3);
     assert_eq!(Polytope::from_planes(&planes).unwrap().facets().len(), 7);
 }

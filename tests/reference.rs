@@ -1,4 +1,4 @@
-//! Figures that others have found for the same stones.
+//! Compares figures with those that others have found for the same stones.
 #![allow(clippy::unwrap_used, reason = "a test fails by it")]
 
 mod common;
@@ -80,8 +80,9 @@ fn the_tables_reflection_turns_from_green_to_red_at_its_angle() {
     }
 }
 
-/// The virtual facets that make the shafts of a brilliant's arrows, under the table, and their heads, on the bezels: light
-/// that is reflected by two mains. Each as its exit's angle from the axis in degrees and whether a scope's band is black.
+/// Returns the virtual facets that make the shafts of a brilliant's arrows, under the table, and their heads, on the bezels:
+/// light that two mains reflect. For each, the angle of its exit from the axis in degrees, and whether it is black in the
+/// scope.
 fn arrows(stone: &Stone, scope: &Scope) -> [Vec<(f64, bool)>; 2] {
     let beams = traced(stone, DIAMOND, &View::default(), 0.02, true);
     let kinds = [["table", "main", "main", "bezel"], ["bezel", "main", "main", "table"]];
@@ -106,7 +107,8 @@ fn arrows(stone: &Stone, scope: &Scope) -> [Vec<(f64, bool)>; 2] {
     })
 }
 
-/// docs/optics.md, "Ideal-Scope's hole": how far from the axis the light of the shafts and of the heads leaves, degrees.
+/// Returns how far from the axis the light of the shafts and of the heads leaves, in degrees, by the formulas of
+/// docs/optics.md, "Ideal-Scope's hole".
 fn arrows_angles(crown: f64, pavilion: f64) -> [f64; 2] {
     let sin = |degrees: f64| degrees.to_radians().sin();
     let outside = |inside: f64| (DIAMOND.index * sin(inside)).asin().to_degrees();
@@ -150,7 +152,7 @@ fn ideal_cuts_have_whole_dark_arrows_in_ideal_scope_and_others_do_not() {
                 );
                 assert_eq!(facets[0].1, expected < hole);
             }
-            // What docs/optics.md says of the range.
+            // The range is that of docs/optics.md.
             let last = 40.958 - 0.179 * (crown - 34.5);
             assert_eq!(found.iter().all(is_dark), pavilion < last, "{crown}, {pavilion}: {found:?}");
             whole += usize::from(pavilion < last);
@@ -161,7 +163,7 @@ fn ideal_cuts_have_whole_dark_arrows_in_ideal_scope_and_others_do_not() {
 
 #[test]
 fn the_bright_facets_beside_the_arrows_of_ideal_cuts_stay_red() {
-    // Light of a star and a main, 73.2 to 74.8 degrees up: a wider hole would swallow it and blur the arrows.
+    // Light of a star and a main leaves 73.2 to 74.8 degrees up: a wider hole would include it and blur the arrows.
     for (angles, lengths) in [((56.0, 34.5, 40.8), (50.0, 77.0)), ((53.0, 34.5, 40.75), (50.0, 75.0))] {
         let stone = built(&brilliant(angles, lengths, 16));
         let figures = by_beams(&traced(&stone, DIAMOND, &View::default(), 1e-3, true), &ideal_scope());
@@ -301,7 +303,7 @@ fn figures_by_rays_agree_with_beams_within_their_error() {
     }
 }
 
-/// All light of each zone, as an independent path tracer reports it.
+/// Returns all light of each zone, glare included, as an independent path tracer reports it.
 fn all_light(figures: &Figures) -> [f64; 4] {
     std::array::from_fn(|i| figures.surface[i] + figures.transmitted[i])
 }
@@ -317,7 +319,7 @@ fn an_independent_path_tracer_finds_the_same_light() {
     let stones = oracle["stones"].as_object().unwrap();
     assert_eq!(stones.len(), 2);
     for (name, stone) in stones {
-        // By way of a cut file, as a user would bring it.
+        // The stone goes through a cut file, as a user's stone does.
         let plane = |p: &serde_json::Value| {
             format!(
                 "[[plane]]\nname = {}\nnormal = {}\noffset = {:?}\n",

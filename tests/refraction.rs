@@ -1,4 +1,4 @@
-//! Refraction maps: places by Snell, weights by Fresnel, and pictures looked up against pictures traced.
+//! Checks refraction maps: places by Snell, weights by Fresnel, and pictures looked up compared with pictures traced.
 #![allow(clippy::unwrap_used, reason = "a test fails by it")]
 
 mod common;
@@ -21,7 +21,7 @@ use std::path::Path;
 const HALF: f64 = 1.1;
 const DISTANCE: f64 = 2.5;
 
-/// What is mapped.
+/// The scene, the view and the background to map.
 struct Shoot {
     setting: Scene,
     view: View,
@@ -54,11 +54,11 @@ fn dark() -> Light {
     Light { dome: Vec::new(), ..Light::white() }
 }
 
-/// A photograph of the pictures' shape: one of the program's own, which has all sorts of edges and colours.
+/// Returns a photograph in the pictures' aspect ratio: a picture by the program, which has all sorts of edges and colours.
 fn photo() -> Panorama {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/images/gallery/ring.png");
     let Panorama { width, height, pixels } = panorama::read_photo(&path).unwrap().panorama;
-    // What a ray meets beside the map's plane is not in the map.
+    // The map does not hold what rays meet outside the map's plane.
     let (across, down) = (width.min(height * 4 / 3), height.min(width * 3 / 4));
     let (left, top) = ((width - across) / 2, (height - down) / 2);
     let row = |y: u32| &pixels[((top + y) * width + left) as usize..][..across as usize];
@@ -93,7 +93,7 @@ impl Shoot {
         Backdrop { distance: DISTANCE, size, both_sides: self.both_sides }
     }
 
-    /// Does work with the sitting, a photograph behind it or none.
+    /// Does work with the lit scene, with or without a photograph behind it.
     fn sit<T>(&self, photo: Option<&Panorama>, work: impl FnOnce(&LitScene) -> T) -> T {
         let sky = EnvironmentMap::new(&self.light, None);
         let Backdrop { distance, size, .. } = self.plane();
@@ -119,7 +119,7 @@ impl Shoot {
         self.sit(None, |s| RefractionMap::trace(s, &self.plane(), &survey, &unwatched)).unwrap()
     }
 
-    /// The program's own render with a photograph behind: one look, through the same points at the same wavelengths.
+    /// Returns the program's render with a photograph behind: one pass, through the same points at the same wavelengths.
     fn traced(&self, photo: &Panorama) -> Linear {
         let bands = strata(self.bands, &Illuminant::D65, true);
         let prepare = |lit_scene: &LitScene<'_>| {
@@ -130,7 +130,7 @@ impl Shoot {
     }
 }
 
-/// Peak signal to noise in dB between two pictures in eight-bit codes.
+/// Returns the peak signal-to-noise ratio, in dB, between two pictures in eight-bit codes.
 fn psnr(a: &Linear, b: &Linear) -> f64 {
     assert_eq!((a.width, a.height), (b.width, b.height));
     let code = |c: f32| (encoded_from_linear(f64::from(c).clamp(0.0, 1.0)) * 255.0).round();
@@ -143,7 +143,7 @@ fn psnr(a: &Linear, b: &Linear) -> f64 {
     10.0 * (255.0_f64.powi(2) / (sum / count).max(1e-9)).log10()
 }
 
-/// The same map, written in a coding and read.
+/// Writes a map in a coding and reads it again.
 fn written(map: &RefractionMap, coding: Coding) -> RefractionMap {
     let folder = tempfile::tempdir().unwrap();
     let paths = files::paths(folder.path(), "a", map.bands.len(), coding);
@@ -160,7 +160,7 @@ fn brilliant() -> Polytope {
 
 #[test]
 fn a_tilted_slab_shifts_what_is_behind_as_snell_says() {
-    // Wide enough that no ray of the picture meets its rim.
+    // The slab is so wide that no ray of the picture meets its rim.
     let (index, thickness, tilt) = (1.5, 0.4, 35_f64.to_radians());
     let slab = boxed(DVec3::new(-9.0, -9.0, -thickness / 2.0), DVec3::new(9.0, 9.0, thickness / 2.0));
     let mut shoot = Shoot::of(slab, glass(index));
@@ -224,7 +224,8 @@ fn refracting_by_the_map_is_tracing_to_40_db() {
         ("a diamond", brilliant(), View::default(), diamond()),
         ("a diamond from near by", brilliant(), from_near, diamond()),
     ] {
-        // Of one place what is seen twice through a pixel from near by is lost; four leave little but their coding.
+        // From near by a pixel may show two places, of which a map of one place loses one. A map of four places loses
+        // little but through its coding.
         let alone = if view == from_near { 29.0 } else { 40.0 };
         for (bands, places, least) in [(1, 1, alone), (5, 1, alone), (1, 2, 40.0), (5, 2, 40.0), (1, 4, 45.0)]
         {
@@ -258,7 +259,7 @@ fn a_white_background_and_a_white_light_leave_no_trace_of_a_clear_stone() {
 
 #[test]
 fn bands_keep_the_rainbow_and_one_band_has_none() {
-    // A prism of strong dispersion, and a white line on black behind it.
+    // A prism of strong dispersion in front of a white line on black.
     let planes = [(DVec3::new(0.0, 0.28, 0.96), 0.3), (DVec3::new(0.0, 0.0, -1.0), 0.3), (DVec3::NEG_Y, 0.9)];
     let sides = [DVec3::X, DVec3::NEG_X].map(|n| (n, 0.9));
     let planes: Vec<Plane> =
@@ -281,7 +282,7 @@ fn bands_keep_the_rainbow_and_one_band_has_none() {
 
 #[test]
 fn a_background_that_moves_is_seen_moving_and_mirrored_beyond_its_border() {
-    // Nothing but a photograph: a stone that is out of the picture.
+    // The stone is outside the picture, which shows the photograph alone.
     let mut shoot = Shoot::of(boxed(DVec3::splat(8.0), DVec3::splat(8.1)), glass(1.5));
     shoot.span = 1.0;
     let (map, _) = shoot.map();

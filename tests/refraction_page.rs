@@ -1,5 +1,5 @@
-//! The page of a refraction map, as a browser shows it. Needs Chromium: without one the tests say that they are skipped, and
-//! with BRILLIANTEER_REQUIRE_CHROMIUM=1 they fail.
+//! Checks the page of a refraction map as a browser shows it. Without Chromium the tests print that they are skipped, and
+//! with `BRILLIANTEER_REQUIRE_CHROMIUM=1` they fail.
 #![cfg(feature = "cli")]
 #![allow(clippy::unwrap_used, clippy::print_stderr, reason = "a test fails by it, and says what it skips")]
 
@@ -14,7 +14,7 @@ use std::time::{Duration, Instant};
 const NAMES: [&str; 4] = ["chromium", "chromium-browser", "google-chrome", "chrome"];
 const PATIENCE: Duration = Duration::from_secs(600);
 
-/// The browser; `None`, told, where there is none.
+/// Returns the browser; `None`, with a message, where there is none.
 fn browser() -> Option<PathBuf> {
     let folders = std::env::var_os("PATH").unwrap_or_default();
     let all = std::env::split_paths(&folders).flat_map(|folder| NAMES.map(|name| folder.join(name)));
@@ -27,7 +27,7 @@ fn browser() -> Option<PathBuf> {
     found
 }
 
-/// Opens a page and answers what the browser prints.
+/// Opens a page and returns what the browser prints.
 fn open(browser: &Path, folder: &Path, page: &str, options: &[&str]) -> String {
     let profile = folder.join("profile");
     let mut child = Command::new(browser)
@@ -57,10 +57,10 @@ fn open(browser: &Path, folder: &Path, page: &str, options: &[&str]) -> String {
     std::fs::read_to_string(folder.join("printed")).unwrap()
 }
 
-/// What draws by the processor, the same everywhere.
+/// Options that make the browser draw by the processor, so that pictures are the same on all machines.
 const SOFTWARE: [&str; 3] = ["--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"];
 
-/// The map's files and page, of a picture of 200 by 150 pixels, in a folder of its own.
+/// Writes a map of 200 by 150 pixels and its page into a new folder.
 fn made(options: &str) -> tempfile::TempDir {
     let folder = tempfile::tempdir().unwrap();
     let photo = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/images/gallery/ring.png");
@@ -76,7 +76,7 @@ fn made(options: &str) -> tempfile::TempDir {
     folder
 }
 
-/// The picture that the map refracts, in eight-bit codes.
+/// Returns the picture that the page should show, looked up in the map's files, in eight-bit codes.
 fn expected(folder: &Path, stem: &str, bands: usize, offset: DVec2) -> Vec<[u8; 3]> {
     let paths = refraction_map::paths(folder, stem, bands, refraction_map::Coding::Tiles);
     let map = refraction_map::read(&paths, &refraction_map::diffuse_path(folder, stem)).unwrap();
@@ -86,7 +86,7 @@ fn expected(folder: &Path, stem: &str, bands: usize, offset: DVec2) -> Vec<[u8; 
     pixels.iter().map(|&[r, g, b, _]| [r, g, b].map(code)).collect()
 }
 
-/// The upper left 200 by 150 pixels of a screenshot.
+/// Returns the upper left 200 by 150 pixels of a screenshot.
 fn shot(path: &Path) -> Vec<[u8; 3]> {
     let file = std::io::BufReader::new(std::fs::File::open(path).unwrap());
     let mut reader = png::Decoder::new(file).read_info().unwrap();
@@ -97,7 +97,7 @@ fn shot(path: &Path) -> Vec<[u8; 3]> {
     (0..200 * 150).map(|k| [bytes[at(k)], bytes[at(k) + 1], bytes[at(k) + 2]]).collect()
 }
 
-/// Peak signal to noise, dB.
+/// Returns the peak signal-to-noise ratio, in dB.
 fn psnr(a: &[[u8; 3]], b: &[[u8; 3]]) -> f64 {
     let squares = a.iter().flatten().zip(b.iter().flatten()).map(|(a, b)| f64::from(a.abs_diff(*b)).powi(2));
     10.0 * (255.0_f64.powi(2) / (squares.sum::<f64>() / (3 * a.len()) as f64).max(1e-9)).log10()
@@ -136,7 +136,7 @@ fn the_page_moves_has_its_controls_and_says_when_it_cannot() {
     for control in ["Pause</button>", "<option>Ribbons</option>", "<option>Lines</option>", "type=\"file\""] {
         assert!(shown.contains(control), "{control}");
     }
-    // Pictures a second apart differ, and where less motion is asked for they do not.
+    // Pictures a second apart differ, except where the browser requests less motion.
     for (wish, moves) in [("--disable-extensions", true), ("--force-prefers-reduced-motion", false)] {
         let pictures = ["2000", "3000"].map(|time| {
             let path = folder.path().join(format!("{time}.png"));

@@ -1,4 +1,5 @@
-//! Stones that go out as meshes and come back: as this program writes them, turned since, and as another program would.
+//! Writes stones as meshes and reads them back: as this program writes them, turned, and as another program would write
+//! them.
 #![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a test fails by it, and tells what it saw")]
 
 #[path = "common/meshes.rs"]
@@ -23,19 +24,19 @@ const FORMATS: [DesignFormat; 4] =
 /// What happens to a file between being written and being read.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Way {
-    /// Nothing.
+    /// The file stays as it is.
     Kept,
-    /// Its corners are turned by any angle about any axis; what it says stays.
+    /// Its corners are turned by any angle about any axis; its statement of how the stone lies stays.
     Turned,
-    /// Another program writes it, which says nothing of how it lies.
+    /// The statement of how the stone lies is removed, as if another program had written the file.
     Stripped,
-    /// Both.
+    /// The statement is removed and the corners are turned.
     StrippedAndTurned,
 }
 
 const WAYS: [Way; 4] = [Way::Kept, Way::Turned, Way::Stripped, Way::StrippedAndTurned];
 
-/// What must come back: the same facet up, and all that is measured.
+/// The figures that must come back: the same facet up, and all measurements.
 #[derive(Debug, Clone, Copy)]
 struct Figures {
     volume_mm3: f64,
@@ -64,7 +65,7 @@ impl Figures {
         }
     }
 
-    /// Why these are not the same, if they are not.
+    /// Returns the first difference between two sets of figures, in words.
     fn differ(&self, other: &Self, with_material: bool) -> Option<String> {
         let pairs = [
             ("volume", self.volume_mm3, other.volume_mm3),
@@ -83,7 +84,7 @@ impl Figures {
         if !carats {
             return Some(format!("weight {:?} for {:?}", other.carats, self.carats));
         }
-        // Where the girdle's edges lie is told by corners, which rounding may add: a crown is compared less closely.
+        // The girdle's edges follow from corners, and rounding may add corners: a crown is compared less closely.
         let close =
             |what: &str, a: f64, b: f64| if what == "crown" { (a - b).abs() < 0.01 } else { near(a, b) };
         pairs
@@ -93,7 +94,7 @@ impl Figures {
     }
 }
 
-/// Numbers that are the same every time.
+/// A random number generator that gives the same numbers in every run.
 struct Dice(u64);
 
 impl Dice {
@@ -104,7 +105,7 @@ impl Dice {
         (self.0 >> 11) as f64 / (1_u64 << 53) as f64
     }
 
-    /// Any turn, each as likely (K. Shoemake 1992).
+    /// Returns a random turn; all turns are equally likely (K. Shoemake 1992).
     fn turn(&mut self) -> DQuat {
         let [u, v, w] = [self.next(), self.next(), self.next()];
         let (a, b) = ((1.0 - u).sqrt(), u.sqrt());
@@ -113,7 +114,7 @@ impl Dice {
     }
 }
 
-/// What became of a stone that went through a file: none where it came back, else why not.
+/// Sends a stone through a file: returns `None` where it comes back, and otherwise the reason.
 fn fate(specimen: &Specimen, format: DesignFormat, way: Way, turn: DQuat) -> Result<(), String> {
     let bytes = written(specimen, format).map_err(|e| e.to_string())?.bytes;
     let bytes = match way {
@@ -147,7 +148,7 @@ fn designs() -> Vec<PathBuf> {
     files
 }
 
-/// The names of those that do not come back, each with the reason.
+/// Returns the names of the designs that do not come back, each with the reason.
 fn lost(files: &[PathBuf], format: DesignFormat, way: Way) -> Vec<String> {
     let mut dice = Dice(0x9e37_79b9_7f4a_7c15);
     let turns: Vec<DQuat> = files.iter().map(|_| dice.turn()).collect();
@@ -159,7 +160,7 @@ fn lost(files: &[PathBuf], format: DesignFormat, way: Way) -> Vec<String> {
     files.par_iter().zip(&turns).filter_map(fate).collect()
 }
 
-/// Figures of the designs that come with the program and of a few made here, in mm: those that are convex.
+/// Returns the convex designs that come with the program, each 7.3 mm wide, and those of [`cutters_designs`].
 fn own_designs() -> Vec<(String, Specimen)> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("cuts");
     let mut files: Vec<PathBuf> =
@@ -167,7 +168,7 @@ fn own_designs() -> Vec<(String, Specimen)> {
     files.sort();
     let read = |file: &PathBuf| {
         let design = Design { diameter_mm: 7.3, ..design_file::read(file).unwrap().design };
-        // Glass has sizes of its own, whatever its diameter.
+        // The sizes of glass do not depend on a diameter.
         if matches!(design.cut, Cut::Glass(_)) {
             return None;
         }
@@ -178,7 +179,8 @@ fn own_designs() -> Vec<(String, Specimen)> {
     made
 }
 
-/// Designs of cutters' kinds: long, half round, three-sided, without symmetry, without a table, with a knife edge.
+/// Returns designs of the kinds that cutters make: long, half round, three-sided, without symmetry, without a table, with a
+/// knife edge.
 fn cutters_designs() -> Vec<(String, Specimen)> {
     let sides = |azimuths: &[(f64, f64)]| -> String {
         let facet = |(index, (azimuth, distance)): (usize, &(f64, f64))| {
@@ -238,7 +240,7 @@ fn what_another_program_writes_is_found_by_its_shape() {
         for format in FORMATS {
             for way in [Way::Stripped, Way::StrippedAndTurned] {
                 let came = fate(&specimen, format, way, dice.turn());
-                // Without a size the stone is as large as any mesh.
+                // Without its size the stone gets the size that any mesh gets.
                 let same_size = Design { diameter_mm: 6.5, ..specimen.design.clone() };
                 let came =
                     came.or_else(|_| fate(&Specimen::new(same_size).unwrap(), format, way, dice.turn()));
@@ -248,7 +250,7 @@ fn what_another_program_writes_is_found_by_its_shape() {
     }
 }
 
-/// The stone that a mesh is read as, and all that is said of it.
+/// Returns the stone that a mesh is read as, with the notes and the warnings about it.
 fn read(format: DesignFormat, bytes: Vec<u8>, up: Up) -> (Specimen, Vec<String>, Vec<String>) {
     let path = PathBuf::from(format!("x.{}", format.ending()));
     let brought = mesh_design::read(bytes, &path, MeshOptions { up, ..MeshOptions::default() }).unwrap();
@@ -268,7 +270,7 @@ fn a_statement_that_no_longer_holds_is_told() {
         let (back, _, warnings) = read(format, bytes(format), Up::Found);
         assert_eq!((back.design.diameter_mm, warnings), (5.2, vec![]), "{}", format.ending());
         assert_eq!(back.design.material, specimen.design.material);
-        // Turned, scaled, both, and moved, which is nothing to speak of.
+        // The mesh is turned, scaled, both, and moved; a move needs no message.
         let quarter = DQuat::from_rotation_x(1.2);
         let told = |to: &dyn Fn(DVec3) -> DVec3| {
             let (back, _, warnings) = read(format, moved(format, bytes(format), to), Up::Found);
@@ -281,7 +283,7 @@ fn a_statement_that_no_longer_holds_is_told() {
         );
         assert!(told(&|v| 0.5 * (quarter * v)).contains("turned since, so that its table faces"));
         assert_eq!(told(&|v| v + DVec3::new(0.001, -0.002, 0.003)), "");
-        // Pressed flat it is another stone, and what is said of it means nothing.
+        // A flattened mesh is another stone, and the statement in the file does not fit it.
         let flat = moved(format, bytes(format), &|v| {
             v * DVec3::new(1.0, 1.0, if format == DesignFormat::Glb { 1.0 } else { 0.8 })
                 * DVec3::new(1.0, if format == DesignFormat::Glb { 0.8 } else { 1.0 }, 1.0)
@@ -299,7 +301,7 @@ fn a_statement_that_no_longer_holds_is_told() {
     assert!(back.stone().is_ok());
 }
 
-/// A solid of polygons as OBJ, each corner first put elsewhere.
+/// Writes a solid of polygons as OBJ, with each corner moved by `to`.
 fn obj(corners: &[[f64; 3]], faces: &[&[usize]], to: impl Fn(DVec3) -> DVec3) -> Vec<u8> {
     let vertex = |corner: &[f64; 3]| {
         let v = to(DVec3::from_array(*corner));
@@ -317,7 +319,7 @@ fn a_cube_stands_and_an_octahedron_stands_on_its_point() {
         (0..8).map(|k| [k & 1, (k >> 1) & 1, (k >> 2) & 1].map(|bit| f64::from(bit) * 2.0 - 1.0)).collect();
     let sides: [&[usize]; 6] =
         [&[0, 2, 3, 1], &[4, 5, 7, 6], &[0, 1, 5, 4], &[2, 6, 7, 3], &[0, 4, 6, 2], &[1, 3, 7, 5]];
-    // In mm, in m, and away from the origin: it is the same stone.
+    // In mm, in m, and away from the origin the stone is the same.
     for (scale, shift) in [(3.0, DVec3::ZERO), (0.003, DVec3::ZERO), (3.0, DVec3::new(100.0, -7.0, 20.0))] {
         let (stone, notes, warnings) =
             read(DesignFormat::Obj, obj(&cube, &sides, |v| scale * v + shift), Up::Found);
@@ -355,7 +357,7 @@ fn a_cube_stands_and_an_octahedron_stands_on_its_point() {
         );
         let Figures { depth, table, .. } = Figures::of(&stone);
         match up {
-            // On its point it is as high as its square is wide from corner to corner.
+            // Standing on its point it is as high as its square is wide from corner to corner.
             Up::Found => {
                 assert!((depth - 2_f64.sqrt()).abs() < 1e-9 && table == [0.0; 2], "{depth} {table:?}")
             }
@@ -384,7 +386,7 @@ fn a_stone_is_found_lying_on_its_side_upside_down_and_with_y_up() {
             assert_eq!(why, None, "{name} as {}", format.ending());
             assert!(!notes.iter().any(|note| note.contains("doubt")), "{name}: {notes:?}");
         }
-        // Whoever says which way is up is believed.
+        // A given direction is taken as up even where it is wrong.
         let (back, ..) = read(format, foreign(), Up::Given(DVec3::X));
         assert!(Figures::of(&six_and_a_half).differ(&Figures::of(&back), false).is_some());
     }
@@ -392,7 +394,7 @@ fn a_stone_is_found_lying_on_its_side_upside_down_and_with_y_up() {
 
 #[test]
 fn a_shape_that_leaves_a_doubt_says_how_to_set_it() {
-    // Two pyramids, base on base, the upper one as steep as the lower.
+    // Two pyramids joined at their bases, the upper one as steep as the lower.
     let corners = [
         [1.0, 0.0, 0.0],
         [0.0, 1.0, 0.0],
@@ -445,10 +447,11 @@ fn light_is_the_same_before_and_after() {
     }
 }
 
-/// Designs of the library that do not come back from what this program writes, with the reason.
+/// Designs of the library that do not come back from the files that this program writes, with the reason.
 const LOST: [(&str, &str); 0] = [];
 
-/// Every twenty-fifth design of the library, where it is at hand, as this program writes it, left alone and turned.
+/// Every twenty-fifth design of the library comes back from this program's files, unchanged and turned, where the library is
+/// on the machine.
 #[test]
 fn real_designs_come_back() {
     let files: Vec<PathBuf> = designs().into_iter().step_by(25).collect();
@@ -460,7 +463,8 @@ fn real_designs_come_back() {
     }
 }
 
-/// Of the whole library, which takes long: `STONES_STEP=10` takes every tenth design, `STONES_WAYS=Kept,Turned` only these ways.
+/// The whole library comes back, which takes long: `STONES_STEP=10` takes every tenth design, `STONES_WAYS=Kept,Turned` only
+/// these ways.
 #[test]
 #[ignore = "it takes a quarter of an hour: cargo test --test stones -- --ignored --nocapture"]
 fn the_whole_library_comes_back() {

@@ -1,4 +1,4 @@
-//! Beams against rays, point by point: two tracers that share nothing but Fresnel's equations and the stone.
+//! Compares beams with rays, point by point: two tracers that share nothing but Fresnel's equations and the stone.
 #![allow(clippy::unwrap_used, reason = "a test fails by it")]
 
 mod common;
@@ -10,15 +10,15 @@ use brillianteer::trace::ray::{Camera, Exit, RayOptions, StoneTracer};
 use common::*;
 use glam::{DMat2, DVec2, DVec3};
 
-/// A point this near to an edge of a beam, in girdle radii, may be seen on either side of it.
+/// How near to an edge of a beam a point is left out, in girdle radii: it may be seen on either side of the edge.
 const NEAR_EDGE: f64 = 1e-6;
 
-/// How beams and rays compare over a grid of points.
+/// The result of comparing beams and rays over a grid of points.
 #[derive(Debug, Default)]
 struct Comparison {
     compared: u32,
     near_edge: u32,
-    /// The largest difference in any exit's weight, its direction, and the path up to it.
+    /// The largest differences in the weight of an exit, in its direction and in the path up to it.
     weight: f64,
     direction: f64,
     path: f64,
@@ -63,7 +63,7 @@ fn compare(beams: &Beams, stone: &Stone, view: &View, medium: Medium) -> Compari
     result
 }
 
-/// The exits that beams have at a point, as directions, weights and paths, in their order. `None` near an edge.
+/// Returns the exits of the beams at a point, as directions, weights and paths, in order; `None` near an edge.
 fn chain(beams: &Beams, children: &[Vec<u32>], p: DVec2) -> Option<Vec<(DVec3, f64, f64)>> {
     let roots: Vec<u32> = beams.iter().filter(Beam::is_surface).map(|b| b.id).collect();
     let inside = |among: &[u32], q: DVec2| {
@@ -87,13 +87,13 @@ fn chain(beams: &Beams, children: &[Vec<u32>], p: DVec2) -> Option<Vec<(DVec3, f
     None
 }
 
-/// A direction carried by a copy of the picture's domain.
+/// Returns a direction as it is in a copy of the picture's domain.
 fn turned(beams: &Beams, copy: DMat2, direction: DVec3) -> DVec3 {
     let view = beams.view;
     view.lift(copy * view.project(direction)) + view.toward * view.toward.dot(direction)
 }
 
-/// A beam's weight at a point: its mean, but for the absorption along this very ray.
+/// Returns a beam's weight at a point: its mean weight, with the absorption along the ray through this point.
 fn pointwise(beams: &Beams, beam: &Beam, q: DVec2) -> f64 {
     let medium = beams.medium;
     if medium.is_clear() {

@@ -1,4 +1,5 @@
-//! Solids of triangles: a convex one is that of its planes, one that is not keeps account of all light.
+//! Checks solids of triangles: a convex one gives the same results as its planes, and one that is not convex accounts for
+//! all light.
 #![allow(clippy::unwrap_used, reason = "a test fails by it")]
 
 mod common;
@@ -35,7 +36,7 @@ fn view() -> View {
     View { tilt: 0.2, azimuth: 0.4, ..View::default() }
 }
 
-/// A picture under light of stones in one world.
+/// Does work with a lit scene of stones in one world.
 fn taken<T>(stones: Vec<Instance>, light: &Light, work: impl FnOnce(&LitScene) -> T) -> T {
     let setting = Scene { instances: stones, unit_mm: 3.25 };
     let (sky, view) = (EnvironmentMap::new(light, None), view());
@@ -59,7 +60,7 @@ fn by_rays_of(stones: Vec<Instance>, light: &Light) -> (Linear, Remainder) {
     })
 }
 
-/// How many pixels differ by more than rounding, and how many show anything.
+/// Counts the pixels that differ by more than rounding, and those that show anything.
 fn apart(a: &Linear, b: &Linear) -> (usize, usize) {
     let off = |(a, b): (&[f32; 4], &[f32; 4])| (0..4).any(|i| (a[i] - b[i]).abs() > 1e-4);
     (
@@ -76,7 +77,7 @@ fn a_brilliant_of_triangles_has_the_figures_and_pictures_of_its_planes() {
     let (view, scope, manner) = (view(), aset(), (options(), 24));
     let planes = measure::by_rays(&stone.polytope, medium, &view, &scope, manner, &unwatched).unwrap();
     let triangles = measure::by_rays(&shell, medium, &view, &scope, manner, &unwatched).unwrap();
-    // A ray along an edge may go either way.
+    // Rounding decides which way a ray along an edge goes.
     assert!(largest_difference(&row(&planes), &row(&triangles)) < 1e-3, "{planes:?} {triangles:?}");
     assert!((triangles.sum() - 1.0).abs() < 1e-9);
     assert!((planes.silhouette_area / triangles.silhouette_area - 1.0).abs() < 0.02);
@@ -133,8 +134,8 @@ fn a_white_furnace_is_white_around_solids_that_are_not_convex() {
 
 #[test]
 fn a_stone_in_the_gap_of_another_is_seen_there() {
-    // The same two stones, the clasp as triangles and as three bars side by side: only what touches differs, and in a
-    // medium as thin as air nothing does; a dark cube in the gap is seen through the clasp.
+    // The same two stones, with the clasp as triangles and as three bars side by side. Only touching surfaces differ, and
+    // with the index of air they change nothing. A dark cube in the gap is seen through the clasp.
     let air = Material::from_index("air", 1.0).unwrap();
     let mut dark = air.clone();
     dark.absorption = [(); 2].map(|()| brillianteer::optics::Absorption::new(vec![(550.0, 1e3)]).unwrap());
@@ -223,7 +224,7 @@ mod by_card {
         let scenes = [
             vec![stone(heart(), "diamond")],
             vec![stone(star(), "ruby")],
-            // A brilliant in the clasp's gap: light goes to and fro between the two.
+            // A brilliant in the clasp's gap, so that light goes to and fro between the two.
             vec![stone(clasp(0.4), "quartz"), planes],
         ];
         let light = light("dome").unwrap();

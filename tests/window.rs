@@ -1,4 +1,4 @@
-//! The real program in a real window, on a screen that only exists in memory (Xvfb), worked by keys (xdotool).
+//! Runs the real program in a real window, on a screen that exists only in memory (Xvfb), and presses keys by xdotool.
 #![cfg(all(feature = "app", target_os = "linux"))]
 #![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a test fails by it; what is skipped is told")]
 
@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 
-/// How long a window may take to open or close, and all its pictures to be finished, where cores are few and shared.
+/// How long a window may take to open, to close or to finish all its pictures, where cores are few and shared.
 const PATIENCE: Duration = Duration::from_secs(600);
 
 /// A screen in memory.
@@ -18,12 +18,12 @@ struct Screen {
     folder: tempfile::TempDir,
 }
 
-/// Pixels of a screen: width, height, red, green and blue of each.
+/// The picture of a screen: its width, its height, and red, green and blue of each pixel.
 #[derive(PartialEq)]
 struct Pixels(u32, u32, Vec<u8>);
 
 impl Screen {
-    /// Opens one; none where there is no Xvfb or no xdotool, which fails where it must be there.
+    /// Opens a screen; returns `None` where Xvfb or xdotool is missing, and fails where they are required.
     fn open(test: &str) -> Option<Self> {
         let is_there = |name: &str| {
             Command::new(name).arg("-version").stdout(Stdio::null()).stderr(Stdio::null()).status().is_ok()
@@ -49,9 +49,10 @@ impl Screen {
         Some(Self { server, display: format!(":{}", number.trim()), folder })
     }
 
-    /// Starts the program, and answers it with what the window shows once it rests with its views arranged so.
+    /// Starts the program; returns it with the picture of the screen once the window is at rest with this arrangement of
+    /// views.
     fn start(&self, home: &Path, layout: &str) -> (Child, Pixels) {
-        // What an earlier window said is not about this one.
+        // The file may be from an earlier window.
         let _ = std::fs::remove_file(self.state_file());
         let program = Command::new(env!("CARGO_BIN_EXE_brillianteer"))
             .env("DISPLAY", &self.display)
@@ -65,7 +66,7 @@ impl Screen {
         (program, self.at_rest(layout))
     }
 
-    /// What xdotool answers.
+    /// Runs xdotool and returns what it prints.
     fn asked(&self, line: &[&str]) -> String {
         let output = Command::new("xdotool").args(line).env("DISPLAY", &self.display).output().unwrap();
         String::from_utf8_lossy(&output.stdout).into_owned()
@@ -87,7 +88,7 @@ impl Screen {
         }
     }
 
-    /// What the screen shows: the server keeps it in a file, as XWD.
+    /// Returns the picture of the screen, which the server keeps in an XWD file.
     fn pixels(&self) -> Pixels {
         let file = std::fs::read(self.folder.path().join("Xvfb_screen0")).unwrap();
         let word = |k: usize| u32::from_be_bytes(file[4 * k..4 * k + 4].try_into().unwrap()) as usize;
@@ -98,12 +99,12 @@ impl Screen {
         Pixels(width as u32, height as u32, rgb.collect())
     }
 
-    /// Where the program says whether its window is at rest.
+    /// Returns the path of the file in which the program reports whether its window is at rest.
     fn state_file(&self) -> PathBuf {
         self.folder.path().join("state.json")
     }
 
-    /// What the screen shows once the program says that its window rests, with its views arranged so.
+    /// Returns the picture of the screen once the program reports that its window is at rest with this arrangement of views.
     fn at_rest(&self, layout: &str) -> Pixels {
         let state =
             || -> Option<Value> { serde_json::from_slice(&std::fs::read(self.state_file()).ok()?).ok() };
@@ -131,7 +132,7 @@ impl Pixels {
         path
     }
 
-    /// The part of pixels that are another than in another picture.
+    /// Returns the fraction of pixels that differ from those of another picture.
     fn changed(&self, other: &Self) -> f64 {
         let apart = self.2.as_chunks::<3>().0.iter().zip(other.2.as_chunks::<3>().0).filter(|(a, b)| a != b);
         apart.count() as f64 / f64::from(self.0 * self.1)

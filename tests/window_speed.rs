@@ -1,8 +1,8 @@
-//! How quickly the real window follows the hand, from events of the pointer to pixels on the screen, which only exists in
-//! memory (Xvfb). It takes some minutes and two cores that are idle otherwise, so it is not run with the other tests:
+//! Measures how quickly the real window follows the hand, from events of the pointer to pixels on a screen that exists only
+//! in memory (Xvfb). This takes some minutes and two cores that are idle otherwise, so it is not run with the other tests:
 //! `cargo test --release --test window_speed -- --ignored --nocapture`
 //!
-//! `BRILLIANTEER_PAINTER=card` measures the painter for graphics cards instead, which a driver in software computes here.
+//! `BRILLIANTEER_PAINTER=card` measures the painter for graphics cards instead, by a driver that computes in software.
 #![cfg(all(feature = "app", target_os = "linux"))]
 #![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a test fails by it; what is measured is told")]
 
@@ -23,32 +23,34 @@ use x11rb::protocol::xproto::{
 use x11rb::protocol::xtest::ConnectionExt as _;
 use x11rb::rust_connection::RustConnection;
 
-/// The window, pixels.
+/// The size of the window, in pixels.
 const SIZE: [f32; 2] = [1440.0, 900.0];
 
-/// How long anything may take to begin.
+/// How long the program may take to start and to come to rest.
 const PATIENCE: Duration = Duration::from_secs(600);
 
-/// From one event of the pointer to the next: most mice tell 125 times a second or more, of which screens show 60.
+/// The time from one event of the pointer to the next: most mice report 125 times a second or more, and screens show 60
+/// pictures.
 const HAND: Duration = Duration::from_micros(16_667);
 
-/// How long a drag takes, and how long a step of one is waited for.
+/// How long a drag takes, and how long the test waits for a step of a drag to show.
 const DRAG: Duration = Duration::from_secs(6);
 const STEP: Duration = Duration::from_millis(250);
 
-/// Changes of a region that lie closer together are one: it is read while the server writes it.
+/// Changes of a region that are closer together than this count as one, because the region is read while the server
+/// writes it.
 const ONE: Duration = Duration::from_millis(8);
 
-/// What is asked for: complete updates a second in a drag, images a second over menus, milliseconds from the hand to the
-/// number it holds.
+/// The requirements: complete updates per second in a drag, images per second over menus, and milliseconds from the hand to
+/// the number that it drags.
 const UPDATES: f64 = 20.0;
 const MENUS: f64 = 30.0;
 const NUMBER: f64 = 40.0;
 
-/// The share of the cores that other programs may take for the figures to count.
+/// The largest share of the cores that other programs may use for the figures to count.
 const OTHERS: f64 = 0.1;
 
-/// Where things are in the window, points; one pixel each.
+/// The positions of things in the window, in points of one pixel.
 struct Places {
     crown_angle: Rect,
     view_menu: Rect,
@@ -58,7 +60,7 @@ struct Places {
 }
 
 impl Places {
-    /// Asks the editor itself, in a window of the same size that is not shown.
+    /// Finds the positions from the editor itself, in a window of the same size that is not shown.
     fn find() -> Self {
         let mut harness = Harness::builder()
             .with_size(egui::Vec2::from(SIZE))
@@ -136,7 +138,7 @@ impl Stage {
         stage
     }
 
-    /// Waits for the window, and where its top left corner is.
+    /// Waits for the window and returns the position of its top left corner.
     fn window(&self) -> [i16; 2] {
         let begun = Instant::now();
         loop {
@@ -170,7 +172,7 @@ impl Stage {
         self.event(BUTTON_RELEASE_EVENT, 1, at);
     }
 
-    /// A number that stands for what is seen in a region, by some of its rows.
+    /// Returns a hash of some rows of a region.
     fn seen(&self, region: Rect) -> u64 {
         let mut hash = DefaultHasher::new();
         let rows = 16.0_f32.min(region.height());
@@ -185,7 +187,7 @@ impl Stage {
         hash.finish()
     }
 
-    /// Waits until every picture and figure is final, by what the program says, and has been for a while.
+    /// Waits until the program has reported for a while that every picture and figure is final.
     fn rest(&self) {
         let (begun, mut since) = (Instant::now(), Instant::now());
         while since.elapsed() < Duration::from_secs(1) {
@@ -199,7 +201,8 @@ impl Stage {
         }
     }
 
-    /// Moves the hand along places, one each [`HAND`], for a while; how often each region changed, a second.
+    /// Moves the hand along a path, one place each [`HAND`], for a while; returns how many times a second each region
+    /// changed.
     fn changes(&self, path: impl Fn(u32) -> Pos2, regions: &[Rect], long: Duration) -> Vec<f64> {
         let begun = Instant::now();
         let mut seen: Vec<(u64, Option<Instant>, u32)> =
@@ -223,8 +226,8 @@ impl Stage {
         seen.iter().map(|(.., count)| f64::from(*count) / long.as_secs_f64()).collect()
     }
 
-    /// Moves the hand by steps, with time between them; after how many milliseconds each region changes, the middle of
-    /// all steps and the slowest. Steps by which the first region does not change are too small for it and do not count.
+    /// Moves the hand by steps, with time between them; returns the milliseconds until each region changes, the median and
+    /// the slowest of all steps. Steps that do not change the first region are too small for it and do not count.
     fn delays(&self, path: impl Fn(u32) -> Pos2, regions: &[Rect], steps: u32) -> Vec<[f64; 2]> {
         let mut all: Vec<Vec<f64>> = vec![vec![]; regions.len()];
         for step in 0..steps {
@@ -265,16 +268,16 @@ impl Drop for Stage {
     }
 }
 
-/// Seconds of a core that were used until now: by the machine, and of that by this test, the program and the server.
+/// Returns the core seconds used until now: by the whole machine, and of these by this test, the program and the server.
 fn used(stage: &Stage) -> [f64; 2] {
-    // Ticks of a hundredth of a second, as everywhere on Linux.
+    // The system counts in ticks of a hundredth of a second, as everywhere on Linux.
     let sum = |text: &str, fields: std::ops::Range<usize>| -> f64 {
         let all: Vec<f64> = text.split_whitespace().map(|n| n.parse().unwrap_or(0.0)).collect();
         all[fields].iter().sum::<f64>() / 100.0
     };
     let stat = std::fs::read_to_string("/proc/stat").unwrap();
     let whole = stat.lines().next().unwrap().trim_start_matches("cpu").to_owned();
-    // User, nice, system; then, behind idle time, interrupts and what a host took away.
+    // The fields are user, nice and system, and after the idle times interrupts and the time that a host took away.
     let machine = sum(&whole, 0..3) + sum(&whole, 5..8);
     let of = |id: u32| {
         let text = std::fs::read_to_string(format!("/proc/{id}/stat")).unwrap();
@@ -283,13 +286,13 @@ fn used(stage: &Stage) -> [f64; 2] {
     [machine, [std::process::id(), stage.program.id(), stage.server.id()].into_iter().map(of).sum()]
 }
 
-/// A point that swings to and fro: as a hand does that looks for the best.
+/// Returns a point that swings to and fro, like a hand that looks for the best value.
 fn swing(middle: Pos2, by: egui::Vec2, step: u32) -> Pos2 {
     let phase = (step % 80) as f32;
     middle + by * (phase.min(80.0 - phase) - 20.0)
 }
 
-/// What was measured, and whether it is what is asked for.
+/// Judges whether the measurements meet the requirements.
 struct Judge(Vec<String>);
 
 impl Judge {

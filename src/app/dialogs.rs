@@ -7,7 +7,7 @@ use super::command::MENUS;
 use super::document::Document;
 use super::editor::Editor;
 use super::export_dialog::{self, ExportDialog};
-use super::opening::Wanted;
+use super::opening::OpeningPurpose;
 use super::proportions::PROPORTIONS;
 use super::shows::Shows;
 use crate::io::mesh_options::MeshOptions;
@@ -234,7 +234,7 @@ fn changed_outside(editor: &mut Editor, ui: &mut Ui) -> bool {
     match buttons(ui, &["Keep mine", "Read the file again"]) {
         Some(1) => {
             if let Some(path) = editor.document.path().map(std::path::Path::to_owned) {
-                editor.open(&path, Wanted::Again);
+                editor.open(&path, OpeningPurpose::Again);
             }
             false
         }

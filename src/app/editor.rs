@@ -15,7 +15,7 @@ use super::lookup::LookupWorker;
 use super::moving::Moving;
 use super::notes::Notes;
 use super::opener::{Opener, by_system};
-use super::opening::{Opening, Wanted};
+use super::opening::{Opening, OpeningPurpose};
 use super::pose_cache::PoseCache;
 use super::probe::Probe;
 use super::profile_view::ProfileView;
@@ -252,7 +252,7 @@ impl Editor {
                 editor.begin_preset(&path.to_string_lossy().to_lowercase());
             }
             Some(path) if named(&path) => editor.begin_from_library(&path.to_string_lossy()),
-            Some(path) => editor.open_with(&path, Wanted::Anew, setup.mesh),
+            Some(path) => editor.open_with(&path, OpeningPurpose::Anew, setup.mesh),
             None => {}
         }
         editor.offer_recovery();

@@ -1,7 +1,7 @@
 //! The export dialog, which writes files.
 
 use super::editor::Editor;
-use super::export_job::{Job, PictureAspect, Plan, Selection, thumbnails};
+use super::export_job::{ExportPlan, Job, PictureAspect, Selection, thumbnails};
 use super::files::Purpose;
 use super::pose_cache::PoseCache;
 use super::shows::Shows;
@@ -28,7 +28,7 @@ const SIZES: std::ops::RangeInclusive<u32> = 16..=8192;
 /// The state of the export dialog.
 pub struct ExportDialog {
     pub(super) folder: PathBuf,
-    pub(super) plan: Plan,
+    pub(super) plan: ExportPlan,
     thumbnails: Receiver<(Shows, ColorImage)>,
     pictures: HashMap<Shows, TextureHandle>,
     job: Option<Job>,
@@ -63,7 +63,7 @@ impl ExportDialog {
         let copies = Copies::at(shot.company.clone(), shot.specimen.solid().vertices());
         let reach = editor.reach(Shows::Render).max(copies.reach(0.0));
         let mut plan =
-            Plan { shot, upright, linked, own, reach, selection, light, folder: folder.clone(), stem };
+            ExportPlan { shot, upright, linked, own, reach, selection, light, folder: folder.clone(), stem };
         let can_be_shown: Vec<Shows> = plan.can_be_shown().collect();
         plan.selection.views.retain(|shows| can_be_shown.contains(shows));
         let wake = editor.studio.wake();

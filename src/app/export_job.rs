@@ -70,7 +70,7 @@ pub struct PictureAspect {
 
 /// All that an export needs to know.
 #[derive(Clone)]
-pub struct Plan {
+pub struct ExportPlan {
     /// What renders show, with light and view; the film is not used.
     pub shot: Shot,
     /// The stone as the cut has it, not turned.
@@ -112,7 +112,7 @@ pub struct Job {
     begun: Instant,
 }
 
-impl Plan {
+impl ExportPlan {
     /// Returns how a picture sees the stone.
     pub fn aspect(&self, shows: Shows) -> &PictureAspect {
         self.own.iter().find(|(own, _)| *own == shows).map_or(&self.linked, |(_, aspect)| aspect)
@@ -357,7 +357,7 @@ impl ExportProgress {
 
 impl Job {
     /// Begins an export on a thread of its own; `wake` is called when it ends.
-    pub fn begin(plan: Plan, wake: impl Fn() + Send + 'static) -> Self {
+    pub fn begin(plan: ExportPlan, wake: impl Fn() + Send + 'static) -> Self {
         let progress = Arc::new(ExportProgress::default());
         let seen = Arc::clone(&progress);
         // Where the files cannot be known, writing says why.
@@ -446,7 +446,7 @@ fn spoken(time: Duration) -> String {
 }
 
 /// Takes thumbnails of all views, one after the other, on a thread of its own; `wake` is called after each.
-pub fn thumbnails(plan: Plan, wake: impl Fn() + Send + 'static) -> Receiver<(Shows, ColorImage)> {
+pub fn thumbnails(plan: ExportPlan, wake: impl Fn() + Send + 'static) -> Receiver<(Shows, ColorImage)> {
     let (sender, pictures) = channel();
     std::thread::spawn(move || {
         let mut camera = ShotTracer::default();
@@ -461,7 +461,7 @@ pub fn thumbnails(plan: Plan, wake: impl Fn() + Send + 'static) -> Receiver<(Sho
 }
 
 /// Returns the drawing from the side, small.
-fn side(plan: &Plan) -> Option<ColorImage> {
+fn side(plan: &ExportPlan) -> Option<ColorImage> {
     let Specimen { design, .. } = &*plan.upright;
     let text = profile(plan.upright.stone().ok()?, &design.name, design.cut.brilliant()).to_string();
     let (width, height, rgb) = rasterize(&text, 2 * THUMBNAIL).ok()?;
@@ -469,7 +469,12 @@ fn side(plan: &Plan) -> Option<ColorImage> {
 }
 
 /// Takes the thumbnail of a view and sends it; returns whether anyone still wants thumbnails.
-fn send(plan: &Plan, shows: Shows, camera: &mut ShotTracer, sender: &Sender<(Shows, ColorImage)>) -> bool {
+fn send(
+    plan: &ExportPlan,
+    shows: Shows,
+    camera: &mut ShotTracer,
+    sender: &Sender<(Shows, ColorImage)>,
+) -> bool {
     let effort = Effort { unresolved: 2e-2, coarser: 1.0, bands: 6 };
     let mut is_wanted = true;
     if shows == Shows::Profile {

@@ -1,6 +1,6 @@
 //! Writes what renders show as a scene file with its cut.
 
-use super::export_job::Plan;
+use super::export_job::ExportPlan;
 use super::shows::Shows;
 use super::studio::hung;
 use crate::io::background::BackgroundRef;
@@ -20,12 +20,12 @@ pub struct SceneOut {
 
 impl SceneOut {
     /// Returns the paths of the scene file and of the cut file.
-    pub fn paths(plan: &Plan) -> [PathBuf; 2] {
+    pub fn paths(plan: &ExportPlan) -> [PathBuf; 2] {
         ["scene", "cut"].map(|part| plan.folder.join(format!("{}-{part}.toml", plan.stem)))
     }
 
     /// Makes the scene of what a plan's renders show.
-    pub fn of(plan: &Plan) -> Self {
+    pub fn of(plan: &ExportPlan) -> Self {
         let shot = &plan.shot;
         let paths = Self::paths(plan);
         let cut = format!("{}-cut.toml", plan.stem);

@@ -7,7 +7,7 @@ use super::dialogs::{Dialog, Then};
 use super::document::{Document, Work};
 use super::editor::{Editor, Shown};
 use super::files::{Choosing, Purpose, Question};
-use super::opening::Wanted;
+use super::opening::OpeningPurpose;
 use super::studio::Which;
 use super::workspace::Workspace;
 use crate::io::design_file::DesignFormat;
@@ -27,7 +27,7 @@ impl Editor {
             self.dialog = Some(Dialog::ChangedOutside);
         } else if let Some(path) = self.document.path().map(Path::to_owned) {
             // No change of the user's is lost, so the new file is read without a question.
-            self.open(&path, Wanted::Again);
+            self.open(&path, OpeningPurpose::Again);
         }
     }
 
@@ -81,7 +81,7 @@ impl Editor {
     /// Carries out the action that waited for the answer to a question.
     pub(super) fn then(&mut self, then: Then) {
         match then {
-            Then::Open(path, mesh) => self.open_with(&path, Wanted::Anew, mesh),
+            Then::Open(path, mesh) => self.open_with(&path, OpeningPurpose::Anew, mesh),
             Then::Library(name) => self.begin_from_library(&name),
             Then::Preset(name) => self.begin_preset(&name),
             Then::Close => self.may_close = true,
@@ -153,7 +153,7 @@ impl Editor {
                     self.ask_before(then);
                 }
             }
-            Purpose::Compare => self.open(&path, Wanted::Beside),
+            Purpose::Compare => self.open(&path, OpeningPurpose::Beside),
             Purpose::Light => self.document.work.light = path.display().to_string(),
             Purpose::Behind => self.desk.behind = Some(path.display().to_string()),
             Purpose::Folder => {

@@ -7,7 +7,7 @@ mod table;
 mod tests;
 
 use self::orbit::Orbit;
-use self::table::Table;
+use self::table::PathTable;
 use crate::math::Basis;
 use crate::scene::{Band, Body, Scope, elevation_deg};
 use crate::trace::ray::Path;
@@ -48,7 +48,7 @@ impl LightPath {
     /// from the plane square to its axis, azimuths counter-clockwise from its `right`.
     pub fn show(&mut self, ui: &mut Ui, body: &Body, path: &Path, scope: &Scope, light: &Basis) {
         let reading = Reading { body, path, scope, light };
-        let table = Table::new(&reading);
+        let table = PathTable::new(&reading);
         let (room, width) = (ui.available_size(), table.width(ui));
         // In a place that scrolls, the height may have no limit.
         let height = room.y.min(2.0 * room.x);
@@ -63,7 +63,7 @@ impl LightPath {
         ui.with_layout(layout, |ui| self.parts(ui, size, &reading, &table));
     }
 
-    fn parts(&mut self, ui: &mut Ui, size: Vec2, reading: &Reading, table: &Table) {
+    fn parts(&mut self, ui: &mut Ui, size: Vec2, reading: &Reading, table: &PathTable) {
         let (response, painter) = ui.allocate_painter(size, Sense::click_and_drag());
         let response = response.on_hover_cursor(CursorIcon::Grab);
         self.orbit.turned_by(ui, &response);

@@ -210,9 +210,10 @@ pub fn keys(editor: &mut Editor, ctx: &Context) {
         if !modifiers.command && ctx.text_edit_focused() {
             continue;
         }
-        // Space presses the button that has the focus.
+        // Space presses the button that has the focus, and follows a ray in the picture that has it where there are no copies
+        // to lay out.
         let is_busy = ctx.memory(|m| m.focused().is_some()) && !editor.is_picture_focused;
-        if command == Command::LayOut && is_busy {
+        if command == Command::LayOut && (is_busy || !is_possible(editor, command)) {
             continue;
         }
         ctx.input_mut(|i| i.consume_key(modifiers, key));

@@ -1,7 +1,7 @@
 //! Rows that set how the open mesh is read: whether as flat facets, and which way its table faces.
 
 use super::editor::Editor;
-use super::opening::Wanted;
+use super::opening::OpeningPurpose;
 use super::rows::{field_width, named};
 use crate::cut::Cut;
 use crate::cut::from_mesh::Up;
@@ -48,7 +48,7 @@ pub fn show(editor: &mut Editor, ui: &mut Ui) {
         combo.response.labelled_by(label.id).on_hover_text(MEANING);
     });
     if chosen != options.up {
-        editor.open_with(&path, Wanted::Otherwise, MeshOptions { up: chosen, ..options });
+        editor.open_with(&path, OpeningPurpose::Otherwise, MeshOptions { up: chosen, ..options });
     }
 }
 
@@ -74,7 +74,7 @@ fn form(editor: &mut Editor, ui: &mut Ui) {
         for (name, form, meaning) in FORMS {
             let is_present = form == present;
             if ui.selectable_label(is_present, name).on_hover_text(meaning).clicked() && !is_present {
-                editor.open_with(&path, Wanted::Otherwise, MeshOptions { form, ..options });
+                editor.open_with(&path, OpeningPurpose::Otherwise, MeshOptions { form, ..options });
             }
         }
     });

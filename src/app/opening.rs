@@ -13,7 +13,7 @@ use std::sync::mpsc::{Receiver, channel};
 
 /// What a file is opened for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Wanted {
+pub enum OpeningPurpose {
     /// To work on the file.
     Anew,
     /// To read the open file again, without moving any view.
@@ -30,7 +30,7 @@ const DOUBTFUL: &str = "The shape of this mesh leaves a doubt which way its tabl
 
 /// A file that is being opened.
 pub struct Opening {
-    wanted: Wanted,
+    wanted: OpeningPurpose,
     path: PathBuf,
     /// How the file is read where it is a mesh.
     mesh: MeshOptions,
@@ -47,8 +47,8 @@ enum Came {
 
 impl Came {
     /// Reads a file; a scene is only read as one to be worked on.
-    fn of(path: &Path, wanted: Wanted, mesh: MeshOptions) -> Result<Self, String> {
-        match wanted == Wanted::Anew && is_scene(path) {
+    fn of(path: &Path, wanted: OpeningPurpose, mesh: MeshOptions) -> Result<Self, String> {
+        match wanted == OpeningPurpose::Anew && is_scene(path) {
             true => Preset::read(path).map(Box::new).map(Self::Scene),
             false => Document::open(path, mesh).map(Box::new).map(Self::Design),
         }
@@ -58,7 +58,7 @@ impl Came {
 impl Opening {
     /// Whether the file is opened beside the present document, which stays.
     pub fn is_beside(&self) -> bool {
-        self.wanted == Wanted::Beside
+        self.wanted == OpeningPurpose::Beside
     }
 
     /// Says which file is being opened.
@@ -74,22 +74,22 @@ fn is_scene(path: &Path) -> bool {
 
 impl Editor {
     /// Opens a file; another that is still being read for the same purpose is dropped.
-    pub(super) fn open(&mut self, path: &Path, wanted: Wanted) {
+    pub(super) fn open(&mut self, path: &Path, wanted: OpeningPurpose) {
         // A mesh that has changed is read as before; a design that was made of it and saved elsewhere is not a mesh.
         let is_mesh = self.document.work.mesh.as_ref().is_some_and(|mesh| mesh.path == path);
-        let again = self.mesh_options().filter(|_| wanted == Wanted::Again && is_mesh);
+        let again = self.mesh_options().filter(|_| wanted == OpeningPurpose::Again && is_mesh);
         self.open_with(path, wanted, again.unwrap_or_default());
     }
 
     /// Returns how the open mesh was read, or how it is being read anew; `None` where the stone was read from no mesh.
     pub(super) fn mesh_options(&self) -> Option<MeshOptions> {
         let mesh = self.document.work.mesh.as_ref()?;
-        let is_pending = |o: &&Opening| o.wanted == Wanted::Otherwise && o.path == mesh.path;
+        let is_pending = |o: &&Opening| o.wanted == OpeningPurpose::Otherwise && o.path == mesh.path;
         Some(self.opening.iter().find(is_pending).map_or(mesh.options, |opening| opening.mesh))
     }
 
     /// Opens a file as [`open`](Self::open) does; the options count where it is a mesh.
-    pub(super) fn open_with(&mut self, path: &Path, wanted: Wanted, mesh: MeshOptions) {
+    pub(super) fn open_with(&mut self, path: &Path, wanted: OpeningPurpose, mesh: MeshOptions) {
         let (sender, answer) = channel();
         let (name, wake) = (path.to_owned(), self.studio.wake());
         std::thread::spawn(move || {
@@ -99,7 +99,7 @@ impl Editor {
         });
         let work = self.document.work.clone();
         let opening = Opening { wanted, path: path.to_owned(), mesh, work, answer };
-        self.opening.retain(|other| other.is_beside() != (wanted == Wanted::Beside));
+        self.opening.retain(|other| other.is_beside() != (wanted == OpeningPurpose::Beside));
         self.opening.push(opening);
     }
 
@@ -121,16 +121,16 @@ impl Editor {
         // The user has not given up what was changed while the file was being read.
         let is_later = self.document.work != opening.work;
         match (opening.wanted, came) {
-            (Wanted::Anew, _) if is_later => {
+            (OpeningPurpose::Anew, _) if is_later => {
                 self.ask_before(Then::Open(opening.path.clone(), opening.mesh));
             }
-            (Wanted::Again, _) if is_later => self.dialog = Some(Dialog::ChangedOutside),
+            (OpeningPurpose::Again, _) if is_later => self.dialog = Some(Dialog::ChangedOutside),
             (_, Came::Scene(preset)) => {
                 self.begin_scene(*preset);
                 self.desk.remember(&opening.path);
             }
-            (Wanted::Beside, Came::Design(document)) => self.compared = Some(Compared::of(&document)),
-            (Wanted::Anew, Came::Design(document)) => {
+            (OpeningPurpose::Beside, Came::Design(document)) => self.compared = Some(Compared::of(&document)),
+            (OpeningPurpose::Anew, Came::Design(document)) => {
                 self.desk.remember(&opening.path);
                 let is_doubtful = document.work.mesh.as_ref().is_some_and(|mesh| mesh.is_doubtful);
                 self.begin(*document);
@@ -138,14 +138,14 @@ impl Editor {
                     self.notes.say(DOUBTFUL);
                 }
             }
-            (Wanted::Otherwise, Came::Design(document)) => {
+            (OpeningPurpose::Otherwise, Came::Design(document)) => {
                 // Another design may have been opened meanwhile.
                 let path = |work: &Work| work.mesh.as_ref().map(|mesh| mesh.path.clone());
                 if path(&self.document.work) == path(&document.work) {
                     self.document.take_shape(*document);
                 }
             }
-            (Wanted::Again, Came::Design(mut document)) => {
+            (OpeningPurpose::Again, Came::Design(mut document)) => {
                 let (desk, framing) = (self.desk.clone(), self.framing.clone());
                 document.take_copies(&self.document);
                 self.begin(*document);
@@ -202,7 +202,7 @@ mod tests {
         let (sender, answer) = channel();
         let editor = bench.harness.state_mut();
         let (work, mesh) = (editor.document.work.clone(), UP);
-        editor.opening.push(Opening { wanted: Wanted::Otherwise, path, mesh, work, answer });
+        editor.opening.push(Opening { wanted: OpeningPurpose::Otherwise, path, mesh, work, answer });
         bench.harness.run_steps(2);
         bench.harness.get_by_label("Triangles").click();
         bench.harness.run_steps(2);
@@ -221,9 +221,9 @@ mod tests {
         let mut bench = Bench::with(Setup { file: Some(path.clone()), mesh: UP, ..Setup::default() });
         bench.wait(|editor| editor.document.work.mesh.is_some());
         let editor = bench.harness.state_mut();
-        editor.open(&path, Wanted::Again);
+        editor.open(&path, OpeningPurpose::Again);
         assert_eq!(editor.opening[0].mesh, UP);
-        editor.open(&toml, Wanted::Again);
+        editor.open(&toml, OpeningPurpose::Again);
         assert_eq!(editor.opening[0].mesh, MeshOptions::default());
     }
 }

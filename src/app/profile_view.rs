@@ -22,7 +22,7 @@ use crate::cut::RoundBrilliant;
 use crate::scene::Stone;
 use egui::accesskit::Role;
 use egui::{CursorIcon, Key, PointerButton, Rect, RectAlign, Response, Sense, Tooltip, Ui, WidgetInfo};
-use frame::{Frame, MeasuredProfile, Offered};
+use frame::{MeasuredProfile, Offered, ProfileFrame};
 use grab::Grab;
 use grips::Grip;
 use handle::Handle;
@@ -58,7 +58,7 @@ impl ProfileView {
         response.widget_info(|| WidgetInfo::labeled(Role::Image, ui.is_enabled(), "Profile of the stone"));
         let measured = MeasuredProfile::new(stone, proportions.as_deref());
         let extent = self.extent(ui, &measured);
-        let frame = Frame::new(ui, id, rect, &measured, extent);
+        let frame = ProfileFrame::new(ui, id, rect, &measured, extent);
         let offered = frame.offer(ui);
         let labels = frame.paint(ui, &offered, self.active(&offered));
         let Some(given) = proportions.filter(|_| measured.brilliant.is_some()) else {
@@ -109,7 +109,7 @@ impl ProfileView {
     fn edited(
         &mut self,
         ui: &Ui,
-        frame: &Frame<'_>,
+        frame: &ProfileFrame<'_>,
         offered: &[Offered],
         given: RoundBrilliant,
     ) -> RoundBrilliant {
@@ -121,7 +121,7 @@ impl ProfileView {
         self.pulled(ui, frame, offered).unwrap_or(keyed)
     }
 
-    fn take(&mut self, ui: &Ui, frame: &Frame<'_>, offered: &Offered, given: RoundBrilliant) {
+    fn take(&mut self, ui: &Ui, frame: &ProfileFrame<'_>, offered: &Offered, given: RoundBrilliant) {
         let Offered { grip, response } = offered;
         let pressed = ui.input(|i| i.pointer.press_origin()).or(response.interact_pointer_pos());
         self.grab = self
@@ -133,7 +133,7 @@ impl ProfileView {
     }
 
     /// Returns the proportions that the dragged handle makes; Escape gives those before the drag.
-    fn pulled(&mut self, ui: &Ui, frame: &Frame<'_>, offered: &[Offered]) -> Option<RoundBrilliant> {
+    fn pulled(&mut self, ui: &Ui, frame: &ProfileFrame<'_>, offered: &[Offered]) -> Option<RoundBrilliant> {
         let mut grab = self.grab.take()?;
         if ui.input(|i| i.key_pressed(Key::Escape)) {
             return Some(grab.start);

@@ -1,4 +1,4 @@
-//! What is put under light: one stone, or the stones of a scene in their places.
+//! The stones that a picture under light shows: a single stone, or the stones of a scene in their places.
 
 use super::Failure;
 use super::specimen::{LoadedSpecimen, asked_material};
@@ -16,37 +16,37 @@ use std::path::{Path, PathBuf};
 #[cfg(test)]
 mod tests;
 
-/// Stones in one world, and the light that goes with them.
+/// A single stone or the stones of a scene, with the light and the background that the scene names.
 #[derive(Debug)]
 pub struct Assembly {
-    /// As given on the command line.
+    /// The path or name as given on the command line.
     pub path: String,
-    /// The cut's name, or the scene's.
+    /// The name of the design, or of the scene.
     pub name: String,
-    /// The stones. A stone alone lies unmoved in its own frame.
+    /// The stones in one world. A single stone lies unmoved in its own frame.
     pub setting: Scene,
-    /// Where each is, in the order of the setting's.
+    /// The size and place of each stone, in the order of the instances of `setting`.
     pub places: Vec<StonePlace>,
-    /// The light that the scene asks for: the name of one that comes with the program, or a file.
+    /// The light that the scene names: one that comes with the program, or a file.
     pub light: Option<PathBuf>,
-    /// What the scene wants behind.
+    /// The background that the scene names.
     pub background: Option<BackgroundRef>,
-    /// How far behind the origin, mm.
+    /// The distance of the background behind the origin, in mm, if the scene gives one.
     pub background_distance_mm: Option<f64>,
     /// The strength of refraction, 0 to 1.
     pub strength: f64,
 }
 
-/// A stone's size and place.
+/// The size and place of a stone.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct StonePlace {
-    /// Girdle diameter, mm.
+    /// The girdle diameter, in mm.
     pub diameter_mm: f64,
-    /// The middle of its girdle, mm.
+    /// The middle of the girdle, in mm.
     pub at_mm: DVec3,
 }
 
-/// A stone of a scene before the world's unit is known.
+/// A stone of a scene, in mm: the world's unit is not known yet.
 #[derive(Clone)]
 struct Member<'a> {
     specimen: &'a LoadedSpecimen,
@@ -54,14 +54,15 @@ struct Member<'a> {
     diameter_mm: f64,
     turn: DQuat,
     at_mm: DVec3,
-    /// What errors call it.
+    /// The stone's name in error messages.
     description: String,
 }
 
 impl Assembly {
-    /// Reads a cut file or a scene file, or takes a cut or a scene that comes with the program by its name, and warns of
-    /// what is odd. A material (a name or an index) and a size that are given are those of every stone, and every mesh
-    /// is read with the same options.
+    /// Reads a cut file or a scene file, or takes a cut or a scene that comes with the program by its name, and prints
+    /// warnings about unusual stones.
+    ///
+    /// `material` (a name or an index) and `size` replace those of every stone. Every mesh is read with the options `mesh`.
     pub fn load(
         file: &Path,
         material: Option<&str>,
@@ -126,13 +127,13 @@ impl Assembly {
         Ok(Self { path, name, setting, places, light, background, background_distance_mm, strength })
     }
 
-    /// The weight of all stones in carats; `None` if one has no density.
+    /// Returns the weight of all stones together, in carats; `None` if one has no density.
     pub fn carats(&self) -> Option<f64> {
         self.setting.instances.iter().map(|stone| stone.carats(self.setting.unit_mm)).sum()
     }
 }
 
-/// The scene of a file, or of that name; `None` where it is none.
+/// Returns the scene in a file, or the scene of that name that comes with the program; `None` where it is not a scene.
 fn scene(file: &Path) -> Result<Option<SceneFile>, Failure> {
     if file.is_file() || is_standard(file) {
         return scene_file::is_scene(file)
@@ -145,7 +146,7 @@ fn scene(file: &Path) -> Result<Option<SceneFile>, Failure> {
     known.transpose().map_err(Failure::Input)
 }
 
-/// Whether a path means a scene: a file of one, or the name of one that comes with the program.
+/// Returns whether a path means a scene: a scene file, or the name of a scene that comes with the program.
 pub fn is_scene(file: &Path) -> bool {
     match file.is_file() || is_standard(file) {
         true => scene_file::is_scene(file),
@@ -153,7 +154,7 @@ pub fn is_scene(file: &Path) -> bool {
     }
 }
 
-/// The cuts of a scene, each read once, by what the scene calls them.
+/// Reads each cut of a scene once. The keys are the names by which the scene calls the cuts.
 fn specimens(
     file: &Path,
     scene: &SceneFile,
@@ -173,7 +174,8 @@ fn specimens(
     Ok(specimens)
 }
 
-/// A file beside the scene's, or else a cut that comes with the program.
+/// Reads one cut of a scene: a cut that comes with the program, or a file relative to the scene's folder. Where both exist,
+/// a scene read from a file takes the file, and any other scene takes the program's cut.
 fn specimen(scene: &Path, cut: &str, mesh: MeshOptions) -> Result<LoadedSpecimen, Failure> {
     let beside = scene.parent().unwrap_or(Path::new("")).join(cut);
     match library::cut(cut).filter(|_| !scene.is_file() || !beside.is_file()) {
@@ -212,7 +214,7 @@ fn member<'a>(
 }
 
 impl Member<'_> {
-    /// Of the circle about its axis that holds it, seen from above, mm.
+    /// Returns the radius, in mm, of the circle around the axis that holds the turned stone, seen from above.
     fn radius_mm(&self) -> f64 {
         let across = |v: &DVec3| (self.turn * *v).truncate().length();
         let radii = self.specimen.solid().vertices().iter().map(across);
@@ -220,7 +222,8 @@ impl Member<'_> {
     }
 }
 
-/// The stones in a world where the largest girdle has the radius 1.
+/// Builds the world's scene, in which the largest girdle has the radius 1. Several stones, or one that is not at the origin,
+/// are centred on the origin together.
 fn placed(members: &[Member]) -> Scene {
     let unit_mm = 0.5 * members.iter().map(|m| m.diameter_mm).fold(0.0, f64::max);
     let place = |m: &Member| {
@@ -228,7 +231,7 @@ fn placed(members: &[Member]) -> Scene {
         stone.moved(0.5 * m.diameter_mm / unit_mm, m.turn, m.at_mm / unit_mm)
     };
     let stones: Vec<Instance> = members.iter().map(place).collect();
-    // Pictures are taken around the origin.
+    // Pictures are centred on the origin.
     let bounds = stones.iter().map(|s| s.solid.bounds());
     let (low, high) =
         bounds.fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(l, h), (a, b)| (l.min(a), h.max(b)));

@@ -1,4 +1,4 @@
-//! `bench`: how long the tracers take for the same pictures, on this machine.
+//! `bench`: measures how long each tracer takes for the same pictures on this machine.
 
 use super::plan::on_card;
 use super::specimen::LoadedSpecimen;
@@ -19,17 +19,20 @@ use serde_json::{Value, json};
 use std::path::Path;
 use std::time::Instant;
 
-/// What the beams leave unresolved.
+/// The share of the light that exact beams may leave unresolved.
 const UNRESOLVED: f64 = 0.01;
 
-/// Each task is done so often, after once to warm up, and the median counts; one that takes longer than this is done once.
+/// The number of timed runs of each task, after one to warm up. The median counts.
 const TIMES: usize = 5;
+
+/// The time of a first run, in milliseconds, above which the task is not repeated.
 const LONG_MS: f64 = 700.0;
 
-/// Pictures in a scope: pixels along each side, a ray each, and how many bounces they are followed for.
+/// The pictures in a scope: pixels along each side, with one ray each, and the most bounces of a ray.
 const SCOPES: [(u32, u32); 2] = [(512, 7), (1024, 32)];
 
-/// The picture under light: pixels along each side with a real card and without, bounces, wavelengths of the one look.
+/// The picture under light: pixels along each side with a real graphics card and without one, the most bounces of a ray, and
+/// the wavelengths of its single sample pass.
 const LIT: ([u32; 2], u32, u32) = ([1024, 256], 32, 16);
 
 #[derive(Debug, Args)]
@@ -39,17 +42,17 @@ pub struct BenchArguments {
     json: bool,
 }
 
-/// One task, by one tracer.
+/// The time that one tracer took for a task.
 struct Row {
     tracer: &'static str,
     by: String,
     milliseconds: f64,
 }
 
-/// A picture to make, and how long each tracer took.
+/// A picture, and how long each tracer took for it.
 struct Task {
     what: String,
-    /// Planes tested for it, if each ray tests all at each bounce.
+    /// The number of planes tested for the picture, if each ray tests all planes at each bounce.
     plane_tests: f64,
     rows: Vec<Row>,
 }
@@ -79,7 +82,7 @@ impl BenchArguments {
 }
 
 impl Task {
-    /// Planes tested in a second; none for beams, which test no planes.
+    /// Returns the planes tested per second; `None` for beams, which test no planes.
     fn rate(&self, row: &Row) -> Option<f64> {
         (row.tracer != "beam").then(|| self.plane_tests / row.milliseconds * 1e3)
     }
@@ -100,7 +103,7 @@ impl Task {
     }
 }
 
-/// Median of several runs, milliseconds.
+/// Times `work` and returns the median of several runs, or the first run where it is long, in milliseconds.
 fn timed(mut work: impl FnMut() -> Result<(), Failure>) -> Result<f64, Failure> {
     let mut once = || {
         let start = Instant::now();
@@ -119,7 +122,7 @@ fn options(most_bounces: u32) -> RayOptions {
     RayOptions { polarised: true, most_bounces, least_weight: 1e-4 }
 }
 
-/// ASET, by every tracer; beams paint it as well.
+/// Times an ASET picture by every tracer. For beams the time includes painting.
 fn in_scope(specimen: &LoadedSpecimen, card: RayTracer, size: u32, bounces: u32) -> Result<Task, Failure> {
     let (view, scope) = (View::default(), Scope::aset(ASET_CONE, Backing::Black));
     let medium = Medium::clear(specimen.material.index(line::SODIUM_D));
@@ -149,12 +152,12 @@ fn polytope(specimen: &LoadedSpecimen) -> Result<&Polytope, Failure> {
     Ok(&specimen.stone().map_err(told)?.polytope)
 }
 
-/// Rays on the processor, and on the card where there is one.
+/// Returns the ray tracers to compare: the processor, and the card where there is one.
 fn samplers(card: RayTracer<'_>) -> Vec<RayTracer<'_>> {
     if card.name() == RayTracer::Rays.name() { vec![card] } else { vec![RayTracer::Rays, card] }
 }
 
-/// Diamond under small lamps, one look of many wavelengths.
+/// Times a picture of a diamond under small lamps, in one sample pass of many wavelengths, by every tracer.
 fn under_light(specimen: &LoadedSpecimen, card: RayTracer) -> Result<Task, Failure> {
     let ([with_card, without], bounces, wavelengths) = LIT;
     let size = if card.is_quick() { with_card } else { without };
@@ -218,7 +221,8 @@ fn exposure<'a>(
     }
 }
 
-/// How many planes are tested for a picture, if each ray tests all at each bounce: counted on every eighth line and column.
+/// Returns how many planes are tested for a picture, if each ray tests all planes at each bounce. The count is extrapolated
+/// from the pixels of every eighth row and column.
 fn plane_tests(polytope: &Polytope, film: &Film, medium: Medium, bounces: u32) -> f64 {
     const STEP: u32 = 8;
     let camera = Camera::new(&View::default(), polytope);

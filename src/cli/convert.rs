@@ -1,4 +1,4 @@
-//! `convert`: a stone's design in another format.
+//! `convert`: writes a stone's design in another format.
 
 use super::mesh_options::MeshArguments;
 use super::specimen::LoadedSpecimen;

@@ -1,4 +1,4 @@
-//! `export`: pictures, drawings and figures of a stone, as files.
+//! `export`: writes pictures, drawings and figures of stones to files.
 
 use super::mesh_options::MeshArguments;
 use super::options::{LightOptions, ViewOptions, scoped};
@@ -95,7 +95,7 @@ impl ExportArguments {
             size: self.size,
             formats: self.format.clone(),
             caption: self.caption,
-            // Standard output takes one file.
+            // Standard output takes a single file: the picture of energy.
             strongest: !is_standard(&self.out),
             timing: self.timing,
         }
@@ -113,7 +113,7 @@ impl ExportArguments {
         Ok(pictures)
     }
 
-    /// Refuses what would write two things to one file.
+    /// Returns an error if two outputs would be written to the same file.
     fn distinct(&self, all: &[Outputs]) -> Result<(), Failure> {
         let Some((stone, twice)) = first_twice(all) else { return Ok(()) };
         Err(Failure::Usage(format!(

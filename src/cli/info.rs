@@ -1,4 +1,4 @@
-//! `info`: a stone's geometry, proportions and weight, or the stones of a scene.
+//! `info`: prints a stone's geometry, proportions and weight, or the stones of a scene.
 
 use super::assembly::{self, Assembly};
 use super::mesh_options::MeshArguments;
@@ -14,10 +14,11 @@ use serde_json::{Value, json};
 use std::fmt::Write;
 use std::path::PathBuf;
 
-/// A facet whose normal leans less than this (sine of the angle) has no azimuth: rounding would choose it.
+/// The tilt of a facet's normal, as the sine of its angle to the axis, up to which rounding alone would choose an azimuth.
+/// Such a facet counts as level and has the azimuth 0.
 const LEVEL: f64 = 1e-12;
 
-/// An azimuth less than this below 360 degrees is 0, but for rounding.
+/// The distance from 360 degrees, in degrees, below which an azimuth counts as 0: the rest is rounding.
 const ROUNDING_DEG: f64 = 1e-9;
 
 #[derive(Debug, Args)]
@@ -90,15 +91,16 @@ fn scene_table(assembly: &Assembly) -> String {
         let weight = weight(stone.carats(assembly.setting.unit_mm));
         let (cut, material, diameter) = (&stone.label, &stone.material.name, place.diameter_mm);
         let _ = write!(text, "\n  {cut:<20}{material:<20}{diameter:>8.3}{weight:>12}");
-        // Rounded first, so that a rounding below 0 is no -0.000.
+        // Rounded first, so that a tiny negative number does not print as -0.000.
         let at = (1e3 * place.at_mm).round() / 1e3 + 0.0;
         let _ = write!(text, "{:>9.3}{:>9.3}{:>9.3}", at.x, at.y, at.z);
     }
     text
 }
 
-/// The first line: a file and the name of what is in it. Standard input is called so, also where a nameless mesh was called
-/// by its file's name.
+/// Returns the first line of a table: the file and the name of the stone or scene in it, only once where they are equal.
+///
+/// Standard input appears as `stdin`, also as the name of a mesh that has no name but its file's.
 fn heading(path: &str, name: &str) -> String {
     let called = |text| if text == STANDARD { "stdin" } else { text };
     match (called(path), called(name)) {
@@ -107,7 +109,7 @@ fn heading(path: &str, name: &str) -> String {
     }
 }
 
-/// A weight for people.
+/// Formats a weight, or says that it is not known.
 fn weight(carats: Option<f64>) -> String {
     carats.map_or("not known".into(), |carats| format!("{carats:.3} ct"))
 }
@@ -152,7 +154,7 @@ fn facet_json(polytope: &Polytope, facet: &Facet, name: &str) -> Value {
     json!({
         "name": name,
         "normal": n.to_array(),
-        // Of a plane through the origin 0, and never -0.
+        // Adding 0.0 turns -0.0 into 0.0, for planes through the origin.
         "offset": facet.plane.offset + 0.0,
         "slope_deg": across.length().atan2(n.z.abs()).to_degrees(),
         "azimuth_deg": azimuth_deg(across),
@@ -161,24 +163,24 @@ fn facet_json(polytope: &Polytope, facet: &Facet, name: &str) -> Value {
     })
 }
 
-/// The azimuth of a normal's part in the girdle plane, degrees, 0 to below 360; 0 where there is none.
+/// Returns the azimuth of a normal's part in the girdle plane, in degrees from 0 to below 360; 0 for a level facet.
 fn azimuth_deg(across: DVec2) -> f64 {
     if across.length() <= LEVEL {
         return 0.0;
     }
     let azimuth = across.to_angle().to_degrees().rem_euclid(360.0);
-    // A hair below 0 comes out as 360, or a hair below that.
+    // An angle that rounding has put just below 0 becomes 360, or just less.
     if 360.0 - azimuth < ROUNDING_DEG { 0.0 } else { azimuth }
 }
 
-/// A number to so many digits, without the sign of what is rounded to 0.
+/// Formats a number with this many decimal places. A number that rounds to 0 gets no minus sign.
 fn fixed(value: f64, digits: usize) -> String {
     let text = format!("{value:.digits$}");
     let is_nought = !text.bytes().any(|digit| matches!(digit, b'1'..=b'9'));
     if is_nought { text.trim_start_matches('-').to_owned() } else { text }
 }
 
-/// An azimuth for people.
+/// Formats an azimuth in degrees. One that rounds to 360 is shown as 0.
 fn shown_azimuth(azimuth_deg: f64) -> String {
     let text = fixed(azimuth_deg, 4);
     if text == "360.0000" { fixed(0.0, 4) } else { text }
@@ -249,7 +251,7 @@ fn table(specimen: &LoadedSpecimen, value: &Value, with_facets: bool) -> String 
     text
 }
 
-/// What was measured of a stone that has no proportions of its own.
+/// Writes the measured proportions of a stone whose design states none.
 fn proportions(report: &ProportionReport, line: &mut impl FnMut(&str, String)) {
     line("length to width", format!("{:.4}", report.length_to_width));
     let [width, length] = report.table;
@@ -277,7 +279,7 @@ fn tiers(report: &ProportionReport, text: &mut String) {
     }
 }
 
-/// A mean, and the range where that is wider than the digits told.
+/// Formats a mean with this many decimal places, followed by its range unless both ends look the same at that precision.
 fn spread(spread: Spread, digits: usize) -> String {
     let Spread { least, mean, most } = spread;
     let [low, mean, high] = [least, mean, most].map(|value| fixed(value, digits));

@@ -1,4 +1,4 @@
-//! `liquid-glass`: a pane over a background as screens draw it, and beside it the same pane traced.
+//! `liquid-glass`: draws a pane of glass over a background as screens do, and traces the same pane for comparison.
 
 use super::options::number;
 use super::picture_options::film_size;
@@ -17,14 +17,16 @@ use clap::Args;
 use glam::{DVec2, DVec4};
 use std::path::{Path, PathBuf};
 
-/// Parts of the picture that a pane takes up, and of its shorter side that its corners are round by, when not told.
+/// The default width and height of the pane, as parts of the picture's.
 const EXTENT: DVec2 = DVec2::new(0.625, 0.5);
+
+/// The default radius of the pane's corners, as a part of its shorter side.
 const ROUND: f64 = 0.3;
 
-/// Endings of pictures, which nobody gives a folder.
+/// The endings of picture files. A path with one of them is not meant as a folder.
 const PICTURES: [&str; 7] = ["png", "jpg", "jpeg", "exr", "gif", "webp", "svg"];
 
-/// Wavelengths side by side of the traced pane.
+/// The number of wavelengths in each sample pass of the traced pane.
 const WAVELENGTHS: u32 = 12;
 
 #[derive(Debug, Args)]
@@ -84,7 +86,8 @@ pub struct LiquidGlass {
     samples: u32,
 }
 
-/// A pane's size and place in pixels; the middle of the picture where it has no place.
+/// The size of a pane and the place of its upper left corner, in pixels. Without a place the pane is in the middle of the
+/// picture.
 #[derive(Debug, Clone, Copy)]
 struct Geometry {
     size: DVec2,
@@ -156,7 +159,10 @@ impl LiquidGlass {
         print(&figures(&cost))
     }
 
-    /// The pane, checked.
+    /// Returns the pane that the options describe.
+    ///
+    /// # Errors
+    /// A pane that does not lie within the picture, or an option out of its range.
     fn asked(&self) -> Result<GlassPane, Failure> {
         let whole = DVec2::from(self.size.map(f64::from));
         let usual = Geometry { size: (whole * EXTENT).round(), corner: None };
@@ -188,7 +194,7 @@ impl LiquidGlass {
         })
     }
 
-    /// The background, as large as the picture.
+    /// Reads the background as a picture of the size `self.size`, and prints its warnings.
     fn ground(&self) -> Result<Panorama, Failure> {
         let asked = BackgroundRef::read(&self.background, Path::new(""))?;
         let Some(reading) = asked.filling(self.size).map_err(Failure::Input)? else {
@@ -216,7 +222,7 @@ impl LiquidGlass {
             true => STANDARD.into(),
             false => self.out.join(format!("{stem}.png")),
         };
-        // As screens composite: neither exposure nor tone.
+        // Screens composite without exposure and tone curve.
         let manner = Develop { bloom: None, tone: Tone::Linear, ..Develop::default() };
         write_rgba_png(&path, &develop(picture, &manner), (picture.width, picture.height), told)?;
         written(&path)
@@ -230,7 +236,7 @@ fn failure(error: PaneError) -> Failure {
     }
 }
 
-/// Two pictures of one size side by side, a white line between.
+/// Puts two pictures of the same size side by side, with a white line between them.
 fn beside(left: &Linear, right: &Linear) -> Linear {
     let line = (left.width / 100).max(1);
     let row = left.width.max(1) as usize;

@@ -1,4 +1,4 @@
-//! `materials`, `cuts`, `scopes`, `scenes`, `lights`: what the program knows by name.
+//! `materials`, `cuts`, `scenes`, `scopes`, `lights`: lists of what the program knows by name.
 
 use super::{Failure, json, print};
 use crate::io::library::{CUTS, SCENES, cut, scene};
@@ -11,7 +11,8 @@ use serde_json::{Value, json};
 use std::fmt::Write;
 use std::path::Path;
 
-/// What else someone may have meant by a file that is no cut file: a scene, or a cut that comes with the program.
+/// Returns the end of an error message about a file that cannot be read as a design: that it is a scene, or the most similar
+/// name of a cut or a scene that comes with the program. Empty where neither applies.
 pub fn hint(file: &Path) -> String {
     if super::assembly::is_scene(file) {
         return "; this is a scene, where the file or the name of a cut is expected".to_owned();

@@ -1,4 +1,4 @@
-//! `measure`: the figures of one view.
+//! `measure`: prints the figures of one view.
 
 use super::mesh_options::MeshArguments;
 use super::options::{LightOptions, ViewOptions, scoped};
@@ -53,7 +53,7 @@ impl Measure {
     }
 }
 
-/// A table for people, in percent of the silhouette.
+/// Formats the figures as a table, in percent of the silhouette.
 fn table(report: &FigureReport, timing: bool) -> String {
     let FigureReport { viewing, measured, .. } = report;
     let (f, scope) = (&measured.figures, &measured.scope);

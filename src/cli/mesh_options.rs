@@ -26,7 +26,7 @@ enum Form {
 }
 
 impl MeshArguments {
-    /// The options that were given.
+    /// Returns the mesh options, with defaults for those that are not given.
     pub fn options(self) -> MeshOptions {
         MeshOptions {
             up: self.up.unwrap_or_default(),
@@ -39,7 +39,7 @@ impl MeshArguments {
     }
 }
 
-/// A direction as a command line gives it.
+/// Parses the value of `--up`: a signed axis, or three numbers separated by commas that are not all 0.
 fn direction(text: &str) -> Result<Up, String> {
     let (sign, name) = text.strip_prefix('-').map_or((1.0, text), |name| (-1.0, name));
     let axis = match name {

@@ -1,4 +1,6 @@
-//! Floor 7: the command line. One file a command; `options` holds what several take, `specimen` what they work on.
+//! Floor 7: the command line. Each command has a file of its own.
+//!
+//! `options` holds the options that several commands share, `specimen` the stone that a command works on.
 
 mod assembly;
 mod bench;
@@ -32,7 +34,7 @@ use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-/// The exit code that a failure ends the program with.
+/// Returns the exit code of the program for a failure.
 fn code(failure: &Failure) -> u8 {
     match failure {
         Failure::Input(_) => 1,
@@ -52,8 +54,11 @@ struct Arguments {
     command: Option<Command>,
 }
 
-/// What opens the editor, on a file if one is given, read with these options where it is a mesh, and waits until it is closed;
-/// [`Failure::NoWindow`] where it cannot be opened, and [`Failure::Output`] where its window is lost later.
+/// A function that opens the editor, on a file if one is given, and waits until it is closed. A mesh is read with the given
+/// options.
+///
+/// # Errors
+/// [`Failure::NoWindow`] where the window cannot be opened, [`Failure::Output`] where it is lost later.
 pub type EditorOpener = fn(Option<PathBuf>, MeshOptions) -> Result<(), Failure>;
 
 const USAGE: &str = "brillianteer [FILE]\n       brillianteer COMMAND";
@@ -63,7 +68,7 @@ const EXIT_CODES: &str = "Exit codes: 0 done, 1 an input is at fault, 2 the comm
     pictures and figures are written to the folder out. Commands other than the editor take - as FILE for \
     standard input.";
 
-/// What to do about options and files that the editor does not take.
+/// The hint after an error about options or files that the editor does not take.
 const EDITOR_TAKES: &str = "the editor takes one FILE and no options but --up and --as, which are for meshes; \
     `brillianteer export`, `render`, `measure` and `info` take several files, and a material, a view and a light";
 
@@ -110,14 +115,16 @@ enum Command {
     Man(shell::Manual),
 }
 
-/// Runs the program with the process's arguments; `editor` opens its window.
+/// Runs the program with the arguments of the process and returns its exit code.
+///
+/// `editor` opens the editor; it is `None` in a program built without one.
 pub fn main(editor: Option<EditorOpener>) -> ExitCode {
     let typed: Vec<OsString> = std::env::args_os().collect();
     let given = spelt_out(typed.clone());
     let arguments = match Arguments::try_parse_from(&given) {
         Ok(arguments) => arguments,
         Err(told) => {
-            // Help that nobody takes is no failure; clap's own exit would panic over it.
+            // A failure to print help or an error is ignored; clap's own `exit` would panic over it.
             let _ = told.print();
             let meant = given.get(1).filter(|_| told.kind() == ErrorKind::InvalidSubcommand);
             if let Some(hint) = meant.map(|name| lists::hint(Path::new(name))).filter(|hint| !hint.is_empty())
@@ -131,10 +138,11 @@ pub fn main(editor: Option<EditorOpener>) -> ExitCode {
             return ExitCode::from(u8::try_from(told.exit_code()).unwrap_or(2));
         }
     };
-    // Who names the command, or gives options of it, wants the editor and nothing else.
+    // A user who types `edit`, or gives options of it, wants the editor, and no files in its place. An inserted `edit` with
+    // one file makes three arguments.
     let is_named = (typed.len() == given.len() && given.len() > 1) || given.len() > 3;
     let command = arguments.command.unwrap_or(Command::Edit { file: None, mesh: MeshArguments::default() });
-    // The editor, too, may be writing an export. What it keeps of unsaved work stays for the next start.
+    // The editor may be writing an export as well. Its autosaved work stays on disk for the next start.
     progress::end_on_signals();
     let result = match command {
         Command::Edit { file, mesh } => edit(editor, file, mesh.options(), is_named),
@@ -149,8 +157,8 @@ pub fn main(editor: Option<EditorOpener>) -> ExitCode {
     }
 }
 
-/// Opens the editor. Where that cannot be, the stone's pictures and figures are written to files, unless the command was
-/// named.
+/// Opens the editor. Where no window opens, it writes the stone's pictures and figures to files instead, unless the user
+/// named the command.
 fn edit(
     editor: Option<EditorOpener>,
     file: Option<PathBuf>,
@@ -179,7 +187,7 @@ fn edit(
 }
 
 impl Command {
-    /// Does what the command says, but for opening the editor, which needs one.
+    /// Runs the command. `edit` always fails here, because no editor is passed on.
     fn run(self) -> Result<(), Failure> {
         match self {
             Self::Edit { file, mesh } => edit(None, file, mesh.options(), true),
@@ -203,13 +211,13 @@ impl Command {
     }
 }
 
-/// Whether a cut or a scene of this name comes with the program.
+/// Returns whether a cut or a scene of this name comes with the program.
 fn is_known(name: &Path) -> bool {
     let name = name.to_string_lossy();
     library::cut(&name).is_some() || library::scene(&name).is_some()
 }
 
-/// A file or a cut's name in the place of a command is for the editor, with the options behind it.
+/// Inserts the command `edit` where the first argument looks like a file or names a cut or scene, and is not a command.
 fn spelt_out(mut arguments: Vec<OsString>) -> Vec<OsString> {
     if let Some(first) = arguments.get(1)
         && !Arguments::command().get_subcommands().any(|command| command.get_name() == first)
@@ -225,7 +233,7 @@ fn spelt_out(mut arguments: Vec<OsString>) -> Vec<OsString> {
     arguments
 }
 
-/// Refuses files whose outputs would be called alike.
+/// Returns an error if two input files would give their outputs the same names.
 fn distinct(files: &[PathBuf]) -> Result<(), Failure> {
     for (k, file) in files.iter().enumerate() {
         let stem = specimen::stem(file);
@@ -240,7 +248,8 @@ fn distinct(files: &[PathBuf]) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Does `work` for each file; a file at fault does not keep the others from being done.
+/// Calls `work` for each file. Of several files, one with an input error is reported and skipped; the error at the end names
+/// all such files. Any other error ends the loop.
 fn each_file(files: &[PathBuf], mut work: impl FnMut(&Path) -> Result<(), Failure>) -> Result<(), Failure> {
     let mut failed = Vec::new();
     for file in files {
@@ -258,13 +267,13 @@ fn each_file(files: &[PathBuf], mut work: impl FnMut(&Path) -> Result<(), Failur
     Err(Failure::Input(format!("{} of {} files failed: {}", failed.len(), files.len(), failed.join(", "))))
 }
 
-/// Says something to the person at standard error; where nobody listens, that is no reason to stop.
+/// Prints a line to standard error. Failures to write are ignored.
 fn say(text: &str) {
     use std::io::Write;
     let _ = writeln!(std::io::stderr().lock(), "{text}");
 }
 
-/// Passes on what long work tells: files to standard output, the rest to the person.
+/// Prints an event of long work: the paths of written files to standard output, notes and warnings to standard error.
 fn report(told: Event) -> Result<(), Failure> {
     match told {
         Event::Begun(_) => {}
@@ -275,12 +284,12 @@ fn report(told: Event) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Prints the path of a file that is written, unless its content was printed.
+/// Prints the path of a file that was written. Prints nothing for standard output, which got the content itself.
 fn written(path: &Path) -> Result<(), Failure> {
     if is_standard(path) { Ok(()) } else { print(&path.display().to_string()) }
 }
 
-/// Prints lines to standard output; a reader that has gone away (`| head`) is no error.
+/// Prints text and a line break to standard output. A reader that has closed the pipe (`| head`) is not an error.
 fn print(text: &str) -> Result<(), Failure> {
     use std::io::{ErrorKind, Write};
     match writeln!(std::io::stdout().lock(), "{text}") {
@@ -289,7 +298,7 @@ fn print(text: &str) -> Result<(), Failure> {
     }
 }
 
-/// JSON for people and programs: indented, keys in the order given.
+/// Formats a value as indented JSON, with the keys in their given order.
 fn json(value: &serde_json::Value) -> String {
     format!("{value:#}")
 }

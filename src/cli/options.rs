@@ -1,4 +1,4 @@
-//! What several commands take: how to look at a stone, and how to trace it.
+//! Options that several commands share: from where a stone is seen, and how its light is traced.
 
 use super::Failure;
 use super::plan::planned;
@@ -15,7 +15,7 @@ use crate::trace::Tracer;
 use clap::{Args, ValueEnum};
 use std::path::Path;
 
-/// A number as a command line gives it.
+/// Parses a number on the command line.
 pub fn number(text: &str) -> Result<f64, String> {
     text.trim().parse().map_err(|_| "a number is expected, such as 15 or 0.5".to_owned())
 }
@@ -55,7 +55,10 @@ pub enum SideName {
 }
 
 impl ViewOptions {
-    /// The view asked for.
+    /// Returns the viewpoint that the options describe.
+    ///
+    /// # Errors
+    /// A tilt, azimuth or distance out of its range.
     pub fn viewpoint(&self) -> Result<Viewpoint, Failure> {
         let side = if self.side == SideName::Table { Side::Table } else { Side::Culet };
         let (lean, tilt_deg) =
@@ -132,7 +135,7 @@ pub enum TracerName {
     Gpu,
 }
 
-/// A scope that comes with the program, by its name, or one of the user's own, by its file.
+/// Returns the scope of this name that comes with the program, or reads a scope file. A file goes before a name.
 pub fn scoped(given: &Path) -> Result<Scoped, Failure> {
     let name = given.to_string_lossy();
     if let Some(Picture::Scoped(scoped)) = named(&name).filter(|_| !given.is_file()) {
@@ -149,12 +152,12 @@ pub fn scoped(given: &Path) -> Result<Scoped, Failure> {
 }
 
 impl LightOptions {
-    /// Reads a stone, made of the material and as large as the options say.
+    /// Reads a stone, and applies the material and the size that the options give.
     pub fn specimen(&self, file: &Path, mesh: MeshOptions) -> Result<LoadedSpecimen, Failure> {
         LoadedSpecimen::load(file, mesh)?.made_of(self.material.as_deref(), self.stone)
     }
 
-    /// How a specimen is looked at.
+    /// Returns how a specimen is seen and traced: its viewpoint, medium, observer, glare and tracer.
     pub fn viewing<'a>(
         &self,
         specimen: &'a LoadedSpecimen,
@@ -191,12 +194,12 @@ impl LightOptions {
         })
     }
 
-    /// The wavelength chosen, nm.
+    /// Returns the chosen wavelength, in nm.
     fn wavelength(&self) -> f64 {
         self.wavelength.unwrap_or(line::SODIUM_D)
     }
 
-    /// The stone's medium at the wavelength chosen.
+    /// Returns the stone's medium at the chosen wavelength. Warns outside the range in which the material was measured.
     fn medium(&self, specimen: &LoadedSpecimen) -> Result<Medium, Failure> {
         let wavelength = self.wavelength();
         if !(100.0..=100_000.0).contains(&wavelength) {
@@ -226,7 +229,7 @@ impl LightOptions {
         Ok(Medium { index, absorption: Medium::absorption_of(material, wavelength, radius_mm), spread: 0.0 })
     }
 
-    /// The head's half angle, checked.
+    /// Returns the half angle of the observer's head, in degrees, if it is from 0 to below 90.
     fn head(&self) -> Result<f64, Failure> {
         if (0.0..90.0).contains(&self.head) {
             return Ok(self.head);
@@ -234,7 +237,7 @@ impl LightOptions {
         Err(Failure::Usage(format!("a head of half angle {} degrees is not from 0 to below 90", self.head)))
     }
 
-    /// The part of the light that may stay unresolved, checked.
+    /// Returns the part of the light that may stay unresolved, if it is between 0 and 1.
     fn unresolved(&self) -> Result<Option<f64>, Failure> {
         match self.unresolved {
             Some(part) if !(part > 0.0 && part < 1.0) => Err(Failure::Usage(format!(

@@ -1,11 +1,12 @@
-//! What pictures under light take: stones, light and picture for all of them, tracing and finish for `render` and `spin`.
+//! Options of the commands that take pictures under light. All take [`PictureOptions`]: stones, light and picture. `render`
+//! and `spin` also take [`FinishOptions`]: tracing and finish.
 
 use super::mesh_options::MeshArguments;
 use super::options::{TracerName, number};
 use crate::picture::{Bloom, Overlay, Tone};
 use clap::Args;
 
-/// The largest side of a picture under light: it is held in memory.
+/// The largest side of a picture under light, in pixels. The whole picture is held in memory.
 pub const MOST_PIXELS: u32 = 8192;
 
 /// Stones, light and picture.
@@ -83,13 +84,13 @@ pub struct FinishOptions {
 }
 
 impl Default for FinishOptions {
-    /// The processor's rays at full strength, without glow and overlays.
+    /// Returns rays on the processor at the scene's strength, without glow and overlays.
     fn default() -> Self {
         Self { no_jitter: false, strength: None, tracer: TracerName::Ray, bloom: 0.0, overlay: vec![] }
     }
 }
 
-/// A picture's size in pixels: a number for a square, or two.
+/// Parses a picture's size in pixels: one number for a square, or WIDTHxHEIGHT.
 pub fn film_size(text: &str) -> Result<[u32; 2], String> {
     let side = |text: &str| match text.trim().parse() {
         Ok(side) if (16..=MOST_PIXELS).contains(&side) => Ok(side),

@@ -1,4 +1,4 @@
-//! Stones, light and camera put together, and taking a picture of them.
+//! The stones, light, background and camera of a picture under light, and taking the picture.
 
 use super::assembly::Assembly;
 use super::picture_options::{FinishOptions, PictureOptions};
@@ -22,27 +22,31 @@ use std::path::Path;
 
 mod tracing;
 
-/// Air around the stones, as a part of half the picture.
+/// The margin around the stones, as a part of their half extent in the picture.
 const MARGIN: f64 = 0.06;
 
-/// Bounces that rays are followed for, and the weight below which they are given up.
+/// The most bounces of a ray.
 const MOST_BOUNCES: u32 = 64;
+
+/// The weight below which a ray is not followed further.
 const LEAST_WEIGHT: f64 = 5e-4;
 
-/// What lies behind when not told, and how far a pattern or photograph does, in girdle radii.
+/// The default background.
 const BACKGROUND: &str = "#33373d-#0e0f11";
+
+/// The default distance of a pattern or photograph behind the origin, in girdle radii.
 const PHOTO_DISTANCE: f64 = 3.0;
 
-/// Everything that a picture is taken of, loaded once.
+/// Everything that a picture needs, loaded once: stones, light, background, tracer and finish.
 pub struct PictureSetup<'a> {
     options: &'a PictureOptions,
     finish: &'a FinishOptions,
     pub assembly: Assembly,
     lighting: Lighting,
     pub background: BackgroundRef,
-    /// The pattern or photograph behind.
+    /// The pattern or photograph behind the stones.
     pub photo: Option<Panorama>,
-    /// How far behind the origin it stands, in girdle radii.
+    /// The distance of the pattern or photograph behind the origin, in girdle radii.
     pub distance: f64,
     /// The strength of refraction, 0 to 1.
     pub strength: f64,
@@ -50,13 +54,13 @@ pub struct PictureSetup<'a> {
     tracer: Cell<Tracer<'static>>,
 }
 
-/// A picture, and how it was made.
+/// A picture, and a description of how it was made.
 pub struct RenderedPicture {
     pub picture: Linear,
     pub description: String,
 }
 
-/// A number that an option takes, if it is in its range.
+/// Returns the value of the option `--key` if it is from `least` to `most`, and a usage error otherwise.
 pub fn within(key: &str, value: f64, least: f64, most: f64) -> Result<f64, Failure> {
     if (least..=most).contains(&value) {
         return Ok(value);
@@ -74,7 +78,7 @@ impl From<BackgroundError> for Failure {
 }
 
 impl<'a> PictureSetup<'a> {
-    /// Loads stones, light and background, and chooses the tracer for a view.
+    /// Loads stones, light and background, prints their warnings, and chooses the tracer for a view.
     pub fn load(
         (options, finish): (&'a PictureOptions, &'a FinishOptions),
         file: &Path,
@@ -99,7 +103,7 @@ impl<'a> PictureSetup<'a> {
         let mut develop = Develop {
             exposure: within("exposure", options.exposure, -40.0, 40.0)?,
             tone: options.tone,
-            // Glow would stand out around what is drawn over the stones.
+            // The stones' glow would stand out around the overlays that are drawn over them.
             bloom: (bloom.strength > 0.0 && finish.overlay.is_empty()).then_some(bloom),
             ..Develop::default()
         };
@@ -130,7 +134,7 @@ impl<'a> PictureSetup<'a> {
         Ok(studio)
     }
 
-    /// Refuses a distance at which nothing hangs.
+    /// Returns an error if `--photo-distance` is given without a pattern or photograph to place there.
     pub fn with_what_has_a_distance(self) -> Result<Self, Failure> {
         if self.photo.is_some() || self.options.photo_distance.is_none() {
             return Ok(self);
@@ -155,7 +159,10 @@ impl<'a> PictureSetup<'a> {
         })
     }
 
-    /// The side of a pixel with which the stones fill the picture; an error where the eye is not in front of them.
+    /// Returns the side of a pixel, in world units, with which the stones fill the picture but for a margin.
+    ///
+    /// # Errors
+    /// [`Failure::Input`] where the eye of a perspective is not in front of all stones.
     pub fn pixel(&self, setting: &Scene, view: &View) -> Result<f64, Failure> {
         let stones = &setting.instances;
         let reach = stones.iter().flat_map(|s| s.solid.vertices()).map(|v| v.length()).fold(0.0, f64::max);
@@ -169,14 +176,15 @@ impl<'a> PictureSetup<'a> {
         Ok((2.0 * extent * (1.0 + MARGIN) / size).max_element())
     }
 
-    /// The stones, turned about the axis by an angle in radians.
+    /// Returns the stones turned about the z axis by an angle in radians.
     pub fn turned(&self, angle: f64) -> Scene {
         let turn = DQuat::from_rotation_z(angle);
         let stones = self.assembly.setting.instances.iter().cloned().map(|s| s.moved(1.0, turn, DVec3::ZERO));
         Scene { instances: stones.collect(), ..self.assembly.setting }
     }
 
-    /// Takes a picture with pixels of this side.
+    /// Takes a picture with pixels of the side `pixel`. Where the card fails, the processor traces this picture and all
+    /// later ones.
     pub fn take(
         &self,
         setting: &Scene,
@@ -186,14 +194,15 @@ impl<'a> PictureSetup<'a> {
         self.with_lit_scene(setting, (view, pixel), |lit_scene| match self.tracer.get() {
             Tracer::Beams => self.traced(Tracer::Beams, lit_scene, watch),
             Tracer::Rays(first) => first.or_rays(&report, |used| {
-                // A card that has failed is not asked again.
+                // A card that has failed is not used for later pictures.
                 self.tracer.set(Tracer::Rays(used));
                 self.traced(Tracer::Rays(used), lit_scene, watch)
             }),
         })
     }
 
-    /// A picture in eight bits, with the overlays asked for; its light is given away, for memory.
+    /// Develops a picture to RGBA in eight bits and draws the chosen overlays over it. It consumes the linear picture, which
+    /// saves memory.
     pub fn developed(
         &self,
         setting: &Scene,
@@ -210,7 +219,7 @@ impl<'a> PictureSetup<'a> {
         Ok(rgba)
     }
 
-    /// What the colours of the overlays mean, line by line.
+    /// Returns lines that say what the colours of the overlays mean.
     pub fn legend(&self) -> Vec<String> {
         let lines = |overlay: &Overlay| {
             let name = format!("{overlay:?}").to_lowercase();
@@ -222,30 +231,30 @@ impl<'a> PictureSetup<'a> {
         self.finish.overlay.iter().flat_map(lines).collect()
     }
 
-    /// What lights and traces the pictures, in words.
+    /// Returns a description of the light, the tracer and any mixture in words.
     pub fn description(&self) -> String {
         let tracer = self.tracer.get().description();
         format!("light {}; {tracer}{}", self.lighting.light.name, self.mixture())
     }
 
-    /// The light's name.
+    /// Returns the light's name.
     pub fn light(&self) -> &str {
         &self.lighting.light.name
     }
 
-    /// The light's spectrum, to which eyes are used.
+    /// Returns the spectrum of the light, to which the eye is adapted.
     pub fn spectrum(&self) -> &Illuminant {
         &self.lighting.light.spectrum
     }
 
-    /// What was asked for that a file of bare light does not hold, in words.
+    /// Returns a note for EXR files where exposure, tone curve or overlays are set: an EXR holds bare light without them.
     pub fn undeveloped(&self) -> Option<&'static str> {
         let Develop { exposure, tone, .. } = self.develop;
         let is_told = exposure != 0.0 || tone != Tone::default() || !self.finish.overlay.is_empty();
         is_told.then_some("an EXR holds the bare light: exposure, tone and overlays are for PNG")
     }
 
-    /// What lies at a point of the picture, in pixels, in words.
+    /// Describes the facet at a point of the picture, in pixels from its upper left corner; "nothing" beside the stones.
     pub fn probe(&self, view: &View, pixel: f64, at: DVec2) -> String {
         let setting = &self.assembly.setting;
         let found =
@@ -260,7 +269,7 @@ impl<'a> PictureSetup<'a> {
         format!("{name} of stone {}, {}, {}", stone + 1, placed.label, placed.material.name)
     }
 
-    /// Does work with everything in its place.
+    /// Builds the lit scene of a view (stones, environment, film and ray options) and returns what `work` makes of it.
     pub fn with_lit_scene<T>(
         &self,
         setting: &Scene,

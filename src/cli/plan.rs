@@ -1,4 +1,4 @@
-//! The tracer that an option asks for, planned.
+//! Chooses the tracer for a picture from the option `--tracer`.
 
 use super::options::TracerName;
 use super::say;
@@ -16,14 +16,14 @@ impl From<TracerName> for Wanted {
     }
 }
 
-/// Plans who traces, on the machine's card where one may be used, and says so where the processor does its work.
+/// Chooses the tracer, on this machine's card where one may be used. Prints a note where the processor does a card's work.
 pub fn planned(demands: &Demands, wanted: TracerName) -> Result<Tracer<'static>, Unfit> {
     let plan = plan(demands, wanted.into(), CardUse::Machine)?;
     plan.no_card.iter().for_each(|why| say_no_card(why));
     Ok(plan.tracer)
 }
 
-/// The machine's card, be it slow, or the processor and a note on why.
+/// Returns this machine's card, even a slow one. Where there is none, it returns the processor and prints a note.
 pub fn on_card() -> RayTracer<'static> {
     let (tracer, no_card) = CardUse::Machine.any();
     no_card.iter().for_each(|why| say_no_card(why));

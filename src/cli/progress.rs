@@ -1,4 +1,4 @@
-//! Progress bars on long work, and ending it by Ctrl-C or SIGTERM.
+//! Progress bars of long work, and the end of the program by Ctrl-C or SIGTERM.
 
 use super::{Failure, report, say};
 use crate::io::abandon_writes;
@@ -13,17 +13,19 @@ use std::ops::ControlFlow;
 use std::sync::{Mutex, PoisonError, mpsc};
 use std::time::Duration;
 
-/// The bar that is shown, to be cleared when a signal ends the program.
+/// The progress bar on the screen, which is cleared when a signal ends the program.
 static SHOWN: Mutex<Option<ProgressBar>> = Mutex::new(None);
 
-/// How long the end waits for the bar to be cleared: whoever prints past the bar holds its lock, for as long as nobody reads.
+/// How long the program waits at its end for the bar to be cleared. A thread that prints past the bar holds its lock, and
+/// keeps it as long as nobody reads the output.
 const CLEARING: Duration = Duration::from_millis(200);
 
-/// Ends the program at once when it is interrupted (Ctrl-C) or asked to terminate, whatever it is doing: temporary files are
-/// removed, finished files stay, and the exit code is 128 and the signal's number. A second signal ends it as if nothing
-/// had been asked for, should the first be kept waiting.
+/// Makes an interruption (Ctrl-C) or a request to terminate (SIGTERM) end the program at once, whatever it is doing.
+///
+/// Temporary files are removed, finished files stay, and the exit code is 128 plus the signal's number. A second signal has
+/// the system's default effect, in case the first one is kept waiting.
 pub fn end_on_signals() {
-    // Without this a signal still ends the program, only less tidily: no reason to fail.
+    // An error here is ignored: without the handler a signal still ends the program, only less tidily.
     #[cfg(unix)]
     if let Ok(mut signals) = Signals::new([SIGINT, SIGTERM]) {
         std::thread::spawn(move || {
@@ -40,11 +42,11 @@ pub fn end_on_signals() {
     let _ = ctrlc::set_handler(|| end(SIGINT));
 }
 
-/// The number of an interruption where the system has no signals.
+/// The number that stands for Ctrl-C where the system has no signals.
 #[cfg(not(unix))]
 const SIGINT: i32 = 2;
 
-/// Ends the program as a signal asks to.
+/// Removes temporary files, clears the bar and ends the program with the exit code of a signal.
 fn end(signal: i32) -> ! {
     let _until_the_end = abandon_writes();
     let (cleared, is_cleared) = mpsc::channel();
@@ -56,14 +58,14 @@ fn end(signal: i32) -> ! {
     });
     let _ = is_cleared.recv_timeout(CLEARING);
     say("error: stopped");
-    // Other threads are still at work: what they use must not be torn down under them.
+    // Other threads are still at work, so the memory that they use must not be torn down.
     #[cfg(unix)]
     signal_hook::low_level::exit(128 + signal);
     #[cfg(not(unix))]
     std::process::exit(128 + signal)
 }
 
-/// A bar for one piece of work; it shows itself after a moment, and only on a terminal.
+/// The progress bar of one piece of work. It appears after a moment, and only on a terminal.
 pub struct WorkProgress(ProgressBar);
 
 impl WorkProgress {
@@ -77,7 +79,7 @@ impl WorkProgress {
         Self(bar)
     }
 
-    /// The bar as a [`crate::trace::Watch`].
+    /// Returns a [`crate::trace::Watch`] that moves the bar and never stops the work.
     pub fn watch(&self) -> impl Fn(f64) -> ControlFlow<()> + Sync + '_ {
         |done| {
             self.0.set_position((done * 1000.0) as u64);
@@ -85,7 +87,7 @@ impl WorkProgress {
         }
     }
 
-    /// Shows what is being made, and passes other things on past the bar.
+    /// Shows beside the bar what is being made, and prints files, notes and warnings above it.
     pub fn report(&self, told: Event) -> Result<(), Failure> {
         if let Event::Begun(what) = told {
             self.0.set_message(what.to_string());

@@ -1,4 +1,5 @@
-//! `refraction-map`: where the light behind each pixel comes from, for pages and programs that refract by looking it up.
+//! `refraction-map`: writes maps of where in the background the light of each pixel comes from. Pages and programs refract a
+//! moving background by looking it up in such a map.
 
 use super::options::{ViewOptions, number};
 use super::picture_options::{FinishOptions, PictureOptions};
@@ -19,7 +20,7 @@ use clap::{Args, ValueEnum};
 use glam::DVec2;
 use std::path::{Path, PathBuf};
 
-/// Looks that the diffuse layer is made of when not told.
+/// The default number of sample passes of the diffuse layer.
 const LOOKS: u32 = 4;
 
 #[derive(Debug, Args)]
@@ -89,7 +90,7 @@ impl RefractionMaps {
     fn make(&self, file: &Path) -> Result<(), Failure> {
         let viewpoint = self.view.viewpoint()?;
         let view = viewpoint.view();
-        // By rays whatever there is: no card is looked for.
+        // Maps are always traced by rays on the processor, so no card is opened.
         let finish = FinishOptions::default();
         let mut studio = PictureSetup::load((&self.picture, &finish), file, &view)?;
         if studio.photo.is_none() {
@@ -98,7 +99,7 @@ impl RefractionMaps {
                     "--background: give a pattern or a photograph, or leave it out".into(),
                 ));
             }
-            // Of a scene's own, which is none, nothing shows.
+            // The scene's background, and the default, are colours or the light, which a map does not show.
             studio.background = BackgroundRef::Plain(Background::Transparent);
         }
         if studio.strength < 1.0 {
@@ -216,7 +217,8 @@ impl RefractionMaps {
         Ok(())
     }
 
-    /// The pattern's or photograph's file, where browsers can show it.
+    /// Returns the bytes of the pattern's or photograph's file for the page. Where the page cannot take them, it returns
+    /// `None` and prints a note.
     fn background(&self, studio: &PictureSetup) -> Result<Option<Vec<u8>>, Failure> {
         let Some(bytes) = studio.background.bytes().map_err(Failure::Input)? else { return Ok(None) };
         if takes(&bytes) {

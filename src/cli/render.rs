@@ -1,4 +1,4 @@
-//! `render`: what stones look like under light.
+//! `render`: writes pictures of stones under light.
 
 use super::options::ViewOptions;
 use super::picture_options::{FinishOptions, PictureOptions};
@@ -34,7 +34,7 @@ fn point(text: &str) -> Result<glam::DVec2, String> {
     both.map(glam::DVec2::from).ok_or_else(|| "give two numbers, such as 200,150".into())
 }
 
-/// The ending of a kind of picture that is not written, where a person asks for one.
+/// Returns the ending of `--out` where it is that of a picture format that the program does not write.
 fn unknown_ending(out: &Path) -> Option<String> {
     const OTHERS: [&str; 9] = ["jpg", "jpeg", "gif", "webp", "tif", "tiff", "bmp", "svg", "hdr"];
     let ending = out.extension()?.to_str()?.to_ascii_lowercase();
@@ -58,7 +58,8 @@ impl Render {
         each_file(&self.files, |file| self.render(file))
     }
 
-    /// Where the picture of a file goes, seen as a viewpoint's suffix says, and whether --out is a file itself.
+    /// Returns the path of a file's picture, and whether `--out` is a single file and not a folder. In a folder, the name
+    /// ends with the viewpoint's suffix and `-render.png`.
     fn output(&self, file: &Path, suffix: &str) -> (PathBuf, bool) {
         if is_standard(&self.out) {
             return (STANDARD.into(), true);

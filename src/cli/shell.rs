@@ -1,11 +1,11 @@
-//! `completions` and `man`: the program's options for shells and for readers of manuals.
+//! `completions` and `man`: print a shell's completion script, and manual pages.
 
 use super::{Arguments, Failure, print};
 use clap::{Args, CommandFactory};
 use clap_complete::{Shell, generate};
 use clap_mangen::Man;
 
-/// What the program is called in shells and manuals.
+/// The name of the program in completion scripts.
 const NAME: &str = "brillianteer";
 
 #[derive(Debug, Args)]

@@ -1,4 +1,4 @@
-//! The stone that a command works on, read and built.
+//! Reads and builds the stone that a command works on.
 
 use super::{Failure, say};
 use crate::cut::{MaterialError, MaterialRef, Size};
@@ -16,9 +16,9 @@ use std::sync::{Mutex, PoisonError};
 /// A stone, and the file that it was read from.
 #[derive(Debug)]
 pub struct LoadedSpecimen {
-    /// As given on the command line.
+    /// The path or name as given on the command line.
     pub path: String,
-    /// The stone.
+    /// The stone, built from its design.
     pub made: scene::Specimen,
 }
 
@@ -31,8 +31,8 @@ impl Deref for LoadedSpecimen {
 }
 
 impl LoadedSpecimen {
-    /// Reads a design, or takes a cut that comes with the program by its name; builds the stone, and tells what is
-    /// noteworthy and odd about it.
+    /// Reads a design, or takes a cut that comes with the program by its name, and builds the stone. Prints notes and
+    /// warnings about it.
     pub fn load(file: &Path, mesh: MeshOptions) -> Result<Self, Failure> {
         let name = file.display().to_string();
         match library::cut(&name).filter(|_| !file.is_file()) {
@@ -41,13 +41,13 @@ impl LoadedSpecimen {
         }
     }
 
-    /// Reads a design; the options are those of meshes.
+    /// Reads a design from a file. A mesh is read with the options `mesh`.
     pub fn read(file: &Path, mesh: MeshOptions) -> Result<Self, Failure> {
         let told = |e: CutFileError| Failure::Input(format!("{e}{}", super::lists::hint(file)));
         Self::of(file.display().to_string(), design_file::read_with(file, mesh).map_err(told)?)
     }
 
-    /// Takes the text of a cut file, which errors call by this path.
+    /// Builds a stone from the text of a cut file. Error messages call the file `path`.
     pub fn parse(path: &str, text: &str) -> Result<Self, Failure> {
         let design = cut_file::parse(text, path).map_err(|e| Failure::Input(e.to_string()))?;
         Self::of(path.to_owned(), ImportedDesign::of(design))
@@ -66,7 +66,7 @@ impl LoadedSpecimen {
         Ok(specimen)
     }
 
-    /// The same stone of another material (a name or an index) and size, where they are given.
+    /// Returns the same stone with another material (a name or an index) and size, where they are given.
     pub fn made_of(self, material: Option<&str>, size: Option<Size>) -> Result<Self, Failure> {
         let Self { path, made } = self;
         let mut design = made.design.clone();
@@ -82,13 +82,13 @@ impl LoadedSpecimen {
         Ok(Self { path, made })
     }
 
-    /// Says that something about it is odd.
+    /// Prints a warning about the stone.
     pub fn say(&self, what: &str) {
         say(&format!("warning: {}: {what}", self.path));
     }
 }
 
-/// The material that a command line asks for: a name or an index.
+/// Parses the value of `--material`: a material's name or a refractive index.
 pub fn asked_material(text: &str) -> Result<(MaterialRef, Material), Failure> {
     let asked = text.parse().map_or_else(|_| MaterialRef::Name(text.to_owned()), MaterialRef::Index);
     let told = |error: MaterialError| {
@@ -98,7 +98,7 @@ pub fn asked_material(text: &str) -> Result<(MaterialRef, Material), Failure> {
     Ok((asked, material))
 }
 
-/// Says of a material whose colour is no measurement that it is none, once a run.
+/// Prints a note where the colour of a material is illustrative and not measured, once for each material in a run.
 pub fn note_colour(material: &Material) {
     static SAID: Mutex<BTreeSet<String>> = Mutex::new(BTreeSet::new());
     let is_new = || SAID.lock().unwrap_or_else(PoisonError::into_inner).insert(material.name.clone());
@@ -110,7 +110,7 @@ pub fn note_colour(material: &Material) {
     }
 }
 
-/// A file's name without its ending, for the files made of it; of standard input `stdin`.
+/// Returns a file's name without its ending, with which the names of its outputs begin; `stdin` for standard input.
 pub fn stem(file: &Path) -> String {
     if is_standard(file) {
         return "stdin".into();

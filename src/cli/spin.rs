@@ -1,4 +1,4 @@
-//! `spin`: a stone that turns, rocks or wobbles, as numbered pictures and as one that moves.
+//! `spin`: writes an animation of stones that turn, rock or wobble, and its numbered frames.
 
 use super::options::{ViewOptions, number};
 use super::picture_options::{FinishOptions, PictureOptions};
@@ -65,7 +65,7 @@ impl Spin {
         let studio = PictureSetup::load((&self.picture, &self.finish), &self.file, &first)?
             .with_what_has_a_distance()?;
         let frames: Vec<(Scene, View)> = (0..self.frames).map(|k| self.frame(&studio, &first, k)).collect();
-        // The stones keep their size: that at which they fit in every frame.
+        // One size of pixel for all frames: the stones fit in every frame and keep their size.
         let mut pixels = frames.iter().map(|(setting, view)| studio.pixel(setting, view));
         let pixel = pixels.try_fold(0.0_f64, |most, pixel| pixel.map(|p| most.max(p)))?;
         let name = format!("{}{}-spin", stem(&self.file), viewpoint.suffix());
@@ -105,7 +105,7 @@ impl Spin {
         written(&path)
     }
 
-    /// How long a frame is shown.
+    /// Returns how long each frame is shown, in milliseconds.
     fn delay_ms(&self) -> Result<u16, Failure> {
         let delay = (1000.0 * self.seconds / f64::from(self.frames)).round();
         if (1.0..=f64::from(u16::MAX)).contains(&delay) {
@@ -133,7 +133,7 @@ impl Spin {
         }
     }
 
-    /// The stones of a frame, and the view of them.
+    /// Returns the stones of a frame, and the view from which they are seen.
     fn frame(&self, studio: &PictureSetup, first: &View, number: u32) -> (Scene, View) {
         let part = TAU * f64::from(number) / f64::from(self.frames);
         let swing = self.swing.to_radians();

@@ -1,4 +1,4 @@
-//! What the program does where its editor cannot be opened: the main pictures and figures of a stone, as files.
+//! Writes the main pictures and figures of a stone to files where the editor cannot be opened.
 
 use super::{Arguments, Failure, assembly, say};
 use crate::io::library::FIRST_CUT;
@@ -6,14 +6,15 @@ use clap::Parser;
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
-/// The folder that both commands write to.
+/// The folder to which `export` and `render` write by default.
 const FOLDER: &str = "out";
 
-/// The pictures that the editor shows first and those that the trade asks for, with the figures.
+/// The command for the pictures that the editor shows first and those that the trade expects, with the figures.
 const EXPORT: [&str; 5] =
     ["export", "--views", "aset,ideal-scope,hearts,arrows,profile,diagram", "--format", "png,json"];
 
-/// Writes the main pictures and figures of a file, or of the first cut, and says why, by which commands and where.
+/// Writes the main pictures and figures of a file, or of [`FIRST_CUT`] where none is given. Prints the reason `why`, the
+/// commands that write the same files, and the folder.
 pub fn write(file: Option<PathBuf>, why: &str) -> Result<(), Failure> {
     let file = file.unwrap_or_else(|| FIRST_CUT.into());
     // Scenes have no pictures in scopes.
@@ -32,10 +33,10 @@ pub fn write(file: Option<PathBuf>, why: &str) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Runs a command on a file as if it had been typed.
+/// Runs a command on a file as if the user had typed it.
 fn run(command: &[&str], file: &Path) -> Result<(), Failure> {
     let words = ["brillianteer"].iter().chain(command).map(OsString::from);
-    // A name that begins with a dash is no option.
+    // After `--` a name that begins with a dash is not read as an option.
     let line = words.chain(["--".into(), file.into()]);
     let parsed = Arguments::try_parse_from(line).map_err(|e| Failure::Usage(e.to_string()))?;
     parsed.command.map_or(Ok(()), |command| command.run())

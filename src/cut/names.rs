@@ -35,14 +35,14 @@ pub(crate) fn tier_stem(name: &str) -> &str {
     }
 }
 
-/// The longest name, in bytes, so that it fits on a line.
+/// The longest name, in characters, so that it fits on a line.
 const LONGEST: usize = 200;
 
 /// Returns whether a name can be shown anywhere: it is not blank, not too long, and without control characters, which XML
 /// cannot hold.
 pub(crate) fn is_printable(name: &str) -> bool {
     !name.trim().is_empty()
-        && name.len() <= LONGEST
+        && name.chars().count() <= LONGEST
         && !name.contains(|c: char| c.is_control() || matches!(c, '\u{fffe}' | '\u{ffff}'))
 }
 
@@ -71,6 +71,7 @@ mod tests {
     #[test]
     fn blanks_and_control_characters_are_no_names() {
         assert!(is_printable("Étoile 3"));
+        assert!(is_printable(&"É".repeat(LONGEST)) && !is_printable(&"e".repeat(LONGEST + 1)));
         assert!(!["", "  ", "a\u{1}", "a\nb", "\u{ffff}"].iter().any(|name| is_printable(name)));
     }
 

@@ -15,7 +15,7 @@ mod outward;
 #[cfg(test)]
 pub(super) mod sample;
 
-pub(super) use outward::{Outline, outlines, refractive_index, tiers_of, untold};
+pub(super) use outward::{FacetOutline, outlines, refractive_index, tiers_of, untold};
 
 /// Two facets of one tier are cut at one setting if their angles (degrees) and their distances (relative) differ by no more
 /// than this. A number this near to one that a cutter would write is taken for that one. The value is above the noise of

@@ -1,4 +1,4 @@
-//! A stone as files: pictures, drawings and figures, one after the other.
+//! Writes a stone's pictures, drawings and figures to files, one after the other.
 
 mod event;
 mod figures;
@@ -21,37 +21,37 @@ use pictures::Pictures;
 use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 
-/// The largest side of an EXR, in pixels: it is held in memory, a dozen channels deep.
+/// The largest side of an EXR, in pixels: its dozen channels are held in memory.
 pub const MOST_EXR_PIXELS: u32 = 8192;
 
 /// The least side of a picture with a caption, in pixels.
 pub const LEAST_CAPTIONED: u32 = 192;
 
-/// How many of too many files a message names.
+/// How many files a message names where there are too many.
 const MOST_NAMED: usize = 3;
 
-/// How long a drawing takes, and the figures, where a picture in a scope takes 1: roughly, for progress.
+/// How long a drawing and the figures take, roughly, where a picture in a scope takes 1. Progress is counted by these.
 const DRAWING: f64 = 0.1;
 const FIGURES: f64 = 1.0;
 
-/// A kind of file.
+/// A file format of the outputs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum OutputFormat {
-    /// Pictures of energy and of strongest exits, and drawings; sRGB.
+    /// PNG in sRGB: pictures of energy and of strongest exits, and drawings.
     Png,
-    /// The virtual facets as polygons, and drawings.
+    /// SVG: the virtual facets as polygons, and drawings.
     Svg,
-    /// Energy of each zone, 32-bit and linear.
+    /// OpenEXR: the energy of each zone, 32-bit and linear.
     Exr,
-    /// Figures of the view.
+    /// JSON: the figures of the view.
     Json,
 }
 
 impl OutputFormat {
-    /// All there are.
+    /// All formats.
     pub const ALL: [Self; 4] = [Self::Png, Self::Svg, Self::Exr, Self::Json];
 
-    /// How its files end, without the dot.
+    /// Returns the file extension, without the dot.
     pub fn ending(self) -> &'static str {
         match self {
             Self::Png => "png",
@@ -65,30 +65,31 @@ impl OutputFormat {
 /// What is written of a stone, and where to.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Outputs {
-    /// The folder; made if it is missing. `-` is standard output, which takes one file.
+    /// The folder, which is created if it is missing. `-` is standard output, which takes one file.
     pub folder: PathBuf,
-    /// What the files' names begin with; the [`suffix`](crate::scene::Viewpoint::suffix) of the view follows where the file
-    /// shows it.
+    /// The beginning of the files' names. The [`suffix`](crate::scene::Viewpoint::suffix) of the view follows in the names
+    /// of files that show the view.
     pub stem: String,
-    /// Pictures, each with its name in the files' names.
+    /// The pictures, each with the name that it bears in the files' names.
     pub pictures: Vec<(String, Picture)>,
     /// Pixels along each side, from 1 to [`MOST_PIXELS`](super::MOST_PIXELS); for EXR to [`MOST_EXR_PIXELS`].
     pub size: u32,
-    /// Kinds of file.
+    /// The file formats.
     pub formats: Vec<OutputFormat>,
-    /// Whether pictures in scopes are written by strongest exits too, and not by energy alone.
+    /// Whether pictures in scopes are written by strongest exits as well as by energy.
     pub strongest: bool,
-    /// Whether a caption with the legend of the scope's zones is drawn under pictures in scopes, of PNG and SVG.
+    /// Whether PNG and SVG pictures in scopes have a caption with the legend of the scope's zones under them.
     pub caption: bool,
-    /// Whether the figures hold the time that they took, which makes files differ from run to run.
+    /// Whether the figures include the time that they took, which makes files differ from run to run.
     pub timing: bool,
 }
 
 impl Outputs {
-    /// Whether they can be written beside each other.
+    /// Refuses outputs that cannot be written beside each other.
     ///
     /// # Errors
-    /// [`Failure::Usage`] where two would bear one name, or the size is too large.
+    /// [`Failure::Usage`] where two outputs would have one name, where the size is too large for an EXR or too small for a
+    /// caption.
     pub fn check(&self) -> Result<(), Failure> {
         if self.wants(OutputFormat::Exr) && self.size > MOST_EXR_PIXELS {
             let size = self.size;
@@ -109,7 +110,7 @@ impl Outputs {
         }
     }
 
-    /// The names of its files, most without ending: no other output may bear one, in whatever format.
+    /// The names of the files, most without an extension. No other output may have one of them, in whatever format.
     fn names(&self) -> impl Iterator<Item = String> + '_ {
         let stem = &self.stem;
         let pictured = self.pictures.iter().flat_map(move |(name, picture)| {
@@ -120,7 +121,7 @@ impl Outputs {
         pictured.chain([format!("{stem}-figures.json")])
     }
 
-    /// The file of a name; `suffix` says from where the stone is seen.
+    /// Returns the path of the file of this name; `suffix` says from where the stone is seen.
     fn path(&self, suffix: &str, name: &str, format: OutputFormat) -> PathBuf {
         if is_standard(&self.folder) {
             return self.folder.clone();
@@ -132,36 +133,36 @@ impl Outputs {
         self.formats.contains(&format)
     }
 
-    /// The pictures, if more than figures is wanted.
+    /// The pictures, or none where figures are the only format.
     fn drawn(&self) -> impl Iterator<Item = &(String, Picture)> {
         let draws = self.formats.iter().any(|&f| f != OutputFormat::Json);
         self.pictures.iter().filter(move |_| draws)
     }
 }
 
-/// The first name that comes twice among the outputs of several stones into one folder: the stone where it comes
-/// again, by its place, and the name.
+/// Returns the first name that occurs twice among the outputs of several stones into one folder, with the index of the
+/// stone where it occurs again.
 pub fn first_twice(stones: &[Outputs]) -> Option<(usize, String)> {
     let mut seen = HashSet::new();
     let mut all = stones.iter().enumerate().flat_map(|(k, outputs)| outputs.names().map(move |n| (k, n)));
     all.find(|(_, name)| !seen.insert(name.clone()))
 }
 
-/// A stone to be written to files.
+/// An export: a stone in its view, and the outputs to write of it.
 #[derive(Clone, Copy)]
 pub struct Export<'a> {
-    /// The stone and how it is looked at.
+    /// The stone and how it is viewed.
     pub viewing: Viewing<'a>,
-    /// What to write.
+    /// The outputs to write.
     pub outputs: &'a Outputs,
 }
 
 impl Export<'_> {
-    /// The files that [`write`](Self::write) writes, in that order.
+    /// Returns the paths of the files that [`write`](Self::write) writes, in that order.
     ///
     /// # Errors
-    /// What keeps all of them from being written: [`Failure::Input`] where the eye is not in front of the whole
-    /// stone, [`Failure::Usage`] where outputs and tracer do not go together.
+    /// [`Failure::Input`] where the eye is not in front of the whole stone, [`Failure::Usage`] where outputs and tracer do
+    /// not go together: then nothing can be written.
     pub fn files(&self) -> Result<Vec<PathBuf>, Failure> {
         self.check()?;
         Ok(self.paths())
@@ -174,11 +175,11 @@ impl Export<'_> {
         drawn.chain(figures).collect()
     }
 
-    /// Writes the files, each whole or not at all. `watch` is told the part done of all the work.
+    /// Writes the files, each whole or not at all, and reports the part of the work that is done to `watch`.
     ///
     /// # Errors
-    /// Those of [`files`](Self::files), before anything is written; [`Failure::Output`]; what `tell` answers; or
-    /// [`Failure::Stopped`] when `watch` asks to stop. Files told as written stay.
+    /// The errors of [`files`](Self::files), before anything is written; [`Failure::Output`]; an error of `tell`; or
+    /// [`Failure::Stopped`] when `watch` asks to stop. Files that were reported as written stay.
     pub fn write(&self, watch: Watch, tell: Reporter) -> Result<(), Failure> {
         self.check()?;
         let outputs = self.outputs;
@@ -197,7 +198,7 @@ impl Export<'_> {
         if outputs.wants(OutputFormat::Json) {
             pace.step(FIGURES, |watch| self.write_figures(watch, tell))?;
         }
-        // Nothing is left to stop.
+        // The work is done, so a request to stop has no effect.
         let _ = watch(1.0);
         Ok(())
     }
@@ -216,7 +217,7 @@ impl Export<'_> {
         if outputs.wants(OutputFormat::Json) { viewing.check() } else { Ok(()) }
     }
 
-    /// Refuses several files where standard output is to take them.
+    /// Refuses to write several files to standard output.
     fn fits_standard_output(&self) -> Result<(), Failure> {
         if !is_standard(&self.outputs.folder) {
             return Ok(());
@@ -239,7 +240,7 @@ impl Export<'_> {
         )))
     }
 
-    /// The files of a picture, in the order in which they are finished.
+    /// Returns the paths of a picture's files, in the order in which they are finished.
     fn files_of(&self, name: &str, picture: &Picture) -> Vec<PathBuf> {
         use OutputFormat::{Exr, Png, Svg};
         let files: &[(&str, OutputFormat)] = match (picture, self.viewing.tracer) {
@@ -272,12 +273,12 @@ impl Export<'_> {
     }
 }
 
-/// How long a picture takes, roughly.
+/// How long a picture takes, roughly: a picture in a scope takes 1.
 fn effort(picture: &Picture) -> f64 {
     if matches!(picture, Picture::Scoped(_)) { 1.0 } else { DRAWING }
 }
 
-/// What to say of a picture that only exact beams make.
+/// The message for a picture in a format that only exact beams can make.
 fn only_png(name: &str) -> String {
     format!("{name}: rays make PNG pictures only; SVG and EXR need exact beams")
 }

@@ -23,7 +23,8 @@ fn machine() -> Result<&'static Gpu, GpuError> {
 }
 
 impl<'a> CardUse<'a> {
-    /// The card, be it slower than the processor; where there is none, the processor and why there is no card.
+    /// Returns the card, even one that is slower than the processor; where there is none, the processor and why there is no
+    /// card.
     pub fn any(self) -> (RayTracer<'a>, Option<String>) {
         match self {
             Self::Open(tracer) => (tracer, None),
@@ -39,7 +40,7 @@ impl<'a> CardUse<'a> {
         }
     }
 
-    /// The card where it is a real one, and otherwise the processor: a card in software is slower.
+    /// Returns the card where it is a real one, and otherwise the processor, because a card in software is slower.
     pub fn quickest(self) -> RayTracer<'a> {
         match (self, self.any().0) {
             (Self::Open(tracer), _) => tracer,

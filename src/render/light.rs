@@ -1,5 +1,5 @@
-//! Pictures under light, by whichever tracer is planned: the passes of a picture are added up in strips of rows, so that no more
-//! of it is held than a tracer needs.
+//! Pictures under light, by whichever tracer is planned. The passes of a picture are added up in strips of rows, so that no
+//! more of the picture is held than a tracer needs.
 
 use crate::optics::Stratum;
 use crate::picture::spectral::{Remainder, expose_in, seen};
@@ -11,10 +11,10 @@ use crate::trace::ray::ByRays;
 use crate::trace::sampling::{LitScene, ProgressiveImage, Sampling};
 use crate::trace::{RayTracer, Stopped, Tracer, Watch};
 
-/// How many rows point rays trace at once: what they have seen so far is held.
+/// How many rows point rays trace at once: the sums of their passes are held in memory.
 const ROWS_OF_RAYS: u32 = 256;
 
-/// The passes of a picture where nothing else is asked for: rays need many for smooth edges, beams only for the wavelengths.
+/// The usual number of passes of a picture: rays need many for smooth edges, beams only for the wavelengths.
 const PASSES_OF_BEAMS: u32 = 4;
 const PASSES_OF_RAYS: u32 = 64;
 
@@ -23,7 +23,7 @@ const PASSES_OF_RAYS: u32 = 64;
 pub struct LightQuality<'a> {
     /// The bands of wavelengths.
     pub strata: &'a [Stratum],
-    /// The passes.
+    /// How many passes there are, and how each samples.
     pub sampling: Sampling,
     /// How far exact beams are followed.
     pub beams: BeamOptions,
@@ -44,7 +44,7 @@ pub enum RenderError {
     NotForBeams,
 }
 
-/// The number of passes that a picture by this tracer has where nothing else is asked for.
+/// Returns the number of passes that a picture by this tracer has where no number is requested.
 pub fn usual_passes(tracer: Tracer) -> u32 {
     match tracer {
         Tracer::Beams => PASSES_OF_BEAMS,
@@ -55,7 +55,8 @@ pub fn usual_passes(tracer: Tracer) -> u32 {
 /// Traces a picture under light, strip by strip.
 ///
 /// # Errors
-/// [`RenderError::Stopped`] when `watch` asks to stop; what is wrong with a card.
+/// [`RenderError::Stopped`] when `watch` asks to stop, [`RenderError::NotForBeams`] where exact beams cannot trace the
+/// scene, or the error of a card that fails.
 pub fn light(
     lit_scene: &LitScene,
     tracer: Tracer,
@@ -84,12 +85,13 @@ pub fn light(
     }
 }
 
-/// Traces a picture under light as a whole, which grows clearer: calls `each` with the picture so far, and what it does not show,
-/// after the first, the second, the fourth pass and so on, and after the last. `passes` are the number of the first pass and
-/// the number of passes before which nothing is shown.
+/// Traces a picture under light as a whole and shows it while it grows clearer.
+///
+/// Calls `each` with the picture so far, and the light that it does not show, after the first, the second, the fourth pass
+/// and so on, and after the last. `first` is the number of the first pass; nothing is shown of the first `hidden` passes.
 ///
 /// # Errors
-/// As [`light`], and what `each` answers.
+/// Those of [`light`], and an error of `each`.
 pub fn grow<E: From<RenderError>>(
     lit_scene: &LitScene,
     tracer: Tracer,
@@ -115,7 +117,7 @@ pub fn grow<E: From<RenderError>>(
     }
 }
 
-/// The passes that are added up to a picture.
+/// The passes of a picture, which are added up.
 struct Passes<'a> {
     lit_scene: &'a LitScene<'a>,
     quality: LightQuality<'a>,

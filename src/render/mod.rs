@@ -1,5 +1,5 @@
-//! Floor 5: pictures out of the tracers. Who traces a picture is decided by [`plan`](plan()) alone; how many rows are held at
-//! once, and how the passes of a picture are added up, by [`light`](light()).
+//! Floor 5: makes pictures with the tracers. [`plan`](plan()) alone decides which tracer traces a picture;
+//! [`light`](light()) decides how many rows are held at once and how the passes of a picture are added up.
 
 mod card;
 mod light;

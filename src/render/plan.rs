@@ -1,4 +1,4 @@
-//! Who traces: the only place that decides it.
+//! Plans which tracer makes a picture or figures. No other place decides this.
 
 use super::CardUse;
 use crate::math::NotConvex;
@@ -22,7 +22,7 @@ pub enum Wanted {
 /// What decides which tracers fit a picture or figures.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Demands {
-    /// Why exact beams do not fit, if they do not.
+    /// Why exact beams do not fit, or `None` where they fit.
     pub against_beams: Option<Unfit>,
     /// Whether a graphics card is quicker than exact beams, as for pictures under light that have many wavelengths.
     pub favours_card: bool,
@@ -37,19 +37,19 @@ pub enum Unfit {
     /// The stone is not convex or has no flat facets.
     #[error(transparent)]
     NotConvex(#[from] NotConvex),
-    /// There are several bodies, or a picture hangs behind.
+    /// There are several bodies, a body that is not convex, a perspective, or a backplate.
     #[error(
         "exact beams are for one convex stone, parallel rays and no pattern or photograph behind: trace by rays"
     )]
     NotAlone,
-    /// Refraction is followed part of the way.
+    /// Refraction is followed only part of the way.
     #[error(
         "exact beams know no mixture of refracted and straight rays: trace by rays, or set the strength to 1"
     )]
     Mixture,
 }
 
-/// The tracer that does the work.
+/// The planned tracer.
 #[derive(Clone)]
 pub struct Plan<'a> {
     /// The tracer.
@@ -59,7 +59,7 @@ pub struct Plan<'a> {
 }
 
 impl Demands {
-    /// The demands of pictures and figures of one stone in a scope.
+    /// Returns the demands of pictures and figures of one stone in a scope.
     pub fn of_scope(specimen: &Specimen, view: &View) -> Self {
         let against_beams = match specimen.stone() {
             _ if view.projection != Projection::Orthographic => Some(Unfit::Perspective),
@@ -69,7 +69,7 @@ impl Demands {
         Self { against_beams, favours_card: false }
     }
 
-    /// The demands of a picture under light. `strength` is how much of the way refraction is followed: 1 is physics.
+    /// Returns the demands of a picture under light. `strength` is how much of the way refraction is followed: 1 is physics.
     pub fn of_light(scene: &Scene, view: &View, has_backplate: bool, strength: f64) -> Self {
         let is_alone = matches!(&*scene.instances, [only] if only.solid.polytope().is_ok());
         let fits = is_alone && !has_backplate && view.projection == Projection::Orthographic;
@@ -92,7 +92,7 @@ impl Demands {
     }
 }
 
-/// Decides who traces. The card is opened only where it may be used.
+/// Decides which tracer does the work. The card is opened only where it may be used.
 ///
 /// # Errors
 /// [`Unfit`] where exact beams are wanted and do not fit.

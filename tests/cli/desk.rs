@@ -1,4 +1,4 @@
-//! Where the program is run, and how what it makes is read.
+//! A folder in which tests run the program, and readers of what the program writes.
 
 use brillianteer::optics::linear_from_encoded;
 use exr::prelude::{AnyChannel, FlatSamples, read_first_flat_layer_from_file};
@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 
-/// A folder of its own, with the fixtures in it, where commands are run.
+/// A temporary folder with the fixtures, in which commands are run.
 pub struct Desk(tempfile::TempDir);
 
 impl Desk {
@@ -39,17 +39,19 @@ impl Desk {
     pub fn command(&self, line: &str) -> Command {
         let mut command = Command::new(env!("CARGO_BIN_EXE_brillianteer"));
         command.current_dir(self.at("")).args(line.split_whitespace()).stdin(Stdio::null());
-        // As under cron and in containers, where drivers used to complain on the program's standard error.
+        // The variable is missing under cron and in containers too. Drivers used to complain about that on the program's
+        // standard error.
         command.env_remove("XDG_RUNTIME_DIR");
         command
     }
 
-    /// The exit code, what is printed and what is said.
+    /// Runs a command and returns its exit code, its standard output and its standard error.
     pub fn run(&self, line: &str) -> (i32, String, String) {
         came_of(line, &self.command(line).output().unwrap())
     }
 
-    /// What is printed when all goes well, and then nothing else is said but of colours that are no measurement.
+    /// Runs a command that must succeed and returns its standard output. Standard error may hold only notes on illustrative
+    /// colours.
     pub fn done(&self, line: &str) -> String {
         let (code, printed, said) = self.run(line);
         let is_quiet = said.lines().all(|l| l.starts_with("note: the colour of "));
@@ -61,7 +63,7 @@ impl Desk {
         serde_json::from_str(&self.done(line)).unwrap()
     }
 
-    /// What is said in refusing, with this exit code.
+    /// Runs a command that must fail with this exit code and returns its standard error.
     pub fn refused(&self, line: &str, expected: i32) -> String {
         let (code, _, said) = self.run(line);
         assert_eq!(code, expected, "{line}: {said}");
@@ -69,7 +71,7 @@ impl Desk {
     }
 }
 
-/// The exit code, what was printed and what was said; never a panic.
+/// Returns the exit code, standard output and standard error of a command, which must not have panicked.
 pub fn came_of(line: &str, output: &Output) -> (i32, String, String) {
     let [printed, said] = [&output.stdout, &output.stderr].map(|b| String::from_utf8(b.clone()).unwrap());
     let code = output.status.code().unwrap();
@@ -77,13 +79,13 @@ pub fn came_of(line: &str, output: &Output) -> (i32, String, String) {
     (code, printed, said)
 }
 
-/// The files of a folder, by name.
+/// Returns the contents of the files of a folder, by name.
 pub fn files(folder: &Path) -> BTreeMap<String, Vec<u8>> {
     let paths = std::fs::read_dir(folder).unwrap().map(|e| e.unwrap().path()).filter(|p| p.is_file());
     paths.map(|p| (p.file_name().unwrap().to_str().unwrap().into(), std::fs::read(&p).unwrap())).collect()
 }
 
-/// The number at a path such as surface/green.
+/// Returns the number at a path such as surface/green.
 pub fn at(value: &Value, path: &str) -> f64 {
     value.pointer(&format!("/{path}")).and_then(Value::as_f64).unwrap_or_else(|| panic!("{path} in {value}"))
 }
@@ -116,7 +118,7 @@ pub fn near(found: f64, expected: f64, within: f64, what: &str) {
     assert!((found - expected).abs() <= within, "{what}: {found}, not {expected}");
 }
 
-/// Pairs as in "crown_angle 34.5, culet 0".
+/// Splits a text such as "crown_angle 34.5, culet 0" into names and numbers.
 pub fn pairs(text: &str) -> impl Iterator<Item = (&str, f64)> {
     text.split(", ").map(|pair| pair.split_once(' ').unwrap()).map(|(k, v)| (k, v.parse().unwrap()))
 }

@@ -1,4 +1,5 @@
-//! How the program ends: by signals, without a screen, in little memory, and with nothing on standard error that is not its own.
+//! How the program ends: by signals, without a screen, in little memory, and with nothing on standard error but its own
+//! messages.
 
 use super::desk::*;
 use std::io::{BufRead, BufReader};
@@ -12,13 +13,13 @@ fn signal(program: &Child, name: &str) {
     assert!(sent.success(), "kill -{name}");
 }
 
-/// How many files a folder holds that are no temporary ones of the program; none where it is not there.
+/// Counts the files of a folder without the program's temporary files; 0 where there is no folder.
 #[cfg(target_os = "linux")]
 fn files_in(folder: &Path) -> usize {
     std::fs::read_dir(folder).into_iter().flatten().count() - temporary(folder)
 }
 
-/// Temporary files of the program in a folder.
+/// Counts the program's temporary files in a folder.
 fn temporary(folder: &Path) -> usize {
     let names = std::fs::read_dir(folder).into_iter().flatten().map(|e| e.unwrap().file_name());
     names.filter(|name| name.to_string_lossy().starts_with(".brillianteer-")).count()
@@ -54,7 +55,7 @@ fn a_signal_leaves_whole_files_and_no_temporary_ones() {
         let mut export = desk.command(&line).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
         let mut printed = BufReader::new(export.stdout.take().unwrap()).lines();
         assert_eq!(printed.next().unwrap().unwrap(), format!("{name}/tolkowsky-profile.png"));
-        // The next picture is large enough to be caught half written.
+        // The next picture is large enough that the signal arrives while it is being written.
         while temporary(&desk.at(name)) == 0 {
             assert!(export.try_wait().unwrap().is_none(), "it ended before it could be stopped");
             std::thread::yield_now();
@@ -73,7 +74,7 @@ fn a_signal_ends_a_program_whose_output_nobody_reads() {
     use std::io::Write;
     let desk = Desk::new();
     for (name, code) in [("INT", 130), ("TERM", 143)] {
-        // A pipe of Linux holds 64 KiB: the first name of a file that is printed has no room.
+        // A pipe of Linux holds 64 KiB, so there is no room for the first file name that is printed.
         let (unread, mut full) = std::io::pipe().unwrap();
         full.write_all(&[0; 1 << 16]).unwrap();
         let line = format!("export cube.toml --views profile --format svg,png --size 64 --out {name}");
@@ -82,7 +83,7 @@ fn a_signal_ends_a_program_whose_output_nobody_reads() {
             assert!(export.try_wait().unwrap().is_none(), "it ended though nobody read");
             std::thread::sleep(std::time::Duration::from_millis(5));
         }
-        // Time to come to the printing.
+        // Time for the program to reach the printing.
         std::thread::sleep(std::time::Duration::from_millis(300));
         signal(&export, name);
         let began = std::time::Instant::now();
@@ -138,8 +139,8 @@ fn without_a_screen_the_main_pictures_and_figures_are_written_unless_the_editor_
     assert!(!desk.at("out").exists());
 }
 
-/// A driver that looks for a Wayland screen when it is loaded, as Mesa's layer for choosing a card does by libwayland, and
-/// says in the same words that it cannot.
+/// A driver that looks for a Wayland screen when it is loaded and reports its failure, in the same words as libwayland does
+/// for Mesa's layer for choosing a card.
 #[cfg(all(feature = "gpu", target_os = "linux"))]
 const DRIVER: &str = r#"
 #include <stdio.h>
@@ -190,7 +191,7 @@ fn a_driver_has_nothing_to_complain_of_where_the_session_names_no_folder_for_soc
     }
 }
 
-/// What the program holds in memory at most, MiB, as the system tells until it ends.
+/// Returns the most memory that a program holds until it ends, in MiB, as the system reports it.
 #[cfg(target_os = "linux")]
 fn most_memory(program: &mut Child) -> f64 {
     let mut most = 0.0_f64;

@@ -1,4 +1,4 @@
-//! What is at fault, in files, command lines and outputs, and how that is told.
+//! Faults in files, command lines and outputs, and the messages about them.
 
 use super::desk::*;
 use serde_json::{Value, json};

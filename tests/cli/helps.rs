@@ -1,4 +1,4 @@
-//! What the program says of itself: help, lists, tables, completions, manuals.
+//! The program's descriptions of itself: help, lists, tables, completions, manuals.
 
 use super::desk::*;
 use serde_json::Value;

@@ -1,4 +1,4 @@
-//! What `refraction-map` makes.
+//! The files that `refraction-map` writes.
 
 use super::desk::*;
 use brillianteer::io::refraction_map::{Coding, diffuse_path, paths, read};
@@ -42,7 +42,7 @@ fn a_refraction_map_comes_in_every_coding_with_its_diffuse_layer_a_page_and_a_pr
         desk.read("dots/cube-refraction.html")
             .contains("\"background\":{\"name\":\"Dots\",\"picture\":\"data:image/")
     );
-    // Of several bands each has its maps; without a photograph there is no preview.
+    // Each of several bands has its own map; without a photograph there is no preview.
     let printed =
         desk.done("refraction-map cube.toml --size 32 --samples 1 --wavelengths 2 --bands 3 --out three");
     let names = ["-01.png", "-02.png", "-03.png", "-diffuse.png", ".html"];
@@ -50,7 +50,7 @@ fn a_refraction_map_comes_in_every_coding_with_its_diffuse_layer_a_page_and_a_pr
     let three = paths(&desk.at("three"), "cube", 3, Coding::Tiles);
     let map = read(&three, &diffuse_path(&desk.at("three"), "cube")).unwrap();
     assert!(map.bands.len() == 3 && map.bands[0].nm < map.bands[2].nm);
-    // Of several places as well, the stronger one first.
+    // Each of several places has its own map as well, the stronger place first.
     desk.done(
         "refraction-map cube.toml --size 32 --samples 1 --wavelengths 2 --bands 2 --places 2 --tilt 25 --perspective 5 --out four",
     );

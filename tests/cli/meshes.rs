@@ -1,8 +1,8 @@
-//! Meshes on the command line: how they are read, what is said of them, and how often.
+//! Meshes on the command line: how they are read, and which messages come about them, and how often.
 
 use super::desk::*;
 
-/// Every command that reads a mesh, but for `edit`, with options that keep it short.
+/// Every command that reads a mesh, except `edit`, with options that keep it short.
 const COMMANDS: [&str; 7] = [
     "info FILE",
     "info --json FILE",
@@ -13,7 +13,8 @@ const COMMANDS: [&str; 7] = [
     "refraction-map --size 16 --format tiled --out out FILE",
 ];
 
-/// A cube whose upper side is bent inward: its corner is lowered and the side cut along the wrong diagonal.
+/// A cube whose upper side is bent inward: two of its corners are lowered and the side is split along the diagonal between
+/// them.
 const BENT: &str = "v 1 1 0.97\nv -1 1 1\nv -1 -1 0.97\nv 1 -1 1\nv 1 1 -1\nv -1 1 -1\nv -1 -1 -1\nv 1 -1 -1\n\
     f 1 2 3\nf 1 3 4\nf 5 7 6\nf 5 8 7\nf 1 5 6\nf 1 6 2\nf 2 6 7\nf 2 7 3\nf 3 7 8\nf 3 8 4\nf 4 8 5\nf 4 5 1\n";
 

@@ -1,10 +1,10 @@
-//! What `liquid-glass` makes.
+//! The pictures that `liquid-glass` writes.
 
 use super::desk::*;
 use brillianteer::optics::linear_from_encoded;
 use glam::DVec3;
 
-/// A desk with a photograph on it.
+/// A desk with a photograph in its folder.
 fn desk() -> Desk {
     let desk = Desk::new();
     desk.done(
@@ -13,7 +13,7 @@ fn desk() -> Desk {
     desk
 }
 
-/// The number behind a name in what is printed, and the unit.
+/// Returns the first number of the printed line that starts with a name.
 fn figure(printed: &str, name: &str) -> f64 {
     let line = printed.lines().find(|line| line.starts_with(name)).unwrap();
     line.split_whitespace().find_map(|word| word.parse().ok()).unwrap()
@@ -41,7 +41,7 @@ fn liquid_glass_comes_drawn_traced_and_side_by_side_with_what_the_drawing_costs(
     assert_eq!(size, (64, 48));
     assert!(told.contains("traced by rays, gap 0.02, 12 wavelengths in 2 looks"), "{told}");
     assert_eq!(png(&desk.at("all/liquid-glass-both.png")).0, (129, 48));
-    // The same bytes on any number of threads.
+    // The bytes are the same on any number of threads.
     for threads in ["1", "2"] {
         let line = format!("{line} --compare --frost 80 --out {threads}");
         let run = desk.command(&line).env("RAYON_NUM_THREADS", threads).output().unwrap();

@@ -1,4 +1,4 @@
-//! What `export` makes: every file, the light in it, the polygons of the drawn map.
+//! The files that `export` writes: all of them, the light in them, the polygons of the drawn map.
 
 use super::desk::*;
 use super::{PARTS, ZONES};
@@ -97,7 +97,7 @@ fn pictures_hold_the_light_that_is_measured() {
     }
 }
 
-/// Pixels per girdle radius on a picture face up of `size`: 4 % of air around the stone's reach.
+/// Returns the pixels per girdle radius in a picture of `size` pixels, face up, with 4 % of air around the stone's reach.
 fn scale(info: &Value, size: f64) -> f64 {
     let reach = list(&info["vertices"]).iter().map(|v| point(v).truncate().abs().max_element());
     size / 2.0 / 1.04 / reach.fold(0.0, f64::max)
@@ -107,12 +107,12 @@ fn edges(corners: &[DVec2]) -> impl Iterator<Item = (DVec2, DVec2)> {
     corners.iter().copied().zip(corners.iter().copied().cycle().skip(1))
 }
 
-/// Twice the area; negative where the corners go clockwise.
+/// Returns twice the area of a polygon; negative where the corners run clockwise.
 fn turns(corners: &[DVec2]) -> f64 {
     edges(corners).map(|(a, b)| a.perp_dot(b)).sum()
 }
 
-/// Whether a point lies in a convex polygon, this far from its border.
+/// Whether a point lies inside a convex polygon, farther than `margin` from its border.
 fn inside(corners: &[DVec2], p: DVec2, margin: f64) -> bool {
     let sign = turns(corners).signum();
     edges(corners).all(|(a, b)| sign * (b - a).perp_dot(p - a) > margin * (b - a).length())
@@ -182,7 +182,7 @@ fn an_aset_is_red_where_graders_are_taught_red_and_says_what_it_leaves_out() {
     let strongest = png(&desk.at("bare/modern-ideal-aset-strongest.png")).1;
     let off_red = |folder: &str| {
         let (_, pixels, told) = png(&desk.at(folder).join("modern-ideal-aset.png"));
-        // Where the strongest light is red, the colour's way from red is what else is mixed in.
+        // Where the strongest light is red, any other colour comes from the light that is mixed in.
         let red: Vec<&DVec3> =
             pixels.iter().zip(&strongest).filter(|(_, s)| s.x > 0.99).map(|(p, _)| p).collect();
         let is_off = |p: &&&DVec3| p.y.max(p.z) > 0.2 * p.x;
@@ -196,7 +196,7 @@ fn an_aset_is_red_where_graders_are_taught_red_and_says_what_it_leaves_out() {
         title("bare").contains("energy, glare left out") && title("glare").contains("energy, glare included")
     );
     assert_ne!(title("bare").replace("left out", "included"), title("glare"));
-    // Rays leave it out as well.
+    // Rays leave glare out as well.
     let rays = "export modern-ideal --views aset --size 48 --unresolved 0.01 --format png --tracer ray";
     let mean = |options: &str| {
         desk.done(&format!("{rays} {options} --out rays"));

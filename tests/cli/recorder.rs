@@ -1,7 +1,7 @@
-//! The recorder: a hash of everything that the program prints and writes, for changes that are to change nothing.
+//! The recorder hashes everything that the program prints and writes, to check changes that must not alter any output.
 //!
 //! `BRILLIANTEER_RECORD=before.txt cargo test --test cli recorder -- --ignored` writes the file where there is none, and
-//! otherwise fails with the lines that differ. Hashes are of this machine: other processors round sines otherwise.
+//! otherwise fails with the lines that differ. Hashes hold on one machine only: other processors round sines differently.
 
 use super::desk::*;
 use std::collections::BTreeMap;
@@ -31,7 +31,7 @@ fn hash(bytes: &[u8]) -> u64 {
     hasher.finish()
 }
 
-/// All files below a folder, by path.
+/// Finds the hashes of all files below a folder, by path.
 fn tree(folder: &Path, prefix: &str, found: &mut BTreeMap<String, u64>) {
     for (name, bytes) in files(folder) {
         found.insert(format!("{prefix}{name}"), hash(&bytes));
@@ -43,7 +43,7 @@ fn tree(folder: &Path, prefix: &str, found: &mut BTreeMap<String, u64>) {
     }
 }
 
-/// Runs a command with `{}` for a folder of its own, and writes down what came of it.
+/// Runs a command, with a new folder in place of `{}`, and records its results.
 fn record(desk: &Desk, line: &str, record: &mut String) {
     let folder = "recorded";
     let _ = std::fs::remove_dir_all(desk.at(folder));
@@ -62,7 +62,7 @@ fn record(desk: &Desk, line: &str, record: &mut String) {
     });
 }
 
-/// The commands whose answers are recorded.
+/// Returns the commands whose outputs are recorded.
 fn lines() -> Vec<String> {
     let mut lines: Vec<String> = vec![];
     for command in
@@ -151,7 +151,8 @@ fn everything_is_as_it_was() {
     assert!(gone.is_empty() && new.is_empty(), "no longer: {gone:#?}\nnow: {new:#?}");
 }
 
-/// A solid that is not convex: two tetrahedra that meet in a face bent inward, as text.
+/// An STL text of a solid that is not convex: two pyramids, one up and one down, on a four-sided base with a corner that is
+/// bent inward.
 fn heart() -> String {
     let corners = [[1.0, 0.0, 0.0], [0.1, 0.1, 0.0], [0.0, 1.0, 0.0], [-0.6, -0.6, 0.0]];
     let (top, bottom) = ([0.0, 0.0, 0.4], [0.0, 0.0, -0.5]);

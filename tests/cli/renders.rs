@@ -1,4 +1,4 @@
-//! What `render` and `spin` make.
+//! The pictures that `render` and `spin` write.
 
 use super::desk::*;
 use brillianteer::optics::linear_from_encoded;
@@ -6,7 +6,7 @@ use glam::DVec3;
 use std::collections::BTreeMap;
 use std::path::Path;
 
-/// The mean of a picture, in linear light.
+/// Returns the mean of a picture, in linear light.
 fn mean(pixels: &[DVec3]) -> DVec3 {
     pixels.iter().sum::<DVec3>() / pixels.len() as f64
 }
@@ -19,7 +19,7 @@ fn picture(desk: &Desk, options: &str) -> (Vec<DVec3>, String) {
     (pixels, told)
 }
 
-/// The bytes of a PNG's first frame, and how many it has and how often they run.
+/// Returns the bytes of a PNG's first frame and, where it is animated, the number of frames and how often they run.
 fn frame(path: &Path) -> (Vec<u8>, Option<(u32, u32)>) {
     let file = std::io::BufReader::new(std::fs::File::open(path).unwrap());
     let mut reader = png::Decoder::new(file).read_info().unwrap();
@@ -43,7 +43,7 @@ fn every_tracer_shows_the_same_stone_and_says_that_it_did() {
     assert!((mean(&exact) - mean(&rays)).abs().max_element() < 0.02);
     let (other, _) = picture(&desk, "modern-ideal --tracer beam --light ring");
     assert!((mean(&exact) - mean(&other)).abs().max_element() > 0.05);
-    // Several stones and perspective are for rays.
+    // Rays trace several stones and perspective.
     let (_, told) = picture(&desk, "trilogy --perspective 12");
     assert!(told.contains("Trilogy; ") && told.contains("rays"), "{told}");
     let said = desk.refused("render trilogy --tracer beam", 2);
@@ -78,7 +78,7 @@ fn a_clear_stone_vanishes_in_white_light_and_an_exr_holds_it() {
         assert!(channels.keys().eq(["A", "B", "G", "R"]));
         let all = |name: &str| channels[name].iter().sum::<f64>();
         for channel in ["R", "G", "B"] {
-            // But for what is unresolved.
+            // The tolerance is for unresolved light.
             near(all(channel) / all("A"), 1.0, 5e-3, channel);
         }
     }
@@ -133,11 +133,11 @@ fn a_pattern_is_seen_through_glass_with_the_strength_asked_for() {
     assert!(told.contains("4 wavelengths in 2 looks, without jitter"), "{told}");
     assert!(told.contains("strength 0.1: a mixture for its looks, not physics"), "{told}");
     assert!((mean(&physics) - mean(&mixed)).abs().max_element() < 0.5 && physics != mixed);
-    // Straight on, and with a film of no reflection to speak of, the squares are where they are without glass.
+    // Without refraction, and with hardly any reflection, the squares are where they are without glass.
     let (bare, _) = of("--material 1.0001");
     let (straight, _) = of("--material 1.0001 --strength 0");
     assert!(bare.iter().zip(&straight).all(|(a, b)| (*a - *b).abs().max_element() < 0.02));
-    // A scene's own, and another asked for instead.
+    // The strength of a scene, and one that an option gives instead.
     let (_, told) = picture(&desk, "subtle-pill");
     assert!(
         told.starts_with("Subtle pill; light dome") && told.contains("strength 0.035: a mixture"),
@@ -166,7 +166,7 @@ fn a_spin_is_numbered_frames_and_an_animation_of_them() {
         assert!(frames.keys().eq(["0001.png", "0002.png", "0003.png"]), "{:?}", frames.keys());
         assert!(frames["0001.png"] != frames["0002.png"]);
         if motion == "turn" {
-            // The stones turn, and not the light alone: by its facets a dark frame differs.
+            // The stones turn, and not only the light: the drawn facets of dark frames differ.
             desk.done("spin modern-ideal --frames 2 --size 32 --wavelengths 1 --samples 1 --exposure -40 --bloom 0 --overlay facets --out dark");
             let dark = files(&desk.at("dark/modern-ideal-spin"));
             assert!(dark["0001.png"] != dark["0002.png"]);

@@ -4,10 +4,11 @@ use super::desk::*;
 use serde_json::Value;
 use std::process::Stdio;
 
-/// A mesh of four faces that has no name.
+/// An OBJ mesh of four faces, without a name.
 const TETRAHEDRON: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n";
 
-/// Runs a command with this on standard input: the exit code, what is printed, as bytes, and what is said.
+/// Runs a command with a file as standard input and returns its exit code, the bytes of its standard output and its standard
+/// error.
 fn fed(desk: &Desk, line: &str, input: &str) -> (i32, Vec<u8>, String) {
     let file = std::fs::File::open(desk.at(input)).unwrap();
     let output = desk.command(line).stdin(file).output().unwrap();
@@ -137,7 +138,7 @@ fn the_view_is_in_the_names_of_files_so_that_two_views_stand_side_by_side() {
         "cube-profile.png",
     ];
     assert_eq!(names(export), plain);
-    // Hearts are seen through the pavilion whatever the side.
+    // Hearts are seen through the pavilion, whichever side is requested.
     let behind = names(&format!("{export} --side culet"));
     assert_eq!((behind[0].as_str(), behind[2].as_str()), ("cube-culet-aset.png", "cube-hearts.png"));
     let figures = |options: &str| names(&format!("export cube.toml --format json {options}")).remove(0);

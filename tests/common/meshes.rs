@@ -1,14 +1,14 @@
-//! Mesh files as other programs hand them on: turned, and without what this program says in them.
+//! Changes mesh files as other programs do: turns them, and removes this program's statements from them.
 
 use brillianteer::io::design_file::DesignFormat;
 use glam::{DQuat, DVec3};
 
-/// The file with every corner turned about the origin, and all else as it was.
+/// Returns the file with every corner turned about the origin, and nothing else changed.
 pub fn turned(format: DesignFormat, bytes: Vec<u8>, turn: DQuat) -> Vec<u8> {
     moved(format, bytes, &|v| turn * v)
 }
 
-/// The file with every corner moved, and all else as it was.
+/// Returns the file with every corner moved, and nothing else changed.
 pub fn moved(format: DesignFormat, mut bytes: Vec<u8>, to: &dyn Fn(DVec3) -> DVec3) -> Vec<u8> {
     match format {
         DesignFormat::Obj => {
@@ -42,7 +42,7 @@ pub fn moved(format: DesignFormat, mut bytes: Vec<u8>, to: &dyn Fn(DVec3) -> DVe
         }
         DesignFormat::Glb => {
             let (json, start) = json(&bytes);
-            // The node turns z up into y up: what is moved are places in the file's frame.
+            // The node turns z up into y up, and corners are moved in the frame outside the node.
             let node = DQuat::from_rotation_x(-std::f64::consts::FRAC_PI_2);
             let own = |v: DVec3| node.inverse() * to(node * v);
             let positions = json["meshes"][0]["primitives"].as_array().unwrap().iter();
@@ -60,7 +60,7 @@ pub fn moved(format: DesignFormat, mut bytes: Vec<u8>, to: &dyn Fn(DVec3) -> DVe
     }
 }
 
-/// The file without what says how its stone lies.
+/// Returns the file without the statement of how its stone lies.
 pub fn stripped(format: DesignFormat, mut bytes: Vec<u8>) -> Vec<u8> {
     let without = |text: &str| -> String {
         text.lines().filter(|line| !line.contains("brillianteer ")).map(|line| format!("{line}\n")).collect()
@@ -77,7 +77,7 @@ pub fn stripped(format: DesignFormat, mut bytes: Vec<u8>) -> Vec<u8> {
             [text.into_bytes(), bytes[start..].to_vec()].concat()
         }
         DesignFormat::Glb => {
-            // As long as before: no offset changes.
+            // The replacement is as long as the text, so that no offset changes.
             let text = b"\"extras\":{\"brillianteer\"";
             let at = bytes.windows(text.len()).position(|w| w == text).unwrap();
             bytes[at..at + text.len()].copy_from_slice(b"\"extras\":{\"someone-else\"");
@@ -93,13 +93,13 @@ fn move_f32(corner: &mut [u8], to: &dyn Fn(DVec3) -> DVec3) {
     (0..3).for_each(|k| corner[4 * k..4 * k + 4].copy_from_slice(&v[k].to_le_bytes()));
 }
 
-/// Where the header of a PLY ends.
+/// Returns the offset at which the header of a PLY ends.
 fn header(bytes: &[u8]) -> usize {
     let end = b"end_header\n";
     bytes.windows(end.len()).position(|w| w == end).unwrap() + end.len()
 }
 
-/// The JSON of a binary glTF, and where its bytes begin.
+/// Returns the JSON of a binary glTF, and the offset of its binary data.
 fn json(bytes: &[u8]) -> (serde_json::Value, usize) {
     let length = u32::from_le_bytes(bytes[12..16].try_into().unwrap()) as usize;
     (serde_json::from_slice(&bytes[20..20 + length]).unwrap(), 20 + length + 8)

@@ -1,4 +1,4 @@
-//! What several tests build on: stones from cut files, random stones, figures by zone.
+//! Helpers of several tests: stones from cut files, random stones, figures by zone.
 #![allow(dead_code, reason = "each test file uses its part")]
 
 use brillianteer::cut::{Crown, Cut, LowerHalf, Pavilion, RoundBrilliant};
@@ -12,7 +12,7 @@ use proptest::prelude::*;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-/// Every cut file of a gem of the project, by name.
+/// Returns the project's cut files of gems, with their names.
 pub fn cut_files() -> Vec<(String, PathBuf)> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("cuts");
     let mut files: Vec<PathBuf> = std::fs::read_dir(folder).unwrap().map(|e| e.unwrap().path()).collect();
@@ -28,7 +28,7 @@ pub fn stone(path: &Path) -> Stone {
     Stone::new(&cut_file::read(path).unwrap().facets().unwrap()).unwrap()
 }
 
-/// A round brilliant with point culet, 3 % girdle.
+/// Returns a round brilliant with a pointed culet and a girdle of 3 %.
 pub fn brilliant(
     (table, crown, pavilion): (f64, f64, f64),
     (star, lower): (f64, f64),
@@ -46,7 +46,7 @@ pub fn brilliant(
     }
 }
 
-/// Its stone.
+/// Builds the stone of a round brilliant.
 pub fn built(cut: &RoundBrilliant) -> Stone {
     Stone::new(&cut.facets().unwrap()).unwrap()
 }
@@ -55,7 +55,7 @@ pub fn aset() -> Scope {
     Scope::aset(ASET_CONE, Backing::Black)
 }
 
-/// Traced to a bound.
+/// Traces the beams of a stone until no more than `unresolved` of the light is left.
 pub fn traced(stone: &Stone, medium: Medium, view: &View, unresolved: f64, polarised: bool) -> beam::Beams {
     let options = beam::BeamOptions { unresolved, polarised, ..beam::BeamOptions::default() };
     beam::trace(&stone.polytope, medium, view, &options, &unwatched).unwrap()
@@ -66,19 +66,19 @@ pub fn face_up(stone: &Stone, medium: Medium, unresolved: f64) -> Figures {
     by_beams(&traced(stone, medium, &View::default(), unresolved, true), &aset())
 }
 
-/// Every figure of a view in one row, so that two can be compared.
+/// Returns the figures of a view in one list, so that two views can be compared.
 pub fn row(figures: &Figures) -> Vec<f64> {
     let zones = [&figures.surface, &figures.transmitted, &figures.strongest_exit_area];
     zones.into_iter().flatten().copied().chain([figures.absorbed]).collect()
 }
 
-/// The largest difference between two rows.
+/// Returns the largest difference between two lists of figures.
 pub fn largest_difference(a: &[f64], b: &[f64]) -> f64 {
     assert_eq!(a.len(), b.len());
     a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
 }
 
-/// Planes of a random convex solid: a cube that some planes cut.
+/// Generates the planes of a random convex solid: a cube that some planes cut.
 pub fn random_planes() -> impl Strategy<Value = Vec<Plane>> {
     let plane =
         (0.0..std::f64::consts::TAU, -1.0..1.0_f64, 0.55..1.2_f64).prop_map(|(azimuth, z, offset)| {
@@ -92,24 +92,26 @@ pub fn random_planes() -> impl Strategy<Value = Vec<Plane>> {
     })
 }
 
-/// A stone of nameless planes.
+/// Builds a stone of planes that have no names of their own.
 pub fn nameless(planes: &[Plane]) -> Stone {
     let named: Vec<(String, Plane)> = planes.iter().map(|&p| ("facet".to_string(), p)).collect();
     Stone::new(&named).unwrap()
 }
 
-/// The folder of files that the project does not own, where it is there; says so loudly where it is not.
+/// Returns the path of files that the project does not own; `None`, with a message that the test is skipped, where they are
+/// missing.
 pub fn shared(test: &str, path: &str) -> Option<PathBuf> {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared").join(path);
     if path.exists() {
         return Some(path);
     }
-    // Past the test harness, which keeps what passing tests print to itself.
+    // Written directly, because the test harness hides what passing tests print.
     let _ = writeln!(std::io::stderr(), "SKIPPED {test}: {} is not on this machine", path.display());
     None
 }
 
-/// The card, where there is one; loudly none where there is not, and an error where one is required.
+/// Returns the card; where there is none, `None` with a message that the test is skipped, or a failure where a card is
+/// required.
 #[cfg(feature = "gpu")]
 pub fn card(test: &str) -> Option<brillianteer::trace::gpu::Gpu> {
     match brillianteer::trace::gpu::Gpu::open() {

@@ -1,4 +1,4 @@
-//! Pictures by a card beside those by rays in f64, pixel by pixel.
+//! Compares pictures by a card with pictures by rays in f64, pixel by pixel.
 #![allow(dead_code, reason = "each test uses its part")]
 
 use super::common::aset;
@@ -11,7 +11,7 @@ use glam::{DVec2, DVec3};
 
 pub const SIZE: u32 = 96;
 
-/// How far a pixel may be off, of full scale.
+/// The largest allowed difference of a pixel, as a fraction of full scale.
 pub const ALLOWED: f64 = 1e-3;
 
 #[derive(Debug)]
@@ -30,7 +30,7 @@ impl From<Stopped> for Failed {
     }
 }
 
-/// What one ray sees, in the order of [`numbers`].
+/// Traces one ray, and returns its readings in the order of [`numbers`].
 fn by_ray(
     tracer: &StoneTracer,
     camera: &Camera,
@@ -67,7 +67,7 @@ fn differ(a: &[f64; 19], b: &[f64; 19]) -> f64 {
     a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
 }
 
-/// How a card's picture compares with the rays': pixels that count, those left out, and the largest difference.
+/// A comparison of a card's picture with that of the rays: pixels that count, those left out, and the largest difference.
 pub struct Comparison {
     pub counted: usize,
     pub left_out: usize,
@@ -75,12 +75,13 @@ pub struct Comparison {
     pub energy: f64,
 }
 
-/// Where rays this far beside the pixel's, or through a stone of so little another index, see something else, an edge or
-/// a critical angle is too near for f32, and the pixel may be left out.
+/// Shifts of a ray, and of the index, for the search for delicate pixels. Where a ray shifted by this much, or a stone with
+/// an index changed by this much, gives a different reading, an edge or a critical angle is too near for f32, and the pixel
+/// may be left out.
 const HAIR: f64 = 3e-5;
 const OTHER_INDEX: f64 = 1e-5;
 
-/// What is compared: a view of a stone, in f64 and, `twin`, on the card.
+/// A view of a stone to compare: `solid` is traced in f64 and `twin` on the card.
 pub struct Case<'a> {
     pub solid: SolidRef<'a>,
     pub twin: SolidRef<'a>,

@@ -1,4 +1,4 @@
-//! Pictures under light, by every tracer.
+//! Takes pictures under light by every tracer.
 #![allow(dead_code, reason = "each test uses its part")]
 
 use brillianteer::math::{Polytope, Solid};
@@ -24,10 +24,10 @@ pub struct Shoot {
     pub view: View,
     pub wavelengths: u32,
     pub samples: u32,
-    /// How much of the way that refraction turns light is followed.
+    /// How much of the way refraction is followed: 1 is physics.
     pub strength: f64,
     pub backdrop: bool,
-    /// A photograph behind, and how far.
+    /// A photograph behind the stones, and its distance.
     pub photo: Option<(Panorama, f64)>,
     pub options: RayOptions,
     /// Pixels across and down.
@@ -98,7 +98,7 @@ impl Shoot {
         self.by_beams_in(self.size)
     }
 
-    /// So many rows at a time.
+    /// Traces the picture by exact beams, `rows` rows at a time.
     pub fn by_beams_in(&self, rows: u32) -> (Linear, Remainder) {
         let strata = strata(self.wavelengths, &self.light.spectrum, true);
         let options = beam::BeamOptions { unresolved: 1e-3, ..beam::BeamOptions::default() };
@@ -114,7 +114,7 @@ impl Shoot {
         self.with(|lit_scene| {
             let around = GpuEnvironment::new(gpu, &lit_scene.environment);
             let prepare = |rows| Ok::<_, Failed>(ByCard::new(gpu, lit_scene, &around, rows, strata.len())?);
-            // A strip at a time, as large pictures are taken.
+            // The picture is traced in strips, as large pictures are.
             expose_in(lit_scene, (&strata, self.looks()), 40, prepare, &unwatched).unwrap()
         })
     }
@@ -124,7 +124,7 @@ pub fn colour(pixel: &[f32; 4]) -> DVec3 {
     DVec3::new(f64::from(pixel[0]), f64::from(pixel[1]), f64::from(pixel[2]))
 }
 
-/// Means of 8 x 8 pixels.
+/// Returns the means of blocks of 8 x 8 pixels.
 pub fn blocks(picture: &Linear) -> Vec<DVec3> {
     let (across, down) = (picture.width / 8, picture.height / 8);
     let mean = |k: u32| {
@@ -153,13 +153,13 @@ impl From<Stopped> for Failed {
     }
 }
 
-/// The largest difference of any block's mean, as a part of full scale: the brightest block.
+/// Returns the largest difference of a block's mean between rays and card, as a fraction of the brightest block.
 #[cfg(feature = "gpu")]
 pub fn differ(shoot: &Shoot, twin: &Shoot, gpu: &Gpu) -> f64 {
     apart(&shoot.by_rays().0, &twin.by_card(gpu).0)
 }
 
-/// The same of two pictures that were taken.
+/// Returns the largest difference of a block's mean between two pictures, as a fraction of the brightest block.
 pub fn apart(exact: &Linear, card: &Linear) -> f64 {
     let (exact, card) = (blocks(exact), blocks(card));
     let scale = exact.iter().map(|b| b.max_element()).fold(0.0, f64::max);

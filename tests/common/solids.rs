@@ -7,7 +7,8 @@ use std::f64::consts::TAU;
 /// Corners, and triangles between them, counter-clockwise seen from outside.
 pub type Triangles = (Vec<DVec3>, Vec<[u32; 3]>);
 
-/// An upright prism over an outline that runs counter-clockwise and is seen whole from the origin, from -`half` to `half`.
+/// An upright prism over an outline, from -`half` to `half`. The outline runs counter-clockwise, and all of it can be seen
+/// from the origin.
 pub fn extruded(outline: &[DVec2], half: f64) -> Triangles {
     let count = outline.len() as u32;
     let mut vertices: Vec<DVec3> = outline.iter().map(|p| p.extend(half)).collect();
@@ -21,7 +22,8 @@ pub fn extruded(outline: &[DVec2], half: f64) -> Triangles {
     (vertices, (0..count).flat_map(sides).collect())
 }
 
-/// A pyramid above an outline that runs counter-clockwise and is seen whole from the origin, and one below it.
+/// A pyramid above an outline and one below it. The outline runs counter-clockwise, and all of it can be seen from the
+/// origin.
 pub fn spiked(outline: &[DVec2], above: f64, below: f64) -> Triangles {
     let count = outline.len() as u32;
     let mut vertices: Vec<DVec3> = outline.iter().map(|p| p.extend(0.0)).collect();
@@ -42,7 +44,7 @@ pub fn star() -> Triangles {
     spiked(&(0..10).map(corner).collect::<Vec<_>>(), 0.45, 0.7)
 }
 
-/// A heart, its cleft upward, flat above and a point below.
+/// A heart whose cleft points upward, with a flat top and a point below.
 pub fn heart() -> Triangles {
     let outline: Vec<DVec2> = (0..28).map(heart_corner).collect();
     let count = outline.len() as u32;
@@ -59,12 +61,13 @@ pub fn heart() -> Triangles {
 
 fn heart_corner(k: u32) -> DVec2 {
     let t = -TAU * (f64::from(k) + 0.5) / 28.0;
-    // A well known curve, 16 sin³, 13 cos - 5 cos 2 - 2 cos 3 - cos 4.
+    // The well-known heart curve: x = 16 sin³ t, y = 13 cos t - 5 cos 2t - 2 cos 3t - cos 4t.
     let y = 13.0 * t.cos() - 5.0 * (2.0 * t).cos() - 2.0 * (3.0 * t).cos() - (4.0 * t).cos();
     DVec2::new(16.0 * t.sin().powi(3), y) / 17.0
 }
 
-/// A C, open toward +x: two bars along x and z, 0.6 thick, 0.8 apart, and what joins them; `half` its half length along z.
+/// A C that is open toward +x: two bars along x and z, 0.6 thick and 0.8 apart, and the part that joins them. `half` is half
+/// its length along z.
 pub fn clasp(half: f64) -> Triangles {
     let outline = [
         (-1.0, -1.0),

@@ -53,7 +53,7 @@ const BAR: f32 = 8.0;
 const LONGEST_NAME: usize = 20;
 
 /// The texts of the table.
-pub(super) struct Table {
+pub(super) struct PathTable {
     rows: Vec<Row>,
     summary: String,
 }
@@ -73,7 +73,7 @@ struct Columns {
     gap: f32,
 }
 
-impl Table {
+impl PathTable {
     pub fn new(reading: &Reading) -> Self {
         let steps = &reading.path.steps;
         let rows = (1..).zip(steps).map(|(number, step)| row(reading, number, step)).collect();
@@ -125,7 +125,7 @@ impl Table {
 }
 
 impl Columns {
-    fn new(ui: &Ui, table: &Table, font: FontId) -> Self {
+    fn new(ui: &Ui, table: &PathTable, font: FontId) -> Self {
         let wide =
             |text: &str| ui.painter().layout_no_wrap(text.to_owned(), font.clone(), Color32::WHITE).size().x;
         let widths = std::array::from_fn(|c| {
@@ -136,7 +136,7 @@ impl Columns {
     }
 
     /// Returns columns that fill a width, in type as large as fits but no larger than usual.
-    fn fitting(ui: &Ui, table: &Table, width: f32) -> Self {
+    fn fitting(ui: &Ui, table: &PathTable, width: f32) -> Self {
         let usual = TextStyle::Body.resolve(ui.style());
         let columns = Self::new(ui, table, usual.clone());
         let part = (width / columns.width()).min(1.0);

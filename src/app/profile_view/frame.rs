@@ -68,7 +68,7 @@ impl Offered {
 }
 
 /// The content and the layout of one frame.
-pub struct Frame<'a> {
+pub struct ProfileFrame<'a> {
     /// The identity of the drawing.
     pub id: Id,
     /// The projection from the profile to the screen.
@@ -80,7 +80,7 @@ pub struct Frame<'a> {
     font: FontId,
 }
 
-impl<'a> Frame<'a> {
+impl<'a> ProfileFrame<'a> {
     /// Makes a frame that shows the part `extent` of a stone's profile within `rect`, with as many labels as can be read
     /// there.
     pub fn new(ui: &Ui, id: Id, rect: Rect, measured: &'a MeasuredProfile<'a>, extent: ProfileBox) -> Self {

@@ -1,5 +1,7 @@
-//! The studio: takes pictures and figures on a thread of its own. What is asked for last counts; what is outdated is
-//! dropped, but for a first rough picture, so that there is always something that follows the hand.
+//! The studio: traces pictures and figures on a thread of its own.
+//!
+//! A newer order outdates an older one, whose work is dropped. Only the first rough pictures are always finished, so that
+//! there is always something that follows the hand.
 
 mod motion;
 mod order;
@@ -30,26 +32,26 @@ use std::sync::mpsc::{Receiver, channel};
 use std::sync::{Arc, Condvar, Mutex, PoisonError};
 use std::thread::JoinHandle;
 
-/// Asks for nothing but to look at the answers.
+/// A callback that asks the editor to look at the studio's answers.
 pub type Wake = Arc<dyn Fn() + Send + Sync>;
 
-/// What both threads see.
+/// The state that the editor's thread and the studio's thread share.
 struct Mailbox {
-    /// The last order, and its number; none once it is taken.
+    /// The last order and its number; `None` once the studio's thread has taken it.
     order: Mutex<Option<(u64, Order)>>,
     changed: Condvar,
-    /// The number of the last order: work for others is outdated.
+    /// The number of the last order: work for all others is outdated.
     newest: AtomicU64,
     /// Whether work is going on.
     busy: AtomicBool,
-    /// Whether more looks are taken at what is as good as it needs to be.
+    /// Whether passes are added to renders that are already good enough.
     sharpens: AtomicBool,
-    /// How many pictures, figures and figures against tilt were begun to be traced.
+    /// How many traces of pictures, figures and figures against tilt have begun.
     traced: AtomicU64,
     quit: AtomicBool,
 }
 
-/// A thread that takes pictures.
+/// A handle on the thread that traces pictures and figures.
 pub struct Studio {
     desk: Arc<Mailbox>,
     answers: Receiver<Answer>,
@@ -60,8 +62,8 @@ pub struct Studio {
 }
 
 impl Studio {
-    /// Opens a studio, which uses a card where there is one that is quicker than the processor; `wake` is called whenever
-    /// there is an answer.
+    /// Opens a studio, which uses the card where it is quicker than the processor. `wake` is called whenever there is an
+    /// answer.
     pub fn open(gpu: Option<Arc<Gpu>>, wake: Wake) -> Self {
         let desk = Arc::new(Mailbox {
             order: Mutex::new(None),
@@ -84,17 +86,17 @@ impl Studio {
         Self { desk, answers, last: Order::default(), wake, thread, device_name: told }
     }
 
-    /// What is called whenever there is an answer.
+    /// Returns the callback that is called whenever there is an answer.
     pub fn wake(&self) -> Wake {
         Arc::clone(&self.wake)
     }
 
-    /// What computes, in words.
+    /// The name of the card, or "processor".
     pub fn device_name(&self) -> &str {
         &self.device_name
     }
 
-    /// Asks for pictures and figures; nothing happens if they were asked for already.
+    /// Replaces the current order; does nothing if the last order was equal.
     pub fn order(&mut self, order: Order) {
         if order == self.last {
             return;
@@ -108,24 +110,24 @@ impl Studio {
         self.desk.changed.notify_one();
     }
 
-    /// What has been answered since.
+    /// Takes the answers that have come since the last call.
     pub fn answers(&self) -> impl Iterator<Item = Answer> + '_ {
         self.answers.try_iter()
     }
 
-    /// Whether more looks are taken at what is asked for, though all of it is as good as it needs to be.
+    /// Whether passes are added to renders of the order although all of it is already good enough.
     pub fn sharpens(&self) -> bool {
         self.desk.sharpens.load(Ordering::SeqCst)
     }
 
-    /// How many pictures, figures and figures against tilt were begun to be traced since the studio was opened: what has
-    /// not changed is not counted again.
+    /// How many traces of pictures, figures and figures against tilt have begun since the studio was opened. What has not
+    /// changed is not traced, and so not counted, again.
     #[cfg(test)]
     pub fn traced(&self) -> u64 {
         self.desk.traced.load(Ordering::SeqCst)
     }
 
-    /// Whether everything asked for is as good as it needs to be.
+    /// Whether everything in the order is as good as it needs to be.
     pub fn is_idle(&self) -> bool {
         !self.desk.busy.load(Ordering::SeqCst)
     }
@@ -134,14 +136,14 @@ impl Studio {
 impl Drop for Studio {
     fn drop(&mut self) {
         {
-            // Held, so that the worker is not between looking and waiting.
+            // Holds the lock, so that the worker is not between its check of `quit` and its wait.
             let _order = self.desk.order.lock().unwrap_or_else(PoisonError::into_inner);
             self.desk.quit.store(true, Ordering::SeqCst);
             self.desk.newest.fetch_add(1, Ordering::SeqCst);
             self.desk.changed.notify_one();
         }
         if let Some(thread) = self.thread.take() {
-            // A worker that panicked has said so already.
+            // A worker that panicked has already reported it.
             let _ = thread.join();
         }
     }

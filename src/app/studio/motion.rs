@@ -1,4 +1,4 @@
-//! What has moved between two renders of a view, for temporal antialiasing.
+//! Finds what has moved between two renders of a view, for temporal antialiasing.
 
 use super::order::{Shot, Slot};
 use crate::cut::{Cut, Glass};
@@ -13,10 +13,11 @@ use std::collections::HashMap;
 use std::mem::Discriminant;
 use std::sync::Arc;
 
-/// Points of a picture whose motion is found: of larger pictures one for several pixels.
+/// About how many points of a picture have their motion computed, at most: in larger pictures one point stands for several
+/// pixels.
 const MOST_POINTS: f64 = 40_000.0;
 
-/// Where bodies, eye and film were when a picture was taken.
+/// The bodies, the eye, the film and the background at the time when a picture was traced.
 pub struct Moment {
     specimen: Arc<Specimen>,
     company: Vec<Pose>,
@@ -25,17 +26,18 @@ pub struct Moment {
     behind: Option<BackgroundRef>,
 }
 
-/// The pictures laid over one another in each place, and when the last of them was taken.
+/// The temporal history of each slot, and the moment of its last picture.
 pub type Trails = HashMap<Slot, (TemporalHistory, Moment)>;
 
 impl Moment {
-    /// That of a shot, taken on a film.
+    /// Returns the moment of a shot that is traced on a film.
     pub fn of(shot: &Shot, film: Film) -> Self {
         let (specimen, company) = (Arc::clone(&shot.specimen), shot.company.clone());
         Self { specimen, company, view: shot.view, film, behind: shot.behind.clone() }
     }
 
-    /// Lays the picture taken now over those before.
+    /// Blends the picture of this moment with the history of its slot, and returns the blend. `newest` is the share of the
+    /// new picture.
     pub fn lay<'a>(
         self,
         trails: &'a mut Trails,
@@ -61,7 +63,7 @@ impl Moment {
         kind(self) == kind(other) && self.company.len() == other.company.len() && self.behind == other.behind
     }
 
-    /// What each pixel shows, and where that was at another moment.
+    /// Finds which body each pixel shows, and where that point was seen at the moment `before`.
     fn moved(&self, before: &Self, lit_scene: &LitScene) -> Vec<MotionVector> {
         let sight = ray::SceneProbe::new(lit_scene);
         let eye = ray::Camera::reaching(&before.view, 1.0);
@@ -72,7 +74,7 @@ impl Moment {
         let at = |x: usize, y: usize| {
             let at = DVec2::new(middle(x), middle(y));
             let Some(glance) = sight.through(at.x, at.y) else {
-                // What hangs behind stays before the eye.
+                // The backplate moves with the eye.
                 return (None, pixels.transform_point2(self.film.image_from_pixels(at)) - at);
             };
             let was = self.was(before, glance.stone, glance.origin + glance.direction * glance.distance);
@@ -93,7 +95,7 @@ impl Moment {
         (0..width * height).map(pixel).collect()
     }
 
-    /// Which of the forms of glass it is, if it is one.
+    /// The form of glass that the body is, if it is glass.
     fn form(&self) -> Option<Discriminant<Glass>> {
         match &self.specimen.design.cut {
             Cut::Glass(glass) => Some(std::mem::discriminant(glass)),
@@ -101,7 +103,7 @@ impl Moment {
         }
     }
 
-    /// Where a point of a body was; `None` where it is another body's, or of another form.
+    /// Returns where a point of a body was before; `None` where the body is a different one or has a different form.
     fn was(&self, before: &Self, number: usize, point: DVec3) -> Option<DVec3> {
         let own = self.company[number].point(point);
         let was = match (&self.specimen.body, &before.specimen.body) {
@@ -132,7 +134,7 @@ mod tests {
 
     const SLOT: Slot = (0, Which::Present);
 
-    /// Copies of a cut at a time, seen by an eye.
+    /// A shot of moving copies of a cut at a given time, seen by an eye.
     fn shot(cut: &str, seconds: f64, (eye, projection): &(Eye, Projection)) -> Shot {
         let design = Arc::clone(Document::of_library(cut).unwrap().specimen());
         let company = Copies::scattered(3, design.solid().vertices(), 4);
@@ -182,7 +184,7 @@ mod tests {
             for (k, moved) in moved.iter().enumerate() {
                 let at = DVec2::new((k as u32 % width).into(), (k as u32 / width).into()) + 0.5;
                 let Some(seen) = eyes[1].through(at.x, at.y) else {
-                    // A point of what hangs behind stays where it hangs.
+                    // A point of the backplate stays where it is on the backplate.
                     let hangs = |shot: &Shot, at: DVec2| {
                         let (from, way) =
                             ray::Camera::reaching(&shot.view, 3.0).ray(shot.film.image_from_pixels(at));
@@ -199,7 +201,7 @@ mod tests {
                 let expected = moments[1].was(&moments[0], seen.stone, place(&seen)).unwrap();
                 match eyes[0].through(moved.from.x, moved.from.y) {
                     Some(g) if g.stone == seen.stone && place(&g).distance(expected) < 1e-6 => same += 1,
-                    // It had turned away, or another stood before it.
+                    // The point was turned away, or another body was in front of it.
                     _ => hidden += 1,
                 }
             }

@@ -1,4 +1,4 @@
-//! What is asked of the studio, and what it answers.
+//! The orders that the studio receives, and its answers.
 
 use crate::app::liquid::Liquid;
 use crate::app::shows::Shows;
@@ -11,99 +11,99 @@ use egui::ColorImage;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
-/// Which of two stones.
+/// One of the two stones of a comparison.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Which {
-    /// The one that is worked on.
+    /// The stone that is edited.
     Present,
-    /// The one that it is compared with.
+    /// The stone that it is compared with.
     Other,
 }
 
-/// A place that a picture is for: a pane, and which stone is in it.
+/// The place that a picture is for: the index of a view, and which of the two stones it shows.
 pub type Slot = (usize, Which);
 
-/// How the edges of a render are evened out. At rest many looks at each pixel do that, whatever is chosen here.
+/// How the edges of a render are smoothed while it is rough. At rest many passes smooth them, whatever is chosen here.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub enum Smoothing {
-    /// Not at all.
+    /// No smoothing.
     #[default]
     None,
-    /// In the finished picture.
+    /// FXAA in the finished picture.
     Fxaa,
-    /// Over time, while anything moves: what was seen before is brought to where it is now.
+    /// Temporal antialiasing while anything moves: earlier pictures are moved along with the bodies and blended in.
     Temporal {
         /// The share of the newest picture, above 0 to 1.
         newest: f64,
     },
 }
 
-/// One picture.
+/// An order of one picture.
 #[derive(Debug, Clone)]
 pub struct Shot {
-    /// The stone, turned as it is seen. Its design may have an older name.
+    /// The stone, turned as it is seen. The design in it may have an older name.
     pub specimen: Arc<Specimen>,
-    /// What the design is called, which drawings bear.
+    /// The name of the design, which drawings show.
     pub title: String,
-    /// What is shown of it.
+    /// What the picture shows.
     pub shows: Shows,
-    /// Whether a scope shows the strongest exit of each point alone.
+    /// Whether a scope shows only the strongest exit of each point.
     pub strongest: bool,
-    /// Whether a scope that shows energy holds glare.
+    /// Whether a scope that shows energy includes glare.
     pub glare: Glare,
-    /// From where.
+    /// The view.
     pub view: View,
-    /// The pixels.
+    /// The film.
     pub film: Film,
     /// The light.
     pub light: Arc<Lighting>,
-    /// Stops.
+    /// The exposure of a render, in stops.
     pub exposure: f64,
-    /// Bands of wavelengths of a render, at its finest.
+    /// The number of bands of wavelengths of a render, at its finest.
     pub bands: u32,
-    /// Whether looks at a render take other wavelengths each.
+    /// Whether each pass of a render takes different wavelengths.
     pub jitter: bool,
-    /// The picture that hangs behind the stone of a render, if any.
+    /// The background behind the stone, if any.
     pub behind: Option<BackgroundRef>,
-    /// How far behind the middle of a render that hangs, girdle radii.
+    /// The distance of the backplate behind the middle of a render, in girdle radii.
     pub distance: f64,
-    /// The film where nothing is zoomed or moved aside: what hangs behind fills it.
+    /// The film without zoom and displacement, which the backplate fills.
     pub whole: Film,
-    /// How much of the way that refraction turns light is followed: 1 is physics.
+    /// How much of the way refraction is followed: 1 is physics.
     pub strength: f64,
-    /// Where the copies of the stone are in a render, at least one; all else shows it alone.
+    /// The poses of the copies of the stone in a render, at least one. Other pictures show a single stone.
     pub company: Vec<Pose>,
-    /// How a render's edges are evened out.
+    /// How a render's edges are smoothed.
     pub smoothing: Smoothing,
-    /// Half angle of the observer's head in scopes, degrees; 0 for none.
+    /// The half angle of the observer's head in scopes, in degrees; 0 for no head.
     pub head: f64,
-    /// What is drawn over it.
+    /// The overlay that is drawn over the picture.
     pub overlay: Option<Overlay>,
     /// The pane of liquid glass.
     pub liquid: Liquid,
-    /// What a drawing is drawn on.
+    /// The colours and the scale of a drawing.
     pub paper: Paper,
 }
 
-/// What a drawing is drawn on.
+/// The colours and the scale of a drawing.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Paper {
-    /// Its colours.
+    /// The colours.
     pub inks: Inks,
-    /// Pixels to a point of the screen, by which type is kept legible; none for the whole sheet, as it is exported.
+    /// The pixels per point of the screen, by which type is kept legible; `None` for the whole sheet, as it is exported.
     pub pixels_per_point: Option<f32>,
 }
 
 impl Default for Paper {
-    /// The sheet, as it is exported.
+    /// The whole sheet, as it is exported.
     fn default() -> Self {
         Self { inks: Inks::PAPER, pixels_per_point: None }
     }
 }
 
 impl PartialEq for Shot {
-    /// Whether both give the same picture. Stones and lights are the same when they are one and the same: they are only
-    /// ever replaced.
+    /// Whether both shots give the same picture. Stones and lights are compared by pointer, because they are replaced and
+    /// never changed.
     fn eq(&self, other: &Self) -> bool {
         if self.shows.is_pane() {
             let glass = |shot: &Self| (shot.shows, shot.film.size, shot.liquid);
@@ -124,7 +124,7 @@ impl PartialEq for Shot {
 }
 
 impl Shot {
-    /// What only renders go by, and of that what maps do.
+    /// The settings that only renders and refraction maps depend on, with fixed values for those that maps ignore.
     fn manner(&self) -> (f64, u32, bool, Option<&BackgroundRef>, [f64; 3], &[Pose], Smoothing) {
         let numbers = [self.distance, self.whole.pixel, self.strength];
         if self.shows == Shows::Refraction {
@@ -136,14 +136,14 @@ impl Shot {
     }
 }
 
-/// Figures of a view, in the common ASET.
+/// An order of the figures of a view, in the common ASET.
 #[derive(Debug, Clone)]
 pub struct FiguresOrder {
     /// The stone.
     pub specimen: Arc<Specimen>,
-    /// From where.
+    /// The view.
     pub view: View,
-    /// Half angle of the observer's head, degrees; 0 for none.
+    /// The half angle of the observer's head, in degrees; 0 for no head.
     pub head: f64,
 }
 
@@ -153,7 +153,7 @@ impl PartialEq for FiguresOrder {
     }
 }
 
-/// Everything that is to be seen at one moment.
+/// Everything that the editor shows at one moment.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Order {
     /// The pictures.
@@ -164,34 +164,34 @@ pub struct Order {
     pub tilts: Option<FiguresOrder>,
 }
 
-/// How far a picture has come.
+/// How good a picture is so far.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Grade {
-    /// As good as there was time for.
+    /// As good as there is time for while the hand moves.
     Rough,
-    /// At full size, light followed some way.
+    /// At full size, with light followed part of the way.
     Fair,
-    /// As it is exported.
+    /// At full size, with light followed as far as in an export.
     Fine,
 }
 
-/// A picture that was taken.
+/// A traced picture.
 #[derive(Debug, Clone)]
 pub struct TakenPicture {
-    /// The pixels, which a film of fewer may have been used for.
+    /// The pixels; a rough picture may have fewer than the shot's film.
     pub image: ColorImage,
-    /// Share of the light not followed to its end; none where that is not known.
+    /// The share of the light that was not followed to its end; `None` where that is not known.
     pub unresolved: Option<f64>,
-    /// What traced it.
+    /// The name of the tracer.
     pub tracer: &'static str,
-    /// The map that it shows the codes of, to be looked up.
+    /// The refraction map whose codes the picture shows, for backgrounds to be looked up in.
     pub map: Option<Arc<RefractionMap>>,
 }
 
-/// Figures at some tilts, degrees.
+/// Figures at several tilts, in degrees.
 pub type Tilts = Vec<(f64, Figures)>;
 
-/// What the studio answers.
+/// An answer of the studio.
 #[derive(Debug)]
 pub enum Answer {
     /// A picture.
@@ -200,6 +200,6 @@ pub enum Answer {
     Figures(Which, FiguresOrder, Grade, Box<Figures>),
     /// Figures against tilt.
     Tilts(FiguresOrder, Tilts),
-    /// What went wrong, in words.
+    /// A message that says what went wrong.
     Trouble(String),
 }

@@ -1,9 +1,8 @@
-//! How much a picture may cost while a hand is moving.
+//! How much a picture may cost while the hand moves.
 
 use std::time::Duration;
 
-/// What is given up, step by step: the share of the light that may stay unresolved, how much coarser pixels are, bands of
-/// wavelengths.
+/// The efforts from the finest to the coarsest.
 const STEPS: [Effort; 6] = [
     Effort { unresolved: 5e-3, coarser: 1.0, bands: 12 },
     Effort { unresolved: 1e-2, coarser: 1.0, bands: 10 },
@@ -13,29 +12,30 @@ const STEPS: [Effort; 6] = [
     Effort { unresolved: 8e-2, coarser: 3.0, bands: 4 },
 ];
 
-/// All pictures together should take about this long, so that more than 20 sets of them come in a second: where they take
-/// longer the next ones are coarser, where they take less than a third they are finer.
+/// The time that all pictures together should take, at most, so that more than 20 sets of them come in a second. Where they
+/// take longer the next ones are coarser, where they take less than a third of it they are finer.
 const GOAL: Duration = Duration::from_millis(40);
 
-/// What a picture may cost.
+/// How much a picture may cost.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Effort {
-    /// Share of the light that may stay unresolved.
+    /// The share of the light that may stay unresolved.
     pub unresolved: f64,
-    /// How much larger than the film's its pixels are.
+    /// How many times larger than the film's pixels the picture's pixels are.
     pub coarser: f64,
-    /// Bands of wavelengths of a render.
+    /// The number of bands of wavelengths of a render.
     pub bands: u32,
 }
 
 impl Effort {
-    /// The most beams that are followed: light that is caught inside takes many for little, and memory is not endless.
+    /// Returns the largest number of beams that are followed: light that is caught inside the stone takes many beams for
+    /// little energy, and memory is limited.
     pub fn most_beams(&self) -> usize {
         ((600.0 / self.unresolved) as usize).max(30_000)
     }
 }
 
-/// Finds the effort that keeps up with the hand.
+/// Finds the effort that keeps up with the hand, as an index of `STEPS`.
 #[derive(Debug, Clone, Copy)]
 pub struct Pace(usize);
 
@@ -46,12 +46,12 @@ impl Default for Pace {
 }
 
 impl Pace {
-    /// The effort for now.
+    /// Returns the present effort.
     pub fn effort(self) -> Effort {
         STEPS[self.0]
     }
 
-    /// Learns how long all pictures took.
+    /// Adjusts the effort to the time that all pictures took.
     pub fn learn(&mut self, took: Duration) {
         if took > GOAL {
             self.0 = (self.0 + 1).min(STEPS.len() - 1);

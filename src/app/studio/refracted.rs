@@ -1,4 +1,5 @@
-//! Pictures of backgrounds behind glass: refraction maps, which are looked up elsewhere, and liquid glass traced.
+//! Traces pictures of backgrounds behind glass: refraction maps, in which the lookup worker looks backgrounds up, and liquid
+//! glass.
 
 use super::order::{Shot, Slot, TakenPicture};
 use super::pace::Effort;
@@ -16,12 +17,12 @@ use crate::trace::Watch;
 use crate::trace::environment::EnvironmentMap;
 use egui::ColorImage;
 
-/// What maps take that are looked up at once: one of several bands takes as many times as long to look up.
+/// How finely maps are traced, by grade. A map of several bands takes as many times as long to look up.
 const ROUGH: MapDetail = MapDetail { bands: 1, places: 1, shades: 3, looks: 1 };
 const FAIR: MapDetail = MapDetail { bands: 1, places: 1, shades: 4, looks: 1 };
 const FINE: MapDetail = MapDetail { bands: 3, places: 1, shades: 6, looks: 4 };
 
-/// Bands of wavelengths of a traced pane: while the hand moves, and at its finest.
+/// The bands of wavelengths of a traced pane: until the picture is fair, and at its finest.
 const FEW: u32 = 3;
 const MANY: u32 = 12;
 
@@ -35,7 +36,7 @@ impl From<PaneError> for TakeError {
 }
 
 impl ShotTracer {
-    /// The map of a shot, and as its picture the codes of its places.
+    /// Traces the map of a shot; the picture shows the codes of the map's places.
     pub(super) fn mapped(
         &mut self,
         (slot, shot): (Slot, &Shot),
@@ -56,14 +57,14 @@ impl ShotTracer {
     }
 }
 
-/// The codes of a map's middle band.
+/// Returns a picture of the codes of a map's middle band.
 pub(super) fn codes(map: &RefractionMap) -> ColorImage {
     let places = map.bands.get(map.bands.len() / 2).map_or(&[][..], |band| &band.places);
     let rgb: Vec<u8> = places.iter().flat_map(code_of).collect();
     ColorImage::from_rgb(map.size.map(|n| n as usize), &rgb)
 }
 
-/// The pane of a shot, traced.
+/// Traces the pane of liquid glass of a shot.
 pub(super) fn glass(
     camera: &mut ShotTracer,
     shot: &Shot,
@@ -82,7 +83,7 @@ pub(super) fn glass(
         sky: &EnvironmentMap::new(&surroundings(pane.effective().light), None),
         gap: shot.liquid.gap,
         strata: &strata(bands, &Illuminant::D65, true),
-        // Always by the processor, which takes no more than that.
+        // Panes are always traced by the processor, which takes no more passes than its fine renders have.
         looks: growing.map_or(1, |g| g.looks.min(FINE_RENDER.looks)),
     };
     let picture = pane::traced(&pane, &filling(&behind, size), &around, watch)?;

@@ -1,4 +1,4 @@
-//! Takes renders: what is seen under a light, of one body or of its company, before what hangs behind them.
+//! Traces renders: a body or its copies under a light, in front of a background.
 
 use super::motion::Moment;
 use super::order::{Shot, Slot, Smoothing, TakenPicture};
@@ -20,18 +20,19 @@ use crate::trace::{RayTracer, Tracer, Watch};
 use egui::ColorImage;
 use std::sync::Arc;
 
-/// Beams of one wavelength of a render: without symmetry the bound would take many times as long.
+/// The most beams of one wavelength of a render. In a stone without symmetry it would take many times as long to reach the
+/// bound.
 const MOST_BEAMS: usize = 100_000;
 
-/// A render that grows clearer.
+/// How well a render that grows clearer is traced.
 pub struct Growing {
-    /// Bands of wavelengths of each look, at most.
+    /// The bands of wavelengths of each pass, at most.
     pub bands: u32,
-    /// Looks.
+    /// The number of passes.
     pub looks: u32,
-    /// Looks that must be taken before anything is shown: what is in sight is as good.
+    /// The number of passes of which nothing is shown, because the picture in sight is as good.
     pub after: u32,
-    /// Share of the light that may stay unresolved.
+    /// The share of the light that may stay unresolved.
     pub unresolved: f64,
 }
 
@@ -47,7 +48,7 @@ impl ShotTracer {
         let scene = scene_of(shot);
         let behind = self.picture_behind(shot.behind.as_ref())?;
         let card = self.gpu.clone();
-        // A card sets out anew for each picture, which takes longer than a rough one by beams.
+        // A card is set up anew for each picture, which takes longer than a rough picture by beams.
         let demands = Demands { favours_card: growing.is_some(), ..demands(shot) };
         let tracer = planned(&demands, card.as_deref())?;
         let is_slow = matches!(tracer, Tracer::Rays(RayTracer::Rays)) && growing.is_none();
@@ -99,7 +100,7 @@ impl ShotTracer {
         })
     }
 
-    /// The picture behind a render, read or drawn once.
+    /// Returns the picture behind a render, which is read or drawn only when it changes.
     pub(super) fn picture_behind(
         &mut self,
         asked: Option<&BackgroundRef>,
@@ -115,12 +116,12 @@ impl ShotTracer {
     }
 }
 
-/// Whether exact beams trace a shot: of one convex stone by parallel rays, and a render with no picture behind it.
+/// Whether exact beams can trace a shot: of one convex stone by parallel rays, and of a render with no picture behind it.
 pub fn is_for_beams(shot: &Shot) -> bool {
     demands(shot).fit_beams()
 }
 
-/// What decides who traces a shot.
+/// Returns the demands that decide which tracer traces a shot.
 pub fn demands(shot: &Shot) -> Demands {
     let alone = Demands::of_scope(&shot.specimen, &shot.view);
     let is_more = shot.shows == Shows::Render
@@ -129,14 +130,14 @@ pub fn demands(shot: &Shot) -> Demands {
     Demands { against_beams: alone.against_beams.or(more), favours_card: false }
 }
 
-/// Plans who traces, on the window's card where there is one.
+/// Plans the tracer; rays run on the window's card where there is one.
 pub fn planned<'a>(demands: &Demands, card: Option<&'a Gpu>) -> Result<Tracer<'a>, TakeError> {
     let card = CardUse::Open(card.map_or(RayTracer::Rays, RayTracer::Card));
     let plan = plan(demands, Wanted::Quickest, card).map_err(|unfit| TakeError::Other(unfit.to_string()))?;
     Ok(plan.tracer)
 }
 
-/// What the editor calls a tracer.
+/// The editor's name for a tracer.
 pub fn name(tracer: Tracer) -> &'static str {
     match tracer {
         Tracer::Beams => "exact beams",
@@ -145,16 +146,17 @@ pub fn name(tracer: Tracer) -> &'static str {
     }
 }
 
-/// How far behind the middle a picture hangs where nothing else is asked for, girdle radii.
+/// The default distance of a backplate behind the middle, in girdle radii.
 pub const BEHIND: f64 = 3.0;
 
-/// How far behind the middle the picture hangs, girdle radii: as asked, but behind all bodies however they are turned.
+/// Returns the distance of the backplate behind the middle, in girdle radii: that of the shot, but behind all bodies however
+/// they are turned.
 pub fn hung(shot: &Shot) -> f64 {
     let farthest = shot.company.iter().map(|pose| pose.at.length()).fold(0.0, f64::max);
     shot.distance.max(farthest + shot.specimen.radius)
 }
 
-/// What a shot is taken of.
+/// Returns the scene that a shot shows.
 pub fn scene_of(shot: &Shot) -> Scene {
     let placed = |pose: &Pose| {
         let body = Instance::named(&shot.specimen.body, shot.specimen.material.clone(), "");
@@ -163,7 +165,7 @@ pub fn scene_of(shot: &Shot) -> Scene {
     Scene { instances: shot.company.iter().map(placed).collect(), unit_mm: shot.specimen.unit_mm() }
 }
 
-/// Bodies under their light, and the camera.
+/// Returns the scene of a shot under its light, with the backplate, the view and the film.
 pub fn lit_scene<'a>(
     shot: &'a Shot,
     scene: &'a Scene,
@@ -189,15 +191,15 @@ pub fn lit_scene<'a>(
     }
 }
 
-/// The picture of a shot out of its light; `fine` where there is time for glow. `unresolved` is the share of the light that
-/// was not followed to its end.
+/// Develops the picture of a shot from its light; `fine` where there is time for glow. `unresolved` is the share of the
+/// light that was not followed to its end.
 pub(super) fn developed(
     shot: &Shot,
     (picture, fine): (&Linear, bool),
     (unresolved, tracer): (f64, &'static str),
     watch: Watch,
 ) -> Result<TakenPicture, TakeError> {
-    // Glow would stand out around what is drawn over the stone, and it takes longer than the rest of a rough picture.
+    // Glow would stand out around an overlay, and it takes longer than the rest of a rough picture.
     let bloom = (fine && shot.overlay.is_none()).then(Bloom::default);
     let background = match &shot.behind {
         Some(BackgroundRef::Plain(background)) => *background,

@@ -1,4 +1,4 @@
-//! Refraction maps of what a view shows.
+//! Traces refraction maps of what a view shows.
 
 use super::order::Shot;
 use super::render::{hung, lit_scene, scene_of};
@@ -9,22 +9,22 @@ use crate::scene::Film;
 use crate::trace::Watch;
 use glam::DVec2;
 
-/// How many times as wide as the picture the background is: as on the command line where nothing else is asked for.
+/// How many times as wide as the picture the background is; also the default of the command line.
 pub const SPAN: f64 = 2.0;
 
 /// How finely a map is traced.
 pub struct MapDetail {
-    /// Bands of wavelengths of its places.
+    /// The number of bands of wavelengths in which places are mapped.
     pub bands: u32,
-    /// Places of a pixel in each.
+    /// The number of places of a pixel in each band.
     pub places: u32,
-    /// Wavelengths of the diffuse layer,
+    /// The number of wavelengths of the diffuse layer.
     pub shades: u32,
-    /// and its looks.
+    /// The number of passes of the diffuse layer.
     pub looks: u32,
 }
 
-/// Traces the map of a shot as it is exported, of so many bands and so many places of a pixel in each.
+/// Traces the map of a shot as it is exported, with the given numbers of bands and of places of a pixel in each.
 pub fn survey(
     shot: &Shot,
     [bands, places]: [u32; 2],

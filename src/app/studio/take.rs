@@ -1,4 +1,4 @@
-//! Takes one picture.
+//! Traces one picture.
 
 use super::motion::Trails;
 use super::order::{Shot, Slot, TakenPicture};
@@ -22,28 +22,28 @@ use crate::trace::{RayTracer, Stopped, Tracer, Watch};
 use egui::ColorImage;
 use std::sync::Arc;
 
-/// Bounces that rays are followed for.
+/// The largest number of bounces that rays are followed for.
 pub(super) const MOST_BOUNCES: u32 = 64;
 
-/// Below this weight rays are given up.
+/// The weight below which rays are given up.
 pub(super) const LEAST_WEIGHT: f64 = 5e-4;
 
-/// How much coarser rays on the processor see while the hand moves, beyond what the pace says.
+/// How many times larger pixels are for rays on the processor while the hand moves, beyond what the pace says.
 pub(super) const RAYS_COARSER: f64 = 3.0;
 
-/// Why there is no picture.
+/// Why a picture was not traced.
 #[derive(Debug, thiserror::Error)]
 pub enum TakeError {
-    /// It was asked for no longer.
+    /// The picture is no longer wanted.
     #[error(transparent)]
     Stopped(#[from] Stopped),
     /// The card failed; rays on the processor do its work from now on.
     #[error(transparent)]
     Card(#[from] GpuError),
-    /// Beams and drawings are for other stones.
+    /// Beams and drawings are for convex stones alone.
     #[error(transparent)]
     NotConvex(#[from] NotConvex),
-    /// What else.
+    /// Any other reason, in words.
     #[error("{0}")]
     Other(String),
 }
@@ -73,11 +73,11 @@ impl From<RenderError> for TakeError {
 #[derive(Default)]
 pub struct BeamCache(Vec<(Arc<Specimen>, View, f64, Arc<Beams>)>);
 
-/// Sets of beams kept.
+/// How many sets of beams are kept.
 const MOST_KEPT: usize = 6;
 
 impl BeamCache {
-    /// The beams of a stone in sodium's light, to a bound.
+    /// Returns the beams of a stone in the light of sodium, to the bound of an effort; traces them unless they are kept.
     pub fn beams(
         &mut self,
         specimen: &Arc<Specimen>,
@@ -103,35 +103,37 @@ impl BeamCache {
         Ok(beams)
     }
 
-    /// Lets go of the beams of stones and views that are no longer asked for.
+    /// Drops the beams of stones and views that are no longer wanted.
     pub fn keep(&mut self, wanted: impl Fn(&Arc<Specimen>, &View) -> bool) {
         self.0.retain(|(specimen, view, ..)| wanted(specimen, view));
     }
 }
 
-/// What takes pictures.
+/// Traces pictures, and keeps what later pictures can use.
 #[derive(Default)]
 pub struct ShotTracer {
     /// The card that the window is drawn by, if it computes quicker than the processor.
     pub gpu: Option<Arc<Gpu>>,
-    /// Beams taken.
+    /// The beams that were traced.
     pub shelf: BeamCache,
-    /// The picture that hung behind last.
+    /// The last picture behind a render.
     pub(super) behind: Option<(BackgroundRef, Arc<Panorama>)>,
-    /// Rough renders of what moves, laid over one another.
+    /// The temporal histories of rough renders of what moves.
     pub(super) trails: Trails,
     /// The light of what each view shows, as it was traced.
     pub(super) kept: Kept,
 }
 
 impl ShotTracer {
-    /// One that has a card, or none.
+    /// Creates a tracer with or without a card.
     pub fn by(gpu: Option<Arc<Gpu>>) -> Self {
         Self { gpu, ..Self::default() }
     }
 
-    /// Takes a picture with an effort; `Effort::coarser` of 1 is at full size. `growing` says that a render is to be taken
-    /// as it will be exported, and `each` is called with what there is of it so far.
+    /// Traces a picture with an effort; an [`Effort::coarser`] of 1 is full size.
+    ///
+    /// With `growing` the picture is traced finely, and `each` is called with each stage of a render that grows clearer;
+    /// without it the picture is a rough one.
     pub fn take(
         &mut self,
         (slot, shot): (Slot, &Shot),
@@ -224,7 +226,7 @@ impl ShotTracer {
     }
 }
 
-/// The same film with larger pixels.
+/// Returns the same film with larger pixels.
 pub(super) fn coarser(film: &Film, factor: f64) -> Film {
     let size = film.size.map(|n| ((f64::from(n) / factor).ceil() as u32).max(1));
     Film { size, pixel: film.pixel * f64::from(film.size[0]) / f64::from(size[0]), ..*film }
@@ -263,7 +265,7 @@ fn drawing(shot: &Shot) -> Result<TakenPicture, TakeError> {
     Ok(TakenPicture { image, unresolved: None, tracer: "drawn", map: None })
 }
 
-/// Rows of a scope, as they come in.
+/// Collects the rows of a picture in a scope as they are traced.
 struct Canvas {
     palette: Palette,
     first: usize,
@@ -354,7 +356,7 @@ mod tests {
         last.unwrap()
     }
 
-    /// The mean difference of two pictures' channels, in parts of full scale.
+    /// The mean difference of two pictures' channels, as a fraction of full scale.
     fn apart(a: &TakenPicture, b: &TakenPicture) -> f64 {
         assert_eq!(a.image.size, b.image.size);
         let codes = |t: &TakenPicture| t.image.pixels.iter().flat_map(|p| p.to_array()).collect::<Vec<u8>>();

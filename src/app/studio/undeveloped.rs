@@ -10,18 +10,18 @@ use crate::trace::Watch;
 use std::collections::HashMap;
 use std::sync::Arc;
 
-/// What each view showed last, before it was developed.
+/// The last shot of each slot, with its light before it was developed.
 pub type Kept = HashMap<Slot, (Shot, TracedLight)>;
 
 /// Light that was traced for a view.
 pub enum TracedLight {
-    /// That of a render.
+    /// The light of a render.
     Render {
         /// The light of each pixel.
         picture: Linear,
         /// The share of the light that was not followed to its end, 0 to 1.
         unresolved: f64,
-        /// What traced it, in words.
+        /// The name of the tracer.
         tracer: &'static str,
     },
     /// A refraction map whose diffuse layer has no exposure yet.
@@ -37,7 +37,7 @@ impl Shot {
 }
 
 impl ShotTracer {
-    /// Makes the picture of a shot out of light that was traced for another; `None` where no such light is kept.
+    /// Makes the picture of a shot from light that was traced for another shot; `None` where no such light is kept.
     ///
     /// # Errors
     /// [`TakeError::Stopped`] when `watch` asks to stop, which only overlays do.
@@ -57,7 +57,7 @@ impl ShotTracer {
     }
 }
 
-/// A map as a view takes it in: developed, and as its picture the codes of its places.
+/// Returns a map as a view receives it: developed, with a picture of the codes of its places.
 pub fn map_taken(shot: &Shot, map: RefractionMap) -> TakenPicture {
     let map = map.developed(&Develop { exposure: shot.exposure, bloom: None, ..Develop::default() });
     TakenPicture { image: codes(&map), unresolved: None, tracer: "point rays", map: Some(Arc::new(map)) }

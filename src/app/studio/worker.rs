@@ -1,4 +1,4 @@
-//! The studio's thread.
+//! The work of the studio's thread.
 
 use super::order::{Answer, FiguresOrder, Grade, Order, Shot, Slot, Smoothing, TakenPicture, Which};
 use super::pace::{Effort, Pace};
@@ -18,47 +18,47 @@ use std::sync::mpsc::Sender;
 use std::sync::{Arc, PoisonError};
 use std::time::Instant;
 
-/// Tilts that figures are plotted against, degrees.
+/// The tilts that figures are plotted against, in degrees.
 const TILTS: [f64; 13] = [-30.0, -25.0, -20.0, -15.0, -10.0, -5.0, 0.0, 5.0, 10.0, 15.0, 20.0, 25.0, 30.0];
 
-/// What may stay unresolved: of a fair picture, a fine one, fine figures, figures against tilt.
+/// The share of the light that may stay unresolved in a fair picture, a fine picture, fine figures and figures against tilt.
 const FAIR: f64 = 5e-3;
 const FINE: f64 = 1e-3;
 const FIGURES: f64 = UNRESOLVED;
 const TILTED: f64 = 5e-3;
 
-/// How renders grow: fair, and fine where a card takes them.
+/// A fair render.
 const FAIR_RENDER: Growing = Growing { bands: 8, looks: 1, after: 0, unresolved: 1e-2 };
-/// A render by rays on its way from rough to fair: of pixels twice as large.
+/// A render by rays on its way from rough to fair, with pixels twice as large.
 const HALFWAY: Effort = Effort { unresolved: FAIR, coarser: 2.0 / RAYS_COARSER, bands: FAIR_RENDER.bands };
-/// A render as it is exported.
+/// A fine render on the processor. An export differs from it in the number of passes alone.
 pub const FINE_RENDER: Growing = Growing { bands: u32::MAX, looks: 4, after: 0, unresolved: 2e-3 };
 const FINE_BY_CARD: Growing = Growing { looks: 64, ..FINE_RENDER };
 
-/// What a render by rays becomes when all else is done, for as long as it stands.
+/// A render by rays on the processor that is sharpened when all else is done, until there is a newer order.
 const SHARP: Growing = Growing { looks: 64, after: FINE_RENDER.looks, ..FINE_RENDER };
 
-/// How the render of a shot is exported: with as many passes as the command line takes, on the processor.
+/// Returns how the render of a shot is exported: with as many passes as the command line takes on the processor.
 pub fn exported(shot: &Shot) -> Growing {
     Growing { looks: usual_passes(demands(shot).by_processor()), ..FINE_RENDER }
 }
 
-/// Takes orders, one after the other.
+/// Carries out orders, one after the other.
 pub(super) struct Worker {
     desk: Arc<Mailbox>,
     answers: Sender<Answer>,
     wake: Wake,
     camera: ShotTracer,
     pace: Pace,
-    /// What has been answered, and how well.
+    /// The pictures that have been answered, and how good they are.
     pictures: HashMap<Slot, (Shot, Grade)>,
     figures: HashMap<Which, (FiguresOrder, Grade)>,
     tilts: Option<FiguresOrder>,
-    /// Renders that are as sharp as they get.
+    /// The renders that have been sharpened.
     sharp: HashMap<Slot, Shot>,
 }
 
-/// One order, and how to know that it is outdated.
+/// One order and its number, which shows when a newer order outdates it.
 struct Turn {
     number: u64,
     order: Order,
@@ -98,7 +98,7 @@ impl Worker {
         }
     }
 
-    /// Waits for an order; none when the studio is closed.
+    /// Waits for an order; returns `None` when the studio is closed.
     fn next(&self) -> Option<Turn> {
         let mut order = self.desk.order.lock().unwrap_or_else(PoisonError::into_inner);
         loop {
@@ -112,10 +112,10 @@ impl Worker {
         }
     }
 
-    /// Says that all is done, unless there is a new order.
+    /// Marks the studio as idle, unless there is a newer order.
     fn rest(&self, turn: &Turn) {
         {
-            // Held, so that no order comes in between.
+            // Holds the lock, so that no order comes in between.
             let _order = self.desk.order.lock().unwrap_or_else(PoisonError::into_inner);
             if self.desk.newest.load(Ordering::SeqCst) == turn.number {
                 self.desk.busy.store(false, Ordering::SeqCst);
@@ -124,7 +124,7 @@ impl Worker {
         (self.wake)();
     }
 
-    /// Counts something that is begun to be traced.
+    /// Counts a trace that begins.
     fn count(&self) {
         self.desk.traced.fetch_add(1, Ordering::SeqCst);
     }
@@ -135,8 +135,10 @@ impl Worker {
         (self.wake)();
     }
 
-    /// Everything that has changed, as well as there is time for while a hand is moving. Not dropped for a newer order,
-    /// which would never come to an end while the hand moves; only for one that closes the studio.
+    /// Traces everything that has changed, as well as there is time for while the hand moves.
+    ///
+    /// A newer order does not interrupt this, or no picture would be finished while the hand moves; only the end of the
+    /// studio does.
     fn rough(&mut self, turn: &Turn) -> Result<(), Stopped> {
         let desk = Arc::clone(&self.desk);
         let watch = move |_: f64| stop_if(desk.quit.load(Ordering::SeqCst));
@@ -170,8 +172,9 @@ impl Worker {
         Ok(())
     }
 
-    /// Answers with light that was traced before, where the shot differs from the one before in exposure and overlay alone;
-    /// whether it does. The picture is then as good as the one before.
+    /// Answers a shot from light that was traced before, where it differs from the last shot in exposure and overlay alone.
+    ///
+    /// Returns whether it did. The picture is then as good as the one before.
     fn develop_again(&mut self, (slot, shot): (Slot, &Shot), watch: Watch) -> Result<bool, Stopped> {
         let before = self.pictures.get(&slot).filter(|(done, _)| done.has_light_of(shot));
         let Some((done, grade)) = before.cloned() else { return Ok(false) };
@@ -187,13 +190,13 @@ impl Worker {
         Ok(true)
     }
 
-    /// Everything better and better, until there is a newer order.
+    /// Traces everything better and better, until there is a newer order.
     fn refine(&mut self, turn: &Turn) -> Result<(), Stopped> {
         let (desk, number) = (Arc::clone(&self.desk), turn.number);
         let watch = move |_: f64| stop_if(desk.newest.load(Ordering::SeqCst) != number);
         let fine = if self.camera.gpu.is_some() { FINE_BY_CARD } else { FINE_RENDER };
         for (slot, shot) in &turn.order.shots {
-            // Pictures laid over one another are all of one size.
+            // Pictures of a temporal history all have one size.
             let is_laid = matches!(shot.smoothing, Smoothing::Temporal { .. });
             let is_by_rays = shot.shows == Shows::Render && !is_for_beams(shot) && self.camera.gpu.is_none();
             if is_by_rays
@@ -226,7 +229,7 @@ impl Worker {
         Ok(())
     }
 
-    /// Renders by rays, more and more looks at them until there is a newer order.
+    /// Adds passes to renders by rays on the processor, until there is a newer order.
     fn sharpen(&mut self, turn: &Turn) -> Result<(), Stopped> {
         let (desk, number) = (Arc::clone(&self.desk), turn.number);
         let watch = move |_: f64| stop_if(desk.newest.load(Ordering::SeqCst) != number);
@@ -252,7 +255,7 @@ impl Worker {
         (effort, growing): (&Effort, Option<&Growing>),
         watch: Watch,
     ) -> Result<(), Stopped> {
-        // What is taken anew is to be sharpened anew.
+        // A render that is traced again must be sharpened again.
         self.sharp.remove(&slot);
         self.count();
         let (answers, wake) = (self.answers.clone(), Arc::clone(&self.wake));
@@ -264,7 +267,7 @@ impl Worker {
             Ok(()) => {}
             Err(TakeError::Stopped(stopped)) => return Err(stopped),
             Err(TakeError::Card(error)) => {
-                // The processor does its work from now on.
+                // The processor does the card's work from now on.
                 self.camera.gpu = None;
                 self.answer(Answer::Trouble(format!("{error}: tracing on the processor")));
                 return self.picture((slot, shot), grade, (effort, growing), watch);
@@ -293,7 +296,7 @@ impl Worker {
         Ok(())
     }
 
-    /// Figures at the first glance, of beams that the pictures share.
+    /// Returns rough figures, from the beams that the pictures share where there are any.
     fn glanced(&mut self, ask: &FiguresOrder, effort: &Effort, watch: Watch) -> Result<Figures, Stopped> {
         match self.camera.shelf.beams(&ask.specimen, &ask.view, effort, watch) {
             Ok(beams) => Ok(by_beams(&beams, &scope(ask))),
@@ -331,10 +334,11 @@ fn scope(ask: &FiguresOrder) -> Scope {
     Scope::aset(ASET_CONE, Backing::Black).with_head(ask.head)
 }
 
-/// The part of the light that may stay unresolved, and the side of the lattices where figures are sampled.
+/// The share of the light that may stay unresolved, and the number of points along each side of the lattices on which rays
+/// sample figures.
 type Bound = (f64, u32);
 
-/// Figures to a bound, as `measure` gives them.
+/// Measures figures to a bound, in the same way as `measure`.
 fn measured(
     ask: &FiguresOrder,
     view: &View,
@@ -349,7 +353,7 @@ fn measured(
     match measure_subject(subject, tracer, &bounds, watch) {
         Ok(measured) => Ok(measured.figures),
         Err(MeasureError::Stopped(stopped)) => Err(stopped),
-        // Figures are asked for along parallel rays alone, by the tracer that is best for them.
+        // Figures are ordered for parallel rays alone, and traced by a tracer that fits them.
         Err(other) => unreachable!("{other}"),
     }
 }

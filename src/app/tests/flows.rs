@@ -3,7 +3,7 @@
 use super::*;
 use crate::app::dialogs::Dialog;
 use crate::app::document::Document;
-use crate::app::opening::Wanted;
+use crate::app::opening::OpeningPurpose;
 use crate::cut::Crown;
 use crate::io::cut_file;
 use crate::measure::by_beams;
@@ -296,6 +296,17 @@ fn a_click_follows_a_ray_and_a_double_click_enlarges() {
 }
 
 #[test]
+fn space_follows_the_ray_in_the_middle_of_the_picture_that_has_the_focus() {
+    let mut bench = Bench::new();
+    bench.settle();
+    bench.harness.get_by_label("ASET picture").focus();
+    bench.harness.run_steps(2);
+    bench.harness.key_press(egui::Key::Space);
+    (0..40).for_each(|_| bench.harness.step());
+    assert!(bench.editor().following.is_open);
+}
+
+#[test]
 fn two_designs_are_compared_and_their_figures_differ() {
     let mut bench = Bench::new();
     bench.settle();
@@ -348,7 +359,7 @@ fn a_file_that_comes_after_a_change_is_asked_about() {
     let mut bench = Bench::new();
     bench.settle();
     let editor = bench.harness.state_mut();
-    editor.open(&path, Wanted::Anew);
+    editor.open(&path, OpeningPurpose::Anew);
     editor.document.work.design.name = "changed meanwhile".to_owned();
     bench.wait(|editor| editor.dialog.is_some());
     assert!(!bench.editor().document.work.design.eq(&design));

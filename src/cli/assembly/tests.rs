@@ -1,4 +1,4 @@
-//! Stones and scenes as commands get them.
+//! Tests of how commands load stones and scenes.
 
 use super::*;
 use crate::optics::material;
@@ -7,7 +7,7 @@ fn load(file: impl AsRef<Path>) -> Assembly {
     Assembly::load(file.as_ref(), None, None, MeshOptions::default()).unwrap()
 }
 
-/// What is said of a scene of these stones.
+/// Returns the error message for a scene file with these stones, its temporary path shortened to `x.toml`.
 fn refused(stones: &str) -> String {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("x.toml");
@@ -25,7 +25,7 @@ fn a_stone_alone_lies_as_its_file_has_it_and_takes_another_material_and_size() {
     assert_eq!(*stone.setting.instances[0].solid.polytope().unwrap(), specimen.stone().unwrap().polytope);
     assert_eq!((stone.setting.unit_mm, stone.name.as_str()), (3.25, "Modern ideal"));
     assert_eq!(stone.setting.instances[0].names, specimen.stone().unwrap().names());
-    // A brilliant of 6.5 mm is the trade's carat, to the proportions.
+    // In the trade a brilliant of 6.5 mm weighs about one carat; proportions change it a little.
     assert!(stone.carats().is_some_and(|carats| (0.97..1.03).contains(&carats)), "{:?}", stone.carats());
     let ruby =
         Assembly::load(Path::new("modern-ideal"), Some("Ruby"), "2ct".parse().ok(), MeshOptions::default())
@@ -76,7 +76,7 @@ fn every_scene_that_comes_with_the_program_is_apart_and_weighs_what_it_asks_for(
         let scene = load(name);
         assert_eq!(scene.setting.instances.len(), count, "{name}");
         assert!(scene.strength < 1.0 && scene.background.is_some(), "{name}");
-        // As wide as in the demonstration, but for what leans.
+        // Bodies that do not lean are as wide as in the demonstration.
         let (low, high) = scene.setting.instances[0].solid.bounds();
         let wide = (high - low).x * scene.setting.unit_mm;
         let expected = [("subtle-pill", 40.0), ("prism-rainbow", 39.3)];
@@ -103,7 +103,7 @@ fn a_stone_leans_its_table_toward_the_azimuth_and_lies_where_it_is_put() {
     let (sin, cos) = 20_f64.to_radians().sin_cos();
     let plane = placed.solid.polytope().unwrap().facets()[table].plane;
     assert!(plane.normal.distance(DVec3::new(0.0, sin, cos)) < 1e-12);
-    // Pictures are taken around the middle of all that there is.
+    // Pictures are centred on the middle of all stones.
     let (low, high) = placed.solid.bounds();
     assert!((low + high).length() < 1e-12);
     assert_eq!((scene.setting.unit_mm, scene.places[0].at_mm), (2.0, DVec3::new(1.0, 2.0, 3.0)));

@@ -1,4 +1,4 @@
-//! A picture by the planned tracer, and what it says of how it was made.
+//! Traces a picture with the planned tracer, and describes how it was made.
 
 use super::{Failure, PictureSetup, RenderedPicture};
 use crate::optics::{Stratum, strata};
@@ -12,10 +12,11 @@ use crate::trace::{Tracer, Watch};
 /// The share of the light that exact beams leave unresolved.
 const UNRESOLVED: f64 = 2e-3;
 
-/// The most beams of one wavelength: without symmetry the bound would take many times as long as all else.
+/// The most beams of one wavelength. Without symmetry, reaching the bound [`UNRESOLVED`] would take many times as long as
+/// the rest of the work.
 const MOST_BEAMS: usize = 100_000;
 
-/// The share of unresolved light above which a warning says so.
+/// The share of unresolved light above which a warning is printed.
 const MUCH_UNRESOLVED: f64 = 0.02;
 
 impl PictureSetup<'_> {
@@ -75,7 +76,7 @@ impl PictureSetup<'_> {
         RenderedPicture { picture, description: told }
     }
 
-    /// What pictures say that are no physics; nothing of others.
+    /// Returns the note of a picture with a strength of refraction below 1, which is not physics; empty at full strength.
     pub(super) fn mixture(&self) -> String {
         let strength = self.strength;
         let told = || format!("; strength {strength}: a mixture for its looks, not physics");

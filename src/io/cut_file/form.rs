@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::material_form::MaterialForm;
 use super::tier_form::{IndexForm, TierForm};
-use super::values::{Numbers, Table};
+use super::values::{Numbers, TomlTable};
 use super::{FORMAT, Fault};
 use crate::cut::{
     Crown, Cut, DEFAULT_DIAMETER_MM, Design, DesignError, Glass, LowerHalf, MAX_PLANES, MaterialRef,
@@ -18,7 +18,7 @@ use std::collections::HashSet;
 /// tables, since TOML must be written so.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(super) struct DesignForm<B = Table<RoundBrilliantForm>> {
+pub(super) struct DesignForm<B = TomlTable<RoundBrilliantForm>> {
     format: i64,
     name: String,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -31,21 +31,21 @@ pub(super) struct DesignForm<B = Table<RoundBrilliantForm>> {
     #[serde(skip_serializing_if = "Option::is_none")]
     round_brilliant: Option<B>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    index: Option<Table<IndexForm>>,
+    index: Option<TomlTable<IndexForm>>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    tier: Option<Vec<Table<TierForm>>>,
+    tier: Option<Vec<TomlTable<TierForm>>>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    plane: Option<Vec<Table<PlaneForm>>>,
+    plane: Option<Vec<TomlTable<PlaneForm>>>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    mesh: Option<Table<MeshForm>>,
+    mesh: Option<TomlTable<MeshForm>>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    pill: Option<Table<Sides>>,
+    pill: Option<TomlTable<Sides>>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    cube: Option<Table<Sides>>,
+    cube: Option<TomlTable<Sides>>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    prism: Option<Table<Sides>>,
+    prism: Option<TomlTable<Sides>>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    plate: Option<Table<Plate>>,
+    plate: Option<TomlTable<Plate>>,
 }
 
 fn default_diameter() -> f64 {
@@ -114,18 +114,19 @@ impl DesignForm<RoundBrilliant> {
         match &design.cut {
             Cut::RoundBrilliant(given) => Self { round_brilliant: Some(*given), ..form },
             Cut::Tiers(tiers) => Self {
-                index: Some(Table(IndexForm::of(tiers))),
-                tier: Some(tiers.tiers.iter().map(|tier| Table(TierForm::of(tier))).collect()),
+                index: Some(TomlTable(IndexForm::of(tiers))),
+                tier: Some(tiers.tiers.iter().map(|tier| TomlTable(TierForm::of(tier))).collect()),
                 ..form
             },
-            Cut::Planes(planes) => {
-                Self { plane: Some(planes.iter().map(|plane| Table(PlaneForm::of(plane))).collect()), ..form }
-            }
-            Cut::Mesh(shape) => Self { mesh: Some(Table(MeshForm::of(shape))), ..form },
-            Cut::Glass(Glass::Pill(sides)) => Self { pill: Some(Table(*sides)), ..form },
-            Cut::Glass(Glass::Cube(sides)) => Self { cube: Some(Table(*sides)), ..form },
-            Cut::Glass(Glass::Prism(sides)) => Self { prism: Some(Table(*sides)), ..form },
-            Cut::Glass(Glass::Plate(plate)) => Self { plate: Some(Table(*plate)), ..form },
+            Cut::Planes(planes) => Self {
+                plane: Some(planes.iter().map(|plane| TomlTable(PlaneForm::of(plane))).collect()),
+                ..form
+            },
+            Cut::Mesh(shape) => Self { mesh: Some(TomlTable(MeshForm::of(shape))), ..form },
+            Cut::Glass(Glass::Pill(sides)) => Self { pill: Some(TomlTable(*sides)), ..form },
+            Cut::Glass(Glass::Cube(sides)) => Self { cube: Some(TomlTable(*sides)), ..form },
+            Cut::Glass(Glass::Prism(sides)) => Self { prism: Some(TomlTable(*sides)), ..form },
+            Cut::Glass(Glass::Plate(plate)) => Self { plate: Some(TomlTable(*plate)), ..form },
         }
     }
 }
@@ -135,10 +136,10 @@ impl DesignForm {
     pub fn design(self) -> Result<Design, Fault> {
         let Self { round_brilliant, index, tier, plane, mesh, pill, cube, prism, plate, .. } = self;
         let glass = [
-            pill.map(|Table(s)| ("pill", Glass::Pill(s))),
-            cube.map(|Table(s)| ("cube", Glass::Cube(s))),
-            prism.map(|Table(s)| ("prism", Glass::Prism(s))),
-            plate.map(|Table(p)| ("plate", Glass::Plate(p))),
+            pill.map(|TomlTable(s)| ("pill", Glass::Pill(s))),
+            cube.map(|TomlTable(s)| ("cube", Glass::Cube(s))),
+            prism.map(|TomlTable(s)| ("prism", Glass::Prism(s))),
+            plate.map(|TomlTable(p)| ("plate", Glass::Plate(p))),
         ];
         let mut glass = glass.into_iter().flatten();
         let (first, second) = (glass.next(), glass.next());
@@ -163,11 +164,11 @@ impl DesignForm {
 
 /// The tables by which a file may give its cut.
 struct Cuts {
-    round_brilliant: Option<Table<RoundBrilliantForm>>,
-    index: Option<Table<IndexForm>>,
-    tier: Option<Vec<Table<TierForm>>>,
-    plane: Option<Vec<Table<PlaneForm>>>,
-    mesh: Option<Table<MeshForm>>,
+    round_brilliant: Option<TomlTable<RoundBrilliantForm>>,
+    index: Option<TomlTable<IndexForm>>,
+    tier: Option<Vec<TomlTable<TierForm>>>,
+    plane: Option<Vec<TomlTable<PlaneForm>>>,
+    mesh: Option<TomlTable<MeshForm>>,
     /// A glass shape and the key of its table.
     glass: Option<(&'static str, Glass)>,
 }
@@ -189,20 +190,20 @@ fn cut(form: Cuts) -> Result<Cut, Fault> {
         let key = if key == "tier" && tier.is_none() { "index" } else { key };
         return Err(Fault::at(key, format!("{key}: give {first} or {other}, not both")));
     }
-    if let Some(Table(form)) = round_brilliant {
+    if let Some(TomlTable(form)) = round_brilliant {
         return Ok(Cut::RoundBrilliant(form.proportions()?));
     }
     if let Some(planes) = plane {
-        return Ok(Cut::Planes(planes.into_iter().map(|Table(form)| form.plane()).collect()));
+        return Ok(Cut::Planes(planes.into_iter().map(|TomlTable(form)| form.plane()).collect()));
     }
-    if let Some(Table(form)) = mesh {
+    if let Some(TomlTable(form)) = mesh {
         return form.shape().map(Cut::Mesh);
     }
     if let Some((_, glass)) = glass {
         return Ok(Cut::Glass(glass));
     }
     match (index, tier) {
-        (Some(Table(index)), Some(tiers)) => Ok(Cut::Tiers(index.tiers(tiers)?)),
+        (Some(TomlTable(index)), Some(tiers)) => Ok(Cut::Tiers(index.tiers(tiers)?)),
         (Some(_), None) => Err(Fault::at("index", "index: the tiers are missing; give [[tier]]")),
         (None, Some(_)) => Err(Fault::at("tier", "tier: the gear is missing; give it as [index], gear = 96")),
         (None, None) => Err(Fault::whole(

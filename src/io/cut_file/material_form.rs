@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::Fault;
-use super::values::{Numbers, OneOf, Pairs, Table};
+use super::values::{Numbers, OneOf, Pairs, TomlTable};
 use crate::cut::MaterialRef;
 use crate::optics::{Absorption, AbsorptionError, Dispersion, Material};
 
@@ -11,7 +11,7 @@ use crate::optics::{Absorption, AbsorptionError, Dispersion, Material};
 const GREY_NM: f64 = 550.0;
 
 /// The value of `material`: `material = "diamond"`, `material = 2.42` or `[material]`.
-pub(in crate::io) type MaterialForm = OneOf<Table<TableForm>>;
+pub(in crate::io) type MaterialForm = OneOf<TomlTable<TableForm>>;
 
 /// The table `[material]`.
 #[derive(Serialize, Deserialize, Default)]
@@ -58,7 +58,7 @@ impl MaterialForm {
         match material {
             MaterialRef::Name(name) => Self::Text(name.clone()),
             MaterialRef::Index(index) => Self::Number(*index),
-            MaterialRef::Custom(material) => Self::Rest(Table(TableForm::of(material))),
+            MaterialRef::Custom(material) => Self::Rest(TomlTable(TableForm::of(material))),
         }
     }
 
@@ -67,7 +67,7 @@ impl MaterialForm {
         match self {
             Self::Text(name) => Ok(MaterialRef::Name(name)),
             Self::Number(index) => Ok(MaterialRef::Index(index)),
-            Self::Rest(Table(form)) => {
+            Self::Rest(TomlTable(form)) => {
                 form.material().map(|material| MaterialRef::Custom(Box::new(material)))
             }
         }

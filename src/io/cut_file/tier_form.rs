@@ -1,7 +1,7 @@
 //! The keys of a cutter's design: the table `[index]` and the tables `[[tier]]`.
 
 use super::Fault;
-use super::values::Table;
+use super::values::TomlTable;
 use crate::cut::{Indexed, Tier, Tiers};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -62,9 +62,9 @@ impl IndexForm {
     }
 
     /// Returns the design of this gear with these tiers.
-    pub fn tiers(self, tiers: Vec<Table<TierForm>>) -> Result<Tiers, Fault> {
+    pub fn tiers(self, tiers: Vec<TomlTable<TierForm>>) -> Result<Tiers, Fault> {
         let numbered = tiers.into_iter().enumerate();
-        let tiers = numbered.map(|(k, Table(form))| form.tier(k)).collect::<Result<_, _>>()?;
+        let tiers = numbered.map(|(k, TomlTable(form))| form.tier(k)).collect::<Result<_, _>>()?;
         let Self { gear, offset, symmetry, mirror, headers, footers, remarks } = self;
         let remarks = remarks.into_iter().collect();
         Ok(Tiers { gear, offset, symmetry, mirror, headers, footers, remarks, tiers })

@@ -10,20 +10,20 @@ use serde::{Deserialize, Deserializer, Serialize};
 /// A value that only a table of keys can give; serde's own structs accept a list of values as well.
 #[derive(Serialize)]
 #[serde(transparent)]
-pub(in crate::io) struct Table<T>(pub T);
+pub(in crate::io) struct TomlTable<T>(pub T);
 
-impl<'de, T: Deserialize<'de>> Deserialize<'de> for Table<T> {
+impl<'de, T: Deserialize<'de>> Deserialize<'de> for TomlTable<T> {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         struct Keys<T>(PhantomData<T>);
         impl<'de, T: Deserialize<'de>> Visitor<'de> for Keys<T> {
-            type Value = Table<T>;
+            type Value = TomlTable<T>;
 
             fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
                 f.write_str("a table of keys")
             }
 
-            fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<Table<T>, A::Error> {
-                T::deserialize(MapAccessDeserializer::new(map)).map(Table)
+            fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<TomlTable<T>, A::Error> {
+                T::deserialize(MapAccessDeserializer::new(map)).map(TomlTable)
             }
         }
         deserializer.deserialize_map(Keys(PhantomData))

@@ -12,7 +12,7 @@ use std::borrow::Cow;
 const GEARS: [i32; 9] = [96, 80, 72, 64, 120, 84, 88, 77, 100];
 
 /// The plane of a facet and its corners, counter-clockwise seen from outside; no corners where it does not reach the stone.
-pub(in super::super) type Outline = (Plane, Vec<DVec3>);
+pub(in super::super) type FacetOutline = (Plane, Vec<DVec3>);
 
 /// Returns a design as tiers. A design that is not cut by tiers gets the first gear on whose teeth its facets lie, else the
 /// commonest.
@@ -75,11 +75,11 @@ fn indexed(facets: &[(String, Plane)], gear: Gear) -> Tiers {
 }
 
 /// Returns the outlines of the facets that are cut, in their order, in the design's unit.
-pub(in super::super) fn outlines(tiers: &Tiers) -> Vec<Outline> {
+pub(in super::super) fn outlines(tiers: &Tiers) -> Vec<FacetOutline> {
     let cut = tiers.tiers.iter().filter(|tier| tier.is_cut);
     let planes: Vec<Plane> =
         cut.flat_map(|tier| tier.facets.iter().map(|facet| tiers.plane(tier, facet.index))).collect();
-    let mut outlines: Vec<Outline> = planes.iter().map(|plane| (*plane, Vec::new())).collect();
+    let mut outlines: Vec<FacetOutline> = planes.iter().map(|plane| (*plane, Vec::new())).collect();
     if let Ok(solid) = Polytope::from_planes(&planes) {
         for facet in solid.facets() {
             outlines[facet.source].1 = solid.corners(facet).collect();

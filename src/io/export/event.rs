@@ -1,26 +1,26 @@
-//! What long work says of itself, and how much of it is done.
+//! The events and the progress that long work reports.
 
 use crate::io::Failure;
 use crate::trace::Watch;
 use std::path::Path;
 
-/// Something to pass on to a person.
+/// An event to show to a person.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Event<'a> {
-    /// What is being made from now on.
+    /// Work on this output begins.
     Begun(&'a str),
-    /// A file that is finished.
+    /// This file is finished.
     Written(&'a Path),
-    /// What is done otherwise than asked.
+    /// Something is done differently from the request.
     Note(&'a str),
-    /// What is odd about the result; begins with the stone's file.
+    /// Something about the result is unusual. The text begins with the stone's file.
     Warning(&'a str),
 }
 
-/// Takes what is told; an error ends the work.
+/// A callback that receives each [`Event`]; an error from it ends the work.
 pub type Reporter<'a> = &'a dyn Fn(Event) -> Result<(), Failure>;
 
-/// Parts of one work, each of which has a watch of its own.
+/// The progress of one piece of work, divided among its steps: each step has a watch that runs from 0 to 1.
 pub(super) struct WorkShares<'a> {
     watch: Watch<'a>,
     parts: f64,
@@ -28,12 +28,12 @@ pub(super) struct WorkShares<'a> {
 }
 
 impl<'a> WorkShares<'a> {
-    /// Work of so many parts.
+    /// Begins work of this many parts in all.
     pub fn new(watch: Watch<'a>, parts: f64) -> Self {
         Self { watch, parts, done: 0.0 }
     }
 
-    /// Does the next so many parts, unless the watch asks to stop first.
+    /// Runs a step that counts as `parts` parts, unless the watch asks to stop first.
     pub fn step<T>(
         &mut self,
         parts: f64,

@@ -1,4 +1,4 @@
-//! The figures of a view, and how they are written down.
+//! The figures of a view, and their JSON.
 
 use super::event::Reporter;
 use super::viewing::Viewing;
@@ -10,24 +10,24 @@ use crate::trace::{Subject, Tracer, Watch};
 use serde_json::{Map, Value, json};
 use std::time::Instant;
 
-/// Figures with what says how they came about.
+/// Figures, and how they were measured.
 pub struct FigureReport<'a> {
-    /// How the stone was looked at.
+    /// The stone and how it was viewed.
     pub viewing: Viewing<'a>,
-    /// The zones, as they are before an observer's head hides some.
+    /// The scope, with its zones as they are before an observer's head hides some.
     pub scoped: Scoped,
-    /// What came of it.
+    /// The figures.
     pub measured: Measured,
-    /// What traced the light.
+    /// The tracer that was used.
     pub tracer: Tracer<'a>,
-    /// How long that took, seconds.
+    /// How long the measurement took, in seconds.
     pub seconds: f64,
 }
 
-/// Measures a stone by the zones of a scope, from the side that the scope is for.
+/// Measures a stone by the zones of a scope, seen from the side that the scope is for.
 ///
 /// # Errors
-/// Those of [`Viewing::check`], what `tell` answers, or [`Failure::Stopped`] when `watch` asks to stop.
+/// The errors of [`Viewing::check`], an error of `tell`, or [`Failure::Stopped`] when `watch` asks to stop.
 pub fn measure<'a>(
     viewing: &Viewing<'a>,
     scoped: &Scoped,
@@ -72,8 +72,10 @@ fn failure(viewing: &Viewing, error: MeasureError) -> Failure {
 }
 
 impl FigureReport<'_> {
-    /// The figures and how they came about, as docs/formats.md has them; numbers are fractions of the silhouette. The time
-    /// that it took is among them only if `timing`, so that equal input gives equal files.
+    /// Returns the figures and how they were measured, as docs/formats.md describes them.
+    ///
+    /// Energies are fractions of the silhouette. The time taken is included only if `timing`, so that equal input gives
+    /// equal files.
     pub fn json(&self, timing: bool) -> Value {
         let (viewing, measured) = (&self.viewing, &self.measured);
         let (figures, material) = (&measured.figures, &viewing.specimen.material);
@@ -119,7 +121,7 @@ impl FigureReport<'_> {
         value
     }
 
-    /// Bands by name, the lowest last; those that the observer's head hides are there with nothing in them.
+    /// Returns the value of each band by name, the lowest band last. Bands that the observer's head hides have the value 0.
     fn zones(&self, values: &[f64]) -> Map<String, Value> {
         let bands = &self.scoped.scope.bands;
         let all = bands.iter().skip(1).chain(bands.first()).map(|b| (b.name.clone(), json!(0.0)));
@@ -128,7 +130,7 @@ impl FigureReport<'_> {
     }
 }
 
-/// A viewpoint as figures report it.
+/// The JSON of a viewpoint.
 fn seen_from(viewpoint: &Viewpoint) -> Value {
     let tilt = |lean| if viewpoint.lean == lean { viewpoint.tilt_deg } else { 0.0 };
     json!({

@@ -1,4 +1,4 @@
-//! The pictures and drawings of a stone, written one after the other.
+//! Writes the pictures and drawings of a stone, one after the other.
 
 use super::event::{Event, Reporter, WorkShares};
 use super::viewing::Viewing;
@@ -13,16 +13,17 @@ use crate::trace::beam::{self, Beams};
 use crate::trace::ray::Camera;
 use crate::trace::{RayTracer, Subject, Tracer, Watch};
 
-/// Where pictures stop following beams when not told: below what eight bits can show.
+/// The share of the light that pictures leave unresolved where no bound is given: less than eight bits can show.
 const UNRESOLVED: f64 = 1e-3;
 
-/// An energy drawing holds every polygon of the subdivision; finer than this it would be for no viewer.
+/// The least share of the light that an energy drawing leaves unresolved. The drawing holds every polygon of the
+/// subdivision, and no viewer could show a finer one.
 const DRAWN_UNRESOLVED: f64 = 2e-2;
 
-/// Nor for more polygons than about this many, where light is caught so well that it needs more: some 30 MB.
+/// About how many polygons a drawing holds at most, some 30 MB. Only light that stays in the stone for long needs more.
 const DRAWN_POLYGONS: usize = 100_000;
 
-/// Rays along each side of a pixel, for pictures by rays.
+/// The number of rays along each side of a pixel, in pictures by rays.
 const RAYS_PER_SIDE: u32 = 4;
 
 /// Writes the pictures of a stone.
@@ -30,14 +31,14 @@ pub(super) struct Pictures<'a> {
     viewing: Viewing<'a>,
     outputs: &'a Outputs,
     tell: Reporter<'a>,
-    /// The view that was traced last: scopes share it.
+    /// The view that was traced last and its beams, which the scopes share.
     last: Option<(View, Beams)>,
 }
 
-/// A picture in a scope.
+/// A picture in a scope, with all that it is made from.
 struct Plate<'a> {
     name: &'a str,
-    /// What its files' names say of the view.
+    /// The part of its files' names that describes the view.
     suffix: String,
     scope: Scope,
     viewing: Viewing<'a>,
@@ -45,10 +46,10 @@ struct Plate<'a> {
     glare: Glare,
 }
 
-/// What a picture of a scope shows of each point, in words.
+/// What a picture by strongest exits shows, in words.
 const STRONGEST: &str = "strongest exits";
 
-/// Below this width in pixels a caption's type is set no smaller, and its lines are broken instead.
+/// The width in pixels up to which a caption's lines are broken to fit; a caption of a wider picture is scaled up instead.
 const CAPTION_WIDTH: u32 = 1000;
 
 impl<'a> Pictures<'a> {
@@ -56,7 +57,7 @@ impl<'a> Pictures<'a> {
         Self { viewing: export.viewing, outputs: export.outputs, tell, last: None }
     }
 
-    /// Writes the files of one.
+    /// Writes the files of one picture.
     pub fn make(&mut self, name: &str, picture: &Picture, watch: Watch) -> Result<(), Failure> {
         let design = &self.viewing.specimen.design;
         (self.tell)(Event::Begun(&self.title(name)))?;
@@ -140,7 +141,7 @@ impl<'a> Pictures<'a> {
         Ok(())
     }
 
-    /// The beams of a picture's view.
+    /// Returns the beams of a picture's view, those of the last picture where it had the same view.
     fn traced(&mut self, plate: &Plate, watch: Watch) -> Result<Beams, Failure> {
         let Plate { viewing, view, .. } = plate;
         match self.last.take() {
@@ -155,7 +156,7 @@ impl<'a> Pictures<'a> {
         }
     }
 
-    /// A layer in colour, with its caption under it.
+    /// Writes a layer in colour as a PNG, with its caption under it.
     fn paint(
         &self,
         plate: &Plate,
@@ -176,7 +177,7 @@ impl<'a> Pictures<'a> {
         (self.tell)(Event::Written(&path))
     }
 
-    /// The caption of a picture, if one is wanted: `how` says what traced the picture.
+    /// Returns the caption of a picture if captions are wanted; `how` says how the picture was traced.
     fn caption(&self, plate: &Plate, reading: Reading, how: &str) -> Option<Caption> {
         if !self.outputs.caption {
             return None;
@@ -185,7 +186,7 @@ impl<'a> Pictures<'a> {
         let Viewing { medium, polarised, wavelength_nm, specimen, .. } = viewing;
         let material = &specimen.material;
         let light = match wavelength_nm {
-            // One that is an index alone has no other name.
+            // A material that is given by its index alone has no other name.
             Some(nm) if material.name.starts_with("index ") => {
                 format!("index {:.4} at {nm} nm", medium.index)
             }
@@ -204,7 +205,7 @@ impl<'a> Pictures<'a> {
         Some(Caption::new(&specimen.design.name, remarks, scope))
     }
 
-    /// The caption as rows of pixels as wide as the picture: how many, and the pixels.
+    /// Returns the caption's height in pixels and its pixels, in rows as wide as the picture.
     fn caption_pixels(&self, plate: &Plate, reading: Reading, how: &str) -> Result<(u32, Vec<u8>), Failure> {
         let Some(caption) = self.caption(plate, reading, how) else { return Ok((0, vec![])) };
         let size = self.outputs.size;
@@ -213,7 +214,7 @@ impl<'a> Pictures<'a> {
         Ok((height, pixels))
     }
 
-    /// A drawing's text, with its caption under it.
+    /// Returns the SVG text of a drawing with its caption under it.
     fn captioned(&self, drawn: svg::Document, plate: &Plate, reading: Reading, open: f64) -> String {
         match self.caption(plate, reading, &reading.in_percent(open)) {
             Some(caption) => caption.under(drawn, f64::from(vector::SIDE)).to_string(),
@@ -293,7 +294,7 @@ impl<'a> Pictures<'a> {
         (self.tell)(Event::Written(&strongest))
     }
 
-    /// What goes into a picture as text: what it shows, and how it was traced.
+    /// The text that is stored in a picture's file: what it shows, and how it was traced.
     fn description(&self, plate: &Plate, reading: &str, how: &str) -> String {
         let Viewing { medium, polarised, .. } = &plate.viewing;
         let polarised = if *polarised { "polarised" } else { "unpolarised" };
@@ -310,7 +311,7 @@ enum Reading {
 }
 
 impl Reading {
-    /// What follows the scope's name in the name of its file.
+    /// The part of the file's name that follows the scope's name.
     fn kind(self) -> &'static str {
         match self {
             Self::Energy => "",
@@ -318,7 +319,7 @@ impl Reading {
         }
     }
 
-    /// In words.
+    /// Describes the reading in words.
     fn remark(self, glare: Glare) -> String {
         match self {
             Self::Energy => format!("energy, {}", glare.description()),
@@ -326,7 +327,7 @@ impl Reading {
         }
     }
 
-    /// What traced it, where that is exact beams that leave such a part open.
+    /// Describes a trace by exact beams that leaves `part` of the light or the area open.
     fn how(self, part: f64) -> String {
         let open = match self {
             Self::Energy => "unresolved",
@@ -335,7 +336,7 @@ impl Reading {
         format!("exact beams, {open} {part:.2e}")
     }
 
-    /// The same for people.
+    /// Describes the same trace in percent, for captions.
     fn in_percent(self, part: f64) -> String {
         let what = match self {
             Self::Energy => "light unresolved",
@@ -345,7 +346,7 @@ impl Reading {
     }
 }
 
-/// Encodes rows of a picture, whose bands begin at a channel, and adds them to its file.
+/// Encodes rows of a picture whose bands begin at the channel `first`, and adds them to its file.
 fn encode(rows: &Rows, (palette, first): (&Palette, usize), png: &mut PngRows) -> Result<(), WriteError> {
     let mut pixels = Vec::with_capacity(3 * rows.width as usize * rows.count as usize);
     (rows.first..rows.first + rows.count).for_each(|y| palette.encode(rows, first, y, &mut pixels));

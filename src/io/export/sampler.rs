@@ -1,4 +1,4 @@
-//! Pictures by point rays: on a graphics card or, and where the card fails, on the processor.
+//! Pictures by point rays, on a graphics card or on the processor, which also takes over where the card fails.
 
 use super::event::Reporter;
 use crate::io::{Failure, WriteError};
@@ -8,10 +8,10 @@ use crate::scene::Film;
 use crate::trace::{RayTracer, Subject, Watch};
 
 impl RayTracer<'_> {
-    /// Does work, and again on the processor where the card fails, with a note of why.
+    /// Does work, and does it again on the processor where the card fails, with a note of the reason.
     ///
     /// # Errors
-    /// What `work` or `tell` answers, but for the card's.
+    /// An error of `work` that is not the card's, or an error of `tell`.
     pub fn or_rays<T>(
         self,
         #[cfg_attr(not(feature = "gpu"), expect(unused_variables, reason = "only a card can fail"))]
@@ -28,10 +28,10 @@ impl RayTracer<'_> {
         }
     }
 
-    /// A picture, row by row: the channels of [`by_rays::trace`].
+    /// Traces a picture row by row, in the channels of [`by_rays::trace`], and passes the rows to `each`.
     ///
     /// # Errors
-    /// What `each` answers, a card that fails, or [`Failure::Stopped`] when `watch` asks to stop.
+    /// An error of `each`, that of a card that fails, or [`Failure::Stopped`] when `watch` asks to stop.
     pub fn rows(
         self,
         look: Subject,

@@ -52,7 +52,7 @@ fn found(folder: &Path) -> BTreeMap<PathBuf, Vec<u8>> {
     paths.map(|path| (path.clone(), std::fs::read(&path).unwrap())).collect()
 }
 
-/// What is told in writing: files, the rest as text, and the parts done.
+/// Writes an export and returns its reports: the files, the texts of all other events, and the parts done.
 fn written(export: &Export) -> (Vec<PathBuf>, Vec<String>, Vec<f64>) {
     let (files, texts, parts) = (Mutex::new(vec![]), Mutex::new(vec![]), Mutex::new(vec![]));
     let watch = |part: f64| {
@@ -197,7 +197,7 @@ fn notes_and_warnings_say_what_is_not_as_asked() {
     let many = outputs(folder.path(), &["aset"], &OutputFormat::ALL[..3]);
     let (_, texts, _) = written(&Export { viewing: in_perspective(viewing(&specimen), 9.0), outputs: &many });
     assert_eq!(texts[0], "pictures in scopes: rays make PNG pictures only; SVG and EXR need exact beams");
-    // Of light that is reflected a thousand times, some is left.
+    // Some light is still inside after a thousand reflections.
     let cube = cut_file::parse(include_str!("../../../tests/fixtures/cube.toml"), "cube").unwrap();
     let cube = Specimen::new(cube).unwrap();
     let caught = Viewing { medium: Medium::clear(1e3), unresolved: Some(1e-9), ..viewing(&cube) };

@@ -1,4 +1,4 @@
-//! A stone, from where it is seen, and how its light is traced.
+//! A stone, the viewpoint from which it is seen, and how its light is traced.
 
 use super::event::{Event, Reporter};
 use crate::io::Failure;
@@ -6,49 +6,51 @@ use crate::picture::Scoped;
 use crate::scene::{Glare, Medium, Side, Specimen, Stone, Viewpoint};
 use crate::trace::{CannotTrace, Tracer, beam, ray};
 
-/// Where no bound was asked for, this part of the light may stay unresolved without a word.
+/// The part of the light that may stay unresolved without a warning where no bound was requested.
 const UNASKED: f64 = 1e-3;
 
-/// How a stone is looked at.
+/// A stone, with how it is seen and traced.
 #[derive(Clone, Copy)]
 pub struct Viewing<'a> {
     /// The stone.
     pub specimen: &'a Specimen,
-    /// What figures, warnings and errors call it: its file.
+    /// The stone's file, as figures, warnings and errors name it.
     pub file: &'a str,
-    /// From where; pictures that are made for one side have their own.
+    /// The viewpoint; pictures that are made for one side of the stone replace its side.
     pub viewpoint: Viewpoint,
-    /// By how much the stone is turned about its axis from how its cut has it, degrees: names and texts give azimuths in
-    /// the cut's own frame.
+    /// The turn of the stone about its axis, away from the frame of its cut, in degrees. Names and texts give azimuths in
+    /// the frame of the cut.
     pub turned_deg: f64,
-    /// What the stone is made of, at one wavelength.
+    /// The stone's medium, at one wavelength.
     pub medium: Medium,
-    /// That wavelength, nm; none where the index was given instead.
+    /// The wavelength in nm; `None` where the index was given instead.
     pub wavelength_nm: Option<f64>,
-    /// Half angle of the observer's head, degrees, from 0 to below 90; scopes with a hole for the eye have their own.
+    /// The half angle of the observer's head, in degrees, from 0 to below 90. Scopes with a hole for the eye have an angle
+    /// of their own.
     pub head_deg: f64,
-    /// The part of the light that may stay unresolved, between 0 and 1; none for what is usual.
+    /// The part of the light that may stay unresolved, between 0 and 1; `None` for the usual bound.
     pub unresolved: Option<f64>,
-    /// Whether surfaces see how light is polarised.
+    /// Whether reflection and refraction take the polarisation of the light into account.
     pub polarised: bool,
-    /// Whether glare is shown; where nothing is said, pictures leave it out and figures list it beside the rest.
+    /// Whether glare is shown. With `None`, pictures leave it out and figures list it beside the rest.
     pub glare: Option<Glare>,
-    /// What traces the light.
+    /// The tracer.
     pub tracer: Tracer<'a>,
 }
 
 impl Viewing<'_> {
-    /// The same of another side, where a picture is made for one.
+    /// Returns the same viewing of the given side, where a picture is made for one side.
     pub fn facing(self, side: Option<Side>) -> Self {
         Self { viewpoint: self.viewpoint.facing(side), ..self }
     }
 
-    /// What the names of a picture's files say of the view: not its side, where the picture has one of its own.
+    /// The part of the names of a picture's files that describes the view, without the side where the picture has a side of
+    /// its own.
     pub(super) fn suffix(&self, scoped: &Scoped) -> String {
         self.described().facing(scoped.side.map(|_| Side::Table)).suffix()
     }
 
-    /// From where, with the azimuth in the frame of the cut.
+    /// The viewpoint as texts describe it, with the azimuth in the frame of the cut.
     pub(super) fn described(&self) -> Viewpoint {
         if self.turned_deg == 0.0 {
             return self.viewpoint;
@@ -58,17 +60,17 @@ impl Viewing<'_> {
         Viewpoint { azimuth_deg: if is_upright { 0.0 } else { azimuth_deg }, ..self.viewpoint }
     }
 
-    /// Whether the tracer can see the stone from there.
+    /// Refuses a view from which the tracer cannot see the stone.
     ///
     /// # Errors
-    /// [`Failure::Input`] where the eye is not in front of the whole stone, [`Failure::Usage`] where exact beams are
-    /// to trace a perspective, or what is not convex.
+    /// [`Failure::Input`] where the eye is not in front of the whole stone, [`Failure::Usage`] where exact beams would have
+    /// to trace a perspective or a body that is not convex.
     pub fn check(&self) -> Result<(), Failure> {
         let can = self.tracer.check(self.specimen, &self.viewpoint.view());
         can.map_err(|why| self.cannot(why))
     }
 
-    /// What to answer where the tracer cannot see the stone.
+    /// The failure for a stone that the tracer cannot see.
     pub(super) fn cannot(&self, why: CannotTrace) -> Failure {
         match why {
             CannotTrace::Eye => Failure::Input(format!("{}: {why}", self.file)),
@@ -77,28 +79,28 @@ impl Viewing<'_> {
         }
     }
 
-    /// The stone, for what only convex ones have.
+    /// Returns the convex stone, for outputs that only convex stones have.
     ///
     /// # Errors
-    /// [`Failure::Usage`] where it is none.
+    /// [`Failure::Usage`] where the body is not a convex stone.
     pub(super) fn stone(&self) -> Result<&Stone, Failure> {
         self.specimen.stone().map_err(|e| Failure::Usage(format!("{}: {e}", self.file)))
     }
 
-    /// For beams, with the bound that is usual.
+    /// The options of beams, with `usual` as the bound where none was requested.
     pub(super) fn beams(&self, usual: f64) -> beam::BeamOptions {
         let unresolved = self.unresolved.unwrap_or(usual);
         beam::BeamOptions { unresolved, polarised: self.polarised, ..beam::BeamOptions::default() }
     }
 
-    /// For rays: a ray is given up when no more than the bound is left of it.
+    /// The options of rays: a ray is given up when no more of it than the bound is left.
     pub(super) fn rays(&self, usual: f64) -> ray::RayOptions {
         let least_weight = self.unresolved.unwrap_or(usual);
         ray::RayOptions { least_weight, polarised: self.polarised, ..ray::RayOptions::default() }
     }
 
-    /// Warns where beams left more of the light unresolved than they were to: than was asked for or, where nothing was,
-    /// more than would be shown without a word. `aim` is the bound that they were followed to.
+    /// Warns where beams left more of the light unresolved than the requested bound or, where none was requested, more than
+    /// may stay unresolved without a warning. `aim` is the bound that the beams were followed to.
     pub(super) fn warn_of_open(
         &self,
         (open, count): (f64, usize),
@@ -118,7 +120,7 @@ impl Viewing<'_> {
     }
 }
 
-/// A part in percent, to four digits.
+/// Formats a part in percent, to four significant digits.
 fn percent_text(part: f64) -> String {
     let percent = 100.0 * part;
     let digits = 3 - percent.abs().max(1e-12).log10().floor() as i32;
@@ -168,7 +170,7 @@ mod tests {
             asked.contains("0.05 % of the light is unresolved, more than the 0.01 % asked for"),
             "{asked}"
         );
-        // What is not asked for is told only where it could be seen.
+        // Without a requested bound there is a warning only where the difference could be seen.
         assert_eq!((said(None, 5e-4, 1.5e-4), said(Some(1e-3), 1e-3, 1e-3)), (String::new(), String::new()));
     }
 

@@ -2,7 +2,7 @@
 
 use super::{COLOUR, RENDER, ROOT, VERSION};
 use crate::cut::{Indexed, Tier, Tiers};
-use crate::io::cutters::{self, Outline};
+use crate::io::cutters::{self, FacetOutline};
 use crate::io::design_file::EncodedDesign;
 use crate::math::Plane;
 use crate::scene::Specimen;
@@ -125,7 +125,7 @@ fn is_key(key: &str) -> bool {
 
 impl Form {
     /// Returns how a stone must be placed to reach 1 across, and as far below z = 0 as above.
-    fn of(outlines: &[Outline]) -> Self {
+    fn of(outlines: &[FacetOutline]) -> Self {
         let corners = || outlines.iter().flat_map(|(_, corners)| corners);
         let reach = corners().map(|corner| corner.truncate().abs().max_element()).fold(0.0, f64::max);
         let low = corners().map(|corner| corner.z).fold(f64::INFINITY, f64::min);
@@ -160,7 +160,7 @@ fn put_tiers(tiers: &Tiers, page: &mut Page, lost: &mut Vec<String>) {
     let mut outlines = outlines.into_iter();
     for tier in &tiers.tiers {
         let uncut = |facet: &Indexed| (tiers.plane(tier, facet.index), Vec::new());
-        let facets: Vec<Outline> = match tier.is_cut {
+        let facets: Vec<FacetOutline> = match tier.is_cut {
             true => outlines.by_ref().take(tier.facets.len()).collect(),
             false => tier.facets.iter().map(uncut).collect(),
         };
@@ -168,7 +168,7 @@ fn put_tiers(tiers: &Tiers, page: &mut Page, lost: &mut Vec<String>) {
     }
 }
 
-fn put_tier(tiers: &Tiers, tier: &Tier, facets: &[Outline], form: &Form, page: &mut Page) {
+fn put_tier(tiers: &Tiers, tier: &Tier, facets: &[FacetOutline], form: &Form, page: &mut Page) {
     let angle = if tier.angle.is_sign_negative() || is_culet(tiers, tier) {
         180.0 - tier.angle.abs()
     } else {
@@ -196,7 +196,7 @@ fn clean(number: f64) -> f64 {
     if number.abs() <= ROUNDING { 0.0 } else { number }
 }
 
-fn put_facet((plane, corners): &Outline, form: &Form, page: &mut Page) {
+fn put_facet((plane, corners): &FacetOutline, form: &Form, page: &mut Page) {
     let [x, y, z] = plane.normal.to_array().map(clean);
     let azimuth = y.atan2(x).to_degrees();
     let index = if z > 0.0 { 90.0 + azimuth } else { 270.0 - azimuth }.rem_euclid(360.0);

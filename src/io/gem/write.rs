@@ -2,7 +2,7 @@
 
 use super::{END, LINES, UNKNOWN};
 use crate::cut::{Tier, Tiers};
-use crate::io::cutters::{self, Outline};
+use crate::io::cutters::{self, FacetOutline};
 use crate::io::design_file::EncodedDesign;
 use crate::scene::Specimen;
 use glam::DVec3;
@@ -100,7 +100,7 @@ fn put_facets(tiers: &Tiers, texts: &mut Texts, bytes: &mut Vec<u8>) {
 }
 
 /// Returns the normal divided by the distance, in the file's frame.
-fn inverse(tier: &Tier, (plane, _): &Outline, farthest: f64) -> DVec3 {
+fn inverse(tier: &Tier, (plane, _): &FacetOutline, farthest: f64) -> DVec3 {
     let DVec3 { x, y, mut z } = plane.normal;
     if z == 0.0 {
         // GemCad separates girdle facets of crown and pavilion by the rounding of a right angle's cosine.

@@ -2,7 +2,7 @@
 
 use super::super::background::BackgroundRef;
 use super::super::cut_file::material_form::MaterialForm;
-use super::super::cut_file::values::{Numbers, OneOf, Pairs, Table};
+use super::super::cut_file::values::{Numbers, OneOf, Pairs, TomlTable};
 use super::super::fault::Fault;
 use super::{DEFAULT_GAP_MM, Entry, MOST_STONES, SceneFile, likely, shown};
 use crate::cut::{MaterialError, MaterialRef, Size, is_printable};
@@ -26,7 +26,7 @@ pub(super) struct SceneForm {
     background: Option<String>,
     background_distance_mm: Option<f64>,
     strength: Option<f64>,
-    stone: Vec<Table<StoneForm>>,
+    stone: Vec<TomlTable<StoneForm>>,
 }
 
 /// A table `[[stone]]`.
@@ -117,7 +117,7 @@ impl SceneForm {
         }
         check_counts(&self.stone)?;
         let alone = self.stone.len() == 1;
-        let entry = |(index, Table(form)): (usize, Table<StoneForm>)| {
+        let entry = |(index, TomlTable(form)): (usize, TomlTable<StoneForm>)| {
             let told =
                 |fault: Fault| fault.within(&format!("stone/{index}/"), &format!("stone {}: ", index + 1));
             form.check_place(layout, alone).and_then(|()| form.entry((around.line)(index))).map_err(told)
@@ -135,12 +135,12 @@ fn layout(given: &str) -> Result<Layout, Fault> {
     found.ok_or_else(|| Fault::at("layout", unknown()))
 }
 
-fn check_counts(stones: &[Table<StoneForm>]) -> Result<(), Fault> {
+fn check_counts(stones: &[TomlTable<StoneForm>]) -> Result<(), Fault> {
     if stones.is_empty() {
         return Err(Fault::at("stone", "stone: the list is empty; give at least one [[stone]]"));
     }
     let mut left = MOST_STONES as i64;
-    for (index, Table(StoneForm { count, .. })) in stones.iter().enumerate() {
+    for (index, TomlTable(StoneForm { count, .. })) in stones.iter().enumerate() {
         if !(1..=left).contains(count) {
             let number = index + 1;
             let message = format!(
