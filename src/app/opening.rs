@@ -182,9 +182,11 @@ mod tests {
     fn a_mesh_that_is_opened_after_a_question_is_read_as_it_was_asked_for() {
         let folder = tempfile::tempdir().unwrap();
         let path = scan(folder.path());
-        let mut bench = Bench::with(Setup { file: Some(path), mesh: UP, ..Setup::default() });
-        // The design is changed before the file has been read.
-        bench.harness.state_mut().document.work.design.name = "mine".to_owned();
+        let mut bench = Bench::new();
+        let editor = bench.harness.state_mut();
+        editor.open_with(&path, OpeningPurpose::Anew, UP);
+        // No frame has come in between, so that the design is changed before the file is taken in.
+        editor.document.work.design.name = "mine".to_owned();
         bench.wait(|editor| editor.dialog.is_some());
         assert!(matches!(&bench.editor().dialog, Some(Dialog::Unsaved(Then::Open(_, mesh))) if *mesh == UP));
         bench.click("Don't save");
