@@ -2,7 +2,7 @@
 #![allow(clippy::print_stdout, reason = "an example shows what it finds")]
 
 use brillianteer::io::cut_file;
-use brillianteer::measure::MeasureOptions;
+use brillianteer::render::MeasureOptions;
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let file = std::env::args().nth(1).unwrap_or_else(|| "cuts/tolkowsky.toml".into());

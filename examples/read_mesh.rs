@@ -4,7 +4,8 @@
 
 use brillianteer::cut::ProportionReport;
 use brillianteer::io::{cut_file, design_file};
-use brillianteer::measure::{Bounds, MeasureOptions};
+use brillianteer::measure::Bounds;
+use brillianteer::render::MeasureOptions;
 use brillianteer::scene::Specimen;
 use std::path::PathBuf;
 

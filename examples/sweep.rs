@@ -3,7 +3,8 @@
 
 use brillianteer::cut::{Cut, Pavilion};
 use brillianteer::io::{cut_file, library};
-use brillianteer::measure::{Bounds, MeasureOptions};
+use brillianteer::measure::Bounds;
+use brillianteer::render::MeasureOptions;
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let text = library::cut("modern-ideal").ok_or("no such cut")?;

@@ -13,7 +13,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! [`measure::MeasureOptions`] choose the view, the scope, the wavelength and the bound on unresolved light. Programs in the
+//! [`render::MeasureOptions`] choose the view, the scope, the wavelength and the bound on unresolved light. Programs in the
 //! folder `examples/` measure a design, sweep an angle, write an ASET picture and read a mesh.
 //!
 //! The frame is right-handed: +z out of the table, z = 0 at the crown-side girdle, girdle radius 1. In files, lengths are
@@ -34,4 +34,4 @@ pub mod scene;
 pub mod trace;
 
 pub use glam;
-pub use measure::measure;
+pub use render::measure;

@@ -5,13 +5,14 @@ mod common;
 
 use brillianteer::cut::{Cut, Design, MaterialRef};
 use brillianteer::io::{cut_file, library};
-use brillianteer::measure::{Bounds, Figures, MeasureError, MeasureOptions, by_beams, by_rays};
+use brillianteer::measure::{Bounds, Figures, by_beams, by_rays};
 use brillianteer::picture::{Picture, named};
+use brillianteer::render::{MeasureError, MeasureOptions, RenderError, Unfit, Wanted};
 use brillianteer::scene::{
     ASET_CONE, Backing, Band, Medium, Projection, Scope, Side, Stone, View, Viewpoint,
 };
 use brillianteer::trace::beam::Beam;
-use brillianteer::trace::{CannotTrace, RayTracer, Tracer, ray, unwatched};
+use brillianteer::trace::{ray, unwatched};
 use common::*;
 
 const DIAMOND: Medium = Medium::clear(2.4175);
@@ -216,9 +217,9 @@ fn light_return_counts_from_the_horizon_whatever_the_borders_of_the_scope() {
         band("high", 50.0, [0, 0, 255]),
     ];
     let scope = Scope { name: "mine".into(), bands };
-    for tracer in [Tracer::Beams, Tracer::Rays(RayTracer::Rays)] {
+    for tracer in [Wanted::Beams, Wanted::Rays] {
         let bounds = Bounds { unresolved: 2e-3, lattice: 48, ..Bounds::default() };
-        let options = MeasureOptions { bounds, tracer: Some(tracer), ..MeasureOptions::default() };
+        let options = MeasureOptions { bounds, tracer, ..MeasureOptions::default() };
         let usual = brillianteer::measure(&tolkowsky, &options).unwrap();
         let mine =
             brillianteer::measure(&tolkowsky, &MeasureOptions { scope: scope.clone(), ..options }).unwrap();
@@ -269,12 +270,11 @@ fn what_cannot_be_measured_is_refused_by_name() {
         assert!(error.to_string().starts_with(says), "{error}");
     }
     let near = Viewpoint { projection: Projection::Perspective { distance: 8.0 }, ..Viewpoint::default() };
-    let by_beams =
-        MeasureOptions { viewpoint: near, tracer: Some(Tracer::Beams), ..MeasureOptions::default() };
-    assert!(matches!(refused(by_beams), MeasureError::CannotTrace(CannotTrace::Perspective)));
+    let by_beams = MeasureOptions { viewpoint: near, tracer: Wanted::Beams, ..MeasureOptions::default() };
+    assert!(matches!(refused(by_beams), MeasureError::Render(RenderError::Unfit(Unfit::Perspective))));
     let inside = Viewpoint { projection: Projection::Perspective { distance: 0.2 }, ..near };
     let inside = MeasureOptions { viewpoint: inside, ..MeasureOptions::default() };
-    assert!(matches!(refused(inside), MeasureError::CannotTrace(CannotTrace::Eye)));
+    assert!(matches!(refused(inside), MeasureError::Render(RenderError::Unfit(Unfit::Eye))));
     let broken = Design { material: MaterialRef::Index(9.0), ..tolkowsky.clone() };
     let error = brillianteer::measure(&broken, &MeasureOptions::default()).unwrap_err();
     assert!(matches!(error, MeasureError::Specimen(_)), "{error}");

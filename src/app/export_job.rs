@@ -3,7 +3,7 @@
 use super::export_scene::SceneOut;
 use super::framing::{Framing, FramingFit};
 use super::shows::Shows;
-use super::studio::{Effort, FINE_RENDER, SPAN, Shot, ShotTracer, Which, exported, survey};
+use super::studio::{Effort, ExportedRender, SPAN, Shot, ShotTracer, Which, survey};
 use crate::io::background::BackgroundRef;
 use crate::io::export::{Event, Export, OutputFormat, Outputs, Viewing};
 use crate::io::refraction_map::{self, Coding, MOST_BANDS, MOST_PIXELS};
@@ -11,7 +11,7 @@ use crate::io::refraction_page::{Page, takes, write_page};
 use crate::io::{Failure, rasterize, write_rgba_png};
 use crate::optics::line;
 use crate::picture::{named, profile};
-use crate::render::Demands;
+use crate::render::{Renderer, Wanted};
 use crate::scene::{Glare, Pose, Specimen, View, Viewpoint};
 use crate::trace::unwatched;
 use egui::ColorImage;
@@ -173,7 +173,7 @@ impl ExportPlan {
             polarised: true,
             // `None` leaves glare out of pictures; figures list it in any case.
             glare: Some(self.shot.glare).filter(|glare| *glare == Glare::Included),
-            tracer: Demands::of_scope(specimen, &viewpoint.view()).by_processor(),
+            tracer: Wanted::Quickest,
         }
     }
 
@@ -221,7 +221,11 @@ impl ExportPlan {
         }
         let mut files = vec![];
         for (outputs, viewing) in &self.parts() {
-            files.extend(Export { viewing: *viewing, outputs }.files().map_err(|e| e.to_string())?);
+            files.extend(
+                Export { viewing: *viewing, outputs }
+                    .files(&Renderer::default())
+                    .map_err(|e| e.to_string())?,
+            );
         }
         files.extend(self.render_path());
         files.extend(self.map_paths().into_iter().flat_map(|(maps, others)| maps.into_iter().chain(others)));
@@ -258,7 +262,8 @@ impl ExportPlan {
         for (outputs, viewing) in &parts {
             let share = effort(outputs);
             let watch = |done: f64| progress.at((begun + done * share) / all);
-            Export { viewing: *viewing, outputs }.write(&watch, &|told| {
+            let export = Export { viewing: *viewing, outputs };
+            export.write(&mut Renderer::default(), &watch, &|told| {
                 progress.hear(&told);
                 Ok(())
             })?;
@@ -312,27 +317,15 @@ impl ExportPlan {
     }
 
     fn render(&self, path: &Path, watch: crate::trace::Watch) -> Result<(), Failure> {
-        let mut last = None;
-        let effort = Effort { unresolved: FINE_RENDER.unresolved, coarser: 1.0, bands: FINE_RENDER.bands };
         let shot = self.shot(Shows::Render, self.selection.size);
-        ShotTracer::default().take(
-            ((0, Which::Present), &shot),
-            &effort,
-            Some(&exported(&shot)),
-            watch,
-            &mut |taken| last = Some(taken),
-        )?;
-        let Some(taken) = last else { return Err(Failure::Stopped) };
-        let rgba: Vec<u8> = taken.image.pixels.iter().flat_map(|p| p.to_srgba_unmultiplied()).collect();
-        let [width, height] = taken.image.size.map(|n| n as u32);
+        let ExportedRender { rgba, size, tracer, unresolved } = ShotTracer::default().export(&shot, watch)?;
         let told = format!(
-            "{}: render; light {}; {}{}",
+            "{}: render; light {}; {}{tracer}, unresolved {unresolved:.2e}",
             self.shot.title,
             self.shot.light.light.name,
-            self.mixture() + taken.tracer,
-            taken.unresolved.map_or(String::new(), |u| format!(", unresolved {u:.2e}"))
+            self.mixture()
         );
-        Ok(write_rgba_png(path, &rgba, (width, height), &told)?)
+        Ok(write_rgba_png(path, &rgba, size.into(), &told)?)
     }
 }
 

@@ -7,7 +7,7 @@ use super::shows::Shows;
 use super::studio::{Grade, Which};
 use super::view_menu;
 use crate::optics::linear_from_encoded;
-use crate::picture::pane::{GlassPane, Quality};
+use crate::picture::pane::{GlassPane, PaneQuality};
 use egui::{
     Color32, EventFilter, Key, Modifiers, PointerButton, Rect, Response, Role, Sense, StrokeKind, Ui,
     WidgetInfo, pos2,
@@ -44,7 +44,7 @@ pub struct Liquid {
     /// The base colour of the pane in sRGB, and how much of it covers what is behind.
     pub tint: [u8; 4],
     /// How much of the effect is drawn.
-    pub quality: Quality,
+    pub quality: PaneQuality,
     /// How far above the background the traced pane lies, in parts of the pane's shorter side.
     pub gap: f64,
 }
@@ -61,7 +61,7 @@ impl Default for Liquid {
             frost: 0.0,
             light: 30.0,
             tint: [0; 4],
-            quality: Quality::High,
+            quality: PaneQuality::High,
             gap: 0.02,
         }
     }

@@ -4,7 +4,7 @@ use super::editor::Editor;
 use super::liquid::Liquid;
 use super::rows::{NUMBER, Row, control_width, named};
 use super::shows::Shows;
-use crate::picture::pane::Quality;
+use crate::picture::pane::PaneQuality;
 use egui::{Button, ComboBox, RichText, Ui, vec2};
 use std::ops::RangeInclusive;
 
@@ -19,10 +19,10 @@ const STRENGTHS: RangeInclusive<f64> = 0.0..=100.0;
 const GAPS: RangeInclusive<f64> = 0.001..=1.0;
 
 /// The qualities: the name of each, and what of the effect it draws.
-const QUALITIES: [(Quality, &str, &str); 3] = [
-    (Quality::High, "high", "All, frost by five samples."),
-    (Quality::Medium, "medium", "Frost by three samples, dispersion of 30 at most."),
-    (Quality::Low, "low", "Refraction alone: no depth, dispersion, frost, light or tint."),
+const QUALITIES: [(PaneQuality, &str, &str); 3] = [
+    (PaneQuality::High, "high", "All, frost by five samples."),
+    (PaneQuality::Medium, "medium", "Frost by three samples, dispersion of 30 at most."),
+    (PaneQuality::Low, "low", "Refraction alone: no depth, dispersion, frost, light or tint."),
 ];
 
 /// Draws the rows, where liquid glass is in sight.
@@ -85,7 +85,7 @@ fn last(liquid: &mut Liquid, ui: &mut Ui) {
         ui.color_edit_button_srgba_unmultiplied(&mut liquid.tint).labelled_by(label.id);
     });
     ui.horizontal(|ui| {
-        let label = named(ui, "Quality", "How much of the effect is drawn.");
+        let label = named(ui, "PaneQuality", "How much of the effect is drawn.");
         let chosen = QUALITIES.iter().find(|(q, ..)| *q == liquid.quality).map_or("", |(_, name, _)| name);
         let width = control_width(ui);
         let combo = ComboBox::from_id_salt("quality").selected_text(chosen).width(width).show_ui(ui, |ui| {

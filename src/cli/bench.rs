@@ -1,22 +1,24 @@
 //! `bench`: measures how long each tracer takes for the same pictures on this machine.
 
-use super::plan::on_card;
 use super::specimen::LoadedSpecimen;
-use super::{Failure, json, print};
+use super::{Failure, json, print, say};
 use crate::io::mesh_options::MeshOptions;
 use crate::math::Polytope;
-use crate::optics::{line, strata};
-use crate::picture::by_rays::ScopeSampling;
-use crate::picture::{ByBeams, Layer, paint};
-use crate::scene::{ASET_CONE, Backing, Film, Glare, Instance, Light, Medium, Scene, Scope, View};
-use crate::trace::environment::{Environment, EnvironmentMap};
-use crate::trace::ray::{ByRays, Camera, RayOptions, StoneTracer};
-use crate::trace::sampling::{LitScene, ProgressiveImage, SamplePass};
-use crate::trace::{RayTracer, Subject, beam, unwatched};
+use crate::optics::line;
+use crate::render::{
+    Backend, Card, Job, LightProduct, Product, Quality, Reading, Renderer, ScopeProduct, Steps, Surroundings,
+    Wanted,
+};
+use crate::scene::{ASET_CONE, Backing, Film, Glare, Light, Medium, Scene, Scope, View};
+use crate::trace::environment::{EnvironmentMap, Lighting};
+use crate::trace::ray::{Camera, RayOptions, StoneTracer};
+use crate::trace::sampling::SamplePass;
+use crate::trace::{beam, unwatched};
 use clap::Args;
 use glam::DVec2;
 use serde_json::{Value, json};
 use std::path::Path;
+use std::sync::Arc;
 use std::time::Instant;
 
 /// The share of the light that exact beams may leave unresolved.
@@ -60,7 +62,7 @@ struct Task {
 impl BenchArguments {
     pub fn run(&self) -> Result<(), Failure> {
         let specimen = LoadedSpecimen::load(Path::new("modern-ideal"), MeshOptions::default())?;
-        let card = on_card();
+        let tracers = tracers()?;
         let threads = rayon::current_num_threads();
         if !self.json {
             print(&format!("modern ideal face up; {threads} threads"))?;
@@ -71,13 +73,14 @@ impl BenchArguments {
             if self.json { Ok(()) } else { print(&format!("\n{}", task.table())) }
         };
         for (size, bounces) in SCOPES {
-            done(in_scope(&specimen, card, size, bounces)?)?;
+            done(in_scope(&specimen, &tracers, size, bounces)?)?;
         }
-        done(under_light(&specimen, card)?)?;
+        done(under_light(&specimen, &tracers)?)?;
         if !self.json {
             return Ok(());
         }
-        print(&json(&json!({ "threads": threads, "card": card.description(), "tasks": tasks })))
+        let card = tracers.iter().find(|t| t.wanted == Wanted::Card).map_or("point rays", |t| &t.by);
+        print(&json(&json!({ "threads": threads, "card": card, "tasks": tasks })))
     }
 }
 
@@ -122,29 +125,70 @@ fn options(most_bounces: u32) -> RayOptions {
     RayOptions { polarised: true, most_bounces, least_weight: 1e-4 }
 }
 
-/// Times an ASET picture by every tracer. For beams the time includes painting.
-fn in_scope(specimen: &LoadedSpecimen, card: RayTracer, size: u32, bounces: u32) -> Result<Task, Failure> {
-    let (view, scope) = (View::default(), Scope::aset(ASET_CONE, Backing::Black));
-    let medium = Medium::clear(specimen.material.index(line::SODIUM_D));
-    let look = Subject { specimen, medium, view: &view, scope: &scope };
-    let polytope = polytope(specimen)?;
-    let film = Film::around(polytope, &view.basis(), size);
-    let manner = ScopeSampling { options: options(bounces), per_side: 1, glare: Glare::Included };
-    let mut rows = vec![];
-    for sampler in samplers(card) {
-        let picture = || sampler.rows(look, &film, &manner, &unwatched, |_| Ok(()));
-        rows.push(Row { tracer: sampler.name(), by: sampler.description(), milliseconds: timed(picture)? });
-    }
-    let options = beam::BeamOptions { unresolved: UNRESOLVED, ..beam::BeamOptions::default() };
-    let beams = || {
-        let beams = beam::trace(polytope, medium, &view, &options, &unwatched)?;
-        paint(&Layer::energy(&beams, &scope, Glare::Included), &film, &unwatched, |_| Ok::<_, Failure>(()))
+/// A tracer to compare.
+struct Compared {
+    wanted: Wanted,
+    name: &'static str,
+    by: String,
+    /// Whether it is a real graphics card.
+    is_quick: bool,
+}
+
+/// Returns the tracers to compare: rays on the processor, on the card where there is one, and exact beams.
+fn tracers() -> Result<Vec<Compared>, Failure> {
+    let row = |wanted, backend: &Backend, by: String| Compared {
+        wanted,
+        name: backend.name(),
+        by,
+        is_quick: backend.is_quick(),
     };
+    let mut all = vec![row(Wanted::Rays, &Backend::Rays, Backend::Rays.description())];
+    match Card::Machine.any() {
+        Ok(card) => all.push(row(Wanted::Card, &card, card.description())),
+        Err(why) => say(&format!("note: {why}: tracing by rays on the processor")),
+    }
     let by = format!("exact beams, unresolved {UNRESOLVED}");
-    rows.push(Row { tracer: "beam", by, milliseconds: timed(beams)? });
+    all.push(row(Wanted::Beams, &Backend::Beams, by));
+    Ok(all)
+}
+
+/// Times a job by each tracer, from its planning to the finished picture.
+fn rows(job: &Job, tracers: &[Compared]) -> Result<Vec<Row>, Failure> {
+    let row = |tracer: &Compared| {
+        let quality = Quality { tracer: tracer.wanted, ..job.quality };
+        let job = Job { quality, ..job.clone() };
+        // A renderer of its own, as one that is kept would know the beams.
+        let picture = || {
+            let rendered = Renderer::new(Card::Machine).run(&job, &unwatched, &mut |_| Ok::<_, Failure>(()));
+            rendered.map(|_| ())
+        };
+        Ok(Row { tracer: tracer.name, by: tracer.by.clone(), milliseconds: timed(picture)? })
+    };
+    tracers.iter().map(row).collect()
+}
+
+fn quality(bounces: u32) -> Quality {
+    let beams = beam::BeamOptions { unresolved: UNRESOLVED, ..beam::BeamOptions::default() };
+    Quality { tracer: Wanted::Quickest, beams, rays: options(bounces), samples: Some(1) }
+}
+
+/// Times an ASET picture by every tracer.
+fn in_scope(
+    specimen: &LoadedSpecimen,
+    tracers: &[Compared],
+    size: u32,
+    bounces: u32,
+) -> Result<Task, Failure> {
+    let medium = Medium::clear(specimen.material.index(line::SODIUM_D));
+    let polytope = polytope(specimen)?;
+    let film = Film::around(polytope, &View::default().basis(), size);
+    let scope = Scope::aset(ASET_CONE, Backing::Black);
+    let product = ScopeProduct { scope, medium, glare: Glare::Included, readings: vec![Reading::Energy] };
+    let (scene, product) = (Arc::new(Scene::alone(specimen)), Product::Scope(product));
+    let job = Job { scene, view: View::default(), film, product, quality: quality(bounces) };
     let planes = polytope.facets().len();
     let what = format!("ASET, {planes} planes, {size} x {size}, {bounces} bounces at most");
-    Ok(Task { what, plane_tests: plane_tests(polytope, &film, medium, bounces), rows })
+    Ok(Task { what, plane_tests: plane_tests(polytope, &film, medium, bounces), rows: rows(&job, tracers)? })
 }
 
 fn polytope(specimen: &LoadedSpecimen) -> Result<&Polytope, Failure> {
@@ -152,73 +196,33 @@ fn polytope(specimen: &LoadedSpecimen) -> Result<&Polytope, Failure> {
     Ok(&specimen.stone().map_err(told)?.polytope)
 }
 
-/// Returns the ray tracers to compare: the processor, and the card where there is one.
-fn samplers(card: RayTracer<'_>) -> Vec<RayTracer<'_>> {
-    if card.name() == RayTracer::Rays.name() { vec![card] } else { vec![RayTracer::Rays, card] }
-}
-
 /// Times a picture of a diamond under small lamps, in one sample pass of many wavelengths, by every tracer.
-fn under_light(specimen: &LoadedSpecimen, card: RayTracer) -> Result<Task, Failure> {
+fn under_light(specimen: &LoadedSpecimen, tracers: &[Compared]) -> Result<Task, Failure> {
     let ([with_card, without], bounces, wavelengths) = LIT;
-    let size = if card.is_quick() { with_card } else { without };
+    let size = if tracers.iter().any(|tracer| tracer.is_quick) { with_card } else { without };
     let light = Light::lamps_on_dome();
-    let (sky, view) = (EnvironmentMap::new(&light, None), View::default());
+    let map = EnvironmentMap::new(&light, None);
+    let lighting = Arc::new(Lighting { light, map, warnings: vec![] });
     let polytope = polytope(specimen)?;
-    let stone = Instance::named(&specimen.body, specimen.material.clone(), &specimen.design.name);
-    let setting = Scene { instances: vec![stone], unit_mm: specimen.design.diameter_mm / 2.0 };
-    let film = Film::around(polytope, &view.basis(), size);
-    let basis = view.light_basis();
-    let lit_scene = LitScene {
-        scene: &setting,
-        environment: Environment {
-            map: &sky,
-            basis,
-            eye: view.basis(),
-            head: 0.0,
-            backplate: None,
-            backdrop: false,
-        },
-        view: &view,
-        film,
-        options: options(bounces),
+    let film = Film::around(polytope, &View::default().basis(), size);
+    let product = LightProduct {
+        surroundings: Surroundings { head: 0.0, ..Surroundings::of(lighting) },
+        wavelengths,
+        adapted: true,
+        strength: 1.0,
+        jitter: true,
+        steps: Steps::Passes { first: 0, hidden: 0 },
     };
-    let strata = strata(wavelengths, &light.spectrum, true);
-    let look = SamplePass::new(&setting, &strata, 0);
-    let mut rows = vec![];
-    for sampler in samplers(card) {
-        let mut exposure = exposure(sampler, &lit_scene, strata.len())?;
-        let milliseconds = timed(|| exposure.add_pass(&look, &unwatched))?;
-        rows.push(Row { tracer: sampler.name(), by: sampler.description(), milliseconds });
-    }
-    let options = beam::BeamOptions { unresolved: UNRESOLVED, ..beam::BeamOptions::default() };
-    if let Some(mut exposure) = ByBeams::new(lit_scene, options) {
-        let milliseconds = timed(|| exposure.add_pass(&look, &unwatched))?;
-        rows.push(Row { tracer: "beam", by: format!("exact beams, unresolved {UNRESOLVED}"), milliseconds });
-    }
+    let strata = product.strata();
+    let (scene, product) = (Arc::new(Scene::alone(specimen)), Product::Light(product));
+    let look = SamplePass::new(&scene, &strata, 0);
     let tests: f64 = look.media[0].iter().map(|&medium| plane_tests(polytope, &film, medium, bounces)).sum();
+    let job = Job { scene, view: View::default(), film, product, quality: quality(bounces) };
     let what = format!(
         "diamond under eight lamps, {} planes, {size} x {size}, {bounces} bounces at most, {wavelengths} wavelengths",
         polytope.facets().len()
     );
-    Ok(Task { what, plane_tests: tests, rows })
-}
-
-fn exposure<'a>(
-    sampler: RayTracer<'a>,
-    lit_scene: &LitScene<'a>,
-    #[cfg_attr(not(feature = "gpu"), expect(unused_variables, reason = "the card wants to know"))]
-    bands: usize,
-) -> Result<Box<dyn ProgressiveImage<Failure> + 'a>, Failure> {
-    let rows = 0..lit_scene.film.size[1];
-    match sampler {
-        RayTracer::Rays => Ok(Box::new(ByRays::new(*lit_scene, rows))),
-        #[cfg(feature = "gpu")]
-        RayTracer::Card(gpu) => {
-            use crate::trace::gpu::{ByCard, GpuEnvironment};
-            let around = GpuEnvironment::new(gpu, &lit_scene.environment);
-            Ok(Box::new(ByCard::new(gpu, lit_scene, &around, rows, bands)?))
-        }
-    }
+    Ok(Task { what, plane_tests: tests, rows: rows(&job, tracers)? })
 }
 
 /// Returns how many planes are tested for a picture, if each ray tests all planes at each bounce. The count is extrapolated

@@ -8,6 +8,7 @@ use super::{Failure, each_file};
 use crate::io::export::{self, OutputFormat, Outputs, first_twice};
 use crate::io::{MOST_PIXELS, is_standard};
 use crate::picture::{Picture, named, names};
+use crate::render::{Card, Renderer};
 use clap::builder::PossibleValue;
 use clap::{Args, ValueEnum};
 use std::path::{Path, PathBuf};
@@ -73,17 +74,18 @@ impl ExportArguments {
         all.iter().try_for_each(Outputs::check)?;
         each_file(&self.files, |file| {
             let specimen = self.light.specimen(file, self.mesh.options())?;
-            let viewing = self.light.viewing(&specimen, &self.view)?;
+            let mut renderer = Renderer::new(Card::Machine);
+            let viewing = self.light.viewing(&specimen, &self.view, &renderer)?;
             let outputs = self.outputs(file, &pictures);
             let progress = WorkProgress::new(&specimen.design.name);
             let export = export::Export { viewing, outputs: &outputs };
-            if let (true, Err(why)) = (export.files()?.is_empty(), specimen.stone()) {
+            if let (true, Err(why)) = (export.files(&renderer)?.is_empty(), specimen.stone()) {
                 return Err(Failure::Usage(format!(
                     "{}: nothing of this can be drawn: {why}",
                     specimen.path
                 )));
             }
-            export.write(&progress.watch(), &|told| progress.report(told))
+            export.write(&mut renderer, &progress.watch(), &|told| progress.report(told))
         })
     }
 

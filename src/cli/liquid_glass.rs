@@ -7,15 +7,15 @@ use super::progress::WorkProgress;
 use super::{Failure, print, say, written};
 use crate::io::background::BackgroundRef;
 use crate::io::{STANDARD, is_standard, write_rgba_png};
-use crate::optics::{Illuminant, linear_from_encoded, strata};
-use crate::picture::pane::{Comparison, Cost, GlassPane, PaneError, PaneLighting, Quality, Shifts};
-use crate::picture::pane::{compare, pane, surroundings};
+use crate::optics::linear_from_encoded;
+use crate::picture::pane::{Cost, GlassPane, PaneQuality, Shifts, pane};
 use crate::picture::{Develop, Linear, Tone, develop};
+use crate::render::{Job, PaneProduct, Quality, Renderer};
 use crate::scene::Panorama;
-use crate::trace::environment::EnvironmentMap;
 use clap::Args;
 use glam::{DVec2, DVec4};
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 /// The default width and height of the pane, as parts of the picture's.
 const EXTENT: DVec2 = DVec2::new(0.625, 0.5);
@@ -68,7 +68,7 @@ pub struct LiquidGlass {
     tint: DVec4,
     /// high (all), medium (frost by three samples, dispersion 30 at most) or low (refraction alone)
     #[arg(long, default_value = "high")]
-    quality: Quality,
+    quality: PaneQuality,
     /// Trace the same pane as well, and tell what the approximation costs
     #[arg(long)]
     compare: bool,
@@ -140,23 +140,27 @@ impl LiquidGlass {
         if !self.compare {
             return Ok(());
         }
-        let light = surroundings(pane_asked.effective().light);
-        let around = PaneLighting {
-            sky: &EnvironmentMap::new(&light, None),
+        let background = Arc::new(background);
+        let product = PaneProduct {
+            pane: pane_asked,
+            background: Arc::clone(&background),
             gap,
-            strata: &strata(WAVELENGTHS, &Illuminant::D65, true),
-            looks: self.samples,
+            wavelengths: WAVELENGTHS,
+            compares: true,
         };
-        let Comparison { traced, cost, .. } = {
+        let job =
+            Job::of_pane(product, Quality { samples: Some(self.samples), ..Quality::of_pictures(true) });
+        let (traced, cost) = {
             let bar = WorkProgress::new("liquid glass, traced");
-            compare(&pane_asked, &background, &around, &bar.watch()).map_err(failure)?
+            let rendered = Renderer::default().run(&job, &bar.watch(), &mut |_| Ok::<_, Failure>(()))?;
+            rendered.pane()?
         };
         let told =
             format!("{told}; traced by rays, gap {gap}, {WAVELENGTHS} wavelengths in {} looks", self.samples);
         self.write("liquid-glass-traced", &traced, &told)?;
         let both = beside(&pane(&pane_asked, &background, 1), &traced);
         self.write("liquid-glass-both", &both, &format!("left drawn, right traced; {told}"))?;
-        print(&figures(&cost))
+        cost.map_or(Ok(()), |cost| print(&figures(&cost)))
     }
 
     /// Returns the pane that the options describe.
@@ -226,13 +230,6 @@ impl LiquidGlass {
         let manner = Develop { bloom: None, tone: Tone::Linear, ..Develop::default() };
         write_rgba_png(&path, &develop(picture, &manner), (picture.width, picture.height), told)?;
         written(&path)
-    }
-}
-
-fn failure(error: PaneError) -> Failure {
-    match error {
-        PaneError::Stopped(_) => Failure::Stopped,
-        other => Failure::Usage(other.to_string()),
     }
 }
 

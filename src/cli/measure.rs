@@ -6,8 +6,8 @@ use super::progress::WorkProgress;
 use super::{Failure, each_file, json, print};
 use crate::io::export::{FigureReport, measure};
 use crate::picture::Scoped;
+use crate::render::{Card, Renderer};
 use crate::scene::Glare;
-use crate::trace::Tracer;
 use clap::Args;
 use std::fmt::Write;
 use std::path::PathBuf;
@@ -39,10 +39,11 @@ impl Measure {
         let scoped = self.scope.as_deref().map_or_else(|| Ok(Scoped::aset()), scoped)?;
         each_file(&self.files, |file| {
             let specimen = self.light.specimen(file, self.mesh.options())?;
-            let viewing = self.light.viewing(&specimen, &self.view)?;
+            let mut renderer = Renderer::new(Card::Machine);
+            let viewing = self.light.viewing(&specimen, &self.view, &renderer)?;
             let report = {
                 let progress = WorkProgress::new(&format!("measuring {}", specimen.path));
-                measure(&viewing, &scoped, &progress.watch(), &|told| progress.report(told))?
+                measure(&viewing, &scoped, &mut renderer, &progress.watch(), &|told| progress.report(told))?
             };
             if self.json {
                 let value = report.json(self.timing);
@@ -94,13 +95,13 @@ fn table(report: &FigureReport, timing: bool) -> String {
         100.0 * returned,
         100.0 * f.absorbed,
         100.0 * f.unresolved,
-        match report.tracer {
-            Tracer::Beams => " (the most by which any light is too low)".to_string(),
-            Tracer::Rays(_) => format!(", standard error {:.3} %", 100.0 * f.standard_error),
+        match report.backend.is_beams() {
+            true => " (the most by which any light is too low)".to_string(),
+            false => format!(", standard error {:.3} %", 100.0 * f.standard_error),
         },
         if viewing.polarised { "polarised," } else { "unpolarised," },
         f.beams,
-        report.tracer.description(),
+        report.backend.description(),
     );
     if timing {
         let _ = write!(text, " in {:.3} s", report.seconds);

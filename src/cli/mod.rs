@@ -14,7 +14,6 @@ mod mesh_options;
 mod options;
 mod picture_options;
 mod picturing;
-mod plan;
 mod progress;
 mod refraction_map;
 mod render;
@@ -40,8 +39,6 @@ fn code(failure: &Failure) -> u8 {
         Failure::Input(_) => 1,
         Failure::Usage(_) => 2,
         Failure::Output(_) | Failure::NoWindow(_) => 3,
-        #[cfg(feature = "gpu")]
-        Failure::Card(_) => 3,
         Failure::Stopped => 130,
     }
 }

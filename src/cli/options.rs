@@ -1,7 +1,6 @@
 //! Options that several commands share: from where a stone is seen, and how its light is traced.
 
 use super::Failure;
-use super::plan::planned;
 use super::specimen::{LoadedSpecimen, note_colour};
 use crate::cut::Size;
 use crate::io::export::Viewing;
@@ -9,9 +8,8 @@ use crate::io::mesh_options::MeshOptions;
 use crate::io::scope_file;
 use crate::optics::line;
 use crate::picture::{Picture, Scoped, named, names};
-use crate::render::{Demands, Unfit};
+use crate::render::{Renderer, Unfit, Wanted};
 use crate::scene::{Glare, Lean, Medium, Projection, Side, Viewpoint};
-use crate::trace::Tracer;
 use clap::{Args, ValueEnum};
 use std::path::Path;
 
@@ -151,6 +149,17 @@ pub fn scoped(given: &Path) -> Result<Scoped, Failure> {
     Ok(Scoped { scope, side: None, takes_head: true })
 }
 
+impl From<TracerName> for Wanted {
+    fn from(name: TracerName) -> Self {
+        match name {
+            TracerName::Auto => Self::Quickest,
+            TracerName::Beam => Self::Beams,
+            TracerName::Ray => Self::Rays,
+            TracerName::Gpu => Self::Card,
+        }
+    }
+}
+
 impl LightOptions {
     /// Reads a stone, and applies the material and the size that the options give.
     pub fn specimen(&self, file: &Path, mesh: MeshOptions) -> Result<LoadedSpecimen, Failure> {
@@ -162,10 +171,11 @@ impl LightOptions {
         &self,
         specimen: &'a LoadedSpecimen,
         view: &ViewOptions,
+        renderer: &Renderer,
     ) -> Result<Viewing<'a>, Failure> {
         let viewpoint = view.viewpoint()?;
         note_colour(&specimen.material);
-        Ok(Viewing {
+        let viewing = Viewing {
             specimen,
             file: &specimen.path,
             viewpoint,
@@ -180,18 +190,22 @@ impl LightOptions {
                 (_, true) => Some(Glare::LeftOut),
                 _ => None,
             },
-            tracer: self.tracer(&viewpoint, specimen)?,
-        })
+            tracer: self.tracer.into(),
+        };
+        Self::check(&viewing, specimen, renderer)?;
+        Ok(viewing)
     }
 
-    fn tracer(&self, viewpoint: &Viewpoint, specimen: &LoadedSpecimen) -> Result<Tracer<'static>, Failure> {
-        let demands = Demands::of_scope(specimen, &viewpoint.view());
-        planned(&demands, self.tracer).map_err(|unfit| match unfit {
-            Unfit::NotConvex(why) => Failure::Usage(format!("{}: {why}", specimen.path)),
-            _ => Failure::Usage(
+    /// Refuses a view that the chosen tracer cannot trace, and says what to do instead.
+    fn check(viewing: &Viewing, specimen: &LoadedSpecimen, renderer: &Renderer) -> Result<(), Failure> {
+        match viewing.plans_beams(renderer) {
+            Err(Unfit::NotConvex(why)) => Err(Failure::Usage(format!("{}: {why}", specimen.path))),
+            Err(Unfit::Perspective) => Err(Failure::Usage(
                 "exact beams are for parallel rays: leave out --perspective, or use --tracer ray".into(),
-            ),
-        })
+            )),
+            // An eye that sees nothing is refused with the name of what it should have seen.
+            Err(_) | Ok(_) => Ok(()),
+        }
     }
 
     /// Returns the chosen wavelength, in nm.

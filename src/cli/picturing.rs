@@ -2,34 +2,28 @@
 
 use super::assembly::Assembly;
 use super::picture_options::{FinishOptions, PictureOptions};
-use super::plan::planned;
 use super::specimen::note_colour;
 use super::{Failure, report};
 use crate::io::background::{BackgroundError, BackgroundRef};
+use crate::io::export::Event;
 use crate::io::lighting::Lighting;
-use crate::optics::Illuminant;
 use crate::picture::{Bloom, Develop, Linear, Overlay, Tone, developed, lay};
-use crate::render::{Demands, Unfit};
+use crate::render::{
+    Backend, Card, HungPicture, Job, LightProduct, Partial, Product, Quality, Renderer, Steps, Surroundings,
+    Unfit,
+};
 use crate::scene::{Film, Panorama, Scene, View};
-use crate::trace::Tracer;
 use crate::trace::Watch;
-use crate::trace::environment::{Backplate, Environment};
 use crate::trace::ray::{self, Camera};
-use crate::trace::sampling::LitScene;
 use glam::{DQuat, DVec2, DVec3};
-use std::cell::Cell;
+use std::cell::RefCell;
 use std::path::Path;
+use std::sync::Arc;
 
 mod tracing;
 
 /// The margin around the stones, as a part of their half extent in the picture.
 const MARGIN: f64 = 0.06;
-
-/// The most bounces of a ray.
-const MOST_BOUNCES: u32 = 64;
-
-/// The weight below which a ray is not followed further.
-const LEAST_WEIGHT: f64 = 5e-4;
 
 /// The default background.
 const BACKGROUND: &str = "#33373d-#0e0f11";
@@ -42,16 +36,17 @@ pub struct PictureSetup<'a> {
     options: &'a PictureOptions,
     finish: &'a FinishOptions,
     pub assembly: Assembly,
-    lighting: Lighting,
+    lighting: Arc<Lighting>,
     pub background: BackgroundRef,
     /// The pattern or photograph behind the stones.
-    pub photo: Option<Panorama>,
+    pub photo: Option<Arc<Panorama>>,
     /// The distance of the pattern or photograph behind the origin, in girdle radii.
     pub distance: f64,
     /// The strength of refraction, 0 to 1.
     pub strength: f64,
     pub develop: Develop,
-    tracer: Cell<Tracer<'static>>,
+    renderer: RefCell<Renderer>,
+    backend: Backend,
 }
 
 /// A picture, and a description of how it was made.
@@ -116,21 +111,21 @@ impl<'a> PictureSetup<'a> {
         }
         let reading = background.picture().map_err(Failure::Input)?;
         reading.iter().flat_map(|r| &r.warnings).for_each(|w| super::say(&format!("warning: {w}")));
-        let photo = reading.map(|reading| reading.panorama);
-        let tracer = Cell::new(Tracer::Beams);
-        let studio = Self {
+        let photo = reading.map(|reading| Arc::new(reading.panorama));
+        let mut studio = Self {
             options,
             finish,
             assembly,
-            lighting,
+            lighting: Arc::new(lighting),
             background,
             photo,
             distance,
             strength,
             develop,
-            tracer,
+            renderer: RefCell::new(Renderer::new(Card::Machine)),
+            backend: Backend::Rays,
         };
-        studio.tracer.set(studio.chosen(view)?);
+        studio.backend = studio.planned(view)?;
         Ok(studio)
     }
 
@@ -145,9 +140,10 @@ impl<'a> PictureSetup<'a> {
         ))
     }
 
-    fn chosen(&self, view: &View) -> Result<Tracer<'static>, Failure> {
-        let demands = Demands::of_light(&self.assembly.setting, view, self.photo.is_some(), self.strength);
-        planned(&demands, self.finish.tracer).map_err(|unfit| match unfit {
+    /// Returns the tracer of pictures from a view, before any is taken.
+    fn planned(&self, view: &View) -> Result<Backend, Failure> {
+        let job = self.job(&Arc::new(self.assembly.setting.clone()), view, 1.0);
+        let plan = self.renderer.borrow().plan(&job).map_err(|unfit| match unfit {
             Unfit::Mixture => Failure::Usage(format!(
                 "--strength {}: exact beams know no mixture: use --tracer ray, or --strength 1",
                 self.strength
@@ -156,7 +152,48 @@ impl<'a> PictureSetup<'a> {
                 "exact beams are for one convex stone, parallel rays and no pattern or photograph behind: use --tracer ray"
                     .into(),
             ),
-        })
+        })?;
+        Ok(plan.backend)
+    }
+
+    /// Returns the job of a picture of a scene, with pixels of the side `pixel`.
+    pub fn job(&self, scene: &Arc<Scene>, view: &View, pixel: f64) -> Job {
+        let product = Product::Light(LightProduct {
+            surroundings: self.surroundings(pixel),
+            wavelengths: self.options.wavelengths,
+            adapted: !self.options.unadapted,
+            strength: self.strength,
+            jitter: !self.finish.no_jitter,
+            steps: Steps::Strips,
+        });
+        let film = Film::new(self.options.size, pixel);
+        Job { scene: Arc::clone(scene), view: *view, film, product, quality: self.quality() }
+    }
+
+    /// Returns what is around the stones of a picture with pixels of the side `pixel`.
+    pub fn surroundings(&self, pixel: f64) -> Surroundings {
+        let hung = |picture: &Arc<Panorama>| HungPicture {
+            picture: Arc::clone(picture),
+            span: self.background.span(),
+            distance: self.distance,
+            frame: Film::new(self.options.size, pixel),
+        };
+        Surroundings {
+            turn: self.options.turn.to_radians(),
+            shows_light: self.background == BackgroundRef::Light,
+            backplate: self.photo.as_ref().map(hung),
+            ..Surroundings::of(Arc::clone(&self.lighting))
+        }
+    }
+
+    /// Returns how well pictures are traced.
+    pub fn quality(&self) -> Quality {
+        let polarised = !self.options.unpolarised;
+        Quality {
+            tracer: self.finish.tracer.into(),
+            samples: self.options.samples,
+            ..Quality::of_pictures(polarised)
+        }
     }
 
     /// Returns the side of a pixel, in world units, with which the stones fill the picture but for a margin.
@@ -183,38 +220,23 @@ impl<'a> PictureSetup<'a> {
         Scene { instances: stones.collect(), ..self.assembly.setting }
     }
 
-    /// Takes a picture with pixels of the side `pixel`. Where the card fails, the processor traces this picture and all
-    /// later ones.
-    pub fn take(
-        &self,
-        setting: &Scene,
-        (view, pixel): (&View, f64),
-        watch: Watch,
-    ) -> Result<RenderedPicture, Failure> {
-        self.with_lit_scene(setting, (view, pixel), |lit_scene| match self.tracer.get() {
-            Tracer::Beams => self.traced(Tracer::Beams, lit_scene, watch),
-            Tracer::Rays(first) => first.or_rays(&report, |used| {
-                // A card that has failed is not used for later pictures.
-                self.tracer.set(Tracer::Rays(used));
-                self.traced(Tracer::Rays(used), lit_scene, watch)
-            }),
-        })
+    /// Takes a picture. Where the card fails, the processor traces this picture and, if the card is lost, all later ones.
+    pub fn take(&self, job: &Job, watch: Watch) -> Result<RenderedPicture, Failure> {
+        let rendered = self.renderer.borrow_mut().run(job, watch, &mut |part| match part {
+            Partial::Note(text) => report(Event::Note(text)),
+            _ => Ok(()),
+        })?;
+        self.described(rendered)
     }
 
     /// Develops a picture to RGBA in eight bits and draws the chosen overlays over it. It consumes the linear picture, which
     /// saves memory.
-    pub fn developed(
-        &self,
-        setting: &Scene,
-        (view, pixel): (&View, f64),
-        picture: Linear,
-        watch: Watch,
-    ) -> Result<Vec<u8>, Failure> {
+    pub fn developed(&self, job: &Job, picture: Linear, watch: Watch) -> Result<Vec<u8>, Failure> {
         let mut rgba = developed(picture, &self.develop);
-        for &overlay in &self.finish.overlay {
-            self.with_lit_scene(setting, (view, pixel), |lit_scene| {
-                lay(overlay, lit_scene, &mut rgba, watch)
-            })?;
+        if let Some(lit_scene) = job.lit() {
+            for &overlay in &self.finish.overlay {
+                lay(overlay, &lit_scene, &mut rgba, watch)?;
+            }
         }
         Ok(rgba)
     }
@@ -233,18 +255,13 @@ impl<'a> PictureSetup<'a> {
 
     /// Returns a description of the light, the tracer and any mixture in words.
     pub fn description(&self) -> String {
-        let tracer = self.tracer.get().description();
+        let tracer = self.backend.description();
         format!("light {}; {tracer}{}", self.lighting.light.name, self.mixture())
     }
 
     /// Returns the light's name.
     pub fn light(&self) -> &str {
         &self.lighting.light.name
-    }
-
-    /// Returns the spectrum of the light, to which the eye is adapted.
-    pub fn spectrum(&self) -> &Illuminant {
-        &self.lighting.light.spectrum
     }
 
     /// Returns a note for EXR files where exposure, tone curve or overlays are set: an EXR holds bare light without them.
@@ -254,53 +271,16 @@ impl<'a> PictureSetup<'a> {
         is_told.then_some("an EXR holds the bare light: exposure, tone and overlays are for PNG")
     }
 
-    /// Describes the facet at a point of the picture, in pixels from its upper left corner; "nothing" beside the stones.
-    pub fn probe(&self, view: &View, pixel: f64, at: DVec2) -> String {
-        let setting = &self.assembly.setting;
-        let found =
-            self.with_lit_scene(setting, (view, pixel), |lit_scene| ray::facet_at(lit_scene, at.x, at.y));
+    /// Describes the facet at a point of a picture, in pixels from its upper left corner; "nothing" beside the stones.
+    pub fn probe(&self, job: &Job, at: DVec2) -> String {
+        let found = job.lit().and_then(|lit_scene| ray::facet_at(&lit_scene, at.x, at.y));
         let Some((stone, facet)) = found else { return "nothing".into() };
-        let placed = &self.assembly.setting.instances[stone];
+        let placed = &job.scene.instances[stone];
         let name =
             placed.names.get(facet as usize).cloned().unwrap_or_else(|| format!("facet {}", facet + 1));
-        if self.assembly.setting.instances.len() == 1 {
+        if job.scene.instances.len() == 1 {
             return name;
         }
         format!("{name} of stone {}, {}, {}", stone + 1, placed.label, placed.material.name)
-    }
-
-    /// Builds the lit scene of a view (stones, environment, film and ray options) and returns what `work` makes of it.
-    pub fn with_lit_scene<T>(
-        &self,
-        setting: &Scene,
-        (view, pixel): (&View, f64),
-        work: impl FnOnce(&LitScene) -> T,
-    ) -> T {
-        let turn = DQuat::from_rotation_z(self.options.turn.to_radians());
-        let mut basis = view.light_basis();
-        let turned = |x: DVec3| basis.right * x.x + basis.up * x.y + basis.toward * x.z;
-        let (right, up) = (turned(turn * DVec3::X), turned(turn * DVec3::Y));
-        (basis.right, basis.up) = (right, up);
-        let film = Film::new(self.options.size, pixel);
-        let hung = |picture| Backplate::filling(picture, self.background.span(), self.distance, view, &film);
-        let behind = self.photo.as_ref().map(hung);
-        work(&LitScene {
-            scene: setting,
-            environment: Environment {
-                map: &self.lighting.map,
-                basis,
-                eye: view.basis(),
-                head: self.lighting.light.head.to_radians(),
-                backplate: behind,
-                backdrop: self.background == BackgroundRef::Light || behind.is_some(),
-            },
-            view,
-            film,
-            options: ray::RayOptions {
-                polarised: !self.options.unpolarised,
-                most_bounces: MOST_BOUNCES,
-                least_weight: LEAST_WEIGHT,
-            },
-        })
     }
 }

@@ -12,16 +12,13 @@ use crate::io::export::Event;
 use crate::io::refraction_map::{self as files, Coding, MOST_BANDS, MOST_PIXELS, MOST_PLACES};
 use crate::io::refraction_page::{MOST_MEGABYTES, Page, takes, write_page};
 use crate::io::{is_standard, write_rgba_png};
-use crate::optics::strata;
-use crate::picture::{Backdrop, Background, Carried, Develop, RefractionMap, Survey, Tone, develop, refract};
-use crate::scene::View;
-use crate::trace::RayTracer;
+use crate::picture::{Backdrop, Background, Carried, Develop, RefractionMap, Tone, develop, refract};
+use crate::render::{Backend, Card, Job, MapProduct, Product, Renderer};
+use crate::scene::{Film, View};
 use clap::{Args, ValueEnum};
 use glam::DVec2;
 use std::path::{Path, PathBuf};
-
-/// The default number of sample passes of the diffuse layer.
-const LOOKS: u32 = 4;
+use std::sync::Arc;
 
 #[derive(Debug, Args)]
 pub struct RefractionMaps {
@@ -123,7 +120,7 @@ impl RefractionMaps {
             studio.distance,
             self.span,
             if self.both_sides { ", on both sides" } else { "" },
-            RayTracer::Rays.description(),
+            Backend::Rays.description(),
             100.0 * behind,
             100.0 * single,
             viewpoint.description()
@@ -147,25 +144,27 @@ impl RefractionMaps {
         view: &View,
         bar: &WorkProgress,
     ) -> Result<(RefractionMap, Carried), Failure> {
-        let pixel = studio.pixel(&studio.assembly.setting, view)?;
+        let setting = Arc::new(studio.assembly.setting.clone());
+        let pixel = studio.pixel(&setting, view)?;
         let distance = studio.distance;
         let [across, down] = self.picture.size.map(f64::from);
-        let plane = Backdrop {
-            distance,
-            size: DVec2::new(across, down) * pixel * self.span * view.widening(distance),
-            both_sides: self.both_sides,
-        };
-        let seen = |count| strata(count, studio.spectrum(), !self.picture.unadapted);
-        let survey = Survey {
-            bands: &seen(self.bands),
+        let product = MapProduct {
+            surroundings: studio.surroundings(pixel),
+            plane: Backdrop {
+                distance,
+                size: DVec2::new(across, down) * pixel * self.span * view.widening(distance),
+                both_sides: self.both_sides,
+            },
+            bands: self.bands,
             places: self.places,
-            shades: &seen(self.picture.wavelengths),
-            looks: self.picture.samples.unwrap_or(LOOKS),
+            shades: self.picture.wavelengths,
+            adapted: !self.picture.unadapted,
         };
-        let setting = &studio.assembly.setting;
-        studio.with_lit_scene(setting, (view, pixel), |sitting| {
-            Ok(RefractionMap::trace(sitting, &plane, &survey, &bar.watch())?)
-        })
+        let film = Film::new(self.picture.size, pixel);
+        let product = Product::RefractionMap(product);
+        let job = Job { scene: setting, view: *view, film, product, quality: studio.quality() };
+        let mut renderer = Renderer::new(Card::None);
+        Ok(renderer.run(&job, &bar.watch(), &mut |_| Ok::<_, Failure>(()))?.map()?)
     }
 
     fn write(

@@ -9,6 +9,7 @@ use super::{Failure, distinct, each_file, print, say, written};
 use crate::io::{STANDARD, is_standard, write_linear_exr, write_rgba_png};
 use clap::Args;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 #[derive(Debug, Args)]
 pub struct Render {
@@ -76,14 +77,14 @@ impl Render {
         let view = viewpoint.view();
         let studio =
             PictureSetup::load((&self.picture, &self.finish), file, &view)?.with_what_has_a_distance()?;
-        let setting = &studio.assembly.setting;
-        let pixel = studio.pixel(setting, &view)?;
+        let setting = Arc::new(studio.assembly.setting.clone());
+        let job = studio.job(&setting, &view, studio.pixel(&setting, &view)?);
         if let Some(at) = self.probe {
-            return print(&studio.probe(&view, pixel, at));
+            return print(&studio.probe(&job, at));
         }
         let taken = {
             let progress = WorkProgress::new(&studio.assembly.name);
-            studio.take(setting, (&view, pixel), &progress.watch())?
+            studio.take(&job, &progress.watch())?
         };
         let told = format!("{}; {}", taken.description, viewpoint.description());
         let (path, _) = self.output(file, &viewpoint.suffix());
@@ -95,7 +96,7 @@ impl Render {
         } else {
             let size = (taken.picture.width, taken.picture.height);
             let progress = WorkProgress::new(&format!("{}: overlays", studio.assembly.name));
-            let rgba = studio.developed(setting, (&view, pixel), taken.picture, &progress.watch())?;
+            let rgba = studio.developed(&job, taken.picture, &progress.watch())?;
             write_rgba_png(&path, &rgba, size, &told)?;
             studio.legend().iter().for_each(|line| say(&format!("note: {line}")));
         }

@@ -12,6 +12,7 @@ use crate::scene::{Scene, View};
 use clap::{Args, ValueEnum};
 use std::f64::consts::TAU;
 use std::path::PathBuf;
+use std::sync::Arc;
 
 #[derive(Debug, Args)]
 pub struct Spin {
@@ -64,7 +65,8 @@ impl Spin {
         self.check_swing()?;
         let studio = PictureSetup::load((&self.picture, &self.finish), &self.file, &first)?
             .with_what_has_a_distance()?;
-        let frames: Vec<(Scene, View)> = (0..self.frames).map(|k| self.frame(&studio, &first, k)).collect();
+        let frames: Vec<(Arc<Scene>, View)> =
+            (0..self.frames).map(|k| self.frame(&studio, &first, k)).collect();
         // One size of pixel for all frames: the stones fit in every frame and keep their size.
         let mut pixels = frames.iter().map(|(setting, view)| studio.pixel(setting, view));
         let pixel = pixels.try_fold(0.0_f64, |most, pixel| pixel.map(|p| most.max(p)))?;
@@ -85,8 +87,9 @@ impl Spin {
             let mut first: Option<Vec<u8>> = None;
             for (number, (setting, view)) in frames.iter().enumerate() {
                 let done = |part: f64| bar.watch()((number as f64 + part) / frames.len() as f64);
-                let taken = studio.take(setting, (view, pixel), &done)?;
-                let rgba = studio.developed(setting, (view, pixel), taken.picture, &done)?;
+                let job = studio.job(setting, view, pixel);
+                let taken = studio.take(&job, &done)?;
+                let rgba = studio.developed(&job, taken.picture, &done)?;
                 let still = folder.join(format!("{:04}.png", number + 1));
                 write_rgba_png(&still, &rgba, (width, height), &taken.description)?;
                 animation.push(&rgba)?;
@@ -134,15 +137,14 @@ impl Spin {
     }
 
     /// Returns the stones of a frame, and the view from which they are seen.
-    fn frame(&self, studio: &PictureSetup, first: &View, number: u32) -> (Scene, View) {
+    fn frame(&self, studio: &PictureSetup, first: &View, number: u32) -> (Arc<Scene>, View) {
         let part = TAU * f64::from(number) / f64::from(self.frames);
         let swing = self.swing.to_radians();
-        match self.motion {
-            Motion::Turn => (studio.turned(part), *first),
-            Motion::Rock => (studio.turned(0.0), View { tilt: first.tilt + swing * part.sin(), ..*first }),
-            Motion::Wobble => {
-                (studio.turned(0.0), View { tilt: swing, azimuth: first.azimuth + part, ..*first })
-            }
-        }
+        let (angle, view) = match self.motion {
+            Motion::Turn => (part, *first),
+            Motion::Rock => (0.0, View { tilt: first.tilt + swing * part.sin(), ..*first }),
+            Motion::Wobble => (0.0, View { tilt: swing, azimuth: first.azimuth + part, ..*first }),
+        };
+        (Arc::new(studio.turned(angle)), view)
     }
 }

@@ -67,11 +67,102 @@ pub fn abandon_writes() -> Abandoned {
     Abandoned(files)
 }
 
-/// Writes a file whole or not at all.
+/// A file that is written whole or not at all: nothing is found at its path before [`finish`](Self::finish) has returned.
 ///
-/// `fill` writes to a temporary file beside `path`, which is renamed once `fill` has returned without error. Missing folders
-/// are made. A symbolic link stays, and the file that it leads to is written. The path `-` is standard output; standard
-/// output, pipes and devices are written to once `fill` has returned without error.
+/// What is written goes to a temporary file beside the path, which is renamed in the end. Missing folders are made. A symbolic
+/// link stays, and the file that it leads to is written. The path `-` is standard output; standard output, pipes and devices
+/// are written to in the end.
+pub struct WholeFile {
+    path: PathBuf,
+    content: Content,
+}
+
+/// Where the content of a file is kept until the file is finished.
+enum Content {
+    /// In a temporary file, which is renamed to the path.
+    Beside(BufWriter<Temporary>, PathBuf),
+    /// In a file without a name, which is copied to standard output.
+    Standard(BufWriter<SpooledTempFile>),
+    /// In a file without a name, which is copied to a pipe or a device.
+    Device(BufWriter<SpooledTempFile>, PathBuf),
+}
+
+impl WholeFile {
+    /// Begins a file.
+    ///
+    /// # Errors
+    /// When the file system refuses.
+    pub fn begin(path: &Path) -> Result<Self, WriteError> {
+        let store = || BufWriter::new(SpooledTempFile::new(KEPT));
+        let own = path.to_path_buf();
+        if is_standard(path) {
+            return Ok(Self { path: own, content: Content::Standard(store()) });
+        }
+        let target = destination(path).map_err(|e| WriteError::io(path, e))?;
+        if target.metadata().is_ok_and(|found| !found.is_file() && !found.is_dir()) {
+            return Ok(Self { path: own, content: Content::Device(store(), target) });
+        }
+        let temporary = BufWriter::with_capacity(1 << 16, Temporary::beside(path, &target)?);
+        Ok(Self { path: own, content: Content::Beside(temporary, target) })
+    }
+
+    /// Brings the file to its place.
+    ///
+    /// # Errors
+    /// When the file system refuses; then nothing of the file is left behind.
+    pub fn finish(self) -> Result<(), WriteError> {
+        let Self { path, content } = self;
+        let done = match content {
+            Content::Beside(buffer, target) => {
+                buffer.into_inner().map_err(io::Error::from).and_then(|file| file.persist(&target))
+            }
+            Content::Standard(store) => match copied(store, || Ok(io::stdout().lock())) {
+                // The reader of the pipe has gone away and wants no more.
+                Err(e) if e.kind() == io::ErrorKind::BrokenPipe => Ok(()),
+                done => done,
+            },
+            Content::Device(store, target) => copied(store, || OpenOptions::new().write(true).open(&target)),
+        };
+        done.map_err(|e| WriteError::io(&path, e))
+    }
+
+    fn sink(&mut self) -> &mut dyn Sink {
+        match &mut self.content {
+            Content::Beside(buffer, _) => buffer,
+            Content::Standard(store) | Content::Device(store, _) => store,
+        }
+    }
+}
+
+impl Write for WholeFile {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        self.sink().write(bytes)
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.sink().flush()
+    }
+}
+
+impl Seek for WholeFile {
+    fn seek(&mut self, to: io::SeekFrom) -> io::Result<u64> {
+        self.sink().seek(to)
+    }
+}
+
+/// Copies a store to what `open` opens.
+fn copied<W: Write>(
+    store: BufWriter<SpooledTempFile>,
+    open: impl FnOnce() -> io::Result<W>,
+) -> io::Result<()> {
+    let mut store = store.into_inner()?;
+    store.rewind()?;
+    let mut output = open()?;
+    io::copy(&mut store, &mut output)?;
+    output.flush()
+}
+
+/// Writes a file whole or not at all: `fill` writes its content; see [`WholeFile`].
 ///
 /// # Errors
 /// When the file system refuses, or `fill` returns an error.
@@ -79,23 +170,9 @@ pub fn write<E: From<WriteError>>(
     path: &Path,
     fill: impl FnOnce(&mut dyn Sink) -> Result<(), E>,
 ) -> Result<(), E> {
-    if is_standard(path) {
-        return match through(path, fill, || Ok(io::stdout().lock())) {
-            // The reader of the pipe has gone away and wants no more.
-            Err(Through::Write(e)) if e.kind() == io::ErrorKind::BrokenPipe => Ok(()),
-            done => done.map_err(|e| e.at(path)),
-        };
-    }
-    let target = destination(path).map_err(|e| WriteError::io(path, e))?;
-    if target.metadata().is_ok_and(|found| !found.is_file() && !found.is_dir()) {
-        return through(path, fill, || OpenOptions::new().write(true).open(&target)).map_err(|e| e.at(path));
-    }
-    let mut temporary = Temporary::beside(path, &target)?;
-    let mut buffer = BufWriter::with_capacity(1 << 16, &mut temporary.file);
-    fill(&mut buffer)?;
-    buffer.flush().map_err(|e| WriteError::io(path, e))?;
-    drop(buffer);
-    Ok(temporary.persist(&target).map_err(|e| WriteError::io(path, e))?)
+    let mut file = WholeFile::begin(path)?;
+    fill(&mut file)?;
+    Ok(file.finish()?)
 }
 
 /// Follows symbolic links to the path where they end, whether a file exists there or not.
@@ -107,41 +184,6 @@ fn destination(path: &Path) -> io::Result<PathBuf> {
         target = target.parent().unwrap_or(Path::new("")).join(next);
     }
     Err(io::Error::other("too many symbolic links lead from one to another"))
-}
-
-/// Why nothing was written to standard output, a pipe or a device.
-enum Through<E> {
-    Fill(E),
-    Write(io::Error),
-}
-
-impl<E: From<WriteError>> Through<E> {
-    fn at(self, path: &Path) -> E {
-        match self {
-            Self::Fill(error) => error,
-            Self::Write(error) => WriteError::io(path, error).into(),
-        }
-    }
-}
-
-/// Lets `fill` write to a store, and copies the store to what `open` opens.
-fn through<E: From<WriteError>, W: Write>(
-    path: &Path,
-    fill: impl FnOnce(&mut dyn Sink) -> Result<(), E>,
-    open: impl FnOnce() -> io::Result<W>,
-) -> Result<(), Through<E>> {
-    let mut store = SpooledTempFile::new(KEPT);
-    let mut buffer = BufWriter::new(&mut store);
-    fill(&mut buffer).map_err(Through::Fill)?;
-    buffer.flush().map_err(|e| Through::Fill(WriteError::io(path, e).into()))?;
-    drop(buffer);
-    let copy = || {
-        store.rewind()?;
-        let mut output = open()?;
-        io::copy(&mut store, &mut output)?;
-        output.flush()
-    };
-    copy().map_err(Through::Write)
 }
 
 /// A temporary file, which is removed with its owner unless it is renamed.
@@ -156,6 +198,22 @@ struct Entry(PathBuf);
 impl Drop for Entry {
     fn drop(&mut self) {
         under_way().remove(&self.0);
+    }
+}
+
+impl Write for Temporary {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        self.file.write(bytes)
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.file.flush()
+    }
+}
+
+impl Seek for Temporary {
+    fn seek(&mut self, to: io::SeekFrom) -> io::Result<u64> {
+        self.file.seek(to)
     }
 }
 

@@ -3,7 +3,7 @@
 mod event;
 mod figures;
 mod pictures;
-mod sampler;
+mod sheet;
 mod viewing;
 
 #[cfg(test)]
@@ -15,7 +15,8 @@ pub use viewing::Viewing;
 
 use super::{Failure, WriteError, is_standard, write};
 use crate::picture::{Picture, Scoped};
-use crate::trace::{Tracer, Watch};
+use crate::render::Renderer;
+use crate::trace::Watch;
 use event::WorkShares;
 use pictures::Pictures;
 use std::collections::HashSet;
@@ -163,14 +164,14 @@ impl Export<'_> {
     /// # Errors
     /// [`Failure::Input`] where the eye is not in front of the whole stone, [`Failure::Usage`] where outputs and tracer do
     /// not go together: then nothing can be written.
-    pub fn files(&self) -> Result<Vec<PathBuf>, Failure> {
-        self.check()?;
-        Ok(self.paths())
+    pub fn files(&self, renderer: &Renderer) -> Result<Vec<PathBuf>, Failure> {
+        let by_beams = self.check(renderer)?;
+        Ok(self.paths(by_beams))
     }
 
-    fn paths(&self) -> Vec<PathBuf> {
+    fn paths(&self, by_beams: bool) -> Vec<PathBuf> {
         let outputs = self.outputs;
-        let drawn = outputs.drawn().flat_map(|(name, picture)| self.files_of(name, picture));
+        let drawn = outputs.drawn().flat_map(|(name, picture)| self.files_of(name, picture, by_beams));
         let figures = outputs.wants(OutputFormat::Json).then(|| self.figures_path());
         drawn.chain(figures).collect()
     }
@@ -180,15 +181,15 @@ impl Export<'_> {
     /// # Errors
     /// The errors of [`files`](Self::files), before anything is written; [`Failure::Output`]; an error of `tell`; or
     /// [`Failure::Stopped`] when `watch` asks to stop. Files that were reported as written stay.
-    pub fn write(&self, watch: Watch, tell: Reporter) -> Result<(), Failure> {
-        self.check()?;
+    pub fn write(&self, renderer: &mut Renderer, watch: Watch, tell: Reporter) -> Result<(), Failure> {
+        let by_beams = self.check(renderer)?;
         let outputs = self.outputs;
         let is_scoped = |(_, picture): &(String, Picture)| matches!(picture, Picture::Scoped(_));
         let wants_more = outputs.wants(OutputFormat::Exr) || outputs.wants(OutputFormat::Svg);
-        if wants_more && matches!(self.viewing.tracer, Tracer::Rays(_)) && outputs.drawn().any(is_scoped) {
+        if wants_more && !by_beams && outputs.drawn().any(is_scoped) {
             tell(Event::Note(&only_png("pictures in scopes")))?;
         }
-        let mut pictures = Pictures::new(self, tell);
+        let mut pictures = Pictures::new(self, renderer, tell);
         let measured = if outputs.wants(OutputFormat::Json) { FIGURES } else { 0.0 };
         let mut pace =
             WorkShares::new(watch, outputs.drawn().map(|(_, p)| effort(p)).sum::<f64>() + measured);
@@ -196,34 +197,36 @@ impl Export<'_> {
             pace.step(effort(picture), |watch| pictures.make(name, picture, watch))?;
         }
         if outputs.wants(OutputFormat::Json) {
-            pace.step(FIGURES, |watch| self.write_figures(watch, tell))?;
+            pace.step(FIGURES, |watch| self.write_figures(pictures.renderer, watch, tell))?;
         }
         // The work is done, so a request to stop has no effect.
         let _ = watch(1.0);
         Ok(())
     }
 
-    fn check(&self) -> Result<(), Failure> {
+    /// Refuses what cannot be written, and says whether exact beams trace the pictures in scopes.
+    fn check(&self, renderer: &Renderer) -> Result<bool, Failure> {
         let (viewing, outputs) = (&self.viewing, self.outputs);
         outputs.check()?;
-        self.fits_standard_output()?;
+        let mut by_beams = viewing.plans_beams(renderer).unwrap_or(false);
+        self.fits_standard_output(by_beams)?;
         for (name, picture) in outputs.drawn() {
             let Picture::Scoped(scoped) = picture else { continue };
-            viewing.facing(scoped.side).check()?;
-            if matches!(viewing.tracer, Tracer::Rays(_)) && !outputs.wants(OutputFormat::Png) {
+            by_beams = viewing.facing(scoped.side).check(renderer)?;
+            if !by_beams && !outputs.wants(OutputFormat::Png) {
                 return Err(Failure::Usage(only_png(name)));
             }
         }
-        if outputs.wants(OutputFormat::Json) { viewing.check() } else { Ok(()) }
+        if outputs.wants(OutputFormat::Json) { viewing.check(renderer) } else { Ok(by_beams) }
     }
 
     /// Refuses to write several files to standard output.
-    fn fits_standard_output(&self) -> Result<(), Failure> {
+    fn fits_standard_output(&self, by_beams: bool) -> Result<(), Failure> {
         if !is_standard(&self.outputs.folder) {
             return Ok(());
         }
         let named = Outputs { folder: PathBuf::new(), ..self.outputs.clone() };
-        let paths = Export { outputs: &named, ..*self }.paths();
+        let paths = Export { outputs: &named, ..*self }.paths(by_beams);
         if paths.len() == 1 {
             return Ok(());
         }
@@ -241,15 +244,15 @@ impl Export<'_> {
     }
 
     /// Returns the paths of a picture's files, in the order in which they are finished.
-    fn files_of(&self, name: &str, picture: &Picture) -> Vec<PathBuf> {
+    fn files_of(&self, name: &str, picture: &Picture, by_beams: bool) -> Vec<PathBuf> {
         use OutputFormat::{Exr, Png, Svg};
-        let files: &[(&str, OutputFormat)] = match (picture, self.viewing.tracer) {
+        let files: &[(&str, OutputFormat)] = match (picture, by_beams) {
             (Picture::Profile | Picture::Diagram, _) if self.viewing.specimen.stone().is_err() => &[],
             (Picture::Profile | Picture::Diagram, _) => &[("", Svg), ("", Png)],
-            (Picture::Scoped(_), Tracer::Beams) => {
+            (Picture::Scoped(_), true) => {
                 &[("", Png), ("-strongest", Png), ("", Exr), ("-strongest", Svg), ("", Svg)]
             }
-            (Picture::Scoped(_), Tracer::Rays(_)) => &[("", Png), ("-strongest", Png)],
+            (Picture::Scoped(_), false) => &[("", Png), ("-strongest", Png)],
         };
         let outputs = self.outputs;
         let wanted = files
@@ -266,9 +269,9 @@ impl Export<'_> {
         self.outputs.path(&self.viewing.viewpoint.suffix(), "figures", OutputFormat::Json)
     }
 
-    fn write_figures(&self, watch: Watch, tell: Reporter) -> Result<(), Failure> {
+    fn write_figures(&self, renderer: &mut Renderer, watch: Watch, tell: Reporter) -> Result<(), Failure> {
         tell(Event::Begun(&format!("measuring {}", self.viewing.file)))?;
-        let report = measure(&self.viewing, &Scoped::aset(), watch, tell)?;
+        let report = measure(&self.viewing, &Scoped::aset(), renderer, watch, tell)?;
         write_text(&self.figures_path(), &format!("{:#}\n", report.json(self.outputs.timing)), tell)
     }
 }

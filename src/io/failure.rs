@@ -20,10 +20,6 @@ pub enum Failure {
     /// No window could be opened: there is no screen, or nothing that draws on it; the message says which.
     #[error("{0}")]
     NoWindow(String),
-    /// The graphics card failed; the processor can do the same work.
-    #[cfg(feature = "gpu")]
-    #[error(transparent)]
-    Card(#[from] crate::trace::gpu::GpuError),
     /// Whoever watches the work has stopped it.
     #[error("stopped")]
     Stopped,
@@ -58,8 +54,10 @@ impl From<RenderError> for Failure {
         match error {
             RenderError::Stopped(stopped) => stopped.into(),
             #[cfg(feature = "gpu")]
-            RenderError::Card(error) => Self::Card(error),
-            RenderError::NotForBeams => Self::Usage(error.to_string()),
+            RenderError::Card(error) => Self::Output(error.to_string()),
+            RenderError::Unfit(_) | RenderError::Pane(_) | RenderError::OtherProduct => {
+                Self::Usage(error.to_string())
+            }
         }
     }
 }

@@ -3,18 +3,8 @@
 use super::{light_file, panorama};
 use crate::scene::{LIGHTS, Light, light};
 use crate::trace::environment::EnvironmentMap;
+pub use crate::trace::environment::Lighting;
 use std::path::{Path, PathBuf};
-
-/// A light, and the environment that it makes around the stones.
-#[derive(Debug)]
-pub struct Lighting {
-    /// The light as it is described.
-    pub light: Light,
-    /// The light as a map by direction, with its panorama.
-    pub map: EnvironmentMap,
-    /// What is unusual about the panorama, in words that name the file.
-    pub warnings: Vec<String>,
-}
 
 /// Why a light could not be loaded.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]

@@ -45,7 +45,7 @@ mod standard;
 mod text;
 
 pub use apng::{Animation, Frames, write_apng};
-pub use atomic::{Abandoned, Sink, WriteError, abandon_writes, write};
+pub use atomic::{Abandoned, Sink, WholeFile, WriteError, abandon_writes, write};
 pub use drawing_png::{DrawingError, rasterize, rasterize_clear, rasterize_within};
 #[cfg(feature = "exr")]
 pub use exr::write_exr;
@@ -55,5 +55,5 @@ pub use mesh_export::{write_glb, write_obj, write_ply, write_stl};
 #[cfg(feature = "exr")]
 pub use picture_file::write_linear_exr;
 pub use picture_file::write_rgba_png;
-pub use png::{MOST_PIXELS, PngRows, write_png};
+pub use png::{MOST_PIXELS, PngFile, write_png};
 pub use standard::{STANDARD, is_standard};

@@ -1,30 +1,74 @@
 //! Writes PNG pictures row by row, so that they may be larger than memory.
 
-use super::atomic::{WriteError, write};
-use std::io::Write;
-use std::path::Path;
+use super::atomic::{WholeFile, WriteError};
+use std::cell::RefCell;
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+use std::rc::Rc;
 
 /// The largest side of a picture, in pixels.
 pub const MOST_PIXELS: u32 = 16_384;
 
-/// Writes the rows of a picture, in eight-bit red, green and blue; see [`write_png`].
-pub struct PngRows<'a> {
-    path: &'a Path,
-    stream: &'a mut dyn Write,
+/// An sRGB picture that is written as PNG, row by row, whole or not at all; see [`WholeFile`].
+pub struct PngFile {
+    path: PathBuf,
+    stream: png::StreamWriter<'static, SharedFile>,
+    file: SharedFile,
 }
 
-impl PngRows<'_> {
+/// The file of a PNG, which its encoder writes to and does not give back.
+#[derive(Clone)]
+struct SharedFile(Rc<RefCell<WholeFile>>);
+
+impl Write for SharedFile {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        self.0.borrow_mut().write(bytes)
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.0.borrow_mut().flush()
+    }
+}
+
+impl PngFile {
+    /// Begins a picture of eight-bit red, green and blue. `description` goes into the file as text: which tracer made the
+    /// picture, and what it left unresolved.
+    ///
+    /// # Errors
+    /// When the file system refuses.
+    pub fn begin(path: &Path, size: (u32, u32), description: &str) -> Result<Self, WriteError> {
+        let failed = |e: png::EncodingError| WriteError::io(path, e);
+        let file = SharedFile(Rc::new(RefCell::new(WholeFile::begin(path)?)));
+        let encoder = encoder(file.clone(), size, png::ColorType::Rgb, description).map_err(failed)?;
+        let writer = encoder.write_header().map_err(failed)?;
+        let stream = writer.into_stream_writer().map_err(failed)?;
+        Ok(Self { path: path.to_path_buf(), stream, file })
+    }
+
     /// Adds pixels, from left to right and top to bottom.
     ///
     /// # Errors
     /// When the file system refuses.
     pub fn push(&mut self, pixels: &[u8]) -> Result<(), WriteError> {
-        self.stream.write_all(pixels).map_err(|e| WriteError::io(self.path, e))
+        self.stream.write_all(pixels).map_err(|e| WriteError::io(&self.path, e))
+    }
+
+    /// Brings the picture to its place.
+    ///
+    /// # Errors
+    /// When the file system refuses, or pixels are missing.
+    pub fn finish(self) -> Result<(), WriteError> {
+        let Self { path, stream, file } = self;
+        stream.finish().map_err(|e| WriteError::io(&path, e))?;
+        // The encoder has let go of the file.
+        match Rc::try_unwrap(file.0) {
+            Ok(file) => file.into_inner().finish(),
+            Err(_) => Err(WriteError::io(&path, io::Error::other("the encoder still holds the file"))),
+        }
     }
 }
 
-/// Writes an sRGB picture as PNG; `fill` pushes its rows. `description` goes into the file as text: which tracer made
-/// the picture, and what it left unresolved.
+/// Writes an sRGB picture as PNG; `fill` pushes its rows. See [`PngFile`].
 ///
 /// # Errors
 /// When the file system refuses, or `fill` returns an error.
@@ -32,17 +76,11 @@ pub fn write_png<E: From<WriteError>>(
     path: &Path,
     size: (u32, u32),
     description: &str,
-    fill: impl FnOnce(&mut PngRows) -> Result<(), E>,
+    fill: impl FnOnce(&mut PngFile) -> Result<(), E>,
 ) -> Result<(), E> {
-    write(path, |file| -> Result<(), E> {
-        let failed = |e: png::EncodingError| WriteError::io(path, e);
-        let encoder = encoder(file, size, png::ColorType::Rgb, description).map_err(failed)?;
-        let mut writer = encoder.write_header().map_err(failed)?;
-        let mut stream = writer.stream_writer().map_err(failed)?;
-        fill(&mut PngRows { path, stream: &mut stream })?;
-        stream.finish().map_err(failed)?;
-        Ok(writer.finish().map_err(failed)?)
-    })
+    let mut png = PngFile::begin(path, size, description)?;
+    fill(&mut png)?;
+    Ok(png.finish()?)
 }
 
 /// Makes an encoder of eight-bit sRGB with the texts that every picture carries.

@@ -1,11 +1,7 @@
-//! Measures a design: from the design to its figures in one call.
+//! The figures of a stone in a scope, with the scope, index and tracer that they belong to.
 
-use super::figures::{Figures, by_beams};
-use super::sampled::by_rays;
-use crate::cut::Design;
-use crate::optics::{DispersionError, line};
-use crate::scene::{ASET_CONE, Backing, Medium, Scope, ScopeError, Specimen, SpecimenError, Viewpoint};
-use crate::trace::{CannotTrace, Stopped, Subject, Tracer, Watch, beam, ray, unwatched};
+use super::figures::Figures;
+use crate::scene::Scope;
 
 /// The default for the part of the light that may stay unresolved. Face up it takes a few hundredths of a second, tilted
 /// some seconds.
@@ -13,43 +9,6 @@ pub const UNRESOLVED: f64 = 1.5e-4;
 
 /// The default number of rays along each side of one lattice, for figures by rays.
 pub const LATTICE: u32 = 256;
-
-/// The range of refractive indices that can be traced.
-const INDICES: std::ops::RangeInclusive<f64> = 1.0..=5.0;
-
-/// The options by which a design is measured.
-#[derive(Clone)]
-pub struct MeasureOptions<'a> {
-    /// The direction from which the stone is seen; face up by default.
-    pub viewpoint: Viewpoint,
-    /// The scope: the structured light whose bands are the zones of the figures. The common ASET by default.
-    pub scope: Scope,
-    /// Half angle of an observer's head in front of the scope, in degrees. The head sends no light; 0, the default,
-    /// means no head.
-    pub head_deg: f64,
-    /// Wavelength in nm at which the material's index and absorption are taken; 589.3 by default.
-    pub wavelength_nm: f64,
-    /// A refractive index to use instead of the material's.
-    pub index: Option<f64>,
-    /// How far light is followed, and with how many rays.
-    pub bounds: Bounds,
-    /// The tracer. `None`, the default, takes exact beams where they apply and otherwise rays on the processor.
-    pub tracer: Option<Tracer<'a>>,
-}
-
-impl Default for MeasureOptions<'_> {
-    fn default() -> Self {
-        Self {
-            viewpoint: Viewpoint::default(),
-            scope: Scope::aset(ASET_CONE, Backing::Black),
-            head_deg: 0.0,
-            wavelength_nm: line::SODIUM_D,
-            index: None,
-            bounds: Bounds::default(),
-            tracer: None,
-        }
-    }
-}
 
 /// How far light is followed, and with how many rays.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -95,133 +54,25 @@ pub struct Zone {
     pub strongest_exit_area: f64,
 }
 
-/// The reasons why a design cannot be measured.
-#[derive(Debug, thiserror::Error)]
-pub enum MeasureError {
-    /// The design does not make a stone.
-    #[error(transparent)]
-    Specimen(#[from] SpecimenError),
-    /// The scope is not valid.
-    #[error(transparent)]
-    Scope(#[from] ScopeError),
-    /// The material has no index at this wavelength.
-    #[error(transparent)]
-    Dispersion(#[from] DispersionError),
-    /// An option is out of its range. The message gives its name, its value and its range.
-    #[error("{option} is {value}; give {range}")]
-    Option {
-        /// The option's name in [`MeasureOptions`] or [`Bounds`].
-        option: &'static str,
-        /// The value that was given.
-        value: f64,
-        /// The range that is allowed, in words.
-        range: &'static str,
-    },
-    /// The tracer does not apply to this stone or view.
-    #[error(transparent)]
-    CannotTrace(#[from] CannotTrace),
-    /// The graphics card failed; the processor can do the same work.
-    #[cfg(feature = "gpu")]
-    #[error(transparent)]
-    Card(#[from] crate::trace::gpu::GpuError),
-    /// The watch stopped the work.
-    #[error(transparent)]
-    Stopped(#[from] Stopped),
-}
-
-/// Measures a design: builds its stone, traces its light and sums it up by the zones of a scope.
+/// Sums up the light of a stone by the bands of a scope. `figures` traces it by a scope whose bands end at the horizon, so
+/// that light from above is told from light from below.
 ///
 /// # Errors
-/// Any [`MeasureError`]: the design makes no stone, an option is out of its range, or the tracer does not apply or
-/// fails.
-pub fn measure(design: &Design, options: &MeasureOptions) -> Result<Measured, MeasureError> {
-    options.check()?;
-    let specimen = Specimen::new(design.clone())?;
-    let material = &specimen.material;
-    let index = options.index.map_or_else(|| material.dispersion.try_index(options.wavelength_nm), Ok)?;
-    let absorption = Medium::absorption_of(material, options.wavelength_nm, specimen.unit_mm());
-    let medium = Medium { index, absorption, spread: 0.0 };
-    let view = options.viewpoint.view();
-    let scope = options.scope.clone().with_head(options.head_deg);
-    let tracer = options.tracer.unwrap_or_else(|| Tracer::best(&specimen, &view));
-    let subject = Subject { specimen: &specimen, medium, view: &view, scope: &scope };
-    measure_subject(subject, tracer, &options.bounds, &unwatched)
-}
-
-/// Measures a stone that is built already. `watch` receives the part that is done and may stop the work.
-///
-/// # Errors
-/// [`MeasureError::Option`] where the medium's index or a bound is out of its range, [`MeasureError::CannotTrace`] where
-/// the tracer does not apply, [`MeasureError::Stopped`], and an error of the graphics card where that fails.
-pub fn measure_subject(
-    subject: Subject,
-    tracer: Tracer,
-    bounds: &Bounds,
-    watch: Watch,
-) -> Result<Measured, MeasureError> {
-    let Bounds { unresolved, lattice, .. } = *bounds;
-    let index = subject.medium.index;
-    first_wrong(&[
-        ("index", index, INDICES.contains(&index), "1 (air) to 5"),
-        ("unresolved", unresolved, unresolved > 0.0 && unresolved < 1.0, "a part between 0 and 1"),
-        ("lattice", f64::from(lattice), (1..=16_384).contains(&lattice), "1 to 16,384"),
-    ])?;
-    tracer.check(subject.specimen, subject.view)?;
-    let (split, below) = subject.scope.clone().with_horizon();
-    let mut figures = traced(Subject { scope: &split, ..subject }, tracer, bounds, watch)?;
+/// The errors of `figures`.
+pub fn measured<E>(
+    scope: &Scope,
+    index: f64,
+    tracer: &'static str,
+    figures: impl FnOnce(&Scope) -> Result<Figures, E>,
+) -> Result<Measured, E> {
+    let (split, below) = scope.clone().with_horizon();
+    let mut figures = figures(&split)?;
     let light_return = figures.light_return(&split);
     let glare_return = figures.glare_return(&split);
     if let Some(below) = below {
         figures.join(below);
     }
-    let scope = subject.scope.clone();
-    Ok(Measured { figures, scope, index, tracer: tracer.name(), light_return, glare_return })
-}
-
-fn traced(subject: Subject, tracer: Tracer, bounds: &Bounds, watch: Watch) -> Result<Figures, MeasureError> {
-    let Subject { specimen, medium, view, scope } = subject;
-    let &Bounds { unresolved, polarised, lattice } = bounds;
-    let options = ray::RayOptions { least_weight: unresolved, polarised, ..ray::RayOptions::default() };
-    match tracer {
-        Tracer::Beams => {
-            let polytope = &specimen.stone().map_err(CannotTrace::from)?.polytope;
-            let options = beam::BeamOptions { unresolved, polarised, ..beam::BeamOptions::default() };
-            Ok(by_beams(&beam::trace(polytope, medium, view, &options, watch)?, scope))
-        }
-        Tracer::Rays(crate::trace::RayTracer::Rays) => {
-            Ok(by_rays(specimen.solid(), medium, view, scope, (options, lattice), watch)?)
-        }
-        #[cfg(feature = "gpu")]
-        Tracer::Rays(crate::trace::RayTracer::Card(gpu)) => {
-            super::by_gpu(gpu, specimen.solid(), medium, view, scope, (options, lattice), watch)
-        }
-    }
-}
-
-/// An option's name and value, whether the value is in its range, and the range in words.
-type Check = (&'static str, f64, bool, &'static str);
-
-/// Returns an error for the first option that is out of its range.
-fn first_wrong(checks: &[Check]) -> Result<(), MeasureError> {
-    match checks.iter().find(|(.., is_right, _)| !is_right) {
-        Some(&(option, value, _, range)) => Err(MeasureError::Option { option, value, range }),
-        None => Ok(()),
-    }
-}
-
-impl MeasureOptions<'_> {
-    /// Checks that the scope is valid and every number in its range.
-    fn check(&self) -> Result<(), MeasureError> {
-        self.scope.validate()?;
-        let view = &self.viewpoint;
-        let checks = [
-            ("head_deg", self.head_deg, (0.0..90.0).contains(&self.head_deg), "0 to below 90 degrees"),
-            ("wavelength_nm", self.wavelength_nm, self.wavelength_nm > 0.0, "a wavelength above 0 nm"),
-            ("tilt_deg", view.tilt_deg, (-90.0..=90.0).contains(&view.tilt_deg), "-90 to 90 degrees"),
-            ("azimuth_deg", view.azimuth_deg, view.azimuth_deg.is_finite(), "a finite angle"),
-        ];
-        first_wrong(&checks)
-    }
+    Ok(Measured { figures, scope: scope.clone(), index, tracer, light_return, glare_return })
 }
 
 impl Measured {

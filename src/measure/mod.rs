@@ -1,15 +1,13 @@
 //! Floor 4: figures. They say how much light comes from where, each with its error.
 //!
-//! [`measure()`] takes a design to its figures in one call.
+//! [`measure`](crate::measure()) takes a design to its figures in one call.
 
 mod figures;
 mod measured;
 mod sampled;
 
 pub use figures::{Figures, Zones, by_beams};
-pub use measured::{
-    Bounds, LATTICE, MeasureError, MeasureOptions, Measured, UNRESOLVED, Zone, measure, measure_subject,
-};
+pub use measured::{Bounds, LATTICE, Measured, UNRESOLVED, Zone, measured};
 #[cfg(feature = "gpu")]
 pub use sampled::by_gpu;
 pub use sampled::by_rays;

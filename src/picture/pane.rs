@@ -31,7 +31,7 @@ const FARTHEST: f64 = 1e6;
 /// How much of the effect is computed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
-pub enum Quality {
+pub enum PaneQuality {
     /// The whole effect, with five samples of frost.
     #[default]
     High,
@@ -63,7 +63,7 @@ pub struct GlassPane {
     /// The base colour in linear sRGB, and how much it covers the background, 0 to 1.
     pub tint: DVec4,
     /// How much of the effect is computed.
-    pub quality: Quality,
+    pub quality: PaneQuality,
 }
 
 impl GlassPane {
@@ -79,7 +79,7 @@ impl GlassPane {
             frost: 0.0,
             light: 30.0,
             tint: DVec4::ZERO,
-            quality: Quality::High,
+            quality: PaneQuality::High,
         }
     }
 
@@ -96,9 +96,9 @@ impl GlassPane {
             ..*self
         };
         match self.quality {
-            Quality::High => high,
-            Quality::Medium => Self { dispersion: high.dispersion.min(30.0), ..high },
-            Quality::Low => {
+            PaneQuality::High => high,
+            PaneQuality::Medium => Self { dispersion: high.dispersion.min(30.0), ..high },
+            PaneQuality::Low => {
                 Self { depth: 0.0, dispersion: 0.0, frost: 0.0, light: 0.0, tint: DVec4::ZERO, ..high }
             }
         }
@@ -150,7 +150,7 @@ impl GlassPane {
         let pane = self.effective();
         let own = pane.own(at);
         let dome = pane.outline().dome(own);
-        let count = if self.quality == Quality::High { 5 } else { 3 };
+        let count = if self.quality == PaneQuality::High { 5 } else { 3 };
         let taps = taps(own, &dome, pane.frost, count);
         let places = pane.shifts(at).map(|shift| at + shift - 0.5);
         let seen = |&tap: &DVec2| {
@@ -234,7 +234,7 @@ pub fn filling(picture: &Panorama, size: [u32; 2]) -> Panorama {
     Panorama { width: size[0], height: size[1], pixels }
 }
 
-impl FromStr for Quality {
+impl FromStr for PaneQuality {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {

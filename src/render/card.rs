@@ -1,51 +1,120 @@
-//! The graphics card that tracing may use.
+//! The graphics card that a renderer may use.
 
-use crate::trace::RayTracer;
 #[cfg(feature = "gpu")]
 use crate::trace::gpu::{Gpu, GpuError};
 #[cfg(feature = "gpu")]
-use std::sync::OnceLock;
+use std::sync::{Arc, OnceLock};
 
-/// The graphics card that tracing may use.
-#[derive(Clone, Copy)]
-pub enum CardUse<'a> {
+/// The graphics card that a renderer may use.
+#[derive(Clone, Default)]
+pub enum Card {
+    /// None: all work is done by the processor.
+    #[default]
+    None,
     /// The machine's card, which is opened when it is first needed and stays open until the program ends.
     Machine,
-    /// A card that is open already and quicker than the processor; or the processor, where there is none.
-    Open(RayTracer<'a>),
+    /// A card that is open already and quicker than the processor, such as one that draws the window.
+    #[cfg(feature = "gpu")]
+    Open(Arc<Gpu>),
+}
+
+/// A tracer with the card that it runs on.
+#[derive(Clone)]
+pub enum Backend {
+    /// Exact beams, on the processor.
+    Beams,
+    /// Point rays on the processor.
+    Rays,
+    /// Point rays on a graphics card.
+    #[cfg(feature = "gpu")]
+    Card(Arc<Gpu>),
 }
 
 /// The machine's card, opened once.
 #[cfg(feature = "gpu")]
-fn machine() -> Result<&'static Gpu, GpuError> {
-    static CARD: OnceLock<Result<Gpu, GpuError>> = OnceLock::new();
-    CARD.get_or_init(Gpu::open).as_ref().map_err(Clone::clone)
+fn machine() -> Result<Arc<Gpu>, GpuError> {
+    static CARD: OnceLock<Result<Arc<Gpu>, GpuError>> = OnceLock::new();
+    CARD.get_or_init(|| Gpu::open().map(Arc::new)).clone()
 }
 
-impl<'a> CardUse<'a> {
-    /// Returns the card, even one that is slower than the processor; where there is none, the processor and why there is no
-    /// card.
-    pub fn any(self) -> (RayTracer<'a>, Option<String>) {
+impl Card {
+    /// Returns rays on the card, even one that is slower than the processor.
+    ///
+    /// # Errors
+    /// Says why there is no card.
+    pub fn any(&self) -> Result<Backend, NoCard> {
         match self {
-            Self::Open(tracer) => (tracer, None),
+            Self::None => Err(NoCard("no graphics card is used".to_owned())),
             #[cfg(feature = "gpu")]
-            Self::Machine => match machine() {
-                Ok(gpu) => (RayTracer::Card(gpu), None),
-                Err(error) => (RayTracer::Rays, Some(error.to_string())),
-            },
+            Self::Machine => machine().map(Backend::Card).map_err(|error| NoCard(error.to_string())),
             #[cfg(not(feature = "gpu"))]
-            Self::Machine => {
-                (RayTracer::Rays, Some("this program was built without its feature `gpu`".to_owned()))
-            }
+            Self::Machine => Err(NoCard("this program was built without its feature `gpu`".to_owned())),
+            #[cfg(feature = "gpu")]
+            Self::Open(gpu) => Ok(Backend::Card(Arc::clone(gpu))),
         }
     }
 
-    /// Returns the card where it is a real one, and otherwise the processor, because a card in software is slower.
-    pub fn quickest(self) -> RayTracer<'a> {
-        match (self, self.any().0) {
-            (Self::Open(tracer), _) => tracer,
-            (Self::Machine, tracer) if tracer.is_quick() => tracer,
-            (Self::Machine, _) => RayTracer::Rays,
+    /// Returns rays on the card where it is quicker than the processor; a card in software is not.
+    pub fn quick(&self) -> Option<Backend> {
+        let is_known = !matches!(self, Self::Machine);
+        self.any().ok().filter(|card| is_known || card.is_quick())
+    }
+}
+
+/// Why there is no graphics card.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error("{0}")]
+pub struct NoCard(String);
+
+impl Backend {
+    /// Returns the short name that figures use: `beam`, `ray` or `gpu`.
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::Beams => "beam",
+            Self::Rays => "ray",
+            #[cfg(feature = "gpu")]
+            Self::Card(_) => "gpu",
         }
+    }
+
+    /// Returns a description in words, with the name of the card.
+    pub fn description(&self) -> String {
+        match self {
+            Self::Beams => "exact beams".to_owned(),
+            Self::Rays => "point rays".to_owned(),
+            #[cfg(feature = "gpu")]
+            Self::Card(gpu) => format!("point rays in f32 on {}", gpu.name()),
+        }
+    }
+
+    /// Whether it is exact beams.
+    pub fn is_beams(&self) -> bool {
+        matches!(self, Self::Beams)
+    }
+
+    /// Whether it is a real graphics card, and not one in software.
+    pub fn is_quick(&self) -> bool {
+        match self {
+            Self::Beams | Self::Rays => false,
+            #[cfg(feature = "gpu")]
+            Self::Card(gpu) => !gpu.is_software(),
+        }
+    }
+}
+
+impl std::fmt::Debug for Backend {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(&self.description())
+    }
+}
+
+impl std::fmt::Debug for Card {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(match self {
+            Self::None => "no card",
+            Self::Machine => "the machine's card",
+            #[cfg(feature = "gpu")]
+            Self::Open(gpu) => gpu.name(),
+        })
     }
 }

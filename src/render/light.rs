@@ -1,148 +1,170 @@
-//! Pictures under light, by whichever tracer is planned. The passes of a picture are added up in strips of rows, so that no
-//! more of the picture is held than a tracer needs.
+//! Pictures under light: adds up their passes, in strips of rows or as a whole that grows clearer.
 
+use super::card::Backend;
+use super::job::{Job, LightProduct, Steps};
+use super::plan::Unfit;
+use super::renderer::{EachPart, Halt, Output, Partial, RenderError};
 use crate::optics::Stratum;
 use crate::picture::spectral::{Remainder, expose_in, seen};
 use crate::picture::{ByBeams, Linear};
-use crate::trace::beam::BeamOptions;
+use crate::trace::Watch;
 #[cfg(feature = "gpu")]
-use crate::trace::gpu::{ByCard, GpuEnvironment, GpuError};
+use crate::trace::gpu::{ByCard, Gpu, GpuEnvironment, GpuError};
 use crate::trace::ray::ByRays;
 use crate::trace::sampling::{LitScene, ProgressiveImage, Sampling};
-use crate::trace::{RayTracer, Stopped, Tracer, Watch};
+#[cfg(feature = "gpu")]
+use crate::trace::sampling::{RadiancePixel, SamplePass};
+use std::ops::Range;
 
 /// How many rows point rays trace at once: the sums of their passes are held in memory.
 const ROWS_OF_RAYS: u32 = 256;
 
-/// The usual number of passes of a picture: rays need many for smooth edges, beams only for the wavelengths.
-const PASSES_OF_BEAMS: u32 = 4;
-const PASSES_OF_RAYS: u32 = 64;
-
-/// How well a picture under light is traced.
-#[derive(Clone, Copy)]
-pub struct LightQuality<'a> {
-    /// The bands of wavelengths.
-    pub strata: &'a [Stratum],
-    /// How many passes there are, and how each samples.
-    pub sampling: Sampling,
-    /// How far exact beams are followed.
-    pub beams: BeamOptions,
-}
-
-/// Why a picture was not traced.
-#[derive(Debug, Clone, thiserror::Error)]
-pub enum RenderError {
-    /// The watch asked to stop.
-    #[error(transparent)]
-    Stopped(#[from] Stopped),
-    /// The graphics card failed; point rays on the processor can do the work.
-    #[cfg(feature = "gpu")]
-    #[error(transparent)]
-    Card(#[from] GpuError),
-    /// Exact beams were planned for what they cannot trace.
-    #[error("exact beams do not apply here: trace by rays")]
-    NotForBeams,
-}
-
-/// Returns the number of passes that a picture by this tracer has where no number is requested.
-pub fn usual_passes(tracer: Tracer) -> u32 {
-    match tracer {
-        Tracer::Beams => PASSES_OF_BEAMS,
-        Tracer::Rays(_) => PASSES_OF_RAYS,
-    }
-}
-
-/// Traces a picture under light, strip by strip.
-///
-/// # Errors
-/// [`RenderError::Stopped`] when `watch` asks to stop, [`RenderError::NotForBeams`] where exact beams cannot trace the
-/// scene, or the error of a card that fails.
-pub fn light(
-    lit_scene: &LitScene,
-    tracer: Tracer,
-    quality: LightQuality,
-    watch: Watch,
-) -> Result<(Linear, Remainder), RenderError> {
-    let width = lit_scene.film.size[0];
-    let sampled = (quality.strata, quality.sampling);
-    match tracer {
-        Tracer::Beams => {
-            let prepare =
-                |rows| ByBeams::of_rows(*lit_scene, quality.beams, rows).ok_or(RenderError::NotForBeams);
-            expose_in(lit_scene, sampled, ByBeams::most_rows(width), prepare, watch)
-        }
-        Tracer::Rays(RayTracer::Rays) => {
-            let prepare = |rows| Ok(ByRays::new(*lit_scene, rows));
-            expose_in(lit_scene, sampled, ROWS_OF_RAYS, prepare, watch)
-        }
-        #[cfg(feature = "gpu")]
-        Tracer::Rays(RayTracer::Card(gpu)) => {
-            let environment = GpuEnvironment::new(gpu, &lit_scene.environment);
-            let bands = quality.strata.len();
-            let prepare = |rows| Ok(ByCard::new(gpu, lit_scene, &environment, rows, bands)?);
-            expose_in(lit_scene, sampled, ByCard::most_rows(width), prepare, watch)
-        }
-    }
-}
-
-/// Traces a picture under light as a whole and shows it while it grows clearer.
-///
-/// Calls `each` with the picture so far, and the light that it does not show, after the first, the second, the fourth pass
-/// and so on, and after the last. `first` is the number of the first pass; nothing is shown of the first `hidden` passes.
-///
-/// # Errors
-/// Those of [`light`], and an error of `each`.
-pub fn grow<E: From<RenderError>>(
-    lit_scene: &LitScene,
-    tracer: Tracer,
-    quality: LightQuality,
-    (first, hidden): (u32, u32),
-    watch: Watch,
-    each: &mut dyn FnMut(&Linear, Remainder) -> Result<(), E>,
-) -> Result<(), E> {
-    let rows = 0..lit_scene.film.size[1];
-    let passes = Passes { lit_scene, quality, first, hidden, watch };
-    match tracer {
-        Tracer::Beams => {
-            let image = ByBeams::new(*lit_scene, quality.beams).ok_or(RenderError::NotForBeams)?;
-            passes.add_up(image, each)
-        }
-        Tracer::Rays(RayTracer::Rays) => passes.add_up(ByRays::new(*lit_scene, rows), each),
-        #[cfg(feature = "gpu")]
-        Tracer::Rays(RayTracer::Card(gpu)) => {
-            let environment = GpuEnvironment::new(gpu, &lit_scene.environment);
-            let image = ByCard::new(gpu, lit_scene, &environment, rows, quality.strata.len());
-            passes.add_up(image.map_err(RenderError::from)?, each)
-        }
-    }
-}
-
-/// The passes of a picture, which are added up.
-struct Passes<'a> {
-    lit_scene: &'a LitScene<'a>,
-    quality: LightQuality<'a>,
-    first: u32,
-    hidden: u32,
+/// A picture under light that is being traced.
+struct Exposure<'a> {
+    job: &'a Job,
+    lit_scene: LitScene<'a>,
+    strata: Vec<Stratum>,
+    sampling: Sampling,
     watch: Watch<'a>,
 }
 
-impl Passes<'_> {
+impl LightProduct {
+    pub(super) fn render<E: From<RenderError>>(
+        &self,
+        job: &Job,
+        (backend, count): (&Backend, u32),
+        watch: Watch,
+        each: EachPart<E>,
+    ) -> Result<Output, Halt<E>> {
+        let sampling = Sampling { count, jitter: self.jitter, strength: self.strength };
+        let (lit_scene, strata) = (job.lit_scene(&self.surroundings), self.strata());
+        let exposure = Exposure { job, lit_scene, strata, sampling, watch };
+        let (picture, rest) = match self.steps {
+            Steps::Strips => exposure.in_strips(backend)?,
+            Steps::Glance { .. } if backend.is_beams() => {
+                let (picture, rest) = exposure.at_a_glance()?;
+                each(Partial::Picture { picture: &picture, rest, backend }).map_err(Halt::Each)?;
+                (picture, rest)
+            }
+            Steps::Glance { first } => exposure.growing(backend, first, 0, each)?,
+            Steps::Passes { first, hidden } => exposure.growing(backend, first, hidden, each)?,
+        };
+        Ok(Output::Light(picture, rest))
+    }
+}
+
+impl Exposure<'_> {
+    /// Takes the picture some rows after the other.
+    fn in_strips(&self, backend: &Backend) -> Result<(Linear, Remainder), RenderError> {
+        let (lit_scene, width) = (&self.lit_scene, self.lit_scene.film.size[0]);
+        let sampled = (&*self.strata, self.sampling);
+        match backend {
+            Backend::Beams => {
+                expose_in(lit_scene, sampled, ByBeams::most_rows(width), |rows| self.beams(rows), self.watch)
+            }
+            Backend::Rays => {
+                let prepare = |rows| Ok(ByRays::new(*lit_scene, rows));
+                expose_in(lit_scene, sampled, ROWS_OF_RAYS, prepare, self.watch)
+            }
+            #[cfg(feature = "gpu")]
+            Backend::Card(gpu) => {
+                let environment = GpuEnvironment::new(gpu, &lit_scene.environment);
+                let prepare = |rows| Ok(ByCard::new(gpu, lit_scene, &environment, rows, self.strata.len())?);
+                expose_in(lit_scene, sampled, ByCard::most_rows(width), prepare, self.watch)
+            }
+        }
+    }
+
+    fn beams(&self, rows: Range<u32>) -> Result<ByBeams<'_>, RenderError> {
+        let image = ByBeams::of_rows(self.lit_scene, self.job.quality.beams, rows);
+        image.ok_or_else(|| Unfit::NotAlone.into())
+    }
+
+    /// Takes the picture by the beams of one wavelength.
+    fn at_a_glance(&self) -> Result<(Linear, Remainder), RenderError> {
+        let mut image = self.beams(0..self.lit_scene.film.size[1])?;
+        image.glance(&self.strata, self.watch)?;
+        seen(&self.lit_scene, &image)
+    }
+
+    /// Takes the picture as a whole, and hands it out while it grows clearer.
+    fn growing<E: From<RenderError>>(
+        &self,
+        backend: &Backend,
+        first: u32,
+        hidden: u32,
+        each: EachPart<E>,
+    ) -> Result<(Linear, Remainder), Halt<E>> {
+        let rows = 0..self.lit_scene.film.size[1];
+        match backend {
+            Backend::Beams => self.add_up(self.beams(rows)?, (backend, first, hidden), each),
+            Backend::Rays => self.add_up(ByRays::new(self.lit_scene, rows), (backend, first, hidden), each),
+            #[cfg(feature = "gpu")]
+            Backend::Card(gpu) => {
+                let environment = GpuEnvironment::new(gpu, &self.lit_scene.environment);
+                let strips = Strips::new(gpu, &self.lit_scene, &environment, self.strata.len())?;
+                self.add_up(strips, (backend, first, hidden), each)
+            }
+        }
+    }
+
     fn add_up<E: From<RenderError>>(
         &self,
         mut image: impl ProgressiveImage<RenderError>,
-        each: &mut dyn FnMut(&Linear, Remainder) -> Result<(), E>,
-    ) -> Result<(), E> {
-        let LightQuality { strata, sampling, .. } = self.quality;
-        for number in 0..sampling.count {
-            let done = |part: f64| (self.watch)((f64::from(number) + part) / f64::from(sampling.count));
-            let pass = sampling.pass(self.lit_scene.scene, strata, self.first.wrapping_add(number));
+        (backend, first, hidden): (&Backend, u32, u32),
+        each: EachPart<E>,
+    ) -> Result<(Linear, Remainder), Halt<E>> {
+        let count = self.sampling.count;
+        let mut last = (Linear { width: 0, height: 0, pixels: vec![] }, Remainder::default());
+        for number in 0..count {
+            let done = |part: f64| (self.watch)((f64::from(number) + part) / f64::from(count));
+            let pass = self.sampling.pass(self.lit_scene.scene, &self.strata, first.wrapping_add(number));
             image.add_pass(&pass, &done)?;
             let taken = number + 1;
-            if taken > self.hidden && (taken.is_power_of_two() || taken == sampling.count) {
-                let (picture, rest) = seen(self.lit_scene, &image)?;
-                each(&picture, rest)?;
+            if taken > hidden && (taken.is_power_of_two() || taken == count) {
+                last = seen(&self.lit_scene, &image)?;
+                let (picture, rest) = (&last.0, last.1);
+                each(Partial::Picture { picture, rest, backend }).map_err(Halt::Each)?;
             }
         }
+        Ok(last)
+    }
+}
+
+/// A whole picture on a graphics card, in strips that fit into its buffers.
+#[cfg(feature = "gpu")]
+struct Strips<'a>(Vec<ByCard<'a>>);
+
+#[cfg(feature = "gpu")]
+impl<'a> Strips<'a> {
+    fn new(
+        gpu: &'a Gpu,
+        lit_scene: &LitScene,
+        environment: &GpuEnvironment,
+        wavelengths: usize,
+    ) -> Result<Self, GpuError> {
+        let [width, height] = lit_scene.film.size;
+        let most = ByCard::most_rows(width);
+        let strip = |first: u32| {
+            let rows = first..(first + most).min(height);
+            ByCard::new(gpu, lit_scene, environment, rows, wavelengths)
+        };
+        (0..height).step_by(most as usize).map(strip).collect::<Result<_, _>>().map(Self)
+    }
+}
+
+#[cfg(feature = "gpu")]
+impl ProgressiveImage<RenderError> for Strips<'_> {
+    fn add_pass(&mut self, pass: &SamplePass, watch: Watch) -> Result<(), RenderError> {
+        let all = self.0.len() as f64;
+        for (k, strip) in self.0.iter_mut().enumerate() {
+            let watch = |part| watch((k as f64 + part) / all);
+            ProgressiveImage::<RenderError>::add_pass(strip, pass, &watch)?;
+        }
         Ok(())
+    }
+
+    fn each_pixel(&self, each: &mut dyn FnMut(&RadiancePixel)) -> Result<(), RenderError> {
+        self.0.iter().try_for_each(|strip| strip.each_pixel(each))
     }
 }

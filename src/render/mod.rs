@@ -1,10 +1,23 @@
-//! Floor 5: makes pictures with the tracers. [`plan`](plan()) alone decides which tracer traces a picture;
-//! [`light`](light()) decides how many rows are held at once and how the passes of a picture are added up.
+//! Floor 5: does jobs. A [`Job`] says as plain data what stands there, from where it is seen, on which film, what is made of
+//! it and how well; a [`Renderer`] makes it, by the tracer that [`Renderer::plan`] alone decides on.
 
+mod beam_cache;
+mod behind_glass;
 mod card;
+mod job;
 mod light;
+mod measure;
 mod plan;
+mod renderer;
+mod scope;
+mod surroundings;
 
-pub use card::CardUse;
-pub use light::{LightQuality, RenderError, grow, light, usual_passes};
-pub use plan::{Demands, Plan, Unfit, Wanted, plan};
+pub use card::{Backend, Card, NoCard};
+pub use job::{
+    FiguresProduct, Job, LightProduct, MapProduct, PaneProduct, Product, Quality, Reading, ScopeProduct,
+    Steps,
+};
+pub use measure::{MeasureError, MeasureOptions, measure};
+pub use plan::{CardWorth, Demands, Plan, Unfit, Wanted};
+pub use renderer::{EachPart, Output, Partial, RenderError, Rendered, Renderer};
+pub use surroundings::{HungPicture, Surroundings};

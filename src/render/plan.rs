@@ -1,9 +1,10 @@
 //! Plans which tracer makes a picture or figures. No other place decides this.
 
-use super::CardUse;
-use crate::math::NotConvex;
-use crate::scene::{Projection, Scene, Specimen, View};
-use crate::trace::{RayTracer, Tracer};
+use super::card::{Backend, Card, NoCard};
+use super::job::{Job, LightProduct, Product, Steps};
+use crate::math::{NotConvex, SolidRef};
+use crate::scene::{Projection, View};
+use crate::trace::ray::Camera;
 
 /// The tracer that a person or a program wants.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -24,13 +25,30 @@ pub enum Wanted {
 pub struct Demands {
     /// Why exact beams do not fit, or `None` where they fit.
     pub against_beams: Option<Unfit>,
-    /// Whether a graphics card is quicker than exact beams, as for pictures under light that have many wavelengths.
-    pub favours_card: bool,
+    /// How much quicker a graphics card is than exact beams.
+    pub card: CardWorth,
 }
 
-/// Why exact beams do not fit.
+/// How much quicker a graphics card is than the processor for a piece of work.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum CardWorth {
+    /// The work is done on the processor alone.
+    Nothing,
+    /// Quicker than rays on the processor, but not than exact beams.
+    Little,
+    /// Quicker than exact beams as well, as for pictures under light that have many wavelengths.
+    Much,
+}
+
+/// Why a job cannot be done, or not by exact beams.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum Unfit {
+    /// The eye of a perspective is beside or inside the stone, so that no tracer can show it.
+    #[error("the eye of the perspective is not in front of the whole stone; move it farther off")]
+    Eye,
+    /// There is no stone.
+    #[error("there is no stone to be seen")]
+    NoStone,
     /// The view has a perspective.
     #[error("exact beams are for parallel rays: trace a perspective by rays")]
     Perspective,
@@ -47,48 +65,60 @@ pub enum Unfit {
         "exact beams know no mixture of refracted and straight rays: trace by rays, or set the strength to 1"
     )]
     Mixture,
+    /// Light is followed along many paths at once, as in refraction maps and liquid glass.
+    #[error("refraction maps and liquid glass are traced by rays")]
+    ManyPaths,
 }
 
 /// The planned tracer.
 #[derive(Clone)]
-pub struct Plan<'a> {
-    /// The tracer.
-    pub tracer: Tracer<'a>,
+pub struct Plan {
+    /// The tracer, with the card that it runs on.
+    pub backend: Backend,
     /// Why no graphics card is used though one was wanted.
-    pub no_card: Option<String>,
+    pub no_card: Option<NoCard>,
 }
 
 impl Demands {
-    /// Returns the demands of pictures and figures of one stone in a scope.
-    pub fn of_scope(specimen: &Specimen, view: &View) -> Self {
-        let against_beams = match specimen.stone() {
-            _ if view.projection != Projection::Orthographic => Some(Unfit::Perspective),
-            Err(why) => Some(why.into()),
-            Ok(_) => None,
-        };
-        Self { against_beams, favours_card: false }
+    /// Returns the demands of a job.
+    ///
+    /// # Errors
+    /// [`Unfit::NoStone`] and [`Unfit::Eye`] where a scope or figures have no stone, or an eye that cannot see it.
+    pub fn of(job: &Job) -> Result<Self, Unfit> {
+        match &job.product {
+            Product::Light(light) => Ok(Self::of_light(job, light)),
+            Product::Scope(_) | Product::Figures(_) => Self::of_scope(job.stone()?, &job.view),
+            Product::RefractionMap(_) | Product::LiquidGlass(_) => {
+                Ok(Self { against_beams: Some(Unfit::ManyPaths), card: CardWorth::Nothing })
+            }
+        }
     }
 
-    /// Returns the demands of a picture under light. `strength` is how much of the way refraction is followed: 1 is physics.
-    pub fn of_light(scene: &Scene, view: &View, has_backplate: bool, strength: f64) -> Self {
-        let is_alone = matches!(&*scene.instances, [only] if only.solid.polytope().is_ok());
-        let fits = is_alone && !has_backplate && view.projection == Projection::Orthographic;
+    fn of_scope(solid: SolidRef, view: &View) -> Result<Self, Unfit> {
+        if Camera::new(view, solid).reach(solid).is_none() {
+            return Err(Unfit::Eye);
+        }
+        let against_beams = match solid {
+            _ if view.projection != Projection::Orthographic => Some(Unfit::Perspective),
+            SolidRef::Convex(_) => None,
+            SolidRef::Triangles(_) | SolidRef::Smooth(_) => Some(NotConvex.into()),
+        };
+        Ok(Self { against_beams, card: CardWorth::Little })
+    }
+
+    fn of_light(job: &Job, light: &LightProduct) -> Self {
+        let is_alone = matches!(&*job.scene.instances, [only] if only.solid.polytope().is_ok());
+        let has_backplate = light.surroundings.backplate.is_some();
+        let fits = is_alone && !has_backplate && job.view.projection == Projection::Orthographic;
         let against_beams = match fits {
-            _ if strength < 1.0 => Some(Unfit::Mixture),
+            _ if light.strength < 1.0 => Some(Unfit::Mixture),
             false => Some(Unfit::NotAlone),
             true => None,
         };
-        Self { against_beams, favours_card: true }
-    }
-
-    /// Whether exact beams fit.
-    pub fn fit_beams(&self) -> bool {
-        self.against_beams.is_none()
-    }
-
-    /// Returns the quickest tracer that fits and needs no graphics card.
-    pub fn by_processor(&self) -> Tracer<'static> {
-        if self.fit_beams() { Tracer::Beams } else { Tracer::Rays(RayTracer::Rays) }
+        // A card is set up anew for each picture, which takes longer than a glance by beams.
+        let card =
+            if matches!(light.steps, Steps::Glance { .. }) { CardWorth::Little } else { CardWorth::Much };
+        Self { against_beams, card }
     }
 }
 
@@ -96,24 +126,21 @@ impl Demands {
 ///
 /// # Errors
 /// [`Unfit`] where exact beams are wanted and do not fit.
-pub fn plan<'a>(demands: &Demands, wanted: Wanted, card: CardUse<'a>) -> Result<Plan<'a>, Unfit> {
+pub fn plan(demands: &Demands, wanted: Wanted, card: &Card) -> Result<Plan, Unfit> {
     let mut no_card = None;
-    let tracer = match (wanted, &demands.against_beams) {
-        (Wanted::Beams, Some(why)) => return Err(why.clone()),
-        (Wanted::Beams, None) => Tracer::Beams,
-        (Wanted::Rays, _) => Tracer::Rays(RayTracer::Rays),
-        (Wanted::Card, _) => {
-            let (tracer, why) = card.any();
-            no_card = why;
-            Tracer::Rays(tracer)
-        }
-        (Wanted::Quickest, None) if !demands.favours_card => Tracer::Beams,
-        (Wanted::Quickest, against) => match (card.quickest(), against) {
-            (RayTracer::Rays, None) => Tracer::Beams,
-            (quickest, _) => Tracer::Rays(quickest),
-        },
+    let by_processor = || if demands.against_beams.is_none() { Backend::Beams } else { Backend::Rays };
+    let backend = match (wanted, &demands.against_beams, demands.card) {
+        (Wanted::Beams, Some(why), _) => return Err(why.clone()),
+        (Wanted::Beams, None, _) => Backend::Beams,
+        (Wanted::Rays, ..) | (_, _, CardWorth::Nothing) => Backend::Rays,
+        (Wanted::Card, ..) => card.any().unwrap_or_else(|why| {
+            no_card = Some(why);
+            Backend::Rays
+        }),
+        (Wanted::Quickest, None, CardWorth::Little) => Backend::Beams,
+        (Wanted::Quickest, ..) => card.quick().unwrap_or_else(by_processor),
     };
-    Ok(Plan { tracer, no_card })
+    Ok(Plan { backend, no_card })
 }
 
 #[cfg(test)]
@@ -121,16 +148,16 @@ mod tests {
     use super::*;
 
     fn tracer(demands: &Demands, wanted: Wanted) -> Result<&'static str, Unfit> {
-        plan(demands, wanted, CardUse::Open(RayTracer::Rays)).map(|plan| plan.tracer.name())
+        plan(demands, wanted, &Card::None).map(|plan| plan.backend.name())
     }
 
     #[test]
     fn beams_are_taken_where_they_fit_and_refused_with_the_reason_where_not() {
-        let fit = Demands { against_beams: None, favours_card: true };
+        let fit = Demands { against_beams: None, card: CardWorth::Much };
         let found = [Wanted::Quickest, Wanted::Beams, Wanted::Rays, Wanted::Card].map(|w| tracer(&fit, w));
         assert_eq!(found, [Ok("beam"), Ok("beam"), Ok("ray"), Ok("ray")]);
         for why in [Unfit::Perspective, Unfit::NotConvex(NotConvex), Unfit::NotAlone, Unfit::Mixture] {
-            let unfit = Demands { against_beams: Some(why.clone()), favours_card: false };
+            let unfit = Demands { against_beams: Some(why.clone()), card: CardWorth::Little };
             assert_eq!(tracer(&unfit, Wanted::Quickest), Ok("ray"));
             assert_eq!(tracer(&unfit, Wanted::Beams), Err(why));
         }

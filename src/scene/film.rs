@@ -18,6 +18,9 @@ pub struct Film {
 }
 
 impl Film {
+    /// The film of what has no pixels, such as figures.
+    pub const NONE: Self = Self { size: [0; 2], pixel: 1.0, centre: DVec2::ZERO };
+
     /// Returns a film of `size` pixels around the origin.
     pub fn new(size: [u32; 2], pixel: f64) -> Self {
         Self { size, pixel, centre: DVec2::ZERO }

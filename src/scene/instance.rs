@@ -1,6 +1,6 @@
 //! Stones in one world, each of its own material.
 
-use super::Body;
+use super::{Body, Specimen};
 use crate::math::Solid;
 use crate::optics::Material;
 use glam::{DQuat, DVec3};
@@ -25,6 +25,14 @@ pub struct Scene {
     pub instances: Vec<Instance>,
     /// The world's unit in mm: half the girdle diameter of the largest stone.
     pub unit_mm: f64,
+}
+
+impl Scene {
+    /// Returns the scene of one stone, in the stone's frame and unit.
+    pub fn alone(specimen: &Specimen) -> Self {
+        let stone = Instance::named(&specimen.body, specimen.material.clone(), &specimen.design.name);
+        Self { instances: vec![stone], unit_mm: specimen.unit_mm() }
+    }
 }
 
 impl Instance {

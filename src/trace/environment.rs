@@ -55,6 +55,17 @@ pub struct EnvironmentMap {
     pub lamps: Vec<Disc>,
 }
 
+/// A light, and the map that is looked up for it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Lighting {
+    /// The light as it is described.
+    pub light: Light,
+    /// The light as a map by direction, with its panorama.
+    pub map: EnvironmentMap,
+    /// What is unusual about the panorama, in words that name the file.
+    pub warnings: Vec<String>,
+}
+
 /// A photograph on a plane behind the stones, perpendicular to the axis to the eye.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Backplate<'a> {

@@ -6,10 +6,7 @@ pub mod environment;
 #[cfg(feature = "gpu")]
 pub mod gpu;
 pub mod ray;
-mod sampler;
 pub mod sampling;
-
-pub use sampler::{CannotTrace, RayTracer, Subject, Tracer};
 
 use std::ops::ControlFlow;
 

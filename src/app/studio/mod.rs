@@ -3,12 +3,12 @@
 //! A newer order outdates an older one, whose work is dropped. Only the first rough pictures are always finished, so that
 //! there is always something that follows the hand.
 
+mod jobs;
 mod motion;
 mod order;
 mod pace;
 mod refracted;
 mod render;
-mod survey;
 mod take;
 mod undeveloped;
 mod worker;
@@ -17,13 +17,12 @@ pub use order::{
     Answer, FiguresOrder, Grade, Order, Paper, Shot, Slot, Smoothing, TakenPicture, Tilts, Which,
 };
 
+pub use jobs::{BEHIND, SPAN, hung};
 pub use pace::Effort;
-pub use render::{BEHIND, hung};
-#[cfg(test)]
-pub use render::{lit_scene, scene_of};
-pub use survey::{SPAN, survey};
+pub use refracted::survey;
+pub use render::ExportedRender;
 pub use take::ShotTracer;
-pub use worker::{FINE_RENDER, exported};
+pub use worker::FINE_RENDER;
 
 use crate::app::urgency;
 use crate::trace::gpu::Gpu;

@@ -127,7 +127,6 @@ mod tests {
     use crate::app::moving::Moving;
     use crate::app::shows::Shows;
     use crate::app::studio::order::{Paper, Smoothing, Which};
-    use crate::app::studio::render::{lit_scene, scene_of};
     use crate::io::lighting::Lighting;
     use crate::scene::{Copies, Glare, Projection};
     use crate::trace::environment::backplate_point;
@@ -175,8 +174,8 @@ mod tests {
     fn the_same_point_of_a_body_was_seen_where_its_motion_says() {
         for (cut, distance) in [("cube", None), ("cube", Some(12.0)), ("plate", None), ("plate", Some(9.0))] {
             let [before, now] = [(1.0, 1.0), (1.06, 1.1)].map(|(t, zoom)| shot(cut, t, &eye(distance, zoom)));
-            let settings = [scene_of(&before), scene_of(&now)];
-            let [was, is] = [(&before, 0), (&now, 1)].map(|(s, k)| lit_scene(s, &settings[k], s.film, None));
+            let jobs = [&before, &now].map(|shot| shot.overlay_job(shot.film));
+            let [was, is] = [0, 1].map(|k| jobs[k].lit().unwrap());
             let moments = [Moment::of(&before, before.film), Moment::of(&now, now.film)];
             let moved = moments[1].moved(&moments[0], &is);
             let (eyes, [width, _]) = ([ray::SceneProbe::new(&was), ray::SceneProbe::new(&is)], now.film.size);
@@ -233,10 +232,9 @@ mod tests {
         let mut counts = vec![];
         for k in 0..4 {
             let shot = shot("cube", 1.0 + 0.01 * f64::from(k), &eye);
-            let (scene, film) = (scene_of(&shot), shot.film);
+            let (job, film) = (shot.overlay_job(shot.film), shot.film);
             let picture = Linear::new(film.size[0], film.size[1]);
-            let lit_scene = lit_scene(&shot, &scene, film, None);
-            Moment::of(&shot, film).lay(&mut trails, (SLOT, &picture), &lit_scene, 0.5);
+            Moment::of(&shot, film).lay(&mut trails, (SLOT, &picture), &job.lit().unwrap(), 0.5);
             counts.push(trails[&SLOT].0.count);
         }
         assert_eq!(counts, [1, 2, 3, 4]);

@@ -1,39 +1,24 @@
 //! Traces pictures of backgrounds behind glass: refraction maps, in which the lookup worker looks backgrounds up, and liquid
 //! glass.
 
+use super::jobs::{MapDetail, coarser};
 use super::order::{Shot, Slot, TakenPicture};
 use super::pace::Effort;
 use super::render::Growing;
-use super::survey::{MapDetail, traced};
-use super::take::{RAYS_COARSER, ShotTracer, TakeError, coarser};
+use super::take::{RAYS_COARSER, ShotTracer, TakeError, name};
 use super::undeveloped::{TracedLight, map_taken};
 use super::worker::FINE_RENDER;
-use crate::app::lookup::{as_screens, backdrop};
+use crate::app::lookup::as_screens;
 use crate::io::refraction_map::tiles::code_of;
-use crate::optics::{Illuminant, strata};
-use crate::picture::RefractionMap;
-use crate::picture::pane::{self, PaneError, PaneLighting, filling, surroundings};
+use crate::picture::{Carried, Develop, RefractionMap};
+use crate::render::{Job, Rendered, Renderer};
 use crate::trace::Watch;
-use crate::trace::environment::EnvironmentMap;
 use egui::ColorImage;
 
 /// How finely maps are traced, by grade. A map of several bands takes as many times as long to look up.
-const ROUGH: MapDetail = MapDetail { bands: 1, places: 1, shades: 3, looks: 1 };
-const FAIR: MapDetail = MapDetail { bands: 1, places: 1, shades: 4, looks: 1 };
-const FINE: MapDetail = MapDetail { bands: 3, places: 1, shades: 6, looks: 4 };
-
-/// The bands of wavelengths of a traced pane: until the picture is fair, and at its finest.
-const FEW: u32 = 3;
-const MANY: u32 = 12;
-
-impl From<PaneError> for TakeError {
-    fn from(error: PaneError) -> Self {
-        match error {
-            PaneError::Stopped(stopped) => stopped.into(),
-            other => Self::Other(other.to_string()),
-        }
-    }
-}
+const ROUGH: MapDetail = MapDetail { bands: 1, places: 1, shades: 3, samples: 1 };
+const FAIR: MapDetail = MapDetail { bands: 1, places: 1, shades: 4, samples: 1 };
+const FINE: MapDetail = MapDetail { bands: 3, places: 1, shades: 6, samples: 4 };
 
 impl ShotTracer {
     /// Traces the map of a shot; the picture shows the codes of the map's places.
@@ -46,15 +31,55 @@ impl ShotTracer {
     ) -> Result<TakenPicture, TakeError> {
         let (detail, factor) = match growing {
             None => (ROUGH, effort.coarser * RAYS_COARSER),
-            Some(growing) if growing.looks == 1 => (FAIR, 1.0),
+            Some(growing) if growing.samples == 1 => (FAIR, 1.0),
             Some(_) => (FINE, 1.0),
         };
-        let (map, _) = traced(shot, coarser(&shot.film, factor), &detail, watch)?;
+        let job = Job { film: coarser(&shot.film, factor), ..shot.map_job(&detail) };
+        let (map, _) = run(&mut self.renderer, &job, watch)?.map()?;
         if growing.is_some() {
             self.kept.insert(slot, (shot.clone(), TracedLight::Map(map.clone())));
         }
         Ok(map_taken(shot, map))
     }
+
+    /// Traces the pane of liquid glass of a shot.
+    pub(super) fn glass(
+        &mut self,
+        shot: &Shot,
+        effort: &Effort,
+        growing: Option<&Growing>,
+        watch: Watch,
+    ) -> Result<TakenPicture, TakeError> {
+        let factor = if growing.is_none() { effort.coarser * RAYS_COARSER } else { 1.0 };
+        let Some(behind) = self.picture_behind(Some(&shot.pane_background()))? else {
+            return Err(TakeError::Other("nothing hangs behind the pane".into()));
+        };
+        // Panes are always traced by the processor, which takes no more passes than its fine renders have.
+        let samples = growing.map_or(1, |g| g.samples.min(FINE_RENDER.samples));
+        let size = coarser(&shot.film, factor).size;
+        let job = shot.pane_job(&behind, size, growing.is_some_and(|g| g.samples > 1), samples);
+        let rendered = run(&mut self.renderer, &job, watch)?;
+        let tracer = name(&rendered.backend);
+        Ok(TakenPicture { image: as_screens(&rendered.pane()?.0), unresolved: None, tracer, map: None })
+    }
+}
+
+fn run(renderer: &mut Renderer, job: &Job, watch: Watch) -> Result<Rendered, TakeError> {
+    renderer.run(job, watch, &mut |_| Ok(()))
+}
+
+/// Traces the map of a shot as it is exported, with the given numbers of bands and of places of a pixel in each.
+///
+/// # Errors
+/// A [`TakeError`].
+pub fn survey(
+    shot: &Shot,
+    [bands, places]: [u32; 2],
+    watch: Watch,
+) -> Result<(RefractionMap, Carried), TakeError> {
+    let job = shot.map_job(&MapDetail { bands, places, shades: 16, samples: 4 });
+    let (map, carried) = run(&mut Renderer::default(), &job, watch)?.map()?;
+    Ok((map.developed(&Develop { exposure: shot.exposure, bloom: None, ..Develop::default() }), carried))
 }
 
 /// Returns a picture of the codes of a map's middle band.
@@ -62,30 +87,4 @@ pub(super) fn codes(map: &RefractionMap) -> ColorImage {
     let places = map.bands.get(map.bands.len() / 2).map_or(&[][..], |band| &band.places);
     let rgb: Vec<u8> = places.iter().flat_map(code_of).collect();
     ColorImage::from_rgb(map.size.map(|n| n as usize), &rgb)
-}
-
-/// Traces the pane of liquid glass of a shot.
-pub(super) fn glass(
-    camera: &mut ShotTracer,
-    shot: &Shot,
-    effort: &Effort,
-    growing: Option<&Growing>,
-    watch: Watch,
-) -> Result<TakenPicture, TakeError> {
-    let factor = if growing.is_none() { effort.coarser * RAYS_COARSER } else { 1.0 };
-    let size = coarser(&shot.film, factor).size;
-    let Some(behind) = camera.picture_behind(Some(&backdrop(shot.behind.as_ref())))? else {
-        return Err(TakeError::Other("nothing hangs behind the pane".into()));
-    };
-    let pane = shot.liquid.pane(size);
-    let bands = if growing.is_none_or(|g| g.looks == 1) { FEW } else { MANY };
-    let around = PaneLighting {
-        sky: &EnvironmentMap::new(&surroundings(pane.effective().light), None),
-        gap: shot.liquid.gap,
-        strata: &strata(bands, &Illuminant::D65, true),
-        // Panes are always traced by the processor, which takes no more passes than its fine renders have.
-        looks: growing.map_or(1, |g| g.looks.min(FINE_RENDER.looks)),
-    };
-    let picture = pane::traced(&pane, &filling(&behind, size), &around, watch)?;
-    Ok(TakenPicture { image: as_screens(&picture), unresolved: None, tracer: "point rays", map: None })
 }

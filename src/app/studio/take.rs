@@ -1,32 +1,21 @@
 //! Traces one picture.
 
+use super::jobs::coarser;
 use super::motion::Trails;
 use super::order::{Shot, Slot, TakenPicture};
 use super::pace::Effort;
-use super::refracted::glass;
-use super::render::{Growing, demands, lit_scene, name, planned, scene_of};
+use super::render::Growing;
 use super::undeveloped::Kept;
 use crate::app::shows::Shows;
 use crate::io::background::BackgroundRef;
 use crate::io::{Failure, rasterize_within};
 use crate::math::NotConvex;
-use crate::optics::line;
-use crate::picture::by_rays::{self, ScopeSampling};
-use crate::picture::{DiagramStyle, Layer, Overlay, Palette, Rows, by_gpu, diagram, lay, paint};
-use crate::render::RenderError;
-use crate::scene::{Film, Panorama, Scope, Specimen, View};
-use crate::trace::beam::{self, Beams};
-use crate::trace::gpu::{Gpu, GpuError};
-use crate::trace::ray;
-use crate::trace::{RayTracer, Stopped, Tracer, Watch};
+use crate::picture::{DiagramStyle, Palette, diagram, lay};
+use crate::render::{Backend, Card, Partial, RenderError, Renderer, Unfit};
+use crate::scene::{Film, Panorama};
+use crate::trace::{Stopped, Watch};
 use egui::ColorImage;
 use std::sync::Arc;
-
-/// The largest number of bounces that rays are followed for.
-pub(super) const MOST_BOUNCES: u32 = 64;
-
-/// The weight below which rays are given up.
-pub(super) const LEAST_WEIGHT: f64 = 5e-4;
 
 /// How many times larger pixels are for rays on the processor while the hand moves, beyond what the pace says.
 pub(super) const RAYS_COARSER: f64 = 3.0;
@@ -37,9 +26,6 @@ pub enum TakeError {
     /// The picture is no longer wanted.
     #[error(transparent)]
     Stopped(#[from] Stopped),
-    /// The card failed; rays on the processor do its work from now on.
-    #[error(transparent)]
-    Card(#[from] GpuError),
     /// Beams and drawings are for convex stones alone.
     #[error(transparent)]
     NotConvex(#[from] NotConvex),
@@ -52,7 +38,6 @@ impl From<TakeError> for Failure {
     fn from(trouble: TakeError) -> Self {
         match trouble {
             TakeError::Stopped(stopped) => stopped.into(),
-            TakeError::Card(error) => error.into(),
             TakeError::NotConvex(why) => Self::Usage(why.to_string()),
             TakeError::Other(why) => Self::Input(why),
         }
@@ -63,59 +48,33 @@ impl From<RenderError> for TakeError {
     fn from(error: RenderError) -> Self {
         match error {
             RenderError::Stopped(stopped) => stopped.into(),
-            RenderError::Card(error) => error.into(),
-            RenderError::NotForBeams => Self::Other(error.to_string()),
+            other => Self::Other(other.to_string()),
         }
     }
 }
 
-/// Beams that several pictures share.
-#[derive(Default)]
-pub struct BeamCache(Vec<(Arc<Specimen>, View, f64, Arc<Beams>)>);
-
-/// How many sets of beams are kept.
-const MOST_KEPT: usize = 6;
-
-impl BeamCache {
-    /// Returns the beams of a stone in the light of sodium, to the bound of an effort; traces them unless they are kept.
-    pub fn beams(
-        &mut self,
-        specimen: &Arc<Specimen>,
-        view: &View,
-        effort: &Effort,
-        watch: Watch,
-    ) -> Result<Arc<Beams>, TakeError> {
-        let unresolved = effort.unresolved;
-        let same = |(s, v, u, _): &&(Arc<Specimen>, View, f64, Arc<Beams>)| {
-            Arc::ptr_eq(s, specimen) && v == view && *u == unresolved
-        };
-        if let Some((.., beams)) = self.0.iter().find(same) {
-            return Ok(Arc::clone(beams));
-        }
-        let most_beams = effort.most_beams();
-        let options = beam::BeamOptions { unresolved, most_beams, ..beam::BeamOptions::default() };
-        let medium = specimen.medium(line::SODIUM_D);
-        let beams = Arc::new(beam::trace(&specimen.stone()?.polytope, medium, view, &options, watch)?);
-        if self.0.len() == MOST_KEPT {
-            self.0.remove(0);
-        }
-        self.0.push((Arc::clone(specimen), *view, unresolved, Arc::clone(&beams)));
-        Ok(beams)
+impl From<Unfit> for TakeError {
+    fn from(unfit: Unfit) -> Self {
+        Self::Other(unfit.to_string())
     }
+}
 
-    /// Drops the beams of stones and views that are no longer wanted.
-    pub fn keep(&mut self, wanted: impl Fn(&Arc<Specimen>, &View) -> bool) {
-        self.0.retain(|(specimen, view, ..)| wanted(specimen, view));
+/// The editor's name for a tracer.
+pub(super) fn name(backend: &Backend) -> &'static str {
+    match backend {
+        Backend::Beams => "exact beams",
+        Backend::Rays => "point rays",
+        Backend::Card(_) => "rays on the graphics card",
     }
 }
 
 /// Traces pictures, and keeps what later pictures can use.
 #[derive(Default)]
 pub struct ShotTracer {
-    /// The card that the window is drawn by, if it computes quicker than the processor.
-    pub gpu: Option<Arc<Gpu>>,
-    /// The beams that were traced.
-    pub shelf: BeamCache,
+    /// What does the jobs of shots.
+    pub(super) renderer: Renderer,
+    /// What is to be said to the user: why the processor does a card's work.
+    pub(super) notes: Vec<String>,
     /// The last picture behind a render.
     pub(super) behind: Option<(BackgroundRef, Arc<Panorama>)>,
     /// The temporal histories of rough renders of what moves.
@@ -125,9 +84,9 @@ pub struct ShotTracer {
 }
 
 impl ShotTracer {
-    /// Creates a tracer with or without a card.
-    pub fn by(gpu: Option<Arc<Gpu>>) -> Self {
-        Self { gpu, ..Self::default() }
+    /// Creates a tracer that may use a card.
+    pub fn by(card: Card) -> Self {
+        Self { renderer: Renderer::new(card), ..Self::default() }
     }
 
     /// Traces a picture with an effort; an [`Effort::coarser`] of 1 is full size.
@@ -147,15 +106,8 @@ impl ShotTracer {
             Shows::Diagram => drawing(shot).map(each),
             Shows::Render => self.render((slot, shot), effort, growing, watch, each),
             Shows::Refraction => self.mapped((slot, shot), effort, growing, watch).map(each),
-            Shows::TracedPane => glass(self, shot, effort, growing, watch).map(each),
-            _ => {
-                let mut taken = self.scoped(shot, effort, growing.is_some(), watch)?;
-                if let Some(overlay) = shot.overlay {
-                    overlaid(shot, overlay, &mut taken.image, watch)?;
-                }
-                each(taken);
-                Ok(())
-            }
+            Shows::TracedPane => self.glass(shot, effort, growing, watch).map(each),
+            _ => self.scoped(shot, effort, growing.is_some(), watch).map(each),
         }
     }
 
@@ -167,86 +119,58 @@ impl ShotTracer {
         watch: Watch,
     ) -> Result<TakenPicture, TakeError> {
         let Some(scoped) = shot.shows.scoped() else { return Err(TakeError::Other("no scope".into())) };
-        let head = if scoped.takes_head { shot.head } else { 0.0 };
-        let scope = scoped.scope.with_head(head);
-        let card = self.gpu.clone();
-        match planned(&demands(shot), card.as_deref())? {
-            Tracer::Beams => self.by_beams(shot, effort, &scope, watch),
-            Tracer::Rays(rays) => {
-                Self::by_rays(rays, shot, effort, (&scope, if fine { 3 } else { 1 }), watch)
+        let scope = scoped.scope.with_head(if scoped.takes_head { shot.head } else { 0.0 });
+        let palette = Palette::of(&scope);
+        let mut job = shot.scope_job(scope, effort, if fine { 3 } else { 1 });
+        let is_slow = matches!(self.renderer.plan(&job)?.backend, Backend::Rays) && !fine;
+        job.film = coarser(&shot.film, effort.coarser * if is_slow { RAYS_COARSER } else { 1.0 });
+        let size = job.film.size;
+        let (mut pixels, mut unresolved) =
+            (Vec::with_capacity(3 * size[0] as usize * size[1] as usize), None);
+        let Self { renderer, notes, .. } = self;
+        let rendered = renderer.run(&job, watch, &mut |part| {
+            match part {
+                Partial::Begun { unresolved: known, .. } => {
+                    pixels.clear();
+                    unresolved = known;
+                }
+                Partial::Rows { rows, first_channel, .. } => {
+                    for y in rows.first..rows.first + rows.count {
+                        palette.encode(rows, first_channel, y, &mut pixels);
+                    }
+                }
+                Partial::Note(why) => notes.push(why.to_owned()),
+                Partial::Picture { .. } => {}
             }
-        }
-    }
-
-    fn by_beams(
-        &mut self,
-        shot: &Shot,
-        effort: &Effort,
-        scope: &Scope,
-        watch: Watch,
-    ) -> Result<TakenPicture, TakeError> {
-        let film = coarser(&shot.film, effort.coarser);
-        let beams = self.shelf.beams(&shot.specimen, &shot.view, effort, watch)?;
-        let layer = if shot.strongest {
-            Layer::strongest(&beams, scope)
-        } else {
-            Layer::energy(&beams, scope, shot.glare)
+            Ok::<_, TakeError>(())
+        })?;
+        let tracer = name(&rendered.backend);
+        // The whole light counts, not the part of the area that has no strongest exit.
+        let unresolved = rendered.beams().map_or(unresolved, |beams| Some(beams.unresolved()));
+        let side = size.map(|n| n as usize);
+        let image = match shot.overlay {
+            None => ColorImage::from_rgb(side, &pixels),
+            Some(_) => {
+                let mut rgba: Vec<u8> = pixels.chunks(3).flat_map(|c| [c[0], c[1], c[2], 255]).collect();
+                overlaid(shot, &mut rgba, size, watch)?;
+                ColorImage::from_rgba_unmultiplied(side, &rgba)
+            }
         };
-        let mut canvas = Canvas::new(&film, scope, 0);
-        paint(&layer, &film, watch, |rows| -> Result<(), TakeError> { canvas.take(rows) })?;
-        Ok(canvas.finish(Some(beams.unresolved()), "exact beams"))
-    }
-
-    fn by_rays(
-        rays: RayTracer,
-        shot: &Shot,
-        effort: &Effort,
-        (scope, per_side): (&Scope, u32),
-        watch: Watch,
-    ) -> Result<TakenPicture, TakeError> {
-        let slower = if matches!(rays, RayTracer::Rays) && per_side == 1 { RAYS_COARSER } else { 1.0 };
-        let film = coarser(&shot.film, effort.coarser * slower);
-        let options =
-            ray::RayOptions { most_bounces: MOST_BOUNCES, least_weight: LEAST_WEIGHT, polarised: true };
-        let manner = ScopeSampling { options, per_side, glare: shot.glare };
-        let (solid, medium) = (shot.specimen.solid(), shot.specimen.medium(line::SODIUM_D));
-        let first = if shot.strongest { scope.bands.len() } else { 0 };
-        let mut canvas = Canvas::new(&film, scope, first);
-        let each = |rows: &Rows| canvas.take(rows);
-        let view = &shot.view;
-        match rays {
-            RayTracer::Card(gpu) => {
-                by_gpu::trace(gpu, solid, medium, view, scope, &film, &manner, watch, each)?;
-            }
-            RayTracer::Rays => {
-                by_rays::trace(solid, medium, view, scope, &film, &manner, watch, each)?;
-            }
-        }
-        Ok(canvas.finish(None, name(Tracer::Rays(rays))))
+        Ok(TakenPicture { image, unresolved, tracer, map: None })
     }
 }
 
-/// Returns the same film with larger pixels.
-pub(super) fn coarser(film: &Film, factor: f64) -> Film {
-    let size = film.size.map(|n| ((f64::from(n) / factor).ceil() as u32).max(1));
-    Film { size, pixel: film.pixel * f64::from(film.size[0]) / f64::from(size[0]), ..*film }
-}
-
-/// Draws an overlay over the picture of a shot.
+/// Draws the overlay of a shot, if it has one, over its picture of `size` pixels.
 pub(super) fn overlaid(
     shot: &Shot,
-    overlay: Overlay,
-    image: &mut ColorImage,
+    rgba: &mut [u8],
+    [across, down]: [u32; 2],
     watch: Watch,
 ) -> Result<(), Stopped> {
-    let scene = scene_of(shot);
-    let [across, down] = image.size.map(|n| n as u32);
+    let Some(overlay) = shot.overlay else { return Ok(()) };
     let pixel = shot.film.pixel * f64::from(shot.film.size[0]) / f64::from(across);
-    let film = Film { size: [across, down], pixel, ..shot.film };
-    let mut rgba: Vec<u8> = image.pixels.iter().flat_map(|p| p.to_srgba_unmultiplied()).collect();
-    lay(overlay, &lit_scene(shot, &scene, film, None), &mut rgba, watch)?;
-    *image = ColorImage::from_rgba_unmultiplied(image.size, &rgba);
-    Ok(())
+    let job = shot.overlay_job(Film { size: [across, down], pixel, ..shot.film });
+    job.lit().map_or(Ok(()), |lit_scene| lay(overlay, &lit_scene, rgba, watch))
 }
 
 fn drawing(shot: &Shot) -> Result<TakenPicture, TakeError> {
@@ -265,31 +189,6 @@ fn drawing(shot: &Shot) -> Result<TakenPicture, TakeError> {
     Ok(TakenPicture { image, unresolved: None, tracer: "drawn", map: None })
 }
 
-/// Collects the rows of a picture in a scope as they are traced.
-struct Canvas {
-    palette: Palette,
-    first: usize,
-    size: [usize; 2],
-    pixels: Vec<u8>,
-}
-
-impl Canvas {
-    fn new(film: &Film, scope: &Scope, first: usize) -> Self {
-        let size = film.size.map(|n| n as usize);
-        Self { palette: Palette::of(scope), first, size, pixels: Vec::with_capacity(3 * size[0] * size[1]) }
-    }
-
-    fn take(&mut self, rows: &Rows) -> Result<(), TakeError> {
-        let Self { palette, first, pixels, .. } = self;
-        (rows.first..rows.first + rows.count).for_each(|y| palette.encode(rows, *first, y, pixels));
-        Ok(())
-    }
-
-    fn finish(self, unresolved: Option<f64>, tracer: &'static str) -> TakenPicture {
-        TakenPicture { image: ColorImage::from_rgb(self.size, &self.pixels), unresolved, tracer, map: None }
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -297,10 +196,11 @@ mod tests {
     use crate::app::eye::Eye;
     use crate::app::framing::FramingFit;
     use crate::app::liquid::Liquid;
+    use crate::app::studio::jobs::BEHIND;
     use crate::app::studio::order::{Paper, Smoothing, Which};
-    use crate::app::studio::render::BEHIND;
     use crate::io::lighting::Lighting;
-    use crate::scene::{Glare, Pose, Projection};
+    use crate::scene::{Glare, Pose, Projection, View};
+    use crate::trace::gpu::Gpu;
     use crate::trace::unwatched;
     use glam::DVec2;
     use std::path::Path;
@@ -335,16 +235,25 @@ mod tests {
     }
 
     #[test]
-    fn exports_take_as_many_passes_as_the_command_line() {
-        let passes = |shot: &Shot| crate::app::studio::exported(shot).looks;
-        assert_eq!(passes(&shot(Shows::Render, None)), 4, "exact beams");
-        assert_eq!(passes(&shot(Shows::Render, Some(8.0))), 64, "rays, for a perspective");
+    fn exports_are_planned_as_on_the_command_line() {
+        let planned = |shot: &Shot| if ShotTracer::default().is_slow_render(shot) { "rays" } else { "beams" };
+        assert_eq!(planned(&shot(Shows::Render, None)), "beams");
+        assert_eq!(planned(&shot(Shows::Render, Some(8.0))), "rays", "a perspective");
         let before = |name: &str| {
             let behind = BackgroundRef::read(name, Path::new("")).unwrap();
-            passes(&Shot { behind: Some(behind), ..shot(Shows::Render, None) })
+            planned(&Shot { behind: Some(behind), ..shot(Shows::Render, None) })
         };
-        assert_eq!(before("page"), 64, "rays, for what hangs behind");
-        assert_eq!(["light", "white"].map(before), [4, 4], "exact beams, as nothing hangs behind");
+        assert_eq!(before("page"), "rays", "something hangs behind");
+        assert_eq!(["light", "white"].map(before), ["beams"; 2], "nothing hangs behind");
+    }
+
+    #[test]
+    fn an_exported_render_keeps_the_colours_of_its_transparent_edges() {
+        let shot = shot(Shows::Render, Some(8.0));
+        let exported = ShotTracer::default().export(&shot, &unwatched).unwrap();
+        let edges = exported.rgba.chunks(4).filter(|p| (1..40).contains(&p[3])).collect::<Vec<_>>();
+        let bright = edges.iter().filter(|p| p[..3].iter().any(|c| *c % 17 != 0)).count();
+        assert!(edges.len() > 5 && bright > edges.len() / 2, "{bright} of {}", edges.len());
     }
 
     fn taken(camera: &mut ShotTracer, shot: &Shot, growing: Option<&Growing>) -> TakenPicture {
@@ -376,8 +285,8 @@ mod tests {
                 return;
             }
         };
-        let mut card = ShotTracer::by(Some(gpu));
-        let growing = Growing { bands: 4, looks: 16, after: 0, unresolved: 5e-3 };
+        let mut card = ShotTracer::by(Card::Open(gpu));
+        let growing = Growing { bands: 4, samples: 16, after: 0, unresolved: 5e-3 };
         let checks = BackgroundRef::read("checks", Path::new("")).unwrap();
         let mixed = Shot { behind: Some(checks), strength: 0.2, ..shot(Shows::Render, None) };
         for (shot, most) in [
@@ -410,7 +319,7 @@ mod tests {
     #[test]
     fn a_rough_render_looks_like_the_fine_one() {
         let shot = shot(Shows::Render, None);
-        let growing = Growing { bands: 16, looks: 4, after: 0, unresolved: 2e-3 };
+        let growing = Growing { bands: 16, samples: 4, after: 0, unresolved: 2e-3 };
         let mut camera = ShotTracer::default();
         let (rough, fine) = (taken(&mut camera, &shot, None), taken(&mut camera, &shot, Some(&growing)));
         let off = apart(&rough, &fine);

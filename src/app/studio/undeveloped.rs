@@ -50,7 +50,7 @@ impl ShotTracer {
         let (_, light) = self.kept.get(&slot).filter(|(kept, _)| kept.has_light_of(shot))?;
         Some(match light {
             TracedLight::Render { picture, unresolved, tracer } => {
-                developed(shot, (picture, true), (*unresolved, tracer), watch)
+                developed(shot, (picture, true), (*unresolved, tracer), watch).map_err(TakeError::from)
             }
             TracedLight::Map(map) => Ok(map_taken(shot, map.clone())),
         })

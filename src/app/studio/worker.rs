@@ -2,15 +2,15 @@
 
 use super::order::{Answer, FiguresOrder, Grade, Order, Shot, Slot, Smoothing, TakenPicture, Which};
 use super::pace::{Effort, Pace};
-use super::render::{Growing, demands, is_for_beams};
+use super::render::Growing;
 use super::take::{RAYS_COARSER, ShotTracer, TakeError};
 use super::{Mailbox, Wake};
 use crate::app::shows::Shows;
-use crate::measure::{Bounds, Figures, LATTICE, MeasureError, UNRESOLVED, by_beams, measure_subject};
-use crate::render::{Demands, usual_passes};
-use crate::scene::{ASET_CONE, Backing, Scope, View};
+use crate::measure::{Bounds, Figures, LATTICE, UNRESOLVED};
+use crate::render::{Card, Job, RenderError, Rendered};
+use crate::scene::View;
 use crate::trace::gpu::Gpu;
-use crate::trace::{Stopped, Subject, Watch};
+use crate::trace::{Stopped, Watch};
 use std::collections::HashMap;
 use std::ops::ControlFlow;
 use std::sync::atomic::Ordering;
@@ -28,20 +28,15 @@ const FIGURES: f64 = UNRESOLVED;
 const TILTED: f64 = 5e-3;
 
 /// A fair render.
-const FAIR_RENDER: Growing = Growing { bands: 8, looks: 1, after: 0, unresolved: 1e-2 };
+const FAIR_RENDER: Growing = Growing { bands: 8, samples: 1, after: 0, unresolved: 1e-2 };
 /// A render by rays on its way from rough to fair, with pixels twice as large.
 const HALFWAY: Effort = Effort { unresolved: FAIR, coarser: 2.0 / RAYS_COARSER, bands: FAIR_RENDER.bands };
 /// A fine render on the processor. An export differs from it in the number of passes alone.
-pub const FINE_RENDER: Growing = Growing { bands: u32::MAX, looks: 4, after: 0, unresolved: 2e-3 };
-const FINE_BY_CARD: Growing = Growing { looks: 64, ..FINE_RENDER };
+pub const FINE_RENDER: Growing = Growing { bands: u32::MAX, samples: 4, after: 0, unresolved: 2e-3 };
+const FINE_BY_CARD: Growing = Growing { samples: 64, ..FINE_RENDER };
 
 /// A render by rays on the processor that is sharpened when all else is done, until there is a newer order.
-const SHARP: Growing = Growing { looks: 64, after: FINE_RENDER.looks, ..FINE_RENDER };
-
-/// Returns how the render of a shot is exported: with as many passes as the command line takes on the processor.
-pub fn exported(shot: &Shot) -> Growing {
-    Growing { looks: usual_passes(demands(shot).by_processor()), ..FINE_RENDER }
-}
+const SHARP: Growing = Growing { samples: 64, after: FINE_RENDER.samples, ..FINE_RENDER };
 
 /// Carries out orders, one after the other.
 pub(super) struct Worker {
@@ -70,7 +65,7 @@ impl Worker {
             desk,
             answers,
             wake,
-            camera: ShotTracer::by(gpu),
+            camera: ShotTracer::by(gpu.map_or(Card::None, Card::Open)),
             pace: Pace::default(),
             pictures: HashMap::new(),
             figures: HashMap::new(),
@@ -145,11 +140,7 @@ impl Worker {
         let effort = self.pace.effort();
         let begun = Instant::now();
         let order = &turn.order;
-        self.camera.shelf.keep(|specimen, view| {
-            let is = |s: &Arc<_>, v: &View| Arc::ptr_eq(s, specimen) && v == view;
-            order.shots.iter().any(|(_, shot)| is(&shot.specimen, &shot.view))
-                || order.figures.iter().any(|(_, ask)| is(&ask.specimen, &ask.view))
-        });
+        self.camera.renderer.begin_round();
         self.camera.kept.retain(|slot, _| order.shots.iter().any(|(wanted, _)| wanted == slot));
         let mut any = false;
         for (slot, shot) in &order.shots {
@@ -162,7 +153,7 @@ impl Worker {
         for (which, ask) in &order.figures {
             if self.figures.get(which).is_none_or(|(done, _)| done != ask) {
                 self.count();
-                let figures = self.glanced(ask, &effort, &watch)?;
+                let figures = self.measured(&ask.rough_job(&effort, LATTICE / 16), &watch)?;
                 self.send_figures(*which, ask, Grade::Rough, figures);
             }
         }
@@ -194,22 +185,22 @@ impl Worker {
     fn refine(&mut self, turn: &Turn) -> Result<(), Stopped> {
         let (desk, number) = (Arc::clone(&self.desk), turn.number);
         let watch = move |_: f64| stop_if(desk.newest.load(Ordering::SeqCst) != number);
-        let fine = if self.camera.gpu.is_some() { FINE_BY_CARD } else { FINE_RENDER };
+        let has_card = self.camera.renderer.card().quick().is_some();
+        let fine = if has_card { FINE_BY_CARD } else { FINE_RENDER };
         for (slot, shot) in &turn.order.shots {
             // Pictures of a temporal history all have one size.
             let is_laid = matches!(shot.smoothing, Smoothing::Temporal { .. });
-            let is_by_rays = shot.shows == Shows::Render && !is_for_beams(shot) && self.camera.gpu.is_none();
-            if is_by_rays
-                && !is_laid
+            if !is_laid
+                && self.camera.is_slow_render(shot)
                 && self.pictures.get(slot).is_none_or(|(done, g)| done != shot || *g < Grade::Fair)
             {
                 self.picture((*slot, shot), Grade::Rough, (&HALFWAY, None), &watch)?;
             }
         }
         self.pictures(&turn.order, Grade::Fair, (FAIR, &FAIR_RENDER), &watch)?;
-        self.all_figures(&turn.order, Grade::Fair, (FINE, LATTICE / 4), &watch)?;
+        self.all_figures(&turn.order, Grade::Fair, bounds(FINE, LATTICE / 4), &watch)?;
         self.pictures(&turn.order, Grade::Fine, (FINE, &fine), &watch)?;
-        self.all_figures(&turn.order, Grade::Fine, (FIGURES, LATTICE), &watch)?;
+        self.all_figures(&turn.order, Grade::Fine, bounds(FIGURES, LATTICE), &watch)?;
         self.against_tilt(&turn.order, &watch)
     }
 
@@ -235,8 +226,7 @@ impl Worker {
         let watch = move |_: f64| stop_if(desk.newest.load(Ordering::SeqCst) != number);
         let effort = Effort { unresolved: SHARP.unresolved, coarser: 1.0, bands: SHARP.bands };
         for (slot, shot) in &turn.order.shots {
-            let grows = shot.shows == Shows::Render && !is_for_beams(shot) && self.camera.gpu.is_none();
-            if !grows || self.sharp.get(slot) == Some(shot) {
+            if !self.camera.is_slow_render(shot) || self.sharp.get(slot) == Some(shot) {
                 continue;
             }
             self.desk.sharpens.store(true, Ordering::SeqCst);
@@ -263,15 +253,12 @@ impl Worker {
             let _ = answers.send(Answer::Picture(slot, Box::new(shot.clone()), grade, taken));
             wake();
         };
-        match self.camera.take((slot, shot), effort, growing, watch, &mut each) {
+        let taken = self.camera.take((slot, shot), effort, growing, watch, &mut each);
+        let notes: Vec<String> = self.camera.notes.drain(..).collect();
+        notes.into_iter().for_each(|note| self.answer(Answer::Trouble(note)));
+        match taken {
             Ok(()) => {}
             Err(TakeError::Stopped(stopped)) => return Err(stopped),
-            Err(TakeError::Card(error)) => {
-                // The processor does the card's work from now on.
-                self.camera.gpu = None;
-                self.answer(Answer::Trouble(format!("{error}: tracing on the processor")));
-                return self.picture((slot, shot), grade, (effort, growing), watch);
-            }
             Err(TakeError::NotConvex(why)) => self.answer(Answer::Trouble(why.to_string())),
             Err(TakeError::Other(why)) => self.answer(Answer::Trouble(why)),
         }
@@ -283,25 +270,26 @@ impl Worker {
         &mut self,
         order: &Order,
         grade: Grade,
-        bound: Bound,
+        bound: Bounds,
         watch: Watch,
     ) -> Result<(), Stopped> {
         for (which, ask) in &order.figures {
             if self.figures.get(which).is_none_or(|(done, g)| done != ask || *g < grade) {
                 self.count();
-                let figures = measured(ask, &ask.view, bound, watch)?;
+                let figures = self.measured(&ask.job(ask.view, &bound), watch)?;
                 self.send_figures(*which, ask, grade, figures);
             }
         }
         Ok(())
     }
 
-    /// Returns rough figures, from the beams that the pictures share where there are any.
-    fn glanced(&mut self, ask: &FiguresOrder, effort: &Effort, watch: Watch) -> Result<Figures, Stopped> {
-        match self.camera.shelf.beams(&ask.specimen, &ask.view, effort, watch) {
-            Ok(beams) => Ok(by_beams(&beams, &scope(ask))),
-            Err(TakeError::Stopped(stopped)) => Err(stopped),
-            Err(_) => measured(ask, &ask.view, (effort.unresolved, LATTICE / 16), watch),
+    fn measured(&mut self, job: &Job, watch: Watch) -> Result<Figures, Stopped> {
+        let rendered = self.camera.renderer.run(job, watch, &mut |_| Ok::<_, RenderError>(()));
+        match rendered.and_then(Rendered::figures) {
+            Ok(measured) => Ok(measured.figures),
+            Err(RenderError::Stopped(stopped)) => Err(stopped),
+            // Figures are ordered for parallel rays alone, and traced by a tracer that fits them.
+            Err(other) => unreachable!("{other}"),
         }
     }
 
@@ -314,12 +302,12 @@ impl Worker {
         let Some(ask) = order.tilts.as_ref().filter(|ask| self.tilts.as_ref() != Some(*ask)) else {
             return Ok(());
         };
-        let at = |degrees: f64| -> Result<(f64, Figures), Stopped> {
-            let view = View { tilt: degrees.to_radians(), ..ask.view };
-            Ok((degrees, measured(ask, &view, (TILTED, LATTICE / 4), watch)?))
-        };
         self.count();
-        let tilts = TILTS.into_iter().map(at).collect::<Result<_, _>>()?;
+        let mut at = |degrees: f64| -> Result<(f64, Figures), Stopped> {
+            let view = View { tilt: degrees.to_radians(), ..ask.view };
+            Ok((degrees, self.measured(&ask.job(view, &bounds(TILTED, LATTICE / 4)), watch)?))
+        };
+        let tilts = TILTS.into_iter().map(&mut at).collect::<Result<_, _>>()?;
         self.tilts = Some(ask.clone());
         self.answer(Answer::Tilts(ask.clone(), tilts));
         Ok(())
@@ -330,30 +318,8 @@ fn stop_if(outdated: bool) -> ControlFlow<()> {
     if outdated { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
 }
 
-fn scope(ask: &FiguresOrder) -> Scope {
-    Scope::aset(ASET_CONE, Backing::Black).with_head(ask.head)
-}
-
-/// The share of the light that may stay unresolved, and the number of points along each side of the lattices on which rays
-/// sample figures.
-type Bound = (f64, u32);
-
-/// Measures figures to a bound, in the same way as `measure`.
-fn measured(
-    ask: &FiguresOrder,
-    view: &View,
-    (unresolved, lattice): Bound,
-    watch: Watch,
-) -> Result<Figures, Stopped> {
-    let (specimen, scope) = (&*ask.specimen, scope(ask));
-    let medium = specimen.medium(crate::optics::line::SODIUM_D);
-    let subject = Subject { specimen, medium, view, scope: &scope };
-    let bounds = Bounds { unresolved, lattice, ..Bounds::default() };
-    let tracer = Demands::of_scope(specimen, view).by_processor();
-    match measure_subject(subject, tracer, &bounds, watch) {
-        Ok(measured) => Ok(measured.figures),
-        Err(MeasureError::Stopped(stopped)) => Err(stopped),
-        // Figures are ordered for parallel rays alone, and traced by a tracer that fits them.
-        Err(other) => unreachable!("{other}"),
-    }
+/// The bounds of figures by the share of the light that may stay unresolved, and by the number of points along each side of
+/// the lattices on which rays sample them.
+fn bounds(unresolved: f64, lattice: u32) -> Bounds {
+    Bounds { unresolved, lattice, ..Bounds::default() }
 }

@@ -8,12 +8,14 @@ use crate::app::export_scene::SceneOut;
 use crate::app::moving::Moving;
 use crate::app::preset::Preset;
 use crate::app::shows::Shows;
-use crate::app::studio::{Smoothing, Which, hung, lit_scene, scene_of};
+use crate::app::studio::{Smoothing, Which, hung};
 use crate::app::workspace::{Pane, PaneLayout, Workspace};
+use crate::render::{Quality, Steps};
 use crate::scene::{Copies, Panorama, Pose};
 use egui::{Key, Pos2};
 use egui_kittest::kittest::Queryable;
 use std::path::PathBuf;
+use std::sync::Arc;
 
 /// Opens a scene, of the program's own or from a file, in a single render view.
 fn bench(scene: &str) -> Bench {
@@ -230,8 +232,9 @@ fn zooming_shows_the_same_light_nearer_and_another_design_is_seen_as_physics() {
     let mut bench = bench("subtle-pill");
     let seen = |bench: &Bench| {
         let shot = bench.editor().asked.shots[0].1.clone();
-        let (scene, page) = (scene_of(&shot), Panorama { width: 2, height: 2, pixels: vec![[1.0; 3]; 4] });
-        let width = lit_scene(&shot, &scene, shot.film, Some(&page)).environment.backplate.unwrap().width;
+        let page = Arc::new(Panorama { width: 2, height: 2, pixels: vec![[1.0; 3]; 4] });
+        let job = shot.light_job(Some(page), 1, Steps::Strips, Quality::of_pictures(true));
+        let width = job.lit().unwrap().environment.backplate.unwrap().width;
         (width, shot.film.pixel, shot.strength)
     };
     let before = seen(&bench);

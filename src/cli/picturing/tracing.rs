@@ -1,57 +1,16 @@
-//! Traces a picture with the planned tracer, and describes how it was made.
+//! Describes how a picture was made.
 
 use super::{Failure, PictureSetup, RenderedPicture};
-use crate::optics::{Stratum, strata};
-use crate::picture::Linear;
-use crate::picture::spectral::Remainder;
-use crate::render::{self, LightQuality, usual_passes};
-use crate::trace::beam::BeamOptions;
-use crate::trace::sampling::{LitScene, Sampling};
-use crate::trace::{Tracer, Watch};
-
-/// The share of the light that exact beams leave unresolved.
-const UNRESOLVED: f64 = 2e-3;
-
-/// The most beams of one wavelength. Without symmetry, reaching the bound [`UNRESOLVED`] would take many times as long as
-/// the rest of the work.
-const MOST_BEAMS: usize = 100_000;
+use crate::render::Rendered;
 
 /// The share of unresolved light above which a warning is printed.
 const MUCH_UNRESOLVED: f64 = 0.02;
 
 impl PictureSetup<'_> {
-    pub(super) fn traced(
-        &self,
-        tracer: Tracer,
-        lit_scene: &LitScene,
-        watch: Watch,
-    ) -> Result<RenderedPicture, Failure> {
-        let sampling = Sampling {
-            count: self.options.samples.unwrap_or(usual_passes(tracer)),
-            jitter: !self.finish.no_jitter,
-            strength: self.strength,
-        };
-        let beams = BeamOptions {
-            unresolved: UNRESOLVED,
-            polarised: !self.options.unpolarised,
-            most_beams: MOST_BEAMS,
-            ..BeamOptions::default()
-        };
-        let quality = LightQuality { strata: &self.strata(), sampling, beams };
-        let traced = render::light(lit_scene, tracer, quality, watch)?;
-        Ok(self.described(traced, sampling, &tracer.description()))
-    }
-
-    fn strata(&self) -> Vec<Stratum> {
-        strata(self.options.wavelengths, &self.lighting.light.spectrum, !self.options.unadapted)
-    }
-
-    fn described(
-        &self,
-        (picture, rest): (Linear, Remainder),
-        taken: Sampling,
-        tracer: &str,
-    ) -> RenderedPicture {
+    /// Returns a picture with its description, and warns where much of its light is missing.
+    pub(super) fn described(&self, rendered: Rendered) -> Result<RenderedPicture, Failure> {
+        let (tracer, samples) = (rendered.backend.description(), rendered.samples);
+        let (picture, rest) = rendered.light()?;
         if rest.unresolved > MUCH_UNRESOLVED {
             let percent = 100.0 * rest.unresolved;
             crate::cli::say(&format!(
@@ -61,8 +20,8 @@ impl PictureSetup<'_> {
             ));
         }
         let light = &self.lighting.light.name;
-        let looks = if taken.count == 1 { "1 look".to_owned() } else { format!("{} looks", taken.count) };
-        let jitter = if taken.jitter { "" } else { ", without jitter" };
+        let looks = if samples == 1 { "1 look".to_owned() } else { format!("{samples} looks") };
+        let jitter = if self.finish.no_jitter { ", without jitter" } else { "" };
         let polarised = if self.options.unpolarised { "unpolarised" } else { "polarised" };
         let told = format!(
             "{}; light {light}; {} wavelengths in {looks}{jitter}, {polarised}; {tracer}, unresolved {:.2e}, absorbed \
@@ -73,7 +32,7 @@ impl PictureSetup<'_> {
             rest.absorbed,
             self.mixture()
         );
-        RenderedPicture { picture, description: told }
+        Ok(RenderedPicture { picture, description: told })
     }
 
     /// Returns the note of a picture with a strength of refraction below 1, which is not physics; empty at full strength.

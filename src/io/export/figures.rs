@@ -1,12 +1,13 @@
 //! The figures of a view, and their JSON.
 
 use super::event::Reporter;
-use super::viewing::Viewing;
+use super::viewing::{Viewing, note};
 use crate::io::Failure;
-use crate::measure::{Bounds, LATTICE, MeasureError, Measured, UNRESOLVED, measure_subject};
+use crate::measure::{Measured, UNRESOLVED};
 use crate::picture::Scoped;
-use crate::scene::{Glare, Lean, Projection, Viewpoint};
-use crate::trace::{Subject, Tracer, Watch};
+use crate::render::{Backend, FiguresProduct, Product, Renderer};
+use crate::scene::{Film, Glare, Lean, Projection, Viewpoint};
+use crate::trace::Watch;
 use serde_json::{Map, Value, json};
 use std::time::Instant;
 
@@ -19,7 +20,7 @@ pub struct FigureReport<'a> {
     /// The figures.
     pub measured: Measured,
     /// The tracer that was used.
-    pub tracer: Tracer<'a>,
+    pub backend: Backend,
     /// How long the measurement took, in seconds.
     pub seconds: f64,
 }
@@ -31,44 +32,24 @@ pub struct FigureReport<'a> {
 pub fn measure<'a>(
     viewing: &Viewing<'a>,
     scoped: &Scoped,
+    renderer: &mut Renderer,
     watch: Watch,
     tell: Reporter,
 ) -> Result<FigureReport<'a>, Failure> {
     let viewing = viewing.facing(scoped.side);
-    viewing.check()?;
-    let scope = scoped.with_head(viewing.head_deg);
-    let unresolved = viewing.unresolved.unwrap_or(UNRESOLVED);
-    let bounds = Bounds { unresolved, polarised: viewing.polarised, lattice: LATTICE };
-    let view = viewing.viewpoint.view();
-    let subject = Subject { specimen: viewing.specimen, medium: viewing.medium, view: &view, scope: &scope };
+    viewing.check(renderer)?;
+    let product = FiguresProduct { scope: scoped.with_head(viewing.head_deg), medium: viewing.medium };
+    let job = viewing.job(Film::NONE, Product::Figures(product), UNRESOLVED);
     let start = Instant::now();
-    let by = |tracer| {
-        let measured = measure_subject(subject, tracer, &bounds, watch).map_err(|e| failure(&viewing, e))?;
-        Ok((measured, tracer))
-    };
-    let (measured, tracer) = match viewing.tracer {
-        Tracer::Beams => by(Tracer::Beams)?,
-        Tracer::Rays(first) => first.or_rays(tell, |used| by(Tracer::Rays(used)))?,
-    };
+    let rendered = renderer.run(&job, watch, &mut |part| note(&part, tell))?;
     let seconds = start.elapsed().as_secs_f64();
-    if matches!(tracer, Tracer::Beams) {
-        viewing.warn_of_open(
-            (measured.figures.unresolved, measured.figures.beams),
-            bounds.unresolved,
-            tell,
-        )?;
+    let backend = rendered.backend.clone();
+    let measured = rendered.figures()?;
+    if backend.is_beams() {
+        let open = (measured.figures.unresolved, measured.figures.beams);
+        viewing.warn_of_open(open, job.quality.beams.unresolved, tell)?;
     }
-    Ok(FigureReport { viewing, scoped: scoped.clone(), measured, tracer, seconds })
-}
-
-fn failure(viewing: &Viewing, error: MeasureError) -> Failure {
-    match error {
-        MeasureError::CannotTrace(why) => viewing.cannot(why),
-        #[cfg(feature = "gpu")]
-        MeasureError::Card(error) => Failure::Card(error),
-        MeasureError::Stopped(stopped) => stopped.into(),
-        other => Failure::Input(format!("{}: {other}", viewing.file)),
-    }
+    Ok(FigureReport { viewing, scoped: scoped.clone(), measured, backend, seconds })
 }
 
 impl FigureReport<'_> {
@@ -112,10 +93,10 @@ impl FigureReport<'_> {
         set("index", json!(viewing.medium.index));
         set("wavelength_nm", json!(viewing.wavelength_nm));
         set("head_deg", json!(viewing.head_deg));
-        set("tracer", json!(self.tracer.name()));
+        set("tracer", json!(self.backend.name()));
         set("polarised", json!(viewing.polarised));
         set("view", seen_from(&viewing.viewpoint));
-        if matches!(self.tracer, Tracer::Rays(_)) {
+        if !self.backend.is_beams() {
             set("standard_error", json!(figures.standard_error));
         }
         value

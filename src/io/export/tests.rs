@@ -1,8 +1,9 @@
 use super::*;
 use crate::io::{cut_file, library};
 use crate::picture::named;
+use crate::render::{Renderer, Wanted};
 use crate::scene::{Lean, Medium, Projection, Side, Specimen, Viewpoint};
-use crate::trace::{RayTracer, unwatched};
+use crate::trace::unwatched;
 use std::collections::BTreeMap;
 use std::ops::ControlFlow;
 use std::sync::Mutex;
@@ -23,7 +24,7 @@ fn viewing(specimen: &Specimen) -> Viewing<'_> {
         unresolved: Some(0.3),
         polarised: true,
         glare: None,
-        tracer: Tracer::Beams,
+        tracer: Wanted::Beams,
     }
 }
 
@@ -44,7 +45,7 @@ fn outputs(folder: &Path, pictures: &[&str], formats: &[OutputFormat]) -> Output
 fn in_perspective(viewing: Viewing<'_>, distance: f64) -> Viewing<'_> {
     let projection = Projection::Perspective { distance };
     let viewpoint = Viewpoint { projection, ..viewing.viewpoint };
-    Viewing { viewpoint, tracer: Tracer::Rays(RayTracer::Rays), ..viewing }
+    Viewing { viewpoint, tracer: Wanted::Rays, ..viewing }
 }
 
 fn found(folder: &Path) -> BTreeMap<PathBuf, Vec<u8>> {
@@ -68,7 +69,7 @@ fn written(export: &Export) -> (Vec<PathBuf>, Vec<String>, Vec<f64>) {
         }
         Ok(())
     };
-    export.write(&watch, &tell).unwrap();
+    export.write(&mut Renderer::default(), &watch, &tell).unwrap();
     (files.into_inner().unwrap(), texts.into_inner().unwrap(), parts.into_inner().unwrap())
 }
 
@@ -76,7 +77,7 @@ fn written(export: &Export) -> (Vec<PathBuf>, Vec<String>, Vec<f64>) {
 fn the_files_are_those_that_are_written_and_told_in_their_order() {
     let specimen = specimen();
     let beams = viewing(&specimen);
-    let rays = Viewing { tracer: Tracer::Rays(RayTracer::Rays), ..beams };
+    let rays = Viewing { tracer: Wanted::Rays, ..beams };
     let all = ["profile", "aset", "hearts", "diagram"];
     let cases = [
         (beams, &all[..], &OutputFormat::ALL[..], 2 + 5 + 5 + 2 + 1),
@@ -91,7 +92,7 @@ fn the_files_are_those_that_are_written_and_told_in_their_order() {
         let folder = tempfile::tempdir().unwrap();
         let outputs = outputs(&folder.path().join("deep/er"), pictures, formats);
         let export = Export { viewing, outputs: &outputs };
-        let files = export.files().unwrap();
+        let files = export.files(&Renderer::default()).unwrap();
         assert_eq!((files.len(), found(&outputs.folder).len()), (count, 0));
         let (told, _, parts) = written(&export);
         assert_eq!(told, files);
@@ -112,14 +113,15 @@ fn work_that_is_stopped_leaves_whole_files_only() {
     written(&export);
     let contents = |outputs: &Outputs| -> Vec<Vec<u8>> {
         let name = |path: PathBuf| outputs.folder.join(path.file_name().unwrap());
-        let files = export.files().unwrap().into_iter().map(name);
+        let files = export.files(&Renderer::default()).unwrap().into_iter().map(name);
         files.map_while(|path| std::fs::read(path).ok()).collect()
     };
     let complete = contents(&whole);
     for (stop, least) in [(0.0, 0), (0.3, 1), (0.7, 6), (0.99, 10)] {
         let part = Outputs { folder: folder.path().join(format!("to {stop}")), ..whole.clone() };
         let watch = |done: f64| if done >= stop { ControlFlow::Break(()) } else { ControlFlow::Continue(()) };
-        let stopped = Export { outputs: &part, ..export }.write(&watch, &|_| Ok(()));
+        let stopped =
+            Export { outputs: &part, ..export }.write(&mut Renderer::default(), &watch, &|_| Ok(()));
         assert!(stopped.is_ok() == (stop > 0.9) || matches!(stopped, Err(Failure::Stopped)), "{stop}");
         let left = contents(&part);
         assert!(left.len() >= least && left == complete[..left.len()], "{stop}: {} files", left.len());
@@ -136,7 +138,11 @@ fn who_is_told_may_end_the_work() {
         Event::Written(path) => Err(Failure::Output(path.display().to_string())),
         _ => Ok(()),
     };
-    let ended = Export { viewing: viewing(&specimen), outputs: &outputs }.write(&unwatched, &tell);
+    let ended = Export { viewing: viewing(&specimen), outputs: &outputs }.write(
+        &mut Renderer::default(),
+        &unwatched,
+        &tell,
+    );
     assert!(matches!(ended, Err(Failure::Output(path)) if path.ends_with("mine-profile.svg")));
     assert_eq!(found(folder.path()).len(), 1);
 }
@@ -152,7 +158,7 @@ fn what_cannot_be_written_is_refused_before_anything_is() {
     let cases = [
         (beams, twice, true, "'mine-aset-strongest'"),
         (beams, Outputs { size: 9000, ..plain.clone() }, true, "8192"),
-        (Viewing { tracer: Tracer::Beams, ..rays }, plain.clone(), true, "parallel"),
+        (Viewing { tracer: Wanted::Beams, ..rays }, plain.clone(), true, "parallel"),
         (
             rays,
             Outputs { formats: vec![OutputFormat::Svg], ..plain.clone() },
@@ -163,7 +169,10 @@ fn what_cannot_be_written_is_refused_before_anything_is() {
     ];
     for (viewing, outputs, is_usage, says) in cases {
         let export = Export { viewing, outputs: &outputs };
-        for refused in [export.files().err(), export.write(&unwatched, &|_| Ok(())).err()] {
+        for refused in [
+            export.files(&Renderer::default()).err(),
+            export.write(&mut Renderer::default(), &unwatched, &|_| Ok(())).err(),
+        ] {
             let refused = refused.unwrap();
             assert!(refused.to_string().contains(says), "{refused}");
             assert!(if is_usage {
@@ -191,7 +200,7 @@ fn notes_and_warnings_say_what_is_not_as_asked() {
     let folder = tempfile::tempdir().unwrap();
     let drawn = outputs(folder.path(), &["profile"], &[OutputFormat::Exr]);
     let export = Export { viewing: viewing(&specimen), outputs: &drawn };
-    assert!(export.files().unwrap().is_empty());
+    assert!(export.files(&Renderer::default()).unwrap().is_empty());
     let (_, texts, _) = written(&export);
     assert_eq!(texts[1], "profile: a drawing comes as PNG and SVG only");
     let many = outputs(folder.path(), &["aset"], &OutputFormat::ALL[..3]);
@@ -214,7 +223,9 @@ fn figures_are_written_down_as_they_were_given() {
     let specimen = specimen();
     let viewpoint = Viewpoint { tilt_deg: 10.1, azimuth_deg: -30.0, lean: Lean::Eye, ..Viewpoint::default() };
     let viewing = Viewing { viewpoint, wavelength_nm: None, ..viewing(&specimen) };
-    let json = measure(&viewing, &Scoped::aset(), &unwatched, &|_| Ok(())).unwrap().json(false);
+    let json = measure(&viewing, &Scoped::aset(), &mut Renderer::default(), &unwatched, &|_| Ok(()))
+        .unwrap()
+        .json(false);
     let view = r#"{"side":"table","tilt":0.0,"eye_tilt":10.1,"azimuth":-30.0,"projection":"orthographic"}"#;
     assert_eq!(json["view"].to_string(), view);
     assert_eq!(
@@ -223,7 +234,9 @@ fn figures_are_written_down_as_they_were_given() {
     );
     assert!(json["surface"]["head"].is_number() && json.get("standard_error").is_none());
     let rays = Viewing { viewpoint: viewpoint.facing(Some(Side::Culet)), ..in_perspective(viewing, 9.0) };
-    let json = measure(&rays, &Scoped::aset(), &unwatched, &|_| Ok(())).unwrap().json(false);
+    let json = measure(&rays, &Scoped::aset(), &mut Renderer::default(), &unwatched, &|_| Ok(()))
+        .unwrap()
+        .json(false);
     assert_eq!((&json["tracer"], &json["view"]["side"]), (&"ray".into(), &"culet".into()));
     assert!(json["standard_error"].is_number());
 }

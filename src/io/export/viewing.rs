@@ -3,8 +3,10 @@
 use super::event::{Event, Reporter};
 use crate::io::Failure;
 use crate::picture::Scoped;
-use crate::scene::{Glare, Medium, Side, Specimen, Stone, Viewpoint};
-use crate::trace::{CannotTrace, Tracer, beam, ray};
+use crate::render::{FiguresProduct, Job, Partial, Product, Quality, Renderer, Unfit, Wanted};
+use crate::scene::{Film, Glare, Medium, Scene, Side, Specimen, Stone, Viewpoint};
+use crate::trace::{beam, ray};
+use std::sync::Arc;
 
 /// The part of the light that may stay unresolved without a warning where no bound was requested.
 const UNASKED: f64 = 1e-3;
@@ -34,8 +36,8 @@ pub struct Viewing<'a> {
     pub polarised: bool,
     /// Whether glare is shown. With `None`, pictures leave it out and figures list it beside the rest.
     pub glare: Option<Glare>,
-    /// The tracer.
-    pub tracer: Tracer<'a>,
+    /// The tracer that is wanted.
+    pub tracer: Wanted,
 }
 
 impl Viewing<'_> {
@@ -60,23 +62,35 @@ impl Viewing<'_> {
         Viewpoint { azimuth_deg: if is_upright { 0.0 } else { azimuth_deg }, ..self.viewpoint }
     }
 
-    /// Refuses a view from which the tracer cannot see the stone.
-    ///
-    /// # Errors
-    /// [`Failure::Input`] where the eye is not in front of the whole stone, [`Failure::Usage`] where exact beams would have
-    /// to trace a perspective or a body that is not convex.
-    pub fn check(&self) -> Result<(), Failure> {
-        let can = self.tracer.check(self.specimen, &self.viewpoint.view());
-        can.map_err(|why| self.cannot(why))
+    /// Returns a job of this stone as it is viewed, with `usual` as the bound where none was requested.
+    pub(super) fn job(&self, film: Film, product: Product, usual: f64) -> Job {
+        let quality =
+            Quality { tracer: self.tracer, beams: self.beams(usual), rays: self.rays(usual), samples: None };
+        let view = self.viewpoint.view();
+        Job { scene: Arc::new(Scene::alone(self.specimen)), view, film, product, quality }
     }
 
-    /// The failure for a stone that the tracer cannot see.
-    pub(super) fn cannot(&self, why: CannotTrace) -> Failure {
-        match why {
-            CannotTrace::Eye => Failure::Input(format!("{}: {why}", self.file)),
-            CannotTrace::Perspective => Failure::Usage(why.to_string()),
-            CannotTrace::NotConvex(why) => Failure::Usage(format!("{}: {why}", self.file)),
-        }
+    /// Refuses a view from which the stone cannot be traced as it is wanted, and says whether exact beams trace it.
+    ///
+    /// # Errors
+    /// [`Unfit::Eye`] where the eye is not in front of the whole stone; others where exact beams would have to trace a
+    /// perspective or a body that is not convex.
+    pub fn plans_beams(&self, renderer: &Renderer) -> Result<bool, Unfit> {
+        let figures = FiguresProduct { scope: Scoped::aset().scope, medium: self.medium };
+        let job = self.job(Film::NONE, Product::Figures(figures), UNASKED);
+        Ok(renderer.plan(&job)?.backend.is_beams())
+    }
+
+    /// Does as [`plans_beams`](Self::plans_beams), with an error that names the file.
+    ///
+    /// # Errors
+    /// [`Failure::Input`] where the eye is not in front of the whole stone, [`Failure::Usage`] where exact beams do not fit.
+    pub fn check(&self, renderer: &Renderer) -> Result<bool, Failure> {
+        self.plans_beams(renderer).map_err(|why| match why {
+            Unfit::Eye => Failure::Input(format!("{}: {why}", self.file)),
+            Unfit::NotConvex(_) => Failure::Usage(format!("{}: {why}", self.file)),
+            _ => Failure::Usage(why.to_string()),
+        })
     }
 
     /// Returns the convex stone, for outputs that only convex stones have.
@@ -120,6 +134,14 @@ impl Viewing<'_> {
     }
 }
 
+/// Reports the notes of a renderer.
+pub(super) fn note(part: &Partial, tell: Reporter) -> Result<(), Failure> {
+    match part {
+        Partial::Note(text) => tell(Event::Note(text)),
+        _ => Ok(()),
+    }
+}
+
 /// Formats a part in percent, to four significant digits.
 fn percent_text(part: f64) -> String {
     let percent = 100.0 * part;
@@ -147,7 +169,7 @@ mod tests {
             unresolved,
             polarised: true,
             glare: None,
-            tracer: Tracer::Beams,
+            tracer: Wanted::Beams,
         };
         let said = |unresolved, open, aim| {
             let said = std::cell::RefCell::new(String::new());

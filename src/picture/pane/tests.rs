@@ -45,7 +45,7 @@ fn near(found: f64, expected: f64) {
 #[test]
 fn a_pane_without_strength_leaves_the_background_to_the_bit() {
     let background = pattern(false);
-    for quality in [Quality::High, Quality::Medium, Quality::Low] {
+    for quality in [PaneQuality::High, PaneQuality::Medium, PaneQuality::Low] {
         assert!(pane(&GlassPane { quality, ..none() }, &background, 1) == plain(&background));
     }
     let faint = GlassPane { light: 1.0, ..none() };
@@ -156,22 +156,25 @@ fn each_quality_does_what_it_says() {
     let background = pattern(false);
     let of = |quality, other: GlassPane| pane(&GlassPane { quality, ..other }, &background, 1);
     let plain_refraction = GlassPane { refraction: 70.0, ..none() };
-    for quality in [Quality::High, Quality::Medium] {
-        assert!(of(quality, plain_refraction) == of(Quality::Low, plain_refraction));
+    for quality in [PaneQuality::High, PaneQuality::Medium] {
+        assert!(of(quality, plain_refraction) == of(PaneQuality::Low, plain_refraction));
     }
     let tinted = GlassPane { tint: DVec4::new(0.2, 0.4, 0.9, 0.5), ..full() };
-    assert!(of(Quality::Low, GlassPane { refraction: 70.0, ..tinted }) == of(Quality::Low, plain_refraction));
+    assert!(
+        of(PaneQuality::Low, GlassPane { refraction: 70.0, ..tinted })
+            == of(PaneQuality::Low, plain_refraction)
+    );
     // Without frost, medium quality equals high quality with a dispersion of 30 at most.
     let clear = GlassPane { frost: 0.0, ..tinted };
-    assert!(of(Quality::Medium, clear) == of(Quality::High, GlassPane { dispersion: 30.0, ..clear }));
-    assert!(of(Quality::Medium, clear) != of(Quality::High, clear));
+    assert!(of(PaneQuality::Medium, clear) == of(PaneQuality::High, GlassPane { dispersion: 30.0, ..clear }));
+    assert!(of(PaneQuality::Medium, clear) != of(PaneQuality::High, clear));
     let few = GlassPane { dispersion: 20.0, ..clear };
-    assert!(of(Quality::Medium, few) == of(Quality::High, few));
+    assert!(of(PaneQuality::Medium, few) == of(PaneQuality::High, few));
     assert!(
-        of(Quality::Medium, GlassPane { frost: 100.0, ..few })
-            != of(Quality::High, GlassPane { frost: 100.0, ..few })
+        of(PaneQuality::Medium, GlassPane { frost: 100.0, ..few })
+            != of(PaneQuality::High, GlassPane { frost: 100.0, ..few })
     );
-    assert!("best".parse::<Quality>().is_err() && "Low".parse() == Ok(Quality::Low));
+    assert!("best".parse::<PaneQuality>().is_err() && "Low".parse() == Ok(PaneQuality::Low));
 }
 
 #[test]

@@ -80,6 +80,13 @@ pub struct Gpu {
     fault: Arc<Mutex<Option<String>>>,
 }
 
+impl GpuError {
+    /// Whether the card is lost for all work to come, rather than too small for one piece of work.
+    pub fn is_lost(&self) -> bool {
+        matches!(self, Self::NoAdapter(_) | Self::TooLimited { .. } | Self::Failed { .. })
+    }
+}
+
 impl Gpu {
     /// Opens the strongest card, or a driver that computes in software where there is no card.
     ///

@@ -1,0 +1,34 @@
+//! Refraction maps and liquid glass: what is seen behind glass.
+
+use super::job::{Job, MapProduct, PaneProduct};
+use super::renderer::{Output, RenderError};
+use crate::optics::{Illuminant, strata};
+use crate::picture::RefractionMap;
+use crate::picture::pane::{PaneLighting, compare, surroundings, traced};
+use crate::trace::Watch;
+use crate::trace::environment::EnvironmentMap;
+
+impl MapProduct {
+    pub(super) fn render(&self, job: &Job, passes: u32, watch: Watch) -> Result<Output, RenderError> {
+        let lit_scene = job.lit_scene(&self.surroundings);
+        let (map, carried) =
+            self.surveyed(passes, |survey| RefractionMap::trace(&lit_scene, &self.plane, survey, watch))?;
+        Ok(Output::RefractionMap(map, carried))
+    }
+}
+
+impl PaneProduct {
+    pub(super) fn render(&self, passes: u32, watch: Watch) -> Result<Output, RenderError> {
+        let around = PaneLighting {
+            sky: &EnvironmentMap::new(&surroundings(self.pane.effective().light), None),
+            gap: self.gap,
+            strata: &strata(self.wavelengths, &Illuminant::D65, true),
+            looks: passes,
+        };
+        if self.compares {
+            let comparison = compare(&self.pane, &self.background, &around, watch)?;
+            return Ok(Output::LiquidGlass(comparison.traced, Some(comparison.cost)));
+        }
+        Ok(Output::LiquidGlass(traced(&self.pane, &self.background, &around, watch)?, None))
+    }
+}

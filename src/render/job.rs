@@ -1,0 +1,237 @@
+//! A picture, a map or figures as one value: what stands there, from where it is seen, on which film, what is made of it
+//! and in which quality. A job is plain data, so that a thread, a page or another machine can be sent it.
+
+use super::Wanted;
+use super::surroundings::Surroundings;
+use crate::measure::Bounds;
+use crate::optics::{Stratum, strata};
+use crate::picture::pane::GlassPane;
+use crate::picture::{Backdrop, Survey};
+use crate::scene::{Film, Glare, Medium, Panorama, Scene, Scope, View};
+use crate::trace::beam::BeamOptions;
+use crate::trace::ray::RayOptions;
+use crate::trace::sampling::LitScene;
+use std::sync::Arc;
+
+/// One piece of work for a [`Renderer`](super::Renderer).
+#[derive(Debug, Clone, PartialEq)]
+pub struct Job {
+    /// The stones. Scopes and figures take the first alone.
+    pub scene: Arc<Scene>,
+    /// The view from which they are seen.
+    pub view: View,
+    /// The pixels of the picture; figures have none.
+    pub film: Film,
+    /// What is made.
+    pub product: Product,
+    /// How well it is made.
+    pub quality: Quality,
+}
+
+/// What a [`Job`] makes.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Product {
+    /// A picture under light.
+    Light(LightProduct),
+    /// A picture in a scope.
+    Scope(ScopeProduct),
+    /// A map of where the light of each pixel comes from.
+    RefractionMap(MapProduct),
+    /// A traced pane of liquid glass.
+    LiquidGlass(PaneProduct),
+    /// Figures in a scope.
+    Figures(FiguresProduct),
+}
+
+/// A picture of stones under light.
+#[derive(Debug, Clone, PartialEq)]
+pub struct LightProduct {
+    /// What is around the stones.
+    pub surroundings: Surroundings,
+    /// The number of bands of wavelengths, at least 1.
+    pub wavelengths: u32,
+    /// Whether the eye is adapted to the light, so that a white sheet is white.
+    pub adapted: bool,
+    /// The share of refraction's turning of light that is followed, 0 to 1; 1 is physics.
+    pub strength: f64,
+    /// Whether each pass takes other wavelengths, so that together they cover the whole spectrum.
+    pub jitter: bool,
+    /// In which steps the picture is made.
+    pub steps: Steps,
+}
+
+/// The steps in which a picture under light is made.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Steps {
+    /// Some rows after the other, so that little memory is held.
+    Strips,
+    /// As a whole, shown after the first, the second, the fourth pass and so on.
+    Passes {
+        /// The number of the first pass. Passes of other numbers take other places in the pixels.
+        first: u32,
+        /// The number of passes of which nothing is shown, because a picture as good is in sight.
+        hidden: u32,
+    },
+    /// By the beams of one wavelength, spread to the others to first order; for a picture that is about to change. Rays
+    /// take one pass.
+    Glance {
+        /// The number of the pass that rays take.
+        first: u32,
+    },
+}
+
+/// A picture of one stone in a scope.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ScopeProduct {
+    /// The scope.
+    pub scope: Scope,
+    /// The stone's medium.
+    pub medium: Medium,
+    /// Whether the energy includes glare.
+    pub glare: Glare,
+    /// What is read of the light, each as a picture of its own.
+    pub readings: Vec<Reading>,
+}
+
+/// What a picture in a scope shows of the light.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Reading {
+    /// All light, by the energy of each band.
+    Energy,
+    /// Only the strongest exit of each point.
+    Strongest,
+}
+
+/// A refraction map.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MapProduct {
+    /// What is around the stones; its backplate is left out.
+    pub surroundings: Surroundings,
+    /// The plane on which places are mapped.
+    pub plane: Backdrop,
+    /// The number of bands of wavelengths in which places are mapped.
+    pub bands: u32,
+    /// The number of places of a pixel in each band.
+    pub places: u32,
+    /// The number of wavelengths of the diffuse layer.
+    pub shades: u32,
+    /// Whether the eye is adapted to the light.
+    pub adapted: bool,
+}
+
+/// A pane of liquid glass, traced as real glass.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PaneProduct {
+    /// The pane.
+    pub pane: GlassPane,
+    /// What lies behind it, in the size of the picture.
+    pub background: Arc<Panorama>,
+    /// Distance between pane and background, as a part of the pane's shorter side, above 0.
+    pub gap: f64,
+    /// The number of bands of wavelengths.
+    pub wavelengths: u32,
+    /// Whether the pane is compared with a drawn one.
+    pub compares: bool,
+}
+
+/// Figures of one stone in a scope.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FiguresProduct {
+    /// The scope.
+    pub scope: Scope,
+    /// The stone's medium.
+    pub medium: Medium,
+}
+
+/// How well a job is done.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Quality {
+    /// The tracer that is wanted.
+    pub tracer: Wanted,
+    /// How far exact beams are followed.
+    pub beams: BeamOptions,
+    /// How far rays are followed.
+    pub rays: RayOptions,
+    /// The number of samples: passes of a picture under light, of a map's diffuse layer and of a pane; rays along each side
+    /// of a pixel in a scope, and along each side of a lattice for figures. `None` is the usual number.
+    pub samples: Option<u32>,
+}
+
+/// The usual share of the light that exact beams leave unresolved in a picture under light.
+const UNRESOLVED_LIGHT: f64 = 2e-3;
+
+/// The usual number of beams of one wavelength, at most. Without symmetry, reaching the bound would take many times as long
+/// as the rest of the work.
+const MOST_BEAMS: usize = 100_000;
+
+/// The usual end of rays: after this many bounces, or where no more than this weight is left.
+const RAYS: RayOptions = RayOptions { polarised: true, most_bounces: 64, least_weight: 5e-4 };
+
+impl Quality {
+    /// Returns the usual quality of pictures under light.
+    pub fn of_pictures(polarised: bool) -> Self {
+        let (unresolved, most_beams) = (UNRESOLVED_LIGHT, MOST_BEAMS);
+        Self {
+            tracer: Wanted::Quickest,
+            beams: BeamOptions { unresolved, polarised, most_beams, ..BeamOptions::default() },
+            rays: RayOptions { polarised, ..RAYS },
+            samples: None,
+        }
+    }
+
+    /// Returns the quality of figures that are followed to these bounds.
+    pub fn of_figures(bounds: &Bounds, tracer: Wanted) -> Self {
+        let Bounds { unresolved, polarised, lattice } = *bounds;
+        Self {
+            tracer,
+            beams: BeamOptions { unresolved, polarised, ..BeamOptions::default() },
+            rays: RayOptions { least_weight: unresolved, polarised, ..RayOptions::default() },
+            samples: Some(lattice),
+        }
+    }
+}
+
+impl Job {
+    /// Returns the job of a pane of liquid glass, which has no stones and no view.
+    pub fn of_pane(pane: PaneProduct, quality: Quality) -> Self {
+        let film = Film { size: [pane.background.width, pane.background.height], ..Film::NONE };
+        let scene = Arc::new(Scene { instances: vec![], unit_mm: 1.0 });
+        Self { scene, view: View::default(), film, product: Product::LiquidGlass(pane), quality }
+    }
+
+    /// Returns the lit scene of a job under light; `None` for other products.
+    pub fn lit(&self) -> Option<LitScene<'_>> {
+        match &self.product {
+            Product::Light(light) => Some(self.lit_scene(&light.surroundings)),
+            Product::RefractionMap(map) => Some(self.lit_scene(&map.surroundings)),
+            Product::Scope(_) | Product::LiquidGlass(_) | Product::Figures(_) => None,
+        }
+    }
+
+    /// Returns the lit scene of a job in these surroundings.
+    pub fn lit_scene<'a>(&'a self, surroundings: &'a Surroundings) -> LitScene<'a> {
+        LitScene {
+            scene: &self.scene,
+            environment: surroundings.around(&self.view),
+            view: &self.view,
+            film: self.film,
+            options: self.quality.rays,
+        }
+    }
+}
+
+impl LightProduct {
+    /// Returns the strata of wavelengths that are traced.
+    pub fn strata(&self) -> Vec<Stratum> {
+        strata(self.wavelengths, &self.surroundings.lighting.light.spectrum, self.adapted)
+    }
+}
+
+impl MapProduct {
+    /// Traces what `work` makes of the survey of this map, with this many passes of the diffuse layer.
+    pub(super) fn surveyed<T>(&self, passes: u32, work: impl FnOnce(&Survey) -> T) -> T {
+        let bands = |count| strata(count, &self.surroundings.lighting.light.spectrum, self.adapted);
+        let (bands, shades) = (bands(self.bands), bands(self.shades));
+        work(&Survey { bands: &bands, places: self.places, shades: &shades, looks: passes })
+    }
+}

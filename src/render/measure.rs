@@ -1,0 +1,136 @@
+//! Measures a design: from the design to its figures in one call.
+
+use super::card::Card;
+use super::job::{FiguresProduct, Job, Product, Quality};
+use super::plan::Wanted;
+use super::renderer::{RenderError, Renderer};
+use crate::cut::Design;
+use crate::measure::{Bounds, Measured};
+use crate::optics::{DispersionError, line};
+use crate::scene::{
+    ASET_CONE, Backing, Film, Medium, Scene, Scope, ScopeError, Specimen, SpecimenError, Viewpoint,
+};
+use crate::trace::unwatched;
+use std::sync::Arc;
+
+/// The range of refractive indices that can be traced.
+const INDICES: std::ops::RangeInclusive<f64> = 1.0..=5.0;
+
+/// The options by which a design is measured.
+#[derive(Clone)]
+pub struct MeasureOptions {
+    /// The direction from which the stone is seen; face up by default.
+    pub viewpoint: Viewpoint,
+    /// The scope: the structured light whose bands are the zones of the figures. The common ASET by default.
+    pub scope: Scope,
+    /// Half angle of an observer's head in front of the scope, in degrees. The head sends no light; 0, the default,
+    /// means no head.
+    pub head_deg: f64,
+    /// Wavelength in nm at which the material's index and absorption are taken; 589.3 by default.
+    pub wavelength_nm: f64,
+    /// A refractive index to use instead of the material's.
+    pub index: Option<f64>,
+    /// How far light is followed, and with how many rays.
+    pub bounds: Bounds,
+    /// The tracer that is wanted; by default exact beams where they apply, and otherwise rays.
+    pub tracer: Wanted,
+    /// The graphics card that rays may run on; none by default.
+    pub card: Card,
+}
+
+impl Default for MeasureOptions {
+    fn default() -> Self {
+        Self {
+            viewpoint: Viewpoint::default(),
+            scope: Scope::aset(ASET_CONE, Backing::Black),
+            head_deg: 0.0,
+            wavelength_nm: line::SODIUM_D,
+            index: None,
+            bounds: Bounds::default(),
+            tracer: Wanted::Quickest,
+            card: Card::None,
+        }
+    }
+}
+
+/// The reasons why a design cannot be measured.
+#[derive(Debug, thiserror::Error)]
+pub enum MeasureError {
+    /// The design does not make a stone.
+    #[error(transparent)]
+    Specimen(#[from] SpecimenError),
+    /// The scope is not valid.
+    #[error(transparent)]
+    Scope(#[from] ScopeError),
+    /// The material has no index at this wavelength.
+    #[error(transparent)]
+    Dispersion(#[from] DispersionError),
+    /// An option is out of its range. The message gives its name, its value and its range.
+    #[error("{option} is {value}; give {range}")]
+    Option {
+        /// The option's name in [`MeasureOptions`] or [`Bounds`].
+        option: &'static str,
+        /// The value that was given.
+        value: f64,
+        /// The range that is allowed, in words.
+        range: &'static str,
+    },
+    /// The light cannot be traced.
+    #[error(transparent)]
+    Render(#[from] RenderError),
+}
+
+/// Measures a design: builds its stone, traces its light and sums it up by the zones of a scope.
+///
+/// # Errors
+/// Any [`MeasureError`]: the design makes no stone, an option is out of its range, or the tracer does not apply or
+/// fails.
+pub fn measure(design: &Design, options: &MeasureOptions) -> Result<Measured, MeasureError> {
+    options.check()?;
+    let specimen = Specimen::new(design.clone())?;
+    let material = &specimen.material;
+    let index = options.index.map_or_else(|| material.dispersion.try_index(options.wavelength_nm), Ok)?;
+    first_wrong(&[("index", index, INDICES.contains(&index), "1 (air) to 5")])?;
+    let absorption = Medium::absorption_of(material, options.wavelength_nm, specimen.unit_mm());
+    let medium = Medium { index, absorption, spread: 0.0 };
+    let job = Job {
+        scene: Arc::new(Scene::alone(&specimen)),
+        view: options.viewpoint.view(),
+        film: Film::NONE,
+        product: Product::Figures(FiguresProduct {
+            scope: options.scope.clone().with_head(options.head_deg),
+            medium,
+        }),
+        quality: Quality::of_figures(&options.bounds, options.tracer),
+    };
+    let rendered =
+        Renderer::new(options.card.clone()).run(&job, &unwatched, &mut |_| Ok::<_, RenderError>(()))?;
+    Ok(rendered.figures()?)
+}
+
+/// An option's name and value, whether the value is in its range, and the range in words.
+type Check = (&'static str, f64, bool, &'static str);
+
+/// Returns an error for the first option that is out of its range.
+fn first_wrong(checks: &[Check]) -> Result<(), MeasureError> {
+    match checks.iter().find(|(.., is_right, _)| !is_right) {
+        Some(&(option, value, _, range)) => Err(MeasureError::Option { option, value, range }),
+        None => Ok(()),
+    }
+}
+
+impl MeasureOptions {
+    /// Checks that the scope is valid and every number in its range.
+    fn check(&self) -> Result<(), MeasureError> {
+        self.scope.validate()?;
+        let (view, Bounds { unresolved, lattice, .. }) = (&self.viewpoint, self.bounds);
+        first_wrong(&[
+            ("head_deg", self.head_deg, (0.0..90.0).contains(&self.head_deg), "0 to below 90 degrees"),
+            ("wavelength_nm", self.wavelength_nm, self.wavelength_nm > 0.0, "a wavelength above 0 nm"),
+            ("tilt_deg", view.tilt_deg, (-90.0..=90.0).contains(&view.tilt_deg), "-90 to 90 degrees"),
+            ("azimuth_deg", view.azimuth_deg, view.azimuth_deg.is_finite(), "a finite angle"),
+            ("unresolved", unresolved, unresolved > 0.0 && unresolved < 1.0, "a part between 0 and 1"),
+            ("lattice", f64::from(lattice), (1..=16_384).contains(&lattice), "1 to 16,384"),
+        ])
+    }
+}

@@ -1,0 +1,306 @@
+//! The renderer: does jobs, by the tracer that is planned for each.
+
+use super::beam_cache::BeamCache;
+use super::card::{Backend, Card};
+use super::job::{Job, Product, Reading, Steps};
+use super::plan::{Demands, Plan, Unfit, plan};
+use crate::measure::{LATTICE, Measured};
+use crate::picture::pane::{Cost, PaneError};
+use crate::picture::spectral::Remainder;
+use crate::picture::{Carried, Linear, RefractionMap, Rows};
+use crate::trace::beam::Beams;
+#[cfg(feature = "gpu")]
+use crate::trace::gpu::GpuError;
+use crate::trace::{Stopped, Watch};
+use std::sync::Arc;
+
+/// Does jobs. It keeps the beams of the last ones, and does without a card that is lost.
+#[derive(Default)]
+pub struct Renderer {
+    card: Card,
+    pub(super) beams: BeamCache,
+    /// Whether it was said that no card is used.
+    is_noted: bool,
+}
+
+/// A part of a product, handed out while the work goes on.
+#[derive(Debug)]
+pub enum Partial<'a> {
+    /// The processor does the work of a card that is missing or failed; the text says why. What was handed out before is
+    /// made anew.
+    Note(&'a str),
+    /// The rows of a picture in a scope follow.
+    Begun {
+        /// What the picture shows.
+        reading: Reading,
+        /// The tracer.
+        backend: &'a Backend,
+        /// The share of the light that the picture does not show; rays do not know it.
+        unresolved: Option<f64>,
+    },
+    /// Rows of a picture in a scope.
+    Rows {
+        /// What the picture shows.
+        reading: Reading,
+        /// The rows.
+        rows: &'a Rows,
+        /// The first of the channels that hold the scope's bands.
+        first_channel: usize,
+    },
+    /// A picture under light as it is so far.
+    Picture {
+        /// The picture.
+        picture: &'a Linear,
+        /// The light that it does not show.
+        rest: Remainder,
+        /// The tracer.
+        backend: &'a Backend,
+    },
+}
+
+/// What a job has made.
+#[derive(Debug)]
+pub enum Output {
+    /// A picture under light, and the light that it does not show.
+    Light(Linear, Remainder),
+    /// A picture in a scope. Its rows were handed out; where exact beams traced it, here they are.
+    Scope(Option<Arc<Beams>>),
+    /// A refraction map, and how much of the light it carries.
+    RefractionMap(RefractionMap, Carried),
+    /// A traced pane and, where that was wanted, how a drawn one differs.
+    LiquidGlass(Linear, Option<Cost>),
+    /// Figures.
+    Figures(Box<Measured>),
+}
+
+/// What a job has made, and how.
+pub struct Rendered {
+    /// What was made.
+    pub output: Output,
+    /// The tracer that made it.
+    pub backend: Backend,
+    /// The number of samples that it took; see [`Quality`](super::Quality).
+    pub samples: u32,
+}
+
+/// Why a job was not done.
+#[derive(Debug, thiserror::Error)]
+pub enum RenderError {
+    /// The watch asked to stop.
+    #[error(transparent)]
+    Stopped(#[from] Stopped),
+    /// The job cannot be done as it is wanted.
+    #[error(transparent)]
+    Unfit(#[from] Unfit),
+    /// A pane of liquid glass cannot be traced.
+    #[error(transparent)]
+    Pane(PaneError),
+    /// A job made another product than its caller expected; this is a fault of the program.
+    #[error("the job makes another product")]
+    OtherProduct,
+    /// The graphics card failed; the renderer does the work on the processor.
+    #[cfg(feature = "gpu")]
+    #[error(transparent)]
+    Card(#[from] GpuError),
+}
+
+/// A callback that receives the parts of a product; its error ends the work.
+pub type EachPart<'a, E> = &'a mut dyn FnMut(Partial) -> Result<(), E>;
+
+/// Why work ended early: by itself, or by an error of the callback.
+pub(super) enum Halt<E> {
+    Render(RenderError),
+    Each(E),
+}
+
+impl<E: From<RenderError>> Halt<E> {
+    fn joined(self) -> E {
+        match self {
+            Self::Render(error) => error.into(),
+            Self::Each(error) => error,
+        }
+    }
+}
+
+impl<E> From<RenderError> for Halt<E> {
+    fn from(error: RenderError) -> Self {
+        Self::Render(error)
+    }
+}
+
+impl<E> From<Stopped> for Halt<E> {
+    fn from(stopped: Stopped) -> Self {
+        Self::Render(stopped.into())
+    }
+}
+
+#[cfg(feature = "gpu")]
+impl<E> From<GpuError> for Halt<E> {
+    fn from(error: GpuError) -> Self {
+        Self::Render(error.into())
+    }
+}
+
+impl From<PaneError> for RenderError {
+    fn from(error: PaneError) -> Self {
+        match error {
+            PaneError::Stopped(stopped) => Self::Stopped(stopped),
+            other => Self::Pane(other),
+        }
+    }
+}
+
+impl Renderer {
+    /// Makes a renderer that may use a card.
+    pub fn new(card: Card) -> Self {
+        Self { card, ..Self::default() }
+    }
+
+    /// Returns the card that may be used.
+    pub fn card(&self) -> &Card {
+        &self.card
+    }
+
+    /// Decides which tracer does a job.
+    ///
+    /// # Errors
+    /// [`Unfit`] where the stone cannot be seen, or exact beams are wanted and do not fit.
+    pub fn plan(&self, job: &Job) -> Result<Plan, Unfit> {
+        plan(&Demands::of(job)?, job.quality.tracer, &self.card)
+    }
+
+    /// Begins a round of jobs: beams that no job of the last round used are dropped.
+    pub fn begin_round(&mut self) {
+        self.beams.begin_round();
+    }
+
+    /// Does a job. Where a card fails, the processor does all of it again.
+    ///
+    /// # Errors
+    /// A [`RenderError`] or an error of `each`.
+    pub fn run<E: From<RenderError>>(
+        &mut self,
+        job: &Job,
+        watch: Watch,
+        each: EachPart<E>,
+    ) -> Result<Rendered, E> {
+        let Plan { backend, no_card } = self.plan(job).map_err(RenderError::from)?;
+        if let Some(why) = no_card.filter(|_| !self.is_noted) {
+            self.is_noted = true;
+            each(Partial::Note(&format!("{why}: tracing by rays on the processor")))?;
+        }
+        match self.attempt(job, &backend, watch, each) {
+            #[cfg(feature = "gpu")]
+            Err(Halt::Render(RenderError::Card(error))) => {
+                if error.is_lost() {
+                    self.card = Card::None;
+                }
+                let demands = Demands::of(job).map_err(RenderError::from)?;
+                let rest =
+                    plan(&demands, job.quality.tracer, &Card::None).map_err(RenderError::from)?.backend;
+                let by = if rest.is_beams() { "exact beams" } else { "rays" };
+                each(Partial::Note(&format!("{error}: tracing by {by} on the processor")))?;
+                self.attempt(job, &rest, watch, each).map_err(Halt::joined)
+            }
+            done => done.map_err(Halt::joined),
+        }
+    }
+
+    fn attempt<E: From<RenderError>>(
+        &mut self,
+        job: &Job,
+        backend: &Backend,
+        watch: Watch,
+        each: EachPart<E>,
+    ) -> Result<Rendered, Halt<E>> {
+        let samples = job.quality.samples.unwrap_or_else(|| usual_samples(&job.product, backend));
+        let output = match &job.product {
+            Product::Light(light) => light.render(job, (backend, samples), watch, each)?,
+            Product::Scope(scope) => self.scope(job, scope, (backend, samples), watch, each)?,
+            Product::Figures(figures) => self.figures(job, figures, (backend, samples), watch)?,
+            Product::RefractionMap(map) => map.render(job, samples, watch)?,
+            Product::LiquidGlass(pane) => pane.render(samples, watch)?,
+        };
+        Ok(Rendered { output, backend: backend.clone(), samples })
+    }
+}
+
+/// The usual number of passes of a picture under light: rays need many for smooth edges, beams only for the wavelengths.
+const PASSES_OF_BEAMS: u32 = 4;
+const PASSES_OF_RAYS: u32 = 64;
+
+/// The usual number of rays along each side of a pixel of a picture in a scope.
+const RAYS_PER_SIDE: u32 = 4;
+
+/// The usual number of passes of a refraction map's diffuse layer.
+const PASSES_OF_MAPS: u32 = 4;
+
+/// The usual number of passes of a pane of liquid glass.
+const PASSES_OF_PANES: u32 = 16;
+
+/// Returns the number of samples that a product has where no number is requested.
+fn usual_samples(product: &Product, backend: &Backend) -> u32 {
+    match product {
+        Product::Light(light) if matches!(light.steps, Steps::Glance { .. }) => 1,
+        Product::Light(_) if backend.is_beams() => PASSES_OF_BEAMS,
+        Product::Light(_) => PASSES_OF_RAYS,
+        Product::Scope(_) => RAYS_PER_SIDE,
+        Product::RefractionMap(_) => PASSES_OF_MAPS,
+        Product::LiquidGlass(_) => PASSES_OF_PANES,
+        Product::Figures(_) => LATTICE,
+    }
+}
+
+impl Rendered {
+    /// Returns the picture under light, and the light that it does not show.
+    ///
+    /// # Errors
+    /// [`RenderError::OtherProduct`] of another product.
+    pub fn light(self) -> Result<(Linear, Remainder), RenderError> {
+        match self.output {
+            Output::Light(picture, rest) => Ok((picture, rest)),
+            _ => Err(RenderError::OtherProduct),
+        }
+    }
+
+    /// Returns the beams of a picture in a scope; `None` where it was traced by rays.
+    pub fn beams(self) -> Option<Arc<Beams>> {
+        match self.output {
+            Output::Scope(beams) => beams,
+            _ => None,
+        }
+    }
+
+    /// Returns the refraction map, and how much of the light it carries.
+    ///
+    /// # Errors
+    /// [`RenderError::OtherProduct`] of another product.
+    pub fn map(self) -> Result<(RefractionMap, Carried), RenderError> {
+        match self.output {
+            Output::RefractionMap(map, carried) => Ok((map, carried)),
+            _ => Err(RenderError::OtherProduct),
+        }
+    }
+
+    /// Returns the traced pane and, where that was wanted, how a drawn one differs.
+    ///
+    /// # Errors
+    /// [`RenderError::OtherProduct`] of another product.
+    pub fn pane(self) -> Result<(Linear, Option<Cost>), RenderError> {
+        match self.output {
+            Output::LiquidGlass(picture, cost) => Ok((picture, cost)),
+            _ => Err(RenderError::OtherProduct),
+        }
+    }
+
+    /// Returns the figures.
+    ///
+    /// # Errors
+    /// [`RenderError::OtherProduct`] of another product.
+    pub fn figures(self) -> Result<Measured, RenderError> {
+        match self.output {
+            Output::Figures(measured) => Ok(*measured),
+            _ => Err(RenderError::OtherProduct),
+        }
+    }
+}

@@ -1,0 +1,112 @@
+//! Pictures and figures in a scope.
+
+use super::card::Backend;
+use super::job::{FiguresProduct, Job, Reading, ScopeProduct};
+use super::plan::Unfit;
+use super::renderer::{EachPart, Halt, Output, Partial, RenderError, Renderer};
+use crate::math::{Polytope, SolidRef};
+use crate::measure::{self, measured};
+use crate::picture::by_rays::{self, ScopeSampling};
+use crate::picture::{Layer, Rows, paint};
+use crate::trace::Watch;
+
+impl Renderer {
+    /// Traces a picture in a scope, and hands out its rows.
+    pub(super) fn scope<E: From<RenderError>>(
+        &mut self,
+        job: &Job,
+        product: &ScopeProduct,
+        (backend, samples): (&Backend, u32),
+        watch: Watch,
+        each: EachPart<E>,
+    ) -> Result<Output, Halt<E>> {
+        if backend.is_beams() {
+            return self.scope_by_beams(job, product, watch, each);
+        }
+        let ScopeProduct { scope, medium, glare, readings } = product;
+        for &reading in readings {
+            each(Partial::Begun { reading, backend, unresolved: None }).map_err(Halt::Each)?;
+        }
+        let solid = job.stone().map_err(RenderError::from)?;
+        let sampling = ScopeSampling { options: job.quality.rays, per_side: samples, glare: *glare };
+        let hand_out = |rows: &Rows| {
+            readings.iter().try_for_each(|&reading| {
+                let first_channel = if reading == Reading::Strongest { scope.bands.len() } else { 0 };
+                each(Partial::Rows { reading, rows, first_channel }).map_err(Halt::Each)
+            })
+        };
+        let (view, film) = (&job.view, &job.film);
+        match backend {
+            #[cfg(feature = "gpu")]
+            Backend::Card(gpu) => {
+                let (by_gpu, gpu) = (crate::picture::by_gpu::trace, &**gpu);
+                by_gpu(gpu, solid, *medium, view, scope, film, &sampling, watch, hand_out)?;
+            }
+            _ => by_rays::trace(solid, *medium, view, scope, film, &sampling, watch, hand_out)?,
+        }
+        Ok(Output::Scope(None))
+    }
+
+    fn scope_by_beams<E: From<RenderError>>(
+        &mut self,
+        job: &Job,
+        product: &ScopeProduct,
+        watch: Watch,
+        each: EachPart<E>,
+    ) -> Result<Output, Halt<E>> {
+        let ScopeProduct { scope, medium, glare, readings } = product;
+        let parts = 1.0 + readings.len() as f64;
+        let share = |number: u8| move |done: f64| watch((f64::from(number) + done) / parts);
+        let beams = self.beams.of(job.polytope()?, *medium, &job.view, &job.quality.beams, &share(0))?;
+        for (number, &reading) in (1..).zip(readings) {
+            let layer = match reading {
+                Reading::Energy => Layer::energy(&beams, scope, *glare),
+                Reading::Strongest => Layer::strongest(&beams, scope),
+            };
+            let unresolved = Some(layer.open);
+            each(Partial::Begun { reading, backend: &Backend::Beams, unresolved }).map_err(Halt::Each)?;
+            paint(&layer, &job.film, &share(number), |rows| {
+                each(Partial::Rows { reading, rows, first_channel: 0 }).map_err(Halt::Each)
+            })?;
+        }
+        Ok(Output::Scope(Some(beams)))
+    }
+
+    /// Measures figures in a scope.
+    pub(super) fn figures<E>(
+        &mut self,
+        job: &Job,
+        product: &FiguresProduct,
+        (backend, lattice): (&Backend, u32),
+        watch: Watch,
+    ) -> Result<Output, Halt<E>> {
+        let FiguresProduct { scope, medium } = product;
+        let solid = job.stone().map_err(RenderError::from)?;
+        let (view, manner) = (&job.view, (job.quality.rays, lattice));
+        let measured = measured(scope, medium.index, backend.name(), |scope| match backend {
+            Backend::Beams => {
+                let beams = self.beams.of(job.polytope()?, *medium, view, &job.quality.beams, watch)?;
+                Ok(measure::by_beams(&beams, scope))
+            }
+            Backend::Rays => Ok(measure::by_rays(solid, *medium, view, scope, manner, watch)?),
+            #[cfg(feature = "gpu")]
+            Backend::Card(gpu) => measure::by_gpu::<Halt<E>>(gpu, solid, *medium, view, scope, manner, watch),
+        })?;
+        Ok(Output::Figures(Box::new(measured)))
+    }
+}
+
+impl Job {
+    /// Returns the stone that scopes and figures are of.
+    pub(super) fn stone(&self) -> Result<SolidRef<'_>, Unfit> {
+        self.scene.instances.first().map(|stone| stone.solid.by_ref()).ok_or(Unfit::NoStone)
+    }
+
+    /// Returns the stone that exact beams trace.
+    fn polytope(&self) -> Result<&Polytope, RenderError> {
+        match self.stone().map_err(RenderError::from)? {
+            SolidRef::Convex(polytope) => Ok(polytope),
+            SolidRef::Triangles(_) | SolidRef::Smooth(_) => Err(Unfit::from(crate::math::NotConvex).into()),
+        }
+    }
+}

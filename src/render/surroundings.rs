@@ -1,0 +1,63 @@
+//! What is around the stones of a picture: light, and what hangs behind.
+
+use crate::scene::{Film, Panorama, View};
+use crate::trace::environment::{Backplate, Environment, Lighting};
+use glam::{DQuat, DVec3};
+use std::sync::Arc;
+
+/// What is around the stones of a picture.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Surroundings {
+    /// The light.
+    pub lighting: Arc<Lighting>,
+    /// The angle by which the light is turned about its axis, radians.
+    pub turn: f64,
+    /// The half angle of the observer's head, radians; 0 for no head.
+    pub head: f64,
+    /// Whether pixels beside the stones show the light.
+    pub shows_light: bool,
+    /// The picture behind the stones.
+    pub backplate: Option<HungPicture>,
+}
+
+/// A picture that hangs behind the stones, and fills the film from there.
+#[derive(Debug, Clone, PartialEq)]
+pub struct HungPicture {
+    /// The picture.
+    pub picture: Arc<Panorama>,
+    /// How many times as wide as the film it is.
+    pub span: f64,
+    /// The distance behind the origin, in girdle radii.
+    pub distance: f64,
+    /// The film that it fills: that of the picture without zoom and displacement.
+    pub frame: Film,
+}
+
+impl Surroundings {
+    /// Returns the plain surroundings of a light: nothing hangs behind, and pixels beside the stones are clear.
+    pub fn of(lighting: Arc<Lighting>) -> Self {
+        let head = lighting.light.head.to_radians();
+        Self { lighting, turn: 0.0, head, shows_light: false, backplate: None }
+    }
+
+    /// Returns the environment of a view.
+    pub(super) fn around(&self, view: &View) -> Environment<'_> {
+        let turn = DQuat::from_rotation_z(self.turn);
+        let mut basis = view.light_basis();
+        let turned = |x: DVec3| basis.right * x.x + basis.up * x.y + basis.toward * x.z;
+        let (right, up) = (turned(turn * DVec3::X), turned(turn * DVec3::Y));
+        (basis.right, basis.up) = (right, up);
+        let backplate = self
+            .backplate
+            .as_ref()
+            .map(|hung| Backplate::filling(&hung.picture, hung.span, hung.distance, view, &hung.frame));
+        Environment {
+            map: &self.lighting.map,
+            basis,
+            eye: view.basis(),
+            head: self.head,
+            backplate,
+            backdrop: self.shows_light || backplate.is_some(),
+        }
+    }
+}
