@@ -55,27 +55,18 @@ fn entry(origin: vec3f, direction: vec3f) -> Meeting {
 // Returns where a ray leaves the body, as `next_facet` in planes.wgsl does. A cluster is skipped where none of its planes
 // can be nearer than the best so far.
 fn next_facet(point: vec3f, direction: vec3f) -> Meeting {
-    var best = vec2f(0.0, 1.0);
-    var facet = body.range.x;
+    var best = Leaving(0.0, 1.0, body.range.x);
     let reach = length(point);
     for (var b = body.range.z; b < body.range.w; b++) {
         let cluster = clusters[b];
         let speed_at_most = dot(cluster.middle.xyz, direction) + cluster.spread.x;
         let gap_at_least =
             max(cluster.middle.w - dot(cluster.middle.xyz, point) - cluster.spread.y - cluster.spread.x * reach, LEAST_GAP);
-        if speed_at_most * best.y <= best.x * gap_at_least {
+        if speed_at_most * best.gap <= best.speed * gap_at_least {
             continue;
         }
         let first = u32(cluster.spread.z);
-        for (var k = first; k < first + u32(cluster.spread.w); k++) {
-            let plane = planes[k];
-            let speed = dot(plane.xyz, direction);
-            let gap = max(plane.w - dot(plane.xyz, point), LEAST_GAP);
-            if speed * best.y > best.x * gap {
-                best = vec2f(speed, gap);
-                facet = k;
-            }
-        }
+        best = nearer(best, first, first + u32(cluster.spread.w), point, direction);
     }
-    return Meeting(facet, distance_to(planes[facet], point, direction));
+    return Meeting(best.facet, distance_to(planes[best.facet], point, direction));
 }

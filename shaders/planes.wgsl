@@ -32,19 +32,9 @@ fn entry(origin: vec3f, direction: vec3f) -> Meeting {
     return Meeting(facet, select(-1.0, into, into > 0.0 && into < out));
 }
 
-// Returns the facet by which a ray leaves from a point inside, and the distance to it. It is the facet with the greatest
-// ratio of the speed toward its plane to the gap before it; ratios are compared without dividing.
+// Returns the facet by which a ray leaves from a point inside, and the distance to it.
 fn next_facet(point: vec3f, direction: vec3f) -> Meeting {
-    var best = vec2f(0.0, 1.0);
-    var facet = body.range.x;
-    for (var k = body.range.x; k < body.range.y; k++) {
-        let plane = planes[k];
-        let speed = dot(plane.xyz, direction);
-        let gap = max(plane.w - dot(plane.xyz, point), LEAST_GAP);
-        if speed * best.y > best.x * gap {
-            best = vec2f(speed, gap);
-            facet = k;
-        }
-    }
+    let start = Leaving(0.0, 1.0, body.range.x);
+    let facet = nearer(start, body.range.x, body.range.y, point, direction).facet;
     return Meeting(facet, distance_to(planes[facet], point, direction));
 }

@@ -42,12 +42,13 @@ fn a_furnace_loses_just_what_a_stone_of_colour_absorbs() {
         let mut shoot = Shoot::new(&modern(), &m.name, Light { spectrum: Illuminant::E, ..Light::white() });
         // In one single band light is white.
         (shoot.backdrop, shoot.samples, shoot.wavelengths) = (false, 2, 1);
-        let (picture, remainder) = shoot.by_rays();
-        let cover: f64 = picture.pixels.iter().map(|p| f64::from(p[3])).sum();
-        let mean = picture.pixels.iter().map(colour).sum::<DVec3>() / cover;
-        let left = 1.0 - remainder.absorbed - remainder.unresolved;
-        assert!(remainder.absorbed > 0.005, "{}: {remainder:?}", m.name);
-        assert!((mean - left).abs().max_element() < 1e-6, "{}: {mean}, not {left}", m.name);
+        for (picture, remainder) in [shoot.by_rays(), shoot.glanced()] {
+            let cover: f64 = picture.pixels.iter().map(|p| f64::from(p[3])).sum();
+            let mean = picture.pixels.iter().map(colour).sum::<DVec3>() / cover;
+            let left = 1.0 - remainder.absorbed - remainder.unresolved;
+            assert!(remainder.absorbed > 0.005, "{}: {remainder:?}", m.name);
+            assert!((mean - left).abs().max_element() < 1e-6, "{}: {mean}, not {left}", m.name);
+        }
     }
 }
 

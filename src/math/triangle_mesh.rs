@@ -30,8 +30,13 @@ pub enum TriangleMeshError {
         count: usize,
     },
     /// A coordinate of a corner is NaN, or too large for volumes to be computed.
-    #[error("corner {0} is too far away to be a number")]
-    NotFinite(usize),
+    #[error("corner {corner} is at {at}; coordinates must be numbers from -{LARGEST:e} to {LARGEST:e}")]
+    NotFinite {
+        /// The corner, counted from 0.
+        corner: usize,
+        /// The coordinates given for it.
+        at: DVec3,
+    },
     /// An edge has triangles on one side only.
     #[error(
         "the surface is open at the edge between corners {0} and {1}; close the hole or weld its corners"
@@ -145,7 +150,7 @@ fn checked(surface: &Surface) -> Result<(), TriangleMeshError> {
     }
     let is_far = |v: &DVec3| v.is_nan() || v.abs().max_element() > LARGEST;
     if let Some(corner) = vertices.iter().position(is_far) {
-        return Err(TriangleMeshError::NotFinite(corner));
+        return Err(TriangleMeshError::NotFinite { corner, at: vertices[corner] });
     }
     let beyond = |(triangle, t): (usize, &[u32; 3])| {
         let corner = t.iter().copied().find(|&v| v as usize >= vertices.len())?;
@@ -249,8 +254,10 @@ mod tests {
         assert_eq!(told(&|s| s.triangles.truncate(3)), TriangleMeshError::TooFew(3));
         let missing = TriangleMeshError::NoCorner { triangle: 2, corner: 99, count: good.vertices.len() };
         assert_eq!(told(&|s| s.triangles[2][1] = 99), missing);
-        assert_eq!(told(&|s| s.vertices[3].y = f64::NAN), TriangleMeshError::NotFinite(3));
-        assert_eq!(told(&|s| s.vertices[1].x = 1e200), TriangleMeshError::NotFinite(1));
+        let missing = told(&|s| s.vertices[3] = DVec3::new(1.0, f64::NAN, 0.0)).to_string();
+        assert_eq!(missing, "corner 3 is at [1, NaN, 0]; coordinates must be numbers from -1e60 to 1e60");
+        let far = told(&|s| s.vertices[1].x = 1e200);
+        assert!(matches!(far, TriangleMeshError::NotFinite { corner: 1, at } if at.x == 1e200), "{far}");
         assert!(matches!(
             told(&|s| s.triangles.truncate(s.triangles.len() - 1)),
             TriangleMeshError::Open(..)

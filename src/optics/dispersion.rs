@@ -5,7 +5,8 @@
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use std::ops::RangeInclusive;
 
-/// The wavelengths in nm at which a law must give an index: those at which the CIE observer sees anything.
+/// The range of wavelengths in nm within which every law must give an index, and which may hold no resonance: that of the
+/// tables of the CIE 1931 observer, beyond which nothing is seen.
 pub const VISIBLE_NM: RangeInclusive<f64> = 360.0..=830.0;
 
 /// The spectral lines that gemmology and optics name, in nm (in air).

@@ -124,6 +124,12 @@ impl<'a> ByBeams<'a> {
                 .sum()
         });
         self.paint(&found);
+        let absorbed = |beam: &Beam| {
+            let path = beam.path.at(centroid(beam.outline));
+            let lost = bands.iter().map(|band| 1.0 - band.left(path)).sum::<f64>();
+            if beam.is_surface() { 0.0 } else { beam.weight * beam.area * lost / bands.len() as f64 }
+        };
+        self.absorbed += beams.iter().map(|beam| absorbed(&beam)).sum::<f64>() * share_of_area(&beams);
         self.unresolved += beams.unresolved();
         self.looks += 1;
         Ok(())
@@ -217,6 +223,11 @@ impl<'a> ByBeams<'a> {
     }
 }
 
+/// Returns the share of the silhouette's light that a unit of area stands for, in all copies of the symmetry.
+fn share_of_area(beams: &Beams) -> f64 {
+    f64::from(beams.symmetry.order()) / beams.silhouette_area
+}
+
 /// A band of wavelengths, seen by the beams of another wavelength.
 struct Band {
     /// The offset of the band's middle, and the band's width, as parts of the spread of all bands.
@@ -272,8 +283,8 @@ impl<E: From<Stopped>> ProgressiveImage<E> for ByBeams<'_> {
             self.see_beside(&beams, std::iter::once(&look.responses[band]));
             let found = self.patches(&beams, look, band);
             self.paint(&found);
-            let whole = f64::from(beams.symmetry.order()) / beams.silhouette_area / bands as f64;
             self.unresolved += beams.unresolved() / bands as f64;
+            let whole = share_of_area(&beams) / bands as f64;
             self.absorbed += beams.iter().map(|b| b.absorbed).sum::<f64>() * whole;
         }
         self.looks += 1;

@@ -3,7 +3,7 @@
 
 use brillianteer::math::{Polytope, Solid};
 use brillianteer::optics::{material, strata};
-use brillianteer::picture::spectral::{Remainder, expose_in};
+use brillianteer::picture::spectral::{Remainder, expose_in, seen};
 use brillianteer::picture::{ByBeams, Linear};
 use brillianteer::scene::{Film, Instance, Light, Panorama, Scene, View};
 use brillianteer::trace::beam;
@@ -105,6 +105,17 @@ impl Shoot {
         self.with(|lit_scene| {
             let prepare = |rows| Ok::<_, Stopped>(ByBeams::of_rows(*lit_scene, options, rows).unwrap());
             expose_in(lit_scene, (&strata, self.looks()), rows, prepare, &unwatched).unwrap()
+        })
+    }
+
+    /// Traces the picture by the exact beams of the middle wavelength alone.
+    pub fn glanced(&self) -> (Linear, Remainder) {
+        let strata = strata(self.wavelengths, &self.light.spectrum, true);
+        let options = beam::BeamOptions { unresolved: 1e-3, ..beam::BeamOptions::default() };
+        self.with(|lit_scene| {
+            let mut image = ByBeams::new(*lit_scene, options).unwrap();
+            image.glance(&strata, &unwatched).unwrap();
+            seen::<Stopped, _>(lit_scene, &image).unwrap()
         })
     }
 

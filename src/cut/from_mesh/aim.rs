@@ -252,14 +252,16 @@ fn principal(solid: &Polytope) -> Vec<DVec3> {
 }
 
 /// Returns the largest part of the area that some turn about an axis carries onto other facets.
-fn evenness(parts: &FacetParts, axis: DVec3) -> f64 {
-    let FacetParts { planes, areas, .. } = parts;
-    if planes.len() > MOST_COMPARED {
+pub(super) fn evenness(parts: &FacetParts, axis: DVec3) -> f64 {
+    let areas = &parts.areas;
+    if areas.len() > MOST_COMPARED {
         return 0.0;
     }
-    let loose = Match::loose(planes);
+    // Facets of the girdle are compared less closely, so that the axis must be upright here.
+    let planes = even::upright(&parts.planes, axis).planes;
+    let loose = Match::loose(&planes);
     let carried = |&fold: &u32| {
-        let turn = DQuat::from_axis_angle(axis, std::f64::consts::TAU / f64::from(fold));
+        let turn = DQuat::from_rotation_z(std::f64::consts::TAU / f64::from(fold));
         let met = (0..planes.len()).filter(|&i| loose.find(&even::turned(&planes[i], turn)).is_some());
         met.map(|i| areas[i]).sum::<f64>() / areas.iter().sum::<f64>()
     };

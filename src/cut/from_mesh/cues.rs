@@ -108,12 +108,12 @@ fn span(numbers: impl Iterator<Item = f64>) -> [f64; 2] {
     numbers.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], x| [low.min(x), high.max(x)])
 }
 
-/// Returns the greatest total length of pieces that lie in one plane square to the axis, where crown and pavilion meet in an
+/// Returns the greatest total length of edges that lie in one plane square to the axis, where crown and pavilion meet in an
 /// edge.
 ///
-/// Pieces that are higher than `within`, as most upright facets are, do not count.
+/// Edges that rise by more than `within` do not count.
 fn level_edge(pieces: &[Piece], within: f64) -> f64 {
-    let flat = pieces.iter().filter(|p| p.high - p.low <= within && p.length > 0.0);
+    let flat = pieces.iter().filter(|p| !p.is_upright && p.high - p.low <= within && p.length > 0.0);
     let mut flat: Vec<(f64, f64)> = flat.map(|p| (p.low, p.length)).collect();
     flat.sort_by(|a, b| a.0.total_cmp(&b.0));
     let mut below = vec![0.0];
@@ -132,6 +132,7 @@ fn level_edge(pieces: &[Piece], within: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::math::Plane;
 
     fn edge(low: f64, length: f64) -> Piece {
         Piece { is_upright: false, length, low, high: low + 0.01 }
@@ -146,6 +147,15 @@ mod tests {
         assert!((level_edge(&pieces, 0.1) - 9.0).abs() < 1e-12);
         assert!((level_edge(&pieces, 0.06) - 5.0).abs() < 1e-12);
         assert_eq!(level_edge(&[], 0.1), 0.0);
+    }
+
+    #[test]
+    fn a_low_girdle_counts_once() {
+        let sides = [DVec3::X, DVec3::Y].into_iter().flat_map(|n| [Plane::new(n, 1.0), Plane::new(-n, 1.0)]);
+        let ends = [Plane::new(DVec3::Z, 5e-4), Plane::new(DVec3::NEG_Z, 5e-4)];
+        let slab = Polytope::from_planes(&sides.chain(ends).collect::<Vec<_>>()).unwrap();
+        let cues = Cues::of(&slab, DVec3::Z).unwrap();
+        assert!((cues.girdle - 1.0).abs() < 1e-12, "{cues:?}");
     }
 
     #[test]

@@ -168,7 +168,8 @@ pub(super) fn evened(parts: &FacetParts, axis: DVec3, is_fixed: bool) -> Even {
     fitting.next().unwrap_or(plain)
 }
 
-fn upright(planes: &[Plane], axis: DVec3) -> Even {
+/// Returns the planes turned so that the axis is +z.
+pub(super) fn upright(planes: &[Plane], axis: DVec3) -> Even {
     let turn = DQuat::from_rotation_arc(axis, DVec3::Z);
     Even { planes: planes.iter().map(|p| turned(p, turn)).collect(), turn, turns: 1, mirror: None }
 }

@@ -2,7 +2,7 @@
 
 use super::super::round_brilliant::{MODERN, RoundBrilliant};
 use super::*;
-use crate::math::surface::{Surface, SurfaceKind, facets};
+use crate::math::surface::{Face, Surface, SurfaceKind, facets};
 use crate::math::triangulate;
 use proptest::prelude::*;
 
@@ -203,6 +203,37 @@ fn up_may_be_given_and_must_be_a_direction() {
 }
 
 /// Noise leans the table away from the file's axis. Then another direction, next to the table's normal, fits as well.
+/// Facets of a girdle lean at random, so that only their azimuths are symmetric.
+#[test]
+fn symmetry_counts_the_same_however_a_stone_lies() {
+    let lean = [1.0, 1.0, -1.0, 1.0, -1.0, -1.0, 1.0, -1.0].map(|sign: f64| 0.04 * sign);
+    let ring = lean.into_iter().enumerate().flat_map(|(k, lean)| {
+        let azimuth = std::f64::consts::TAU / 8.0 * k as f64;
+        [(0.6, 0.7), (std::f64::consts::FRAC_PI_2 + lean, 1.0), (2.4, 0.7)]
+            .map(|(slope, offset)| Plane::from_slope(slope, azimuth, offset))
+    });
+    let planes: Vec<Plane> = ring.chain([Plane::new(DVec3::Z, 0.4)]).collect();
+    let upright = Polytope::from_planes(&planes).unwrap();
+    assert_eq!(upright.facets().len(), planes.len());
+    let counted = |turn: DQuat| {
+        let polytope = upright.moved(1.0, turn, DVec3::ZERO);
+        let face = |plane| Face { plane, area: 1.0, name: None };
+        let found = Faceted {
+            surface: Surface::new(polytope.vertices().to_vec(), vec![]),
+            centre: DVec3::ZERO,
+            faces: polytope.planes().map(face).collect(),
+            polytope,
+            deviation: 0.0,
+            tolerance: 1e-6,
+            change: None,
+        };
+        aim::evenness(&even::FacetParts::about(&found, DVec3::ZERO), turn * DVec3::Z)
+    };
+    for turn in [DQuat::IDENTITY, DQuat::from_rotation_x(1.0), DQuat::from_rotation_y(1.7)] {
+        assert!((counted(turn) - 1.0).abs() < 1e-12, "{turn}: {}", counted(turn));
+    }
+}
+
 #[test]
 fn directions_next_to_the_best_are_no_doubt() {
     for (noise, degrees, seed) in [1e-4, 1e-3]

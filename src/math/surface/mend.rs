@@ -99,7 +99,7 @@ impl Surface {
 
 /// Closes wider and wider gaps until no edge is open.
 fn close(exact: &Surface, size: f64, mending: &mut Mending) -> Result<(Surface, Edges), SurfaceError> {
-    let mut first_open = None;
+    let mut still_open = None;
     for crack in std::iter::once(0.0).chain(CRACKS.map(|part| part * size)) {
         let mut surface = exact.clone();
         if crack > 0.0 {
@@ -121,9 +121,10 @@ fn close(exact: &Surface, size: f64, mending: &mut Mending) -> Result<(Surface, 
             *mending = Mending { degenerate, copies, crack, seams: pieces, ..*mending };
             return Ok((surface, edges));
         }
-        first_open = Some((surface, edges));
+        still_open = Some((surface, edges));
     }
-    let Some((surface, edges)) = first_open else { return Err(SurfaceError::Empty) };
+    // The edges that are open even after the widest gap has been closed belong to holes; all others were cracks.
+    let Some((surface, edges)) = still_open else { return Err(SurfaceError::Empty) };
     let mut open: Vec<[DVec3; 2]> =
         edges.open.iter().map(|e| e.map(|v| surface.vertices[v as usize])).collect();
     let count = open.len();

@@ -59,15 +59,16 @@ pub(super) fn source(facets: ShaderSurface, reading: ShaderTask) -> String {
     let stones = "@group(0) @binding(0) var<uniform> frame: Frame;\n\
         @group(0) @binding(4) var<uniform> bodies: array<Body, MOST_BODIES>;\n\
         @group(0) @binding(5) var<storage, read> media: array<Medium>;\n";
+    let leaving = include_str!("../../../shaders/leaving.wgsl");
     let flat = include_str!("../../../shaders/flat.wgsl");
     let fields = include_str!("../../../shaders/implicit.wgsl");
     let jets = include_str!("../../../shaders/jets.wgsl");
     let convex = include_str!("../../../shaders/convex.wgsl");
     let branching = include_str!("../../../shaders/branching.wgsl");
     let facets: &[&str] = match facets {
-        ShaderSurface::Few => &[include_str!("../../../shaders/planes.wgsl"), flat, convex],
+        ShaderSurface::Few => &[leaving, include_str!("../../../shaders/planes.wgsl"), flat, convex],
         ShaderSurface::Many => {
-            &[gpu_types::CLUSTER_WGSL, include_str!("../../../shaders/clusters.wgsl"), flat, convex]
+            &[gpu_types::CLUSTER_WGSL, leaving, include_str!("../../../shaders/clusters.wgsl"), flat, convex]
         }
         ShaderSurface::Triangles => &[
             gpu_types::TRIANGLE_WGSL,

@@ -1,0 +1,23 @@
+// Which of several planes a ray inside a convex body meets first. It is the plane with the greatest ratio of the speed toward
+// it to the gap before it; ratios are compared without dividing.
+
+// The plane that is the nearest so far, and the ray's speed toward it and gap before it.
+struct Leaving {
+    speed: f32,
+    gap: f32,
+    facet: u32,
+}
+
+// Returns the nearest of the planes from `first` to before `end`, or the nearest so far where that is nearer.
+fn nearer(so_far: Leaving, first: u32, end: u32, point: vec3f, direction: vec3f) -> Leaving {
+    var best = so_far;
+    for (var k = first; k < end; k++) {
+        let plane = planes[k];
+        let speed = dot(plane.xyz, direction);
+        let gap = max(plane.w - dot(plane.xyz, point), LEAST_GAP);
+        if speed * best.gap > best.speed * gap {
+            best = Leaving(speed, gap, k);
+        }
+    }
+    return best;
+}
