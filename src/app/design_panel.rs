@@ -218,8 +218,10 @@ fn range(proportion: &Proportion, is_graded: bool) -> String {
 }
 
 fn hold(ui: &mut Ui, proportion: &Proportion, cut: &mut Cut) {
-    let Some(pair) = &proportion.pair else { return };
-    let held = (pair.is_given)(cut);
+    if proportion.pair.is_none() {
+        return;
+    }
+    let held = (proportion.is_given)(cut);
     let meaning = if held {
         "Held: it stays when other proportions change."
     } else {

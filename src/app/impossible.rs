@@ -138,7 +138,7 @@ mod tests {
     fn what_is_told_as_the_limit_makes_a_stone_and_the_next_step_does_not() {
         let mut checked = 0;
         for family in FAMILIES {
-            for row in family.proportions.iter().filter(|row| row.unit != Unit::Count && row.give.is_some()) {
+            for row in family.editable().filter(|row| row.unit != Unit::Count) {
                 for value in [-40.0, 0.0, 96.0, 150.0, 1e7] {
                     let given = with(family, row.key, value);
                     if given.check().is_ok() {
@@ -159,7 +159,7 @@ mod tests {
     #[test]
     fn messages_call_a_proportion_as_the_panel_does() {
         for family in FAMILIES {
-            for row in family.proportions.iter().filter(|row| row.give.is_some()) {
+            for row in family.editable() {
                 let given = with(family, row.key, f64::NAN);
                 let Err(fault) = given.check() else { continue };
                 let (on_panel, in_files) = (fault.by_name(), fault.to_string());

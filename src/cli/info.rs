@@ -4,7 +4,7 @@ use super::assembly::{self, Assembly};
 use super::mesh_options::MeshArguments;
 use super::specimen::LoadedSpecimen;
 use super::{Failure, each_file, json, print};
-use crate::cut::{AlongAxes, Cut, Proportion, ProportionReport, Spread, Unit};
+use crate::cut::{AlongAxes, Cut, ProportionReport, Spread, Unit};
 use crate::io::STANDARD;
 use crate::math::{Facet, Polytope};
 use crate::scene::Body;
@@ -152,11 +152,8 @@ fn described(specimen: &LoadedSpecimen) -> Result<Value, Failure> {
 
 /// Returns the proportions that a cut gives, under their keys in cut files.
 fn given(cut: &Cut) -> Value {
-    let number = |(row, value): (&Proportion, f64)| match row.unit {
-        Unit::Count => (row.key.to_owned(), json!(value as i64)),
-        Unit::Percent | Unit::Degrees => (row.key.to_owned(), json!(value)),
-    };
-    Value::Object(cut.given().map(number).collect())
+    let number = |value, unit| if unit == Unit::Count { json!(value as i64) } else { json!(value) };
+    cut.given().map(|(row, value)| (row.key, number(value, row.unit))).collect()
 }
 
 fn facet_json(polytope: &Polytope, facet: &Facet, name: &str) -> Value {

@@ -29,7 +29,12 @@ impl Family {
         FAMILIES.into_iter().find(|family| family.key == key)
     }
 
-    /// Returns the proportion that has this key in cut files.
+    /// Returns the proportions that shape the cut, without those that only follow from them.
+    pub fn editable(&'static self) -> impl Iterator<Item = &'static Proportion> {
+        self.proportions.iter().filter(|row| row.give.is_some())
+    }
+
+    /// Returns the proportion that has this key.
     pub fn proportion(&self, key: &str) -> Option<&'static Proportion> {
         self.proportions.iter().find(|row| row.key == key)
     }
@@ -69,16 +74,10 @@ pub struct Proportion {
     pub get: fn(&Cut) -> f64,
     /// Gives the value: of a pair, this proportion is the given one afterwards. `None` where it only follows from others.
     pub give: Option<fn(&mut Cut, f64)>,
-    /// The other proportion that may be given in the place of this one.
-    pub pair: Option<Pair>,
-}
-
-/// Two proportions of which one is given, and the other follows.
-pub struct Pair {
-    /// The key of the other one.
-    pub other: &'static str,
-    /// Whether this proportion is the given one.
+    /// Whether a cut gives this proportion, rather than that it follows from others.
     pub is_given: fn(&Cut) -> bool,
+    /// The key of the other proportion of a pair: one of both is given, and the other follows.
+    pub pair: Option<&'static str>,
 }
 
 /// An end of what is possible.
@@ -102,24 +101,14 @@ pub enum BoundAt {
 }
 
 impl Bound {
-    /// Makes a fixed bound that is itself possible.
-    pub const fn at(value: f64, reason: &'static str) -> Option<Self> {
-        Some(Self { at: BoundAt::Fixed(value), inclusive: true, reason })
+    /// Makes a bound that is itself possible.
+    pub const fn at(at: BoundAt, reason: &'static str) -> Option<Self> {
+        Some(Self { at, inclusive: true, reason })
     }
 
-    /// Makes a fixed bound that is itself impossible.
-    pub const fn before(value: f64, reason: &'static str) -> Option<Self> {
-        Some(Self { at: BoundAt::Fixed(value), inclusive: false, reason })
-    }
-
-    /// Makes a bound that depends on other proportions and is itself possible.
-    pub const fn at_that_of(value: fn(&Cut) -> f64, reason: &'static str) -> Option<Self> {
-        Some(Self { at: BoundAt::Of(value), inclusive: true, reason })
-    }
-
-    /// Makes a bound that depends on other proportions and is itself impossible.
-    pub const fn before_that_of(value: fn(&Cut) -> f64, reason: &'static str) -> Option<Self> {
-        Some(Self { at: BoundAt::Of(value), inclusive: false, reason })
+    /// Makes a bound that is itself impossible.
+    pub const fn before(at: BoundAt, reason: &'static str) -> Option<Self> {
+        Some(Self { at, inclusive: false, reason })
     }
 }
 
@@ -204,22 +193,37 @@ impl PartialEq for Proportion {
 }
 
 impl Proportion {
-    /// Whether the cut gives this proportion, rather than that it follows from others.
-    pub fn is_given(&self, cut: &Cut) -> bool {
-        self.give.is_some() && self.pair.as_ref().is_none_or(|pair| (pair.is_given)(cut))
-    }
+    /// A row without a meaning, from which tables make theirs: a number in percent that follows from others.
+    pub const BLANK: Self = Self {
+        key: "",
+        name: "",
+        unit: Unit::Percent,
+        of: "of the girdle diameter",
+        meaning: "",
+        usual: [0.0, 100.0],
+        step: 0.1,
+        speed: 0.02,
+        least: None,
+        most: None,
+        excellent: None,
+        default: None,
+        nothing: None,
+        handles: &[],
+        get: |_| f64::NAN,
+        give: None,
+        is_given: |_| true,
+        pair: None,
+    };
 
     /// Sets the value. Of a pair, the one that is given stays the given one; a count becomes a possible whole number.
     pub fn set(&self, cut: &mut Cut, value: f64) {
-        let held = self.pair.as_ref().filter(|pair| !(pair.is_given)(cut)).map(|pair| pair.other);
+        let held = self.pair.filter(|_| !(self.is_given)(cut)).and_then(|key| cut.proportion(key));
         let value = match self.unit {
             Unit::Count => value.round().max(fixed(&self.least)).min(fixed(&self.most)),
             Unit::Percent | Unit::Degrees => value,
         };
         self.give(cut, value);
-        if let Some(other) = held.and_then(|key| cut.proportion(key)) {
-            other.hold(cut);
-        }
+        held.into_iter().for_each(|other| other.hold(cut));
     }
 
     /// Makes this proportion of a pair the given one, at its present value.
@@ -276,7 +280,8 @@ impl Cut {
 
     /// Returns the proportions that the cut gives, with their values.
     pub fn given(&self) -> impl Iterator<Item = (&'static Proportion, f64)> {
-        self.proportions().iter().filter(|row| row.is_given(self)).map(|row| (row, (row.get)(self)))
+        let given = self.family().into_iter().flat_map(Family::editable).filter(|row| (row.is_given)(self));
+        given.map(|row| (row, (row.get)(self)))
     }
 
     /// Returns the proportion that a part of the profile changes.

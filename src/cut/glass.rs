@@ -5,6 +5,7 @@
 
 use super::Cut;
 use super::ProportionError;
+use super::family::BoundAt::{Fixed, Of};
 use super::family::{Bound, Family, Proportion, Unit};
 use crate::math::{ImplicitForm, ImplicitSurface, MOST_WAVES, Plane, STEEPEST};
 use glam::DVec3;
@@ -54,25 +55,15 @@ const LENGTHS: [f64; 2] = [1e-4, 1e7];
 /// The greatest phase, degrees: ten thousand turns.
 const MOST_PHASE: f64 = 3.6e6;
 
-/// What most rows of lengths have in common.
+/// What the rows of lengths have in common.
 const SIDE: Proportion = Proportion {
-    key: "",
-    name: "",
-    unit: Unit::Percent,
     of: "of the diameter",
-    meaning: "",
     usual: [2.0, 200.0],
     step: 0.0,
     speed: 0.05,
-    least: Bound::at(LENGTHS[0], "the smallest dimension taken"),
-    most: Bound::at(LENGTHS[1], "the largest dimension taken"),
-    excellent: None,
-    default: None,
-    nothing: None,
-    handles: &[],
-    get: |_| f64::NAN,
-    give: None,
-    pair: None,
+    least: Bound::at(Fixed(LENGTHS[0]), "the smallest dimension taken"),
+    most: Bound::at(Fixed(LENGTHS[1]), "the largest dimension taken"),
+    ..Proportion::BLANK
 };
 
 const LENGTH: Proportion = Proportion {
@@ -104,9 +95,9 @@ const EDGE: Proportion = Proportion {
     name: "Edge",
     meaning: "Radius of the edges; 0 is sharp.",
     usual: [0.0, 50.0],
-    least: Bound::at(0.0, "a sharp edge"),
-    most: Bound::at_that_of(
-        |cut| glass(cut).map_or(f64::NAN, |g| g.form(1.0).largest_edge()),
+    least: Bound::at(Fixed(0.0), "a sharp edge"),
+    most: Bound::at(
+        Of(|cut| glass(cut).map_or(f64::NAN, |g| g.form(1.0).largest_edge())),
         "for which the shape has room",
     ),
     get: |cut| side(cut, |s| s.edge),
@@ -118,9 +109,9 @@ const AMPLITUDE: Proportion = Proportion {
     name: "Amplitude",
     meaning: "How far the middle rises and falls.",
     usual: [0.0, 30.0],
-    least: Bound::at(0.0, "a plate without waves"),
-    most: Bound::at_that_of(
-        |cut| wave(cut, |p| STEEPEST * p.wavelength / TAU),
+    least: Bound::at(Fixed(0.0), "a plate without waves"),
+    most: Bound::at(
+        Of(|cut| wave(cut, |p| STEEPEST * p.wavelength / TAU)),
         "where the wave is as steep as 8 to 1; a longer wavelength makes it less steep",
     ),
     get: |cut| wave(cut, |p| p.amplitude),
@@ -132,8 +123,8 @@ const WAVELENGTH: Proportion = Proportion {
     name: "Wavelength",
     meaning: "From crest to crest, along x and along y.",
     usual: [5.0, 250.0],
-    least: Bound::at_that_of(
-        |cut| wave(cut, |p| (p.sides.length.max(p.sides.width) / MOST_WAVES).max(LENGTHS[0])),
+    least: Bound::at(
+        Of(|cut| wave(cut, |p| (p.sides.length.max(p.sides.width) / MOST_WAVES).max(LENGTHS[0]))),
         "the shortest wave of so large a plate",
     ),
     get: |cut| wave(cut, |p| p.wavelength),
@@ -147,8 +138,8 @@ const PHASE: Proportion = Proportion {
     of: "at which the wave begins",
     meaning: "Where the wave begins.",
     usual: [-360.0, 360.0],
-    least: Bound::at(-MOST_PHASE, "ten thousand turns"),
-    most: Bound::at(MOST_PHASE, "ten thousand turns"),
+    least: Bound::at(Fixed(-MOST_PHASE), "ten thousand turns"),
+    most: Bound::at(Fixed(MOST_PHASE), "ten thousand turns"),
     default: Some(0.0),
     get: |cut| wave(cut, |p| p.phase),
     give: Some(|cut, v| give_wave(cut, |p| p.phase = v)),

@@ -15,7 +15,7 @@ impl Cut {
             return Err(ProportionError::NotFinite { row, value });
         }
         self.given().try_for_each(|(row, value)| row.check_fixed(value))?;
-        let all = self.proportions().iter().filter(|row| row.is_given(self) || row.give.is_none());
+        let all = self.proportions().iter().filter(|row| (row.is_given)(self));
         for row in all.filter(|row| row.least.is_some() || row.most.is_some()) {
             row.check((row.get)(self), |at| Some(at.of(self)))?;
         }
@@ -65,11 +65,19 @@ impl Proportion {
 
 #[cfg(test)]
 mod tests {
+    use super::super::Unit;
     use super::super::round_brilliant::{Crown, LowerHalf, MODERN, Pavilion, RoundBrilliant};
     use super::*;
 
     fn text(given: RoundBrilliant) -> String {
         given.derived().unwrap_err().to_string()
+    }
+
+    /// Returns a modern brilliant that gives one of its proportions this value.
+    fn with(key: &str, value: f64) -> Cut {
+        let mut cut = Cut::RoundBrilliant(MODERN);
+        (cut.proportion(key).unwrap().give.unwrap())(&mut cut, value);
+        cut
     }
 
     #[test]
@@ -85,81 +93,55 @@ mod tests {
 
     #[test]
     fn every_limit_names_its_proportion_and_itself() {
-        use {Crown::*, LowerHalf::*, Pavilion as P};
-        let cases = [
-            (RoundBrilliant { table: 4.0, ..MODERN }, "table: 4 % must be at least 5 %"),
-            (RoundBrilliant { table: 93.0, ..MODERN }, "table: 93 % must be below 92.39 %"),
-            (RoundBrilliant { crown: Angle(0.0), ..MODERN }, "crown_angle: 0° must be at least 2°"),
-            (RoundBrilliant { crown: Angle(90.0), ..MODERN }, "crown_angle: 90° must be below 90°"),
-            (RoundBrilliant { crown: Height(-1.0), ..MODERN }, "crown_height: -1 % must be at least 0.77 %"),
+        for (key, value, expected) in [
+            ("table", 4.0, "4 % must be at least 5 %"),
+            ("table", 93.0, "93 % must be below 92.39 %"),
+            ("crown_angle", 0.0, "0° must be at least 2°"),
+            ("crown_angle", 90.0, "90° must be below 90°"),
+            ("crown_height", -1.0, "-1 % must be at least 0.77 %"),
+            ("pavilion_angle", 1.9, "1.9° must be at least 2°"),
+            ("pavilion_angle", 95.0, "95° must be below 90°"),
+            ("pavilion_depth", 1.0, "1 % must be at least 1.75 %"),
+            ("star_length", 100.0, "100 % must be below 100 %"),
+            ("lower_half_length", 1.5, "1.5 % must be at least 2 %"),
+            ("lower_half_length", 101.0, "101 % must be below 100 %"),
+            ("lower_half_length_vertical", 7.0, "7 % must be at least 9.46 %"),
             (
-                RoundBrilliant { pavilion: P::Angle(1.9), ..MODERN },
-                "pavilion_angle: 1.9° must be at least 2°",
+                "girdle_thickness",
+                -0.5,
+                "-0.5 % must be at least 0 %, a knife edge all round; raise it by at least 0.5",
             ),
-            (RoundBrilliant { pavilion: P::Angle(95.0), ..MODERN }, "pavilion_angle: 95° must be below 90°"),
-            (
-                RoundBrilliant { pavilion: P::Depth(1.0), ..MODERN },
-                "pavilion_depth: 1 % must be at least 1.75 %",
-            ),
-            (RoundBrilliant { star_length: 100.0, ..MODERN }, "star_length: 100 % must be below 100 %"),
-            (
-                RoundBrilliant { lower_half: Radial(1.5), ..MODERN },
-                "lower_half_length: 1.5 % must be at least 2 %",
-            ),
-            (
-                RoundBrilliant { lower_half: Radial(101.0), ..MODERN },
-                "lower_half_length: 101 % must be below 100 %",
-            ),
-            (
-                RoundBrilliant { lower_half: Vertical(7.0), ..MODERN },
-                "lower_half_length_vertical: 7 % must be at least 9.46 %",
-            ),
-            (
-                RoundBrilliant { girdle_thickness: -0.5, ..MODERN },
-                "girdle_thickness: -0.5 % must be at least 0 %, a knife edge all round; raise it by at least 0.5",
-            ),
-            (RoundBrilliant { girdle_facets: 15, ..MODERN }, "girdle_facets: 15 must be at least 16"),
-            (RoundBrilliant { girdle_facets: 200, ..MODERN }, "girdle_facets: 200 must be at most 128"),
-            (RoundBrilliant { culet: -1.0, ..MODERN }, "culet: -1 % must be at least 0 %"),
-            (RoundBrilliant { culet: 100.0, ..MODERN }, "culet: 100 % must be below 100 %"),
-            (RoundBrilliant { crown: Angle(89.9), ..MODERN }, "total_depth: 12651."),
-            (
-                RoundBrilliant { pavilion: P::Depth(1e300), ..MODERN },
-                "total_depth: 1e300 % must be at most 300 %",
-            ),
-        ];
-        for (given, expected) in cases {
-            assert!(text(given).starts_with(expected), "{} is not {expected}", text(given));
-            let key = expected.split(':').next().unwrap();
-            assert_eq!(given.derived().unwrap_err().row().key, key);
+            ("girdle_facets", 15.0, "15 must be at least 16"),
+            ("girdle_facets", 200.0, "200 must be at most 128"),
+            ("culet", -1.0, "-1 % must be at least 0 %"),
+            ("culet", 100.0, "100 % must be below 100 %"),
+        ] {
+            let error = with(key, value).check().unwrap_err();
+            assert!(
+                error.to_string().starts_with(&format!("{key}: {expected}")),
+                "{error} is not {expected}"
+            );
+            assert_eq!(error.row().key, key);
+        }
+        let deep =
+            [("crown_angle", 89.9, "12651."), ("pavilion_depth", 1e300, "1e300 % must be at most 300 %")];
+        for (key, value, expected) in deep {
+            let error = with(key, value).check().unwrap_err().to_string();
+            assert!(error.starts_with(&format!("total_depth: {expected}")), "{error} is not {expected}");
         }
     }
 
     #[test]
     fn numbers_that_are_not_finite_are_named() {
-        let mut cases = [MODERN; 7];
-        cases[0].table = f64::NAN;
-        cases[1].crown = Crown::Height(f64::INFINITY);
-        cases[2].pavilion = Pavilion::Angle(f64::NAN);
-        cases[3].star_length = f64::NEG_INFINITY;
-        cases[4].lower_half = LowerHalf::Vertical(f64::NAN);
-        cases[5].girdle_thickness = f64::NAN;
-        cases[6].culet = f64::INFINITY;
-        let keys = [
-            "table",
-            "crown_height",
-            "pavilion_angle",
-            "star_length",
-            "lower_half_length_vertical",
-            "girdle_thickness",
-            "culet",
-        ];
-        for (given, expected) in cases.into_iter().zip(keys) {
-            assert!(
-                matches!(given.derived(), Err(ProportionError::NotFinite { row, .. }) if row.key == expected)
-            );
+        let modern = Cut::RoundBrilliant(MODERN);
+        for row in modern.family().unwrap().editable().filter(|row| row.unit != Unit::Count) {
+            for value in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+                let error = with(row.key, value).check().unwrap_err();
+                assert!(matches!(error, ProportionError::NotFinite { row: at, .. } if at == row), "{error}");
+            }
         }
-        assert_eq!(text(cases[0]), "table: NaN is not a finite number; write what was measured");
+        let nan = with("table", f64::NAN).check().unwrap_err().to_string();
+        assert_eq!(nan, "table: NaN is not a finite number; write what was measured");
     }
 
     #[test]

@@ -27,7 +27,7 @@ mod tiers;
 mod warning;
 
 pub use design::{Cut, DEFAULT_DIAMETER_MM, Design, DesignError, MAX_PLANES, PlaneFault};
-pub use family::{Bound, BoundAt, FAMILIES, Family, Pair, ProfileHandle, Proportion, Unit};
+pub use family::{Bound, BoundAt, FAMILIES, Family, ProfileHandle, Proportion, Unit};
 pub use glass::{Glass, Plate, Sides};
 pub use material::{MaterialError, MaterialRef};
 pub use mesh_shape::MeshShape;

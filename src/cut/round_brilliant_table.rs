@@ -4,7 +4,8 @@
 //! neighbours, and catch fractions written for percent and radians written for degrees: they lie above 1 % and π/2°.
 
 use super::Cut;
-use super::family::{Bound, Family, Pair, ProfileHandle, Proportion, Unit};
+use super::family::BoundAt::{Fixed, Of};
+use super::family::{Bound, Family, ProfileHandle, Proportion, Unit};
 use super::proportions::{Derived, Proportions, STAR_AZIMUTH};
 use super::round_brilliant::{Crown, LowerHalf, Pavilion, RoundBrilliant, TOLKOWSKY};
 use std::f64::consts::FRAC_PI_8;
@@ -27,28 +28,27 @@ pub static ROUND_BRILLIANT: Family = Family {
             name: "Table",
             meaning: "The flat facet on top, corner to opposite corner, in percent of the girdle's diameter.",
             usual: [45.0, 75.0],
-            least: Bound::at(5.0, "the smallest table taken"),
-            most: Bound::before(100.0 * STAR_COS, "where no star facet fits between table and girdle"),
+            least: Bound::at(Fixed(5.0), "the smallest table taken"),
+            most: Bound::before(Fixed(100.0 * STAR_COS), "where no star facet fits between table and girdle"),
             excellent: Some([52.0, 62.0]),
             handles: &[ProfileHandle::TableEdge],
             get: |cut| of(cut, |b| b.table),
             give: Some(|cut, v| give(cut, |b| b.table = v)),
-            ..PERCENT
+            ..Proportion::BLANK
         },
         Proportion {
             key: "crown_angle",
             name: "Crown angle",
             meaning: "How steep the bezels stand on the girdle plane.",
             usual: [22.0, 44.0],
-            most: Bound::before(90.0, "where the bezels would stand upright"),
+            least: Bound::at(Fixed(LEAST_ANGLE), "the flattest facet taken"),
+            most: Bound::before(Fixed(90.0), "where the bezels would stand upright"),
             excellent: Some([31.5, 36.5]),
             handles: &[ProfileHandle::CrownSlope],
             get: |cut| of(cut, |b| crown(b).0),
             give: Some(|cut, v| give(cut, |b| b.crown = Crown::Angle(v))),
-            pair: Some(Pair {
-                other: "crown_height",
-                is_given: |cut| is(cut, |b| matches!(b.crown, Crown::Angle(_))),
-            }),
+            pair: Some("crown_height"),
+            is_given: |cut| is(cut, |b| matches!(b.crown, Crown::Angle(_))),
             ..ANGLE
         },
         Proportion {
@@ -56,18 +56,16 @@ pub static ROUND_BRILLIANT: Family = Family {
             name: "Crown height",
             meaning: "From the girdle's upper edge to the table, in percent of the girdle's diameter.",
             usual: [6.0, 24.0],
-            least: Bound::at_that_of(
-                |cut| of(cut, |b| rise(LEAST_ANGLE, 50.0 - 0.5 * b.table)),
+            least: Bound::at(
+                Of(|cut| of(cut, |b| rise(LEAST_ANGLE, 50.0 - 0.5 * b.table))),
                 "where the bezels lie at 2°",
             ),
             handles: &[ProfileHandle::TableLine],
             get: |cut| of(cut, |b| crown(b).1),
             give: Some(|cut, v| give(cut, |b| b.crown = Crown::Height(v))),
-            pair: Some(Pair {
-                other: "crown_angle",
-                is_given: |cut| is(cut, |b| matches!(b.crown, Crown::Height(_))),
-            }),
-            ..PERCENT
+            pair: Some("crown_angle"),
+            is_given: |cut| is(cut, |b| matches!(b.crown, Crown::Height(_))),
+            ..Proportion::BLANK
         },
         Proportion {
             key: "pavilion_angle",
@@ -75,15 +73,14 @@ pub static ROUND_BRILLIANT: Family = Family {
             meaning: "How steep the mains, the eight large facets below, stand on the girdle plane. Light return depends \
                       on nothing as much.",
             usual: [38.0, 45.0],
-            most: Bound::before(90.0, "where the mains would stand upright"),
+            least: Bound::at(Fixed(LEAST_ANGLE), "the flattest facet taken"),
+            most: Bound::before(Fixed(90.0), "where the mains would stand upright"),
             excellent: Some([40.6, 41.8]),
             handles: &[ProfileHandle::PavilionSlope],
             get: |cut| of(cut, |b| pavilion(b).0),
             give: Some(|cut, v| give(cut, |b| b.pavilion = Pavilion::Angle(v))),
-            pair: Some(Pair {
-                other: "pavilion_depth",
-                is_given: |cut| is(cut, |b| matches!(b.pavilion, Pavilion::Angle(_))),
-            }),
+            pair: Some("pavilion_depth"),
+            is_given: |cut| is(cut, |b| matches!(b.pavilion, Pavilion::Angle(_))),
             ..ANGLE
         },
         Proportion {
@@ -91,18 +88,16 @@ pub static ROUND_BRILLIANT: Family = Family {
             name: "Pavilion depth",
             meaning: "From the girdle's lower edge to the culet, in percent of the girdle's diameter.",
             usual: [38.0, 50.0],
-            least: Bound::at_that_of(
-                |cut| of(cut, |b| rise(LEAST_ANGLE, 50.0 - 0.5 * b.culet)),
+            least: Bound::at(
+                Of(|cut| of(cut, |b| rise(LEAST_ANGLE, 50.0 - 0.5 * b.culet))),
                 "where the mains lie at 2°",
             ),
             handles: &[ProfileHandle::PavilionTip],
             get: |cut| of(cut, |b| pavilion(b).1),
             give: Some(|cut, v| give(cut, |b| b.pavilion = Pavilion::Depth(v))),
-            pair: Some(Pair {
-                other: "pavilion_angle",
-                is_given: |cut| is(cut, |b| matches!(b.pavilion, Pavilion::Depth(_))),
-            }),
-            ..PERCENT
+            pair: Some("pavilion_angle"),
+            is_given: |cut| is(cut, |b| matches!(b.pavilion, Pavilion::Depth(_))),
+            ..Proportion::BLANK
         },
         Proportion {
             key: "star_length",
@@ -110,18 +105,18 @@ pub static ROUND_BRILLIANT: Family = Family {
             of: "of the way from the table's edge to the girdle",
             meaning: "How far the star facets reach from the table's edge to the girdle, seen from above.",
             usual: [30.0, 75.0],
-            least: Bound::before_that_of(
-                |cut| of(cut, |b| least_star_length(b.table)),
+            least: Bound::before(
+                Of(|cut| of(cut, |b| least_star_length(b.table))),
                 "where the star facets would lie flat with the table",
             ),
             most: Bound::before(
-                100.0,
+                Fixed(100.0),
                 "where the star tips would lie on the girdle and the upper halves stand upright",
             ),
             excellent: Some([45.0, 65.0]),
             get: |cut| of(cut, |b| b.star_length),
             give: Some(|cut, v| give(cut, |b| b.star_length = v)),
-            ..PERCENT
+            ..Proportion::BLANK
         },
         Proportion {
             key: "lower_half_length",
@@ -131,18 +126,19 @@ pub static ROUND_BRILLIANT: Family = Family {
                       arrows.",
             usual: [50.0, 95.0],
             least: Bound::at(
-                LEAST_LOWER_HALF,
+                Fixed(LEAST_LOWER_HALF),
                 "where the lower halves end within 2 % of the girdle, nearly upright",
             ),
-            most: Bound::before(100.0, "where the lower halves would meet in the centre and leave no mains"),
+            most: Bound::before(
+                Fixed(100.0),
+                "where the lower halves would meet in the centre and leave no mains",
+            ),
             excellent: Some([70.0, 85.0]),
             get: |cut| of(cut, |b| lower_half(b).0),
             give: Some(|cut, v| give(cut, |b| b.lower_half = LowerHalf::Radial(v))),
-            pair: Some(Pair {
-                other: "lower_half_length_vertical",
-                is_given: |cut| is(cut, |b| matches!(b.lower_half, LowerHalf::Radial(_))),
-            }),
-            ..PERCENT
+            pair: Some("lower_half_length_vertical"),
+            is_given: |cut| is(cut, |b| matches!(b.lower_half, LowerHalf::Radial(_))),
+            ..Proportion::BLANK
         },
         Proportion {
             key: "lower_half_length_vertical",
@@ -152,17 +148,18 @@ pub static ROUND_BRILLIANT: Family = Family {
                       it.",
             usual: [50.0, 95.0],
             least: Bound::at(
-                100.0 - (100.0 - LEAST_LOWER_HALF) * STAR_COS,
+                Fixed(100.0 - (100.0 - LEAST_LOWER_HALF) * STAR_COS),
                 "where the lower halves end within 2 % of the girdle, nearly upright",
             ),
-            most: Bound::before(100.0, "where the lower halves would meet in the centre and leave no mains"),
+            most: Bound::before(
+                Fixed(100.0),
+                "where the lower halves would meet in the centre and leave no mains",
+            ),
             get: |cut| of(cut, |b| lower_half(b).1),
             give: Some(|cut, v| give(cut, |b| b.lower_half = LowerHalf::Vertical(v))),
-            pair: Some(Pair {
-                other: "lower_half_length",
-                is_given: |cut| is(cut, |b| matches!(b.lower_half, LowerHalf::Vertical(_))),
-            }),
-            ..PERCENT
+            pair: Some("lower_half_length"),
+            is_given: |cut| is(cut, |b| matches!(b.lower_half, LowerHalf::Vertical(_))),
+            ..Proportion::BLANK
         },
         Proportion {
             key: "girdle_thickness",
@@ -170,11 +167,11 @@ pub static ROUND_BRILLIANT: Family = Family {
             of: "of the girdle diameter, at the bezels",
             meaning: "The stone's rim, measured at the bezels where it is thickest, in percent of its diameter.",
             usual: [0.0, 8.0],
-            least: Bound::at(0.0, "a knife edge all round"),
+            least: Bound::at(Fixed(0.0), "a knife edge all round"),
             handles: &[ProfileHandle::GirdleUpper, ProfileHandle::GirdleLower],
             get: |cut| of(cut, |b| b.girdle_thickness),
             give: Some(|cut, v| give(cut, |b| b.girdle_thickness = v)),
-            ..PERCENT
+            ..Proportion::BLANK
         },
         Proportion {
             key: "girdle_facets",
@@ -184,11 +181,11 @@ pub static ROUND_BRILLIANT: Family = Family {
             usual: [16.0, 128.0],
             step: 8.0,
             speed: 0.2,
-            least: Bound::at(16.0, "one for each half facet"),
-            most: Bound::at(128.0, "finer than which no girdle is faceted"),
+            least: Bound::at(Fixed(16.0), "one for each half facet"),
+            most: Bound::at(Fixed(128.0), "finer than which no girdle is faceted"),
             get: |cut| of(cut, |b| f64::from(b.girdle_facets)),
             give: Some(|cut, v| give(cut, |b| b.girdle_facets = v as u32)),
-            ..PERCENT
+            ..Proportion::BLANK
         },
         Proportion {
             key: "culet",
@@ -196,28 +193,27 @@ pub static ROUND_BRILLIANT: Family = Family {
             of: "of the girdle diameter, 0 for a point",
             meaning: "A flat facet instead of the lowest point, in percent of the girdle's diameter; 0 is a point.",
             usual: [0.0, 12.0],
-            least: Bound::at(0.0, "a pointed culet"),
-            most: Bound::before(100.0, "where the culet would be as wide as the girdle"),
+            least: Bound::at(Fixed(0.0), "a pointed culet"),
+            most: Bound::before(Fixed(100.0), "where the culet would be as wide as the girdle"),
             handles: &[ProfileHandle::CuletEdge],
             get: |cut| of(cut, |b| b.culet),
             give: Some(|cut, v| give(cut, |b| b.culet = v)),
-            ..PERCENT
+            ..Proportion::BLANK
         },
         Proportion {
             key: "total_depth",
             name: "Total depth",
             meaning: "From table to culet.",
             // Up to there rounding stays below every tolerance.
-            most: Bound::at(300.0, "beyond which it is a needle, not a brilliant"),
+            most: Bound::at(Fixed(300.0), "beyond which it is a needle, not a brilliant"),
             excellent: Some([58.1, 63.6]),
             get: |cut| derived(cut, |d| d.total_depth),
-            ..PERCENT
+            ..Proportion::BLANK
         },
         Proportion {
             key: "star_angle",
             name: "Star angle",
             meaning: "How steep the small facets around the table are.",
-            least: None,
             get: |cut| derived(cut, |d| d.star_angle),
             ..ANGLE
         },
@@ -225,7 +221,6 @@ pub static ROUND_BRILLIANT: Family = Family {
             key: "upper_half_angle",
             name: "Upper halves",
             meaning: "How steep the crown facets at the girdle are.",
-            least: None,
             get: |cut| derived(cut, |d| d.upper_half_angle),
             ..ANGLE
         },
@@ -233,7 +228,6 @@ pub static ROUND_BRILLIANT: Family = Family {
             key: "lower_half_angle",
             name: "Lower halves",
             meaning: "How steep the pavilion facets at the girdle are.",
-            least: None,
             get: |cut| derived(cut, |d| d.lower_half_angle),
             ..ANGLE
         },
@@ -243,39 +237,14 @@ pub static ROUND_BRILLIANT: Family = Family {
             meaning: "Thickness of the rim where it is thinnest, between the bezels.",
             nothing: Some("closed"),
             get: |cut| derived(cut, |d| d.girdle_thickness_valley),
-            ..PERCENT
+            ..Proportion::BLANK
         },
     ],
 };
 
-/// What most rows of lengths have in common.
-const PERCENT: Proportion = Proportion {
-    key: "",
-    name: "",
-    unit: Unit::Percent,
-    of: "of the girdle diameter",
-    meaning: "",
-    usual: [0.0, 100.0],
-    step: 0.1,
-    speed: 0.02,
-    least: None,
-    most: None,
-    excellent: None,
-    default: None,
-    nothing: None,
-    handles: &[],
-    get: |_| f64::NAN,
-    give: None,
-    pair: None,
-};
-
-/// What most rows of angles have in common.
-const ANGLE: Proportion = Proportion {
-    unit: Unit::Degrees,
-    of: "from the girdle plane",
-    least: Bound::at(LEAST_ANGLE, "the flattest facet taken"),
-    ..PERCENT
-};
+/// What the rows of angles have in common.
+const ANGLE: Proportion =
+    Proportion { unit: Unit::Degrees, of: "from the girdle plane", ..Proportion::BLANK };
 
 fn of(cut: &Cut, read: fn(&RoundBrilliant) -> f64) -> f64 {
     cut.brilliant().map_or(f64::NAN, read)
@@ -350,13 +319,9 @@ mod tests {
         ROUND_BRILLIANT.proportion(key).unwrap()
     }
 
-    fn editable() -> impl Iterator<Item = &'static Proportion> {
-        ROUND_BRILLIANT.proportions.iter().filter(|row| row.give.is_some())
-    }
-
     #[test]
     fn what_is_set_is_what_is_read() {
-        for row in editable() {
+        for row in ROUND_BRILLIANT.editable() {
             let mut cut = ROUND_BRILLIANT.first.clone();
             let value = (row.get)(&cut) + 1.0;
             row.set(&mut cut, value);
@@ -391,7 +356,7 @@ mod tests {
     fn a_pair_is_known_while_something_else_cannot_be() {
         let mut cut = Cut::RoundBrilliant(RoundBrilliant { table: 97.0, ..TOLKOWSKY });
         assert!(cut.check().is_err());
-        assert!(editable().all(|row| (row.get)(&cut).is_finite()));
+        assert!(ROUND_BRILLIANT.editable().all(|row| (row.get)(&cut).is_finite()));
         row("crown_height").set(&mut cut, 1.0);
         assert!(is(&cut, |b| matches!(b.crown, Crown::Angle(angle) if angle > 30.0)));
     }
@@ -401,13 +366,13 @@ mod tests {
         let [table, angle, height] = ["table", "crown_angle", "crown_height"].map(row);
         let mut cut = ROUND_BRILLIANT.first.clone();
         height.set(&mut cut, 16.0);
-        assert!(angle.is_given(&cut), "the angle is still held");
+        assert!((angle.is_given)(&cut), "the angle is still held");
         let held = (angle.get)(&cut);
         table.set(&mut cut, 57.0);
         assert_eq!((angle.get)(&cut), held);
         height.hold(&mut cut);
         let held = (height.get)(&cut);
         table.set(&mut cut, 60.0);
-        assert!(((height.get)(&cut) - held).abs() < 1e-12 && height.is_given(&cut));
+        assert!(((height.get)(&cut) - held).abs() < 1e-12 && (height.is_given)(&cut));
     }
 }

@@ -13,7 +13,7 @@ use toml::de::{DeTable, Deserializer};
 use super::fault::Fault;
 use super::text::{self, TextError};
 use crate::cut::{Design, FAMILIES};
-use family_form::{FamilyForm, WrittenFamily};
+use family_form::FamilyForm;
 use form::DesignForm;
 
 mod family_form;
@@ -76,12 +76,9 @@ pub fn parse(text: &str, label: &str) -> Result<Design, CutFileError> {
 /// A design that [`Design::check`] refuses is written too, but does not read back.
 pub fn write(design: &Design) -> String {
     // TOML has no form for maps without text keys and for integers beyond 64 bits; a cut file has neither.
-    const PLAIN: &str = "a cut file's form is text, numbers, lists and tables";
-    let mut text = toml::to_string(&DesignForm::of(design)).expect(PLAIN);
-    if let Some(family) = design.cut.family() {
-        let numbers = toml::to_string(&WrittenFamily(&design.cut)).expect(PLAIN);
-        text += &format!("\n[{}]\n{numbers}", family.key);
-    }
+    let mut text = toml::to_string(&DesignForm::of(design))
+        .expect("a cut file's form is text, numbers, lists and tables");
+    text.extend(design.cut.family().map(|family| family_form::written(family, &design.cut)));
     text
 }
 

@@ -205,7 +205,7 @@ fn hint(line: &str) -> &'static str {
 }
 
 /// Returns a hint at an unknown key: the known key that is most like it, or the table that it belongs to.
-fn meant(asked: &str, known: &[&str]) -> String {
+pub(super) fn meant(asked: &str, known: &[&str]) -> String {
     let is_at_top = FAMILIES.iter().any(|family| known.contains(&family.key));
     let mut families = FAMILIES.iter().filter(|_| is_at_top);
     if let Some(family) = families.find(|family| family.proportion(asked).is_some()) {

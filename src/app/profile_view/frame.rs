@@ -5,9 +5,9 @@ use super::grips::{Grip, grips};
 use super::handle::Handle;
 use super::ink::ProfileInks;
 use super::plan::{LabelDetail, Planner, ProfileSubject};
-use super::sheet::{Label, ProfileSheet, SheetLine, Weight};
+use super::sheet::{About, Label, ProfileSheet, SheetLine, Weight};
 use super::sight::{ProfileBox, ProfileProjection};
-use crate::cut::{Cut, Proportion};
+use crate::cut::Cut;
 use crate::math::Basis;
 use crate::picture::profile::brilliant::BRILLIANT_BASIS;
 use crate::picture::profile::{Dimensions, across_the_width};
@@ -125,7 +125,7 @@ impl<'a> ProfileFrame<'a> {
         Planner::plan(subject, &self.sight, self.detail, sheet)
     }
 
-    fn draw(&self, painter: &Painter, line: SheetLine, active: Option<&'static Proportion>) {
+    fn draw(&self, painter: &Painter, line: SheetLine, active: About) {
         let (colour, width) = match line.weight {
             Weight::Dimension => (self.inks.dimension, DIMENSION),
             Weight::Extension => (self.inks.extension, EXTENSION),
@@ -135,7 +135,7 @@ impl<'a> ProfileFrame<'a> {
         painter.add(Shape::line(line.points, Stroke::new(width, colour)));
     }
 
-    fn write(&self, painter: &Painter, label: &Label, active: Option<&'static Proportion>) {
+    fn write(&self, painter: &Painter, label: &Label, active: About) {
         let colour = self.colour(label.about, active);
         let galley = painter.layout_no_wrap(label.text.clone(), self.font.clone(), colour);
         if label.upright {
@@ -148,8 +148,8 @@ impl<'a> ProfileFrame<'a> {
 
     /// Returns the colour of a number: the accent colour for that of the active handle, a quiet one where it follows from
     /// another.
-    fn colour(&self, about: Option<&'static Proportion>, active: Option<&'static Proportion>) -> Color32 {
-        let follows = self.measured.cut.as_ref().zip(about).is_some_and(|(cut, row)| !row.is_given(cut));
+    fn colour(&self, about: About, active: About) -> Color32 {
+        let follows = self.measured.cut.as_ref().zip(about).is_some_and(|(cut, row)| !(row.is_given)(cut));
         match about {
             Some(_) if about == active => self.inks.accent,
             _ if follows => self.inks.quiet,

@@ -218,7 +218,7 @@ mod tests {
             prop_assert!(new.derived().is_ok());
             let [now, before] = [new, given].map(Cut::RoundBrilliant);
             for row in now.proportions() {
-                prop_assert_eq!(row.is_given(&now), row.is_given(&before));
+                prop_assert_eq!((row.is_given)(&now), (row.is_given)(&before));
             }
             let step = 10.0 * value(handle, &new);
             prop_assert!(new == given || (step - step.round()).abs() < 1e-6, "{} {}", handle.name(), step / 10.0);

@@ -1,6 +1,6 @@
 //! Decides which dimensions a profile of a given size shows, and where.
 
-use super::sheet::{BESIDE, GAP, Label, ProfileSheet, SheetLine, Weight};
+use super::sheet::{About, BESIDE, GAP, Label, ProfileSheet, SheetLine, Weight};
 use super::sight::{Margins, ProfileProjection};
 use crate::cut::{Cut, ProfileHandle, Proportion, Unit};
 use crate::picture::profile::brilliant::{lower_half_ends, star_ends};
@@ -116,7 +116,7 @@ impl<'a, 'b> Planner<'a, 'b> {
     }
 
     /// Returns the proportion that a part of the profile changes.
-    fn row(&self, part: ProfileHandle) -> Option<&'static Proportion> {
+    fn row(&self, part: ProfileHandle) -> About {
         self.subject.cut?.handled_by(part)
     }
 

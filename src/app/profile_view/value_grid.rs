@@ -102,7 +102,7 @@ mod tests {
                 let new = ValueGrid::COARSE.toward(row(key), &given, wanted);
                 assert!(((row(key).get)(&new) - wanted).abs() < 1e-9);
                 for (other, _) in pairs {
-                    assert_eq!(row(other).is_given(&new), row(other).is_given(&given), "{key} {other}");
+                    assert_eq!((row(other).is_given)(&new), (row(other).is_given)(&given), "{key} {other}");
                 }
             }
         }
