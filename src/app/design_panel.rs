@@ -3,7 +3,7 @@
 use super::editor::Editor;
 use super::files::Purpose;
 use super::impossible::{self, RowMessage};
-use super::rows::{ANY, NUMBER, Number, Row, control_width, explain, field_width, named};
+use super::rows::{ANY, Row, explain, field_width, named};
 use super::studio::BEHIND;
 use super::workspace::PanelSide;
 use super::workspace::WAVELENGTHS;
@@ -12,8 +12,8 @@ use crate::cut::{Cut, Design, DesignError, MaterialRef, Proportion, Unit, Warnin
 use crate::picture::Pattern;
 use crate::scene::{Copies, LIGHTS, SpecimenError, light};
 use egui::{
-    ComboBox, Panel, Rect, RichText, Role, ScrollArea, Sense, Slider, SliderClamping, Stroke, StrokeKind,
-    TextEdit, Ui, WidgetInfo, pos2, vec2,
+    ComboBox, Panel, Rect, RichText, Role, ScrollArea, Sense, Stroke, StrokeKind, TextEdit, Ui, WidgetInfo,
+    pos2, vec2,
 };
 use std::ops::RangeInclusive;
 use std::sync::Arc;
@@ -169,26 +169,21 @@ fn warnings(editor: &Editor, ui: &mut Ui) {
 /// Draws one proportion: name, slider, number, and for one of a pair whether it is held; where GIA grades it, also the
 /// range of the grade Excellent. Returns whether it was changed.
 fn row(ui: &mut Ui, proportion: &Proportion, cut: &mut Cut, is_graded: bool) -> bool {
-    let Proportion { name, meaning, unit, usual: [first, last], step, speed, .. } = *proportion;
+    let Proportion { name, unit, usual: [first, last], step, speed, .. } = *proportion;
     ui.horizontal(|ui| {
-        let label = named(ui, name, meaning);
-        ui.spacing_mut().slider_width = control_width(ui);
         let mut value = (proportion.get)(cut);
         let before = value;
         let mark = ui.painter().add(egui::Shape::Noop);
-        let slider = Slider::new(&mut value, first..=last).show_value(false).step_by(step).smart_aim(false);
-        let slider = ui.add(slider.clamping(SliderClamping::Never)).labelled_by(label.id);
-        let slider = explain(ui, slider, &range(proportion, is_graded));
-        if let Some(good) = proportion.excellent.filter(|_| is_graded) {
-            let band = band(slider.rect, good, proportion.usual);
-            ui.painter().set(
-                mark,
-                egui::Shape::rect_filled(band, 2.0, theme::good(ui.visuals()).gamma_multiply(0.75)),
-            );
-        }
         let decimals = if unit == Unit::Count { 0 } else { 2 };
-        let number = Number { decimals, speed, range: ANY, unit: &unit.to_string() };
-        number.show(ui, (NUMBER, label.id), &mut value);
+        let (meaning, unit) = (range(proportion, is_graded), unit.to_string());
+        let row = Row::new(name, &meaning, first..=last);
+        let row = Row { limits: ANY, step, decimals, speed, unit: &unit, ..row };
+        let slider = row.fill(ui, &mut value);
+        if let Some(good) = proportion.excellent.filter(|_| is_graded) {
+            let band = band(slider, good, proportion.usual);
+            let colour = theme::good(ui.visuals()).gamma_multiply(0.75);
+            ui.painter().set(mark, egui::Shape::rect_filled(band, 2.0, colour));
+        }
         let is_changed = value != before && value.is_finite();
         if is_changed {
             proportion.set(cut, value);

@@ -1,10 +1,8 @@
 //! Explains proportions that no stone can have: at the row that was edited, in that row's terms and by the panel's names.
 
+use super::value_grid::ValueGrid;
 use crate::cut::{Cut, DesignError, Limit, Proportion, ProportionError, Unit};
 use crate::scene::SpecimenError;
-
-/// The number of halvings that find a limit: more than a number has digits.
-const HALVINGS: u32 = 80;
 
 /// A message about a fault, and the row that shows it.
 pub struct RowMessage {
@@ -50,50 +48,37 @@ fn in_its_terms(given: &Cut, last: &Cut, row: &'static Proportion, fault: &Propo
     let (value, possible) = ((row.get)(given), (row.get)(last));
     let limit = limit(given, row, (possible, value));
     let side = if value > possible { "most" } else { "least" };
-    let (name, unit) = (row.name, row.unit);
-    let value = number(value, unit);
-    let limit = format!("{limit}{unit}");
+    let [value, limit] = [value, limit].map(|value| row.written(value));
     let reason = match fault.limit() {
         Some(Limit { row: at, limit, reason, .. }) if *at == row => {
-            format!("The limit is {}, {reason}.", number(*limit, unit))
+            format!("The limit is {}, {reason}.", row.written(*limit))
         }
         _ => message(fault),
     };
     format!(
-        "{name}: {value} makes no stone. With the other proportions as they are, it can be at {side} {limit}. {reason}"
+        "{}: {value} makes no stone. With the other proportions as they are, it can be at {side} {limit}. {reason}",
+        row.name
     )
 }
 
 /// Returns the value nearest to an impossible one that makes a stone, to two decimals; a whole number for counts.
 fn limit(given: &Cut, row: &Proportion, (possible, value): (f64, f64)) -> f64 {
-    let far = if value.is_finite() { value } else { 1e9_f64.copysign(value - possible) };
-    let (mut inside, mut outside) = (possible, far);
-    for _ in 0..HALVINGS {
-        let middle = 0.5 * (inside + outside);
-        if makes_stone(given, row, middle) { inside = middle } else { outside = middle }
-    }
-    let parts = if row.unit == Unit::Count { 1.0 } else { 100.0 };
-    let rounded = if far > possible { (inside * parts).floor() } else { (inside * parts).ceil() } / parts;
-    // Where the rounded value makes no stone, the exact limit is returned.
-    if makes_stone(given, row, rounded) { rounded } else { inside }
+    let grid = if row.unit == Unit::Count { ValueGrid::WHOLE } else { ValueGrid::FINE };
+    let mut from = given.clone();
+    row.set(&mut from, possible);
+    (row.get)(&grid.toward(row, &from, value))
 }
 
 /// Describes a fault in the panel's words.
 fn message(fault: &ProportionError) -> String {
-    let Proportion { name, unit, .. } = *fault.row();
+    let row = fault.row();
     match fault.limit() {
-        None => format!("{name}: there is no such number."),
-        Some(limit) => {
-            let (value, bound) = (number(limit.value, unit), number(limit.limit, unit));
-            format!("{name} would be {value}; the limit is {bound}, {}.", limit.reason)
+        None => format!("{}: there is no such number.", row.name),
+        Some(Limit { value, limit, reason, .. }) => {
+            let [value, bound] = [*value, *limit].map(|value| row.written(value));
+            format!("{} would be {value}; the limit is {bound}, {reason}.", row.name)
         }
     }
-}
-
-/// Writes a number with its unit, to two decimals; the text is short, however large the number is.
-fn number(value: f64, unit: Unit) -> String {
-    let rounded = (value * 100.0).round() / 100.0;
-    if value.abs() < 1e6 { format!("{rounded}{unit}") } else { format!("{value:.1e}{unit}") }
 }
 
 #[cfg(test)]

@@ -58,6 +58,7 @@ mod theme;
 mod tier_rows;
 mod trouble_bar;
 mod urgency;
+mod value_grid;
 mod view_history;
 mod view_menu;
 mod window;

@@ -16,7 +16,6 @@ mod sheet;
 mod sight;
 #[cfg(test)]
 mod tests;
-mod value_grid;
 
 use crate::cut::{Cut, ProfileHandle};
 use crate::scene::Stone;
@@ -26,7 +25,6 @@ use frame::{MeasuredProfile, Offered, ProfileFrame};
 use grab::Grab;
 use grips::Grip;
 use handle::Handle;
-use plan::written;
 use sheet::Label;
 use sight::ProfileBox;
 
@@ -154,7 +152,7 @@ impl ProfileView {
             }
             let handle = held.map_or(o.grip.handle, Grab::handle);
             let row = handle.row;
-            let value = format!("{} {}", row.name, written(row, (row.get)(cut)));
+            let value = format!("{} {}", row.name, row.written((row.get)(cut)));
             let is_shown = labels.iter().any(|label| label.about == Some(row));
             if held.is_some() || (o.response.has_focus() && !o.is_pointed_at()) {
                 if !is_shown {

@@ -238,6 +238,16 @@ impl Proportion {
         }
     }
 
+    /// Writes a value with its unit, to two decimals; the text is short, however large the number is.
+    pub fn written(&self, value: f64) -> String {
+        let rounded = (value * 100.0).round() / 100.0 + 0.0;
+        if value.abs() < 1e6 {
+            format!("{rounded}{}", self.unit)
+        } else {
+            format!("{value:.1e}{}", self.unit)
+        }
+    }
+
     /// Says what a file's value stands for: its unit and what it is a part of, or the range of a count.
     pub fn hint(&self) -> String {
         match self.unit {

@@ -3,7 +3,7 @@
 use super::grips::Grip;
 use super::handle::{Handle, percent_of_radius};
 use super::sight::{ProfileBox, ProfileProjection};
-use super::value_grid::ValueGrid;
+use crate::app::value_grid::ValueGrid;
 use crate::cut::{Cut, ProfileHandle};
 use crate::picture::profile::Dimensions;
 use egui::{Pos2, Vec2};

@@ -3,7 +3,7 @@
 use super::handle::Handle;
 use super::ink::ProfileInks;
 use super::sight::ProfileProjection;
-use super::value_grid::ValueGrid;
+use crate::app::value_grid::ValueGrid;
 use crate::cut::{Cut, ProfileHandle};
 use crate::picture::profile::Dimensions;
 use egui::accesskit::{Action, ActionData};

@@ -2,7 +2,7 @@
 //!
 //! Places are in girdle radii in the profile's plane: x to the right of the axis, y up from the girdle's upper edge.
 
-use super::value_grid::ValueGrid;
+use crate::app::value_grid::ValueGrid;
 use crate::cut::{Cut, ProfileHandle, Proportion};
 use crate::picture::profile::{Dimensions, Span};
 use egui::CursorIcon;

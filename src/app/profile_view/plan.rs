@@ -2,9 +2,9 @@
 
 use super::sheet::{About, BESIDE, GAP, Label, ProfileSheet, SheetLine, Weight};
 use super::sight::{Margins, ProfileProjection};
-use crate::cut::{Cut, ProfileHandle, Proportion, Unit};
+use crate::cut::{Cut, ProfileHandle};
 use crate::picture::profile::brilliant::{lower_half_ends, star_ends};
-use crate::picture::profile::{Dimensions, Span, degrees, percent, spread};
+use crate::picture::profile::{Dimensions, Span, percent, spread};
 use egui::{Align2, Pos2, Rect, Vec2, pos2, vec2};
 use glam::DVec2;
 
@@ -69,14 +69,6 @@ pub struct ProfileSubject<'a> {
     pub dimensions: &'a Dimensions,
     /// The cut, where it is one of possible proportions.
     pub cut: Option<&'a Cut>,
-}
-
-/// Writes the value of a proportion with its unit.
-pub fn written(row: &Proportion, value: f64) -> String {
-    match row.unit {
-        Unit::Degrees => degrees(value),
-        Unit::Percent | Unit::Count => percent(value),
-    }
 }
 
 /// Lays out the dimensions of a drawing on a sheet.
@@ -216,7 +208,7 @@ impl<'a, 'b> Planner<'a, 'b> {
         let degrees = (row.get)(cut);
         let turn = degrees.to_radians() as f32 * (end.y - vertex.y).signum();
         let arm = |part: f32| vec2(-(part * turn).cos(), (part * turn).sin());
-        let text = written(row, degrees);
+        let text = row.written(degrees);
         let about = Some(row);
         let largest = ARC.min(ARC_PART * (end - vertex).length());
         let within = [1.0, 0.7, 0.45].map(|part| (part * largest, arm(0.5) * (part * largest + BESIDE)));

@@ -1,9 +1,9 @@
-//! The grid on which a handle sets a proportion, which stays within its limits.
+//! The grid on which a proportion is set, so that it stays within its limits.
 
 use crate::cut::{Cut, Proportion};
 
 /// A bound beyond any proportion, which keeps requested values finite.
-const FARTHEST: f64 = 1e4;
+const FARTHEST: f64 = 1e9;
 /// A value this near to a step, in steps, counts as standing on it.
 const ON_STEP: f64 = 1e-6;
 
@@ -12,6 +12,8 @@ const ON_STEP: f64 = 1e-6;
 pub struct ValueGrid(f64);
 
 impl ValueGrid {
+    /// Whole steps.
+    pub const WHOLE: Self = Self(1.0);
     /// Steps of a tenth.
     pub const COARSE: Self = Self(10.0);
     /// Steps of a hundredth.
