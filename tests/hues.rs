@@ -1,7 +1,7 @@
 //! Compares the hues along a cut through a rainbow: three wavelengths show three bands, sixteen do not.
 #![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a test fails by it; what was found is told")]
 
-use brillianteer::cut::Glass;
+use brillianteer::cut::{Glass, Sides};
 use brillianteer::io::background::BackgroundRef;
 use brillianteer::math::{Plane, Polytope};
 use brillianteer::optics::{Dispersion, Illuminant, Material, strata};
@@ -31,7 +31,8 @@ const XYZ_FROM_SRGB: DMat3 =
 /// Traces the cut: a prism of rainbow soap in the dark, in front of the slit of `render prism --background slit`. The cut
 /// runs across the upper rainbow.
 fn cut(wavelengths: u32, looks: Sampling) -> Vec<DVec3> {
-    let planes: Vec<Plane> = Glass::ALL[1].2.planes().unwrap().into_iter().map(|(_, plane)| plane).collect();
+    let prism = Glass::Prism(Sides { length: 100.0, width: 37.9, depth: 29.8, edge: 0.0 });
+    let planes: Vec<Plane> = prism.planes().unwrap().into_iter().map(|(_, plane)| plane).collect();
     let mut material = Material::from_index("rainbow soap", 1.272).unwrap();
     material.dispersion = Dispersion::Abbe { n_d: 1.272, v_d: 2.0 };
     let stone = Instance::new(Polytope::from_planes(&planes).unwrap(), material);

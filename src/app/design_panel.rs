@@ -3,18 +3,17 @@
 use super::editor::Editor;
 use super::files::Purpose;
 use super::impossible::{self, RowMessage};
-use super::proportions::{EXCELLENT_DEPTH, PROPORTIONS, Proportion};
-use super::rows::{ANY, NUMBER, Number, Row, control_width, explain, field_width, named};
+use super::rows::{ANY, Row, explain, field_width, named};
 use super::studio::BEHIND;
 use super::workspace::PanelSide;
 use super::workspace::WAVELENGTHS;
-use super::{company_rows, extent, glass_rows, mesh_rows, side_panels, stone_rows, theme, tier_rows};
-use crate::cut::{Cut, Design, DesignError, MaterialRef, RoundBrilliant, Unit};
+use super::{company_rows, extent, mesh_rows, side_panels, stone_rows, theme, tier_rows};
+use crate::cut::{Cut, Design, DesignError, MaterialRef, Proportion, Unit, Warning};
 use crate::picture::Pattern;
 use crate::scene::{Copies, LIGHTS, SpecimenError, light};
 use egui::{
-    Color32, ComboBox, Panel, Rect, RichText, Role, ScrollArea, Sense, Slider, SliderClamping, Stroke,
-    StrokeKind, TextEdit, Ui, WidgetInfo, pos2, vec2,
+    ComboBox, Panel, Rect, RichText, Role, ScrollArea, Sense, Stroke, StrokeKind, TextEdit, Ui, WidgetInfo,
+    pos2, vec2,
 };
 use std::ops::RangeInclusive;
 use std::sync::Arc;
@@ -52,11 +51,11 @@ pub fn show(editor: &mut Editor, ui: &mut Ui, widths: RangeInclusive<f32>) {
     });
 }
 
-/// Whether GIA's ranges for the grade Excellent apply: they are for round brilliants of diamond.
+/// Whether GIA's ranges for the grade Excellent apply: they are for diamond.
 fn is_graded(design: &Design) -> bool {
     let is_diamond =
         matches!(&design.material, MaterialRef::Name(name) if name.eq_ignore_ascii_case("diamond"));
-    is_diamond && matches!(design.cut, Cut::RoundBrilliant(_))
+    is_diamond && design.cut.proportions().iter().any(|row| row.excellent.is_some())
 }
 
 fn heading(ui: &mut Ui, text: &str, meaning: &str) {
@@ -84,57 +83,48 @@ fn identity(editor: &mut Editor, ui: &mut Ui) {
     ui.horizontal(|ui| {
         named(ui, "Cut", "The family: which facets there are, and which numbers shape them.");
         ui.label(match design.cut {
-            Cut::RoundBrilliant(_) => "Round brilliant",
             Cut::Tiers(_) => "Tiers on an index gear",
             Cut::Planes(_) => "Facets by their planes",
             Cut::Mesh(_) => "Triangles of a mesh",
-            Cut::Glass(glass) => glass.called().1,
+            Cut::RoundBrilliant(_) | Cut::Glass(_) => design.cut.family().map_or("", |family| family.name),
         });
     });
 }
 
 fn proportions(editor: &mut Editor, ui: &mut Ui) {
-    let fault = editor.document.fault().map(ToString::to_string);
     let said = impossible(editor);
-    let mut edited = editor.edited;
     let is_graded = is_graded(&editor.document.work.design);
-    let Cut::RoundBrilliant(brilliant) = &mut editor.document.work.design.cut else {
-        match &mut editor.document.work.design.cut {
-            Cut::Glass(glass) => glass_rows::show(glass, ui),
-            Cut::Mesh(_) => {}
-            _ => tiers(editor, ui),
+    let cut = &mut editor.document.work.design.cut;
+    let (given, follow): (Vec<_>, Vec<_>) = cut.proportions().iter().partition(|row| row.give.is_some());
+    for proportion in given {
+        if row(ui, proportion, cut, is_graded) {
+            editor.edited = Some(proportion.key);
         }
-        warnings(editor, ui);
-        if let Some(fault) = fault {
-            wrong(ui, &fault);
-        }
-        return;
-    };
-    for proportion in &PROPORTIONS {
-        if row(ui, proportion, brilliant, is_graded) {
-            edited = Some(proportion.key);
-        }
-        if let Some(said) = said.as_ref().filter(|said| said.key == proportion.key) {
+        if let Some(said) = said.as_ref().filter(|said| said.row == proportion) {
             wrong(ui, &said.text);
         }
     }
-    derived(ui, brilliant, is_graded);
-    editor.edited = edited;
+    if !follow.is_empty() && cut.check().is_ok() {
+        derived(ui, &follow, cut, is_graded);
+    }
+    if matches!(cut, Cut::Tiers(_) | Cut::Planes(_)) {
+        tiers(editor, ui);
+    }
     warnings(editor, ui);
     let is_name = matches!(editor.document.fault(), Some(SpecimenError::Design(DesignError::Name)));
-    if let Some(fault) = fault.filter(|_| !is_name && said.is_none()) {
-        wrong(ui, &fault);
+    if let Some(fault) = editor.document.fault().filter(|_| !is_name && said.is_none()) {
+        wrong(ui, &impossible::by_name(fault));
     }
 }
 
-/// Explains what is wrong with the proportions of a round brilliant, and at which row to say so.
+/// Explains what is wrong with the proportions, and at which row to say so.
 fn impossible(editor: &Editor) -> Option<RowMessage> {
     let Some(SpecimenError::Design(DesignError::Proportion(fault))) = editor.document.fault() else {
         return None;
     };
-    let given = editor.document.work.design.cut.brilliant()?;
-    let last = editor.document.specimen().design.cut.brilliant()?;
-    Some(impossible::explain(given, last, editor.edited, fault))
+    let (given, last) = (&editor.document.work.design.cut, &editor.document.specimen().design.cut);
+    let is_same_family = given.family()?.key == last.family()?.key;
+    is_same_family.then(|| impossible::explain(given, last, editor.edited, fault))
 }
 
 /// Draws the rows for the tiers of a cut.
@@ -162,8 +152,11 @@ const MOST_WARNINGS: usize = 12;
 
 /// Draws the warnings about the stone and its file.
 fn warnings(editor: &Editor, ui: &mut Ui) {
-    let stones = editor.document.specimen().warnings.iter().filter(|_| editor.document.fault().is_none());
-    let all: Vec<&String> = stones.chain(editor.document.work.remarks.iter()).collect();
+    let specimen = editor.document.specimen();
+    let unusual = specimen.unusual.iter().map(Warning::by_name);
+    let stones = unusual.chain(specimen.warnings.iter().cloned());
+    let stones = stones.filter(|_| editor.document.fault().is_none());
+    let all: Vec<String> = stones.chain(editor.document.work.remarks.iter().cloned()).collect();
     let small = |text: &str| egui::Label::new(RichText::new(text).weak().small()).wrap();
     for warning in all.iter().take(MOST_WARNINGS) {
         ui.add(small(warning));
@@ -175,60 +168,55 @@ fn warnings(editor: &Editor, ui: &mut Ui) {
 
 /// Draws one proportion: name, slider, number, and for one of a pair whether it is held; where GIA grades it, also the
 /// range of the grade Excellent. Returns whether it was changed.
-fn row(ui: &mut Ui, proportion: &Proportion, brilliant: &mut RoundBrilliant, is_graded: bool) -> bool {
+fn row(ui: &mut Ui, proportion: &Proportion, cut: &mut Cut, is_graded: bool) -> bool {
+    let Proportion { name, unit, usual: [first, last], step, speed, .. } = *proportion;
     ui.horizontal(|ui| {
-        let label = named(ui, proportion.name, proportion.meaning);
-        ui.spacing_mut().slider_width = control_width(ui);
-        let (first, last) = (*proportion.slider.start(), *proportion.slider.end());
-        let mut value = (proportion.get)(brilliant);
+        let mut value = (proportion.get)(cut);
         let before = value;
-        let whole = proportion.unit == Unit::Count;
-        let decimals = if whole { 0 } else { 2 };
-        let step = if whole { 8.0 } else { 0.1 };
         let mark = ui.painter().add(egui::Shape::Noop);
-        let slider = Slider::new(&mut value, first..=last).show_value(false).step_by(step).smart_aim(false);
-        let slider = ui.add(slider.clamping(SliderClamping::Never)).labelled_by(label.id);
-        let slider = explain(ui, slider, &range(proportion, is_graded));
-        if let Some(good) = proportion.excellent.as_ref().filter(|_| is_graded) {
-            let band = band(slider.rect, good, &proportion.slider);
-            ui.painter().set(
-                mark,
-                egui::Shape::rect_filled(band, 2.0, theme::good(ui.visuals()).gamma_multiply(0.75)),
-            );
+        let decimals = if unit == Unit::Count { 0 } else { 2 };
+        let (meaning, unit) = (range(proportion, is_graded), unit.to_string());
+        let row = Row::new(name, &meaning, first..=last);
+        let row = Row { limits: ANY, step, decimals, speed, unit: &unit, ..row };
+        let slider = row.fill(ui, &mut value);
+        if let Some(good) = proportion.excellent.filter(|_| is_graded) {
+            let band = band(slider, good, proportion.usual);
+            let colour = theme::good(ui.visuals()).gamma_multiply(0.75);
+            ui.painter().set(mark, egui::Shape::rect_filled(band, 2.0, colour));
         }
-        let (speed, unit) = (if whole { 0.2 } else { 0.02 }, proportion.unit.to_string());
-        Number { decimals, speed, range: ANY, unit: &unit }.show(ui, (NUMBER, label.id), &mut value);
         let is_changed = value != before && value.is_finite();
         if is_changed {
-            (proportion.set)(brilliant, value);
+            proportion.set(cut, value);
         }
-        hold(ui, proportion, brilliant);
+        hold(ui, proportion, cut);
         is_changed
     })
     .inner
 }
 
 /// Returns where a range lies on a slider: a band under its rail.
-fn band(slider: Rect, range: &RangeInclusive<f64>, whole: &RangeInclusive<f64>) -> Rect {
+fn band(slider: Rect, range: [f64; 2], whole: [f64; 2]) -> Rect {
     let handle = slider.height() / 2.5;
     let (left, right) = (slider.left() + handle, slider.right() - handle);
-    let x = |v: f64| left + (right - left) * ((v - whole.start()) / (whole.end() - whole.start())) as f32;
+    let x = |v: f64| left + (right - left) * ((v - whole[0]) / (whole[1] - whole[0])) as f32;
     let y = slider.center().y;
-    Rect::from_min_max(pos2(x(*range.start()), y + 5.0), pos2(x(*range.end()), y + 8.0))
+    Rect::from_min_max(pos2(x(range[0]), y + 5.0), pos2(x(range[1]), y + 8.0))
 }
 
+/// Returns the meaning of a proportion, and the range of the grade Excellent where it applies.
 fn range(proportion: &Proportion, is_graded: bool) -> String {
-    let good = proportion
-        .excellent
-        .as_ref()
-        .filter(|_| is_graded)
-        .map(|e| format!(" GIA calls {} to {}{} excellent.", e.start(), e.end(), proportion.unit));
-    format!("{}{}", proportion.meaning, good.unwrap_or_default())
+    let Proportion { meaning, unit, .. } = *proportion;
+    match proportion.excellent.filter(|_| is_graded) {
+        Some([least, most]) => format!("{meaning} GIA calls {least} to {most}{unit} excellent."),
+        None => meaning.to_owned(),
+    }
 }
 
-fn hold(ui: &mut Ui, proportion: &Proportion, brilliant: &mut RoundBrilliant) {
-    let Some(hold) = &proportion.hold else { return };
-    let held = (hold.is)(brilliant);
+fn hold(ui: &mut Ui, proportion: &Proportion, cut: &mut Cut) {
+    if proportion.pair.is_none() {
+        return;
+    }
+    let held = (proportion.is_given)(cut);
     let meaning = if held {
         "Held: it stays when other proportions change."
     } else {
@@ -241,7 +229,7 @@ fn hold(ui: &mut Ui, proportion: &Proportion, brilliant: &mut RoundBrilliant) {
     let name = format!("Hold {}", proportion.name.to_lowercase());
     response.widget_info(|| WidgetInfo::selected(Role::CheckBox, true, held, &name));
     if response.clicked() && !held {
-        (hold.set)(brilliant);
+        proportion.hold(cut);
     }
 }
 
@@ -269,48 +257,24 @@ fn lock(ui: &Ui, rect: Rect, shut: bool, response: &egui::Response) {
     }
 }
 
-/// Draws the quantities that follow from the proportions.
-fn derived(ui: &mut Ui, brilliant: &RoundBrilliant, is_graded: bool) {
-    let Ok(derived) = brilliant.derived() else { return };
-    let depth = derived.total_depth;
-    let is_excellent = is_graded && EXCELLENT_DEPTH.contains(&depth);
-    let colour = if is_excellent { theme::good(ui.visuals()) } else { ui.visuals().text_color() };
-    let about = if is_graded { " GIA calls 58.1 to 63.6 % excellent." } else { "" };
+/// Draws the proportions that only follow from others.
+fn derived(ui: &mut Ui, rows: &[&Proportion], cut: &Cut, is_graded: bool) {
     ui.add_space(4.0);
     egui::Grid::new("derived").num_columns(2).spacing(vec2(12.0, 4.0)).show(ui, |ui| {
-        let mut line = |name: &str, value: String, colour: Option<Color32>, meaning: &str| {
-            let label = ui.label(RichText::new(name).weak());
-            explain(ui, label, meaning);
-            let text = RichText::new(value).monospace();
-            ui.label(match colour {
-                Some(colour) => text.color(colour),
-                None => text,
-            });
+        for row in rows {
+            let label = ui.label(RichText::new(row.name).weak());
+            explain(ui, label, &range(row, is_graded));
+            let value = (row.get)(cut);
+            let text = match row.nothing.filter(|_| value <= 0.0) {
+                Some(word) => word.to_owned(),
+                None => format!("{value:6.2}{}", row.unit),
+            };
+            let is_excellent =
+                is_graded && row.excellent.is_some_and(|[least, most]| (least..=most).contains(&value));
+            let text = RichText::new(text).monospace();
+            ui.label(if is_excellent { text.color(theme::good(ui.visuals())) } else { text });
             ui.end_row();
-        };
-        line("Total depth", format!("{depth:6.2} %"), Some(colour), &format!("From table to culet.{about}"));
-        line(
-            "Star angle",
-            format!("{:6.2}°", derived.star_angle),
-            None,
-            "How steep the small facets around the table are.",
-        );
-        line(
-            "Upper halves",
-            format!("{:6.2}°", derived.upper_half_angle),
-            None,
-            "How steep the crown facets at the girdle are.",
-        );
-        line(
-            "Lower halves",
-            format!("{:6.2}°", derived.lower_half_angle),
-            None,
-            "How steep the pavilion facets at the girdle are.",
-        );
-        let thinnest = derived.girdle_thickness_valley;
-        let thinnest = if thinnest > 0.0 { format!("{thinnest:6.2} %") } else { "closed".to_owned() };
-        let valley = "Thickness of the rim where it is thinnest, between the bezels.";
-        line("Girdle valleys", thinnest, None, valley);
+        }
     });
 }
 

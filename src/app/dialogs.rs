@@ -8,8 +8,8 @@ use super::document::Document;
 use super::editor::Editor;
 use super::export_dialog::{self, ExportDialog};
 use super::opening::OpeningPurpose;
-use super::proportions::PROPORTIONS;
 use super::shows::Shows;
+use crate::cut::FAMILIES;
 use crate::io::mesh_options::MeshOptions;
 use egui::{Context, Grid, Id, Key, Modal, RichText, ScrollArea, Ui};
 use std::path::PathBuf;
@@ -274,7 +274,13 @@ fn keys(ui: &mut Ui) -> bool {
         ui.add_space(10.0);
         Grid::new("terms").num_columns(2).striped(true).max_col_width(MEANING).show(ui, |ui| {
             let shows = Shows::ALL.into_iter().map(|s| (s.name(), s.meaning()));
-            for (name, meaning) in shows.chain(PROPORTIONS.iter().map(|p| (p.name, p.meaning))) {
+            let mut terms: Vec<_> = shows.collect();
+            for row in FAMILIES.into_iter().flat_map(|family| family.proportions) {
+                if !terms.contains(&(row.name, row.meaning)) {
+                    terms.push((row.name, row.meaning));
+                }
+            }
+            for (name, meaning) in terms {
                 ui.label(RichText::new(name).strong());
                 ui.add(egui::Label::new(meaning).wrap());
                 ui.end_row();

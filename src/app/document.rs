@@ -1,6 +1,7 @@
 //! The open document: a design and its light, with the steps of undo and the file it came from.
 
 use super::history::History;
+use super::impossible;
 use crate::cut::{Cut, Design};
 use crate::io::design_file::{self, DesignFormat, ImportedDesign};
 use crate::io::mesh_options::MeshOptions;
@@ -337,7 +338,7 @@ impl Document {
     /// Fails when the design makes no stone, or the file system refuses; the old file stays as it is.
     pub fn save(&mut self, path: PathBuf) -> Result<Vec<String>, String> {
         if let Some(fault) = &self.fault {
-            return Err(format!("this design cannot be read again: {fault}"));
+            return Err(format!("this design cannot be read again: {}", impossible::by_name(fault)));
         }
         let specimen = self.specimen.remade(self.work.design.clone()).map_err(|e| e.to_string())?;
         let format = DesignFormat::of_name(&path).unwrap_or(DesignFormat::Toml);
@@ -399,7 +400,7 @@ mod tests {
         assert!(document.fault().unwrap().to_string().contains("crown_angle"));
         assert!(Arc::ptr_eq(&stone, document.specimen()) && document.shows_last_possible());
         let path = folder.path().join("mine.toml");
-        assert!(document.save(path.clone()).unwrap_err().contains("crown_angle") && !path.exists());
+        assert!(document.save(path.clone()).unwrap_err().contains(": Crown angle: ") && !path.exists());
         document.undo();
         assert!(!document.update() && document.fault().is_none(), "it is the stone that is in sight");
         assert!(Arc::ptr_eq(&stone, document.specimen()) && !document.shows_last_possible());

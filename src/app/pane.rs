@@ -6,8 +6,7 @@ use super::eye::Eye;
 use super::probe::ProbeHit;
 use super::shows::Shows;
 use super::studio::{Grade, Shot, Which};
-use super::{liquid, menus, modes, refraction_view, theme, view_menu};
-use crate::cut::Cut;
+use super::{impossible, liquid, menus, modes, refraction_view, theme, view_menu};
 use crate::math::SolidRef;
 use crate::scene::{ASET_CONE, Backing, Film, Glare, Scope, Side, Specimen, View};
 use crate::trace::ray::Camera;
@@ -151,7 +150,7 @@ fn reading(shot: &Shot) -> Option<(&'static str, &'static str)> {
 
 /// Draws a note that the design makes no stone, and that the view shows the last one that it made.
 fn last_possible(editor: &Editor, ui: &mut Ui) {
-    let why = editor.document.fault().map(ToString::to_string).unwrap_or_default();
+    let why = editor.document.fault().map(impossible::by_name).unwrap_or_default();
     let text = RichText::new("last possible stone").color(theme::bad(ui.visuals())).small();
     ui.label(text).on_hover_text(format!("The design makes no stone, so this is the one before. {why}"));
 }
@@ -163,15 +162,12 @@ pub fn enlarge(editor: &mut Editor, pane: usize) {
 
 fn profile(editor: &mut Editor, ui: &mut Ui, pane: usize, body: Rect) {
     let specimen = Arc::clone(editor.document.specimen());
-    let brilliant = match &mut editor.document.work.design.cut {
-        Cut::RoundBrilliant(brilliant) => Some(brilliant),
-        Cut::Tiers(_) | Cut::Planes(_) | Cut::Mesh(_) | Cut::Glass(_) => None,
-    };
+    let cut = &mut editor.document.work.design.cut;
     ui.painter().rect_filled(body, 4.0, ui.visuals().extreme_bg_color);
     let under = ui.interact(body, ui.scope_id().with("profile"), Sense::click());
     under.widget_info(|| WidgetInfo::labeled(Role::Image, true, "Profile view"));
     match specimen.stone() {
-        Ok(stone) => drop(editor.profiles[pane].show(ui, body, stone, brilliant)),
+        Ok(stone) => drop(editor.profiles[pane].show(ui, body, stone, cut)),
         Err(_) => absent(ui, body, "A profile"),
     }
     view_menu::attach(editor, &under, pane);

@@ -1,6 +1,6 @@
 //! The stone from the side, with its dimensions on it: a drawing whose handles shape the stone.
 //!
-//! A round brilliant has handles. Each changes one proportion, by pointer or arrow keys, in steps of a tenth (with Shift a
+//! A cut whose family has handles is shaped by them. Each changes one proportion, by pointer or arrow keys, in steps of a tenth (with Shift a
 //! hundredth) of a percent or degree. Of a pair, such as crown angle and height, the one that was held stays held. While a
 //! handle is dragged the drawing keeps its size, so that the handle stays under the pointer; when the handle is released,
 //! the drawing is fitted anew.
@@ -12,13 +12,12 @@ mod grips;
 mod handle;
 mod ink;
 mod plan;
-mod quantity;
 mod sheet;
 mod sight;
 #[cfg(test)]
 mod tests;
 
-use crate::cut::RoundBrilliant;
+use crate::cut::{Cut, ProfileHandle};
 use crate::scene::Stone;
 use egui::accesskit::Role;
 use egui::{CursorIcon, Key, PointerButton, Rect, RectAlign, Response, Sense, Tooltip, Ui, WidgetInfo};
@@ -26,7 +25,6 @@ use frame::{MeasuredProfile, Offered, ProfileFrame};
 use grab::Grab;
 use grips::Grip;
 use handle::Handle;
-use quantity::Quantity;
 use sheet::Label;
 use sight::ProfileBox;
 
@@ -41,35 +39,29 @@ pub struct ProfileView {
 }
 
 impl ProfileView {
-    /// Draws `stone` within `rect`; where it is a round brilliant, its proportions can be changed by handles.
+    /// Draws `stone` within `rect`; where its family has handles, they change the proportions of `cut`.
     ///
     /// The caller must build the stone anew when the response says that it [`changed`](Response::changed). A [`Ui`] can
-    /// hold one such drawing, whose state goes by the identity of that `Ui`. Without `proportions`, or with impossible
-    /// ones, the drawing shows what can be measured and has no handles.
-    pub fn show(
-        &mut self,
-        ui: &mut Ui,
-        rect: Rect,
-        stone: &Stone,
-        proportions: Option<&mut RoundBrilliant>,
-    ) -> Response {
+    /// hold one such drawing, whose state goes by the identity of that `Ui`. Of a cut without proportions, or with
+    /// impossible ones, the drawing shows what can be measured and has no handles.
+    pub fn show(&mut self, ui: &mut Ui, rect: Rect, stone: &Stone, cut: &mut Cut) -> Response {
         let id = ui.make_persistent_id("profile");
         let mut response = ui.interact(rect, id, Sense::hover());
         response.widget_info(|| WidgetInfo::labeled(Role::Image, ui.is_enabled(), "Profile of the stone"));
-        let measured = MeasuredProfile::new(stone, proportions.as_deref());
+        let measured = MeasuredProfile::new(stone, Some(cut));
         let extent = self.extent(ui, &measured);
         let frame = ProfileFrame::new(ui, id, rect, &measured, extent);
         let offered = frame.offer(ui);
         let labels = frame.paint(ui, &offered, self.active(&offered));
-        let Some(given) = proportions.filter(|_| measured.brilliant.is_some()) else {
+        if measured.cut.is_none() {
             self.grab = None;
             return response;
-        };
-        let new = self.edited(ui, &frame, &offered, *given);
+        }
+        let new = self.edited(ui, &frame, &offered, cut.clone());
         frame.show_values(ui, &offered, &new);
         self.guide(ui, &measured, &offered, &labels);
-        if new != *given {
-            *given = new;
+        if new != *cut {
+            *cut = new;
             response.mark_changed();
             ui.ctx().request_repaint();
         }
@@ -84,8 +76,8 @@ impl ProfileView {
     /// Returns the part of the profile to show: the same part while a handle is dragged, else one on its way to what fits.
     fn extent(&mut self, ui: &Ui, measured: &MeasuredProfile<'_>) -> ProfileBox {
         let fitting = measured.extent();
-        let shown = match (&self.grab, &measured.brilliant) {
-            (Some(grab), Some((given, _))) => grab.shown(given),
+        let shown = match (&self.grab, &measured.cut) {
+            (Some(grab), Some(cut)) => grab.shown(cut),
             _ => {
                 let time = (ui.style().animation_time / QUICKER).max(f32::MIN_POSITIVE);
                 let part = 1.0 - (-ui.input(|i| i.stable_dt) / time).exp();
@@ -105,35 +97,30 @@ impl ProfileView {
         held.or_else(|| find(Offered::is_pointed_at)).or_else(|| find(|o| o.response.has_focus()))
     }
 
-    /// Returns the proportions after what pointer and keys have changed.
-    fn edited(
-        &mut self,
-        ui: &Ui,
-        frame: &ProfileFrame<'_>,
-        offered: &[Offered],
-        given: RoundBrilliant,
-    ) -> RoundBrilliant {
+    /// Returns the cut after what pointer and keys have changed.
+    fn edited(&mut self, ui: &Ui, frame: &ProfileFrame<'_>, offered: &[Offered], given: Cut) -> Cut {
         let first = offered.iter().filter(|o| !o.grip.mirrored);
-        let keyed = first.fold(given, |given, o| o.grip.keyed(ui, &o.response, &given));
+        let keyed = first.fold(given, |given, o| o.grip.keyed(ui, &o.response, given));
         for o in offered.iter().filter(|o| o.response.drag_started_by(PointerButton::Primary)) {
-            self.take(ui, frame, o, keyed);
+            self.take(ui, frame, o, &keyed);
         }
         self.pulled(ui, frame, offered).unwrap_or(keyed)
     }
 
-    fn take(&mut self, ui: &Ui, frame: &ProfileFrame<'_>, offered: &Offered, given: RoundBrilliant) {
+    fn take(&mut self, ui: &Ui, frame: &ProfileFrame<'_>, offered: &Offered, given: &Cut) {
         let Offered { grip, response } = offered;
         let pressed = ui.input(|i| i.pointer.press_origin()).or(response.interact_pointer_pos());
+        let dimensions = frame.measured.dimensions;
         self.grab = self
             .shown
-            .map(|shown| Grab::new(grip.handle, grip.mirrored, given, shown, pressed.unwrap_or(grip.at)));
+            .map(|shown| Grab::new(grip, given.clone(), dimensions, shown, pressed.unwrap_or(grip.at)));
         // The focus lets arrow keys finish what the pointer began.
         let first = Grip { mirrored: false, ..*grip };
         ui.memory_mut(|m| m.request_focus(first.id(frame.id)));
     }
 
-    /// Returns the proportions that the dragged handle makes; Escape gives those before the drag.
-    fn pulled(&mut self, ui: &Ui, frame: &ProfileFrame<'_>, offered: &[Offered]) -> Option<RoundBrilliant> {
+    /// Returns the cut that the dragged handle makes; Escape gives that before the drag.
+    fn pulled(&mut self, ui: &Ui, frame: &ProfileFrame<'_>, offered: &[Offered]) -> Option<Cut> {
         let mut grab = self.grab.take()?;
         if ui.input(|i| i.key_pressed(Key::Escape)) {
             return Some(grab.start);
@@ -147,7 +134,7 @@ impl ProfileView {
         if let Some(to) = pointer {
             grab.follow(to, fine);
         }
-        let new = grab.proportions(&frame.sight);
+        let new = grab.pulled(&frame.sight);
         self.grab = held.then_some(grab);
         Some(new)
     }
@@ -157,16 +144,16 @@ impl ProfileView {
     /// For a handle that is dragged or has the keyboard focus the drawing itself shows enough; a hint appears only where
     /// the drawing has no room.
     fn guide(&self, ui: &Ui, measured: &MeasuredProfile<'_>, offered: &[Offered], labels: &[Label]) {
-        let Some((given, derived)) = &measured.brilliant else { return };
+        let Some(cut) = &measured.cut else { return };
         for o in offered {
             let held = self.grab.as_ref().filter(|_| o.response.dragged());
             if o.is_pointed_at() {
                 ui.ctx().set_cursor_icon(cursor(o.grip.handle, held));
             }
             let handle = held.map_or(o.grip.handle, Grab::handle);
-            let quantity = handle.quantity();
-            let value = format!("{} {}", quantity.name(), quantity.written(quantity.of(given, derived)));
-            let is_shown = labels.iter().any(|label| label.about == Some(quantity));
+            let row = handle.row;
+            let value = format!("{} {}", row.name, row.written((row.get)(cut)));
+            let is_shown = labels.iter().any(|label| label.about == Some(row));
             if held.is_some() || (o.response.has_focus() && !o.is_pointed_at()) {
                 if !is_shown {
                     hint(Tooltip::for_widget(&o.response), handle, &value, None);
@@ -181,15 +168,15 @@ impl ProfileView {
 fn cursor(handle: Handle, held: Option<&Grab>) -> CursorIcon {
     match held {
         Some(grab) if !grab.is_undecided() => grab.handle().cursor(),
-        _ if handle == Handle::PavilionDepth => CursorIcon::Move,
+        _ if handle.part == ProfileHandle::PavilionTip => CursorIcon::Move,
         _ => handle.cursor(),
     }
 }
 
 fn hint(mut tooltip: Tooltip<'_>, handle: Handle, value: &str, how: Option<&str>) {
     // The hint lies over the stone, where no numbers are.
-    let below = matches!(handle.quantity(), Quantity::Table | Quantity::CrownHeight | Quantity::CrownAngle);
-    tooltip.popup = tooltip.popup.align(if below { RectAlign::BOTTOM } else { RectAlign::TOP });
+    tooltip.popup =
+        tooltip.popup.align(if handle.is_on_crown() { RectAlign::BOTTOM } else { RectAlign::TOP });
     tooltip.gap(8.0).show(|ui| {
         ui.label(value);
         if let Some(how) = how {

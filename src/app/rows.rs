@@ -82,16 +82,20 @@ impl<'a> Row<'a> {
 
     /// Draws the row. A number that is not touched keeps all its decimals.
     pub fn show(self, ui: &mut Ui, value: &mut f64) {
+        ui.horizontal(|ui| self.fill(ui, value));
+    }
+
+    /// Draws the name, the slider and the number into a row that has begun, and returns the place of the slider.
+    pub fn fill(self, ui: &mut Ui, value: &mut f64) -> Rect {
         let Self { name, meaning, range, limits, step, decimals, speed, unit, logarithmic } = self;
-        ui.horizontal(|ui| {
-            let label = named(ui, name, meaning);
-            ui.spacing_mut().slider_width = control_width(ui);
-            let slider = Slider::new(value, range).show_value(false).clamping(SliderClamping::Edits);
-            let slider = slider.step_by(step).logarithmic(logarithmic).smart_aim(false);
-            let slider = ui.add(slider).labelled_by(label.id);
-            explain(ui, slider, meaning);
-            Number { decimals, speed, range: limits, unit }.show(ui, (NUMBER, label.id), value);
-        });
+        let label = named(ui, name, meaning);
+        ui.spacing_mut().slider_width = control_width(ui);
+        let slider = Slider::new(value, range).show_value(false).clamping(SliderClamping::Edits);
+        let slider = slider.step_by(step).logarithmic(logarithmic).smart_aim(false);
+        let slider = ui.add(slider).labelled_by(label.id);
+        let slider = explain(ui, slider, meaning).rect;
+        Number { decimals, speed, range: limits, unit }.show(ui, (NUMBER, label.id), value);
+        slider
     }
 }
 

@@ -4,7 +4,7 @@ use super::assembly::{self, Assembly};
 use super::mesh_options::MeshArguments;
 use super::specimen::LoadedSpecimen;
 use super::{Failure, each_file, json, print};
-use crate::cut::{AlongAxes, Cut, ProportionReport, Spread};
+use crate::cut::{AlongAxes, Cut, ProportionReport, Spread, Unit};
 use crate::io::STANDARD;
 use crate::math::{Facet, Polytope};
 use crate::scene::Body;
@@ -124,9 +124,11 @@ fn described(specimen: &LoadedSpecimen) -> Result<Value, Failure> {
         "diameter_mm": specimen.design.diameter_mm,
         "carats": specimen.carats(),
     });
+    if specimen.design.cut.family().is_some() {
+        value["given"] = given(&specimen.design.cut);
+    }
     if let Cut::RoundBrilliant(brilliant) = &specimen.design.cut {
         let derived = brilliant.derived().map_err(|e| Failure::Input(format!("{}: {e}", specimen.path)))?;
-        value["given"] = json!(brilliant);
         value["derived"] = json!(derived);
     }
     let (low, high) = specimen.solid().bounds();
@@ -146,6 +148,12 @@ fn described(specimen: &LoadedSpecimen) -> Result<Value, Failure> {
     let facets = polytope.facets().iter().zip(stone.names());
     value["facets"] = facets.map(|(facet, name)| facet_json(polytope, facet, name)).collect();
     Ok(value)
+}
+
+/// Returns the proportions that a cut gives, under their keys in cut files.
+fn given(cut: &Cut) -> Value {
+    let number = |value, unit| if unit == Unit::Count { json!(value as i64) } else { json!(value) };
+    cut.given().map(|(row, value)| (row.key, number(value, row.unit))).collect()
 }
 
 fn facet_json(polytope: &Polytope, facet: &Facet, name: &str) -> Value {
@@ -199,10 +207,9 @@ fn table(specimen: &LoadedSpecimen, value: &Value, with_facets: bool) -> String 
     line("weight", weight(specimen.carats()));
     for group in ["given", "derived"] {
         for (key, number) in value[group].as_object().into_iter().flatten() {
-            let unit = match key.as_str() {
-                "girdle_facets" => "",
-                k if k.ends_with("angle") => " deg",
-                _ => " %",
+            let unit = match specimen.design.cut.proportion(key).map(|row| row.unit) {
+                Some(Unit::Degrees) => " deg".to_owned(),
+                unit => unit.map(|unit| unit.to_string()).unwrap_or_default(),
             };
             let number = number.as_f64().unwrap_or(f64::NAN);
             let digits = if group == "given" { format!("{number}") } else { format!("{number:.4}") };

@@ -62,6 +62,7 @@ impl LoadedSpecimen {
         let specimen = Self { path, made };
         notes.iter().for_each(|note| say(&format!("note: {}: {note}", specimen.path)));
         warnings.iter().for_each(|w| specimen.say(w));
+        specimen.unusual.iter().for_each(|w| specimen.say(&w.to_string()));
         specimen.warnings.iter().for_each(|w| specimen.say(w));
         Ok(specimen)
     }

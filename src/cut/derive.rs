@@ -1,18 +1,22 @@
 //! What follows from the proportions of a round brilliant: derived lengths and angles, facets and warnings. Each is computed
 //! only after the proportions have passed their limits.
 
-use super::proportions::Derived;
+use super::proportions::{Derived, Proportions};
 use super::round_brilliant::RoundBrilliant;
-use super::{ProportionError, Warning, facets, limits};
+use super::{Cut, ProportionError, Warning, facets};
 use crate::math::Plane;
 
 impl RoundBrilliant {
+    fn closed_form(&self) -> Result<Proportions, ProportionError> {
+        Cut::RoundBrilliant(*self).check().map(|()| Proportions::unchecked(self))
+    }
+
     /// Returns both members of each pair (angle and height, say), the angles of the stars and halves, and the depths.
     ///
     /// # Errors
     /// The first limit crossed, and by how much.
     pub fn derived(&self) -> Result<Derived, ProportionError> {
-        limits::check(self).map(|proportions| proportions.derived())
+        self.closed_form().map(|proportions| proportions.derived())
     }
 
     /// Returns every facet's name and plane, with unit normals and girdle radius 1.
@@ -24,7 +28,7 @@ impl RoundBrilliant {
     /// # Errors
     /// The first limit crossed, and by how much.
     pub fn facets(&self) -> Result<Vec<(String, Plane)>, ProportionError> {
-        limits::check(self).map(|proportions| facets::round_brilliant(&proportions))
+        self.closed_form().map(|proportions| facets::round_brilliant(&proportions))
     }
 
     /// Returns a warning for everything that is possible but unusual about these proportions.
@@ -32,7 +36,7 @@ impl RoundBrilliant {
     /// # Errors
     /// The first limit crossed, and by how much.
     pub fn warnings(&self) -> Result<Vec<Warning>, ProportionError> {
-        limits::check(self).map(|proportions| Warning::of(&proportions))
+        self.closed_form().map(|proportions| Warning::of(&proportions))
     }
 }
 
@@ -41,6 +45,7 @@ pub(crate) mod strategy {
     //! Random valid proportions, over wider ranges than are ever cut.
 
     use super::*;
+    use crate::cut::round_brilliant_table::least_star_length;
     use crate::cut::{Crown, LowerHalf, Pavilion};
     use proptest::prelude::*;
 
@@ -61,7 +66,7 @@ pub(crate) mod strategy {
         let shape = (5.0..85.0, crown(), pavilion(), 0.01..0.99, lower_half());
         (shape, 0.0..8.0, 16_u32..=128, prop_oneof![Just(0.0), 0.1..90.0]).prop_map(
             |((table, crown, pavilion, star, lower_half), girdle_thickness, girdle_facets, culet)| {
-                let least = limits::least_star_length(table);
+                let least = least_star_length(table);
                 let star_length = least + (100.0 - least) * star;
                 RoundBrilliant {
                     table,

@@ -1,9 +1,7 @@
 //! A design: everything that a cut file says about a stone.
 
 use super::material::{MaterialError, MaterialRef};
-use super::{
-    Glass, GlassError, MeshShape, ProportionError, RoundBrilliant, TierFault, Tiers, Warning, names,
-};
+use super::{Glass, MeshShape, ProportionError, RoundBrilliant, TierFault, Tiers, Warning, names};
 use crate::math::{NotConvex, Plane};
 
 /// The girdle diameter of a design whose file gives none, mm: that of a brilliant of about one carat.
@@ -62,12 +60,9 @@ pub enum DesignError {
     /// A material that is unknown, or whose numbers make no sense.
     #[error(transparent)]
     Material(#[from] MaterialError),
-    /// Proportions that no round brilliant can have.
+    /// Proportions that no cut of the family can have.
     #[error(transparent)]
     Proportion(#[from] ProportionError),
-    /// Dimensions that no glass shape can have.
-    #[error(transparent)]
-    Glass(#[from] GlassError),
     /// Facets were requested of a design without planes: a mesh, or a smooth glass shape.
     #[error(transparent)]
     NotConvex(#[from] NotConvex),
@@ -165,9 +160,8 @@ impl Design {
         }
         self.material.check()?;
         match &self.cut {
-            Cut::Mesh(_) => Ok(()),
-            Cut::Glass(glass) => Ok(glass.field().map(|_| ())?),
-            Cut::RoundBrilliant(_) | Cut::Tiers(_) | Cut::Planes(_) => self.facets().map(|_| ()),
+            Cut::Tiers(_) | Cut::Planes(_) => self.facets().map(|_| ()),
+            Cut::RoundBrilliant(_) | Cut::Mesh(_) | Cut::Glass(_) => Ok(self.cut.check()?),
         }
     }
 

@@ -3,13 +3,16 @@
 //! Lengths are percent of the design's diameter, as with stones; +z points to the eye of the view face up. A cube or prism
 //! with sharp edges is a solid between planes like any stone; every other shape is a smooth solid.
 
-use crate::math::{ImplicitForm, ImplicitSurface, ImplicitSurfaceError, Plane};
+use super::Cut;
+use super::ProportionError;
+use super::family::BoundAt::{Fixed, Of};
+use super::family::{Bound, Family, Proportion, Unit};
+use crate::math::{ImplicitForm, ImplicitSurface, MOST_WAVES, Plane, STEEPEST};
 use glam::DVec3;
-use serde::{Deserialize, Serialize};
+use std::f64::consts::TAU;
 
 /// A glass shape with its dimensions.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Glass {
     /// A stadium with rounded edges.
     Pill(Sides),
@@ -22,8 +25,7 @@ pub enum Glass {
 }
 
 /// Outer dimensions, percent of the diameter.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Sides {
     /// The length along x.
     pub length: f64,
@@ -36,140 +38,198 @@ pub struct Sides {
 }
 
 /// A plate whose middle waves. Lengths are percent of the diameter. Measured along z it has the same thickness everywhere.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Plate {
-    /// The length along x.
-    pub length: f64,
-    /// The width along y.
-    pub width: f64,
-    /// The thickness along z.
-    pub depth: f64,
-    /// The radius of the edges; 0 is sharp.
-    pub edge: f64,
+    /// The outer dimensions of the plate without its wave.
+    pub sides: Sides,
     /// The height of the wave's crests, and the depth of its troughs.
     pub amplitude: f64,
     /// The distance from crest to crest, along x and along y.
     pub wavelength: f64,
     /// The phase at which the wave begins, degrees.
-    #[serde(default)]
     pub phase: f64,
 }
 
-/// The description of one number of a shape.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Dimension {
-    /// The number's key in a cut file.
-    pub key: &'static str,
-    /// The meaning of the number, in words.
-    pub meaning: &'static str,
-    /// The unit of the number, as written after it.
-    pub unit: &'static str,
-    /// The least and greatest value that a slider gives it.
-    pub range: [f64; 2],
+/// The least and the greatest length, percent: far enough apart for every use, and squares of their quotients keep digits.
+const LENGTHS: [f64; 2] = [1e-4, 1e7];
+/// The greatest phase, degrees: ten thousand turns.
+const MOST_PHASE: f64 = 3.6e6;
+
+/// What the rows of lengths have in common.
+const SIDE: Proportion = Proportion {
+    of: "of the diameter",
+    usual: [2.0, 200.0],
+    step: 0.0,
+    speed: 0.05,
+    least: Bound::at(Fixed(LENGTHS[0]), "the smallest dimension taken"),
+    most: Bound::at(Fixed(LENGTHS[1]), "the largest dimension taken"),
+    ..Proportion::BLANK
+};
+
+const LENGTH: Proportion = Proportion {
+    key: "length",
+    name: "Length",
+    meaning: "From left to right, along x.",
+    get: |cut| side(cut, |s| s.length),
+    give: Some(|cut, v| give_side(cut, |s| s.length = v)),
+    ..SIDE
+};
+const WIDTH: Proportion = Proportion {
+    key: "width",
+    name: "Width",
+    meaning: "From front to back, along y.",
+    get: |cut| side(cut, |s| s.width),
+    give: Some(|cut, v| give_side(cut, |s| s.width = v)),
+    ..SIDE
+};
+const DEPTH: Proportion = Proportion {
+    key: "depth",
+    name: "Depth",
+    meaning: "Toward the eye of the view face up, along z.",
+    get: |cut| side(cut, |s| s.depth),
+    give: Some(|cut, v| give_side(cut, |s| s.depth = v)),
+    ..SIDE
+};
+const EDGE: Proportion = Proportion {
+    key: "edge",
+    name: "Edge",
+    meaning: "Radius of the edges; 0 is sharp.",
+    usual: [0.0, 50.0],
+    least: Bound::at(Fixed(0.0), "a sharp edge"),
+    most: Bound::at(
+        Of(|cut| glass(cut).map_or(f64::NAN, |g| g.form(1.0).largest_edge())),
+        "for which the shape has room",
+    ),
+    get: |cut| side(cut, |s| s.edge),
+    give: Some(|cut, v| give_side(cut, |s| s.edge = v)),
+    ..SIDE
+};
+const AMPLITUDE: Proportion = Proportion {
+    key: "amplitude",
+    name: "Amplitude",
+    meaning: "How far the middle rises and falls.",
+    usual: [0.0, 30.0],
+    least: Bound::at(Fixed(0.0), "a plate without waves"),
+    most: Bound::at(
+        Of(|cut| wave(cut, |p| STEEPEST * p.wavelength / TAU)),
+        "where the wave is as steep as 8 to 1; a longer wavelength makes it less steep",
+    ),
+    get: |cut| wave(cut, |p| p.amplitude),
+    give: Some(|cut, v| give_wave(cut, |p| p.amplitude = v)),
+    ..SIDE
+};
+const WAVELENGTH: Proportion = Proportion {
+    key: "wavelength",
+    name: "Wavelength",
+    meaning: "From crest to crest, along x and along y.",
+    usual: [5.0, 250.0],
+    least: Bound::at(
+        Of(|cut| wave(cut, |p| (p.sides.length.max(p.sides.width) / MOST_WAVES).max(LENGTHS[0]))),
+        "the shortest wave of so large a plate",
+    ),
+    get: |cut| wave(cut, |p| p.wavelength),
+    give: Some(|cut, v| give_wave(cut, |p| p.wavelength = v)),
+    ..SIDE
+};
+const PHASE: Proportion = Proportion {
+    key: "phase",
+    name: "Phase",
+    unit: Unit::Degrees,
+    of: "at which the wave begins",
+    meaning: "Where the wave begins.",
+    usual: [-360.0, 360.0],
+    least: Bound::at(Fixed(-MOST_PHASE), "ten thousand turns"),
+    most: Bound::at(Fixed(MOST_PHASE), "ten thousand turns"),
+    default: Some(0.0),
+    get: |cut| wave(cut, |p| p.phase),
+    give: Some(|cut, v| give_wave(cut, |p| p.phase = v)),
+    ..SIDE
+};
+
+const SIDES: &[Proportion] = &[LENGTH, WIDTH, DEPTH, EDGE];
+
+/// The family of pills.
+pub static PILL: Family = Family {
+    key: "pill",
+    name: "Pill",
+    proportions: SIDES,
+    first: Cut::Glass(Glass::Pill(Sides { length: 100.0, width: 28.75, depth: 15.5, edge: 7.75 })),
+};
+/// The family of cubes and other boxes.
+pub static CUBE: Family = Family {
+    key: "cube",
+    name: "Cube",
+    proportions: SIDES,
+    first: Cut::Glass(Glass::Cube(Sides { length: 100.0, width: 100.0, depth: 100.0, edge: 19.0 })),
+};
+/// The family of prisms.
+pub static PRISM: Family = Family {
+    key: "prism",
+    name: "Prism",
+    proportions: SIDES,
+    first: Cut::Glass(Glass::Prism(Sides { length: 100.0, width: 37.9, depth: 29.8, edge: 0.0 })),
+};
+/// The family of plates.
+pub static PLATE: Family = Family {
+    key: "plate",
+    name: "Wavy plate",
+    proportions: &[LENGTH, WIDTH, DEPTH, EDGE, AMPLITUDE, WAVELENGTH, PHASE],
+    first: Cut::Glass(Glass::Plate(Plate {
+        sides: Sides { length: 100.0, width: 100.0, depth: 17.4, edge: 3.0 },
+        amplitude: 4.9,
+        wavelength: 154.6,
+        phase: 0.0,
+    })),
+};
+
+fn glass(cut: &Cut) -> Option<&Glass> {
+    if let Cut::Glass(glass) = cut { Some(glass) } else { None }
 }
 
-/// The reason why a shape cannot be made.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-#[error("{key}: {message}")]
-pub struct GlassError {
-    /// The dimension at fault.
-    pub key: &'static str,
-    /// What is wrong with that dimension, and what is expected.
-    pub message: String,
+fn side(cut: &Cut, read: fn(&Sides) -> f64) -> f64 {
+    glass(cut).map_or(f64::NAN, |glass| read(glass.sides()))
 }
 
-const fn dimension(
-    key: &'static str,
-    unit: &'static str,
-    range: [f64; 2],
-    meaning: &'static str,
-) -> Dimension {
-    Dimension { key, meaning, unit, range }
+fn wave(cut: &Cut, read: fn(&Plate) -> f64) -> f64 {
+    if let Some(Glass::Plate(plate)) = glass(cut) { read(plate) } else { f64::NAN }
 }
 
-const LENGTH: Dimension = dimension("length", " %", [2.0, 200.0], "From left to right, along x.");
-const WIDTH: Dimension = dimension("width", " %", [2.0, 200.0], "From front to back, along y.");
-const DEPTH: Dimension =
-    dimension("depth", " %", [2.0, 200.0], "Toward the eye of the view face up, along z.");
-const EDGE: Dimension = dimension("edge", " %", [0.0, 50.0], "Radius of the edges; 0 is sharp.");
-const AMPLITUDE: Dimension = dimension("amplitude", " %", [0.0, 30.0], "How far the middle rises and falls.");
-const WAVELENGTH: Dimension =
-    dimension("wavelength", " %", [5.0, 250.0], "From crest to crest, along x and along y.");
-const PHASE: Dimension = dimension("phase", "°", [-360.0, 360.0], "Where the wave begins.");
+fn give_side(cut: &mut Cut, write: impl FnOnce(&mut Sides)) {
+    if let Cut::Glass(
+        Glass::Pill(sides) | Glass::Cube(sides) | Glass::Prism(sides) | Glass::Plate(Plate { sides, .. }),
+    ) = cut
+    {
+        write(sides);
+    }
+}
+
+fn give_wave(cut: &mut Cut, write: impl FnOnce(&mut Plate)) {
+    if let Cut::Glass(Glass::Plate(plate)) = cut {
+        write(plate);
+    }
+}
 
 impl Glass {
-    /// All shapes with their default dimensions: the key in a cut file, the name that people read, and the shape.
-    pub const ALL: [(&str, &str, Self); 4] = [
-        ("pill", "Pill", Self::Pill(Sides { length: 100.0, width: 28.75, depth: 15.5, edge: 7.75 })),
-        ("prism", "Prism", Self::Prism(Sides { length: 100.0, width: 37.9, depth: 29.8, edge: 0.0 })),
-        ("cube", "Cube", Self::Cube(Sides { length: 100.0, width: 100.0, depth: 100.0, edge: 19.0 })),
-        (
-            "plate",
-            "Wavy plate",
-            Self::Plate(Plate {
-                length: 100.0,
-                width: 100.0,
-                depth: 17.4,
-                edge: 3.0,
-                amplitude: 4.9,
-                wavelength: 154.6,
-                phase: 0.0,
-            }),
-        ),
-    ];
-
-    /// Returns the shape's key in a cut file, and the name that people read.
-    pub fn called(&self) -> (&'static str, &'static str) {
-        let same = |other: &Self| std::mem::discriminant(self) == std::mem::discriminant(other);
-        Self::ALL
-            .iter()
-            .find(|(.., other)| same(other))
-            .map_or(("glass", "Glass"), |(key, name, _)| (key, name))
-    }
-
-    /// Returns the shape's numbers with their descriptions, to be read and set.
-    pub fn dimensions(&mut self) -> Vec<(Dimension, &mut f64)> {
+    /// Returns the outer dimensions.
+    pub fn sides(&self) -> &Sides {
         match self {
-            Self::Pill(sides) | Self::Cube(sides) | Self::Prism(sides) => {
-                let Sides { length, width, depth, edge } = sides;
-                vec![(LENGTH, length), (WIDTH, width), (DEPTH, depth), (EDGE, edge)]
-            }
-            Self::Plate(plate) => {
-                let Plate { length, width, depth, edge, amplitude, wavelength, phase } = plate;
-                vec![
-                    (LENGTH, length),
-                    (WIDTH, width),
-                    (DEPTH, depth),
-                    (EDGE, edge),
-                    (AMPLITUDE, amplitude),
-                    (WAVELENGTH, wavelength),
-                    (PHASE, phase),
-                ]
+            Self::Pill(sides) | Self::Cube(sides) | Self::Prism(sides) | Self::Plate(Plate { sides, .. }) => {
+                sides
             }
         }
     }
 
     /// Returns the shape as an implicit form, `unit` long for each percent.
     fn form(&self, unit: f64) -> ImplicitForm {
-        let size = |length: f64, width: f64, depth: f64| DVec3::new(length, width, depth) * unit;
-        let sides = |s: &Sides| (size(s.length, s.width, s.depth), s.edge * unit);
+        let Sides { length, width, depth, edge } = *self.sides();
+        let (size, edge) = (DVec3::new(length, width, depth) * unit, edge * unit);
         match self {
-            Self::Pill(s) => {
-                let (size, edge) = sides(s);
-                ImplicitForm::Pill { size, edge }
-            }
-            Self::Cube(s) => {
-                let (size, edge) = sides(s);
-                ImplicitForm::Block { size, edge }
-            }
-            Self::Prism(s) => {
-                let (size, edge) = sides(s);
-                ImplicitForm::Prism { size, edge }
-            }
+            Self::Pill(_) => ImplicitForm::Pill { size, edge },
+            Self::Cube(_) => ImplicitForm::Block { size, edge },
+            Self::Prism(_) => ImplicitForm::Prism { size, edge },
             Self::Plate(p) => ImplicitForm::Plate {
-                size: size(p.length, p.width, p.depth),
-                edge: p.edge * unit,
+                size,
+                edge,
                 amplitude: p.amplitude * unit,
                 wavelength: p.wavelength * unit,
                 phase: p.phase.to_radians(),
@@ -181,11 +241,8 @@ impl Glass {
     ///
     /// # Errors
     /// The dimension at fault, in the unit in which it is written.
-    pub fn field(&self) -> Result<ImplicitSurface, GlassError> {
-        // First checked in percent, so that messages hold the numbers that were written.
-        ImplicitSurface::new(self.form(1.0))
-            .and_then(|_| ImplicitSurface::new(self.form(0.02)))
-            .map_err(in_percent)
+    pub fn field(&self) -> Result<ImplicitSurface, ProportionError> {
+        Cut::Glass(*self).check().map(|()| ImplicitSurface::checked(self.form(0.02)))
     }
 
     /// Returns the faces with their names and planes; `None` unless all faces are flat and all edges sharp.
@@ -207,86 +264,80 @@ impl Glass {
     }
 }
 
-/// Converts an error of the implicit surface into one that names the key of the cut file.
-fn in_percent(error: ImplicitSurfaceError) -> GlassError {
-    let (key, message) = match error {
-        ImplicitSurfaceError::Dimension { name, value } => {
-            (key(name), format!("{value} % is no length; a number above 0 is expected"))
-        }
-        ImplicitSurfaceError::Number { name, value } => {
-            (key(name), format!("{value} must be a number from 0 up"))
-        }
-        ImplicitSurfaceError::Edge { edge, most } => {
-            ("edge", format!("{edge} % is rounder than the shape has room for, {most:.4} %"))
-        }
-        ImplicitSurfaceError::Slope { .. } => ("amplitude", error.to_string()),
-        ImplicitSurfaceError::Wavelength { wavelength, least } => (
-            "wavelength",
-            format!("{wavelength} % is too short; for so large a plate it must be {least:.4} % or more"),
-        ),
-    };
-    GlassError { key, message }
-}
-
-fn key(name: &str) -> &'static str {
-    match name {
-        "the size along x" => "length",
-        "the size along y" => "width",
-        "the size along z" => "depth",
-        "the edge's radius" => "edge",
-        "the amplitude" => "amplitude",
-        "the wavelength" => "wavelength",
-        _ => "phase",
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::math::Polytope;
 
+    fn families() -> impl Iterator<Item = (&'static Family, Glass)> {
+        [&PILL, &CUBE, &PRISM, &PLATE].into_iter().map(|family| match family.first {
+            Cut::Glass(glass) => (family, glass),
+            _ => panic!("{} is no glass", family.key),
+        })
+    }
+
+    /// Returns a shape with one dimension set.
+    fn with(family: &Family, key: &str, value: f64) -> Glass {
+        let mut cut = family.first.clone();
+        family.proportion(key).unwrap().set(&mut cut, value);
+        *glass(&cut).unwrap()
+    }
+
     #[test]
     fn every_shape_can_be_made_and_what_is_sharp_has_planes() {
-        for (key, _, mut glass) in Glass::ALL {
-            let field = glass.field().unwrap();
-            assert_eq!(glass.called().0, key);
-            let volume = field.volume();
-            match glass.dimensions().into_iter().find(|(d, _)| d.key == "edge") {
-                Some((_, edge)) => *edge = 0.0,
-                None => panic!(),
-            }
-            let planes = glass.planes();
-            assert_eq!(planes.is_some(), matches!(key, "cube" | "prism"), "{key}");
+        for (family, glass) in families() {
+            let volume = glass.field().unwrap().volume();
+            let sharp = with(family, "edge", 0.0);
+            let planes = sharp.planes();
+            assert_eq!(planes.is_some(), ["cube", "prism"].contains(&family.key), "{}", family.key);
             if let Some(planes) = planes {
                 let solid =
                     Polytope::from_planes(&planes.iter().map(|(_, p)| *p).collect::<Vec<_>>()).unwrap();
-                assert!((solid.volume() - glass.field().unwrap().volume()).abs() < 1e-12);
-                assert!(
-                    solid.volume() >= volume - 1e-12 && planes.len() == if key == "cube" { 6 } else { 5 }
-                );
+                assert!((solid.volume() - sharp.field().unwrap().volume()).abs() < 1e-12);
+                let faces = if family.key == "cube" { 6 } else { 5 };
+                assert!(solid.volume() >= volume - 1e-12 && planes.len() == faces);
             }
         }
     }
 
     #[test]
-    fn what_cannot_be_is_told_by_its_key_in_percent() {
-        for (_, _, glass) in Glass::ALL {
-            let count = { glass }.dimensions().len();
-            for k in 0..count {
-                let mut bad = glass;
-                let key = {
-                    let (dimension, value) = bad.dimensions().swap_remove(k);
-                    *value = f64::NAN;
-                    dimension.key
-                };
-                assert_eq!(bad.field().unwrap_err().key, key);
+    fn impossible_dimensions_are_named_in_percent() {
+        for (family, _) in families() {
+            for row in family.proportions {
+                let error = with(family, row.key, f64::NAN).field().unwrap_err();
+                assert_eq!(error.row(), row);
             }
         }
-        let mut cube = Glass::ALL[2].2;
-        *cube.dimensions().swap_remove(3).1 = 51.0;
+        let told = |family, key, value| with(family, key, value).field().unwrap_err().to_string();
         assert_eq!(
-            cube.field().unwrap_err().to_string(),
-            "edge: 51 % is rounder than the shape has room for, 50.0000 %"
+            told(&CUBE, "edge", 51.0),
+            "edge: 51 % must be at most 50 %, for which the shape has room; lower it by at least 1"
         );
+        assert_eq!(
+            told(&PLATE, "wavelength", 0.3),
+            "wavelength: 0.3 % must be at least 0.5 %, the shortest wave of so large a plate; raise it by at least 0.2 \
+             (the unit is percent, so 30.0 if a fraction was meant)"
+        );
+        assert!(
+            told(&PLATE, "amplitude", 300.0).starts_with("amplitude: 300 % must be at most 196.84 %, where")
+        );
+        assert!(
+            told(&PILL, "length", -3.0).starts_with("length: -3 % must be at least 0.0001 %, the smallest")
+        );
+    }
+
+    #[test]
+    fn what_is_too_small_to_compute_with_is_told_in_percent_as_it_was_written() {
+        // A length that is a possible number of girdle radii were it in percent, and an edge that rounding takes past
+        // its room.
+        let small = with(&CUBE, "depth", 2e-5).field().unwrap_err().to_string();
+        assert!(small.starts_with("depth: 2e-5 % must be at least 0.0001 %"), "{small}");
+        for k in 1..2000 {
+            let sides =
+                Sides { length: 100.0, width: 0.37 * f64::from(k), depth: 0.13 * f64::from(k), edge: 0.0 };
+            let edge = Glass::Prism(sides).form(1.0).largest_edge();
+            let field = Glass::Prism(Sides { edge, ..sides }).field();
+            assert!(field.is_ok_and(|field| field.volume() > 0.0), "{k}");
+        }
     }
 }

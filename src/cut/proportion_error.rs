@@ -1,33 +1,48 @@
 //! The error for a crossed limit: which proportion crosses it, by how much, and what to change.
 
+use super::family::{Proportion, Unit};
 use std::f64::consts::FRAC_PI_2;
-use std::fmt;
 
-/// The reason why no round brilliant can have the given proportions.
+/// The reason why no cut of a family can have the given proportions. The message names the proportion by its key in cut
+/// files; [`by_name`](Self::by_name) has the same message with the name that people read.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+#[error("{}: {}", self.row().key, self.statement())]
 pub enum ProportionError {
     /// A number that is NaN or infinite.
-    #[error("{key}: {value} is not a finite number; write what was measured")]
     NotFinite {
-        /// The proportion at fault, by its key in a cut file.
-        key: &'static str,
+        /// The proportion at fault.
+        row: &'static Proportion,
         /// The value as given.
         value: f64,
     },
     /// A value below its lower limit.
-    #[error("{}", .0.text("above", "at least", "raise"))]
     TooSmall(Limit),
     /// A value above its upper limit.
-    #[error("{}", .0.text("below", "at most", "lower"))]
     TooLarge(Limit),
 }
 
 impl ProportionError {
-    /// Returns the proportion at fault, by its key in a cut file, or `total_depth`.
-    pub fn key(&self) -> &'static str {
+    /// Returns the proportion at fault, given or derived.
+    pub fn row(&self) -> &'static Proportion {
         match self {
-            Self::NotFinite { key, .. } => key,
-            Self::TooSmall(limit) | Self::TooLarge(limit) => limit.key,
+            Self::NotFinite { row, .. } => row,
+            Self::TooSmall(limit) | Self::TooLarge(limit) => limit.row,
+        }
+    }
+
+    /// Returns the message with the name of the proportion, as panels show it.
+    pub fn by_name(&self) -> String {
+        format!("{}: {}", self.row().name, self.statement())
+    }
+
+    /// Returns what is wrong, without the proportion.
+    fn statement(&self) -> String {
+        match self {
+            Self::NotFinite { value, .. } => {
+                format!("{value} is not a finite number; write what was measured")
+            }
+            Self::TooSmall(limit) => limit.text("above", "at least", "raise"),
+            Self::TooLarge(limit) => limit.text("below", "at most", "lower"),
         }
     }
 
@@ -43,61 +58,36 @@ impl ProportionError {
 /// A limit, and the value that crosses it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Limit {
-    /// The proportion at fault, by its key in a cut file, or `total_depth`.
-    pub key: &'static str,
+    /// The proportion at fault, given or derived.
+    pub row: &'static Proportion,
     /// The value as given.
     pub value: f64,
     /// The limit, in the same unit as the value.
     pub limit: f64,
-    /// The unit of the value and the limit.
-    pub unit: Unit,
     /// Whether the limit itself is allowed.
     pub inclusive: bool,
     /// What happens at the limit, as a clause for the message.
     pub reason: &'static str,
 }
 
-/// The unit of a proportion.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Unit {
-    /// Percent of the girdle diameter, or of what the key says.
-    Percent,
-    /// Degrees from the girdle plane.
-    Degrees,
-    /// A whole number.
-    Count,
-}
-
-impl fmt::Display for Unit {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::Percent => " %",
-            Self::Degrees => "°",
-            Self::Count => "",
-        })
-    }
-}
-
 impl Limit {
     fn text(&self, open: &str, closed: &str, change: &str) -> String {
-        let Self { key, value, limit, unit, inclusive, reason } = *self;
+        let Self { row: Proportion { unit, .. }, value, limit, inclusive, reason } = *self;
         let gap = (value - limit).abs();
         let near = gap < 0.01;
-        let limit = if near { given(limit) } else { rounded(limit) };
+        let limit = if near || limit.abs() < 0.005 { given(limit) } else { rounded(limit) };
         let side = if inclusive { closed } else { open };
         let step = if inclusive { (gap * 100.0).ceil() } else { (gap * 100.0).floor() + 1.0 } / 100.0;
         let value = given(if near { value } else { four_decimals(value) });
         let (step, hint) = (rounded(step), self.unit_hint());
-        format!(
-            "{key}: {value}{unit} must be {side} {limit}{unit}, {reason}; {change} it by at least {step}{hint}"
-        )
+        format!("{value}{unit} must be {side} {limit}{unit}, {reason}; {change} it by at least {step}{hint}")
     }
 
     /// Returns a hint with the value in the proper unit, where the given one looks like a fraction or radians.
     fn unit_hint(&self) -> String {
-        let Self { value, limit, unit, .. } = *self;
+        let Self { value, limit, .. } = *self;
         let too_small = value > 0.0 && value < limit;
-        match unit {
+        match self.row.unit {
             Unit::Percent if too_small && value <= 1.0 => {
                 format!(
                     " (the unit is percent, so {:?} if a fraction was meant)",
@@ -133,8 +123,8 @@ fn four_decimals(value: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::super::limits::least_star_length;
     use super::super::round_brilliant::{Crown, MODERN, RoundBrilliant};
+    use super::super::round_brilliant_table::least_star_length;
 
     fn text(given: RoundBrilliant) -> String {
         given.derived().unwrap_err().to_string()

@@ -45,8 +45,7 @@ pub struct Derived {
     pub total_depth: f64,
 }
 
-/// The variables of the closed form. Outside tests only [`limits::check`](super::limits::check) makes them, so they are
-/// valid.
+/// The variables of the closed form. Facets and warnings are made of checked ones alone.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Proportions {
     pub table: f64,

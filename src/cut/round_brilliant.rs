@@ -3,75 +3,60 @@
 //! It has eight bezels, eight stars, sixteen upper and sixteen lower halves, and eight mains. Measures follow GIA: table and
 //! star length are radial, and the lower-half length is radial too unless the vertical one is given.
 
-use serde::Serialize;
-
-/// The proportions of a round brilliant as given. All facets follow from them.
-///
-/// Serialises under the keys of a cut file's `[round_brilliant]`.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+/// The proportions of a round brilliant as given. All facets follow from them. Their ranges are in the family's table.
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RoundBrilliant {
-    /// The table's size from corner to opposite corner, percent of the girdle diameter, 5 to 92.39.
+    /// The table's size from corner to opposite corner, percent of the girdle diameter.
     pub table: f64,
     /// The crown, by the angle of its bezels or by its height.
-    #[serde(flatten)]
     pub crown: Crown,
     /// The pavilion, by the angle of its mains or by its depth.
-    #[serde(flatten)]
     pub pavilion: Pavilion,
-    /// The distance that the stars reach from the table's edge to the girdle, seen from above. Percent of that way, below
-    /// 100; the lower limit depends on the table.
+    /// The distance that the stars reach from the table's edge to the girdle, seen from above. Percent of that way.
     pub star_length: f64,
     /// How far the lower halves reach from the girdle to the centre.
-    #[serde(flatten)]
     pub lower_half: LowerHalf,
     /// The girdle's thickness at the bezels, where it is greatest, percent of the girdle diameter. 0 is a knife edge all
     /// round, without girdle facets.
     pub girdle_thickness: f64,
-    /// The number of girdle facets, any whole number from 16 to 128.
+    /// The number of girdle facets.
     ///
     /// Multiples of 8 keep the eightfold mirror symmetry whole, so tracers have a sixteenth of the work. Multiples of 16
     /// also put a girdle corner under each star tip. Multiples of 32 put one at each valley, and 16 itself gives a straight
     /// girdle edge.
     pub girdle_facets: u32,
-    /// The culet's size from flat to opposite flat, percent of the girdle diameter, from 0 (a point) to below 100.
+    /// The culet's size from flat to opposite flat, percent of the girdle diameter; 0 is a point.
     pub culet: f64,
 }
 
 /// The measure that gives a crown.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Crown {
     /// The angle of the bezels from the girdle plane, degrees.
-    #[serde(rename = "crown_angle")]
     Angle(f64),
     /// The height from the girdle's upper edge to the table, percent of the girdle diameter.
-    #[serde(rename = "crown_height")]
     Height(f64),
 }
 
 /// The measure that gives a pavilion.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Pavilion {
     /// The angle of the mains from the girdle plane, degrees.
-    #[serde(rename = "pavilion_angle")]
     Angle(f64),
     /// The depth from the girdle's lower edge to the culet, percent of the girdle diameter. A larger culet makes it less.
-    #[serde(rename = "pavilion_depth")]
     Depth(f64),
 }
 
 /// The measure that gives the length of the lower halves.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub enum LowerHalf {
     /// The length seen along the axis: percent of the way from the girdle to the centre (GIA).
-    #[serde(rename = "lower_half_length")]
     Radial(f64),
     /// The length seen from the side: percent of the depth from the girdle to where the mains meet (some laboratories).
-    #[serde(rename = "lower_half_length_vertical")]
     Vertical(f64),
 }
 
-/// Tolkowsky's cut of 1919 as in `cuts/tolkowsky.toml`, which tests vary.
-#[cfg(test)]
+/// Tolkowsky's cut of 1919 as in `cuts/tolkowsky.toml`, with which the family begins.
 pub(crate) const TOLKOWSKY: RoundBrilliant = RoundBrilliant {
     table: 53.0,
     crown: Crown::Angle(34.5),

@@ -1,101 +1,100 @@
 //! Warnings about round brilliants that are possible but unusual, with the numbers that make them so.
 
 use std::f64::consts::TAU;
+use std::fmt;
 
+use super::family::Proportion;
 use super::proportion_error::{given, rounded};
 use super::proportions::{Proportions, STAR_AZIMUTH};
+use super::round_brilliant_table::ROUND_BRILLIANT;
 
-/// Something about a stone that its owner may not have meant. Lengths are percent of the girdle diameter unless said
-/// otherwise.
-#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
-pub enum Warning {
-    /// The girdle has no thickness at all.
-    #[error("girdle_thickness: 0 % is a knife edge all round, so the stone has no girdle facets")]
-    NoGirdle,
-    /// Upper and lower halves meet between the bezels and leave no girdle there.
-    #[error(
-        "girdle_thickness: {} % closes to a knife edge in the valleys, where the halves take {} %; \
-         above that the girdle stays open",
-        given(*.thickness), rounded(*.needed)
-    )]
-    GirdleClosesInValleys {
-        /// The girdle's thickness at the bezels.
-        thickness: f64,
-        /// The thickness that the valleys take away.
-        needed: f64,
-    },
-    /// The culet cuts off the tips of the lower halves, so that mains no longer touch one another.
-    #[error(
-        "culet: {} % reaches the tips of the lower halves at {} %, so neighbouring mains no longer touch",
-        given(*.culet), rounded(*.reach)
-    )]
-    CuletReachesLowerHalves {
-        /// The culet's size.
-        culet: f64,
-        /// The culet's size at which it would just touch the tips.
-        reach: f64,
-    },
-    /// A star tip or a lower-half tip lies outside one of the girdle's flats.
-    #[error(
-        "{key}: it puts tips at {} % of the radius, outside the girdle's flats at {} %, which cut them off",
-        rounded(*.tip), rounded(*.girdle)
-    )]
-    TipsOutsideGirdle {
-        /// The proportion that puts the tips there: `star_length` or `lower_half_length`.
-        key: &'static str,
-        /// The distance of the tips from the axis, percent of the girdle radius.
-        tip: f64,
-        /// The girdle's distance from the axis in the same direction, percent of the girdle radius.
-        girdle: f64,
-    },
-    /// The girdle's facets do not share the stone's symmetry.
-    #[error(
-        "girdle_facets: {count} is no multiple of 8, which breaks the eightfold mirror symmetry and makes tracing \
-         slower; {} keeps it",
-        .count.div_ceil(8) * 8
-    )]
-    SymmetryBroken {
-        /// The number of girdle facets.
-        count: u32,
-    },
+/// Something about a stone that its owner may not have meant: a proportion, and what it leads to.
+///
+/// It is written with the proportion's key in cut files; [`by_name`](Self::by_name) has the name that people read instead.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Warning {
+    /// The proportion that leads to it.
+    pub row: &'static Proportion,
+    /// What the proportion leads to, with the numbers. Lengths are percent of the girdle diameter unless said otherwise.
+    pub statement: String,
+}
+
+impl fmt::Display for Warning {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}: {}", self.row.key, self.statement)
+    }
 }
 
 impl Warning {
+    /// Returns the warning with the name of the proportion, as panels show it.
+    pub fn by_name(&self) -> String {
+        format!("{}: {}", self.row.name, self.statement)
+    }
+
     /// Returns a warning for everything unusual about valid proportions, in the order of the keys of a cut file.
     pub(super) fn of(p: &Proportions) -> Vec<Self> {
         let (radius, _) = p.star_tip();
         let checks = [
-            tips("star_length", radius, p),
-            tips("lower_half_length", 1.0 - p.lower, p),
-            girdle(p),
-            (!p.girdle_facets.is_multiple_of(8)).then_some(Self::SymmetryBroken { count: p.girdle_facets }),
-            culet(p),
+            ("star_length", tips(radius, p)),
+            ("lower_half_length", tips(1.0 - p.lower, p)),
+            ("girdle_thickness", girdle(p)),
+            ("girdle_facets", symmetry(p.girdle_facets)),
+            ("culet", culet(p)),
         ];
-        checks.into_iter().flatten().collect()
+        let warning =
+            |(key, statement)| Some(Self { row: ROUND_BRILLIANT.proportion(key)?, statement: statement? });
+        checks.into_iter().filter_map(warning).collect()
     }
 }
 
-fn girdle(p: &Proportions) -> Option<Warning> {
+/// Says so where upper and lower halves meet between the bezels and leave no girdle there, or nowhere any.
+fn girdle(p: &Proportions) -> Option<String> {
     let (thickness, needed) = (50.0 * p.girdle, 50.0 * p.valley_depth());
     match thickness {
-        0.0 => Some(Warning::NoGirdle),
-        _ if thickness <= needed => Some(Warning::GirdleClosesInValleys { thickness, needed }),
+        0.0 => Some("0 % is a knife edge all round, so the stone has no girdle facets".to_owned()),
+        _ if thickness <= needed => Some(format!(
+            "{} % closes to a knife edge in the valleys, where the halves take {} %; above that the girdle stays open",
+            given(thickness),
+            rounded(needed)
+        )),
         _ => None,
     }
 }
 
-/// The octagon in which the culet cuts the mains has a corner over each lower-half tip, further out than its flats.
-fn culet(p: &Proportions) -> Option<Warning> {
-    let reach = (1.0 - p.lower) * STAR_AZIMUTH.cos();
-    let crossed = p.culet >= reach;
-    crossed.then_some(Warning::CuletReachesLowerHalves { culet: 100.0 * p.culet, reach: 100.0 * reach })
+/// Says so where the girdle's facets do not share the stone's symmetry.
+fn symmetry(count: u32) -> Option<String> {
+    (!count.is_multiple_of(8)).then(|| {
+        let even = count.div_ceil(8) * 8;
+        format!(
+            "{count} is no multiple of 8, which breaks the eightfold mirror symmetry and makes tracing slower; {even} \
+             keeps it"
+        )
+    })
 }
 
-fn tips(key: &'static str, tip: f64, p: &Proportions) -> Option<Warning> {
+/// Says so where the culet cuts off the tips of the lower halves.
+///
+/// The octagon in which it cuts the mains has a corner over each lower-half tip, further out than its flats.
+fn culet(p: &Proportions) -> Option<String> {
+    let reach = (1.0 - p.lower) * STAR_AZIMUTH.cos();
+    (p.culet >= reach).then(|| {
+        let (culet, reach) = (given(100.0 * p.culet), rounded(100.0 * reach));
+        format!(
+            "{culet} % reaches the tips of the lower halves at {reach} %, so neighbouring mains no longer touch"
+        )
+    })
+}
+
+/// Says so where tips at this distance from the axis, in girdle radii, lie outside one of the girdle's flats.
+fn tips(tip: f64, p: &Proportions) -> Option<String> {
     let azimuths = (0..8).map(|k| STAR_AZIMUTH + f64::from(k) * TAU / 8.0);
     let girdle = azimuths.map(|azimuth| p.girdle_radius(azimuth)).fold(1.0, f64::min);
-    let outside = tip >= girdle;
-    outside.then_some(Warning::TipsOutsideGirdle { key, tip: 100.0 * tip, girdle: 100.0 * girdle })
+    (tip >= girdle).then(|| {
+        let (tip, girdle) = (rounded(100.0 * tip), rounded(100.0 * girdle));
+        format!(
+            "it puts tips at {tip} % of the radius, outside the girdle's flats at {girdle} %, which cut them off"
+        )
+    })
 }
 
 #[cfg(test)]
@@ -120,13 +119,17 @@ mod tests {
         let straight = RoundBrilliant { girdle_thickness: 1.2, girdle_facets: 16, ..MODERN };
         assert_eq!(texts(straight), [""; 0]);
         let none = RoundBrilliant { girdle_thickness: 0.0, ..MODERN };
-        assert_eq!(none.warnings().unwrap(), [Warning::NoGirdle]);
+        assert_eq!(
+            none.warnings().unwrap()[0].by_name(),
+            "Girdle: 0 % is a knife edge all round, so the stone has no girdle facets"
+        );
     }
 
     #[test]
     fn the_valley_closes_exactly_where_the_warning_says() {
         let thin = RoundBrilliant { girdle_thickness: 1.0, ..MODERN };
-        let Warning::GirdleClosesInValleys { needed, .. } = thin.warnings().unwrap()[0] else { panic!() };
+        assert_eq!(thin.warnings().unwrap().len(), 1);
+        let needed = 50.0 * Proportions::unchecked(&thin).valley_depth();
         for (change, count) in [(1e-9, 0), (-1e-9, 1)] {
             let given = RoundBrilliant { girdle_thickness: needed + change, ..MODERN };
             assert_eq!(texts(given).len(), count);

@@ -1,4 +1,5 @@
-//! Cut files: a design as TOML, format 1, read and written through one declaration of its keys (`form`).
+//! Cut files: a design as TOML, format 1, read and written through one declaration of its keys (`form`), and those of
+//! families of cuts by their tables of proportions (`family_form`).
 //!
 //! Numbers in a file are percent of the girdle diameter and degrees; [`Design`] keeps them as they stand, so that
 //! reading back what was written gives the same design to the last bit. Every error names file, line and key, and says
@@ -11,9 +12,11 @@ use toml::de::{DeTable, Deserializer};
 
 use super::fault::Fault;
 use super::text::{self, TextError};
-use crate::cut::Design;
+use crate::cut::{Design, FAMILIES};
+use family_form::FamilyForm;
 use form::DesignForm;
 
+mod family_form;
 mod form;
 pub(super) mod material_form;
 mod tier_form;
@@ -73,7 +76,10 @@ pub fn parse(text: &str, label: &str) -> Result<Design, CutFileError> {
 /// A design that [`Design::check`] refuses is written too, but does not read back.
 pub fn write(design: &Design) -> String {
     // TOML has no form for maps without text keys and for integers beyond 64 bits; a cut file has neither.
-    toml::to_string(&DesignForm::of(design)).expect("a cut file's form is text, numbers, lists and tables")
+    let mut text = toml::to_string(&DesignForm::of(design))
+        .expect("a cut file's form is text, numbers, lists and tables");
+    text.extend(design.cut.family().map(|family| family_form::written(family, &design.cut)));
+    text
 }
 
 fn design(text: &str) -> Result<Design, Fault> {
@@ -81,9 +87,12 @@ fn design(text: &str) -> Result<Design, Fault> {
     if text.len() as u64 > most {
         return Err(Fault::whole(text::too_large(most)));
     }
-    let table = DeTable::parse(text).map_err(|error| Fault::syntax(text, &error))?;
+    let mut table = DeTable::parse(text).map_err(|error| Fault::syntax(text, &error))?;
     check_format(table.get_ref())?;
-    DesignForm::deserialize(Deserializer::from(table)).map_err(Fault::form)?.design()
+    let families = FamilyForm::take_all(table.get_mut())?;
+    let beside = FAMILIES.map(|family| family.key);
+    let form = DesignForm::deserialize(Deserializer::from(table));
+    form.map_err(|error| Fault::form_beside(error, &beside))?.design(&families)
 }
 
 /// Returns whether the text has a table `[mesh]`, as far as its beginning shows.

@@ -1,26 +1,17 @@
 //! Faults of a TOML text: what is wrong, and where, by its key's path or by the span that the TOML parser gives.
 
 use super::text::line_after;
+use crate::cut::{FAMILIES, Family};
 use std::ops::Range;
 
 use toml::de::{DeTable, DeValue, Error};
 
-/// The meanings of keys, for someone who left a key out or wrote something else.
-const MEANINGS: [(&str, &str); 59] = [
+/// The meanings of keys, for someone who left a key out or wrote something else. Those of proportions are in their
+/// families' tables.
+const MEANINGS: [(&str, &str); 48] = [
     ("name", "what it is called"),
     ("material", "a material's name, an index, or a table of its own"),
     ("diameter_mm", "girdle diameter in mm"),
-    ("table", PERCENT),
-    ("crown_angle", DEGREES),
-    ("crown_height", PERCENT),
-    ("pavilion_angle", DEGREES),
-    ("pavilion_depth", PERCENT),
-    ("star_length", "percent of the way from the table's edge to the girdle"),
-    ("lower_half_length", "percent of the way from the girdle to the centre"),
-    ("lower_half_length_vertical", "percent of the depth from the girdle to where the mains meet"),
-    ("girdle_thickness", "percent of the girdle diameter, at the bezels"),
-    ("girdle_facets", "16 to 128"),
-    ("culet", "percent of the girdle diameter, 0 for a point"),
     ("normal", "outward, [x, y, z]"),
     ("offset", "n·x <= offset, with the girdle radius 1"),
     ("gear", "teeth of the index gear"),
@@ -68,23 +59,6 @@ const MEANINGS: [(&str, &str); 59] = [
     ("file", "a picture: .hdr, .exr, .png or .jpg"),
 ];
 const RADIANCE: &str = "0 to 1e6; 1 is a white sheet in full light";
-/// The keys of `[round_brilliant]`.
-const PROPORTIONS: [&str; 11] = [
-    "table",
-    "crown_angle",
-    "crown_height",
-    "pavilion_angle",
-    "pavilion_depth",
-    "star_length",
-    "lower_half_length",
-    "lower_half_length_vertical",
-    "girdle_thickness",
-    "girdle_facets",
-    "culet",
-];
-const PERCENT: &str = "percent of the girdle diameter";
-const DEGREES: &str = "degrees from the girdle plane";
-
 /// How serde words what was expected, and the words of a person for it.
 const WORDS: [(&str, &str); 12] = [
     ("expected f64", "expected a number"),
@@ -158,14 +132,19 @@ impl Fault {
     }
 
     /// Makes a fault of what serde says of a text that has not the form of its file, in the words of this program.
-    pub(super) fn form(mut error: Error) -> Self {
+    pub(super) fn form(error: Error) -> Self {
+        Self::form_beside(error, &[])
+    }
+
+    /// Does the same for a file whose top may have further keys, which something else has read.
+    pub(super) fn form_beside(mut error: Error, further: &[&str]) -> Self {
         // Without its text the error shows the path of its key on a line of its own: in `plane.normal`.
         error.set_input(None);
         let shown = error.to_string();
         let path = shown.trim_end().rsplit_once("\nin `").and_then(|(_, path)| path.strip_suffix('`'));
         let message = match path {
-            Some(path) => format!("{path}: {}", reworded(error.message(), path)),
-            None => reworded(error.message(), ""),
+            Some(path) => format!("{path}: {}", reworded(error.message(), path, &[])),
+            None => reworded(error.message(), "", further),
         };
         let place = error.span().map_or(Place::Whole, |span| Place::Offset(span.start));
         Self { place, message: shortened(message) }
@@ -225,37 +204,41 @@ fn hint(line: &str) -> &'static str {
     }
 }
 
-/// Returns a hint at an unknown key, which is the first that serde quotes: the known key that is most like it, or the table
-/// that it belongs to.
-fn meant(message: &str) -> String {
-    let mut quoted = message.split('`').skip(1).step_by(2);
-    let Some(asked) = quoted.next() else { return String::new() };
-    let known: Vec<&str> = quoted.collect();
-    if known.contains(&"round_brilliant") && PROPORTIONS.contains(&asked) {
-        return "; it belongs below a line [round_brilliant]".to_owned();
+/// Returns a hint at an unknown key: the known key that is most like it, or the table that it belongs to.
+pub(super) fn meant(asked: &str, known: &[&str]) -> String {
+    let is_at_top = FAMILIES.iter().any(|family| known.contains(&family.key));
+    let mut families = FAMILIES.iter().filter(|_| is_at_top);
+    if let Some(family) = families.find(|family| family.proportion(asked).is_some()) {
+        return format!("; it belongs below a line [{}]", family.key);
     }
-    let slips = |key: &&str| strsim::damerau_levenshtein(asked, key);
-    let near = known.iter().min_by_key(|key| slips(key)).filter(|key| slips(key) <= 3);
+    let slips = |key: &&&str| strsim::damerau_levenshtein(asked, key);
+    let near = known.iter().min_by_key(slips).filter(|key| slips(key) <= 3);
     near.map_or(String::new(), |key| format!("; did you mean `{key}`?"))
 }
 
-/// Returns serde's message with keys for fields, numbers for f64, and the meaning of the key.
-fn reworded(message: &str, path: &str) -> String {
+/// Returns serde's message with keys for fields, numbers for f64, and the meaning of the key. `further` are known keys of
+/// which serde does not know.
+fn reworded(message: &str, path: &str, further: &[&str]) -> String {
     if let Some(rest) = message.strip_prefix("unknown field ") {
-        return format!(
-            "unknown key {}{}",
-            rest.replace("expected one of", "known here are"),
-            meant(message)
-        );
+        let mut keys = rest.split('`').skip(1).step_by(2);
+        let asked = keys.next().unwrap_or_default();
+        let known: Vec<&str> = keys.chain(further.iter().copied()).collect();
+        let further: String = further.iter().map(|key| format!(", `{key}`")).collect();
+        let rest = rest.replace("expected one of", "known here are");
+        return format!("unknown key {rest}{further}{}", meant(asked, &known));
     }
+    let table = path.split('.').next().unwrap_or_default();
     if let Some(rest) = message.strip_prefix("missing field ") {
-        return format!("the key {rest} is missing{}", meaning(rest.trim_matches('`')));
+        return format!("the key {rest} is missing{}", meaning(table, rest.trim_matches('`')));
     }
     let plain = WORDS.iter().fold(message.to_owned(), |text, (serde, word)| text.replace(serde, word));
-    plain + &meaning(path.rsplit('.').next().unwrap_or_default())
+    plain + &meaning(table, path.rsplit('.').next().unwrap_or_default())
 }
 
-fn meaning(key: &str) -> String {
-    let found = MEANINGS.iter().find(|(known, _)| *known == key);
-    found.map(|(_, meaning)| format!(" ({meaning})")).unwrap_or_default()
+/// Returns the meaning of a key in brackets, where it is known; `table` is the table at the top of the file that it is in.
+fn meaning(table: &str, key: &str) -> String {
+    let row = Family::of_key(table).and_then(|family| family.proportion(key));
+    let found = MEANINGS.iter().find(|(known, _)| *known == key).map(|(_, meaning)| (*meaning).to_owned());
+    let found = row.map(|row| row.hint()).or(found);
+    found.map(|meaning| format!(" ({meaning})")).unwrap_or_default()
 }

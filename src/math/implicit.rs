@@ -19,7 +19,7 @@ mod wave;
 mod tests;
 
 use self::body::RoundedBody;
-pub use self::error::ImplicitSurfaceError;
+pub use self::error::{ImplicitSurfaceError, MOST_WAVES, STEEPEST};
 pub use self::jet::Jet;
 #[cfg(feature = "gpu")]
 pub(crate) use self::parts::SurfaceParts;
@@ -103,17 +103,26 @@ impl ImplicitSurface {
     /// Names the dimension that is not a number or is out of its range.
     pub fn new(form: ImplicitForm) -> Result<Self, ImplicitSurfaceError> {
         error::check(&form)?;
+        Ok(Self::checked(form))
+    }
+
+    /// Makes a shape in its own frame. The caller has checked its dimensions, perhaps in another unit: an edge that
+    /// rounding has made too large is made as large as there is room for.
+    pub(crate) fn checked(form: ImplicitForm) -> Self {
+        let most = form.largest_edge();
         let (body, wave) = match form {
-            ImplicitForm::Pill { size, edge } => (RoundedBody::pill(size, edge), None),
-            ImplicitForm::Block { size, edge } => (RoundedBody::block(size, edge), None),
-            ImplicitForm::Pane { size, corner, edge } => (RoundedBody::pane(size, corner, edge), None),
-            ImplicitForm::Prism { size, edge } => (RoundedBody::prism(size, edge), None),
+            ImplicitForm::Pill { size, edge } => (RoundedBody::pill(size, edge.min(most)), None),
+            ImplicitForm::Block { size, edge } => (RoundedBody::block(size, edge.min(most)), None),
+            ImplicitForm::Pane { size, corner, edge } => {
+                (RoundedBody::pane(size, corner, edge.min(most)), None)
+            }
+            ImplicitForm::Prism { size, edge } => (RoundedBody::prism(size, edge.min(most)), None),
             ImplicitForm::Plate { size, edge, amplitude, wavelength, phase } => (
-                RoundedBody::block(size, edge),
+                RoundedBody::block(size, edge.min(most)),
                 (amplitude > 0.0).then(|| Wave::new(amplitude, wavelength, phase)),
             ),
         };
-        Ok(Self { form, body, wave, scale: 1.0, turn: DQuat::IDENTITY, shift: DVec3::ZERO })
+        Self { form, body, wave, scale: 1.0, turn: DQuat::IDENTITY, shift: DVec3::ZERO }
     }
 
     /// Returns the same shape scaled by a factor above 0, turned, then shifted.

@@ -29,7 +29,7 @@ pub use decay::integral_of_decay;
 pub use hull::convex_hull;
 #[cfg(feature = "gpu")]
 pub(crate) use implicit::SurfaceParts;
-pub use implicit::{ImplicitForm, ImplicitSurface, ImplicitSurfaceError, Jet};
+pub use implicit::{ImplicitForm, ImplicitSurface, ImplicitSurfaceError, Jet, MOST_WAVES, STEEPEST};
 pub use mesh::{Mesh, triangulate};
 pub use plane::Plane;
 pub use polygon::{area, centroid, clip, contains};

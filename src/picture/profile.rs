@@ -73,6 +73,8 @@ pub(crate) struct Dimensions {
     pub crown: Option<Span>,
     pub girdle: Option<Span>,
     pub pavilion: Option<Span>,
+    /// The culet, or the point in its place.
+    pub culet: Span,
 }
 
 impl Dimensions {
@@ -92,7 +94,10 @@ impl Dimensions {
         let upright = corners(|f| f.plane.normal.z.abs() < UPRIGHT);
         let girdle = (!upright.is_empty()).then(|| extent(upright.into_iter(), DVec3::Z));
         let table = (!table.is_empty()).then(|| extent(table.into_iter(), basis.right));
+        let lowest = polytope.vertices().iter().copied().filter(|v| v.z - low <= NOTHING * diameter);
+        let culet = extent(lowest, basis.right);
         Self {
+            culet: span(culet.0, culet.1),
             width: span(left, right),
             total: span(high, low),
             table: table.map(|(from, to)| span(from, to)),

@@ -1,7 +1,7 @@
 //! A specimen: a stone made from a design, with its solid, its material, and warnings about anything unusual.
 
 use super::{Body, Medium, Stone};
-use crate::cut::{Cut, Design, DesignError, Tiers};
+use crate::cut::{Cut, Design, DesignError, Tiers, Warning};
 use crate::math::{NotConvex, Plane, Polytope, PolytopeError, SmoothSolid, SolidRef};
 use crate::optics::Material;
 use glam::DVec3;
@@ -16,7 +16,9 @@ pub struct Specimen {
     pub body: Body,
     /// The stone's material.
     pub material: Material,
-    /// Warnings about what the owner may not have meant, in words.
+    /// Warnings about proportions that are possible but unusual.
+    pub unusual: Vec<Warning>,
+    /// Warnings about the solid: what its owner may not have meant, in words.
     pub warnings: Vec<String>,
     /// The greatest distance that the stone reaches from its axis, or along the axis from the origin, girdle radii. Views
     /// are fitted to it, so that the girdle keeps its size while the depth changes.
@@ -51,11 +53,12 @@ impl Specimen {
             _ => None,
         };
         if let Some(body) = body {
-            return Ok(Self::made(design, body, material, vec![]));
+            return Ok(Self::made(design, body, material));
         }
         let mut facets = design.facets()?;
         let given = facets.len();
-        let mut warnings: Vec<String> = design.warnings()?.iter().map(ToString::to_string).collect();
+        let unusual = design.warnings()?;
+        let mut warnings = vec![];
         let stone = match (Stone::new(&facets), &design.cut) {
             (Ok(stone), Cut::Tiers(_)) => stone.girdled(),
             (Ok(stone), _) => stone,
@@ -68,15 +71,15 @@ impl Specimen {
             (Err(error), _) => return Err(with_names(&error, &facets)),
         };
         warnings.extend(odd(&stone, &facets, given));
-        Ok(Self::made(design, Body::Stone(stone), material, warnings))
+        Ok(Self { unusual, warnings, ..Self::made(design, Body::Stone(stone), material) })
     }
 
-    fn made(design: Design, body: Body, material: Material, warnings: Vec<String>) -> Self {
+    fn made(design: Design, body: Body, material: Material) -> Self {
         let farthest =
             |far: &dyn Fn(&DVec3) -> f64| body.solid().vertices().iter().map(far).fold(0.0, f64::max);
         let reach = farthest(&|v| v.truncate().length().max(v.z.abs()));
         let radius = farthest(&|v| v.length());
-        Self { design, body, material, warnings, reach, radius }
+        Self { design, body, material, unusual: vec![], warnings: vec![], reach, radius }
     }
 
     /// Returns the shape, as tracers take it.

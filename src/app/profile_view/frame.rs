@@ -5,10 +5,9 @@ use super::grips::{Grip, grips};
 use super::handle::Handle;
 use super::ink::ProfileInks;
 use super::plan::{LabelDetail, Planner, ProfileSubject};
-use super::quantity::Quantity;
-use super::sheet::{Label, ProfileSheet, SheetLine, Weight};
+use super::sheet::{About, Label, ProfileSheet, SheetLine, Weight};
 use super::sight::{ProfileBox, ProfileProjection};
-use crate::cut::{Derived, RoundBrilliant};
+use crate::cut::Cut;
 use crate::math::Basis;
 use crate::picture::profile::brilliant::BRILLIANT_BASIS;
 use crate::picture::profile::{Dimensions, across_the_width};
@@ -27,23 +26,25 @@ const TYPE: f32 = 0.92;
 pub struct MeasuredProfile<'a> {
     stone: &'a Stone,
     basis: Basis,
-    dimensions: Dimensions,
-    /// The given and the derived proportions of a round brilliant; `None` for other stones and impossible proportions.
-    pub brilliant: Option<(RoundBrilliant, Derived)>,
+    /// The dimensions of the profile.
+    pub dimensions: Dimensions,
+    /// The cut, if it is one of possible proportions.
+    pub cut: Option<Cut>,
 }
 
 impl<'a> MeasuredProfile<'a> {
-    /// Measures a stone by its proportions if `given` holds some that are possible, else by its planes.
-    pub fn new(stone: &'a Stone, given: Option<&RoundBrilliant>) -> Self {
-        let brilliant = given.and_then(|given| Some((*given, given.derived().ok()?)));
-        let (basis, dimensions) = match &brilliant {
-            Some((given, derived)) => (BRILLIANT_BASIS, Dimensions::of_brilliant(given, derived)),
+    /// Measures a stone by the proportions of its cut where they are known to say all, else by its planes.
+    pub fn new(stone: &'a Stone, cut: Option<&Cut>) -> Self {
+        let cut = cut.filter(|cut| cut.family().is_some() && cut.check().is_ok()).cloned();
+        let brilliant = cut.as_ref().and_then(Cut::brilliant);
+        let (basis, dimensions) = match brilliant.and_then(|given| Some((given, given.derived().ok()?))) {
+            Some((given, derived)) => (BRILLIANT_BASIS, Dimensions::of_brilliant(given, &derived)),
             None => {
                 let basis = across_the_width(stone);
                 (basis, Dimensions::measured(stone, &basis))
             }
         };
-        Self { stone, basis, dimensions, brilliant }
+        Self { stone, basis, dimensions, cut }
     }
 
     /// Returns the box that the stone fills in the profile's plane.
@@ -73,7 +74,8 @@ pub struct ProfileFrame<'a> {
     pub id: Id,
     /// The projection from the profile to the screen.
     pub sight: ProfileProjection,
-    measured: &'a MeasuredProfile<'a>,
+    /// The stone that is shown.
+    pub measured: &'a MeasuredProfile<'a>,
     rect: Rect,
     detail: LabelDetail,
     inks: ProfileInks,
@@ -92,10 +94,10 @@ impl<'a> ProfileFrame<'a> {
         Self { id, sight, measured, rect, detail, inks: ProfileInks::of(ui.visuals()), font }
     }
 
-    /// Offers the handles to pointer and keyboard. Only a round brilliant has any.
+    /// Offers the handles to pointer and keyboard. Only cuts of a family with handles have any.
     pub fn offer(&self, ui: &Ui) -> Vec<Offered> {
-        let all =
-            self.measured.brilliant.iter().flat_map(|(given, derived)| grips(given, derived, &self.sight));
+        let MeasuredProfile { cut, dimensions, .. } = self.measured;
+        let all = cut.iter().flat_map(|cut| grips(cut, dimensions, &self.sight));
         all.map(|grip| Offered { response: grip.offer(ui, self.id), grip }).collect()
     }
 
@@ -106,7 +108,7 @@ impl<'a> ProfileFrame<'a> {
         let body = ProfileBody::new(self.measured.stone, self.measured.basis, &self.sight);
         let outline = body.outline();
         let (lines, labels) = self.plan(&painter, &outline, offered);
-        let active = active.map(Handle::quantity);
+        let active = active.map(|handle| handle.row);
         lines.into_iter().for_each(|line| self.draw(&painter, line, active));
         body.paint(&painter, &self.inks, &outline);
         labels.iter().for_each(|label| self.write(&painter, label, active));
@@ -118,12 +120,12 @@ impl<'a> ProfileFrame<'a> {
         let measure = |text: &str| size_of(painter, &self.font, text);
         let mut sheet = ProfileSheet::new(self.rect.shrink(2.0), outline, &measure);
         offered.iter().filter(|o| o.grip.reach > 0.0).for_each(|o| sheet.keep_clear(o.grip.square()));
-        let brilliant = self.measured.brilliant.as_ref().map(|(given, derived)| (given, derived));
-        let subject = ProfileSubject { dimensions: &self.measured.dimensions, brilliant };
+        let MeasuredProfile { cut, dimensions, .. } = self.measured;
+        let subject = ProfileSubject { dimensions, cut: cut.as_ref() };
         Planner::plan(subject, &self.sight, self.detail, sheet)
     }
 
-    fn draw(&self, painter: &Painter, line: SheetLine, active: Option<Quantity>) {
+    fn draw(&self, painter: &Painter, line: SheetLine, active: About) {
         let (colour, width) = match line.weight {
             Weight::Dimension => (self.inks.dimension, DIMENSION),
             Weight::Extension => (self.inks.extension, EXTENSION),
@@ -133,7 +135,7 @@ impl<'a> ProfileFrame<'a> {
         painter.add(Shape::line(line.points, Stroke::new(width, colour)));
     }
 
-    fn write(&self, painter: &Painter, label: &Label, active: Option<Quantity>) {
+    fn write(&self, painter: &Painter, label: &Label, active: About) {
         let colour = self.colour(label.about, active);
         let galley = painter.layout_no_wrap(label.text.clone(), self.font.clone(), colour);
         if label.upright {
@@ -146,9 +148,8 @@ impl<'a> ProfileFrame<'a> {
 
     /// Returns the colour of a number: the accent colour for that of the active handle, a quiet one where it follows from
     /// another.
-    fn colour(&self, about: Option<Quantity>, active: Option<Quantity>) -> Color32 {
-        let follows =
-            self.measured.brilliant.as_ref().zip(about).is_some_and(|((given, _), q)| q.follows(given));
+    fn colour(&self, about: About, active: About) -> Color32 {
+        let follows = self.measured.cut.as_ref().zip(about).is_some_and(|(cut, row)| !(row.is_given)(cut));
         match about {
             Some(_) if about == active => self.inks.accent,
             _ if follows => self.inks.quiet,
@@ -173,10 +174,9 @@ impl<'a> ProfileFrame<'a> {
     }
 
     /// Reports the present values of the handles to screen readers.
-    pub fn show_values(&self, ui: &Ui, offered: &[Offered], now: &RoundBrilliant) {
-        let Ok(derived) = now.derived() else { return };
+    pub fn show_values(&self, ui: &Ui, offered: &[Offered], now: &Cut) {
         for Offered { grip, response } in offered.iter().filter(|o| !o.grip.mirrored) {
-            grip.show_value(ui, response, grip.handle.quantity().of(now, &derived));
+            grip.show_value(ui, response, (grip.handle.row.get)(now));
         }
     }
 }

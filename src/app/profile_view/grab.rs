@@ -1,9 +1,11 @@
 //! A handle in the user's hand: how far it has been pulled since it was taken, and the proportions that result.
 
-use super::handle::Handle;
-use super::quantity::ValueGrid;
+use super::grips::Grip;
+use super::handle::{Handle, percent_of_radius};
 use super::sight::{ProfileBox, ProfileProjection};
-use crate::cut::RoundBrilliant;
+use crate::app::value_grid::ValueGrid;
+use crate::cut::{Cut, ProfileHandle};
+use crate::picture::profile::Dimensions;
 use egui::{Pos2, Vec2};
 use glam::DVec2;
 
@@ -20,8 +22,10 @@ const DECIDED: f32 = 4.0;
 pub struct Grab {
     handle: Handle,
     mirrored: bool,
-    /// The proportions when the handle was taken.
-    pub start: RoundBrilliant,
+    /// The cut when the handle was taken.
+    pub start: Cut,
+    /// The dimensions of its profile.
+    dimensions: Dimensions,
     /// The part of the profile that was shown when the handle was taken: the drawing keeps its size during a drag.
     shown: ProfileBox,
     from: Pos2,
@@ -33,18 +37,19 @@ pub struct Grab {
 }
 
 impl Grab {
-    /// Takes a handle at a point of the screen. `mirrored` says that it is the copy on the stone's other side.
-    pub fn new(handle: Handle, mirrored: bool, start: RoundBrilliant, shown: ProfileBox, at: Pos2) -> Self {
+    /// Takes a handle of a cut, whose profile has these dimensions, at a point of the screen.
+    pub fn new(grip: &Grip, start: Cut, dimensions: Dimensions, shown: ProfileBox, at: Pos2) -> Self {
         Self {
-            handle,
-            mirrored,
+            handle: grip.handle,
+            mirrored: grip.mirrored,
             start,
+            dimensions,
             shown,
             from: at,
             last: at,
             pull: DVec2::ZERO,
             grid: ValueGrid::COARSE,
-            undecided: handle == Handle::PavilionDepth,
+            undecided: grip.handle.part == ProfileHandle::PavilionTip,
         }
     }
 
@@ -70,30 +75,33 @@ impl Grab {
         let way = (to - self.from).abs();
         if self.undecided && way.max_elem() > DECIDED {
             self.undecided = false;
-            self.handle = if way.x > way.y { Handle::Culet } else { Handle::PavilionDepth };
+            let part = if way.x > way.y { ProfileHandle::CuletEdge } else { ProfileHandle::PavilionTip };
+            self.handle = Handle::of(&self.start, part).unwrap_or(self.handle);
         }
     }
 
-    /// Returns the proportions that result from the pull.
-    pub fn proportions(&self, sight: &ProfileProjection) -> RoundBrilliant {
+    /// Returns the cut that results from the pull.
+    pub fn pulled(&self, sight: &ProfileProjection) -> Cut {
         if self.undecided {
-            return self.start;
+            return self.start.clone();
         }
         let mut travel = sight.travel(Vec2::new(self.pull.x as f32, self.pull.y as f32));
         if self.mirrored {
             travel.x = -travel.x;
         }
-        self.handle.dragged(&self.start, travel, self.grid)
+        self.handle.dragged(&self.start, &self.dimensions, travel, self.grid)
     }
 
-    /// Returns the part of the profile to show while the stone has these proportions.
+    /// Returns the part of the profile to show while the stone is this one.
     ///
     /// Heights are measured from the girdle's upper edge. Where that edge itself is pulled, the part shown is shifted so
     /// that the edge moves with the hand.
-    pub fn shown(&self, now: &RoundBrilliant) -> ProfileBox {
-        match self.handle {
-            Handle::GirdleUpper => {
-                self.shown.raised((self.start.girdle_thickness - now.girdle_thickness) / 50.0)
+    pub fn shown(&self, now: &Cut) -> ProfileBox {
+        let Handle { part, row } = self.handle;
+        match part {
+            ProfileHandle::GirdleUpper => {
+                let thinner = (row.get)(&self.start) - (row.get)(now);
+                self.shown.raised(thinner / percent_of_radius(&self.dimensions))
             }
             _ => self.shown,
         }

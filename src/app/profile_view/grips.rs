@@ -2,9 +2,10 @@
 
 use super::handle::Handle;
 use super::ink::ProfileInks;
-use super::quantity::ValueGrid;
 use super::sight::ProfileProjection;
-use crate::cut::{Derived, RoundBrilliant};
+use crate::app::value_grid::ValueGrid;
+use crate::cut::{Cut, ProfileHandle};
+use crate::picture::profile::Dimensions;
 use egui::accesskit::{Action, ActionData};
 use egui::{
     EventFilter, Id, Key, Modifiers, Painter, Pos2, Rect, Response, Sense, Stroke, Ui, Vec2, WidgetInfo,
@@ -35,16 +36,17 @@ pub struct Grip {
     pub reach: f32,
 }
 
-/// Returns the handles of a round brilliant. The table has one at either end. Pavilion depth and culet lie in the same
-/// place, and the pointer takes them as one handle.
-pub fn grips(given: &RoundBrilliant, derived: &Derived, sight: &ProfileProjection) -> Vec<Grip> {
-    let mirror = DVec2::new(-1.0, 1.0);
-    let place = |handle: Handle| handle.at(given, derived);
-    let all = Handle::ALL.into_iter().map(|handle| (handle, false, place(handle)));
-    let left = (Handle::TableEdge, true, place(Handle::TableEdge) * mirror);
-    let grip =
-        |(handle, mirrored, p): (Handle, bool, DVec2)| Grip { handle, mirrored, at: sight.at(p), reach: 0.0 };
-    let mut grips: Vec<Grip> = all.chain([left]).map(grip).collect();
+/// Returns the handles of a cut whose profile has these dimensions. The table has one at either end. Pavilion depth and
+/// culet lie in the same place, and the pointer takes them as one handle.
+pub fn grips(cut: &Cut, dimensions: &Dimensions, sight: &ProfileProjection) -> Vec<Grip> {
+    let handles = || ProfileHandle::ALL.into_iter().filter_map(|part| Handle::of(cut, part));
+    let left = handles().filter(|handle| handle.part == ProfileHandle::TableEdge);
+    let all = handles().map(|handle| (handle, false)).chain(left.map(|handle| (handle, true)));
+    let grip = |(handle, mirrored): (Handle, bool)| {
+        let place = handle.at(dimensions)? * DVec2::new(if mirrored { -1.0 } else { 1.0 }, 1.0);
+        Some(Grip { handle, mirrored, at: sight.at(place), reach: 0.0 })
+    };
+    let mut grips: Vec<Grip> = all.filter_map(grip).collect();
     for k in 0..grips.len() {
         grips[k].reach = reach(&grips, k);
     }
@@ -53,7 +55,7 @@ pub fn grips(given: &RoundBrilliant, derived: &Derived, sight: &ProfileProjectio
 
 /// Returns half the width of a handle's square. Squares do not overlap, so that the nearest one takes the pointer.
 fn reach(grips: &[Grip], k: usize) -> f32 {
-    let for_keys = |grip: &Grip| grip.handle == Handle::Culet;
+    let for_keys = |grip: &Grip| grip.handle.part == ProfileHandle::CuletEdge;
     if for_keys(&grips[k]) {
         return 0.0;
     }
@@ -84,16 +86,16 @@ impl Grip {
     }
 
     /// Returns the proportions after this frame's key presses and requests of screen readers.
-    pub fn keyed(&self, ui: &Ui, response: &Response, given: &RoundBrilliant) -> RoundBrilliant {
-        let quantity = self.handle.quantity();
+    pub fn keyed(&self, ui: &Ui, response: &Response, given: Cut) -> Cut {
+        let row = self.handle.row;
         // Shift first: a search for a key without modifiers also finds it pressed with one.
         let steps = [(ValueGrid::FINE, Modifiers::SHIFT), (ValueGrid::COARSE, Modifiers::NONE)]
             .map(|(grid, modifiers)| (grid, self.key_steps(ui, response, modifiers)));
         let asked = (ValueGrid::COARSE, asked_steps(ui, response.id));
         let stepped = steps.into_iter().chain([asked]).filter(|&(_, steps)| steps != 0);
-        let stepped = stepped.fold(*given, |given, (grid, steps)| quantity.stepped(&given, steps, grid));
+        let stepped = stepped.fold(given, |given, (grid, steps)| grid.stepped(row, &given, steps));
         match asked_for(ui, response.id) {
-            Some(value) => quantity.toward(&stepped, value, ValueGrid::FINE),
+            Some(value) => ValueGrid::FINE.toward(row, &stepped, value),
             None => stepped,
         }
     }
@@ -116,7 +118,7 @@ impl Grip {
 
     /// Reports the handle's name and value to screen readers.
     pub fn show_value(&self, ui: &Ui, response: &Response, value: f64) {
-        let label = format!("{}, {}", self.handle.name(), self.handle.quantity().unit());
+        let label = format!("{}, {}", self.handle.name(), self.handle.row.unit.name());
         response.widget_info(|| WidgetInfo::slider(ui.is_enabled(), value, &label));
         ui.ctx().accesskit_node_builder(response.id, |node| {
             node.set_numeric_value_step(ValueGrid::COARSE.step());

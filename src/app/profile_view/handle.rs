@@ -1,146 +1,135 @@
-//! The handles of a round brilliant's profile: which proportion each changes, where it lies, and which value a pull
-//! requests.
+//! The handles of a profile: which proportion each changes, where it lies, and which value a pull requests.
 //!
 //! Places are in girdle radii in the profile's plane: x to the right of the axis, y up from the girdle's upper edge.
 
-use super::quantity::{Quantity, ValueGrid};
-use crate::cut::{Derived, RoundBrilliant};
+use crate::app::value_grid::ValueGrid;
+use crate::cut::{Cut, ProfileHandle, Proportion};
+use crate::picture::profile::{Dimensions, Span};
 use egui::CursorIcon;
 use glam::DVec2;
 
-/// A part of the profile that is pulled to change one proportion.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Handle {
-    /// The table's corner, on the right.
-    TableEdge,
-    /// The middle of the table's line.
-    CrownHeight,
-    /// The middle of the right bezel.
-    CrownAngle,
-    /// The girdle's upper edge, on the left.
-    GirdleUpper,
-    /// The girdle's lower edge, on the right.
-    GirdleLower,
-    /// The middle of the right main.
-    PavilionAngle,
-    /// The culet's right corner, or the tip, pulled up and down.
-    PavilionDepth,
-    /// The culet's right corner, or the tip, pulled left and right.
-    Culet,
+/// A part of the profile, and the proportion that it is pulled to change.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Handle {
+    /// The part of the profile.
+    pub part: ProfileHandle,
+    /// The proportion.
+    pub row: &'static Proportion,
 }
 
 impl Handle {
-    /// All handles, from table to culet.
-    pub const ALL: [Self; 8] = [
-        Self::TableEdge,
-        Self::CrownHeight,
-        Self::CrownAngle,
-        Self::GirdleUpper,
-        Self::GirdleLower,
-        Self::PavilionAngle,
-        Self::PavilionDepth,
-        Self::Culet,
-    ];
-
-    /// Returns the proportion that the handle changes.
-    pub fn quantity(self) -> Quantity {
-        match self {
-            Self::TableEdge => Quantity::Table,
-            Self::CrownHeight => Quantity::CrownHeight,
-            Self::CrownAngle => Quantity::CrownAngle,
-            Self::GirdleUpper | Self::GirdleLower => Quantity::Girdle,
-            Self::PavilionAngle => Quantity::PavilionAngle,
-            Self::PavilionDepth => Quantity::PavilionDepth,
-            Self::Culet => Quantity::Culet,
-        }
+    /// Returns the handle at a part of a cut's profile; `None` where the cut's family has none there.
+    pub fn of(cut: &Cut, part: ProfileHandle) -> Option<Self> {
+        Some(Self { part, row: cut.handled_by(part)? })
     }
 
     /// Returns the name of the handle.
     pub fn name(self) -> &'static str {
-        match self {
-            Self::TableEdge => "Table edge",
-            Self::GirdleUpper => "Girdle, upper edge",
-            Self::GirdleLower => "Girdle, lower edge",
-            other => other.quantity().name(),
+        match self.part {
+            ProfileHandle::TableEdge => "Table edge",
+            ProfileHandle::GirdleUpper => "Girdle, upper edge",
+            ProfileHandle::GirdleLower => "Girdle, lower edge",
+            _ => self.row.name,
         }
     }
 
     /// Returns a hint on how to pull the handle.
     pub fn hint(self) -> &'static str {
-        match self {
-            Self::TableEdge | Self::Culet => "drag left or right",
-            Self::CrownAngle => "drag to tilt bezels",
-            Self::PavilionAngle => "drag to tilt mains",
-            Self::PavilionDepth => "drag up or down · sideways: culet",
-            Self::CrownHeight | Self::GirdleUpper | Self::GirdleLower => "drag up or down",
+        match self.part {
+            ProfileHandle::TableEdge | ProfileHandle::CuletEdge => "drag left or right",
+            ProfileHandle::CrownSlope => "drag to tilt bezels",
+            ProfileHandle::PavilionSlope => "drag to tilt mains",
+            ProfileHandle::PavilionTip => "drag up or down · sideways: culet",
+            ProfileHandle::TableLine | ProfileHandle::GirdleUpper | ProfileHandle::GirdleLower => {
+                "drag up or down"
+            }
         }
     }
 
     /// Returns the shape of the pointer over the handle.
     pub fn cursor(self) -> CursorIcon {
-        match self {
-            Self::TableEdge | Self::Culet => CursorIcon::ResizeHorizontal,
-            Self::CrownAngle => CursorIcon::ResizeNeSw,
-            Self::PavilionAngle => CursorIcon::ResizeNwSe,
+        match self.part {
+            ProfileHandle::TableEdge | ProfileHandle::CuletEdge => CursorIcon::ResizeHorizontal,
+            ProfileHandle::CrownSlope => CursorIcon::ResizeNeSw,
+            ProfileHandle::PavilionSlope => CursorIcon::ResizeNwSe,
             _ => CursorIcon::ResizeVertical,
         }
     }
 
+    /// Whether the handle lies on the crown, so that there is room for a hint below it.
+    pub fn is_on_crown(self) -> bool {
+        matches!(self.part, ProfileHandle::TableEdge | ProfileHandle::TableLine | ProfileHandle::CrownSlope)
+    }
+
     /// Whether the handle's value grows when the handle is moved down.
     pub fn grows_downward(self) -> bool {
-        matches!(self, Self::GirdleLower | Self::PavilionAngle | Self::PavilionDepth)
+        matches!(
+            self.part,
+            ProfileHandle::GirdleLower | ProfileHandle::PavilionSlope | ProfileHandle::PavilionTip
+        )
     }
 
-    /// Returns the place of the handle, in girdle radii.
-    pub fn at(self, given: &RoundBrilliant, derived: &Derived) -> DVec2 {
-        let (table, culet) = (given.table / 100.0, given.culet / 100.0);
-        let (crown, girdle) = (derived.crown_height / 50.0, given.girdle_thickness / 50.0);
-        let lowest = crown - derived.total_depth / 50.0;
-        match self {
-            Self::TableEdge => DVec2::new(table, crown),
-            Self::CrownHeight => DVec2::new(0.0, crown),
-            Self::CrownAngle => DVec2::new((1.0 + table) / 2.0, crown / 2.0),
-            Self::GirdleUpper => DVec2::new(-1.0, 0.0),
-            Self::GirdleLower => DVec2::new(1.0, -girdle),
-            Self::PavilionAngle => DVec2::new((1.0 + culet) / 2.0, (lowest - girdle) / 2.0),
-            Self::PavilionDepth | Self::Culet => DVec2::new(culet, lowest),
+    /// Returns the place of the handle, in girdle radii; `None` where the stone has no such part.
+    pub fn at(self, dimensions: &Dimensions) -> Option<DVec2> {
+        let Dimensions { width, total, culet, table, girdle, .. } = dimensions;
+        Some(match self.part {
+            ProfileHandle::TableEdge => DVec2::new((*table)?.to, total.from),
+            ProfileHandle::TableLine => DVec2::new(0.0, total.from),
+            ProfileHandle::CrownSlope => {
+                DVec2::new((width.to + (*table)?.to) / 2.0, (total.from + (*girdle)?.from) / 2.0)
+            }
+            ProfileHandle::GirdleUpper => DVec2::new(width.from, (*girdle)?.from),
+            ProfileHandle::GirdleLower => DVec2::new(width.to, (*girdle)?.to),
+            ProfileHandle::PavilionSlope => {
+                DVec2::new((width.to + culet.to) / 2.0, (total.to + (*girdle)?.to) / 2.0)
+            }
+            ProfileHandle::PavilionTip | ProfileHandle::CuletEdge => DVec2::new(culet.to, total.to),
+        })
+    }
+
+    /// Returns a cut after the handle has been pulled by `travel` (girdle radii) from its place on `start`, whose profile
+    /// has these dimensions. The held one of each pair stays held; a value that would cross a limit stays just inside it.
+    pub fn dragged(self, start: &Cut, dimensions: &Dimensions, travel: DVec2, grid: ValueGrid) -> Cut {
+        let from = (self.row.get)(start);
+        match self.wanted(from, dimensions, travel) {
+            // Merely touching a handle does not move a value that lies between two steps.
+            Some(wanted) if (wanted - from).abs() >= 0.5 * grid.step() => {
+                grid.toward(self.row, start, wanted)
+            }
+            _ => start.clone(),
         }
     }
 
-    /// Returns the proportions after the handle has been pulled by `travel` (girdle radii) from its place on `start`. The
-    /// held one of each pair stays held; a value that would cross a limit stays just inside it.
-    pub fn dragged(self, start: &RoundBrilliant, travel: DVec2, grid: ValueGrid) -> RoundBrilliant {
-        let Ok(derived) = start.derived() else { return *start };
-        let (from, wanted) = (self.quantity().of(start, &derived), self.wanted(start, &derived, travel));
-        // Merely touching a handle does not move a value that lies between two steps.
-        let moved = (wanted - from).abs() >= 0.5 * grid.step();
-        if moved { self.quantity().toward(start, wanted, grid) } else { *start }
-    }
-
-    /// Returns the value that puts the handle where it has been pulled to, without regard to limits.
-    fn wanted(self, start: &RoundBrilliant, derived: &Derived, travel: DVec2) -> f64 {
-        let from = self.quantity().of(start, derived);
-        let at = self.at(start, derived) + travel;
-        match self {
-            Self::TableEdge => 100.0 * at.x,
-            Self::CrownHeight => from + 50.0 * travel.y,
-            Self::GirdleUpper => from + 50.0 * travel.y,
-            Self::GirdleLower | Self::PavilionDepth => from - 50.0 * travel.y,
-            Self::CrownAngle => at.y.atan2(1.0 - at.x).to_degrees(),
-            Self::PavilionAngle => (-at.y - start.girdle_thickness / 50.0).atan2(1.0 - at.x).to_degrees(),
+    /// Returns the value that puts the handle where it has been pulled to, without regard to limits; `from` is the value
+    /// at the start.
+    fn wanted(self, from: f64, dimensions: &Dimensions, travel: DVec2) -> Option<f64> {
+        let Dimensions { width, girdle, .. } = dimensions;
+        let Span { from: upper, to: lower, .. } = (*girdle)?;
+        let at = self.at(dimensions)? + travel;
+        let percent = percent_of_radius(dimensions);
+        Some(match self.part {
+            ProfileHandle::TableLine | ProfileHandle::GirdleUpper => from + percent * travel.y,
+            ProfileHandle::GirdleLower | ProfileHandle::PavilionTip => from - percent * travel.y,
+            ProfileHandle::CrownSlope => (at.y - upper).atan2(width.to - at.x).to_degrees(),
+            ProfileHandle::PavilionSlope => (lower - at.y).atan2(width.to - at.x).to_degrees(),
             // A pointed culet can be pulled open to either side.
-            Self::Culet if start.culet == 0.0 => 100.0 * travel.x.abs(),
-            Self::Culet => 100.0 * at.x,
-        }
+            ProfileHandle::CuletEdge if from == 0.0 => 2.0 * percent * travel.x.abs(),
+            ProfileHandle::TableEdge | ProfileHandle::CuletEdge => 2.0 * percent * at.x,
+        })
     }
+}
+
+/// Returns the percentage that a length of one girdle radius is of the diameter.
+pub fn percent_of_radius(dimensions: &Dimensions) -> f64 {
+    dimensions.width.percent / dimensions.width.length()
 }
 
 #[cfg(test)]
 mod tests {
     use super::super::sight::{ProfileBox, ProfileProjection};
+    use super::ProfileHandle::*;
     use super::*;
-    use crate::cut::TOLKOWSKY;
-    use crate::cut::{Crown, Pavilion, strategy};
+    use crate::cut::{Crown, Pavilion, RoundBrilliant, TOLKOWSKY, strategy};
     use egui::{Pos2, Rect, Vec2, vec2};
     use proptest::prelude::*;
 
@@ -150,8 +139,21 @@ mod tests {
         ProfileProjection::fitting(extent, Rect::from_min_size(Pos2::ZERO, Vec2::splat(400.0)))
     }
 
+    fn handle(part: ProfileHandle) -> Handle {
+        Handle::of(&Cut::RoundBrilliant(TOLKOWSKY), part).unwrap()
+    }
+
     fn value(handle: Handle, given: &RoundBrilliant) -> f64 {
-        handle.quantity().of(given, &given.derived().unwrap())
+        (handle.row.get)(&Cut::RoundBrilliant(*given))
+    }
+
+    fn dimensions(given: &RoundBrilliant) -> Dimensions {
+        Dimensions::of_brilliant(given, &given.derived().unwrap())
+    }
+
+    fn dragged(handle: Handle, given: &RoundBrilliant, travel: DVec2) -> RoundBrilliant {
+        let cut = Cut::RoundBrilliant(*given);
+        *handle.dragged(&cut, &dimensions(given), travel, ValueGrid::COARSE).brilliant().unwrap()
     }
 
     #[test]
@@ -160,20 +162,20 @@ mod tests {
         let (crown, pavilion) =
             (Crown::Height(derived.crown_height), Pavilion::Depth(derived.pavilion_depth));
         let by_lengths = RoundBrilliant { crown, pavilion, ..TOLKOWSKY };
-        for (handle, pull, expected) in [
-            (Handle::TableEdge, vec2(20.0, 7.0), 63.0),
-            (Handle::CrownHeight, vec2(5.0, -10.0), 18.7),
-            (Handle::CrownAngle, vec2(0.0, -10.0), 42.0),
-            (Handle::GirdleUpper, vec2(3.0, -2.0), 3.5),
-            (Handle::GirdleLower, vec2(3.0, 2.0), 3.5),
-            (Handle::PavilionAngle, vec2(0.0, 10.0), 43.9),
-            (Handle::PavilionDepth, vec2(0.0, 10.0), 45.6),
-            (Handle::Culet, vec2(10.0, 0.0), 5.0),
-            (Handle::Culet, vec2(-10.0, 0.0), 5.0),
+        for (part, pull, expected) in [
+            (TableEdge, vec2(20.0, 7.0), 63.0),
+            (TableLine, vec2(5.0, -10.0), 18.7),
+            (CrownSlope, vec2(0.0, -10.0), 42.0),
+            (GirdleUpper, vec2(3.0, -2.0), 3.5),
+            (GirdleLower, vec2(3.0, 2.0), 3.5),
+            (PavilionSlope, vec2(0.0, 10.0), 43.9),
+            (PavilionTip, vec2(0.0, 10.0), 45.6),
+            (CuletEdge, vec2(10.0, 0.0), 5.0),
+            (CuletEdge, vec2(-10.0, 0.0), 5.0),
         ] {
             for given in [TOLKOWSKY, by_lengths] {
-                let new = handle.dragged(&given, sight().travel(pull), ValueGrid::COARSE);
-                assert!((value(handle, &new) - expected).abs() < 1e-9, "{handle:?}: {new:?}");
+                let new = dragged(handle(part), &given, sight().travel(pull));
+                assert!((value(handle(part), &new) - expected).abs() < 1e-9, "{part:?}: {new:?}");
             }
         }
     }
@@ -182,7 +184,7 @@ mod tests {
     fn a_culet_is_closed_by_pulling_it_to_the_axis_and_no_further() {
         let open = RoundBrilliant { culet: 4.0, ..TOLKOWSKY };
         for (pull, expected) in [(-3.0, 2.5), (-8.0, 0.0), (-50.0, 0.0)] {
-            let new = Handle::Culet.dragged(&open, sight().travel(vec2(pull, 0.0)), ValueGrid::COARSE);
+            let new = dragged(handle(CuletEdge), &open, sight().travel(vec2(pull, 0.0)));
             assert_eq!(new.culet, expected);
         }
     }
@@ -190,15 +192,15 @@ mod tests {
     #[test]
     fn a_handle_that_is_only_touched_changes_nothing() {
         let odd = RoundBrilliant { table: 53.037, crown: Crown::Angle(34.512), ..TOLKOWSKY };
-        for handle in Handle::ALL {
+        for part in ProfileHandle::ALL {
             let trembling = DVec2::new(2e-5, -2e-5);
-            assert_eq!(handle.dragged(&odd, trembling, ValueGrid::COARSE), odd, "{handle:?}");
+            assert_eq!(dragged(handle(part), &odd, trembling), odd, "{part:?}");
         }
     }
 
     /// Returns how far a stone's value is from the one that a pull requests, in percent or degrees.
     fn off(handle: Handle, new: &RoundBrilliant, start: &RoundBrilliant, travel: DVec2) -> f64 {
-        let wanted = handle.wanted(start, &start.derived().unwrap(), travel);
+        let wanted = handle.wanted(value(handle, start), &dimensions(start), travel).unwrap();
         (value(handle, new) - wanted).abs()
     }
 
@@ -209,13 +211,14 @@ mod tests {
     proptest! {
         #[test]
         fn however_it_is_pulled_a_stone_stays_possible_and_what_is_held_stays_held(
-            given in strategy::proportions(), travel in pull(), k in 0..Handle::ALL.len(),
+            given in strategy::proportions(), travel in pull(), k in 0..ProfileHandle::ALL.len(),
         ) {
-            let handle = Handle::ALL[k];
-            let new = handle.dragged(&given, travel, ValueGrid::COARSE);
+            let handle = handle(ProfileHandle::ALL[k]);
+            let new = dragged(handle, &given, travel);
             prop_assert!(new.derived().is_ok());
-            for other in Handle::ALL {
-                prop_assert_eq!(other.quantity().follows(&new), other.quantity().follows(&given));
+            let [now, before] = [new, given].map(Cut::RoundBrilliant);
+            for row in now.proportions() {
+                prop_assert_eq!((row.is_given)(&now), (row.is_given)(&before));
             }
             let step = 10.0 * value(handle, &new);
             prop_assert!(new == given || (step - step.round()).abs() < 1e-6, "{} {}", handle.name(), step / 10.0);
@@ -223,25 +226,24 @@ mod tests {
 
         #[test]
         fn a_handle_stays_under_the_hand_or_at_its_limit(
-            given in strategy::proportions(), travel in pull(), k in 0..Handle::ALL.len(),
+            given in strategy::proportions(), travel in pull(), k in 0..ProfileHandle::ALL.len(),
         ) {
-            let handle = Handle::ALL[k];
-            let new = handle.dragged(&given, travel, ValueGrid::COARSE);
-            let further = |grid| {
-                let derived = given.derived().unwrap();
-                let way = (handle.wanted(&given, &derived, travel) - value(handle, &new)).signum();
-                handle.quantity().stepped(&new, way as i32, grid)
-            };
-            prop_assert!(off(handle, &new, &given, travel) <= 0.05 + 1e-6 || further(ValueGrid::COARSE) == new);
+            let handle = handle(ProfileHandle::ALL[k]);
+            let new = dragged(handle, &given, travel);
+            let cut = Cut::RoundBrilliant(new);
+            let wanted = handle.wanted(value(handle, &given), &dimensions(&given), travel).unwrap();
+            let way = (wanted - value(handle, &new)).signum();
+            let further = ValueGrid::COARSE.stepped(handle.row, &cut, way as i32);
+            prop_assert!(off(handle, &new, &given, travel) <= 0.05 + 1e-6 || further == cut);
         }
 
         #[test]
         fn pulled_there_and_back_a_stone_is_what_it_was(
-            given in strategy::proportions(), travel in pull(), k in 0..Handle::ALL.len(),
+            given in strategy::proportions(), travel in pull(), k in 0..ProfileHandle::ALL.len(),
         ) {
-            let handle = Handle::ALL[k];
-            let there = handle.dragged(&given, travel, ValueGrid::COARSE);
-            let back = handle.dragged(&given, travel - travel, ValueGrid::COARSE);
+            let handle = handle(ProfileHandle::ALL[k]);
+            let there = dragged(handle, &given, travel);
+            let back = dragged(handle, &given, travel - travel);
             prop_assert!(there.derived().is_ok());
             prop_assert_eq!(back, given);
         }

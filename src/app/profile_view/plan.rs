@@ -1,9 +1,8 @@
 //! Decides which dimensions a profile of a given size shows, and where.
 
-use super::quantity::Quantity;
-use super::sheet::{BESIDE, GAP, Label, ProfileSheet, SheetLine, Weight};
+use super::sheet::{About, BESIDE, GAP, Label, ProfileSheet, SheetLine, Weight};
 use super::sight::{Margins, ProfileProjection};
-use crate::cut::{Derived, RoundBrilliant};
+use crate::cut::{Cut, ProfileHandle};
 use crate::picture::profile::brilliant::{lower_half_ends, star_ends};
 use crate::picture::profile::{Dimensions, Span, percent, spread};
 use egui::{Align2, Pos2, Rect, Vec2, pos2, vec2};
@@ -68,8 +67,8 @@ impl LabelDetail {
 pub struct ProfileSubject<'a> {
     /// The dimensions that every stone has.
     pub dimensions: &'a Dimensions,
-    /// The given and the derived proportions of a round brilliant.
-    pub brilliant: Option<(&'a RoundBrilliant, &'a Derived)>,
+    /// The cut, where it is one of possible proportions.
+    pub cut: Option<&'a Cut>,
 }
 
 /// Lays out the dimensions of a drawing on a sheet.
@@ -108,6 +107,11 @@ impl<'a, 'b> Planner<'a, 'b> {
         self.sight.at(DVec2::new(x, z))
     }
 
+    /// Returns the proportion that a part of the profile changes.
+    fn row(&self, part: ProfileHandle) -> About {
+        self.subject.cut?.handled_by(part)
+    }
+
     fn named(&self, name: &str, value: f64) -> String {
         let value = percent(value);
         if self.detail == LabelDetail::Numbers { value } else { format!("{name} {value}") }
@@ -123,9 +127,9 @@ impl<'a, 'b> Planner<'a, 'b> {
         let Some(table) = self.subject.dimensions.table else { return };
         let ends = [table.from, table.to].map(|x| self.at(x, self.subject.dimensions.total.from));
         // The dimension of the star stands below that of the table.
-        let level =
-            if self.detail == LabelDetail::Whole && self.subject.brilliant.is_some() { 2.0 } else { 1.0 };
-        let about = self.subject.brilliant.map(|_| Quantity::Table);
+        let has_star = self.subject.cut.is_some_and(|cut| cut.brilliant().is_some());
+        let level = if self.detail == LabelDetail::Whole && has_star { 2.0 } else { 1.0 };
+        let about = self.row(ProfileHandle::TableEdge);
         self.sheet.across(self.level(level), ends, &self.named("table", table.percent), about);
     }
 
@@ -163,11 +167,12 @@ impl<'a, 'b> Planner<'a, 'b> {
     fn heights(&mut self) {
         let Dimensions { total, crown, girdle, pavilion, width, .. } = *self.subject.dimensions;
         let parts = [
-            ("crown", crown, Quantity::CrownHeight),
-            ("girdle", girdle, Quantity::Girdle),
-            ("pavilion", pavilion, Quantity::PavilionDepth),
+            ("crown", crown, ProfileHandle::TableLine),
+            ("girdle", girdle, ProfileHandle::GirdleUpper),
+            ("pavilion", pavilion, ProfileHandle::PavilionTip),
         ];
-        let parts: Vec<_> = parts.into_iter().filter_map(|(name, span, q)| Some((name, span?, q))).collect();
+        let parts: Vec<_> =
+            parts.into_iter().filter_map(|(name, span, part)| Some((name, span?, part))).collect();
         if parts.iter().all(|(_, span, _)| span.length() >= total.length()) {
             return;
         }
@@ -177,8 +182,8 @@ impl<'a, 'b> Planner<'a, 'b> {
         let middles = parts.iter().map(|(_, s, _)| f64::from(self.at(0.0, (s.from + s.to) / 2.0).y));
         let line = self.sheet.size(LONGEST).y + 1.0;
         let middles = spread(middles.collect(), f64::from(self.level(1.0)), f64::from(line));
-        for ((name, span, quantity), y) in parts.into_iter().zip(middles) {
-            let about = self.subject.brilliant.map(|_| quantity);
+        for ((name, span, part), y) in parts.into_iter().zip(middles) {
+            let about = self.row(part);
             let ends = [span.from, span.to].map(|z| pos2(x, self.at(0.0, z).y));
             self.sheet.dimension(ends, about);
             let text = self.named(name, span.percent);
@@ -188,20 +193,23 @@ impl<'a, 'b> Planner<'a, 'b> {
 
     /// Adds the crown angle at the table's corner and the pavilion angle at the culet's, on the left.
     fn angles(&mut self) {
-        let Some((given, derived)) = self.subject.brilliant else { return };
-        let total = self.subject.dimensions.total;
-        let table = self.at(-given.table / 100.0, total.from);
-        self.angle(table, self.at(-1.0, 0.0), Quantity::CrownAngle, derived.crown_angle);
-        let (culet, girdle) = (self.at(-given.culet / 100.0, total.to), -given.girdle_thickness / 50.0);
-        self.angle(culet, self.at(-1.0, girdle), Quantity::PavilionAngle, derived.pavilion_angle);
+        let Dimensions { width, total, table, girdle, culet, .. } = *self.subject.dimensions;
+        let (Some(table), Some(girdle)) = (table, girdle) else { return };
+        let end = |height: f64| self.at(width.from, height);
+        let crown = [self.at(table.from, total.from), end(girdle.from)];
+        let pavilion = [self.at(culet.from, total.to), end(girdle.to)];
+        self.angle(crown, ProfileHandle::CrownSlope);
+        self.angle(pavilion, ProfileHandle::PavilionSlope);
     }
 
-    /// Adds the angle at `vertex` between the level line to the left and the line to `end`.
-    fn angle(&mut self, vertex: Pos2, end: Pos2, quantity: Quantity, degrees: f64) {
+    /// Adds the angle at `vertex` between the level line to the left and the line to `end`, where it is a proportion.
+    fn angle(&mut self, [vertex, end]: [Pos2; 2], part: ProfileHandle) {
+        let Some((cut, row)) = self.subject.cut.zip(self.row(part)) else { return };
+        let degrees = (row.get)(cut);
         let turn = degrees.to_radians() as f32 * (end.y - vertex.y).signum();
         let arm = |part: f32| vec2(-(part * turn).cos(), (part * turn).sin());
-        let text = quantity.written(degrees);
-        let about = Some(quantity);
+        let text = row.written(degrees);
+        let about = Some(row);
         let largest = ARC.min(ARC_PART * (end - vertex).length());
         let within = [1.0, 0.7, 0.45].map(|part| (part * largest, arm(0.5) * (part * largest + BESIDE)));
         // Where the wedge is too narrow, the number goes to the other side of the level line.
@@ -221,16 +229,17 @@ impl<'a, 'b> Planner<'a, 'b> {
     }
 
     fn culet(&mut self) {
-        let Some((given, _)) = self.subject.brilliant.filter(|(given, _)| given.culet > 0.0) else { return };
-        let ends =
-            [-1.0, 1.0].map(|side| self.at(side * given.culet / 100.0, self.subject.dimensions.total.to));
-        let text = self.named("culet", given.culet);
-        self.sheet.across(self.level(-1.0), ends, &text, Some(Quantity::Culet));
+        let Dimensions { total, culet, .. } = *self.subject.dimensions;
+        let Some(row) = self.row(ProfileHandle::CuletEdge).filter(|_| culet.percent > 0.0) else { return };
+        let ends = [culet.from, culet.to].map(|x| self.at(x, total.to));
+        let text = self.named("culet", culet.percent);
+        self.sheet.across(self.level(-1.0), ends, &text, Some(row));
     }
 
-    /// Adds the lengths of star and lower half in plan, on the right of crown and pavilion.
+    /// Adds the lengths of star and lower half of a round brilliant in plan, on the right of crown and pavilion.
     fn star_and_lower_half(&mut self) {
-        let Some((given, derived)) = self.subject.brilliant else { return };
+        let Some(given) = self.subject.cut.and_then(Cut::brilliant) else { return };
+        let Ok(derived) = &given.derived() else { return };
         let star = star_ends(given, derived).map(|end| self.at(end.x, end.y));
         self.sheet.across(self.level(1.0), star, &self.named("star", given.star_length), None);
         let level = if given.culet > 0.0 { -2.0 } else { -1.0 };
@@ -245,8 +254,7 @@ mod tests {
     use super::super::body::ProfileBody;
     use super::super::sight::ProfileBox;
     use super::*;
-    use crate::cut::TOLKOWSKY;
-    use crate::cut::{Crown, strategy};
+    use crate::cut::{Crown, RoundBrilliant, TOLKOWSKY, strategy};
     use crate::picture::profile::brilliant::BRILLIANT_BASIS;
     use crate::scene::Stone;
     use proptest::prelude::*;
@@ -264,7 +272,7 @@ mod tests {
             ProfileProjection::fitting(ProfileBox::of(&dimensions), detail.margins(&measure).within(rect));
         let stone = Stone::new(&given.facets().unwrap()).unwrap();
         let outline = ProfileBody::new(&stone, BRILLIANT_BASIS, &sight).outline();
-        let subject = ProfileSubject { dimensions: &dimensions, brilliant: Some((given, &derived)) };
+        let subject = ProfileSubject { dimensions: &dimensions, cut: Some(&Cut::RoundBrilliant(*given)) };
         Planner::plan(subject, &sight, detail, ProfileSheet::new(rect, &outline, &measure)).1
     }
 

@@ -1,8 +1,11 @@
 //! A sheet on which dimensions are laid out. A number stands where it fits and nothing else is. Where there is no such place
 //! it is left out, together with its lines.
 
-use super::quantity::Quantity;
+use crate::cut::Proportion;
 use egui::{Align2, Pos2, Rect, Vec2, pos2, vec2};
+
+/// The proportion that a line or number belongs to, if it belongs to one.
+pub type About = Option<&'static Proportion>;
 
 /// Space between the stone and a line that leads to a dimension, and length by which that line goes beyond the dimension, in
 /// points.
@@ -32,7 +35,7 @@ pub struct SheetLine {
     /// The purpose of the line.
     pub weight: Weight,
     /// The proportion that the line belongs to, if it belongs to one.
-    pub about: Option<Quantity>,
+    pub about: About,
 }
 
 /// A number on the drawing.
@@ -45,7 +48,7 @@ pub struct Label {
     /// Whether the text runs upward, to be read from the right.
     pub upright: bool,
     /// The proportion that the number gives, if it gives one.
-    pub about: Option<Quantity>,
+    pub about: About,
 }
 
 /// Lines and numbers, and the places that must stay clear of numbers.
@@ -84,18 +87,18 @@ impl<'a> ProfileSheet<'a> {
     }
 
     /// Writes a text if there is room for it, and returns its box.
-    pub fn write(&mut self, text: &str, anchor: Align2, at: Pos2, about: Option<Quantity>) -> Option<Rect> {
+    pub fn write(&mut self, text: &str, anchor: Align2, at: Pos2, about: About) -> Option<Rect> {
         let frame = anchor.anchor_size(at, self.size(text));
         self.put(text, frame, false, about)
     }
 
     /// Writes a text that is read from the right, centred at a point, if there is room for it, and returns its box.
-    pub fn write_upright(&mut self, text: &str, at: Pos2, about: Option<Quantity>) -> Option<Rect> {
+    pub fn write_upright(&mut self, text: &str, at: Pos2, about: About) -> Option<Rect> {
         let size = self.size(text);
         self.put(text, Rect::from_center_size(at, vec2(size.y, size.x)), true, about)
     }
 
-    fn put(&mut self, text: &str, frame: Rect, upright: bool, about: Option<Quantity>) -> Option<Rect> {
+    fn put(&mut self, text: &str, frame: Rect, upright: bool, about: About) -> Option<Rect> {
         let free = self.room.contains_rect(frame)
             && !self.taken.iter().any(|taken| taken.intersects(frame))
             && !overlap(self.outline, frame);
@@ -107,12 +110,12 @@ impl<'a> ProfileSheet<'a> {
     }
 
     /// Adds a line.
-    pub fn line(&mut self, points: Vec<Pos2>, weight: Weight, about: Option<Quantity>) {
+    pub fn line(&mut self, points: Vec<Pos2>, weight: Weight, about: About) {
         self.lines.push(SheetLine { points, weight, about });
     }
 
     /// Adds a dimension line with strokes at its ends.
-    pub fn dimension(&mut self, [a, b]: [Pos2; 2], about: Option<Quantity>) {
+    pub fn dimension(&mut self, [a, b]: [Pos2; 2], about: About) {
         let across = (b - a).normalized().rot90() * TICK;
         for end in [a, b] {
             self.line(vec![end - across, end + across], Weight::Dimension, about);
@@ -122,7 +125,7 @@ impl<'a> ProfileSheet<'a> {
 
     /// Adds a dimension from left to right at height `y`, which leads to a point of the stone at either end. Its text stands
     /// in the line, or beside it where the line is too short. Where the text fits nowhere, the dimension is left out.
-    pub fn across(&mut self, y: f32, ends: [Pos2; 2], text: &str, about: Option<Quantity>) {
+    pub fn across(&mut self, y: f32, ends: [Pos2; 2], text: &str, about: About) {
         let [a, b] = ends.map(|end| pos2(end.x, y));
         let fits = self.size(text).x + 2.0 * (GAP + BESIDE) < b.x - a.x;
         let inside = fits.then(|| self.write(text, Align2::CENTER_CENTER, a.lerp(b, 0.5), about)).flatten();

@@ -1,7 +1,7 @@
 //! The projection from the profile to the screen: which part of the plane is shown, and where.
 
 use crate::picture::profile::Dimensions;
-use egui::{Pos2, Rect, Vec2, pos2, vec2};
+use egui::{Pos2, Rect, Vec2, vec2};
 use glam::DVec2;
 
 /// The shown part stops moving where less than this is left, in girdle radii.
@@ -86,8 +86,24 @@ impl Margins {
             rect.min + vec2(self.left, self.top),
             rect.max - vec2(self.right, self.bottom),
         );
-        // A rectangle too small for its margins leaves an empty one.
-        let least = pos2(room.max.x.max(room.min.x), room.max.y.max(room.min.y));
-        Rect::from_min_max(room.min, least)
+        // A rectangle too small for its margins leaves the point in the middle between them.
+        let middle = room.center();
+        Rect::from_min_max(room.min.min(middle), room.max.max(middle))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use egui::pos2;
+
+    #[test]
+    fn a_rectangle_too_small_for_its_margins_keeps_the_drawing_in_its_middle() {
+        let margins = Margins { left: 6.0, right: 6.0, top: 6.0, bottom: 6.0 };
+        for size in [vec2(100.0, 40.0), vec2(100.0, 5.0), vec2(3.0, 40.0), vec2(3.0, 5.0)] {
+            let rect = Rect::from_min_size(pos2(20.0, 30.0), size);
+            let room = margins.within(rect);
+            assert!(room.center() == rect.center() && !room.is_negative(), "{size}: {room}");
+        }
     }
 }

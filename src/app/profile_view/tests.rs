@@ -1,7 +1,7 @@
 //! Tests the drawing in a window, by pointer, by keyboard and by accessible names.
 
 use super::ProfileView;
-use crate::cut::{Pavilion, RoundBrilliant, TOLKOWSKY};
+use crate::cut::{Cut, Pavilion, ProfileHandle, RoundBrilliant, TOLKOWSKY};
 use crate::scene::Stone;
 use egui::{Event, Key, Modifiers, Pos2, Rect, Vec2, vec2};
 use egui_kittest::Harness;
@@ -29,8 +29,10 @@ impl Bench {
             return;
         }
         let rect = Rect::from_min_size(Pos2::ZERO, SIZE);
-        let given = self.with_proportions.then_some(&mut self.given);
-        if self.view.show(ui, rect, &self.stone, given).changed() {
+        let brilliant = Cut::RoundBrilliant(self.given);
+        let mut cut = if self.with_proportions { brilliant } else { Cut::Planes(vec![]) };
+        if self.view.show(ui, rect, &self.stone, &mut cut).changed() {
+            self.given = *cut.brilliant().unwrap();
             self.changes += 1;
             self.stone = Stone::new(&self.given.facets().unwrap()).unwrap();
         }
@@ -271,7 +273,10 @@ fn tab_goes_through_all_handles_once() {
         harness.run();
         seen.extend(focused(&harness));
     }
-    let names = super::handle::Handle::ALL.map(|h| format!("{}, {}", h.name(), h.quantity().unit()));
+    let names = ProfileHandle::ALL.map(|part| {
+        let handle = super::handle::Handle::of(&Cut::RoundBrilliant(TOLKOWSKY), part).unwrap();
+        format!("{}, {}", handle.name(), handle.row.unit.name())
+    });
     assert_eq!(seen, names);
 }
 

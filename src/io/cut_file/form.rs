@@ -2,23 +2,20 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::family_form::FamilyForm;
 use super::material_form::MaterialForm;
 use super::tier_form::{IndexForm, TierForm};
 use super::values::{Numbers, TomlTable};
 use super::{FORMAT, Fault};
-use crate::cut::{
-    Crown, Cut, DEFAULT_DIAMETER_MM, Design, DesignError, Glass, LowerHalf, MAX_PLANES, MaterialRef,
-    MeshShape, Pavilion, Plate, RoundBrilliant, Sides, girdle_facets,
-};
+use crate::cut::{Cut, DEFAULT_DIAMETER_MM, Design, DesignError, MAX_PLANES, MaterialRef, MeshShape};
 use crate::math::{Plane, Surface, TriangleMesh};
 use glam::{DQuat, DVec3};
 use std::collections::HashSet;
 
-/// A whole cut file. `B` is its round brilliant, which has another form when read than when written. Values come before
-/// tables, since TOML must be written so.
+/// A whole cut file but for the table of a family. Values come before tables, since TOML must be written so.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(super) struct DesignForm<B = TomlTable<RoundBrilliantForm>> {
+pub(super) struct DesignForm {
     format: i64,
     name: String,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -29,8 +26,6 @@ pub(super) struct DesignForm<B = TomlTable<RoundBrilliantForm>> {
     diameter_mm: f64,
     material: MaterialForm,
     #[serde(skip_serializing_if = "Option::is_none")]
-    round_brilliant: Option<B>,
-    #[serde(skip_serializing_if = "Option::is_none")]
     index: Option<TomlTable<IndexForm>>,
     #[serde(skip_serializing_if = "Option::is_none")]
     tier: Option<Vec<TomlTable<TierForm>>>,
@@ -38,35 +33,10 @@ pub(super) struct DesignForm<B = TomlTable<RoundBrilliantForm>> {
     plane: Option<Vec<TomlTable<PlaneForm>>>,
     #[serde(skip_serializing_if = "Option::is_none")]
     mesh: Option<TomlTable<MeshForm>>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pill: Option<TomlTable<Sides>>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    cube: Option<TomlTable<Sides>>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    prism: Option<TomlTable<Sides>>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    plate: Option<TomlTable<Plate>>,
 }
 
 fn default_diameter() -> f64 {
     DEFAULT_DIAMETER_MM
-}
-
-/// The table `[round_brilliant]` as it is read, with both keys of each pair; [`RoundBrilliant`] itself is written.
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(super) struct RoundBrilliantForm {
-    table: f64,
-    crown_angle: Option<f64>,
-    crown_height: Option<f64>,
-    pavilion_angle: Option<f64>,
-    pavilion_depth: Option<f64>,
-    star_length: f64,
-    lower_half_length: Option<f64>,
-    lower_half_length_vertical: Option<f64>,
-    girdle_thickness: f64,
-    girdle_facets: i64,
-    culet: f64,
 }
 
 /// A table `[[plane]]`.
@@ -91,8 +61,8 @@ fn nameless() -> String {
     "facet".to_owned()
 }
 
-impl DesignForm<RoundBrilliant> {
-    /// Returns the form in which a design is written.
+impl DesignForm {
+    /// Returns the form in which a design is written, without the table of its family.
     pub fn of(design: &Design) -> Self {
         let form = Self {
             format: FORMAT,
@@ -101,18 +71,13 @@ impl DesignForm<RoundBrilliant> {
             notes: design.notes.clone(),
             diameter_mm: design.diameter_mm,
             material: MaterialForm::of(&design.material),
-            round_brilliant: None,
             index: None,
             tier: None,
             plane: None,
             mesh: None,
-            pill: None,
-            cube: None,
-            prism: None,
-            plate: None,
         };
         match &design.cut {
-            Cut::RoundBrilliant(given) => Self { round_brilliant: Some(*given), ..form },
+            Cut::RoundBrilliant(_) | Cut::Glass(_) => form,
             Cut::Tiers(tiers) => Self {
                 index: Some(TomlTable(IndexForm::of(tiers))),
                 tier: Some(tiers.tiers.iter().map(|tier| TomlTable(TierForm::of(tier))).collect()),
@@ -123,37 +88,19 @@ impl DesignForm<RoundBrilliant> {
                 ..form
             },
             Cut::Mesh(shape) => Self { mesh: Some(TomlTable(MeshForm::of(shape))), ..form },
-            Cut::Glass(Glass::Pill(sides)) => Self { pill: Some(TomlTable(*sides)), ..form },
-            Cut::Glass(Glass::Cube(sides)) => Self { cube: Some(TomlTable(*sides)), ..form },
-            Cut::Glass(Glass::Prism(sides)) => Self { prism: Some(TomlTable(*sides)), ..form },
-            Cut::Glass(Glass::Plate(plate)) => Self { plate: Some(TomlTable(*plate)), ..form },
         }
     }
-}
 
-impl DesignForm {
-    /// Returns the design that the form describes, checked.
-    pub fn design(self) -> Result<Design, Fault> {
-        let Self { round_brilliant, index, tier, plane, mesh, pill, cube, prism, plate, .. } = self;
-        let glass = [
-            pill.map(|TomlTable(s)| ("pill", Glass::Pill(s))),
-            cube.map(|TomlTable(s)| ("cube", Glass::Cube(s))),
-            prism.map(|TomlTable(s)| ("prism", Glass::Prism(s))),
-            plate.map(|TomlTable(p)| ("plate", Glass::Plate(p))),
-        ];
-        let mut glass = glass.into_iter().flatten();
-        let (first, second) = (glass.next(), glass.next());
-        if let (Some((one, _)), Some((other, _))) = (first, second) {
-            return Err(Fault::at(other, format!("{other}: give [{one}] or [{other}], not both")));
-        }
-        let glass = first;
+    /// Returns the design that the form describes with the tables of families beside it, checked.
+    pub fn design(self, families: &[FamilyForm]) -> Result<Design, Fault> {
+        let Self { index, tier, plane, mesh, .. } = self;
         let design = Design {
             name: self.name,
             source: self.source,
             notes: self.notes,
             material: self.material.material()?,
             diameter_mm: self.diameter_mm,
-            cut: cut(Cuts { round_brilliant, index, tier, plane, mesh, glass })?,
+            cut: cut(Cuts { families, index, tier, plane, mesh })?,
         };
         match design.check() {
             Ok(()) => Ok(design),
@@ -163,44 +110,37 @@ impl DesignForm {
 }
 
 /// The tables by which a file may give its cut.
-struct Cuts {
-    round_brilliant: Option<TomlTable<RoundBrilliantForm>>,
+struct Cuts<'a> {
+    families: &'a [FamilyForm],
     index: Option<TomlTable<IndexForm>>,
     tier: Option<Vec<TomlTable<TierForm>>>,
     plane: Option<Vec<TomlTable<PlaneForm>>>,
     mesh: Option<TomlTable<MeshForm>>,
-    /// A glass shape and the key of its table.
-    glass: Option<(&'static str, Glass)>,
 }
 
 /// Returns the one cut that a file gives.
 fn cut(form: Cuts) -> Result<Cut, Fault> {
-    let Cuts { round_brilliant, index, tier, plane, mesh, glass } = form;
-    let glass_key = glass.map_or("glass", |(key, _)| key);
-    let glass_form = format!("[{glass_key}]");
-    let given = [
-        ("round_brilliant", "[round_brilliant]", round_brilliant.is_some()),
-        ("tier", "[[tier]]", tier.is_some() || index.is_some()),
-        ("plane", "[[plane]]", plane.is_some()),
-        ("mesh", "[mesh]", mesh.is_some()),
-        (glass_key, glass_form.as_str(), glass.is_some()),
+    let Cuts { families, index, tier, plane, mesh } = form;
+    let families_given =
+        families.iter().map(|form| (form.family.key, format!("[{}]", form.family.key), true));
+    let others = [
+        ("tier", "[[tier]]".to_owned(), tier.is_some() || index.is_some()),
+        ("plane", "[[plane]]".to_owned(), plane.is_some()),
+        ("mesh", "[mesh]".to_owned(), mesh.is_some()),
     ];
-    let mut given = given.into_iter().filter(|(.., is_given)| *is_given);
+    let mut given = families_given.chain(others).filter(|(.., is_given)| *is_given);
     if let (Some((_, first, _)), Some((key, other, _))) = (given.next(), given.next()) {
         let key = if key == "tier" && tier.is_none() { "index" } else { key };
         return Err(Fault::at(key, format!("{key}: give {first} or {other}, not both")));
     }
-    if let Some(TomlTable(form)) = round_brilliant {
-        return Ok(Cut::RoundBrilliant(form.proportions()?));
+    if let Some(form) = families.first() {
+        return form.cut();
     }
     if let Some(planes) = plane {
         return Ok(Cut::Planes(planes.into_iter().map(|TomlTable(form)| form.plane()).collect()));
     }
     if let Some(TomlTable(form)) = mesh {
         return form.shape().map(Cut::Mesh);
-    }
-    if let Some((_, glass)) = glass {
-        return Ok(Cut::Glass(glass));
     }
     match (index, tier) {
         (Some(TomlTable(index)), Some(tiers)) => Ok(Cut::Tiers(index.tiers(tiers)?)),
@@ -221,62 +161,15 @@ fn path(error: &DesignError, design: &Design) -> String {
             MaterialRef::Custom(_) => format!("material/{}", error.key()),
             MaterialRef::Name(_) | MaterialRef::Index(_) => "material".to_owned(),
         },
-        DesignError::Proportion(error) => format!("round_brilliant/{}", error.key()),
+        DesignError::Proportion(error) => {
+            format!("{}/{}", design.cut.family().map_or("", |family| family.key), error.row().key)
+        }
         DesignError::FacetCount { .. } => "tier".to_owned(),
         DesignError::Tiers { tier: None, fault } => format!("index/{}", fault.key()),
         DesignError::Tiers { tier: Some(number), fault } => format!("tier/{}/{}", number - 1, fault.key()),
         DesignError::NotConvex(_) => "mesh".to_owned(),
-        DesignError::Glass(error) => match design.cut {
-            Cut::Glass(glass) => format!("{}/{}", glass.called().0, error.key),
-            _ => error.key.to_owned(),
-        },
         DesignError::PlaneCount { .. } => format!("plane/{MAX_PLANES}"),
         DesignError::Plane { number, fault } => format!("plane/{}/{}", number - 1, fault.key()),
-    }
-}
-
-impl RoundBrilliantForm {
-    fn proportions(&self) -> Result<RoundBrilliant, Fault> {
-        Ok(RoundBrilliant {
-            table: self.table,
-            crown: either(
-                ("crown_angle", self.crown_angle, Crown::Angle),
-                ("crown_height", self.crown_height, Crown::Height),
-            )?,
-            pavilion: either(
-                ("pavilion_angle", self.pavilion_angle, Pavilion::Angle),
-                ("pavilion_depth", self.pavilion_depth, Pavilion::Depth),
-            )?,
-            star_length: self.star_length,
-            lower_half: either(
-                ("lower_half_length", self.lower_half_length, LowerHalf::Radial),
-                ("lower_half_length_vertical", self.lower_half_length_vertical, LowerHalf::Vertical),
-            )?,
-            girdle_thickness: self.girdle_thickness,
-            girdle_facets: girdle_facets(self.girdle_facets)
-                .map_err(|error| Fault::at("round_brilliant/girdle_facets", error.to_string()))?,
-            culet: self.culet,
-        })
-    }
-}
-
-/// Returns the value of a pair of keys, of which a file gives one. Each key comes with the function that takes its number;
-/// both or neither is a fault.
-fn either<T>(
-    (first, a, of_first): (&str, Option<f64>, fn(f64) -> T),
-    (second, b, of_second): (&str, Option<f64>, fn(f64) -> T),
-) -> Result<T, Fault> {
-    match (a, b) {
-        (Some(number), None) => Ok(of_first(number)),
-        (None, Some(number)) => Ok(of_second(number)),
-        (Some(_), Some(_)) => Err(Fault::at(
-            format!("round_brilliant/{second}"),
-            format!("{second}: give {first} or {second}, not both"),
-        )),
-        (None, None) => Err(Fault::at(
-            "round_brilliant",
-            format!("round_brilliant: {first} or {second} is missing; give one"),
-        )),
     }
 }
 

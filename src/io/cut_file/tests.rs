@@ -193,12 +193,12 @@ fn a_key_that_is_unknown_or_missing_is_told_with_those_that_are_known() {
     assert_message(
         &with("[round_brilliant]", ""),
         "x.toml:7: unknown key `crown_angle`, known here are `format`, `name`, `source`, `notes`, `diameter_mm`, \
-         `material`, `round_brilliant`, `index`, `tier`, `plane`, `mesh`, `pill`, `cube`, `prism`, `plate`; it belongs below a line [round_brilliant]",
+         `material`, `index`, `tier`, `plane`, `mesh`, `round_brilliant`, `pill`, `cube`, `prism`, `plate`; it belongs below a line [round_brilliant]",
     );
     assert_message(
         &with("[round_brilliant]", "[round_brillant]"),
         "x.toml:5: unknown key `round_brillant`, known here are `format`, `name`, `source`, `notes`, `diameter_mm`, \
-         `material`, `round_brilliant`, `index`, `tier`, `plane`, `mesh`, `pill`, `cube`, `prism`, `plate`; did you mean `round_brilliant`?",
+         `material`, `index`, `tier`, `plane`, `mesh`, `round_brilliant`, `pill`, `cube`, `prism`, `plate`; did you mean `round_brilliant`?",
     );
     assert_message(
         &with("\"diamond\"", "{ refraction = 2 }"),
@@ -274,6 +274,27 @@ fn lists_of_values_do_not_pass_for_tables() {
         "format = 1\nname = \"x\"\nmaterial = 2\nplane = [[\"x\", [0, 0, 1], 1]]",
         "x.toml:4: plane: invalid type: list, expected a table of keys",
     );
+}
+
+#[test]
+fn glass_shapes_read_as_written_and_their_keys_mean_what_their_tables_say() {
+    const PLATE: &str = "format = 1\nname = \"x\"\nmaterial = 1.5\n[plate]\nlength = 100\nwidth = 50\ndepth = 10\n\
+                         edge = 1\namplitude = 2\nwavelength = 60\n";
+    let design = parse(PLATE, "x.toml").unwrap();
+    let values: Vec<_> = design.cut.given().map(|(_, value)| value).collect();
+    assert_eq!(values, [100.0, 50.0, 10.0, 1.0, 2.0, 60.0, 0.0]);
+    assert_eq!(parse(&write(&design), "x.toml").unwrap(), design);
+    // A box of a light file has a width too, in degrees.
+    assert_message(
+        &PLATE.replace("width = 50\n", ""),
+        "x.toml:4: plate: the key `width` is missing (percent of the diameter)",
+    );
+    assert_message(
+        &PLATE.replace("[plate]", "[pill]"),
+        "x.toml:9: pill: unknown key `amplitude`, known here are `length`, `width`, `depth`, `edge`",
+    );
+    let both = format!("{PLATE}[cube]\nlength = 1\nwidth = 1\ndepth = 1\nedge = 0\n");
+    assert!(parse(&both, "x").unwrap_err().message.ends_with("give [cube] or [plate], not both"));
 }
 
 #[test]

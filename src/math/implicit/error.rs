@@ -7,10 +7,10 @@ use super::profile::inradius;
 const SIZES: [f64; 2] = [1e-6, 1e6];
 
 /// The greatest slope of a plate's wave. Where the slope is so steep, the plate is an eighth as thick as along z.
-const STEEPEST: f64 = 8.0;
+pub const STEEPEST: f64 = 8.0;
 
 /// The most waves along the longer side of a plate.
-const MOST_WAVES: f64 = 200.0;
+pub const MOST_WAVES: f64 = 200.0;
 
 /// Why a shape cannot be made.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
@@ -57,6 +57,19 @@ pub enum ImplicitSurfaceError {
     },
 }
 
+impl ImplicitForm {
+    /// Returns the largest radius that the edges can have, in the unit of the dimensions.
+    pub fn largest_edge(&self) -> f64 {
+        match *self {
+            Self::Pane { size, corner, .. } => corner.min(size.z / 2.0),
+            Self::Prism { size, .. } => (size.x / 2.0).min(inradius(size.y, size.z)),
+            Self::Pill { size, .. } | Self::Block { size, .. } | Self::Plate { size, .. } => {
+                size.min_element() / 2.0
+            }
+        }
+    }
+}
+
 /// Returns an error for dimensions that no shape can have.
 pub fn check(form: &ImplicitForm) -> Result<(), ImplicitSurfaceError> {
     let (ImplicitForm::Pill { size, edge }
@@ -77,11 +90,7 @@ pub fn check(form: &ImplicitForm) -> Result<(), ImplicitSurfaceError> {
             return Err(ImplicitSurfaceError::Edge { edge: corner, most });
         }
     }
-    let most = match *form {
-        ImplicitForm::Pane { corner, .. } => corner.min(size.z / 2.0),
-        ImplicitForm::Prism { .. } => (size.x / 2.0).min(inradius(size.y, size.z)),
-        _ => size.min_element() / 2.0,
-    };
+    let most = form.largest_edge();
     if edge > most {
         return Err(ImplicitSurfaceError::Edge { edge, most });
     }

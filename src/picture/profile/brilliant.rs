@@ -76,15 +76,16 @@ impl Dimensions {
     /// Returns the dimensions of a round brilliant as given and derived, in percent of the girdle diameter.
     pub(crate) fn of_brilliant(given: &RoundBrilliant, derived: &Derived) -> Self {
         let (crown, girdle) = (derived.crown_height / 50.0, given.girdle_thickness / 50.0);
-        let culet = crown - derived.total_depth / 50.0;
-        let table = given.table / 100.0;
+        let lowest = crown - derived.total_depth / 50.0;
+        let (table, culet) = (given.table / 100.0, given.culet / 100.0);
         Self {
             width: Span::new(-1.0, 1.0, 100.0),
-            total: Span::new(crown, culet, derived.total_depth),
+            culet: Span::new(-culet, culet, given.culet),
+            total: Span::new(crown, lowest, derived.total_depth),
             table: Some(Span::new(-table, table, given.table)),
             crown: Some(Span::new(crown, 0.0, derived.crown_height)),
             girdle: Some(Span::new(0.0, -girdle, given.girdle_thickness)),
-            pavilion: Some(Span::new(-girdle, culet, derived.pavilion_depth)),
+            pavilion: Some(Span::new(-girdle, lowest, derived.pavilion_depth)),
         }
     }
 }

@@ -1,0 +1,301 @@
+//! The table of proportions: every family of cuts describes its numbers by rows, one a proportion.
+//!
+//! The panel, the profile, cut files, `info`, help, errors and warnings read names, keys, units, ranges and meanings from
+//! here and nowhere else. A new family is a table of rows, a variant of [`Cut`] and a place in [`FAMILIES`].
+
+use super::glass::{CUBE, PILL, PLATE, PRISM};
+use super::round_brilliant_table::ROUND_BRILLIANT;
+use super::{Cut, Glass};
+use std::fmt;
+
+/// All families that are described by proportions, in the order in which messages list them.
+pub static FAMILIES: [&Family; 5] = [&ROUND_BRILLIANT, &PILL, &CUBE, &PRISM, &PLATE];
+
+/// A family of cuts, shaped by proportions.
+pub struct Family {
+    /// The key of the family's table in a cut file.
+    pub key: &'static str,
+    /// The name of the family in the editor.
+    pub name: &'static str,
+    /// The rows of the table: first the proportions that shape the cut, then those that only follow from them.
+    pub proportions: &'static [Proportion],
+    /// A usual cut of the family, from which one is read or designed.
+    pub first: Cut,
+}
+
+impl Family {
+    /// Returns the family that has this key in cut files.
+    pub fn of_key(key: &str) -> Option<&'static Self> {
+        FAMILIES.into_iter().find(|family| family.key == key)
+    }
+
+    /// Returns the proportions that shape the cut, without those that only follow from them.
+    pub fn editable(&'static self) -> impl Iterator<Item = &'static Proportion> {
+        self.proportions.iter().filter(|row| row.give.is_some())
+    }
+
+    /// Returns the proportion that has this key.
+    pub fn proportion(&self, key: &str) -> Option<&'static Proportion> {
+        self.proportions.iter().find(|row| row.key == key)
+    }
+}
+
+/// A row of the table: everything about one proportion of a family.
+pub struct Proportion {
+    /// The key in cut files and JSON.
+    pub key: &'static str,
+    /// The name that people read.
+    pub name: &'static str,
+    /// The unit.
+    pub unit: Unit,
+    /// What the number is a part of or measured from, as in "percent of the girdle diameter".
+    pub of: &'static str,
+    /// The meaning, in a sentence or two.
+    pub meaning: &'static str,
+    /// The least and the greatest usual value, between which its slider runs.
+    pub usual: [f64; 2],
+    /// The step of the slider; 0 for none.
+    pub step: f64,
+    /// The change for each point by which the number is dragged.
+    pub speed: f64,
+    /// The lower end of what is possible; `None` where the proportion has none of its own.
+    pub least: Option<Bound>,
+    /// The upper end of what is possible; `None` where the proportion has none of its own.
+    pub most: Option<Bound>,
+    /// GIA's range for the grade Excellent of round brilliants of diamond (GIA, 2006), where there is one.
+    pub excellent: Option<[f64; 2]>,
+    /// The value where a file gives none; `None` where a file must give one.
+    pub default: Option<f64>,
+    /// The word that stands for a number of 0 or less, where there is one.
+    pub nothing: Option<&'static str>,
+    /// The parts of the profile that are pulled to change the proportion.
+    pub handles: &'static [ProfileHandle],
+    /// Returns the value, given or derived; NaN for a cut of another family.
+    pub get: fn(&Cut) -> f64,
+    /// Gives the value: of a pair, this proportion is the given one afterwards. `None` where it only follows from others.
+    pub give: Option<fn(&mut Cut, f64)>,
+    /// Whether a cut gives this proportion, rather than that it follows from others.
+    pub is_given: fn(&Cut) -> bool,
+    /// The key of the other proportion of a pair: one of both is given, and the other follows.
+    pub pair: Option<&'static str>,
+}
+
+/// An end of what is possible.
+#[derive(Clone, Copy)]
+pub struct Bound {
+    /// The bound itself.
+    pub at: BoundAt,
+    /// Whether the bound itself is possible.
+    pub inclusive: bool,
+    /// What happens there, as a clause for a message.
+    pub reason: &'static str,
+}
+
+/// Where a bound lies.
+#[derive(Clone, Copy)]
+pub enum BoundAt {
+    /// At the same value for all cuts of the family.
+    Fixed(f64),
+    /// At a value that depends on the cut's other proportions.
+    Of(fn(&Cut) -> f64),
+}
+
+impl Bound {
+    /// Makes a bound that is itself possible.
+    pub const fn at(at: BoundAt, reason: &'static str) -> Option<Self> {
+        Some(Self { at, inclusive: true, reason })
+    }
+
+    /// Makes a bound that is itself impossible.
+    pub const fn before(at: BoundAt, reason: &'static str) -> Option<Self> {
+        Some(Self { at, inclusive: false, reason })
+    }
+}
+
+/// The unit of a proportion.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Unit {
+    /// Percent of the girdle diameter, or of what the row says.
+    Percent,
+    /// Degrees from the girdle plane, or as the row says.
+    Degrees,
+    /// A whole number.
+    Count,
+}
+
+impl Unit {
+    /// Returns the name of the unit; that of a count is empty.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Percent => "percent",
+            Self::Degrees => "degrees",
+            Self::Count => "",
+        }
+    }
+}
+
+impl fmt::Display for Unit {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Percent => " %",
+            Self::Degrees => "°",
+            Self::Count => "",
+        })
+    }
+}
+
+/// A part of the profile that is pulled to change one proportion.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ProfileHandle {
+    /// The table's corner, on the right.
+    TableEdge,
+    /// The middle of the table's line.
+    TableLine,
+    /// The middle of the right bezel.
+    CrownSlope,
+    /// The girdle's upper edge, on the left.
+    GirdleUpper,
+    /// The girdle's lower edge, on the right.
+    GirdleLower,
+    /// The middle of the right main.
+    PavilionSlope,
+    /// The culet's right corner, or the tip, pulled up and down.
+    PavilionTip,
+    /// The culet's right corner, or the tip, pulled left and right.
+    CuletEdge,
+}
+
+impl ProfileHandle {
+    /// All handles, from table to culet.
+    pub const ALL: [Self; 8] = [
+        Self::TableEdge,
+        Self::TableLine,
+        Self::CrownSlope,
+        Self::GirdleUpper,
+        Self::GirdleLower,
+        Self::PavilionSlope,
+        Self::PavilionTip,
+        Self::CuletEdge,
+    ];
+}
+
+impl fmt::Debug for Proportion {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.key)
+    }
+}
+
+/// Rows are the same where they are the same row of the same table.
+impl PartialEq for Proportion {
+    fn eq(&self, other: &Self) -> bool {
+        std::ptr::eq(self, other)
+    }
+}
+
+impl Proportion {
+    /// A row without a meaning, from which tables make theirs: a number in percent that follows from others.
+    pub const BLANK: Self = Self {
+        key: "",
+        name: "",
+        unit: Unit::Percent,
+        of: "of the girdle diameter",
+        meaning: "",
+        usual: [0.0, 100.0],
+        step: 0.1,
+        speed: 0.02,
+        least: None,
+        most: None,
+        excellent: None,
+        default: None,
+        nothing: None,
+        handles: &[],
+        get: |_| f64::NAN,
+        give: None,
+        is_given: |_| true,
+        pair: None,
+    };
+
+    /// Sets the value. Of a pair, the one that is given stays the given one; a count becomes a possible whole number.
+    pub fn set(&self, cut: &mut Cut, value: f64) {
+        let held = self.pair.filter(|_| !(self.is_given)(cut)).and_then(|key| cut.proportion(key));
+        let value = match self.unit {
+            Unit::Count => value.round().max(fixed(&self.least)).min(fixed(&self.most)),
+            Unit::Percent | Unit::Degrees => value,
+        };
+        self.give(cut, value);
+        held.into_iter().for_each(|other| other.hold(cut));
+    }
+
+    /// Makes this proportion of a pair the given one, at its present value.
+    pub fn hold(&self, cut: &mut Cut) {
+        let value = (self.get)(cut);
+        self.give(cut, value);
+    }
+
+    fn give(&self, cut: &mut Cut, value: f64) {
+        if let Some(give) = self.give {
+            give(cut, value);
+        }
+    }
+
+    /// Writes a value with its unit, to two decimals; the text is short, however large the number is.
+    pub fn written(&self, value: f64) -> String {
+        let rounded = (value * 100.0).round() / 100.0 + 0.0;
+        if value.abs() < 1e6 {
+            format!("{rounded}{}", self.unit)
+        } else {
+            format!("{value:.1e}{}", self.unit)
+        }
+    }
+
+    /// Says what a file's value stands for: its unit and what it is a part of, or the range of a count.
+    pub fn hint(&self) -> String {
+        match self.unit {
+            Unit::Count => format!("{} to {}", fixed(&self.least), fixed(&self.most)),
+            unit => format!("{} {}", unit.name(), self.of),
+        }
+    }
+}
+
+/// Returns the value of a fixed bound; NaN where there is none.
+fn fixed(bound: &Option<Bound>) -> f64 {
+    match bound {
+        Some(Bound { at: BoundAt::Fixed(value), .. }) => *value,
+        _ => f64::NAN,
+    }
+}
+
+impl Cut {
+    /// Returns the family; `None` for a cut that lists its facets or triangles.
+    pub fn family(&self) -> Option<&'static Family> {
+        match self {
+            Self::RoundBrilliant(_) => Some(&ROUND_BRILLIANT),
+            Self::Glass(Glass::Pill(_)) => Some(&PILL),
+            Self::Glass(Glass::Cube(_)) => Some(&CUBE),
+            Self::Glass(Glass::Prism(_)) => Some(&PRISM),
+            Self::Glass(Glass::Plate(_)) => Some(&PLATE),
+            Self::Tiers(_) | Self::Planes(_) | Self::Mesh(_) => None,
+        }
+    }
+
+    /// Returns the rows of the family's table; none for a cut that lists its facets or triangles.
+    pub fn proportions(&self) -> &'static [Proportion] {
+        self.family().map_or(&[], |family| family.proportions)
+    }
+
+    /// Returns the proportion that has this key in cut files.
+    pub fn proportion(&self, key: &str) -> Option<&'static Proportion> {
+        self.family()?.proportion(key)
+    }
+
+    /// Returns the proportions that the cut gives, with their values.
+    pub fn given(&self) -> impl Iterator<Item = (&'static Proportion, f64)> {
+        let given = self.family().into_iter().flat_map(Family::editable).filter(|row| (row.is_given)(self));
+        given.map(|row| (row, (row.get)(self)))
+    }
+
+    /// Returns the proportion that a part of the profile changes.
+    pub fn handled_by(&self, handle: ProfileHandle) -> Option<&'static Proportion> {
+        self.proportions().iter().find(|row| row.handles.contains(&handle))
+    }
+}

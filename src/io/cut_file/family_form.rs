@@ -1,0 +1,88 @@
+//! The tables of families of cuts, such as `[round_brilliant]`, read and written by the rows of each family.
+
+use super::Fault;
+use super::values::TomlTable;
+use crate::cut::{Cut, FAMILIES, Family, Proportion, Unit};
+use crate::io::fault::meant;
+use serde::Deserialize;
+use std::collections::BTreeMap;
+use toml::Spanned;
+use toml::de::{DeTable, Deserializer};
+
+/// A family's table in a file: its numbers, by their keys.
+pub(super) struct FamilyForm {
+    pub family: &'static Family,
+    given: BTreeMap<String, f64>,
+}
+
+impl FamilyForm {
+    /// Takes the tables of families out of the table of a whole file, and reads them.
+    pub fn take_all(file: &mut DeTable<'_>) -> Result<Vec<Self>, Fault> {
+        let mut tables = DeTable::new();
+        tables.extend(FAMILIES.into_iter().filter_map(|family| file.remove_entry(family.key)));
+        let read = BTreeMap::deserialize(Deserializer::from(Spanned::new(0..0, tables)));
+        let mut read: BTreeMap<String, TomlTable<BTreeMap<String, f64>>> = read.map_err(Fault::form)?;
+        let form =
+            |family: &'static Family| read.remove(family.key).map(|TomlTable(given)| Self { family, given });
+        Ok(FAMILIES.into_iter().filter_map(form).collect())
+    }
+
+    /// Returns the cut that the table describes. Its numbers may be out of range, but for those of counts.
+    pub fn cut(&self) -> Result<Cut, Fault> {
+        self.check_keys()?;
+        let mut cut = self.family.first.clone();
+        for row in self.family.editable() {
+            let (key, table) = (row.key, self.family.key);
+            let missing = |what: String| Err(Fault::at(table, format!("{table}: {what}")));
+            let other = row.pair.unwrap_or_default();
+            match (self.given.get(key), self.given.get(other), row.default) {
+                (Some(_), Some(_), _) => {
+                    let message = format!("{other}: give {key} or {other}, not both");
+                    return Err(Fault::at(format!("{table}/{other}"), message));
+                }
+                (Some(value), ..) => self.give(&mut cut, row, *value)?,
+                (None, None, Some(value)) => self.give(&mut cut, row, value)?,
+                (None, Some(_), _) => {}
+                _ if row.pair.is_some() => return missing(format!("{key} or {other} is missing; give one")),
+                _ => return missing(format!("the key `{key}` is missing ({})", row.hint())),
+            }
+        }
+        Ok(cut)
+    }
+
+    fn give(&self, cut: &mut Cut, row: &'static Proportion, value: f64) -> Result<(), Fault> {
+        let (table, key) = (self.family.key, row.key);
+        let fault = |message: String| Fault::at(format!("{table}/{key}"), message);
+        if row.unit == Unit::Count {
+            if value.fract() != 0.0 {
+                let hint = row.hint();
+                return Err(fault(format!(
+                    "{table}.{key}: invalid type: number `{value}`, expected a whole number ({hint})"
+                )));
+            }
+            row.check_fixed(value).map_err(|error| fault(error.to_string()))?;
+        }
+        row.give.into_iter().for_each(|give| give(cut, value));
+        Ok(())
+    }
+
+    fn check_keys(&self) -> Result<(), Fault> {
+        let known: Vec<&str> = self.family.editable().map(|row| row.key).collect();
+        let Some(key) = self.given.keys().find(|key| !known.contains(&key.as_str())) else { return Ok(()) };
+        let (table, list) = (self.family.key, known.join("`, `"));
+        let message = format!("{table}: unknown key `{key}`, known here are `{list}`{}", meant(key, &known));
+        Err(Fault::at(format!("{table}/{key}"), message))
+    }
+}
+
+/// Returns the table of a family as a file has it, for a cut of that family.
+pub(super) fn written(family: &Family, cut: &Cut) -> String {
+    let number = |(row, value): (&Proportion, f64)| {
+        let value = match row.unit {
+            Unit::Count => toml::Value::from(value as i64),
+            Unit::Percent | Unit::Degrees => toml::Value::from(value),
+        };
+        format!("{} = {value}\n", row.key)
+    };
+    format!("\n[{}]\n{}", family.key, cut.given().map(number).collect::<String>())
+}
