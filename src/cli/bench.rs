@@ -164,7 +164,7 @@ fn under_light(specimen: &LoadedSpecimen, card: RayTracer) -> Result<Task, Failu
     let light = Light::lamps_on_dome();
     let (sky, view) = (EnvironmentMap::new(&light, None), View::default());
     let polytope = polytope(specimen)?;
-    let stone = Instance::named(&specimen.body, specimen.material.clone(), &specimen.design.name);
+    let stone = Instance::of(&specimen.body, specimen.material.clone(), &specimen.design.name);
     let setting = Scene { instances: vec![stone], unit_mm: specimen.design.diameter_mm / 2.0 };
     let film = Film::around(polytope, &view.basis(), size);
     let basis = view.light_basis();

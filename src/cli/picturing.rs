@@ -165,22 +165,14 @@ impl<'a> PictureSetup<'a> {
     /// [`Failure::Input`] where the eye of a perspective is not in front of all stones.
     pub fn pixel(&self, setting: &Scene, view: &View) -> Result<f64, Failure> {
         let stones = &setting.instances;
-        let reach = stones.iter().flat_map(|s| s.solid.vertices()).map(|v| v.length()).fold(0.0, f64::max);
+        let reach = stones.iter().map(|s| s.solid().reach()).fold(0.0, f64::max);
         let camera = Camera::reaching(view, reach);
-        let extent = stones.iter().try_fold(DVec2::ZERO, |all, s| Some(all.max(camera.extent(&s.solid)?)));
-        let Some(extent) = extent else {
+        let Some(extent) = camera.extent(stones.iter().flat_map(|s| s.solid().vertices())) else {
             let message = "the eye of --perspective is not in front of all of it; move it farther off";
             return Err(Failure::Input(format!("{}: {message}", self.assembly.path)));
         };
         let size = DVec2::new(f64::from(self.options.size[0]), f64::from(self.options.size[1]));
         Ok((2.0 * extent * (1.0 + MARGIN) / size).max_element())
-    }
-
-    /// Returns the stones turned about the z axis by an angle in radians.
-    pub fn turned(&self, angle: f64) -> Scene {
-        let turn = DQuat::from_rotation_z(angle);
-        let stones = self.assembly.setting.instances.iter().cloned().map(|s| s.moved(1.0, turn, DVec3::ZERO));
-        Scene { instances: stones.collect(), ..self.assembly.setting }
     }
 
     /// Takes a picture with pixels of the side `pixel`. Where the card fails, the processor traces this picture and all
@@ -261,8 +253,12 @@ impl<'a> PictureSetup<'a> {
             self.with_lit_scene(setting, (view, pixel), |lit_scene| ray::facet_at(lit_scene, at.x, at.y));
         let Some((stone, facet)) = found else { return "nothing".into() };
         let placed = &self.assembly.setting.instances[stone];
-        let name =
-            placed.names.get(facet as usize).cloned().unwrap_or_else(|| format!("facet {}", facet + 1));
+        let name = placed
+            .body
+            .names()
+            .get(facet as usize)
+            .cloned()
+            .unwrap_or_else(|| format!("facet {}", facet + 1));
         if self.assembly.setting.instances.len() == 1 {
             return name;
         }

@@ -71,7 +71,7 @@ impl Demands {
 
     /// Returns the demands of a picture under light. `strength` is how much of the way refraction is followed: 1 is physics.
     pub fn of_light(scene: &Scene, view: &View, has_backplate: bool, strength: f64) -> Self {
-        let is_alone = matches!(&*scene.instances, [only] if only.solid.polytope().is_ok());
+        let is_alone = matches!(&*scene.instances, [only] if only.body.stone().is_ok());
         let fits = is_alone && !has_backplate && view.projection == Projection::Orthographic;
         let against_beams = match fits {
             _ if strength < 1.0 => Some(Unfit::Mixture),

@@ -159,8 +159,8 @@ pub fn hung(shot: &Shot) -> f64 {
 /// Returns the scene that a shot shows.
 pub fn scene_of(shot: &Shot) -> Scene {
     let placed = |pose: &Pose| {
-        let body = Instance::named(&shot.specimen.body, shot.specimen.material.clone(), "");
-        if *pose == Pose::STILL { body } else { body.moved(1.0, pose.turn, pose.at) }
+        let stone = Instance::of(&shot.specimen.body, shot.specimen.material.clone(), "");
+        Instance { pose: *pose, ..stone }
     };
     Scene { instances: shot.company.iter().map(placed).collect(), unit_mm: shot.specimen.unit_mm() }
 }

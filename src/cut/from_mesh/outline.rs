@@ -3,7 +3,7 @@
 use super::even::Even;
 use super::{Alignment, FromMeshError};
 use crate::cut::Outline;
-use crate::math::{Calipers, Plane, Polytope, hull};
+use crate::math::{Calipers, Plane, Polytope, Pose, hull};
 use glam::{DQuat, DVec2, DVec3};
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -33,7 +33,7 @@ pub(super) fn placed(even: &Even, areas: &[f64]) -> Result<Alignment, FromMeshEr
     let solid = Polytope::from_planes(&even.planes)?;
     let around = hull(solid.vertices().iter().map(|v| v.truncate()).collect());
     let turn = DQuat::from_rotation_z(-azimuth(even, areas, &around));
-    let Outline { diameter, girdle_top, middle, .. } = Outline::of(&solid.moved(1.0, turn, DVec3::ZERO));
+    let Outline { diameter, girdle_top, middle, .. } = Outline::of(&solid.reframed(&Pose::turned(turn)));
     let top = girdle_edge(&solid).unwrap_or(girdle_top);
     // The middle of a stone with rotational symmetry lies exactly on the axis.
     let middle = if even.turns > 1 { DVec2::ZERO } else { middle };

@@ -39,7 +39,7 @@ pub fn measure<'a>(
     let scope = scoped.with_head(viewing.head_deg);
     let unresolved = viewing.unresolved.unwrap_or(UNRESOLVED);
     let bounds = Bounds { unresolved, polarised: viewing.polarised, lattice: LATTICE };
-    let view = viewing.viewpoint.view();
+    let view = viewing.view();
     let subject = Subject { specimen: viewing.specimen, medium: viewing.medium, view: &view, scope: &scope };
     let start = Instant::now();
     let by = |tracer| {

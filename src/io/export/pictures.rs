@@ -101,7 +101,7 @@ impl<'a> Pictures<'a> {
     fn scoped(&mut self, name: &str, scoped: &Scoped, watch: Watch) -> Result<(), Failure> {
         let viewing = self.viewing.facing(scoped.side);
         let scope = scoped.with_head(viewing.head_deg);
-        let (suffix, view) = (self.viewing.suffix(scoped), viewing.viewpoint.view());
+        let (suffix, view) = (self.viewing.suffix(scoped), viewing.view());
         let plate = Plate { name, suffix, scope, viewing, view, glare: viewing.glare.unwrap_or_default() };
         match viewing.tracer {
             Tracer::Beams => self.by_beams(&plate, watch),

@@ -3,8 +3,9 @@
 use super::event::{Event, Reporter};
 use crate::io::Failure;
 use crate::picture::Scoped;
-use crate::scene::{Glare, Medium, Side, Specimen, Stone, Viewpoint};
+use crate::scene::{Glare, Medium, Side, Specimen, Stone, View, Viewpoint};
 use crate::trace::{CannotTrace, Tracer, beam, ray};
+use glam::DQuat;
 
 /// The part of the light that may stay unresolved without a warning where no bound was requested.
 const UNASKED: f64 = 1e-3;
@@ -44,6 +45,11 @@ impl Viewing<'_> {
         Self { viewpoint: self.viewpoint.facing(side), ..self }
     }
 
+    /// Returns the view of the stone as it is turned.
+    pub(super) fn view(&self) -> View {
+        self.viewpoint.view().of_turned(DQuat::from_rotation_z(self.turned_deg.to_radians()))
+    }
+
     /// The part of the names of a picture's files that describes the view, without the side where the picture has a side of
     /// its own.
     pub(super) fn suffix(&self, scoped: &Scoped) -> String {
@@ -66,7 +72,7 @@ impl Viewing<'_> {
     /// [`Failure::Input`] where the eye is not in front of the whole stone, [`Failure::Usage`] where exact beams would have
     /// to trace a perspective or a body that is not convex.
     pub fn check(&self) -> Result<(), Failure> {
-        let can = self.tracer.check(self.specimen, &self.viewpoint.view());
+        let can = self.tracer.check(self.specimen, &self.view());
         can.map_err(|why| self.cannot(why))
     }
 
