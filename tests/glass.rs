@@ -13,6 +13,7 @@ use brillianteer::scene::{
 use brillianteer::trace::ray::{Camera, Exit, InstanceTracer, RayOptions, StoneTracer};
 use brillianteer::trace::unwatched;
 use glam::{DQuat, DVec2, DVec3};
+use std::sync::Arc;
 
 fn solid(form: ImplicitForm) -> Body {
     ImplicitSurface::new(form).unwrap().into()
@@ -253,7 +254,7 @@ fn turning_and_scaling_a_body_changes_nothing() {
     let cut =
         Specimen::new(brillianteer::io::cut_file::parse(include_str!("../cuts/tolkowsky.toml"), "").unwrap());
     let stone = (*cut.unwrap().body).clone();
-    let mesh = TriangleMesh::of_polytope(&stone.stone().unwrap().polytope).into();
+    let mesh = Body::from(Arc::new(TriangleMesh::of_polytope(&stone.stone().unwrap().polytope)));
     let pose = Pose { at: DVec3::new(0.3, -4.0, 1.0), turn: DQuat::from_rotation_x(0.7), scale: 2.5 };
     for (name, body) in every_shape().into_iter().chain([("stone", stone), ("mesh", mesh)]) {
         let still = Instance::new(body, Material::from_index("glass", 1.5).unwrap());

@@ -158,7 +158,7 @@ impl ImplicitSurface {
     /// The direction is a unit vector. From a start inside, the distance is 0 if the ray leads deeper. `None` if the ray
     /// does not enter, or if a thousand steps do not lead to the place.
     pub fn entry(&self, origin: DVec3, direction: DVec3) -> Option<f64> {
-        self.entry_counted(origin, direction).0
+        self.way_in(origin, direction, &mut 0)
     }
 
     /// Returns the distance, 0 or more, at which a ray from inside or from the surface next leaves.
@@ -166,7 +166,7 @@ impl ImplicitSurface {
     /// The direction is a unit vector. `None` if rounding has let the ray slip out, which happens only to rays that run
     /// along the surface, or if a thousand steps do not lead to the place.
     pub fn exit(&self, point: DVec3, direction: DVec3) -> Option<f64> {
-        self.exit_counted(point, direction).0
+        self.way_out(point, direction, &mut 0)
     }
 
     /// Returns a distance from the origin that no point of the shape exceeds. For a convex form it is the distance of the

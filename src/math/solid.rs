@@ -136,6 +136,16 @@ impl<'a> SolidRef<'a> {
         if let Self::Triangles(shell) = self { shell.reach() } else { reach(self.vertices()) }
     }
 
+    /// Returns the solid as triangles; those of a smooth solid approximate its surface from within, and `None` means that they
+    /// enclose nothing.
+    pub fn mesh(self) -> Option<Arc<TriangleMesh>> {
+        match self {
+            Self::Convex(polytope) => Some(Arc::new(TriangleMesh::of_polytope(polytope))),
+            Self::Triangles(shell) => Some(Arc::clone(shell)),
+            Self::Smooth(smooth) => TriangleMesh::new(smooth.surface().clone()).ok().map(Arc::new),
+        }
+    }
+
     /// Whether both are one solid in memory, so that what is built for one of them serves the other as well.
     pub fn is_same(self, other: Self) -> bool {
         match (self, other) {

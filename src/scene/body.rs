@@ -74,12 +74,6 @@ impl From<Arc<TriangleMesh>> for Body {
     }
 }
 
-impl From<TriangleMesh> for Body {
-    fn from(shell: TriangleMesh) -> Self {
-        Self::Mesh(Arc::new(shell))
-    }
-}
-
 impl From<ImplicitSurface> for Body {
     fn from(field: ImplicitSurface) -> Self {
         Self::Glass(SmoothSolid::new(field))

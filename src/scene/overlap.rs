@@ -1,9 +1,8 @@
 //! Finds stones that overlap.
 
 use super::Instance;
-use crate::math::{Ball, Plane, Polytope, PolytopeError, PosedSolid, SolidRef, TriangleMesh};
+use crate::math::{Ball, Plane, Polytope, PolytopeError, PosedSolid, SolidRef};
 use glam::DVec3;
-use std::sync::Arc;
 
 /// Stones that share no more than this part of their size only touch. It is far above what rounding does to a layout.
 const TOUCHING: f64 = 1e-8;
@@ -58,7 +57,7 @@ fn share(planes: impl Iterator<Item = Plane>, middle: DVec3, depth: f64) -> bool
 
 /// Returns whether an edge of `a`, shrunk a little toward its middle, runs into `b` or begins inside `b`.
 fn cross(a: &PosedSolid, b: &PosedSolid, middle: DVec3) -> bool {
-    let (Some(shell_a), Some(shell_b)) = (shell(a.solid), shell(b.solid)) else { return false };
+    let (Some(shell_a), Some(shell_b)) = (a.solid.mesh(), b.solid.mesh()) else { return false };
     // The edges of `a` are carried into the frame of `b`.
     let corner = |v: &DVec3| b.pose.unplace(middle + (a.pose.place(*v) - middle) * (1.0 - TOUCHING));
     let corners: Vec<DVec3> = shell_a.vertices().iter().map(corner).collect();
@@ -75,21 +74,13 @@ fn cross(a: &PosedSolid, b: &PosedSolid, middle: DVec3) -> bool {
     })
 }
 
-/// Returns the triangles of a solid. Those of a smooth solid approximate its surface from within.
-fn shell(solid: SolidRef) -> Option<Arc<TriangleMesh>> {
-    match solid {
-        SolidRef::Convex(polytope) => Some(Arc::new(TriangleMesh::of_polytope(polytope))),
-        SolidRef::Triangles(shell) => Some(Arc::clone(shell)),
-        SolidRef::Smooth(smooth) => TriangleMesh::new(smooth.surface().clone()).ok().map(Arc::new),
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::math::Pose;
+    use crate::math::{Pose, TriangleMesh};
     use crate::optics::Material;
     use glam::DQuat;
+    use std::sync::Arc;
 
     /// Returns a cube of side 2, turned and moved.
     fn cube(turn: DQuat, shift: DVec3) -> Instance {
@@ -120,7 +111,7 @@ mod tests {
     fn stones_of_triangles_are_told_apart_like_those_of_planes() {
         let triangles = |stone: Instance| {
             let polytope = &stone.body.stone().unwrap().polytope;
-            Instance::new(TriangleMesh::of_polytope(polytope), stone.material).moved(&stone.pose)
+            Instance::new(Arc::new(TriangleMesh::of_polytope(polytope)), stone.material).moved(&stone.pose)
         };
         let turned = DQuat::from_rotation_z(std::f64::consts::FRAC_PI_4);
         let pair = |x: f64| {
@@ -131,7 +122,7 @@ mod tests {
         assert_eq!((pair(1.42), pair(1.41)), ((None, None), (Some((0, 1)), Some((0, 1)))));
         let (vertices, all) = crate::math::fixture::clasp(1.0);
         let clasp = TriangleMesh::new(crate::math::Surface::new(vertices, all)).unwrap();
-        let clasp = Instance::new(clasp, Material::from_index("glass", 1.5).unwrap());
+        let clasp = Instance::new(Arc::new(clasp), Material::from_index("glass", 1.5).unwrap());
         // A cube is free in the clasp's gap. In its bar it is not, not even wholly inside it.
         let small = |x: f64, y: f64, scale: f64| {
             cube(DQuat::IDENTITY, DVec3::ZERO).moved(&Pose {

@@ -34,18 +34,6 @@ const ROUNDING: f64 = 4.0 * f64::EPSILON;
 const NEAR: f64 = 0.5;
 
 impl ImplicitSurface {
-    /// Does the work of [`entry`](Self::entry), and returns the number of steps as well.
-    pub(super) fn entry_counted(&self, origin: DVec3, direction: DVec3) -> (Option<f64>, u32) {
-        let mut steps = 0;
-        (self.way_in(origin, direction, &mut steps), steps)
-    }
-
-    /// Does the work of [`exit`](Self::exit), and returns the number of steps as well.
-    pub(super) fn exit_counted(&self, point: DVec3, direction: DVec3) -> (Option<f64>, u32) {
-        let mut steps = 0;
-        (self.way_out(point, direction, &mut steps), steps)
-    }
-
     /// Returns the distance along a line of its point nearest to the origin, and how far from there the shape can reach at
     /// most.
     ///
@@ -58,7 +46,8 @@ impl ImplicitSurface {
         meets.then(|| (nearest, reach / squared.sqrt()))
     }
 
-    fn way_in(&self, o: DVec3, v: DVec3, steps: &mut u32) -> Option<f64> {
+    /// Does the work of [`entry`](Self::entry), and adds up the steps.
+    pub(super) fn way_in(&self, o: DVec3, v: DVec3, steps: &mut u32) -> Option<f64> {
         let (nearest, half) = self.span(o, v)?;
         let bend = self.wave.map_or(0.0, |wave| wave.most_bend(v));
         let mut t = (nearest - half).max(0.0);
@@ -82,7 +71,8 @@ impl ImplicitSurface {
         None
     }
 
-    fn way_out(&self, o: DVec3, v: DVec3, steps: &mut u32) -> Option<f64> {
+    /// Does the work of [`exit`](Self::exit), and adds up the steps.
+    pub(super) fn way_out(&self, o: DVec3, v: DVec3, steps: &mut u32) -> Option<f64> {
         let bend = self.wave.map_or(0.0, |wave| wave.most_bend(v));
         let mut t = 0.0;
         while *steps < MOST_STEPS {

@@ -164,8 +164,11 @@ fn walk(field: &ImplicitSurface, origin: DVec3, direction: DVec3) -> (Vec<f64>, 
     loop {
         let goes_in = found.len() % 2 == 0;
         let from = origin + direction * t;
-        let (step, steps) =
-            if goes_in { field.entry_counted(from, direction) } else { field.exit_counted(from, direction) };
+        let mut steps = 0;
+        let step = match goes_in {
+            true => field.way_in(from, direction, &mut steps),
+            false => field.way_out(from, direction, &mut steps),
+        };
         let Some(step) = step else { return (found, !goes_in || steps >= roots::MOST_STEPS) };
         let stays = t + step <= t && found.len() > 2;
         t += step;
@@ -422,11 +425,13 @@ fn field_times() {
         let (mut steps, mut most, mut lost) = ([0_u64; 2], [0; 2], 0);
         let mut met = vec![];
         for &(o, d) in &rays {
-            let (t, count) = field.entry_counted(o, d);
+            let mut count = 0;
+            let t = field.way_in(o, d, &mut count);
             (steps[0], most[0]) = (steps[0] + u64::from(count), most[0].max(count));
             lost += i32::from(t.is_none() && count >= roots::MOST_STEPS);
             if let Some(t) = t {
-                let (exit, count) = field.exit_counted(o + d * t, d);
+                let mut count = 0;
+                let exit = field.way_out(o + d * t, d, &mut count);
                 (steps[1], most[1]) = (steps[1] + u64::from(count), most[1].max(count));
                 lost += i32::from(exit.is_none());
                 met.push((o + d * t, d));

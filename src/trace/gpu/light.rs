@@ -78,7 +78,7 @@ impl<'a> ByCard<'a> {
         };
         let frame = eye.frame(gpu, &solids, wavelengths);
         solids.enough(gpu, frame.counts[2], lit_scene.options.most_bounces)?;
-        let pipeline = gpu.lights.pipeline(&gpu.device, solids.facets);
+        let pipeline = gpu.lights.pipeline(&gpu.device, solids.surfaces.facets);
         let stage = Stage::new::<gpu_types::RadiancePixel>(gpu, pipeline, frame, rows.len() as u32, entries)?;
         let at_once = Stage::rows(gpu, lit_scene.film.size);
         Ok(Self {

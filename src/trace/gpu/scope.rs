@@ -82,7 +82,13 @@ fn stage<'a>(gpu: &'a Gpu, shot: &ScopeShot, rows: u32) -> Result<Stage<'a>, Gpu
     entries.push(wgpu::BindGroupEntry { binding: 6, resource: bands.as_entire_binding() });
     let eye = GpuCamera { view: shot.view, film: shot.film, reach, options: shot.options };
     let frame = eye.frame(gpu, &solids, 1);
-    Stage::new::<ScopePixel>(gpu, gpu.scopes.pipeline(&gpu.device, solids.facets), frame, rows, entries)
+    Stage::new::<ScopePixel>(
+        gpu,
+        gpu.scopes.pipeline(&gpu.device, solids.surfaces.facets),
+        frame,
+        rows,
+        entries,
+    )
 }
 
 fn bands(shot: &ScopeShot) -> Bands {

@@ -45,27 +45,24 @@ pub(super) fn most_turns(gpu: &Gpu) -> u32 {
 /// The least number of bounces: with fewer, pictures of stones would be dark.
 const LEAST_BOUNCES: u32 = 12;
 
-/// The surfaces of all stones of a picture in a card's memory, and the place of each stone.
+/// The stones of a picture in a card's memory.
 pub(super) struct Solids {
-    pub facets: ShaderSurface,
-    pub bodies: wgpu::Buffer,
-    /// Planes, or triangles, or glass shapes.
-    pub planes: wgpu::Buffer,
-    /// Clusters of planes, or boxes of triangles.
-    pub clusters: wgpu::Buffer,
+    pub surfaces: Surfaces,
+    bodies: wgpu::Buffer,
     /// The unit of length in which the shader traces each stone, in units of the stone's body.
     pub units: Vec<f64>,
-    /// The number of planes and clusters of the largest stone.
-    largest: usize,
 }
 
 /// The surfaces of bodies, each once however many stones are made of it.
-struct Surfaces {
-    facets: ShaderSurface,
+pub(super) struct Surfaces {
+    pub facets: ShaderSurface,
+    /// Planes, or triangles, or glass shapes.
     planes: wgpu::Buffer,
+    /// Clusters of planes, or boxes of triangles.
     clusters: wgpu::Buffer,
     /// Where the surface of each body is kept, as in [`Body`].
     ranges: Vec<[u32; 4]>,
+    /// The number of planes and clusters of the largest body.
     largest: usize,
 }
 
@@ -158,13 +155,13 @@ impl Solids {
                 solids.push(stone.solid);
             }
         }
-        let Surfaces { facets, planes, clusters, ranges, largest } = Surfaces::new(gpu, &solids)?;
+        let surfaces = Surfaces::new(gpu, &solids)?;
         let units: Vec<f64> = stones.iter().map(|stone| unit(stone.solid)).collect();
         let body = |(k, stone): (usize, &PosedSolid)| {
             let (Ball { middle, radius }, pose) = (stone.ball(), &stone.pose);
             Body {
                 middle: with(middle, radius),
-                range: ranges[place_of[k]],
+                range: surfaces.ranges[place_of[k]],
                 turn: pose.turn.to_array().map(|x| x as f32),
                 place: with(pose.at, pose.scale * units[k]),
             }
@@ -172,7 +169,7 @@ impl Solids {
         let mut bodies: Vec<Body> = stones.iter().enumerate().map(body).collect();
         bodies.resize(MOST_BODIES, Body { middle: [0.0; 4], range: [0; 4], turn: [0.0; 4], place: [0.0; 4] });
         let bodies = gpu.buffer("stones", bytemuck::cast_slice(&bodies), wgpu::BufferUsages::UNIFORM);
-        Ok(Self { facets, bodies, planes, clusters, units, largest })
+        Ok(Self { surfaces, bodies, units })
     }
 
     /// Returns the number of stones.
@@ -182,15 +179,15 @@ impl Solids {
 
     /// Returns how many of the wanted bounces the card can follow.
     pub fn bounces(&self, gpu: &Gpu, wanted: u32) -> u32 {
-        if !gpu.is_software() || self.facets.count_turns() {
+        if !gpu.is_software() || self.surfaces.facets.count_turns() {
             return wanted;
         }
         if self.count() == 1 {
-            return wanted.min((MOST_TURNS_IN_SOFTWARE / self.largest) as u32);
+            return wanted.min((MOST_TURNS_IN_SOFTWARE / self.surfaces.largest) as u32);
         }
         // Every ray that waits is followed like the first, and each exit is looked for in all stones.
         let turns = MOST_TURNS_IN_SOFTWARE / (1 + MOST_WAITING);
-        wanted.min((turns / (self.largest * (1 + self.count()))) as u32)
+        wanted.min((turns / (self.surfaces.largest * (1 + self.count()))) as u32)
     }
 
     /// Checks that so many bounces are enough for a picture that wants `wanted` of them.
@@ -207,9 +204,9 @@ impl Solids {
             binding,
             resource: buffer.as_entire_binding(),
         };
-        let mut entries = vec![entry(1, &self.planes), entry(4, &self.bodies), entry(5, media)];
-        if matches!(self.facets, ShaderSurface::Many | ShaderSurface::Triangles) {
-            entries.push(entry(3, &self.clusters));
+        let mut entries = vec![entry(1, &self.surfaces.planes), entry(4, &self.bodies), entry(5, media)];
+        if matches!(self.surfaces.facets, ShaderSurface::Many | ShaderSurface::Triangles) {
+            entries.push(entry(3, &self.surfaces.clusters));
         }
         entries
     }

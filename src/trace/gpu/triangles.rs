@@ -37,11 +37,8 @@ impl GpuTriangles {
 
 /// Returns a solid as triangles; a convex stone's facets are triangulated.
 fn shell(solid: &SolidRef) -> Result<Arc<TriangleMesh>, GpuError> {
-    match solid {
-        SolidRef::Convex(polytope) => Ok(Arc::new(TriangleMesh::of_polytope(polytope))),
-        SolidRef::Triangles(shell) => Ok(Arc::clone(shell)),
-        SolidRef::Smooth(_) => Err(GpuError::MixedKinds),
-    }
+    let flat = Some(solid).filter(|solid| !matches!(solid, SolidRef::Smooth(_)));
+    flat.and_then(|solid| solid.mesh()).ok_or(GpuError::MixedKinds)
 }
 
 fn triangle(shell: &TriangleMesh, k: usize) -> Triangle {
