@@ -1,4 +1,4 @@
-// Flat facets: what trace.wgsl needs to trace them, in the world's frame.
+// Flat facets: what trace.wgsl needs to trace them.
 
 const IS_CURVED: bool = false;
 
@@ -10,17 +10,8 @@ fn turned_normal(point: vec3f, by: vec3f) -> vec3f {
     return vec3f(0.0);
 }
 
-fn unit() -> f32 {
-    return 1.0;
-}
-
-fn outward(ray: Ray) -> Ray {
-    return ray;
-}
-
-// Returns unpolarised light of this weight that meets the body at `met`.
-fn arriving(ray: Ray, met: Meeting, weight: f32) -> Inbound {
-    return inbound_of(ray, vec3f(0.0), met, weight);
+fn polished(point: vec3f) -> vec3f {
+    return point;
 }
 
 fn again(origin: vec3f, direction: vec3f) -> Meeting {

@@ -1,5 +1,4 @@
-// Intersection of rays with glass shapes (implicit surfaces). Each is traced in its own frame, in which it reaches 1 from
-// the origin. The twin of src/math/implicit/roots.rs and of src/trace/ray/facets.rs.
+// Intersection of rays with glass shapes (implicit surfaces). In its frame each reaches 1 from the origin. The twin of src/math/implicit/roots.rs and of src/trace/ray/facets.rs.
 
 @group(0) @binding(1) var<storage, read> fields: array<ImplicitSurface>;
 
@@ -20,44 +19,10 @@ fn present_field() -> ImplicitSurface {
     return fields[body.range.x];
 }
 
-// Returns the length in the world of one unit of the present body's frame.
-fn unit() -> f32 {
-    return fields[body.range.x].shift.w;
-}
-
-// Turns a vector of the world into the shape's frame.
-fn own_vector(shape: ImplicitSurface, v: vec3f) -> vec3f {
-    return vec3f(dot(shape.right.xyz, v), dot(shape.back.xyz, v), dot(shape.up.xyz, v));
-}
-
-// Turns a vector of the shape's frame into the world.
-fn world_vector(shape: ImplicitSurface, v: vec3f) -> vec3f {
-    return shape.right.xyz * v.x + shape.back.xyz * v.y + shape.up.xyz * v.z;
-}
-
-// Transforms a point of the world into the shape's frame.
-fn own(shape: ImplicitSurface, point: vec3f) -> vec3f {
-    return own_vector(shape, point - shape.shift.xyz) / shape.shift.w;
-}
-
-// Transforms a ray of the present body's frame into the world.
-fn outward(ray: Ray) -> Ray {
-    let shape = present_field();
-    let origin = world_vector(shape, ray.origin) * shape.shift.w + shape.shift.xyz;
-    return Ray(origin, world_vector(shape, ray.direction), world_vector(shape, ray.sweep));
-}
-
-// Returns unpolarised light of this weight that meets the body at `met`, in the body's frame. Its ray starts on the surface,
-// so that a long way to the body costs no digits.
-fn arriving(ray: Ray, met: Meeting, weight: f32) -> Inbound {
-    let shape = present_field();
-    let direction = own_vector(shape, ray.direction);
-    let distance = met.distance / shape.shift.w;
-    let point = own(shape, ray.origin) + direction * distance;
-    let jet = jet_at(shape, point, vec3f(0.0));
-    let polished = point - jet.gradient * (jet.value / max(dot(jet.gradient, jet.gradient), LEAST_RADIUS));
-    let own_ray = Ray(polished, direction, own_vector(shape, ray.sweep));
-    return inbound_of(own_ray, own_ray.sweep * distance, Meeting(met.facet, 0.0), weight);
+// Returns a point near the surface moved onto it.
+fn polished(point: vec3f) -> vec3f {
+    let jet = jet_at(present_field(), point, vec3f(0.0));
+    return point - jet.gradient * (jet.value / max(dot(jet.gradient, jet.gradient), LEAST_RADIUS));
 }
 
 fn facet_normal(facet: u32, point: vec3f) -> vec3f {
@@ -69,12 +34,10 @@ fn turned_normal(point: vec3f, by: vec3f) -> vec3f {
 }
 
 fn entry(origin: vec3f, direction: vec3f) -> Meeting {
-    let shape = present_field();
-    let distance = way_in(shape, own(shape, origin), own_vector(shape, direction));
-    return Meeting(0u, distance * shape.shift.w);
+    return Meeting(0u, way_in(present_field(), origin, direction));
 }
 
-// Returns where light that leaves the body enters it again, in the body's frame; only a shape with a wave is not convex.
+// Returns where light that leaves the body enters it again; only a shape with a wave is not convex.
 fn again(origin: vec3f, direction: vec3f) -> Meeting {
     let shape = present_field();
     if !has_wave(shape) {
@@ -170,10 +133,10 @@ fn far_step(shape: ImplicitSurface, p: vec3f, on: vec3f, at: vec2f, bend_at_most
     let level = max(at.x, 0.0);
     let depth = max(-at.x, 0.0);
     let squared = dot(on, on);
-    let beyond = shape.up.w / sqrt(squared) - dot(p, on) / squared;
+    let beyond = shape.size.z / sqrt(squared) - dot(p, on) / squared;
     // Farther on, the displacement alone puts every point outside the body. The function is convex: its root is no farther
     // than the tangent's.
-    var s = min(beyond, sqrt(2.0 * (shape.right.w + shape.back.w) / max(bend_at_most, LEAST_GAP)));
+    var s = min(beyond, sqrt(2.0 * (shape.size.x + shape.size.y) / max(bend_at_most, LEAST_GAP)));
     if at.y > 0.0 {
         s = min(s, depth / at.y);
     }

@@ -74,18 +74,18 @@ fn triangle_jet(shape: ImplicitSurface, p: vec3f, by: vec3f, sharp: bool) -> Jet
 
 // The twin of `RoundedBody::jet` for a point on the surface or on the way to it.
 fn body_jet(shape: ImplicitSurface, p: vec3f, by: vec3f) -> Jet {
-    let sharp = shape.back.w == 0.0;
+    let sharp = shape.size.y == 0.0;
     var outline: Jet;
     var end: Jet;
     if shape.outline.w > 0.0 {
         outline = triangle_jet(shape, p, by, sharp);
-        end = plane_jet(abs(p.x) - shape.right.w, vec3f(sign_of(p.x), 0.0, 0.0));
+        end = plane_jet(abs(p.x) - shape.size.x, vec3f(sign_of(p.x), 0.0, 0.0));
     } else {
         outline = rectangle_jet(shape, p, by, sharp);
-        end = plane_jet(abs(p.z) - shape.right.w, vec3f(0.0, 0.0, sign_of(p.z)));
+        end = plane_jet(abs(p.z) - shape.size.x, vec3f(0.0, 0.0, sign_of(p.z)));
     }
     var jet = shared_by(outline, end, by, sharp);
-    jet.value -= shape.back.w;
+    jet.value -= shape.size.y;
     return jet;
 }
 

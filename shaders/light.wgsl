@@ -55,7 +55,7 @@ fn meets_any(ray: Ray, left: u32, before: f32) -> bool {
     for (var k = 0u; k < frame.counts.x; k++) {
         if !found && k != left && is_near(k, ray) {
             body = bodies[k];
-            let distance = entry(ray.origin, ray.direction).distance;
+            let distance = meet(ray.origin, ray.direction).distance;
             found = distance > 0.0 && distance < before;
         }
     }
@@ -91,7 +91,7 @@ fn nearest(ray: Ray, left: u32) -> Meeting {
             continue;
         }
         body = bodies[k];
-        let met = entry(ray.origin, ray.direction);
+        let met = meet(ray.origin, ray.direction);
         if met.distance > 0.0 && (first.distance < 0.0 || met.distance < first.distance) {
             first = met;
             present = k;

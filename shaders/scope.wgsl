@@ -58,7 +58,7 @@ fn scope(@builtin(global_invocation_id) id: vec3u) {
     let turn = frame.turn.x;
     let cell = vec2f(f32(turn % grid), f32(turn / grid));
     let ray = pixel_ray(pixel, (cell + frame.limits.zw) / f32(grid));
-    let entered = entry(ray[0], ray[1]);
+    let entered = meet(ray[0], ray[1]);
     if entered.distance >= 0.0 {
         let rest = follow(Ray(ray[0], ray[1], vec3f(0.0)), entered, 1.0);
         sum.rest = vec4f(rest.absorbed, rest.unresolved, 1.0, 0.0);

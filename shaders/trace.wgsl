@@ -1,7 +1,6 @@
 // One chain of bounces: the twin of src/trace/ray.rs. Light that leaves the stone goes to `depart` and from there to
-// `leave`, which scope.wgsl or light.wgsl defines. The surface is known through `entry`, `next_facet` and `facet_normal`. A
-// curved body is traced in its own frame: `arriving` transforms into it, `outward` out of it, and `unit` is its unit of
-// length.
+// `leave`, which scope.wgsl or light.wgsl defines. The surface is known through `entry`, `next_facet` and `facet_normal`.
+// Everything here is in the frame of the body, in which lengths and absorption have its unit; pose.wgsl leads there and back.
 
 const LEAST_GAP: f32 = 1e-30;
 const FAR: f32 = 1e30;
@@ -130,7 +129,7 @@ fn passage(inbound: Inbound) -> Rest {
             break;
         }
         point += direction * next.distance;
-        path += next.distance * unit();
+        path += next.distance;
         normal = facet_normal(next.facet, point);
         let cos_i = dot(direction, normal);
         if IS_CURVED {

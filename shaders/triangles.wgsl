@@ -3,10 +3,10 @@
 @group(0) @binding(1) var<storage, read> triangles: array<Triangle>;
 @group(0) @binding(3) var<storage, read> nodes: array<BvhNode>;
 
-// A ray's start may lie this far beyond the triangle that it is about to meet, as a share of how far solids reach from the
-// origin: some ten roundings.
+// A ray's start may lie this far beyond the triangle that it is about to meet, as a share of how far the solid reaches from
+// its origin: some ten roundings.
 const BEHIND: f32 = 1e-6;
-// Boxes are enlarged by this share of how far solids reach plus how far the ray's start is from the origin: some thirty
+// Boxes are enlarged by this share of how far the solid reaches plus how far the ray's start is from the origin: some thirty
 // roundings.
 const BOX_SLACK: f32 = 4e-6;
 // The least component of a direction that is divided by; smaller ones are replaced by it.
@@ -53,13 +53,14 @@ fn nearest_triangle(origin: vec3f, direction: vec3f, side: f32) -> Meeting {
     let is_down = straight.z < 0.0;
     let d = turned_axes(direction, longest, is_down);
     let shear = vec3f(d.x / d.z, d.y / d.z, 1.0 / d.z);
-    let slack = BOX_SLACK * (frame.right.w + length(origin));
+    let reach = bitcast<f32>(body.range.y);
+    let slack = BOX_SLACK * (reach + length(origin));
     let clamped = select(select(vec3f(-STILLEST), vec3f(STILLEST), direction >= vec3f(0.0)), direction, size > vec3f(STILLEST));
     let per = 1.0 / clamped;
     var best = Meeting(NONE, FAR);
     var pending: array<vec2f, MOST_LEVELS>;
     var waiting = 0u;
-    var at = body.range.z;
+    var at = body.range.x;
     var is_open = enters(nodes[at], origin, per, slack, FAR) >= 0.0;
     while is_open && !is_spent() {
         turns += 1u;
@@ -86,7 +87,7 @@ fn nearest_triangle(origin: vec3f, direction: vec3f, side: f32) -> Meeting {
                     continue;
                 }
                 let distance = dot(areas, vec3f(a0.z, b0.z, c0.z)) * shear.z / sum;
-                if distance > -BEHIND * frame.right.w && distance < best.distance {
+                if distance > -BEHIND * reach && distance < best.distance {
                     best = Meeting(k, distance);
                 }
             }

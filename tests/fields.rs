@@ -8,7 +8,7 @@ mod pixels;
 #[path = "common/shoot.rs"]
 mod shoot;
 
-use brillianteer::math::{ImplicitForm, ImplicitSurface, SmoothSolid};
+use brillianteer::math::{ImplicitForm, ImplicitSurface, Pose, SmoothSolid};
 use brillianteer::optics::{Material, material};
 use brillianteer::picture::Linear;
 use brillianteer::scene::{Instance, Light, Medium, View, light};
@@ -20,10 +20,15 @@ use pixels::{ALLOWED, Case, views};
 use shoot::{Shoot, apart, colour, differ};
 use std::io::Write;
 
-/// Builds a shape that is turned a little: rounding would decide whether a ray meets an edge that lies along the view.
 fn smooth(form: ImplicitForm) -> SmoothSolid {
+    SmoothSolid::new(ImplicitSurface::new(form).unwrap())
+}
+
+/// Returns a view of a shape that is turned a little: rounding would decide whether a ray meets an edge that lies along the
+/// view.
+fn aside(view: &View) -> View {
     let turn = DQuat::from_rotation_x(0.31) * DQuat::from_rotation_y(-0.27) * DQuat::from_rotation_z(0.19);
-    SmoothSolid::new(ImplicitSurface::new(form).unwrap().moved(1.1, turn, DVec3::new(0.05, -0.1, 0.2)))
+    view.of_turned(turn)
 }
 
 fn plate(size: DVec3, edge: f64, (amplitude, wavelength): (f64, f64), phase: f64) -> ImplicitForm {
@@ -64,6 +69,7 @@ fn glass_looks_as_by_rays() {
     for (k, (name, form)) in forms().into_iter().enumerate() {
         let smooth = smooth(form);
         for (i, (view, medium)) in views().iter().zip(media.iter().cycle().skip(k)).enumerate() {
+            let view = &aside(view);
             let case = Case::new(&smooth, *medium, view, (i + k) % 3 != 0);
             let options = RayOptions { most_bounces: BOUNCES, ..case.options };
             let found = Case { options, twin_options: options, ..case }.compared(&gpu);
@@ -79,7 +85,7 @@ fn glass_looks_as_by_rays() {
 #[test]
 fn the_comparison_of_glass_sees_every_small_change() {
     let Some(gpu) = card("the_comparison_of_glass_sees_every_small_change") else { return };
-    let view = View { tilt: 0.5, azimuth: 1.4, ..View::default() };
+    let view = aside(&View { tilt: 0.5, azimuth: 1.4, ..View::default() });
     let glass = Medium::clear(1.54);
     let cube = smooth(ImplicitForm::Block { size: CUBE, edge: 0.22 });
     let rounder = smooth(ImplicitForm::Block { size: CUBE, edge: 0.2205 });
@@ -114,20 +120,26 @@ fn the_comparison_of_glass_sees_every_small_change() {
     assert!(found.largest > 10.0 * ALLOWED, "light that enters again: only {:e}", found.largest);
 }
 
-fn pill(middle: DVec3) -> ImplicitSurface {
+fn posed(form: ImplicitForm, turn: DQuat, at: DVec3) -> Instance {
+    let glass = Material::from_index("glass", 1.6).unwrap();
+    Instance::new(ImplicitSurface::new(form).unwrap(), glass).moved(&Pose { at, ..Pose::turned(turn) })
+}
+
+fn pill(middle: DVec3) -> Instance {
     let turn = DQuat::from_rotation_x(0.5) * DQuat::from_rotation_z(0.4);
     let form = ImplicitForm::Pill { size: DVec3::new(1.5, 0.7, 0.5), edge: 0.2 };
-    ImplicitSurface::new(form).unwrap().moved(1.0, turn, middle)
+    posed(form, turn, middle)
 }
 
-fn small_plate(middle: DVec3, phase: f64) -> ImplicitSurface {
+fn small_plate(middle: DVec3, phase: f64) -> Instance {
     let (size, edge) = (DVec3::new(1.5, 1.5, 0.25), 0.05);
     let form = ImplicitForm::Plate { size, edge, amplitude: 0.06, wavelength: 1.1, phase };
-    ImplicitSurface::new(form).unwrap().moved(1.0, DQuat::from_rotation_y(0.2), middle)
+    posed(form, DQuat::from_rotation_y(0.2), middle)
 }
 
-fn lit(field: ImplicitSurface, material: &str, light_name: &str, most_bounces: u32) -> Shoot {
-    let mut shoot = Shoot::of(field, material, light(light_name).unwrap());
+fn lit(stone: Instance, material_name: &str, light_name: &str, most_bounces: u32) -> Shoot {
+    let stone = Instance { material: material(material_name).unwrap().clone(), ..stone };
+    let mut shoot = Shoot::of_stone(stone, light(light_name).unwrap());
     (shoot.samples, shoot.options.most_bounces, shoot.size) = (4, most_bounces, 40);
     shoot
 }
@@ -135,8 +147,7 @@ fn lit(field: ImplicitSurface, material: &str, light_name: &str, most_bounces: u
 /// A pill in front of a plate whose wave begins at the pill.
 fn pill_and_plate(phase: f64, most_bounces: u32) -> Shoot {
     let mut both = lit(pill(DVec3::new(0.1, 0.1, 0.6)), "quartz", "studio", most_bounces);
-    let glass = Material::from_index("glass", 1.6).unwrap();
-    both.setting.instances.push(Instance::new(small_plate(DVec3::new(-0.1, -0.2, -0.3), phase), glass));
+    both.setting.instances.push(small_plate(DVec3::new(-0.1, -0.2, -0.3), phase));
     both
 }
 
@@ -183,7 +194,7 @@ fn whole_ways_through_glass_bring_as_much_light_on_the_card() {
 fn how_long_glass_takes() {
     let Some(gpu) = card("how_long_glass_takes") else { return };
     let stone = built(&brilliant((56.0, 34.5, 40.8), (50.0, 77.0), 64)).polytope;
-    let glass = |k: usize| lit(*smooth(forms()[k].1).field(), "quartz", "studio", 64);
+    let glass = |k: usize| lit(posed(forms()[k].1, DQuat::IDENTITY, DVec3::ZERO), "quartz", "studio", 64);
     let shapes = [
         ("pill", glass(1)),
         ("cube", glass(3)),
@@ -215,16 +226,17 @@ fn glass_in_a_furnace_is_white_on_the_card() {
     let prism = ImplicitForm::Prism { size: DVec3::new(1.2, 0.8, 0.8), edge: 0.06 };
     let ball = ImplicitForm::Pill { size: DVec3::splat(1.4), edge: 0.7 };
     let turn = DQuat::from_rotation_x(0.5) * DQuat::from_rotation_y(0.4);
-    let convex =
-        [block, prism, ball].map(|form| ImplicitSurface::new(form).unwrap().moved(1.0, turn, DVec3::ZERO));
-    for field in convex.into_iter().chain([pill(DVec3::ZERO), small_plate(DVec3::ZERO, 0.4)]) {
-        let mut shoot = Shoot::of(field, "quartz", Light::white());
+    let convex = [block, prism, ball].map(|form| posed(form, turn, DVec3::ZERO));
+    for stone in convex.into_iter().chain([pill(DVec3::ZERO), small_plate(DVec3::ZERO, 0.4)]) {
+        let form = stone.body.clone();
+        let material = material("quartz").unwrap().clone();
+        let mut shoot = Shoot::of_stone(Instance { material, ..stone }, Light::white());
         shoot.options.least_weight = 1e-5;
         let (picture, remainder) = shoot.by_card(&gpu);
         let mean = picture.pixels.iter().map(colour).sum::<DVec3>() / picture.pixels.len() as f64;
         let missing = (1.0 - mean).abs().max_element();
-        assert!(remainder.unresolved < 0.01, "{field:?}: {remainder:?}");
-        assert!(missing < 3.0 * remainder.unresolved + 1e-4, "{field:?}: {missing}, {remainder:?}");
+        assert!(remainder.unresolved < 0.01, "{form:?}: {remainder:?}");
+        assert!(missing < 3.0 * remainder.unresolved + 1e-4, "{form:?}: {missing}, {remainder:?}");
     }
 }
 
@@ -233,7 +245,7 @@ fn glass_beside_a_stone_is_not_for_the_card() {
     let Some(gpu) = card("glass_beside_a_stone_is_not_for_the_card") else { return };
     let stone = built(&brilliant((56.0, 34.5, 40.8), (50.0, 77.0), 16)).polytope;
     let mut shoot = Shoot::new(&stone, "diamond", light("dome").unwrap());
-    shoot.setting.instances.push(Instance::new(pill(DVec3::X * 3.0), material("quartz").unwrap().clone()));
+    shoot.setting.instances.push(pill(DVec3::X * 3.0));
     shoot.with(|lit_scene| {
         let around = GpuEnvironment::new(&gpu, &lit_scene.environment);
         let refused = ByCard::new(&gpu, lit_scene, &around, 0..8, 3).err();

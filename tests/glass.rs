@@ -2,17 +2,20 @@
 #![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a test fails by it; what was found is told")]
 
 use brillianteer::cut::{Cut, FAMILIES, Glass};
-use brillianteer::math::{ImplicitForm, ImplicitSurface, Plane, Polytope, Solid, SolidRef};
+use brillianteer::math::{ImplicitForm, ImplicitSurface, Plane, Polytope, Pose, SolidRef, TriangleMesh};
 use brillianteer::measure;
-use brillianteer::optics::Dispersion;
+use brillianteer::optics::{Dispersion, Material, material};
 use brillianteer::picture::by_rays;
 use brillianteer::picture::by_rays::ScopeSampling;
-use brillianteer::scene::{ASET_CONE, Backing, Film, Glare, Medium, Projection, Scope, View};
-use brillianteer::trace::ray::{Camera, Exit, RayOptions, StoneTracer};
+use brillianteer::scene::{
+    ASET_CONE, Backing, Body, Film, Glare, Instance, Medium, Projection, Scene, Scope, Specimen, View,
+};
+use brillianteer::trace::ray::{Camera, Exit, InstanceTracer, RayOptions, StoneTracer};
 use brillianteer::trace::unwatched;
 use glam::{DQuat, DVec2, DVec3};
+use std::sync::Arc;
 
-fn solid(form: ImplicitForm) -> Solid {
+fn solid(form: ImplicitForm) -> Body {
     ImplicitSurface::new(form).unwrap().into()
 }
 
@@ -35,8 +38,8 @@ fn glasses() -> impl Iterator<Item = (&'static str, Glass)> {
     })
 }
 
-fn every_shape() -> Vec<(&'static str, Solid)> {
-    let mut shapes: Vec<(&str, Solid)> =
+fn every_shape() -> Vec<(&'static str, Body)> {
+    let mut shapes: Vec<(&str, Body)> =
         glasses().map(|(key, glass)| (key, glass.field().unwrap().into())).collect();
     let size = DVec3::new(1.6, 1.2, 1.0);
     shapes.push(("rounded prism", solid(ImplicitForm::Prism { size, edge: 0.12 })));
@@ -54,8 +57,8 @@ fn every_shape() -> Vec<(&'static str, Solid)> {
 }
 
 /// Returns the origins and directions of rays from all sides toward a solid.
-fn rays(solid: &Solid, count: u32) -> Vec<(DVec3, DVec3)> {
-    let (low, high) = solid.bounds();
+fn rays(solid: &Body, count: u32) -> Vec<(DVec3, DVec3)> {
+    let (low, high) = solid.solid().bounds();
     let view = |k: u32| View { tilt: f64::from(k) * 0.37, azimuth: f64::from(k) * 1.1, ..View::default() };
     let ray = |k: u32| {
         let at = DVec2::new(0.754_877_666_2, 0.569_840_291) * f64::from(k);
@@ -182,7 +185,7 @@ fn a_prism_is_the_same_between_planes_and_as_a_distance() {
         sides.edge = 0.0;
         let planes: Vec<Plane> = glass.planes().unwrap().into_iter().map(|(_, plane)| plane).collect();
         let polytope = Polytope::from_planes(&planes).unwrap();
-        let field: Solid = glass.field().unwrap().into();
+        let field: Body = glass.field().unwrap().into();
         let scope = Scope::aset(ASET_CONE, Backing::Black);
         let medium = Medium::grey(1.6, 0.2);
         let options = RayOptions { most_bounces: 64, ..RayOptions::default() };
@@ -209,13 +212,13 @@ fn a_prism_is_the_same_between_planes_and_as_a_distance() {
                 .unwrap();
                 pixels
             };
-            let (a, b) = (rows(SolidRef::from(&polytope)), rows(field.by_ref()));
+            let (a, b) = (rows(SolidRef::from(&polytope)), rows(field.solid()));
             let off = a.iter().zip(&b).filter(|(a, b)| (*a - *b).abs() > 1e-9).count();
             let lit = a.iter().filter(|v| **v > 0.01).count();
             // Rounding decides on which side of an edge a ray through it passes.
             assert!(lit > 500 && off * 500 < lit, "{key}: {off} of {lit}");
         }
-        let figures = [SolidRef::from(&polytope), field.by_ref()].map(|solid| {
+        let figures = [SolidRef::from(&polytope), field.solid()].map(|solid| {
             measure::by_rays(solid, medium, &View::default(), &scope, (options, 48), &unwatched).unwrap()
         });
         assert!((figures[0].silhouette_area - figures[1].silhouette_area).abs() < 1e-12);
@@ -255,31 +258,64 @@ fn a_sweep_over_wavelengths_is_what_two_of_them_differ_by() {
 }
 
 #[test]
-fn turning_and_scaling_a_shape_changes_nothing() {
-    for (name, solid) in every_shape() {
-        let (scale, turn, shift) = (2.5, DQuat::from_rotation_x(0.7), DVec3::new(0.3, -4.0, 1.0));
-        let moved = solid.moved(scale, turn, shift);
-        let tracer = |solid: &Solid| {
-            StoneTracer::new(
-                solid,
-                Medium::clear(1.5),
-                RayOptions { most_bounces: 4, ..RayOptions::default() },
-            )
+fn turning_and_scaling_a_body_changes_nothing() {
+    let cut =
+        Specimen::new(brillianteer::io::cut_file::parse(include_str!("../cuts/tolkowsky.toml"), "").unwrap());
+    let stone = (*cut.unwrap().body).clone();
+    let mesh = Body::from(Arc::new(TriangleMesh::of_polytope(&stone.stone().unwrap().polytope)));
+    let pose = Pose { at: DVec3::new(0.3, -4.0, 1.0), turn: DQuat::from_rotation_x(0.7), scale: 2.5 };
+    for (name, body) in every_shape().into_iter().chain([("stone", stone), ("mesh", mesh)]) {
+        let still = Instance::new(body, Material::from_index("glass", 1.5).unwrap());
+        let options = RayOptions { most_bounces: 4, ..RayOptions::default() };
+        let stones = [still.clone(), still.clone().moved(&pose)];
+        let [own, other] =
+            InstanceTracer::of_all(&stones, options, |_| Medium::grey(1.5, 0.2)).try_into().unwrap();
+        let exits = |tracer: &InstanceTracer, (origin, direction): (DVec3, DVec3)| {
+            let mut exits = vec![];
+            let met = tracer.meet(origin, direction)?;
+            let way = (direction, DVec3::ZERO);
+            tracer.follow_from(met, origin, way, 1.0, |_, _| false, |exit| exits.push(exit));
+            Some((met.1, exits))
         };
-        let (own, other) = (tracer(&solid), tracer(&moved));
         let (mut all, mut off) = (0, 0);
-        for (origin, direction) in rays(&solid, 500) {
-            if own.meet(origin, direction).is_none() {
-                continue;
-            }
-            let there = (turn * origin * scale + shift, turn * direction);
-            let (a, b) = (exits(&own, origin, direction), exits(&other, there.0, there.1));
+        for (origin, direction) in rays(&still.body, 500) {
+            let Some((distance, a)) = exits(&own, (origin, direction)) else { continue };
+            let there = exits(&other, (pose.place(origin), pose.turn * direction));
+            let Some((farther, b)) = there else { panic!("{name}: missed") };
             all += 1;
             let apart = |(a, b): (&Exit, &Exit)| {
-                (turn * a.direction - b.direction).length() > 1e-6 || (a.weight - b.weight).abs() > 1e-6
+                (pose.turn * a.direction - b.direction).length() > 1e-6
+                    || (a.weight - b.weight).abs() > 1e-6
+                    || pose.place(a.point).distance(b.point) > 1e-6
+                    || (pose.scale * a.path - b.path).abs() > 1e-6
             };
-            off += u32::from(a.len() != b.len() || a.iter().zip(&b).any(apart));
+            let is_off = a.len() != b.len() || a.iter().zip(&b).any(apart);
+            off += u32::from(is_off || (pose.scale * distance - farther).abs() > 1e-6);
         }
         assert!(all > 50 && off * 50 < all, "{name}: {off} of {all}");
+        let (low, high) = stones[1].solid().bounds();
+        let points = match &*still.body {
+            Body::Glass(smooth) => &smooth.surface().vertices,
+            body => body.solid().vertices(),
+        };
+        let placed = points.iter().map(|v| pose.place(*v));
+        let (least, most) = placed.fold((high, low), |(l, h), v| (l.min(v), h.max(v)));
+        let is_wavy = name == "waves" || name == "plate";
+        let slack = if is_wavy { 0.5 } else { 0.02 };
+        assert!((low - least).max_element() < 1e-9 && (most - high).max_element() < 1e-9, "{name}");
+        assert!((least - low).max_element() < slack && (high - most).max_element() < slack, "{name}");
+        let ball = stones[1].solid().ball();
+        assert!(stones[1].solid().vertices().all(|v| v.distance(ball.middle) <= ball.radius));
     }
+}
+
+#[test]
+fn a_stone_that_is_scaled_absorbs_as_one_of_that_size() {
+    let ruby = material("ruby").unwrap().clone();
+    let stone = Instance::new(solid(ImplicitForm::Block { size: DVec3::ONE, edge: 0.1 }), ruby);
+    let larger = stone.clone().moved(&Pose { scale: 2.5, ..Pose::STILL });
+    let medium = |stone, unit_mm| Scene { instances: vec![], unit_mm }.medium(stone, (500.0, 550.0, 600.0));
+    assert_eq!(medium(&larger, 2.0), medium(&stone, 5.0));
+    assert_ne!(medium(&larger, 2.0), medium(&stone, 2.0));
+    assert!((larger.carats(2.0).unwrap() / stone.carats(5.0).unwrap() - 1.0).abs() < 1e-12);
 }

@@ -8,7 +8,7 @@ mod pixels;
 #[path = "common/solids.rs"]
 mod solids;
 
-use brillianteer::math::{Plane, Surface, TriangleMesh};
+use brillianteer::math::{Plane, Pose, Surface, TriangleMesh};
 use brillianteer::scene::{Medium, Stone, View};
 use brillianteer::trace::ray::RayOptions;
 use common::*;
@@ -95,7 +95,7 @@ fn the_comparison_sees_every_small_change() {
 fn shell((vertices, triangles): solids::Triangles) -> Arc<TriangleMesh> {
     // The turn keeps edges away from the view's direction, where rounding would decide whether rays meet them.
     let shell = TriangleMesh::new(Surface::new(vertices, triangles)).unwrap();
-    Arc::new(shell.moved(1.0, DQuat::from_rotation_x(0.11) * DQuat::from_rotation_y(-0.07), DVec3::ZERO))
+    Arc::new(shell.reframed(&Pose::turned(DQuat::from_rotation_x(0.11) * DQuat::from_rotation_y(-0.07))))
 }
 
 #[test]

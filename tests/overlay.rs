@@ -61,7 +61,7 @@ impl Shot {
 
     /// Returns the outlines, in the picture, of a stone's facets that face the eye, in counter-clockwise order.
     fn outlines(&self, stone: usize) -> Vec<(u32, Vec<DVec2>)> {
-        let polytope = self.setting.instances[stone].solid.polytope().unwrap();
+        let polytope = &self.setting.instances[stone].body.stone().unwrap().polytope;
         let outline = |k: usize| -> Vec<DVec2> {
             let corners = polytope.corners(&polytope.facets()[k]).map(|v| self.seen(v));
             corners.map(|p| DVec2::new(p.x, -p.y)).collect()
@@ -142,7 +142,7 @@ fn the_facet_at_a_point_is_the_one_whose_outline_lies_around_it() {
 /// Returns the least cover of a pixel in which a corner of a facet that faces the eye lies.
 fn faintest_corner(shot: &Shot, drawn: &Shot) -> u8 {
     let picture = drawn.laid(Overlay::Wireframe);
-    let polytope = shot.setting.instances[0].solid.polytope().unwrap();
+    let polytope = &shot.setting.instances[0].body.stone().unwrap().polytope;
     let corners =
         shot.outlines(0).into_iter().flat_map(|(k, _)| polytope.corners(&polytope.facets()[k as usize]));
     let pixel = |p: DVec2| picture[(p.y as u32 * SIZE + p.x as u32) as usize];
@@ -186,7 +186,7 @@ fn edges_behind_are_fainter_whichever_stone_they_are_behind() {
 /// Finds the first plane that a ray meets inside the stone by trying every plane: returns the share of light that went in
 /// and the cosine at that plane; `None` beside the stone and where another plane is nearly as close.
 fn first_inside(shot: &Shot, lit_scene: &LitScene, index: f64, at: DVec2) -> Option<(f64, f64)> {
-    let planes: Vec<Plane> = shot.setting.instances[0].solid.polytope().unwrap().planes().collect();
+    let planes: Vec<Plane> = shot.setting.instances[0].body.stone().unwrap().polytope.planes().collect();
     let eye = shot.view.basis();
     let (d, from) = (-eye.toward, eye.lift(lit_scene.film.image_from_pixels(at)) + eye.toward * 10.0);
     let way = |p: &Plane, from: DVec3, d: DVec3| -p.distance(from) / p.normal.dot(d);

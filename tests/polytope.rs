@@ -4,7 +4,7 @@
 
 mod common;
 
-use brillianteer::math::{Basis, Plane, Polytope, PolytopeError, Symmetry, area, triangulate};
+use brillianteer::math::{Basis, Plane, Polytope, PolytopeError, Pose, Symmetry, area, triangulate};
 use common::*;
 use glam::{DQuat, DVec2, DVec3};
 use proptest::prelude::*;
@@ -249,7 +249,7 @@ proptest! {
     ) {
         let solid = Polytope::from_planes(&planes).unwrap();
         let turn = DQuat::from_euler(glam::EulerRot::XYZ, x, y, z);
-        let moved = solid.moved(scale, turn, DVec3::new(x, y, z));
+        let moved = solid.reframed(&Pose { at: DVec3::new(x, y, z), turn, scale });
         let built = Polytope::from_planes(&moved.planes().collect::<Vec<_>>()).unwrap();
         prop_assert!((moved.volume() - built.volume()).abs() < 1e-7 * built.volume());
         prop_assert!((moved.volume() - solid.volume() * scale.powi(3)).abs() < 1e-9 * moved.volume());

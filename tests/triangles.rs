@@ -6,13 +6,13 @@ mod common;
 #[path = "common/solids.rs"]
 mod solids;
 
-use brillianteer::math::{Solid, Surface, TriangleMesh};
+use brillianteer::math::{Pose, SolidRef, Surface, TriangleMesh};
 use brillianteer::measure;
 use brillianteer::optics::{Material, material, strata};
 use brillianteer::picture::by_rays::ScopeSampling;
 use brillianteer::picture::spectral::{Remainder, expose};
 use brillianteer::picture::{ByBeams, Linear, Rows, by_rays};
-use brillianteer::scene::{Film, Glare, Instance, Light, Medium, Scene, View, light};
+use brillianteer::scene::{Body, Film, Glare, Instance, Light, Medium, Scene, View, light};
 use brillianteer::trace::environment::{Environment, EnvironmentMap};
 use brillianteer::trace::ray::{ByRays, Camera, RayOptions, facet_at};
 use brillianteer::trace::sampling::LitScene;
@@ -83,7 +83,7 @@ fn a_brilliant_of_triangles_has_the_figures_and_pictures_of_its_planes() {
     assert!((planes.silhouette_area / triangles.silhouette_area - 1.0).abs() < 0.02);
     let film = Film::reaching(Camera::new(&view, &shell).reach(&shell).unwrap(), SIZE);
     let manner = ScopeSampling { options: options(), per_side: 1, glare: Glare::Included };
-    let rows = |solid: &Solid| {
+    let rows = |solid: SolidRef| {
         let mut all: Vec<Rows> = vec![];
         let each = |rows: &Rows| -> Result<(), Stopped> {
             all.push(rows.clone());
@@ -96,14 +96,13 @@ fn a_brilliant_of_triangles_has_the_figures_and_pictures_of_its_planes() {
             .flat_map(|r| (r.first..r.first + r.count).flat_map(|y| row(r, y)).collect::<Vec<_>>())
             .collect()
     };
-    let (a, b): (Vec<f64>, Vec<f64>) =
-        (rows(&stone.polytope.clone().into()), rows(&Solid::Triangles(Arc::clone(&shell))));
+    let (a, b): (Vec<f64>, Vec<f64>) = (rows((&stone.polytope).into()), rows((&shell).into()));
     let off = a.iter().zip(&b).filter(|(a, b)| (*a - *b).abs() > 1e-6).count();
     assert!(a.len() == b.len() && off * 1000 < a.len(), "{off} of {}", a.len());
     let diamond = material("diamond").unwrap();
     let light = light("studio").unwrap();
-    let of = |solid: Solid| by_rays_of(vec![Instance::new(solid, diamond.clone())], &light);
-    let ((a, _), (b, _)) = (of(stone.polytope.clone().into()), of(Solid::Triangles(shell)));
+    let of = |body: Body| by_rays_of(vec![Instance::new(body, diamond.clone())], &light);
+    let ((a, _), (b, _)) = (of(stone.polytope.clone().into()), of(shell.into()));
     let (off, all) = apart(&a, &b);
     assert!(all > 500 && off * 200 < all, "{off} of {all}");
 }
@@ -112,10 +111,7 @@ fn a_brilliant_of_triangles_has_the_figures_and_pictures_of_its_planes() {
 fn a_white_furnace_is_white_around_solids_that_are_not_convex() {
     for (name, solid) in [("heart", heart()), ("star", star()), ("clasp", clasp(0.4))] {
         for index in [1.0, 1.54, 2.4175] {
-            let stone = Instance::new(
-                Solid::Triangles(shell(solid.clone())),
-                Material::from_index("glass", index).unwrap(),
-            );
+            let stone = Instance::new(shell(solid.clone()), Material::from_index("glass", index).unwrap());
             let white = Light { head: 0.0, ..light("white").unwrap() };
             let (picture, rest) = by_rays_of(vec![stone], &white);
             let seen: Vec<DVec3> = picture
@@ -140,17 +136,10 @@ fn a_stone_in_the_gap_of_another_is_seen_there() {
     let mut dark = air.clone();
     dark.absorption = [(); 2].map(|()| brillianteer::optics::Absorption::new(vec![(550.0, 1e3)]).unwrap());
     let square = [(1.0, 1.0), (-1.0, 1.0), (-1.0, -1.0), (1.0, -1.0)].map(|p| DVec2::from(p) * 0.3);
-    let cube = Instance::new(Solid::Triangles(shell(solids::extruded(&square, 0.3))), dark).moved(
-        1.0,
-        DQuat::from_rotation_x(0.2),
-        DVec3::new(0.3, 0.02, 0.0),
-    );
-    let clasp = Instance::new(Solid::Triangles(shell(clasp(0.4))), air).moved(
-        1.0,
-        DQuat::from_rotation_x(1.3),
-        DVec3::ZERO,
-    );
-    let cube = Instance { solid: cube.solid.moved(1.0, DQuat::from_rotation_x(1.3), DVec3::ZERO), ..cube };
+    let cube = Instance::new(shell(solids::extruded(&square, 0.3)), dark)
+        .moved(&Pose { at: DVec3::new(0.3, 0.02, 0.0), ..Pose::turned(DQuat::from_rotation_x(0.2)) });
+    let turn = Pose::turned(DQuat::from_rotation_x(1.3));
+    let (clasp, cube) = (Instance::new(shell(clasp(0.4)), air).moved(&turn), cube.moved(&turn));
     let light = light("white").unwrap();
     let alone = by_rays_of(vec![cube.clone()], &light).0;
     let both = by_rays_of(vec![clasp, cube], &light).0;
@@ -163,13 +152,13 @@ fn a_stone_in_the_gap_of_another_is_seen_there() {
 
 #[test]
 fn exact_beams_say_that_they_do_not_apply_to_triangles() {
-    let solid = Solid::Triangles(shell(heart()));
-    let told = solid.polytope().unwrap_err().to_string();
+    let body = Body::from(shell(heart()));
+    let told = body.stone().unwrap_err().to_string();
     assert!(
         told.contains("exact beams and drawings are for convex stones") && told.contains("use rays"),
         "{told}"
     );
-    let stone = Instance::new(solid, material("diamond").unwrap().clone());
+    let stone = Instance::new(body, material("diamond").unwrap().clone());
     let refused = taken(vec![stone], &light("studio").unwrap(), |lit_scene| {
         let facet = facet_at(lit_scene, 0.5 * f64::from(SIZE), 0.5 * f64::from(SIZE));
         assert!(facet.is_some_and(|(stone, facet)| stone == 0 && facet < 100), "{facet:?}");
@@ -212,15 +201,15 @@ mod by_card {
     fn stones_of_triangles_look_under_light_as_by_rays() {
         let Some(gpu) = card("stones_of_triangles_look_under_light_as_by_rays") else { return };
         let stone = |solid, name: &str| {
-            let placed = Instance::new(Solid::Triangles(shell(solid)), material(name).unwrap().clone());
-            placed.moved(1.0, DQuat::from_rotation_x(0.11) * DQuat::from_rotation_y(-0.07), DVec3::ZERO)
+            let turn = DQuat::from_rotation_x(0.11) * DQuat::from_rotation_y(-0.07);
+            Instance::new(shell(solid), material(name).unwrap().clone()).moved(&Pose::turned(turn))
         };
         let brilliant = built(&brilliant((56.0, 34.5, 40.8), (50.0, 77.0), 16)).polytope;
-        let planes = Instance::new(brilliant, material("quartz").unwrap().clone()).moved(
-            0.3,
-            DQuat::from_rotation_x(1.1),
-            DVec3::new(0.35, 0.03, 0.0),
-        );
+        let planes = Instance::new(brilliant, material("quartz").unwrap().clone()).moved(&Pose {
+            at: DVec3::new(0.35, 0.03, 0.0),
+            turn: DQuat::from_rotation_x(1.1),
+            scale: 0.3,
+        });
         let scenes = [
             vec![stone(heart(), "diamond")],
             vec![stone(star(), "ruby")],

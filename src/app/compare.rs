@@ -1,7 +1,6 @@
 //! The design that the present design is compared with.
 
 use super::document::Document;
-use super::pose_cache::PoseCache;
 use crate::scene::Specimen;
 use std::sync::Arc;
 
@@ -11,9 +10,8 @@ pub struct Compared {
     pub name: String,
     /// Whether it is the present design as it was last saved.
     pub is_saved: bool,
-    /// The stone of the design, not turned.
+    /// The stone of the design.
     pub specimen: Arc<Specimen>,
-    posed: PoseCache,
 }
 
 impl Compared {
@@ -32,11 +30,6 @@ impl Compared {
     }
 
     fn new(name: String, is_saved: bool, specimen: Arc<Specimen>) -> Self {
-        Self { name, is_saved, specimen, posed: PoseCache::default() }
-    }
-
-    /// Returns the stone turned about its axis by `turn`, radians.
-    pub fn posed(&mut self, turn: f64) -> Arc<Specimen> {
-        self.posed.of(&self.specimen, turn)
+        Self { name, is_saved, specimen }
     }
 }

@@ -7,7 +7,7 @@ use super::studio::{Shot, Which};
 use crate::scene::Copies;
 use crate::trace::ray::Camera;
 use egui::{CursorIcon, PointerButton, Pos2, Response, Ui};
-use glam::{DQuat, DVec2};
+use glam::DVec2;
 
 /// Whether renders show the stone alone and at rest.
 pub fn are_none(editor: &Editor) -> bool {
@@ -25,7 +25,6 @@ pub fn carried(editor: &mut Editor, ui: &Ui, pane: usize, response: &Response, s
         editor.held = found.map(|(_, copy, _)| (pane, copy));
     }
     let Some((_, copy)) = editor.held.filter(|(held, _)| *held == pane) else { return false };
-    let turn = DQuat::from_rotation_z(editor.desk.eye(pane).turn);
     // Undo during a drag may leave fewer copies.
     let Some(pose) = editor.document.work.company.poses.get_mut(copy).filter(|_| several) else {
         editor.held = None;
@@ -38,10 +37,10 @@ pub fn carried(editor: &mut Editor, ui: &Ui, pane: usize, response: &Response, s
     };
     let by = way * ui.pixels_per_point();
     // In perspective, a pixel of the film has another length at the copy's distance.
-    let seen = Camera::reaching(&sight.view, 1.0).project(turn * pose.at);
+    let seen = Camera::reaching(&sight.view, 1.0).project(pose.at);
     let larger = seen.map_or(1.0, |(_, larger)| larger);
     let by = DVec2::new(f64::from(by.x), -f64::from(by.y)) * sight.film.pixel / larger;
-    pose.at += turn.inverse() * sight.view.basis().lift(by);
+    pose.at += sight.view.basis().lift(by);
     ui.ctx().set_cursor_icon(CursorIcon::Grabbing);
     if !response.dragged() {
         editor.held = None;

@@ -244,7 +244,7 @@ impl Document {
         &self.specimen
     }
 
-    /// Returns a stone of this document, [`specimen`](Self::specimen) or a turned one, under the name that the design has
+    /// Returns a stone of this document, [`specimen`](Self::specimen) or one that moves, under the name that the design has
     /// now.
     pub fn named(&self, specimen: &Arc<Specimen>) -> Arc<Specimen> {
         let now = &self.specimen.design;

@@ -16,7 +16,6 @@ use super::moving::Moving;
 use super::notes::Notes;
 use super::opener::{Opener, by_system};
 use super::opening::{Opening, OpeningPurpose};
-use super::pose_cache::PoseCache;
 use super::probe::Probe;
 use super::profile_view::ProfileView;
 use super::refraction_view::Flowing;
@@ -137,7 +136,6 @@ pub struct Editor {
     pub(super) asked: Order,
     pub(super) light: (String, Arc<Lighting>),
     pub(super) loading: Option<(String, Receiver<Result<Lighting, LightingError>>)>,
-    pub(super) posed: PoseCache,
     pub(super) chooser: Chooser,
     pub(super) opener: Opener,
     /// A picture for the clipboard that is being made.
@@ -229,7 +227,6 @@ impl Editor {
             light,
             asked: Order::default(),
             loading: None,
-            posed: PoseCache::default(),
             chooser: setup.chooser,
             opener: setup.opener,
             copying: None,
@@ -264,11 +261,6 @@ impl Editor {
         if let Some(first) = found.into_iter().next() {
             self.dialog = Some(Dialog::Recover(Box::new(first)));
         }
-    }
-
-    /// Returns the present stone, turned about its axis by `turn`, radians.
-    pub(super) fn posed(&mut self, turn: f64) -> Arc<Specimen> {
-        self.posed.of(self.document.specimen(), turn)
     }
 
     /// Returns the probe that answers questions about a stone.

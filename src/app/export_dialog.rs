@@ -3,20 +3,18 @@
 use super::editor::Editor;
 use super::export_job::{ExportPlan, Job, PictureAspect, Selection, thumbnails};
 use super::files::Purpose;
-use super::pose_cache::PoseCache;
 use super::shows::Shows;
 use super::studio::Shot;
 use super::theme;
 use crate::io::export::OutputFormat;
 use crate::io::refraction_map::{MOST_BANDS, MOST_PLACES};
-use crate::scene::{Copies, Specimen, View};
+use crate::scene::{Copies, Pose, View};
 use egui::{
     Color32, ColorImage, DragValue, Grid, Label, ProgressBar, Rect, RichText, ScrollArea, Sense, Stroke,
     StrokeKind, TextEdit, TextureHandle, Ui, WidgetInfo, pos2, vec2,
 };
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
 use std::sync::mpsc::Receiver;
 
 /// The side of a thumbnail, points.
@@ -44,15 +42,11 @@ impl ExportDialog {
             |s| s.to_string_lossy().into_owned(),
         );
         let upright = editor.document.named(editor.document.specimen());
-        let (linked, own) = aspects(editor, &upright);
+        let (linked, own) = aspects(editor);
         let render =
             own.iter().find(|(shows, _)| *shows == Shows::Render).map_or(&linked, |(_, aspect)| aspect);
-        let shot = editor.render_shot(render.view, render.turn);
-        let specimen = match Arc::ptr_eq(&shot.specimen, &editor.posed(render.turn)) {
-            // A stone alone and at rest is the one that scopes show.
-            true => Arc::clone(&render.turned),
-            false => editor.document.named(&shot.specimen),
-        };
+        let shot = editor.render_shot(render.view);
+        let specimen = editor.document.named(&shot.specimen);
         let shot = Shot { specimen, ..shot };
         let light = match PathBuf::from(&editor.light.0) {
             file if file.is_file() => std::path::absolute(&file).unwrap_or(file),
@@ -60,7 +54,9 @@ impl ExportDialog {
         };
         let selection = editor.selection.clone();
         // Renders are as large as in their view, or smaller, so that no copy is left out.
-        let copies = Copies::at(shot.company.clone(), shot.specimen.solid().vertices());
+        let turned = Pose::turned(shot.view.turn);
+        let poses = shot.company.iter().map(|pose| turned.after(pose)).collect();
+        let copies = Copies::at(poses, shot.specimen.solid().vertices());
         let reach = editor.reach(Shows::Render).max(copies.reach(0.0));
         let mut plan =
             ExportPlan { shot, upright, linked, own, reach, selection, light, folder: folder.clone(), stem };
@@ -104,25 +100,20 @@ impl ExportDialog {
 /// Returns how the linked views see a stone, and how each view that looks on its own sees it.
 ///
 /// Of several views that show the same, the one that keys act on counts, or else the first.
-fn aspects(editor: &Editor, upright: &Arc<Specimen>) -> (PictureAspect, Vec<(Shows, PictureAspect)>) {
+fn aspects(editor: &Editor) -> (PictureAspect, Vec<(Shows, PictureAspect)>) {
     let desk = &editor.desk;
-    // A cache apart from that of the views, so that theirs keeps its poses.
-    let mut posed = PoseCache::default();
-    let mut aspect = |view: View, turn: f64| PictureAspect { view, turn, turned: posed.of(upright, turn) };
-    let linked = aspect(desk.eye.view(None), desk.eye.turn);
+    let linked = PictureAspect { view: desk.eye.view(None), turn: desk.eye.turn };
     let mut panes = desk.shown();
     panes.sort_by_key(|&pane| (pane != editor.active(), pane));
     let mut own: Vec<(Shows, PictureAspect)> = vec![];
     for pane in panes {
         let shows = desk.panes[pane].shows;
         if shows.is_seen() && own.iter().all(|(other, _)| *other != shows) {
-            own.push((shows, aspect(desk.view(pane), desk.eye(pane).turn)));
+            own.push((shows, PictureAspect { view: desk.view(pane), turn: desk.eye(pane).turn }));
         }
     }
     let side = |shows: Shows| shows.side().unwrap_or(linked.view.side);
-    own.retain(|(shows, aspect)| {
-        (aspect.view, aspect.turn) != (View { side: side(*shows), ..linked.view }, linked.turn)
-    });
+    own.retain(|(shows, aspect)| aspect.view != View { side: side(*shows), ..linked.view });
     (linked, own)
 }
 

@@ -62,10 +62,8 @@ impl Default for Selection {
 pub struct PictureAspect {
     /// The view; pictures that are made for one side take that side instead.
     pub view: View,
-    /// How far the stone is turned about its axis, radians.
+    /// How far the stone is turned about its axis in the view, radians.
     pub turn: f64,
-    /// The stone at rest, turned by `turn`.
-    pub turned: Arc<Specimen>,
 }
 
 /// All that an export needs to know.
@@ -73,7 +71,7 @@ pub struct PictureAspect {
 pub struct ExportPlan {
     /// What renders show, with light and view; the film is not used.
     pub shot: Shot,
-    /// The stone as the cut has it, not turned.
+    /// The stone as the cut has it.
     pub upright: Arc<Specimen>,
     /// How the linked views see the stone; pictures and figures without a view of their own see it the same.
     pub linked: PictureAspect,
@@ -131,18 +129,18 @@ impl ExportPlan {
         let seen = self.outputs(|s| !is_drawing(s) && !is_own(s), formats(false));
         let linked = Viewpoint::from(self.linked.view);
         let turned = |aspect: &PictureAspect| aspect.turn.to_degrees();
-        let mut parts = vec![(seen, self.viewing(&self.linked.turned, linked, turned(&self.linked)))];
+        let mut parts = vec![(seen, self.viewing(linked, turned(&self.linked)))];
         for (shows, aspect) in self.own.iter().filter(|(shows, _)| shows.is_seen()) {
             let alone = self.outputs(|s| s == shows, formats(false));
             if !alone.pictures.is_empty() {
                 let viewpoint = Viewpoint::from(aspect.view);
-                parts.push((alone, self.viewing(&aspect.turned, viewpoint, turned(aspect))));
+                parts.push((alone, self.viewing(viewpoint, turned(aspect))));
             }
         }
         let azimuth_deg = (linked.azimuth_deg - self.linked.turn.to_degrees()).rem_euclid(360.0);
         let azimuth_deg = if linked.tilt_deg == 0.0 { 0.0 } else { azimuth_deg };
         let upright = self.outputs(is_drawing, formats(json));
-        parts.push((upright, self.viewing(&self.upright, Viewpoint { azimuth_deg, ..linked }, 0.0)));
+        parts.push((upright, self.viewing(Viewpoint { azimuth_deg, ..linked }, 0.0)));
         parts
     }
 
@@ -160,7 +158,8 @@ impl ExportPlan {
         }
     }
 
-    fn viewing<'a>(&'a self, specimen: &'a Specimen, viewpoint: Viewpoint, turned_deg: f64) -> Viewing<'a> {
+    fn viewing(&self, viewpoint: Viewpoint, turned_deg: f64) -> Viewing<'_> {
+        let specimen = &*self.upright;
         Viewing {
             specimen,
             file: &self.stem,
@@ -243,8 +242,8 @@ impl ExportPlan {
             let fit = FramingFit::reaching(self.reach);
             return Shot { film: fit.film(size), whole: fit.whole(size), ..shot };
         }
-        let specimen = Arc::clone(if shows.is_seen() { &self.aspect(shows).turned } else { &self.upright });
-        let fit = Framing::new(&specimen).fit(0.0, &shot.view);
+        let specimen = Arc::clone(&self.upright);
+        let fit = Framing::new(&specimen).fit(&shot.view);
         let (film, whole) = (fit.film(size), fit.whole(size));
         Shot { film, whole, specimen, company: vec![Pose::STILL], ..shot }
     }

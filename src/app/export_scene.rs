@@ -1,15 +1,12 @@
 //! Writes what renders show as a scene file with its cut.
 
 use super::export_job::ExportPlan;
-use super::shows::Shows;
 use super::studio::hung;
 use crate::io::background::BackgroundRef;
 use crate::io::scene_file::{self, DEFAULT_GAP_MM, Entry, SceneFile};
 use crate::io::{Failure, WriteError, cut_file, write};
 use crate::scene::{Pose, middle};
-use glam::DQuat;
 use std::path::PathBuf;
-use std::sync::Arc;
 
 /// The text of a scene file and of the cut file of its stones.
 pub struct SceneOut {
@@ -29,17 +26,12 @@ impl SceneOut {
         let shot = &plan.shot;
         let paths = Self::paths(plan);
         let cut = format!("{}-cut.toml", plan.stem);
-        let render = plan.aspect(Shows::Render);
-        let is_turned = shot.company == [Pose::STILL] && Arc::ptr_eq(&shot.specimen, &render.turned);
-        // The specimen of a stone alone is itself turned: the scene gets the upright design in a turned pose.
-        let turned = [Pose { turn: DQuat::from_rotation_z(render.turn), ..Pose::STILL }];
-        let (design, poses) = match is_turned {
-            true => (&plan.upright.design, &turned[..]),
-            false => (&shot.specimen.design, &shot.company[..]),
-        };
+        let design = &shot.specimen.design;
+        let turned = Pose::turned(shot.view.turn);
+        let poses: Vec<Pose> = shot.company.iter().map(|pose| turned.after(pose)).collect();
         let unit_mm = 0.5 * design.diameter_mm;
         // Scenes are seen around their middle.
-        let middle = middle(poses, shot.specimen.solid().vertices());
+        let middle = middle(&poses, shot.specimen.solid().vertices());
         let is_picture = matches!(shot.behind, Some(BackgroundRef::Pattern(_) | BackgroundRef::Photo(_)));
         let scene = SceneFile {
             name: design.name.clone(),

@@ -42,7 +42,7 @@ impl Extent {
         let sides = (high - low).truncate();
         let by_sides =
             Self { length: sides.max_element(), width: sides.min_element(), is_round: false, unit };
-        if matches!(specimen.body, Body::Glass(_)) {
+        if matches!(*specimen.body, Body::Glass(_)) {
             return by_sides;
         }
         let outline = hull(solid.vertices().iter().copied().map(DVec3::truncate).collect());

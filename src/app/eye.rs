@@ -2,7 +2,7 @@
 
 use super::framing::FramingFit;
 use crate::scene::{Film, Lean, Projection, Side, View};
-use glam::DVec2;
+use glam::{DQuat, DVec2};
 use serde::{Deserialize, Serialize};
 use std::f64::consts::{FRAC_PI_2, TAU};
 
@@ -58,6 +58,7 @@ impl Eye {
             lean: if self.eye_leans { Lean::Eye } else { Lean::Stone },
             tilt: self.tilt(),
             azimuth: if self.lean == DVec2::ZERO { 0.0 } else { self.lean.to_angle().rem_euclid(TAU) },
+            turn: DQuat::from_rotation_z(self.turn),
             projection: Projection::Orthographic,
         }
     }

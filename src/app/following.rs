@@ -7,6 +7,7 @@ use super::pane::zones;
 use super::profile_view::ProfileView;
 use egui::{Context, Key, Modifiers, Popup, Pos2, Rect, RichText, Vec2, Window, pos2, vec2};
 use glam::DVec2;
+use std::sync::Arc;
 
 /// How long a click waits to become a double click, seconds.
 const PATIENCE: f64 = 0.32;
@@ -85,7 +86,6 @@ pub fn show(editor: &mut Editor, ctx: &Context) {
             ui.label("Click a point of the stone in any view: its light is followed from there.");
             return;
         };
-        let eye = *editor.desk.eye(pane);
         let shows = editor.desk.panes[pane].shows;
         if shows.has_company() && !copies::are_none(editor) {
             ui.label(
@@ -94,12 +94,12 @@ pub fn show(editor: &mut Editor, ctx: &Context) {
             return;
         }
         let view = editor.desk.view(pane);
-        let specimen = editor.posed(eye.turn);
+        let specimen = Arc::clone(editor.document.specimen());
         let path = editor.probe(&specimen).path(&view, at);
         match path {
             Some(path) => {
                 let scope = zones(shows, editor.document.work.head);
-                editor.following.view.show(ui, &specimen.body, &path, &scope, &view.light_basis());
+                editor.following.view.show(ui, &specimen.body, &path, &scope, &view);
             }
             None => {
                 ui.label(RichText::new("The point lies beside the stone; click one that lies on it.").weak());

@@ -7,7 +7,7 @@
 use super::extent::Extent;
 use crate::scene::{Film, Specimen, View};
 use crate::trace::ray::Camera;
-use glam::{DQuat, DVec2, DVec3};
+use glam::{DVec2, DVec3};
 use std::sync::Arc;
 
 /// The greatest number of corners that are all used for a fit; of more, those that lie outermost in some directions are
@@ -60,13 +60,12 @@ impl FramingFit {
         Film { pixel: film.pixel * (1.0 + self.aside / self.half.max_element()), ..film }
     }
 
-    /// Fits a view to points that are turned about the axis by `turn` radians.
-    fn of(points: &[DVec3], turn: f64, view: &View) -> Self {
+    /// Fits a view to points of a stone.
+    fn of(points: &[DVec3], view: &View) -> Self {
         let radius = points.iter().map(|p| p.truncate().length()).fold(0.0, f64::max);
-        let turn = DQuat::from_rotation_z(turn);
-        let turned = || points.iter().map(|&p| turn * p);
+        let turned = || points.iter().map(|&p| view.turn * p);
         let camera = Camera::reaching(view, 1.0);
-        let seen = bounds(turned().filter_map(|p| camera.project(p).map(|(at, _)| at.extend(0.0))));
+        let seen = bounds(points.iter().filter_map(|&p| camera.project(p).map(|(at, _)| at.extend(0.0))));
         let above = bounds(turned().map(|p| p.truncate().extend(0.0)));
         let all = bounds(turned());
         let half = |(low, high): (DVec3, DVec3)| ((high - low) / 2.0).truncate();
@@ -124,9 +123,9 @@ impl Framing {
         !fits
     }
 
-    /// Returns what a view takes in of the stone that views are fitted to, turned about its axis by `turn` radians.
-    pub fn fit(&self, turn: f64, view: &View) -> FramingFit {
-        FramingFit::of(&self.points, turn, view)
+    /// Returns what a view takes in of the stone that views are fitted to.
+    pub fn fit(&self, view: &View) -> FramingFit {
+        FramingFit::of(&self.points, view)
     }
 
     /// Returns how far a stone reaches from above; the last measurement is kept.
@@ -196,7 +195,7 @@ mod tests {
                     let near = |distance| Projection::Perspective { distance };
                     let projection = distance.map_or(Projection::Orthographic, near);
                     let view = View { projection, ..eye.view(None) };
-                    let fit = Framing::new(&specimen).fit(0.0, &view);
+                    let fit = Framing::new(&specimen).fit(&view);
                     let [left, right, above, below] = air(&specimen, &eye.film(size, &fit), &view);
                     let off = (left - right).abs().max((above - below).abs());
                     assert!(off < 1e-6, "{name} {size:?} {lean}: off by {off}");
@@ -211,21 +210,21 @@ mod tests {
     #[test]
     fn a_stone_that_is_tilted_or_turned_keeps_its_scale() {
         let framing = Framing::new(Document::first().unwrap().specimen());
-        let half = |eye: Eye, turn| framing.fit(turn, &eye.view(None)).half;
-        let rest = half(Eye::default(), 0.0);
+        let half = |eye: Eye| framing.fit(&eye.view(None)).half;
+        let rest = half(Eye::default());
         for step in 0..16 {
             let lean = DVec2::from_angle(f64::from(step)) * 0.1 * f64::from(step);
-            assert_eq!(half(Eye { lean, ..Eye::default() }, 0.2 * f64::from(step)), rest, "{lean}");
+            assert_eq!(half(Eye { lean, turn: 0.2 * f64::from(step), ..Eye::default() }), rest, "{lean}");
         }
     }
 
     #[test]
     fn views_stay_as_they_are_until_the_stone_has_outgrown_them() {
         let mut framing = Framing::new(&half_round(1.0));
-        let fit = framing.fit(0.0, &Eye::default().view(None));
+        let fit = framing.fit(&Eye::default().view(None));
         for (reach, is_anew) in [(1.02, false), (0.7, false), (1.3, true), (0.6, true)] {
             assert_eq!(framing.settle(&half_round(reach)), is_anew, "{reach}");
-            let is_same = framing.fit(0.0, &Eye::default().view(None)) == fit;
+            let is_same = framing.fit(&Eye::default().view(None)) == fit;
             assert_eq!(is_same, !is_anew, "{reach}");
         }
     }

@@ -9,10 +9,10 @@ mod tests;
 use self::orbit::Orbit;
 use self::table::PathTable;
 use crate::math::Basis;
-use crate::scene::{Band, Body, Scope, elevation_deg};
+use crate::scene::{Band, Body, Scope, View, elevation_deg};
 use crate::trace::ray::Path;
 use egui::{Align, Color32, CursorIcon, Layout, Sense, Ui, Vec2, WidgetInfo, accesskit::Role, vec2};
-use glam::DVec3;
+use glam::{DQuat, DVec3};
 
 /// The least width at which the table stands beside the drawing, as a multiple of the table's own width.
 const ROOM_FOR_BOTH: f32 = 1.8;
@@ -38,16 +38,18 @@ struct Reading<'a> {
     body: &'a Body,
     path: &'a Path,
     scope: &'a Scope,
-    light: &'a Basis,
+    light: Basis,
+    /// The rotation of the stone as the views show it.
+    turn: DQuat,
 }
 
 impl LightPath {
     /// Draws the path through its stone, and beside or below it a table of its steps, over all the room there is.
     ///
-    /// `light` is the frame of the scope, [`View::light_basis`](crate::scene::View::light_basis): elevations are counted
-    /// from the plane square to its axis, azimuths counter-clockwise from its `right`.
-    pub fn show(&mut self, ui: &mut Ui, body: &Body, path: &Path, scope: &Scope, light: &Basis) {
-        let reading = Reading { body, path, scope, light };
+    /// Elevations are counted from the plane square to the axis of the view's [`light_basis`](View::light_basis), azimuths
+    /// counter-clockwise from its `right`.
+    pub fn show(&mut self, ui: &mut Ui, body: &Body, path: &Path, scope: &Scope, view: &View) {
+        let reading = Reading { body, path, scope, light: view.light_basis(), turn: view.turn };
         let table = PathTable::new(&reading);
         let (room, width) = (ui.available_size(), table.width(ui));
         // In a place that scrolls, the height may have no limit.
@@ -77,7 +79,8 @@ impl LightPath {
         });
         let hovered = ui.vertical(|ui| table.show(ui, &mut self.kept)).inner;
         let lit = hovered.or(self.kept);
-        drawing::paint(&painter, ui.visuals(), (self.orbit.eye(), response.has_focus()), reading, lit);
+        let eye = self.orbit.eye().turned(reading.turn.inverse());
+        drawing::paint(&painter, ui.visuals(), (eye, response.has_focus()), reading, lit);
     }
 }
 

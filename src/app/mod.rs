@@ -42,7 +42,6 @@ mod ordering;
 mod painter;
 mod pane;
 mod pane_rows;
-mod pose_cache;
 mod preset;
 mod probe;
 mod profile_view;

@@ -3,7 +3,6 @@
 use crate::cut::{Cut, Glass};
 use crate::scene::{Copies, Pose, Specimen};
 use egui::Context;
-use glam::DQuat;
 use std::sync::Arc;
 
 /// The longest step of time from one frame to the next, seconds: after a pause, motion goes on where it was.
@@ -62,20 +61,12 @@ impl Moving {
         self.seconds > 0.0 && !waves(specimen)
     }
 
-    /// Returns the stone as it is now, and the poses of its copies, all of them turned about the axis through the middle by
-    /// `turn`, radians.
-    pub fn now(
-        &mut self,
-        specimen: &Arc<Specimen>,
-        company: &Copies,
-        turn: f64,
-    ) -> (Arc<Specimen>, Vec<Pose>) {
+    /// Returns the stone as it is now, and the poses of its copies.
+    pub fn now(&mut self, specimen: &Arc<Specimen>, company: &Copies) -> (Arc<Specimen>, Vec<Pose>) {
         let waves = waves(specimen);
         let specimen = if waves && self.seconds > 0.0 { self.waved(specimen) } else { Arc::clone(specimen) };
         let tumbling = (!waves && self.seconds > 0.0).then_some(self.seconds);
-        let mut poses = company.poses(specimen.solid().vertices(), tumbling);
-        let turn = DQuat::from_rotation_z(turn);
-        poses.iter_mut().for_each(|pose| (pose.at, pose.turn) = (turn * pose.at, turn * pose.turn));
+        let poses = company.poses(specimen.solid().vertices(), tumbling);
         (specimen, poses)
     }
 
@@ -116,16 +107,14 @@ mod tests {
         let of = |name| Arc::clone(Document::of_library(name).unwrap().specimen());
         let (plate, cube) = (of("plate"), of("cube"));
         let company = Copies::default();
-        let (waved, poses) = moving.now(&plate, &company, 0.0);
+        let (waved, poses) = moving.now(&plate, &company);
         let Cut::Glass(Glass::Plate(now)) = waved.design.cut else { panic!() };
         assert!((now.phase - 1.4_f64.to_degrees()).abs() < 1e-9 && poses == [Pose::STILL]);
-        assert!(Arc::ptr_eq(&waved, &moving.now(&plate, &company, 0.0).0), "made once");
-        let (still, poses) = moving.now(&cube, &company, 0.0);
-        assert!(Arc::ptr_eq(&still, &cube) && poses[0].turn.angle_between(DQuat::IDENTITY) > 0.3);
+        assert!(Arc::ptr_eq(&waved, &moving.now(&plate, &company).0), "made once");
+        let (still, poses) = moving.now(&cube, &company);
+        assert!(Arc::ptr_eq(&still, &cube) && poses[0].turn.angle_between(glam::DQuat::IDENTITY) > 0.3);
         moving.rest();
-        assert_eq!(moving.now(&cube, &company, 0.0).1, [Pose::STILL]);
-        assert!(Arc::ptr_eq(&moving.now(&plate, &company, 0.0).0, &plate));
-        let (_, turned) = moving.now(&cube, &company, 0.5);
-        assert!((turned[0].turn.angle_between(DQuat::IDENTITY) - 0.5).abs() < 1e-12);
+        assert_eq!(moving.now(&cube, &company).1, [Pose::STILL]);
+        assert!(Arc::ptr_eq(&moving.now(&plate, &company).0, &plate));
     }
 }

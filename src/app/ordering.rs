@@ -29,7 +29,7 @@ impl Editor {
             }
             let eye = self.desk.eye;
             let view = eye.view(Some(Side::Table));
-            if let Some(specimen) = self.specimen(which, eye.turn) {
+            if let Some(specimen) = self.specimen(which) {
                 let ask = FiguresOrder { specimen, view, head: self.document.work.head };
                 if which == Which::Present {
                     order.tilts = Some(FiguresOrder { view: View { tilt: 0.0, ..view }, ..ask.clone() });
@@ -46,10 +46,10 @@ impl Editor {
         if self.shows_three { 3 } else { self.desk.wavelengths }
     }
 
-    pub(super) fn specimen(&mut self, which: Which, turn: f64) -> Option<Arc<Specimen>> {
+    pub(super) fn specimen(&self, which: Which) -> Option<Arc<Specimen>> {
         match which {
-            Which::Present => Some(self.posed(turn)),
-            Which::Other => self.compared.as_mut().map(|c| c.posed(turn)),
+            Which::Present => Some(Arc::clone(self.document.specimen())),
+            Which::Other => self.compared.as_ref().map(|c| Arc::clone(&c.specimen)),
         }
     }
 
@@ -67,15 +67,13 @@ impl Editor {
         }
         let eye = *self.desk.eye(pane);
         let view = self.desk.view(pane);
-        let fit = self.fit(shows, (eye.turn, &view));
-        // A diagram has an index of its own, so it does not follow the stone's turn.
-        let turn = if shows == Shows::Diagram { 0.0 } else { eye.turn };
-        let specimen = self.specimen(which, turn)?;
+        let fit = self.fit(shows, &view);
+        let specimen = self.specimen(which)?;
         if shows == Shows::Diagram && specimen.stone().is_err() {
             return None;
         }
         let (specimen, company) = match shows.has_company() {
-            true => self.company(which, eye.turn)?,
+            true => self.company(which)?,
             false => (specimen, vec![Pose::STILL]),
         };
         let work = &self.document.work;
@@ -105,25 +103,20 @@ impl Editor {
     }
 
     /// Returns what a render shows: the stone, and the poses of its copies.
-    fn company(&mut self, which: Which, turn: f64) -> Option<(Arc<Specimen>, Vec<Pose>)> {
-        let company = &self.document.work.company;
+    fn company(&mut self, which: Which) -> Option<(Arc<Specimen>, Vec<Pose>)> {
+        let (specimen, company) = (self.specimen(which)?, &self.document.work.company);
         if *company == Copies::default() && self.moving.seconds == 0.0 {
-            return Some((self.specimen(which, turn)?, vec![Pose::STILL]));
+            return Some((specimen, vec![Pose::STILL]));
         }
-        let specimen = match which {
-            Which::Present => self.document.specimen(),
-            Which::Other => &self.compared.as_ref()?.specimen,
-        };
-        Some(self.moving.now(specimen, company, turn))
+        Some(self.moving.now(&specimen, company))
     }
 
-    /// Returns what a view takes in whose stone is turned by `turn`, radians: the stone that views are fitted to, or all
-    /// copies.
-    pub(super) fn fit(&self, shows: Shows, (turn, view): (f64, &View)) -> FramingFit {
+    /// Returns what a view takes in: the stone that views are fitted to, or all copies.
+    pub(super) fn fit(&self, shows: Shows, view: &View) -> FramingFit {
         let is_alone = self.document.work.company == Copies::default();
         match shows.has_company() && !(is_alone && self.moving.seconds == 0.0) {
             true => FramingFit::reaching(self.reach(shows)),
-            false => self.framing.fit(turn, view),
+            false => self.framing.fit(view),
         }
     }
 
@@ -152,12 +145,12 @@ impl Editor {
         self.desk.behind_mm.map_or(BEHIND, |mm| mm / self.document.specimen().unit_mm())
     }
 
-    /// Returns what a render shows in a view, with the stone turned by `turn`, radians.
-    pub(super) fn render_shot(&mut self, view: View, turn: f64) -> Shot {
+    /// Returns what a render shows in a view.
+    pub(super) fn render_shot(&mut self, view: View) -> Shot {
         let light = self.light();
-        let (specimen, company) =
-            self.company(Which::Present, turn).unwrap_or((self.posed(turn), vec![Pose::STILL]));
-        let fit = self.fit(Shows::Render, (turn, &view));
+        let alone = (Arc::clone(self.document.specimen()), vec![Pose::STILL]);
+        let (specimen, company) = self.company(Which::Present).unwrap_or(alone);
+        let fit = self.fit(Shows::Render, &view);
         Shot {
             specimen,
             title: self.document.work.design.name.clone(),

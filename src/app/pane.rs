@@ -259,7 +259,7 @@ fn scene(editor: &mut Editor, ui: &mut Ui, (pane, shows): (usize, Shows), body: 
     let eye = *editor.desk.eye(pane);
     let view = editor.desk.view(pane);
     let scale = ui.pixels_per_point();
-    let fit = editor.fit(shows, (eye.turn, &view));
+    let fit = editor.fit(shows, &view);
     let sight =
         PaneView { view, film: eye.film(size, &fit), middle: fit.middle, side: view.side, body, scale };
     pictures(editor, ui, pane, &sight);
@@ -284,7 +284,7 @@ fn scene(editor: &mut Editor, ui: &mut Ui, (pane, shows): (usize, Shows), body: 
         editor.hovered = pane;
     }
     if is_alone {
-        hover(editor, ui, (shows, eye.turn), &response, &sight);
+        hover(editor, ui, shows, &response, &sight);
     } else {
         copies::hover(editor, ui, pane, &response, &sight);
     }
@@ -305,7 +305,7 @@ fn clicked(
         // A click by a key means the middle of the view.
         let at = response.interact_pointer_pos().unwrap_or(sight.body.center());
         let at = sight.film.image_from_pixels(sight.pixel(at));
-        let specimen = editor.posed(editor.desk.eye(pane).turn);
+        let specimen = Arc::clone(editor.document.specimen());
         if editor.probe(&specimen).is_on(&sight.view, at) {
             editor.following.click(pane, at, sight.body, ui.ctx());
         }
@@ -431,18 +431,14 @@ pub fn zones(shows: Shows, head: f64) -> Scope {
 }
 
 /// Names what is under the pointer in the status line, and outlines its facet.
-fn hover(editor: &mut Editor, ui: &Ui, (shows, turn): (Shows, f64), response: &Response, sight: &PaneView) {
+fn hover(editor: &mut Editor, ui: &Ui, shows: Shows, response: &Response, sight: &PaneView) {
     if !response.hovered() || response.dragged() {
         return;
     }
     let Some(at) = response.hover_pos() else { return };
-    let specimen = editor.posed(turn);
+    let specimen = Arc::clone(editor.document.specimen());
     let scope = zones(shows, editor.document.work.head);
-    let mut found = editor.probe(&specimen).at(&sight.view, &sight.film, sight.pixel(at), &scope);
-    if let Some(azimuth) = found.as_mut().and_then(|f| f.azimuth.as_mut()) {
-        // The azimuth is that of the cut, whatever the stone's turn in this view.
-        *azimuth = (*azimuth - turn.to_degrees()).rem_euclid(360.0);
-    }
+    let found = editor.probe(&specimen).at(&sight.view, &sight.film, sight.pixel(at), &scope);
     editor.message = found.as_ref().map_or(String::new(), ProbeHit::message);
     if let Some(found) = &found {
         outline(ui, &specimen, found.facet, sight);

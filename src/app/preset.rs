@@ -106,7 +106,8 @@ fn poses(scene: &SceneFile, corners: &[DVec3], unit_mm: f64) -> Vec<Pose> {
     let across = |turn: &DQuat| corners.iter().map(|c| (*turn * *c).truncate().length()).fold(0.0, f64::max);
     let radii: Vec<f64> = turns.iter().map(|turn| across(turn) * unit_mm).collect();
     let places = scene.places_mm(&radii).into_iter().map(|at| at / unit_mm);
-    let mut poses: Vec<Pose> = places.zip(turns).map(|(at, turn)| Pose { at, turn }).collect();
+    let mut poses: Vec<Pose> =
+        places.zip(turns).map(|(at, turn)| Pose { at, ..Pose::turned(turn) }).collect();
     let middle = middle(&poses, corners);
     poses.iter_mut().for_each(|pose| pose.at -= middle);
     poses

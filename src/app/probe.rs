@@ -100,7 +100,8 @@ impl Probe {
         let eye = Camera::reaching(view, farthest + self.specimen.radius);
         let (origin, direction) = eye.ray(film.image_from_pixels(at));
         let meet = |(copy, pose): (usize, &Pose)| {
-            let (facet, distance) = self.tracer.meet(pose.point(origin), pose.turn.inverse() * direction)?;
+            let (facet, distance) =
+                self.tracer.meet(pose.unplace(origin), pose.turn.inverse() * direction)?;
             Some((copy, facet as u32, distance))
         };
         let first = copies.iter().enumerate().filter_map(meet).min_by(|a, b| a.2.total_cmp(&b.2));
@@ -178,8 +179,10 @@ mod tests {
     #[test]
     fn of_copies_the_one_before_the_others_is_found_however_it_is_turned() {
         let probe = Probe::new(Arc::clone(Document::first().unwrap().specimen()));
-        let turned =
-            Pose { at: DVec3::new(1.5, 0.2, -4.0), turn: glam::DQuat::from_rotation_x(std::f64::consts::PI) };
+        let turned = Pose {
+            at: DVec3::new(1.5, 0.2, -4.0),
+            ..Pose::turned(glam::DQuat::from_rotation_x(std::f64::consts::PI))
+        };
         let copies = [turned, Pose { at: DVec3::new(-1.5, 0.0, 0.0), ..Pose::STILL }, Pose::STILL];
         let film = Film::square(200, 3.0);
         let perspective =

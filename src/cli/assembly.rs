@@ -8,7 +8,7 @@ use crate::io::mesh_options::MeshOptions;
 use crate::io::scene_file::{self, Entry, SceneFile};
 use crate::io::{is_standard, library};
 use crate::optics::Material;
-use crate::scene::{Instance, Scene, overlapping};
+use crate::scene::{Instance, Pose, Scene, overlapping};
 use glam::{DQuat, DVec3};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -84,7 +84,7 @@ impl Assembly {
         let material = material.unwrap_or_else(|| specimen.material.clone());
         let told = |message| Failure::Input(format!("{}: {message}", specimen.path));
         let diameter_mm = diameter_mm(&specimen, &material, size).map_err(told)?;
-        let stone = Instance::named(&specimen.body, material, &specimen.design.name);
+        let stone = Instance::of(&specimen.body, material, &specimen.design.name);
         Ok(Self {
             path: specimen.path,
             name: specimen.made.design.name,
@@ -227,15 +227,17 @@ impl Member<'_> {
 fn placed(members: &[Member]) -> Scene {
     let unit_mm = 0.5 * members.iter().map(|m| m.diameter_mm).fold(0.0, f64::max);
     let place = |m: &Member| {
-        let stone = Instance::named(&m.specimen.body, m.material.clone(), &m.specimen.design.name);
-        stone.moved(0.5 * m.diameter_mm / unit_mm, m.turn, m.at_mm / unit_mm)
+        let stone = Instance::of(&m.specimen.body, m.material.clone(), &m.specimen.design.name);
+        let scale = 0.5 * m.diameter_mm / unit_mm;
+        stone.moved(&Pose { at: m.at_mm / unit_mm, turn: m.turn, scale })
     };
     let stones: Vec<Instance> = members.iter().map(place).collect();
     // Pictures are centred on the origin.
-    let bounds = stones.iter().map(|s| s.solid.bounds());
+    let bounds = stones.iter().map(|s| s.solid().bounds());
     let (low, high) =
         bounds.fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(l, h), (a, b)| (l.min(a), h.max(b)));
     let shift =
         if members.len() > 1 || members[0].at_mm != DVec3::ZERO { -(low + high) / 2.0 } else { DVec3::ZERO };
-    Scene { instances: stones.into_iter().map(|s| s.moved(1.0, DQuat::IDENTITY, shift)).collect(), unit_mm }
+    let centred = Pose { at: shift, ..Pose::STILL };
+    Scene { instances: stones.into_iter().map(|s| s.moved(&centred)).collect(), unit_mm }
 }

@@ -134,7 +134,7 @@ fn described(specimen: &LoadedSpecimen) -> Result<Value, Failure> {
     let (low, high) = specimen.solid().bounds();
     value["volume"] = json!(specimen.solid().volume());
     value["size"] = json!((high - low).to_array());
-    if let Body::Mesh(shell) = &specimen.body {
+    if let Body::Mesh(shell) = &*specimen.body {
         value["triangles"] = json!(shell.surface().triangles.len());
         value["corners"] = json!(shell.vertices().len());
     }

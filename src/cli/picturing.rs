@@ -15,7 +15,7 @@ use crate::render::{
 use crate::scene::{Film, Panorama, Scene, View};
 use crate::trace::Watch;
 use crate::trace::ray::{self, Camera};
-use glam::{DQuat, DVec2, DVec3};
+use glam::DVec2;
 use std::cell::RefCell;
 use std::path::Path;
 use std::sync::Arc;
@@ -202,22 +202,14 @@ impl<'a> PictureSetup<'a> {
     /// [`Failure::Input`] where the eye of a perspective is not in front of all stones.
     pub fn pixel(&self, setting: &Scene, view: &View) -> Result<f64, Failure> {
         let stones = &setting.instances;
-        let reach = stones.iter().flat_map(|s| s.solid.vertices()).map(|v| v.length()).fold(0.0, f64::max);
+        let reach = stones.iter().map(|s| s.solid().reach()).fold(0.0, f64::max);
         let camera = Camera::reaching(view, reach);
-        let extent = stones.iter().try_fold(DVec2::ZERO, |all, s| Some(all.max(camera.extent(&s.solid)?)));
-        let Some(extent) = extent else {
+        let Some(extent) = camera.extent(stones.iter().flat_map(|s| s.solid().vertices())) else {
             let message = "the eye of --perspective is not in front of all of it; move it farther off";
             return Err(Failure::Input(format!("{}: {message}", self.assembly.path)));
         };
         let size = DVec2::new(f64::from(self.options.size[0]), f64::from(self.options.size[1]));
         Ok((2.0 * extent * (1.0 + MARGIN) / size).max_element())
-    }
-
-    /// Returns the stones turned about the z axis by an angle in radians.
-    pub fn turned(&self, angle: f64) -> Scene {
-        let turn = DQuat::from_rotation_z(angle);
-        let stones = self.assembly.setting.instances.iter().cloned().map(|s| s.moved(1.0, turn, DVec3::ZERO));
-        Scene { instances: stones.collect(), ..self.assembly.setting }
     }
 
     /// Takes a picture. Where the card fails, the processor traces this picture and, if the card is lost, all later ones.
@@ -276,8 +268,12 @@ impl<'a> PictureSetup<'a> {
         let found = job.lit().and_then(|lit_scene| ray::facet_at(&lit_scene, at.x, at.y));
         let Some((stone, facet)) = found else { return "nothing".into() };
         let placed = &job.scene.instances[stone];
-        let name =
-            placed.names.get(facet as usize).cloned().unwrap_or_else(|| format!("facet {}", facet + 1));
+        let name = placed
+            .body
+            .names()
+            .get(facet as usize)
+            .cloned()
+            .unwrap_or_else(|| format!("facet {}", facet + 1));
         if job.scene.instances.len() == 1 {
             return name;
         }

@@ -8,8 +8,9 @@ use super::specimen::stem;
 use super::{Failure, say, written};
 use crate::io::{Frames, is_standard, write_apng, write_rgba_png};
 use crate::picture::Background;
-use crate::scene::{Scene, View};
+use crate::scene::View;
 use clap::{Args, ValueEnum};
+use glam::DQuat;
 use std::f64::consts::TAU;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -65,10 +66,10 @@ impl Spin {
         self.check_swing()?;
         let studio = PictureSetup::load((&self.picture, &self.finish), &self.file, &first)?
             .with_what_has_a_distance()?;
-        let frames: Vec<(Arc<Scene>, View)> =
-            (0..self.frames).map(|k| self.frame(&studio, &first, k)).collect();
+        let stones = Arc::new(studio.assembly.setting.clone());
+        let frames: Vec<View> = (0..self.frames).map(|k| self.frame(&first, k)).collect();
         // One size of pixel for all frames: the stones fit in every frame and keep their size.
-        let mut pixels = frames.iter().map(|(setting, view)| studio.pixel(setting, view));
+        let mut pixels = frames.iter().map(|view| studio.pixel(&stones, view));
         let pixel = pixels.try_fold(0.0_f64, |most, pixel| pixel.map(|p| most.max(p)))?;
         let name = format!("{}{}-spin", stem(&self.file), viewpoint.suffix());
         let folder = self.out.join(&name);
@@ -85,9 +86,9 @@ impl Spin {
         let mut moves = false;
         write_apng(&path, animation, &told, |animation| -> Result<(), Failure> {
             let mut first: Option<Vec<u8>> = None;
-            for (number, (setting, view)) in frames.iter().enumerate() {
+            for (number, view) in frames.iter().enumerate() {
                 let done = |part: f64| bar.watch()((number as f64 + part) / frames.len() as f64);
-                let job = studio.job(setting, view, pixel);
+                let job = studio.job(&stones, view, pixel);
                 let taken = studio.take(&job, &done)?;
                 let rgba = studio.developed(&job, taken.picture, &done)?;
                 let still = folder.join(format!("{:04}.png", number + 1));
@@ -136,15 +137,14 @@ impl Spin {
         }
     }
 
-    /// Returns the stones of a frame, and the view from which they are seen.
-    fn frame(&self, studio: &PictureSetup, first: &View, number: u32) -> (Arc<Scene>, View) {
+    /// Returns the view of a frame. Whatever moves, the stones stay as they are.
+    fn frame(&self, first: &View, number: u32) -> View {
         let part = TAU * f64::from(number) / f64::from(self.frames);
         let swing = self.swing.to_radians();
-        let (angle, view) = match self.motion {
-            Motion::Turn => (part, *first),
-            Motion::Rock => (0.0, View { tilt: first.tilt + swing * part.sin(), ..*first }),
-            Motion::Wobble => (0.0, View { tilt: swing, azimuth: first.azimuth + part, ..*first }),
-        };
-        (Arc::new(studio.turned(angle)), view)
+        match self.motion {
+            Motion::Turn => first.of_turned(DQuat::from_rotation_z(part)),
+            Motion::Rock => View { tilt: first.tilt + swing * part.sin(), ..*first },
+            Motion::Wobble => View { tilt: swing, azimuth: first.azimuth + part, ..*first },
+        }
     }
 }

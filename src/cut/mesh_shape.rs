@@ -1,7 +1,7 @@
 //! The shape of a stone that is given by triangles.
 
 use super::outline;
-use crate::math::{Calipers, TriangleMesh, hull};
+use crate::math::{Calipers, Pose, TriangleMesh, hull};
 use glam::{DQuat, DVec3};
 use std::ops::Deref;
 use std::sync::Arc;
@@ -31,7 +31,7 @@ impl MeshShape {
         let is_framed = (scale - 1.0).abs() < IN_FRAME && shift.length() < IN_FRAME;
         let shell = match is_framed && turn == DQuat::IDENTITY {
             true => shell.clone(),
-            false => shell.moved(scale, turn, shift),
+            false => shell.reframed(&Pose { at: shift, turn, scale }),
         };
         Some((Self(Arc::new(shell)), if is_framed { 1.0 } else { scale }))
     }

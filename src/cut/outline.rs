@@ -207,7 +207,7 @@ fn knife_edge(stone: &Polytope) -> Vec<f64> {
 mod tests {
     use super::super::round_brilliant::{MODERN, RoundBrilliant};
     use super::*;
-    use crate::math::Plane;
+    use crate::math::{Plane, Pose};
 
     fn stone(given: RoundBrilliant) -> Polytope {
         let planes: Vec<Plane> = given.facets().unwrap().into_iter().map(|(_, plane)| plane).collect();
@@ -252,7 +252,7 @@ mod tests {
         assert!((plain.width - 1.3).abs() < 1e-12 && (plain.length - 2.0).abs() < 1e-12, "{plain:?}");
         assert_eq!(plain.diameter, plain.width);
         assert!(plain.table[0] > 0.1 && plain.table[1] > 1.01 * plain.table[0], "{plain:?}");
-        let moved = |angle| Outline::of(&stone.moved(1.0, glam::DQuat::from_rotation_z(angle), DVec3::ZERO));
+        let moved = |angle| Outline::of(&stone.reframed(&Pose::turned(glam::DQuat::from_rotation_z(angle))));
         for step in 1..40 {
             let again = moved(0.31 * f64::from(step));
             let pairs = [
@@ -264,7 +264,7 @@ mod tests {
             assert!(pairs.iter().all(|(a, b)| (a - b).abs() < 1e-12), "{step}: {again:?} {plain:?}");
         }
         // GemCad's figures do depend on the turn; if they did not, this test would show nothing.
-        let turned = AlongAxes::of(&stone.moved(1.0, glam::DQuat::from_rotation_z(0.5), DVec3::ZERO));
+        let turned = AlongAxes::of(&stone.reframed(&Pose::turned(glam::DQuat::from_rotation_z(0.5))));
         assert!((turned.length_to_width - AlongAxes::of(&stone).length_to_width).abs() > 0.1);
     }
 

@@ -209,7 +209,7 @@ pub fn written(specimen: &Specimen, format: DesignFormat) -> Result<EncodedDesig
 /// Wraps the bytes of a mesh, with messages about what meshes have no place for.
 fn as_mesh(specimen: &Specimen, format: DesignFormat, bytes: Vec<u8>) -> EncodedDesign {
     let is_named = matches!(format, DesignFormat::Obj | DesignFormat::Glb);
-    let shape = match &specimen.body {
+    let shape = match &*specimen.body {
         Body::Mesh(_) | Body::Glass(_) => "its triangles",
         Body::Stone(_) if is_named => "its facets, their names",
         Body::Stone(_) => "its facets",
@@ -235,7 +235,7 @@ fn as_mesh(specimen: &Specimen, format: DesignFormat, bytes: Vec<u8>) -> Encoded
     }
     let measured = "the proportions are not kept; whoever reads the mesh measures them anew";
     lost.extend(specimen.design.cut.brilliant().map(|_| measured.to_owned()));
-    if let Body::Glass(smooth) = &specimen.body {
+    if let Body::Glass(smooth) = &*specimen.body {
         let off = smooth.field().deviation(FINENESS) * specimen.unit_mm();
         lost.push(format!("its smooth surface is written as triangles, {off:.1e} mm off it at most"));
     }

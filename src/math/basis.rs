@@ -28,6 +28,14 @@ impl Basis {
         Self { right: turn * self.right, up: turn * self.up, toward: new }
     }
 
+    /// Returns this frame turned by a rotation; without one, every digit stays.
+    pub fn turned(&self, by: DQuat) -> Self {
+        if by == DQuat::IDENTITY {
+            return *self;
+        }
+        Self { right: by * self.right, up: by * self.up, toward: by * self.toward }
+    }
+
     /// Returns the image coordinates of a point or direction; its part along `toward` is dropped.
     pub fn project(&self, p: DVec3) -> DVec2 {
         DVec2::new(self.right.dot(p), self.up.dot(p))

@@ -26,7 +26,7 @@ pub(crate) use self::parts::SurfaceParts;
 use self::profile::{Profile, Triangle};
 use self::wave::Wave;
 use super::Surface;
-use glam::{DMat3, DQuat, DVec3};
+use glam::{DMat3, DVec3};
 
 /// The form of a glass shape and its dimensions, in girdle radii.
 ///
@@ -82,18 +82,14 @@ pub enum ImplicitForm {
     },
 }
 
-/// A glass shape at its place in the world.
+/// A glass shape in its own frame.
 ///
-/// Points, distances and derivatives are in world coordinates. A point *on the surface* is one that an entry or an exit has
-/// led to, up to rounding.
+/// A point *on the surface* is one that an entry or an exit has led to, up to rounding.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ImplicitSurface {
     form: ImplicitForm,
     body: RoundedBody,
     wave: Option<Wave>,
-    scale: f64,
-    turn: DQuat,
-    shift: DVec3,
 }
 
 impl ImplicitSurface {
@@ -122,20 +118,10 @@ impl ImplicitSurface {
                 (amplitude > 0.0).then(|| Wave::new(amplitude, wavelength, phase)),
             ),
         };
-        Self { form, body, wave, scale: 1.0, turn: DQuat::IDENTITY, shift: DVec3::ZERO }
+        Self { form, body, wave }
     }
 
-    /// Returns the same shape scaled by a factor above 0, turned, then shifted.
-    pub fn moved(&self, scale: f64, turn: DQuat, shift: DVec3) -> Self {
-        Self {
-            scale: self.scale * scale,
-            turn: turn * self.turn,
-            shift: turn * self.shift * scale + shift,
-            ..*self
-        }
-    }
-
-    /// Returns the form of the shape in its own frame.
+    /// Returns the form of the shape.
     pub fn form(&self) -> ImplicitForm {
         self.form
     }
@@ -181,7 +167,7 @@ impl ImplicitSurface {
     /// The direction is a unit vector. From a start inside, the distance is 0 if the ray leads deeper. `None` if the ray
     /// does not enter, or if a thousand steps do not lead to the place.
     pub fn entry(&self, origin: DVec3, direction: DVec3) -> Option<f64> {
-        self.entry_counted(origin, direction).0
+        self.way_in(origin, direction, &mut 0)
     }
 
     /// Returns the distance, 0 or more, at which a ray from inside or from the surface next leaves.
@@ -189,41 +175,31 @@ impl ImplicitSurface {
     /// The direction is a unit vector. `None` if rounding has let the ray slip out, which happens only to rays that run
     /// along the surface, or if a thousand steps do not lead to the place.
     pub fn exit(&self, point: DVec3, direction: DVec3) -> Option<f64> {
-        self.exit_counted(point, direction).0
+        self.way_out(point, direction, &mut 0)
     }
 
-    /// Returns the smallest box along the axes that holds the shape, (least, greatest); for a plate a box that is large
-    /// enough.
-    pub fn bounds(&self) -> (DVec3, DVec3) {
-        let high = DVec3::from(DVec3::AXES.map(|axis| self.support(axis)));
-        let low = DVec3::from(DVec3::AXES.map(|axis| -self.support(-axis)));
-        (low, high)
-    }
-
-    /// Returns a distance from the origin that no point of the shape exceeds.
-    ///
-    /// For a convex form that was not shifted it is the distance of the farthest point.
+    /// Returns a distance from the origin that no point of the shape exceeds. For a convex form it is the distance of the
+    /// farthest point.
     pub fn reach(&self) -> f64 {
-        self.shift.length() + self.scale * self.own_reach()
+        self.body.reach() + self.wave.map_or(0.0, |wave| wave.amplitude)
     }
 
     /// Returns the enclosed volume, by Steiner's formula; a shear does not change it.
     pub fn volume(&self) -> f64 {
-        self.body.volume() * self.scale.powi(3)
+        self.body.volume()
     }
 
     /// Returns the area of the shadow that a convex form casts along a unit direction; `None` for a plate with waves.
     pub fn silhouette_area(&self, direction: DVec3) -> Option<f64> {
-        let own = self.turn.inverse() * direction;
-        self.is_convex().then(|| self.body.silhouette_area(own) * self.scale * self.scale)
+        self.is_convex().then(|| self.body.silhouette_area(direction))
     }
 
-    /// Returns where a point of this shape's matter lies in `to`, the same shape at another place or time.
+    /// Returns where a point of this shape's matter lies in `to`, the same shape at another time.
     ///
     /// A wave carries the matter up and down.
     pub fn carried(&self, point: DVec3, to: &Self) -> DVec3 {
-        let body = self.unsheared(self.own(point));
-        to.world(body + DVec3::Z * to.wave.map_or(0.0, |wave| wave.height(body)))
+        let body = self.unsheared(point);
+        body + DVec3::Z * to.wave.map_or(0.0, |wave| wave.height(body))
     }
 
     /// Returns the names of the facets: the flat faces (and the side of a pill), then the rounded part.
@@ -241,7 +217,7 @@ impl ImplicitSurface {
 
     /// Returns the facet that a point of the surface belongs to, by its place in [`facets`](Self::facets).
     pub fn facet(&self, point: DVec3) -> u32 {
-        self.own_facet(self.unsheared(self.own(point)))
+        self.own_facet(self.unsheared(point))
     }
 
     /// Returns the facet that a point of the body's surface belongs to.
@@ -263,32 +239,18 @@ impl ImplicitSurface {
     }
 
     fn jet_as(&self, point: DVec3, on_surface: bool) -> Jet {
-        let own = self.own(point);
-        let jet = self.body.jet(self.unsheared(own), on_surface);
-        self.wave.map_or(jet, |wave| wave.shear(jet, own)).moved(self.scale, DMat3::from_quat(self.turn))
+        let jet = self.body.jet(self.unsheared(point), on_surface);
+        self.wave.map_or(jet, |wave| wave.shear(jet, point))
     }
 
-    /// Returns the greatest coordinate along a unit direction of the world, or with waves a bound of it.
-    fn support(&self, direction: DVec3) -> f64 {
-        let own = self.turn.inverse() * direction;
-        let lift = self.wave.map_or(0.0, |wave| wave.amplitude * own.z.abs());
-        (self.body.support(own) + lift) * self.scale + self.shift.dot(direction)
+    /// Returns the greatest coordinate along a unit direction, or with waves a bound of it.
+    pub fn support(&self, direction: DVec3) -> f64 {
+        let lift = self.wave.map_or(0.0, |wave| wave.amplitude * direction.z.abs());
+        self.body.support(direction) + lift
     }
 
-    fn own_reach(&self) -> f64 {
-        self.body.reach() + self.wave.map_or(0.0, |wave| wave.amplitude)
-    }
-
-    fn own(&self, point: DVec3) -> DVec3 {
-        self.turn.inverse() * (point - self.shift) / self.scale
-    }
-
-    fn world(&self, own: DVec3) -> DVec3 {
-        self.turn * own * self.scale + self.shift
-    }
-
-    /// Returns a point of the shape's own frame with the shear undone.
-    fn unsheared(&self, own: DVec3) -> DVec3 {
-        self.wave.map_or(own, |wave| own - DVec3::Z * wave.height(own))
+    /// Returns a point with the shear undone.
+    fn unsheared(&self, point: DVec3) -> DVec3 {
+        self.wave.map_or(point, |wave| point - DVec3::Z * wave.height(point))
     }
 }

@@ -1,5 +1,6 @@
 //! A plane as the boundary of a half-space.
 
+use super::Pose;
 use glam::DVec3;
 
 /// The half-space `normal · x <= offset`, whose boundary is the plane of a facet.
@@ -37,6 +38,12 @@ impl Plane {
         let length = scaled.length();
         let unit = Self::new(scaled / length, self.offset / largest / length);
         (unit.normal.is_finite() && unit.offset.is_finite()).then_some(unit)
+    }
+
+    /// Returns where a plane of a body lies in the world.
+    pub fn placed(&self, pose: &Pose) -> Self {
+        let normal = pose.turn * self.normal;
+        Self { normal, offset: self.offset * pose.scale + normal.dot(pose.at) }
     }
 
     /// Returns how far `point` lies outside the half-space (negative inside), in units of the normal's length.

@@ -1,7 +1,7 @@
 //! A closed convex solid bounded by planes, and its measures. `polytope_build` builds it.
 
-use super::{Plane, polytope_build};
-use glam::{DQuat, DVec3};
+use super::{Plane, Pose, polytope_build};
+use glam::DVec3;
 
 /// One face of a [`Polytope`].
 #[derive(Debug, Clone, PartialEq)]
@@ -40,17 +40,14 @@ impl Polytope {
         polytope_build::build(planes)
     }
 
-    /// Returns the same solid scaled by a factor above 0, turned, then shifted. Facets and corners keep their order.
-    pub fn moved(&self, scale: f64, turn: DQuat, shift: DVec3) -> Self {
-        let mut moved = self.clone();
-        for corner in &mut moved.vertices {
-            *corner = turn * *corner * scale + shift;
-        }
-        for Facet { plane, .. } in &mut moved.facets {
-            plane.normal = turn * plane.normal;
-            plane.offset = plane.offset * scale + plane.normal.dot(shift);
-        }
-        moved
+    /// Builds the same solid in the frame that a pose carries it to. Facets and corners keep their order.
+    ///
+    /// This is for a stone that is brought into the frame of all stones; scenes carry their stones by a pose instead.
+    pub fn reframed(&self, pose: &Pose) -> Self {
+        let mut reframed = self.clone();
+        reframed.vertices.iter_mut().for_each(|corner| *corner = pose.place(*corner));
+        reframed.facets.iter_mut().for_each(|facet| facet.plane = facet.plane.placed(pose));
+        reframed
     }
 
     /// Returns the facets, in the order of the planes given.

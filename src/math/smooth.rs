@@ -1,8 +1,7 @@
 //! A glass shape ready to be traced and drawn: its function, and triangles for whatever needs corners and edges.
 
 use super::{Edge, ImplicitSurface, Surface};
-use glam::{DQuat, DVec3};
-use std::sync::Arc;
+use glam::DVec3;
 
 /// The steps that a quarter turn is cut into: lines drawn over a picture need no more.
 const FINENESS: usize = 8;
@@ -13,7 +12,7 @@ const FINENESS: usize = 8;
 #[derive(Debug, Clone, PartialEq)]
 pub struct SmoothSolid {
     field: ImplicitSurface,
-    surface: Arc<Surface>,
+    surface: Surface,
     corners: Vec<DVec3>,
 }
 
@@ -22,21 +21,7 @@ impl SmoothSolid {
     pub fn new(field: ImplicitSurface) -> Self {
         let surface = field.surface(FINENESS);
         let corners = around(&field, &surface);
-        Self { field, surface: Arc::new(surface), corners }
-    }
-
-    /// Returns the same solid scaled by a factor above 0, turned, then shifted.
-    pub fn moved(&self, scale: f64, turn: DQuat, shift: DVec3) -> Self {
-        let place = |v: &DVec3| turn * *v * scale + shift;
-        let surface = Surface {
-            vertices: self.surface.vertices.iter().map(place).collect(),
-            ..(*self.surface).clone()
-        };
-        Self {
-            field: self.field.moved(scale, turn, shift),
-            surface: Arc::new(surface),
-            corners: self.corners.iter().map(place).collect(),
-        }
+        Self { field, surface, corners }
     }
 
     /// Returns the function of the surface.
@@ -56,7 +41,7 @@ impl SmoothSolid {
 
     /// Returns the lines between the triangles, each once, with the surface's normals at both ends.
     pub fn edges(&self) -> Vec<Edge> {
-        let Surface { vertices, triangles, .. } = &*self.surface;
+        let Surface { vertices, triangles, .. } = &self.surface;
         let normals: Vec<DVec3> = vertices.iter().map(|v| self.field.normal(*v)).collect();
         let sides = triangles.iter().flat_map(|[a, b, c]| [[a, b], [b, c], [c, a]]);
         // Each line has a triangle on either side, and the two run along it in opposite directions.

@@ -1,20 +1,9 @@
-//! A solid of any kind: between planes, within triangles, or within a smooth surface.
+//! A solid of any kind: between planes, within triangles, or within a smooth surface, in its own frame or carried by a pose.
 
-use super::{ImplicitSurface, Polytope, SmoothSolid, Surface, TriangleMesh};
-use glam::{DQuat, DVec3};
+use super::{Polytope, Pose, SmoothSolid, Surface, TriangleMesh};
+use glam::DVec3;
 use std::collections::BTreeSet;
 use std::sync::Arc;
-
-/// The shape of a stone.
-#[derive(Debug, Clone, PartialEq)]
-pub enum Solid {
-    /// Convex, between planes.
-    Convex(Polytope),
-    /// Within triangles, which need not form a convex solid. Shared, because it may be large.
-    Triangles(Arc<TriangleMesh>),
-    /// Within a smooth surface.
-    Smooth(SmoothSolid),
-}
 
 /// A solid that is borrowed from its owner.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -41,49 +30,73 @@ pub struct Edge {
     pub normals: [DVec3; 2],
 }
 
-impl Solid {
-    /// Borrows the solid.
-    pub fn by_ref(&self) -> SolidRef<'_> {
-        match self {
-            Self::Convex(polytope) => SolidRef::Convex(polytope),
-            Self::Triangles(shell) => SolidRef::Triangles(shell),
-            Self::Smooth(smooth) => SolidRef::Smooth(smooth),
-        }
+impl Edge {
+    /// Returns where an edge of a body lies in the world.
+    pub fn placed(&self, pose: &Pose) -> Self {
+        Self { ends: self.ends.map(|v| pose.place(v)), normals: self.normals.map(|n| pose.turn * n) }
+    }
+}
+
+/// A solid in its place in the world.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PosedSolid<'a> {
+    /// The solid in its own frame.
+    pub solid: SolidRef<'a>,
+    /// The pose that carries it into the world.
+    pub pose: Pose,
+}
+
+/// A ball around a solid.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Ball {
+    /// The middle.
+    pub middle: DVec3,
+    /// The radius.
+    pub radius: f64,
+}
+
+impl Ball {
+    /// Returns a ball around points; its middle is that of the box around them.
+    pub fn around(points: &[DVec3]) -> Self {
+        let (low, high) = bounds(points);
+        let middle = (low + high) / 2.0;
+        Self { middle, radius: points.iter().map(|p| p.distance(middle)).fold(0.0, f64::max) }
     }
 
-    /// Returns the polytope of a convex solid.
-    ///
-    /// # Errors
-    /// Returns [`NotConvex`] for a solid of any other kind, even where it is convex.
-    pub fn polytope(&self) -> Result<&Polytope, NotConvex> {
-        match self {
-            Self::Convex(polytope) => Ok(polytope),
-            Self::Triangles(_) | Self::Smooth(_) => Err(NotConvex),
-        }
+    /// Whether a ray from `origin` along a unit direction runs through the ball.
+    pub fn is_met(&self, origin: DVec3, direction: DVec3) -> bool {
+        let away = self.middle - origin;
+        let along = away.dot(direction);
+        along > -self.radius && away.length_squared() - along * along < self.radius * self.radius
+    }
+}
+
+impl<'a> PosedSolid<'a> {
+    /// Returns the corners in the world; for a smooth solid, points that it lies between.
+    pub fn vertices(&self) -> impl Iterator<Item = DVec3> + use<'a> {
+        let Self { solid, pose } = *self;
+        solid.vertices().iter().map(move |&v| pose.place(v))
     }
 
-    /// Returns the corners; for a smooth solid, points that it lies between.
-    pub fn vertices(&self) -> &[DVec3] {
-        self.by_ref().vertices()
-    }
-
-    /// Returns the smallest box with sides along the axes that holds the solid, as (least, greatest) coordinates.
+    /// Returns the smallest box with sides along the world's axes that holds the solid, as (least, greatest) coordinates.
     pub fn bounds(&self) -> (DVec3, DVec3) {
-        self.by_ref().bounds()
+        let Pose { at, turn, scale } = self.pose;
+        let reach = |axis: DVec3| self.solid.support(turn.inverse() * axis) * scale;
+        let [high, low] =
+            [1.0, -1.0].map(|side| DVec3::from(DVec3::AXES.map(|axis| side * reach(axis * side))));
+        (low + at, high + at)
     }
 
-    /// Returns the enclosed volume.
-    pub fn volume(&self) -> f64 {
-        self.by_ref().volume()
+    /// Returns a ball around the solid, a little larger than it must be, for rounding.
+    pub fn ball(&self) -> Ball {
+        let Ball { middle, radius } = self.solid.ball();
+        Ball { middle: self.pose.place(middle), radius: radius * self.pose.scale * (1.0 + 1e-5) }
     }
 
-    /// Returns the same solid scaled by a factor above 0, turned, then shifted.
-    pub fn moved(&self, scale: f64, turn: DQuat, shift: DVec3) -> Self {
-        match self {
-            Self::Convex(polytope) => Self::Convex(polytope.moved(scale, turn, shift)),
-            Self::Triangles(shell) => Self::Triangles(Arc::new(shell.moved(scale, turn, shift))),
-            Self::Smooth(smooth) => Self::Smooth(smooth.moved(scale, turn, shift)),
-        }
+    /// Returns a distance from the world's origin that no corner exceeds: that of the farthest corner where the solid is not
+    /// moved.
+    pub fn reach(&self) -> f64 {
+        self.solid.reach() * self.pose.scale + self.pose.at.length()
     }
 }
 
@@ -99,11 +112,48 @@ impl<'a> SolidRef<'a> {
 
     /// Returns the smallest box with sides along the axes that holds the solid, as (least, greatest) coordinates.
     pub fn bounds(self) -> (DVec3, DVec3) {
-        if let Self::Smooth(smooth) = self {
-            return smooth.field().bounds();
+        match self {
+            Self::Smooth(_) => PosedSolid { solid: self, pose: Pose::STILL }.bounds(),
+            Self::Convex(_) | Self::Triangles(_) => bounds(self.vertices()),
         }
-        let start = (DVec3::INFINITY, DVec3::NEG_INFINITY);
-        self.vertices().iter().fold(start, |(low, high), &v| (low.min(v), high.max(v)))
+    }
+
+    /// Returns the greatest coordinate along a unit direction.
+    pub fn support(self, direction: DVec3) -> f64 {
+        if let Self::Smooth(smooth) = self {
+            return smooth.field().support(direction);
+        }
+        self.vertices().iter().map(|v| v.dot(direction)).fold(f64::NEG_INFINITY, f64::max)
+    }
+
+    /// Returns a ball around the solid.
+    pub fn ball(self) -> Ball {
+        if let Self::Triangles(shell) = self { shell.ball() } else { Ball::around(self.vertices()) }
+    }
+
+    /// Returns the distance of the farthest corner from the origin.
+    pub fn reach(self) -> f64 {
+        if let Self::Triangles(shell) = self { shell.reach() } else { reach(self.vertices()) }
+    }
+
+    /// Returns the solid as triangles; those of a smooth solid approximate its surface from within, and `None` means that they
+    /// enclose nothing.
+    pub fn mesh(self) -> Option<Arc<TriangleMesh>> {
+        match self {
+            Self::Convex(polytope) => Some(Arc::new(TriangleMesh::of_polytope(polytope))),
+            Self::Triangles(shell) => Some(Arc::clone(shell)),
+            Self::Smooth(smooth) => TriangleMesh::new(smooth.surface().clone()).ok().map(Arc::new),
+        }
+    }
+
+    /// Whether both are one solid in memory, so that what is built for one of them serves the other as well.
+    pub fn is_same(self, other: Self) -> bool {
+        match (self, other) {
+            (Self::Convex(a), Self::Convex(b)) => std::ptr::eq(a, b),
+            (Self::Triangles(a), Self::Triangles(b)) => Arc::ptr_eq(a, b),
+            (Self::Smooth(a), Self::Smooth(b)) => std::ptr::eq(a, b),
+            _ => false,
+        }
     }
 
     /// Returns the enclosed volume.
@@ -112,15 +162,6 @@ impl<'a> SolidRef<'a> {
             Self::Convex(polytope) => polytope.volume(),
             Self::Triangles(shell) => shell.volume(),
             Self::Smooth(smooth) => smooth.field().volume(),
-        }
-    }
-
-    /// Returns a solid that owns its data.
-    pub fn owned(self) -> Solid {
-        match self {
-            Self::Convex(polytope) => Solid::Convex(polytope.clone()),
-            Self::Triangles(shell) => Solid::Triangles(Arc::clone(shell)),
-            Self::Smooth(smooth) => Solid::Smooth(smooth.clone()),
         }
     }
 
@@ -165,6 +206,17 @@ impl<'a> SolidRef<'a> {
     }
 }
 
+/// Returns the smallest box with sides along the axes that holds points, as (least, greatest) coordinates.
+fn bounds(points: &[DVec3]) -> (DVec3, DVec3) {
+    let start = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+    points.iter().fold(start, |(low, high), &p| (low.min(p), high.max(p)))
+}
+
+/// Returns the distance of the farthest point from the origin.
+pub(super) fn reach(points: &[DVec3]) -> f64 {
+    points.iter().map(|p| p.length()).fold(0.0, f64::max)
+}
+
 /// Returns the triangles of one facet, where `facets` holds the facet of each triangle.
 fn picked(surface: &Surface, facets: &[u32], facet: u32) -> Vec<[DVec3; 3]> {
     let all = surface.triangles.iter().zip(facets).filter(|(_, own)| **own == facet);
@@ -188,24 +240,6 @@ fn edges_of_polytope(polytope: &Polytope) -> Vec<Edge> {
     edges
 }
 
-impl From<Polytope> for Solid {
-    fn from(polytope: Polytope) -> Self {
-        Self::Convex(polytope)
-    }
-}
-
-impl From<TriangleMesh> for Solid {
-    fn from(shell: TriangleMesh) -> Self {
-        Self::Triangles(Arc::new(shell))
-    }
-}
-
-impl From<ImplicitSurface> for Solid {
-    fn from(field: ImplicitSurface) -> Self {
-        Self::Smooth(SmoothSolid::new(field))
-    }
-}
-
 impl<'a> From<&'a SmoothSolid> for SolidRef<'a> {
     fn from(smooth: &'a SmoothSolid) -> Self {
         Self::Smooth(smooth)
@@ -221,11 +255,5 @@ impl<'a> From<&'a Polytope> for SolidRef<'a> {
 impl<'a> From<&'a Arc<TriangleMesh>> for SolidRef<'a> {
     fn from(shell: &'a Arc<TriangleMesh>) -> Self {
         Self::Triangles(shell)
-    }
-}
-
-impl<'a> From<&'a Solid> for SolidRef<'a> {
-    fn from(solid: &'a Solid) -> Self {
-        solid.by_ref()
     }
 }

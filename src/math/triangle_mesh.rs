@@ -1,8 +1,9 @@
 //! A closed mesh of triangles, ready to be traced: its facets, their planes, and boxes around its triangles.
 
 use super::regions::{neighbours, planes_of, regions};
-use super::{Bvh, Edge, Plane, Polytope, Surface, triangulate};
-use glam::{DQuat, DVec3};
+use super::solid::reach;
+use super::{Ball, Bvh, Edge, Plane, Polytope, Pose, Surface, triangulate};
+use glam::DVec3;
 
 /// A closed solid of triangles, which need not be convex. Neighbouring triangles in one plane form one facet.
 #[derive(Debug, Clone, PartialEq)]
@@ -11,6 +12,10 @@ pub struct TriangleMesh {
     facets: Vec<u32>,
     planes: Vec<Plane>,
     bvh: Bvh,
+    /// A ball around all corners.
+    ball: Ball,
+    /// The distance of the farthest corner from the origin.
+    reach: f64,
 }
 
 /// Why triangles enclose no solid.
@@ -62,8 +67,7 @@ impl TriangleMesh {
         checked(&surface)?;
         let facets = regions(&surface)?;
         let planes = planes_of(&surface, &facets);
-        let bvh = Bvh::new(&surface.vertices, &surface.triangles);
-        let shell = Self { surface, facets, planes, bvh };
+        let shell = Self::of_parts(surface, facets, planes);
         let volume = shell.volume();
         if volume > 0.0 { Ok(shell) } else { Err(TriangleMeshError::InsideOut(volume)) }
     }
@@ -71,25 +75,24 @@ impl TriangleMesh {
     /// Makes the mesh of a convex solid; the facets keep their order.
     pub fn of_polytope(polytope: &Polytope) -> Self {
         let mesh = triangulate(polytope);
-        let bvh = Bvh::new(&mesh.vertices, &mesh.triangles);
         let surface = Surface::new(mesh.vertices, mesh.triangles);
-        Self { surface, facets: mesh.facets, planes: polytope.planes().collect(), bvh }
+        Self::of_parts(surface, mesh.facets, polytope.planes().collect())
     }
 
-    /// Returns the same solid scaled by a factor above 0, turned, then shifted. Facets and triangles keep their order.
-    pub fn moved(&self, scale: f64, turn: DQuat, shift: DVec3) -> Self {
-        let vertices: Vec<DVec3> = self.surface.vertices.iter().map(|&v| turn * v * scale + shift).collect();
-        let plane = |p: &Plane| {
-            let normal = turn * p.normal;
-            Plane { normal, offset: p.offset * scale + normal.dot(shift) }
-        };
-        let triangles = self.surface.triangles.clone();
-        Self {
-            bvh: Bvh::new(&vertices, &triangles),
-            planes: self.planes.iter().map(plane).collect(),
-            facets: self.facets.clone(),
-            surface: Surface::new(vertices, triangles),
-        }
+    /// Builds the same solid in the frame that a pose carries it to. Facets and triangles keep their order.
+    ///
+    /// This is for a mesh that is brought into the frame of all stones; scenes carry their meshes by a pose instead.
+    pub fn reframed(&self, pose: &Pose) -> Self {
+        let vertices = self.vertices().iter().map(|&v| pose.place(v)).collect();
+        let planes = self.planes.iter().map(|plane| plane.placed(pose)).collect();
+        Self::of_parts(Surface::new(vertices, self.surface.triangles.clone()), self.facets.clone(), planes)
+    }
+
+    /// Puts boxes and a ball around the triangles of known facets.
+    fn of_parts(surface: Surface, facets: Vec<u32>, planes: Vec<Plane>) -> Self {
+        let bvh = Bvh::new(&surface.vertices, &surface.triangles);
+        let (ball, reach) = (Ball::around(&surface.vertices), reach(&surface.vertices));
+        Self { surface, facets, planes, bvh, ball, reach }
     }
 
     /// Returns the triangles.
@@ -110,6 +113,16 @@ impl TriangleMesh {
     /// Returns the plane of each facet; its normal points outward.
     pub fn planes(&self) -> &[Plane] {
         &self.planes
+    }
+
+    /// Returns a ball around the solid.
+    pub fn ball(&self) -> Ball {
+        self.ball
+    }
+
+    /// Returns the distance of the farthest corner from the origin.
+    pub fn reach(&self) -> f64 {
+        self.reach
     }
 
     /// Returns the boxes around the triangles.
@@ -163,6 +176,7 @@ fn checked(surface: &Surface) -> Result<(), TriangleMeshError> {
 mod tests {
     use super::*;
     use crate::math::fixture::{self, Triangles, extruded};
+    use glam::DQuat;
     use std::sync::Arc;
 
     fn surface((vertices, triangles): Triangles) -> Surface {
@@ -234,7 +248,7 @@ mod tests {
     fn a_moved_shell_is_the_shell_of_what_was_moved() {
         let (shell, turn, shift) =
             (TriangleMesh::new(heart()).unwrap(), DQuat::from_rotation_y(0.4), DVec3::new(3.0, -1.0, 0.5));
-        let moved = shell.moved(2.0, turn, shift);
+        let moved = shell.reframed(&Pose { scale: 2.0, turn, at: shift });
         let anew = TriangleMesh::new(moved.surface().clone()).unwrap();
         assert_eq!(moved.facets(), anew.facets());
         for (a, b) in moved.planes().iter().zip(anew.planes()) {

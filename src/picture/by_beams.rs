@@ -3,9 +3,9 @@
 
 use super::raster::Rows;
 use super::strips::strips;
-use crate::math::{Polytope, centroid};
-use crate::optics::{Material, Stratum};
-use crate::scene::Medium;
+use crate::math::{Basis, Polytope, centroid};
+use crate::optics::Stratum;
+use crate::scene::{Instance, Medium, View};
 use crate::trace::beam::{self, Beam, Beams};
 use crate::trace::sampling::{LitScene, ProgressiveImage, RadiancePixel, SamplePass};
 use crate::trace::{Stopped, Watch};
@@ -29,7 +29,12 @@ const AT_ONCE: usize = 512;
 /// A picture of one stone, or some rows of it, by exact beams.
 pub struct ByBeams<'a> {
     lit_scene: LitScene<'a>,
+    instance: &'a Instance,
     stone: &'a Polytope,
+    /// The view in the frame of the stone's body. However the stone is turned, its beams are those of another view.
+    view: View,
+    /// The image's axes in the world.
+    eye: Basis,
     options: beam::BeamOptions,
     looks: u32,
     rows: Range<u32>,
@@ -69,7 +74,7 @@ impl<'a> ByBeams<'a> {
     /// Where the ranges begin at multiples of [`most_rows`](Self::most_rows), the rows equal those of the whole picture
     /// to the bit.
     pub fn of_rows(lit_scene: LitScene<'a>, options: beam::BeamOptions, rows: Range<u32>) -> Option<Self> {
-        let [stone] = lit_scene.scene.instances.as_slice() else { return None };
+        let [instance] = lit_scene.scene.instances.as_slice() else { return None };
         let environment = &lit_scene.environment;
         if lit_scene.view.projection != crate::scene::Projection::Orthographic
             || environment.backplate.is_some()
@@ -79,10 +84,13 @@ impl<'a> ByBeams<'a> {
         let across = lit_scene.film.size[0];
         let piece = |first: u32| Rows::new(first, PIECE.min(rows.end - first), across, 1);
         let pieces = rows.clone().step_by(PIECE as usize).map(piece).collect();
-        let stone = stone.solid.polytope().ok()?;
+        let stone = &instance.body.stone().ok()?.polytope;
         Some(Self {
             lit_scene,
+            instance,
             stone,
+            view: lit_scene.view.of_turned(instance.pose.turn),
+            eye: lit_scene.view.basis(),
             options,
             looks: 0,
             rows,
@@ -103,15 +111,17 @@ impl<'a> ByBeams<'a> {
     /// [`Stopped`] when `watch` stops the work.
     pub fn glance(&mut self, strata: &[Stratum], watch: Watch) -> Result<(), Stopped> {
         let (Some(first), Some(last)) = (strata.first(), strata.last()) else { return Ok(()) };
-        let material = &self.lit_scene.scene.instances[0].material;
-        let unit_mm = self.lit_scene.scene.unit_mm;
         let middle = strata[strata.len() / 2].at(0.5);
-        let whole = Medium::of(material, (first.from_nm, middle, last.to_nm), unit_mm);
+        let medium = |nm| self.lit_scene.scene.medium(self.instance, nm);
+        let whole = medium((first.from_nm, middle, last.to_nm));
         let clear = Medium { absorption: [0.0; 2], ..whole };
-        let beams = beam::trace(self.stone, clear, self.lit_scene.view, &self.options, watch)?;
-        let bands: Vec<Band> =
-            strata.iter().map(|s| Band::of(s, material, middle, whole.spread, unit_mm)).collect();
-        self.see_beside(&beams, strata.iter().map(|s| &s.response));
+        let beams = beam::trace(self.stone, clear, &self.view, &self.options, watch)?;
+        let band = |s: &Stratum| {
+            let own = medium((s.from_nm, s.at(0.5), s.to_nm));
+            Band::new(s, own, self.instance.material.index(middle), whole.spread)
+        };
+        let bands: Vec<Band> = strata.iter().map(band).collect();
+        self.see_beside(strata.iter().map(|s| &s.response));
         let found = self.patches_of(&beams, true, |beam, sweep, copy| {
             let path = beam.path.at(centroid(beam.outline));
             bands
@@ -136,10 +146,10 @@ impl<'a> ByBeams<'a> {
     }
 
     /// Adds the light that parallel rays see beside the stone, where the environment is the backdrop.
-    fn see_beside<'r>(&mut self, beams: &Beams, responses: impl Iterator<Item = &'r [DVec3; 4]>) {
+    fn see_beside<'r>(&mut self, responses: impl Iterator<Item = &'r [DVec3; 4]>) {
         if self.lit_scene.environment.backdrop {
-            let light =
-                self.lit_scene.environment.radiance(DVec3::ZERO, -beams.view.toward, DVec3::ZERO).to_array();
+            let light = self.lit_scene.environment.radiance(DVec3::ZERO, -self.eye.toward, DVec3::ZERO);
+            let light = light.to_array();
             let seen = |r: &[DVec3; 4]| r.iter().zip(light).map(|(&c, l)| c * l).sum::<DVec3>();
             self.beside += responses.map(seen).sum::<DVec3>();
         }
@@ -163,12 +173,11 @@ impl<'a> ByBeams<'a> {
         colour: impl Fn(&Beam, DVec3, DMat2) -> DVec3 + Sync,
     ) -> Vec<Patches> {
         let sweeps = beams.sweeps(self.stone);
-        let copies: Vec<(DMat2, DAffine2)> = beams
-            .symmetry
-            .copies()
-            .into_iter()
-            .map(|c| (c, self.lit_scene.film.pixels_from_image(c)))
-            .collect();
+        let pose = &self.instance.pose;
+        let pixels = self.lit_scene.film.pixels_from_image(DMat2::IDENTITY);
+        let middle = pixels.transform_point2(self.eye.project(pose.at));
+        let copy = |c: DMat2| (c, DAffine2::from_mat2_translation(pixels.matrix2 * c * pose.scale, middle));
+        let copies: Vec<(DMat2, DAffine2)> = beams.symmetry.copies().into_iter().map(copy).collect();
         let ids: Vec<u32> = (0..beams.len() as u32).collect();
         let some = |ids: &[u32]| {
             let mut out = Patches::default();
@@ -188,8 +197,9 @@ impl<'a> ByBeams<'a> {
 
     /// Returns the light that comes through a copy of a beam, by channel, as if nothing were absorbed.
     fn arriving(&self, beams: &Beams, beam: &Beam, (exit, sweep): (DVec3, DVec3), copy: DMat2) -> DVec4 {
-        let eye = &beams.view;
-        let turned = |v: DVec3| eye.lift(copy * eye.project(v)) + eye.toward * eye.toward.dot(v);
+        // From the frame of the body into the image, and from there into the world.
+        let (own, eye) = (&beams.view, &self.eye);
+        let turned = |v: DVec3| eye.lift(copy * own.project(v)) + eye.toward * own.toward.dot(v);
         let weight = beam.weight / beam.transmittance;
         self.lit_scene.environment.radiance(DVec3::ZERO, turned(exit), turned(sweep)) * weight
     }
@@ -238,12 +248,11 @@ struct Band {
 }
 
 impl Band {
-    fn of(stratum: &Stratum, material: &Material, middle: f64, spread: f64, unit_mm: f64) -> Self {
-        let index = |nm| material.index(nm);
-        let medium = Medium::of(material, (stratum.from_nm, stratum.at(0.5), stratum.to_nm), unit_mm);
+    /// Returns a band of this medium, seen by beams of the index `middle`; `spread` is that of the indices of all bands.
+    fn new(stratum: &Stratum, medium: Medium, middle: f64, spread: f64) -> Self {
         let share = |change: f64| if spread == 0.0 { 0.0 } else { change / spread };
         Self {
-            off: share(medium.index - index(middle)),
+            off: share(medium.index - middle),
             part: share(medium.spread),
             response: stratum.response,
             medium,
@@ -279,8 +288,8 @@ impl<E: From<Stopped>> ProgressiveImage<E> for ByBeams<'_> {
         let bands = look.responses.len();
         for (band, &medium) in look.media[0].iter().enumerate() {
             let done = |part: f64| watch((band as f64 + part) / bands as f64);
-            let beams = beam::trace(self.stone, medium, self.lit_scene.view, &self.options, &done)?;
-            self.see_beside(&beams, std::iter::once(&look.responses[band]));
+            let beams = beam::trace(self.stone, medium, &self.view, &self.options, &done)?;
+            self.see_beside(std::iter::once(&look.responses[band]));
             let found = self.patches(&beams, look, band);
             self.paint(&found);
             self.unresolved += beams.unresolved() / bands as f64;

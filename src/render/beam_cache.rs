@@ -1,7 +1,7 @@
 //! Beams that several pictures share.
 
 use crate::math::Polytope;
-use crate::scene::{Medium, View};
+use crate::scene::{Body, Medium, View};
 use crate::trace::beam::{self, BeamOptions, Beams};
 use crate::trace::{Stopped, Watch};
 use std::sync::Arc;
@@ -19,7 +19,7 @@ pub struct BeamCache {
 
 /// Beams, what they are of, and the round in which they were used last.
 struct Kept {
-    polytope: Polytope,
+    body: Arc<Body>,
     medium: Medium,
     view: View,
     options: BeamOptions,
@@ -28,20 +28,21 @@ struct Kept {
 }
 
 impl BeamCache {
-    /// Returns the beams of a stone; traces them unless they are kept.
+    /// Returns the beams of a body that is a polytope; traces them unless they are kept.
     ///
     /// # Errors
     /// [`Stopped`] when `watch` asks to stop.
     pub fn of(
         &mut self,
-        polytope: &Polytope,
+        (body, polytope): (&Arc<Body>, &Polytope),
         medium: Medium,
         view: &View,
         options: &BeamOptions,
         watch: Watch,
     ) -> Result<Arc<Beams>, Stopped> {
         let is_same = |kept: &&mut Kept| {
-            (kept.medium, kept.view, kept.options) == (medium, *view, *options) && kept.polytope == *polytope
+            (kept.medium, kept.view, kept.options) == (medium, *view, *options)
+                && Arc::ptr_eq(&kept.body, body)
         };
         if let Some(kept) = self.kept.iter_mut().find(is_same) {
             kept.used = self.round;
@@ -51,8 +52,8 @@ impl BeamCache {
         if self.kept.len() == MOST_KEPT {
             self.kept.remove(0);
         }
-        let (polytope, view, options, used) = (polytope.clone(), *view, *options, self.round);
-        self.kept.push(Kept { polytope, medium, view, options, beams: Arc::clone(&beams), used });
+        let (body, view, options, used) = (Arc::clone(body), *view, *options, self.round);
+        self.kept.push(Kept { body, medium, view, options, beams: Arc::clone(&beams), used });
         Ok(beams)
     }
 

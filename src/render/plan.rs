@@ -107,7 +107,7 @@ impl Demands {
     }
 
     fn of_light(job: &Job, light: &LightProduct) -> Self {
-        let is_alone = matches!(&*job.scene.instances, [only] if only.solid.polytope().is_ok());
+        let is_alone = matches!(&*job.scene.instances, [only] if only.body.stone().is_ok());
         let has_backplate = light.surroundings.backplate.is_some();
         let fits = is_alone && !has_backplate && job.view.projection == Projection::Orthographic;
         let against_beams = match fits {

@@ -8,7 +8,9 @@ use crate::math::{Polytope, SolidRef};
 use crate::measure::{self, measured};
 use crate::picture::by_rays::{self, ScopeSampling};
 use crate::picture::{Layer, Rows, paint};
+use crate::scene::Body;
 use crate::trace::Watch;
+use std::sync::Arc;
 
 impl Renderer {
     /// Traces a picture in a scope, and hands out its rows.
@@ -57,7 +59,7 @@ impl Renderer {
         let ScopeProduct { scope, medium, glare, readings } = product;
         let parts = 1.0 + readings.len() as f64;
         let share = |number: u8| move |done: f64| watch((f64::from(number) + done) / parts);
-        let beams = self.beams.of(job.polytope()?, *medium, &job.view, &job.quality.beams, &share(0))?;
+        let beams = self.beams.of(job.convex()?, *medium, &job.view, &job.quality.beams, &share(0))?;
         for (number, &reading) in (1..).zip(readings) {
             let layer = match reading {
                 Reading::Energy => Layer::energy(&beams, scope, *glare),
@@ -85,7 +87,7 @@ impl Renderer {
         let (view, manner) = (&job.view, (job.quality.rays, lattice));
         let measured = measured(scope, medium.index, backend.name(), |scope| match backend {
             Backend::Beams => {
-                let beams = self.beams.of(job.polytope()?, *medium, view, &job.quality.beams, watch)?;
+                let beams = self.beams.of(job.convex()?, *medium, view, &job.quality.beams, watch)?;
                 Ok(measure::by_beams(&beams, scope))
             }
             Backend::Rays => Ok(measure::by_rays(solid, *medium, view, scope, manner, watch)?),
@@ -99,14 +101,13 @@ impl Renderer {
 impl Job {
     /// Returns the stone that scopes and figures are of.
     pub(super) fn stone(&self) -> Result<SolidRef<'_>, Unfit> {
-        self.scene.instances.first().map(|stone| stone.solid.by_ref()).ok_or(Unfit::NoStone)
+        self.scene.instances.first().map(|stone| stone.body.solid()).ok_or(Unfit::NoStone)
     }
 
-    /// Returns the stone that exact beams trace.
-    fn polytope(&self) -> Result<&Polytope, RenderError> {
-        match self.stone().map_err(RenderError::from)? {
-            SolidRef::Convex(polytope) => Ok(polytope),
-            SolidRef::Triangles(_) | SolidRef::Smooth(_) => Err(Unfit::from(crate::math::NotConvex).into()),
-        }
+    /// Returns the body that exact beams trace, with its polytope.
+    fn convex(&self) -> Result<(&Arc<Body>, &Polytope), RenderError> {
+        let stone = self.scene.instances.first().ok_or(Unfit::NoStone)?;
+        let polytope = &stone.body.stone().map_err(Unfit::from)?.polytope;
+        Ok((&stone.body, polytope))
     }
 }

@@ -1,16 +1,15 @@
 //! The solid that a design describes: a stone between planes, or a solid of another kind.
 
 use super::Stone;
-use crate::math::{NotConvex, SmoothSolid, Solid, SolidRef, TriangleMesh};
-use glam::{DQuat, DVec3};
+use crate::math::{ImplicitSurface, NotConvex, Polytope, SmoothSolid, SolidRef, TriangleMesh};
 use std::sync::Arc;
 
 /// A solid in the stone's frame: lengths in girdle radii, +z out of the table.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Body {
-    /// A convex solid between planes that have names.
+    /// A convex solid between planes, which may have names.
     Stone(Stone),
-    /// A solid within triangles that is not convex.
+    /// A solid within triangles, which need not be convex.
     Mesh(Arc<TriangleMesh>),
     /// A solid within a smooth surface.
     Glass(SmoothSolid),
@@ -50,26 +49,33 @@ impl Body {
     /// facets have no names.
     pub fn name(&self, facet: u32) -> String {
         match self {
-            Self::Stone(stone) => stone.name(facet).replace('_', " "),
-            Self::Mesh(_) => format!("facet {}", facet + 1),
+            Self::Stone(stone) if !stone.names().is_empty() => stone.name(facet).replace('_', " "),
             Self::Glass(smooth) => smooth.field().facets()[facet as usize].to_owned(),
-        }
-    }
-
-    /// Returns the same solid turned about its axis by an angle in radians, counter-clockwise from above.
-    pub fn turned(&self, angle: f64) -> Self {
-        match self {
-            Self::Stone(stone) => Self::Stone(stone.turned(angle)),
-            Self::Mesh(shell) => {
-                Self::Mesh(Arc::new(shell.moved(1.0, DQuat::from_rotation_z(angle), DVec3::ZERO)))
-            }
-            Self::Glass(smooth) => Self::Glass(smooth.moved(1.0, DQuat::from_rotation_z(angle), DVec3::ZERO)),
+            Self::Stone(_) | Self::Mesh(_) => format!("facet {}", facet + 1),
         }
     }
 }
 
-impl From<&Body> for Solid {
-    fn from(body: &Body) -> Self {
-        body.solid().owned()
+impl<'a> From<&'a Body> for SolidRef<'a> {
+    fn from(body: &'a Body) -> Self {
+        body.solid()
+    }
+}
+
+impl From<Polytope> for Body {
+    fn from(polytope: Polytope) -> Self {
+        Self::Stone(Stone::nameless(polytope))
+    }
+}
+
+impl From<Arc<TriangleMesh>> for Body {
+    fn from(shell: Arc<TriangleMesh>) -> Self {
+        Self::Mesh(shell)
+    }
+}
+
+impl From<ImplicitSurface> for Body {
+    fn from(field: ImplicitSurface) -> Self {
+        Self::Glass(SmoothSolid::new(field))
     }
 }

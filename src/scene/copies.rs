@@ -3,6 +3,7 @@
 //! Lengths are in the body's own unit, girdle radii; times are in seconds. The same numbers always give the same places.
 
 use super::layout::scattered;
+use crate::math::Pose;
 use glam::{DQuat, DVec2, DVec3};
 use serde::{Deserialize, Serialize};
 
@@ -21,30 +22,6 @@ const CLEAR: f64 = 0.02;
 const TRIES: u64 = 256;
 /// The factor by which the room is made larger when no place was found.
 const LARGER: f64 = 1.04;
-
-/// The pose of a copy: turned about the body's origin, then moved.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct Pose {
-    /// The place of the body's origin.
-    pub at: DVec3,
-    /// The rotation of the body.
-    pub turn: DQuat,
-}
-
-impl Pose {
-    /// The pose of a body that stays as it is.
-    pub const STILL: Self = Self { at: DVec3::ZERO, turn: DQuat::IDENTITY };
-
-    /// Returns the place of a point of the body.
-    pub fn place(&self, point: DVec3) -> DVec3 {
-        self.turn * point + self.at
-    }
-
-    /// Returns the point of the body that lies at a place.
-    pub fn point(&self, place: DVec3) -> DVec3 {
-        self.turn.inverse() * (place - self.at)
-    }
-}
 
 /// Copies of a body, at rest.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -240,12 +217,5 @@ mod tests {
             assert!(angles.iter().all(|a| (0.002..0.015).contains(a)), "{angles:?}");
             assert!(angles.windows(2).all(|w| w[0] != w[1]), "no two turn alike");
         }
-    }
-
-    #[test]
-    fn a_pose_takes_points_there_and_back() {
-        let pose = Pose { at: DVec3::new(1.0, -2.0, 0.5), turn: tumbled(3, 2.0) };
-        let point = DVec3::new(0.3, 0.2, -0.9);
-        assert!(pose.point(pose.place(point)).distance(point) < 1e-15 * 10.0);
     }
 }

@@ -1,19 +1,19 @@
-//! Stones in one world, each of its own material.
+//! Stones in one world: bodies that are built once, each carried by its pose, and each of its own material.
 
-use super::{Body, Specimen};
-use crate::math::Solid;
+use super::{Body, Medium, Specimen};
+use crate::math::{Pose, PosedSolid};
 use crate::optics::Material;
-use glam::{DQuat, DVec3};
+use std::sync::Arc;
 
 /// An instance: a stone in its place.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Instance {
-    /// The stone's shape, in the world's frame and unit.
-    pub solid: Solid,
+    /// The stone's body in its own frame. Instances of one body share it, and what tracers build for it.
+    pub body: Arc<Body>,
+    /// The pose that carries the body into the world.
+    pub pose: Pose,
     /// The stone's material.
     pub material: Material,
-    /// The names of the facets, in their order; empty where they have none.
-    pub names: Vec<String>,
     /// The name of the cut; may be empty.
     pub label: String,
 }
@@ -30,29 +30,40 @@ pub struct Scene {
 impl Scene {
     /// Returns the scene of one stone, in the stone's frame and unit.
     pub fn alone(specimen: &Specimen) -> Self {
-        let stone = Instance::named(&specimen.body, specimen.material.clone(), &specimen.design.name);
+        let stone = Instance::of(&specimen.body, specimen.material.clone(), &specimen.design.name);
         Self { instances: vec![stone], unit_mm: specimen.unit_mm() }
+    }
+
+    /// Returns the medium of a stone, in the unit of its body. `nm` are the first, the traced and the last wavelength of a
+    /// band.
+    pub fn medium(&self, stone: &Instance, nm: (f64, f64, f64)) -> Medium {
+        Medium::of(&stone.material, nm, self.unit_mm * stone.pose.scale)
     }
 }
 
 impl Instance {
-    /// Returns an instance without names.
-    pub fn new(solid: impl Into<Solid>, material: Material) -> Self {
-        Self { solid: solid.into(), material, names: Vec::new(), label: String::new() }
+    /// Returns an instance without a label, in the place and at the scale of the body's own frame.
+    pub fn new(body: impl Into<Body>, material: Material) -> Self {
+        Self::of(&Arc::new(body.into()), material, "")
     }
 
-    /// Returns a body as an instance, with the names of its facets, in the place and at the scale of the body's own frame.
-    pub fn named(body: &Body, material: Material, label: &str) -> Self {
-        Self { solid: body.into(), material, names: body.names(), label: label.to_owned() }
+    /// Returns a body as an instance, in the place and at the scale of the body's own frame.
+    pub fn of(body: &Arc<Body>, material: Material, label: &str) -> Self {
+        Self { body: Arc::clone(body), pose: Pose::STILL, material, label: label.to_owned() }
     }
 
-    /// Returns the same stone scaled by a factor above 0, then turned, then shifted.
-    pub fn moved(self, scale: f64, turn: DQuat, shift: DVec3) -> Self {
-        Self { solid: self.solid.moved(scale, turn, shift), ..self }
+    /// Returns the same stone, carried on from where it lies by a pose.
+    pub fn moved(self, pose: &Pose) -> Self {
+        Self { pose: pose.after(&self.pose), ..self }
+    }
+
+    /// Returns the stone's shape in its place.
+    pub fn solid(&self) -> PosedSolid<'_> {
+        PosedSolid { solid: self.body.solid(), pose: self.pose }
     }
 
     /// Returns the stone's weight in carats where the world's unit is `unit_mm` mm; `None` where its density is not known.
     pub fn carats(&self, unit_mm: f64) -> Option<f64> {
-        self.material.carats(self.solid.volume() * unit_mm.powi(3))
+        self.material.carats(self.body.solid().volume() * (unit_mm * self.pose.scale).powi(3))
     }
 }

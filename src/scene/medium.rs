@@ -7,8 +7,8 @@ use crate::optics::Material;
 pub struct Medium {
     /// The refractive index, at least 1.
     pub index: f64,
-    /// Naperian absorption coefficients per unit of length (the girdle radius; in a scene, the world's unit) of the two
-    /// polarisations that a uniaxial stone lets through; equal in other stones.
+    /// Naperian absorption coefficients per unit of the body's frame (the girdle radius) of the two polarisations that a
+    /// uniaxial stone lets through; equal in other stones.
     ///
     /// Light of each polarisation falls as exp(-absorption · path).
     pub absorption: [f64; 2],
@@ -27,8 +27,8 @@ impl Medium {
         Self { index, absorption: [absorption; 2], spread: 0.0 }
     }
 
-    /// Returns the medium of a material at `nm`, which stands for the wavelengths from `from_nm` to `to_nm`. The world's
-    /// unit is `unit_mm` mm.
+    /// Returns the medium of a material at `nm`, which stands for the wavelengths from `from_nm` to `to_nm`. The unit
+    /// of the body's frame is `unit_mm` mm.
     pub fn of(material: &Material, (from_nm, nm, to_nm): (f64, f64, f64), unit_mm: f64) -> Self {
         Self {
             index: material.index(nm),

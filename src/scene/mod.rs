@@ -16,8 +16,9 @@ mod stone;
 mod view;
 mod viewpoint;
 
+pub use crate::math::Pose;
 pub use body::Body;
-pub use copies::{Copies, MOST_COPIES, Pose, middle};
+pub use copies::{Copies, MOST_COPIES, middle};
 pub use film::Film;
 pub use instance::{Instance, Scene};
 pub use layout::Layout;

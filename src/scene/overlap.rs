@@ -1,53 +1,54 @@
 //! Finds stones that overlap.
 
 use super::Instance;
-use crate::math::{Plane, Polytope, PolytopeError, Solid, TriangleMesh};
+use crate::math::{Ball, Plane, Polytope, PolytopeError, PosedSolid, SolidRef};
 use glam::DVec3;
-use std::sync::Arc;
 
 /// Stones that share no more than this part of their size only touch. It is far above what rounding does to a layout.
 const TOUCHING: f64 = 1e-8;
 
 /// Returns the first two stones, by their places in the list, that share some space. Stones that only touch do not overlap.
 pub fn overlapping(stones: &[Instance]) -> Option<(usize, usize)> {
-    let balls: Vec<_> = stones.iter().map(|s| ball(&s.solid)).collect();
-    let are_near = |i: usize, j: usize| balls[i].0.distance(balls[j].0) < balls[i].1 + balls[j].1;
+    let solids: Vec<PosedSolid> = stones.iter().map(Instance::solid).collect();
+    let balls: Vec<Ball> = solids.iter().map(PosedSolid::ball).collect();
+    let are_near =
+        |i: usize, j: usize| balls[i].middle.distance(balls[j].middle) < balls[i].radius + balls[j].radius;
     let pairs = (0..stones.len()).flat_map(|i| (i + 1..stones.len()).map(move |j| (i, j)));
     let meet = |&(i, j): &(usize, usize)| {
-        let (a, b) = (&stones[i].solid, &stones[j].solid);
-        let depth = TOUCHING * (balls[i].1 + balls[j].1);
-        let are_one = || match (a, b) {
-            (Solid::Convex(a), Solid::Convex(b)) => share(a, b, balls[i].0, depth),
-            _ => cross(a, b, balls[i].0) || cross(b, a, balls[j].0),
+        let (a, b) = (&solids[i], &solids[j]);
+        let [from, to] = [i, j].map(|k| balls[k].middle);
+        let depth = TOUCHING * (balls[i].radius + balls[j].radius);
+        let are_one = || match (planes(a), planes(b)) {
+            (Some(a), Some(b)) => share(a.chain(b), from, depth),
+            _ => cross(a, b, from) || cross(b, a, to),
         };
-        !is_between(a, b, balls[j].0 - balls[i].0) && are_one()
+        !is_between(a, b, to - from) && are_one()
     };
     pairs.filter(|&(i, j)| are_near(i, j)).find(meet)
 }
 
-/// Returns the middle and radius of a ball that holds the stone.
-fn ball(solid: &Solid) -> (DVec3, f64) {
-    let (low, high) = solid.bounds();
-    let middle = 0.5 * (low + high);
-    (middle, solid.vertices().iter().map(|v| v.distance(middle)).fold(0.0, f64::max))
-}
-
 /// Returns whether a plane square to `line` has `a` behind it and `b` before it. For most pairs of stones this is so.
-fn is_between(a: &Solid, b: &Solid, line: DVec3) -> bool {
-    let along = |p: &Solid| p.vertices().iter().map(|v| v.dot(line)).collect::<Vec<_>>();
+fn is_between(a: &PosedSolid, b: &PosedSolid, line: DVec3) -> bool {
     let is_line = line != DVec3::ZERO;
     is_line
-        && along(a).into_iter().fold(f64::NEG_INFINITY, f64::max)
-            <= along(b).into_iter().fold(f64::INFINITY, f64::min)
+        && a.vertices().map(|v| v.dot(line)).fold(f64::NEG_INFINITY, f64::max)
+            <= b.vertices().map(|v| v.dot(line)).fold(f64::INFINITY, f64::min)
 }
 
-/// Returns whether some point lies at least `depth` inside all planes of both stones.
+/// Returns the planes of a convex solid in its place; `None` for a solid of another kind.
+fn planes<'a>(solid: &PosedSolid<'a>) -> Option<impl Iterator<Item = Plane> + use<'a>> {
+    let PosedSolid { solid, pose } = *solid;
+    let SolidRef::Convex(polytope) = solid else { return None };
+    Some(polytope.planes().map(move |plane| plane.placed(&pose)))
+}
+
+/// Returns whether some point lies at least `depth` inside all planes of two stones.
 ///
 /// The planes are taken about `middle`, a point within one stone, where the polytope's tolerances are fine. A common part
 /// that is too thin to be built counts as none.
-fn share(a: &Polytope, b: &Polytope, middle: DVec3, depth: f64) -> bool {
+fn share(planes: impl Iterator<Item = Plane>, middle: DVec3, depth: f64) -> bool {
     let moved = |p: Plane| Plane::new(p.normal, p.offset - p.normal.dot(middle) - depth);
-    let planes: Vec<Plane> = a.planes().chain(b.planes()).map(moved).collect();
+    let planes: Vec<Plane> = planes.map(moved).collect();
     !matches!(
         Polytope::from_planes(&planes),
         Err(PolytopeError::Empty { .. } | PolytopeError::Degenerate { .. })
@@ -55,35 +56,31 @@ fn share(a: &Polytope, b: &Polytope, middle: DVec3, depth: f64) -> bool {
 }
 
 /// Returns whether an edge of `a`, shrunk a little toward its middle, runs into `b` or begins inside `b`.
-fn cross(a: &Solid, b: &Solid, middle: DVec3) -> bool {
-    let (Some(a), Some(b)) = (shell(a), shell(b)) else { return false };
-    let shrunk = |v: u32| middle + (a.vertices()[v as usize] - middle) * (1.0 - TOUCHING);
-    let speed =
-        |triangle: u32, way: DVec3| b.planes()[b.facets()[triangle as usize] as usize].normal.dot(way);
-    a.surface().triangles.iter().any(|t| {
+fn cross(a: &PosedSolid, b: &PosedSolid, middle: DVec3) -> bool {
+    let (Some(shell_a), Some(shell_b)) = (a.solid.mesh(), b.solid.mesh()) else { return false };
+    // The edges of `a` are carried into the frame of `b`.
+    let corner = |v: &DVec3| b.pose.unplace(middle + (a.pose.place(*v) - middle) * (1.0 - TOUCHING));
+    let corners: Vec<DVec3> = shell_a.vertices().iter().map(corner).collect();
+    let speed = |triangle: u32, way: DVec3| {
+        shell_b.planes()[shell_b.facets()[triangle as usize] as usize].normal.dot(way)
+    };
+    shell_a.surface().triangles.iter().any(|t| {
         (0..3).any(|i| {
-            let (from, to) = (shrunk(t[i]), shrunk(t[(i + 1) % 3]));
+            let [from, to] = [t[i], t[(i + 1) % 3]].map(|v| corners[v as usize]);
             // The first surface on the edge's way is met before the edge ends, or it is met from inside.
-            let hit = b.bvh().nearest(from, to - from, 0.0, |_| true);
+            let hit = shell_b.bvh().nearest(from, to - from, 0.0, |_| true);
             hit.is_some_and(|hit| hit.distance < 1.0 || speed(hit.triangle, to - from) > 0.0)
         })
     })
 }
 
-/// Returns the triangles of a solid. Those of a smooth solid approximate its surface from within.
-fn shell(solid: &Solid) -> Option<Arc<TriangleMesh>> {
-    match solid {
-        Solid::Convex(polytope) => Some(Arc::new(TriangleMesh::of_polytope(polytope))),
-        Solid::Triangles(shell) => Some(Arc::clone(shell)),
-        Solid::Smooth(smooth) => TriangleMesh::new(smooth.surface().clone()).ok().map(Arc::new),
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::math::{Pose, TriangleMesh};
     use crate::optics::Material;
     use glam::DQuat;
+    use std::sync::Arc;
 
     /// Returns a cube of side 2, turned and moved.
     fn cube(turn: DQuat, shift: DVec3) -> Instance {
@@ -91,7 +88,8 @@ mod tests {
         let planes: Vec<_> =
             axes.into_iter().flat_map(|a| [Plane::new(a, 1.0), Plane::new(-a, 1.0)]).collect();
         let cube = Polytope::from_planes(&planes).unwrap();
-        Instance::new(cube.moved(1.0, turn, shift), Material::from_index("glass", 1.5).unwrap())
+        let cube = Instance::new(cube, Material::from_index("glass", 1.5).unwrap());
+        cube.moved(&Pose { at: shift, turn, ..Pose::STILL })
     }
 
     fn of(places: &[(DQuat, DVec3)]) -> Option<(usize, usize)> {
@@ -111,9 +109,9 @@ mod tests {
 
     #[test]
     fn stones_of_triangles_are_told_apart_like_those_of_planes() {
-        let triangles = |stone: Instance| match &stone.solid {
-            Solid::Convex(polytope) => Instance::new(TriangleMesh::of_polytope(polytope), stone.material),
-            Solid::Triangles(_) | Solid::Smooth(_) => stone,
+        let triangles = |stone: Instance| {
+            let polytope = &stone.body.stone().unwrap().polytope;
+            Instance::new(Arc::new(TriangleMesh::of_polytope(polytope)), stone.material).moved(&stone.pose)
         };
         let turned = DQuat::from_rotation_z(std::f64::consts::FRAC_PI_4);
         let pair = |x: f64| {
@@ -124,10 +122,14 @@ mod tests {
         assert_eq!((pair(1.42), pair(1.41)), ((None, None), (Some((0, 1)), Some((0, 1)))));
         let (vertices, all) = crate::math::fixture::clasp(1.0);
         let clasp = TriangleMesh::new(crate::math::Surface::new(vertices, all)).unwrap();
-        let clasp = Instance::new(clasp, Material::from_index("glass", 1.5).unwrap());
+        let clasp = Instance::new(Arc::new(clasp), Material::from_index("glass", 1.5).unwrap());
         // A cube is free in the clasp's gap. In its bar it is not, not even wholly inside it.
         let small = |x: f64, y: f64, scale: f64| {
-            cube(DQuat::IDENTITY, DVec3::ZERO).moved(scale, DQuat::IDENTITY, DVec3::new(x, y, 0.0))
+            cube(DQuat::IDENTITY, DVec3::ZERO).moved(&Pose {
+                at: DVec3::new(x, y, 0.0),
+                scale,
+                ..Pose::STILL
+            })
         };
         let of = |stone| overlapping(&[clasp.clone(), stone]);
         assert_eq!(of(small(0.3, 0.0, 0.35)), None);

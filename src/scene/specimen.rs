@@ -12,8 +12,8 @@ use std::sync::Arc;
 pub struct Specimen {
     /// The design, as its file describes it.
     pub design: Design,
-    /// The solid of the stone.
-    pub body: Body,
+    /// The solid of the stone, which scenes share.
+    pub body: Arc<Body>,
     /// The stone's material.
     pub material: Material,
     /// Warnings about proportions that are possible but unusual.
@@ -78,8 +78,8 @@ impl Specimen {
         let farthest =
             |far: &dyn Fn(&DVec3) -> f64| body.solid().vertices().iter().map(far).fold(0.0, f64::max);
         let reach = farthest(&|v| v.truncate().length().max(v.z.abs()));
-        let radius = farthest(&|v| v.length());
-        Self { design, body, material, unusual: vec![], warnings: vec![], reach, radius }
+        let radius = body.solid().reach();
+        Self { design, body: Arc::new(body), material, unusual: vec![], warnings: vec![], reach, radius }
     }
 
     /// Returns the shape, as tracers take it.

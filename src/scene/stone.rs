@@ -1,8 +1,8 @@
 //! A stone: a polytope whose facets have names.
 
 use crate::cut::Outline;
-use crate::math::{Plane, Polytope, PolytopeError};
-use glam::{DQuat, DVec2, DVec3};
+use crate::math::{Plane, Polytope, PolytopeError, Pose};
+use glam::DVec2;
 
 /// A stone whose middle lies nearer to the axis than this part of its width is centred. This is more than the rounding to
 /// six digits in cutters' files, and less than can be seen.
@@ -33,10 +33,9 @@ impl Stone {
         &self.names[facet as usize]
     }
 
-    /// Returns the same stone turned about its axis by an angle in radians, counter-clockwise from above.
-    pub fn turned(&self, angle: f64) -> Self {
-        let polytope = self.polytope.moved(1.0, DQuat::from_rotation_z(angle), DVec3::ZERO);
-        Self { polytope, names: self.names.clone() }
+    /// Makes a stone whose facets have no names.
+    pub fn nameless(polytope: Polytope) -> Self {
+        Self { polytope, names: vec![] }
     }
 
     /// Returns the same stone in the frame of all stones, where it had a unit of its own.
@@ -49,11 +48,12 @@ impl Stone {
         // A stone that lies on the axis but for the last digits is not shifted, so that no digit changes.
         let off =
             if outline.middle.length() > CENTRED * outline.width { outline.middle } else { DVec2::ZERO };
-        let shift = -scale * off.extend(outline.girdle_top);
-        Self { polytope: self.polytope.moved(scale, DQuat::IDENTITY, shift), names: self.names.clone() }
+        let at = -scale * off.extend(outline.girdle_top);
+        let polytope = self.polytope.reframed(&Pose { at, scale, ..Pose::STILL });
+        Self { polytope, names: self.names.clone() }
     }
 
-    /// Returns all names, in the order of the facets.
+    /// Returns all names, in the order of the facets; none where facets have no names.
     pub fn names(&self) -> &[String] {
         &self.names
     }

@@ -1,7 +1,7 @@
 //! A view: the direction from which a stone is seen, and how scope, stone and eye lean against one another.
 
 use crate::math::Basis;
-use glam::DVec3;
+use glam::{DQuat, DVec3};
 
 /// The side of the stone that faces the eye while nothing is tilted.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
@@ -55,15 +55,28 @@ pub struct View {
     pub lean: Lean,
     /// The tilt, radians, -π/2 to π/2.
     pub tilt: f64,
-    /// The azimuth, radians in the stone's frame, toward which the tilt leans.
+    /// The azimuth, radians in the frame of a stone that is not turned, toward which the tilt leans.
     pub azimuth: f64,
+    /// The rotation of the stone under eye and light. The view is given in the stone's own frame, so that a stone which
+    /// turns keeps its geometry.
+    pub turn: DQuat,
     /// Parallel rays or perspective.
     pub projection: Projection,
 }
 
 impl View {
+    /// Returns the view of a stone that is turned on, before the turn of this view.
+    pub fn of_turned(&self, turn: DQuat) -> Self {
+        Self { turn: self.turn * turn, ..*self }
+    }
+
     /// Returns the image plane in the stone's frame. Its axis points to the eye.
     pub fn basis(&self) -> Basis {
+        self.leaning().turned(self.turn.inverse())
+    }
+
+    /// Returns the image plane in the frame of a stone that is not turned.
+    fn leaning(&self) -> Basis {
         let rest = self.rest();
         let side = DVec3::new(self.azimuth.cos(), self.azimuth.sin(), 0.0);
         // A stone that leans toward an azimuth shows the eye its other side. Through the pavilion the eye is at the opposite
@@ -85,7 +98,7 @@ impl View {
     pub fn light_basis(&self) -> Basis {
         match self.lean {
             Lean::Stone => self.basis(),
-            Lean::Eye => self.rest(),
+            Lean::Eye => self.rest().turned(self.turn.inverse()),
         }
     }
 

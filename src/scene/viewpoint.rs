@@ -1,8 +1,9 @@
 //! A viewpoint: the direction from which a stone is seen, in degrees, as people write and read it.
 
 use super::{Lean, Projection, Side, View};
+use glam::DQuat;
 
-/// A [`View`] with its angles in degrees, as given.
+/// A [`View`] of a stone that is not turned, with its angles in degrees, as given.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Viewpoint {
     /// The side that faces the eye while nothing is tilted.
@@ -30,6 +31,7 @@ impl Viewpoint {
             lean: self.lean,
             tilt: self.tilt_deg.to_radians(),
             azimuth: self.azimuth_deg.rem_euclid(360.0).to_radians(),
+            turn: DQuat::IDENTITY,
             projection: self.projection,
         }
     }

@@ -6,6 +6,7 @@
 
 mod camera;
 mod facets;
+mod instance_tracer;
 mod light;
 mod path;
 mod scene_tracer;
@@ -15,6 +16,7 @@ mod tree;
 
 pub use self::camera::Camera;
 use self::facets::{FacetSearch, Planes, SmoothFacets, SolidFacets, TriangleFacets, Wavy};
+pub use self::instance_tracer::InstanceTracer;
 use self::light::PathLight;
 use self::path::{ExitLight, SurfaceEvent};
 pub use self::path::{Leaving, Path, Step};

@@ -2,7 +2,6 @@
 
 use super::environment::Environment;
 use super::{Stopped, Watch};
-use crate::math::Solid;
 use crate::optics::Stratum;
 use crate::scene::{Film, Instance, Medium, Scene, View};
 use crate::trace::ray::RayOptions;
@@ -30,7 +29,7 @@ pub struct SamplePass {
     pub shift: DVec2,
     /// The place of the traced wavelength in its band, 0 to 1.
     pub part: f64,
-    /// The media of the stones: stone by stone, band by band.
+    /// The media of the stones, in the units of their bodies: stone by stone, band by band.
     pub media: Vec<Vec<Medium>>,
     /// For each band, the colour of light of radiance 1 in each of the environment's four channels.
     pub responses: Vec<[DVec3; 4]>,
@@ -101,7 +100,7 @@ impl Sampling {
             at.z = 0.5;
         }
         let band = |s: &Stratum| (s.from_nm, s.at(at.z), s.to_nm);
-        let medium = |stone: &Instance, s: &Stratum| Medium::of(&stone.material, band(s), setting.unit_mm);
+        let medium = |stone: &Instance, s: &Stratum| setting.medium(stone, band(s));
         SamplePass {
             shift: at.truncate(),
             part: at.z,
@@ -146,25 +145,8 @@ impl SamplePass {
 }
 
 impl LitScene<'_> {
-    /// Returns a ball around each stone, as its middle and radius.
-    pub fn balls(&self) -> Vec<(DVec3, f64)> {
-        let ball = |stone: &Solid| {
-            let (low, high) = stone.bounds();
-            let middle = (low + high) / 2.0;
-            let radius = stone.vertices().iter().map(|v| v.distance(middle)).fold(0.0, f64::max);
-            // A little more, for rounding.
-            (middle, radius * (1.0 + 1e-5))
-        };
-        self.solids().map(ball).collect()
-    }
-
-    /// Returns the stones' solids.
-    pub fn solids(&self) -> impl Iterator<Item = &Solid> {
-        self.scene.instances.iter().map(|s| &s.solid)
-    }
-
     /// Returns how far the stones reach from the origin.
     pub fn reach(&self) -> f64 {
-        self.solids().flat_map(Solid::vertices).map(|v| v.length()).fold(0.0, f64::max)
+        self.scene.instances.iter().map(|stone| stone.solid().reach()).fold(0.0, f64::max)
     }
 }

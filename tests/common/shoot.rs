@@ -1,11 +1,11 @@
 //! Takes pictures under light by every tracer.
 #![allow(dead_code, reason = "each test uses its part")]
 
-use brillianteer::math::{Polytope, Solid};
+use brillianteer::math::Polytope;
 use brillianteer::optics::{material, strata};
 use brillianteer::picture::spectral::{Remainder, expose_in, seen};
 use brillianteer::picture::{ByBeams, Linear};
-use brillianteer::scene::{Film, Instance, Light, Panorama, Scene, View};
+use brillianteer::scene::{Body, Film, Instance, Light, Panorama, Scene, View};
 use brillianteer::trace::beam;
 use brillianteer::trace::environment::{Backplate, Environment, EnvironmentMap};
 #[cfg(feature = "gpu")]
@@ -41,8 +41,11 @@ impl Shoot {
         Self::of(polytope.clone(), material_name, light)
     }
 
-    pub fn of(solid: impl Into<Solid>, material_name: &str, light: Light) -> Self {
-        let stone = Instance::new(solid, material(material_name).unwrap().clone());
+    pub fn of(body: impl Into<Body>, material_name: &str, light: Light) -> Self {
+        Self::of_stone(Instance::new(body, material(material_name).unwrap().clone()), light)
+    }
+
+    pub fn of_stone(stone: Instance, light: Light) -> Self {
         Self {
             setting: Scene { instances: vec![stone], unit_mm: 3.25 },
             light: Light { head: 0.0, ..light },

@@ -5,12 +5,13 @@ use crate::trace::ray::{Camera, RayOptions, StoneTracer};
 use egui::{Event, Key, PointerButton, Pos2, Rect, Shape, Theme, vec2};
 use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT, Queryable};
-use glam::DVec2;
+use glam::{DQuat, DVec2};
+use std::sync::Arc;
 
 /// The widget under test and its input: a path through a brilliant that is seen face up.
 struct Shown {
     widget: LightPath,
-    body: Body,
+    body: Arc<Body>,
     path: Path,
     scope: Scope,
 }
@@ -29,7 +30,7 @@ impl Shown {
 
     fn show(&mut self, ui: &mut Ui) {
         let Self { widget, body, path, scope } = self;
-        widget.show(ui, body, path, scope, &View::default().light_basis());
+        widget.show(ui, body, path, scope, &View::default());
     }
 
     /// Opens the widget in a window of this size and theme.
@@ -204,7 +205,7 @@ fn a_step_that_the_next_path_does_not_have_is_let_go() {
 fn light_along_the_axis_has_no_azimuth_and_others_have_theirs_in_the_scopes_frame() {
     let Shown { body, path, scope, .. } = Shown::new(1e-3);
     let light = Basis::FACE_DOWN;
-    let reading = Reading { body: &body, path: &path, scope: &scope, light: &light };
+    let reading = Reading { body: &body, path: &path, scope: &scope, light, turn: DQuat::IDENTITY };
     assert_eq!(reading.azimuth(DVec3::NEG_Z), None);
     let azimuths = [DVec3::NEG_X, DVec3::Y, DVec3::X, DVec3::NEG_Y].map(|d| reading.azimuth(d).unwrap());
     assert!(

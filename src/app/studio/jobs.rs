@@ -65,8 +65,8 @@ impl Shot {
     /// Returns the scene that a shot shows.
     fn scene(&self) -> Arc<Scene> {
         let placed = |pose: &Pose| {
-            let body = Instance::named(&self.specimen.body, self.specimen.material.clone(), "");
-            if *pose == Pose::STILL { body } else { body.moved(1.0, pose.turn, pose.at) }
+            let stone = Instance::of(&self.specimen.body, self.specimen.material.clone(), "");
+            Instance { pose: *pose, ..stone }
         };
         let instances = self.company.iter().map(placed).collect();
         Arc::new(Scene { instances, unit_mm: self.specimen.unit_mm() })

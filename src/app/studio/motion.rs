@@ -105,8 +105,8 @@ impl Moment {
 
     /// Returns where a point of a body was before; `None` where the body is a different one or has a different form.
     fn was(&self, before: &Self, number: usize, point: DVec3) -> Option<DVec3> {
-        let own = self.company[number].point(point);
-        let was = match (&self.specimen.body, &before.specimen.body) {
+        let own = self.company[number].unplace(point);
+        let was = match (&*self.specimen.body, &*before.specimen.body) {
             (Body::Glass(now), Body::Glass(then)) if self.form() == before.form() => {
                 now.field().carried(own, then.field())
             }
@@ -138,7 +138,7 @@ mod tests {
         let design = Arc::clone(Document::of_library(cut).unwrap().specimen());
         let company = Copies::scattered(3, design.solid().vertices(), 4);
         let mut moving = Moving::at(seconds);
-        let (specimen, company) = moving.now(&design, &company, eye.turn);
+        let (specimen, company) = moving.now(&design, &company);
         Shot {
             specimen,
             title: String::new(),
@@ -214,11 +214,11 @@ mod tests {
         let eye = eye(None, 1.0);
         let [before, now] = [1.0, 1.2].map(|t| shot("plate", t, &eye));
         let moments = [Moment::of(&before, before.film), Moment::of(&now, now.film)];
-        let Body::Glass(plate) = &now.specimen.body else { panic!() };
+        let Body::Glass(plate) = &*now.specimen.body else { panic!() };
         for vertex in plate.surface().vertices.iter().step_by(7) {
             let was = moments[1].was(&moments[0], 0, now.company[0].place(*vertex)).unwrap();
-            let Body::Glass(then) = &before.specimen.body else { panic!() };
-            assert!(then.field().value(before.company[0].point(was)).abs() < 1e-9, "on the surface then");
+            let Body::Glass(then) = &*before.specimen.body else { panic!() };
+            assert!(then.field().value(before.company[0].unplace(was)).abs() < 1e-9, "on the surface then");
         }
         let stone = shot("tolkowsky", 1.0, &eye);
         let other = Moment::of(&stone, stone.film);

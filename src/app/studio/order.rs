@@ -41,7 +41,7 @@ pub enum Smoothing {
 /// An order of one picture.
 #[derive(Debug, Clone)]
 pub struct Shot {
-    /// The stone, turned as it is seen. The design in it may have an older name.
+    /// The stone. The design in it may have an older name.
     pub specimen: Arc<Specimen>,
     /// The name of the design, which drawings show.
     pub title: String,

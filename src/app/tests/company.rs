@@ -173,8 +173,8 @@ fn copies_are_saved_as_a_scene_that_is_opened_again_as_it_was() {
         let farther = again.scene.background_distance_mm.unwrap() / unit_mm - hung(shot);
         let deeper = again.company.poses[0].at.z - shot.company[0].at.z;
         assert!((farther + deeper).abs() < 1e-9, "{scene}: {farther} {deeper}");
-        let turned = Pose { turn: glam::DQuat::from_rotation_z(turn), ..Pose::STILL };
-        let poses = if is_alone { vec![turned] } else { shot.company.clone() };
+        assert_eq!(shot.view.turn, glam::DQuat::from_rotation_z(turn));
+        let poses = shot.company.iter().map(|pose| Pose::turned(shot.view.turn).after(pose)).collect();
         let shown = arrangement(&Copies { poses, room: None }, unit_mm);
         for ((at, turn), (there, turned)) in arrangement(&again.company, unit_mm).into_iter().zip(shown) {
             assert!(at.distance(there) < 1e-9 && turn.dot(turned).abs() > 1.0 - 1e-12, "{at} {there}");
@@ -209,7 +209,10 @@ fn whoever_holds_a_copy_that_goes_lets_go_of_it() {
 #[test]
 fn turning_all_keeps_copies_apart_and_the_hand_on_the_one_it_holds() {
     let mut bench = bench("subtle-pill");
-    let shown = |bench: &Bench| bench.editor().asked.shots[0].1.company.clone();
+    let shown = |bench: &Bench| -> Vec<Pose> {
+        let shot = &bench.editor().asked.shots[0].1;
+        shot.company.iter().map(|pose| Pose::turned(shot.view.turn).after(pose)).collect()
+    };
     let before = shown(&bench);
     bench.harness.state_mut().desk.eye.turn = 1.2;
     bench.harness.run_steps(2);

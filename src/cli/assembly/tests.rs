@@ -22,9 +22,9 @@ fn refused(stones: &str) -> String {
 fn a_stone_alone_lies_as_its_file_has_it_and_takes_another_material_and_size() {
     let stone = load("modern-ideal");
     let specimen = LoadedSpecimen::load(Path::new("modern-ideal"), MeshOptions::default()).unwrap();
-    assert_eq!(*stone.setting.instances[0].solid.polytope().unwrap(), specimen.stone().unwrap().polytope);
+    assert_eq!(*stone.setting.instances[0].body.stone().unwrap(), *specimen.stone().unwrap());
     assert_eq!((stone.setting.unit_mm, stone.name.as_str()), (3.25, "Modern ideal"));
-    assert_eq!(stone.setting.instances[0].names, specimen.stone().unwrap().names());
+    assert_eq!(stone.setting.instances[0].pose, Pose::STILL);
     // In the trade a brilliant of 6.5 mm weighs about one carat; proportions change it a little.
     assert!(stone.carats().is_some_and(|carats| (0.97..1.03).contains(&carats)), "{:?}", stone.carats());
     let ruby =
@@ -60,7 +60,7 @@ fn every_scene_that_comes_with_the_program_is_apart_and_weighs_what_it_asks_for(
                 .setting
                 .instances
                 .iter()
-                .all(|s| s.names.len() == s.solid.polytope().unwrap().facets().len())
+                .all(|s| s.body.names().len() == s.body.stone().unwrap().polytope.facets().len())
         );
         let largest = scene.places.iter().map(|p| p.diameter_mm).fold(0.0, f64::max);
         assert_eq!(scene.setting.unit_mm, 0.5 * largest);
@@ -77,7 +77,7 @@ fn every_scene_that_comes_with_the_program_is_apart_and_weighs_what_it_asks_for(
         assert_eq!(scene.setting.instances.len(), count, "{name}");
         assert!(scene.strength < 1.0 && scene.background.is_some(), "{name}");
         // Bodies that do not lean are as wide as in the demonstration.
-        let (low, high) = scene.setting.instances[0].solid.bounds();
+        let (low, high) = scene.setting.instances[0].solid().bounds();
         let wide = (high - low).x * scene.setting.unit_mm;
         let expected = [("subtle-pill", 40.0), ("prism-rainbow", 39.3)];
         if let Some((_, mm)) = expected.iter().find(|(n, _)| *n == name) {
@@ -99,12 +99,12 @@ fn a_stone_leans_its_table_toward_the_azimuth_and_lies_where_it_is_put() {
     std::fs::write(&path, format!("format = 1\nname = \"x\"\n[[stone]]\n{stone}")).unwrap();
     let scene = load(&path);
     let placed = &scene.setting.instances[0];
-    let table = placed.names.iter().position(|name| name == "table").unwrap();
+    let table = placed.body.names().iter().position(|name| name == "table").unwrap();
     let (sin, cos) = 20_f64.to_radians().sin_cos();
-    let plane = placed.solid.polytope().unwrap().facets()[table].plane;
+    let plane = placed.body.stone().unwrap().polytope.facets()[table].plane.placed(&placed.pose);
     assert!(plane.normal.distance(DVec3::new(0.0, sin, cos)) < 1e-12);
     // Pictures are centred on the middle of all stones.
-    let (low, high) = placed.solid.bounds();
+    let (low, high) = placed.solid().bounds();
     assert!((low + high).length() < 1e-12);
     assert_eq!((scene.setting.unit_mm, scene.places[0].at_mm), (2.0, DVec3::new(1.0, 2.0, 3.0)));
 }

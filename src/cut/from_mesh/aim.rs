@@ -4,7 +4,7 @@
 use super::cues::Cues;
 use super::even::{self, FacetParts, Match};
 use super::{Doubt, FromMeshError, Up};
-use crate::math::{Plane, Polytope};
+use crate::math::{Plane, Polytope, Pose};
 use glam::{DMat3, DQuat, DVec3};
 use std::cmp::Ordering;
 
@@ -262,7 +262,7 @@ pub(super) fn evenness(parts: &FacetParts, axis: DVec3) -> f64 {
     let loose = Match::loose(&planes);
     let carried = |&fold: &u32| {
         let turn = DQuat::from_rotation_z(std::f64::consts::TAU / f64::from(fold));
-        let met = (0..planes.len()).filter(|&i| loose.find(&even::turned(&planes[i], turn)).is_some());
+        let met = (0..planes.len()).filter(|&i| loose.find(&planes[i].placed(&Pose::turned(turn))).is_some());
         met.map(|i| areas[i]).sum::<f64>() / areas.iter().sum::<f64>()
     };
     [2, 3, 4, 5, 6, 7, 8, 9, 10, 12].iter().map(carried).fold(0.0, f64::max)

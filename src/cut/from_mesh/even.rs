@@ -5,7 +5,7 @@
 
 use super::LEAST_UPRIGHT;
 use crate::math::surface::{Faceted, deviation};
-use crate::math::{Facet, Plane, Polytope, Symmetry};
+use crate::math::{Facet, Plane, Polytope, Pose, Symmetry};
 use glam::{DQuat, DVec3};
 use std::f64::consts::{PI, TAU};
 
@@ -59,11 +59,6 @@ impl<'a> Match<'a> {
     }
 }
 
-/// Returns the plane turned about the origin.
-pub(super) fn turned(plane: &Plane, turn: DQuat) -> Plane {
-    Plane::new(turn * plane.normal, plane.offset)
-}
-
 /// Returns the centroid of a solid's volume.
 pub(super) fn centroid(polytope: &Polytope) -> DVec3 {
     let apex = polytope.vertices()[0];
@@ -100,7 +95,7 @@ impl Even {
 
     fn mapped(&self, quarter: Option<f64>, turn: u32) -> impl Fn(&Plane) -> Plane + use<> {
         let rotation = DQuat::from_rotation_z(TAU * f64::from(turn) / f64::from(self.turns));
-        move |plane| turned(&quarter.map_or(*plane, |m| mirrored(plane, m)), rotation)
+        move |plane| quarter.map_or(*plane, |m| mirrored(plane, m)).placed(&Pose::turned(rotation))
     }
 }
 
@@ -149,7 +144,8 @@ pub(super) fn evened(parts: &FacetParts, axis: DVec3, is_fixed: bool) -> Even {
         return plain;
     }
     let fits = |even: &Even| {
-        let back: Vec<Plane> = even.planes.iter().map(|p| turned(p, even.turn.inverse())).collect();
+        let back: Vec<Plane> =
+            even.planes.iter().map(|p| p.placed(&Pose::turned(even.turn.inverse()))).collect();
         Polytope::from_planes(&back).is_ok_and(|solid| deviation(&solid, &parts.corners) <= parts.limit)
     };
     let tried = (1..=MOST_TURNS).rev().flat_map(|turns| {
@@ -171,7 +167,12 @@ pub(super) fn evened(parts: &FacetParts, axis: DVec3, is_fixed: bool) -> Even {
 /// Returns the planes turned so that the axis is +z.
 pub(super) fn upright(planes: &[Plane], axis: DVec3) -> Even {
     let turn = DQuat::from_rotation_arc(axis, DVec3::Z);
-    Even { planes: planes.iter().map(|p| turned(p, turn)).collect(), turn, turns: 1, mirror: None }
+    Even {
+        planes: planes.iter().map(|p| p.placed(&Pose::turned(turn))).collect(),
+        turn,
+        turns: 1,
+        mirror: None,
+    }
 }
 
 /// Returns the axis as the whole crown and pavilion have it, not the table alone: the normal of the girdle's plane.

@@ -14,8 +14,8 @@ mod outline;
 mod tests;
 
 use crate::math::surface::{Faceted, deviation};
-use crate::math::{Plane, Polytope, PolytopeError, Symmetry};
-use glam::{DQuat, DVec3};
+use crate::math::{Plane, Polytope, PolytopeError, Pose, Symmetry};
+use glam::DVec3;
 
 pub use aim::directions;
 use aim::{Aim, aim};
@@ -34,7 +34,7 @@ pub enum Up {
     /// Known exactly, in the surface's frame, of length 1. Only a facet square to it is the table.
     Known(DVec3),
     /// Known together with the whole pose of the stone. The surface is moved exactly so.
-    Posed(Alignment),
+    Posed(Pose),
 }
 
 /// Another direction that a person might have taken for up.
@@ -44,41 +44,13 @@ pub struct Doubt {
     pub other: DVec3,
 }
 
-/// How a surface was moved into the stone's frame: `stone = scale · (turn · surface) + shift`.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Alignment {
-    /// The scale, in girdle radii per unit of the surface.
-    pub scale: f64,
-    /// The rotation from the surface's frame into the stone's.
-    pub turn: DQuat,
-    /// The shift after scale and turn, girdle radii.
-    pub shift: DVec3,
-}
-
-impl Alignment {
-    /// Returns where a point of the surface lies in the stone's frame.
-    pub fn of(&self, point: DVec3) -> DVec3 {
-        self.scale * (self.turn * point) + self.shift
-    }
-
-    /// Returns the point of the surface that becomes the origin of the stone's frame.
-    pub fn origin(&self) -> DVec3 {
-        self.turn.inverse() * (-self.shift / self.scale)
-    }
-
-    fn plane(&self, plane: &Plane) -> Plane {
-        let normal = self.turn * plane.normal;
-        Plane::new(normal, self.scale * plane.offset + normal.dot(self.shift))
-    }
-}
-
 /// A stone that was found in a surface.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FromMesh {
     /// Names, no two alike, and planes in the stone's frame, in the order table, crown, girdle, pavilion, culet.
     pub facets: Vec<(String, Plane)>,
-    /// How the surface was moved into the stone's frame.
-    pub pose: Alignment,
+    /// The pose that carries the surface into the stone's frame.
+    pub pose: Pose,
     /// The distance from the stone of the surface's corner that is farthest off, girdle radii.
     pub deviation: f64,
     /// The symmetry that the planes were given because they had it but for noise; [`Symmetry::NONE`] where they were left as
@@ -107,7 +79,7 @@ pub enum FromMeshError {
 /// A direction up that is zero or not finite, or facets that enclose nothing once they are evened.
 pub fn from_mesh(found: &Faceted, up: Up) -> Result<FromMesh, FromMeshError> {
     let middle = match up {
-        Up::Posed(pose) => pose.origin() - found.centre,
+        Up::Posed(pose) => pose.unplace(DVec3::ZERO) - found.centre,
         _ => even::centroid(&found.polytope),
     };
     let parts = even::FacetParts::about(found, middle);
@@ -122,12 +94,12 @@ pub fn from_mesh(found: &Faceted, up: Up) -> Result<FromMesh, FromMeshError> {
             (even.clone(), outline::placed(&even, &parts.areas)?)
         }
     };
-    let posed: Vec<Plane> = even.planes.iter().map(|p| upright.plane(p)).collect();
+    let posed: Vec<Plane> = even.planes.iter().map(|p| p.placed(&upright)).collect();
     let polytope = Polytope::from_planes(&posed)?;
     let turn = upright.turn * even.turn;
-    let shift = upright.shift - upright.scale * (turn * (found.centre + middle));
-    let pose = Alignment { turn, shift, ..upright };
-    let points: Vec<DVec3> = found.surface.vertices.iter().map(|&v| pose.of(v + found.centre)).collect();
+    let at = upright.at - upright.scale * (turn * (found.centre + middle));
+    let pose = Pose { at, turn, ..upright };
+    let points: Vec<DVec3> = found.surface.vertices.iter().map(|&v| pose.place(v + found.centre)).collect();
     let given = found.faces.iter().map(|f| f.name.clone()).collect::<Option<Vec<_>>>();
     let facets = name::named(&posed, table, given, upright.scale * found.tolerance);
     Ok(FromMesh {

@@ -1,9 +1,9 @@
 //! Measures the girdle: which facets it has, how wide it is, and which way the stone is turned about its axis.
 
+use super::FromMeshError;
 use super::even::Even;
-use super::{Alignment, FromMeshError};
 use crate::cut::Outline;
-use crate::math::{Calipers, Plane, Polytope, hull};
+use crate::math::{Calipers, Plane, Polytope, Pose, hull};
 use glam::{DQuat, DVec2, DVec3};
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -29,16 +29,16 @@ const SAME_WIDTH: f64 = 0.005;
 
 /// Returns the pose of a stone whose axis is up already: its width along x, its middle on the axis, its girdle at z = 0, and
 /// half its diameter 1.
-pub(super) fn placed(even: &Even, areas: &[f64]) -> Result<Alignment, FromMeshError> {
+pub(super) fn placed(even: &Even, areas: &[f64]) -> Result<Pose, FromMeshError> {
     let solid = Polytope::from_planes(&even.planes)?;
     let around = hull(solid.vertices().iter().map(|v| v.truncate()).collect());
     let turn = DQuat::from_rotation_z(-azimuth(even, areas, &around));
-    let Outline { diameter, girdle_top, middle, .. } = Outline::of(&solid.moved(1.0, turn, DVec3::ZERO));
+    let Outline { diameter, girdle_top, middle, .. } = Outline::of(&solid.reframed(&Pose::turned(turn)));
     let top = girdle_edge(&solid).unwrap_or(girdle_top);
     // The middle of a stone with rotational symmetry lies exactly on the axis.
     let middle = if even.turns > 1 { DVec2::ZERO } else { middle };
     let scale = 2.0 / diameter;
-    Ok(Alignment { scale, turn, shift: -scale * middle.extend(top) })
+    Ok(Pose { at: -scale * middle.extend(top), turn, scale })
 }
 
 /// Returns z of the highest corner in which facets of the girdle meet facets of the crown, or, without a girdle, facets of
@@ -59,9 +59,9 @@ fn girdle_edge(solid: &Polytope) -> Option<f64> {
 }
 
 /// Returns what remains of a known pose once the axis is up and the origin in its place.
-pub(super) fn as_posed(even: &Even, pose: &Alignment) -> Alignment {
+pub(super) fn as_posed(even: &Even, pose: &Pose) -> Pose {
     let right = pose.turn * (even.turn.inverse() * DVec3::X);
-    Alignment { scale: pose.scale, turn: DQuat::from_rotation_z(right.y.atan2(right.x)), shift: DVec3::ZERO }
+    Pose { scale: pose.scale, ..Pose::turned(DQuat::from_rotation_z(right.y.atan2(right.x))) }
 }
 
 /// Returns the azimuth that becomes +x.

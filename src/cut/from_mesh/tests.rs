@@ -4,6 +4,7 @@ use super::super::round_brilliant::{MODERN, RoundBrilliant};
 use super::*;
 use crate::math::surface::{Face, Surface, SurfaceKind, facets};
 use crate::math::triangulate;
+use glam::DQuat;
 use proptest::prelude::*;
 
 /// The plane of a facet that is found again may be off by this much, degrees.
@@ -120,7 +121,7 @@ fn a_brilliant_without_noise_comes_back_to_the_last_digits() {
             back.deviation
         );
         assert_eq!(back.evened.turns, 8);
-        let point = back.pose.of(turn * DVec3::new(0.1, 0.2, 0.3) * 7.0 + shift);
+        let point = back.pose.place(turn * DVec3::new(0.1, 0.2, 0.3) * 7.0 + shift);
         // The turn about the axis may be any of the eight.
         assert!((point.z - 0.3).abs() < 1e-11 && (point.truncate().length_squared() - 0.05).abs() < 1e-11);
     }

@@ -7,7 +7,7 @@ use glam::{DQuat, DVec3};
 
 use super::*;
 use crate::cut::{Cut, DEFAULT_DIAMETER_MM, MAX_PLANES, MaterialRef, MeshShape};
-use crate::math::{Plane, Surface, TriangleMesh};
+use crate::math::{Plane, Pose, Surface, TriangleMesh};
 use crate::optics::{self, Absorption, Dispersion, Material};
 
 mod random;
@@ -335,7 +335,7 @@ fn of_each_pair_one_is_given() {
 fn a_mesh_is_written_and_read_to_the_last_bit_and_what_encloses_nothing_is_told() {
     let (vertices, triangles) = crate::math::fixture::heart();
     let shell = TriangleMesh::new(Surface::new(vertices, triangles)).unwrap();
-    let turned = shell.moved(1.0, DQuat::from_rotation_x(0.3), DVec3::ZERO);
+    let turned = shell.reframed(&Pose::turned(DQuat::from_rotation_x(0.3)));
     let cut = Cut::Mesh(MeshShape::framed(&turned, DQuat::IDENTITY).unwrap().0);
     let design = Design { cut, ..parse(TOLKOWSKY, "x").unwrap() };
     let text = write(&design);
@@ -356,10 +356,8 @@ fn a_mesh_is_written_and_read_to_the_last_bit_and_what_encloses_nothing_is_told(
     assert!(parse(&twice, "x").unwrap_err().message.contains("is listed twice"), "{twice}");
     // A mesh that is written in another frame is moved into the stone's.
     let Cut::Mesh(shape) = &design.cut else { panic!() };
-    let aside = Design {
-        cut: Cut::Mesh(MeshShape(Arc::new(shape.moved(7.0, DQuat::IDENTITY, DVec3::new(3.0, 0.0, -1.0))))),
-        ..design.clone()
-    };
+    let pose = Pose { at: DVec3::new(3.0, 0.0, -1.0), scale: 7.0, ..Pose::STILL };
+    let aside = Design { cut: Cut::Mesh(MeshShape(Arc::new(shape.reframed(&pose)))), ..design.clone() };
     let Cut::Mesh(back) = parse(&write(&aside), "x").unwrap().cut else { panic!() };
     let farthest =
         shape.vertices().iter().zip(back.vertices()).map(|(a, b)| a.distance(*b)).fold(0.0, f64::max);

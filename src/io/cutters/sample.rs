@@ -1,6 +1,7 @@
 //! A design with all that both `.gem` and `.gcs` can hold, for their tests.
 
 use crate::cut::{Cut, DEFAULT_DIAMETER_MM, Design, Indexed, MaterialRef, Tier, Tiers};
+use crate::math::Pose;
 use crate::scene::Specimen;
 
 fn tier(angle: f64, distance: f64, indices: &[f64], name: &str, instructions: &str) -> Tier {
@@ -54,11 +55,11 @@ pub(in super::super) fn tiers(design: &mut Design) -> &mut Tiers {
 /// Returns stones that are not cut by tiers: a brilliant, and planes that do not lie around the origin.
 pub(in super::super) fn others() -> [Specimen; 2] {
     let brilliant = Design { cut: Cut::RoundBrilliant(crate::cut::TOLKOWSKY), ..design() };
-    let solid = specimen(brilliant.clone()).stone().unwrap().polytope.moved(
-        1.0,
-        glam::DQuat::IDENTITY,
-        glam::DVec3::X * 5.0,
-    );
+    let solid = specimen(brilliant.clone())
+        .stone()
+        .unwrap()
+        .polytope
+        .reframed(&Pose { at: glam::DVec3::X * 5.0, ..Pose::STILL });
     let planes = solid.planes().enumerate().map(|(k, plane)| (format!("f {k}"), plane)).collect();
     let aside = Design { cut: Cut::Planes(planes), source: Some("a book".to_owned()), ..design() };
     [brilliant, aside].map(specimen)

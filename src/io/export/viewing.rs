@@ -4,8 +4,9 @@ use super::event::{Event, Reporter};
 use crate::io::Failure;
 use crate::picture::Scoped;
 use crate::render::{FiguresProduct, Job, Partial, Product, Quality, Renderer, Unfit, Wanted};
-use crate::scene::{Film, Glare, Medium, Scene, Side, Specimen, Stone, Viewpoint};
+use crate::scene::{Film, Glare, Medium, Scene, Side, Specimen, Stone, View, Viewpoint};
 use crate::trace::{beam, ray};
+use glam::DQuat;
 use std::sync::Arc;
 
 /// The part of the light that may stay unresolved without a warning where no bound was requested.
@@ -46,6 +47,11 @@ impl Viewing<'_> {
         Self { viewpoint: self.viewpoint.facing(side), ..self }
     }
 
+    /// Returns the view of the stone as it is turned.
+    pub(super) fn view(&self) -> View {
+        self.viewpoint.view().of_turned(DQuat::from_rotation_z(self.turned_deg.to_radians()))
+    }
+
     /// The part of the names of a picture's files that describes the view, without the side where the picture has a side of
     /// its own.
     pub(super) fn suffix(&self, scoped: &Scoped) -> String {
@@ -66,7 +72,7 @@ impl Viewing<'_> {
     pub(super) fn job(&self, film: Film, product: Product, usual: f64) -> Job {
         let quality =
             Quality { tracer: self.tracer, beams: self.beams(usual), rays: self.rays(usual), samples: None };
-        let view = self.viewpoint.view();
+        let view = self.view();
         Job { scene: Arc::new(Scene::alone(self.specimen)), view, film, product, quality }
     }
 

@@ -1,8 +1,9 @@
 //! Decides how the stone of a mesh lies in its file: as a person says, as the file itself says, or as its shape shows.
 
 use crate::cut::MaterialRef;
-use crate::cut::from_mesh::{Alignment, Up};
+use crate::cut::from_mesh::Up;
 use crate::io::mesh_file::{MeshFormat, Stands, Statement};
+use crate::math::Pose;
 use crate::math::Surface;
 use glam::DVec3;
 
@@ -73,7 +74,7 @@ impl MeshPlace {
         self.material.clone_from(&statement.material);
         match (self.given, stands) {
             (Up::FoundBy(_), Stands::AsStated) => {
-                Up::Posed(Alignment { scale: statement.scale(), turn: statement.turn(), shift: DVec3::ZERO })
+                Up::Posed(Pose { scale: statement.scale(), ..Pose::turned(statement.turn()) })
             }
             (Up::FoundBy(_), Stands::Moved { up, scale }) => {
                 told.warnings.extend(changes(&statement, up, scale));

@@ -57,15 +57,6 @@ impl Jet {
         Self { value, gradient, hessian: sum * value.recip() }
     }
 
-    /// Returns the jet of the same shape scaled and turned.
-    pub(super) fn moved(self, scale: f64, turn: DMat3) -> Self {
-        Self {
-            value: self.value * scale,
-            gradient: turn * self.gradient,
-            hessian: turn * self.hessian * turn.transpose() * scale.recip(),
-        }
-    }
-
     /// Returns the direction of the gradient.
     pub(super) fn normal(&self) -> DVec3 {
         self.gradient / self.gradient.length()

@@ -2,7 +2,7 @@
 
 use super::ImplicitSurface;
 use super::profile::Profile;
-use glam::{DMat3, DVec2, DVec3};
+use glam::DVec2;
 
 /// The numbers of a shape in its own frame, in units of its `reach`, so that no length exceeds 1.
 pub(crate) struct SurfaceParts {
@@ -20,18 +20,12 @@ pub(crate) struct SurfaceParts {
     pub body_reach: f64,
     /// The amplitude of the wave, its waves per unit, and its phase in turns.
     pub wave: Option<[f64; 3]>,
-    /// The axes of the frame, in the world.
-    pub axes: DMat3,
-    /// The origin of the frame, in the world.
-    pub shift: DVec3,
-    /// The length of the frame's unit, in the world.
-    pub unit: f64,
 }
 
 impl ImplicitSurface {
     /// Returns the numbers of this shape.
     pub(crate) fn parts(&self) -> SurfaceParts {
-        let reach = self.own_reach();
+        let reach = self.reach();
         let (corner, round, flank) = match self.body.profile {
             Profile::Rectangle { half, round } => (half, round, None),
             Profile::Triangle(t) => (t.corner, t.apex, Some((t.normal, t.flank / reach))),
@@ -44,9 +38,6 @@ impl ImplicitSurface {
             edge: self.body.edge / reach,
             body_reach: self.body.reach() / reach,
             wave: self.wave.map(|wave| wave.parts(reach)),
-            axes: DMat3::from_quat(self.turn),
-            shift: self.shift,
-            unit: self.scale * reach,
         }
     }
 }

@@ -34,22 +34,6 @@ const ROUNDING: f64 = 4.0 * f64::EPSILON;
 const NEAR: f64 = 0.5;
 
 impl ImplicitSurface {
-    /// Does the work of [`entry`](Self::entry), and returns the number of steps as well.
-    pub(super) fn entry_counted(&self, origin: DVec3, direction: DVec3) -> (Option<f64>, u32) {
-        let (o, v) = (self.own(origin), self.turn.inverse() * direction);
-        let mut steps = 0;
-        let way = self.way_in(o, v, &mut steps);
-        (way.map(|t| t * self.scale), steps)
-    }
-
-    /// Does the work of [`exit`](Self::exit), and returns the number of steps as well.
-    pub(super) fn exit_counted(&self, point: DVec3, direction: DVec3) -> (Option<f64>, u32) {
-        let (o, v) = (self.own(point), self.turn.inverse() * direction);
-        let mut steps = 0;
-        let way = self.way_out(o, v, &mut steps);
-        (way.map(|t| t * self.scale), steps)
-    }
-
     /// Returns the distance along a line of its point nearest to the origin, and how far from there the shape can reach at
     /// most.
     ///
@@ -57,12 +41,13 @@ impl ImplicitSurface {
     fn span(&self, o: DVec3, v: DVec3) -> Option<(f64, f64)> {
         let squared = v.length_squared();
         let nearest = -o.dot(v) / squared;
-        let reach = self.own_reach();
+        let reach = self.reach();
         let meets = (o + v * nearest).length_squared() <= reach * reach;
         meets.then(|| (nearest, reach / squared.sqrt()))
     }
 
-    fn way_in(&self, o: DVec3, v: DVec3, steps: &mut u32) -> Option<f64> {
+    /// Does the work of [`entry`](Self::entry), and adds up the steps.
+    pub(super) fn way_in(&self, o: DVec3, v: DVec3, steps: &mut u32) -> Option<f64> {
         let (nearest, half) = self.span(o, v)?;
         let bend = self.wave.map_or(0.0, |wave| wave.most_bend(v));
         let mut t = (nearest - half).max(0.0);
@@ -86,14 +71,15 @@ impl ImplicitSurface {
         None
     }
 
-    fn way_out(&self, o: DVec3, v: DVec3, steps: &mut u32) -> Option<f64> {
+    /// Does the work of [`exit`](Self::exit), and adds up the steps.
+    pub(super) fn way_out(&self, o: DVec3, v: DVec3, steps: &mut u32) -> Option<f64> {
         let bend = self.wave.map_or(0.0, |wave| wave.most_bend(v));
         let mut t = 0.0;
         while *steps < MOST_STEPS {
             *steps += 1;
             let (p, along) = self.tangent(o + v * t, v);
             let (value, slope) = self.body.along(p, along);
-            if value >= -ROUNDING * self.own_reach() && slope >= 0.0 {
+            if value >= -ROUNDING * self.reach() && slope >= 0.0 {
                 return Some(t);
             }
             t += self.far_step((p, along), (value, slope), bend, steps)?.max(0.0);

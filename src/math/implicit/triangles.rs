@@ -57,7 +57,7 @@ impl ImplicitSurface {
             let slope = wave.amplitude * wave.number;
             slope * wave.number * across.length_squared() / 8.0 + slope * sagitta
         });
-        (sagitta + waves) * self.scale
+        sagitta + waves
     }
 
     /// Returns the number of parts that the sides along x and y are cut into.
@@ -173,7 +173,7 @@ impl Weld<'_> {
         // Adding 0 turns -0 into 0, so that both are one place.
         *places.entry((p + 0.0).to_array().map(f64::to_bits)).or_insert_with(|| {
             let lift = field.wave.map_or(0.0, |wave| wave.height(p));
-            surface.vertices.push(field.world(p + DVec3::Z * lift));
+            surface.vertices.push(p + DVec3::Z * lift);
             surface.vertices.len() as u32 - 1
         })
     }

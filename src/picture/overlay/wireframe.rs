@@ -1,7 +1,8 @@
 //! The wireframe: edges of stones, drawn as thin even lines.
 
 use super::{Code, lay_over};
-use crate::math::{Edge, Plane, Solid};
+use crate::math::{Edge, Plane, PosedSolid};
+use crate::scene::Instance;
 use crate::trace::ray::SceneProbe;
 use crate::trace::sampling::LitScene;
 use glam::{DMat2, DVec2, DVec3};
@@ -39,8 +40,9 @@ pub(super) struct Wires(Vec<Wire>);
 
 impl Wires {
     pub fn new(lit_scene: &LitScene, sight: &SceneProbe) -> Self {
-        let of_stone = |(stone, solid)| wires(lit_scene, sight, stone, solid);
-        Self(lit_scene.solids().enumerate().flat_map(of_stone).collect())
+        let of_stone =
+            |(stone, instance): (usize, &Instance)| wires(lit_scene, sight, stone, instance.solid());
+        Self(lit_scene.scene.instances.iter().enumerate().flat_map(of_stone).collect())
     }
 
     /// Draws all lines near the middle of row `y` over that row.
@@ -58,7 +60,7 @@ impl Wires {
     }
 }
 
-fn wires(lit_scene: &LitScene, sight: &SceneProbe, stone: usize, solid: &Solid) -> Vec<Wire> {
+fn wires(lit_scene: &LitScene, sight: &SceneProbe, stone: usize, solid: PosedSolid) -> Vec<Wire> {
     let pixels = lit_scene.film.pixels_from_image(DMat2::IDENTITY);
     let wire = |edge: Edge| {
         let [a, b] = edge.ends.map(|p| sight.camera.project(p));
@@ -68,7 +70,7 @@ fn wires(lit_scene: &LitScene, sight: &SceneProbe, stone: usize, solid: &Solid) 
         let is_front = edge.normals.iter().any(faces);
         Some(Wire { ends, sizes: [a.1, b.1], points: edge.ends, stone, is_front })
     };
-    solid.by_ref().edges().into_iter().filter_map(wire).collect()
+    solid.solid.edges().iter().filter_map(|edge| wire(edge.placed(&solid.pose))).collect()
 }
 
 impl Wire {

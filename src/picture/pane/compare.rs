@@ -11,7 +11,7 @@ pub use cost::{Cost, Shifts};
 
 use super::parts::{TOWARD_LIGHT, thickness};
 use super::{GlassPane, laid, pane as approximated, plain};
-use crate::math::{ImplicitForm, ImplicitSurface, ImplicitSurfaceError};
+use crate::math::{ImplicitForm, ImplicitSurface, ImplicitSurfaceError, Pose};
 use crate::optics::{Dispersion, DispersionError, Illuminant, Material, Stratum, strata};
 use crate::picture::{Backdrop, Linear, RefractionMap, Survey, spectral};
 use crate::scene::{Dome, Film, Instance, Lamp, Light, Panorama, Scene, View};
@@ -20,7 +20,7 @@ use crate::trace::ray::{ByRays, RayOptions};
 use crate::trace::sampling::LitScene;
 use crate::trace::{Stopped, Watch};
 use cost::Sums;
-use glam::{DQuat, DVec2, DVec3};
+use glam::{DVec2, DVec3};
 
 /// How much the index is above 1 at strength 100.
 const INDEX: f64 = 0.5;
@@ -169,7 +169,7 @@ impl<'a> PaneScene<'a> {
             let body =
                 ImplicitSurface::new(ImplicitForm::Pane { size, corner, edge: corner.min(thickness / 2.0) })?;
             let glass = glass(strengths.refraction, strengths.dispersion)?;
-            stones.push(Instance::new(body, glass).moved(1.0, DQuat::IDENTITY, middle.extend(0.0)));
+            stones.push(Instance::new(body, glass).moved(&Pose { at: middle.extend(0.0), ..Pose::STILL }));
         }
         let centre = (0.5 * (low + high) - whole / 2.0) * up;
         Ok(Self {

@@ -1,12 +1,11 @@
 //! Packs glass shapes (implicit surfaces) for the graphics card.
 
-use super::gpu_types::{self, with};
+use super::gpu_types;
 use crate::math::{ImplicitSurface, SurfaceParts};
 
-/// Packs a shape's function and its place in the world: all of it can change from one picture to the next.
+/// Packs a shape's function.
 pub(super) fn field(field: &ImplicitSurface) -> gpu_types::ImplicitSurface {
-    let SurfaceParts { corner, round, flank, half, edge, body_reach, wave, axes, shift, unit } =
-        field.parts();
+    let SurfaceParts { corner, round, flank, half, edge, body_reach, wave } = field.parts();
     let is = |something: bool| f32::from(u8::from(something));
     let narrow = |v: [f64; 3]| v.map(|x| x as f32);
     let [a, b, c] = narrow([corner.x, corner.y, round]);
@@ -14,10 +13,7 @@ pub(super) fn field(field: &ImplicitSurface) -> gpu_types::ImplicitSurface {
     let [x, y, length] = narrow([normal.x, normal.y, length]);
     let [amplitude, waves, phase] = narrow(wave.unwrap_or_default());
     gpu_types::ImplicitSurface {
-        right: with(axes.x_axis, half),
-        back: with(axes.y_axis, edge),
-        up: with(axes.z_axis, body_reach),
-        shift: with(shift, unit),
+        size: [half, edge, body_reach, 0.0].map(|x| x as f32),
         outline: [a, b, c, is(flank.is_some())],
         flank: [x, y, length, is(wave.is_some())],
         wave: [amplitude, waves, phase, 0.0],

@@ -64,13 +64,17 @@ both_sides! {
 }
 
 both_sides! {
-    /// One stone: the ball around it, and where its surface is kept.
+    /// One stone: the ball around it, where its surface is kept, and its pose.
     Body, BODY_WGSL {
-        /// xyz: middle of a ball around the stone; w: its radius.
+        /// xyz: middle in the world of a ball around the stone; w: its radius there.
         middle: vec4f,
-        /// Of planes: the first, the one after the last, the first cluster, the one after the last. Of triangles: the same
-        /// of triangles and boxes. Of a glass shape: x is its index among the shapes.
+        /// Of planes: the first, the one after the last, the first cluster, the one after the last. Of triangles: the first
+        /// box, and the bits of how far they reach from the frame's origin. Of a glass shape: x is its index among the shapes.
         range: vec4u,
+        /// The unit quaternion that rotates the body's frame into the world.
+        turn: vec4f,
+        /// xyz: the frame's origin in the world; w: the length of its unit there.
+        place: vec4f,
     }
 }
 
@@ -81,7 +85,7 @@ both_sides! {
         index: f32,
         /// Change of the index over the wavelengths that are taken for one.
         spread: f32,
-        /// Absorption coefficient of the ordinary polarisation.
+        /// Absorption coefficient of the ordinary polarisation, per unit of the body's frame.
         absorption_o: f32,
         /// Absorption coefficient of the extraordinary polarisation.
         absorption_e: f32,
@@ -176,16 +180,11 @@ both_sides! {
 }
 
 both_sides! {
-    /// A glass shape: [`crate::math::ImplicitSurface`] in its own frame, in which it reaches 1 from the origin.
+    /// A glass shape: [`crate::math::ImplicitSurface`] in units of its reach.
     ImplicitSurface, IMPLICIT_SURFACE_WGSL {
-        /// xyz: the frame's x axis in the world; w: half the length of the core.
-        right: vec4f,
-        /// xyz: the frame's y axis in the world; w: radius of the ball that is rolled around the core.
-        back: vec4f,
-        /// xyz: the frame's z axis in the world; w: how far the body without its wave reaches.
-        up: vec4f,
-        /// xyz: the frame's origin in the world; w: the length of its unit there.
-        shift: vec4f,
+        /// x: half the length of the core; y: radius of the ball that is rolled around it; z: how far the body without its
+        /// wave reaches; w is unused.
+        size: vec4f,
         /// A rectangle's half sides, the radius of the disc rolled around it, and 0; or a triangle's corner at +y, z of its
         /// apex, and 1.
         outline: vec4f,
@@ -234,9 +233,10 @@ pub(super) fn with(v: glam::DVec3, w: f64) -> [f32; 4] {
     [v.x as f32, v.y as f32, v.z as f32, w as f32]
 }
 
-impl From<&crate::scene::Medium> for Medium {
-    fn from(medium: &crate::scene::Medium) -> Self {
-        let [absorption_o, absorption_e] = medium.absorption.map(|a| a as f32);
+impl Medium {
+    /// Packs a medium for a shader whose unit of length is `unit` units of the body's frame.
+    pub(super) fn new(medium: &crate::scene::Medium, unit: f64) -> Self {
+        let [absorption_o, absorption_e] = medium.absorption.map(|a| (a * unit) as f32);
         Self { index: medium.index as f32, spread: medium.spread as f32, absorption_o, absorption_e }
     }
 }

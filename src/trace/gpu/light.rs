@@ -4,8 +4,8 @@ use super::device::{Gpu, GpuError};
 use super::gpu_types::{self, Lamp, Response, with};
 use super::solids::Solids;
 use super::stage::{GpuCamera, Stage};
-use crate::math::{Solid, SolidRef};
-use crate::scene;
+use crate::math::PosedSolid;
+use crate::scene::{self, Instance};
 use crate::trace::environment::{Environment, HEAD_EDGE};
 use crate::trace::sampling::{LitScene, ProgressiveImage, RadiancePixel, SamplePass};
 use crate::trace::{Stopped, Watch};
@@ -28,6 +28,8 @@ pub struct ByCard<'a> {
     at_once: u32,
     stage: Stage<'a>,
     media: wgpu::Buffer,
+    /// The unit of length in which the shader traces each stone, in units of the stone's body.
+    units: Vec<f64>,
     responses: wgpu::Buffer,
     wavelengths: usize,
     dispatches: u32,
@@ -55,8 +57,8 @@ impl<'a> ByCard<'a> {
         rows: Range<u32>,
         wavelengths: usize,
     ) -> Result<Self, GpuError> {
-        let stones: Vec<SolidRef> = lit_scene.solids().map(Solid::by_ref).collect();
-        let solids = Solids::new(gpu, &stones, &lit_scene.balls())?;
+        let stones: Vec<PosedSolid> = lit_scene.scene.instances.iter().map(Instance::solid).collect();
+        let solids = Solids::new(gpu, &stones)?;
         let copied = |label, bytes: usize, usage| {
             let usage = usage | wgpu::BufferUsages::COPY_DST;
             gpu.buffer(label, &vec![0; bytes], usage)
@@ -76,7 +78,7 @@ impl<'a> ByCard<'a> {
         };
         let frame = eye.frame(gpu, &solids, wavelengths);
         solids.enough(gpu, frame.counts[2], lit_scene.options.most_bounces)?;
-        let pipeline = gpu.lights.pipeline(&gpu.device, solids.facets);
+        let pipeline = gpu.lights.pipeline(&gpu.device, solids.surfaces.facets);
         let stage = Stage::new::<gpu_types::RadiancePixel>(gpu, pipeline, frame, rows.len() as u32, entries)?;
         let at_once = Stage::rows(gpu, lit_scene.film.size);
         Ok(Self {
@@ -84,6 +86,7 @@ impl<'a> ByCard<'a> {
             at_once,
             stage,
             media,
+            units: solids.units,
             responses,
             wavelengths,
             dispatches: 0,
@@ -94,8 +97,10 @@ impl<'a> ByCard<'a> {
 
     /// Writes the media of the stones and the colours of the bands to the card's memory.
     fn write_frame(&self, look: &SamplePass) {
-        let media: Vec<gpu_types::Medium> =
-            look.media.iter().flatten().map(gpu_types::Medium::from).collect();
+        let of_stone = |(media, &unit): (&Vec<scene::Medium>, &f64)| -> Vec<gpu_types::Medium> {
+            media.iter().map(|medium| gpu_types::Medium::new(medium, unit)).collect()
+        };
+        let media: Vec<gpu_types::Medium> = look.media.iter().zip(&self.units).flat_map(of_stone).collect();
         let wide = |c: DVec3| with(c, 0.0);
         let response = |r: &[DVec3; 4]| {
             let [key, red, green, blue] = r.map(wide);

@@ -4,11 +4,11 @@ use super::device::{Gpu, GpuError};
 use super::gpu_types::{Bands, Medium as MediumAtDoor, ScopePixel, with};
 use super::solids::Solids;
 use super::stage::{GpuCamera, Stage};
-use crate::math::SolidRef;
+use crate::math::{Pose, PosedSolid, SolidRef};
 use crate::scene::{Film, Medium, Scope, View};
 use crate::trace::ray::RayOptions;
 use crate::trace::{Stopped, Watch};
-use glam::{DVec2, DVec3};
+use glam::DVec2;
 
 /// The most bands of a scope that a graphics card traces.
 pub const MOST_BANDS: usize = 8;
@@ -73,16 +73,22 @@ fn stage<'a>(gpu: &'a Gpu, shot: &ScopeShot, rows: u32) -> Result<Stage<'a>, Gpu
     if count > MOST_BANDS {
         return Err(GpuError::TooManyBands { count, most: MOST_BANDS });
     }
-    let reach = shot.solid.vertices().iter().map(|v| v.length()).fold(0.0, f64::max);
-    let solids = Solids::new(gpu, &[shot.solid], &[(DVec3::ZERO, reach)])?;
+    let reach = shot.solid.reach();
+    let solids = Solids::new(gpu, &[PosedSolid { solid: shot.solid, pose: Pose::STILL }])?;
     let bands = gpu.buffer("bands", bytemuck::bytes_of(&bands(shot)), wgpu::BufferUsages::UNIFORM);
-    let medium = MediumAtDoor::from(&shot.medium);
+    let medium = MediumAtDoor::new(&shot.medium, solids.units[0]);
     let media = gpu.buffer("media", bytemuck::bytes_of(&medium), wgpu::BufferUsages::STORAGE);
     let mut entries = solids.entries(&media);
     entries.push(wgpu::BindGroupEntry { binding: 6, resource: bands.as_entire_binding() });
     let eye = GpuCamera { view: shot.view, film: shot.film, reach, options: shot.options };
     let frame = eye.frame(gpu, &solids, 1);
-    Stage::new::<ScopePixel>(gpu, gpu.scopes.pipeline(&gpu.device, solids.facets), frame, rows, entries)
+    Stage::new::<ScopePixel>(
+        gpu,
+        gpu.scopes.pipeline(&gpu.device, solids.surfaces.facets),
+        frame,
+        rows,
+        entries,
+    )
 }
 
 fn bands(shot: &ScopeShot) -> Bands {

@@ -101,6 +101,7 @@ pub(super) fn source(facets: ShaderSurface, reading: ShaderTask) -> String {
         stones,
         include_str!("../../../shaders/optics.wgsl"),
         include_str!("../../../shaders/trace.wgsl"),
+        include_str!("../../../shaders/pose.wgsl"),
         include_str!("../../../shaders/camera.wgsl"),
     ];
     common.iter().chain(facets).chain(reading).copied().collect()

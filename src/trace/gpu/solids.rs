@@ -6,7 +6,7 @@ use super::fields::field;
 use super::gpu_types::{Body, Cluster, with};
 use super::shaders::ShaderSurface;
 use super::triangles::GpuTriangles;
-use crate::math::{ImplicitSurface, Plane, SolidRef};
+use crate::math::{Ball, ImplicitSurface, Plane, PosedSolid, SolidRef};
 use crate::trace::gpu::GpuError;
 use crate::trace::sampling::MOST_WAITING;
 
@@ -45,81 +45,77 @@ pub(super) fn most_turns(gpu: &Gpu) -> u32 {
 /// The least number of bounces: with fewer, pictures of stones would be dark.
 const LEAST_BOUNCES: u32 = 12;
 
-/// The surfaces of all stones of a picture in a card's memory, and which stone each part belongs to.
+/// The stones of a picture in a card's memory.
 pub(super) struct Solids {
+    pub surfaces: Surfaces,
+    bodies: wgpu::Buffer,
+    /// The unit of length in which the shader traces each stone, in units of the stone's body.
+    pub units: Vec<f64>,
+}
+
+/// The surfaces of bodies, each once however many stones are made of it.
+pub(super) struct Surfaces {
     pub facets: ShaderSurface,
-    pub bodies: wgpu::Buffer,
     /// Planes, or triangles, or glass shapes.
-    pub planes: wgpu::Buffer,
+    planes: wgpu::Buffer,
     /// Clusters of planes, or boxes of triangles.
-    pub clusters: wgpu::Buffer,
-    pub count: usize,
-    /// The number of planes and clusters of the largest stone.
+    clusters: wgpu::Buffer,
+    /// Where the surface of each body is kept, as in [`Body`].
+    ranges: Vec<[u32; 4]>,
+    /// The number of planes and clusters of the largest body.
     largest: usize,
 }
 
-impl Solids {
-    pub fn new(gpu: &Gpu, stones: &[SolidRef], balls: &[(glam::DVec3, f64)]) -> Result<Self, GpuError> {
-        if stones.len() > MOST_BODIES {
-            return Err(GpuError::TooManyStones { count: stones.len(), most: MOST_BODIES });
-        }
+impl Surfaces {
+    fn new(gpu: &Gpu, solids: &[SolidRef]) -> Result<Self, GpuError> {
         let planes = |s: &SolidRef| match s {
             SolidRef::Convex(polytope) => Some(polytope.planes().collect()),
             SolidRef::Triangles(_) | SolidRef::Smooth(_) => None,
         };
-        let smooth = stones.iter().map(|s| match s {
+        let smooth = solids.iter().map(|s| match s {
             SolidRef::Smooth(smooth) => Some(*smooth.field()),
             SolidRef::Convex(_) | SolidRef::Triangles(_) => None,
         });
         if let Some(fields) = smooth.collect::<Option<Vec<ImplicitSurface>>>().filter(|f| !f.is_empty()) {
-            return Ok(Self::of_fields(gpu, &fields, balls));
+            return Ok(Self::of_fields(gpu, &fields));
         }
-        match stones.iter().map(planes).collect::<Option<Vec<Vec<Plane>>>>() {
-            Some(convex) => Ok(Self::of_planes(gpu, &convex, balls)),
-            None => Self::of_triangles(gpu, stones, balls),
+        match solids.iter().map(planes).collect::<Option<Vec<Vec<Plane>>>>() {
+            Some(convex) => Ok(Self::of_planes(gpu, &convex)),
+            None => Self::of_triangles(gpu, solids),
         }
     }
 
-    /// Packs all stones as triangles, convex ones as well.
-    fn of_triangles(gpu: &Gpu, stones: &[SolidRef], balls: &[(glam::DVec3, f64)]) -> Result<Self, GpuError> {
-        let GpuTriangles { triangles, nodes, mut bodies } = GpuTriangles::new(stones, balls)?;
-        bodies.resize(MOST_BODIES, Body { middle: [0.0; 4], range: [0; 4] });
+    /// Packs all bodies as triangles, convex ones as well.
+    fn of_triangles(gpu: &Gpu, solids: &[SolidRef]) -> Result<Self, GpuError> {
+        let GpuTriangles { triangles, nodes, ranges } = GpuTriangles::new(solids)?;
         let storage = wgpu::BufferUsages::STORAGE;
         Ok(Self {
             facets: ShaderSurface::Triangles,
-            bodies: gpu.buffer("stones", bytemuck::cast_slice(&bodies), wgpu::BufferUsages::UNIFORM),
             planes: gpu.buffer("triangles", bytemuck::cast_slice(&triangles), storage),
             clusters: gpu.buffer("boxes", bytemuck::cast_slice(&nodes), storage),
-            count: stones.len(),
+            ranges,
             largest: 0,
         })
     }
 
-    fn of_fields(gpu: &Gpu, fields: &[ImplicitSurface], balls: &[(glam::DVec3, f64)]) -> Self {
-        let body = |(k, &(middle, radius)): (usize, &(glam::DVec3, f64))| Body {
-            middle: with(middle, radius),
-            range: [k as u32, 0, 0, 0],
-        };
-        let mut bodies: Vec<Body> = balls.iter().enumerate().map(body).collect();
-        bodies.resize(MOST_BODIES, Body { middle: [0.0; 4], range: [0; 4] });
+    fn of_fields(gpu: &Gpu, fields: &[ImplicitSurface]) -> Self {
         let is_convex = fields.iter().all(ImplicitSurface::is_convex);
         let shapes: Vec<_> = fields.iter().map(field).collect();
         let storage = wgpu::BufferUsages::STORAGE;
         Self {
             facets: if is_convex { ShaderSurface::Smooth } else { ShaderSurface::Wavy },
-            bodies: gpu.buffer("stones", bytemuck::cast_slice(&bodies), wgpu::BufferUsages::UNIFORM),
             planes: gpu.buffer("shapes", bytemuck::cast_slice(&shapes), storage),
             clusters: gpu.buffer("none", &[0; 16], storage),
-            count: fields.len(),
+            ranges: (0..fields.len() as u32).map(|k| [k, 0, 0, 0]).collect(),
             largest: 0,
         }
     }
 
-    fn of_planes(gpu: &Gpu, stones: &[Vec<Plane>], balls: &[(glam::DVec3, f64)]) -> Self {
+    fn of_planes(gpu: &Gpu, stones: &[Vec<Plane>]) -> Self {
         let all: usize = stones.iter().map(Vec::len).sum();
         let is_few = all <= MOST_UNIFORM && stones.iter().all(|s| s.len() <= FEW);
-        let (mut planes, mut bunched, mut bodies, mut largest) = (vec![], vec![], vec![], 0);
-        for (stone, &(middle, radius)) in stones.iter().zip(balls) {
+        let (mut planes, mut bunched, mut ranges, mut largest) = (vec![], vec![], vec![], 0);
+        for stone in stones {
             let (order, own) = clusters(stone);
             let (first, first_bunch) = (planes.len(), bunched.len());
             planes.extend(order.iter().map(|&k| with(stone[k as usize].normal, stone[k as usize].offset)));
@@ -128,36 +124,70 @@ impl Solids {
                 Cluster { spread: [spread, depth, start + first as f32, count], ..*b }
             };
             bunched.extend(own.iter().map(moved));
-            let range = [first, planes.len(), first_bunch, bunched.len()].map(|k| k as u32);
-            bodies.push(Body { middle: with(middle, radius), range });
+            ranges.push([first, planes.len(), first_bunch, bunched.len()].map(|k| k as u32));
             largest = largest.max(stone.len() + own.len());
         }
         if is_few {
             planes.resize(MOST_UNIFORM, [0.0; 4]);
         }
-        bodies.resize(MOST_BODIES, Body { middle: [0.0; 4], range: [0; 4] });
         let kind = if is_few { wgpu::BufferUsages::UNIFORM } else { wgpu::BufferUsages::STORAGE };
         Self {
             facets: if is_few { ShaderSurface::Few } else { ShaderSurface::Many },
-            bodies: gpu.buffer("stones", bytemuck::cast_slice(&bodies), wgpu::BufferUsages::UNIFORM),
             planes: gpu.buffer("planes", bytemuck::cast_slice(&planes), kind),
             clusters: gpu.buffer("clusters", bytemuck::cast_slice(&bunched), wgpu::BufferUsages::STORAGE),
-            count: stones.len(),
+            ranges,
             largest,
         }
+    }
+}
+
+impl Solids {
+    pub fn new(gpu: &Gpu, stones: &[PosedSolid]) -> Result<Self, GpuError> {
+        if stones.len() > MOST_BODIES {
+            return Err(GpuError::TooManyStones { count: stones.len(), most: MOST_BODIES });
+        }
+        let mut solids: Vec<SolidRef> = vec![];
+        let mut place_of = Vec::with_capacity(stones.len());
+        for stone in stones {
+            let place = solids.iter().position(|solid| solid.is_same(stone.solid));
+            place_of.push(place.unwrap_or(solids.len()));
+            if place.is_none() {
+                solids.push(stone.solid);
+            }
+        }
+        let surfaces = Surfaces::new(gpu, &solids)?;
+        let units: Vec<f64> = stones.iter().map(|stone| unit(stone.solid)).collect();
+        let body = |(k, stone): (usize, &PosedSolid)| {
+            let (Ball { middle, radius }, pose) = (stone.ball(), &stone.pose);
+            Body {
+                middle: with(middle, radius),
+                range: surfaces.ranges[place_of[k]],
+                turn: pose.turn.to_array().map(|x| x as f32),
+                place: with(pose.at, pose.scale * units[k]),
+            }
+        };
+        let mut bodies: Vec<Body> = stones.iter().enumerate().map(body).collect();
+        bodies.resize(MOST_BODIES, Body { middle: [0.0; 4], range: [0; 4], turn: [0.0; 4], place: [0.0; 4] });
+        let bodies = gpu.buffer("stones", bytemuck::cast_slice(&bodies), wgpu::BufferUsages::UNIFORM);
+        Ok(Self { surfaces, bodies, units })
+    }
+
+    /// Returns the number of stones.
+    pub fn count(&self) -> usize {
+        self.units.len()
     }
 
     /// Returns how many of the wanted bounces the card can follow.
     pub fn bounces(&self, gpu: &Gpu, wanted: u32) -> u32 {
-        if !gpu.is_software() || self.facets.count_turns() {
+        if !gpu.is_software() || self.surfaces.facets.count_turns() {
             return wanted;
         }
-        if self.count == 1 {
-            return wanted.min((MOST_TURNS_IN_SOFTWARE / self.largest) as u32);
+        if self.count() == 1 {
+            return wanted.min((MOST_TURNS_IN_SOFTWARE / self.surfaces.largest) as u32);
         }
         // Every ray that waits is followed like the first, and each exit is looked for in all stones.
         let turns = MOST_TURNS_IN_SOFTWARE / (1 + MOST_WAITING);
-        wanted.min((turns / (self.largest * (1 + self.count))) as u32)
+        wanted.min((turns / (self.surfaces.largest * (1 + self.count()))) as u32)
     }
 
     /// Checks that so many bounces are enough for a picture that wants `wanted` of them.
@@ -165,7 +195,7 @@ impl Solids {
         if bounces >= LEAST_BOUNCES.min(wanted) || !gpu.is_software() {
             return Ok(());
         }
-        Err(GpuError::TooFewBounces { name: gpu.name().to_owned(), bounces, stones: self.count })
+        Err(GpuError::TooFewBounces { name: gpu.name().to_owned(), bounces, stones: self.count() })
     }
 
     /// Returns the bind group entries of the stones.
@@ -174,10 +204,18 @@ impl Solids {
             binding,
             resource: buffer.as_entire_binding(),
         };
-        let mut entries = vec![entry(1, &self.planes), entry(4, &self.bodies), entry(5, media)];
-        if matches!(self.facets, ShaderSurface::Many | ShaderSurface::Triangles) {
-            entries.push(entry(3, &self.clusters));
+        let mut entries = vec![entry(1, &self.surfaces.planes), entry(4, &self.bodies), entry(5, media)];
+        if matches!(self.surfaces.facets, ShaderSurface::Many | ShaderSurface::Triangles) {
+            entries.push(entry(3, &self.surfaces.clusters));
         }
         entries
+    }
+}
+
+/// Returns the unit of length in which the shader traces a solid, in units of the solid's frame: glass shapes reach 1.
+fn unit(solid: SolidRef) -> f64 {
+    match solid {
+        SolidRef::Smooth(smooth) => smooth.field().reach(),
+        SolidRef::Convex(_) | SolidRef::Triangles(_) => 1.0,
     }
 }

@@ -43,7 +43,7 @@ impl GpuCamera<'_> {
             up: with(basis.up, self.film.pixel),
             toward: with(basis.toward, distance),
             limits: [self.options.least_weight as f32, 0.0, 0.5, 0.5],
-            counts: [solids.count as u32, wavelengths as u32, bounces, u32::from(self.options.polarised)],
+            counts: [solids.count() as u32, wavelengths as u32, bounces, u32::from(self.options.polarised)],
             film: [across, down, 0, 0],
             turn: [0, 1, 0, wavelengths as u32],
             most: [most_turns(gpu), 0, 0, 0],

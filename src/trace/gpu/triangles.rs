@@ -1,37 +1,35 @@
 //! Packs triangles and the boxes around them for the graphics card.
 
-use super::gpu_types::{Body, BvhNode, Triangle, with};
+use super::gpu_types::{BvhNode, Triangle, with};
 use super::solids::MOST_LEVELS;
 use crate::math::{self, SolidRef, TriangleMesh};
 use crate::trace::gpu::GpuError;
-use glam::DVec3;
 use std::sync::Arc;
 
 /// The most triangles that one picture may hold: 48 bytes each, in a buffer of less than the 128 MiB that all cards take.
 /// Their indices are exact in f32.
 pub const MOST_TRIANGLES: usize = 2_500_000;
 
-/// The triangles of all stones, the boxes around them, and which stone they belong to.
+/// The triangles of solids, the boxes around them, and the range of each solid, as in [`super::gpu_types::Body`].
 pub(super) struct GpuTriangles {
     pub triangles: Vec<Triangle>,
     pub nodes: Vec<BvhNode>,
-    pub bodies: Vec<Body>,
+    pub ranges: Vec<[u32; 4]>,
 }
 
 impl GpuTriangles {
-    pub fn new(stones: &[SolidRef], balls: &[(DVec3, f64)]) -> Result<Self, GpuError> {
-        let mut all = Self { triangles: vec![], nodes: vec![], bodies: vec![] };
-        let shells = stones.iter().map(shell).collect::<Result<Vec<Arc<TriangleMesh>>, GpuError>>()?;
+    pub fn new(solids: &[SolidRef]) -> Result<Self, GpuError> {
+        let mut all = Self { triangles: vec![], nodes: vec![], ranges: vec![] };
+        let shells = solids.iter().map(shell).collect::<Result<Vec<Arc<TriangleMesh>>, GpuError>>()?;
         let count = shells.iter().map(|s| s.facets().len()).sum();
         if count > MOST_TRIANGLES || shells.iter().any(|s| s.bvh().depth() as usize > MOST_LEVELS) {
             return Err(GpuError::TooManyTriangles { count, most: MOST_TRIANGLES });
         }
-        for (shell, &(middle, radius)) in shells.iter().zip(balls) {
+        for shell in &shells {
             let (first, first_node) = (all.triangles.len(), all.nodes.len());
             all.triangles.extend(shell.bvh().order().iter().map(|&k| triangle(shell, k as usize)));
             all.nodes.extend(shell.bvh().nodes().iter().map(|n| node(n, first)));
-            let range = [first, all.triangles.len(), first_node, all.nodes.len()].map(|k| k as u32);
-            all.bodies.push(Body { middle: with(middle, radius), range });
+            all.ranges.push([first_node as u32, (shell.reach() as f32).to_bits(), 0, 0]);
         }
         Ok(all)
     }
@@ -39,11 +37,8 @@ impl GpuTriangles {
 
 /// Returns a solid as triangles; a convex stone's facets are triangulated.
 fn shell(solid: &SolidRef) -> Result<Arc<TriangleMesh>, GpuError> {
-    match solid {
-        SolidRef::Convex(polytope) => Ok(Arc::new(TriangleMesh::of_polytope(polytope))),
-        SolidRef::Triangles(shell) => Ok(Arc::clone(shell)),
-        SolidRef::Smooth(_) => Err(GpuError::MixedKinds),
-    }
+    let flat = Some(solid).filter(|solid| !matches!(solid, SolidRef::Smooth(_)));
+    flat.and_then(|solid| solid.mesh()).ok_or(GpuError::MixedKinds)
 }
 
 fn triangle(shell: &TriangleMesh, k: usize) -> Triangle {
@@ -61,19 +56,20 @@ fn node(node: &math::BvhNode, first_triangle: usize) -> BvhNode {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::math::Surface;
     use crate::math::fixture::{heart, star};
+    use crate::math::{Pose, Surface};
 
     #[test]
     fn every_triangle_is_within_its_boxes_and_each_stone_has_its_own() {
         let shells = [heart(), star()].map(|(vertices, triangles)| {
             let shell = TriangleMesh::new(Surface::new(vertices, triangles)).unwrap();
-            Arc::new(shell.moved(1.0, glam::DQuat::from_rotation_x(0.7), DVec3::new(0.3, 1.1, -0.2)))
+            let (at, turn) = (glam::DVec3::new(0.3, 1.1, -0.2), glam::DQuat::from_rotation_x(0.7));
+            Arc::new(shell.reframed(&Pose { at, turn, ..Pose::STILL }))
         });
         let solids = shells.each_ref().map(SolidRef::from);
-        let all = GpuTriangles::new(&solids, &[(DVec3::ZERO, 1.0); 2]).unwrap();
-        assert_eq!(all.bodies[0].range[1], all.bodies[1].range[0]);
-        assert_eq!(all.bodies[1].range[3] as usize, all.nodes.len());
+        let all = GpuTriangles::new(&solids).unwrap();
+        let roots = [0, shells[0].bvh().nodes().len() as u32];
+        assert_eq!(all.ranges.iter().map(|range| range[0]).collect::<Vec<_>>(), roots);
         let mut next = 0;
         for node in all.nodes.iter().filter(|n| n.high[3] > 0.0) {
             let [first, count] = [node.low[3] as usize, node.high[3] as usize];

@@ -17,7 +17,7 @@ pub struct Camera {
 impl Camera {
     /// Creates the camera of a view of this stone.
     pub fn new<'a>(view: &View, solid: impl Into<SolidRef<'a>>) -> Self {
-        Self::reaching(view, solid.into().vertices().iter().map(|v| v.length()).fold(0.0, f64::max))
+        Self::reaching(view, solid.into().reach())
     }
 
     /// Creates the camera of a view of anything that reaches this far from the origin.
@@ -32,13 +32,13 @@ impl Camera {
     /// Returns half the side of the smallest square around the image's origin that holds the whole stone; `None` where the
     /// eye is not in front of all of it.
     pub fn reach<'a>(&self, solid: impl Into<SolidRef<'a>>) -> Option<f64> {
-        self.extent(solid).map(DVec2::max_element)
+        self.extent(solid.into().vertices().iter().copied()).map(DVec2::max_element)
     }
 
-    /// Returns half the width and half the height of the smallest rectangle around the image's origin that holds the whole
-    /// stone; `None` where the eye is not in front of all of it.
-    pub fn extent<'a>(&self, solid: impl Into<SolidRef<'a>>) -> Option<DVec2> {
-        solid.into().vertices().iter().try_fold(DVec2::ZERO, |extent, &v| {
+    /// Returns half the width and half the height of the smallest rectangle around the image's origin that holds all points;
+    /// `None` where the eye is not in front of all of them.
+    pub fn extent(&self, mut points: impl Iterator<Item = DVec3>) -> Option<DVec2> {
+        points.try_fold(DVec2::ZERO, |extent, v| {
             let nearness = 1.0 - self.basis.toward.dot(v) / self.distance;
             (nearness > 0.0).then(|| extent.max(self.basis.project(v).abs() / nearness))
         })

@@ -130,8 +130,7 @@ impl FacetSearch for Planes {
 
 impl TriangleFacets {
     pub fn new(shell: &Arc<TriangleMesh>) -> Self {
-        let reach = shell.vertices().iter().map(|v| v.length()).fold(0.0, f64::max);
-        Self { shell: Arc::clone(shell), behind: -BEHIND * reach }
+        Self { shell: Arc::clone(shell), behind: -BEHIND * shell.reach() }
     }
 
     /// Returns the facet and the distance of the first triangle for which `keep` accepts the normal's part along the ray.

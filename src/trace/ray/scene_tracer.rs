@@ -1,15 +1,13 @@
 //! Traces pictures under light by point rays: several stones, and light that goes from one to the next.
 
-use super::sight::{Met, is_near, nearest};
-use super::{Camera, Exit, Loss, StoneTracer};
-use crate::math::Solid;
+use super::sight::{Met, nearest};
+use super::{Camera, Exit, InstanceTracer, Loss};
 use crate::scene::Medium;
 use crate::trace::sampling::{LitScene, MOST_WAITING, ProgressiveImage, RadiancePixel, SamplePass};
 use crate::trace::{Stopped, Watch};
 use glam::{DVec2, DVec3, DVec4};
 use rayon::prelude::*;
 use std::ops::Range;
-use std::sync::Arc;
 
 /// Rows traced between two calls of the watch.
 const PIECE: usize = 8;
@@ -17,8 +15,7 @@ const PIECE: usize = 8;
 /// A tracer of several stones, each of one medium, and of the light that goes from one to the next.
 #[derive(Clone)]
 pub struct SceneTracer {
-    tracers: Vec<StoneTracer>,
-    balls: Arc<[(DVec3, f64)]>,
+    tracers: Vec<InstanceTracer>,
     least_weight: f64,
 }
 
@@ -34,22 +31,23 @@ pub struct WaitingRay {
     /// The share of the light from that direction that reaches the eye.
     pub weight: f64,
     left: Option<usize>,
+    /// The number of bounces inside stones on its way so far.
+    bounces: u32,
 }
 
 impl WaitingRay {
     /// Returns a ray from the eye.
     pub fn from_eye((origin, direction): (DVec3, DVec3)) -> Self {
-        Self { origin, direction, sweep: DVec3::ZERO, weight: 1.0, left: None }
+        Self { origin, direction, sweep: DVec3::ZERO, weight: 1.0, left: None, bounces: 0 }
     }
 }
 
 impl SceneTracer {
     /// Prepares the stones of a scene; [`made_of`](Self::made_of) gives them their media.
     pub fn new(lit_scene: &LitScene) -> Self {
-        let tracer = |stone: &Solid| StoneTracer::new(stone, Medium::clear(1.0), lit_scene.options);
+        let (stones, options) = (&lit_scene.scene.instances, lit_scene.options);
         Self {
-            tracers: lit_scene.solids().map(tracer).collect(),
-            balls: lit_scene.balls().into(),
+            tracers: InstanceTracer::of_all(stones, options, |_| Medium::clear(1.0)),
             least_weight: lit_scene.options.least_weight,
         }
     }
@@ -57,15 +55,18 @@ impl SceneTracer {
     /// Returns the stones with their media in each band of a sample pass.
     pub fn made_of(&self, look: &SamplePass) -> Vec<Self> {
         let of_band = |band: usize| {
-            let made = |(tracer, media): (&StoneTracer, &Vec<Medium>)| tracer.made_of(media[band]);
-            Self { tracers: self.tracers.iter().zip(&look.media).map(made).collect(), ..self.clone() }
+            let made = |(tracer, media): (&InstanceTracer, &Vec<Medium>)| tracer.made_of(media[band]);
+            Self {
+                tracers: self.tracers.iter().zip(&look.media).map(made).collect(),
+                least_weight: self.least_weight,
+            }
         };
         (0..look.responses.len()).map(of_band).collect()
     }
 
     /// Returns the stone that a ray meets first, and where; `None` where it meets none.
     pub fn first(&self, ray: &WaitingRay) -> Option<First> {
-        nearest(&self.tracers, &self.balls, (ray.origin, ray.direction), ray.left).map(First)
+        nearest(&self.tracers, (ray.origin, ray.direction), ray.left).map(First)
     }
 
     /// Follows a ray through all stones, from the one that it is known to meet; calls `leave` for each ray that meets no
@@ -77,8 +78,7 @@ impl SceneTracer {
             match self.first(&ray) {
                 Some(first) => {
                     let more = self.through(&ray, first.0, &mut waiting, &mut leave);
-                    rest.unresolved += more.unresolved;
-                    rest.absorbed += more.absorbed;
+                    rest = rest.and(&more);
                 }
                 None => leave(&ray),
             }
@@ -94,10 +94,11 @@ impl SceneTracer {
         waiting: &mut Vec<WaitingRay>,
         mut leave: impl FnMut(&WaitingRay),
     ) -> Loss {
-        let mut unseen = 0.0;
+        let (mut unseen, before) = (0.0, ray.bounces);
         let exits = |exit: Exit| {
             let Exit { point: origin, direction, sweep, weight, .. } = exit;
-            let ray = WaitingRay { origin, direction, sweep, weight, left: Some(stone) };
+            let bounces = before + exit.bounce;
+            let ray = WaitingRay { origin, direction, sweep, weight, left: Some(stone), bounces };
             if !self.meets_any(&ray) {
                 leave(&ray);
             } else if waiting.len() < MOST_WAITING && weight > self.least_weight {
@@ -109,7 +110,7 @@ impl SceneTracer {
         let (tracer, way) = (&self.tracers[stone], (ray.direction, ray.sweep));
         let is_taken = |exit: &Exit, distance: f64| self.meets_before(exit, stone, distance);
         let rest = tracer.follow_from(met, ray.origin, way, ray.weight, is_taken, exits).unwrap_or_default();
-        Loss { unresolved: rest.unresolved + unseen, ..rest }
+        Loss { unresolved: rest.unresolved + unseen, bounces: before + rest.bounces, ..rest }
     }
 
     /// Whether a ray meets a stone other than the one that it left.
@@ -124,9 +125,10 @@ impl SceneTracer {
 
     /// Returns the distances at which a ray meets stones other than the one that it left.
     fn others(&self, left: Option<usize>, way: (DVec3, DVec3)) -> impl Iterator<Item = f64> {
-        let near = move |&(k, &ball): &(usize, &(DVec3, f64))| Some(k) != left && is_near(ball, way);
-        let met = move |(k, _): (usize, _)| self.tracers[k].meet(way.0, way.1).map(|(_, distance)| distance);
-        self.balls.iter().enumerate().filter(near).filter_map(met)
+        let near = move |&(k, tracer): &(usize, &InstanceTracer)| Some(k) != left && tracer.is_near(way);
+        let met =
+            move |(_, tracer): (_, &InstanceTracer)| tracer.meet(way.0, way.1).map(|(_, distance)| distance);
+        self.tracers.iter().enumerate().filter(near).filter_map(met)
     }
 }
 
@@ -241,3 +243,6 @@ impl<E: From<Stopped>> ProgressiveImage<E> for ByRays<'_> {
         Ok(())
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -1,8 +1,7 @@
 //! Finds what is seen first at a point of a picture.
 
-use super::{Camera, StoneTracer};
+use super::{Camera, InstanceTracer};
 use crate::optics::line;
-use crate::scene::Medium;
 use crate::trace::sampling::LitScene;
 use glam::{DVec2, DVec3};
 
@@ -15,8 +14,7 @@ pub struct SceneProbe<'a> {
     /// The picture's camera.
     pub camera: Camera,
     /// The stones, in the scene's order.
-    pub tracers: Vec<StoneTracer>,
-    balls: Vec<(DVec3, f64)>,
+    pub tracers: Vec<InstanceTracer>,
 }
 
 /// A ray from the eye that meets a stone.
@@ -37,16 +35,12 @@ pub struct ProbeRay {
 impl<'a> SceneProbe<'a> {
     /// Prepares the stones of a scene.
     pub fn new(lit_scene: &LitScene<'a>) -> Self {
-        let at = |nm| (nm, nm, nm);
-        let tracer = |stone: &crate::scene::Instance| {
-            let medium = Medium::of(&stone.material, at(line::SODIUM_D), lit_scene.scene.unit_mm);
-            StoneTracer::new(&stone.solid, medium, lit_scene.options)
-        };
+        let scene = lit_scene.scene;
+        let medium = |stone: &_| scene.medium(stone, (line::SODIUM_D, line::SODIUM_D, line::SODIUM_D));
         Self {
             lit_scene: *lit_scene,
             camera: Camera::reaching(lit_scene.view, lit_scene.reach()),
-            tracers: lit_scene.scene.instances.iter().map(tracer).collect(),
-            balls: lit_scene.balls(),
+            tracers: InstanceTracer::of_all(&scene.instances, lit_scene.options, medium),
         }
     }
 
@@ -55,7 +49,7 @@ impl<'a> SceneProbe<'a> {
     pub fn through(&self, x: f64, y: f64) -> Option<ProbeRay> {
         let at = self.lit_scene.film.image_from_pixels(DVec2::new(x, y));
         let (origin, direction) = self.camera.ray(at);
-        let (stone, (facet, distance)) = nearest(&self.tracers, &self.balls, (origin, direction), None)?;
+        let (stone, (facet, distance)) = nearest(&self.tracers, (origin, direction), None)?;
         Some(ProbeRay { origin, direction, stone, facet: facet as u32, distance })
     }
 
@@ -63,8 +57,7 @@ impl<'a> SceneProbe<'a> {
     /// stone itself.
     pub fn is_hidden(&self, stone: usize, point: DVec3) -> bool {
         let way = (point, self.camera.toward_eye(point));
-        nearest(&self.tracers, &self.balls, way, Some(stone)).is_some()
-            || self.tracers[stone].hides_itself(way)
+        nearest(&self.tracers, way, Some(stone)).is_some() || self.tracers[stone].hides_itself(way)
     }
 }
 
@@ -76,20 +69,12 @@ pub fn facet_at(lit_scene: &LitScene, x: f64, y: f64) -> Option<(usize, u32)> {
 
 /// Returns the stone that a ray meets first, but for the one that it has just left, and where.
 pub(super) fn nearest(
-    tracers: &[StoneTracer],
-    balls: &[(DVec3, f64)],
+    tracers: &[InstanceTracer],
     (origin, direction): (DVec3, DVec3),
     left: Option<usize>,
 ) -> Option<Met> {
-    let near = |&k: &usize| Some(k) != left && is_near(balls[k], (origin, direction));
+    let near = |&k: &usize| Some(k) != left && tracers[k].is_near((origin, direction));
     let others = (0..tracers.len()).filter(near);
     let met = others.filter_map(|k| Some((k, tracers[k].meet(origin, direction)?)));
     met.min_by(|(_, a), (_, b)| a.1.total_cmp(&b.1))
-}
-
-/// Whether a ray runs through the ball around a stone.
-pub(super) fn is_near((middle, radius): (DVec3, f64), (origin, direction): (DVec3, DVec3)) -> bool {
-    let away = middle - origin;
-    let along = away.dot(direction);
-    along > -radius && away.length_squared() - along * along < radius * radius
 }

@@ -99,7 +99,7 @@ fn strongest(waiting: &[Inbound]) -> Option<usize> {
 
 impl Loss {
     /// Adds up the losses of two passages; `bounces` is the greater of the two.
-    fn and(&self, other: &Self) -> Self {
+    pub(super) fn and(&self, other: &Self) -> Self {
         Self {
             absorbed: self.absorbed + other.absorbed,
             unresolved: self.unresolved + other.unresolved,

@@ -1,13 +1,19 @@
 //! Tests that volumes, meshes and shadows agree.
 
-use super::{chance, forms, moved};
+use super::{ImplicitSurface, chance, forms};
 use crate::math::TriangleMesh;
+use crate::math::{SmoothSolid, SolidRef};
 use glam::DVec3;
 use std::f64::consts::PI;
 
+/// Returns the box along the axes that holds a shape.
+fn bounds(field: ImplicitSurface) -> (DVec3, DVec3) {
+    SolidRef::from(&SmoothSolid::new(field)).bounds()
+}
+
 #[test]
 fn meshes_are_closed_and_as_near_as_they_say() {
-    for field in forms().iter().map(moved) {
+    for field in forms() {
         for fineness in [0, 1, 2, 5] {
             let (surface, deviation) = (field.surface(fineness), field.deviation(fineness));
             assert!(surface.vertices.iter().all(|&v| field.value(v).abs() < 1e-12), "{field:?}");
@@ -30,11 +36,10 @@ fn meshes_are_closed_and_as_near_as_they_say() {
                 "{field:?} {fineness}: {volume} {}",
                 field.volume()
             );
-            let (low, high) = field.bounds();
+            let (low, high) = bounds(field);
             let (least, most) = surface.bounds();
             assert!((low - least).max_element() < 1e-12 && (most - high).max_element() < 1e-12);
-            let middle = field.shift;
-            assert!(surface.vertices.iter().all(|v| v.length() < field.reach() + 1e-12), "{middle}");
+            assert!(surface.vertices.iter().all(|v| v.length() < field.reach() + 1e-12), "{field:?}");
             TriangleMesh::new(surface).unwrap_or_else(|e| panic!("{field:?} {fineness}: {e}"));
         }
         let fine = field.surface(if field.is_convex() { 60 } else { 6 });
@@ -46,7 +51,7 @@ fn meshes_are_closed_and_as_near_as_they_say() {
 fn the_volume_is_the_share_of_points_within() {
     let mut chance = chance(9);
     for field in forms() {
-        let (low, high) = field.bounds();
+        let (low, high) = bounds(field);
         let count = 200_000;
         let within = (0..count).filter(|_| {
             let part = chance.point() / 2.0 + 0.5;
@@ -62,7 +67,7 @@ fn the_volume_is_the_share_of_points_within() {
 #[test]
 fn the_mean_shadow_is_a_quarter_of_the_surface_and_each_is_that_of_the_mesh() {
     let mut chance = chance(10);
-    for field in forms().iter().filter(|field| field.is_convex()).map(moved) {
+    for field in forms().into_iter().filter(|field| field.is_convex()) {
         let mesh = field.surface(40);
         for _ in 0..20 {
             let d = chance.direction();

@@ -4,7 +4,7 @@ use super::super::fields::field;
 use super::super::gpu_types;
 use super::{card, run};
 use crate::math::{ImplicitForm, ImplicitSurface, Jet};
-use glam::{DMat3, DQuat, DVec3};
+use glam::{DMat3, DVec3};
 
 /// A shader that takes points, each with the number of its shape, and returns the function's gradient and value there and
 /// its bend along each axis.
@@ -30,7 +30,7 @@ fn jets(@builtin(global_invocation_id) id: vec3u) {
 }
 ";
 
-/// Returns every form, sharp and round, scaled to reach 1.
+/// Returns every form, sharp and round.
 fn shapes() -> Vec<ImplicitSurface> {
     let plate = |edge, amplitude, wavelength| ImplicitForm::Plate {
         size: DVec3::new(1.7, 1.6, 0.3),
@@ -50,22 +50,21 @@ fn shapes() -> Vec<ImplicitSurface> {
         plate(0.0, 0.1, 1.5),
         plate(0.1, 0.02, 0.4),
     ];
-    let unit = |form| {
-        let field = ImplicitSurface::new(form).unwrap();
-        field.moved(1.0 / field.parts().unit, DQuat::IDENTITY, DVec3::ZERO)
-    };
-    forms.into_iter().map(unit).collect()
+    forms.into_iter().map(|form| ImplicitSurface::new(form).unwrap()).collect()
 }
 
-/// Returns the function's gradient and value, and the change of the unit normal along each axis.
+/// Returns the function's gradient and value, and the change of the unit normal along each axis, all in units of the shape's
+/// reach, as `p` is.
 fn jet(shape: &ImplicitSurface, p: DVec3) -> ([f64; 4], DMat3) {
-    let Jet { value, gradient, hessian } = shape.jet(p);
+    let reach = shape.reach();
+    let Jet { value, gradient, hessian } = shape.jet(p * reach);
+    let (value, hessian) = (value / reach, hessian * reach);
     let n = gradient.normalize_or_zero();
     let within = DMat3::IDENTITY - DMat3::from_cols(n * n.x, n * n.y, n * n.z);
     (gradient.extend(value).to_array(), within * hessian * within * gradient.length().recip())
 }
 
-/// Returns points a little inside or outside the surface all around. Of a sharp shape they are all inside: outside, the
+/// Returns points a little inside or outside the surface all around, in units of its reach. Of a sharp shape they are all inside: outside, the
 /// library has the distance from an edge and the card that from its faces.
 fn points(shape: &ImplicitSurface) -> impl Iterator<Item = DVec3> + '_ {
     let is_sharp = shape.parts().edge == 0.0;
@@ -73,9 +72,10 @@ fn points(shape: &ImplicitSurface) -> impl Iterator<Item = DVec3> + '_ {
         let z: f64 = 1.0 - 2.0 * (f64::from(k) + 0.5) / 2000.0;
         let turn = 2.399_963 * f64::from(k);
         let out = DVec3::new((1.0 - z * z).sqrt() * turn.cos(), (1.0 - z * z).sqrt() * turn.sin(), z);
-        let point = out * 2.0 - out * shape.entry(out * 2.0, -out)?;
+        let reach = shape.reach();
+        let point = out * (2.0 * reach - shape.entry(out * (2.0 * reach), -out)?);
         let off = 0.02 * turn.sin();
-        Some(point + shape.normal(point) * if is_sharp { -off.abs() } else { off })
+        Some(point / reach + shape.normal(point) * if is_sharp { -off.abs() } else { off })
     })
 }
 

@@ -1,6 +1,6 @@
 use crate::cut::strategy::proportions;
 use crate::math::fixture::{Triangles, clasp, heart, star};
-use crate::math::{Plane, Polytope, Surface, TriangleMesh};
+use crate::math::{Plane, Polytope, Pose, Surface, TriangleMesh};
 use crate::optics::fresnel;
 use crate::scene::{Medium, Projection, View};
 use crate::trace::ray::{Camera, Exit, Loss, RayOptions, StoneTracer};
@@ -101,11 +101,12 @@ fn through_two_plates(r: f64, a: f64) -> (f64, f64) {
 fn shares(medium: Medium, lean: f64, polarised: bool) -> (f64, f64, Loss) {
     // The plates are turned, so that no axis is special.
     let turn = DQuat::from_rotation_x(0.3) * DQuat::from_rotation_z(0.8);
-    let shell = Arc::new(shell(clasp(60.0)).moved(1.0, turn, DVec3::new(0.3, -0.2, 0.1)));
+    let pose = Pose { at: DVec3::new(0.3, -0.2, 0.1), ..Pose::turned(turn) };
+    let shell = Arc::new(shell(clasp(60.0)).reframed(&pose));
     let tracer = StoneTracer::new(&shell, medium, options(polarised, 1e-12));
     let direction = DVec3::new(0.0, -lean.cos(), lean.sin());
     let origin = DVec3::new(0.3, 0.0, 0.0) - direction * 9.0;
-    let ray = (turn * origin + DVec3::new(0.3, -0.2, 0.1), turn * direction);
+    let ray = (pose.place(origin), turn * direction);
     let (exits, rest) = followed(&tracer, ray).unwrap();
     let share = |is_below: bool| {
         let own = exits.iter().filter(|e| ((turn.inverse() * e.direction).y < 0.0) == is_below);

@@ -1,0 +1,54 @@
+// The pose of the present body: rays are carried into the frame in which it was built, and what leaves it is carried back.
+// The twin of src/math/pose.rs and of src/trace/ray/instance_tracer.rs.
+
+// Rotates a vector by a unit quaternion.
+fn rotated(turn: vec4f, v: vec3f) -> vec3f {
+    return v + 2.0 * cross(turn.xyz, cross(turn.xyz, v) + turn.w * v);
+}
+
+// Rotates a vector of the world into the body's frame.
+fn own_vector(v: vec3f) -> vec3f {
+    return rotated(vec4f(-body.turn.xyz, body.turn.w), v);
+}
+
+// Rotates a vector of the body's frame into the world.
+fn world_vector(v: vec3f) -> vec3f {
+    return rotated(body.turn, v);
+}
+
+// Returns the length in the world of the unit of the body's frame.
+fn unit() -> f32 {
+    return body.place.w;
+}
+
+// Returns the place of a point of the body.
+fn place(point: vec3f) -> vec3f {
+    return world_vector(point) * unit() + body.place.xyz;
+}
+
+// Returns the point of the body that lies at a place.
+fn unplace(place: vec3f) -> vec3f {
+    return own_vector(place - body.place.xyz) / unit();
+}
+
+// Returns the facet by which a ray of the world enters the body, and the distance to it in the world; the distance is
+// negative where the ray misses.
+fn meet(origin: vec3f, direction: vec3f) -> Meeting {
+    let met = entry(unplace(origin), own_vector(direction));
+    return Meeting(met.facet, met.distance * unit());
+}
+
+// Returns unpolarised light of this weight that meets the body at `met`, in the body's frame. Its ray starts on the surface,
+// so that a long way to the body costs no digits.
+fn arriving(ray: Ray, met: Meeting, weight: f32) -> Inbound {
+    let direction = own_vector(ray.direction);
+    let distance = met.distance / unit();
+    let point = polished(unplace(ray.origin) + direction * distance);
+    let sweep = own_vector(ray.sweep);
+    return inbound_of(Ray(point, direction, sweep), sweep * distance, Meeting(met.facet, 0.0), weight);
+}
+
+// Carries a ray that leaves the body into the world.
+fn outward(ray: Ray) -> Ray {
+    return Ray(place(ray.origin), world_vector(ray.direction), world_vector(ray.sweep));
+}
