@@ -5,6 +5,8 @@
 //! 2D and 3D distance functions). The plate is a box sheared along z. Its function is that of the box, taken at the point
 //! with the shear undone.
 
+use serde::{Deserialize, Serialize};
+
 mod body;
 mod error;
 mod jet;
@@ -31,7 +33,7 @@ use glam::{DMat3, DVec3};
 /// The form of a glass shape and its dimensions, in girdle radii.
 ///
 /// The middle of the shape is the origin of its own frame. An `edge` of 0 is sharp.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub enum ImplicitForm {
     /// A stadium in x and y, long along the greater of the two and drawn out along z.
     Pill {

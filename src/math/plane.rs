@@ -2,12 +2,13 @@
 
 use super::Pose;
 use glam::DVec3;
+use serde::{Deserialize, Serialize};
 
 /// The half-space `normal · x <= offset`, whose boundary is the plane of a facet.
 ///
 /// Lengths are in girdle radii. In a validated plane (inside a [`Polytope`](super::Polytope)) the normal is a unit vector
 /// that points out of the stone.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Plane {
     /// The outward normal.
     pub normal: DVec3,

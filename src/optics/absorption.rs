@@ -3,12 +3,15 @@
 //! Coefficients are Napierian (base e) and per millimetre of stone: T = exp(-a l) (J. H. Lambert 1760, A. Beer 1852).
 //! Decadic absorbance, as some sources print it, must be divided by 0.4343 first.
 
+use serde::{Deserialize, Serialize};
+
 /// The largest coefficient that is accepted, per mm: metals reach 1e5.
 pub const MOST_PER_MM: f64 = 1e6;
 
 /// An absorption spectrum: straight lines between samples, level outside them. Without samples the stone is clear, with one
 /// it is grey.
-#[derive(Debug, Clone, PartialEq, Default)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[serde(try_from = "Vec<(f64, f64)>", into = "Vec<(f64, f64)>")]
 pub struct Absorption {
     /// (nm, per mm); wavelengths strictly increasing, all finite and > 0; coefficients 0 to [`MOST_PER_MM`].
     samples: Vec<(f64, f64)>,
@@ -48,6 +51,20 @@ pub enum AbsorptionError {
         /// The wavelength before it in nm.
         previous: f64,
     },
+}
+
+impl TryFrom<Vec<(f64, f64)>> for Absorption {
+    type Error = AbsorptionError;
+
+    fn try_from(samples: Vec<(f64, f64)>) -> Result<Self, AbsorptionError> {
+        Self::new(samples)
+    }
+}
+
+impl From<Absorption> for Vec<(f64, f64)> {
+    fn from(absorption: Absorption) -> Self {
+        absorption.samples
+    }
 }
 
 impl Absorption {

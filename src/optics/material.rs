@@ -3,11 +3,12 @@
 use super::absorption::Absorption;
 use super::dispersion::{Dispersion, DispersionError};
 use super::{gems, glasses};
+use serde::{Deserialize, Serialize};
 use std::fmt;
 use std::sync::LazyLock;
 
 /// The material of a stone, as far as light and weight are concerned.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Material {
     /// The name that the trade gives it; unique among [`materials`].
     pub name: String,

@@ -42,7 +42,7 @@ pub enum PaneQuality {
 }
 
 /// A pane of liquid glass over a picture.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct GlassPane {
     /// The pane's upper left corner, in pixels from the picture's.
     pub corner: DVec2,

@@ -15,9 +15,10 @@ use crate::scene::Panorama;
 use crate::trace::environment::backplate_point;
 use glam::{DMat3, DVec2, DVec3};
 use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
 
 /// The plane behind the stones on which a background hangs, perpendicular to the axis to the eye.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Backdrop {
     /// Distance of the plane behind the origin, in world units.
     pub distance: f64,

@@ -11,10 +11,11 @@ use crate::scene::{Film, Glare, Medium, Panorama, Scene, Scope, View};
 use crate::trace::beam::BeamOptions;
 use crate::trace::ray::RayOptions;
 use crate::trace::sampling::LitScene;
+use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
 /// One piece of work for a [`Renderer`](super::Renderer).
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Job {
     /// The stones. Scopes and figures take the first alone.
     pub scene: Arc<Scene>,
@@ -29,7 +30,7 @@ pub struct Job {
 }
 
 /// What a [`Job`] makes.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub enum Product {
     /// A picture under light.
     Light(LightProduct),
@@ -44,7 +45,7 @@ pub enum Product {
 }
 
 /// A picture of stones under light.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct LightProduct {
     /// What is around the stones.
     pub surroundings: Surroundings,
@@ -61,7 +62,7 @@ pub struct LightProduct {
 }
 
 /// The steps in which a picture under light is made.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Steps {
     /// Some rows after the other, so that little memory is held.
     Strips,
@@ -81,7 +82,7 @@ pub enum Steps {
 }
 
 /// A picture of one stone in a scope.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct ScopeProduct {
     /// The scope.
     pub scope: Scope,
@@ -94,7 +95,7 @@ pub struct ScopeProduct {
 }
 
 /// What a picture in a scope shows of the light.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub enum Reading {
     /// All light, by the energy of each band.
     Energy,
@@ -103,7 +104,7 @@ pub enum Reading {
 }
 
 /// A refraction map.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct MapProduct {
     /// What is around the stones; its backplate is left out.
     pub surroundings: Surroundings,
@@ -120,7 +121,7 @@ pub struct MapProduct {
 }
 
 /// A pane of liquid glass, traced as real glass.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct PaneProduct {
     /// The pane.
     pub pane: GlassPane,
@@ -135,7 +136,7 @@ pub struct PaneProduct {
 }
 
 /// Figures of one stone in a scope.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct FiguresProduct {
     /// The scope.
     pub scope: Scope,
@@ -144,7 +145,7 @@ pub struct FiguresProduct {
 }
 
 /// How well a job is done.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Quality {
     /// The tracer that is wanted.
     pub tracer: Wanted,

@@ -12,6 +12,9 @@ mod renderer;
 mod scope;
 mod surroundings;
 
+#[cfg(test)]
+mod tests;
+
 pub use card::{Backend, Card, NoCard};
 pub use job::{
     FiguresProduct, Job, LightProduct, MapProduct, PaneProduct, Product, Quality, Reading, ScopeProduct,

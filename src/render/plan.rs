@@ -5,9 +5,10 @@ use super::job::{Job, LightProduct, Product, Steps};
 use crate::math::{NotConvex, SolidRef};
 use crate::scene::{Projection, View};
 use crate::trace::ray::Camera;
+use serde::{Deserialize, Serialize};
 
 /// The tracer that a person or a program wants.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub enum Wanted {
     /// The quickest that fits.
     #[default]

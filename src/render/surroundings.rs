@@ -3,10 +3,11 @@
 use crate::scene::{Film, Panorama, View};
 use crate::trace::environment::{Backplate, Environment, Lighting};
 use glam::{DQuat, DVec3};
+use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
 /// What is around the stones of a picture.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Surroundings {
     /// The light.
     pub lighting: Arc<Lighting>,
@@ -21,7 +22,7 @@ pub struct Surroundings {
 }
 
 /// A picture that hangs behind the stones, and fills the film from there.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct HungPicture {
     /// The picture.
     pub picture: Arc<Panorama>,

@@ -1,11 +1,14 @@
 //! The solid that a design describes: a stone between planes, or a solid of another kind.
 
 use super::Stone;
+use super::body_data::BodyData;
 use crate::math::{ImplicitSurface, NotConvex, Polytope, SmoothSolid, SolidRef, TriangleMesh};
+use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
 /// A solid in the stone's frame: lengths in girdle radii, +z out of the table.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "BodyData", into = "BodyData")]
 pub enum Body {
     /// A convex solid between planes, which may have names.
     Stone(Stone),

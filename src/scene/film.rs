@@ -2,12 +2,13 @@
 
 use crate::math::{Basis, SolidRef};
 use glam::{DAffine2, DMat2, DVec2};
+use serde::{Deserialize, Serialize};
 
 /// The air around the silhouette, as a part of its half width.
 const MARGIN: f64 = 0.04;
 
 /// A picture's pixels in the image plane through the world's origin, x to the right and y up. Rows are counted downward.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Film {
     /// The numbers of pixels across and down.
     pub size: [u32; 2],

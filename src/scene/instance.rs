@@ -3,10 +3,11 @@
 use super::{Body, Medium, Specimen};
 use crate::math::{Pose, PosedSolid};
 use crate::optics::Material;
+use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
 /// An instance: a stone in its place.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Instance {
     /// The stone's body in its own frame. Instances of one body share it, and what tracers build for it.
     pub body: Arc<Body>,
@@ -19,7 +20,7 @@ pub struct Instance {
 }
 
 /// Stones in one world; no two overlap.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Scene {
     /// The stones.
     pub instances: Vec<Instance>,

@@ -1,9 +1,10 @@
 //! The medium of a stone: its material at one wavelength.
 
 use crate::optics::Material;
+use serde::{Deserialize, Serialize};
 
 /// A clear or absorbing medium at one wavelength, surrounded by air of index 1.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Medium {
     /// The refractive index, at least 1.
     pub index: f64,

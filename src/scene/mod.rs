@@ -1,6 +1,7 @@
 //! Floor 2: the stones that are looked at, the viewpoint, and the light. Data only.
 
 mod body;
+mod body_data;
 mod copies;
 mod film;
 mod instance;

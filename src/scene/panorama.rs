@@ -1,12 +1,13 @@
 //! A photograph in linear light: of all the surroundings, or of a backplate.
 
 use glam::{DVec2, DVec3};
+use serde::{Deserialize, Serialize};
 
 /// A picture in linear light of sRGB's primaries, row by row from the top.
 ///
 /// As a panorama it is equirectangular: its first row is the zenith, its last the nadir. Azimuth runs to the left, as it
 /// does for someone who looks up and turns.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Panorama {
     /// The number of pixels across, at least 1.
     pub width: u32,

@@ -87,7 +87,7 @@ pub enum Backing {
 }
 
 /// Whether a scope's picture holds glare, the light that the stone's outer surface reflects.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Glare {
     /// Only light that has been inside the stone is shown: the zones have the colours that graders are taught.
     #[default]

@@ -2,9 +2,10 @@
 
 use crate::math::Basis;
 use glam::{DQuat, DVec3};
+use serde::{Deserialize, Serialize};
 
 /// The side of the stone that faces the eye while nothing is tilted.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Side {
     /// Face up, through the table.
     #[default]
@@ -24,7 +25,7 @@ impl Side {
 }
 
 /// The thing that moves when a view is tilted.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Lean {
     /// The stone leans, its table toward the azimuth; eye and scope stay.
     #[default]
@@ -34,7 +35,7 @@ pub enum Lean {
 }
 
 /// The projection: how rays reach the eye.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 pub enum Projection {
     /// Parallel rays, as to an eye far away.
     #[default]
@@ -47,7 +48,7 @@ pub enum Projection {
 }
 
 /// A view of a stone.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 pub struct View {
     /// The side that faces the eye while nothing is tilted.
     pub side: Side,

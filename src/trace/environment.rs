@@ -13,6 +13,7 @@ use crate::scene::{Film, Light, Panorama, View, toward};
 use drawing::{channels, shine};
 use glam::{DVec2, DVec3, DVec4, IVec2, Vec2Swizzles as _, Vec4Swizzles as _};
 use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
 
 /// The side in radians, √(4π), of the one texel of a map of side 1, taken for a square: it covers the whole sphere.
 pub const TEXEL_ANGLE: f64 = 3.544_907_701_811_032;
@@ -34,7 +35,7 @@ const BRIGHTEST: f64 = 1e12;
 pub type Radiance = [f32; 4];
 
 /// A lamp: a small disc of even light.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Disc {
     /// Unit direction to its middle.
     pub toward: DVec3,
@@ -45,7 +46,7 @@ pub struct Disc {
 }
 
 /// A light, ready to be looked up in its own frame, whose z lies along its axis.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct EnvironmentMap {
     /// Square maps of the broad light, row by row, the finest first; each has half the side of the one before.
     pub levels: Vec<Vec<Radiance>>,
@@ -56,7 +57,8 @@ pub struct EnvironmentMap {
 }
 
 /// A light, and the map that is looked up for it.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(from = "LightingData", into = "LightingData")]
 pub struct Lighting {
     /// The light as it is described.
     pub light: Light,
@@ -64,6 +66,28 @@ pub struct Lighting {
     pub map: EnvironmentMap,
     /// What is unusual about the panorama, in words that name the file.
     pub warnings: Vec<String>,
+}
+
+/// Lighting as plain data. The map of a light without a panorama is drawn anew, which is quicker than to send it.
+#[derive(Serialize, Deserialize)]
+struct LightingData {
+    light: Light,
+    map: Option<EnvironmentMap>,
+    warnings: Vec<String>,
+}
+
+impl From<Lighting> for LightingData {
+    fn from(Lighting { light, map, warnings }: Lighting) -> Self {
+        let map = light.panorama.is_some().then_some(map);
+        Self { light, map, warnings }
+    }
+}
+
+impl From<LightingData> for Lighting {
+    fn from(LightingData { light, map, warnings }: LightingData) -> Self {
+        let map = map.unwrap_or_else(|| EnvironmentMap::new(&light, None));
+        Self { light, map, warnings }
+    }
 }
 
 /// A photograph on a plane behind the stones, perpendicular to the axis to the eye.

@@ -27,10 +27,11 @@ use crate::math::SolidRef;
 use crate::optics::{cos_transmitted, reflect, reflected_change, refract, refracted_change};
 use crate::scene::Medium;
 use glam::DVec3;
+use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
 /// How far a ray is followed.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct RayOptions {
     /// Whether polarisation is followed; without it, every surface meets unpolarised light.
     pub polarised: bool,

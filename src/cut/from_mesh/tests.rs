@@ -2,6 +2,7 @@
 
 use super::super::round_brilliant::{MODERN, RoundBrilliant};
 use super::*;
+use crate::math::Pose;
 use crate::math::surface::{Face, Surface, SurfaceKind, facets};
 use crate::math::triangulate;
 use glam::DQuat;
@@ -217,7 +218,7 @@ fn symmetry_counts_the_same_however_a_stone_lies() {
     let upright = Polytope::from_planes(&planes).unwrap();
     assert_eq!(upright.facets().len(), planes.len());
     let counted = |turn: DQuat| {
-        let polytope = upright.moved(1.0, turn, DVec3::ZERO);
+        let polytope = upright.reframed(&Pose::turned(turn));
         let face = |plane| Face { plane, area: 1.0, name: None };
         let found = Faceted {
             surface: Surface::new(polytope.vertices().to_vec(), vec![]),

@@ -22,6 +22,7 @@ mod weld;
 mod tests;
 
 use glam::DVec3;
+use serde::{Deserialize, Serialize};
 
 pub use change::Change;
 pub use fault::SurfaceError;
@@ -33,7 +34,7 @@ pub use shape::{Face, Faceted, SurfaceKind, TooCurved, deviation, faceted_hull, 
 ///
 /// A surface from a file may be open and have gaps, copies or turned triangles. A surface that [`Surface::mend`] returns has
 /// none of these.
-#[derive(Debug, Clone, PartialEq, Default)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct Surface {
     /// The corners.
     pub vertices: Vec<DVec3>,

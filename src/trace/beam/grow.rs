@@ -14,10 +14,11 @@ use crate::scene::{Medium, View};
 use crate::trace::{Stopped, Watch};
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
 use std::ops::ControlFlow;
 
 /// How far beams are followed, and what is taken into account.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct BeamOptions {
     /// The share of the light, 0 to 1, that may stay unresolved: tracing goes on until no more is.
     pub unresolved: f64,
