@@ -149,7 +149,7 @@ impl<'a> PictureSetup<'a> {
         let demands = Demands::of_light(&self.assembly.setting, view, self.photo.is_some(), self.strength);
         planned(&demands, self.finish.tracer).map_err(|unfit| match unfit {
             Unfit::Mixture => Failure::Usage(format!(
-                "--strength {}: exact beams know no mixture: use --tracer ray, or --strength 1",
+                "--strength {}: exact beams cannot mix refracted and straight rays: use --tracer ray, or --strength 1",
                 self.strength
             )),
             _ => Failure::Usage(

@@ -50,7 +50,7 @@ pub enum Warning {
     },
     /// The girdle's facets do not share the stone's symmetry.
     #[error(
-        "girdle_facets: {count} is no multiple of 8, which breaks the eightfold mirror symmetry and makes tracing \
+        "girdle_facets: {count} is not a multiple of 8, which breaks the eightfold mirror symmetry and makes tracing \
          slower; {} keeps it",
         .count.div_ceil(8) * 8
     )]
@@ -144,7 +144,7 @@ mod tests {
 
     #[test]
     fn a_girdle_of_another_symmetry_is_told() {
-        let expected = "girdle_facets: 97 is no multiple of 8, which breaks the eightfold mirror symmetry and makes \
+        let expected = "girdle_facets: 97 is not a multiple of 8, which breaks the eightfold mirror symmetry and makes \
                         tracing slower; 104 keeps it";
         assert_eq!(texts(RoundBrilliant { girdle_facets: 97, ..MODERN }), [expected]);
     }

@@ -30,7 +30,7 @@ pub enum TriangleMeshError {
         count: usize,
     },
     /// A coordinate of a corner is NaN, or too large for volumes to be computed.
-    #[error("corner {0} is too far away to be a number")]
+    #[error("corner {0} is too far away, or its position is not finite")]
     NotFinite(usize),
     /// An edge has triangles on one side only.
     #[error(

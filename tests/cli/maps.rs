@@ -105,5 +105,5 @@ fn a_scenes_mixture_is_left_aside_and_that_is_told() {
     let desk = Desk::new();
     let line = "refraction-map prism-rainbow --size 32 --samples 1 --wavelengths 2 --format tiled --out maps";
     let (code, _, said) = came_of(line, &desk.command(line).output().unwrap());
-    assert!(code == 0 && said.contains("strength of 0.155 is left aside"), "{code}: {said}");
+    assert!(code == 0 && said.contains("strength of 0.155 is ignored"), "{code}: {said}");
 }

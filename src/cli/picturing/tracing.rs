@@ -61,7 +61,7 @@ impl PictureSetup<'_> {
             ));
         }
         let light = &self.lighting.light.name;
-        let looks = if taken.count == 1 { "1 look".to_owned() } else { format!("{} looks", taken.count) };
+        let looks = if taken.count == 1 { "1 sample".to_owned() } else { format!("{} samples", taken.count) };
         let jitter = if taken.jitter { "" } else { ", without jitter" };
         let polarised = if self.options.unpolarised { "unpolarised" } else { "polarised" };
         let told = format!(
