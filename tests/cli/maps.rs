@@ -85,7 +85,7 @@ fn what_a_refraction_map_cannot_be_is_told() {
         ("--background #ff0000", "a pattern or a photograph"),
         ("--span 0.5", "--span"),
         ("--bands 17", "17"),
-        ("--bands 8 --places 3", "24 maps in all"),
+        ("--bands 8 --places 3", "these are 24 maps"),
         ("--places 9", "9"),
     ] {
         let said = desk.refused(&format!("refraction-map cube.toml --out none {options}"), 2);

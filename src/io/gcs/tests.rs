@@ -47,7 +47,7 @@ fn a_design_reads_as_it_is_written() {
 #[test]
 fn all_that_a_file_says_is_kept() {
     let ImportedDesign { mut design, warnings, .. } = back(PYRAMIDS.as_bytes());
-    assert!(warnings.iter().all(|warning| warning.contains("that of angle and index_angle is taken")));
+    assert!(warnings.iter().all(|warning| warning.contains("angle and index_angle are used instead")));
     assert_eq!(warnings.len(), 6);
     assert!(warnings[0].starts_with("line 7: "), "{}", warnings[0]);
     assert_eq!((design.name.as_str(), &design.material), ("Pyramids", &MaterialRef::Index(1.5)));
