@@ -259,7 +259,9 @@ fn a_solid_that_is_not_convex_is_shown_measured_and_converted_by_its_triangles()
     let (code, _, told) = desk.run("export l.obj --out e --size 24 --views aset,profile --unresolved 0.01");
     assert!(code == 0 && told.contains("profile: left out"), "{told}");
     assert_eq!(files(&desk.at("e")).len(), 3, "energy, strongest exits, figures");
-    assert!(desk.refused("export l.obj --out n --views profile --format png", 2).contains("nothing of this"));
+    assert!(
+        desk.refused("export l.obj --out n --views profile --format png", 2).contains("none of the pictures")
+    );
     assert!(desk.refused("edit nosuch.stl", 1).contains("no such file"));
     assert!(desk.refused("nosuch.stl", 1).contains("no such file"));
     desk.write("short.stl", [vec![7_u8; 80], 9_u32.to_le_bytes().to_vec(), vec![0; 100]].concat());

@@ -290,7 +290,7 @@ fn a_statement_that_no_longer_holds_is_told() {
         });
         let (back, _, warnings) = read(format, flat, Up::Found);
         assert!(
-            warnings.iter().any(|w| w.contains("its shape is another than it speaks of")),
+            warnings.iter().any(|w| w.contains("its shape is not the one that this was said of")),
             "{warnings:?}"
         );
         assert_eq!(back.design.diameter_mm, 6.5);
@@ -406,8 +406,8 @@ fn a_shape_that_leaves_a_doubt_says_how_to_set_it() {
     let faces: [&[usize]; 8] =
         [&[0, 1, 4], &[1, 2, 4], &[2, 3, 4], &[3, 0, 4], &[1, 0, 5], &[2, 1, 5], &[3, 2, 5], &[0, 3, 5]];
     let (_, notes, _) = read(DesignFormat::Obj, obj(&corners, &faces, |v| v), Up::Found);
-    let doubt = notes.iter().find(|note| note.contains("leaves a doubt")).expect("a doubt");
-    assert!(doubt.contains("z was taken, and -z is nearly as likely; --up -z takes that"), "{doubt}");
+    let doubt = notes.iter().find(|note| note.contains("does not show clearly")).expect("a doubt");
+    assert!(doubt.contains("z was chosen, and -z is nearly as likely; --up -z chooses that"), "{doubt}");
 }
 
 #[test]

@@ -12,8 +12,8 @@ use std::path::PathBuf;
 pub struct Convert {
     /// A file of a design or a mesh, or the name of a cut that comes with the program
     input: PathBuf,
-    /// The file to write; its ending names the format: .toml, .asc, .gem, .gcs, .obj, .stl, .ply or .glb. `-` is standard output,
-    /// for which --format names it
+    /// The file to write; its ending names the format: .toml, .asc, .gem, .gcs, .obj, .stl, .ply or .glb. `-` is standard output
+    /// and needs --format
     output: PathBuf,
     /// The format to write, whatever the ending
     #[arg(long, value_enum)]

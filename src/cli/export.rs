@@ -30,13 +30,13 @@ pub struct ExportArguments {
     /// Kinds of file to write, separated by commas
     #[arg(long, value_enum, value_delimiter = ',', default_values_t = [OutputFormat::Png, OutputFormat::Svg, OutputFormat::Json])]
     format: Vec<OutputFormat>,
-    /// Folder to write to; `-` is standard output, for one file, and of a picture in a scope for that of energy
+    /// Folder to write to; `-` is standard output, for a single file; of the two pictures in a scope it gets energy
     #[arg(long, default_value = "out")]
     out: PathBuf,
     /// Draw a caption under pictures in scopes: what each colour means, view, error, stone and program
     #[arg(long)]
     caption: bool,
-    /// Tell in the figures how long they took, which differs from run to run
+    /// Add to the figures how long they took, which differs from run to run
     #[arg(long)]
     timing: bool,
     #[command(flatten)]
@@ -81,7 +81,7 @@ impl ExportArguments {
             let export = export::Export { viewing, outputs: &outputs };
             if let (true, Err(why)) = (export.files(&renderer)?.is_empty(), specimen.stone()) {
                 return Err(Failure::Usage(format!(
-                    "{}: nothing of this can be drawn: {why}",
+                    "{}: none of the pictures can be drawn: {why}",
                     specimen.path
                 )));
             }

@@ -26,7 +26,7 @@ pub struct Info {
     /// Designs, meshes and scene files, or names of cuts and scenes that come with the program
     #[arg(required = true)]
     files: Vec<PathBuf>,
-    /// Print JSON: one object, or for several files one a line
+    /// Print JSON: one object, or for several files one object a line
     #[arg(long)]
     json: bool,
     /// List every facet after the tiers

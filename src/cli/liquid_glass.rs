@@ -31,7 +31,7 @@ const WAVELENGTHS: u32 = 12;
 
 #[derive(Debug, Args)]
 pub struct LiquidGlass {
-    /// What lies behind: a colour (white, #20262e), two from top to bottom (#404850-#101215), a pattern (page, grid, checks,
+    /// The background: a colour (white, #20262e), two from top to bottom (#404850-#101215), a pattern (page, grid, checks,
     /// stripes, dots, slit), or a photograph's file
     #[arg(long, value_name = "WHAT")]
     background: String,
@@ -63,13 +63,13 @@ pub struct LiquidGlass {
     /// Strength of the light, 0 to 100
     #[arg(long, allow_negative_numbers = true, value_name = "STRENGTH", default_value_t = 30.0, value_parser = number)]
     light: f64,
-    /// The base colour and how much of it covers what is behind
+    /// The base colour, with its alpha over the background
     #[arg(long, value_name = "#rrggbbaa", default_value = "#00000000", value_parser = tint)]
     tint: DVec4,
-    /// high (all), medium (frost by three samples, dispersion 30 at most) or low (refraction alone)
+    /// high (all effects), medium (frost by three samples, dispersion 30 at most) or low (refraction alone)
     #[arg(long, default_value = "high")]
     quality: PaneQuality,
-    /// Trace the same pane as well, and tell what the approximation costs
+    /// Trace the same pane as well, and print how far the approximation is from it
     #[arg(long)]
     compare: bool,
     /// How far above the background the traced pane lies, in parts of its shorter side
@@ -81,7 +81,7 @@ pub struct LiquidGlass {
         requires = "compare"
     )]
     gap: f64,
-    /// Looks of the comparison, 1 to 1024
+    /// Samples of each pixel in the comparison, 1 to 1024
     #[arg(long, allow_negative_numbers = true, value_name = "N", default_value_t = 16, value_parser = clap::value_parser!(u32).range(1..=1024))]
     samples: u32,
 }
@@ -155,8 +155,10 @@ impl LiquidGlass {
             let rendered = Renderer::default().run(&job, &bar.watch(), &mut |_| Ok::<_, Failure>(()))?;
             rendered.pane()?
         };
-        let told =
-            format!("{told}; traced by rays, gap {gap}, {WAVELENGTHS} wavelengths in {} looks", self.samples);
+        let told = format!(
+            "{told}; traced by rays, gap {gap}, {WAVELENGTHS} wavelengths in {} samples",
+            self.samples
+        );
         self.write("liquid-glass-traced", &traced, &told)?;
         let both = beside(&pane(&pane_asked, &background, 1), &traced);
         self.write("liquid-glass-both", &both, &format!("left drawn, right traced; {told}"))?;
@@ -248,12 +250,12 @@ fn figures(cost: &Cost) -> String {
         format!("{what:<36}mean {mean:7.2} px   greatest {greatest:7.2} px")
     };
     [
-        line("drawn: what is behind is moved by", pane),
-        line("traced: it is moved by", traced),
-        line("the places shown are apart by", apart),
+        line("drawn: background is shifted by", pane),
+        line("traced: background is shifted by", traced),
+        line("distance of the places shown", apart),
         format!(
             "{:<36}drawn {:6.2} px   traced {:9.2} px",
-            "red and blue are apart by, mean", fringe[0], fringe[1]
+            "distance of red and blue, mean", fringe[0], fringe[1]
         ),
         format!("{:<36}{:.4} of white, {psnr_db:.1} dB", "mean difference in linear light", mean_difference),
         format!("{:<36}{:.1} %", "traced light from the background", 100.0 * behind),

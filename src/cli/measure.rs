@@ -17,13 +17,13 @@ pub struct Measure {
     /// Designs or meshes, or names of cuts that come with the program
     #[arg(required = true)]
     files: Vec<PathBuf>,
-    /// Print JSON: one object, or for several files one a line
+    /// Print JSON: one object, or for several files one object a line
     #[arg(long)]
     json: bool,
     /// The scope whose zones are measured: a scope's name (see `scopes`), or a scope file [default: aset]
     #[arg(long, value_name = "SCOPE")]
     scope: Option<PathBuf>,
-    /// Tell how long it took, which differs from run to run
+    /// Print how long it took, which differs from run to run
     #[arg(long)]
     timing: bool,
     #[command(flatten)]

@@ -84,7 +84,7 @@ enum Command {
     Render(render::Render),
     /// Show a stone turning, rocking or wobbling under light, as an animated PNG and its frames
     Spin(spin::Spin),
-    /// Map where the light behind each pixel comes from, for pages that refract a moving background by looking it up
+    /// Map where the light behind each pixel comes from, for pages that look up a moving background by the map
     RefractionMap(refraction_map::RefractionMaps),
     /// Draw a pane of liquid glass over a background as screens do, and trace the same pane beside it
     LiquidGlass(liquid_glass::LiquidGlass),
@@ -94,7 +94,7 @@ enum Command {
     Info(info::Info),
     /// Write a stone's design in another format
     Convert(convert::Convert),
-    /// Time the tracers on one and the same picture
+    /// Time the tracers on the same pictures
     Bench(bench::BenchArguments),
     /// List the materials known by name
     Materials(lists::List),

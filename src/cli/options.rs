@@ -113,7 +113,7 @@ pub struct LightOptions {
     /// pictures]
     #[arg(long, value_name = "PART", allow_negative_numbers = true, value_parser = number)]
     pub unresolved: Option<f64>,
-    /// Let every surface see unpolarised light, to compare with programs that do
+    /// Treat the light as unpolarised at every surface, to compare with programs that do so
     #[arg(long)]
     pub unpolarised: bool,
     /// What traces the light
@@ -218,7 +218,7 @@ impl LightOptions {
         let wavelength = self.wavelength();
         if !(100.0..=100_000.0).contains(&wavelength) {
             return Err(Failure::Usage(format!(
-                "a wavelength of {wavelength} nm is not light that stones are seen in"
+                "a wavelength of {wavelength} nm is not light; give 100 to 100000 nm"
             )));
         }
         let material = &specimen.material;
@@ -237,7 +237,7 @@ impl LightOptions {
         {
             let name = &material.name;
             let range = format!("{name} was measured from {first} to {last} nm");
-            specimen.say(&format!("{range}; its index at {wavelength} nm is a guess"));
+            specimen.say(&format!("{range}; its index at {wavelength} nm is extrapolated"));
         }
         let radius_mm = specimen.design.diameter_mm / 2.0;
         Ok(Medium { index, absorption: Medium::absorption_of(material, wavelength, radius_mm), spread: 0.0 })

@@ -30,31 +30,31 @@ pub struct PictureOptions {
     /// Pixels: a number for a square, or WIDTHxHEIGHT
     #[arg(long, value_name = "PIXELS", default_value = "1024", value_parser = film_size)]
     pub size: [u32; 2],
-    /// Wavelengths side by side, 1 to 64
+    /// Wavelengths of each sample, 1 to 64
     #[arg(long, allow_negative_numbers = true, value_name = "N", default_value_t = 16, value_parser = clap::value_parser!(u32).range(1..=64))]
     pub wavelengths: u32,
-    /// Looks that the picture is made of, each at other wavelengths and places in the pixel [default: 4 by exact beams,
-    /// 64 by rays]
+    /// Samples of each pixel, each at its own wavelengths and, by rays, at its own place in the pixel [default: 4 by exact
+    /// beams, 64 by rays]
     #[arg(long, allow_negative_numbers = true, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=65536))]
     pub samples: Option<u32>,
-    /// Let every surface see unpolarised light
+    /// Treat the light as unpolarised at every surface
     #[arg(long)]
     pub unpolarised: bool,
-    /// See all colours as under daylight, instead of an eye that is used to the light
+    /// Show all colours as under daylight, instead of as an eye that has adapted to the light sees them
     #[arg(long)]
     pub unadapted: bool,
-    /// Brighter by STOPS
+    /// Brighten the picture by STOPS
     #[arg(long, value_name = "STOPS", default_value_t = 0.0, allow_negative_numbers = true, value_parser = number)]
     pub exposure: f64,
     /// Tone curve: linear, neutral or filmic
     #[arg(long, value_name = "CURVE", default_value = "neutral")]
     pub tone: Tone,
-    /// What lies behind: transparent, a colour (white, #20262e), two from top to bottom (#404850-#101215), `light` for
-    /// what shines, a pattern (page, grid, checks, stripes, dots, slit), or a photograph's file (by default the scene's, or
-    /// #33373d-#0e0f11)
+    /// The background: transparent, a colour (white, #20262e), two from top to bottom (#404850-#101215), `light` for the
+    /// light itself, a pattern (page, grid, checks, stripes, dots, slit), or a photograph's file [default: the scene's, or
+    /// #33373d-#0e0f11]
     #[arg(long, value_name = "WHAT")]
     pub background: Option<String>,
-    /// How far behind the stones the pattern or photograph stands, in girdle radii [default: the scene's, or 3]
+    /// How far behind the stones the pattern or photograph hangs, in girdle radii [default: the scene's, or 3]
     #[arg(long, allow_negative_numbers = true, value_name = "DISTANCE", value_parser = number)]
     pub photo_distance: Option<f64>,
     #[command(flatten)]
@@ -64,11 +64,11 @@ pub struct PictureOptions {
 /// How a picture is traced and finished, which maps have no use for.
 #[derive(Debug, Clone, Args)]
 pub struct FinishOptions {
-    /// Take the middle of each band of wavelengths in every look, instead of another one each time
+    /// Take the middle of each band of wavelengths in every sample, instead of another wavelength each time
     #[arg(long)]
     pub no_jitter: bool,
-    /// How much of the way that refraction turns light is followed, 0 to 1; less than 1 is a mixture for its looks, by rays
-    /// [default: the scene's, or 1: physics]
+    /// Below 1, mix each refracted ray with the straight ray, for its looks; 0 is the straight ray, 1 is physics; by rays
+    /// [default: the scene's, or 1]
     #[arg(long, allow_negative_numbers = true, value_name = "PART", value_parser = number)]
     pub strength: Option<f64>,
     /// What traces the light; beams are for one convex stone without a photograph behind
@@ -78,7 +78,7 @@ pub struct FinishOptions {
     #[arg(long, allow_negative_numbers = true, value_name = "PART", default_value_t = Bloom::default().strength, value_parser = number)]
     pub bloom: f64,
     /// What to draw over the stones, separated by commas: wireframe, facets, bounces, unresolved, total (how often light is
-    /// totally reflected before some leaves)
+    /// totally reflected before the first light leaves)
     #[arg(long, value_name = "WHAT", value_delimiter = ',')]
     pub overlay: Vec<Overlay>,
 }

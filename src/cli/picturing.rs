@@ -145,7 +145,7 @@ impl<'a> PictureSetup<'a> {
         let job = self.job(&Arc::new(self.assembly.setting.clone()), view, 1.0);
         let plan = self.renderer.borrow().plan(&job).map_err(|unfit| match unfit {
             Unfit::Mixture => Failure::Usage(format!(
-                "--strength {}: exact beams know no mixture: use --tracer ray, or --strength 1",
+                "--strength {}: exact beams cannot mix refracted and straight rays: use --tracer ray, or --strength 1",
                 self.strength
             )),
             _ => Failure::Usage(

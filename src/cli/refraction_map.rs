@@ -31,17 +31,17 @@ pub struct RefractionMaps {
     /// What to write, separated by commas [default: tiled,page, and preview with a photograph]
     #[arg(long, value_enum, value_delimiter = ',', value_name = "KIND")]
     format: Vec<Kind>,
-    /// Maps of N bands of wavelengths instead of one for all light, so that the look-up keeps its rainbow, 1 to 16
+    /// Make one map for each of N bands of wavelengths, 1 to 16, so that the look-up shows a rainbow
     #[arg(long, allow_negative_numbers = true, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=i64::from(MOST_BANDS)))]
     bands: u32,
-    /// Places of a pixel, 1 to 8: of one each pixel shows what its strongest path leads to, of more what is seen twice through
-    /// a pixel shows twice; each band has as many maps
+    /// Keep the places of the N strongest paths of each pixel, 1 to 8, so that what is seen twice through a pixel shows twice;
+    /// each band has N maps
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=i64::from(MOST_PLACES)))]
     places: u32,
     /// How many times as wide as the picture the background is; light from beyond it is in the diffuse layer
     #[arg(long, allow_negative_numbers = true, value_name = "TIMES", default_value_t = 2.0, value_parser = number)]
     span: f64,
-    /// Hang the same background before the stones too, so that what they send back to the eye's side shows it
+    /// Hang the same background in front of the stones too, so that light which they send back to the eye's side shows it
     #[arg(long)]
     both_sides: bool,
     #[command(flatten)]
@@ -76,7 +76,7 @@ impl RefractionMaps {
         if self.bands * self.places > MOST_BANDS {
             let all = self.bands * self.places;
             return refuse(format!(
-                "--bands, --places: {all} maps in all, and a page takes {MOST_BANDS}: take fewer"
+                "--bands, --places: these are {all} maps, and a page takes {MOST_BANDS} at most; give fewer"
             ));
         }
         within("span", self.span, 1.0, 100.0)?;
@@ -102,7 +102,7 @@ impl RefractionMaps {
         if studio.strength < 1.0 {
             let (name, strength) = (&studio.assembly.name, studio.strength);
             say(&format!(
-                "note: {name}: its strength of {strength} is left aside: a refraction map is physics"
+                "note: {name}: its strength of {strength} is ignored, because a refraction map is physics"
             ));
             studio.strength = 1.0;
         }

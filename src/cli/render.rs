@@ -19,7 +19,7 @@ pub struct Render {
     /// File (.png or .exr) or folder to write to; `-` is standard output, as PNG
     #[arg(long, default_value = "out")]
     out: PathBuf,
-    /// Instead of a picture, tell which facet lies at X,Y: pixels from the upper left corner
+    /// Name the facet at X,Y, in pixels from the upper left corner, instead of drawing a picture
     #[arg(long, value_name = "X,Y", value_parser = point)]
     probe: Option<glam::DVec2>,
     #[command(flatten)]

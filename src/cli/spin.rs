@@ -19,10 +19,10 @@ use std::sync::Arc;
 pub struct Spin {
     /// A design, a mesh, a scene file, or the name of a cut or scene that comes with the program
     file: PathBuf,
-    /// Folder to write to: NAME-spin.png, which moves, and its frames in NAME-spin/
+    /// Folder to write to: the animation NAME-spin.png, and its frames in NAME-spin/
     #[arg(long, default_value = "out")]
     out: PathBuf,
-    /// How it moves
+    /// How the stone moves
     #[arg(long, value_enum, default_value_t = Motion::Turn)]
     motion: Motion,
     /// Frames of one round
@@ -31,7 +31,7 @@ pub struct Spin {
     /// Seconds of one round
     #[arg(long, value_name = "SECONDS", default_value_t = 4.0, value_parser = number)]
     seconds: f64,
-    /// How far it rocks or wobbles
+    /// How far the stone rocks or wobbles
     #[arg(long, value_name = "DEGREES", default_value_t = 15.0, value_parser = number)]
     swing: f64,
     #[command(flatten)]
@@ -44,11 +44,11 @@ pub struct Spin {
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum Motion {
-    /// About its own axis, under eye and light that stay; --tilt or --eye-tilt shows more of its side
+    /// About its own axis, while eye and light stay; --tilt or --eye-tilt shows more of its side
     Turn,
     /// To and fro toward --azimuth
     Rock,
-    /// Its table leans round
+    /// Its table leans toward one azimuth after the other, all around
     Wobble,
 }
 
@@ -103,7 +103,7 @@ impl Spin {
         if !moves {
             let frames = self.frames;
             say(&format!(
-                "note: all {frames} frames look the same, by the symmetry of the stone; take another number"
+                "note: all {frames} frames look the same because of the symmetry of the stone; give another number"
             ));
         }
         written(&path)

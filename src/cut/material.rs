@@ -55,7 +55,7 @@ pub enum MaterialError {
         fault: DispersionError,
     },
     /// A range of wavelengths whose first lies above its last, or where one of them is NaN.
-    #[error("valid_nm: [{first}, {last}] is no range; give the first wavelength in nm, then the last")]
+    #[error("valid_nm: [{first}, {last}] is not a range; give the first wavelength in nm, then the last")]
     Valid {
         /// The first wavelength, nm.
         first: f64,
@@ -240,7 +240,7 @@ mod tests {
             ),
             (
                 glass(|m| m.valid_nm = Some((700.0, 400.0))),
-                "valid_nm: [700, 400] is no range; give the first wavelength in nm, then the last",
+                "valid_nm: [700, 400] is not a range; give the first wavelength in nm, then the last",
             ),
             (glass(|m| m.density = Some(0.0)), "density: 0 must be from 0.1 to 30 g/cm³"),
             (glass(|m| m.density = Some(f64::NAN)), "density: NaN must be from 0.1 to 30 g/cm³"),

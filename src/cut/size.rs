@@ -26,13 +26,13 @@ pub enum SizeError {
         number: String,
     },
     /// A text that is not a number with a unit.
-    #[error("'{text}' is no size; write a number and mm or ct, as in 6.5mm or 1.25ct")]
+    #[error("'{text}' is not a size; write a number and mm or ct, as in 6.5mm or 1.25ct")]
     NoSize {
         /// The text as given, at most 80 characters of it.
         text: String,
     },
     /// A weight that is not above 0, or not finite.
-    #[error("{carats} ct is no weight; give more than 0")]
+    #[error("{carats} ct is not a weight; give more than 0")]
     Weight {
         /// The weight as given, carats.
         carats: f64,
@@ -140,13 +140,13 @@ mod tests {
     fn what_is_no_size_is_told_with_what_to_write() {
         for (text, told) in [
             ("6.5", "'6.5' has no unit; write 6.5mm for the girdle's diameter or 6.5ct for the weight"),
-            ("big", "'big' is no size; write a number and mm or ct, as in 6.5mm or 1.25ct"),
-            ("", "'' is no size"),
-            ("1,5mm", "'1,5mm' is no size"),
-            ("3 inches", "'3 inches' is no size"),
+            ("big", "'big' is not a size; write a number and mm or ct, as in 6.5mm or 1.25ct"),
+            ("", "'' is not a size"),
+            ("1,5mm", "'1,5mm' is not a size"),
+            ("3 inches", "'3 inches' is not a size"),
             ("0.05mm", "0.05 mm must be from 0.1 to 1000 mm across"),
-            ("0ct", "0 ct is no weight; give more than 0"),
-            ("-1ct", "-1 ct is no weight"),
+            ("0ct", "0 ct is not a weight; give more than 0"),
+            ("-1ct", "-1 ct is not a weight"),
         ] {
             let error = text.parse::<Size>().unwrap_err().to_string();
             assert!(error.starts_with(told), "{text}: {error}");

@@ -66,7 +66,7 @@ fn symmetry(count: u32) -> Option<String> {
     (!count.is_multiple_of(8)).then(|| {
         let even = count.div_ceil(8) * 8;
         format!(
-            "{count} is no multiple of 8, which breaks the eightfold mirror symmetry and makes tracing slower; {even} \
+            "{count} is not a multiple of 8, which breaks the eightfold mirror symmetry and makes tracing slower; {even} \
              keeps it"
         )
     })
@@ -147,7 +147,7 @@ mod tests {
 
     #[test]
     fn a_girdle_of_another_symmetry_is_told() {
-        let expected = "girdle_facets: 97 is no multiple of 8, which breaks the eightfold mirror symmetry and makes \
+        let expected = "girdle_facets: 97 is not a multiple of 8, which breaks the eightfold mirror symmetry and makes \
                         tracing slower; 104 keeps it";
         assert_eq!(texts(RoundBrilliant { girdle_facets: 97, ..MODERN }), [expected]);
     }

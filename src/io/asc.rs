@@ -239,7 +239,7 @@ impl Reader {
             Some(facet) => {
                 let other = std::mem::replace(&mut facet.name, name.to_owned());
                 self.warn(&format!(
-                    "a facet has two names, '{}' and '{}'; the second is taken",
+                    "a facet has two names, '{}' and '{}'; the second is used",
                     short(&other),
                     short(name)
                 ));
@@ -339,7 +339,7 @@ fn left_out(tiers: &Tiers) -> Vec<String> {
         lost.push(format!("{uncut} tiers that cut nothing are left out"));
     }
     if !keys.is_empty() {
-        lost.push(format!("these remarks have no place in the format: {}", keys.join(", ")));
+        lost.push(format!("the format cannot hold these remarks: {}", keys.join(", ")));
     }
     lost
 }

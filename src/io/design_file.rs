@@ -149,7 +149,7 @@ pub fn read_with(path: &Path, mesh: MeshOptions) -> Result<ImportedDesign, CutFi
         }
     }?;
     if mesh != MeshOptions::default() {
-        brought.notes.push("--up and --as are for meshes; this design says both itself".to_owned());
+        brought.notes.push("--up and --as are for meshes and have no effect on this design".to_owned());
     }
     Ok(brought)
 }
@@ -167,7 +167,7 @@ pub fn written(specimen: &Specimen, format: DesignFormat) -> Result<EncodedDesig
         && specimen.stone().is_err()
     {
         return Err(Failure::Input(format!(
-            "{name}: .{} takes convex stones between planes, and this is none; write .toml, .obj, .stl, .ply or .glb",
+            "{name}: .{} takes convex stones between planes, and this is not one; write .toml, .obj, .stl, .ply or .glb",
             format.ending()
         )));
     }
@@ -227,13 +227,13 @@ fn as_mesh(specimen: &Specimen, format: DesignFormat, bytes: Vec<u8>) -> Encoded
     let size = has_statement.then_some("its size");
     let kept: Vec<&str> =
         [Some(shape), size, material.filter(|_| has_material), seen].into_iter().flatten().collect();
-    let mut lost = vec![format!("of the design only this is kept: {}", listed(&kept))];
+    let mut lost = vec![format!("only this part of the design is kept: {}", listed(&kept))];
     if !has_statement {
         lost.push("the file's header has no room for the stone's size and for the way it faces".to_owned());
     } else if let Some(material) = material.filter(|_| !has_material) {
         lost.push(format!("the file's header has no room for {material}"));
     }
-    let measured = "the proportions are not kept; whoever reads the mesh measures them anew";
+    let measured = "the proportions are not kept; they are measured anew when the mesh is read";
     lost.extend(specimen.design.cut.brilliant().map(|_| measured.to_owned()));
     if let Body::Glass(smooth) = &*specimen.body {
         let off = smooth.field().deviation(FINENESS) * specimen.unit_mm();

@@ -11,7 +11,7 @@ const MOST_ALONG_A_SIDE: u32 = 16_384;
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum DrawingError {
     /// The text is no SVG.
-    #[error("the drawing is no SVG: {reason}")]
+    #[error("the drawing is not an SVG: {reason}")]
     NotSvg {
         /// What the parser found.
         reason: String,

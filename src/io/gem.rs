@@ -85,7 +85,7 @@ fn raw_facets<'a>(cursor: &mut Cursor<'a>) -> Result<Vec<Raw<'a>>, GemFault> {
             return Ok(facets);
         }
         if facets.len() == MAX_PLANES {
-            let message = format!("there are more facets than {MAX_PLANES}, which are the most taken");
+            let message = format!("there are more than {MAX_PLANES} facets, the most that a design can have");
             return Err(GemFault { at, message });
         }
         facets.push(raw_facet(cursor, at, x)?);
@@ -97,7 +97,7 @@ fn raw_facet<'a>(cursor: &mut Cursor<'a>, at: usize, x: f64) -> Result<Raw<'a>, 
     let plane = Plane::new(p, 1.0).normalized().ok_or_else(|| GemFault {
         at,
         message: format!(
-            "{p} is no facet's normal over its distance; three finite numbers that are not all 0 are expected, or \
+            "{p} is not a facet's normal divided by its distance; three finite numbers that are not all 0 are expected, or \
              the file is no .gem"
         ),
     })?;
@@ -122,7 +122,7 @@ fn outline(cursor: &mut Cursor<'_>) -> Result<bool, GemFault> {
             other => {
                 let message = format!(
                     "{other} stands where 1 (a corner follows) or 0 (the facet ends) is expected; the file is spoilt \
-                     or no .gem"
+                     or is not a .gem file"
                 );
                 return Err(GemFault { at, message });
             }
@@ -132,7 +132,7 @@ fn outline(cursor: &mut Cursor<'_>) -> Result<bool, GemFault> {
 
 /// Reads all that follows the facets; returns a design without tiers, and the refractive index with its offset.
 fn trailer(cursor: &mut Cursor<'_>, told: &mut WarningList) -> Result<(Tiers, (usize, f64)), GemFault> {
-    const WHAT: &str = "the symmetry, gear and index that follow on the facets";
+    const WHAT: &str = "the symmetry, gear and index that follow the facets";
     let at = cursor.at();
     let (symmetry, mirror, teeth) = (cursor.i32(WHAT)?, cursor.i32(WHAT)?, cursor.i32(WHAT)?);
     let index = (cursor.at(), cursor.f64(WHAT)?);
@@ -174,8 +174,8 @@ fn rest(cursor: &mut Cursor<'_>, told: &mut WarningList) {
         return;
     }
     match cursor.text("") {
-        Ok(b"preform") => told.warn(|| format!("{at}the preform that follows on the stone is not read")),
-        _ => told.warn(|| format!("{at}{left} bytes follow on the design and are not read")),
+        Ok(b"preform") => told.warn(|| format!("{at}the preform that follows the stone is not read")),
+        _ => told.warn(|| format!("{at}the {left} bytes after the design are not read")),
     }
 }
 

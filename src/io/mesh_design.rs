@@ -111,7 +111,7 @@ impl File {
         let turn = match up {
             Up::Posed(pose) => pose.turn,
             Up::Given(up) | Up::Known(up) | Up::FoundBy(up) => {
-                let up = up.try_normalize().ok_or("the direction up points nowhere")?;
+                let up = up.try_normalize().ok_or("the direction up must not be 0")?;
                 DQuat::from_rotation_arc(up, DVec3::Z)
             }
             Up::Found => DQuat::IDENTITY,
@@ -159,7 +159,7 @@ impl File {
 }
 
 fn unsaid() -> String {
-    format!("the file says of no material that it refracts; {USUAL} is taken")
+    format!("the file has no material that refracts; {USUAL} is used")
 }
 
 /// Returns notes on what was mended of a mesh, where that is more than any file of triangles needs.

@@ -91,7 +91,7 @@ impl PolytopeError {
             Self::OutOfScale { plane } => {
                 let (least, most) = (SCALES.start(), SCALES.end());
                 format!(
-                    "{} is the farthest off, and not from {least:e} to {most:e}; rescale the stone",
+                    "{} is the farthest plane, and its distance is not from {least:e} to {most:e}; rescale the stone",
                     name(*plane)
                 )
             }

@@ -18,7 +18,7 @@ pub enum SolidRef<'a> {
 
 /// The error where a convex stone between planes is needed: only that has facets to name and draw, and exact beams.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
-#[error("exact beams and drawings are for convex stones between planes, and this is none: use rays")]
+#[error("exact beams and drawings are for convex stones between planes, and this is not one: use rays")]
 pub struct NotConvex;
 
 /// An edge between two facets, or a line on a smooth surface.

@@ -175,7 +175,7 @@ pub enum LightError {
         wanted: &'static str,
     },
     /// More lamps than [`MOST_LAMPS`].
-    #[error("{count} lamps in all; {most} at most are taken")]
+    #[error("{count} lamps in all; a light can have {most} at most")]
     TooManyLamps {
         /// The number of lamps in all.
         count: u64,

@@ -55,7 +55,9 @@ pub enum ScopeError {
         band: String,
     },
     /// More bands than [`MOST_BANDS`].
-    #[error("scope '{scope}': {count} bands are more than the {MOST_BANDS} that are taken; join some")]
+    #[error(
+        "scope '{scope}': {count} bands are more than {MOST_BANDS}, the most that a scope can have; join some"
+    )]
     TooMany {
         /// The scope's name.
         scope: String,

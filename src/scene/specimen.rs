@@ -131,7 +131,7 @@ fn closed_by_block(stone: &Stone) -> String {
     let names: Vec<&str> =
         stone.names().iter().map(String::as_str).filter(|name| name.starts_with("block")).collect();
     format!(
-        "the facets leave the stone open; it is closed as GemCad does, by the block it is cut from: {}",
+        "the facets leave the stone open; it is closed, as in GemCad, by the block that it is cut from: {}",
         listed(&names)
     )
 }
@@ -141,7 +141,11 @@ fn odd(stone: &Stone, facets: &[(String, Plane)], given: usize) -> Vec<String> {
     let polytope = &stone.polytope;
     let name = |&i: &usize| facets[i].0.as_str();
     let merged = |(dropped, kept)| {
-        format!("facet '{}' lies in the plane of '{}' and is one with it", name(dropped), name(kept))
+        format!(
+            "facet '{}' lies in the plane of '{}' and becomes one facet with it",
+            name(dropped),
+            name(kept)
+        )
     };
     let mut told: Vec<String> =
         polytope.merged().iter().map(|(dropped, kept)| merged((dropped, kept))).collect();

@@ -85,7 +85,7 @@ fn what_a_refraction_map_cannot_be_is_told() {
         ("--background #ff0000", "a pattern or a photograph"),
         ("--span 0.5", "--span"),
         ("--bands 17", "17"),
-        ("--bands 8 --places 3", "24 maps in all"),
+        ("--bands 8 --places 3", "these are 24 maps"),
         ("--places 9", "9"),
     ] {
         let said = desk.refused(&format!("refraction-map cube.toml --out none {options}"), 2);
@@ -105,5 +105,5 @@ fn a_scenes_mixture_is_left_aside_and_that_is_told() {
     let desk = Desk::new();
     let line = "refraction-map prism-rainbow --size 32 --samples 1 --wavelengths 2 --format tiled --out maps";
     let (code, _, said) = came_of(line, &desk.command(line).output().unwrap());
-    assert!(code == 0 && said.contains("strength of 0.155 is left aside"), "{code}: {said}");
+    assert!(code == 0 && said.contains("strength of 0.155 is ignored"), "{code}: {said}");
 }

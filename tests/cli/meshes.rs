@@ -69,6 +69,9 @@ fn what_is_kept_of_a_design_is_told_for_each_format_of_meshes() {
         ),
     ] {
         let (code, _, said) = desk.run(&format!("convert {line}"));
-        assert!(code == 0 && said.contains(&format!("only this is kept: {kept}\n")), "{line}: {said}");
+        assert!(
+            code == 0 && said.contains(&format!("only this part of the design is kept: {kept}\n")),
+            "{line}: {said}"
+        );
     }
 }

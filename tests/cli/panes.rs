@@ -29,9 +29,9 @@ fn liquid_glass_comes_drawn_traced_and_side_by_side_with_what_the_drawing_costs(
     assert_eq!(printed.lines().take(3).collect::<Vec<_>>(), names);
     assert_eq!(files(&desk.at("all")).len(), 3, "nothing else is left");
     // As drawn, at most (0.015 + 0.008 + 0.012 0.7 + ...) of 30 pixels.
-    let moved = figure(&printed, "drawn: what is behind is moved by");
+    let moved = figure(&printed, "drawn: background is shifted by");
     assert!(moved > 0.2 && moved < 1.5, "{printed}");
-    assert!(figure(&printed, "traced: it is moved by") > 0.0, "{printed}");
+    assert!(figure(&printed, "traced: background is shifted by") > 0.0, "{printed}");
     assert!(figure(&printed, "mean difference in linear light") > 0.01, "{printed}");
     let (size, _, told) = png(&desk.at("all/liquid-glass.png"));
     assert_eq!(size, (64, 48));
@@ -39,7 +39,7 @@ fn liquid_glass_comes_drawn_traced_and_side_by_side_with_what_the_drawing_costs(
     assert!(told.contains("frost 50, light 30; tint 0.030 0.117 1.000 0.251"), "{told}");
     let (size, _, told) = png(&desk.at("all/liquid-glass-traced.png"));
     assert_eq!(size, (64, 48));
-    assert!(told.contains("traced by rays, gap 0.02, 12 wavelengths in 2 looks"), "{told}");
+    assert!(told.contains("traced by rays, gap 0.02, 12 wavelengths in 2 samples"), "{told}");
     assert_eq!(png(&desk.at("all/liquid-glass-both.png")).0, (129, 48));
     // The bytes are the same on any number of threads.
     for threads in ["1", "2"] {

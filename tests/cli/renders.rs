@@ -34,7 +34,7 @@ fn every_tracer_shows_the_same_stone_and_says_that_it_did() {
     let desk = Desk::new();
     let (exact, told) = picture(&desk, "modern-ideal --light dome --tracer beam");
     assert!(
-        told.contains("light dome; 4 wavelengths in 2 looks, polarised; exact beams, unresolved"),
+        told.contains("light dome; 4 wavelengths in 2 samples, polarised; exact beams, unresolved"),
         "{told}"
     );
     assert!(told.ends_with("table side") && told.starts_with("Modern ideal; "), "{told}");
@@ -130,7 +130,7 @@ fn a_pattern_is_seen_through_glass_with_the_strength_asked_for() {
     assert!(told.contains("rays") && !told.contains("strength") && !told.contains("jitter"), "{told}");
     assert_eq!(physics, of("--strength 1").0);
     let (mixed, told) = of("--strength 0.1 --no-jitter");
-    assert!(told.contains("4 wavelengths in 2 looks, without jitter"), "{told}");
+    assert!(told.contains("4 wavelengths in 2 samples, without jitter"), "{told}");
     assert!(told.contains("strength 0.1: a mixture for its looks, not physics"), "{told}");
     assert!((mean(&physics) - mean(&mixed)).abs().max_element() < 0.5 && physics != mixed);
     // Without refraction, and with hardly any reflection, the squares are where they are without glass.

@@ -20,11 +20,11 @@ impl PictureSetup<'_> {
             ));
         }
         let light = &self.lighting.light.name;
-        let looks = if samples == 1 { "1 look".to_owned() } else { format!("{samples} looks") };
+        let samples = if samples == 1 { "1 sample".to_owned() } else { format!("{samples} samples") };
         let jitter = if self.finish.no_jitter { ", without jitter" } else { "" };
         let polarised = if self.options.unpolarised { "unpolarised" } else { "polarised" };
         let told = format!(
-            "{}; light {light}; {} wavelengths in {looks}{jitter}, {polarised}; {tracer}, unresolved {:.2e}, absorbed \
+            "{}; light {light}; {} wavelengths in {samples}{jitter}, {polarised}; {tracer}, unresolved {:.2e}, absorbed \
              {:.3}{}",
             self.assembly.name,
             self.options.wavelengths,

@@ -66,7 +66,9 @@ pub struct FromMesh {
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum FromMeshError {
     /// A direction up that is zero or not finite.
-    #[error("the direction up, {0}, points nowhere; three finite numbers that are not all 0 are expected")]
+    #[error(
+        "the direction up, {0}, is not a direction; three finite numbers that are not all 0 are expected"
+    )]
     Up(DVec3),
     /// The planes enclose nothing.
     #[error("the facets that were found make no stone: {0}")]

@@ -135,7 +135,7 @@ fn what_is_odd_is_told_with_its_line_and_the_stone_opens() {
     );
     assert_eq!(odd("a 35.5", "a 3 1\r\na 35.5"), "line 13: the tier before has no indices, and is left out");
     assert_eq!(tiers(&STONE.replace("0.45 0 n T", "0.45")).0.tiers[3].facets.len(), 1);
-    assert_eq!(odd("n T", "n T n U"), "line 13: a facet has two names, 'T' and 'U'; the second is taken");
+    assert_eq!(odd("n T", "n T n U"), "line 13: a facet has two names, 'T' and 'U'; the second is used");
     assert_eq!(odd("g 96 0.0\r\n", ""), "the file names no index gear; one of 96 teeth is taken");
     assert_eq!(odd("I 1.76\r\n", ""), "the file names no index of refraction; 1.54 is taken");
     assert!(odd("I 1.76", "I 0.5").ends_with("the index 0.5 must be from 1 (vacuum) to 5; 1.54 is taken"));

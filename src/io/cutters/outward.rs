@@ -24,7 +24,7 @@ pub(in super::super) fn tiers_of<'a>(specimen: &'a Specimen, lost: &mut Vec<Stri
         Cut::Planes(_) | Cut::Mesh(_) | Cut::Glass(_) => false,
     };
     if brilliant {
-        lost.push("the proportions have no place in the format, only the facets that they make".to_owned());
+        lost.push("the format cannot hold the proportions, only the facets that follow from them".to_owned());
     }
     let facets = around_the_origin(specimen, lost);
     let told = |&teeth: &i32| indexed(&facets, Gear { teeth, offset: 0.0 });
@@ -47,7 +47,7 @@ fn around_the_origin(specimen: &Specimen, lost: &mut Vec<String>) -> Vec<(String
         facets.iter_mut().for_each(|(_, plane)| plane.offset -= plane.normal.dot(shift));
         let [x, y, z] = (-shift).to_array();
         lost.push(format!(
-            "the stone is moved by ({x:.6}, {y:.6}, {z:.6}), since cutters measure from inside it"
+            "the stone is moved by ({x:.6}, {y:.6}, {z:.6}), because cutters measure from a point inside it"
         ));
     }
     facets
@@ -106,12 +106,12 @@ pub(in super::super) fn untold(design: &Design, name: Option<&String>, lost: &mu
         lost.push(format!("the name '{}' is not among the lines at the top", design.name));
     }
     if design.source.is_some() && matches!(design.cut, Cut::Tiers(_)) {
-        lost.push("where the design is published has no place in the format".to_owned());
+        lost.push("the format cannot hold where the design is published".to_owned());
     }
     if design.notes.is_some() {
-        lost.push("the design's notes have no place in the format".to_owned());
+        lost.push("the format cannot hold the design's notes".to_owned());
     }
     if design.diameter_mm != DEFAULT_DIAMETER_MM {
-        lost.push(format!("the diameter, {} mm, has no place in the format", design.diameter_mm));
+        lost.push(format!("the format cannot hold the diameter, {} mm", design.diameter_mm));
     }
 }

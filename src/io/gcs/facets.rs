@@ -36,7 +36,7 @@ impl<'d> Reader<'d> {
     pub fn tiers(&mut self, root: Node<'d, 'd>, gear: Gear) -> Result<Vec<Tier>, TextError> {
         let facets = root.descendants().filter(|node| node.has_tag_name("facet")).count();
         if facets > MAX_PLANES {
-            let message = format!("there are more facets than {MAX_PLANES}, which are the most taken");
+            let message = format!("there are more than {MAX_PLANES} facets, the most that a design can have");
             return Err(self.fault(root, message));
         }
         let mut raw: Vec<RawTier<'d>> = Vec::new();
@@ -93,7 +93,7 @@ impl<'d> Reader<'d> {
         let distance = plane.offset - plane.normal.z * middle;
         // The distance of a facet that is cut can be below 0 by rounding alone.
         if distance < 0.0 && !is_cut {
-            self.warn(at, || format!("depth: {distance} of a facet that is not cut is taken as 0"));
+            self.warn(at, || format!("depth: {distance} of a facet that is not cut is read as 0"));
         }
         let mut setting = gear.setting(plane.normal, distance.max(0.0));
         setting.angle = girdle_below(setting.angle);
@@ -142,7 +142,7 @@ impl<'d> Reader<'d> {
     /// Warns of what a tier says that a design has no place for.
     fn ornaments(&mut self, node: Node<'_, '_>) {
         if self.is(node, "guide", false) {
-            self.warn(node, || "guide: that the tier is a guide is not kept".to_owned());
+            self.warn(node, || "guide: the mark of a guide tier is not kept".to_owned());
         }
         let frosted = |node: &Node<'_, '_>| {
             node.attribute("frosting").is_some_and(|text| {
@@ -150,7 +150,9 @@ impl<'d> Reader<'d> {
             })
         };
         if frosted(&node) || node.children().any(|facet| frosted(&facet)) {
-            self.warn(node, || "frosting: it is not kept; all facets are polished here".to_owned());
+            self.warn(node, || {
+                "frosting: it is not kept; this program takes all facets as polished".to_owned()
+            });
         }
     }
 
@@ -183,7 +185,7 @@ impl<'d> Reader<'d> {
             return Err(self.fault(facet, message));
         };
         self.warn(facet, || {
-            "nx, ny, nz: no normal of length 1; that of angle and index_angle is taken".to_owned()
+            "nx, ny, nz: this is not a normal of length 1; angle and index_angle are used instead".to_owned()
         });
         let azimuth = if polar < 90.0 - TOLD_APART { index - 90.0 } else { 270.0 - index };
         Ok(slope_normal(polar, azimuth))
@@ -227,10 +229,16 @@ impl Apart {
     fn attribute(&self, name: &str) -> Option<String> {
         let mut told = Vec::new();
         if self.corners > TOLD_APART {
-            told.push(format!("corners lie up to {:.1e} off its depth, which is taken", self.corners));
+            told.push(format!(
+                "its corners differ from its depth by up to {:.1e}; the depth is used",
+                self.corners
+            ));
         }
         if self.angle > TOLD_APART {
-            told.push(format!("normals lie up to {:.1e}° off its angle; they are taken", self.angle));
+            told.push(format!(
+                "its normals differ from its angle by up to {:.1e}°; the normals are used",
+                self.angle
+            ));
         }
         (!told.is_empty()).then(|| format!("tier '{name:.40}': {}", told.join("; ")))
     }

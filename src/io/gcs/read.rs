@@ -32,7 +32,7 @@ pub fn read(bytes: &[u8], label: &str) -> Result<ImportedDesign, CutFileError> {
     })?;
     let mut reader = Reader { document: &document, warnings: WarningList::default() };
     if spoilt {
-        reader.warnings.warn(|| "characters that are no UTF-8 are read as '\u{fffd}'".to_owned());
+        reader.warnings.warn(|| "characters that are not UTF-8 are read as '\u{fffd}'".to_owned());
     }
     let (tiers, material) = reader.design().map_err(refused)?;
     let name = cutters::title(tiers.headers.first(), label);
@@ -70,7 +70,7 @@ impl<'d> Reader<'d> {
         let text = node.attribute(key)?;
         let number = text.trim().parse().ok().filter(|number: &f64| number.is_finite());
         if number.is_none() {
-            self.warn(node, || format!("{key}: '{text:.40}' is no finite number; it is not read"));
+            self.warn(node, || format!("{key}: '{text:.40}' is not a finite number; it is not read"));
         }
         number
     }
@@ -166,7 +166,7 @@ impl<'d> Reader<'d> {
             return;
         }
         if tiers.remarks.iter().any(|(other, _)| other == key) {
-            self.warn(node, || format!("{key}: it is said twice; '{text:.40}' is not kept"));
+            self.warn(node, || format!("{key}: it is given twice; '{text:.40}' is not kept"));
         } else {
             tiers.remarks.push((key.to_owned(), text));
         }

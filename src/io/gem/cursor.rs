@@ -45,7 +45,8 @@ impl<'a> Cursor<'a> {
 
     fn take(&mut self, count: usize, what: &str) -> Result<&'a [u8], GemFault> {
         let taken = self.bytes.get(self.at..self.at + count).ok_or_else(|| {
-            let message = format!("the file ends in the middle of {what}; it is cut off or no .gem");
+            let message =
+                format!("the file ends in the middle of {what}; it is truncated or not a .gem file");
             GemFault { at: self.bytes.len(), message }
         })?;
         self.at += count;

@@ -66,9 +66,9 @@ fn what_the_format_cannot_hold_is_told() {
     let EncodedDesign { bytes, lost } = write(&specimen(full.clone()));
     let expected = [
         "the name 'other' is not among the lines at the top",
-        "where the design is published has no place in the format",
-        "the design's notes have no place in the format",
-        "the diameter, 9 mm, has no place in the format",
+        "the format cannot hold where the design is published",
+        "the format cannot hold the design's notes",
+        "the format cannot hold the diameter, 9 mm",
         "1 tiers that are not cut are left out",
         "1 lines at the top are left out; there is room for 4",
         "1 lines at the end are left out; there is room for 4",
@@ -137,7 +137,10 @@ fn faults_are_told_with_their_offset() {
     };
     let flag = 29 + usize::from(good[28]);
     let cases = [
-        (vec![], "box.gem: offset 0x0: the file ends in the middle of a facet; it is cut off or no .gem"),
+        (
+            vec![],
+            "box.gem: offset 0x0: the file ends in the middle of a facet; it is truncated or not a .gem file",
+        ),
         (good[..100].to_vec(), "box.gem: offset 0x64: the file ends in the middle of a facet's outline"),
         (spoilt(0, &f64::NAN.to_le_bytes()), "box.gem: offset 0x0: [NaN, "),
         (spoilt(flag, &[7]), "7 stands where 1 (a corner follows) or 0 (the facet ends) is expected"),
@@ -151,7 +154,7 @@ fn faults_are_told_with_their_offset() {
     assert!(refused(&vec![0; MAX_BYTES + 1]).contains("larger than 64 MiB"));
     let facet = &good[..28];
     let many: Vec<u8> = [facet, &[0; 5]].concat().repeat(MAX_PLANES + 1);
-    assert!(refused(&many).contains("more facets than 10000"));
+    assert!(refused(&many).contains("more than 10000 facets"));
 }
 
 #[test]

@@ -59,8 +59,8 @@ impl MeshPlace {
         let stands = statement.of_solid(surface, std::iter::once_with(directions).flatten());
         if stands == Stands::Otherwise {
             told.warnings.push(format!(
-                "the file says that {} is up and that the stone is {} mm across, but its shape is another than it speaks \
-                 of; all that it says is passed over",
+                "the file says that {} is up and that the stone is {} mm across, but its shape is \
+                 not the one that this was said of; both are ignored",
                 axis(statement.up),
                 statement.diameter_mm
             ));
@@ -113,8 +113,8 @@ fn changes(statement: &Statement, up: DVec3, scale: f64) -> Option<String> {
 pub(super) fn doubtful(up: DVec3, other: DVec3) -> String {
     let option = axis(other);
     format!(
-        "its shape leaves a doubt which way its table faces: {} was taken, and {option} is nearly as likely; \
-         --up {option} takes that, as does Table faces in the editor",
+        "its shape does not show clearly which way its table faces: {} was chosen, and {option} is nearly as \
+         likely; --up {option} chooses that, as does Table faces in the editor",
         axis(up)
     )
 }

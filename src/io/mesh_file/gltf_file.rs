@@ -56,7 +56,7 @@ fn document(json: &[u8]) -> Result<(Document, Vec<String>), Fault> {
             let place = fault.place.as_ref().map(|place| format!("line {place}: ")).unwrap_or_default();
             let broken = fault.message.strip_prefix(UNREADABLE).unwrap_or(&fault.message);
             let told =
-                format!("{lost} beside the shape are left out, since the file is broken: {place}{broken}");
+                format!("{lost} beside the shape are left out, because the file is broken: {place}{broken}");
             warnings.insert(0, told);
             return Ok((document, warnings));
         }

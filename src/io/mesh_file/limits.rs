@@ -58,7 +58,7 @@ pub(super) fn checked(read: Read) -> Result<Read, Fault> {
     }
     if let Some(place) = surface.vertices.iter().position(|v| !v.is_finite()) {
         let message =
-            format!("{} is no finite place; finite coordinates are expected", surface.vertices[place]);
+            format!("{} is not a finite position; finite coordinates are expected", surface.vertices[place]);
         return Err(Fault::at(format!("corner {}", place + 1), message));
     }
     let known = surface.vertices.len() as u32;

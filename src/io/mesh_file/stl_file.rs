@@ -69,7 +69,10 @@ fn triangles<R: std::io::Read + std::io::Seek>(reader: &mut R) -> Result<Surface
         let triangle = triangle.map_err(|error| told(number, error))?;
         let corners = triangle.vertices.map(|v| v.0.map(f64::from));
         if let Some(bad) = corners.iter().find(|c| !c.iter().all(|x| x.is_finite())) {
-            return Err((number, format!("{bad:?} is no finite place; finite coordinates are expected")));
+            return Err((
+                number,
+                format!("{bad:?} is not a finite position; finite coordinates are expected"),
+            ));
         }
         let first = vertices.len() as u32;
         vertices.extend(corners.map(DVec3::from_array));

@@ -43,7 +43,7 @@ pub(super) fn read(mut file: BufReader<File>, bytes: u64) -> Result<Raw, String>
         .from_buffered(file)
         .map_err(damaged)?;
     let warnings = image.attributes.chromaticities.filter(|c| !is_srgb(c)).map(|_| {
-        "its primaries are not those of sRGB, but are taken as such; colours will be off".to_owned()
+        "its primaries are not those of sRGB, but are read as such, so colours will be wrong".to_owned()
     });
     let size = image.layer_data.size;
     let (_, pixels) = image.layer_data.channel_data.pixels;

@@ -91,7 +91,9 @@ fn pixels(bytes: &[u8]) -> Result<Pixels, String> {
     let mut decoder = Decoder::new_with_limits(Cursor::new(bytes), Limits { bytes: 1 << 28 });
     decoder.set_transformations(Transformations::IDENTITY);
     let mut reader = decoder.read_info().map_err(|error| {
-        format!("this is no PNG or OpenEXR of a refraction map ({error}); write it anew by `refraction-map`")
+        format!(
+            "this is not a PNG or OpenEXR of a refraction map ({error}); write it anew by `refraction-map`"
+        )
     })?;
     let size = check([reader.info().width.into(), reader.info().height.into()], bytes.len())?;
     let length = reader.output_buffer_size().ok_or("too many pixels")?;
@@ -123,7 +125,7 @@ fn png_band(bytes: &[u8], diffuse: &Layer, must_tell: bool) -> Result<Found, Str
     };
     let about = match about {
         Some(text) => checked(serde_json::from_str(&text).map_err(|e| unreadable(&e))?)?,
-        None if must_tell => return Err(format!("it lacks the text `{ABOUT}`, which tells its wavelength")),
+        None if must_tell => return Err(format!("it lacks the text `{ABOUT}`, which holds its wavelength")),
         None => ALL_LIGHT,
     };
     let places = match coding {
@@ -158,7 +160,9 @@ fn checked(about: About) -> Result<About, String> {
     if about.response.iter().flatten().chain([&about.nm]).all(is_sane) {
         return Ok(about);
     }
-    Err(format!("its text `{ABOUT}` tells numbers that no band has; write the map anew by `refraction-map`"))
+    Err(format!(
+        "its text `{ABOUT}` holds numbers that no band can have; write the map anew by `refraction-map`"
+    ))
 }
 
 fn float(bytes: &[u8]) -> Result<Found, String> {

@@ -137,7 +137,7 @@ fn what_is_no_map_is_told_by_its_name_and_never_panics() {
     assert!(refused(std::slice::from_ref(&diffuse), &diffuse).contains("RGB of 8 or 16 bits"));
     assert!(refused(std::slice::from_ref(&tiled), &tiled).contains("RGBA of 8 bits"));
     std::fs::write(at("text.png"), "no picture").unwrap();
-    assert!(refused(&[at("text.png")], &diffuse).contains("text.png: this is no PNG or OpenEXR"));
+    assert!(refused(&[at("text.png")], &diffuse).contains("text.png: this is not a PNG or OpenEXR"));
     let small = RefractionMap { size: [1, 1], bands: Vec::new(), diffuse: Linear::new(1, 1) };
     write_diffuse(&at("small.png"), &small, "").unwrap();
     assert!(refused(std::slice::from_ref(&tiled), &at("small.png")).contains("give files of one map"));

@@ -65,7 +65,7 @@ impl TryFrom<OneOf<Pairs>> for SizeForm {
             // The number goes on without a unit, which the size's own parser refuses.
             OneOf::Number(number) => number.to_string(),
             OneOf::Rest(_) => {
-                return Err("a list is no size; write a number and mm or ct in quotes".to_owned());
+                return Err("a list is not a size; write a number and mm or ct in quotes".to_owned());
             }
         };
         text.parse().map(Self).map_err(|error: crate::cut::SizeError| error.to_string())

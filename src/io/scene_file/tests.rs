@@ -79,8 +79,8 @@ fn what_is_wrong_with_a_scene_is_told_with_line_and_key() {
         ("\"ruby\"", "{ index = 9 }", "x.toml:8: stone 1: index: the index 9 must be from 1"),
         ("\"ruby\"", "{ }", "x.toml:8: stone 1: material: one of index, sellmeier"),
         ("\"1ct\"", "1", "x.toml:9: stone.size: '1' has no unit; write 1mm for the girdle's diameter or 1ct"),
-        ("\"1ct\"", "\"1 inch\"", "x.toml:9: stone.size: '1 inch' is no size"),
-        ("\"1ct\"", "[[1, 2]]", "x.toml:9: stone.size: a list is no size"),
+        ("\"1ct\"", "\"1 inch\"", "x.toml:9: stone.size: '1 inch' is not a size"),
+        ("\"1ct\"", "[[1, 2]]", "x.toml:9: stone.size: a list is not a size"),
         ("count = 2", "count = 0", "x.toml:10: stone 1: count: 0 must be at least 1"),
         (
             "count = 2",

@@ -27,7 +27,7 @@ pub enum GpuError {
         why: String,
     },
     /// There are more stones than the card has room for.
-    #[error("{count} stones are traced by rays; the graphics card takes {most}")]
+    #[error("{count} stones are traced by rays; the graphics card takes {most} at most")]
     TooManyStones {
         /// The number of stones.
         count: usize,
@@ -35,7 +35,7 @@ pub enum GpuError {
         most: usize,
     },
     /// There are more triangles than the card has room for.
-    #[error("{count} triangles are traced by rays; the graphics card takes {most}")]
+    #[error("{count} triangles are traced by rays; the graphics card takes {most} at most")]
     TooManyTriangles {
         /// The number of triangles.
         count: usize,
@@ -56,7 +56,7 @@ pub enum GpuError {
         stones: usize,
     },
     /// The scope has more bands than a pixel has room for.
-    #[error("a scope of {count} bands is traced by rays; the graphics card takes {most}")]
+    #[error("a scope of {count} bands is traced by rays; the graphics card takes {most} at most")]
     TooManyBands {
         /// The number of the scope's bands.
         count: usize,

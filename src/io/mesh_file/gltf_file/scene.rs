@@ -123,7 +123,7 @@ impl Gatherer<'_> {
         warn(self.skipped > 0, format!("{} parts of points or lines are left out", self.skipped));
         warn(
             self.materials.len() > 1,
-            format!("{} materials are described; that of most triangles is taken", self.materials.len()),
+            format!("{} materials are described; the one of most triangles is used", self.materials.len()),
         );
         warn(
             document.skins().len() > 0,
