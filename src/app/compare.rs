@@ -2,7 +2,7 @@
 
 use super::document::Document;
 use super::pose_cache::PoseCache;
-use crate::scene::Specimen;
+use crate::scene::{Specimen, SpecimenError};
 use std::sync::Arc;
 
 /// A design to compare with.
@@ -20,9 +20,9 @@ impl Compared {
     /// Returns the document's design as it was last saved.
     ///
     /// # Errors
-    /// Fails where that design makes no stone; the text says why.
-    pub fn of_saved(document: &Document) -> Result<Self, String> {
-        let specimen = Specimen::new(document.saved().clone()).map_err(|e| e.to_string())?;
+    /// Fails where that design makes no stone.
+    pub fn of_saved(document: &Document) -> Result<Self, SpecimenError> {
+        let specimen = Specimen::new(document.saved().clone())?;
         Ok(Self::new("as saved".to_owned(), true, Arc::new(specimen)))
     }
 

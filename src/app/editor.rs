@@ -29,6 +29,7 @@ use super::view_history::ViewHistory;
 use super::window::PaintedBy;
 use super::workspace::{PaneLayout, Workspace};
 use super::{dialogs, drops, menus, side_panels, stage, theme};
+use crate::io::Failure;
 use crate::io::library;
 use crate::io::lighting::{Lighting, LightingError};
 use crate::io::mesh_options::MeshOptions;
@@ -170,7 +171,7 @@ impl Editor {
     ///
     /// # Errors
     /// As for [`within`](Self::within).
-    pub fn new(context: &CreationContext<'_>, setup: Setup) -> Result<Self, String> {
+    pub fn new(context: &CreationContext<'_>, setup: Setup) -> Result<Self, Failure> {
         Self::within(&context.egui_ctx, context.storage, shared(context), setup)
     }
 
@@ -183,7 +184,7 @@ impl Editor {
         storage: Option<&dyn Storage>,
         gpu: Option<Arc<Gpu>>,
         setup: Setup,
-    ) -> Result<Self, String> {
+    ) -> Result<Self, Failure> {
         theme::apply(context);
         context.add_plugin(Hands::default());
         let kept = storage.and_then(|s| s.get_string(DESK));
@@ -192,7 +193,7 @@ impl Editor {
             kept.and_then(|text| serde_json::from_str(&text).ok()).unwrap_or(setup.desk);
         let wake = waker(context);
         let mut document = Document::first()?;
-        let first = Lighting::load(FIRST_LIGHT).map_err(|e| e.to_string())?;
+        let first = Lighting::load(FIRST_LIGHT)?;
         let light = (FIRST_LIGHT.to_owned(), Arc::new(first));
         desk.face_up();
         desk.rest();
@@ -408,7 +409,7 @@ impl Editor {
     /// Opens a folder or a page outside the program.
     pub(super) fn open_outside(&mut self, what: &str) {
         if let Err(why) = (self.opener)(what) {
-            self.notes.trouble(why);
+            self.notes.trouble(format!("{what} was not opened: {why}"));
         }
     }
 

@@ -4,7 +4,7 @@
 //! studio traces.
 
 use super::studio::{Grade, SPAN, Shot, Slot, TakenPicture, Wake};
-use crate::io::background::BackgroundRef;
+use crate::io::background::{BackgroundError, BackgroundRef};
 use crate::picture::pane::{filling, pane};
 use crate::picture::{Develop, Linear, Pattern, RefractionMap, Tone, develop, refract};
 use crate::scene::Panorama;
@@ -52,8 +52,22 @@ impl PartialEq for LookupRequest {
     }
 }
 
-/// An answer: the slot, the request, and the picture or the text that says why there is none.
-pub type Looked = (Slot, Box<LookupRequest>, Result<TakenPicture, String>);
+/// An answer: the slot, the request, and the picture.
+pub type Looked = (Slot, Box<LookupRequest>, Result<TakenPicture, LookupError>);
+
+/// Why there is no picture.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+pub enum LookupError {
+    /// The background cannot be taken.
+    #[error(transparent)]
+    Background(#[from] BackgroundError),
+    /// The background is no picture, which the view needs.
+    #[error("what hangs behind is no picture")]
+    NoPicture,
+    /// The thread that makes pictures has panicked.
+    #[error("a fault of the program; please report the design")]
+    Panicked,
+}
 
 /// What the window's thread and the worker's thread share.
 #[derive(Default)]
@@ -149,8 +163,7 @@ impl Worker {
                 Some(pool) => pool.install(|| self.seen(&ask)),
                 None => self.seen(&ask),
             });
-            let taken = std::panic::catch_unwind(seen)
-                .unwrap_or_else(|_| Err("a fault of the program; please report the design".to_owned()));
+            let taken = std::panic::catch_unwind(seen).unwrap_or(Err(LookupError::Panicked));
             // Nobody listens once the window is closed.
             let _ = self.answers.send((slot, Box::new(ask), taken));
             let asked = self.desk.asked.lock().unwrap_or_else(PoisonError::into_inner);
@@ -174,7 +187,7 @@ impl Worker {
         }
     }
 
-    fn seen(&mut self, ask: &LookupRequest) -> Result<TakenPicture, String> {
+    fn seen(&mut self, ask: &LookupRequest) -> Result<TakenPicture, LookupError> {
         let (picture, tracer) = match &ask.map {
             Some((map, moved)) => {
                 let behind = self.levels(&ask.behind)?.for_map(map.size);
@@ -190,11 +203,11 @@ impl Worker {
     }
 
     /// Returns a background in its own size, with the halved sizes that have been of use so far.
-    fn levels(&mut self, asked: &BackgroundRef) -> Result<&mut Levels, String> {
+    fn levels(&mut self, asked: &BackgroundRef) -> Result<&mut Levels, LookupError> {
         let levels = match self.behind.take().filter(|(last, _)| last == asked) {
             Some((_, levels)) => levels,
             None => {
-                let reading = asked.picture()?.ok_or("what hangs behind is no picture")?;
+                let reading = asked.picture()?.ok_or(LookupError::NoPicture)?;
                 Levels { whole: Arc::new(reading.panorama), halved: vec![] }
             }
         };
@@ -202,7 +215,7 @@ impl Worker {
     }
 
     /// Returns a background that is as large as a picture of `size` pixels.
-    fn filled(&mut self, asked: &BackgroundRef, size: [u32; 2]) -> Result<&Panorama, String> {
+    fn filled(&mut self, asked: &BackgroundRef, size: [u32; 2]) -> Result<&Panorama, LookupError> {
         let is = |(last, p): &(BackgroundRef, Panorama)| last == asked && [p.width, p.height] == size;
         let picture = match self.filled.take().filter(is) {
             Some((_, picture)) => picture,

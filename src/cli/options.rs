@@ -15,9 +15,14 @@ use crate::trace::Tracer;
 use clap::{Args, ValueEnum};
 use std::path::Path;
 
+/// The text of an option is no number.
+#[derive(Debug, Clone, thiserror::Error)]
+#[error("a number is expected, such as 15 or 0.5")]
+pub struct NotANumber;
+
 /// Parses a number on the command line.
-pub fn number(text: &str) -> Result<f64, String> {
-    text.trim().parse().map_err(|_| "a number is expected, such as 15 or 0.5".to_owned())
+pub fn number(text: &str) -> Result<f64, NotANumber> {
+    text.trim().parse().map_err(|_| NotANumber)
 }
 
 /// From where the stone is seen.
@@ -147,7 +152,7 @@ pub fn scoped(given: &Path) -> Result<Scoped, Failure> {
         let known = names().into_iter().filter(is_scope).collect::<Vec<_>>().join(", ");
         return Err(Failure::Usage(format!("--scope {name}: give the file of a scope, or one of {known}")));
     }
-    let scope = scope_file::read(given).map_err(Failure::Input)?;
+    let scope = scope_file::read(given)?;
     Ok(Scoped { scope, side: None, takes_head: true })
 }
 

@@ -5,7 +5,7 @@ use super::picture_options::{FinishOptions, PictureOptions};
 use super::plan::planned;
 use super::specimen::note_colour;
 use super::{Failure, report};
-use crate::io::background::{BackgroundError, BackgroundRef};
+use crate::io::background::BackgroundRef;
 use crate::io::lighting::Lighting;
 use crate::optics::Illuminant;
 use crate::picture::{Bloom, Develop, Linear, Overlay, Tone, developed, lay};
@@ -68,15 +68,6 @@ pub fn within(key: &str, value: f64, least: f64, most: f64) -> Result<f64, Failu
     Err(Failure::Usage(format!("--{key} {value}: give {least} to {most}")))
 }
 
-impl From<BackgroundError> for Failure {
-    fn from(error: BackgroundError) -> Self {
-        match error {
-            BackgroundError::Unknown(told) => Self::Usage(told),
-            BackgroundError::NoFile(_) => Self::Input(error.to_string()),
-        }
-    }
-}
-
 impl<'a> PictureSetup<'a> {
     /// Loads stones, light and background, prints their warnings, and chooses the tracer for a view.
     pub fn load(
@@ -114,7 +105,7 @@ impl<'a> PictureSetup<'a> {
         if let BackgroundRef::Plain(plain) = background {
             develop.background = plain;
         }
-        let reading = background.picture().map_err(Failure::Input)?;
+        let reading = background.picture()?;
         reading.iter().flat_map(|r| &r.warnings).for_each(|w| super::say(&format!("warning: {w}")));
         let photo = reading.map(|reading| reading.panorama);
         let tracer = Cell::new(Tracer::Beams);

@@ -3,7 +3,8 @@
 
 use super::panorama::{self, LoadedPanorama};
 use super::png_bytes::png;
-use super::{DrawingError, rasterize};
+use super::text::unreadable;
+use super::{DrawingError, FileError, rasterize};
 use crate::optics::linear_from_encoded;
 use crate::picture::pane::filling;
 use crate::picture::{Background, PATTERN_SIDE, PATTERN_SPAN, Pattern};
@@ -40,15 +41,24 @@ impl fmt::Display for BackgroundRef {
     }
 }
 
-/// Why a background's name could not be read.
+/// Why a background could not be taken.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum BackgroundError {
     /// The text is neither a name, nor a colour, nor a file; the message says what is known.
     #[error("{0}")]
     Unknown(String),
-    /// The text is the path of a file that does not exist.
-    #[error("{0}: there is no such file")]
-    NoFile(String),
+    /// A photograph's file is at fault.
+    #[error(transparent)]
+    File(#[from] FileError),
+    /// A pattern could not be drawn; the message says why.
+    #[error("{0}")]
+    Pattern(String),
+}
+
+impl BackgroundError {
+    fn pattern(error: impl fmt::Display) -> Self {
+        Self::Pattern(error.to_string())
+    }
 }
 
 impl BackgroundRef {
@@ -90,7 +100,9 @@ impl BackgroundRef {
         match text.parse::<Background>() {
             Ok(background) => Ok(Self::Plain(background)),
             Err(_) if path.is_file() => Ok(Self::Photo(path)),
-            Err(_) if path.extension().is_some() => Err(BackgroundError::NoFile(path.display().to_string())),
+            Err(_) if path.extension().is_some() => {
+                Err(FileError::new(path.display(), "there is no such file").into())
+            }
             Err(why) => {
                 let names = Pattern::NAMES.map(|(name, _)| name).join(", ");
                 let message = format!("{why}, `light`, a pattern ({names}), or a photograph's file");
@@ -103,12 +115,12 @@ impl BackgroundRef {
     /// the light and for colours.
     ///
     /// # Errors
-    /// What is wrong with a photograph's file, in words that name the file.
-    pub fn picture(&self) -> Result<Option<LoadedPanorama>, String> {
+    /// When a photograph's file is at fault.
+    pub fn picture(&self) -> Result<Option<LoadedPanorama>, BackgroundError> {
         match self {
             Self::Light | Self::Plain(_) => Ok(None),
             Self::Pattern(pattern) => {
-                let panorama = drawn(*pattern).map_err(|error| error.to_string())?;
+                let panorama = drawn(*pattern).map_err(BackgroundError::pattern)?;
                 Ok(Some(LoadedPanorama { panorama, warnings: vec![] }))
             }
             Self::Photo(path) => {
@@ -125,8 +137,8 @@ impl BackgroundRef {
     /// that fills it, or colours; `None` for the light and for a transparent background.
     ///
     /// # Errors
-    /// What is wrong with a photograph's file, in words that name the file.
-    pub fn filling(&self, [width, height]: [u32; 2]) -> Result<Option<LoadedPanorama>, String> {
+    /// When a photograph's file is at fault.
+    pub fn filling(&self, [width, height]: [u32; 2]) -> Result<Option<LoadedPanorama>, BackgroundError> {
         if let Self::Plain(colours) = self {
             let rows: Option<Vec<_>> = (0..height).map(|y| colours.row(y, height)).collect();
             let row = |colour| std::iter::repeat_n(colour, width as usize);
@@ -144,18 +156,17 @@ impl BackgroundRef {
     /// for colours.
     ///
     /// # Errors
-    /// What is wrong with a photograph's file, in words that name the file.
-    pub fn bytes(&self) -> Result<Option<Vec<u8>>, String> {
+    /// When a photograph's file is at fault.
+    pub fn bytes(&self) -> Result<Option<Vec<u8>>, BackgroundError> {
         match self {
             Self::Light | Self::Plain(_) => Ok(None),
             Self::Pattern(pattern) => {
-                let (width, height, rgb) = rastered(*pattern).map_err(|error| error.to_string())?;
+                let (width, height, rgb) = rastered(*pattern).map_err(BackgroundError::pattern)?;
                 let file = png([width, height], (ColorType::Rgb, BitDepth::Eight), &rgb, &[]);
-                file.map(Some).map_err(|error| error.to_string())
+                file.map(Some).map_err(BackgroundError::pattern)
             }
             Self::Photo(path) => {
-                let told = |e| format!("{}: cannot be read: {e}", path.display());
-                std::fs::read(path).map(Some).map_err(told)
+                std::fs::read(path).map(Some).map_err(|e| unreadable(e).in_file(path.display()).into())
             }
         }
     }
@@ -230,8 +241,10 @@ mod tests {
         assert_eq!(read("page"), Ok(BackgroundRef::Pattern(Pattern::Page)));
         assert_eq!(read("white"), Ok(BackgroundRef::Plain(Background::Plain([1.0; 3]))));
         assert_eq!(read("odd"), Ok(BackgroundRef::Photo(folder.path().join("odd"))));
-        assert!(read("photo.png").unwrap().picture().unwrap_err().contains("photo.png"));
-        assert!(matches!(read("none.png"), Err(BackgroundError::NoFile(path)) if path.ends_with("none.png")));
+        assert!(read("photo.png").unwrap().picture().unwrap_err().to_string().contains("photo.png"));
+        assert!(
+            matches!(read("none.png"), Err(BackgroundError::File(error)) if error.path.ends_with("none.png"))
+        );
         let Err(BackgroundError::Unknown(told)) = read("pages") else { panic!("no error") };
         assert!(
             told.contains("'pages'") && told.contains("page, grid, checks") && told.contains("photograph")

@@ -1,12 +1,14 @@
 //! Why work that produces files was not done.
 
 use super::atomic::WriteError;
+use super::background::BackgroundError;
+use super::file_error::FileError;
 use super::lighting::LightingError;
 use crate::render::RenderError;
 use crate::trace::Stopped;
 
 /// Why a request was not carried out in full. Files that were finished before stay.
-#[derive(Debug, thiserror::Error)]
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum Failure {
     /// The input is at fault; the message names it.
     #[error("{0}")]
@@ -42,8 +44,24 @@ impl From<LightingError> for Failure {
     fn from(error: LightingError) -> Self {
         match error {
             LightingError::Unknown(message) => Self::Usage(message),
-            LightingError::File(message) => Self::Input(message),
+            LightingError::File(error) => error.into(),
         }
+    }
+}
+
+impl From<BackgroundError> for Failure {
+    fn from(error: BackgroundError) -> Self {
+        match error {
+            BackgroundError::Unknown(message) => Self::Usage(message),
+            BackgroundError::File(error) => error.into(),
+            BackgroundError::Pattern(message) => Self::Input(message),
+        }
+    }
+}
+
+impl From<FileError> for Failure {
+    fn from(error: FileError) -> Self {
+        Self::Input(error.to_string())
     }
 }
 

@@ -3,12 +3,12 @@
 //!
 //! Reading trusts the planes and skips the outlines; writing makes the outlines anew.
 
-use super::cut_file::CutFileError;
 use super::cutters::{self, Gear, TierPiece, WarningList};
 use super::design_file::ImportedDesign;
+use super::file_error::{Fault, FileError};
 use crate::cut::{MAX_PLANES, Tiers};
 use crate::math::Plane;
-use cursor::{Cursor, GemFault};
+use cursor::Cursor;
 use glam::DVec3;
 
 mod cursor;
@@ -55,19 +55,22 @@ struct Raw<'a> {
 ///
 /// # Errors
 /// When the file is no such design; the error has the offset at fault where there is one.
-pub fn read(bytes: &[u8], label: &str) -> Result<ImportedDesign, CutFileError> {
-    let refused = |message| CutFileError { path: label.to_owned(), line: None, message };
+pub fn read(bytes: &[u8], label: &str) -> Result<ImportedDesign, FileError> {
+    design(bytes, label).map_err(|fault| fault.in_file(label))
+}
+
+fn design(bytes: &[u8], label: &str) -> Result<ImportedDesign, Fault> {
     if bytes.len() > MAX_BYTES {
-        return Err(refused(super::text::too_large(MAX_BYTES as u64)));
+        return Err(Fault::whole(super::text::too_large(MAX_BYTES as u64)));
     }
     let mut told = WarningList::default();
     let mut cursor = Cursor::new(bytes);
-    let raw = raw_facets(&mut cursor).map_err(|fault| refused(fault.to_string()))?;
-    let (mut tiers, index) = trailer(&mut cursor, &mut told).map_err(|fault| refused(fault.to_string()))?;
+    let raw = raw_facets(&mut cursor)?;
+    let (mut tiers, index) = trailer(&mut cursor, &mut told)?;
     tiers.tiers = cutters::gathered(pieces(&raw, &tiers, &mut told));
     let material = cutters::material(index.1, &cursor::place(index.0), &mut told);
     let name = cutters::title(&tiers.headers, label);
-    cutters::brought(name, material, tiers, told, label)
+    cutters::brought(name, material, tiers, told)
 }
 
 /// Returns whether a file is such a design: facets down to the mark at their end.
@@ -76,7 +79,7 @@ pub fn looks_like(bytes: &[u8]) -> bool {
 }
 
 /// Reads facets down to the mark at their end.
-fn raw_facets<'a>(cursor: &mut Cursor<'a>) -> Result<Vec<Raw<'a>>, GemFault> {
+fn raw_facets<'a>(cursor: &mut Cursor<'a>) -> Result<Vec<Raw<'a>>, Fault> {
     let mut facets = Vec::new();
     loop {
         let at = cursor.at();
@@ -85,21 +88,21 @@ fn raw_facets<'a>(cursor: &mut Cursor<'a>) -> Result<Vec<Raw<'a>>, GemFault> {
             return Ok(facets);
         }
         if facets.len() == MAX_PLANES {
-            let message = format!("there are more facets than {MAX_PLANES}, which are the most taken");
-            return Err(GemFault { at, message });
+            let problem = format!("there are more facets than {MAX_PLANES}, which are the most taken");
+            return Err(cursor::fault(at, problem));
         }
         facets.push(raw_facet(cursor, at, x)?);
     }
 }
 
-fn raw_facet<'a>(cursor: &mut Cursor<'a>, at: usize, x: f64) -> Result<Raw<'a>, GemFault> {
+fn raw_facet<'a>(cursor: &mut Cursor<'a>, at: usize, x: f64) -> Result<Raw<'a>, Fault> {
     let p = DVec3::new(x, cursor.f64("a facet")?, cursor.f64("a facet")?);
-    let plane = Plane::new(p, 1.0).normalized().ok_or_else(|| GemFault {
-        at,
-        message: format!(
+    let plane = Plane::new(p, 1.0).normalized().ok_or_else(|| {
+        let problem = format!(
             "{p} is no facet's normal over its distance; three finite numbers that are not all 0 are expected, or \
              the file is no .gem"
-        ),
+        );
+        cursor::fault(at, problem)
     })?;
     let tier = cursor.i32("a facet")?;
     let label = cursor.text("a facet's name")?;
@@ -108,7 +111,7 @@ fn raw_facet<'a>(cursor: &mut Cursor<'a>, at: usize, x: f64) -> Result<Raw<'a>, 
 }
 
 /// Skips an outline, and returns whether it ends at the block from which GemCad cuts.
-fn outline(cursor: &mut Cursor<'_>) -> Result<bool, GemFault> {
+fn outline(cursor: &mut Cursor<'_>) -> Result<bool, Fault> {
     let mut on_blank = false;
     loop {
         let at = cursor.at();
@@ -120,18 +123,18 @@ fn outline(cursor: &mut Cursor<'_>) -> Result<bool, GemFault> {
                 }
             }
             other => {
-                let message = format!(
+                let problem = format!(
                     "{other} stands where 1 (a corner follows) or 0 (the facet ends) is expected; the file is spoilt \
                      or no .gem"
                 );
-                return Err(GemFault { at, message });
+                return Err(cursor::fault(at, problem));
             }
         }
     }
 }
 
 /// Reads all that follows the facets; returns a design without tiers, and the refractive index with its offset.
-fn trailer(cursor: &mut Cursor<'_>, told: &mut WarningList) -> Result<(Tiers, (usize, f64)), GemFault> {
+fn trailer(cursor: &mut Cursor<'_>, told: &mut WarningList) -> Result<(Tiers, (usize, f64)), Fault> {
     const WHAT: &str = "the symmetry, gear and index that follow on the facets";
     let at = cursor.at();
     let (symmetry, mirror, teeth) = (cursor.i32(WHAT)?, cursor.i32(WHAT)?, cursor.i32(WHAT)?);

@@ -1,6 +1,6 @@
 //! Loads the light that stones are seen in: one that comes with the program, a light file, or a panorama.
 
-use super::{light_file, panorama};
+use super::{FileError, light_file, panorama};
 use crate::scene::{LIGHTS, Light, light};
 use crate::trace::environment::EnvironmentMap;
 use std::path::{Path, PathBuf};
@@ -22,9 +22,9 @@ pub enum LightingError {
     /// No light has this name; the message says what may have been meant.
     #[error("{0}")]
     Unknown(String),
-    /// A file is at fault; the message names it.
-    #[error("{0}")]
-    File(String),
+    /// A file is at fault.
+    #[error(transparent)]
+    File(#[from] FileError),
 }
 
 impl Lighting {
@@ -40,7 +40,7 @@ impl Lighting {
             None if !file.exists() && file.extension().is_none() => {
                 return Err(LightingError::Unknown(unknown(name_or_file)));
             }
-            None => (light_file::read(&file).map_err(LightingError::File)?, file.parent()),
+            None => (light_file::read(&file)?, file.parent()),
         };
         let (sky, warnings) = sky(&light, folder)?;
         Ok(Self { light, map: sky, warnings })
@@ -51,7 +51,7 @@ impl Lighting {
 fn sky(light: &Light, folder: Option<&Path>) -> Result<(EnvironmentMap, Vec<String>), LightingError> {
     let Some(picture) = &light.panorama else { return Ok((EnvironmentMap::new(light, None), vec![])) };
     let path = folder.map_or_else(|| picture.file.clone(), |folder| folder.join(&picture.file));
-    let reading = panorama::read(&path).map_err(LightingError::File)?;
+    let reading = panorama::read(&path)?;
     Ok((EnvironmentMap::new(light, Some(&reading.panorama)), reading.warnings))
 }
 

@@ -144,7 +144,7 @@ impl DesignForm {
         let mut glass = glass.into_iter().flatten();
         let (first, second) = (glass.next(), glass.next());
         if let (Some((one, _)), Some((other, _))) = (first, second) {
-            return Err(Fault::at(other, format!("{other}: give [{one}] or [{other}], not both")));
+            return Err(Fault::key(other, format!("{other}: give [{one}] or [{other}], not both")));
         }
         let glass = first;
         let design = Design {
@@ -157,7 +157,7 @@ impl DesignForm {
         };
         match design.check() {
             Ok(()) => Ok(design),
-            Err(error) => Err(Fault::at(path(&error, &design), error.to_string())),
+            Err(error) => Err(Fault::key(path(&error, &design), error)),
         }
     }
 }
@@ -188,7 +188,7 @@ fn cut(form: Cuts) -> Result<Cut, Fault> {
     let mut given = given.into_iter().filter(|(.., is_given)| *is_given);
     if let (Some((_, first, _)), Some((key, other, _))) = (given.next(), given.next()) {
         let key = if key == "tier" && tier.is_none() { "index" } else { key };
-        return Err(Fault::at(key, format!("{key}: give {first} or {other}, not both")));
+        return Err(Fault::key(key, format!("{key}: give {first} or {other}, not both")));
     }
     if let Some(TomlTable(form)) = round_brilliant {
         return Ok(Cut::RoundBrilliant(form.proportions()?));
@@ -204,8 +204,10 @@ fn cut(form: Cuts) -> Result<Cut, Fault> {
     }
     match (index, tier) {
         (Some(TomlTable(index)), Some(tiers)) => Ok(Cut::Tiers(index.tiers(tiers)?)),
-        (Some(_), None) => Err(Fault::at("index", "index: the tiers are missing; give [[tier]]")),
-        (None, Some(_)) => Err(Fault::at("tier", "tier: the gear is missing; give it as [index], gear = 96")),
+        (Some(_), None) => Err(Fault::key("index", "index: the tiers are missing; give [[tier]]")),
+        (None, Some(_)) => {
+            Err(Fault::key("tier", "tier: the gear is missing; give it as [index], gear = 96"))
+        }
         (None, None) => Err(Fault::whole(
             "the cut is missing; give [round_brilliant], [[tier]], [[plane]], [mesh] or a glass shape such as [pill]",
         )),
@@ -254,7 +256,7 @@ impl RoundBrilliantForm {
             )?,
             girdle_thickness: self.girdle_thickness,
             girdle_facets: girdle_facets(self.girdle_facets)
-                .map_err(|error| Fault::at("round_brilliant/girdle_facets", error.to_string()))?,
+                .map_err(|error| Fault::key("round_brilliant/girdle_facets", error))?,
             culet: self.culet,
         })
     }
@@ -269,11 +271,11 @@ fn either<T>(
     match (a, b) {
         (Some(number), None) => Ok(of_first(number)),
         (None, Some(number)) => Ok(of_second(number)),
-        (Some(_), Some(_)) => Err(Fault::at(
+        (Some(_), Some(_)) => Err(Fault::key(
             format!("round_brilliant/{second}"),
             format!("{second}: give {first} or {second}, not both"),
         )),
-        (None, None) => Err(Fault::at(
+        (None, None) => Err(Fault::key(
             "round_brilliant",
             format!("round_brilliant: {first} or {second} is missing; give one"),
         )),
@@ -299,7 +301,7 @@ impl MeshForm {
 
     /// Returns the shape, moved into the stone's frame if it was written in another.
     fn shape(self) -> Result<MeshShape, Fault> {
-        let fault = |message: String| Fault::at("mesh", format!("mesh: {message}"));
+        let fault = |message: String| Fault::key("mesh", format!("mesh: {message}"));
         let vertices: Vec<DVec3> = self.vertices.iter().map(|v| v.0.into()).collect();
         if let Some(corner) = vertices.iter().position(|v| !v.is_finite()) {
             return Err(fault(format!(

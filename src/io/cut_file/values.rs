@@ -3,8 +3,8 @@
 use std::fmt;
 use std::marker::PhantomData;
 
-use serde::de::value::{MapAccessDeserializer, SeqAccessDeserializer};
-use serde::de::{MapAccess, SeqAccess, Visitor};
+use serde::de::value::{self, MapAccessDeserializer, SeqAccessDeserializer};
+use serde::de::{Error, MapAccess, SeqAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize};
 
 /// A value that only a table of keys can give; serde's own structs accept a list of values as well.
@@ -81,10 +81,11 @@ impl<'de, T: Deserialize<'de>> Deserialize<'de> for OneOf<T> {
 pub(in crate::io) struct Numbers<const N: usize>(pub [f64; N]);
 
 impl<const N: usize> TryFrom<Vec<f64>> for Numbers<N> {
-    type Error = String;
+    type Error = value::Error;
 
-    fn try_from(list: Vec<f64>) -> Result<Self, String> {
-        let wrong = |list: Vec<f64>| format!("invalid length {}, expected a list of {N} numbers", list.len());
+    fn try_from(list: Vec<f64>) -> Result<Self, value::Error> {
+        let wrong =
+            |list: Vec<f64>| Error::invalid_length(list.len(), &format!("a list of {N} numbers").as_str());
         list.try_into().map(Self).map_err(wrong)
     }
 }

@@ -1,8 +1,9 @@
 //! Limits of the meshes that are read: enough for any scan of a stone, too little to fill the memory.
 
+use super::super::text::unreadable;
 use super::{Fault, Read};
 use std::fs::File;
-use std::io::{ErrorKind, Read as _};
+use std::io::Read as _;
 use std::path::Path;
 
 /// The size of the largest file that is read, in bytes; a buffer beside it may be as large again, and all buffers together.
@@ -16,10 +17,6 @@ pub const MAX_TRIANGLES: usize = 4_000_000;
 
 /// Reads a file, if it is no larger than [`MAX_BYTES`].
 pub(super) fn bytes(path: &Path) -> Result<Vec<u8>, Fault> {
-    let unreadable = |error: std::io::Error| match error.kind() {
-        ErrorKind::NotFound => Fault::whole("there is no such file"),
-        _ => Fault::whole(format!("this cannot be read: {error}")),
-    };
     if path.is_dir() {
         return Err(Fault::whole("this is a directory; a file is expected"));
     }
@@ -59,13 +56,13 @@ pub(super) fn checked(read: Read) -> Result<Read, Fault> {
     if let Some(place) = surface.vertices.iter().position(|v| !v.is_finite()) {
         let message =
             format!("{} is no finite place; finite coordinates are expected", surface.vertices[place]);
-        return Err(Fault::at(format!("corner {}", place + 1), message));
+        return Err(Fault::part(format!("corner {}", place + 1), message));
     }
     let known = surface.vertices.len() as u32;
     if let Some(place) = surface.triangles.iter().position(|t| t.iter().any(|&v| v >= known)) {
         let corner = surface.triangles[place].into_iter().max().unwrap_or_default();
         let message = format!("it refers to corner {corner}, counted from 0, and there are {known}");
-        return Err(Fault::at(format!("triangle {}", place + 1), message));
+        return Err(Fault::part(format!("triangle {}", place + 1), message));
     }
     Ok(read)
 }

@@ -56,7 +56,7 @@ impl Gatherer<'_> {
             let message = format!(
                 "nodes lie more than {MOST_NESTED} deep or are more than {MOST_NODES}; do they contain themselves?"
             );
-            return Err(Fault::at(format!("node {}", node.index()), message));
+            return Err(Fault::part(format!("node {}", node.index()), message));
         }
         let placed = above * transform(&node.transform());
         if self.read.said.is_none() {
@@ -66,11 +66,9 @@ impl Gatherer<'_> {
             let name = mesh.name().or(node.name()).unwrap_or_default();
             for primitive in mesh.primitives() {
                 self.primitive(&primitive, name, placed).map_err(|fault| {
-                    let own = format!("mesh {}, primitive {}", mesh.index(), primitive.index());
-                    Fault {
-                        place: Some(fault.place.map_or(own.clone(), |at| format!("{own}, {at}"))),
-                        ..fault
-                    }
+                    let joint = if fault.key.is_some() { ", " } else { ": " };
+                    let own = format!("mesh {}, primitive {}{joint}", mesh.index(), primitive.index());
+                    fault.within(&own, &own)
                 })?;
             }
         }
