@@ -29,10 +29,10 @@ use super::view_history::ViewHistory;
 use super::window::PaintedBy;
 use super::workspace::{PaneLayout, Workspace};
 use super::{dialogs, drops, menus, side_panels, stage, theme};
-use crate::io::Failure;
 use crate::io::library;
-use crate::io::lighting::{Lighting, LightingError};
+use crate::io::lighting::Lighting;
 use crate::io::mesh_options::MeshOptions;
+use crate::io::{Failure, NameOrFileError};
 use crate::measure::Figures;
 use crate::scene::Specimen;
 use crate::trace::gpu::Gpu;
@@ -137,7 +137,7 @@ pub struct Editor {
     /// The last order, to know whether what is shown is what was ordered.
     pub(super) asked: Order,
     pub(super) light: (String, Arc<Lighting>),
-    pub(super) loading: Option<(String, Receiver<Result<Lighting, LightingError>>)>,
+    pub(super) loading: Option<(String, Receiver<Result<Lighting, NameOrFileError>>)>,
     pub(super) posed: PoseCache,
     pub(super) chooser: Chooser,
     pub(super) opener: Opener,

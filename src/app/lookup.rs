@@ -4,7 +4,8 @@
 //! studio traces.
 
 use super::studio::{Grade, SPAN, Shot, Slot, TakenPicture, Wake};
-use crate::io::background::{BackgroundError, BackgroundRef};
+use crate::io::Failure;
+use crate::io::background::BackgroundRef;
 use crate::picture::pane::{filling, pane};
 use crate::picture::{Develop, Linear, Pattern, RefractionMap, Tone, develop, refract};
 use crate::scene::Panorama;
@@ -53,21 +54,7 @@ impl PartialEq for LookupRequest {
 }
 
 /// An answer: the slot, the request, and the picture.
-pub type Looked = (Slot, Box<LookupRequest>, Result<TakenPicture, LookupError>);
-
-/// Why there is no picture.
-#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-pub enum LookupError {
-    /// The background cannot be taken.
-    #[error(transparent)]
-    Background(#[from] BackgroundError),
-    /// The background is no picture, which the view needs.
-    #[error("what hangs behind is no picture")]
-    NoPicture,
-    /// The thread that makes pictures has panicked.
-    #[error("a fault of the program; please report the design")]
-    Panicked,
-}
+pub type Looked = (Slot, Box<LookupRequest>, Result<TakenPicture, Failure>);
 
 /// What the window's thread and the worker's thread share.
 #[derive(Default)]
@@ -163,7 +150,9 @@ impl Worker {
                 Some(pool) => pool.install(|| self.seen(&ask)),
                 None => self.seen(&ask),
             });
-            let taken = std::panic::catch_unwind(seen).unwrap_or(Err(LookupError::Panicked));
+            let taken = std::panic::catch_unwind(seen).unwrap_or_else(|_| {
+                Err(Failure::Output("a fault of the program; please report the design".to_owned()))
+            });
             // Nobody listens once the window is closed.
             let _ = self.answers.send((slot, Box::new(ask), taken));
             let asked = self.desk.asked.lock().unwrap_or_else(PoisonError::into_inner);
@@ -187,7 +176,7 @@ impl Worker {
         }
     }
 
-    fn seen(&mut self, ask: &LookupRequest) -> Result<TakenPicture, LookupError> {
+    fn seen(&mut self, ask: &LookupRequest) -> Result<TakenPicture, Failure> {
         let (picture, tracer) = match &ask.map {
             Some((map, moved)) => {
                 let behind = self.levels(&ask.behind)?.for_map(map.size);
@@ -203,11 +192,12 @@ impl Worker {
     }
 
     /// Returns a background in its own size, with the halved sizes that have been of use so far.
-    fn levels(&mut self, asked: &BackgroundRef) -> Result<&mut Levels, LookupError> {
+    fn levels(&mut self, asked: &BackgroundRef) -> Result<&mut Levels, Failure> {
         let levels = match self.behind.take().filter(|(last, _)| last == asked) {
             Some((_, levels)) => levels,
             None => {
-                let reading = asked.picture()?.ok_or(LookupError::NoPicture)?;
+                let no_picture = || Failure::Input("what hangs behind is no picture".to_owned());
+                let reading = asked.picture()?.ok_or_else(no_picture)?;
                 Levels { whole: Arc::new(reading.panorama), halved: vec![] }
             }
         };
@@ -215,7 +205,7 @@ impl Worker {
     }
 
     /// Returns a background that is as large as a picture of `size` pixels.
-    fn filled(&mut self, asked: &BackgroundRef, size: [u32; 2]) -> Result<&Panorama, LookupError> {
+    fn filled(&mut self, asked: &BackgroundRef, size: [u32; 2]) -> Result<&Panorama, Failure> {
         let is = |(last, p): &(BackgroundRef, Panorama)| last == asked && [p.width, p.height] == size;
         let picture = match self.filled.take().filter(is) {
             Some((_, picture)) => picture,

@@ -6,7 +6,8 @@
 
 use super::cutters::{self, Gear, WarningList};
 use super::design_file::{EncodedDesign, ImportedDesign};
-use super::file_error::{Fault, FileError};
+use super::file_error::Fault;
+use super::text::check_size;
 use crate::cut::{Indexed, MAX_PLANES, Tier, Tiers, is_printable};
 use crate::scene::Specimen;
 use encoding_rs::WINDOWS_1252;
@@ -39,19 +40,13 @@ pub fn looks_like(bytes: &[u8]) -> bool {
         || lines.any(is_facet)
 }
 
-/// Reads a GemCad text file; `label` stands for its path in errors, and names a design without a title.
+/// Reads a GemCad text file; `label` is the path of the file, which names a design without a title.
 ///
 /// # Errors
 /// When the file is too large, lists no facet or more than a stone may have, or makes no valid design; with the line where
 /// there is one.
-pub fn read(bytes: &[u8], label: &str) -> Result<ImportedDesign, FileError> {
-    design(bytes, label).map_err(|fault| fault.in_file(label))
-}
-
-fn design(bytes: &[u8], label: &str) -> Result<ImportedDesign, Fault> {
-    if bytes.len() > MAX_BYTES {
-        return Err(Fault::whole(super::text::too_large(MAX_BYTES as u64)));
-    }
+pub fn read(bytes: &[u8], label: &str) -> Result<ImportedDesign, Fault> {
+    check_size(bytes.len(), MAX_BYTES as u64)?;
     let mut reader = Reader::default();
     for (number, line) in (1..).zip(lines(&decoded(bytes))) {
         reader.number = number;
@@ -65,7 +60,7 @@ fn design(bytes: &[u8], label: &str) -> Result<ImportedDesign, Fault> {
     if reader.count == 0 {
         let problem =
             "no facet is listed; a line such as `a 41.0 0.65 96 24 48 72` is expected for each tier";
-        return Err(Fault::whole(problem));
+        return Err(problem.into());
     }
     reader.brought(label)
 }

@@ -55,11 +55,10 @@ pub fn write(design: &Design) -> String {
     toml::to_string(&DesignForm::of(design)).expect("a cut file's form is text, numbers, lists and tables")
 }
 
-fn design(text: &str) -> Result<Design, Fault> {
+/// Reads a design from the text of a cut file that is not named yet.
+pub(super) fn design(text: &str) -> Result<Design, Fault> {
     let most = if holds_mesh(text) { MAX_MESH_BYTES } else { MAX_BYTES };
-    if text.len() as u64 > most {
-        return Err(Fault::whole(text::too_large(most)));
-    }
+    text::check_size(text.len(), most)?;
     let toml = TomlText::parse(text)?;
     check_format(&toml)?;
     toml.read(DesignForm::design)

@@ -141,10 +141,10 @@ pub fn read_with(path: &Path, mesh: MeshOptions) -> Result<ImportedDesign, FileE
             return mesh_design::read(bytes, path, mesh);
         }
         DesignFormat::Toml => {
-            let text = text::utf8(bytes).map_err(named)?;
-            cut_file::parse(&text, &label).map(ImportedDesign::of)
+            text::utf8(bytes).and_then(|text| cut_file::design(&text)).map(ImportedDesign::of)
         }
-    }?;
+    }
+    .map_err(named)?;
     if mesh != MeshOptions::default() {
         brought.notes.push("--up and --as are for meshes; this design says both itself".to_owned());
     }

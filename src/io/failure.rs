@@ -1,9 +1,7 @@
 //! Why work that produces files was not done.
 
 use super::atomic::WriteError;
-use super::background::BackgroundError;
-use super::file_error::FileError;
-use super::lighting::LightingError;
+use super::file_error::{FileError, NameOrFileError};
 use crate::render::RenderError;
 use crate::trace::Stopped;
 
@@ -40,21 +38,11 @@ impl From<WriteError> for Failure {
     }
 }
 
-impl From<LightingError> for Failure {
-    fn from(error: LightingError) -> Self {
+impl From<NameOrFileError> for Failure {
+    fn from(error: NameOrFileError) -> Self {
         match error {
-            LightingError::Unknown(message) => Self::Usage(message),
-            LightingError::File(error) => error.into(),
-        }
-    }
-}
-
-impl From<BackgroundError> for Failure {
-    fn from(error: BackgroundError) -> Self {
-        match error {
-            BackgroundError::Unknown(message) => Self::Usage(message),
-            BackgroundError::File(error) => error.into(),
-            BackgroundError::Pattern(message) => Self::Input(message),
+            NameOrFileError::Unknown(message) => Self::Usage(message),
+            NameOrFileError::File(error) => error.into(),
         }
     }
 }

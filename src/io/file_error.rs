@@ -34,6 +34,29 @@ impl FileError {
     }
 }
 
+/// Why a light or a background, which has a name or a file, could not be taken.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+pub enum NameOrFileError {
+    /// The text is no name that is known, and no file; the message says what is known.
+    #[error("{0}")]
+    Unknown(String),
+    /// The file is at fault.
+    #[error(transparent)]
+    File(#[from] FileError),
+}
+
+impl From<String> for Fault {
+    fn from(problem: String) -> Self {
+        Self::whole(problem)
+    }
+}
+
+impl From<&str> for Fault {
+    fn from(problem: &str) -> Self {
+        Self::whole(problem)
+    }
+}
+
 impl Fault {
     /// Makes a fault of the file as a whole.
     pub(super) fn whole(problem: impl Display) -> Self {
@@ -52,6 +75,7 @@ impl Fault {
     }
 
     /// Makes a fault of a part of a file without keys, such as a triangle or a byte's offset.
+    #[cfg(feature = "interchange")]
     pub(super) fn part(part: impl Display, problem: impl Display) -> Self {
         Self::key(&part, format!("{part}: {problem}"))
     }

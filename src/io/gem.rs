@@ -5,7 +5,8 @@
 
 use super::cutters::{self, Gear, TierPiece, WarningList};
 use super::design_file::ImportedDesign;
-use super::file_error::{Fault, FileError};
+use super::file_error::Fault;
+use super::text::check_size;
 use crate::cut::{MAX_PLANES, Tiers};
 use crate::math::Plane;
 use cursor::Cursor;
@@ -51,18 +52,12 @@ struct Raw<'a> {
     on_blank: bool,
 }
 
-/// Reads a design of GemCad; `label` is the file's path for errors, and names a design that does not name itself.
+/// Reads a design of GemCad; `label` is the path of the file, which names a design that does not name itself.
 ///
 /// # Errors
 /// When the file is no such design; the error has the offset at fault where there is one.
-pub fn read(bytes: &[u8], label: &str) -> Result<ImportedDesign, FileError> {
-    design(bytes, label).map_err(|fault| fault.in_file(label))
-}
-
-fn design(bytes: &[u8], label: &str) -> Result<ImportedDesign, Fault> {
-    if bytes.len() > MAX_BYTES {
-        return Err(Fault::whole(super::text::too_large(MAX_BYTES as u64)));
-    }
+pub fn read(bytes: &[u8], label: &str) -> Result<ImportedDesign, Fault> {
+    check_size(bytes.len(), MAX_BYTES as u64)?;
     let mut told = WarningList::default();
     let mut cursor = Cursor::new(bytes);
     let raw = raw_facets(&mut cursor)?;

@@ -105,13 +105,13 @@ impl File {
         let turn = match up {
             Up::Posed(pose) => pose.turn,
             Up::Given(up) | Up::Known(up) | Up::FoundBy(up) => {
-                let up = up.try_normalize().ok_or_else(|| Fault::whole("the direction up points nowhere"))?;
+                let up = up.try_normalize().ok_or("the direction up points nowhere")?;
                 DQuat::from_rotation_arc(up, DVec3::Z)
             }
             Up::Found => DQuat::IDENTITY,
         };
-        let (shape, scale) = MeshShape::framed(&shell, turn)
-            .ok_or_else(|| Fault::whole("it has no extent across the direction up"))?;
+        let (shape, scale) =
+            MeshShape::framed(&shell, turn).ok_or("it has no extent across the direction up")?;
         // A known size stays in mm, though this frame may have another scale than that of the stone that was written.
         if let (Some(known), Some(diameter_mm)) = (self.place.scale, &mut self.place.diameter_mm) {
             *diameter_mm *= known / scale;

@@ -51,7 +51,7 @@ pub use drawing_png::{DrawingError, rasterize, rasterize_clear, rasterize_within
 #[cfg(feature = "exr")]
 pub use exr::write_exr;
 pub use failure::Failure;
-pub use file_error::{Fault, FileError};
+pub use file_error::{Fault, FileError, NameOrFileError};
 #[cfg(feature = "interchange")]
 pub use mesh_export::{write_glb, write_obj, write_ply, write_stl};
 #[cfg(feature = "exr")]

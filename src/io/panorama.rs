@@ -89,7 +89,7 @@ pub fn read_photo(path: &Path) -> Result<LoadedPanorama, FileError> {
 fn raw(path: &Path) -> Result<Raw, Fault> {
     let about = path.metadata().map_err(unreadable)?;
     if !about.is_file() {
-        return Err(Fault::whole("this is no file; give an OpenEXR, Radiance HDR, PNG or JPEG picture"));
+        return Err("this is no file; give an OpenEXR, Radiance HDR, PNG or JPEG picture".into());
     }
     let mut file = BufReader::new(File::open(path).map_err(unreadable)?);
     let mut start = Vec::new();
@@ -98,9 +98,10 @@ fn raw(path: &Path) -> Result<Raw, Fault> {
         #[cfg(feature = "exr")]
         start if start == EXR => exr::read(file, about.len()),
         #[cfg(not(feature = "exr"))]
-        start if start == EXR => Err(Fault::whole(
-            "this build reads no OpenEXR: build it with the feature `exr`, or save the picture as PNG",
-        )),
+        start if start == EXR => {
+            Err("this build reads no OpenEXR: build it with the feature `exr`, or save the picture as PNG"
+                .into())
+        }
         other => raster::read(file, about.len(), other),
     }
 }
@@ -108,18 +109,20 @@ fn raw(path: &Path) -> Result<Raw, Fault> {
 /// Refuses sides out of bounds, and more pixels than `bytes` bytes can hold.
 fn check_size(width: u64, height: u64, bytes: u64) -> Result<(), Fault> {
     if width == 0 || height == 0 {
-        return Err(Fault::whole(format!("{width} by {height} pixels: there is no picture in it")));
+        return Err(format!("{width} by {height} pixels: there is no picture in it").into());
     }
     if width > u64::from(LARGEST.0) || height > u64::from(LARGEST.1) {
         let (most_wide, most_high) = LARGEST;
-        return Err(Fault::whole(format!(
+        return Err(format!(
             "{width} by {height} pixels are too many; scale it down to {most_wide} by {most_high} at most"
-        )));
+        )
+        .into());
     }
     if width * height > FREE_PIXELS.max(bytes.saturating_mul(PIXELS_A_BYTE)) {
-        return Err(Fault::whole(format!(
+        return Err(format!(
             "{bytes} bytes cannot hold {width} by {height} pixels: the file is damaged; get it anew"
-        )));
+        )
+        .into());
     }
     Ok(())
 }

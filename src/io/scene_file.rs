@@ -168,9 +168,7 @@ fn is_meant_as_scene(text: &str) -> bool {
 }
 
 fn scene(text: &str, folder: Option<&Path>) -> Result<SceneFile, Fault> {
-    if text.len() as u64 > MAX_BYTES {
-        return Err(Fault::whole(text::too_large(MAX_BYTES)));
-    }
+    text::check_size(text.len(), MAX_BYTES)?;
     let toml = TomlText::parse(text)?;
     check_format(&toml)?;
     toml.read(|form: SceneForm| form.scene(text, folder))

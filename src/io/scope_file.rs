@@ -54,24 +54,21 @@ fn path_of(error: &ScopeError, scope: &Scope) -> String {
 /// Checks names, which become parts of file names, keys of JSON and channels of EXR.
 fn check_names(scope: &Scope) -> Result<(), Fault> {
     let plain = |c: char| c.is_ascii_alphanumeric() || c == '-' || c == '_';
+    let own = ("name".to_owned(), &scope.name);
     let bands =
         scope.bands.iter().enumerate().map(|(place, band)| (format!("band/{place}/name"), &band.name));
-    for (key, name) in bands.chain([("name".to_owned(), &scope.name)]) {
-        if !(1..=LONGEST_NAME).contains(&name.len()) || !name.chars().all(plain) {
+    for (key, name) in bands.chain([own]) {
+        let problem = if !(1..=LONGEST_NAME).contains(&name.len()) || !name.chars().all(plain) {
             let start: String = name.chars().take(LONGEST_NAME).collect();
-            let problem = format!("name '{start}': give 1 to {LONGEST_NAME} letters, digits, - or _");
-            return Err(Fault::key(key, problem));
-        }
+            format!("name '{start}': give 1 to {LONGEST_NAME} letters, digits, - or _")
+        } else if key == "name" && name.ends_with("-strongest") {
+            "names ending in -strongest are kept for maps of strongest exits".to_owned()
+        } else if key != "name" && RESERVED.contains(&name.as_str()) {
+            format!("band '{name}': that name is kept for a picture's other channels")
+        } else {
+            continue;
+        };
+        return Err(Fault::key(key, problem));
     }
-    if scope.name.ends_with("-strongest") {
-        return Err(Fault::key("name", "names ending in -strongest are kept for maps of strongest exits"));
-    }
-    match scope.bands.iter().position(|band| RESERVED.contains(&band.name.as_str())) {
-        Some(place) => {
-            let name = &scope.bands[place].name;
-            let problem = format!("band '{name}': that name is kept for a picture's other channels");
-            Err(Fault::key(format!("band/{place}/name"), problem))
-        }
-        None => Ok(()),
-    }
+    Ok(())
 }

@@ -18,7 +18,7 @@ pub(super) fn read_bytes(path: &Path, limit: u64) -> Result<Vec<u8>, Fault> {
         return within(standard::input().map_err(unreadable)?.to_vec(), limit);
     }
     if path.metadata().map_err(unreadable)?.is_dir() {
-        return Err(Fault::whole("this is a directory; a file is expected"));
+        return Err("this is a directory; a file is expected".into());
     }
     let mut bytes = Vec::new();
     File::open(path).and_then(|file| file.take(limit + 1).read_to_end(&mut bytes)).map_err(unreadable)?;
@@ -28,20 +28,23 @@ pub(super) fn read_bytes(path: &Path, limit: u64) -> Result<Vec<u8>, Fault> {
 /// Makes a fault of what the file system says of a file that cannot be read.
 pub(super) fn unreadable(error: std::io::Error) -> Fault {
     match error.kind() {
-        ErrorKind::NotFound => Fault::whole("there is no such file"),
-        _ => Fault::whole(format!("cannot be read: {error}")),
+        ErrorKind::NotFound => "there is no such file".into(),
+        _ => format!("cannot be read: {error}").into(),
     }
 }
 
 /// Returns bytes if there are some, and no more than a limit.
 fn within(bytes: Vec<u8>, limit: u64) -> Result<Vec<u8>, Fault> {
-    if bytes.is_empty() {
-        return Err(Fault::whole("the file is empty"));
+    check_size(bytes.len(), limit)?;
+    if bytes.is_empty() { Err("the file is empty".into()) } else { Ok(bytes) }
+}
+
+/// Checks that a file of so many bytes is no larger than a limit.
+pub(super) fn check_size(bytes: usize, limit: u64) -> Result<(), Fault> {
+    if bytes as u64 <= limit {
+        return Ok(());
     }
-    if bytes.len() as u64 > limit {
-        return Err(Fault::whole(too_large(limit)));
-    }
-    Ok(bytes)
+    Err(format!("this is larger than {} MiB, so hardly such a file", limit >> 20).into())
 }
 
 /// Converts bytes to text; the error names a picture's format or the line that is no UTF-8.
@@ -50,15 +53,11 @@ pub(super) fn utf8(bytes: Vec<u8>) -> Result<String, Fault> {
         let kinds: [(&[u8], &str); 4] =
             [(b"\x89PNG", "PNG"), (b"\xff\xd8\xff", "JPEG"), (b"GIF8", "GIF"), (b"%PDF", "PDF")];
         if let Some((_, kind)) = kinds.iter().find(|(start, _)| error.as_bytes().starts_with(start)) {
-            return Fault::whole(format!("this is a {kind}, where text is expected"));
+            return format!("this is a {kind}, where text is expected").into();
         }
         let valid = &error.as_bytes()[..error.utf8_error().valid_up_to()];
         Fault::line(line_after(valid), "this is not UTF-8 text; save the file as UTF-8")
     })
-}
-
-pub(super) fn too_large(limit: u64) -> String {
-    format!("this is larger than {} MiB, so hardly such a file", limit >> 20)
 }
 
 /// Returns the number, from 1, of the line that follows this text.

@@ -208,9 +208,7 @@ fn cut(form: Cuts) -> Result<Cut, Fault> {
         (None, Some(_)) => {
             Err(Fault::key("tier", "tier: the gear is missing; give it as [index], gear = 96"))
         }
-        (None, None) => Err(Fault::whole(
-            "the cut is missing; give [round_brilliant], [[tier]], [[plane]], [mesh] or a glass shape such as [pill]",
-        )),
+        (None, None) => Err("the cut is missing; give [round_brilliant], [[tier]], [[plane]], [mesh] or a glass shape such as [pill]".into()),
     }
 }
 

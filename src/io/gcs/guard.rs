@@ -2,7 +2,7 @@
 
 use super::MAX_BYTES;
 use crate::io::file_error::Fault;
-use crate::io::text::{line_after, too_large};
+use crate::io::text::{check_size, line_after};
 use std::borrow::Cow;
 
 /// The most attributes of one element; the XML parser compares each with each.
@@ -14,12 +14,10 @@ const MOST_NAMESPACES: usize = 16;
 /// Returns the text of a file of a sane size and build, UTF-8 or UTF-16 behind its mark, and whether characters of it are
 /// spoilt.
 pub(super) fn text(bytes: &[u8]) -> Result<(Cow<'_, str>, bool), Fault> {
-    if bytes.len() > MAX_BYTES {
-        return Err(Fault::whole(too_large(MAX_BYTES as u64)));
-    }
+    check_size(bytes.len(), MAX_BYTES as u64)?;
     let (text, _, spoilt) = encoding_rs::UTF_8.decode(bytes);
     if text.matches("xmlns").count() > MOST_NAMESPACES {
-        return Err(Fault::whole(format!("xmlns: more than {MOST_NAMESPACES} namespaces are declared")));
+        return Err(format!("xmlns: more than {MOST_NAMESPACES} namespaces are declared").into());
     }
     // Values cannot hold a '<', so that no element is longer than from one '<' to the next.
     let mut begin = 0;

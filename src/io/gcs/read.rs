@@ -4,7 +4,7 @@ use super::{COLOUR, ROOT, VERSION, guard};
 use crate::cut::{MaterialRef, Tiers};
 use crate::io::cutters::{self, Gear, WarningList};
 use crate::io::design_file::ImportedDesign;
-use crate::io::file_error::{Fault, FileError};
+use crate::io::file_error::Fault;
 use roxmltree::{Document, Node, ParsingOptions};
 use std::fmt::Display;
 
@@ -18,15 +18,11 @@ const INDEX: [&str; 4] = ["gear", "base", "symmetry", "mirror"];
 const HEADERS: [&str; 3] = ["title", "author", "header2"];
 const FOOTERS: [&str; 2] = ["footer1", "footer2"];
 
-/// Reads a design of Gem Cut Studio; `label` is the file's path for errors, and names a design without a title.
+/// Reads a design of Gem Cut Studio; `label` is the path of the file, which names a design without a title.
 ///
 /// # Errors
 /// When the file is no such design; the error has a line where there is one.
-pub fn read(bytes: &[u8], label: &str) -> Result<ImportedDesign, FileError> {
-    design(bytes, label).map_err(|fault| fault.in_file(label))
-}
-
-fn design(bytes: &[u8], label: &str) -> Result<ImportedDesign, Fault> {
+pub fn read(bytes: &[u8], label: &str) -> Result<ImportedDesign, Fault> {
     let (text, spoilt) = guard::text(bytes)?;
     let options = ParsingOptions { allow_dtd: false, nodes_limit: MOST_NODES, ..ParsingOptions::default() };
     let document = Document::parse_with_options(&text, options)

@@ -18,15 +18,12 @@ pub const MAX_TRIANGLES: usize = 4_000_000;
 /// Reads a file, if it is no larger than [`MAX_BYTES`].
 pub(super) fn bytes(path: &Path) -> Result<Vec<u8>, Fault> {
     if path.is_dir() {
-        return Err(Fault::whole("this is a directory; a file is expected"));
+        return Err("this is a directory; a file is expected".into());
     }
     let mut bytes = Vec::new();
     File::open(path).and_then(|file| file.take(MAX_BYTES + 1).read_to_end(&mut bytes)).map_err(unreadable)?;
     if bytes.len() as u64 > MAX_BYTES {
-        return Err(Fault::whole(format!(
-            "this is larger than {} MiB; save a coarser mesh",
-            MAX_BYTES >> 20
-        )));
+        return Err(format!("this is larger than {} MiB; save a coarser mesh", MAX_BYTES >> 20).into());
     }
     Ok(bytes)
 }
@@ -34,10 +31,7 @@ pub(super) fn bytes(path: &Path) -> Result<Vec<u8>, Fault> {
 /// Refuses more triangles or corners than are read.
 pub(super) fn count(vertices: usize, triangles: usize) -> Result<(), Fault> {
     let told = |what: &str, most: usize| {
-        Err(Fault::whole(format!(
-            "this has more than {} million {what}; save a coarser mesh",
-            most / 1_000_000
-        )))
+        Err(format!("this has more than {} million {what}; save a coarser mesh", most / 1_000_000).into())
     };
     match (vertices > MAX_VERTICES, triangles > MAX_TRIANGLES) {
         (_, true) => told("triangles", MAX_TRIANGLES),
@@ -51,7 +45,7 @@ pub(super) fn checked(read: Read) -> Result<Read, Fault> {
     let surface = &read.surface;
     count(surface.vertices.len(), surface.triangles.len())?;
     if surface.triangles.is_empty() {
-        return Err(Fault::whole("this holds no triangles; a closed surface is expected"));
+        return Err("this holds no triangles; a closed surface is expected".into());
     }
     if let Some(place) = surface.vertices.iter().position(|v| !v.is_finite()) {
         let message =

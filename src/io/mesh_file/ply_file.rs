@@ -72,7 +72,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Read, Fault> {
     let end = b"end_header";
     let beginning = &bytes[..bytes.len().min(MAX_HEADER)];
     let Some(header) = beginning.windows(end.len()).position(|w| w == end) else {
-        return Err(Fault::whole("the header has no end; a line `end_header` is expected"));
+        return Err("the header has no end; a line `end_header` is expected".into());
     };
     // Comments may be in any encoding.
     let readable: Vec<u8> = bytes[..header].iter().map(|b| if b.is_ascii() { *b } else { b'?' }).collect();

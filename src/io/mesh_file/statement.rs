@@ -233,13 +233,12 @@ const NUMBERS: [(&str, usize); 5] = [("d", 1), ("u", 1), ("v", 1), ("s", 2), ("m
 
 impl Found {
     fn take(&mut self, pair: &str) -> Result<(), Fault> {
-        let (key, value) =
-            pair.split_once('=').ok_or_else(|| Fault::whole(format!("'{pair}' is no key with a value")))?;
+        let (key, value) = pair.split_once('=').ok_or_else(|| format!("'{pair}' is no key with a value"))?;
         if key == "up" {
             self.up = Some(match value {
                 "y" => DVec3::Y,
                 "z" => DVec3::Z,
-                _ => return Err(Fault::whole(format!("up={value}: y or z is expected"))),
+                _ => return Err(format!("up={value}: y or z is expected").into()),
             });
             return Ok(());
         }
@@ -248,7 +247,7 @@ impl Found {
         let numbers: Vec<f64> = value.split(',').filter_map(|number| number.parse().ok()).collect();
         if numbers.len() != NUMBERS[place].1 || !numbers.iter().all(|x| x.is_finite()) {
             let count = NUMBERS[place].1;
-            return Err(Fault::whole(format!("{key}={value}: {count} finite numbers are expected")));
+            return Err(format!("{key}={value}: {count} finite numbers are expected").into());
         }
         self.numbers[place] = Some(numbers);
         Ok(())
@@ -266,7 +265,7 @@ impl Found {
         let middle = DVec3::from_slice(&m.ok_or_else(|| lacks("m"))?);
         let positive = [("d", diameter_mm), ("u", mm_per_unit), ("v", volume), ("s", span[1] - span[0])];
         if let Some((key, value)) = positive.into_iter().find(|(_, value)| *value <= 0.0) {
-            return Err(Fault::whole(format!("{key}: {value} must be above 0")));
+            return Err(format!("{key}: {value} must be above 0").into());
         }
         let measures = Measures { volume, span: [span[0], span[1]], middle };
         Ok(Statement { up, mm_per_unit, diameter_mm, material, measures })

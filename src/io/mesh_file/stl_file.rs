@@ -11,7 +11,7 @@ use std::io::Cursor;
 const FIRST: &[u8] = b"solid stone\n";
 
 pub(super) fn read_binary(mut bytes: Vec<u8>) -> Result<Read, Fault> {
-    let count = stl_triangles(&bytes).ok_or_else(|| Fault::whole("this is too short for a binary STL"))?;
+    let count = stl_triangles(&bytes).ok_or("this is too short for a binary STL")?;
     let there = (bytes.len() as u64).saturating_sub(STL_HEADER as u64) / STL_TRIANGLE;
     if count > there {
         let message =

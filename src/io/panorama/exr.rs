@@ -26,7 +26,7 @@ pub(super) fn read(mut file: BufReader<File>, bytes: u64) -> Result<Raw, Fault> 
             .any(|h| names.iter().all(|name| h.channels.list.iter().any(|c| c.name.eq(name) && !h.deep)))
     };
     if !with_colours(&["R", "G", "B"]) {
-        return Err(Fault::whole("no layer has channels R, G and B; save it as RGB"));
+        return Err("no layer has channels R, G and B; save it as RGB".into());
     }
     let image = reader()
         .no_deep_data()

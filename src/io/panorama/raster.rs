@@ -20,8 +20,7 @@ pub(super) fn read(file: BufReader<File>, bytes: u64, start: &[u8]) -> Result<Ra
     }
     let mut reader = ImageReader::new(file).with_guessed_format().map_err(damaged)?;
     if reader.format().is_none() {
-        let problem = "this is no picture that is known here; give OpenEXR, Radiance HDR, PNG or JPEG";
-        return Err(Fault::whole(problem));
+        return Err("this is no picture that is known here; give OpenEXR, Radiance HDR, PNG or JPEG".into());
     }
     reader.limits(limits());
     decoded(reader.into_decoder().map_err(damaged)?, bytes)

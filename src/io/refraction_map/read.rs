@@ -52,10 +52,11 @@ fn bands(path: &Path, diffuse: &Layer, must_tell: bool) -> Result<Vec<MapBand>, 
         png_band(&bytes, diffuse, must_tell)?
     };
     match found {
-        (size, _) if size != [diffuse.width, diffuse.height] => Err(Fault::whole(format!(
+        (size, _) if size != [diffuse.width, diffuse.height] => Err(format!(
             "{} by {} pixels, and its diffuse layer has {} by {}; give files of one map",
             size[0], size[1], diffuse.width, diffuse.height
-        ))),
+        )
+        .into()),
         (_, bands) => Ok(bands),
     }
 }
@@ -68,12 +69,10 @@ fn check([width, height]: [u64; 2], bytes: usize) -> Result<[u32; 2], Fault> {
     let most = u64::from(MOST_PIXELS);
     // With weights below its places, a map is twice as high.
     if width == 0 || height == 0 || width > most || height > 2 * most {
-        let problem = format!("{width} by {height} pixels; a map has 1 to {MOST_PIXELS} each way");
-        return Err(Fault::whole(problem));
+        return Err(format!("{width} by {height} pixels; a map has 1 to {MOST_PIXELS} each way").into());
     }
     if width * height > FREE_PIXELS.max((bytes as u64).saturating_mul(PIXELS_A_BYTE)) {
-        let problem = format!("{bytes} bytes cannot hold {width} by {height} pixels: get the file anew");
-        return Err(Fault::whole(problem));
+        return Err(format!("{bytes} bytes cannot hold {width} by {height} pixels: get the file anew").into());
     }
     Ok([width as u32, height as u32])
 }
@@ -99,7 +98,7 @@ fn pixels(bytes: &[u8]) -> Result<Pixels, Fault> {
         ))
     })?;
     let size = check([reader.info().width.into(), reader.info().height.into()], bytes.len())?;
-    let length = reader.output_buffer_size().ok_or_else(|| Fault::whole("too many pixels"))?;
+    let length = reader.output_buffer_size().ok_or("too many pixels")?;
     let mut data = vec![0; length];
     reader.next_frame(&mut data).map_err(damaged)?;
     // Texts may follow the pixels.
@@ -113,7 +112,7 @@ fn pixels(bytes: &[u8]) -> Result<Pixels, Fault> {
 fn read_diffuse(path: &Path) -> Result<Layer, Fault> {
     let Pixels { size: [width, height], kind, data, .. } = pixels(&read_bytes(path, MOST_BYTES)?)?;
     if kind != (ColorType::Rgba, BitDepth::Eight) {
-        return Err(Fault::whole(format!("{kind:?}: a diffuse layer is RGBA of 8 bits")));
+        return Err(format!("{kind:?}: a diffuse layer is RGBA of 8 bits").into());
     }
     Ok(Linear { width, height, pixels: data.chunks_exact(4).map(diffuse_of).collect() })
 }
@@ -123,12 +122,12 @@ fn png_band(bytes: &[u8], diffuse: &Layer, must_tell: bool) -> Result<Found, Fau
     let coding = match kind {
         (ColorType::Rgb, BitDepth::Eight) => Coding::Tiles,
         (ColorType::Rgb, BitDepth::Sixteen) => Coding::Sixteen,
-        _ => return Err(Fault::whole(format!("{kind:?}: a map is RGB of 8 or 16 bits"))),
+        _ => return Err(format!("{kind:?}: a map is RGB of 8 or 16 bits").into()),
     };
     let about = match about {
         Some(text) => checked(serde_json::from_str(&text).map_err(|e| unreadable(&e))?)?,
         None if must_tell => {
-            return Err(Fault::whole(format!("it lacks the text `{ABOUT}`, which tells its wavelength")));
+            return Err(format!("it lacks the text `{ABOUT}`, which tells its wavelength").into());
         }
         None => ALL_LIGHT,
     };
@@ -166,9 +165,8 @@ fn checked(about: About) -> Result<About, Fault> {
     if about.response.iter().flatten().chain([&about.nm]).all(is_sane) {
         return Ok(about);
     }
-    Err(Fault::whole(format!(
-        "its text `{ABOUT}` tells numbers that no band has; write the map anew by `refraction-map`"
-    )))
+    Err(format!("its text `{ABOUT}` tells numbers that no band has; write the map anew by `refraction-map`")
+        .into())
 }
 
 fn float(bytes: &[u8]) -> Result<Found, Fault> {
@@ -176,11 +174,12 @@ fn float(bytes: &[u8]) -> Result<Found, Fault> {
     for header in &meta.headers {
         check([header.layer_size.width() as u64, header.layer_size.height() as u64], bytes.len())?;
         if header.channels.list.len() > 3 * MOST_BANDS as usize {
-            return Err(Fault::whole(format!(
+            return Err(format!(
                 "{} channels; a map has {} at most",
                 header.channels.list.len(),
                 3 * MOST_BANDS
-            )));
+            )
+            .into());
         }
     }
     let image = reader()
@@ -203,7 +202,7 @@ fn float(bytes: &[u8]) -> Result<Found, Fault> {
     let values = |band: usize, part: &str| -> Result<Vec<f32>, Fault> {
         let name = channel(abouts.len(), band, part);
         let found = layer.channel_data.list.iter().find(|c| c.name.eq(name.as_str()));
-        let found = found.ok_or_else(|| Fault::whole(format!("it has no channel `{name}`")))?;
+        let found = found.ok_or_else(|| format!("it has no channel `{name}`"))?;
         Ok(found.sample_data.values_as_f32().collect())
     };
     let band = |(k, about): (usize, About)| {

@@ -67,7 +67,7 @@ impl TryFrom<OneOf<Pairs>> for SizeForm {
             // The number goes on without a unit, which the size's own parser refuses.
             OneOf::Number(number) => number.to_string(),
             OneOf::Rest(_) => {
-                return Err(Fault::whole("a list is no size; write a number and mm or ct in quotes"));
+                return Err("a list is no size; write a number and mm or ct in quotes".into());
             }
         };
         text.parse().map(Self).map_err(|error: crate::cut::SizeError| Fault::whole(error))

@@ -30,11 +30,9 @@ pub(super) fn load(
             Source::Uri(uri) => from_uri(uri, folder),
         };
         let whole_one = read.and_then(|bytes| match bytes.len() < buffer.length() {
-            true => Err(Fault::whole(format!(
-                "{} bytes are announced, and {} are there",
-                buffer.length(),
-                bytes.len()
-            ))),
+            true => {
+                Err(format!("{} bytes are announced, and {} are there", buffer.length(), bytes.len()).into())
+            }
             false => Ok(bytes),
         });
         let bytes = match whole_one {
@@ -67,16 +65,14 @@ fn needed(document: &Document) -> BTreeSet<usize> {
 
 pub(super) fn from_uri(uri: &str, folder: Option<&Path>) -> Result<Vec<u8>, Fault> {
     if let Some(rest) = uri.strip_prefix("data:") {
-        let (_, text) =
-            rest.split_once(";base64,").ok_or_else(|| Fault::whole("a `data:` of base64 is expected"))?;
+        let (_, text) = rest.split_once(";base64,").ok_or("a `data:` of base64 is expected")?;
         return STANDARD.decode(text).map_err(|error| Fault::whole(format!("this is no base64: {error}")));
     }
     let name = percent_encoding::percent_decode_str(uri).decode_utf8_lossy();
     // Beside the file and nowhere else: a mesh from somewhere must not make the program read what it likes.
     let outside = name.contains(['/', '\\', ':', '\0']) || name == ".." || name == "." || name.is_empty();
     let Some(folder) = folder.filter(|_| !outside) else {
-        let problem = format!("`{name}` is not a file beside this one; put it there, or embed it");
-        return Err(Fault::whole(problem));
+        return Err(format!("`{name}` is not a file beside this one; put it there, or embed it").into());
     };
     limits::bytes(&folder.join(&*name)).map_err(|fault| Fault::whole(format!("{name}: {fault}")))
 }

@@ -40,7 +40,7 @@ fn bytes<'a>(
         return from_uri(uri, folder).map(Cow::Owned);
     }
     let view = image.buffer_view.and_then(|index| document.views().nth(index.value()));
-    let view = view.ok_or_else(|| Fault::whole("it has neither a file nor a buffer view"))?;
+    let view = view.ok_or("it has neither a file nor a buffer view")?;
     let end = view.offset().checked_add(view.length());
     let buffer = &data[view.buffer().index()];
     let found = end.and_then(|end| buffer.get(view.offset()..end));
@@ -58,6 +58,6 @@ fn check(bytes: &[u8]) -> Result<(), Fault> {
         // `image` is built here without the readers of these formats.
         Ok(ImageFormat::WebP | ImageFormat::Avif | ImageFormat::Dds) => Ok(()),
         _ if bytes.starts_with(KTX2) => Ok(()),
-        _ => Err(Fault::whole("its bytes are no picture of a kind that glTF knows")),
+        _ => Err("its bytes are no picture of a kind that glTF knows".into()),
     }
 }

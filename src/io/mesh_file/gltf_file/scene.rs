@@ -82,7 +82,7 @@ impl Gatherer<'_> {
             return Ok(());
         }
         let Some(positions) = primitive.get(&Semantic::Positions) else {
-            return Err(Fault::whole("it has no POSITION; places of its corners are expected"));
+            return Err("it has no POSITION; places of its corners are expected".into());
         };
         buffers::check(&positions, &[DataType::F32], Dimensions::Vec3, self.data)?;
         if let Some(indices) = primitive.indices() {
@@ -98,10 +98,7 @@ impl Gatherer<'_> {
             None => (0..vertices.len() as u32).collect(),
         };
         if let Some(bad) = order.iter().find(|&&v| v as usize >= vertices.len()) {
-            return Err(Fault::whole(format!(
-                "it refers to corner {bad}, from 0, and there are {}",
-                vertices.len()
-            )));
+            return Err(format!("it refers to corner {bad}, from 0, and there are {}", vertices.len()).into());
         }
         let triangles = triangles(&order, mode);
         let whole = &self.read.surface;
