@@ -93,14 +93,13 @@ impl Preset {
 }
 
 /// Reads a cut that lies beside the scene, or else one that comes with the program.
-fn design(cut: &str, folder: Option<&Path>) -> Result<Design, FileError> {
+fn design(cut: &str, folder: Option<&Path>) -> Result<Design, String> {
     let beside = folder.map(|folder| folder.join(cut)).filter(|path| path.is_file());
     match (beside, library::cut(cut)) {
-        (Some(path), _) => design_file::read(&path).map(|brought| brought.design),
-        (None, Some(text)) => cut_file::parse(text, cut),
+        (Some(path), _) => design_file::read(&path).map(|brought| brought.design).map_err(|e| e.to_string()),
+        (None, Some(text)) => cut_file::parse(text, cut).map_err(|e| e.to_string()),
         (None, None) => {
-            let problem = "there is no such file, and no cut of that name comes with the program";
-            Err(FileError::new(cut, problem))
+            Err(format!("there is no file '{cut}', and no cut of that name comes with the program"))
         }
     }
 }

@@ -15,14 +15,20 @@ use crate::trace::Tracer;
 use clap::{Args, ValueEnum};
 use std::path::Path;
 
-/// The text of an option is no number.
+/// Why the text of an option cannot be read.
 #[derive(Debug, Clone, thiserror::Error)]
-#[error("a number is expected, such as 15 or 0.5")]
-pub struct NotANumber;
+pub enum OptionError {
+    /// It is no number.
+    #[error("a number is expected, such as 15 or 0.5")]
+    Number,
+    /// It is no size of a picture, whose sides have at most so many pixels.
+    #[error("give 16 to {0} pixels, or WIDTHxHEIGHT such as 1600x900")]
+    FilmSize(u32),
+}
 
 /// Parses a number on the command line.
-pub fn number(text: &str) -> Result<f64, NotANumber> {
-    text.trim().parse().map_err(|_| NotANumber)
+pub fn number(text: &str) -> Result<f64, OptionError> {
+    text.trim().parse().map_err(|_| OptionError::Number)
 }
 
 /// From where the stone is seen.

@@ -6,7 +6,7 @@ use super::super::cut_file::values::{Numbers, OneOf, Pairs, TomlTable};
 use super::super::file_error::Fault;
 use super::super::toml_text::line_at;
 use super::{DEFAULT_GAP_MM, Entry, MOST_STONES, SceneFile, behind, found, likely, shown};
-use crate::cut::{MaterialError, MaterialRef, Size, is_printable};
+use crate::cut::{MaterialError, MaterialRef, Size, SizeError, is_printable};
 use crate::scene::Layout;
 use glam::DVec3;
 use serde::Deserialize;
@@ -70,7 +70,7 @@ impl TryFrom<OneOf<Pairs>> for SizeForm {
                 return Err("a list is no size; write a number and mm or ct in quotes".into());
             }
         };
-        text.parse().map(Self).map_err(|error: crate::cut::SizeError| Fault::whole(error))
+        text.parse().map(Self).map_err(|error: SizeError| Fault::whole(error))
     }
 }
 
