@@ -72,3 +72,27 @@ fn check_names(scope: &Scope) -> Result<(), Fault> {
     }
     Ok(())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_wrong_in_a_scope_is_told_with_its_line() {
+        let bands = "[[band]]\nname = \"a\"\nfrom = -90\ncolour = [0, 0, 0]\n\
+            [[band]]\nname = \"b\"\nfrom = 10\ncolour = [9, 9, 9]\n";
+        let text = format!("name = \"x\"\n{bands}");
+        assert!(scope(&text).is_ok());
+        for (from, to, line, words) in [
+            ("\"x\"", "\"x y\"", 1, "name 'x y': give 1 to 60 letters"),
+            ("\"x\"", "\"x-strongest\"", 1, "names ending in -strongest"),
+            ("from = -90", "from = -80", 4, "the first band must begin at -90"),
+            ("\"b\"", "\"absorbed\"", 7, "band 'absorbed': that name is kept"),
+            ("\"b\"", "\"a\"", 7, "two bands are called 'a'"),
+            ("from = 10", "from = 90", 8, "band 'b' begins at 90"),
+        ] {
+            let fault = scope(&text.replace(from, to)).unwrap_err();
+            assert!(fault.line == Some(line) && fault.problem.contains(words), "{to}: {fault:?}");
+        }
+    }
+}
