@@ -102,6 +102,71 @@ fn no_two_public_types_have_one_name() {
     assert_eq!(seen, ["A", "B"]);
 }
 
+/// Returns the characters of a text with their places and the number of brackets that are open behind them.
+fn depths(text: &str) -> impl Iterator<Item = (usize, char, i32)> {
+    text.char_indices().scan(0, |depth, (at, c)| {
+        *depth += match c {
+            '<' | '(' | '[' => 1,
+            // An arrow closes nothing.
+            '>' if text[..at].ends_with('-') => 0,
+            '>' | ')' | ']' => -1,
+            _ => 0,
+        };
+        Some((at, c, *depth))
+    })
+}
+
+/// Returns the text from a bracket on to the one that closes it.
+fn bracketed(text: &str) -> &str {
+    depths(text).find(|(.., depth)| *depth == 0).map_or(text, |(at, ..)| &text[..at])
+}
+
+/// Returns the part of an item that other files see: a function's signature, a type, or a field.
+fn seen_from_outside(item: &str) -> &str {
+    let end = depths(item).find(|(_, c, depth)| *depth <= 0 && "{};,".contains(*c));
+    end.map_or(item, |(at, ..)| &item[..at])
+}
+
+/// Returns the signatures in a text that other files can see and whose error is a bare text.
+fn texts_as_errors(text: &str) -> Vec<String> {
+    let code = text.split("#[cfg(test)]\nmod ").next().unwrap_or("");
+    let lines: Vec<&str> = code.lines().map(|line| line.split("//").next().unwrap_or("").trim()).collect();
+    let is_text = |error: &str| ["String", "&str", "&'static str"].contains(&error.trim());
+    let is_error_type = |line: &&&str| {
+        let alias = line.strip_prefix("type Err").and_then(|rest| rest.trim_end_matches(';').split_once('='));
+        alias.is_some_and(|(_, error)| is_text(error))
+    };
+    let of_traits = lines.iter().filter(is_error_type).map(|line| (*line).to_owned());
+    let whole = lines.join(" ");
+    let items = whole.split(" pub").skip(1).map(seen_from_outside);
+    let has_text = |item: &&str| {
+        let results = item.match_indices("Result<").map(|(at, _)| bracketed(&item[at + "Result".len()..]));
+        results.into_iter().any(|result| result.rsplit_once(',').is_some_and(|(_, error)| is_text(error)))
+    };
+    of_traits.chain(items.filter(has_text).map(str::to_owned)).collect()
+}
+
+#[test]
+fn no_error_that_other_files_see_is_a_bare_text() {
+    let src = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+    let mut results = 0;
+    let mut bare = vec![];
+    for path in sources(&src).into_iter().filter(|path| !path.iter().any(|part| part == "tests")) {
+        let text = std::fs::read_to_string(&path).unwrap();
+        results += text.matches("Result<").count();
+        bare.extend(texts_as_errors(&text).into_iter().map(|item| format!("{}: {item}", path.display())));
+    }
+    assert!(bare.is_empty(), "give these errors a type: {bare:#?}");
+    assert!(results > 300, "only {results} results were seen: the check has lost its eyes");
+    let seen = texts_as_errors(
+        "\npub fn a(b: &str) -> Result<Vec<u8>, String> {\npub(super) fn c(\n    d: u8,\n) -> Result<(), String>\n\
+         where X: Y {\npub type E = Arc<dyn Fn(&str) -> Result<(), String>>;\nstruct F {\n    \
+         pub g: Option<Result<u8, &'static str>>,\n    h: Result<u8, String>,\n}\nfn i() -> Result<u8, String> {\n\
+         type Err = String;\npub fn j() -> Result<String, Fault> {\n// pub fn k() -> Result<u8, String>\n",
+    );
+    assert_eq!(seen.len(), 5, "{seen:#?}");
+}
+
 #[test]
 fn an_import_that_runs_up_would_be_seen() {
     assert_eq!(imports("use crate::picture::Film; use crate::io; // and crate::cli"), ["picture", "io"]);

@@ -1,7 +1,7 @@
 //! The design that the present design is compared with.
 
 use super::document::Document;
-use crate::scene::Specimen;
+use crate::scene::{Specimen, SpecimenError};
 use std::sync::Arc;
 
 /// A design to compare with.
@@ -18,9 +18,9 @@ impl Compared {
     /// Returns the document's design as it was last saved.
     ///
     /// # Errors
-    /// Fails where that design makes no stone; the text says why.
-    pub fn of_saved(document: &Document) -> Result<Self, String> {
-        let specimen = Specimen::new(document.saved().clone()).map_err(|e| e.to_string())?;
+    /// Fails where that design makes no stone.
+    pub fn of_saved(document: &Document) -> Result<Self, SpecimenError> {
+        let specimen = Specimen::new(document.saved().clone())?;
         Ok(Self::new("as saved".to_owned(), true, Arc::new(specimen)))
     }
 

@@ -5,7 +5,7 @@ use super::impossible;
 use crate::cut::{Cut, Design};
 use crate::io::design_file::{self, DesignFormat, ImportedDesign};
 use crate::io::mesh_options::MeshOptions;
-use crate::io::{cut_file, library};
+use crate::io::{Failure, FileError, cut_file, library};
 use crate::scene::{Copies, Specimen, SpecimenError};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -124,29 +124,29 @@ impl Document {
     ///
     /// # Errors
     /// Fails where no cut of that name comes with the program.
-    pub fn of_library(name: &str) -> Result<Self, String> {
-        let text = library::cut(name).ok_or_else(|| format!("no cut '{name}' comes with the program"))?;
-        let design = cut_file::parse(text, name).map_err(|e| e.to_string())?;
-        Self::new(design, None).map_err(|e| format!("{name}: {e}"))
+    pub fn of_library(name: &str) -> Result<Self, FileError> {
+        let text = library::cut(name)
+            .ok_or_else(|| FileError::new(name, "no cut of this name comes with the program"))?;
+        let design = cut_file::parse(text, name)?;
+        Self::new(design, None).map_err(|error| FileError::new(name, error))
     }
 
     /// Opens the first design that a user sees.
     ///
     /// # Errors
     /// Fails only where the program itself is broken.
-    pub fn first() -> Result<Self, String> {
+    pub fn first() -> Result<Self, FileError> {
         Self::of_library(library::FIRST_CUT)
     }
 
     /// Opens a design file; the options count where it is a mesh.
     ///
     /// # Errors
-    /// The text names file, line and key, and says what to do.
-    pub fn open(path: &Path, mesh: MeshOptions) -> Result<Self, String> {
-        let ImportedDesign { design, notes, warnings, doubt } =
-            design_file::read_with(path, mesh).map_err(|e| e.to_string())?;
-        let mut document =
-            Self::new(design, Some(path.to_owned())).map_err(|e| format!("{}: {e}", path.display()))?;
+    /// Fails where the file cannot be read, is no design, or makes no stone.
+    pub fn open(path: &Path, mesh: MeshOptions) -> Result<Self, FileError> {
+        let ImportedDesign { design, notes, warnings, doubt } = design_file::read_with(path, mesh)?;
+        let mut document = Self::new(design, Some(path.to_owned()))
+            .map_err(|error| FileError::new(path.display(), error))?;
         document.work.remarks = warnings.into_iter().chain(notes).collect();
         let diameter_mm = document.work.design.diameter_mm;
         let read = |is_doubtful| ReadMesh { path: path.to_owned(), options: mesh, is_doubtful, diameter_mm };
@@ -172,9 +172,13 @@ impl Document {
     /// `mesh` is the mesh file that the stone was read from, if it was one.
     ///
     /// # Errors
-    /// Fails where the design makes no stone; the text says why.
-    pub fn recovered(design: Design, path: Option<PathBuf>, mesh: Option<ReadMesh>) -> Result<Self, String> {
-        let mut document = Self::new(design, path).map_err(|e| e.to_string())?;
+    /// Fails where the design makes no stone.
+    pub fn recovered(
+        design: Design,
+        path: Option<PathBuf>,
+        mesh: Option<ReadMesh>,
+    ) -> Result<Self, SpecimenError> {
+        let mut document = Self::new(design, path)?;
         document.work.mesh = mesh;
         document.history = History::new(document.work.clone());
         // `read` takes a mesh in the direction that it finds: a table direction that the user chose is a change that the
@@ -336,13 +340,17 @@ impl Document {
     ///
     /// # Errors
     /// Fails when the design makes no stone, or the file system refuses; the old file stays as it is.
-    pub fn save(&mut self, path: PathBuf) -> Result<Vec<String>, String> {
+    pub fn save(&mut self, path: PathBuf) -> Result<Vec<String>, Failure> {
         if let Some(fault) = &self.fault {
-            return Err(format!("this design cannot be read again: {}", impossible::by_name(fault)));
+            return Err(Failure::Input(format!(
+                "this design cannot be read again: {}",
+                impossible::by_name(fault)
+            )));
         }
-        let specimen = self.specimen.remade(self.work.design.clone()).map_err(|e| e.to_string())?;
+        let made = self.specimen.remade(self.work.design.clone());
+        let specimen = made.map_err(|error| Failure::Input(error.to_string()))?;
         let format = DesignFormat::of_name(&path).unwrap_or(DesignFormat::Toml);
-        let lost = design_file::write(&specimen, format, &path).map_err(|e| e.to_string())?;
+        let lost = design_file::write(&specimen, format, &path)?;
         (self.stamp, self.path, self.is_lost) = (Stamp::of(&path), Some(path), false);
         self.saved = self.work.design.clone();
         Ok(lost)
@@ -387,7 +395,7 @@ mod tests {
         document.work.design.name = " ".to_owned();
         assert!(!document.update() && document.fault().is_some() && !document.shows_last_possible());
         let path = folder.path().join("mine.toml");
-        assert!(document.save(path.clone()).unwrap_err().contains("printable") && !path.exists());
+        assert!(document.save(path.clone()).unwrap_err().to_string().contains("printable") && !path.exists());
     }
 
     #[test]
@@ -400,7 +408,10 @@ mod tests {
         assert!(document.fault().unwrap().to_string().contains("crown_angle"));
         assert!(Arc::ptr_eq(&stone, document.specimen()) && document.shows_last_possible());
         let path = folder.path().join("mine.toml");
-        assert!(document.save(path.clone()).unwrap_err().contains(": Crown angle: ") && !path.exists());
+        assert!(
+            document.save(path.clone()).unwrap_err().to_string().contains(": Crown angle: ")
+                && !path.exists()
+        );
         document.undo();
         assert!(!document.update() && document.fault().is_none(), "it is the stone that is in sight");
         assert!(Arc::ptr_eq(&stone, document.specimen()) && !document.shows_last_possible());

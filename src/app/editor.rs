@@ -29,8 +29,9 @@ use super::window::PaintedBy;
 use super::workspace::{PaneLayout, Workspace};
 use super::{dialogs, drops, menus, side_panels, stage, theme};
 use crate::io::library;
-use crate::io::lighting::{Lighting, LightingError};
+use crate::io::lighting::Lighting;
 use crate::io::mesh_options::MeshOptions;
+use crate::io::{Failure, NameOrFileError};
 use crate::measure::Figures;
 use crate::scene::Specimen;
 use crate::trace::gpu::Gpu;
@@ -135,7 +136,7 @@ pub struct Editor {
     /// The last order, to know whether what is shown is what was ordered.
     pub(super) asked: Order,
     pub(super) light: (String, Arc<Lighting>),
-    pub(super) loading: Option<(String, Receiver<Result<Lighting, LightingError>>)>,
+    pub(super) loading: Option<(String, Receiver<Result<Lighting, NameOrFileError>>)>,
     pub(super) chooser: Chooser,
     pub(super) opener: Opener,
     /// A picture for the clipboard that is being made.
@@ -168,7 +169,7 @@ impl Editor {
     ///
     /// # Errors
     /// As for [`within`](Self::within).
-    pub fn new(context: &CreationContext<'_>, setup: Setup) -> Result<Self, String> {
+    pub fn new(context: &CreationContext<'_>, setup: Setup) -> Result<Self, Failure> {
         Self::within(&context.egui_ctx, context.storage, shared(context), setup)
     }
 
@@ -181,7 +182,7 @@ impl Editor {
         storage: Option<&dyn Storage>,
         gpu: Option<Arc<Gpu>>,
         setup: Setup,
-    ) -> Result<Self, String> {
+    ) -> Result<Self, Failure> {
         theme::apply(context);
         context.add_plugin(Hands::default());
         let kept = storage.and_then(|s| s.get_string(DESK));
@@ -190,7 +191,7 @@ impl Editor {
             kept.and_then(|text| serde_json::from_str(&text).ok()).unwrap_or(setup.desk);
         let wake = waker(context);
         let mut document = Document::first()?;
-        let first = Lighting::load(FIRST_LIGHT).map_err(|e| e.to_string())?;
+        let first = Lighting::load(FIRST_LIGHT)?;
         let light = (FIRST_LIGHT.to_owned(), Arc::new(first));
         desk.face_up();
         desk.rest();
@@ -400,7 +401,7 @@ impl Editor {
     /// Opens a folder or a page outside the program.
     pub(super) fn open_outside(&mut self, what: &str) {
         if let Err(why) = (self.opener)(what) {
-            self.notes.trouble(why);
+            self.notes.trouble(format!("{what} was not opened: {why}"));
         }
     }
 

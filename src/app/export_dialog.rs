@@ -6,6 +6,7 @@ use super::files::Purpose;
 use super::shows::Shows;
 use super::studio::Shot;
 use super::theme;
+use crate::io::Failure;
 use crate::io::export::OutputFormat;
 use crate::io::refraction_map::{MOST_BANDS, MOST_PLACES};
 use crate::scene::{Copies, Pose, View};
@@ -87,7 +88,7 @@ impl ExportDialog {
 
     /// Returns how the export ended, once it has.
     #[cfg(test)]
-    pub fn end(&self) -> Option<Result<(), String>> {
+    pub fn end(&self) -> Option<Result<(), Failure>> {
         self.job.as_ref()?.end()
     }
 
@@ -276,9 +277,9 @@ const LEAST_LISTED: f32 = 32.0;
 const ROOMY: f32 = 700.0;
 
 /// Draws the list of the files that will be written, and marks those that exist already.
-fn listed(ui: &mut Ui, files: &Result<Vec<PathBuf>, String>) {
+fn listed(ui: &mut Ui, files: &Result<Vec<PathBuf>, Failure>) {
     match files {
-        Err(why) => drop(ui.label(RichText::new(why).color(theme::bad(ui.visuals())))),
+        Err(why) => drop(ui.label(RichText::new(why.to_string()).color(theme::bad(ui.visuals())))),
         Ok(files) if files.is_empty() => drop(ui.label("Nothing is chosen that these formats can hold.")),
         Ok(files) => {
             let there = files.iter().filter(|f| f.exists()).count();
@@ -331,7 +332,7 @@ fn working(editor: &mut Editor, ui: &mut Ui, (job, folder): (&Job, &Path)) -> bo
         job.messages().iter().for_each(|line| drop(ui.label(RichText::new(line).small())));
         match &end {
             Some(Err(why)) if !job.is_stopped() => {
-                ui.label(RichText::new(why).color(theme::bad(ui.visuals())));
+                ui.label(RichText::new(why.to_string()).color(theme::bad(ui.visuals())));
             }
             _ => {}
         }

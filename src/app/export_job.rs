@@ -99,7 +99,7 @@ pub struct ExportProgress {
     messages: Mutex<Vec<String>>,
     /// The number of files written.
     written: AtomicUsize,
-    end: Mutex<Option<Result<(), String>>>,
+    end: Mutex<Option<Result<(), Failure>>>,
 }
 
 /// An export that is under way or has ended.
@@ -208,23 +208,20 @@ impl ExportPlan {
     /// Returns the files that will be written, in that order.
     ///
     /// # Errors
-    /// The text says what keeps them from being written.
-    pub fn files(&self) -> Result<Vec<PathBuf>, String> {
+    /// Fails where the files cannot be written as they are asked for.
+    pub fn files(&self) -> Result<Vec<PathBuf>, Failure> {
         if self.selection.map && self.selection.size > MOST_PIXELS {
-            return Err(format!(
+            return Err(Failure::Usage(format!(
                 "A refraction map has {MOST_PIXELS} pixels each way at most: take a smaller size."
-            ));
+            )));
         }
         if self.selection.map && self.selection.bands * self.selection.places > MOST_BANDS {
-            return Err(format!("Bands times places are {MOST_BANDS} at most: take fewer."));
+            let problem = format!("Bands times places are {MOST_BANDS} at most: take fewer.");
+            return Err(Failure::Usage(problem));
         }
         let mut files = vec![];
         for (outputs, viewing) in &self.parts() {
-            files.extend(
-                Export { viewing: *viewing, outputs }
-                    .files(&Renderer::default())
-                    .map_err(|e| e.to_string())?,
-            );
+            files.extend(Export { viewing: *viewing, outputs }.files(&Renderer::default())?);
         }
         files.extend(self.render_path());
         files.extend(self.map_paths().into_iter().flat_map(|(maps, others)| maps.into_iter().chain(others)));
@@ -307,8 +304,7 @@ impl ExportPlan {
         );
         refraction_map::write_places(maps, &map, Coding::Tiles, &told)?;
         refraction_map::write_diffuse(diffuse, &map, &told)?;
-        let behind =
-            self.shot.behind.as_ref().map(BackgroundRef::bytes).transpose().map_err(Failure::Input)?;
+        let behind = self.shot.behind.as_ref().map(BackgroundRef::bytes).transpose()?;
         let background = behind.flatten().filter(|bytes| takes(bytes));
         let ground = self.shot.behind.as_ref().map_or_else(String::new, BackgroundRef::title);
         let background = background.as_deref().map(|bytes| (ground.as_str(), bytes));
@@ -355,9 +351,9 @@ impl Job {
         // Where the files cannot be known, writing says why.
         let files = plan.files().unwrap_or_default();
         std::thread::spawn(move || {
-            let write = || plan.write(&seen).map_err(|e| e.to_string());
-            let end = std::panic::catch_unwind(std::panic::AssertUnwindSafe(write))
-                .unwrap_or_else(|_| Err("a fault of the program: please report the design".to_owned()));
+            let panicked = "a fault of the program: please report the design";
+            let end = std::panic::catch_unwind(std::panic::AssertUnwindSafe(|| plan.write(&seen)))
+                .unwrap_or_else(|_| Err(Failure::Output(panicked.to_owned())));
             *seen.end.lock().unwrap_or_else(PoisonError::into_inner) = Some(end);
             wake();
         });
@@ -413,7 +409,7 @@ impl Job {
     }
 
     /// Returns how the export ended, once it has.
-    pub fn end(&self) -> Option<Result<(), String>> {
+    pub fn end(&self) -> Option<Result<(), Failure>> {
         self.progress.end.lock().unwrap_or_else(PoisonError::into_inner).clone()
     }
 }

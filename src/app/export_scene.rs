@@ -54,7 +54,7 @@ impl SceneOut {
         let [scene, cut] = &self.paths;
         let folder = scene.parent();
         // A scene that reaches farther than scenes may is refused before anything is written.
-        scene_file::parse(&self.scene, &scene.display().to_string(), folder).map_err(Failure::Input)?;
+        scene_file::parse(&self.scene, &scene.display().to_string(), folder)?;
         for (path, text) in [(cut, &self.cut), (scene, &self.scene)] {
             write(path, |file| file.write_all(text.as_bytes()).map_err(|e| WriteError::io(path, e)))?;
         }

@@ -142,7 +142,7 @@ impl Editor {
     pub(super) fn chosen(&mut self, purpose: Purpose, document: u64, path: PathBuf) {
         match purpose {
             Purpose::SaveAs if document != self.begun => {
-                self.notes.trouble("Not saved: another design was opened meanwhile.".into());
+                self.notes.trouble("Not saved: another design was opened meanwhile.");
             }
             Purpose::Open => self.ask_before(Then::open(path)),
             Purpose::SaveAs => {

@@ -4,6 +4,7 @@
 //! studio traces.
 
 use super::studio::{Grade, SPAN, Shot, Slot, TakenPicture, Wake};
+use crate::io::Failure;
 use crate::io::background::BackgroundRef;
 use crate::picture::pane::{filling, pane};
 use crate::picture::{Develop, Linear, Pattern, RefractionMap, Tone, develop, refract};
@@ -52,8 +53,8 @@ impl PartialEq for LookupRequest {
     }
 }
 
-/// An answer: the slot, the request, and the picture or the text that says why there is none.
-pub type Looked = (Slot, Box<LookupRequest>, Result<TakenPicture, String>);
+/// An answer: the slot, the request, and the picture.
+pub type Looked = (Slot, Box<LookupRequest>, Result<TakenPicture, Failure>);
 
 /// What the window's thread and the worker's thread share.
 #[derive(Default)]
@@ -149,8 +150,9 @@ impl Worker {
                 Some(pool) => pool.install(|| self.seen(&ask)),
                 None => self.seen(&ask),
             });
-            let taken = std::panic::catch_unwind(seen)
-                .unwrap_or_else(|_| Err("a fault of the program; please report the design".to_owned()));
+            let taken = std::panic::catch_unwind(seen).unwrap_or_else(|_| {
+                Err(Failure::Output("a fault of the program; please report the design".to_owned()))
+            });
             // Nobody listens once the window is closed.
             let _ = self.answers.send((slot, Box::new(ask), taken));
             let asked = self.desk.asked.lock().unwrap_or_else(PoisonError::into_inner);
@@ -174,7 +176,7 @@ impl Worker {
         }
     }
 
-    fn seen(&mut self, ask: &LookupRequest) -> Result<TakenPicture, String> {
+    fn seen(&mut self, ask: &LookupRequest) -> Result<TakenPicture, Failure> {
         let (picture, tracer) = match &ask.map {
             Some((map, moved)) => {
                 let behind = self.levels(&ask.behind)?.for_map(map.size);
@@ -190,11 +192,12 @@ impl Worker {
     }
 
     /// Returns a background in its own size, with the halved sizes that have been of use so far.
-    fn levels(&mut self, asked: &BackgroundRef) -> Result<&mut Levels, String> {
+    fn levels(&mut self, asked: &BackgroundRef) -> Result<&mut Levels, Failure> {
         let levels = match self.behind.take().filter(|(last, _)| last == asked) {
             Some((_, levels)) => levels,
             None => {
-                let reading = asked.picture()?.ok_or("what hangs behind is no picture")?;
+                let no_picture = || Failure::Input("what hangs behind is no picture".to_owned());
+                let reading = asked.picture()?.ok_or_else(no_picture)?;
                 Levels { whole: Arc::new(reading.panorama), halved: vec![] }
             }
         };
@@ -202,7 +205,7 @@ impl Worker {
     }
 
     /// Returns a background that is as large as a picture of `size` pixels.
-    fn filled(&mut self, asked: &BackgroundRef, size: [u32; 2]) -> Result<&Panorama, String> {
+    fn filled(&mut self, asked: &BackgroundRef, size: [u32; 2]) -> Result<&Panorama, Failure> {
         let is = |(last, p): &(BackgroundRef, Panorama)| last == asked && [p.width, p.height] == size;
         let picture = match self.filled.take().filter(is) {
             Some((_, picture)) => picture,

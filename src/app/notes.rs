@@ -1,5 +1,7 @@
 //! The messages of the window: errors, warnings, and notes on what is done.
 
+use std::fmt::Display;
+
 /// An error or a warning.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Problem {
@@ -28,8 +30,8 @@ impl Notes {
     }
 
     /// Reports an error; it stays until it is dismissed.
-    pub fn trouble(&mut self, what: String) {
-        self.add(what, true);
+    pub fn trouble(&mut self, what: impl Display) {
+        self.add(what.to_string(), true);
     }
 
     /// Warns that something is done, but perhaps not as it was meant; the warning stays until it is dismissed.

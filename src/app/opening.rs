@@ -7,7 +7,7 @@ use super::document::{Document, Work};
 use super::editor::Editor;
 use super::preset::Preset;
 use crate::io::mesh_options::MeshOptions;
-use crate::io::scene_file;
+use crate::io::{FileError, scene_file};
 use std::path::{Path, PathBuf};
 use std::sync::mpsc::{Receiver, channel};
 
@@ -36,7 +36,7 @@ pub struct Opening {
     mesh: MeshOptions,
     /// The work as it was when the file was requested.
     work: Work,
-    answer: Receiver<Result<Came, String>>,
+    answer: Receiver<Result<Came, FileError>>,
 }
 
 /// The content of a file.
@@ -47,7 +47,7 @@ enum Came {
 
 impl Came {
     /// Reads a file; a scene is only read as one to be worked on.
-    fn of(path: &Path, wanted: OpeningPurpose, mesh: MeshOptions) -> Result<Self, String> {
+    fn of(path: &Path, wanted: OpeningPurpose, mesh: MeshOptions) -> Result<Self, FileError> {
         match wanted == OpeningPurpose::Anew && is_scene(path) {
             true => Preset::read(path).map(Box::new).map(Self::Scene),
             false => Document::open(path, mesh).map(Box::new).map(Self::Design),

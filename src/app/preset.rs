@@ -5,9 +5,10 @@ use super::editor::Editor;
 use crate::cut::Design;
 use crate::io::background::BackgroundRef;
 use crate::io::scene_file::{self, Entry, SceneFile};
-use crate::io::{cut_file, design_file, library};
+use crate::io::{FileError, cut_file, design_file, library};
 use crate::scene::{Copies, MOST_COPIES, Pose, Specimen, middle};
 use glam::{DQuat, DVec3};
+use std::fmt::Display;
 use std::path::Path;
 
 /// A scene of glass that comes with the program.
@@ -48,8 +49,9 @@ impl Preset {
     ///
     /// # Errors
     /// Fails where no scene of that name comes with the program, or where it is of several designs.
-    pub fn of_library(name: &str) -> Result<Self, String> {
-        let text = library::scene(name).ok_or_else(|| format!("no scene '{name}' comes with the program"))?;
+    pub fn of_library(name: &str) -> Result<Self, FileError> {
+        let text = library::scene(name)
+            .ok_or_else(|| FileError::new(name, "no scene of this name comes with the program"))?;
         let wavelengths = PRESETS.iter().find(|known| known.name == name).map(|known| known.wavelengths);
         Ok(Self { wavelengths, ..Self::new(scene_file::parse(text, name, None)?, name, None)? })
     }
@@ -57,31 +59,33 @@ impl Preset {
     /// Reads a scene file.
     ///
     /// # Errors
-    /// The text names file, line and key, or says why the editor cannot show the scene.
-    pub fn read(path: &Path) -> Result<Self, String> {
+    /// Fails where the file cannot be read, is no scene, or is one of several designs.
+    pub fn read(path: &Path) -> Result<Self, FileError> {
         Self::new(scene_file::read(path)?, &path.display().to_string(), path.parent())
     }
 
-    fn new(scene: SceneFile, told: &str, folder: Option<&Path>) -> Result<Self, String> {
+    fn new(scene: SceneFile, told: &str, folder: Option<&Path>) -> Result<Self, FileError> {
         let first = &scene.stones[0];
         let kind = |e: &Entry| (e.cut.clone(), e.material.clone(), e.size);
         let count: usize = scene.stones.iter().map(|e| e.count).sum();
         if scene.stones.iter().any(|e| kind(e) != kind(first)) || count > MOST_COPIES {
-            return Err(format!(
-                "{told}: the editor shows scenes of up to {MOST_COPIES} stones of one cut, material and size; \
+            let problem = format!(
+                "the editor shows scenes of up to {MOST_COPIES} stones of one cut, material and size; \
                  `brillianteer render {told}` draws any"
-            ));
+            );
+            return Err(FileError::new(told, problem));
         }
-        let mut design = design(&first.cut, folder).map_err(|e| format!("{told}: {e}"))?;
+        let refused = |error: &dyn Display| FileError::new(told, error);
+        let mut design = design(&first.cut, folder).map_err(|error| refused(&error))?;
         if let Some(material) = &first.material {
             design.material = material.clone();
         }
-        let specimen = Specimen::new(design.clone()).map_err(|e| format!("{told}: {e}"))?;
+        let specimen = Specimen::new(design.clone()).map_err(|error| refused(&error))?;
         let corners = specimen.solid().vertices();
         if let Some(size) = first.size {
             let volume = specimen.solid().volume();
-            design.diameter_mm =
-                size.diameter_mm(volume, &specimen.material).map_err(|e| format!("{told}: size: {e}"))?;
+            let diameter = size.diameter_mm(volume, &specimen.material);
+            design.diameter_mm = diameter.map_err(|error| refused(&format_args!("size: {error}")))?;
         }
         let poses = poses(&scene, corners, 0.5 * design.diameter_mm);
         Ok(Self { company: Copies::at(poses, corners), design, scene, wavelengths: None })
@@ -132,7 +136,7 @@ impl Editor {
         let Preset { design, company, scene, wavelengths } = preset;
         let mut document = match Document::new(design, None) {
             Ok(document) => document,
-            Err(why) => return self.notes.trouble(why.to_string()),
+            Err(why) => return self.notes.trouble(why),
         };
         let laid = company.poses(document.specimen().solid().vertices(), None);
         let layers =
@@ -176,7 +180,7 @@ mod tests {
     fn scenes_of_several_designs_are_refused_with_what_draws_them() {
         for name in ["trilogy", "ring", "parcel"] {
             let why = Preset::of_library(name).err().unwrap();
-            assert!(why.contains("brillianteer render"), "{why}");
+            assert!(why.to_string().contains("brillianteer render"), "{why}");
         }
     }
 }

@@ -136,14 +136,11 @@ impl Assembly {
 /// Returns the scene in a file, or the scene of that name that comes with the program; `None` where it is not a scene.
 fn scene(file: &Path) -> Result<Option<SceneFile>, Failure> {
     if file.is_file() || is_standard(file) {
-        return scene_file::is_scene(file)
-            .then(|| scene_file::read(file))
-            .transpose()
-            .map_err(Failure::Input);
+        return Ok(scene_file::is_scene(file).then(|| scene_file::read(file)).transpose()?);
     }
     let name = file.display().to_string();
     let known = library::scene(&name).map(|text| scene_file::parse(text, &name, None));
-    known.transpose().map_err(Failure::Input)
+    Ok(known.transpose()?)
 }
 
 /// Returns whether a path means a scene: a scene file, or the name of a scene that comes with the program.

@@ -203,7 +203,7 @@ impl LiquidGlass {
     /// Reads the background as a picture of the size `self.size`, and prints its warnings.
     fn ground(&self) -> Result<Panorama, Failure> {
         let asked = BackgroundRef::read(&self.background, Path::new(""))?;
-        let Some(reading) = asked.filling(self.size).map_err(Failure::Input)? else {
+        let Some(reading) = asked.filling(self.size)? else {
             let told = format!("--background {}: a pane needs something behind it", self.background);
             return Err(Failure::Usage(told));
         };

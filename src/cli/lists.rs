@@ -79,7 +79,7 @@ impl Cuts {
         }
         let mut rows = vec![];
         for (name, text) in CUTS {
-            let design = cut_file::parse(text, name).map_err(|e| Failure::Input(e.to_string()))?;
+            let design = cut_file::parse(text, name)?;
             rows.push((name, design.name, design.source.unwrap_or_default()));
         }
         if self.json {
@@ -109,7 +109,7 @@ impl Scenes {
         }
         let mut rows = vec![];
         for (name, text) in SCENES {
-            let scene = scene_file::parse(text, name, None).map_err(Failure::Input)?;
+            let scene = scene_file::parse(text, name, None)?;
             rows.push((name, scene.stones.iter().map(|s| s.count).sum::<usize>(), scene.name));
         }
         if self.json {

@@ -13,9 +13,20 @@ use crate::scene::{Glare, Lean, Medium, Projection, Side, Viewpoint};
 use clap::{Args, ValueEnum};
 use std::path::Path;
 
+/// Why the text of an option cannot be read.
+#[derive(Debug, Clone, thiserror::Error)]
+pub enum OptionError {
+    /// It is no number.
+    #[error("a number is expected, such as 15 or 0.5")]
+    Number,
+    /// It is no size of a picture, whose sides have at most so many pixels.
+    #[error("give 16 to {0} pixels, or WIDTHxHEIGHT such as 1600x900")]
+    FilmSize(u32),
+}
+
 /// Parses a number on the command line.
-pub fn number(text: &str) -> Result<f64, String> {
-    text.trim().parse().map_err(|_| "a number is expected, such as 15 or 0.5".to_owned())
+pub fn number(text: &str) -> Result<f64, OptionError> {
+    text.trim().parse().map_err(|_| OptionError::Number)
 }
 
 /// From where the stone is seen.
@@ -145,7 +156,7 @@ pub fn scoped(given: &Path) -> Result<Scoped, Failure> {
         let known = names().into_iter().filter(is_scope).collect::<Vec<_>>().join(", ");
         return Err(Failure::Usage(format!("--scope {name}: give the file of a scope, or one of {known}")));
     }
-    let scope = scope_file::read(given).map_err(Failure::Input)?;
+    let scope = scope_file::read(given)?;
     Ok(Scoped { scope, side: None, takes_head: true })
 }
 

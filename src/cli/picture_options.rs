@@ -2,7 +2,7 @@
 //! and `spin` also take [`FinishOptions`]: tracing and finish.
 
 use super::mesh_options::MeshArguments;
-use super::options::{TracerName, number};
+use super::options::{OptionError, TracerName, number};
 use crate::picture::{Bloom, Overlay, Tone};
 use clap::Args;
 
@@ -91,10 +91,10 @@ impl Default for FinishOptions {
 }
 
 /// Parses a picture's size in pixels: one number for a square, or WIDTHxHEIGHT.
-pub fn film_size(text: &str) -> Result<[u32; 2], String> {
+pub fn film_size(text: &str) -> Result<[u32; 2], OptionError> {
     let side = |text: &str| match text.trim().parse() {
         Ok(side) if (16..=MOST_PIXELS).contains(&side) => Ok(side),
-        _ => Err(format!("give 16 to {MOST_PIXELS} pixels, or WIDTHxHEIGHT such as 1600x900")),
+        _ => Err(OptionError::FilmSize(MOST_PIXELS)),
     };
     match text.split_once(['x', 'X']) {
         Some((width, height)) => Ok([side(width)?, side(height)?]),

@@ -4,7 +4,7 @@ use super::assembly::Assembly;
 use super::picture_options::{FinishOptions, PictureOptions};
 use super::specimen::note_colour;
 use super::{Failure, report};
-use crate::io::background::{BackgroundError, BackgroundRef};
+use crate::io::background::BackgroundRef;
 use crate::io::export::Event;
 use crate::io::lighting::Lighting;
 use crate::picture::{Bloom, Develop, Linear, Overlay, Tone, developed, lay};
@@ -63,15 +63,6 @@ pub fn within(key: &str, value: f64, least: f64, most: f64) -> Result<f64, Failu
     Err(Failure::Usage(format!("--{key} {value}: give {least} to {most}")))
 }
 
-impl From<BackgroundError> for Failure {
-    fn from(error: BackgroundError) -> Self {
-        match error {
-            BackgroundError::Unknown(told) => Self::Usage(told),
-            BackgroundError::NoFile(_) => Self::Input(error.to_string()),
-        }
-    }
-}
-
 impl<'a> PictureSetup<'a> {
     /// Loads stones, light and background, prints their warnings, and chooses the tracer for a view.
     pub fn load(
@@ -109,7 +100,7 @@ impl<'a> PictureSetup<'a> {
         if let BackgroundRef::Plain(plain) = background {
             develop.background = plain;
         }
-        let reading = background.picture().map_err(Failure::Input)?;
+        let reading = background.picture()?;
         reading.iter().flat_map(|r| &r.warnings).for_each(|w| super::say(&format!("warning: {w}")));
         let photo = reading.map(|reading| Arc::new(reading.panorama));
         let mut studio = Self {

@@ -219,7 +219,7 @@ impl RefractionMaps {
     /// Returns the bytes of the pattern's or photograph's file for the page. Where the page cannot take them, it returns
     /// `None` and prints a note.
     fn background(&self, studio: &PictureSetup) -> Result<Option<Vec<u8>>, Failure> {
-        let Some(bytes) = studio.background.bytes().map_err(Failure::Input)? else { return Ok(None) };
+        let Some(bytes) = studio.background.bytes()? else { return Ok(None) };
         if takes(&bytes) {
             return Ok(Some(bytes));
         }

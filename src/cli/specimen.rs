@@ -2,10 +2,10 @@
 
 use super::{Failure, say};
 use crate::cut::{MaterialError, MaterialRef, Size};
-use crate::io::cut_file::{self, CutFileError};
+use crate::io::cut_file;
 use crate::io::design_file::{self, ImportedDesign};
 use crate::io::mesh_options::MeshOptions;
-use crate::io::{is_standard, library};
+use crate::io::{FileError, is_standard, library};
 use crate::optics::Material;
 use crate::scene;
 use std::collections::BTreeSet;
@@ -43,13 +43,13 @@ impl LoadedSpecimen {
 
     /// Reads a design from a file. A mesh is read with the options `mesh`.
     pub fn read(file: &Path, mesh: MeshOptions) -> Result<Self, Failure> {
-        let told = |e: CutFileError| Failure::Input(format!("{e}{}", super::lists::hint(file)));
+        let told = |e: FileError| Failure::Input(format!("{e}{}", super::lists::hint(file)));
         Self::of(file.display().to_string(), design_file::read_with(file, mesh).map_err(told)?)
     }
 
     /// Builds a stone from the text of a cut file. Error messages call the file `path`.
     pub fn parse(path: &str, text: &str) -> Result<Self, Failure> {
-        let design = cut_file::parse(text, path).map_err(|e| Failure::Input(e.to_string()))?;
+        let design = cut_file::parse(text, path)?;
         Self::of(path.to_owned(), ImportedDesign::of(design))
     }
 

@@ -4,9 +4,10 @@
 //! A line that is not understood gives a warning, and the stone opens all the same. What the file says besides the stone
 //! (names, instructions, headers) is kept.
 
-use super::cut_file::CutFileError;
-use super::cutters::{self, WarningList};
+use super::cutters::{self, Gear, WarningList};
 use super::design_file::{EncodedDesign, ImportedDesign};
+use super::file_error::Fault;
+use super::text::check_size;
 use crate::cut::{Indexed, MAX_PLANES, Tier, Tiers, is_printable};
 use crate::scene::Specimen;
 use encoding_rs::WINDOWS_1252;
@@ -39,32 +40,27 @@ pub fn looks_like(bytes: &[u8]) -> bool {
         || lines.any(is_facet)
 }
 
-/// Reads a GemCad text file; `label` stands for its path in errors, and names a design without a title.
+/// Reads a GemCad text file; `label` is the path of the file, which names a design without a title.
 ///
 /// # Errors
 /// When the file is too large, lists no facet or more than a stone may have, or makes no valid design; with the line where
 /// there is one.
-pub fn read(bytes: &[u8], label: &str) -> Result<ImportedDesign, CutFileError> {
-    let fault = |line, message: String| CutFileError { path: label.to_owned(), line, message };
-    if bytes.len() > MAX_BYTES {
-        return Err(fault(None, super::text::too_large(MAX_BYTES as u64)));
-    }
+pub fn read(bytes: &[u8], label: &str) -> Result<ImportedDesign, Fault> {
+    check_size(bytes.len(), MAX_BYTES as u64)?;
     let mut reader = Reader::default();
     for (number, line) in (1..).zip(lines(&decoded(bytes))) {
         reader.number = number;
         reader.line(line);
         if reader.count > MAX_PLANES {
-            return Err(fault(
-                Some(number),
-                format!("more than {MAX_PLANES} facets are listed; no stone has so many"),
-            ));
+            let problem = format!("more than {MAX_PLANES} facets are listed; no stone has so many");
+            return Err(Fault::line(number, problem));
         }
     }
     reader.end_tier();
     if reader.count == 0 {
-        let message =
+        let problem =
             "no facet is listed; a line such as `a 41.0 0.65 96 24 48 72` is expected for each tier";
-        return Err(fault(None, message.to_owned()));
+        return Err(problem.into());
     }
     reader.brought(label)
 }
@@ -85,8 +81,7 @@ fn lines(text: &str) -> impl Iterator<Item = &str> {
 #[derive(Default)]
 struct Reader {
     number: usize,
-    gear: Option<i32>,
-    offset: f64,
+    gear: Option<Gear>,
     symmetry: Option<u32>,
     mirror: bool,
     ri: Option<f64>,
@@ -103,8 +98,13 @@ struct Reader {
 
 impl Reader {
     fn warn(&mut self, what: &str) {
-        let number = self.number;
-        self.warnings.warn(|| format!("line {number}: {what}"));
+        let place = self.place();
+        self.warnings.warn(|| place + what);
+    }
+
+    /// Returns the beginning of a message about this line.
+    fn place(&self) -> String {
+        format!("line {}: ", self.number)
     }
 
     fn line(&mut self, line: &str) {
@@ -158,21 +158,22 @@ impl Reader {
         let mut tokens = rest.split_ascii_whitespace();
         let teeth =
             tokens.next().and_then(|token| token.parse::<f64>().ok()).filter(|teeth| teeth.fract() == 0.0);
-        let Some(teeth) = teeth.filter(|teeth| *teeth != 0.0) else {
+        let Some(teeth) = teeth else {
             return self.warn(&format!("'{}' is no gear; a number of teeth is expected", short(rest)));
         };
-        self.gear = Some(teeth as i32);
-        match tokens.next().map(str::parse) {
-            Some(Ok(offset)) => self.offset = offset,
-            Some(Err(_)) => self.warn("the gear's offset is no number and is taken for 0"),
-            None => {}
-        }
+        let offset = tokens.next().map_or(Ok(0.0), str::parse).unwrap_or_else(|_| {
+            self.warn("the gear's offset is no number and is taken for 0");
+            0.0
+        });
+        self.gear = Some(Gear::given(teeth as i32, offset, &self.place(), &mut self.warnings));
     }
 
     fn symmetry(&mut self, rest: &str) {
         let mut tokens = rest.split_ascii_whitespace();
         match tokens.next().map(str::parse::<f64>) {
-            Some(Ok(fold)) if fold >= 0.0 => self.symmetry = Some(fold as u32),
+            Some(Ok(fold)) if fold.is_finite() => {
+                self.symmetry = Some(cutters::symmetry(fold as i32, &self.place(), &mut self.warnings));
+            }
             _ => self.warn(&format!("'{}' is no symmetry; a number is expected", short(rest))),
         }
         self.mirror = tokens.next().is_some_and(|word| word.starts_with(['y', 'Y']));
@@ -273,23 +274,21 @@ impl Reader {
         }
     }
 
-    fn brought(mut self, label: &str) -> Result<ImportedDesign, CutFileError> {
+    fn brought(mut self, label: &str) -> Result<ImportedDesign, Fault> {
         let mut missing = |what: bool, text: &str| what.then(|| self.warnings.warn(|| text.to_owned()));
         missing(self.gear.is_none(), "the file names no index gear; one of 96 teeth is taken");
         missing(self.ri.is_none(), "the file names no index of refraction; 1.54 is taken");
         let name = cutters::title(&self.headers, label);
         let material = cutters::material(self.ri.unwrap_or(USUAL_INDEX), "", &mut self.warnings);
         let tiers = Tiers {
-            gear: self.gear.unwrap_or(96),
-            offset: self.offset,
             symmetry: self.symmetry.unwrap_or(1),
             mirror: self.mirror,
             headers: self.headers,
             footers: self.footers,
-            remarks: vec![],
             tiers: self.tiers,
+            ..self.gear.unwrap_or_default().tiers()
         };
-        cutters::brought(name, material, tiers, self.warnings, label)
+        cutters::brought(name, material, tiers, self.warnings)
     }
 }
 

@@ -3,7 +3,8 @@
 
 use super::panorama::{self, LoadedPanorama};
 use super::png_bytes::png;
-use super::{DrawingError, rasterize};
+use super::text::unreadable;
+use super::{FileError, NameOrFileError, rasterize};
 use crate::optics::linear_from_encoded;
 use crate::picture::pane::filling;
 use crate::picture::{Background, PATTERN_SIDE, PATTERN_SPAN, Pattern};
@@ -40,17 +41,6 @@ impl fmt::Display for BackgroundRef {
     }
 }
 
-/// Why a background's name could not be read.
-#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-pub enum BackgroundError {
-    /// The text is neither a name, nor a colour, nor a file; the message says what is known.
-    #[error("{0}")]
-    Unknown(String),
-    /// The text is the path of a file that does not exist.
-    #[error("{0}: there is no such file")]
-    NoFile(String),
-}
-
 impl BackgroundRef {
     /// Whether this is a picture that hangs at a distance behind the stones: a pattern or a photograph.
     pub fn is_picture(&self) -> bool {
@@ -79,7 +69,7 @@ impl BackgroundRef {
     ///
     /// # Errors
     /// When the text is no name, no colour and no file, or names a file that does not exist.
-    pub fn read(text: &str, folder: &Path) -> Result<Self, BackgroundError> {
+    pub fn read(text: &str, folder: &Path) -> Result<Self, NameOrFileError> {
         if text.eq_ignore_ascii_case("light") {
             return Ok(Self::Light);
         }
@@ -90,11 +80,13 @@ impl BackgroundRef {
         match text.parse::<Background>() {
             Ok(background) => Ok(Self::Plain(background)),
             Err(_) if path.is_file() => Ok(Self::Photo(path)),
-            Err(_) if path.extension().is_some() => Err(BackgroundError::NoFile(path.display().to_string())),
+            Err(_) if path.extension().is_some() => {
+                Err(FileError::new(path.display(), "there is no such file").into())
+            }
             Err(why) => {
                 let names = Pattern::NAMES.map(|(name, _)| name).join(", ");
                 let message = format!("{why}, `light`, a pattern ({names}), or a photograph's file");
-                Err(BackgroundError::Unknown(message))
+                Err(NameOrFileError::Unknown(message))
             }
         }
     }
@@ -103,13 +95,12 @@ impl BackgroundRef {
     /// the light and for colours.
     ///
     /// # Errors
-    /// What is wrong with a photograph's file, in words that name the file.
-    pub fn picture(&self) -> Result<Option<LoadedPanorama>, String> {
+    /// When a photograph's file is at fault.
+    pub fn picture(&self) -> Result<Option<LoadedPanorama>, FileError> {
         match self {
             Self::Light | Self::Plain(_) => Ok(None),
             Self::Pattern(pattern) => {
-                let panorama = drawn(*pattern).map_err(|error| error.to_string())?;
-                Ok(Some(LoadedPanorama { panorama, warnings: vec![] }))
+                Ok(Some(LoadedPanorama { panorama: drawn(*pattern)?, warnings: vec![] }))
             }
             Self::Photo(path) => {
                 let mut reading = panorama::read_photo(path)?;
@@ -125,8 +116,8 @@ impl BackgroundRef {
     /// that fills it, or colours; `None` for the light and for a transparent background.
     ///
     /// # Errors
-    /// What is wrong with a photograph's file, in words that name the file.
-    pub fn filling(&self, [width, height]: [u32; 2]) -> Result<Option<LoadedPanorama>, String> {
+    /// When a photograph's file is at fault.
+    pub fn filling(&self, [width, height]: [u32; 2]) -> Result<Option<LoadedPanorama>, FileError> {
         if let Self::Plain(colours) = self {
             let rows: Option<Vec<_>> = (0..height).map(|y| colours.row(y, height)).collect();
             let row = |colour| std::iter::repeat_n(colour, width as usize);
@@ -144,29 +135,29 @@ impl BackgroundRef {
     /// for colours.
     ///
     /// # Errors
-    /// What is wrong with a photograph's file, in words that name the file.
-    pub fn bytes(&self) -> Result<Option<Vec<u8>>, String> {
+    /// When a photograph's file is at fault.
+    pub fn bytes(&self) -> Result<Option<Vec<u8>>, FileError> {
         match self {
             Self::Light | Self::Plain(_) => Ok(None),
             Self::Pattern(pattern) => {
-                let (width, height, rgb) = rastered(*pattern).map_err(|error| error.to_string())?;
+                let (width, height, rgb) = rastered(*pattern)?;
                 let file = png([width, height], (ColorType::Rgb, BitDepth::Eight), &rgb, &[]);
-                file.map(Some).map_err(|error| error.to_string())
+                file.map(Some).map_err(|error| FileError::new(pattern.name(), error))
             }
             Self::Photo(path) => {
-                let told = |e| format!("{}: cannot be read: {e}", path.display());
-                std::fs::read(path).map(Some).map_err(told)
+                std::fs::read(path).map(Some).map_err(|e| unreadable(e).in_file(path.display()))
             }
         }
     }
 }
 
-fn rastered(pattern: Pattern) -> Result<(u32, u32, Vec<u8>), DrawingError> {
-    rasterize(&pattern.drawing().to_string(), PATTERN_SIDE)
+fn rastered(pattern: Pattern) -> Result<(u32, u32, Vec<u8>), FileError> {
+    let raster = rasterize(&pattern.drawing().to_string(), PATTERN_SIDE);
+    raster.map_err(|error| FileError::new(pattern.name(), error))
 }
 
 /// Draws a pattern in linear light.
-fn drawn(pattern: Pattern) -> Result<Panorama, DrawingError> {
+fn drawn(pattern: Pattern) -> Result<Panorama, FileError> {
     let (width, height, rgb) = rastered(pattern)?;
     let linear: Vec<f32> = (0..=255_u8).map(|c| linear_from_encoded(f64::from(c) / 255.0) as f32).collect();
     let pixels = rgb.as_chunks::<3>().0.iter().map(|p| p.map(|c| linear[usize::from(c)])).collect();
@@ -230,9 +221,11 @@ mod tests {
         assert_eq!(read("page"), Ok(BackgroundRef::Pattern(Pattern::Page)));
         assert_eq!(read("white"), Ok(BackgroundRef::Plain(Background::Plain([1.0; 3]))));
         assert_eq!(read("odd"), Ok(BackgroundRef::Photo(folder.path().join("odd"))));
-        assert!(read("photo.png").unwrap().picture().unwrap_err().contains("photo.png"));
-        assert!(matches!(read("none.png"), Err(BackgroundError::NoFile(path)) if path.ends_with("none.png")));
-        let Err(BackgroundError::Unknown(told)) = read("pages") else { panic!("no error") };
+        assert!(read("photo.png").unwrap().picture().unwrap_err().to_string().contains("photo.png"));
+        assert!(
+            matches!(read("none.png"), Err(NameOrFileError::File(error)) if error.path.ends_with("none.png"))
+        );
+        let Err(NameOrFileError::Unknown(told)) = read("pages") else { panic!("no error") };
         assert!(
             told.contains("'pages'") && told.contains("page, grid, checks") && told.contains("photograph")
         );

@@ -7,11 +7,9 @@
 
 use std::path::Path;
 
-use serde::Deserialize;
-use toml::de::{DeTable, Deserializer};
-
-use super::fault::Fault;
-use super::text::{self, TextError};
+use super::file_error::{Fault, FileError};
+use super::text;
+use super::toml_text::TomlText;
 use crate::cut::{Design, FAMILIES};
 use family_form::FamilyForm;
 use form::DesignForm;
@@ -34,41 +32,22 @@ pub const MAX_BYTES: u64 = 4 << 20;
 /// The size of the largest file with a mesh that is read, in bytes: some millions of triangles.
 pub const MAX_MESH_BYTES: u64 = 256 << 20;
 
-/// Why a cut file could not be read.
-#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-#[error("{path}{}: {message}", .line.map(|line| format!(":{line}")).unwrap_or_default())]
-pub struct CutFileError {
-    /// The path of the file, as the caller gave it.
-    pub path: String,
-    /// The line at fault, from 1; `None` where the file as a whole is at fault.
-    pub line: Option<usize>,
-    /// The key at fault and what was expected of it.
-    pub message: String,
-}
-
 /// Reads a cut file.
 ///
 /// # Errors
 /// When the file cannot be read or is no cut file; the error names path, line and key.
-pub fn read(path: impl AsRef<Path>) -> Result<Design, CutFileError> {
+pub fn read(path: impl AsRef<Path>) -> Result<Design, FileError> {
     let path = path.as_ref();
-    let label = path.display().to_string();
-    match text::read(path, MAX_MESH_BYTES) {
-        Ok(text) => parse(&text, &label),
-        Err(TextError { line, message }) => Err(CutFileError { path: label, line, message }),
-    }
+    let design = text::read(path, MAX_MESH_BYTES).and_then(|text| design(&text));
+    design.map_err(|fault| fault.in_file(path.display()))
 }
 
 /// Reads a design from the text of a cut file; `label` stands for its path in errors.
 ///
 /// # Errors
 /// When the text is no cut file; the error names label, line and key.
-pub fn parse(text: &str, label: &str) -> Result<Design, CutFileError> {
-    design(text).map_err(|fault| CutFileError {
-        path: label.to_owned(),
-        line: fault.line(text),
-        message: fault.message,
-    })
+pub fn parse(text: &str, label: &str) -> Result<Design, FileError> {
+    design(text).map_err(|fault| fault.in_file(label))
 }
 
 /// Returns the text of a cut file that reads back as the same design.
@@ -82,17 +61,14 @@ pub fn write(design: &Design) -> String {
     text
 }
 
-fn design(text: &str) -> Result<Design, Fault> {
+/// Reads a design from the text of a cut file that is not named yet.
+pub(super) fn design(text: &str) -> Result<Design, Fault> {
     let most = if holds_mesh(text) { MAX_MESH_BYTES } else { MAX_BYTES };
-    if text.len() as u64 > most {
-        return Err(Fault::whole(text::too_large(most)));
-    }
-    let mut table = DeTable::parse(text).map_err(|error| Fault::syntax(text, &error))?;
-    check_format(table.get_ref())?;
-    let families = FamilyForm::take_all(table.get_mut())?;
-    let beside = FAMILIES.map(|family| family.key);
-    let form = DesignForm::deserialize(Deserializer::from(table));
-    form.map_err(|error| Fault::form_beside(error, &beside))?.design(&families)
+    text::check_size(text.len(), most)?;
+    let toml = TomlText::parse(text)?;
+    check_format(&toml)?;
+    let families = FAMILIES.map(|family| family.key);
+    toml.read_beside(&families, FamilyForm::take_all, |form: DesignForm, families| form.design(&families))
 }
 
 /// Returns whether the text has a table `[mesh]`, as far as its beginning shows.
@@ -102,19 +78,16 @@ fn holds_mesh(text: &str) -> bool {
 }
 
 /// Checks the key `format`. It is read before all else, since another format may have other keys.
-pub(super) fn check_format(table: &DeTable<'_>) -> Result<(), Fault> {
-    let Some(value) = table.get("format") else {
-        return Err(Fault::top(format!(
-            "format: the key is missing; begin the file with `format = {FORMAT}`"
-        )));
+pub(super) fn check_format(toml: &TomlText) -> Result<(), Fault> {
+    let Some(value) = toml.get("format") else {
+        let problem = format!("format: the key is missing; begin the file with `format = {FORMAT}`");
+        return Err(Fault::line(1, problem));
     };
     let number = value.get_ref().as_integer().map(|n| i64::from_str_radix(n.as_str(), n.radix()));
-    match number {
-        Some(Ok(FORMAT)) => Ok(()),
-        Some(Ok(other)) => Err(Fault::at(
-            "format",
-            format!("format: {other} is not known here, only {FORMAT}; update the program"),
-        )),
-        _ => Err(Fault::at("format", format!("format: a whole number is expected, `format = {FORMAT}`"))),
-    }
+    let problem = match number {
+        Some(Ok(FORMAT)) => return Ok(()),
+        Some(Ok(other)) => format!("format: {other} is not known here, only {FORMAT}; update the program"),
+        _ => format!("format: a whole number is expected, `format = {FORMAT}`"),
+    };
+    Err(Fault::line(toml.line(value), problem))
 }

@@ -4,8 +4,8 @@
 //! Numbers that are computed from planes are rounded to what the cutter wrote, so that reading what was written gives the
 //! same numbers.
 
-use super::cut_file::CutFileError;
 use super::design_file::ImportedDesign;
+use super::file_error::Fault;
 use crate::cut::{Cut, DEFAULT_DIAMETER_MM, Design, Indexed, MaterialRef, Tier, Tiers, is_printable};
 use glam::DVec3;
 use std::f64::consts::TAU;
@@ -93,6 +93,13 @@ impl WarningList {
     }
 }
 
+impl Default for Gear {
+    /// The gear where a file gives none, or none that makes sense.
+    fn default() -> Self {
+        Self { teeth: USUAL_GEAR, offset: 0.0 }
+    }
+}
+
 impl Gear {
     /// Returns the gear that a file gives, or the usual gear and a warning, which `at` begins.
     pub fn given(teeth: i32, offset: f64, at: &str, told: &mut WarningList) -> Self {
@@ -101,7 +108,7 @@ impl Gear {
             Ok(()) => given,
             Err((_, fault)) => {
                 told.warn(|| format!("{at}{fault}; the facets are told by a gear of {USUAL_GEAR} teeth"));
-                Self { teeth: USUAL_GEAR, offset: 0.0 }
+                Self::default()
             }
         }
     }
@@ -255,13 +262,11 @@ pub(super) fn brought(
     material: MaterialRef,
     tiers: Tiers,
     warnings: WarningList,
-    label: &str,
-) -> Result<ImportedDesign, CutFileError> {
+) -> Result<ImportedDesign, Fault> {
     let diameter_mm = DEFAULT_DIAMETER_MM;
     let cut = Cut::Tiers(tiers);
     let design = Design { name, source: None, notes: None, material, diameter_mm, cut };
-    let refused = |message: String| CutFileError { path: label.to_owned(), line: None, message };
-    design.check().map_err(|error| refused(error.to_string()))?;
+    design.check().map_err(Fault::whole)?;
     Ok(ImportedDesign { warnings: warnings.texts(), ..ImportedDesign::of(design) })
 }
 

@@ -1,7 +1,8 @@
 //! Reads and writes designs in all formats. What is in a file decides its format, and only where that says nothing, the
 //! ending of its name.
 
-use super::cut_file::{self, CutFileError};
+use super::cut_file;
+use super::file_error::{Fault, FileError};
 use super::mesh_design;
 use super::mesh_export::{FINENESS, STL_HEADER};
 use super::mesh_file::{self, MaterialHint, Statement};
@@ -117,7 +118,7 @@ impl DesignFormat {
 ///
 /// # Errors
 /// When the file is no design; the error has its path, and a line where there is one.
-pub fn read(path: &Path) -> Result<ImportedDesign, CutFileError> {
+pub fn read(path: &Path) -> Result<ImportedDesign, FileError> {
     read_with(path, MeshOptions::default())
 }
 
@@ -125,14 +126,10 @@ pub fn read(path: &Path) -> Result<ImportedDesign, CutFileError> {
 ///
 /// # Errors
 /// When the file is no design; the error has its path, and a line where there is one.
-pub fn read_with(path: &Path, mesh: MeshOptions) -> Result<ImportedDesign, CutFileError> {
+pub fn read_with(path: &Path, mesh: MeshOptions) -> Result<ImportedDesign, FileError> {
     let label = path.display().to_string();
-    let fault = |error: text::TextError| CutFileError {
-        path: label.clone(),
-        line: error.line,
-        message: error.message,
-    };
-    let bytes = text::read_bytes(path, mesh_file::MAX_BYTES).map_err(fault)?;
+    let named = |fault: Fault| fault.in_file(&label);
+    let bytes = text::read_bytes(path, mesh_file::MAX_BYTES).map_err(named)?;
     if mesh_file::looks_like(&bytes).is_some() {
         return mesh_design::read(bytes, path, mesh);
     }
@@ -144,10 +141,10 @@ pub fn read_with(path: &Path, mesh: MeshOptions) -> Result<ImportedDesign, CutFi
             return mesh_design::read(bytes, path, mesh);
         }
         DesignFormat::Toml => {
-            let text = text::utf8(bytes).map_err(fault)?;
-            cut_file::parse(&text, &label).map(ImportedDesign::of)
+            text::utf8(bytes).and_then(|text| cut_file::design(&text)).map(ImportedDesign::of)
         }
-    }?;
+    }
+    .map_err(named)?;
     if mesh != MeshOptions::default() {
         brought.notes.push("--up and --as are for meshes and have no effect on this design".to_owned());
     }

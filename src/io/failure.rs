@@ -1,12 +1,12 @@
 //! Why work that produces files was not done.
 
 use super::atomic::WriteError;
-use super::lighting::LightingError;
+use super::file_error::{FileError, NameOrFileError};
 use crate::render::RenderError;
 use crate::trace::Stopped;
 
 /// Why a request was not carried out in full. Files that were finished before stay.
-#[derive(Debug, thiserror::Error)]
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum Failure {
     /// The input is at fault; the message names it.
     #[error("{0}")]
@@ -34,12 +34,18 @@ impl From<WriteError> for Failure {
     }
 }
 
-impl From<LightingError> for Failure {
-    fn from(error: LightingError) -> Self {
+impl From<NameOrFileError> for Failure {
+    fn from(error: NameOrFileError) -> Self {
         match error {
-            LightingError::Unknown(message) => Self::Usage(message),
-            LightingError::File(message) => Self::Input(message),
+            NameOrFileError::Unknown(message) => Self::Usage(message),
+            NameOrFileError::File(error) => error.into(),
         }
+    }
+}
+
+impl From<FileError> for Failure {
+    fn from(error: FileError) -> Self {
+        Self::Input(error.to_string())
     }
 }
 

@@ -3,12 +3,13 @@
 //!
 //! Reading trusts the planes and skips the outlines; writing makes the outlines anew.
 
-use super::cut_file::CutFileError;
 use super::cutters::{self, Gear, TierPiece, WarningList};
 use super::design_file::ImportedDesign;
+use super::file_error::Fault;
+use super::text::check_size;
 use crate::cut::{MAX_PLANES, Tiers};
 use crate::math::Plane;
-use cursor::{Cursor, GemFault};
+use cursor::Cursor;
 use glam::DVec3;
 
 mod cursor;
@@ -51,23 +52,20 @@ struct Raw<'a> {
     on_blank: bool,
 }
 
-/// Reads a design of GemCad; `label` is the file's path for errors, and names a design that does not name itself.
+/// Reads a design of GemCad; `label` is the path of the file, which names a design that does not name itself.
 ///
 /// # Errors
 /// When the file is no such design; the error has the offset at fault where there is one.
-pub fn read(bytes: &[u8], label: &str) -> Result<ImportedDesign, CutFileError> {
-    let refused = |message| CutFileError { path: label.to_owned(), line: None, message };
-    if bytes.len() > MAX_BYTES {
-        return Err(refused(super::text::too_large(MAX_BYTES as u64)));
-    }
+pub fn read(bytes: &[u8], label: &str) -> Result<ImportedDesign, Fault> {
+    check_size(bytes.len(), MAX_BYTES as u64)?;
     let mut told = WarningList::default();
     let mut cursor = Cursor::new(bytes);
-    let raw = raw_facets(&mut cursor).map_err(|fault| refused(fault.to_string()))?;
-    let (mut tiers, index) = trailer(&mut cursor, &mut told).map_err(|fault| refused(fault.to_string()))?;
+    let raw = raw_facets(&mut cursor)?;
+    let (mut tiers, index) = trailer(&mut cursor, &mut told)?;
     tiers.tiers = cutters::gathered(pieces(&raw, &tiers, &mut told));
     let material = cutters::material(index.1, &cursor::place(index.0), &mut told);
     let name = cutters::title(&tiers.headers, label);
-    cutters::brought(name, material, tiers, told, label)
+    cutters::brought(name, material, tiers, told)
 }
 
 /// Returns whether a file is such a design: facets down to the mark at their end.
@@ -76,7 +74,7 @@ pub fn looks_like(bytes: &[u8]) -> bool {
 }
 
 /// Reads facets down to the mark at their end.
-fn raw_facets<'a>(cursor: &mut Cursor<'a>) -> Result<Vec<Raw<'a>>, GemFault> {
+fn raw_facets<'a>(cursor: &mut Cursor<'a>) -> Result<Vec<Raw<'a>>, Fault> {
     let mut facets = Vec::new();
     loop {
         let at = cursor.at();
@@ -85,21 +83,21 @@ fn raw_facets<'a>(cursor: &mut Cursor<'a>) -> Result<Vec<Raw<'a>>, GemFault> {
             return Ok(facets);
         }
         if facets.len() == MAX_PLANES {
-            let message = format!("there are more than {MAX_PLANES} facets, the most that a design can have");
-            return Err(GemFault { at, message });
+            let problem = format!("there are more than {MAX_PLANES} facets, the most that a design can have");
+            return Err(cursor::fault(at, problem));
         }
         facets.push(raw_facet(cursor, at, x)?);
     }
 }
 
-fn raw_facet<'a>(cursor: &mut Cursor<'a>, at: usize, x: f64) -> Result<Raw<'a>, GemFault> {
+fn raw_facet<'a>(cursor: &mut Cursor<'a>, at: usize, x: f64) -> Result<Raw<'a>, Fault> {
     let p = DVec3::new(x, cursor.f64("a facet")?, cursor.f64("a facet")?);
-    let plane = Plane::new(p, 1.0).normalized().ok_or_else(|| GemFault {
-        at,
-        message: format!(
+    let plane = Plane::new(p, 1.0).normalized().ok_or_else(|| {
+        let problem = format!(
             "{p} is not a facet's normal divided by its distance; three finite numbers that are not all 0 are expected, or \
              the file is no .gem"
-        ),
+        );
+        cursor::fault(at, problem)
     })?;
     let tier = cursor.i32("a facet")?;
     let label = cursor.text("a facet's name")?;
@@ -108,7 +106,7 @@ fn raw_facet<'a>(cursor: &mut Cursor<'a>, at: usize, x: f64) -> Result<Raw<'a>, 
 }
 
 /// Skips an outline, and returns whether it ends at the block from which GemCad cuts.
-fn outline(cursor: &mut Cursor<'_>) -> Result<bool, GemFault> {
+fn outline(cursor: &mut Cursor<'_>) -> Result<bool, Fault> {
     let mut on_blank = false;
     loop {
         let at = cursor.at();
@@ -120,18 +118,18 @@ fn outline(cursor: &mut Cursor<'_>) -> Result<bool, GemFault> {
                 }
             }
             other => {
-                let message = format!(
+                let problem = format!(
                     "{other} stands where 1 (a corner follows) or 0 (the facet ends) is expected; the file is spoilt \
                      or is not a .gem file"
                 );
-                return Err(GemFault { at, message });
+                return Err(cursor::fault(at, problem));
             }
         }
     }
 }
 
 /// Reads all that follows the facets; returns a design without tiers, and the refractive index with its offset.
-fn trailer(cursor: &mut Cursor<'_>, told: &mut WarningList) -> Result<(Tiers, (usize, f64)), GemFault> {
+fn trailer(cursor: &mut Cursor<'_>, told: &mut WarningList) -> Result<(Tiers, (usize, f64)), Fault> {
     const WHAT: &str = "the symmetry, gear and index that follow the facets";
     let at = cursor.at();
     let (symmetry, mirror, teeth) = (cursor.i32(WHAT)?, cursor.i32(WHAT)?, cursor.i32(WHAT)?);

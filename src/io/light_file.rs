@@ -1,11 +1,10 @@
 //! Reads and writes light files: TOML with a name, and what shines.
 
-use super::fault::Fault;
-use super::text::{self, TextError};
+use super::file_error::{Fault, FileError};
+use super::text;
+use super::toml_text::TomlText;
 use crate::scene::{Light, LightError};
-use serde::Deserialize;
 use std::path::Path;
-use toml::de::{DeTable, Deserializer};
 
 /// The size of the largest file that is read, in bytes.
 const MAX_BYTES: u64 = 1 << 20;
@@ -17,21 +16,18 @@ const LONGEST_NAME: usize = 60;
 /// folder.
 ///
 /// # Errors
-/// A message that names the file and, where it is known, the line, and says what was expected.
-pub fn read(path: &Path) -> Result<Light, String> {
-    let label = path.display();
-    let at = |line: Option<usize>| line.map_or(String::new(), |line| format!(":{line}"));
-    let text = text::read(path, MAX_BYTES)
-        .map_err(|TextError { line, message }| format!("{label}{}: {message}", at(line)))?;
-    light(&text).map_err(|fault| format!("{label}{}: {}", at(fault.line(&text)), fault.message))
+/// When the file cannot be read or is no light; the error names path, line and key.
+pub fn read(path: &Path) -> Result<Light, FileError> {
+    let light = text::read(path, MAX_BYTES).and_then(|text| light(&text));
+    light.map_err(|fault| fault.in_file(path.display()))
 }
 
 fn light(text: &str) -> Result<Light, Fault> {
-    let table = DeTable::parse(text).map_err(|e| Fault::syntax(text, &e))?;
-    let light = Light::deserialize(Deserializer::from(table)).map_err(Fault::form)?;
-    check_name(&light.name)?;
-    light.validate().map_err(|e| Fault::at(path_of(&e, &light), e.to_string()))?;
-    Ok(light)
+    TomlText::parse(text)?.read(|light: Light| {
+        check_name(&light.name)?;
+        light.validate().map_err(|error| Fault::key(path_of(&error, &light), error))?;
+        Ok(light)
+    })
 }
 
 /// Returns the text of a light file that [`read`] reads as the same light.
@@ -49,7 +45,7 @@ fn check_name(name: &str) -> Result<(), Fault> {
         return Ok(());
     }
     let wanted = format!("name: give 1 to {LONGEST_NAME} characters, all printable and not all blank");
-    Err(Fault::at("name", wanted))
+    Err(Fault::key("name", wanted))
 }
 
 /// Returns the path of the key at fault in the file.
@@ -72,7 +68,7 @@ mod tests {
 
     fn message(text: &str) -> String {
         let fault = light(text).unwrap_err();
-        format!("{}: {}", fault.line(text).unwrap_or(0), fault.message)
+        format!("{}: {fault}", fault.line.unwrap_or(0))
     }
 
     #[test]
@@ -148,7 +144,7 @@ mod tests {
     proptest! {
         #[test]
         fn no_text_makes_it_panic(text in "(?s).{0,200}") {
-            let _ = light(&text).map_err(|fault| fault.line(&text));
+            let _ = light(&text);
         }
 
         #[test]
@@ -162,7 +158,7 @@ mod tests {
             let from = (at * text.len() as f64) as usize;
             text.splice(from..(from + length).min(text.len()), put.chars());
             let text: String = text.into_iter().collect();
-            let _ = light(&text).map_err(|fault| fault.line(&text));
+            let _ = light(&text);
         }
     }
 }

@@ -1,36 +1,25 @@
 //! Loads the light that stones are seen in: one that comes with the program, a light file, or a panorama.
 
-use super::{light_file, panorama};
+use super::{NameOrFileError, light_file, panorama};
 use crate::scene::{LIGHTS, Light, light};
 use crate::trace::environment::EnvironmentMap;
 pub use crate::trace::environment::Lighting;
 use std::path::{Path, PathBuf};
-
-/// Why a light could not be loaded.
-#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-pub enum LightingError {
-    /// No light has this name; the message says what may have been meant.
-    #[error("{0}")]
-    Unknown(String),
-    /// A file is at fault; the message names it.
-    #[error("{0}")]
-    File(String),
-}
 
 impl Lighting {
     /// Loads a light by its name, from a light file, or from a panorama alone.
     ///
     /// # Errors
     /// When no light has the name, or the file is at fault.
-    pub fn load(name_or_file: &str) -> Result<Self, LightingError> {
+    pub fn load(name_or_file: &str) -> Result<Self, NameOrFileError> {
         let file = PathBuf::from(name_or_file);
         let (light, folder) = match light(&name_or_file.to_ascii_lowercase()) {
             Some(light) => (light, None),
             None if panorama::is_picture(&file) => (Light::of_panorama(&file), None),
             None if !file.exists() && file.extension().is_none() => {
-                return Err(LightingError::Unknown(unknown(name_or_file)));
+                return Err(NameOrFileError::Unknown(unknown(name_or_file)));
             }
-            None => (light_file::read(&file).map_err(LightingError::File)?, file.parent()),
+            None => (light_file::read(&file)?, file.parent()),
         };
         let (sky, warnings) = sky(&light, folder)?;
         Ok(Self { light, map: sky, warnings })
@@ -38,10 +27,10 @@ impl Lighting {
 }
 
 /// Makes the map of a light, with warnings; the path of its panorama begins at a folder.
-fn sky(light: &Light, folder: Option<&Path>) -> Result<(EnvironmentMap, Vec<String>), LightingError> {
+fn sky(light: &Light, folder: Option<&Path>) -> Result<(EnvironmentMap, Vec<String>), NameOrFileError> {
     let Some(picture) = &light.panorama else { return Ok((EnvironmentMap::new(light, None), vec![])) };
     let path = folder.map_or_else(|| picture.file.clone(), |folder| folder.join(&picture.file));
-    let reading = panorama::read(&path).map_err(LightingError::File)?;
+    let reading = panorama::read(&path)?;
     Ok((EnvironmentMap::new(light, Some(&reading.panorama)), reading.warnings))
 }
 
@@ -61,7 +50,7 @@ mod tests {
     use super::*;
     use crate::io::write_rgba_png;
 
-    fn refused(name: &str) -> LightingError {
+    fn refused(name: &str) -> NameOrFileError {
         Lighting::load(name).err().unwrap()
     }
 
@@ -96,7 +85,7 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let told = |name: &str| refused(folder.path().join(name).to_str().unwrap()).to_string();
         assert_eq!(refused("stuido").to_string(), "no light 'stuido'; did you mean 'studio'?");
-        assert!(matches!(refused("stuido"), LightingError::Unknown(_)));
+        assert!(matches!(refused("stuido"), NameOrFileError::Unknown(_)));
         assert!(refused("moonlight").to_string().contains("studio, dome, "));
         assert!(told("none.toml").ends_with("none.toml: there is no such file"));
         assert!(told("none.exr").ends_with("none.exr: there is no such file"));

@@ -2,8 +2,8 @@
 
 mod place;
 
-use super::cut_file::CutFileError;
 use super::design_file::ImportedDesign;
+use super::file_error::{Fault, FileError};
 use super::mesh_file::{self, MaterialHint, MeshFile};
 use super::mesh_options::{MeshForm, MeshOptions};
 use crate::cut::from_mesh::{FromMesh, Up, directions, from_mesh};
@@ -21,17 +21,11 @@ const USUAL: &str = "diamond";
 ///
 /// # Errors
 /// When the mesh makes no stone; the error has the path and the place.
-pub fn read(bytes: Vec<u8>, path: &Path, options: MeshOptions) -> Result<ImportedDesign, CutFileError> {
-    let told = |e: mesh_file::MeshFileError| CutFileError {
-        path: e.path,
-        line: None,
-        message: e.place.map_or_else(|| e.message.clone(), |place| format!("{place}: {}", e.message)),
-    };
+pub fn read(bytes: Vec<u8>, path: &Path, options: MeshOptions) -> Result<ImportedDesign, FileError> {
     let label = path.display().to_string();
     let MeshFile { format, surface, hint, statement, warnings, name } =
-        mesh_file::parse(bytes, &label, path.parent()).map_err(told)?;
-    let fault = |message: String| CutFileError { path: label.clone(), line: None, message };
-    let mended = surface.mend().map_err(|e| fault(e.to_string()))?;
+        mesh_file::parse(bytes, &label, path.parent())?;
+    let mended = surface.mend().map_err(|error| FileError::new(&label, error))?;
     let name = Some(name).filter(|name| is_printable(name)).unwrap_or_else(|| "stone".to_owned());
     let file = File { hint, name, place: MeshPlace::of(format, options.up, statement) };
     let mut brought = match options.form {
@@ -44,7 +38,7 @@ pub fn read(bytes: Vec<u8>, path: &Path, options: MeshOptions) -> Result<Importe
             SurfaceKind::Concave(surface) => file.triangles(surface, Some(NOT_CONVEX)),
         },
     }
-    .map_err(fault)?;
+    .map_err(|fault| fault.in_file(&label))?;
     brought.notes.splice(0..0, told_of(&mended.mending));
     brought.warnings.splice(0..0, warnings);
     Ok(brought)
@@ -54,10 +48,10 @@ pub fn read(bytes: Vec<u8>, path: &Path, options: MeshOptions) -> Result<Importe
 const NOT_CONVEX: &str = "it is not convex; --as faceted reads the convex stone around it";
 
 /// Returns the message on why a mesh cannot be read as a faceted stone, and what to do.
-fn impossible(error: TooCurved) -> String {
-    format!(
+fn impossible(error: TooCurved) -> Fault {
+    Fault::whole(format!(
         "it cannot be read as a faceted stone: {error}; save a coarser mesh, or read it with --as triangles"
-    )
+    ))
 }
 
 /// Returns the note on what has changed where a mesh is taken for a convex stone. Lengths of the file times `scale` are
@@ -82,11 +76,11 @@ struct File {
 }
 
 impl File {
-    fn planes(mut self, found: &Faceted) -> Result<ImportedDesign, String> {
+    fn planes(mut self, found: &Faceted) -> Result<ImportedDesign, Fault> {
         let mut told = MeshRemarks::default();
         let surface = found.surface.moved(found.centre);
         let up = self.place.up(&surface, || directions(&found.polytope), &mut told);
-        let made = from_mesh(found, up).map_err(|e| e.to_string())?;
+        let made = from_mesh(found, up).map_err(Fault::whole)?;
         let FromMesh { mut facets, pose, .. } = made;
         // A known size counts, whatever width was found.
         let scale = self.place.scale.unwrap_or(pose.scale);
@@ -100,14 +94,14 @@ impl File {
         told.notes.extend(found.change.map(|change| changed(&change, found.tolerance, scale)));
         told.notes.extend(made.doubt.map(|doubt| doubtful(made.up, doubt.other)));
         let brought = self.brought(Cut::Planes(facets), scale, told);
-        brought.design.check().map_err(|e| e.to_string())?;
+        brought.design.check().map_err(Fault::whole)?;
         Ok(brought)
     }
 
-    fn triangles(mut self, surface: Surface, why: Option<&str>) -> Result<ImportedDesign, String> {
+    fn triangles(mut self, surface: Surface, why: Option<&str>) -> Result<ImportedDesign, Fault> {
         let mut told = MeshRemarks::default();
         let up = self.place.up(&surface, || axes().to_vec(), &mut told);
-        let shell = TriangleMesh::new(surface).map_err(|e| e.to_string())?;
+        let shell = TriangleMesh::new(surface).map_err(Fault::whole)?;
         let turn = match up {
             Up::Posed(pose) => pose.turn,
             Up::Given(up) | Up::Known(up) | Up::FoundBy(up) => {

@@ -16,7 +16,7 @@ pub mod export;
 #[cfg(feature = "exr")]
 mod exr;
 mod failure;
-mod fault;
+mod file_error;
 #[cfg(feature = "interchange")]
 pub mod gcs;
 #[cfg(feature = "interchange")]
@@ -43,6 +43,7 @@ pub mod scene_file;
 pub mod scope_file;
 mod standard;
 mod text;
+mod toml_text;
 
 pub use apng::{Animation, Frames, write_apng};
 pub use atomic::{Abandoned, Sink, WholeFile, WriteError, abandon_writes, write};
@@ -50,6 +51,7 @@ pub use drawing_png::{DrawingError, rasterize, rasterize_clear, rasterize_within
 #[cfg(feature = "exr")]
 pub use exr::write_exr;
 pub use failure::Failure;
+pub use file_error::{Fault, FileError, NameOrFileError};
 #[cfg(feature = "interchange")]
 pub use mesh_export::{write_glb, write_obj, write_ply, write_stl};
 #[cfg(feature = "exr")]

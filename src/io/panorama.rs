@@ -6,6 +6,8 @@
 mod exr;
 mod raster;
 
+use super::file_error::{Fault, FileError};
+use super::text::unreadable;
 use crate::scene::Panorama;
 use std::fs::File;
 use std::io::{BufReader, Read, Seek};
@@ -54,8 +56,8 @@ pub fn is_picture(path: &Path) -> bool {
 /// Reads a panorama of all directions. One that is not twice as wide as high gives a warning.
 ///
 /// # Errors
-/// A message that names the file, says what is wrong and what to do.
-pub fn read(path: &Path) -> Result<LoadedPanorama, String> {
+/// When the file is no picture that can be read; the error names the file and what to do.
+pub fn read(path: &Path) -> Result<LoadedPanorama, FileError> {
     let mut reading = read_photo(path)?;
     let Panorama { width, height, .. } = reading.panorama;
     if !reading.panorama.is_whole_sphere() {
@@ -72,10 +74,10 @@ pub fn read(path: &Path) -> Result<LoadedPanorama, String> {
 /// transparent is dark.
 ///
 /// # Errors
-/// A message that names the file, says what is wrong and what to do.
-pub fn read_photo(path: &Path) -> Result<LoadedPanorama, String> {
+/// When the file is no picture that can be read; the error names the file and what to do.
+pub fn read_photo(path: &Path) -> Result<LoadedPanorama, FileError> {
     let label = path.display();
-    let (mut panorama, mut warnings) = raw(path).map_err(|e| format!("{label}: {e}"))?;
+    let (mut panorama, mut warnings) = raw(path).map_err(|fault| fault.in_file(&label))?;
     let bad = mend(&mut panorama.pixels);
     if bad > 0 {
         warnings.push(format!("{bad} pixels held light below 0 or no number, which is taken as dark"));
@@ -84,11 +86,7 @@ pub fn read_photo(path: &Path) -> Result<LoadedPanorama, String> {
     Ok(LoadedPanorama { panorama, warnings })
 }
 
-fn raw(path: &Path) -> Result<Raw, String> {
-    let unreadable = |e: std::io::Error| match e.kind() {
-        std::io::ErrorKind::NotFound => "there is no such file".to_owned(),
-        _ => format!("cannot be read: {e}"),
-    };
+fn raw(path: &Path) -> Result<Raw, Fault> {
     let about = path.metadata().map_err(unreadable)?;
     if !about.is_file() {
         return Err("this is no file; give an OpenEXR, Radiance HDR, PNG or JPEG picture".into());
@@ -109,29 +107,31 @@ fn raw(path: &Path) -> Result<Raw, String> {
 }
 
 /// Refuses sides out of bounds, and more pixels than `bytes` bytes can hold.
-fn check_size(width: u64, height: u64, bytes: u64) -> Result<(), String> {
+fn check_size(width: u64, height: u64, bytes: u64) -> Result<(), Fault> {
     if width == 0 || height == 0 {
-        return Err(format!("{width} by {height} pixels: there is no picture in it"));
+        return Err(format!("{width} by {height} pixels: there is no picture in it").into());
     }
     if width > u64::from(LARGEST.0) || height > u64::from(LARGEST.1) {
         let (most_wide, most_high) = LARGEST;
         return Err(format!(
             "{width} by {height} pixels are too many; scale it down to {most_wide} by {most_high} at most"
-        ));
+        )
+        .into());
     }
     if width * height > FREE_PIXELS.max(bytes.saturating_mul(PIXELS_A_BYTE)) {
         return Err(format!(
             "{bytes} bytes cannot hold {width} by {height} pixels: the file is damaged; get it anew"
-        ));
+        )
+        .into());
     }
     Ok(())
 }
 
-/// Returns the message about a file that a decoder gave up on.
-fn damaged(error: impl std::fmt::Display) -> String {
-    format!(
+/// Makes a fault of a file that a decoder gave up on.
+fn damaged(error: impl std::fmt::Display) -> Fault {
+    Fault::whole(format!(
         "cannot be decoded ({error}); get the file anew, or save it again as OpenEXR, Radiance HDR, PNG or JPEG"
-    )
+    ))
 }
 
 /// Turns values that are not finite or are below 0 to darkness; returns the number of pixels that held such values.

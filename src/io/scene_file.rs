@@ -4,15 +4,15 @@
 
 use super::background::BackgroundRef;
 use super::cut_file::check_format;
-use super::fault::Fault;
-use super::text::{self, TextError};
+use super::file_error::{Fault, FileError};
+use super::text;
+use super::toml_text::TomlText;
 use crate::cut::{MaterialRef, Size};
 use crate::scene::{LIGHTS, Layout, light};
-use form::{SceneForm, Surroundings};
+use form::SceneForm;
 use glam::{DQuat, DVec3};
-use serde::Deserialize;
 use std::path::{Path, PathBuf};
-use toml::de::{DeTable, Deserializer};
+use toml::de::DeTable;
 
 mod form;
 mod written;
@@ -129,15 +129,11 @@ impl Entry {
 /// Reads a scene file.
 ///
 /// # Errors
-/// A message that names the file and, where they are known, the line and key, and says what was expected.
-pub fn read(path: &Path) -> Result<SceneFile, String> {
-    let label = path.display().to_string();
+/// When the file cannot be read or is no scene; the error names path, line and key.
+pub fn read(path: &Path) -> Result<SceneFile, FileError> {
     let folder = path.parent().unwrap_or(Path::new(""));
-    match text::read(path, MAX_BYTES) {
-        Ok(text) => parse(&text, &label, Some(folder)),
-        Err(TextError { line: Some(line), message }) => Err(format!("{label}:{line}: {message}")),
-        Err(TextError { line: None, message }) => Err(format!("{label}: {message}")),
-    }
+    let scene = text::read(path, MAX_BYTES).and_then(|text| scene(&text, Some(folder)));
+    scene.map_err(|fault| fault.in_file(path.display()))
 }
 
 /// Reads a scene from the text of its file; `label` stands for its path in errors, `folder` is where files that it names
@@ -145,11 +141,8 @@ pub fn read(path: &Path) -> Result<SceneFile, String> {
 ///
 /// # Errors
 /// As for [`read`].
-pub fn parse(text: &str, label: &str, folder: Option<&Path>) -> Result<SceneFile, String> {
-    scene(text, folder).map_err(|fault| {
-        let line = fault.line(text).map_or(String::new(), |line| format!(":{line}"));
-        format!("{label}{line}: {}", fault.message)
-    })
+pub fn parse(text: &str, label: &str, folder: Option<&Path>) -> Result<SceneFile, FileError> {
+    scene(text, folder).map_err(|fault| fault.in_file(label))
 }
 
 /// Returns the text of a scene file that reads back as the same scene, from the same folder; colours behind it to 8 bits.
@@ -175,21 +168,16 @@ fn is_meant_as_scene(text: &str) -> bool {
 }
 
 fn scene(text: &str, folder: Option<&Path>) -> Result<SceneFile, Fault> {
-    if text.len() as u64 > MAX_BYTES {
-        return Err(Fault::whole(text::too_large(MAX_BYTES)));
-    }
-    let table = DeTable::parse(text).map_err(|error| Fault::syntax(text, &error))?;
-    check_format(table.get_ref())?;
-    let form = SceneForm::deserialize(Deserializer::from(table)).map_err(Fault::form)?;
-    let line = |number| Fault::at(format!("stone/{number}"), "").line(text).unwrap_or(1);
-    let behind = |given: &str| behind(given, folder);
-    form.scene(&Surroundings { light: &|given| found(given, folder), background: &behind, line: &line })
+    text::check_size(text.len(), MAX_BYTES)?;
+    let toml = TomlText::parse(text)?;
+    check_format(&toml)?;
+    toml.read(|form: SceneForm| form.scene(text, folder))
 }
 
 /// Reads the name of a background; a file is looked for from the scene's folder.
 fn behind(given: &str, folder: Option<&Path>) -> Result<BackgroundRef, Fault> {
     BackgroundRef::read(given, folder.unwrap_or(Path::new("")))
-        .map_err(|error| Fault::at("background", format!("background: {error}")))
+        .map_err(|error| Fault::key("background", format!("background: {error}")))
 }
 
 /// Returns a light's name as it is, or else the path of its file beside the scene.
@@ -201,7 +189,7 @@ fn found(given: &str, folder: Option<&Path>) -> Result<PathBuf, Fault> {
         return Ok(path);
     }
     let what = "is no light of the program's and no file beside this one";
-    Err(Fault::at("light", format!("light: '{}' {what}{}", shown(given), likely(given, &LIGHTS))))
+    Err(Fault::key("light", format!("light: '{}' {what}{}", shown(given), likely(given, &LIGHTS))))
 }
 
 /// Returns the hint at the known name that is most like an unknown one, and the list of all known names.

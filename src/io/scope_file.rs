@@ -1,11 +1,10 @@
 //! Reads and writes scope files: TOML with a name, and bands of colour with the elevation at which each begins.
 
-use super::fault::Fault;
-use super::text::{self, TextError};
-use crate::scene::Scope;
-use serde::Deserialize;
+use super::file_error::{Fault, FileError};
+use super::text;
+use super::toml_text::TomlText;
+use crate::scene::{Scope, ScopeError};
 use std::path::Path;
-use toml::de::{DeTable, Deserializer};
 
 /// The size of the largest file that is read, in bytes.
 const MAX_BYTES: u64 = 1 << 20;
@@ -19,21 +18,18 @@ const RESERVED: [&str; 5] = ["absorbed", "cover", "head", "undecided", "unresolv
 /// Reads a scope file.
 ///
 /// # Errors
-/// A message that names the file and, where it is known, the line, and says what was expected.
-pub fn read(path: &Path) -> Result<Scope, String> {
-    let label = path.display();
-    let at = |line: Option<usize>| line.map_or(String::new(), |line| format!(":{line}"));
-    let text = text::read(path, MAX_BYTES)
-        .map_err(|TextError { line, message }| format!("{label}{}: {message}", at(line)))?;
-    scope(&text).map_err(|fault| format!("{label}{}: {}", at(fault.line(&text)), fault.message))
+/// When the file cannot be read or is no scope; the error names path and, where it is known, the line.
+pub fn read(path: &Path) -> Result<Scope, FileError> {
+    let scope = text::read(path, MAX_BYTES).and_then(|text| scope(&text));
+    scope.map_err(|fault| fault.in_file(path.display()))
 }
 
 fn scope(text: &str) -> Result<Scope, Fault> {
-    let table = DeTable::parse(text).map_err(|e| Fault::syntax(text, &e))?;
-    let scope = Scope::deserialize(Deserializer::from(table)).map_err(Fault::form)?;
-    scope.validate().map_err(|e| Fault::whole(e.to_string()))?;
-    check_names(&scope).map_err(Fault::whole)?;
-    Ok(scope)
+    TomlText::parse(text)?.read(|scope: Scope| {
+        scope.validate().map_err(|error| Fault::key(path_of(&error, &scope), error))?;
+        check_names(&scope)?;
+        Ok(scope)
+    })
 }
 
 /// Returns the text of a scope file that [`read`] reads as the same scope.
@@ -44,20 +40,59 @@ pub fn text(scope: &Scope) -> Result<String, toml::ser::Error> {
     toml::to_string(scope)
 }
 
+/// Returns the path of the key at fault in the file.
+fn path_of(error: &ScopeError, scope: &Scope) -> String {
+    let place = |name: &str| scope.bands.iter().rposition(|band| band.name == name).unwrap_or_default();
+    match error {
+        ScopeError::NotFromNadir { .. } => "band/0/from".to_owned(),
+        ScopeError::Twice { band, .. } => format!("band/{}/name", place(band)),
+        ScopeError::TooMany { .. } => "band".to_owned(),
+        ScopeError::OutOfOrder { band, .. } => format!("band/{}/from", place(band)),
+    }
+}
+
 /// Checks names, which become parts of file names, keys of JSON and channels of EXR.
-fn check_names(scope: &Scope) -> Result<(), String> {
+fn check_names(scope: &Scope) -> Result<(), Fault> {
     let plain = |c: char| c.is_ascii_alphanumeric() || c == '-' || c == '_';
-    for name in scope.bands.iter().map(|b| &b.name).chain([&scope.name]) {
-        if !(1..=LONGEST_NAME).contains(&name.len()) || !name.chars().all(plain) {
+    let own = ("name".to_owned(), &scope.name);
+    let bands =
+        scope.bands.iter().enumerate().map(|(place, band)| (format!("band/{place}/name"), &band.name));
+    for (key, name) in bands.chain([own]) {
+        let problem = if !(1..=LONGEST_NAME).contains(&name.len()) || !name.chars().all(plain) {
             let start: String = name.chars().take(LONGEST_NAME).collect();
-            return Err(format!("name '{start}': give 1 to {LONGEST_NAME} letters, digits, - or _"));
+            format!("name '{start}': give 1 to {LONGEST_NAME} letters, digits, - or _")
+        } else if key == "name" && name.ends_with("-strongest") {
+            "names ending in -strongest are kept for maps of strongest exits".to_owned()
+        } else if key != "name" && RESERVED.contains(&name.as_str()) {
+            format!("band '{name}': that name is kept for a picture's other channels")
+        } else {
+            continue;
+        };
+        return Err(Fault::key(key, problem));
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_wrong_in_a_scope_is_told_with_its_line() {
+        let bands = "[[band]]\nname = \"a\"\nfrom = -90\ncolour = [0, 0, 0]\n\
+            [[band]]\nname = \"b\"\nfrom = 10\ncolour = [9, 9, 9]\n";
+        let text = format!("name = \"x\"\n{bands}");
+        assert!(scope(&text).is_ok());
+        for (from, to, line, words) in [
+            ("\"x\"", "\"x y\"", 1, "name 'x y': give 1 to 60 letters"),
+            ("\"x\"", "\"x-strongest\"", 1, "names ending in -strongest"),
+            ("from = -90", "from = -80", 4, "the first band must begin at -90"),
+            ("\"b\"", "\"absorbed\"", 7, "band 'absorbed': that name is kept"),
+            ("\"b\"", "\"a\"", 7, "two bands are called 'a'"),
+            ("from = 10", "from = 90", 8, "band 'b' begins at 90"),
+        ] {
+            let fault = scope(&text.replace(from, to)).unwrap_err();
+            assert!(fault.line == Some(line) && fault.problem.contains(words), "{to}: {fault:?}");
         }
-    }
-    if scope.name.ends_with("-strongest") {
-        return Err("names ending in -strongest are kept for maps of strongest exits".into());
-    }
-    match scope.bands.iter().find(|b| RESERVED.contains(&b.name.as_str())) {
-        Some(band) => Err(format!("band '{}': that name is kept for a picture's other channels", band.name)),
-        None => Ok(()),
     }
 }

@@ -1,70 +1,63 @@
 //! Reads text that people wrote: of a sane size, in UTF-8, or an error that says what is wrong.
 
+use super::file_error::Fault;
 use super::standard::{self, is_standard};
 use std::fs::File;
 use std::io::{ErrorKind, Read};
 use std::path::Path;
 
-/// Why a text could not be read.
-#[derive(Debug)]
-pub(super) struct TextError {
-    /// The line at fault, from 1, where there is one.
-    pub line: Option<usize>,
-    /// What is wrong.
-    pub message: String,
-}
-
 /// Reads the text of a file of up to `limit` bytes.
-pub(super) fn read(path: &Path, limit: u64) -> Result<String, TextError> {
+pub(super) fn read(path: &Path, limit: u64) -> Result<String, Fault> {
     utf8(read_bytes(path, limit)?)
 }
 
 /// Reads a file of up to `limit` bytes. The limit also binds files that grow or have no size of their own. The path `-` is
 /// standard input.
-pub(super) fn read_bytes(path: &Path, limit: u64) -> Result<Vec<u8>, TextError> {
-    let whole = |message| TextError { line: None, message };
-    let unreadable = |error: std::io::Error| match error.kind() {
-        ErrorKind::NotFound => whole("there is no such file".to_owned()),
-        _ => whole(format!("cannot be read: {error}")),
-    };
+pub(super) fn read_bytes(path: &Path, limit: u64) -> Result<Vec<u8>, Fault> {
     if is_standard(path) {
         return within(standard::input().map_err(unreadable)?.to_vec(), limit);
     }
     if path.metadata().map_err(unreadable)?.is_dir() {
-        return Err(whole("this is a directory; a file is expected".to_owned()));
+        return Err("this is a directory; a file is expected".into());
     }
     let mut bytes = Vec::new();
     File::open(path).and_then(|file| file.take(limit + 1).read_to_end(&mut bytes)).map_err(unreadable)?;
     within(bytes, limit)
 }
 
+/// Makes a fault of what the file system says of a file that cannot be read.
+pub(super) fn unreadable(error: std::io::Error) -> Fault {
+    match error.kind() {
+        ErrorKind::NotFound => "there is no such file".into(),
+        _ => format!("cannot be read: {error}").into(),
+    }
+}
+
 /// Returns bytes if there are some, and no more than a limit.
-fn within(bytes: Vec<u8>, limit: u64) -> Result<Vec<u8>, TextError> {
-    if bytes.is_empty() {
-        return Err(TextError { line: None, message: "the file is empty".to_owned() });
+fn within(bytes: Vec<u8>, limit: u64) -> Result<Vec<u8>, Fault> {
+    check_size(bytes.len(), limit)?;
+    if bytes.is_empty() { Err("the file is empty".into()) } else { Ok(bytes) }
+}
+
+/// Checks that a file of so many bytes is no larger than a limit.
+pub(super) fn check_size(bytes: usize, limit: u64) -> Result<(), Fault> {
+    if bytes as u64 <= limit {
+        return Ok(());
     }
-    if bytes.len() as u64 > limit {
-        return Err(TextError { line: None, message: too_large(limit) });
-    }
-    Ok(bytes)
+    Err(format!("this is larger than {} MiB, so hardly such a file", limit >> 20).into())
 }
 
 /// Converts bytes to text; the error names a picture's format or the line that is no UTF-8.
-pub(super) fn utf8(bytes: Vec<u8>) -> Result<String, TextError> {
+pub(super) fn utf8(bytes: Vec<u8>) -> Result<String, Fault> {
     String::from_utf8(bytes).map_err(|error| {
         let kinds: [(&[u8], &str); 4] =
             [(b"\x89PNG", "PNG"), (b"\xff\xd8\xff", "JPEG"), (b"GIF8", "GIF"), (b"%PDF", "PDF")];
         if let Some((_, kind)) = kinds.iter().find(|(start, _)| error.as_bytes().starts_with(start)) {
-            return TextError { line: None, message: format!("this is a {kind}, where text is expected") };
+            return format!("this is a {kind}, where text is expected").into();
         }
         let valid = &error.as_bytes()[..error.utf8_error().valid_up_to()];
-        let message = "this is not UTF-8 text; save the file as UTF-8".to_owned();
-        TextError { line: Some(line_after(valid)), message }
+        Fault::line(line_after(valid), "this is not UTF-8 text; save the file as UTF-8")
     })
-}
-
-pub(super) fn too_large(limit: u64) -> String {
-    format!("this is larger than {} MiB, so hardly such a file", limit >> 20)
 }
 
 /// Returns the number, from 1, of the line that follows this text.

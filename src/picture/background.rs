@@ -1,5 +1,6 @@
 //! The background: what a picture shows where no stone covers it.
 
+use super::NameError;
 use crate::optics::{encoded_from_linear, linear_from_encoded};
 use std::fmt;
 use std::str::FromStr;
@@ -42,9 +43,9 @@ pub(super) fn laid_over([r, g, b, cover]: [f32; 4], colour: [f32; 3]) -> [f32; 4
 }
 
 impl FromStr for Background {
-    type Err = String;
+    type Err = NameError;
 
-    fn from_str(text: &str) -> Result<Self, String> {
+    fn from_str(text: &str) -> Result<Self, NameError> {
         let text = text.trim().to_ascii_lowercase();
         match text.split_once('-') {
             None if text == "transparent" => Ok(Self::Transparent),
@@ -75,20 +76,14 @@ impl fmt::Display for Background {
 const GREY: &str = "#808080";
 
 /// Reads one colour from its name or its `#rrggbb` code.
-fn colour(text: &str) -> Result<[f32; 3], String> {
+fn colour(text: &str) -> Result<[f32; 3], NameError> {
     let code = match text {
         "black" => "#000000",
         "white" => "#ffffff",
         "grey" | "gray" => GREY,
         other => other,
     };
-    let wrong = || {
-        let start: String = text.chars().take(30).collect();
-        format!(
-            "background '{start}': give transparent, black, white, grey, a colour such as #20262e, or two, \
-             top-bottom, such as #404850-#101215"
-        )
-    };
+    let wrong = || NameError::Background(text.to_owned());
     let digits = code.strip_prefix('#').filter(|d| d.len() == 6 && d.bytes().all(|b| b.is_ascii_hexdigit()));
     let number = u32::from_str_radix(digits.ok_or_else(wrong)?, 16).map_err(|_| wrong())?;
     let linear = |shift: u32| linear_from_encoded(f64::from((number >> shift) & 255) / 255.0) as f32;
@@ -125,7 +120,7 @@ mod tests {
             "white-x-y",
             "#é234",
         ] {
-            let error = text.parse::<Background>().unwrap_err();
+            let error = text.parse::<Background>().unwrap_err().to_string();
             assert!(error.contains("#20262e"), "{text}: {error}");
         }
     }

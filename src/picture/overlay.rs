@@ -8,6 +8,7 @@ mod wireframe;
 
 use self::scale::viridis;
 use self::wireframe::Wires;
+use super::NameError;
 use crate::trace::ray::{ProbeRay, SceneProbe};
 use crate::trace::sampling::LitScene;
 use crate::trace::{Stopped, Watch};
@@ -92,15 +93,12 @@ impl Overlay {
 }
 
 impl FromStr for Overlay {
-    type Err = String;
+    type Err = NameError;
 
-    fn from_str(text: &str) -> Result<Self, String> {
+    fn from_str(text: &str) -> Result<Self, NameError> {
         let asked = text.trim();
         let found = NAMES.iter().find(|(name, _)| name.eq_ignore_ascii_case(asked));
-        found.map(|(_, overlay)| *overlay).ok_or_else(|| {
-            let start: String = asked.chars().take(30).collect();
-            format!("no overlay '{start}'; known: {}", Self::names().join(", "))
-        })
+        found.map(|(_, overlay)| *overlay).ok_or_else(|| NameError::Overlay(asked.to_owned()))
     }
 }
 
@@ -213,7 +211,7 @@ mod tests {
         for (name, overlay) in NAMES {
             assert_eq!(name.to_uppercase().parse(), Ok(overlay));
         }
-        assert!("edges".parse::<Overlay>().unwrap_err().ends_with("bounces, unresolved, total"));
+        assert!("edges".parse::<Overlay>().unwrap_err().to_string().ends_with("bounces, unresolved, total"));
     }
 
     #[test]

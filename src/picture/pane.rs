@@ -16,7 +16,7 @@ pub use compare::{Comparison, Cost, PaneError, PaneLighting, Shifts, compare, su
 pub use outline::{DomePoint, PaneOutline};
 pub use parts::{depth, dispersion, falloff, light, refraction};
 
-use super::Linear;
+use super::{Linear, NameError};
 use crate::scene::{Panorama, Scene};
 use crate::trace::sampling::SamplePass;
 use frost::taps;
@@ -235,14 +235,14 @@ pub fn filling(picture: &Panorama, size: [u32; 2]) -> Panorama {
 }
 
 impl FromStr for PaneQuality {
-    type Err = String;
+    type Err = NameError;
 
-    fn from_str(text: &str) -> Result<Self, String> {
+    fn from_str(text: &str) -> Result<Self, NameError> {
         match text.to_ascii_lowercase().as_str() {
             "high" => Ok(Self::High),
             "medium" => Ok(Self::Medium),
             "low" => Ok(Self::Low),
-            _ => Err("give high, medium or low".into()),
+            _ => Err(NameError::Quality),
         }
     }
 }

@@ -1,5 +1,6 @@
 //! Tone curves: they bring light without bounds to what a screen can show.
 
+use super::NameError;
 use super::linear::luminance;
 use std::str::FromStr;
 
@@ -80,17 +81,14 @@ pub fn reachable(light: [f32; 3]) -> [f32; 3] {
 }
 
 impl FromStr for Tone {
-    type Err = String;
+    type Err = NameError;
 
-    fn from_str(text: &str) -> Result<Self, String> {
+    fn from_str(text: &str) -> Result<Self, NameError> {
         match text {
             "linear" => Ok(Self::Linear),
             "neutral" => Ok(Self::Neutral),
             "filmic" => Ok(Self::Filmic),
-            _ => Err(format!(
-                "tone '{}': give neutral, filmic or linear",
-                text.chars().take(30).collect::<String>()
-            )),
+            _ => Err(NameError::Tone(text.to_owned())),
         }
     }
 }
@@ -151,6 +149,6 @@ mod tests {
     #[test]
     fn tones_have_names() {
         assert_eq!("filmic".parse(), Ok(Tone::Filmic));
-        assert!("Vivid".parse::<Tone>().unwrap_err().contains("neutral"));
+        assert!("Vivid".parse::<Tone>().unwrap_err().to_string().contains("neutral"));
     }
 }

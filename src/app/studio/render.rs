@@ -124,7 +124,7 @@ impl ShotTracer {
         if let Some((_, picture)) = self.behind.as_ref().filter(|(last, _)| last == asked) {
             return Ok(Some(Arc::clone(picture)));
         }
-        let read = asked.picture().map_err(TakeError::Other)?;
+        let read = asked.picture().map_err(|error| TakeError::Other(error.to_string()))?;
         let picture = read.map(|reading| Arc::new(reading.panorama));
         self.behind = picture.clone().map(|picture| (asked.clone(), picture));
         Ok(picture)

@@ -237,7 +237,7 @@ fn nothing_is_red_while_nothing_is_wrong() {
     assert_eq!(is_red(&bench), Vec::<String>::new());
     let editor = bench.harness.state_mut();
     (editor.dialog, editor.notes) = (None, Default::default());
-    editor.notes.trouble("it was not saved".into());
+    editor.notes.trouble("it was not saved");
     bench.harness.run_steps(4);
     assert_eq!(is_red(&bench), ["it was not saved"]);
 }

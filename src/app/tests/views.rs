@@ -153,7 +153,7 @@ fn a_name_an_error_and_where_panels_end_trace_nothing_anew() {
     bench.settle();
     assert!(bench.editor().document.work.design.name.contains("the second"));
     assert_eq!(bench.editor().studio.traced(), traced, "a new name");
-    bench.harness.state_mut().notes.trouble("something went wrong".to_owned());
+    bench.harness.state_mut().notes.trouble("something went wrong");
     bench.settle();
     assert!(bench.harness.query_by_label_contains("something went wrong").is_some());
     assert_eq!(bench.editor().studio.traced(), traced, "an error that comes");

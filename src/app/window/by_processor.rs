@@ -175,7 +175,7 @@ impl OpenWindow {
             State::new(context.clone(), ViewportId::ROOT, events, Some(scale), theme, Some(LARGEST));
         input.init_accesskit(events, &window, proxy.clone());
         connect_repaint(&context, proxy);
-        let editor = Editor::within(&context, storage, None, setup)?;
+        let editor = Editor::within(&context, storage, None, setup).map_err(|e| e.to_string())?;
         let is_paced_by_system = events
             .display_handle()
             .is_ok_and(|handle| matches!(handle.as_raw(), RawDisplayHandle::Wayland(_)));

@@ -146,8 +146,26 @@ fn what_is_odd_is_told_with_its_line_and_the_stone_opens() {
 }
 
 #[test]
+fn a_gear_and_a_symmetry_that_make_no_sense_are_mended_with_a_warning_as_in_gem_files() {
+    let gear = "must be from 1 to 100000 teeth, or below 0 where they are counted clockwise";
+    let mended = "the facets are told by a gear of 96 teeth";
+    for (from, to, warning) in [
+        ("y 4 y", "y 0 y", "line 3: symmetry: 0 must be 1 or more; 1 is taken".to_owned()),
+        ("y 4 y", "y -2 y", "line 3: symmetry: -2 must be 1 or more; 1 is taken".to_owned()),
+        ("g 96 0.0", "g 0 12", format!("line 2: gear: 0 {gear}; {mended}")),
+        ("g 96 0.0", "g 200000 12", format!("line 2: gear: 200000 {gear}; {mended}")),
+        ("g 96 0.0", "g 96 nan", format!("line 2: offset: NaN must be a number of teeth; {mended}")),
+    ] {
+        let (tiers, warnings) = tiers(&STONE.replace(from, to));
+        assert_eq!(warnings, [warning]);
+        assert_eq!((tiers.gear, tiers.offset, tiers.mirror), (96, 0.0, true), "{to}");
+        assert_eq!(tiers.symmetry, if from == "y 4 y" { 1 } else { 4 }, "{to}");
+    }
+}
+
+#[test]
 fn what_is_no_stone_is_refused_with_its_place() {
-    let told = |bytes: &[u8]| read(bytes, "x.asc").unwrap_err().to_string();
+    let told = |bytes: &[u8]| read(bytes, "x.asc").unwrap_err().in_file("x.asc").to_string();
     assert!(told(b"GemCad 5.0\ng 96 0.0\n").starts_with("x.asc: no facet is listed; a line such as"));
     assert!(told(b"").starts_with("x.asc: no facet"));
     assert!(

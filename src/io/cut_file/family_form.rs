@@ -3,11 +3,11 @@
 use super::Fault;
 use super::values::TomlTable;
 use crate::cut::{Cut, FAMILIES, Family, Proportion, Unit};
-use crate::io::fault::meant;
+use crate::io::toml_text::meant;
 use serde::Deserialize;
 use std::collections::BTreeMap;
 use toml::Spanned;
-use toml::de::{DeTable, Deserializer};
+use toml::de::{DeTable, Deserializer, Error};
 
 /// A family's table in a file: its numbers, by their keys.
 pub(super) struct FamilyForm {
@@ -17,11 +17,11 @@ pub(super) struct FamilyForm {
 
 impl FamilyForm {
     /// Takes the tables of families out of the table of a whole file, and reads them.
-    pub fn take_all(file: &mut DeTable<'_>) -> Result<Vec<Self>, Fault> {
+    pub fn take_all(file: &mut DeTable<'_>) -> Result<Vec<Self>, Error> {
         let mut tables = DeTable::new();
         tables.extend(FAMILIES.into_iter().filter_map(|family| file.remove_entry(family.key)));
         let read = BTreeMap::deserialize(Deserializer::from(Spanned::new(0..0, tables)));
-        let mut read: BTreeMap<String, TomlTable<BTreeMap<String, f64>>> = read.map_err(Fault::form)?;
+        let mut read: BTreeMap<String, TomlTable<BTreeMap<String, f64>>> = read?;
         let form =
             |family: &'static Family| read.remove(family.key).map(|TomlTable(given)| Self { family, given });
         Ok(FAMILIES.into_iter().filter_map(form).collect())
@@ -33,12 +33,12 @@ impl FamilyForm {
         let mut cut = self.family.first.clone();
         for row in self.family.editable() {
             let (key, table) = (row.key, self.family.key);
-            let missing = |what: String| Err(Fault::at(table, format!("{table}: {what}")));
+            let missing = |what: String| Err(Fault::key(table, format!("{table}: {what}")));
             let other = row.pair.unwrap_or_default();
             match (self.given.get(key), self.given.get(other), row.default) {
                 (Some(_), Some(_), _) => {
                     let message = format!("{other}: give {key} or {other}, not both");
-                    return Err(Fault::at(format!("{table}/{other}"), message));
+                    return Err(Fault::key(format!("{table}/{other}"), message));
                 }
                 (Some(value), ..) => self.give(&mut cut, row, *value)?,
                 (None, None, Some(value)) => self.give(&mut cut, row, value)?,
@@ -52,7 +52,7 @@ impl FamilyForm {
 
     fn give(&self, cut: &mut Cut, row: &'static Proportion, value: f64) -> Result<(), Fault> {
         let (table, key) = (self.family.key, row.key);
-        let fault = |message: String| Fault::at(format!("{table}/{key}"), message);
+        let fault = |message: String| Fault::key(format!("{table}/{key}"), message);
         if row.unit == Unit::Count {
             if value.fract() != 0.0 {
                 let hint = row.hint();
@@ -71,7 +71,7 @@ impl FamilyForm {
         let Some(key) = self.given.keys().find(|key| !known.contains(&key.as_str())) else { return Ok(()) };
         let (table, list) = (self.family.key, known.join("`, `"));
         let message = format!("{table}: unknown key `{key}`, known here are `{list}`{}", meant(key, &known));
-        Err(Fault::at(format!("{table}/{key}"), message))
+        Err(Fault::key(format!("{table}/{key}"), message))
     }
 }
 

@@ -104,7 +104,7 @@ impl DesignForm {
         };
         match design.check() {
             Ok(()) => Ok(design),
-            Err(error) => Err(Fault::at(path(&error, &design), error.to_string())),
+            Err(error) => Err(Fault::key(path(&error, &design), error)),
         }
     }
 }
@@ -131,7 +131,7 @@ fn cut(form: Cuts) -> Result<Cut, Fault> {
     let mut given = families_given.chain(others).filter(|(.., is_given)| *is_given);
     if let (Some((_, first, _)), Some((key, other, _))) = (given.next(), given.next()) {
         let key = if key == "tier" && tier.is_none() { "index" } else { key };
-        return Err(Fault::at(key, format!("{key}: give {first} or {other}, not both")));
+        return Err(Fault::key(key, format!("{key}: give {first} or {other}, not both")));
     }
     if let Some(form) = families.first() {
         return form.cut();
@@ -144,11 +144,11 @@ fn cut(form: Cuts) -> Result<Cut, Fault> {
     }
     match (index, tier) {
         (Some(TomlTable(index)), Some(tiers)) => Ok(Cut::Tiers(index.tiers(tiers)?)),
-        (Some(_), None) => Err(Fault::at("index", "index: the tiers are missing; give [[tier]]")),
-        (None, Some(_)) => Err(Fault::at("tier", "tier: the gear is missing; give it as [index], gear = 96")),
-        (None, None) => Err(Fault::whole(
-            "the cut is missing; give [round_brilliant], [[tier]], [[plane]], [mesh] or a glass shape such as [pill]",
-        )),
+        (Some(_), None) => Err(Fault::key("index", "index: the tiers are missing; give [[tier]]")),
+        (None, Some(_)) => {
+            Err(Fault::key("tier", "tier: the gear is missing; give it as [index], gear = 96"))
+        }
+        (None, None) => Err("the cut is missing; give [round_brilliant], [[tier]], [[plane]], [mesh] or a glass shape such as [pill]".into()),
     }
 }
 
@@ -192,7 +192,7 @@ impl MeshForm {
 
     /// Returns the shape, moved into the stone's frame if it was written in another.
     fn shape(self) -> Result<MeshShape, Fault> {
-        let fault = |message: String| Fault::at("mesh", format!("mesh: {message}"));
+        let fault = |message: String| Fault::key("mesh", format!("mesh: {message}"));
         let vertices: Vec<DVec3> = self.vertices.iter().map(|v| v.0.into()).collect();
         if let Some(corner) = vertices.iter().position(|v| !v.is_finite()) {
             return Err(fault(format!(

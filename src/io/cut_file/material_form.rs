@@ -108,11 +108,11 @@ impl TableForm {
         let mut given = given.into_iter().filter_map(|(key, law)| Some((key, law?)));
         let Some((first, dispersion)) = given.next() else {
             let message = "material: one of index, sellmeier, cauchy, abbe or dispersion is missing";
-            return Err(Fault::at("material", message));
+            return Err(Fault::key("material", message));
         };
         if let Some((second, _)) = given.next() {
             let message = format!("material.{second}: give {first} or {second}, not both");
-            return Err(Fault::at(format!("material/{second}"), message));
+            return Err(Fault::key(format!("material/{second}"), message));
         }
         let read = |key, form: Option<_>| form.map(|form| absorption(key, form)).transpose();
         let ordinary = read("absorption", self.absorption)?.unwrap_or_default();
@@ -147,13 +147,13 @@ fn absorption(key: &str, form: OneOf<Pairs>) -> Result<Absorption, Fault> {
         OneOf::Text(_) => {
             let message =
                 format!("material.{key}: a number per mm or a list of [nm, per mm] is expected, not text");
-            return Err(Fault::at(format!("material/{key}"), message));
+            return Err(Fault::key(format!("material/{key}"), message));
         }
     };
     Absorption::new(samples).map_err(|error| {
         let (AbsorptionError::Wavelength { sample, .. }
         | AbsorptionError::Coefficient { sample, .. }
         | AbsorptionError::Order { sample, .. }) = error;
-        Fault::at(format!("material/{key}/{}", sample - 1), format!("material.{key}: {error}"))
+        Fault::key(format!("material/{key}/{}", sample - 1), format!("material.{key}: {error}"))
     })
 }

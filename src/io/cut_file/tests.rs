@@ -31,7 +31,7 @@ fn planes_with(part: &str, other: &str) -> String {
     PLANES.replace(part, other)
 }
 
-fn material(text: &str) -> Result<MaterialRef, CutFileError> {
+fn material(text: &str) -> Result<MaterialRef, FileError> {
     parse(&with("\"diamond\"", text), "x.toml").map(|design| design.material)
 }
 
@@ -294,7 +294,7 @@ fn glass_shapes_read_as_written_and_their_keys_mean_what_their_tables_say() {
         "x.toml:9: pill: unknown key `amplitude`, known here are `length`, `width`, `depth`, `edge`",
     );
     let both = format!("{PLATE}[cube]\nlength = 1\nwidth = 1\ndepth = 1\nedge = 0\n");
-    assert!(parse(&both, "x").unwrap_err().message.ends_with("give [cube] or [plate], not both"));
+    assert!(parse(&both, "x").unwrap_err().fault.problem.ends_with("give [cube] or [plate], not both"));
 }
 
 #[test]
@@ -348,12 +348,12 @@ fn a_mesh_is_written_and_read_to_the_last_bit_and_what_encloses_nothing_is_told(
         "{told}"
     );
     let unused = text.replacen("vertices = [", "vertices = [[0.0, 0.0, 0.0], ", 1).replace("[0, ", "[1, ");
-    assert!(parse(&unused, "x").unwrap_err().message.starts_with("mesh: "));
+    assert!(parse(&unused, "x").unwrap_err().fault.problem.starts_with("mesh: "));
     let line_of = |key: &str| text.lines().find(|line| line.starts_with(key)).unwrap().to_owned();
     let triangles = line_of("triangles");
     let first = &triangles[triangles.find("[[").unwrap() + 1..=triangles.find(']').unwrap()];
     let twice = text.replacen("triangles = [", &format!("triangles = [{first}, "), 1);
-    assert!(parse(&twice, "x").unwrap_err().message.contains("is listed twice"), "{twice}");
+    assert!(parse(&twice, "x").unwrap_err().fault.problem.contains("is listed twice"), "{twice}");
     // A mesh that is written in another frame is moved into the stone's.
     let Cut::Mesh(shape) = &design.cut else { panic!() };
     let pose = Pose { at: DVec3::new(3.0, 0.0, -1.0), scale: 7.0, ..Pose::STILL };
@@ -363,7 +363,7 @@ fn a_mesh_is_written_and_read_to_the_last_bit_and_what_encloses_nothing_is_told(
         shape.vertices().iter().zip(back.vertices()).map(|(a, b)| a.distance(*b)).fold(0.0, f64::max);
     assert!(farthest < 1e-12, "{farthest}");
     let both = format!("{text}\n[[plane]]\nnormal = [0, 0, 1]\noffset = 1");
-    assert!(parse(&both, "x").unwrap_err().message.ends_with("give [[plane]] or [mesh], not both"));
+    assert!(parse(&both, "x").unwrap_err().fault.problem.ends_with("give [[plane]] or [mesh], not both"));
 }
 
 #[test]

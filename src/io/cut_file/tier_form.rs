@@ -88,7 +88,7 @@ impl TierForm {
         let (names, indices) = (self.names.len(), self.indices.len());
         if names > indices {
             let message = format!("names: {names} names are given for {indices} indices; give no more names");
-            return Err(Fault::at(format!("tier/{place}/names"), message));
+            return Err(Fault::key(format!("tier/{place}/names"), message));
         }
         let names = self.names.into_iter().chain(std::iter::repeat_with(String::new));
         Ok(Tier {

@@ -3,6 +3,7 @@
 use std::fmt;
 use std::marker::PhantomData;
 
+use super::Fault;
 use serde::de::value::{MapAccessDeserializer, SeqAccessDeserializer};
 use serde::de::{MapAccess, SeqAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize};
@@ -81,11 +82,11 @@ impl<'de, T: Deserialize<'de>> Deserialize<'de> for OneOf<T> {
 pub(in crate::io) struct Numbers<const N: usize>(pub [f64; N]);
 
 impl<const N: usize> TryFrom<Vec<f64>> for Numbers<N> {
-    type Error = String;
+    type Error = Fault;
 
-    fn try_from(list: Vec<f64>) -> Result<Self, String> {
+    fn try_from(list: Vec<f64>) -> Result<Self, Fault> {
         let wrong = |list: Vec<f64>| format!("invalid length {}, expected a list of {N} numbers", list.len());
-        list.try_into().map(Self).map_err(wrong)
+        Ok(Self(list.try_into().map_err(wrong)?))
     }
 }
 
@@ -101,10 +102,12 @@ impl<const N: usize> From<Numbers<N>> for Vec<f64> {
 pub(in crate::io) struct Pairs(pub Vec<(f64, f64)>);
 
 impl TryFrom<Vec<Numbers<2>>> for Pairs {
-    type Error = &'static str;
+    type Error = Fault;
 
-    fn try_from(list: Vec<Numbers<2>>) -> Result<Self, Self::Error> {
-        let pairs: Vec<_> = list.into_iter().map(|pair| pair.0.into()).collect();
-        if pairs.is_empty() { Err("the list is empty, expected at least one pair") } else { Ok(Self(pairs)) }
+    fn try_from(list: Vec<Numbers<2>>) -> Result<Self, Fault> {
+        if list.is_empty() {
+            return Err("the list is empty, expected at least one pair".into());
+        }
+        Ok(Self(list.into_iter().map(|pair| pair.0.into()).collect()))
     }
 }

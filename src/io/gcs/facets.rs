@@ -3,7 +3,7 @@
 use super::read::Reader;
 use crate::cut::{MAX_PLANES, Tier, is_printable};
 use crate::io::cutters::{self, Gear, TierPiece};
-use crate::io::text::TextError;
+use crate::io::file_error::Fault;
 use crate::math::Plane;
 use glam::DVec3;
 use roxmltree::Node;
@@ -33,7 +33,7 @@ type RawTier<'d> = (Vec<Raw<'d>>, Option<Tier>);
 
 impl<'d> Reader<'d> {
     /// Reads all tiers, with indices of this gear.
-    pub fn tiers(&mut self, root: Node<'d, 'd>, gear: Gear) -> Result<Vec<Tier>, TextError> {
+    pub fn tiers(&mut self, root: Node<'d, 'd>, gear: Gear) -> Result<Vec<Tier>, Fault> {
         let facets = root.descendants().filter(|node| node.has_tag_name("facet")).count();
         if facets > MAX_PLANES {
             let message = format!("there are more than {MAX_PLANES} facets, the most that a design can have");
@@ -64,7 +64,7 @@ impl<'d> Reader<'d> {
     }
 
     /// Returns the height at which the origin belongs: 0, or half way through the stone where 0 lies outside it.
-    fn middle(&mut self, raw: &[RawTier<'d>]) -> Result<f64, TextError> {
+    fn middle(&mut self, raw: &[RawTier<'d>]) -> Result<f64, Fault> {
         let cut = || raw.iter().flat_map(|(facets, _)| facets).filter(|facet| facet.is_cut);
         let Some(outer) = cut().find(|facet| facet.plane.offset < 0.0) else { return Ok(0.0) };
         let (mut low, mut high) = (f64::NEG_INFINITY, f64::INFINITY);
@@ -118,7 +118,7 @@ impl<'d> Reader<'d> {
 
     /// Reads the facets of a tier. The first carries the tier's instructions, and each the tier's name, since any of them
     /// may begin a tier of its own.
-    fn tier(&mut self, node: Node<'d, 'd>) -> Result<Vec<Raw<'d>>, TextError> {
+    fn tier(&mut self, node: Node<'d, 'd>) -> Result<Vec<Raw<'d>>, Fault> {
         let (polar, depth) = (self.number(node, "angle"), self.number(node, "depth"));
         let name = self.text(node, "name").unwrap_or_default();
         let mut instructions = self.text(node, "instructions").unwrap_or_default();
@@ -158,12 +158,7 @@ impl<'d> Reader<'d> {
 
     /// Returns the plane of a facet: with its own normal, else that of angle and index; at its tier's depth, else that of
     /// its corners.
-    fn plane(
-        &mut self,
-        facet: Node<'_, '_>,
-        polar: Option<f64>,
-        depth: Option<f64>,
-    ) -> Result<Plane, TextError> {
+    fn plane(&mut self, facet: Node<'_, '_>, polar: Option<f64>, depth: Option<f64>) -> Result<Plane, Fault> {
         let own = ["nx", "ny", "nz"].map(|key| self.number(facet, key));
         let own = own.iter().copied().collect::<Option<Vec<f64>>>().map(|n| DVec3::from_slice(&n));
         let normal = match own.filter(|n| (n.length() - 1.0).abs() < UNIT_LENGTH) {
@@ -178,7 +173,7 @@ impl<'d> Reader<'d> {
         Plane::new(normal, depth).normalized().ok_or_else(|| self.fault(facet, "depth: it is no length"))
     }
 
-    fn stated_normal(&mut self, facet: Node<'_, '_>, polar: Option<f64>) -> Result<DVec3, TextError> {
+    fn stated_normal(&mut self, facet: Node<'_, '_>, polar: Option<f64>) -> Result<DVec3, Fault> {
         let Some((polar, index)) = polar.zip(self.number(facet, "index_angle")) else {
             let message =
                 "nx, ny, nz: a normal of length 1 is expected, or the tier's angle and an index_angle";

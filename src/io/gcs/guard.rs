@@ -1,7 +1,8 @@
 //! Refuses XML that its parser would accept and not finish, before it is parsed, and restores texts as they stand in a file.
 
 use super::MAX_BYTES;
-use crate::io::text::{TextError, line_after, too_large};
+use crate::io::file_error::Fault;
+use crate::io::text::{check_size, line_after};
 use std::borrow::Cow;
 
 /// The most attributes of one element; the XML parser compares each with each.
@@ -12,22 +13,19 @@ const MOST_NAMESPACES: usize = 16;
 
 /// Returns the text of a file of a sane size and build, UTF-8 or UTF-16 behind its mark, and whether characters of it are
 /// spoilt.
-pub(super) fn text(bytes: &[u8]) -> Result<(Cow<'_, str>, bool), TextError> {
-    let whole = |message| TextError { line: None, message };
-    if bytes.len() > MAX_BYTES {
-        return Err(whole(too_large(MAX_BYTES as u64)));
-    }
+pub(super) fn text(bytes: &[u8]) -> Result<(Cow<'_, str>, bool), Fault> {
+    check_size(bytes.len(), MAX_BYTES as u64)?;
     let (text, _, spoilt) = encoding_rs::UTF_8.decode(bytes);
     if text.matches("xmlns").count() > MOST_NAMESPACES {
-        return Err(whole(format!("xmlns: more than {MOST_NAMESPACES} namespaces are declared")));
+        return Err(format!("xmlns: more than {MOST_NAMESPACES} namespaces are declared").into());
     }
     // Values cannot hold a '<', so that no element is longer than from one '<' to the next.
     let mut begin = 0;
     for piece in text.split_inclusive('<') {
         if values(piece) > MOST_ATTRIBUTES {
-            let line = Some(line_after(&text.as_bytes()[..begin]));
-            let message = format!("an element has more than {MOST_ATTRIBUTES} attributes");
-            return Err(TextError { line, message });
+            let line = line_after(&text.as_bytes()[..begin]);
+            let problem = format!("an element has more than {MOST_ATTRIBUTES} attributes");
+            return Err(Fault::line(line, problem));
         }
         begin += piece.len();
     }
@@ -73,7 +71,7 @@ mod tests {
     fn elements_without_end_are_refused() {
         let many: String = (0..300).map(|k| format!(" a{k} = '1'")).collect();
         let error = text(format!("\n<x{many}/>").as_bytes()).map(drop).unwrap_err();
-        assert_eq!((error.line, error.message.contains("256 attributes")), (Some(2), true));
+        assert_eq!((error.line, error.problem.contains("256 attributes")), (Some(2), true));
         let lines = format!("<x a='{}'/>", "=".repeat(1000));
         assert!(text(lines.as_bytes()).is_ok());
         assert!(text("xmlns ".repeat(20).as_bytes()).is_err());

@@ -2,11 +2,11 @@
 
 use super::{COLOUR, ROOT, VERSION, guard};
 use crate::cut::{MaterialRef, Tiers};
-use crate::io::cut_file::CutFileError;
 use crate::io::cutters::{self, Gear, WarningList};
 use crate::io::design_file::ImportedDesign;
-use crate::io::text::TextError;
+use crate::io::file_error::Fault;
 use roxmltree::{Document, Node, ParsingOptions};
+use std::fmt::Display;
 
 /// The most elements and blanks between them: ten thousand facets of fifty corners each.
 const MOST_NODES: u32 = 1_000_000;
@@ -18,25 +18,22 @@ const INDEX: [&str; 4] = ["gear", "base", "symmetry", "mirror"];
 const HEADERS: [&str; 3] = ["title", "author", "header2"];
 const FOOTERS: [&str; 2] = ["footer1", "footer2"];
 
-/// Reads a design of Gem Cut Studio; `label` is the file's path for errors, and names a design without a title.
+/// Reads a design of Gem Cut Studio; `label` is the path of the file, which names a design without a title.
 ///
 /// # Errors
 /// When the file is no such design; the error has a line where there is one.
-pub fn read(bytes: &[u8], label: &str) -> Result<ImportedDesign, CutFileError> {
-    let refused =
-        |TextError { line, message }: TextError| CutFileError { path: label.to_owned(), line, message };
-    let (text, spoilt) = guard::text(bytes).map_err(refused)?;
+pub fn read(bytes: &[u8], label: &str) -> Result<ImportedDesign, Fault> {
+    let (text, spoilt) = guard::text(bytes)?;
     let options = ParsingOptions { allow_dtd: false, nodes_limit: MOST_NODES, ..ParsingOptions::default() };
-    let document = Document::parse_with_options(&text, options).map_err(|error| {
-        refused(TextError { line: Some(error.pos().row as usize), message: error.to_string() })
-    })?;
+    let document = Document::parse_with_options(&text, options)
+        .map_err(|error| Fault::line(error.pos().row as usize, error))?;
     let mut reader = Reader { document: &document, warnings: WarningList::default() };
     if spoilt {
         reader.warnings.warn(|| "characters that are not UTF-8 are read as '\u{fffd}'".to_owned());
     }
-    let (tiers, material) = reader.design().map_err(refused)?;
+    let (tiers, material) = reader.design()?;
     let name = cutters::title(tiers.headers.first(), label);
-    cutters::brought(name, material, tiers, reader.warnings, label)
+    cutters::brought(name, material, tiers, reader.warnings)
 }
 
 pub(super) struct Reader<'d> {
@@ -49,8 +46,8 @@ impl<'d> Reader<'d> {
         self.document.text_pos_at(node.range().start).row as usize
     }
 
-    pub fn fault(&self, node: Node<'_, '_>, message: impl Into<String>) -> TextError {
-        TextError { line: Some(self.line(node)), message: message.into() }
+    pub fn fault(&self, node: Node<'_, '_>, problem: impl Display) -> Fault {
+        Fault::line(self.line(node), problem)
     }
 
     pub fn warn(&mut self, node: Node<'_, '_>, text: impl FnOnce() -> String) {
@@ -83,7 +80,7 @@ impl<'d> Reader<'d> {
         }
     }
 
-    fn design(&mut self) -> Result<(Tiers, MaterialRef), TextError> {
+    fn design(&mut self) -> Result<(Tiers, MaterialRef), Fault> {
         let root = self.document.root_element();
         if !root.has_tag_name(ROOT) {
             return Err(self.fault(root, format!("<{ROOT}> is expected; this is another kind of XML")));
@@ -104,7 +101,7 @@ impl<'d> Reader<'d> {
     fn gear(&mut self, root: Node<'d, 'd>) -> Gear {
         let Some(node) = child(root, "index") else {
             self.warn(root, || "<index> is missing".to_owned());
-            return Gear::given(96, 0.0, "", &mut self.warnings);
+            return Gear::default();
         };
         let teeth = self.number(node, "gear").unwrap_or_default();
         let offset = self.number(node, "base").unwrap_or_default();

@@ -28,7 +28,7 @@ fn back(text: &[u8]) -> ImportedDesign {
 }
 
 fn refused(text: &str) -> String {
-    read(text.as_bytes(), "box.gcs").unwrap_err().to_string()
+    read(text.as_bytes(), "box.gcs").unwrap_err().in_file("box.gcs").to_string()
 }
 
 #[test]

@@ -1,18 +1,11 @@
 //! Reads numbers and texts from bytes, one after the other.
 
-use std::fmt;
+use crate::io::file_error::Fault;
+use std::fmt::Display;
 
-/// What is wrong in a file, and at which byte offset.
-#[derive(Debug, PartialEq)]
-pub(super) struct GemFault {
-    pub at: usize,
-    pub message: String,
-}
-
-impl fmt::Display for GemFault {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}{}", place(self.at), self.message)
-    }
+/// Makes a fault of the bytes at an offset.
+pub(super) fn fault(at: usize, problem: impl Display) -> Fault {
+    Fault::part(format!("offset {at:#x}"), problem)
 }
 
 /// Returns the beginning of a message about this offset.
@@ -43,32 +36,32 @@ impl<'a> Cursor<'a> {
         self.bytes.len() - self.at
     }
 
-    fn take(&mut self, count: usize, what: &str) -> Result<&'a [u8], GemFault> {
+    fn take(&mut self, count: usize, what: &str) -> Result<&'a [u8], Fault> {
         let taken = self.bytes.get(self.at..self.at + count).ok_or_else(|| {
-            let message =
+            let problem =
                 format!("the file ends in the middle of {what}; it is truncated or not a .gem file");
-            GemFault { at: self.bytes.len(), message }
+            fault(self.bytes.len(), problem)
         })?;
         self.at += count;
         Ok(taken)
     }
 
-    fn array<const N: usize>(&mut self, what: &str) -> Result<[u8; N], GemFault> {
+    fn array<const N: usize>(&mut self, what: &str) -> Result<[u8; N], Fault> {
         let mut array = [0; N];
         array.copy_from_slice(self.take(N, what)?);
         Ok(array)
     }
 
-    pub fn f64(&mut self, what: &str) -> Result<f64, GemFault> {
+    pub fn f64(&mut self, what: &str) -> Result<f64, Fault> {
         self.array(what).map(f64::from_le_bytes)
     }
 
-    pub fn i32(&mut self, what: &str) -> Result<i32, GemFault> {
+    pub fn i32(&mut self, what: &str) -> Result<i32, Fault> {
         self.array(what).map(i32::from_le_bytes)
     }
 
     /// Reads a text that follows its length, a byte.
-    pub fn text(&mut self, what: &str) -> Result<&'a [u8], GemFault> {
+    pub fn text(&mut self, what: &str) -> Result<&'a [u8], Fault> {
         let [length] = self.array(what)?;
         self.take(usize::from(length), what)
     }

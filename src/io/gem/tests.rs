@@ -9,7 +9,7 @@ fn back(bytes: &[u8]) -> ImportedDesign {
 }
 
 fn refused(bytes: &[u8]) -> String {
-    read(bytes, "box.gem").unwrap_err().to_string()
+    read(bytes, "box.gem").unwrap_err().in_file("box.gem").to_string()
 }
 
 #[test]

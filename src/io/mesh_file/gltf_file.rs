@@ -53,8 +53,8 @@ fn document(json: &[u8]) -> Result<(Document, Vec<String>), Fault> {
     {
         let alone = shape_alone(json, keeps_materials);
         if let Some((document, mut warnings)) = alone.and_then(|json| parsed(&json).ok()) {
-            let place = fault.place.as_ref().map(|place| format!("line {place}: ")).unwrap_or_default();
-            let broken = fault.message.strip_prefix(UNREADABLE).unwrap_or(&fault.message);
+            let place = fault.line.map(|line| format!("line {line}: ")).unwrap_or_default();
+            let broken = fault.problem.strip_prefix(UNREADABLE).unwrap_or(&fault.problem);
             let told =
                 format!("{lost} beside the shape are left out, because the file is broken: {place}{broken}");
             warnings.insert(0, told);
@@ -84,7 +84,7 @@ fn split(bytes: &[u8]) -> Result<(Vec<u8>, Option<Vec<u8>>), Fault> {
     if (length as usize) < GLB_HEADER + 8 || length as usize > bytes.len() {
         let message =
             format!("the header says {length} bytes, and the file has {}; it has been cut off", bytes.len());
-        return Err(Fault::at("offset 8", message));
+        return Err(Fault::part("offset 8", message));
     }
     let glb = gltf::Glb::from_slice(bytes).map_err(|error| Fault::whole(message(error)))?;
     Ok((glb.json.into_owned(), glb.bin.map(std::borrow::Cow::into_owned)))
@@ -111,7 +111,7 @@ fn positions(root: &mut Root) -> Result<Option<String>, Fault> {
         let count = root.accessors.len();
         let Some(accessor) = root.accessors.get_mut(index.value()) else {
             let message = format!("POSITION refers to accessor {}, and there are {count}", index.value());
-            return Err(Fault::at(format!("mesh {mesh}"), message));
+            return Err(Fault::part(format!("mesh {mesh}"), message));
         };
         unbounded += u32::from(accessor.min.is_none() || accessor.max.is_none());
         for bound in [&mut accessor.min, &mut accessor.max] {
@@ -126,7 +126,7 @@ fn positions(root: &mut Root) -> Result<Option<String>, Fault> {
 fn extensions(root: &mut Root) -> Result<Vec<String>, Fault> {
     if let Some(name) = root.extensions_required.iter().find(|name| NEEDED.contains(&name.as_str())) {
         let message = format!("the shape is written with {name}, which is not read; export it without");
-        return Err(Fault::at("extensionsRequired", message));
+        return Err(Fault::part("extensionsRequired", message));
     }
     let shapeless =
         |name: &String| ["KHR_materials_", "KHR_texture_", "KHR_lights_"].iter().any(|p| name.starts_with(p));

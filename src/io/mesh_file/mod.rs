@@ -17,6 +17,7 @@ mod stl_file;
 #[cfg(test)]
 mod tests;
 
+use super::file_error::{Fault, FileError};
 use crate::math::surface::Surface;
 use std::path::Path;
 
@@ -43,39 +44,6 @@ pub struct MeshFile {
     pub name: String,
 }
 
-/// Why a mesh file could not be read.
-#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-#[error("{path}{}: {message}", .place.as_ref().map(|place| format!(":{place}")).unwrap_or_default())]
-pub struct MeshFileError {
-    /// The path of the file, as the caller gave it.
-    pub path: String,
-    /// The line, from 1, or the part of the file at fault; `None` where that is the file as a whole.
-    pub place: Option<String>,
-    /// What is wrong, and what was expected.
-    pub message: String,
-}
-
-/// A fault in a mesh, which does not yet have its file's name.
-#[derive(Debug)]
-struct Fault {
-    place: Option<String>,
-    message: String,
-}
-
-impl Fault {
-    fn whole(message: impl Into<String>) -> Self {
-        Self { place: None, message: message.into() }
-    }
-
-    fn line(line: usize, message: impl Into<String>) -> Self {
-        Self { place: Some(line.to_string()), message: message.into() }
-    }
-
-    fn at(place: impl Into<String>, message: impl Into<String>) -> Self {
-        Self { place: Some(place.into()), message: message.into() }
-    }
-}
-
 /// What the reader of a format returns, which does not yet have its file's name.
 #[derive(Default)]
 struct Read {
@@ -91,10 +59,10 @@ struct Read {
 ///
 /// # Errors
 /// When the file is no mesh that can be read; the error has the place.
-pub fn read(path: impl AsRef<Path>) -> Result<MeshFile, MeshFileError> {
+pub fn read(path: impl AsRef<Path>) -> Result<MeshFile, FileError> {
     let path = path.as_ref();
     let folder = path.parent().unwrap_or(Path::new(""));
-    let bytes = limits::bytes(path).map_err(|fault| named(fault, &path.display().to_string()))?;
+    let bytes = limits::bytes(path).map_err(|fault| fault.in_file(path.display()))?;
     parse(bytes, &path.display().to_string(), Some(folder))
 }
 
@@ -103,17 +71,16 @@ pub fn read(path: impl AsRef<Path>) -> Result<MeshFile, MeshFileError> {
 ///
 /// # Errors
 /// When the content is no mesh that can be read; the error has the place.
-pub fn parse(bytes: Vec<u8>, label: &str, folder: Option<&Path>) -> Result<MeshFile, MeshFileError> {
+pub fn parse(bytes: Vec<u8>, label: &str, folder: Option<&Path>) -> Result<MeshFile, FileError> {
     if bytes.is_empty() {
-        return Err(named(Fault::whole("the file is empty"), label));
+        return Err(FileError::new(label, "the file is empty"));
     }
     // A binary STL that was cut off, or whose count is wrong, can be recognised by its name alone.
     let is_named = Path::new(label).extension().is_some_and(|e| e.eq_ignore_ascii_case("stl"));
     let binary =
         (is_named && bytes.len() >= STL_HEADER && bytes.contains(&0)).then_some(MeshFormat::StlBinary);
     let Some(format) = looks_like(&bytes).or(binary) else {
-        let message = "this is no mesh: glTF, OBJ, STL or PLY is expected";
-        return Err(named(Fault::whole(message), label));
+        return Err(FileError::new(label, "this is no mesh: glTF, OBJ, STL or PLY is expected"));
     };
     let read = match format {
         MeshFormat::Glb | MeshFormat::Gltf => gltf_file::read(&bytes, folder),
@@ -123,7 +90,7 @@ pub fn parse(bytes: Vec<u8>, label: &str, folder: Option<&Path>) -> Result<MeshF
         MeshFormat::Ply => ply_file::read(&bytes),
     };
     let Read { surface, hint, mut warnings, name, said } =
-        read.and_then(limits::checked).map_err(|fault| named(fault, label))?;
+        read.and_then(limits::checked).map_err(|fault| fault.in_file(label))?;
     let stem = Path::new(label).file_stem().map(|stem| stem.to_string_lossy().into_owned());
     let printable = |name: &String| crate::cut::is_printable(name);
     let name = name.filter(printable).or(stem.filter(printable)).unwrap_or_else(|| "mesh".to_owned());
@@ -135,18 +102,4 @@ pub fn parse(bytes: Vec<u8>, label: &str, folder: Option<&Path>) -> Result<MeshF
         }
     });
     Ok(MeshFile { format, surface, hint, statement, warnings, name })
-}
-
-fn named(fault: Fault, label: &str) -> MeshFileError {
-    MeshFileError { path: label.to_owned(), place: fault.place, message: shortened(fault.message) }
-}
-
-/// Puts a message on one line, and cuts it to what a person reads where it quotes something very long.
-fn shortened(message: String) -> String {
-    const LONGEST: usize = 400;
-    let line = message.split_whitespace().collect::<Vec<_>>().join(" ");
-    match line.char_indices().nth(LONGEST) {
-        Some((end, _)) => format!("{} ...", &line[..end]),
-        None => line,
-    }
 }

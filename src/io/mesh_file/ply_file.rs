@@ -72,7 +72,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Read, Fault> {
     let end = b"end_header";
     let beginning = &bytes[..bytes.len().min(MAX_HEADER)];
     let Some(header) = beginning.windows(end.len()).position(|w| w == end) else {
-        return Err(Fault::whole("the header has no end; a line `end_header` is expected"));
+        return Err("the header has no end; a line `end_header` is expected".into());
     };
     // Comments may be in any encoding.
     let readable: Vec<u8> = bytes[..header].iter().map(|b| if b.is_ascii() { *b } else { b'?' }).collect();
@@ -105,13 +105,13 @@ fn check(header: &Header) -> Result<(), Fault> {
                 element.count,
                 element.properties.len()
             );
-            return Err(Fault::at(format!("element {name}"), message));
+            return Err(Fault::part(format!("element {name}"), message));
         }
     }
     let lacks = |element: &str, names: &[&str]| {
         let there =
             header.elements.get(element).is_some_and(|e| names.iter().any(|n| e.properties.contains_key(*n)));
-        (!there).then(|| Fault::at("header", format!("`{}` of element `{element}` is expected", names[0])))
+        (!there).then(|| Fault::part("header", format!("`{}` of element `{element}` is expected", names[0])))
     };
     let coordinates = ["x", "y", "z"].iter().find_map(|name| lacks("vertex", &[name]));
     let missing = coordinates.or_else(|| lacks("face", &["vertex_indices", "vertex_index"]));
@@ -123,7 +123,7 @@ fn faces(rows: Vec<Row>, surface: &mut Surface) -> Result<(), Fault> {
         let corner = |&n: &i64| {
             u32::try_from(n).map_err(|_| {
                 let message = format!("it refers to corner {n}; a number from 0 is expected");
-                Fault::at(format!("face {number}"), message)
+                Fault::part(format!("face {number}"), message)
             })
         };
         let corners = row.corners.iter().map(corner).collect::<Result<Vec<u32>, _>>()?;

@@ -6,6 +6,7 @@
 //! and the highest point; `m`, the middle of the volume; and `n`, the material's name or index, which ends the line. Volume,
 //! points and middle are in the stone's frame, whose +x is that of the file and whose origin is the file's.
 
+use super::Fault;
 use crate::cut::MaterialRef;
 use crate::math::Surface;
 use glam::{DQuat, DVec3};
@@ -170,7 +171,7 @@ impl Statement {
     ///
     /// # Errors
     /// What is wrong with the text, in words.
-    pub fn parse(text: &str) -> Result<Self, String> {
+    pub fn parse(text: &str) -> Result<Self, Fault> {
         let end = text.char_indices().nth(LONGEST).map_or(text.len(), |(end, _)| end);
         let text = text[..end].trim();
         let (pairs, material) =
@@ -231,13 +232,13 @@ struct Found {
 const NUMBERS: [(&str, usize); 5] = [("d", 1), ("u", 1), ("v", 1), ("s", 2), ("m", 3)];
 
 impl Found {
-    fn take(&mut self, pair: &str) -> Result<(), String> {
+    fn take(&mut self, pair: &str) -> Result<(), Fault> {
         let (key, value) = pair.split_once('=').ok_or_else(|| format!("'{pair}' is no key with a value"))?;
         if key == "up" {
             self.up = Some(match value {
                 "y" => DVec3::Y,
                 "z" => DVec3::Z,
-                _ => return Err(format!("up={value}: y or z is expected")),
+                _ => return Err(format!("up={value}: y or z is expected").into()),
             });
             return Ok(());
         }
@@ -245,15 +246,16 @@ impl Found {
         let Some(place) = NUMBERS.iter().position(|(known, _)| *known == key) else { return Ok(()) };
         let numbers: Vec<f64> = value.split(',').filter_map(|number| number.parse().ok()).collect();
         if numbers.len() != NUMBERS[place].1 || !numbers.iter().all(|x| x.is_finite()) {
-            return Err(format!("{key}={value}: {} finite numbers are expected", NUMBERS[place].1));
+            let count = NUMBERS[place].1;
+            return Err(format!("{key}={value}: {count} finite numbers are expected").into());
         }
         self.numbers[place] = Some(numbers);
         Ok(())
     }
 
-    fn whole(self) -> Result<Statement, String> {
+    fn whole(self) -> Result<Statement, Fault> {
         let Self { up, numbers: [d, u, v, s, m], material } = self;
-        let lacks = |key: &str| format!("it lacks {key}");
+        let lacks = |key: &str| Fault::whole(format!("it lacks {key}"));
         let up = up.ok_or_else(|| lacks("up"))?;
         let one = |numbers: Vec<f64>| numbers[0];
         let diameter_mm = d.map(one).ok_or_else(|| lacks("d"))?;
@@ -263,14 +265,14 @@ impl Found {
         let middle = DVec3::from_slice(&m.ok_or_else(|| lacks("m"))?);
         let positive = [("d", diameter_mm), ("u", mm_per_unit), ("v", volume), ("s", span[1] - span[0])];
         if let Some((key, value)) = positive.into_iter().find(|(_, value)| *value <= 0.0) {
-            return Err(format!("{key}: {value} must be above 0"));
+            return Err(format!("{key}: {value} must be above 0").into());
         }
         let measures = Measures { volume, span: [span[0], span[1]], middle };
         Ok(Statement { up, mm_per_unit, diameter_mm, material, measures })
     }
 }
 
-fn material_of(name: &str) -> Result<MaterialRef, String> {
+fn material_of(name: &str) -> Result<MaterialRef, Fault> {
     let material = name.parse().map_or_else(|_| MaterialRef::Name(name.to_owned()), MaterialRef::Index);
-    material.check().map(|()| material).map_err(|error| error.to_string())
+    material.check().map(|()| material).map_err(Fault::whole)
 }

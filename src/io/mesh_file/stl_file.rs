@@ -11,19 +11,19 @@ use std::io::Cursor;
 const FIRST: &[u8] = b"solid stone\n";
 
 pub(super) fn read_binary(mut bytes: Vec<u8>) -> Result<Read, Fault> {
-    let count = stl_triangles(&bytes).ok_or_else(|| Fault::whole("this is too short for a binary STL"))?;
+    let count = stl_triangles(&bytes).ok_or("this is too short for a binary STL")?;
     let there = (bytes.len() as u64).saturating_sub(STL_HEADER as u64) / STL_TRIANGLE;
     if count > there {
         let message =
             format!("{count} triangles are announced, and the file holds {there}; it has been cut off");
-        return Err(Fault::at("offset 80", message));
+        return Err(Fault::part("offset 80", message));
     }
     limits::count(0, usize::try_from(count).unwrap_or(usize::MAX))?;
     let name = String::from_utf8_lossy(&bytes[..80]).trim_matches(['\0', ' ']).to_owned();
     // The header is of no more use, and with the word `solid` in it the file would be taken for text.
     bytes[..80].fill(0);
     let surface = triangles(&mut Cursor::new(bytes))
-        .map_err(|(number, message)| Fault::at(format!("triangle {number}"), message))?;
+        .map_err(|(number, message)| Fault::part(format!("triangle {number}"), message))?;
     let said = Statement::is_meant(&name).then(|| name.clone());
     let name = name.strip_prefix("solid").map(|n| n.trim().to_owned());
     Ok(Read { surface, name, said, ..Read::default() })
@@ -77,7 +77,7 @@ fn triangles<R: std::io::Read + std::io::Seek>(reader: &mut R) -> Result<Surface
         let first = vertices.len() as u32;
         vertices.extend(corners.map(DVec3::from_array));
         triangles.push([first, first + 1, first + 2]);
-        limits::count(0, triangles.len()).map_err(|fault| (number, fault.message))?;
+        limits::count(0, triangles.len()).map_err(|fault| (number, fault.problem))?;
     }
     Ok(Surface::new(vertices, triangles))
 }

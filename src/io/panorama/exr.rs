@@ -1,6 +1,7 @@
 //! Reads OpenEXR: the first layer with channels R, G and B, of any type; cover and all else are left out.
 
 use super::{Raw, check_size, damaged};
+use crate::io::file_error::Fault;
 use crate::io::picture_file::SRGB;
 use crate::scene::Panorama;
 use exr::meta::MetaData;
@@ -12,7 +13,7 @@ use std::io::{BufReader, Seek};
 /// Primaries whose coordinates differ from those of sRGB by less than this are taken as the same.
 const SAME: f32 = 0.002;
 
-pub(super) fn read(mut file: BufReader<File>, bytes: u64) -> Result<Raw, String> {
+pub(super) fn read(mut file: BufReader<File>, bytes: u64) -> Result<Raw, Fault> {
     let meta = MetaData::read_from_buffered(&mut file, false).map_err(damaged)?;
     file.rewind().map_err(damaged)?;
     // The decoder makes room for one layer only, but reads the tables of all.

@@ -1,6 +1,7 @@
 //! Reads Radiance HDR, PNG and JPEG.
 
 use super::{LARGEST, Raw, check_size, damaged};
+use crate::io::file_error::Fault;
 use crate::optics::linear_from_encoded;
 use crate::scene::Panorama;
 use image::codecs::hdr::HdrDecoder;
@@ -12,7 +13,7 @@ use std::io::BufReader;
 const MOST_BYTES: u64 = 32 * (LARGEST.0 as u64) * (LARGEST.1 as u64);
 
 /// Reads a picture from a file of so many bytes; `start` holds the first of them.
-pub(super) fn read(file: BufReader<File>, bytes: u64, start: &[u8]) -> Result<Raw, String> {
+pub(super) fn read(file: BufReader<File>, bytes: u64, start: &[u8]) -> Result<Raw, Fault> {
     if start.starts_with(b"#?") {
         // Programs write `#?RADIANCE` or `#?RGBE`; their pixels are the same.
         return decoded(HdrDecoder::new_nonstrict(file).map_err(damaged)?, bytes);
@@ -31,7 +32,7 @@ fn limits() -> Limits {
     limits
 }
 
-fn decoded(mut decoder: impl ImageDecoder, bytes: u64) -> Result<Raw, String> {
+fn decoded(mut decoder: impl ImageDecoder, bytes: u64) -> Result<Raw, Fault> {
     let (width, height) = decoder.dimensions();
     check_size(u64::from(width), u64::from(height), bytes)?;
     decoder.set_limits(limits()).map_err(damaged)?;

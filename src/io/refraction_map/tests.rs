@@ -129,7 +129,7 @@ fn what_is_no_map_is_told_by_its_name_and_never_panics() {
     }
     let diffuse = diffuse_path(folder.path(), "a");
     write_diffuse(&diffuse, &map, "").unwrap();
-    let refused = |places: &[PathBuf], diffuse: &Path| read(places, diffuse).unwrap_err();
+    let refused = |places: &[PathBuf], diffuse: &Path| read(places, diffuse).unwrap_err().to_string();
     let tiled = at("a-refraction.png");
     assert!(refused(&[at("none.png")], &diffuse).ends_with("none.png: there is no such file"));
     assert!(refused(std::slice::from_ref(&tiled), &at("none.png")).contains("none.png"));

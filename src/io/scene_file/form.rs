@@ -3,15 +3,17 @@
 use super::super::background::BackgroundRef;
 use super::super::cut_file::material_form::MaterialForm;
 use super::super::cut_file::values::{Numbers, OneOf, Pairs, TomlTable};
-use super::super::fault::Fault;
-use super::{DEFAULT_GAP_MM, Entry, MOST_STONES, SceneFile, likely, shown};
-use crate::cut::{MaterialError, MaterialRef, Size, is_printable};
+use super::super::file_error::Fault;
+use super::super::toml_text::line_at;
+use super::{DEFAULT_GAP_MM, Entry, MOST_STONES, SceneFile, behind, found, likely, shown};
+use crate::cut::{MaterialError, MaterialRef, Size, SizeError, is_printable};
 use crate::scene::Layout;
 use glam::DVec3;
 use serde::Deserialize;
 use serde::de::IgnoredAny;
 use std::ops::RangeInclusive;
-use std::path::PathBuf;
+use std::path::Path;
+use toml::Spanned;
 
 /// A whole scene file.
 #[derive(Deserialize)]
@@ -26,7 +28,7 @@ pub(super) struct SceneForm {
     background: Option<String>,
     background_distance_mm: Option<f64>,
     strength: Option<f64>,
-    stone: Vec<TomlTable<StoneForm>>,
+    stone: Vec<Spanned<TomlTable<StoneForm>>>,
 }
 
 /// A table `[[stone]]`.
@@ -57,29 +59,19 @@ fn one() -> i64 {
 struct SizeForm(Size);
 
 impl TryFrom<OneOf<Pairs>> for SizeForm {
-    type Error = String;
+    type Error = Fault;
 
-    fn try_from(form: OneOf<Pairs>) -> Result<Self, String> {
+    fn try_from(form: OneOf<Pairs>) -> Result<Self, Fault> {
         let text = match form {
             OneOf::Text(text) => text,
             // The number goes on without a unit, which the size's own parser refuses.
             OneOf::Number(number) => number.to_string(),
             OneOf::Rest(_) => {
-                return Err("a list is not a size; write a number and mm or ct in quotes".to_owned());
+                return Err("a list is not a size; write a number and mm or ct in quotes".into());
             }
         };
-        text.parse().map(Self).map_err(|error: crate::cut::SizeError| error.to_string())
+        text.parse().map(Self).map_err(|error: SizeError| Fault::whole(error))
     }
-}
-
-/// What reading a form asks for outside of it.
-pub(super) struct Surroundings<'a> {
-    /// Returns the light of a name or file.
-    pub light: &'a dyn Fn(&str) -> Result<PathBuf, Fault>,
-    /// Returns the background of a name or file.
-    pub background: &'a dyn Fn(&str) -> Result<BackgroundRef, Fault>,
-    /// Returns the line where the `[[stone]]` of an index begins.
-    pub line: &'a dyn Fn(usize) -> usize,
 }
 
 const DEGREES: RangeInclusive<f64> = -1e6..=1e6;
@@ -89,38 +81,40 @@ const DISTANCES_MM: RangeInclusive<f64> = 0.0..=10_000.0;
 const PLACES_MM: RangeInclusive<f64> = -10_000.0..=10_000.0;
 
 impl SceneForm {
-    /// Returns the scene that the form describes, checked.
-    pub fn scene(self, around: &Surroundings) -> Result<SceneFile, Fault> {
+    /// Returns the scene that the form of a text describes, checked; files that it names are looked for from `folder`.
+    pub fn scene(self, text: &str, folder: Option<&Path>) -> Result<SceneFile, Fault> {
         if !is_printable(&self.name) {
-            return Err(Fault::at("name", "name: a name of 1 to 200 printable characters is expected"));
+            return Err(Fault::key("name", "name: a name of 1 to 200 printable characters is expected"));
         }
-        let light = self.light.as_deref().map(around.light).transpose()?;
+        let light = self.light.as_deref().map(|given| found(given, folder)).transpose()?;
         let layout = self.layout.as_deref().map(layout).transpose()?;
         if self.gap_mm.is_some() && layout.is_none() {
-            return Err(Fault::at("gap_mm", "gap_mm: only a layout has gaps; give layout, or leave it out"));
+            return Err(Fault::key("gap_mm", "gap_mm: only a layout has gaps; give layout, or leave it out"));
         }
         let gap_mm = self.gap_mm.unwrap_or(DEFAULT_GAP_MM);
         within("gap_mm", "gap_mm", gap_mm, GAPS_MM, "mm")?;
-        let background = self.background.as_deref().map(around.background).transpose()?;
+        let background = self.background.as_deref().map(|given| behind(given, folder)).transpose()?;
         if let Some(distance) = self.background_distance_mm {
             if !matches!(background, Some(BackgroundRef::Pattern(_) | BackgroundRef::Photo(_))) {
                 let message = "background_distance_mm: only a pattern or a photograph has a distance; give background, or \
                                leave it out";
-                return Err(Fault::at("background_distance_mm", message));
+                return Err(Fault::key("background_distance_mm", message));
             }
             within("background_distance_mm", "background_distance_mm", distance, DISTANCES_MM, "mm")?;
         }
         let strength = self.strength.unwrap_or(1.0);
         if !(0.0..=1.0).contains(&strength) {
             let message = format!("strength: {strength} must be from 0, straight on, to 1, physics");
-            return Err(Fault::at("strength", message));
+            return Err(Fault::key("strength", message));
         }
         check_counts(&self.stone)?;
         let alone = self.stone.len() == 1;
-        let entry = |(index, TomlTable(form)): (usize, TomlTable<StoneForm>)| {
+        let entry = |(index, stone): (usize, Spanned<TomlTable<StoneForm>>)| {
+            let line = line_at(text, stone.span().start);
+            let TomlTable(form) = stone.into_inner();
             let told =
                 |fault: Fault| fault.within(&format!("stone/{index}/"), &format!("stone {}: ", index + 1));
-            form.check_place(layout, alone).and_then(|()| form.entry((around.line)(index))).map_err(told)
+            form.check_place(layout, alone).and_then(|()| form.entry(line)).map_err(told)
         };
         let stones = self.stone.into_iter().enumerate().map(entry).collect::<Result<_, _>>()?;
         let Self { name, background_distance_mm, .. } = self;
@@ -132,21 +126,22 @@ fn layout(given: &str) -> Result<Layout, Fault> {
     let names = Layout::NAMES.map(|(name, _)| name);
     let found = Layout::NAMES.iter().find(|(name, _)| *name == given).map(|(_, layout)| *layout);
     let unknown = || format!("layout: '{}' is none{}", shown(given), likely(given, &names));
-    found.ok_or_else(|| Fault::at("layout", unknown()))
+    found.ok_or_else(|| Fault::key("layout", unknown()))
 }
 
-fn check_counts(stones: &[TomlTable<StoneForm>]) -> Result<(), Fault> {
+fn check_counts(stones: &[Spanned<TomlTable<StoneForm>>]) -> Result<(), Fault> {
     if stones.is_empty() {
-        return Err(Fault::at("stone", "stone: the list is empty; give at least one [[stone]]"));
+        return Err(Fault::key("stone", "stone: the list is empty; give at least one [[stone]]"));
     }
     let mut left = MOST_STONES as i64;
-    for (index, TomlTable(StoneForm { count, .. })) in stones.iter().enumerate() {
+    for (index, stone) in stones.iter().enumerate() {
+        let TomlTable(StoneForm { count, .. }) = stone.get_ref();
         if !(1..=left).contains(count) {
             let number = index + 1;
             let message = format!(
                 "stone {number}: count: {count} must be at least 1, and all together at most {MOST_STONES}"
             );
-            return Err(Fault::at(format!("stone/{index}/count"), message));
+            return Err(Fault::key(format!("stone/{index}/count"), message));
         }
         left -= count;
     }
@@ -158,7 +153,7 @@ fn within(path: &str, key: &str, value: f64, range: RangeInclusive<f64>, unit: &
         return Ok(());
     }
     let (least, most) = range.into_inner();
-    Err(Fault::at(path, format!("{key}: {value} must be from {least} to {most} {unit}")))
+    Err(Fault::key(path, format!("{key}: {value} must be from {least} to {most} {unit}")))
 }
 
 impl StoneForm {
@@ -166,14 +161,14 @@ impl StoneForm {
     fn check_place(&self, layout: Option<Layout>, alone: bool) -> Result<(), Fault> {
         match (layout, self.at) {
             (Some(_), Some(_)) => {
-                Err(Fault::at("at", "at: the layout says where the stones are; leave out one or the other"))
+                Err(Fault::key("at", "at: the layout says where the stones are; leave out one or the other"))
             }
             (None, _) if self.count > 1 => {
                 let message = "count: several stones cannot be in one place; give a layout";
-                Err(Fault::at("count", message))
+                Err(Fault::key("count", message))
             }
             (None, None) if !alone => {
-                Err(Fault::at("", "at is missing: give [x, y, z] in mm, or a layout for all"))
+                Err(Fault::key("", "at is missing: give [x, y, z] in mm, or a layout for all"))
             }
             _ => Ok(()),
         }
@@ -208,6 +203,6 @@ fn material(form: MaterialForm) -> Result<MaterialRef, Fault> {
         MaterialRef::Custom(_) => format!("material/{}", error.key()),
         MaterialRef::Name(_) | MaterialRef::Index(_) => "material".to_owned(),
     };
-    material.check().map_err(|error| Fault::at(path(&error), error.to_string()))?;
+    material.check().map_err(|error| Fault::key(path(&error), error))?;
     Ok(material)
 }

@@ -18,7 +18,7 @@ fn with(text: &str, part: &str, other: &str) -> String {
 
 #[track_caller]
 fn assert_told(text: &str, expected: &str) {
-    let told = parse(text, "x.toml", None).unwrap_err();
+    let told = parse(text, "x.toml", None).unwrap_err().to_string();
     assert!(told.starts_with(expected), "{told}\ninstead of\n{expected}");
 }
 

@@ -127,8 +127,8 @@ proptest! {
         text.splice(start..end, patch.chars());
         let text: String = text.into_iter().collect();
         if let Err(error) = parse(&text, "x.toml") {
-            prop_assert!(error.line.is_none_or(|line| line <= 1 + text.matches('\n').count()));
-            prop_assert!(!error.message.is_empty());
+            prop_assert!(error.fault.line.is_none_or(|line| line <= 1 + text.matches('\n').count()));
+            prop_assert!(!error.fault.problem.is_empty());
         }
     }
 }

@@ -26,21 +26,23 @@ pub(super) fn load(
     for buffer in document.buffers() {
         let place = format!("buffer {}", buffer.index());
         let read = match buffer.source() {
-            Source::Bin => blob.take().ok_or_else(|| "a binary chunk is expected in the file".to_owned()),
+            Source::Bin => blob.take().ok_or_else(|| Fault::whole("a binary chunk is expected in the file")),
             Source::Uri(uri) => from_uri(uri, folder),
         };
         let whole_one = read.and_then(|bytes| match bytes.len() < buffer.length() {
-            true => Err(format!("{} bytes are announced, and {} are there", buffer.length(), bytes.len())),
+            true => {
+                Err(format!("{} bytes are announced, and {} are there", buffer.length(), bytes.len()).into())
+            }
             false => Ok(bytes),
         });
         let bytes = match whole_one {
             Err(_) if !needed.contains(&buffer.index()) => vec![],
-            read => read.map_err(|message| Fault::at(&*place, message))?,
+            read => read.map_err(|fault| Fault::part(&place, fault))?,
         };
         whole += bytes.len() as u64;
         if whole > MAX_BYTES {
             let most = MAX_BYTES >> 20;
-            return Err(Fault::at(
+            return Err(Fault::part(
                 place,
                 format!("all buffers are larger than {most} MiB; save a coarser mesh"),
             ));
@@ -61,18 +63,18 @@ fn needed(document: &Document) -> BTreeSet<usize> {
     views.map(|view| view.buffer().index()).collect()
 }
 
-pub(super) fn from_uri(uri: &str, folder: Option<&Path>) -> Result<Vec<u8>, String> {
+pub(super) fn from_uri(uri: &str, folder: Option<&Path>) -> Result<Vec<u8>, Fault> {
     if let Some(rest) = uri.strip_prefix("data:") {
         let (_, text) = rest.split_once(";base64,").ok_or("a `data:` of base64 is expected")?;
-        return STANDARD.decode(text).map_err(|error| format!("this is no base64: {error}"));
+        return STANDARD.decode(text).map_err(|error| Fault::whole(format!("this is no base64: {error}")));
     }
     let name = percent_encoding::percent_decode_str(uri).decode_utf8_lossy();
     // Beside the file and nowhere else: a mesh from somewhere must not make the program read what it likes.
     let outside = name.contains(['/', '\\', ':', '\0']) || name == ".." || name == "." || name.is_empty();
     let Some(folder) = folder.filter(|_| !outside) else {
-        return Err(format!("`{name}` is not a file beside this one; put it there, or embed it"));
+        return Err(format!("`{name}` is not a file beside this one; put it there, or embed it").into());
     };
-    limits::bytes(&folder.join(&*name)).map_err(|fault| format!("{name}: {}", fault.message))
+    limits::bytes(&folder.join(&*name)).map_err(|fault| Fault::whole(format!("{name}: {fault}")))
 }
 
 /// Checks that an accessor has one of the expected types and lies within its buffers; the crate checks neither.
@@ -82,7 +84,7 @@ pub(super) fn check(
     shape: Dimensions,
     data: &Data,
 ) -> Result<(), Fault> {
-    let fault = |message: String| Err(Fault::at(format!("accessor {}", accessor.index()), message));
+    let fault = |message: String| Err(Fault::part(format!("accessor {}", accessor.index()), message));
     if !types.contains(&accessor.data_type()) || accessor.dimensions() != shape {
         return fault(format!(
             "{:?} of {:?} are given; {shape:?} of {types:?} are expected",

@@ -1,5 +1,6 @@
 //! Checks that the images of a glTF file's textures are there. No image is used, so that a fault in one is only a warning.
 
+use super::Fault;
 use super::buffers::{Data, from_uri};
 use gltf::Document;
 use gltf::json::Image;
@@ -34,7 +35,7 @@ fn bytes<'a>(
     document: &Document,
     data: &'a Data,
     folder: Option<&Path>,
-) -> Result<Cow<'a, [u8]>, String> {
+) -> Result<Cow<'a, [u8]>, Fault> {
     if let Some(uri) = &image.uri {
         return from_uri(uri, folder).map(Cow::Owned);
     }
@@ -43,19 +44,20 @@ fn bytes<'a>(
     let end = view.offset().checked_add(view.length());
     let buffer = &data[view.buffer().index()];
     let found = end.and_then(|end| buffer.get(view.offset()..end));
-    found.map(Cow::Borrowed).ok_or_else(|| format!("buffer {} does not hold it", view.buffer().index()))
+    let lacks = || Fault::whole(format!("buffer {} does not hold it", view.buffer().index()));
+    found.map(Cow::Borrowed).ok_or_else(lacks)
 }
 
 /// Checks that bytes are a picture of a kind that glTF and its extensions have, as far as its header shows.
-fn check(bytes: &[u8]) -> Result<(), String> {
+fn check(bytes: &[u8]) -> Result<(), Fault> {
     match guess_format(bytes) {
         Ok(format @ (ImageFormat::Png | ImageFormat::Jpeg)) => {
             let size = ImageReader::with_format(Cursor::new(bytes), format).into_dimensions();
-            size.map(|_| ()).map_err(|error| format!("it is broken: {error}"))
+            size.map(|_| ()).map_err(|error| Fault::whole(format!("it is broken: {error}")))
         }
         // `image` is built here without the readers of these formats.
         Ok(ImageFormat::WebP | ImageFormat::Avif | ImageFormat::Dds) => Ok(()),
         _ if bytes.starts_with(KTX2) => Ok(()),
-        _ => Err("its bytes are no picture of a kind that glTF knows".to_owned()),
+        _ => Err("its bytes are no picture of a kind that glTF knows".into()),
     }
 }

@@ -56,7 +56,7 @@ impl Gatherer<'_> {
             let message = format!(
                 "nodes lie more than {MOST_NESTED} deep or are more than {MOST_NODES}; do they contain themselves?"
             );
-            return Err(Fault::at(format!("node {}", node.index()), message));
+            return Err(Fault::part(format!("node {}", node.index()), message));
         }
         let placed = above * transform(&node.transform());
         if self.read.said.is_none() {
@@ -66,11 +66,9 @@ impl Gatherer<'_> {
             let name = mesh.name().or(node.name()).unwrap_or_default();
             for primitive in mesh.primitives() {
                 self.primitive(&primitive, name, placed).map_err(|fault| {
-                    let own = format!("mesh {}, primitive {}", mesh.index(), primitive.index());
-                    Fault {
-                        place: Some(fault.place.map_or(own.clone(), |at| format!("{own}, {at}"))),
-                        ..fault
-                    }
+                    let joint = if fault.key.is_some() { ", " } else { ": " };
+                    let own = format!("mesh {}, primitive {}{joint}", mesh.index(), primitive.index());
+                    fault.within(&own, &own)
                 })?;
             }
         }
@@ -84,7 +82,7 @@ impl Gatherer<'_> {
             return Ok(());
         }
         let Some(positions) = primitive.get(&Semantic::Positions) else {
-            return Err(Fault::whole("it has no POSITION; places of its corners are expected"));
+            return Err("it has no POSITION; places of its corners are expected".into());
         };
         buffers::check(&positions, &[DataType::F32], Dimensions::Vec3, self.data)?;
         if let Some(indices) = primitive.indices() {
@@ -100,10 +98,7 @@ impl Gatherer<'_> {
             None => (0..vertices.len() as u32).collect(),
         };
         if let Some(bad) = order.iter().find(|&&v| v as usize >= vertices.len()) {
-            return Err(Fault::whole(format!(
-                "it refers to corner {bad}, from 0, and there are {}",
-                vertices.len()
-            )));
+            return Err(format!("it refers to corner {bad}, from 0, and there are {}", vertices.len()).into());
         }
         let triangles = triangles(&order, mode);
         let whole = &self.read.surface;

@@ -29,7 +29,7 @@ fn textured() -> serde_json::Value {
     root
 }
 
-fn opened(root: &serde_json::Value) -> Result<MeshFile, MeshFileError> {
+fn opened(root: &serde_json::Value) -> Result<MeshFile, FileError> {
     parse(root.to_string().into_bytes(), "f.gltf", None)
 }
 

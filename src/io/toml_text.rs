@@ -1,10 +1,11 @@
-//! Faults of a TOML text: what is wrong, and where, by its key's path or by the span that the TOML parser gives.
+//! Reads TOML texts, each parsed once, with faults that name the line by the spans of the parsed values.
 
+use super::file_error::Fault;
 use super::text::line_after;
 use crate::cut::{FAMILIES, Family};
-use std::ops::Range;
-
-use toml::de::{DeTable, DeValue, Error};
+use serde::Deserialize;
+use toml::Spanned;
+use toml::de::{DeString, DeTable, DeValue, Deserializer, Error};
 
 /// The meanings of keys, for someone who left a key out or wrote something else. Those of proportions are in their
 /// families' tables.
@@ -75,95 +76,99 @@ const WORDS: [(&str, &str); 12] = [
     ("floating point", "number"),
 ];
 
-/// What is wrong in a text, and where.
-#[derive(Debug)]
-pub(super) struct Fault {
-    place: Place,
-    pub(super) message: String,
+/// A TOML text that has been parsed.
+pub(super) struct TomlText<'t> {
+    text: &'t str,
+    table: Spanned<DeTable<'t>>,
 }
 
-#[derive(Debug)]
-enum Place {
-    Whole,
-    /// A byte offset in the text.
-    Offset(usize),
-    /// The path of a key, such as `plane/17/normal`.
-    Path(String),
+impl<'t> TomlText<'t> {
+    /// Parses a text.
+    pub fn parse(text: &'t str) -> Result<Self, Fault> {
+        let table = DeTable::parse(text).map_err(|error| syntax(text, &error))?;
+        Ok(Self { text, table })
+    }
+
+    /// Returns the value of a key at the top of the file.
+    pub fn get(&self, key: &str) -> Option<&Spanned<DeValue<'t>>> {
+        self.table.get_ref().get(key)
+    }
+
+    /// Returns the line where a value begins, from 1.
+    pub fn line(&self, value: &Spanned<DeValue<'_>>) -> usize {
+        line_at(self.text, value.span().start)
+    }
+
+    /// Reads the form of the text, and makes of it what the file says. A fault of the making gets the line of its key.
+    pub fn read<T: Deserialize<'t>, U>(self, make: impl FnOnce(T) -> Result<U, Fault>) -> Result<U, Fault> {
+        self.read_beside(&[], |_| Ok(()), |form, ()| make(form))
+    }
+
+    /// Does the same for a file that may have further keys at its top, which `take` takes out and reads first.
+    pub fn read_beside<T: Deserialize<'t>, B, U>(
+        self,
+        further: &[&str],
+        take: impl FnOnce(&mut DeTable<'t>) -> Result<B, Error>,
+        make: impl FnOnce(T, B) -> Result<U, Fault>,
+    ) -> Result<U, Fault> {
+        let Self { text, mut table } = self;
+        let spans = spans(table.get_ref());
+        let beside = take(table.get_mut()).map_err(|error| misshapen(text, error, &[]))?;
+        let form = T::deserialize(Deserializer::from(table));
+        let form = form.map_err(|error| misshapen(text, error, further))?;
+        make(form, beside).map_err(|fault| {
+            let start = || start(&spans, fault.key.as_deref()?);
+            Fault { line: fault.line.or_else(|| Some(line_at(text, start()?))), ..fault }
+        })
+    }
 }
 
-impl Fault {
-    /// Makes a fault of the file as a whole.
-    pub(super) fn whole(message: impl Into<String>) -> Self {
-        Self { place: Place::Whole, message: message.into() }
-    }
+/// Returns the number, from 1, of the line at a byte offset of a text.
+pub(super) fn line_at(text: &str, offset: usize) -> usize {
+    line_after(&text.as_bytes()[..offset.min(text.len())])
+}
 
-    /// Makes a fault of something that is missing at the top of the file.
-    pub(super) fn top(message: impl Into<String>) -> Self {
-        Self { place: Place::Offset(0), message: message.into() }
-    }
+/// Copies the values of a text for their spans. The numbers of a mesh are left out, since there may be millions of them and
+/// no fault names one by its key.
+fn spans<'t>(table: &DeTable<'t>) -> DeTable<'t> {
+    let copy = |(key, value): (&Spanned<DeString<'t>>, &Spanned<DeValue<'t>>)| match key.get_ref().as_ref() {
+        "mesh" => (key.clone(), Spanned::new(value.span(), DeValue::Boolean(false))),
+        _ => (key.clone(), value.clone()),
+    };
+    table.iter().map(copy).collect()
+}
 
-    /// Makes a fault of the value at a path such as `plane/17/normal`, or of what encloses it where the value is missing.
-    pub(super) fn at(path: impl Into<String>, message: impl Into<String>) -> Self {
-        Self { place: Place::Path(path.into()), message: message.into() }
-    }
+/// Makes a fault of what the parser says of a text that is not TOML.
+fn syntax(text: &str, error: &Error) -> Fault {
+    let Some(span) = error.span() else {
+        return Fault::whole(format!("this is no TOML that can be read: {}", error.message()));
+    };
+    let start = span.start.min(text.len());
+    let line = text.as_bytes()[..start].rsplit(|byte| *byte == b'\n').next().unwrap_or_default();
+    let column = 1 + String::from_utf8_lossy(line).chars().count();
+    let whole = text[start - line.len()..].lines().next().unwrap_or_default();
+    let key = whole.split_once('=').map_or(String::new(), |(key, _)| format!("{}: ", key.trim()));
+    let problem = format!("{key}column {column}: {}{}", error.message(), hint(whole));
+    Fault::line(line_at(text, start), problem)
+}
 
-    /// Returns the same fault for something that is part of another: `path` comes before its path, and `told` before its
-    /// message.
-    pub(super) fn within(self, path: &str, told: &str) -> Self {
-        let place = match self.place {
-            Place::Path(inner) => Place::Path(path.to_owned() + &inner),
-            place => place,
-        };
-        Self { place, message: told.to_owned() + &self.message }
-    }
-
-    /// Makes a fault of what the parser says of a text that is not TOML.
-    pub(super) fn syntax(text: &str, error: &Error) -> Self {
-        let Some(span) = error.span() else {
-            return Self::whole(format!("this is no TOML that can be read: {}", error.message()));
-        };
-        let start = span.start.min(text.len());
-        let line = text.as_bytes()[..start].rsplit(|byte| *byte == b'\n').next().unwrap_or_default();
-        let column = 1 + String::from_utf8_lossy(line).chars().count();
-        let whole = text[start - line.len()..].lines().next().unwrap_or_default();
-        let key = whole.split_once('=').map_or(String::new(), |(key, _)| format!("{}: ", key.trim()));
-        let message = shortened(format!("{key}column {column}: {}{}", error.message(), hint(whole)));
-        Self { place: Place::Offset(start), message }
-    }
-
-    /// Makes a fault of what serde says of a text that has not the form of its file, in the words of this program.
-    pub(super) fn form(error: Error) -> Self {
-        Self::form_beside(error, &[])
-    }
-
-    /// Does the same for a file whose top may have further keys, which something else has read.
-    pub(super) fn form_beside(mut error: Error, further: &[&str]) -> Self {
-        // Without its text the error shows the path of its key on a line of its own: in `plane.normal`.
-        error.set_input(None);
-        let shown = error.to_string();
-        let path = shown.trim_end().rsplit_once("\nin `").and_then(|(_, path)| path.strip_suffix('`'));
-        let message = match path {
-            Some(path) => format!("{path}: {}", reworded(error.message(), path, &[])),
-            None => reworded(error.message(), "", further),
-        };
-        let place = error.span().map_or(Place::Whole, |span| Place::Offset(span.start));
-        Self { place, message: shortened(message) }
-    }
-
-    /// Returns the line at fault, from 1; `None` where that is not known or the file as a whole is at fault.
-    pub(super) fn line(&self, text: &str) -> Option<usize> {
-        let offset = match &self.place {
-            Place::Whole => None,
-            Place::Offset(offset) => Some(*offset),
-            Place::Path(path) => DeTable::parse(text).ok().and_then(|table| span(table.get_ref(), path)),
-        }?;
-        Some(line_after(&text.as_bytes()[..offset.min(text.len())]))
-    }
+/// Makes a fault of what serde says of a text that has not the form of its file, in the words of this program.
+fn misshapen(text: &str, mut error: Error, further: &[&str]) -> Fault {
+    // Without its text the error shows the path of its key on a line of its own: in `plane.normal`.
+    error.set_input(None);
+    let shown = error.to_string();
+    let path = shown.trim_end().rsplit_once("\nin `").and_then(|(_, path)| path.strip_suffix('`'));
+    let problem = match path {
+        Some(path) => format!("{path}: {}", reworded(error.message(), path, &[])),
+        None => reworded(error.message(), "", further),
+    };
+    let line = error.span().map(|span| line_at(text, span.start));
+    Fault { line, ..Fault::whole(problem) }
 }
 
 /// Returns the byte offset of the value at a path, or of the nearest value that encloses it; `None` if that is the whole
 /// text.
-fn span(table: &DeTable<'_>, path: &str) -> Option<usize> {
+fn start(table: &DeTable<'_>, path: &str) -> Option<usize> {
     let mut steps = path.split('/');
     let mut value = table.get(steps.next()?)?;
     for step in steps {
@@ -177,17 +182,7 @@ fn span(table: &DeTable<'_>, path: &str) -> Option<usize> {
             None => break,
         }
     }
-    let Range { start, .. } = value.span();
-    Some(start)
-}
-
-/// Cuts a message that quotes something very long to what a person reads.
-fn shortened(message: String) -> String {
-    const LONGEST: usize = 600;
-    match message.char_indices().nth(LONGEST) {
-        Some((end, _)) => format!("{} ...", &message[..end]),
-        None => message,
-    }
+    Some(value.span().start)
 }
 
 /// Returns a hint at what someone may have meant by a line that is no TOML.

@@ -1,0 +1,101 @@
+//! What is wrong in a file that a person wrote or chose: which file, where in it, and what to do.
+
+use std::fmt::Display;
+
+/// The most characters of a message: one that quotes something very long is cut.
+const LONGEST: usize = 600;
+
+/// What is wrong in a file.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error("{path}{}: {fault}", .fault.line.map(|line| format!(":{line}")).unwrap_or_default())]
+pub struct FileError {
+    /// The path of the file as the caller gave it, or the name of a file that comes with the program.
+    pub path: String,
+    /// What is wrong in the file, and where.
+    pub fault: Fault,
+}
+
+/// What is wrong in the content of a file, and where.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error("{problem}")]
+pub struct Fault {
+    /// The line at fault, from 1; `None` where the file as a whole is at fault or has no lines.
+    pub line: Option<usize>,
+    /// The key at fault as a path, such as `plane/17/normal`, or a part of a file without keys, such as `triangle 5`.
+    pub key: Option<String>,
+    /// What is wrong, in words that name the key or part, and what to do.
+    pub problem: String,
+}
+
+impl FileError {
+    /// Makes the error of a file as a whole.
+    pub fn new(path: impl Display, problem: impl Display) -> Self {
+        Fault::whole(problem).in_file(path)
+    }
+}
+
+/// Why a light or a background, which has a name or a file, could not be taken.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+pub enum NameOrFileError {
+    /// The text is no name that is known, and no file; the message says what is known.
+    #[error("{0}")]
+    Unknown(String),
+    /// The file is at fault.
+    #[error(transparent)]
+    File(#[from] FileError),
+}
+
+impl From<String> for Fault {
+    fn from(problem: String) -> Self {
+        Self::whole(problem)
+    }
+}
+
+impl From<&str> for Fault {
+    fn from(problem: &str) -> Self {
+        Self::whole(problem)
+    }
+}
+
+impl Fault {
+    /// Makes a fault of the file as a whole.
+    pub(super) fn whole(problem: impl Display) -> Self {
+        Self { line: None, key: None, problem: problem.to_string() }
+    }
+
+    /// Makes a fault of a line.
+    pub(super) fn line(line: usize, problem: impl Display) -> Self {
+        Self { line: Some(line), ..Self::whole(problem) }
+    }
+
+    /// Makes a fault of the value at a key's path, or of what encloses it where the value is missing. The problem names the
+    /// key in the words of a person.
+    pub(super) fn key(key: impl Display, problem: impl Display) -> Self {
+        Self { key: Some(key.to_string()), ..Self::whole(problem) }
+    }
+
+    /// Makes a fault of a part of a file without keys, such as a triangle or a byte's offset.
+    #[cfg(feature = "interchange")]
+    pub(super) fn part(part: impl Display, problem: impl Display) -> Self {
+        Self::key(&part, format!("{part}: {problem}"))
+    }
+
+    /// Returns the same fault for something that is part of another: `path` comes before its key, and `words` before its
+    /// problem.
+    pub(super) fn within(self, path: &str, words: &str) -> Self {
+        let key = self.key.map(|key| path.to_owned() + &key);
+        Self { key, problem: words.to_owned() + &self.problem, ..self }
+    }
+
+    /// Names the file. The message becomes one line, cut to what a person reads.
+    pub(super) fn in_file(self, path: impl Display) -> FileError {
+        let mut problem = self.problem;
+        if problem.contains(['\n', '\r']) {
+            problem = problem.split_whitespace().collect::<Vec<_>>().join(" ");
+        }
+        if let Some((end, _)) = problem.char_indices().nth(LONGEST) {
+            problem = format!("{} ...", &problem[..end]);
+        }
+        FileError { path: path.to_string(), fault: Self { problem, ..self } }
+    }
+}
