@@ -70,6 +70,31 @@ fn no_floor_imports_from_its_own_or_a_higher_one() {
     assert!(checked > 30, "only {checked} imports were seen: the check has lost its eyes");
 }
 
+/// Returns the lines of a text that name a tracer, outside comments and test modules.
+fn naming_a_tracer(text: &str) -> Vec<&str> {
+    let code = text.split("#[cfg(test)]\nmod ").next().unwrap_or("").lines();
+    let names = ["Backend::Beams", "Backend::Rays", "Backend::Card", "by_gpu::trace", "by_rays::trace"];
+    code.filter(|line| !line.trim_start().starts_with("//") && names.iter().any(|name| line.contains(name)))
+        .collect()
+}
+
+#[test]
+fn only_the_renderer_names_a_tracer() {
+    assert_eq!(naming_a_tracer("let x = 1;\n// Backend::Rays\nBackend::Rays\n"), ["Backend::Rays"]);
+    let src = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+    let mut inside = 0;
+    for path in sources(&src) {
+        let text = std::fs::read_to_string(&path).unwrap();
+        let lines = naming_a_tracer(&text);
+        if path.starts_with(src.join("render")) {
+            inside += lines.len();
+        } else {
+            assert!(lines.is_empty(), "{}: {lines:?}: only src/render decides who traces", path.display());
+        }
+    }
+    assert!(inside > 10, "the renderer names only {inside}: the check has lost its eyes");
+}
+
 /// Returns the public types that a text declares outside its test modules.
 fn public_types(text: &str) -> Vec<&str> {
     let code = text.split("#[cfg(test)]\nmod ").next().unwrap_or("");

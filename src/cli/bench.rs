@@ -6,8 +6,8 @@ use crate::io::mesh_options::MeshOptions;
 use crate::math::Polytope;
 use crate::optics::line;
 use crate::render::{
-    Backend, Card, Job, LightProduct, Product, Quality, Reading, Renderer, ScopeProduct, Steps, Surroundings,
-    Wanted,
+    Card, Job, LightProduct, Product, Quality, Reading, RenderError, Renderer, ScopeProduct, Steps,
+    Surroundings, Wanted,
 };
 use crate::scene::{ASET_CONE, Backing, Film, Glare, Light, Medium, Scene, Scope, View};
 use crate::trace::environment::{EnvironmentMap, Lighting};
@@ -62,7 +62,7 @@ struct Task {
 impl BenchArguments {
     pub fn run(&self) -> Result<(), Failure> {
         let specimen = LoadedSpecimen::load(Path::new("modern-ideal"), MeshOptions::default())?;
-        let tracers = tracers()?;
+        let has_card = has_card();
         let threads = rayon::current_num_threads();
         if !self.json {
             print(&format!("modern ideal face up; {threads} threads"))?;
@@ -73,13 +73,13 @@ impl BenchArguments {
             if self.json { Ok(()) } else { print(&format!("\n{}", task.table())) }
         };
         for (size, bounces) in SCOPES {
-            done(in_scope(&specimen, &tracers, size, bounces)?)?;
+            done(in_scope(&specimen, size, bounces)?)?;
         }
-        done(under_light(&specimen, &tracers)?)?;
+        done(under_light(&specimen, has_card)?)?;
         if !self.json {
             return Ok(());
         }
-        let card = tracers.iter().find(|t| t.wanted == Wanted::Card).map_or("point rays", |t| &t.by);
+        let card = Card::Machine.any().map_or("point rays".to_owned(), |card| card.description());
         print(&json(&json!({ "threads": threads, "card": card, "tasks": tasks })))
     }
 }
@@ -125,46 +125,39 @@ fn options(most_bounces: u32) -> RayOptions {
     RayOptions { polarised: true, most_bounces, least_weight: 1e-4 }
 }
 
-/// A tracer to compare.
-struct Compared {
-    wanted: Wanted,
-    name: &'static str,
-    by: String,
-    /// Whether it is a real graphics card.
-    is_quick: bool,
-}
+/// The tracers that are compared.
+const TRACERS: [Wanted; 3] = [Wanted::Rays, Wanted::Card, Wanted::Beams];
 
-/// Returns the tracers to compare: rays on the processor, on the card where there is one, and exact beams.
-fn tracers() -> Result<Vec<Compared>, Failure> {
-    let row = |wanted, backend: &Backend, by: String| Compared {
-        wanted,
-        name: backend.name(),
-        by,
-        is_quick: backend.is_quick(),
-    };
-    let mut all = vec![row(Wanted::Rays, &Backend::Rays, Backend::Rays.description())];
+/// Whether the machine has a real graphics card. Prints a note where it has none at all.
+fn has_card() -> bool {
     match Card::Machine.any() {
-        Ok(card) => all.push(row(Wanted::Card, &card, card.description())),
-        Err(why) => say(&format!("note: {why}: tracing by rays on the processor")),
+        Ok(card) => card.is_quick(),
+        Err(why) => {
+            say(&format!("note: {why}: tracing by rays on the processor"));
+            false
+        }
     }
-    let by = format!("exact beams, unresolved {UNRESOLVED}");
-    all.push(row(Wanted::Beams, &Backend::Beams, by));
-    Ok(all)
 }
 
-/// Times a job by each tracer, from its planning to the finished picture.
-fn rows(job: &Job, tracers: &[Compared]) -> Result<Vec<Row>, Failure> {
-    let row = |tracer: &Compared| {
-        let quality = Quality { tracer: tracer.wanted, ..job.quality };
-        let job = Job { quality, ..job.clone() };
+/// Times a job by each tracer that there is, from its planning to the finished picture.
+fn rows(job: &Job) -> Result<Vec<Row>, Failure> {
+    let row = |tracer: Wanted| {
+        let job = Job { quality: Quality { tracer, ..job.quality }, ..job.clone() };
+        let plan = Renderer::new(Card::Machine).plan(&job).map_err(RenderError::from)?;
+        if plan.no_card.is_some() {
+            return Ok(None);
+        }
         // A renderer of its own, as one that is kept would know the beams.
         let picture = || {
             let rendered = Renderer::new(Card::Machine).run(&job, &unwatched, &mut |_| Ok::<_, Failure>(()));
             rendered.map(|_| ())
         };
-        Ok(Row { tracer: tracer.name, by: tracer.by.clone(), milliseconds: timed(picture)? })
+        let unresolved =
+            if plan.backend.is_beams() { format!(", unresolved {UNRESOLVED}") } else { String::new() };
+        let by = plan.backend.description() + &unresolved;
+        Ok(Some(Row { tracer: plan.backend.name(), by, milliseconds: timed(picture)? }))
     };
-    tracers.iter().map(row).collect()
+    TRACERS.into_iter().filter_map(|tracer| row(tracer).transpose()).collect()
 }
 
 fn quality(bounces: u32) -> Quality {
@@ -173,12 +166,7 @@ fn quality(bounces: u32) -> Quality {
 }
 
 /// Times an ASET picture by every tracer.
-fn in_scope(
-    specimen: &LoadedSpecimen,
-    tracers: &[Compared],
-    size: u32,
-    bounces: u32,
-) -> Result<Task, Failure> {
+fn in_scope(specimen: &LoadedSpecimen, size: u32, bounces: u32) -> Result<Task, Failure> {
     let medium = Medium::clear(specimen.material.index(line::SODIUM_D));
     let polytope = polytope(specimen)?;
     let film = Film::around(polytope, &View::default().basis(), size);
@@ -188,7 +176,7 @@ fn in_scope(
     let job = Job { scene, view: View::default(), film, product, quality: quality(bounces) };
     let planes = polytope.facets().len();
     let what = format!("ASET, {planes} planes, {size} x {size}, {bounces} bounces at most");
-    Ok(Task { what, plane_tests: plane_tests(polytope, &film, medium, bounces), rows: rows(&job, tracers)? })
+    Ok(Task { what, plane_tests: plane_tests(polytope, &film, medium, bounces), rows: rows(&job)? })
 }
 
 fn polytope(specimen: &LoadedSpecimen) -> Result<&Polytope, Failure> {
@@ -197,9 +185,9 @@ fn polytope(specimen: &LoadedSpecimen) -> Result<&Polytope, Failure> {
 }
 
 /// Times a picture of a diamond under small lamps, in one sample pass of many wavelengths, by every tracer.
-fn under_light(specimen: &LoadedSpecimen, tracers: &[Compared]) -> Result<Task, Failure> {
+fn under_light(specimen: &LoadedSpecimen, has_card: bool) -> Result<Task, Failure> {
     let ([with_card, without], bounces, wavelengths) = LIT;
-    let size = if tracers.iter().any(|tracer| tracer.is_quick) { with_card } else { without };
+    let size = if has_card { with_card } else { without };
     let light = Light::lamps_on_dome();
     let map = EnvironmentMap::new(&light, None);
     let lighting = Arc::new(Lighting { light, map, warnings: vec![] });
@@ -222,7 +210,7 @@ fn under_light(specimen: &LoadedSpecimen, tracers: &[Compared]) -> Result<Task, 
         "diamond under eight lamps, {} planes, {size} x {size}, {bounces} bounces at most, {wavelengths} wavelengths",
         polytope.facets().len()
     );
-    Ok(Task { what, plane_tests: tests, rows: rows(&job, tracers)? })
+    Ok(Task { what, plane_tests: tests, rows: rows(&job)? })
 }
 
 /// Returns how many planes are tested for a picture, if each ray tests all planes at each bounce. The count is extrapolated

@@ -9,8 +9,7 @@ use crate::io::export::Event;
 use crate::io::lighting::Lighting;
 use crate::picture::{Bloom, Develop, Linear, Overlay, Tone, developed, lay};
 use crate::render::{
-    Backend, Card, HungPicture, Job, LightProduct, Partial, Product, Quality, Renderer, Steps, Surroundings,
-    Unfit,
+    Card, HungPicture, Job, LightProduct, Partial, Product, Quality, Renderer, Steps, Surroundings, Unfit,
 };
 use crate::scene::{Film, Panorama, Scene, View};
 use crate::trace::Watch;
@@ -46,7 +45,8 @@ pub struct PictureSetup<'a> {
     pub strength: f64,
     pub develop: Develop,
     renderer: RefCell<Renderer>,
-    backend: Backend,
+    /// The planned tracer, in words.
+    tracer: String,
 }
 
 /// A picture, and a description of how it was made.
@@ -114,9 +114,9 @@ impl<'a> PictureSetup<'a> {
             strength,
             develop,
             renderer: RefCell::new(Renderer::new(Card::Machine)),
-            backend: Backend::Rays,
+            tracer: String::new(),
         };
-        studio.backend = studio.planned(view)?;
+        studio.tracer = studio.planned(view)?;
         Ok(studio)
     }
 
@@ -131,8 +131,8 @@ impl<'a> PictureSetup<'a> {
         ))
     }
 
-    /// Returns the tracer of pictures from a view, before any is taken.
-    fn planned(&self, view: &View) -> Result<Backend, Failure> {
+    /// Returns the tracer of pictures from a view in words, before any is taken.
+    fn planned(&self, view: &View) -> Result<String, Failure> {
         let job = self.job(&Arc::new(self.assembly.setting.clone()), view, 1.0);
         let plan = self.renderer.borrow().plan(&job).map_err(|unfit| match unfit {
             Unfit::Mixture => Failure::Usage(format!(
@@ -144,7 +144,7 @@ impl<'a> PictureSetup<'a> {
                     .into(),
             ),
         })?;
-        Ok(plan.backend)
+        Ok(plan.backend.description())
     }
 
     /// Returns the job of a picture of a scene, with pixels of the side `pixel`.
@@ -238,8 +238,7 @@ impl<'a> PictureSetup<'a> {
 
     /// Returns a description of the light, the tracer and any mixture in words.
     pub fn description(&self) -> String {
-        let tracer = self.backend.description();
-        format!("light {}; {tracer}{}", self.lighting.light.name, self.mixture())
+        format!("light {}; {}{}", self.lighting.light.name, self.tracer, self.mixture())
     }
 
     /// Returns the light's name.

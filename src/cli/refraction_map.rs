@@ -13,7 +13,7 @@ use crate::io::refraction_map::{self as files, Coding, MOST_BANDS, MOST_PIXELS, 
 use crate::io::refraction_page::{MOST_MEGABYTES, Page, takes, write_page};
 use crate::io::{is_standard, write_rgba_png};
 use crate::picture::{Backdrop, Background, Carried, Develop, RefractionMap, Tone, develop, refract};
-use crate::render::{Backend, Card, Job, MapProduct, Product, Renderer};
+use crate::render::{Card, Job, MapProduct, Product, Rendered, Renderer};
 use crate::scene::{Film, View};
 use clap::{Args, ValueEnum};
 use glam::DVec2;
@@ -108,7 +108,9 @@ impl RefractionMaps {
         }
         let kinds = self.kinds(studio.photo.is_some())?;
         let bar = WorkProgress::new(&studio.assembly.name);
-        let (map, carried) = self.trace(&studio, &view, &bar)?;
+        let rendered = self.trace(&studio, &view, &bar)?;
+        let tracer = rendered.backend.description();
+        let (map, carried) = rendered.map()?;
         let map = map.developed(&studio.develop);
         let Carried { behind, single } = carried;
         let (name, light) = (&studio.assembly.name, studio.light());
@@ -120,7 +122,7 @@ impl RefractionMaps {
             studio.distance,
             self.span,
             if self.both_sides { ", on both sides" } else { "" },
-            Backend::Rays.description(),
+            tracer,
             100.0 * behind,
             100.0 * single,
             viewpoint.description()
@@ -138,12 +140,7 @@ impl RefractionMaps {
         Ok(if self.format.is_empty() { usual.collect() } else { self.format.clone() })
     }
 
-    fn trace(
-        &self,
-        studio: &PictureSetup,
-        view: &View,
-        bar: &WorkProgress,
-    ) -> Result<(RefractionMap, Carried), Failure> {
+    fn trace(&self, studio: &PictureSetup, view: &View, bar: &WorkProgress) -> Result<Rendered, Failure> {
         let setting = Arc::new(studio.assembly.setting.clone());
         let pixel = studio.pixel(&setting, view)?;
         let distance = studio.distance;
@@ -164,7 +161,7 @@ impl RefractionMaps {
         let product = Product::RefractionMap(product);
         let job = Job { scene: setting, view: *view, film, product, quality: studio.quality() };
         let mut renderer = Renderer::new(Card::None);
-        Ok(renderer.run(&job, &bar.watch(), &mut |_| Ok::<_, Failure>(()))?.map()?)
+        renderer.run(&job, &bar.watch(), &mut |_| Ok(()))
     }
 
     fn write(

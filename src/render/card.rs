@@ -87,6 +87,21 @@ impl Backend {
         }
     }
 
+    /// Returns what the tracer is, without the name of the card.
+    pub fn kind(&self) -> &'static str {
+        match self {
+            Self::Beams => "exact beams",
+            Self::Rays => "point rays",
+            #[cfg(feature = "gpu")]
+            Self::Card(_) => "rays on the graphics card",
+        }
+    }
+
+    /// Whether it is rays on the processor, which take longer than all else.
+    pub fn is_slow(&self) -> bool {
+        matches!(self, Self::Rays)
+    }
+
     /// Whether it is exact beams.
     pub fn is_beams(&self) -> bool {
         matches!(self, Self::Beams)

@@ -5,7 +5,7 @@ use super::jobs::{MapDetail, coarser};
 use super::order::{Shot, Slot, TakenPicture};
 use super::pace::Effort;
 use super::render::Growing;
-use super::take::{RAYS_COARSER, ShotTracer, TakeError, name};
+use super::take::{RAYS_COARSER, ShotTracer, TakeError};
 use super::undeveloped::{TracedLight, map_taken};
 use super::worker::FINE_RENDER;
 use crate::app::lookup::as_screens;
@@ -59,7 +59,7 @@ impl ShotTracer {
         let size = coarser(&shot.film, factor).size;
         let job = shot.pane_job(&behind, size, growing.is_some_and(|g| g.samples > 1), samples);
         let rendered = run(&mut self.renderer, &job, watch)?;
-        let tracer = name(&rendered.backend);
+        let tracer = rendered.backend.kind();
         Ok(TakenPicture { image: as_screens(&rendered.pane()?.0), unresolved: None, tracer, map: None })
     }
 }

@@ -4,12 +4,12 @@ use super::jobs::coarser;
 use super::motion::Moment;
 use super::order::{Shot, Slot, Smoothing, TakenPicture};
 use super::pace::Effort;
-use super::take::{RAYS_COARSER, ShotTracer, TakeError, name, overlaid};
+use super::take::{RAYS_COARSER, ShotTracer, TakeError, overlaid};
 use super::undeveloped::TracedLight;
 use crate::io::background::BackgroundRef;
 use crate::picture::spectral::Remainder;
 use crate::picture::{Background, Bloom, Develop, Linear, develop, developed as developed_from, fxaa};
-use crate::render::{Backend, Job, Partial, Quality, Rendered, Steps};
+use crate::render::{Job, Partial, Quality, Rendered, Steps};
 use crate::scene::Panorama;
 use crate::trace::{Stopped, Watch};
 use egui::ColorImage;
@@ -42,12 +42,12 @@ impl ShotTracer {
         };
         let first = moving.and_then(|_| self.trails.get(&slot)).map_or(0, |(trail, _)| trail.count);
         let mut job = self.light_job(shot, effort, growing, first)?;
-        let is_slow = matches!(self.renderer.plan(&job)?.backend, Backend::Rays) && growing.is_none();
+        let is_slow = self.renderer.plan(&job)?.backend.is_slow() && growing.is_none();
         job.film = coarser(&shot.film, effort.coarser * if is_slow { RAYS_COARSER } else { 1.0 });
         let Self { renderer, trails, kept, notes, .. } = self;
         renderer.run(&job, watch, &mut |part| {
             let (picture, unresolved, tracer) = match part {
-                Partial::Picture { picture, rest, backend } => (picture, rest.unresolved, name(backend)),
+                Partial::Picture { picture, rest, backend } => (picture, rest.unresolved, backend.kind()),
                 Partial::Note(why) => {
                     notes.push(why.to_owned());
                     return Ok(());
@@ -94,9 +94,7 @@ impl ShotTracer {
         let effort = Effort { unresolved: 1.0, coarser: 1.0, bands: 1 };
         let growing = Growing { bands: 1, samples: 1, after: 0, unresolved: 1.0 };
         let job = self.light_job(shot, &effort, Some(&growing), 0);
-        job.is_ok_and(
-            |job| matches!(self.renderer.plan(&job), Ok(plan) if matches!(plan.backend, Backend::Rays)),
-        )
+        job.is_ok_and(|job| self.renderer.plan(&job).is_ok_and(|plan| plan.backend.is_slow()))
     }
 
     /// Traces the render of a shot as it is exported, with as many passes as the command line takes.
@@ -107,7 +105,7 @@ impl ShotTracer {
         let behind = self.picture_behind(shot.behind.as_ref())?;
         let job = shot.light_job(behind, shot.bands, Steps::Strips, Quality::of_pictures(true));
         let rendered: Rendered = self.renderer.run(&job, watch, &mut |_| Ok::<_, TakeError>(()))?;
-        let tracer = name(&rendered.backend);
+        let tracer = rendered.backend.kind();
         let (picture, Remainder { unresolved, .. }) = rendered.light()?;
         let size = [picture.width, picture.height];
         let mut rgba = developed_from(picture, &manner(shot, true));

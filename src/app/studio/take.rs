@@ -11,7 +11,7 @@ use crate::io::background::BackgroundRef;
 use crate::io::{Failure, rasterize_within};
 use crate::math::NotConvex;
 use crate::picture::{DiagramStyle, Palette, diagram, lay};
-use crate::render::{Backend, Card, Partial, RenderError, Renderer, Unfit};
+use crate::render::{Card, Partial, RenderError, Renderer, Unfit};
 use crate::scene::{Film, Panorama};
 use crate::trace::{Stopped, Watch};
 use egui::ColorImage;
@@ -56,15 +56,6 @@ impl From<RenderError> for TakeError {
 impl From<Unfit> for TakeError {
     fn from(unfit: Unfit) -> Self {
         Self::Other(unfit.to_string())
-    }
-}
-
-/// The editor's name for a tracer.
-pub(super) fn name(backend: &Backend) -> &'static str {
-    match backend {
-        Backend::Beams => "exact beams",
-        Backend::Rays => "point rays",
-        Backend::Card(_) => "rays on the graphics card",
     }
 }
 
@@ -122,7 +113,7 @@ impl ShotTracer {
         let scope = scoped.scope.with_head(if scoped.takes_head { shot.head } else { 0.0 });
         let palette = Palette::of(&scope);
         let mut job = shot.scope_job(scope, effort, if fine { 3 } else { 1 });
-        let is_slow = matches!(self.renderer.plan(&job)?.backend, Backend::Rays) && !fine;
+        let is_slow = self.renderer.plan(&job)?.backend.is_slow() && !fine;
         job.film = coarser(&shot.film, effort.coarser * if is_slow { RAYS_COARSER } else { 1.0 });
         let size = job.film.size;
         let (mut pixels, mut unresolved) =
@@ -144,7 +135,7 @@ impl ShotTracer {
             }
             Ok::<_, TakeError>(())
         })?;
-        let tracer = name(&rendered.backend);
+        let tracer = rendered.backend.kind();
         // The whole light counts, not the part of the area that has no strongest exit.
         let unresolved = rendered.beams().map_or(unresolved, |beams| Some(beams.unresolved()));
         let side = size.map(|n| n as usize);
