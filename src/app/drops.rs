@@ -1,8 +1,8 @@
 //! Files dropped on the window, and what each kind of file is used for.
 
-use super::dialogs::Then;
-use super::editor::Editor;
-use super::files::Purpose;
+use crate::app::dialogs::Then;
+use crate::app::editor::Editor;
+use crate::app::tasks::files::Purpose;
 use crate::io::light_file;
 use egui::{Align2, Color32, Context, FontId, Id, LayerId, Order};
 use std::path::{Path, PathBuf};

@@ -1,34 +1,39 @@
 //! The editor: everything that the window shows and does.
 
-use super::autosave::Autosave;
-use super::command::Command;
-use super::compare::Compared;
-use super::copying::Copying;
-use super::dialogs::{Dialog, Then};
-use super::document::{Document, FIRST_LIGHT, Work};
-use super::export_job::Selection;
-use super::files::{Choice, Chooser, Choosing, Watching, by_dialog};
-use super::following::{self, Following};
-use super::framing::Framing;
-use super::hands::Hands;
-use super::lookup::LookupWorker;
-use super::moving::Moving;
-use super::notes::Notes;
-use super::opener::{Opener, by_system};
-use super::opening::{Opening, OpeningPurpose};
-use super::pose_cache::PoseCache;
-use super::probe::Probe;
-use super::profile_view::ProfileView;
-use super::refraction_view::Flowing;
-use super::shows::Shows;
-use super::state_file::StateFile;
-use super::studio::{
+use crate::app::dialogs;
+use crate::app::dialogs::{Dialog, Then};
+use crate::app::drops;
+use crate::app::hands::Hands;
+use crate::app::lookup::LookupWorker;
+use crate::app::menus;
+use crate::app::model::command::Command;
+use crate::app::model::compare::Compared;
+use crate::app::model::document::{Document, FIRST_LIGHT, Work};
+use crate::app::model::framing::Framing;
+use crate::app::model::moving::Moving;
+use crate::app::model::notes::Notes;
+use crate::app::model::opening::{Opening, OpeningPurpose};
+use crate::app::model::pose_cache::PoseCache;
+use crate::app::model::view_history::ViewHistory;
+use crate::app::model::workspace::{PaneLayout, Workspace};
+use crate::app::panels::side_panels;
+use crate::app::profile_view::ProfileView;
+use crate::app::shows::Shows;
+use crate::app::state_file::StateFile;
+use crate::app::studio::{
     Answer, FiguresOrder, Grade, Order, Paper, Shot, Slot, Studio, TakenPicture, Tilts, Which,
 };
-use super::view_history::ViewHistory;
-use super::window::PaintedBy;
-use super::workspace::{PaneLayout, Workspace};
-use super::{dialogs, drops, menus, side_panels, stage, theme};
+use crate::app::tasks::autosave::Autosave;
+use crate::app::tasks::copying::Copying;
+use crate::app::tasks::export_job::Selection;
+use crate::app::tasks::files::{Choice, Chooser, Choosing, Watching, by_dialog};
+use crate::app::tasks::opener::{Opener, by_system};
+use crate::app::theme;
+use crate::app::views::following::{self, Following};
+use crate::app::views::probe::Probe;
+use crate::app::views::refraction_view::Flowing;
+use crate::app::views::stage;
+use crate::app::window::PaintedBy;
 use crate::io::library;
 use crate::io::lighting::{Lighting, LightingError};
 use crate::io::mesh_options::MeshOptions;
@@ -511,7 +516,7 @@ fn hang(
     pictures.insert(slot, Shown { texture, shot, grade, taken });
 }
 
-fn waker(ctx: &Context) -> super::studio::Wake {
+fn waker(ctx: &Context) -> crate::app::studio::Wake {
     let ctx = ctx.clone();
     Arc::new(move || ctx.request_repaint())
 }

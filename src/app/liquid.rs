@@ -1,11 +1,11 @@
 //! A pane of liquid glass over the background of a view: it is moved by hand, and drawn as screens draw it or traced.
 
-use super::editor::{Editor, Shown};
-use super::lookup::{LookupRequest, backdrop};
-use super::pane::{enlarge, focus};
-use super::shows::Shows;
-use super::studio::{Grade, Which};
-use super::view_menu;
+use crate::app::editor::{Editor, Shown};
+use crate::app::lookup::{LookupRequest, backdrop};
+use crate::app::shows::Shows;
+use crate::app::studio::{Grade, Which};
+use crate::app::views::pane::{enlarge, focus};
+use crate::app::views::view_menu;
 use crate::optics::linear_from_encoded;
 use crate::picture::pane::{GlassPane, Quality};
 use egui::{

@@ -3,7 +3,7 @@
 //! A thread of its own makes the last picture that was requested of each view, so that pictures follow the hand while the
 //! studio traces.
 
-use super::studio::{Grade, SPAN, Shot, Slot, TakenPicture, Wake};
+use crate::app::studio::{Grade, SPAN, Shot, Slot, TakenPicture, Wake};
 use crate::io::background::BackgroundRef;
 use crate::picture::pane::{filling, pane};
 use crate::picture::{Develop, Linear, Pattern, RefractionMap, Tone, develop, refract};

@@ -1,14 +1,14 @@
 //! The menu bar, the status line at the bottom, and the keys.
 
-use super::command::{Command, MENUS, Menu};
-use super::compare::Compared;
-use super::dialogs::{Dialog, Then};
-use super::editor::Editor;
-use super::files::Purpose;
-use super::opening::Opening;
-use super::preset::{Known, PRESETS};
-use super::studio::Which;
-use super::workspace::PaneLayout;
+use crate::app::dialogs::{Dialog, Then};
+use crate::app::editor::Editor;
+use crate::app::model::command::{Command, MENUS, Menu};
+use crate::app::model::compare::Compared;
+use crate::app::model::opening::Opening;
+use crate::app::model::preset::{Known, PRESETS};
+use crate::app::model::workspace::PaneLayout;
+use crate::app::studio::Which;
+use crate::app::tasks::files::Purpose;
 use crate::io::{cut_file, library};
 use egui::{
     Align, Button, Context, Event, Key, Modifiers, Panel, PanelState, Popup, RichText, ThemePreference, Ui,
@@ -318,7 +318,7 @@ fn look(editor: &mut Editor, command: Command) {
 }
 
 /// Returns the eye of the view that keys act on.
-fn eye(editor: &mut Editor) -> &mut super::eye::Eye {
+fn eye(editor: &mut Editor) -> &mut crate::app::model::eye::Eye {
     let pane = editor.active();
     editor.desk.eye_mut(pane)
 }

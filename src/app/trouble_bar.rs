@@ -1,8 +1,8 @@
 //! The bar of errors and warnings: one line over the lower edge of the views, which keep their size. It opens to a list.
 
-use super::editor::Editor;
-use super::notes::Problem;
-use super::theme;
+use crate::app::editor::Editor;
+use crate::app::model::notes::Problem;
+use crate::app::theme;
 use egui::{
     Align, Align2, Area, Color32, Context, Frame, Id, Label, Layout, Order, Rect, RichText, ScrollArea, Ui,
 };

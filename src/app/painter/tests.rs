@@ -3,8 +3,8 @@
 
 use super::Painter;
 use crate::app::editor::{Editor, Setup};
+use crate::app::model::workspace::Workspace;
 use crate::app::shows::Shows;
-use crate::app::workspace::Workspace;
 use egui::{Context, FullOutput, TexturesDelta, Theme};
 use egui_kittest::wgpu::WgpuTestRenderer;
 use egui_kittest::{Harness, TestRenderer};

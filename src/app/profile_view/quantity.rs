@@ -1,6 +1,6 @@
 //! The proportions that can be changed by dragging the profile: how they are read, set and kept within their limits.
 
-use crate::app::proportions::{set_crown, set_pavilion};
+use crate::app::panels::proportions::{set_crown, set_pavilion};
 use crate::cut::{Crown, Derived, Pavilion, RoundBrilliant};
 use crate::picture::profile::{degrees, percent};
 

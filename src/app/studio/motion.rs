@@ -120,11 +120,11 @@ impl Moment {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::app::document::Document;
-    use crate::app::eye::Eye;
-    use crate::app::framing::FramingFit;
     use crate::app::liquid::Liquid;
-    use crate::app::moving::Moving;
+    use crate::app::model::document::Document;
+    use crate::app::model::eye::Eye;
+    use crate::app::model::framing::FramingFit;
+    use crate::app::model::moving::Moving;
     use crate::app::shows::Shows;
     use crate::app::studio::order::{Paper, Smoothing, Which};
     use crate::app::studio::render::{lit_scene, scene_of};

@@ -2,8 +2,8 @@
 
 use super::*;
 use crate::app::dialogs::Dialog;
-use crate::app::export_dialog::ExportDialog;
-use crate::app::export_job::Job;
+use crate::app::dialogs::export_dialog::ExportDialog;
+use crate::app::tasks::export_job::Job;
 use crate::io::cut_file;
 use crate::io::export::OutputFormat;
 use egui::{Key, Role};

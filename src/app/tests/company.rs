@@ -2,14 +2,14 @@
 
 use super::Bench;
 use crate::app::dialogs::Dialog;
+use crate::app::dialogs::export_dialog::ExportDialog;
 use crate::app::editor::{Editor, Setup};
-use crate::app::export_dialog::ExportDialog;
-use crate::app::export_scene::SceneOut;
-use crate::app::moving::Moving;
-use crate::app::preset::Preset;
+use crate::app::model::moving::Moving;
+use crate::app::model::preset::Preset;
+use crate::app::model::workspace::{Pane, PaneLayout, Workspace};
 use crate::app::shows::Shows;
 use crate::app::studio::{Smoothing, Which, hung, lit_scene, scene_of};
-use crate::app::workspace::{Pane, PaneLayout, Workspace};
+use crate::app::tasks::export_scene::SceneOut;
 use crate::scene::{Copies, Panorama, Pose};
 use egui::{Key, Pos2};
 use egui_kittest::kittest::Queryable;

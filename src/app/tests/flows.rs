@@ -2,8 +2,8 @@
 
 use super::*;
 use crate::app::dialogs::Dialog;
-use crate::app::document::Document;
-use crate::app::opening::OpeningPurpose;
+use crate::app::model::document::Document;
+use crate::app::model::opening::OpeningPurpose;
 use crate::cut::Crown;
 use crate::io::cut_file;
 use crate::measure::by_beams;

@@ -1,7 +1,7 @@
 //! Tests of files in other formats: opened, changed and saved.
 
 use super::*;
-use crate::app::document::Document;
+use crate::app::model::document::Document;
 use crate::cut::from_mesh::Up;
 use crate::cut::{Design, Glass, MeshShape};
 use crate::io::design_file::{self, DesignFormat};

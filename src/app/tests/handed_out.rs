@@ -3,7 +3,7 @@
 
 use super::*;
 use crate::app::dialogs::Dialog;
-use crate::app::document::Document;
+use crate::app::model::document::Document;
 use crate::cut::Design;
 use crate::io::design_file::{self, DesignFormat};
 use crate::io::{cut_file, write_rgba_png};

@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::app::dialogs::Dialog;
-use crate::app::document::Document;
+use crate::app::model::document::Document;
 use crate::app::theme;
 use crate::cut::{Design, MaterialRef};
 use crate::io::{cut_file, design_file};

@@ -15,11 +15,11 @@ mod looks;
 mod recorder;
 mod views;
 
-use super::editor::{Editor, Setup, Shown};
-use super::files::{Choice, Chooser, Question};
-use super::shows::Shows;
-use super::studio::{Grade, Shot, Slot, Which};
-use super::workspace::{PaneLayout, Workspace};
+use crate::app::editor::{Editor, Setup, Shown};
+use crate::app::model::workspace::{PaneLayout, Workspace};
+use crate::app::shows::Shows;
+use crate::app::studio::{Grade, Shot, Slot, Which};
+use crate::app::tasks::files::{Choice, Chooser, Question};
 use crate::cut::{Cut, RoundBrilliant};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
@@ -77,7 +77,7 @@ impl Bench {
         let desk = if setup.desk == Workspace::default() { Self::small() } else { setup.desk.clone() };
         let opened: Arc<Mutex<Vec<String>>> = Arc::default();
         let outside = Arc::clone(&opened);
-        let opener: crate::app::opener::Opener = Arc::new(move |what: &str| {
+        let opener: crate::app::tasks::opener::Opener = Arc::new(move |what: &str| {
             outside.lock().unwrap().push(what.to_owned());
             Ok(())
         });

@@ -1,8 +1,8 @@
 //! Tests of what views say about themselves, how they are looked at, and that nothing unchanged is traced again.
 
 use super::*;
-use crate::app::modes::Mode;
-use crate::app::workspace::Pane;
+use crate::app::model::workspace::Pane;
+use crate::app::views::modes::Mode;
 use crate::scene::{LIGHTS, Projection};
 use egui::{Key, Modifiers, PointerButton, Role};
 

@@ -1,0 +1,42 @@
+//! The design that the present design is compared with.
+
+use crate::app::model::document::Document;
+use crate::app::model::pose_cache::PoseCache;
+use crate::scene::Specimen;
+use std::sync::Arc;
+
+/// A design to compare with.
+pub struct Compared {
+    /// The name under which the design is shown.
+    pub name: String,
+    /// Whether it is the present design as it was last saved.
+    pub is_saved: bool,
+    /// The stone of the design, not turned.
+    pub specimen: Arc<Specimen>,
+    posed: PoseCache,
+}
+
+impl Compared {
+    /// Returns the document's design as it was last saved.
+    ///
+    /// # Errors
+    /// Fails where that design makes no stone; the text says why.
+    pub fn of_saved(document: &Document) -> Result<Self, String> {
+        let specimen = Specimen::new(document.saved().clone()).map_err(|e| e.to_string())?;
+        Ok(Self::new("as saved".to_owned(), true, Arc::new(specimen)))
+    }
+
+    /// Returns the design of another document.
+    pub fn of(document: &Document) -> Self {
+        Self::new(document.title(), false, Arc::clone(document.specimen()))
+    }
+
+    fn new(name: String, is_saved: bool, specimen: Arc<Specimen>) -> Self {
+        Self { name, is_saved, specimen, posed: PoseCache::default() }
+    }
+
+    /// Returns the stone turned about its axis by `turn`, radians.
+    pub fn posed(&mut self, turn: f64) -> Arc<Specimen> {
+        self.posed.of(&self.specimen, turn)
+    }
+}

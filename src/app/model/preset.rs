@@ -1,0 +1,181 @@
+//! Scenes that the editor can work on: copies of one design, their light, and what lies behind them.
+
+use crate::app::editor::Editor;
+use crate::app::model::document::Document;
+use crate::cut::Design;
+use crate::io::background::BackgroundRef;
+use crate::io::scene_file::{self, Entry, SceneFile};
+use crate::io::{cut_file, design_file, library};
+use crate::scene::{Copies, MOST_COPIES, Pose, Specimen, middle};
+use glam::{DQuat, DVec3};
+use std::path::Path;
+
+/// A scene of glass that comes with the program.
+pub struct Known {
+    /// The name by which [`Preset::of_library`] finds the scene.
+    pub name: &'static str,
+    /// The title in menus.
+    pub title: &'static str,
+    /// Whether the scene begins to move at once.
+    moves: bool,
+    /// The number of bands of wavelengths that the scene is seen in.
+    wavelengths: u32,
+}
+
+/// All scenes of glass that come with the program, in menu order.
+pub const PRESETS: [Known; 5] = [
+    Known { name: "subtle-pill", title: "Subtle pill", moves: false, wavelengths: 8 },
+    Known { name: "prism-rainbow", title: "Prism rainbow", moves: false, wavelengths: 16 },
+    Known { name: "rotating-cube", title: "Rotating cube", moves: true, wavelengths: 16 },
+    Known { name: "wavy-plate", title: "Wavy plate", moves: true, wavelengths: 16 },
+    Known { name: "free-diamond", title: "Free diamond", moves: true, wavelengths: 16 },
+];
+
+/// A scene that the editor can work on.
+pub struct Preset {
+    /// The design, with its material and size.
+    pub design: Design,
+    /// The copies of the design.
+    pub company: Copies,
+    /// The number of bands of wavelengths that the scene is seen in, if it is known.
+    wavelengths: Option<u32>,
+    /// The scene file, which holds the rest.
+    pub scene: SceneFile,
+}
+
+impl Preset {
+    /// Returns a scene that comes with the program.
+    ///
+    /// # Errors
+    /// Fails where no scene of that name comes with the program, or where it is of several designs.
+    pub fn of_library(name: &str) -> Result<Self, String> {
+        let text = library::scene(name).ok_or_else(|| format!("no scene '{name}' comes with the program"))?;
+        let wavelengths = PRESETS.iter().find(|known| known.name == name).map(|known| known.wavelengths);
+        Ok(Self { wavelengths, ..Self::new(scene_file::parse(text, name, None)?, name, None)? })
+    }
+
+    /// Reads a scene file.
+    ///
+    /// # Errors
+    /// The text names file, line and key, or says why the editor cannot show the scene.
+    pub fn read(path: &Path) -> Result<Self, String> {
+        Self::new(scene_file::read(path)?, &path.display().to_string(), path.parent())
+    }
+
+    fn new(scene: SceneFile, told: &str, folder: Option<&Path>) -> Result<Self, String> {
+        let first = &scene.stones[0];
+        let kind = |e: &Entry| (e.cut.clone(), e.material.clone(), e.size);
+        let count: usize = scene.stones.iter().map(|e| e.count).sum();
+        if scene.stones.iter().any(|e| kind(e) != kind(first)) || count > MOST_COPIES {
+            return Err(format!(
+                "{told}: the editor shows scenes of up to {MOST_COPIES} stones of one cut, material and size; \
+                 `brillianteer render {told}` draws any"
+            ));
+        }
+        let mut design = design(&first.cut, folder).map_err(|e| format!("{told}: {e}"))?;
+        if let Some(material) = &first.material {
+            design.material = material.clone();
+        }
+        let specimen = Specimen::new(design.clone()).map_err(|e| format!("{told}: {e}"))?;
+        let corners = specimen.solid().vertices();
+        if let Some(size) = first.size {
+            let volume = specimen.solid().volume();
+            design.diameter_mm =
+                size.diameter_mm(volume, &specimen.material).map_err(|e| format!("{told}: size: {e}"))?;
+        }
+        let poses = poses(&scene, corners, 0.5 * design.diameter_mm);
+        Ok(Self { company: Copies::at(poses, corners), design, scene, wavelengths: None })
+    }
+}
+
+/// Reads a cut that lies beside the scene, or else one that comes with the program.
+fn design(cut: &str, folder: Option<&Path>) -> Result<Design, String> {
+    let beside = folder.map(|folder| folder.join(cut)).filter(|path| path.is_file());
+    match (beside, library::cut(cut)) {
+        (Some(path), _) => design_file::read(&path).map(|brought| brought.design).map_err(|e| e.to_string()),
+        (None, Some(text)) => cut_file::parse(text, cut).map_err(|e| e.to_string()),
+        (None, None) => {
+            Err(format!("there is no file '{cut}', and no cut of that name comes with the program"))
+        }
+    }
+}
+
+/// Returns the poses of the stones, in girdle radii around the middle of all.
+fn poses(scene: &SceneFile, corners: &[DVec3], unit_mm: f64) -> Vec<Pose> {
+    let turns: Vec<_> = scene.turns().into_iter().map(|(_, turn)| turn).collect();
+    let across = |turn: &DQuat| corners.iter().map(|c| (*turn * *c).truncate().length()).fold(0.0, f64::max);
+    let radii: Vec<f64> = turns.iter().map(|turn| across(turn) * unit_mm).collect();
+    let places = scene.places_mm(&radii).into_iter().map(|at| at / unit_mm);
+    let mut poses: Vec<Pose> = places.zip(turns).map(|(at, turn)| Pose { at, turn }).collect();
+    let middle = middle(&poses, corners);
+    poses.iter_mut().for_each(|pose| pose.at -= middle);
+    poses
+}
+
+impl Editor {
+    /// Begins a scene that comes with the program.
+    pub(crate) fn begin_preset(&mut self, name: &str) {
+        match Preset::of_library(name) {
+            Ok(preset) => {
+                self.begin_scene(preset);
+                // The scene is meant to be seen as a render.
+                self.desk.enlarge_render();
+                self.moving.is_on = PRESETS.iter().any(|known| known.name == name && known.moves);
+            }
+            Err(why) => self.notes.trouble(why),
+        }
+    }
+
+    /// Begins to work on a scene: its design, which is not saved anywhere yet, its copies, its light and its backplate.
+    pub(crate) fn begin_scene(&mut self, preset: Preset) {
+        let Preset { design, company, scene, wavelengths } = preset;
+        let mut document = match Document::new(design, None) {
+            Ok(document) => document,
+            Err(why) => return self.notes.trouble(why.to_string()),
+        };
+        let laid = company.poses(document.specimen().solid().vertices(), None);
+        let layers =
+            if laid == company.poses { "" } else { ", those whose boxes would meet behind one another" };
+        document.work.company = company;
+        document.keep_copies();
+        self.desk.last = None;
+        if let Some(light) = scene.light {
+            let light = if light.is_file() { std::path::absolute(&light).unwrap_or(light) } else { light };
+            self.document.work.light = light.to_string_lossy().into_owned();
+        }
+        self.begin(document);
+        // The workspace cannot hold plain colours.
+        let behind = scene.background.as_ref().filter(|behind| !matches!(behind, BackgroundRef::Plain(_)));
+        self.desk.enter_scene(behind.map(ToString::to_string), wavelengths);
+        (self.desk.behind_mm, self.desk.strength) = (scene.background_distance_mm, scene.strength);
+        self.notes.say(&format!("{}: renders show its copies{layers}, all else shows one", scene.name));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_presets_are_as_their_files_say_and_no_copy_is_put_behind_another() {
+        for Known { name, .. } in PRESETS {
+            let preset = Preset::of_library(name).unwrap();
+            let specimen = Specimen::new(preset.design.clone()).unwrap();
+            let corners = specimen.solid().vertices();
+            assert_eq!(preset.company.poses(corners, None), preset.company.poses, "{name}");
+            assert_eq!(preset.company.poses.len(), if name == "free-diamond" { 1 } else { 4 });
+        }
+        let pill = Preset::of_library("subtle-pill").unwrap();
+        assert_eq!((pill.design.diameter_mm, pill.scene.strength), (40.0, 0.035));
+        // Twenty millimetres are a radius.
+        assert!((pill.company.poses[0].at - DVec3::new(-0.25, 1.005, 0.0)).length() < 1e-9);
+    }
+
+    #[test]
+    fn scenes_of_several_designs_are_refused_with_what_draws_them() {
+        for name in ["trilogy", "ring", "parcel"] {
+            let why = Preset::of_library(name).err().unwrap();
+            assert!(why.contains("brillianteer render"), "{why}");
+        }
+    }
+}

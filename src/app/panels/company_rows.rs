@@ -1,0 +1,192 @@
+//! Rows for presets, copies, their motion, and the smoothing of moving edges: glass shapes are shown with these, and gems
+//! may be.
+
+use crate::app::editor::Editor;
+use crate::app::model::preset::{Known, PRESETS};
+use crate::app::panels::rows::{
+    ANY, NUMBER, Number, Row, control_width, explain, field_width, named, skip_name,
+};
+use crate::app::shows::Shows;
+use crate::app::studio::Smoothing;
+use crate::cut::MaterialRef;
+use crate::optics::{Material, line};
+use crate::scene::{Copies, MOST_COPIES, Pose};
+use egui::{Button, ComboBox, Slider, Ui, vec2};
+use glam::DVec3;
+use std::ops::RangeInclusive;
+
+/// The range of the newest picture's share in temporal antialiasing.
+const NEWEST: RangeInclusive<f64> = 0.05..=1.0;
+
+/// The share of the newest picture at first.
+const FIRST_NEWEST: f64 = 0.5;
+
+/// The range of the angle of view, degrees; an eye still nearer may be inside the glass.
+const ANGLES: RangeInclusive<f64> = 1.0..=75.0;
+
+/// The range of refractive indices of glasses, known and invented.
+const INDICES: RangeInclusive<f64> = 1.0..=3.5;
+/// The range of Abbe numbers of glasses, known and invented.
+const ABBE_NUMBERS: RangeInclusive<f64> = 1.0..=90.0;
+
+/// Draws a button for each scene of glass that comes with the program; a click begins that scene.
+pub fn presets(editor: &mut Editor, ui: &mut Ui) {
+    let mut chosen = None;
+    ui.horizontal_wrapped(|ui| {
+        for Known { name, title, .. } in PRESETS {
+            let meaning = "Begins this scene: its shape, material, copies, light and what lies behind.";
+            if ui.small_button(title).on_hover_text(meaning).clicked() {
+                chosen = Some(name);
+            }
+        }
+    });
+    if let Some(name) = chosen {
+        editor.ask_before(crate::app::dialogs::Then::Preset(name.to_owned()));
+    }
+}
+
+/// Draws the rows for copies, motion, smoothing and the angle of view.
+pub fn show(editor: &mut Editor, ui: &mut Ui) {
+    copies(editor, ui);
+    ui.horizontal(|ui| {
+        named(ui, "Motion", "Copies tumble, plates wave, in renders alone. M lets it go on and stops it.");
+        let (name, meaning) = if editor.moving.is_on {
+            ("Pause", "Stops here; the picture grows sharper for as long as it stands.")
+        } else {
+            ("Play", "Lets time go on.")
+        };
+        let size = vec2(control_width(ui), ui.spacing().interact_size.y);
+        if ui.add_sized(size, Button::new(name)).on_hover_text(meaning).clicked() {
+            editor.moving.is_on = !editor.moving.is_on;
+        }
+        let rests = editor.moving.seconds == 0.0;
+        let rest = Button::new("At rest").min_size(vec2(NUMBER, size.y));
+        if ui.add_enabled(!rests, rest).on_hover_text("Goes back to the pose of the design.").clicked() {
+            editor.moving.rest();
+        }
+    });
+    ui.horizontal(|ui| {
+        let count = editor.document.work.company.poses.len();
+        skip_name(ui);
+        let size = vec2(field_width(ui), ui.spacing().interact_size.y);
+        let again = Button::new("Lay out").min_size(size);
+        if ui
+            .add_enabled(count > 1, again)
+            .on_hover_text("Lays the copies out anew, as Space does.")
+            .clicked()
+        {
+            editor.lay_out(count);
+        }
+    });
+    smoothing(editor, ui);
+    view_angle(editor, ui);
+}
+
+/// Draws the row for the angle of view, which says how near the eye of views in perspective is.
+///
+/// Draws nothing where no view in sight is in perspective.
+fn view_angle(editor: &mut Editor, ui: &mut Ui) {
+    let reach = editor.reach(Shows::Render);
+    let desk = &mut editor.desk;
+    if !desk.shown().iter().any(|&pane| desk.panes[pane].is_near) {
+        return;
+    }
+    let mut degrees = 2.0 * (reach / desk.distance).atan().to_degrees();
+    let before = degrees;
+    let meaning = "The angle that views in perspective take in; P looks along parallel rays.";
+    let row = Row::new("View angle", meaning, ANGLES);
+    Row { decimals: 1, speed: 0.2, unit: "°", ..row }.show(ui, &mut degrees);
+    if degrees != before {
+        desk.distance = reach / (0.5 * degrees).to_radians().tan();
+    }
+}
+
+fn copies(editor: &mut Editor, ui: &mut Ui) {
+    let before = editor.document.work.company.poses.len();
+    let mut count = before as f64;
+    let most = MOST_COPIES as f64;
+    let meaning = "How many of it renders show. Light that leaves one enters another. Drag one in a render to move it; Space \
+        lays all out anew.";
+    ui.horizontal(|ui| {
+        let label = named(ui, "Copies", meaning);
+        ui.spacing_mut().slider_width = control_width(ui);
+        let slider = Slider::new(&mut count, 1.0..=most).step_by(1.0).show_value(false);
+        let slider = ui.add(slider).labelled_by(label.id);
+        explain(ui, slider, meaning);
+        let number = Number { decimals: 0, speed: 0.05, range: ANY, unit: "" };
+        number.show(ui, (NUMBER, label.id), &mut count);
+    });
+    let count = count.round().clamp(1.0, most) as usize;
+    if count != before {
+        editor.lay_out(count);
+    }
+}
+
+fn smoothing(editor: &mut Editor, ui: &mut Ui) {
+    let smoothing = &mut editor.desk.smoothing;
+    let meaning = "How the edges of renders are evened out. Not at all; in each finished picture (FXAA); or over time while \
+        anything moves (temporal). At rest many looks at each pixel do it.";
+    ui.horizontal(|ui| {
+        let label = named(ui, "Smoothing", meaning);
+        let newest = match *smoothing {
+            Smoothing::Temporal { newest } => newest,
+            _ => FIRST_NEWEST,
+        };
+        let all = [
+            (Smoothing::None, "none"),
+            (Smoothing::Fxaa, "FXAA"),
+            (Smoothing::Temporal { newest }, "temporal"),
+        ];
+        let name = all.iter().find(|(s, _)| s == smoothing).map_or("", |(_, name)| name);
+        let combo = ComboBox::from_id_salt("smoothing").selected_text(name).width(field_width(ui));
+        let combo = combo.show_ui(ui, |ui| {
+            for (each, name) in all {
+                ui.selectable_value(smoothing, each, name);
+            }
+        });
+        combo.response.labelled_by(label.id);
+    });
+    if let Smoothing::Temporal { newest } = smoothing {
+        let meaning = "The share of the newest picture: less is smoother, and slower to follow.";
+        Row { speed: 0.01, ..Row::new("Newest part", meaning, NEWEST) }.show(ui, newest);
+    }
+}
+
+/// Draws rows for the index and the Abbe number of a glass; changing one makes it a custom glass.
+pub fn two_numbers(material: &mut MaterialRef, known: &Material, ui: &mut Ui) {
+    let law = &known.dispersion;
+    let (index, abbe) = (known.index(line::HELIUM_D), law.abbe_number().unwrap_or(f64::INFINITY));
+    let (mut n, mut v) = (index, abbe);
+    let meaning = "Refractive index n_d, of helium's yellow line at 587.6 nm.";
+    Row { decimals: 3, speed: 0.01, ..Row::new("Index", meaning, INDICES) }.show(ui, &mut n);
+    let meaning = "V_d: the less, the wider the rainbow; inf for none. Below 20 no real glass is.";
+    let limits = *ABBE_NUMBERS.start()..=f64::INFINITY;
+    let row = Row::new("Abbe number", meaning, ABBE_NUMBERS);
+    Row { limits, decimals: 1, speed: 0.1, ..row }.show(ui, &mut v);
+    // A custom glass keeps its density, which was set by hand; a known glass loses its own.
+    let own = matches!(material, MaterialRef::Custom(_)).then_some(known.density).flatten();
+    let custom = match v.is_finite() {
+        true => Material::from_abbe(&format!("index {n:.3}, Abbe number {v:.1}"), n, v),
+        false => Material::from_index(&format!("index {n:.3}"), n),
+    };
+    if let Some(custom) = custom.ok().filter(|_| (n, v) != (index, abbe)) {
+        *material = MaterialRef::Custom(Box::new(Material { density: own, ..custom }));
+    }
+}
+
+impl Editor {
+    /// Lays `count` copies out anew, each turned as it was.
+    pub(crate) fn lay_out(&mut self, count: usize) {
+        self.layings += 1;
+        let specimen = std::sync::Arc::clone(self.document.specimen());
+        let (solid, company) = (specimen.solid(), &mut self.document.work.company);
+        let turn = |k: usize| company.poses.get(k).map_or(Pose::STILL.turn, |pose| pose.turn);
+        let corners: Vec<DVec3> = (0..count)
+            .flat_map(|k| solid.vertices().iter().map(move |c| (k, *c)))
+            .map(|(k, c)| turn(k) * c)
+            .collect();
+        let mut laid = Copies::scattered(count, &corners, self.layings);
+        laid.poses.iter_mut().enumerate().for_each(|(k, pose)| pose.turn = turn(k));
+        *company = laid;
+    }
+}

@@ -1,0 +1,89 @@
+//! Rows that set how the open mesh is read: whether as flat facets, and which way its table faces.
+
+use crate::app::editor::Editor;
+use crate::app::model::opening::OpeningPurpose;
+use crate::app::panels::rows::{field_width, named};
+use crate::cut::Cut;
+use crate::cut::from_mesh::Up;
+use crate::io::mesh_options::{MeshForm, MeshOptions};
+use egui::{ComboBox, Ui};
+use glam::DVec3;
+use std::path::PathBuf;
+
+const MEANING: &str = "Which direction of the mesh's own frame the table faces. The mesh is read anew, and the views show at \
+    once what comes of it.";
+
+/// The directions that can be chosen.
+const DIRECTIONS: [(&str, Up); 7] = [
+    ("As found", Up::Found),
+    ("+x", Up::Given(DVec3::X)),
+    ("−x", Up::Given(DVec3::NEG_X)),
+    ("+y", Up::Given(DVec3::Y)),
+    ("−y", Up::Given(DVec3::NEG_Y)),
+    ("+z", Up::Given(DVec3::Z)),
+    ("−z", Up::Given(DVec3::NEG_Z)),
+];
+
+/// The forms that the triangles of a mesh can be read as: name, form and meaning.
+const FORMS: [(&str, MeshForm, &str); 2] = [
+    ("Facets", MeshForm::Faceted, "The convex stone between flat facets, as a cutter makes it."),
+    ("Triangles", MeshForm::Triangles, "The mesh as it is, traced by rays."),
+];
+
+/// Draws the rows for a design that was read from a mesh; another choice reads the mesh anew.
+pub fn show(editor: &mut Editor, ui: &mut Ui) {
+    form(editor, ui);
+    let Some((path, options)) = mesh(editor) else { return };
+    let mut chosen = options.up;
+    ui.horizontal(|ui| {
+        let label = named(ui, "Table faces", MEANING);
+        let combo = ComboBox::from_id_salt("table faces")
+            .selected_text(direction_name(chosen))
+            .width(field_width(ui));
+        let combo = combo.show_ui(ui, |ui| {
+            for (name, up) in DIRECTIONS {
+                ui.selectable_value(&mut chosen, up, name);
+            }
+        });
+        combo.response.labelled_by(label.id).on_hover_text(MEANING);
+    });
+    if chosen != options.up {
+        editor.open_with(&path, OpeningPurpose::Otherwise, MeshOptions { up: chosen, ..options });
+    }
+}
+
+/// Returns the mesh that the stone was read from, and how it was read.
+///
+/// While the mesh is being read anew, these are the options of the last choice, so that the next choice adds to it.
+fn mesh(editor: &Editor) -> Option<(PathBuf, MeshOptions)> {
+    let path = editor.document.work.mesh.as_ref()?.path.clone();
+    Some((path, editor.mesh_options()?))
+}
+
+/// Draws the row of forms; the chosen form is marked, or the form of the design where none was chosen.
+fn form(editor: &mut Editor, ui: &mut Ui) {
+    let Some((path, options)) = mesh(editor) else { return };
+    let found = match editor.document.work.design.cut {
+        Cut::Planes(_) => MeshForm::Faceted,
+        Cut::Mesh(_) => MeshForm::Triangles,
+        _ => return,
+    };
+    let present = if options.form == MeshForm::Found { found } else { options.form };
+    ui.horizontal(|ui| {
+        named(ui, "Read as", "What the triangles of the file stand for. The mesh is read anew.");
+        for (name, form, meaning) in FORMS {
+            let is_present = form == present;
+            if ui.selectable_label(is_present, name).on_hover_text(meaning).clicked() && !is_present {
+                editor.open_with(&path, OpeningPurpose::Otherwise, MeshOptions { form, ..options });
+            }
+        }
+    });
+}
+
+fn direction_name(up: Up) -> String {
+    let name = DIRECTIONS.iter().find(|(_, direction)| *direction == up).map(|(name, _)| (*name).to_owned());
+    name.unwrap_or_else(|| match up {
+        Up::Given(DVec3 { x, y, z }) => format!("{x}, {y}, {z}"),
+        _ => DIRECTIONS[0].0.to_owned(),
+    })
+}

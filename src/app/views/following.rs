@@ -1,0 +1,110 @@
+//! The ray that is followed through the stone, and the window that shows its path.
+
+use crate::app::editor::Editor;
+use crate::app::profile_view::ProfileView;
+use crate::app::views::copies;
+use crate::app::views::light_path::LightPath;
+use crate::app::views::pane::zones;
+use egui::{Context, Key, Modifiers, Popup, Pos2, Rect, RichText, Vec2, Window, pos2, vec2};
+use glam::DVec2;
+
+/// How long a click waits to become a double click, seconds.
+const PATIENCE: f64 = 0.32;
+
+/// The size of the window at first, points.
+const SIZE: Vec2 = vec2(560.0, 620.0);
+
+/// Where the window opens at first, unless a view there is clicked: over the views, beside the design panel.
+const PLACE: Pos2 = pos2(372.0, 220.0);
+
+/// Which ray is followed.
+#[derive(Debug, Default)]
+pub struct Following {
+    /// Whether the window of the light path is open.
+    pub is_open: bool,
+    /// The view that was clicked, and the point of its image, girdle radii.
+    pub at: Option<(usize, DVec2)>,
+    /// A click that may become a double click: the view, the point of its image, and the time in seconds.
+    waiting: Option<(usize, DVec2, f64)>,
+    /// Whether Escape was meant for something else in the last frame.
+    waits: bool,
+    /// The rectangle on the screen of the view that was clicked.
+    clicked: Option<Rect>,
+    view: LightPath,
+}
+
+impl Following {
+    /// Takes a click on a point of a view; the ray there is followed unless the click becomes a double click.
+    pub fn click(&mut self, pane: usize, at: DVec2, body: Rect, ctx: &Context) {
+        self.clicked = Some(body);
+        self.waiting = Some((pane, at, ctx.input(|i| i.time)));
+        ctx.request_repaint_after_secs(PATIENCE as f32 + 0.02);
+    }
+
+    /// Forgets the click that waits: it was half of a double click.
+    pub fn unclick(&mut self) {
+        self.waiting = None;
+    }
+
+    /// Returns where the window opens: not over the view that was clicked.
+    fn place(&self) -> Pos2 {
+        let covered = self.clicked.filter(|body| body.left() <= PLACE.x);
+        covered.map_or(PLACE, |body| pos2(body.right(), PLACE.y))
+    }
+
+    fn ripen(&mut self, ctx: &Context) {
+        let now = ctx.input(|i| i.time);
+        if let Some((pane, at, _)) = self.waiting.filter(|(.., since)| now - since > PATIENCE) {
+            (self.waiting, self.at, self.is_open) = (None, Some((pane, at)), true);
+        } else if self.waiting.is_some() {
+            ctx.request_repaint_after_secs(0.05);
+        }
+    }
+}
+
+/// Whether Escape ends something else before it closes the window: a dialog, a drag, typing, or an open menu.
+fn comes_first(editor: &Editor, ctx: &Context) -> bool {
+    let is_held = editor.profiles.iter().any(ProfileView::is_dragging);
+    editor.dialog.is_some() || is_held || ctx.text_edit_focused() || Popup::is_any_open(ctx)
+}
+
+/// Draws the window of the light path, if it is open.
+pub fn show(editor: &mut Editor, ctx: &Context) {
+    editor.following.ripen(ctx);
+    // In this frame Escape has already ended what comes first, so the state of the frame before counts.
+    let waits = comes_first(editor, ctx);
+    let is_free = !std::mem::replace(&mut editor.following.waits, waits);
+    if !editor.following.is_open {
+        return;
+    }
+    let mut is_open = !(is_free && ctx.input_mut(|i| i.consume_key(Modifiers::NONE, Key::Escape)));
+    let window =
+        Window::new("Light path").open(&mut is_open).default_size(SIZE).default_pos(editor.following.place());
+    window.min_size(vec2(400.0, 360.0)).show(ctx, |ui| {
+        let Some((pane, at)) = editor.following.at else {
+            ui.label("Click a point of the stone in any view: its light is followed from there.");
+            return;
+        };
+        let eye = *editor.desk.eye(pane);
+        let shows = editor.desk.panes[pane].shows;
+        if shows.has_company() && !copies::are_none(editor) {
+            ui.label(
+                "A ray is followed through one stone at rest: show a single copy, at rest, or click a scope.",
+            );
+            return;
+        }
+        let view = editor.desk.view(pane);
+        let specimen = editor.posed(eye.turn);
+        let path = editor.probe(&specimen).path(&view, at);
+        match path {
+            Some(path) => {
+                let scope = zones(shows, editor.document.work.head);
+                editor.following.view.show(ui, &specimen.body, &path, &scope, &view.light_basis());
+            }
+            None => {
+                ui.label(RichText::new("The point lies beside the stone; click one that lies on it.").weak());
+            }
+        }
+    });
+    editor.following.is_open = is_open;
+}
