@@ -1,9 +1,10 @@
 //! A pane of liquid glass over the background of a view: it is moved by hand, and drawn as screens draw it or traced.
 
-use crate::app::editor::{Editor, Shown};
+use crate::app::editor::Editor;
 use crate::app::lookup::{LookupRequest, backdrop};
 use crate::app::shows::Shows;
 use crate::app::studio::{Grade, Which};
+use crate::app::views::gallery::Shown;
 use crate::app::views::pane::{enlarge, focus};
 use crate::app::views::view_menu;
 use crate::optics::linear_from_encoded;
@@ -102,10 +103,10 @@ pub fn show(editor: &mut Editor, ui: &mut Ui, (pane, shows): (usize, Shows), bod
     response.widget_info(|| WidgetInfo::labeled(Role::Image, true, &name));
     if response.dragged_by(PointerButton::Primary) {
         let by = response.drag_delta() / body.size();
-        editor.desk.liquid.drag(DVec2::new(by.x.into(), by.y.into()));
+        editor.model.workspace.liquid.drag(DVec2::new(by.x.into(), by.y.into()));
     }
     if response.has_focus() {
-        by_keys(&mut editor.desk.liquid, ui, &response);
+        by_keys(&mut editor.model.workspace.liquid, ui, &response);
     }
     if shows == Shows::LiquidGlass {
         ask(editor, pane, size);
@@ -123,7 +124,7 @@ pub fn show(editor: &mut Editor, ui: &mut Ui, (pane, shows): (usize, Shows), bod
         enlarge(editor, pane);
     }
     if response.hovered() || response.has_focus() {
-        editor.hovered = pane;
+        editor.model.session.hovered = pane;
     }
 }
 
@@ -140,8 +141,7 @@ fn by_keys(liquid: &mut Liquid, ui: &Ui, response: &Response) {
 
 /// Requests the pane as screens draw it.
 fn ask(editor: &mut Editor, pane: usize, size: [u32; 2]) {
-    let light = editor.light();
-    if let Some(shot) = editor.shot(pane, Which::Present, size, &light) {
+    if let Some(shot) = editor.orders().shot(pane, Which::Present, size) {
         let behind = backdrop(shot.behind.as_ref());
         let ask = LookupRequest { shot, grade: Grade::Fine, map: None, behind };
         editor.looker.ask((pane, Which::Present), ask);

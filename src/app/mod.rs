@@ -12,6 +12,8 @@ mod model;
 mod painter;
 mod panels;
 mod profile_view;
+mod setup;
+mod shortcuts;
 mod shows;
 mod state_file;
 mod studio;
@@ -22,8 +24,9 @@ mod urgency;
 mod views;
 mod window;
 
-pub use editor::{Editor, Setup};
+pub use editor::Editor;
 pub use model::workspace::Workspace;
+pub use setup::Setup;
 pub use window::{PaintedBy, WindowError, run};
 
 #[cfg(test)]

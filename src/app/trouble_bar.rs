@@ -12,7 +12,7 @@ const MOST_OF_HEIGHT: f32 = 0.6;
 
 /// Draws the bar over the views, if there are errors or warnings.
 pub fn show(editor: &mut Editor, ctx: &Context, stage: Rect) {
-    if editor.notes.troubles().is_empty() {
+    if editor.model.session.notes.troubles().is_empty() {
         return;
     }
     let area = Area::new(Id::unique("troubles")).order(Order::Middle).fixed_pos(stage.left_bottom());
@@ -21,7 +21,7 @@ pub fn show(editor: &mut Editor, ctx: &Context, stage: Rect) {
         frame.show(ui, |ui| {
             ui.set_width(stage.width() - 14.0);
             ui.set_max_height(stage.height());
-            match editor.notes.is_open {
+            match editor.model.session.notes.is_open {
                 true => list(editor, ui, stage.height() * MOST_OF_HEIGHT),
                 false => last(editor, ui),
             }
@@ -36,16 +36,16 @@ fn coloured(ui: &Ui, trouble: &Problem) -> RichText {
 
 /// Draws the last message alone, on one line; a button lists all messages, each in full.
 fn last(editor: &mut Editor, ui: &mut Ui) {
-    let troubles = editor.notes.troubles();
+    let troubles = editor.model.session.notes.troubles();
     let (count, Some(trouble)) = (troubles.len(), troubles.last().cloned()) else { return };
     ui.horizontal(|ui| {
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
             if ui.button("Dismiss").on_hover_text("Forgets this message.").clicked() {
-                editor.notes.dismiss(count - 1);
+                editor.model.session.notes.dismiss(count - 1);
             }
             let open = if count > 1 { format!("Show all {count}") } else { "Show all of it".to_owned() };
             if ui.button(open).on_hover_text("Lists every message in full.").clicked() {
-                editor.notes.is_open = true;
+                editor.model.session.notes.is_open = true;
             }
             ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
                 ui.add(Label::new(coloured(ui, &trouble)).truncate());
@@ -55,12 +55,12 @@ fn last(editor: &mut Editor, ui: &mut Ui) {
 }
 
 fn list(editor: &mut Editor, ui: &mut Ui, height: f32) {
-    let troubles = editor.notes.troubles().to_vec();
+    let troubles = editor.model.session.notes.troubles().to_vec();
     ScrollArea::vertical().max_height(height).show(ui, |ui| {
         for (k, trouble) in troubles.iter().enumerate().rev() {
             ui.horizontal_top(|ui| {
                 if ui.small_button("Dismiss").clicked() {
-                    editor.notes.dismiss(k);
+                    editor.model.session.notes.dismiss(k);
                 }
                 ui.add(Label::new(coloured(ui, trouble)).wrap().selectable(true));
             });
@@ -68,10 +68,10 @@ fn list(editor: &mut Editor, ui: &mut Ui, height: f32) {
     });
     ui.horizontal(|ui| {
         if ui.button("Dismiss all").clicked() {
-            (0..troubles.len()).rev().for_each(|k| editor.notes.dismiss(k));
+            (0..troubles.len()).rev().for_each(|k| editor.model.session.notes.dismiss(k));
         }
         if ui.button("Show one line").clicked() {
-            editor.notes.is_open = false;
+            editor.model.session.notes.is_open = false;
         }
     });
 }

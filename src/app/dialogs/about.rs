@@ -1,9 +1,12 @@
 //! The About dialog: the program's version, its licences, and the crates it is built of.
 
-use crate::app::dialogs::buttons;
-use crate::app::editor::Editor;
+use super::{answer, buttons};
 use crate::app::icon::icon;
-use egui::{ColorImage, Grid, Label, RichText, ScrollArea, TextEdit, TextureHandle, Ui, vec2};
+use crate::app::model::action::{Actions, DialogAction, FileAction};
+use crate::app::model::dialog::{AboutForm, AboutPage};
+use egui::{
+    ColorImage, Grid, Id, Label, RichText, ScrollArea, TextEdit, TextureHandle, TextureOptions, Ui, vec2,
+};
 
 /// The program's own licences: the name and the text of each.
 const LICENCES: [(&str, &str); 2] =
@@ -14,23 +17,6 @@ const CRATES: &str = include_str!("../../../docs/licences.md");
 
 /// The greatest height of lists and texts, points; a low window gives them less.
 const LIST: f32 = 300.0;
-
-/// What the lower part of the dialog shows.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-enum Page {
-    #[default]
-    Crates,
-    Licence(usize),
-}
-
-/// The state of the About dialog.
-#[derive(Default)]
-pub struct About {
-    page: Page,
-    /// The search text: the list shows the crates whose name or licence contains it.
-    sought: String,
-    icon: Option<TextureHandle>,
-}
 
 /// A crate that the program is built of.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -56,41 +42,25 @@ pub fn crates() -> impl Iterator<Item = Crate<'static>> {
     )
 }
 
-/// Draws the dialog; returns whether it stays open.
-pub fn show(editor: &mut Editor, ui: &mut Ui, about: &mut About) -> bool {
+/// Draws the dialog.
+pub fn show(about: &AboutForm, actions: &mut Actions, ui: &mut Ui) {
     ui.set_width(560.0_f32.min(ui.ctx().content_rect().width() - 60.0));
-    ui.horizontal(|ui| {
-        if about.icon.is_none() {
-            about.icon = icon().map(|icon| {
-                let size = [icon.width as usize, icon.height as usize];
-                let image = ColorImage::from_rgba_unmultiplied(size, &icon.rgba);
-                ui.ctx().load_texture("icon", image, egui::TextureOptions::LINEAR)
-            });
-        }
-        if let Some(texture) = &about.icon {
-            ui.image((texture.id(), vec2(72.0, 72.0)));
-        }
-        ui.vertical(|ui| {
-            ui.heading(format!("Brillianteer {}", env!("CARGO_PKG_VERSION")));
-            ui.label(env!("CARGO_PKG_DESCRIPTION"));
-            ui.label(RichText::new("Licensed under MIT or Apache-2.0, as you choose.").weak());
-            let home = env!("CARGO_PKG_REPOSITORY");
-            if !home.is_empty() {
-                link(editor, ui, home);
-            }
-        });
-    });
+    head(actions, ui);
     ui.separator();
+    let mut page = about.page;
     ui.horizontal_wrapped(|ui| {
-        ui.selectable_value(&mut about.page, Page::Crates, "Built of");
+        ui.selectable_value(&mut page, AboutPage::Crates, "Built of");
         for (k, (name, _)) in LICENCES.iter().enumerate() {
-            ui.selectable_value(&mut about.page, Page::Licence(k), format!("Licence {name}"));
+            ui.selectable_value(&mut page, AboutPage::Licence(k), format!("Licence {name}"));
         }
     });
+    if page != about.page {
+        actions.push(DialogAction::AboutPage(page));
+    }
     let height = (ui.ctx().content_rect().height() - 300.0).clamp(120.0, LIST);
     match about.page {
-        Page::Crates => list(editor, ui, &mut about.sought, height),
-        Page::Licence(k) => {
+        AboutPage::Crates => list(actions, ui, &about.sought, height),
+        AboutPage::Licence(k) => {
             ScrollArea::vertical().id_salt(("licence", k)).max_height(height).auto_shrink(false).show(
                 ui,
                 |ui| {
@@ -99,16 +69,51 @@ pub fn show(editor: &mut Editor, ui: &mut Ui, about: &mut About) -> bool {
             );
         }
     }
-    buttons(ui, &["Close"]).is_none()
+    answer(actions, [DialogAction::Leave], buttons(ui, &["Close"]));
 }
 
-fn list(editor: &mut Editor, ui: &mut Ui, sought: &mut String, height: f32) {
+/// Draws the icon, the name and the licences of the program.
+fn head(actions: &mut Actions, ui: &mut Ui) {
+    ui.horizontal(|ui| {
+        if let Some(texture) = texture(ui) {
+            ui.image((texture.id(), vec2(72.0, 72.0)));
+        }
+        ui.vertical(|ui| {
+            ui.heading(format!("Brillianteer {}", env!("CARGO_PKG_VERSION")));
+            ui.label(env!("CARGO_PKG_DESCRIPTION"));
+            ui.label(RichText::new("Licensed under MIT or Apache-2.0, as you choose.").weak());
+            let home = env!("CARGO_PKG_REPOSITORY");
+            if !home.is_empty() {
+                link(actions, ui, home, home);
+            }
+        });
+    });
+}
+
+/// Returns the program's icon, which is drawn once.
+fn texture(ui: &Ui) -> Option<TextureHandle> {
+    let id = Id::unique("program icon");
+    ui.data(|data| data.get_temp(id)).or_else(|| {
+        let icon = icon()?;
+        let size = [icon.width as usize, icon.height as usize];
+        let image = ColorImage::from_rgba_unmultiplied(size, &icon.rgba);
+        let texture = ui.ctx().load_texture("icon", image, TextureOptions::LINEAR);
+        ui.data_mut(|data| data.insert_temp(id, texture.clone()));
+        Some(texture)
+    })
+}
+
+fn list(actions: &mut Actions, ui: &mut Ui, sought: &str, height: f32) {
     let seek = sought.to_lowercase();
     let found: Vec<Crate> =
         crates().filter(|c| c.name.contains(&seek) || c.licence.to_lowercase().contains(&seek)).collect();
     ui.horizontal(|ui| {
         let label = ui.label("Find");
-        ui.add(TextEdit::singleline(sought).desired_width(180.0)).labelled_by(label.id);
+        let mut text = sought.to_owned();
+        let field = ui.add(TextEdit::singleline(&mut text).desired_width(180.0)).labelled_by(label.id);
+        if field.changed() {
+            actions.push(DialogAction::AboutSearch(text));
+        }
         ui.label(RichText::new(format!("{} of {} crates", found.len(), crates().count())).weak());
     });
     ScrollArea::vertical().id_salt("crates").max_height(height).auto_shrink(false).show(ui, |ui| {
@@ -118,7 +123,7 @@ fn list(editor: &mut Editor, ui: &mut Ui, sought: &mut String, height: f32) {
                 let text = format!("{name} {version}");
                 match address.is_empty() {
                     true => drop(ui.label(text)),
-                    false => named_link(editor, ui, &text, address),
+                    false => link(actions, ui, &text, address),
                 }
                 ui.add(Label::new(licence).wrap());
                 ui.end_row();
@@ -127,21 +132,17 @@ fn list(editor: &mut Editor, ui: &mut Ui, sought: &mut String, height: f32) {
     });
 }
 
-fn link(editor: &mut Editor, ui: &mut Ui, address: &str) {
-    named_link(editor, ui, address, address);
-}
-
 /// Draws a link that the system opens.
-fn named_link(editor: &mut Editor, ui: &mut Ui, text: &str, address: &str) {
+fn link(actions: &mut Actions, ui: &mut Ui, text: &str, address: &str) {
     if ui.link(text).on_hover_text(address).clicked() {
-        editor.open_outside(address);
+        actions.push(FileAction::OpenOutside(address.to_owned()));
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::app::editor::Setup;
+    use crate::app::setup::Setup;
     use crate::app::tests::Bench;
     use egui::{Rect, Shape};
     use egui_kittest::kittest::Queryable;

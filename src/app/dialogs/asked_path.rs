@@ -1,30 +1,11 @@
 //! The dialog that asks for a file by its path, where the system has no file dialog.
 
-use crate::app::dialogs::buttons_alone;
-use crate::app::editor::Editor;
-use crate::app::tasks::files::Purpose;
+use super::buttons_alone;
+use crate::app::model::action::{Actions, DialogAction};
+use crate::app::model::choosing::Purpose;
+use crate::app::model::dialog::PathForm;
 use crate::app::theme;
 use egui::{Key, RichText, TextEdit, Ui};
-use std::path::{Path, PathBuf};
-
-/// A path that the user types.
-pub struct AskedPath {
-    purpose: Purpose,
-    /// The number of the document that the path is for.
-    document: u64,
-    text: String,
-    /// Whether the field has been given the focus.
-    has_begun: bool,
-    /// Whether anyone has typed: Return does not accept a path that was only suggested.
-    is_typed: bool,
-}
-
-impl AskedPath {
-    /// Asks for a path; the field first holds `begin`, a folder or a file.
-    pub fn new(purpose: Purpose, document: u64, begin: &Path) -> Self {
-        Self { purpose, document, text: begin.display().to_string(), has_begun: false, is_typed: false }
-    }
-}
 
 /// Returns the heading of the dialog, and the name of the button that accepts the path.
 fn words(purpose: Purpose) -> (&'static str, &'static str) {
@@ -38,8 +19,8 @@ fn words(purpose: Purpose) -> (&'static str, &'static str) {
     }
 }
 
-/// Draws the dialog; returns whether it stays open.
-pub fn show(editor: &mut Editor, ui: &mut Ui, asked: &mut AskedPath) -> bool {
+/// Draws the dialog.
+pub fn show(actions: &mut Actions, ui: &mut Ui, asked: &PathForm) {
     ui.set_width(460.0);
     let (heading, verb) = words(asked.purpose);
     ui.heading(heading);
@@ -47,14 +28,17 @@ pub fn show(editor: &mut Editor, ui: &mut Ui, asked: &mut AskedPath) -> bool {
     ui.label(RichText::new(why).weak());
     ui.add_space(6.0);
     let label = ui.label("Path");
-    let field = ui.add(TextEdit::singleline(&mut asked.text).desired_width(440.0)).labelled_by(label.id);
+    let mut text = asked.text.clone();
+    let field = ui.add(TextEdit::singleline(&mut text).desired_width(440.0)).labelled_by(label.id);
     let is_entered = field.lost_focus() && ui.input(|i| i.key_pressed(Key::Enter));
-    asked.is_typed |= field.changed();
-    if !asked.has_begun || (is_entered && !asked.is_typed) {
-        asked.has_begun = true;
+    if field.changed() {
+        actions.push(DialogAction::Type(text));
+    }
+    let has_focus = ui.memory(|m| m.focused().is_some());
+    if !(has_focus || is_entered && asked.is_typed) {
         field.request_focus();
     }
-    let path = PathBuf::from(asked.text.trim());
+    let path = asked.path();
     if asked.purpose == Purpose::SaveAs && path.is_file() {
         ui.label(
             RichText::new("It is there already and will be replaced.").color(theme::caution(ui.visuals())),
@@ -63,10 +47,9 @@ pub fn show(editor: &mut Editor, ui: &mut Ui, asked: &mut AskedPath) -> bool {
         ui.label(RichText::new("There is no such file.").weak());
     }
     match buttons_alone(ui, &[verb, "Cancel"]) {
-        None if is_entered && asked.is_typed => editor.chosen(asked.purpose, asked.document, path),
-        Some(0) => editor.chosen(asked.purpose, asked.document, path),
-        Some(_) => editor.after_save = None,
-        None => return true,
+        None if is_entered && asked.is_typed => actions.push(DialogAction::Accept),
+        Some(0) => actions.push(DialogAction::Accept),
+        Some(_) => actions.push(DialogAction::Leave),
+        None => {}
     }
-    false
 }

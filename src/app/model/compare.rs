@@ -1,11 +1,11 @@
 //! The design that the present design is compared with.
 
 use crate::app::model::document::Document;
-use crate::app::model::pose_cache::PoseCache;
 use crate::scene::Specimen;
 use std::sync::Arc;
 
 /// A design to compare with.
+#[derive(Debug, Clone)]
 pub struct Compared {
     /// The name under which the design is shown.
     pub name: String,
@@ -13,7 +13,6 @@ pub struct Compared {
     pub is_saved: bool,
     /// The stone of the design, not turned.
     pub specimen: Arc<Specimen>,
-    posed: PoseCache,
 }
 
 impl Compared {
@@ -32,11 +31,6 @@ impl Compared {
     }
 
     fn new(name: String, is_saved: bool, specimen: Arc<Specimen>) -> Self {
-        Self { name, is_saved, specimen, posed: PoseCache::default() }
-    }
-
-    /// Returns the stone turned about its axis by `turn`, radians.
-    pub fn posed(&mut self, turn: f64) -> Arc<Specimen> {
-        self.posed.of(&self.specimen, turn)
+        Self { name, is_saved, specimen }
     }
 }

@@ -1,61 +1,20 @@
 //! The open document: a design and its light, with the steps of undo and the file it came from.
 
-use crate::app::model::history::History;
+use super::extent::Extent;
+use super::history::History;
+use super::recovery::RecoveredWork;
+use super::saving::{SaveRequest, SavedDesign, Stamp};
+use super::work::{ReadMesh, Work};
 use crate::cut::{Cut, Design};
-use crate::io::design_file::{self, DesignFormat, ImportedDesign};
+use crate::io::design_file::{self, ImportedDesign};
 use crate::io::mesh_options::MeshOptions;
 use crate::io::{cut_file, library};
 use crate::scene::{Copies, Specimen, SpecimenError};
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
-use std::time::SystemTime;
-
-/// Everything that undo restores.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Work {
-    /// The design of the stone.
-    pub design: Design,
-    /// The copies of the stone in renders.
-    pub company: Copies,
-    /// The name of the light, or its file.
-    pub light: String,
-    /// The exposure of renders, in stops.
-    pub exposure: f64,
-    /// The half angle of the observer's head in ASET and figures, degrees; 0 for none.
-    pub head: f64,
-    /// The mesh file that the stone was read from, if it was one.
-    pub mesh: Option<ReadMesh>,
-    /// The warnings and notes about the file, in words.
-    pub remarks: Arc<[String]>,
-}
-
-/// A mesh file, and how it was read.
-#[derive(Debug, Clone, PartialEq)]
-pub struct ReadMesh {
-    /// The mesh file.
-    pub path: PathBuf,
-    /// How the file was read.
-    pub options: MeshOptions,
-    /// Whether the shape leaves a doubt which way the table faces.
-    pub is_doubtful: bool,
-    /// The diameter of the stone when it was read, mm.
-    pub diameter_mm: f64,
-}
-
-/// The time of change and the length of a file when it was last read or written.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Stamp(Option<(SystemTime, u64)>);
-
-impl Stamp {
-    /// Returns the stamp of the file as it is now; it is empty where there is no such file.
-    pub fn of(path: &Path) -> Self {
-        let read = std::fs::metadata(path).and_then(|m| Ok((m.modified()?, m.len())));
-        Self(read.ok())
-    }
-}
+use std::sync::{Arc, OnceLock};
 
 /// A design that is open.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct Document {
     /// The work as it is now. It is changed in place; [`update`](Self::update) then takes note of the change.
     pub work: Work,
@@ -70,6 +29,8 @@ pub struct Document {
     /// The stone of the last design that makes one. Its own design may be older than `built` in what changes no light, such
     /// as the name.
     specimen: Arc<Specimen>,
+    /// How far that stone reaches, once anyone has asked.
+    extent: OnceLock<Extent>,
     fault: Option<SpecimenError>,
     /// The design that `specimen` or `fault` belongs to.
     built: Design,
@@ -103,7 +64,7 @@ impl Document {
             mesh: None,
             remarks: Arc::default(),
         };
-        let stamp = path.as_deref().map_or(Stamp(None), Stamp::of);
+        let stamp = path.as_deref().map_or_else(Stamp::default, Stamp::of);
         let history = History::new(work.clone());
         Ok(Self {
             work,
@@ -114,6 +75,7 @@ impl Document {
             stamp,
             is_lost: false,
             specimen,
+            extent: OnceLock::new(),
             fault: None,
             built: design,
         })
@@ -168,20 +130,14 @@ impl Document {
 
     /// Opens unsaved work that was found after a crash; it counts as changed.
     ///
-    /// `mesh` is the mesh file that the stone was read from, if it was one.
-    ///
     /// # Errors
     /// Fails where the design makes no stone; the text says why.
-    pub fn recovered(design: Design, path: Option<PathBuf>, mesh: Option<ReadMesh>) -> Result<Self, String> {
-        let mut document = Self::new(design, path).map_err(|e| e.to_string())?;
-        document.work.mesh = mesh;
+    pub fn recovered(found: &RecoveredWork) -> Result<Self, String> {
+        let mut document = Self::new(found.design.clone(), found.path.clone()).map_err(|e| e.to_string())?;
+        document.work.mesh.clone_from(&found.mesh);
         document.history = History::new(document.work.clone());
-        // `read` takes a mesh in the direction that it finds: a table direction that the user chose is a change that the
-        // file lacks.
-        let on_disk = document.path.as_deref().and_then(|p| design_file::read(p).ok());
-        document.saved = on_disk
-            .map(|brought| brought.design)
-            .unwrap_or_else(|| Design { name: String::new(), ..document.saved });
+        document.saved =
+            found.on_disk.clone().unwrap_or_else(|| Design { name: String::new(), ..document.saved });
         Ok(document)
     }
 
@@ -221,7 +177,7 @@ impl Document {
         }
         match self.specimen.remade(self.built.clone()) {
             Ok(specimen) => {
-                self.specimen = Arc::new(specimen);
+                (self.specimen, self.extent) = (Arc::new(specimen), OnceLock::new());
                 // A stone can be built whose name no file can hold.
                 self.fault = self.built.check().err().map(SpecimenError::from);
                 true
@@ -241,6 +197,11 @@ impl Document {
     /// Returns the last stone that could be built.
     pub fn specimen(&self) -> &Arc<Specimen> {
         &self.specimen
+    }
+
+    /// Returns how far the last stone that could be built reaches from above.
+    pub fn extent(&self) -> Extent {
+        *self.extent.get_or_init(|| Extent::of(&self.specimen))
     }
 
     /// Returns a stone of this document, [`specimen`](Self::specimen) or a turned one, under the name that the design has
@@ -289,9 +250,9 @@ impl Document {
         self.work.design != self.saved || self.is_lost
     }
 
-    /// Whether the file has changed since the document was last read from it or written to it.
-    pub fn is_changed_outside(&self) -> bool {
-        self.path.as_deref().is_some_and(|path| Stamp::of(path) != self.stamp)
+    /// Returns the file as it was when it was last read or written.
+    pub fn stamp(&self) -> Stamp {
+        self.stamp
     }
 
     /// Whether the file no longer existed when it was last checked.
@@ -300,11 +261,8 @@ impl Document {
     }
 
     /// Accepts the file on disk as it is, so that its change is not reported again.
-    pub fn accept_outside(&mut self) {
-        if let Some(path) = &self.path {
-            self.stamp = Stamp::of(path);
-            self.is_lost = !path.exists();
-        }
+    pub fn accept_outside(&mut self, stamp: Stamp) {
+        (self.stamp, self.is_lost) = (stamp, !stamp.is_there());
     }
 
     /// Whether there is anything to undo, and anything to redo.
@@ -329,22 +287,25 @@ impl Document {
         }
     }
 
-    /// Saves the design to `path`, which is its file from now on, in the format of the file's name.
-    ///
-    /// Returns what that format could not hold, in words.
+    /// Returns what is to be saved, to `path`.
     ///
     /// # Errors
-    /// Fails when the design makes no stone, or the file system refuses; the old file stays as it is.
-    pub fn save(&mut self, path: PathBuf) -> Result<Vec<String>, String> {
-        if let Some(fault) = &self.fault {
-            return Err(format!("this design cannot be read again: {fault}"));
+    /// Fails when the design makes no stone.
+    pub fn to_save(&self, path: PathBuf) -> Result<SaveRequest, String> {
+        match &self.fault {
+            Some(fault) => Err(format!("this design cannot be read again: {fault}")),
+            None => Ok(SaveRequest {
+                path,
+                design: self.work.design.clone(),
+                specimen: Arc::clone(&self.specimen),
+            }),
         }
-        let specimen = self.specimen.remade(self.work.design.clone()).map_err(|e| e.to_string())?;
-        let format = DesignFormat::of_name(&path).unwrap_or(DesignFormat::Toml);
-        let lost = design_file::write(&specimen, format, &path).map_err(|e| e.to_string())?;
-        (self.stamp, self.path, self.is_lost) = (Stamp::of(&path), Some(path), false);
-        self.saved = self.work.design.clone();
-        Ok(lost)
+    }
+
+    /// Takes note that a design of this document has been saved: its file is that of the document from now on.
+    pub fn take_saved(&mut self, saved: SavedDesign) {
+        (self.stamp, self.path, self.is_lost) = (saved.stamp, Some(saved.path), false);
+        self.saved = saved.design;
     }
 }
 

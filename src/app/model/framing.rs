@@ -4,7 +4,6 @@
 //! screen, and not the scale. Another stone is fitted when a file is opened, when the user asks for it, or when the stone
 //! has outgrown its views.
 
-use crate::app::model::extent::Extent;
 use crate::scene::{Film, Specimen, View};
 use crate::trace::ray::Camera;
 use glam::{DQuat, DVec2, DVec3};
@@ -93,16 +92,18 @@ fn bounds(points: impl Iterator<Item = DVec3>) -> (DVec3, DVec3) {
 #[derive(Debug, Clone)]
 pub struct Framing {
     fitted: Arc<Specimen>,
-    points: Vec<DVec3>,
-    /// The stone that was measured last, and its extent.
-    measured: (Arc<Specimen>, Extent),
+    points: Arc<[DVec3]>,
 }
 
 impl Framing {
     /// Fits views to a stone.
     pub fn new(specimen: &Arc<Specimen>) -> Self {
-        let measured = (Arc::clone(specimen), Extent::of(specimen));
-        Self { fitted: Arc::clone(specimen), points: outermost(specimen.solid().vertices()), measured }
+        Self { fitted: Arc::clone(specimen), points: outermost(specimen.solid().vertices()).into() }
+    }
+
+    /// Returns the stone that views are fitted to.
+    pub fn fitted(&self) -> &Arc<Specimen> {
+        &self.fitted
     }
 
     /// Fits views to another stone.
@@ -127,14 +128,6 @@ impl Framing {
     /// Returns what a view takes in of the stone that views are fitted to, turned about its axis by `turn` radians.
     pub fn fit(&self, turn: f64, view: &View) -> FramingFit {
         FramingFit::of(&self.points, turn, view)
-    }
-
-    /// Returns how far a stone reaches from above; the last measurement is kept.
-    pub fn extent(&mut self, specimen: &Arc<Specimen>) -> Extent {
-        if !Arc::ptr_eq(&self.measured.0, specimen) {
-            self.measured = (Arc::clone(specimen), Extent::of(specimen));
-        }
-        self.measured.1
     }
 }
 

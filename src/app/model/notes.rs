@@ -10,7 +10,7 @@ pub struct Problem {
 }
 
 /// The last messages.
-#[derive(Debug, Default)]
+#[derive(Debug, Clone, Default)]
 pub struct Notes {
     said: Option<String>,
     troubles: Vec<Problem>,

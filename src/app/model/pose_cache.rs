@@ -4,7 +4,7 @@ use crate::scene::Specimen;
 use std::sync::Arc;
 
 /// A stone in the few turns that its views show it in: the same turn of the same stone gives the same [`Arc`].
-#[derive(Default)]
+#[derive(Debug, Clone, Default)]
 pub struct PoseCache(Vec<(Arc<Specimen>, f64, Arc<Specimen>)>);
 
 /// The number of turns that are kept: that of the linked views, and those of the four views that may look on their own.

@@ -1,9 +1,6 @@
 //! Scenes that the editor can work on: copies of one design, their light, and what lies behind them.
 
-use crate::app::editor::Editor;
-use crate::app::model::document::Document;
 use crate::cut::Design;
-use crate::io::background::BackgroundRef;
 use crate::io::scene_file::{self, Entry, SceneFile};
 use crate::io::{cut_file, design_file, library};
 use crate::scene::{Copies, MOST_COPIES, Pose, Specimen, middle};
@@ -17,7 +14,7 @@ pub struct Known {
     /// The title in menus.
     pub title: &'static str,
     /// Whether the scene begins to move at once.
-    moves: bool,
+    pub moves: bool,
     /// The number of bands of wavelengths that the scene is seen in.
     wavelengths: u32,
 }
@@ -32,13 +29,14 @@ pub const PRESETS: [Known; 5] = [
 ];
 
 /// A scene that the editor can work on.
+#[derive(Debug)]
 pub struct Preset {
     /// The design, with its material and size.
     pub design: Design,
     /// The copies of the design.
     pub company: Copies,
     /// The number of bands of wavelengths that the scene is seen in, if it is known.
-    wavelengths: Option<u32>,
+    pub wavelengths: Option<u32>,
     /// The scene file, which holds the rest.
     pub scene: SceneFile,
 }
@@ -110,46 +108,6 @@ fn poses(scene: &SceneFile, corners: &[DVec3], unit_mm: f64) -> Vec<Pose> {
     let middle = middle(&poses, corners);
     poses.iter_mut().for_each(|pose| pose.at -= middle);
     poses
-}
-
-impl Editor {
-    /// Begins a scene that comes with the program.
-    pub(crate) fn begin_preset(&mut self, name: &str) {
-        match Preset::of_library(name) {
-            Ok(preset) => {
-                self.begin_scene(preset);
-                // The scene is meant to be seen as a render.
-                self.desk.enlarge_render();
-                self.moving.is_on = PRESETS.iter().any(|known| known.name == name && known.moves);
-            }
-            Err(why) => self.notes.trouble(why),
-        }
-    }
-
-    /// Begins to work on a scene: its design, which is not saved anywhere yet, its copies, its light and its backplate.
-    pub(crate) fn begin_scene(&mut self, preset: Preset) {
-        let Preset { design, company, scene, wavelengths } = preset;
-        let mut document = match Document::new(design, None) {
-            Ok(document) => document,
-            Err(why) => return self.notes.trouble(why.to_string()),
-        };
-        let laid = company.poses(document.specimen().solid().vertices(), None);
-        let layers =
-            if laid == company.poses { "" } else { ", those whose boxes would meet behind one another" };
-        document.work.company = company;
-        document.keep_copies();
-        self.desk.last = None;
-        if let Some(light) = scene.light {
-            let light = if light.is_file() { std::path::absolute(&light).unwrap_or(light) } else { light };
-            self.document.work.light = light.to_string_lossy().into_owned();
-        }
-        self.begin(document);
-        // The workspace cannot hold plain colours.
-        let behind = scene.background.as_ref().filter(|behind| !matches!(behind, BackgroundRef::Plain(_)));
-        self.desk.enter_scene(behind.map(ToString::to_string), wavelengths);
-        (self.desk.behind_mm, self.desk.strength) = (scene.background_distance_mm, scene.strength);
-        self.notes.say(&format!("{}: renders show its copies{layers}, all else shows one", scene.name));
-    }
 }
 
 #[cfg(test)]

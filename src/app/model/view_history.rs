@@ -38,7 +38,7 @@ impl ViewState {
 }
 
 /// The states that the views have been in.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct ViewHistory {
     history: History<ViewState>,
     /// The last state, which may still be changing, and the time when it was noted, seconds.

@@ -2,8 +2,9 @@
 #![allow(clippy::print_stdout, reason = "what is measured is told")]
 
 use super::Painter;
-use crate::app::editor::{Editor, Setup};
+use crate::app::editor::Editor;
 use crate::app::model::workspace::Workspace;
+use crate::app::setup::Setup;
 use crate::app::shows::Shows;
 use egui::{Context, FullOutput, TexturesDelta, Theme};
 use egui_kittest::wgpu::WgpuTestRenderer;

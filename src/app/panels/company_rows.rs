@@ -2,6 +2,8 @@
 //! may be.
 
 use crate::app::editor::Editor;
+use crate::app::model::action::{Edit, FileAction};
+use crate::app::model::dialog::Then;
 use crate::app::model::preset::{Known, PRESETS};
 use crate::app::panels::rows::{
     ANY, NUMBER, Number, Row, control_width, explain, field_width, named, skip_name,
@@ -10,9 +12,8 @@ use crate::app::shows::Shows;
 use crate::app::studio::Smoothing;
 use crate::cut::MaterialRef;
 use crate::optics::{Material, line};
-use crate::scene::{Copies, MOST_COPIES, Pose};
+use crate::scene::MOST_COPIES;
 use egui::{Button, ComboBox, Slider, Ui, vec2};
-use glam::DVec3;
 use std::ops::RangeInclusive;
 
 /// The range of the newest picture's share in temporal antialiasing.
@@ -41,7 +42,7 @@ pub fn presets(editor: &mut Editor, ui: &mut Ui) {
         }
     });
     if let Some(name) = chosen {
-        editor.ask_before(crate::app::dialogs::Then::Preset(name.to_owned()));
+        editor.actions.push(FileAction::Ask(Then::Preset(name.to_owned())));
     }
 }
 
@@ -50,23 +51,23 @@ pub fn show(editor: &mut Editor, ui: &mut Ui) {
     copies(editor, ui);
     ui.horizontal(|ui| {
         named(ui, "Motion", "Copies tumble, plates wave, in renders alone. M lets it go on and stops it.");
-        let (name, meaning) = if editor.moving.is_on {
+        let (name, meaning) = if editor.model.session.motion.is_on {
             ("Pause", "Stops here; the picture grows sharper for as long as it stands.")
         } else {
             ("Play", "Lets time go on.")
         };
         let size = vec2(control_width(ui), ui.spacing().interact_size.y);
         if ui.add_sized(size, Button::new(name)).on_hover_text(meaning).clicked() {
-            editor.moving.is_on = !editor.moving.is_on;
+            editor.model.session.motion.is_on = !editor.model.session.motion.is_on;
         }
-        let rests = editor.moving.seconds == 0.0;
+        let rests = editor.model.session.motion.seconds == 0.0;
         let rest = Button::new("At rest").min_size(vec2(NUMBER, size.y));
         if ui.add_enabled(!rests, rest).on_hover_text("Goes back to the pose of the design.").clicked() {
-            editor.moving.rest();
+            editor.model.session.motion.rest();
         }
     });
     ui.horizontal(|ui| {
-        let count = editor.document.work.company.poses.len();
+        let count = editor.model.document.work.company.poses.len();
         skip_name(ui);
         let size = vec2(field_width(ui), ui.spacing().interact_size.y);
         let again = Button::new("Lay out").min_size(size);
@@ -75,7 +76,7 @@ pub fn show(editor: &mut Editor, ui: &mut Ui) {
             .on_hover_text("Lays the copies out anew, as Space does.")
             .clicked()
         {
-            editor.lay_out(count);
+            editor.actions.push(Edit::LayOut(count));
         }
     });
     smoothing(editor, ui);
@@ -86,8 +87,8 @@ pub fn show(editor: &mut Editor, ui: &mut Ui) {
 ///
 /// Draws nothing where no view in sight is in perspective.
 fn view_angle(editor: &mut Editor, ui: &mut Ui) {
-    let reach = editor.reach(Shows::Render);
-    let desk = &mut editor.desk;
+    let reach = editor.model.reach(Shows::Render);
+    let desk = &mut editor.model.workspace;
     if !desk.shown().iter().any(|&pane| desk.panes[pane].is_near) {
         return;
     }
@@ -102,7 +103,7 @@ fn view_angle(editor: &mut Editor, ui: &mut Ui) {
 }
 
 fn copies(editor: &mut Editor, ui: &mut Ui) {
-    let before = editor.document.work.company.poses.len();
+    let before = editor.model.document.work.company.poses.len();
     let mut count = before as f64;
     let most = MOST_COPIES as f64;
     let meaning = "How many of it renders show. Light that leaves one enters another. Drag one in a render to move it; Space \
@@ -118,12 +119,12 @@ fn copies(editor: &mut Editor, ui: &mut Ui) {
     });
     let count = count.round().clamp(1.0, most) as usize;
     if count != before {
-        editor.lay_out(count);
+        editor.actions.push(Edit::LayOut(count));
     }
 }
 
 fn smoothing(editor: &mut Editor, ui: &mut Ui) {
-    let smoothing = &mut editor.desk.smoothing;
+    let smoothing = &mut editor.model.workspace.smoothing;
     let meaning = "How the edges of renders are evened out. Not at all; in each finished picture (FXAA); or over time while \
         anything moves (temporal). At rest many looks at each pixel do it.";
     ui.horizontal(|ui| {
@@ -171,22 +172,5 @@ pub fn two_numbers(material: &mut MaterialRef, known: &Material, ui: &mut Ui) {
     };
     if let Some(custom) = custom.ok().filter(|_| (n, v) != (index, abbe)) {
         *material = MaterialRef::Custom(Box::new(Material { density: own, ..custom }));
-    }
-}
-
-impl Editor {
-    /// Lays `count` copies out anew, each turned as it was.
-    pub(crate) fn lay_out(&mut self, count: usize) {
-        self.layings += 1;
-        let specimen = std::sync::Arc::clone(self.document.specimen());
-        let (solid, company) = (specimen.solid(), &mut self.document.work.company);
-        let turn = |k: usize| company.poses.get(k).map_or(Pose::STILL.turn, |pose| pose.turn);
-        let corners: Vec<DVec3> = (0..count)
-            .flat_map(|k| solid.vertices().iter().map(move |c| (k, *c)))
-            .map(|(k, c)| turn(k) * c)
-            .collect();
-        let mut laid = Copies::scattered(count, &corners, self.layings);
-        laid.poses.iter_mut().enumerate().for_each(|(k, pose)| pose.turn = turn(k));
-        *company = laid;
     }
 }

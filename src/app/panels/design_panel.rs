@@ -1,6 +1,8 @@
 //! The design panel: proportions, stone, light and copies.
 
 use crate::app::editor::Editor;
+use crate::app::model::action::FileAction;
+use crate::app::model::choosing::Purpose;
 use crate::app::model::extent;
 use crate::app::model::workspace::PanelSide;
 use crate::app::model::workspace::WAVELENGTHS;
@@ -14,7 +16,6 @@ use crate::app::panels::side_panels;
 use crate::app::panels::stone_rows;
 use crate::app::panels::tier_rows;
 use crate::app::studio::BEHIND;
-use crate::app::tasks::files::Purpose;
 use crate::app::theme;
 use crate::cut::{Cut, Design, DesignError, MaterialRef, RoundBrilliant, Unit};
 use crate::picture::Pattern;
@@ -38,11 +39,11 @@ pub fn show(editor: &mut Editor, ui: &mut Ui, widths: RangeInclusive<f32>) {
         side_panels::head(editor, ui, PanelSide::Design);
         ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
             identity(editor, ui);
-            let work = &editor.document.work;
+            let work = &editor.model.document.work;
             if matches!(work.design.cut, Cut::Glass(_)) || work.company != Copies::default() {
                 company_rows::presets(editor, ui);
             }
-            let meaning = match is_graded(&editor.document.work.design) {
+            let meaning = match is_graded(&editor.model.document.work.design) {
                 true => "Drag a slider or type a number; the green mark is the range GIA calls excellent.",
                 false => "Drag a slider or type a number.",
             };
@@ -50,7 +51,7 @@ pub fn show(editor: &mut Editor, ui: &mut Ui, widths: RangeInclusive<f32>) {
             mesh_rows::show(editor, ui);
             proportions(editor, ui);
             heading(ui, "Stone", "What it is made of, and how large it is.");
-            stone_rows::show(editor, ui);
+            stone_rows::show(&editor.model, &mut editor.actions, ui);
             heading(ui, "Light", "What the render is lit by; scopes bring their own light.");
             lighting(editor, ui);
             heading(ui, "Copies", "Renders show several of it, and let them move.");
@@ -75,7 +76,7 @@ fn heading(ui: &mut Ui, text: &str, meaning: &str) {
 
 /// Draws the rows for the name of the design and the family of its cut.
 fn identity(editor: &mut Editor, ui: &mut Ui) {
-    let design = &mut editor.document.work.design;
+    let design = &mut editor.model.document.work.design;
     ui.horizontal(|ui| {
         let label = named(ui, "Name", "What the design is called, in its file and on its pictures.");
         let mut name = design.name.clone();
@@ -84,10 +85,10 @@ fn identity(editor: &mut Editor, ui: &mut Ui) {
             design.rename(name);
         }
     });
-    if let Some(fault @ SpecimenError::Design(DesignError::Name)) = editor.document.fault() {
+    if let Some(fault @ SpecimenError::Design(DesignError::Name)) = editor.model.document.fault() {
         wrong(ui, &fault.to_string());
     }
-    let design = &editor.document.work.design;
+    let design = &editor.model.document.work.design;
     ui.horizontal(|ui| {
         named(ui, "Cut", "The family: which facets there are, and which numbers shape them.");
         ui.label(match design.cut {
@@ -101,12 +102,12 @@ fn identity(editor: &mut Editor, ui: &mut Ui) {
 }
 
 fn proportions(editor: &mut Editor, ui: &mut Ui) {
-    let fault = editor.document.fault().map(ToString::to_string);
+    let fault = editor.model.document.fault().map(ToString::to_string);
     let said = impossible(editor);
-    let mut edited = editor.edited;
-    let is_graded = is_graded(&editor.document.work.design);
-    let Cut::RoundBrilliant(brilliant) = &mut editor.document.work.design.cut else {
-        match &mut editor.document.work.design.cut {
+    let mut edited = editor.model.session.edited;
+    let is_graded = is_graded(&editor.model.document.work.design);
+    let Cut::RoundBrilliant(brilliant) = &mut editor.model.document.work.design.cut else {
+        match &mut editor.model.document.work.design.cut {
             Cut::Glass(glass) => glass_rows::show(glass, ui),
             Cut::Mesh(_) => {}
             _ => tiers(editor, ui),
@@ -126,9 +127,9 @@ fn proportions(editor: &mut Editor, ui: &mut Ui) {
         }
     }
     derived(ui, brilliant, is_graded);
-    editor.edited = edited;
+    editor.model.session.edited = edited;
     warnings(editor, ui);
-    let is_name = matches!(editor.document.fault(), Some(SpecimenError::Design(DesignError::Name)));
+    let is_name = matches!(editor.model.document.fault(), Some(SpecimenError::Design(DesignError::Name)));
     if let Some(fault) = fault.filter(|_| !is_name && said.is_none()) {
         wrong(ui, &fault);
     }
@@ -136,21 +137,21 @@ fn proportions(editor: &mut Editor, ui: &mut Ui) {
 
 /// Explains what is wrong with the proportions of a round brilliant, and at which row to say so.
 fn impossible(editor: &Editor) -> Option<RowMessage> {
-    let Some(SpecimenError::Design(DesignError::Proportion(fault))) = editor.document.fault() else {
+    let Some(SpecimenError::Design(DesignError::Proportion(fault))) = editor.model.document.fault() else {
         return None;
     };
-    let given = editor.document.work.design.cut.brilliant()?;
-    let last = editor.document.specimen().design.cut.brilliant()?;
-    Some(impossible::explain(given, last, editor.edited, fault))
+    let given = editor.model.document.work.design.cut.brilliant()?;
+    let last = editor.model.document.specimen().design.cut.brilliant()?;
+    Some(impossible::explain(given, last, editor.model.session.edited, fault))
 }
 
 /// Draws the rows for the tiers of a cut.
 ///
 /// Setting one tier leaves all others where they are, in mm: a stone that becomes wider gets a greater diameter.
 fn tiers(editor: &mut Editor, ui: &mut Ui) {
-    let specimen = Arc::clone(editor.document.specimen());
-    let unit = editor.framing.extent(&specimen).unit;
-    let design = &mut editor.document.work.design;
+    let specimen = Arc::clone(editor.model.document.specimen());
+    let unit = editor.model.document.extent().unit;
+    let design = &mut editor.model.document.work.design;
     let before = design.cut.clone();
     tier_rows::show(&mut design.cut, specimen.unit_mm() * unit, ui);
     if design.cut != before
@@ -169,8 +170,9 @@ const MOST_WARNINGS: usize = 12;
 
 /// Draws the warnings about the stone and its file.
 fn warnings(editor: &Editor, ui: &mut Ui) {
-    let stones = editor.document.specimen().warnings.iter().filter(|_| editor.document.fault().is_none());
-    let all: Vec<&String> = stones.chain(editor.document.work.remarks.iter()).collect();
+    let stones =
+        editor.model.document.specimen().warnings.iter().filter(|_| editor.model.document.fault().is_none());
+    let all: Vec<&String> = stones.chain(editor.model.document.work.remarks.iter()).collect();
     let small = |text: &str| egui::Label::new(RichText::new(text).weak().small()).wrap();
     for warning in all.iter().take(MOST_WARNINGS) {
         ui.add(small(warning));
@@ -323,7 +325,7 @@ fn derived(ui: &mut Ui, brilliant: &RoundBrilliant, is_graded: bool) {
 
 fn lighting(editor: &mut Editor, ui: &mut Ui) {
     let mut asks = false;
-    let work = &mut editor.document.work;
+    let work = &mut editor.model.document.work;
     ui.horizontal(|ui| {
         let label = named(ui, "Light", "What stands around the stone in renders.");
         let name = std::path::Path::new(&work.light)
@@ -352,7 +354,7 @@ fn lighting(editor: &mut Editor, ui: &mut Ui) {
         let meaning = "Into how many bands of wavelengths renders take light apart; few show as bands in the colours. Hold Z \
             to see what three show.";
         let label = named(ui, "Wavelengths", meaning);
-        let wavelengths = &mut editor.desk.wavelengths;
+        let wavelengths = &mut editor.model.workspace.wavelengths;
         let combo = ComboBox::from_id_salt("wavelengths").selected_text(wavelengths.to_string());
         let combo = combo.width(field_width(ui));
         let combo = combo.show_ui(ui, |ui| {
@@ -363,19 +365,19 @@ fn lighting(editor: &mut Editor, ui: &mut Ui) {
     let asks_picture = behind(editor, ui);
     let meaning = "Half angle of the observer's head, which shuts out light in ASET and figures; 0 for none.";
     let head = Row { step: 0.1, decimals: 1, unit: "°", ..Row::new("Head", meaning, HEADS) };
-    head.show(ui, &mut editor.document.work.head);
+    head.show(ui, &mut editor.model.document.work.head);
     if asks {
-        editor.choose(Purpose::Light);
+        editor.actions.push(FileAction::Choose(Purpose::Light));
     }
     if asks_picture {
-        editor.choose(Purpose::Behind);
+        editor.actions.push(FileAction::Choose(Purpose::Behind));
     }
 }
 
 /// Draws the rows for the backplate behind the stone in renders; returns whether the user wants to choose a file.
 fn behind(editor: &mut Editor, ui: &mut Ui) -> bool {
     let mut asks = false;
-    let desk = &mut editor.desk;
+    let desk = &mut editor.model.workspace;
     ui.horizontal(|ui| {
         let label =
             named(ui, "Behind", "A picture behind the stone in renders, refracted where each ray meets it.");
@@ -398,7 +400,7 @@ fn behind(editor: &mut Editor, ui: &mut Ui) -> bool {
         let meaning = "How much of the way that refraction turns light is followed: 1 is physics, less a mixture with the \
             straight ray, for its looks.";
         if desk.behind.as_deref() != Some("light") {
-            let unit_mm = editor.document.specimen().unit_mm();
+            let unit_mm = editor.model.document.specimen().unit_mm();
             let mut mm = desk.behind_mm.unwrap_or(BEHIND * unit_mm);
             let before = mm;
             let about = "How far behind the middle it hangs; never nearer than the stones reach.";

@@ -1,6 +1,7 @@
 //! The figures panel: where the light comes from, by exact beams or by rays, and how that changes when the stone is tilted.
 
-use crate::app::editor::{Editor, ShownFigures};
+use crate::app::editor::Editor;
+use crate::app::model::figures::ShownFigures;
 use crate::app::model::workspace::PanelSide;
 use crate::app::panels::figures_text::{self, FiguresSubject};
 use crate::app::panels::pane_rows;
@@ -51,26 +52,34 @@ fn figures(editor: &mut Editor, ui: &mut Ui) {
         });
     });
     how(editor, ui);
-    if let Some(measured) = editor.figures.get(&Which::Present) {
-        table(ui, &lines(measured, other(editor), (editor.desk.by_area, editor.desk.glare())));
+    if let Some(measured) = editor.model.session.measured.figures.get(&Which::Present) {
+        table(
+            ui,
+            &lines(measured, other(editor), (editor.model.workspace.by_area, editor.model.workspace.glare())),
+        );
         ui.label(RichText::new(state(editor, measured)).weak().small());
     }
 }
 
 /// Returns the figures of the design compared with.
 fn other(editor: &Editor) -> Option<&ShownFigures> {
-    editor.compared.as_ref().and_then(|_| editor.figures.get(&Which::Other))
+    editor
+        .model
+        .session
+        .compared
+        .as_ref()
+        .and_then(|_| editor.model.session.measured.figures.get(&Which::Other))
 }
 
 /// Says whether the figures are final, and their error where they are sampled.
 fn state(editor: &Editor, measured: &ShownFigures) -> String {
-    let is_asked = editor.asked.figures.iter().any(|(_, ask)| *ask == measured.ask);
+    let is_asked = editor.model.session.ordered.figures.iter().any(|(_, ask)| *ask == measured.ask);
     let state = match is_asked && measured.grade == Grade::Fine {
-        true if editor.document.shows_last_possible() => "those of the last possible stone",
+        true if editor.model.document.shows_last_possible() => "those of the last possible stone",
         true => "final",
         false => "becoming finer…",
     };
-    let glare = editor.desk.glare().description();
+    let glare = editor.model.workspace.glare().description();
     match measured.figures.standard_error {
         error if error > 0.0 => format!("{state}; by rays, standard error {:.2} %; {glare}", 100.0 * error),
         _ => format!("{state}; {glare}"),
@@ -82,9 +91,10 @@ fn against_tilt(editor: &mut Editor, ui: &mut Ui) {
     ui.label(RichText::new("Against tilt").heading()).on_hover_text(
         "The same figures while the stone leans toward the azimuth of the linked views, -30° to 30°.",
     );
-    if let Some((ask, tilts)) = &editor.tilts {
+    if let Some((ask, tilts)) = &editor.model.session.measured.tilts {
         ui.label(RichText::new("in the colours of the zones above").weak().small());
-        let (is_asked, glare) = (editor.asked.tilts.as_ref() == Some(ask), editor.desk.glare());
+        let (is_asked, glare) =
+            (editor.model.session.ordered.tilts.as_ref() == Some(ask), editor.model.workspace.glare());
         ui.add_enabled_ui(is_asked, |ui| plot(ui, (ask.head, glare), tilts));
     } else {
         ui.label(RichText::new("comes when all else is done").weak());
@@ -95,10 +105,10 @@ fn against_tilt(editor: &mut Editor, ui: &mut Ui) {
 fn copies(editor: &mut Editor, ui: &mut Ui) {
     let copied = |editor: &mut Editor, ui: &mut Ui, text: String| {
         ui.ctx().copy_text(text);
-        editor.notes.say("Figures copied");
+        editor.model.session.notes.say("Figures copied");
         ui.close();
     };
-    let measured = editor.figures.get(&Which::Present);
+    let measured = editor.model.session.measured.figures.get(&Which::Present);
     let has_figures = measured.is_some();
     let about = "The figures as they are shown, a line each.";
     if ui.add_enabled(has_figures, Button::new("Copy as text")).on_hover_text(about).clicked()
@@ -112,30 +122,36 @@ fn copies(editor: &mut Editor, ui: &mut Ui) {
     {
         copied(editor, ui, text);
     }
-    let tilts = editor.tilts.as_ref().map(|(ask, tilts)| (ask.head, tilts.clone()));
+    let tilts = editor.model.session.measured.tilts.as_ref().map(|(ask, tilts)| (ask.head, tilts.clone()));
     let about = "A table for spreadsheets: the zones' energy at each tilt, in percent.";
     if ui.add_enabled(tilts.is_some(), Button::new("Copy tilts as CSV")).on_hover_text(about).clicked()
         && let Some((head, tilts)) = tilts
     {
-        let text = figures_text::tilts((head, editor.desk.glare()), &tilts);
+        let text = figures_text::tilts((head, editor.model.workspace.glare()), &tilts);
         copied(editor, ui, text);
     }
 }
 
 /// Returns the figures as text, or as a table.
 fn as_text(editor: &Editor, as_table: bool) -> Option<String> {
-    let measured = editor.figures.get(&Which::Present)?;
+    let measured = editor.model.session.measured.figures.get(&Which::Present)?;
     let other = other(editor);
-    let by_area = editor.desk.by_area;
+    let by_area = editor.model.workspace.by_area;
     let by = if by_area { "area of strongest exits" } else { "energy" };
     let (view, state) = (view(editor), format!("ASET, {by}; {}", state(editor, measured)));
     let about = FiguresSubject {
-        design: &editor.document.work.design.name,
+        design: &editor.model.document.work.design.name,
         view: &view,
         state: &state,
-        other: editor.compared.as_ref().filter(|_| other.is_some()).map(|compared| compared.name.as_str()),
+        other: editor
+            .model
+            .session
+            .compared
+            .as_ref()
+            .filter(|_| other.is_some())
+            .map(|compared| compared.name.as_str()),
     };
-    let glare = editor.desk.glare();
+    let glare = editor.model.workspace.glare();
     let lines = |by_area| lines(measured, other, (by_area, glare));
     Some(match as_table {
         true => figures_text::csv(&about, &lines(false), &lines(true)),
@@ -145,9 +161,9 @@ fn as_text(editor: &Editor, as_table: bool) -> Option<String> {
 
 fn how(editor: &mut Editor, ui: &mut Ui) {
     ui.horizontal(|ui| {
-        ui.selectable_value(&mut editor.desk.by_area, false, "Energy")
+        ui.selectable_value(&mut editor.model.workspace.by_area, false, "Energy")
             .on_hover_text("How much of the light comes from each zone, all exits of each point together.");
-        ui.selectable_value(&mut editor.desk.by_area, true, "Area").on_hover_text(
+        ui.selectable_value(&mut editor.model.workspace.by_area, true, "Area").on_hover_text(
             "The part of the stone whose strongest light comes from each zone, as most ASET scores count.",
         );
     });
@@ -156,9 +172,11 @@ fn how(editor: &mut Editor, ui: &mut Ui) {
 
 /// Says from where the stone is seen for the figures.
 fn view(editor: &Editor) -> String {
-    let tilt = editor.desk.eye.tilt().to_degrees();
-    let azimuth = (editor.desk.eye.view(None).azimuth - editor.desk.eye.turn).to_degrees().rem_euclid(360.0);
-    let what = if editor.desk.eye.eye_leans { "eye" } else { "stone" };
+    let tilt = editor.model.workspace.eye.tilt().to_degrees();
+    let azimuth = (editor.model.workspace.eye.view(None).azimuth - editor.model.workspace.eye.turn)
+        .to_degrees()
+        .rem_euclid(360.0);
+    let what = if editor.model.workspace.eye.eye_leans { "eye" } else { "stone" };
     let view = if tilt == 0.0 {
         "face up".to_owned()
     } else {

@@ -1,14 +1,13 @@
 //! Rows that set how the open mesh is read: whether as flat facets, and which way its table faces.
 
 use crate::app::editor::Editor;
-use crate::app::model::opening::OpeningPurpose;
+use crate::app::model::action::FileAction;
 use crate::app::panels::rows::{field_width, named};
 use crate::cut::Cut;
 use crate::cut::from_mesh::Up;
 use crate::io::mesh_options::{MeshForm, MeshOptions};
 use egui::{ComboBox, Ui};
 use glam::DVec3;
-use std::path::PathBuf;
 
 const MEANING: &str = "Which direction of the mesh's own frame the table faces. The mesh is read anew, and the views show at \
     once what comes of it.";
@@ -33,7 +32,7 @@ const FORMS: [(&str, MeshForm, &str); 2] = [
 /// Draws the rows for a design that was read from a mesh; another choice reads the mesh anew.
 pub fn show(editor: &mut Editor, ui: &mut Ui) {
     form(editor, ui);
-    let Some((path, options)) = mesh(editor) else { return };
+    let Some(options) = editor.model.mesh_options() else { return };
     let mut chosen = options.up;
     ui.horizontal(|ui| {
         let label = named(ui, "Table faces", MEANING);
@@ -48,22 +47,14 @@ pub fn show(editor: &mut Editor, ui: &mut Ui) {
         combo.response.labelled_by(label.id).on_hover_text(MEANING);
     });
     if chosen != options.up {
-        editor.open_with(&path, OpeningPurpose::Otherwise, MeshOptions { up: chosen, ..options });
+        editor.actions.push(FileAction::ReadMesh(MeshOptions { up: chosen, ..options }));
     }
-}
-
-/// Returns the mesh that the stone was read from, and how it was read.
-///
-/// While the mesh is being read anew, these are the options of the last choice, so that the next choice adds to it.
-fn mesh(editor: &Editor) -> Option<(PathBuf, MeshOptions)> {
-    let path = editor.document.work.mesh.as_ref()?.path.clone();
-    Some((path, editor.mesh_options()?))
 }
 
 /// Draws the row of forms; the chosen form is marked, or the form of the design where none was chosen.
 fn form(editor: &mut Editor, ui: &mut Ui) {
-    let Some((path, options)) = mesh(editor) else { return };
-    let found = match editor.document.work.design.cut {
+    let Some(options) = editor.model.mesh_options() else { return };
+    let found = match editor.model.document.work.design.cut {
         Cut::Planes(_) => MeshForm::Faceted,
         Cut::Mesh(_) => MeshForm::Triangles,
         _ => return,
@@ -74,7 +65,7 @@ fn form(editor: &mut Editor, ui: &mut Ui) {
         for (name, form, meaning) in FORMS {
             let is_present = form == present;
             if ui.selectable_label(is_present, name).on_hover_text(meaning).clicked() && !is_present {
-                editor.open_with(&path, OpeningPurpose::Otherwise, MeshOptions { form, ..options });
+                editor.actions.push(FileAction::ReadMesh(MeshOptions { form, ..options }));
             }
         }
     });

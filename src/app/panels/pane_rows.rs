@@ -27,7 +27,9 @@ const QUALITIES: [(Quality, &str, &str); 3] = [
 
 /// Draws the rows, where liquid glass is in sight.
 pub fn show(editor: &mut Editor, ui: &mut Ui) {
-    let is_seen = |shows| editor.desk.shown().iter().any(|&pane| editor.desk.panes[pane].shows == shows);
+    let is_seen = |shows| {
+        editor.model.workspace.shown().iter().any(|&pane| editor.model.workspace.panes[pane].shows == shows)
+    };
     let [drawn, traced] = [Shows::LiquidGlass, Shows::TracedPane].map(is_seen);
     if !drawn && !traced {
         return;
@@ -37,7 +39,7 @@ pub fn show(editor: &mut Editor, ui: &mut Ui) {
         "A pane before what hangs behind: as screens draw it, by five parts of arithmetic, and as glass is. Strengths run \
          from 0 to 100.",
     );
-    let liquid = &mut editor.desk.liquid;
+    let liquid = &mut editor.model.workspace.liquid;
     let Liquid { size, corners, refraction, depth, dispersion, frost, light, gap, .. } = liquid;
     for (name, meaning, value, range, unit) in [
         ("Pane width", "How wide the pane is, in percent of the view.", &mut size.x, EXTENTS, " %"),

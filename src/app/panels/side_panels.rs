@@ -32,7 +32,7 @@ pub fn show(editor: &mut Editor, ui: &mut Ui) {
     for (side, [least, most], other) in
         [(PanelSide::Design, DESIGN, FIGURES[0]), (PanelSide::Figures, FIGURES, DESIGN[0])]
     {
-        if !editor.desk.panels.is_open(side, both) {
+        if !editor.model.workspace.panels.is_open(side, both) {
             strip(editor, ui, side);
             continue;
         }
@@ -65,7 +65,7 @@ pub fn head(editor: &mut Editor, ui: &mut Ui, side: PanelSide) {
             let response = arrow(ui, side == PanelSide::Design);
             let label = format!("Fold {}", name(side).to_lowercase());
             if named(response, &label, "Folds this panel to a strip; H hides both.").clicked() {
-                editor.desk.panels.set(side, has_room_for_both(ui), false);
+                editor.model.workspace.panels.set(side, has_room_for_both(ui), false);
             }
         });
     });
@@ -85,7 +85,7 @@ fn strip(editor: &mut Editor, ui: &mut Ui, side: PanelSide) {
         upright(ui, rect, name(side));
         let label = format!("Open {}", name(side).to_lowercase());
         if named(whole, &label, &format!("Opens the panel of the {}.", name(side).to_lowercase())).clicked() {
-            editor.desk.panels.set(side, both, true);
+            editor.model.workspace.panels.set(side, both, true);
         }
     });
 }

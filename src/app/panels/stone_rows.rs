@@ -1,6 +1,7 @@
 //! Rows for what the stone is made of, how large it is and what it weighs.
 
-use crate::app::editor::Editor;
+use crate::app::model::Model;
+use crate::app::model::action::{Actions, Edit};
 use crate::app::model::extent::Extent;
 use crate::app::panels::company_rows;
 use crate::app::panels::rows::{
@@ -10,7 +11,6 @@ use crate::cut::{Cut, Design, MaterialRef, Size};
 use crate::optics::{Material, line, materials};
 use egui::{ComboBox, RichText, Ui};
 use std::ops::RangeInclusive;
-use std::sync::Arc;
 
 /// The range of lengths that a stone may have, mm.
 const LENGTHS_MM: RangeInclusive<f64> = 0.1..=1000.0;
@@ -21,17 +21,17 @@ const CARATS: RangeInclusive<f64> = 1e-6..=1e9;
 /// The range of densities that can be typed, g/cm³: the same that cut files take.
 const DENSITIES: RangeInclusive<f64> = 0.1..=30.0;
 
-/// Draws the rows, and sets what the user changes.
-pub fn show(editor: &mut Editor, ui: &mut Ui) {
-    let specimen = Arc::clone(editor.document.specimen());
-    let extent = editor.framing.extent(&specimen);
-    let design = &mut editor.document.work.design;
-    material(design, &specimen.material, ui);
-    if is_own(&design.material) || specimen.material.density.is_none() {
-        density(design, &specimen.material, ui);
-    }
-    size(design, extent, ui);
-    weight(design, specimen.solid().volume(), &specimen.material, ui);
+/// Draws the rows.
+pub fn show(model: &Model, actions: &mut Actions, ui: &mut Ui) {
+    let specimen = model.document.specimen();
+    let design = &model.document.work.design;
+    let chosen = material(design, &specimen.material, ui);
+    let is_unknown = specimen.material.density.is_none();
+    let typed = (is_own(&design.material) || is_unknown).then(|| density(&specimen.material, ui)).flatten();
+    chosen.or(typed).into_iter().for_each(|material| actions.push(Edit::Material(material)));
+    let across = size(design, model.document.extent(), ui);
+    let weighed = weight(design, specimen.solid().volume(), &specimen.material, ui);
+    across.or(weighed).into_iter().for_each(|mm| actions.push(Edit::Diameter(mm)));
 }
 
 /// Whether the material is not one of the library's.
@@ -43,7 +43,9 @@ fn is_own(material: &MaterialRef) -> bool {
 const ILLUSTRATIVE: &str = "\nIts colour is illustrative: chosen to look like the gem's, and not measured. What the stone \
     absorbs follows from it.";
 
-fn material(design: &mut Design, known: &Material, ui: &mut Ui) {
+/// Draws the row of materials; returns the one that was chosen.
+fn material(design: &Design, known: &Material, ui: &mut Ui) -> Option<MaterialRef> {
+    let mut chosen = None;
     ui.horizontal(|ui| {
         let meaning = "What the stone is made of: it sets refraction, dispersion and colour.";
         let label = named(ui, "Material", meaning);
@@ -57,7 +59,7 @@ fn material(design: &mut Design, known: &Material, ui: &mut Ui) {
             let mut all: Vec<_> = materials().iter().collect();
             all.sort_by_key(|m| m.name.as_str());
             for material in all {
-                let chosen = name == material.name;
+                let is_present = name == material.name;
                 let colour = if material.colour_is_illustrative { ILLUSTRATIVE } else { "" };
                 let about =
                     format!("{}\nindex {:.4}{colour}", material.description, material.index(line::SODIUM_D));
@@ -66,8 +68,8 @@ fn material(design: &mut Design, known: &Material, ui: &mut Ui) {
                 } else {
                     material.name.clone()
                 };
-                if ui.selectable_label(chosen, entry).on_hover_text(about).clicked() && !chosen {
-                    design.material = MaterialRef::Name(material.name.clone());
+                if ui.selectable_label(is_present, entry).on_hover_text(about).clicked() && !is_present {
+                    chosen = Some(MaterialRef::Name(material.name.clone()));
                 }
             }
         });
@@ -78,29 +80,34 @@ fn material(design: &mut Design, known: &Material, ui: &mut Ui) {
             .on_hover_text(ILLUSTRATIVE.trim_start());
     }
     if matches!(design.cut, Cut::Glass(_)) {
-        company_rows::two_numbers(&mut design.material, known, ui);
+        let mut glass = design.material.clone();
+        company_rows::two_numbers(&mut glass, known, ui);
+        chosen = chosen.or((glass != design.material).then_some(glass));
     }
+    chosen
 }
 
-/// Draws the row for the density: a material of the library has its own, and setting another makes it a custom material.
-fn density(design: &mut Design, known: &Material, ui: &mut Ui) {
+/// Draws the row for the density: a material of the library has its own, and setting another makes it a custom material,
+/// which is returned.
+fn density(known: &Material, ui: &mut Ui) -> Option<MaterialRef> {
     let mut density = known.density.unwrap_or(NOT_KNOWN);
     let meaning =
         "What the stone's weight follows from. An index alone says nothing of it: type the density here.";
     let number = Number { decimals: 3, speed: 0.01, range: DENSITIES, unit: " g/cm³" };
     number_row(ui, ("Density", meaning), number, &mut density);
-    if density.is_finite() && known.density != Some(density) {
-        let own = Material { density: Some(density), ..known.clone() };
-        design.material = MaterialRef::Custom(Box::new(own));
-    }
+    let is_set = density.is_finite() && known.density != Some(density);
+    is_set.then(|| MaterialRef::Custom(Box::new(Material { density: Some(density), ..known.clone() })))
 }
 
-/// Draws the diameter of a round stone, or length and width of any other; setting one scales the whole stone.
-fn size(design: &mut Design, extent: Extent, ui: &mut Ui) {
+/// Draws the diameter of a round stone, or length and width of any other; setting one scales the whole stone. Returns the
+/// diameter that was set, mm.
+fn size(design: &Design, extent: Extent, ui: &mut Ui) -> Option<f64> {
+    let mut diameter = design.diameter_mm;
     let number = || Number { decimals: 3, speed: 0.01, range: LENGTHS_MM, unit: " mm" };
     if extent.is_round {
         let meaning = "Of the girdle. A larger stone of colour is darker.";
-        return number_row(ui, ("Diameter", meaning), number(), &mut design.diameter_mm);
+        number_row(ui, ("Diameter", meaning), number(), &mut diameter);
+        return (diameter != design.diameter_mm).then_some(diameter);
     }
     // The bare names belong to the dimensions of glass shapes, which are in percent.
     let names = match design.cut {
@@ -124,12 +131,14 @@ fn size(design: &mut Design, extent: Extent, ui: &mut Ui) {
         let mut mm = before;
         number_row(ui, (name, meaning), number(), &mut mm);
         if mm != before {
-            design.diameter_mm = 2.0 * mm / across;
+            diameter = 2.0 * mm / across;
         }
     }
+    (diameter != design.diameter_mm).then_some(diameter)
 }
 
-fn weight(design: &mut Design, volume: f64, material: &Material, ui: &mut Ui) {
+/// Draws the weight; returns the diameter of the stone of the weight that was set, mm.
+fn weight(design: &Design, volume: f64, material: &Material, ui: &mut Ui) -> Option<f64> {
     let meaning = "From the stone's volume and its material's density. Setting it scales the whole stone.";
     let known = material.carats(volume * (0.5 * design.diameter_mm).powi(3));
     let Some(mut carats) = known else {
@@ -140,12 +149,11 @@ fn weight(design: &mut Design, volume: f64, material: &Material, ui: &mut Ui) {
             ui.add_sized([NUMBER, ui.spacing().interact_size.y], egui::Label::new(UNKNOWN))
                 .on_hover_text(reason);
         });
-        return;
+        return None;
     };
     let before = carats;
     let number = Number { decimals: 3, speed: 0.01, range: CARATS, unit: " ct" };
     number_row(ui, ("Weight", meaning), number, &mut carats);
-    if let (true, Ok(diameter)) = (carats != before, Size::Carats(carats).diameter_mm(volume, material)) {
-        design.diameter_mm = diameter;
-    }
+    let is_set = carats != before;
+    is_set.then(|| Size::Carats(carats).diameter_mm(volume, material).ok()).flatten()
 }

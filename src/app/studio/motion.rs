@@ -124,7 +124,7 @@ mod tests {
     use crate::app::model::document::Document;
     use crate::app::model::eye::Eye;
     use crate::app::model::framing::FramingFit;
-    use crate::app::model::moving::Moving;
+    use crate::app::model::motion::{Motion, WaveCache};
     use crate::app::shows::Shows;
     use crate::app::studio::order::{Paper, Smoothing, Which};
     use crate::app::studio::render::{lit_scene, scene_of};
@@ -138,8 +138,8 @@ mod tests {
     fn shot(cut: &str, seconds: f64, (eye, projection): &(Eye, Projection)) -> Shot {
         let design = Arc::clone(Document::of_library(cut).unwrap().specimen());
         let company = Copies::scattered(3, design.solid().vertices(), 4);
-        let mut moving = Moving::at(seconds);
-        let (specimen, company) = moving.now(&design, &company, eye.turn);
+        let moving = Motion::at(seconds);
+        let (specimen, company) = moving.now(&mut WaveCache::default(), &design, &company, eye.turn);
         Shot {
             specimen,
             title: String::new(),

@@ -1,6 +1,7 @@
 //! Autosave: keeps unsaved work on disk while the program runs, and finds it again after a crash.
 
-use crate::app::model::document::{ReadMesh, Work};
+use crate::app::model::recovery::{KeptScene, RecoveredWork, UnsavedWork};
+use crate::app::model::work::ReadMesh;
 use crate::cut::from_mesh::Up;
 use crate::cut::{Cut, Design};
 use crate::io::mesh_options::{MeshForm, MeshOptions};
@@ -72,38 +73,6 @@ impl KeptMesh {
     }
 }
 
-/// What is kept of the scene around the stone.
-#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
-pub struct KeptScene {
-    /// The copies of the stone.
-    pub company: Copies,
-    /// The backplate: `light`, the name of a pattern, or the file of a picture.
-    #[serde(default)]
-    pub behind: Option<String>,
-    /// How far behind the middle the backplate hangs, mm, if that was set.
-    pub behind_mm: Option<f64>,
-    /// The strength of refraction, 0 to 1.
-    #[serde(default)]
-    pub strength: Option<f64>,
-}
-
-/// Work that a crash left behind.
-#[derive(Debug, Clone, PartialEq)]
-pub struct RecoveredWork {
-    /// The design.
-    pub design: Design,
-    /// What was kept of the scene around the stone.
-    pub around: KeptScene,
-    /// The file that the design was opened from.
-    pub path: Option<PathBuf>,
-    /// The mesh file that the stone was read from, if it was one.
-    pub mesh: Option<ReadMesh>,
-    /// When the work was last kept.
-    pub when: SystemTime,
-    /// The autosave file.
-    file: PathBuf,
-}
-
 /// The beginning of the names of autosave files.
 const PREFIX: &str = "unsaved-";
 
@@ -119,7 +88,8 @@ impl Autosave {
     ///
     /// # Errors
     /// Fails when the file system refuses.
-    pub fn keep(&mut self, work: &Work, around: &KeptScene, path: Option<&Path>) -> Result<(), WriteError> {
+    pub fn keep(&mut self, unsaved: &UnsavedWork) -> Result<(), WriteError> {
+        let UnsavedWork { work, around, path, replaces } = unsaved;
         let design = &work.design;
         // A mesh already lies in a file, and may be large: only the rest of the design is kept.
         let (mesh, design) = match (&design.cut, path) {
@@ -129,7 +99,7 @@ impl Autosave {
             _ => (false, Cow::Borrowed(design)),
         };
         let kept = Kept {
-            path: path.map(Path::to_owned),
+            path: path.clone(),
             mesh,
             read: work.mesh.as_ref().map(KeptMesh::of),
             design: cut_file::write(&design),
@@ -142,14 +112,14 @@ impl Autosave {
         let file = File::open(name).map_err(|e| WriteError::io(name, e))?;
         file.try_lock().map_err(|e| WriteError::io(name, std::io::Error::from(e)))?;
         self.held = Some(file);
+        replaces.iter().for_each(|path| forget(path));
         Ok(())
     }
 
     /// Removes the autosave file: the work is saved, or not wanted.
     pub fn empty(&mut self) {
         if self.held.take().is_some() {
-            // A file that cannot be removed is offered again, which loses nothing.
-            let _ = std::fs::remove_file(&self.own);
+            forget(&self.own);
         }
     }
 
@@ -163,12 +133,10 @@ impl Autosave {
     }
 }
 
-impl RecoveredWork {
-    /// Removes the autosave file of this work.
-    pub fn forget(self) {
-        // A file that cannot be removed is offered again, which loses nothing.
-        let _ = std::fs::remove_file(self.file);
-    }
+/// Removes an autosave file that a crash left behind.
+pub fn forget(path: &Path) {
+    // A file that cannot be removed is offered again, which loses nothing.
+    let _ = std::fs::remove_file(path);
 }
 
 /// Returns the plane that stands in the file for a mesh that is not kept.
@@ -190,7 +158,9 @@ fn orphan(path: PathBuf) -> Option<RecoveredWork> {
         design.cut = mesh_again(mesh.as_ref(), kept.path.as_deref())?;
     }
     let when = file.metadata().and_then(|m| m.modified()).ok()?;
-    Some(RecoveredWork { design, around: kept.around, path: kept.path, mesh, when, file: path })
+    // A mesh is read here in the direction that is found: a direction that the user chose is a change that the file lacks.
+    let on_disk = kept.path.as_deref().and_then(|path| design_file::read(path).ok()).map(|read| read.design);
+    Some(RecoveredWork { design, around: kept.around, path: kept.path, on_disk, mesh, when, file: path })
 }
 
 /// Reads the triangles of kept work again: from its mesh file with the same options as before, or else from the file that

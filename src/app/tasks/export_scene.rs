@@ -1,8 +1,8 @@
 //! Writes what renders show as a scene file with its cut.
 
+use crate::app::model::export::ExportPlan;
 use crate::app::shows::Shows;
 use crate::app::studio::hung;
-use crate::app::tasks::export_job::ExportPlan;
 use crate::io::background::BackgroundRef;
 use crate::io::scene_file::{self, DEFAULT_GAP_MM, Entry, SceneFile};
 use crate::io::{Failure, WriteError, cut_file, write};
@@ -19,15 +19,10 @@ pub struct SceneOut {
 }
 
 impl SceneOut {
-    /// Returns the paths of the scene file and of the cut file.
-    pub fn paths(plan: &ExportPlan) -> [PathBuf; 2] {
-        ["scene", "cut"].map(|part| plan.folder.join(format!("{}-{part}.toml", plan.stem)))
-    }
-
     /// Makes the scene of what a plan's renders show.
     pub fn of(plan: &ExportPlan) -> Self {
         let shot = &plan.shot;
-        let paths = Self::paths(plan);
+        let paths = plan.scene_paths();
         let cut = format!("{}-cut.toml", plan.stem);
         let render = plan.aspect(Shows::Render);
         let is_turned = shot.company == [Pose::STILL] && Arc::ptr_eq(&shot.specimen, &render.turned);

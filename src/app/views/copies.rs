@@ -4,31 +4,25 @@ use crate::app::editor::Editor;
 use crate::app::shows::Shows;
 use crate::app::studio::{Shot, Which};
 use crate::app::views::pane::{PaneView, rim};
-use crate::scene::Copies;
 use crate::trace::ray::Camera;
 use egui::{CursorIcon, PointerButton, Pos2, Response, Ui};
 use glam::{DQuat, DVec2};
 
-/// Whether renders show the stone alone and at rest.
-pub fn are_none(editor: &Editor) -> bool {
-    editor.document.work.company == Copies::default() && editor.moving.seconds == 0.0
-}
-
 /// Moves the copy that the pointer drags; returns whether it drags one.
 pub fn carried(editor: &mut Editor, ui: &Ui, pane: usize, response: &Response, sight: &PaneView) -> bool {
-    let several = editor.document.work.company.poses.len() > 1;
-    let is_render = editor.desk.panes[pane].shows == Shows::Render;
+    let several = editor.model.document.work.company.poses.len() > 1;
+    let is_render = editor.model.workspace.panes[pane].shows == Shows::Render;
     let is_start = response.drag_started_by(PointerButton::Primary);
     if is_start && several && is_render && !ui.input(|i| i.modifiers.shift) {
         let from = ui.input(|i| i.pointer.press_origin());
         let found = from.and_then(|at| found(editor, pane, sight, at));
-        editor.held = found.map(|(_, copy, _)| (pane, copy));
+        editor.model.session.held = found.map(|(_, copy, _)| (pane, copy));
     }
-    let Some((_, copy)) = editor.held.filter(|(held, _)| *held == pane) else { return false };
-    let turn = DQuat::from_rotation_z(editor.desk.eye(pane).turn);
+    let Some((_, copy)) = editor.model.session.held.filter(|(held, _)| *held == pane) else { return false };
+    let turn = DQuat::from_rotation_z(editor.model.workspace.eye(pane).turn);
     // Undo during a drag may leave fewer copies.
-    let Some(pose) = editor.document.work.company.poses.get_mut(copy).filter(|_| several) else {
-        editor.held = None;
+    let Some(pose) = editor.model.document.work.company.poses.get_mut(copy).filter(|_| several) else {
+        editor.model.session.held = None;
         return false;
     };
     let way = match (is_start, ui.input(|i| i.pointer.press_origin()), response.interact_pointer_pos()) {
@@ -44,7 +38,7 @@ pub fn carried(editor: &mut Editor, ui: &Ui, pane: usize, response: &Response, s
     pose.at += turn.inverse() * sight.view.basis().lift(by);
     ui.ctx().set_cursor_icon(CursorIcon::Grabbing);
     if !response.dragged() {
-        editor.held = None;
+        editor.model.session.held = None;
     }
     true
 }
@@ -52,20 +46,20 @@ pub fn carried(editor: &mut Editor, ui: &Ui, pane: usize, response: &Response, s
 /// Names the copy and the facet under the pointer in the status line, and outlines the facet.
 pub fn hover(editor: &mut Editor, ui: &Ui, pane: usize, response: &Response, sight: &PaneView) {
     let Some(at) = response.hover_pos().filter(|_| response.hovered() && !response.dragged()) else { return };
-    if editor.moving.is_on {
+    if editor.model.session.motion.is_on {
         return;
     }
     let Some((shot, copy, facet)) = found(editor, pane, sight, at) else { return };
     rim(ui, (shot.specimen.solid(), facet), |corner| shot.company[copy].place(corner), sight);
-    editor.message =
+    editor.model.session.message =
         format!("copy {} of {}: {}", copy + 1, shot.company.len(), shot.specimen.body.name(facet));
 }
 
 /// Returns what a view was last ordered to show, and which copy and facet of it lie at a point of the window.
 fn found(editor: &mut Editor, pane: usize, sight: &PaneView, at: Pos2) -> Option<(Shot, usize, u32)> {
     let own = (pane, Which::Present);
-    let shot = editor.asked.shots.iter().find(|(slot, _)| *slot == own)?.1.clone();
-    let probe = editor.probe(&shot.specimen);
+    let shot = editor.model.session.ordered.shots.iter().find(|(slot, _)| *slot == own)?.1.clone();
+    let probe = editor.probe.of(&shot.specimen);
     let (copy, facet) = probe.among(&shot.company, &sight.view, &sight.film, sight.pixel(at))?;
     Some((shot, copy, facet))
 }

@@ -1,8 +1,8 @@
 //! The ray that is followed through the stone, and the window that shows its path.
 
 use crate::app::editor::Editor;
+use crate::app::model::action::ViewAction;
 use crate::app::profile_view::ProfileView;
-use crate::app::views::copies;
 use crate::app::views::light_path::LightPath;
 use crate::app::views::pane::zones;
 use egui::{Context, Key, Modifiers, Popup, Pos2, Rect, RichText, Vec2, Window, pos2, vec2};
@@ -17,13 +17,9 @@ const SIZE: Vec2 = vec2(560.0, 620.0);
 /// Where the window opens at first, unless a view there is clicked: over the views, beside the design panel.
 const PLACE: Pos2 = pos2(372.0, 220.0);
 
-/// Which ray is followed.
+/// The window of the light path, and the click that may open it.
 #[derive(Debug, Default)]
 pub struct Following {
-    /// Whether the window of the light path is open.
-    pub is_open: bool,
-    /// The view that was clicked, and the point of its image, girdle radii.
-    pub at: Option<(usize, DVec2)>,
     /// A click that may become a double click: the view, the point of its image, and the time in seconds.
     waiting: Option<(usize, DVec2, f64)>,
     /// Whether Escape was meant for something else in the last frame.
@@ -52,53 +48,57 @@ impl Following {
         covered.map_or(PLACE, |body| pos2(body.right(), PLACE.y))
     }
 
-    fn ripen(&mut self, ctx: &Context) {
+    /// Returns the click that became no double click, once that is certain.
+    fn ripe(&mut self, ctx: &Context) -> Option<ViewAction> {
         let now = ctx.input(|i| i.time);
-        if let Some((pane, at, _)) = self.waiting.filter(|(.., since)| now - since > PATIENCE) {
-            (self.waiting, self.at, self.is_open) = (None, Some((pane, at)), true);
-        } else if self.waiting.is_some() {
-            ctx.request_repaint_after_secs(0.05);
-        }
+        let Some((pane, at, _)) = self.waiting.filter(|(.., since)| now - since > PATIENCE) else {
+            self.waiting.iter().for_each(|_| ctx.request_repaint_after_secs(0.05));
+            return None;
+        };
+        self.waiting = None;
+        Some(ViewAction::Follow(pane, at))
     }
 }
 
 /// Whether Escape ends something else before it closes the window: a dialog, a drag, typing, or an open menu.
 fn comes_first(editor: &Editor, ctx: &Context) -> bool {
     let is_held = editor.profiles.iter().any(ProfileView::is_dragging);
-    editor.dialog.is_some() || is_held || ctx.text_edit_focused() || Popup::is_any_open(ctx)
+    editor.model.session.dialog.is_some() || is_held || ctx.text_edit_focused() || Popup::is_any_open(ctx)
 }
 
 /// Draws the window of the light path, if it is open.
 pub fn show(editor: &mut Editor, ctx: &Context) {
-    editor.following.ripen(ctx);
+    if let Some(follow) = editor.following.ripe(ctx) {
+        editor.act(follow);
+    }
     // In this frame Escape has already ended what comes first, so the state of the frame before counts.
     let waits = comes_first(editor, ctx);
     let is_free = !std::mem::replace(&mut editor.following.waits, waits);
-    if !editor.following.is_open {
+    if !editor.model.session.followed.is_open {
         return;
     }
     let mut is_open = !(is_free && ctx.input_mut(|i| i.consume_key(Modifiers::NONE, Key::Escape)));
     let window =
         Window::new("Light path").open(&mut is_open).default_size(SIZE).default_pos(editor.following.place());
     window.min_size(vec2(400.0, 360.0)).show(ctx, |ui| {
-        let Some((pane, at)) = editor.following.at else {
+        let Some((pane, at)) = editor.model.session.followed.at else {
             ui.label("Click a point of the stone in any view: its light is followed from there.");
             return;
         };
-        let eye = *editor.desk.eye(pane);
-        let shows = editor.desk.panes[pane].shows;
-        if shows.has_company() && !copies::are_none(editor) {
+        let eye = *editor.model.workspace.eye(pane);
+        let shows = editor.model.workspace.panes[pane].shows;
+        if shows.has_company() && !editor.model.is_alone() {
             ui.label(
                 "A ray is followed through one stone at rest: show a single copy, at rest, or click a scope.",
             );
             return;
         }
-        let view = editor.desk.view(pane);
-        let specimen = editor.posed(eye.turn);
-        let path = editor.probe(&specimen).path(&view, at);
+        let view = editor.model.workspace.view(pane);
+        let specimen = editor.stones.posed(&editor.model, eye.turn);
+        let path = editor.probe.of(&specimen).path(&view, at);
         match path {
             Some(path) => {
-                let scope = zones(shows, editor.document.work.head);
+                let scope = zones(shows, editor.model.document.work.head);
                 editor.following.view.show(ui, &specimen.body, &path, &scope, &view.light_basis());
             }
             None => {
@@ -106,5 +106,7 @@ pub fn show(editor: &mut Editor, ctx: &Context) {
             }
         }
     });
-    editor.following.is_open = is_open;
+    if !is_open {
+        editor.actions.push(ViewAction::LightPath(false));
+    }
 }

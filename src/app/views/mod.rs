@@ -2,6 +2,7 @@
 
 pub mod copies;
 pub mod following;
+pub mod gallery;
 pub mod light_path;
 pub mod modes;
 pub mod pane;

@@ -29,7 +29,7 @@ pub enum Mode {
 impl Mode {
     /// Returns the modes that are on in a view.
     pub fn of(editor: &Editor, pane: usize) -> Vec<Self> {
-        let desk = &editor.desk;
+        let desk = &editor.model.workspace;
         let shows = desk.panes[pane].shows;
         if !shows.is_seen() {
             return vec![];
@@ -37,7 +37,7 @@ impl Mode {
         let scope = shows.scoped();
         let is_scoped = scope.is_some();
         let takes_head = scope.is_some_and(|scope| scope.takes_head);
-        let head = editor.document.work.head;
+        let head = editor.model.document.work.head;
         let strength = if shows == Shows::Render { desk.strength() } else { 1.0 };
         let overlay = desk.overlay.clone().filter(|_| shows.takes_overlay() && desk.overlay().is_some());
         [
@@ -87,14 +87,14 @@ impl Mode {
 
     /// Switches the mode off.
     pub fn end(&self, editor: &mut Editor, pane: usize) {
-        let desk = &mut editor.desk;
+        let desk = &mut editor.model.workspace;
         match self {
             Self::Unlinked => desk.panes[pane].own = None,
             Self::Perspective => desk.panes[pane].is_near = false,
             Self::EyeTilts => desk.eye_mut(pane).eye_leans = false,
             Self::Overlay(_) => desk.overlay = None,
             Self::Strongest => desk.strongest = false,
-            Self::Head(_) => editor.document.work.head = 0.0,
+            Self::Head(_) => editor.model.document.work.head = 0.0,
             Self::Glare => desk.glare = false,
             Self::Strength(_) => desk.strength = 1.0,
         }
@@ -131,7 +131,7 @@ pub fn show(editor: &mut Editor, ui: &mut Ui, pane: usize, width: f32) {
         menu.response.on_hover_text(format!("Also on in this view: {}.", hidden.join(", ")));
     }
     if let Some(mode) = ended {
-        editor.looks.settle();
+        editor.model.session.views.settle();
         mode.end(editor, pane);
     }
 }

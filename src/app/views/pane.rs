@@ -1,13 +1,13 @@
 //! One view: what it shows, and what pointer and keys do to it.
 
-use crate::app::editor::{Editor, Shown};
+use crate::app::editor::Editor;
 use crate::app::liquid;
-use crate::app::menus;
 use crate::app::model::eye::Eye;
 use crate::app::shows::Shows;
 use crate::app::studio::{Grade, Shot, Which};
 use crate::app::theme;
 use crate::app::views::copies;
+use crate::app::views::gallery::Shown;
 use crate::app::views::modes;
 use crate::app::views::probe::ProbeHit;
 use crate::app::views::refraction_view;
@@ -50,7 +50,7 @@ pub fn show(editor: &mut Editor, ui: &mut Ui, pane: usize, rect: Rect) -> [u32; 
         ui.new_child(UiBuilder::new().max_rect(head).layout(egui::Layout::left_to_right(Align::Center)));
     header(editor, &mut top, pane);
     let size = [body.width(), body.height()].map(|n| (n * ui.pixels_per_point()).round().max(1.0) as u32);
-    match editor.desk.panes[pane].shows {
+    match editor.model.workspace.panes[pane].shows {
         Shows::Profile => profile(editor, ui, pane, body),
         Shows::Diagram => drawing(editor, ui, pane, body),
         shows if shows.is_pane() => liquid::show(editor, ui, (pane, shows), body, size),
@@ -62,7 +62,7 @@ pub fn show(editor: &mut Editor, ui: &mut Ui, pane: usize, rect: Rect) -> [u32; 
 }
 
 fn header(editor: &mut Editor, ui: &mut Ui, pane: usize) {
-    let shows = editor.desk.panes[pane].shows;
+    let shows = editor.model.workspace.panes[pane].shows;
     let title = format!("View {}", pane + 1);
     let taken = ENLARGE + modes::least_width(editor, ui, pane);
     let width = (ui.available_width() - taken).clamp(LEAST_CHOICE, CHOICE);
@@ -74,23 +74,23 @@ fn header(editor: &mut Editor, ui: &mut Ui, pane: usize) {
             ui.selectable_value(&mut chosen, other, other.name()).on_hover_text(other.meaning());
         }
     });
-    editor.desk.show(pane, chosen);
+    editor.model.workspace.show(pane, chosen);
     shown
         .response
         .on_hover_text(shows.meaning())
         .widget_info(|| WidgetInfo::labeled(Role::ComboBox, true, format!("{title}: {}", shows.name())));
-    if let Some(compared) = editor.compared.as_ref().filter(|_| shows.is_seen()) {
-        let other = menus::is_other_shown(ui.ctx());
+    if let Some(compared) = editor.model.session.compared.as_ref().filter(|_| shows.is_seen()) {
+        let other = editor.model.session.keys.other;
         ui.label(RichText::new(if other { compared.name.as_str() } else { "present" }).weak());
     }
-    if editor.document.shows_last_possible() && !shows.is_pane() {
+    if editor.model.document.shows_last_possible() && !shows.is_pane() {
         last_possible(editor, ui);
     }
     modes::show(editor, ui, pane, ui.available_width() - ENLARGE);
     ui.with_layout(egui::Layout::right_to_left(Align::Center), |ui| {
-        let large = editor.desk.large == Some(pane);
+        let large = editor.model.workspace.large == Some(pane);
         let name = if large { "All views" } else { "Enlarge" };
-        if editor.desk.layout.panes() > 1
+        if editor.model.workspace.layout.panes() > 1
             && ui
                 .small_button(name)
                 .on_hover_text(format!("{title}: alone, or among the others; a double click does the same."))
@@ -99,9 +99,9 @@ fn header(editor: &mut Editor, ui: &mut Ui, pane: usize) {
             enlarge(editor, pane);
         }
         if shows == Shows::Refraction {
-            refraction_view::choices(&mut editor.flowing[pane], ui);
+            refraction_view::choices(&mut editor.model.session.flowing[pane], ui);
         }
-        let is_linked = editor.desk.panes[pane].own.is_none();
+        let is_linked = editor.model.workspace.panes[pane].own.is_none();
         // A view that is not linked says so among its modes.
         if shows.is_seen() && is_linked && has_room(ui, 80.0) {
             let mut linked = true;
@@ -110,8 +110,8 @@ fn header(editor: &mut Editor, ui: &mut Ui, pane: usize) {
                 .on_hover_text("Tilts and zooms together with all other linked views.")
                 .changed()
             {
-                let eye = editor.desk.eye;
-                editor.desk.panes[pane].own = Some(eye);
+                let eye = editor.model.workspace.eye;
+                editor.model.workspace.panes[pane].own = Some(eye);
             }
         }
         if (shows.is_seen() || shows == Shows::TracedPane) && has_room(ui, 64.0) {
@@ -156,19 +156,19 @@ fn reading(shot: &Shot) -> Option<(&'static str, &'static str)> {
 
 /// Draws a note that the design makes no stone, and that the view shows the last one that it made.
 fn last_possible(editor: &Editor, ui: &mut Ui) {
-    let why = editor.document.fault().map(ToString::to_string).unwrap_or_default();
+    let why = editor.model.document.fault().map(ToString::to_string).unwrap_or_default();
     let text = RichText::new("last possible stone").color(theme::bad(ui.visuals())).small();
     ui.label(text).on_hover_text(format!("The design makes no stone, so this is the one before. {why}"));
 }
 
 pub fn enlarge(editor: &mut Editor, pane: usize) {
-    let large = &mut editor.desk.large;
+    let large = &mut editor.model.workspace.large;
     *large = if *large == Some(pane) { None } else { Some(pane) };
 }
 
 fn profile(editor: &mut Editor, ui: &mut Ui, pane: usize, body: Rect) {
-    let specimen = Arc::clone(editor.document.specimen());
-    let brilliant = match &mut editor.document.work.design.cut {
+    let specimen = Arc::clone(editor.model.document.specimen());
+    let brilliant = match &mut editor.model.document.work.design.cut {
         Cut::RoundBrilliant(brilliant) => Some(brilliant),
         Cut::Tiers(_) | Cut::Planes(_) | Cut::Mesh(_) | Cut::Glass(_) => None,
     };
@@ -184,7 +184,7 @@ fn profile(editor: &mut Editor, ui: &mut Ui, pane: usize, body: Rect) {
         enlarge(editor, pane);
     }
     if under.contains_pointer() {
-        editor.hovered = pane;
+        editor.model.session.hovered = pane;
     }
 }
 
@@ -193,9 +193,9 @@ fn drawing(editor: &mut Editor, ui: &mut Ui, pane: usize, body: Rect) {
     response.widget_info(|| WidgetInfo::labeled(Role::Image, true, "Facet diagram"));
     let [red, green, blue] = editor.paper.inks.paper;
     ui.painter().rect_filled(body, 4.0, Color32::from_rgb(red, green, blue));
-    if editor.document.specimen().stone().is_err() {
+    if editor.model.document.specimen().stone().is_err() {
         absent(ui, body, "A diagram");
-    } else if let Some(shown) = editor.pictures.get(&(pane, Which::Present)) {
+    } else if let Some(shown) = editor.gallery.traced.get(&(pane, Which::Present)) {
         let [w, h] = shown.taken.image.size.map(|n| n as f32);
         let scale = (body.width() / w).min(body.height() / h);
         let rect = Rect::from_center_size(body.center(), vec2(w, h) * scale);
@@ -206,7 +206,7 @@ fn drawing(editor: &mut Editor, ui: &mut Ui, pane: usize, body: Rect) {
         enlarge(editor, pane);
     }
     if response.hovered() {
-        editor.hovered = pane;
+        editor.model.session.hovered = pane;
     }
 }
 
@@ -265,10 +265,10 @@ fn scene(editor: &mut Editor, ui: &mut Ui, (pane, shows): (usize, Shows), body: 
     let response = ui.interact(body, ui.scope_id().with("picture"), Sense::click_and_drag());
     let name = format!("{} picture", shows.name());
     response.widget_info(|| WidgetInfo::labeled(Role::Image, true, &name));
-    let eye = *editor.desk.eye(pane);
-    let view = editor.desk.view(pane);
+    let eye = *editor.model.workspace.eye(pane);
+    let view = editor.model.workspace.view(pane);
     let scale = ui.pixels_per_point();
-    let fit = editor.fit(shows, (eye.turn, &view));
+    let fit = editor.model.fit(shows, eye.turn, &view);
     let sight =
         PaneView { view, film: eye.film(size, &fit), middle: fit.middle, side: view.side, body, scale };
     pictures(editor, ui, pane, &sight);
@@ -276,7 +276,7 @@ fn scene(editor: &mut Editor, ui: &mut Ui, (pane, shows): (usize, Shows), body: 
     if shows == Shows::Refraction {
         refraction_view::show(editor, ui, pane, &response);
     }
-    if let Some(overlay) = editor.desk.overlay().filter(|_| shows.takes_overlay()) {
+    if let Some(overlay) = editor.model.workspace.overlay().filter(|_| shows.takes_overlay()) {
         legend(ui, body, &overlay.legend());
     }
     ui.painter().rect_stroke(body, 4.0, focus(ui, &response), StrokeKind::Inside);
@@ -284,13 +284,13 @@ fn scene(editor: &mut Editor, ui: &mut Ui, (pane, shows): (usize, Shows), body: 
         editor.is_picture_focused = true;
     }
     if !copies::carried(editor, ui, pane, &response, &sight) {
-        moved(editor.desk.eye_mut(pane), ui, &response, (&sight, moves));
+        moved(editor.model.workspace.eye_mut(pane), ui, &response, (&sight, moves));
     }
     view_menu::attach(editor, &response, pane);
-    let is_alone = !shows.has_company() || copies::are_none(editor);
+    let is_alone = !shows.has_company() || editor.model.is_alone();
     clicked(editor, ui, (pane, is_alone), &response, &sight);
     if response.hovered() || response.has_focus() {
-        editor.hovered = pane;
+        editor.model.session.hovered = pane;
     }
     if is_alone {
         hover(editor, ui, (shows, eye.turn), &response, &sight);
@@ -314,12 +314,17 @@ fn clicked(
         // A click by a key means the middle of the view.
         let at = response.interact_pointer_pos().unwrap_or(sight.body.center());
         let at = sight.film.image_from_pixels(sight.pixel(at));
-        let specimen = editor.posed(editor.desk.eye(pane).turn);
-        if editor.probe(&specimen).is_on(&sight.view, at) {
+        let specimen = editor.stones.posed(&editor.model, editor.model.workspace.eye(pane).turn);
+        if editor.probe.of(&specimen).is_on(&sight.view, at) {
             editor.following.click(pane, at, sight.body, ui.ctx());
         }
     }
-    let followed = editor.following.at.filter(|(other, _)| editor.following.is_open && *other == pane);
+    let followed = editor
+        .model
+        .session
+        .followed
+        .at
+        .filter(|(other, _)| editor.model.session.followed.is_open && *other == pane);
     if let Some((_, at)) = followed {
         let at = sight.point(sight.film.pixels_from_image(DMat2::IDENTITY).transform_point2(at));
         let painter = ui.painter().with_clip_rect(sight.body);
@@ -343,9 +348,9 @@ fn pictures(editor: &Editor, ui: &mut Ui, pane: usize, sight: &PaneView) {
             ui_clip.image(shown.texture.id(), sight.place(&shown.shot.film), uv, Color32::WHITE);
         }
     };
-    match &editor.compared {
-        Some(_) if menus::is_other_shown(ui.ctx()) => draw(Which::Other, body),
-        Some(compared) if editor.desk.is_split => {
+    match &editor.model.session.compared {
+        Some(_) if editor.model.session.keys.other => draw(Which::Other, body),
+        Some(compared) if editor.model.workspace.is_split => {
             let (left, right) = body.split_left_right_at_fraction(0.5);
             draw(Which::Present, left);
             draw(Which::Other, right);
@@ -445,14 +450,14 @@ fn hover(editor: &mut Editor, ui: &Ui, (shows, turn): (Shows, f64), response: &R
         return;
     }
     let Some(at) = response.hover_pos() else { return };
-    let specimen = editor.posed(turn);
-    let scope = zones(shows, editor.document.work.head);
-    let mut found = editor.probe(&specimen).at(&sight.view, &sight.film, sight.pixel(at), &scope);
+    let specimen = editor.stones.posed(&editor.model, turn);
+    let scope = zones(shows, editor.model.document.work.head);
+    let mut found = editor.probe.of(&specimen).at(&sight.view, &sight.film, sight.pixel(at), &scope);
     if let Some(azimuth) = found.as_mut().and_then(|f| f.azimuth.as_mut()) {
         // The azimuth is that of the cut, whatever the stone's turn in this view.
         *azimuth = (*azimuth - turn.to_degrees()).rem_euclid(360.0);
     }
-    editor.message = found.as_ref().map_or(String::new(), ProbeHit::message);
+    editor.model.session.message = found.as_ref().map_or(String::new(), ProbeHit::message);
     if let Some(found) = &found {
         outline(ui, &specimen, found.facet, sight);
     }

@@ -13,6 +13,18 @@ pub struct Probe {
     tracer: StoneTracer,
 }
 
+/// Keeps the probe of the stone that was asked about last.
+#[derive(Default)]
+pub struct ProbeCache(Option<Probe>);
+
+impl ProbeCache {
+    /// Returns the probe that answers questions about a stone.
+    pub fn of(&mut self, specimen: &Arc<Specimen>) -> &Probe {
+        let known = self.0.take().filter(|probe| Arc::ptr_eq(&probe.specimen, specimen));
+        self.0.insert(known.unwrap_or_else(|| Probe::new(Arc::clone(specimen))))
+    }
+}
+
 /// What lies at a point of a picture.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ProbeHit {
@@ -50,11 +62,6 @@ impl Probe {
         let options = RayOptions { most_bounces: 64, least_weight: 1e-3, polarised: true };
         let tracer = StoneTracer::new(specimen.solid(), specimen.medium(line::SODIUM_D), options);
         Self { specimen, tracer }
-    }
-
-    /// Whether the probe is of this stone.
-    pub fn is_about(&self, specimen: &Arc<Specimen>) -> bool {
-        Arc::ptr_eq(&self.specimen, specimen)
     }
 
     /// Returns the origin and the direction of the ray through a point of the image.

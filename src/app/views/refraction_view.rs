@@ -3,25 +3,15 @@
 
 use crate::app::editor::Editor;
 use crate::app::lookup::{LookupRequest, backdrop};
-use crate::app::model::moving::step;
+use crate::app::model::session::Flowing;
 use crate::app::studio::{SPAN, Which};
 use crate::app::views::pane::has_room;
+use crate::app::views::stage::step;
 use egui::{PointerButton, Response, Ui};
 use glam::DVec2;
 
 /// How far the background flows in a second, in parts of the map's plane.
 const FLOW: DVec2 = DVec2::new(0.06, 0.02);
-
-/// The state of the background in a view of a refraction map.
-#[derive(Debug, Clone, Copy, Default)]
-pub struct Flowing {
-    /// How far the background has been moved to the right and down, in parts of the map's plane.
-    pub moved: DVec2,
-    /// Whether the background moves by itself.
-    pub flows: bool,
-    /// Whether the map itself is shown.
-    pub is_map: bool,
-}
 
 /// Draws the choices over the picture, from the right.
 pub fn choices(flowing: &mut Flowing, ui: &mut Ui) {
@@ -44,8 +34,8 @@ pub fn is_held(ui: &Ui) -> bool {
 
 /// Moves the background of a view by a drag or by itself, and requests the picture of it.
 pub fn show(editor: &mut Editor, ui: &Ui, pane: usize, response: &Response) {
-    let zoom = editor.desk.eye(pane).zoom;
-    let flowing = &mut editor.flowing[pane];
+    let zoom = editor.model.workspace.eye(pane).zoom;
+    let flowing = &mut editor.model.session.flowing[pane];
     if response.dragged_by(PointerButton::Primary) && is_held(ui) {
         let by = response.drag_delta() / response.rect.size();
         flowing.moved += DVec2::new(by.x.into(), by.y.into()) / (SPAN * zoom);
@@ -53,9 +43,9 @@ pub fn show(editor: &mut Editor, ui: &Ui, pane: usize, response: &Response) {
     if flowing.flows && !flowing.is_map {
         flowing.moved += FLOW * step(ui.ctx());
     }
-    let (moved, behind) = (flowing.moved, backdrop(editor.desk.background().as_ref()));
+    let (moved, behind) = (flowing.moved, backdrop(editor.model.workspace.background().as_ref()));
     for which in [Which::Present, Which::Other] {
-        let Some(shown) = editor.pictures.get(&(pane, which)) else { continue };
+        let Some(shown) = editor.gallery.traced.get(&(pane, which)) else { continue };
         if let Some(map) = &shown.taken.map {
             let (shot, grade, map) = (shown.shot.clone(), shown.grade, Some((map.clone(), moved)));
             editor.looker.ask((pane, which), LookupRequest { shot, grade, map, behind: behind.clone() });

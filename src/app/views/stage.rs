@@ -1,24 +1,25 @@
 //! The stage: the views, side by side.
 
 use crate::app::editor::Editor;
+use crate::app::model::ordering::Seen;
 use crate::app::model::workspace::PaneLayout;
 use crate::app::trouble_bar;
 use crate::app::views::pane;
-use egui::{CentralPanel, Rect, Ui, UiBuilder, pos2};
+use egui::{CentralPanel, Context, Rect, Ui, UiBuilder, pos2};
 
 /// The gap between views, points.
 const GAP: f32 = 6.0;
 
 /// Draws the views; returns each view in sight with the size of its picture in pixels.
-pub fn show(editor: &mut Editor, ui: &mut Ui) -> Vec<(usize, [u32; 2])> {
+pub fn show(editor: &mut Editor, ui: &mut Ui) -> Vec<Seen> {
     let mut seen = vec![];
     // The view under the pointer writes its message anew.
-    editor.message.clear();
+    editor.model.session.message.clear();
     let frame = egui::Frame::NONE.fill(ui.visuals().panel_fill);
     CentralPanel::no_frame().frame(frame).show(ui, |ui| {
         let whole = ui.max_rect().shrink(GAP);
-        let shown = editor.desk.shown();
-        let layout = if shown.len() == 1 { PaneLayout::One } else { editor.desk.layout };
+        let shown = editor.model.workspace.shown();
+        let layout = if shown.len() == 1 { PaneLayout::One } else { editor.model.workspace.layout };
         for (place, &pane) in shown.iter().enumerate() {
             let rect = part(whole, layout, place);
             let mut ui = ui.new_child(UiBuilder::new().max_rect(rect).id_salt(("pane", pane)));
@@ -28,6 +29,21 @@ pub fn show(editor: &mut Editor, ui: &mut Ui) -> Vec<(usize, [u32; 2])> {
         trouble_bar::show(editor, ui.ctx(), whole);
     });
     seen
+}
+
+/// The longest step of time from one frame to the next, seconds: after a pause, motion goes on where it was.
+const LONGEST: f32 = 0.1;
+
+/// Returns by how much time goes on with a frame of the window, seconds, and requests another frame; 0 while the window is
+/// hidden.
+pub fn step(ctx: &Context) -> f64 {
+    let is_hidden =
+        ctx.input(|i| i.viewport().minimized == Some(true) || i.viewport().occluded == Some(true));
+    if is_hidden {
+        return 0.0;
+    }
+    ctx.request_repaint();
+    f64::from(ctx.input(|i| i.stable_dt).min(LONGEST))
 }
 
 fn part(whole: Rect, layout: PaneLayout, place: usize) -> Rect {

@@ -9,8 +9,8 @@ mod pacer;
 mod storage;
 mod surface;
 
-use super::editor::Setup;
 use super::icon::icon;
+use super::setup::Setup;
 use super::state_file::StateFile;
 use super::urgency;
 use crate::io::mesh_options::MeshOptions;

@@ -2,54 +2,36 @@
 
 use crate::cut::{Cut, Glass};
 use crate::scene::{Copies, Pose, Specimen};
-use egui::Context;
 use glam::DQuat;
 use std::sync::Arc;
-
-/// The longest step of time from one frame to the next, seconds: after a pause, motion goes on where it was.
-const LONGEST: f32 = 0.1;
 
 /// How fast a wave runs, radians a second.
 const WAVING: f64 = 2.0;
 
 /// The time that renders show.
-#[derive(Default)]
-pub struct Moving {
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Motion {
     /// Whether time goes on.
     pub is_on: bool,
     /// The time since rest, seconds.
     pub seconds: f64,
-    /// Plates that wave: each plate at rest, the time in seconds, and the plate as it is at that time.
+}
+
+/// The plates that wave, as they were shown last.
+#[derive(Debug, Clone, Default)]
+pub struct WaveCache {
+    /// Each plate at rest, the time in seconds, and the plate as it is at that time.
     waved: Vec<(Arc<Specimen>, f64, Arc<Specimen>)>,
 }
 
 /// The number of plates that are kept: the present one, and the one that it is compared with.
 const PLATES: usize = 2;
 
-/// Returns by how much time goes on with a frame of the window, seconds, and requests another frame; 0 while the window is
-/// hidden.
-pub fn step(ctx: &Context) -> f64 {
-    let is_hidden =
-        ctx.input(|i| i.viewport().minimized == Some(true) || i.viewport().occluded == Some(true));
-    if is_hidden {
-        return 0.0;
-    }
-    ctx.request_repaint();
-    f64::from(ctx.input(|i| i.stable_dt).min(LONGEST))
-}
-
-impl Moving {
+impl Motion {
     /// Returns a time that stands `seconds` after rest.
     #[cfg(test)]
     pub fn at(seconds: f64) -> Self {
         Self { seconds, ..Self::default() }
-    }
-
-    /// Advances time by one frame of the window, if time goes on.
-    pub fn advance(&mut self, ctx: &Context) {
-        if self.is_on {
-            self.seconds += step(ctx);
-        }
     }
 
     /// Stops time and goes back to rest.
@@ -65,37 +47,41 @@ impl Moving {
     /// Returns the stone as it is now, and the poses of its copies, all of them turned about the axis through the middle by
     /// `turn`, radians.
     pub fn now(
-        &mut self,
+        &self,
+        cache: &mut WaveCache,
         specimen: &Arc<Specimen>,
         company: &Copies,
         turn: f64,
     ) -> (Arc<Specimen>, Vec<Pose>) {
         let waves = waves(specimen);
-        let specimen = if waves && self.seconds > 0.0 { self.waved(specimen) } else { Arc::clone(specimen) };
+        let specimen =
+            if waves && self.seconds > 0.0 { cache.of(specimen, self.seconds) } else { Arc::clone(specimen) };
         let tumbling = (!waves && self.seconds > 0.0).then_some(self.seconds);
         let mut poses = company.poses(specimen.solid().vertices(), tumbling);
         let turn = DQuat::from_rotation_z(turn);
         poses.iter_mut().for_each(|pose| (pose.at, pose.turn) = (turn * pose.at, turn * pose.turn));
         (specimen, poses)
     }
+}
 
-    /// Returns the plate with its wave as it is now.
-    fn waved(&mut self, specimen: &Arc<Specimen>) -> Arc<Specimen> {
+impl WaveCache {
+    /// Returns the plate with its wave as it is `seconds` after rest.
+    fn of(&mut self, specimen: &Arc<Specimen>, seconds: f64) -> Arc<Specimen> {
         if let Some((.., now)) =
-            self.waved.iter().find(|(of, at, _)| Arc::ptr_eq(of, specimen) && *at == self.seconds)
+            self.waved.iter().find(|(of, at, _)| Arc::ptr_eq(of, specimen) && *at == seconds)
         {
             return Arc::clone(now);
         }
         let mut design = specimen.design.clone();
         if let Cut::Glass(Glass::Plate(plate)) = &mut design.cut {
-            plate.phase = (plate.phase + (WAVING * self.seconds).to_degrees()).rem_euclid(360.0);
+            plate.phase = (plate.phase + (WAVING * seconds).to_degrees()).rem_euclid(360.0);
         }
         // A plate that can be made at rest can be made in any phase.
         let now = specimen.remade(design).map_or_else(|_| Arc::clone(specimen), Arc::new);
         if self.waved.len() == PLATES {
             self.waved.remove(0);
         }
-        self.waved.push((Arc::clone(specimen), self.seconds, Arc::clone(&now)));
+        self.waved.push((Arc::clone(specimen), seconds, Arc::clone(&now)));
         now
     }
 }
@@ -112,20 +98,21 @@ mod tests {
 
     #[test]
     fn a_plate_waves_and_anything_else_tumbles() {
-        let mut moving = Moving::at(0.7);
+        let mut moving = Motion::at(0.7);
+        let cache = &mut WaveCache::default();
         let of = |name| Arc::clone(Document::of_library(name).unwrap().specimen());
         let (plate, cube) = (of("plate"), of("cube"));
         let company = Copies::default();
-        let (waved, poses) = moving.now(&plate, &company, 0.0);
+        let (waved, poses) = moving.now(cache, &plate, &company, 0.0);
         let Cut::Glass(Glass::Plate(now)) = waved.design.cut else { panic!() };
         assert!((now.phase - 1.4_f64.to_degrees()).abs() < 1e-9 && poses == [Pose::STILL]);
-        assert!(Arc::ptr_eq(&waved, &moving.now(&plate, &company, 0.0).0), "made once");
-        let (still, poses) = moving.now(&cube, &company, 0.0);
+        assert!(Arc::ptr_eq(&waved, &moving.now(cache, &plate, &company, 0.0).0), "made once");
+        let (still, poses) = moving.now(cache, &cube, &company, 0.0);
         assert!(Arc::ptr_eq(&still, &cube) && poses[0].turn.angle_between(DQuat::IDENTITY) > 0.3);
         moving.rest();
-        assert_eq!(moving.now(&cube, &company, 0.0).1, [Pose::STILL]);
-        assert!(Arc::ptr_eq(&moving.now(&plate, &company, 0.0).0, &plate));
-        let (_, turned) = moving.now(&cube, &company, 0.5);
+        assert_eq!(moving.now(cache, &cube, &company, 0.0).1, [Pose::STILL]);
+        assert!(Arc::ptr_eq(&moving.now(cache, &plate, &company, 0.0).0, &plate));
+        let (_, turned) = moving.now(cache, &cube, &company, 0.5);
         assert!((turned[0].turn.angle_between(DQuat::IDENTITY) - 0.5).abs() < 1e-12);
     }
 }

@@ -1,0 +1,204 @@
+//! The export dialog: what is chosen in it, and how far the files have come.
+
+use super::Model;
+use super::export::{ExportPlan, PictureAspect};
+use super::ordering::Orders;
+use super::pose_cache::PoseCache;
+use super::stones::Stones;
+use crate::app::shows::Shows;
+use crate::app::studio::{Paper, Shot};
+use crate::scene::{Copies, Specimen, View};
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::time::Duration;
+
+/// The state of the export dialog.
+#[derive(Debug, Clone)]
+pub struct ExportForm {
+    /// The folder in the field.
+    pub folder: PathBuf,
+    /// What is exported.
+    pub plan: ExportPlan,
+    /// The export that is under way or has ended.
+    pub run: Option<ExportRun>,
+}
+
+/// An export that is under way or has ended.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct ExportRun {
+    /// The files, in the order in which they are written.
+    pub files: Vec<PathBuf>,
+    /// The files written, the notes and the warnings, in words.
+    pub messages: Vec<String>,
+    /// The number of files written.
+    pub written: usize,
+    /// Whether the export was asked to stop.
+    pub is_stopped: bool,
+    /// How the export ended, once it has.
+    pub end: Option<Result<(), String>>,
+    part: f64,
+    elapsed: Duration,
+}
+
+/// How an export goes on.
+#[derive(Debug)]
+pub enum ExportEvent {
+    /// So much is done, 0 to 1, after such a time.
+    Done(f64, Duration),
+    /// A file has been written.
+    Written(PathBuf),
+    /// A note or a warning.
+    Said(String),
+    /// The export has ended.
+    Ended(Result<(), String>),
+}
+
+impl ExportForm {
+    /// Creates the dialog for the open document, seen as the linked views see it.
+    pub fn new(model: &Model) -> Self {
+        let plan = plan(model);
+        Self { folder: plan.folder.join("out"), plan, run: None }
+    }
+
+    /// Whether files are being written.
+    pub fn is_busy(&self) -> bool {
+        self.run.as_ref().is_some_and(|run| run.end.is_none())
+    }
+}
+
+fn plan(model: &Model) -> ExportPlan {
+    let Model { document, session, .. } = model;
+    let here = || std::env::current_dir().unwrap_or_default();
+    let folder = document.path().and_then(Path::parent).map_or_else(here, ToOwned::to_owned);
+    let stem = document.path().and_then(Path::file_stem).map_or_else(
+        || document.work.design.name.to_lowercase().replace([' ', '/'], "-"),
+        |s| s.to_string_lossy().into_owned(),
+    );
+    let upright = document.named(document.specimen());
+    let (linked, own) = aspects(model, &upright);
+    let render = own.iter().find(|(shows, _)| *shows == Shows::Render).map_or(&linked, |(_, aspect)| aspect);
+    let mut stones = Stones::default();
+    let shot =
+        Orders { model, stones: &mut stones, paper: Paper::default() }.render(render.view, render.turn);
+    let specimen = match Arc::ptr_eq(&shot.specimen, &stones.posed(model, render.turn)) {
+        // A stone alone and at rest is the one that scopes show.
+        true => Arc::clone(&render.turned),
+        false => document.named(&shot.specimen),
+    };
+    let shot = Shot { specimen, ..shot };
+    let light = match PathBuf::from(&session.light.name) {
+        file if file.is_file() => std::path::absolute(&file).unwrap_or(file),
+        name => name,
+    };
+    // Renders are as large as in their view, or smaller, so that no copy is left out.
+    let copies = Copies::at(shot.company.clone(), shot.specimen.solid().vertices());
+    let reach = model.reach(Shows::Render).max(copies.reach(0.0));
+    let selection = session.selection.clone();
+    let mut plan = ExportPlan { shot, upright, linked, own, reach, selection, light, folder, stem };
+    let can_be_shown: Vec<Shows> = plan.can_be_shown().collect();
+    plan.selection.views.retain(|shows| can_be_shown.contains(shows));
+    plan
+}
+
+/// Returns how the linked views see a stone, and how each view that looks on its own sees it.
+///
+/// Of several views that show the same, the one that keys act on counts, or else the first.
+fn aspects(model: &Model, upright: &Arc<Specimen>) -> (PictureAspect, Vec<(Shows, PictureAspect)>) {
+    let desk = &model.workspace;
+    // A cache apart from that of the views, so that theirs keeps its poses.
+    let mut posed = PoseCache::default();
+    let mut aspect = |view: View, turn: f64| PictureAspect { view, turn, turned: posed.of(upright, turn) };
+    let linked = aspect(desk.eye.view(None), desk.eye.turn);
+    let mut panes = desk.shown();
+    panes.sort_by_key(|&pane| (pane != model.active(), pane));
+    let mut own: Vec<(Shows, PictureAspect)> = vec![];
+    for pane in panes {
+        let shows = desk.panes[pane].shows;
+        if shows.is_seen() && own.iter().all(|(other, _)| *other != shows) {
+            own.push((shows, aspect(desk.view(pane), desk.eye(pane).turn)));
+        }
+    }
+    let side = |shows: Shows| shows.side().unwrap_or(linked.view.side);
+    own.retain(|(shows, aspect)| {
+        (aspect.view, aspect.turn) != (View { side: side(*shows), ..linked.view }, linked.turn)
+    });
+    (linked, own)
+}
+
+impl ExportRun {
+    /// Begins with the files of a plan. Where they cannot be known, writing says why.
+    pub fn of(plan: &ExportPlan) -> Self {
+        Self { files: plan.files().unwrap_or_default(), ..Self::default() }
+    }
+
+    /// Takes note of how the export goes on.
+    pub fn hear(&mut self, event: ExportEvent) {
+        match event {
+            ExportEvent::Done(part, elapsed) => (self.part, self.elapsed) = (part, elapsed),
+            ExportEvent::Written(path) => {
+                self.written += 1;
+                self.messages.push(format!("wrote {}", path.display()));
+            }
+            ExportEvent::Said(text) => self.messages.push(text),
+            ExportEvent::Ended(end) => self.end = Some(end),
+        }
+    }
+
+    /// Returns the part done, 0 to 1; for stopped work, the part that it reached.
+    pub fn done(&self) -> f32 {
+        if self.end == Some(Ok(())) { 1.0 } else { self.part as f32 }
+    }
+
+    /// Says which file is being written and about how long the rest takes; once the export has ended, how far it came.
+    pub fn standing(&self) -> String {
+        let (written, all) = (self.written, self.files.len());
+        match (&self.end, self.files.get(written)) {
+            (Some(Ok(())), _) => format!("{written} of {all} files written"),
+            (Some(Err(_)), _) => {
+                let how = if self.is_stopped { "Stopped" } else { "Ended" };
+                format!("{how} at {:.0} %, {written} of {all} files written", 100.0 * self.done())
+            }
+            (None, _) if self.is_stopped => "stopping…".to_owned(),
+            (None, file) => {
+                let name =
+                    file.and_then(|f| f.file_name()).unwrap_or_default().to_string_lossy().into_owned();
+                let left = left(self.elapsed, self.part);
+                let left = left.map_or(String::new(), |left| format!(", about {} left", spoken(left)));
+                format!("{name}, file {} of {all}{left}", (written + 1).min(all))
+            }
+        }
+    }
+}
+
+/// The time that must have passed before the time left is shown.
+const FIRST_SECOND: Duration = Duration::from_secs(1);
+/// The part that must be done before the time left is shown.
+const FIRST_PART: f64 = 0.02;
+
+/// Returns how long the rest takes if work goes on as it did until its part `done`, 0 to 1; `None` where it is too early to
+/// say.
+fn left(passed: Duration, done: f64) -> Option<Duration> {
+    (passed >= FIRST_SECOND && done >= FIRST_PART).then(|| passed.mul_f64((1.0 - done).max(0.0) / done))
+}
+
+/// Returns a time in words: in minutes from two minutes on.
+fn spoken(time: Duration) -> String {
+    match time.as_secs() {
+        seconds @ 0..120 => format!("{} s", seconds + 1),
+        seconds => format!("{} min", seconds.div_ceil(60)),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_time_left_is_told_once_enough_is_done() {
+        let seconds = Duration::from_secs;
+        assert_eq!(left(seconds(30), 0.01), None);
+        assert_eq!(left(Duration::from_millis(300), 0.5), None);
+        assert_eq!(left(seconds(30), 0.25), Some(seconds(90)));
+        assert_eq!([seconds(0), seconds(90), seconds(150)].map(spoken), ["1 s", "91 s", "3 min"]);
+    }
+}
