@@ -159,7 +159,7 @@ fn settings(ui: &mut Ui, export: &ExportForm, selection: &mut Selection, actions
         ui.end_row();
         let label = ui.label("Folder");
         ui.horizontal(|ui| {
-            let mut text = export.folder.display().to_string();
+            let mut text = export.plan.folder.display().to_string();
             let edit = TextEdit::singleline(&mut text).desired_width(360.0);
             if ui.add(edit).labelled_by(label.id).changed() {
                 actions.push(DialogAction::Folder(PathBuf::from(text)));

@@ -312,11 +312,17 @@ impl Document {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::app::tasks::open::save;
     use crate::cut::Crown;
 
     fn crown(document: &mut Document, degrees: f64) {
         let Cut::RoundBrilliant(brilliant) = &mut document.work.design.cut else { panic!() };
         brilliant.crown = Crown::Angle(degrees);
+    }
+
+    /// Whether the file has changed since the document was last read from it or written to it.
+    fn is_changed_outside(document: &Document) -> bool {
+        document.path().is_some_and(|path| Stamp::of(path) != document.stamp())
     }
 
     #[test]
@@ -327,16 +333,16 @@ mod tests {
         assert!(!document.is_changed() && document.path().is_none());
         crown(&mut document, 35.125);
         assert!(document.update() && document.settle() && document.is_changed());
-        document.save(path.clone()).unwrap();
-        assert!(!document.is_changed() && document.title() == "mine.toml" && !document.is_changed_outside());
+        document.take_saved(save(document.to_save(path.clone()).unwrap()).unwrap());
+        assert!(!document.is_changed() && document.title() == "mine.toml" && !is_changed_outside(&document));
         assert_eq!(Document::open(&path, MeshOptions::default()).unwrap().work.design, document.work.design);
         std::fs::write(&path, "format = 1").unwrap();
-        assert!(document.is_changed_outside());
-        document.accept_outside();
-        assert!(!document.is_changed_outside() && !document.is_changed());
+        assert!(is_changed_outside(&document));
+        document.accept_outside(Stamp::of(&path));
+        assert!(!is_changed_outside(&document) && !document.is_changed());
         std::fs::remove_file(&path).unwrap();
-        assert!(document.is_changed_outside());
-        document.accept_outside();
+        assert!(is_changed_outside(&document));
+        document.accept_outside(Stamp::of(&path));
         assert!(document.is_changed(), "what is nowhere any more is not saved");
     }
 
@@ -347,7 +353,7 @@ mod tests {
         document.work.design.name = " ".to_owned();
         assert!(!document.update() && document.fault().is_some() && !document.shows_last_possible());
         let path = folder.path().join("mine.toml");
-        assert!(document.save(path.clone()).unwrap_err().contains("printable") && !path.exists());
+        assert!(document.to_save(path.clone()).unwrap_err().contains("printable") && !path.exists());
     }
 
     #[test]
@@ -360,7 +366,7 @@ mod tests {
         assert!(document.fault().unwrap().to_string().contains("crown_angle"));
         assert!(Arc::ptr_eq(&stone, document.specimen()) && document.shows_last_possible());
         let path = folder.path().join("mine.toml");
-        assert!(document.save(path.clone()).unwrap_err().contains("crown_angle") && !path.exists());
+        assert!(document.to_save(path.clone()).unwrap_err().contains("crown_angle") && !path.exists());
         document.undo();
         assert!(!document.update() && document.fault().is_none(), "it is the stone that is in sight");
         assert!(Arc::ptr_eq(&stone, document.specimen()) && !document.shows_last_possible());

@@ -15,8 +15,6 @@ use std::time::Duration;
 /// The state of the export dialog.
 #[derive(Debug, Clone)]
 pub struct ExportForm {
-    /// The folder in the field.
-    pub folder: PathBuf,
     /// What is exported.
     pub plan: ExportPlan,
     /// The export that is under way or has ended.
@@ -56,8 +54,7 @@ pub enum ExportEvent {
 impl ExportForm {
     /// Creates the dialog for the open document, seen as the linked views see it.
     pub fn new(model: &Model) -> Self {
-        let plan = plan(model);
-        Self { folder: plan.folder.join("out"), plan, run: None }
+        Self { plan: plan(model), run: None }
     }
 
     /// Whether files are being written.
@@ -94,6 +91,7 @@ fn plan(model: &Model) -> ExportPlan {
     let copies = Copies::at(shot.company.clone(), shot.specimen.solid().vertices());
     let reach = model.reach(Shows::Render).max(copies.reach(0.0));
     let selection = session.selection.clone();
+    let folder = folder.join("out");
     let mut plan = ExportPlan { shot, upright, linked, own, reach, selection, light, folder, stem };
     let can_be_shown: Vec<Shows> = plan.can_be_shown().collect();
     plan.selection.views.retain(|shows| can_be_shown.contains(shows));

@@ -178,8 +178,15 @@ fn mesh_again(mesh: Option<&ReadMesh>, path: Option<&Path>) -> Option<Cut> {
 mod tests {
     use super::*;
     use crate::app::model::document::Document;
+    use crate::app::model::work::Work;
     use crate::io::design_file::DesignFormat;
     use std::sync::Arc;
+
+    /// Returns work without a scene around it.
+    fn alone(work: &Work, path: Option<&Path>) -> UnsavedWork {
+        let (work, path) = (work.clone(), path.map(Path::to_owned));
+        UnsavedWork { work, around: KeptScene::default(), path, replaces: None }
+    }
 
     #[test]
     fn work_is_found_after_a_crash_and_only_then() {
@@ -190,8 +197,10 @@ mod tests {
         let company = Copies::scattered(3, &corners, 2);
         let around =
             KeptScene { company, behind: Some("page".into()), behind_mm: Some(12.5), strength: Some(0.2) };
-        safe.keep(&work, &around, Some(Path::new("/x/mine.toml"))).unwrap();
-        safe.keep(&work, &around, Some(Path::new("/x/mine.toml"))).unwrap();
+        let path = Some("/x/mine.toml".into());
+        let unsaved = UnsavedWork { work: work.clone(), around: around.clone(), path, replaces: None };
+        safe.keep(&unsaved).unwrap();
+        safe.keep(&unsaved).unwrap();
         let next = Autosave::new(folder.path().to_owned());
         assert_eq!(next.found(), [], "the program still runs");
         drop(safe);
@@ -201,7 +210,7 @@ mod tests {
             (1, &work.design, Some(Path::new("/x/mine.toml")))
         );
         assert_eq!(found[0].around, around);
-        found.into_iter().for_each(RecoveredWork::forget);
+        found.iter().for_each(|found| forget(&found.file));
         assert_eq!(next.found(), []);
     }
 
@@ -218,7 +227,7 @@ mod tests {
         let changed = Design { name: "changed".to_owned(), diameter_mm: 9.0, ..mesh };
         let work = Work { design: changed.clone(), ..Document::first().unwrap().work };
         let mut safe = Autosave::new(folder.path().join("safe"));
-        safe.keep(&work, &KeptScene::default(), Some(&path)).unwrap();
+        safe.keep(&alone(&work, Some(&path))).unwrap();
         drop(safe);
         let next = Autosave::new(folder.path().join("safe"));
         assert!(next.found()[0].design == changed);
@@ -240,12 +249,11 @@ mod tests {
             let options = MeshOptions { up: Up::Given(DVec3::new(0.0, 0.6, 0.8)), form };
             let work = Document::open(&path, options).unwrap().work;
             let mut safe = Autosave::new(folder.path().join("safe"));
-            safe.keep(&work, &KeptScene::default(), Some(&path)).unwrap();
+            safe.keep(&alone(&work, Some(&path))).unwrap();
             drop(safe);
             let found = Autosave::new(folder.path().join("safe")).found().remove(0);
             assert!(found.design == work.design, "{form:?}");
-            let recovered =
-                Document::recovered(found.design.clone(), found.path.clone(), found.mesh.clone()).unwrap();
+            let recovered = Document::recovered(&found).unwrap();
             assert_eq!(recovered.work.mesh, work.mesh);
             assert_eq!(recovered.work.mesh.as_ref().map(|mesh| mesh.options), Some(options));
             assert!(recovered.is_changed());
@@ -255,7 +263,7 @@ mod tests {
             std::fs::write(&found.file, older.to_string()).unwrap();
             let found = Autosave::new(folder.path().join("safe")).found().remove(0);
             assert!(found.mesh.is_none() && matches!(found.design.cut, Cut::Mesh(_) | Cut::Planes(_)));
-            found.forget();
+            forget(&found.file);
         }
     }
 
@@ -264,7 +272,7 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let mut safe = Autosave::new(folder.path().join("new"));
         assert_eq!(safe.found(), []);
-        safe.keep(&Document::first().unwrap().work, &KeptScene::default(), None).unwrap();
+        safe.keep(&alone(&Document::first().unwrap().work, None)).unwrap();
         safe.empty();
         drop(safe);
         let next = Autosave::new(folder.path().join("new"));

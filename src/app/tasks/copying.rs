@@ -41,22 +41,3 @@ fn drawn(specimen: &Specimen, side: u32) -> Result<ColorImage, String> {
     let (width, height, rgb) = rasterize(&text, side).map_err(|e| e.to_string())?;
     Ok(ColorImage::from_rgb([width as usize, height as usize], &rgb))
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::app::tests::Bench;
-
-    #[test]
-    fn a_copy_whose_thread_has_ended_is_reported_and_given_up() {
-        let mut bench = Bench::new();
-        let (sender, answer) = channel();
-        bench.harness.state_mut().copying = Some(Copying { name: "ASET", answer, stop: Arc::default() });
-        bench.harness.run_steps(1);
-        assert!(bench.editor().copying.is_some() && bench.editor().notes.troubles().is_empty());
-        drop(sender);
-        bench.harness.run_steps(1);
-        assert!(bench.editor().copying.is_none());
-        assert!(bench.editor().notes.troubles()[0].text.starts_with("ASET was not copied: "));
-    }
-}

@@ -190,7 +190,7 @@ mod tests {
     fn runner() -> (Runner, Receiver<()>) {
         let (sender, woken) = channel();
         let sender = std::sync::Mutex::new(sender);
-        (TaskRunner::new(Arc::new(move || drop(sender.lock().unwrap().send(())))), woken)
+        (TaskRunner::new(Arc::new(move || sender.lock().unwrap().send(()).unwrap_or_default())), woken)
     }
 
     /// Waits until nothing runs, and returns all answers.
@@ -244,7 +244,7 @@ mod tests {
             let (sender, held) = (sender.clone(), held.take());
             let job = move |_: &JobHandle<i32>| {
                 // The first is held until all are started.
-                held.into_iter().for_each(|held| drop(held.recv()));
+                held.into_iter().for_each(|held| held.recv().unwrap());
                 sender.send(number).unwrap();
             };
             runner.start("a", Turn::After, || None, job);

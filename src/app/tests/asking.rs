@@ -1,9 +1,9 @@
 //! Tests of dialogs: what they ask, what Return and Escape do in them, and what an export reports of itself.
 
 use super::*;
-use crate::app::dialogs::export_dialog::ExportDialog;
 use crate::app::model::dialog::Dialog;
-use crate::app::tasks::export_job::Job;
+use crate::app::model::exporting::{ExportEvent, ExportForm, ExportRun};
+use crate::app::tasks::export::run;
 use crate::io::cut_file;
 use crate::io::export::OutputFormat;
 use egui::{Key, Role};
@@ -39,16 +39,16 @@ fn export(bench: &mut Bench, folder: &Path, size: u32) {
     bench.harness.run_steps(2);
     bench.choose("File", "Export…");
     let Some(Dialog::Export(export)) = &mut bench.harness.state_mut().model.session.dialog else { panic!() };
-    export.folder = folder.to_owned();
+    export.plan.folder = folder.to_owned();
     let selection = &mut export.plan.selection;
     selection.views = vec![Shows::Aset, Shows::AsetWhite, Shows::IdealScope, Shows::Hearts, Shows::Arrows];
     (selection.size, selection.formats) = (size, vec![OutputFormat::Png]);
     bench.harness.run_steps(2);
 }
 
-fn job(editor: &Editor) -> Option<&Job> {
+fn job(editor: &Editor) -> Option<&ExportRun> {
     match &editor.model.session.dialog {
-        Some(Dialog::Export(export)) => export.job(),
+        Some(Dialog::Export(export)) => export.run.as_ref(),
         _ => None,
     }
 }
@@ -62,14 +62,14 @@ fn a_stopped_export_says_how_far_it_came_and_its_button_stays_in_its_place() {
     bench.click("Write files");
     bench.harness.run_steps(2);
     let first = bench.harness.get_by_label("Stop").rect();
-    let told = job(bench.editor()).map(Job::standing).unwrap();
+    let told = job(bench.editor()).map(ExportRun::standing).unwrap();
     assert!(told.starts_with("tolkowsky-1919-aset") && told.contains(" of 10"), "{told}");
     assert!(bench.harness.query_by_label_contains(" of 10").is_some());
-    bench.wait(|editor| job(editor).is_some_and(|job| job.written() >= 2));
+    bench.wait(|editor| job(editor).is_some_and(|job| job.written >= 2));
     assert_eq!(bench.harness.get_by_label("Stop").rect(), first, "it runs away under the pointer");
     bench.harness.key_press(Key::Escape);
-    bench.wait(|editor| job(editor).is_some_and(|job| job.end().is_some()));
-    let (done, written) = job(bench.editor()).map(|job| (job.done(), job.written())).unwrap();
+    bench.wait(|editor| job(editor).is_some_and(|job| job.end.is_some()));
+    let (done, written) = job(bench.editor()).map(|job| (job.done(), job.written)).unwrap();
     assert!(done < 0.95 && written < 10, "stopped at {done} with {written} files");
     assert!(bench.harness.query_by_label_contains(&format!("{written} of 10 files written")).is_some());
     assert_eq!(bench.harness.get_by_label("Close").rect().min, first.min, "it takes the place of Stop");
@@ -127,18 +127,19 @@ fn a_click_beside_the_stone_opens_no_light_path() {
 /// strongest exits.
 fn exported_aset(bench: &mut Bench) -> Vec<Vec<u8>> {
     let folder = tempfile::tempdir().unwrap();
-    let mut plan = ExportDialog::new(bench.harness.state_mut()).plan;
+    let mut plan = ExportForm::new(&bench.editor().model).plan;
     plan.folder = folder.path().to_owned();
     plan.stem = "stone".to_owned();
     plan.selection.views = vec![Shows::Aset];
     plan.selection.size = 64;
-    let job = Job::begin(plan, || {});
-    let begun = Instant::now();
-    while job.end().is_none() {
-        assert!(begun.elapsed() < PATIENCE, "the export does not end");
-        std::thread::sleep(Duration::from_millis(5));
-    }
-    assert_eq!(job.end(), Some(Ok(())));
+    let end = Mutex::new(None);
+    let hear = |event| {
+        if let ExportEvent::Ended(how) = event {
+            *end.lock().unwrap() = Some(how);
+        }
+    };
+    run(&plan, &hear, &|| false);
+    assert_eq!(end.into_inner().unwrap(), Some(Ok(())));
     // The names contain the tilt, so that they differ where the view leans; their order does not.
     let mut files: Vec<_> =
         std::fs::read_dir(folder.path()).unwrap().map(|file| file.unwrap().path()).collect();

@@ -1,10 +1,11 @@
 //! Tests of copies of a glass shape, moved as a person moves them.
 
 use super::Bench;
-use crate::app::dialogs::export_dialog::ExportDialog;
 use crate::app::editor::Editor;
+use crate::app::model::action::{Edit, FileAction};
 use crate::app::model::dialog::Dialog;
-use crate::app::model::moving::Moving;
+use crate::app::model::exporting::ExportForm;
+use crate::app::model::motion::Motion;
 use crate::app::model::preset::Preset;
 use crate::app::model::workspace::{Pane, PaneLayout, Workspace};
 use crate::app::setup::Setup;
@@ -157,7 +158,7 @@ fn copies_are_saved_as_a_scene_that_is_opened_again_as_it_was() {
     for (scene, seconds, turn) in scenes {
         let folder = tempfile::tempdir().unwrap();
         let mut bench = bench(scene);
-        bench.harness.state_mut().model.session.motion = Moving::at(seconds);
+        bench.harness.state_mut().model.session.motion = Motion::at(seconds);
         bench.harness.state_mut().model.workspace.eye.turn = turn;
         bench.harness.state_mut().model.workspace.behind.get_or_insert("page".to_owned());
         // One copy lies behind the others, so that the centre of all copies is not that of the first.
@@ -165,7 +166,7 @@ fn copies_are_saved_as_a_scene_that_is_opened_again_as_it_was() {
             last.at.z -= 3.0;
         }
         bench.harness.run_steps(2);
-        let mut plan = ExportDialog::new(bench.harness.state_mut()).plan;
+        let mut plan = ExportForm::new(&bench.editor().model).plan;
         (plan.folder, plan.stem) = (folder.path().to_owned(), "mine".to_owned());
         SceneOut::of(&plan).write().unwrap();
         let again = Preset::read(&folder.path().join("mine-scene.toml")).unwrap();
@@ -191,7 +192,7 @@ fn copies_are_saved_as_a_scene_that_is_opened_again_as_it_was() {
 #[test]
 fn whoever_holds_a_copy_that_goes_lets_go_of_it() {
     let mut bench = bench("cube");
-    bench.harness.state_mut().lay_out(4);
+    bench.harness.state_mut().act(Edit::LayOut(4));
     bench.harness.run_steps(3);
     let last = poses(bench.editor())[3].at;
     let (pos, button) = (at(&bench, last.x, last.y), egui::PointerButton::Primary);
@@ -247,7 +248,10 @@ fn zooming_shows_the_same_light_nearer_and_another_design_is_seen_as_physics() {
     bench.harness.run_steps(2);
     let after = seen(&bench);
     assert!(after.0 == before.0 && after.1 < before.1 && before.2 == 0.035);
-    bench.harness.state_mut().begin_from_library("modern-ideal");
+    bench
+        .harness
+        .state_mut()
+        .act(FileAction::Ask(crate::app::model::dialog::Then::Library("modern-ideal".to_owned())));
     bench.harness.run_steps(2);
     assert_eq!(seen(&bench).2, 1.0);
 }

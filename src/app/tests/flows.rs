@@ -1,6 +1,7 @@
 //! Tests of whole tasks, from the user's first click to the last.
 
 use super::*;
+use crate::app::model::action::FileAction;
 use crate::app::model::dialog::Dialog;
 use crate::app::model::document::Document;
 use crate::app::model::opening::OpeningPurpose;
@@ -219,7 +220,7 @@ fn every_view_is_exported_as_a_file() {
     let mut bench = Bench::new();
     bench.choose("File", "Export…");
     let Some(Dialog::Export(export)) = &mut bench.harness.state_mut().model.session.dialog else { panic!() };
-    export.folder = folder.path().join("out");
+    export.plan.folder = folder.path().join("out");
     bench.harness.run_steps(2);
     for shows in Shows::EXPORTED {
         let box_ = bench.harness.get_by_role_and_label(egui::Role::CheckBox, shows.name());
@@ -237,7 +238,7 @@ fn every_view_is_exported_as_a_file() {
     bench.click("Write files");
     bench.wait(|editor| matches!(&editor.model.session.dialog, Some(Dialog::Export(e)) if !e.is_busy()));
     let Some(Dialog::Export(export)) = &bench.editor().model.session.dialog else { panic!() };
-    assert_eq!(export.end(), Some(Ok(())));
+    assert_eq!(export.run.as_ref().and_then(|run| run.end.clone()), Some(Ok(())));
     assert!(bench.harness.query_by_label("All files are written.").is_some());
     let names: Vec<String> = std::fs::read_dir(folder.path().join("out"))
         .unwrap()
@@ -367,7 +368,7 @@ fn a_file_that_comes_after_a_change_is_asked_about() {
     let mut bench = Bench::new();
     bench.settle();
     let editor = bench.harness.state_mut();
-    editor.open(&path, OpeningPurpose::Anew);
+    editor.act(FileAction::Open(path.clone(), OpeningPurpose::Anew));
     editor.model.document.work.design.name = "changed meanwhile".to_owned();
     bench.wait(|editor| editor.model.session.dialog.is_some());
     assert!(!bench.editor().model.document.work.design.eq(&design));

@@ -76,7 +76,7 @@ fn pictures_of_scopes_are_exported_with_a_caption_where_it_is_wanted() {
     bench.harness.run_steps(3);
     bench.choose("File", "Export…");
     let Some(Dialog::Export(export)) = &mut bench.harness.state_mut().model.session.dialog else { panic!() };
-    export.folder = folder.path().join("out");
+    export.plan.folder = folder.path().join("out");
     export.plan.selection.views = vec![Shows::Aset];
     bench.harness.run_steps(2);
     bench.click("Caption and legend");
@@ -84,7 +84,7 @@ fn pictures_of_scopes_are_exported_with_a_caption_where_it_is_wanted() {
     bench.click("Write files");
     bench.wait(|editor| matches!(&editor.model.session.dialog, Some(Dialog::Export(e)) if !e.is_busy()));
     let Some(Dialog::Export(export)) = &bench.editor().model.session.dialog else { panic!() };
-    assert_eq!(export.end(), Some(Ok(())));
+    assert_eq!(export.run.as_ref().and_then(|run| run.end.clone()), Some(Ok(())));
     let written = std::fs::read_dir(folder.path().join("out")).unwrap().map(|f| f.unwrap().path());
     let pictures: Vec<_> = written.map(|path| image::image_dimensions(path).unwrap()).collect();
     assert!(pictures.len() == 2 && pictures.iter().all(|&(w, h)| w == 200 && h > 240), "{pictures:?}");

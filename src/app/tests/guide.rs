@@ -81,10 +81,8 @@ fn what_to_export() {
     let mut bench = window("tolkowsky.toml", &Workspace::default());
     bench.choose("File", "Export…");
     let Some(Dialog::Export(export)) = &mut bench.harness.state_mut().model.session.dialog else { panic!() };
-    export.folder = "/home/me/stones/out".into();
-    bench.wait(
-        |editor| matches!(&editor.model.session.dialog, Some(Dialog::Export(e)) if e.thumbnails_shown() == 9),
-    );
+    export.plan.folder = "/home/me/stones/out".into();
+    bench.wait(|editor| editor.thumbnails.len() == 9);
     take(&mut bench, "export");
 }
 

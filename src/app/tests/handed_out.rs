@@ -138,7 +138,7 @@ fn the_folder_of_an_export_is_opened() {
     let mut bench = Bench::new();
     bench.choose("File", "Export…");
     let Some(Dialog::Export(export)) = &mut bench.harness.state_mut().model.session.dialog else { panic!() };
-    export.folder = folder.path().join("out");
+    export.plan.folder = folder.path().join("out");
     export.plan.selection.views = vec![Shows::Profile];
     export.plan.selection.size = 64;
     bench.harness.run_steps(2);
@@ -185,6 +185,7 @@ fn drop_on(bench: &mut Bench, files: &[&Path]) {
     let files = files.iter().map(|path| Arc::new(Dropped((*path).to_owned())) as egui::DroppedFileHandle);
     bench.harness.input_mut().dropped_files = files.collect();
     bench.harness.run_steps(2);
+    bench.wait(|editor| !editor.model.session.awaited.dropped);
 }
 
 #[test]
@@ -223,7 +224,9 @@ fn files_of_every_kind_are_dropped_on_the_window() {
     assert_eq!(bench.editor().model.workspace.behind, Some(at("photo.png").display().to_string()));
     for light in ["lamp.toml", "sky.hdr"] {
         drop_on(&mut bench, &[&at(light)]);
-        bench.wait(|editor| editor.model.session.light.loading.is_none() && editor.light.0.ends_with(light));
+        bench.wait(|editor| {
+            editor.model.session.light.loading.is_none() && editor.model.session.light.name.ends_with(light)
+        });
         assert!(
             bench.editor().model.session.notes.troubles().is_empty(),
             "{:?}",

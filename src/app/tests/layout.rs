@@ -3,6 +3,7 @@
 use super::*;
 use crate::app::model::dialog::Dialog;
 use crate::app::model::document::Document;
+use crate::app::model::exporting::ExportForm;
 use crate::app::theme;
 use crate::cut::{Design, MaterialRef};
 use crate::io::{cut_file, design_file};
@@ -216,14 +217,12 @@ fn nothing_is_red_while_nothing_is_wrong() {
     bench.look();
     bench.harness.state_mut().model.session.notes.warn("it was saved, but not all of it".into());
     let editor = bench.harness.state_mut();
-    let mut dialog = Dialog::export(editor);
-    let Dialog::Export(export) = &mut dialog else { panic!() };
-    export.folder = folder.path().to_owned();
-    export.plan.folder.clone_from(&export.folder);
+    let mut export = ExportForm::new(&editor.model);
+    export.plan.folder = folder.path().to_owned();
     for file in export.plan.files().unwrap() {
         std::fs::write(file, "").unwrap();
     }
-    editor.model.session.dialog = Some(dialog);
+    editor.model.session.dialog = Some(Dialog::Export(Box::new(export)));
     bench.harness.run_steps(4);
     let red = theme::bad(&bench.harness.ctx.global_style().visuals);
     let is_red = |bench: &Bench| -> Vec<String> {

@@ -69,7 +69,7 @@ fn what_may_be_exported() {
     else {
         panic!()
     };
-    export.folder = "/home/me/stones/out".into();
-    bench.wait(|editor| matches!(&editor.model.session.dialog, Some(crate::app::model::dialog::Dialog::Export(e)) if e.thumbnails_shown() == 9));
+    export.plan.folder = "/home/me/stones/out".into();
+    bench.wait(|editor| editor.thumbnails.len() == 9);
     compare(&mut bench, "export");
 }

@@ -12,6 +12,7 @@ mod guide;
 mod handed_out;
 mod layout;
 mod looks;
+mod reading;
 mod recorder;
 mod views;
 

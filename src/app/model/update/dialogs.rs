@@ -72,7 +72,7 @@ fn fill_in(model: &mut Model, typed: DialogAction) {
             export.plan.selection = selection;
         }
         (Some(Dialog::Export(export)), DialogAction::Folder(folder)) => {
-            (export.folder, export.plan.folder) = (folder.clone(), folder);
+            export.plan.folder = folder;
         }
         _ => {}
     }
@@ -128,7 +128,6 @@ fn export(model: &mut Model, select: impl FnOnce(&mut Selection)) -> Vec<Task> {
     let mut form = ExportForm::new(model);
     select(&mut form.plan.selection);
     let plan = Box::new(form.plan.clone());
-    form.plan.folder.clone_from(&form.folder);
     model.session.dialog = Some(Dialog::Export(Box::new(form)));
     vec![Task::Thumbnails(plan)]
 }

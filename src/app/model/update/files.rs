@@ -207,7 +207,7 @@ pub fn chosen(model: &mut Model, purpose: Purpose, document: u64, path: PathBuf)
         Purpose::Behind => model.workspace.behind = Some(path.display().to_string()),
         Purpose::Folder => {
             if let Some(Dialog::Export(export)) = &mut model.session.dialog {
-                (export.folder, export.plan.folder) = (path.clone(), path);
+                export.plan.folder = path;
             }
         }
     }
