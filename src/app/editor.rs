@@ -16,7 +16,7 @@ use super::shows::Shows;
 use super::state_file::StateFile;
 use super::studio::{self, Paper, Slot, Studio, Which};
 use super::tasks::autosave::Autosave;
-use super::tasks::{self, Outside};
+use super::tasks::{Outside, TaskAnswer};
 use super::views::following::{self, Following};
 use super::views::gallery::{Gallery, Shown, hang};
 use super::views::probe::ProbeCache;
@@ -205,9 +205,9 @@ impl Editor {
         }
         for answer in self.outside.answers() {
             match answer {
-                tasks::Answer::Act(action) => self.actions.push(*action),
-                tasks::Answer::Copied(made) => self.copied(made),
-                tasks::Answer::Thumbnail(shows, image) => {
+                TaskAnswer::Act(action) => self.actions.push(*action),
+                TaskAnswer::Copied(made) => self.copied(made),
+                TaskAnswer::Thumbnail(shows, image) => {
                     let name = format!("thumbnail {shows:?}");
                     let texture = self.ctx.load_texture(name, image, egui::TextureOptions::LINEAR);
                     self.thumbnails.insert(shows, texture);

@@ -18,12 +18,13 @@ use crate::app::model::exporting::ExportEvent;
 use crate::app::model::opening::FileRequest;
 use crate::app::model::{Action, Task};
 use crate::app::shows::Shows;
+use crate::app::studio::Wake;
 use crate::io::lighting::Lighting;
 use autosave::Autosave;
 use egui::ColorImage;
 use files::Chooser;
 use opener::Opener;
-use runner::{JobHandle, TaskRunner, Turn, Wake};
+use runner::{JobHandle, TaskRunner, Turn};
 use std::sync::{Arc, Mutex, PoisonError};
 
 /// What a task is about: the newest with the same key wins.
@@ -44,7 +45,7 @@ enum Key {
 }
 
 /// An answer of a task.
-pub enum Answer {
+pub enum TaskAnswer {
     /// An action on the model.
     Act(Box<Action>),
     /// A picture for the clipboard.
@@ -53,13 +54,13 @@ pub enum Answer {
     Thumbnail(Shows, ColorImage),
 }
 
-impl From<Action> for Answer {
+impl From<Action> for TaskAnswer {
     fn from(action: Action) -> Self {
         Self::Act(Box::new(action))
     }
 }
 
-impl From<FileAction> for Answer {
+impl From<FileAction> for TaskAnswer {
     fn from(action: FileAction) -> Self {
         Action::File(action).into()
     }
@@ -70,7 +71,7 @@ const FAULT: &str = "a fault of the program; please report the design";
 
 /// Carries out tasks.
 pub struct Outside {
-    runner: TaskRunner<Key, Answer>,
+    runner: TaskRunner<Key, TaskAnswer>,
     chooser: Chooser,
     opener: Opener,
     safe: Option<Arc<Mutex<Autosave>>>,
@@ -84,7 +85,7 @@ impl Outside {
     }
 
     /// Returns the answers that have arrived since the last call.
-    pub fn answers(&mut self) -> Vec<Answer> {
+    pub fn answers(&mut self) -> Vec<TaskAnswer> {
         self.runner.answers()
     }
 
@@ -162,7 +163,7 @@ impl Outside {
                 Turn::AtOnce,
                 || None,
                 move |job| {
-                    let hang = |shows, image| job.send(Answer::Thumbnail(shows, image));
+                    let hang = |shows, image| job.send(TaskAnswer::Thumbnail(shows, image));
                     export::thumbnails(&plan, &hang, &|| job.is_stopped());
                 },
             ),
@@ -176,9 +177,10 @@ impl Outside {
             Task::StopThumbnails => self.runner.stop(Key::Thumbnails),
             Task::StopExport => self.runner.stop(Key::Export),
             Task::MakeCopy(request) => {
-                let failed = || Answer::Copied(Err("making the picture failed; try another size".to_owned()));
+                let failed =
+                    || TaskAnswer::Copied(Err("making the picture failed; try another size".to_owned()));
                 self.run(Key::Copy, failed, move |job| {
-                    Answer::Copied(copying::make(&request, &|| job.is_stopped()))
+                    TaskAnswer::Copied(copying::make(&request, &|| job.is_stopped()))
                 });
             }
             Task::Trace(_) | Task::Window(_) => {}
@@ -189,8 +191,8 @@ impl Outside {
     fn run(
         &mut self,
         key: Key,
-        failed: impl FnOnce() -> Answer + Send + 'static,
-        job: impl FnOnce(&JobHandle<Answer>) -> Answer + Send + 'static,
+        failed: impl FnOnce() -> TaskAnswer + Send + 'static,
+        job: impl FnOnce(&JobHandle<TaskAnswer>) -> TaskAnswer + Send + 'static,
     ) {
         self.runner.start(key, Turn::AtOnce, || Some(failed()), |handle| handle.send(job(handle)));
     }
