@@ -2,6 +2,7 @@
 
 use super::hands::Hands;
 use super::lookup::LookupWorker;
+use super::menus::PictureStatus;
 use super::model::action::{Actions, Computed, FileAction, FrameEnd, NoteAction, ViewAction};
 use super::model::opening::{FileRequest, OpeningPurpose};
 use super::model::ordering::{Orders, Seen};
@@ -276,10 +277,16 @@ impl Editor {
         self.run();
         self.paper = theme::paper(&ctx);
         menus::bar(&self.model, &mut self.actions, ui);
-        menus::status(self, ui);
+        let pictures = PictureStatus {
+            is_idle: self.studio.is_idle(),
+            sharpens: self.studio.sharpens(),
+            device: self.studio.device_name(),
+            painter: self.painted_by.name(),
+        };
+        menus::status(&self.model.session, &pictures, ui);
         self.run();
         if !self.model.workspace.hides_panels {
-            side_panels::show(self, ui);
+            side_panels::show(&self.model, &mut self.actions, ui);
             self.run();
         }
         self.is_picture_focused = false;

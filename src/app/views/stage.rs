@@ -26,7 +26,7 @@ pub fn show(editor: &mut Editor, ui: &mut Ui) -> Vec<Seen> {
             ui.set_clip_rect(rect.intersect(ui.clip_rect()));
             seen.push((pane, pane::show(editor, &mut ui, pane, rect)));
         }
-        trouble_bar::show(editor, ui.ctx(), whole);
+        trouble_bar::show(&editor.model, &mut editor.actions, ui.ctx(), whole);
     });
     seen
 }
