@@ -1,27 +1,23 @@
 //! The editor's window: it draws the model, turns what a person does into actions, and carries out tasks.
 
 use super::hands::Hands;
-use super::lookup::LookupWorker;
 use super::menus::PictureStatus;
 use super::model::action::{Actions, Computed, FileAction, FrameEnd, NoteAction, ViewAction};
 use super::model::opening::{FileRequest, OpeningPurpose};
-use super::model::ordering::{Orders, Seen};
-use super::model::stones::Stones;
+use super::model::ordering::Seen;
 use super::model::task::WindowTask;
 use super::model::workspace::Workspace;
 use super::model::{Action, Model, Task, update};
 use super::panels::side_panels;
-use super::profile_view::ProfileView;
 use super::setup::{PaintedBy, Setup};
 use super::shows::Shows;
 use super::state_file::StateFile;
-use super::studio::{self, Paper, Slot, Studio, Which};
+use super::studio::{self, Slot, Studio, Which};
 use super::tasks::autosave::Autosave;
 use super::tasks::{Outside, TaskAnswer};
-use super::views::following::{self, Following};
-use super::views::gallery::{Gallery, Shown, hang};
-use super::views::probe::ProbeCache;
-use super::views::stage;
+use super::views::gallery::{Shown, hang};
+use super::views::look_ups::look_ups;
+use super::views::{ViewTools, following, stage};
 use super::{dialogs, drops, menus, theme};
 use crate::io::library;
 use crate::trace::gpu::Gpu;
@@ -37,22 +33,13 @@ pub struct Editor {
     pub(super) model: Model,
     /// What has been done in this frame.
     pub(super) actions: Actions,
-    outside: Outside,
+    pub(super) outside: Outside,
     ctx: Context,
-    /// What drawings are drawn on: their colours, light or dark as the window is.
-    pub(super) paper: Paper,
     pub(super) studio: Studio,
-    /// The worker that looks pictures up.
-    pub(super) looker: LookupWorker,
-    pub(super) gallery: Gallery,
+    /// What the views are drawn with.
+    pub(super) views: ViewTools,
     /// The small pictures of the export dialog.
     pub(super) thumbnails: HashMap<Shows, TextureHandle>,
-    pub(super) stones: Stones,
-    pub(super) probe: ProbeCache,
-    pub(super) profiles: [ProfileView; 4],
-    pub(super) following: Following,
-    /// Whether a picture has the focus, so that Space lays out the copies in it.
-    pub(super) is_picture_focused: bool,
     title: String,
     state_file: Option<StateFile>,
     /// What paints the window.
@@ -95,16 +82,9 @@ impl Editor {
             actions: Actions::default(),
             outside: Outside::new(setup.chooser, setup.opener, safe, wake.clone()),
             ctx: context.clone(),
-            paper: Paper::default(),
-            looker: LookupWorker::open(wake.clone()),
             studio: Studio::open(gpu, wake),
-            gallery: Gallery::default(),
+            views: ViewTools::default(),
             thumbnails: HashMap::new(),
-            stones: Stones::default(),
-            probe: ProbeCache::default(),
-            profiles: Default::default(),
-            following: Following::default(),
-            is_picture_focused: false,
             title: String::new(),
             state_file: setup.state_file,
             painted_by: setup.painted_by,
@@ -139,7 +119,7 @@ impl Editor {
         for action in self.actions.take() {
             self.act(action);
         }
-        self.gallery.tidy(&self.model);
+        self.views.gallery.tidy(&self.model);
     }
 
     /// Does what only the window can do.
@@ -175,12 +155,7 @@ impl Editor {
 
     /// Returns the picture of a view.
     pub(super) fn shown(&self, slot: Slot) -> Option<&Shown> {
-        self.gallery.shown(&self.model, slot)
-    }
-
-    /// Returns what makes the orders of pictures.
-    pub(super) fn orders(&mut self) -> Orders<'_> {
-        Orders { model: &self.model, stones: &mut self.stones, paper: self.paper }
+        self.views.gallery.shown(&self.model, slot)
     }
 
     /// Takes in what has arrived from other threads and from outside.
@@ -189,7 +164,7 @@ impl Editor {
         for answer in answers {
             match answer {
                 studio::Answer::Picture(slot, shot, grade, taken) => {
-                    hang(&self.ctx, &mut self.gallery.traced, slot, (*shot, grade, taken));
+                    hang(&self.ctx, &mut self.views.gallery.traced, slot, (*shot, grade, taken));
                 }
                 studio::Answer::Figures(which, ask, grade, figures) => {
                     self.actions.push(Computed::Figures(which, ask, grade, figures));
@@ -198,16 +173,15 @@ impl Editor {
                 studio::Answer::Trouble(why) => self.actions.push(NoteAction::Trouble(why)),
             }
         }
-        for (slot, ask, taken) in self.looker.answers() {
-            match taken {
-                Ok(taken) => hang(&self.ctx, &mut self.gallery.looked, slot, (ask.shot, ask.grade, taken)),
-                Err(why) => self.actions.push(NoteAction::Trouble(why)),
-            }
-        }
         for answer in self.outside.answers() {
             match answer {
                 TaskAnswer::Act(action) => self.actions.push(*action),
                 TaskAnswer::Copied(made) => self.copied(made),
+                TaskAnswer::Looked(slot, request, Ok(taken)) => {
+                    let picture = (request.shot.clone(), request.grade, taken);
+                    hang(&self.ctx, &mut self.views.gallery.looked, slot, picture);
+                }
+                TaskAnswer::Looked(_, _, Err(why)) => self.actions.push(NoteAction::Trouble(why)),
                 TaskAnswer::Thumbnail(shows, image) => {
                     let name = format!("thumbnail {shows:?}");
                     let texture = self.ctx.load_texture(name, image, egui::TextureOptions::LINEAR);
@@ -259,7 +233,7 @@ impl Editor {
         let session = &self.model.session;
         let awaited = &session.awaited;
         self.studio.is_idle()
-            && self.looker.is_idle()
+            && !self.outside.is_looking_up()
             && session.light.loading.is_none()
             && awaited.choosing.is_none()
             && awaited.opening.is_empty()
@@ -273,9 +247,9 @@ impl Editor {
         self.take_in();
         self.take_in_input();
         self.run();
-        menus::keys(&self.model, &mut self.actions, &ctx, self.is_picture_focused);
+        menus::keys(&self.model, &mut self.actions, &ctx, self.views.attention.is_picture_focused);
         self.run();
-        self.paper = theme::paper(&ctx);
+        self.views.paper = theme::paper(&ctx);
         menus::bar(&self.model, &mut self.actions, ui);
         let pictures = PictureStatus {
             is_idle: self.studio.is_idle(),
@@ -289,10 +263,9 @@ impl Editor {
             side_panels::show(&self.model, &mut self.actions, ui);
             self.run();
         }
-        self.is_picture_focused = false;
-        let seen = stage::show(self, ui);
+        let seen = stage::show(&self.model, &mut self.views, &mut self.actions, ui);
         self.run();
-        following::show(self, &ctx);
+        following::show(&self.model, &mut self.views, &mut self.actions, &ctx);
         dialogs::show(&self.model, &self.thumbnails, &mut self.actions, &ctx);
         drops::invite(&ctx);
         let moves = |pane: usize| self.model.workspace.panes[pane].shows.has_company();
@@ -307,8 +280,9 @@ impl Editor {
 
     fn end_frame(&mut self) {
         let fitted = Arc::clone(self.model.session.framing.fitted());
-        let is_pulled = self.profiles.iter().any(ProfileView::is_dragging);
-        let is_gesture = is_pulled || self.ctx.egui_is_using_pointer() || self.ctx.text_edit_focused();
+        let is_gesture = self.views.is_handle_dragged()
+            || self.ctx.egui_is_using_pointer()
+            || self.ctx.text_edit_focused();
         let now = self.ctx.input(|i| i.time);
         self.run();
         self.act(Action::Frame(FrameEnd { now, is_gesture }));
@@ -320,7 +294,10 @@ impl Editor {
 
     /// Orders all that is in sight.
     fn order(&mut self, seen: &[Seen]) {
-        let order = self.orders().all(seen);
+        for (slot, request) in look_ups(&self.model, &mut self.views, seen) {
+            self.outside.look_up(slot, request);
+        }
+        let order = self.views.orders(&self.model).all(seen);
         self.act(Computed::Order(Box::new(order)));
     }
 

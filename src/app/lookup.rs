@@ -1,19 +1,14 @@
 //! Makes pictures that need no tracing: backgrounds seen through a refraction map, and liquid glass as screens draw it.
-//!
-//! A thread of its own makes the last picture that was requested of each view, so that pictures follow the hand while the
-//! studio traces.
 
-use crate::app::studio::{Grade, SPAN, Shot, Slot, TakenPicture, Wake};
+use crate::app::studio::{Grade, SPAN, Shot, TakenPicture};
 use crate::io::background::BackgroundRef;
 use crate::picture::pane::{filling, pane};
 use crate::picture::{Develop, Linear, Pattern, RefractionMap, Tone, develop, refract};
 use crate::scene::Panorama;
 use egui::ColorImage;
 use glam::DVec2;
-use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::mpsc::{Receiver, Sender, channel};
-use std::sync::{Arc, Condvar, Mutex, PoisonError};
-use std::thread::JoinHandle;
+use rayon::{ThreadPool, ThreadPoolBuilder};
+use std::sync::{Arc, LazyLock};
 
 /// The backplate where a picture needs one and none is chosen.
 const FIRST: Pattern = Pattern::Page;
@@ -52,129 +47,45 @@ impl PartialEq for LookupRequest {
     }
 }
 
-/// An answer: the slot, the request, and the picture or the text that says why there is none.
-pub type Looked = (Slot, Box<LookupRequest>, Result<TakenPicture, String>);
+/// Makes pictures by looking up, one at a time.
+pub struct Lookup {
+    /// Threads of its own: those that the studio keeps busy would come to it last.
+    threads: LazyLock<Option<ThreadPool>>,
+    backgrounds: Backgrounds,
+}
 
-/// What the window's thread and the worker's thread share.
+impl Default for Lookup {
+    fn default() -> Self {
+        let threads = || ThreadPoolBuilder::new().thread_name(|k| format!("look-up {k}")).build().ok();
+        Self { threads: LazyLock::new(threads), backgrounds: Backgrounds::default() }
+    }
+}
+
+impl Lookup {
+    /// Makes a picture.
+    ///
+    /// # Errors
+    /// Fails where the backplate cannot be read; the text says why.
+    pub fn picture(&mut self, ask: &LookupRequest) -> Result<TakenPicture, String> {
+        let Self { threads, backgrounds } = self;
+        match &**threads {
+            Some(threads) => threads.install(|| backgrounds.picture(ask)),
+            None => backgrounds.picture(ask),
+        }
+    }
+}
+
+/// The backgrounds that pictures were made of last.
 #[derive(Default)]
-struct Mailbox {
-    /// The pending requests, one for each slot; the first is served first.
-    asked: Mutex<Vec<(Slot, LookupRequest)>>,
-    changed: Condvar,
-    busy: AtomicBool,
-    quit: AtomicBool,
-}
-
-/// The window's side of the thread that looks pictures up.
-pub struct LookupWorker {
-    desk: Arc<Mailbox>,
-    answers: Receiver<Looked>,
-    last: Vec<(Slot, LookupRequest)>,
-    thread: Option<JoinHandle<()>>,
-}
-
-impl LookupWorker {
-    /// Starts the thread; `wake` is called whenever there is an answer.
-    pub fn open(wake: Wake) -> Self {
-        let desk = Arc::new(Mailbox::default());
-        let (sender, answers) = channel();
-        let worker = Worker { desk: Arc::clone(&desk), answers: sender, wake, behind: None, filled: None };
-        let thread = std::thread::Builder::new().name("look-up".into()).spawn(|| worker.work()).ok();
-        Self { desk, answers, last: vec![], thread }
-    }
-
-    /// Requests a picture; nothing happens where the same picture was requested last.
-    pub fn ask(&mut self, slot: Slot, ask: LookupRequest) {
-        if self.last.iter().any(|(at, last)| *at == slot && *last == ask) {
-            return;
-        }
-        put(&mut self.last, slot, ask.clone());
-        let mut asked = self.desk.asked.lock().unwrap_or_else(PoisonError::into_inner);
-        self.desk.busy.store(true, Ordering::SeqCst);
-        put(&mut asked, slot, ask);
-        drop(asked);
-        self.desk.changed.notify_one();
-    }
-
-    /// Returns the answers that have arrived since the last call.
-    pub fn answers(&self) -> impl Iterator<Item = Looked> + '_ {
-        self.answers.try_iter()
-    }
-
-    /// Whether all requests have been answered.
-    pub fn is_idle(&self) -> bool {
-        !self.desk.busy.load(Ordering::SeqCst)
-    }
-}
-
-impl Drop for LookupWorker {
-    fn drop(&mut self) {
-        {
-            // The lock is held, so that the worker is not between looking for a request and waiting for one.
-            let _asked = self.desk.asked.lock().unwrap_or_else(PoisonError::into_inner);
-            self.desk.quit.store(true, Ordering::SeqCst);
-            self.desk.changed.notify_one();
-        }
-        if let Some(thread) = self.thread.take() {
-            // A worker that panicked has reported that already.
-            let _ = thread.join();
-        }
-    }
-}
-
-/// Replaces the pending request of a slot; an older one is dropped unread.
-fn put(asked: &mut Vec<(Slot, LookupRequest)>, slot: Slot, ask: LookupRequest) {
-    match asked.iter_mut().find(|(at, _)| *at == slot) {
-        Some((_, last)) => *last = ask,
-        None => asked.push((slot, ask)),
-    }
-}
-
-struct Worker {
-    desk: Arc<Mailbox>,
-    answers: Sender<Looked>,
-    wake: Wake,
+struct Backgrounds {
     /// The background that was read last, in several sizes.
     behind: Option<(BackgroundRef, Levels)>,
     /// The background that filled a picture last, in the size of that picture.
     filled: Option<(BackgroundRef, Panorama)>,
 }
 
-impl Worker {
-    fn work(mut self) {
-        // The worker has threads of its own: those that the studio keeps busy would come to it last.
-        let pool = rayon::ThreadPoolBuilder::new().thread_name(|k| format!("look-up {k}")).build().ok();
-        while let Some((slot, ask)) = self.next() {
-            let seen = std::panic::AssertUnwindSafe(|| match &pool {
-                Some(pool) => pool.install(|| self.seen(&ask)),
-                None => self.seen(&ask),
-            });
-            let taken = std::panic::catch_unwind(seen)
-                .unwrap_or_else(|_| Err("a fault of the program; please report the design".to_owned()));
-            // Nobody listens once the window is closed.
-            let _ = self.answers.send((slot, Box::new(ask), taken));
-            let asked = self.desk.asked.lock().unwrap_or_else(PoisonError::into_inner);
-            self.desk.busy.store(!asked.is_empty(), Ordering::SeqCst);
-            drop(asked);
-            (self.wake)();
-        }
-    }
-
-    /// Waits for a request; `None` when the window is closed.
-    fn next(&self) -> Option<(Slot, LookupRequest)> {
-        let mut asked = self.desk.asked.lock().unwrap_or_else(PoisonError::into_inner);
-        loop {
-            if self.desk.quit.load(Ordering::SeqCst) {
-                return None;
-            }
-            if !asked.is_empty() {
-                return Some(asked.remove(0));
-            }
-            asked = self.desk.changed.wait(asked).unwrap_or_else(PoisonError::into_inner);
-        }
-    }
-
-    fn seen(&mut self, ask: &LookupRequest) -> Result<TakenPicture, String> {
+impl Backgrounds {
+    fn picture(&mut self, ask: &LookupRequest) -> Result<TakenPicture, String> {
         let (picture, tracer) = match &ask.map {
             Some((map, moved)) => {
                 let behind = self.levels(&ask.behind)?.for_map(map.size);

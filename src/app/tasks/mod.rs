@@ -8,21 +8,24 @@ pub mod copying;
 pub mod export;
 pub mod export_scene;
 pub mod files;
+mod look_up;
 pub mod open;
 pub mod opener;
 pub mod runner;
 
+use crate::app::lookup::LookupRequest;
 use crate::app::model::action::{Computed, DialogAction, FileAction, NoteAction};
 use crate::app::model::choosing::Choice;
 use crate::app::model::exporting::ExportEvent;
 use crate::app::model::opening::FileRequest;
 use crate::app::model::{Action, Task};
 use crate::app::shows::Shows;
-use crate::app::studio::Wake;
+use crate::app::studio::{Slot, TakenPicture, Wake};
 use crate::io::lighting::Lighting;
 use autosave::Autosave;
 use egui::ColorImage;
 use files::Chooser;
+use look_up::LookUps;
 use opener::Opener;
 use runner::{JobHandle, TaskRunner, Turn};
 use std::sync::{Arc, Mutex, PoisonError};
@@ -42,6 +45,7 @@ enum Key {
     Thumbnails,
     Export,
     Copy,
+    LookUp(Slot),
 }
 
 /// An answer of a task.
@@ -52,6 +56,8 @@ pub enum TaskAnswer {
     Copied(Result<ColorImage, String>),
     /// A small picture of what can be exported.
     Thumbnail(Shows, ColorImage),
+    /// A picture that was looked up, or the text that says why there is none.
+    Looked(Slot, Arc<LookupRequest>, Result<TakenPicture, String>),
 }
 
 impl From<Action> for TaskAnswer {
@@ -75,13 +81,14 @@ pub struct Outside {
     chooser: Chooser,
     opener: Opener,
     safe: Option<Arc<Mutex<Autosave>>>,
+    look_ups: LookUps,
 }
 
 impl Outside {
     /// Makes what carries out tasks; `wake` is called whenever there is an answer.
     pub fn new(chooser: Chooser, opener: Opener, safe: Option<Autosave>, wake: Wake) -> Self {
         let safe = safe.map(|safe| Arc::new(Mutex::new(safe)));
-        Self { runner: TaskRunner::new(wake), chooser, opener, safe }
+        Self { runner: TaskRunner::new(wake), chooser, opener, safe, look_ups: LookUps::default() }
     }
 
     /// Returns the answers that have arrived since the last call.

@@ -150,10 +150,9 @@ impl<K: Copy + Eq + Hash + Send + Sync + 'static, A: Send + 'static> TaskRunner<
         message.answer
     }
 
-    /// Whether any job is running.
-    #[cfg(test)]
-    pub fn is_running(&self) -> bool {
-        self.lanes.values().any(|lane| lane.is_running)
+    /// Whether a job is running whose key `has_key` accepts.
+    pub fn is_running(&self, has_key: impl Fn(&K) -> bool) -> bool {
+        self.lanes.iter().any(|(key, lane)| lane.is_running && has_key(key))
     }
 
     fn is_writing(&self) -> bool {
@@ -194,7 +193,7 @@ mod tests {
     /// Waits until nothing runs, and returns all answers.
     fn all(runner: &mut Runner, woken: &Receiver<()>) -> Vec<i32> {
         let mut answers = runner.answers();
-        while runner.is_running() {
+        while runner.is_running(|_| true) {
             woken.recv().unwrap();
             answers.extend(runner.answers());
         }

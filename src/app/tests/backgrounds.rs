@@ -16,7 +16,7 @@ impl Bench {
 
     /// Returns the refraction map by which a view shows its background.
     fn map(&self, view: usize) -> Arc<RefractionMap> {
-        self.editor().gallery.traced[&(view, Which::Present)].taken.map.clone().unwrap()
+        self.editor().views.gallery.traced[&(view, Which::Present)].taken.map.clone().unwrap()
     }
 
     /// Drags in a picture, to the right and upward.
@@ -37,8 +37,12 @@ impl Bench {
     /// Waits until the first view uses another map than `last`.
     fn wait_for_map(&mut self, last: &Arc<RefractionMap>) {
         self.wait(|editor| {
-            let map =
-                editor.gallery.traced.get(&(0, Which::Present)).and_then(|shown| shown.taken.map.as_ref());
+            let map = editor
+                .views
+                .gallery
+                .traced
+                .get(&(0, Which::Present))
+                .and_then(|shown| shown.taken.map.as_ref());
             map.is_some_and(|map| !Arc::ptr_eq(map, last))
         });
     }
@@ -159,7 +163,7 @@ fn looking_up_keeps_up_with_the_window() {
             bench.harness.step();
             let begun = Instant::now();
             while !bench.editor().is_idle() {
-                std::thread::yield_now();
+                bench.harness.step();
             }
             took.push(begun.elapsed().as_secs_f64() * 1e3);
         }

@@ -95,14 +95,14 @@ fn what_moves_is_shown_moving_and_stands_still_when_stopped() {
     assert!(bench.editor().model.session.motion.is_on);
     bench.harness.state_mut().model.workspace.smoothing = Smoothing::Temporal { newest: 0.5 };
     let pictures = |bench: &Bench| {
-        let shown = &bench.editor().gallery.traced[&(0, Which::Present)];
+        let shown = &bench.editor().views.gallery.traced[&(0, Which::Present)];
         (shown.shot.company.clone(), shown.taken.image.pixels.clone())
     };
-    bench.wait(|editor| editor.gallery.traced.contains_key(&(0, Which::Present)));
+    bench.wait(|editor| editor.views.gallery.traced.contains_key(&(0, Which::Present)));
     let first = pictures(&bench);
     let later = first.0.clone();
     bench.wait(move |editor| {
-        editor.gallery.traced.get(&(0, Which::Present)).is_some_and(|shown| shown.shot.company != later)
+        editor.views.gallery.traced.get(&(0, Which::Present)).is_some_and(|shown| shown.shot.company != later)
     });
     let second = pictures(&bench);
     assert!(first.0 != second.0 && first.1 != second.1);

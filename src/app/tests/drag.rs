@@ -27,7 +27,8 @@ fn drag(name: &str, mut change: impl FnMut(&mut Editor, u32)) {
         bench.harness.step();
         frames.push(start.elapsed().as_secs_f64() * 1e3);
         for (pane, (count, last)) in seen.iter_mut().zip(&mut last).enumerate() {
-            let shot = bench.editor().gallery.traced.get(&(pane, Which::Present)).map(|p| p.shot.clone());
+            let shot =
+                bench.editor().views.gallery.traced.get(&(pane, Which::Present)).map(|p| p.shot.clone());
             *count += u32::from(*last != shot);
             *last = shot;
         }

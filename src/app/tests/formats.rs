@@ -141,7 +141,7 @@ fn a_solid_that_is_not_convex_is_shown_by_rays_and_measured() {
     let mut bench = Bench::with(Setup { file: Some(path), desk, ..Setup::default() });
     // A mesh has no diagram to wait for, and the first figures are enough.
     bench.wait(|editor| {
-        let shown = editor.gallery.traced.get(&(0, Which::Present));
+        let shown = editor.views.gallery.traced.get(&(0, Which::Present));
         shown.is_some_and(|shown| shown.grade == Grade::Fine)
             && editor.model.session.measured.figures.contains_key(&Which::Present)
     });

@@ -122,7 +122,12 @@ impl Bench {
         self.wait(|editor| {
             let is_fine = |shown: &Shown| shown.grade == Grade::Fine;
             let is_taken = |(slot, shot): &(Slot, Shot)| {
-                editor.gallery.traced.get(slot).is_some_and(|shown| is_fine(shown) && shown.shot == *shot)
+                editor
+                    .views
+                    .gallery
+                    .traced
+                    .get(slot)
+                    .is_some_and(|shown| is_fine(shown) && shown.shot == *shot)
             };
             let is_shown = |&pane: &usize| {
                 let is_own = editor.model.workspace.panes[pane].shows == Shows::Profile;
@@ -130,7 +135,7 @@ impl Bench {
             };
             editor.model.session.ordered.shots.iter().all(is_taken)
                 && editor.model.workspace.shown().iter().all(is_shown)
-                && editor.looker.is_idle()
+                && !editor.outside.is_looking_up()
         });
     }
 

@@ -34,7 +34,7 @@ fn modes_are_named_in_the_head_of_a_view_and_a_click_ends_each() {
         bench.click(name);
         assert!(bench.harness.query_by_label(name).is_none(), "{name} does not end");
     }
-    assert_eq!(Mode::of(bench.editor(), 0), []);
+    assert_eq!(Mode::of(&bench.editor().model, 0), []);
     let desk = &bench.editor().model.workspace;
     assert!(desk.panes[0].own.is_none() && !desk.eye.eye_leans && desk.overlay.is_none());
     assert!(
@@ -60,7 +60,7 @@ fn modes_that_a_narrow_view_has_no_room_for_are_in_a_menu() {
         bench.harness.key_press(key);
     }
     bench.harness.run_steps(3);
-    let modes = Mode::of(bench.editor(), 0).len();
+    let modes = Mode::of(&bench.editor().model, 0).len();
     let named = bench.harness.query_all_by_label_contains("×").count();
     assert!(modes == 3 && named < modes, "{named} fit");
     bench.harness.query_all_by_label_contains("+").next().unwrap().click();

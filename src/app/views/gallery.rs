@@ -2,7 +2,7 @@
 
 use crate::app::model::Model;
 use crate::app::studio::{Grade, Shot, Slot, TakenPicture, Which};
-use egui::{Context, TextureHandle, TextureOptions};
+use egui::{Color32, Context, Painter, Rect, TextureHandle, TextureOptions, pos2};
 use std::collections::HashMap;
 
 /// A picture as it is shown, with the shot and the grade that it answers.
@@ -15,6 +15,14 @@ pub struct Shown {
     pub grade: Grade,
     /// The picture.
     pub taken: TakenPicture,
+}
+
+impl Shown {
+    /// Paints the whole picture into a rectangle of the window.
+    pub fn paint(&self, painter: &Painter, rect: Rect) {
+        let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
+        painter.image(self.texture.id(), rect, whole, Color32::WHITE);
+    }
 }
 
 /// All pictures that are shown.

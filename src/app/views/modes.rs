@@ -1,7 +1,9 @@
 //! Modes of a view: what makes its picture differ from the plain one. The head of the view names each mode; a click there
 //! ends it.
 
-use crate::app::editor::Editor;
+use super::pane_context::PaneContext;
+use crate::app::model::Model;
+use crate::app::model::action::{Action, Edit, ViewAction};
 use crate::app::shows::Shows;
 use egui::{Button, RichText, TextStyle, Ui};
 
@@ -28,8 +30,8 @@ pub enum Mode {
 
 impl Mode {
     /// Returns the modes that are on in a view.
-    pub fn of(editor: &Editor, pane: usize) -> Vec<Self> {
-        let desk = &editor.model.workspace;
+    pub fn of(model: &Model, pane: usize) -> Vec<Self> {
+        let desk = &model.workspace;
         let shows = desk.panes[pane].shows;
         if !shows.is_seen() {
             return vec![];
@@ -37,7 +39,7 @@ impl Mode {
         let scope = shows.scoped();
         let is_scoped = scope.is_some();
         let takes_head = scope.is_some_and(|scope| scope.takes_head);
-        let head = editor.model.document.work.head;
+        let head = model.document.work.head;
         let strength = if shows == Shows::Render { desk.strength() } else { 1.0 };
         let overlay = desk.overlay.clone().filter(|_| shows.takes_overlay() && desk.overlay().is_some());
         [
@@ -85,25 +87,25 @@ impl Mode {
         }
     }
 
-    /// Switches the mode off.
-    pub fn end(&self, editor: &mut Editor, pane: usize) {
-        let desk = &mut editor.model.workspace;
-        match self {
-            Self::Unlinked => desk.panes[pane].own = None,
-            Self::Perspective => desk.panes[pane].is_near = false,
-            Self::EyeTilts => desk.eye_mut(pane).eye_leans = false,
-            Self::Overlay(_) => desk.overlay = None,
-            Self::Strongest => desk.strongest = false,
-            Self::Head(_) => editor.model.document.work.head = 0.0,
-            Self::Glare => desk.glare = false,
-            Self::Strength(_) => desk.strength = 1.0,
-        }
+    /// Returns what switches the mode off in a view.
+    fn end(&self, pane: usize) -> Action {
+        let change = match self {
+            Self::Unlinked => ViewAction::Link(pane, true),
+            Self::Perspective => ViewAction::EndPerspective(pane),
+            Self::EyeTilts => ViewAction::EyeLeans(pane, false),
+            Self::Overlay(_) => ViewAction::Overlay(None),
+            Self::Strongest => ViewAction::Strongest(false),
+            Self::Head(_) => return Edit::Head(0.0).into(),
+            Self::Glare => ViewAction::Glare(false),
+            Self::Strength(_) => ViewAction::Strength(1.0),
+        };
+        change.into()
     }
 }
 
 /// Draws the names of a view's modes in a row; a menu at its end holds those that `width` points have no room for.
-pub fn show(editor: &mut Editor, ui: &mut Ui, pane: usize, width: f32) {
-    let modes = Mode::of(editor, pane);
+pub fn show(cx: &mut PaneContext, ui: &mut Ui, width: f32) {
+    let modes = Mode::of(cx.model, cx.pane);
     let names: Vec<String> = modes.iter().map(|mode| format!("{} ×", mode.name())).collect();
     let gap = ui.spacing().item_spacing.x;
     let widths: Vec<f32> = names.iter().map(|name| button_width(ui, name) + gap).collect();
@@ -131,14 +133,14 @@ pub fn show(editor: &mut Editor, ui: &mut Ui, pane: usize, width: f32) {
         menu.response.on_hover_text(format!("Also on in this view: {}.", hidden.join(", ")));
     }
     if let Some(mode) = ended {
-        editor.model.session.views.settle();
-        mode.end(editor, pane);
+        cx.push(ViewAction::EndStep);
+        cx.push(mode.end(cx.pane));
     }
 }
 
 /// Returns the least width that the modes of a view need, points: that of the menu that holds them, or 0 where none is on.
-pub fn least_width(editor: &Editor, ui: &Ui, pane: usize) -> f32 {
-    let count = Mode::of(editor, pane).len();
+pub fn least_width(cx: &PaneContext, ui: &Ui) -> f32 {
+    let count = Mode::of(cx.model, cx.pane).len();
     if count == 0 { 0.0 } else { button_width(ui, &rest_label(count)) + ui.spacing().item_spacing.x }
 }
 

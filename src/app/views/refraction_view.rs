@@ -1,12 +1,11 @@
 //! The view of a refraction map: a background that moves behind the stone. The studio traces the map; the picture through
 //! it is looked up as often as the background moves.
 
-use crate::app::editor::Editor;
-use crate::app::lookup::{LookupRequest, backdrop};
+use super::pane_context::PaneContext;
+use super::pane_head::has_room;
+use super::stage::step;
 use crate::app::model::session::Flowing;
-use crate::app::studio::{SPAN, Which};
-use crate::app::views::pane::has_room;
-use crate::app::views::stage::step;
+use crate::app::studio::SPAN;
 use egui::{PointerButton, Response, Ui};
 use glam::DVec2;
 
@@ -32,23 +31,13 @@ pub fn is_held(ui: &Ui) -> bool {
     ui.input(|i| !i.modifiers.shift && !i.modifiers.command)
 }
 
-/// Moves the background of a view by a drag or by itself, and requests the picture of it.
-pub fn show(editor: &mut Editor, ui: &Ui, pane: usize, response: &Response) {
-    let zoom = editor.model.workspace.eye(pane).zoom;
-    let flowing = &mut editor.model.session.flowing[pane];
+/// Moves the background of a view by a drag or by itself.
+pub fn moved(cx: &mut PaneContext, ui: &Ui, response: &Response) {
     if response.dragged_by(PointerButton::Primary) && is_held(ui) {
         let by = response.drag_delta() / response.rect.size();
-        flowing.moved += DVec2::new(by.x.into(), by.y.into()) / (SPAN * zoom);
+        cx.flowing.moved += DVec2::new(by.x.into(), by.y.into()) / (SPAN * cx.eye().zoom);
     }
-    if flowing.flows && !flowing.is_map {
-        flowing.moved += FLOW * step(ui.ctx());
-    }
-    let (moved, behind) = (flowing.moved, backdrop(editor.model.workspace.background().as_ref()));
-    for which in [Which::Present, Which::Other] {
-        let Some(shown) = editor.gallery.traced.get(&(pane, which)) else { continue };
-        if let Some(map) = &shown.taken.map {
-            let (shot, grade, map) = (shown.shot.clone(), shown.grade, Some((map.clone(), moved)));
-            editor.looker.ask((pane, which), LookupRequest { shot, grade, map, behind: behind.clone() });
-        }
+    if cx.flowing.flows && !cx.flowing.is_map {
+        cx.flowing.moved += FLOW * step(ui.ctx());
     }
 }

@@ -1,33 +1,37 @@
 //! The stage: the views, side by side.
 
-use crate::app::editor::Editor;
+use super::pane;
+use super::pane_context::PaneContext;
+use super::tools::{Attention, ViewTools};
+use crate::app::model::Model;
+use crate::app::model::action::Actions;
 use crate::app::model::ordering::Seen;
 use crate::app::model::workspace::PaneLayout;
 use crate::app::trouble_bar;
-use crate::app::views::pane;
 use egui::{CentralPanel, Context, Rect, Ui, UiBuilder, pos2};
 
 /// The gap between views, points.
 const GAP: f32 = 6.0;
 
 /// Draws the views; returns each view in sight with the size of its picture in pixels.
-pub fn show(editor: &mut Editor, ui: &mut Ui) -> Vec<Seen> {
+pub fn show(model: &Model, tools: &mut ViewTools, actions: &mut Actions, ui: &mut Ui) -> Vec<Seen> {
     let mut seen = vec![];
-    // The view under the pointer writes its message anew.
-    editor.model.session.message.clear();
+    tools.attention = Attention::default();
     let frame = egui::Frame::NONE.fill(ui.visuals().panel_fill);
     CentralPanel::no_frame().frame(frame).show(ui, |ui| {
         let whole = ui.max_rect().shrink(GAP);
-        let shown = editor.model.workspace.shown();
-        let layout = if shown.len() == 1 { PaneLayout::One } else { editor.model.workspace.layout };
+        let shown = model.workspace.shown();
+        let layout = if shown.len() == 1 { PaneLayout::One } else { model.workspace.layout };
         for (place, &pane) in shown.iter().enumerate() {
             let rect = part(whole, layout, place);
             let mut ui = ui.new_child(UiBuilder::new().max_rect(rect).id_salt(("pane", pane)));
             ui.set_clip_rect(rect.intersect(ui.clip_rect()));
-            seen.push((pane, pane::show(editor, &mut ui, pane, rect)));
+            let mut cx = PaneContext::new(model, tools, actions, pane);
+            seen.push((pane, pane::show(&mut cx, &mut ui, rect)));
         }
-        trouble_bar::show(&editor.model, &mut editor.actions, ui.ctx(), whole);
+        trouble_bar::show(model, actions, ui.ctx(), whole);
     });
+    tools.attention.report(model, actions);
     seen
 }
 

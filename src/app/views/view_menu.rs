@@ -1,11 +1,9 @@
 //! The menu of a view, which the right mouse button opens.
 
-use crate::app::editor::Editor;
-use crate::app::menus::entry;
+use super::pane_context::PaneContext;
 use crate::app::model::action::{DialogAction, ViewAction};
 use crate::app::model::command::Command;
 use crate::app::shows::Shows;
-use crate::app::views::pane::enlarge;
 use egui::{Response, Ui};
 
 /// The commands that draw something over a picture.
@@ -22,61 +20,59 @@ const OVERLAYS: [Command; 6] = [
 pub const SIZES: [u32; 4] = [512, 1024, 2048, 4096];
 
 /// Whether a view can be copied at a chosen size; a picture that is looked up is only as large as its view.
-fn can_copy(editor: &Editor, pane: usize) -> bool {
-    let shows = editor.model.workspace.panes[pane].shows;
-    let needs_facets = matches!(shows, Shows::Profile | Shows::Diagram);
-    Shows::EXPORTED.contains(&shows) && (!needs_facets || editor.model.document.specimen().stone().is_ok())
+fn can_copy(cx: &PaneContext) -> bool {
+    let needs_facets = matches!(cx.shows, Shows::Profile | Shows::Diagram);
+    let has_facets = cx.model.document.specimen().stone().is_ok();
+    Shows::EXPORTED.contains(&cx.shows) && (!needs_facets || has_facets)
 }
 
 /// Opens the menu of a view at a click with the right button; a drag with that button turns the stone.
-pub fn attach(editor: &mut Editor, response: &Response, pane: usize) {
+pub fn attach(cx: &mut PaneContext, response: &Response) {
     response.context_menu(|ui| {
-        // The commands act on the view whose menu this is.
-        editor.model.session.hovered = pane;
-        contents(editor, ui, pane);
+        cx.tools.attention.menu = Some(cx.pane);
+        contents(cx, ui);
     });
 }
 
-fn contents(editor: &mut Editor, ui: &mut Ui, pane: usize) {
-    let shows = editor.model.workspace.panes[pane].shows;
+fn contents(cx: &mut PaneContext, ui: &mut Ui) {
+    let (shows, pane, workspace) = (cx.shows, cx.pane, &cx.model.workspace);
     ui.menu_button("Show", |ui| {
         for other in Shows::ALL {
             let choice = ui.selectable_label(shows == other, other.name());
             if choice.on_hover_text(other.meaning()).clicked() {
-                editor.model.workspace.show(pane, other);
+                cx.push(ViewAction::Show(pane, other));
                 ui.close();
             }
         }
     });
     if shows.takes_overlay() {
-        ui.menu_button("Draw over it", |ui| {
-            OVERLAYS.iter().for_each(|&command| entry(&editor.model, &mut editor.actions, ui, command))
-        });
+        ui.menu_button("Draw over it", |ui| OVERLAYS.iter().for_each(|&command| cx.entry(ui, command)));
     }
     ui.separator();
-    entry(&editor.model, &mut editor.actions, ui, Command::CopyPicture);
-    if can_copy(editor, pane) {
-        ui.menu_button("Copy picture at size", |ui| {
-            for side in SIZES {
-                let about =
-                    "Pixels of the longer side; the picture is made anew, and copied once it is done.";
-                if ui.button(format!("{side} pixels")).on_hover_text(about).clicked() {
-                    editor.actions.push(ViewAction::CopyAt(pane, side));
-                    ui.close();
-                }
-            }
-        });
+    cx.entry(ui, Command::CopyPicture);
+    if can_copy(cx) {
+        ui.menu_button("Copy picture at size", |ui| sizes(cx, ui));
     }
     if Shows::EXPORTED.contains(&shows) && ui.button("Export this view…").clicked() {
-        editor.actions.push(DialogAction::Export(Some(shows)));
+        cx.push(DialogAction::Export(Some(shows)));
         ui.close();
     }
     ui.separator();
-    entry(&editor.model, &mut editor.actions, ui, Command::ResetView);
-    if editor.model.workspace.layout.panes() > 1 {
-        let name = if editor.model.workspace.large == Some(pane) { "Show all views" } else { "Show alone" };
+    cx.entry(ui, Command::ResetView);
+    if workspace.layout.panes() > 1 {
+        let name = if workspace.large == Some(pane) { "Show all views" } else { "Show alone" };
         if ui.button(name).clicked() {
-            enlarge(editor, pane);
+            cx.push(ViewAction::Enlarge(pane));
+            ui.close();
+        }
+    }
+}
+
+fn sizes(cx: &mut PaneContext, ui: &mut Ui) {
+    for side in SIZES {
+        let about = "Pixels of the longer side; the picture is made anew, and copied once it is done.";
+        if ui.button(format!("{side} pixels")).on_hover_text(about).clicked() {
+            cx.push(ViewAction::CopyAt(cx.pane, side));
             ui.close();
         }
     }
