@@ -1,6 +1,7 @@
 //! The editor's window: it draws the model, turns what a person does into actions, and carries out tasks.
 
 use super::hands::Hands;
+use super::menus::PictureStatus;
 use super::model::action::{Actions, Computed, FileAction, FrameEnd, NoteAction, ViewAction};
 use super::model::opening::{FileRequest, OpeningPurpose};
 use super::model::ordering::Seen;
@@ -8,16 +9,15 @@ use super::model::task::WindowTask;
 use super::model::workspace::Workspace;
 use super::model::{Action, Model, Task, update};
 use super::panels::side_panels;
-use super::setup::Setup;
+use super::setup::{PaintedBy, Setup};
 use super::shows::Shows;
 use super::state_file::StateFile;
 use super::studio::{self, Slot, Studio, Which};
 use super::tasks::autosave::Autosave;
-use super::tasks::{self, Outside};
+use super::tasks::{Outside, TaskAnswer};
 use super::views::gallery::{Shown, hang};
 use super::views::look_ups::look_ups;
-use super::views::{ViewTools, following, stage};
-use super::window::PaintedBy;
+use super::views::{ViewTools, clock, light_path_window, stage};
 use super::{dialogs, drops, menus, theme};
 use crate::io::library;
 use crate::trace::gpu::Gpu;
@@ -175,14 +175,14 @@ impl Editor {
         }
         for answer in self.outside.answers() {
             match answer {
-                tasks::Answer::Act(action) => self.actions.push(*action),
-                tasks::Answer::Copied(made) => self.copied(made),
-                tasks::Answer::Looked(slot, request, Ok(taken)) => {
+                TaskAnswer::Act(action) => self.actions.push(*action),
+                TaskAnswer::Copied(made) => self.copied(made),
+                TaskAnswer::Looked(slot, request, Ok(taken)) => {
                     let picture = (request.shot.clone(), request.grade, taken);
                     hang(&self.ctx, &mut self.views.gallery.looked, slot, picture);
                 }
-                tasks::Answer::Looked(_, _, Err(why)) => self.actions.push(NoteAction::Trouble(why)),
-                tasks::Answer::Thumbnail(shows, image) => {
+                TaskAnswer::Looked(_, _, Err(why)) => self.actions.push(NoteAction::Trouble(why)),
+                TaskAnswer::Thumbnail(shows, image) => {
                     let name = format!("thumbnail {shows:?}");
                     let texture = self.ctx.load_texture(name, image, egui::TextureOptions::LINEAR);
                     self.thumbnails.insert(shows, texture);
@@ -251,20 +251,26 @@ impl Editor {
         self.run();
         self.views.paper = theme::paper(&ctx);
         menus::bar(&self.model, &mut self.actions, ui);
-        menus::status(self, ui);
+        let pictures = PictureStatus {
+            is_idle: self.studio.is_idle(),
+            sharpens: self.studio.sharpens(),
+            device: self.studio.device_name(),
+            painter: self.painted_by.name(),
+        };
+        menus::status(&self.model.session, &pictures, ui);
         self.run();
         if !self.model.workspace.hides_panels {
-            side_panels::show(self, ui);
+            side_panels::show(&self.model, &mut self.actions, ui);
             self.run();
         }
         let seen = stage::show(&self.model, &mut self.views, &mut self.actions, ui);
         self.run();
-        following::show(&self.model, &mut self.views, &mut self.actions, &ctx);
+        light_path_window::show(&self.model, &mut self.views, &mut self.actions, &ctx);
         dialogs::show(&self.model, &self.thumbnails, &mut self.actions, &ctx);
         drops::invite(&ctx);
         let moves = |pane: usize| self.model.workspace.panes[pane].shows.has_company();
         if self.model.session.motion.is_on && seen.iter().any(|(pane, _)| moves(*pane)) {
-            self.actions.push(ViewAction::Advance(stage::step(&ctx)));
+            self.actions.push(ViewAction::Advance(clock::step(&ctx)));
         }
         self.end_frame();
         self.order(&seen);

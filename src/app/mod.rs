@@ -26,8 +26,8 @@ mod window;
 
 pub use editor::Editor;
 pub use model::workspace::Workspace;
-pub use setup::Setup;
-pub use window::{PaintedBy, WindowError, run};
+pub use setup::{PaintedBy, Setup};
+pub use window::{WindowError, run};
 
 #[cfg(test)]
 mod tests;

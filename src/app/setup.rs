@@ -4,7 +4,6 @@ use super::model::workspace::Workspace;
 use super::state_file::StateFile;
 use super::tasks::files::{Chooser, by_dialog};
 use super::tasks::opener::{Opener, by_system};
-use super::window::PaintedBy;
 use crate::io::mesh_options::MeshOptions;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -40,6 +39,26 @@ impl Default for Setup {
             opener: Arc::new(by_system),
             painted_by: PaintedBy::default(),
             state_file: None,
+        }
+    }
+}
+
+/// What paints the window.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum PaintedBy {
+    /// A graphics card.
+    #[default]
+    Card,
+    /// The processor.
+    Processor,
+}
+
+impl PaintedBy {
+    /// Returns the painter's name in the status line and in the environment variable.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Card => "card",
+            Self::Processor => "processor",
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use crate::app::model::Model;
 use crate::app::model::action::{Actions, NoteAction};
-use crate::app::model::notes::Problem;
+use crate::app::model::notes::{Notes, Problem};
 use crate::app::theme;
 use egui::{
     Align, Align2, Area, Color32, Context, Frame, Id, Label, Layout, Order, Rect, RichText, ScrollArea, Ui,
@@ -24,8 +24,8 @@ pub fn show(model: &Model, actions: &mut Actions, ctx: &Context, stage: Rect) {
             ui.set_width(stage.width() - 14.0);
             ui.set_max_height(stage.height());
             match notes.is_open {
-                true => list(notes.troubles(), actions, ui, stage.height() * MOST_OF_HEIGHT),
-                false => last(notes.troubles(), actions, ui),
+                true => list(notes, actions, ui, stage.height() * MOST_OF_HEIGHT),
+                false => last(notes, actions, ui),
             }
         });
     });
@@ -37,8 +37,8 @@ fn coloured(ui: &Ui, trouble: &Problem) -> RichText {
 }
 
 /// Draws the last message alone, on one line; a button lists all messages, each in full.
-fn last(troubles: &[Problem], actions: &mut Actions, ui: &mut Ui) {
-    let (count, Some(trouble)) = (troubles.len(), troubles.last()) else { return };
+fn last(notes: &Notes, actions: &mut Actions, ui: &mut Ui) {
+    let (count, Some(trouble)) = (notes.troubles().len(), notes.troubles().last()) else { return };
     ui.horizontal(|ui| {
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
             if ui.button("Dismiss").on_hover_text("Forgets this message.").clicked() {
@@ -55,9 +55,9 @@ fn last(troubles: &[Problem], actions: &mut Actions, ui: &mut Ui) {
     });
 }
 
-fn list(troubles: &[Problem], actions: &mut Actions, ui: &mut Ui, height: f32) {
+fn list(notes: &Notes, actions: &mut Actions, ui: &mut Ui, height: f32) {
     ScrollArea::vertical().max_height(height).show(ui, |ui| {
-        for (k, trouble) in troubles.iter().enumerate().rev() {
+        for (k, trouble) in notes.troubles().iter().enumerate().rev() {
             ui.horizontal_top(|ui| {
                 if ui.small_button("Dismiss").clicked() {
                     actions.push(NoteAction::Dismiss(k));

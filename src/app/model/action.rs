@@ -54,6 +54,15 @@ pub enum Edit {
     Cut(Cut),
     /// A proportion of the cut: the key of the row that was edited, and the cut with it.
     Proportion(&'static str, Cut),
+    /// One tier of the cut; all others stay where they are, in mm.
+    Tier {
+        /// The place of the tier in [`Cut::settings`].
+        place: usize,
+        /// The angle, degrees.
+        angle: f64,
+        /// The distance, in the unit of the design.
+        distance: f64,
+    },
     /// What the stone is made of.
     Material(MaterialRef),
     /// The diameter, mm.
@@ -219,7 +228,6 @@ pub enum DialogAction {
 
 /// Something done with messages.
 #[derive(Debug)]
-#[allow(dead_code, reason = "panels are turned to actions one after the other")]
 pub enum NoteAction {
     /// Shows a note that needs no answer.
     Say(String),
@@ -265,6 +273,18 @@ impl Actions {
     /// Adds an action.
     pub fn push(&mut self, action: impl Into<Action>) {
         self.0.push(action.into());
+    }
+
+    /// Adds the action that sets a value, where the value is another than before.
+    pub fn push_changed<T: PartialEq, A: Into<Action>>(
+        &mut self,
+        before: &T,
+        now: T,
+        set: impl FnOnce(T) -> A,
+    ) {
+        if now != *before {
+            self.push(set(now));
+        }
     }
 
     /// Takes all actions, and leaves none.

@@ -17,7 +17,7 @@ pub struct ShownFigures {
 
 /// All figures that are shown.
 #[derive(Debug, Clone, Default)]
-pub struct Measured {
+pub struct SessionFigures {
     /// The figures of the present stone, and of the one compared with.
     pub figures: HashMap<Which, ShownFigures>,
     /// The figures against tilt, with the order that they answer.

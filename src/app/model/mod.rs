@@ -20,6 +20,7 @@ pub mod motion;
 pub mod notes;
 pub mod opening;
 pub mod ordering;
+pub mod plan;
 pub mod pose_cache;
 pub mod preset;
 pub mod recovery;

@@ -5,7 +5,7 @@ use super::compare::Compared;
 use super::dialog::{Dialog, Then};
 use super::document::{Document, FIRST_LIGHT};
 use super::export::Selection;
-use super::figures::Measured;
+use super::figures::SessionFigures;
 use super::framing::Framing;
 use super::motion::Motion;
 use super::notes::Notes;
@@ -98,7 +98,7 @@ pub struct Session {
     /// The design compared with.
     pub compared: Option<Compared>,
     /// The figures that have been measured.
-    pub measured: Measured,
+    pub measured: SessionFigures,
     /// The pictures and figures that were last ordered.
     pub ordered: Order,
     /// The ray that is followed.
@@ -153,7 +153,7 @@ impl Session {
             views: ViewHistory::new(workspace),
             light: LoadedLight { name: FIRST_LIGHT.to_owned(), lighting: Arc::new(first), loading: None },
             compared: None,
-            measured: Measured::default(),
+            measured: SessionFigures::default(),
             ordered: Order::default(),
             followed: FollowedRay::default(),
             motion: Motion::default(),

@@ -1,19 +1,21 @@
 //! Rows for presets, copies, their motion, and the smoothing of moving edges: glass shapes are shown with these, and gems
 //! may be.
 
-use crate::app::editor::Editor;
-use crate::app::model::action::{Edit, FileAction};
+use crate::app::model::Model;
+use crate::app::model::action::{Actions, Edit, FileAction, ViewAction};
+use crate::app::model::command::Command;
 use crate::app::model::dialog::Then;
+use crate::app::model::motion::Motion;
 use crate::app::model::preset::{Known, PRESETS};
 use crate::app::panels::rows::{
-    ANY, NUMBER, Number, Row, control_width, explain, field_width, named, skip_name,
+    ANY, NUMBER, Number, Row, choice_row, control_width, explain, field_width, named, skip_name,
 };
 use crate::app::shows::Shows;
 use crate::app::studio::Smoothing;
 use crate::cut::MaterialRef;
 use crate::optics::{Material, line};
 use crate::scene::MOST_COPIES;
-use egui::{Button, ComboBox, Slider, Ui, vec2};
+use egui::{Button, Slider, Ui, vec2};
 use std::ops::RangeInclusive;
 
 /// The range of the newest picture's share in temporal antialiasing.
@@ -31,43 +33,23 @@ const INDICES: RangeInclusive<f64> = 1.0..=3.5;
 const ABBE_NUMBERS: RangeInclusive<f64> = 1.0..=90.0;
 
 /// Draws a button for each scene of glass that comes with the program; a click begins that scene.
-pub fn presets(editor: &mut Editor, ui: &mut Ui) {
-    let mut chosen = None;
+pub fn presets(actions: &mut Actions, ui: &mut Ui) {
     ui.horizontal_wrapped(|ui| {
         for Known { name, title, .. } in PRESETS {
             let meaning = "Begins this scene: its shape, material, copies, light and what lies behind.";
             if ui.small_button(title).on_hover_text(meaning).clicked() {
-                chosen = Some(name);
+                actions.push(FileAction::Ask(Then::Preset(name.to_owned())));
             }
         }
     });
-    if let Some(name) = chosen {
-        editor.actions.push(FileAction::Ask(Then::Preset(name.to_owned())));
-    }
 }
 
 /// Draws the rows for copies, motion, smoothing and the angle of view.
-pub fn show(editor: &mut Editor, ui: &mut Ui) {
-    copies(editor, ui);
+pub fn show(model: &Model, actions: &mut Actions, ui: &mut Ui) {
+    let count = model.document.work.company.poses.len();
+    copies(count, actions, ui);
+    motion(model.session.motion, actions, ui);
     ui.horizontal(|ui| {
-        named(ui, "Motion", "Copies tumble, plates wave, in renders alone. M lets it go on and stops it.");
-        let (name, meaning) = if editor.model.session.motion.is_on {
-            ("Pause", "Stops here; the picture grows sharper for as long as it stands.")
-        } else {
-            ("Play", "Lets time go on.")
-        };
-        let size = vec2(control_width(ui), ui.spacing().interact_size.y);
-        if ui.add_sized(size, Button::new(name)).on_hover_text(meaning).clicked() {
-            editor.model.session.motion.is_on = !editor.model.session.motion.is_on;
-        }
-        let rests = editor.model.session.motion.seconds == 0.0;
-        let rest = Button::new("At rest").min_size(vec2(NUMBER, size.y));
-        if ui.add_enabled(!rests, rest).on_hover_text("Goes back to the pose of the design.").clicked() {
-            editor.model.session.motion.rest();
-        }
-    });
-    ui.horizontal(|ui| {
-        let count = editor.model.document.work.company.poses.len();
         skip_name(ui);
         let size = vec2(field_width(ui), ui.spacing().interact_size.y);
         let again = Button::new("Lay out").min_size(size);
@@ -76,34 +58,50 @@ pub fn show(editor: &mut Editor, ui: &mut Ui) {
             .on_hover_text("Lays the copies out anew, as Space does.")
             .clicked()
         {
-            editor.actions.push(Edit::LayOut(count));
+            actions.push(Edit::LayOut(count));
         }
     });
-    smoothing(editor, ui);
-    view_angle(editor, ui);
+    smoothing(model.workspace.smoothing, actions, ui);
+    view_angle(model, actions, ui);
+}
+
+fn motion(motion: Motion, actions: &mut Actions, ui: &mut Ui) {
+    ui.horizontal(|ui| {
+        named(ui, "Motion", "Copies tumble, plates wave, in renders alone. M lets it go on and stops it.");
+        let (name, meaning) = match motion.is_on {
+            true => ("Pause", "Stops here; the picture grows sharper for as long as it stands."),
+            false => ("Play", "Lets time go on."),
+        };
+        let size = vec2(control_width(ui), ui.spacing().interact_size.y);
+        if ui.add_sized(size, Button::new(name)).on_hover_text(meaning).clicked() {
+            actions.push(Command::Play);
+        }
+        let rest = Button::new("At rest").min_size(vec2(NUMBER, size.y));
+        let rest = ui.add_enabled(motion.seconds != 0.0, rest);
+        if rest.on_hover_text("Goes back to the pose of the design.").clicked() {
+            actions.push(ViewAction::Rest);
+        }
+    });
 }
 
 /// Draws the row for the angle of view, which says how near the eye of views in perspective is.
 ///
 /// Draws nothing where no view in sight is in perspective.
-fn view_angle(editor: &mut Editor, ui: &mut Ui) {
-    let reach = editor.model.reach(Shows::Render);
-    let desk = &mut editor.model.workspace;
-    if !desk.shown().iter().any(|&pane| desk.panes[pane].is_near) {
+fn view_angle(model: &Model, actions: &mut Actions, ui: &mut Ui) {
+    let (reach, workspace) = (model.reach(Shows::Render), &model.workspace);
+    if !workspace.shown().iter().any(|&pane| workspace.panes[pane].is_near) {
         return;
     }
-    let mut degrees = 2.0 * (reach / desk.distance).atan().to_degrees();
-    let before = degrees;
+    let before = 2.0 * (reach / workspace.distance).atan().to_degrees();
+    let mut degrees = before;
     let meaning = "The angle that views in perspective take in; P looks along parallel rays.";
     let row = Row::new("View angle", meaning, ANGLES);
     Row { decimals: 1, speed: 0.2, unit: "°", ..row }.show(ui, &mut degrees);
-    if degrees != before {
-        desk.distance = reach / (0.5 * degrees).to_radians().tan();
-    }
+    let distance = |degrees: f64| ViewAction::Distance(reach / (0.5 * degrees).to_radians().tan());
+    actions.push_changed(&before, degrees, distance);
 }
 
-fn copies(editor: &mut Editor, ui: &mut Ui) {
-    let before = editor.model.document.work.company.poses.len();
+fn copies(before: usize, actions: &mut Actions, ui: &mut Ui) {
     let mut count = before as f64;
     let most = MOST_COPIES as f64;
     let meaning = "How many of it renders show. Light that leaves one enters another. Drag one in a render to move it; Space \
@@ -117,44 +115,32 @@ fn copies(editor: &mut Editor, ui: &mut Ui) {
         let number = Number { decimals: 0, speed: 0.05, range: ANY, unit: "" };
         number.show(ui, (NUMBER, label.id), &mut count);
     });
-    let count = count.round().clamp(1.0, most) as usize;
-    if count != before {
-        editor.actions.push(Edit::LayOut(count));
-    }
+    actions.push_changed(&before, count.round().clamp(1.0, most) as usize, Edit::LayOut);
 }
 
-fn smoothing(editor: &mut Editor, ui: &mut Ui) {
-    let smoothing = &mut editor.model.workspace.smoothing;
+fn smoothing(before: Smoothing, actions: &mut Actions, ui: &mut Ui) {
+    let mut smoothing = before;
     let meaning = "How the edges of renders are evened out. Not at all; in each finished picture (FXAA); or over time while \
         anything moves (temporal). At rest many looks at each pixel do it.";
-    ui.horizontal(|ui| {
-        let label = named(ui, "Smoothing", meaning);
-        let newest = match *smoothing {
-            Smoothing::Temporal { newest } => newest,
-            _ => FIRST_NEWEST,
-        };
-        let all = [
-            (Smoothing::None, "none"),
-            (Smoothing::Fxaa, "FXAA"),
-            (Smoothing::Temporal { newest }, "temporal"),
-        ];
-        let name = all.iter().find(|(s, _)| s == smoothing).map_or("", |(_, name)| name);
-        let combo = ComboBox::from_id_salt("smoothing").selected_text(name).width(field_width(ui));
-        let combo = combo.show_ui(ui, |ui| {
-            for (each, name) in all {
-                ui.selectable_value(smoothing, each, name);
-            }
-        });
-        combo.response.labelled_by(label.id);
+    let newest = match before {
+        Smoothing::Temporal { newest } => newest,
+        _ => FIRST_NEWEST,
+    };
+    let all =
+        [(Smoothing::None, "none"), (Smoothing::Fxaa, "FXAA"), (Smoothing::Temporal { newest }, "temporal")];
+    let name = all.iter().find(|(each, _)| *each == before).map_or("", |(_, name)| name);
+    choice_row(ui, "Smoothing", meaning, name, |ui| {
+        all.into_iter().for_each(|(each, name)| drop(ui.selectable_value(&mut smoothing, each, name)));
     });
-    if let Smoothing::Temporal { newest } = smoothing {
+    if let Smoothing::Temporal { newest } = &mut smoothing {
         let meaning = "The share of the newest picture: less is smoother, and slower to follow.";
         Row { speed: 0.01, ..Row::new("Newest part", meaning, NEWEST) }.show(ui, newest);
     }
+    actions.push_changed(&before, smoothing, ViewAction::Smoothing);
 }
 
-/// Draws rows for the index and the Abbe number of a glass; changing one makes it a custom glass.
-pub fn two_numbers(material: &mut MaterialRef, known: &Material, ui: &mut Ui) {
+/// Draws rows for the index and the Abbe number of a glass; returns the custom glass that a change of one makes.
+pub fn two_numbers(material: &MaterialRef, known: &Material, ui: &mut Ui) -> Option<MaterialRef> {
     let law = &known.dispersion;
     let (index, abbe) = (known.index(line::HELIUM_D), law.abbe_number().unwrap_or(f64::INFINITY));
     let (mut n, mut v) = (index, abbe);
@@ -170,7 +156,6 @@ pub fn two_numbers(material: &mut MaterialRef, known: &Material, ui: &mut Ui) {
         true => Material::from_abbe(&format!("index {n:.3}, Abbe number {v:.1}"), n, v),
         false => Material::from_index(&format!("index {n:.3}"), n),
     };
-    if let Some(custom) = custom.ok().filter(|_| (n, v) != (index, abbe)) {
-        *material = MaterialRef::Custom(Box::new(Material { density: own, ..custom }));
-    }
+    let custom = custom.ok().filter(|_| (n, v) != (index, abbe))?;
+    Some(MaterialRef::Custom(Box::new(Material { density: own, ..custom })))
 }

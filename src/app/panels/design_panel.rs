@@ -1,61 +1,51 @@
 //! The design panel: proportions, stone, light and copies.
 
-use crate::app::editor::Editor;
-use crate::app::model::action::FileAction;
-use crate::app::model::choosing::Purpose;
-use crate::app::model::extent;
+use crate::app::model::Model;
+use crate::app::model::action::{Actions, Edit};
+use crate::app::model::document::Document;
 use crate::app::model::workspace::PanelSide;
-use crate::app::model::workspace::WAVELENGTHS;
 use crate::app::panels::company_rows;
 use crate::app::panels::glass_rows;
 use crate::app::panels::impossible::{self, RowMessage};
+use crate::app::panels::light_rows;
 use crate::app::panels::mesh_rows;
 use crate::app::panels::proportions::{EXCELLENT_DEPTH, PROPORTIONS, Proportion};
-use crate::app::panels::rows::{ANY, NUMBER, Number, Row, control_width, explain, field_width, named};
+use crate::app::panels::rows::{ANY, NUMBER, Number, control_width, explain, field_width, named};
 use crate::app::panels::side_panels;
 use crate::app::panels::stone_rows;
 use crate::app::panels::tier_rows;
-use crate::app::studio::BEHIND;
 use crate::app::theme;
 use crate::cut::{Cut, Design, DesignError, MaterialRef, RoundBrilliant, Unit};
-use crate::picture::Pattern;
-use crate::scene::{Copies, LIGHTS, SpecimenError, light};
+use crate::scene::{Copies, SpecimenError};
 use egui::{
-    Color32, ComboBox, Panel, Rect, RichText, Role, ScrollArea, Sense, Slider, SliderClamping, Stroke,
-    StrokeKind, TextEdit, Ui, WidgetInfo, pos2, vec2,
+    Color32, Panel, Rect, RichText, Role, ScrollArea, Sense, Slider, SliderClamping, Stroke, StrokeKind,
+    TextEdit, Ui, WidgetInfo, pos2, vec2,
 };
 use std::ops::RangeInclusive;
-use std::sync::Arc;
-
-/// The range of the exposure, in stops.
-const STOPS: RangeInclusive<f64> = -4.0..=4.0;
-
-/// The range of the half angle of the observer's head, degrees.
-const HEADS: RangeInclusive<f64> = 0.0..=30.0;
 
 /// Draws the design panel.
-pub fn show(editor: &mut Editor, ui: &mut Ui, widths: RangeInclusive<f32>) {
+pub fn show(model: &Model, actions: &mut Actions, ui: &mut Ui, widths: RangeInclusive<f32>) {
     Panel::left("design").resizable(true).default_size(360.0).size_range(widths).show(ui, |ui| {
-        side_panels::head(editor, ui, PanelSide::Design);
+        side_panels::head(actions, ui, PanelSide::Design);
         ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
-            identity(editor, ui);
-            let work = &editor.model.document.work;
+            identity(&model.document, actions, ui);
+            let work = &model.document.work;
             if matches!(work.design.cut, Cut::Glass(_)) || work.company != Copies::default() {
-                company_rows::presets(editor, ui);
+                company_rows::presets(actions, ui);
             }
-            let meaning = match is_graded(&editor.model.document.work.design) {
+            let meaning = match is_graded(&work.design) {
                 true => "Drag a slider or type a number; the green mark is the range GIA calls excellent.",
                 false => "Drag a slider or type a number.",
             };
             heading(ui, "Proportions", meaning);
-            mesh_rows::show(editor, ui);
-            proportions(editor, ui);
+            mesh_rows::show(model, actions, ui);
+            proportions(model, actions, ui);
             heading(ui, "Stone", "What it is made of, and how large it is.");
-            stone_rows::show(&editor.model, &mut editor.actions, ui);
+            stone_rows::show(model, actions, ui);
             heading(ui, "Light", "What the render is lit by; scopes bring their own light.");
-            lighting(editor, ui);
+            light_rows::show(model, actions, ui);
             heading(ui, "Copies", "Renders show several of it, and let them move.");
-            company_rows::show(editor, ui);
+            company_rows::show(model, actions, ui);
         });
     });
 }
@@ -75,20 +65,19 @@ fn heading(ui: &mut Ui, text: &str, meaning: &str) {
 }
 
 /// Draws the rows for the name of the design and the family of its cut.
-fn identity(editor: &mut Editor, ui: &mut Ui) {
-    let design = &mut editor.model.document.work.design;
+fn identity(document: &Document, actions: &mut Actions, ui: &mut Ui) {
+    let design = &document.work.design;
     ui.horizontal(|ui| {
         let label = named(ui, "Name", "What the design is called, in its file and on its pictures.");
         let mut name = design.name.clone();
         let field = TextEdit::singleline(&mut name).desired_width(field_width(ui));
         if ui.add(field).labelled_by(label.id).changed() {
-            design.rename(name);
+            actions.push(Edit::Name(name));
         }
     });
-    if let Some(fault @ SpecimenError::Design(DesignError::Name)) = editor.model.document.fault() {
+    if let Some(fault @ SpecimenError::Design(DesignError::Name)) = document.fault() {
         wrong(ui, &fault.to_string());
     }
-    let design = &editor.model.document.work.design;
     ui.horizontal(|ui| {
         named(ui, "Cut", "The family: which facets there are, and which numbers shape them.");
         ui.label(match design.cut {
@@ -101,64 +90,62 @@ fn identity(editor: &mut Editor, ui: &mut Ui) {
     });
 }
 
-fn proportions(editor: &mut Editor, ui: &mut Ui) {
-    let fault = editor.model.document.fault().map(ToString::to_string);
-    let said = impossible(editor);
-    let mut edited = editor.model.session.edited;
-    let is_graded = is_graded(&editor.model.document.work.design);
-    let Cut::RoundBrilliant(brilliant) = &mut editor.model.document.work.design.cut else {
-        match &mut editor.model.document.work.design.cut {
-            Cut::Glass(glass) => glass_rows::show(glass, ui),
-            Cut::Mesh(_) => {}
-            _ => tiers(editor, ui),
+/// Draws the rows for the shape of the stone, and what is wrong with it.
+fn proportions(model: &Model, actions: &mut Actions, ui: &mut Ui) {
+    let document = &model.document;
+    let said = impossible(model);
+    match &document.work.design.cut {
+        Cut::RoundBrilliant(brilliant) => {
+            let changed = brilliant_rows(*brilliant, is_graded(&document.work.design), said.as_ref(), ui);
+            changed.into_iter().for_each(|edit| actions.push(edit));
         }
-        warnings(editor, ui);
-        if let Some(fault) = fault {
-            wrong(ui, &fault);
+        Cut::Glass(glass) => {
+            let mut changed = *glass;
+            glass_rows::show(&mut changed, ui);
+            actions.push_changed(glass, changed, |glass| Edit::Cut(Cut::Glass(glass)));
         }
-        return;
-    };
+        Cut::Mesh(_) => {}
+        Cut::Tiers(_) | Cut::Planes(_) => tier_rows::show(document, actions, ui),
+    }
+    warnings(document, ui);
+    let is_name = matches!(document.fault(), Some(SpecimenError::Design(DesignError::Name)));
+    if let Some(fault) = document.fault().filter(|_| !is_name && said.is_none()) {
+        wrong(ui, &fault.to_string());
+    }
+}
+
+/// Draws the rows for the proportions of a round brilliant; returns what the user has changed.
+fn brilliant_rows(
+    before: RoundBrilliant,
+    is_graded: bool,
+    said: Option<&RowMessage>,
+    ui: &mut Ui,
+) -> Option<Edit> {
+    let (mut brilliant, mut edited) = (before, None);
     for proportion in &PROPORTIONS {
-        if row(ui, proportion, brilliant, is_graded) {
+        if row(ui, proportion, &mut brilliant, is_graded) {
             edited = Some(proportion.key);
         }
-        if let Some(said) = said.as_ref().filter(|said| said.key == proportion.key) {
+        if let Some(said) = said.filter(|said| said.key == proportion.key) {
             wrong(ui, &said.text);
         }
     }
-    derived(ui, brilliant, is_graded);
-    editor.model.session.edited = edited;
-    warnings(editor, ui);
-    let is_name = matches!(editor.model.document.fault(), Some(SpecimenError::Design(DesignError::Name)));
-    if let Some(fault) = fault.filter(|_| !is_name && said.is_none()) {
-        wrong(ui, &fault);
+    derived(ui, &brilliant, is_graded);
+    let cut = Cut::RoundBrilliant(brilliant);
+    match edited {
+        Some(key) => Some(Edit::Proportion(key, cut)),
+        None => (brilliant != before).then_some(Edit::Cut(cut)),
     }
 }
 
 /// Explains what is wrong with the proportions of a round brilliant, and at which row to say so.
-fn impossible(editor: &Editor) -> Option<RowMessage> {
-    let Some(SpecimenError::Design(DesignError::Proportion(fault))) = editor.model.document.fault() else {
+fn impossible(model: &Model) -> Option<RowMessage> {
+    let Some(SpecimenError::Design(DesignError::Proportion(fault))) = model.document.fault() else {
         return None;
     };
-    let given = editor.model.document.work.design.cut.brilliant()?;
-    let last = editor.model.document.specimen().design.cut.brilliant()?;
-    Some(impossible::explain(given, last, editor.model.session.edited, fault))
-}
-
-/// Draws the rows for the tiers of a cut.
-///
-/// Setting one tier leaves all others where they are, in mm: a stone that becomes wider gets a greater diameter.
-fn tiers(editor: &mut Editor, ui: &mut Ui) {
-    let specimen = Arc::clone(editor.model.document.specimen());
-    let unit = editor.model.document.extent().unit;
-    let design = &mut editor.model.document.work.design;
-    let before = design.cut.clone();
-    tier_rows::show(&mut design.cut, specimen.unit_mm() * unit, ui);
-    if design.cut != before
-        && let Some(now) = extent::unit(design)
-    {
-        design.diameter_mm *= unit / now;
-    }
+    let given = model.document.work.design.cut.brilliant()?;
+    let last = model.document.specimen().design.cut.brilliant()?;
+    Some(impossible::explain(given, last, model.session.edited, fault))
 }
 
 fn wrong(ui: &mut Ui, fault: &str) {
@@ -169,10 +156,9 @@ fn wrong(ui: &mut Ui, fault: &str) {
 const MOST_WARNINGS: usize = 12;
 
 /// Draws the warnings about the stone and its file.
-fn warnings(editor: &Editor, ui: &mut Ui) {
-    let stones =
-        editor.model.document.specimen().warnings.iter().filter(|_| editor.model.document.fault().is_none());
-    let all: Vec<&String> = stones.chain(editor.model.document.work.remarks.iter()).collect();
+fn warnings(document: &Document, ui: &mut Ui) {
+    let stones = document.specimen().warnings.iter().filter(|_| document.fault().is_none());
+    let all: Vec<&String> = stones.chain(document.work.remarks.iter()).collect();
     let small = |text: &str| egui::Label::new(RichText::new(text).weak().small()).wrap();
     for warning in all.iter().take(MOST_WARNINGS) {
         ui.add(small(warning));
@@ -322,99 +308,3 @@ fn derived(ui: &mut Ui, brilliant: &RoundBrilliant, is_graded: bool) {
         line("Girdle valleys", thinnest, None, valley);
     });
 }
-
-fn lighting(editor: &mut Editor, ui: &mut Ui) {
-    let mut asks = false;
-    let work = &mut editor.model.document.work;
-    ui.horizontal(|ui| {
-        let label = named(ui, "Light", "What stands around the stone in renders.");
-        let name = std::path::Path::new(&work.light)
-            .file_name()
-            .map_or(work.light.clone(), |n| n.to_string_lossy().into_owned());
-        let combo = ComboBox::from_id_salt("light").selected_text(name).width(field_width(ui));
-        let combo = combo.height(420.0).show_ui(ui, |ui| {
-            for name in LIGHTS {
-                let about = light(name).map_or(String::new(), |l| l.description);
-                let chosen = work.light == name;
-                if ui.selectable_label(chosen, name).on_hover_text(about).clicked() {
-                    work.light = name.to_owned();
-                }
-            }
-            asks = ui
-                .button("From a file…")
-                .on_hover_text("A light file, or a panorama: .hdr, .exr, .png or .jpg.")
-                .clicked();
-        });
-        combo.response.labelled_by(label.id);
-    });
-    let meaning = "How bright renders are shown, in stops: one more is twice the light.";
-    let exposure = Row { step: 0.1, decimals: 1, unit: " stops", ..Row::new("Exposure", meaning, STOPS) };
-    exposure.show(ui, &mut work.exposure);
-    ui.horizontal(|ui| {
-        let meaning = "Into how many bands of wavelengths renders take light apart; few show as bands in the colours. Hold Z \
-            to see what three show.";
-        let label = named(ui, "Wavelengths", meaning);
-        let wavelengths = &mut editor.model.workspace.wavelengths;
-        let combo = ComboBox::from_id_salt("wavelengths").selected_text(wavelengths.to_string());
-        let combo = combo.width(field_width(ui));
-        let combo = combo.show_ui(ui, |ui| {
-            WAVELENGTHS.into_iter().for_each(|n| drop(ui.selectable_value(wavelengths, n, n.to_string())));
-        });
-        combo.response.labelled_by(label.id);
-    });
-    let asks_picture = behind(editor, ui);
-    let meaning = "Half angle of the observer's head, which shuts out light in ASET and figures; 0 for none.";
-    let head = Row { step: 0.1, decimals: 1, unit: "°", ..Row::new("Head", meaning, HEADS) };
-    head.show(ui, &mut editor.model.document.work.head);
-    if asks {
-        editor.actions.push(FileAction::Choose(Purpose::Light));
-    }
-    if asks_picture {
-        editor.actions.push(FileAction::Choose(Purpose::Behind));
-    }
-}
-
-/// Draws the rows for the backplate behind the stone in renders; returns whether the user wants to choose a file.
-fn behind(editor: &mut Editor, ui: &mut Ui) -> bool {
-    let mut asks = false;
-    let desk = &mut editor.model.workspace;
-    ui.horizontal(|ui| {
-        let label =
-            named(ui, "Behind", "A picture behind the stone in renders, refracted where each ray meets it.");
-        let name = desk.behind.as_deref().map_or("nothing", |name| {
-            std::path::Path::new(name).file_name().and_then(|n| n.to_str()).unwrap_or(name)
-        });
-        let combo = ComboBox::from_id_salt("behind").selected_text(name.to_owned()).width(field_width(ui));
-        let combo = combo.height(420.0).show_ui(ui, |ui| {
-            ui.selectable_value(&mut desk.behind, None, "nothing");
-            ui.selectable_value(&mut desk.behind, Some("light".to_owned()), "light")
-                .on_hover_text("What shines, a panorama for one.");
-            for (name, _) in Pattern::NAMES {
-                ui.selectable_value(&mut desk.behind, Some(name.to_owned()), name);
-            }
-            asks = ui.button("From a file…").on_hover_text("A picture: .png, .jpg, .hdr or .exr.").clicked();
-        });
-        combo.response.labelled_by(label.id);
-    });
-    if desk.behind.is_some() {
-        let meaning = "How much of the way that refraction turns light is followed: 1 is physics, less a mixture with the \
-            straight ray, for its looks.";
-        if desk.behind.as_deref() != Some("light") {
-            let unit_mm = editor.model.document.specimen().unit_mm();
-            let mut mm = desk.behind_mm.unwrap_or(BEHIND * unit_mm);
-            let before = mm;
-            let about = "How far behind the middle it hangs; never nearer than the stones reach.";
-            let row = Row::new("Distance", about, 0.0..=20.0 * unit_mm);
-            Row { limits: 0.0..=f64::INFINITY, step: 0.1, decimals: 1, unit: " mm", ..row }.show(ui, &mut mm);
-            if mm != before {
-                desk.behind_mm = Some(mm);
-            }
-        }
-        let row = Row::new("Strength", meaning, STRENGTHS);
-        Row { step: 0.005, decimals: 3, ..row }.show(ui, &mut desk.strength);
-    }
-    asks
-}
-
-/// The range of the strength of refraction: 0 is the straight ray, 1 is physics.
-const STRENGTHS: RangeInclusive<f64> = 0.0..=1.0;

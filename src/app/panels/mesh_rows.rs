@@ -1,12 +1,12 @@
 //! Rows that set how the open mesh is read: whether as flat facets, and which way its table faces.
 
-use crate::app::editor::Editor;
-use crate::app::model::action::FileAction;
-use crate::app::panels::rows::{field_width, named};
+use crate::app::model::Model;
+use crate::app::model::action::{Actions, FileAction};
+use crate::app::panels::rows::{choice_row, named};
 use crate::cut::Cut;
 use crate::cut::from_mesh::Up;
 use crate::io::mesh_options::{MeshForm, MeshOptions};
-use egui::{ComboBox, Ui};
+use egui::Ui;
 use glam::DVec3;
 
 const MEANING: &str = "Which direction of the mesh's own frame the table faces. The mesh is read anew, and the views show at \
@@ -30,31 +30,22 @@ const FORMS: [(&str, MeshForm, &str); 2] = [
 ];
 
 /// Draws the rows for a design that was read from a mesh; another choice reads the mesh anew.
-pub fn show(editor: &mut Editor, ui: &mut Ui) {
-    form(editor, ui);
-    let Some(options) = editor.model.mesh_options() else { return };
-    let mut chosen = options.up;
-    ui.horizontal(|ui| {
-        let label = named(ui, "Table faces", MEANING);
-        let combo = ComboBox::from_id_salt("table faces")
-            .selected_text(direction_name(chosen))
-            .width(field_width(ui));
-        let combo = combo.show_ui(ui, |ui| {
-            for (name, up) in DIRECTIONS {
-                ui.selectable_value(&mut chosen, up, name);
-            }
-        });
-        combo.response.labelled_by(label.id).on_hover_text(MEANING);
+pub fn show(model: &Model, actions: &mut Actions, ui: &mut Ui) {
+    let Some(options) = model.mesh_options() else { return };
+    form(&model.document.work.design.cut, options, actions, ui);
+    let mut up = options.up;
+    let row = choice_row(ui, "Table faces", MEANING, &direction_name(up), |ui| {
+        for (name, direction) in DIRECTIONS {
+            ui.selectable_value(&mut up, direction, name);
+        }
     });
-    if chosen != options.up {
-        editor.actions.push(FileAction::ReadMesh(MeshOptions { up: chosen, ..options }));
-    }
+    row.on_hover_text(MEANING);
+    actions.push_changed(&options.up, up, |up| FileAction::ReadMesh(MeshOptions { up, ..options }));
 }
 
-/// Draws the row of forms; the chosen form is marked, or the form of the design where none was chosen.
-fn form(editor: &mut Editor, ui: &mut Ui) {
-    let Some(options) = editor.model.mesh_options() else { return };
-    let found = match editor.model.document.work.design.cut {
+/// Draws the row of forms; the chosen form is marked, or the form of the cut where none was chosen.
+fn form(cut: &Cut, options: MeshOptions, actions: &mut Actions, ui: &mut Ui) {
+    let found = match cut {
         Cut::Planes(_) => MeshForm::Faceted,
         Cut::Mesh(_) => MeshForm::Triangles,
         _ => return,
@@ -65,7 +56,7 @@ fn form(editor: &mut Editor, ui: &mut Ui) {
         for (name, form, meaning) in FORMS {
             let is_present = form == present;
             if ui.selectable_label(is_present, name).on_hover_text(meaning).clicked() && !is_present {
-                editor.actions.push(FileAction::ReadMesh(MeshOptions { form, ..options }));
+                actions.push(FileAction::ReadMesh(MeshOptions { form, ..options }));
             }
         }
     });

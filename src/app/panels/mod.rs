@@ -2,10 +2,12 @@
 
 pub mod company_rows;
 pub mod design_panel;
+pub mod figure_lines;
 pub mod figures_panel;
 pub mod figures_text;
 pub mod glass_rows;
 pub mod impossible;
+pub mod light_rows;
 pub mod mesh_rows;
 pub mod pane_rows;
 pub mod proportions;

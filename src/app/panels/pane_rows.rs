@@ -1,7 +1,8 @@
 //! Rows for the pane of liquid glass, which are there while a view shows it.
 
-use crate::app::editor::Editor;
 use crate::app::liquid::Liquid;
+use crate::app::model::action::{Actions, ViewAction};
+use crate::app::model::workspace::Workspace;
 use crate::app::panels::rows::{NUMBER, Row, control_width, named};
 use crate::app::shows::Shows;
 use crate::picture::pane::Quality;
@@ -26,10 +27,8 @@ const QUALITIES: [(Quality, &str, &str); 3] = [
 ];
 
 /// Draws the rows, where liquid glass is in sight.
-pub fn show(editor: &mut Editor, ui: &mut Ui) {
-    let is_seen = |shows| {
-        editor.model.workspace.shown().iter().any(|&pane| editor.model.workspace.panes[pane].shows == shows)
-    };
+pub fn show(workspace: &Workspace, actions: &mut Actions, ui: &mut Ui) {
+    let is_seen = |shows| workspace.shown().iter().any(|&pane| workspace.panes[pane].shows == shows);
     let [drawn, traced] = [Shows::LiquidGlass, Shows::TracedPane].map(is_seen);
     if !drawn && !traced {
         return;
@@ -39,8 +38,8 @@ pub fn show(editor: &mut Editor, ui: &mut Ui) {
         "A pane before what hangs behind: as screens draw it, by five parts of arithmetic, and as glass is. Strengths run \
          from 0 to 100.",
     );
-    let liquid = &mut editor.model.workspace.liquid;
-    let Liquid { size, corners, refraction, depth, dispersion, frost, light, gap, .. } = liquid;
+    let mut liquid = workspace.liquid;
+    let Liquid { size, corners, refraction, depth, dispersion, frost, light, gap, .. } = &mut liquid;
     for (name, meaning, value, range, unit) in [
         ("Pane width", "How wide the pane is, in percent of the view.", &mut size.x, EXTENTS, " %"),
         ("Pane height", "How high the pane is, in percent of the view.", &mut size.y, EXTENTS, " %"),
@@ -76,7 +75,8 @@ pub fn show(editor: &mut Editor, ui: &mut Ui) {
         let row = Row::new("Gap", meaning, GAPS);
         Row { step: 0.001, decimals: 3, speed: 0.002, logarithmic: true, ..row }.show(ui, gap);
     }
-    last(liquid, ui);
+    last(&mut liquid, ui);
+    actions.push_changed(&workspace.liquid, liquid, ViewAction::Liquid);
 }
 
 /// Draws the rows for tint and quality.

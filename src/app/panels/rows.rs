@@ -6,8 +6,8 @@
 
 use egui::emath::format_with_decimals_in_range;
 use egui::{
-    Color32, DragValue, Label, Rect, RectAlign, Response, RichText, Slider, SliderClamping, TextStyle,
-    Tooltip, Ui, vec2,
+    Color32, ComboBox, DragValue, Label, Rect, RectAlign, Response, RichText, Slider, SliderClamping,
+    TextStyle, Tooltip, Ui, vec2,
 };
 use std::ops::RangeInclusive;
 
@@ -157,6 +157,25 @@ pub fn number_row(ui: &mut Ui, (name, meaning): (&str, &str), number: Number, va
         skip_control(ui, 0.0);
         number.show(ui, (NUMBER, label.id), value);
     });
+}
+
+/// The greatest height of a list that opens, points.
+const LIST_HEIGHT: f32 = 420.0;
+
+/// Draws a choice: its name, and a field with what is chosen, which opens the list that `list` draws.
+pub fn choice_row(
+    ui: &mut Ui,
+    name: &str,
+    meaning: &str,
+    chosen: &str,
+    list: impl FnOnce(&mut Ui),
+) -> Response {
+    ui.horizontal(|ui| {
+        let label = named(ui, name, meaning);
+        let combo = ComboBox::from_id_salt(name).selected_text(chosen).width(field_width(ui)).truncate();
+        combo.height(LIST_HEIGHT).show_ui(ui, list).response.labelled_by(label.id)
+    })
+    .inner
 }
 
 /// Returns a number as its field shows it.

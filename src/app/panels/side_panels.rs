@@ -2,7 +2,8 @@
 //!
 //! Each panel can be folded to a strip. A window with room for one panel alone opens one and folds the other.
 
-use crate::app::editor::Editor;
+use crate::app::model::Model;
+use crate::app::model::action::{Actions, ViewAction};
 use crate::app::model::workspace::PanelSide;
 use crate::app::panels::design_panel;
 use crate::app::panels::figures_panel;
@@ -26,27 +27,31 @@ const STRIP: f32 = 30.0;
 const BUTTON: f32 = 20.0;
 
 /// Draws both panels, each open or folded.
-pub fn show(editor: &mut Editor, ui: &mut Ui) {
+pub fn show(model: &Model, actions: &mut Actions, ui: &mut Ui) {
     let both = has_room_for_both(ui);
     let spare = ui.ctx().content_rect().width() - VIEWS;
     for (side, [least, most], other) in
         [(PanelSide::Design, DESIGN, FIGURES[0]), (PanelSide::Figures, FIGURES, DESIGN[0])]
     {
-        if !editor.model.workspace.panels.is_open(side, both) {
-            strip(editor, ui, side);
+        if !model.workspace.panels.is_open(side, both) {
+            strip(actions, ui, side);
             continue;
         }
         let other = if both { other } else { STRIP };
         let widths = least..=most.min(spare - other).max(least);
         match side {
-            PanelSide::Design => design_panel::show(editor, ui, widths),
-            PanelSide::Figures => figures_panel::show(editor, ui, widths),
+            PanelSide::Design => design_panel::show(model, actions, ui, widths),
+            PanelSide::Figures => figures_panel::show(model, actions, ui, widths),
         }
     }
 }
 
 fn has_room_for_both(ui: &Ui) -> bool {
     ui.ctx().content_rect().width() >= DESIGN[0] + FIGURES[0] + VIEWS
+}
+
+fn open_or_fold(ui: &Ui, side: PanelSide, is_open: bool) -> ViewAction {
+    ViewAction::Panel { side, has_room_for_both: has_room_for_both(ui), is_open }
 }
 
 fn name(side: PanelSide) -> &'static str {
@@ -57,7 +62,7 @@ fn name(side: PanelSide) -> &'static str {
 }
 
 /// Draws the first line of an open panel: its name, and the button that folds it.
-pub fn head(editor: &mut Editor, ui: &mut Ui, side: PanelSide) {
+pub fn head(actions: &mut Actions, ui: &mut Ui, side: PanelSide) {
     ui.add_space(4.0);
     ui.horizontal(|ui| {
         ui.label(RichText::new(format!("{} panel", name(side))).weak().small());
@@ -65,27 +70,26 @@ pub fn head(editor: &mut Editor, ui: &mut Ui, side: PanelSide) {
             let response = arrow(ui, side == PanelSide::Design);
             let label = format!("Fold {}", name(side).to_lowercase());
             if named(response, &label, "Folds this panel to a strip; H hides both.").clicked() {
-                editor.model.workspace.panels.set(side, has_room_for_both(ui), false);
+                actions.push(open_or_fold(ui, side, false));
             }
         });
     });
 }
 
 /// Draws a folded panel; a click anywhere on it opens it.
-fn strip(editor: &mut Editor, ui: &mut Ui, side: PanelSide) {
+fn strip(actions: &mut Actions, ui: &mut Ui, side: PanelSide) {
     let panel = match side {
         PanelSide::Design => Panel::left("design-strip"),
         PanelSide::Figures => Panel::right("figures-strip"),
     };
     panel.resizable(false).exact_size(STRIP).show(ui, |ui| {
-        let both = has_room_for_both(ui);
         let whole = ui.interact(ui.max_rect(), ui.scope_id().with("strip"), Sense::click());
         let (rect, _) = ui.allocate_exact_size(Vec2::splat(BUTTON), Sense::hover());
         chevron(ui, rect, side == PanelSide::Figures, &whole);
         upright(ui, rect, name(side));
         let label = format!("Open {}", name(side).to_lowercase());
         if named(whole, &label, &format!("Opens the panel of the {}.", name(side).to_lowercase())).clicked() {
-            editor.model.workspace.panels.set(side, both, true);
+            actions.push(open_or_fold(ui, side, true));
         }
     });
 }

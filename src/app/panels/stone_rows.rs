@@ -5,11 +5,11 @@ use crate::app::model::action::{Actions, Edit};
 use crate::app::model::extent::Extent;
 use crate::app::panels::company_rows;
 use crate::app::panels::rows::{
-    NOT_KNOWN, NUMBER, Number, UNKNOWN, field_width, named, number_row, skip_control,
+    NOT_KNOWN, NUMBER, Number, UNKNOWN, choice_row, named, number_row, skip_control,
 };
 use crate::cut::{Cut, Design, MaterialRef, Size};
 use crate::optics::{Material, line, materials};
-use egui::{ComboBox, RichText, Ui};
+use egui::{RichText, Ui};
 use std::ops::RangeInclusive;
 
 /// The range of lengths that a stone may have, mm.
@@ -46,43 +46,37 @@ const ILLUSTRATIVE: &str = "\nIts colour is illustrative: chosen to look like th
 /// Draws the row of materials; returns the one that was chosen.
 fn material(design: &Design, known: &Material, ui: &mut Ui) -> Option<MaterialRef> {
     let mut chosen = None;
-    ui.horizontal(|ui| {
-        let meaning = "What the stone is made of: it sets refraction, dispersion and colour.";
-        let label = named(ui, "Material", meaning);
-        let name = match &design.material {
-            MaterialRef::Name(name) => name.clone(),
-            MaterialRef::Index(index) => format!("index {index}"),
-            MaterialRef::Custom(material) => material.name.clone(),
-        };
-        let combo = ComboBox::from_id_salt("material").selected_text(&name).width(field_width(ui));
-        let combo = combo.truncate().height(420.0).show_ui(ui, |ui| {
-            let mut all: Vec<_> = materials().iter().collect();
-            all.sort_by_key(|m| m.name.as_str());
-            for material in all {
-                let is_present = name == material.name;
-                let colour = if material.colour_is_illustrative { ILLUSTRATIVE } else { "" };
-                let about =
-                    format!("{}\nindex {:.4}{colour}", material.description, material.index(line::SODIUM_D));
-                let entry = if material.colour_is_illustrative {
-                    format!("{}   (illustrative colour)", material.name)
-                } else {
-                    material.name.clone()
-                };
-                if ui.selectable_label(is_present, entry).on_hover_text(about).clicked() && !is_present {
-                    chosen = Some(MaterialRef::Name(material.name.clone()));
-                }
+    let meaning = "What the stone is made of: it sets refraction, dispersion and colour.";
+    let name = match &design.material {
+        MaterialRef::Name(name) => name.clone(),
+        MaterialRef::Index(index) => format!("index {index}"),
+        MaterialRef::Custom(material) => material.name.clone(),
+    };
+    choice_row(ui, "Material", meaning, &name, |ui| {
+        let mut all: Vec<_> = materials().iter().collect();
+        all.sort_by_key(|m| m.name.as_str());
+        for material in all {
+            let is_present = name == material.name;
+            let colour = if material.colour_is_illustrative { ILLUSTRATIVE } else { "" };
+            let about =
+                format!("{}\nindex {:.4}{colour}", material.description, material.index(line::SODIUM_D));
+            let entry = if material.colour_is_illustrative {
+                format!("{}   (illustrative colour)", material.name)
+            } else {
+                material.name.clone()
+            };
+            if ui.selectable_label(is_present, entry).on_hover_text(about).clicked() && !is_present {
+                chosen = Some(MaterialRef::Name(material.name.clone()));
             }
-        });
-        combo.response.labelled_by(label.id);
+        }
     });
     if known.colour_is_illustrative {
         ui.label(RichText::new("illustrative colour").weak().small())
             .on_hover_text(ILLUSTRATIVE.trim_start());
     }
     if matches!(design.cut, Cut::Glass(_)) {
-        let mut glass = design.material.clone();
-        company_rows::two_numbers(&mut glass, known, ui);
-        chosen = chosen.or((glass != design.material).then_some(glass));
+        let typed = company_rows::two_numbers(&design.material, known, ui);
+        chosen = chosen.or(typed);
     }
     chosen
 }

@@ -2,15 +2,17 @@
 //!
 //! Distances are shown in mm; the design has them in a unit of its own.
 
+use crate::app::model::action::{Actions, Edit};
+use crate::app::model::document::Document;
 use crate::app::panels::rows::{ANY, NUMBER, Number, explain, named, skip_control};
-use crate::cut::Cut;
 use egui::{Align, Layout, RichText, Ui, vec2};
 
 const MEANING: &str = "A tier: facets of one angle and one distance, as a faceting machine is set for them. Each tier \
     is set by itself; where facets meet follows.";
 
-/// Draws the tiers of a cut whose unit of length is `unit_mm` mm, and sets what the user changes.
-pub fn show(cut: &mut Cut, unit_mm: f64, ui: &mut Ui) {
+/// Draws the tiers of the cut.
+pub fn show(document: &Document, actions: &mut Actions, ui: &mut Ui) {
+    let unit_mm = document.specimen().unit_mm() * document.extent().unit;
     let about = format!(
         "From the origin to the facets, in mm at the stone's present size: 1 in its file is {unit_mm:.3} mm."
     );
@@ -23,7 +25,7 @@ pub fn show(cut: &mut Cut, unit_mm: f64, ui: &mut Ui) {
         ]
         .map(|(head, meaning)| head_of_column(ui, head, meaning))
     });
-    for (place, setting) in cut.settings().into_iter().enumerate() {
+    for (place, setting) in document.work.design.cut.settings().into_iter().enumerate() {
         ui.horizontal(|ui| {
             let label = named(ui, &format!("{} · {}", setting.name, setting.facets), MEANING);
             skip_angle(ui);
@@ -36,10 +38,11 @@ pub fn show(cut: &mut Cut, unit_mm: f64, ui: &mut Ui) {
             }
             // A distance that is not touched keeps all its digits.
             let distance = if distance_mm == before_mm { setting.distance } else { distance_mm / unit_mm };
+            // A user who leaves out the sign means the same side: a tier never changes from crown to pavilion or back.
+            let angle = angle.abs().copysign(setting.angle);
             let is_changed = (angle, distance) != (setting.angle, setting.distance);
             if is_changed && angle.is_finite() && distance.is_finite() {
-                // A user who leaves out the sign means the same side: a tier never changes from crown to pavilion or back.
-                cut.set(place, angle.abs().copysign(setting.angle), distance);
+                actions.push(Edit::Tier { place, angle, distance });
             }
         });
     }

@@ -8,26 +8,27 @@ pub mod copying;
 pub mod export;
 pub mod export_scene;
 pub mod files;
-mod look_up;
+mod look_ups;
+pub mod lookup;
 pub mod open;
 pub mod opener;
 pub mod runner;
 
-use crate::app::lookup::LookupRequest;
 use crate::app::model::action::{Computed, DialogAction, FileAction, NoteAction};
 use crate::app::model::choosing::Choice;
 use crate::app::model::exporting::ExportEvent;
 use crate::app::model::opening::FileRequest;
 use crate::app::model::{Action, Task};
 use crate::app::shows::Shows;
-use crate::app::studio::{Slot, TakenPicture};
+use crate::app::studio::{Slot, TakenPicture, Wake};
 use crate::io::lighting::Lighting;
 use autosave::Autosave;
 use egui::ColorImage;
 use files::Chooser;
-use look_up::LookUps;
+use look_ups::LookUps;
+use lookup::LookupRequest;
 use opener::Opener;
-use runner::{JobHandle, TaskRunner, Turn, Wake};
+use runner::{JobHandle, TaskRunner, Turn};
 use std::sync::{Arc, Mutex, PoisonError};
 
 /// What a task is about: the newest with the same key wins.
@@ -49,7 +50,7 @@ enum Key {
 }
 
 /// An answer of a task.
-pub enum Answer {
+pub enum TaskAnswer {
     /// An action on the model.
     Act(Box<Action>),
     /// A picture for the clipboard.
@@ -60,13 +61,13 @@ pub enum Answer {
     Looked(Slot, Arc<LookupRequest>, Result<TakenPicture, String>),
 }
 
-impl From<Action> for Answer {
+impl From<Action> for TaskAnswer {
     fn from(action: Action) -> Self {
         Self::Act(Box::new(action))
     }
 }
 
-impl From<FileAction> for Answer {
+impl From<FileAction> for TaskAnswer {
     fn from(action: FileAction) -> Self {
         Action::File(action).into()
     }
@@ -77,7 +78,7 @@ const FAULT: &str = "a fault of the program; please report the design";
 
 /// Carries out tasks.
 pub struct Outside {
-    runner: TaskRunner<Key, Answer>,
+    runner: TaskRunner<Key, TaskAnswer>,
     chooser: Chooser,
     opener: Opener,
     safe: Option<Arc<Mutex<Autosave>>>,
@@ -92,7 +93,7 @@ impl Outside {
     }
 
     /// Returns the answers that have arrived since the last call.
-    pub fn answers(&mut self) -> Vec<Answer> {
+    pub fn answers(&mut self) -> Vec<TaskAnswer> {
         self.runner.answers()
     }
 
@@ -170,7 +171,7 @@ impl Outside {
                 Turn::AtOnce,
                 || None,
                 move |job| {
-                    let hang = |shows, image| job.send(Answer::Thumbnail(shows, image));
+                    let hang = |shows, image| job.send(TaskAnswer::Thumbnail(shows, image));
                     export::thumbnails(&plan, &hang, &|| job.is_stopped());
                 },
             ),
@@ -184,9 +185,10 @@ impl Outside {
             Task::StopThumbnails => self.runner.stop(Key::Thumbnails),
             Task::StopExport => self.runner.stop(Key::Export),
             Task::MakeCopy(request) => {
-                let failed = || Answer::Copied(Err("making the picture failed; try another size".to_owned()));
+                let failed =
+                    || TaskAnswer::Copied(Err("making the picture failed; try another size".to_owned()));
                 self.run(Key::Copy, failed, move |job| {
-                    Answer::Copied(copying::make(&request, &|| job.is_stopped()))
+                    TaskAnswer::Copied(copying::make(&request, &|| job.is_stopped()))
                 });
             }
             Task::Trace(_) | Task::Window(_) => {}
@@ -197,8 +199,8 @@ impl Outside {
     fn run(
         &mut self,
         key: Key,
-        failed: impl FnOnce() -> Answer + Send + 'static,
-        job: impl FnOnce(&JobHandle<Answer>) -> Answer + Send + 'static,
+        failed: impl FnOnce() -> TaskAnswer + Send + 'static,
+        job: impl FnOnce(&JobHandle<TaskAnswer>) -> TaskAnswer + Send + 'static,
     ) {
         self.runner.start(key, Turn::AtOnce, || Some(failed()), |handle| handle.send(job(handle)));
     }

@@ -1,6 +1,6 @@
 //! Reads, saves and watches files of designs, and finds out what dropped files are for.
 
-use super::Answer;
+use super::TaskAnswer;
 use super::runner::JobHandle;
 use crate::app::model::action::FileAction;
 use crate::app::model::choosing::Purpose;
@@ -51,7 +51,7 @@ pub fn save(request: SaveRequest) -> Result<SavedDesign, String> {
 const PAUSE: Duration = Duration::from_millis(500);
 
 /// Watches a file that was last known by `known`, until the job is stopped.
-pub fn watch(path: &Path, mut known: Stamp, job: &JobHandle<Answer>) {
+pub fn watch(path: &Path, mut known: Stamp, job: &JobHandle<TaskAnswer>) {
     while !job.is_stopped() {
         let now = Stamp::of(path);
         if now != known {

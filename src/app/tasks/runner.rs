@@ -4,15 +4,13 @@
 //! dropped unread: nobody wants them any more. A job that writes waits its turn instead, so that it never meets the one
 //! before it half way; of those that wait, the newest alone is kept.
 
+use crate::app::studio::Wake;
 use std::collections::HashMap;
 use std::hash::Hash;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, Sender, channel};
-
-/// A callback that asks the client to look at the answers.
-pub type Wake = Arc<dyn Fn() + Send + Sync>;
 
 /// How a job follows another with the same key.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -2,7 +2,8 @@
 
 use super::*;
 use crate::app::model::dialog::Dialog;
-use crate::app::model::exporting::{ExportEvent, ExportForm, ExportRun};
+use crate::app::model::exporting::{ExportEvent, ExportRun};
+use crate::app::model::plan::export_plan;
 use crate::app::tasks::export::run;
 use crate::io::cut_file;
 use crate::io::export::OutputFormat;
@@ -127,7 +128,7 @@ fn a_click_beside_the_stone_opens_no_light_path() {
 /// strongest exits.
 fn exported_aset(bench: &mut Bench) -> Vec<Vec<u8>> {
     let folder = tempfile::tempdir().unwrap();
-    let mut plan = ExportForm::new(&bench.editor().model).plan;
+    let mut plan = export_plan(&bench.editor().model);
     plan.folder = folder.path().to_owned();
     plan.stem = "stone".to_owned();
     plan.selection.views = vec![Shows::Aset];

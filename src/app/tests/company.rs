@@ -4,8 +4,8 @@ use super::Bench;
 use crate::app::editor::Editor;
 use crate::app::model::action::{Edit, FileAction};
 use crate::app::model::dialog::Dialog;
-use crate::app::model::exporting::ExportForm;
 use crate::app::model::motion::Motion;
+use crate::app::model::plan::export_plan;
 use crate::app::model::preset::Preset;
 use crate::app::model::workspace::{Pane, PaneLayout, Workspace};
 use crate::app::setup::Setup;
@@ -166,7 +166,7 @@ fn copies_are_saved_as_a_scene_that_is_opened_again_as_it_was() {
             last.at.z -= 3.0;
         }
         bench.harness.run_steps(2);
-        let mut plan = ExportForm::new(&bench.editor().model).plan;
+        let mut plan = export_plan(&bench.editor().model);
         (plan.folder, plan.stem) = (folder.path().to_owned(), "mine".to_owned());
         SceneOut::of(&plan).write().unwrap();
         let again = Preset::read(&folder.path().join("mine-scene.toml")).unwrap();

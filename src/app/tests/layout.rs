@@ -4,6 +4,7 @@ use super::*;
 use crate::app::model::dialog::Dialog;
 use crate::app::model::document::Document;
 use crate::app::model::exporting::ExportForm;
+use crate::app::model::plan::export_plan;
 use crate::app::theme;
 use crate::cut::{Design, MaterialRef};
 use crate::io::{cut_file, design_file};
@@ -217,7 +218,7 @@ fn nothing_is_red_while_nothing_is_wrong() {
     bench.look();
     bench.harness.state_mut().model.session.notes.warn("it was saved, but not all of it".into());
     let editor = bench.harness.state_mut();
-    let mut export = ExportForm::new(&editor.model);
+    let mut export = ExportForm { plan: export_plan(&editor.model), run: None };
     export.plan.folder = folder.path().to_owned();
     for file in export.plan.files().unwrap() {
         std::fs::write(file, "").unwrap();

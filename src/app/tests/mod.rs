@@ -10,6 +10,7 @@ mod formats;
 mod grading;
 mod guide;
 mod handed_out;
+mod keeping;
 mod layout;
 mod looks;
 mod reading;

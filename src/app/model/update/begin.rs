@@ -1,6 +1,5 @@
 //! Documents that begin: opened, read again, or out of the program's library.
 
-use super::commands::compare_no_more;
 use super::safe;
 use crate::app::model::Model;
 use crate::app::model::document::Document;
@@ -102,4 +101,10 @@ pub fn begin_scene(model: &mut Model, preset: Preset) -> Vec<Task> {
     (workspace.behind_mm, workspace.strength) = (scene.background_distance_mm, scene.strength);
     session.notes.say(&format!("{}: renders show its copies{layers}, all else shows one", scene.name));
     tasks
+}
+
+/// Ends the comparison: forgets the design compared with, and its figures.
+pub fn compare_no_more(model: &mut Model) {
+    model.session.compared = None;
+    model.session.measured.figures.retain(|which, _| *which == Which::Present);
 }

@@ -1,6 +1,7 @@
 //! Commands: when each is possible, whether it is switched on, and what it does.
 
-use super::{dialogs, files};
+use super::begin::compare_no_more;
+use super::{dialogs, edits, files};
 use crate::app::model::Model;
 use crate::app::model::action::{DialogAction, Edit, FileAction};
 use crate::app::model::choosing::Purpose;
@@ -10,7 +11,6 @@ use crate::app::model::dialog::{AboutForm, Dialog, Then};
 use crate::app::model::eye::Eye;
 use crate::app::model::task::{Task, WindowTask};
 use crate::app::model::workspace::PaneLayout;
-use crate::app::studio::Which;
 
 impl Model {
     /// Whether a command can be carried out now.
@@ -74,7 +74,7 @@ pub fn run(model: &mut Model, command: Command) -> Vec<Task> {
             model.workspace.reset_layout();
             vec![Task::Window(WindowTask::ForgetPanelWidths)]
         }
-        Command::LayOut => super::edits::edit(model, Edit::LayOut(model.document.work.company.poses.len())),
+        Command::LayOut => edits::edit(model, Edit::LayOut(model.document.work.company.poses.len())),
         Command::Undo | Command::Redo => {
             if command == Command::Undo {
                 model.document.undo()
@@ -146,10 +146,4 @@ fn seen(model: &mut Model, look: impl FnOnce(&mut Eye)) {
     model.session.framing.renew(model.document.specimen());
     let active = model.active();
     look(model.workspace.eye_mut(active));
-}
-
-/// Ends the comparison: forgets the design compared with, and its figures.
-pub fn compare_no_more(model: &mut Model) {
-    model.session.compared = None;
-    model.session.measured.figures.retain(|which, _| *which == Which::Present);
 }

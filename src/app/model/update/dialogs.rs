@@ -3,12 +3,13 @@
 use super::begin::begin;
 use super::{files, safe};
 use crate::app::model::Model;
-use crate::app::model::action::DialogAction;
+use crate::app::model::action::{DialogAction, FileAction};
 use crate::app::model::dialog::Dialog;
 use crate::app::model::document::Document;
 use crate::app::model::export::Selection;
 use crate::app::model::exporting::{ExportEvent, ExportForm, ExportRun};
 use crate::app::model::opening::OpeningPurpose;
+use crate::app::model::plan::export_plan;
 use crate::app::model::recovery::{KeptScene, RecoveredWork};
 use crate::app::model::task::Task;
 
@@ -42,10 +43,7 @@ pub fn answer(model: &mut Model, answer: DialogAction) -> Vec<Task> {
         DialogAction::ReadAgain => {
             model.session.dialog = None;
             let path = model.document.path().map(std::path::Path::to_owned);
-            return super::also(
-                model,
-                path.map(|path| crate::app::model::action::FileAction::Open(path, OpeningPurpose::Again)),
-            );
+            return super::also(model, path.map(|path| FileAction::Open(path, OpeningPurpose::Again)));
         }
         DialogAction::Accept => {
             if let Some(Dialog::Path(form)) = model.session.dialog.take() {
@@ -125,7 +123,7 @@ fn recover(model: &mut Model, found: &RecoveredWork) -> Vec<Task> {
 }
 
 fn export(model: &mut Model, select: impl FnOnce(&mut Selection)) -> Vec<Task> {
-    let mut form = ExportForm::new(model);
+    let mut form = ExportForm { plan: export_plan(model), run: None };
     select(&mut form.plan.selection);
     let plan = Box::new(form.plan.clone());
     model.session.dialog = Some(Dialog::Export(Box::new(form)));

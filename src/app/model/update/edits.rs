@@ -2,6 +2,7 @@
 
 use crate::app::model::Model;
 use crate::app::model::action::Edit;
+use crate::app::model::extent;
 use crate::app::model::task::Task;
 use crate::scene::{Copies, Pose};
 use glam::DVec3;
@@ -16,6 +17,15 @@ pub fn edit(model: &mut Model, edit: Edit) -> Vec<Task> {
         Edit::Proportion(key, cut) => {
             work.design.cut = cut;
             model.session.edited = Some(key);
+        }
+        Edit::Tier { place, angle, distance } => {
+            let unit = model.document.extent().unit;
+            let design = &mut model.document.work.design;
+            design.cut.set(place, angle, distance);
+            // A stone that becomes wider gets a greater diameter, so that all other tiers stay where they are.
+            if let Some(now) = extent::unit(design) {
+                design.diameter_mm *= unit / now;
+            }
         }
         Edit::Material(material) => work.design.material = material,
         Edit::Diameter(mm) => work.design.diameter_mm = mm,

@@ -6,6 +6,8 @@ mod dialogs;
 mod edits;
 mod files;
 mod safe;
+#[cfg(test)]
+mod tests;
 mod views;
 
 use super::action::{Action, Computed, FrameEnd, NoteAction};

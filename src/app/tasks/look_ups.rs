@@ -1,9 +1,9 @@
 //! Pictures that are looked up in the background: the newest request of each view, so that pictures follow the hand while
 //! the studio traces.
 
+use super::lookup::{Lookup, LookupRequest};
 use super::runner::Turn;
-use super::{Answer, FAULT, Key, Outside};
-use crate::app::lookup::{Lookup, LookupRequest};
+use super::{FAULT, Key, Outside, TaskAnswer};
 use crate::app::studio::Slot;
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -26,7 +26,7 @@ impl Outside {
         let request = Arc::new(request);
         last.insert(slot, Arc::clone(&request));
         let (failed, lookup) = (Arc::clone(&request), Arc::clone(lookup));
-        let answer = move |request, taken| Answer::Looked(slot, request, taken);
+        let answer = move |request, taken| TaskAnswer::Looked(slot, request, taken);
         self.runner.start(
             Key::LookUp(slot),
             Turn::After,
