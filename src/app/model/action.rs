@@ -14,7 +14,7 @@ use super::workspace::PanelSide;
 use crate::app::liquid::Liquid;
 use crate::app::shows::Shows;
 use crate::app::studio::{FiguresOrder, Grade, Order, Smoothing, Tilts, Which};
-use crate::cut::{Cut, Design, MaterialRef};
+use crate::cut::{Cut, MaterialRef};
 use crate::io::lighting::Lighting;
 use crate::io::mesh_options::MeshOptions;
 use crate::measure::Figures;
@@ -46,7 +46,6 @@ pub enum Action {
 
 /// A change of the work. Each holds the new value.
 #[derive(Debug)]
-#[allow(dead_code, reason = "panels are turned to actions one after the other")]
 pub enum Edit {
     /// The name of the design.
     Name(String),
@@ -67,8 +66,6 @@ pub enum Edit {
     Material(MaterialRef),
     /// The diameter, mm.
     Diameter(f64),
-    /// The whole design.
-    Design(Box<Design>),
     /// The name of the light, or its file.
     Light(String),
     /// The exposure of renders, in stops.
@@ -83,7 +80,6 @@ pub enum Edit {
 
 /// A change of how the views look, and of what is beside them.
 #[derive(Debug)]
-#[allow(dead_code, reason = "panels are turned to actions one after the other")]
 pub enum ViewAction {
     /// What a view shows.
     Show(usize, Shows),
@@ -101,8 +97,6 @@ pub enum ViewAction {
     Strongest(bool),
     /// Whether scopes include glare.
     Glare(bool),
-    /// Whether the eye of a view leans.
-    EyeLeans(usize, bool),
     /// Ends a step of the views: the next change begins another.
     EndStep,
     /// The view under the pointer.

@@ -8,7 +8,7 @@ use crate::picture::{Linear, RefractionMap, refract};
 use crate::scene::Panorama;
 use glam::DVec2;
 use rayon::{ThreadPool, ThreadPoolBuilder};
-use std::sync::{Arc, LazyLock};
+use std::sync::{Arc, OnceLock};
 
 /// A request for a picture.
 #[derive(Debug, Clone)]
@@ -39,17 +39,11 @@ impl PartialEq for LookupRequest {
 }
 
 /// Makes pictures by looking up, one at a time.
+#[derive(Default)]
 pub struct Lookup {
-    /// Threads of its own: those that the studio keeps busy would come to it last.
-    threads: LazyLock<Option<ThreadPool>>,
+    /// Threads of its own, begun at the first picture: those that the studio keeps busy would come to it last.
+    threads: OnceLock<Option<ThreadPool>>,
     backgrounds: Backgrounds,
-}
-
-impl Default for Lookup {
-    fn default() -> Self {
-        let threads = || ThreadPoolBuilder::new().thread_name(|k| format!("look-up {k}")).build().ok();
-        Self { threads: LazyLock::new(threads), backgrounds: Backgrounds::default() }
-    }
 }
 
 impl Lookup {
@@ -59,7 +53,8 @@ impl Lookup {
     /// Fails where the backplate cannot be read; the text says why.
     pub fn picture(&mut self, ask: &LookupRequest) -> Result<TakenPicture, String> {
         let Self { threads, backgrounds } = self;
-        match &**threads {
+        let begin = || ThreadPoolBuilder::new().thread_name(|k| format!("look-up {k}")).build().ok();
+        match threads.get_or_init(begin) {
             Some(threads) => threads.install(|| backgrounds.picture(ask)),
             None => backgrounds.picture(ask),
         }

@@ -29,7 +29,6 @@ pub fn edit(model: &mut Model, edit: Edit) -> Vec<Task> {
         }
         Edit::Material(material) => work.design.material = material,
         Edit::Diameter(mm) => work.design.diameter_mm = mm,
-        Edit::Design(design) => work.design = *design,
         Edit::Light(name) => work.light = name,
         Edit::Exposure(stops) => work.exposure = stops,
         Edit::Head(degrees) => work.head = degrees,
