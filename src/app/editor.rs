@@ -17,7 +17,7 @@ use super::tasks::autosave::Autosave;
 use super::tasks::{Outside, TaskAnswer};
 use super::views::gallery::{Shown, hang};
 use super::views::look_ups::look_ups;
-use super::views::{ViewTools, following, stage};
+use super::views::{ViewTools, clock, light_path_window, stage};
 use super::{dialogs, drops, menus, theme};
 use crate::io::library;
 use crate::trace::gpu::Gpu;
@@ -265,12 +265,12 @@ impl Editor {
         }
         let seen = stage::show(&self.model, &mut self.views, &mut self.actions, ui);
         self.run();
-        following::show(&self.model, &mut self.views, &mut self.actions, &ctx);
+        light_path_window::show(&self.model, &mut self.views, &mut self.actions, &ctx);
         dialogs::show(&self.model, &self.thumbnails, &mut self.actions, &ctx);
         drops::invite(&ctx);
         let moves = |pane: usize| self.model.workspace.panes[pane].shows.has_company();
         if self.model.session.motion.is_on && seen.iter().any(|(pane, _)| moves(*pane)) {
-            self.actions.push(ViewAction::Advance(stage::step(&ctx)));
+            self.actions.push(ViewAction::Advance(clock::step(&ctx)));
         }
         self.end_frame();
         self.order(&seen);

@@ -97,8 +97,6 @@ pub enum ViewAction {
     Strongest(bool),
     /// Whether scopes include glare.
     Glare(bool),
-    /// Whether the eye of a view leans.
-    EyeLeans(usize, bool),
     /// Ends a step of the views: the next change begins another.
     EndStep,
     /// The view under the pointer.

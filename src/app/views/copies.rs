@@ -16,7 +16,10 @@ pub fn carried(cx: &mut PaneContext, ui: &Ui, response: &Response, sight: &PaneV
     let is_start = response.drag_started_by(PointerButton::Primary);
     let can_hold = poses.len() > 1 && cx.shows == Shows::Render;
     let held = match is_start && can_hold && !ui.input(|i| i.modifiers.shift) {
-        true => grasped(cx, ui, sight),
+        true => {
+            let from = ui.input(|i| i.pointer.press_origin());
+            from.and_then(|at| found(cx, sight, at)).map(|(_, copy, _)| (cx.pane, copy))
+        }
         false => before,
     };
     let own = held.filter(|(pane, _)| *pane == cx.pane);
@@ -35,12 +38,6 @@ pub fn carried(cx: &mut PaneContext, ui: &Ui, response: &Response, sight: &PaneV
         cx.push(ViewAction::Hold(held));
     }
     pose.is_some()
-}
-
-/// Returns the view, and the copy in it that was under the pointer when the button was pressed.
-fn grasped(cx: &mut PaneContext, ui: &Ui, sight: &PaneView) -> Option<(usize, usize)> {
-    let at = ui.input(|i| i.pointer.press_origin())?;
-    found(cx, sight, at).map(|(_, copy, _)| (cx.pane, copy))
 }
 
 /// Returns the pose of a copy after a drag.

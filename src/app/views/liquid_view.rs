@@ -2,6 +2,7 @@
 
 use super::arrows;
 use super::pane_context::{PaneContext, focus};
+use super::view_menu::attend;
 use crate::app::model::action::ViewAction;
 use crate::app::studio::Which;
 use egui::{Modifiers, PointerButton, Rect, Role, Sense, StrokeKind, Ui, WidgetInfo};
@@ -35,5 +36,5 @@ pub fn show(cx: &mut PaneContext, ui: &Ui, body: Rect) {
         shown.paint(ui.painter(), body);
     }
     ui.painter().rect_stroke(body, 4.0, focus(ui, &response), StrokeKind::Inside);
-    cx.attend(&response, response.hovered() || response.has_focus());
+    attend(cx, &response, response.hovered() || response.has_focus());
 }

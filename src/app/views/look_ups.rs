@@ -1,11 +1,12 @@
 //! Requests of the pictures in sight that are looked up, and not traced.
 
 use super::tools::ViewTools;
-use crate::app::lookup::{LookupRequest, backdrop};
+use crate::app::lookup::backdrop;
 use crate::app::model::Model;
 use crate::app::model::ordering::Seen;
 use crate::app::shows::Shows;
 use crate::app::studio::{Grade, Slot, Which};
+use crate::app::tasks::lookup::LookupRequest;
 
 /// Returns a request for each picture in sight that is looked up.
 pub fn look_ups(model: &Model, tools: &mut ViewTools, seen: &[Seen]) -> Vec<(Slot, LookupRequest)> {

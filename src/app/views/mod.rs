@@ -1,11 +1,13 @@
 //! The views of the stone and what is drawn in them.
 
 mod arrows;
+pub mod clock;
 mod copies;
 mod eye_hand;
-pub mod following;
+mod following;
 pub mod gallery;
 pub mod light_path;
+pub mod light_path_window;
 mod liquid_view;
 pub mod look_ups;
 pub mod modes;
@@ -18,6 +20,6 @@ mod refraction_view;
 mod scene_view;
 pub mod stage;
 pub mod tools;
-pub mod view_menu;
+mod view_menu;
 
 pub use tools::ViewTools;

@@ -4,6 +4,7 @@
 use super::pane_context::PaneContext;
 use crate::app::model::Model;
 use crate::app::model::action::{Action, Edit, ViewAction};
+use crate::app::model::eye::Eye;
 use crate::app::shows::Shows;
 use egui::{Button, RichText, TextStyle, Ui};
 
@@ -87,12 +88,13 @@ impl Mode {
         }
     }
 
-    /// Returns what switches the mode off in a view.
-    fn end(&self, pane: usize) -> Action {
+    /// Returns what switches the mode off in its view.
+    fn end(&self, cx: &PaneContext) -> Action {
+        let pane = cx.pane;
         let change = match self {
             Self::Unlinked => ViewAction::Link(pane, true),
             Self::Perspective => ViewAction::EndPerspective(pane),
-            Self::EyeTilts => ViewAction::EyeLeans(pane, false),
+            Self::EyeTilts => ViewAction::Eye(pane, Eye { eye_leans: false, ..cx.eye() }),
             Self::Overlay(_) => ViewAction::Overlay(None),
             Self::Strongest => ViewAction::Strongest(false),
             Self::Head(_) => return Edit::Head(0.0).into(),
@@ -134,7 +136,7 @@ pub fn show(cx: &mut PaneContext, ui: &mut Ui, width: f32) {
     }
     if let Some(mode) = ended {
         cx.push(ViewAction::EndStep);
-        cx.push(mode.end(cx.pane));
+        cx.push(mode.end(cx));
     }
 }
 

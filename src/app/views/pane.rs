@@ -1,6 +1,7 @@
 //! One view: its head, and below it the stone by light or a drawing.
 
 use super::pane_context::PaneContext;
+use super::view_menu::attend;
 use super::{liquid_view, pane_head, scene_view};
 use crate::app::model::action::{Edit, ViewAction};
 use crate::app::shows::Shows;
@@ -50,7 +51,7 @@ fn profile(cx: &mut PaneContext, ui: &mut Ui, body: Rect) {
     if let Some(changed) = brilliant.map(Cut::RoundBrilliant).filter(|changed| changed != cut) {
         cx.push(Edit::Cut(changed));
     }
-    cx.attend(&under, under.contains_pointer());
+    attend(cx, &under, under.contains_pointer());
 }
 
 /// Draws the facet diagram.
@@ -66,7 +67,7 @@ fn drawing(cx: &mut PaneContext, ui: &Ui, body: Rect) {
         let scale = (body.width() / w).min(body.height() / h);
         shown.paint(ui.painter(), Rect::from_center_size(body.center(), vec2(w, h) * scale));
     }
-    cx.attend(&response, response.hovered());
+    attend(cx, &response, response.hovered());
 }
 
 /// Draws a text in the place of a drawing that only convex stones have.

@@ -2,10 +2,9 @@
 
 use super::gallery::Shown;
 use super::tools::ViewTools;
-use super::view_menu;
 use crate::app::menus::entry;
 use crate::app::model::Model;
-use crate::app::model::action::{Action, Actions, ViewAction};
+use crate::app::model::action::{Action, Actions};
 use crate::app::model::command::Command;
 use crate::app::model::eye::Eye;
 use crate::app::model::session::Flowing;
@@ -54,21 +53,14 @@ impl<'a> PaneContext<'a> {
     pub fn shown(&self, which: Which) -> Option<&Shown> {
         self.tools.gallery.shown(self.model, (self.pane, which))
     }
-
-    /// Handles what every view answers to: a double click shows it alone or among the others, the right button opens its
-    /// menu, and commands act on the view under the pointer.
-    pub fn attend(&mut self, response: &Response, is_hovered: bool) {
-        view_menu::attach(self, response);
-        if response.double_clicked() {
-            self.push(ViewAction::Enlarge(self.pane));
-        }
-        if is_hovered {
-            self.tools.attention.hovered = Some(self.pane);
-        }
-    }
 }
 
 /// Returns the frame around a picture that has the keyboard focus.
 pub fn focus(ui: &Ui, response: &Response) -> Stroke {
     if response.has_focus() { ui.visuals().selection.stroke } else { Stroke::NONE }
+}
+
+/// Whether a row has more than so many points left.
+pub fn has_room(ui: &Ui, points: f32) -> bool {
+    ui.available_width() > points
 }

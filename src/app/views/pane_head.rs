@@ -1,7 +1,7 @@
 //! The row over the picture of a view: what the view shows, the modes that are on in it, and how good its picture is.
 
 use super::gallery::Shown;
-use super::pane_context::PaneContext;
+use super::pane_context::{PaneContext, has_room};
 use super::{modes, refraction_view};
 use crate::app::model::action::ViewAction;
 use crate::app::shows::Shows;
@@ -78,11 +78,6 @@ fn from_right(cx: &mut PaneContext, ui: &mut Ui) {
     if (shows.is_seen() || shows == Shows::TracedPane) && has_room(ui, 64.0) {
         state(cx, ui);
     }
-}
-
-/// Whether a row has more than so many points left.
-pub fn has_room(ui: &Ui, points: f32) -> bool {
-    ui.available_width() > points
 }
 
 /// Draws how good the picture is, in a word or two.

@@ -1,9 +1,8 @@
 //! The view of a refraction map: a background that moves behind the stone. The studio traces the map; the picture through
 //! it is looked up as often as the background moves.
 
-use super::pane_context::PaneContext;
-use super::pane_head::has_room;
-use super::stage::step;
+use super::clock::step;
+use super::pane_context::{PaneContext, has_room};
 use crate::app::model::session::Flowing;
 use crate::app::studio::SPAN;
 use egui::{PointerButton, Response, Ui};

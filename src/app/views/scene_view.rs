@@ -2,6 +2,7 @@
 
 use super::pane_context::{PaneContext, focus};
 use super::pane_view::PaneView;
+use super::view_menu::attend;
 use super::{copies, eye_hand, refraction_view};
 use crate::app::model::action::ViewAction;
 use crate::app::shows::Shows;
@@ -37,7 +38,7 @@ pub fn show(cx: &mut PaneContext, ui: &Ui, body: Rect, size: [u32; 2]) {
             cx.push(ViewAction::Eye(cx.pane, moved));
         }
     }
-    cx.attend(&response, response.hovered() || response.has_focus());
+    attend(cx, &response, response.hovered() || response.has_focus());
     let is_alone = !shows.has_company() || model.is_alone();
     clicked(cx, ui, is_alone, &response, &sight);
     match is_alone {

@@ -8,7 +8,7 @@ use crate::app::model::action::Actions;
 use crate::app::model::ordering::Seen;
 use crate::app::model::workspace::PaneLayout;
 use crate::app::trouble_bar;
-use egui::{CentralPanel, Context, Rect, Ui, UiBuilder, pos2};
+use egui::{CentralPanel, Rect, Ui, UiBuilder, pos2};
 
 /// The gap between views, points.
 const GAP: f32 = 6.0;
@@ -33,21 +33,6 @@ pub fn show(model: &Model, tools: &mut ViewTools, actions: &mut Actions, ui: &mu
     });
     tools.attention.report(model, actions);
     seen
-}
-
-/// The longest step of time from one frame to the next, seconds: after a pause, motion goes on where it was.
-const LONGEST: f32 = 0.1;
-
-/// Returns by how much time goes on with a frame of the window, seconds, and requests another frame; 0 while the window is
-/// hidden.
-pub fn step(ctx: &Context) -> f64 {
-    let is_hidden =
-        ctx.input(|i| i.viewport().minimized == Some(true) || i.viewport().occluded == Some(true));
-    if is_hidden {
-        return 0.0;
-    }
-    ctx.request_repaint();
-    f64::from(ctx.input(|i| i.stable_dt).min(LONGEST))
 }
 
 fn part(whole: Rect, layout: PaneLayout, place: usize) -> Rect {

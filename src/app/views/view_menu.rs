@@ -17,7 +17,7 @@ const OVERLAYS: [Command; 6] = [
 ];
 
 /// The sizes at which a picture can be copied: pixels along the longer side.
-pub const SIZES: [u32; 4] = [512, 1024, 2048, 4096];
+const SIZES: [u32; 4] = [512, 1024, 2048, 4096];
 
 /// Whether a view can be copied at a chosen size; a picture that is looked up is only as large as its view.
 fn can_copy(cx: &PaneContext) -> bool {
@@ -26,12 +26,19 @@ fn can_copy(cx: &PaneContext) -> bool {
     Shows::EXPORTED.contains(&cx.shows) && (!needs_facets || has_facets)
 }
 
-/// Opens the menu of a view at a click with the right button; a drag with that button turns the stone.
-pub fn attach(cx: &mut PaneContext, response: &Response) {
+/// Handles what every view answers to: a double click shows it alone or among the others, the right button opens its menu
+/// (a drag with it turns the stone), and commands act on the view under the pointer.
+pub fn attend(cx: &mut PaneContext, response: &Response, is_hovered: bool) {
     response.context_menu(|ui| {
         cx.tools.attention.menu = Some(cx.pane);
         contents(cx, ui);
     });
+    if response.double_clicked() {
+        cx.push(ViewAction::Enlarge(cx.pane));
+    }
+    if is_hovered {
+        cx.tools.attention.hovered = Some(cx.pane);
+    }
 }
 
 fn contents(cx: &mut PaneContext, ui: &mut Ui) {

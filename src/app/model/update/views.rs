@@ -23,7 +23,6 @@ pub fn change(model: &mut Model, change: ViewAction) -> Vec<Task> {
         ViewAction::Overlay(name) => workspace.overlay = name,
         ViewAction::Strongest(is_on) => workspace.strongest = is_on,
         ViewAction::Glare(is_on) => workspace.glare = is_on,
-        ViewAction::EyeLeans(pane, leans) => workspace.eye_mut(pane).eye_leans = leans,
         ViewAction::EndStep => session.views.settle(),
         ViewAction::Distance(distance) => workspace.distance = distance,
         ViewAction::Wavelengths(count) => workspace.wavelengths = count,

@@ -1,9 +1,9 @@
 //! Pictures that are looked up in the background: the newest request of each view, so that pictures follow the hand while
 //! the studio traces.
 
+use super::lookup::{Lookup, LookupRequest};
 use super::runner::Turn;
 use super::{FAULT, Key, Outside, TaskAnswer};
-use crate::app::lookup::{Lookup, LookupRequest};
 use crate::app::studio::Slot;
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex, PoisonError};
