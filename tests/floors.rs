@@ -1,6 +1,9 @@
 //! Checks the structure of the source: a room imports only from floors below its own.
 #![allow(clippy::unwrap_used, reason = "a test fails by it")]
 
+#[path = "floors/circles.rs"]
+mod circles;
+
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
@@ -198,4 +201,27 @@ fn an_import_that_runs_up_would_be_seen() {
     assert!(climbs_out("use super::super::io::write;", 1) && !climbs_out("use super::Film;", 1));
     assert!(floor("picture") > floor("trace"));
     assert_eq!(floor("main"), None);
+}
+
+/// Returns what a text of the editor's model names that no model may: the window, or what threads share.
+fn windows(text: &str) -> Vec<&'static str> {
+    let code: String = text.lines().map(|line| line.split("//").next().unwrap_or("")).collect();
+    let is_word = |name: &str| {
+        let mut found = code.match_indices(name);
+        found.any(|(at, _)| !code[..at].ends_with(|c: char| c.is_alphanumeric() || c == '_'))
+    };
+    ["egui", "eframe", "Arc<Mutex", "mpsc", "JoinHandle"].into_iter().filter(|name| is_word(name)).collect()
+}
+
+#[test]
+fn the_editors_model_knows_no_window_and_no_thread() {
+    let model = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/app/model");
+    let paths = sources(&model);
+    assert!(paths.len() > 20, "only {} files were seen: the check has lost its eyes", paths.len());
+    for path in paths {
+        let named = windows(&std::fs::read_to_string(&path).unwrap());
+        assert!(named.is_empty(), "{}: names {named:?}", path.display());
+    }
+    assert_eq!(windows("use egui::Ui; struct A(Arc<Mutex<u8>>);"), ["egui", "Arc<Mutex"]);
+    assert!(windows("regui(); // as egui does").is_empty());
 }

@@ -1,160 +1,46 @@
-//! The editor: everything that the window shows and does.
+//! The editor's window: it draws the model, turns what a person does into actions, and carries out tasks.
 
-use super::autosave::Autosave;
-use super::command::Command;
-use super::compare::Compared;
-use super::copying::Copying;
-use super::dialogs::{Dialog, Then};
-use super::document::{Document, FIRST_LIGHT, Work};
-use super::export_job::Selection;
-use super::files::{Choice, Chooser, Choosing, Watching, by_dialog};
-use super::following::{self, Following};
-use super::framing::Framing;
 use super::hands::Hands;
-use super::lookup::LookupWorker;
-use super::moving::Moving;
-use super::notes::Notes;
-use super::opener::{Opener, by_system};
-use super::opening::{Opening, OpeningPurpose};
-use super::probe::Probe;
-use super::profile_view::ProfileView;
-use super::refraction_view::Flowing;
+use super::menus::PictureStatus;
+use super::model::action::{Actions, Computed, FileAction, FrameEnd, NoteAction, ViewAction};
+use super::model::opening::{FileRequest, OpeningPurpose};
+use super::model::ordering::Seen;
+use super::model::task::WindowTask;
+use super::model::workspace::Workspace;
+use super::model::{Action, Model, Task, update};
+use super::panels::side_panels;
+use super::setup::{PaintedBy, Setup};
 use super::shows::Shows;
 use super::state_file::StateFile;
-use super::studio::{
-    Answer, FiguresOrder, Grade, Order, Paper, Shot, Slot, Studio, TakenPicture, Tilts, Which,
-};
-use super::view_history::ViewHistory;
-use super::window::PaintedBy;
-use super::workspace::{PaneLayout, Workspace};
-use super::{dialogs, drops, menus, side_panels, stage, theme};
+use super::studio::{self, Slot, Studio, Which};
+use super::tasks::autosave::Autosave;
+use super::tasks::{Outside, TaskAnswer};
+use super::views::gallery::{Shown, hang};
+use super::views::look_ups::look_ups;
+use super::views::{ViewTools, clock, light_path_window, stage};
+use super::{dialogs, drops, menus, theme};
 use crate::io::library;
-use crate::io::lighting::Lighting;
-use crate::io::mesh_options::MeshOptions;
-use crate::io::{Failure, NameOrFileError};
-use crate::measure::Figures;
-use crate::scene::Specimen;
 use crate::trace::gpu::Gpu;
+use crate::io::Failure;
 use eframe::{CreationContext, Storage};
-use egui::{Context, TextureHandle, Ui, ViewportCommand};
+use egui::{ColorImage, Context, PanelState, TextureHandle, Ui, ViewportCommand};
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use std::sync::mpsc::{Receiver, channel};
 
-/// What an editor starts with.
-pub struct Setup {
-    /// A file to open.
-    pub file: Option<PathBuf>,
-    /// How the file is read where it is a mesh.
-    pub mesh: MeshOptions,
-    /// The folder of the autosave; `None` for no autosave.
-    pub safe: Option<PathBuf>,
-    /// What asks the user for files.
-    pub chooser: Chooser,
-    /// The workspace to begin with where none was kept.
-    pub desk: Workspace,
-    /// The file that says whether the window is at rest; `None` for no such file.
-    pub state_file: Option<StateFile>,
-    /// What opens folders and pages outside the program.
-    pub opener: Opener,
-    /// What paints the window.
-    pub painted_by: PaintedBy,
-}
-
-impl Default for Setup {
-    fn default() -> Self {
-        Self {
-            file: None,
-            mesh: MeshOptions::default(),
-            safe: None,
-            desk: Workspace::default(),
-            chooser: Arc::new(by_dialog),
-            opener: Arc::new(by_system),
-            painted_by: PaintedBy::default(),
-            state_file: None,
-        }
-    }
-}
-
-/// A picture as it is shown, with the shot and the grade that it answers.
-pub struct Shown {
-    pub(super) texture: TextureHandle,
-    pub(super) shot: Shot,
-    pub(super) grade: Grade,
-    pub(super) taken: TakenPicture,
-}
-
-/// Figures as they are shown, with the order and the grade that they answer.
-pub struct ShownFigures {
-    pub(super) ask: FiguresOrder,
-    pub(super) grade: Grade,
-    pub(super) figures: Figures,
-}
-
-/// The state of the editor's window.
+/// The window of the editor.
 pub struct Editor {
-    pub(super) document: Document,
-    /// The stone that views are fitted to.
-    pub(super) framing: Framing,
-    pub(super) desk: Workspace,
-    /// What drawings are drawn on: their colours, light or dark as the window is.
-    pub(super) paper: Paper,
-    pub(super) looks: ViewHistory,
+    /// The state.
+    pub(super) model: Model,
+    /// What has been done in this frame.
+    pub(super) actions: Actions,
+    pub(super) outside: Outside,
+    ctx: Context,
     pub(super) studio: Studio,
-    pub(super) pictures: HashMap<Slot, Shown>,
-    /// The worker that looks pictures up.
-    pub(super) looker: LookupWorker,
-    /// The pictures that were looked up.
-    pub(super) looked: HashMap<Slot, Shown>,
-    /// How the background moves in each view of a refraction map.
-    pub(super) flowing: [Flowing; 4],
-    pub(super) figures: HashMap<Which, ShownFigures>,
-    pub(super) tilts: Option<(FiguresOrder, Tilts)>,
-    pub(super) compared: Option<Compared>,
-    pub(super) probe: Option<Probe>,
-    pub(super) profiles: [ProfileView; 4],
-    pub(super) following: Following,
-    /// The motion of copies and plates in time.
-    pub(super) moving: Moving,
-    /// The view in which a copy is dragged, and the number of that copy.
-    pub(super) held: Option<(usize, usize)>,
-    /// Whether a picture has the focus, so that Space lays out the copies in it.
-    pub(super) is_picture_focused: bool,
-    /// The key of the proportion that was last edited in the panel.
-    pub(super) edited: Option<&'static str>,
-    /// How often copies were laid out; this seeds the next layout.
-    pub(super) layings: u64,
-    /// The text of the status line while the pointer is over a picture.
-    pub(super) message: String,
-    pub(super) notes: Notes,
-    pub(super) dialog: Option<Dialog>,
-    /// What was last selected for export.
-    pub(super) selection: Selection,
-    /// The view under the pointer, or the last one that was.
-    pub(super) hovered: usize,
-    /// The last order, to know whether what is shown is what was ordered.
-    pub(super) asked: Order,
-    pub(super) light: (String, Arc<Lighting>),
-    pub(super) loading: Option<(String, Receiver<Result<Lighting, NameOrFileError>>)>,
-    pub(super) chooser: Chooser,
-    pub(super) opener: Opener,
-    /// A picture for the clipboard that is being made.
-    pub(super) copying: Option<Copying>,
-    pub(super) choosing: Option<Choosing>,
-    pub(super) opening: Vec<Opening>,
-    /// How many documents were begun. It numbers the present one, so that no answer for another is taken for it.
-    pub(super) begun: u64,
-    /// The action that waits until the design is saved.
-    pub(super) after_save: Option<Then>,
-    /// The work as it was when [`take_note`](Self::take_note) was last called.
-    pub(super) kept: Work,
-    watching: Watching,
-    pub(super) safe: Option<Autosave>,
-    /// Whether the window may close without another question.
-    pub(super) may_close: bool,
-    /// Whether renders show three bands of wavelengths alone, as long as a key is down.
-    pub(super) shows_three: bool,
+    /// What the views are drawn with.
+    pub(super) views: ViewTools,
+    /// The small pictures of the export dialog.
+    pub(super) thumbnails: HashMap<Shows, TextureHandle>,
     title: String,
     state_file: Option<StateFile>,
     /// What paints the window.
@@ -187,324 +73,260 @@ impl Editor {
         context.add_plugin(Hands::default());
         let kept = storage.and_then(|s| s.get_string(DESK));
         // A workspace of a later program that this one cannot read is ignored.
-        let mut desk: Workspace =
+        let workspace: Workspace =
             kept.and_then(|text| serde_json::from_str(&text).ok()).unwrap_or(setup.desk);
+        let mut model = Model::new(workspace)?;
+        model.session.safe.is_on = setup.safe.is_some();
         let wake = waker(context);
-        let mut document = Document::first()?;
-        let first = Lighting::load(FIRST_LIGHT)?;
-        let light = (FIRST_LIGHT.to_owned(), Arc::new(first));
-        desk.face_up();
-        desk.rest();
-        document.begin(&desk.light, desk.exposure, desk.head);
-        let kept = document.work.clone();
-        let watch = wake.clone();
+        let safe = setup.safe.map(Autosave::new);
         let mut editor = Self {
-            looker: LookupWorker::open(wake.clone()),
-            looked: HashMap::new(),
-            flowing: Default::default(),
+            actions: Actions::default(),
+            outside: Outside::new(setup.chooser, setup.opener, safe, wake.clone()),
+            ctx: context.clone(),
             studio: Studio::open(gpu, wake),
-            framing: Framing::new(document.specimen()),
-            document,
-            looks: ViewHistory::new(&desk),
-            paper: Paper::default(),
-            desk,
-            pictures: HashMap::new(),
-            figures: HashMap::new(),
-            tilts: None,
-            compared: None,
-            probe: None,
-            profiles: Default::default(),
-            following: Following::default(),
-            moving: Moving::default(),
-            held: None,
-            is_picture_focused: false,
-            edited: None,
-            layings: 0,
-            message: String::new(),
-            notes: Notes::default(),
-            dialog: None,
-            selection: Selection::default(),
-            hovered: 0,
-            light,
-            asked: Order::default(),
-            loading: None,
-            chooser: setup.chooser,
-            opener: setup.opener,
-            copying: None,
-            choosing: None,
-            begun: 0,
-            opening: vec![],
-            after_save: None,
-            kept,
-            watching: Watching::begin(move || watch()),
-            safe: setup.safe.map(Autosave::new),
-            may_close: false,
-            shows_three: false,
+            views: ViewTools::default(),
+            thumbnails: HashMap::new(),
             title: String::new(),
             state_file: setup.state_file,
             painted_by: setup.painted_by,
+            model,
         };
-        let named = |path: &Path| library::cut(&path.to_string_lossy()).filter(|_| !path.is_file()).is_some();
-        match setup.file.or_else(|| editor.desk.last.clone().filter(|p| p.exists())) {
-            Some(path) if !path.is_file() && library::scene(&path.to_string_lossy()).is_some() => {
-                editor.begin_preset(&path.to_string_lossy().to_lowercase());
-            }
-            Some(path) if named(&path) => editor.begin_from_library(&path.to_string_lossy()),
-            Some(path) => editor.open_with(&path, OpeningPurpose::Anew, setup.mesh),
-            None => {}
+        let last = || editor.model.workspace.last.clone().filter(|p| p.exists());
+        if let Some(path) = setup.file.or_else(last) {
+            editor.act(first(path, setup.mesh));
         }
-        editor.offer_recovery();
+        editor.act(editor.outside.found());
         Ok(editor)
     }
 
-    fn offer_recovery(&mut self) {
-        let found = self.safe.as_ref().map_or_else(Vec::new, Autosave::found);
-        if let Some(first) = found.into_iter().next() {
-            self.dialog = Some(Dialog::Recover(Box::new(first)));
+    /// Does something at once, and begins what is to be done outside because of it.
+    pub(super) fn act(&mut self, action: impl Into<Action>) {
+        for task in update(&mut self.model, action.into()) {
+            match task {
+                Task::Window(task) => self.in_window(task),
+                Task::Trace(order) => self.studio.order(*order),
+                task => {
+                    if let Task::Thumbnails(_) = task {
+                        self.thumbnails.clear();
+                    }
+                    self.outside.start(task);
+                }
+            }
         }
     }
 
-    /// Returns the probe that answers questions about a stone.
-    pub(super) fn probe(&mut self, specimen: &Arc<Specimen>) -> &Probe {
-        let known = self.probe.take().filter(|p| p.is_about(specimen));
-        self.probe.insert(known.unwrap_or_else(|| Probe::new(Arc::clone(specimen))))
-    }
-
-    /// Returns the chosen light; the last one until that is loaded, and where it cannot be loaded.
-    pub(super) fn light(&mut self) -> Arc<Lighting> {
-        let wanted = &self.document.work.light;
-        let is_loading = self.loading.as_ref().is_some_and(|(name, _)| name == wanted);
-        if self.light.0 != *wanted && !is_loading {
-            let (sender, answer) = channel();
-            let (name, wake) = (wanted.clone(), self.studio.wake());
-            std::thread::spawn(move || {
-                // Nobody waits for the answer any more where another light was chosen.
-                let _ = sender.send(Lighting::load(&name));
-                wake();
-            });
-            self.loading = Some((wanted.clone(), answer));
+    /// Does what has been asked for since the last call.
+    pub(super) fn run(&mut self) {
+        for action in self.actions.take() {
+            self.act(action);
         }
-        Arc::clone(&self.light.1)
+        self.views.gallery.tidy(&self.model);
     }
 
-    fn take_in_light(&mut self) {
-        let Some((name, Ok(loaded))) = self.loading.as_ref().map(|(n, a)| (n.clone(), a.try_recv())) else {
-            return;
-        };
-        self.loading = None;
-        let lighting = match loaded {
-            Ok(lighting) => {
-                lighting.warnings.iter().for_each(|w| self.notes.say(w));
-                Arc::new(lighting)
+    /// Does what only the window can do.
+    fn in_window(&mut self, task: WindowTask) {
+        match task {
+            WindowTask::Close => self.ctx.send_viewport_cmd(ViewportCommand::Close),
+            WindowTask::StayOpen => self.ctx.send_viewport_cmd(ViewportCommand::CancelClose),
+            WindowTask::FullScreen => {
+                let is_full = self.ctx.input(|i| i.viewport().fullscreen == Some(true));
+                self.ctx.send_viewport_cmd(ViewportCommand::Fullscreen(!is_full));
             }
-            Err(why) => {
-                self.notes.trouble(format!("{why}; the light stays as it was"));
-                Arc::clone(&self.light.1)
+            // Panels keep the widths that the user gave them until egui forgets these.
+            WindowTask::ForgetPanelWidths => {
+                self.ctx.data_mut(|data| data.remove_by_type::<PanelState>());
             }
-        };
-        self.light = (name, lighting);
+            WindowTask::CopyShown(pane) => self.copy_shown(pane),
+        }
     }
 
-    /// Takes in what has arrived from other threads and from outside: pictures, figures, lights, files, changes on disk.
-    fn take_in(&mut self, ctx: &Context) {
-        let answers: Vec<Answer> = self.studio.answers().collect();
+    fn copy_shown(&mut self, pane: usize) {
+        let is_other = self.model.session.keys.other && self.model.session.compared.is_some();
+        let which = if is_other { Which::Other } else { Which::Present };
+        let shows = self.model.workspace.panes[pane].shows;
+        let text = match self.shown((pane, which)).filter(|picture| picture.shot.shows == shows) {
+            Some(picture) => {
+                self.ctx.copy_image(picture.taken.image.clone());
+                format!("{} copied", shows.name())
+            }
+            None => "This view holds no picture to copy.".to_owned(),
+        };
+        self.actions.push(NoteAction::Say(text));
+    }
+
+    /// Returns the picture of a view.
+    pub(super) fn shown(&self, slot: Slot) -> Option<&Shown> {
+        self.views.gallery.shown(&self.model, slot)
+    }
+
+    /// Takes in what has arrived from other threads and from outside.
+    fn take_in(&mut self) {
+        let answers: Vec<studio::Answer> = self.studio.answers().collect();
         for answer in answers {
             match answer {
-                Answer::Picture(slot, shot, grade, taken) => {
-                    hang(ctx, &mut self.pictures, slot, (*shot, grade, taken));
+                studio::Answer::Picture(slot, shot, grade, taken) => {
+                    hang(&self.ctx, &mut self.views.gallery.traced, slot, (*shot, grade, taken));
                 }
-                Answer::Figures(which, ask, grade, figures) => {
-                    self.figures.insert(which, ShownFigures { ask, grade, figures: *figures });
+                studio::Answer::Figures(which, ask, grade, figures) => {
+                    self.actions.push(Computed::Figures(which, ask, grade, figures));
                 }
-                Answer::Tilts(ask, tilts) => self.tilts = Some((ask, tilts)),
-                Answer::Trouble(why) => self.notes.trouble(why),
+                studio::Answer::Tilts(ask, tilts) => self.actions.push(Computed::Tilts(ask, tilts)),
+                studio::Answer::Trouble(why) => self.actions.push(NoteAction::Trouble(why)),
             }
         }
-        self.take_in_looked(ctx);
-        self.take_in_light();
-        self.take_in_files();
-        if let Some((purpose, document, answer)) =
-            self.choosing.as_ref().and_then(|c| Some((c.purpose, c.document, c.answer()?)))
-        {
-            self.choosing = None;
+        for answer in self.outside.answers() {
             match answer {
-                Choice::File(path) => self.chosen(purpose, document, path),
-                // The export dialog has its own field for the folder.
-                Choice::NoDialog if self.dialog.is_none() => self.ask_path(purpose),
-                Choice::NoDialog | Choice::GivenUp => self.after_save = None,
+                TaskAnswer::Act(action) => self.actions.push(*action),
+                TaskAnswer::Copied(made) => self.copied(made),
+                TaskAnswer::Looked(slot, request, Ok(taken)) => {
+                    let picture = (request.shot.clone(), request.grade, taken);
+                    hang(&self.ctx, &mut self.views.gallery.looked, slot, picture);
+                }
+                TaskAnswer::Looked(_, _, Err(why)) => self.actions.push(NoteAction::Trouble(why.to_string())),
+                TaskAnswer::Thumbnail(shows, image) => {
+                    let name = format!("thumbnail {shows:?}");
+                    let texture = self.ctx.load_texture(name, image, egui::TextureOptions::LINEAR);
+                    self.thumbnails.insert(shows, texture);
+                }
             }
         }
-        self.watching.watch(self.document.path());
-        if self.dialog.is_none() && self.watching.has_changed() && self.document.is_changed_outside() {
-            self.changed_outside();
-        }
-        let dropped: Vec<PathBuf> =
-            ctx.input(|i| i.raw.dropped_files.iter().map(|file| file.path().to_owned()).collect());
+    }
+
+    fn copied(&mut self, made: Result<ColorImage, Failure>) {
+        let made = made.map(|image| {
+            let size = image.size;
+            self.ctx.copy_image(image);
+            size
+        });
+        self.actions.push(Computed::Copied(made));
+    }
+
+    /// Takes in what the system and the keyboard say of the window.
+    fn take_in_input(&mut self) {
+        let (dropped, is_to_close): (Vec<PathBuf>, bool) = self.ctx.input(|i| {
+            let dropped = i.raw.dropped_files.iter().map(|file| file.path().to_owned());
+            (dropped.collect(), i.viewport().close_requested())
+        });
         if !dropped.is_empty() {
-            self.dropped(&dropped);
+            self.actions.push(FileAction::Dropped(dropped));
         }
-        self.take_in_copy(ctx);
-    }
-
-    fn take_in_looked(&mut self, ctx: &Context) {
-        let answers: Vec<_> = self.looker.answers().collect();
-        for (slot, ask, taken) in answers {
-            match taken {
-                Ok(taken) => hang(ctx, &mut self.looked, slot, (ask.shot, ask.grade, taken)),
-                Err(why) => self.notes.trouble(why),
-            }
+        if is_to_close {
+            self.actions.push(FileAction::Close);
+        }
+        let keys = menus::held_keys(&self.ctx);
+        if keys != self.model.session.keys {
+            self.actions.push(ViewAction::Keys(keys));
         }
     }
 
-    /// Returns the picture of a view: looked up where the view shows such a picture, else traced.
-    pub(super) fn shown(&self, slot: Slot) -> Option<&Shown> {
-        let shows = self.desk.panes[slot.0].shows;
-        let is_looked_up =
-            shows == Shows::LiquidGlass || (shows == Shows::Refraction && !self.flowing[slot.0].is_map);
-        if is_looked_up {
-            return self.looked.get(&slot).filter(|shown| shown.shot.shows == shows);
-        }
-        self.pictures.get(&slot)
-    }
-
-    /// Returns the view that keys act on: the one under the pointer or with the focus, or else the first.
-    pub(super) fn active(&self) -> usize {
-        let shown = self.desk.shown();
-        if shown.contains(&self.hovered) { self.hovered } else { shown[0] }
-    }
-
-    /// Whether a command is switched on, as menus show it.
-    pub(super) fn is_chosen(&self, command: Command) -> bool {
-        let overlay = |name| self.desk.overlay.as_deref() == Some(name);
-        let eye = self.desk.eye(self.active());
-        match command {
-            Command::One => self.desk.layout == PaneLayout::One,
-            Command::Two => self.desk.layout == PaneLayout::Two,
-            Command::Four => self.desk.layout == PaneLayout::Four,
-            Command::Perspective => self.desk.panes[self.active()].is_near,
-            Command::EyeLeans => eye.eye_leans,
-            Command::Wireframe => overlay("wireframe"),
-            Command::Facets => overlay("facets"),
-            Command::Bounces => overlay("bounces"),
-            Command::Unresolved => overlay("unresolved"),
-            Command::Total => overlay("total"),
-            Command::Strongest => self.desk.strongest,
-            Command::Glare => self.desk.glare,
-            Command::Split => self.desk.is_split,
-            Command::LightPath => self.following.is_open,
-            Command::Play => self.moving.is_on,
-            Command::Panels => self.desk.hides_panels,
-            _ => false,
-        }
-    }
-
-    /// Opens a folder or a page outside the program.
-    pub(super) fn open_outside(&mut self, what: &str) {
-        if let Err(why) = (self.opener)(what) {
-            self.notes.trouble(format!("{what} was not opened: {why}"));
-        }
-    }
-
-    fn close(&mut self, ctx: &Context) {
-        if !ctx.input(|i| i.viewport().close_requested()) {
-            if self.may_close {
-                ctx.send_viewport_cmd(ViewportCommand::Close);
-            }
-        } else if self.dialog.as_ref().is_some_and(Dialog::insists) {
-            ctx.send_viewport_cmd(ViewportCommand::CancelClose);
-            self.notes.say("Answer what is asked first, or stop the export.");
-        } else if !self.may_close && self.document.is_changed() {
-            ctx.send_viewport_cmd(ViewportCommand::CancelClose);
-            self.dialog = Some(Dialog::Unsaved(Then::Close));
-        } else if !self.may_close && self.document.has_moved_copies() {
-            ctx.send_viewport_cmd(ViewportCommand::CancelClose);
-            self.dialog = Some(Dialog::Moved(Then::Close));
-        }
-    }
-
-    fn name_window(&mut self, ctx: &Context) {
-        let mark = if self.document.is_changed() { " •" } else { "" };
-        let title = format!("{}{mark} — Brillianteer", self.document.title());
+    fn name_window(&mut self) {
+        let document = &self.model.document;
+        let mark = if document.is_changed() { " •" } else { "" };
+        let title = format!("{}{mark} — Brillianteer", document.title());
         if title != self.title {
-            ctx.send_viewport_cmd(ViewportCommand::Title(title.clone()));
+            self.ctx.send_viewport_cmd(ViewportCommand::Title(title.clone()));
             self.title = title;
         }
     }
 
     /// Whether all pictures and figures are as good as they get, and nothing is under way.
     pub(super) fn is_idle(&self) -> bool {
+        let session = &self.model.session;
+        let awaited = &session.awaited;
         self.studio.is_idle()
-            && self.looker.is_idle()
-            && self.choosing.is_none()
-            && self.loading.is_none()
-            && self.opening.is_empty()
+            && !self.outside.is_looking_up()
+            && session.light.loading.is_none()
+            && awaited.choosing.is_none()
+            && awaited.opening.is_empty()
+            && !awaited.saving
+            && !awaited.dropped
     }
 
     /// Draws the window, and carries out what the user does in it.
     pub(super) fn show(&mut self, ui: &mut Ui) {
         let ctx = ui.ctx().clone();
-        self.take_in(&ctx);
-        menus::keys(self, &ctx);
-        self.shows_three = menus::are_three_shown(&ctx);
-        self.paper = theme::paper(&ctx);
-        menus::bar(self, ui);
-        menus::status(self, ui);
-        if !self.desk.hides_panels {
-            side_panels::show(self, ui);
+        self.take_in();
+        self.take_in_input();
+        self.run();
+        menus::keys(&self.model, &mut self.actions, &ctx, self.views.attention.is_picture_focused);
+        self.run();
+        self.views.paper = theme::paper(&ctx);
+        menus::bar(&self.model, &mut self.actions, ui);
+        let pictures = PictureStatus {
+            is_idle: self.studio.is_idle(),
+            sharpens: self.studio.sharpens(),
+            device: self.studio.device_name(),
+            painter: self.painted_by.name(),
+        };
+        menus::status(&self.model.session, &pictures, ui);
+        self.run();
+        if !self.model.workspace.hides_panels {
+            side_panels::show(&self.model, &mut self.actions, ui);
+            self.run();
         }
-        self.is_picture_focused = false;
-        let seen = stage::show(self, ui);
-        following::show(self, &ctx);
-        dialogs::show(self, &ctx);
+        let seen = stage::show(&self.model, &mut self.views, &mut self.actions, ui);
+        self.run();
+        light_path_window::show(&self.model, &mut self.views, &mut self.actions, &ctx);
+        dialogs::show(&self.model, &self.thumbnails, &mut self.actions, &ctx);
         drops::invite(&ctx);
-        self.document.update();
-        if seen.iter().any(|(pane, _)| self.desk.panes[*pane].shows.has_company()) {
-            self.moving.advance(&ctx);
+        let moves = |pane: usize| self.model.workspace.panes[pane].shows.has_company();
+        if self.model.session.motion.is_on && seen.iter().any(|(pane, _)| moves(*pane)) {
+            self.actions.push(ViewAction::Advance(clock::step(&ctx)));
         }
-        let pulled = self.profiles.iter().any(ProfileView::is_dragging);
-        let gesture = pulled || ctx.egui_is_using_pointer() || ctx.text_edit_focused();
-        if !gesture && self.framing.settle(self.document.specimen()) {
-            // The views of this frame were laid out for the stone as it was fitted before.
-            ctx.request_repaint();
-        }
+        self.end_frame();
         self.order(&seen);
-        if !gesture {
-            self.settle(ctx.input(|i| i.time));
+        self.name_window();
+        self.publish_state();
+    }
+
+    fn end_frame(&mut self) {
+        let fitted = Arc::clone(self.model.session.framing.fitted());
+        let is_gesture = self.views.is_handle_dragged()
+            || self.ctx.egui_is_using_pointer()
+            || self.ctx.text_edit_focused();
+        let now = self.ctx.input(|i| i.time);
+        self.run();
+        self.act(Action::Frame(FrameEnd { now, is_gesture }));
+        if !Arc::ptr_eq(&fitted, self.model.session.framing.fitted()) {
+            // The views of this frame were laid out for the stone as it was fitted before.
+            self.ctx.request_repaint();
         }
-        self.name_window(&ctx);
-        self.close(&ctx);
-        self.publish_state(&ctx);
+    }
+
+    /// Orders all that is in sight.
+    fn order(&mut self, seen: &[Seen]) {
+        for (slot, request) in look_ups(&self.model, &mut self.views, seen) {
+            self.outside.look_up(slot, request);
+        }
+        let order = self.views.orders(&self.model).all(seen);
+        self.act(Computed::Order(Box::new(order)));
     }
 
     /// Writes to the state file whether the window is at rest, for a test that waits for that.
-    fn publish_state(&mut self, ctx: &Context) {
+    fn publish_state(&mut self) {
         let is_quiet = self.is_idle() && !self.studio.sharpens();
-        if self.state_file.as_mut().is_some_and(|file| file.note(is_quiet, self.desk.layout)) {
-            ctx.request_repaint();
+        let layout = self.model.workspace.layout;
+        if self.state_file.as_mut().is_some_and(|file| file.note(is_quiet, layout)) {
+            self.ctx.request_repaint();
         }
     }
 }
 
-/// Replaces the picture in a slot.
-fn hang(
-    ctx: &Context,
-    pictures: &mut HashMap<Slot, Shown>,
-    slot: Slot,
-    (shot, grade, taken): (Shot, Grade, TakenPicture),
-) {
-    let image = taken.image.clone();
-    let options = egui::TextureOptions::LINEAR;
-    let texture = match pictures.remove(&slot) {
-        Some(mut shown) => {
-            shown.texture.set(image, options);
-            shown.texture
-        }
-        None => ctx.load_texture(format!("{slot:?}"), image, options),
-    };
-    pictures.insert(slot, Shown { texture, shot, grade, taken });
+/// Returns how the editor begins with a file, or with what comes with the program under that name.
+fn first(path: PathBuf, mesh: crate::io::mesh_options::MeshOptions) -> FileAction {
+    use super::model::dialog::Then;
+    let name = path.to_string_lossy().into_owned();
+    let is_file = Path::is_file(&path);
+    if !is_file && library::scene(&name).is_some() {
+        FileAction::Ask(Then::Preset(name.to_lowercase()))
+    } else if !is_file && library::cut(&name).is_some() {
+        FileAction::Ask(Then::Library(name))
+    } else {
+        FileAction::OpenWith(FileRequest { purpose: OpeningPurpose::Anew, path, mesh })
+    }
 }
 
-fn waker(ctx: &Context) -> super::studio::Wake {
+fn waker(ctx: &Context) -> studio::Wake {
     let ctx = ctx.clone();
     Arc::new(move || ctx.request_repaint())
 }
@@ -521,16 +343,12 @@ impl eframe::App for Editor {
     }
 
     fn save(&mut self, storage: &mut dyn eframe::Storage) {
-        if let Ok(text) = serde_json::to_string(&self.desk) {
+        if let Ok(text) = serde_json::to_string(&self.model.workspace) {
             storage.set_string(DESK, text);
         }
     }
 
     fn on_exit(&mut self) {
-        // Where the system took the window away without asking the user, the work is kept for the next start.
-        let is_safe = !self.document.is_changed() && !self.document.has_moved_copies();
-        if self.may_close || is_safe {
-            self.forget_unsaved();
-        }
+        self.act(FileAction::Ended);
     }
 }

@@ -1,6 +1,6 @@
 //! The window's icon, which the program draws itself: its first stone from above.
 
-use super::document::Document;
+use crate::app::model::document::Document;
 use crate::io::rasterize_clear;
 use crate::picture;
 use egui::IconData;

@@ -1,25 +1,12 @@
-//! A pane of liquid glass over the background of a view: it is moved by hand, and drawn as screens draw it or traced.
+//! The pane of liquid glass over the background of a view: its settings, as they are kept, and its place in a picture.
 
-use super::editor::{Editor, Shown};
-use super::lookup::{LookupRequest, backdrop};
-use super::pane::{enlarge, focus};
-use super::shows::Shows;
-use super::studio::{Grade, Which};
-use super::view_menu;
 use crate::optics::linear_from_encoded;
 use crate::picture::pane::{GlassPane, PaneQuality};
-use egui::{
-    Color32, EventFilter, Key, Modifiers, PointerButton, Rect, Response, Role, Sense, StrokeKind, Ui,
-    WidgetInfo, pos2,
-};
 use glam::{DVec2, DVec4};
 use serde::{Deserialize, Serialize};
 
 /// The least side of the pane, pixels.
 const LEAST: f64 = 8.0;
-
-/// How far an arrow key moves the pane, in parts of the view.
-const STEP: f64 = 0.01;
 
 /// The settings of the pane of liquid glass, as they are kept.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -89,62 +76,9 @@ impl Liquid {
     }
 
     /// Moves the pane by parts of the view, but not out of it.
-    fn drag(&mut self, by: DVec2) {
+    pub fn drag(&mut self, by: DVec2) {
         let half = (self.size / 200.0).clamp(DVec2::ZERO, DVec2::splat(0.5));
         self.at = (self.at + by).clamp(half, 1.0 - half);
-    }
-}
-
-/// Draws the view, and moves the pane by drags and arrow keys.
-pub fn show(editor: &mut Editor, ui: &mut Ui, (pane, shows): (usize, Shows), body: Rect, size: [u32; 2]) {
-    let response = ui.interact(body, ui.scope_id().with("picture"), Sense::click_and_drag());
-    let name = format!("{} picture", shows.name());
-    response.widget_info(|| WidgetInfo::labeled(Role::Image, true, &name));
-    if response.dragged_by(PointerButton::Primary) {
-        let by = response.drag_delta() / body.size();
-        editor.desk.liquid.drag(DVec2::new(by.x.into(), by.y.into()));
-    }
-    if response.has_focus() {
-        by_keys(&mut editor.desk.liquid, ui, &response);
-    }
-    if shows == Shows::LiquidGlass {
-        ask(editor, pane, size);
-    }
-    ui.painter().rect_filled(body, 4.0, ui.visuals().extreme_bg_color);
-    if let Some(Shown { texture, .. }) =
-        editor.shown((pane, Which::Present)).filter(|shown| shown.shot.shows == shows)
-    {
-        let uv = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
-        ui.painter().image(texture.id(), body, uv, Color32::WHITE);
-    }
-    ui.painter().rect_stroke(body, 4.0, focus(ui, &response), StrokeKind::Inside);
-    view_menu::attach(editor, &response, pane);
-    if response.double_clicked() {
-        enlarge(editor, pane);
-    }
-    if response.hovered() || response.has_focus() {
-        editor.hovered = pane;
-    }
-}
-
-fn by_keys(liquid: &mut Liquid, ui: &Ui, response: &Response) {
-    let arrows = EventFilter { horizontal_arrows: true, vertical_arrows: true, ..EventFilter::default() };
-    ui.memory_mut(|m| m.set_focus_lock_filter(response.id, arrows));
-    let pressed = |key| ui.input_mut(|i| i.count_and_consume_key(Modifiers::NONE, key)) as f64;
-    let along = |more, less| pressed(more) - pressed(less);
-    let by = DVec2::new(along(Key::ArrowRight, Key::ArrowLeft), along(Key::ArrowDown, Key::ArrowUp));
-    if by != DVec2::ZERO {
-        liquid.drag(by * STEP);
-    }
-}
-
-/// Requests the pane as screens draw it.
-fn ask(editor: &mut Editor, pane: usize, size: [u32; 2]) {
-    let light = editor.light();
-    if let Some(shot) = editor.shot(pane, Which::Present, size, &light) {
-        let behind = backdrop(shot.behind.as_ref());
-        let ask = LookupRequest { shot, grade: Grade::Fine, map: None, behind };
-        editor.looker.ask((pane, Which::Present), ask);
     }
 }
 

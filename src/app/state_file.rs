@@ -1,7 +1,7 @@
 //! A small file that says whether the window is at rest. Tests that work the real program wait for what it says, instead of
 //! for time to pass.
 
-use super::workspace::PaneLayout;
+use crate::app::model::workspace::PaneLayout;
 use crate::io::{WriteError, write};
 use serde::Serialize;
 use std::path::PathBuf;

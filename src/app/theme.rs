@@ -1,6 +1,6 @@
 //! Colours and spacing of the window, light and dark.
 
-use super::studio::Paper;
+use crate::app::studio::Paper;
 use crate::picture::Inks;
 use egui::{Color32, Context, CornerRadius, FontId, Stroke, Style, TextStyle, Theme, Visuals, vec2};
 

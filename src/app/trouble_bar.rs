@@ -1,8 +1,9 @@
 //! The bar of errors and warnings: one line over the lower edge of the views, which keep their size. It opens to a list.
 
-use super::editor::Editor;
-use super::notes::Problem;
-use super::theme;
+use crate::app::model::Model;
+use crate::app::model::action::{Actions, NoteAction};
+use crate::app::model::notes::{Notes, Problem};
+use crate::app::theme;
 use egui::{
     Align, Align2, Area, Color32, Context, Frame, Id, Label, Layout, Order, Rect, RichText, ScrollArea, Ui,
 };
@@ -11,8 +12,9 @@ use egui::{
 const MOST_OF_HEIGHT: f32 = 0.6;
 
 /// Draws the bar over the views, if there are errors or warnings.
-pub fn show(editor: &mut Editor, ctx: &Context, stage: Rect) {
-    if editor.notes.troubles().is_empty() {
+pub fn show(model: &Model, actions: &mut Actions, ctx: &Context, stage: Rect) {
+    let notes = &model.session.notes;
+    if notes.troubles().is_empty() {
         return;
     }
     let area = Area::new(Id::unique("troubles")).order(Order::Middle).fixed_pos(stage.left_bottom());
@@ -21,9 +23,9 @@ pub fn show(editor: &mut Editor, ctx: &Context, stage: Rect) {
         frame.show(ui, |ui| {
             ui.set_width(stage.width() - 14.0);
             ui.set_max_height(stage.height());
-            match editor.notes.is_open {
-                true => list(editor, ui, stage.height() * MOST_OF_HEIGHT),
-                false => last(editor, ui),
+            match notes.is_open {
+                true => list(notes, actions, ui, stage.height() * MOST_OF_HEIGHT),
+                false => last(notes, actions, ui),
             }
         });
     });
@@ -35,32 +37,30 @@ fn coloured(ui: &Ui, trouble: &Problem) -> RichText {
 }
 
 /// Draws the last message alone, on one line; a button lists all messages, each in full.
-fn last(editor: &mut Editor, ui: &mut Ui) {
-    let troubles = editor.notes.troubles();
-    let (count, Some(trouble)) = (troubles.len(), troubles.last().cloned()) else { return };
+fn last(notes: &Notes, actions: &mut Actions, ui: &mut Ui) {
+    let (count, Some(trouble)) = (notes.troubles().len(), notes.troubles().last()) else { return };
     ui.horizontal(|ui| {
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
             if ui.button("Dismiss").on_hover_text("Forgets this message.").clicked() {
-                editor.notes.dismiss(count - 1);
+                actions.push(NoteAction::Dismiss(count - 1));
             }
             let open = if count > 1 { format!("Show all {count}") } else { "Show all of it".to_owned() };
             if ui.button(open).on_hover_text("Lists every message in full.").clicked() {
-                editor.notes.is_open = true;
+                actions.push(NoteAction::List(true));
             }
             ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
-                ui.add(Label::new(coloured(ui, &trouble)).truncate());
+                ui.add(Label::new(coloured(ui, trouble)).truncate());
             });
         })
     });
 }
 
-fn list(editor: &mut Editor, ui: &mut Ui, height: f32) {
-    let troubles = editor.notes.troubles().to_vec();
+fn list(notes: &Notes, actions: &mut Actions, ui: &mut Ui, height: f32) {
     ScrollArea::vertical().max_height(height).show(ui, |ui| {
-        for (k, trouble) in troubles.iter().enumerate().rev() {
+        for (k, trouble) in notes.troubles().iter().enumerate().rev() {
             ui.horizontal_top(|ui| {
                 if ui.small_button("Dismiss").clicked() {
-                    editor.notes.dismiss(k);
+                    actions.push(NoteAction::Dismiss(k));
                 }
                 ui.add(Label::new(coloured(ui, trouble)).wrap().selectable(true));
             });
@@ -68,10 +68,10 @@ fn list(editor: &mut Editor, ui: &mut Ui, height: f32) {
     });
     ui.horizontal(|ui| {
         if ui.button("Dismiss all").clicked() {
-            (0..troubles.len()).rev().for_each(|k| editor.notes.dismiss(k));
+            actions.push(NoteAction::DismissAll);
         }
         if ui.button("Show one line").clicked() {
-            editor.notes.is_open = false;
+            actions.push(NoteAction::List(false));
         }
     });
 }

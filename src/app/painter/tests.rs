@@ -2,9 +2,10 @@
 #![allow(clippy::print_stdout, reason = "what is measured is told")]
 
 use super::Painter;
-use crate::app::editor::{Editor, Setup};
+use crate::app::editor::Editor;
+use crate::app::model::workspace::Workspace;
+use crate::app::setup::Setup;
 use crate::app::shows::Shows;
-use crate::app::workspace::Workspace;
 use egui::{Context, FullOutput, TexturesDelta, Theme};
 use egui_kittest::wgpu::WgpuTestRenderer;
 use egui_kittest::{Harness, TestRenderer};

@@ -55,7 +55,6 @@ pub struct Studio {
     desk: Arc<Mailbox>,
     answers: Receiver<Answer>,
     last: Order,
-    wake: Wake,
     thread: Option<JoinHandle<()>>,
     device_name: String,
 }
@@ -76,18 +75,13 @@ impl Studio {
         let gpu = gpu.filter(|gpu| !gpu.is_software());
         let told = gpu.as_ref().map_or("processor".into(), |gpu| gpu.name().to_owned());
         let (sender, answers) = channel();
-        let worker = worker::Worker::new(Arc::clone(&desk), sender, gpu, Arc::clone(&wake));
+        let worker = worker::Worker::new(Arc::clone(&desk), sender, gpu, wake);
         let work = || {
             urgency::lower();
             worker.work();
         };
         let thread = std::thread::Builder::new().name("studio".into()).spawn(work).ok();
-        Self { desk, answers, last: Order::default(), wake, thread, device_name: told }
-    }
-
-    /// Returns the callback that is called whenever there is an answer.
-    pub fn wake(&self) -> Wake {
-        Arc::clone(&self.wake)
+        Self { desk, answers, last: Order::default(), thread, device_name: told }
     }
 
     /// The name of the card, or "processor".

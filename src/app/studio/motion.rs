@@ -120,11 +120,11 @@ impl Moment {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::app::document::Document;
-    use crate::app::eye::Eye;
-    use crate::app::framing::FramingFit;
     use crate::app::liquid::Liquid;
-    use crate::app::moving::Moving;
+    use crate::app::model::document::Document;
+    use crate::app::model::eye::Eye;
+    use crate::app::model::framing::FramingFit;
+    use crate::app::model::motion::{Motion, WaveCache};
     use crate::app::shows::Shows;
     use crate::app::studio::order::{Paper, Smoothing, Which};
     use crate::io::lighting::Lighting;
@@ -137,8 +137,8 @@ mod tests {
     fn shot(cut: &str, seconds: f64, (eye, projection): &(Eye, Projection)) -> Shot {
         let design = Arc::clone(Document::of_library(cut).unwrap().specimen());
         let company = Copies::scattered(3, design.solid().vertices(), 4);
-        let mut moving = Moving::at(seconds);
-        let (specimen, company) = moving.now(&design, &company);
+        let moving = Motion::at(seconds);
+        let (specimen, company) = moving.now(&mut WaveCache::default(), &design, &company);
         Shot {
             specimen,
             title: String::new(),

@@ -183,10 +183,10 @@ fn drawing(shot: &Shot) -> Result<TakenPicture, TakeError> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::app::document::Document;
-    use crate::app::eye::Eye;
-    use crate::app::framing::FramingFit;
     use crate::app::liquid::Liquid;
+    use crate::app::model::document::Document;
+    use crate::app::model::eye::Eye;
+    use crate::app::model::framing::FramingFit;
     use crate::app::studio::jobs::BEHIND;
     use crate::app::studio::order::{Paper, Smoothing, Which};
     use crate::io::lighting::Lighting;

@@ -1,9 +1,10 @@
 //! Tests of dialogs: what they ask, what Return and Escape do in them, and what an export reports of itself.
 
 use super::*;
-use crate::app::dialogs::Dialog;
-use crate::app::export_dialog::ExportDialog;
-use crate::app::export_job::Job;
+use crate::app::model::dialog::Dialog;
+use crate::app::model::exporting::{ExportEvent, ExportRun};
+use crate::app::model::plan::export_plan;
+use crate::app::tasks::export::run;
 use crate::io::cut_file;
 use crate::io::export::OutputFormat;
 use egui::{Key, Role};
@@ -15,37 +16,40 @@ fn the_field_for_a_path_has_the_focus_and_return_takes_only_what_was_typed() {
     let path = folder.path().join("typed.toml");
     let mut bench = Bench::new();
     bench.choose("File", "Save as…");
-    bench.wait(|editor| matches!(editor.dialog, Some(Dialog::Path(_))));
+    bench.wait(|editor| matches!(editor.model.session.dialog, Some(Dialog::Path(_))));
     assert!(bench.field(Role::TextInput, "Path").is_focused());
     bench.harness.key_press(Key::Enter);
     bench.harness.run_steps(3);
-    assert!(matches!(bench.editor().dialog, Some(Dialog::Path(_))), "nobody has typed that path");
-    assert!(bench.editor().document.path().is_none());
+    assert!(
+        matches!(bench.editor().model.session.dialog, Some(Dialog::Path(_))),
+        "nobody has typed that path"
+    );
+    assert!(bench.editor().model.document.path().is_none());
     assert!(bench.field(Role::TextInput, "Path").is_focused(), "it can still be typed");
     bench.harness.key_press_modifiers(egui::Modifiers::COMMAND, Key::A);
     bench.harness.event(egui::Event::Text(path.display().to_string()));
     bench.harness.run_steps(2);
     bench.harness.key_press(Key::Enter);
     bench.harness.run_steps(3);
-    assert!(bench.editor().dialog.is_none());
-    assert_eq!(cut_file::read(&path).unwrap(), bench.editor().document.work.design);
+    assert!(bench.editor().model.session.dialog.is_none());
+    assert_eq!(cut_file::read(&path).unwrap(), bench.editor().model.document.work.design);
 }
 
 /// Opens the export dialog and asks for PNG files of all scopes, `size` pixels wide, in a folder.
 fn export(bench: &mut Bench, folder: &Path, size: u32) {
     bench.harness.run_steps(2);
     bench.choose("File", "Export…");
-    let Some(Dialog::Export(export)) = &mut bench.harness.state_mut().dialog else { panic!() };
-    export.folder = folder.to_owned();
+    let Some(Dialog::Export(export)) = &mut bench.harness.state_mut().model.session.dialog else { panic!() };
+    export.plan.folder = folder.to_owned();
     let selection = &mut export.plan.selection;
     selection.views = vec![Shows::Aset, Shows::AsetWhite, Shows::IdealScope, Shows::Hearts, Shows::Arrows];
     (selection.size, selection.formats) = (size, vec![OutputFormat::Png]);
     bench.harness.run_steps(2);
 }
 
-fn job(editor: &Editor) -> Option<&Job> {
-    match &editor.dialog {
-        Some(Dialog::Export(export)) => export.job(),
+fn job(editor: &Editor) -> Option<&ExportRun> {
+    match &editor.model.session.dialog {
+        Some(Dialog::Export(export)) => export.run.as_ref(),
         _ => None,
     }
 }
@@ -59,21 +63,21 @@ fn a_stopped_export_says_how_far_it_came_and_its_button_stays_in_its_place() {
     bench.click("Write files");
     bench.harness.run_steps(2);
     let first = bench.harness.get_by_label("Stop").rect();
-    let told = job(bench.editor()).map(Job::standing).unwrap();
+    let told = job(bench.editor()).map(ExportRun::standing).unwrap();
     assert!(told.starts_with("tolkowsky-1919-aset") && told.contains(" of 10"), "{told}");
     assert!(bench.harness.query_by_label_contains(" of 10").is_some());
-    bench.wait(|editor| job(editor).is_some_and(|job| job.written() >= 2));
+    bench.wait(|editor| job(editor).is_some_and(|job| job.written >= 2));
     assert_eq!(bench.harness.get_by_label("Stop").rect(), first, "it runs away under the pointer");
     bench.harness.key_press(Key::Escape);
-    bench.wait(|editor| job(editor).is_some_and(|job| job.end().is_some()));
-    let (done, written) = job(bench.editor()).map(|job| (job.done(), job.written())).unwrap();
+    bench.wait(|editor| job(editor).is_some_and(|job| job.end.is_some()));
+    let (done, written) = job(bench.editor()).map(|job| (job.done(), job.written)).unwrap();
     assert!(done < 0.95 && written < 10, "stopped at {done} with {written} files");
     assert!(bench.harness.query_by_label_contains(&format!("{written} of 10 files written")).is_some());
     assert_eq!(bench.harness.get_by_label("Close").rect().min, first.min, "it takes the place of Stop");
     assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), written);
     bench.harness.key_press(Key::Escape);
     bench.harness.run_steps(2);
-    assert!(bench.editor().dialog.is_none());
+    assert!(bench.editor().model.session.dialog.is_none());
 }
 
 #[test]
@@ -83,28 +87,28 @@ fn escape_closes_every_small_window() {
     bench.choose("File", "Export…");
     bench.harness.key_press(Key::Escape);
     bench.harness.run_steps(2);
-    assert!(bench.editor().dialog.is_none(), "export");
+    assert!(bench.editor().model.session.dialog.is_none(), "export");
     bench.harness.key_press(Key::F1);
     bench.harness.run_steps(2);
-    assert!(bench.editor().dialog.is_some());
+    assert!(bench.editor().model.session.dialog.is_some());
     bench.harness.key_press(Key::Escape);
     bench.harness.run_steps(2);
-    assert!(bench.editor().dialog.is_none(), "keys and terms");
-    bench.harness.state_mut().dialog = Some(Dialog::ChangedOutside);
+    assert!(bench.editor().model.session.dialog.is_none(), "keys and terms");
+    bench.harness.state_mut().model.session.dialog = Some(Dialog::ChangedOutside);
     bench.harness.run_steps(2);
     bench.harness.key_press(Key::Escape);
     bench.harness.run_steps(2);
-    assert!(bench.editor().dialog.is_none(), "the file has changed");
+    assert!(bench.editor().model.session.dialog.is_none(), "the file has changed");
     bench.harness.key_press(Key::L);
     bench.harness.run_steps(2);
     bench.field(Role::TextInput, "Name").focus();
     bench.harness.run_steps(2);
     bench.harness.key_press(Key::Escape);
     bench.harness.run_steps(2);
-    assert!(bench.editor().following.is_open, "the first press ends what is typed");
+    assert!(bench.editor().model.session.followed.is_open, "the first press ends what is typed");
     bench.harness.key_press(Key::Escape);
     bench.harness.run_steps(2);
-    assert!(!bench.editor().following.is_open, "the light path");
+    assert!(!bench.editor().model.session.followed.is_open, "the light path");
 }
 
 #[test]
@@ -114,28 +118,29 @@ fn a_click_beside_the_stone_opens_no_light_path() {
     let picture = bench.harness.get_by_label("ASET picture").rect();
     bench.click_at(picture.left_top() + egui::vec2(6.0, 6.0));
     (0..40).for_each(|_| bench.harness.step());
-    assert!(!bench.editor().following.is_open);
+    assert!(!bench.editor().model.session.followed.is_open);
     bench.click_at(picture.center() + egui::vec2(20.0, 10.0));
     (0..40).for_each(|_| bench.harness.step());
-    assert!(bench.editor().following.is_open);
+    assert!(bench.editor().model.session.followed.is_open);
 }
 
 /// Exports the ASET from an editor in its present state, and returns the files of its two pictures: by energy and by
 /// strongest exits.
 fn exported_aset(bench: &mut Bench) -> Vec<Vec<u8>> {
     let folder = tempfile::tempdir().unwrap();
-    let mut plan = ExportDialog::new(bench.harness.state_mut()).plan;
+    let mut plan = export_plan(&bench.editor().model);
     plan.folder = folder.path().to_owned();
     plan.stem = "stone".to_owned();
     plan.selection.views = vec![Shows::Aset];
     plan.selection.size = 64;
-    let job = Job::begin(plan, || {});
-    let begun = Instant::now();
-    while job.end().is_none() {
-        assert!(begun.elapsed() < PATIENCE, "the export does not end");
-        std::thread::sleep(Duration::from_millis(5));
-    }
-    assert_eq!(job.end(), Some(Ok(())));
+    let end = Mutex::new(None);
+    let hear = |event| {
+        if let ExportEvent::Ended(how) = event {
+            *end.lock().unwrap() = Some(how);
+        }
+    };
+    run(&plan, &hear, &|| false);
+    assert_eq!(end.into_inner().unwrap(), Some(Ok(())));
     // The names contain the tilt, so that they differ where the view leans; their order does not.
     let mut files: Vec<_> =
         std::fs::read_dir(folder.path()).unwrap().map(|file| file.unwrap().path()).collect();
@@ -149,13 +154,13 @@ fn a_view_that_is_not_linked_is_exported_as_it_is_seen() {
     let mut bench = Bench::new();
     bench.harness.run_steps(2);
     let upright = exported_aset(&mut bench);
-    let desk = &mut bench.harness.state_mut().desk;
+    let desk = &mut bench.harness.state_mut().model.workspace;
     let mut eye = desk.eye;
     (eye.lean, eye.turn) = (glam::DVec2::new(0.3, 0.1), 0.2);
     desk.panes[0].own = Some(eye);
     bench.harness.run_steps(2);
     let own = exported_aset(&mut bench);
-    let desk = &mut bench.harness.state_mut().desk;
+    let desk = &mut bench.harness.state_mut().model.workspace;
     (desk.eye, desk.panes[0].own) = (eye, None);
     bench.harness.run_steps(2);
     assert_ne!(own, upright);
@@ -186,6 +191,6 @@ fn what_was_recovered_says_when_it_was_changed_and_not_when_the_program_ended() 
     assert!(next.harness.query_by_label_contains("It was last changed 2 minutes ago").is_some());
     next.harness.key_press(Key::Escape);
     next.harness.run_steps(2);
-    assert!(next.editor().dialog.is_none(), "it is offered again at the next start");
+    assert!(next.editor().model.session.dialog.is_none(), "it is offered again at the next start");
     assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1);
 }

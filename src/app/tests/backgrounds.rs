@@ -6,17 +6,17 @@ use crate::picture::RefractionMap;
 impl Bench {
     /// Chooses what a view shows from its menu, by name.
     fn show(&mut self, view: usize, shows: Shows) {
-        let before = self.editor().desk.panes[view].shows;
+        let before = self.editor().model.workspace.panes[view].shows;
         self.click(&format!("View {}: {}", view + 1, before.name()));
         self.harness.run_steps(4);
         self.click(shows.name());
         self.settle();
-        assert_eq!(self.editor().desk.panes[view].shows, shows);
+        assert_eq!(self.editor().model.workspace.panes[view].shows, shows);
     }
 
     /// Returns the refraction map by which a view shows its background.
     fn map(&self, view: usize) -> Arc<RefractionMap> {
-        self.editor().pictures[&(view, Which::Present)].taken.map.clone().unwrap()
+        self.editor().views.gallery.traced[&(view, Which::Present)].taken.map.clone().unwrap()
     }
 
     /// Drags in a picture, to the right and upward.
@@ -37,7 +37,12 @@ impl Bench {
     /// Waits until the first view uses another map than `last`.
     fn wait_for_map(&mut self, last: &Arc<RefractionMap>) {
         self.wait(|editor| {
-            let map = editor.pictures.get(&(0, Which::Present)).and_then(|shown| shown.taken.map.as_ref());
+            let map = editor
+                .views
+                .gallery
+                .traced
+                .get(&(0, Which::Present))
+                .and_then(|shown| shown.taken.map.as_ref());
             map.is_some_and(|map| !Arc::ptr_eq(map, last))
         });
     }
@@ -58,9 +63,9 @@ fn a_background_is_dragged_through_a_map_that_is_not_traced_again() {
     bench.settle();
     let moved = bench.picture(0);
     assert!(moved != first, "the background has moved");
-    assert!(Arc::ptr_eq(&bench.map(0), &map) && bench.editor().desk.eye.tilt() == 0.0);
+    assert!(Arc::ptr_eq(&bench.map(0), &map) && bench.editor().model.workspace.eye.tilt() == 0.0);
     // Another background behind the same map.
-    bench.harness.state_mut().desk.behind = Some("stripes".to_owned());
+    bench.harness.state_mut().model.workspace.behind = Some("stripes".to_owned());
     bench.settle();
     let other = bench.picture(0);
     assert!(other != moved && Arc::ptr_eq(&bench.map(0), &map));
@@ -74,12 +79,15 @@ fn a_map_is_traced_anew_for_a_stone_that_is_tilted_there_or_elsewhere() {
     bench.show(0, Shows::Refraction);
     let map = bench.map(0);
     bench.drag("Hearts picture");
-    let lean = bench.editor().desk.eye.lean;
+    let lean = bench.editor().model.workspace.eye.lean;
     assert!(lean.length() > 0.1);
     bench.wait_for_map(&map);
     bench.harness.event(egui::Event::ModifiersChanged(egui::Modifiers::COMMAND));
     bench.drag("Refraction map picture");
-    assert!(bench.editor().desk.eye.lean != lean && bench.editor().flowing[0].moved == glam::DVec2::ZERO);
+    assert!(
+        bench.editor().model.workspace.eye.lean != lean
+            && bench.editor().model.session.flowing[0].moved == glam::DVec2::ZERO
+    );
     bench.wait_for_map(&map);
 }
 
@@ -89,14 +97,14 @@ fn a_background_flows_until_it_is_stopped_and_nothing_is_drawn_after() {
     bench.show(0, Shows::Refraction);
     let (first, map) = (bench.picture(0), bench.map(0));
     bench.click("Flow");
-    bench.wait(|editor| editor.flowing[0].moved.x > 0.02);
+    bench.wait(|editor| editor.model.session.flowing[0].moved.x > 0.02);
     assert!(bench.harness.try_run().is_err(), "it is drawn again and again");
     bench.click("Flow");
     bench.settle();
-    let moved = bench.editor().flowing[0].moved;
+    let moved = bench.editor().model.session.flowing[0].moved;
     let count = bench.harness.run();
     assert!(count <= 3, "{count} frames for nothing");
-    assert_eq!(bench.editor().flowing[0].moved, moved);
+    assert_eq!(bench.editor().model.session.flowing[0].moved, moved);
     assert!(bench.picture(0) != first && Arc::ptr_eq(&bench.map(0), &map));
 }
 
@@ -120,7 +128,9 @@ fn liquid_glass_is_drawn_and_traced_as_strong_as_it_is_set() {
     bench.drag("Liquid glass picture");
     bench.look();
     let after = both(&bench);
-    assert!(before[0] != after[0] && before[1] != after[1] && bench.editor().desk.liquid.at.x > 0.55);
+    assert!(
+        before[0] != after[0] && before[1] != after[1] && bench.editor().model.workspace.liquid.at.x > 0.55
+    );
     bench.click("Reset");
     bench.look();
     assert!(both(&bench) == first);
@@ -143,17 +153,17 @@ fn looking_up_keeps_up_with_the_window() {
     bench.settle();
     let size = bench.editor().shown((0, Which::Present)).unwrap().taken.image.size;
     for shows in [Shows::Refraction, Shows::LiquidGlass] {
-        bench.harness.state_mut().desk.panes[0].shows = shows;
+        bench.harness.state_mut().model.workspace.panes[0].shows = shows;
         bench.settle();
         let mut took: Vec<f64> = vec![];
         for k in 1..=40 {
             let editor = bench.harness.state_mut();
-            editor.flowing[0].moved.x = 0.01 * f64::from(k);
-            editor.desk.liquid.at.x = 0.4 + 0.004 * f64::from(k);
+            editor.model.session.flowing[0].moved.x = 0.01 * f64::from(k);
+            editor.model.workspace.liquid.at.x = 0.4 + 0.004 * f64::from(k);
             bench.harness.step();
             let begun = Instant::now();
             while !bench.editor().is_idle() {
-                std::thread::yield_now();
+                bench.harness.step();
             }
             took.push(begun.elapsed().as_secs_f64() * 1e3);
         }

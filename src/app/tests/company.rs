@@ -1,15 +1,17 @@
 //! Tests of copies of a glass shape, moved as a person moves them.
 
 use super::Bench;
-use crate::app::dialogs::Dialog;
-use crate::app::editor::{Editor, Setup};
-use crate::app::export_dialog::ExportDialog;
-use crate::app::export_scene::SceneOut;
-use crate::app::moving::Moving;
-use crate::app::preset::Preset;
+use crate::app::editor::Editor;
+use crate::app::model::action::{Edit, FileAction};
+use crate::app::model::dialog::Dialog;
+use crate::app::model::motion::Motion;
+use crate::app::model::plan::export_plan;
+use crate::app::model::preset::Preset;
+use crate::app::model::workspace::{Pane, PaneLayout, Workspace};
+use crate::app::setup::Setup;
 use crate::app::shows::Shows;
 use crate::app::studio::{Smoothing, Which, hung};
-use crate::app::workspace::{Pane, PaneLayout, Workspace};
+use crate::app::tasks::export_scene::SceneOut;
 use crate::render::{Quality, Steps};
 use crate::scene::{Copies, Panorama, Pose};
 use egui::{Key, Pos2};
@@ -29,13 +31,13 @@ fn bench(scene: &str) -> Bench {
 }
 
 fn poses(editor: &Editor) -> Vec<crate::scene::Pose> {
-    editor.document.work.company.poses.clone()
+    editor.model.document.work.company.poses.clone()
 }
 
 /// Returns the place in the window of a point of the film.
 fn at(bench: &Bench, x: f64, y: f64) -> Pos2 {
     let body = bench.harness.get_by_label("Render picture").rect();
-    let film = bench.editor().asked.shots[0].1.film;
+    let film = bench.editor().model.session.ordered.shots[0].1.film;
     let pixel = film.pixels_from_image(glam::DMat2::IDENTITY).transform_point2(glam::DVec2::new(x, y));
     body.min + egui::vec2(pixel.x as f32, pixel.y as f32)
 }
@@ -60,23 +62,25 @@ fn a_preset_is_one_click_and_its_copies_are_dragged_scattered_and_counted() {
     let mut bench = bench("prism-rainbow");
     assert_eq!(poses(bench.editor()).len(), 4);
     bench.click("Subtle pill");
-    let desk = &bench.editor().desk;
+    let desk = &bench.editor().model.workspace;
     assert_eq!((desk.behind.as_deref(), desk.behind_mm, desk.strength), (Some("page"), Some(100.0), 0.035));
     let before = poses(bench.editor());
-    let (lean, middle) = (bench.editor().desk.eye.lean, before[2].at);
+    let (lean, middle) = (bench.editor().model.workspace.eye.lean, before[2].at);
     let from = at(&bench, middle.x, middle.y);
-    let pixel = bench.editor().asked.shots[0].1.film.pixel;
+    let pixel = bench.editor().model.session.ordered.shots[0].1.film.pixel;
     drag(&mut bench, from, egui::vec2(40.0, -25.0));
     let after = poses(bench.editor());
     assert!((after[2].at - before[2].at - glam::DVec3::new(40.0, 25.0, 0.0) * pixel).length() < 1e-5);
-    assert!([0, 1, 3].iter().all(|&k| after[k] == before[k]) && bench.editor().desk.eye.lean == lean);
+    assert!(
+        [0, 1, 3].iter().all(|&k| after[k] == before[k]) && bench.editor().model.workspace.eye.lean == lean
+    );
     bench.harness.key_press_modifiers(egui::Modifiers::COMMAND, Key::Z);
     bench.harness.run_steps(3);
     assert_eq!(poses(bench.editor()), before, "a drag is one step");
     // A drag beside all copies turns the view.
     let beside = at(&bench, 0.0, 1.65);
     drag(&mut bench, beside, egui::vec2(30.0, 0.0));
-    assert!(poses(bench.editor()) == before && bench.editor().desk.eye.lean != lean);
+    assert!(poses(bench.editor()) == before && bench.editor().model.workspace.eye.lean != lean);
     bench.harness.key_press(Key::Space);
     bench.harness.run_steps(3);
     let scattered = poses(bench.editor());
@@ -90,28 +94,33 @@ fn a_preset_is_one_click_and_its_copies_are_dragged_scattered_and_counted() {
 #[test]
 fn what_moves_is_shown_moving_and_stands_still_when_stopped() {
     let mut bench = bench("rotating-cube");
-    assert!(bench.editor().moving.is_on);
-    bench.harness.state_mut().desk.smoothing = Smoothing::Temporal { newest: 0.5 };
+    assert!(bench.editor().model.session.motion.is_on);
+    bench.harness.state_mut().model.workspace.smoothing = Smoothing::Temporal { newest: 0.5 };
     let pictures = |bench: &Bench| {
-        let shown = &bench.editor().pictures[&(0, Which::Present)];
+        let shown = &bench.editor().views.gallery.traced[&(0, Which::Present)];
         (shown.shot.company.clone(), shown.taken.image.pixels.clone())
     };
-    bench.wait(|editor| editor.pictures.contains_key(&(0, Which::Present)));
+    bench.wait(|editor| editor.views.gallery.traced.contains_key(&(0, Which::Present)));
     let first = pictures(&bench);
     let later = first.0.clone();
     bench.wait(move |editor| {
-        editor.pictures.get(&(0, Which::Present)).is_some_and(|shown| shown.shot.company != later)
+        editor.views.gallery.traced.get(&(0, Which::Present)).is_some_and(|shown| shown.shot.company != later)
     });
     let second = pictures(&bench);
     assert!(first.0 != second.0 && first.1 != second.1);
     bench.harness.key_press(Key::M);
     bench.harness.run_steps(3);
-    assert!(!bench.editor().moving.is_on);
-    let (seconds, asked) = (bench.editor().moving.seconds, bench.editor().asked.clone());
+    assert!(!bench.editor().model.session.motion.is_on);
+    let (seconds, asked) =
+        (bench.editor().model.session.motion.seconds, bench.editor().model.session.ordered.clone());
     bench.harness.run_steps(5);
-    assert!(seconds > 0.0 && bench.editor().moving.seconds == seconds && bench.editor().asked == asked);
+    assert!(
+        seconds > 0.0
+            && bench.editor().model.session.motion.seconds == seconds
+            && bench.editor().model.session.ordered == asked
+    );
     bench.click("At rest");
-    assert_eq!(bench.editor().moving.seconds, 0.0);
+    assert_eq!(bench.editor().model.session.motion.seconds, 0.0);
     bench.harness.key_press(Key::H);
     bench.harness.run_steps(3);
     assert!(bench.harness.query_by_label("Copies").is_none(), "views alone");
@@ -124,13 +133,13 @@ fn scene_files_open_and_those_of_several_designs_are_refused_in_words() {
     let text = "format = 1\nname = \"Mine\"\nlayout = \"row\"\n[[stone]]\ncut = \"cube\"\nsize = \"12mm\"\ncount = 3\n";
     std::fs::write(&path, text).unwrap();
     let mut bench = bench(&path.to_string_lossy());
-    bench.wait(|editor| editor.document.work.company.poses.len() == 3);
-    assert_eq!(bench.editor().document.work.design.diameter_mm, 12.0);
+    bench.wait(|editor| editor.model.document.work.company.poses.len() == 3);
+    assert_eq!(bench.editor().model.document.work.design.diameter_mm, 12.0);
     std::fs::write(&path, format!("{text}[[stone]]\ncut = \"pill\"\n")).unwrap();
     bench.choices.lock().unwrap().push(path);
     bench.harness.key_press_modifiers(egui::Modifiers::COMMAND, Key::O);
-    bench.wait(|editor| !editor.notes.troubles().is_empty());
-    assert!(bench.editor().notes.troubles()[0].text.contains("brillianteer render"));
+    bench.wait(|editor| !editor.model.session.notes.troubles().is_empty());
+    assert!(bench.editor().model.session.notes.troubles()[0].text.contains("brillianteer render"));
     assert_eq!(poses(bench.editor()).len(), 3);
 }
 
@@ -151,15 +160,15 @@ fn copies_are_saved_as_a_scene_that_is_opened_again_as_it_was() {
     for (scene, seconds, turn) in scenes {
         let folder = tempfile::tempdir().unwrap();
         let mut bench = bench(scene);
-        bench.harness.state_mut().moving = Moving::at(seconds);
-        bench.harness.state_mut().desk.eye.turn = turn;
-        bench.harness.state_mut().desk.behind.get_or_insert("page".to_owned());
+        bench.harness.state_mut().model.session.motion = Motion::at(seconds);
+        bench.harness.state_mut().model.workspace.eye.turn = turn;
+        bench.harness.state_mut().model.workspace.behind.get_or_insert("page".to_owned());
         // One copy lies behind the others, so that the centre of all copies is not that of the first.
-        if let [.., last] = &mut bench.harness.state_mut().document.work.company.poses[1..] {
+        if let [.., last] = &mut bench.harness.state_mut().model.document.work.company.poses[1..] {
             last.at.z -= 3.0;
         }
         bench.harness.run_steps(2);
-        let mut plan = ExportDialog::new(bench.harness.state_mut()).plan;
+        let mut plan = export_plan(&bench.editor().model);
         (plan.folder, plan.stem) = (folder.path().to_owned(), "mine".to_owned());
         SceneOut::of(&plan).write().unwrap();
         let again = Preset::read(&folder.path().join("mine-scene.toml")).unwrap();
@@ -185,7 +194,7 @@ fn copies_are_saved_as_a_scene_that_is_opened_again_as_it_was() {
 #[test]
 fn whoever_holds_a_copy_that_goes_lets_go_of_it() {
     let mut bench = bench("cube");
-    bench.harness.state_mut().lay_out(4);
+    bench.harness.state_mut().act(Edit::LayOut(4));
     bench.harness.run_steps(3);
     let last = poses(bench.editor())[3].at;
     let (pos, button) = (at(&bench, last.x, last.y), egui::PointerButton::Primary);
@@ -198,23 +207,23 @@ fn whoever_holds_a_copy_that_goes_lets_go_of_it() {
         bench.harness.hover_at(pos + egui::vec2(8.0 * k as f32, 0.0));
         bench.harness.step();
     }
-    assert_eq!(bench.editor().held, Some((0, 3)));
-    bench.harness.state_mut().document.work.company = Copies::default();
+    assert_eq!(bench.editor().model.session.held, Some((0, 3)));
+    bench.harness.state_mut().model.document.work.company = Copies::default();
     bench.harness.hover_at(pos + egui::vec2(40.0, 0.0));
     bench.harness.step();
-    assert_eq!(bench.editor().held, None);
-    assert_eq!(bench.editor().document.work.company, Copies::default());
+    assert_eq!(bench.editor().model.session.held, None);
+    assert_eq!(bench.editor().model.document.work.company, Copies::default());
 }
 
 #[test]
 fn turning_all_keeps_copies_apart_and_the_hand_on_the_one_it_holds() {
     let mut bench = bench("subtle-pill");
     let shown = |bench: &Bench| -> Vec<Pose> {
-        let shot = &bench.editor().asked.shots[0].1;
+        let shot = &bench.editor().model.session.ordered.shots[0].1;
         shot.company.iter().map(|pose| Pose::turned(shot.view.turn).after(pose)).collect()
     };
     let before = shown(&bench);
-    bench.harness.state_mut().desk.eye.turn = 1.2;
+    bench.harness.state_mut().model.workspace.eye.turn = 1.2;
     bench.harness.run_steps(2);
     let turned = shown(&bench);
     for (k, pose) in turned.iter().enumerate() {
@@ -223,7 +232,7 @@ fn turning_all_keeps_copies_apart_and_the_hand_on_the_one_it_holds() {
             assert!(pose.turn.angle_between(other.turn) < 1e-7);
         }
     }
-    let (middle, pixel) = (turned[2].at, bench.editor().asked.shots[0].1.film.pixel);
+    let (middle, pixel) = (turned[2].at, bench.editor().model.session.ordered.shots[0].1.film.pixel);
     let from = at(&bench, middle.x, middle.y);
     drag(&mut bench, from, egui::vec2(40.0, -25.0));
     let moved = shown(&bench)[2].at - middle;
@@ -234,18 +243,21 @@ fn turning_all_keeps_copies_apart_and_the_hand_on_the_one_it_holds() {
 fn zooming_shows_the_same_light_nearer_and_another_design_is_seen_as_physics() {
     let mut bench = bench("subtle-pill");
     let seen = |bench: &Bench| {
-        let shot = bench.editor().asked.shots[0].1.clone();
+        let shot = bench.editor().model.session.ordered.shots[0].1.clone();
         let page = Arc::new(Panorama { width: 2, height: 2, pixels: vec![[1.0; 3]; 4] });
         let job = shot.light_job(Some(page), 1, Steps::Strips, Quality::of_pictures(true));
         let width = job.lit().unwrap().environment.backplate.unwrap().width;
         (width, shot.film.pixel, shot.strength)
     };
     let before = seen(&bench);
-    bench.harness.state_mut().desk.eye.zoom_at(4.0, glam::DVec2::new(0.8, 0.3));
+    bench.harness.state_mut().model.workspace.eye.zoom_at(4.0, glam::DVec2::new(0.8, 0.3));
     bench.harness.run_steps(2);
     let after = seen(&bench);
     assert!(after.0 == before.0 && after.1 < before.1 && before.2 == 0.035);
-    bench.harness.state_mut().begin_from_library("modern-ideal");
+    bench
+        .harness
+        .state_mut()
+        .act(FileAction::Ask(crate::app::model::dialog::Then::Library("modern-ideal".to_owned())));
     bench.harness.run_steps(2);
     assert_eq!(seen(&bench).2, 1.0);
 }
@@ -253,17 +265,17 @@ fn zooming_shows_the_same_light_nearer_and_another_design_is_seen_as_physics() {
 #[test]
 fn copies_that_were_moved_are_asked_about_before_they_go() {
     let mut bench = bench("rotating-cube");
-    bench.harness.state_mut().moving.rest();
+    bench.harness.state_mut().model.session.motion.rest();
     bench.click("Prism rainbow");
-    assert_eq!(bench.editor().desk.strength, 0.155, "nothing was moved");
+    assert_eq!(bench.editor().model.workspace.strength, 0.155, "nothing was moved");
     bench.click("Lay out");
     bench.click("Subtle pill");
-    assert_eq!(bench.editor().desk.strength, 0.155);
+    assert_eq!(bench.editor().model.workspace.strength, 0.155);
     bench.click("Export…");
-    let Some(Dialog::Export(export)) = &bench.editor().dialog else { panic!() };
+    let Some(Dialog::Export(export)) = &bench.editor().model.session.dialog else { panic!() };
     assert!(export.plan.selection.scene);
     bench.click("Cancel");
     bench.click("Subtle pill");
     bench.click("Leave them");
-    assert_eq!(bench.editor().desk.strength, 0.035);
+    assert_eq!(bench.editor().model.workspace.strength, 0.035);
 }

@@ -27,7 +27,8 @@ fn drag(name: &str, mut change: impl FnMut(&mut Editor, u32)) {
         bench.harness.step();
         frames.push(start.elapsed().as_secs_f64() * 1e3);
         for (pane, (count, last)) in seen.iter_mut().zip(&mut last).enumerate() {
-            let shot = bench.editor().pictures.get(&(pane, Which::Present)).map(|p| p.shot.clone());
+            let shot =
+                bench.editor().views.gallery.traced.get(&(pane, Which::Present)).map(|p| p.shot.clone());
             *count += u32::from(*last != shot);
             *last = shot;
         }
@@ -46,15 +47,15 @@ fn drag(name: &str, mut change: impl FnMut(&mut Editor, u32)) {
 #[ignore = "takes time to take time"]
 fn the_views_follow_the_hand() {
     drag("crown angle", |editor, k| {
-        if let Cut::RoundBrilliant(brilliant) = &mut editor.document.work.design.cut {
+        if let Cut::RoundBrilliant(brilliant) = &mut editor.model.document.work.design.cut {
             brilliant.crown = Crown::Angle(33.0 + 0.02 * f64::from(k));
         }
     });
     // This starts with a leaning stone: near no lean the view would snap to none.
     drag("tilt", |editor, k| {
         if k == 0 {
-            editor.desk.eye.free();
+            editor.model.workspace.eye.free();
         }
-        editor.desk.eye.drag(Side::Table, DVec2::new(0.004, 0.002));
+        editor.model.workspace.eye.drag(Side::Table, DVec2::new(0.004, 0.002));
     });
 }

@@ -1,9 +1,7 @@
 //! Tests of whole tasks, from the user's first click to the last.
 
 use super::*;
-use crate::app::dialogs::Dialog;
-use crate::app::document::Document;
-use crate::app::opening::OpeningPurpose;
+use crate::app::model::dialog::Dialog;
 use crate::cut::Crown;
 use crate::io::cut_file;
 use crate::measure::by_beams;
@@ -46,7 +44,7 @@ fn a_drag_of_a_slider_is_one_step() {
     assert_ne!(bench.brilliant().table, before.table);
     bench.choose("Edit", "Undo");
     assert_eq!(bench.brilliant(), before);
-    assert!(!bench.editor().document.steps().0);
+    assert!(!bench.editor().model.document.steps().0);
 }
 
 #[test]
@@ -75,10 +73,10 @@ fn what_is_edited_and_saved_opens_again_equal_and_its_figures_are_those_of_the_f
     bench.choices.lock().unwrap().push(path.clone());
     bench.choose("File", "Save as…");
     bench.settle();
-    assert!(!bench.editor().document.is_changed());
-    let design = bench.editor().document.work.design.clone();
+    assert!(!bench.editor().model.document.is_changed());
+    let design = bench.editor().model.document.work.design.clone();
     assert_eq!(cut_file::read(&path).unwrap(), design);
-    let shown = &bench.editor().figures[&Which::Present];
+    let shown = &bench.editor().model.session.measured.figures[&Which::Present];
     let specimen = Specimen::new(cut_file::read(&path).unwrap()).unwrap();
     let options = beam::BeamOptions { unresolved: 1.5e-4, ..beam::BeamOptions::default() };
     let medium = specimen.medium(line::SODIUM_D);
@@ -89,7 +87,7 @@ fn what_is_edited_and_saved_opens_again_equal_and_its_figures_are_those_of_the_f
     assert_eq!(shown.figures, by_beams(&beams, &Scope::aset(ASET_CONE, Backing::Black)));
     let mut again = Bench::with(Setup { file: Some(path), ..Setup::default() });
     again.settle();
-    assert_eq!(again.editor().document.work.design, design);
+    assert_eq!(again.editor().model.document.work.design, design);
     assert_eq!(again.picture(0), bench.picture(0));
 }
 
@@ -106,7 +104,7 @@ fn unsaved_work_is_asked_about_before_it_is_lost() {
     bench.harness.get_by_label("Modern ideal").click();
     bench.harness.run_steps(4);
     bench.click("Don't save");
-    assert_eq!(bench.editor().document.work.design.name, "Modern ideal");
+    assert_eq!(bench.editor().model.document.work.design.name, "Modern ideal");
 }
 
 #[test]
@@ -116,15 +114,15 @@ fn a_crash_loses_nothing() {
     let mut bench = Bench::with(Setup { safe: safe.clone(), ..Setup::default() });
     bench.type_number("Table", "59.5");
     bench.harness.run_steps(3);
-    let design = bench.editor().document.work.design.clone();
+    let design = bench.editor().model.document.work.design.clone();
     // As if the program had been killed: the editor gets no notice of the end.
     drop(bench);
     let mut next = Bench::with(Setup { safe: safe.clone(), ..Setup::default() });
     next.harness.run_steps(3);
     next.click("Go on");
     next.harness.run_steps(3);
-    assert_eq!(next.editor().document.work.design, design);
-    assert!(next.editor().document.is_changed());
+    assert_eq!(next.editor().model.document.work.design, design);
+    assert!(next.editor().model.document.is_changed());
 }
 
 #[test]
@@ -151,10 +149,10 @@ fn a_bad_file_is_told_and_nothing_is_lost() {
 fn a_number_out_of_its_limits_is_told_where_it_stands_and_the_last_stone_stays() {
     let mut bench = Bench::new();
     bench.settle();
-    let stone = Arc::clone(bench.editor().document.specimen());
+    let stone = Arc::clone(bench.editor().model.document.specimen());
     bench.type_number("Table", "97");
     assert!(bench.harness.query_by_label_contains("Table: 97 % makes no stone").is_some());
-    assert!(Arc::ptr_eq(&stone, bench.editor().document.specimen()));
+    assert!(Arc::ptr_eq(&stone, bench.editor().model.document.specimen()));
 }
 
 #[test]
@@ -162,7 +160,7 @@ fn every_view_shows_a_picture() {
     for (k, shows) in Shows::ALL.into_iter().enumerate() {
         // A small window, because maps and renders take long.
         let mut bench = Bench::sized(Setup::default(), egui::vec2(900.0, 300.0));
-        bench.harness.state_mut().desk.panes[0].shows = shows;
+        bench.harness.state_mut().model.workspace.panes[0].shows = shows;
         bench.look();
         if shows != Shows::Profile {
             let picture = bench.picture(0);
@@ -177,27 +175,32 @@ fn keys_tilt_and_bring_back() {
     bench.settle();
     bench.harness.key_press(egui::Key::F);
     bench.harness.run_steps(2);
-    assert!(bench.editor().desk.eye.tilt() > 0.3);
+    assert!(bench.editor().model.workspace.eye.tilt() > 0.3);
     bench.harness.key_press(egui::Key::B);
     bench.harness.run_steps(2);
-    assert!(bench.editor().desk.eye.from_below && bench.editor().desk.eye.tilt() == 0.0);
+    assert!(
+        bench.editor().model.workspace.eye.from_below && bench.editor().model.workspace.eye.tilt() == 0.0
+    );
     bench.harness.key_press(egui::Key::T);
     bench.harness.run_steps(2);
-    assert!(!bench.editor().desk.eye.from_below);
+    assert!(!bench.editor().model.workspace.eye.from_below);
     bench.harness.key_press(egui::Key::Num1);
     bench.settle();
-    assert_eq!(bench.editor().desk.shown(), [0]);
+    assert_eq!(bench.editor().model.workspace.shown(), [0]);
     // Four changes of the view, each undone by itself. The design stays as it is.
     let tilts = |bench: &mut Bench, modifiers| {
         bench.harness.key_press_modifiers(modifiers, egui::Key::Backspace);
         bench.harness.run_steps(2);
-        let desk = &bench.editor().desk;
+        let desk = &bench.editor().model.workspace;
         (desk.shown().len(), desk.eye.from_below, desk.eye.tilt() > 0.3)
     };
     let back: Vec<_> = (0..4).map(|_| tilts(&mut bench, egui::Modifiers::NONE)).collect();
     assert_eq!(back, [(2, false, false), (2, true, false), (2, false, true), (2, false, false)]);
     assert_eq!(tilts(&mut bench, egui::Modifiers::SHIFT), (2, false, true));
-    assert!(!bench.editor().document.is_changed() && bench.editor().document.steps() == (false, false));
+    assert!(
+        !bench.editor().model.document.is_changed()
+            && bench.editor().model.document.steps() == (false, false)
+    );
 }
 
 #[test]
@@ -213,8 +216,8 @@ fn every_view_is_exported_as_a_file() {
     let folder = tempfile::tempdir().unwrap();
     let mut bench = Bench::new();
     bench.choose("File", "Export…");
-    let Some(Dialog::Export(export)) = &mut bench.harness.state_mut().dialog else { panic!() };
-    export.folder = folder.path().join("out");
+    let Some(Dialog::Export(export)) = &mut bench.harness.state_mut().model.session.dialog else { panic!() };
+    export.plan.folder = folder.path().join("out");
     bench.harness.run_steps(2);
     for shows in Shows::EXPORTED {
         let box_ = bench.harness.get_by_role_and_label(egui::Role::CheckBox, shows.name());
@@ -230,9 +233,9 @@ fn every_view_is_exported_as_a_file() {
     size.focus();
     bench.type_number("Size", "96");
     bench.click("Write files");
-    bench.wait(|editor| matches!(&editor.dialog, Some(Dialog::Export(e)) if !e.is_busy()));
-    let Some(Dialog::Export(export)) = &bench.editor().dialog else { panic!() };
-    assert_eq!(export.end(), Some(Ok(())));
+    bench.wait(|editor| matches!(&editor.model.session.dialog, Some(Dialog::Export(e)) if !e.is_busy()));
+    let Some(Dialog::Export(export)) = &bench.editor().model.session.dialog else { panic!() };
+    assert_eq!(export.run.as_ref().and_then(|run| run.end.clone()), Some(Ok(())));
     assert!(bench.harness.query_by_label("All files are written.").is_some());
     let names: Vec<String> = std::fs::read_dir(folder.path().join("out"))
         .unwrap()
@@ -247,7 +250,7 @@ fn every_view_is_exported_as_a_file() {
         .map(|end| format!("tolkowsky-1919-{end}"));
     assert!(map.iter().all(|name| names.contains(name)), "{names:?}");
     bench.click("Close");
-    assert!(bench.editor().dialog.is_none());
+    assert!(bench.editor().model.session.dialog.is_none());
 }
 
 #[test]
@@ -283,16 +286,19 @@ fn a_click_follows_a_ray_and_a_double_click_enlarges() {
     let at = bench.harness.get_by_label("ASET picture").rect().center() + egui::vec2(30.0, 10.0);
     bench.click_at(at);
     (0..40).for_each(|_| bench.harness.step());
-    assert!(bench.editor().following.is_open);
+    assert!(bench.editor().model.session.followed.is_open);
     assert!(bench.harness.query_by_label_contains("Light path through the stone").is_some());
     bench.harness.key_press(egui::Key::L);
     // The light path fades away.
     bench.harness.run_steps(30);
-    assert!(!bench.editor().following.is_open);
+    assert!(!bench.editor().model.session.followed.is_open);
     bench.click_at(at);
     bench.click_at(at);
     (0..40).for_each(|_| bench.harness.step());
-    assert_eq!((bench.editor().desk.large, bench.editor().following.is_open), (Some(0), false));
+    assert_eq!(
+        (bench.editor().model.workspace.large, bench.editor().model.session.followed.is_open),
+        (Some(0), false)
+    );
 }
 
 #[test]
@@ -303,7 +309,7 @@ fn space_follows_the_ray_in_the_middle_of_the_picture_that_has_the_focus() {
     bench.harness.run_steps(2);
     bench.harness.key_press(egui::Key::Space);
     (0..40).for_each(|_| bench.harness.step());
-    assert!(bench.editor().following.is_open);
+    assert!(bench.editor().model.session.followed.is_open);
 }
 
 #[test]
@@ -313,9 +319,9 @@ fn two_designs_are_compared_and_their_figures_differ() {
     bench.choose("Compare", "Compare with saved");
     bench.type_number("Pavilion angle", "42.2");
     bench.settle();
-    let figures = |which| &bench.editor().figures[&which].figures;
+    let figures = |which| &bench.editor().model.session.measured.figures[&which].figures;
     assert_ne!(figures(Which::Present), figures(Which::Other));
-    let pictures = |which| bench.editor().pictures[&(0, which)].taken.image.pixels.clone();
+    let pictures = |which| bench.editor().views.gallery.traced[&(0, which)].taken.image.pixels.clone();
     assert_ne!(pictures(Which::Present), pictures(Which::Other));
     assert_eq!(bench.harness.query_all_by_label("present").count(), 2);
     bench.harness.key_down(egui::Key::C);
@@ -324,47 +330,6 @@ fn two_designs_are_compared_and_their_figures_differ() {
     bench.harness.key_up(egui::Key::C);
     bench.harness.run_steps(2);
     assert_eq!(bench.harness.query_all_by_label("as saved").count(), 0);
-}
-
-#[test]
-fn a_file_that_others_change_is_read_again_and_asked_about_where_work_would_be_lost() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("mine.toml");
-    let mut design = Document::first().unwrap().work.design;
-    std::fs::write(&path, cut_file::write(&design)).unwrap();
-    let mut bench = Bench::with(Setup { file: Some(path.clone()), ..Setup::default() });
-    bench.settle();
-    design.name = "Changed outside once".to_owned();
-    std::fs::write(&path, cut_file::write(&design)).unwrap();
-    bench.wait(|editor| editor.document.work.design.name == "Changed outside once");
-    bench.type_number("Table", "57");
-    design.name = "Changed outside a second time".to_owned();
-    std::fs::write(&path, cut_file::write(&design)).unwrap();
-    bench.wait(|editor| editor.dialog.is_some());
-    bench.click("Keep mine");
-    assert!((bench.brilliant().table - 57.0).abs() < 1e-12);
-    bench.choose("Edit", "Undo");
-    assert!(!bench.editor().document.is_changed());
-    std::fs::remove_file(&path).unwrap();
-    bench.wait(|editor| editor.document.is_changed());
-    assert!(bench.harness.query_by_label_contains("no longer there").is_some());
-}
-
-#[test]
-fn a_file_that_comes_after_a_change_is_asked_about() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("other.toml");
-    let design = Document::of_library("modern-ideal").unwrap().work.design;
-    std::fs::write(&path, cut_file::write(&design)).unwrap();
-    let mut bench = Bench::new();
-    bench.settle();
-    let editor = bench.harness.state_mut();
-    editor.open(&path, OpeningPurpose::Anew);
-    editor.document.work.design.name = "changed meanwhile".to_owned();
-    bench.wait(|editor| editor.dialog.is_some());
-    assert!(!bench.editor().document.work.design.eq(&design));
-    bench.click("Don't save");
-    bench.wait(|editor| editor.document.work.design.eq(&design));
 }
 
 #[test]
@@ -389,67 +354,29 @@ fn keys_work_and_steps_end_while_a_handle_has_the_focus() {
     assert_eq!(bench.brilliant(), before);
     bench.harness.key_press(egui::Key::X);
     bench.harness.run_steps(2);
-    assert!(bench.editor().desk.strongest);
+    assert!(bench.editor().model.workspace.strongest);
     bench.type_number("Table", "54");
     bench.harness.get_by_role_and_label(egui::Role::TextInput, "Name").focus();
     bench.harness.run_steps(2);
     bench.harness.event(egui::Event::Text("x".to_owned()));
     bench.harness.key_press(egui::Key::X);
     bench.harness.run_steps(2);
-    assert!(bench.editor().desk.strongest, "a letter typed into a name is no command");
-    assert!(bench.editor().document.work.design.name.contains('x'));
-}
-
-#[test]
-fn keys_with_shift_are_not_those_without() {
-    let folder = tempfile::tempdir().unwrap();
-    let [first, second] = ["first.toml", "second.toml"].map(|name| folder.path().join(name));
-    let text = cut_file::write(&Document::first().unwrap().work.design);
-    std::fs::write(&first, &text).unwrap();
-    let mut bench = Bench::with(Setup { file: Some(first.clone()), ..Setup::default() });
-    bench.settle();
-    bench.type_number("Table", "57");
-    let with_shift = egui::Modifiers::COMMAND | egui::Modifiers::SHIFT;
-    bench.harness.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::Z);
-    bench.harness.run_steps(2);
-    assert!(bench.brilliant().table < 56.0);
-    bench.harness.key_press_modifiers(with_shift, egui::Key::Z);
-    bench.harness.run_steps(2);
-    assert!((bench.brilliant().table - 57.0).abs() < 1e-12);
-    bench.choices.lock().unwrap().push(second.clone());
-    bench.harness.key_press_modifiers(with_shift, egui::Key::S);
-    bench.wait(|editor| !editor.document.is_changed());
-    assert_eq!((std::fs::read_to_string(&first).unwrap(), second.exists()), (text, true));
-}
-
-#[test]
-fn what_is_put_off_until_work_is_saved_is_done_once_it_is() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("mine.toml");
-    let mut bench = Bench::new();
-    bench.type_number("Table", "58");
-    bench.choose("File", "New from");
-    bench.harness.get_by_label("Modern ideal").click();
-    bench.harness.run_steps(4);
-    bench.choices.lock().unwrap().push(path.clone());
-    // The first "Save" is in the menu, which is still fading away.
-    bench.harness.get_all_by_label("Save").last().unwrap().click();
-    bench.wait(|editor| editor.document.work.design.name == "Modern ideal");
-    assert!(path.exists());
+    assert!(bench.editor().model.workspace.strongest, "a letter typed into a name is no command");
+    assert!(bench.editor().model.document.work.design.name.contains('x'));
 }
 
 #[test]
 fn a_number_that_is_only_looked_at_stays_as_it_is() {
     let mut bench = Bench::new();
     bench.settle();
-    let before = bench.editor().document.work.clone();
+    let before = bench.editor().model.document.work.clone();
     for name in ["Crown height", "Weight", "Lower half, side", "Pavilion depth"] {
         bench.harness.get_by_role_and_label(egui::Role::SpinButton, name).focus();
         bench.harness.run_steps(2);
         bench.harness.key_press(egui::Key::Tab);
         bench.harness.run_steps(3);
     }
-    assert_eq!(bench.editor().document.work, before);
+    assert_eq!(bench.editor().model.document.work, before);
 }
 
 #[test]
@@ -458,52 +385,10 @@ fn a_view_of_its_own_turn_comes_to_rest() {
     bench.settle();
     bench.harness.get_all_by_label("Linked").next().unwrap().click();
     bench.harness.run_steps(2);
-    bench.harness.state_mut().desk.panes[0].own.as_mut().unwrap().turn = 0.3;
+    bench.harness.state_mut().model.workspace.panes[0].own.as_mut().unwrap().turn = 0.3;
     bench.settle();
     let picture = bench.picture(0);
-    bench.harness.state_mut().desk.panes[0].own = None;
+    bench.harness.state_mut().model.workspace.panes[0].own = None;
     bench.settle();
     assert_ne!(bench.picture(0), picture);
-}
-
-#[test]
-fn what_was_recovered_is_kept_until_it_is_saved() {
-    let folder = tempfile::tempdir().unwrap();
-    let setup = || Setup { safe: Some(folder.path().to_owned()), ..Setup::default() };
-    let mut bench = Bench::with(setup());
-    bench.type_number("Table", "59.5");
-    bench.harness.run_steps(3);
-    drop(bench);
-    for _ in 0..2 {
-        let mut next = Bench::with(setup());
-        next.harness.run_steps(3);
-        next.click("Go on");
-        next.harness.run_steps(3);
-        assert!((next.brilliant().table - 59.5).abs() < 1e-12);
-    }
-    let mut last = Bench::with(setup());
-    last.harness.run_steps(3);
-    last.click("Forget it");
-    drop(last);
-    let none = Bench::with(setup());
-    assert!(none.editor().dialog.is_none());
-}
-
-#[test]
-fn where_the_system_opens_no_dialog_the_path_is_typed() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("typed.toml");
-    let mut bench = Bench::new();
-    // The chooser reports at once that the system has no dialog.
-    bench.choose("File", "Save as…");
-    bench.wait(|editor| matches!(editor.dialog, Some(Dialog::Path(_))));
-    bench.harness.get_by_role_and_label(egui::Role::TextInput, "Path").focus();
-    bench.harness.run_steps(2);
-    bench.harness.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::A);
-    bench.harness.event(egui::Event::Text(path.display().to_string()));
-    bench.harness.run_steps(2);
-    bench.click("Save");
-    assert!(bench.editor().dialog.is_none());
-    assert_eq!(cut_file::read(&path).unwrap(), bench.editor().document.work.design);
-    assert_eq!(bench.editor().document.path(), Some(path.as_path()));
 }

@@ -2,7 +2,7 @@
 //! illustrative.
 
 use super::*;
-use crate::app::dialogs::Dialog;
+use crate::app::model::dialog::Dialog;
 use crate::optics;
 use crate::scene::Glare;
 use egui_kittest::kittest::NodeT;
@@ -65,7 +65,7 @@ fn a_gem_whose_colour_is_no_measurement_is_called_so_where_it_is_chosen() {
     assert!(entry.accesskit_node().label().unwrap().contains("illustrative colour"));
     entry.click();
     bench.harness.run_steps(4);
-    assert_eq!(bench.editor().document.specimen().material.name, "almandine");
+    assert_eq!(bench.editor().model.document.specimen().material.name, "almandine");
     assert!(bench.harness.query_by_label("illustrative colour").is_some());
 }
 
@@ -75,16 +75,16 @@ fn pictures_of_scopes_are_exported_with_a_caption_where_it_is_wanted() {
     let mut bench = Bench::new();
     bench.harness.run_steps(3);
     bench.choose("File", "Export…");
-    let Some(Dialog::Export(export)) = &mut bench.harness.state_mut().dialog else { panic!() };
-    export.folder = folder.path().join("out");
+    let Some(Dialog::Export(export)) = &mut bench.harness.state_mut().model.session.dialog else { panic!() };
+    export.plan.folder = folder.path().join("out");
     export.plan.selection.views = vec![Shows::Aset];
     bench.harness.run_steps(2);
     bench.click("Caption and legend");
     bench.type_number("Size", "200");
     bench.click("Write files");
-    bench.wait(|editor| matches!(&editor.dialog, Some(Dialog::Export(e)) if !e.is_busy()));
-    let Some(Dialog::Export(export)) = &bench.editor().dialog else { panic!() };
-    assert_eq!(export.end(), Some(Ok(())));
+    bench.wait(|editor| matches!(&editor.model.session.dialog, Some(Dialog::Export(e)) if !e.is_busy()));
+    let Some(Dialog::Export(export)) = &bench.editor().model.session.dialog else { panic!() };
+    assert_eq!(export.run.as_ref().and_then(|run| run.end.clone()), Some(Ok(())));
     let written = std::fs::read_dir(folder.path().join("out")).unwrap().map(|f| f.unwrap().path());
     let pictures: Vec<_> = written.map(|path| image::image_dimensions(path).unwrap()).collect();
     assert!(pictures.len() == 2 && pictures.iter().all(|&(w, h)| w == 200 && h > 240), "{pictures:?}");

@@ -1,14 +1,14 @@
 //! Takes the pictures of docs/editor.md. Run `cargo test --lib guide -- --ignored`, and look at the pictures.
 
 use super::*;
-use crate::app::dialogs::Dialog;
+use crate::app::model::dialog::Dialog;
 use std::path::Path;
 
 /// Opens the window as at a first start, in the dark theme, with a file that comes with the program.
 fn window(cut: &str, desk: &Workspace) -> Bench {
     let file = Some(Path::new(env!("CARGO_MANIFEST_DIR")).join("cuts").join(cut));
     let mut bench = Bench::drawn(Setup { file, ..Setup::default() }, egui::Theme::Dark);
-    bench.harness.state_mut().desk = desk.clone();
+    bench.harness.state_mut().model.workspace = desk.clone();
     bench.settle();
     bench
 }
@@ -80,9 +80,9 @@ fn two_designs_side_by_side() {
 fn what_to_export() {
     let mut bench = window("tolkowsky.toml", &Workspace::default());
     bench.choose("File", "Export…");
-    let Some(Dialog::Export(export)) = &mut bench.harness.state_mut().dialog else { panic!() };
-    export.folder = "/home/me/stones/out".into();
-    bench.wait(|editor| matches!(&editor.dialog, Some(Dialog::Export(e)) if e.thumbnails_shown() == 9));
+    let Some(Dialog::Export(export)) = &mut bench.harness.state_mut().model.session.dialog else { panic!() };
+    export.plan.folder = "/home/me/stones/out".into();
+    bench.wait(|editor| editor.thumbnails.len() == 9);
     take(&mut bench, "export");
 }
 

@@ -2,8 +2,8 @@
 //! what is dropped on it.
 
 use super::*;
-use crate::app::dialogs::Dialog;
-use crate::app::document::Document;
+use crate::app::model::dialog::Dialog;
+use crate::app::model::document::Document;
 use crate::cut::Design;
 use crate::io::design_file::{self, DesignFormat};
 use crate::io::{cut_file, write_rgba_png};
@@ -50,10 +50,10 @@ fn a_right_click_opens_a_menu_of_the_view_and_a_right_drag_turns_the_stone() {
     let mut bench = Bench::sized(Setup::default(), egui::vec2(1000.0, 900.0));
     bench.harness.run_steps(3);
     open_menu_of(&mut bench, "ASET picture");
-    assert_eq!(bench.editor().desk.eye.turn, 0.0);
+    assert_eq!(bench.editor().model.workspace.eye.turn, 0.0);
     bench.harness.get_by_label("Export this view…").click();
     bench.harness.run_steps(4);
-    let Some(Dialog::Export(export)) = &bench.editor().dialog else { panic!("no export") };
+    let Some(Dialog::Export(export)) = &bench.editor().model.session.dialog else { panic!("no export") };
     assert_eq!(export.plan.selection.views, [Shows::Aset]);
     bench.click("Cancel");
     open_menu_of(&mut bench, "Hearts picture");
@@ -61,25 +61,25 @@ fn a_right_click_opens_a_menu_of_the_view_and_a_right_drag_turns_the_stone() {
     bench.harness.run_steps(4);
     bench.harness.get_by_label_contains("Wireframe").click();
     bench.harness.run_steps(4);
-    assert_eq!(bench.editor().desk.overlay.as_deref(), Some("wireframe"));
-    bench.harness.state_mut().desk.eye.lean = glam::DVec2::new(0.3, 0.1);
+    assert_eq!(bench.editor().model.workspace.overlay.as_deref(), Some("wireframe"));
+    bench.harness.state_mut().model.workspace.eye.lean = glam::DVec2::new(0.3, 0.1);
     open_menu_of(&mut bench, "ASET picture");
     bench.harness.get_by_label_contains("Reset view").click();
     bench.harness.run_steps(3);
-    assert_eq!(bench.editor().desk.eye.lean, glam::DVec2::ZERO);
+    assert_eq!(bench.editor().model.workspace.eye.lean, glam::DVec2::ZERO);
     open_menu_of(&mut bench, "ASET picture");
     bench.click("Show");
     bench.harness.run_steps(4);
     bench.harness.get_by_label("Ideal-Scope").click();
     bench.harness.run_steps(4);
-    assert_eq!(bench.editor().desk.panes[0].shows, Shows::IdealScope);
+    assert_eq!(bench.editor().model.workspace.panes[0].shows, Shows::IdealScope);
 }
 
 #[test]
 fn a_picture_is_copied_at_a_size_that_is_chosen() {
     let mut bench = Bench::new();
     bench.harness.run_steps(3);
-    let own = bench.editor().asked.shots[0].1.film.size.map(|n| n as usize);
+    let own = bench.editor().model.session.ordered.shots[0].1.film.size.map(|n| n as usize);
     open_menu_of(&mut bench, "ASET picture");
     bench.click("Copy picture at size");
     bench.harness.run_steps(4);
@@ -96,13 +96,13 @@ fn a_picture_is_copied_at_a_size_that_is_chosen() {
     assert_eq!(width.max(height), 512);
     let shape = |[w, h]: [usize; 2]| w as f64 / h as f64;
     assert!((shape(own) / shape(pictures[0]) - 1.0).abs() < 0.01, "{own:?} became {width} x {height}");
-    assert!(bench.editor().notes.said().unwrap().contains("ASET copied, "));
+    assert!(bench.editor().model.session.notes.said().unwrap().contains("ASET copied, "));
 }
 
 #[test]
 fn figures_are_copied_as_text_and_as_a_table() {
     let mut bench = Bench::new();
-    bench.wait(|editor| editor.figures.contains_key(&Which::Present));
+    bench.wait(|editor| editor.model.session.measured.figures.contains_key(&Which::Present));
     let copy = |bench: &mut Bench, entry: &str| {
         bench.click("Copy");
         bench.harness.run_steps(4);
@@ -137,13 +137,13 @@ fn the_folder_of_an_export_is_opened() {
     let folder = tempfile::tempdir().unwrap();
     let mut bench = Bench::new();
     bench.choose("File", "Export…");
-    let Some(Dialog::Export(export)) = &mut bench.harness.state_mut().dialog else { panic!() };
-    export.folder = folder.path().join("out");
+    let Some(Dialog::Export(export)) = &mut bench.harness.state_mut().model.session.dialog else { panic!() };
+    export.plan.folder = folder.path().join("out");
     export.plan.selection.views = vec![Shows::Profile];
     export.plan.selection.size = 64;
     bench.harness.run_steps(2);
     bench.click("Write files");
-    bench.wait(|editor| matches!(&editor.dialog, Some(Dialog::Export(e)) if !e.is_busy()));
+    bench.wait(|editor| matches!(&editor.model.session.dialog, Some(Dialog::Export(e)) if !e.is_busy()));
     bench.click("Open folder");
     assert_eq!(*bench.opened.lock().unwrap(), [folder.path().join("out").display().to_string()]);
 }
@@ -185,6 +185,7 @@ fn drop_on(bench: &mut Bench, files: &[&Path]) {
     let files = files.iter().map(|path| Arc::new(Dropped((*path).to_owned())) as egui::DroppedFileHandle);
     bench.harness.input_mut().dropped_files = files.collect();
     bench.harness.run_steps(2);
+    bench.wait(|editor| !editor.model.session.awaited.dropped);
 }
 
 #[test]
@@ -216,21 +217,29 @@ fn files_of_every_kind_are_dropped_on_the_window() {
     let mut bench = Bench::new();
     bench.harness.run_steps(3);
     drop_on(&mut bench, &[&at("design.toml")]);
-    bench.wait(|editor| editor.document.work.design.name == "dropped");
+    bench.wait(|editor| editor.model.document.work.design.name == "dropped");
     drop_on(&mut bench, &[&at("mesh.stl")]);
-    bench.wait(|editor| matches!(editor.document.work.design.cut, Cut::Planes(_)));
+    bench.wait(|editor| matches!(editor.model.document.work.design.cut, Cut::Planes(_)));
     drop_on(&mut bench, &[&at("photo.png")]);
-    assert_eq!(bench.editor().desk.behind, Some(at("photo.png").display().to_string()));
+    assert_eq!(bench.editor().model.workspace.behind, Some(at("photo.png").display().to_string()));
     for light in ["lamp.toml", "sky.hdr"] {
         drop_on(&mut bench, &[&at(light)]);
-        bench.wait(|editor| editor.loading.is_none() && editor.light.0.ends_with(light));
-        assert!(bench.editor().notes.troubles().is_empty(), "{:?}", bench.editor().notes);
+        bench.wait(|editor| {
+            editor.model.session.light.loading.is_none() && editor.model.session.light.name.ends_with(light)
+        });
+        assert!(
+            bench.editor().model.session.notes.troubles().is_empty(),
+            "{:?}",
+            bench.editor().model.session.notes
+        );
     }
     drop_on(&mut bench, &[&at("scene.toml"), &at("design.toml")]);
-    bench.wait(|editor| editor.document.work.company.poses.len() > 1 || editor.dialog.is_some());
-    assert!(bench.editor().dialog.is_none());
+    bench.wait(|editor| {
+        editor.model.document.work.company.poses.len() > 1 || editor.model.session.dialog.is_some()
+    });
+    assert!(bench.editor().model.session.dialog.is_none());
     drop_on(&mut bench, &[&at("nothing.xyz")]);
-    bench.wait(|editor| !editor.notes.troubles().is_empty());
+    bench.wait(|editor| !editor.model.session.notes.troubles().is_empty());
     assert!(bench.harness.query_by_label_contains("nothing.xyz").is_some());
     bench.harness.input_mut().hovered_files = vec![egui::HoveredFile::default()];
     bench.harness.run_steps(1);

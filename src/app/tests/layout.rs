@@ -1,8 +1,10 @@
 //! Tests of the window's layout: on small screens, beside errors, for stones of any outline.
 
 use super::*;
-use crate::app::dialogs::Dialog;
-use crate::app::document::Document;
+use crate::app::model::dialog::Dialog;
+use crate::app::model::document::Document;
+use crate::app::model::exporting::ExportForm;
+use crate::app::model::plan::export_plan;
 use crate::app::theme;
 use crate::cut::{Design, MaterialRef};
 use crate::io::{cut_file, design_file};
@@ -69,7 +71,7 @@ fn buttons_of_the_export_are_in_sight_in_the_least_window() {
 fn what_is_on_in_a_narrow_view_has_a_menu_that_can_be_read() {
     let setup = Setup { desk: Workspace::default(), ..Setup::default() };
     let mut bench = Bench::sized(setup, SMALL);
-    bench.harness.state_mut().desk = Workspace::default();
+    bench.harness.state_mut().model.workspace = Workspace::default();
     bench.harness.run_steps(3);
     bench.harness.key_press(egui::Key::W);
     bench.harness.run_steps(3);
@@ -140,7 +142,7 @@ fn in_a_small_window_every_entry_of_a_menu_and_every_button_of_a_dialog_is_reach
         }
         assert!(whole.contains_rect(bench.harness.get_by_label(last).rect()), "{entry}: {last}");
         bench.click(last);
-        assert!(bench.editor().dialog.is_none(), "{entry}");
+        assert!(bench.editor().model.session.dialog.is_none(), "{entry}");
     }
 }
 
@@ -149,7 +151,7 @@ fn errors_take_one_line_over_the_views_which_keep_their_size_and_can_be_opened()
     let mut bench = small(1.0);
     let before = bench.harness.get_by_label("ASET picture").rect();
     let long = "a word that is said again and again; ".repeat(20);
-    let notes = &mut bench.harness.state_mut().notes;
+    let notes = &mut bench.harness.state_mut().model.session.notes;
     (0..6).for_each(|k| notes.trouble(format!("trouble {k}: {long}")));
     bench.harness.run_steps(4);
     assert_eq!(bench.harness.get_by_label("ASET picture").rect(), before, "views are as they were");
@@ -178,7 +180,7 @@ fn the_fields_of_a_panel_stand_in_one_column() {
         desk.behind = Some("grid".into());
         let mut bench =
             Bench::sized(Setup { file: file.clone(), desk, ..Setup::default() }, vec2(1200.0, 900.0));
-        bench.wait(|editor| editor.opening.is_empty());
+        bench.wait(|editor| editor.model.session.awaited.opening.is_empty());
         let numbers = fields(&bench, Role::SpinButton);
         let numbers: Vec<_> = numbers.into_iter().filter(|(name, _)| !name.contains("Angle")).collect();
         assert!(numbers.len() > 5, "{numbers:?}");
@@ -210,20 +212,18 @@ fn nothing_is_red_while_nothing_is_wrong() {
     let setup = Setup { file: Some("cube".into()), desk, ..Setup::default() };
     // A small window, because renders take long.
     let mut bench = Bench::sized(setup, vec2(900.0, 300.0));
-    bench.wait(|editor| editor.opening.is_empty());
-    let desk = &mut bench.harness.state_mut().desk;
+    bench.wait(|editor| editor.model.session.awaited.opening.is_empty());
+    let desk = &mut bench.harness.state_mut().model.workspace;
     (desk.behind, desk.strength) = (Some("grid".into()), 0.5);
     bench.look();
-    bench.harness.state_mut().notes.warn("it was saved, but not all of it".into());
+    bench.harness.state_mut().model.session.notes.warn("it was saved, but not all of it".into());
     let editor = bench.harness.state_mut();
-    let mut dialog = Dialog::export(editor);
-    let Dialog::Export(export) = &mut dialog else { panic!() };
-    export.folder = folder.path().to_owned();
-    export.plan.folder.clone_from(&export.folder);
+    let mut export = ExportForm { plan: export_plan(&editor.model), run: None };
+    export.plan.folder = folder.path().to_owned();
     for file in export.plan.files().unwrap() {
         std::fs::write(file, "").unwrap();
     }
-    editor.dialog = Some(dialog);
+    editor.model.session.dialog = Some(Dialog::Export(Box::new(export)));
     bench.harness.run_steps(4);
     let red = theme::bad(&bench.harness.ctx.global_style().visuals);
     let is_red = |bench: &Bench| -> Vec<String> {
@@ -236,8 +236,8 @@ fn nothing_is_red_while_nothing_is_wrong() {
     assert!(bench.harness.query_by_label_contains("are there already").is_some());
     assert_eq!(is_red(&bench), Vec::<String>::new());
     let editor = bench.harness.state_mut();
-    (editor.dialog, editor.notes) = (None, Default::default());
-    editor.notes.trouble("it was not saved");
+    (editor.model.session.dialog, editor.model.session.notes) = (None, Default::default());
+    editor.model.session.notes.trouble("it was not saved");
     bench.harness.run_steps(4);
     assert_eq!(is_red(&bench), ["it was not saved"]);
 }
@@ -256,10 +256,10 @@ fn laboratories_ranges_are_for_round_brilliants_of_diamond_alone() {
         (bands.count(), colours_of_texts(bench).iter().filter(|(colour, _)| *colour == good).count())
     };
     assert_eq!(green(&bench), (5, 1), "five bands and the total depth");
-    bench.harness.state_mut().document.work.design.material = MaterialRef::Name("sapphire".into());
+    bench.harness.state_mut().model.document.work.design.material = MaterialRef::Name("sapphire".into());
     bench.harness.run_steps(3);
     assert_eq!(green(&bench), (0, 0));
-    bench.harness.state_mut().document.work.design.material = MaterialRef::Name("Diamond".into());
+    bench.harness.state_mut().model.document.work.design.material = MaterialRef::Name("Diamond".into());
     bench.harness.run_steps(3);
     assert_eq!(green(&bench), (5, 1));
 }
@@ -272,9 +272,9 @@ fn a_stone_that_is_not_round_has_length_and_width_and_a_tier_its_distance_in_mm(
                 a -43 0.9 96 n P1 24 48 72\na 35 0.8 96 n C1 24 48 72\na 0 0.45 0 n T\n";
     std::fs::write(&path, text).unwrap();
     let mut bench = Bench::sized(Setup { file: Some(path), ..Setup::default() }, vec2(1200.0, 900.0));
-    bench.wait(|editor| editor.opening.is_empty());
+    bench.wait(|editor| editor.model.session.awaited.opening.is_empty());
     let size = |bench: &Bench| {
-        let specimen = bench.editor().document.specimen();
+        let specimen = bench.editor().model.document.specimen();
         let (low, high) = specimen.stone().unwrap().polytope.bounds();
         let across = (high - low).truncate() * specimen.unit_mm();
         [across.max_element(), across.min_element()]
@@ -304,40 +304,40 @@ fn a_stone_of_a_bare_index_has_a_weight_once_its_density_is_set() {
     let bare = Design { material: MaterialRef::Index(1.54), ..first };
     std::fs::write(&path, cut_file::write(&bare)).unwrap();
     let mut bench = Bench::sized(Setup { file: Some(path.clone()), ..Setup::default() }, vec2(1200.0, 900.0));
-    bench.wait(|editor| editor.opening.is_empty());
+    bench.wait(|editor| editor.model.session.awaited.opening.is_empty());
     assert!(bench.harness.query_by_role_and_label(Role::SpinButton, "Weight").is_none());
     bench.type_number("Density", "2.65");
-    let carats = bench.editor().document.specimen().carats().unwrap();
-    assert!((bench.editor().document.specimen().medium(589.3).index - 1.54).abs() < 1e-12);
+    let carats = bench.editor().model.document.specimen().carats().unwrap();
+    assert!((bench.editor().model.document.specimen().medium(589.3).index - 1.54).abs() < 1e-12);
     bench.type_number("Weight", "2");
-    assert!((bench.editor().document.specimen().carats().unwrap() - 2.0).abs() < 1e-9 && carats != 2.0);
+    assert!((bench.editor().model.document.specimen().carats().unwrap() - 2.0).abs() < 1e-9 && carats != 2.0);
     bench.harness.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::S);
-    bench.wait(|editor| !editor.document.is_changed());
-    assert_eq!(design_file::read(&path).unwrap().design, bench.editor().document.work.design);
+    bench.wait(|editor| !editor.model.document.is_changed());
+    assert_eq!(design_file::read(&path).unwrap().design, bench.editor().model.document.work.design);
     // A material of the library has a density of its own.
-    bench.harness.state_mut().document.work.design.material = MaterialRef::Name("diamond".into());
+    bench.harness.state_mut().model.document.work.design.material = MaterialRef::Name("diamond".into());
     bench.harness.run_steps(3);
     assert!(bench.harness.query_by_role_and_label(Role::SpinButton, "Density").is_none());
 }
 
 /// Returns the side of a pixel in the first view, in girdle radii, and the point of the image plane at the view's centre.
 fn film(bench: &Bench) -> (f64, glam::DVec2) {
-    let shot = &bench.editor().asked.shots[0].1;
+    let shot = &bench.editor().model.session.ordered.shots[0].1;
     (shot.film.pixel, shot.film.centre)
 }
 
 #[test]
 fn a_stone_keeps_its_scale_while_one_number_changes() {
     let mut bench = Bench::with(Setup { file: Some("pill".into()), ..Setup::default() });
-    bench.wait(|editor| editor.opening.is_empty());
+    bench.wait(|editor| editor.model.session.awaited.opening.is_empty());
     bench.harness.run_steps(3);
     let before = film(&bench);
     let width = bench.harness.get_by_role_and_label(Role::SpinButton, "Width").rect();
     assert!(width.width() > 0.0);
-    let reach = bench.editor().document.specimen().reach;
+    let reach = bench.editor().model.document.specimen().reach;
     bench.type_number("Length", "80");
     bench.harness.run_steps(3);
-    assert_ne!(bench.editor().document.specimen().reach, reach, "the stone is another");
+    assert_ne!(bench.editor().model.document.specimen().reach, reach, "the stone is another");
     assert_eq!(film(&bench), before, "its scale is not");
     bench.harness.key_press(egui::Key::Num0);
     bench.harness.run_steps(3);

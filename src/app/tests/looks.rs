@@ -64,10 +64,12 @@ fn what_may_be_exported() {
     let mut bench = Bench::drawn(Setup { desk: desk(), ..Setup::default() }, egui::Theme::Dark);
     bench.settle();
     bench.choose("File", "Export…");
-    let Some(crate::app::dialogs::Dialog::Export(export)) = &mut bench.harness.state_mut().dialog else {
+    let Some(crate::app::model::dialog::Dialog::Export(export)) =
+        &mut bench.harness.state_mut().model.session.dialog
+    else {
         panic!()
     };
-    export.folder = "/home/me/stones/out".into();
-    bench.wait(|editor| matches!(&editor.dialog, Some(crate::app::dialogs::Dialog::Export(e)) if e.thumbnails_shown() == 9));
+    export.plan.folder = "/home/me/stones/out".into();
+    bench.wait(|editor| editor.thumbnails.len() == 9);
     compare(&mut bench, "export");
 }

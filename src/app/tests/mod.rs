@@ -10,16 +10,21 @@ mod formats;
 mod grading;
 mod guide;
 mod handed_out;
+mod keeping;
 mod layout;
 mod looks;
+mod reading;
 mod recorder;
 mod views;
 
-use super::editor::{Editor, Setup, Shown};
-use super::files::{Choice, Chooser, Question};
-use super::shows::Shows;
-use super::studio::{Grade, Shot, Slot, Which};
-use super::workspace::{PaneLayout, Workspace};
+use crate::app::editor::Editor;
+use crate::app::model::choosing::{Choice, Question};
+use crate::app::model::workspace::{PaneLayout, Workspace};
+use crate::app::setup::Setup;
+use crate::app::shows::Shows;
+use crate::app::studio::{Grade, Shot, Slot, Which};
+use crate::app::tasks::files::Chooser;
+use crate::app::views::gallery::Shown;
 use crate::cut::{Cut, RoundBrilliant};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
@@ -77,7 +82,7 @@ impl Bench {
         let desk = if setup.desk == Workspace::default() { Self::small() } else { setup.desk.clone() };
         let opened: Arc<Mutex<Vec<String>>> = Arc::default();
         let outside = Arc::clone(&opened);
-        let opener: crate::app::opener::Opener = Arc::new(move |what: &str| {
+        let opener: crate::app::tasks::opener::Opener = Arc::new(move |what: &str| {
             outside.lock().unwrap().push(what.to_owned());
             Ok(())
         });
@@ -117,15 +122,20 @@ impl Bench {
         self.wait(|editor| {
             let is_fine = |shown: &Shown| shown.grade == Grade::Fine;
             let is_taken = |(slot, shot): &(Slot, Shot)| {
-                editor.pictures.get(slot).is_some_and(|shown| is_fine(shown) && shown.shot == *shot)
+                editor
+                    .views
+                    .gallery
+                    .traced
+                    .get(slot)
+                    .is_some_and(|shown| is_fine(shown) && shown.shot == *shot)
             };
             let is_shown = |&pane: &usize| {
-                let is_own = editor.desk.panes[pane].shows == Shows::Profile;
+                let is_own = editor.model.workspace.panes[pane].shows == Shows::Profile;
                 is_own || editor.shown((pane, Which::Present)).is_some_and(is_fine)
             };
-            editor.asked.shots.iter().all(is_taken)
-                && editor.desk.shown().iter().all(is_shown)
-                && editor.looker.is_idle()
+            editor.model.session.ordered.shots.iter().all(is_taken)
+                && editor.model.workspace.shown().iter().all(is_shown)
+                && !editor.outside.is_looking_up()
         });
     }
 
@@ -153,7 +163,7 @@ impl Bench {
 
     /// Clicks the widget with this label. In a dialog, which may be higher than the window, it is scrolled into sight first.
     pub fn click(&mut self, label: &str) {
-        if self.editor().dialog.is_some() {
+        if self.editor().model.session.dialog.is_some() {
             self.harness.get_by_label(label).scroll_to_me();
             self.harness.run_steps(SCROLLED);
         }
@@ -195,7 +205,7 @@ impl Bench {
     }
 
     pub fn brilliant(&self) -> RoundBrilliant {
-        match self.editor().document.work.design.cut {
+        match self.editor().model.document.work.design.cut {
             Cut::RoundBrilliant(brilliant) => brilliant,
             Cut::Tiers(_) | Cut::Planes(_) | Cut::Mesh(_) | Cut::Glass(_) => {
                 panic!("a round brilliant is expected")

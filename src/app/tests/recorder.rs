@@ -40,8 +40,9 @@ fn record(cut: &str, shows: Shows, record: &mut String) {
         let bytes: Vec<[u8; 4]> = image.pixels.iter().map(|pixel| pixel.to_array()).collect();
         (image.size, hash(bytes), shown.taken.unresolved, shown.taken.tracer)
     });
-    let figures = editor.figures.get(&Which::Present).map(|measured| numbers(&measured.figures));
-    let tilts = editor.tilts.as_ref().map(|(_, tilts)| {
+    let figures =
+        editor.model.session.measured.figures.get(&Which::Present).map(|measured| numbers(&measured.figures));
+    let tilts = editor.model.session.measured.tilts.as_ref().map(|(_, tilts)| {
         hash(tilts.iter().map(|(tilt, figures)| (tilt.to_bits(), numbers(figures))).collect::<Vec<_>>())
     });
     let _ = writeln!(record, "{cut} {shows:?}: {picture:x?}, figures {figures:x?}, against tilt {tilts:x?}");

@@ -1,8 +1,8 @@
 //! Tests of what views say about themselves, how they are looked at, and that nothing unchanged is traced again.
 
 use super::*;
-use crate::app::modes::Mode;
-use crate::app::workspace::Pane;
+use crate::app::model::workspace::Pane;
+use crate::app::views::modes::Mode;
 use crate::scene::{LIGHTS, Projection};
 use egui::{Key, Modifiers, PointerButton, Role};
 
@@ -15,7 +15,7 @@ fn alone(shows: Shows) -> Bench {
 
 fn projection(bench: &Bench, pane: usize) -> Projection {
     let slot = (pane, Which::Present);
-    bench.editor().asked.shots.iter().find(|(at, _)| *at == slot).unwrap().1.view.projection
+    bench.editor().model.session.ordered.shots.iter().find(|(at, _)| *at == slot).unwrap().1.view.projection
 }
 
 #[test]
@@ -25,7 +25,7 @@ fn modes_are_named_in_the_head_of_a_view_and_a_click_ends_each() {
     for key in [Key::W, Key::P, Key::E, Key::X] {
         bench.harness.key_press(key);
     }
-    bench.harness.state_mut().document.work.head = 12.0;
+    bench.harness.state_mut().model.document.work.head = 12.0;
     bench.harness.run_steps(2);
     bench.click("Linked");
     let names =
@@ -34,20 +34,22 @@ fn modes_are_named_in_the_head_of_a_view_and_a_click_ends_each() {
         bench.click(name);
         assert!(bench.harness.query_by_label(name).is_none(), "{name} does not end");
     }
-    assert_eq!(Mode::of(bench.editor(), 0), []);
-    let desk = &bench.editor().desk;
+    assert_eq!(Mode::of(&bench.editor().model, 0), []);
+    let desk = &bench.editor().model.workspace;
     assert!(desk.panes[0].own.is_none() && !desk.eye.eye_leans && desk.overlay.is_none());
-    assert!(projection(&bench, 0) == Projection::Orthographic && bench.editor().document.work.head == 0.0);
+    assert!(
+        projection(&bench, 0) == Projection::Orthographic && bench.editor().model.document.work.head == 0.0
+    );
 }
 
 #[test]
 fn a_mixture_of_refraction_is_named_over_its_render() {
     let mut bench = alone(Shows::Render);
-    let desk = &mut bench.harness.state_mut().desk;
+    let desk = &mut bench.harness.state_mut().model.workspace;
     (desk.behind, desk.strength) = (Some("page".to_owned()), 0.25);
     bench.harness.run_steps(2);
     bench.click("strength 0.250 ×");
-    assert_eq!(bench.editor().desk.strength, 1.0);
+    assert_eq!(bench.editor().model.workspace.strength, 1.0);
 }
 
 #[test]
@@ -58,13 +60,13 @@ fn modes_that_a_narrow_view_has_no_room_for_are_in_a_menu() {
         bench.harness.key_press(key);
     }
     bench.harness.run_steps(3);
-    let modes = Mode::of(bench.editor(), 0).len();
+    let modes = Mode::of(&bench.editor().model, 0).len();
     let named = bench.harness.query_all_by_label_contains("×").count();
     assert!(modes == 3 && named < modes, "{named} fit");
     bench.harness.query_all_by_label_contains("+").next().unwrap().click();
     bench.harness.run_steps(4);
     bench.click("strongest exits ×");
-    assert!(!bench.editor().desk.strongest);
+    assert!(!bench.editor().model.workspace.strongest);
 }
 
 #[test]
@@ -77,7 +79,7 @@ fn perspective_is_of_one_view_and_what_becomes_a_scope_is_seen_along_parallel_ra
     bench.harness.run_steps(2);
     assert!(matches!(projection(&bench, 0), Projection::Perspective { .. }));
     assert_eq!(projection(&bench, 1), Projection::Orthographic, "the linked scope stays as it was");
-    bench.harness.state_mut().desk.show(0, Shows::Aset);
+    bench.harness.state_mut().model.workspace.show(0, Shows::Aset);
     bench.harness.run_steps(2);
     assert_eq!(projection(&bench, 0), Projection::Orthographic);
     bench.harness.key_press(Key::P);
@@ -100,16 +102,16 @@ fn views_and_layout_go_back_to_what_they_were_at_first() {
     bench.harness.run_steps(3);
     bench.choose("View", "Reset view");
     let first = Workspace::default();
-    let desk = &bench.editor().desk;
+    let desk = &bench.editor().model.workspace;
     assert_eq!((desk.eye, desk.overlay.clone(), desk.panes[0].own), (first.eye, None, None));
     assert_eq!((desk.layout, desk.panes[0].shows), (PaneLayout::Two, Shows::Aset), "the layout stays");
     bench.choose("View", "Reset layout");
-    let desk = &bench.editor().desk;
+    let desk = &bench.editor().model.workspace;
     assert_eq!((desk.layout, desk.panes), (first.layout, first.panes));
     assert!(!desk.hides_panels && (width(&bench) - before).abs() < 1.0);
     bench.harness.key_press(Key::Backspace);
     bench.harness.run_steps(2);
-    assert_eq!(bench.editor().desk.layout, PaneLayout::Two, "one step back undoes it");
+    assert_eq!(bench.editor().model.workspace.layout, PaneLayout::Two, "one step back undoes it");
 }
 
 #[test]
@@ -151,9 +153,9 @@ fn a_name_an_error_and_where_panels_end_trace_nothing_anew() {
     bench.harness.run_steps(2);
     bench.harness.event(egui::Event::Text(" the second".to_owned()));
     bench.settle();
-    assert!(bench.editor().document.work.design.name.contains("the second"));
+    assert!(bench.editor().model.document.work.design.name.contains("the second"));
     assert_eq!(bench.editor().studio.traced(), traced, "a new name");
-    bench.harness.state_mut().notes.trouble("something went wrong");
+    bench.harness.state_mut().model.session.notes.trouble("something went wrong");
     bench.settle();
     assert!(bench.harness.query_by_label_contains("something went wrong").is_some());
     assert_eq!(bench.editor().studio.traced(), traced, "an error that comes");
@@ -173,18 +175,18 @@ fn exposure_and_overlays_of_a_render_are_made_of_the_light_that_was_traced() {
     let mut bench = Bench::sized(Setup { desk, ..Setup::default() }, egui::vec2(900.0, 300.0));
     bench.settle();
     let (traced, dark) = (bench.editor().studio.traced(), bench.picture(0));
-    bench.harness.state_mut().document.work.exposure = 1.5;
+    bench.harness.state_mut().model.document.work.exposure = 1.5;
     bench.settle();
     let bright = bench.picture(0);
     assert_eq!(bench.editor().studio.traced(), traced, "another exposure");
     let sum = |picture: &[egui::Color32]| picture.iter().map(|p| u64::from(p.g())).sum::<u64>();
     assert!(sum(&bright) > sum(&dark), "{} after {}", sum(&bright), sum(&dark));
-    bench.harness.state_mut().desk.toggle_overlay("wireframe");
+    bench.harness.state_mut().model.workspace.toggle_overlay("wireframe");
     bench.settle();
     assert_eq!(bench.editor().studio.traced(), traced, "an overlay");
     assert_ne!(bench.picture(0), bright);
-    bench.harness.state_mut().desk.toggle_overlay("wireframe");
-    bench.harness.state_mut().document.work.exposure = 0.0;
+    bench.harness.state_mut().model.workspace.toggle_overlay("wireframe");
+    bench.harness.state_mut().model.document.work.exposure = 0.0;
     bench.settle();
     assert_eq!(bench.picture(0), dark, "it is the picture that there was");
 }
@@ -237,7 +239,7 @@ fn alt_and_a_letter_open_a_menu_and_type_nothing() {
     let mut bench = Bench::new();
     bench.field(Role::TextInput, "Name").focus();
     bench.harness.run_steps(2);
-    let name = bench.editor().document.work.design.name.clone();
+    let name = bench.editor().model.document.work.design.name.clone();
     let (key, modifiers) = (Key::F, Modifiers::ALT);
     bench.at_once(vec![
         egui::Event::ModifiersChanged(modifiers),
@@ -246,7 +248,7 @@ fn alt_and_a_letter_open_a_menu_and_type_nothing() {
         egui::Event::Key { key, physical_key: None, pressed: false, repeat: false, modifiers },
         egui::Event::ModifiersChanged(Modifiers::NONE),
     ]);
-    assert_eq!(bench.editor().document.work.design.name, name);
+    assert_eq!(bench.editor().model.document.work.design.name, name);
     assert!(bench.harness.query_by_label_contains("Save as…").is_some(), "the menu File is open");
     bench.harness.key_press(Key::Escape);
     bench.harness.run_steps(20);
@@ -264,14 +266,14 @@ fn every_light_can_be_clicked() {
     let last = LIGHTS[LIGHTS.len() - 1];
     let at = bench.harness.get_by_label(last).rect().center();
     bench.click_at(at);
-    assert_eq!(bench.editor().document.work.light, last);
+    assert_eq!(bench.editor().model.document.work.light, last);
 }
 
 #[test]
 fn what_a_row_means_is_told_over_its_words_beside_the_panel_and_not_while_something_is_typed() {
     let mut bench = Bench::sized(Setup::default(), egui::vec2(1200.0, 700.0));
     bench.harness.ctx.all_styles_mut(|style| style.interaction.tooltip_delay = 0.0);
-    bench.wait(|editor| editor.figures.contains_key(&Which::Present));
+    bench.wait(|editor| editor.model.session.measured.figures.contains_key(&Which::Present));
     let hover = |bench: &mut Bench, at: egui::Pos2| {
         for x in [0.0, 1.0, 2.0] {
             bench.harness.hover_at(at + egui::vec2(x, 0.0));

@@ -1,7 +1,8 @@
 //! Opens a window that a graphics card paints, by eframe and wgpu.
 
 use super::{ID, WindowError, viewport, without_place};
-use crate::app::editor::{Editor, Setup};
+use crate::app::editor::Editor;
+use crate::app::setup::Setup;
 use crate::trace::gpu::Gpu;
 use eframe::egui_wgpu::{WgpuConfiguration, WgpuSetup, WgpuSetupCreateNew};
 use std::sync::Arc;

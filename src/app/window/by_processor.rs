@@ -5,8 +5,9 @@ use super::pacer::FramePacer;
 use super::storage::FileStorage;
 use super::surface::WindowSurface;
 use super::{ID, WindowError, viewport, without_place};
-use crate::app::editor::{Editor, Setup};
+use crate::app::editor::Editor;
 use crate::app::painter::Painter;
+use crate::app::setup::Setup;
 use eframe::{App, Storage};
 use egui::{
     Context, Event, FullOutput, ViewportBuilder, ViewportCommand, ViewportEvent, ViewportId, ViewportInfo,

@@ -9,8 +9,8 @@ mod pacer;
 mod storage;
 mod surface;
 
-use super::editor::Setup;
 use super::icon::icon;
+use super::setup::{PaintedBy, Setup};
 use super::state_file::StateFile;
 use super::urgency;
 use crate::io::mesh_options::MeshOptions;
@@ -67,25 +67,7 @@ fn without_place(text: &str) -> String {
     told.unwrap_or_else(|| text.to_owned())
 }
 
-/// What paints the window.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum PaintedBy {
-    /// A graphics card.
-    #[default]
-    Card,
-    /// The processor.
-    Processor,
-}
-
 impl PaintedBy {
-    /// Returns the painter's name in the status line and in the environment variable.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Card => "card",
-            Self::Processor => "processor",
-        }
-    }
-
     /// Returns the painter of this name. Without a name, it is the card where there is one, else the processor.
     fn chosen(asked: Option<&str>, has_card: impl FnOnce() -> bool) -> Result<Self, WindowError> {
         match asked {

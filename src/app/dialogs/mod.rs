@@ -1,0 +1,197 @@
+//! Dialogs, which ask or say something.
+
+pub mod about;
+pub mod asked_path;
+pub mod export_dialog;
+
+use super::model::Model;
+use super::model::action::{Actions, DialogAction};
+use super::model::command::MENUS;
+use super::model::dialog::Dialog;
+use super::model::recovery::RecoveredWork;
+use super::shows::Shows;
+use crate::cut::FAMILIES;
+use egui::{Context, Grid, Id, Key, Modal, RichText, ScrollArea, TextureHandle, Ui};
+use std::collections::HashMap;
+use std::time::Duration;
+
+/// The space that dialogs leave free above and below, their own margins included, points.
+const AROUND_DIALOG: f32 = 48.0;
+
+/// Draws the open dialog, if any; `thumbnails` are the small pictures of the export dialog.
+pub fn show(model: &Model, thumbnails: &HashMap<Shows, TextureHandle>, actions: &mut Actions, ctx: &Context) {
+    let Some(dialog) = &model.session.dialog else { return };
+    let modal = Modal::new(Id::unique("dialog")).show(ctx, |ui| {
+        // In a window lower than the dialog, the dialog scrolls.
+        let room = ctx.content_rect().height() - AROUND_DIALOG;
+        ui.set_max_height(room);
+        ScrollArea::vertical().id_salt("dialog").max_height(room).show(ui, |ui| match dialog {
+            Dialog::Unsaved(_) => unsaved(model, actions, ui),
+            Dialog::Moved(_) => moved(actions, ui),
+            Dialog::Recover(found) => recover(model, actions, ui, found),
+            Dialog::ChangedOutside => changed_outside(actions, ui),
+            Dialog::Export(export) => export_dialog::show(export, thumbnails, actions, ui),
+            Dialog::Path(asked) => asked_path::show(actions, ui, asked),
+            Dialog::Keys => keys(actions, ui),
+            Dialog::About(about) => about::show(about, actions, ui),
+        });
+    });
+    let is_escaped = !modal.any_popup_open && ctx.input(|i| i.key_pressed(Key::Escape));
+    let is_left = modal.should_close() && !dialog.insists();
+    match dialog {
+        // The dialog stays, to say how far the export came.
+        Dialog::Export(export) if is_escaped && export.is_busy() => actions.push(DialogAction::Stop),
+        _ if is_escaped || is_left => actions.push(DialogAction::Leave),
+        _ => {}
+    }
+}
+
+/// Draws buttons in a row; returns the one that was chosen.
+///
+/// The first is the one that is meant most often; Return presses it as well.
+fn buttons(ui: &mut Ui, names: &[&str]) -> Option<usize> {
+    let is_answered = ui.memory(|m| m.focused().is_none()) && ui.input(|i| i.key_pressed(Key::Enter));
+    buttons_alone(ui, names).or(is_answered.then_some(0))
+}
+
+/// Draws buttons in a row; returns the one that was chosen.
+fn buttons_alone(ui: &mut Ui, names: &[&str]) -> Option<usize> {
+    ui.add_space(10.0);
+    ui.horizontal(|ui| {
+        let mut chosen = None;
+        for (k, name) in names.iter().enumerate() {
+            if ui.button(*name).clicked() {
+                chosen = Some(k);
+            }
+        }
+        chosen
+    })
+    .inner
+}
+
+/// Asks before something is left behind: the user can keep it, leave it, or cancel.
+fn parting(actions: &mut Actions, ui: &mut Ui, heading: &str, text: &str, [kept, left]: [&str; 2]) {
+    ui.set_width(380.0);
+    ui.heading(heading);
+    ui.label(text);
+    let answers = [DialogAction::Keep, DialogAction::GiveUp, DialogAction::Leave];
+    answer(actions, answers, buttons(ui, &[kept, left, "Cancel"]));
+}
+
+/// Adds the answer of the button that was chosen, if any.
+fn answer<const N: usize>(actions: &mut Actions, answers: [DialogAction; N], chosen: Option<usize>) {
+    answers.into_iter().nth(chosen.unwrap_or(N)).into_iter().for_each(|answer| actions.push(answer));
+}
+
+fn unsaved(model: &Model, actions: &mut Actions, ui: &mut Ui) {
+    let text = format!("{} has changes that are not saved yet.", model.document.title());
+    parting(actions, ui, "Save the changes?", &text, ["Save", "Don't save"]);
+}
+
+fn moved(actions: &mut Actions, ui: &mut Ui) {
+    let text =
+        "They lie otherwise than they did at first. No cut's file holds them: Export writes them as a scene.";
+    parting(actions, ui, "Leave these copies?", text, ["Export…", "Leave them"]);
+}
+
+fn recover(model: &Model, actions: &mut Actions, ui: &mut Ui, found: &RecoveredWork) {
+    ui.set_width(400.0);
+    ui.heading("Go on with unsaved work?");
+    let of = found.path.as_ref().map_or_else(|| "in no file yet".into(), |p| format!("from {}", p.display()));
+    let (name, open) = (&found.design.name, model.document.title());
+    let when = ago(found.when.elapsed().unwrap_or_default());
+    ui.label(format!(
+        "The program ended before {name}, {of}, was saved. It was last changed {when}. Going on opens it in place of {open}."
+    ));
+    let answers = [DialogAction::Recover, DialogAction::Leave, DialogAction::Forget];
+    answer(actions, answers, buttons(ui, &["Go on", "Later", "Forget it"]));
+}
+
+/// Says in words how long ago something was.
+fn ago(since: Duration) -> String {
+    let counted = |count: u64, unit: &str| format!("{count} {unit}{} ago", if count == 1 { "" } else { "s" });
+    match since.as_secs() {
+        0..5 => "just now".to_owned(),
+        seconds @ 5..60 => counted(seconds, "second"),
+        seconds @ 60..3600 => counted(seconds / 60, "minute"),
+        seconds @ 3600..172_800 => counted(seconds / 3600, "hour"),
+        seconds => counted(seconds / 86_400, "day"),
+    }
+}
+
+fn changed_outside(actions: &mut Actions, ui: &mut Ui) {
+    ui.set_width(400.0);
+    ui.heading("The file has changed");
+    ui.label("Another program has changed the file, and here are changes that are not saved.");
+    let answers = [DialogAction::Leave, DialogAction::ReadAgain];
+    answer(actions, answers, buttons(ui, &["Keep mine", "Read the file again"]));
+}
+
+/// The width of the column that says what a key does or a term means, points.
+const MEANING: f32 = 450.0;
+
+fn keys(actions: &mut Actions, ui: &mut Ui) {
+    ui.set_width(620.0);
+    ui.heading("Keys and terms");
+    let room = ui.ctx().content_rect().height() - AROUND_DIALOG - 90.0;
+    ScrollArea::vertical().max_height(room.min(520.0)).show(ui, |ui| {
+        let ctx = ui.ctx().clone();
+        Grid::new("keys").num_columns(2).striped(true).max_col_width(MEANING).show(ui, |ui| {
+            let mut line = |key: String, what: &str| {
+                ui.label(RichText::new(key).monospace());
+                ui.add(egui::Label::new(what).wrap());
+                ui.end_row();
+            };
+            line("drag".into(), "Tilts the stone; with Shift or the right button turns it about its axis.");
+            line("wheel".into(), "Zooms at the pointer; the middle button moves the picture.");
+            line("double click".into(), "Shows one view alone.");
+            line("arrows".into(), "Tilt the view that has the focus by 1°, with Shift by 5°; with Alt they move the picture; comma and full stop turn the stone, + and - zoom, Space follows the ray in the middle.");
+            line("C held".into(), "Shows the design compared with.");
+            line("Z held".into(), "Shows renders in three bands of wavelengths alone.");
+            for command in MENUS.iter().flat_map(|m| m.groups.iter()).flat_map(|g| g.iter()) {
+                let keys: Vec<String> = command.shortcuts().map(|keys| ctx.format_shortcut(&keys)).collect();
+                if !keys.is_empty() {
+                    line(keys.join(" or "), command.meaning());
+                }
+            }
+        });
+        ui.add_space(10.0);
+        Grid::new("terms").num_columns(2).striped(true).max_col_width(MEANING).show(ui, |ui| {
+            let shows = Shows::ALL.into_iter().map(|s| (s.name(), s.meaning()));
+            let mut terms: Vec<_> = shows.collect();
+            for row in FAMILIES.into_iter().flat_map(|family| family.proportions) {
+                if !terms.contains(&(row.name, row.meaning)) {
+                    terms.push((row.name, row.meaning));
+                }
+            }
+            for (name, meaning) in terms {
+                ui.label(RichText::new(name).strong());
+                ui.add(egui::Label::new(meaning).wrap());
+                ui.end_row();
+            }
+        });
+    });
+    answer(actions, [DialogAction::Leave], buttons(ui, &["Close"]));
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn times_are_told_in_the_largest_unit_that_has_passed() {
+        let told = [0, 4, 20, 60, 119, 7200, 200_000].map(|seconds| ago(Duration::from_secs(seconds)));
+        assert_eq!(
+            told,
+            [
+                "just now",
+                "just now",
+                "20 seconds ago",
+                "1 minute ago",
+                "1 minute ago",
+                "2 hours ago",
+                "2 days ago"
+            ]
+        );
+    }
+}

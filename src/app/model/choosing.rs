@@ -1,0 +1,42 @@
+//! Questions for files, which a person answers in a dialog of the system or of the window.
+
+use std::path::PathBuf;
+
+/// What a file is chosen for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Purpose {
+    /// A design to open.
+    Open,
+    /// A file to save to.
+    SaveAs,
+    /// A design to compare with.
+    Compare,
+    /// A light or a panorama.
+    Light,
+    /// A picture for the backplate.
+    Behind,
+    /// A folder to export to.
+    Folder,
+}
+
+/// A question for a file.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Question {
+    /// What the file is for.
+    pub purpose: Purpose,
+    /// The name that is proposed for a new file.
+    pub name: String,
+    /// The number of the document that the file is for.
+    pub document: u64,
+}
+
+/// The answer to a question.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Choice {
+    /// The file that was chosen.
+    File(PathBuf),
+    /// The user chose no file.
+    GivenUp,
+    /// The user was not asked: the system has no dialog.
+    NoDialog,
+}

@@ -1,0 +1,36 @@
+//! The design that the present design is compared with.
+
+use crate::app::model::document::Document;
+use crate::scene::{Specimen, SpecimenError};
+use std::sync::Arc;
+
+/// A design to compare with.
+#[derive(Debug, Clone)]
+pub struct Compared {
+    /// The name under which the design is shown.
+    pub name: String,
+    /// Whether it is the present design as it was last saved.
+    pub is_saved: bool,
+    /// The stone of the design.
+    pub specimen: Arc<Specimen>,
+}
+
+impl Compared {
+    /// Returns the document's design as it was last saved.
+    ///
+    /// # Errors
+    /// Fails where that design makes no stone.
+    pub fn of_saved(document: &Document) -> Result<Self, SpecimenError> {
+        let specimen = Specimen::new(document.saved().clone())?;
+        Ok(Self::new("as saved".to_owned(), true, Arc::new(specimen)))
+    }
+
+    /// Returns the design of another document.
+    pub fn of(document: &Document) -> Self {
+        Self::new(document.title(), false, Arc::clone(document.specimen()))
+    }
+
+    fn new(name: String, is_saved: bool, specimen: Arc<Specimen>) -> Self {
+        Self { name, is_saved, specimen }
+    }
+}

@@ -1,0 +1,388 @@
+//! The open document: a design and its light, with the steps of undo and the file it came from.
+
+use super::extent::Extent;
+use super::history::History;
+use super::recovery::RecoveredWork;
+use super::saving::{SaveRequest, SavedDesign, Stamp};
+use super::work::{ReadMesh, Work};
+use super::impossible;
+use crate::cut::{Cut, Design};
+use crate::io::design_file::{self, ImportedDesign};
+use crate::io::mesh_options::MeshOptions;
+use crate::io::{Failure, FileError, cut_file, library};
+use crate::scene::{Copies, Specimen, SpecimenError};
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, OnceLock};
+
+/// A design that is open.
+#[derive(Debug, Clone)]
+pub struct Document {
+    /// The work as it is now. It is changed in place; [`update`](Self::update) then takes note of the change.
+    pub work: Work,
+    history: History<Work>,
+    saved: Design,
+    /// The copies as they were at first, or as they were last written as a scene.
+    laid: Copies,
+    path: Option<PathBuf>,
+    stamp: Stamp,
+    /// Whether the file no longer exists.
+    is_lost: bool,
+    /// The stone of the last design that makes one. Its own design may be older than `built` in what changes no light, such
+    /// as the name.
+    specimen: Arc<Specimen>,
+    /// How far that stone reaches, once anyone has asked.
+    extent: OnceLock<Extent>,
+    fault: Option<SpecimenError>,
+    /// The design that `specimen` or `fault` belongs to.
+    built: Design,
+}
+
+/// Whether two designs make the same stone, whatever their names and notes.
+fn is_same_stone(a: &Design, b: &Design) -> bool {
+    let is_same_cut = match (&a.cut, &b.cut) {
+        (Cut::Tiers(a), Cut::Tiers(b)) => (a.gear, a.offset, &a.tiers) == (b.gear, b.offset, &b.tiers),
+        (a, b) => a == b,
+    };
+    is_same_cut && a.diameter_mm == b.diameter_mm && a.material == b.material
+}
+
+/// The light that the program starts with.
+pub const FIRST_LIGHT: &str = "studio";
+
+impl Document {
+    /// Opens a design that lies in a file, or in none yet.
+    ///
+    /// # Errors
+    /// Fails where the design makes no stone; the error says why.
+    pub fn new(design: Design, path: Option<PathBuf>) -> Result<Self, SpecimenError> {
+        let specimen = Arc::new(Specimen::new(design.clone())?);
+        let work = Work {
+            design: design.clone(),
+            company: Copies::default(),
+            light: FIRST_LIGHT.to_owned(),
+            exposure: 0.0,
+            head: 0.0,
+            mesh: None,
+            remarks: Arc::default(),
+        };
+        let stamp = path.as_deref().map_or_else(Stamp::default, Stamp::of);
+        let history = History::new(work.clone());
+        Ok(Self {
+            work,
+            history,
+            saved: design.clone(),
+            laid: Copies::default(),
+            path,
+            stamp,
+            is_lost: false,
+            specimen,
+            extent: OnceLock::new(),
+            fault: None,
+            built: design,
+        })
+    }
+
+    /// Opens a cut that comes with the program, as a design without a file.
+    ///
+    /// # Errors
+    /// Fails where no cut of that name comes with the program.
+    pub fn of_library(name: &str) -> Result<Self, FileError> {
+        let text = library::cut(name)
+            .ok_or_else(|| FileError::new(name, "no cut of this name comes with the program"))?;
+        let design = cut_file::parse(text, name)?;
+        Self::new(design, None).map_err(|error| FileError::new(name, error))
+    }
+
+    /// Opens the first design that a user sees.
+    ///
+    /// # Errors
+    /// Fails only where the program itself is broken.
+    pub fn first() -> Result<Self, FileError> {
+        Self::of_library(library::FIRST_CUT)
+    }
+
+    /// Opens a design file; the options count where it is a mesh.
+    ///
+    /// # Errors
+    /// Fails where the file cannot be read, is no design, or makes no stone.
+    pub fn open(path: &Path, mesh: MeshOptions) -> Result<Self, FileError> {
+        let ImportedDesign { design, notes, warnings, doubt } = design_file::read_with(path, mesh)?;
+        let mut document = Self::new(design, Some(path.to_owned()))
+            .map_err(|error| FileError::new(path.display(), error))?;
+        document.work.remarks = warnings.into_iter().chain(notes).collect();
+        let diameter_mm = document.work.design.diameter_mm;
+        let read = |is_doubtful| ReadMesh { path: path.to_owned(), options: mesh, is_doubtful, diameter_mm };
+        document.work.mesh = doubt.map(read);
+        document.history = History::new(document.work.clone());
+        Ok(document)
+    }
+
+    /// Takes the shape of the same mesh, read in another way, as a step that can be undone.
+    ///
+    /// All else of the work stays, and so does the factor by which the stone was made larger than in its file.
+    pub fn take_shape(&mut self, other: Self) {
+        let enlarged =
+            self.work.mesh.as_ref().map_or(1.0, |mesh| self.work.design.diameter_mm / mesh.diameter_mm);
+        self.work.design.diameter_mm = enlarged * other.work.design.diameter_mm;
+        self.work.design.cut = other.work.design.cut;
+        self.work.mesh = other.work.mesh;
+        self.work.remarks = other.work.remarks;
+    }
+
+    /// Opens unsaved work that was found after a crash; it counts as changed.
+    ///
+    /// # Errors
+    /// Fails where the design makes no stone; the text says why.
+    pub fn recovered(found: &RecoveredWork) -> Result<Self, Failure> {
+        let mut document = Self::new(found.design.clone(), found.path.clone()).map_err(|e| Failure::Input(e.to_string()))?;
+        document.work.mesh.clone_from(&found.mesh);
+        document.history = History::new(document.work.clone());
+        document.saved =
+            found.on_disk.clone().unwrap_or_else(|| Design { name: String::new(), ..document.saved });
+        Ok(document)
+    }
+
+    /// Begins under a light; this is not a step of undo.
+    pub fn begin(&mut self, light: &str, exposure: f64, head: f64) {
+        (self.work.light, self.work.exposure, self.work.head) = (light.to_owned(), exposure, head);
+        self.history = History::new(self.work.clone());
+    }
+
+    /// Takes over the copies of another document, and whether they count as kept.
+    pub fn take_copies(&mut self, other: &Self) {
+        self.work.company.clone_from(&other.work.company);
+        self.laid.clone_from(&other.laid);
+    }
+
+    /// Counts the copies as kept where they lie now.
+    pub fn keep_copies(&mut self) {
+        self.laid.clone_from(&self.work.company);
+    }
+
+    /// Whether the copies lie otherwise than at first, or than when they were last written.
+    pub fn has_moved_copies(&self) -> bool {
+        self.laid != self.work.company
+    }
+
+    /// Builds the stone after a change, or notes why there is none.
+    ///
+    /// Returns whether the stone is another than before and has to be traced: a new name makes no other stone.
+    pub fn update(&mut self) -> bool {
+        if self.work.design == self.built {
+            return false;
+        }
+        self.built = self.work.design.clone();
+        if is_same_stone(&self.specimen.design, &self.built) {
+            self.fault = self.built.check().err().map(SpecimenError::from);
+            return false;
+        }
+        match self.specimen.remade(self.built.clone()) {
+            Ok(specimen) => {
+                (self.specimen, self.extent) = (Arc::new(specimen), OnceLock::new());
+                // A stone can be built whose name no file can hold.
+                self.fault = self.built.check().err().map(SpecimenError::from);
+                true
+            }
+            Err(fault) => {
+                self.fault = Some(fault);
+                false
+            }
+        }
+    }
+
+    /// Ends a gesture: all that it changed becomes one step of undo. Returns whether it changed anything.
+    pub fn settle(&mut self) -> bool {
+        self.history.settle(&self.work)
+    }
+
+    /// Returns the last stone that could be built.
+    pub fn specimen(&self) -> &Arc<Specimen> {
+        &self.specimen
+    }
+
+    /// Returns how far the last stone that could be built reaches from above.
+    pub fn extent(&self) -> Extent {
+        *self.extent.get_or_init(|| Extent::of(&self.specimen))
+    }
+
+    /// Returns a stone of this document, [`specimen`](Self::specimen) or one that moves, under the name that the design has
+    /// now.
+    pub fn named(&self, specimen: &Arc<Specimen>) -> Arc<Specimen> {
+        let now = &self.specimen.design;
+        if *now == self.built || !is_same_stone(now, &self.built) {
+            return Arc::clone(specimen);
+        }
+        let mut design = self.built.clone();
+        // A plate that waves is in another phase than its design.
+        if let Cut::Glass(_) = design.cut {
+            design.cut = specimen.design.cut.clone();
+        }
+        Arc::new(Specimen { design, ..(**specimen).clone() })
+    }
+
+    /// Whether the design makes no stone, so that [`specimen`](Self::specimen) is the last one that it made.
+    pub fn shows_last_possible(&self) -> bool {
+        self.fault.is_some() && !is_same_stone(&self.specimen.design, &self.built)
+    }
+
+    /// Returns what keeps the present design from being a stone.
+    pub fn fault(&self) -> Option<&SpecimenError> {
+        self.fault.as_ref()
+    }
+
+    /// Returns the file that the document is saved in, if any.
+    pub fn path(&self) -> Option<&Path> {
+        self.path.as_deref()
+    }
+
+    /// Returns the title of the document: the name of its file, or that of the design.
+    pub fn title(&self) -> String {
+        let file = self.path.as_deref().and_then(Path::file_name).map(|n| n.to_string_lossy().into_owned());
+        file.unwrap_or_else(|| self.work.design.name.clone())
+    }
+
+    /// Returns the design as it was last saved.
+    pub fn saved(&self) -> &Design {
+        &self.saved
+    }
+
+    /// Whether closing the document would lose work.
+    pub fn is_changed(&self) -> bool {
+        self.work.design != self.saved || self.is_lost
+    }
+
+    /// Returns the file as it was when it was last read or written.
+    pub fn stamp(&self) -> Stamp {
+        self.stamp
+    }
+
+    /// Whether the file no longer existed when it was last checked.
+    pub fn is_lost(&self) -> bool {
+        self.is_lost
+    }
+
+    /// Accepts the file on disk as it is, so that its change is not reported again.
+    pub fn accept_outside(&mut self, stamp: Stamp) {
+        (self.stamp, self.is_lost) = (stamp, !stamp.is_there());
+    }
+
+    /// Whether there is anything to undo, and anything to redo.
+    pub fn steps(&self) -> (bool, bool) {
+        (self.history.can_undo() || self.work != *self.history.present(), self.history.can_redo())
+    }
+
+    /// Undoes one step.
+    pub fn undo(&mut self) {
+        self.settle();
+        if let Some(work) = self.history.undo() {
+            self.work = work;
+        }
+    }
+
+    /// Redoes one step that was undone.
+    pub fn redo(&mut self) {
+        if !self.settle()
+            && let Some(work) = self.history.redo()
+        {
+            self.work = work;
+        }
+    }
+
+    /// Returns what is to be saved, to `path`.
+    ///
+    /// # Errors
+    /// Fails when the design makes no stone.
+    pub fn to_save(&self, path: PathBuf) -> Result<SaveRequest, Failure> {
+        match &self.fault {
+            Some(fault) => Err(Failure::Input(format!(
+                "this design cannot be read again: {}",
+                impossible::by_name(fault)
+            ))),
+            None => Ok(SaveRequest {
+                path,
+                design: self.work.design.clone(),
+                specimen: Arc::clone(&self.specimen),
+            }),
+        }
+    }
+
+    /// Takes note that a design of this document has been saved: its file is that of the document from now on.
+    pub fn take_saved(&mut self, saved: SavedDesign) {
+        (self.stamp, self.path, self.is_lost) = (saved.stamp, Some(saved.path), false);
+        self.saved = saved.design;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::app::tasks::open::save;
+    use crate::cut::Crown;
+
+    fn crown(document: &mut Document, degrees: f64) {
+        let Cut::RoundBrilliant(brilliant) = &mut document.work.design.cut else { panic!() };
+        brilliant.crown = Crown::Angle(degrees);
+    }
+
+    /// Whether the file has changed since the document was last read from it or written to it.
+    fn is_changed_outside(document: &Document) -> bool {
+        document.path().is_some_and(|path| Stamp::of(path) != document.stamp())
+    }
+
+    #[test]
+    fn an_edited_design_is_saved_and_reads_back_equal() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("mine.toml");
+        let mut document = Document::first().unwrap();
+        assert!(!document.is_changed() && document.path().is_none());
+        crown(&mut document, 35.125);
+        assert!(document.update() && document.settle() && document.is_changed());
+        document.take_saved(save(document.to_save(path.clone()).unwrap()).unwrap());
+        assert!(!document.is_changed() && document.title() == "mine.toml" && !is_changed_outside(&document));
+        assert_eq!(Document::open(&path, MeshOptions::default()).unwrap().work.design, document.work.design);
+        std::fs::write(&path, "format = 1").unwrap();
+        assert!(is_changed_outside(&document));
+        document.accept_outside(Stamp::of(&path));
+        assert!(!is_changed_outside(&document) && !document.is_changed());
+        std::fs::remove_file(&path).unwrap();
+        assert!(is_changed_outside(&document));
+        document.accept_outside(Stamp::of(&path));
+        assert!(document.is_changed(), "what is nowhere any more is not saved");
+    }
+
+    #[test]
+    fn a_name_that_no_file_can_hold_is_not_saved() {
+        let folder = tempfile::tempdir().unwrap();
+        let mut document = Document::first().unwrap();
+        document.work.design.name = " ".to_owned();
+        assert!(!document.update() && document.fault().is_some() && !document.shows_last_possible());
+        let path = folder.path().join("mine.toml");
+        assert!(document.to_save(path.clone()).unwrap_err().contains("printable") && !path.exists());
+    }
+
+    #[test]
+    fn a_design_that_makes_no_stone_keeps_the_last_one_and_is_not_saved() {
+        let folder = tempfile::tempdir().unwrap();
+        let mut document = Document::first().unwrap();
+        let stone = Arc::clone(document.specimen());
+        crown(&mut document, 90.0);
+        assert!(!document.update());
+        assert!(document.fault().unwrap().to_string().contains("crown_angle"));
+        assert!(Arc::ptr_eq(&stone, document.specimen()) && document.shows_last_possible());
+        let path = folder.path().join("mine.toml");
+        assert!(document.to_save(path.clone()).unwrap_err().contains(": Crown angle: ") && !path.exists());
+        document.undo();
+        assert!(!document.update() && document.fault().is_none(), "it is the stone that is in sight");
+        assert!(Arc::ptr_eq(&stone, document.specimen()) && !document.shows_last_possible());
+    }
+
+    #[test]
+    fn undo_in_the_middle_of_a_gesture_undoes_it() {
+        let mut document = Document::first().unwrap();
+        let before = document.work.clone();
+        crown(&mut document, 30.0);
+        assert_eq!(document.steps(), (true, false));
+        document.undo();
+        assert_eq!((&document.work, document.steps()), (&before, (false, true)));
+    }
+}

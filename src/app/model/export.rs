@@ -1,0 +1,217 @@
+//! What is exported: the files, and how each picture sees the stone.
+
+use super::framing::{Framing, FramingFit};
+use crate::app::shows::Shows;
+use crate::app::studio::Shot;
+use crate::io::export::{Export, OutputFormat, Outputs, Viewing};
+use crate::io::refraction_map::{self, Coding, MOST_BANDS, MOST_PIXELS};
+use crate::io::Failure;
+use crate::optics::line;
+use crate::picture::named;
+use crate::render::{Renderer, Wanted};
+use crate::scene::{Glare, Pose, Specimen, View, Viewpoint};
+use std::path::PathBuf;
+use std::sync::Arc;
+
+/// What of a stone is selected for export.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Selection {
+    /// The views that are exported.
+    pub views: Vec<Shows>,
+    /// The formats of the files.
+    pub formats: Vec<OutputFormat>,
+    /// Whether a refraction map is written, with a page that shows it.
+    pub map: bool,
+    /// The number of bands of wavelengths of the refraction map.
+    pub bands: u32,
+    /// The number of places in each pixel of the refraction map, for each band.
+    pub places: u32,
+    /// Whether what renders show is written as a scene file, with its cut.
+    pub scene: bool,
+    /// The number of pixels along each side.
+    pub size: u32,
+    /// Whether pictures in scopes have a caption with a legend under them.
+    pub caption: bool,
+}
+
+impl Default for Selection {
+    fn default() -> Self {
+        let views = vec![Shows::Render, Shows::Aset, Shows::Hearts, Shows::Arrows];
+        let formats = vec![OutputFormat::Png];
+        Self { views, formats, map: false, bands: 1, places: 1, scene: false, size: 1024, caption: false }
+    }
+}
+
+/// How a picture sees the stone.
+#[derive(Debug, Clone)]
+pub struct PictureAspect {
+    /// The view; pictures that are made for one side take that side instead.
+    pub view: View,
+    /// How far the stone is turned about its axis in the view, radians.
+    pub turn: f64,
+}
+
+/// All that an export needs to know.
+#[derive(Debug, Clone)]
+pub struct ExportPlan {
+    /// What renders show, with light and view; the film is not used.
+    pub shot: Shot,
+    /// The stone as the cut has it.
+    pub upright: Arc<Specimen>,
+    /// How the linked views see the stone; pictures and figures without a view of their own see it the same.
+    pub linked: PictureAspect,
+    /// How the views that look on their own see the stone, by what they show.
+    pub own: Vec<(Shows, PictureAspect)>,
+    /// Half the side of the square that renders show.
+    pub reach: f64,
+    /// What is selected for export.
+    pub selection: Selection,
+    /// The light, as scene files name it.
+    pub light: PathBuf,
+    /// The folder of the files.
+    pub folder: PathBuf,
+    /// The beginning of the files' names.
+    pub stem: String,
+}
+
+impl ExportPlan {
+    /// Returns how a picture sees the stone.
+    pub fn aspect(&self, shows: Shows) -> &PictureAspect {
+        self.own.iter().find(|(own, _)| *own == shows).map_or(&self.linked, |(_, aspect)| aspect)
+    }
+
+    /// Returns what is written of the stone as it is turned in the linked views, as it is turned in each view of its own,
+    /// and as the cut has it: drawings and figures know of no turn.
+    pub fn parts(&self) -> Vec<(Outputs, Viewing<'_>)> {
+        let is_drawing = |shows: &Shows| !shows.is_seen();
+        let is_own = |shows: &Shows| self.own.iter().any(|(own, _)| own == shows);
+        let json = self.selection.formats.contains(&OutputFormat::Json);
+        let formats = |json: bool| {
+            let pixels = self.selection.formats.iter().copied().filter(|f| *f != OutputFormat::Json);
+            pixels.chain(json.then_some(OutputFormat::Json)).collect()
+        };
+        let seen = self.outputs(|s| !is_drawing(s) && !is_own(s), formats(false));
+        let linked = Viewpoint::from(self.linked.view);
+        let turned = |aspect: &PictureAspect| aspect.turn.to_degrees();
+        let mut parts = vec![(seen, self.viewing(linked, turned(&self.linked)))];
+        for (shows, aspect) in self.own.iter().filter(|(shows, _)| shows.is_seen()) {
+            let alone = self.outputs(|s| s == shows, formats(false));
+            if !alone.pictures.is_empty() {
+                let viewpoint = Viewpoint::from(aspect.view);
+                parts.push((alone, self.viewing(viewpoint, turned(aspect))));
+            }
+        }
+        let azimuth_deg = (linked.azimuth_deg - self.linked.turn.to_degrees()).rem_euclid(360.0);
+        let azimuth_deg = if linked.tilt_deg == 0.0 { 0.0 } else { azimuth_deg };
+        let upright = self.outputs(is_drawing, formats(json));
+        parts.push((upright, self.viewing(Viewpoint { azimuth_deg, ..linked }, 0.0)));
+        parts
+    }
+
+    fn outputs(&self, is_part: impl Fn(&Shows) -> bool, formats: Vec<OutputFormat>) -> Outputs {
+        let picture = |shows: &Shows| Some((shows.key().to_owned(), named(shows.key())?));
+        Outputs {
+            folder: self.folder.clone(),
+            stem: self.stem.clone(),
+            pictures: self.selection.views.iter().filter(|s| is_part(s)).filter_map(picture).collect(),
+            size: self.selection.size,
+            formats,
+            caption: self.selection.caption,
+            strongest: true,
+            timing: false,
+        }
+    }
+
+    fn viewing(&self, viewpoint: Viewpoint, turned_deg: f64) -> Viewing<'_> {
+        let specimen = &*self.upright;
+        Viewing {
+            specimen,
+            file: &self.stem,
+            viewpoint,
+            turned_deg,
+            medium: specimen.medium(line::SODIUM_D),
+            wavelength_nm: Some(line::SODIUM_D),
+            head_deg: self.shot.head,
+            unresolved: None,
+            polarised: true,
+            // `None` leaves glare out of pictures; figures list it in any case.
+            glare: Some(self.shot.glare).filter(|glare| *glare == Glare::Included),
+            tracer: Wanted::Quickest,
+        }
+    }
+
+    /// Returns the paths of the maps, then those of the diffuse layer and the page; `None` where no map is selected.
+    pub fn map_paths(&self) -> Option<(Vec<PathBuf>, [PathBuf; 2])> {
+        let count = (self.selection.bands * self.selection.places) as usize;
+        let maps = refraction_map::paths(&self.folder, &self.stem, count, Coding::Tiles);
+        let page = self.folder.join(format!("{}-refraction.html", self.stem));
+        let others = [refraction_map::diffuse_path(&self.folder, &self.stem), page];
+        self.selection.map.then_some((maps, others))
+    }
+
+    /// Returns a note that a render is not physics; it is empty where the render is.
+    pub fn mixture(&self) -> String {
+        match self.shot.strength {
+            s if s < 1.0 => format!("strength {s}: a mixture for its looks, not physics; "),
+            _ => String::new(),
+        }
+    }
+
+    /// Returns the paths of the scene file and of the cut file of its stones.
+    pub fn scene_paths(&self) -> [PathBuf; 2] {
+        ["scene", "cut"].map(|part| self.folder.join(format!("{}-{part}.toml", self.stem)))
+    }
+
+    /// Returns the file of the render, if it is selected.
+    pub fn render_path(&self) -> Option<PathBuf> {
+        let wanted = self.selection.views.contains(&Shows::Render)
+            && self.selection.formats.contains(&OutputFormat::Png);
+        wanted.then(|| self.folder.join(format!("{}-render.png", self.stem)))
+    }
+
+    /// Returns the views that can be exported: drawings need facets.
+    pub fn can_be_shown(&self) -> impl Iterator<Item = Shows> {
+        let has_facets = self.upright.stone().is_ok();
+        Shows::EXPORTED.iter().copied().filter(move |shows| has_facets || shows.is_seen())
+    }
+
+    /// Returns the files that will be written, in that order.
+    ///
+    /// # Errors
+    /// The text says what keeps them from being written.
+    pub fn files(&self) -> Result<Vec<PathBuf>, Failure> {
+        if self.selection.map && self.selection.size > MOST_PIXELS {
+            return Err(Failure::Usage(format!(
+                "A refraction map has {MOST_PIXELS} pixels each way at most: take a smaller size."
+            )));
+        }
+        if self.selection.map && self.selection.bands * self.selection.places > MOST_BANDS {
+            let problem = format!("Bands times places are {MOST_BANDS} at most: take fewer.");
+            return Err(Failure::Usage(problem));
+        }
+        let mut files = vec![];
+        for (outputs, viewing) in &self.parts() {
+            files.extend(Export { viewing: *viewing, outputs }.files(&Renderer::default())?);
+        }
+        files.extend(self.render_path());
+        files.extend(self.map_paths().into_iter().flat_map(|(maps, others)| maps.into_iter().chain(others)));
+        files.extend(self.selection.scene.then(|| self.scene_paths()).into_iter().flatten());
+        Ok(files)
+    }
+
+    /// Returns the shot of a view at a size, framed as in the views of the window.
+    pub fn shot(&self, shows: Shows, size: u32) -> Shot {
+        let seen = self.aspect(shows).view;
+        let view = View { side: shows.side().unwrap_or(seen.side), ..seen };
+        let shot = Shot { shows, view, ..self.shot.clone() };
+        let size = [size; 2];
+        if shows.has_company() && self.shot.company.as_slice() != [Pose::STILL] {
+            let fit = FramingFit::reaching(self.reach);
+            return Shot { film: fit.film(size), whole: fit.whole(size), ..shot };
+        }
+        let specimen = Arc::clone(&self.upright);
+        let fit = Framing::new(&specimen).fit(&shot.view);
+        let (film, whole) = (fit.film(size), fit.whole(size));
+        Shot { film, whole, specimen, company: vec![Pose::STILL], ..shot }
+    }
+}

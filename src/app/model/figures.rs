@@ -1,0 +1,25 @@
+//! Figures that have been measured.
+
+use crate::app::studio::{FiguresOrder, Grade, Tilts, Which};
+use crate::measure::Figures;
+use std::collections::HashMap;
+
+/// Figures as they are shown, with the order and the grade that they answer.
+#[derive(Debug, Clone)]
+pub struct ShownFigures {
+    /// The order that the figures answer.
+    pub ask: FiguresOrder,
+    /// The grade of the figures.
+    pub grade: Grade,
+    /// The figures.
+    pub figures: Figures,
+}
+
+/// All figures that are shown.
+#[derive(Debug, Clone, Default)]
+pub struct SessionFigures {
+    /// The figures of the present stone, and of the one compared with.
+    pub figures: HashMap<Which, ShownFigures>,
+    /// The figures against tilt, with the order that they answer.
+    pub tilts: Option<(FiguresOrder, Tilts)>,
+}

@@ -1,0 +1,224 @@
+//! How large stones are shown, and where in their panes.
+//!
+//! Views are fitted to one stone, which stays the same while a number is changed: what is edited then changes on the
+//! screen, and not the scale. Another stone is fitted when a file is opened, when the user asks for it, or when the stone
+//! has outgrown its views.
+
+use crate::scene::{Film, Specimen, View};
+use crate::trace::ray::Camera;
+use glam::{DVec2, DVec3};
+use std::sync::Arc;
+
+/// The greatest number of corners that are all used for a fit; of more, those that lie outermost in some directions are
+/// enough.
+const MOST_POINTS: usize = 2000;
+/// The number of directions in which outermost corners are sought.
+const DIRECTIONS: u32 = 200;
+
+/// Stones whose extents agree to this part keep their scale when they are turned about their axis.
+const ROUND: f64 = 0.03;
+
+/// A stone that reaches beyond its extents at rest by more than this part is shown smaller: it would reach out of the free
+/// space around it.
+const SLACK: f64 = 0.02;
+
+/// A stone is fitted anew once it reaches more than this many times as far as the one that views are fitted to.
+const OUTGROWN: f64 = 1.04;
+/// A stone is fitted anew once it reaches less than this part of the one that views are fitted to.
+const SHRUNK: f64 = 0.6;
+
+/// A middle nearer to the origin than this part of the extent counts as at the origin: the rest is rounding.
+const CENTRED: f64 = 1e-9;
+
+/// What a view without zoom takes in.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FramingFit {
+    /// Half the extents across and up, girdle radii.
+    pub half: DVec2,
+    /// The middle in the image plane, girdle radii from the origin.
+    pub middle: DVec2,
+    /// The distance of the stone's middle from the origin in space, which no view changes, girdle radii.
+    aside: f64,
+}
+
+impl FramingFit {
+    /// Takes in everything within `reach` of the origin across and up, girdle radii.
+    pub fn reaching(reach: f64) -> Self {
+        Self { half: DVec2::splat(reach), middle: DVec2::ZERO, aside: 0.0 }
+    }
+
+    /// Returns the film of `size` pixels that takes in this fit.
+    pub fn film(&self, size: [u32; 2]) -> Film {
+        Film { centre: self.middle, ..Film::holding(self.half, size) }
+    }
+
+    /// Returns the film that the backplate fills: the same in all views of a stone, and large enough to take in each of
+    /// them.
+    pub fn whole(&self, size: [u32; 2]) -> Film {
+        let film = Film::holding(self.half, size);
+        Film { pixel: film.pixel * (1.0 + self.aside / self.half.max_element()), ..film }
+    }
+
+    /// Fits a view to points of a stone.
+    fn of(points: &[DVec3], view: &View) -> Self {
+        let radius = points.iter().map(|p| p.truncate().length()).fold(0.0, f64::max);
+        let turned = || points.iter().map(|&p| view.turn * p);
+        let camera = Camera::reaching(view, 1.0);
+        let seen = bounds(points.iter().filter_map(|&p| camera.project(p).map(|(at, _)| at.extend(0.0))));
+        let above = bounds(turned().map(|p| p.truncate().extend(0.0)));
+        let all = bounds(turned());
+        let half = |(low, high): (DVec3, DVec3)| ((high - low) / 2.0).truncate();
+        let rest = match half(above) {
+            rest if radius <= rest.min_element() * (1.0 + ROUND) => DVec2::splat(radius),
+            rest => rest,
+        };
+        let middle = ((seen.0 + seen.1) / 2.0).truncate();
+        let is_centred = middle.length() < CENTRED * rest.max_element();
+        Self {
+            half: rest.max(half(seen) / (1.0 + SLACK)),
+            middle: if is_centred { DVec2::ZERO } else { middle },
+            aside: ((all.0 + all.1) / 2.0).length(),
+        }
+    }
+}
+
+/// Returns the least and the greatest coordinates of points; of no points, the origin.
+fn bounds(points: impl Iterator<Item = DVec3>) -> (DVec3, DVec3) {
+    points.map(|p| (p, p)).reduce(|(a, b), (p, q)| (a.min(p), b.max(q))).unwrap_or_default()
+}
+
+/// The stone that views are fitted to.
+#[derive(Debug, Clone)]
+pub struct Framing {
+    fitted: Arc<Specimen>,
+    points: Arc<[DVec3]>,
+}
+
+impl Framing {
+    /// Fits views to a stone.
+    pub fn new(specimen: &Arc<Specimen>) -> Self {
+        Self { fitted: Arc::clone(specimen), points: outermost(specimen.solid().vertices()).into() }
+    }
+
+    /// Returns the stone that views are fitted to.
+    pub fn fitted(&self) -> &Arc<Specimen> {
+        &self.fitted
+    }
+
+    /// Fits views to another stone.
+    pub fn renew(&mut self, specimen: &Arc<Specimen>) {
+        if !Arc::ptr_eq(&self.fitted, specimen) {
+            *self = Self::new(specimen);
+        }
+    }
+
+    /// Fits views to a stone if it reaches out of them or is small in them; returns whether it did.
+    pub fn settle(&mut self, specimen: &Arc<Specimen>) -> bool {
+        let is_same = Arc::ptr_eq(&self.fitted, specimen);
+        let reach = |specimen: &Specimen| specimen.reach;
+        let (fitted, present) = (reach(&self.fitted), reach(specimen));
+        let fits = is_same || (present <= OUTGROWN * fitted && present >= SHRUNK * fitted);
+        if !fits {
+            *self = Self::new(specimen);
+        }
+        !fits
+    }
+
+    /// Returns what a view takes in of the stone that views are fitted to.
+    pub fn fit(&self, view: &View) -> FramingFit {
+        FramingFit::of(&self.points, view)
+    }
+}
+
+/// Returns the corners of a solid: all, or of very many those that lie outermost.
+fn outermost(points: &[DVec3]) -> Vec<DVec3> {
+    if points.len() <= MOST_POINTS {
+        return points.to_vec();
+    }
+    let farthest =
+        |toward: DVec3| points.iter().copied().max_by(|a, b| a.dot(toward).total_cmp(&b.dot(toward)));
+    (0..DIRECTIONS).map(direction).filter_map(farthest).collect()
+}
+
+/// Returns one of [`DIRECTIONS`] directions that are spread evenly, on a spiral that turns by the golden angle.
+fn direction(k: u32) -> DVec3 {
+    let z = 1.0 - (2.0 * f64::from(k) + 1.0) / f64::from(DIRECTIONS);
+    let turn = std::f64::consts::PI * (3.0 - 5.0_f64.sqrt()) * f64::from(k);
+    (DVec2::from_angle(turn) * (1.0 - z * z).sqrt()).extend(z)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::app::model::document::Document;
+    use crate::app::model::eye::Eye;
+    use crate::cut::{Cut, Design};
+    use crate::math::Plane;
+    use crate::scene::Projection;
+
+    /// Returns a stone of planes: half a prism, which lies beside the origin.
+    fn half_round(reach: f64) -> Arc<Specimen> {
+        let side = |k: u32| Plane::from_slope(std::f64::consts::FRAC_PI_2, f64::from(k) * 0.3, reach);
+        let mut planes: Vec<Plane> = (0..=10).map(side).collect();
+        planes.push(Plane::new(DVec3::NEG_Y, 0.0));
+        planes.extend([DVec3::Z, DVec3::NEG_Z].map(|z| Plane::new(z, 0.3)));
+        let named = planes.into_iter().enumerate().map(|(k, plane)| (format!("side {k}"), plane)).collect();
+        let design = Document::first().unwrap().work.design;
+        Arc::new(Specimen::new(Design { cut: Cut::Planes(named), ..design }).unwrap())
+    }
+
+    /// Returns the parts of a pane that a stone leaves free to the left, the right, above and below.
+    fn air(specimen: &Specimen, film: &Film, view: &View) -> [f64; 4] {
+        let camera = Camera::reaching(view, 1.0);
+        let map = film.pixels_from_image(glam::DMat2::IDENTITY);
+        let seen = specimen.solid().vertices().iter().filter_map(|&p| camera.project(p));
+        let (low, high) = bounds(seen.map(|(at, _)| map.transform_point2(at).extend(0.0)));
+        let [w, h] = film.size.map(f64::from);
+        [low.x / w, 1.0 - high.x / w, low.y / h, 1.0 - high.y / h]
+    }
+
+    #[test]
+    fn stones_fill_their_panes_whatever_their_outline_and_are_centred() {
+        let pill = Arc::clone(Document::of_library("pill").unwrap().specimen());
+        let first = Arc::clone(Document::first().unwrap().specimen());
+        for (name, specimen) in [("half", half_round(1.0)), ("pill", pill), ("first", first)] {
+            for size in [[400, 300], [300, 400]] {
+                for (lean, distance) in [(0.0, None), (0.7, None), (1.57, None), (0.4, Some(6.0))] {
+                    let eye = Eye { lean: DVec2::new(0.0, lean), ..Eye::default() };
+                    let near = |distance| Projection::Perspective { distance };
+                    let projection = distance.map_or(Projection::Orthographic, near);
+                    let view = View { projection, ..eye.view(None) };
+                    let fit = Framing::new(&specimen).fit(&view);
+                    let [left, right, above, below] = air(&specimen, &eye.film(size, &fit), &view);
+                    let off = (left - right).abs().max((above - below).abs());
+                    assert!(off < 1e-6, "{name} {size:?} {lean}: off by {off}");
+                    let least = left.min(above);
+                    assert!(least > 0.0, "{name} {size:?} {lean}: reaches out by {least}");
+                    assert!(lean > 0.0 || least < 0.03, "{name} {size:?}: leaves {left} and {above}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_stone_that_is_tilted_or_turned_keeps_its_scale() {
+        let framing = Framing::new(Document::first().unwrap().specimen());
+        let half = |eye: Eye| framing.fit(&eye.view(None)).half;
+        let rest = half(Eye::default());
+        for step in 0..16 {
+            let lean = DVec2::from_angle(f64::from(step)) * 0.1 * f64::from(step);
+            assert_eq!(half(Eye { lean, turn: 0.2 * f64::from(step), ..Eye::default() }), rest, "{lean}");
+        }
+    }
+
+    #[test]
+    fn views_stay_as_they_are_until_the_stone_has_outgrown_them() {
+        let mut framing = Framing::new(&half_round(1.0));
+        let fit = framing.fit(&Eye::default().view(None));
+        for (reach, is_anew) in [(1.02, false), (0.7, false), (1.3, true), (0.6, true)] {
+            assert_eq!(framing.settle(&half_round(reach)), is_anew, "{reach}");
+            let is_same = framing.fit(&Eye::default().view(None)) == fit;
+            assert_eq!(is_same, !is_anew, "{reach}");
+        }
+    }
+}

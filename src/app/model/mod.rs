@@ -1,0 +1,117 @@
+//! The state of the editor, without a window: what there is, what can be done to it, and what is to be done outside.
+//!
+//! Only [`update`] changes a [`Model`]. A client, such as the window, draws the model, turns what a person does into
+//! [`Action`]s, and carries out the [`Task`]s that come of them, whose answers are actions again.
+
+pub mod action;
+pub mod choosing;
+pub mod command;
+pub mod compare;
+pub mod dialog;
+pub mod document;
+pub mod export;
+pub mod exporting;
+pub mod extent;
+pub mod eye;
+pub mod figures;
+pub mod framing;
+pub mod history;
+pub mod impossible;
+pub mod motion;
+pub mod notes;
+pub mod opening;
+pub mod ordering;
+pub mod plan;
+pub mod preset;
+pub mod recovery;
+pub mod saving;
+pub mod session;
+pub mod stones;
+pub mod task;
+pub mod update;
+pub mod view_history;
+pub mod work;
+pub mod workspace;
+
+pub use action::Action;
+pub use task::Task;
+pub use update::update;
+
+use crate::app::shows::Shows;
+use crate::scene::{Copies, Specimen, View};
+use crate::io::Failure;
+use document::Document;
+use framing::FramingFit;
+use session::Session;
+use workspace::Workspace;
+
+/// The whole state of an editor.
+#[derive(Debug, Clone)]
+pub struct Model {
+    /// The design that is open, with its light and its steps.
+    pub document: Document,
+    /// How the window is arranged, which is kept from one start to the next.
+    pub workspace: Workspace,
+    /// Everything that ends with the window.
+    pub session: Session,
+}
+
+impl Model {
+    /// Opens the first design in a workspace as it was kept.
+    ///
+    /// # Errors
+    /// Fails only where the program itself is broken: it comes with the cut and the light that it starts with.
+    pub fn new(mut workspace: Workspace) -> Result<Self, Failure> {
+        let mut document = Document::first()?;
+        workspace.face_up();
+        workspace.rest();
+        document.begin(&workspace.light, workspace.exposure, workspace.head);
+        let session = Session::new(&document, &workspace)?;
+        Ok(Self { document, workspace, session })
+    }
+
+    /// Returns the view that keys act on: the one under the pointer or with the focus, or else the first.
+    pub fn active(&self) -> usize {
+        let shown = self.workspace.shown();
+        if shown.contains(&self.session.hovered) { self.session.hovered } else { shown[0] }
+    }
+
+    /// Whether renders show the stone alone and at rest.
+    pub fn is_alone(&self) -> bool {
+        self.document.work.company == Copies::default() && self.session.motion.seconds == 0.0
+    }
+
+    /// Returns what a view takes in: the stone that views are fitted to, or all copies.
+    pub fn fit(&self, shows: Shows, view: &View) -> FramingFit {
+        match shows.has_company() && !self.is_alone() {
+            true => FramingFit::reaching(self.reach(shows)),
+            false => self.session.framing.fit(view),
+        }
+    }
+
+    /// Returns how far a view's picture reaches from its middle, girdle radii.
+    ///
+    /// Both designs are shown on one scale, that of the present design.
+    pub fn reach(&self, shows: Shows) -> f64 {
+        let Specimen { reach, radius, .. } = **self.document.specimen();
+        if !shows.has_company() {
+            return reach;
+        }
+        let company = &self.document.work.company;
+        match self.session.motion.tumbles(self.document.specimen()) {
+            // A stone that tumbles shows all its sides.
+            true => company
+                .poses
+                .iter()
+                .map(|p| p.at.truncate().abs().max_element() + radius)
+                .fold(company.reach(radius), f64::max),
+            false => company.reach(reach),
+        }
+    }
+
+    /// Whether a view shows a picture that is looked up, and not traced.
+    pub fn is_looked_up(&self, pane: usize) -> bool {
+        let shows = self.workspace.panes[pane].shows;
+        shows == Shows::LiquidGlass || (shows == Shows::Refraction && !self.session.flowing[pane].is_map)
+    }
+}

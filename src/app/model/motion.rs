@@ -1,0 +1,111 @@
+//! What moves in time: copies tumble, plates wave. Renders show it; figures and scopes are of the design at rest.
+
+use crate::cut::{Cut, Glass};
+use crate::scene::{Copies, Pose, Specimen};
+use std::sync::Arc;
+
+/// How fast a wave runs, radians a second.
+const WAVING: f64 = 2.0;
+
+/// The time that renders show.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Motion {
+    /// Whether time goes on.
+    pub is_on: bool,
+    /// The time since rest, seconds.
+    pub seconds: f64,
+}
+
+/// The plates that wave, as they were shown last.
+#[derive(Debug, Clone, Default)]
+pub struct WaveCache {
+    /// Each plate at rest, the time in seconds, and the plate as it is at that time.
+    waved: Vec<(Arc<Specimen>, f64, Arc<Specimen>)>,
+}
+
+/// The number of plates that are kept: the present one, and the one that it is compared with.
+const PLATES: usize = 2;
+
+impl Motion {
+    /// Returns a time that stands `seconds` after rest.
+    #[cfg(test)]
+    pub fn at(seconds: f64) -> Self {
+        Self { seconds, ..Self::default() }
+    }
+
+    /// Stops time and goes back to rest.
+    pub fn rest(&mut self) {
+        (self.is_on, self.seconds) = (false, 0.0);
+    }
+
+    /// Whether the stone tumbles now.
+    pub fn tumbles(&self, specimen: &Specimen) -> bool {
+        self.seconds > 0.0 && !waves(specimen)
+    }
+
+    /// Returns the stone as it is now, and the poses of its copies.
+    pub fn now(
+        &self,
+        cache: &mut WaveCache,
+        specimen: &Arc<Specimen>,
+        company: &Copies,
+    ) -> (Arc<Specimen>, Vec<Pose>) {
+        let waves = waves(specimen);
+        let specimen =
+            if waves && self.seconds > 0.0 { cache.of(specimen, self.seconds) } else { Arc::clone(specimen) };
+        let tumbling = (!waves && self.seconds > 0.0).then_some(self.seconds);
+        let poses = company.poses(specimen.solid().vertices(), tumbling);
+        (specimen, poses)
+    }
+}
+
+impl WaveCache {
+    /// Returns the plate with its wave as it is `seconds` after rest.
+    fn of(&mut self, specimen: &Arc<Specimen>, seconds: f64) -> Arc<Specimen> {
+        if let Some((.., now)) =
+            self.waved.iter().find(|(of, at, _)| Arc::ptr_eq(of, specimen) && *at == seconds)
+        {
+            return Arc::clone(now);
+        }
+        let mut design = specimen.design.clone();
+        if let Cut::Glass(Glass::Plate(plate)) = &mut design.cut {
+            plate.phase = (plate.phase + (WAVING * seconds).to_degrees()).rem_euclid(360.0);
+        }
+        // A plate that can be made at rest can be made in any phase.
+        let now = specimen.remade(design).map_or_else(|_| Arc::clone(specimen), Arc::new);
+        if self.waved.len() == PLATES {
+            self.waved.remove(0);
+        }
+        self.waved.push((Arc::clone(specimen), seconds, Arc::clone(&now)));
+        now
+    }
+}
+
+/// Whether the stone waves in time, and so does not tumble.
+fn waves(specimen: &Specimen) -> bool {
+    matches!(specimen.design.cut, Cut::Glass(Glass::Plate(plate)) if plate.amplitude > 0.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::app::model::document::Document;
+
+    #[test]
+    fn a_plate_waves_and_anything_else_tumbles() {
+        let mut moving = Motion::at(0.7);
+        let cache = &mut WaveCache::default();
+        let of = |name| Arc::clone(Document::of_library(name).unwrap().specimen());
+        let (plate, cube) = (of("plate"), of("cube"));
+        let company = Copies::default();
+        let (waved, poses) = moving.now(cache, &plate, &company);
+        let Cut::Glass(Glass::Plate(now)) = waved.design.cut else { panic!() };
+        assert!((now.phase - 1.4_f64.to_degrees()).abs() < 1e-9 && poses == [Pose::STILL]);
+        assert!(Arc::ptr_eq(&waved, &moving.now(cache, &plate, &company).0), "made once");
+        let (still, poses) = moving.now(cache, &cube, &company);
+        assert!(Arc::ptr_eq(&still, &cube) && poses[0].turn.angle_between(DQuat::IDENTITY) > 0.3);
+        moving.rest();
+        assert_eq!(moving.now(cache, &cube, &company).1, [Pose::STILL]);
+        assert!(Arc::ptr_eq(&moving.now(cache, &plate, &company).0, &plate));
+    }
+}

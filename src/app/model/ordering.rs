@@ -1,0 +1,126 @@
+//! Orders of pictures and figures: of all that is in sight, by what the model holds.
+
+use super::Model;
+use super::stones::Stones;
+use crate::app::shows::Shows;
+use crate::app::studio::{BEHIND, FiguresOrder, Order, Paper, Shot, Smoothing, Which};
+use crate::scene::{Pose, Side, Specimen, View};
+use std::sync::Arc;
+
+/// A view in sight, and the size of its picture in pixels.
+pub type Seen = (usize, [u32; 2]);
+
+/// Makes the orders of a model's pictures.
+pub struct Orders<'a> {
+    /// The model.
+    pub model: &'a Model,
+    /// The stones that have been made for earlier orders.
+    pub stones: &'a mut Stones,
+    /// What drawings are drawn on.
+    pub paper: Paper,
+}
+
+impl Orders<'_> {
+    /// Returns the order of all that is in sight.
+    pub fn all(&mut self, seen: &[Seen]) -> Order {
+        let mut order = Order::default();
+        // What is in sight is about to go: the file that is being opened needs the processor more.
+        if self.model.session.awaited.opening.iter().any(|opening| !opening.request.is_beside()) {
+            return order;
+        }
+        let is_compared = self.model.session.compared.is_some();
+        for which in [Which::Present, Which::Other].into_iter().take(1 + usize::from(is_compared)) {
+            for &(pane, size) in seen {
+                // Liquid glass is looked up, and not traced.
+                let is_drawn = self.model.workspace.panes[pane].shows == Shows::LiquidGlass;
+                if let Some(shot) = self.shot(pane, which, size).filter(|_| !is_drawn) {
+                    order.shots.push(((pane, which), shot));
+                }
+            }
+            self.figures(which, &mut order);
+        }
+        order
+    }
+
+    fn figures(&mut self, which: Which, order: &mut Order) {
+        let eye = self.model.workspace.eye;
+        let view = eye.view(Some(Side::Table));
+        let Some(specimen) = Stones::of(self.model, which) else { return };
+        let ask = FiguresOrder { specimen, view, head: self.model.document.work.head };
+        if which == Which::Present {
+            order.tilts = Some(FiguresOrder { view: View { tilt: 0.0, ..view }, ..ask.clone() });
+        }
+        order.figures.push((which, ask));
+    }
+
+    /// Returns the shot of a view; `None` where its picture is not made by the studio, or is too small.
+    pub fn shot(&mut self, pane: usize, which: Which, size: [u32; 2]) -> Option<Shot> {
+        let Model { workspace, session, .. } = self.model;
+        let shows = workspace.panes[pane].shows;
+        let is_other_pane = shows.is_pane() && which == Which::Other;
+        if shows == Shows::Profile || is_other_pane || size[0] < 8 || size[1] < 8 {
+            return None;
+        }
+        let eye = *workspace.eye(pane);
+        let view = workspace.view(pane);
+        let fit = self.model.fit(shows, &view);
+        let specimen = Stones::of(self.model, which)?;
+        if shows == Shows::Diagram && specimen.stone().is_err() {
+            return None;
+        }
+        let (specimen, company) = match shows.has_company() {
+            true => self.stones.company(self.model, which)?,
+            false => (specimen, vec![Pose::STILL]),
+        };
+        Some(Shot {
+            film: eye.film(size, &fit),
+            whole: fit.whole(size),
+            // Renders show three bands while they are compared with what three bands show.
+            bands: if session.keys.three { 3 } else { workspace.wavelengths },
+            jitter: !session.keys.three,
+            smoothing: workspace.smoothing,
+            overlay: workspace.overlay().filter(|_| shows.takes_overlay()),
+            paper: self.paper,
+            company,
+            ..self.plain(shows, view, specimen)
+        })
+    }
+
+    /// Returns what a render shows in a view.
+    pub fn render(&mut self, view: View) -> Shot {
+        let alone = (Arc::clone(self.model.document.specimen()), vec![Pose::STILL]);
+        let (specimen, company) = self.stones.company(self.model, Which::Present).unwrap_or(alone);
+        let fit = self.model.fit(Shows::Render, &view);
+        let plain = self.plain(Shows::Render, view, specimen);
+        Shot { film: fit.film([1, 1]), whole: fit.whole([1, 1]), company, ..plain }
+    }
+
+    /// Returns a shot of one stone at rest, with the light and the backplate of the model.
+    fn plain(&self, shows: Shows, view: View, specimen: Arc<Specimen>) -> Shot {
+        let Model { document, workspace, session } = self.model;
+        let fit = super::framing::FramingFit::reaching(1.0);
+        Shot {
+            specimen,
+            title: document.work.design.name.clone(),
+            shows,
+            strongest: workspace.strongest,
+            glare: workspace.glare(),
+            view,
+            film: fit.film([1, 1]),
+            whole: fit.whole([1, 1]),
+            light: Arc::clone(&session.light.lighting),
+            exposure: document.work.exposure,
+            bands: workspace.wavelengths,
+            jitter: true,
+            behind: workspace.background(),
+            distance: workspace.behind_mm.map_or(BEHIND, |mm| mm / document.specimen().unit_mm()),
+            strength: workspace.strength(),
+            company: vec![Pose::STILL],
+            smoothing: Smoothing::None,
+            head: document.work.head,
+            overlay: None,
+            liquid: workspace.liquid,
+            paper: Paper::default(),
+        }
+    }
+}

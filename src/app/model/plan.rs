@@ -1,0 +1,63 @@
+//! The plan of an export: what the open document's pictures show, as the views see it.
+
+use super::Model;
+use super::export::{ExportPlan, PictureAspect};
+use super::ordering::Orders;
+use super::stones::Stones;
+use crate::app::shows::Shows;
+use crate::app::studio::{Paper, Shot};
+use crate::scene::{Copies, Pose, View};
+use std::path::{Path, PathBuf};
+
+/// Plans an export of the open document, seen as the linked views see it.
+pub fn export_plan(model: &Model) -> ExportPlan {
+    let Model { document, session, .. } = model;
+    let here = || std::env::current_dir().unwrap_or_default();
+    let folder = document.path().and_then(Path::parent).map_or_else(here, ToOwned::to_owned);
+    let stem = document.path().and_then(Path::file_stem).map_or_else(
+        || document.work.design.name.to_lowercase().replace([' ', '/'], "-"),
+        |s| s.to_string_lossy().into_owned(),
+    );
+    let upright = document.named(document.specimen());
+    let (linked, own) = aspects(model);
+    let render = own.iter().find(|(shows, _)| *shows == Shows::Render).map_or(&linked, |(_, aspect)| aspect);
+    let mut stones = Stones::default();
+    let shot = Orders { model, stones: &mut stones, paper: Paper::default() }.render(render.view);
+    let specimen = document.named(&shot.specimen);
+    let shot = Shot { specimen, ..shot };
+    let light = match PathBuf::from(&session.light.name) {
+        file if file.is_file() => std::path::absolute(&file).unwrap_or(file),
+        name => name,
+    };
+    // Renders are as large as in their view, or smaller, so that no copy is left out.
+    let turned = Pose::turned(shot.view.turn);
+    let poses = shot.company.iter().map(|pose| turned.after(pose)).collect();
+    let copies = Copies::at(poses, shot.specimen.solid().vertices());
+    let reach = model.reach(Shows::Render).max(copies.reach(0.0));
+    let selection = session.selection.clone();
+    let folder = folder.join("out");
+    let mut plan = ExportPlan { shot, upright, linked, own, reach, selection, light, folder, stem };
+    let can_be_shown: Vec<Shows> = plan.can_be_shown().collect();
+    plan.selection.views.retain(|shows| can_be_shown.contains(shows));
+    plan
+}
+
+/// Returns how the linked views see a stone, and how each view that looks on its own sees it.
+///
+/// Of several views that show the same, the one that keys act on counts, or else the first.
+fn aspects(model: &Model) -> (PictureAspect, Vec<(Shows, PictureAspect)>) {
+    let desk = &model.workspace;
+    let linked = PictureAspect { view: desk.eye.view(None), turn: desk.eye.turn };
+    let mut panes = desk.shown();
+    panes.sort_by_key(|&pane| (pane != model.active(), pane));
+    let mut own: Vec<(Shows, PictureAspect)> = vec![];
+    for pane in panes {
+        let shows = desk.panes[pane].shows;
+        if shows.is_seen() && own.iter().all(|(other, _)| *other != shows) {
+            own.push((shows, PictureAspect { view: desk.view(pane), turn: desk.eye(pane).turn }));
+        }
+    }
+    let side = |shows: Shows| shows.side().unwrap_or(linked.view.side);
+    own.retain(|(shows, aspect)| aspect.view != View { side: side(*shows), ..linked.view });
+    (linked, own)
+}

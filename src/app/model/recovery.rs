@@ -1,0 +1,55 @@
+//! Unsaved work that is kept on disk, and work that a crash left there.
+
+use super::work::{ReadMesh, Work};
+use crate::cut::Design;
+use crate::scene::Copies;
+use serde::{Deserialize, Serialize};
+use std::path::PathBuf;
+use std::time::SystemTime;
+
+/// What is kept of the scene around the stone.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+pub struct KeptScene {
+    /// The copies of the stone.
+    pub company: Copies,
+    /// The backplate: `light`, the name of a pattern, or the file of a picture.
+    #[serde(default)]
+    pub behind: Option<String>,
+    /// How far behind the middle the backplate hangs, mm, if that was set.
+    pub behind_mm: Option<f64>,
+    /// The strength of refraction, 0 to 1.
+    #[serde(default)]
+    pub strength: Option<f64>,
+}
+
+/// Unsaved work, as it is kept.
+#[derive(Debug, Clone, PartialEq)]
+pub struct UnsavedWork {
+    /// The work.
+    pub work: Work,
+    /// The scene around the stone.
+    pub around: KeptScene,
+    /// The file that the design was opened from.
+    pub path: Option<PathBuf>,
+    /// The autosave file of a crash that this work went on from, which is removed once the work is kept.
+    pub replaces: Option<PathBuf>,
+}
+
+/// Work that a crash left behind.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RecoveredWork {
+    /// The design.
+    pub design: Design,
+    /// What was kept of the scene around the stone.
+    pub around: KeptScene,
+    /// The file that the design was opened from.
+    pub path: Option<PathBuf>,
+    /// The design in that file, where it can be read.
+    pub on_disk: Option<Design>,
+    /// The mesh file that the stone was read from, if it was one.
+    pub mesh: Option<ReadMesh>,
+    /// When the work was last kept.
+    pub when: SystemTime,
+    /// The autosave file.
+    pub file: PathBuf,
+}

@@ -1,0 +1,180 @@
+//! The part of the state that ends with the window.
+
+use super::choosing::Purpose;
+use super::compare::Compared;
+use super::dialog::{Dialog, Then};
+use super::document::{Document, FIRST_LIGHT};
+use super::export::Selection;
+use super::figures::SessionFigures;
+use super::framing::Framing;
+use super::motion::Motion;
+use super::notes::Notes;
+use super::opening::Opening;
+use super::saving::Stamp;
+use super::view_history::ViewHistory;
+use super::work::Work;
+use super::workspace::Workspace;
+use crate::app::studio::Order;
+use crate::io::lighting::Lighting;
+use crate::io::Failure;
+use glam::DVec2;
+use std::path::PathBuf;
+use std::sync::Arc;
+
+/// The lights that renders are lit by.
+#[derive(Debug, Clone)]
+pub struct LoadedLight {
+    /// The name of the light, or its file.
+    pub name: String,
+    /// The light; the one before where that one could not be loaded.
+    pub lighting: Arc<Lighting>,
+    /// The light that is being loaded.
+    pub loading: Option<String>,
+}
+
+/// The ray that is followed through the stone.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct FollowedRay {
+    /// Whether the window of the light path is open.
+    pub is_open: bool,
+    /// The view that was clicked, and the point of its image, girdle radii.
+    pub at: Option<(usize, DVec2)>,
+}
+
+/// The state of the background in a view of a refraction map.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Flowing {
+    /// How far the background has been moved to the right and down, in parts of the map's plane.
+    pub moved: DVec2,
+    /// Whether the background moves by itself.
+    pub flows: bool,
+    /// Whether the map itself is shown.
+    pub is_map: bool,
+}
+
+/// The keys that show something else while they are held.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct HeldKeys {
+    /// Whether the design compared with is shown in place of the present one.
+    pub other: bool,
+    /// Whether renders show three bands of wavelengths alone.
+    pub three: bool,
+}
+
+/// What is awaited from outside.
+#[derive(Debug, Clone, Default)]
+pub struct Awaited {
+    /// What a file is being chosen for.
+    pub choosing: Option<Purpose>,
+    /// The files that are being opened.
+    pub opening: Vec<Opening>,
+    /// Whether the design is being saved.
+    pub saving: bool,
+    /// Whether dropped files are being looked into.
+    pub dropped: bool,
+    /// The view whose picture is being made for the clipboard, by the name of what it shows.
+    pub copying: Option<&'static str>,
+}
+
+/// What is kept safe of unsaved work.
+#[derive(Debug, Clone)]
+pub struct SafeWork {
+    /// Whether there is an autosave at all.
+    pub is_on: bool,
+    /// Whether an autosave file has been asked for since the work was last saved.
+    pub is_kept: bool,
+    /// The work as it was when it was last looked at for the autosave.
+    pub noted: Work,
+}
+
+/// Everything that ends with the window.
+#[derive(Debug, Clone)]
+pub struct Session {
+    /// The stone that views are fitted to.
+    pub framing: Framing,
+    /// The steps of the views.
+    pub views: ViewHistory,
+    /// The light of renders.
+    pub light: LoadedLight,
+    /// The design compared with.
+    pub compared: Option<Compared>,
+    /// The figures that have been measured.
+    pub measured: SessionFigures,
+    /// The pictures and figures that were last ordered.
+    pub ordered: Order,
+    /// The ray that is followed.
+    pub followed: FollowedRay,
+    /// The motion of copies and plates in time.
+    pub motion: Motion,
+    /// How the background moves in each view of a refraction map.
+    pub flowing: [Flowing; 4],
+    /// The view in which a copy is dragged, and the number of that copy.
+    pub held: Option<(usize, usize)>,
+    /// The key of the proportion that was last edited in the panel.
+    pub edited: Option<&'static str>,
+    /// How often copies were laid out; this seeds the next layout.
+    pub layings: u64,
+    /// The text of the status line while the pointer is over a picture.
+    pub message: String,
+    /// The messages.
+    pub notes: Notes,
+    /// The dialog that is open.
+    pub dialog: Option<Dialog>,
+    /// What was last selected for export.
+    pub selection: Selection,
+    /// The view under the pointer, or the last one that was.
+    pub hovered: usize,
+    /// The keys that are held.
+    pub keys: HeldKeys,
+    /// What is awaited from outside.
+    pub awaited: Awaited,
+    /// How many documents were begun. It numbers the present one, so that no answer for another is taken for it.
+    pub begun: u64,
+    /// What waits until the design is saved.
+    pub after_save: Option<Then>,
+    /// What is kept safe of unsaved work.
+    pub safe: SafeWork,
+    /// The open file as it was last seen on disk, where that is not how the document knows it.
+    pub on_disk: Option<Stamp>,
+    /// The file that is watched for changes by others.
+    pub watched: Option<PathBuf>,
+    /// Whether the window may close without another question.
+    pub may_close: bool,
+}
+
+impl Session {
+    /// Begins with a document and a workspace.
+    ///
+    /// # Errors
+    /// Fails only where the program itself is broken: it comes with the light that it starts with.
+    pub fn new(document: &Document, workspace: &Workspace) -> Result<Self, Failure> {
+        let first = Lighting::load(FIRST_LIGHT)?;
+        Ok(Self {
+            framing: Framing::new(document.specimen()),
+            views: ViewHistory::new(workspace),
+            light: LoadedLight { name: FIRST_LIGHT.to_owned(), lighting: Arc::new(first), loading: None },
+            compared: None,
+            measured: SessionFigures::default(),
+            ordered: Order::default(),
+            followed: FollowedRay::default(),
+            motion: Motion::default(),
+            flowing: Default::default(),
+            held: None,
+            edited: None,
+            layings: 0,
+            message: String::new(),
+            notes: Notes::default(),
+            dialog: None,
+            selection: Selection::default(),
+            hovered: 0,
+            keys: HeldKeys::default(),
+            awaited: Awaited::default(),
+            begun: 0,
+            after_save: None,
+            safe: SafeWork { is_on: false, is_kept: false, noted: document.work.clone() },
+            on_disk: None,
+            watched: None,
+            may_close: false,
+        })
+    }
+}

@@ -1,0 +1,110 @@
+//! Documents that begin: opened, read again, or out of the program's library.
+
+use super::safe;
+use crate::app::model::Model;
+use crate::app::model::document::Document;
+use crate::app::model::preset::{PRESETS, Preset};
+use crate::app::model::task::Task;
+use crate::app::studio::Which;
+use crate::io::background::BackgroundRef;
+
+/// Begins to work on another document, under the present light.
+pub fn begin(model: &mut Model, mut document: Document) -> Vec<Task> {
+    let work = &model.document.work;
+    document.begin(&work.light, work.exposure, work.head);
+    model.document = document;
+    let Model { document, workspace, session } = model;
+    session.framing.renew(document.specimen());
+    session.motion.rest();
+    workspace.rest();
+    session.held = None;
+    // Figures of the stone before do not belong to this one.
+    session.measured.figures.retain(|which, _| *which != Which::Present);
+    session.measured.tilts = None;
+    session.begun += 1;
+    session.awaited.opening.retain(|opening| opening.request.is_beside());
+    session.on_disk = None;
+    // Another stone is first seen face up.
+    workspace.face_up();
+    session.notes.clear();
+    if session.compared.as_ref().is_some_and(|c| c.is_saved) {
+        compare_no_more(model);
+    }
+    safe::note(model)
+}
+
+/// Begins a document that is the present one, read again: no view moves.
+pub fn begin_again(model: &mut Model, mut document: Document) -> Vec<Task> {
+    let (workspace, framing) = (model.workspace.clone(), model.session.framing.clone());
+    document.take_copies(&model.document);
+    let tasks = begin(model, document);
+    (model.workspace, model.session.framing) = (workspace, framing);
+    model.session.notes.say("The file was changed by another program and has been read again.");
+    tasks
+}
+
+/// Begins a design from a cut that comes with the program.
+pub fn begin_library(model: &mut Model, name: &str) -> Vec<Task> {
+    match Document::of_library(name) {
+        Ok(document) => {
+            model.workspace.last = None;
+            begin(model, document)
+        }
+        Err(why) => {
+            model.session.notes.trouble(why);
+            vec![]
+        }
+    }
+}
+
+/// Begins a scene that comes with the program.
+pub fn begin_preset(model: &mut Model, name: &str) -> Vec<Task> {
+    match Preset::of_library(name) {
+        Ok(preset) => {
+            let tasks = begin_scene(model, preset);
+            // The scene is meant to be seen as a render.
+            model.workspace.enlarge_render();
+            model.session.motion.is_on = PRESETS.iter().any(|known| known.name == name && known.moves);
+            tasks
+        }
+        Err(why) => {
+            model.session.notes.trouble(why);
+            vec![]
+        }
+    }
+}
+
+/// Begins to work on a scene: its design, which is not saved anywhere yet, its copies, its light and its backplate.
+pub fn begin_scene(model: &mut Model, preset: Preset) -> Vec<Task> {
+    let Preset { design, company, scene, wavelengths } = preset;
+    let mut document = match Document::new(design, None) {
+        Ok(document) => document,
+        Err(why) => {
+            model.session.notes.trouble(why.to_string());
+            return vec![];
+        }
+    };
+    let laid = company.poses(document.specimen().solid().vertices(), None);
+    let layers = if laid == company.poses { "" } else { ", those whose boxes would meet behind one another" };
+    document.work.company = company;
+    document.keep_copies();
+    model.workspace.last = None;
+    if let Some(light) = scene.light {
+        let light = if light.is_file() { std::path::absolute(&light).unwrap_or(light) } else { light };
+        model.document.work.light = light.to_string_lossy().into_owned();
+    }
+    let tasks = begin(model, document);
+    let Model { workspace, session, .. } = model;
+    // The workspace cannot hold plain colours.
+    let behind = scene.background.as_ref().filter(|behind| !matches!(behind, BackgroundRef::Plain(_)));
+    workspace.enter_scene(behind.map(ToString::to_string), wavelengths);
+    (workspace.behind_mm, workspace.strength) = (scene.background_distance_mm, scene.strength);
+    session.notes.say(&format!("{}: renders show its copies{layers}, all else shows one", scene.name));
+    tasks
+}
+
+/// Ends the comparison: forgets the design compared with, and its figures.
+pub fn compare_no_more(model: &mut Model) {
+    model.session.compared = None;
+    model.session.measured.figures.retain(|which, _| *which == Which::Present);
+}

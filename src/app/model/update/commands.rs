@@ -1,0 +1,149 @@
+//! Commands: when each is possible, whether it is switched on, and what it does.
+
+use super::begin::compare_no_more;
+use super::{dialogs, edits, files};
+use crate::app::model::Model;
+use crate::app::model::action::{DialogAction, Edit, FileAction};
+use crate::app::model::choosing::Purpose;
+use crate::app::model::command::Command;
+use crate::app::model::compare::Compared;
+use crate::app::model::dialog::{AboutForm, Dialog, Then};
+use crate::app::model::eye::Eye;
+use crate::app::model::task::{Task, WindowTask};
+use crate::app::model::workspace::PaneLayout;
+
+impl Model {
+    /// Whether a command can be carried out now.
+    pub fn is_possible(&self, command: Command) -> bool {
+        let (undo, redo) = self.document.steps();
+        let (back, on) = self.session.views.steps();
+        match command {
+            Command::ViewBack => back,
+            Command::ViewOn => on,
+            Command::Undo => undo,
+            Command::Redo => redo,
+            Command::Save => self.document.is_changed() || self.document.path().is_none(),
+            Command::LayOut => self.document.work.company.poses.len() > 1,
+            Command::Split | Command::NoCompare => self.session.compared.is_some(),
+            _ => true,
+        }
+    }
+
+    /// Whether a command is switched on, as menus show it.
+    pub fn is_chosen(&self, command: Command) -> bool {
+        let desk = &self.workspace;
+        let overlay = |name| desk.overlay.as_deref() == Some(name);
+        match command {
+            Command::One => desk.layout == PaneLayout::One,
+            Command::Two => desk.layout == PaneLayout::Two,
+            Command::Four => desk.layout == PaneLayout::Four,
+            Command::Perspective => desk.panes[self.active()].is_near,
+            Command::EyeLeans => desk.eye(self.active()).eye_leans,
+            Command::Wireframe => overlay("wireframe"),
+            Command::Facets => overlay("facets"),
+            Command::Bounces => overlay("bounces"),
+            Command::Unresolved => overlay("unresolved"),
+            Command::Total => overlay("total"),
+            Command::Strongest => desk.strongest,
+            Command::Glare => desk.glare,
+            Command::Split => desk.is_split,
+            Command::LightPath => self.session.followed.is_open,
+            Command::Play => self.session.motion.is_on,
+            Command::Panels => desk.hides_panels,
+            _ => false,
+        }
+    }
+}
+
+/// Carries out a command, if it is possible.
+pub fn run(model: &mut Model, command: Command) -> Vec<Task> {
+    if !model.is_possible(command) {
+        return vec![];
+    }
+    model.session.views.settle();
+    match command {
+        Command::Open => files::choose(model, Purpose::Open),
+        Command::Save => files::save(model),
+        Command::SaveAs => files::choose(model, Purpose::SaveAs),
+        Command::CompareFile => files::choose(model, Purpose::Compare),
+        Command::Quit => files::change(model, FileAction::Ask(Then::Close)),
+        Command::Export => dialogs::answer(model, DialogAction::Export(None)),
+        Command::CopyPicture => vec![Task::Window(WindowTask::CopyShown(model.active()))],
+        Command::FullScreen => vec![Task::Window(WindowTask::FullScreen)],
+        Command::ResetLayout => {
+            model.workspace.reset_layout();
+            vec![Task::Window(WindowTask::ForgetPanelWidths)]
+        }
+        Command::LayOut => edits::edit(model, Edit::LayOut(model.document.work.company.poses.len())),
+        Command::Undo | Command::Redo => {
+            if command == Command::Undo {
+                model.document.undo()
+            } else {
+                model.document.redo()
+            }
+            model.document.update();
+            vec![]
+        }
+        other => {
+            look(model, other);
+            vec![]
+        }
+    }
+}
+
+/// Carries out a command that changes the views alone.
+fn look(model: &mut Model, command: Command) {
+    let active = model.active();
+    let Model { document, workspace: desk, session } = model;
+    match command {
+        Command::ViewBack => session.views.back(desk),
+        Command::ViewOn => session.views.on(desk),
+        Command::Top => seen(model, Eye::top),
+        Command::Side => seen(model, Eye::side),
+        Command::Bottom => seen(model, Eye::bottom),
+        Command::Free => seen(model, Eye::free),
+        Command::Fit => seen(model, Eye::fit),
+        Command::Perspective => {
+            let pane = &mut desk.panes[active];
+            pane.is_near = pane.shows.is_seen() && !pane.is_near;
+        }
+        Command::EyeLeans => {
+            let eye = desk.eye_mut(active);
+            eye.eye_leans = !eye.eye_leans;
+        }
+        Command::One => (desk.layout, desk.large) = (PaneLayout::One, None),
+        Command::Two => (desk.layout, desk.large) = (PaneLayout::Two, None),
+        Command::Four => (desk.layout, desk.large) = (PaneLayout::Four, None),
+        Command::Wireframe => desk.toggle_overlay("wireframe"),
+        Command::Facets => desk.toggle_overlay("facets"),
+        Command::Bounces => desk.toggle_overlay("bounces"),
+        Command::Unresolved => desk.toggle_overlay("unresolved"),
+        Command::Total => desk.toggle_overlay("total"),
+        Command::Strongest => desk.strongest = !desk.strongest,
+        Command::Glare => desk.glare = !desk.glare,
+        Command::CompareSaved => match Compared::of_saved(document) {
+            Ok(compared) => session.compared = Some(compared),
+            Err(why) => session.notes.trouble(why),
+        },
+        Command::Split => desk.is_split = !desk.is_split,
+        Command::NoCompare => compare_no_more(model),
+        Command::Play => session.motion.is_on = !session.motion.is_on,
+        Command::NextBehind => desk.next_behind(),
+        Command::Panels => desk.hides_panels = !desk.hides_panels,
+        Command::ResetView => {
+            desk.reset_view();
+            session.framing.renew(document.specimen());
+        }
+        Command::LightPath => session.followed.is_open = !session.followed.is_open,
+        Command::Keys => session.dialog = Some(Dialog::Keys),
+        Command::About => session.dialog = Some(Dialog::About(AboutForm::default())),
+        _ => {}
+    }
+}
+
+/// Looks at the present stone from another side in the view that keys act on, and shows the whole stone.
+fn seen(model: &mut Model, look: impl FnOnce(&mut Eye)) {
+    model.session.framing.renew(model.document.specimen());
+    let active = model.active();
+    look(model.workspace.eye_mut(active));
+}

@@ -1,0 +1,154 @@
+//! Answers to dialogs.
+
+use super::begin::begin;
+use super::{files, safe};
+use crate::app::model::Model;
+use crate::app::model::action::{DialogAction, FileAction};
+use crate::app::model::dialog::Dialog;
+use crate::app::model::document::Document;
+use crate::app::model::export::Selection;
+use crate::app::model::exporting::{ExportEvent, ExportForm, ExportRun};
+use crate::app::model::opening::OpeningPurpose;
+use crate::app::model::plan::export_plan;
+use crate::app::model::recovery::{KeptScene, RecoveredWork};
+use crate::app::model::task::Task;
+
+/// Takes an answer to the dialog that is open, or opens one.
+pub fn answer(model: &mut Model, answer: DialogAction) -> Vec<Task> {
+    match answer {
+        DialogAction::Export(view) => {
+            return export(model, |selection| {
+                if let Some(view) = view {
+                    selection.views = vec![view];
+                }
+            });
+        }
+        DialogAction::Leave => return leave(model),
+        DialogAction::Keep => return keep(model),
+        DialogAction::GiveUp => {
+            if let Some(Dialog::Unsaved(then) | Dialog::Moved(then)) = model.session.dialog.take() {
+                return files::then(model, then);
+            }
+        }
+        DialogAction::Recover => {
+            if let Some(Dialog::Recover(found)) = model.session.dialog.take() {
+                return recover(model, &found);
+            }
+        }
+        DialogAction::Forget => {
+            if let Some(Dialog::Recover(found)) = model.session.dialog.take() {
+                return vec![Task::Forget(found.file)];
+            }
+        }
+        DialogAction::ReadAgain => {
+            model.session.dialog = None;
+            let path = model.document.path().map(std::path::Path::to_owned);
+            return super::also(model, path.map(|path| FileAction::Open(path, OpeningPurpose::Again)));
+        }
+        DialogAction::Accept => {
+            if let Some(Dialog::Path(form)) = model.session.dialog.take() {
+                return files::chosen(model, form.purpose, form.document, form.path());
+            }
+        }
+        DialogAction::Write => return write(model),
+        DialogAction::Stop => return stop(model),
+        DialogAction::Exported(event) => exported(model, event),
+        typed => fill_in(model, typed),
+    }
+    vec![]
+}
+
+/// Takes what is typed and chosen in the dialog that is open.
+fn fill_in(model: &mut Model, typed: DialogAction) {
+    let session = &mut model.session;
+    match (&mut session.dialog, typed) {
+        (Some(Dialog::Path(form)), DialogAction::Type(text)) => (form.text, form.is_typed) = (text, true),
+        (Some(Dialog::About(about)), DialogAction::AboutPage(page)) => about.page = page,
+        (Some(Dialog::About(about)), DialogAction::AboutSearch(text)) => about.sought = text,
+        (Some(Dialog::Export(export)), DialogAction::Select(selection)) => {
+            session.selection = Selection { scene: false, ..selection.clone() };
+            export.plan.selection = selection;
+        }
+        (Some(Dialog::Export(export)), DialogAction::Folder(folder)) => {
+            export.plan.folder = folder;
+        }
+        _ => {}
+    }
+}
+
+/// Leaves the dialog. A design whose path was asked for is not saved, and what waited for that is not done.
+fn leave(model: &mut Model) -> Vec<Task> {
+    match model.session.dialog.take() {
+        Some(Dialog::Path(_)) => {
+            model.session.after_save = None;
+            vec![]
+        }
+        Some(Dialog::Export(_)) => vec![Task::StopThumbnails],
+        _ => vec![],
+    }
+}
+
+fn keep(model: &mut Model) -> Vec<Task> {
+    match model.session.dialog.take() {
+        Some(Dialog::Unsaved(then)) => files::save_then(model, then),
+        Some(Dialog::Moved(_)) => export(model, |selection| selection.scene = true),
+        other => {
+            model.session.dialog = other;
+            vec![]
+        }
+    }
+}
+
+fn recover(model: &mut Model, found: &RecoveredWork) -> Vec<Task> {
+    let mut document = match Document::recovered(found) {
+        Ok(document) => document,
+        Err(why) => {
+            model.session.notes.trouble(why);
+            return vec![];
+        }
+    };
+    let KeptScene { company, behind, behind_mm, strength } = found.around.clone();
+    document.work.company = company;
+    let mut tasks = begin(model, document);
+    let desk = &mut model.workspace;
+    desk.behind = behind.or(desk.behind.take());
+    (desk.behind_mm, desk.strength) = (behind_mm, strength.unwrap_or(1.0));
+    tasks.extend(safe::note(model));
+    // The work is kept anew before the file that the crash left is removed.
+    match tasks.last_mut() {
+        Some(Task::Keep(unsaved)) => unsaved.replaces = Some(found.file.clone()),
+        _ => tasks.push(Task::Forget(found.file.clone())),
+    }
+    tasks
+}
+
+fn export(model: &mut Model, select: impl FnOnce(&mut Selection)) -> Vec<Task> {
+    let mut form = ExportForm { plan: export_plan(model), run: None };
+    select(&mut form.plan.selection);
+    let plan = Box::new(form.plan.clone());
+    model.session.dialog = Some(Dialog::Export(Box::new(form)));
+    vec![Task::Thumbnails(plan)]
+}
+
+fn write(model: &mut Model) -> Vec<Task> {
+    let Some(Dialog::Export(export)) = &mut model.session.dialog else { return vec![] };
+    export.run = Some(ExportRun::of(&export.plan));
+    vec![Task::Export(Box::new(export.plan.clone()))]
+}
+
+fn stop(model: &mut Model) -> Vec<Task> {
+    let Some(Dialog::Export(export)) = &mut model.session.dialog else { return vec![] };
+    let Some(run) = export.run.as_mut().filter(|run| run.end.is_none()) else { return vec![] };
+    run.is_stopped = true;
+    vec![Task::StopExport]
+}
+
+fn exported(model: &mut Model, event: ExportEvent) {
+    let Some(Dialog::Export(export)) = &mut model.session.dialog else { return };
+    if export.plan.selection.scene && matches!(event, ExportEvent::Ended(Ok(()))) {
+        model.document.keep_copies();
+    }
+    if let Some(run) = &mut export.run {
+        run.hear(event);
+    }
+}

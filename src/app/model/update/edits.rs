@@ -1,0 +1,59 @@
+//! Changes of the work.
+
+use crate::app::model::Model;
+use crate::app::model::action::Edit;
+use crate::app::model::extent;
+use crate::app::model::task::Task;
+use crate::scene::{Copies, Pose};
+use glam::DVec3;
+use std::sync::Arc;
+
+/// Changes the work, and builds the stone that comes of it.
+pub fn edit(model: &mut Model, edit: Edit) -> Vec<Task> {
+    let work = &mut model.document.work;
+    match edit {
+        Edit::Name(name) => work.design.rename(name),
+        Edit::Cut(cut) => work.design.cut = cut,
+        Edit::Proportion(key, cut) => {
+            work.design.cut = cut;
+            model.session.edited = Some(key);
+        }
+        Edit::Tier { place, angle, distance } => {
+            let unit = model.document.extent().unit;
+            let design = &mut model.document.work.design;
+            design.cut.set(place, angle, distance);
+            // A stone that becomes wider gets a greater diameter, so that all other tiers stay where they are.
+            if let Some(now) = extent::unit(design) {
+                design.diameter_mm *= unit / now;
+            }
+        }
+        Edit::Material(material) => work.design.material = material,
+        Edit::Diameter(mm) => work.design.diameter_mm = mm,
+        Edit::Light(name) => work.light = name,
+        Edit::Exposure(stops) => work.exposure = stops,
+        Edit::Head(degrees) => work.head = degrees,
+        Edit::LayOut(count) => lay_out(model, count),
+        Edit::Copy(copy, pose) => {
+            if let Some(at) = work.company.poses.get_mut(copy) {
+                *at = pose;
+            }
+        }
+    }
+    model.document.update();
+    vec![]
+}
+
+/// Lays `count` copies out anew, each turned as it was.
+fn lay_out(model: &mut Model, count: usize) {
+    model.session.layings += 1;
+    let specimen = Arc::clone(model.document.specimen());
+    let (solid, company) = (specimen.solid(), &mut model.document.work.company);
+    let turn = |k: usize| company.poses.get(k).map_or(Pose::STILL.turn, |pose| pose.turn);
+    let corners: Vec<DVec3> = (0..count)
+        .flat_map(|k| solid.vertices().iter().map(move |c| (k, *c)))
+        .map(|(k, c)| turn(k) * c)
+        .collect();
+    let mut laid = Copies::scattered(count, &corners, model.session.layings);
+    laid.poses.iter_mut().enumerate().for_each(|(k, pose)| pose.turn = turn(k));
+    *company = laid;
+}

@@ -1,0 +1,385 @@
+//! Files that are opened, saved and watched.
+
+use super::begin::{begin, begin_again, begin_library, begin_preset, begin_scene};
+use super::{also, safe};
+use crate::app::model::Model;
+use crate::app::model::action::{Edit, FileAction};
+use crate::app::model::choosing::{Choice, Purpose, Question};
+use crate::app::model::compare::Compared;
+use crate::app::model::dialog::{Dialog, PathForm, Then};
+use crate::app::model::opening::{FileRequest, OpenedFile, Opening, OpeningPurpose};
+use crate::app::model::saving::SavedDesign;
+use crate::app::model::task::{Task, WindowTask};
+use crate::app::model::work::Work;
+use crate::io::design_file::DesignFormat;
+use crate::io::mesh_options::MeshOptions;
+use crate::io::Failure;
+use std::path::{Path, PathBuf};
+
+/// The note about a mesh whose table may face another way.
+const DOUBTFUL: &str = "The shape of this mesh leaves a doubt which way its table faces: choose it in the panel Design, by \
+    Table faces.";
+
+/// Does something with files.
+pub fn change(model: &mut Model, change: FileAction) -> Vec<Task> {
+    match change {
+        FileAction::Ask(then) => ask_before(model, then),
+        FileAction::Choose(purpose) => choose(model, purpose),
+        FileAction::Chosen(question, choice) => answered(model, question, choice),
+        FileAction::Open(path, purpose) => open(model, path, purpose),
+        FileAction::OpenWith(request) => open_with(model, request),
+        FileAction::Opened(request, read) => opened(model, request, read),
+        FileAction::ReadMesh(mesh) => match model.document.work.mesh.as_ref().map(|mesh| mesh.path.clone()) {
+            Some(path) => open_with(model, FileRequest { purpose: OpeningPurpose::Otherwise, path, mesh }),
+            None => vec![],
+        },
+        FileAction::Saved(saved) => is_saved(model, saved),
+        FileAction::OnDisk(path, stamp) => {
+            if model.document.path() == Some(&path) {
+                model.session.on_disk = Some(stamp);
+            }
+            vec![]
+        }
+        FileAction::Dropped(files) => {
+            model.session.awaited.dropped = true;
+            vec![Task::LookInto(files)]
+        }
+        FileAction::DroppedFor(files) => dropped(model, files),
+        FileAction::NotKept(why) => {
+            model.session.notes.trouble(format!("unsaved work is not kept safe: {why}"));
+            vec![]
+        }
+        FileAction::Found(found) => {
+            if let Some(first) = found.into_iter().next() {
+                model.session.dialog = Some(Dialog::Recover(Box::new(first)));
+            }
+            vec![]
+        }
+        FileAction::Close => close(model),
+        FileAction::Ended => {
+            // Where the system took the window away without asking the user, the work is kept for the next start.
+            let is_safe = !model.document.is_changed() && !model.document.has_moved_copies();
+            if model.session.may_close || is_safe { safe::empty(model) } else { vec![] }
+        }
+        FileAction::OpenOutside(what) => vec![Task::OpenOutside(what)],
+    }
+}
+
+/// Returns what the model wants from outside as it is now: another light, another file to watch; takes note of a file that
+/// others have changed.
+pub fn wanted(model: &mut Model) -> Vec<Task> {
+    let mut tasks = vec![];
+    let light = &mut model.session.light;
+    let name = &model.document.work.light;
+    if light.name != *name && light.loading.as_ref() != Some(name) {
+        light.loading = Some(name.clone());
+        tasks.push(Task::LoadLight(name.clone()));
+    }
+    if model.session.watched.as_deref() != model.document.path() {
+        model.session.watched = model.document.path().map(Path::to_owned);
+        tasks.push(Task::Watch(model.session.watched.clone().map(|path| (path, model.document.stamp()))));
+    }
+    if model.session.dialog.is_none() && !model.session.awaited.saving {
+        let stamp = model.session.on_disk.take().filter(|stamp| *stamp != model.document.stamp());
+        tasks.extend(stamp.map_or_else(Vec::new, |stamp| {
+            model.document.accept_outside(stamp);
+            changed_outside(model)
+        }));
+    }
+    tasks
+}
+
+fn changed_outside(model: &mut Model) -> Vec<Task> {
+    if model.document.is_lost() {
+        model.session.notes.warn("The file is no longer there; save the design to keep it.".into());
+    } else if model.document.is_changed() {
+        model.session.dialog = Some(Dialog::ChangedOutside);
+    } else if let Some(path) = model.document.path().map(Path::to_owned) {
+        // No change of the user's is lost, so the new file is read without a question.
+        return open(model, path, OpeningPurpose::Again);
+    }
+    vec![]
+}
+
+/// Does something that would lose unsaved work, after a question where there is such work.
+fn ask_before(model: &mut Model, next: Then) -> Vec<Task> {
+    if model.session.dialog.as_ref().is_some_and(Dialog::insists) {
+        model.session.notes.say("Answer what is asked first.");
+    } else if model.document.is_changed() {
+        model.session.dialog = Some(Dialog::Unsaved(next));
+    } else if model.document.has_moved_copies() {
+        model.session.dialog = Some(Dialog::Moved(next));
+    } else {
+        return then(model, next);
+    }
+    vec![]
+}
+
+/// Carries out what waited for the answer to a question.
+pub fn then(model: &mut Model, then: Then) -> Vec<Task> {
+    match then {
+        Then::Open(path, mesh) => open_with(model, FileRequest { purpose: OpeningPurpose::Anew, path, mesh }),
+        Then::Library(name) => begin_library(model, &name),
+        Then::Preset(name) => begin_preset(model, &name),
+        Then::Close => {
+            model.session.may_close = true;
+            vec![Task::Window(WindowTask::Close)]
+        }
+    }
+}
+
+fn close(model: &mut Model) -> Vec<Task> {
+    let session = &mut model.session;
+    if session.dialog.as_ref().is_some_and(Dialog::insists) {
+        session.notes.say("Answer what is asked first, or stop the export.");
+    } else if session.may_close {
+        return vec![];
+    } else if session.awaited.saving {
+        session.after_save = Some(Then::Close);
+    } else if model.document.is_changed() {
+        session.dialog = Some(Dialog::Unsaved(Then::Close));
+    } else if model.document.has_moved_copies() {
+        session.dialog = Some(Dialog::Moved(Then::Close));
+    } else {
+        return vec![];
+    }
+    vec![Task::Window(WindowTask::StayOpen)]
+}
+
+/// Whether a design can be saved under this name.
+fn holds_designs(path: &Path) -> bool {
+    DesignFormat::of_name(path).is_some_and(DesignFormat::holds_designs)
+}
+
+/// Asks the user for a file.
+pub fn choose(model: &mut Model, purpose: Purpose) -> Vec<Task> {
+    if model.session.awaited.choosing.is_some() {
+        model.session.notes.say("Answer the file dialog that is open first.");
+        return vec![];
+    }
+    model.session.after_save = None;
+    model.session.awaited.choosing = Some(purpose);
+    let question = Question { purpose, name: suggested(model), document: model.session.begun };
+    vec![Task::ChooseFile(question)]
+}
+
+/// Returns the name that is proposed for a new file.
+fn suggested(model: &Model) -> String {
+    let path = model.document.path();
+    let own =
+        path.map(|path| if holds_designs(path) { path.to_owned() } else { path.with_extension("toml") });
+    own.as_deref().and_then(Path::file_name).map_or_else(
+        || format!("{}.toml", model.document.work.design.name.to_lowercase().replace([' ', '/'], "-")),
+        |n| n.to_string_lossy().into_owned(),
+    )
+}
+
+fn answered(model: &mut Model, question: Question, choice: Choice) -> Vec<Task> {
+    model.session.awaited.choosing = None;
+    match choice {
+        Choice::File(path) => chosen(model, question.purpose, question.document, path),
+        // The export dialog has its own field for the folder.
+        Choice::NoDialog if model.session.dialog.is_none() => {
+            let here = || std::env::current_dir().unwrap_or_default();
+            let folder = model.document.path().and_then(Path::parent).map_or_else(here, Path::to_owned);
+            let is_new = question.purpose == Purpose::SaveAs;
+            let begin = if is_new { folder.join(suggested(model)) } else { folder };
+            model.session.dialog =
+                Some(Dialog::Path(PathForm::new(question.purpose, model.session.begun, &begin)));
+            vec![]
+        }
+        Choice::NoDialog | Choice::GivenUp => {
+            model.session.after_save = None;
+            vec![]
+        }
+    }
+}
+
+/// Takes the file that was chosen for the document of this number.
+pub fn chosen(model: &mut Model, purpose: Purpose, document: u64, path: PathBuf) -> Vec<Task> {
+    match purpose {
+        Purpose::SaveAs if document != model.session.begun => {
+            model.session.notes.trouble("Not saved: another design was opened meanwhile.");
+        }
+        Purpose::Open => return ask_before(model, Then::open(path)),
+        Purpose::SaveAs => return save_as(model, path),
+        Purpose::Compare => return open(model, path, OpeningPurpose::Beside),
+        Purpose::Light => return super::edits::edit(model, Edit::Light(path.display().to_string())),
+        Purpose::Behind => model.workspace.behind = Some(path.display().to_string()),
+        Purpose::Folder => {
+            if let Some(Dialog::Export(export)) = &mut model.session.dialog {
+                export.plan.folder = path;
+            }
+        }
+    }
+    vec![]
+}
+
+impl Model {
+    /// Returns how the open mesh was read, or how it is being read anew; `None` where the stone was read from no mesh.
+    pub fn mesh_options(&self) -> Option<MeshOptions> {
+        let mesh = self.document.work.mesh.as_ref()?;
+        let pending = self.session.awaited.opening.iter().map(|opening| &opening.request);
+        let mut anew = pending.filter(|r| r.purpose == OpeningPurpose::Otherwise && r.path == mesh.path);
+        Some(anew.next().map_or(mesh.options, |request| request.mesh))
+    }
+}
+
+fn open(model: &mut Model, path: PathBuf, purpose: OpeningPurpose) -> Vec<Task> {
+    // A mesh that has changed is read as before; a design that was made of it and saved elsewhere is not a mesh.
+    let is_mesh = model.document.work.mesh.as_ref().is_some_and(|mesh| mesh.path == path);
+    let again = model.mesh_options().filter(|_| purpose == OpeningPurpose::Again && is_mesh);
+    open_with(model, FileRequest { purpose, path, mesh: again.unwrap_or_default() })
+}
+
+/// Opens a file; another that is still being read for the same purpose is dropped.
+fn open_with(model: &mut Model, request: FileRequest) -> Vec<Task> {
+    let opening = &mut model.session.awaited.opening;
+    opening.retain(|other| other.request.is_beside() != request.is_beside());
+    opening.push(Opening { request: request.clone(), work: model.document.work.clone() });
+    vec![Task::Read(request)]
+}
+
+fn opened(model: &mut Model, request: FileRequest, read: Result<OpenedFile, Failure>) -> Vec<Task> {
+    let all = &mut model.session.awaited.opening;
+    let Some(place) = all.iter().position(|opening| opening.request == request) else { return vec![] };
+    let opening = all.remove(place);
+    let file = match read {
+        Ok(file) => file,
+        Err(why) => {
+            model.session.notes.trouble(why);
+            return vec![];
+        }
+    };
+    // The user has not given up what was changed while the file was being read.
+    let is_later = model.document.work != opening.work;
+    match (request.purpose, file) {
+        (OpeningPurpose::Anew, _) if is_later => {
+            return ask_before(model, Then::Open(request.path, request.mesh));
+        }
+        (OpeningPurpose::Again, _) if is_later => model.session.dialog = Some(Dialog::ChangedOutside),
+        (OpeningPurpose::Beside, OpenedFile::Design(document)) => {
+            model.session.compared = Some(Compared::of(&document));
+        }
+        (OpeningPurpose::Otherwise, OpenedFile::Design(document)) => {
+            // Another design may have been opened meanwhile.
+            let path = |work: &Work| work.mesh.as_ref().map(|mesh| mesh.path.clone());
+            if path(&model.document.work) == path(&document.work) {
+                model.document.take_shape(*document);
+                model.document.update();
+            }
+        }
+        (OpeningPurpose::Again, OpenedFile::Design(document)) => return begin_again(model, *document),
+        (OpeningPurpose::Anew, OpenedFile::Design(document)) => {
+            model.workspace.remember(&request.path);
+            let is_doubtful = document.work.mesh.as_ref().is_some_and(|mesh| mesh.is_doubtful);
+            let tasks = begin(model, *document);
+            if is_doubtful {
+                model.session.notes.say(DOUBTFUL);
+            }
+            return tasks;
+        }
+        (_, OpenedFile::Scene(preset)) => {
+            let tasks = begin_scene(model, *preset);
+            model.workspace.remember(&request.path);
+            return tasks;
+        }
+    }
+    vec![]
+}
+
+/// Saves the document; asks for a file where it has none that holds designs.
+pub fn save(model: &mut Model) -> Vec<Task> {
+    match model.document.path().map(Path::to_owned) {
+        Some(path) if holds_designs(&path) => save_as(model, path),
+        // A scan stays as it was: the design that was made of it is saved as another file.
+        _ => choose(model, Purpose::SaveAs),
+    }
+}
+
+/// Saves the document, and then does what waited for that.
+pub fn save_then(model: &mut Model, then: Then) -> Vec<Task> {
+    let tasks = save(model);
+    if model.session.awaited.saving || model.session.awaited.choosing == Some(Purpose::SaveAs) {
+        model.session.after_save = Some(then);
+    }
+    tasks
+}
+
+fn save_as(model: &mut Model, path: PathBuf) -> Vec<Task> {
+    if path.extension().is_some() && !holds_designs(&path) {
+        let name = path.display();
+        model.session.notes.trouble(format!(
+            "{name}: designs are saved as .toml, .asc, .gem or .gcs; `brillianteer convert` writes meshes"
+        ));
+        model.session.after_save = None;
+        return vec![];
+    }
+    model.document.update();
+    match model.document.to_save(path) {
+        Ok(request) => {
+            model.session.awaited.saving = true;
+            vec![Task::Save(Box::new(request))]
+        }
+        Err(why) => {
+            model.session.notes.trouble(why);
+            model.session.after_save = None;
+            vec![]
+        }
+    }
+}
+
+fn is_saved(model: &mut Model, saved: Result<SavedDesign, Failure>) -> Vec<Task> {
+    let Model { document, workspace, session } = model;
+    session.awaited.saving = false;
+    let waiting = session.after_save.take();
+    let saved = match saved {
+        Ok(saved) => saved,
+        Err(why) => {
+            session.notes.trouble(why);
+            return vec![];
+        }
+    };
+    session.notes.clear();
+    session.notes.say(&format!("Saved {}", saved.path.display()));
+    if !saved.lost.is_empty() {
+        let (name, lost) = (saved.path.display(), saved.lost.join("; "));
+        session.notes.warn(format!("{name}: {lost}. As .toml, all is kept."));
+    }
+    workspace.remember(&saved.path);
+    document.take_saved(saved);
+    session.on_disk = None;
+    if let Some(Compared { is_saved: true, .. }) = session.compared {
+        session.compared = Compared::of_saved(document).ok();
+    }
+    let mut tasks = if document.is_changed() { vec![] } else { safe::empty(model) };
+    tasks.extend(also(model, waiting.map(FileAction::Ask)));
+    tasks
+}
+
+fn dropped(model: &mut Model, files: Vec<(PathBuf, Purpose)>) -> Vec<Task> {
+    let name = |path: &Path| path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+    model.session.awaited.dropped = false;
+    let mut tasks = vec![];
+    let mut to_open = files.iter().filter(|(_, purpose)| *purpose == Purpose::Open);
+    if let Some((path, _)) = to_open.next() {
+        tasks.extend(ask_before(model, Then::open(path.clone())));
+        let more = to_open.count();
+        if more > 0 {
+            let files = if more == 1 { "file was" } else { "files were" };
+            model.session.notes.say(&format!(
+                "{} is opened; one design is open at a time, so {more} more {files} left out.",
+                name(path)
+            ));
+        }
+    }
+    for (path, purpose) in files.into_iter().filter(|(_, purpose)| *purpose != Purpose::Open) {
+        let text = match purpose {
+            Purpose::Light => format!("{} lights the stone.", name(&path)),
+            _ => format!("{} hangs behind the stone; as a light it is chosen under Light.", name(&path)),
+        };
+        tasks.extend(chosen(model, purpose, model.session.begun, path));
+        model.session.notes.say(&text);
+    }
+    tasks
+}

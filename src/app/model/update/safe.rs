@@ -1,0 +1,39 @@
+//! Unsaved work is kept safe.
+
+use crate::app::model::Model;
+use crate::app::model::recovery::{KeptScene, UnsavedWork};
+use crate::app::model::task::Task;
+use crate::app::model::work::Work;
+
+/// Keeps the work as it is now safe, and stores its light, exposure and head in the workspace.
+///
+/// A design that makes no stone does not replace the last one that does.
+pub fn note(model: &mut Model) -> Vec<Task> {
+    let Model { document, workspace, session } = model;
+    session.safe.noted = document.work.clone();
+    let Work { light, exposure, head, .. } = &document.work;
+    (workspace.light, workspace.exposure, workspace.head) = (light.clone(), *exposure, *head);
+    if !document.is_changed() && !document.has_moved_copies() {
+        return empty(model);
+    }
+    if !session.safe.is_on || document.fault().is_some() {
+        return vec![];
+    }
+    session.safe.is_kept = true;
+    let around = KeptScene {
+        company: document.work.company.clone(),
+        behind: workspace.behind.clone(),
+        behind_mm: workspace.behind_mm,
+        strength: Some(workspace.strength),
+    };
+    let path = document.path().map(std::path::Path::to_owned);
+    vec![Task::Keep(Box::new(UnsavedWork { work: document.work.clone(), around, path, replaces: None }))]
+}
+
+/// Removes what is kept: the work is saved, or not wanted.
+pub fn empty(model: &mut Model) -> Vec<Task> {
+    match std::mem::take(&mut model.session.safe.is_kept) {
+        true => vec![Task::EmptySafe],
+        false => vec![],
+    }
+}

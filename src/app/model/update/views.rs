@@ -1,0 +1,90 @@
+//! Changes of how the views look, and of what is beside them.
+
+use crate::app::model::Model;
+use crate::app::model::action::ViewAction;
+use crate::app::model::task::{CopyOriginal, CopyRequest, Task};
+use crate::app::shows::Shows;
+use crate::app::studio::{Paper, Shot, Which};
+use crate::scene::Film;
+
+/// Changes the views.
+pub fn change(model: &mut Model, change: ViewAction) -> Vec<Task> {
+    let Model { workspace, session, .. } = model;
+    match change {
+        ViewAction::Show(pane, shows) => workspace.show(pane, shows),
+        ViewAction::Eye(pane, eye) => *workspace.eye_mut(pane) = eye,
+        ViewAction::Link(pane, is_linked) => {
+            workspace.panes[pane].own = (!is_linked).then_some(workspace.eye);
+        }
+        ViewAction::Enlarge(pane) => {
+            workspace.large = if workspace.large == Some(pane) { None } else { Some(pane) };
+        }
+        ViewAction::EndPerspective(pane) => workspace.panes[pane].is_near = false,
+        ViewAction::Overlay(name) => workspace.overlay = name,
+        ViewAction::Strongest(is_on) => workspace.strongest = is_on,
+        ViewAction::Glare(is_on) => workspace.glare = is_on,
+        ViewAction::EndStep => session.views.settle(),
+        ViewAction::Distance(distance) => workspace.distance = distance,
+        ViewAction::Wavelengths(count) => workspace.wavelengths = count,
+        ViewAction::Behind(behind) => workspace.behind = behind,
+        ViewAction::BehindMm(mm) => workspace.behind_mm = Some(mm),
+        ViewAction::Strength(strength) => workspace.strength = strength,
+        ViewAction::Smoothing(smoothing) => workspace.smoothing = smoothing,
+        ViewAction::Liquid(liquid) => workspace.liquid = liquid,
+        ViewAction::ByArea(by_area) => workspace.by_area = by_area,
+        ViewAction::Panel { side, has_room_for_both, is_open } => {
+            workspace.panels.set(side, has_room_for_both, is_open);
+        }
+        ViewAction::CopyAt(pane, side) => return copy_at(model, pane, side),
+        passing => pass(model, passing),
+    }
+    vec![]
+}
+
+/// Changes what is not kept between starts: what is under the pointer, followed, or moves.
+fn pass(model: &mut Model, change: ViewAction) {
+    let session = &mut model.session;
+    match change {
+        ViewAction::Hover(pane) => session.hovered = pane,
+        ViewAction::Message(text) => session.message = text,
+        ViewAction::Keys(keys) => session.keys = keys,
+        ViewAction::Flowing(pane, flowing) => session.flowing[pane] = flowing,
+        ViewAction::Advance(seconds) => session.motion.seconds += seconds,
+        ViewAction::Rest => session.motion.rest(),
+        ViewAction::Hold(held) => session.held = held,
+        ViewAction::Follow(pane, at) => {
+            (session.followed.at, session.followed.is_open) = (Some((pane, at)), true);
+        }
+        ViewAction::LightPath(is_open) => session.followed.is_open = is_open,
+        _ => {}
+    }
+}
+
+/// Asks for the picture of a view with `side` pixels along its longer side.
+fn copy_at(model: &mut Model, pane: usize, side: u32) -> Vec<Task> {
+    let shows = model.workspace.panes[pane].shows;
+    let own = (pane, Which::Present);
+    let shot =
+        model.session.ordered.shots.iter().find(|(slot, _)| *slot == own).map(|(_, shot)| shot.clone());
+    let original = match (shows, shot) {
+        (Shows::Profile, _) => CopyOriginal::Profile(model.document.named(model.document.specimen())),
+        (_, Some(shot)) => CopyOriginal::Shot(Box::new(scaled(shot, side))),
+        (_, None) => {
+            model.session.notes.say("This view holds no picture to copy.");
+            return vec![];
+        }
+    };
+    model.session.awaited.copying = Some(shows.name());
+    model.session.notes.say(&format!("Making a picture of {side} pixels…"));
+    vec![Task::MakeCopy(CopyRequest { original, side })]
+}
+
+/// Returns the same shot with `side` pixels along its longer side.
+fn scaled(shot: Shot, side: u32) -> Shot {
+    let factor = f64::from(side) / f64::from(shot.film.size[0].max(shot.film.size[1]).max(1));
+    let film = |film: Film| {
+        let size = film.size.map(|n| ((f64::from(n) * factor).round() as u32).max(1));
+        Film { size, pixel: film.pixel / factor, ..film }
+    };
+    Shot { film: film(shot.film), whole: film(shot.whole), paper: Paper::default(), ..shot }
+}

@@ -1,0 +1,121 @@
+//! The steps of how the views look at the stone. They are kept apart from the design's own steps, which nobody wants to
+//! search among a hundred tilts.
+
+use crate::app::model::eye::Eye;
+use crate::app::model::history::History;
+use crate::app::model::workspace::{Pane, PaneLayout, Workspace};
+
+/// Changes closer together than this, seconds, are one step: turns of the wheel, keys held down.
+const PAUSE: f64 = 0.5;
+
+/// Everything that one step of the views restores.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ViewState {
+    layout: PaneLayout,
+    panes: [Pane; 4],
+    large: Option<usize>,
+    eye: Eye,
+    distance: f64,
+    strongest: bool,
+    glare: bool,
+    overlay: Option<String>,
+    is_split: bool,
+}
+
+impl ViewState {
+    fn of(desk: &Workspace) -> Self {
+        let Workspace { layout, panes, large, eye, distance, strongest, glare, is_split, .. } = *desk;
+        let overlay = desk.overlay.clone();
+        Self { layout, panes, large, eye, distance, strongest, glare, overlay, is_split }
+    }
+
+    fn lay(self, desk: &mut Workspace) {
+        let Self { layout, panes, large, eye, distance, strongest, glare, overlay, is_split } = self;
+        (desk.layout, desk.panes, desk.large, desk.eye) = (layout, panes, large, eye);
+        (desk.distance, desk.strongest, desk.glare) = (distance, strongest, glare);
+        (desk.overlay, desk.is_split) = (overlay, is_split);
+    }
+}
+
+/// The states that the views have been in.
+#[derive(Debug, Clone)]
+pub struct ViewHistory {
+    history: History<ViewState>,
+    /// The last state, which may still be changing, and the time when it was noted, seconds.
+    last: (ViewState, f64),
+}
+
+impl ViewHistory {
+    /// Begins with the workspace as it is.
+    pub fn new(desk: &Workspace) -> Self {
+        let look = ViewState::of(desk);
+        Self { history: History::new(look.clone()), last: (look, 0.0) }
+    }
+
+    /// Takes note of the workspace between two gestures, at the time `now`, seconds.
+    pub fn note(&mut self, desk: &Workspace, now: f64) {
+        let look = ViewState::of(desk);
+        if look != self.last.0 {
+            if now - self.last.1 > PAUSE {
+                self.settle();
+            }
+            self.last = (look, now);
+        }
+    }
+
+    /// Ends a step: the next change begins another.
+    pub fn settle(&mut self) {
+        self.history.settle(&self.last.0);
+    }
+
+    /// Whether there is a state to go back to, and one to go forward to.
+    pub fn steps(&self) -> (bool, bool) {
+        (self.history.can_undo() || self.last.0 != *self.history.present(), self.history.can_redo())
+    }
+
+    /// Goes back to the state before.
+    pub fn back(&mut self, desk: &mut Workspace) {
+        self.settle();
+        let look = self.history.undo();
+        self.go(look, desk);
+    }
+
+    /// Goes forward to the state that was last gone back from.
+    pub fn on(&mut self, desk: &mut Workspace) {
+        self.settle();
+        let look = self.history.redo();
+        self.go(look, desk);
+    }
+
+    fn go(&mut self, look: Option<ViewState>, desk: &mut Workspace) {
+        if let Some(look) = look {
+            self.last.0 = look.clone();
+            look.lay(desk);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_follows_at_once_is_one_step_and_what_follows_later_another() {
+        let mut desk = Workspace::default();
+        let mut looks = ViewHistory::new(&desk);
+        let zooms = [(2.0, 10.0), (3.0, 10.1), (4.0, 10.2), (5.0, 11.0), (6.0, 11.1)];
+        for (zoom, now) in zooms {
+            desk.eye.zoom = zoom;
+            looks.note(&desk, now);
+        }
+        assert_eq!(looks.steps(), (true, false));
+        let mut seen = vec![];
+        for _ in 0..3 {
+            looks.back(&mut desk);
+            seen.push(desk.eye.zoom);
+        }
+        looks.on(&mut desk);
+        seen.push(desk.eye.zoom);
+        assert_eq!((seen, looks.steps()), (vec![4.0, 1.0, 1.0, 4.0], (true, true)));
+    }
+}

@@ -1,0 +1,39 @@
+//! What a person works on: everything that undo restores.
+
+use crate::cut::Design;
+use crate::io::mesh_options::MeshOptions;
+use crate::scene::Copies;
+use std::path::PathBuf;
+use std::sync::Arc;
+
+/// Everything that undo restores.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Work {
+    /// The design of the stone.
+    pub design: Design,
+    /// The copies of the stone in renders.
+    pub company: Copies,
+    /// The name of the light, or its file.
+    pub light: String,
+    /// The exposure of renders, in stops.
+    pub exposure: f64,
+    /// The half angle of the observer's head in ASET and figures, degrees; 0 for none.
+    pub head: f64,
+    /// The mesh file that the stone was read from, if it was one.
+    pub mesh: Option<ReadMesh>,
+    /// The warnings and notes about the file, in words.
+    pub remarks: Arc<[String]>,
+}
+
+/// A mesh file, and how it was read.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ReadMesh {
+    /// The mesh file.
+    pub path: PathBuf,
+    /// How the file was read.
+    pub options: MeshOptions,
+    /// Whether the shape leaves a doubt which way the table faces.
+    pub is_doubtful: bool,
+    /// The diameter of the stone when it was read, mm.
+    pub diameter_mm: f64,
+}

@@ -1,0 +1,408 @@
+//! How the user has arranged the window: kept from one start to the next.
+
+use crate::app::liquid::Liquid;
+use crate::app::model::eye::Eye;
+use crate::app::shows::Shows;
+use crate::app::studio::Smoothing;
+use crate::io::background::BackgroundRef;
+use crate::picture::{Overlay, Pattern};
+use crate::scene::{Glare, Projection, View};
+use serde::{Deserialize, Serialize};
+use std::path::{Path, PathBuf};
+
+/// The number of views in the window.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+pub enum PaneLayout {
+    /// One view.
+    One,
+    /// Two views, side by side or one above the other.
+    Two,
+    /// Four views.
+    #[default]
+    Four,
+}
+
+impl PaneLayout {
+    /// Returns the number of panes in the layout.
+    pub fn panes(self) -> usize {
+        match self {
+            Self::One => 1,
+            Self::Two => 2,
+            Self::Four => 4,
+        }
+    }
+}
+
+/// A panel beside the views.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub enum PanelSide {
+    /// The design, on the left.
+    Design,
+    /// The figures, on the right.
+    Figures,
+}
+
+/// Which panels are open; the others are folded to strips, which open them again.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Panels {
+    /// Whether the design panel is open in a window that has room for both.
+    pub design: bool,
+    /// Whether the figures panel is open in a window that has room for both.
+    pub figures: bool,
+    /// The panel that is open in a window that has room for one.
+    pub narrow: Option<PanelSide>,
+}
+
+impl Default for Panels {
+    fn default() -> Self {
+        Self { design: true, figures: true, narrow: Some(PanelSide::Design) }
+    }
+}
+
+impl Panels {
+    /// Whether a panel is open.
+    pub fn is_open(&self, side: PanelSide, has_room_for_both: bool) -> bool {
+        match (has_room_for_both, side) {
+            (false, _) => self.narrow == Some(side),
+            (true, PanelSide::Design) => self.design,
+            (true, PanelSide::Figures) => self.figures,
+        }
+    }
+
+    /// Opens or folds a panel.
+    pub fn set(&mut self, side: PanelSide, has_room_for_both: bool, is_open: bool) {
+        match (has_room_for_both, side) {
+            (false, _) => self.narrow = is_open.then_some(side),
+            (true, PanelSide::Design) => self.design = is_open,
+            (true, PanelSide::Figures) => self.figures = is_open,
+        }
+    }
+}
+
+/// The settings of one view.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Pane {
+    /// What the view shows.
+    pub shows: Shows,
+    /// The view's own eye; `None` where it looks as the linked views do.
+    pub own: Option<Eye>,
+    /// Whether the view shows the stone in perspective, from nearby; else along parallel rays.
+    #[serde(default)]
+    pub is_near: bool,
+}
+
+/// The distance of the eye that perspective begins with, girdle radii: a stone of 6.5 mm at 10 cm.
+const DISTANCE: f64 = 30.0;
+
+/// The greatest number of recent files.
+const MOST_RECENT: usize = 10;
+
+/// The arrangement of the window, with all settings that are kept.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Workspace {
+    /// The number of views in the window.
+    pub layout: PaneLayout,
+    /// The views; a layout with fewer shows the first of them.
+    pub panes: [Pane; 4],
+    /// The view that is shown alone for a while, if any.
+    pub large: Option<usize>,
+    /// The eye of all linked views.
+    pub eye: Eye,
+    /// The distance of the eye from the stone's origin in perspective views, girdle radii.
+    pub distance: f64,
+    /// The half angle of the observer's head in ASET and figures, degrees.
+    pub head: f64,
+    /// Whether scopes show the strongest exits alone.
+    pub strongest: bool,
+    /// Whether scopes and the zones of figures include the glare of the stone's outer surface.
+    pub glare: bool,
+    /// The name of the overlay on pictures, if any.
+    pub overlay: Option<String>,
+    /// Whether figures count the areas of the strongest exits, not energy.
+    pub by_area: bool,
+    /// Whether both designs are seen side by side.
+    pub is_split: bool,
+    /// The recent files, the last one first.
+    pub recent: Vec<PathBuf>,
+    /// The file that was open last.
+    pub last: Option<PathBuf>,
+    /// The chosen light: its name, or its file.
+    pub light: String,
+    /// The exposure of renders, in stops.
+    pub exposure: f64,
+    /// The number of bands of wavelengths of renders.
+    pub wavelengths: u32,
+    /// The backplate behind stones in renders: `light`, the name of a pattern, or a photograph's file.
+    pub behind: Option<String>,
+    /// What a scene has set, and what was set before; the latter comes back with another stone.
+    pub of_scene: Option<OfScene>,
+    /// How far behind the middle the backplate hangs, mm; `None` for a distance that goes with the stone.
+    pub behind_mm: Option<f64>,
+    /// The strength of refraction: how much of the way that refraction turns light is followed before the backplate; 1 is
+    /// physics.
+    pub strength: f64,
+    /// How the edges of renders are smoothed.
+    pub smoothing: Smoothing,
+    /// Whether the panels are hidden, so that views have the window to themselves.
+    pub hides_panels: bool,
+    /// Which panels are open where they are not hidden.
+    pub panels: Panels,
+    /// The pane of liquid glass.
+    pub liquid: Liquid,
+}
+
+/// The backplate and the number of bands of wavelengths: as a scene has set them, and as they were before.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct OfScene {
+    set: (Option<String>, u32),
+    before: (Option<String>, u32),
+}
+
+/// The numbers of bands of wavelengths that are offered; of only three bands, each shows in the picture.
+pub const WAVELENGTHS: [u32; 5] = [3, 8, 16, 32, 64];
+
+impl Default for Workspace {
+    fn default() -> Self {
+        let pane = |shows| Pane { shows, own: None, is_near: false };
+        Self {
+            layout: PaneLayout::Four,
+            panes: [Shows::Render, Shows::Aset, Shows::Hearts, Shows::Profile].map(pane),
+            large: None,
+            eye: Eye::default(),
+            distance: DISTANCE,
+            head: 0.0,
+            strongest: false,
+            glare: false,
+            overlay: None,
+            by_area: false,
+            is_split: false,
+            recent: vec![],
+            last: None,
+            light: crate::app::model::document::FIRST_LIGHT.to_owned(),
+            exposure: 0.0,
+            wavelengths: WAVELENGTHS[2],
+            behind: None,
+            of_scene: None,
+            behind_mm: None,
+            strength: 1.0,
+            smoothing: Smoothing::None,
+            hides_panels: false,
+            panels: Panels::default(),
+            liquid: Liquid::default(),
+        }
+    }
+}
+
+impl Workspace {
+    /// Returns whether scopes include glare.
+    pub fn glare(&self) -> Glare {
+        if self.glare { Glare::Included } else { Glare::LeftOut }
+    }
+
+    /// Returns the backplate behind stones in renders; `None` too where its file no longer exists.
+    pub fn background(&self) -> Option<BackgroundRef> {
+        BackgroundRef::read(self.behind.as_deref()?, Path::new("")).ok()
+    }
+
+    /// Hangs the next pattern behind renders, in the order of patterns; after the last one, nothing.
+    pub fn next_behind(&mut self) {
+        let next = match self
+            .behind
+            .as_deref()
+            .map(|now| Pattern::NAMES.iter().position(|(name, _)| *name == now))
+        {
+            Some(Some(now)) => now + 1,
+            Some(None) | None => 0,
+        };
+        self.behind = Pattern::NAMES.get(next).map(|(name, _)| (*name).to_owned());
+    }
+
+    /// Hangs the backplate of a scene behind it, and sees the scene in its number of bands of wavelengths, if it has one.
+    pub fn enter_scene(&mut self, behind: Option<String>, wavelengths: Option<u32>) {
+        let before = (self.behind.take(), self.wavelengths);
+        (self.behind, self.wavelengths) = (behind, wavelengths.unwrap_or(self.wavelengths));
+        self.of_scene = Some(OfScene { set: (self.behind.clone(), self.wavelengths), before });
+    }
+
+    /// Shows a render alone.
+    pub fn enlarge_render(&mut self) {
+        let panes = &mut self.panes[..self.layout.panes()];
+        let found = panes.iter().position(|pane| pane.shows == Shows::Render);
+        if found.is_none() {
+            panes[0].shows = Shows::Render;
+        }
+        self.large = (panes.len() > 1).then_some(found.unwrap_or(0));
+    }
+
+    /// Forgets what goes with one stone: the distance in mm, what its scene has set, and a strength below 1.
+    pub fn rest(&mut self) {
+        if let Some(OfScene { set, before }) = self.of_scene.take() {
+            if self.behind == set.0 {
+                self.behind = before.0;
+            }
+            if self.wavelengths == set.1 {
+                self.wavelengths = before.1;
+            }
+        }
+        (self.behind_mm, self.strength) = (None, 1.0);
+    }
+
+    /// Returns how much of the way that refraction turns light is followed; without a backplate, all of it.
+    pub fn strength(&self) -> f64 {
+        if self.background().is_some() { self.strength.clamp(0.0, 1.0) } else { 1.0 }
+    }
+
+    /// Returns the panes in sight, by their numbers.
+    pub fn shown(&self) -> Vec<usize> {
+        match self.large.filter(|&k| k < self.layout.panes()) {
+            Some(large) => vec![large],
+            None => (0..self.layout.panes()).collect(),
+        }
+    }
+
+    /// Returns the eye of a pane.
+    pub fn eye(&self, pane: usize) -> &Eye {
+        self.panes[pane].own.as_ref().unwrap_or(&self.eye)
+    }
+
+    /// Returns how a pane looks at the stone: from the side that its picture is made for, if any.
+    pub fn view(&self, pane: usize) -> View {
+        let Pane { shows, is_near, .. } = self.panes[pane];
+        let view = self.eye(pane).view(shows.side());
+        match is_near && shows.is_seen() {
+            true => View { projection: Projection::Perspective { distance: self.distance }, ..view },
+            false => view,
+        }
+    }
+
+    /// Shows something else in a pane.
+    ///
+    /// A scope is seen along parallel rays until the user asks for perspective.
+    pub fn show(&mut self, pane: usize, shows: Shows) {
+        let now = &mut self.panes[pane];
+        now.is_near &= now.shows == shows || shows.scoped().is_none();
+        now.shows = shows;
+    }
+
+    /// Looks at the table of the whole stone in all views, linked and along parallel rays, with nothing drawn over it.
+    pub fn reset_view(&mut self) {
+        self.panes.iter_mut().for_each(|pane| (pane.own, pane.is_near) = (None, false));
+        let Self { eye, distance, strongest, glare, overlay, .. } = Self::default();
+        (self.eye, self.distance, self.overlay) = (eye, distance, overlay);
+        (self.strongest, self.glare) = (strongest, glare);
+    }
+
+    /// Shows the views and panels of the first start; every view keeps the eye that it had.
+    pub fn reset_layout(&mut self) {
+        let Self { layout, panes, large, is_split, hides_panels, panels, .. } = Self::default();
+        (0..panes.len()).for_each(|pane| self.show(pane, panes[pane].shows));
+        (self.layout, self.large) = (layout, large);
+        (self.is_split, self.hides_panels, self.panels) = (is_split, hides_panels, panels);
+    }
+
+    /// Returns the eye of a pane, to be moved.
+    pub fn eye_mut(&mut self, pane: usize) -> &mut Eye {
+        self.panes[pane].own.as_mut().unwrap_or(&mut self.eye)
+    }
+
+    /// Looks at the table, in all views.
+    pub fn face_up(&mut self) {
+        self.eye.top();
+        self.panes.iter_mut().filter_map(|p| p.own.as_mut()).for_each(Eye::top);
+    }
+
+    /// Returns the overlay on pictures.
+    pub fn overlay(&self) -> Option<Overlay> {
+        self.overlay.as_deref().and_then(|name| name.parse().ok())
+    }
+
+    /// Draws an overlay on pictures, or no longer draws it where it is the present one.
+    pub fn toggle_overlay(&mut self, name: &str) {
+        let same = self.overlay.as_deref() == Some(name);
+        self.overlay = (!same).then(|| name.to_owned());
+    }
+
+    /// Remembers a file as the last one that was open.
+    pub fn remember(&mut self, path: &Path) {
+        let path = std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
+        self.recent.retain(|p| *p != path);
+        self.recent.insert(0, path.clone());
+        self.recent.truncate(MOST_RECENT);
+        self.last = Some(path);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_desk_is_kept_as_text_and_an_old_one_is_completed() {
+        let mut desk = Workspace { layout: PaneLayout::Two, ..Workspace::default() };
+        desk.eye.spin(crate::scene::Side::Table, 0.5);
+        desk.remember(Path::new("/a/b.toml"));
+        let text = serde_json::to_string(&desk).unwrap();
+        assert_eq!(serde_json::from_str::<Workspace>(&text).unwrap(), desk);
+        assert_eq!(serde_json::from_str::<Workspace>("{}").unwrap(), Workspace::default());
+    }
+
+    #[test]
+    fn what_a_scene_hangs_and_sets_goes_with_it_but_not_what_was_chosen_since() {
+        let own = Workspace { behind: Some("grid".to_owned()), wavelengths: 64, ..Workspace::default() };
+        let mut desk = own.clone();
+        desk.enter_scene(Some("page".to_owned()), Some(8));
+        (desk.strength, desk.behind_mm) = (0.1, Some(3.0));
+        assert_eq!((desk.behind.as_deref(), desk.wavelengths), (Some("page"), 8));
+        let mut chosen = Workspace { behind: Some("dots".to_owned()), ..desk.clone() };
+        desk.rest();
+        assert_eq!(desk, own);
+        chosen.rest();
+        assert_eq!(chosen, Workspace { behind: Some("dots".to_owned()), ..own });
+    }
+
+    #[test]
+    fn a_render_is_shown_alone_wherever_it_is_and_where_there_is_none() {
+        let mut desk = Workspace { layout: PaneLayout::Two, ..Workspace::default() };
+        desk.panes[..2].iter_mut().for_each(|pane| pane.shows = Shows::Aset);
+        desk.panes[3].shows = Shows::Render;
+        desk.enlarge_render();
+        assert_eq!((desk.shown(), desk.panes[0].shows), (vec![0], Shows::Render));
+        desk.layout = PaneLayout::Four;
+        desk.panes[0].shows = Shows::Aset;
+        desk.enlarge_render();
+        assert_eq!((desk.shown(), desk.panes[0].shows), (vec![3], Shows::Aset));
+    }
+
+    #[test]
+    fn recent_files_are_few_and_each_stands_once() {
+        let mut desk = Workspace::default();
+        (0..30).for_each(|k| desk.remember(Path::new(&format!("/{}.toml", k % 20))));
+        assert_eq!(desk.recent.len(), MOST_RECENT);
+        assert_eq!(desk.recent[0], Path::new("/9.toml"));
+    }
+
+    #[test]
+    fn backgrounds_come_one_after_the_other_and_around() {
+        let mut desk = Workspace { behind: Some("/a/photo.png".to_owned()), ..Workspace::default() };
+        let mut seen = vec![];
+        for _ in 0..Pattern::NAMES.len() + 1 {
+            desk.next_behind();
+            seen.push(desk.behind.clone());
+        }
+        assert_eq!(seen.iter().flatten().count(), Pattern::NAMES.len());
+        assert_eq!((seen[0].as_deref(), seen.last()), (Some("page"), Some(&None)));
+    }
+
+    #[test]
+    fn every_overlay_is_toggled() {
+        let mut desk = Workspace::default();
+        for name in Overlay::names() {
+            desk.toggle_overlay(name);
+            assert!(desk.overlay().is_some(), "{name}");
+            desk.toggle_overlay(name);
+            assert_eq!(desk.overlay(), None);
+        }
+    }
+}

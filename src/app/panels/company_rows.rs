@@ -1,0 +1,146 @@
+//! Rows for presets, copies, their motion, and the smoothing of moving edges: glass shapes are shown with these, and gems
+//! may be.
+
+use crate::app::model::Model;
+use crate::app::model::action::{Actions, Edit, FileAction, ViewAction};
+use crate::app::model::command::Command;
+use crate::app::model::dialog::Then;
+use crate::app::model::motion::Motion;
+use crate::app::model::preset::{Known, PRESETS};
+use crate::app::panels::rows::{ANY, NUMBER, Row, choice_row, control_width, field_width, named, skip_name};
+use crate::app::shows::Shows;
+use crate::app::studio::Smoothing;
+use crate::cut::MaterialRef;
+use crate::optics::{Material, line};
+use crate::scene::MOST_COPIES;
+use egui::{Button, Ui, vec2};
+use std::ops::RangeInclusive;
+
+/// The range of the newest picture's share in temporal antialiasing.
+const NEWEST: RangeInclusive<f64> = 0.05..=1.0;
+
+/// The share of the newest picture at first.
+const FIRST_NEWEST: f64 = 0.5;
+
+/// The range of the angle of view, degrees; an eye still nearer may be inside the glass.
+const ANGLES: RangeInclusive<f64> = 1.0..=75.0;
+
+/// The range of refractive indices of glasses, known and invented.
+const INDICES: RangeInclusive<f64> = 1.0..=3.5;
+/// The range of Abbe numbers of glasses, known and invented.
+const ABBE_NUMBERS: RangeInclusive<f64> = 1.0..=90.0;
+
+/// Draws a button for each scene of glass that comes with the program; a click begins that scene.
+pub fn presets(actions: &mut Actions, ui: &mut Ui) {
+    ui.horizontal_wrapped(|ui| {
+        for Known { name, title, .. } in PRESETS {
+            let meaning = "Begins this scene: its shape, material, copies, light and what lies behind.";
+            if ui.small_button(title).on_hover_text(meaning).clicked() {
+                actions.push(FileAction::Ask(Then::Preset(name.to_owned())));
+            }
+        }
+    });
+}
+
+/// Draws the rows for copies, motion, smoothing and the angle of view.
+pub fn show(model: &Model, actions: &mut Actions, ui: &mut Ui) {
+    let count = model.document.work.company.poses.len();
+    copies(count, actions, ui);
+    motion(model.session.motion, actions, ui);
+    ui.horizontal(|ui| {
+        skip_name(ui);
+        let size = vec2(field_width(ui), ui.spacing().interact_size.y);
+        let again = Button::new("Lay out").min_size(size);
+        let again = ui.add_enabled(count > 1, again);
+        if again.on_hover_text("Lays the copies out anew, as Space does.").clicked() {
+            actions.push(Edit::LayOut(count));
+        }
+    });
+    smoothing(model.workspace.smoothing, actions, ui);
+    view_angle(model, actions, ui);
+}
+
+fn motion(motion: Motion, actions: &mut Actions, ui: &mut Ui) {
+    ui.horizontal(|ui| {
+        named(ui, "Motion", "Copies tumble, plates wave, in renders alone. M lets it go on and stops it.");
+        let (name, meaning) = match motion.is_on {
+            true => ("Pause", "Stops here; the picture grows sharper for as long as it stands."),
+            false => ("Play", "Lets time go on."),
+        };
+        let size = vec2(control_width(ui), ui.spacing().interact_size.y);
+        if ui.add_sized(size, Button::new(name)).on_hover_text(meaning).clicked() {
+            actions.push(Command::Play);
+        }
+        let rest = Button::new("At rest").min_size(vec2(NUMBER, size.y));
+        let rest = ui.add_enabled(motion.seconds != 0.0, rest);
+        if rest.on_hover_text("Goes back to the pose of the design.").clicked() {
+            actions.push(ViewAction::Rest);
+        }
+    });
+}
+
+/// Draws the row for the angle of view, which says how near the eye of views in perspective is.
+///
+/// Draws nothing where no view in sight is in perspective.
+fn view_angle(model: &Model, actions: &mut Actions, ui: &mut Ui) {
+    let (reach, workspace) = (model.reach(Shows::Render), &model.workspace);
+    if !workspace.shown().iter().any(|&pane| workspace.panes[pane].is_near) {
+        return;
+    }
+    let degrees = 2.0 * (reach / workspace.distance).atan().to_degrees();
+    let meaning = "The angle that views in perspective take in; P looks along parallel rays.";
+    let row = Row::new("View angle", meaning, ANGLES);
+    let distance = |degrees: f64| ViewAction::Distance(reach / (0.5 * degrees).to_radians().tan());
+    Row { decimals: 1, speed: 0.2, unit: "°", ..row }.edit(ui, actions, degrees, distance);
+}
+
+fn copies(before: usize, actions: &mut Actions, ui: &mut Ui) {
+    let (mut count, most) = (before as f64, MOST_COPIES as f64);
+    let meaning = "How many of it renders show. Light that leaves one enters another. Drag one in a render to move it; Space \
+        lays all out anew.";
+    let row = Row::new("Copies", meaning, 1.0..=most);
+    Row { limits: ANY, step: 1.0, decimals: 0, speed: 0.05, ..row }.show(ui, &mut count);
+    actions.push_changed(&before, count.round().clamp(1.0, most) as usize, Edit::LayOut);
+}
+
+fn smoothing(before: Smoothing, actions: &mut Actions, ui: &mut Ui) {
+    let mut smoothing = before;
+    let meaning = "How the edges of renders are evened out. Not at all; in each finished picture (FXAA); or over time while \
+        anything moves (temporal). At rest many looks at each pixel do it.";
+    let newest = match before {
+        Smoothing::Temporal { newest } => newest,
+        _ => FIRST_NEWEST,
+    };
+    let all =
+        [(Smoothing::None, "none"), (Smoothing::Fxaa, "FXAA"), (Smoothing::Temporal { newest }, "temporal")];
+    let name = all.iter().find(|(each, _)| *each == before).map_or("", |(_, name)| name);
+    choice_row(ui, "Smoothing", meaning, name, |ui| {
+        all.into_iter().for_each(|(each, name)| drop(ui.selectable_value(&mut smoothing, each, name)));
+    });
+    if let Smoothing::Temporal { newest } = &mut smoothing {
+        let meaning = "The share of the newest picture: less is smoother, and slower to follow.";
+        Row { speed: 0.01, ..Row::new("Newest part", meaning, NEWEST) }.show(ui, newest);
+    }
+    actions.push_changed(&before, smoothing, ViewAction::Smoothing);
+}
+
+/// Draws rows for the index and the Abbe number of a glass; returns the custom glass that a change of one makes.
+pub fn two_numbers(material: &MaterialRef, known: &Material, ui: &mut Ui) -> Option<MaterialRef> {
+    let law = &known.dispersion;
+    let (index, abbe) = (known.index(line::HELIUM_D), law.abbe_number().unwrap_or(f64::INFINITY));
+    let (mut n, mut v) = (index, abbe);
+    let meaning = "Refractive index n_d, of helium's yellow line at 587.6 nm.";
+    Row { decimals: 3, speed: 0.01, ..Row::new("Index", meaning, INDICES) }.show(ui, &mut n);
+    let meaning = "V_d: the less, the wider the rainbow; inf for none. Below 20 no real glass is.";
+    let limits = *ABBE_NUMBERS.start()..=f64::INFINITY;
+    let row = Row::new("Abbe number", meaning, ABBE_NUMBERS);
+    Row { limits, decimals: 1, speed: 0.1, ..row }.show(ui, &mut v);
+    // A custom glass keeps its density, which was set by hand; a known glass loses its own.
+    let own = matches!(material, MaterialRef::Custom(_)).then_some(known.density).flatten();
+    let custom = match v.is_finite() {
+        true => Material::from_abbe(&format!("index {n:.3}, Abbe number {v:.1}"), n, v),
+        false => Material::from_index(&format!("index {n:.3}"), n),
+    };
+    let custom = custom.ok().filter(|_| (n, v) != (index, abbe))?;
+    Some(MaterialRef::Custom(Box::new(Material { density: own, ..custom })))
+}

@@ -1,0 +1,101 @@
+//! Rows for the light of renders, the backplate behind the stone, and the observer's head.
+
+use crate::app::model::Model;
+use crate::app::model::action::{Actions, Edit, FileAction, ViewAction};
+use crate::app::model::choosing::Purpose;
+use crate::app::model::workspace::{WAVELENGTHS, Workspace};
+use crate::app::panels::rows::{Row, choice_row};
+use crate::app::studio::BEHIND;
+use crate::picture::Pattern;
+use crate::scene::{LIGHTS, light};
+use egui::Ui;
+use std::borrow::Cow;
+use std::ops::RangeInclusive;
+use std::path::Path;
+
+/// The range of the exposure, in stops.
+const STOPS: RangeInclusive<f64> = -4.0..=4.0;
+
+/// The range of the half angle of the observer's head, degrees.
+const HEADS: RangeInclusive<f64> = 0.0..=30.0;
+
+/// The range of the strength of refraction: 0 is the straight ray, 1 is physics.
+const STRENGTHS: RangeInclusive<f64> = 0.0..=1.0;
+
+/// Draws the rows.
+pub fn show(model: &Model, actions: &mut Actions, ui: &mut Ui) {
+    let (work, workspace) = (&model.document.work, &model.workspace);
+    light_row(&work.light, actions, ui);
+    let meaning = "How bright renders are shown, in stops: one more is twice the light.";
+    let exposure = Row { step: 0.1, decimals: 1, unit: " stops", ..Row::new("Exposure", meaning, STOPS) };
+    exposure.edit(ui, actions, work.exposure, Edit::Exposure);
+    let mut count = workspace.wavelengths;
+    let meaning = "Into how many bands of wavelengths renders take light apart; few show as bands in the colours. Hold Z \
+        to see what three show.";
+    choice_row(ui, "Wavelengths", meaning, &count.to_string(), |ui| {
+        WAVELENGTHS.into_iter().for_each(|n| drop(ui.selectable_value(&mut count, n, n.to_string())));
+    });
+    actions.push_changed(&workspace.wavelengths, count, ViewAction::Wavelengths);
+    behind(workspace, actions, ui);
+    if workspace.behind.is_some() {
+        behind_how(workspace, model.document.specimen().unit_mm(), actions, ui);
+    }
+    let meaning = "Half angle of the observer's head, which shuts out light in ASET and figures; 0 for none.";
+    let head = Row { step: 0.1, decimals: 1, unit: "°", ..Row::new("Head", meaning, HEADS) };
+    head.edit(ui, actions, work.head, Edit::Head);
+}
+
+/// Returns the name of a file without its folders; the name of what is no file as it is.
+fn short(name: &str) -> Cow<'_, str> {
+    Path::new(name).file_name().map_or(name.into(), |file| file.to_string_lossy())
+}
+
+/// Draws the row of lights.
+fn light_row(present: &str, actions: &mut Actions, ui: &mut Ui) {
+    choice_row(ui, "Light", "What stands around the stone in renders.", &short(present), |ui| {
+        for name in LIGHTS {
+            let about = light(name).map_or(String::new(), |light| light.description);
+            if ui.selectable_label(present == name, name).on_hover_text(about).clicked() {
+                actions.push(Edit::Light(name.to_owned()));
+            }
+        }
+        let file = ui.button("From a file…");
+        if file.on_hover_text("A light file, or a panorama: .hdr, .exr, .png or .jpg.").clicked() {
+            actions.push(FileAction::Choose(Purpose::Light));
+        }
+    });
+}
+
+/// Draws the row of backplates behind the stone in renders.
+fn behind(workspace: &Workspace, actions: &mut Actions, ui: &mut Ui) {
+    let mut behind = workspace.behind.clone();
+    let meaning = "A picture behind the stone in renders, refracted where each ray meets it.";
+    let present = workspace.behind.as_deref().map_or("nothing".into(), short);
+    choice_row(ui, "Behind", meaning, &present, |ui| {
+        ui.selectable_value(&mut behind, None, "nothing");
+        ui.selectable_value(&mut behind, Some("light".to_owned()), "light")
+            .on_hover_text("What shines, a panorama for one.");
+        for (name, _) in Pattern::NAMES {
+            ui.selectable_value(&mut behind, Some(name.to_owned()), name);
+        }
+        if ui.button("From a file…").on_hover_text("A picture: .png, .jpg, .hdr or .exr.").clicked() {
+            actions.push(FileAction::Choose(Purpose::Behind));
+        }
+    });
+    actions.push_changed(&workspace.behind, behind, ViewAction::Behind);
+}
+
+/// Draws the rows for how the backplate is seen: its distance, and the strength of refraction.
+fn behind_how(workspace: &Workspace, unit_mm: f64, actions: &mut Actions, ui: &mut Ui) {
+    if workspace.behind.as_deref() != Some("light") {
+        let mm = workspace.behind_mm.unwrap_or(BEHIND * unit_mm);
+        let about = "How far behind the middle it hangs; never nearer than the stones reach.";
+        let row = Row::new("Distance", about, 0.0..=20.0 * unit_mm);
+        let row = Row { limits: 0.0..=f64::INFINITY, step: 0.1, decimals: 1, unit: " mm", ..row };
+        row.edit(ui, actions, mm, ViewAction::BehindMm);
+    }
+    let meaning = "How much of the way that refraction turns light is followed: 1 is physics, less a mixture with the \
+        straight ray, for its looks.";
+    let row = Row::new("Strength", meaning, STRENGTHS);
+    Row { step: 0.005, decimals: 3, ..row }.edit(ui, actions, workspace.strength, ViewAction::Strength);
+}

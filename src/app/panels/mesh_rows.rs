@@ -1,0 +1,71 @@
+//! Rows that set how the open mesh is read: whether as flat facets, and which way its table faces.
+
+use crate::app::model::Model;
+use crate::app::model::action::{Actions, FileAction};
+use crate::app::panels::rows::{choice_row, named};
+use crate::cut::Cut;
+use crate::cut::from_mesh::Up;
+use crate::io::mesh_options::{MeshForm, MeshOptions};
+use egui::Ui;
+use glam::DVec3;
+
+const MEANING: &str = "Which direction of the mesh's own frame the table faces. The mesh is read anew, and the views show at \
+    once what comes of it.";
+
+/// The directions that can be chosen.
+const DIRECTIONS: [(&str, Up); 7] = [
+    ("As found", Up::Found),
+    ("+x", Up::Given(DVec3::X)),
+    ("−x", Up::Given(DVec3::NEG_X)),
+    ("+y", Up::Given(DVec3::Y)),
+    ("−y", Up::Given(DVec3::NEG_Y)),
+    ("+z", Up::Given(DVec3::Z)),
+    ("−z", Up::Given(DVec3::NEG_Z)),
+];
+
+/// The forms that the triangles of a mesh can be read as: name, form and meaning.
+const FORMS: [(&str, MeshForm, &str); 2] = [
+    ("Facets", MeshForm::Faceted, "The convex stone between flat facets, as a cutter makes it."),
+    ("Triangles", MeshForm::Triangles, "The mesh as it is, traced by rays."),
+];
+
+/// Draws the rows for a design that was read from a mesh; another choice reads the mesh anew.
+pub fn show(model: &Model, actions: &mut Actions, ui: &mut Ui) {
+    let Some(options) = model.mesh_options() else { return };
+    form(&model.document.work.design.cut, options, actions, ui);
+    let mut up = options.up;
+    let row = choice_row(ui, "Table faces", MEANING, &direction_name(up), |ui| {
+        for (name, direction) in DIRECTIONS {
+            ui.selectable_value(&mut up, direction, name);
+        }
+    });
+    row.on_hover_text(MEANING);
+    actions.push_changed(&options.up, up, |up| FileAction::ReadMesh(MeshOptions { up, ..options }));
+}
+
+/// Draws the row of forms; the chosen form is marked, or the form of the cut where none was chosen.
+fn form(cut: &Cut, options: MeshOptions, actions: &mut Actions, ui: &mut Ui) {
+    let found = match cut {
+        Cut::Planes(_) => MeshForm::Faceted,
+        Cut::Mesh(_) => MeshForm::Triangles,
+        _ => return,
+    };
+    let present = if options.form == MeshForm::Found { found } else { options.form };
+    ui.horizontal(|ui| {
+        named(ui, "Read as", "What the triangles of the file stand for. The mesh is read anew.");
+        for (name, form, meaning) in FORMS {
+            let is_present = form == present;
+            if ui.selectable_label(is_present, name).on_hover_text(meaning).clicked() && !is_present {
+                actions.push(FileAction::ReadMesh(MeshOptions { form, ..options }));
+            }
+        }
+    });
+}
+
+fn direction_name(up: Up) -> String {
+    let name = DIRECTIONS.iter().find(|(_, direction)| *direction == up).map(|(name, _)| (*name).to_owned());
+    name.unwrap_or_else(|| match up {
+        Up::Given(DVec3 { x, y, z }) => format!("{x}, {y}, {z}"),
+        _ => DIRECTIONS[0].0.to_owned(),
+    })
+}

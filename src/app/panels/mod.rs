@@ -1,0 +1,14 @@
+//! The panels beside the views, made of rows.
+
+pub mod company_rows;
+pub mod design_panel;
+pub mod figure_lines;
+pub mod figures_panel;
+pub mod figures_text;
+pub mod light_rows;
+pub mod mesh_rows;
+pub mod pane_rows;
+pub mod rows;
+pub mod side_panels;
+pub mod stone_rows;
+pub mod tier_rows;

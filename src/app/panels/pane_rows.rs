@@ -1,0 +1,104 @@
+//! Rows for the pane of liquid glass, which are there while a view shows it.
+
+use crate::app::liquid::Liquid;
+use crate::app::model::action::{Actions, ViewAction};
+use crate::app::model::workspace::Workspace;
+use crate::app::panels::rows::{NUMBER, Row, control_width, named};
+use crate::app::shows::Shows;
+use crate::picture::pane::PaneQuality;
+use egui::{Button, ComboBox, RichText, Ui, vec2};
+use std::ops::RangeInclusive;
+
+/// The range of the pane's width and height, percent of the view.
+const EXTENTS: RangeInclusive<f64> = 10.0..=100.0;
+/// The range of the corners' radius, percent of the pane's shorter side.
+const CORNERS: RangeInclusive<f64> = 0.0..=50.0;
+/// The range of the strengths.
+const STRENGTHS: RangeInclusive<f64> = 0.0..=100.0;
+
+/// The range of the gap between pane and background, in parts of the pane's shorter side.
+const GAPS: RangeInclusive<f64> = 0.001..=1.0;
+
+/// The qualities: the name of each, and what of the effect it draws.
+const QUALITIES: [(PaneQuality, &str, &str); 3] = [
+    (PaneQuality::High, "high", "All, frost by five samples."),
+    (PaneQuality::Medium, "medium", "Frost by three samples, dispersion of 30 at most."),
+    (PaneQuality::Low, "low", "Refraction alone: no depth, dispersion, frost, light or tint."),
+];
+
+/// Draws the rows, where liquid glass is in sight.
+pub fn show(workspace: &Workspace, actions: &mut Actions, ui: &mut Ui) {
+    let is_seen = |shows| workspace.shown().iter().any(|&pane| workspace.panes[pane].shows == shows);
+    let [drawn, traced] = [Shows::LiquidGlass, Shows::TracedPane].map(is_seen);
+    if !drawn && !traced {
+        return;
+    }
+    ui.add_space(8.0);
+    ui.label(RichText::new("Liquid glass").heading()).on_hover_text(
+        "A pane before what hangs behind: as screens draw it, by five parts of arithmetic, and as glass is. Strengths run \
+         from 0 to 100.",
+    );
+    let mut liquid = workspace.liquid;
+    let Liquid { size, corners, refraction, depth, dispersion, frost, light, gap, .. } = &mut liquid;
+    for (name, meaning, value, range, unit) in [
+        ("Pane width", "How wide the pane is, in percent of the view.", &mut size.x, EXTENTS, " %"),
+        ("Pane height", "How high the pane is, in percent of the view.", &mut size.y, EXTENTS, " %"),
+        ("Corners", "How round its corners are, in percent of its shorter side.", corners, CORNERS, " %"),
+        (
+            "Refraction",
+            "Bends what is behind at the rim; of the traced glass the index, 1 to 1.5.",
+            refraction,
+            STRENGTHS,
+            "",
+        ),
+        ("Pane depth", "How thick the pane looks; of the traced glass its thickness.", depth, STRENGTHS, ""),
+        (
+            "Dispersion",
+            "Draws red and blue apart; of the traced glass the Abbe number, 55 at 100.",
+            dispersion,
+            STRENGTHS,
+            "",
+        ),
+        ("Frost", "Blurs by noise toward the rim; the traced glass is always clear.", frost, STRENGTHS, ""),
+        (
+            "Pane light",
+            "Shine, shade and rim; around the traced glass a lamp and a sky as bright.",
+            light,
+            STRENGTHS,
+            "",
+        ),
+    ] {
+        Row { step: 1.0, decimals: 0, speed: 0.2, unit, ..Row::new(name, meaning, range) }.show(ui, value);
+    }
+    if traced {
+        let meaning = "How far the traced pane lies above what is behind, in parts of its shorter side.";
+        let row = Row::new("Gap", meaning, GAPS);
+        Row { step: 0.001, decimals: 3, speed: 0.002, logarithmic: true, ..row }.show(ui, gap);
+    }
+    last(&mut liquid, ui);
+    actions.push_changed(&workspace.liquid, liquid, ViewAction::Liquid);
+}
+
+/// Draws the rows for tint and quality.
+fn last(liquid: &mut Liquid, ui: &mut Ui) {
+    ui.horizontal(|ui| {
+        let meaning = "A colour laid over the pane, and by its alpha how much of what is behind it covers.";
+        let label = named(ui, "Tint", meaning);
+        ui.color_edit_button_srgba_unmultiplied(&mut liquid.tint).labelled_by(label.id);
+    });
+    ui.horizontal(|ui| {
+        let label = named(ui, "PaneQuality", "How much of the effect is drawn.");
+        let chosen = QUALITIES.iter().find(|(q, ..)| *q == liquid.quality).map_or("", |(_, name, _)| name);
+        let width = control_width(ui);
+        let combo = ComboBox::from_id_salt("quality").selected_text(chosen).width(width).show_ui(ui, |ui| {
+            for (quality, name, meaning) in QUALITIES {
+                ui.selectable_value(&mut liquid.quality, quality, name).on_hover_text(meaning);
+            }
+        });
+        combo.response.labelled_by(label.id);
+        let reset = ui.add_sized(vec2(NUMBER, ui.spacing().interact_size.y), Button::new("Reset"));
+        if reset.on_hover_text("The pane as it was at first.").clicked() {
+            *liquid = Liquid::default();
+        }
+    });
+}

@@ -1,0 +1,239 @@
+//! Rows of panels: a name, a control and a number, in columns that all rows of a panel share.
+//!
+//! From left to right: the name, [`NAME`] wide; the control, such as a slider, as wide as the panel leaves it
+//! ([`control_width`]); the number, [`NUMBER`] wide; and room for a small button such as a padlock, which rows without one
+//! leave empty. Fields without a slider fill the columns of control and number ([`field_width`]).
+
+use crate::app::model::action::{Action, Actions};
+use egui::emath::format_with_decimals_in_range;
+use egui::{
+    Color32, ComboBox, DragValue, Label, Rect, RectAlign, Response, RichText, Slider, SliderClamping,
+    TextStyle, Tooltip, Ui, vec2,
+};
+use std::ops::RangeInclusive;
+
+/// The width of the column of names, points.
+const NAME: f32 = 104.0;
+/// The width of the column of numbers, points.
+pub const NUMBER: f32 = 92.0;
+
+/// The least width of a control, points: the panel scrolls sideways rather than let a slider vanish.
+const LEAST_CONTROL: f32 = 40.0;
+
+/// Returns the width of the last column of a row, that of a padlock, with the gap before it, points.
+fn end_width(ui: &Ui) -> f32 {
+    ui.spacing().interact_size.y + ui.spacing().item_spacing.x
+}
+
+/// Returns the width of the control in a row whose name has been drawn and whose number has not, points.
+pub fn control_width(ui: &Ui) -> f32 {
+    let gap = ui.spacing().item_spacing.x;
+    (ui.available_width() - NUMBER - gap - end_width(ui)).max(LEAST_CONTROL)
+}
+
+/// Returns the width of a field that fills the columns of control and number, in a row whose name has been drawn, points.
+pub fn field_width(ui: &Ui) -> f32 {
+    control_width(ui) + ui.spacing().item_spacing.x + NUMBER
+}
+
+/// Leaves the column of names empty.
+pub fn skip_name(ui: &mut Ui) {
+    ui.add_space(NAME + ui.spacing().item_spacing.x);
+}
+
+/// Leaves the column of the control empty, but for `needed` points at its right end that further fields take.
+pub fn skip_control(ui: &mut Ui, needed: f32) {
+    ui.add_space((control_width(ui) + ui.spacing().item_spacing.x - needed).max(0.0));
+}
+
+/// A row of name, slider and number.
+pub struct Row<'a> {
+    pub name: &'a str,
+    pub meaning: &'a str,
+    /// The range of the slider.
+    pub range: RangeInclusive<f64>,
+    /// The range of what can be typed.
+    pub limits: RangeInclusive<f64>,
+    /// The step of the slider; 0 for none.
+    pub step: f64,
+    pub decimals: usize,
+    /// The change for each point that the number is dragged by.
+    pub speed: f64,
+    pub unit: &'a str,
+    /// Whether the slider runs evenly over the number's logarithm.
+    pub logarithmic: bool,
+}
+
+impl<'a> Row<'a> {
+    /// Makes a row without a unit, whose slider runs over all that can be typed.
+    pub fn new(name: &'a str, meaning: &'a str, range: RangeInclusive<f64>) -> Self {
+        let limits = range.clone();
+        Self {
+            name,
+            meaning,
+            range,
+            limits,
+            step: 0.0,
+            decimals: 2,
+            speed: 0.02,
+            unit: "",
+            logarithmic: false,
+        }
+    }
+
+    /// Draws the row. A number that is not touched keeps all its decimals.
+    pub fn show(self, ui: &mut Ui, value: &mut f64) {
+        ui.horizontal(|ui| self.fill(ui, value));
+    }
+
+    /// Draws the name, the slider and the number into a row that has begun, and returns the place of the slider.
+    pub fn fill(self, ui: &mut Ui, value: &mut f64) -> Rect {
+        let Self { name, meaning, range, limits, step, decimals, speed, unit, logarithmic } = self;
+        let label = named(ui, name, meaning);
+        ui.spacing_mut().slider_width = control_width(ui);
+        let slider = Slider::new(value, range).show_value(false).clamping(SliderClamping::Edits);
+        let slider = slider.step_by(step).logarithmic(logarithmic).smart_aim(false);
+        let slider = ui.add(slider).labelled_by(label.id);
+        let slider = explain(ui, slider, meaning).rect;
+        Number { decimals, speed, range: limits, unit }.show(ui, (NUMBER, label.id), value);
+        slider
+    }
+
+    /// Draws the row for a number of the model, and pushes the action that sets it where the user has changed it.
+    pub fn edit<A: Into<Action>>(
+        self,
+        ui: &mut Ui,
+        actions: &mut Actions,
+        before: f64,
+        set: impl FnOnce(f64) -> A,
+    ) {
+        let mut now = before;
+        self.show(ui, &mut now);
+        actions.push_changed(&before, now, set);
+    }
+}
+
+/// A field for a number.
+pub struct Number<'a> {
+    pub decimals: usize,
+    /// The change for each point that the field is dragged by.
+    pub speed: f64,
+    pub range: RangeInclusive<f64>,
+    pub unit: &'a str,
+}
+
+/// The range of a number whose own limits are checked and explained elsewhere.
+pub const ANY: RangeInclusive<f64> = f64::NEG_INFINITY..=f64::INFINITY;
+
+impl Number<'_> {
+    /// Draws the field.
+    ///
+    /// A number outside the range stays until it is set. A field that is not touched leaves the number as it is, though it
+    /// may have more decimals than are shown.
+    pub fn show(self, ui: &mut Ui, (width, label): (f32, egui::Id), value: &mut f64) -> egui::Response {
+        let before = *value;
+        let Self { decimals, speed, range, unit } = self;
+        let field = DragValue::new(value).range(range).clamp_existing_to_range(false).speed(speed);
+        let field = field.suffix(unit).update_while_editing(false);
+        let field = field.min_decimals(decimals.min(1)).max_decimals(decimals);
+        let room = width - 2.0 * ui.spacing().button_padding.x;
+        let (painter, font) = (ui.painter().clone(), TextStyle::Button.resolve(ui.style()));
+        let fits = |text: &str| {
+            let text = painter.layout_no_wrap(format!("{text}{unit}"), font.clone(), Color32::WHITE);
+            text.size().x <= room
+        };
+        let field = field.custom_formatter(|number, places| written(number, places, &fits));
+        let shown = written(before, decimals.min(1)..=decimals, &fits);
+        // Half the world writes a decimal comma.
+        let field = field.custom_parser(|text| {
+            text.trim().trim_end_matches(unit.trim()).trim().replace(',', ".").parse().ok()
+        });
+        let response = ui.add_sized(vec2(width, ui.spacing().interact_size.y), field).labelled_by(label);
+        let is_as_shown = |text: String| text.parse() == Ok(*value);
+        if is_as_shown(format!("{before:.decimals$}")) || is_as_shown(shown) {
+            *value = before;
+        }
+        if response.dragged() && *value != before {
+            // The field was drawn before it was dragged. A second pass shows its new number in this image, not the next.
+            ui.ctx().request_discard("a number is dragged");
+        }
+        response
+    }
+}
+
+/// A number that is not known.
+///
+/// It equals itself, as NaN does not: a field that is edited compares it with itself.
+pub const NOT_KNOWN: f64 = f64::NEG_INFINITY;
+/// What a field shows in the place of a number that is not known.
+pub const UNKNOWN: &str = "–";
+
+/// Draws a number without a slider: its name, an empty column, and the field in the column of numbers.
+pub fn number_row(ui: &mut Ui, (name, meaning): (&str, &str), number: Number, value: &mut f64) {
+    ui.horizontal(|ui| {
+        let label = named(ui, name, meaning);
+        skip_control(ui, 0.0);
+        number.show(ui, (NUMBER, label.id), value);
+    });
+}
+
+/// The greatest height of a list that opens, points.
+const LIST_HEIGHT: f32 = 420.0;
+
+/// Draws a choice: its name, and a field with what is chosen, which opens the list that `list` draws.
+pub fn choice_row(
+    ui: &mut Ui,
+    name: &str,
+    meaning: &str,
+    chosen: &str,
+    list: impl FnOnce(&mut Ui),
+) -> Response {
+    ui.horizontal(|ui| {
+        let label = named(ui, name, meaning);
+        let combo = ComboBox::from_id_salt(name).selected_text(chosen).width(field_width(ui)).truncate();
+        combo.height(LIST_HEIGHT).show_ui(ui, list).response.labelled_by(label.id)
+    })
+    .inner
+}
+
+/// Returns a number as its field shows it.
+///
+/// It has fewer decimals where they do not fit: no number, however large, makes its row wider.
+fn written(number: f64, places: RangeInclusive<usize>, fits: &dyn Fn(&str) -> bool) -> String {
+    if !number.is_finite() {
+        return UNKNOWN.to_owned();
+    }
+    let most = *places.end();
+    let usual = format_with_decimals_in_range(number, places);
+    let shorter = (0..most).rev().map(|places| format!("{number:.places$}"));
+    std::iter::once(usual).chain(shorter).find(|text| fits(text)).unwrap_or_else(|| format!("{number:.0e}"))
+}
+
+/// Explains a part of a row while the pointer rests on it.
+///
+/// The explanation stands beside the panel, so that no row is covered; there is none while something is typed.
+pub fn explain(ui: &Ui, response: Response, meaning: &str) -> Response {
+    if ui.ctx().text_edit_focused() {
+        return response;
+    }
+    let panel = ui.clip_rect();
+    let row = Rect::from_x_y_ranges(panel.x_range(), response.rect.y_range());
+    let is_left = panel.center().x < ui.ctx().content_rect().center().x;
+    let sides = [RectAlign::RIGHT_START, RectAlign::LEFT_START];
+    let (first, other) = if is_left { (sides[0], &sides[1..]) } else { (sides[1], &sides[..1]) };
+    let mut tooltip = Tooltip::for_enabled(&response);
+    tooltip.popup = tooltip.popup.anchor(row).align(first).align_alternatives(other);
+    tooltip.show(|ui| ui.add(Label::new(RichText::new(meaning)).wrap()));
+    response
+}
+
+/// Draws the name of a row, with its meaning; it is as wide in all rows, and shortened where it is wider.
+pub fn named(ui: &mut Ui, name: &str, meaning: &str) -> egui::Response {
+    let height = ui.spacing().interact_size.y;
+    ui.allocate_ui_with_layout(vec2(NAME, height), egui::Layout::left_to_right(egui::Align::Center), |ui| {
+        ui.set_min_width(NAME);
+        let label = ui.add(Label::new(name).truncate());
+        explain(ui, label, meaning)
+    })
+    .inner
+}

@@ -1,0 +1,153 @@
+//! Rows for what the stone is made of, how large it is and what it weighs.
+
+use crate::app::model::Model;
+use crate::app::model::action::{Actions, Edit};
+use crate::app::model::extent::Extent;
+use crate::app::panels::company_rows;
+use crate::app::panels::rows::{
+    NOT_KNOWN, NUMBER, Number, UNKNOWN, choice_row, named, number_row, skip_control,
+};
+use crate::cut::{Cut, Design, MaterialRef, Size};
+use crate::optics::{Material, line, materials};
+use egui::{RichText, Ui};
+use std::ops::RangeInclusive;
+
+/// The range of lengths that a stone may have, mm.
+const LENGTHS_MM: RangeInclusive<f64> = 0.1..=1000.0;
+
+/// The range of weights that can be typed, carats; the diameter that follows has limits of its own.
+const CARATS: RangeInclusive<f64> = 1e-6..=1e9;
+
+/// The range of densities that can be typed, g/cm³: the same that cut files take.
+const DENSITIES: RangeInclusive<f64> = 0.1..=30.0;
+
+/// Draws the rows.
+pub fn show(model: &Model, actions: &mut Actions, ui: &mut Ui) {
+    let specimen = model.document.specimen();
+    let design = &model.document.work.design;
+    let chosen = material(design, &specimen.material, ui);
+    let is_unknown = specimen.material.density.is_none();
+    let typed = (is_own(&design.material) || is_unknown).then(|| density(&specimen.material, ui)).flatten();
+    chosen.or(typed).into_iter().for_each(|material| actions.push(Edit::Material(material)));
+    let across = size(design, model.document.extent(), ui);
+    let weighed = weight(design, specimen.solid().volume(), &specimen.material, ui);
+    across.or(weighed).into_iter().for_each(|mm| actions.push(Edit::Diameter(mm)));
+}
+
+/// Whether the material is not one of the library's.
+fn is_own(material: &MaterialRef) -> bool {
+    !matches!(material, MaterialRef::Name(_))
+}
+
+/// The note about a material whose colour is not measured.
+const ILLUSTRATIVE: &str = "\nIts colour is illustrative: chosen to look like the gem's, and not measured. What the stone \
+    absorbs follows from it.";
+
+/// Draws the row of materials; returns the one that was chosen.
+fn material(design: &Design, known: &Material, ui: &mut Ui) -> Option<MaterialRef> {
+    let mut chosen = None;
+    let meaning = "What the stone is made of: it sets refraction, dispersion and colour.";
+    let name = match &design.material {
+        MaterialRef::Name(name) => name.clone(),
+        MaterialRef::Index(index) => format!("index {index}"),
+        MaterialRef::Custom(material) => material.name.clone(),
+    };
+    choice_row(ui, "Material", meaning, &name, |ui| {
+        let mut all: Vec<_> = materials().iter().collect();
+        all.sort_by_key(|m| m.name.as_str());
+        for material in all {
+            let is_present = name == material.name;
+            let colour = if material.colour_is_illustrative { ILLUSTRATIVE } else { "" };
+            let about =
+                format!("{}\nindex {:.4}{colour}", material.description, material.index(line::SODIUM_D));
+            let entry = if material.colour_is_illustrative {
+                format!("{}   (illustrative colour)", material.name)
+            } else {
+                material.name.clone()
+            };
+            if ui.selectable_label(is_present, entry).on_hover_text(about).clicked() && !is_present {
+                chosen = Some(MaterialRef::Name(material.name.clone()));
+            }
+        }
+    });
+    if known.colour_is_illustrative {
+        ui.label(RichText::new("illustrative colour").weak().small())
+            .on_hover_text(ILLUSTRATIVE.trim_start());
+    }
+    if matches!(design.cut, Cut::Glass(_)) {
+        let typed = company_rows::two_numbers(&design.material, known, ui);
+        chosen = chosen.or(typed);
+    }
+    chosen
+}
+
+/// Draws the row for the density: a material of the library has its own, and setting another makes it a custom material,
+/// which is returned.
+fn density(known: &Material, ui: &mut Ui) -> Option<MaterialRef> {
+    let mut density = known.density.unwrap_or(NOT_KNOWN);
+    let meaning =
+        "What the stone's weight follows from. An index alone says nothing of it: type the density here.";
+    let number = Number { decimals: 3, speed: 0.01, range: DENSITIES, unit: " g/cm³" };
+    number_row(ui, ("Density", meaning), number, &mut density);
+    let is_set = density.is_finite() && known.density != Some(density);
+    is_set.then(|| MaterialRef::Custom(Box::new(Material { density: Some(density), ..known.clone() })))
+}
+
+/// Draws the diameter of a round stone, or length and width of any other; setting one scales the whole stone. Returns the
+/// diameter that was set, mm.
+fn size(design: &Design, extent: Extent, ui: &mut Ui) -> Option<f64> {
+    let mut diameter = design.diameter_mm;
+    let number = || Number { decimals: 3, speed: 0.01, range: LENGTHS_MM, unit: " mm" };
+    if extent.is_round {
+        let meaning = "Of the girdle. A larger stone of colour is darker.";
+        number_row(ui, ("Diameter", meaning), number(), &mut diameter);
+        return (diameter != design.diameter_mm).then_some(diameter);
+    }
+    // The bare names belong to the dimensions of glass shapes, which are in percent.
+    let names = match design.cut {
+        Cut::Glass(_) => ["Length in mm", "Width in mm"],
+        _ => ["Length", "Width"],
+    };
+    let rows = [
+        (
+            names[0],
+            "The greater side of the stone from above. The whole stone is scaled by it.",
+            extent.length,
+        ),
+        (
+            names[1],
+            "The smaller side of the stone from above. The whole stone is scaled by it.",
+            extent.width,
+        ),
+    ];
+    for (name, meaning, across) in rows {
+        let before = 0.5 * design.diameter_mm * across;
+        let mut mm = before;
+        number_row(ui, (name, meaning), number(), &mut mm);
+        if mm != before {
+            diameter = 2.0 * mm / across;
+        }
+    }
+    (diameter != design.diameter_mm).then_some(diameter)
+}
+
+/// Draws the weight; returns the diameter of the stone of the weight that was set, mm.
+fn weight(design: &Design, volume: f64, material: &Material, ui: &mut Ui) -> Option<f64> {
+    let meaning = "From the stone's volume and its material's density. Setting it scales the whole stone.";
+    let known = material.carats(volume * (0.5 * design.diameter_mm).powi(3));
+    let Some(mut carats) = known else {
+        ui.horizontal(|ui| {
+            named(ui, "Weight", meaning);
+            skip_control(ui, 0.0);
+            let reason = "The density is not known: type it above.";
+            ui.add_sized([NUMBER, ui.spacing().interact_size.y], egui::Label::new(UNKNOWN))
+                .on_hover_text(reason);
+        });
+        return None;
+    };
+    let before = carats;
+    let number = Number { decimals: 3, speed: 0.01, range: CARATS, unit: " ct" };
+    number_row(ui, ("Weight", meaning), number, &mut carats);
+    let is_set = carats != before;
+    is_set.then(|| Size::Carats(carats).diameter_mm(volume, material).ok()).flatten()
+}

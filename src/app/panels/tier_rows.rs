@@ -1,0 +1,65 @@
+//! Rows for the tiers of a cut that lists its facets: one row for each tier, with angle and distance.
+//!
+//! Distances are shown in mm; the design has them in a unit of its own.
+
+use crate::app::model::action::{Actions, Edit};
+use crate::app::model::document::Document;
+use crate::app::panels::rows::{ANY, NUMBER, Number, explain, named, skip_control};
+use egui::{Align, Layout, RichText, Ui, vec2};
+
+const MEANING: &str = "A tier: facets of one angle and one distance, as a faceting machine is set for them. Each tier \
+    is set by itself; where facets meet follows.";
+
+/// Draws the tiers of the cut.
+pub fn show(document: &Document, actions: &mut Actions, ui: &mut Ui) {
+    let unit_mm = document.specimen().unit_mm() * document.extent().unit;
+    let about = format!(
+        "From the origin to the facets, in mm at the stone's present size: 1 in its file is {unit_mm:.3} mm."
+    );
+    let heads = ui.horizontal(|ui| {
+        named(ui, "Tier", MEANING);
+        skip_angle(ui);
+        [
+            ("Angle", "From the girdle plane, in degrees; below 0 for the pavilion."),
+            ("Distance", about.as_str()),
+        ]
+        .map(|(head, meaning)| head_of_column(ui, head, meaning))
+    });
+    for (place, setting) in document.work.design.cut.settings().into_iter().enumerate() {
+        ui.horizontal(|ui| {
+            let label = named(ui, &format!("{} · {}", setting.name, setting.facets), MEANING);
+            skip_angle(ui);
+            let (mut angle, mut distance_mm) = (setting.angle, setting.distance * unit_mm);
+            let before_mm = distance_mm;
+            let fields = [(&mut angle, 2, 0.02, "°"), (&mut distance_mm, 3, 0.002, " mm")];
+            for ((value, decimals, speed, unit), head) in fields.into_iter().zip(heads.inner) {
+                let number = Number { decimals, speed, range: ANY, unit };
+                number.show(ui, (NUMBER, label.id), value).labelled_by(head);
+            }
+            // A distance that is not touched keeps all its digits.
+            let distance = if distance_mm == before_mm { setting.distance } else { distance_mm / unit_mm };
+            // A user who leaves out the sign means the same side: a tier never changes from crown to pavilion or back.
+            let angle = angle.abs().copysign(setting.angle);
+            let is_changed = (angle, distance) != (setting.angle, setting.distance);
+            if is_changed && angle.is_finite() && distance.is_finite() {
+                actions.push(Edit::Tier { place, angle, distance });
+            }
+        });
+    }
+}
+
+/// Leaves room so that the angle stands left of the column of numbers, which holds the distance.
+fn skip_angle(ui: &mut Ui) {
+    skip_control(ui, NUMBER + ui.spacing().item_spacing.x);
+}
+
+fn head_of_column(ui: &mut Ui, head: &str, meaning: &str) -> egui::Id {
+    let size = vec2(NUMBER, ui.spacing().interact_size.y);
+    let layout = Layout::left_to_right(Align::Center);
+    let shown = ui.allocate_ui_with_layout(size, layout, |ui| {
+        ui.set_min_width(NUMBER);
+        let label = ui.label(RichText::new(head).weak());
+        explain(ui, label, meaning).id
+    });
+    shown.inner
+}

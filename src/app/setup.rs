@@ -1,0 +1,64 @@
+//! What an editor starts with.
+
+use super::model::workspace::Workspace;
+use super::state_file::StateFile;
+use super::tasks::files::{Chooser, by_dialog};
+use super::tasks::opener::{Opener, by_system};
+use crate::io::mesh_options::MeshOptions;
+use std::path::PathBuf;
+use std::sync::Arc;
+
+/// What an editor starts with.
+pub struct Setup {
+    /// A file to open.
+    pub file: Option<PathBuf>,
+    /// How the file is read where it is a mesh.
+    pub mesh: MeshOptions,
+    /// The folder of the autosave; `None` for no autosave.
+    pub safe: Option<PathBuf>,
+    /// What asks the user for files.
+    pub chooser: Chooser,
+    /// The workspace to begin with where none was kept.
+    pub desk: Workspace,
+    /// The file that says whether the window is at rest; `None` for no such file.
+    pub state_file: Option<StateFile>,
+    /// What opens folders and pages outside the program.
+    pub opener: Opener,
+    /// What paints the window.
+    pub painted_by: PaintedBy,
+}
+
+impl Default for Setup {
+    fn default() -> Self {
+        Self {
+            file: None,
+            mesh: MeshOptions::default(),
+            safe: None,
+            desk: Workspace::default(),
+            chooser: Arc::new(by_dialog),
+            opener: Arc::new(by_system),
+            painted_by: PaintedBy::default(),
+            state_file: None,
+        }
+    }
+}
+
+/// What paints the window.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum PaintedBy {
+    /// A graphics card.
+    #[default]
+    Card,
+    /// The processor.
+    Processor,
+}
+
+impl PaintedBy {
+    /// Returns the painter's name in the status line and in the environment variable.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Card => "card",
+            Self::Processor => "processor",
+        }
+    }
+}

@@ -1,0 +1,44 @@
+//! Pictures for the clipboard at a chosen size.
+
+use crate::app::model::task::{CopyOriginal, CopyRequest};
+use crate::app::studio::{Effort, FINE_RENDER, ShotTracer, Which};
+use crate::io::rasterize;
+use crate::picture::profile;
+use crate::scene::Specimen;
+use crate::io::Failure;
+use egui::ColorImage;
+use std::ops::ControlFlow;
+
+/// The share of the light that may stay unresolved in a scope, as in exported pictures.
+const UNRESOLVED: f64 = 1e-3;
+
+/// Makes a picture, until `is_stopped` says that nobody wants it any more.
+///
+/// # Errors
+/// The text says why there is no picture.
+pub fn make(request: &CopyRequest, is_stopped: &(dyn Fn() -> bool + Sync)) -> Result<ColorImage, Failure> {
+    let CopyRequest { original, side } = request;
+    let shot = match original {
+        CopyOriginal::Shot(shot) => shot,
+        CopyOriginal::Profile(specimen) => return drawn(specimen, *side),
+    };
+    let watch = |_: f64| match is_stopped() {
+        true => ControlFlow::Break(()),
+        false => ControlFlow::Continue(()),
+    };
+    let effort = Effort { unresolved: UNRESOLVED, coarser: 1.0, bands: FINE_RENDER.bands };
+    let mut last = None;
+    let slot = (0, Which::Present);
+    let made = ShotTracer::default()
+        .take((slot, shot), &effort, Some(&FINE_RENDER), &watch, &mut |taken| last = Some(taken.image));
+    made?;
+    last.ok_or_else(|| Failure::Output("nothing was drawn".to_owned()))
+}
+
+/// Returns the drawing from the side, as it is exported.
+fn drawn(specimen: &Specimen, side: u32) -> Result<ColorImage, Failure> {
+    let stone = specimen.stone().map_err(|e| Failure::Usage(e.to_string()))?;
+    let text = profile(stone, &specimen.design.name, specimen.design.cut.brilliant()).to_string();
+    let (width, height, rgb) = rasterize(&text, side).map_err(|e| Failure::Output(e.to_string()))?;
+    Ok(ColorImage::from_rgb([width as usize, height as usize], &rgb))
+}

@@ -1,0 +1,173 @@
+//! Writes the files of an export, one after the other, and makes thumbnails of what can be exported.
+
+use super::export_scene::SceneOut;
+use crate::app::model::export::ExportPlan;
+use crate::app::model::exporting::ExportEvent;
+use crate::app::shows::Shows;
+use crate::app::studio::{Effort, ExportedRender, SPAN, ShotTracer, Which, survey};
+use crate::io::background::BackgroundRef;
+use crate::io::export::{Event, Export, OutputFormat, Outputs};
+use crate::io::refraction_map::{self, Coding};
+use crate::io::refraction_page::{Page, takes, write_page};
+use crate::io::{Failure, rasterize, write_rgba_png};
+use crate::picture::profile;
+use crate::render::Renderer;
+use crate::scene::Specimen;
+use crate::trace::Watch;
+use egui::ColorImage;
+use std::ops::ControlFlow;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::time::Instant;
+
+/// The side of a thumbnail, pixels.
+const THUMBNAIL: u32 = 176;
+
+/// The effort of a render, where a picture in a scope takes 1, roughly.
+const RENDER: f64 = 4.0;
+
+/// Tells how an export goes on.
+struct Progress<'a> {
+    tell: &'a (dyn Fn(ExportEvent) + Sync),
+    is_stopped: &'a (dyn Fn() -> bool + Sync),
+    begun: Instant,
+    /// The part that was told last, in thousandths.
+    told: AtomicU64,
+}
+
+impl Progress<'_> {
+    /// Takes note of the part done, 0 to 1.
+    fn at(&self, done: f64) -> ControlFlow<()> {
+        let thousandths = (1000.0 * done) as u64;
+        if self.told.swap(thousandths, Ordering::Relaxed) != thousandths {
+            (self.tell)(ExportEvent::Done(done, self.begun.elapsed()));
+        }
+        if (self.is_stopped)() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    }
+
+    fn hear(&self, told: &Event) {
+        match told {
+            Event::Begun(_) => {}
+            Event::Written(path) => (self.tell)(ExportEvent::Written(path.to_path_buf())),
+            Event::Note(text) | Event::Warning(text) => (self.tell)(ExportEvent::Said((*text).to_owned())),
+        }
+    }
+}
+
+impl ExportPlan {
+    /// Writes all files, one after the other.
+    fn write(&self, progress: &Progress) -> Result<(), Failure> {
+        let render = self.render_path();
+        let parts = self.parts();
+        let effort =
+            |o: &Outputs| (o.pictures.len() + usize::from(o.formats.contains(&OutputFormat::Json))) as f64;
+        let more =
+            [render.is_some(), self.selection.map].map(|is_wanted| if is_wanted { RENDER } else { 0.0 });
+        let all = parts.iter().map(|(o, _)| effort(o)).sum::<f64>() + more[0] + more[1];
+        let mut begun = 0.0;
+        for (outputs, viewing) in &parts {
+            let share = effort(outputs);
+            let watch = |done: f64| progress.at((begun + done * share) / all);
+            let export = Export { viewing: *viewing, outputs };
+            export.write(&mut Renderer::default(), &watch, &|told| {
+                progress.hear(&told);
+                Ok(())
+            })?;
+            begun += share;
+        }
+        if let Some(path) = render {
+            self.render(&path, &|done| progress.at((begun + done * RENDER) / all))?;
+            progress.hear(&Event::Written(&path));
+            begun += RENDER;
+        }
+        if let Some((maps, others)) = self.map_paths() {
+            self.write_map(&maps, &others, &|done| progress.at((begun + done * RENDER) / all))?;
+            maps.iter().chain(&others).for_each(|path| progress.hear(&Event::Written(path)));
+        }
+        if self.selection.scene {
+            SceneOut::of(self).write()?;
+            self.scene_paths().iter().for_each(|path| progress.hear(&Event::Written(path)));
+        }
+        Ok(())
+    }
+
+    fn write_map(
+        &self,
+        maps: &[PathBuf],
+        [diffuse, page]: &[PathBuf; 2],
+        watch: Watch,
+    ) -> Result<(), Failure> {
+        let (map, carried) = survey(
+            &self.shot(Shows::Render, self.selection.size),
+            [self.selection.bands, self.selection.places],
+            watch,
+        )?;
+        let title = self.shot.title.as_str();
+        let told = format!(
+            "{title}; refraction map, bands {}, places {}; light {}; {:.1} % of the light comes from the background, {:.1} % of that from the \
+             map's places",
+            self.selection.bands,
+            self.selection.places,
+            self.shot.light.light.name,
+            100.0 * carried.behind,
+            100.0 * carried.single
+        );
+        refraction_map::write_places(maps, &map, Coding::Tiles, &told)?;
+        refraction_map::write_diffuse(diffuse, &map, &told)?;
+        let behind =
+            self.shot.behind.as_ref().map(BackgroundRef::bytes).transpose()?;
+        let background = behind.flatten().filter(|bytes| takes(bytes));
+        let ground = self.shot.behind.as_ref().map_or_else(String::new, BackgroundRef::title);
+        let background = background.as_deref().map(|bytes| (ground.as_str(), bytes));
+        Ok(write_page(page, &map, &Page { title, description: &told, span: SPAN, background })?)
+    }
+
+    fn render(&self, path: &Path, watch: Watch) -> Result<(), Failure> {
+        let shot = self.shot(Shows::Render, self.selection.size);
+        let ExportedRender { rgba, size, tracer, unresolved } = ShotTracer::default().export(&shot, watch)?;
+        let told = format!(
+            "{}: render; light {}; {}{tracer}, unresolved {unresolved:.2e}",
+            self.shot.title,
+            self.shot.light.light.name,
+            self.mixture()
+        );
+        Ok(write_rgba_png(path, &rgba, size.into(), &told)?)
+    }
+}
+
+/// Writes the files of a plan; `tell` hears how that goes on, and `is_stopped` says whether it is to stop.
+pub fn run(plan: &ExportPlan, tell: &(dyn Fn(ExportEvent) + Sync), is_stopped: &(dyn Fn() -> bool + Sync)) {
+    let progress = Progress { tell, is_stopped, begun: Instant::now(), told: AtomicU64::new(0) };
+    let end = plan.write(&progress);
+    tell(ExportEvent::Ended(end));
+}
+
+/// Makes thumbnails of all views, one after the other, until it is stopped.
+pub fn thumbnails(
+    plan: &ExportPlan,
+    hang: &dyn Fn(Shows, ColorImage),
+    is_stopped: &(dyn Fn() -> bool + Sync),
+) {
+    let mut tracer = ShotTracer::default();
+    let effort = Effort { unresolved: 2e-2, coarser: 1.0, bands: 6 };
+    let watch = |_: f64| if is_stopped() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) };
+    for shows in plan.can_be_shown().take_while(|_| !is_stopped()) {
+        if shows == Shows::Profile {
+            side(plan).into_iter().for_each(|image| hang(shows, image));
+            continue;
+        }
+        let shot = plan.shot(shows, THUMBNAIL);
+        // A thumbnail that cannot be taken stays empty; exporting says why.
+        let _ = tracer.take(((0, Which::Present), &shot), &effort, None, &watch, &mut |taken| {
+            hang(shows, taken.image);
+        });
+    }
+}
+
+/// Returns the drawing from the side, small.
+fn side(plan: &ExportPlan) -> Option<ColorImage> {
+    let Specimen { design, .. } = &*plan.upright;
+    let text = profile(plan.upright.stone().ok()?, &design.name, design.cut.brilliant()).to_string();
+    let (width, height, rgb) = rasterize(&text, 2 * THUMBNAIL).ok()?;
+    Some(ColorImage::from_rgb([width as usize, height as usize], &rgb))
+}

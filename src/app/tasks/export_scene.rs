@@ -1,0 +1,58 @@
+//! Writes what renders show as a scene file with its cut.
+
+use crate::app::model::export::ExportPlan;
+use crate::app::studio::hung;
+use crate::io::background::BackgroundRef;
+use crate::io::scene_file::{self, DEFAULT_GAP_MM, Entry, SceneFile};
+use crate::io::{Failure, WriteError, cut_file, write};
+use crate::scene::{Pose, middle};
+use std::path::PathBuf;
+
+/// The text of a scene file and of the cut file of its stones.
+pub struct SceneOut {
+    paths: [PathBuf; 2],
+    scene: String,
+    cut: String,
+}
+
+impl SceneOut {
+    /// Makes the scene of what a plan's renders show.
+    pub fn of(plan: &ExportPlan) -> Self {
+        let shot = &plan.shot;
+        let paths = plan.scene_paths();
+        let cut = format!("{}-cut.toml", plan.stem);
+        let design = &shot.specimen.design;
+        let turned = Pose::turned(shot.view.turn);
+        let poses: Vec<Pose> = shot.company.iter().map(|pose| turned.after(pose)).collect();
+        let unit_mm = 0.5 * design.diameter_mm;
+        // Scenes are seen around their middle.
+        let middle = middle(&poses, shot.specimen.solid().vertices());
+        let is_picture = matches!(shot.behind, Some(BackgroundRef::Pattern(_) | BackgroundRef::Photo(_)));
+        let scene = SceneFile {
+            name: design.name.clone(),
+            light: Some(plan.light.clone()),
+            layout: None,
+            gap_mm: DEFAULT_GAP_MM,
+            background: shot.behind.clone(),
+            background_distance_mm: is_picture.then(|| (hung(shot) + middle.z) * unit_mm),
+            strength: shot.strength,
+            stones: poses
+                .iter()
+                .map(|pose| Entry::placed(&cut, pose.turn, (pose.at - middle) * unit_mm))
+                .collect(),
+        };
+        Self { paths, scene: scene_file::write(&scene), cut: cut_file::write(design) }
+    }
+
+    /// Writes both files, each whole or not at all.
+    pub fn write(&self) -> Result<(), Failure> {
+        let [scene, cut] = &self.paths;
+        let folder = scene.parent();
+        // A scene that reaches farther than scenes may is refused before anything is written.
+        scene_file::parse(&self.scene, &scene.display().to_string(), folder)?;
+        for (path, text) in [(cut, &self.cut), (scene, &self.scene)] {
+            write(path, |file| file.write_all(text.as_bytes()).map_err(|e| WriteError::io(path, e)))?;
+        }
+        Ok(())
+    }
+}

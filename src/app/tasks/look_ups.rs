@@ -1,0 +1,46 @@
+//! Pictures that are looked up in the background: the newest request of each view, so that pictures follow the hand while
+//! the studio traces.
+
+use super::lookup::{Lookup, LookupRequest};
+use super::runner::Turn;
+use super::{FAULT, Key, Outside, TaskAnswer};
+use crate::io::Failure;
+use crate::app::studio::Slot;
+use std::collections::HashMap;
+use std::sync::{Arc, Mutex, PoisonError};
+
+/// What look-ups have in common.
+#[derive(Default)]
+pub struct LookUps {
+    /// The last request of each slot.
+    last: HashMap<Slot, Arc<LookupRequest>>,
+    lookup: Arc<Mutex<Lookup>>,
+}
+
+impl Outside {
+    /// Looks a picture up; nothing happens where the same picture was requested last.
+    pub fn look_up(&mut self, slot: Slot, request: LookupRequest) {
+        let LookUps { last, lookup } = &mut self.look_ups;
+        if last.get(&slot).is_some_and(|last| **last == request) {
+            return;
+        }
+        let request = Arc::new(request);
+        last.insert(slot, Arc::clone(&request));
+        let (failed, lookup) = (Arc::clone(&request), Arc::clone(lookup));
+        let answer = move |request, taken| TaskAnswer::Looked(slot, request, taken);
+        self.runner.start(
+            Key::LookUp(slot),
+            Turn::After,
+            move || Some(answer(failed, Err(Failure::Output(FAULT.to_owned())))),
+            move |job| {
+                let taken = lookup.lock().unwrap_or_else(PoisonError::into_inner).picture(&request);
+                job.send(answer(request, taken));
+            },
+        );
+    }
+
+    /// Whether pictures are being looked up.
+    pub fn is_looking_up(&self) -> bool {
+        self.runner.is_running(|key| matches!(key, Key::LookUp(_)))
+    }
+}

@@ -1,0 +1,146 @@
+//! Makes pictures that need no tracing: backgrounds seen through a refraction map, and liquid glass as screens draw it.
+
+use crate::app::lookup::as_screens;
+use crate::app::studio::{Grade, SPAN, Shot, TakenPicture};
+use crate::io::background::BackgroundRef;
+use crate::picture::pane::{filling, pane};
+use crate::picture::{Linear, RefractionMap, refract};
+use crate::scene::Panorama;
+use crate::io::Failure;
+use glam::DVec2;
+use rayon::{ThreadPool, ThreadPoolBuilder};
+use std::sync::{Arc, OnceLock};
+
+/// A request for a picture.
+#[derive(Debug, Clone)]
+pub struct LookupRequest {
+    /// What the picture shows.
+    pub shot: Shot,
+    /// The grade of the map.
+    pub grade: Grade,
+    /// The map, and how far the background has been moved to the right and down, in parts of the map's plane; `None` for
+    /// liquid glass.
+    pub map: Option<(Arc<RefractionMap>, DVec2)>,
+    /// The backplate.
+    pub behind: BackgroundRef,
+}
+
+impl PartialEq for LookupRequest {
+    /// Whether both requests give the same picture.
+    fn eq(&self, other: &Self) -> bool {
+        let same = match (&self.map, &other.map) {
+            (Some((a, by)), Some((b, other))) => Arc::ptr_eq(a, b) && by == other,
+            (None, None) => {
+                (self.shot.liquid, self.shot.film.size) == (other.shot.liquid, other.shot.film.size)
+            }
+            _ => false,
+        };
+        same && self.behind == other.behind
+    }
+}
+
+/// Makes pictures by looking up, one at a time.
+#[derive(Default)]
+pub struct Lookup {
+    /// Threads of its own, begun at the first picture: those that the studio keeps busy would come to it last.
+    threads: OnceLock<Option<ThreadPool>>,
+    backgrounds: Backgrounds,
+}
+
+impl Lookup {
+    /// Makes a picture.
+    ///
+    /// # Errors
+    /// Fails where the backplate cannot be read; the text says why.
+    pub fn picture(&mut self, ask: &LookupRequest) -> Result<TakenPicture, Failure> {
+        let Self { threads, backgrounds } = self;
+        let begin = || ThreadPoolBuilder::new().thread_name(|k| format!("look-up {k}")).build().ok();
+        match threads.get_or_init(begin) {
+            Some(threads) => threads.install(|| backgrounds.picture(ask)),
+            None => backgrounds.picture(ask),
+        }
+    }
+}
+
+/// The backgrounds that pictures were made of last.
+#[derive(Default)]
+struct Backgrounds {
+    /// The background that was read last, in several sizes.
+    behind: Option<(BackgroundRef, Levels)>,
+    /// The background that filled a picture last, in the size of that picture.
+    filled: Option<(BackgroundRef, Panorama)>,
+}
+
+impl Backgrounds {
+    fn picture(&mut self, ask: &LookupRequest) -> Result<TakenPicture, Failure> {
+        let (picture, tracer) = match &ask.map {
+            Some((map, moved)) => {
+                let behind = self.levels(&ask.behind)?.for_map(map.size);
+                (refracted(map, &behind, *moved), "look-up in the map")
+            }
+            None => {
+                let size = ask.shot.film.size;
+                let glass = ask.shot.liquid.pane(size);
+                (pane(&glass, self.filled(&ask.behind, size)?, 1), "arithmetic")
+            }
+        };
+        Ok(TakenPicture { image: as_screens(&picture), unresolved: None, tracer, map: None })
+    }
+
+    /// Returns a background in its own size, with the halved sizes that have been of use so far.
+    fn levels(&mut self, asked: &BackgroundRef) -> Result<&mut Levels, Failure> {
+        let levels = match self.behind.take().filter(|(last, _)| last == asked) {
+            Some((_, levels)) => levels,
+            None => {
+                let no_picture = || Failure::Input("what hangs behind is not a picture".to_owned());
+                let reading = asked.picture()?.ok_or_else(no_picture)?;
+                Levels { whole: Arc::new(reading.panorama), halved: vec![] }
+            }
+        };
+        Ok(&mut self.behind.insert((asked.clone(), levels)).1)
+    }
+
+    /// Returns a background that is as large as a picture of `size` pixels.
+    fn filled(&mut self, asked: &BackgroundRef, size: [u32; 2]) -> Result<&Panorama, Failure> {
+        let is = |(last, p): &(BackgroundRef, Panorama)| last == asked && [p.width, p.height] == size;
+        let picture = match self.filled.take().filter(is) {
+            Some((_, picture)) => picture,
+            None => filling(&self.levels(asked)?.whole, size),
+        };
+        Ok(&self.filled.insert((asked.clone(), picture)).1)
+    }
+}
+
+/// A background in several sizes.
+struct Levels {
+    whole: Arc<Panorama>,
+    /// The smaller sizes, each half as large as the one before.
+    halved: Vec<Arc<Panorama>>,
+}
+
+impl Levels {
+    /// Returns the background in the size that is less than twice as fine as the plane of a map of `size` pixels.
+    fn for_map(&mut self, size: [u32; 2]) -> Arc<Panorama> {
+        let plane = size.map(|side| SPAN * f64::from(side));
+        let finer = |p: &Panorama| (f64::from(p.width) / plane[0]).min(f64::from(p.height) / plane[1]);
+        let (mut level, mut rest) = (Arc::clone(&self.whole), 0);
+        while finer(&level) >= 2.0 {
+            if rest == self.halved.len() {
+                self.halved.push(Arc::new(level.halved()));
+            }
+            level = Arc::clone(&self.halved[rest]);
+            rest += 1;
+        }
+        level
+    }
+}
+
+/// Returns a background seen through a map, moved by parts of the map's plane.
+fn refracted(map: &RefractionMap, behind: &Panorama, moved: DVec2) -> Linear {
+    let [width, height] = map.size.map(f64::from);
+    let shape = width / height;
+    let whole = DVec2::new(f64::from(behind.width), f64::from(behind.height));
+    // The part of the background that the plane holds: the background fills the plane and is cut where it is longer.
+    let held = whole.y.min(whole.x / shape) * DVec2::new(shape, 1.0);
+    refract(map, behind, -moved * held / whole)
+}

@@ -1,0 +1,262 @@
+//! What the editor does outside its window: it reads and writes files, asks and opens by the system.
+//!
+//! [`Outside`] carries out the [`Task`]s of a model in the background; their answers are [`Action`]s, or pictures for the
+//! window.
+
+pub mod autosave;
+pub mod copying;
+pub mod export;
+pub mod export_scene;
+pub mod files;
+mod look_ups;
+pub mod lookup;
+pub mod open;
+pub mod opener;
+pub mod runner;
+
+use crate::app::model::action::{Computed, DialogAction, FileAction, NoteAction};
+use crate::app::model::choosing::Choice;
+use crate::app::model::exporting::ExportEvent;
+use crate::app::model::opening::FileRequest;
+use crate::app::model::{Action, Task};
+use crate::app::shows::Shows;
+use crate::app::studio::{Slot, TakenPicture, Wake};
+use crate::io::lighting::Lighting;
+use crate::io::Failure;
+use autosave::Autosave;
+use egui::ColorImage;
+use files::Chooser;
+use look_ups::LookUps;
+use lookup::LookupRequest;
+use opener::Opener;
+use runner::{JobHandle, TaskRunner, Turn};
+use std::sync::{Arc, Mutex, PoisonError};
+
+/// What a task is about: the newest with the same key wins.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+enum Key {
+    Light,
+    Read { is_beside: bool },
+    Save,
+    Choose,
+    Safe,
+    Forget,
+    Watch,
+    Look,
+    Open,
+    Thumbnails,
+    Export,
+    Copy,
+    LookUp(Slot),
+}
+
+/// An answer of a task.
+pub enum TaskAnswer {
+    /// An action on the model.
+    Act(Box<Action>),
+    /// A picture for the clipboard.
+    Copied(Result<ColorImage, Failure>),
+    /// A small picture of what can be exported.
+    Thumbnail(Shows, ColorImage),
+    /// A picture that was looked up, or the text that says why there is none.
+    Looked(Slot, Arc<LookupRequest>, Result<TakenPicture, Failure>),
+}
+
+impl From<Action> for TaskAnswer {
+    fn from(action: Action) -> Self {
+        Self::Act(Box::new(action))
+    }
+}
+
+impl From<FileAction> for TaskAnswer {
+    fn from(action: FileAction) -> Self {
+        Action::File(action).into()
+    }
+}
+
+/// The text of an error that the program itself has made.
+const FAULT: &str = "a fault of the program; please report the design";
+
+/// Carries out tasks.
+pub struct Outside {
+    runner: TaskRunner<Key, TaskAnswer>,
+    chooser: Chooser,
+    opener: Opener,
+    safe: Option<Arc<Mutex<Autosave>>>,
+    look_ups: LookUps,
+}
+
+impl Outside {
+    /// Makes what carries out tasks; `wake` is called whenever there is an answer.
+    pub fn new(chooser: Chooser, opener: Opener, safe: Option<Autosave>, wake: Wake) -> Self {
+        let safe = safe.map(|safe| Arc::new(Mutex::new(safe)));
+        Self { runner: TaskRunner::new(wake), chooser, opener, safe, look_ups: LookUps::default() }
+    }
+
+    /// Returns the answers that have arrived since the last call.
+    pub fn answers(&mut self) -> Vec<TaskAnswer> {
+        self.runner.answers()
+    }
+
+    /// Begins to carry out a task. Tracing and what the window does are not carried out here.
+    pub fn start(&mut self, task: Task) {
+        match task {
+            Task::LoadLight(name) => {
+                let answer = |name, loaded| Action::Computed(Computed::Light(name, loaded)).into();
+                let failed = name.clone();
+                self.run(
+                    Key::Light,
+                    move || answer(failed, Err(Failure::Output(FAULT.to_owned()))),
+                    move |_| {
+                        let loaded = Lighting::load(&name).map(Arc::new).map_err(Failure::from);
+                        answer(name, loaded)
+                    },
+                );
+            }
+            Task::Read(request) => self.read(request),
+            Task::Save(request) => {
+                let failed = || FileAction::Saved(Err(Failure::Output(FAULT.to_owned())));
+                self.write(Key::Save, failed, move || Some(FileAction::Saved(open::save(*request))));
+            }
+            Task::ChooseFile(question) => {
+                let (chooser, failed) = (Arc::clone(&self.chooser), question.clone());
+                self.run(
+                    Key::Choose,
+                    || FileAction::Chosen(failed, Choice::NoDialog).into(),
+                    move |_| {
+                        let choice = chooser(&question);
+                        FileAction::Chosen(question, choice).into()
+                    },
+                );
+            }
+            Task::Keep(unsaved) => self.keep(move |safe| safe.keep(&unsaved).err().map(|e| e.to_string())),
+            Task::EmptySafe => self.keep(|safe| {
+                safe.empty();
+                None
+            }),
+            Task::Forget(path) => self.write(
+                Key::Forget,
+                || FileAction::NotKept(FAULT.to_owned()),
+                move || {
+                    autosave::forget(&path);
+                    None
+                },
+            ),
+            Task::Watch(file) => self.runner.start(
+                Key::Watch,
+                Turn::AtOnce,
+                || None,
+                move |job| {
+                    file.into_iter().for_each(|(path, stamp)| open::watch(&path, stamp, job));
+                },
+            ),
+            Task::LookInto(files) => {
+                let failed = || FileAction::DroppedFor(vec![]).into();
+                self.run(Key::Look, failed, move |_| FileAction::DroppedFor(open::look_into(files)).into());
+            }
+            Task::OpenOutside(what) => {
+                let opener = Arc::clone(&self.opener);
+                self.runner.start(
+                    Key::Open,
+                    Turn::AtOnce,
+                    || None,
+                    move |job| {
+                        if let Err(why) = opener(&what) {
+                            let why = format!("{what} was not opened: {why}");
+                            job.send(Action::Note(NoteAction::Trouble(why)).into());
+                        }
+                    },
+                );
+            }
+            Task::Thumbnails(plan) => self.runner.start(
+                Key::Thumbnails,
+                Turn::AtOnce,
+                || None,
+                move |job| {
+                    let hang = |shows, image| job.send(TaskAnswer::Thumbnail(shows, image));
+                    export::thumbnails(&plan, &hang, &|| job.is_stopped());
+                },
+            ),
+            Task::Export(plan) => {
+                let answer = |event| Action::Dialog(DialogAction::Exported(event)).into();
+                let failed = move || Some(answer(ExportEvent::Ended(Err(Failure::Output(FAULT.to_owned())))));
+                self.runner.start(Key::Export, Turn::AtOnce, failed, move |job| {
+                    export::run(&plan, &|event| job.send(answer(event)), &|| job.is_stopped());
+                });
+            }
+            Task::StopThumbnails => self.runner.stop(Key::Thumbnails),
+            Task::StopExport => self.runner.stop(Key::Export),
+            Task::MakeCopy(request) => {
+                let failed =
+                    || TaskAnswer::Copied(Err(Failure::Output("making the picture failed; try another size".to_owned())));
+                self.run(Key::Copy, failed, move |job| {
+                    TaskAnswer::Copied(copying::make(&request, &|| job.is_stopped()))
+                });
+            }
+            Task::Trace(_) | Task::Window(_) => {}
+        }
+    }
+
+    /// Runs a job with one answer.
+    fn run(
+        &mut self,
+        key: Key,
+        failed: impl FnOnce() -> TaskAnswer + Send + 'static,
+        job: impl FnOnce(&JobHandle<TaskAnswer>) -> TaskAnswer + Send + 'static,
+    ) {
+        self.runner.start(key, Turn::AtOnce, || Some(failed()), |handle| handle.send(job(handle)));
+    }
+
+    /// Runs a job that writes, once the one before it has written.
+    fn write(
+        &mut self,
+        key: Key,
+        failed: impl FnOnce() -> FileAction + Send + 'static,
+        job: impl FnOnce() -> Option<FileAction> + Send + 'static,
+    ) {
+        self.runner.start(
+            key,
+            Turn::After,
+            || Some(failed().into()),
+            |handle| {
+                job().into_iter().for_each(|answer| handle.send(answer.into()));
+            },
+        );
+    }
+
+    fn read(&mut self, request: FileRequest) {
+        let failed = request.clone();
+        let why = format!("{}: reading it failed", request.path.display());
+        let key = Key::Read { is_beside: request.is_beside() };
+        self.run(
+            key,
+            || FileAction::Opened(failed, Err(Failure::Input(why))).into(),
+            move |_| {
+                let read = open::read(&request);
+                FileAction::Opened(request, read).into()
+            },
+        );
+    }
+
+    fn keep(&mut self, job: impl FnOnce(&mut Autosave) -> Option<String> + Send + 'static) {
+        let Some(safe) = self.safe.clone() else { return };
+        self.write(
+            Key::Safe,
+            || FileAction::NotKept(FAULT.to_owned()),
+            move || job(&mut safe.lock().unwrap_or_else(PoisonError::into_inner)).map(FileAction::NotKept),
+        );
+    }
+
+    /// Finds the work that crashes left behind, without going to the background: it is offered in the first frame.
+    pub fn found(&self) -> FileAction {
+        let found =
+            self.safe.as_ref().map(|safe| safe.lock().unwrap_or_else(PoisonError::into_inner).found());
+        FileAction::Found(found.unwrap_or_default())
+    }
+}
+
+impl Drop for Outside {
+    fn drop(&mut self) {
+        self.runner.finish();
+    }
+}

@@ -1,0 +1,79 @@
+//! Tests of meshes that are read, and read again in another way.
+
+use super::*;
+use crate::app::model::action::FileAction;
+use crate::app::model::dialog::{Dialog, Then};
+use crate::app::model::document::Document;
+use crate::app::model::opening::{FileRequest, Opening, OpeningPurpose};
+use crate::cut::from_mesh::Up;
+use crate::io::design_file::{self, DesignFormat};
+use crate::io::mesh_options::{MeshForm, MeshOptions};
+use crate::scene::Specimen;
+use glam::DVec3;
+use std::path::Path;
+
+/// Writes the first cut as a mesh.
+fn scan(folder: &Path) -> PathBuf {
+    let path = folder.join("scan.stl");
+    let specimen = Specimen::new(Document::first().unwrap().work.design).unwrap();
+    design_file::write(&specimen, DesignFormat::Stl, &path).unwrap();
+    path
+}
+
+const UP: MeshOptions = MeshOptions { up: Up::Given(DVec3::NEG_Y), form: MeshForm::Found };
+
+#[test]
+fn a_mesh_that_is_opened_after_a_question_is_read_as_it_was_asked_for() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = scan(folder.path());
+    let mut bench = Bench::new();
+    let editor = bench.harness.state_mut();
+    editor.act(FileAction::OpenWith(FileRequest {
+        purpose: OpeningPurpose::Anew,
+        path: path.clone(),
+        mesh: UP,
+    }));
+    // No frame has come in between, so that the design is changed before the file is taken in.
+    editor.model.document.work.design.name = "mine".to_owned();
+    bench.wait(|editor| editor.model.session.dialog.is_some());
+    assert!(
+        matches!(&bench.editor().model.session.dialog, Some(Dialog::Unsaved(Then::Open(_, mesh))) if *mesh == UP)
+    );
+    bench.click("Don't save");
+    bench.wait(|editor| editor.model.document.work.mesh.is_some());
+    assert_eq!(bench.editor().model.mesh_options(), Some(UP));
+}
+
+#[test]
+fn a_second_choice_keeps_the_first_that_has_not_come_yet() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = scan(folder.path());
+    let mut bench = Bench::with(Setup { file: Some(path.clone()), ..Setup::default() });
+    bench.wait(|editor| editor.model.document.work.mesh.is_some());
+    bench.harness.run_steps(3);
+    let editor = bench.harness.state_mut();
+    let (work, mesh) = (editor.model.document.work.clone(), UP);
+    let request = FileRequest { purpose: OpeningPurpose::Otherwise, path, mesh };
+    editor.model.session.awaited.opening.push(Opening { request, work });
+    bench.harness.run_steps(2);
+    bench.harness.get_by_label("Triangles").click();
+    bench.harness.run_steps(2);
+    let both = MeshOptions { form: MeshForm::Triangles, ..UP };
+    bench.wait(|editor| {
+        editor.model.document.work.mesh.as_ref().is_some_and(|mesh| mesh.options != MeshOptions::default())
+    });
+    assert_eq!(bench.editor().model.document.work.mesh.as_ref().map(|mesh| mesh.options), Some(both));
+}
+
+#[test]
+fn a_design_that_was_made_of_a_mesh_and_saved_is_read_again_without_the_meshs_options() {
+    let folder = tempfile::tempdir().unwrap();
+    let (path, toml) = (scan(folder.path()), folder.path().join("scan.toml"));
+    let mut bench = Bench::with(Setup { file: Some(path.clone()), mesh: UP, ..Setup::default() });
+    bench.wait(|editor| editor.model.document.work.mesh.is_some());
+    let editor = bench.harness.state_mut();
+    editor.act(FileAction::Open(path, OpeningPurpose::Again));
+    assert_eq!(editor.model.session.awaited.opening[0].request.mesh, UP);
+    editor.act(FileAction::Open(toml, OpeningPurpose::Again));
+    assert_eq!(editor.model.session.awaited.opening[0].request.mesh, MeshOptions::default());
+}

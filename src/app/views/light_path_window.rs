@@ -1,0 +1,66 @@
+//! The window that shows the path of the ray that is followed through the stone.
+
+use super::scene_view::zones;
+use super::tools::ViewTools;
+use crate::app::model::Model;
+use crate::app::model::action::{Actions, ViewAction};
+use egui::{Context, Key, Modifiers, Popup, RichText, Ui, Vec2, Window, vec2};
+
+/// The size of the window at first, points.
+const SIZE: Vec2 = vec2(560.0, 620.0);
+
+/// Whether Escape ends something else before it closes the window: a dialog, a drag, typing, or an open menu.
+fn comes_first(model: &Model, tools: &ViewTools, ctx: &Context) -> bool {
+    model.session.dialog.is_some()
+        || tools.is_handle_dragged()
+        || ctx.text_edit_focused()
+        || Popup::is_any_open(ctx)
+}
+
+/// Draws the window of the light path, if it is open.
+pub fn show(model: &Model, tools: &mut ViewTools, actions: &mut Actions, ctx: &Context) {
+    if let Some(follow) = tools.following.ripe(ctx) {
+        actions.push(follow);
+        // The window opens in the next frame.
+        ctx.request_repaint();
+    }
+    // In this frame Escape has already ended what comes first, so the state of the frame before counts.
+    let waits = comes_first(model, tools, ctx);
+    let is_free = !std::mem::replace(&mut tools.following.waits, waits);
+    if !model.session.followed.is_open {
+        return;
+    }
+    let mut is_open = !(is_free && ctx.input_mut(|i| i.consume_key(Modifiers::NONE, Key::Escape)));
+    let window =
+        Window::new("Light path").open(&mut is_open).default_size(SIZE).default_pos(tools.following.place());
+    window.min_size(vec2(400.0, 360.0)).show(ctx, |ui| contents(model, tools, ui));
+    if !is_open {
+        actions.push(ViewAction::LightPath(false));
+    }
+}
+
+/// Draws the path of the ray that is followed, or says why there is none.
+fn contents(model: &Model, tools: &mut ViewTools, ui: &mut Ui) {
+    let Some((pane, at)) = model.session.followed.at else {
+        ui.label("Click a point of the stone in any view: its light is followed from there.");
+        return;
+    };
+    let shows = model.workspace.panes[pane].shows;
+    if shows.has_company() && !model.is_alone() {
+        ui.label(
+            "A ray is followed through one stone at rest: show a single copy, at rest, or click a scope.",
+        );
+        return;
+    }
+    let view = model.workspace.view(pane);
+    let specimen = model.document.specimen();
+    match tools.probe.of(specimen).path(&view, at) {
+        Some(path) => {
+            let scope = zones(shows, model.document.work.head);
+            tools.following.view.show(ui, &specimen.body, &path, &scope, &view);
+        }
+        None => {
+            ui.label(RichText::new("The point lies beside the stone; click one that lies on it.").weak());
+        }
+    }
+}

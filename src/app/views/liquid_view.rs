@@ -1,0 +1,40 @@
+//! The view of a pane of liquid glass, drawn as screens draw it or traced: the pane is moved by hand.
+
+use super::arrows;
+use super::pane_context::{PaneContext, focus};
+use super::view_menu::attend;
+use crate::app::model::action::ViewAction;
+use crate::app::studio::Which;
+use egui::{Modifiers, PointerButton, Rect, Role, Sense, StrokeKind, Ui, WidgetInfo};
+use glam::DVec2;
+
+/// How far an arrow key moves the pane, in parts of the view.
+const STEP: f64 = 0.01;
+
+/// Draws the view, and moves the pane by drags and arrow keys.
+pub fn show(cx: &mut PaneContext, ui: &Ui, body: Rect) {
+    let response = ui.interact(body, ui.scope_id().with("picture"), Sense::click_and_drag());
+    let name = format!("{} picture", cx.shows.name());
+    response.widget_info(|| WidgetInfo::labeled(Role::Image, true, &name));
+    let mut liquid = cx.model.workspace.liquid;
+    if response.dragged_by(PointerButton::Primary) {
+        let by = response.drag_delta() / body.size();
+        liquid.drag(DVec2::new(by.x.into(), by.y.into()));
+    }
+    if response.has_focus() {
+        arrows::keep(ui, response.id);
+        let way = arrows::way(ui, Modifiers::NONE);
+        if way != DVec2::ZERO {
+            liquid.drag(DVec2::new(way.x, -way.y) * STEP);
+        }
+    }
+    if liquid != cx.model.workspace.liquid {
+        cx.push(ViewAction::Liquid(liquid));
+    }
+    ui.painter().rect_filled(body, 4.0, ui.visuals().extreme_bg_color);
+    if let Some(shown) = cx.shown(Which::Present).filter(|shown| shown.shot.shows == cx.shows) {
+        shown.paint(ui.painter(), body);
+    }
+    ui.painter().rect_stroke(body, 4.0, focus(ui, &response), StrokeKind::Inside);
+    attend(cx, &response, response.hovered() || response.has_focus());
+}

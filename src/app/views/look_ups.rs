@@ -1,0 +1,46 @@
+//! Requests of the pictures in sight that are looked up, and not traced.
+
+use super::tools::ViewTools;
+use crate::app::lookup::backdrop;
+use crate::app::model::Model;
+use crate::app::model::ordering::Seen;
+use crate::app::shows::Shows;
+use crate::app::studio::{Grade, Slot, Which};
+use crate::app::tasks::lookup::LookupRequest;
+
+/// Returns a request for each picture in sight that is looked up.
+pub fn look_ups(model: &Model, tools: &mut ViewTools, seen: &[Seen]) -> Vec<(Slot, LookupRequest)> {
+    let mut requests = vec![];
+    for &(pane, size) in seen {
+        for slot in [(pane, Which::Present), (pane, Which::Other)] {
+            let request = match model.workspace.panes[pane].shows {
+                Shows::LiquidGlass => liquid(model, tools, slot, size),
+                Shows::Refraction => refracted(model, tools, slot),
+                _ => None,
+            };
+            requests.extend(request.map(|request| (slot, request)));
+        }
+    }
+    requests
+}
+
+/// Requests the pane of liquid glass as screens draw it.
+fn liquid(
+    model: &Model,
+    tools: &mut ViewTools,
+    (pane, which): Slot,
+    size: [u32; 2],
+) -> Option<LookupRequest> {
+    let shot = tools.orders(model).shot(pane, which, size)?;
+    let behind = backdrop(shot.behind.as_ref());
+    Some(LookupRequest { shot, grade: Grade::Fine, map: None, behind })
+}
+
+/// Requests the background behind a stone, once there is a map of the stone.
+fn refracted(model: &Model, tools: &ViewTools, slot: Slot) -> Option<LookupRequest> {
+    let shown = tools.gallery.traced.get(&slot)?;
+    let map = shown.taken.map.clone()?;
+    let behind = backdrop(model.workspace.background().as_ref());
+    let moved = model.session.flowing[slot.0].moved;
+    Some(LookupRequest { shot: shown.shot.clone(), grade: shown.grade, map: Some((map, moved)), behind })
+}

@@ -1,0 +1,25 @@
+//! The views of the stone and what is drawn in them.
+
+mod arrows;
+pub mod clock;
+mod copies;
+mod eye_hand;
+mod following;
+pub mod gallery;
+pub mod light_path;
+pub mod light_path_window;
+mod liquid_view;
+pub mod look_ups;
+pub mod modes;
+mod pane;
+mod pane_context;
+mod pane_head;
+mod pane_view;
+pub mod probe;
+mod refraction_view;
+mod scene_view;
+pub mod stage;
+pub mod tools;
+mod view_menu;
+
+pub use tools::ViewTools;

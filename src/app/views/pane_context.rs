@@ -1,0 +1,66 @@
+//! What one view is drawn by, and what is common to all views.
+
+use super::gallery::Shown;
+use super::tools::ViewTools;
+use crate::app::menus::entry;
+use crate::app::model::Model;
+use crate::app::model::action::{Action, Actions};
+use crate::app::model::command::Command;
+use crate::app::model::eye::Eye;
+use crate::app::model::session::Flowing;
+use crate::app::shows::Shows;
+use crate::app::studio::Which;
+use egui::{Response, Stroke, Ui};
+
+/// One view in a frame: the state that it is drawn by, and the actions that come of what a person does in it.
+pub struct PaneContext<'a> {
+    /// The state.
+    pub model: &'a Model,
+    /// What views are drawn with.
+    pub tools: &'a mut ViewTools,
+    actions: &'a mut Actions,
+    /// The number of the view.
+    pub pane: usize,
+    /// What the view shows.
+    pub shows: Shows,
+    /// The state of the background of a refraction map, as this frame changes it.
+    pub flowing: Flowing,
+}
+
+impl<'a> PaneContext<'a> {
+    /// Begins to draw a view.
+    pub fn new(model: &'a Model, tools: &'a mut ViewTools, actions: &'a mut Actions, pane: usize) -> Self {
+        let (shows, flowing) = (model.workspace.panes[pane].shows, model.session.flowing[pane]);
+        Self { model, tools, actions, pane, shows, flowing }
+    }
+
+    /// Adds an action.
+    pub fn push(&mut self, action: impl Into<Action>) {
+        self.actions.push(action);
+    }
+
+    /// Draws the entry of a command in a menu.
+    pub fn entry(&mut self, ui: &mut Ui, command: Command) {
+        entry(self.model, self.actions, ui, command);
+    }
+
+    /// Returns the eye that the view looks by.
+    pub fn eye(&self) -> Eye {
+        *self.model.workspace.eye(self.pane)
+    }
+
+    /// Returns a picture of the view.
+    pub fn shown(&self, which: Which) -> Option<&Shown> {
+        self.tools.gallery.shown(self.model, (self.pane, which))
+    }
+}
+
+/// Returns the frame around a picture that has the keyboard focus.
+pub fn focus(ui: &Ui, response: &Response) -> Stroke {
+    if response.has_focus() { ui.visuals().selection.stroke } else { Stroke::NONE }
+}
+
+/// Whether a row has more than so many points left.
+pub fn has_room(ui: &Ui, points: f32) -> bool {
+    ui.available_width() > points
+}

@@ -1,0 +1,110 @@
+//! The row over the picture of a view: what the view shows, the modes that are on in it, and how good its picture is.
+
+use super::gallery::Shown;
+use super::pane_context::{PaneContext, has_room};
+use super::{modes, refraction_view};
+use crate::app::model::action::ViewAction;
+use crate::app::shows::Shows;
+use crate::app::studio::{Grade, Shot, Which};
+use crate::app::theme;
+use crate::scene::Glare;
+use egui::{Align, ComboBox, Layout, RichText, Role, Ui, WidgetInfo};
+
+/// The width of the choice of what a view shows, where the view is narrow, points.
+const LEAST_CHOICE: f32 = 64.0;
+/// The width of that choice where the view is not narrow, points.
+const CHOICE: f32 = 120.0;
+
+/// The room for the button at the end of the row, points.
+const ENLARGE: f32 = 76.0;
+
+/// Draws the row.
+pub fn show(cx: &mut PaneContext, ui: &mut Ui) {
+    choice(cx, ui);
+    let (document, session) = (&cx.model.document, &cx.model.session);
+    if let Some(compared) = session.compared.as_ref().filter(|_| cx.shows.is_seen()) {
+        let name = if session.keys.other { compared.name.as_str() } else { "present" };
+        ui.label(RichText::new(name).weak());
+    }
+    if document.shows_last_possible() && !cx.shows.is_pane() {
+        let why = document.fault().map(ToString::to_string).unwrap_or_default();
+        let text = RichText::new("last possible stone").color(theme::bad(ui.visuals())).small();
+        ui.label(text).on_hover_text(format!("The design makes no stone, so this is the one before. {why}"));
+    }
+    modes::show(cx, ui, ui.available_width() - ENLARGE);
+    ui.with_layout(Layout::right_to_left(Align::Center), |ui| from_right(cx, ui));
+}
+
+/// Draws the choice of what the view shows.
+fn choice(cx: &mut PaneContext, ui: &mut Ui) {
+    let (shows, pane) = (cx.shows, cx.pane);
+    let taken = ENLARGE + modes::least_width(cx, ui);
+    let width = (ui.available_width() - taken).clamp(LEAST_CHOICE, CHOICE);
+    let combo = ComboBox::from_id_salt(("shows", pane)).selected_text(shows.name()).width(width);
+    let mut chosen = shows;
+    let shown = combo.height(420.0).truncate().show_ui(ui, |ui| {
+        for other in Shows::ALL {
+            ui.selectable_value(&mut chosen, other, other.name()).on_hover_text(other.meaning());
+        }
+    });
+    if chosen != shows {
+        cx.push(ViewAction::Show(pane, chosen));
+    }
+    let name = format!("View {}: {}", pane + 1, shows.name());
+    let response = shown.response.on_hover_text(shows.meaning());
+    response.widget_info(|| WidgetInfo::labeled(Role::ComboBox, true, &name));
+}
+
+/// Draws the end of the row, from the right.
+fn from_right(cx: &mut PaneContext, ui: &mut Ui) {
+    let (shows, pane, workspace) = (cx.shows, cx.pane, &cx.model.workspace);
+    if workspace.layout.panes() > 1 {
+        let name = if workspace.large == Some(pane) { "All views" } else { "Enlarge" };
+        let meaning = format!("View {}: alone, or among the others; a double click does the same.", pane + 1);
+        if ui.small_button(name).on_hover_text(meaning).clicked() {
+            cx.push(ViewAction::Enlarge(pane));
+        }
+    }
+    if shows == Shows::Refraction {
+        refraction_view::choices(&mut cx.flowing, ui);
+    }
+    // A view that is not linked says so among its modes.
+    if shows.is_seen() && workspace.panes[pane].own.is_none() && has_room(ui, 80.0) {
+        let linked = ui.checkbox(&mut true, "Linked");
+        if linked.on_hover_text("Tilts and zooms together with all other linked views.").changed() {
+            cx.push(ViewAction::Link(pane, false));
+        }
+    }
+    if (shows.is_seen() || shows == Shows::TracedPane) && has_room(ui, 64.0) {
+        state(cx, ui);
+    }
+}
+
+/// Draws how good the picture is, in a word or two.
+fn state(cx: &PaneContext, ui: &mut Ui) {
+    let Some(shown) = cx.shown(Which::Present) else { return };
+    let Shown { grade, taken, shot, .. } = shown;
+    let (text, meaning) = match (grade, taken.unresolved) {
+        (Grade::Fine, Some(part)) => {
+            let percent = 100.0 * part;
+            (format!("± {percent:.2} %"), format!("{percent:.3} % of the light is not followed to its end."))
+        }
+        (Grade::Fine, None) => {
+            (String::new(), "How much of the light is not followed to its end is not known.".into())
+        }
+        _ => ("…".to_owned(), "Becoming finer.".to_owned()),
+    };
+    if let Some((reading, meaning)) = reading(shot).filter(|_| has_room(ui, 150.0)) {
+        ui.label(RichText::new(reading).weak().small()).on_hover_text(meaning);
+    }
+    ui.label(RichText::new(text).weak().small()).on_hover_text(format!("By {}. {meaning}", taken.tracer));
+}
+
+/// Returns what a picture in a scope shows of the light where no mode says so, in two words and in a sentence.
+fn reading(shot: &Shot) -> Option<(&'static str, &'static str)> {
+    shot.shows.scoped()?;
+    (!shot.strongest && shot.glare == Glare::LeftOut).then_some((
+        "without glare",
+        "All light that has been inside the stone; what the outer surface reflects is left out.",
+    ))
+}

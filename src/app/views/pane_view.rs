@@ -1,0 +1,71 @@
+//! How a view looks at the stone, and where points of its picture lie in the window.
+
+use crate::math::SolidRef;
+use crate::scene::{Film, View};
+use crate::trace::ray::Camera;
+use egui::{Color32, Pos2, Rect, Stroke, Ui, vec2};
+use glam::{DMat2, DVec2, DVec3};
+
+/// How a view looks at the stone now, and where its picture lies in the window.
+pub struct PaneView {
+    /// The view.
+    pub view: View,
+    /// The film of the picture.
+    pub film: Film,
+    /// The middle of what the view is fitted to, girdle radii from the origin.
+    pub middle: DVec2,
+    /// The picture's place in the window, points.
+    pub body: Rect,
+    /// The pixels per point.
+    pub scale: f32,
+}
+
+impl PaneView {
+    /// Returns the point of the film, in its pixels, under a point of the window.
+    pub fn pixel(&self, at: Pos2) -> DVec2 {
+        let at = (at - self.body.min) * self.scale;
+        DVec2::new(f64::from(at.x), f64::from(at.y))
+    }
+
+    /// Returns the point of the image, girdle radii, under a point of the window.
+    pub fn image(&self, at: Pos2) -> DVec2 {
+        self.film.image_from_pixels(self.pixel(at))
+    }
+
+    /// Returns the point of the window over a point of the image, girdle radii.
+    pub fn point(&self, image: DVec2) -> Pos2 {
+        let pixel = self.film.pixels_from_image(DMat2::IDENTITY).transform_point2(image);
+        self.body.min + vec2(pixel.x as f32, pixel.y as f32) / self.scale
+    }
+
+    /// Returns where a picture that was taken on another film lies in the window.
+    pub fn place(&self, other: &Film) -> Rect {
+        let corner = |pixel| self.point(other.image_from_pixels(pixel));
+        Rect::from_two_pos(corner(DVec2::ZERO), corner(other.size.map(f64::from).into()))
+    }
+
+    /// Outlines a facet of a solid that lies where `place` puts its points.
+    pub fn outline(&self, ui: &Ui, solid: SolidRef, facet: u32, place: impl Fn(DVec3) -> DVec3) {
+        let camera = Camera::reaching(&self.view, 1.0);
+        let painter = ui.painter().with_clip_rect(self.body);
+        let at = |corner| Some(self.point(camera.project(place(corner))?.0));
+        let rim = solid.rim(facet);
+        for stroke in [
+            Stroke::new(3.0, Color32::from_black_alpha(120)),
+            Stroke::new(1.2, Color32::from_white_alpha(220)),
+        ] {
+            for [from, to] in &rim {
+                if let (Some(from), Some(to)) = (at(*from), at(*to)) {
+                    painter.line_segment([from, to], stroke);
+                }
+            }
+        }
+    }
+
+    /// Marks a point of the image.
+    pub fn mark(&self, ui: &Ui, image: DVec2) {
+        let (at, painter) = (self.point(image), ui.painter().with_clip_rect(self.body));
+        painter.circle_stroke(at, 5.0, Stroke::new(3.0, Color32::from_black_alpha(160)));
+        painter.circle_stroke(at, 5.0, Stroke::new(1.5, Color32::WHITE));
+    }
+}

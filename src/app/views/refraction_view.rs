@@ -1,0 +1,42 @@
+//! The view of a refraction map: a background that moves behind the stone. The studio traces the map; the picture through
+//! it is looked up as often as the background moves.
+
+use super::clock::step;
+use super::pane_context::{PaneContext, has_room};
+use crate::app::model::session::Flowing;
+use crate::app::studio::SPAN;
+use egui::{PointerButton, Response, Ui};
+use glam::DVec2;
+
+/// How far the background flows in a second, in parts of the map's plane.
+const FLOW: DVec2 = DVec2::new(0.06, 0.02);
+
+/// Draws the choices over the picture, from the right.
+pub fn choices(flowing: &mut Flowing, ui: &mut Ui) {
+    if has_room(ui, 64.0) {
+        ui.checkbox(&mut flowing.flows, "Flow")
+            .on_hover_text("Lets the background move by itself. Else drag it; with Ctrl the stone tilts.");
+    }
+    if has_room(ui, 64.0) {
+        ui.checkbox(&mut flowing.is_map, "Map").on_hover_text(
+            "Shows the map itself: where on the background the light of each pixel comes from, in 16 by 16 tiles. Blue \
+             tells the tile, red and green the place in it.",
+        );
+    }
+}
+
+/// Whether a drag moves the background, and not the stone.
+pub fn is_held(ui: &Ui) -> bool {
+    ui.input(|i| !i.modifiers.shift && !i.modifiers.command)
+}
+
+/// Moves the background of a view by a drag or by itself.
+pub fn moved(cx: &mut PaneContext, ui: &Ui, response: &Response) {
+    if response.dragged_by(PointerButton::Primary) && is_held(ui) {
+        let by = response.drag_delta() / response.rect.size();
+        cx.flowing.moved += DVec2::new(by.x.into(), by.y.into()) / (SPAN * cx.eye().zoom);
+    }
+    if cx.flowing.flows && !cx.flowing.is_map {
+        cx.flowing.moved += FLOW * step(ui.ctx());
+    }
+}

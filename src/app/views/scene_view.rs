@@ -1,0 +1,142 @@
+//! The view of a stone by light: its pictures, and what pointer and keys do to it.
+
+use super::pane_context::{PaneContext, focus};
+use super::pane_view::PaneView;
+use super::view_menu::attend;
+use super::{copies, eye_hand, refraction_view};
+use crate::app::model::action::ViewAction;
+use crate::app::shows::Shows;
+use crate::app::studio::Which;
+use crate::scene::{ASET_CONE, Backing, Scope};
+use egui::{
+    Align2, Color32, FontId, Rect, Response, Role, Sense, Stroke, StrokeKind, TextStyle, Ui, WidgetInfo, vec2,
+};
+
+/// Draws the view; `size` is that of its picture in pixels.
+pub fn show(cx: &mut PaneContext, ui: &Ui, body: Rect, size: [u32; 2]) {
+    let (model, shows) = (cx.model, cx.shows);
+    let response = ui.interact(body, ui.scope_id().with("picture"), Sense::click_and_drag());
+    let name = format!("{} picture", shows.name());
+    response.widget_info(|| WidgetInfo::labeled(Role::Image, true, &name));
+    let (eye, view) = (cx.eye(), model.workspace.view(cx.pane));
+    let fit = model.fit(shows, &view);
+    let (film, scale) = (eye.film(size, &fit), ui.pixels_per_point());
+    let sight = PaneView { view, film, middle: fit.middle, body, scale };
+    pictures(cx, ui, &sight);
+    let moves_background = shows == Shows::Refraction && refraction_view::is_held(ui);
+    if shows == Shows::Refraction {
+        refraction_view::moved(cx, ui, &response);
+    }
+    if let Some(overlay) = model.workspace.overlay().filter(|_| shows.takes_overlay()) {
+        legend(ui, body, &overlay.legend());
+    }
+    ui.painter().rect_stroke(body, 4.0, focus(ui, &response), StrokeKind::Inside);
+    cx.tools.attention.is_picture_focused |= response.has_focus();
+    if !copies::carried(cx, ui, &response, &sight) {
+        let moved = eye_hand::moved(eye, ui, &response, &sight, moves_background);
+        if moved != eye {
+            cx.push(ViewAction::Eye(cx.pane, moved));
+        }
+    }
+    attend(cx, &response, response.hovered() || response.has_focus());
+    let is_alone = !shows.has_company() || model.is_alone();
+    clicked(cx, ui, is_alone, &response, &sight);
+    match is_alone {
+        true => hover(cx, ui, &response, &sight),
+        false => copies::hover(cx, ui, &response, &sight),
+    }
+}
+
+/// Follows the ray that is clicked, unless it is a double click, and marks the ray that is followed.
+fn clicked(cx: &mut PaneContext, ui: &Ui, is_alone: bool, response: &Response, sight: &PaneView) {
+    if response.double_clicked() {
+        cx.tools.following.unclick();
+    } else if response.clicked() && is_alone {
+        // A click by a key means the middle of the view.
+        let at = sight.image(response.interact_pointer_pos().unwrap_or(sight.body.center()));
+        let specimen = cx.model.document.specimen();
+        if cx.tools.probe.of(specimen).is_on(&sight.view, at) {
+            cx.tools.following.click(cx.pane, at, sight.body, ui.ctx());
+        }
+    }
+    let followed = cx.model.session.followed;
+    if let Some((_, at)) = followed.at.filter(|(pane, _)| followed.is_open && *pane == cx.pane) {
+        sight.mark(ui, at);
+    }
+}
+
+/// Draws the picture of the present design, that of the design compared with, or both.
+fn pictures(cx: &PaneContext, ui: &Ui, sight: &PaneView) {
+    let body = sight.body;
+    ui.painter().rect_filled(body, 4.0, ui.visuals().extreme_bg_color);
+    let draw = |which, clip: Rect| {
+        if let Some(shown) = cx.shown(which) {
+            let painter = ui.painter().with_clip_rect(clip.intersect(ui.clip_rect()));
+            shown.paint(&painter, sight.place(&shown.shot.film));
+        }
+    };
+    match &cx.model.session.compared {
+        Some(_) if cx.model.session.keys.other => draw(Which::Other, body),
+        Some(compared) if cx.model.workspace.is_split => {
+            let (left, right) = body.split_left_right_at_fraction(0.5);
+            draw(Which::Present, left);
+            draw(Which::Other, right);
+            split_marks(ui, body, &compared.name);
+        }
+        _ => draw(Which::Present, body),
+    }
+}
+
+fn small(ui: &Ui) -> FontId {
+    TextStyle::Small.resolve(ui.style())
+}
+
+/// Draws what the colours of an overlay mean along the lower edge, as many entries as there is room for.
+fn legend(ui: &Ui, body: Rect, entries: &[(String, [u8; 3])]) {
+    let painter = ui.painter().with_clip_rect(body);
+    let mut at = body.left_bottom() + vec2(8.0, -22.0);
+    for (text, [r, g, b]) in entries {
+        let galley = painter.layout_no_wrap(text.clone(), small(ui), Color32::WHITE);
+        let size = galley.size() + vec2(22.0, 4.0);
+        if at.x + size.x > body.right() - 6.0 {
+            break;
+        }
+        painter.rect_filled(Rect::from_min_size(at, size), 3.0, Color32::from_black_alpha(170));
+        let chip = Rect::from_min_size(at + vec2(4.0, size.y / 2.0 - 5.0), vec2(10.0, 10.0));
+        painter.rect_filled(chip, 2.0, Color32::from_rgb(*r, *g, *b));
+        painter.galley(at + vec2(18.0, 2.0), galley, Color32::WHITE);
+        at.x += size.x + 4.0;
+    }
+}
+
+/// Draws the line between two designs side by side, and names both.
+fn split_marks(ui: &Ui, body: Rect, other: &str) {
+    let painter = ui.painter();
+    painter.vline(body.center().x, body.y_range(), Stroke::new(1.5, ui.visuals().text_color()));
+    for (text, at, align) in [
+        ("present", body.left_top() + vec2(8.0, 6.0), Align2::LEFT_TOP),
+        (other, body.right_top() + vec2(-8.0, 6.0), Align2::RIGHT_TOP),
+    ] {
+        let galley = painter.layout_no_wrap(text.to_owned(), small(ui), Color32::WHITE);
+        let rect = align.anchor_size(at, galley.size());
+        painter.rect_filled(rect.expand(3.0), 3.0, Color32::from_black_alpha(150));
+        painter.galley(rect.min, galley, Color32::WHITE);
+    }
+}
+
+/// Returns the scope whose zones are named in a view.
+pub fn zones(shows: Shows, head: f64) -> Scope {
+    let aset = || Scope::aset(ASET_CONE, Backing::Black).with_head(head);
+    shows.scoped().map_or_else(aset, |s| if s.takes_head { s.scope.with_head(head) } else { s.scope })
+}
+
+/// Names what is under the pointer in the status line, and outlines its facet.
+fn hover(cx: &mut PaneContext, ui: &Ui, response: &Response, sight: &PaneView) {
+    let Some(at) = response.hover_pos().filter(|_| response.hovered() && !response.dragged()) else { return };
+    let specimen = cx.model.document.specimen();
+    let scope = zones(cx.shows, cx.model.document.work.head);
+    let found = cx.tools.probe.of(specimen).at(&sight.view, &sight.film, sight.pixel(at), &scope);
+    let Some(found) = found else { return };
+    sight.outline(ui, specimen.solid(), found.facet, |corner| corner);
+    cx.tools.attention.message = found.message();
+}

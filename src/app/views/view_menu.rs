@@ -1,0 +1,86 @@
+//! The menu of a view, which the right mouse button opens.
+
+use super::pane_context::PaneContext;
+use crate::app::model::action::{DialogAction, ViewAction};
+use crate::app::model::command::Command;
+use crate::app::shows::Shows;
+use egui::{Response, Ui};
+
+/// The commands that draw something over a picture.
+const OVERLAYS: [Command; 6] = [
+    Command::Wireframe,
+    Command::Facets,
+    Command::Bounces,
+    Command::Unresolved,
+    Command::Total,
+    Command::Strongest,
+];
+
+/// The sizes at which a picture can be copied: pixels along the longer side.
+const SIZES: [u32; 4] = [512, 1024, 2048, 4096];
+
+/// Whether a view can be copied at a chosen size; a picture that is looked up is only as large as its view.
+fn can_copy(cx: &PaneContext) -> bool {
+    let needs_facets = matches!(cx.shows, Shows::Profile | Shows::Diagram);
+    let has_facets = cx.model.document.specimen().stone().is_ok();
+    Shows::EXPORTED.contains(&cx.shows) && (!needs_facets || has_facets)
+}
+
+/// Handles what every view answers to: a double click shows it alone or among the others, the right button opens its menu
+/// (a drag with it turns the stone), and commands act on the view under the pointer.
+pub fn attend(cx: &mut PaneContext, response: &Response, is_hovered: bool) {
+    response.context_menu(|ui| {
+        cx.tools.attention.menu = Some(cx.pane);
+        contents(cx, ui);
+    });
+    if response.double_clicked() {
+        cx.push(ViewAction::Enlarge(cx.pane));
+    }
+    if is_hovered {
+        cx.tools.attention.hovered = Some(cx.pane);
+    }
+}
+
+fn contents(cx: &mut PaneContext, ui: &mut Ui) {
+    let (shows, pane, workspace) = (cx.shows, cx.pane, &cx.model.workspace);
+    ui.menu_button("Show", |ui| {
+        for other in Shows::ALL {
+            let choice = ui.selectable_label(shows == other, other.name());
+            if choice.on_hover_text(other.meaning()).clicked() {
+                cx.push(ViewAction::Show(pane, other));
+                ui.close();
+            }
+        }
+    });
+    if shows.takes_overlay() {
+        ui.menu_button("Draw over it", |ui| OVERLAYS.iter().for_each(|&command| cx.entry(ui, command)));
+    }
+    ui.separator();
+    cx.entry(ui, Command::CopyPicture);
+    if can_copy(cx) {
+        ui.menu_button("Copy picture at size", |ui| sizes(cx, ui));
+    }
+    if Shows::EXPORTED.contains(&shows) && ui.button("Export this view…").clicked() {
+        cx.push(DialogAction::Export(Some(shows)));
+        ui.close();
+    }
+    ui.separator();
+    cx.entry(ui, Command::ResetView);
+    if workspace.layout.panes() > 1 {
+        let name = if workspace.large == Some(pane) { "Show all views" } else { "Show alone" };
+        if ui.button(name).clicked() {
+            cx.push(ViewAction::Enlarge(pane));
+            ui.close();
+        }
+    }
+}
+
+fn sizes(cx: &mut PaneContext, ui: &mut Ui) {
+    for side in SIZES {
+        let about = "Pixels of the longer side; the picture is made anew, and copied once it is done.";
+        if ui.button(format!("{side} pixels")).on_hover_text(about).clicked() {
+            cx.push(ViewAction::CopyAt(cx.pane, side));
+            ui.close();
+        }
+    }
+}
