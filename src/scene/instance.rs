@@ -28,6 +28,11 @@ pub struct Scene {
 }
 
 impl Scene {
+    /// Returns how far the stones reach from the origin.
+    pub fn reach(&self) -> f64 {
+        self.instances.iter().map(|stone| stone.solid().reach()).fold(0.0, f64::max)
+    }
+
     /// Returns the medium of a stone, in the unit of its body. `nm` are the first, the traced and the last wavelength of a
     /// band.
     pub fn medium(&self, stone: &Instance, nm: (f64, f64, f64)) -> Medium {

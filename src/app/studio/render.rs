@@ -158,10 +158,8 @@ pub fn hung(shot: &Shot) -> f64 {
 
 /// Returns the scene that a shot shows.
 pub fn scene_of(shot: &Shot) -> Scene {
-    let placed = |pose: &Pose| {
-        let stone = Instance::of(&shot.specimen.body, shot.specimen.material.clone(), "");
-        Instance { pose: *pose, ..stone }
-    };
+    let placed =
+        |pose: &Pose| Instance::of(&shot.specimen.body, shot.specimen.material.clone(), "").moved(pose);
     Scene { instances: shot.company.iter().map(placed).collect(), unit_mm: shot.specimen.unit_mm() }
 }
 
