@@ -193,8 +193,7 @@ impl<'a> PictureSetup<'a> {
     /// [`Failure::Input`] where the eye of a perspective is not in front of all stones.
     pub fn pixel(&self, setting: &Scene, view: &View) -> Result<f64, Failure> {
         let stones = &setting.instances;
-        let reach = stones.iter().map(|s| s.solid().reach()).fold(0.0, f64::max);
-        let camera = Camera::reaching(view, reach);
+        let camera = Camera::reaching(view, setting.reach());
         let Some(extent) = camera.extent(stones.iter().flat_map(|s| s.solid().vertices())) else {
             let message = "the eye of --perspective is not in front of all of it; move it farther off";
             return Err(Failure::Input(format!("{}: {message}", self.assembly.path)));

@@ -123,11 +123,6 @@ impl ImplicitSurface {
         Self { form, body, wave }
     }
 
-    /// Returns the form of the shape.
-    pub fn form(&self) -> ImplicitForm {
-        self.form
-    }
-
     /// Whether the shape is convex, so that light that has left it never meets it again.
     pub fn is_convex(&self) -> bool {
         self.wave.is_none()
@@ -144,11 +139,6 @@ impl ImplicitSurface {
     /// Returns the value of the function alone; see [`jet`](Self::jet).
     pub fn value(&self, point: DVec3) -> f64 {
         self.jet(point).value
-    }
-
-    /// Returns the gradient of the function, which has length 1 for convex forms.
-    pub fn gradient(&self, point: DVec3) -> DVec3 {
-        self.jet(point).gradient
     }
 
     /// Returns the unit outward normal at a point of the surface; on a sharp edge that of one of its faces.

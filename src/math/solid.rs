@@ -58,7 +58,8 @@ pub struct Ball {
 impl Ball {
     /// Returns a ball around points; its middle is that of the box around them.
     pub fn around(points: &[DVec3]) -> Self {
-        let (low, high) = bounds(points);
+        let start = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+        let (low, high) = points.iter().fold(start, |(low, high), &p| (low.min(p), high.max(p)));
         let middle = (low + high) / 2.0;
         Self { middle, radius: points.iter().map(|p| p.distance(middle)).fold(0.0, f64::max) }
     }
@@ -112,10 +113,7 @@ impl<'a> SolidRef<'a> {
 
     /// Returns the smallest box with sides along the axes that holds the solid, as (least, greatest) coordinates.
     pub fn bounds(self) -> (DVec3, DVec3) {
-        match self {
-            Self::Smooth(_) => PosedSolid { solid: self, pose: Pose::STILL }.bounds(),
-            Self::Convex(_) | Self::Triangles(_) => bounds(self.vertices()),
-        }
+        PosedSolid { solid: self, pose: Pose::STILL }.bounds()
     }
 
     /// Returns the greatest coordinate along a unit direction.
@@ -128,12 +126,12 @@ impl<'a> SolidRef<'a> {
 
     /// Returns a ball around the solid.
     pub fn ball(self) -> Ball {
-        if let Self::Triangles(shell) = self { shell.ball() } else { Ball::around(self.vertices()) }
+        if let Self::Triangles(shell) = self { shell.ball } else { Ball::around(self.vertices()) }
     }
 
     /// Returns the distance of the farthest corner from the origin.
     pub fn reach(self) -> f64 {
-        if let Self::Triangles(shell) = self { shell.reach() } else { reach(self.vertices()) }
+        if let Self::Triangles(shell) = self { shell.reach } else { reach(self.vertices()) }
     }
 
     /// Returns the solid as triangles; those of a smooth solid approximate its surface from within, and `None` means that they
@@ -204,12 +202,6 @@ impl<'a> SolidRef<'a> {
             Self::Smooth(smooth) => smooth.edges(),
         }
     }
-}
-
-/// Returns the smallest box with sides along the axes that holds points, as (least, greatest) coordinates.
-fn bounds(points: &[DVec3]) -> (DVec3, DVec3) {
-    let start = (DVec3::INFINITY, DVec3::NEG_INFINITY);
-    points.iter().fold(start, |(low, high), &p| (low.min(p), high.max(p)))
 }
 
 /// Returns the distance of the farthest point from the origin.

@@ -13,9 +13,9 @@ pub struct TriangleMesh {
     planes: Vec<Plane>,
     bvh: Bvh,
     /// A ball around all corners.
-    ball: Ball,
+    pub(super) ball: Ball,
     /// The distance of the farthest corner from the origin.
-    reach: f64,
+    pub(super) reach: f64,
 }
 
 /// Why triangles enclose no solid.
@@ -113,16 +113,6 @@ impl TriangleMesh {
     /// Returns the plane of each facet; its normal points outward.
     pub fn planes(&self) -> &[Plane] {
         &self.planes
-    }
-
-    /// Returns a ball around the solid.
-    pub fn ball(&self) -> Ball {
-        self.ball
-    }
-
-    /// Returns the distance of the farthest corner from the origin.
-    pub fn reach(&self) -> f64 {
-        self.reach
     }
 
     /// Returns the boxes around the triangles.

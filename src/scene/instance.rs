@@ -35,6 +35,11 @@ impl Scene {
         Self { instances: vec![stone], unit_mm: specimen.unit_mm() }
     }
 
+    /// Returns how far the stones reach from the origin.
+    pub fn reach(&self) -> f64 {
+        self.instances.iter().map(|stone| stone.solid().reach()).fold(0.0, f64::max)
+    }
+
     /// Returns the medium of a stone, in the unit of its body. `nm` are the first, the traced and the last wavelength of a
     /// band.
     pub fn medium(&self, stone: &Instance, nm: (f64, f64, f64)) -> Medium {

@@ -75,9 +75,8 @@ impl Specimen {
     }
 
     fn made(design: Design, body: Body, material: Material) -> Self {
-        let farthest =
-            |far: &dyn Fn(&DVec3) -> f64| body.solid().vertices().iter().map(far).fold(0.0, f64::max);
-        let reach = farthest(&|v| v.truncate().length().max(v.z.abs()));
+        let far = |v: &DVec3| v.truncate().length().max(v.z.abs());
+        let reach = body.solid().vertices().iter().map(far).fold(0.0, f64::max);
         let radius = body.solid().reach();
         Self { design, body: Arc::new(body), material, unusual: vec![], warnings: vec![], reach, radius }
     }

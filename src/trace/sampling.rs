@@ -143,10 +143,3 @@ impl SamplePass {
         (beside.lerp(from, self.strength), between / length, sweep * (self.strength / length))
     }
 }
-
-impl LitScene<'_> {
-    /// Returns how far the stones reach from the origin.
-    pub fn reach(&self) -> f64 {
-        self.scene.instances.iter().map(|stone| stone.solid().reach()).fold(0.0, f64::max)
-    }
-}

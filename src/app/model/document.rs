@@ -357,7 +357,7 @@ mod tests {
         document.work.design.name = " ".to_owned();
         assert!(!document.update() && document.fault().is_some() && !document.shows_last_possible());
         let path = folder.path().join("mine.toml");
-        assert!(document.to_save(path.clone()).unwrap_err().contains("printable") && !path.exists());
+        assert!(document.to_save(path.clone()).unwrap_err().to_string().contains("printable") && !path.exists());
     }
 
     #[test]
@@ -370,7 +370,7 @@ mod tests {
         assert!(document.fault().unwrap().to_string().contains("crown_angle"));
         assert!(Arc::ptr_eq(&stone, document.specimen()) && document.shows_last_possible());
         let path = folder.path().join("mine.toml");
-        assert!(document.to_save(path.clone()).unwrap_err().contains(": Crown angle: ") && !path.exists());
+        assert!(document.to_save(path.clone()).unwrap_err().to_string().contains(": Crown angle: ") && !path.exists());
         document.undo();
         assert!(!document.update() && document.fault().is_none(), "it is the stone that is in sight");
         assert!(Arc::ptr_eq(&stone, document.specimen()) && !document.shows_last_possible());

@@ -103,7 +103,7 @@ mod tests {
         assert!((now.phase - 1.4_f64.to_degrees()).abs() < 1e-9 && poses == [Pose::STILL]);
         assert!(Arc::ptr_eq(&waved, &moving.now(cache, &plate, &company).0), "made once");
         let (still, poses) = moving.now(cache, &cube, &company);
-        assert!(Arc::ptr_eq(&still, &cube) && poses[0].turn.angle_between(DQuat::IDENTITY) > 0.3);
+        assert!(Arc::ptr_eq(&still, &cube) && poses[0].turn.angle_between(glam::DQuat::IDENTITY) > 0.3);
         moving.rest();
         assert_eq!(moving.now(cache, &cube, &company).1, [Pose::STILL]);
         assert!(Arc::ptr_eq(&moving.now(cache, &plate, &company).0, &plate));

@@ -64,10 +64,8 @@ fn scope_quality(effort: &Effort, samples: u32) -> Quality {
 impl Shot {
     /// Returns the scene that a shot shows.
     fn scene(&self) -> Arc<Scene> {
-        let placed = |pose: &Pose| {
-            let stone = Instance::of(&self.specimen.body, self.specimen.material.clone(), "");
-            Instance { pose: *pose, ..stone }
-        };
+        let placed =
+            |pose: &Pose| Instance::of(&self.specimen.body, self.specimen.material.clone(), "").moved(pose);
         let instances = self.company.iter().map(placed).collect();
         Arc::new(Scene { instances, unit_mm: self.specimen.unit_mm() })
     }

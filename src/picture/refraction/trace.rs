@@ -53,7 +53,7 @@ impl RefractionMap {
             environment: Environment { backplate: None, ..lit_scene.environment },
             plane,
             pixels: plane.size / lit_scene.film.pixel,
-            camera: Camera::reaching(lit_scene.view, lit_scene.reach()),
+            camera: Camera::reaching(lit_scene.view, lit_scene.scene.reach()),
             company: SceneTracer::new(lit_scene),
         };
         let looks = |strata, count: u32| -> Vec<(SamplePass, Vec<SceneTracer>)> {

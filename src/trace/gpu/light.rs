@@ -73,7 +73,7 @@ impl<'a> ByCard<'a> {
         let eye = GpuCamera {
             view: lit_scene.view,
             film: lit_scene.film,
-            reach: lit_scene.reach(),
+            reach: lit_scene.scene.reach(),
             options: lit_scene.options,
         };
         let frame = eye.frame(gpu, &solids, wavelengths);

@@ -29,7 +29,7 @@ impl GpuTriangles {
             let (first, first_node) = (all.triangles.len(), all.nodes.len());
             all.triangles.extend(shell.bvh().order().iter().map(|&k| triangle(shell, k as usize)));
             all.nodes.extend(shell.bvh().nodes().iter().map(|n| node(n, first)));
-            all.ranges.push([first_node as u32, (shell.reach() as f32).to_bits(), 0, 0]);
+            all.ranges.push([first_node as u32, (SolidRef::from(shell).reach() as f32).to_bits(), 0, 0]);
         }
         Ok(all)
     }

@@ -4,7 +4,7 @@
 //! runs into, inside only what it runs out of; so it cannot meet the facet again from which it starts.
 
 use super::search::Search;
-use crate::math::{ImplicitSurface, Plane, TriangleMesh};
+use crate::math::{ImplicitSurface, Plane, SolidRef, TriangleMesh};
 use glam::DVec3;
 use std::sync::Arc;
 
@@ -130,7 +130,7 @@ impl FacetSearch for Planes {
 
 impl TriangleFacets {
     pub fn new(shell: &Arc<TriangleMesh>) -> Self {
-        Self { shell: Arc::clone(shell), behind: -BEHIND * shell.reach() }
+        Self { shell: Arc::clone(shell), behind: -BEHIND * SolidRef::from(shell).reach() }
     }
 
     /// Returns the facet and the distance of the first triangle for which `keep` accepts the normal's part along the ray.

@@ -151,7 +151,7 @@ impl<'a> ByRays<'a> {
     pub fn new(lit_scene: LitScene<'a>, rows: Range<u32>) -> Self {
         Self {
             lit_scene,
-            camera: Camera::reaching(lit_scene.view, lit_scene.reach()),
+            camera: Camera::reaching(lit_scene.view, lit_scene.scene.reach()),
             company: SceneTracer::new(&lit_scene),
             sums: vec![RadiancePixel::default(); rows.len() * lit_scene.film.size[0] as usize],
             rows,

@@ -39,7 +39,7 @@ impl<'a> SceneProbe<'a> {
         let medium = |stone: &_| scene.medium(stone, (line::SODIUM_D, line::SODIUM_D, line::SODIUM_D));
         Self {
             lit_scene: *lit_scene,
-            camera: Camera::reaching(lit_scene.view, lit_scene.reach()),
+            camera: Camera::reaching(lit_scene.view, lit_scene.scene.reach()),
             tracers: InstanceTracer::of_all(&scene.instances, lit_scene.options, medium),
         }
     }

@@ -1,6 +1,7 @@
 //! Tests of the editor without a window: what its state becomes by actions, and which tasks come of them.
 
 use super::update;
+use crate::io::Failure;
 use crate::app::model::action::{Computed, DialogAction, Edit, FileAction, FrameEnd, ViewAction};
 use crate::app::model::choosing::{Choice, Purpose};
 use crate::app::model::command::Command;
@@ -231,7 +232,7 @@ fn an_export_writes_what_there_was_when_it_began_and_the_window_waits_for_it() {
     assert!(has(&bench.act(FileAction::Close), stays));
     bench.act(DialogAction::Exported(ExportEvent::Written("a.png".into())));
     assert!(has(&bench.act(DialogAction::Stop), |task| matches!(task, Task::StopExport)));
-    bench.act(DialogAction::Exported(ExportEvent::Ended(Err("stopped".to_owned()))));
+    bench.act(DialogAction::Exported(ExportEvent::Ended(Err(Failure::Stopped))));
     let Some(Dialog::Export(export)) = bench.dialog() else { panic!("it closes by itself") };
     let run = export.run.as_ref().unwrap();
     assert!(run.standing().starts_with("Stopped at 0 %, 1 of") && !export.is_busy());
@@ -295,7 +296,7 @@ fn a_light_is_loaded_once_and_one_that_cannot_be_loaded_leaves_the_last() {
     let is_load = |task: &Task| matches!(task, Task::LoadLight(name) if name == "nowhere");
     assert!(has(&bench.act(Edit::Light("nowhere".to_owned())), is_load));
     assert!(bench.end_frame(false).iter().all(|task| !is_load(task)), "it is being loaded");
-    bench.act(Computed::Light("nowhere".to_owned(), Err("a fault".to_owned())));
+    bench.act(Computed::Light("nowhere".to_owned(), Err(Failure::Input("a fault".to_owned()))));
     assert!(bench.model.session.light.loading.is_none());
     assert!(std::sync::Arc::ptr_eq(&before, &bench.model.session.light.lighting));
     assert!(bench.model.session.notes.troubles()[0].text.starts_with("a fault; "));
@@ -317,7 +318,7 @@ fn a_picture_that_is_not_made_for_the_clipboard_is_reported() {
     bench.act(Computed::Order(Box::new(order)));
     let tasks = bench.act(ViewAction::CopyAt(1, 512));
     assert!(has(&tasks, |task| matches!(task, Task::MakeCopy(request) if request.side == 512)));
-    bench.act(Computed::Copied(Err("no memory".to_owned())));
+    bench.act(Computed::Copied(Err(Failure::Output("no memory".to_owned()))));
     assert_eq!(bench.model.session.notes.troubles()[0].text, "ASET was not copied: no memory");
     assert!(bench.model.session.awaited.copying.is_none());
 }
