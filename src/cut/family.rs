@@ -185,10 +185,10 @@ impl fmt::Debug for Proportion {
     }
 }
 
-/// Rows are the same where they are the same row of the same table.
+/// Rows of one table are the same where their keys are.
 impl PartialEq for Proportion {
     fn eq(&self, other: &Self) -> bool {
-        std::ptr::eq(self, other)
+        self.key == other.key
     }
 }
 
