@@ -90,9 +90,8 @@ fn design(text: &str) -> Result<Design, Fault> {
     let mut table = DeTable::parse(text).map_err(|error| Fault::syntax(text, &error))?;
     check_format(table.get_ref())?;
     let families = FamilyForm::take_all(table.get_mut())?;
-    let beside = FAMILIES.map(|family| family.key);
     let form = DesignForm::deserialize(Deserializer::from(table));
-    form.map_err(|error| Fault::form_beside(error, &beside))?.design(&families)
+    form.map_err(|error| Fault::form_beside(error, &FAMILIES.map(|family| family.key)))?.design(&families)
 }
 
 /// Returns whether the text has a table `[mesh]`, as far as its beginning shows.
