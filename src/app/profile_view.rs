@@ -1,9 +1,9 @@
 //! The stone from the side, with its dimensions on it: a drawing whose handles shape the stone.
 //!
-//! A cut whose family has handles is shaped by them. Each changes one proportion, by pointer or arrow keys, in steps of a tenth (with Shift a
-//! hundredth) of a percent or degree. Of a pair, such as crown angle and height, the one that was held stays held. While a
-//! handle is dragged the drawing keeps its size, so that the handle stays under the pointer; when the handle is released,
-//! the drawing is fitted anew.
+//! A cut whose family has handles is shaped by them. Each changes one proportion, by pointer or arrow keys, in steps of a
+//! tenth (with Shift a hundredth) of a percent or degree. Of a pair, such as crown angle and height, the one that was held
+//! stays held. While a handle is dragged the drawing keeps its size, so that the handle stays under the pointer; when the
+//! handle is released, the drawing is fitted anew.
 
 mod body;
 mod frame;
@@ -48,7 +48,7 @@ impl ProfileView {
         let id = ui.make_persistent_id("profile");
         let mut response = ui.interact(rect, id, Sense::hover());
         response.widget_info(|| WidgetInfo::labeled(Role::Image, ui.is_enabled(), "Profile of the stone"));
-        let measured = MeasuredProfile::new(stone, Some(cut));
+        let measured = MeasuredProfile::new(stone, cut);
         let extent = self.extent(ui, &measured);
         let frame = ProfileFrame::new(ui, id, rect, &measured, extent);
         let offered = frame.offer(ui);

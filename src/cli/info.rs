@@ -125,7 +125,9 @@ fn described(specimen: &LoadedSpecimen) -> Result<Value, Failure> {
         "carats": specimen.carats(),
     });
     if specimen.design.cut.family().is_some() {
-        value["given"] = given(&specimen.design.cut);
+        let number = |value, unit| if unit == Unit::Count { json!(value as i64) } else { json!(value) };
+        let given = specimen.design.cut.given().map(|(row, value)| (row.key, number(value, row.unit)));
+        value["given"] = given.collect();
     }
     if let Cut::RoundBrilliant(brilliant) = &specimen.design.cut {
         let derived = brilliant.derived().map_err(|e| Failure::Input(format!("{}: {e}", specimen.path)))?;
@@ -148,12 +150,6 @@ fn described(specimen: &LoadedSpecimen) -> Result<Value, Failure> {
     let facets = polytope.facets().iter().zip(stone.names());
     value["facets"] = facets.map(|(facet, name)| facet_json(polytope, facet, name)).collect();
     Ok(value)
-}
-
-/// Returns the proportions that a cut gives, under their keys in cut files.
-fn given(cut: &Cut) -> Value {
-    let number = |value, unit| if unit == Unit::Count { json!(value as i64) } else { json!(value) };
-    cut.given().map(|(row, value)| (row.key, number(value, row.unit))).collect()
 }
 
 fn facet_json(polytope: &Polytope, facet: &Facet, name: &str) -> Value {

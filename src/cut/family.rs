@@ -52,7 +52,7 @@ pub struct Proportion {
     pub of: &'static str,
     /// The meaning, in a sentence or two.
     pub meaning: &'static str,
-    /// The least and the greatest usual value, between which its slider runs.
+    /// The least and the greatest usual value, between which its slider runs; of a count all that is possible.
     pub usual: [f64; 2],
     /// The step of the slider; 0 for none.
     pub step: f64,
@@ -185,10 +185,10 @@ impl fmt::Debug for Proportion {
     }
 }
 
-/// Rows are the same where they are the same row of the same table.
+/// Rows of one table are the same where their keys are.
 impl PartialEq for Proportion {
     fn eq(&self, other: &Self) -> bool {
-        std::ptr::eq(self, other)
+        self.key == other.key
     }
 }
 
@@ -219,7 +219,7 @@ impl Proportion {
     pub fn set(&self, cut: &mut Cut, value: f64) {
         let held = self.pair.filter(|_| !(self.is_given)(cut)).and_then(|key| cut.proportion(key));
         let value = match self.unit {
-            Unit::Count => value.round().max(fixed(&self.least)).min(fixed(&self.most)),
+            Unit::Count => value.round().max(self.usual[0]).min(self.usual[1]),
             Unit::Percent | Unit::Degrees => value,
         };
         self.give(cut, value);
@@ -251,17 +251,9 @@ impl Proportion {
     /// Says what a file's value stands for: its unit and what it is a part of, or the range of a count.
     pub fn hint(&self) -> String {
         match self.unit {
-            Unit::Count => format!("{} to {}", fixed(&self.least), fixed(&self.most)),
+            Unit::Count => format!("{} to {}", self.usual[0], self.usual[1]),
             unit => format!("{} {}", unit.name(), self.of),
         }
-    }
-}
-
-/// Returns the value of a fixed bound; NaN where there is none.
-fn fixed(bound: &Option<Bound>) -> f64 {
-    match bound {
-        Some(Bound { at: BoundAt::Fixed(value), .. }) => *value,
-        _ => f64::NAN,
     }
 }
 

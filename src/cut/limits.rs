@@ -17,19 +17,9 @@ impl Cut {
         self.given().try_for_each(|(row, value)| row.check_fixed(value))?;
         let all = self.proportions().iter().filter(|row| (row.is_given)(self));
         for row in all.filter(|row| row.least.is_some() || row.most.is_some()) {
-            row.check((row.get)(self), |at| Some(at.of(self)))?;
+            row.check((row.get)(self), Some(self))?;
         }
         Ok(())
-    }
-}
-
-impl BoundAt {
-    /// Returns where the bound lies for a cut.
-    pub fn of(self, cut: &Cut) -> f64 {
-        match self {
-            Self::Fixed(at) => at,
-            Self::Of(at) => at(cut),
-        }
     }
 }
 
@@ -39,22 +29,18 @@ impl Proportion {
     /// # Errors
     /// The bound crossed, and by how much.
     pub fn check_fixed(&'static self, value: f64) -> Result<(), ProportionError> {
-        self.check(value, |at| match at {
-            BoundAt::Fixed(at) => Some(at),
-            BoundAt::Of(_) => None,
-        })
+        self.check(value, None)
     }
 
-    fn check(
-        &'static self,
-        value: f64,
-        place: impl Fn(BoundAt) -> Option<f64>,
-    ) -> Result<(), ProportionError> {
+    /// Checks a value; without a cut only against the bounds that depend on nothing else.
+    fn check(&'static self, value: f64, cut: Option<&Cut>) -> Result<(), ProportionError> {
         let crossed = |bound: &Option<Bound>, side: f64| {
             let Bound { at, inclusive, reason } = (*bound)?;
-            let limit = place(at)?;
-            let room = side * (value - limit);
-            let is_kept = room > 0.0 || (inclusive && value == limit);
+            let limit = match at {
+                BoundAt::Fixed(at) => at,
+                BoundAt::Of(at) => at(cut?),
+            };
+            let is_kept = side * (value - limit) > 0.0 || (inclusive && value == limit);
             (!is_kept).then_some(Limit { row: self, value, limit, inclusive, reason })
         };
         let too_small = crossed(&self.least, 1.0).map(ProportionError::TooSmall);

@@ -63,13 +63,11 @@ fn girdle(p: &Proportions) -> Option<String> {
 
 /// Says so where the girdle's facets do not share the stone's symmetry.
 fn symmetry(count: u32) -> Option<String> {
-    (!count.is_multiple_of(8)).then(|| {
-        let even = count.div_ceil(8) * 8;
-        format!(
-            "{count} is not a multiple of 8, which breaks the eightfold mirror symmetry and makes tracing slower; {even} \
-             keeps it"
-        )
-    })
+    let even = count.next_multiple_of(8);
+    let text = format!(
+        "{count} is not a multiple of 8, which breaks the eightfold mirror symmetry and makes tracing slower; {even} keeps it"
+    );
+    (count != even).then_some(text)
 }
 
 /// Says so where the culet cuts off the tips of the lower halves.
@@ -77,24 +75,22 @@ fn symmetry(count: u32) -> Option<String> {
 /// The octagon in which it cuts the mains has a corner over each lower-half tip, further out than its flats.
 fn culet(p: &Proportions) -> Option<String> {
     let reach = (1.0 - p.lower) * STAR_AZIMUTH.cos();
-    (p.culet >= reach).then(|| {
-        let (culet, reach) = (given(100.0 * p.culet), rounded(100.0 * reach));
-        format!(
-            "{culet} % reaches the tips of the lower halves at {reach} %, so neighbouring mains no longer touch"
-        )
-    })
+    let [size, tips] = [given(100.0 * p.culet), rounded(100.0 * reach)];
+    let text = format!(
+        "{size} % reaches the tips of the lower halves at {tips} %, so neighbouring mains no longer touch"
+    );
+    (p.culet >= reach).then_some(text)
 }
 
 /// Says so where tips at this distance from the axis, in girdle radii, lie outside one of the girdle's flats.
 fn tips(tip: f64, p: &Proportions) -> Option<String> {
     let azimuths = (0..8).map(|k| STAR_AZIMUTH + f64::from(k) * TAU / 8.0);
     let girdle = azimuths.map(|azimuth| p.girdle_radius(azimuth)).fold(1.0, f64::min);
-    (tip >= girdle).then(|| {
-        let (tip, girdle) = (rounded(100.0 * tip), rounded(100.0 * girdle));
-        format!(
-            "it puts tips at {tip} % of the radius, outside the girdle's flats at {girdle} %, which cut them off"
-        )
-    })
+    let [at, flats] = [tip, girdle].map(|radius| rounded(100.0 * radius));
+    let text = format!(
+        "it puts tips at {at} % of the radius, outside the girdle's flats at {flats} %, which cut them off"
+    );
+    (tip >= girdle).then_some(text)
 }
 
 #[cfg(test)]

@@ -34,7 +34,9 @@ pub fn explain(given: &Cut, last: &Cut, edited: Option<&str>, fault: &Proportion
     }
     // No row alone, when set back, makes a stone.
     let text = format!("{} More than one proportion is out of its limits.", message(fault));
-    RowMessage { row: edited.unwrap_or(fault.row()), text }
+    let own = Some(fault.row()).filter(|row| row.give.is_some());
+    let row = edited.or(own).or(given.proportions().first()).unwrap_or(fault.row());
+    RowMessage { row, text }
 }
 
 /// Whether the proportions make a stone once one of them is set to `value`.
@@ -164,5 +166,11 @@ mod tests {
         culet.set(&mut given, 120.0);
         let said = text(&given, "culet");
         assert!(said.row.key == "culet" && said.text.contains("More than one"), "{}", said.text);
+        // What only follows from others has no row that could show a message.
+        let mut deep = with(brilliant(), "crown_angle", 89.0);
+        brilliant().proportion("pavilion_angle").unwrap().set(&mut deep, 89.0);
+        let fault = deep.check().unwrap_err();
+        assert_eq!(fault.row().key, "total_depth");
+        assert_eq!(explain(&deep, &brilliant().first, None, &fault).row.key, "table");
     }
 }

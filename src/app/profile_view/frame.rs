@@ -33,9 +33,9 @@ pub struct MeasuredProfile<'a> {
 }
 
 impl<'a> MeasuredProfile<'a> {
-    /// Measures a stone by the proportions of its cut where they are known to say all, else by its planes.
-    pub fn new(stone: &'a Stone, cut: Option<&Cut>) -> Self {
-        let cut = cut.filter(|cut| cut.family().is_some() && cut.check().is_ok()).cloned();
+    /// Measures a stone: a round brilliant by its proportions if they are possible, any other stone by its planes.
+    pub fn new(stone: &'a Stone, cut: &Cut) -> Self {
+        let cut = (cut.family().is_some() && cut.check().is_ok()).then(|| cut.clone());
         let brilliant = cut.as_ref().and_then(Cut::brilliant);
         let (basis, dimensions) = match brilliant.and_then(|given| Some((given, given.derived().ok()?))) {
             Some((given, derived)) => (BRILLIANT_BASIS, Dimensions::of_brilliant(given, &derived)),

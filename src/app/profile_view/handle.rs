@@ -3,7 +3,10 @@
 //! Places are in girdle radii in the profile's plane: x to the right of the axis, y up from the girdle's upper edge.
 
 use crate::app::value_grid::ValueGrid;
-use crate::cut::{Cut, ProfileHandle, Proportion};
+use crate::cut::ProfileHandle::{
+    self, CrownSlope, CuletEdge, GirdleLower, GirdleUpper, PavilionSlope, PavilionTip, TableEdge, TableLine,
+};
+use crate::cut::{Cut, Proportion};
 use crate::picture::profile::{Dimensions, Span};
 use egui::CursorIcon;
 use glam::DVec2;
@@ -26,9 +29,9 @@ impl Handle {
     /// Returns the name of the handle.
     pub fn name(self) -> &'static str {
         match self.part {
-            ProfileHandle::TableEdge => "Table edge",
-            ProfileHandle::GirdleUpper => "Girdle, upper edge",
-            ProfileHandle::GirdleLower => "Girdle, lower edge",
+            TableEdge => "Table edge",
+            GirdleUpper => "Girdle, upper edge",
+            GirdleLower => "Girdle, lower edge",
             _ => self.row.name,
         }
     }
@@ -36,54 +39,45 @@ impl Handle {
     /// Returns a hint on how to pull the handle.
     pub fn hint(self) -> &'static str {
         match self.part {
-            ProfileHandle::TableEdge | ProfileHandle::CuletEdge => "drag left or right",
-            ProfileHandle::CrownSlope => "drag to tilt bezels",
-            ProfileHandle::PavilionSlope => "drag to tilt mains",
-            ProfileHandle::PavilionTip => "drag up or down · sideways: culet",
-            ProfileHandle::TableLine | ProfileHandle::GirdleUpper | ProfileHandle::GirdleLower => {
-                "drag up or down"
-            }
+            TableEdge | CuletEdge => "drag left or right",
+            CrownSlope => "drag to tilt bezels",
+            PavilionSlope => "drag to tilt mains",
+            PavilionTip => "drag up or down · sideways: culet",
+            TableLine | GirdleUpper | GirdleLower => "drag up or down",
         }
     }
 
     /// Returns the shape of the pointer over the handle.
     pub fn cursor(self) -> CursorIcon {
         match self.part {
-            ProfileHandle::TableEdge | ProfileHandle::CuletEdge => CursorIcon::ResizeHorizontal,
-            ProfileHandle::CrownSlope => CursorIcon::ResizeNeSw,
-            ProfileHandle::PavilionSlope => CursorIcon::ResizeNwSe,
+            TableEdge | CuletEdge => CursorIcon::ResizeHorizontal,
+            CrownSlope => CursorIcon::ResizeNeSw,
+            PavilionSlope => CursorIcon::ResizeNwSe,
             _ => CursorIcon::ResizeVertical,
         }
     }
 
     /// Whether the handle lies on the crown, so that there is room for a hint below it.
     pub fn is_on_crown(self) -> bool {
-        matches!(self.part, ProfileHandle::TableEdge | ProfileHandle::TableLine | ProfileHandle::CrownSlope)
+        matches!(self.part, TableEdge | TableLine | CrownSlope)
     }
 
     /// Whether the handle's value grows when the handle is moved down.
     pub fn grows_downward(self) -> bool {
-        matches!(
-            self.part,
-            ProfileHandle::GirdleLower | ProfileHandle::PavilionSlope | ProfileHandle::PavilionTip
-        )
+        matches!(self.part, GirdleLower | PavilionSlope | PavilionTip)
     }
 
     /// Returns the place of the handle, in girdle radii; `None` where the stone has no such part.
     pub fn at(self, dimensions: &Dimensions) -> Option<DVec2> {
         let Dimensions { width, total, culet, table, girdle, .. } = dimensions;
         Some(match self.part {
-            ProfileHandle::TableEdge => DVec2::new((*table)?.to, total.from),
-            ProfileHandle::TableLine => DVec2::new(0.0, total.from),
-            ProfileHandle::CrownSlope => {
-                DVec2::new((width.to + (*table)?.to) / 2.0, (total.from + (*girdle)?.from) / 2.0)
-            }
-            ProfileHandle::GirdleUpper => DVec2::new(width.from, (*girdle)?.from),
-            ProfileHandle::GirdleLower => DVec2::new(width.to, (*girdle)?.to),
-            ProfileHandle::PavilionSlope => {
-                DVec2::new((width.to + culet.to) / 2.0, (total.to + (*girdle)?.to) / 2.0)
-            }
-            ProfileHandle::PavilionTip | ProfileHandle::CuletEdge => DVec2::new(culet.to, total.to),
+            TableEdge => DVec2::new((*table)?.to, total.from),
+            TableLine => DVec2::new(0.0, total.from),
+            CrownSlope => DVec2::new((width.to + (*table)?.to) / 2.0, (total.from + (*girdle)?.from) / 2.0),
+            GirdleUpper => DVec2::new(width.from, (*girdle)?.from),
+            GirdleLower => DVec2::new(width.to, (*girdle)?.to),
+            PavilionSlope => DVec2::new((width.to + culet.to) / 2.0, (total.to + (*girdle)?.to) / 2.0),
+            PavilionTip | CuletEdge => DVec2::new(culet.to, total.to),
         })
     }
 
@@ -108,13 +102,13 @@ impl Handle {
         let at = self.at(dimensions)? + travel;
         let percent = percent_of_radius(dimensions);
         Some(match self.part {
-            ProfileHandle::TableLine | ProfileHandle::GirdleUpper => from + percent * travel.y,
-            ProfileHandle::GirdleLower | ProfileHandle::PavilionTip => from - percent * travel.y,
-            ProfileHandle::CrownSlope => (at.y - upper).atan2(width.to - at.x).to_degrees(),
-            ProfileHandle::PavilionSlope => (lower - at.y).atan2(width.to - at.x).to_degrees(),
+            TableLine | GirdleUpper => from + percent * travel.y,
+            GirdleLower | PavilionTip => from - percent * travel.y,
+            CrownSlope => (at.y - upper).atan2(width.to - at.x).to_degrees(),
+            PavilionSlope => (lower - at.y).atan2(width.to - at.x).to_degrees(),
             // A pointed culet can be pulled open to either side.
-            ProfileHandle::CuletEdge if from == 0.0 => 2.0 * percent * travel.x.abs(),
-            ProfileHandle::TableEdge | ProfileHandle::CuletEdge => 2.0 * percent * at.x,
+            CuletEdge if from == 0.0 => 2.0 * percent * travel.x.abs(),
+            TableEdge | CuletEdge => 2.0 * percent * at.x,
         })
     }
 }
@@ -127,7 +121,6 @@ pub fn percent_of_radius(dimensions: &Dimensions) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::super::sight::{ProfileBox, ProfileProjection};
-    use super::ProfileHandle::*;
     use super::*;
     use crate::cut::{Crown, Pavilion, RoundBrilliant, TOLKOWSKY, strategy};
     use egui::{Pos2, Rect, Vec2, vec2};

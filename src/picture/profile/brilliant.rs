@@ -33,7 +33,7 @@ pub(super) fn draw(stone: &Stone, title: &str, given: &RoundBrilliant, derived: 
     drawing.table(2.0);
     drawing.heights();
     drawing.angles(given, derived);
-    drawing.culet(given);
+    drawing.culet();
     drawing.lower_half(given, derived);
     drawing.width("girdle diameter", 3.0);
     let angles = [
@@ -106,13 +106,12 @@ impl Drawing<'_> {
         self.across(self.level(-2.0), ends, Overflow::Left, &text);
     }
 
-    fn culet(&mut self, given: &RoundBrilliant) {
-        let bottom = self.dimensions.total.to;
-        let text = format!("culet {}", percent(given.culet));
+    fn culet(&mut self) {
+        let Dimensions { culet, total: Span { to: bottom, .. }, .. } = self.dimensions;
+        let text = format!("culet {}", percent(culet.percent));
         let y = self.level(-1.0);
-        let culet = given.culet / 100.0;
-        if culet * self.aspect.scale > 1.0 {
-            let ends = [-culet, culet].map(|x| self.at(x, bottom));
+        if culet.to * self.aspect.scale > 1.0 {
+            let ends = [culet.from, culet.to].map(|x| self.at(x, bottom));
             return self.across(y, ends, Overflow::Left, &text);
         }
         let tip = self.at(0.0, bottom) + DVec2::Y * GAP;
