@@ -7,15 +7,13 @@ use crate::app::model::command::Command;
 use crate::app::model::dialog::Then;
 use crate::app::model::motion::Motion;
 use crate::app::model::preset::{Known, PRESETS};
-use crate::app::panels::rows::{
-    ANY, NUMBER, Number, Row, choice_row, control_width, explain, field_width, named, skip_name,
-};
+use crate::app::panels::rows::{ANY, NUMBER, Row, choice_row, control_width, field_width, named, skip_name};
 use crate::app::shows::Shows;
 use crate::app::studio::Smoothing;
 use crate::cut::MaterialRef;
 use crate::optics::{Material, line};
 use crate::scene::MOST_COPIES;
-use egui::{Button, Slider, Ui, vec2};
+use egui::{Button, Ui, vec2};
 use std::ops::RangeInclusive;
 
 /// The range of the newest picture's share in temporal antialiasing.
@@ -53,11 +51,8 @@ pub fn show(model: &Model, actions: &mut Actions, ui: &mut Ui) {
         skip_name(ui);
         let size = vec2(field_width(ui), ui.spacing().interact_size.y);
         let again = Button::new("Lay out").min_size(size);
-        if ui
-            .add_enabled(count > 1, again)
-            .on_hover_text("Lays the copies out anew, as Space does.")
-            .clicked()
-        {
+        let again = ui.add_enabled(count > 1, again);
+        if again.on_hover_text("Lays the copies out anew, as Space does.").clicked() {
             actions.push(Edit::LayOut(count));
         }
     });
@@ -92,29 +87,19 @@ fn view_angle(model: &Model, actions: &mut Actions, ui: &mut Ui) {
     if !workspace.shown().iter().any(|&pane| workspace.panes[pane].is_near) {
         return;
     }
-    let before = 2.0 * (reach / workspace.distance).atan().to_degrees();
-    let mut degrees = before;
+    let degrees = 2.0 * (reach / workspace.distance).atan().to_degrees();
     let meaning = "The angle that views in perspective take in; P looks along parallel rays.";
     let row = Row::new("View angle", meaning, ANGLES);
-    Row { decimals: 1, speed: 0.2, unit: "°", ..row }.show(ui, &mut degrees);
     let distance = |degrees: f64| ViewAction::Distance(reach / (0.5 * degrees).to_radians().tan());
-    actions.push_changed(&before, degrees, distance);
+    Row { decimals: 1, speed: 0.2, unit: "°", ..row }.edit(ui, actions, degrees, distance);
 }
 
 fn copies(before: usize, actions: &mut Actions, ui: &mut Ui) {
-    let mut count = before as f64;
-    let most = MOST_COPIES as f64;
+    let (mut count, most) = (before as f64, MOST_COPIES as f64);
     let meaning = "How many of it renders show. Light that leaves one enters another. Drag one in a render to move it; Space \
         lays all out anew.";
-    ui.horizontal(|ui| {
-        let label = named(ui, "Copies", meaning);
-        ui.spacing_mut().slider_width = control_width(ui);
-        let slider = Slider::new(&mut count, 1.0..=most).step_by(1.0).show_value(false);
-        let slider = ui.add(slider).labelled_by(label.id);
-        explain(ui, slider, meaning);
-        let number = Number { decimals: 0, speed: 0.05, range: ANY, unit: "" };
-        number.show(ui, (NUMBER, label.id), &mut count);
-    });
+    let row = Row::new("Copies", meaning, 1.0..=most);
+    Row { limits: ANY, step: 1.0, decimals: 0, speed: 0.05, ..row }.show(ui, &mut count);
     actions.push_changed(&before, count.round().clamp(1.0, most) as usize, Edit::LayOut);
 }
 

@@ -4,16 +4,12 @@ use crate::app::model::Model;
 use crate::app::model::action::{Actions, Edit};
 use crate::app::model::document::Document;
 use crate::app::model::workspace::PanelSide;
-use crate::app::panels::company_rows;
-use crate::app::panels::glass_rows;
 use crate::app::panels::impossible::{self, RowMessage};
-use crate::app::panels::light_rows;
-use crate::app::panels::mesh_rows;
 use crate::app::panels::proportions::{EXCELLENT_DEPTH, PROPORTIONS, Proportion};
 use crate::app::panels::rows::{ANY, NUMBER, Number, control_width, explain, field_width, named};
-use crate::app::panels::side_panels;
-use crate::app::panels::stone_rows;
-use crate::app::panels::tier_rows;
+use crate::app::panels::{
+    company_rows, glass_rows, light_rows, mesh_rows, side_panels, stone_rows, tier_rows,
+};
 use crate::app::theme;
 use crate::cut::{Cut, Design, DesignError, MaterialRef, RoundBrilliant, Unit};
 use crate::scene::{Copies, SpecimenError};

@@ -24,7 +24,7 @@ enum Source {
     /// A band of the scope.
     Zone(&'static str),
     /// All the light together.
-    Total(fn(&Shares) -> f64),
+    Total(fn(&Figures, &Scope) -> f64),
 }
 
 /// The zones, in the order of the panel.
@@ -48,35 +48,32 @@ pub static ZONES: [Figure; 5] = [
 pub(super) static TOTALS: [Figure; 5] = [
     Figure {
         is_strong: true,
-        ..total(
-            "Light return",
-            "Light from above the horizon that has been inside the stone: what makes it bright. Glare is not in it.",
-            |shares| shares.lit,
-        )
+        ..total("Light return", LIGHT_RETURN, |figures, scope| figures.light_return(scope))
     },
-    total(WITH_GLARE, "Light return, and the glare from above the horizon.", |shares| shares.lit_with_glare),
-    total("Glare", "Light that the outer surface reflects without having been inside.", |shares| {
-        shares.glare
+    total(WITH_GLARE, "Light return, and the glare from above the horizon.", |figures, scope| {
+        figures.light_return(scope) + figures.glare_return(scope)
     }),
-    total("Absorbed", "Light that the stone's colour takes away.", |shares| shares.absorbed),
-    total("Unresolved", "Light that was not followed to its end: by it, figures may be too low.", |shares| {
-        shares.unresolved
+    total("Glare", "Light that the outer surface reflects without having been inside.", |figures, _| {
+        figures.surface.iter().sum()
     }),
+    total("Absorbed", "Light that the stone's colour takes away.", |figures, _| figures.absorbed),
+    total("Unresolved", UNRESOLVED, |figures, _| figures.unresolved),
 ];
 
 /// The one figure of areas that is no zone.
-static UNDECIDED: Figure = total(
-    "Undecided",
-    "Where a stronger exit may hide in what is unresolved, or nothing leaves the stone.",
-    |shares| shares.unresolved,
-);
+static UNDECIDED: Figure = total("Undecided", HIDDEN, |figures, _| figures.strongest_exit_undecided);
+
+const LIGHT_RETURN: &str =
+    "Light from above the horizon that has been inside the stone: what makes it bright. Glare is not in it.";
+const UNRESOLVED: &str = "Light that was not followed to its end: by it, figures may be too low.";
+const HIDDEN: &str = "Where a stronger exit may hide in what is unresolved, or nothing leaves the stone.";
 
 const fn zone(name: &'static str, band: &'static str, meaning: &'static str) -> Figure {
     Figure { name, meaning, is_strong: false, source: Source::Zone(band) }
 }
 
-const fn total(name: &'static str, meaning: &'static str, share: fn(&Shares) -> f64) -> Figure {
-    Figure { name, meaning, is_strong: false, source: Source::Total(share) }
+const fn total(name: &'static str, meaning: &'static str, of: fn(&Figures, &Scope) -> f64) -> Figure {
+    Figure { name, meaning, is_strong: false, source: Source::Total(of) }
 }
 
 impl Figure {
@@ -88,12 +85,17 @@ impl Figure {
         }
     }
 
-    /// Returns the figure, as a part of the stone's outline.
-    fn of(&self, shares: &Shares) -> f64 {
-        match self.source {
-            Source::Zone(band) => shares.band(band),
-            Source::Total(of) => of(shares),
-        }
+    /// Returns the figure, as a part of the stone's outline; 0 for a zone that the scope lacks.
+    fn of(&self, ShownFigures { ask, figures, .. }: &ShownFigures, counting: Counting) -> f64 {
+        let scope = aset(ask.head);
+        let band = match self.source {
+            Source::Total(of) => return of(figures, &scope),
+            Source::Zone(name) => scope.bands.iter().position(|band| band.name == name),
+        };
+        band.map_or(0.0, |band| match counting.by_area {
+            true => figures.strongest_exit_area[band],
+            false => energy(figures, band, counting.glare),
+        })
     }
 }
 
@@ -144,7 +146,6 @@ impl FigureLine {
 /// Returns all figures in the order of the panel: those of zones first.
 pub fn lines(measured: &ShownFigures, other: Option<&ShownFigures>, counting: Counting) -> Vec<FigureLine> {
     let error = other.map_or(0.0, |other| error(measured, other, counting.by_area));
-    let (present, other) = (Shares::of(measured, counting), other.map(|other| Shares::of(other, counting)));
     let totals = if counting.by_area { std::slice::from_ref(&UNDECIDED) } else { &TOTALS };
     let is_shown = |figure: &&Figure| match figure.name {
         HEAD => measured.ask.head > 0.0,
@@ -153,8 +154,8 @@ pub fn lines(measured: &ShownFigures, other: Option<&ShownFigures>, counting: Co
     };
     let line = |figure: &'static Figure| FigureLine {
         figure,
-        share: figure.of(&present),
-        other: other.as_ref().map(|other| figure.of(other)),
+        share: figure.of(measured, counting),
+        other: other.map(|other| figure.of(other, counting)),
         error,
     };
     ZONES.iter().chain(totals).filter(is_shown).map(line).collect()
@@ -171,46 +172,12 @@ fn error(present: &ShownFigures, other: &ShownFigures, by_area: bool) -> f64 {
     if both.iter().all(|measured| measured.grade == Grade::Fine) {
         return 0.0;
     }
-    let unresolved = both.map(|measured| unresolved(&measured.figures, by_area));
+    let unresolved = both.map(|ShownFigures { figures, .. }| match by_area {
+        true => figures.strongest_exit_undecided,
+        false => figures.unresolved,
+    });
     let sampled = SIGMAS * (present.figures.standard_error + other.figures.standard_error);
     unresolved[0].max(unresolved[1]) + sampled
-}
-
-fn unresolved(figures: &Figures, by_area: bool) -> f64 {
-    if by_area { figures.strongest_exit_undecided } else { figures.unresolved }
-}
-
-/// What figures are read from, as shares of the outline.
-struct Shares {
-    bands: Vec<(String, f64)>,
-    glare: f64,
-    absorbed: f64,
-    unresolved: f64,
-    /// Light from above the horizon that has been inside the stone, but for what the head shuts out.
-    lit: f64,
-    /// The same, with glare.
-    lit_with_glare: f64,
-}
-
-impl Shares {
-    fn of(ShownFigures { ask, figures, .. }: &ShownFigures, Counting { by_area, glare }: Counting) -> Self {
-        let scope = aset(ask.head);
-        let share =
-            |k: usize| if by_area { figures.strongest_exit_area[k] } else { energy(figures, k, glare) };
-        let lit = figures.light_return(&scope);
-        Self {
-            bands: scope.bands.iter().enumerate().map(|(k, band)| (band.name.clone(), share(k))).collect(),
-            glare: figures.surface.iter().sum(),
-            absorbed: figures.absorbed,
-            unresolved: unresolved(figures, by_area),
-            lit,
-            lit_with_glare: lit + figures.glare_return(&scope),
-        }
-    }
-
-    fn band(&self, name: &str) -> f64 {
-        self.bands.iter().find(|(n, _)| n == name).map_or(0.0, |(_, share)| *share)
-    }
 }
 
 /// Returns the common ASET with an observer's head of a half angle in degrees; 0 for none.

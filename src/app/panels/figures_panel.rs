@@ -4,10 +4,8 @@ use crate::app::model::Model;
 use crate::app::model::action::{Actions, NoteAction, ViewAction};
 use crate::app::model::workspace::{PanelSide, Workspace};
 use crate::app::panels::figure_lines::{Counting, Figure, FigureLine, energy, lines, zones};
-use crate::app::panels::figures_text;
-use crate::app::panels::pane_rows;
 use crate::app::panels::rows::explain;
-use crate::app::panels::side_panels;
+use crate::app::panels::{figures_text, pane_rows, side_panels};
 use crate::app::studio::{Tilts, Which};
 use crate::app::theme;
 use crate::scene::Glare;
@@ -63,45 +61,19 @@ fn against_tilt(model: &Model, ui: &mut Ui) {
     }
 }
 
-/// A menu entry that copies figures.
-struct CopyEntry<'a> {
-    name: &'a str,
-    meaning: &'a str,
-    is_possible: bool,
-    text: &'a dyn Fn() -> Option<String>,
-}
-
 /// Draws the menu entries that copy the figures.
 fn copies(model: &Model, actions: &mut Actions, ui: &mut Ui) {
-    let measured = &model.session.measured;
-    let has_figures = measured.figures.contains_key(&Which::Present);
-    let entries = [
-        CopyEntry {
-            name: "Copy as text",
-            meaning: "The figures as they are shown, a line each.",
-            is_possible: has_figures,
-            text: &|| figures_text::shown(model, false),
-        },
-        CopyEntry {
-            name: "Copy as CSV",
-            meaning: "A table for spreadsheets: energy and area of every figure, in percent.",
-            is_possible: has_figures,
-            text: &|| figures_text::shown(model, true),
-        },
-        CopyEntry {
-            name: "Copy tilts as CSV",
-            meaning: "A table for spreadsheets: the zones' energy at each tilt, in percent.",
-            is_possible: measured.tilts.is_some(),
-            text: &|| {
-                let (ask, tilts) = measured.tilts.as_ref()?;
-                Some(figures_text::tilts(ask.head, model.workspace.glare(), tilts))
-            },
-        },
-    ];
-    for CopyEntry { name, meaning, is_possible, text } in entries {
-        if ui.add_enabled(is_possible, Button::new(name)).on_hover_text(meaning).clicked()
-            && let Some(text) = text()
-        {
+    let tilts = model.session.measured.tilts.as_ref();
+    let tilts = tilts.map(|(ask, tilts)| figures_text::tilts(ask.head, model.workspace.glare(), tilts));
+    let all = "A table for spreadsheets: energy and area of every figure, in percent.";
+    let zones = "A table for spreadsheets: the zones' energy at each tilt, in percent.";
+    for (name, meaning, text) in [
+        ("Copy as text", "The figures as they are shown, a line each.", figures_text::shown(model, false)),
+        ("Copy as CSV", all, figures_text::shown(model, true)),
+        ("Copy tilts as CSV", zones, tilts),
+    ] {
+        let entry = ui.add_enabled(text.is_some(), Button::new(name)).on_hover_text(meaning);
+        if let Some(text) = text.filter(|_| entry.clicked()) {
             ui.ctx().copy_text(text);
             actions.push(NoteAction::Say("Figures copied".to_owned()));
             ui.close();
@@ -153,21 +125,18 @@ fn row(ui: &mut Ui, row: &FigureLine) {
         let x = bar.left() + bar.width() * other.clamp(0.0, 1.0) as f32;
         ui.painter().vline(x, bar.y_range().expand(3.0), egui::Stroke::new(2.0, ui.visuals().text_color()));
     }
-    let text = |ui: &mut Ui, text: String| {
-        let text = RichText::new(text);
-        ui.label(if is_strong { text.strong() } else { text })
-    };
-    let mut left =
-        ui.new_child(egui::UiBuilder::new().max_rect(rect).layout(Layout::left_to_right(Align::Center)));
-    text(&mut left, name.to_owned());
-    let mut right =
-        ui.new_child(egui::UiBuilder::new().max_rect(rect).layout(Layout::right_to_left(Align::Center)));
     let number = match (row.other, row.difference()) {
         (None, _) => format!("{percent:.2} %"),
         (Some(_), Some(difference)) => format!("{percent:.1} ({:+.1})", 100.0 * difference),
         (Some(_), None) => format!("{percent:.1} (…)"),
     };
-    text(&mut right, number);
+    for (text, layout) in
+        [(name, Layout::left_to_right(Align::Center)), (&number, Layout::right_to_left(Align::Center))]
+    {
+        let text = RichText::new(text);
+        let place = egui::UiBuilder::new().max_rect(rect).layout(layout);
+        ui.new_child(place).label(if is_strong { text.strong() } else { text });
+    }
     // The explanation covers the whole row, the words too.
     let over = ui.interact(rect, response.id.with("row"), Sense::hover());
     explain(ui, over, meaning);

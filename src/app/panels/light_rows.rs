@@ -26,11 +26,9 @@ const STRENGTHS: RangeInclusive<f64> = 0.0..=1.0;
 pub fn show(model: &Model, actions: &mut Actions, ui: &mut Ui) {
     let (work, workspace) = (&model.document.work, &model.workspace);
     light_row(&work.light, actions, ui);
-    let mut stops = work.exposure;
     let meaning = "How bright renders are shown, in stops: one more is twice the light.";
     let exposure = Row { step: 0.1, decimals: 1, unit: " stops", ..Row::new("Exposure", meaning, STOPS) };
-    exposure.show(ui, &mut stops);
-    actions.push_changed(&work.exposure, stops, Edit::Exposure);
+    exposure.edit(ui, actions, work.exposure, Edit::Exposure);
     let mut count = workspace.wavelengths;
     let meaning = "Into how many bands of wavelengths renders take light apart; few show as bands in the colours. Hold Z \
         to see what three show.";
@@ -42,11 +40,9 @@ pub fn show(model: &Model, actions: &mut Actions, ui: &mut Ui) {
     if workspace.behind.is_some() {
         behind_how(workspace, model.document.specimen().unit_mm(), actions, ui);
     }
-    let mut degrees = work.head;
     let meaning = "Half angle of the observer's head, which shuts out light in ASET and figures; 0 for none.";
     let head = Row { step: 0.1, decimals: 1, unit: "°", ..Row::new("Head", meaning, HEADS) };
-    head.show(ui, &mut degrees);
-    actions.push_changed(&work.head, degrees, Edit::Head);
+    head.edit(ui, actions, work.head, Edit::Head);
 }
 
 /// Returns the name of a file without its folders; the name of what is no file as it is.
@@ -92,17 +88,14 @@ fn behind(workspace: &Workspace, actions: &mut Actions, ui: &mut Ui) {
 /// Draws the rows for how the backplate is seen: its distance, and the strength of refraction.
 fn behind_how(workspace: &Workspace, unit_mm: f64, actions: &mut Actions, ui: &mut Ui) {
     if workspace.behind.as_deref() != Some("light") {
-        let before = workspace.behind_mm.unwrap_or(BEHIND * unit_mm);
-        let mut mm = before;
+        let mm = workspace.behind_mm.unwrap_or(BEHIND * unit_mm);
         let about = "How far behind the middle it hangs; never nearer than the stones reach.";
         let row = Row::new("Distance", about, 0.0..=20.0 * unit_mm);
-        Row { limits: 0.0..=f64::INFINITY, step: 0.1, decimals: 1, unit: " mm", ..row }.show(ui, &mut mm);
-        actions.push_changed(&before, mm, ViewAction::BehindMm);
+        let row = Row { limits: 0.0..=f64::INFINITY, step: 0.1, decimals: 1, unit: " mm", ..row };
+        row.edit(ui, actions, mm, ViewAction::BehindMm);
     }
-    let mut strength = workspace.strength;
     let meaning = "How much of the way that refraction turns light is followed: 1 is physics, less a mixture with the \
         straight ray, for its looks.";
     let row = Row::new("Strength", meaning, STRENGTHS);
-    Row { step: 0.005, decimals: 3, ..row }.show(ui, &mut strength);
-    actions.push_changed(&workspace.strength, strength, ViewAction::Strength);
+    Row { step: 0.005, decimals: 3, ..row }.edit(ui, actions, workspace.strength, ViewAction::Strength);
 }

@@ -4,6 +4,7 @@
 //! ([`control_width`]); the number, [`NUMBER`] wide; and room for a small button such as a padlock, which rows without one
 //! leave empty. Fields without a slider fill the columns of control and number ([`field_width`]).
 
+use crate::app::model::action::{Action, Actions};
 use egui::emath::format_with_decimals_in_range;
 use egui::{
     Color32, ComboBox, DragValue, Label, Rect, RectAlign, Response, RichText, Slider, SliderClamping,
@@ -92,6 +93,19 @@ impl<'a> Row<'a> {
             explain(ui, slider, meaning);
             Number { decimals, speed, range: limits, unit }.show(ui, (NUMBER, label.id), value);
         });
+    }
+
+    /// Draws the row for a number of the model, and pushes the action that sets it where the user has changed it.
+    pub fn edit<A: Into<Action>>(
+        self,
+        ui: &mut Ui,
+        actions: &mut Actions,
+        before: f64,
+        set: impl FnOnce(f64) -> A,
+    ) {
+        let mut now = before;
+        self.show(ui, &mut now);
+        actions.push_changed(&before, now, set);
     }
 }
 

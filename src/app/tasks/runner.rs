@@ -8,9 +8,9 @@ use crate::app::studio::Wake;
 use std::collections::HashMap;
 use std::hash::Hash;
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, Sender, channel};
+use std::sync::{Arc, Mutex, PoisonError};
 
 /// How a job follows another with the same key.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -39,7 +39,14 @@ impl<A> JobHandle<A> {
     }
 }
 
-type Job<A> = Box<dyn FnOnce(&JobHandle<A>) + Send>;
+type Work<A> = Box<dyn FnOnce(&JobHandle<A>) + Send>;
+
+/// A job that has not begun.
+struct Job<A> {
+    number: u64,
+    stop: Arc<AtomicBool>,
+    work: Work<A>,
+}
 
 /// A message of a job: an answer, or `None` for its end.
 struct Message<K, A> {
@@ -50,15 +57,29 @@ struct Message<K, A> {
 
 /// The jobs with one key.
 struct Lane<A> {
-    /// The number of the last job that was begun.
+    turn: Turn,
+    /// The number of the newest job.
     number: u64,
     stop: Arc<AtomicBool>,
+    /// How many jobs have not ended, as far as their messages have been read.
+    pending: usize,
+    queue: Arc<Mutex<Queue<A>>>,
+}
+
+/// What the thread of a lane and the runner share.
+struct Queue<A> {
     is_running: bool,
-    turn: Turn,
     waiting: Option<Job<A>>,
 }
 
-/// Runs jobs in the background, each on a thread of its own.
+impl<A> Default for Lane<A> {
+    fn default() -> Self {
+        let queue = Arc::new(Mutex::new(Queue { is_running: false, waiting: None }));
+        Self { turn: Turn::AtOnce, number: 0, stop: Arc::default(), pending: 0, queue }
+    }
+}
+
+/// Runs jobs in the background.
 pub struct TaskRunner<K, A> {
     lanes: HashMap<K, Lane<A>>,
     sender: Sender<Message<K, A>>,
@@ -81,45 +102,32 @@ impl<K: Copy + Eq + Hash + Send + Sync + 'static, A: Send + 'static> TaskRunner<
         failed: impl FnOnce() -> Option<A> + Send + 'static,
         job: impl FnOnce(&JobHandle<A>) + Send + 'static,
     ) {
-        let job: Job<A> = Box::new(move |handle| {
+        let work: Work<A> = Box::new(move |handle| {
             if catch_unwind(AssertUnwindSafe(|| job(handle))).is_err() {
                 failed().into_iter().for_each(|answer| handle.send(answer));
             }
         });
-        let lane = self.lanes.entry(key).or_insert_with(|| Lane {
-            number: 0,
-            stop: Arc::default(),
-            is_running: false,
-            turn,
-            waiting: None,
-        });
+        let lane = self.lanes.entry(key).or_default();
         lane.turn = turn;
-        if lane.is_running && turn == Turn::After {
-            lane.waiting = Some(job);
-        } else {
-            self.begin(key, job);
-        }
-    }
-
-    fn begin(&mut self, key: K, job: Job<A>) {
-        let Some(lane) = self.lanes.get_mut(&key) else { return };
-        lane.stop.store(true, Ordering::Relaxed);
-        lane.stop = Arc::default();
         lane.number += 1;
-        lane.is_running = true;
-        let (number, stop) = (lane.number, Arc::clone(&lane.stop));
+        lane.pending += 1;
+        if turn == Turn::AtOnce {
+            lane.stop.store(true, Ordering::Relaxed);
+        }
+        lane.stop = Arc::default();
+        let job = Job { number: lane.number, stop: Arc::clone(&lane.stop), work };
+        if turn == Turn::After {
+            let mut queue = lane.queue.lock().unwrap_or_else(PoisonError::into_inner);
+            if queue.is_running {
+                // The job that waited until now is dropped, and sends no end.
+                lane.pending -= usize::from(queue.waiting.replace(job).is_some());
+                return;
+            }
+            queue.is_running = true;
+        }
+        let queue = (turn == Turn::After).then(|| Arc::clone(&lane.queue));
         let (sender, wake) = (self.sender.clone(), Arc::clone(&self.wake));
-        std::thread::spawn(move || {
-            // Nobody listens once the window is closed.
-            let send = move |answer| {
-                let _ = sender.send(Message { key, number, answer });
-                wake();
-            };
-            let send = Arc::new(send);
-            let told = Arc::clone(&send);
-            job(&JobHandle { answers: Box::new(move |answer| told(Some(answer))), stop });
-            send(None);
-        });
+        std::thread::spawn(move || work_off(key, job, queue.as_deref(), &sender, &wake));
     }
 
     /// Asks the job with this key to stop; it still answers.
@@ -131,32 +139,30 @@ impl<K: Copy + Eq + Hash + Send + Sync + 'static, A: Send + 'static> TaskRunner<
 
     /// Returns the answers that have arrived since the last call.
     pub fn answers(&mut self) -> Vec<A> {
-        let mut answers = vec![];
-        while let Ok(message) = self.messages.try_recv() {
-            answers.extend(self.take(message));
-        }
-        answers
+        let messages: Vec<_> = self.messages.try_iter().collect();
+        messages.into_iter().filter_map(|message| self.take(message)).collect()
     }
 
-    /// Takes a message: returns its answer where it is still wanted, and begins the job that waited for its end.
+    /// Takes a message; returns its answer where it is still wanted.
     fn take(&mut self, message: Message<K, A>) -> Option<A> {
-        let lane = self.lanes.get_mut(&message.key).filter(|lane| lane.number == message.number)?;
-        if message.answer.is_none() {
-            lane.is_running = false;
-            if let Some(job) = lane.waiting.take() {
-                self.begin(message.key, job);
-            }
+        let lane = self.lanes.get_mut(&message.key)?;
+        lane.pending -= usize::from(message.answer.is_none());
+        message.answer.filter(|_| lane.turn == Turn::After || lane.number == message.number)
+    }
+
+    /// Whether a job is running whose key is meant.
+    pub fn is_running(&self, is_meant: impl Fn(&K) -> bool) -> bool {
+        self.lanes.iter().any(|(key, lane)| lane.pending > 0 && is_meant(key))
+    }
+
+    /// Waits until everything that was to be written is written.
+    pub fn finish(&mut self) {
+        let is_writing = |lane: &Lane<A>| lane.pending > 0 && lane.turn == Turn::After;
+        while self.lanes.values().any(is_writing)
+            && let Ok(message) = self.messages.recv()
+        {
+            self.take(message);
         }
-        message.answer
-    }
-
-    /// Whether a job is running whose key `has_key` accepts.
-    pub fn is_running(&self, has_key: impl Fn(&K) -> bool) -> bool {
-        self.lanes.iter().any(|(key, lane)| lane.is_running && has_key(key))
-    }
-
-    fn is_writing(&self) -> bool {
-        self.lanes.values().any(|lane| lane.is_running && lane.turn == Turn::After)
     }
 }
 
@@ -166,14 +172,30 @@ impl<K, A> Drop for TaskRunner<K, A> {
     }
 }
 
-impl<K: Copy + Eq + Hash + Send + Sync + 'static, A: Send + 'static> TaskRunner<K, A> {
-    /// Waits until everything that was to be written is written.
-    pub fn finish(&mut self) {
-        while self.is_writing()
-            && let Ok(message) = self.messages.recv()
-        {
-            self.take(message);
-        }
+/// Does a job, and those that wait for it in a queue.
+fn work_off<K: Copy + Send + Sync + 'static, A: Send + 'static>(
+    key: K,
+    first: Job<A>,
+    queue: Option<&Mutex<Queue<A>>>,
+    sender: &Sender<Message<K, A>>,
+    wake: &Wake,
+) {
+    let mut next = Some(first);
+    while let Some(Job { number, stop, work }) = next {
+        let (sender, wake) = (sender.clone(), Arc::clone(wake));
+        let send = Arc::new(move |answer| {
+            // Nobody listens once the window is closed.
+            let _ = sender.send(Message { key, number, answer });
+            wake();
+        });
+        let answers = Arc::clone(&send);
+        work(&JobHandle { answers: Box::new(move |answer| answers(Some(answer))), stop });
+        next = queue.and_then(|queue| {
+            let mut queue = queue.lock().unwrap_or_else(PoisonError::into_inner);
+            queue.is_running = queue.waiting.is_some();
+            queue.waiting.take()
+        });
+        send(None);
     }
 }
 
