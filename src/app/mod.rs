@@ -21,8 +21,8 @@ mod tasks;
 mod theme;
 mod trouble_bar;
 mod urgency;
-mod views;
 mod value_grid;
+mod views;
 mod window;
 
 pub use editor::Editor;

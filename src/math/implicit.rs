@@ -123,6 +123,11 @@ impl ImplicitSurface {
         Self { form, body, wave }
     }
 
+    /// Returns the form of the shape.
+    pub fn form(&self) -> ImplicitForm {
+        self.form
+    }
+
     /// Whether the shape is convex, so that light that has left it never meets it again.
     pub fn is_convex(&self) -> bool {
         self.wave.is_none()

@@ -1,12 +1,12 @@
 //! The export dialog, which writes files.
 
-use crate::io::Failure;
 use crate::app::model::action::{Actions, DialogAction, FileAction};
 use crate::app::model::choosing::Purpose;
 use crate::app::model::export::Selection;
 use crate::app::model::exporting::{ExportForm, ExportRun};
 use crate::app::shows::Shows;
 use crate::app::theme;
+use crate::io::Failure;
 use crate::io::export::OutputFormat;
 use crate::io::refraction_map::{MOST_BANDS, MOST_PLACES};
 use egui::{

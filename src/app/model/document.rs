@@ -2,10 +2,10 @@
 
 use super::extent::Extent;
 use super::history::History;
+use super::impossible;
 use super::recovery::RecoveredWork;
 use super::saving::{SaveRequest, SavedDesign, Stamp};
 use super::work::{ReadMesh, Work};
-use super::impossible;
 use crate::cut::{Cut, Design};
 use crate::io::design_file::{self, ImportedDesign};
 use crate::io::mesh_options::MeshOptions;
@@ -134,7 +134,8 @@ impl Document {
     /// # Errors
     /// Fails where the design makes no stone; the text says why.
     pub fn recovered(found: &RecoveredWork) -> Result<Self, Failure> {
-        let mut document = Self::new(found.design.clone(), found.path.clone()).map_err(|e| Failure::Input(e.to_string()))?;
+        let mut document =
+            Self::new(found.design.clone(), found.path.clone()).map_err(|e| Failure::Input(e.to_string()))?;
         document.work.mesh.clone_from(&found.mesh);
         document.history = History::new(document.work.clone());
         document.saved =
@@ -357,7 +358,9 @@ mod tests {
         document.work.design.name = " ".to_owned();
         assert!(!document.update() && document.fault().is_some() && !document.shows_last_possible());
         let path = folder.path().join("mine.toml");
-        assert!(document.to_save(path.clone()).unwrap_err().to_string().contains("printable") && !path.exists());
+        assert!(
+            document.to_save(path.clone()).unwrap_err().to_string().contains("printable") && !path.exists()
+        );
     }
 
     #[test]
@@ -370,7 +373,10 @@ mod tests {
         assert!(document.fault().unwrap().to_string().contains("crown_angle"));
         assert!(Arc::ptr_eq(&stone, document.specimen()) && document.shows_last_possible());
         let path = folder.path().join("mine.toml");
-        assert!(document.to_save(path.clone()).unwrap_err().to_string().contains(": Crown angle: ") && !path.exists());
+        assert!(
+            document.to_save(path.clone()).unwrap_err().to_string().contains(": Crown angle: ")
+                && !path.exists()
+        );
         document.undo();
         assert!(!document.update() && document.fault().is_none(), "it is the stone that is in sight");
         assert!(Arc::ptr_eq(&stone, document.specimen()) && !document.shows_last_possible());

@@ -3,9 +3,9 @@
 use super::framing::{Framing, FramingFit};
 use crate::app::shows::Shows;
 use crate::app::studio::Shot;
+use crate::io::Failure;
 use crate::io::export::{Export, OutputFormat, Outputs, Viewing};
 use crate::io::refraction_map::{self, Coding, MOST_BANDS, MOST_PIXELS};
-use crate::io::Failure;
 use crate::optics::line;
 use crate::picture::named;
 use crate::render::{Renderer, Wanted};

@@ -1,9 +1,9 @@
 //! The export dialog: what is chosen in it, and how far the files have come.
 
 use super::export::ExportPlan;
+use crate::io::Failure;
 use std::path::PathBuf;
 use std::time::Duration;
-use crate::io::Failure;
 
 /// The state of the export dialog.
 #[derive(Debug, Clone)]

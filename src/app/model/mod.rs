@@ -38,8 +38,8 @@ pub use task::Task;
 pub use update::update;
 
 use crate::app::shows::Shows;
-use crate::scene::{Copies, Specimen, View};
 use crate::io::Failure;
+use crate::scene::{Copies, Specimen, View};
 use document::Document;
 use framing::FramingFit;
 use session::Session;

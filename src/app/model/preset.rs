@@ -96,9 +96,9 @@ fn design(cut: &str, folder: Option<&Path>) -> Result<Design, Failure> {
     match (beside, library::cut(cut)) {
         (Some(path), _) => Ok(design_file::read(&path)?.design),
         (None, Some(text)) => Ok(cut_file::parse(text, cut)?),
-        (None, None) => {
-            Err(Failure::Input(format!("there is no file '{cut}', and no cut of that name comes with the program")))
-        }
+        (None, None) => Err(Failure::Input(format!(
+            "there is no file '{cut}', and no cut of that name comes with the program"
+        ))),
     }
 }
 

@@ -2,10 +2,10 @@
 
 use crate::app::model::task::{CopyOriginal, CopyRequest};
 use crate::app::studio::{Effort, FINE_RENDER, ShotTracer, Which};
+use crate::io::Failure;
 use crate::io::rasterize;
 use crate::picture::profile;
 use crate::scene::Specimen;
-use crate::io::Failure;
 use egui::ColorImage;
 use std::ops::ControlFlow;
 

@@ -114,8 +114,7 @@ impl ExportPlan {
         );
         refraction_map::write_places(maps, &map, Coding::Tiles, &told)?;
         refraction_map::write_diffuse(diffuse, &map, &told)?;
-        let behind =
-            self.shot.behind.as_ref().map(BackgroundRef::bytes).transpose()?;
+        let behind = self.shot.behind.as_ref().map(BackgroundRef::bytes).transpose()?;
         let background = behind.flatten().filter(|bytes| takes(bytes));
         let ground = self.shot.behind.as_ref().map_or_else(String::new, BackgroundRef::title);
         let background = background.as_deref().map(|bytes| (ground.as_str(), bytes));

@@ -4,8 +4,8 @@
 use super::lookup::{Lookup, LookupRequest};
 use super::runner::Turn;
 use super::{FAULT, Key, Outside, TaskAnswer};
-use crate::io::Failure;
 use crate::app::studio::Slot;
+use crate::io::Failure;
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex, PoisonError};
 

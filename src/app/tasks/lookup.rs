@@ -2,11 +2,11 @@
 
 use crate::app::lookup::as_screens;
 use crate::app::studio::{Grade, SPAN, Shot, TakenPicture};
+use crate::io::Failure;
 use crate::io::background::BackgroundRef;
 use crate::picture::pane::{filling, pane};
 use crate::picture::{Linear, RefractionMap, refract};
 use crate::scene::Panorama;
-use crate::io::Failure;
 use glam::DVec2;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 use std::sync::{Arc, OnceLock};

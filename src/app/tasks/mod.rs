@@ -21,8 +21,8 @@ use crate::app::model::opening::FileRequest;
 use crate::app::model::{Action, Task};
 use crate::app::shows::Shows;
 use crate::app::studio::{Slot, TakenPicture, Wake};
-use crate::io::lighting::Lighting;
 use crate::io::Failure;
+use crate::io::lighting::Lighting;
 use autosave::Autosave;
 use egui::ColorImage;
 use files::Chooser;
@@ -187,8 +187,11 @@ impl Outside {
             Task::StopThumbnails => self.runner.stop(Key::Thumbnails),
             Task::StopExport => self.runner.stop(Key::Export),
             Task::MakeCopy(request) => {
-                let failed =
-                    || TaskAnswer::Copied(Err(Failure::Output("making the picture failed; try another size".to_owned())));
+                let failed = || {
+                    TaskAnswer::Copied(Err(Failure::Output(
+                        "making the picture failed; try another size".to_owned(),
+                    )))
+                };
                 self.run(Key::Copy, failed, move |job| {
                     TaskAnswer::Copied(copying::make(&request, &|| job.is_stopped()))
                 });

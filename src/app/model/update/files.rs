@@ -11,9 +11,9 @@ use crate::app::model::opening::{FileRequest, OpenedFile, Opening, OpeningPurpos
 use crate::app::model::saving::SavedDesign;
 use crate::app::model::task::{Task, WindowTask};
 use crate::app::model::work::Work;
+use crate::io::Failure;
 use crate::io::design_file::DesignFormat;
 use crate::io::mesh_options::MeshOptions;
-use crate::io::Failure;
 use std::path::{Path, PathBuf};
 
 /// The note about a mesh whose table may face another way.

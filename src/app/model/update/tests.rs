@@ -1,7 +1,6 @@
 //! Tests of the editor without a window: what its state becomes by actions, and which tasks come of them.
 
 use super::update;
-use crate::io::Failure;
 use crate::app::model::action::{Computed, DialogAction, Edit, FileAction, FrameEnd, ViewAction};
 use crate::app::model::choosing::{Choice, Purpose};
 use crate::app::model::command::Command;
@@ -16,6 +15,7 @@ use crate::app::model::{Action, Model, Task};
 use crate::app::studio::{Order, Paper, Which};
 use crate::app::tasks::autosave::Autosave;
 use crate::app::tasks::open;
+use crate::io::Failure;
 use crate::io::cut_file;
 use crate::io::mesh_options::MeshOptions;
 use std::path::{Path, PathBuf};
