@@ -8,7 +8,7 @@ use super::shows::Shows;
 use super::studio::Shot;
 use super::theme;
 use crate::io::export::OutputFormat;
-use crate::io::refraction_map::{MOST_BANDS, MOST_PLACES};
+use crate::io::refraction::{MOST_BANDS, MOST_PLACES};
 use crate::scene::{Copies, Specimen, View};
 use egui::{
     Color32, ColorImage, DragValue, Grid, Label, ProgressBar, Rect, RichText, ScrollArea, Sense, Stroke,

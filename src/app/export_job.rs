@@ -6,8 +6,7 @@ use super::shows::Shows;
 use super::studio::{Effort, FINE_RENDER, SPAN, Shot, ShotTracer, Which, exported, survey};
 use crate::io::background::BackgroundRef;
 use crate::io::export::{Event, Export, OutputFormat, Outputs, Viewing};
-use crate::io::refraction_map::{self, Coding, MOST_BANDS, MOST_PIXELS};
-use crate::io::refraction_page::{Page, takes, write_page};
+use crate::io::refraction::{self, Coding, MOST_BANDS, MOST_PIXELS, Page, takes, write_page};
 use crate::io::{Failure, rasterize, write_rgba_png};
 use crate::optics::line;
 use crate::picture::{named, profile};
@@ -180,9 +179,9 @@ impl ExportPlan {
     /// Returns the paths of the maps, then those of the diffuse layer and the page; `None` where no map is selected.
     fn map_paths(&self) -> Option<(Vec<PathBuf>, [PathBuf; 2])> {
         let count = (self.selection.bands * self.selection.places) as usize;
-        let maps = refraction_map::paths(&self.folder, &self.stem, count, Coding::Tiles);
+        let maps = refraction::paths(&self.folder, &self.stem, count, Coding::Tiles);
         let page = self.folder.join(format!("{}-refraction.html", self.stem));
-        let others = [refraction_map::diffuse_path(&self.folder, &self.stem), page];
+        let others = [refraction::diffuse_path(&self.folder, &self.stem), page];
         self.selection.map.then_some((maps, others))
     }
 
@@ -301,8 +300,8 @@ impl ExportPlan {
             100.0 * carried.behind,
             100.0 * carried.single
         );
-        refraction_map::write_places(maps, &map, Coding::Tiles, &told)?;
-        refraction_map::write_diffuse(diffuse, &map, &told)?;
+        refraction::write_places(maps, &map, Coding::Tiles, &told)?;
+        refraction::write_diffuse(diffuse, &map, &told)?;
         let behind =
             self.shot.behind.as_ref().map(BackgroundRef::bytes).transpose().map_err(Failure::Input)?;
         let background = behind.flatten().filter(|bytes| takes(bytes));

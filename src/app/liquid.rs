@@ -7,7 +7,7 @@ use super::shows::Shows;
 use super::studio::{Grade, Which};
 use super::view_menu;
 use crate::optics::linear_from_encoded;
-use crate::picture::pane::{GlassPane, Quality};
+use crate::picture::liquid_glass::{GlassPane, Quality};
 use egui::{
     Color32, EventFilter, Key, Modifiers, PointerButton, Rect, Response, Role, Sense, StrokeKind, Ui,
     WidgetInfo, pos2,

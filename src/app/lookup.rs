@@ -5,8 +5,8 @@
 
 use super::studio::{Grade, SPAN, Shot, Slot, TakenPicture, Wake};
 use crate::io::background::BackgroundRef;
-use crate::picture::pane::{filling, pane};
-use crate::picture::{Develop, Linear, Pattern, RefractionMap, Tone, develop, refract};
+use crate::picture::liquid_glass::pane;
+use crate::picture::{Develop, Linear, Pattern, RefractionMap, Tone, develop, filling, refract};
 use crate::scene::Panorama;
 use egui::ColorImage;
 use glam::DVec2;

@@ -4,7 +4,7 @@ use super::editor::Editor;
 use super::liquid::Liquid;
 use super::rows::{NUMBER, Row, control_width, named};
 use super::shows::Shows;
-use crate::picture::pane::Quality;
+use crate::picture::liquid_glass::Quality;
 use egui::{Button, ComboBox, RichText, Ui, vec2};
 use std::ops::RangeInclusive;
 

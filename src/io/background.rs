@@ -5,7 +5,7 @@ use super::panorama::{self, LoadedPanorama};
 use super::png_bytes::png;
 use super::{DrawingError, rasterize};
 use crate::optics::linear_from_encoded;
-use crate::picture::pane::filling;
+use crate::picture::filling;
 use crate::picture::{Background, PATTERN_SIDE, PATTERN_SPAN, Pattern};
 use crate::scene::Panorama;
 use ::png::{BitDepth, ColorType};

@@ -2,9 +2,7 @@
 //! ending of its name.
 
 use super::cut_file::{self, CutFileError};
-use super::mesh_design;
-use super::mesh_export::{FINENESS, STL_HEADER};
-use super::mesh_file::{self, MaterialHint, Statement};
+use super::mesh::{self, FINENESS, MaterialHint, Stated, stated_in_stl};
 use super::mesh_options::MeshOptions;
 use super::{Failure, asc, gcs, gem, write as write_whole};
 use super::{WriteError, text};
@@ -125,30 +123,30 @@ pub fn read(path: &Path) -> Result<ImportedDesign, CutFileError> {
 ///
 /// # Errors
 /// When the file is no design; the error has its path, and a line where there is one.
-pub fn read_with(path: &Path, mesh: MeshOptions) -> Result<ImportedDesign, CutFileError> {
+pub fn read_with(path: &Path, options: MeshOptions) -> Result<ImportedDesign, CutFileError> {
     let label = path.display().to_string();
     let fault = |error: text::TextError| CutFileError {
         path: label.clone(),
         line: error.line,
         message: error.message,
     };
-    let bytes = text::read_bytes(path, mesh_file::MAX_BYTES).map_err(fault)?;
-    if mesh_file::looks_like(&bytes).is_some() {
-        return mesh_design::read(bytes, path, mesh);
+    let bytes = text::read_bytes(path, mesh::MAX_BYTES).map_err(fault)?;
+    if mesh::looks_like(&bytes).is_some() {
+        return mesh::read(bytes, path, options);
     }
     let mut brought = match DesignFormat::of(&bytes, path) {
         DesignFormat::Asc => asc::read(&bytes, &label),
         DesignFormat::Gem => gem::read(&bytes, &label),
         DesignFormat::Gcs => gcs::read(&bytes, &label),
         DesignFormat::Obj | DesignFormat::Stl | DesignFormat::Ply | DesignFormat::Glb => {
-            return mesh_design::read(bytes, path, mesh);
+            return mesh::read(bytes, path, options);
         }
         DesignFormat::Toml => {
             let text = text::utf8(bytes).map_err(fault)?;
             cut_file::parse(&text, &label).map(ImportedDesign::of)
         }
     }?;
-    if mesh != MeshOptions::default() {
+    if options != MeshOptions::default() {
         brought.notes.push("--up and --as are for meshes; this design says both itself".to_owned());
     }
     Ok(brought)
@@ -219,18 +217,18 @@ fn as_mesh(specimen: &Specimen, format: DesignFormat, bytes: Vec<u8>) -> Encoded
         MaterialRef::Index(_) => Some("its refractive index"),
         MaterialRef::Custom(_) => None,
     };
-    let (has_statement, has_material) = match format {
-        DesignFormat::Stl => stated_in_header(&bytes),
-        _ => (true, true),
+    let stated = match format {
+        DesignFormat::Stl => stated_in_stl(&bytes),
+        _ => Stated { place: true, material: true },
     };
     let seen = (format == DesignFormat::Glb).then_some("the material as three colours see it");
-    let size = has_statement.then_some("its size");
+    let size = stated.place.then_some("its size");
     let kept: Vec<&str> =
-        [Some(shape), size, material.filter(|_| has_material), seen].into_iter().flatten().collect();
+        [Some(shape), size, material.filter(|_| stated.material), seen].into_iter().flatten().collect();
     let mut lost = vec![format!("of the design only this is kept: {}", listed(&kept))];
-    if !has_statement {
+    if !stated.place {
         lost.push("the file's header has no room for the stone's size and for the way it faces".to_owned());
-    } else if let Some(material) = material.filter(|_| !has_material) {
+    } else if let Some(material) = material.filter(|_| !stated.material) {
         lost.push(format!("the file's header has no room for {material}"));
     }
     let measured = "the proportions are not kept; whoever reads the mesh measures them anew";
@@ -240,14 +238,6 @@ fn as_mesh(specimen: &Specimen, format: DesignFormat, bytes: Vec<u8>) -> Encoded
         lost.push(format!("its smooth surface is written as triangles, {off:.1e} mm off it at most"));
     }
     EncodedDesign { bytes, lost }
-}
-
-/// Returns whether the header of an STL states how large its stone is and which way it faces, and whether it states the
-/// material.
-fn stated_in_header(stl: &[u8]) -> (bool, bool) {
-    let header = String::from_utf8_lossy(&stl[..stl.len().min(STL_HEADER)]);
-    let stated = Statement::parse(header.trim_end_matches('\0')).ok();
-    (stated.is_some(), stated.is_some_and(|stated| stated.material.is_some()))
 }
 
 /// Joins words as in a sentence: `a, b and c`.

@@ -9,10 +9,10 @@ use super::take::{RAYS_COARSER, ShotTracer, TakeError, coarser};
 use super::undeveloped::{TracedLight, map_taken};
 use super::worker::FINE_RENDER;
 use crate::app::lookup::{as_screens, backdrop};
-use crate::io::refraction_map::tiles::code_of;
+use crate::io::refraction::code_of;
 use crate::optics::{Illuminant, strata};
-use crate::picture::RefractionMap;
-use crate::picture::pane::{self, PaneError, PaneLighting, filling, surroundings};
+use crate::picture::liquid_glass::{self, PaneError, PaneLighting, surroundings};
+use crate::picture::{RefractionMap, filling};
 use crate::trace::Watch;
 use crate::trace::environment::EnvironmentMap;
 use egui::ColorImage;
@@ -86,6 +86,6 @@ pub(super) fn glass(
         // Panes are always traced by the processor, which takes no more passes than its fine renders have.
         looks: growing.map_or(1, |g| g.looks.min(FINE_RENDER.looks)),
     };
-    let picture = pane::traced(&pane, &filling(&behind, size), &around, watch)?;
+    let picture = liquid_glass::traced(&pane, &filling(&behind, size), &around, watch)?;
     Ok(TakenPicture { image: as_screens(&picture), unresolved: None, tracer: "point rays", map: None })
 }

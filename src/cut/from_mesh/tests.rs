@@ -2,8 +2,8 @@
 
 use super::super::round_brilliant::{MODERN, RoundBrilliant};
 use super::*;
-use crate::math::surface::{Face, Surface, SurfaceKind, facets};
-use crate::math::triangulate;
+use crate::math::faceting::{Face, SurfaceKind, facets};
+use crate::math::{Surface, triangulate};
 use proptest::prelude::*;
 
 /// The plane of a facet that is found again may be off by this much, degrees.
