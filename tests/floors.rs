@@ -237,7 +237,9 @@ fn a_room_inside_a_floor_is_entered_by_its_door_alone() {
         let text = std::fs::read_to_string(&entrance).unwrap();
         assert_eq!(shown(&text), door, "{}: it shows other names than those of its door", entrance.display());
         let mut guests = 0;
-        for path in others.iter().filter(|path| !path.starts_with(src.join(folder))) {
+        // This file has paths in its texts.
+        let is_guest = |path: &&PathBuf| !path.starts_with(src.join(folder)) && !path.ends_with(file!());
+        for path in others.iter().filter(is_guest) {
             let text = std::fs::read_to_string(path).unwrap();
             let (floor, room) = folder.split_once('/').unwrap();
             let mut taken = taken_from(&text, &format!("{floor}::{room}"));

@@ -5,7 +5,7 @@
 
 use super::change::Change;
 use super::deviation;
-use super::search::{Limits, MatchingSolid, NOISE, SAME, Search};
+use super::search::{Limits, MatchingSolid, NOISE, SAME, SolidSearch};
 use crate::math::{Plane, Surface, convex_hull};
 
 /// If a surface is meant to be its hull, its corners lie within this part of its size from the hull: as near as careless
@@ -45,7 +45,7 @@ impl Hull {
 
     /// Returns the hull as a solid between the fewest planes that fit; `None` where it is curved or has too many facets.
     pub fn solid(&self) -> Option<MatchingSolid> {
-        let (search, size) = (Search::of(&self.0), self.0.size());
+        let (search, size) = (SolidSearch::of(&self.0), self.0.size());
         NOISE.iter().rev().find_map(|noise| search.solid(Limits { tolerance: noise * size, same: SAME }))
     }
 

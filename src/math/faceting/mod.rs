@@ -28,7 +28,7 @@ use glam::DVec3;
 use hull::Hull;
 use rayon::prelude::*;
 use regions::{NOWHERE, Regions};
-use search::{MOST_FACETS, MatchingSolid, Search};
+use search::{MOST_FACETS, MatchingSolid, SolidSearch};
 
 /// A region and a group of the file are the same if they share this part of the area of each.
 const ONE: f64 = 0.99;
@@ -76,7 +76,7 @@ pub enum SurfaceKind {
 /// Finds the facets of a closed surface, as [`Surface::mend`] returns it.
 pub fn facets(surface: Surface) -> SurfaceKind {
     let (moved, centre) = centred(&surface);
-    let search = Search::of(&moved);
+    let search = SolidSearch::of(&moved);
     let exact = search.exact();
     let is_changed = exact.is_none();
     let Some(solid) = exact.or_else(|| search.meant()) else { return SurfaceKind::Concave(surface) };

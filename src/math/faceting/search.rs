@@ -59,14 +59,14 @@ pub(super) struct MatchingSolid {
 }
 
 /// A surface with its centre at the origin, and what is known of it.
-pub(super) struct Search<'a> {
+pub(super) struct SolidSearch<'a> {
     surface: &'a Surface,
     edges: Edges,
     /// The hull of the corners, computed at first use, since most surfaces do without; `None` where all lie in one plane.
     hull: OnceCell<Option<Hull>>,
 }
 
-impl<'a> Search<'a> {
+impl<'a> SolidSearch<'a> {
     pub fn of(surface: &'a Surface) -> Self {
         Self { surface, edges: Edges::of(surface), hull: OnceCell::new() }
     }
