@@ -9,6 +9,7 @@ mod calipers;
 mod decay;
 mod edges;
 mod eigen;
+mod extent;
 pub mod faceting;
 mod hull;
 mod implicit;
@@ -31,6 +32,7 @@ pub use bvh::{Bvh, BvhNode, Hit};
 pub use calipers::{Calipers, hull};
 pub use decay::integral_of_decay;
 pub(crate) use eigen::{eigen, outer};
+pub use extent::{bounds, span};
 pub use hull::convex_hull;
 #[cfg(feature = "gpu")]
 pub(crate) use implicit::SurfaceParts;

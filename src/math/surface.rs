@@ -1,5 +1,6 @@
 //! Surfaces of triangles over shared corners, closed or not.
 
+use super::bounds;
 use glam::DVec3;
 
 /// Triangles over shared corners. Each triangle belongs to a group, which may have a name.
@@ -81,9 +82,4 @@ impl Surface {
         self.groups.extend(other.groups.into_iter().map(|g| g + names));
         self.names.extend(other.names);
     }
-}
-
-/// Returns the smallest box with sides along the axes that holds some points, as (least, greatest).
-pub(super) fn bounds(points: impl Iterator<Item = DVec3>) -> (DVec3, DVec3) {
-    points.fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), v| (low.min(v), high.max(v)))
 }

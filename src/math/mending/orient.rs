@@ -1,9 +1,8 @@
 //! Turns triangles so that all of them run counter-clockwise seen from outside.
 
 use super::SurfaceError;
-use crate::math::Surface;
 use crate::math::edges::{Edges, NONE};
-use crate::math::surface::bounds;
+use crate::math::{Surface, bounds};
 use glam::DVec3;
 use std::collections::VecDeque;
 use std::f64::consts::PI;

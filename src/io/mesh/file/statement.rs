@@ -7,7 +7,7 @@
 //! points and middle are in the stone's frame, whose +x is that of the file and whose origin is the file's.
 
 use crate::cut::MaterialRef;
-use crate::math::Surface;
+use crate::math::{self, Surface};
 use glam::{DQuat, DVec3};
 use std::fmt::Write as _;
 
@@ -69,7 +69,7 @@ impl Measures {
 /// Returns the lowest and the highest point of a surface along a unit vector.
 pub fn span(surface: &Surface, up: DVec3) -> [f64; 2] {
     let heights = surface.triangles.iter().flatten().map(|&v| surface.vertices[v as usize].dot(up));
-    heights.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], z| [low.min(z), high.max(z)])
+    math::span(heights).into()
 }
 
 /// How a solid lies in its file, compared with what the file states.
