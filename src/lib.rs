@@ -19,6 +19,10 @@
 //! The frame is right-handed: +z out of the table, z = 0 at the crown-side girdle, girdle radius 1. In files, lengths are
 //! percent of the girdle diameter and angles are degrees; inside the program, girdle radii and radians.
 
+// Files of the tests that the library shares with the programs in `tests/` name it.
+#[cfg(test)]
+extern crate self as brillianteer;
+
 #[cfg(feature = "app")]
 pub mod app;
 #[cfg(feature = "cli")]

@@ -21,6 +21,91 @@ const FLOORS: [(&str, u32); 11] = [
     ("app", 7),
 ];
 
+/// A room inside a floor, which others enter by its door alone.
+struct Room {
+    /// The folder in `src`.
+    folder: &'static str,
+    /// The door: all names that others may import.
+    door: &'static [&'static str],
+}
+
+const ROOMS: [Room; 7] = [
+    Room { folder: "math/mending", door: &["Mended", "Mending", "SurfaceError"] },
+    Room {
+        folder: "math/faceting",
+        door: &[
+            "Change",
+            "Face",
+            "Faceted",
+            "SurfaceKind",
+            "TooCurved",
+            "deviation",
+            "faceted_hull",
+            "facets",
+        ],
+    },
+    Room {
+        folder: "cut/from_mesh",
+        door: &["Doubt", "FromMesh", "FromMeshError", "Up", "directions", "from_mesh"],
+    },
+    Room {
+        folder: "picture/liquid_glass",
+        door: &[
+            "Comparison",
+            "Cost",
+            "GlassPane",
+            "PaneError",
+            "PaneLighting",
+            "PaneQuality",
+            "Shifts",
+            "compare",
+            "pane",
+            "surroundings",
+            "traced",
+        ],
+    },
+    Room {
+        folder: "picture/refraction",
+        door: &["Backdrop", "Carried", "MapBand", "RefractionMap", "SourcePlace", "Survey", "refract"],
+    },
+    Room {
+        folder: "io/mesh",
+        door: &[
+            "FINENESS",
+            "MAX_BYTES",
+            "MaterialHint",
+            "MeshFile",
+            "Stated",
+            "looks_like",
+            "parse",
+            "read",
+            "stated_in_stl",
+            "write_glb",
+            "write_obj",
+            "write_ply",
+            "write_stl",
+        ],
+    },
+    Room {
+        folder: "io/refraction",
+        door: &[
+            "Coding",
+            "MOST_BANDS",
+            "MOST_MEGABYTES",
+            "MOST_PIXELS",
+            "MOST_PLACES",
+            "Page",
+            "code_of",
+            "diffuse_path",
+            "paths",
+            "takes",
+            "write_diffuse",
+            "write_page",
+            "write_places",
+        ],
+    },
+];
+
 fn sources(folder: &Path) -> Vec<PathBuf> {
     let entries = std::fs::read_dir(folder).unwrap().map(|e| e.unwrap().path());
     entries
@@ -193,6 +278,86 @@ fn no_error_that_other_files_see_is_a_bare_text() {
          type Err = String;\npub fn j() -> Result<String, Fault> {\n// pub fn k() -> Result<u8, String>\n",
     );
     assert_eq!(seen.len(), 5, "{seen:#?}");
+}
+
+/// Splits the text behind a path, an identifier or a list in braces, into the first identifier of each entry.
+fn first_names(text: &str) -> Vec<String> {
+    let list = text.strip_prefix('{').map_or_else(
+        || text.split(|c: char| !c.is_alphanumeric() && c != '_').next().unwrap_or(""),
+        |rest| rest.split('}').next().unwrap_or(""),
+    );
+    let first = |entry: &str| {
+        entry.trim().split(|c: char| !c.is_alphanumeric() && c != '_').next().unwrap_or("").to_owned()
+    };
+    list.split(',').map(first).filter(|name| !name.is_empty()).collect()
+}
+
+/// Returns the names that a room's `mod.rs` shows to others: what it declares without being private, and what it passes on.
+fn shown(text: &str) -> Vec<String> {
+    let mut names = vec![];
+    for item in text.split("\npub").skip(1) {
+        let item =
+            if item.starts_with('(') { item.split_once(')').map_or("", |(_, rest)| rest) } else { item };
+        match item.trim_start().split_once(char::is_whitespace) {
+            Some(("use", path)) => {
+                let path = path.split(';').next().unwrap_or("").trim();
+                names.extend(first_names(path.split_once("::").map_or(path, |(_, rest)| rest)));
+            }
+            Some((_, declared)) => names.extend(first_names(declared)),
+            None => {}
+        }
+    }
+    names.retain(|name| name != "tests");
+    names.sort();
+    names
+}
+
+/// Returns the names that a text imports by a path, or uses by it.
+fn taken_from(text: &str, path: &str) -> Vec<String> {
+    let path = format!("{path}::");
+    let code: String = text.lines().map(|line| line.split("//").next().unwrap_or("")).collect();
+    code.split(&path).skip(1).flat_map(first_names).filter(|name| name != "self" && name != "tests").collect()
+}
+
+#[test]
+fn a_room_inside_a_floor_is_entered_by_its_door_alone() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let src = root.join("src");
+    let others = ["src", "tests", "benches", "examples"].map(|folder| sources(&root.join(folder))).concat();
+    for Room { folder, door } in ROOMS {
+        let entrance = src.join(folder).join("mod.rs");
+        let text = std::fs::read_to_string(&entrance).unwrap();
+        assert_eq!(shown(&text), door, "{}: it shows other names than those of its door", entrance.display());
+        let mut guests = 0;
+        // This file has paths in its texts.
+        let is_guest = |path: &&PathBuf| !path.starts_with(src.join(folder)) && !path.ends_with(file!());
+        for path in others.iter().filter(is_guest) {
+            let text = std::fs::read_to_string(path).unwrap();
+            let (floor, room) = folder.split_once('/').unwrap();
+            let mut taken = taken_from(&text, &format!("{floor}::{room}"));
+            if path.parent() == Some(&src.join(floor)) {
+                taken.extend(taken_from(&text, &format!("super::{room}")));
+            }
+            for name in taken {
+                let is_shown = door.contains(&name.as_str());
+                assert!(is_shown, "{}: reaches inside {folder} for {name}", path.display());
+                guests += 1;
+            }
+        }
+        // The floor itself passes on what leaves this room.
+        let is_passed_on = folder == "picture/refraction";
+        assert!(guests > 0 || is_passed_on, "{folder}: nobody enters it; the check has lost its eyes");
+    }
+}
+
+#[test]
+fn a_room_that_shows_its_inside_and_a_guest_that_reaches_there_would_be_seen() {
+    let text =
+        "mod a;\npub mod b;\npub(super) fn c() {}\npub use a::{D, e};\npub use a::F;\npub struct G<T>(T);\n";
+    assert_eq!(shown(text), ["D", "F", "G", "b", "c", "e"]);
+    let text = "use crate::io::mesh::{self, read,\n    file::Statement};\ncrate::io::mesh::place::of(); // io::mesh::x";
+    assert_eq!(taken_from(text, "io::mesh"), ["read", "file", "place"]);
+    assert_eq!(taken_from("use crate::io::mesh_options::Up;", "io::mesh"), [""; 0]);
 }
 
 #[test]

@@ -5,13 +5,10 @@
 
 use brillianteer::cut::from_mesh::{Up, from_mesh};
 use brillianteer::io::design_file::{DesignFormat, written};
-use brillianteer::io::refraction_map::{self, Coding};
-use brillianteer::io::{asc, cut_file, gcs, gem, library, light_file, mesh_file, scene_file, scope_file};
+use brillianteer::io::{asc, cut_file, gcs, gem, library, light_file, mesh, scene_file, scope_file};
 use brillianteer::math::TriangleMesh;
-use brillianteer::math::surface::{SurfaceKind, facets};
-use brillianteer::picture::{Linear, MapBand, RefractionMap, SourcePlace};
+use brillianteer::math::faceting::{SurfaceKind, facets};
 use brillianteer::scene::{LIGHTS, Specimen, light};
-use glam::{DMat3, DVec3};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::time::{Duration, Instant};
 
@@ -165,7 +162,7 @@ fn cutters_xml() {
 
 /// Reads a mesh, mends it and finds its facets.
 fn mesh(bytes: &[u8]) {
-    let Ok(file) = mesh_file::parse(bytes.to_vec(), "x", None) else { return };
+    let Ok(file) = mesh::parse(bytes.to_vec(), "x", None) else { return };
     let Ok(mended) = file.surface.mend() else { return };
     match facets(mended.surface) {
         SurfaceKind::Convex(found) => drop(from_mesh(&found, Up::Found)),
@@ -221,68 +218,5 @@ fn scopes_lights_and_scenes() {
         std::fs::write(&path, bytes).unwrap();
         let _ = (scope_file::read(&path).is_ok(), light_file::read(&path).is_ok());
         let _ = scene_file::parse(&String::from_utf8_lossy(bytes), "x", None).is_ok();
-    });
-}
-
-/// Returns a refraction map of few pixels.
-fn map(bands: usize) -> RefractionMap {
-    let [width, height] = [7_u16, 5];
-    let place = |k: u16| {
-        let part = |step: f32| (f32::from(k) * step).fract();
-        SourcePlace { u: part(0.31), v: part(0.17), weight: part(0.53) }
-    };
-    let places: Vec<SourcePlace> = (0..width * height).map(place).collect();
-    let band = |k: usize| {
-        let response = DMat3::from_diagonal(DVec3::splat(1.0 / bands as f64));
-        MapBand { nm: 450.0 + 50.0 * k as f64, response, places: places.clone() }
-    };
-    let [width, height] = [width, height].map(u32::from);
-    let pixels = places.iter().map(|p| [p.u, p.v, 0.5, 1.0 - p.weight]).collect();
-    let diffuse = Linear { width, height, pixels };
-    RefractionMap { size: [width, height], bands: (0..bands).map(band).collect(), diffuse }
-}
-
-/// Returns the same PNG with the checksums of its chunks corrected, because readers stop at a wrong one.
-fn summed(bytes: &[u8]) -> Vec<u8> {
-    let mut out = bytes.to_vec();
-    let mut at = 8;
-    while let Some(length) = out.get(at..at + 4).map(|l| u32::from_be_bytes(l.try_into().unwrap()) as usize) {
-        let Some(end) = at.checked_add(8 + length).filter(|end| end + 4 <= out.len()) else { break };
-        let sum = out[at + 4..end].iter().fold(u32::MAX, |sum, byte| {
-            let step = |sum: u32| if sum & 1 == 1 { (sum >> 1) ^ 0xedb8_8320 } else { sum >> 1 };
-            (0..8).fold(sum ^ u32::from(*byte), |sum, _| step(sum))
-        });
-        out[end..end + 4].copy_from_slice(&(!sum).to_be_bytes());
-        at = end + 4;
-    }
-    out
-}
-
-#[test]
-fn refraction_maps() {
-    let folder = tempfile::tempdir().unwrap();
-    let diffuse = refraction_map::diffuse_path(folder.path(), "map");
-    refraction_map::write_diffuse(&diffuse, &map(1), "x").unwrap();
-    let mut files = vec![std::fs::read(&diffuse).unwrap()];
-    let mut whole = vec![];
-    for (bands, coding) in [1, 2]
-        .into_iter()
-        .flat_map(|bands| [Coding::Tiles, Coding::Sixteen, Coding::Float].map(|coding| (bands, coding)))
-    {
-        let paths = refraction_map::paths(folder.path(), "map", bands, coding);
-        refraction_map::write_places(&paths, &map(bands), coding, "x").unwrap();
-        assert!(refraction_map::read(&paths, &diffuse).is_ok(), "{coding:?}");
-        files.extend(paths.iter().map(|path| std::fs::read(path).unwrap()));
-        whole.push(paths);
-    }
-    let path = folder.path().join("spoilt");
-    fuzz("refraction", &files, |bytes| {
-        for bytes in [bytes, &summed(bytes)] {
-            std::fs::write(&path, bytes).unwrap();
-            let beside = [path.clone(), whole[0][0].clone()];
-            let _ = refraction_map::read(&beside[..1], &diffuse).is_ok();
-            let _ = refraction_map::read(&beside, &diffuse).is_ok();
-            let _ = refraction_map::read(&beside[1..], &path).is_ok();
-        }
     });
 }

@@ -2,8 +2,10 @@
 #![allow(clippy::unwrap_used, reason = "a test fails by it")]
 
 mod common;
+#[path = "common/maps.rs"]
+mod maps;
 
-use brillianteer::io::{panorama, refraction_map as files};
+use brillianteer::io::{panorama, refraction as files};
 use brillianteer::math::{Plane, Polytope};
 use brillianteer::optics::{Illuminant, Material, encoded_from_linear, material, strata};
 use brillianteer::picture::{Backdrop, Carried, Linear, RefractionMap, Survey, refract, spectral};
@@ -150,7 +152,7 @@ fn written(map: &RefractionMap, coding: Coding) -> RefractionMap {
     let diffuse = files::diffuse_path(folder.path(), "a");
     files::write_places(&paths, map, coding, "").unwrap();
     files::write_diffuse(&diffuse, map, "").unwrap();
-    files::read(&paths, &diffuse).unwrap()
+    maps::read(&paths, &diffuse)
 }
 
 fn brilliant() -> Polytope {

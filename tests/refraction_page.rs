@@ -3,7 +3,10 @@
 #![cfg(feature = "cli")]
 #![allow(clippy::unwrap_used, clippy::print_stderr, reason = "a test fails by it, and says what it skips")]
 
-use brillianteer::io::{panorama, refraction_map};
+#[path = "common/maps.rs"]
+mod maps;
+
+use brillianteer::io::{panorama, refraction};
 use brillianteer::optics::encoded_from_linear;
 use brillianteer::picture::{Linear, refract};
 use glam::DVec2;
@@ -78,8 +81,8 @@ fn made(options: &str) -> tempfile::TempDir {
 
 /// Returns the picture that the page should show, looked up in the map's files, in eight-bit codes.
 fn expected(folder: &Path, stem: &str, bands: usize, offset: DVec2) -> Vec<[u8; 3]> {
-    let paths = refraction_map::paths(folder, stem, bands, refraction_map::Coding::Tiles);
-    let map = refraction_map::read(&paths, &refraction_map::diffuse_path(folder, stem)).unwrap();
+    let paths = refraction::paths(folder, stem, bands, refraction::Coding::Tiles);
+    let map = maps::read(&paths, &refraction::diffuse_path(folder, stem));
     let photo = panorama::read_photo(&folder.join("photo.png")).unwrap().panorama;
     let Linear { pixels, .. } = refract(&map, &photo, offset);
     let code = |c: f32| (encoded_from_linear(f64::from(c).clamp(0.0, 1.0)) * 255.0).round() as u8;

@@ -9,7 +9,7 @@ use brillianteer::cut::from_mesh::Up;
 use brillianteer::cut::{Cut, Design, Outline, is_table};
 use brillianteer::io::design_file::{self, DesignFormat, written};
 use brillianteer::io::mesh_options::MeshOptions;
-use brillianteer::io::{asc, cut_file, library, mesh_design};
+use brillianteer::io::{asc, cut_file, library, mesh};
 use brillianteer::measure::by_beams;
 use brillianteer::scene::{ASET_CONE, Backing, Scope, Specimen, View};
 use brillianteer::trace::{beam, unwatched};
@@ -124,7 +124,7 @@ fn fate(specimen: &Specimen, format: DesignFormat, way: Way, turn: DQuat) -> Res
         Way::StrippedAndTurned => turned(format, stripped(format, bytes), turn),
     };
     let path = PathBuf::from(format!("x.{}", format.ending()));
-    let brought = mesh_design::read(bytes, &path, MeshOptions::default()).map_err(|e| e.to_string())?;
+    let brought = mesh::read(bytes, &path, MeshOptions::default()).map_err(|e| e.to_string())?;
     let says = matches!(way, Way::Kept | Way::Turned);
     let told = brought.notes.join("; ");
     let back = Specimen::new(brought.design).map_err(|e| e.to_string())?;
@@ -253,7 +253,7 @@ fn what_another_program_writes_is_found_by_its_shape() {
 /// Returns the stone that a mesh is read as, with the notes and the warnings about it.
 fn read(format: DesignFormat, bytes: Vec<u8>, up: Up) -> (Specimen, Vec<String>, Vec<String>) {
     let path = PathBuf::from(format!("x.{}", format.ending()));
-    let brought = mesh_design::read(bytes, &path, MeshOptions { up, ..MeshOptions::default() }).unwrap();
+    let brought = mesh::read(bytes, &path, MeshOptions { up, ..MeshOptions::default() }).unwrap();
     (Specimen::new(brought.design).unwrap(), brought.notes, brought.warnings)
 }
 

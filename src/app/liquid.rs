@@ -1,7 +1,7 @@
 //! The pane of liquid glass over the background of a view: its settings, as they are kept, and its place in a picture.
 
 use crate::optics::linear_from_encoded;
-use crate::picture::pane::{GlassPane, PaneQuality};
+use crate::picture::liquid_glass::{GlassPane, PaneQuality};
 use glam::{DVec2, DVec4};
 use serde::{Deserialize, Serialize};
 

@@ -8,7 +8,7 @@ use super::{Failure, print, say, written};
 use crate::io::background::BackgroundRef;
 use crate::io::{STANDARD, is_standard, write_rgba_png};
 use crate::optics::linear_from_encoded;
-use crate::picture::pane::{Cost, GlassPane, PaneQuality, Shifts, pane};
+use crate::picture::liquid_glass::{Cost, GlassPane, PaneQuality, Shifts, pane};
 use crate::picture::{Develop, Linear, Tone, develop};
 use crate::render::{Job, PaneProduct, Quality, Renderer};
 use crate::scene::Panorama;

@@ -9,8 +9,9 @@ use super::specimen::stem;
 use super::{Failure, distinct, each_file, say};
 use crate::io::background::BackgroundRef;
 use crate::io::export::Event;
-use crate::io::refraction_map::{self as files, Coding, MOST_BANDS, MOST_PIXELS, MOST_PLACES};
-use crate::io::refraction_page::{MOST_MEGABYTES, Page, takes, write_page};
+use crate::io::refraction::{
+    self as files, Coding, MOST_BANDS, MOST_MEGABYTES, MOST_PIXELS, MOST_PLACES, Page, takes, write_page,
+};
 use crate::io::{is_standard, write_rgba_png};
 use crate::picture::{Backdrop, Background, Carried, Develop, RefractionMap, Tone, develop, refract};
 use crate::render::{Card, Job, MapProduct, Product, Rendered, Renderer};

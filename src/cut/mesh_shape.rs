@@ -1,7 +1,7 @@
 //! The shape of a stone that is given by triangles.
 
 use super::outline;
-use crate::math::{Calipers, Pose, TriangleMesh, hull};
+use crate::math::{Calipers, Pose, TriangleMesh, hull, span};
 use glam::{DQuat, DVec3};
 use std::ops::Deref;
 use std::sync::Arc;
@@ -23,9 +23,7 @@ impl MeshShape {
         let corners: Vec<DVec3> = shell.vertices().iter().map(|&v| turn * v).collect();
         let around = hull(corners.iter().map(|v| v.truncate()).collect());
         let Calipers { width, middle, .. } = Calipers::of(&around)?;
-        let heights = corners.iter().map(|v| v.z);
-        let (low, high) =
-            heights.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), z| (low.min(z), high.max(z)));
+        let (low, high) = span(corners.iter().map(|v| v.z));
         let scale = 2.0 / outline::diameter(&around, middle, width);
         let shift = -scale * middle.extend((low + high) / 2.0);
         let is_framed = (scale - 1.0).abs() < IN_FRAME && shift.length() < IN_FRAME;

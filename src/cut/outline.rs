@@ -1,6 +1,6 @@
 //! The measures of a stone of any cut: length, width, the girdle's edges, depths and table.
 
-use crate::math::{Calipers, Facet, Polytope, hull};
+use crate::math::{Calipers, Facet, Polytope, bounds, hull};
 use glam::{DVec2, DVec3};
 use serde::Serialize;
 
@@ -116,9 +116,7 @@ impl AlongAxes {
         let (low, high) = stone.bounds();
         let across = (high - low).truncate();
         let table = table(stone).map_or(DVec2::ZERO, |facet| {
-            let start = (DVec3::INFINITY, DVec3::NEG_INFINITY);
-            let (low, high) =
-                stone.corners(facet).fold(start, |(low, high), corner| (low.min(corner), high.max(corner)));
+            let (low, high) = bounds(stone.corners(facet));
             (high - low).truncate()
         });
         let percent = 100.0 / across.min_element();

@@ -6,7 +6,7 @@ use super::png_bytes::png;
 use super::text::unreadable;
 use super::{FileError, NameOrFileError, rasterize};
 use crate::optics::linear_from_encoded;
-use crate::picture::pane::filling;
+use crate::picture::filling;
 use crate::picture::{Background, PATTERN_SIDE, PATTERN_SPAN, Pattern};
 use crate::scene::Panorama;
 use ::png::{BitDepth, ColorType};

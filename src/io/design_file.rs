@@ -3,9 +3,7 @@
 
 use super::cut_file;
 use super::file_error::{Fault, FileError};
-use super::mesh_design;
-use super::mesh_export::{FINENESS, STL_HEADER};
-use super::mesh_file::{self, MaterialHint, Statement};
+use super::mesh::{self, FINENESS, MaterialHint, Stated, stated_in_stl};
 use super::mesh_options::MeshOptions;
 use super::{Failure, asc, gcs, gem, write as write_whole};
 use super::{WriteError, text};
@@ -126,26 +124,26 @@ pub fn read(path: &Path) -> Result<ImportedDesign, FileError> {
 ///
 /// # Errors
 /// When the file is no design; the error has its path, and a line where there is one.
-pub fn read_with(path: &Path, mesh: MeshOptions) -> Result<ImportedDesign, FileError> {
+pub fn read_with(path: &Path, options: MeshOptions) -> Result<ImportedDesign, FileError> {
     let label = path.display().to_string();
     let named = |fault: Fault| fault.in_file(&label);
-    let bytes = text::read_bytes(path, mesh_file::MAX_BYTES).map_err(named)?;
-    if mesh_file::looks_like(&bytes).is_some() {
-        return mesh_design::read(bytes, path, mesh);
+    let bytes = text::read_bytes(path, mesh::MAX_BYTES).map_err(named)?;
+    if mesh::looks_like(&bytes).is_some() {
+        return mesh::read(bytes, path, options);
     }
     let mut brought = match DesignFormat::of(&bytes, path) {
         DesignFormat::Asc => asc::read(&bytes, &label),
         DesignFormat::Gem => gem::read(&bytes, &label),
         DesignFormat::Gcs => gcs::read(&bytes, &label),
         DesignFormat::Obj | DesignFormat::Stl | DesignFormat::Ply | DesignFormat::Glb => {
-            return mesh_design::read(bytes, path, mesh);
+            return mesh::read(bytes, path, options);
         }
         DesignFormat::Toml => {
             text::utf8(bytes).and_then(|text| cut_file::design(&text)).map(ImportedDesign::of)
         }
     }
     .map_err(named)?;
-    if mesh != MeshOptions::default() {
+    if options != MeshOptions::default() {
         brought.notes.push("--up and --as are for meshes and have no effect on this design".to_owned());
     }
     Ok(brought)
@@ -216,18 +214,18 @@ fn as_mesh(specimen: &Specimen, format: DesignFormat, bytes: Vec<u8>) -> Encoded
         MaterialRef::Index(_) => Some("its refractive index"),
         MaterialRef::Custom(_) => None,
     };
-    let (has_statement, has_material) = match format {
-        DesignFormat::Stl => stated_in_header(&bytes),
-        _ => (true, true),
+    let stated = match format {
+        DesignFormat::Stl => stated_in_stl(&bytes),
+        _ => Stated { place: true, material: true },
     };
     let seen = (format == DesignFormat::Glb).then_some("the material as three colours see it");
-    let size = has_statement.then_some("its size");
+    let size = stated.place.then_some("its size");
     let kept: Vec<&str> =
-        [Some(shape), size, material.filter(|_| has_material), seen].into_iter().flatten().collect();
+        [Some(shape), size, material.filter(|_| stated.material), seen].into_iter().flatten().collect();
     let mut lost = vec![format!("only this part of the design is kept: {}", listed(&kept))];
-    if !has_statement {
+    if !stated.place {
         lost.push("the file's header has no room for the stone's size and for the way it faces".to_owned());
-    } else if let Some(material) = material.filter(|_| !has_material) {
+    } else if let Some(material) = material.filter(|_| !stated.material) {
         lost.push(format!("the file's header has no room for {material}"));
     }
     let measured = "the proportions are not kept; they are measured anew when the mesh is read";
@@ -237,14 +235,6 @@ fn as_mesh(specimen: &Specimen, format: DesignFormat, bytes: Vec<u8>) -> Encoded
         lost.push(format!("its smooth surface is written as triangles, {off:.1e} mm off it at most"));
     }
     EncodedDesign { bytes, lost }
-}
-
-/// Returns whether the header of an STL states how large its stone is and which way it faces, and whether it states the
-/// material.
-fn stated_in_header(stl: &[u8]) -> (bool, bool) {
-    let header = String::from_utf8_lossy(&stl[..stl.len().min(STL_HEADER)]);
-    let stated = Statement::parse(header.trim_end_matches('\0')).ok();
-    (stated.is_some(), stated.is_some_and(|stated| stated.material.is_some()))
 }
 
 /// Joins words as in a sentence: `a, b and c`.

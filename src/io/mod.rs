@@ -25,20 +25,14 @@ pub mod library;
 pub mod light_file;
 pub mod lighting;
 #[cfg(feature = "interchange")]
-pub mod mesh_design;
-#[cfg(feature = "interchange")]
-mod mesh_export;
-#[cfg(feature = "interchange")]
-pub mod mesh_file;
+pub mod mesh;
 pub mod mesh_options;
 pub mod panorama;
 mod picture_file;
 mod png;
 mod png_bytes;
 #[cfg(feature = "exr")]
-pub mod refraction_map;
-#[cfg(feature = "exr")]
-pub mod refraction_page;
+pub mod refraction;
 pub mod scene_file;
 pub mod scope_file;
 mod standard;
@@ -53,7 +47,7 @@ pub use exr::write_exr;
 pub use failure::Failure;
 pub use file_error::{Fault, FileError, NameOrFileError};
 #[cfg(feature = "interchange")]
-pub use mesh_export::{write_glb, write_obj, write_ply, write_stl};
+pub use mesh::{write_glb, write_obj, write_ply, write_stl};
 #[cfg(feature = "exr")]
 pub use picture_file::write_linear_exr;
 pub use picture_file::write_rgba_png;

@@ -1,6 +1,6 @@
 //! The convex outline of points in the plane, and its width and length between pairs of parallel lines.
 
-use super::polygon;
+use super::{polygon, span};
 use glam::DVec2;
 
 /// Widths, or lengths, whose ratio is nearer to 1 than this count as equal: a hundred roundings of f32.
@@ -77,8 +77,7 @@ fn rightward(direction: DVec2) -> DVec2 {
 }
 
 fn extent(outline: &[DVec2], along: DVec2) -> (f64, f64) {
-    let reach = outline.iter().map(|p| p.dot(along));
-    reach.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)))
+    span(outline.iter().map(|p| p.dot(along)))
 }
 
 fn length((low, high): (f64, f64)) -> f64 {

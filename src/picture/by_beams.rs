@@ -3,7 +3,7 @@
 
 use super::raster::Rows;
 use super::strips::strips;
-use crate::math::{Basis, Polytope, centroid};
+use crate::math::{Basis, Polytope, centroid, span};
 use crate::optics::Stratum;
 use crate::scene::{Instance, Medium, View};
 use crate::trace::beam::{self, Beam, Beams};
@@ -212,8 +212,7 @@ impl<'a> ByBeams<'a> {
         for (list, patches) in found.iter().enumerate() {
             for (place, &(start, end, _)) in patches.patches.iter().enumerate() {
                 let heights = patches.corners[start as usize..end as usize].iter().map(|c| c.y);
-                let (low, high) =
-                    heights.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), y| (l.min(y), h.max(y)));
+                let (low, high) = span(heights);
                 if high <= top || low >= bottom {
                     continue;
                 }

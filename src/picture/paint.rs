@@ -2,6 +2,7 @@
 
 use super::Rows;
 use super::layer::Layer;
+use crate::math::span;
 use crate::scene::Film;
 use crate::trace::{Stopped, Watch};
 use glam::{DAffine2, DVec2};
@@ -61,8 +62,7 @@ impl<'a> Laid<'a> {
                 let corners = &layer.corners[start..start + patch.corners.1 as usize];
                 let heights =
                     corners.iter().map(|&c| map.matrix2.x_axis.y * c.x + map.matrix2.y_axis.y * c.y);
-                let (low, high) =
-                    heights.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), y| (l.min(y), h.max(y)));
+                let (low, high) = span(heights);
                 let piece = |y: f64| (((y + map.translation.y) / f64::from(rows)) as usize).min(count - 1);
                 for touched in &mut pieces[piece(low)..=piece(high)] {
                     touched.push((k as u16, i as u32));

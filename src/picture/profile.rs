@@ -9,7 +9,7 @@ pub(crate) use super::drawing::{degrees, percent};
 
 use super::drawing::{Align, DIMENSION, DrawnAspect, Inks, ROOM_FOR_ARROWS, Sheet, text_width};
 use crate::cut::{Outline, RoundBrilliant};
-use crate::math::{Basis, Calipers, Facet, hull};
+use crate::math::{Basis, Calipers, Facet, hull, span};
 use crate::scene::Stone;
 use glam::{DVec2, DVec3};
 use svg::Document;
@@ -118,7 +118,7 @@ impl Dimensions {
 
 /// Returns the least and the greatest coordinate along a direction.
 fn extent(points: impl Iterator<Item = DVec3>, along: DVec3) -> (f64, f64) {
-    points.map(|p| p.dot(along)).fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), x| (a.min(x), b.max(x)))
+    span(points.map(|p| p.dot(along)))
 }
 
 fn measured_profile(stone: &Stone, title: &str) -> Document {

@@ -4,7 +4,7 @@ use super::job::{Job, MapProduct, PaneProduct};
 use super::renderer::{Output, RenderError};
 use crate::optics::{Illuminant, strata};
 use crate::picture::RefractionMap;
-use crate::picture::pane::{PaneLighting, compare, surroundings, traced};
+use crate::picture::liquid_glass::{PaneLighting, compare, surroundings, traced};
 use crate::trace::Watch;
 use crate::trace::environment::EnvironmentMap;
 

@@ -5,7 +5,7 @@ use super::Wanted;
 use super::surroundings::Surroundings;
 use crate::measure::Bounds;
 use crate::optics::{Stratum, strata};
-use crate::picture::pane::GlassPane;
+use crate::picture::liquid_glass::GlassPane;
 use crate::picture::{Backdrop, Survey};
 use crate::scene::{Film, Glare, Medium, Panorama, Scene, Scope, View};
 use crate::trace::beam::BeamOptions;

@@ -5,7 +5,7 @@ use super::card::{Backend, Card};
 use super::job::{Job, Product, Reading, Steps};
 use super::plan::{Demands, Plan, Unfit, plan};
 use crate::measure::{LATTICE, Measured};
-use crate::picture::pane::{Cost, PaneError};
+use crate::picture::liquid_glass::{Cost, PaneError};
 use crate::picture::spectral::Remainder;
 use crate::picture::{Carried, Linear, RefractionMap, Rows};
 use crate::trace::beam::Beams;

@@ -1,7 +1,11 @@
 //! The files that `refraction-map` writes.
 
+#[path = "../common/maps.rs"]
+mod files_of_maps;
+
 use super::desk::*;
-use brillianteer::io::refraction_map::{Coding, diffuse_path, paths, read};
+use brillianteer::io::refraction::{Coding, diffuse_path, paths};
+use files_of_maps::read;
 
 #[test]
 fn a_refraction_map_comes_in_every_coding_with_its_diffuse_layer_a_page_and_a_preview() {
@@ -16,7 +20,7 @@ fn a_refraction_map_comes_in_every_coding_with_its_diffuse_layer_a_page_and_a_pr
     assert_eq!(files(&desk.at("maps")).len(), 6, "nothing else is left");
     let maps = [Coding::Tiles, Coding::Sixteen, Coding::Float].map(|coding| {
         let folder = desk.at("maps");
-        read(&paths(&folder, "cube-tilt-20", 1, coding), &diffuse_path(&folder, "cube-tilt-20")).unwrap()
+        read(&paths(&folder, "cube-tilt-20", 1, coding), &diffuse_path(&folder, "cube-tilt-20"))
     });
     for k in 0..48 * 32 {
         let [tiles, sixteen, float] = maps.each_ref().map(|map| map.bands[0].places[k]);
@@ -48,7 +52,7 @@ fn a_refraction_map_comes_in_every_coding_with_its_diffuse_layer_a_page_and_a_pr
     let names = ["-01.png", "-02.png", "-03.png", "-diffuse.png", ".html"];
     assert_eq!(printed.lines().collect::<Vec<_>>(), names.map(|n| format!("three/cube-refraction{n}")));
     let three = paths(&desk.at("three"), "cube", 3, Coding::Tiles);
-    let map = read(&three, &diffuse_path(&desk.at("three"), "cube")).unwrap();
+    let map = read(&three, &diffuse_path(&desk.at("three"), "cube"));
     assert!(map.bands.len() == 3 && map.bands[0].nm < map.bands[2].nm);
     // Each of several places has its own map as well, the stronger place first.
     desk.done(
@@ -56,7 +60,7 @@ fn a_refraction_map_comes_in_every_coding_with_its_diffuse_layer_a_page_and_a_pr
     );
     let stem = "cube-tilt-25-perspective-5";
     let four = paths(&desk.at("four"), stem, 4, Coding::Tiles);
-    let map = read(&four, &diffuse_path(&desk.at("four"), stem)).unwrap();
+    let map = read(&four, &diffuse_path(&desk.at("four"), stem));
     assert!(map.bands[0].nm == map.bands[1].nm && map.bands[1].nm < map.bands[2].nm);
     let weight = |band: usize| map.bands[band].places.iter().map(|place| place.weight).sum::<f32>();
     assert!(weight(1) > 0.0 && weight(0) > weight(1), "{} {}", weight(0), weight(1));

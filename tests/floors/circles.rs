@@ -14,7 +14,7 @@ const TO_CUT: [(&str, usize); 7] = [
     ("cli", 20),
     ("io::cut_file", 4),
     ("io::design_file", 5),
-    ("io::mesh_file::gltf_file", 4),
+    ("io::mesh::file::gltf_file", 4),
     ("math::solid", 4),
     ("trace::gpu::device", 7),
 ];

@@ -8,7 +8,7 @@ use crate::app::shows::Shows;
 use crate::app::theme;
 use crate::io::Failure;
 use crate::io::export::OutputFormat;
-use crate::io::refraction_map::{MOST_BANDS, MOST_PLACES};
+use crate::io::refraction::{MOST_BANDS, MOST_PLACES};
 use egui::{
     Color32, DragValue, Grid, Label, ProgressBar, Rect, RichText, ScrollArea, Sense, Stroke, StrokeKind,
     TextEdit, TextureHandle, Ui, WidgetInfo, pos2, vec2,

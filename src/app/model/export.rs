@@ -5,7 +5,7 @@ use crate::app::shows::Shows;
 use crate::app::studio::Shot;
 use crate::io::Failure;
 use crate::io::export::{Export, OutputFormat, Outputs, Viewing};
-use crate::io::refraction_map::{self, Coding, MOST_BANDS, MOST_PIXELS};
+use crate::io::refraction::{self, Coding, MOST_BANDS, MOST_PIXELS};
 use crate::optics::line;
 use crate::picture::named;
 use crate::render::{Renderer, Wanted};
@@ -143,9 +143,9 @@ impl ExportPlan {
     /// Returns the paths of the maps, then those of the diffuse layer and the page; `None` where no map is selected.
     pub fn map_paths(&self) -> Option<(Vec<PathBuf>, [PathBuf; 2])> {
         let count = (self.selection.bands * self.selection.places) as usize;
-        let maps = refraction_map::paths(&self.folder, &self.stem, count, Coding::Tiles);
+        let maps = refraction::paths(&self.folder, &self.stem, count, Coding::Tiles);
         let page = self.folder.join(format!("{}-refraction.html", self.stem));
-        let others = [refraction_map::diffuse_path(&self.folder, &self.stem), page];
+        let others = [refraction::diffuse_path(&self.folder, &self.stem), page];
         self.selection.map.then_some((maps, others))
     }
 

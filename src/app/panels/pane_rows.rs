@@ -5,7 +5,7 @@ use crate::app::model::action::{Actions, ViewAction};
 use crate::app::model::workspace::Workspace;
 use crate::app::panels::rows::{NUMBER, Row, control_width, named};
 use crate::app::shows::Shows;
-use crate::picture::pane::PaneQuality;
+use crate::picture::liquid_glass::PaneQuality;
 use egui::{Button, ComboBox, RichText, Ui, vec2};
 use std::ops::RangeInclusive;
 

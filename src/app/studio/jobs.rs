@@ -8,7 +8,7 @@ use crate::io::background::BackgroundRef;
 use crate::measure::Bounds;
 use crate::optics::line;
 use crate::picture::Backdrop;
-use crate::picture::pane::filling;
+use crate::picture::filling;
 use crate::render::{
     FiguresProduct, HungPicture, Job, LightProduct, MapProduct, PaneProduct, Product, Quality, Reading,
     ScopeProduct, Steps, Surroundings, Wanted,

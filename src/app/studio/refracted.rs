@@ -9,7 +9,7 @@ use super::take::{RAYS_COARSER, ShotTracer, TakeError};
 use super::undeveloped::{TracedLight, map_taken};
 use super::worker::FINE_RENDER;
 use crate::app::lookup::as_screens;
-use crate::io::refraction_map::tiles::code_of;
+use crate::io::refraction::code_of;
 use crate::picture::{Carried, Develop, RefractionMap};
 use crate::render::{Job, Rendered, Renderer};
 use crate::trace::Watch;

@@ -7,8 +7,8 @@ use crate::app::shows::Shows;
 use crate::app::studio::{Effort, ExportedRender, SPAN, ShotTracer, Which, survey};
 use crate::io::background::BackgroundRef;
 use crate::io::export::{Event, Export, OutputFormat, Outputs};
-use crate::io::refraction_map::{self, Coding};
-use crate::io::refraction_page::{Page, takes, write_page};
+use crate::io::refraction::{self, Coding};
+use crate::io::refraction::{Page, takes, write_page};
 use crate::io::{Failure, rasterize, write_rgba_png};
 use crate::picture::profile;
 use crate::render::Renderer;
@@ -112,8 +112,8 @@ impl ExportPlan {
             100.0 * carried.behind,
             100.0 * carried.single
         );
-        refraction_map::write_places(maps, &map, Coding::Tiles, &told)?;
-        refraction_map::write_diffuse(diffuse, &map, &told)?;
+        refraction::write_places(maps, &map, Coding::Tiles, &told)?;
+        refraction::write_diffuse(diffuse, &map, &told)?;
         let behind = self.shot.behind.as_ref().map(BackgroundRef::bytes).transpose()?;
         let background = behind.flatten().filter(|bytes| takes(bytes));
         let ground = self.shot.behind.as_ref().map_or_else(String::new, BackgroundRef::title);

@@ -4,7 +4,7 @@
 use super::cues::Cues;
 use super::even::{self, FacetParts, Match};
 use super::{Doubt, FromMeshError, Up};
-use crate::math::{Plane, Polytope, Pose};
+use crate::math::{Plane, Polytope, Pose, eigen, outer};
 use glam::{DMat3, DQuat, DVec3};
 use std::cmp::Ordering;
 
@@ -246,9 +246,9 @@ fn principal(solid: &Polytope) -> Vec<DVec3> {
     for facet in solid.facets() {
         let area = solid.facet_area(facet);
         let centre = solid.corners(facet).sum::<DVec3>() / facet.outline.len() as f64 - middle;
-        spread += DMat3::from_cols(centre * centre.x, centre * centre.y, centre * centre.z) * area;
+        spread += outer(centre) * area;
     }
-    crate::math::surface::eigen(spread).1.to_vec()
+    eigen(spread).1.to_vec()
 }
 
 /// Returns the largest part of the area that some turn about an axis carries onto other facets.

@@ -1,6 +1,6 @@
 //! The cues that a person looks for in a solid to tell which way its table faces.
 
-use crate::math::{Calipers, Polytope, area, hull};
+use crate::math::{Calipers, Polytope, area, hull, span};
 use glam::{DVec2, DVec3};
 
 /// A facet whose normal leans less than this from square to the axis (sine) stands upright: a sixth of a degree. Files'
@@ -51,7 +51,7 @@ impl Cues {
         let around = outline.iter().zip(outline.iter().cycle().skip(1)).map(|(a, b)| a.distance(*b));
         let (perimeter, covered) = (around.sum::<f64>(), area(&outline));
         let Calipers { width, length, .. } = Calipers::of(&outline)?;
-        let [low, high] = span(solid.vertices().iter().map(|v| v.dot(up)));
+        let (low, high) = span(solid.vertices().iter().map(|v| v.dot(up)));
         let pieces = pieces(solid, up);
         let middle = |p: &Piece| (p.low + p.high) / 2.0;
         let whole: f64 = pieces.iter().map(|p| p.length).sum();
@@ -86,14 +86,14 @@ fn pieces(solid: &Polytope, up: DVec3) -> Vec<Piece> {
     for (place, facet) in solid.facets().iter().enumerate() {
         if lean(place).abs() < UPRIGHT {
             let reach = |along: DVec3| span(solid.corners(facet).map(|corner| corner.dot(along)));
-            let ([from, to], [low, high]) = (reach(up.cross(facet.plane.normal)), reach(up));
+            let ((from, to), (low, high)) = (reach(up.cross(facet.plane.normal)), reach(up));
             pieces.push(Piece { is_upright: true, length: to - from, low, high });
         } else if lean(place) > 0.0 {
             let corners: Vec<DVec3> = solid.corners(facet).collect();
             for (k, &other) in facet.neighbours.iter().enumerate() {
                 if lean(other as usize) <= -UPRIGHT {
                     let [a, b] = [corners[k], corners[(k + 1) % corners.len()]];
-                    let [low, high] = span([a, b].into_iter().map(|corner| corner.dot(up)));
+                    let (low, high) = span([a.dot(up), b.dot(up)]);
                     let length = (a - b).reject_from_normalized(up).length();
                     pieces.push(Piece { is_upright: false, length, low, high });
                 }
@@ -101,11 +101,6 @@ fn pieces(solid: &Polytope, up: DVec3) -> Vec<Piece> {
         }
     }
     pieces
-}
-
-/// Returns the least and the greatest of some numbers.
-fn span(numbers: impl Iterator<Item = f64>) -> [f64; 2] {
-    numbers.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], x| [low.min(x), high.max(x)])
 }
 
 /// Returns the greatest total length of edges that lie in one plane square to the axis, where crown and pavilion meet in an

@@ -4,7 +4,7 @@
 //! not lie much farther from the evened stone than from the one that was found.
 
 use super::LEAST_UPRIGHT;
-use crate::math::surface::{Faceted, deviation};
+use crate::math::faceting::{Faceted, deviation};
 use crate::math::{Facet, Plane, Polytope, Pose, Symmetry};
 use glam::{DQuat, DVec3};
 use std::f64::consts::{PI, TAU};
@@ -75,7 +75,6 @@ pub(super) fn centroid(polytope: &Polytope) -> DVec3 {
 }
 
 /// Planes about a middle, with +z along the axis, and the symmetry that they were given.
-#[derive(Clone)]
 pub(super) struct Even {
     pub planes: Vec<Plane>,
     /// The rotation from the frame of the planes that were found.

@@ -13,7 +13,7 @@ mod outline;
 #[cfg(test)]
 mod tests;
 
-use crate::math::surface::{Faceted, deviation};
+use crate::math::faceting::{Faceted, deviation};
 use crate::math::{Plane, Polytope, PolytopeError, Pose, Symmetry};
 use glam::DVec3;
 
@@ -80,21 +80,17 @@ pub enum FromMeshError {
 /// # Errors
 /// A direction up that is zero or not finite, or facets that enclose nothing once they are evened.
 pub fn from_mesh(found: &Faceted, up: Up) -> Result<FromMesh, FromMeshError> {
-    let middle = match up {
-        Up::Posed(pose) => pose.unplace(DVec3::ZERO) - found.centre,
-        _ => even::centroid(&found.polytope),
+    let posed = if let Up::Posed(pose) = up { Some(pose) } else { None };
+    let middle = match posed {
+        Some(pose) => pose.unplace(DVec3::ZERO) - found.centre,
+        None => even::centroid(&found.polytope),
     };
     let parts = even::FacetParts::about(found, middle);
     let Aim { axis, table, doubt } = aim(&found.polytope, &parts, up)?;
-    let (even, upright) = match up {
-        Up::Posed(pose) => {
-            let even = even::evened(&parts, axis, true);
-            (even.clone(), outline::as_posed(&even, &pose))
-        }
-        _ => {
-            let even = even::evened(&parts, axis, false);
-            (even.clone(), outline::placed(&even, &parts.areas)?)
-        }
+    let even = even::evened(&parts, axis, posed.is_some());
+    let upright = match posed {
+        Some(pose) => outline::as_posed(&even, &pose),
+        None => outline::placed(&even, &parts.areas)?,
     };
     let posed: Vec<Plane> = even.planes.iter().map(|p| p.placed(&upright)).collect();
     let polytope = Polytope::from_planes(&posed)?;

@@ -35,13 +35,8 @@ pub(super) fn named(
     let (crown, girdle, pavilion) = parts(planes, table, noise);
     let (above, below) = titles(planes, &crown, &pavilion);
     let mut found: Vec<(String, usize)> = table.map(|t| ("table".to_owned(), t)).into_iter().collect();
-    let mut tell = |title: String, tier: &Tier| found.extend(tier.iter().map(|&i| (title.clone(), i)));
-    for (title, tier) in above {
-        tell(title, tier);
-    }
-    tell("girdle".to_owned(), &girdle);
-    for (title, tier) in below {
-        tell(title, tier);
+    for (title, tier) in above.into_iter().chain([("girdle".to_owned(), &girdle)]).chain(below) {
+        found.extend(tier.iter().map(|&i| (title.clone(), i)));
     }
     // A name that repeats is that of an object in the file, not of a facet.
     let different =
@@ -97,27 +92,30 @@ fn by_azimuth(planes: &[Plane], places: &mut [usize]) {
     places.sort_by(|&a, &b| azimuth(&planes[a]).total_cmp(&azimuth(&planes[b])).then(a.cmp(&b)));
 }
 
-type Titled<'a> = Vec<(String, &'a Tier)>;
+/// A tier and its name.
+type Titled<'a> = (String, &'a Tier);
 
 /// Returns the names of the tiers above and below the girdle, in the order in which they are listed.
-fn titles<'a>(planes: &[Plane], crown: &'a [Tier], pavilion: &'a [Tier]) -> (Titled<'a>, Titled<'a>) {
+fn titles<'a>(
+    planes: &[Plane],
+    crown: &'a [Tier],
+    pavilion: &'a [Tier],
+) -> (Vec<Titled<'a>>, Vec<Titled<'a>>) {
     let (culets, below): (Vec<&Tier>, Vec<&Tier>) = pavilion
         .iter()
         .partition(|tier| tier.len() == 1 && planes[tier[0]].normal.truncate().length() < LEVEL);
-    let title = |name: &str, tier: &'a Tier| (name.to_owned(), tier);
-    let mut titled: Titled<'a> = match brilliant(planes, crown, &below) {
-        Some((crown, pavilion)) => {
-            let below = pavilion.map(|(name, tier)| title(name, tier)).to_vec();
-            let culet = culets.iter().map(|tier| title("culet", tier));
-            return (
-                crown.map(|(name, tier)| title(name, tier)).to_vec(),
-                below.into_iter().chain(culet).collect(),
-            );
-        }
-        None => below.iter().enumerate().map(|(i, tier)| (format!("pavilion {}", i + 1), *tier)).collect(),
+    let (above, mut titled): (Vec<Titled<'a>>, Vec<Titled<'a>>) = if is_brilliant(planes, crown, &below) {
+        let titled = |(name, tier): (&str, &'a Tier)| (name.to_owned(), tier);
+        let above = ["bezel", "star", "upper_half"].into_iter().zip([&crown[1], &crown[2], &crown[0]]);
+        let under = ["lower_half", "main"].into_iter().zip(below);
+        (above.map(titled).collect(), under.map(titled).collect())
+    } else {
+        let above = crown.iter().enumerate().map(|(i, tier)| (format!("crown {}", letters(i)), tier));
+        let under = below.iter().enumerate().map(|(i, tier)| (format!("pavilion {}", i + 1), *tier));
+        (above.collect(), under.collect())
     };
-    titled.extend(culets.into_iter().map(|tier| title("culet", tier)));
-    (crown.iter().enumerate().map(|(i, tier)| (format!("crown {}", letters(i)), tier)).collect(), titled)
+    titled.extend(culets.into_iter().map(|tier| ("culet".to_owned(), tier)));
+    (above, titled)
 }
 
 /// Returns the letters of a number: A, B, ... Z, AA, AB, ...
@@ -126,25 +124,16 @@ fn letters(number: usize) -> String {
     if number < 26 { last.to_string() } else { format!("{}{last}", letters(number / 26 - 1)) }
 }
 
-type Named<'a, const N: usize> = [(&'static str, &'a Tier); N];
-
-/// Returns the tiers of a round brilliant; `None` where the stone is none.
+/// Whether the tiers are those of a round brilliant.
 ///
 /// A round brilliant has tiers of 16, 8 and 8 facets above the girdle and of 16 and 8 below it, with the stars between the
 /// bezels and the mains below the bezels.
-fn brilliant<'a>(
-    planes: &[Plane],
-    crown: &'a [Tier],
-    below: &[&'a Tier],
-) -> Option<(Named<'a, 3>, Named<'a, 2>)> {
-    let ([upper, bezel, star], [lower, main]) = (crown, below) else { return None };
-    let counts = [upper, bezel, star, *lower, *main].map(|tier| tier.len());
+fn is_brilliant(planes: &[Plane], crown: &[Tier], below: &[&Tier]) -> bool {
+    let ([upper, bezel, star], [lower, main]) = (crown, below) else { return false };
     let first = |tier: &Tier| azimuth(&planes[tier[0]]) - BEFORE_ZERO;
     let eighth = TAU / 8.0;
-    let at = |tier: &Tier, part: f64| (first(tier) - part * eighth).abs() < 0.1 * eighth;
-    let placed = at(bezel, 0.0) && at(star, 0.5) && at(upper, 0.25) && at(main, 0.0) && at(lower, 0.25);
-    (counts == [16, 8, 8, 16, 8] && placed).then_some((
-        [("bezel", bezel), ("star", star), ("upper_half", upper)],
-        [("lower_half", lower), ("main", main)],
-    ))
+    let is = |tier: &Tier, count: usize, part: f64| {
+        tier.len() == count && (first(tier) - part * eighth).abs() < 0.1 * eighth
+    };
+    is(upper, 16, 0.25) && is(bezel, 8, 0.0) && is(star, 8, 0.5) && is(lower, 16, 0.25) && is(main, 8, 0.0)
 }

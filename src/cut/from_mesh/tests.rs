@@ -2,9 +2,8 @@
 
 use super::super::round_brilliant::{MODERN, RoundBrilliant};
 use super::*;
-use crate::math::Pose;
-use crate::math::surface::{Face, Surface, SurfaceKind, facets};
-use crate::math::triangulate;
+use crate::math::faceting::{Face, SurfaceKind, facets};
+use crate::math::{Pose, Surface, triangulate};
 use glam::DQuat;
 use proptest::prelude::*;
 

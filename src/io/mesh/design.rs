@@ -1,0 +1,297 @@
+//! Makes stones from meshes: of a convex stone the planes, of any other its triangles.
+
+use super::file::{self, MaterialHint, MeshFile};
+use super::place::{MeshPlace, MeshRemarks, axes, doubtful};
+use crate::cut::from_mesh::{FromMesh, Up, directions, from_mesh};
+use crate::cut::{Cut, DEFAULT_DIAMETER_MM, Design, MaterialRef, MeshShape, is_printable};
+use crate::io::design_file::ImportedDesign;
+use crate::io::file_error::{Fault, FileError};
+use crate::io::mesh_options::{MeshForm, MeshOptions};
+use crate::math::faceting::{Change, Faceted, SurfaceKind, TooCurved, faceted_hull, facets};
+use crate::math::mending::Mending;
+use crate::math::{Surface, TriangleMesh};
+use glam::{DQuat, DVec3};
+use std::path::Path;
+
+/// The material of a mesh whose file gives none.
+const USUAL: &str = "diamond";
+
+/// Reads a mesh of any format; `bytes` are the content of the file at `path`.
+///
+/// # Errors
+/// When the mesh makes no stone; the error has the path and the place.
+pub fn read(bytes: Vec<u8>, path: &Path, options: MeshOptions) -> Result<ImportedDesign, FileError> {
+    let label = path.display().to_string();
+    let MeshFile { format, surface, hint, statement, warnings, name } =
+        file::parse(bytes, &label, path.parent())?;
+    let mended = surface.mend().map_err(|error| FileError::new(&label, error))?;
+    let name = Some(name).filter(|name| is_printable(name)).unwrap_or_else(|| "stone".to_owned());
+    let file = File { hint, name, place: MeshPlace::of(format, options.up, statement) };
+    let mut brought = match options.form {
+        MeshForm::Triangles => file.triangles(mended.surface, None),
+        MeshForm::Faceted => {
+            faceted_hull(mended.surface).map_err(impossible).and_then(|found| file.planes(&found))
+        }
+        MeshForm::Found => match facets(mended.surface) {
+            SurfaceKind::Convex(found) => file.planes(&found),
+            SurfaceKind::Concave(surface) => file.triangles(surface, Some(NOT_CONVEX)),
+        },
+    }
+    .map_err(|fault| fault.in_file(&label))?;
+    brought.notes.splice(0..0, told_of(&mended.mending));
+    brought.warnings.splice(0..0, warnings);
+    Ok(brought)
+}
+
+/// The note on a mesh that is traced as triangles though nobody asked for that.
+const NOT_CONVEX: &str = "it is not convex; --as faceted reads the convex stone around it";
+
+/// Returns the message on why a mesh cannot be read as a faceted stone, and what to do.
+fn impossible(error: TooCurved) -> Fault {
+    Fault::whole(format!(
+        "it cannot be read as a faceted stone: {error}; save a coarser mesh, or read it with --as triangles"
+    ))
+}
+
+/// Returns the note on what has changed where a mesh is taken for a convex stone. Lengths of the file times `scale` are
+/// girdle radii.
+fn changed(change: &Change, tolerance: f64, scale: f64) -> String {
+    let (sharpest, volume) = (change.sharpest.to_degrees(), 100.0 * change.volume);
+    let [deepest, tolerance] = [change.deepest, tolerance].map(|length| scale * length);
+    format!(
+        "the mesh bends inward at {} edges, by up to {sharpest:.1} degrees, and is read as the convex stone that it \
+         stands for: the volume changes by {volume:+.3} %, the deepest point of the mesh lies {deepest:.4} girdle radii \
+         below the stone's facets, and corners within {tolerance:.1e} girdle radii of a plane share a facet; --as \
+         triangles keeps the mesh as it is",
+        change.bent
+    )
+}
+
+/// What a file says besides its shape, and how its stone lies.
+struct File {
+    hint: Option<MaterialHint>,
+    name: String,
+    place: MeshPlace,
+}
+
+impl File {
+    fn planes(mut self, found: &Faceted) -> Result<ImportedDesign, Fault> {
+        let mut told = MeshRemarks::default();
+        let surface = found.surface.moved(found.centre);
+        let up = self.place.up(&surface, || directions(&found.polytope), &mut told);
+        let made = from_mesh(found, up).map_err(Fault::whole)?;
+        let FromMesh { mut facets, pose, .. } = made;
+        // A known size counts, whatever width was found.
+        let scale = self.place.scale.unwrap_or(pose.scale);
+        let rescaled = scale / pose.scale;
+        facets.iter_mut().for_each(|(_, plane)| plane.offset *= rescaled);
+        let (count, deviation) = (facets.len(), made.deviation * rescaled);
+        told.notes.push(format!(
+            "{count} facets were found; no corner lies farther from them than {deviation:.1e} girdle radii"
+        ));
+        told.is_doubtful = made.doubt.is_some();
+        told.notes.extend(found.change.map(|change| changed(&change, found.tolerance, scale)));
+        told.notes.extend(made.doubt.map(|doubt| doubtful(made.up, doubt.other)));
+        let brought = self.brought(Cut::Planes(facets), scale, told);
+        brought.design.check().map_err(Fault::whole)?;
+        Ok(brought)
+    }
+
+    fn triangles(mut self, surface: Surface, why: Option<&str>) -> Result<ImportedDesign, Fault> {
+        let mut told = MeshRemarks::default();
+        let up = self.place.up(&surface, || axes().to_vec(), &mut told);
+        let shell = TriangleMesh::new(surface).map_err(Fault::whole)?;
+        let turn = match up {
+            Up::Posed(pose) => pose.turn,
+            Up::Given(up) | Up::Known(up) | Up::FoundBy(up) => {
+                let up = up.try_normalize().ok_or("the direction up must not be 0")?;
+                DQuat::from_rotation_arc(up, DVec3::Z)
+            }
+            Up::Found => DQuat::IDENTITY,
+        };
+        let (shape, scale) =
+            MeshShape::framed(&shell, turn).ok_or("it has no extent across the direction up")?;
+        // A known size stays in mm, though this frame may have another scale than that of the stone that was written.
+        if let (Some(known), Some(diameter_mm)) = (self.place.scale, &mut self.place.diameter_mm) {
+            *diameter_mm *= known / scale;
+        }
+        told.notes.extend(why.map(str::to_owned));
+        told.notes.push(format!("it is traced as {} triangles", shape.surface().triangles.len()));
+        Ok(self.brought(Cut::Mesh(shape), scale, told))
+    }
+
+    /// Makes the design of a cut, with `scale` girdle radii per unit of the file.
+    fn brought(self, cut: Cut, scale: f64, told: MeshRemarks) -> ImportedDesign {
+        let MeshRemarks { mut notes, mut warnings, is_doubtful } = told;
+        let diameter_mm = self.place.diameter_mm.unwrap_or(DEFAULT_DIAMETER_MM);
+        let (material, why) = self.material(0.5 * diameter_mm * scale);
+        match why {
+            Ok(note) => notes.extend(note),
+            Err(warning) => warnings.push(warning),
+        }
+        let design = Design { name: self.name, source: None, notes: None, material, diameter_mm, cut };
+        ImportedDesign { notes, warnings, doubt: Some(is_doubtful), ..ImportedDesign::of(design) }
+    }
+
+    /// Returns the material that the file asks for, with a note where it asks for none or a warning where there is no such
+    /// material.
+    fn material(&self, mm_per_unit: f64) -> (MaterialRef, Result<Option<String>, String>) {
+        let usual = MaterialRef::Name(USUAL.to_owned());
+        match (&self.place.material, &self.hint) {
+            (Some(stated), hint) if hint.as_ref().is_none_or(|hint| hint.is_of(stated, mm_per_unit)) => {
+                (stated.clone(), Ok(None))
+            }
+            (_, Some(hint)) => match hint.material(mm_per_unit) {
+                Ok(Some(material)) => (material, Ok(None)),
+                Ok(None) => (usual, Ok(Some(unsaid()))),
+                Err(error) => (usual, Err(format!("{error}; {USUAL} is taken"))),
+            },
+            (_, None) => (usual, Ok(Some(unsaid()))),
+        }
+    }
+}
+
+fn unsaid() -> String {
+    format!("the file has no material that refracts; {USUAL} is used")
+}
+
+/// Returns notes on what was mended of a mesh, where that is more than any file of triangles needs.
+fn told_of(mending: &Mending) -> Vec<String> {
+    let count = |count: usize, what: &str| (count > 0).then(|| format!("{count} {what}"));
+    let crack = (mending.crack > 0.0)
+        .then(|| format!("cracks of up to {:.1e} of its unit were closed", mending.crack));
+    [
+        count(mending.copies, "copies of triangles are left out"),
+        count(mending.degenerate, "triangles without an area are left out"),
+        count(mending.turned, "triangles that faced inward are turned"),
+        count(mending.seams, "pieces were made of triangles whose edges had corners on them"),
+        crack,
+    ]
+    .into_iter()
+    .flatten()
+    .collect()
+}
+
+#[cfg(test)]
+#[allow(clippy::print_stdout, reason = "a test that is left out says so")]
+mod tests {
+    use super::*;
+    use crate::io::{cut_file, library, write_obj, write_stl};
+    use crate::math::Plane;
+    use crate::scene::Specimen;
+
+    /// The diamond that most demos load: every corner is one of its hull, and its kites are bent over the wrong diagonal.
+    #[test]
+    fn a_diamond_of_the_web_is_read_as_the_stone_it_means() {
+        let path =
+            Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../shared/data/mesh/gkjohnson-diamond.glb"));
+        let Ok(bytes) = std::fs::read(path) else {
+            println!("SKIPPED: {} is not there", path.display());
+            return;
+        };
+        let open = |form| read(bytes.clone(), path, MeshOptions { form, ..MeshOptions::default() }).unwrap();
+        let found = open(MeshForm::Found);
+        let told = found.notes.join("\n");
+        assert!(found.warnings.is_empty() && told.contains("69 facets were found"), "{told}");
+        assert!(!told.contains("nearly as likely"), "{told}");
+        assert!(told.contains("bends inward at 20 edges, by up to 24.7 degrees"), "{told}");
+        assert!(told.contains("the volume changes by +1.375 %"), "{told}");
+        let stone = Specimen::new(found.design.clone()).unwrap();
+        let names = stone.stone().unwrap().names().to_vec();
+        assert!(
+            names[0] == "table" && names.iter().filter(|n| n.starts_with("pavilion 1")).count() == 20,
+            "{names:?}"
+        );
+        assert!(names.iter().filter(|n| n.starts_with("crown A")).count() == 20, "{names:?}");
+        assert_eq!(open(MeshForm::Faceted).design, found.design);
+        let triangles = open(MeshForm::Triangles);
+        let Cut::Mesh(shape) = &triangles.design.cut else { panic!("no triangles") };
+        assert_eq!(shape.surface().triangles.len(), 96);
+        assert!(triangles.notes.iter().any(|note| note == "it is traced as 96 triangles"));
+    }
+
+    #[test]
+    fn a_solid_that_is_not_convex_is_faceted_only_where_that_is_asked_for_and_possible() {
+        let obj = |(vertices, triangles): crate::math::fixture::Triangles| {
+            let corner = |v: &DVec3| format!("v {} {} {}\n", v.x, v.y, v.z);
+            let face = |t: &[u32; 3]| format!("f {} {} {}\n", t[0] + 1, t[1] + 1, t[2] + 1);
+            let corners: String = vertices.iter().map(corner).collect();
+            (corners + &triangles.iter().map(face).collect::<String>()).into_bytes()
+        };
+        let open = |bytes: Vec<u8>, form| {
+            read(bytes, Path::new("x.obj"), MeshOptions { form, ..MeshOptions::default() })
+        };
+        let heart = obj(crate::math::fixture::heart());
+        let found = open(heart.clone(), MeshForm::Found).unwrap();
+        assert!(
+            matches!(found.design.cut, Cut::Mesh(_)) && found.notes.iter().any(|note| note == NOT_CONVEX)
+        );
+        let faceted = open(heart, MeshForm::Faceted).unwrap();
+        assert!(matches!(faceted.design.cut, Cut::Planes(_)));
+        let [before, after] = [found, faceted].map(|b| {
+            let solid = Specimen::new(b.design).unwrap();
+            let (low, high) = solid.solid().bounds();
+            solid.solid().volume() / (high - low).element_product()
+        });
+        assert!(after > 1.05 * before, "{after} {before}");
+        let golden = std::f64::consts::PI * (3.0 - 5.0_f64.sqrt());
+        let at = |k: i32| {
+            let z = 1.0 - (2.0 * f64::from(k) + 1.0) / 4000.0;
+            let (sin, cos) = (golden * f64::from(k)).sin_cos();
+            DVec3::new((1.0 - z * z).sqrt() * cos, (1.0 - z * z).sqrt() * sin, z)
+        };
+        let vertices: Vec<DVec3> = (0..4000).map(at).collect();
+        let triangles = crate::math::convex_hull(&vertices).unwrap();
+        let ball = obj((vertices, triangles));
+        assert!(matches!(open(ball.clone(), MeshForm::Found).unwrap().design.cut, Cut::Mesh(_)));
+        let told = open(ball, MeshForm::Faceted).unwrap_err().to_string();
+        assert!(
+            told.contains("cannot be read as a faceted stone") && told.contains("--as triangles"),
+            "{told}"
+        );
+    }
+
+    #[test]
+    fn a_mesh_that_was_scaled_is_told_so_though_its_direction_is_given() {
+        let design = cut_file::parse(library::cut("tolkowsky").unwrap(), "t").unwrap();
+        let specimen = Specimen::new(design).unwrap();
+        let obj = write_obj(&specimen.body, "t", 3.25, Some(&specimen.design.material));
+        let scaled = |line: &str| match line.strip_prefix("v ") {
+            Some(numbers) => {
+                let numbers = numbers.split(' ').map(|n| 2.0 * n.parse::<f64>().unwrap());
+                format!("v{}\n", numbers.map(|n| format!(" {n}")).collect::<String>())
+            }
+            None => format!("{line}\n"),
+        };
+        let larger: String = obj.lines().map(scaled).collect();
+        let open = |text: &str| {
+            let options = MeshOptions { up: Up::Given(DVec3::Z), ..MeshOptions::default() };
+            read(text.as_bytes().to_vec(), Path::new("t.obj"), options).unwrap()
+        };
+        let told = open(&larger).warnings.join("; ");
+        assert!(told.contains("its corners have been scaled by 2.0000 since; 6.5 mm is kept"), "{told}");
+        assert_eq!(open(&obj).warnings, Vec::<String>::new());
+    }
+
+    /// Six digits of a cutter's file leave corners where facets nearly meet, and slivers of triangles beside them.
+    #[test]
+    fn facets_that_meet_but_for_the_last_digit_are_found() {
+        let design = cut_file::parse(library::cut("tolkowsky").unwrap(), "t").unwrap();
+        let rounded = |x: f64| (x * 1e6).round() / 1e6;
+        let facets = design.facets().unwrap().into_iter().map(|(name, plane)| {
+            (name, Plane::new(plane.normal.to_array().map(rounded).into(), rounded(plane.offset)))
+        });
+        let specimen = Specimen::new(Design { cut: Cut::Planes(facets.collect()), ..design }).unwrap();
+        let count = specimen.stone().unwrap().polytope.facets().len();
+        for bytes in [
+            write_obj(&specimen.body, "t", 1.0, None).into_bytes(),
+            write_stl(&specimen.body, 3.0, None).unwrap(),
+        ] {
+            let brought = read(bytes, Path::new("t"), MeshOptions::default()).unwrap();
+            let Cut::Planes(planes) = &brought.design.cut else { panic!("concave") };
+            assert_eq!(planes.len(), count);
+            let again = Specimen::new(brought.design).unwrap().solid().volume();
+            assert!((again - specimen.solid().volume()).abs() < 1e-4);
+        }
+    }
+}

@@ -1,0 +1,337 @@
+//! Writes stones as meshes: OBJ and PLY with facets as polygons, STL and binary glTF with triangles.
+//!
+//! `scale` is in units of the file per girdle radius: for OBJ, PLY and STL the radius in mm, as the trade has it; for glTF
+//! the radius in metres, as its standard wants it. OBJ keeps 15 digits of the largest coordinate and PLY all of f64; the
+//! others are f32. Every file states how its stone lies, how large it is and of what material, in a [`Statement`]. OBJ and
+//! glTF give the facets their names back when read. A solid that is not convex is written by its triangles.
+
+mod ply;
+
+use super::file::{MaterialHint, Statement, rounded};
+use crate::cut::MaterialRef;
+use crate::math::{Surface, triangulate};
+use crate::scene::Body;
+use glam::DVec3;
+use serde_json::{Value, json};
+use std::borrow::Cow;
+use std::fmt::Write as _;
+
+/// The key of a facet's name among the extras of its glTF primitive.
+pub(super) const FACET: &str = "facet";
+
+/// The key of the statement among the extras of a glTF node.
+pub(super) const STATEMENT: &str = "brillianteer";
+
+/// The number of digits of an OBJ's largest coordinate.
+const DIGITS: f64 = 15.0;
+
+/// The most decimals of an OBJ's coordinates, which the least f64 above 0 needs.
+const MOST_DECIMALS: f64 = 340.0;
+
+/// The size of a binary STL's header, in bytes.
+const STL_HEADER: usize = 80;
+
+/// The most bytes of a statement in formats that set no other limit.
+const LONGEST: usize = 400;
+
+/// The number of millimetres in glTF's unit, the metre.
+const METRE: f64 = 1000.0;
+
+/// glTF's codes for numbers of f32 and of u32, and for the two purposes of buffer views.
+const F32: u32 = 5126;
+const U32: u32 = 5125;
+const VERTICES: u32 = 34962;
+const INDICES: u32 = 34963;
+
+/// The number of steps into which a quarter of a turn of a smooth surface is cut.
+pub const FINENESS: usize = 24;
+
+/// A facet, or a triangle of a mesh: its name, its corners, counter-clockwise seen from outside, and the normals there.
+struct Face<'a> {
+    name: Option<&'a str>,
+    corners: Vec<u32>,
+    normals: Vec<DVec3>,
+    /// The triangles of the facet, by corners of the solid.
+    triangles: Vec<[u32; 3]>,
+}
+
+/// The corners of a solid, and the faces between them.
+struct Faces<'a> {
+    vertices: Cow<'a, [DVec3]>,
+    faces: Vec<Face<'a>>,
+}
+
+impl Faces<'_> {
+    /// Returns the statement of a file with `mm_per_unit` mm per unit, in which `up` is up: +z, or +y as in glTF.
+    fn statement(
+        &self,
+        up: DVec3,
+        mm_per_unit: f64,
+        scale: f64,
+        material: Option<&MaterialRef>,
+    ) -> Statement {
+        let triangles = self.faces.iter().flat_map(|face| face.triangles.iter().copied()).collect();
+        let stone = Surface::new(self.vertices.to_vec(), triangles);
+        Statement::of(&stone, up, mm_per_unit, scale * mm_per_unit, material)
+    }
+}
+
+fn faces(body: &Body) -> Faces<'_> {
+    match body {
+        Body::Stone(stone) => {
+            let mut triangles = vec![vec![]; stone.names().len()];
+            let mesh = triangulate(&stone.polytope);
+            mesh.triangles.iter().zip(&mesh.facets).for_each(|(t, &f)| triangles[f as usize].push(*t));
+            let named = stone.polytope.facets().iter().zip(stone.names()).zip(triangles);
+            let face = named.map(|((facet, name), triangles)| Face {
+                name: Some(name.as_str()),
+                normals: vec![facet.plane.normal; facet.outline.len()],
+                corners: facet.outline.clone(),
+                triangles,
+            });
+            Faces { faces: face.collect(), vertices: stone.polytope.vertices().into() }
+        }
+        Body::Mesh(shell) => {
+            let face = |(t, &f): (&[u32; 3], &u32)| nameless(*t, [shell.planes()[f as usize].normal; 3]);
+            let faces = shell.surface().triangles.iter().zip(shell.facets()).map(face).collect();
+            Faces { faces, vertices: shell.vertices().into() }
+        }
+        Body::Glass(smooth) => {
+            let Surface { vertices, triangles, .. } = smooth.field().surface(FINENESS);
+            let normals: Vec<DVec3> = vertices.iter().map(|v| smooth.field().normal(*v)).collect();
+            let face = |t: &[u32; 3]| nameless(*t, t.map(|v| normals[v as usize]));
+            Faces { faces: triangles.iter().map(face).collect(), vertices: vertices.into() }
+        }
+    }
+}
+
+fn nameless<'a>(triangle: [u32; 3], normals: [DVec3; 3]) -> Face<'a> {
+    Face { name: None, corners: triangle.to_vec(), normals: normals.to_vec(), triangles: vec![triangle] }
+}
+
+/// Encodes a solid as OBJ, z up: each facet is a polygon in a group of its name.
+pub fn write_obj(body: &Body, name: &str, scale: f64, material: Option<&MaterialRef>) -> String {
+    let all = faces(body);
+    let statement = all.statement(DVec3::Z, 1.0, scale, material).text(LONGEST);
+    let Faces { faces, vertices } = all;
+    let mut text = format!("# {} faces, mm, z up\n", faces.len());
+    // Formatting into a String cannot fail.
+    if let Some(statement) = statement {
+        let _ = writeln!(text, "# {statement}");
+    }
+    let _ = writeln!(text, "o {name}");
+    let decimals = decimals(vertices.iter().map(|v| scale * v.abs().max_element()).fold(0.0, f64::max));
+    for v in vertices.iter() {
+        let [x, y, z] = (*v * scale).to_array().map(|x| rounded(x, decimals));
+        let _ = writeln!(text, "v {x} {y} {z}");
+    }
+    for face in faces {
+        if let Some(name) = face.name {
+            let _ = writeln!(text, "g {name}");
+        }
+        let corners: String = face.corners.iter().map(|v| format!(" {}", v + 1)).collect();
+        let _ = writeln!(text, "f{corners}");
+    }
+    text
+}
+
+/// Returns the number of decimals of a file's coordinates, given the largest of them: enough for [`DIGITS`] digits. Digits
+/// beyond are the rounding of f64.
+fn decimals(largest: f64) -> usize {
+    (DIGITS - 1.0 - largest.log10().floor()).clamp(0.0, MOST_DECIMALS) as usize
+}
+
+/// Encodes a solid as binary STL, z up. A statement that does not fit into its header is left out whole.
+///
+/// # Errors
+/// None but for lack of memory: a list of bytes refuses nothing that is written to it.
+pub fn write_stl(body: &Body, scale: f64, material: Option<&MaterialRef>) -> std::io::Result<Vec<u8>> {
+    let all = faces(body);
+    let statement = all.statement(DVec3::Z, 1.0, scale, material).text(STL_HEADER);
+    let Faces { faces, vertices } = all;
+    let vector = |v: DVec3| stl_io::Vector::new(v.as_vec3().to_array());
+    let triangle = |face: &Face, corners: [u32; 3]| stl_io::Triangle {
+        normal: vector(face.normals[0]),
+        vertices: corners.map(|v| vector(vertices[v as usize] * scale)),
+    };
+    let each = faces.iter().flat_map(|face| face.triangles.iter().map(move |t| triangle(face, *t)));
+    let triangles: Vec<stl_io::Triangle> = each.collect();
+    let mut bytes = vec![];
+    stl_io::write_stl(&mut bytes, triangles.iter())?;
+    if let Some(statement) = statement {
+        bytes[..statement.len()].copy_from_slice(statement.as_bytes());
+    }
+    Ok(bytes)
+}
+
+/// What the header of an STL states of its stone.
+pub struct Stated {
+    /// Whether it states how large the stone is and which way it faces.
+    pub place: bool,
+    /// Whether it states the material.
+    pub material: bool,
+}
+
+/// Returns what the header of an STL that [`write_stl`] has encoded states.
+pub fn stated_in_stl(stl: &[u8]) -> Stated {
+    let header = String::from_utf8_lossy(&stl[..stl.len().min(STL_HEADER)]);
+    let stated = Statement::parse(header.trim_end_matches('\0')).ok();
+    Stated { place: stated.is_some(), material: stated.is_some_and(|stated| stated.material.is_some()) }
+}
+
+/// Encodes a solid as binary PLY, z up: each facet is a polygon.
+///
+/// # Errors
+/// None but for lack of memory.
+pub fn write_ply(body: &Body, scale: f64, material: Option<&MaterialRef>) -> std::io::Result<Vec<u8>> {
+    let all = faces(body);
+    let statement = all.statement(DVec3::Z, 1.0, scale, material).text(LONGEST);
+    ply::written(&all, scale, statement)
+}
+
+/// Encodes a solid as binary glTF, y up.
+///
+/// Each named facet is a primitive with flat normals and its name among its extras; all triangles of a mesh are one
+/// primitive. The material is written by its extensions.
+///
+/// # Errors
+/// None but for lack of memory.
+pub fn write_glb(
+    body: &Body,
+    name: &str,
+    scale: f64,
+    (hint, material): (&MaterialHint, Option<&MaterialRef>),
+) -> Result<Vec<u8>, gltf::Error> {
+    let mut parts = Parts::default();
+    let all = faces(body);
+    let statement = all.statement(DVec3::Y, METRE, scale, material).text(LONGEST);
+    let Faces { faces, vertices } = all;
+    let mut nameless = Primitive::default();
+    for face in faces {
+        let mut own = Primitive::default();
+        let primitive = if face.name.is_some() { &mut own } else { &mut nameless };
+        primitive.add(&face, &vertices, scale);
+        if let Some(name) = face.name {
+            parts.primitive(Some(name), &own);
+        }
+    }
+    if !nameless.triangles.is_empty() {
+        parts.primitive(None, &nameless);
+    }
+    let Parts { bin, views, accessors, primitives } = parts;
+    // A quarter turn about x makes y up out of z up.
+    let half = std::f64::consts::FRAC_1_SQRT_2;
+    let root = json!({
+        "asset": { "version": "2.0", "generator": "Brillianteer" },
+        "scene": 0,
+        "scenes": [{ "name": name, "nodes": [0] }],
+        "nodes": [{ "name": name, "mesh": 0, "rotation": [-half, 0.0, 0.0, half],
+            "extras": { STATEMENT: statement } }],
+        "meshes": [{ "name": name, "primitives": primitives }],
+        "materials": [material_json(hint, scale)],
+        "extensionsUsed": used(hint),
+        "buffers": [{ "byteLength": bin.len() }],
+        "bufferViews": views,
+        "accessors": accessors,
+    });
+    let header = gltf::binary::Header { magic: *b"glTF", version: 2, length: 0 };
+    let json = root.to_string().into_bytes();
+    gltf::Glb { header, json: json.into(), bin: Some(bin.into()) }.to_vec()
+}
+
+#[derive(Default)]
+struct Parts {
+    bin: Vec<u8>,
+    views: Vec<Value>,
+    accessors: Vec<Value>,
+    primitives: Vec<Value>,
+}
+
+/// Corners, each with its normal, and triangles by the indices of their corners.
+#[derive(Default)]
+struct Primitive {
+    corners: Vec<DVec3>,
+    normals: Vec<DVec3>,
+    triangles: Vec<u32>,
+}
+
+impl Primitive {
+    fn add(&mut self, face: &Face, vertices: &[DVec3], scale: f64) {
+        let first = self.corners.len();
+        let place = |v: &u32| (first + face.corners.iter().position(|o| o == v).unwrap_or_default()) as u32;
+        self.triangles.extend(face.triangles.iter().flatten().map(place));
+        self.corners.extend(face.corners.iter().map(|&v| vertices[v as usize] * scale));
+        self.normals.extend(&face.normals);
+    }
+}
+
+impl Parts {
+    fn primitive(&mut self, name: Option<&str>, shape: &Primitive) {
+        let Primitive { corners, normals, triangles } = shape;
+        let floats = |v: DVec3| v.as_vec3().to_array();
+        let places: Vec<[f32; 3]> = corners.iter().map(|&v| floats(v)).collect();
+        let low = places.iter().fold([f32::INFINITY; 3], |a, b| [0, 1, 2].map(|i| a[i].min(b[i])));
+        let high = places.iter().fold([f32::NEG_INFINITY; 3], |a, b| [0, 1, 2].map(|i| a[i].max(b[i])));
+        let bytes =
+            |list: &[[f32; 3]]| list.iter().flatten().flat_map(|x| x.to_le_bytes()).collect::<Vec<u8>>();
+        let position = self.view(&bytes(&places), VERTICES);
+        self.accessors.push(json!({ "bufferView": position, "componentType": F32, "count": places.len(),
+            "type": "VEC3", "min": low, "max": high }));
+        let normals: Vec<[f32; 3]> = normals.iter().map(|&v| floats(v)).collect();
+        let normals = self.view(&bytes(&normals), VERTICES);
+        self.accessors.push(json!({ "bufferView": normals, "componentType": F32, "count": places.len(),
+            "type": "VEC3" }));
+        let numbers: Vec<u8> = triangles.iter().flat_map(|i| i.to_le_bytes()).collect();
+        let order = self.view(&numbers, INDICES);
+        self.accessors.push(json!({ "bufferView": order, "componentType": U32, "count": triangles.len(),
+            "type": "SCALAR" }));
+        let attributes = json!({ "POSITION": position, "NORMAL": normals });
+        let mut primitive = json!({ "attributes": attributes, "indices": order, "material": 0 });
+        if let Some(name) = name {
+            primitive["extras"] = json!({ FACET: name });
+        }
+        self.primitives.push(primitive);
+    }
+
+    /// Adds a buffer view, and returns its number, which its accessor has as well.
+    fn view(&mut self, bytes: &[u8], target: u32) -> usize {
+        self.views.push(json!({ "buffer": 0, "byteOffset": self.bin.len(), "byteLength": bytes.len(),
+            "target": target }));
+        self.bin.extend(bytes);
+        self.views.len() - 1
+    }
+}
+
+/// Returns a material as glTF has it. Renderers that trace no rays take `thickness`, in units of the file, for the way through.
+fn material_json(hint: &MaterialHint, thickness: f64) -> Value {
+    let mut extensions = serde_json::Map::new();
+    let mut extend = |name: &str, value: Value| extensions.insert(format!("KHR_materials_{name}"), value);
+    if hint.transmits {
+        extend("transmission", json!({ "transmissionFactor": 1.0 }));
+        // A thickness above 0 says that the surface bounds a volume.
+        let volume = match hint.attenuation {
+            Some((colour, distance)) => {
+                json!({ "thicknessFactor": thickness, "attenuationColor": colour, "attenuationDistance": distance })
+            }
+            None => json!({ "thicknessFactor": thickness }),
+        };
+        extend("volume", volume);
+    }
+    if let Some(ior) = hint.ior {
+        extend("ior", json!({ "ior": ior }));
+    }
+    if let Some(dispersion) = hint.dispersion {
+        extend("dispersion", json!({ "dispersion": dispersion }));
+    }
+    json!({
+        "name": hint.name,
+        "pbrMetallicRoughness": { "metallicFactor": 0.0, "roughnessFactor": 0.0 },
+        "extensions": extensions,
+    })
+}
+
+fn used(hint: &MaterialHint) -> Vec<String> {
+    let value = material_json(hint, 1.0);
+    let names = value["extensions"].as_object().map(|map| map.keys().cloned().collect());
+    names.unwrap_or_default()
+}

@@ -1,0 +1,62 @@
+//! Limits of the meshes that are read: enough for any scan of a stone, too little to fill the memory.
+
+use super::{Fault, Read};
+use crate::io::text::unreadable;
+use std::fs::File;
+use std::io::Read as _;
+use std::path::Path;
+
+/// The size of the largest file that is read, in bytes; a buffer beside it may be as large again, and all buffers together.
+pub const MAX_BYTES: u64 = 512 << 20;
+
+/// The most corners that are read.
+pub(super) const MAX_VERTICES: usize = 12_000_000;
+
+/// The most triangles that are read.
+const MAX_TRIANGLES: usize = 4_000_000;
+
+/// Reads a file, if it is no larger than [`MAX_BYTES`].
+pub(super) fn bytes(path: &Path) -> Result<Vec<u8>, Fault> {
+    if path.is_dir() {
+        return Err("this is a directory; a file is expected".into());
+    }
+    let mut bytes = Vec::new();
+    File::open(path).and_then(|file| file.take(MAX_BYTES + 1).read_to_end(&mut bytes)).map_err(unreadable)?;
+    if bytes.len() as u64 > MAX_BYTES {
+        return Err(format!("this is larger than {} MiB; save a coarser mesh", MAX_BYTES >> 20).into());
+    }
+    Ok(bytes)
+}
+
+/// Refuses more triangles or corners than are read.
+pub(super) fn count(vertices: usize, triangles: usize) -> Result<(), Fault> {
+    let told = |what: &str, most: usize| {
+        Err(format!("this has more than {} million {what}; save a coarser mesh", most / 1_000_000).into())
+    };
+    match (vertices > MAX_VERTICES, triangles > MAX_TRIANGLES) {
+        (_, true) => told("triangles", MAX_TRIANGLES),
+        (true, _) => told("corners", MAX_VERTICES),
+        _ => Ok(()),
+    }
+}
+
+/// Checks that a reader's corners are finite and its triangles exist and refer to them.
+pub(super) fn checked(read: Read) -> Result<Read, Fault> {
+    let surface = &read.surface;
+    count(surface.vertices.len(), surface.triangles.len())?;
+    if surface.triangles.is_empty() {
+        return Err("this holds no triangles; a closed surface is expected".into());
+    }
+    if let Some(place) = surface.vertices.iter().position(|v| !v.is_finite()) {
+        let message =
+            format!("{} is not a finite position; finite coordinates are expected", surface.vertices[place]);
+        return Err(Fault::part(format!("corner {}", place + 1), message));
+    }
+    let known = surface.vertices.len() as u32;
+    if let Some(place) = surface.triangles.iter().position(|t| t.iter().any(|&v| v >= known)) {
+        let corner = surface.triangles[place].into_iter().max().unwrap_or_default();
+        let message = format!("it refers to corner {corner}, counted from 0, and there are {known}");
+        return Err(Fault::part(format!("triangle {}", place + 1), message));
+    }
+    Ok(read)
+}

@@ -1,0 +1,94 @@
+//! Reads mesh files: glTF, OBJ, STL and PLY, each by its crate into one [`Surface`] of triangles.
+//!
+//! The content of a file decides its format, not the ending of its name. What is merely unusual is a warning; what cannot be
+//! read is an error that names the file, the place and what was expected. Nothing is read but the file itself and buffers
+//! that lie beside it.
+
+mod gltf_file;
+mod hint;
+mod limits;
+mod lines;
+mod obj_file;
+mod ply_file;
+mod sniff;
+mod statement;
+mod stl_file;
+
+#[cfg(test)]
+mod tests;
+
+use crate::io::file_error::{Fault, FileError};
+use crate::math::Surface;
+use std::path::Path;
+
+pub use hint::MaterialHint;
+pub use limits::MAX_BYTES;
+use sniff::STL_HEADER;
+pub use sniff::{MeshFormat, looks_like};
+pub use statement::{Stands, Statement, rounded};
+
+/// The content of a mesh file as it is written: not yet welded, in the file's unit and frame.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MeshFile {
+    /// The format of the file.
+    pub format: MeshFormat,
+    /// All triangles; the surface's groups are the file's meshes, objects or groups, with their names.
+    pub surface: Surface,
+    /// What the file says of its material.
+    pub hint: Option<MaterialHint>,
+    /// What the file states of its stone, where this program wrote it.
+    pub statement: Option<Statement>,
+    /// What is unusual about the file, in words.
+    pub warnings: Vec<String>,
+    /// The name that the file gives itself, or else the file's own name without its ending.
+    pub name: String,
+}
+
+/// What the reader of a format returns, which does not yet have its file's name.
+#[derive(Default)]
+struct Read {
+    surface: Surface,
+    hint: Option<MaterialHint>,
+    warnings: Vec<String>,
+    name: Option<String>,
+    /// The text of the statement that this program writes into meshes.
+    said: Option<String>,
+}
+
+/// Reads the content of a mesh file; `label` stands for its path in errors, and `folder` is where its buffers lie, if it may
+/// have any.
+///
+/// # Errors
+/// When the content is no mesh that can be read; the error has the place.
+pub fn parse(bytes: Vec<u8>, label: &str, folder: Option<&Path>) -> Result<MeshFile, FileError> {
+    if bytes.is_empty() {
+        return Err(FileError::new(label, "the file is empty"));
+    }
+    // A binary STL that was cut off, or whose count is wrong, can be recognised by its name alone.
+    let is_named = Path::new(label).extension().is_some_and(|e| e.eq_ignore_ascii_case("stl"));
+    let binary =
+        (is_named && bytes.len() >= STL_HEADER && bytes.contains(&0)).then_some(MeshFormat::StlBinary);
+    let Some(format) = looks_like(&bytes).or(binary) else {
+        return Err(FileError::new(label, "this is no mesh: glTF, OBJ, STL or PLY is expected"));
+    };
+    let read = match format {
+        MeshFormat::Glb | MeshFormat::Gltf => gltf_file::read(&bytes, folder),
+        MeshFormat::Obj => obj_file::read(&bytes),
+        MeshFormat::StlBinary => stl_file::read_binary(bytes),
+        MeshFormat::StlText => stl_file::read_text(&bytes),
+        MeshFormat::Ply => ply_file::read(&bytes),
+    };
+    let Read { surface, hint, mut warnings, name, said } =
+        read.and_then(limits::checked).map_err(|fault| fault.in_file(label))?;
+    let stem = Path::new(label).file_stem().map(|stem| stem.to_string_lossy().into_owned());
+    let printable = |name: &String| crate::cut::is_printable(name);
+    let name = name.filter(printable).or(stem.filter(printable)).unwrap_or_else(|| "mesh".to_owned());
+    let statement = said.and_then(|said| match Statement::parse(&said) {
+        Ok(statement) => Some(statement),
+        Err(why) => {
+            warnings.push(format!("what it says of how its stone lies cannot be read: {why}"));
+            None
+        }
+    });
+    Ok(MeshFile { format, surface, hint, statement, warnings, name })
+}

@@ -1,0 +1,127 @@
+//! Reads Wavefront OBJ, by tobj in f64. tobj gets corners, faces, objects and groups, but no lines, normals and materials:
+//! nothing of those is used, and faults in them are no reason to refuse a stone.
+
+use super::lines::Lines;
+use super::{Fault, Read, Statement, limits};
+use crate::math::Surface;
+use glam::DVec3;
+use tobj::{LoadError, LoadOptions, Model};
+
+/// The names that tobj gives to what has none.
+const NAMELESS: [&str; 2] = ["unnamed_object", "default"];
+
+pub(super) fn read(bytes: &[u8]) -> Result<Read, Fault> {
+    let corners = bytes.split(|b| *b == b'\n').filter(|l| l.trim_ascii_start().starts_with(b"v ")).count();
+    limits::count(corners, 0)?;
+    let mut odd = Odd::default();
+    let (mut lines, line) = Lines::new(bytes, |line, out: &mut Vec<u8>| odd.hand_on(line, out));
+    let options =
+        LoadOptions { single_index: true, triangulate: true, ignore_points: true, ignore_lines: true };
+    let loaded = tobj::load_obj_buf(&mut lines, &options, |_| Err(LoadError::OpenFileFailed));
+    let models = loaded.map_err(|error| fault(&error, line.get(), bytes))?.0;
+    drop(lines);
+    let mut surface = Surface::default();
+    for model in models {
+        limits::count(surface.vertices.len() + model.mesh.positions.len() / 3, surface.triangles.len())?;
+        surface.append(part(model));
+    }
+    let (name, said) = (odd.object.take(), odd.said.take());
+    Ok(Read { surface, warnings: odd.warnings(), name, said, hint: None })
+}
+
+fn part(model: Model) -> Surface {
+    let vertices = model.mesh.positions.chunks_exact(3).map(DVec3::from_slice).collect();
+    let triangles = model.mesh.indices.as_chunks().0.to_vec();
+    let name = if NAMELESS.contains(&model.name.as_str()) { String::new() } else { model.name };
+    Surface { names: vec![name], ..Surface::new(vertices, triangles) }
+}
+
+/// A filter of lines for tobj, and what is unusual about those that it keeps back.
+#[derive(Default)]
+struct Odd {
+    continues: bool,
+    curves: usize,
+    short: usize,
+    object: Option<String>,
+    said: Option<String>,
+}
+
+impl Odd {
+    fn hand_on(&mut self, line: &[u8], out: &mut Vec<u8>) {
+        let text = String::from_utf8_lossy(line);
+        let (text, comment) = text.split_once('#').unwrap_or((&text, ""));
+        if self.said.is_none() && Statement::is_meant(comment) {
+            self.said = Some(comment.to_owned());
+        }
+        let text = text.trim();
+        let (text, more) = text.strip_suffix('\\').map_or((text, false), |text| (text, true));
+        let continued = std::mem::replace(&mut self.continues, more);
+        let (key, rest) = text.split_once(char::is_whitespace).unwrap_or((text, ""));
+        match key {
+            _ if continued => out.extend(corners(text).as_bytes()),
+            "v" => {
+                // Only three numbers: a weight would be 1, and a colour is not used.
+                out.extend(b"v ");
+                out.extend(rest.split_whitespace().take(3).collect::<Vec<_>>().join(" ").as_bytes());
+            }
+            "f" if rest.split_whitespace().count() < 3 && !more => self.short += 1,
+            "f" => {
+                out.extend(b"f ");
+                out.extend(corners(rest).as_bytes());
+            }
+            "o" | "g" => {
+                if key == "o" && self.object.is_none() {
+                    self.object = Some(rest.trim().to_owned());
+                }
+                out.extend(text.as_bytes());
+            }
+            "curv" | "curv2" | "surf" => self.curves += 1,
+            _ => {}
+        }
+        out.push(if more { b' ' } else { b'\n' });
+    }
+
+    fn warnings(&self) -> Vec<String> {
+        let told = |count: usize, what: &str| (count > 0).then(|| format!("{count} {what} left out"));
+        let all = [
+            told(self.curves, "curved surfaces, which no stone's facet is, are"),
+            told(self.short, "faces of fewer than three corners are"),
+        ];
+        all.into_iter().flatten().collect()
+    }
+}
+
+/// Returns the corners of a face without their normals and texture coordinates.
+fn corners(text: &str) -> String {
+    text.split_whitespace().flat_map(|c| [c.split('/').next().unwrap_or_default(), " "]).collect()
+}
+
+fn fault(error: &LoadError, line: usize, bytes: &[u8]) -> Fault {
+    match error {
+        LoadError::PositionParseError => Fault::line(line, "three numbers are expected after `v`"),
+        LoadError::FaceParseError => {
+            Fault::line(line, "three or more numbers of corners, from 1, are expected after `f`")
+        }
+        LoadError::FaceVertexOutOfBounds => match first_out_of_bounds(bytes) {
+            Some((line, corner, count)) => {
+                Fault::line(line, format!("the face refers to corner {corner}, and the file has {count}"))
+            }
+            None => Fault::line(line, "a face above refers to a corner that is not there"),
+        },
+        other => Fault::line(line, format!("this cannot be read: {other}")),
+    }
+}
+
+/// Returns the line of the first face that refers to a corner that is not there, that corner, and how many corners there
+/// are. tobj finds such a face only when an object ends.
+fn first_out_of_bounds(bytes: &[u8]) -> Option<(usize, i64, i64)> {
+    let text = String::from_utf8_lossy(bytes);
+    let total = text.lines().filter(|line| line.trim_start().starts_with("v ")).count() as i64;
+    let lines = text.lines().enumerate().filter(|(_, line)| line.trim_start().starts_with("f "));
+    let mut numbers = lines.flat_map(|(number, line)| {
+        let corners =
+            line.split_whitespace().skip(1).filter_map(|c| c.split('/').next()?.parse::<i64>().ok());
+        corners.map(move |corner| (number + 1, corner, total))
+    });
+    numbers.find(|(_, corner, total)| corner > total)
+}

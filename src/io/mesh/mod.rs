@@ -1,0 +1,22 @@
+//! Meshes in and out: glTF, OBJ, STL and PLY.
+//!
+//! A mesh becomes a design in these steps ([`read`]):
+//!
+//! 1. `file` finds the format by the content, reads the triangles, and what the file says of its material and of how its
+//!    stone lies;
+//! 2. the triangles are mended into a closed surface ([`math::mending`](crate::math::mending)), whose facets are found
+//!    ([`math::faceting`](crate::math::faceting));
+//! 3. `place` decides which way is up, and how large the stone is;
+//! 4. `design` makes a stone of the facets ([`cut::from_mesh`](crate::cut::from_mesh)), or of the triangles where the solid is
+//!    not convex, and collects notes and warnings.
+//!
+//! `export` writes stones as meshes.
+
+mod design;
+mod export;
+mod file;
+mod place;
+
+pub use design::read;
+pub use export::{FINENESS, Stated, stated_in_stl, write_glb, write_obj, write_ply, write_stl};
+pub use file::{MAX_BYTES, MaterialHint, MeshFile, looks_like, parse};

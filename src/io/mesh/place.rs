@@ -1,0 +1,140 @@
+//! Decides how the stone of a mesh lies in its file: as a person says, as the file itself says, or as its shape shows.
+
+use super::file::{MeshFormat, Stands, Statement};
+use crate::cut::MaterialRef;
+use crate::cut::from_mesh::Up;
+use crate::math::Pose;
+use crate::math::Surface;
+use glam::DVec3;
+
+/// A direction this near to an axis (length of the difference) goes by the axis's name.
+const ON_AXIS: f64 = 1e-4;
+
+/// Sizes that differ by less than this part count as the same.
+const SAME_SIZE: f64 = 2e-3;
+
+/// Notes and warnings on how a mesh was understood.
+#[derive(Debug, Default)]
+pub(super) struct MeshRemarks {
+    pub notes: Vec<String>,
+    pub warnings: Vec<String>,
+    /// Whether the table may face another way than was taken.
+    pub is_doubtful: bool,
+}
+
+/// What is known of how a stone lies before anyone looks at its shape.
+#[derive(Debug)]
+pub(super) struct MeshPlace {
+    given: Up,
+    statement: Option<Statement>,
+    /// Girdle radii per unit of the file, where that is known.
+    pub scale: Option<f64>,
+    /// The girdle diameter in mm, where it is known.
+    pub diameter_mm: Option<f64>,
+    /// The stone's material, where the file names it.
+    pub material: Option<MaterialRef>,
+}
+
+impl MeshPlace {
+    /// Starts from a file's format. A direction up that a person gives counts above all else.
+    pub fn of(format: MeshFormat, given: Up, statement: Option<Statement>) -> Self {
+        let given = match given {
+            // The standard of glTF has y up; the others say nothing, and stones are drawn with z up.
+            Up::Found if matches!(format, MeshFormat::Glb | MeshFormat::Gltf) => Up::FoundBy(DVec3::Y),
+            Up::Found => Up::FoundBy(DVec3::Z),
+            other => other,
+        };
+        Self { given, statement, scale: None, diameter_mm: None, material: None }
+    }
+
+    /// Returns which way is up in the file's surface, by what the file states where that fits its shape. `directions` are
+    /// those in which the table may face.
+    pub fn up(
+        &mut self,
+        surface: &Surface,
+        directions: impl Fn() -> Vec<DVec3>,
+        told: &mut MeshRemarks,
+    ) -> Up {
+        let Some(statement) = self.statement.take() else { return self.given };
+        let stands = statement.of_solid(surface, std::iter::once_with(directions).flatten());
+        if stands == Stands::Otherwise {
+            told.warnings.push(format!(
+                "the file says that {} is up and that the stone is {} mm across, but its shape is \
+                 not the one that this was said of; both are ignored",
+                axis(statement.up),
+                statement.diameter_mm
+            ));
+            return self.given;
+        }
+        self.diameter_mm = Some(statement.diameter_mm);
+        self.scale = Some(match stands {
+            Stands::Moved { scale, .. } => scale,
+            _ => statement.scale(),
+        });
+        self.material.clone_from(&statement.material);
+        match (self.given, stands) {
+            (Up::FoundBy(_), Stands::AsStated) => {
+                Up::Posed(Pose { scale: statement.scale(), ..Pose::turned(statement.turn()) })
+            }
+            (Up::FoundBy(_), Stands::Moved { up, scale }) => {
+                told.warnings.extend(changes(&statement, up, scale));
+                Up::Known(up)
+            }
+            (given, Stands::Moved { up, scale }) => {
+                told.warnings.extend(changes(&statement, up, scale));
+                given
+            }
+            (given, _) => given,
+        }
+    }
+}
+
+/// Describes what was done to a stone since its file was written, where that is more than a shift.
+fn changes(statement: &Statement, up: DVec3, scale: f64) -> Option<String> {
+    let turned = (up - statement.up).length() > ON_AXIS;
+    let factor = statement.scale() / scale;
+    let scaled = (factor - 1.0).abs() > SAME_SIZE;
+    let by = format!("its corners have been scaled by {factor:.4} since");
+    let to = format!("its corners have been turned since, so that its table faces {}", axis(up));
+    let (said, size) = (axis(statement.up), statement.diameter_mm);
+    match (turned, scaled) {
+        (true, true) => Some(format!(
+            "the file says that {said} is up and {size} mm its size, but {to}, and {by}; {size} mm is kept"
+        )),
+        (true, false) => Some(format!("the file says that {said} is up, but {to}")),
+        (false, true) => {
+            Some(format!("the file says that the stone is {size} mm across, but {by}; {size} mm is kept"))
+        }
+        (false, false) => None,
+    }
+}
+
+/// Returns the note on a direction that was found, where another is nearly as likely.
+pub(super) fn doubtful(up: DVec3, other: DVec3) -> String {
+    let option = axis(other);
+    format!(
+        "its shape does not show clearly which way its table faces: {} was chosen, and {option} is nearly as \
+         likely; --up {option} chooses that, as does Table faces in the editor",
+        axis(up)
+    )
+}
+
+/// Returns a direction in the form that `--up` takes.
+fn axis(direction: DVec3) -> String {
+    let named = [("x", DVec3::X), ("y", DVec3::Y), ("z", DVec3::Z)];
+    let is = |(name, axis): &(&str, DVec3)| match () {
+        () if (direction - *axis).length() < ON_AXIS => Some((*name).to_owned()),
+        () if (direction + *axis).length() < ON_AXIS => Some(format!("-{name}")),
+        () => None,
+    };
+    named.iter().find_map(is).unwrap_or_else(|| {
+        // Rounded first, so that a tiny negative number does not become -0.
+        let [x, y, z] = direction.to_array().map(|x| (x * 1e4).round() / 1e4 + 0.0);
+        format!("{x},{y},{z}")
+    })
+}
+
+/// Returns the axes of a file, each in both directions.
+pub(super) fn axes() -> [DVec3; 6] {
+    [DVec3::Z, DVec3::Y, DVec3::X, DVec3::NEG_Z, DVec3::NEG_Y, DVec3::NEG_X]
+}

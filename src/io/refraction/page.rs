@@ -1,0 +1,102 @@
+//! Writes a web page that refracts a moving background by a map: one file, without network or library.
+
+use super::{Coding, diffuse_png, places_png, write_bytes};
+use crate::io::WriteError;
+use crate::picture::RefractionMap;
+use base64::Engine as _;
+use base64::engine::general_purpose::STANDARD;
+use serde_json::json;
+use std::path::Path;
+
+/// The page without its maps.
+const TEMPLATE: &str = include_str!("page.html");
+
+/// What a page says and shows besides its map.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Page<'a> {
+    /// The stone's name.
+    pub title: &'a str,
+    /// How the map was made, in words.
+    pub description: &'a str,
+    /// How many times as wide as the map the background is, at least 1.
+    pub span: f64,
+    /// A picture to begin with: its name, and the bytes of its PNG or JPEG. Without one the page draws its own.
+    pub background: Option<(&'a str, &'a [u8])>,
+}
+
+/// The largest picture that is put into a page, in MiB.
+pub const MOST_MEGABYTES: usize = 32;
+
+/// Returns whether a picture can be put into a page: it is a PNG or JPEG, which browsers show, and not too large.
+pub fn takes(picture: &[u8]) -> bool {
+    let shows = picture.starts_with(b"\x89PNG") || picture.starts_with(b"\xff\xd8");
+    shows && picture.len() <= MOST_MEGABYTES << 20
+}
+
+/// Writes the web page of a map.
+///
+/// # Errors
+/// When the file system refuses, or the map is empty or lacks pixels.
+pub fn write_page(path: &Path, map: &RefractionMap, page: &Page) -> Result<(), WriteError> {
+    let html = html(map, page).map_err(|e| WriteError::io(path, e))?;
+    write_bytes(path, html.as_bytes())
+}
+
+fn html(map: &RefractionMap, page: &Page) -> Result<String, png::EncodingError> {
+    let png = |bytes: Vec<u8>| uri("image/png", &bytes);
+    let bands = map.bands.iter().enumerate().map(|(k, band)| {
+        let tiles = places_png(map, k, Coding::Tiles, page.title)?;
+        Ok(json!({ "response": band.response.to_cols_array(), "tiles": png(tiles) }))
+    });
+    let data = json!({
+        "size": map.size,
+        "span": page.span,
+        "bands": bands.collect::<Result<Vec<_>, png::EncodingError>>()?,
+        "diffuse": png(diffuse_png(&map.diffuse, page.title)?),
+        "background": page.background.map(|(name, bytes)| json!({ "name": name, "picture": uri(mime(bytes), bytes) })),
+    });
+    // Without a `<`, nothing in the data can end the script element or begin another.
+    let data = data.to_string().replace('<', "\\u003c");
+    // The data come last, so that no text of theirs is taken for a placeholder of the template.
+    let html =
+        TEMPLATE.replace("{{told}}", &escaped(page.description)).replace("{{title}}", &escaped(page.title));
+    Ok(html.replace("{{data}}", &data))
+}
+
+fn uri(mime: &str, bytes: &[u8]) -> String {
+    format!("data:{mime};base64,{}", STANDARD.encode(bytes))
+}
+
+fn mime(bytes: &[u8]) -> &'static str {
+    if bytes.starts_with(b"\xff\xd8") { "image/jpeg" } else { "image/png" }
+}
+
+/// Escapes text for HTML, and braces as well, so that none of it is a placeholder of the template.
+fn escaped(text: &str) -> String {
+    let pairs = [("&", "&amp;"), ("<", "&lt;"), (">", "&gt;"), ("\"", "&quot;"), ("{", "&#123;")];
+    pairs.iter().fold(text.to_owned(), |text, (character, entity)| text.replace(character, entity))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::picture::{Linear, MapBand, SourcePlace};
+    use glam::DMat3;
+
+    #[test]
+    fn names_cannot_break_out_of_the_page_and_nothing_is_fetched() {
+        let band = MapBand { nm: 555.0, response: DMat3::IDENTITY, places: vec![SourcePlace::default(); 4] };
+        let map = RefractionMap { size: [2, 2], bands: vec![band], diffuse: Linear::new(2, 2) };
+        let title = "</script><script>alert(1)</script>{{data}}\"&";
+        let page =
+            Page { title, description: title, span: 2.0, background: Some(("Photograph", b"\xff\xd8x")) };
+        let html = html(&map, &page).unwrap();
+        assert!(!html.contains("alert(1)</script>") && !html.contains("{{"));
+        assert_eq!(html.matches("<script").count(), 2);
+        assert!(html.contains("data:image/jpeg;base64,/9h4") && !html.contains("http:"));
+        assert!(!html.contains("https:"), "the page is to fetch nothing");
+        let broken = RefractionMap { size: [3, 2], ..map };
+        let folder = tempfile::tempdir().unwrap();
+        assert!(write_page(&folder.path().join("a.html"), &broken, &page).is_err());
+    }
+}

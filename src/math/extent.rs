@@ -1,0 +1,15 @@
+//! The range of numbers, and the box of points.
+
+use glam::DVec3;
+
+/// Returns the least and the greatest of some numbers; infinity and its negative where there are none.
+pub fn span(numbers: impl IntoIterator<Item = f64>) -> (f64, f64) {
+    let start = (f64::INFINITY, f64::NEG_INFINITY);
+    numbers.into_iter().fold(start, |(low, high), x| (low.min(x), high.max(x)))
+}
+
+/// Returns the smallest box with sides along the axes that holds some points, as (least, greatest).
+pub fn bounds(points: impl IntoIterator<Item = DVec3>) -> (DVec3, DVec3) {
+    let start = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+    points.into_iter().fold(start, |(low, high), v| (low.min(v), high.max(v)))
+}

@@ -1,0 +1,161 @@
+//! Finds the facets of a closed surface of triangles, and the convex solid that it stands for: [`facets`].
+//!
+//! The steps, in their order; each is tried where those before found nothing:
+//!
+//! 1. triangles that share a plane are gathered into regions, the planes being fitted by least squares (`regions`, `fit`), and
+//!    the solid between the planes must reproduce the surface (`search`). This is tried at growing tolerances;
+//! 2. planes that cut the hull of the corners are left out, and each triangle goes to the facet that it lies on (`settle`);
+//! 3. the same is tried at the tolerances of scans, and on a smoothed copy, if what is left is noise (`noise`);
+//! 4. the hull itself is taken where the surface is meant to be it (`hull`).
+//!
+//! Where the solid is not quite the surface, `change` measures how they differ. Lengths are in the surface's unit; tolerances
+//! are parts of [`Surface::size`].
+
+mod change;
+mod fit;
+mod hull;
+mod noise;
+mod regions;
+mod search;
+mod settle;
+
+#[cfg(test)]
+mod tests;
+
+use super::{Plane, Polytope, Surface};
+pub use change::Change;
+use glam::DVec3;
+use hull::Hull;
+use rayon::prelude::*;
+use regions::{NOWHERE, Regions};
+use search::{MOST_FACETS, MatchingSolid, SolidSearch};
+
+/// A region and a group of the file are the same if they share this part of the area of each.
+const ONE: f64 = 0.99;
+
+/// A facet that was found.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Face {
+    /// The plane, with [`Faceted::centre`] as its origin.
+    pub plane: Plane,
+    /// The area of its triangles.
+    pub area: f64,
+    /// The name that the file gives the facet, where one of the file's groups is exactly this facet.
+    pub name: Option<String>,
+}
+
+/// A surface that is a convex solid between planes. Lengths are in the surface's unit.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Faceted {
+    /// The surface, with its `centre` moved to the origin.
+    pub surface: Surface,
+    /// Where the origin of the planes lies in the surface's own frame.
+    pub centre: DVec3,
+    /// The facets, the largest first, in the order of the facets of `polytope`.
+    pub faces: Vec<Face>,
+    /// The solid between the planes, with the centre as its origin.
+    pub polytope: Polytope,
+    /// The greatest distance of a corner from the solid's surface.
+    pub deviation: f64,
+    /// The tolerance at which facets were found: their corners lie within it of their planes.
+    pub tolerance: f64,
+    /// The differences between the solid and a surface that is not convex itself; `None` for a surface that is convex up to
+    /// a thousandth.
+    pub change: Option<Change>,
+}
+
+/// The kind of solid that a closed surface stands for.
+#[derive(Debug, Clone, PartialEq)]
+pub enum SurfaceKind {
+    /// A convex solid between planes.
+    Convex(Box<Faceted>),
+    /// Anything else, to be traced as triangles, just as it was given.
+    Concave(Surface),
+}
+
+/// Finds the facets of a closed surface, as [`Surface::mend`] returns it.
+pub fn facets(surface: Surface) -> SurfaceKind {
+    let (moved, centre) = centred(&surface);
+    let search = SolidSearch::of(&moved);
+    let exact = search.exact();
+    let is_changed = exact.is_none();
+    let Some(solid) = exact.or_else(|| search.meant()) else { return SurfaceKind::Concave(surface) };
+    SurfaceKind::Convex(Box::new(faceted(moved, centre, solid, is_changed)))
+}
+
+/// Returns the convex solid around a closed surface's corners, whatever lies between them.
+///
+/// Its facets are the surface's own where that is convex, and otherwise those of its hull.
+///
+/// # Errors
+/// Returns [`TooCurved`] where the hull is curved: it would take too many facets.
+pub fn faceted_hull(surface: Surface) -> Result<Box<Faceted>, TooCurved> {
+    let surface = match facets(surface) {
+        SurfaceKind::Convex(found) => return Ok(found),
+        SurfaceKind::Concave(surface) => surface,
+    };
+    let (moved, centre) = centred(&surface);
+    let solid = Hull::of(&moved).as_ref().and_then(Hull::solid).ok_or(TooCurved)?;
+    Ok(Box::new(faceted(moved, centre, solid, true)))
+}
+
+/// The error where the hull of a surface's corners is curved, or has too many facets.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+#[error("its convex hull is curved, or has more than {MOST_FACETS} facets")]
+pub struct TooCurved;
+
+/// Returns the greatest distance of points from a solid's surface.
+///
+/// For a point outside, it is the distance from the plane that the point is farthest outside of.
+pub fn deviation(polytope: &Polytope, points: &[DVec3]) -> f64 {
+    let planes: Vec<Plane> = polytope.planes().collect();
+    points.par_iter().map(|p| outermost(&planes, *p).1.abs()).reduce(|| 0.0, f64::max)
+}
+
+/// Returns the place of the plane that a point is farthest outside of, the first of equals, and the point's distance from it.
+fn outermost(planes: &[Plane], point: DVec3) -> (usize, f64) {
+    let distances = planes.iter().map(|plane| plane.distance(point)).enumerate();
+    distances.max_by(|a, b| a.1.total_cmp(&b.1).then(b.0.cmp(&a.0))).unwrap_or_default()
+}
+
+/// Returns a surface with the middle of its box at the origin, and where that middle was.
+fn centred(surface: &Surface) -> (Surface, DVec3) {
+    let (low, high) = surface.bounds();
+    let centre = (low + high) / 2.0;
+    (surface.moved(-centre), centre)
+}
+
+/// Returns the facets of a surface with its centre at the origin. `is_changed` says that the surface is not convex and is read
+/// as this solid nevertheless.
+fn faceted(surface: Surface, centre: DVec3, solid: MatchingSolid, is_changed: bool) -> Faceted {
+    let MatchingSolid { found, polytope, deviation, tolerance } = solid;
+    let names = names(&surface, &found);
+    let face =
+        |r: usize| Face { plane: found.fits[r].plane, area: found.fits[r].area, name: names[r].clone() };
+    let faces = polytope.facets().iter().map(|f| face(f.source)).collect();
+    let change = is_changed.then(|| Change::of(&surface, &polytope));
+    Faceted { surface, centre, faces, polytope, deviation, tolerance, change }
+}
+
+/// Returns the name of each region that is exactly one group of the file.
+fn names(surface: &Surface, found: &Regions) -> Vec<Option<String>> {
+    let mut shared = std::collections::BTreeMap::<(u32, u32), f64>::new();
+    let mut groups = vec![0.0; surface.names.len()];
+    let mut whole = vec![0.0; found.fits.len()];
+    for (t, (&group, &region)) in surface.groups.iter().zip(&found.of).enumerate() {
+        let area = surface.area_vector(t).length();
+        groups[group as usize] += area;
+        if region != NOWHERE {
+            whole[region as usize] += area;
+            *shared.entry((group, region)).or_default() += area;
+        }
+    }
+    let mut names = vec![None; found.fits.len()];
+    for ((group, region), area) in shared {
+        let (g, r) = (group as usize, region as usize);
+        if area >= ONE * groups[g] && area >= ONE * whole[r] && !surface.names[g].trim().is_empty() {
+            names[r] = Some(surface.names[g].clone());
+        }
+    }
+    names
+}

@@ -1,0 +1,196 @@
+//! Seeks the solid between the planes of regions that reproduces a surface, at growing tolerances.
+
+use super::hull::Hull;
+use super::regions::{NOWHERE, Regions, is_sliver, regions};
+use super::{deviation, noise, settle};
+use crate::math::edges::Edges;
+use crate::math::{Facet, Plane, Polytope, Surface};
+use glam::DVec3;
+use std::cell::OnceCell;
+
+/// The tolerances tried one after the other, as parts of the size: from the rounding of f32 to a thousandth, the noise that
+/// careless modelling leaves.
+pub(super) const NOISE: [f64; 7] = [1e-6, 1e-5, 4e-5, 1e-4, 2e-4, 4e-4, 1e-3];
+
+/// The tolerances for scans, which count only where noise is what moves corners off their planes.
+const SCANS: [f64; 5] = [4e-4, 1e-3, 1.5e-3, 2e-3, 4e-3];
+
+/// A solid reproduces a surface if no corner lies farther from the solid's surface than this many tolerances: a corner may
+/// be one tolerance off its own plane and, where regions were joined, three.
+pub(super) const SAME: f64 = 3.0;
+
+/// How far a scan's corners may lie from the solid, as a part of the size: noise hides a culet that is narrower than that.
+const SAME_SCAN: f64 = 6e-3;
+
+/// A solid at a larger tolerance is better if it has fewer facets, or as many that lie closer, and its deviation is within
+/// this many times that of the first solid found.
+///
+/// Halves of a facet have few corners and fit them too well: whole facets lie up to 3.3 times as far off. At 4 the small
+/// facets of a real princess (deepar-princess.obj) are lost.
+const AS_GOOD: f64 = 3.5;
+/// How many of the next larger tolerances are tried for a better solid.
+const FURTHER: usize = 2;
+
+/// Neighbouring facets may be one facet that noise has split if their angle is less than this many tolerances make at the
+/// width of each.
+const NEARLY_ONE: f64 = 10.0;
+
+/// The most facets of a solid. A surface with more is curved, and cutting it takes too long.
+pub(super) const MOST_FACETS: usize = 2_500;
+
+/// A surface is round if more than this part of its turning lies within regions and not between them.
+const ROUND: f64 = 0.1;
+
+/// How far a solid may be from the surface that it reproduces.
+#[derive(Clone, Copy)]
+pub(super) struct Limits {
+    /// The distance within which corners lie in one plane.
+    pub tolerance: f64,
+    /// The number of tolerances that a corner may lie off the solid.
+    pub same: f64,
+}
+
+/// A solid that reproduces a surface.
+pub(super) struct MatchingSolid {
+    pub found: Regions,
+    pub polytope: Polytope,
+    pub deviation: f64,
+    pub tolerance: f64,
+}
+
+/// A surface with its centre at the origin, and what is known of it.
+pub(super) struct SolidSearch<'a> {
+    surface: &'a Surface,
+    edges: Edges,
+    /// The hull of the corners, computed at first use, since most surfaces do without; `None` where all lie in one plane.
+    hull: OnceCell<Option<Hull>>,
+}
+
+impl<'a> SolidSearch<'a> {
+    pub fn of(surface: &'a Surface) -> Self {
+        Self { surface, edges: Edges::of(surface), hull: OnceCell::new() }
+    }
+
+    fn hull(&self) -> Option<&Hull> {
+        self.hull.get_or_init(|| Hull::of(self.surface)).as_ref()
+    }
+
+    /// Returns the solid that reproduces the surface up to the noise of careless modelling.
+    pub fn exact(&self) -> Option<MatchingSolid> {
+        let size = self.surface.size();
+        let mut limits = NOISE.iter().map(|noise| Limits { tolerance: noise * size, same: SAME });
+        let mut failed = vec![];
+        let first = limits
+            .by_ref()
+            .find_map(|limits| self.gathered(limits).map_err(|found| failed.push((limits, found))).ok());
+        let settled = || failed.into_iter().find_map(|(limits, found)| self.put_right(found?, limits));
+        let mut best = first.or_else(settled)?;
+        // Noise may have split facets that a larger tolerance keeps whole.
+        let limit = AS_GOOD * best.deviation;
+        let further = if is_split(&best) { FURTHER } else { 0 };
+        for next in limits.take(further).filter_map(|limits| self.gathered(limits).ok()) {
+            let (count, least) = (next.polytope.facets().len(), best.polytope.facets().len());
+            let is_closer = next.deviation < best.deviation;
+            if next.deviation <= limit && (count < least || (count == least && is_closer)) {
+                best = next;
+            }
+        }
+        Some(best)
+    }
+
+    /// Returns the solid that a scan stands for, or the hull where the surface is meant to be that.
+    pub fn meant(&self) -> Option<MatchingSolid> {
+        let (surface, size) = (self.surface, self.surface.size());
+        let smooth = noise::smoothed(surface);
+        let is_noise = |solid: &MatchingSolid| noise::is_noise(surface, &solid.polytope);
+        let of_scan = |noise: &f64| {
+            let limits = Limits { tolerance: noise * size, same: SAME_SCAN / noise };
+            let rough = self.solid(limits).filter(is_noise);
+            rough.or_else(|| self.of_smooth(&smooth, limits).filter(is_noise))
+        };
+        SCANS.iter().find_map(of_scan).or_else(|| self.hull()?.meant(surface))
+    }
+
+    /// Returns the solid between the planes of regions of one tolerance, if it reproduces the surface. Where needed, the
+    /// planes are corrected by the hull.
+    pub fn solid(&self, limits: Limits) -> Option<MatchingSolid> {
+        match self.gathered(limits) {
+            Ok(solid) => Some(solid),
+            Err(found) => self.put_right(found?, limits),
+        }
+    }
+
+    /// Returns the solid between the planes of regions after the hull has corrected them, if it reproduces the surface.
+    fn put_right(&self, found: Regions, limits: Limits) -> Option<MatchingSolid> {
+        let found = settle::settled(self.surface, &self.edges, self.hull()?, found, limits.tolerance)?;
+        self.reproduced(found, limits).ok()
+    }
+
+    /// Returns the solid between the planes of regions as they were gathered, if it reproduces the surface.
+    ///
+    /// Otherwise returns those regions, unless there are too many or the surface is round.
+    fn gathered(&self, limits: Limits) -> Result<MatchingSolid, Option<Regions>> {
+        let found = self.flat_regions(self.surface, limits.tolerance).ok_or(None)?;
+        self.reproduced(found, limits).map_err(Some)
+    }
+
+    /// Returns the solid between the planes of regions that are found on a smoother copy of the surface.
+    ///
+    /// Noise tilts triangles that are small beside it so much that no region would grow from them on the surface itself.
+    fn of_smooth(&self, smooth: &Surface, limits: Limits) -> Option<MatchingSolid> {
+        self.put_right(self.flat_regions(smooth, limits.tolerance)?, limits)
+    }
+
+    /// Returns the regions of this surface, or of a copy with other corners, unless there are too many or they are round.
+    fn flat_regions(&self, surface: &Surface, tolerance: f64) -> Option<Regions> {
+        let found = regions(surface, &self.edges, tolerance, MOST_FACETS)?;
+        (!is_round(surface, &self.edges, &found, tolerance)).then_some(found)
+    }
+
+    /// Returns the solid between the planes of regions, if it reproduces the surface; otherwise returns the regions.
+    fn reproduced(&self, found: Regions, limits: Limits) -> Result<MatchingSolid, Regions> {
+        let Limits { tolerance, same } = limits;
+        let planes: Vec<Plane> = found.fits.iter().map(|f| f.plane).collect();
+        let Ok(polytope) = Polytope::from_planes(&planes) else { return Err(found) };
+        let deviation = deviation(&polytope, &self.surface.vertices);
+        let swelling = (polytope.volume() - self.surface.volume()).abs();
+        let is_same = deviation <= same * tolerance && swelling <= SAME * tolerance * polytope.surface_area();
+        if is_same { Ok(MatchingSolid { found, polytope, deviation, tolerance }) } else { Err(found) }
+    }
+}
+
+/// Whether some neighbouring facets lean apart by no more than noise could make the halves of one facet lean.
+fn is_split(solid: &MatchingSolid) -> bool {
+    let facets = solid.polytope.facets();
+    let fit = |f: &Facet| solid.found.fits[f.source];
+    let near = |f: &Facet, g: &Facet| {
+        let (f, g) = (fit(f), fit(g));
+        let noise = solid.tolerance * (1.0 / f.width + 1.0 / g.width);
+        (f.plane.normal - g.plane.normal).length() < NEARLY_ONE * noise
+    };
+    facets.iter().any(|f| f.neighbours.iter().any(|&n| near(f, &facets[n as usize])))
+}
+
+/// Whether the surface turns outward within regions and not only at their edges. Noise turns it inward as much as outward.
+fn is_round(surface: &Surface, edges: &Edges, found: &Regions, tolerance: f64) -> bool {
+    // A sliver's own normal is noise, so the normal of its region is used.
+    let unit = |t: usize| match found.of[t] {
+        region if region != NOWHERE && is_sliver(surface, t, tolerance) => {
+            found.fits[region as usize].plane.normal
+        }
+        _ => surface.area_vector(t).normalize_or_zero(),
+    };
+    let units: Vec<DVec3> = (0..surface.triangles.len()).map(unit).collect();
+    let (mut within, mut whole) = (0.0, 0.0);
+    for (t, k, n) in edges.pairs() {
+        let corners = surface.corners(t);
+        let outward = units[n] - units[t];
+        // Across an edge that stands out, normals lean apart.
+        let across = surface.corners(n).iter().sum::<DVec3>() - corners.iter().sum::<DVec3>();
+        let turn =
+            (corners[(k + 1) % 3] - corners[k]).length() * outward.length().copysign(outward.dot(across));
+        whole += turn;
+        within += if found.of[t] == found.of[n] { turn } else { 0.0 };
+    }
+    within > ROUND * whole
+}
