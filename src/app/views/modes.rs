@@ -5,110 +5,80 @@ use super::pane_context::PaneContext;
 use crate::app::model::Model;
 use crate::app::model::action::{Action, Edit, ViewAction};
 use crate::app::model::eye::Eye;
+use crate::app::model::workspace::Pane;
 use crate::app::shows::Shows;
 use egui::{Button, RichText, TextStyle, Ui};
 
 /// A mode that is on in a view.
-#[derive(Debug, Clone, PartialEq)]
-pub enum Mode {
-    /// The view has an eye of its own.
-    Unlinked,
-    /// The stone is seen from nearby.
-    Perspective,
-    /// The eye tilts over a still stone.
-    EyeTilts,
-    /// Something is drawn over the picture; holds the name of the overlay.
-    Overlay(String),
-    /// A scope shows the strongest exit of each point alone.
-    Strongest,
-    /// The observer's head shuts out light; holds its half angle, degrees.
-    Head(f64),
-    /// Scopes hold the light that the outer surface reflects.
-    Glare,
-    /// Refraction is followed part of the way, 0 to 1, which is not physics.
-    Strength(f64),
+#[derive(Debug)]
+pub struct Mode {
+    /// The name, a word or two.
+    name: String,
+    /// What the mode does to the picture, in a sentence.
+    meaning: &'static str,
+    /// What switches the mode off.
+    end: Action,
+}
+
+fn mode(name: impl Into<String>, meaning: &'static str, end: impl Into<Action>) -> Mode {
+    Mode { name: name.into(), meaning, end: end.into() }
 }
 
 impl Mode {
     /// Returns the modes that are on in a view.
     pub fn of(model: &Model, pane: usize) -> Vec<Self> {
         let desk = &model.workspace;
-        let shows = desk.panes[pane].shows;
+        let Pane { shows, own, is_near } = desk.panes[pane];
         if !shows.is_seen() {
             return vec![];
         }
-        let scope = shows.scoped();
-        let is_scoped = scope.is_some();
-        let takes_head = scope.is_some_and(|scope| scope.takes_head);
+        let (eye, scope) = (*desk.eye(pane), shows.scoped());
+        let takes_head = scope.as_ref().is_some_and(|scope| scope.takes_head);
         let head = model.document.work.head;
         let strength = if shows == Shows::Render { desk.strength() } else { 1.0 };
         let overlay = desk.overlay.clone().filter(|_| shows.takes_overlay() && desk.overlay().is_some());
         [
-            desk.panes[pane].own.map(|_| Self::Unlinked),
-            desk.panes[pane].is_near.then_some(Self::Perspective),
-            desk.eye(pane).eye_leans.then_some(Self::EyeTilts),
-            overlay.map(Self::Overlay),
-            (desk.strongest && is_scoped).then_some(Self::Strongest),
-            (head > 0.0 && takes_head).then_some(Self::Head(head)),
-            (desk.glare && !desk.strongest && is_scoped).then_some(Self::Glare),
-            (strength < 1.0).then_some(Self::Strength(strength)),
+            own.map(|_| {
+                let meaning = "This view has a tilt and a zoom of its own.";
+                mode("unlinked", meaning, ViewAction::Link(pane, true))
+            }),
+            is_near.then(|| {
+                let meaning = "The stone is seen from nearby, not along parallel rays.";
+                mode("perspective", meaning, ViewAction::EndPerspective(pane))
+            }),
+            eye.eye_leans.then(|| {
+                let meaning = "The eye moves over a still stone and light; else the stone tilts.";
+                mode("eye tilts", meaning, ViewAction::Eye(pane, Eye { eye_leans: false, ..eye }))
+            }),
+            overlay.map(|name| mode(name, "Something is drawn over all pictures.", ViewAction::Overlay(None))),
+            (desk.strongest && scope.is_some()).then(|| {
+                let meaning = "Scopes show the zone of each point's strongest light alone.";
+                mode("strongest exits", meaning, ViewAction::Strongest(false))
+            }),
+            (head > 0.0 && takes_head).then(|| {
+                let meaning = "The observer's head shuts out light, here and in the figures.";
+                mode(format!("head {head:.1}°"), meaning, Edit::Head(0.0))
+            }),
+            (desk.glare && !desk.strongest && scope.is_some()).then(|| {
+                let meaning = "Scopes show what the outer surface reflects as well, as a camera records it.";
+                mode("with glare", meaning, ViewAction::Glare(false))
+            }),
+            (strength < 1.0).then(|| {
+                let meaning = "Strength below 1: a mixture of the refracted and the straight ray, for its looks, and no \
+                               physics.";
+                mode(format!("strength {strength:.3}"), meaning, ViewAction::Strength(1.0))
+            }),
         ]
         .into_iter()
         .flatten()
         .collect()
-    }
-
-    /// Returns the name of the mode, in a word or two.
-    pub fn name(&self) -> String {
-        match self {
-            Self::Unlinked => "unlinked".to_owned(),
-            Self::Perspective => "perspective".to_owned(),
-            Self::EyeTilts => "eye tilts".to_owned(),
-            Self::Overlay(name) => name.clone(),
-            Self::Strongest => "strongest exits".to_owned(),
-            Self::Head(degrees) => format!("head {degrees:.1}°"),
-            Self::Glare => "with glare".to_owned(),
-            Self::Strength(strength) => format!("strength {strength:.3}"),
-        }
-    }
-
-    /// Describes in a sentence what the mode does to the picture.
-    fn meaning(&self) -> &'static str {
-        match self {
-            Self::Unlinked => "This view has a tilt and a zoom of its own.",
-            Self::Perspective => "The stone is seen from nearby, not along parallel rays.",
-            Self::EyeTilts => "The eye moves over a still stone and light; else the stone tilts.",
-            Self::Overlay(_) => "Something is drawn over all pictures.",
-            Self::Strongest => "Scopes show the zone of each point's strongest light alone.",
-            Self::Head(_) => "The observer's head shuts out light, here and in the figures.",
-            Self::Glare => "Scopes show what the outer surface reflects as well, as a camera records it.",
-            Self::Strength(_) => {
-                "Strength below 1: a mixture of the refracted and the straight ray, for its looks, and no physics."
-            }
-        }
-    }
-
-    /// Returns what switches the mode off in its view.
-    fn end(&self, cx: &PaneContext) -> Action {
-        let pane = cx.pane;
-        let change = match self {
-            Self::Unlinked => ViewAction::Link(pane, true),
-            Self::Perspective => ViewAction::EndPerspective(pane),
-            Self::EyeTilts => ViewAction::Eye(pane, Eye { eye_leans: false, ..cx.eye() }),
-            Self::Overlay(_) => ViewAction::Overlay(None),
-            Self::Strongest => ViewAction::Strongest(false),
-            Self::Head(_) => return Edit::Head(0.0).into(),
-            Self::Glare => ViewAction::Glare(false),
-            Self::Strength(_) => ViewAction::Strength(1.0),
-        };
-        change.into()
     }
 }
 
 /// Draws the names of a view's modes in a row; a menu at its end holds those that `width` points have no room for.
 pub fn show(cx: &mut PaneContext, ui: &mut Ui, width: f32) {
     let modes = Mode::of(cx.model, cx.pane);
-    let names: Vec<String> = modes.iter().map(|mode| format!("{} ×", mode.name())).collect();
+    let names: Vec<String> = modes.iter().map(|mode| format!("{} ×", mode.name)).collect();
     let gap = ui.spacing().item_spacing.x;
     let widths: Vec<f32> = names.iter().map(|name| button_width(ui, name) + gap).collect();
     let more = button_width(ui, &rest_label(modes.len())) + gap;
@@ -117,26 +87,27 @@ pub fn show(cx: &mut PaneContext, ui: &mut Ui, width: f32) {
         false => fitting(&widths, width - more),
     };
     let mut ended = None;
-    for (mode, name) in modes.iter().zip(&names).take(shown) {
+    let chips = || names.iter().zip(&modes).enumerate();
+    for (k, (name, mode)) in chips().take(shown) {
         if chip(ui, name, mode) {
-            ended = Some(mode);
+            ended = Some(k);
         }
     }
     if shown < modes.len() {
         let menu = ui.menu_button(RichText::new(rest_label(modes.len() - shown)).small(), |ui| {
-            for (mode, name) in modes.iter().zip(&names).skip(shown) {
+            for (k, (name, mode)) in chips().skip(shown) {
                 if chip(ui, name, mode) {
-                    ended = Some(mode);
+                    ended = Some(k);
                     ui.close();
                 }
             }
         });
-        let hidden: Vec<String> = modes[shown..].iter().map(Mode::name).collect();
+        let hidden: Vec<&str> = modes[shown..].iter().map(|mode| mode.name.as_str()).collect();
         menu.response.on_hover_text(format!("Also on in this view: {}.", hidden.join(", ")));
     }
-    if let Some(mode) = ended {
+    if let Some(mode) = ended.and_then(|k| modes.into_iter().nth(k)) {
         cx.push(ViewAction::EndStep);
-        cx.push(mode.end(cx));
+        cx.push(mode.end);
     }
 }
 
@@ -153,7 +124,7 @@ fn rest_label(count: usize) -> String {
 
 fn chip(ui: &mut Ui, name: &str, mode: &Mode) -> bool {
     let button = Button::new(RichText::new(name).small()).selected(true);
-    ui.add(button).on_hover_text(format!("{} Click to end it.", mode.meaning())).clicked()
+    ui.add(button).on_hover_text(format!("{} Click to end it.", mode.meaning)).clicked()
 }
 
 fn button_width(ui: &Ui, text: &str) -> f32 {

@@ -66,3 +66,39 @@ impl Attention {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::app::model::action::Action;
+    use crate::app::model::workspace::Workspace;
+
+    /// Returns the view that an attention reports as the one that commands act on, and the text for the status line.
+    fn reported(attention: Attention) -> (Option<usize>, Option<String>) {
+        let (model, mut actions) = (Model::new(Workspace::default()).unwrap(), Actions::default());
+        attention.report(&model, &mut actions);
+        let mut reported = (None, None);
+        for action in actions.take() {
+            match action {
+                Action::View(ViewAction::Hover(pane)) => reported.0 = Some(pane),
+                Action::View(ViewAction::Message(text)) => reported.1 = Some(text),
+                other => panic!("{other:?}"),
+            }
+        }
+        reported
+    }
+
+    #[test]
+    fn commands_act_on_the_view_whose_menu_is_open_wherever_the_pointer_is() {
+        let attention = |hovered, menu| Attention { hovered, menu, ..Attention::default() };
+        assert_eq!(reported(attention(Some(2), Some(1))).0, Some(1));
+        assert_eq!(reported(attention(Some(2), None)).0, Some(2));
+    }
+
+    #[test]
+    fn what_is_as_it_was_is_not_reported() {
+        assert_eq!(reported(Attention { hovered: Some(0), ..Attention::default() }), (None, None));
+        let text = || "table".to_owned();
+        assert_eq!(reported(Attention { message: text(), ..Attention::default() }), (None, Some(text())));
+    }
+}
