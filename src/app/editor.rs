@@ -350,5 +350,6 @@ impl eframe::App for Editor {
 
     fn on_exit(&mut self) {
         self.act(FileAction::Ended);
+        self.outside.finish();
     }
 }

@@ -10,7 +10,7 @@ const MOST: usize = 3;
 
 /// The larger circles that are still to be cut: one file of each, and how many files it may hold until then.
 const TO_CUT: [(&str, usize); 7] = [
-    ("app::studio::take", 7),
+    ("app::studio", 7),
     ("cli", 20),
     ("io::cut_file", 4),
     ("io::design_file", 5),

@@ -250,6 +250,11 @@ impl Outside {
         );
     }
 
+    /// Waits until everything that was to be written is written.
+    pub fn finish(&mut self) {
+        self.runner.finish();
+    }
+
     /// Finds the work that crashes left behind, without going to the background: it is offered in the first frame.
     pub fn found(&self) -> FileAction {
         let found =
@@ -260,6 +265,6 @@ impl Outside {
 
 impl Drop for Outside {
     fn drop(&mut self) {
-        self.runner.finish();
+        self.finish();
     }
 }

@@ -30,7 +30,7 @@ fn the_field_for_a_path_has_the_focus_and_return_takes_only_what_was_typed() {
     bench.harness.event(egui::Event::Text(path.display().to_string()));
     bench.harness.run_steps(2);
     bench.harness.key_press(Key::Enter);
-    bench.harness.run_steps(3);
+    bench.wait(|editor| editor.model.document.path().is_some());
     assert!(bench.editor().model.session.dialog.is_none());
     assert_eq!(cut_file::read(&path).unwrap(), bench.editor().model.document.work.design);
 }

@@ -123,6 +123,7 @@ fn where_the_system_opens_no_dialog_the_path_is_typed() {
     bench.harness.event(egui::Event::Text(path.display().to_string()));
     bench.harness.run_steps(2);
     bench.click("Save");
+    bench.wait(|editor| editor.model.document.path().is_some());
     assert!(bench.editor().model.session.dialog.is_none());
     assert_eq!(cut_file::read(&path).unwrap(), bench.editor().model.document.work.design);
     assert_eq!(bench.editor().model.document.path(), Some(path.as_path()));
