@@ -3,6 +3,7 @@
 mod meant;
 
 use super::*;
+use crate::math::Pose;
 use crate::math::mending::tests::{cube, noise, shaken, split, stone, surface};
 use glam::DQuat;
 use proptest::prelude::*;
@@ -107,7 +108,7 @@ proptest! {
         let found = faceted(seen.mend().unwrap().surface);
         prop_assert_eq!(found.faces.len(), original.facets().len());
         prop_assert!(found.deviation <= 3.0 * (level + 1e-9) * scale, "{} {}", found.deviation, scale);
-        let moved = original.moved(scale, turn, scale * DVec3::from_array(by) - found.centre);
+        let moved = original.reframed(&Pose { at: scale * DVec3::from_array(by) - found.centre, turn, scale });
         for facet in moved.facets() {
             let off = |f: &&Face| (f.plane.normal - facet.plane.normal).length();
             let nearest = found.faces.iter().min_by(|a, b| off(a).total_cmp(&off(b))).unwrap();
