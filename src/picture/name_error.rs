@@ -1,7 +1,5 @@
 //! Why a text names nothing of what pictures have.
 
-use super::Overlay;
-
 /// Why a text names no tone, quality, overlay or background; the message says what does.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum NameError {
@@ -12,8 +10,13 @@ pub enum NameError {
     #[error("give high, medium or low")]
     Quality,
     /// The text names no overlay.
-    #[error("no overlay '{}'; known: {}", start(.0), Overlay::names().join(", "))]
-    Overlay(String),
+    #[error("no overlay '{}'; known: {known}", start(.asked))]
+    Overlay {
+        /// The text.
+        asked: String,
+        /// The names that are known.
+        known: String,
+    },
     /// The text names no colour, and no gradient of two.
     #[error(
         "background '{}': give transparent, black, white, grey, a colour such as #20262e, or two, top-bottom, such as \

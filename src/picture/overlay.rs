@@ -98,7 +98,9 @@ impl FromStr for Overlay {
     fn from_str(text: &str) -> Result<Self, NameError> {
         let asked = text.trim();
         let found = NAMES.iter().find(|(name, _)| name.eq_ignore_ascii_case(asked));
-        found.map(|(_, overlay)| *overlay).ok_or_else(|| NameError::Overlay(asked.to_owned()))
+        found
+            .map(|(_, overlay)| *overlay)
+            .ok_or_else(|| NameError::Overlay { asked: asked.to_owned(), known: Self::names().join(", ") })
     }
 }
 

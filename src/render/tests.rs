@@ -1,5 +1,5 @@
 use super::*;
-use crate::io::{cut_file, library};
+use crate::cut::{Design, Family, MaterialRef};
 use crate::math::Pose;
 use crate::measure::Bounds;
 use crate::picture::Linear;
@@ -12,8 +12,17 @@ use glam::{DQuat, DVec3};
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
-fn specimen(name: &str) -> Specimen {
-    Specimen::new(cut_file::parse(library::cut(name).unwrap(), name).unwrap()).unwrap()
+/// Returns a diamond of the first cut of a family.
+fn specimen(family: &str) -> Specimen {
+    let design = Design {
+        name: family.to_owned(),
+        source: None,
+        notes: None,
+        material: MaterialRef::Name("diamond".to_owned()),
+        diameter_mm: 6.5,
+        cut: Family::of_key(family).unwrap().first.clone(),
+    };
+    Specimen::new(design).unwrap()
 }
 
 fn light(steps: Steps) -> Product {
@@ -38,13 +47,13 @@ fn job(scene: Scene, product: Product) -> Job {
 
 fn scope(readings: Vec<Reading>) -> Product {
     let scope = Scope::aset(ASET_CONE, Backing::Black);
-    let medium = specimen("tolkowsky").medium(589.3);
+    let medium = specimen("round_brilliant").medium(589.3);
     Product::Scope(ScopeProduct { scope, medium, glare: Glare::Included, readings })
 }
 
 fn figures() -> Product {
     let scope = Scope::aset(ASET_CONE, Backing::Black);
-    Product::Figures(FiguresProduct { scope, medium: specimen("tolkowsky").medium(589.3) })
+    Product::Figures(FiguresProduct { scope, medium: specimen("round_brilliant").medium(589.3) })
 }
 
 fn done(job: &Job) -> Rendered {
@@ -57,7 +66,7 @@ fn lit(job: &Job) -> Linear {
 
 /// A stone of each kind, one of them turned and smaller.
 fn several() -> Scene {
-    let all = [("tolkowsky", -1.2), ("cube", 1.2)].map(|(name, x)| {
+    let all = [("round_brilliant", -1.2), ("cube", 1.2)].map(|(name, x)| {
         let specimen = specimen(name);
         let pose = Pose { at: DVec3::X * x, turn: DQuat::from_rotation_y(0.4), scale: 0.6 };
         Instance { pose, ..Instance::of(&specimen.body, specimen.material.clone(), name) }
@@ -67,7 +76,7 @@ fn several() -> Scene {
 
 #[test]
 fn a_job_that_was_written_and_read_makes_the_same() {
-    let alone = || Scene::alone(&specimen("tolkowsky"));
+    let alone = || Scene::alone(&specimen("round_brilliant"));
     let jobs = [
         job(alone(), light(Steps::Strips)),
         job(several(), light(Steps::Strips)),
@@ -96,7 +105,7 @@ fn a_job_that_was_written_and_read_makes_the_same() {
 
 #[test]
 fn data_that_make_no_body_are_refused_with_the_reason() {
-    let job = job(Scene::alone(&specimen("tolkowsky")), figures());
+    let job = job(Scene::alone(&specimen("round_brilliant")), figures());
     let mut value = serde_json::to_value(&job).unwrap();
     let planes = value.pointer_mut("/scene/instances/0/body/Stone/planes").unwrap();
     planes.as_array_mut().unwrap().truncate(3);
@@ -109,7 +118,7 @@ fn data_that_make_no_body_are_refused_with_the_reason() {
 
 #[test]
 fn a_picture_in_strips_is_the_last_of_those_that_grow_clearer() {
-    for scene in [Scene::alone(&specimen("tolkowsky")), several()] {
+    for scene in [Scene::alone(&specimen("round_brilliant")), several()] {
         let mut count = 0;
         let growing = job(scene.clone(), light(Steps::Passes { first: 0, hidden: 0 }));
         let mut last = None;
@@ -131,7 +140,7 @@ fn a_picture_in_strips_is_the_last_of_those_that_grow_clearer() {
 fn both_readings_come_whole_and_from_one_trace() {
     for tracer in [Wanted::Beams, Wanted::Rays] {
         let mut job =
-            job(Scene::alone(&specimen("tolkowsky")), scope(vec![Reading::Energy, Reading::Strongest]));
+            job(Scene::alone(&specimen("round_brilliant")), scope(vec![Reading::Energy, Reading::Strongest]));
         job.quality.tracer = tracer;
         let (mut begun, mut rows) = (vec![], [0, 0]);
         let rendered = Renderer::default().run(&job, &unwatched, &mut |part| {
@@ -153,7 +162,7 @@ fn both_readings_come_whole_and_from_one_trace() {
 
 #[test]
 fn beams_are_traced_once_for_pictures_and_figures_of_one_round() {
-    let scene = Arc::new(Scene::alone(&specimen("tolkowsky")));
+    let scene = Arc::new(Scene::alone(&specimen("round_brilliant")));
     let mut renderer = Renderer::default();
     let beams = |renderer: &mut Renderer| {
         let job =
@@ -172,7 +181,7 @@ fn beams_are_traced_once_for_pictures_and_figures_of_one_round() {
 fn what_cannot_be_traced_is_said_before_anything_is() {
     let near = |distance| View { projection: Projection::Perspective { distance }, ..View::default() };
     let renderer = Renderer::default();
-    let alone = || job(Scene::alone(&specimen("tolkowsky")), figures());
+    let alone = || job(Scene::alone(&specimen("round_brilliant")), figures());
     let planned = |job: &Job| renderer.plan(job).map(|plan| plan.backend.name());
     let wanting = |job: Job, tracer| Job { quality: Quality { tracer, ..job.quality }, ..job };
     assert_eq!(planned(&alone()), Ok("beam"));
@@ -207,7 +216,7 @@ fn work_that_is_stopped_says_so_and_an_error_of_the_caller_comes_back() {
 fn figures_of_bounds_are_followed_to_them() {
     let bounds = Bounds { unresolved: 1e-2, ..Bounds::default() };
     let quality = Quality::of_figures(&bounds, Wanted::Quickest);
-    let rough = Job { quality, ..job(Scene::alone(&specimen("tolkowsky")), figures()) };
+    let rough = Job { quality, ..job(Scene::alone(&specimen("round_brilliant")), figures()) };
     let measured = done(&rough).figures().unwrap();
     assert!(measured.figures.unresolved <= 1e-2 && measured.figures.unresolved > 1e-4);
 }

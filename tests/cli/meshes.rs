@@ -26,7 +26,7 @@ fn what_is_found_in_a_mesh_is_a_note_and_is_said_once() {
         let command = command.replace("FILE", "bent.obj");
         let (code, _, said) = desk.run(&command);
         assert_eq!(code, 0, "{command}: {said}");
-        for what in ["facets were found", "diamond is taken", "bends inward at 1 edges"] {
+        for what in ["facets were found", "diamond is used", "bends inward at 1 edges"] {
             assert_eq!(said.matches(what).count(), 1, "{command}: {said}");
             let line = said.lines().find(|line| line.contains(what)).unwrap();
             assert!(line.starts_with("note: bent.obj: "), "{command}: {line}");

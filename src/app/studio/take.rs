@@ -242,9 +242,12 @@ mod tests {
     fn an_exported_render_keeps_the_colours_of_its_transparent_edges() {
         let shot = shot(Shows::Render, Some(8.0));
         let exported = ShotTracer::default().export(&shot, &unwatched).unwrap();
-        let edges = exported.rgba.chunks(4).filter(|p| (1..40).contains(&p[3])).collect::<Vec<_>>();
-        let bright = edges.iter().filter(|p| p[..3].iter().any(|c| *c % 17 != 0)).count();
-        assert!(edges.len() > 5 && bright > edges.len() / 2, "{bright} of {}", edges.len());
+        let size = exported.size.map(|n| n as usize);
+        // Colours that are multiplied by their alpha in eight bits lose digits.
+        let image = ColorImage::from_rgba_unmultiplied(size, &exported.rgba);
+        let coarser: Vec<u8> = image.pixels.iter().flat_map(|p| p.to_srgba_unmultiplied()).collect();
+        let lost = exported.rgba.chunks(4).zip(coarser.chunks(4)).filter(|(fine, coarse)| fine != coarse);
+        assert!(lost.count() > 5);
     }
 
     fn taken(camera: &mut ShotTracer, shot: &Shot, growing: Option<&Growing>) -> TakenPicture {

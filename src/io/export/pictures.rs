@@ -1,7 +1,7 @@
 //! Writes the pictures and drawings of a stone, one after the other.
 
 use super::event::{Event, Reporter, WorkShares};
-use super::sheet::{Plate, SheetFile, UNRESOLVED, how, in_percent, remark};
+use super::sheet::{ScopeSheet, SheetFile, UNRESOLVED, how, in_percent, remark};
 use super::viewing::{Viewing, note};
 use super::{Export, OutputFormat, Outputs, write_text};
 use crate::io::{Failure, rasterize, write_exr, write_png};
@@ -76,18 +76,18 @@ impl<'a> Pictures<'a> {
 
     fn scoped(&mut self, name: &str, scoped: &Scoped, watch: Watch) -> Result<(), Failure> {
         let viewing = self.viewing.facing(scoped.side);
-        let plate = Plate {
+        let sheet = ScopeSheet {
             name,
             suffix: self.viewing.suffix(scoped),
             scope: scoped.with_head(viewing.head_deg),
             viewing,
             glare: viewing.glare.unwrap_or_default(),
         };
-        let job = plate.job(self.outputs.size, self.readings());
+        let job = sheet.job(self.outputs.size, self.readings());
         let wants = |format| f64::from(u8::from(self.outputs.wants(format)));
         let parts = 1.0 + self.readings().len() as f64;
         let mut pace = WorkShares::new(watch, parts + wants(OutputFormat::Exr) + wants(OutputFormat::Svg));
-        let rendered = pace.step(parts, |watch| self.pixels(&plate, &job, watch))?;
+        let rendered = pace.step(parts, |watch| self.pixels(&sheet, &job, watch))?;
         let Some(beams) = rendered.beams() else { return Ok(()) };
         // The scopes share the beams of a view.
         if self.last.replace(job.view) != Some(job.view) {
@@ -95,10 +95,10 @@ impl<'a> Pictures<'a> {
             viewing.warn_of_open((beams.unresolved(), beams.len()), bound, self.tell)?;
         }
         if self.outputs.wants(OutputFormat::Exr) {
-            pace.step(1.0, |watch| self.bare(&plate, &beams, &job.film, watch))?;
+            pace.step(1.0, |watch| self.bare(&sheet, &beams, &job.film, watch))?;
         }
         if self.outputs.wants(OutputFormat::Svg) {
-            pace.step(1.0, |watch| self.drawn(&plate, &beams, watch))?;
+            pace.step(1.0, |watch| self.drawn(&sheet, &beams, watch))?;
         }
         Ok(())
     }
@@ -113,14 +113,14 @@ impl<'a> Pictures<'a> {
     }
 
     /// Traces a picture in a scope and writes its readings in colour, each with its caption under it.
-    fn pixels(&mut self, plate: &Plate, job: &Job, watch: Watch) -> Result<Rendered, Failure> {
+    fn pixels(&mut self, sheet: &ScopeSheet, job: &Job, watch: Watch) -> Result<Rendered, Failure> {
         let (outputs, tell) = (self.outputs, self.tell);
-        let palette = Palette::of(&plate.scope);
+        let palette = Palette::of(&sheet.scope);
         let mut files: Vec<SheetFile> = vec![];
         self.renderer.run(job, watch, &mut |part| match part {
             Partial::Begun { reading, backend, unresolved } => {
                 files.retain(|file| file.reading != reading);
-                files.push(SheetFile::begin(outputs, plate, job, reading, (backend, unresolved))?);
+                files.push(SheetFile::begin(outputs, sheet, job, reading, (backend, unresolved))?);
                 Ok(())
             }
             Partial::Rows { reading, rows, first_channel } => {
@@ -135,28 +135,28 @@ impl<'a> Pictures<'a> {
     }
 
     /// Returns the SVG text of a drawing with its caption under it.
-    fn captioned(&self, drawn: svg::Document, plate: &Plate, reading: Reading, open: f64) -> String {
+    fn captioned(&self, drawn: svg::Document, sheet: &ScopeSheet, reading: Reading, open: f64) -> String {
         if !self.outputs.caption {
             return drawn.to_string();
         }
-        let caption = plate.caption(reading, &in_percent(reading, open));
+        let caption = sheet.caption(reading, &in_percent(reading, open));
         caption.under(drawn, f64::from(vector::SIDE)).to_string()
     }
 
-    fn bare(&self, plate: &Plate, beams: &Beams, film: &Film, watch: Watch) -> Result<(), Failure> {
-        let path = self.outputs.path(&plate.suffix, plate.name, OutputFormat::Exr);
-        let layer = Layer::full(beams, &plate.scope);
+    fn bare(&self, sheet: &ScopeSheet, beams: &Beams, film: &Film, watch: Watch) -> Result<(), Failure> {
+        let path = self.outputs.path(&sheet.suffix, sheet.name, OutputFormat::Exr);
+        let layer = Layer::full(beams, &sheet.scope);
         let how = how(Reading::Energy, layer.open);
-        write_exr(&path, &layer, film, &plate.description("all light, by channels", &how), watch)?;
+        write_exr(&path, &layer, film, &sheet.description("all light, by channels", &how), watch)?;
         (self.tell)(Event::Written(&path))
     }
 
-    fn drawn(&self, plate: &Plate, beams: &Beams, watch: Watch) -> Result<(), Failure> {
-        let Plate { name, suffix, scope, viewing, .. } = plate;
+    fn drawn(&self, sheet: &ScopeSheet, beams: &Beams, watch: Watch) -> Result<(), Failure> {
+        let ScopeSheet { name, suffix, scope, viewing, .. } = sheet;
         let view = &viewing.viewpoint.view();
         let stone = viewing.stone()?;
         let options = viewing.beams(UNRESOLVED);
-        let title = format!("{}, {}", plate.title(), viewing.described().description());
+        let title = format!("{}, {}", sheet.title(), viewing.described().description());
         let copies = beams.symmetry.order() as usize;
         let unresolved = options.unresolved.max(DRAWN_UNRESOLVED);
         let coarse = beam::BeamOptions { unresolved, most_beams: DRAWN_POLYGONS / copies, ..options };
@@ -168,16 +168,16 @@ impl<'a> Pictures<'a> {
                 stone,
                 mapped,
                 scope,
-                &format!("{title}, {}", remark(Reading::Strongest, plate.glare)),
+                &format!("{title}, {}", remark(Reading::Strongest, sheet.glare)),
             );
             let undecided = mapped.undecided(&mapped.strongest_exits());
-            let strongest = self.captioned(strongest, plate, Reading::Strongest, undecided);
+            let strongest = self.captioned(strongest, sheet, Reading::Strongest, undecided);
             let path = self.outputs.path(suffix, &format!("{name}-strongest"), OutputFormat::Svg);
             write_text(&path, &strongest, self.tell)?;
         }
-        let reading = remark(Reading::Energy, plate.glare);
-        let energy = vector::energy(stone, &coarse, (scope, plate.glare), &format!("{title}, {reading}"));
-        let energy = self.captioned(energy, plate, Reading::Energy, coarse.unresolved());
+        let reading = remark(Reading::Energy, sheet.glare);
+        let energy = vector::energy(stone, &coarse, (scope, sheet.glare), &format!("{title}, {reading}"));
+        let energy = self.captioned(energy, sheet, Reading::Energy, coarse.unresolved());
         write_text(&self.outputs.path(suffix, name, OutputFormat::Svg), &energy, self.tell)
     }
 }

@@ -16,7 +16,7 @@ pub(super) const UNRESOLVED: f64 = 1e-3;
 const CAPTION_WIDTH: u32 = 1000;
 
 /// A picture in a scope, with all that it is made from.
-pub(super) struct Plate<'a> {
+pub(super) struct ScopeSheet<'a> {
     /// The name that the picture bears in the names of its files.
     pub name: &'a str,
     /// The part of its files' names that describes the view.
@@ -63,7 +63,7 @@ pub(super) fn in_percent(reading: Reading, part: f64) -> String {
     format!("exact beams, {:.2} % of the {what}", 100.0 * part)
 }
 
-impl Plate<'_> {
+impl ScopeSheet<'_> {
     /// Returns the job of this picture, with these readings, on a square of `size` pixels.
     pub fn job(&self, size: u32, readings: Vec<Reading>) -> Job {
         let solid = self.viewing.specimen.solid();
@@ -88,7 +88,7 @@ impl Plate<'_> {
 
     /// Returns the caption; `how` says how the picture was traced.
     pub fn caption(&self, reading: Reading, how: &str) -> Caption {
-        let Plate { scope, viewing, .. } = self;
+        let ScopeSheet { scope, viewing, .. } = self;
         let Viewing { medium, polarised, wavelength_nm, specimen, .. } = viewing;
         let material = &specimen.material;
         let light = match wavelength_nm {
@@ -125,13 +125,13 @@ impl SheetFile {
     /// Begins the file of a reading; exact beams leave the part `open` of the light or the area unresolved.
     pub fn begin(
         outputs: &Outputs,
-        plate: &Plate,
+        sheet: &ScopeSheet,
         job: &Job,
         reading: Reading,
         (backend, open): (&Backend, Option<f64>),
     ) -> Result<Self, Failure> {
         let path =
-            outputs.path(&plate.suffix, &format!("{}{}", plate.name, kind(reading)), OutputFormat::Png);
+            outputs.path(&sheet.suffix, &format!("{}{}", sheet.name, kind(reading)), OutputFormat::Png);
         let [how, told] = match open {
             Some(open) => [how(reading, open), in_percent(reading, open)],
             None => {
@@ -142,10 +142,10 @@ impl SheetFile {
         };
         let [width, height] = job.film.size;
         let (below, caption) = match outputs.caption {
-            true => pixels(&plate.caption(reading, &told), width)?,
+            true => pixels(&sheet.caption(reading, &told), width)?,
             false => (0, vec![]),
         };
-        let description = plate.description(&remark(reading, plate.glare), &how);
+        let description = sheet.description(&remark(reading, sheet.glare), &how);
         let png = PngFile::begin(&path, (width, height + below), &description)?;
         Ok(Self { reading, path, png, caption, rows_missing: height })
     }
