@@ -145,6 +145,8 @@ fn the_folder_of_an_export_is_opened() {
     bench.click("Write files");
     bench.wait(|editor| matches!(&editor.model.session.dialog, Some(Dialog::Export(e)) if !e.is_busy()));
     bench.click("Open folder");
+    let opened = Arc::clone(&bench.opened);
+    bench.wait(move |_| !opened.lock().unwrap().is_empty());
     assert_eq!(*bench.opened.lock().unwrap(), [folder.path().join("out").display().to_string()]);
 }
 
@@ -162,7 +164,8 @@ fn the_program_says_what_it_is_and_what_it_is_built_of() {
     bench.harness.event(egui::Event::Text("egui_plot".to_owned()));
     bench.harness.run_steps(3);
     bench.harness.get_by_label_contains("egui_plot 0").click();
-    bench.harness.run_steps(2);
+    let opened = Arc::clone(&bench.opened);
+    bench.wait(move |_| !opened.lock().unwrap().is_empty());
     let opened = bench.opened.lock().unwrap().clone();
     assert!(opened.len() == 1 && opened[0].starts_with("https://"), "{opened:?}");
 }

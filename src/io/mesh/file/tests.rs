@@ -360,7 +360,7 @@ fn buffers_are_read_beside_the_file_and_nowhere_else() {
     ] {
         let error = read_with(uri).unwrap_err().to_string();
         assert!(
-            error.contains("a.gltf:buffer 0: ") && error.contains("is not a file beside this one"),
+            error.contains("a.gltf: buffer 0: ") && error.contains("is not a file beside this one"),
             "{error}"
         );
     }
