@@ -85,7 +85,7 @@ impl Renderer {
         let FiguresProduct { scope, medium } = product;
         let solid = job.stone().map_err(RenderError::from)?;
         let (view, manner) = (&job.view, (job.quality.rays, lattice));
-        let measured = measured(scope, medium.index, backend.name(), |scope| match backend {
+        let measured = measured::<Halt<E>>(scope, medium.index, backend.name(), |scope| match backend {
             Backend::Beams => {
                 let beams = self.beams.of(job.convex()?, *medium, view, &job.quality.beams, watch)?;
                 Ok(measure::by_beams(&beams, scope))
