@@ -1,6 +1,6 @@
 //! The state of the editor, without a window: what there is, what can be done to it, and what is to be done outside.
 //!
-//! Only [`update`] changes a [`Model`]. A client, such as the window, draws the model, turns what a person does into
+//! Only [`update()`] changes a [`Model`]. A client, such as the window, draws the model, turns what a person does into
 //! [`Action`]s, and carries out the [`Task`]s that come of them, whose answers are actions again.
 
 pub mod action;

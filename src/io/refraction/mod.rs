@@ -37,7 +37,7 @@ const ABOUT: &str = "Refraction";
 /// The coding of places in files.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Coding {
-    /// One PNG for each band: 8 bits, 16 by 16 [`tiles`]. The single band of a map for all light has no weights: they are
+    /// One PNG for each band: 8 bits, 16 by 16 tiles. The single band of a map for all light has no weights: they are
     /// what the alpha of the diffuse layer leaves. Of several bands, each has its weights, in grey, below its places, so
     /// that the picture is twice as high.
     Tiles,
