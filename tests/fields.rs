@@ -10,7 +10,6 @@ mod shoot;
 
 use brillianteer::math::{ImplicitForm, ImplicitSurface, Pose, SmoothSolid};
 use brillianteer::optics::{Material, material};
-use brillianteer::picture::Linear;
 use brillianteer::scene::{Instance, Light, Medium, View, light};
 use brillianteer::trace::gpu::{ByCard, GpuEnvironment, GpuError};
 use brillianteer::trace::ray::RayOptions;
