@@ -17,7 +17,7 @@ use std::sync::Arc;
 /// One piece of work for a [`Renderer`](super::Renderer).
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Job {
-    /// The stones. Scopes and figures take the first alone.
+    /// The stones. Scopes and figures take the first alone, in the frame of its body: its pose is left out.
     pub scene: Arc<Scene>,
     /// The view from which they are seen.
     pub view: View,
