@@ -37,8 +37,20 @@ impl Screen {
             return None;
         }
         let folder = tempfile::tempdir().unwrap();
+        // Without -noreset the server starts anew whenever its last client leaves, and refuses connections meanwhile: each
+        // call of xdotool could shut out the program.
         let mut server = Command::new("Xvfb")
-            .args(["-displayfd", "1", "-screen", "0", "1480x940x24", "-nolisten", "tcp", "-fbdir"])
+            .args([
+                "-displayfd",
+                "1",
+                "-screen",
+                "0",
+                "1480x940x24",
+                "-noreset",
+                "-nolisten",
+                "tcp",
+                "-fbdir",
+            ])
             .arg(folder.path())
             .stdout(Stdio::piped())
             .stderr(Stdio::null())
@@ -46,6 +58,7 @@ impl Screen {
             .unwrap();
         let mut number = String::new();
         BufReader::new(server.stdout.take().unwrap()).read_line(&mut number).unwrap();
+        assert!(!number.trim().is_empty(), "Xvfb ended before it had opened a screen");
         Some(Self { server, display: format!(":{}", number.trim()), folder })
     }
 
@@ -54,7 +67,11 @@ impl Screen {
     fn start(&self, home: &Path, layout: &str) -> (Child, Pixels) {
         // The file may be from an earlier window.
         let _ = std::fs::remove_file(self.state_file());
-        let program = Command::new(env!("CARGO_BIN_EXE_brillianteer"))
+        let messages = self.folder.path().join("messages");
+        let mut program = Command::new(env!("CARGO_BIN_EXE_brillianteer"))
+            // Without a window the program writes files to the folder in which it runs.
+            .current_dir(self.folder.path())
+            .stderr(std::fs::File::create(&messages).unwrap())
             .env("DISPLAY", &self.display)
             .env("XDG_DATA_HOME", home)
             .env("XDG_RUNTIME_DIR", home)
@@ -62,7 +79,13 @@ impl Screen {
             .env_remove("WAYLAND_DISPLAY")
             .spawn()
             .unwrap();
-        self.until("the window", || !self.asked(&["search", "--name", "Brillianteer"]).trim().is_empty());
+        self.until("the window", || {
+            if let Some(status) = program.try_wait().unwrap() {
+                let messages = std::fs::read_to_string(&messages).unwrap();
+                panic!("the program ended without a window ({status}); it wrote:\n{messages}");
+            }
+            !self.asked(&["search", "--name", "Brillianteer"]).trim().is_empty()
+        });
         (program, self.at_rest(layout))
     }
 
@@ -80,7 +103,7 @@ impl Screen {
         self.asked(&["key", "--clearmodifiers", key]);
     }
 
-    fn until(&self, what: &str, come: impl Fn() -> bool) {
+    fn until(&self, what: &str, mut come: impl FnMut() -> bool) {
         let begun = Instant::now();
         while !come() {
             assert!(begun.elapsed() < PATIENCE, "{what} does not come");

@@ -102,6 +102,7 @@ impl Stage {
                 "0",
                 "1480x940x24",
                 "-nocursor",
+                "-noreset",
                 "-nolisten",
                 "tcp",
                 "-fbdir",
