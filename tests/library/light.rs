@@ -1,18 +1,14 @@
 //! Checks pictures under light: laws that hold for any stone, and the graphics card compared with rays in f64.
 #![allow(clippy::unwrap_used, reason = "a test fails by it")]
 
-mod common;
-#[path = "common/shoot.rs"]
-mod shoot;
-
+use crate::common::shoot::*;
+use crate::common::*;
 use brillianteer::math::Polytope;
 use brillianteer::optics::{Illuminant, material, materials};
 #[cfg(feature = "gpu")]
 use brillianteer::scene::Projection;
 use brillianteer::scene::{Instance, Light, Panorama, View, light};
-use common::*;
 use glam::{DVec2, DVec3};
-use shoot::*;
 
 /// A modern ideal cut, with a coarse girdle that is quick to trace.
 fn modern() -> Polytope {

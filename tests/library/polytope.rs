@@ -2,10 +2,8 @@
 
 #![allow(clippy::unwrap_used, reason = "a test fails by it")]
 
-mod common;
-
+use crate::common::*;
 use brillianteer::math::{Basis, Plane, Polytope, PolytopeError, Pose, Symmetry, area, triangulate};
-use common::*;
 use glam::{DQuat, DVec2, DVec3};
 use proptest::prelude::*;
 use std::time::Instant;

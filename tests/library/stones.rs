@@ -2,9 +2,7 @@
 //! them.
 #![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a test fails by it, and tells what it saw")]
 
-#[path = "common/meshes.rs"]
-mod meshes;
-
+use crate::common::meshes::{moved, stripped, turned};
 use brillianteer::cut::from_mesh::Up;
 use brillianteer::cut::{Cut, Design, Outline, is_table};
 use brillianteer::io::design_file::{self, DesignFormat, written};
@@ -14,7 +12,6 @@ use brillianteer::measure::by_beams;
 use brillianteer::scene::{ASET_CONE, Backing, Scope, Specimen, View};
 use brillianteer::trace::{beam, unwatched};
 use glam::{DQuat, DVec3};
-use meshes::{moved, stripped, turned};
 use rayon::prelude::*;
 use std::path::{Path, PathBuf};
 
@@ -466,7 +463,7 @@ fn real_designs_come_back() {
 /// The whole library comes back, which takes long: `STONES_STEP=10` takes every tenth design, `STONES_WAYS=Kept,Turned` only
 /// these ways.
 #[test]
-#[ignore = "it takes a quarter of an hour: cargo test --test stones -- --ignored --nocapture"]
+#[ignore = "it takes a quarter of an hour: cargo test --test library stones -- --ignored --nocapture"]
 fn the_whole_library_comes_back() {
     let set = |name: &str| std::env::var(name).ok();
     let step = set("STONES_STEP").and_then(|step| step.parse().ok()).unwrap_or(1);

@@ -3,9 +3,7 @@
 #![cfg(feature = "cli")]
 #![allow(clippy::unwrap_used, clippy::print_stderr, reason = "a test fails by it, and says what it skips")]
 
-#[path = "common/maps.rs"]
-mod maps;
-
+use crate::maps;
 use brillianteer::io::{panorama, refraction};
 use brillianteer::optics::encoded_from_linear;
 use brillianteer::picture::{Linear, refract};

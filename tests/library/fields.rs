@@ -2,21 +2,15 @@
 #![cfg(feature = "gpu")]
 #![allow(clippy::unwrap_used, reason = "a test fails by it")]
 
-mod common;
-#[path = "common/pixels.rs"]
-mod pixels;
-#[path = "common/shoot.rs"]
-mod shoot;
-
+use crate::common::pixels::{ALLOWED, Case, views};
+use crate::common::shoot::{Shoot, apart, colour, differ};
+use crate::common::*;
 use brillianteer::math::{ImplicitForm, ImplicitSurface, Pose, SmoothSolid};
 use brillianteer::optics::{Material, material};
 use brillianteer::scene::{Instance, Light, Medium, View, light};
 use brillianteer::trace::gpu::{ByCard, GpuEnvironment, GpuError};
 use brillianteer::trace::ray::RayOptions;
-use common::*;
 use glam::{DQuat, DVec3};
-use pixels::{ALLOWED, Case, views};
-use shoot::{Shoot, apart, colour, differ};
 use std::io::Write;
 
 fn smooth(form: ImplicitForm) -> SmoothSolid {

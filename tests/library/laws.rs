@@ -1,15 +1,13 @@
 //! Checks laws that hold for every stone: energy, symmetry, reversal, a white world.
 #![allow(clippy::unwrap_used, reason = "a test fails by it")]
 
-mod common;
-
+use crate::common::*;
 use brillianteer::math::{Plane, Polytope};
 use brillianteer::measure::{by_beams, by_rays};
 use brillianteer::picture::{Layer, Palette, paint};
 use brillianteer::scene::{Film, Glare, Lean, Medium, Projection, Scope, Side, View};
 use brillianteer::trace::ray::{Camera, Exit, RayOptions, StoneTracer};
 use brillianteer::trace::{Stopped, beam, unwatched};
-use common::*;
 use glam::{DMat3, DVec2, DVec3};
 use proptest::prelude::*;
 use std::ops::ControlFlow;

@@ -1,8 +1,7 @@
 //! Compares each overlay with a plain computation of its own.
 #![allow(clippy::unwrap_used, reason = "a test fails by it")]
 
-mod common;
-
+use crate::common::*;
 use brillianteer::math::{Plane, Polytope};
 use brillianteer::optics::{cos_transmitted, line, material, reflectance, refract};
 use brillianteer::picture::{Code, Overlay, lay};
@@ -11,7 +10,6 @@ use brillianteer::trace::environment::{Environment, EnvironmentMap};
 use brillianteer::trace::ray::{RayOptions, SceneProbe, facet_at};
 use brillianteer::trace::sampling::LitScene;
 use brillianteer::trace::{Stopped, unwatched};
-use common::*;
 use glam::{DVec2, DVec3};
 use std::ops::ControlFlow;
 

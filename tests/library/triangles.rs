@@ -2,10 +2,8 @@
 //! all light.
 #![allow(clippy::unwrap_used, reason = "a test fails by it")]
 
-mod common;
-#[path = "common/solids.rs"]
-mod solids;
-
+use crate::common::solids::{Triangles, clasp, heart, star};
+use crate::common::*;
 use brillianteer::math::{Pose, SolidRef, Surface, TriangleMesh};
 use brillianteer::measure;
 use brillianteer::optics::{Material, material, strata};
@@ -17,9 +15,7 @@ use brillianteer::trace::environment::{Environment, EnvironmentMap};
 use brillianteer::trace::ray::{ByRays, Camera, RayOptions, facet_at};
 use brillianteer::trace::sampling::LitScene;
 use brillianteer::trace::{Stopped, beam, unwatched};
-use common::*;
 use glam::{DQuat, DVec2, DVec3};
-use solids::{Triangles, clasp, heart, star};
 use std::sync::Arc;
 
 const SIZE: u32 = 48;

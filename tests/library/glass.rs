@@ -259,8 +259,9 @@ fn a_sweep_over_wavelengths_is_what_two_of_them_differ_by() {
 
 #[test]
 fn turning_and_scaling_a_body_changes_nothing() {
-    let cut =
-        Specimen::new(brillianteer::io::cut_file::parse(include_str!("../cuts/tolkowsky.toml"), "").unwrap());
+    let cut = Specimen::new(
+        brillianteer::io::cut_file::parse(include_str!("../../cuts/tolkowsky.toml"), "").unwrap(),
+    );
     let stone = (*cut.unwrap().body).clone();
     let mesh = Body::from(Arc::new(TriangleMesh::of_polytope(&stone.stone().unwrap().polytope)));
     let pose = Pose { at: DVec3::new(0.3, -4.0, 1.0), turn: DQuat::from_rotation_x(0.7), scale: 2.5 };

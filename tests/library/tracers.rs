@@ -1,13 +1,11 @@
 //! Compares beams with rays, point by point: two tracers that share nothing but Fresnel's equations and the stone.
 #![allow(clippy::unwrap_used, reason = "a test fails by it")]
 
-mod common;
-
+use crate::common::*;
 use brillianteer::math::{Plane, contains};
 use brillianteer::scene::{Lean, Medium, Side, Stone, View};
 use brillianteer::trace::beam::{Beam, Beams};
 use brillianteer::trace::ray::{Camera, Exit, RayOptions, StoneTracer};
-use common::*;
 use glam::{DMat2, DVec2, DVec3};
 
 /// How near to an edge of a beam a point is left out, in girdle radii: it may be seen on either side of the edge.

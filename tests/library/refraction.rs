@@ -1,10 +1,7 @@
 //! Checks refraction maps: places by Snell, weights by Fresnel, and pictures looked up compared with pictures traced.
 #![allow(clippy::unwrap_used, reason = "a test fails by it")]
 
-mod common;
-#[path = "common/maps.rs"]
-mod maps;
-
+use crate::common::maps;
 use brillianteer::io::{panorama, refraction as files};
 use brillianteer::math::{Plane, Polytope};
 use brillianteer::optics::{Illuminant, Material, encoded_from_linear, material, strata};

@@ -1,7 +1,6 @@
 //! Checks the structure of the source: a room imports only from floors below its own.
 #![allow(clippy::unwrap_used, reason = "a test fails by it")]
 
-#[path = "floors/circles.rs"]
 mod circles;
 
 use std::collections::BTreeMap;

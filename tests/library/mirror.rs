@@ -2,18 +2,12 @@
 #![cfg(feature = "gpu")]
 #![allow(clippy::unwrap_used, reason = "a test fails by it")]
 
-mod common;
-#[path = "common/pixels.rs"]
-mod pixels;
-#[path = "common/solids.rs"]
-mod solids;
-
+use crate::common::pixels::*;
+use crate::common::*;
 use brillianteer::math::{Plane, Pose, Surface, TriangleMesh};
 use brillianteer::scene::{Medium, Stone, View};
 use brillianteer::trace::ray::RayOptions;
-use common::*;
 use glam::{DQuat, DVec3};
-use pixels::*;
 use std::sync::Arc;
 
 fn shipped() -> Vec<(String, Stone)> {

@@ -2,27 +2,16 @@
 #![cfg(feature = "cli")]
 #![allow(clippy::unwrap_used, reason = "a test fails by it")]
 
-#[path = "cli/desk.rs"]
 mod desk;
-#[path = "cli/ends.rs"]
 mod ends;
-#[path = "cli/faults.rs"]
 mod faults;
-#[path = "cli/helps.rs"]
 mod helps;
-#[path = "cli/maps.rs"]
 mod maps;
-#[path = "cli/meshes.rs"]
 mod meshes;
-#[path = "cli/panes.rs"]
 mod panes;
-#[path = "cli/pictures.rs"]
 mod pictures;
-#[path = "cli/recorder.rs"]
 mod recorder;
-#[path = "cli/renders.rs"]
 mod renders;
-#[path = "cli/streams.rs"]
 mod streams;
 
 use brillianteer::io::light_file;

@@ -1,8 +1,7 @@
 //! Compares figures with those that others have found for the same stones.
 #![allow(clippy::unwrap_used, reason = "a test fails by it")]
 
-mod common;
-
+use crate::common::*;
 use brillianteer::cut::{Cut, Design, MaterialRef};
 use brillianteer::io::{cut_file, library};
 use brillianteer::measure::{Bounds, Figures, by_beams, by_rays};
@@ -13,7 +12,6 @@ use brillianteer::scene::{
 };
 use brillianteer::trace::beam::Beam;
 use brillianteer::trace::{ray, unwatched};
-use common::*;
 
 const DIAMOND: Medium = Medium::clear(2.4175);
 

@@ -1,11 +1,8 @@
 //! The files that `refraction-map` writes.
 
-#[path = "../common/maps.rs"]
-mod files_of_maps;
-
 use super::desk::*;
+use crate::maps::read;
 use brillianteer::io::refraction::{Coding, diffuse_path, paths};
-use files_of_maps::read;
 
 #[test]
 fn a_refraction_map_comes_in_every_coding_with_its_diffuse_layer_a_page_and_a_preview() {

@@ -1,6 +1,6 @@
 //! Measures how quickly the real window follows the hand, from events of the pointer to pixels on a screen that exists only
 //! in memory (Xvfb). This takes some minutes and two cores that are idle otherwise, so it is not run with the other tests:
-//! `cargo test --release --test window_speed -- --ignored --nocapture`
+//! `cargo test --release --test program window_speed -- --ignored --nocapture`
 //!
 //! `BRILLIANTEER_PAINTER=card` measures the painter for graphics cards instead, by a driver that computes in software.
 #![cfg(all(feature = "app", target_os = "linux"))]
