@@ -20,10 +20,13 @@ struct Imports {
     names: BTreeMap<String, ModulePath>,
 }
 
-/// Returns the text without comments and without what follows `mod tests`.
+/// Returns the text without comments.
 fn code(text: &str) -> String {
-    let code = text.split("#[cfg(test)]\nmod ").next().unwrap_or("");
-    code.lines().map(|line| line.split("//").next().unwrap_or("")).collect::<Vec<_>>().join("\n")
+    super::untested(text)
+        .lines()
+        .map(|line| line.split("//").next().unwrap_or(""))
+        .collect::<Vec<_>>()
+        .join("\n")
 }
 
 /// Returns the paths of a `use` tree such as `a::{b, c::{d, e}}`.

@@ -113,6 +113,14 @@ fn sources(folder: &Path) -> Vec<PathBuf> {
         .collect()
 }
 
+/// Returns a text without its tests. Where they lie in a file of their own, the code goes on behind the line that names it.
+fn untested(text: &str) -> String {
+    let mut parts = text.split("#[cfg(test)]\nmod ");
+    let before = parts.next().unwrap_or("");
+    let behind = parts.map_while(|part| part.split_once(";\n").filter(|(name, _)| !name.contains('{')));
+    std::iter::once(before).chain(behind.map(|(_, rest)| rest)).collect()
+}
+
 /// Returns the rooms that a text imports from by `crate::room`, outside its comments.
 fn imports(text: &str) -> Vec<&str> {
     let code = text.lines().map(|line| line.split("//").next().unwrap_or(""));
@@ -123,12 +131,17 @@ fn imports(text: &str) -> Vec<&str> {
 /// Whether a text that lies `steps` modules deep in its room leaves the room by `super`.
 fn climbs_out(text: &str, steps: usize) -> bool {
     // Inside a file's `mod tests` one more step is needed to leave the room.
-    let code = text.split("#[cfg(test)]").next().unwrap_or("");
-    code.contains(&"super::".repeat(steps + 1))
+    untested(text).contains(&"super::".repeat(steps + 1))
 }
 
 fn floor(room: &str) -> Option<u32> {
     FLOORS.iter().find(|(name, _)| *name == room).map(|(_, floor)| *floor)
+}
+
+#[test]
+fn code_behind_tests_in_a_file_of_their_own_is_seen() {
+    let text = "a;\n#[cfg(test)]\nmod tests;\nb;\n#[cfg(test)]\nmod others {\n    c;\n}\nd;\n";
+    assert_eq!(untested(text), "a;\nb;\n");
 }
 
 #[test]
@@ -158,10 +171,11 @@ fn no_floor_imports_from_its_own_or_a_higher_one() {
 }
 
 /// Returns the lines of a text that name a tracer, outside comments and test modules.
-fn naming_a_tracer(text: &str) -> Vec<&str> {
-    let code = text.split("#[cfg(test)]\nmod ").next().unwrap_or("").lines();
+fn naming_a_tracer(code: &str) -> Vec<&str> {
     let names = ["Backend::Beams", "Backend::Rays", "Backend::Card", "by_gpu::trace", "by_rays::trace"];
-    code.filter(|line| !line.trim_start().starts_with("//") && names.iter().any(|name| line.contains(name)))
+    let lines = code.lines();
+    lines
+        .filter(|line| !line.trim_start().starts_with("//") && names.iter().any(|name| line.contains(name)))
         .collect()
 }
 
@@ -171,7 +185,7 @@ fn only_the_renderer_names_a_tracer() {
     let src = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
     let mut inside = 0;
     for path in sources(&src) {
-        let text = std::fs::read_to_string(&path).unwrap();
+        let text = untested(&std::fs::read_to_string(&path).unwrap());
         let lines = naming_a_tracer(&text);
         if path.starts_with(src.join("render")) {
             inside += lines.len();
@@ -183,8 +197,7 @@ fn only_the_renderer_names_a_tracer() {
 }
 
 /// Returns the public types that a text declares outside its test modules.
-fn public_types(text: &str) -> Vec<&str> {
-    let code = text.split("#[cfg(test)]\nmod ").next().unwrap_or("");
+fn public_types(code: &str) -> Vec<&str> {
     let public = code.lines().filter_map(|line| {
         let line = line.trim_start().strip_prefix("pub")?;
         let after = if line.starts_with('(') { line.split_once(')')?.1 } else { line };
@@ -200,7 +213,7 @@ fn no_two_public_types_have_one_name() {
     let src = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
     let mut places = BTreeMap::<String, Vec<PathBuf>>::new();
     for path in sources(&src).into_iter().filter(|path| !path.iter().any(|part| part == "tests")) {
-        let text = std::fs::read_to_string(&path).unwrap();
+        let text = untested(&std::fs::read_to_string(&path).unwrap());
         for name in public_types(&text) {
             places.entry(name.to_owned()).or_default().push(path.clone());
         }
@@ -241,7 +254,7 @@ fn seen_from_outside(item: &str) -> &str {
 
 /// Returns the signatures in a text that other files can see and whose error is a bare text.
 fn texts_as_errors(text: &str) -> Vec<String> {
-    let code = text.split("#[cfg(test)]\nmod ").next().unwrap_or("");
+    let code = untested(text);
     let lines: Vec<&str> = code.lines().map(|line| line.split("//").next().unwrap_or("").trim()).collect();
     let is_text = |error: &str| ["String", "&str", "&'static str"].contains(&error.trim());
     let is_error_type = |line: &&&str| {
