@@ -1,4 +1,4 @@
-//! Writes the ASET picture of a design: `cargo run --example aset_png [FILE [PNG]]`.
+//! Writes the ASET picture of a design: `cargo run --release --example aset_png [FILE [PNG]]`.
 #![allow(clippy::print_stdout, reason = "an example shows what it finds")]
 
 use brillianteer::io::{WriteError, cut_file, write_png};

@@ -1,4 +1,4 @@
-//! Measures a design: `cargo run --example measure [FILE]`, a cut file or by default Tolkowsky's brilliant.
+//! Measures a design: `cargo run --release --example measure [FILE]`, a cut file or by default Tolkowsky's brilliant.
 #![allow(clippy::print_stdout, reason = "an example shows what it finds")]
 
 use brillianteer::io::cut_file;

@@ -1,5 +1,5 @@
 //! Reads a mesh (glTF, OBJ, STL or PLY), finds its facets and reports what they measure:
-//! `cargo run --example read_mesh [FILE]`. Without a file it writes a mesh of its own and reads that.
+//! `cargo run --release --example read_mesh [FILE]`. Without a file it writes a mesh of its own and reads that.
 #![allow(clippy::print_stdout, reason = "an example shows what it finds")]
 
 use brillianteer::cut::ProportionReport;

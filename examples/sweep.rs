@@ -1,4 +1,4 @@
-//! Sweeps the pavilion angle of a brilliant: `cargo run --example sweep`.
+//! Sweeps the pavilion angle of a brilliant: `cargo run --release --example sweep`.
 #![allow(clippy::print_stdout, reason = "an example shows what it finds")]
 
 use brillianteer::cut::{Cut, Pavilion};

@@ -24,7 +24,7 @@ pub fn icon() -> Option<IconData> {
 mod tests {
     use super::*;
 
-    /// The file that desktops take the icon from; `UPDATE_ICON=1 cargo test --lib app::icon` writes it anew.
+    /// The file that desktops take the icon from; `UPDATE_ICON=1 cargo test --release --lib app::icon` writes it anew.
     const FILE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/assets/brillianteer.svg");
 
     #[test]

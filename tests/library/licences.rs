@@ -1,6 +1,6 @@
 //! Checks that docs/licences.md lists every crate that the program is built from, each with an accepted licence.
 //!
-//! `UPDATE_LICENCES=1 cargo test --test library licences` writes the list anew. It runs cargo, which may use the network.
+//! `UPDATE_LICENCES=1 cargo test --release --test library licences` writes the list anew. It runs cargo, which may use the network.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write as _;
@@ -98,7 +98,7 @@ fn write(needed: &BTreeSet<(String, String)>) {
          [Apache-2.0](../LICENSE-APACHE), as you choose. Below are the {} crates that it is built of or with on any platform, \
          each with the licence that it states; their texts come with their sources. Drawings and the window carry the fonts \
          of `epaint_default_fonts`: Ubuntu Light, Hack, Noto Emoji and emoji-icon-font, under the licences that it states.\n\n\
-         `UPDATE_LICENCES=1 cargo test --test library licences` writes this list; the same test fails where it is not current.\n\n\
+         `UPDATE_LICENCES=1 cargo test --release --test library licences` writes this list; the same test fails where it is not current.\n\n\
          | crate | version | licence | where |\n|---|---|---|---|\n",
         needed.len()
     );
@@ -159,7 +159,7 @@ fn the_list_of_licences_is_current() {
         listed().into_iter().map(|[name, version, ..]| (name, version)).collect();
     let missing: Vec<_> = needed.difference(&listed).collect();
     let gone: Vec<_> = listed.difference(&needed).collect();
-    let what = "run UPDATE_LICENCES=1 cargo test --test library licences";
+    let what = "run UPDATE_LICENCES=1 cargo test --release --test library licences";
     assert!(missing.is_empty() && gone.is_empty(), "missing: {missing:?}; not needed: {gone:?}; {what}");
 }
 

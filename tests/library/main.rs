@@ -1,6 +1,6 @@
 //! Tests of the library from outside: laws of light, tracers against each other, files that others made, the order of the
 //! source. They are one program, because each further program would link the library and its dependencies again:
-//! `cargo test --test library laws` runs those of one file.
+//! `cargo test --release --test library laws` runs those of one file.
 #![allow(
     clippy::unwrap_used,
     clippy::print_stdout,

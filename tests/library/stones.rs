@@ -462,7 +462,7 @@ fn real_designs_come_back() {
 /// The whole library comes back, which takes long: `STONES_STEP=10` takes every tenth design, `STONES_WAYS=Kept,Turned` only
 /// these ways.
 #[test]
-#[ignore = "it takes a quarter of an hour: cargo test --test library stones -- --ignored --nocapture"]
+#[ignore = "it takes a quarter of an hour: cargo test --release --test library stones -- --ignored --nocapture"]
 fn the_whole_library_comes_back() {
     let set = |name: &str| std::env::var(name).ok();
     let step = set("STONES_STEP").and_then(|step| step.parse().ok()).unwrap_or(1);

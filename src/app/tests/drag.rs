@@ -1,5 +1,5 @@
 //! Measures how quickly the views follow the hand. This is ignored by default, because measuring takes time:
-//! `cargo test --lib drag -- --ignored --nocapture`
+//! `cargo test --release --lib drag -- --ignored --nocapture`
 
 use super::*;
 use crate::cut::Crown;

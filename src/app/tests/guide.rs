@@ -1,4 +1,4 @@
-//! Takes the pictures of docs/editor.md. Run `cargo test --lib guide -- --ignored`, and look at the pictures.
+//! Takes the pictures of docs/editor.md. Run `cargo test --release --lib guide -- --ignored`, and look at the pictures.
 
 use super::*;
 use crate::app::model::dialog::Dialog;

@@ -1,5 +1,5 @@
 //! Compares the window with pictures that a person has looked at. After a change of its looks that was intended, run
-//! `UPDATE_SNAPSHOTS=1 cargo test --lib looks`, and look at the new pictures.
+//! `UPDATE_SNAPSHOTS=1 cargo test --release --lib looks`, and look at the new pictures.
 
 use super::*;
 use crate::trace::gpu::Gpu;

@@ -1,6 +1,6 @@
 //! The recorder: a hash of every view at rest, for changes that must leave all results as they are.
 //!
-//! `BRILLIANTEER_RECORD=before.txt cargo test --lib recorder -- --ignored` writes the file where there is none, and else
+//! `BRILLIANTEER_RECORD=before.txt cargo test --release --lib recorder -- --ignored` writes the file where there is none, and else
 //! fails with the lines that differ. Hashes hold for one machine: other processors round sines differently.
 
 use super::*;

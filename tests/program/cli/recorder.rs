@@ -1,6 +1,6 @@
 //! The recorder hashes everything that the program prints and writes, to check changes that must not alter any output.
 //!
-//! `BRILLIANTEER_RECORD=before.txt cargo test --test program cli::recorder -- --ignored` writes the file where there is none, and
+//! `BRILLIANTEER_RECORD=before.txt cargo test --release --test program cli::recorder -- --ignored` writes the file where there is none, and
 //! otherwise fails with the lines that differ. Hashes hold on one machine only: other processors round sines differently.
 
 use super::desk::*;
