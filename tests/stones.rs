@@ -290,7 +290,7 @@ fn a_statement_that_no_longer_holds_is_told() {
         });
         let (back, _, warnings) = read(format, flat, Up::Found);
         assert!(
-            warnings.iter().any(|w| w.contains("its shape is not the one that this was said of")),
+            warnings.iter().any(|w| w.contains("its shape has changed since that was written")),
             "{warnings:?}"
         );
         assert_eq!(back.design.diameter_mm, 6.5);

@@ -149,7 +149,7 @@ impl Editor {
                 self.ctx.copy_image(picture.taken.image.clone());
                 format!("{} copied", shows.name())
             }
-            None => "This view holds no picture to copy.".to_owned(),
+            None => "This view has no picture to copy.".to_owned(),
         };
         self.actions.push(NoteAction::Say(text));
     }

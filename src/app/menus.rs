@@ -133,7 +133,7 @@ fn from_library(actions: &mut Actions, ui: &mut Ui) {
     });
     ui.menu_button("Scene of glass", |ui| {
         for Known { name, title, .. } in PRESETS {
-            let about = "A preset of a published demonstration of spectral refraction.";
+            let about = "A preset that recreates a published demonstration of spectral refraction.";
             if ui.button(title).on_hover_text(about).clicked() {
                 actions.push(FileAction::Ask(Then::Preset(name.to_owned())));
                 ui.close();
@@ -169,7 +169,8 @@ pub fn status(session: &Session, pictures: &PictureStatus, ui: &mut Ui) {
                 let state = opening.unwrap_or_else(|| tracing.to_owned());
                 ui.label(RichText::new(format!("{state} · {}", pictures.device)).weak().small())
                     .on_hover_text(format!(
-                        "What computes the pictures: the processor, or a graphics card. The window is painted by the {}.",
+                        "The device that computes the pictures: the processor or a graphics card. The {} paints the \
+                            window.",
                         pictures.painter
                     ));
                 let said = session.notes.said().unwrap_or_default();

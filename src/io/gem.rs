@@ -94,8 +94,8 @@ fn raw_facet<'a>(cursor: &mut Cursor<'a>, at: usize, x: f64) -> Result<Raw<'a>, 
     let p = DVec3::new(x, cursor.f64("a facet")?, cursor.f64("a facet")?);
     let plane = Plane::new(p, 1.0).normalized().ok_or_else(|| {
         let problem = format!(
-            "{p} is not a facet's normal divided by its distance; three finite numbers that are not all 0 are expected, or \
-             the file is no .gem"
+            "{p} is not a facet's normal divided by its distance; three finite numbers that are not all 0 are \
+                expected, or the file is not a .gem file"
         );
         cursor::fault(at, problem)
     })?;

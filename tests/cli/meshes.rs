@@ -65,7 +65,7 @@ fn what_is_kept_of_a_design_is_told_for_each_format_of_meshes() {
         ("tolkowsky a.ply", "its facets, its size and the name of its material"),
         (
             "tolkowsky a.glb",
-            "its facets, their names, its size, the name of its material and the material as three colours see it",
+            "its facets, their names, its size, the name of its material and the material in red, green and blue",
         ),
     ] {
         let (code, _, said) = desk.run(&format!("convert {line}"));

@@ -104,7 +104,7 @@ fn what_liquid_glass_cannot_be_is_told() {
         ("transparent", 2, "needs something behind it"),
         ("light", 2, "needs something behind it"),
         ("pages", 2, "page, grid, checks"),
-        ("cube.toml", 1, "no picture that is known"),
+        ("cube.toml", 1, "not a picture of a known format"),
     ] {
         let said = desk.refused(&format!("{line} {options}"), code);
         assert!(said.contains(expected), "{options}: {said}");

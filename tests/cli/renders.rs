@@ -131,7 +131,10 @@ fn a_pattern_is_seen_through_glass_with_the_strength_asked_for() {
     assert_eq!(physics, of("--strength 1").0);
     let (mixed, told) = of("--strength 0.1 --no-jitter");
     assert!(told.contains("4 wavelengths in 2 samples, without jitter"), "{told}");
-    assert!(told.contains("strength 0.1: a mixture for its looks, not physics"), "{told}");
+    assert!(
+        told.contains("strength 0.1: refracted and straight rays are mixed, which is not physics"),
+        "{told}"
+    );
     assert!((mean(&physics) - mean(&mixed)).abs().max_element() < 0.5 && physics != mixed);
     // Without refraction, and with hardly any reflection, the squares are where they are without glass.
     let (bare, _) = of("--material 1.0001");
@@ -140,15 +143,19 @@ fn a_pattern_is_seen_through_glass_with_the_strength_asked_for() {
     // The strength of a scene, and one that an option gives instead.
     let (_, told) = picture(&desk, "subtle-pill");
     assert!(
-        told.starts_with("Subtle pill; light dome") && told.contains("strength 0.035: a mixture"),
+        told.starts_with("Subtle pill; light dome")
+            && told.contains("strength 0.035: refracted and straight rays are mixed"),
         "{told}"
     );
     let (_, told) = picture(&desk, "subtle-pill --strength 1 --background black");
-    assert!(!told.contains("mixture"), "{told}");
+    assert!(!told.contains("rays are mixed"), "{told}");
     let said = desk.refused("render modern-ideal --strength 0.5 --tracer beam", 2);
     assert!(said.contains("--tracer ray, or --strength 1"), "{said}");
     let (by_card, told) = of("--strength 0.1 --no-jitter --tracer gpu");
-    assert!(told.contains("strength 0.1: a mixture for its looks, not physics"), "{told}");
+    assert!(
+        told.contains("strength 0.1: refracted and straight rays are mixed, which is not physics"),
+        "{told}"
+    );
     assert!((mean(&by_card) - mean(&mixed)).abs().max_element() < 0.005);
 }
 

@@ -49,7 +49,7 @@ pub fn show(about: &AboutForm, actions: &mut Actions, ui: &mut Ui) {
     ui.separator();
     let mut page = about.page;
     ui.horizontal_wrapped(|ui| {
-        ui.selectable_value(&mut page, AboutPage::Crates, "Built of");
+        ui.selectable_value(&mut page, AboutPage::Crates, "Built with");
         for (k, (name, _)) in LICENCES.iter().enumerate() {
             ui.selectable_value(&mut page, AboutPage::Licence(k), format!("Licence {name}"));
         }

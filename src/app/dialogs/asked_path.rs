@@ -13,9 +13,9 @@ fn words(purpose: Purpose) -> (&'static str, &'static str) {
         Purpose::Open => ("Open a cut", "Open"),
         Purpose::SaveAs => ("Save the cut as", "Save"),
         Purpose::Compare => ("Compare with a cut", "Open"),
-        Purpose::Light => ("A light or a panorama", "Open"),
-        Purpose::Behind => ("A picture behind the stone", "Open"),
-        Purpose::Folder => ("A folder for the pictures", "Choose"),
+        Purpose::Light => ("Choose a light or a panorama", "Open"),
+        Purpose::Behind => ("Choose a background picture", "Open"),
+        Purpose::Folder => ("Choose a folder for the files", "Choose"),
     }
 }
 
@@ -24,7 +24,8 @@ pub fn show(actions: &mut Actions, ui: &mut Ui, asked: &PathForm) {
     ui.set_width(460.0);
     let (heading, verb) = words(asked.purpose);
     ui.heading(heading);
-    let why = "The system opened no file dialog, which takes a desktop portal such as xdg-desktop-portal: type the path.";
+    let why = "The system could not open a file dialog. It needs a desktop portal such as xdg-desktop-portal. Type \
+        the path instead.";
     ui.label(RichText::new(why).weak());
     ui.add_space(6.0);
     let label = ui.label("Path");
@@ -40,11 +41,9 @@ pub fn show(actions: &mut Actions, ui: &mut Ui, asked: &PathForm) {
     }
     let path = asked.path();
     if asked.purpose == Purpose::SaveAs && path.is_file() {
-        ui.label(
-            RichText::new("It is there already and will be replaced.").color(theme::caution(ui.visuals())),
-        );
+        ui.label(RichText::new("The file exists and will be replaced.").color(theme::caution(ui.visuals())));
     } else if asked.purpose != Purpose::SaveAs && !path.exists() {
-        ui.label(RichText::new("There is no such file.").weak());
+        ui.label(RichText::new("This file does not exist.").weak());
     }
     match buttons_alone(ui, &[verb, "Cancel"]) {
         None if is_entered && asked.is_typed => actions.push(DialogAction::Accept),

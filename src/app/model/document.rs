@@ -296,7 +296,7 @@ impl Document {
     pub fn to_save(&self, path: PathBuf) -> Result<SaveRequest, Failure> {
         match &self.fault {
             Some(fault) => Err(Failure::Input(format!(
-                "this design cannot be read again: {}",
+                "this design is impossible, so it cannot be saved: {}",
                 impossible::by_name(fault)
             ))),
             None => Ok(SaveRequest {

@@ -152,7 +152,9 @@ impl ExportPlan {
     /// Returns a note that a render is not physics; it is empty where the render is.
     pub fn mixture(&self) -> String {
         match self.shot.strength {
-            s if s < 1.0 => format!("strength {s}: a mixture for its looks, not physics; "),
+            s if s < 1.0 => {
+                format!("strength {s}: refracted and straight rays are mixed, which is not physics; ")
+            }
             _ => String::new(),
         }
     }
@@ -182,11 +184,14 @@ impl ExportPlan {
     pub fn files(&self) -> Result<Vec<PathBuf>, Failure> {
         if self.selection.map && self.selection.size > MOST_PIXELS {
             return Err(Failure::Usage(format!(
-                "A refraction map has {MOST_PIXELS} pixels each way at most: take a smaller size."
+                "A refraction map can be at most {MOST_PIXELS} pixels wide and high; choose a smaller size."
             )));
         }
         if self.selection.map && self.selection.bands * self.selection.places > MOST_BANDS {
-            let problem = format!("Bands times places are {MOST_BANDS} at most: take fewer.");
+            let problem = format!(
+                "The number of bands times the number of places can be at most {MOST_BANDS}; \
+                choose fewer."
+            );
             return Err(Failure::Usage(problem));
         }
         let mut files = vec![];

@@ -68,8 +68,8 @@ impl Preset {
         let count: usize = scene.stones.iter().map(|e| e.count).sum();
         if scene.stones.iter().any(|e| kind(e) != kind(first)) || count > MOST_COPIES {
             let problem = format!(
-                "the editor shows scenes of up to {MOST_COPIES} stones of one cut, material and size; \
-                 `brillianteer render {told}` draws any"
+                "the editor opens only scenes of up to {MOST_COPIES} stones that share one cut, material and size; \
+                    draw this one by `brillianteer render {told}`"
             );
             return Err(FileError::new(told, problem));
         }

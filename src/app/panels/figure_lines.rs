@@ -29,18 +29,18 @@ enum Source {
 
 /// The zones, in the order of the panel.
 pub static ZONES: [Figure; 5] = [
-    zone("Red", "red", "Light from 45° to 75° above the horizon: the brightest that rooms have."),
+    zone("Red", "red", "Light from 45° to 75° above the horizon, where rooms are brightest."),
     zone("Green", "green", "Light from the horizon to 45°: walls and windows."),
     zone(
         "Blue",
         "blue",
-        "Light from straight above, which an observer's head blocks: it makes the contrast.",
+        "Light from straight above, which the observer's head blocks. It makes the contrast.",
     ),
-    zone(HEAD, "head", "Light that the observer's head shuts out."),
+    zone(HEAD, "head", "Light that the observer's head blocks."),
     zone(
         "Leakage",
         "below",
-        "Light from behind the stone: what the pavilion lets out. A dark spot or a window.",
+        "Light from behind the stone, through the pavilion. It shows as a dark spot or a window.",
     ),
 ];
 
@@ -50,23 +50,23 @@ pub(super) static TOTALS: [Figure; 5] = [
         is_strong: true,
         ..total("Light return", LIGHT_RETURN, |figures, scope| figures.light_return(scope))
     },
-    total(WITH_GLARE, "Light return, and the glare from above the horizon.", |figures, scope| {
+    total(WITH_GLARE, "Light return plus the glare from above the horizon.", |figures, scope| {
         figures.light_return(scope) + figures.glare_return(scope)
     }),
     total("Glare", "Light that the outer surface reflects without having been inside.", |figures, _| {
         figures.surface.iter().sum()
     }),
-    total("Absorbed", "Light that the stone's colour takes away.", |figures, _| figures.absorbed),
+    total("Absorbed", "Light that the colour of the stone absorbs.", |figures, _| figures.absorbed),
     total("Unresolved", UNRESOLVED, |figures, _| figures.unresolved),
 ];
 
 /// The one figure of areas that is no zone.
 static UNDECIDED: Figure = total("Undecided", HIDDEN, |figures, _| figures.strongest_exit_undecided);
 
-const LIGHT_RETURN: &str =
-    "Light from above the horizon that has been inside the stone: what makes it bright. Glare is not in it.";
-const UNRESOLVED: &str = "Light that was not followed to its end: by it, figures may be too low.";
-const HIDDEN: &str = "Where a stronger exit may hide in what is unresolved, or nothing leaves the stone.";
+const LIGHT_RETURN: &str = "Light from above the horizon that has been inside the stone. It makes the stone bright. Glare is not included.";
+const UNRESOLVED: &str = "Light that was not followed to its end. Other figures may be too low by as much.";
+const HIDDEN: &str =
+    "The area where unresolved light may hide a stronger exit, or where no light leaves the stone.";
 
 const fn zone(name: &'static str, band: &'static str, meaning: &'static str) -> Figure {
     Figure { name, meaning, is_strong: false, source: Source::Zone(band) }

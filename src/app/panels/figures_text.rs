@@ -75,7 +75,7 @@ fn text(about: &FiguresSubject, lines: &[FigureLine]) -> String {
     let mut text = format!("{design}: {view}; {state}\n");
     if let Some(other) = other {
         // Writing to a string cannot fail.
-        let _ = writeln!(text, "in brackets what is more than in {other}");
+        let _ = writeln!(text, "in brackets the difference from {other}");
     }
     for line in lines {
         let (name, percent) = (line.figure.name, 100.0 * line.share);
@@ -186,7 +186,7 @@ mod tests {
         let told = text(&about, &[line("Red", 0.5, Some(0.375))]);
         assert_eq!(
             told,
-            "a: face up; energy, final\nin brackets what is more than in b\nRed             50.000 % (+12.500)\n"
+            "a: face up; energy, final\nin brackets the difference from b\nRed             50.000 % (+12.500)\n"
         );
     }
 }

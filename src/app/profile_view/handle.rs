@@ -42,7 +42,7 @@ impl Handle {
             TableEdge | CuletEdge => "drag left or right",
             CrownSlope => "drag to tilt bezels",
             PavilionSlope => "drag to tilt mains",
-            PavilionTip => "drag up or down · sideways: culet",
+            PavilionTip => "drag up or down, sideways for the culet",
             TableLine | GirdleUpper | GirdleLower => "drag up or down",
         }
     }

@@ -86,7 +86,8 @@ impl Worker {
             let end = std::panic::catch_unwind(std::panic::AssertUnwindSafe(work));
             self.desk.sharpens.store(false, Ordering::SeqCst);
             if end.is_err() {
-                let why = "a picture failed: a fault of the program; please report the design";
+                let why =
+                    "a picture failed because of a fault in the program; please report it, with the design";
                 self.answer(Answer::Trouble(why.to_owned()));
                 self.rest(&turn);
             }

@@ -93,7 +93,7 @@ impl Backgrounds {
         let levels = match self.behind.take().filter(|(last, _)| last == asked) {
             Some((_, levels)) => levels,
             None => {
-                let no_picture = || Failure::Input("what hangs behind is not a picture".to_owned());
+                let no_picture = || Failure::Input("the background is not a picture".to_owned());
                 let reading = asked.picture()?.ok_or_else(no_picture)?;
                 Levels { whole: Arc::new(reading.panorama), halved: vec![] }
             }

@@ -75,7 +75,7 @@ impl From<FileAction> for TaskAnswer {
 }
 
 /// The text of an error that the program itself has made.
-const FAULT: &str = "a fault of the program; please report the design";
+const FAULT: &str = "this is a fault in the program; please report it, with the design";
 
 /// Carries out tasks.
 pub struct Outside {
@@ -162,7 +162,7 @@ impl Outside {
                     || None,
                     move |job| {
                         if let Err(why) = opener(&what) {
-                            let why = format!("{what} was not opened: {why}");
+                            let why = format!("{what} could not be opened: {why}");
                             job.send(Action::Note(NoteAction::Trouble(why)).into());
                         }
                     },

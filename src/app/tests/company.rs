@@ -85,7 +85,7 @@ fn a_preset_is_one_click_and_its_copies_are_dragged_scattered_and_counted() {
     bench.harness.run_steps(3);
     let scattered = poses(bench.editor());
     assert!(scattered != before && scattered.len() == 4);
-    bench.click("Lay out");
+    bench.click("Scatter");
     assert_ne!(poses(bench.editor()), scattered);
     bench.type_number("Copies", "7");
     assert_eq!(poses(bench.editor()).len(), 7);
@@ -119,7 +119,7 @@ fn what_moves_is_shown_moving_and_stands_still_when_stopped() {
             && bench.editor().model.session.motion.seconds == seconds
             && bench.editor().model.session.ordered == asked
     );
-    bench.click("At rest");
+    bench.click("Reset pose");
     assert_eq!(bench.editor().model.session.motion.seconds, 0.0);
     bench.harness.key_press(Key::H);
     bench.harness.run_steps(3);
@@ -268,7 +268,7 @@ fn copies_that_were_moved_are_asked_about_before_they_go() {
     bench.harness.state_mut().model.session.motion.rest();
     bench.click("Prism rainbow");
     assert_eq!(bench.editor().model.workspace.strength, 0.155, "nothing was moved");
-    bench.click("Lay out");
+    bench.click("Scatter");
     bench.click("Subtle pill");
     assert_eq!(bench.editor().model.workspace.strength, 0.155);
     bench.click("Export…");
@@ -276,6 +276,6 @@ fn copies_that_were_moved_are_asked_about_before_they_go() {
     assert!(export.plan.selection.scene);
     bench.click("Cancel");
     bench.click("Subtle pill");
-    bench.click("Leave them");
+    bench.click("Discard");
     assert_eq!(bench.editor().model.workspace.strength, 0.035);
 }

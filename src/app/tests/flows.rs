@@ -119,7 +119,7 @@ fn a_crash_loses_nothing() {
     drop(bench);
     let mut next = Bench::with(Setup { safe: safe.clone(), ..Setup::default() });
     next.harness.run_steps(3);
-    next.click("Go on");
+    next.click("Recover");
     next.harness.run_steps(3);
     assert_eq!(next.editor().model.document.work.design, design);
     assert!(next.editor().model.document.is_changed());
@@ -151,7 +151,7 @@ fn a_number_out_of_its_limits_is_told_where_it_stands_and_the_last_stone_stays()
     bench.settle();
     let stone = Arc::clone(bench.editor().model.document.specimen());
     bench.type_number("Table", "97");
-    assert!(bench.harness.query_by_label_contains("Table: 97 % makes no stone").is_some());
+    assert!(bench.harness.query_by_label_contains("Table: 97 % is impossible").is_some());
     assert!(Arc::ptr_eq(&stone, bench.editor().model.document.specimen()));
 }
 
@@ -236,7 +236,7 @@ fn every_view_is_exported_as_a_file() {
     bench.wait(|editor| matches!(&editor.model.session.dialog, Some(Dialog::Export(e)) if !e.is_busy()));
     let Some(Dialog::Export(export)) = &bench.editor().model.session.dialog else { panic!() };
     assert_eq!(export.run.as_ref().and_then(|run| run.end.clone()), Some(Ok(())));
-    assert!(bench.harness.query_by_label("All files are written.").is_some());
+    assert!(bench.harness.query_by_label("All files have been written.").is_some());
     let names: Vec<String> = std::fs::read_dir(folder.path().join("out"))
         .unwrap()
         .map(|f| f.unwrap().file_name().to_string_lossy().into_owned())

@@ -18,7 +18,7 @@ fn a_cutters_file_opens_and_its_tiers_are_set() {
     std::fs::write(&path, text).unwrap();
     let mut bench = Bench::with(Setup { file: Some(path.clone()), ..Setup::default() });
     bench.settle();
-    assert!(bench.harness.query_by_label_contains("'Z odd' is no record").is_some());
+    assert!(bench.harness.query_by_label_contains("'Z odd' is not a known record").is_some());
     let (picture, cut) = (bench.picture(0), bench.editor().model.document.work.design.cut.clone());
     bench.type_number("P1 · 4 Angle", "-41.5");
     bench.settle();
@@ -173,7 +173,7 @@ fn a_glass_shape_is_taken_from_the_library_and_its_dimensions_are_set() {
     let Cut::Glass(Glass::Plate(plate)) = bench.editor().model.document.work.design.cut else { panic!() };
     assert_eq!(plate.amplitude, 9.5);
     bench.type_number("Edge", "40");
-    let told = "Edge: 40 % makes no stone. With the other proportions as they are, it can be at most ";
+    let told = "Edge: 40 % is impossible. With the other proportions as they are, it can be at most ";
     assert!(bench.harness.query_by_label_contains(told).is_some());
     assert!(bench.harness.query_by_label_contains("edge:").is_none(), "no key of a file is shown");
     bench.choose("Edit", "Undo");

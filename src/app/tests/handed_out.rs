@@ -57,7 +57,7 @@ fn a_right_click_opens_a_menu_of_the_view_and_a_right_drag_turns_the_stone() {
     assert_eq!(export.plan.selection.views, [Shows::Aset]);
     bench.click("Cancel");
     open_menu_of(&mut bench, "Hearts picture");
-    bench.click("Draw over it");
+    bench.click("Overlays");
     bench.harness.run_steps(4);
     bench.harness.get_by_label_contains("Wireframe").click();
     bench.harness.run_steps(4);
@@ -158,7 +158,7 @@ fn the_program_says_what_it_is_and_what_it_is_built_of() {
     assert!(bench.harness.query_by_label(&version).is_some());
     bench.click("Licence MIT");
     assert!(bench.harness.query_by_label_contains("WITHOUT WARRANTY OF ANY KIND").is_some());
-    bench.click("Built of");
+    bench.click("Built with");
     bench.harness.get_by_role_and_label(egui::Role::TextInput, "Find").focus();
     bench.harness.run_steps(2);
     bench.harness.event(egui::Event::Text("egui_plot".to_owned()));

@@ -117,7 +117,7 @@ fn a_small_window_folds_one_panel_and_a_click_opens_it_in_place_of_the_other() {
 fn in_a_small_window_every_entry_of_a_menu_and_every_button_of_a_dialog_is_reached() {
     let mut bench = small(1.0);
     let whole = window(&bench);
-    for (menu, last) in [("File", "Quit"), ("View", "Views alone"), ("Help", "About Brillianteer")] {
+    for (menu, last) in [("File", "Quit"), ("View", "Hide panels"), ("Help", "About Brillianteer")] {
         bench.click(menu);
         bench.harness.run_steps(4);
         let reached = |bench: &Bench| whole.contains_rect(bench.harness.get_by_label_contains(last).rect());
@@ -233,7 +233,7 @@ fn nothing_is_red_while_nothing_is_wrong() {
             .map(|(_, text)| text)
             .collect()
     };
-    assert!(bench.harness.query_by_label_contains("are there already").is_some());
+    assert!(bench.harness.query_by_label_contains("will be replaced").is_some());
     assert_eq!(is_red(&bench), Vec::<String>::new());
     let editor = bench.harness.state_mut();
     (editor.model.session.dialog, editor.model.session.notes) = (None, Default::default());

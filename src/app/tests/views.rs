@@ -125,7 +125,7 @@ fn an_impossible_number_is_told_at_its_row_and_views_and_figures_say_which_stone
     };
     let before = places(&bench);
     bench.type_number("Crown angle", "89");
-    let said = bench.harness.get_by_label_contains("Crown angle: 89° makes no stone").rect();
+    let said = bench.harness.get_by_label_contains("Crown angle: 89° is impossible").rect();
     let [angle, height] =
         ["Crown angle", "Crown height"].map(|name| bench.field(Role::SpinButton, name).rect());
     assert!(said.top() > angle.center().y && said.bottom() < height.center().y, "it stands below its row");
@@ -283,7 +283,7 @@ fn what_a_row_means_is_told_over_its_words_beside_the_panel_and_not_while_someth
     };
     let row = bench.harness.get_by_label_contains("Red ").rect();
     hover(&mut bench, row.left_center() + egui::vec2(16.0, 0.0));
-    let meaning = bench.harness.get_by_label_contains("the brightest that rooms have").rect();
+    let meaning = bench.harness.get_by_label_contains("where rooms are brightest").rect();
     assert!(meaning.right() <= row.left() + 1.0, "{meaning:?} covers {row:?}");
     let name = bench.harness.get_by_role_and_label(Role::Label, "Crown angle").rect();
     hover(&mut bench, name.center());

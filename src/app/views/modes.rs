@@ -47,25 +47,28 @@ impl Mode {
                 mode("perspective", meaning, ViewAction::EndPerspective(pane))
             }),
             eye.eye_leans.then(|| {
-                let meaning = "The eye moves over a still stone and light; else the stone tilts.";
+                let meaning = "A drag tilts the eye, while stone and light stay.";
                 mode("eye tilts", meaning, ViewAction::Eye(pane, Eye { eye_leans: false, ..eye }))
             }),
-            overlay.map(|name| mode(name, "Something is drawn over all pictures.", ViewAction::Overlay(None))),
+            overlay.map(|name| {
+                mode(name, "This overlay is drawn over all pictures.", ViewAction::Overlay(None))
+            }),
             (desk.strongest && scope.is_some()).then(|| {
-                let meaning = "Scopes show the zone of each point's strongest light alone.";
+                let meaning = "Scopes show only the zone of each point's strongest light.";
                 mode("strongest exits", meaning, ViewAction::Strongest(false))
             }),
             (head > 0.0 && takes_head).then(|| {
-                let meaning = "The observer's head shuts out light, here and in the figures.";
+                let meaning = "The observer's head blocks light, here and in the figures.";
                 mode(format!("head {head:.1}°"), meaning, Edit::Head(0.0))
             }),
             (desk.glare && !desk.strongest && scope.is_some()).then(|| {
-                let meaning = "Scopes show what the outer surface reflects as well, as a camera records it.";
+                let meaning =
+                    "Scopes also show the light that the outer surface reflects, as a camera records it.";
                 mode("with glare", meaning, ViewAction::Glare(false))
             }),
             (strength < 1.0).then(|| {
-                let meaning = "Strength below 1: a mixture of the refracted and the straight ray, for its looks, and no \
-                               physics.";
+                let meaning =
+                    "Below 1, the refracted ray is mixed with the straight ray, which is not physics.";
                 mode(format!("strength {strength:.3}"), meaning, ViewAction::Strength(1.0))
             }),
         ]
@@ -124,7 +127,7 @@ fn rest_label(count: usize) -> String {
 
 fn chip(ui: &mut Ui, name: &str, mode: &Mode) -> bool {
     let button = Button::new(RichText::new(name).small()).selected(true);
-    ui.add(button).on_hover_text(format!("{} Click to end it.", mode.meaning)).clicked()
+    ui.add(button).on_hover_text(format!("{} Click to switch it off.", mode.meaning)).clicked()
 }
 
 fn button_width(ui: &Ui, text: &str) -> f32 {

@@ -144,7 +144,12 @@ impl ProbeHit {
         let light = self.light.as_ref().map_or_else(
             || "no light leaves here".to_owned(),
             |l| {
-                format!("{} light from {:.1}°, {:.0} % of what is seen", l.zone, l.elevation, 100.0 * l.share)
+                format!(
+                    "{} light from {:.1}°, {:.0} % of the light seen",
+                    l.zone,
+                    l.elevation,
+                    100.0 * l.share
+                )
             },
         );
         format!("{}{tier} · slope {:.2}°{azimuth} · {light}", self.name, self.slope)

@@ -40,11 +40,11 @@ pub enum WindowError {
     #[error("the window cannot be opened: {0}; on Debian it needs {PACKAGES}")]
     NoWindow(String),
     /// The window was open and has shown an image, and then painting or the window system failed.
-    #[error("the window was lost: {0}; start the program again: it offers the work that was not saved")]
+    #[error("the window was lost: {0}; start the program again to recover unsaved work")]
     Lost(String),
     /// The environment names a painter that does not exist.
     #[error(
-        "{CHOICE}={0} is unknown; set it to `card` or `processor`, or leave it out and the program chooses"
+        "{CHOICE}={0} is unknown; set it to `card` or `processor`, or unset it to let the program choose"
     )]
     NoSuchPainter(String),
 }
@@ -106,7 +106,7 @@ fn check_display() -> Result<(), WindowError> {
     let names = ["WAYLAND_DISPLAY", "WAYLAND_SOCKET", "DISPLAY"];
     let is_named_by_variable = cfg!(all(unix, not(target_os = "macos")));
     if is_named_by_variable && !names.iter().any(|name| is_named(name)) {
-        return Err(WindowError::NoDisplay("none of WAYLAND_DISPLAY and DISPLAY is set".to_owned()));
+        return Err(WindowError::NoDisplay("neither WAYLAND_DISPLAY nor DISPLAY is set".to_owned()));
     }
     Ok(())
 }

@@ -38,7 +38,8 @@ impl PictureSetup<'_> {
     /// Returns the note of a picture with a strength of refraction below 1, which is not physics; empty at full strength.
     pub(super) fn mixture(&self) -> String {
         let strength = self.strength;
-        let told = || format!("; strength {strength}: a mixture for its looks, not physics");
+        let told =
+            || format!("; strength {strength}: refracted and straight rays are mixed, which is not physics");
         (strength < 1.0).then(told).unwrap_or_default()
     }
 }

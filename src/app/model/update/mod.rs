@@ -66,7 +66,7 @@ fn computed_is(model: &mut Model, computed: Computed) -> Vec<Task> {
                 Ok([width, height]) => {
                     session.notes.say(&format!("{name} copied, {width} × {height} pixels"))
                 }
-                Err(why) => session.notes.trouble(format!("{name} was not copied: {why}")),
+                Err(why) => session.notes.trouble(format!("{name} could not be copied: {why}")),
             }
         }
         Computed::Order(order) => {

@@ -319,7 +319,7 @@ fn a_picture_that_is_not_made_for_the_clipboard_is_reported() {
     let tasks = bench.act(ViewAction::CopyAt(1, 512));
     assert!(has(&tasks, |task| matches!(task, Task::MakeCopy(request) if request.side == 512)));
     bench.act(Computed::Copied(Err(Failure::Output("no memory".to_owned()))));
-    assert_eq!(bench.model.session.notes.troubles()[0].text, "ASET was not copied: no memory");
+    assert_eq!(bench.model.session.notes.troubles()[0].text, "ASET could not be copied: no memory");
     assert!(bench.model.session.awaited.copying.is_none());
 }
 
@@ -331,7 +331,7 @@ fn an_answer_for_a_design_that_is_gone_is_not_saved_over_the_next() {
     bench.act(FileAction::Ask(Then::Library("modern-ideal".to_owned())));
     let tasks = bench.act(FileAction::Chosen(question, Choice::File("late.toml".into())));
     assert!(tasks.is_empty() && !bench.model.session.awaited.saving);
-    assert!(bench.model.session.notes.troubles()[0].text.starts_with("Not saved"));
+    assert!(bench.model.session.notes.troubles()[0].text.starts_with("The design was not saved"));
 }
 
 #[test]

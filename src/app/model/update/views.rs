@@ -70,7 +70,7 @@ fn copy_at(model: &mut Model, pane: usize, side: u32) -> Vec<Task> {
         (Shows::Profile, _) => CopyOriginal::Profile(model.document.named(model.document.specimen())),
         (_, Some(shot)) => CopyOriginal::Shot(Box::new(scaled(shot, side))),
         (_, None) => {
-            model.session.notes.say("This view holds no picture to copy.");
+            model.session.notes.say("This view has no picture to copy.");
             return vec![];
         }
     };

@@ -17,7 +17,7 @@ use std::path::Path;
 const GLB_HEADER: usize = 12;
 
 /// The beginning of the message about a file that is no glTF.
-const UNREADABLE: &str = "this is no glTF 2.0 that can be read: ";
+const UNREADABLE: &str = "this glTF 2.0 cannot be read: ";
 
 /// Extensions without which shapes cannot be read as they are meant. A file can be read without any other.
 const NEEDED: [&str; 4] = [
