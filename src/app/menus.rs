@@ -211,7 +211,7 @@ pub fn keys(model: &Model, actions: &mut Actions, ctx: &Context, is_picture_focu
     }
 }
 
-/// Returns what the keys show that are held.
+/// Returns which of the keys are held that change what is shown.
 pub fn held_keys(ctx: &Context) -> HeldKeys {
     HeldKeys { other: is_down(ctx, Key::C), three: is_down(ctx, Key::Z) }
 }

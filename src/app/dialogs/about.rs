@@ -21,9 +21,7 @@ const LIST: f32 = 300.0;
 /// A crate that the program is built of.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Crate<'a> {
-    /// The name of the crate.
     pub name: &'a str,
-    /// The version of the crate.
     pub version: &'a str,
     /// The licence of the crate, as the crate states it.
     pub licence: &'a str,

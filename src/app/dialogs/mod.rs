@@ -1,4 +1,4 @@
-//! Dialogs, which ask or say something.
+//! Draws the dialogs.
 
 pub mod about;
 pub mod asked_path;
@@ -69,7 +69,7 @@ fn buttons_alone(ui: &mut Ui, names: &[&str]) -> Option<usize> {
     .inner
 }
 
-/// Asks before something is left behind: the user can keep it, leave it, or cancel.
+/// Asks before something is lost: the user can keep it, discard it, or cancel.
 fn parting(actions: &mut Actions, ui: &mut Ui, heading: &str, text: &str, [kept, left]: [&str; 2]) {
     ui.set_width(380.0);
     ui.heading(heading);

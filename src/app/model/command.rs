@@ -48,7 +48,6 @@ pub enum Command {
 
 /// A menu of the menu bar.
 pub struct Menu {
-    /// The title of the menu.
     pub title: &'static str,
     /// The commands in the menu, in groups.
     pub groups: &'static [&'static [Command]],

@@ -13,12 +13,10 @@ use crate::scene::{Glare, Pose, Specimen, View, Viewpoint};
 use std::path::PathBuf;
 use std::sync::Arc;
 
-/// What of a stone is selected for export.
+/// The selection in the export dialog.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Selection {
-    /// The views that are exported.
     pub views: Vec<Shows>,
-    /// The formats of the files.
     pub formats: Vec<OutputFormat>,
     /// Whether a refraction map is written, with a page that shows it.
     pub map: bool,
@@ -26,7 +24,7 @@ pub struct Selection {
     pub bands: u32,
     /// The number of places in each pixel of the refraction map, for each band.
     pub places: u32,
-    /// Whether what renders show is written as a scene file, with its cut.
+    /// Whether the copies are written as a scene file, with their cut file.
     pub scene: bool,
     /// The number of pixels along each side.
     pub size: u32,
@@ -51,7 +49,7 @@ pub struct PictureAspect {
     pub turn: f64,
 }
 
-/// All that an export needs to know.
+/// Everything that an export needs.
 #[derive(Debug, Clone)]
 pub struct ExportPlan {
     /// What renders show, with light and view; the film is not used.
@@ -60,15 +58,13 @@ pub struct ExportPlan {
     pub upright: Arc<Specimen>,
     /// How the linked views see the stone; pictures and figures without a view of their own see it the same.
     pub linked: PictureAspect,
-    /// How the views that look on their own see the stone, by what they show.
+    /// How each view that is not linked sees the stone, by what it shows.
     pub own: Vec<(Shows, PictureAspect)>,
     /// Half the side of the square that renders show.
     pub reach: f64,
-    /// What is selected for export.
     pub selection: Selection,
     /// The light, as scene files name it.
     pub light: PathBuf,
-    /// The folder of the files.
     pub folder: PathBuf,
     /// The beginning of the files' names.
     pub stem: String,
@@ -80,8 +76,8 @@ impl ExportPlan {
         self.own.iter().find(|(own, _)| *own == shows).map_or(&self.linked, |(_, aspect)| aspect)
     }
 
-    /// Returns what is written of the stone as it is turned in the linked views, as it is turned in each view of its own,
-    /// and as the cut has it: drawings and figures know of no turn.
+    /// Divides the export by the turn of the stone: the linked views, each view that is not linked, and the drawings and
+    /// figures, which show the stone without a turn.
     pub fn parts(&self) -> Vec<(Outputs, Viewing<'_>)> {
         let is_drawing = |shows: &Shows| !shows.is_seen();
         let is_own = |shows: &Shows| self.own.iter().any(|(own, _)| own == shows);

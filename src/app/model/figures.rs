@@ -9,9 +9,7 @@ use std::collections::HashMap;
 pub struct ShownFigures {
     /// The order that the figures answer.
     pub ask: FiguresOrder,
-    /// The grade of the figures.
     pub grade: Grade,
-    /// The figures.
     pub figures: Figures,
 }
 

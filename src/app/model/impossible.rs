@@ -6,13 +6,12 @@ use crate::scene::SpecimenError;
 
 /// A message about a fault, and the row that shows it.
 pub struct RowMessage {
-    /// The row.
+    /// The row that shows the message.
     pub row: &'static Proportion,
-    /// The message.
     pub text: String,
 }
 
-/// Says what keeps a design from being a stone. A proportion is called as the panel calls it.
+/// Describes why a design makes no stone, with the names that the panel shows.
 pub fn by_name(fault: &SpecimenError) -> String {
     match fault {
         SpecimenError::Design(DesignError::Proportion(fault)) => fault.by_name(),

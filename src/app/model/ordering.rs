@@ -12,7 +12,6 @@ pub type Seen = (usize, [u32; 2]);
 
 /// Makes the orders of a model's pictures.
 pub struct Orders<'a> {
-    /// The model.
     pub model: &'a Model,
     /// The stones that have been made for earlier orders.
     pub stones: &'a mut Stones,

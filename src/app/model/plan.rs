@@ -42,7 +42,7 @@ pub fn export_plan(model: &Model) -> ExportPlan {
     plan
 }
 
-/// Returns how the linked views see a stone, and how each view that looks on its own sees it.
+/// Returns how the linked views see a stone, and how each view that is not linked sees it.
 ///
 /// Of several views that show the same, the one that keys act on counts, or else the first.
 fn aspects(model: &Model) -> (PictureAspect, Vec<(Shows, PictureAspect)>) {

@@ -34,7 +34,6 @@ pub const PRESETS: [Known; 5] = [
 pub struct Preset {
     /// The design, with its material and size.
     pub design: Design,
-    /// The copies of the design.
     pub company: Copies,
     /// The number of bands of wavelengths that the scene is seen in, if it is known.
     pub wavelengths: Option<u32>,

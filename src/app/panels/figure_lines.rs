@@ -9,7 +9,6 @@ use crate::scene::{ASET_CONE, Backing, Glare, Scope};
 /// A figure that the panel shows.
 #[derive(Debug)]
 pub struct Figure {
-    /// The name in the panel.
     pub name: &'static str,
     /// What the figure means.
     pub meaning: &'static str,
@@ -18,7 +17,7 @@ pub struct Figure {
     source: Source,
 }
 
-/// What a figure is read from.
+/// The source of a figure.
 #[derive(Debug)]
 enum Source {
     /// A band of the scope.
@@ -44,7 +43,7 @@ pub static ZONES: [Figure; 5] = [
     ),
 ];
 
-/// The figures of energy that are no zones, in the order of the panel.
+/// The figures of energy that are not zones, in the order of the panel.
 pub(super) static TOTALS: [Figure; 5] = [
     Figure {
         is_strong: true,
@@ -60,7 +59,7 @@ pub(super) static TOTALS: [Figure; 5] = [
     total("Unresolved", UNRESOLVED, |figures, _| figures.unresolved),
 ];
 
-/// The one figure of areas that is no zone.
+/// The one figure of areas that is not a zone.
 static UNDECIDED: Figure = total("Undecided", HIDDEN, |figures, _| figures.strongest_exit_undecided);
 
 const LIGHT_RETURN: &str = "Light from above the horizon that has been inside the stone. It makes the stone bright. Glare is not included.";
@@ -120,14 +119,13 @@ impl Counting {
     }
 }
 
-/// A figure of the present stone, beside that of the stone compared with.
+/// A figure of the present stone, beside that of the other stone of a comparison.
 #[derive(Debug, Clone, Copy)]
 pub struct FigureLine {
-    /// The figure.
     pub figure: &'static Figure,
     /// The share of the present stone's outline.
     pub share: f64,
-    /// The share of the outline of the stone compared with, if any.
+    /// The share of the outline of the other stone of a comparison, if any.
     pub other: Option<f64>,
     /// How far apart `share` and `other` may be in one and the same stone; 0 once both are final.
     pub error: f64,

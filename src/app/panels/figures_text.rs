@@ -59,7 +59,6 @@ pub fn shown(model: &Model, as_table: bool) -> Option<String> {
 
 /// What the figures describe, in words.
 struct FiguresSubject<'a> {
-    /// The name of the design.
     design: &'a str,
     /// From where the design is seen.
     view: &'a str,

@@ -46,7 +46,7 @@ pub fn show(model: &Model, actions: &mut Actions, ui: &mut Ui) {
     head.edit(ui, actions, work.head, Edit::Head);
 }
 
-/// Returns the name of a file without its folders; the name of what is no file as it is.
+/// Returns the name of a file without its folders; any other name unchanged.
 fn short(name: &str) -> Cow<'_, str> {
     Path::new(name).file_name().map_or(name.into(), |file| file.to_string_lossy())
 }
@@ -86,7 +86,7 @@ fn behind(workspace: &Workspace, actions: &mut Actions, ui: &mut Ui) {
     actions.push_changed(&workspace.behind, behind, ViewAction::Behind);
 }
 
-/// Draws the rows for how the backplate is seen: its distance, and the strength of refraction.
+/// Draws the rows for the backplate's distance and the strength of refraction.
 fn behind_how(workspace: &Workspace, unit_mm: f64, actions: &mut Actions, ui: &mut Ui) {
     if workspace.behind.as_deref() != Some("light") {
         let mm = workspace.behind_mm.unwrap_or(BEHIND * unit_mm);

@@ -14,9 +14,7 @@ use glam::DVec2;
 /// A part of the profile, and the proportion that it is pulled to change.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Handle {
-    /// The part of the profile.
     pub part: ProfileHandle,
-    /// The proportion.
     pub row: &'static Proportion,
 }
 

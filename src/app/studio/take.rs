@@ -64,7 +64,7 @@ impl From<Unfit> for TakeError {
 pub struct ShotTracer {
     /// What does the jobs of shots.
     pub(super) renderer: Renderer,
-    /// What is to be said to the user: why the processor does a card's work.
+    /// A message for the user: why the processor does a card's work.
     pub(super) notes: Vec<String>,
     /// The last picture behind a render.
     pub(super) behind: Option<(BackgroundRef, Arc<Panorama>)>,

@@ -26,17 +26,17 @@ const THUMBNAIL: u32 = 176;
 /// The effort of a render, where a picture in a scope takes 1, roughly.
 const RENDER: f64 = 4.0;
 
-/// Tells how an export goes on.
+/// Reports the progress of an export.
 struct Progress<'a> {
     tell: &'a (dyn Fn(ExportEvent) + Sync),
     is_stopped: &'a (dyn Fn() -> bool + Sync),
     begun: Instant,
-    /// The part that was told last, in thousandths.
+    /// The part that was reported last, in thousandths.
     told: AtomicU64,
 }
 
 impl Progress<'_> {
-    /// Takes note of the part done, 0 to 1.
+    /// Reports the part done, 0 to 1, if it has grown enough.
     fn at(&self, done: f64) -> ControlFlow<()> {
         let thousandths = (1000.0 * done) as u64;
         if self.told.swap(thousandths, Ordering::Relaxed) != thousandths {
@@ -134,7 +134,7 @@ impl ExportPlan {
     }
 }
 
-/// Writes the files of a plan; `tell` hears how that goes on, and `is_stopped` says whether it is to stop.
+/// Writes the files of a plan; `tell` gets the progress, and `is_stopped` says whether to stop.
 pub fn run(plan: &ExportPlan, tell: &(dyn Fn(ExportEvent) + Sync), is_stopped: &(dyn Fn() -> bool + Sync)) {
     let progress = Progress { tell, is_stopped, begun: Instant::now(), told: AtomicU64::new(0) };
     let end = plan.write(&progress);

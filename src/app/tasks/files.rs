@@ -1,4 +1,4 @@
-//! Asks for files by the dialogs of the system.
+//! Asks for files by the system's file dialogs.
 
 use crate::app::model::choosing::{Choice, Purpose, Question};
 use crate::io::design_file::DesignFormat;

@@ -1,4 +1,4 @@
-//! What the editor does outside its window: it reads and writes files, asks and opens by the system.
+//! Carries out the tasks of the editor: it reads and writes files, opens file dialogs, and opens folders and web pages.
 //!
 //! [`Outside`] carries out the [`Task`]s of a model in the background; their answers are [`Action`]s, or pictures for the
 //! window.
@@ -32,7 +32,7 @@ use opener::Opener;
 use runner::{JobHandle, TaskRunner, Turn};
 use std::sync::{Arc, Mutex, PoisonError};
 
-/// What a task is about: the newest with the same key wins.
+/// The key of a task; the newest task with the same key wins.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 enum Key {
     Light,

@@ -103,7 +103,7 @@ fn state(cx: &PaneContext, ui: &mut Ui) {
         .on_hover_text(format!("Traced by {}. {meaning}", taken.tracer));
 }
 
-/// Returns what a picture in a scope shows of the light where no mode says so, in two words and in a sentence.
+/// Returns, in two words and in a sentence, that a picture in a scope leaves out glare; `None` where it does not.
 fn reading(shot: &Shot) -> Option<(&'static str, &'static str)> {
     shot.shows.scoped()?;
     (!shot.strongest && shot.glare == Glare::LeftOut).then_some((

@@ -28,9 +28,7 @@ impl ProbeCache {
 /// What lies at a point of a picture.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ProbeHit {
-    /// The number of the facet.
     pub facet: u32,
-    /// The name of the facet.
     pub name: String,
     /// The part of their names that the facets of the tier share, and how many facets there are.
     pub tier: (String, usize),

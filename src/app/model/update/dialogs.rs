@@ -58,7 +58,7 @@ pub fn answer(model: &mut Model, answer: DialogAction) -> Vec<Task> {
     vec![]
 }
 
-/// Takes what is typed and chosen in the dialog that is open.
+/// Stores what is typed or chosen in the open dialog.
 fn fill_in(model: &mut Model, typed: DialogAction) {
     let session = &mut model.session;
     match (&mut session.dialog, typed) {

@@ -20,7 +20,7 @@ use std::path::{Path, PathBuf};
 const DOUBTFUL: &str = "The shape of this mesh does not show clearly which way its table faces. If it faces the \
     wrong way, choose another at Table faces in the design panel.";
 
-/// Does something with files.
+/// Performs a file action.
 pub fn change(model: &mut Model, change: FileAction) -> Vec<Task> {
     match change {
         FileAction::Ask(then) => ask_before(model, then),
@@ -65,8 +65,8 @@ pub fn change(model: &mut Model, change: FileAction) -> Vec<Task> {
     }
 }
 
-/// Returns what the model wants from outside as it is now: another light, another file to watch; takes note of a file that
-/// others have changed.
+/// Returns the tasks that the present state needs: to load another light, to watch another file, or to read the open file
+/// again because another program has changed it.
 pub fn wanted(model: &mut Model) -> Vec<Task> {
     let mut tasks = vec![];
     let light = &mut model.session.light;
@@ -101,7 +101,7 @@ fn changed_outside(model: &mut Model) -> Vec<Task> {
     vec![]
 }
 
-/// Does something that would lose unsaved work, after a question where there is such work.
+/// Performs a step that would lose unsaved work; asks first where there is any.
 fn ask_before(model: &mut Model, next: Then) -> Vec<Task> {
     if model.session.dialog.as_ref().is_some_and(Dialog::insists) {
         model.session.notes.say("Answer the open dialog first.");

@@ -1,4 +1,4 @@
-//! What becomes of a model by an action: the only place that changes a [`Model`].
+//! Applies actions to a model; this is the only place that changes a [`Model`].
 
 mod begin;
 mod commands;
