@@ -126,10 +126,10 @@ fn fate(specimen: &Specimen, format: DesignFormat, way: Way, turn: DQuat) -> Res
     let path = PathBuf::from(format!("x.{}", format.ending()));
     let brought = mesh::read(bytes, &path, MeshOptions::default()).map_err(|e| e.to_string())?;
     let says = matches!(way, Way::Kept | Way::Turned);
-    let told = brought.notes.join("; ");
+    let notes = brought.notes.join("; ");
     let back = Specimen::new(brought.design).map_err(|e| e.to_string())?;
-    back.stone().map_err(|_| format!("it came back as triangles: {told}"))?;
-    let doubt = if told.contains("doubt") { " (doubtful)" } else { "" };
+    back.stone().map_err(|_| format!("it came back as triangles: {notes}"))?;
+    let doubt = if notes.contains("does not show clearly") { " (doubtful)" } else { "" };
     match Figures::of(specimen).differ(&Figures::of(&back), says) {
         None => Ok(()),
         Some(why) => Err(format!("{why}{doubt}")),
@@ -272,17 +272,17 @@ fn a_statement_that_no_longer_holds_is_told() {
         assert_eq!(back.design.material, specimen.design.material);
         // The mesh is turned, scaled, both, and moved; a move needs no message.
         let quarter = DQuat::from_rotation_x(1.2);
-        let told = |to: &dyn Fn(DVec3) -> DVec3| {
+        let warnings = |to: &dyn Fn(DVec3) -> DVec3| {
             let (back, _, warnings) = read(format, moved(format, bytes(format), to), Up::Found);
             assert_eq!(Figures::of(&specimen).differ(&Figures::of(&back), true), None, "{}", format.ending());
             warnings.join("; ")
         };
-        assert!(told(&|v| quarter * v).contains("but its corners have been turned since"));
+        assert!(warnings(&|v| quarter * v).contains("but its corners have been turned since"));
         assert!(
-            told(&|v| 25.4 * v).contains("its corners have been scaled by 25.4000 since; 5.2 mm is kept")
+            warnings(&|v| 25.4 * v).contains("its corners have been scaled by 25.4000 since; 5.2 mm is kept")
         );
-        assert!(told(&|v| 0.5 * (quarter * v)).contains("turned since, so that its table faces"));
-        assert_eq!(told(&|v| v + DVec3::new(0.001, -0.002, 0.003)), "");
+        assert!(warnings(&|v| 0.5 * (quarter * v)).contains("turned since, so that its table faces"));
+        assert_eq!(warnings(&|v| v + DVec3::new(0.001, -0.002, 0.003)), "");
         // A flattened mesh is another stone, and the statement in the file does not fit it.
         let flat = moved(format, bytes(format), &|v| {
             v * DVec3::new(1.0, 1.0, if format == DesignFormat::Glb { 1.0 } else { 0.8 })

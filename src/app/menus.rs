@@ -173,10 +173,10 @@ pub fn status(session: &Session, pictures: &PictureStatus, ui: &mut Ui) {
                             window.",
                         pictures.painter
                     ));
-                let said = session.notes.said().unwrap_or_default();
-                let told = if session.message.is_empty() { said } else { &session.message };
+                let note = session.notes.said().unwrap_or_default();
+                let text = if session.message.is_empty() { note } else { &session.message };
                 ui.with_layout(egui::Layout::left_to_right(Align::Center), |ui| {
-                    ui.add(egui::Label::new(told).truncate());
+                    ui.add(egui::Label::new(text).truncate());
                 });
             });
         });

@@ -116,7 +116,7 @@ pub struct LightOptions {
     /// Take the material's index and absorption at this wavelength in nm [default: 589.3, sodium's D line]
     #[arg(long, value_name = "NM", allow_negative_numbers = true, value_parser = number)]
     pub wavelength: Option<f64>,
-    /// Shut out the light within DEGREES of the scope's axis, as the observer's head does (not in Ideal-Scope, hearts
+    /// Block the light within DEGREES of the scope's axis, as the observer's head does (not in Ideal-Scope, hearts
     /// and arrows, which have their own hole for the eye)
     #[arg(long, value_name = "DEGREES", default_value_t = 0.0, allow_negative_numbers = true, value_parser = number)]
     pub head: f64,

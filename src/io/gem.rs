@@ -119,8 +119,8 @@ fn outline(cursor: &mut Cursor<'_>) -> Result<bool, Fault> {
             }
             other => {
                 let problem = format!(
-                    "{other} stands where 1 (a corner follows) or 0 (the facet ends) is expected; the file is spoilt \
-                     or is not a .gem file"
+                    "{other} stands where 1 (a corner follows) or 0 (the facet ends) is expected; the file is \
+                        damaged or is not a .gem file"
                 );
                 return Err(cursor::fault(at, problem));
             }
@@ -137,7 +137,7 @@ fn trailer(cursor: &mut Cursor<'_>, told: &mut WarningList) -> Result<(Tiers, (u
     let unknown = cursor.i32(WHAT)? as u32;
     if unknown != UNKNOWN {
         let at = cursor::place(cursor.at() - 4);
-        told.warn(|| format!("{at}{unknown:#x} stands where {UNKNOWN:#x} is usual; it is not kept"));
+        told.warn(|| format!("{at}{unknown:#x} stands where {UNKNOWN:#x} is expected; it is not kept"));
     }
     let offset = cursor.f64(WHAT)?;
     let place = cursor::place(at);

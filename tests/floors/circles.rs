@@ -184,7 +184,7 @@ fn no_circle_of_imports_holds_more_than_three_files() {
     assert!(count > 500, "only {count} imports were seen: the check has lost its eyes");
     let mut circles = circles(&graph);
     circles.retain(|circle| !is_known(circle));
-    let told = |circle: &BTreeSet<ModulePath>| {
+    let listed = |circle: &BTreeSet<ModulePath>| {
         let lines = circle.iter().map(|file| {
             let others: Vec<String> = graph[file]
                 .iter()
@@ -195,7 +195,7 @@ fn no_circle_of_imports_holds_more_than_three_files() {
         });
         format!("{} files import one another:\n{}", circle.len(), lines.collect::<String>())
     };
-    assert!(circles.is_empty(), "{}", circles.iter().map(told).collect::<String>());
+    assert!(circles.is_empty(), "{}", circles.iter().map(listed).collect::<String>());
 }
 
 #[test]

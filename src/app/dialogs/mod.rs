@@ -31,7 +31,7 @@ pub fn show(model: &Model, thumbnails: &HashMap<Shows, TextureHandle>, actions: 
             Dialog::Recover(found) => recover(model, actions, ui, found),
             Dialog::ChangedOutside => changed_outside(actions, ui),
             Dialog::Export(export) => export_dialog::show(export, thumbnails, actions, ui),
-            Dialog::Path(asked) => asked_path::show(actions, ui, asked),
+            Dialog::Path(form) => asked_path::show(actions, ui, form),
             Dialog::Keys => keys(actions, ui),
             Dialog::About(about) => about::show(about, actions, ui),
         });
@@ -182,9 +182,9 @@ mod tests {
 
     #[test]
     fn times_are_told_in_the_largest_unit_that_has_passed() {
-        let told = [0, 4, 20, 60, 119, 7200, 200_000].map(|seconds| ago(Duration::from_secs(seconds)));
+        let texts = [0, 4, 20, 60, 119, 7200, 200_000].map(|seconds| ago(Duration::from_secs(seconds)));
         assert_eq!(
-            told,
+            texts,
             [
                 "just now",
                 "just now",

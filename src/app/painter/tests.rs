@@ -1,5 +1,5 @@
 //! Compares this painter with egui's own for graphics cards, which Mesa's driver computes on the processor.
-#![allow(clippy::print_stdout, reason = "what is measured is told")]
+#![allow(clippy::print_stdout, reason = "tests print what they measure")]
 
 use super::Painter;
 use crate::app::editor::Editor;

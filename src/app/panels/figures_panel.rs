@@ -116,8 +116,8 @@ fn row(ui: &mut Ui, row: &FigureLine) {
     let percent = 100.0 * row.share;
     let (width, height) = (ui.available_width(), 20.0);
     let (rect, response) = ui.allocate_exact_size(vec2(width, height), Sense::hover());
-    let told = format!("{name} {percent:.2} %");
-    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Label, true, &told));
+    let spoken = format!("{name} {percent:.2} %");
+    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Label, true, &spoken));
     let bar = Rect::from_min_max(
         pos2(rect.left() + 86.0, rect.top() + 5.0),
         pos2(rect.right() - 66.0, rect.bottom() - 5.0),

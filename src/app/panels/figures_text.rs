@@ -182,9 +182,9 @@ mod tests {
     #[test]
     fn a_text_tells_the_difference_from_what_is_compared_with() {
         let about = FiguresSubject { design: "a", view: "face up", state: "energy, final", other: Some("b") };
-        let told = text(&about, &[line("Red", 0.5, Some(0.375))]);
+        let copied = text(&about, &[line("Red", 0.5, Some(0.375))]);
         assert_eq!(
-            told,
+            copied,
             "a: face up; energy, final\nin brackets the difference from b\nRed             50.000 % (+12.500)\n"
         );
     }

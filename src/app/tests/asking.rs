@@ -63,8 +63,8 @@ fn a_stopped_export_says_how_far_it_came_and_its_button_stays_in_its_place() {
     bench.click("Write files");
     bench.harness.run_steps(2);
     let first = bench.harness.get_by_label("Stop").rect();
-    let told = job(bench.editor()).map(ExportRun::standing).unwrap();
-    assert!(told.starts_with("tolkowsky-1919-aset") && told.contains(" of 10"), "{told}");
+    let standing = job(bench.editor()).map(ExportRun::standing).unwrap();
+    assert!(standing.starts_with("tolkowsky-1919-aset") && standing.contains(" of 10"), "{standing}");
     assert!(bench.harness.query_by_label_contains(" of 10").is_some());
     bench.wait(|editor| job(editor).is_some_and(|job| job.written >= 2));
     assert_eq!(bench.harness.get_by_label("Stop").rect(), first, "it runs away under the pointer");

@@ -173,8 +173,8 @@ fn a_glass_shape_is_taken_from_the_library_and_its_dimensions_are_set() {
     let Cut::Glass(Glass::Plate(plate)) = bench.editor().model.document.work.design.cut else { panic!() };
     assert_eq!(plate.amplitude, 9.5);
     bench.type_number("Edge", "40");
-    let told = "Edge: 40 % is impossible. With the other proportions as they are, it can be at most ";
-    assert!(bench.harness.query_by_label_contains(told).is_some());
+    let message = "Edge: 40 % is impossible. With the other proportions as they are, it can be at most ";
+    assert!(bench.harness.query_by_label_contains(message).is_some());
     assert!(bench.harness.query_by_label_contains("edge:").is_none(), "no key of a file is shown");
     bench.choose("Edit", "Undo");
     bench.choose("Edit", "Undo");

@@ -10,8 +10,8 @@ use egui_kittest::kittest::NodeT;
 /// Returns the share that a row of the figures shows, in percent.
 fn share(bench: &Bench, name: &str) -> Option<f64> {
     let rows = bench.harness.query_all_by_label_contains(name);
-    let told = rows.filter_map(|node| node.accesskit_node().value());
-    told.filter_map(|text| text.strip_prefix(name)?.trim().strip_suffix(" %")?.parse().ok()).next()
+    let values = rows.filter_map(|node| node.accesskit_node().value());
+    values.filter_map(|text| text.strip_prefix(name)?.trim().strip_suffix(" %")?.parse().ok()).next()
 }
 
 #[test]

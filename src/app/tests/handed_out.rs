@@ -120,8 +120,8 @@ fn figures_are_copied_as_text_and_as_a_table() {
     let text = copy(&mut bench, "Copy as text");
     let percents = [before, shown(&bench)];
     let line = text.lines().find(|line| line.starts_with("Light return")).unwrap();
-    let told: f64 = line.trim_start_matches("Light return").trim_end_matches('%').trim().parse().unwrap();
-    assert!(percents.iter().any(|percent| (told - percent).abs() < 0.0051), "{line} beside {percents:?}");
+    let copied: f64 = line.trim_start_matches("Light return").trim_end_matches('%').trim().parse().unwrap();
+    assert!(percents.iter().any(|percent| (copied - percent).abs() < 0.0051), "{line} beside {percents:?}");
     assert!(text.starts_with("Tolkowsky 1919: Table side, face up; ASET, energy; "), "{text}");
     let table = copy(&mut bench, "Copy as CSV");
     let rows: Vec<Vec<&str>> = table.lines().map(|line| line.split(',').collect()).collect();

@@ -1,5 +1,5 @@
 //! Tests of the editor as a person uses it: by the names of what is on the screen.
-#![allow(clippy::print_stdout, reason = "what is skipped or measured is told")]
+#![allow(clippy::print_stdout, reason = "tests print what they skip or measure")]
 
 mod asking;
 mod backgrounds;

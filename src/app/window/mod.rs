@@ -60,11 +60,11 @@ impl WindowError {
 /// Removes the place in winit's source code from an error's text, because it is a path of the machine that built the
 /// program: `os error at FILE:LINE: TEXT` becomes `TEXT`.
 fn without_place(text: &str) -> String {
-    let told = text.split_once("os error at ").and_then(|(before, rest)| {
+    let shortened = text.split_once("os error at ").and_then(|(before, rest)| {
         let (_, reason) = rest.split_once(": ")?;
         Some(format!("{before}{reason}"))
     });
-    told.unwrap_or_else(|| text.to_owned())
+    shortened.unwrap_or_else(|| text.to_owned())
 }
 
 impl PaintedBy {
@@ -129,9 +129,9 @@ mod tests {
 
     #[test]
     fn a_window_that_has_shown_an_image_is_lost_and_not_missing() {
-        let told = |has_shown| WindowError::of_ended("the server is gone", has_shown);
-        assert_eq!(told(false), WindowError::NoWindow("the server is gone".to_owned()));
-        assert_eq!(told(true), WindowError::Lost("the server is gone".to_owned()));
+        let error = |has_shown| WindowError::of_ended("the server is gone", has_shown);
+        assert_eq!(error(false), WindowError::NoWindow("the server is gone".to_owned()));
+        assert_eq!(error(true), WindowError::Lost("the server is gone".to_owned()));
     }
 
     #[test]
@@ -139,8 +139,8 @@ mod tests {
         let place = "/root/.cargo/registry/src/index/winit-0.30.13/src/platform_impl/linux/mod.rs:788";
         let reason = "Failed to open connection to X server";
         assert_eq!(without_place(&format!("os error at {place}: {reason}")), reason);
-        let told = without_place(&format!("winit error: os error at {place}: {reason}: none"));
-        assert_eq!(told, format!("winit error: {reason}: none"));
+        let text = without_place(&format!("winit error: os error at {place}: {reason}: none"));
+        assert_eq!(text, format!("winit error: {reason}: none"));
         assert_eq!(without_place("EventLoop can't be recreated"), "EventLoop can't be recreated");
     }
 
