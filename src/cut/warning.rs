@@ -47,7 +47,7 @@ impl Warning {
     }
 }
 
-/// Says so where upper and lower halves meet between the bezels and leave no girdle there, or nowhere any.
+/// Warns where upper and lower halves meet between the bezels and leave no girdle there, or none at all.
 fn girdle(p: &Proportions) -> Option<String> {
     let (thickness, needed) = (50.0 * p.girdle, 50.0 * p.valley_depth());
     match thickness {

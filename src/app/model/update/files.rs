@@ -18,7 +18,7 @@ use std::path::{Path, PathBuf};
 
 /// The note about a mesh whose table may face another way.
 const DOUBTFUL: &str = "The shape of this mesh does not show clearly which way its table faces. If it faces the \
-    wrong way, choose another at Table faces in the design panel.";
+    wrong way, choose another direction at Table faces in the design panel.";
 
 /// Performs a file action.
 pub fn change(model: &mut Model, change: FileAction) -> Vec<Task> {
