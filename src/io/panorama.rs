@@ -120,7 +120,7 @@ fn check_size(width: u64, height: u64, bytes: u64) -> Result<(), Fault> {
     }
     if width * height > FREE_PIXELS.max(bytes.saturating_mul(PIXELS_A_BYTE)) {
         return Err(format!(
-            "{bytes} bytes cannot hold {width} by {height} pixels: the file is damaged; get it anew"
+            "{bytes} bytes cannot hold {width} by {height} pixels: the file is damaged; get it again"
         )
         .into());
     }
@@ -130,7 +130,7 @@ fn check_size(width: u64, height: u64, bytes: u64) -> Result<(), Fault> {
 /// Makes a fault of a file that a decoder gave up on.
 fn damaged(error: impl std::fmt::Display) -> Fault {
     Fault::whole(format!(
-        "cannot be decoded ({error}); get the file anew, or save it again as OpenEXR, Radiance HDR, PNG or JPEG"
+        "cannot be decoded ({error}); get the file again, or save it again as OpenEXR, Radiance HDR, PNG or JPEG"
     ))
 }
 

@@ -132,7 +132,9 @@ fn extensions(root: &mut Root) -> Result<Vec<String>, Fault> {
         |name: &String| ["KHR_materials_", "KHR_texture_", "KHR_lights_"].iter().any(|p| name.starts_with(p));
     let strange = root.extensions_required.iter().filter(|name| !shapeless(name));
     let mut warnings: Vec<String> = strange
-        .map(|name| format!("the file requires {name}, which this program does not support; it is read without that"))
+        .map(|name| {
+            format!("the file requires {name}, which this program does not support; it is read without that")
+        })
         .collect();
     let optional = root.extensions_used.iter().filter(|name| NEEDED.contains(&name.as_str()));
     warnings.extend(optional.map(|name| format!("{name} is not read; a part of the shape may be missing")));

@@ -119,7 +119,10 @@ impl Gatherer<'_> {
         warn(self.skipped > 0, format!("{} parts of points or lines are left out", self.skipped));
         warn(
             self.materials.len() > 1,
-            format!("{} materials are described; the one that most triangles have is used", self.materials.len()),
+            format!(
+                "{} materials are described; the one that most triangles have is used",
+                self.materials.len()
+            ),
         );
         warn(
             document.skins().len() > 0,
