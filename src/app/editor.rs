@@ -73,7 +73,7 @@ impl Editor {
         let kept = storage.and_then(|s| s.get_string(DESK));
         // A workspace of a later program that this one cannot read is ignored.
         let workspace: Workspace =
-            kept.and_then(|text| serde_json::from_str(&text).ok()).unwrap_or(setup.desk);
+            kept.and_then(|text| serde_json::from_str(&text).ok()).unwrap_or(setup.workspace);
         let mut model = Model::new(workspace)?;
         model.session.safe.is_on = setup.safe.is_some();
         let wake = waker(context);

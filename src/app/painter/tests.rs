@@ -63,7 +63,7 @@ fn painted(theme: Theme, scale: f32) -> (RgbaImage, RgbaImage) {
     let mut diagram = aset;
     diagram.shows = Shows::Diagram;
     let setup = Setup {
-        desk: Workspace { panes: [aset, diagram, hearts, profile], ..Workspace::default() },
+        workspace: Workspace { panes: [aset, diagram, hearts, profile], ..Workspace::default() },
         ..Setup::default()
     };
     let mut harness = Harness::builder()

@@ -22,9 +22,9 @@ use std::sync::Arc;
 /// Opens a scene, of the program's own or from a file, in a single render view.
 fn bench(scene: &str) -> Bench {
     let pane = Pane { shows: Shows::Render, own: None, is_near: false };
-    let desk =
+    let workspace =
         Workspace { layout: PaneLayout::One, panes: [pane; 4], wavelengths: 3, ..Workspace::default() };
-    let setup = Setup { file: Some(PathBuf::from(scene)), desk, ..Setup::default() };
+    let setup = Setup { file: Some(PathBuf::from(scene)), workspace, ..Setup::default() };
     let mut bench = Bench::sized(setup, egui::vec2(860.0, 1040.0));
     bench.harness.run_steps(3);
     bench
@@ -62,8 +62,11 @@ fn a_preset_is_one_click_and_its_copies_are_dragged_scattered_and_counted() {
     let mut bench = bench("prism-rainbow");
     assert_eq!(poses(bench.editor()).len(), 4);
     bench.click("Subtle pill");
-    let desk = &bench.editor().model.workspace;
-    assert_eq!((desk.behind.as_deref(), desk.behind_mm, desk.strength), (Some("page"), Some(100.0), 0.035));
+    let workspace = &bench.editor().model.workspace;
+    assert_eq!(
+        (workspace.behind.as_deref(), workspace.behind_mm, workspace.strength),
+        (Some("page"), Some(100.0), 0.035)
+    );
     let before = poses(bench.editor());
     let (lean, middle) = (bench.editor().model.workspace.eye.lean, before[2].at);
     let from = at(&bench, middle.x, middle.y);

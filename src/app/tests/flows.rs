@@ -191,8 +191,8 @@ fn keys_tilt_and_bring_back() {
     let tilts = |bench: &mut Bench, modifiers| {
         bench.harness.key_press_modifiers(modifiers, egui::Key::Backspace);
         bench.harness.run_steps(2);
-        let desk = &bench.editor().model.workspace;
-        (desk.shown().len(), desk.eye.from_below, desk.eye.tilt() > 0.3)
+        let workspace = &bench.editor().model.workspace;
+        (workspace.shown().len(), workspace.eye.from_below, workspace.eye.tilt() > 0.3)
     };
     let back: Vec<_> = (0..4).map(|_| tilts(&mut bench, egui::Modifiers::NONE)).collect();
     assert_eq!(back, [(2, false, false), (2, true, false), (2, false, true), (2, false, false)]);
@@ -255,9 +255,9 @@ fn every_view_is_exported_as_a_file() {
 
 #[test]
 fn the_profile_is_pulled_into_another_shape() {
-    let mut desk = Bench::small();
-    desk.panes[1].shows = Shows::Profile;
-    let mut bench = Bench::with(Setup { desk, ..Setup::default() });
+    let mut workspace = Bench::small();
+    workspace.panes[1].shows = Shows::Profile;
+    let mut bench = Bench::with(Setup { workspace, ..Setup::default() });
     bench.settle();
     let before = (bench.brilliant(), bench.picture(0));
     let tip = bench.harness.get_by_label("Pavilion depth, percent").rect().center();
@@ -334,9 +334,9 @@ fn two_designs_are_compared_and_their_figures_differ() {
 
 #[test]
 fn keys_work_and_steps_end_while_a_handle_has_the_focus() {
-    let mut desk = Bench::small();
-    desk.panes[1].shows = Shows::Profile;
-    let mut bench = Bench::with(Setup { desk, ..Setup::default() });
+    let mut workspace = Bench::small();
+    workspace.panes[1].shows = Shows::Profile;
+    let mut bench = Bench::with(Setup { workspace, ..Setup::default() });
     bench.harness.run_steps(2);
     bench.harness.get_by_label("Crown angle, degrees").focus();
     bench.harness.run_steps(2);

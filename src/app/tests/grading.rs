@@ -16,8 +16,8 @@ fn share(bench: &Bench, name: &str) -> Option<f64> {
 
 #[test]
 fn scopes_show_no_glare_until_it_is_asked_for_and_then_only_they_are_taken_anew() {
-    let desk = Workspace { layout: PaneLayout::One, ..Bench::small() };
-    let mut bench = Bench::sized(Setup { desk, ..Setup::default() }, egui::vec2(1280.0, 900.0));
+    let workspace = Workspace { layout: PaneLayout::One, ..Bench::small() };
+    let mut bench = Bench::sized(Setup { workspace, ..Setup::default() }, egui::vec2(1280.0, 900.0));
     bench.settle();
     assert_eq!(bench.editor().shown((0, Which::Present)).unwrap().shot.glare, Glare::LeftOut);
     assert!(bench.harness.query_by_label("without glare").is_some(), "the view says what it shows");
