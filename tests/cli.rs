@@ -354,7 +354,7 @@ fn where_no_card_is_found_rays_do_the_work_and_say_so() {
         let mut command = desk.command(line);
         let output =
             command.env("VK_DRIVER_FILES", "/none").env("VK_ICD_FILENAMES", "/none").output().unwrap();
-        came_of(line, &output)
+        outcome(line, &output)
     };
     let (code, printed, stderr) = run("measure cube.toml --tracer gpu --json");
     let figures: Value = serde_json::from_str(&printed).unwrap();

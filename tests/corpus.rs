@@ -31,8 +31,8 @@ fn files(endings: &[&str]) -> Vec<PathBuf> {
 }
 
 fn open(file: &Path) -> Result<Specimen, String> {
-    let brought = design_file::read(file).map_err(|e| e.to_string())?;
-    Specimen::new(brought.design).map_err(|e| e.to_string())
+    let imported = design_file::read(file).map_err(|e| e.to_string())?;
+    Specimen::new(imported.design).map_err(|e| e.to_string())
 }
 
 /// Files that make no stone, each with the reason that a look into the file showed.

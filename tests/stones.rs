@@ -124,10 +124,10 @@ fn fate(specimen: &Specimen, format: DesignFormat, way: Way, turn: DQuat) -> Res
         Way::StrippedAndTurned => turned(format, stripped(format, bytes), turn),
     };
     let path = PathBuf::from(format!("x.{}", format.ending()));
-    let brought = mesh::read(bytes, &path, MeshOptions::default()).map_err(|e| e.to_string())?;
+    let imported = mesh::read(bytes, &path, MeshOptions::default()).map_err(|e| e.to_string())?;
     let says = matches!(way, Way::Kept | Way::Turned);
-    let notes = brought.notes.join("; ");
-    let back = Specimen::new(brought.design).map_err(|e| e.to_string())?;
+    let notes = imported.notes.join("; ");
+    let back = Specimen::new(imported.design).map_err(|e| e.to_string())?;
     back.stone().map_err(|_| format!("it came back as triangles: {notes}"))?;
     let doubt = if notes.contains("does not show clearly") { " (doubtful)" } else { "" };
     match Figures::of(specimen).differ(&Figures::of(&back), says) {
@@ -253,8 +253,8 @@ fn what_another_program_writes_is_found_by_its_shape() {
 /// Returns the stone that a mesh is read as, with the notes and the warnings about it.
 fn read(format: DesignFormat, bytes: Vec<u8>, up: Up) -> (Specimen, Vec<String>, Vec<String>) {
     let path = PathBuf::from(format!("x.{}", format.ending()));
-    let brought = mesh::read(bytes, &path, MeshOptions { up, ..MeshOptions::default() }).unwrap();
-    (Specimen::new(brought.design).unwrap(), brought.notes, brought.warnings)
+    let imported = mesh::read(bytes, &path, MeshOptions { up, ..MeshOptions::default() }).unwrap();
+    (Specimen::new(imported.design).unwrap(), imported.notes, imported.warnings)
 }
 
 fn tolkowsky() -> Specimen {

@@ -166,10 +166,10 @@ impl Editor {
                 studio::Answer::Picture(slot, shot, grade, taken) => {
                     hang(&self.ctx, &mut self.views.gallery.traced, slot, (*shot, grade, taken));
                 }
-                studio::Answer::Figures(which, ask, grade, figures) => {
-                    self.actions.push(Computed::Figures(which, ask, grade, figures));
+                studio::Answer::Figures(which, order, grade, figures) => {
+                    self.actions.push(Computed::Figures(which, order, grade, figures));
                 }
-                studio::Answer::Tilts(ask, tilts) => self.actions.push(Computed::Tilts(ask, tilts)),
+                studio::Answer::Tilts(order, tilts) => self.actions.push(Computed::Tilts(order, tilts)),
                 studio::Answer::Trouble(why) => self.actions.push(NoteAction::Trouble(why)),
             }
         }

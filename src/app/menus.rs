@@ -17,8 +17,8 @@ pub fn bar(model: &Model, actions: &mut Actions, ui: &mut Ui) {
             for menu in &MENUS {
                 let shown = ui
                     .menu_button(menu.title, |ui| within_window(ui, |ui| entries(model, actions, ui, menu)));
-                let is_asked = |key| ui.input_mut(|i| i.consume_key(Modifiers::ALT, key));
-                if model.session.dialog.is_none() && menu.key().is_some_and(is_asked) {
+                let is_pressed = |key| ui.input_mut(|i| i.consume_key(Modifiers::ALT, key));
+                if model.session.dialog.is_none() && menu.key().is_some_and(is_pressed) {
                     // The focus lets the arrow keys go on from the opened menu.
                     shown.response.request_focus();
                     Popup::toggle_id(ui.ctx(), Popup::default_response_id(&shown.response));

@@ -16,10 +16,10 @@ use std::path::Path;
 /// Why the text of an option cannot be read.
 #[derive(Debug, Clone, thiserror::Error)]
 pub enum OptionError {
-    /// It is no number.
+    /// The text is not a number.
     #[error("a number is expected, such as 15 or 0.5")]
     Number,
-    /// It is no size of a picture, whose sides have at most so many pixels.
+    /// The text is not the size of a picture, whose sides have at most so many pixels.
     #[error("give 16 to {0} pixels, or WIDTHxHEIGHT such as 1600x900")]
     FilmSize(u32),
 }

@@ -47,7 +47,7 @@ impl Desk {
 
     /// Runs a command and returns its exit code, its standard output and its standard error.
     pub fn run(&self, line: &str) -> (i32, String, String) {
-        came_of(line, &self.command(line).output().unwrap())
+        outcome(line, &self.command(line).output().unwrap())
     }
 
     /// Runs a command that must succeed and returns its standard output. Standard error may hold only notes on illustrative
@@ -72,7 +72,7 @@ impl Desk {
 }
 
 /// Returns the exit code, standard output and standard error of a command, which must not have panicked.
-pub fn came_of(line: &str, output: &Output) -> (i32, String, String) {
+pub fn outcome(line: &str, output: &Output) -> (i32, String, String) {
     let [printed, stderr] = [&output.stdout, &output.stderr].map(|b| String::from_utf8(b.clone()).unwrap());
     let code = output.status.code().unwrap();
     assert!(code != 101 && !stderr.contains("panicked"), "{line}: a panic: {stderr}");

@@ -41,7 +41,7 @@ fn a_signal_ends_a_bench_at_once_with_its_own_exit_code() {
             !rest.iter().any(|line| line.starts_with("diamond under")),
             "it went on to its end: {rest:?}"
         );
-        let (ended, _, stderr) = came_of("bench", &bench.wait_with_output().unwrap());
+        let (ended, _, stderr) = outcome("bench", &bench.wait_with_output().unwrap());
         assert!(ended == code && stderr.ends_with("error: stopped\n"), "{name}: {ended}: {stderr}");
     }
 }
@@ -61,7 +61,7 @@ fn a_signal_leaves_whole_files_and_no_temporary_ones() {
             std::thread::yield_now();
         }
         signal(&export, name);
-        let (ended, _, stderr) = came_of(&line, &export.wait_with_output().unwrap());
+        let (ended, _, stderr) = outcome(&line, &export.wait_with_output().unwrap());
         assert!(ended == code && stderr.ends_with("error: stopped\n"), "{name}: {ended}: {stderr}");
         let left = std::fs::read_dir(desk.at(name)).unwrap().map(|e| e.unwrap().file_name());
         assert_eq!(left.collect::<Vec<_>>(), ["tolkowsky-profile.png"]);
@@ -108,7 +108,7 @@ fn without_a_screen_the_main_pictures_and_figures_are_written_unless_the_editor_
     let run = |line: &str| {
         let mut command = desk.command(line);
         command.env_remove("DISPLAY").env_remove("WAYLAND_DISPLAY").env_remove("WAYLAND_SOCKET");
-        came_of(line, &command.output().unwrap())
+        outcome(line, &command.output().unwrap())
     };
     let views = ["aset", "aset-strongest", "ideal-scope", "ideal-scope-strongest"];
     for (line, stem) in [("", "tolkowsky"), ("cube.toml", "cube")] {
@@ -187,7 +187,7 @@ fn a_driver_has_nothing_to_complain_of_where_the_session_names_no_folder_for_soc
                 None => command.env_remove(name),
             };
         }
-        let (code, _, stderr) = came_of(line, &command.output().unwrap());
+        let (code, _, stderr) = outcome(line, &command.output().unwrap());
         assert!(desk.at("loaded").exists(), "the driver was not asked");
         assert!(code == 0 && stderr.is_empty(), "{folder:?}: {code}: {stderr}");
         std::fs::remove_file(desk.at("loaded")).unwrap();

@@ -128,11 +128,11 @@ fn a_reader_that_goes_away_is_no_reason_to_panic() {
         "lights fire",
         "--help",
     ] {
-        let (code, _, stderr) = came_of(line, &desk.command(line).stdout(gone()).output().unwrap());
+        let (code, _, stderr) = outcome(line, &desk.command(line).stdout(gone()).output().unwrap());
         assert!(code == 0 && stderr.is_empty(), "{line}: code {code}: {stderr}");
     }
     let line = "info bad/nan.toml tolkowsky";
-    let (code, printed, _) = came_of(line, &desk.command(line).stderr(gone()).output().unwrap());
+    let (code, printed, _) = outcome(line, &desk.command(line).stderr(gone()).output().unwrap());
     assert!(code == 1 && printed.contains("Tolkowsky"), "code {code}");
 }
 

@@ -75,7 +75,7 @@ fn a_refraction_map_is_the_same_bytes_on_any_number_of_threads() {
             "refraction-map tolkowsky --size 40 --samples 2 --wavelengths 2 --format tiled,exr --out {threads}"
         );
         let run = desk.command(&line).env("RAYON_NUM_THREADS", threads).output().unwrap();
-        assert_eq!(came_of(&line, &run).0, 0);
+        assert_eq!(outcome(&line, &run).0, 0);
     }
     assert!(files(&desk.at("1")) == files(&desk.at("2")));
 }
@@ -109,6 +109,6 @@ fn what_a_refraction_map_cannot_be_is_told() {
 fn a_scenes_mixture_is_left_aside_and_that_is_told() {
     let desk = Desk::new();
     let line = "refraction-map prism-rainbow --size 32 --samples 1 --wavelengths 2 --format tiled --out maps";
-    let (code, _, stderr) = came_of(line, &desk.command(line).output().unwrap());
+    let (code, _, stderr) = outcome(line, &desk.command(line).output().unwrap());
     assert!(code == 0 && stderr.contains("strength of 0.155 is ignored"), "{code}: {stderr}");
 }

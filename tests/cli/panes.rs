@@ -48,7 +48,7 @@ fn liquid_glass_comes_drawn_traced_and_side_by_side_with_what_the_drawing_costs(
     for threads in ["1", "2"] {
         let line = format!("{line} --compare --frost 80 --out {threads}");
         let run = desk.command(&line).env("RAYON_NUM_THREADS", threads).output().unwrap();
-        assert_eq!(came_of(&line, &run).0, 0);
+        assert_eq!(outcome(&line, &run).0, 0);
     }
     assert!(files(&desk.at("1")) == files(&desk.at("2")));
 }

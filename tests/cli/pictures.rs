@@ -14,7 +14,7 @@ fn export_makes_every_picture_in_every_format_and_the_same_bytes_on_any_number_o
     let export = "export tolkowsky --size 96 --unresolved 0.02 --format png,svg,exr,json --out";
     let made = ["2", "2", "1"].into_iter().enumerate().map(|(k, threads)| {
         let run = desk.command(&format!("{export} {k}")).env("RAYON_NUM_THREADS", threads).output().unwrap();
-        let (code, printed, stderr) = came_of(export, &run);
+        let (code, printed, stderr) = outcome(export, &run);
         assert!(code == 0 && stderr.is_empty(), "{stderr}");
         let made = files(&desk.at(k.to_string()));
         let mut printed: Vec<String> = printed.lines().map(|l| l.replace(&format!("{k}/"), "")).collect();

@@ -63,7 +63,7 @@ fn a_render_is_the_same_bytes_on_any_number_of_threads() {
         let made = ["1", "2"].map(|threads| {
             let line = format!("render {options} --size 64 --samples 2 --wavelengths 3 --out {threads}.png");
             let run = desk.command(&line).env("RAYON_NUM_THREADS", threads).output().unwrap();
-            assert_eq!(came_of(&line, &run).0, 0);
+            assert_eq!(outcome(&line, &run).0, 0);
             std::fs::read(desk.at(format!("{threads}.png"))).unwrap()
         });
         assert!(made[0] == made[1], "{options}");

@@ -8,7 +8,7 @@ use std::collections::HashMap;
 #[derive(Debug, Clone)]
 pub struct ShownFigures {
     /// The order that the figures answer.
-    pub ask: FiguresOrder,
+    pub order: FiguresOrder,
     pub grade: Grade,
     pub figures: Figures,
 }

@@ -85,8 +85,8 @@ impl Figure {
     }
 
     /// Returns the figure, as a part of the stone's outline; 0 for a zone that the scope lacks.
-    fn of(&self, ShownFigures { ask, figures, .. }: &ShownFigures, counting: Counting) -> f64 {
-        let scope = aset(ask.head);
+    fn of(&self, ShownFigures { order, figures, .. }: &ShownFigures, counting: Counting) -> f64 {
+        let scope = aset(order.head);
         let band = match self.source {
             Source::Total(of) => return of(figures, &scope),
             Source::Zone(name) => scope.bands.iter().position(|band| band.name == name),
@@ -146,7 +146,7 @@ pub fn lines(measured: &ShownFigures, other: Option<&ShownFigures>, counting: Co
     let error = other.map_or(0.0, |other| error(measured, other, counting.by_area));
     let totals = if counting.by_area { std::slice::from_ref(&UNDECIDED) } else { &TOTALS };
     let is_shown = |figure: &&Figure| match figure.name {
-        HEAD => measured.ask.head > 0.0,
+        HEAD => measured.order.head > 0.0,
         WITH_GLARE => counting.glare == Glare::Included,
         _ => true,
     };
@@ -215,7 +215,7 @@ mod tests {
         let beams =
             beam::trace(&specimen.stone().unwrap().polytope, medium, &view, &options, &unwatched).unwrap();
         let figures = by_beams(&beams, &Scope::aset(ASET_CONE, Backing::Black));
-        ShownFigures { ask: FiguresOrder { specimen, view, head: 0.0 }, grade, figures }
+        ShownFigures { order: FiguresOrder { specimen, view, head: 0.0 }, grade, figures }
     }
 
     #[test]

@@ -52,10 +52,10 @@ fn against_tilt(model: &Model, ui: &mut Ui) {
     ui.label(RichText::new("Against tilt").heading()).on_hover_text(
         "The same figures while the stone tilts from -30° to 30° toward the azimuth of the linked views.",
     );
-    if let Some((ask, tilts)) = &model.session.measured.tilts {
+    if let Some((order, tilts)) = &model.session.measured.tilts {
         ui.label(RichText::new("in the colours of the zones above").weak().small());
-        let is_asked = model.session.ordered.tilts.as_ref() == Some(ask);
-        ui.add_enabled_ui(is_asked, |ui| plot(ui, ask.head, model.workspace.glare(), tilts));
+        let is_ordered = model.session.ordered.tilts.as_ref() == Some(order);
+        ui.add_enabled_ui(is_ordered, |ui| plot(ui, order.head, model.workspace.glare(), tilts));
     } else {
         ui.label(RichText::new("measured once everything else is done").weak());
     }
@@ -64,7 +64,7 @@ fn against_tilt(model: &Model, ui: &mut Ui) {
 /// Draws the menu entries that copy the figures.
 fn copies(model: &Model, actions: &mut Actions, ui: &mut Ui) {
     let tilts = model.session.measured.tilts.as_ref();
-    let tilts = tilts.map(|(ask, tilts)| figures_text::tilts(ask.head, model.workspace.glare(), tilts));
+    let tilts = tilts.map(|(order, tilts)| figures_text::tilts(order.head, model.workspace.glare(), tilts));
     let all = "Copies a table for spreadsheets: energy and area of every figure, in percent.";
     let zones = "Copies a table for spreadsheets: the energy of each zone at each tilt, in percent.";
     for (name, meaning, text) in [

@@ -15,9 +15,9 @@ pub fn other(model: &Model) -> Option<&ShownFigures> {
 
 /// Says whether figures are final, and their error where they are sampled.
 pub fn state(model: &Model, measured: &ShownFigures) -> String {
-    let is_asked = model.session.ordered.figures.iter().any(|(_, ask)| *ask == measured.ask);
-    let state = match is_asked && measured.grade == Grade::Fine {
-        true if model.document.shows_last_possible() => "those of the last possible stone",
+    let is_ordered = model.session.ordered.figures.iter().any(|(_, order)| *order == measured.order);
+    let state = match is_ordered && measured.grade == Grade::Fine {
+        true if model.document.shows_last_possible() => "figures of the last possible stone",
         true => "final",
         false => "becoming finer…",
     };

@@ -114,13 +114,13 @@ fn what_moves_is_shown_moving_and_stands_still_when_stopped() {
     bench.harness.key_press(Key::M);
     bench.harness.run_steps(3);
     assert!(!bench.editor().model.session.motion.is_on);
-    let (seconds, asked) =
+    let (seconds, ordered) =
         (bench.editor().model.session.motion.seconds, bench.editor().model.session.ordered.clone());
     bench.harness.run_steps(5);
     assert!(
         seconds > 0.0
             && bench.editor().model.session.motion.seconds == seconds
-            && bench.editor().model.session.ordered == asked
+            && bench.editor().model.session.ordered == ordered
     );
     bench.click("Reset pose");
     assert_eq!(bench.editor().model.session.motion.seconds, 0.0);

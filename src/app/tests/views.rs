@@ -139,7 +139,7 @@ fn an_impossible_number_is_told_at_its_row_and_views_and_figures_say_which_stone
     }
     bench.settle();
     assert_eq!(bench.harness.query_all_by_label("last possible stone").count(), 2);
-    assert!(bench.harness.query_by_label_contains("those of the last possible stone").is_some());
+    assert!(bench.harness.query_by_label_contains("figures of the last possible stone").is_some());
     assert!(bench.harness.query_by_label_contains("final").is_none());
     bench.choose("Edit", "Undo");
     bench.settle();

@@ -100,7 +100,7 @@ fn state(cx: &PaneContext, ui: &mut Ui) {
         ui.label(RichText::new(reading).weak().small()).on_hover_text(meaning);
     }
     ui.label(RichText::new(text).weak().small())
-        .on_hover_text(format!("Traced by {}. {meaning}", taken.tracer));
+        .on_hover_text(format!("Computed by {}. {meaning}", taken.tracer));
 }
 
 /// Returns, in two words and in a sentence, that a picture in a scope leaves out glare; `None` where it does not.

@@ -69,8 +69,8 @@ fn without_place(text: &str) -> String {
 
 impl PaintedBy {
     /// Returns the painter of this name. Without a name, it is the card where there is one, else the processor.
-    fn chosen(asked: Option<&str>, has_card: impl FnOnce() -> bool) -> Result<Self, WindowError> {
-        match asked {
+    fn chosen(name: Option<&str>, has_card: impl FnOnce() -> bool) -> Result<Self, WindowError> {
+        match name {
             None | Some("") => Ok(if has_card() { Self::Card } else { Self::Processor }),
             Some(name) => [Self::Card, Self::Processor]
                 .into_iter()
@@ -88,8 +88,8 @@ impl PaintedBy {
 /// lost. Except for a missing display, the text of the error says what to do.
 pub fn run(file: Option<PathBuf>, mesh: MeshOptions) -> Result<(), WindowError> {
     check_display()?;
-    let asked = std::env::var(CHOICE).ok();
-    let painted_by = PaintedBy::chosen(asked.as_deref(), by_card::is_there)?;
+    let name = std::env::var(CHOICE).ok();
+    let painted_by = PaintedBy::chosen(name.as_deref(), by_card::is_there)?;
     urgency::lower_the_pool();
     let state_file = StateFile::from_environment();
     let safe = eframe::storage_dir(ID);
@@ -146,7 +146,7 @@ mod tests {
 
     #[test]
     fn the_processor_paints_where_there_is_no_card_unless_a_painter_is_asked_for() {
-        let chosen = |asked: Option<&str>, card: bool| PaintedBy::chosen(asked, || card);
+        let chosen = |name: Option<&str>, card: bool| PaintedBy::chosen(name, || card);
         assert_eq!(chosen(None, true), Ok(PaintedBy::Card));
         assert_eq!(chosen(None, false), Ok(PaintedBy::Processor));
         assert_eq!(chosen(Some(""), false), Ok(PaintedBy::Processor));

@@ -56,10 +56,10 @@ fn computed_is(model: &mut Model, computed: Computed) -> Vec<Task> {
             }
             (session.light.name, session.light.loading) = (name, None);
         }
-        Computed::Figures(which, ask, grade, figures) => {
-            session.measured.figures.insert(which, ShownFigures { ask, grade, figures: *figures });
+        Computed::Figures(which, order, grade, figures) => {
+            session.measured.figures.insert(which, ShownFigures { order, grade, figures: *figures });
         }
-        Computed::Tilts(ask, tilts) => session.measured.tilts = Some((ask, tilts)),
+        Computed::Tilts(order, tilts) => session.measured.tilts = Some((order, tilts)),
         Computed::Copied(made) => {
             let name = session.awaited.copying.take().unwrap_or("The picture");
             match made {

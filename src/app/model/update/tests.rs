@@ -127,7 +127,7 @@ fn a_file_that_comes_after_an_edit_is_asked_about_and_opened_once_that_is_answer
     let tasks = bench.act(FileAction::Ask(Then::open(path.clone())));
     bench.act(Edit::Diameter(7.0));
     bench.read(tasks);
-    assert!(matches!(bench.dialog(), Some(Dialog::Unsaved(Then::Open(asked, _))) if *asked == path));
+    assert!(matches!(bench.dialog(), Some(Dialog::Unsaved(Then::Open(waiting, _))) if *waiting == path));
     assert_eq!(bench.diameter(), 7.0);
     let tasks = bench.act(DialogAction::GiveUp);
     bench.read(tasks);
