@@ -449,7 +449,7 @@ fn a_stone_weighs_its_density_times_its_volume_and_a_scene_is_told_stone_by_ston
     desk.write("scene.toml", scene.replace("\"row\"", "\"raw\""));
     let stderr = desk.refused("info scene.toml", 1);
     assert!(
-        stderr.starts_with("error: scene.toml:3: layout: 'raw' is none; did you mean 'row'?"),
+        stderr.starts_with("error: scene.toml:3: layout: 'raw' is unknown; did you mean 'row'?"),
         "{stderr}"
     );
     for (line, named) in [("measure scene.toml", "scene.toml"), ("export parcel", "parcel")] {

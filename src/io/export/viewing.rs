@@ -37,7 +37,7 @@ pub struct Viewing<'a> {
     pub polarised: bool,
     /// Whether glare is shown. With `None`, pictures leave it out and figures list it beside the rest.
     pub glare: Option<Glare>,
-    /// The tracer that is wanted.
+    /// The tracer to use, or the choice of the quickest.
     pub tracer: Wanted,
 }
 
