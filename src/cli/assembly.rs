@@ -1,12 +1,11 @@
 //! The stones that a picture under light shows: a single stone, or the stones of a scene in their places.
 
-use super::Failure;
 use super::specimen::{LoadedSpecimen, asked_material};
 use crate::cut::{MaterialRef, Size};
 use crate::io::background::BackgroundRef;
 use crate::io::mesh_options::MeshOptions;
 use crate::io::scene_file::{self, Entry, SceneFile};
-use crate::io::{is_standard, library};
+use crate::io::{Failure, is_standard, library};
 use crate::optics::Material;
 use crate::scene::{Instance, Pose, Scene, overlapping};
 use glam::{DQuat, DVec3};
@@ -141,14 +140,6 @@ fn scene(file: &Path) -> Result<Option<SceneFile>, Failure> {
     let name = file.display().to_string();
     let known = library::scene(&name).map(|text| scene_file::parse(text, &name, None));
     Ok(known.transpose()?)
-}
-
-/// Returns whether a path means a scene: a scene file, or the name of a scene that comes with the program.
-pub fn is_scene(file: &Path) -> bool {
-    match file.is_file() || is_standard(file) {
-        true => scene_file::is_scene(file),
-        false => library::scene(&file.to_string_lossy()).is_some(),
-    }
 }
 
 /// Reads each cut of a scene once. The keys are the names by which the scene calls the cuts.

@@ -1,7 +1,8 @@
 //! `bench`: measures how long each tracer takes for the same pictures on this machine.
 
+use super::console::{json, print, say};
 use super::specimen::LoadedSpecimen;
-use super::{Failure, json, print, say};
+use crate::io::Failure;
 use crate::io::mesh_options::MeshOptions;
 use crate::math::Polytope;
 use crate::optics::line;

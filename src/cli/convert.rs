@@ -1,8 +1,9 @@
 //! `convert`: writes a stone's design in another format.
 
+use super::console::say;
 use super::mesh_options::MeshArguments;
 use super::specimen::LoadedSpecimen;
-use super::{Failure, say};
+use crate::io::Failure;
 use crate::io::design_file::{self, DesignFormat};
 use clap::builder::PossibleValue;
 use clap::{Args, ValueEnum};

@@ -1,12 +1,12 @@
 //! `export`: writes pictures, drawings and figures of stones to files.
 
+use super::batch::each_file;
 use super::mesh_options::MeshArguments;
 use super::options::{LightOptions, ViewOptions, scoped};
 use super::progress::WorkProgress;
 use super::specimen::stem;
-use super::{Failure, each_file};
 use crate::io::export::{self, OutputFormat, Outputs, first_twice};
-use crate::io::{MOST_PIXELS, is_standard};
+use crate::io::{Failure, MOST_PIXELS, is_standard};
 use crate::picture::{Picture, named, names};
 use crate::render::{Card, Renderer};
 use clap::builder::PossibleValue;

@@ -1,10 +1,13 @@
 //! `info`: prints a stone's geometry, proportions and weight, or the stones of a scene.
 
-use super::assembly::{self, Assembly};
+use super::assembly::Assembly;
+use super::batch::each_file;
+use super::console::{json, print};
 use super::mesh_options::MeshArguments;
+use super::names::is_scene;
 use super::specimen::LoadedSpecimen;
-use super::{Failure, each_file, json, print};
 use crate::cut::{AlongAxes, Cut, ProportionReport, Spread, Unit};
+use crate::io::Failure;
 use crate::io::STANDARD;
 use crate::math::{Facet, Polytope};
 use crate::scene::Body;
@@ -40,7 +43,7 @@ impl Info {
     pub fn run(&self) -> Result<(), Failure> {
         let mesh = self.mesh.options();
         each_file(&self.files, |file| {
-            if assembly::is_scene(file) {
+            if is_scene(file) {
                 let assembly = Assembly::load(file, None, None, mesh)?;
                 return self.print_as(&scene_json(&assembly), || scene_table(&assembly));
             }

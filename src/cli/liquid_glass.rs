@@ -1,12 +1,12 @@
 //! `liquid-glass`: draws a pane of glass over a background as screens do, and traces the same pane for comparison.
 
+use super::console::{print, say, written};
 use super::options::number;
 use super::picture_options::film_size;
 use super::picturing::within;
 use super::progress::WorkProgress;
-use super::{Failure, print, say, written};
 use crate::io::background::BackgroundRef;
-use crate::io::{STANDARD, is_standard, write_rgba_png};
+use crate::io::{Failure, STANDARD, is_standard, write_rgba_png};
 use crate::optics::linear_from_encoded;
 use crate::picture::liquid_glass::{Cost, GlassPane, PaneQuality, Shifts, pane};
 use crate::picture::{Develop, Linear, Tone, develop};

@@ -1,31 +1,14 @@
 //! `materials`, `cuts`, `scenes`, `scopes`, `lights`: lists of what the program knows by name.
 
-use super::{Failure, json, print};
+use super::console::{json, print};
 use crate::io::library::{CUTS, SCENES, cut, scene};
-use crate::io::{cut_file, light_file, lighting, scene_file, scope_file};
+use crate::io::{Failure, cut_file, light_file, lighting, scene_file, scope_file};
 use crate::optics::{line, materials};
 use crate::picture::{Picture, named, names};
 use crate::scene::{LIGHTS, Scope, light};
 use clap::Args;
 use serde_json::{Value, json};
 use std::fmt::Write;
-use std::path::Path;
-
-/// Returns the end of an error message about a file that cannot be read as a design: that it is a scene, or the most similar
-/// name of a cut or a scene that comes with the program. Empty where neither applies.
-pub fn hint(file: &Path) -> String {
-    if super::assembly::is_scene(file) {
-        return "; this is a scene, where the file or the name of a cut is expected".to_owned();
-    }
-    const SLIPS: usize = 3;
-    let asked = file.file_name().unwrap_or_default().to_string_lossy().to_lowercase();
-    let known = CUTS.iter().map(|(n, _)| ("cut", n)).chain(SCENES.iter().map(|(n, _)| ("scene", n)));
-    let near = known.map(|(kind, n)| (strsim::levenshtein(&asked, n), kind, n)).min();
-    match near.filter(|(slips, ..)| !file.exists() && *slips <= SLIPS) {
-        Some((_, kind, name)) => format!("; did you mean the {kind} '{name}'?"),
-        None => String::new(),
-    }
-}
 
 #[derive(Debug, Args)]
 pub struct List {

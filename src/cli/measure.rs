@@ -1,9 +1,11 @@
 //! `measure`: prints the figures of one view.
 
+use super::batch::each_file;
+use super::console::{json, print};
 use super::mesh_options::MeshArguments;
 use super::options::{LightOptions, ViewOptions, scoped};
 use super::progress::WorkProgress;
-use super::{Failure, each_file, json, print};
+use crate::io::Failure;
 use crate::io::export::{FigureReport, measure};
 use crate::picture::Scoped;
 use crate::render::{Card, Renderer};

@@ -1,9 +1,12 @@
 //! Floor 7: the command line. Each command has a file of its own.
 //!
-//! `options` holds the options that several commands share, `specimen` the stone that a command works on.
+//! `options` holds the options that several commands share, `specimen` the stone that a command works on, `batch` the files
+//! that it takes one after the other, `names` what a name stands for, and `console` what is printed.
 
 mod assembly;
+mod batch;
 mod bench;
+mod console;
 mod convert;
 mod export;
 mod info;
@@ -11,6 +14,7 @@ mod liquid_glass;
 mod lists;
 mod measure;
 mod mesh_options;
+mod names;
 mod options;
 mod picture_options;
 mod picturing;
@@ -22,12 +26,11 @@ mod specimen;
 mod spin;
 mod without_window;
 
-use crate::io::Failure;
-use crate::io::export::Event;
 use crate::io::mesh_options::MeshOptions;
-use crate::io::{is_standard, library};
+use crate::io::{Failure, is_standard};
 use clap::error::ErrorKind;
 use clap::{CommandFactory, Parser, Subcommand};
+use console::say;
 use mesh_options::MeshArguments;
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
@@ -124,7 +127,7 @@ pub fn main(editor: Option<EditorOpener>) -> ExitCode {
             // A failure to print help or an error is ignored; clap's own `exit` would panic over it.
             let _ = told.print();
             let meant = given.get(1).filter(|_| told.kind() == ErrorKind::InvalidSubcommand);
-            if let Some(hint) = meant.map(|name| lists::hint(Path::new(name))).filter(|hint| !hint.is_empty())
+            if let Some(hint) = meant.map(|name| names::hint(Path::new(name))).filter(|hint| !hint.is_empty())
             {
                 say(hint.trim_start_matches("; "));
             }
@@ -162,11 +165,11 @@ fn edit(
     mesh: MeshOptions,
     is_named: bool,
 ) -> Result<(), Failure> {
-    if let Some(file) = file.as_ref().filter(|f| !f.is_file() && !is_known(f)) {
+    if let Some(file) = file.as_ref().filter(|f| !f.is_file() && !names::is_known(f)) {
         let why = match () {
             () if file.is_dir() => "this is a directory; a file is expected".to_owned(),
             () if is_standard(file) => "the editor reads no standard input; give a file".to_owned(),
-            () => format!("there is no such file{}", lists::hint(file)),
+            () => format!("there is no such file{}", names::hint(file)),
         };
         return Err(Failure::Input(format!("{}: {why}", file.display())));
     }
@@ -175,7 +178,7 @@ fn edit(
         None => Err(Failure::NoWindow("this program was built without its window".into())),
     };
     match opened {
-        Err(Failure::NoWindow(why)) if !is_named => without_window::write(file, &why),
+        Err(Failure::NoWindow(why)) if !is_named => without_window::write(file, &why, run_line),
         Err(Failure::NoWindow(why)) => Err(Failure::NoWindow(format!(
             "{why}; `brillianteer export` and `brillianteer render` write files without it"
         ))),
@@ -202,16 +205,16 @@ impl Command {
             Self::Scenes(scenes) => scenes.run(),
             Self::Scopes(scopes) => scopes.run(),
             Self::Lights(lights) => lights.run(),
-            Self::Completions(completions) => completions.run(),
-            Self::Man(manual) => manual.run(),
+            Self::Completions(completions) => completions.run(Arguments::command()),
+            Self::Man(manual) => manual.run(Arguments::command()),
         }
     }
 }
 
-/// Returns whether a cut or a scene of this name comes with the program.
-fn is_known(name: &Path) -> bool {
-    let name = name.to_string_lossy();
-    library::cut(&name).is_some() || library::scene(&name).is_some()
+/// Runs a command line as if the user had typed it.
+fn run_line(words: Vec<OsString>) -> Result<(), Failure> {
+    let parsed = Arguments::try_parse_from(words).map_err(|e| Failure::Usage(e.to_string()))?;
+    parsed.command.map_or(Ok(()), Command::run)
 }
 
 /// Inserts the command `edit` where the first argument looks like a file or names a cut or scene, and is not a command.
@@ -222,82 +225,12 @@ fn spelt_out(mut arguments: Vec<OsString>) -> Vec<OsString> {
         && (Path::new(first).components().count() > 1
             || Path::new(first).extension().is_some()
             || Path::new(first).exists()
-            || is_known(Path::new(first)))
+            || names::is_known(Path::new(first)))
         && !first.to_string_lossy().starts_with('-')
     {
         arguments.insert(1, "edit".into());
     }
     arguments
-}
-
-/// Returns an error if two input files would give their outputs the same names.
-fn distinct(files: &[PathBuf]) -> Result<(), Failure> {
-    for (k, file) in files.iter().enumerate() {
-        let stem = specimen::stem(file);
-        if let Some(other) = files[..k].iter().find(|other| specimen::stem(other) == stem) {
-            let (a, b) = (other.display(), file.display());
-            let message = format!(
-                "{a} and {b}: both would be written as '{stem}-...'; write to different --out folders"
-            );
-            return Err(Failure::Usage(message));
-        }
-    }
-    Ok(())
-}
-
-/// Calls `work` for each file. Of several files, one with an input error is reported and skipped; the error at the end names
-/// all such files. Any other error ends the loop.
-fn each_file(files: &[PathBuf], mut work: impl FnMut(&Path) -> Result<(), Failure>) -> Result<(), Failure> {
-    let mut failed = Vec::new();
-    for file in files {
-        match work(file) {
-            Err(Failure::Input(message)) if files.len() > 1 => {
-                say(&format!("error: {message}"));
-                failed.push(file.display().to_string());
-            }
-            other => other?,
-        }
-    }
-    if failed.is_empty() {
-        return Ok(());
-    }
-    Err(Failure::Input(format!("{} of {} files failed: {}", failed.len(), files.len(), failed.join(", "))))
-}
-
-/// Prints a line to standard error. Failures to write are ignored.
-fn say(text: &str) {
-    use std::io::Write;
-    let _ = writeln!(std::io::stderr().lock(), "{text}");
-}
-
-/// Prints an event of long work: the paths of written files to standard output, notes and warnings to standard error.
-fn report(told: Event) -> Result<(), Failure> {
-    match told {
-        Event::Begun(_) => {}
-        Event::Written(path) => return written(path),
-        Event::Note(text) => say(&format!("note: {text}")),
-        Event::Warning(text) => say(&format!("warning: {text}")),
-    }
-    Ok(())
-}
-
-/// Prints the path of a file that was written. Prints nothing for standard output, which got the content itself.
-fn written(path: &Path) -> Result<(), Failure> {
-    if is_standard(path) { Ok(()) } else { print(&path.display().to_string()) }
-}
-
-/// Prints text and a line break to standard output. A reader that has closed the pipe (`| head`) is not an error.
-fn print(text: &str) -> Result<(), Failure> {
-    use std::io::{ErrorKind, Write};
-    match writeln!(std::io::stdout().lock(), "{text}") {
-        Err(e) if e.kind() != ErrorKind::BrokenPipe => Err(Failure::Output(format!("standard output: {e}"))),
-        _ => Ok(()),
-    }
-}
-
-/// Formats a value as indented JSON, with the keys in their given order.
-fn json(value: &serde_json::Value) -> String {
-    format!("{value:#}")
 }
 
 #[cfg(test)]

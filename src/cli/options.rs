@@ -1,11 +1,10 @@
 //! Options that several commands share: from where a stone is seen, and how its light is traced.
 
-use super::Failure;
 use super::specimen::{LoadedSpecimen, note_colour};
 use crate::cut::Size;
 use crate::io::export::Viewing;
 use crate::io::mesh_options::MeshOptions;
-use crate::io::scope_file;
+use crate::io::{Failure, scope_file};
 use crate::optics::line;
 use crate::picture::{Picture, Scoped, named, names};
 use crate::render::{Renderer, Unfit, Wanted};

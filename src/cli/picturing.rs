@@ -1,9 +1,10 @@
 //! The stones, light, background and camera of a picture under light, and taking the picture.
 
 use super::assembly::Assembly;
+use super::console::{report, say};
 use super::picture_options::{FinishOptions, PictureOptions};
 use super::specimen::note_colour;
-use super::{Failure, report};
+use crate::io::Failure;
 use crate::io::background::BackgroundRef;
 use crate::io::export::Event;
 use crate::io::lighting::Lighting;
@@ -76,7 +77,7 @@ impl<'a> PictureSetup<'a> {
         let own = assembly.light.as_ref().map(|light| light.display().to_string());
         let light = options.light.as_ref().or(own.as_ref());
         let mut lighting = Lighting::load(light.map_or("studio", String::as_str))?;
-        lighting.warnings.iter().for_each(|w| super::say(&format!("warning: {w}")));
+        lighting.warnings.iter().for_each(|w| say(&format!("warning: {w}")));
         if let Some(head) = options.head {
             lighting.light.head = within("head", head, 0.0, 89.0)?;
         }
@@ -101,7 +102,7 @@ impl<'a> PictureSetup<'a> {
             develop.background = plain;
         }
         let reading = background.picture()?;
-        reading.iter().flat_map(|r| &r.warnings).for_each(|w| super::say(&format!("warning: {w}")));
+        reading.iter().flat_map(|r| &r.warnings).for_each(|w| say(&format!("warning: {w}")));
         let photo = reading.map(|reading| Arc::new(reading.panorama));
         let mut studio = Self {
             options,

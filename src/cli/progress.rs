@@ -1,8 +1,8 @@
 //! Progress bars of long work, and the end of the program by Ctrl-C or SIGTERM.
 
-use super::{Failure, report, say};
-use crate::io::abandon_writes;
+use super::console::{report, say};
 use crate::io::export::Event;
+use crate::io::{Failure, abandon_writes};
 use indicatif::{ProgressBar, ProgressStyle};
 #[cfg(unix)]
 use signal_hook::{

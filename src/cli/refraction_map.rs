@@ -1,18 +1,19 @@
 //! `refraction-map`: writes maps of where in the background the light of each pixel comes from. Pages and programs refract a
 //! moving background by looking it up in such a map.
 
+use super::batch::{distinct, each_file};
+use super::console::say;
 use super::options::{ViewOptions, number};
 use super::picture_options::{FinishOptions, PictureOptions};
 use super::picturing::{PictureSetup, within};
 use super::progress::WorkProgress;
 use super::specimen::stem;
-use super::{Failure, distinct, each_file, say};
 use crate::io::background::BackgroundRef;
 use crate::io::export::Event;
 use crate::io::refraction::{
     self as files, Coding, MOST_BANDS, MOST_MEGABYTES, MOST_PIXELS, MOST_PLACES, Page, takes, write_page,
 };
-use crate::io::{is_standard, write_rgba_png};
+use crate::io::{Failure, is_standard, write_rgba_png};
 use crate::picture::{Backdrop, Background, Carried, Develop, RefractionMap, Tone, develop, refract};
 use crate::render::{Card, Job, MapProduct, Product, Rendered, Renderer};
 use crate::scene::{Film, View};

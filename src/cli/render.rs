@@ -1,12 +1,13 @@
 //! `render`: writes pictures of stones under light.
 
+use super::batch::{distinct, each_file};
+use super::console::{print, say, written};
 use super::options::ViewOptions;
 use super::picture_options::{FinishOptions, PictureOptions};
 use super::picturing::PictureSetup;
 use super::progress::WorkProgress;
 use super::specimen::stem;
-use super::{Failure, distinct, each_file, print, say, written};
-use crate::io::{STANDARD, is_standard, write_linear_exr, write_rgba_png};
+use crate::io::{Failure, STANDARD, is_standard, write_linear_exr, write_rgba_png};
 use clap::Args;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;

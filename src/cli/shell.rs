@@ -1,7 +1,8 @@
 //! `completions` and `man`: print a shell's completion script, and manual pages.
 
-use super::{Arguments, Failure, print};
-use clap::{Args, CommandFactory};
+use super::console::print;
+use crate::io::Failure;
+use clap::{Args, Command};
 use clap_complete::{Shell, generate};
 use clap_mangen::Man;
 
@@ -16,9 +17,10 @@ pub struct Completions {
 }
 
 impl Completions {
-    pub fn run(&self) -> Result<(), Failure> {
+    /// Prints the script that completes the commands and options of `program`.
+    pub fn run(&self, mut program: Command) -> Result<(), Failure> {
         let mut script = vec![];
-        generate(self.shell, &mut Arguments::command(), NAME, &mut script);
+        generate(self.shell, &mut program, NAME, &mut script);
         printed(&script)
     }
 }
@@ -30,15 +32,15 @@ pub struct Manual {
 }
 
 impl Manual {
-    pub fn run(&self) -> Result<(), Failure> {
-        let mut program = Arguments::command();
+    /// Prints the manual page of `program`, or of the command that is asked for.
+    pub fn run(&self, mut program: Command) -> Result<(), Failure> {
         program.build();
         let asked = match &self.command {
             None => program,
             Some(name) => match program.find_subcommand(name) {
                 Some(command) => command.clone(),
                 None => {
-                    let known: Vec<&str> = program.get_subcommands().map(clap::Command::get_name).collect();
+                    let known: Vec<&str> = program.get_subcommands().map(Command::get_name).collect();
                     let message = format!("there is no command '{name}'; give one of {}", known.join(", "));
                     return Err(Failure::Usage(message));
                 }

@@ -1,11 +1,12 @@
 //! Reads and builds the stone that a command works on.
 
-use super::{Failure, say};
+use super::console::say;
+use super::names::hint;
 use crate::cut::{MaterialError, MaterialRef, Size};
 use crate::io::cut_file;
 use crate::io::design_file::{self, ImportedDesign};
 use crate::io::mesh_options::MeshOptions;
-use crate::io::{FileError, is_standard, library};
+use crate::io::{Failure, FileError, is_standard, library};
 use crate::optics::Material;
 use crate::scene;
 use std::collections::BTreeSet;
@@ -43,7 +44,7 @@ impl LoadedSpecimen {
 
     /// Reads a design from a file. A mesh is read with the options `mesh`.
     pub fn read(file: &Path, mesh: MeshOptions) -> Result<Self, Failure> {
-        let told = |e: FileError| Failure::Input(format!("{e}{}", super::lists::hint(file)));
+        let told = |e: FileError| Failure::Input(format!("{e}{}", hint(file)));
         Self::of(file.display().to_string(), design_file::read_with(file, mesh).map_err(told)?)
     }
 

@@ -1,12 +1,12 @@
 //! `spin`: writes an animation of stones that turn, rock or wobble, and its numbered frames.
 
+use super::console::{say, written};
 use super::options::{ViewOptions, number};
 use super::picture_options::{FinishOptions, PictureOptions};
 use super::picturing::PictureSetup;
 use super::progress::WorkProgress;
 use super::specimen::stem;
-use super::{Failure, say, written};
-use crate::io::{Frames, is_standard, write_apng, write_rgba_png};
+use crate::io::{Failure, Frames, is_standard, write_apng, write_rgba_png};
 use crate::picture::Background;
 use crate::scene::View;
 use clap::{Args, ValueEnum};

@@ -1,8 +1,9 @@
 //! Writes the main pictures and figures of a stone to files where the editor cannot be opened.
 
-use super::{Arguments, Failure, assembly, say};
+use super::console::say;
+use super::names::is_scene;
+use crate::io::Failure;
 use crate::io::library::FIRST_CUT;
-use clap::Parser;
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
@@ -14,11 +15,15 @@ const EXPORT: [&str; 5] =
     ["export", "--views", "aset,ideal-scope,hearts,arrows,profile,diagram", "--format", "png,json"];
 
 /// Writes the main pictures and figures of a file, or of [`FIRST_CUT`] where none is given. Prints the reason `why`, the
-/// commands that write the same files, and the folder.
-pub fn write(file: Option<PathBuf>, why: &str) -> Result<(), Failure> {
+/// commands that write the same files, and the folder. `run` runs a command line as if the user had typed it.
+pub fn write(
+    file: Option<PathBuf>,
+    why: &str,
+    run: fn(Vec<OsString>) -> Result<(), Failure>,
+) -> Result<(), Failure> {
     let file = file.unwrap_or_else(|| FIRST_CUT.into());
     // Scenes have no pictures in scopes.
-    let exports = (!assembly::is_scene(&file)).then_some(EXPORT.as_slice());
+    let exports = (!is_scene(&file)).then_some(EXPORT.as_slice());
     let commands: Vec<&[&str]> = exports.into_iter().chain([["render"].as_slice()]).collect();
     say(&format!("note: {why}"));
     say(&format!(
@@ -27,17 +32,15 @@ pub fn write(file: Option<PathBuf>, why: &str) -> Result<(), Failure> {
     for command in &commands {
         say(&format!("note:   brillianteer {} {}", command.join(" "), file.display()));
     }
-    commands.into_iter().try_for_each(|command| run(command, &file))?;
+    commands.into_iter().try_for_each(|command| run(line(command, &file)))?;
     let folder = std::path::absolute(FOLDER).unwrap_or_else(|_| FOLDER.into());
     say(&format!("note: all files are written; they are in {}", folder.display()));
     Ok(())
 }
 
-/// Runs a command on a file as if the user had typed it.
-fn run(command: &[&str], file: &Path) -> Result<(), Failure> {
+/// Returns the command line of a command on a file.
+fn line(command: &[&str], file: &Path) -> Vec<OsString> {
     let words = ["brillianteer"].iter().chain(command).map(OsString::from);
     // After `--` a name that begins with a dash is not read as an option.
-    let line = words.chain(["--".into(), file.into()]);
-    let parsed = Arguments::try_parse_from(line).map_err(|e| Failure::Usage(e.to_string()))?;
-    parsed.command.map_or(Ok(()), |command| command.run())
+    words.chain(["--".into(), file.into()]).collect()
 }

@@ -1,7 +1,7 @@
 //! A design: everything that a cut file says about a stone.
 
 use super::material::{MaterialError, MaterialRef};
-use super::{Glass, MeshShape, ProportionError, RoundBrilliant, TierFault, Tiers, Warning, names};
+use super::{Cut, ProportionError, TierFault, Tiers, Warning, names};
 use crate::math::{NotConvex, Plane};
 
 /// The girdle diameter of a design whose file gives none, mm: that of a brilliant of about one carat.
@@ -28,21 +28,6 @@ pub struct Design {
     pub diameter_mm: f64,
     /// The shape of the stone.
     pub cut: Cut,
-}
-
-/// The shape of a stone: a family with its proportions, tiers, planes, a mesh, or a glass shape.
-#[derive(Debug, Clone, PartialEq)]
-pub enum Cut {
-    /// A round brilliant, by its proportions.
-    RoundBrilliant(RoundBrilliant),
-    /// Facets by angle, distance and index, as cutters write them.
-    Tiers(Tiers),
-    /// Planes with their names, as written: 1 to [`MAX_PLANES`] planes, normals of any length but zero. Names may repeat.
-    Planes(Vec<(String, Plane)>),
-    /// Triangles that enclose a solid that is not convex.
-    Mesh(MeshShape),
-    /// A glass shape.
-    Glass(Glass),
 }
 
 /// What is wrong with a design.
@@ -121,16 +106,6 @@ impl PlaneFault {
     }
 }
 
-impl Cut {
-    /// Returns the proportions if the cut is a round brilliant.
-    pub fn brilliant(&self) -> Option<&RoundBrilliant> {
-        match self {
-            Self::RoundBrilliant(brilliant) => Some(brilliant),
-            Self::Tiers(_) | Self::Planes(_) | Self::Mesh(_) | Self::Glass(_) => None,
-        }
-    }
-}
-
 impl Design {
     /// Gives the design another name.
     ///
@@ -198,8 +173,9 @@ impl Design {
 
 fn tiers_facets(tiers: &Tiers) -> Result<Vec<(String, Plane)>, DesignError> {
     tiers.check().map_err(|(tier, fault)| DesignError::Tiers { tier, fault })?;
-    if !tiers.has_fitting_count() {
-        return Err(DesignError::FacetCount { count: tiers.count() });
+    let count = tiers.count();
+    if !(1..=MAX_PLANES).contains(&count) {
+        return Err(DesignError::FacetCount { count });
     }
     Ok(tiers.facets())
 }
@@ -231,7 +207,7 @@ fn unit(name: &str, plane: &Plane) -> Result<Plane, PlaneFault> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::round_brilliant::MODERN;
+    use super::super::round_brilliant::{MODERN, RoundBrilliant};
     use super::*;
     use glam::DVec3;
 

@@ -1,15 +1,11 @@
 //! The table of proportions: every family of cuts describes its numbers by rows, one a proportion.
 //!
 //! The panel, the profile, cut files, `info`, help, errors and warnings read names, keys, units, ranges and meanings from
-//! here and nowhere else. A new family is a table of rows, a variant of [`Cut`] and a place in [`FAMILIES`].
+//! here and nowhere else. A new family is a table of rows, a variant of [`Cut`] and a place in
+//! [`FAMILIES`](super::FAMILIES).
 
-use super::glass::{CUBE, PILL, PLATE, PRISM};
-use super::round_brilliant_table::ROUND_BRILLIANT;
-use super::{Cut, Glass};
+use super::Cut;
 use std::fmt;
-
-/// All families that are described by proportions, in the order in which messages list them.
-pub static FAMILIES: [&Family; 5] = [&ROUND_BRILLIANT, &PILL, &CUBE, &PRISM, &PLATE];
 
 /// A family of cuts, shaped by proportions.
 pub struct Family {
@@ -24,11 +20,6 @@ pub struct Family {
 }
 
 impl Family {
-    /// Returns the family that has this key in cut files.
-    pub fn of_key(key: &str) -> Option<&'static Self> {
-        FAMILIES.into_iter().find(|family| family.key == key)
-    }
-
     /// Returns the proportions that shape the cut, without those that only follow from them.
     pub fn editable(&'static self) -> impl Iterator<Item = &'static Proportion> {
         self.proportions.iter().filter(|row| row.give.is_some())
@@ -254,40 +245,5 @@ impl Proportion {
             Unit::Count => format!("{} to {}", self.usual[0], self.usual[1]),
             unit => format!("{} {}", unit.name(), self.of),
         }
-    }
-}
-
-impl Cut {
-    /// Returns the family; `None` for a cut that lists its facets or triangles.
-    pub fn family(&self) -> Option<&'static Family> {
-        match self {
-            Self::RoundBrilliant(_) => Some(&ROUND_BRILLIANT),
-            Self::Glass(Glass::Pill(_)) => Some(&PILL),
-            Self::Glass(Glass::Cube(_)) => Some(&CUBE),
-            Self::Glass(Glass::Prism(_)) => Some(&PRISM),
-            Self::Glass(Glass::Plate(_)) => Some(&PLATE),
-            Self::Tiers(_) | Self::Planes(_) | Self::Mesh(_) => None,
-        }
-    }
-
-    /// Returns the rows of the family's table; none for a cut that lists its facets or triangles.
-    pub fn proportions(&self) -> &'static [Proportion] {
-        self.family().map_or(&[], |family| family.proportions)
-    }
-
-    /// Returns the proportion that has this key in cut files.
-    pub fn proportion(&self, key: &str) -> Option<&'static Proportion> {
-        self.family()?.proportion(key)
-    }
-
-    /// Returns the proportions that the cut gives, with their values.
-    pub fn given(&self) -> impl Iterator<Item = (&'static Proportion, f64)> {
-        let given = self.family().into_iter().flat_map(Family::editable).filter(|row| (row.is_given)(self));
-        given.map(|row| (row, (row.get)(self)))
-    }
-
-    /// Returns the proportion that a part of the profile changes.
-    pub fn handled_by(&self, handle: ProfileHandle) -> Option<&'static Proportion> {
-        self.proportions().iter().find(|row| row.handles.contains(&handle))
     }
 }

@@ -3,7 +3,6 @@
 //!
 //! Source: the conventions of GemCad (R. Strickland), as described in docs/formats.md.
 
-use super::design::MAX_PLANES;
 use super::names;
 use crate::math::Plane;
 use glam::DVec3;
@@ -223,13 +222,9 @@ impl Tiers {
         (1..).zip(axes).map(|(number, normal)| (format!("block {number}"), Plane::new(normal, BLOCK)))
     }
 
-    /// Returns the number of facets that are cut; at most [`MAX_PLANES`] make a stone.
+    /// Returns the number of facets that are cut; at most [`MAX_PLANES`](super::MAX_PLANES) make a stone.
     pub fn count(&self) -> usize {
         self.tiers.iter().filter(|tier| tier.is_cut).map(|tier| tier.facets.len()).sum()
-    }
-
-    pub(super) fn has_fitting_count(&self) -> bool {
-        (1..=MAX_PLANES).contains(&self.count())
     }
 }
 

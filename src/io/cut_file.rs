@@ -9,10 +9,13 @@ use std::path::Path;
 
 use super::file_error::{Fault, FileError};
 use super::text;
+use super::toml_format::check_format;
 use super::toml_text::TomlText;
 use crate::cut::{Design, FAMILIES};
 use family_form::FamilyForm;
 use form::DesignForm;
+
+pub use super::toml_format::FORMAT;
 
 mod family_form;
 mod form;
@@ -22,9 +25,6 @@ pub(super) mod values;
 
 #[cfg(test)]
 mod tests;
-
-/// The number of the format that this program reads and writes.
-pub const FORMAT: i64 = 1;
 
 /// The size of the largest file without a mesh that is read, in bytes.
 pub const MAX_BYTES: u64 = 4 << 20;
@@ -75,19 +75,4 @@ pub(super) fn design(text: &str) -> Result<Design, Fault> {
 fn holds_mesh(text: &str) -> bool {
     const BEGINNING: usize = 64 << 10;
     text.lines().take_while(|line| line.len() < BEGINNING).take(1000).any(|line| line.trim() == "[mesh]")
-}
-
-/// Checks the key `format`. It is read before all else, since another format may have other keys.
-pub(super) fn check_format(toml: &TomlText) -> Result<(), Fault> {
-    let Some(value) = toml.get("format") else {
-        let problem = format!("format: the key is missing; begin the file with `format = {FORMAT}`");
-        return Err(Fault::line(1, problem));
-    };
-    let number = value.get_ref().as_integer().map(|n| i64::from_str_radix(n.as_str(), n.radix()));
-    let problem = match number {
-        Some(Ok(FORMAT)) => return Ok(()),
-        Some(Ok(other)) => format!("format: {other} is not known here, only {FORMAT}; update the program"),
-        _ => format!("format: a whole number is expected, `format = {FORMAT}`"),
-    };
-    Err(Fault::line(toml.line(value), problem))
 }

@@ -8,9 +8,15 @@ use super::mesh_options::MeshOptions;
 use super::{Failure, asc, gcs, gem, write as write_whole};
 use super::{WriteError, text};
 use super::{write_glb, write_obj, write_ply, write_stl};
-use crate::cut::{Design, MaterialRef};
+use crate::cut::MaterialRef;
 use crate::scene::{Body, Specimen};
 use std::path::Path;
+
+mod encoded;
+mod imported;
+
+pub use encoded::EncodedDesign;
+pub use imported::ImportedDesign;
 
 /// A format of design files.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -31,35 +37,6 @@ pub enum DesignFormat {
     Ply,
     /// Binary glTF.
     Glb,
-}
-
-/// A design that was read from a file, with notes and warnings.
-#[derive(Debug, Clone, PartialEq)]
-pub struct ImportedDesign {
-    /// The design.
-    pub design: Design,
-    /// How the file was understood, in words, where it could be understood otherwise.
-    pub notes: Vec<String>,
-    /// What is unusual about the file, in words, each with its line or offset where it has one.
-    pub warnings: Vec<String>,
-    /// For a mesh, whether its shape leaves a doubt which way its table faces; `None` for other designs.
-    pub doubt: Option<bool>,
-}
-
-impl ImportedDesign {
-    /// Wraps a design without notes and warnings.
-    pub fn of(design: Design) -> Self {
-        Self { design, notes: vec![], warnings: vec![], doubt: None }
-    }
-}
-
-/// A design encoded as a file.
-#[derive(Debug, Clone, PartialEq)]
-pub struct EncodedDesign {
-    /// The content of the file.
-    pub bytes: Vec<u8>,
-    /// What the format cannot hold of the design, in words.
-    pub lost: Vec<String>,
 }
 
 impl DesignFormat {

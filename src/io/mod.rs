@@ -37,6 +37,7 @@ pub mod scene_file;
 pub mod scope_file;
 mod standard;
 mod text;
+mod toml_format;
 mod toml_text;
 
 pub use apng::{Animation, Frames, write_apng};

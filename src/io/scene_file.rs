@@ -3,9 +3,9 @@
 //! Lengths are in mm, angles in degrees. Every error names file, line and key, and says what was expected.
 
 use super::background::BackgroundRef;
-use super::cut_file::check_format;
 use super::file_error::{Fault, FileError};
 use super::text;
+use super::toml_format::check_format;
 use super::toml_text::TomlText;
 use crate::cut::{MaterialRef, Size};
 use crate::scene::{LIGHTS, Layout, light};

@@ -1,4 +1,4 @@
-//! The range of numbers, and the box of points.
+//! The range of numbers, the box of points, and how far points reach.
 
 use glam::DVec3;
 
@@ -12,4 +12,9 @@ pub fn span(numbers: impl IntoIterator<Item = f64>) -> (f64, f64) {
 pub fn bounds(points: impl IntoIterator<Item = DVec3>) -> (DVec3, DVec3) {
     let start = (DVec3::INFINITY, DVec3::NEG_INFINITY);
     points.into_iter().fold(start, |(low, high), v| (low.min(v), high.max(v)))
+}
+
+/// Returns the distance of the farthest point from the origin.
+pub(super) fn reach(points: &[DVec3]) -> f64 {
+    points.iter().map(|p| p.length()).fold(0.0, f64::max)
 }

@@ -1,12 +1,13 @@
 //! Floor 0: planes, convex solids, convex polygons, triangles and implicit surfaces, in f64.
 
 mod affine;
-
+mod ball;
 mod basis;
 mod bvh;
 mod bvh_build;
 mod calipers;
 mod decay;
+mod edge;
 mod edges;
 mod eigen;
 mod extent;
@@ -28,10 +29,12 @@ mod symmetry;
 mod triangle_mesh;
 
 pub use affine::Affine;
+pub use ball::Ball;
 pub use basis::Basis;
 pub use bvh::{Bvh, BvhNode, Hit};
 pub use calipers::{Calipers, hull};
 pub use decay::integral_of_decay;
+pub use edge::Edge;
 pub(crate) use eigen::{eigen, outer};
 pub use extent::{bounds, span};
 pub use hull::convex_hull;
@@ -45,7 +48,7 @@ pub use polytope::{Facet, Polytope};
 pub use polytope_build::PolytopeError;
 pub use pose::Pose;
 pub use smooth::SmoothSolid;
-pub use solid::{Ball, Edge, NotConvex, PosedSolid, SolidRef};
+pub use solid::{NotConvex, PosedSolid, SolidRef};
 pub use surface::Surface;
 pub use symmetry::Symmetry;
 pub use triangle_mesh::{TriangleMesh, TriangleMeshError};

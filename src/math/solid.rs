@@ -1,6 +1,7 @@
 //! A solid of any kind: between planes, within triangles, or within a smooth surface, in its own frame or carried by a pose.
 
-use super::{Polytope, Pose, SmoothSolid, Surface, TriangleMesh};
+use super::extent::reach;
+use super::{Ball, Edge, Polytope, Pose, SmoothSolid, Surface, TriangleMesh};
 use glam::DVec3;
 use std::collections::BTreeSet;
 use std::sync::Arc;
@@ -21,22 +22,6 @@ pub enum SolidRef<'a> {
 #[error("exact beams and drawings are for convex stones between planes, and this is not one: use rays")]
 pub struct NotConvex;
 
-/// An edge between two facets, or a line on a smooth surface.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Edge {
-    /// The two ends.
-    pub ends: [DVec3; 2],
-    /// The outward normals of the facets on both sides; on a smooth surface, the normals at both ends.
-    pub normals: [DVec3; 2],
-}
-
-impl Edge {
-    /// Returns where an edge of a body lies in the world.
-    pub fn placed(&self, pose: &Pose) -> Self {
-        Self { ends: self.ends.map(|v| pose.place(v)), normals: self.normals.map(|n| pose.turn * n) }
-    }
-}
-
 /// A solid in its place in the world.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PosedSolid<'a> {
@@ -44,32 +29,6 @@ pub struct PosedSolid<'a> {
     pub solid: SolidRef<'a>,
     /// The pose that carries it into the world.
     pub pose: Pose,
-}
-
-/// A ball around a solid.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Ball {
-    /// The middle.
-    pub middle: DVec3,
-    /// The radius.
-    pub radius: f64,
-}
-
-impl Ball {
-    /// Returns a ball around points; its middle is that of the box around them.
-    pub fn around(points: &[DVec3]) -> Self {
-        let start = (DVec3::INFINITY, DVec3::NEG_INFINITY);
-        let (low, high) = points.iter().fold(start, |(low, high), &p| (low.min(p), high.max(p)));
-        let middle = (low + high) / 2.0;
-        Self { middle, radius: points.iter().map(|p| p.distance(middle)).fold(0.0, f64::max) }
-    }
-
-    /// Whether a ray from `origin` along a unit direction runs through the ball.
-    pub fn is_met(&self, origin: DVec3, direction: DVec3) -> bool {
-        let away = self.middle - origin;
-        let along = away.dot(direction);
-        along > -self.radius && away.length_squared() - along * along < self.radius * self.radius
-    }
 }
 
 impl<'a> PosedSolid<'a> {
@@ -202,11 +161,6 @@ impl<'a> SolidRef<'a> {
             Self::Smooth(smooth) => smooth.edges(),
         }
     }
-}
-
-/// Returns the distance of the farthest point from the origin.
-pub(super) fn reach(points: &[DVec3]) -> f64 {
-    points.iter().map(|p| p.length()).fold(0.0, f64::max)
 }
 
 /// Returns the triangles of one facet, where `facets` holds the facet of each triangle.

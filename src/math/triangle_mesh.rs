@@ -1,7 +1,7 @@
 //! A closed mesh of triangles, ready to be traced: its facets, their planes, and boxes around its triangles.
 
+use super::extent::reach;
 use super::regions::{neighbours, planes_of, regions};
-use super::solid::reach;
 use super::{Ball, Bvh, Edge, Plane, Polytope, Pose, Surface, triangulate};
 use glam::DVec3;
 

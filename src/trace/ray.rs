@@ -5,6 +5,7 @@
 //! polarisation as fields in space, so that where rays and beams agree it is not by a shared mistake.
 
 mod camera;
+mod dispersed_ray;
 mod facets;
 mod instance_tracer;
 mod light;
@@ -15,6 +16,7 @@ mod sight;
 mod tree;
 
 pub use self::camera::Camera;
+use self::dispersed_ray::{Arrival, DispersedRay};
 use self::facets::{FacetSearch, Planes, SmoothFacets, SolidFacets, TriangleFacets, Wavy};
 pub use self::instance_tracer::InstanceTracer;
 use self::light::PathLight;
@@ -85,12 +87,6 @@ pub struct StoneTracer {
     shape: SolidFacets,
     medium: Medium,
     options: RayOptions,
-}
-
-/// Returns the displacement along the surface of the point where a ray meets it, when the ray there moves by `by`.
-#[inline]
-fn along_surface(by: DVec3, direction: DVec3, normal: DVec3) -> DVec3 {
-    by - direction * (normal.dot(by) / normal.dot(direction))
 }
 
 impl StoneTracer {
@@ -177,7 +173,8 @@ impl StoneTracer {
         weight: f64,
     ) -> Inbound {
         let light = PathLight::of_eye(direction, weight, self.options.polarised);
-        Inbound { met, origin, direction, sweep, shift: DVec3::ZERO, light, left: 1.0, path: 0.0, bounce: 0 }
+        let ray = DispersedRay { origin, direction, sweep, shift: DVec3::ZERO };
+        Inbound { met, ray, light, left: 1.0, path: 0.0, bounce: 0 }
     }
 
     /// Follows light through the stone, from the facet where it enters until too little is left, and calls `meets` for each
@@ -188,17 +185,15 @@ impl StoneTracer {
         inbound: Inbound,
         mut meets: impl FnMut(SurfaceEvent),
     ) -> Option<Loss> {
-        let Inbound { met: (facet, distance), origin, direction, sweep, left, path, bounce, .. } = inbound;
-        let point = origin + direction * distance;
-        let normal = facets.normal(facet, point);
+        let Inbound { met: (facet, distance), ray, left, path, bounce, .. } = inbound;
+        let DispersedRay { direction, sweep, .. } = ray;
+        let Arrival { point, normal, shift, of_normal } = ray.arrival(facets, facet, distance);
         let eta = 1.0 / self.medium.index;
         let cos_i = -direction.dot(normal);
         let cos_t = cos_transmitted(cos_i, eta)?;
         let inward = refract(direction, normal, eta, (cos_i, cos_t));
         let (light, glare) = inbound.light.split(direction, inward, normal, eta, true);
         let of_eta = -self.medium.spread * eta * eta;
-        let shift = along_surface(inbound.shift + sweep * distance, direction, normal);
-        let of_normal = facets.turned(point, shift);
         let swept = refracted_change(direction, normal, eta, (cos_i, cos_t), (sweep, of_normal, of_eta));
         let back = reflect(direction, normal, cos_i);
         let outer = F::BRANCHES.then(|| inbound.light.outer((direction, back), normal, eta, true, glare));
@@ -218,40 +213,26 @@ impl StoneTracer {
             }),
             onward: light.weight() * left,
         });
-        Some(self.bounce(
-            facets,
-            Inbound { origin: point, direction: inward, sweep: swept, shift, light, ..inbound },
-            meets,
-        ))
+        let ray = DispersedRay { origin: point, direction: inward, sweep: swept, shift };
+        Some(self.bounce(facets, Inbound { ray, light, ..inbound }, meets))
     }
 
-    /// Follows light inside the stone; its `origin` is the point where it has entered.
+    /// Follows light inside the stone; its ray begins at the point where it has entered.
     fn bounce<F: FacetSearch>(
         &self,
         facets: &F,
         inside: Inbound,
         mut meets: impl FnMut(SurfaceEvent),
     ) -> Loss {
-        let Inbound {
-            origin: mut point,
-            mut direction,
-            mut sweep,
-            mut shift,
-            mut light,
-            mut left,
-            mut path,
-            ..
-        } = inside;
+        let Inbound { mut ray, mut light, mut left, mut path, .. } = inside;
         let mut rest = Loss { bounces: inside.bounce, ..Loss::default() };
         let mut remaining = light.weight() * left;
         while remaining > self.options.least_weight && rest.bounces < self.options.most_bounces {
-            let Some((facet, distance)) = facets.next(point, direction) else { break };
-            point += direction * distance;
-            path += distance;
-            let normal = facets.normal(facet, point);
+            let DispersedRay { origin, direction, sweep, .. } = ray;
+            let Some((facet, distance)) = facets.next(origin, direction) else { break };
+            let Arrival { point, normal, shift, of_normal } = ray.arrival(facets, facet, distance);
             let cos_i = normal.dot(direction);
-            shift = along_surface(shift + sweep * distance, direction, normal);
-            let of_normal = facets.turned(point, shift);
+            path += distance;
             if !self.medium.is_clear() {
                 let after = self.medium.transmittance(path);
                 rest.absorbed += light.weight() * (left - after);
@@ -284,8 +265,9 @@ impl StoneTracer {
                 leaving,
                 onward: remaining,
             });
-            sweep = reflected_change(direction, normal, (sweep, of_normal));
-            (light, direction) = (onward, reflected);
+            let sweep = reflected_change(direction, normal, (sweep, of_normal));
+            ray = DispersedRay { origin: point, direction: reflected, sweep, shift };
+            light = onward;
         }
         rest.unresolved = remaining;
         rest

@@ -1,6 +1,13 @@
 //! Helpers of several tests: stones from cut files, random stones, figures by zone.
 #![allow(dead_code, reason = "each test file uses its part")]
 
+pub mod maps;
+pub mod meshes;
+#[cfg(feature = "gpu")]
+pub mod pixels;
+pub mod shoot;
+pub mod solids;
+
 use brillianteer::cut::{Crown, Cut, LowerHalf, Pavilion, RoundBrilliant};
 use brillianteer::io::cut_file;
 use brillianteer::math::Plane;

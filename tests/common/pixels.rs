@@ -1,7 +1,7 @@
 //! Compares pictures by a card with pictures by rays in f64, pixel by pixel.
 #![allow(dead_code, reason = "each test uses its part")]
 
-use super::common::aset;
+use super::aset;
 use brillianteer::math::SolidRef;
 use brillianteer::scene::{Film, Medium, Projection, Scope, Side, View};
 use brillianteer::trace::gpu::{Gpu, GpuError, ScopePixel, ScopeShot};

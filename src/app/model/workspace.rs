@@ -206,6 +206,11 @@ impl Workspace {
         BackgroundRef::read(self.behind.as_deref()?, Path::new("")).ok()
     }
 
+    /// Returns the name of a background that cannot be shown: its file is gone, or the text is none that a background has.
+    pub fn missing_background(&self) -> Option<&str> {
+        self.behind.as_deref().filter(|_| self.background().is_none())
+    }
+
     /// Hangs the next pattern behind renders, in the order of patterns; after the last one, nothing.
     pub fn next_behind(&mut self) {
         let next = match self

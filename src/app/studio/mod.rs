@@ -3,10 +3,13 @@
 //! A newer order outdates an older one, whose work is dropped. Only the first rough pictures are always finished, so that
 //! there is always something that follows the hand.
 
+mod develop;
 mod jobs;
+mod mailbox;
 mod motion;
 mod order;
 mod pace;
+mod refinement;
 mod refracted;
 mod render;
 mod take;
@@ -18,37 +21,20 @@ pub use order::{
 };
 
 pub use jobs::{BEHIND, SPAN, hung};
+pub use mailbox::Wake;
 pub use pace::Effort;
+pub use refinement::FINE_RENDER;
 pub use refracted::survey;
 pub use render::ExportedRender;
 pub use take::ShotTracer;
-pub use worker::FINE_RENDER;
 
 use crate::app::urgency;
 use crate::trace::gpu::Gpu;
-use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use mailbox::Mailbox;
+use std::sync::atomic::Ordering;
 use std::sync::mpsc::{Receiver, channel};
-use std::sync::{Arc, Condvar, Mutex, PoisonError};
+use std::sync::{Arc, PoisonError};
 use std::thread::JoinHandle;
-
-/// A callback that asks the editor to look at the studio's answers.
-pub type Wake = Arc<dyn Fn() + Send + Sync>;
-
-/// The state that the editor's thread and the studio's thread share.
-struct Mailbox {
-    /// The last order and its number; `None` once the studio's thread has taken it.
-    order: Mutex<Option<(u64, Order)>>,
-    changed: Condvar,
-    /// The number of the last order: work for all others is outdated.
-    newest: AtomicU64,
-    /// Whether work is going on.
-    busy: AtomicBool,
-    /// Whether passes are added to renders that are already good enough.
-    sharpens: AtomicBool,
-    /// How many traces of pictures, figures and figures against tilt have begun.
-    traced: AtomicU64,
-    quit: AtomicBool,
-}
 
 /// A handle on the thread that traces pictures and figures.
 pub struct Studio {
@@ -63,15 +49,7 @@ impl Studio {
     /// Opens a studio, which uses the card where it is quicker than the processor. `wake` is called whenever there is an
     /// answer.
     pub fn open(gpu: Option<Arc<Gpu>>, wake: Wake) -> Self {
-        let desk = Arc::new(Mailbox {
-            order: Mutex::new(None),
-            changed: Condvar::new(),
-            newest: AtomicU64::new(0),
-            busy: AtomicBool::new(false),
-            sharpens: AtomicBool::new(false),
-            traced: AtomicU64::new(0),
-            quit: AtomicBool::new(false),
-        });
+        let desk = Arc::new(Mailbox::default());
         let gpu = gpu.filter(|gpu| !gpu.is_software());
         let told = gpu.as_ref().map_or("processor".into(), |gpu| gpu.name().to_owned());
         let (sender, answers) = channel();

@@ -1,19 +1,17 @@
 //! Traces pictures of backgrounds behind glass: refraction maps, in which the lookup worker looks backgrounds up, and liquid
 //! glass.
 
+use super::develop::map_taken;
 use super::jobs::{MapDetail, coarser};
 use super::order::{Shot, Slot, TakenPicture};
 use super::pace::Effort;
-use super::render::Growing;
+use super::refinement::{FINE_RENDER, Refinement};
 use super::take::{RAYS_COARSER, ShotTracer, TakeError};
-use super::undeveloped::{TracedLight, map_taken};
-use super::worker::FINE_RENDER;
+use super::undeveloped::TracedLight;
 use crate::app::lookup::as_screens;
-use crate::io::refraction::code_of;
 use crate::picture::{Carried, Develop, RefractionMap};
 use crate::render::{Job, Rendered, Renderer};
 use crate::trace::Watch;
-use egui::ColorImage;
 
 /// How finely maps are traced, by grade. A map of several bands takes as many times as long to look up.
 const ROUGH: MapDetail = MapDetail { bands: 1, places: 1, shades: 3, samples: 1 };
@@ -26,17 +24,17 @@ impl ShotTracer {
         &mut self,
         (slot, shot): (Slot, &Shot),
         effort: &Effort,
-        growing: Option<&Growing>,
+        refinement: Option<&Refinement>,
         watch: Watch,
     ) -> Result<TakenPicture, TakeError> {
-        let (detail, factor) = match growing {
+        let (detail, factor) = match refinement {
             None => (ROUGH, effort.coarser * RAYS_COARSER),
-            Some(growing) if growing.samples == 1 => (FAIR, 1.0),
+            Some(refinement) if refinement.samples == 1 => (FAIR, 1.0),
             Some(_) => (FINE, 1.0),
         };
         let job = Job { film: coarser(&shot.film, factor), ..shot.map_job(&detail) };
         let (map, _) = run(&mut self.renderer, &job, watch)?.map()?;
-        if growing.is_some() {
+        if refinement.is_some() {
             self.kept.insert(slot, (shot.clone(), TracedLight::Map(map.clone())));
         }
         Ok(map_taken(shot, map))
@@ -47,17 +45,17 @@ impl ShotTracer {
         &mut self,
         shot: &Shot,
         effort: &Effort,
-        growing: Option<&Growing>,
+        refinement: Option<&Refinement>,
         watch: Watch,
     ) -> Result<TakenPicture, TakeError> {
-        let factor = if growing.is_none() { effort.coarser * RAYS_COARSER } else { 1.0 };
+        let factor = if refinement.is_none() { effort.coarser * RAYS_COARSER } else { 1.0 };
         let Some(behind) = self.picture_behind(Some(&shot.pane_background()))? else {
             return Err(TakeError::Other("the pane has no background".into()));
         };
         // Panes are always traced by the processor, which takes no more passes than its fine renders have.
-        let samples = growing.map_or(1, |g| g.samples.min(FINE_RENDER.samples));
+        let samples = refinement.map_or(1, |r| r.samples.min(FINE_RENDER.samples));
         let size = coarser(&shot.film, factor).size;
-        let job = shot.pane_job(&behind, size, growing.is_some_and(|g| g.samples > 1), samples);
+        let job = shot.pane_job(&behind, size, refinement.is_some_and(|r| r.samples > 1), samples);
         let rendered = run(&mut self.renderer, &job, watch)?;
         let tracer = rendered.backend.kind();
         Ok(TakenPicture { image: as_screens(&rendered.pane()?.0), unresolved: None, tracer, map: None })
@@ -80,11 +78,4 @@ pub fn survey(
     let job = shot.map_job(&MapDetail { bands, places, shades: 16, samples: 4 });
     let (map, carried) = run(&mut Renderer::default(), &job, watch)?.map()?;
     Ok((map.developed(&Develop { exposure: shot.exposure, bloom: None, ..Develop::default() }), carried))
-}
-
-/// Returns a picture of the codes of a map's middle band.
-pub(super) fn codes(map: &RefractionMap) -> ColorImage {
-    let places = map.bands.get(map.bands.len() / 2).map_or(&[][..], |band| &band.places);
-    let rgb: Vec<u8> = places.iter().flat_map(code_of).collect();
-    ColorImage::from_rgb(map.size.map(|n| n as usize), &rgb)
 }

@@ -1,48 +1,37 @@
 //! Traces renders: a body or its copies under a light, in front of a background.
 
+use super::develop::{developed, manner, overlaid};
 use super::jobs::coarser;
 use super::motion::Moment;
 use super::order::{Shot, Slot, Smoothing, TakenPicture};
 use super::pace::Effort;
-use super::take::{RAYS_COARSER, ShotTracer, TakeError, overlaid};
+use super::refinement::Refinement;
+use super::take::{RAYS_COARSER, ShotTracer, TakeError};
 use super::undeveloped::TracedLight;
 use crate::io::background::BackgroundRef;
+use crate::picture::developed as developed_from;
 use crate::picture::spectral::Remainder;
-use crate::picture::{Background, Bloom, Develop, Linear, develop, developed as developed_from, fxaa};
 use crate::render::{Job, Partial, Quality, Rendered, Steps};
 use crate::scene::Panorama;
-use crate::trace::{Stopped, Watch};
-use egui::ColorImage;
+use crate::trace::Watch;
 use std::sync::Arc;
-
-/// How well a render that grows clearer is traced.
-pub struct Growing {
-    /// The bands of wavelengths of each pass, at most.
-    pub bands: u32,
-    /// The number of passes.
-    pub samples: u32,
-    /// The number of passes of which nothing is shown, because the picture in sight is as good.
-    pub after: u32,
-    /// The share of the light that may stay unresolved.
-    pub unresolved: f64,
-}
 
 impl ShotTracer {
     pub(super) fn render(
         &mut self,
         (slot, shot): (Slot, &Shot),
         effort: &Effort,
-        growing: Option<&Growing>,
+        refinement: Option<&Refinement>,
         watch: Watch,
         each: &mut dyn FnMut(TakenPicture),
     ) -> Result<(), TakeError> {
         let moving = match shot.smoothing {
-            Smoothing::Temporal { newest } if growing.is_none() => Some(newest),
+            Smoothing::Temporal { newest } if refinement.is_none() => Some(newest),
             _ => None,
         };
         let first = moving.and_then(|_| self.trails.get(&slot)).map_or(0, |(trail, _)| trail.count);
-        let mut job = self.light_job(shot, effort, growing, first)?;
-        let is_slow = self.renderer.plan(&job)?.backend.is_slow() && growing.is_none();
+        let mut job = self.light_job(shot, effort, refinement, first)?;
+        let is_slow = self.renderer.plan(&job)?.backend.is_slow() && refinement.is_none();
         job.film = coarser(&shot.film, effort.coarser * if is_slow { RAYS_COARSER } else { 1.0 });
         let Self { renderer, trails, kept, notes, .. } = self;
         renderer.run(&job, watch, &mut |part| {
@@ -58,11 +47,11 @@ impl ShotTracer {
                 Moment::of(shot, job.film).lay(trails, (slot, picture), &lit_scene, newest).clone()
             });
             let picture = laid.as_ref().unwrap_or(picture);
-            if growing.is_some() {
+            if refinement.is_some() {
                 let light = TracedLight::Render { picture: picture.clone(), unresolved, tracer };
                 kept.insert(slot, (shot.clone(), light));
             }
-            each(developed(shot, (picture, growing.is_some()), (unresolved, tracer), watch)?);
+            each(developed(shot, (picture, refinement.is_some()), (unresolved, tracer), watch)?);
             Ok::<_, TakeError>(())
         })?;
         Ok(())
@@ -72,18 +61,18 @@ impl ShotTracer {
         &mut self,
         shot: &Shot,
         effort: &Effort,
-        growing: Option<&Growing>,
+        refinement: Option<&Refinement>,
         first: u32,
     ) -> Result<Job, TakeError> {
         let behind = self.picture_behind(shot.behind.as_ref())?;
         let mut quality = Quality::of_pictures(true);
-        quality.beams.unresolved = growing.map_or(effort.unresolved, |g| g.unresolved);
-        quality.samples = growing.map(|g| g.samples);
-        let steps = match growing {
+        quality.beams.unresolved = refinement.map_or(effort.unresolved, |r| r.unresolved);
+        quality.samples = refinement.map(|r| r.samples);
+        let steps = match refinement {
             None => Steps::Glance { first },
-            Some(growing) => Steps::Passes { first, hidden: growing.after },
+            Some(refinement) => Steps::Passes { first, hidden: refinement.after },
         };
-        Ok(shot.light_job(behind, growing.map_or(effort.bands, |g| g.bands), steps, quality))
+        Ok(shot.light_job(behind, refinement.map_or(effort.bands, |r| r.bands), steps, quality))
     }
 
     /// Whether a shot is a render that rays on the processor trace, which takes long.
@@ -92,8 +81,8 @@ impl ShotTracer {
             return false;
         }
         let effort = Effort { unresolved: 1.0, coarser: 1.0, bands: 1 };
-        let growing = Growing { bands: 1, samples: 1, after: 0, unresolved: 1.0 };
-        let job = self.light_job(shot, &effort, Some(&growing), 0);
+        let refinement = Refinement { bands: 1, samples: 1, after: 0, unresolved: 1.0 };
+        let job = self.light_job(shot, &effort, Some(&refinement), 0);
         job.is_ok_and(|job| self.renderer.plan(&job).is_ok_and(|plan| plan.backend.is_slow()))
     }
 
@@ -139,33 +128,4 @@ pub struct ExportedRender {
     pub tracer: &'static str,
     /// The share of the light that was not followed to its end.
     pub unresolved: f64,
-}
-
-/// Returns how the render of a shot is developed; `fine` where there is time for glow.
-fn manner(shot: &Shot, fine: bool) -> Develop {
-    // Glow would stand out around an overlay, and it takes longer than the rest of a rough picture.
-    let bloom = (fine && shot.overlay.is_none()).then(Bloom::default);
-    let background = match &shot.behind {
-        Some(BackgroundRef::Plain(background)) => *background,
-        _ => Background::Transparent,
-    };
-    Develop { exposure: shot.exposure, bloom, background, ..Develop::default() }
-}
-
-/// Develops the picture of a shot from its light; `fine` where there is time for glow. `unresolved` is the share of the
-/// light that was not followed to its end.
-pub(super) fn developed(
-    shot: &Shot,
-    (picture, fine): (&Linear, bool),
-    (unresolved, tracer): (f64, &'static str),
-    watch: Watch,
-) -> Result<TakenPicture, Stopped> {
-    let mut rgba = develop(picture, &manner(shot, fine));
-    if shot.smoothing == Smoothing::Fxaa {
-        fxaa(&mut rgba, picture.width);
-    }
-    let size = [picture.width, picture.height];
-    overlaid(shot, &mut rgba, size, watch)?;
-    let image = ColorImage::from_rgba_unmultiplied(size.map(|n| n as usize), &rgba);
-    Ok(TakenPicture { image, unresolved: Some(unresolved), tracer, map: None })
 }

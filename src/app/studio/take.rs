@@ -1,18 +1,19 @@
 //! Traces one picture.
 
+use super::develop::{developed, map_taken, overlaid};
 use super::jobs::coarser;
 use super::motion::Trails;
 use super::order::{Shot, Slot, TakenPicture};
 use super::pace::Effort;
-use super::render::Growing;
-use super::undeveloped::Kept;
+use super::refinement::Refinement;
+use super::undeveloped::{Kept, TracedLight};
 use crate::app::shows::Shows;
 use crate::io::background::BackgroundRef;
 use crate::io::{Failure, rasterize_within};
 use crate::math::NotConvex;
-use crate::picture::{DiagramStyle, Palette, diagram, lay};
+use crate::picture::{DiagramStyle, Palette, diagram};
 use crate::render::{Card, Partial, RenderError, Renderer, Unfit};
-use crate::scene::{Film, Panorama};
+use crate::scene::Panorama;
 use crate::trace::{Stopped, Watch};
 use egui::ColorImage;
 use std::sync::Arc;
@@ -82,24 +83,43 @@ impl ShotTracer {
 
     /// Traces a picture with an effort; an [`Effort::coarser`] of 1 is full size.
     ///
-    /// With `growing` the picture is traced finely, and `each` is called with each stage of a render that grows clearer;
+    /// With `refinement` the picture is traced finely, and `each` is called with each stage of a render that grows clearer;
     /// without it the picture is a rough one.
     pub fn take(
         &mut self,
         (slot, shot): (Slot, &Shot),
         effort: &Effort,
-        growing: Option<&Growing>,
+        refinement: Option<&Refinement>,
         watch: Watch,
         each: &mut dyn FnMut(TakenPicture),
     ) -> Result<(), TakeError> {
         match shot.shows {
             Shows::Profile | Shows::LiquidGlass => Ok(()),
             Shows::Diagram => drawing(shot).map(each),
-            Shows::Render => self.render((slot, shot), effort, growing, watch, each),
-            Shows::Refraction => self.mapped((slot, shot), effort, growing, watch).map(each),
-            Shows::TracedPane => self.glass(shot, effort, growing, watch).map(each),
-            _ => self.scoped(shot, effort, growing.is_some(), watch).map(each),
+            Shows::Render => self.render((slot, shot), effort, refinement, watch, each),
+            Shows::Refraction => self.mapped((slot, shot), effort, refinement, watch).map(each),
+            Shows::TracedPane => self.glass(shot, effort, refinement, watch).map(each),
+            _ => self.scoped(shot, effort, refinement.is_some(), watch).map(each),
         }
+    }
+
+    /// Makes the picture of a shot from light that was traced for another shot; `None` where no such light is kept.
+    ///
+    /// # Errors
+    /// [`TakeError::Stopped`] when `watch` asks to stop, which only overlays do.
+    pub fn develop_again(
+        &self,
+        slot: Slot,
+        shot: &Shot,
+        watch: Watch,
+    ) -> Option<Result<TakenPicture, TakeError>> {
+        let (_, light) = self.kept.get(&slot).filter(|(kept, _)| kept.has_light_of(shot))?;
+        Some(match light {
+            TracedLight::Render { picture, unresolved, tracer } => {
+                developed(shot, (picture, true), (*unresolved, tracer), watch).map_err(TakeError::from)
+            }
+            TracedLight::Map(map) => Ok(map_taken(shot, map.clone())),
+        })
     }
 
     fn scoped(
@@ -149,19 +169,6 @@ impl ShotTracer {
         };
         Ok(TakenPicture { image, unresolved, tracer, map: None })
     }
-}
-
-/// Draws the overlay of a shot, if it has one, over its picture of `size` pixels.
-pub(super) fn overlaid(
-    shot: &Shot,
-    rgba: &mut [u8],
-    [across, down]: [u32; 2],
-    watch: Watch,
-) -> Result<(), Stopped> {
-    let Some(overlay) = shot.overlay else { return Ok(()) };
-    let pixel = shot.film.pixel * f64::from(shot.film.size[0]) / f64::from(across);
-    let job = shot.overlay_job(Film { size: [across, down], pixel, ..shot.film });
-    job.lit().map_or(Ok(()), |lit_scene| lay(overlay, &lit_scene, rgba, watch))
 }
 
 fn drawing(shot: &Shot) -> Result<TakenPicture, TakeError> {
@@ -253,11 +260,13 @@ mod tests {
         assert!(exported.rgba.chunks(4).any(|pixel| (1..255).contains(&pixel[3])), "edges are soft");
     }
 
-    fn taken(camera: &mut ShotTracer, shot: &Shot, growing: Option<&Growing>) -> TakenPicture {
+    fn taken(camera: &mut ShotTracer, shot: &Shot, refinement: Option<&Refinement>) -> TakenPicture {
         let mut last = None;
         let effort = Effort { unresolved: 5e-3, coarser: 1.0, bands: 4 };
         camera
-            .take(((0, Which::Present), shot), &effort, growing, &unwatched, &mut |taken| last = Some(taken))
+            .take(((0, Which::Present), shot), &effort, refinement, &unwatched, &mut |taken| {
+                last = Some(taken)
+            })
             .unwrap();
         last.unwrap()
     }
@@ -283,7 +292,7 @@ mod tests {
             }
         };
         let mut card = ShotTracer::by(Card::Open(gpu));
-        let growing = Growing { bands: 4, samples: 16, after: 0, unresolved: 5e-3 };
+        let refinement = Refinement { bands: 4, samples: 16, after: 0, unresolved: 5e-3 };
         let checks = BackgroundRef::read("checks", Path::new("")).unwrap();
         let mixed = Shot { behind: Some(checks), strength: 0.2, ..shot(Shows::Render, None) };
         for (shot, most) in [
@@ -293,10 +302,10 @@ mod tests {
             (mixed, 4e-3),
         ] {
             let (shows, projection) = (shot.shows, shot.view.projection);
-            let [a, b] = [&mut card, &mut ShotTracer::default()].map(|c| taken(c, &shot, Some(&growing)));
+            let [a, b] = [&mut card, &mut ShotTracer::default()].map(|c| taken(c, &shot, Some(&refinement)));
             assert_ne!(a.tracer, b.tracer);
             let other = Shot { view: Eye::default().view(None), ..shot.clone() };
-            let (off, wrong) = (apart(&a, &b), apart(&taken(&mut card, &other, Some(&growing)), &b));
+            let (off, wrong) = (apart(&a, &b), apart(&taken(&mut card, &other, Some(&refinement)), &b));
             assert!(
                 off < most && wrong > 3.0 * most,
                 "{shows:?} {projection:?}: {off}, and {wrong} of another view"
@@ -316,9 +325,9 @@ mod tests {
     #[test]
     fn a_rough_render_looks_like_the_fine_one() {
         let shot = shot(Shows::Render, None);
-        let growing = Growing { bands: 16, samples: 4, after: 0, unresolved: 2e-3 };
+        let refinement = Refinement { bands: 16, samples: 4, after: 0, unresolved: 2e-3 };
         let mut camera = ShotTracer::default();
-        let (rough, fine) = (taken(&mut camera, &shot, None), taken(&mut camera, &shot, Some(&growing)));
+        let (rough, fine) = (taken(&mut camera, &shot, None), taken(&mut camera, &shot, Some(&refinement)));
         let off = apart(&rough, &fine);
         assert!(off < 0.03, "{off}");
     }

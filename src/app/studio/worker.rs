@@ -1,10 +1,10 @@
 //! The work of the studio's thread.
 
+use super::mailbox::{Mailbox, Wake};
 use super::order::{Answer, FiguresOrder, Grade, Order, Shot, Slot, Smoothing, TakenPicture, Which};
 use super::pace::{Effort, Pace};
-use super::render::Growing;
+use super::refinement::{FAIR_RENDER, FINE_BY_CARD, FINE_RENDER, Refinement, SHARP};
 use super::take::{RAYS_COARSER, ShotTracer, TakeError};
-use super::{Mailbox, Wake};
 use crate::app::shows::Shows;
 use crate::measure::{Bounds, Figures, LATTICE, UNRESOLVED};
 use crate::render::{Card, Job, RenderError, Rendered};
@@ -27,16 +27,8 @@ const FINE: f64 = 1e-3;
 const FIGURES: f64 = UNRESOLVED;
 const TILTED: f64 = 5e-3;
 
-/// A fair render.
-const FAIR_RENDER: Growing = Growing { bands: 8, samples: 1, after: 0, unresolved: 1e-2 };
 /// A render by rays on its way from rough to fair, with pixels twice as large.
 const HALFWAY: Effort = Effort { unresolved: FAIR, coarser: 2.0 / RAYS_COARSER, bands: FAIR_RENDER.bands };
-/// A fine render on the processor. An export differs from it in the number of passes alone.
-pub const FINE_RENDER: Growing = Growing { bands: u32::MAX, samples: 4, after: 0, unresolved: 2e-3 };
-const FINE_BY_CARD: Growing = Growing { samples: 64, ..FINE_RENDER };
-
-/// A render by rays on the processor that is sharpened when all else is done, until there is a newer order.
-const SHARP: Growing = Growing { samples: 64, after: FINE_RENDER.samples, ..FINE_RENDER };
 
 /// Carries out orders, one after the other.
 pub(super) struct Worker {
@@ -209,13 +201,13 @@ impl Worker {
         &mut self,
         order: &Order,
         grade: Grade,
-        (unresolved, growing): (f64, &Growing),
+        (unresolved, refinement): (f64, &Refinement),
         watch: Watch,
     ) -> Result<(), Stopped> {
-        let effort = Effort { unresolved, coarser: 1.0, bands: growing.bands };
+        let effort = Effort { unresolved, coarser: 1.0, bands: refinement.bands };
         for (slot, shot) in &order.shots {
             if self.pictures.get(slot).is_none_or(|(done, g)| done != shot || *g < grade) {
-                self.picture((*slot, shot), grade, (&effort, Some(growing)), watch)?;
+                self.picture((*slot, shot), grade, (&effort, Some(refinement)), watch)?;
             }
         }
         Ok(())
@@ -243,7 +235,7 @@ impl Worker {
         &mut self,
         (slot, shot): (Slot, &Shot),
         grade: Grade,
-        (effort, growing): (&Effort, Option<&Growing>),
+        (effort, refinement): (&Effort, Option<&Refinement>),
         watch: Watch,
     ) -> Result<(), Stopped> {
         // A render that is traced again must be sharpened again.
@@ -254,7 +246,7 @@ impl Worker {
             let _ = answers.send(Answer::Picture(slot, Box::new(shot.clone()), grade, taken));
             wake();
         };
-        let taken = self.camera.take((slot, shot), effort, growing, watch, &mut each);
+        let taken = self.camera.take((slot, shot), effort, refinement, watch, &mut each);
         let notes: Vec<String> = self.camera.notes.drain(..).collect();
         notes.into_iter().for_each(|note| self.answer(Answer::Trouble(note)));
         match taken {

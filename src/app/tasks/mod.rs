@@ -15,9 +15,12 @@ pub mod opener;
 pub mod runner;
 
 use crate::app::model::action::{Computed, DialogAction, FileAction, NoteAction};
-use crate::app::model::choosing::Choice;
+use crate::app::model::choosing::{Choice, Question};
+use crate::app::model::export::ExportPlan;
 use crate::app::model::exporting::ExportEvent;
 use crate::app::model::opening::FileRequest;
+use crate::app::model::saving::{SaveRequest, Stamp};
+use crate::app::model::task::CopyRequest;
 use crate::app::model::{Action, Task};
 use crate::app::shows::Shows;
 use crate::app::studio::{Slot, TakenPicture, Wake};
@@ -30,6 +33,7 @@ use look_ups::LookUps;
 use lookup::LookupRequest;
 use opener::Opener;
 use runner::{JobHandle, TaskRunner, Turn};
+use std::path::PathBuf;
 use std::sync::{Arc, Mutex, PoisonError};
 
 /// The key of a task; the newest task with the same key wins.
@@ -101,103 +105,133 @@ impl Outside {
     /// Begins to carry out a task. Tracing and what the window does are not carried out here.
     pub fn start(&mut self, task: Task) {
         match task {
-            Task::LoadLight(name) => {
-                let answer = |name, loaded| Action::Computed(Computed::Light(name, loaded)).into();
-                let failed = name.clone();
-                self.run(
-                    Key::Light,
-                    move || answer(failed, Err(Failure::Output(FAULT.to_owned()))),
-                    move |_| {
-                        let loaded = Lighting::load(&name).map(Arc::new).map_err(Failure::from);
-                        answer(name, loaded)
-                    },
-                );
-            }
+            Task::LoadLight(name) => self.load_light(name),
             Task::Read(request) => self.read(request),
-            Task::Save(request) => {
-                let failed = || FileAction::Saved(Err(Failure::Output(FAULT.to_owned())));
-                self.write(Key::Save, failed, move || Some(FileAction::Saved(open::save(*request))));
-            }
-            Task::ChooseFile(question) => {
-                let (chooser, failed) = (Arc::clone(&self.chooser), question.clone());
-                self.run(
-                    Key::Choose,
-                    || FileAction::Chosen(failed, Choice::NoDialog).into(),
-                    move |_| {
-                        let choice = chooser(&question);
-                        FileAction::Chosen(question, choice).into()
-                    },
-                );
-            }
+            Task::Save(request) => self.save(*request),
+            Task::ChooseFile(question) => self.choose_file(question),
             Task::Keep(unsaved) => self.keep(move |safe| safe.keep(&unsaved).err().map(|e| e.to_string())),
             Task::EmptySafe => self.keep(|safe| {
                 safe.empty();
                 None
             }),
-            Task::Forget(path) => self.write(
-                Key::Forget,
-                || FileAction::NotKept(FAULT.to_owned()),
-                move || {
-                    autosave::forget(&path);
-                    None
-                },
-            ),
-            Task::Watch(file) => self.runner.start(
-                Key::Watch,
-                Turn::AtOnce,
-                || None,
-                move |job| {
-                    file.into_iter().for_each(|(path, stamp)| open::watch(&path, stamp, job));
-                },
-            ),
-            Task::LookInto(files) => {
-                let failed = || FileAction::DroppedFor(vec![]).into();
-                self.run(Key::Look, failed, move |_| FileAction::DroppedFor(open::look_into(files)).into());
-            }
-            Task::OpenOutside(what) => {
-                let opener = Arc::clone(&self.opener);
-                self.runner.start(
-                    Key::Open,
-                    Turn::AtOnce,
-                    || None,
-                    move |job| {
-                        if let Err(why) = opener(&what) {
-                            let why = format!("{what} could not be opened: {why}");
-                            job.send(Action::Note(NoteAction::Trouble(why)).into());
-                        }
-                    },
-                );
-            }
-            Task::Thumbnails(plan) => self.runner.start(
-                Key::Thumbnails,
-                Turn::AtOnce,
-                || None,
-                move |job| {
-                    let hang = |shows, image| job.send(TaskAnswer::Thumbnail(shows, image));
-                    export::thumbnails(&plan, &hang, &|| job.is_stopped());
-                },
-            ),
-            Task::Export(plan) => {
-                let answer = |event| Action::Dialog(DialogAction::Exported(event)).into();
-                let failed = move || Some(answer(ExportEvent::Ended(Err(Failure::Output(FAULT.to_owned())))));
-                self.runner.start(Key::Export, Turn::AtOnce, failed, move |job| {
-                    export::run(&plan, &|event| job.send(answer(event)), &|| job.is_stopped());
-                });
-            }
+            Task::Forget(path) => self.forget(path),
+            Task::Watch(file) => self.watch(file),
+            Task::LookInto(files) => self.look_into(files),
+            Task::OpenOutside(what) => self.open_outside(what),
+            Task::Thumbnails(plan) => self.make_thumbnails(*plan),
             Task::StopThumbnails => self.runner.stop(Key::Thumbnails),
+            Task::Export(plan) => self.export(*plan),
             Task::StopExport => self.runner.stop(Key::Export),
-            Task::MakeCopy(request) => {
-                let failed = || {
-                    TaskAnswer::Copied(Err(Failure::Output(
-                        "making the picture failed; try another size".to_owned(),
-                    )))
-                };
-                self.run(Key::Copy, failed, move |job| {
-                    TaskAnswer::Copied(copying::make(&request, &|| job.is_stopped()))
-                });
-            }
+            Task::MakeCopy(request) => self.make_copy(request),
             Task::Trace(_) | Task::Window(_) => {}
         }
+    }
+
+    fn load_light(&mut self, name: String) {
+        let answer = |name, loaded| Action::Computed(Computed::Light(name, loaded)).into();
+        let failed = name.clone();
+        self.run(
+            Key::Light,
+            move || answer(failed, Err(Failure::Output(FAULT.to_owned()))),
+            move |_| {
+                let loaded = Lighting::load(&name).map(Arc::new).map_err(Failure::from);
+                answer(name, loaded)
+            },
+        );
+    }
+
+    fn read(&mut self, request: FileRequest) {
+        let failed = request.clone();
+        let why = format!("{}: reading it failed", request.path.display());
+        let key = Key::Read { is_beside: request.is_beside() };
+        self.run(
+            key,
+            || FileAction::Opened(failed, Err(Failure::Input(why))).into(),
+            move |_| {
+                let read = open::read(&request);
+                FileAction::Opened(request, read).into()
+            },
+        );
+    }
+
+    fn save(&mut self, request: SaveRequest) {
+        let failed = || FileAction::Saved(Err(Failure::Output(FAULT.to_owned())));
+        self.write(Key::Save, failed, move || Some(FileAction::Saved(open::save(request))));
+    }
+
+    fn choose_file(&mut self, question: Question) {
+        let (chooser, failed) = (Arc::clone(&self.chooser), question.clone());
+        self.run(
+            Key::Choose,
+            || FileAction::Chosen(failed, Choice::NoDialog).into(),
+            move |_| {
+                let choice = chooser(&question);
+                FileAction::Chosen(question, choice).into()
+            },
+        );
+    }
+
+    fn keep(&mut self, job: impl FnOnce(&mut Autosave) -> Option<String> + Send + 'static) {
+        let Some(safe) = self.safe.clone() else { return };
+        self.write(
+            Key::Safe,
+            || FileAction::NotKept(FAULT.to_owned()),
+            move || job(&mut safe.lock().unwrap_or_else(PoisonError::into_inner)).map(FileAction::NotKept),
+        );
+    }
+
+    fn forget(&mut self, path: PathBuf) {
+        let failed = || FileAction::NotKept(FAULT.to_owned());
+        self.write(Key::Forget, failed, move || {
+            autosave::forget(&path);
+            None
+        });
+    }
+
+    fn watch(&mut self, file: Option<(PathBuf, Stamp)>) {
+        let failed = || None;
+        self.runner.start(Key::Watch, Turn::AtOnce, failed, move |job| {
+            file.into_iter().for_each(|(path, stamp)| open::watch(&path, stamp, job));
+        });
+    }
+
+    fn look_into(&mut self, files: Vec<PathBuf>) {
+        let failed = || FileAction::DroppedFor(vec![]).into();
+        self.run(Key::Look, failed, move |_| FileAction::DroppedFor(open::look_into(files)).into());
+    }
+
+    fn open_outside(&mut self, what: String) {
+        let (opener, failed) = (Arc::clone(&self.opener), || None);
+        self.runner.start(Key::Open, Turn::AtOnce, failed, move |job| {
+            if let Err(why) = opener(&what) {
+                let why = format!("{what} could not be opened: {why}");
+                job.send(Action::Note(NoteAction::Trouble(why)).into());
+            }
+        });
+    }
+
+    fn make_thumbnails(&mut self, plan: ExportPlan) {
+        let failed = || None;
+        self.runner.start(Key::Thumbnails, Turn::AtOnce, failed, move |job| {
+            let hang = |shows, image| job.send(TaskAnswer::Thumbnail(shows, image));
+            export::thumbnails(&plan, &hang, &|| job.is_stopped());
+        });
+    }
+
+    fn export(&mut self, plan: ExportPlan) {
+        let answer = |event| Action::Dialog(DialogAction::Exported(event)).into();
+        let failed = move || Some(answer(ExportEvent::Ended(Err(Failure::Output(FAULT.to_owned())))));
+        self.runner.start(Key::Export, Turn::AtOnce, failed, move |job| {
+            export::run(&plan, &|event| job.send(answer(event)), &|| job.is_stopped());
+        });
+    }
+
+    fn make_copy(&mut self, request: CopyRequest) {
+        let why = "making the picture failed; try another size";
+        let failed = move || TaskAnswer::Copied(Err(Failure::Output(why.to_owned())));
+        self.run(Key::Copy, failed, move |job| {
+            TaskAnswer::Copied(copying::make(&request, &|| job.is_stopped()))
+        });
     }
 
     /// Runs a job with one answer.
@@ -224,29 +258,6 @@ impl Outside {
             |handle| {
                 job().into_iter().for_each(|answer| handle.send(answer.into()));
             },
-        );
-    }
-
-    fn read(&mut self, request: FileRequest) {
-        let failed = request.clone();
-        let why = format!("{}: reading it failed", request.path.display());
-        let key = Key::Read { is_beside: request.is_beside() };
-        self.run(
-            key,
-            || FileAction::Opened(failed, Err(Failure::Input(why))).into(),
-            move |_| {
-                let read = open::read(&request);
-                FileAction::Opened(request, read).into()
-            },
-        );
-    }
-
-    fn keep(&mut self, job: impl FnOnce(&mut Autosave) -> Option<String> + Send + 'static) {
-        let Some(safe) = self.safe.clone() else { return };
-        self.write(
-            Key::Safe,
-            || FileAction::NotKept(FAULT.to_owned()),
-            move || job(&mut safe.lock().unwrap_or_else(PoisonError::into_inner)).map(FileAction::NotKept),
         );
     }
 

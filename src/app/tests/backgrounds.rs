@@ -74,6 +74,19 @@ fn a_background_is_dragged_through_a_map_that_is_not_traced_again() {
 }
 
 #[test]
+fn a_photograph_that_vanishes_is_named_over_the_render_and_removed_by_a_click() {
+    let mut bench = Bench::new();
+    let workspace = &mut bench.harness.state_mut().model.workspace;
+    workspace.panes[0].shows = Shows::Render;
+    (workspace.behind, workspace.strength) = (Some("/nowhere/garden.jpg".to_owned()), 0.3);
+    assert_eq!(workspace.strength(), 1.0);
+    bench.harness.run_steps(4);
+    bench.click("garden.jpg is missing ×");
+    bench.harness.run_steps(4);
+    assert_eq!(bench.editor().model.workspace.behind, None);
+}
+
+#[test]
 fn a_map_is_traced_anew_for_a_stone_that_is_tilted_there_or_elsewhere() {
     let mut bench = Bench::new();
     bench.show(0, Shows::Refraction);

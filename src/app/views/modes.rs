@@ -8,6 +8,7 @@ use crate::app::model::eye::Eye;
 use crate::app::model::workspace::Pane;
 use crate::app::shows::Shows;
 use egui::{Button, RichText, TextStyle, Ui};
+use std::path::Path;
 
 /// A mode that is on in a view.
 #[derive(Debug)]
@@ -36,6 +37,8 @@ impl Mode {
         let takes_head = scope.as_ref().is_some_and(|scope| scope.takes_head);
         let head = model.document.work.head;
         let strength = if shows == Shows::Render { desk.strength() } else { 1.0 };
+        let missing =
+            desk.missing_background().filter(|_| matches!(shows, Shows::Render | Shows::Refraction));
         let overlay = desk.overlay.clone().filter(|_| shows.takes_overlay() && desk.overlay().is_some());
         [
             own.map(|_| {
@@ -65,6 +68,12 @@ impl Mode {
                 let meaning =
                     "Scopes also show the light that the outer surface reflects, as a camera records it.";
                 mode("with glare", meaning, ViewAction::Glare(false))
+            }),
+            missing.map(|name| {
+                let meaning = "The background cannot be read, so nothing stands behind the stone and the strength of \
+                               refraction counts as 1. A click here removes the background.";
+                let name = Path::new(name).file_name().map_or(name.into(), |name| name.to_string_lossy());
+                mode(format!("{name} is missing"), meaning, ViewAction::Behind(None))
             }),
             (strength < 1.0).then(|| {
                 let meaning =

@@ -1,6 +1,8 @@
 //! Describes how a picture was made.
 
-use super::{Failure, PictureSetup, RenderedPicture};
+use super::{PictureSetup, RenderedPicture};
+use crate::cli::console::say;
+use crate::io::Failure;
 use crate::render::Rendered;
 
 /// The share of unresolved light above which a warning is printed.
@@ -13,7 +15,7 @@ impl PictureSetup<'_> {
         let (picture, rest) = rendered.light()?;
         if rest.unresolved > MUCH_UNRESOLVED {
             let percent = 100.0 * rest.unresolved;
-            crate::cli::say(&format!(
+            say(&format!(
                 "warning: {}: {percent:.1} % of the light is unresolved by {tracer} and missing in the picture; \
                  --tracer beam or ray may follow it farther",
                 self.assembly.path

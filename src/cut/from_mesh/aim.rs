@@ -2,8 +2,9 @@
 //! about the axis, by a crown that is flatter than the pavilion, and by the size of the table.
 
 use super::cues::Cues;
+use super::error::FromMeshError;
 use super::even::{self, FacetParts, Match};
-use super::{Doubt, FromMeshError, Up};
+use super::up::Up;
 use crate::math::{Plane, Polytope, Pose, eigen, outer};
 use glam::{DMat3, DQuat, DVec3};
 use std::cmp::Ordering;
@@ -69,6 +70,13 @@ const FITS: f64 = 0.8;
 /// A person might also take a direction whose shape scores lower than the best direction's by less than this, unless it lies
 /// within [`PUT_ALONG`] of the best.
 const DOUBTFUL: f64 = 0.15;
+
+/// Another direction that a person might have taken for up.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Doubt {
+    /// The direction in the surface's frame, a unit vector.
+    pub other: DVec3,
+}
 
 /// The axis that is up, and the facet that is the table.
 pub(super) struct Aim {

@@ -3,7 +3,7 @@
 //! A stone that is uneven by more than its noise keeps its planes. This is judged by the corners of the surface, which must
 //! not lie much farther from the evened stone than from the one that was found.
 
-use super::LEAST_UPRIGHT;
+use super::outline::LEAST_UPRIGHT;
 use crate::math::faceting::{Faceted, deviation};
 use crate::math::{Facet, Plane, Polytope, Pose, Symmetry};
 use glam::{DQuat, DVec3};

@@ -6,43 +6,23 @@
 
 mod aim;
 mod cues;
+mod error;
 mod even;
 mod name;
 mod outline;
+mod up;
 
 #[cfg(test)]
 mod tests;
 
 use crate::math::faceting::{Faceted, deviation};
-use crate::math::{Plane, Polytope, PolytopeError, Pose, Symmetry};
+use crate::math::{Plane, Polytope, Pose, Symmetry};
 use glam::DVec3;
 
-pub use aim::directions;
 use aim::{Aim, aim};
-use outline::LEAST_UPRIGHT;
-
-/// The direction that a surface's table faces, and how it is known.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub enum Up {
-    /// Found from the shape; z is up by custom.
-    #[default]
-    Found,
-    /// Found from the shape; this axis of the surface's frame is up by custom, as y is in glTF.
-    FoundBy(DVec3),
-    /// Given in the surface's frame, with any length but zero. The largest facet within 5 degrees is the table.
-    Given(DVec3),
-    /// Known exactly, in the surface's frame, of length 1. Only a facet square to it is the table.
-    Known(DVec3),
-    /// Known together with the whole pose of the stone. The surface is moved exactly so.
-    Posed(Pose),
-}
-
-/// Another direction that a person might have taken for up.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Doubt {
-    /// The direction in the surface's frame, a unit vector.
-    pub other: DVec3,
-}
+pub use aim::{Doubt, directions};
+pub use error::FromMeshError;
+pub use up::Up;
 
 /// A stone that was found in a surface.
 #[derive(Debug, Clone, PartialEq)]
@@ -60,19 +40,6 @@ pub struct FromMesh {
     pub up: DVec3,
     /// Another direction that may be up, where the shape leaves a doubt.
     pub doubt: Option<Doubt>,
-}
-
-/// The reason why facets make no stone.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-pub enum FromMeshError {
-    /// A direction up that is zero or not finite.
-    #[error(
-        "the direction up, {0}, is not a direction; three finite numbers that are not all 0 are expected"
-    )]
-    Up(DVec3),
-    /// The planes enclose nothing.
-    #[error("the facets that were found make no stone: {0}")]
-    Polytope(#[from] PolytopeError),
 }
 
 /// Poses, evens and names the facets of a surface.

@@ -1,7 +1,7 @@
 //! Puts facets into the order of the trade, tier by tier, and gives them the names that follow from their places.
 
 use super::super::names;
-use super::LEAST_UPRIGHT;
+use super::outline::LEAST_UPRIGHT;
 use crate::math::Plane;
 use std::f64::consts::TAU;
 

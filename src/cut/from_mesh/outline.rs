@@ -1,6 +1,6 @@
 //! Measures the girdle: which facets it has, how wide it is, and which way the stone is turned about its axis.
 
-use super::FromMeshError;
+use super::error::FromMeshError;
 use super::even::Even;
 use crate::cut::Outline;
 use crate::math::{Calipers, Plane, Polytope, Pose, hull};

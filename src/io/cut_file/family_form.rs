@@ -1,8 +1,8 @@
 //! The tables of families of cuts, such as `[round_brilliant]`, read and written by the rows of each family.
 
-use super::Fault;
 use super::values::TomlTable;
 use crate::cut::{Cut, FAMILIES, Family, Proportion, Unit};
+use crate::io::file_error::Fault;
 use crate::io::toml_text::meant;
 use serde::Deserialize;
 use std::collections::BTreeMap;

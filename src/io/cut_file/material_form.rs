@@ -2,9 +2,9 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::Fault;
 use super::values::{Numbers, OneOf, Pairs, TomlTable};
 use crate::cut::MaterialRef;
+use crate::io::file_error::Fault;
 use crate::optics::{Absorption, AbsorptionError, Dispersion, Material};
 
 /// The wavelength, in nm, of the one sample of an absorption that is the same at every wavelength.

@@ -1,8 +1,8 @@
 //! The keys of a cutter's design: the table `[index]` and the tables `[[tier]]`.
 
-use super::Fault;
 use super::values::TomlTable;
 use crate::cut::{Indexed, Tier, Tiers};
+use crate::io::file_error::Fault;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 

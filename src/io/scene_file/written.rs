@@ -1,7 +1,7 @@
 //! The keys of a scene file as they are written.
 
-use super::super::cut_file::FORMAT;
 use super::super::cut_file::material_form::MaterialForm;
+use super::super::toml_format::FORMAT;
 use super::{Entry, SceneFile};
 use crate::scene::Layout;
 use serde::Serialize;

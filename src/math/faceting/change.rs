@@ -1,6 +1,6 @@
 //! What changes when a convex solid takes the place of a surface.
 
-use super::outermost;
+use super::deviation::outermost;
 use crate::math::edges::Edges;
 use crate::math::{Plane, Polytope, Surface};
 use glam::DVec3;

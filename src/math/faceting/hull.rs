@@ -4,7 +4,7 @@
 //! diagonal, which bends them inward.
 
 use super::change::Change;
-use super::deviation;
+use super::deviation::deviation;
 use super::search::{Limits, MatchingSolid, NOISE, SAME, SolidSearch};
 use crate::math::{Plane, Surface, convex_hull};
 

@@ -12,6 +12,7 @@
 //! are parts of [`Surface::size`].
 
 mod change;
+mod deviation;
 mod fit;
 mod hull;
 mod noise;
@@ -24,9 +25,9 @@ mod tests;
 
 use super::{Plane, Polytope, Surface};
 pub use change::Change;
+pub use deviation::deviation;
 use glam::DVec3;
 use hull::Hull;
-use rayon::prelude::*;
 use regions::{NOWHERE, Regions};
 use search::{MOST_FACETS, MatchingSolid, SolidSearch};
 
@@ -103,20 +104,6 @@ pub fn faceted_hull(surface: Surface) -> Result<Box<Faceted>, TooCurved> {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 #[error("its convex hull is curved, or has more than {MOST_FACETS} facets")]
 pub struct TooCurved;
-
-/// Returns the greatest distance of points from a solid's surface.
-///
-/// For a point outside, it is the distance from the plane that the point is farthest outside of.
-pub fn deviation(polytope: &Polytope, points: &[DVec3]) -> f64 {
-    let planes: Vec<Plane> = polytope.planes().collect();
-    points.par_iter().map(|p| outermost(&planes, *p).1.abs()).reduce(|| 0.0, f64::max)
-}
-
-/// Returns the place of the plane that a point is farthest outside of, the first of equals, and the point's distance from it.
-fn outermost(planes: &[Plane], point: DVec3) -> (usize, f64) {
-    let distances = planes.iter().map(|plane| plane.distance(point)).enumerate();
-    distances.max_by(|a, b| a.1.total_cmp(&b.1).then(b.0.cmp(&a.0))).unwrap_or_default()
-}
 
 /// Returns a surface with the middle of its box at the origin, and where that middle was.
 fn centred(surface: &Surface) -> (Surface, DVec3) {

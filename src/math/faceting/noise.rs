@@ -2,7 +2,7 @@
 //!
 //! Noise moves the corners off the facets of a solid at random; a curved facet moves them together.
 
-use super::outermost;
+use super::deviation::outermost;
 use crate::math::{Plane, Polytope, Surface};
 use glam::DVec3;
 use rayon::prelude::*;

@@ -1,8 +1,9 @@
 //! Seeks the solid between the planes of regions that reproduces a surface, at growing tolerances.
 
+use super::deviation::deviation;
 use super::hull::Hull;
 use super::regions::{NOWHERE, Regions, is_sliver, regions};
-use super::{deviation, noise, settle};
+use super::{noise, settle};
 use crate::math::edges::Edges;
 use crate::math::{Facet, Plane, Polytope, Surface};
 use glam::DVec3;

@@ -3,8 +3,8 @@
 //! Where noise has tilted a region of a few triangles, its plane cuts the solid. No facet of a convex solid does, so such
 //! planes are left out, and each triangle is assigned to the facet that it lies on.
 
+use super::deviation::outermost;
 use super::hull::Hull;
-use super::outermost;
 use super::regions::{Regions, joined};
 use super::search::SAME;
 use crate::math::Surface;

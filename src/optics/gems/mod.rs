@@ -3,6 +3,7 @@
 //! It is known where the bands of each gem lie. Their strengths differ from stone to stone, and are chosen so that a stone
 //! of 6.5 mm, in which light travels about 14 mm, has the colour that the gem is loved for.
 
+mod gem;
 mod table;
 #[cfg(test)]
 mod tests;
@@ -10,6 +11,7 @@ mod tests;
 use super::absorption::Absorption;
 use super::dispersion::{Dispersion, VISIBLE_NM};
 use super::material::Material;
+use gem::{AbsorptionBand, Gem, Host};
 
 /// The step between the samples of a spectrum, in nm: about half the width of the narrowest band.
 const STEP_NM: usize = 5;
@@ -18,41 +20,6 @@ const PER_WIDTH_SQUARED: f64 = 4.0 * std::f64::consts::LN_2;
 const TRADE: &str = "trade tables, from memory, not yet checked";
 const COLOUR: &str = "illustrative: band positions from the literature, from memory, not yet checked; strengths chosen \
                       for a stone of 6.5 mm";
-
-/// A gem: its host and what colours it.
-struct Gem {
-    name: &'static str,
-    /// The look of the gem and the cause of its colour, in words.
-    text: &'static str,
-    host: Host,
-    edge: Edge,
-    bands: &'static [Band],
-}
-
-/// The material that holds the colour; it gives the index.
-enum Host {
-    /// The colourless material of this name, described as this kind.
-    Known(&'static str, &'static str),
-    /// A mineral of this kind, by the least and the greatest of its index, its B-G dispersion and its density in g/cm³.
-    Trade(&'static str, f64, f64, f64, f64),
-}
-
-/// An absorption edge: absorption grows toward the ultraviolet by a factor of e every `fold_nm`.
-///
-/// At 400 nm it is `at_400` per mm, for the ordinary and the extraordinary polarisation. The edge is a plain stand-in for
-/// the wide bands of charge transfer.
-struct Edge {
-    at_400: [f64; 2],
-    fold_nm: f64,
-}
-
-/// An absorption band, Gaussian over wavenumbers: its centre in nm, its full width at half maximum in 1/cm, and its height
-/// per mm for the ordinary and the extraordinary polarisation.
-struct Band {
-    nm: f64,
-    width: f64,
-    height: [f64; 2],
-}
 
 /// Returns all stones of the table. A stone with a known host takes the index of that host from `colourless`.
 pub(super) fn gems(colourless: &[Material]) -> Vec<Material> {
@@ -109,7 +76,7 @@ impl Host {
     }
 }
 
-impl Band {
+impl AbsorptionBand {
     fn per_mm(&self, nm: f64, axis: usize) -> f64 {
         let widths = (1e7 / nm - 1e7 / self.nm) / self.width;
         self.height[axis] * (-PER_WIDTH_SQUARED * widths * widths).exp()

@@ -1,7 +1,7 @@
 //! The table of gems with their hosts and bands. All of it is from memory; the parent module says what is known and what is
 //! chosen.
 
-use super::{Band, Edge, Gem, Host};
+use super::gem::{AbsorptionBand, AbsorptionEdge, Gem, Host};
 
 const DIAMOND: Host = Host::Known("diamond", "Isotropic");
 const SPINEL: Host = Host::Known("spinel", "Isotropic; magnesium aluminate");
@@ -157,7 +157,7 @@ pub(super) const GEMS: [Gem; 20] = [
         name: "citrine",
         text: "golden yellow, by iron",
         host: QUARTZ,
-        edge: Edge { at_400: [0.5, 0.45], fold_nm: 54.0 },
+        edge: AbsorptionEdge { at_400: [0.5, 0.45], fold_nm: 54.0 },
         bands: &[band(420.0, 5200.0, 0.05)],
     },
     Gem {
@@ -176,7 +176,7 @@ pub(super) const GEMS: [Gem; 20] = [
         name: "aquamarine",
         text: "pale blue, by iron",
         host: BERYL,
-        edge: Edge { at_400: [0.012, 0.006], fold_nm: 25.0 },
+        edge: AbsorptionEdge { at_400: [0.012, 0.006], fold_nm: 25.0 },
         bands: &[
             split(825.0, 4700.0, [0.13, 0.04]),
             split(690.0, 5400.0, [0.0, 0.17]),
@@ -187,14 +187,14 @@ pub(super) const GEMS: [Gem; 20] = [
         name: "green tourmaline",
         text: "bluish dark green, by iron",
         host: TOURMALINE,
-        edge: Edge { at_400: [0.5, 0.2], fold_nm: 45.0 },
+        edge: AbsorptionEdge { at_400: [0.5, 0.2], fold_nm: 45.0 },
         bands: &[split(720.0, 5400.0, [1.4, 0.46]), split(430.0, 3600.0, [0.4, 0.18])],
     },
     Gem {
         name: "pink tourmaline",
         text: "pink, by manganese",
         host: TOURMALINE,
-        edge: Edge { at_400: [0.1, 0.06], fold_nm: 35.0 },
+        edge: AbsorptionEdge { at_400: [0.1, 0.06], fold_nm: 35.0 },
         bands: &[split(392.0, 3600.0, [0.18, 0.08]), split(522.0, 4100.0, [0.25, 0.1])],
     },
     Gem {
@@ -220,16 +220,16 @@ pub(super) const GEMS: [Gem; 20] = [
 ];
 
 /// Makes an edge that is the same for both polarisations.
-const fn edge(at_400: f64, fold_nm: f64) -> Edge {
-    Edge { at_400: [at_400; 2], fold_nm }
+const fn edge(at_400: f64, fold_nm: f64) -> AbsorptionEdge {
+    AbsorptionEdge { at_400: [at_400; 2], fold_nm }
 }
 
 /// Makes a band that is the same for both polarisations.
-const fn band(nm: f64, width: f64, height: f64) -> Band {
+const fn band(nm: f64, width: f64, height: f64) -> AbsorptionBand {
     split(nm, width, [height; 2])
 }
 
 /// Makes a band with a height for each polarisation.
-const fn split(nm: f64, width: f64, height: [f64; 2]) -> Band {
-    Band { nm, width, height }
+const fn split(nm: f64, width: f64, height: [f64; 2]) -> AbsorptionBand {
+    AbsorptionBand { nm, width, height }
 }

@@ -150,7 +150,7 @@ fn only_uniaxial_gems_differ_by_polarisation() {
 
 #[test]
 fn a_band_is_half_as_high_half_its_width_from_its_centre() {
-    let band = Band { nm: 500.0, width: 2000.0, height: [0.3, 0.1] };
+    let band = AbsorptionBand { nm: 500.0, width: 2000.0, height: [0.3, 0.1] };
     for (nm, part) in [(500.0, 1.0), (1e7 / 21000.0, 0.5), (1e7 / 19000.0, 0.5)] {
         assert!((band.per_mm(nm, 0) - 0.3 * part).abs() < 1e-12);
         assert!((band.per_mm(nm, 1) - 0.1 * part).abs() < 1e-12);

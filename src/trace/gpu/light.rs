@@ -2,22 +2,17 @@
 
 use super::device::{Gpu, GpuError};
 use super::gpu_types::{self, Lamp, Response, with};
+use super::limits::MOST_WAVELENGTHS;
 use super::solids::Solids;
 use super::stage::{GpuCamera, Stage};
 use crate::math::PosedSolid;
-use crate::scene::{self, Instance};
+use crate::scene::{self, Instance, MOST_LAMPS};
 use crate::trace::environment::{Environment, HEAD_EDGE};
 use crate::trace::sampling::{LitScene, ProgressiveImage, RadiancePixel, SamplePass};
 use crate::trace::{Stopped, Watch};
 use glam::{DVec2, DVec3};
 use std::ops::Range;
 use wgpu::util::DeviceExt;
-
-/// The most wavelengths that one sample pass may have.
-pub const MOST_WAVELENGTHS: usize = 64;
-
-/// The most lamps that an environment may have.
-pub(super) const MOST_LAMPS: usize = scene::MOST_LAMPS;
 
 /// The most wavelengths of one dispatch.
 const AT_ONCE: usize = 16;

@@ -8,6 +8,7 @@ mod device;
 mod fields;
 mod gpu_types;
 mod light;
+mod limits;
 mod scope;
 mod shaders;
 mod solids;
@@ -16,10 +17,9 @@ mod triangles;
 
 pub use device::{Gpu, GpuError};
 pub use gpu_types::ScopePixel;
-pub use light::{ByCard, GpuEnvironment, MOST_WAVELENGTHS};
-pub use scope::{MOST_BANDS, MOST_BOUNCES, ScopeShot};
-pub use solids::MOST_BODIES;
-pub use triangles::MOST_TRIANGLES;
+pub use light::{ByCard, GpuEnvironment};
+pub use limits::{MOST_BANDS, MOST_BODIES, MOST_BOUNCES, MOST_TRIANGLES, MOST_WAVELENGTHS};
+pub use scope::ScopeShot;
 
 #[cfg(test)]
 mod parity;

@@ -2,6 +2,7 @@
 
 use super::device::{Gpu, GpuError};
 use super::gpu_types::{Bands, Medium as MediumAtDoor, ScopePixel, with};
+use super::limits::MOST_BANDS;
 use super::solids::Solids;
 use super::stage::{GpuCamera, Stage};
 use crate::math::{Pose, PosedSolid, SolidRef};
@@ -9,12 +10,6 @@ use crate::scene::{Film, Medium, Scope, View};
 use crate::trace::ray::RayOptions;
 use crate::trace::{Stopped, Watch};
 use glam::DVec2;
-
-/// The most bands of a scope that a graphics card traces.
-pub const MOST_BANDS: usize = 8;
-
-/// The most bounces of a ray on a graphics card: chains of very different lengths side by side would leave most of it idle.
-pub const MOST_BOUNCES: u32 = 64;
 
 /// One picture in a scope; its rays stand on a regular grid in each pixel.
 pub struct ScopeShot<'a> {
@@ -32,7 +27,7 @@ pub struct ScopeShot<'a> {
     pub per_side: u32,
     /// The place of each ray in its cell of that grid, 0 to 1; (0.5, 0.5) is the middle.
     pub shift: DVec2,
-    /// How far rays are followed, at most [`MOST_BOUNCES`] bounces.
+    /// How far rays are followed, at most [`MOST_BOUNCES`](super::MOST_BOUNCES) bounces.
     pub options: RayOptions,
 }
 

@@ -1,8 +1,8 @@
 //! The shaders: put together as text, and each compiled when first used.
 
 use super::gpu_types;
-use super::light::{MOST_LAMPS, MOST_WAVELENGTHS};
-use super::solids::{MOST_BODIES, MOST_INBOUND, MOST_LEVELS, MOST_UNIFORM};
+use super::limits::{MOST_BODIES, MOST_INBOUND, MOST_LEVELS, MOST_UNIFORM, MOST_WAVELENGTHS};
+use crate::scene::MOST_LAMPS;
 use crate::trace::environment::TEXEL_ANGLE;
 use crate::trace::sampling::MOST_WAITING;
 use std::sync::OnceLock;

@@ -4,20 +4,15 @@ use super::clusters::clusters;
 use super::device::Gpu;
 use super::fields::field;
 use super::gpu_types::{Body, Cluster, with};
+use super::limits::{MOST_BODIES, MOST_UNIFORM};
 use super::shaders::ShaderSurface;
 use super::triangles::GpuTriangles;
 use crate::math::{Ball, ImplicitSurface, Plane, PosedSolid, SolidRef};
 use crate::trace::gpu::GpuError;
 use crate::trace::sampling::MOST_WAITING;
 
-/// The most planes that fit into the uniform array, 16 KiB.
-pub(super) const MOST_UNIFORM: usize = 1024;
-
 /// The number of planes in a stone above which clusters are quicker than trying all planes one after the other.
 const FEW: usize = 192;
-
-/// The most stones that one picture may hold.
-pub const MOST_BODIES: usize = 256;
 
 /// Loop turns that one ray's search stays below on a software driver: such drivers end a shader's loops after 65,535 turns,
 /// whatever they have done by then.
@@ -29,13 +24,6 @@ const MOST_TURNS: u32 = 1 << 20;
 
 /// The same on a software driver; turns that are not counted fit into the rest.
 const MOST_COUNTED_IN_SOFTWARE: u32 = 48_000;
-
-/// The most exits of one ray that may wait to enter a stone that is not convex again; rays in hearts and stars leave some
-/// ten waiting at once.
-pub(super) const MOST_INBOUND: usize = 16;
-
-/// The most boxes that may lie within one another.
-pub(super) const MOST_LEVELS: usize = 56;
 
 /// Returns the loop turns that one ray may take where it counts them.
 pub(super) fn most_turns(gpu: &Gpu) -> u32 {

@@ -2,7 +2,7 @@
 
 use super::device::{Gpu, GpuError};
 use super::gpu_types::{Frame, with};
-use super::scope::MOST_BOUNCES;
+use super::limits::MOST_BOUNCES;
 use super::solids::{Solids, most_turns};
 use crate::scene::{Film, Projection, View};
 use crate::trace::ray::RayOptions;

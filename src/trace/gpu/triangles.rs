@@ -1,14 +1,10 @@
 //! Packs triangles and the boxes around them for the graphics card.
 
 use super::gpu_types::{BvhNode, Triangle, with};
-use super::solids::MOST_LEVELS;
+use super::limits::{MOST_LEVELS, MOST_TRIANGLES};
 use crate::math::{self, SolidRef, TriangleMesh};
 use crate::trace::gpu::GpuError;
 use std::sync::Arc;
-
-/// The most triangles that one picture may hold: 48 bytes each, in a buffer of less than the 128 MiB that all cards take.
-/// Their indices are exact in f32.
-pub const MOST_TRIANGLES: usize = 2_500_000;
 
 /// The triangles of solids, the boxes around them, and the range of each solid, as in [`super::gpu_types::Body`].
 pub(super) struct GpuTriangles {

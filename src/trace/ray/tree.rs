@@ -4,10 +4,10 @@
 //! it and meets the solid again waits to be followed like the first, the strongest first, its polarisation kept. What is not
 //! followed is unresolved, so that all shares still add up to 1.
 
+use super::dispersed_ray::DispersedRay;
 use super::facets::FacetSearch;
 use super::light::PathLight;
 use super::{Exit, Loss, StoneTracer};
-use glam::DVec3;
 
 /// The most passages of one ray that are followed; light that waits after so many is unresolved.
 const MOST_PASSAGES: usize = 1000;
@@ -16,11 +16,7 @@ const MOST_PASSAGES: usize = 1000;
 #[derive(Clone, Copy)]
 pub(super) struct Inbound {
     pub met: (usize, f64),
-    pub origin: DVec3,
-    pub direction: DVec3,
-    pub sweep: DVec3,
-    /// The displacement of its origin over the spread of wavelengths.
-    pub shift: DVec3,
+    pub ray: DispersedRay,
     /// The light without absorption.
     pub light: PathLight,
     /// The share that has not been absorbed.
@@ -64,10 +60,12 @@ impl StoneTracer {
                 match (met.filter(|met| !is_taken(&exit, met.1)), meeting.onward_outside()) {
                     (Some(met), Some((light, shift))) => again(Inbound {
                         met,
-                        origin: exit.point,
-                        direction: exit.direction,
-                        sweep: exit.sweep,
-                        shift,
+                        ray: DispersedRay {
+                            origin: exit.point,
+                            direction: exit.direction,
+                            sweep: exit.sweep,
+                            shift,
+                        },
                         light,
                         left: meeting.left,
                         path: exit.path,

@@ -42,8 +42,9 @@ pub fn answer(model: &mut Model, answer: DialogAction) -> Vec<Task> {
         }
         DialogAction::ReadAgain => {
             model.session.dialog = None;
-            let path = model.document.path().map(std::path::Path::to_owned);
-            return super::also(model, path.map(|path| FileAction::Open(path, OpeningPurpose::Again)));
+            if let Some(path) = model.document.path().map(std::path::Path::to_owned) {
+                return files::change(model, FileAction::Open(path, OpeningPurpose::Again));
+            }
         }
         DialogAction::Accept => {
             if let Some(Dialog::Path(form)) = model.session.dialog.take() {

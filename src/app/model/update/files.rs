@@ -1,7 +1,7 @@
 //! Files that are opened, saved and watched.
 
 use super::begin::{begin, begin_again, begin_library, begin_preset, begin_scene};
-use super::{also, safe};
+use super::safe;
 use crate::app::model::Model;
 use crate::app::model::action::{Edit, FileAction};
 use crate::app::model::choosing::{Choice, Purpose, Question};
@@ -356,7 +356,7 @@ fn is_saved(model: &mut Model, saved: Result<SavedDesign, Failure>) -> Vec<Task>
         session.compared = Compared::of_saved(document).ok();
     }
     let mut tasks = if document.is_changed() { vec![] } else { safe::empty(model) };
-    tasks.extend(also(model, waiting.map(FileAction::Ask)));
+    tasks.extend(waiting.into_iter().flat_map(|then| ask_before(model, then)));
     tasks
 }
 

@@ -10,10 +10,10 @@ mod safe;
 mod tests;
 mod views;
 
+use super::Model;
 use super::action::{Action, Computed, FrameEnd, NoteAction};
 use super::figures::ShownFigures;
 use super::task::Task;
-use super::{Model, action};
 
 /// Changes a model by an action; returns what is to be done outside because of it.
 pub fn update(model: &mut Model, action: Action) -> Vec<Task> {
@@ -92,9 +92,4 @@ fn end_frame(model: &mut Model, end: FrameEnd) -> Vec<Task> {
         true => vec![],
         false => safe::note(model),
     }
-}
-
-/// Carries out actions that come of another.
-fn also(model: &mut Model, action: impl Into<Option<action::FileAction>>) -> Vec<Task> {
-    action.into().map_or_else(Vec::new, |action| files::change(model, action))
 }

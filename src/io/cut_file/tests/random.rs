@@ -1,7 +1,7 @@
 //! Any design reads back as it was written; no text and no damage makes reading panic.
 
 use super::super::{parse, write};
-use super::custom;
+use super::materials::custom;
 use crate::cut::{Cut, Design, MaterialRef, strategy};
 use crate::math::Plane;
 use crate::optics::{self, Absorption, Dispersion, MOST_PER_MM, Material};

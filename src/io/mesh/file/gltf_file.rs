@@ -6,7 +6,8 @@ mod images;
 mod scene;
 mod shape_only;
 
-use super::{Fault, Read};
+use super::parsed_mesh::ParsedMesh;
+use crate::io::file_error::Fault;
 use gltf::json::validation::Checked;
 use gltf::json::{Root, deserialize};
 use gltf::{Document, Semantic};
@@ -27,18 +28,18 @@ const NEEDED: [&str; 4] = [
     "EXT_mesh_gpu_instancing",
 ];
 
-pub(super) fn read(bytes: &[u8], folder: Option<&Path>) -> Result<Read, Fault> {
+pub(super) fn read(bytes: &[u8], folder: Option<&Path>) -> Result<ParsedMesh, Fault> {
     let (json, blob) = split(bytes)?;
     let (document, mut warnings) = document(&json)?;
     let data = buffers::load(&document, blob, folder)?;
-    let mut read = scene::gather(&document, &data)?;
-    warnings.append(&mut read.warnings);
+    let mut mesh = scene::gather(&document, &data)?;
+    warnings.append(&mut mesh.warnings);
     warnings.extend(images::warning(&document, &data, folder));
     let name = document
         .default_scene()
         .or_else(|| document.scenes().next())
         .and_then(|s| s.name().map(str::to_owned));
-    Ok(Read { warnings, name: name.filter(|name| !name.starts_with("Scene")), ..read })
+    Ok(ParsedMesh { warnings, name: name.filter(|name| !name.starts_with("Scene")), ..mesh })
 }
 
 /// Parses the JSON; returns its document and warnings. Where something besides the shape is broken, such as a texture, the

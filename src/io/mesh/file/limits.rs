@@ -1,6 +1,7 @@
 //! Limits of the meshes that are read: enough for any scan of a stone, too little to fill the memory.
 
-use super::{Fault, Read};
+use super::parsed_mesh::ParsedMesh;
+use crate::io::file_error::Fault;
 use crate::io::text::unreadable;
 use std::fs::File;
 use std::io::Read as _;
@@ -41,8 +42,8 @@ pub(super) fn count(vertices: usize, triangles: usize) -> Result<(), Fault> {
 }
 
 /// Checks that a reader's corners are finite and its triangles exist and refer to them.
-pub(super) fn checked(read: Read) -> Result<Read, Fault> {
-    let surface = &read.surface;
+pub(super) fn checked(parsed: ParsedMesh) -> Result<ParsedMesh, Fault> {
+    let surface = &parsed.surface;
     count(surface.vertices.len(), surface.triangles.len())?;
     if surface.triangles.is_empty() {
         return Err("this holds no triangles; a closed surface is expected".into());
@@ -58,5 +59,5 @@ pub(super) fn checked(read: Read) -> Result<Read, Fault> {
         let message = format!("it refers to corner {corner}, counted from 0, and there are {known}");
         return Err(Fault::part(format!("triangle {}", place + 1), message));
     }
-    Ok(read)
+    Ok(parsed)
 }

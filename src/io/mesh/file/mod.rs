@@ -9,6 +9,7 @@ mod hint;
 mod limits;
 mod lines;
 mod obj_file;
+mod parsed_mesh;
 mod ply_file;
 mod sniff;
 mod statement;
@@ -17,12 +18,13 @@ mod stl_file;
 #[cfg(test)]
 mod tests;
 
-use crate::io::file_error::{Fault, FileError};
+use crate::io::file_error::FileError;
 use crate::math::Surface;
 use std::path::Path;
 
 pub use hint::MaterialHint;
 pub use limits::MAX_BYTES;
+use parsed_mesh::ParsedMesh;
 use sniff::STL_HEADER;
 pub use sniff::{MeshFormat, looks_like};
 pub use statement::{Stands, Statement, rounded};
@@ -42,17 +44,6 @@ pub struct MeshFile {
     pub warnings: Vec<String>,
     /// The name that the file gives itself, or else the file's own name without its ending.
     pub name: String,
-}
-
-/// What the reader of a format returns, which does not yet have its file's name.
-#[derive(Default)]
-struct Read {
-    surface: Surface,
-    hint: Option<MaterialHint>,
-    warnings: Vec<String>,
-    name: Option<String>,
-    /// The text of the statement that this program writes into meshes.
-    said: Option<String>,
 }
 
 /// Reads the content of a mesh file; `label` stands for its path in errors, and `folder` is where its buffers lie, if it may
@@ -78,7 +69,7 @@ pub fn parse(bytes: Vec<u8>, label: &str, folder: Option<&Path>) -> Result<MeshF
         MeshFormat::StlText => stl_file::read_text(&bytes),
         MeshFormat::Ply => ply_file::read(&bytes),
     };
-    let Read { surface, hint, mut warnings, name, said } =
+    let ParsedMesh { surface, hint, mut warnings, name, said } =
         read.and_then(limits::checked).map_err(|fault| fault.in_file(label))?;
     let stem = Path::new(label).file_stem().map(|stem| stem.to_string_lossy().into_owned());
     let printable = |name: &String| crate::cut::is_printable(name);

@@ -1,8 +1,11 @@
 //! Reads Wavefront OBJ, by tobj in f64. tobj gets corners, faces, objects and groups, but no lines, normals and materials:
 //! nothing of those is used, and faults in them are no reason to refuse a stone.
 
+use super::limits;
 use super::lines::Lines;
-use super::{Fault, Read, Statement, limits};
+use super::parsed_mesh::ParsedMesh;
+use super::statement::Statement;
+use crate::io::file_error::Fault;
 use crate::math::Surface;
 use glam::DVec3;
 use tobj::{LoadError, LoadOptions, Model};
@@ -10,7 +13,7 @@ use tobj::{LoadError, LoadOptions, Model};
 /// The names that tobj gives to what has none.
 const NAMELESS: [&str; 2] = ["unnamed_object", "default"];
 
-pub(super) fn read(bytes: &[u8]) -> Result<Read, Fault> {
+pub(super) fn read(bytes: &[u8]) -> Result<ParsedMesh, Fault> {
     let corners = bytes.split(|b| *b == b'\n').filter(|l| l.trim_ascii_start().starts_with(b"v ")).count();
     limits::count(corners, 0)?;
     let mut odd = Odd::default();
@@ -26,7 +29,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Read, Fault> {
         surface.append(part(model));
     }
     let (name, said) = (odd.object.take(), odd.said.take());
-    Ok(Read { surface, warnings: odd.warnings(), name, said, hint: None })
+    Ok(ParsedMesh { surface, warnings: odd.warnings(), name, said, hint: None })
 }
 
 fn part(model: Model) -> Surface {

@@ -1,7 +1,9 @@
 //! Reads PLY, text and binary, by ply-rs-bw.
 
 use super::limits::{self, MAX_VERTICES};
-use super::{Fault, Read, Statement};
+use super::parsed_mesh::ParsedMesh;
+use super::statement::Statement;
+use crate::io::file_error::Fault;
 use crate::math::Surface;
 use glam::DVec3;
 use ply_rs_bw::parser::{ParseError, Parser, Reader};
@@ -68,7 +70,7 @@ fn number(value: &Property) -> Option<f64> {
     })
 }
 
-pub(super) fn read(bytes: &[u8]) -> Result<Read, Fault> {
+pub(super) fn read(bytes: &[u8]) -> Result<ParsedMesh, Fault> {
     let end = b"end_header";
     let beginning = &bytes[..bytes.len().min(MAX_HEADER)];
     let Some(header) = beginning.windows(end.len()).position(|w| w == end) else {
@@ -92,7 +94,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Read, Fault> {
         }
     }
     let said = header.comments.iter().find(|comment| Statement::is_meant(comment)).cloned();
-    Ok(Read { surface, warnings, said, ..Read::default() })
+    Ok(ParsedMesh { surface, warnings, said, ..ParsedMesh::default() })
 }
 
 /// Checks that the counts in a header are of a sane size, before anything is read by them, and that it has corners and

@@ -6,8 +6,8 @@
 //! and the highest point; `m`, the middle of the volume; and `n`, the material's name or index, which ends the line. Volume,
 //! points and middle are in the stone's frame, whose +x is that of the file and whose origin is the file's.
 
-use super::Fault;
 use crate::cut::MaterialRef;
+use crate::io::file_error::Fault;
 use crate::math::{self, Surface};
 use glam::{DQuat, DVec3};
 use std::fmt::Write as _;

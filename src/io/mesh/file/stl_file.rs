@@ -1,8 +1,11 @@
 //! Reads STL, binary and text, by stl_io.
 
+use super::limits;
 use super::lines::{Lines, Rewound};
+use super::parsed_mesh::ParsedMesh;
 use super::sniff::{STL_HEADER, STL_TRIANGLE, stl_triangles};
-use super::{Fault, Read, Statement, limits};
+use super::statement::Statement;
+use crate::io::file_error::Fault;
 use crate::math::Surface;
 use glam::DVec3;
 use std::io::Cursor;
@@ -10,7 +13,7 @@ use std::io::Cursor;
 /// The first line that stl_io expects of a text.
 const FIRST: &[u8] = b"solid stone\n";
 
-pub(super) fn read_binary(mut bytes: Vec<u8>) -> Result<Read, Fault> {
+pub(super) fn read_binary(mut bytes: Vec<u8>) -> Result<ParsedMesh, Fault> {
     let count = stl_triangles(&bytes).ok_or("this is too short for a binary STL")?;
     let there = (bytes.len() as u64).saturating_sub(STL_HEADER as u64) / STL_TRIANGLE;
     if count > there {
@@ -26,10 +29,10 @@ pub(super) fn read_binary(mut bytes: Vec<u8>) -> Result<Read, Fault> {
         .map_err(|(number, message)| Fault::part(format!("triangle {number}"), message))?;
     let said = Statement::is_meant(&name).then(|| name.clone());
     let name = name.strip_prefix("solid").map(|n| n.trim().to_owned());
-    Ok(Read { surface, name, said, ..Read::default() })
+    Ok(ParsedMesh { surface, name, said, ..ParsedMesh::default() })
 }
 
-pub(super) fn read_text(bytes: &[u8]) -> Result<Read, Fault> {
+pub(super) fn read_text(bytes: &[u8]) -> Result<ParsedMesh, Fault> {
     let mut first = true;
     let mut name = None;
     let mut solids = 0_usize;
@@ -56,7 +59,7 @@ pub(super) fn read_text(bytes: &[u8]) -> Result<Read, Fault> {
         .map_err(|(_, message)| Fault::line(line.get().max(1), message))?;
     let told = |n: usize| format!("{n} solids are in this file; they are read as one surface");
     let warnings = (solids > 1).then(|| told(solids)).into_iter().collect();
-    Ok(Read { surface, warnings, name, ..Read::default() })
+    Ok(ParsedMesh { surface, warnings, name, ..ParsedMesh::default() })
 }
 
 /// Reads all triangles, each with corners of its own; else returns the number, from 1, of the triangle that cannot be read,

@@ -3,6 +3,7 @@
 #![allow(clippy::print_stdout, reason = "what was measured is told")]
 
 mod broken;
+mod faults;
 mod real;
 
 use super::statement::Measures;
@@ -16,7 +17,6 @@ use crate::math::faceting::{Faceted, SurfaceKind, facets};
 use crate::optics;
 use crate::scene::{Body, Specimen, Stone};
 use glam::{DQuat, DVec3};
-use proptest::prelude::*;
 
 fn brilliant(girdle_facets: u32) -> Stone {
     let design = cut_file::read(concat!(env!("CARGO_MANIFEST_DIR"), "/cuts/tolkowsky.toml")).unwrap();
@@ -373,127 +373,4 @@ fn buffers_are_read_beside_the_file_and_nowhere_else() {
 
 fn read(path: &Path) -> Result<MeshFile, FileError> {
     parse(std::fs::read(path).unwrap(), &path.display().to_string(), path.parent())
-}
-
-fn message(bytes: impl Into<Vec<u8>>) -> String {
-    parse(bytes.into(), "f", None).unwrap_err().to_string()
-}
-
-#[test]
-fn faults_are_told_with_their_place_and_what_was_expected() {
-    let obj = obj_text();
-    let cases = [
-        (obj.replace("v 1 0 0", "v 1 zero 0"), "f:4: three numbers are expected after `v`"),
-        (obj.replace("f 1/1 3/1 2/1", "f 1 x 2"), "f:8: three or more numbers of corners"),
-        (obj.replace("f -3 -2 -1", "f 1 2 7"), "f:10: the face refers to corner 7, and the file has 4"),
-        (obj.replace("v 1 0 0", "v nan 0 0"), "f: corner "),
-        (obj.replace("v 1 0 0", "v 1e999 0 0"), "f: corner "),
-        ("v 0 0 0\n".to_owned(), "f: this holds no triangles"),
-        (stl_text().replacen("vertex 1 0 0", "vertex 1 o 0", 1), "f:6: this cannot be read: invalid float"),
-        (stl_text().replacen("endloop", "endlop", 1), "f:7: this cannot be read: expected"),
-        (
-            stl_text().replacen("vertex 1 0 0", "vertex 1 inf 0", 1),
-            "f:6: this cannot be read: expected finite",
-        ),
-        (gltf().replace("\"2.0\"", "\"2.0"), "f:1: this glTF 2.0 cannot be read"),
-        (
-            gltf().replace("\"count\":4", "\"count\":5"),
-            "f: mesh 0, primitive 0, accessor 0: 5 values of 12 bytes from 0",
-        ),
-        (gltf().replace("\"count\":9", "\"count\":0"), "f: mesh 0, primitive 0, accessor 1: 0 values"),
-        (gltf().replace("\"count\":9", "\"count\":18446744073709551615"), "f:"),
-        (gltf().replace("\"byteLength\":24", "\"byteLength\":9024"), "f: mesh 0, primitive 0, accessor 1: "),
-        (
-            gltf().replace("\"byteLength\":72", "\"byteLength\":73"),
-            "f: buffer 0: 73 bytes are announced, and 72",
-        ),
-        (gltf().replace("\"mesh\":0,", "\"mesh\":7,"), "f: this glTF 2.0 cannot be read: nodes[1].mesh"),
-        (gltf().replace("[1,2],\"scale\"", "[1,2,0],\"scale\""), "f: node "),
-        (gltf().replace("\"POSITION\"", "\"NORMAL\""), "f:"),
-        (
-            gltf().replace("\"POSITION\":0", "\"POSITION\":8"),
-            "f: mesh 0: POSITION refers to accessor 8, and there are 3",
-        ),
-        (
-            gltf().replacen("5126", "5123", 1),
-            "f: mesh 0, primitive 0, accessor 0: Vec3 of U16 are given; Vec3 of [F32]",
-        ),
-        (
-            gltf().replace("[\"KHR_materials_dispersion\"]", "[\"KHR_draco_mesh_compression\"]"),
-            "f: extensionsRequired: the shape is written with KHR_draco_mesh_compression, which is not read",
-        ),
-    ];
-    for (text, expected) in cases {
-        let error = message(text);
-        assert!(error.starts_with(expected), "{error}\nexpected {expected}");
-    }
-    let ascii = String::from_utf8(ply("ascii")).unwrap();
-    let cases = [
-        (ascii.replace("vertex 4", "vertex 9999999999"), "f: element vertex: 9999999999 rows"),
-        (ascii.replace("1 0 0 255", "1 x 0 255"), "f:13: this cannot be read"),
-        (
-            ascii.replace("3 1 2 3", "3 1 2 4"),
-            "f: triangle 3: it refers to corner 4, counted from 0, and there are 4",
-        ),
-        (ascii.replace("3 1 2 3", "3 1 2 -3"), "f: face 3: it refers to corner -3"),
-        (ascii.replace("property float z\n", ""), "f: header: `z` of element `vertex` is expected"),
-        (ascii.replace("end_header", "end_heade"), "f: the header has no end"),
-        (ascii.replace("3 0 3 2\n", ""), "f:"),
-    ];
-    for (text, expected) in cases {
-        let error = message(text);
-        assert!(error.starts_with(expected), "{error}\nexpected {expected}");
-    }
-    let glb = write_glb(&body(16), "x", 1.0, (&MaterialHint::default(), None)).unwrap();
-    assert!(message(&glb[..2000]).starts_with("f: offset 8: the header says "));
-    let mut short = glb.clone();
-    short[8..12].copy_from_slice(&3_u32.to_le_bytes());
-    assert!(message(short).starts_with("f: offset 8: the header says 3 bytes"));
-    let stl = write_stl(&body(16), 1.0, None).unwrap();
-    let mut many = b"solid".to_vec();
-    many.extend(&stl[5..80]);
-    many.extend(u32::MAX.to_le_bytes());
-    many.extend(&stl[84..]);
-    assert!(
-        message(many).starts_with("f: offset 80: 4294967295 triangles are announced, and the file holds ")
-    );
-}
-
-proptest! {
-    #![proptest_config(ProptestConfig { cases: 400, ..ProptestConfig::default() })]
-
-    #[test]
-    fn no_file_makes_it_panic(
-        kind in 0_usize..8,
-        changes in prop::collection::vec((any::<prop::sample::Index>(), any::<u8>()), 0..8),
-        cut in any::<prop::sample::Index>(),
-        whole in any::<bool>(),
-    ) {
-        let mut bytes = match kind {
-            0 => ply("ascii"),
-            1 => ply("binary_little_endian"),
-            2 => stl_text().into_bytes(),
-            3 => obj_text().into_bytes(),
-            4 => gltf().into_bytes(),
-            5 => write_glb(&body(16), "x", 1.0, (&MaterialHint::default(), None)).unwrap(),
-            6 => write_stl(&body(16), 1.0, None).unwrap(),
-            _ => ply("binary_big_endian"),
-        };
-        for (place, value) in changes {
-            let at = place.index(bytes.len());
-            bytes[at] = value;
-        }
-        if !whole {
-            bytes.truncate(cut.index(bytes.len() + 1));
-        }
-        let mended = parse(bytes, "f", None).ok().and_then(|file| file.surface.mend().ok());
-        if let Some(SurfaceKind::Convex(found)) = mended.map(|mended| facets(mended.surface)) {
-            let _ = from_mesh(&found, Up::Found);
-        }
-    }
-
-    #[test]
-    fn no_text_makes_it_panic(text in "(v|f|o|g|solid|facet|vertex|ply|[ \\n0-9./-]|\\{|\"asset\"|[a-z]){0,60}") {
-        let _ = parse(text.into_bytes(), "f", None);
-    }
 }

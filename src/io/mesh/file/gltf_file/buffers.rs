@@ -2,7 +2,7 @@
 //! stay within them.
 
 use super::super::limits::{self, MAX_BYTES};
-use super::Fault;
+use crate::io::file_error::Fault;
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
 use gltf::accessor::{DataType, Dimensions};

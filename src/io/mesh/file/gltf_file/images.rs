@@ -1,7 +1,7 @@
 //! Checks that the images of a glTF file's textures are there. No image is used, so that a fault in one is only a warning.
 
-use super::Fault;
 use super::buffers::{Data, from_uri};
+use crate::io::file_error::Fault;
 use gltf::Document;
 use gltf::json::Image;
 use image::{ImageFormat, ImageReader, guess_format};

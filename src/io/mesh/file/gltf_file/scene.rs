@@ -1,8 +1,10 @@
 //! Reads the scene of a glTF file: its nodes with their transforms, and the triangles of their meshes.
 
-use super::super::{MaterialHint, limits};
+use super::super::hint::MaterialHint;
+use super::super::limits;
+use super::super::parsed_mesh::ParsedMesh;
 use super::buffers::{self, Data};
-use super::{Fault, Read};
+use crate::io::file_error::Fault;
 use crate::io::mesh::export::{FACET, STATEMENT};
 use crate::math::Surface;
 use glam::{DAffine3, DMat4, DQuat, DVec3};
@@ -19,14 +21,14 @@ const MOST_NESTED: usize = 100;
 const MOST_NODES: usize = 100_000;
 
 /// Gathers all triangles of the scene.
-pub(super) fn gather(document: &Document, data: &Data) -> Result<Read, Fault> {
+pub(super) fn gather(document: &Document, data: &Data) -> Result<ParsedMesh, Fault> {
     let scene = document.default_scene().or_else(|| document.scenes().next());
     let roots: Vec<Node<'_>> = match scene {
         Some(scene) => scene.nodes().collect(),
         None => rootless(document),
     };
     let mut gatherer =
-        Gatherer { data, read: Read::default(), visited: 0, materials: BTreeMap::new(), skipped: 0 };
+        Gatherer { data, mesh: ParsedMesh::default(), visited: 0, materials: BTreeMap::new(), skipped: 0 };
     for root in roots {
         gatherer.node(&root, DAffine3::IDENTITY, 0)?;
     }
@@ -42,7 +44,7 @@ fn rootless(document: &Document) -> Vec<Node<'_>> {
 
 struct Gatherer<'a> {
     data: &'a Data,
-    read: Read,
+    mesh: ParsedMesh,
     visited: usize,
     /// The number of triangles of each material that is described, by the material's number.
     materials: BTreeMap<usize, usize>,
@@ -60,8 +62,8 @@ impl Gatherer<'_> {
             return Err(Fault::part(format!("node {}", node.index()), message));
         }
         let placed = above * transform(&node.transform());
-        if self.read.said.is_none() {
-            self.read.said = text_of(node.extras(), STATEMENT);
+        if self.mesh.said.is_none() {
+            self.mesh.said = text_of(node.extras(), STATEMENT);
         }
         if let Some(mesh) = node.mesh() {
             let name = mesh.name().or(node.name()).unwrap_or_default();
@@ -102,20 +104,20 @@ impl Gatherer<'_> {
             return Err(format!("it refers to corner {bad}, from 0, and there are {}", vertices.len()).into());
         }
         let triangles = triangles(&order, mode);
-        let whole = &self.read.surface;
+        let whole = &self.mesh.surface;
         limits::count(whole.vertices.len() + vertices.len(), whole.triangles.len() + triangles.len())?;
         if let Some(index) = primitive.material().index().filter(|_| hint(&primitive.material()).is_some()) {
             *self.materials.entry(index).or_default() += triangles.len();
         }
         let name = facet(primitive).unwrap_or_else(|| name.to_owned());
-        self.read.surface.append(Surface { names: vec![name], ..Surface::new(vertices, triangles) });
+        self.mesh.surface.append(Surface { names: vec![name], ..Surface::new(vertices, triangles) });
         Ok(())
     }
 
-    fn finish(mut self, document: &Document) -> Result<Read, Fault> {
+    fn finish(mut self, document: &Document) -> Result<ParsedMesh, Fault> {
         let most = self.materials.iter().max_by_key(|(index, count)| (**count, std::cmp::Reverse(**index)));
-        self.read.hint = most.and_then(|(&index, _)| hint(&document.materials().nth(index)?));
-        let mut warn = |odd: bool, text: String| self.read.warnings.extend(odd.then_some(text));
+        self.mesh.hint = most.and_then(|(&index, _)| hint(&document.materials().nth(index)?));
+        let mut warn = |odd: bool, text: String| self.mesh.warnings.extend(odd.then_some(text));
         warn(self.skipped > 0, format!("{} parts of points or lines are left out", self.skipped));
         warn(
             self.materials.len() > 1,
@@ -128,7 +130,7 @@ impl Gatherer<'_> {
             document.skins().len() > 0,
             "the mesh is in the pose in which it was modelled; skins are not read".into(),
         );
-        Ok(self.read)
+        Ok(self.mesh)
     }
 }
 

@@ -1,6 +1,7 @@
 //! glTF files in which something besides the shape is broken: the shape is read, and a warning says so.
 
 use super::*;
+use proptest::prelude::*;
 
 /// Returns an image of one pixel as text within a file.
 fn pixel() -> String {

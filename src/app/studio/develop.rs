@@ -1,0 +1,65 @@
+//! Develops the light that was traced for a shot, and draws its overlay over it.
+
+use super::order::{Shot, Smoothing, TakenPicture};
+use crate::io::background::BackgroundRef;
+use crate::io::refraction::code_of;
+use crate::picture::{Background, Bloom, Develop, Linear, RefractionMap, develop, fxaa, lay};
+use crate::scene::Film;
+use crate::trace::{Stopped, Watch};
+use egui::ColorImage;
+use std::sync::Arc;
+
+/// Returns how the render of a shot is developed; `fine` where there is time for glow.
+pub(super) fn manner(shot: &Shot, fine: bool) -> Develop {
+    // Glow would stand out around an overlay, and it takes longer than the rest of a rough picture.
+    let bloom = (fine && shot.overlay.is_none()).then(Bloom::default);
+    let background = match &shot.behind {
+        Some(BackgroundRef::Plain(background)) => *background,
+        _ => Background::Transparent,
+    };
+    Develop { exposure: shot.exposure, bloom, background, ..Develop::default() }
+}
+
+/// Develops the picture of a shot from its light; `fine` where there is time for glow. `unresolved` is the share of the
+/// light that was not followed to its end.
+pub(super) fn developed(
+    shot: &Shot,
+    (picture, fine): (&Linear, bool),
+    (unresolved, tracer): (f64, &'static str),
+    watch: Watch,
+) -> Result<TakenPicture, Stopped> {
+    let mut rgba = develop(picture, &manner(shot, fine));
+    if shot.smoothing == Smoothing::Fxaa {
+        fxaa(&mut rgba, picture.width);
+    }
+    let size = [picture.width, picture.height];
+    overlaid(shot, &mut rgba, size, watch)?;
+    let image = ColorImage::from_rgba_unmultiplied(size.map(|n| n as usize), &rgba);
+    Ok(TakenPicture { image, unresolved: Some(unresolved), tracer, map: None })
+}
+
+/// Returns a map as a view receives it: developed, with a picture of the codes of its places.
+pub(super) fn map_taken(shot: &Shot, map: RefractionMap) -> TakenPicture {
+    let map = map.developed(&Develop { exposure: shot.exposure, bloom: None, ..Develop::default() });
+    TakenPicture { image: codes(&map), unresolved: None, tracer: "point rays", map: Some(Arc::new(map)) }
+}
+
+/// Returns a picture of the codes of a map's middle band.
+fn codes(map: &RefractionMap) -> ColorImage {
+    let places = map.bands.get(map.bands.len() / 2).map_or(&[][..], |band| &band.places);
+    let rgb: Vec<u8> = places.iter().flat_map(code_of).collect();
+    ColorImage::from_rgb(map.size.map(|n| n as usize), &rgb)
+}
+
+/// Draws the overlay of a shot, if it has one, over its picture of `size` pixels.
+pub(super) fn overlaid(
+    shot: &Shot,
+    rgba: &mut [u8],
+    [across, down]: [u32; 2],
+    watch: Watch,
+) -> Result<(), Stopped> {
+    let Some(overlay) = shot.overlay else { return Ok(()) };
+    let pixel = shot.film.pixel * f64::from(shot.film.size[0]) / f64::from(across);
+    let job = shot.overlay_job(Film { size: [across, down], pixel, ..shot.film });
+    job.lit().map_or(Ok(()), |lit_scene| lay(overlay, &lit_scene, rgba, watch))
+}

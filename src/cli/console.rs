@@ -1,0 +1,41 @@
+//! What the program prints: results on standard output, notes, warnings and errors on standard error.
+
+use crate::io::export::Event;
+use crate::io::{Failure, is_standard};
+use std::path::Path;
+
+/// Prints a line to standard error. Failures to write are ignored.
+pub fn say(text: &str) {
+    use std::io::Write;
+    let _ = writeln!(std::io::stderr().lock(), "{text}");
+}
+
+/// Prints an event of long work: the paths of written files to standard output, notes and warnings to standard error.
+pub fn report(told: Event) -> Result<(), Failure> {
+    match told {
+        Event::Begun(_) => {}
+        Event::Written(path) => return written(path),
+        Event::Note(text) => say(&format!("note: {text}")),
+        Event::Warning(text) => say(&format!("warning: {text}")),
+    }
+    Ok(())
+}
+
+/// Prints the path of a file that was written. Prints nothing for standard output, which got the content itself.
+pub fn written(path: &Path) -> Result<(), Failure> {
+    if is_standard(path) { Ok(()) } else { print(&path.display().to_string()) }
+}
+
+/// Prints text and a line break to standard output. A reader that has closed the pipe (`| head`) is not an error.
+pub fn print(text: &str) -> Result<(), Failure> {
+    use std::io::{ErrorKind, Write};
+    match writeln!(std::io::stdout().lock(), "{text}") {
+        Err(e) if e.kind() != ErrorKind::BrokenPipe => Err(Failure::Output(format!("standard output: {e}"))),
+        _ => Ok(()),
+    }
+}
+
+/// Formats a value as indented JSON, with the keys in their given order.
+pub fn json(value: &serde_json::Value) -> String {
+    format!("{value:#}")
+}

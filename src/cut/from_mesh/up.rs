@@ -1,0 +1,20 @@
+//! The direction that is up in a surface's own frame.
+
+use crate::math::Pose;
+use glam::DVec3;
+
+/// The direction that a surface's table faces, and how it is known.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub enum Up {
+    /// Found from the shape; z is up by custom.
+    #[default]
+    Found,
+    /// Found from the shape; this axis of the surface's frame is up by custom, as y is in glTF.
+    FoundBy(DVec3),
+    /// Given in the surface's frame, with any length but zero. The largest facet within 5 degrees is the table.
+    Given(DVec3),
+    /// Known exactly, in the surface's frame, of length 1. Only a facet square to it is the table.
+    Known(DVec3),
+    /// Known together with the whole pose of the stone. The surface is moved exactly so.
+    Posed(Pose),
+}

@@ -1,0 +1,33 @@
+//! The cut of a stone: the shape that a file gives it.
+
+use super::glass::Glass;
+use super::mesh_shape::MeshShape;
+use super::round_brilliant::RoundBrilliant;
+use super::tiers::Tiers;
+use crate::math::Plane;
+
+/// The shape of a stone: a family with its proportions, tiers, planes, a mesh, or a glass shape.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Cut {
+    /// A round brilliant, by its proportions.
+    RoundBrilliant(RoundBrilliant),
+    /// Facets by angle, distance and index, as cutters write them.
+    Tiers(Tiers),
+    /// Planes with their names, as written: 1 to [`MAX_PLANES`](super::MAX_PLANES) planes, normals of any length but
+    /// zero. Names may repeat.
+    Planes(Vec<(String, Plane)>),
+    /// Triangles that enclose a solid that is not convex.
+    Mesh(MeshShape),
+    /// A glass shape.
+    Glass(Glass),
+}
+
+impl Cut {
+    /// Returns the proportions if the cut is a round brilliant.
+    pub fn brilliant(&self) -> Option<&RoundBrilliant> {
+        match self {
+            Self::RoundBrilliant(brilliant) => Some(brilliant),
+            Self::Tiers(_) | Self::Planes(_) | Self::Mesh(_) | Self::Glass(_) => None,
+        }
+    }
+}

@@ -1,0 +1,10 @@
+//! A design as the writer of any format returns it.
+
+/// A design encoded as a file.
+#[derive(Debug, Clone, PartialEq)]
+pub struct EncodedDesign {
+    /// The content of the file.
+    pub bytes: Vec<u8>,
+    /// What the format cannot hold of the design, in words.
+    pub lost: Vec<String>,
+}

@@ -1,0 +1,29 @@
+//! A ball around a solid, which shows quickly that a ray misses the solid.
+
+use glam::DVec3;
+
+/// A ball around a solid.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Ball {
+    /// The middle.
+    pub middle: DVec3,
+    /// The radius.
+    pub radius: f64,
+}
+
+impl Ball {
+    /// Returns a ball around points; its middle is that of the box around them.
+    pub fn around(points: &[DVec3]) -> Self {
+        let start = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+        let (low, high) = points.iter().fold(start, |(low, high), &p| (low.min(p), high.max(p)));
+        let middle = (low + high) / 2.0;
+        Self { middle, radius: points.iter().map(|p| p.distance(middle)).fold(0.0, f64::max) }
+    }
+
+    /// Whether a ray from `origin` along a unit direction runs through the ball.
+    pub fn is_met(&self, origin: DVec3, direction: DVec3) -> bool {
+        let away = self.middle - origin;
+        let along = away.dot(direction);
+        along > -self.radius && away.length_squared() - along * along < self.radius * self.radius
+    }
+}

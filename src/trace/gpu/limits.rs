@@ -1,0 +1,27 @@
+//! How much a graphics card takes of each thing. The shaders are compiled with most of these numbers.
+
+/// The most planes that fit into the uniform array, 16 KiB.
+pub(super) const MOST_UNIFORM: usize = 1024;
+
+/// The most stones that one picture may hold.
+pub const MOST_BODIES: usize = 256;
+
+/// The most triangles that one picture may hold: 48 bytes each, in a buffer of less than the 128 MiB that all cards take.
+/// Their indices are exact in f32.
+pub const MOST_TRIANGLES: usize = 2_500_000;
+
+/// The most boxes that may lie within one another.
+pub(super) const MOST_LEVELS: usize = 56;
+
+/// The most exits of one ray that may wait to enter a stone that is not convex again; rays in hearts and stars leave some
+/// ten waiting at once.
+pub(super) const MOST_INBOUND: usize = 16;
+
+/// The most bounces of a ray on a graphics card: chains of very different lengths side by side would leave most of it idle.
+pub const MOST_BOUNCES: u32 = 64;
+
+/// The most bands of a scope that a graphics card traces.
+pub const MOST_BANDS: usize = 8;
+
+/// The most wavelengths that one sample pass may have.
+pub const MOST_WAVELENGTHS: usize = 64;

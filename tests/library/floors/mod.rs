@@ -1,0 +1,405 @@
+//! Checks the structure of the source: a room imports only from floors below its own.
+#![allow(clippy::unwrap_used, reason = "a test fails by it")]
+
+mod circles;
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+const FLOORS: [(&str, u32); 11] = [
+    ("math", 0),
+    ("optics", 0),
+    ("cut", 1),
+    ("scene", 2),
+    ("trace", 3),
+    ("picture", 4),
+    ("measure", 4),
+    ("render", 5),
+    ("io", 6),
+    ("cli", 7),
+    ("app", 7),
+];
+
+/// A room inside a floor, which others enter by its door alone.
+struct Room {
+    /// The folder in `src`.
+    folder: &'static str,
+    /// The door: all names that others may import.
+    door: &'static [&'static str],
+}
+
+const ROOMS: [Room; 7] = [
+    Room { folder: "math/mending", door: &["Mended", "Mending", "SurfaceError"] },
+    Room {
+        folder: "math/faceting",
+        door: &[
+            "Change",
+            "Face",
+            "Faceted",
+            "SurfaceKind",
+            "TooCurved",
+            "deviation",
+            "faceted_hull",
+            "facets",
+        ],
+    },
+    Room {
+        folder: "cut/from_mesh",
+        door: &["Doubt", "FromMesh", "FromMeshError", "Up", "directions", "from_mesh"],
+    },
+    Room {
+        folder: "picture/liquid_glass",
+        door: &[
+            "Comparison",
+            "Cost",
+            "GlassPane",
+            "PaneError",
+            "PaneLighting",
+            "PaneQuality",
+            "Shifts",
+            "compare",
+            "pane",
+            "surroundings",
+            "traced",
+        ],
+    },
+    Room {
+        folder: "picture/refraction",
+        door: &["Backdrop", "Carried", "MapBand", "RefractionMap", "SourcePlace", "Survey", "refract"],
+    },
+    Room {
+        folder: "io/mesh",
+        door: &[
+            "FINENESS",
+            "MAX_BYTES",
+            "MaterialHint",
+            "MeshFile",
+            "Stated",
+            "looks_like",
+            "parse",
+            "read",
+            "stated_in_stl",
+            "write_glb",
+            "write_obj",
+            "write_ply",
+            "write_stl",
+        ],
+    },
+    Room {
+        folder: "io/refraction",
+        door: &[
+            "Coding",
+            "MOST_BANDS",
+            "MOST_MEGABYTES",
+            "MOST_PIXELS",
+            "MOST_PLACES",
+            "Page",
+            "code_of",
+            "diffuse_path",
+            "paths",
+            "takes",
+            "write_diffuse",
+            "write_page",
+            "write_places",
+        ],
+    },
+];
+
+fn sources(folder: &Path) -> Vec<PathBuf> {
+    let entries = std::fs::read_dir(folder).unwrap().map(|e| e.unwrap().path());
+    entries
+        .flat_map(|p| if p.is_dir() { sources(&p) } else { vec![p] })
+        .filter(|p| p.extension().is_some_and(|e| e == "rs"))
+        .collect()
+}
+
+/// Returns a text without its tests. Where they lie in a file of their own, the code goes on behind the line that names it.
+fn untested(text: &str) -> String {
+    let mut parts = text.split("#[cfg(test)]\nmod ");
+    let before = parts.next().unwrap_or("");
+    let behind = parts.map_while(|part| part.split_once(";\n").filter(|(name, _)| !name.contains('{')));
+    std::iter::once(before).chain(behind.map(|(_, rest)| rest)).collect()
+}
+
+/// Returns the rooms that a text imports from by `crate::room`, outside its comments.
+fn imports(text: &str) -> Vec<&str> {
+    let code = text.lines().map(|line| line.split("//").next().unwrap_or(""));
+    let after = code.flat_map(|line| line.split("crate::").skip(1));
+    after.map(|t| t.split(|c: char| !c.is_alphanumeric() && c != '_').next().unwrap_or("")).collect()
+}
+
+/// Whether a text that lies `steps` modules deep in its room leaves the room by `super`.
+fn climbs_out(text: &str, steps: usize) -> bool {
+    // Inside a file's `mod tests` one more step is needed to leave the room.
+    untested(text).contains(&"super::".repeat(steps + 1))
+}
+
+fn floor(room: &str) -> Option<u32> {
+    FLOORS.iter().find(|(name, _)| *name == room).map(|(_, floor)| *floor)
+}
+
+#[test]
+fn code_behind_tests_in_a_file_of_their_own_is_seen() {
+    let text = "a;\n#[cfg(test)]\nmod tests;\nb;\n#[cfg(test)]\nmod others {\n    c;\n}\nd;\n";
+    assert_eq!(untested(text), "a;\nb;\n");
+}
+
+#[test]
+fn no_floor_imports_from_its_own_or_a_higher_one() {
+    let src = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+    let mut checked = 0;
+    for path in sources(&src) {
+        let inside = path.strip_prefix(&src).unwrap();
+        let room = inside.iter().next().unwrap().to_string_lossy().replace(".rs", "");
+        let Some(own) = floor(&room) else { continue };
+        let text = std::fs::read_to_string(&path).unwrap();
+        let steps = inside.iter().count() - 1 - usize::from(inside.ends_with("mod.rs"));
+        assert!(!climbs_out(&text, steps), "{}: leaves its room by super::, not crate::", path.display());
+        for other in imports(&text).into_iter().filter(|r| *r != room) {
+            let Some(other_floor) = floor(other) else {
+                panic!("{}: imports '{other}', no room", path.display())
+            };
+            assert!(
+                other_floor < own,
+                "{}: floor {own} imports {other}, floor {other_floor}",
+                path.display()
+            );
+            checked += 1;
+        }
+    }
+    assert!(checked > 30, "only {checked} imports were seen: the check has lost its eyes");
+}
+
+/// Returns the lines of a text that name a tracer, outside comments and test modules.
+fn naming_a_tracer(code: &str) -> Vec<&str> {
+    let names = ["Backend::Beams", "Backend::Rays", "Backend::Card", "by_gpu::trace", "by_rays::trace"];
+    let lines = code.lines();
+    lines
+        .filter(|line| !line.trim_start().starts_with("//") && names.iter().any(|name| line.contains(name)))
+        .collect()
+}
+
+#[test]
+fn only_the_renderer_names_a_tracer() {
+    assert_eq!(naming_a_tracer("let x = 1;\n// Backend::Rays\nBackend::Rays\n"), ["Backend::Rays"]);
+    let src = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+    let mut inside = 0;
+    for path in sources(&src) {
+        let text = untested(&std::fs::read_to_string(&path).unwrap());
+        let lines = naming_a_tracer(&text);
+        if path.starts_with(src.join("render")) {
+            inside += lines.len();
+        } else {
+            assert!(lines.is_empty(), "{}: {lines:?}: only src/render decides who traces", path.display());
+        }
+    }
+    assert!(inside > 10, "the renderer names only {inside}: the check has lost its eyes");
+}
+
+/// Returns the public types that a text declares outside its test modules.
+fn public_types(code: &str) -> Vec<&str> {
+    let public = code.lines().filter_map(|line| {
+        let line = line.trim_start().strip_prefix("pub")?;
+        let after = if line.starts_with('(') { line.split_once(')')?.1 } else { line };
+        let mut words = after.split_whitespace();
+        let kind = words.next()?;
+        ["struct", "enum", "trait", "type"].contains(&kind).then(|| words.next()).flatten()
+    });
+    public.map(|name| name.split(|c: char| !c.is_alphanumeric() && c != '_').next().unwrap_or("")).collect()
+}
+
+#[test]
+fn no_two_public_types_have_one_name() {
+    let src = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+    let mut places = BTreeMap::<String, Vec<PathBuf>>::new();
+    for path in sources(&src).into_iter().filter(|path| !path.iter().any(|part| part == "tests")) {
+        let text = untested(&std::fs::read_to_string(&path).unwrap());
+        for name in public_types(&text) {
+            places.entry(name.to_owned()).or_default().push(path.clone());
+        }
+    }
+    assert!(places.len() > 200, "only {} types were seen: the check has lost its eyes", places.len());
+    let shared: Vec<_> = places.iter().filter(|(_, paths)| paths.len() > 1).collect();
+    assert!(shared.is_empty(), "one name, several types: {shared:#?}");
+    let seen = public_types(
+        "pub(super) struct A<T>;\n  pub enum B {\nstruct C;\npub fn d() {}\n// pub type E = u8;",
+    );
+    assert_eq!(seen, ["A", "B"]);
+}
+
+/// Returns the characters of a text with their places and the number of brackets that are open behind them.
+fn depths(text: &str) -> impl Iterator<Item = (usize, char, i32)> {
+    text.char_indices().scan(0, |depth, (at, c)| {
+        *depth += match c {
+            '<' | '(' | '[' => 1,
+            // An arrow closes nothing.
+            '>' if text[..at].ends_with('-') => 0,
+            '>' | ')' | ']' => -1,
+            _ => 0,
+        };
+        Some((at, c, *depth))
+    })
+}
+
+/// Returns the text from a bracket on to the one that closes it.
+fn bracketed(text: &str) -> &str {
+    depths(text).find(|(.., depth)| *depth == 0).map_or(text, |(at, ..)| &text[..at])
+}
+
+/// Returns the part of an item that other files see: a function's signature, a type, or a field.
+fn seen_from_outside(item: &str) -> &str {
+    let end = depths(item).find(|(_, c, depth)| *depth <= 0 && "{};,".contains(*c));
+    end.map_or(item, |(at, ..)| &item[..at])
+}
+
+/// Returns the signatures in a text that other files can see and whose error is a bare text.
+fn texts_as_errors(text: &str) -> Vec<String> {
+    let code = untested(text);
+    let lines: Vec<&str> = code.lines().map(|line| line.split("//").next().unwrap_or("").trim()).collect();
+    let is_text = |error: &str| ["String", "&str", "&'static str"].contains(&error.trim());
+    let is_error_type = |line: &&&str| {
+        let alias = line.strip_prefix("type Err").and_then(|rest| rest.trim_end_matches(';').split_once('='));
+        alias.is_some_and(|(_, error)| is_text(error))
+    };
+    let of_traits = lines.iter().filter(is_error_type).map(|line| (*line).to_owned());
+    let whole = lines.join(" ");
+    let items = whole.split(" pub").skip(1).map(seen_from_outside);
+    let has_text = |item: &&str| {
+        let results = item.match_indices("Result<").map(|(at, _)| bracketed(&item[at + "Result".len()..]));
+        results.into_iter().any(|result| result.rsplit_once(',').is_some_and(|(_, error)| is_text(error)))
+    };
+    of_traits.chain(items.filter(has_text).map(str::to_owned)).collect()
+}
+
+#[test]
+fn no_error_that_other_files_see_is_a_bare_text() {
+    let src = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+    let mut results = 0;
+    let mut bare = vec![];
+    for path in sources(&src).into_iter().filter(|path| !path.iter().any(|part| part == "tests")) {
+        let text = std::fs::read_to_string(&path).unwrap();
+        results += text.matches("Result<").count();
+        bare.extend(texts_as_errors(&text).into_iter().map(|item| format!("{}: {item}", path.display())));
+    }
+    assert!(bare.is_empty(), "give these errors a type: {bare:#?}");
+    assert!(results > 300, "only {results} results were seen: the check has lost its eyes");
+    let seen = texts_as_errors(
+        "\npub fn a(b: &str) -> Result<Vec<u8>, String> {\npub(super) fn c(\n    d: u8,\n) -> Result<(), String>\n\
+         where X: Y {\npub type E = Arc<dyn Fn(&str) -> Result<(), String>>;\nstruct F {\n    \
+         pub g: Option<Result<u8, &'static str>>,\n    h: Result<u8, String>,\n}\nfn i() -> Result<u8, String> {\n\
+         type Err = String;\npub fn j() -> Result<String, Fault> {\n// pub fn k() -> Result<u8, String>\n",
+    );
+    assert_eq!(seen.len(), 5, "{seen:#?}");
+}
+
+/// Splits the text behind a path, an identifier or a list in braces, into the first identifier of each entry.
+fn first_names(text: &str) -> Vec<String> {
+    let list = text.strip_prefix('{').map_or_else(
+        || text.split(|c: char| !c.is_alphanumeric() && c != '_').next().unwrap_or(""),
+        |rest| rest.split('}').next().unwrap_or(""),
+    );
+    let first = |entry: &str| {
+        entry.trim().split(|c: char| !c.is_alphanumeric() && c != '_').next().unwrap_or("").to_owned()
+    };
+    list.split(',').map(first).filter(|name| !name.is_empty()).collect()
+}
+
+/// Returns the names that a room's `mod.rs` shows to others: what it declares without being private, and what it passes on.
+fn shown(text: &str) -> Vec<String> {
+    let mut names = vec![];
+    for item in text.split("\npub").skip(1) {
+        let item =
+            if item.starts_with('(') { item.split_once(')').map_or("", |(_, rest)| rest) } else { item };
+        match item.trim_start().split_once(char::is_whitespace) {
+            Some(("use", path)) => {
+                let path = path.split(';').next().unwrap_or("").trim();
+                names.extend(first_names(path.split_once("::").map_or(path, |(_, rest)| rest)));
+            }
+            Some((_, declared)) => names.extend(first_names(declared)),
+            None => {}
+        }
+    }
+    names.retain(|name| name != "tests");
+    names.sort();
+    names
+}
+
+/// Returns the names that a text imports by a path, or uses by it.
+fn taken_from(text: &str, path: &str) -> Vec<String> {
+    let path = format!("{path}::");
+    let code: String = text.lines().map(|line| line.split("//").next().unwrap_or("")).collect();
+    code.split(&path).skip(1).flat_map(first_names).filter(|name| name != "self" && name != "tests").collect()
+}
+
+#[test]
+fn a_room_inside_a_floor_is_entered_by_its_door_alone() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let src = root.join("src");
+    let others = ["src", "tests", "benches", "examples"].map(|folder| sources(&root.join(folder))).concat();
+    for Room { folder, door } in ROOMS {
+        let entrance = src.join(folder).join("mod.rs");
+        let text = std::fs::read_to_string(&entrance).unwrap();
+        assert_eq!(shown(&text), door, "{}: it shows other names than those of its door", entrance.display());
+        let mut guests = 0;
+        // These checks have paths in their texts.
+        let is_check = |path: &Path| path.ends_with(file!()) || path.starts_with(root.join("tests/floors"));
+        let is_guest = |path: &&PathBuf| !path.starts_with(src.join(folder)) && !is_check(path);
+        for path in others.iter().filter(is_guest) {
+            let text = std::fs::read_to_string(path).unwrap();
+            let (floor, room) = folder.split_once('/').unwrap();
+            let mut taken = taken_from(&text, &format!("{floor}::{room}"));
+            if path.parent() == Some(&src.join(floor)) {
+                taken.extend(taken_from(&text, &format!("super::{room}")));
+            }
+            for name in taken {
+                let is_shown = door.contains(&name.as_str());
+                assert!(is_shown, "{}: reaches inside {folder} for {name}", path.display());
+                guests += 1;
+            }
+        }
+        // The floor itself passes on what leaves this room.
+        let is_passed_on = folder == "picture/refraction";
+        assert!(guests > 0 || is_passed_on, "{folder}: nobody enters it; the check has lost its eyes");
+    }
+}
+
+#[test]
+fn a_room_that_shows_its_inside_and_a_guest_that_reaches_there_would_be_seen() {
+    let text =
+        "mod a;\npub mod b;\npub(super) fn c() {}\npub use a::{D, e};\npub use a::F;\npub struct G<T>(T);\n";
+    assert_eq!(shown(text), ["D", "F", "G", "b", "c", "e"]);
+    let text = "use crate::io::mesh::{self, read,\n    file::Statement};\ncrate::io::mesh::place::of(); // io::mesh::x";
+    assert_eq!(taken_from(text, "io::mesh"), ["read", "file", "place"]);
+    assert_eq!(taken_from("use crate::io::mesh_options::Up;", "io::mesh"), [""; 0]);
+}
+
+#[test]
+fn an_import_that_runs_up_would_be_seen() {
+    assert_eq!(imports("use crate::picture::Film; use crate::io; // and crate::cli"), ["picture", "io"]);
+    assert!(climbs_out("use super::super::io::write;", 1) && !climbs_out("use super::Film;", 1));
+    assert!(floor("picture") > floor("trace"));
+    assert_eq!(floor("main"), None);
+}
+
+/// Returns what a text of the editor's model names that no model may: the window, or what threads share.
+fn windows(text: &str) -> Vec<&'static str> {
+    let code: String = text.lines().map(|line| line.split("//").next().unwrap_or("")).collect();
+    let is_word = |name: &str| {
+        let mut found = code.match_indices(name);
+        found.any(|(at, _)| !code[..at].ends_with(|c: char| c.is_alphanumeric() || c == '_'))
+    };
+    ["egui", "eframe", "Arc<Mutex", "mpsc", "JoinHandle"].into_iter().filter(|name| is_word(name)).collect()
+}
+
+#[test]
+fn the_editors_model_knows_no_window_and_no_thread() {
+    let model = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/app/model");
+    let paths = sources(&model);
+    assert!(paths.len() > 20, "only {} files were seen: the check has lost its eyes", paths.len());
+    for path in paths {
+        let named = windows(&std::fs::read_to_string(&path).unwrap());
+        assert!(named.is_empty(), "{}: names {named:?}", path.display());
+    }
+    assert_eq!(windows("use egui::Ui; struct A(Arc<Mutex<u8>>);"), ["egui", "Arc<Mutex"]);
+    assert!(windows("regui(); // as egui does").is_empty());
+}

@@ -1,0 +1,177 @@
+//! Checks that docs/licences.md lists every crate that the program is built from, each with an accepted licence.
+//!
+//! `UPDATE_LICENCES=1 cargo test --test library licences` writes the list anew. It runs cargo, which may use the network.
+#![allow(clippy::unwrap_used, reason = "a test fails by it")]
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::fmt::Write as _;
+use std::path::Path;
+
+const LIST: &str = "docs/licences.md";
+
+/// The accepted licences, which demand no more than to be named.
+const ACCEPTED: [&str; 16] = [
+    "0BSD",
+    "Apache-2.0",
+    "Apache-2.0 WITH LLVM-exception",
+    "BSD-2-Clause",
+    "BSD-3-Clause",
+    "BSL-1.0",
+    "CC0-1.0",
+    "ISC",
+    "MIT",
+    "MIT-0",
+    "MPL-2.0",
+    "OFL-1.1",
+    "Ubuntu-font-1.0",
+    "Unicode-3.0",
+    "Unlicense",
+    "Zlib",
+];
+
+fn read(path: &str) -> String {
+    std::fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join(path)).unwrap()
+}
+
+/// Returns the names and versions of all crates that the program needs, whatever the platform and the features: those that
+/// Cargo.lock reaches from the dependencies of Cargo.toml, without those of tests.
+fn needed() -> BTreeSet<(String, String)> {
+    let lock: toml::Table = read("Cargo.lock").parse().unwrap();
+    let manifest: toml::Table = read("Cargo.toml").parse().unwrap();
+    let text = |value: &toml::Value, key: &str| {
+        value.get(key).and_then(|v| v.as_str()).unwrap_or_default().to_owned()
+    };
+    let mut known: BTreeMap<(String, String), Vec<String>> = BTreeMap::new();
+    for package in lock["package"].as_array().unwrap() {
+        let names = package.get("dependencies").and_then(|d| d.as_array()).cloned().unwrap_or_default();
+        let names = names.iter().map(|name| name.as_str().unwrap().to_owned()).collect();
+        known.insert((text(package, "name"), text(package, "version")), names);
+    }
+    let own = known.keys().find(|(name, _)| name == "brillianteer").unwrap().clone();
+    // Some dependencies are for one kind of system only.
+    let systems = manifest.get("target").and_then(|t| t.as_table()).into_iter().flat_map(|t| t.values());
+    let tables: Vec<_> = systems.chain([&toml::Value::Table(manifest.clone())]).cloned().collect();
+    let is_direct =
+        |name: &str| tables.iter().any(|t| t.get("dependencies").is_some_and(|d| d.get(name).is_some()));
+    let mut open: Vec<String> = known[&own].clone();
+    open.retain(|name| is_direct(name.split(' ').next().unwrap()));
+    let mut found = BTreeSet::new();
+    while let Some(entry) = open.pop() {
+        // An entry has a version only where the crate occurs in several.
+        let (name, version) = entry.split_once(' ').map_or((entry.as_str(), None), |(n, v)| (n, Some(v)));
+        let crates = known.keys().filter(|(n, v)| n == name && version.is_none_or(|wanted| wanted == v));
+        for key in crates.cloned().collect::<Vec<_>>() {
+            if found.insert(key.clone()) {
+                open.extend(known[&key].iter().cloned());
+            }
+        }
+    }
+    found
+}
+
+/// Returns the rows of the list: name, version, licence, link.
+fn listed() -> Vec<[String; 4]> {
+    let text = read(LIST);
+    let rows = text.lines().filter(|line| line.starts_with("| ") && !line.starts_with("| crate |"));
+    let cells = rows.map(|line| line.trim_matches('|').split('|').map(|cell| cell.trim().to_owned()));
+    cells.map(|row| row.collect::<Vec<_>>().try_into().unwrap()).collect()
+}
+
+/// Writes the list from cargo's metadata of each crate.
+fn write(needed: &BTreeSet<(String, String)>) {
+    let cargo = std::env::var_os("CARGO").unwrap();
+    let answer = std::process::Command::new(cargo)
+        .args(["metadata", "--locked", "--format-version", "1"])
+        .current_dir(env!("CARGO_MANIFEST_DIR"))
+        .output()
+        .unwrap();
+    assert!(answer.status.success(), "{}", String::from_utf8_lossy(&answer.stderr));
+    let metadata: serde_json::Value = serde_json::from_slice(&answer.stdout).unwrap();
+    let mut rows = BTreeMap::new();
+    for package in metadata["packages"].as_array().unwrap() {
+        let text = |key: &str| package[key].as_str().unwrap_or_default().to_owned();
+        let key = (text("name"), text("version"));
+        let link = ["repository", "homepage"].map(text).into_iter().find(|link| !link.is_empty());
+        rows.insert(key, (text("license"), link.unwrap_or_default()));
+    }
+    let mut list = format!(
+        "# Licences of what Brillianteer is built of\n\nThe program itself is licensed under [MIT](../LICENSE-MIT) or \
+         [Apache-2.0](../LICENSE-APACHE), as you choose. Below are the {} crates that it is built of or with on any platform, \
+         each with the licence that it states; their texts come with their sources. Drawings and the window carry the fonts \
+         of `epaint_default_fonts`: Ubuntu Light, Hack, Noto Emoji and emoji-icon-font, under the licences that it states.\n\n\
+         `UPDATE_LICENCES=1 cargo test --test library licences` writes this list; the same test fails where it is not current.\n\n\
+         | crate | version | licence | where |\n|---|---|---|---|\n",
+        needed.len()
+    );
+    for key in needed {
+        let (licence, link) = &rows[key];
+        writeln!(list, "| {} | {} | {} | {} |", key.0, key.1, plain(licence), link).unwrap();
+    }
+    std::fs::write(Path::new(env!("CARGO_MANIFEST_DIR")).join(LIST), list).unwrap();
+}
+
+/// Returns a licence in the form of SPDX: older crates write a slash for a choice.
+fn plain(licence: &str) -> String {
+    licence.replace('/', " OR ").split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
+/// Whether a licence, or one of the licences of a choice, is accepted. Brackets stand only around choices.
+fn is_accepted(expression: &str) -> bool {
+    let parts = split(expression, " AND ");
+    if parts.len() > 1 {
+        return parts.iter().all(|part| is_accepted(part));
+    }
+    let parts = split(expression, " OR ");
+    if parts.len() > 1 {
+        return parts.iter().any(|part| is_accepted(part));
+    }
+    match expression.strip_prefix('(').and_then(|e| e.strip_suffix(')')) {
+        Some(inner) => is_accepted(inner),
+        None => ACCEPTED.contains(&expression),
+    }
+}
+
+/// Splits an expression at a word, except inside brackets.
+fn split<'a>(expression: &'a str, word: &str) -> Vec<&'a str> {
+    let (mut parts, mut begin, mut depth) = (vec![], 0, 0);
+    for (at, c) in expression.char_indices() {
+        match c {
+            '(' => depth += 1,
+            ')' => depth -= 1,
+            _ if depth == 0 && expression[at..].starts_with(word) => {
+                parts.push(&expression[begin..at]);
+                begin = at + word.len();
+            }
+            _ => {}
+        }
+    }
+    parts.push(&expression[begin..]);
+    parts
+}
+
+#[test]
+fn the_list_of_licences_is_current() {
+    let needed = needed();
+    assert!(needed.len() > 200, "{} crates", needed.len());
+    if std::env::var_os("UPDATE_LICENCES").is_some() {
+        write(&needed);
+    }
+    let listed: BTreeSet<(String, String)> =
+        listed().into_iter().map(|[name, version, ..]| (name, version)).collect();
+    let missing: Vec<_> = needed.difference(&listed).collect();
+    let gone: Vec<_> = listed.difference(&needed).collect();
+    let what = "run UPDATE_LICENCES=1 cargo test --test library licences";
+    assert!(missing.is_empty() && gone.is_empty(), "missing: {missing:?}; not needed: {gone:?}; {what}");
+}
+
+#[test]
+fn every_licence_lets_the_program_be_given_on() {
+    for [name, version, licence, _] in listed() {
+        assert!(is_accepted(&licence), "{name} {version}: {licence}");
+    }
+    assert!(
+        is_accepted("(MIT OR GPL-3.0) AND Unicode-3.0")
+            && !is_accepted("MIT AND GPL-3.0")
+            && !is_accepted("")
+    );
+}

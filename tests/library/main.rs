@@ -1,0 +1,24 @@
+//! Tests of the library from outside: laws of light, tracers against each other, files that others made, the order of the
+//! source. They are one program, because each further program would link the library and its dependencies again:
+//! `cargo test --test library laws` runs those of one file.
+
+#[path = "../common/mod.rs"]
+mod common;
+mod corpus;
+mod corpus_gem;
+mod fields;
+mod floors;
+mod fuzz;
+mod glass;
+mod hues;
+mod laws;
+mod licences;
+mod light;
+mod mirror;
+mod overlay;
+mod polytope;
+mod reference;
+mod refraction;
+mod stones;
+mod tracers;
+mod triangles;

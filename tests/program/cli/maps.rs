@@ -1,0 +1,111 @@
+//! The files that `refraction-map` writes.
+
+use super::desk::*;
+use crate::maps::read;
+use brillianteer::io::refraction::{Coding, diffuse_path, paths};
+
+#[test]
+fn a_refraction_map_comes_in_every_coding_with_its_diffuse_layer_a_page_and_a_preview() {
+    let desk = Desk::new();
+    desk.done("render cube.toml --background #c08040 --size 40 --samples 1 --wavelengths 2 --out photo.png");
+    let line =
+        "refraction-map cube.toml --size 48x32 --samples 1 --wavelengths 2 --tilt 20 --background photo.png";
+    let printed = desk.done(&format!("{line} --out maps --format tiled,png16,exr,page,preview"));
+    let endings = [".png", "-16bit.png", ".exr", "-diffuse.png", ".html", "-preview.png"];
+    let expected = endings.map(|ending| format!("maps/cube-tilt-20-refraction{ending}"));
+    assert_eq!(printed.lines().collect::<Vec<_>>(), expected);
+    assert_eq!(files(&desk.at("maps")).len(), 6, "nothing else is left");
+    let maps = [Coding::Tiles, Coding::Sixteen, Coding::Float].map(|coding| {
+        let folder = desk.at("maps");
+        read(&paths(&folder, "cube-tilt-20", 1, coding), &diffuse_path(&folder, "cube-tilt-20"))
+    });
+    for k in 0..48 * 32 {
+        let [tiles, sixteen, float] = maps.each_ref().map(|map| map.bands[0].places[k]);
+        if float.weight > 0.0 {
+            near(tiles.u.into(), float.u.into(), 1.0 / 4096.0, "tiles");
+            near(tiles.v.into(), float.v.into(), 1.0 / 4096.0, "tiles");
+            near(sixteen.u.into(), float.u.into(), 1e-5, "16 bits");
+        }
+    }
+    let (size, _, description) = png(&desk.at("maps/cube-tilt-20-refraction-preview.png"));
+    assert_eq!(size, (48, 32));
+    assert!(
+        description
+            .contains("refraction map, bands 1, places 1; background 3 girdle radii behind, 2 times as wide"),
+        "{description}"
+    );
+    assert!(description.contains("% of the light comes from the background"), "{description}");
+    let page = desk.read("maps/cube-tilt-20-refraction.html");
+    assert!(page.contains("<h1>Cube</h1>") && page.contains("data:image/png;base64,"));
+    let printed = desk
+        .done("refraction-map cube.toml --size 32 --samples 1 --wavelengths 2 --background dots --out dots");
+    assert_eq!(printed.lines().count(), 4, "{printed}");
+    assert!(
+        desk.read("dots/cube-refraction.html")
+            .contains("\"background\":{\"name\":\"Dots\",\"picture\":\"data:image/")
+    );
+    // Each of several bands has its own map; without a photograph there is no preview.
+    let printed =
+        desk.done("refraction-map cube.toml --size 32 --samples 1 --wavelengths 2 --bands 3 --out three");
+    let names = ["-01.png", "-02.png", "-03.png", "-diffuse.png", ".html"];
+    assert_eq!(printed.lines().collect::<Vec<_>>(), names.map(|n| format!("three/cube-refraction{n}")));
+    let three = paths(&desk.at("three"), "cube", 3, Coding::Tiles);
+    let map = read(&three, &diffuse_path(&desk.at("three"), "cube"));
+    assert!(map.bands.len() == 3 && map.bands[0].nm < map.bands[2].nm);
+    // Each of several places has its own map as well, the stronger place first.
+    desk.done(
+        "refraction-map cube.toml --size 32 --samples 1 --wavelengths 2 --bands 2 --places 2 --tilt 25 --perspective 5 --out four",
+    );
+    let stem = "cube-tilt-25-perspective-5";
+    let four = paths(&desk.at("four"), stem, 4, Coding::Tiles);
+    let map = read(&four, &diffuse_path(&desk.at("four"), stem));
+    assert!(map.bands[0].nm == map.bands[1].nm && map.bands[1].nm < map.bands[2].nm);
+    let weight = |band: usize| map.bands[band].places.iter().map(|place| place.weight).sum::<f32>();
+    assert!(weight(1) > 0.0 && weight(0) > weight(1), "{} {}", weight(0), weight(1));
+}
+
+#[test]
+fn a_refraction_map_is_the_same_bytes_on_any_number_of_threads() {
+    let desk = Desk::new();
+    for threads in ["1", "2"] {
+        let line = format!(
+            "refraction-map tolkowsky --size 40 --samples 2 --wavelengths 2 --format tiled,exr --out {threads}"
+        );
+        let run = desk.command(&line).env("RAYON_NUM_THREADS", threads).output().unwrap();
+        assert_eq!(outcome(&line, &run).0, 0);
+    }
+    assert!(files(&desk.at("1")) == files(&desk.at("2")));
+}
+
+#[test]
+fn what_a_refraction_map_cannot_be_is_told() {
+    let desk = Desk::new();
+    for (options, expected) in [
+        ("--format preview", "--background"),
+        ("--size 5000", "4096"),
+        ("--background light", "photograph"),
+        ("--background #ff0000", "a pattern or a photograph"),
+        ("--span 0.5", "--span"),
+        ("--bands 17", "17"),
+        ("--bands 8 --places 3", "these are 24 maps"),
+        ("--places 9", "9"),
+    ] {
+        let stderr = desk.refused(&format!("refraction-map cube.toml --out none {options}"), 2);
+        assert!(stderr.contains(expected), "{options}: {stderr}");
+    }
+    std::fs::create_dir(desk.at("a")).unwrap();
+    std::fs::copy(desk.at("cube.toml"), desk.at("a/cube.toml")).unwrap();
+    let twins = desk.refused("refraction-map cube.toml a/cube.toml --out none", 2);
+    assert!(twins.contains("cube.toml and a/cube.toml"), "{twins}");
+    assert!(desk.refused("render cube.toml a/cube.toml --out none", 2).contains("a/cube.toml"));
+    assert!(desk.refused("refraction-map none.toml --out none", 1).contains("none.toml"));
+    assert!(!desk.at("none").exists());
+}
+
+#[test]
+fn a_scenes_mixture_is_left_aside_and_that_is_told() {
+    let desk = Desk::new();
+    let line = "refraction-map prism-rainbow --size 32 --samples 1 --wavelengths 2 --format tiled --out maps";
+    let (code, _, stderr) = outcome(line, &desk.command(line).output().unwrap());
+    assert!(code == 0 && stderr.contains("strength of 0.155 is ignored"), "{code}: {stderr}");
+}
