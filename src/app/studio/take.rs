@@ -281,7 +281,7 @@ mod tests {
     }
 
     #[test]
-    #[expect(clippy::print_stdout, reason = "what is skipped is told")]
+    #[expect(clippy::print_stdout, reason = "tests print what they skip")]
     fn a_card_shows_what_the_processor_shows() {
         let gpu = match Gpu::open() {
             Ok(gpu) => Arc::new(gpu),

@@ -28,18 +28,19 @@ fn mode(name: impl Into<String>, meaning: &'static str, end: impl Into<Action>) 
 impl Mode {
     /// Returns the modes that are on in a view.
     pub fn of(model: &Model, pane: usize) -> Vec<Self> {
-        let desk = &model.workspace;
-        let Pane { shows, own, is_near } = desk.panes[pane];
+        let workspace = &model.workspace;
+        let Pane { shows, own, is_near } = workspace.panes[pane];
         if !shows.is_seen() {
             return vec![];
         }
-        let (eye, scope) = (*desk.eye(pane), shows.scoped());
+        let (eye, scope) = (*workspace.eye(pane), shows.scoped());
         let takes_head = scope.as_ref().is_some_and(|scope| scope.takes_head);
         let head = model.document.work.head;
-        let strength = if shows == Shows::Render { desk.strength() } else { 1.0 };
+        let strength = if shows == Shows::Render { workspace.strength() } else { 1.0 };
         let missing =
-            desk.missing_background().filter(|_| matches!(shows, Shows::Render | Shows::Refraction));
-        let overlay = desk.overlay.clone().filter(|_| shows.takes_overlay() && desk.overlay().is_some());
+            workspace.missing_background().filter(|_| matches!(shows, Shows::Render | Shows::Refraction));
+        let overlay =
+            workspace.overlay.clone().filter(|_| shows.takes_overlay() && workspace.overlay().is_some());
         [
             own.map(|_| {
                 let meaning = "This view has a tilt and a zoom of its own.";
@@ -56,7 +57,7 @@ impl Mode {
             overlay.map(|name| {
                 mode(name, "This overlay is drawn over all pictures.", ViewAction::Overlay(None))
             }),
-            (desk.strongest && scope.is_some()).then(|| {
+            (workspace.strongest && scope.is_some()).then(|| {
                 let meaning = "Scopes show only the zone of each point's strongest light.";
                 mode("strongest exits", meaning, ViewAction::Strongest(false))
             }),
@@ -64,7 +65,7 @@ impl Mode {
                 let meaning = "The observer's head blocks light, here and in the figures.";
                 mode(format!("head {head:.1}°"), meaning, Edit::Head(0.0))
             }),
-            (desk.glare && !desk.strongest && scope.is_some()).then(|| {
+            (workspace.glare && !workspace.strongest && scope.is_some()).then(|| {
                 let meaning =
                     "Scopes also show the light that the outer surface reflects, as a camera records it.";
                 mode("with glare", meaning, ViewAction::Glare(false))
