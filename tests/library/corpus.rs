@@ -1,5 +1,4 @@
 //! Reads real files of real cutters where there are any: in `../shared/data`, beside the checkout.
-#![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a test fails by it, and tells what it saw")]
 
 use brillianteer::cut::{AlongAxes, Cut, Outline, Tiers};
 use brillianteer::io::design_file::{self, DesignFormat, written};

@@ -1,6 +1,5 @@
 //! Reads real designs of gem cutters, `.gem` and `.gcs`: each opens, and is the same after it is written and read again. The
 //! designs are not part of the project; where they are missing the tests print a message and pass.
-#![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a test fails by it, and says what it saw")]
 
 use brillianteer::cut::{Cut, Design, Tiers};
 use brillianteer::io::design_file::ImportedDesign;

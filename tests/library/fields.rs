@@ -1,6 +1,5 @@
 //! Compares glass shapes on the graphics card with point rays in f64: the same paths in and out, pixel by pixel.
 #![cfg(feature = "gpu")]
-#![allow(clippy::unwrap_used, reason = "a test fails by it")]
 
 use crate::common::pixels::{ALLOWED, Case, views};
 use crate::common::shoot::{Shoot, apart, colour, differ};

@@ -1,5 +1,4 @@
 //! Checks that glass shapes refract as textbooks say.
-#![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a test fails by it; what was found is told")]
 
 use brillianteer::cut::{Cut, FAMILIES, Glass};
 use brillianteer::math::{ImplicitForm, ImplicitSurface, Plane, Polytope, Pose, SolidRef, TriangleMesh};

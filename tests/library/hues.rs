@@ -1,5 +1,4 @@
 //! Compares the hues along a cut through a rainbow: three wavelengths show three bands, sixteen do not.
-#![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a test fails by it; what was found is told")]
 
 use brillianteer::cut::{Glass, Sides};
 use brillianteer::io::background::BackgroundRef;

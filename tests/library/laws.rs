@@ -1,5 +1,4 @@
 //! Checks laws that hold for every stone: energy, symmetry, reversal, a white world.
-#![allow(clippy::unwrap_used, reason = "a test fails by it")]
 
 use crate::common::*;
 use brillianteer::math::{Plane, Polytope};

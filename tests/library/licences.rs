@@ -1,7 +1,6 @@
 //! Checks that docs/licences.md lists every crate that the program is built from, each with an accepted licence.
 //!
 //! `UPDATE_LICENCES=1 cargo test --test library licences` writes the list anew. It runs cargo, which may use the network.
-#![allow(clippy::unwrap_used, reason = "a test fails by it")]
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write as _;

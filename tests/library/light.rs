@@ -1,5 +1,4 @@
 //! Checks pictures under light: laws that hold for any stone, and the graphics card compared with rays in f64.
-#![allow(clippy::unwrap_used, reason = "a test fails by it")]
 
 use crate::common::shoot::*;
 use crate::common::*;
@@ -256,7 +255,7 @@ mod card {
 
     #[test]
     fn the_card_shows_what_rays_show() {
-        let Some(gpu) = common::card("the_card_shows_what_rays_show") else { return };
+        let Some(gpu) = crate::common::card("the_card_shows_what_rays_show") else { return };
         let fine = built(&brilliant((56.0, 34.5, 40.8), (50.0, 77.0), 96)).polytope;
         let shoot = |wavelengths, samples| {
             let mut shoot = Shoot::new(&fine, "diamond", light("lamps").unwrap());
@@ -296,7 +295,9 @@ mod card {
 
     #[test]
     fn the_card_mixes_refracted_and_straight_rays_as_rays_do() {
-        let Some(gpu) = common::card("the_card_mixes_refracted_and_straight_rays_as_rays_do") else { return };
+        let Some(gpu) = crate::common::card("the_card_mixes_refracted_and_straight_rays_as_rays_do") else {
+            return;
+        };
         let shoot = |strength, projection| {
             let mut shoot = Shoot::new(&modern(), "quartz", light("lamps").unwrap());
             (shoot.strength, shoot.samples, shoot.view.projection) = (strength, 8, projection);
@@ -322,7 +323,7 @@ mod card {
 
     #[test]
     fn the_card_shows_stones_beside_one_another_as_rays_do() {
-        let Some(gpu) = common::card("the_card_shows_stones_beside_one_another_as_rays_do") else {
+        let Some(gpu) = crate::common::card("the_card_shows_stones_beside_one_another_as_rays_do") else {
             return;
         };
         let shoot = |index: f64| {
@@ -354,7 +355,7 @@ mod card {
 
     #[test]
     fn a_stone_of_many_planes_is_lit_by_bunches_as_well() {
-        let Some(gpu) = common::card("a_stone_of_many_planes_is_lit_by_bunches_as_well") else {
+        let Some(gpu) = crate::common::card("a_stone_of_many_planes_is_lit_by_bunches_as_well") else {
             return;
         };
         let planes: Vec<_> = (0..600)

@@ -1,6 +1,12 @@
 //! Tests of the library from outside: laws of light, tracers against each other, files that others made, the order of the
 //! source. They are one program, because each further program would link the library and its dependencies again:
 //! `cargo test --test library laws` runs those of one file.
+#![allow(
+    clippy::unwrap_used,
+    clippy::print_stdout,
+    clippy::print_stderr,
+    reason = "a test fails by it, or says what it skips"
+)]
 
 #[path = "../common/mod.rs"]
 mod common;

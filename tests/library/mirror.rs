@@ -1,6 +1,5 @@
 //! Compares the graphics card with point rays in f64: the same chain of bounces, pixel by pixel.
 #![cfg(feature = "gpu")]
-#![allow(clippy::unwrap_used, reason = "a test fails by it")]
 
 use crate::common::pixels::*;
 use crate::common::*;

@@ -1,5 +1,4 @@
 //! Compares each overlay with a plain computation of its own.
-#![allow(clippy::unwrap_used, reason = "a test fails by it")]
 
 use crate::common::*;
 use brillianteer::math::{Plane, Polytope};

@@ -1,7 +1,5 @@
 //! Builds solids from half-spaces: which are closed, which are not, and which planes are at fault.
 
-#![allow(clippy::unwrap_used, reason = "a test fails by it")]
-
 use crate::common::*;
 use brillianteer::math::{Basis, Plane, Polytope, PolytopeError, Pose, Symmetry, area, triangulate};
 use glam::{DQuat, DVec2, DVec3};

@@ -1,5 +1,4 @@
 //! Compares figures with those that others have found for the same stones.
-#![allow(clippy::unwrap_used, reason = "a test fails by it")]
 
 use crate::common::*;
 use brillianteer::cut::{Cut, Design, MaterialRef};

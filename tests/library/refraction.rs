@@ -1,7 +1,6 @@
 //! Checks refraction maps: places by Snell, weights by Fresnel, and pictures looked up compared with pictures traced.
-#![allow(clippy::unwrap_used, reason = "a test fails by it")]
 
-use crate::common::maps;
+use crate::common::{self, maps};
 use brillianteer::io::{panorama, refraction as files};
 use brillianteer::math::{Plane, Polytope};
 use brillianteer::optics::{Illuminant, Material, encoded_from_linear, material, strata};

@@ -1,6 +1,5 @@
 //! Writes stones as meshes and reads them back: as this program writes them, turned, and as another program would write
 //! them.
-#![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a test fails by it, and tells what it saw")]
 
 use crate::common::meshes::{moved, stripped, turned};
 use brillianteer::cut::from_mesh::Up;

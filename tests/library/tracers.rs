@@ -1,5 +1,4 @@
 //! Compares beams with rays, point by point: two tracers that share nothing but Fresnel's equations and the stone.
-#![allow(clippy::unwrap_used, reason = "a test fails by it")]
 
 use crate::common::*;
 use brillianteer::math::{Plane, contains};

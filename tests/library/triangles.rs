@@ -1,6 +1,5 @@
 //! Checks solids of triangles: a convex one gives the same results as its planes, and one that is not convex accounts for
 //! all light.
-#![allow(clippy::unwrap_used, reason = "a test fails by it")]
 
 use crate::common::solids::{Triangles, clasp, heart, star};
 use crate::common::*;

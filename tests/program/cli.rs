@@ -1,6 +1,5 @@
 //! The program as a user runs it: real files in, real files out, messages, exit codes.
 #![cfg(feature = "cli")]
-#![allow(clippy::unwrap_used, reason = "a test fails by it")]
 
 mod desk;
 mod ends;

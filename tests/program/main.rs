@@ -1,4 +1,10 @@
 //! Tests of the program as a user runs it: on the command line, in a window, and by the pages that it writes.
+#![allow(
+    clippy::unwrap_used,
+    clippy::print_stdout,
+    clippy::print_stderr,
+    reason = "a test fails by it, or says what it skips"
+)]
 
 mod cli;
 #[cfg(feature = "cli")]

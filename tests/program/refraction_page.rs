@@ -1,7 +1,6 @@
 //! Checks the page of a refraction map as a browser shows it. Without Chromium the tests print that they are skipped, and
 //! with `BRILLIANTEER_REQUIRE_CHROMIUM=1` they fail.
 #![cfg(feature = "cli")]
-#![allow(clippy::unwrap_used, clippy::print_stderr, reason = "a test fails by it, and says what it skips")]
 
 use crate::maps;
 use brillianteer::io::{panorama, refraction};

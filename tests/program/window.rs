@@ -1,6 +1,5 @@
 //! Runs the real program in a real window, on a screen that exists only in memory (Xvfb), and presses keys by xdotool.
 #![cfg(all(feature = "app", target_os = "linux"))]
-#![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a test fails by it; what is skipped is told")]
 
 use serde_json::Value;
 use std::io::{BufRead, BufReader};

@@ -4,7 +4,6 @@
 //!
 //! `BRILLIANTEER_PAINTER=card` measures the painter for graphics cards instead, by a driver that computes in software.
 #![cfg(all(feature = "app", target_os = "linux"))]
-#![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a test fails by it; what is measured is told")]
 
 use brillianteer::app::{Editor, Setup};
 use egui::{Pos2, Rect, Role, pos2};

@@ -2,7 +2,6 @@
 
 use super::shaders::{Pipelines, ShaderTask};
 use std::sync::{Arc, Mutex, PoisonError};
-use wgpu::util::DeviceExt;
 
 /// Why the graphics card cannot do the work; point rays on the processor can do it instead.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
@@ -18,7 +17,15 @@ pub enum GpuError {
         /// The driver's message.
         why: String,
     },
-    /// The card failed during the work: its memory ran out, or its driver was reset.
+    /// The card has too little memory for this piece of work; a smaller one may fit.
+    #[error("{name} has too little memory for this ({why})")]
+    OutOfMemory {
+        /// The card's name.
+        name: String,
+        /// The driver's message.
+        why: String,
+    },
+    /// The card failed during the work, for example because its driver was reset.
     #[error("{name} failed: {why}")]
     Failed {
         /// The card's name.
@@ -77,7 +84,26 @@ pub struct Gpu {
     pub(super) lights: Pipelines,
     name: String,
     is_software: bool,
-    fault: Arc<Mutex<Option<String>>>,
+    fault: Arc<Mutex<Option<Fault>>>,
+}
+
+/// What has gone wrong with a card.
+#[derive(Debug, Clone, PartialEq, Eq)]
+enum Fault {
+    /// Its memory ran out.
+    OutOfMemory(String),
+    /// It was lost, or its driver refused what it was given.
+    Failed(String),
+}
+
+impl From<wgpu::Error> for Fault {
+    fn from(error: wgpu::Error) -> Self {
+        let why = in_one_line(&error.to_string());
+        match error {
+            wgpu::Error::OutOfMemory { .. } => Self::OutOfMemory(why),
+            wgpu::Error::Validation { .. } | wgpu::Error::Internal { .. } => Self::Failed(why),
+        }
+    }
 }
 
 impl GpuError {
@@ -134,8 +160,8 @@ impl Gpu {
         }
         let fault = Arc::new(Mutex::new(None));
         let (lost, other) = (Arc::clone(&fault), Arc::clone(&fault));
-        device.set_device_lost_callback(move |_, why| note(&lost, why));
-        device.on_uncaptured_error(Arc::new(move |error: wgpu::Error| note(&other, error.to_string())));
+        device.set_device_lost_callback(move |_, why| note(&lost, Fault::Failed(in_one_line(&why))));
+        device.on_uncaptured_error(Arc::new(move |error: wgpu::Error| note(&other, error.into())));
         let name = format!("{} ({})", info.name, info.backend);
         let is_software = info.device_type == wgpu::DeviceType::Cpu;
         let [scopes, lights] = [ShaderTask::Scope, ShaderTask::Light].map(Pipelines::new);
@@ -153,13 +179,17 @@ impl Gpu {
         self.is_software
     }
 
-    /// Creates a buffer with these contents.
+    /// Creates a buffer with these contents, whose length is a multiple of four bytes.
     pub(super) fn buffer(&self, label: &str, contents: &[u8], usage: wgpu::BufferUsages) -> wgpu::Buffer {
-        self.device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
+        // `create_buffer_init` of wgpu would panic where the card's memory has run out.
+        let buffer = self.device.create_buffer(&wgpu::BufferDescriptor {
             label: Some(label),
-            contents,
-            usage,
-        })
+            size: contents.len() as u64,
+            usage: usage | wgpu::BufferUsages::COPY_DST,
+            mapped_at_creation: false,
+        });
+        self.queue.write_buffer(&buffer, 0, contents);
+        buffer
     }
 
     /// Waits until all submitted work is done.
@@ -168,10 +198,18 @@ impl Gpu {
         self.check()
     }
 
-    /// Returns an error where something has gone wrong with the card so far.
+    /// Returns an error where something has gone wrong with the card. A lack of memory is reported once, because the
+    /// next piece of work may fit; any other fault stays.
     pub(super) fn check(&self) -> Result<(), GpuError> {
-        let fault = self.fault.lock().unwrap_or_else(PoisonError::into_inner);
-        fault.as_ref().map_or(Ok(()), |why| Err(self.failed(why.clone())))
+        let mut fault = self.fault.lock().unwrap_or_else(PoisonError::into_inner);
+        match fault.clone() {
+            None => Ok(()),
+            Some(Fault::Failed(why)) => Err(self.failed(why)),
+            Some(Fault::OutOfMemory(why)) => {
+                *fault = None;
+                Err(GpuError::OutOfMemory { name: self.name.clone(), why })
+            }
+        }
     }
 
     pub(super) fn failed(&self, why: String) -> GpuError {
@@ -179,8 +217,39 @@ impl Gpu {
     }
 }
 
-/// Keeps the first fault: later ones are its consequences.
-fn note(fault: &Mutex<Option<String>>, why: String) {
-    let why = why.split_whitespace().collect::<Vec<_>>().join(" ");
-    fault.lock().unwrap_or_else(PoisonError::into_inner).get_or_insert(why);
+/// Keeps the first fault, because later ones are its consequences.
+fn note(noted: &Mutex<Option<Fault>>, fault: Fault) {
+    noted.lock().unwrap_or_else(PoisonError::into_inner).get_or_insert(fault);
+}
+
+/// Returns a driver's message, which may have several lines, in one.
+fn in_one_line(text: &str) -> String {
+    text.split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A card whose memory runs out at its next piece of work, or whose driver fails.
+    fn faulty(error: impl Fn(wgpu::ErrorSource) -> wgpu::Error) -> Option<Gpu> {
+        let gpu = match Gpu::open() {
+            Ok(gpu) => gpu,
+            Err(error) if std::env::var_os("BRILLIANTEER_REQUIRE_GPU").is_some() => panic!("{error}"),
+            Err(_) => return None,
+        };
+        note(&gpu.fault, error("no room".into()).into());
+        Some(gpu)
+    }
+
+    #[test]
+    fn a_lack_of_memory_loses_the_card_for_one_piece_of_work_and_other_faults_for_good() {
+        let Some(gpu) = faulty(|source| wgpu::Error::OutOfMemory { source }) else { return };
+        let error = gpu.check().unwrap_err();
+        assert!(matches!(error, GpuError::OutOfMemory { .. }) && !error.is_lost(), "{error}");
+        assert_eq!(gpu.check(), Ok(()));
+        let internal = |source| wgpu::Error::Internal { source, description: "a reset".into() };
+        let Some(gpu) = faulty(internal) else { return };
+        assert!(gpu.check().unwrap_err().is_lost() && gpu.check().unwrap_err().is_lost());
+    }
 }
