@@ -206,7 +206,7 @@ impl Workspace {
         BackgroundRef::read(self.behind.as_deref()?, Path::new("")).ok()
     }
 
-    /// Returns the name of a background that cannot be shown: its file is gone, or the text is none that a background has.
+    /// Returns the name of a background that cannot be shown, because its file is gone or no background has that name.
     pub fn missing_background(&self) -> Option<&str> {
         self.behind.as_deref().filter(|_| self.background().is_none())
     }

@@ -71,8 +71,8 @@ impl Mode {
                 mode("with glare", meaning, ViewAction::Glare(false))
             }),
             missing.map(|name| {
-                let meaning = "The background cannot be read, so nothing stands behind the stone and the strength of \
-                               refraction counts as 1. A click here removes the background.";
+                let meaning = "The file of the background cannot be read, so nothing is behind the stone, and the strength of \
+                               refraction is 1.";
                 let name = Path::new(name).file_name().map_or(name.into(), |name| name.to_string_lossy());
                 mode(format!("{name} is missing"), meaning, ViewAction::Behind(None))
             }),
